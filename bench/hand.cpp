@@ -55,12 +55,12 @@ public:
 
 /// What is pressed: a stimulus and an indenter.
 struct Pressed {
-    std::unique_ptr<Source> source;
+    std::unique_ptr<ForceSource> source;
     std::unique_ptr<Contact> contact;
     std::unique_ptr<SkinForce> force;
 };
 
-Pressed press(const Innervation& skin, std::string_view stimulus, std::string_view indenter, std::vector<Wish> wishes) {
+Pressed press(const Innervation& skin, std::string_view stimulus, std::string_view indenter, std::vector<ParameterOverride> wishes) {
     Pressed p{good(make_stimulus(stimulus, wishes, 1e3, 0)), {}, {}};
     p.contact = good(make_contact(indenter, wishes, skin.plan.sites, p.source->clock()));
     p.force = pressed_force(*p.source, *p.contact);
@@ -81,7 +81,7 @@ int main(int argc, char** argv) {
     const double length = argc > 1 ? std::atof(argv[1]) : 10;
     const int runs = argc > 2 ? std::atoi(argv[2]) : 7;
     const auto file = (std::filesystem::temp_directory_path() / fmt::format("bench-hand-{}.aer", ::getpid())).string();
-    Pool alone(1);
+    ThreadPool alone(1);
     const auto set = good(instruction_set());
     std::vector<double> built;
     std::shared_ptr<const Innervation> skin;
@@ -95,7 +95,7 @@ int main(int argc, char** argv) {
     tell("built from its file", built, 0);
 
     const NamedTouch& stroke = named_touches()[0];
-    std::vector<Wish> stroked, palm = {{"sine", "duration", fmt::format("{}", length)},
+    std::vector<ParameterOverride> stroked, palm = {{"sine", "duration", fmt::format("{}", length)},
                                        {"sine", "f", "2"}, {"sine", "F_mean", "20"}, {"sine", "F_amp", "10"},
                                        {"contact", "radius", "0.04"},
                                        {"contact", "x", "0"},
@@ -120,7 +120,7 @@ int main(int argc, char** argv) {
             auto at_work = good(Skin::make(skin, {1e-3}, set));
             auto out = SkinEventsFile(good(OutputFile::create(file)), "aer");
             SkinListener* const listeners[] = {&out};
-            const SkinInput input{name, "", *clock_of(1e3), {}, *skin};
+            const SkinInput input{name, "", *make_clock(1e3), {}, *skin};
             const auto answerer = alone_answerer(*at_work, alone);
             const double from = processor();
             work = good(run_skin(*force.force, input, *answerer, listeners, {}));

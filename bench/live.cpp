@@ -80,7 +80,7 @@ int through_pipes(const std::string& program, const std::string& population, int
                   int together = 1, double turn_radius = 0) {
     const auto skin = skin_of(population);
     const auto sites = skin->plan.sites.size();
-    const auto header = (*event_format("aer", event_units(*skin, {rate, 1})))->header().size();
+    const auto header = (*make_event_format("aer", event_units(*skin, {rate, 1})))->header().size();
     const auto second = frames_of_a_second(skin->plan, rate, radius, noise, turn_radius);
     const int cores = static_cast<int>(std::thread::hardware_concurrency());
     if (cores > 1) bind_to(0, cores - 2);
@@ -100,7 +100,7 @@ int through_pipes(const std::string& program, const std::string& population, int
     Sender sender(second, sites, rate, count, false);
     Delays delay;
     std::int64_t last = 0, spikes = 0;
-    Reader reader(child.out.get(), header, [&](const address_events::Packed& spike, std::int64_t now) {
+    HelperProgram reader(child.out.get(), header, [&](const address_events::EncodedSpike& spike, std::int64_t now) {
         ++spikes;
         if (spike.step == last || spike.step >= count) return;
         last = spike.step;
@@ -148,7 +148,7 @@ int soak(const std::string& program, int seconds) {
     constexpr int rate = 1000;
     const auto skin = skin_of("grid 16x16");
     const auto sites = skin->plan.sites.size();
-    const auto format = event_format("aer", event_units(*skin, {rate, 1}));
+    const auto format = make_event_format("aer", event_units(*skin, {rate, 1}));
     const auto second = frames_of_a_second(skin->plan, rate, 8e-3, true);
     Endpoint here;
     auto door = listening_socket(here);
@@ -166,7 +166,7 @@ int soak(const std::string& program, int seconds) {
     // The same frames here, as far as events have come.
     auto ours = SkinStream::make(skin, {rate, 1});
     std::vector<double> frame(sites);
-    std::vector<address_events::Packed> wanted;
+    std::vector<address_events::EncodedSpike> wanted;
     std::size_t at = 0;
     const auto next = [&](std::int64_t step) {
         while (at == wanted.size() && (*ours)->frames() < std::min(count, step + 1)) {
@@ -175,15 +175,15 @@ int soak(const std::string& program, int seconds) {
             wanted.clear(), at = 0;
             const auto spikes_here = (*ours)->push(frame);
             for (const auto& s : *spikes_here) {
-                address_events::Packed packed;
-                (*format)->put(s, reinterpret_cast<char*>(&packed));
+                address_events::EncodedSpike packed;
+                (*format)->write(s, reinterpret_cast<char*>(&packed));
                 wanted.push_back(packed);
             }
         }
     };
     std::vector<Delays> minutes(static_cast<std::size_t>(seconds) / 60 + 1);
     std::int64_t spikes = 0, wrong = 0, told_at = 0, last = -1;
-    Reader reader(events.get(), (*format)->header().size(), [&](const address_events::Packed& spike, std::int64_t now) {
+    HelperProgram reader(events.get(), (*format)->header().size(), [&](const address_events::EncodedSpike& spike, std::int64_t now) {
         next(spike.step);
         wrong += at == wanted.size() || std::memcmp(&wanted[at], &spike, sizeof spike) != 0;
         ++spikes, at += at < wanted.size();

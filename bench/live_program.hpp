@@ -160,14 +160,14 @@ public:
 
 /// Events as they come; each() is called with every one and when it was read.
 template <class Each>
-class Reader {
+class HelperProgram {
     int fd_;
     std::size_t header_, filled_ = 0;
     Each each_;
     std::vector<char> buffer_ = std::vector<char>(1 << 20);
 
 public:
-    Reader(int fd, std::size_t header, Each each) : fd_(fd), header_(header), each_(std::move(each)) {}
+    HelperProgram(int fd, std::size_t header, Each each) : fd_(fd), header_(header), each_(std::move(each)) {}
     /// What one read gives; false at the end, or if there is nothing yet where reading does not wait.
     bool read() {
         const auto n = ::read(fd_, buffer_.data() + filled_, buffer_.size() - filled_);
@@ -177,7 +177,7 @@ public:
         std::size_t at = std::min(header_, filled_);
         header_ -= at;
         for (; filled_ - at >= address_events::spike_bytes; at += address_events::spike_bytes) {
-            address_events::Packed spike;
+            address_events::EncodedSpike spike;
             std::memcpy(&spike, buffer_.data() + at, sizeof spike);
             each_(spike, now);
         }

@@ -142,7 +142,7 @@ struct Case {
     }
 
     double once(std::int64_t& spikes) const {
-        static Pool alone(1);
+        static ThreadPool alone(1);
         static std::vector<Spike> found;
         static std::vector<std::uint64_t> bits;
         const auto population = made();

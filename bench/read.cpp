@@ -64,7 +64,7 @@ std::int64_t numbers(const std::string& path) {
     for (std::size_t c = 0; c < all.size(); ++c) all[c] = c;
     std::vector<std::vector<double>> block(all.size());
     std::int64_t rows = 0;
-    for (auto read = (*table)->read(all, rows_a_block, block); read && *read > 0; read = (*table)->read(all, rows_a_block, block))
+    for (auto read = (*table)->read(all, rows_per_block, block); read && *read > 0; read = (*table)->read(all, rows_per_block, block))
         rows += static_cast<std::int64_t>(*read);
     return rows;
 }

@@ -29,7 +29,7 @@ void answer(benchmark::State& run, const std::string& name, const std::string& s
     std::int64_t fired = 0;
     for (auto _ : run) {
         spikes.clear();
-        Answer out{spikes};
+        ResponseBlock out{spikes};
         if (!afferent->respond(force, state, out)) return run.SkipWithError("refused");
         fired += static_cast<std::int64_t>(spikes.size());
         benchmark::DoNotOptimize(spikes.data());

@@ -21,7 +21,7 @@
 #include "circuit/device/uicm_card.hpp"
 #include "circuit/knobs.hpp"
 #include "corpuscle.hpp"
-#include "signal/pool.hpp"
+#include "signal/thread_pool.hpp"
 #include "study/sweep/pattern.hpp"
 
 namespace {
@@ -44,8 +44,8 @@ Trains pressed(const std::shared_ptr<const CircuitDesign>& design, const Chips& 
     std::size_t next = 0;
     BatchOptions options;
     options.most_iterations = 200'000;
-    Pool pool;
-    pool.each(pool.threads(), [&](std::size_t, unsigned) {
+    ThreadPool pool;
+    pool.for_each(pool.threads(), [&](std::size_t, unsigned) {
         const auto done = run_chips(
             design,
             [&]() -> std::optional<Chip> {

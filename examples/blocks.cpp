@@ -13,7 +13,7 @@ int main() {
 
     auto state = afferent->start();
     std::vector<Spike> spikes;
-    Answer answer{spikes};
+    ResponseBlock answer{spikes};
     for (int block = 0; block < 20; ++block) {
         std::vector<double> force(50, block < 10 ? 0.2 : 3.0);  // N: a step after half a second
         if (auto ok = afferent->respond(force, state, answer); !ok) return std::puts(ok.error().text().c_str()), 1;

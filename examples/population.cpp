@@ -15,7 +15,7 @@ int main() {
 
     std::vector<double> gains;
     for (int unit = 0; unit < 10'000; ++unit) gains.push_back(unit / 10'000.0);
-    Pool threads;
+    ThreadPool threads;
     Frames force(1, 500);  // 50 ms
     for (std::vector<Spike> spikes; (*press)->read(force) && force.count > 0; spikes.clear()) {
         PopulationAnswer answer{&spikes};

@@ -13,15 +13,15 @@ T value_or_throw(Result<T> result) {
     return std::move(*result);
 }
 
-std::vector<Wish> parse_overrides(const std::vector<std::string>& settings) {
-    std::vector<Wish> overrides;
-    for (const auto& s : settings) overrides.push_back(value_or_throw(parse_wish(s)));
+std::vector<ParameterOverride> parse_overrides(const std::vector<std::string>& settings) {
+    std::vector<ParameterOverride> overrides;
+    for (const auto& s : settings) overrides.push_back(value_or_throw(parse_override(s)));
     return overrides;
 }
 
-void check_used(std::span<const Wish> overrides) {
+void check_used(std::span<const ParameterOverride> overrides) {
     for (const auto& o : overrides)
-        if (!o.used) throw Refused(o.text() + ": no model or stimulus in use is named '" + o.of + "'");
+        if (!o.is_used) throw Refused(o.text() + ": no model or stimulus in use is named '" + o.target + "'");
 }
 
 }  // namespace
@@ -42,15 +42,15 @@ Response respond(const std::string& afferent, const Touch& signal, const std::ve
     const auto overrides = parse_overrides(settings);
     const auto plan = value_or_throw(plan_any_afferent(afferent, overrides));
     check_used(overrides);
-    const auto clock = value_or_throw(clock_of(signal.rate));
+    const auto clock = value_or_throw(make_clock(signal.rate));
     const auto model = make_afferent(plan, {clock.T()});
     auto state = model->start();
     std::vector<Spike> spikes;
-    Answer response{spikes};
+    ResponseBlock response{spikes};
     auto force = signal.force;
     if (!force.empty()) force.insert(force.end(), static_cast<std::size_t>(model->delay()), force.back());
     if (auto ok = model->respond(force, state, response); !ok) throw Refused(ok.error().text());
-    return {times(spikes, clock)};
+    return {spike_times(spikes, clock)};
 }
 
 std::vector<double> Response::rates() const { return instantaneous_rates(spikes); }

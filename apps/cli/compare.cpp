@@ -23,7 +23,7 @@ Result<CompareOptions> options_of(const CompareWords& w) {
                                                  {&w.cost, "Hz", "--cost", &options.cost},
                                                  {&w.tau, "s", "--tau", &options.tau}}) {
         const auto value = parse_quantity(*text, unit);
-        if (!value) return bad_usage(fmt::format("{} {}", option, value.error().sentence));
+        if (!value) return bad_usage(fmt::format("{} {}", option, value.error().message));
         if (!(*value > 0) && !(to == &options.cost && *value == 0))
             return bad_usage(fmt::format("{} {}: must be {}", option, *text, to == &options.cost ? "0 or more" : "greater than 0"));
         *to = *value;
@@ -114,7 +114,7 @@ Result<void> run(const CompareWords& w, const Common& common) {
     std::vector<Difference> all;
     Difference total;
     for (const auto& p : *pairs) {
-        if (interrupted()) return Error{Code::interrupted, "interrupted"};
+        if (interrupted()) return Error{ErrorCode::interrupted, "interrupted"};
         const auto difference = compare(p, *options);
         if (!difference) return difference.error();
         all.push_back(*difference);

@@ -71,7 +71,7 @@ Result<void> CurveFiles::write_out() {
     written_ = Clock::now();
     if (auto ok = file_->write(rows_); !ok) return ok;
     rows_.clear(), written_to_ = time_;
-    return csv_ ? Result<void>() : file_->rewrite(count_at_, raw_count(points_));
+    return csv_ ? Result<void>() : file_->overwrite(count_at_, raw_count(points_));
 }
 
 Result<void> CurveFiles::end() {
@@ -108,7 +108,7 @@ Result<void> CurveFiles::check(std::size_t analysis_count) const {
     if (words_.out.empty()) return {};
     const auto count = csv_ ? analysis_count : 1;
     for (std::size_t k = 0; k < count; ++k)
-        if (auto ok = check.growing_file(path_of(count, k), csv_ ? is_own_table : is_own_raw); !ok) return ok;
+        if (auto ok = check.check_growing_file(path_of(count, k), csv_ ? is_own_table : is_own_raw); !ok) return ok;
     return {};
 }
 
@@ -116,8 +116,8 @@ Result<void> CurveFiles::check(std::size_t analysis_count) const {
 Result<OutputFile*> CurveFiles::open(std::size_t count, std::size_t k, const std::string& head) {
     if (k < files_.size()) return &files_[k];
     const auto path = path_of(count, k);
-    if (auto ok = check_.growing_file(path, csv_ ? is_own_table : is_own_raw); !ok) return ok.error();
-    auto file = OutputFile::growing(path);
+    if (auto ok = check_.check_growing_file(path, csv_ ? is_own_table : is_own_raw); !ok) return ok.error();
+    auto file = OutputFile::create_growing(path);
     if (!file) return file.error();
     files_.push_back(std::move(*file));
     if (auto ok = files_.back().write(head); !ok) return ok.error();

@@ -6,7 +6,7 @@
 #include "circuit/raw.hpp"
 #include "circuit/run.hpp"
 #include "circuit/variants.hpp"
-#include "io/output.hpp"
+#include "io/output_file.hpp"
 #include "io/output_check.hpp"
 #include "verbs.hpp"
 

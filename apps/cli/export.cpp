@@ -29,7 +29,7 @@ Result<void> export_netlist(const ExportWords& words, const Common& common) {
     if (!netlist) return netlist.error();
     OutputCheck outputs(common.overwrite);
     if (!words.out.empty())
-        if (auto ok = outputs.file(words.out, is_own_deck); !ok) return ok;
+        if (auto ok = outputs.check_file(words.out, is_own_deck); !ok) return ok;
     auto circuit = netlist->elaborate();
     if (!circuit) return circuit.error();
     auto remarks = circuit->remarks;

@@ -9,7 +9,7 @@
 #include "circuit/analyses.hpp"
 #include "circuit/device/uicm_card.hpp"
 #include "circuit/devices.hpp"
-#include "io/formats.hpp"
+#include "io/recording_formats.hpp"
 #include "list_entry.hpp"
 #include "measure/measures.hpp"
 #include "model/catalog.hpp"
@@ -24,13 +24,13 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Entry entry_of(const Card& card) {
-    Entry e{std::string(card.name), "", std::string(card.sentence), std::string(card.source), {}, {}};
-    for (const auto& row : card.rows) e.parameters.push_back({row, card.name});
+Entry entry_of(const CatalogEntry& card) {
+    Entry e{std::string(card.name), "", std::string(card.description), std::string(card.source), {}, {}};
+    for (const auto& row : card.parameters) e.parameters.push_back({row, card.name});
     return e;
 }
 
-std::vector<Entry> entries_of(const std::vector<Card>& cards) {
+std::vector<Entry> entries_of(const std::vector<CatalogEntry>& cards) {
     std::vector<Entry> entries;
     for (const auto& c : cards) entries.push_back(entry_of(c));
     return entries;
@@ -75,9 +75,9 @@ std::vector<Entry> afferent_entries() {
 /// The contents of netlists: devices by letter, parameters of .model and M lines, analyses.
 std::vector<Section> circuit_sections() {
     using namespace circuit;
-    const Card card{UicmCard::name, UicmCard::sentence, UicmCard::source, rows_of<UicmCard>(UicmCard::fields)};
-    const Card size{"m", "transistor size: the parameters of an M line", "choice: 1 um / 1 um",
-                    rows_of<UicmInstance>(UicmInstance::fields)};
+    const CatalogEntry card{UicmCard::name, UicmCard::sentence, UicmCard::source, parameters_of<UicmCard>(UicmCard::fields)};
+    const CatalogEntry size{"m", "transistor size: the parameters of an M line", "choice: 1 um / 1 um",
+                    parameters_of<UicmInstance>(UicmInstance::fields)};
     std::vector<Entry> elements, analysis_entries;
     for (const auto& d : circuit::devices) elements.push_back({std::string(1, d.letter), "", std::string(d.sentence), "", {}, {}});
     for (const auto& a : circuit::analyses)
@@ -89,15 +89,15 @@ std::vector<Section> catalogue() {
     std::vector<Entry> measure_entries, format_entries;
     for (const auto& m : measures)
         measure_entries.push_back({std::string(m.name), std::string(m.unit), std::string(m.sentence), "", {}, {}, "unit"});
-    for (const auto& f : formats)
-        format_entries.push_back({std::string(f.name), std::string(f.extensions), std::string(f.sentence), "", {}, {}, "extensions"});
+    for (const auto& f : recording_formats)
+        format_entries.push_back({std::string(f.name), std::string(f.extensions), std::string(f.description), "", {}, {}, "extensions"});
     std::vector<Section> all = {{"afferents", afferent_entries()},
                                 {"sensors", entries_of(sensor_cards())},
                                 {"transducers", entries_of(transducer_cards())},
                                 {"converters", entries_of(converter_cards())},
                                 {"transductions", entries_of(receptor_cards())},
                                 {"neurons", entries_of(neuron_cards())},
-                                {"stimuli", entries_of(stimulus_cards())},
+                                {"stimuli", entries_of(stimulus_catalog())},
                                 {"measures", measure_entries},
                                 {"formats", format_entries}};
     for (auto& s : skin_sections()) all.push_back(std::move(s));
@@ -134,9 +134,9 @@ Result<std::vector<Section>> select_sections(const std::vector<std::string>& wha
     return out;
 }
 
-bool has_range(const Row& r) { return r.low > -std::numeric_limits<double>::max() || r.high < std::numeric_limits<double>::max(); }
+bool has_range(const ParameterInfo& r) { return r.low > -std::numeric_limits<double>::max() || r.high < std::numeric_limits<double>::max(); }
 
-std::string range(const Row& r) {
+std::string range(const ParameterInfo& r) {
     if (!has_range(r)) return "";
     return fmt::format("[{}, {}]", format_quantity(r.low, r.unit), format_quantity(r.high, r.unit));
 }
@@ -147,8 +147,8 @@ std::string text_of(const Entry& e) {
     if (!e.other_names.empty()) text += fmt::format("    also called: {}\n", fmt::join(e.other_names, ", "));
     std::vector<std::vector<std::string>> rows = {{}};
     for (const auto& p : e.parameters)
-        rows.push_back({"    " + std::string(p.row.name), format_quantity(p.row.initial, p.row.unit), range(p.row),
-                        std::string(p.row.sentence) + (p.row.source.empty() ? "" : fmt::format(" ({})", p.row.source))});
+        rows.push_back({"    " + std::string(p.row.name), format_quantity(p.row.default_value, p.row.unit), range(p.row),
+                        std::string(p.row.description) + (p.row.source.empty() ? "" : fmt::format(" ({})", p.row.source))});
     for (const auto& t : e.told) rows.push_back({"    " + t.of, t.text, t.source.empty() ? "" : "(" + t.source + ")"});
     return text + (rows.size() > 1 ? table({rows.begin() + 1, rows.end()}) : "");
 }
@@ -160,11 +160,11 @@ Json document_of(const Entry& e) {
     if (!e.other_names.empty()) out["also_called"] = e.other_names;
     for (const auto& p : e.parameters)
         out["parameters"].push_back({{"name", p.row.name},
-                                     {"default", p.row.initial},
+                                     {"default", p.row.default_value},
                                      {"unit", p.row.unit},
                                      {"low", has_range(p.row) ? Json(p.row.low) : Json(nullptr)},
                                      {"high", has_range(p.row) ? Json(p.row.high) : Json(nullptr)},
-                                     {"sentence", p.row.sentence},
+                                     {"sentence", p.row.description},
                                      {"source", p.row.source},
                                      {"of", p.of}});
     for (const auto& t : e.told) out["told"].push_back({{"of", t.of}, {"text", t.text}, {"source", t.source}});

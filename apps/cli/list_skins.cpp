@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
-#include "io/spikes.hpp"
+#include "io/spike_files.hpp"
 #include "list_entry.hpp"
 #include "signal/quantity.hpp"
 #include "skin/contact/contact.hpp"
@@ -121,8 +121,8 @@ Result<std::string> sites_listing(const std::vector<std::string>& populations, b
     }
     std::string out = "name,x_mm,y_mm,region\n";
     for (std::size_t s = 0; s < sites.size(); ++s)
-        out += fmt::format("{},{:.10g},{:.10g},{}\n", csv_field(sites.names[s]), 1e3 * sites.at[s].x, 1e3 * sites.at[s].y,
-                           csv_field(sites.regions[sites.region[s]]));
+        out += fmt::format("{},{:.10g},{:.10g},{}\n", quote_csv_field(sites.names[s]), 1e3 * sites.at[s].x, 1e3 * sites.at[s].y,
+                           quote_csv_field(sites.regions[sites.region[s]]));
     return out;
 }
 

@@ -346,7 +346,7 @@ int main(int argc, char** argv) {
         app.exit(e, text, text);
         std::fwrite(text.str().data(), 1, text.str().size(), stdout);
     } catch (const std::system_error&) {  // standard output failed: a closed pipe, a full disk
-        if (interrupted()) return fail({Code::interrupted, "interrupted"});
+        if (interrupted()) return fail({ErrorCode::interrupted, "interrupted"});
         const auto done = finish_output();
         return fail(done ? bad_input("cannot write all of standard output") : done.error());
     } catch (const std::bad_alloc&) {

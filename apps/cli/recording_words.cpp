@@ -39,7 +39,7 @@ Result<void> read_structured_options(const RecordingWords& w, RecordingOptions& 
     }
     for (const auto& text : w.notch) {
         const auto f = parse_quantity(text, "Hz");
-        if (!f) return bad_usage(fmt::format("--notch {}", f.error().sentence));
+        if (!f) return bad_usage(fmt::format("--notch {}", f.error().message));
         options.notch.push_back(*f);
     }
     return {};
@@ -58,14 +58,14 @@ Result<std::optional<double>> scale_of(const std::optional<std::string>& text) {
 Result<std::optional<double>> quantity(const std::optional<std::string>& text, std::string_view unit, std::string_view option) {
     if (!text) return std::optional<double>();
     const auto value = parse_quantity(*text, unit);
-    if (!value) return bad_usage(fmt::format("{} {}", option, value.error().sentence));
+    if (!value) return bad_usage(fmt::format("{} {}", option, value.error().message));
     return std::optional<double>(*value);
 }
 
 Result<RecordingOptions> recording_options(const RecordingWords& w) {
     RecordingOptions options;
     options.table.dataset = w.dataset;
-    options.table.skip = w.skip.value_or(0);
+    options.table.skip_lines = w.skip.value_or(0);
     options.table.transpose = w.transpose;
     options.channels = w.channels, options.time = w.time, options.time_unit = w.time_unit, options.unit = w.unit;
     options.absolute = w.absolute;

@@ -15,7 +15,7 @@
 #include "printable.hpp"
 #include "recording_words.hpp"
 #include "signal/quantity.hpp"
-#include "signal/text.hpp"
+#include "signal/ascii_text.hpp"
 #include "study/afferents.hpp"
 #include "study/nerve_limit.hpp"
 #include "study/silence.hpp"
@@ -32,21 +32,21 @@ constexpr std::size_t max_rows = 60;           // of the printed table
 constexpr std::size_t max_rows_with_silent = 24;  // longer tables omit silent afferents
 
 struct Job {
-    std::vector<Wish> overrides;
+    std::vector<ParameterOverride> overrides;
     std::vector<AfferentPlan> afferents;  // as requested
     Copies copy_spec;
     std::vector<AfferentPlan> copies;  // of all afferents; without --copies the afferents themselves
-    std::vector<std::unique_ptr<Source>> sources;
+    std::vector<std::unique_ptr<ForceSource>> sources;
     RespondOptions options;
     std::vector<std::string> warnings;
 };
 
-Result<std::vector<Wish>> spread_overrides(const RespondWords& w) {
+Result<std::vector<ParameterOverride>> spread_overrides(const RespondWords& w) {
     if (w.copies == 0 && !w.spreads.empty())
         return bad_usage(fmt::format("--spread {} needs --copies N, such as --copies 100", w.spreads[0]));
-    std::vector<Wish> overrides;
+    std::vector<ParameterOverride> overrides;
     for (const auto& text : w.spreads) {
-        auto parsed = parse_wish(text);
+        auto parsed = parse_override(text);
         if (!parsed) return bad_usage(fmt::format("--spread '{}': write NAME.PARAMETER=DEVIATION, such as 'sa1.f_B=10%'", text));
         overrides.push_back(std::move(*parsed));
     }
@@ -54,7 +54,7 @@ Result<std::vector<Wish>> spread_overrides(const RespondWords& w) {
 }
 
 /// Parameter names of netlists are in lower case.
-std::vector<Wish> in_lower_case(std::vector<Wish> overrides) {
+std::vector<ParameterOverride> in_lower_case(std::vector<ParameterOverride> overrides) {
     for (auto& w : overrides) w.parameter = lower(w.parameter);
     return overrides;
 }
@@ -68,7 +68,7 @@ Result<void> populate(Job& job, const RespondWords& w) {
     for (std::size_t a = 0; w.copies > 0 && a < job.afferents.size(); ++a) {
         const auto own = job.afferents[a].design ? in_lower_case(*overrides) : *overrides;
         auto spreads = spreads_for(job.afferents[a], w.afferents[a], own);
-        for (std::size_t k = 0; k < own.size(); ++k) (*overrides)[k].used |= own[k].used;
+        for (std::size_t k = 0; k < own.size(); ++k) (*overrides)[k].is_used |= own[k].is_used;
         if (!spreads) return spreads.error();
         auto copies = copies_of(job.afferents[a], w.copies, *spreads, w.seed);
         if (!copies) return copies.error();
@@ -80,9 +80,9 @@ Result<void> populate(Job& job, const RespondWords& w) {
     std::vector<std::string_view> names;
     for (const auto& a : job.afferents) names.push_back(a.name);
     for (const auto& entry : *overrides)
-        if (!entry.used)
+        if (!entry.is_used)
             return bad_usage(
-                fmt::format("--spread {}: there is no afferent '{}' in this run{}", entry.text(), entry.of, did_you_mean(entry.of, names)));
+                fmt::format("--spread {}: there is no afferent '{}' in this run{}", entry.text(), entry.target, did_you_mean(entry.target, names)));
     return {};
 }
 
@@ -101,9 +101,9 @@ Result<void> check_overrides(const Job& job) {
     for (const auto& a : job.afferents) names.push_back(a.name);
     for (const auto& s : job.sources) names.push_back(s->name());
     for (const auto& w : job.overrides)
-        if (!w.used)
+        if (!w.is_used)
             return bad_usage(
-                fmt::format("--set {}: there is no afferent or stimulus '{}' in this run{}", w.text(), w.of, did_you_mean(w.of, names)));
+                fmt::format("--set {}: there is no afferent or stimulus '{}' in this run{}", w.text(), w.target, did_you_mean(w.target, names)));
     return {};
 }
 
@@ -134,7 +134,7 @@ Result<Job> prepare(const RespondWords& w, bool quiet) {
     Job job;
     if (w.forces.empty()) return bad_usage("respond: no FORCE given; try 'corpuscle respond press'");
     for (const auto& text : w.settings) {
-        auto parsed = parse_wish(text);
+        auto parsed = parse_override(text);
         if (!parsed) return parsed.error();
         job.overrides.push_back(std::move(*parsed));
     }
@@ -143,7 +143,7 @@ Result<Job> prepare(const RespondWords& w, bool quiet) {
     auto options = recording_options(w);
     if (!options) return options.error();
     Progress progress(quiet);
-    options->keep_on = [&](double fraction) { return progress.at(fraction), !interrupted(); };
+    options->should_continue = [&](double fraction) { return progress.at(fraction), !interrupted(); };
     for (const auto& force : w.forces) {
         auto source = open_force(force, *options, job.overrides, default_rate, w.seed);
         if (!source) return source.error();
@@ -225,7 +225,7 @@ std::string rate_table(const Summary& summary) {
 /// Prints warnings, and notes unless --quiet was given.
 void print_notes(const Job& job, bool quiet) {
     for (const auto& s : job.sources)
-        for (const auto& r : quiet ? std::vector<std::string>{} : s->remarks()) tell(fmt::format("{}: {}", s->name(), r));
+        for (const auto& r : quiet ? std::vector<std::string>{} : s->notes()) tell(fmt::format("{}: {}", s->name(), r));
     for (const auto& w : job.warnings) tell_warning(w);
 }
 
@@ -237,7 +237,7 @@ void warn(Job& job, std::string message) {
 /// Prints the quality findings of the recordings, which are known after the run.
 void print_quality(Job& job, const Summary& summary, bool quiet) {
     for (const auto& i : summary.inputs()) {
-        for (const auto& s : quiet ? std::vector<std::string>{} : i.quality.sentences) tell(fmt::format("{}: {}", i.name, s));
+        for (const auto& s : quiet ? std::vector<std::string>{} : i.quality.descriptions) tell(fmt::format("{}: {}", i.name, s));
         for (const auto& s : i.quality.warnings) warn(job, fmt::format("{}: {}", i.name, s));
     }
 }
@@ -279,7 +279,7 @@ public:
     }
     Result<void> block(const Input& input, const Answered& response) override {
         for (const auto& s : response.spikes)
-            trains_[first_ + s.unit - input.first_unit]["times_s"].push_back(input.source.clock().time(s.step, s.offset));
+            trains_[first_ + s.afferent_index - input.first_unit]["times_s"].push_back(input.source.clock().time(s.step, s.offset));
         return {};
     }
     const nlohmann::ordered_json& document() const { return trains_; }
@@ -312,7 +312,7 @@ Result<void> run(const RespondWords& w, const Common& common) {
     if (auto ok = outputs.open(w, job->copy_spec, later_names(*job, w), check); !ok) return ok;
     print_notes(*job, common.quiet);
 
-    Pool pool(w.threads);
+    ThreadPool pool(w.threads);
     job->options.pool = &pool;
     Summary summary;
     Silence silence;
@@ -349,8 +349,8 @@ Result<void> run(const RespondWords& w, const Common& common) {
              outputs.told());
     if (!work->lost.empty()) {
         auto error = work->lost[0];
-        error.sentence =
-            fmt::format("{} of {} netlists did not converge; the first: {}", work->lost.size(), netlist_count(*job), error.sentence);
+        error.message =
+            fmt::format("{} of {} netlists did not converge; the first: {}", work->lost.size(), netlist_count(*job), error.message);
         return error;
     }
     return {};

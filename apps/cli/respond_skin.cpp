@@ -11,7 +11,7 @@
 #include "printable.hpp"
 #include "recording_words.hpp"
 #include "signal/stimuli.hpp"
-#include "signal/text.hpp"
+#include "signal/ascii_text.hpp"
 #include "signal/version.hpp"
 #include "skin/class_settings.hpp"
 #include "skin/pressed.hpp"
@@ -78,8 +78,8 @@ const NamedTouch* find_skin_stimulus(const std::string& force) {
 
 /// A skin simulation, prepared from the arguments.
 struct SkinJob {
-    std::vector<Wish> overrides;
-    std::unique_ptr<Source> source;
+    std::vector<ParameterOverride> overrides;
+    std::unique_ptr<ForceSource> source;
     std::shared_ptr<const Innervation> skin;
     std::unique_ptr<Contact> contact;  ///< null: the channels are forces at the sites
     std::unique_ptr<SkinForce> force;
@@ -89,11 +89,11 @@ struct SkinJob {
 };
 
 /// Adds the settings of a skin stimulus as overrides. Overrides of the user take precedence.
-void add_stimulus_overrides(std::vector<Wish>& overrides, const NamedTouch& stimulus) {
+void add_stimulus_overrides(std::vector<ParameterOverride>& overrides, const NamedTouch& stimulus) {
     const auto add = [&](std::string_view of, const std::vector<Setting>& settings) {
         for (const auto& s : settings)
             if (std::none_of(overrides.begin(), overrides.end(),
-                             [&](const Wish& entry) { return entry.of == of && entry.parameter == s.name; }))
+                             [&](const ParameterOverride& entry) { return entry.target == of && entry.parameter == s.name; }))
                 overrides.push_back({std::string(of), std::string(s.name), fmt::format("{}", s.value), true});
     };
     add("contact", stimulus.settings);
@@ -104,7 +104,7 @@ Result<void> check_skin_overrides(const SkinJob& job) {
     std::vector<std::string_view> names = {"contact", job.source->name()};
     for (const auto& c : job.skin->plan.classes) names.push_back(c.name);
     for (const auto& w : job.overrides)
-        if (!w.used) return bad_usage(fmt::format("--set {}: there is no '{}' in this run{}", w.text(), w.of, did_you_mean(w.of, names)));
+        if (!w.is_used) return bad_usage(fmt::format("--set {}: there is no '{}' in this run{}", w.text(), w.target, did_you_mean(w.target, names)));
     return {};
 }
 
@@ -132,7 +132,7 @@ Result<SkinJob> prepare_skin(const RespondWords& w) {
     if (auto ok = check_skin_options(w); !ok) return ok.error();
     SkinJob job;
     for (const auto& text : w.settings) {
-        auto parsed = parse_wish(text);
+        auto parsed = parse_override(text);
         if (!parsed) return parsed.error();
         job.overrides.push_back(std::move(*parsed));
     }
@@ -164,10 +164,10 @@ Result<SkinJob> prepare_skin(const RespondWords& w) {
 /// Collects metadata, notes and warnings of the force.
 void add_force_notes(SkinJob& job) {
     auto& run_info = job.run_info;
-    run_info.facts = job.source->facts();
-    run_info.remarks = job.source->remarks();
+    run_info.facts = job.source->metadata();
+    run_info.remarks = job.source->notes();
     const auto quality = job.source->quality();
-    run_info.remarks.insert(run_info.remarks.end(), quality.sentences.begin(), quality.sentences.end());
+    run_info.remarks.insert(run_info.remarks.end(), quality.descriptions.begin(), quality.descriptions.end());
     run_info.warnings.insert(run_info.warnings.end(), quality.warnings.begin(), quality.warnings.end());
     if (!job.taken_for_skin.empty()) run_info.remarks.push_back(job.taken_for_skin);
     if (job.contact) {
@@ -194,12 +194,12 @@ std::string stronger_stimulus_advice(const SkinJob& job, const RespondWords& w, 
         return fmt::format("set felt_area = \"{} cm2\" in {}: without it an afferent receives the mean force of its sites",
                            rounded_up(1e4 * area), w.population);
     }
-    const auto facts = job.source->facts();
+    const auto facts = job.source->metadata();
     if (!is_stimulus(job.source->name())) {
         const bool has_gain = !facts.empty() && facts[0].name.ends_with("newtons per unit");
         return has_gain ? fmt::format("try --scale {}{}", rounded_up(factor * facts[0].value), w.unit ? " in place of --unit" : "") : "";
     }
-    const Fact* largest = nullptr;
+    const MetadataEntry* largest = nullptr;
     for (const auto& f : facts)
         if (f.unit == "N" && (!largest || f.value > largest->value)) largest = &f;
     return largest ? fmt::format("try --set {}={}N", largest->name, rounded_up(factor * largest->value)) : "";
@@ -232,7 +232,7 @@ void add_silence_notes(SkinJob& job, const RespondWords& w, const std::vector<Si
         text += fmt::format(
             "; --set contact.x=... and --set contact.y=... place the indenter (for positions see units.csv, or type: corpuscle list {} "
             "--sites)",
-            shell_word(w.population));
+            quote_shell_word(w.population));
     (all ? job.run_info.warnings : job.run_info.remarks).push_back(std::move(text));
 }
 
@@ -310,7 +310,7 @@ Result<void> coordinate_skin(SkinJob& job, const RespondWords& w, const Common& 
     SkinOutputs outputs;
     OutputCheck check(common.overwrite);
     if (auto ok = outputs.open(w, summary, check); !ok) return ok;
-    Pool pool(self.ranks ? std::max(1U, w.threads) : w.threads);
+    ThreadPool pool(self.ranks ? std::max(1U, w.threads) : w.threads);
     std::unique_ptr<SkinCheckpoint> checkpoint;
     if (!w.checkpoint.empty()) {
         if (self.ranks) return bad_usage("--checkpoint works with one process only, not under mpirun");
@@ -328,14 +328,14 @@ Result<void> coordinate_skin(SkinJob& job, const RespondWords& w, const Common& 
     if (common.json) listeners.push_back(&times);
     outputs.listen(listeners);
     const auto simulator = self.ranks ? leading_answerer(*self.ranks, **skin, pool) : alone_answerer(**skin, pool);
-    const SkinInput input{job.name, job.source->sentence(), job.source->clock(), job.source->phases(), *job.skin};
+    const SkinInput input{job.name, job.source->description(), job.source->clock(), job.source->phases(), *job.skin};
     const auto work = [&] {
         Progress progress(common.quiet);
         return run_skin(*job.force, input, *simulator, listeners,
                         {[&](double fraction) { return progress.at(fraction), !interrupted(); }, checkpoint.get()});
     }();
-    if (!work && work.error().code == Code::interrupted && checkpoint)
-        return Error{Code::interrupted, fmt::format("interrupted; the same command resumes from {}", w.checkpoint)};
+    if (!work && work.error().code == ErrorCode::interrupted && checkpoint)
+        return Error{ErrorCode::interrupted, fmt::format("interrupted; the same command resumes from {}", w.checkpoint)};
     if (!work) return work.error();
     job.run_info.work = *work;
     add_force_notes(job);
@@ -362,7 +362,7 @@ Result<void> coordinate_skin(SkinJob& job, const RespondWords& w, const Common& 
 Result<void> run_as(const RespondWords& w, const Common& common, const SkinProcess& self) {
     auto job = prepare_skin(w);
     if (!self.is_coordinator()) {
-        Pool pool(std::max(1U, w.threads));
+        ThreadPool pool(std::max(1U, w.threads));
         if (!job) return follow_skin(*self.ranks, job.error(), nullptr, pool);
         auto skin = make_skin(*job, self);
         if (!skin) return follow_skin(*self.ranks, skin.error(), nullptr, pool);

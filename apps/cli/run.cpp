@@ -155,9 +155,9 @@ public:
     void fail(const std::string& label, const Error& error) {
         failures.push_back(error);
         if (common_.json)
-            print_document({{"step", label}, {"error", error.sentence}});
+            print_document({{"step", label}, {"error", error.message}});
         else if (!common_.quiet)
-            show(fmt::format("{}:  {}\n", printable(label), printable(error.sentence)));
+            show(fmt::format("{}:  {}\n", printable(label), printable(error.message)));
     }
     void finish() {
         if (common_.json) return has_steps_ ? fmt::print("{}]\n", count_ == 0 ? "[" : "\n") : void();
@@ -240,15 +240,15 @@ Result<void> run_all(Variants& variants, const RunWords& w, const Common& common
         Accountant accountant(*context);
         const auto watched = w.budget ? accountant.watch(options) : Result<void>();
         auto found = watched ? circuit::run(*context, options) : watched.error();
-        if (interrupted()) return Error{Code::interrupted, "interrupted"};
+        if (interrupted()) return Error{ErrorCode::interrupted, "interrupted"};
         progress.at(static_cast<double>(k + 1) / static_cast<double>(count));
-        if (!found && found.error().code == Code::not_converged && count > 1) {
+        if (!found && found.error().code == ErrorCode::not_converged && count > 1) {
             printer.fail(variant->label, found.error());
             continue;
         }
         if (!found) {
             auto error = found.error();
-            if (!variant->label.empty()) error.sentence = fmt::format("{}: {}", variant->label, error.sentence);
+            if (!variant->label.empty()) error.message = fmt::format("{}: {}", variant->label, error.message);
             return error;
         }
         auto plots = w.out.empty() ? std::move(collected.plots) : found->plots();
@@ -317,8 +317,8 @@ Result<void> run_netlist(const RunWords& w, const Common& common) {
     if (auto ok = files.finish(); !ok) return ok;
     if (!printer.failures.empty()) {
         auto error = printer.failures[0];
-        error.sentence =
-            fmt::format("{} of {} did not converge; the first: {}", printer.failures.size(), variants->count(), error.sentence);
+        error.message =
+            fmt::format("{} of {} did not converge; the first: {}", printer.failures.size(), variants->count(), error.message);
         return error;
     }
     if (printer.failed_expectation) return *printer.failed_expectation;

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "recording_words.hpp"
-#include "signal/text.hpp"
+#include "signal/ascii_text.hpp"
 #include "study/skin_bins_file.hpp"
 #include "study/skin_events_file.hpp"
 #include "study/skin_npz_file.hpp"

@@ -15,7 +15,7 @@ Result<void> SkinSpikeTimes::begin(const SkinInput& input) {
 void SkinSpikeTimes::add(const Clock& clock, std::span<const Spike> spikes) {
     count_ += spikes.size();
     if (are_too_many()) return times_.clear();
-    for (const auto& s : spikes) times_[s.unit].push_back(clock.time(s.step, s.offset));
+    for (const auto& s : spikes) times_[s.afferent_index].push_back(clock.time(s.step, s.offset));
 }
 
 Result<void> SkinSpikeTimes::block(const SkinInput& input, const SkinAnswered& response) {

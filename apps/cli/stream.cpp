@@ -25,7 +25,7 @@
 namespace corpuscle {
 namespace {
 
-Result<SkinPlan> plan_of(const StreamWords& w, std::span<const Channel> channels, std::span<const Wish> overrides) {
+Result<SkinPlan> plan_of(const StreamWords& w, std::span<const Channel> channels, std::span<const ParameterOverride> overrides) {
     if (channels.empty()) return plan_live(w.population, w.count, overrides);
     if (is_afferents(w.population)) return plan_channels(w.population, channels, overrides);
     auto plan = plan_skin(w.population, channels);
@@ -40,7 +40,7 @@ class LiveRun {
     const Common& common_;
     std::unique_ptr<SkinStream> skin_;
     std::unique_ptr<FrameSource> frames_;
-    const Source* source_ = nullptr;  // of recorded frames, which own it; else null
+    const ForceSource* source_ = nullptr;  // of recorded frames, which own it; else null
     FrameLayout layout_;              // of live frames
     std::unique_ptr<EventFormat> format_;
     std::unique_ptr<EventOutlet> outlet_;
@@ -50,7 +50,7 @@ class LiveRun {
     StreamFacts facts() const { return {*skin_, *frames_, *outlet_, *format_, *loop_}; }
 
     /// Opens a recording or a stimulus, and the skin that it drives.
-    Result<void> open_recorded(const StreamNumbers& n, std::span<const Wish> overrides) {
+    Result<void> open_recorded(const StreamNumbers& n, std::span<const ParameterOverride> overrides) {
         auto source = open_stream_source(words_, n, overrides);
         if (!source) return source.error();
         const auto channels = (*source)->channels();
@@ -73,7 +73,7 @@ class LiveRun {
             const auto from = name_of_input(words_.in);
             if (!named)
                 return bad_input(
-                    fmt::format("{}; use site names in all columns, or in none (columns are then in site order)", named.error().sentence),
+                    fmt::format("{}; use site names in all columns, or in none (columns are then in site order)", named.error().message),
                     {from + ": header"});
             if (!*named || sites.empty()) return *named ? **std::move(named) : std::vector<std::uint32_t>();
             for (std::size_t k = 0; k < sites.size(); ++k)
@@ -86,7 +86,7 @@ class LiveRun {
     }
 
     /// Opens a live input, and the skin that it drives.
-    Result<void> open_live(const StreamNumbers& n, std::span<const Wish> overrides) {
+    Result<void> open_live(const StreamNumbers& n, std::span<const ParameterOverride> overrides) {
         const auto clock = wire_clock(words_, n);
         if (!clock) return clock.error();
         const auto plan = plan_of(words_, {}, overrides);
@@ -120,7 +120,7 @@ class LiveRun {
     }
 
     Result<void> open_outlet(const StreamNumbers& n) {
-        auto format = event_format(words_.format, event_units(skin_->innervation(), skin_->clock()));
+        auto format = make_event_format(words_.format, event_units(skin_->innervation(), skin_->clock()));
         if (!format) return format.error();
         format_ = std::move(*format);
         const auto ring = static_cast<std::size_t>(n.buffer);
@@ -139,7 +139,7 @@ class LiveRun {
         if (state->force.size() != skin_->sites())
             return bad_input(fmt::format("the saved state has {} sites, but the population has {}", state->force.size(), skin_->sites()),
                              {words_.resume});
-        if (auto ok = skin_->resume(state->skin); !ok) return Error{ok.error().code, ok.error().sentence, {words_.resume}};
+        if (auto ok = skin_->resume(state->skin); !ok) return Error{ok.error().code, ok.error().message, {words_.resume}};
         std::copy(state->force.begin(), state->force.end(), loop_->force().begin());
         if (auto* order = frames_->order(); order && state->number) order->go_on_from(*state->number);
         return {};
@@ -160,7 +160,7 @@ class LiveRun {
 
     /// Prints how a recording was read, and warns if the frame rate is too low.
     void print_notes() {
-        const auto notes = source_ && !common_.quiet ? source_->remarks() : std::vector<std::string>{};
+        const auto notes = source_ && !common_.quiet ? source_->notes() : std::vector<std::string>{};
         for (const auto& r : notes) print(fmt::format("{}: {}", source_->name(), r));
         const double rate = skin_->clock().rate();
         for (const auto& c : skin_->innervation().plan.classes)
@@ -173,7 +173,7 @@ class LiveRun {
     void print_quality() {
         if (!source_) return;
         const auto quality = source_->quality();
-        for (const auto& s : common_.quiet ? std::vector<std::string>{} : quality.sentences)
+        for (const auto& s : common_.quiet ? std::vector<std::string>{} : quality.descriptions)
             print(fmt::format("{}: {}", source_->name(), s));
         for (const auto& s : quality.warnings) clear_status(), tell_warning(fmt::format("{}: {}", source_->name(), s));
     }
@@ -228,12 +228,12 @@ class LiveRun {
         if (!common_.quiet && !common_.json) fmt::print(stderr, "corpuscle: {}", printable_lines(stream_summary(facts())));
     }
 
-    Result<void> open(const StreamNumbers& n, std::span<const Wish> overrides) {
+    Result<void> open(const StreamNumbers& n, std::span<const ParameterOverride> overrides) {
         if (auto ok = is_wire(words_.in) ? open_live(n, overrides) : open_recorded(n, overrides); !ok) return ok;
         std::vector<std::string_view> others;
         if (source_) others.push_back(source_->name());
         if (auto ok = check_all_used(skin_->innervation().plan, overrides, others); !ok)
-            return bad_usage(fmt::format("--set {}", ok.error().sentence));
+            return bad_usage(fmt::format("--set {}", ok.error().message));
         if (auto ok = check_outputs(); !ok) return ok;
         return open_outlet(n);
     }
@@ -243,20 +243,20 @@ class LiveRun {
         OutputCheck outputs(common_.overwrite);
         remember_input("-");
         if (!words_.save.empty())
-            if (auto ok = outputs.file(words_.save, is_own_state); !ok) return ok;
+            if (auto ok = outputs.check_file(words_.save, is_own_state); !ok) return ok;
         if (!words_.resume.empty()) remember_input(words_.resume);
-        return words_.out == "-" ? Result<void>() : outputs.growing_file(words_.out, is_own_events);
+        return words_.out == "-" ? Result<void>() : outputs.check_growing_file(words_.out, is_own_events);
     }
 
-    const Error stopped{Code::interrupted, "interrupted"};
+    const Error stopped{ErrorCode::interrupted, "interrupted"};
 
 public:
     LiveRun(const StreamWords& words, const Common& common) : words_(words), common_(common) {}
 
     Result<void> run() {
-        std::vector<Wish> overrides;
+        std::vector<ParameterOverride> overrides;
         for (const auto& text : words_.settings) {
-            auto parsed = parse_wish(text);
+            auto parsed = parse_override(text);
             if (!parsed) return parsed.error();
             overrides.push_back(std::move(*parsed));
         }
@@ -291,7 +291,7 @@ int stream(const StreamWords& words, const Common& common) {
     const auto done = run.run();
     if (done) return 0;
     // The summary has reported the interruption.
-    if (done.error().code == Code::interrupted) return static_cast<int>(Code::interrupted);
+    if (done.error().code == ErrorCode::interrupted) return static_cast<int>(ErrorCode::interrupted);
     return fail(done.error());
 }
 

@@ -4,7 +4,7 @@
 #include <charconv>
 
 #include "force_words.hpp"
-#include "io/columns.hpp"
+#include "io/column_selection.hpp"
 #include "recording_words.hpp"
 #include "signal/quantity.hpp"
 #include "signal/stimuli.hpp"
@@ -73,17 +73,17 @@ Result<StreamNumbers> stream_numbers(const StreamWords& w) {
     return n;
 }
 
-Result<std::unique_ptr<Source>> open_stream_source(const StreamWords& w, const StreamNumbers& n, std::span<const Wish> overrides) {
+Result<std::unique_ptr<ForceSource>> open_stream_source(const StreamWords& w, const StreamNumbers& n, std::span<const ParameterOverride> overrides) {
     if (const auto option = recording_word(w); !option.empty() && is_stimulus(w.in))
         return bad_usage(
             fmt::format("{} is for recordings, but {} is a stimulus; change it by --set {}.PARAMETER=VALUE", option, w.in, w.in));
     auto options = n.recording;
-    options.keep_on = [](double) { return !interrupted(); };
+    options.should_continue = [](double) { return !interrupted(); };
     return open_force(w.in, options, overrides, stimulus_rate, 0);
 }
 
 Result<Clock> wire_clock(const StreamWords& w, const StreamNumbers& n) {
-    if (n.recording.rate) return clock_of(*n.recording.rate);
+    if (n.recording.rate) return make_clock(*n.recording.rate);
     return bad_usage(fmt::format("--rate is required: the frame rate of {}", name_of_input(w.in)));
 }
 

@@ -8,7 +8,7 @@
 #include "io/recording.hpp"
 #include "live/byte_source.hpp"
 #include "live/frame_layout.hpp"
-#include "signal/settings.hpp"
+#include "signal/parameter_override.hpp"
 #include "verbs.hpp"
 
 namespace corpuscle {
@@ -26,7 +26,7 @@ struct StreamNumbers {
 Result<StreamNumbers> stream_numbers(const StreamWords&);
 
 /// Opens a recording, read as by respond, or a stimulus.
-Result<std::unique_ptr<Source>> open_stream_source(const StreamWords&, const StreamNumbers&, std::span<const Wish>);
+Result<std::unique_ptr<ForceSource>> open_stream_source(const StreamWords&, const StreamNumbers&, std::span<const ParameterOverride>);
 
 /// The clock of live frames, and their layout in the bytes.
 Result<Clock> wire_clock(const StreamWords&, const StreamNumbers&);

@@ -9,7 +9,7 @@
 #include "io/output_check.hpp"
 #include "own_files.hpp"
 #include "report/study_page.hpp"
-#include "signal/field.hpp"
+#include "signal/parameter.hpp"
 #include "study/stale.hpp"
 #include "study/studies.hpp"
 #include "study/study_document.hpp"
@@ -81,7 +81,7 @@ Result<void> run(const StudyWords& words, const Common& common) {
                                                                            {words.markdown_file, is_own_markdown}};
     for (const auto& [path, ours] : files)
         if (!path.empty())
-            if (auto ok = outputs.file(path, ours); !ok) return ok;
+            if (auto ok = outputs.check_file(path, ours); !ok) return ok;
     const auto outcomes = [&] {
         Progress progress(common.quiet);
         return run_studies(*all, {[&](double fraction) { return progress.at(fraction), !interrupted(); }, recordings_directory()});

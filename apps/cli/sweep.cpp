@@ -65,7 +65,7 @@ Result<void> run_units(const SweepProcess& self, const Sweep& sweep, SweepResult
 
 /// Adds the next step to the error of an interrupted run.
 Error with_advice(const Error& error, const SweepResults& results) {
-    if (error.code != Code::interrupted) return error;
+    if (error.code != ErrorCode::interrupted) return error;
     return {error.code, fmt::format("interrupted; {} of {} items have ended and are saved in {}; the same command resumes the sweep",
                                     results.finished(), results.units(), results.path())};
 }
@@ -87,7 +87,7 @@ Result<void> coordinate_run(const SweepProcess& self, const Sweep& sweep, const 
     }();
     if (const auto folded = results->fold(); !folded && !common.quiet)
         tell_warning(fmt::format("the results are complete only if {} is kept together with {}-wal: {}", results->path(), results->path(),
-                                 folded.error().sentence));
+                                 folded.error().message));
     if (!done) return with_advice(done.error(), *results);
     const auto state = state_of(*results, shard);
     if (!state) return state.error();
@@ -95,7 +95,7 @@ Result<void> coordinate_run(const SweepProcess& self, const Sweep& sweep, const 
     final_state.now = results->finished() - before, final_state.sweep = w.file;
     print_state(common, final_state);
     if (results->finished() > 0 && final_state.lost == results->finished())
-        return Error{Code::not_converged,
+        return Error{ErrorCode::not_converged,
                      fmt::format("none of {} items converged: {}", final_state.lost, final_state.reasons.front().first)};
     return {};
 }
@@ -136,7 +136,7 @@ Result<void> status(const SweepWords& w, const Common& common) {
 
 Result<void> merge_all(SweepResults& out, const std::vector<SweepResults>& in, const Common& common) {
     for (const auto& from : in) {
-        if (interrupted()) return Error{Code::interrupted, "interrupted; the same command resumes"};
+        if (interrupted()) return Error{ErrorCode::interrupted, "interrupted; the same command resumes"};
         const auto added = out.take(from);
         if (!added) return added.error();
         if (!common.json && !common.quiet) show(fmt::format("{}: {} items, {} of them new\n", from.path(), from.finished(), *added));
@@ -172,7 +172,7 @@ Result<void> dump(const std::string& path) {
         return written && !interrupted();
     });
     if (ok && (!written || std::fflush(stdout) != 0)) return bad_input("cannot write to standard output");
-    if (ok && interrupted()) return Error{Code::interrupted, "interrupted"};
+    if (ok && interrupted()) return Error{ErrorCode::interrupted, "interrupted"};
     return ok;
 }
 

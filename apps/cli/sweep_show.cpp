@@ -40,13 +40,13 @@ Result<void> run(const SweepShowWords& words, const Common& common) {
     remember_input(words.results);
     OutputCheck outputs(common.overwrite);
     if (!words.report_file.empty())
-        if (auto ok = outputs.file(words.report_file, is_own_page); !ok) return ok;
+        if (auto ok = outputs.check_file(words.report_file, is_own_page); !ok) return ok;
     const auto table = read_table(*results, words.measures);
     if (!table) return table.error();
     std::optional<Drawn> samples;
     if (const auto text = results->about(drawn_fact); !text.empty()) {
         auto read = drawn_of(text);
-        if (!read) return bad_input(read.error().sentence, {words.results});
+        if (!read) return bad_input(read.error().message, {words.results});
         samples = std::move(*read);
     }
     const auto summary = summary_of(*table, samples, *question);

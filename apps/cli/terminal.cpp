@@ -161,7 +161,7 @@ void catch_interrupt() {
         stop = 1;
     };
     for (const int signal : {SIGINT, SIGTERM, SIGHUP}) ::sigaction(signal, &action, nullptr);
-    set_interruption(interrupted);
+    set_interruption_check(interrupted);
     std::signal(SIGPIPE, SIG_IGN);  // a closed pipe (| head) is then reported as a write error
 }
 

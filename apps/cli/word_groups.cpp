@@ -17,7 +17,7 @@ std::string page_name_needed(const std::string& name) {
 std::string force_behind_report(const std::string& name, std::vector<std::string> forces) {
     if (std::find(forces.begin(), forces.end(), name) == forces.end()) forces.push_back(name);
     std::string arguments;
-    for (const auto& force : forces) arguments += shell_word(force) + " ";
+    for (const auto& force : forces) arguments += quote_shell_word(force) + " ";
     return fmt::format("{}; for a report of these forces type: corpuscle respond {}--report", page_name_needed(name), arguments);
 }
 

@@ -39,16 +39,16 @@ Result<void> check_outputs(const std::string& directory, std::vector<std::string
     if (page) {
         const auto own = names_in(directory, {*page});
         if (own.empty()) {
-            if (auto ok = outputs.file(*page, is_own_page); !ok) return ok;
+            if (auto ok = outputs.check_file(*page, is_own_page); !ok) return ok;
         }
         names.insert(names.end(), own.begin(), own.end());
     }
     if (!checkpoint.empty())
-        if (auto ok = outputs.file(checkpoint, is_own_checkpoint); !ok) return ok;
+        if (auto ok = outputs.check_file(checkpoint, is_own_checkpoint); !ok) return ok;
     if (directory.empty()) return {};
     const auto earlier = earlier_outputs(directory);
     const auto is_listed = [&](const std::string& name) { return std::find(earlier.begin(), earlier.end(), name) != earlier.end(); };
-    return outputs.directory(directory, names, is_listed, is_output_name, is_own_page);
+    return outputs.check_directory(directory, names, is_listed, is_output_name, is_own_page);
 }
 
 std::string told_of(const std::vector<std::string>& paths, const std::vector<std::string>& removed) {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "io/output.hpp"
+#include "io/output_file.hpp"
 #include "io/output_check.hpp"
 #include "verbs.hpp"
 

@@ -97,22 +97,22 @@ std::vector<Member> numeric_members(hid_t type) {
     return out;
 }
 
-ArrayFacts facts_of(hid_t dataset, std::string name) {
-    ArrayFacts facts{std::move(name), {}, false};
+ArrayInfo facts_of(hid_t dataset, std::string name) {
+    ArrayInfo facts{std::move(name), {}, false};
     const Id type(H5Dget_type(dataset), H5Tclose), space = space_of(dataset);
     const int rank = space ? H5Sget_simple_extent_ndims(space) : -1;
     if (!type || rank < 0 || H5Sget_simple_extent_type(space) == H5S_NULL) return facts;
     std::vector<hsize_t> shape(static_cast<std::size_t>(rank));
     if (rank > 0) H5Sget_simple_extent_dims(space, shape.data(), nullptr);
     facts.shape.assign(shape.begin(), shape.end());
-    facts.numeric = is_number(type) || !numeric_members(type).empty();
+    facts.is_numeric = is_number(type) || !numeric_members(type).empty();
     return facts;
 }
 
-std::vector<ArrayFacts> datasets_in(hid_t file) {
+std::vector<ArrayInfo> datasets_in(hid_t file) {
     std::vector<std::string> names;
     (void)H5Ovisit2(file, H5_INDEX_NAME, H5_ITER_INC, add_dataset_name, &names, H5O_INFO_BASIC);
-    std::vector<ArrayFacts> out;
+    std::vector<ArrayInfo> out;
     for (const auto& name : names)
         if (const auto dataset = open_dataset(file, name)) out.push_back(facts_of(dataset, name));
     return out;

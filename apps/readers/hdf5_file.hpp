@@ -35,10 +35,10 @@ Result<Id> open_file(int descriptor, const std::string& path);
 /// Opens a dataset by its path. The chunk cache of HDF5 is disabled, because hdf5_samples.cpp reads complete chunks.
 Id open_dataset(hid_t file, const std::string& name);
 
-ArrayFacts facts_of(hid_t dataset, std::string name);
+ArrayInfo facts_of(hid_t dataset, std::string name);
 
 /// All datasets that are reachable by hard links, ordered by name.
-std::vector<ArrayFacts> datasets_in(hid_t file);
+std::vector<ArrayInfo> datasets_in(hid_t file);
 
 /// A numeric member of a compound type.
 struct Member {

@@ -24,11 +24,11 @@ std::string parent_of(const std::string& name) { return name.substr(0, std::max<
 class Hdf5Samples final : public Samples {
     std::string path_, name_;
     Id dataset_;
-    Extent extent_;
+    ArrayExtent extent_;
     std::size_t rank_ = 1;
     std::vector<std::string> members_;  // the columns of a compound type
     double factor_ = 1, offset_ = 0;    // scaling attributes of NWB
-    SamplesFacts facts_;
+    SamplesInfo facts_;
     hdf5::Storage storage_;
 
     // The rows in memory: a band of one or several complete chunks, so that each chunk is decompressed only once.
@@ -39,13 +39,13 @@ class Hdf5Samples final : public Samples {
 
     Error unreadable() const { return bad_input(fmt::format("cannot read {}; the file may be damaged", name_), {path_}); }
 
-    std::uint64_t chunk_rows() const { return storage_.chunk.empty() ? 0 : storage_.chunk[extent_.lying ? rank_ - 1 : 0]; }
-    std::uint64_t chunk_columns() const { return rank_ == 1 ? 1 : storage_.chunk[extent_.lying ? 0 : 1]; }
+    std::uint64_t chunk_rows() const { return storage_.chunk.empty() ? 0 : storage_.chunk[extent_.is_transposed ? rank_ - 1 : 0]; }
+    std::uint64_t chunk_columns() const { return rank_ == 1 ? 1 : storage_.chunk[extent_.is_transposed ? 0 : 1]; }
 
     /// Reads rows and columns of the file into the band, in the order of the file.
     Result<void> load(hid_t type) {
         std::array<hsize_t, 2> start{first_, low_}, count{band_rows_, members_.empty() ? width_ : 1};
-        if (extent_.lying && rank_ == 2) std::swap(start[0], start[1]), std::swap(count[0], count[1]);
+        if (extent_.is_transposed && rank_ == 2) std::swap(start[0], start[1]), std::swap(count[0], count[1]);
         const Id space(H5Dget_space(dataset_), H5Sclose),
             memory(H5Screate_simple(static_cast<int>(rank_), count.data(), nullptr), H5Sclose);
         if (H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr) < 0 ||
@@ -56,7 +56,7 @@ class Hdf5Samples final : public Samples {
 
     /// The index of an element in the band; row and column are relative to the band. Members of a compound type are interleaved.
     std::size_t index_of(std::size_t row, std::size_t column) const {
-        return extent_.lying && rank_ == 2 && members_.empty() ? column * band_rows_ + row : row * width_ + column;
+        return extent_.is_transposed && rank_ == 2 && members_.empty() ? column * band_rows_ + row : row * width_ + column;
     }
 
     /// Sets readings in chunks that were never written to NaN.
@@ -65,7 +65,7 @@ class Hdf5Samples final : public Samples {
         for (auto row = first_ / chunk_rows() * chunk_rows(); row < first_ + band_rows_; row += chunk_rows())
             for (auto column = low_ / chunk_columns() * chunk_columns(); column < high; column += chunk_columns()) {
                 std::array<hsize_t, 2> offset{row, column};
-                if (extent_.lying && rank_ == 2) std::swap(offset[0], offset[1]);
+                if (extent_.is_transposed && rank_ == 2) std::swap(offset[0], offset[1]);
                 if (hdf5::is_written(dataset_, std::span(offset).first(rank_))) continue;
                 const auto from = std::max(row, first_) - first_, to = std::min(row + chunk_rows(), first_ + band_rows_) - first_;
                 const auto left = members_.empty() ? std::max(column, low_) - low_ : 0,
@@ -89,7 +89,7 @@ class Hdf5Samples final : public Samples {
                 return bad_input(
                     fmt::format("{}: {} columns in chunks of {} rows do not fit into memory; select some columns by --channel, "
                                 "or repack the file: h5repack -l {} {} repacked.h5",
-                                name_, width_, height, shell_word(name_ + ":CHUNK=4096x64"), shell_word(path_)),
+                                name_, width_, height, quote_shell_word(name_ + ":CHUNK=4096x64"), quote_shell_word(path_)),
                     {path_});
             first_ = chunk + (row - chunk) / rows * rows;
             band_rows_ = std::min(rows, chunk + height - first_);
@@ -120,20 +120,20 @@ class Hdf5Samples final : public Samples {
     }
 
     /// MATLAB stores matrices by columns, so the first dimension in HDF5 is the second of MATLAB.
-    Result<void> take_shape(const ArrayFacts& facts, ExtentHints hints) {
-        hints.by_columns = hdf5::text_at(dataset_, "MATLAB_class").has_value();
+    Result<void> take_shape(const ArrayInfo& facts, ExtentHints hints) {
+        hints.is_column_major = hdf5::text_at(dataset_, "MATLAB_class").has_value();
         for (const auto* attribute : names_of_channels)
-            if (const auto words = hdf5::words_at(dataset_, attribute); words.size() > 1) hints.channels = words.size();
+            if (const auto words = hdf5::words_at(dataset_, attribute); words.size() > 1) hints.channel_names = words.size();
         const auto extent = extent_of(facts, path_, hints);
         if (!extent) return extent.error();
         extent_ = *extent;
         rank_ = facts.shape.size();
-        if (!extent_.remark.empty()) facts_.remarks.push_back(extent_.remark);
+        if (!extent_.note.empty()) facts_.notes.push_back(extent_.note);
         facts_.rows = static_cast<std::int64_t>(extent_.rows);
         auto storage = hdf5::storage_of(dataset_, facts, path_);
         if (!storage) return storage.error();
         storage_ = *std::move(storage);
-        facts_.remarks.insert(facts_.remarks.end(), storage_.remarks.begin(), storage_.remarks.end());
+        facts_.notes.insert(facts_.notes.end(), storage_.remarks.begin(), storage_.remarks.end());
         return {};
     }
 
@@ -143,9 +143,9 @@ class Hdf5Samples final : public Samples {
         if (!members_.empty() && extent_.columns > 1)
             return bad_input(fmt::format("{}: compound types must have one dimension", name_), {path_});
         if (!members_.empty()) return {};
-        const auto name = last_name(name_);
+        const auto name = last_path_component(name_);
         facts_.columns =
-            columns_named_after(name == "data" ? last_name(parent_of(name_)) : name, static_cast<std::size_t>(extent_.columns));
+            columns_named_after(name == "data" ? last_path_component(parent_of(name_)) : name, static_cast<std::size_t>(extent_.columns));
         for (const auto* attribute : names_of_channels)
             if (const auto words = hdf5::words_at(dataset_, attribute); words.size() == facts_.columns.size())
                 for (std::size_t c = 0; c < words.size(); ++c) {
@@ -160,7 +160,7 @@ class Hdf5Samples final : public Samples {
         for (const auto* attribute : {"unit", "units"})
             if (const auto unit = hdf5::text_at(dataset_, attribute))
                 for (auto& column : facts_.columns)
-                    if (members_.empty() || (column.unit.empty() && !names_time(column.name))) column.unit = *unit;
+                    if (members_.empty() || (column.unit.empty() && !is_time_name(column.name))) column.unit = *unit;
         if (!members_.empty()) return;
         factor_ = hdf5::number_at(dataset_, "conversion").value_or(1);
         offset_ = hdf5::number_at(dataset_, "offset").value_or(0);
@@ -170,7 +170,7 @@ public:
     Hdf5Samples(std::string path, std::string name, Id dataset)
         : path_(std::move(path)), name_(std::move(name)), dataset_(std::move(dataset)) {}
 
-    Result<void> open(const ArrayFacts& facts, const ExtentHints& hints) {
+    Result<void> open(const ArrayInfo& facts, const ExtentHints& hints) {
         if (auto ok = take_shape(facts, hints); !ok) return ok;
         if (auto ok = name_columns(); !ok) return ok;
         take_unit();
@@ -178,7 +178,7 @@ public:
     }
 
     void set_rate(std::optional<double> rate) { facts_.rate = rate; }
-    const SamplesFacts& facts() const override { return facts_; }
+    const SamplesInfo& info() const override { return facts_; }
 
     Result<void> fetch(std::int64_t start, std::size_t rows, std::span<const std::size_t> columns,
                        std::vector<std::vector<double>>& out) override {
@@ -200,20 +200,20 @@ public:
 /// The sampling rate in the attributes of an object.
 std::optional<double> rate_at(hid_t object) {
     for (const auto& name : hdf5::attributes_of(object))
-        if (names_rate(name))
+        if (is_rate_name(name))
             if (const auto rate = hdf5::number_at(object, name)) return rate;
     return {};
 }
 
 /// The sampling rate of a dataset: from its attributes, NWB's starting_time or a number in its group, or attributes of enclosing groups.
-std::optional<double> rate_of(hid_t file, const std::string& name, std::span<const ArrayFacts> arrays) {
+std::optional<double> rate_of(hid_t file, const std::string& name, std::span<const ArrayInfo> arrays) {
     if (const auto dataset = hdf5::open_dataset(file, name))
         if (const auto rate = rate_at(dataset)) return rate;
     for (const auto& a : arrays) {
         if (parent_of(a.name) != parent_of(name)) continue;
         const auto dataset = hdf5::open_dataset(file, a.name);
-        if (const auto rate = last_name(a.name) == "starting_time" ? rate_at(dataset) : std::nullopt) return rate;
-        if (const auto rate = names_rate(last_name(a.name)) ? hdf5::single_number(dataset) : std::nullopt) return rate;
+        if (const auto rate = last_path_component(a.name) == "starting_time" ? rate_at(dataset) : std::nullopt) return rate;
+        if (const auto rate = is_rate_name(last_path_component(a.name)) ? hdf5::single_number(dataset) : std::nullopt) return rate;
     }
     for (auto group = parent_of(name);; group = parent_of(group)) {
         if (const Id object(H5Oopen(file, group.c_str(), H5P_DEFAULT), H5Oclose); object)
@@ -222,7 +222,7 @@ std::optional<double> rate_of(hid_t file, const std::string& name, std::span<con
     }
 }
 
-Result<std::unique_ptr<Hdf5Samples>> samples_of(hid_t file, const std::string& path, const ArrayFacts& facts, const ExtentHints& hints) {
+Result<std::unique_ptr<Hdf5Samples>> samples_of(hid_t file, const std::string& path, const ArrayInfo& facts, const ExtentHints& hints) {
     auto dataset = hdf5::open_dataset(file, facts.name);
     if (!dataset) return bad_input(fmt::format("cannot open {}; the file may be damaged", facts.name), {path});
     auto samples = std::make_unique<Hdf5Samples>(path, facts.name, std::move(dataset));
@@ -231,17 +231,17 @@ Result<std::unique_ptr<Hdf5Samples>> samples_of(hid_t file, const std::string& p
 }
 
 /// The arrays of sample times in the group of a dataset.
-std::vector<const ArrayFacts*> time_arrays(const ArrayFacts& chosen, std::span<const ArrayFacts> arrays) {
-    std::vector<const ArrayFacts*> out;
+std::vector<const ArrayInfo*> time_arrays(const ArrayInfo& chosen, std::span<const ArrayInfo> arrays) {
+    std::vector<const ArrayInfo*> out;
     for (const auto& a : arrays)
-        if (a.name != chosen.name && parent_of(a.name) == parent_of(chosen.name) && length_of_times(a)) out.push_back(&a);
+        if (a.name != chosen.name && parent_of(a.name) == parent_of(chosen.name) && time_list_length(a)) out.push_back(&a);
     return out;
 }
 
 /// The array of times with the same number of rows, or null.
-const ArrayFacts* times_of(const ArrayFacts& chosen, std::int64_t rows, std::span<const ArrayFacts> arrays) {
+const ArrayInfo* times_of(const ArrayInfo& chosen, std::int64_t rows, std::span<const ArrayInfo> arrays) {
     for (const auto* a : time_arrays(chosen, arrays))
-        if (length_of_times(*a) == static_cast<std::uint64_t>(rows)) return a;
+        if (time_list_length(*a) == static_cast<std::uint64_t>(rows)) return a;
     return nullptr;
 }
 
@@ -265,15 +265,15 @@ SamplesResult open_hdf5_samples(int descriptor, const std::string& path, const T
     if (!chosen) return chosen.error();
     const auto& facts = arrays[*chosen];
     ExtentHints hints{options.transpose};
-    for (const auto* times : time_arrays(facts, arrays)) hints.samples.push_back(*length_of_times(*times));
+    for (const auto* times : time_arrays(facts, arrays)) hints.time_lengths.push_back(*time_list_length(*times));
     auto samples = samples_of(*file, path, facts, hints);
     if (!samples) return samples.error();
     (*samples)->set_rate(rate_of(*file, facts.name, arrays));
-    const auto* times = times_of(facts, (*samples)->facts().rows, arrays);
+    const auto* times = times_of(facts, (*samples)->info().rows, arrays);
     if (!times) return std::unique_ptr<Samples>(*std::move(samples));
     auto clock = samples_of(*file, path, *times, {});
     if (!clock) return clock.error();
-    return with_times(*std::move(clock), *std::move(samples));
+    return add_time_column(*std::move(clock), *std::move(samples));
 }
 
 }  // namespace corpuscle

@@ -22,10 +22,10 @@ std::string name_in(auto&& get) {
 }
 
 /// The error for data in other files. The user copies them, and thus sees what is read.
-Error data_elsewhere(const ArrayFacts& facts, const std::set<std::string>& files, const std::string& path) {
+Error data_elsewhere(const ArrayInfo& facts, const std::set<std::string>& files, const std::string& path) {
     return bad_input(fmt::format("{}: its data are in '{}', and other files are not read; copy the data into one file, in Python: "
                                  "h5py.File('own.h5', 'w')['force'] = h5py.File('{}')['{}'][:]",
-                                 described(facts), fmt::join(files, "', '"), path, facts.name),
+                                 describe(facts), fmt::join(files, "', '"), path, facts.name),
                      {path});
 }
 
@@ -55,7 +55,7 @@ std::set<std::string> virtual_sources(hid_t properties) {
     return files;
 }
 
-Result<void> check_filters(hid_t properties, const ArrayFacts& facts, const std::string& path) {
+Result<void> check_filters(hid_t properties, const ArrayInfo& facts, const std::string& path) {
     const int count = H5Pget_nfilters(properties);
     for (int k = 0; k < count; ++k) {
         unsigned flags = 0, settings = 0;
@@ -65,14 +65,14 @@ Result<void> check_filters(hid_t properties, const ArrayFacts& facts, const std:
         if (id < 0 || (flags & H5Z_FLAG_OPTIONAL) || H5Zfilter_avail(id) > 0) continue;
         return bad_input(fmt::format("{}: compressed by filter {}{}, which is not available here; where it is, repack the file: "
                                      "h5repack -f GZIP=4 {} repacked.h5",
-                                     described(facts), id, *name ? fmt::format(" ({})", name) : "", shell_word(path)),
+                                     describe(facts), id, *name ? fmt::format(" ({})", name) : "", quote_shell_word(path)),
                          {path});
     }
     return {};
 }
 
-Error never_written(const ArrayFacts& facts, const std::string& path) {
-    return bad_input(fmt::format("{}: no data were written into it", described(facts)), {path});
+Error never_written(const ArrayInfo& facts, const std::string& path) {
+    return bad_input(fmt::format("{}: no data were written into it", describe(facts)), {path});
 }
 
 /// Number of elements times their size, bytes; the maximum value on overflow.
@@ -83,7 +83,7 @@ hsize_t bytes_of(std::span<const hsize_t> counts, size_t element) {
     return bytes;
 }
 
-Result<void> check_chunks(hid_t dataset, hid_t properties, const ArrayFacts& facts, const std::string& path, Storage& storage) {
+Result<void> check_chunks(hid_t dataset, hid_t properties, const ArrayInfo& facts, const std::string& path, Storage& storage) {
     const Id space(H5Dget_space(dataset), H5Sclose), type(H5Dget_type(dataset), H5Tclose);
     storage.chunk.resize(facts.shape.size());
     if (H5Pget_chunk(properties, static_cast<int>(storage.chunk.size()), storage.chunk.data()) < 0 ||
@@ -92,9 +92,9 @@ Result<void> check_chunks(hid_t dataset, hid_t properties, const ArrayFacts& fac
     if (bytes_of(storage.chunk, H5Tget_size(type)) > max_chunk)
         return bad_input(fmt::format("{}: chunks of {} need more than 1 GB of memory each; repack the file: h5repack -l {} {} "
                                      "repacked.h5",
-                                     described(facts), fmt::join(storage.chunk, " x "),
-                                     shell_word(fmt::format("{}:CHUNK={}", facts.name, facts.shape.size() == 1 ? "65536" : "4096x64")),
-                                     shell_word(path)),
+                                     describe(facts), fmt::join(storage.chunk, " x "),
+                                     quote_shell_word(fmt::format("{}:CHUNK={}", facts.name, facts.shape.size() == 1 ? "65536" : "4096x64")),
+                                     quote_shell_word(path)),
                          {path});
     std::vector<hsize_t> chunk_counts;
     for (std::size_t d = 0; d < storage.chunk.size(); ++d) chunk_counts.push_back((facts.shape[d] - 1) / storage.chunk[d] + 1);
@@ -107,7 +107,7 @@ Result<void> check_chunks(hid_t dataset, hid_t properties, const ArrayFacts& fac
     if (stored < expected - stored)
         return bad_input(fmt::format("{}: only {} of its {} chunks were written; if the recording ended early, keep its beginning, in "
                                      "Python: h5py.File('{}', 'r+')['{}'].resize(ROWS, axis=0)",
-                                     described(facts), stored, expected, path, facts.name),
+                                     describe(facts), stored, expected, path, facts.name),
                          {path});
     H5D_fill_value_t fill = H5D_FILL_VALUE_UNDEFINED;
     (void)H5Pfill_value_defined(properties, &fill);
@@ -120,7 +120,7 @@ Result<void> check_chunks(hid_t dataset, hid_t properties, const ArrayFacts& fac
 
 }  // namespace
 
-Result<Storage> storage_of(hid_t dataset, const ArrayFacts& facts, const std::string& path) {
+Result<Storage> storage_of(hid_t dataset, const ArrayInfo& facts, const std::string& path) {
     Storage storage;
     const Id properties(H5Dget_create_plist(dataset), H5Pclose), type(H5Dget_type(dataset), H5Tclose);
     const auto layout = H5Pget_layout(properties);
@@ -135,7 +135,7 @@ Result<Storage> storage_of(hid_t dataset, const ArrayFacts& facts, const std::st
     const std::vector<hsize_t> shape(facts.shape.begin(), facts.shape.end());
     if (stored == 0) return never_written(facts, path);
     if (stored < bytes_of(shape, H5Tget_size(type)))
-        return bad_input(fmt::format("{}: only {} bytes of it are stored; the file may be damaged or truncated", described(facts), stored),
+        return bad_input(fmt::format("{}: only {} bytes of it are stored; the file may be damaged or truncated", describe(facts), stored),
                          {path});
     return storage;
 }

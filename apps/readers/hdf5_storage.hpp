@@ -13,7 +13,7 @@ struct Storage {
 };
 
 /// Rejects data in other files, data that were never written, and filters that are not available.
-Result<Storage> storage_of(hid_t dataset, const ArrayFacts&, const std::string& path);
+Result<Storage> storage_of(hid_t dataset, const ArrayInfo&, const std::string& path);
 
 /// True if the chunk that begins at this element was written.
 bool is_written(hid_t dataset, std::span<const hsize_t> offset);

@@ -18,7 +18,7 @@ namespace {
 /// Receives a request and starts the time limit of its reply. The alarm ends the program.
 bool next_request(int socket, Message& m) {
     if (!m.receive(socket)) return false;
-    ::alarm(HelperProcess::seconds_to_answer);
+    ::alarm(HelperProcess::response_timeout_s);
     return true;
 }
 
@@ -36,7 +36,7 @@ Message reply_to(const FetchRequest& request, Samples& samples) {
 
 void serve_requests(int socket, int file, const OpenRequest& first, const OpenSamples& open) {
     auto samples = open(file, first.path, first.options);
-    if (!send_reply(socket, samples ? encode((*samples)->facts()) : encode(samples.error())) || !samples) return;
+    if (!send_reply(socket, samples ? encode((*samples)->info()) : encode(samples.error())) || !samples) return;
     FetchRequest request;
     for (Message m; next_request(socket, m) && decode(m, request);)
         if (!send_reply(socket, reply_to(request, **samples))) return;
@@ -62,10 +62,10 @@ void serve(int socket, int file, const OpenSamples& open) {
 int helper_main(int argc, char** argv, const char* kind, const OpenSamples& open) {
     if (argc != 2 || std::string_view(argv[1]) != HelperProcess::protocol) {
         fmt::print(stderr, "Corpuscle starts this program to read {} files; it cannot be used on its own.\n", kind);
-        return HelperProcess::other_version;
+        return HelperProcess::exit_unknown_protocol;
     }
-    confine(HelperProcess::file_number, HelperProcess::memory);
-    serve(HelperProcess::socket_number, HelperProcess::file_number, open);
+    confine(HelperProcess::file_descriptor, HelperProcess::memory_limit);
+    serve(HelperProcess::socket_descriptor, HelperProcess::file_descriptor, open);
     std::_Exit(0);  // skips the exit handlers of the library
 }
 

@@ -15,7 +15,7 @@ class SoundSamples final : public Samples {
     std::string path_;
     std::unique_ptr<SNDFILE, CloseSoundFile> file_;
     SF_INFO info_{};
-    SamplesFacts facts_;
+    SamplesInfo facts_;
     sf_count_t at_ = 0;  // index of the next frame
     std::vector<double> frames_;
 
@@ -39,7 +39,7 @@ public:
         return {};
     }
 
-    const SamplesFacts& facts() const override { return facts_; }
+    const SamplesInfo& info() const override { return facts_; }
 
     Result<void> fetch(std::int64_t first, std::size_t rows, std::span<const std::size_t> columns,
                        std::vector<std::vector<double>>& out) override {

@@ -24,9 +24,9 @@ PartJson parameters_document(const AfferentPlan& plan, std::span<const Spread> s
         out.push_back({{"name", p.row.name},
                        {"value", plan.values[k]},
                        {"unit", p.row.unit},
-                       {"default", p.row.initial},
+                       {"default", p.row.default_value},
                        {"set", p.set},
-                       {"sentence", p.row.sentence},
+                       {"sentence", p.row.description},
                        {"source", p.row.source},
                        {"of", p.of}});
         for (const auto& s : spreads)

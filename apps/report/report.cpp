@@ -57,8 +57,8 @@ Json quality_document(const Summary& summary) {
             for (const auto& s : texts) messages.push_back({{"text", several ? i.name + ": " + s : s}, {"grave", is_warning}});
         };
         add(i.quality.warnings, true);
-        add(i.quality.sentences, false);
-        for (const auto& f : i.quality.findings) {
+        add(i.quality.descriptions, false);
+        for (const auto& f : i.quality.metrics) {
             if (rows.empty() || rows.back()[0] != i.channels[f.channel]) rows.push_back(Json::array({i.channels[f.channel]}));
             if (rows.size() == 1) columns.push_back(f.unit.empty() ? std::string(f.name) : fmt::format("{} ({})", f.name, f.unit));
             rows.back().push_back(std::isfinite(f.value) ? Json(f.value) : Json(nullptr));
@@ -98,7 +98,7 @@ Result<void> Report::block(const Input& input, const Answered& response) {
         for (std::size_t p = 0; p < probes_[u].size(); ++p)
             for (std::size_t k = 0; k < response.force.count; ++k)
                 probes_[u][p].add(response.probes[unit(u / groups(), u % groups())][p][k]);
-    for (const auto& s : response.spikes) trains_[s.unit - input.first_unit].push_back(input.source.clock().time(s.step, s.offset));
+    for (const auto& s : response.spikes) trains_[s.afferent_index - input.first_unit].push_back(input.source.clock().time(s.step, s.offset));
     return {};
 }
 
@@ -146,7 +146,7 @@ Result<void> Report::end(const Input& input, std::int64_t samples) {
             if (population_.copies > 0) tell_rate(input, c, g, samples);
         }
     inputs_.push_back({{"name", input.name},
-                       {"sentence", input.source.sentence()},
+                       {"sentence", input.source.description()},
                        {"t0", input.source.clock().t0},
                        {"T", input.source.clock().T()},
                        {"samples", samples},

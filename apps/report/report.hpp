@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "io/output.hpp"
+#include "io/output_file.hpp"
 #include "report/envelope.hpp"
 #include "study/summary.hpp"
 

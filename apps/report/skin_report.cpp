@@ -47,11 +47,11 @@ Result<void> SkinReport::begin(const SkinInput& input) {
 void SkinReport::add(const Spike& s) {
     // Frames are half-open, [start, end): a spike exactly at a sample belongs to the frame that starts there.
     const std::int64_t sample = std::max<std::int64_t>(s.offset < 1 ? s.step - 1 : s.step, 0);
-    classes_.open(sample), classes_.add(class_of_[s.unit], 1);
-    marks_.open(sample), marks_.add(mark_of_[s.unit], 1);
+    classes_.open(sample), classes_.add(class_of_[s.afferent_index], 1);
+    marks_.open(sample), marks_.add(mark_of_[s.afferent_index], 1);
     if (static_cast<std::size_t>(++spikes_) <= most_.spikes) {
         const double ticks = (static_cast<double>(s.step - 1) + s.offset) * ticks_per_sample;
-        spike_units_.push_back(s.unit), spike_ticks_.push_back(std::max<std::int64_t>(std::llround(ticks), 0));
+        spike_units_.push_back(s.afferent_index), spike_ticks_.push_back(std::max<std::int64_t>(std::llround(ticks), 0));
     } else if (!spike_units_.empty()) {
         spike_units_ = {}, spike_ticks_ = {};  // an incomplete raster would be misleading
     }

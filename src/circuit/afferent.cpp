@@ -61,7 +61,7 @@ class CircuitAfferent final : public Afferent {
     std::int64_t delay_;
     std::string format_;
     std::vector<Probe> probes_;
-    std::vector<Range> ranges_;
+    std::vector<ValidRange> ranges_;
     mutable std::mutex guard_;
     mutable std::vector<std::unique_ptr<Rig>> idle_;  // as many as ever ran at the same time
 
@@ -81,8 +81,8 @@ class CircuitAfferent final : public Afferent {
         idle_.push_back(std::move(transient));
     }
 
-    Result<void> respond_with(Rig&, std::span<const double> force, State&, Answer&) const;
-    Result<void> simulate_samples(Rig&, std::int64_t from, std::int64_t to, Answer&) const;
+    Result<void> respond_with(Rig&, std::span<const double> force, State&, ResponseBlock&) const;
+    Result<void> simulate_samples(Rig&, std::int64_t from, std::int64_t to, ResponseBlock&) const;
 
 public:
     CircuitAfferent(std::shared_ptr<const CircuitDesign> design, double dt, bool sampled, std::optional<Draw> chip)
@@ -95,11 +95,11 @@ public:
     }
 
     std::span<const Probe> probes() const override { return probes_; }
-    std::span<const Range> ranges() const override { return ranges_; }
-    State start(Turn) const override { return {format_, 0, {}}; }
+    std::span<const ValidRange> ranges() const override { return ranges_; }
+    State start(ChannelSlot) const override { return {format_, 0, {}}; }
     std::int64_t delay() const override { return delay_; }
 
-    Result<void> respond(std::span<const double> force, State& state, Answer& response) const override {
+    Result<void> respond(std::span<const double> force, State& state, ResponseBlock& response) const override {
         if (auto ok = check_block(design_->circuit->file, format_, state.values.size(), state, force); !ok) return ok;
         for (double* values : response.probes) std::fill_n(values, force.size(), std::numeric_limits<double>::quiet_NaN());
         if (force.empty()) return {};
@@ -111,7 +111,7 @@ public:
     }
 };
 
-Result<void> CircuitAfferent::respond_with(Rig& transient, std::span<const double> force, State& state, Answer& response) const {
+Result<void> CircuitAfferent::respond_with(Rig& transient, std::span<const double> force, State& state, ResponseBlock& response) const {
     if (state.step == 0) {
         if (auto ok = transient.begin(force); !ok) return ok;
     } else {
@@ -126,20 +126,20 @@ Result<void> CircuitAfferent::respond_with(Rig& transient, std::span<const doubl
     state.step += static_cast<std::int64_t>(force.size());
     auto done = simulate_samples(transient, from, state.step - delay_, response);
     const auto& work = transient.work();
-    response.spent += transient.spent();
-    response.steps += work.steps - before.steps, response.rejected += work.rejected - before.rejected;
-    response.iterations += work.iterations - before.iterations;
+    response.energy_use += transient.spent();
+    response.steps += work.steps - before.steps, response.rejected_steps += work.rejected - before.rejected;
+    response.newton_iterations += work.iterations - before.iterations;
     state.values.clear();
     transient.save(state.values);
     return done;
 }
 
 /// Simulates until samples from ... to - 1 are complete.
-Result<void> CircuitAfferent::simulate_samples(Rig& transient, std::int64_t from, std::int64_t to, Answer& response) const {
+Result<void> CircuitAfferent::simulate_samples(Rig& transient, std::int64_t from, std::int64_t to, ResponseBlock& response) const {
     const auto report_spike = [&] {
         auto& spike = transient.coming();
         if (!spike || spike->step >= to) return;
-        response.spikes.push_back({spike->step, sampled_ ? 1 : spike->offset, response.unit});
+        response.spikes.push_back({spike->step, sampled_ ? 1 : spike->offset, response.afferent_index});
         spike.reset();
     };
     report_spike();
@@ -147,9 +147,9 @@ Result<void> CircuitAfferent::simulate_samples(Rig& transient, std::int64_t from
         for (; sample < to && transient.at(sample); ++sample) {
             for (std::size_t p = 0; p < response.probes.size(); ++p)
                 response.probes[p][static_cast<std::size_t>(sample - from)] = transient.shown(design_->shown[p], sample);
-            for (std::size_t k = 0; sample >= 0 && k < response.outside.size(); ++k)
-                if (auto& o = response.outside[k]; !design_->kept[k].holds(transient.shown(design_->kept[k].what, sample)))
-                    o = {o.samples + 1, o.first < 0 ? sample : o.first};
+            for (std::size_t k = 0; sample >= 0 && k < response.range_violations.size(); ++k)
+                if (auto& o = response.range_violations[k]; !design_->kept[k].holds(transient.shown(design_->kept[k].what, sample)))
+                    o = {o.samples + 1, o.first_sample < 0 ? sample : o.first_sample};
         }
         if (sample == to) return {};
         if (auto ok = transient.step(); !ok) return ok;
@@ -171,7 +171,7 @@ Result<std::shared_ptr<const CircuitDesign>> CircuitDesign::of(const Netlist& ne
 Result<std::shared_ptr<const CircuitDesign>> CircuitDesign::of(std::shared_ptr<const Circuit> circuit) {
     const auto context = TestBench::make(circuit);
     if (!context) return context.error();
-    const Place place{circuit->file};
+    const SourceLocation place{circuit->file};
     const auto plan = transient_plan(*circuit);
     if (!plan) return plan.error();
     const auto output = spike_output((*context)->system);
@@ -205,7 +205,7 @@ Result<std::shared_ptr<const CircuitDesign>> CircuitDesign::of(std::shared_ptr<c
     return std::shared_ptr<const CircuitDesign>(std::move(design));
 }
 
-std::vector<std::pair<std::string, std::string>> CircuitDesign::words() const {
+std::vector<std::pair<std::string, std::string>> CircuitDesign::labels() const {
     if (!netlist || netlist->changes().corner.empty()) return {};
     return {{"corner", netlist->changes().corner}};
 }

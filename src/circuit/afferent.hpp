@@ -13,7 +13,7 @@ namespace corpuscle::circuit {
 /// Makes afferents from a netlist that was read and checked. The netlist must have a source that carries FORCE, and a .spike directive.
 /// Of .tran only LONGEST and uic are used; other analyses are ignored. The copies are the chips of .mc, or of the mismatch override if
 /// that is set; without either all copies are equal. The probes are the quantities that .save names, by default the .spike quantity.
-class CircuitDesign final : public Design, public std::enable_shared_from_this<CircuitDesign> {
+class CircuitDesign final : public AfferentFactory, public std::enable_shared_from_this<CircuitDesign> {
 public:
     static constexpr double longest_step = 5e-3;  ///< s, default of LONGEST of .tran
 
@@ -22,7 +22,7 @@ public:
 
     std::string_view kind() const override { return "netlist"; }
     std::string_view title() const override { return circuit->title; }
-    std::vector<std::pair<std::string, std::string>> words() const override;
+    std::vector<std::pair<std::string, std::string>> labels() const override;
     std::unique_ptr<Afferent> make(double dt, bool sampled, std::uint32_t copy = 0) const override;
     std::unique_ptr<Afferent> make(double dt, const std::optional<Draw>& chip) const;
 

@@ -1,25 +1,25 @@
 #include "circuit/carried.hpp"
 
-#include "signal/carried.hpp"
-#include "signal/text.hpp"
+#include "signal/embedded_files.hpp"
+#include "signal/ascii_text.hpp"
 
 namespace corpuscle::circuit {
 const Carried* carried_netlist(std::string_view name) {
     for (const auto& c : carried_netlists)
-        if (same_letters(c.name, name)) return &c;
+        if (equal_ignoring_case(c.name, name)) return &c;
     return nullptr;
 }
 
 Result<Netlist> open_netlist(const std::string& name_or_path, const std::string& corner) {
     const auto* embedded = carried_netlist(name_or_path);
     if (embedded == nullptr) return Netlist::read(name_or_path, corner);
-    auto text = carried_text(std::string(embedded->file));
+    auto text = embedded_text(std::string(embedded->file));
     if (!text) return text.error();
     return parse_carried(std::move(*text), std::string(embedded->file), corner);
 }
 
 Result<Netlist> parse_carried(std::string text, std::string file, const std::string& corner) {
-    return Netlist::parse(std::move(text), std::move(file), carried_text, corner);
+    return Netlist::parse(std::move(text), std::move(file), embedded_text, corner);
 }
 
 }  // namespace corpuscle::circuit

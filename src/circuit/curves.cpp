@@ -47,7 +47,7 @@ double CurveView::evaluate_expression(const PlotRow& row) const {
     return formula_->value(values);
 }
 
-Result<Formula> par_formula(std::string_view name, const Place& location) {
+Result<Formula> par_formula(std::string_view name, const SourceLocation& location) {
     FormulaScope scope;
     scope.inputs = true;
     scope.parameter = [](std::string_view) -> std::optional<double> { return {}; };

@@ -53,7 +53,7 @@ public:
 };
 
 /// Parses the expression in "par('...')"; an error is reported at `location`.
-Result<Formula> par_formula(std::string_view name, const Place& location);
+Result<Formula> par_formula(std::string_view name, const SourceLocation& location);
 
 /// All values of the named curve or view in a plot; nothing if there is no such curve.
 std::optional<std::vector<std::complex<double>>> values_of(const Plot&, std::string_view name);

@@ -5,7 +5,7 @@
 #include "circuit/analysis/bench.hpp"
 #include "circuit/netlist/number.hpp"
 #include "signal/stimuli.hpp"
-#include "signal/text.hpp"
+#include "signal/ascii_text.hpp"
 
 namespace corpuscle::circuit {
 namespace {
@@ -16,14 +16,14 @@ Error error_in(const Command& c, std::size_t word, std::string message) { return
 
 /// The parameter's name as the stimulus spells it; netlists are in small letters.
 std::string spelling_of(std::string_view stimulus, std::string_view parameter) {
-    for (const auto& card : stimulus_cards())
-        for (const auto& row : card.rows)
-            if (card.name == stimulus && same_letters(row.name, parameter)) return std::string(row.name);
+    for (const auto& card : stimulus_catalog())
+        for (const auto& row : card.parameters)
+            if (card.name == stimulus && equal_ignoring_case(row.name, parameter)) return std::string(row.name);
     return std::string(parameter);
 }
 
 struct ForceSpec {
-    std::vector<Wish> overrides;
+    std::vector<ParameterOverride> overrides;
     double rate = 10e3;  // Hz
 };
 
@@ -46,7 +46,7 @@ Result<ForceSpec> parse_force_spec(const Command& c) {
     return out;
 }
 
-Result<Trace> read_waveform_of(Source& source, const Command& c) {
+Result<Trace> read_waveform_of(ForceSource& source, const Command& c) {
     Trace waveform(source.clock().T());
     double count = 0, last = 0;
     for (Frames block(source.channels().size(), 4096);;) {
@@ -62,14 +62,14 @@ Result<Trace> read_waveform_of(Source& source, const Command& c) {
     }
 }
 
-Result<std::unique_ptr<Source>> source_of(const Command& c) {
+Result<std::unique_ptr<ForceSource>> source_of(const Command& c) {
     if (c.words.empty()) return error_in(c, 0, "a stimulus is missing, such as '.force press f_max=2'");
     const auto spec = parse_force_spec(c);
     if (!spec) return spec.error();
     auto source = make_stimulus(c.words[0], spec->overrides, spec->rate, 0);
-    if (!source) return error_in(c, 0, source.error().sentence);
+    if (!source) return error_in(c, 0, source.error().message);
     for (const auto& parameter : spec->overrides)
-        if (!parameter.used) return error_in(c, 0, fmt::format("{}: '{}' is not a stimulus of this line", parameter.text(), parameter.of));
+        if (!parameter.is_used) return error_in(c, 0, fmt::format("{}: '{}' is not a stimulus of this line", parameter.text(), parameter.target));
     return source;
 }
 

@@ -5,7 +5,7 @@
 
 #include "circuit/netlist/netlist.hpp"
 #include "circuit/trace.hpp"
-#include "signal/source.hpp"
+#include "signal/force_source.hpp"
 
 namespace corpuscle::circuit {
 

@@ -8,7 +8,7 @@
 #include "circuit/device/uicm_card.hpp"
 #include "circuit/path_names.hpp"
 #include "signal/quantity.hpp"
-#include "signal/text.hpp"
+#include "signal/ascii_text.hpp"
 
 namespace corpuscle::circuit {
 namespace {
@@ -134,7 +134,7 @@ private:
             if (const auto shape = e.waveform.shape; shape != Waveform::Shape::none && shape != Waveform::Shape::force)
                 return error_of(setting, fmt::format("{} is a source with a time waveform; its value is not a single number", e.name));
         auto value = parse_quantity(setting.value, at->unit);
-        if (!value) return error_of(setting, value.error().sentence);
+        if (!value) return error_of(setting, value.error().message);
         return put(setting, e, *at, *value);
     }
 
@@ -213,17 +213,17 @@ Result<std::pair<std::uint64_t, std::uint64_t>> chip_of(const Knob& setting) {
 
 /// If the error says that no library has the corner, puts the override's text in front.
 Error with_corner_override(std::span<const Knob> overrides, const std::string& corner, Error error) {
-    if (error.sentence.find(fmt::format("no corner '{}'", corner)) == std::string::npos &&
-        error.sentence.find(fmt::format("there is no corner '{}'", corner)) == std::string::npos)
+    if (error.message.find(fmt::format("no corner '{}'", corner)) == std::string::npos &&
+        error.message.find(fmt::format("there is no corner '{}'", corner)) == std::string::npos)
         return error;
     for (const auto& setting : overrides)
-        if (lower(setting.name) == "corner") error.sentence = fmt::format("{}: {}", setting.said, error.sentence);
+        if (lower(setting.name) == "corner") error.message = fmt::format("{}: {}", setting.said, error.message);
     return error;
 }
 
 Result<void> set_parameter(const Knob& setting, const std::string& name, Changes& changes) {
     const auto value = number_with_unit(setting.value);
-    if (!value) return error_of(setting, value.error().sentence);
+    if (!value) return error_of(setting, value.error().message);
     changes.parameters.insert_or_assign(name, value->value);
     return {};
 }

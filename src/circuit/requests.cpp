@@ -6,7 +6,7 @@
 #include "circuit/analyses.hpp"
 #include "circuit/curves.hpp"
 #include "circuit/measure.hpp"
-#include "signal/field.hpp"
+#include "signal/parameter.hpp"
 
 namespace corpuscle::circuit {
 namespace {
@@ -128,7 +128,7 @@ private:
             if (!named || head.command->name == c.words[0])
                 for (const auto& curve : head.plot.curves) known.push_back(curve.name);
         if (word.starts_with("par("))
-            if (const auto expression = par_formula(word, c.place); !expression) return error_at(c, k, expression.error().sentence);
+            if (const auto expression = par_formula(word, c.place); !expression) return error_at(c, k, expression.error().message);
         const bool is_axis_limit = c.name == "plot" && word.starts_with("(");
         if (is_axis_limit) return {};
         const bool is_device_current =

@@ -73,7 +73,7 @@ Result<void> Rig::begin(std::span<const double> force) {
     if (!x) x = solve_start(force, continue_from_rest(force[0]));
     if (!x) {
         auto error = x.error();
-        error.sentence = fmt::format("under the first force, {}: {}", format_quantity(force[0], "N"), error.sentence);
+        error.message = fmt::format("under the first force, {}: {}", format_quantity(force[0], "N"), error.message);
         return error;
     }
     start_ = std::move(x->x);

@@ -19,7 +19,7 @@ class Rig {
     std::optional<Transient> transient_;
     std::optional<PowerMeter> meter_;
     std::optional<PowerMeter::Delivered> now_;  // power at the end of the last step, once evaluated
-    Spent spent_;
+    EnergyUse spent_;
     bool is_time_dependent_ = false;  // a source other than the force depends on absolute time
     std::vector<double> rest_;        // operating point at 0 N
     std::vector<double> start_;       // operating point at the first force
@@ -52,7 +52,7 @@ public:
     double shown(const Saved&, std::int64_t sample) const;
     const TransientWork& work() const { return transient_->work(); }
     /// The energy used since the last call.
-    Spent spent() { return std::exchange(spent_, {}); }
+    EnergyUse spent() { return std::exchange(spent_, {}); }
 
     TestBench& bench() { return *bench_; }
     const Trace& trace() const { return trace_; }

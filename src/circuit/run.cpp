@@ -16,7 +16,7 @@
 #include "circuit/saved.hpp"
 #include "circuit/solve/topology.hpp"
 #include "circuit/warnings.hpp"
-#include "signal/field.hpp"
+#include "signal/parameter.hpp"
 
 namespace corpuscle::circuit {
 namespace {
@@ -180,14 +180,14 @@ Result<RunOutcome> run(TestBench& context, const RunOrders& options) {
         if (analysis == nullptr) continue;
         if (auto ok = analyse(context, *analysis, c, options, measures, currents, out); !ok) {
             auto error = ok.error();
-            if (error.place.line == 0 && (error.place.file.empty() || error.place.file == circuit->file)) error.place = c.place;
+            if (error.location.line == 0 && (error.location.file.empty() || error.location.file == circuit->file)) error.location = c.place;
             return error;
         }
     }
     if (out.analyses.empty()) {
         std::string known;
         for (const auto& a : analyses) known += fmt::format("\n  {}", a.usage);
-        return bad_input("the netlist has no analysis directive; add one of these:" + known, Place{circuit->file});
+        return bad_input("the netlist has no analysis directive; add one of these:" + known, SourceLocation{circuit->file});
     }
     if (auto ok = measures.finish(out.numbers, out.remarks); !ok) return ok.error();
     if (auto ok = check_expectations(*circuit, out); !ok) return ok.error();

@@ -22,7 +22,7 @@ struct Expectation {
     std::string what;
     double expected, tolerance, found;
     bool held;
-    Place place;
+    SourceLocation place;
 };
 
 /// The results of a run.

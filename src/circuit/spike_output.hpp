@@ -15,7 +15,7 @@ struct SpikeOutput {
     Wanted of;
     double level = 0;
     bool upwards = true;
-    Place place;
+    SourceLocation place;
 
     /// The time of a spike within the last step of the transient, s; nothing if there is none.
     std::optional<double> within(const Transient& t) const { return t.crossing(of.plus, of.minus, level, upwards); }

@@ -5,8 +5,8 @@
 #include "circuit/devices.hpp"
 #include "circuit/path_names.hpp"
 #include "circuit/saved.hpp"
-#include "signal/field.hpp"
-#include "signal/text.hpp"
+#include "signal/parameter.hpp"
+#include "signal/ascii_text.hpp"
 
 namespace corpuscle::circuit {
 namespace {
@@ -48,7 +48,7 @@ std::vector<std::string_view> elements_of(const Circuit& c) {
 }
 
 Result<std::optional<std::string>> resolve_node(const Circuit& c, std::string_view word, std::string_view name) {
-    if (name == "0" || same_letters(name, "gnd")) return std::optional<std::string>("0");
+    if (name == "0" || equal_ignoring_case(name, "gnd")) return std::optional<std::string>("0");
     const auto names = nodes_of(c);
     const auto found = meant(names, name, Last::node);
     if (found.size() > 1) return ambiguous_probe(word, c, names, found);

@@ -12,9 +12,9 @@ struct Within {
     Saved what;
     double low, high;
     std::string sentence;  ///< explains a violation; may be ""
-    Place place;
+    SourceLocation place;
 
-    Range range() const { return {what.name, what.is_voltage() ? "V" : "A", low, high, sentence}; }
+    ValidRange range() const { return {what.name, what.is_voltage() ? "V" : "A", low, high, sentence}; }
     bool holds(double x) const { return x >= low && x <= high; }
 };
 Result<std::vector<Within>> within_of(const System&);

@@ -20,23 +20,23 @@ namespace corpuscle::address_events {
 static_assert(std::endian::native == std::endian::little, "structures are written as they are in memory");
 
 inline constexpr std::string_view magic = "corpaer1";
-inline constexpr std::size_t head_bytes = 32, run_bytes = 20, spike_bytes = 16;
+inline constexpr std::size_t header_bytes = 32, run_bytes = 20, spike_bytes = 16;
 
 /// Afferents with numbered names, such as sa1#1, sa1#2 ..., at addresses `stride` apart.
 struct NameRun {
-    std::uint32_t address = 0, stride = 1, number = 0, count = 1;
+    std::uint32_t first_address = 0, stride = 1, first_number = 0, count = 1;
     std::string name;
 };
 
-struct Packed {
+struct EncodedSpike {
     std::int64_t step;
-    std::uint32_t place, address;
+    std::uint32_t fraction, address;
 };
-static_assert(sizeof(Packed) == spike_bytes);
+static_assert(sizeof(EncodedSpike) == spike_bytes);
 
-inline constexpr double places = 4294967296.0;  // 2^32
+inline constexpr double fraction_scale = 4294967296.0;  // 2^32
 
-inline std::uint32_t place_of(double offset) { return static_cast<std::uint32_t>(std::ceil(offset * places) - 1); }
-inline double offset_of(std::uint32_t place) { return (static_cast<double>(place) + 1) / places; }
+inline std::uint32_t encode_offset(double offset) { return static_cast<std::uint32_t>(std::ceil(offset * fraction_scale) - 1); }
+inline double decode_offset(std::uint32_t place) { return (static_cast<double>(place) + 1) / fraction_scale; }
 
 }  // namespace corpuscle::address_events

@@ -14,7 +14,7 @@ struct CloseFile {
     void operator()(zip_file_t* f) const { zip_fclose(f); }
 };
 
-class MemberBytes final : public Bytes {
+class MemberBytes final : public SeekableBytes {
     std::shared_ptr<zip> zip_;
     std::uint64_t index_, size_, at_ = 0;
     std::string name_;
@@ -100,13 +100,13 @@ Result<Archive> Archive::open(const std::string& path) {
     return archive;
 }
 
-Result<std::unique_ptr<Bytes>> Archive::bytes(std::size_t member, std::string name) const {
+Result<std::unique_ptr<SeekableBytes>> Archive::bytes(std::size_t member, std::string name) const {
     auto bytes = std::make_unique<MemberBytes>(zip_, member, members_[member].size, std::move(name));
     if (auto ok = bytes->open(); !ok) return ok.error();
-    return std::unique_ptr<Bytes>(std::move(bytes));
+    return std::unique_ptr<SeekableBytes>(std::move(bytes));
 }
 
-Result<std::string> make_archive(const std::vector<Packed>& members) {
+Result<std::string> make_archive(const std::vector<ArchiveEntry>& members) {
     zip_error_t error;
     zip_error_init(&error);
     const auto failed = [](zip_error_t* why) {

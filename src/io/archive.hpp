@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "io/bytes.hpp"
+#include "io/seekable_bytes.hpp"
 
 struct zip;
 
@@ -24,17 +24,17 @@ public:
     const std::string& path() const { return path_; }
     const std::vector<Member>& members() const { return members_; }
     /// The uncompressed bytes of a member. `name` is for messages. Seeking is slow in a compressed member.
-    Result<std::unique_ptr<Bytes>> bytes(std::size_t member, std::string name) const;
+    Result<std::unique_ptr<SeekableBytes>> bytes(std::size_t member, std::string name) const;
 
 private:
     std::vector<Member> members_;
 };
 
-struct Packed {
+struct ArchiveEntry {
     std::string name, bytes;
 };
 
 /// The bytes of an uncompressed archive without dates: the same members give the same bytes.
-Result<std::string> make_archive(const std::vector<Packed>&);
+Result<std::string> make_archive(const std::vector<ArchiveEntry>&);
 
 }  // namespace corpuscle

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "io/address_events.hpp"
-#include "io/event_formats.hpp"
+#include "io/binary_events.hpp"
 #include "io/event_time.hpp"
 
 namespace corpuscle {
@@ -25,14 +25,14 @@ aer::NameRun run_of(const std::string& name, std::uint32_t address) {
 
 /// Extends the run by the next afferent if that continues it. Returns false if it does not.
 bool extend(aer::NameRun& run, const aer::NameRun& next) {
-    if (run.number == 0 || next.number != run.number + run.count || next.name != run.name || next.address <= run.address) return false;
-    if (run.count == 1) run.stride = next.address - run.address;
-    if (next.address != run.address + static_cast<std::uint64_t>(run.stride) * run.count) return false;
+    if (run.first_number == 0 || next.first_number != run.first_number + run.count || next.name != run.name || next.first_address <= run.first_address) return false;
+    if (run.count == 1) run.stride = next.first_address - run.first_address;
+    if (next.first_address != run.first_address + static_cast<std::uint64_t>(run.stride) * run.count) return false;
     ++run.count;
     return true;
 }
 
-std::vector<aer::NameRun> runs_of(const EventUnits& addressing) {
+std::vector<aer::NameRun> runs_of(const EventAddressing& addressing) {
     std::vector<aer::NameRun> runs;
     for (std::size_t u = 0; u < addressing.names.size(); ++u) {
         auto next = run_of(addressing.names[u], addressing.addresses[u]);
@@ -43,7 +43,7 @@ std::vector<aer::NameRun> runs_of(const EventUnits& addressing) {
 
 /// The channels of the afferents as runs of addresses, sorted by address. Empty if the names of the afferents already identify the
 /// channel. Default channel names (ch1, ch2 ...) are omitted, because the numbers are enough.
-std::vector<aer::NameRun> channel_runs_of(const EventUnits& addressing) {
+std::vector<aer::NameRun> channel_runs_of(const EventAddressing& addressing) {
     std::vector<std::pair<std::uint32_t, const std::string*>> on;
     bool any_named = false;
     for (std::size_t u = 0; u < addressing.afferents.size() && u < addressing.channels.size(); ++u) {
@@ -56,7 +56,7 @@ std::vector<aer::NameRun> channel_runs_of(const EventUnits& addressing) {
     std::sort(on.begin(), on.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
     std::vector<aer::NameRun> runs;
     for (const auto& [address, name] : on) {
-        if (!runs.empty() && runs.back().name == *name && address == runs.back().address + runs.back().count)
+        if (!runs.empty() && runs.back().name == *name && address == runs.back().first_address + runs.back().count)
             ++runs.back().count;
         else
             runs.push_back({address, 1, 0, 1, *name});
@@ -66,10 +66,10 @@ std::vector<aer::NameRun> channel_runs_of(const EventUnits& addressing) {
 
 /// The addresses of a run as text: "addresses 0, 2 ... 30".
 std::string addresses_of(const aer::NameRun& run) {
-    const auto last = run.address + std::uint64_t{run.stride} * (run.count - 1);
-    return run.count == 1   ? fmt::format("address {}", run.address)
-           : run.count == 2 ? fmt::format("addresses {}, {}", run.address, last)
-                            : fmt::format("addresses {}, {} ... {}", run.address, run.address + run.stride, last);
+    const auto last = run.first_address + std::uint64_t{run.stride} * (run.count - 1);
+    return run.count == 1   ? fmt::format("address {}", run.first_address)
+           : run.count == 2 ? fmt::format("addresses {}, {}", run.first_address, last)
+                            : fmt::format("addresses {}, {} ... {}", run.first_address, run.first_address + run.stride, last);
 }
 
 std::string one_line(std::string text) {
@@ -78,7 +78,7 @@ std::string one_line(std::string text) {
 }
 
 /// The meaning of the addresses as comments of at limit 32 kB. Readers expect the events within the first 64 kB.
-std::string comments_of(const EventUnits& addressing) {
+std::string comments_of(const EventAddressing& addressing) {
     constexpr std::size_t limit = std::size_t{1} << 15;
     std::string text;
     const auto add = [&](const std::string& comment) {
@@ -88,10 +88,10 @@ std::string comments_of(const EventUnits& addressing) {
     };
     bool all = true;
     for (const auto& r : runs_of(addressing))
-        all = all && add(r.number == 0  ? fmt::format("{}: {}", addresses_of(r), r.name)
-                         : r.count == 1 ? fmt::format("{}: {}#{}", addresses_of(r), r.name, r.number)
-                                        : fmt::format("{}: {}#{} ... {}#{}", addresses_of(r), r.name, r.number, r.name,
-                                                      std::uint64_t{r.number} + r.count - 1));
+        all = all && add(r.first_number == 0  ? fmt::format("{}: {}", addresses_of(r), r.name)
+                         : r.count == 1 ? fmt::format("{}: {}#{}", addresses_of(r), r.name, r.first_number)
+                                        : fmt::format("{}: {}#{} ... {}#{}", addresses_of(r), r.name, r.first_number, r.name,
+                                                      std::uint64_t{r.first_number} + r.count - 1));
     for (const auto& r : channel_runs_of(addressing)) all = all && add(fmt::format("{}: channel {}", addresses_of(r), r.name));
     return all ? text : text + "# and others\r\n";
 }
@@ -103,7 +103,7 @@ void add_number(std::string& text, T number) {
 
 void add_runs(std::string& text, const std::vector<aer::NameRun>& runs) {
     for (const auto& r : runs) {
-        for (const auto number : {r.address, r.stride, r.number, r.count, static_cast<std::uint32_t>(r.name.size())})
+        for (const auto number : {r.first_address, r.stride, r.first_number, r.count, static_cast<std::uint32_t>(r.name.size())})
             add_number(text, number);
         text += r.name;
         text.append((4 - r.name.size() % 4) % 4, '\0');
@@ -111,13 +111,13 @@ void add_runs(std::string& text, const std::vector<aer::NameRun>& runs) {
 }
 
 class AerEvents final : public EventFormat {
-    EventUnits addressing_;
+    EventAddressing addressing_;
 
 public:
-    explicit AerEvents(const EventUnits& addressing) : addressing_(addressing) {}
+    explicit AerEvents(const EventAddressing& addressing) : addressing_(addressing) {}
     std::string_view name() const override { return "aer"; }
-    std::size_t most_bytes() const override { return aer::spike_bytes; }
-    bool same_size() const override { return true; }
+    std::size_t max_bytes() const override { return aer::spike_bytes; }
+    bool has_fixed_size() const override { return true; }
 
     std::string header() const override {
         std::string names;
@@ -125,13 +125,13 @@ public:
         add_runs(names, runs);
         if (!channels.empty()) add_number(names, static_cast<std::uint32_t>(channels.size())), add_runs(names, channels);
         std::string text(aer::magic);
-        add_number(text, addressing_.clock.per), add_number(text, addressing_.clock.seconds);
+        add_number(text, addressing_.clock.rate_numerator), add_number(text, addressing_.clock.rate_denominator);
         add_number(text, static_cast<std::uint32_t>(runs.size())), add_number(text, static_cast<std::uint32_t>(names.size()));
         return text + names;
     }
 
-    std::size_t put(const Spike& s, char* at) const override {
-        const aer::Packed packed{s.step, aer::place_of(s.offset), addressing_.addresses[s.unit]};
+    std::size_t write(const Spike& s, char* at) const override {
+        const aer::EncodedSpike packed{s.step, aer::encode_offset(s.offset), addressing_.addresses[s.afferent_index]};
         std::memcpy(at, &packed, sizeof packed);
         return sizeof packed;
     }
@@ -147,16 +147,16 @@ class Aedat2Events final : public EventFormat {
     }
 
 public:
-    explicit Aedat2Events(const EventUnits& addressing)
+    explicit Aedat2Events(const EventAddressing& addressing)
         : time_(addressing.clock), addresses_(addressing.addresses), comments_(comments_of(addressing)) {}
     std::string_view name() const override { return "aedat2"; }
-    std::size_t most_bytes() const override { return 8; }
-    bool same_size() const override { return true; }
+    std::size_t max_bytes() const override { return 8; }
+    bool has_fixed_size() const override { return true; }
     std::string header() const override {
         return "#!AER-DAT2.0\r\n# spikes of afferents: address, microseconds modulo 2^32\r\n" + comments_;
     }
-    std::size_t put(const Spike& s, char* at) const override {
-        put_big_endian(addresses_[s.unit], at);
+    std::size_t write(const Spike& s, char* at) const override {
+        put_big_endian(addresses_[s.afferent_index], at);
         put_big_endian(static_cast<std::uint32_t>((time_.nanoseconds(s) + 500) / 1000), at + 4);
         return 8;
     }
@@ -164,7 +164,7 @@ public:
 
 }  // namespace
 
-std::unique_ptr<EventFormat> aer_events(const EventUnits& addressing) { return std::make_unique<AerEvents>(addressing); }
-std::unique_ptr<EventFormat> aedat2_events(const EventUnits& addressing) { return std::make_unique<Aedat2Events>(addressing); }
+std::unique_ptr<EventFormat> make_aer_format(const EventAddressing& addressing) { return std::make_unique<AerEvents>(addressing); }
+std::unique_ptr<EventFormat> make_aedat2_format(const EventAddressing& addressing) { return std::make_unique<Aedat2Events>(addressing); }
 
 }  // namespace corpuscle

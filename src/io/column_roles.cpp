@@ -14,7 +14,7 @@ struct Roles {
     const std::vector<FirstFields>& first;
     ColumnRoles out = {};
 
-    bool holds_numbers(std::size_t c) const { return first[c].values > 0 && first[c].words == 0 && first[c].stamps == 0; }
+    bool holds_numbers(std::size_t c) const { return first[c].value_count > 0 && first[c].word_count == 0 && first[c].stamp_count == 0; }
 
     /// True if the numbers of the column never decrease and are not constant.
     bool rises(std::size_t c) const {
@@ -32,7 +32,7 @@ struct Roles {
     template <class Step>
     bool counts(std::size_t c, const Step& step) const {
         const auto& x = first[c].numbers;
-        if (x.size() < 2 || first[c].values != x.size()) return false;
+        if (x.size() < 2 || first[c].value_count != x.size()) return false;
         for (std::size_t k = 0; k < x.size(); ++k)
             if (std::floor(x[k]) != x[k] || (k > 0 && !step(x[k] - x[k - 1]))) return false;
         return x[1] > x[0];
@@ -44,7 +44,7 @@ struct Roles {
 
     bool evenly_rises(std::size_t c) const {
         const auto& x = first[c].numbers;
-        if (x.size() < 3 || first[c].values != x.size()) return false;
+        if (x.size() < 3 || first[c].value_count != x.size()) return false;
         const double mean = (x.back() - x[0]) / static_cast<double>(x.size() - 1);
         bool even = mean > 0;
         for (std::size_t k = 1; k < x.size(); ++k) even = even && x[k] > x[k - 1] && std::abs(x[k] - x[k - 1] - mean) < 0.5 * mean;
@@ -55,9 +55,9 @@ struct Roles {
         for (std::size_t c = 0; c < columns.size(); ++c) {
             const auto& f = first[c];
             const auto rows = f.numbers.size();
-            if (f.stamps > 0 && f.values == 0 && f.words == 0) columns[c].stamps = true;
-            if (f.words > 0 && f.values == 0 && f.stamps == 0) columns[c].left_out = "holds words, not numbers";
-            if (rows >= 3 && f.nothing == rows) columns[c].left_out = "is empty";
+            if (f.stamp_count > 0 && f.value_count == 0 && f.word_count == 0) columns[c].holds_time_stamps = true;
+            if (f.word_count > 0 && f.value_count == 0 && f.stamp_count == 0) columns[c].exclusion_reason = "holds words, not numbers";
+            if (rows >= 3 && f.empty_count == rows) columns[c].exclusion_reason = "is empty";
         }
     }
 
@@ -65,29 +65,29 @@ struct Roles {
     template <class Matches>
     bool take_time(const Matches& matches) {
         for (std::size_t c = 0; c < columns.size(); ++c)
-            if (matches(c)) return out.time = c, true;
+            if (matches(c)) return out.time_column = c, true;
         return false;
     }
 
     void find_named_time() {
         const auto likely = [&](std::size_t c) {
-            return columns[c].stamps || (holds_numbers(c) && (first[c].numbers.size() < 2 || rises(c)));
+            return columns[c].holds_time_stamps || (holds_numbers(c) && (first[c].numbers.size() < 2 || rises(c)));
         };
-        const auto in_seconds = [&](std::size_t c) { return columns[c].stamps || seconds_in(columns[c].unit).has_value(); };
-        if (take_time([&](std::size_t c) { return names_time(columns[c].name); })) return;
+        const auto in_seconds = [&](std::size_t c) { return columns[c].holds_time_stamps || seconds_per_time_unit(columns[c].unit).has_value(); };
+        if (take_time([&](std::size_t c) { return is_time_name(columns[c].name); })) return;
         const bool found =
-            take_time([&](std::size_t c) { return may_name_time(columns[c].name) && in_seconds(c) && likely(c); }) ||
-            take_time([&](std::size_t c) { return columns[c].unit.empty() && may_name_time(columns[c].name) && likely(c) && rises(c); }) ||
-            take_time([&](std::size_t c) { return columns[c].stamps; }) ||
+            take_time([&](std::size_t c) { return may_be_time_name(columns[c].name) && in_seconds(c) && likely(c); }) ||
+            take_time([&](std::size_t c) { return columns[c].unit.empty() && may_be_time_name(columns[c].name) && likely(c) && rises(c); }) ||
+            take_time([&](std::size_t c) { return columns[c].holds_time_stamps; }) ||
             take_time([&](std::size_t c) { return in_seconds(c) && holds_numbers(c) && rises(c); });
         if (found) {
-            const auto& name = columns[*out.time].name;
-            out.remarks.push_back(
+            const auto& name = columns[*out.time_column].name;
+            out.notes.push_back(
                 fmt::format("{} is taken as the time (use --time none if it is not)",
-                            name.empty() ? fmt::format("column {}, which has no name,", *out.time + 1) : "'" + name + "'"));
+                            name.empty() ? fmt::format("column {}, which has no name,", *out.time_column + 1) : "'" + name + "'"));
         } else if (columns.size() > 1 && columns[0].name.empty() && evenly_rises(0) && !counts(0, is_positive)) {
-            out.time = 0, out.time_is_guessed = true;
-            out.remarks.emplace_back(
+            out.time_column = 0, out.is_time_guessed = true;
+            out.notes.emplace_back(
                 "the first column has no name, increases evenly and is taken as the time (use --time none if it is a channel)");
         }
     }
@@ -96,8 +96,8 @@ struct Roles {
         const auto& column = columns[c];
         if (!column.unit.empty() || !holds_numbers(c)) return false;
         if (c == 0 && column.name.empty()) return counts(c, is_positive);
-        if (names_sequence(column.name) && counts(c, is_positive_or_restart)) return true;
-        if (names_index(column.name)) return counts(c, is_one_or_restart);
+        if (is_sequence_name(column.name) && counts(c, is_positive_or_restart)) return true;
+        if (is_index_name(column.name)) return counts(c, is_one_or_restart);
         return first[c].numbers.size() >= rows_of_an_index && counts(c, is_one);
     }
 
@@ -111,43 +111,43 @@ struct Roles {
         std::vector<std::pair<std::size_t, std::string>> excluded;
         std::size_t remaining = 0;
         for (std::size_t c = 0; c < columns.size(); ++c) {
-            if (c == out.time || !columns[c].left_out.empty()) continue;
-            if (columns[c].stamps)
-                columns[c].left_out = "holds times";
+            if (c == out.time_column || !columns[c].exclusion_reason.empty()) continue;
+            if (columns[c].holds_time_stamps)
+                columns[c].exclusion_reason = "holds times";
             else if (is_index(c))
                 excluded.emplace_back(c, "counts the rows");
-            else if (names_trial(columns[c].name) && columns[c].unit.empty() && holds_integers(c))
+            else if (is_trial_name(columns[c].name) && columns[c].unit.empty() && holds_integers(c))
                 excluded.emplace_back(c, "identifies trials");
-            else if (out.time && rises(c) && (names_time(columns[c].name) || columns[c].name.ends_with("stamp")))
+            else if (out.time_column && rises(c) && (is_time_name(columns[c].name) || columns[c].name.ends_with("stamp")))
                 excluded.emplace_back(c, "is a second clock");
             else
                 ++remaining;
         }
         if (remaining == 0) return;
-        for (auto& [c, why] : excluded) columns[c].left_out = std::move(why);
+        for (auto& [c, why] : excluded) columns[c].exclusion_reason = std::move(why);
     }
 };
 
 }  // namespace
 
-bool are_named(const std::vector<Column>& columns) {
+bool have_own_names(const std::vector<Column>& columns) {
     return std::any_of(columns.begin(), columns.end(), [](const Column& c) {
         return !c.name.starts_with("ch") || c.name.find_first_not_of("0123456789", 2) != c.name.npos;
     });
 }
 
 ColumnRoles assign_roles(std::vector<Column>& columns, const std::vector<FirstFields>& first, bool named, std::optional<std::size_t> time) {
-    Roles roles{columns, first, {.time = time}};
+    Roles roles{columns, first, {.time_column = time}};
     roles.find_kinds();
     if (time)
-        columns[*time].left_out.clear();
+        columns[*time].exclusion_reason.clear();
     else if (named)
         roles.find_named_time();
-    else if (roles.take_time([&](std::size_t c) { return columns[c].stamps; }))
-        roles.out.time_is_guessed = true;
+    else if (roles.take_time([&](std::size_t c) { return columns[c].holds_time_stamps; }))
+        roles.out.is_time_guessed = true;
     if (named) roles.leave_out();
     for (std::size_t c = 0; c < columns.size(); ++c)
-        if (columns[c].stamps && columns[c].unit.empty()) columns[c].unit = "s";
+        if (columns[c].holds_time_stamps && columns[c].unit.empty()) columns[c].unit = "s";
     return std::move(roles.out);
 }
 

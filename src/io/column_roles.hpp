@@ -9,21 +9,21 @@
 namespace corpuscle {
 
 /// The number of rows that are inspected.
-inline constexpr std::size_t rows_looked_at = 64;
+inline constexpr std::size_t inspected_rows = 64;
 
 /// The first fields of a column, with a count for each kind of field.
 struct FirstFields {
     std::vector<double> numbers;  ///< NaN for a field that is not a number
-    std::size_t values = 0, words = 0, stamps = 0, nothing = 0;
+    std::size_t value_count = 0, word_count = 0, stamp_count = 0, empty_count = 0;
 
-    void add_number(double x) { numbers.push_back(x), ++values; }
+    void add_number(double x) { numbers.push_back(x), ++value_count; }
     void add_other(std::size_t& kind) { numbers.push_back(std::numeric_limits<double>::quiet_NaN()), ++kind; }
 };
 
 struct ColumnRoles {
-    std::optional<std::size_t> time = {};
-    bool time_is_guessed = false;           ///< recognised by its values, not by its name
-    std::vector<std::string> remarks = {};  ///< about the time column
+    std::optional<std::size_t> time_column = {};
+    bool is_time_guessed = false;           ///< recognised by its values, not by its name
+    std::vector<std::string> notes = {};  ///< about the time column
 };
 
 /// Marks columns with time stamps and columns that are not channels, and finds the time column. `first` has one element for each
@@ -33,6 +33,6 @@ ColumnRoles assign_roles(std::vector<Column>& columns, const std::vector<FirstFi
                          std::optional<std::size_t> time = {});
 
 /// True if the columns have names of their own, other than ch1, ch2 ...
-bool are_named(const std::vector<Column>& columns);
+bool have_own_names(const std::vector<Column>& columns);
 
 }  // namespace corpuscle

@@ -4,7 +4,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "signal/text.hpp"
+#include "signal/ascii_text.hpp"
 
 namespace corpuscle {
 namespace {
@@ -28,7 +28,7 @@ std::size_t end_of_field(std::string_view line, std::size_t at, char separator) 
 
 }  // namespace
 
-Dialect Dialect::of(std::string_view line) {
+Dialect Dialect::detect(std::string_view line) {
     for (const char c : {'\t', ';'})
         if (line.find(c) != std::string_view::npos) return {c, true};
     return line.find(',') != std::string_view::npos ? Dialect{',', false} : Dialect{' ', true};
@@ -52,7 +52,7 @@ void Dialect::split(std::string_view line, Fields& out) const {
     }
 }
 
-bool Dialect::number(std::string_view field, double& value, bool any) const {
+bool Dialect::parse_number(std::string_view field, double& value, bool any) const {
     if (field.starts_with('+')) field.remove_prefix(1);
     char plain[64];
     if (decimal_comma && field.size() < sizeof plain && field.find(',') != std::string_view::npos) {
@@ -64,7 +64,7 @@ bool Dialect::number(std::string_view field, double& value, bool any) const {
 }
 
 /// Like parse_plain_number(), but digit by digit.
-bool Dialect::longer_number(const char*& p, const char* end, double& value) const {
+bool Dialect::parse_longer_number(const char*& p, const char* end, double& value) const {
     std::uint64_t digits = 0;
     const auto take = [&] {
         const char* const from = p;

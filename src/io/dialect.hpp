@@ -16,46 +16,46 @@ struct Dialect {
     bool decimal_comma = false;
 
     /// Detects the separator: a tab, otherwise a semicolon, a comma, or blanks. If the comma is not the separator, it is a decimal comma.
-    static Dialect of(std::string_view line);
+    static Dialect detect(std::string_view line);
 
     /// Splits a line into fields without surrounding blanks and quotes.
     void split(std::string_view line, Fields& out) const;
 
     /// Parses a finite number. With `any`, also infinities and NaN.
-    bool number(std::string_view field, double& value, bool any = false) const;
+    bool parse_number(std::string_view field, double& value, bool any = false) const;
 
     /// A fast parser for the common form at `p`: a sign, up to fifteen digits and a point. Moves p after the number. Returns false, with
     /// p unspecified, for any other form, which parse_number() must parse. Eight bytes after `end` must be readable.
-    bool plain_number(const char*& p, const char* end, double& value) const;
+    bool parse_plain_number(const char*& p, const char* end, double& value) const;
 
 private:
     bool ends_at(const char* p, const char* end) const {
         return p == end || (p < end && (*p == separator || (separator == ' ' && *p == '\t')));
     }
-    bool longer_number(const char*& p, const char* end, double& value) const;
+    bool parse_longer_number(const char*& p, const char* end, double& value) const;
 };
 
 inline constexpr double powers_of_ten[] = {1, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15};
 
 /// Eight characters in one 64-bit word, to parse short numbers fast. Digits are bytes 0 to 9, the first character in the lowest byte.
-struct EightCharacters {
+struct SwarWord {
     std::uint64_t digits,
-        others;  ///< others: the high bit of each byte that is not a digit; valid up to the first, and up to the second after a point
+        non_digits;  ///< others: the high bit of each byte that is not a digit; valid up to the first, and up to the second after a point
 
-    explicit EightCharacters(const char* p) {
+    explicit SwarWord(const char* p) {
         std::memcpy(&digits, p, 8);
         if constexpr (std::endian::native == std::endian::big) digits = __builtin_bswap64(digits);
         digits ^= 0x3030303030303030U;
-        others = ((digits + 0x7676767676767676U) | digits) & 0x8080808080808080U;
+        non_digits = ((digits + 0x7676767676767676U) | digits) & 0x8080808080808080U;
     }
-    static int place(std::uint64_t bits) { return std::countr_zero(bits) / 8; }  // 8 if there is none
+    static int byte_index(std::uint64_t bits) { return std::countr_zero(bits) / 8; }  // 8 if there is none
     /// Removes the byte at index `at` and shifts those above it down.
-    void close_up(int at) {
+    void remove_byte(int at) {
         const std::uint64_t below = (std::uint64_t{1} << (8 * at)) - 1;
         digits = (digits & below) | ((digits >> 8) & ~below);
     }
     /// The number formed by the first `count` digits, 1 to 8.
-    std::uint64_t number(int count) const {
+    std::uint64_t parse_digits(int count) const {
         std::uint64_t x = digits << (8 * (8 - count));
         x = (x * 10 + (x >> 8)) & 0x00ff00ff00ff00ffU;
         x = (x * 100 + (x >> 16)) & 0x0000ffff0000ffffU;
@@ -63,23 +63,23 @@ struct EightCharacters {
     }
 };
 
-inline bool Dialect::plain_number(const char*& p, const char* end, double& value) const {
+inline bool Dialect::parse_plain_number(const char*& p, const char* end, double& value) const {
     while (p < end && (*p == ' ' || (separator == ' ' && *p == '\t'))) ++p;
     const bool minus = p < end && *p == '-';
     p += minus;
-    EightCharacters eight(p);
-    const int integers = EightCharacters::place(eight.others);
+    SwarWord eight(p);
+    const int integers = SwarWord::byte_index(eight.non_digits);
     const bool point = integers < 8 && (p[integers] == '.' || (decimal_comma && p[integers] == ','));
-    const int length = point ? EightCharacters::place(eight.others & (eight.others - 1)) : integers;
+    const int length = point ? SwarWord::byte_index(eight.non_digits & (eight.non_digits - 1)) : integers;
     const char* const stop = p + length;
     double size;
     if (length < 8) {
         if (length == point || !ends_at(stop, end)) return false;
-        if (point) eight.close_up(integers);
+        if (point) eight.remove_byte(integers);
         // The digits fit into a double and the power of ten is exact, so one division gives the nearest double, as from_chars does.
-        size = static_cast<double>(eight.number(length - point)) / powers_of_ten[length - integers - point];
+        size = static_cast<double>(eight.parse_digits(length - point)) / powers_of_ten[length - integers - point];
         p = stop;
-    } else if (!longer_number(p, end, size)) {
+    } else if (!parse_longer_number(p, end, size)) {
         return false;
     }
     value = minus ? -size : size;

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "io/address_events.hpp"
-#include "io/bytes.hpp"
-#include "io/trains.hpp"
+#include "io/seekable_bytes.hpp"
+#include "io/train_collector.hpp"
 
 namespace corpuscle {
 namespace {
@@ -22,7 +22,7 @@ constexpr std::size_t events_at_once = 4096;
 /// Trains by address. The name of an address is looked up once.
 class AddressTrains {
     std::unordered_map<std::uint32_t, std::vector<double>*> by_address_;
-    Trains trains_;
+    TrainCollector trains_;
 
 public:
     template <class Name>
@@ -30,16 +30,16 @@ public:
         auto& train = by_address_[address];
         if (!train) {
             const auto [afferent, channel] = name(address);
-            train = &trains_.of(afferent, channel);
+            train = &trains_.train(afferent, channel);
         }
         return *train;
     }
-    std::vector<NamedTrain> sorted() && { return std::move(trains_).in_order(); }
+    std::vector<NamedTrain> sorted() && { return std::move(trains_).sorted(); }
 };
 
 /// Calls `take` for every event of a file, `size` bytes each, from position `at` on.
 template <class Take>
-Result<void> each_event(Bytes& file, std::uint64_t at, std::size_t size, const Take& take) {
+Result<void> each_event(SeekableBytes& file, std::uint64_t at, std::size_t size, const Take& take) {
     if ((file.size() - at) % size != 0)
         return bad_input(fmt::format("the last spike is incomplete: {} of {} bytes", (file.size() - at) % size, size), {file.name()});
     std::vector<std::byte> block(events_at_once * size);
@@ -62,7 +62,7 @@ T number_at(std::span<const std::byte> bytes, std::size_t at) {
 }
 
 class AerFile {
-    std::unique_ptr<Bytes> file_;
+    std::unique_ptr<SeekableBytes> file_;
     Clock clock_;
     std::vector<aer::NameRun> runs_, channels_;
     std::uint64_t begin_ = 0;  // position of the first spike
@@ -70,14 +70,14 @@ class AerFile {
     Error format_error(std::string message) const { return bad_input(std::move(message), {file_->name()}); }
 
     Result<void> read_head(std::uint32_t& runs, std::uint32_t& bytes) {
-        std::byte head[aer::head_bytes];
+        std::byte head[aer::header_bytes];
         if (file_->size() < sizeof head) return format_error("the header of the address events is incomplete");
         if (auto ok = file_->read(head); !ok) return ok;
         clock_ = {number_at<std::int64_t>(head, 8), number_at<std::int64_t>(head, 16)};
         runs = number_at<std::uint32_t>(head, 24), bytes = number_at<std::uint32_t>(head, 28);
-        if (clock_.per < 1 || clock_.seconds < 1)
+        if (clock_.rate_numerator < 1 || clock_.rate_denominator < 1)
             return format_error(
-                fmt::format("invalid clock of {} samples in {} s: both numbers must be positive", clock_.per, clock_.seconds));
+                fmt::format("invalid clock of {} samples in {} s: both numbers must be positive", clock_.rate_numerator, clock_.rate_denominator));
         if (file_->size() - sizeof head < bytes) return format_error("the names of the afferents are incomplete");
         begin_ = sizeof head + bytes;
         return {};
@@ -112,7 +112,7 @@ class AerFile {
 
     static const aer::NameRun* run_at(const std::vector<aer::NameRun>& runs, std::uint32_t address) {
         for (const auto& r : runs)
-            if (address >= r.address && (address - r.address) % r.stride == 0 && (address - r.address) / r.stride < r.count) return &r;
+            if (address >= r.first_address && (address - r.first_address) % r.stride == 0 && (address - r.first_address) / r.stride < r.count) return &r;
         return nullptr;
     }
 
@@ -121,24 +121,24 @@ class AerFile {
         const auto *const run = run_at(runs_, address), *const channel = run_at(channels_, address);
         if (!run) return {std::to_string(address), channel ? channel->name : ""};
         if (channel) return {run->name, channel->name};
-        const auto number = std::uint64_t{run->number} + (address - run->address) / run->stride;
-        return {run->number == 0 ? run->name : fmt::format("{}#{}", run->name, number), ""};
+        const auto number = std::uint64_t{run->first_number} + (address - run->first_address) / run->stride;
+        return {run->first_number == 0 ? run->name : fmt::format("{}#{}", run->name, number), ""};
     }
 
 public:
-    explicit AerFile(std::unique_ptr<Bytes> file) : file_(std::move(file)) {}
+    explicit AerFile(std::unique_ptr<SeekableBytes> file) : file_(std::move(file)) {}
 
     Result<std::vector<NamedTrain>> read() {
         if (auto ok = read_runs(); !ok) return ok.error();
         AddressTrains trains;
         std::int64_t count = 0;
         const auto ok = each_event(*file_, begin_, aer::spike_bytes, [&](const std::byte* at) -> Result<void> {
-            aer::Packed spike;
+            aer::EncodedSpike spike;
             std::memcpy(&spike, at, sizeof spike);
             if (spike.step < 0 || spike.step > last_event_step)
                 return format_error(fmt::format("spike {} is at step {}, outside 0 to 2^53", count, spike.step));
             trains.train_at(spike.address, [&](std::uint32_t a) { return names_of(a); })
-                .push_back(clock_.time(spike.step, aer::offset_of(spike.place)));
+                .push_back(clock_.time(spike.step, aer::decode_offset(spike.fraction)));
             ++count;
             return {};
         });
@@ -154,7 +154,7 @@ std::uint32_t big_endian_at(const std::byte* at) {
 }
 
 /// The position after the lines that begin with #.
-Result<std::uint64_t> skip_comments(Bytes& file) {
+Result<std::uint64_t> skip_comments(SeekableBytes& file) {
     std::vector<std::byte> head(std::min<std::uint64_t>(file.size(), 65536));
     if (auto ok = file.read(head); !ok) return ok.error();
     std::size_t at = 0;

@@ -5,15 +5,15 @@
 #include <charconv>
 #include <nlohmann/json.hpp>
 
-#include "io/event_formats.hpp"
+#include "io/binary_events.hpp"
 #include "io/event_time.hpp"
-#include "io/spikes.hpp"
-#include "signal/field.hpp"
+#include "io/spike_files.hpp"
+#include "signal/parameter.hpp"
 
 namespace corpuscle {
 namespace {
 
-constexpr EventFormatName event_format_names[] = {
+constexpr EventFormatInfo event_format_names[] = {
     {"lines", ".csv", "text, one line for each spike: afferent,channel,time_s"},
     {"jsonl", ".jsonl", R"(JSON, one line for each spike: {"time_s":0.250000000,"afferent":"sa1","channel":"ch17","address":32})"},
     {"aer", ".aer", "binary address events, 16 bytes for each spike, after a header that names the afferents; exact times"},
@@ -54,10 +54,10 @@ public:
     }
 
     std::string_view name() const override { return name_; }
-    std::size_t most_bytes() const override { return max_bytes_; }
+    std::size_t max_bytes() const override { return max_bytes_; }
     std::string header() const override { return header_; }
-    std::size_t put(const Spike& s, char* const at) const override {
-        const auto before = text(2 * std::size_t{s.unit}), after = text(2 * std::size_t{s.unit} + 1);
+    std::size_t write(const Spike& s, char* const at) const override {
+        const auto before = text(2 * std::size_t{s.afferent_index}), after = text(2 * std::size_t{s.afferent_index} + 1);
         char* end = std::copy(before.begin(), before.end(), at);
         end = put_seconds(time_.nanoseconds(s), end);
         end = std::copy(after.begin(), after.end(), end);
@@ -71,9 +71,9 @@ std::string json_text(const std::string& text) {
 
 }  // namespace
 
-std::span<const EventFormatName> event_formats() { return event_format_names; }
+std::span<const EventFormatInfo> event_formats() { return event_format_names; }
 
-Result<std::unique_ptr<EventFormat>> event_format(std::string_view name, EventUnits addressing) {
+Result<std::unique_ptr<EventFormat>> make_event_format(std::string_view name, EventAddressing addressing) {
     if (addressing.addresses.empty())
         for (std::size_t u = 0; u < addressing.names.size(); ++u) addressing.addresses.push_back(static_cast<std::uint32_t>(u));
     if (addressing.afferents.empty()) addressing.afferents = addressing.names;
@@ -82,12 +82,12 @@ Result<std::unique_ptr<EventFormat>> event_format(std::string_view name, EventUn
     for (const auto size : {addressing.addresses.size(), addressing.afferents.size(), addressing.channels.size()})
         if (size != addressing.names.size())
             return bad_input(fmt::format("{} afferents have {} addresses or names", addressing.names.size(), size));
-    if (name == "aer") return aer_events(addressing);
-    if (name == "aedat2") return aedat2_events(addressing);
+    if (name == "aer") return make_aer_format(addressing);
+    if (name == "aedat2") return make_aedat2_format(addressing);
     if (name == "lines") {
         auto lines = std::make_unique<TextEvents>("lines", addressing.clock, "afferent,channel,time_s\n");
         for (std::size_t u = 0; u < addressing.names.size(); ++u)
-            lines->add(csv_field(addressing.afferents[u]) + "," + csv_field(addressing.channels[u]) + ",", "\n");
+            lines->add(quote_csv_field(addressing.afferents[u]) + "," + quote_csv_field(addressing.channels[u]) + ",", "\n");
         return Result<std::unique_ptr<EventFormat>>(std::move(lines));
     }
     if (name == "jsonl") {

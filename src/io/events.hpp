@@ -15,7 +15,7 @@
 namespace corpuscle {
 
 /// Names and addresses of the afferents. All lists are indexed by afferent.
-struct EventUnits {
+struct EventAddressing {
     Clock clock;
     std::vector<std::string> names;           ///< "sa1#17"
     std::vector<std::uint32_t> addresses;     ///< empty: the afferent index is the address
@@ -27,19 +27,19 @@ class EventFormat {
 public:
     virtual ~EventFormat() = default;
     virtual std::string_view name() const = 0;        ///< "lines"
-    virtual std::size_t most_bytes() const = 0;       ///< upper bound on the size of one spike
-    virtual bool same_size() const { return false; }  ///< true: every spike takes max_bytes(); false: every spike is a line
+    virtual std::size_t max_bytes() const = 0;       ///< upper bound on the size of one spike
+    virtual bool has_fixed_size() const { return false; }  ///< true: every spike takes max_bytes(); false: every spike is a line
     virtual std::string header() const = 0;           ///< bytes before the first spike; may be ""
     /// Writes one spike at `at`, where max_bytes() must be free. Returns the number of bytes written. Does not allocate.
-    virtual std::size_t put(const Spike&, char* at) const = 0;
+    virtual std::size_t write(const Spike&, char* at) const = 0;
 };
 
 /// Creates a format by name: "lines", "jsonl", "aer", "aedat2".
-Result<std::unique_ptr<EventFormat>> event_format(std::string_view name, EventUnits);
+Result<std::unique_ptr<EventFormat>> make_event_format(std::string_view name, EventAddressing);
 
-struct EventFormatName {
-    std::string_view name, extension, sentence;
+struct EventFormatInfo {
+    std::string_view name, extension, description;
 };
-std::span<const EventFormatName> event_formats();
+std::span<const EventFormatInfo> event_formats();
 
 }  // namespace corpuscle

@@ -6,42 +6,42 @@
 #include <string>
 #include <vector>
 
-#include "io/channel_path.hpp"
-#include "io/rows.hpp"
+#include "io/channel_pipeline.hpp"
+#include "io/row_reader.hpp"
 
 namespace corpuscle {
 
 class ForceRows {
-    Rows rows_;
-    std::vector<ChannelPath> paths_;
+    RowReader rows_;
+    std::vector<ChannelPipeline> paths_;
     std::string path_;                // of the file, for errors
     std::vector<std::string> names_;  // of the channels, for errors
     std::optional<GapFiller> times_;  // if each row has its own time
-    SumCheck sums_;
+    SumDetector sums_;
     std::vector<std::vector<double>> block_;  // as read
     std::vector<std::vector<double>> ready_;  // for each channel, in newtons; then the times
-    std::size_t taken_ = 0;                   // rows of ready_ that have been consumed
+    std::size_t consumed_ = 0;                   // rows of ready_ that have been consumed
     bool ended_ = false;
 
-    Error of_channel(std::size_t c, Error) const;
-    Result<void> pull();
+    Error channel_error(std::size_t c, Error) const;
+    Result<void> read_block();
 
 public:
     /// `rows` provides the channels in the order of `paths`. If `timed`, the next column is the time; otherwise it is ignored.
-    ForceRows(Rows rows, std::vector<ChannelPath> paths, std::string path, std::vector<std::string> names, bool timed);
+    ForceRows(RowReader rows, std::vector<ChannelPipeline> paths, std::string path, std::vector<std::string> names, bool timed);
 
     /// Reads until a row is ready. Returns false at the end.
-    Result<bool> more();
-    std::size_t ready() const;
-    double force(std::size_t channel) const { return ready_[channel][taken_]; }
-    double time() const { return ready_.back()[taken_]; }  ///< as in the file; only if `timed`
-    void next(std::size_t rows = 1) { taken_ += rows; }
-    const double* ready_of(std::size_t channel) const { return ready_[channel].data() + taken_; }
+    Result<bool> fetch_row();
+    std::size_t ready_rows() const;
+    double force(std::size_t channel) const { return ready_[channel][consumed_]; }
+    double time() const { return ready_.back()[consumed_]; }  ///< as in the file; only if `timed`
+    void advance(std::size_t rows = 1) { consumed_ += rows; }
+    const double* ready_data(std::size_t channel) const { return ready_[channel].data() + consumed_; }
 
-    std::vector<ChannelPath>& paths() { return paths_; }
-    const std::vector<ChannelPath>& paths() const { return paths_; }
-    const Rows& rows() const { return rows_; }
-    const SumCheck& sums() const { return sums_; }
+    std::vector<ChannelPipeline>& paths() { return paths_; }
+    const std::vector<ChannelPipeline>& paths() const { return paths_; }
+    const RowReader& rows() const { return rows_; }
+    const SumDetector& sums() const { return sums_; }
 };
 
 }  // namespace corpuscle

@@ -5,7 +5,7 @@
 #include <cstring>
 #include <filesystem>
 
-#include "signal/text.hpp"
+#include "signal/ascii_text.hpp"
 
 namespace corpuscle {
 namespace {
@@ -88,12 +88,12 @@ std::string message_for(const ForeignFormat& f, const std::string& path) {
     const bool simple = std::all_of(name.begin(), name.end(), [](unsigned char c) { return c >= ' ' && !std::strchr("'\"\\$`!", c); });
     const std::string file = simple ? name : "FILE", stem = simple ? stem_of(name) : "FILE";
     return fmt::format("this is {}, which is not supported; with {}, convert it like this: {}", f.what, f.needs,
-                       fmt::format(fmt::runtime(f.command), "'" + file + "'", "'" + stem, shell_word(file), shell_word(stem)));
+                       fmt::format(fmt::runtime(f.command), "'" + file + "'", "'" + stem, quote_shell_word(file), quote_shell_word(stem)));
 }
 
 }  // namespace
 
-std::string shell_word(const std::string& path) {
+std::string quote_shell_word(const std::string& path) {
     if (plain_word(path)) return path;
     std::string out = "'";
     for (const char c : path) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
@@ -102,11 +102,11 @@ std::string shell_word(const std::string& path) {
 
 std::string unpack_command(const std::string& program, std::string_view extension, const std::string& path) {
     const auto file = named_file(path);
-    if (file.size() > extension.size() && file.ends_with(extension)) return fmt::format("{} -dk {}", program, shell_word(file));
-    return fmt::format("{} -dc < {} > {}", program, shell_word(file), shell_word(stem_of(file) + "-unpacked"));
+    if (file.size() > extension.size() && file.ends_with(extension)) return fmt::format("{} -dk {}", program, quote_shell_word(file));
+    return fmt::format("{} -dc < {} > {}", program, quote_shell_word(file), quote_shell_word(stem_of(file) + "-unpacked"));
 }
 
-std::string foreign_format(std::string_view first, const std::string& path) {
+std::string describe_foreign_format(std::string_view first, const std::string& path) {
     const auto extension = lower(std::filesystem::path(path).extension().string());
     for (const auto& p : packed_formats)
         if (first.starts_with(p.first))
@@ -123,14 +123,14 @@ std::string foreign_format(std::string_view first, const std::string& path) {
     return "";
 }
 
-std::string misnamed_format(std::string_view first, const std::string& path) {
+std::string describe_misnamed_format(std::string_view first, const std::string& path) {
     if (first.starts_with("PK\x03\x04") && first.find(".npy") == first.npos)
-        return fmt::format("this is a ZIP archive; extract its files: unzip {}", shell_word(path));
+        return fmt::format("this is a ZIP archive; extract its files: unzip {}", quote_shell_word(path));
     for (const auto& m : binary_formats)
         if (first.starts_with(m.first)) {
             const auto to = stem_of(path).empty() ? "FILE" : stem_of(path);
-            return fmt::format("this is {}, but its file extension is wrong; give it the right name: ln -s {} {}", m.what, shell_word(path),
-                               shell_word(to + std::string(m.extension)));
+            return fmt::format("this is {}, but its file extension is wrong; give it the right name: ln -s {} {}", m.what, quote_shell_word(path),
+                               quote_shell_word(to + std::string(m.extension)));
         }
     return "";
 }

@@ -8,16 +8,16 @@ namespace corpuscle {
 
 /// An error message with the file's format and a command that converts it. "" if the format is not recognised. `first` holds the first
 /// bytes of the file, about 512.
-std::string foreign_format(std::string_view first, const std::string& path);
+std::string describe_foreign_format(std::string_view first, const std::string& path);
 
 /// The same for binary files of supported formats (HDF5, NumPy ...) with the wrong file extension.
-std::string misnamed_format(std::string_view first, const std::string& path);
+std::string describe_misnamed_format(std::string_view first, const std::string& path);
 
 /// A command that decompresses a file with gzip, bzip2, xz or zstd. The output is called like the file without `extension`, or
 /// name-unpacked.
 std::string unpack_command(const std::string& program, std::string_view extension, const std::string& path);
 
 /// A path as a shell word, quoted if necessary.
-std::string shell_word(const std::string& path);
+std::string quote_shell_word(const std::string& path);
 
 }  // namespace corpuscle

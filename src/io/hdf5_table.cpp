@@ -5,7 +5,7 @@
 namespace corpuscle {
 
 Result<std::unique_ptr<Table>> open_hdf5_table(const std::string& path, const TableOptions& options) {
-    return table_of(remote_samples(path, {"corpuscle-hdf5", "the HDF5 library"}, options), path);
+    return make_table(open_remote_samples(path, {"corpuscle-hdf5", "the HDF5 library"}, options), path);
 }
 
 }  // namespace corpuscle

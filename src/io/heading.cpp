@@ -5,7 +5,7 @@
 
 #include "io/utf8.hpp"
 #include "signal/quantity.hpp"
-#include "signal/text.hpp"
+#include "signal/ascii_text.hpp"
 
 namespace corpuscle {
 namespace {
@@ -34,7 +34,7 @@ constexpr std::string_view ambiguous_units[] = {"", "1", "F", "A", "S", "T", "C"
 bool shows_unit(std::string_view name, std::string_view letter) {
     const auto n = lower(name);
     if (letter == "C" || letter == "K" || letter == "F") return contains_any(n, {"temp", "therm"}) || (n == "t" && letter != "F");
-    if (letter == "h" || letter == "min") return may_name_time(n);
+    if (letter == "h" || letter == "min") return may_be_time_name(n);
     return letter == "A" && (contains_any(n, {"current", "strom"}) || n == "i");
 }
 
@@ -65,7 +65,7 @@ std::string_view time_unit_named(std::string_view name) {
     if (const auto dot = name.rfind('.'); dot != name.npos) name.remove_prefix(dot + 1);
     if (name.size() == 2 && name != lower(name)) return "";  // MS may be the name of a sensor
     for (const auto& [word, unit] : words)
-        if (same_letters(name, word)) return unit;
+        if (equal_ignoring_case(name, word)) return unit;
     return "";
 }
 
@@ -77,11 +77,11 @@ std::string_view without_slash(std::string_view name) {
 }  // namespace
 
 bool is_unit(std::string_view word) {
-    return in_list(unit_words, word) || in_list(never_force, word) || seconds_in(word) || (!word.empty() && parse_unit(word));
+    return in_list(unit_words, word) || in_list(never_force, word) || seconds_per_time_unit(word) || (!word.empty() && parse_unit(word));
 }
 
 Column parse_heading(std::string_view written) {
-    const auto text = with_single_quotes(utf8_text(written));
+    const auto text = with_single_quotes(to_utf8(written));
     const std::string_view field = text;
     if (const auto unit = time_unit_named(field); !unit.empty()) return {text, std::string(unit)};
     for (const auto& [open, close] : {std::pair{'[', ']'}, std::pair{'(', ')'}})
@@ -102,18 +102,18 @@ Column parse_heading(std::string_view written) {
     return {std::string(field), ""};
 }
 
-bool names_time(std::string_view name) {
+bool is_time_name(std::string_view name) {
     constexpr std::string_view words[] = {"time", "timestamp", "t", "times", "timestamps", "time stamp"};
     return in_list(words, lower(name));
 }
 
-bool may_name_time(std::string_view name) {
+bool may_be_time_name(std::string_view name) {
     constexpr std::string_view words[] = {"date", "clock", "elapsed", "seconds", "secs", "sec", "millis", "micros", "ms", "us", "x_value"};
     const auto word = lower(name);
-    return names_time(word) || in_list(words, word) || contains_any(word, {"time", "stamp", "zeit", "temps", "tiempo", "tempo"});
+    return is_time_name(word) || in_list(words, word) || contains_any(word, {"time", "stamp", "zeit", "temps", "tiempo", "tempo"});
 }
 
-bool names_index(std::string_view name) {
+bool is_index_name(std::string_view name) {
     constexpr std::string_view words[] = {"index",
                                           "idx",
                                           "sample",
@@ -144,12 +144,12 @@ bool names_index(std::string_view name) {
     return in_list(words, word);
 }
 
-bool names_sequence(std::string_view name) {
+bool is_sequence_name(std::string_view name) {
     const auto word = lower(name);
     return word.ends_with("sequence") || word == "seq" || word.ends_with("_seq") || word.ends_with(".seq");
 }
 
-bool names_trial(std::string_view name) {
+bool is_trial_name(std::string_view name) {
     constexpr std::string_view words[] = {"trial",    "trials",  "trial_id",   "trial_number", "trial_no",   "trial number",
                                           "run",      "rep",     "repeat",     "epoch",        "repetition", "subject",
                                           "block",    "session", "condition",  "participant",  "subject_id", "segment",
@@ -157,7 +157,7 @@ bool names_trial(std::string_view name) {
     return in_list(words, lower(name));
 }
 
-std::optional<double> seconds_in(std::string_view unit) {
+std::optional<double> seconds_per_time_unit(std::string_view unit) {
     constexpr std::pair<std::string_view, double> words[] = {{"sec", 1},
                                                              {"secs", 1},
                                                              {"second", 1},
@@ -183,16 +183,16 @@ std::optional<double> seconds_in(std::string_view unit) {
         if (word == unit) return factor;
     if (unit.empty()) return {};
     const auto known = parse_unit(unit);
-    if (known && known->same_kind(*parse_unit("s"))) return known->factor;
+    if (known && known->has_same_dimension(*parse_unit("s"))) return known->factor;
     return {};
 }
 
 bool is_never_force(std::string_view unit) {
-    if (in_list(never_force, unit) || seconds_in(unit)) return true;
+    if (in_list(never_force, unit) || seconds_per_time_unit(unit)) return true;
     const auto known = unit.empty() ? Result<Unit>(bad_input("")) : parse_unit(unit);
     if (!known) return false;
     for (const auto* other : {"Hz", "m/s", "m/s2", "N m"})
-        if (known->same_kind(*parse_unit(other))) return true;
+        if (known->has_same_dimension(*parse_unit(other))) return true;
     return false;
 }
 

@@ -53,9 +53,9 @@ int spawn(const std::string& program, const std::string& argument, int socket, i
     ::posix_spawn_file_actions_init(&actions);
     ::posix_spawnattr_init(&attributes);
     for (int k = 0; k < 3; ++k) ::posix_spawn_file_actions_addopen(&actions, k, "/dev/null", O_RDWR, 0);
-    ::posix_spawn_file_actions_adddup2(&actions, socket, HelperProcess::socket_number);
-    ::posix_spawn_file_actions_adddup2(&actions, file, HelperProcess::file_number);
-    ::posix_spawn_file_actions_addclosefrom_np(&actions, HelperProcess::file_number + 1);
+    ::posix_spawn_file_actions_adddup2(&actions, socket, HelperProcess::socket_descriptor);
+    ::posix_spawn_file_actions_adddup2(&actions, file, HelperProcess::file_descriptor);
+    ::posix_spawn_file_actions_addclosefrom_np(&actions, HelperProcess::file_descriptor + 1);
     sigset_t none, all;
     ::sigemptyset(&none);
     ::sigfillset(&all);
@@ -94,7 +94,7 @@ Result<HelperProcess> HelperProcess::start(const std::string& program, int file,
     HelperProcess helper;
     helper.socket_ = ends[0];
     helper.program_ = program;
-    const timeval timeout{seconds_to_answer + 5, 0};  // longer than the child's own alarm, which normally ends it first
+    const timeval timeout{response_timeout_s + 5, 0};  // longer than the child's own alarm, which normally ends it first
     (void)::setsockopt(ends[0], SOL_SOCKET, SO_RCVTIMEO, &timeout, sizeof timeout);
     const HighDescriptor socket(ends[1]), opened(file);
     ::close(ends[1]);
@@ -105,7 +105,7 @@ Result<HelperProcess> HelperProcess::start(const std::string& program, int file,
     return helper;
 }
 
-Result<Message> HelperProcess::answer(const std::string& path, const std::string& library) {
+Result<Message> HelperProcess::receive(const std::string& path, const std::string& library) {
     Message m;
     if (m.receive(socket_)) return m;
     return failure(path, library);
@@ -119,10 +119,10 @@ Error HelperProcess::failure(const std::string& path, const std::string& library
     while (child > 0 && ::waitpid(child, &status, 0) < 0 && errno == EINTR) {
     }
     const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
-    if (signal == SIGINT || signal == SIGTERM || signal == SIGHUP) return {Code::interrupted, "interrupted", {path}};
+    if (signal == SIGINT || signal == SIGTERM || signal == SIGHUP) return {ErrorCode::interrupted, "interrupted", {path}};
     if (silent || signal == SIGALRM)
-        return bad_input(fmt::format("{} did not read this file within {} s; it may be damaged", library, seconds_to_answer), {path});
-    if (signal == 0 && WEXITSTATUS(status) == other_version)
+        return bad_input(fmt::format("{} did not read this file within {} s; it may be damaged", library, response_timeout_s), {path});
+    if (signal == 0 && WEXITSTATUS(status) == exit_unknown_protocol)
         return bad_input(fmt::format("{} belongs to another version of Corpuscle; install both from the same version", program_), {path});
     const auto how = signal ? fmt::format("signal {}", signal) : fmt::format("status {}", WEXITSTATUS(status));
     return bad_input(fmt::format("{} could not read this file ({}); it may be damaged", library, how), {path});

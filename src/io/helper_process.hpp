@@ -19,10 +19,10 @@ class HelperProcess {
     Error failure(const std::string& path, const std::string& library);
 
 public:
-    static constexpr unsigned seconds_to_answer = 60;
-    static constexpr std::uint64_t memory = std::uint64_t{4} << 30;  ///< bytes, in addition to the memory needed to start
-    static constexpr int socket_number = 3, file_number = 4;         ///< descriptors in the child
-    static constexpr int other_version = 2;                          ///< exit status of a child that does not know `protocol`
+    static constexpr unsigned response_timeout_s = 60;
+    static constexpr std::uint64_t memory_limit = std::uint64_t{4} << 30;  ///< bytes, in addition to the memory needed to start
+    static constexpr int socket_descriptor = 3, file_descriptor = 4;         ///< descriptors in the child
+    static constexpr int exit_unknown_protocol = 2;                          ///< exit status of a child that does not know `protocol`
     static constexpr const char* protocol = "reader-1";              ///< the only argument of the child
 
     HelperProcess() = default;
@@ -32,16 +32,16 @@ public:
 
     /// Starts the program at this path with an open file. The caller keeps its own descriptor.
     static Result<HelperProcess> start(const std::string& program, int file, const std::string& argument = protocol);
-    pid_t id() const { return child_; }
+    pid_t pid() const { return child_; }
 
-    void ask(const Message& m) { (void)m.send(socket_); }  // receive() reports a child that has exited
+    void send(const Message& m) { (void)m.send(socket_); }  // receive() reports a child that has exited
     /// The next message. If there is none, an error about the file that begins with `library`.
-    Result<Message> answer(const std::string& path, const std::string& library);
+    Result<Message> receive(const std::string& path, const std::string& library);
 };
 
 /// The path of an installed helper program. Searches the directory in the environment variable CORPUSCLE_LIBEXEC if it is set.
 /// Otherwise searches the directory of the running program, ../libexec/corpuscle relative to it, and the libexec directory of the
 /// install prefix.
-Result<std::string> helper_program(const std::string& name);
+Result<std::string> find_helper_program(const std::string& name);
 
 }  // namespace corpuscle

@@ -25,7 +25,7 @@ std::vector<std::filesystem::path> directories() {
 
 }  // namespace
 
-Result<std::string> helper_program(const std::string& name) {
+Result<std::string> find_helper_program(const std::string& name) {
     const auto all = directories();
     std::string tried;
     for (const auto& directory : all) {

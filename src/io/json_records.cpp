@@ -7,7 +7,7 @@
 
 #include "io/heading.hpp"
 #include "io/samples.hpp"
-#include "signal/text.hpp"
+#include "signal/ascii_text.hpp"
 
 namespace corpuscle {
 namespace {
@@ -104,10 +104,10 @@ public:
 
 class JsonReader {
     using Take = std::function<Result<void>(std::span<const JsonField>, long)>;
-    Lines& lines_;
+    LineReader& lines_;
     const Take& take_;
     const std::function<bool()>& keep_on_;
-    JsonFacts* metadata_;
+    JsonMetadata* metadata_;
     std::vector<JsonField> fields_;
 
     Error error_at(std::string message, long line = 0) const { return bad_input(std::move(message), {lines_.path(), line}); }
@@ -117,7 +117,7 @@ class JsonReader {
         if (!plain) return error_at(fmt::format("this JSON is nested more than {} deep, so it is not a table", max_depth), line);
         DocumentBuilder builder(keep_on_);
         if (OrderedJson::sax_parse(*plain, &builder)) return std::move(builder.document);
-        if (builder.interrupted) return Error{Code::interrupted, "interrupted"};
+        if (builder.interrupted) return Error{ErrorCode::interrupted, "interrupted"};
         if (!builder.wrong_at) return error_at("this JSON contains a number that is too large", line);
         std::size_t at = 0;  // position in the original text
         static_cast<void>(plain_json(text, std::min(*builder.wrong_at, plain->size()), &at));
@@ -189,7 +189,7 @@ class JsonReader {
     /// Reads a rate and a unit outside the table.
     void read_metadata(const OrderedJson& object) {
         for (const auto& [key, value] : object.items()) {
-            if (value.is_number() && names_rate(key) && value.get<double>() > 0 && std::isfinite(value.get<double>()))
+            if (value.is_number() && is_rate_name(key) && value.get<double>() > 0 && std::isfinite(value.get<double>()))
                 metadata_->rate = value.get<double>();
             if (value.is_string() && (key == "unit" || key == "units") && is_unit(value.get<std::string>()))
                 metadata_->unit = value.get<std::string>();
@@ -207,7 +207,7 @@ class JsonReader {
         std::erase_if(columns, [&](const JsonColumn& c) {
             const bool other = c.values.size() != rows && !has_numbers(c);
             if (other && metadata_)
-                metadata_->remarks.push_back(
+                metadata_->notes.push_back(
                     fmt::format("'{}' was ignored: it has {} strings, but the table has {} rows", c.name, c.values.size(), rows));
             return other;
         });
@@ -266,7 +266,7 @@ class JsonReader {
         if (auto ok = lines_.rewind(); !ok) return ok.error();
         if (lines == 0 || !alike || first.size() > max_document) return false;
         const auto record = parse(first, 1);
-        if (!record && record.error().code == Code::interrupted) return record.error();
+        if (!record && record.error().code == ErrorCode::interrupted) return record.error();
         if (!record || !record->is_structured()) return false;
         if (lines > 1) return true;
         return record->is_object() && std::none_of(record->begin(), record->end(), [](const OrderedJson& v) { return v.is_structured(); });
@@ -278,10 +278,10 @@ class JsonReader {
             if (!more) return more.error();
             if (!*more) return {};
             if (trimmed(line).empty()) continue;
-            const auto record = parse(line, lines_.number());
+            const auto record = parse(line, lines_.line_number());
             if (!record) return record.error();
-            if (!record->is_structured()) return error_at("expected a record here, such as {\"time_s\": 0, \"fz_N\": 1}", lines_.number());
-            if (auto ok = give(*record, lines_.number()); !ok) return ok;
+            if (!record->is_structured()) return error_at("expected a record here, such as {\"time_s\": 0, \"fz_N\": 1}", lines_.line_number());
+            if (auto ok = give(*record, lines_.line_number()); !ok) return ok;
         }
     }
 
@@ -304,7 +304,7 @@ class JsonReader {
     }
 
 public:
-    JsonReader(Lines& lines, const Take& take, const std::function<bool()>& keep_on, JsonFacts* metadata)
+    JsonReader(LineReader& lines, const Take& take, const std::function<bool()>& keep_on, JsonMetadata* metadata)
         : lines_(lines), take_(take), keep_on_(keep_on), metadata_(metadata) {}
 
     Result<void> read() {
@@ -316,12 +316,12 @@ public:
 
 }  // namespace
 
-Result<void> read_json_records(Lines& lines, const std::function<Result<void>(std::span<const JsonField>, long line)>& take,
-                               const std::function<bool()>& keep_on, JsonFacts* metadata) {
+Result<void> read_json_records(LineReader& lines, const std::function<Result<void>(std::span<const JsonField>, long line)>& take,
+                               const std::function<bool()>& keep_on, JsonMetadata* metadata) {
     return JsonReader(lines, take, keep_on, metadata).read();
 }
 
-Result<bool> begins_like_json(Lines& lines) {
+Result<bool> looks_like_json(LineReader& lines) {
     std::string_view line;
     bool json = false;
     for (;;) {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "io/lines.hpp"
+#include "io/line_reader.hpp"
 
 namespace corpuscle {
 
@@ -19,19 +19,19 @@ struct JsonField {
 };
 
 /// Information in a document outside its table.
-struct JsonFacts {
+struct JsonMetadata {
     std::optional<double> rate = {};  ///< Hz, from a number called fs, rate ...
     std::string unit = {};            ///< unit of columns without a unit in their name, from a string called unit
-    std::vector<std::string> remarks = {};
+    std::vector<std::string> notes = {};
 };
 
 /// Passes the records to `take`, with the line number for JSON lines and 0 otherwise. Stops if `take` returns an error, or if
 /// `keep_on`, which is called every few thousand values, returns false.
 Result<void> read_json_records(
-    Lines&, const std::function<Result<void>(std::span<const JsonField>, long line)>& take,
-    const std::function<bool()>& keep_on = [] { return true; }, JsonFacts* metadata = nullptr);
+    LineReader&, const std::function<Result<void>(std::span<const JsonField>, long line)>& take,
+    const std::function<bool()>& keep_on = [] { return true; }, JsonMetadata* metadata = nullptr);
 
 /// True if the text begins like JSON. Rewinds the text.
-Result<bool> begins_like_json(Lines&);
+Result<bool> looks_like_json(LineReader&);
 
 }  // namespace corpuscle

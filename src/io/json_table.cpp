@@ -28,7 +28,7 @@ class JsonTable final : public Table {
     std::unordered_map<std::string, std::size_t> column_indices_;
     std::vector<long> lines_;  // line number of each record, for JSON lines
     ColumnRoles roles_;
-    JsonFacts metadata_;
+    JsonMetadata metadata_;
     std::size_t rows_ = 0, next_ = 0, block_ = 0, numbers_ = 0;
 
     static constexpr double none = std::numeric_limits<double>::quiet_NaN();
@@ -44,17 +44,17 @@ class JsonTable final : public Table {
             return x;
         }
         const auto stamp = parse_time_stamp(word);
-        if (first) first->add_other(stamp ? first->stamps : first->words);
+        if (first) first->add_other(stamp ? first->stamp_count : first->word_count);
         if (!stamp) return none;
         if (!v.stamp) v.stamp = stamp;
         return seconds_between(*v.stamp, *stamp);
     }
 
     double number_of(const nlohmann::ordered_json& value, Values& v) {
-        FirstFields* const first = rows_ < rows_looked_at ? &v.first : nullptr;
+        FirstFields* const first = rows_ < inspected_rows ? &v.first : nullptr;
         if (value.is_string()) return number_of(value.get_ref<const std::string&>(), v, first);
         const double x = value.is_number() ? value.get<double>() : none;
-        if (first) std::isnan(x) ? first->add_other(value.is_boolean() ? first->words : first->nothing) : first->add_number(x);
+        if (first) std::isnan(x) ? first->add_other(value.is_boolean() ? first->word_count : first->empty_count) : first->add_number(x);
         return x;
     }
 
@@ -73,7 +73,7 @@ class JsonTable final : public Table {
             if (numbers_ > max_json_numbers)
                 return error_at("the table is too large for memory; save it as CSV, which is read in blocks", line);
             v.numbers.resize(rows_, none);
-            for (std::size_t k = v.first.numbers.size(); k < std::min(rows_, rows_looked_at); ++k) v.first.add_other(v.first.nothing);
+            for (std::size_t k = v.first.numbers.size(); k < std::min(rows_, inspected_rows); ++k) v.first.add_other(v.first.empty_count);
             v.numbers.push_back(number_of(*f.value, v));
         }
         ++rows_;
@@ -84,9 +84,9 @@ class JsonTable final : public Table {
 public:
     explicit JsonTable(std::string path) : path_(std::move(path)) {}
 
-    Result<void> open(Lines& lines, const std::function<bool()>& keep_on) {
+    Result<void> open(LineReader& lines, const std::function<bool()>& keep_on) {
         const auto take = [this, &keep_on](auto fields, long line) {
-            if (rows_ % rows_a_block == 0 && !keep_on()) return Result<void>(Error{Code::interrupted, "interrupted"});
+            if (rows_ % rows_per_block == 0 && !keep_on()) return Result<void>(Error{ErrorCode::interrupted, "interrupted"});
             return add(fields, line);
         };
         if (auto ok = read_json_records(lines, take, keep_on, &metadata_); !ok) return ok;
@@ -96,30 +96,30 @@ public:
         std::vector<FirstFields> first;
         for (auto& v : values_) {
             v.numbers.resize(rows_, none);
-            for (std::size_t k = v.first.numbers.size(); k < std::min(rows_, rows_looked_at); ++k) v.first.add_other(v.first.nothing);
+            for (std::size_t k = v.first.numbers.size(); k < std::min(rows_, inspected_rows); ++k) v.first.add_other(v.first.empty_count);
             first.push_back(std::move(v.first));
         }
-        roles_ = assign_roles(columns_, first, are_named(columns_));
+        roles_ = assign_roles(columns_, first, have_own_names(columns_));
         for (std::size_t c = 0; c < columns_.size(); ++c)
-            if (columns_[c].unit.empty() && columns_[c].left_out.empty() && c != roles_.time) columns_[c].unit = metadata_.unit;
-        if (roles_.time && columns_[*roles_.time].stamps) {
-            const auto& s = *values_[*roles_.time].stamp;
+            if (columns_[c].unit.empty() && columns_[c].exclusion_reason.empty() && c != roles_.time_column) columns_[c].unit = metadata_.unit;
+        if (roles_.time_column && columns_[*roles_.time_column].holds_time_stamps) {
+            const auto& s = *values_[*roles_.time_column].stamp;
             const auto instant = format_instant(static_cast<double>(s.day) * 86'400 + static_cast<double>(s.nanoseconds) * 1e-9);
-            roles_.remarks.push_back(
-                fmt::format("0 s is {}, the first time in '{}'", s.dated ? instant : instant.substr(11), columns_[*roles_.time].name));
+            roles_.notes.push_back(
+                fmt::format("0 s is {}, the first time in '{}'", s.has_date ? instant : instant.substr(11), columns_[*roles_.time_column].name));
         }
         return {};
     }
 
     const std::vector<Column>& columns() const override { return columns_; }
-    std::optional<std::size_t> time_column() const override { return roles_.time; }
-    bool time_is_guessed() const override { return roles_.time_is_guessed; }
+    std::optional<std::size_t> time_column() const override { return roles_.time_column; }
+    bool is_time_guessed() const override { return roles_.is_time_guessed; }
     std::optional<double> rate() const override { return metadata_.rate; }
-    std::vector<std::string> remarks() const override { return metadata_.remarks; }
-    std::vector<std::string> time_remarks() const override { return roles_.remarks; }
-    double done() const override { return rows_ > 0 ? static_cast<double>(next_) / static_cast<double>(rows_) : 1; }
+    std::vector<std::string> notes() const override { return metadata_.notes; }
+    std::vector<std::string> time_notes() const override { return roles_.notes; }
+    double progress() const override { return rows_ > 0 ? static_cast<double>(next_) / static_cast<double>(rows_) : 1; }
     Result<void> rewind() override { return next_ = 0, Result<void>{}; }
-    Place place(std::size_t row) const override {
+    SourceLocation location(std::size_t row) const override {
         const auto at = block_ + row;
         if (at < lines_.size()) return {path_, lines_[at]};
         return {fmt::format("{}: record {}", path_, at + 1)};  // in a document, line numbers do not identify records
@@ -135,12 +135,12 @@ public:
             const auto bad = std::find_if_not(out[i].begin(), out[i].end(), [](double x) { return std::isfinite(x); });
             if (bad == out[i].end()) continue;
             const auto row = static_cast<std::size_t>(bad - out[i].begin());
-            if (!gaps_allowed_)
+            if (!allows_gaps_)
                 return bad_input(
                     fmt::format("record {}: '{}' is not a number; use --bad-fields interpolate to fill it in, or --bad-fields drop to "
                                 "skip the record",
                                 next_ + row + 1, columns_[wanted[i]].name),
-                    lines_.empty() ? Place{path_} : place(row));
+                    lines_.empty() ? SourceLocation{path_} : location(row));
             std::replace_if(
                 out[i].begin(), out[i].end(), [](double x) { return std::isinf(x); }, none);
         }
@@ -151,7 +151,7 @@ public:
 
 }  // namespace
 
-Result<std::unique_ptr<Table>> open_json_table(Lines lines, const std::function<bool()>& keep_on) {
+Result<std::unique_ptr<Table>> open_json_table(LineReader lines, const std::function<bool()>& keep_on) {
     auto table = std::make_unique<JsonTable>(lines.path());
     if (auto ok = table->open(lines, keep_on); !ok) return ok.error();
     return std::unique_ptr<Table>(std::move(table));

@@ -1,11 +1,11 @@
 #pragma once
 // JSON lines, and JSON documents of records or columns, as tables. All values are kept in memory.
 
-#include "io/lines.hpp"
+#include "io/line_reader.hpp"
 #include "io/table.hpp"
 
 namespace corpuscle {
 
-Result<std::unique_ptr<Table>> open_json_table(Lines, const std::function<bool()>& keep_on);
+Result<std::unique_ptr<Table>> open_json_table(LineReader, const std::function<bool()>& keep_on);
 
 }  // namespace corpuscle

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "signal/text.hpp"
+#include "signal/ascii_text.hpp"
 
 namespace corpuscle {
 namespace {
@@ -14,7 +14,7 @@ constexpr std::string_view end_of_header = "***End_of_Header***";
 class LabviewReader {
     const std::vector<std::string>& lines_;
     std::string path_;
-    LabviewHead head_;
+    LabviewHeader head_;
     Fields fields_;
     std::vector<std::string> units_;
     double step_ = 0;
@@ -33,7 +33,7 @@ class LabviewReader {
         if (name == "X_Dimension") time_ = fields_[1] == "Time";
         if (name == "Y_Unit_Label") units_.assign(fields_.begin() + 1, fields_.end());
         if (name == "Delta_X") {
-            head_.dialect.number(fields_[1], step_);
+            head_.dialect.parse_number(fields_[1], step_);
             delta_column_ = true;
         }
     }
@@ -50,9 +50,9 @@ class LabviewReader {
                 if (first && x_columns_ != "No")
                     column = {time_ ? "time" : "X_Value", time_ ? "s" : ""};
                 else
-                    column.left_out = x_columns_ == "No" ? "is empty" : "is the clock of another channel";
+                    column.exclusion_reason = x_columns_ == "No" ? "is empty" : "is the clock of another channel";
             } else if (name == "Comment") {
-                column.left_out = "holds comments";
+                column.exclusion_reason = "holds comments";
             } else {
                 if (channel < units_.size()) column.unit = units_[channel];
                 ++channel;
@@ -66,7 +66,7 @@ class LabviewReader {
 public:
     LabviewReader(const std::vector<std::string>& lines, std::string path) : lines_(lines), path_(std::move(path)) {}
 
-    Result<LabviewHead> read() {
+    Result<LabviewHeader> read() {
         head_.dialect = {lines_[0].find(',') != std::string::npos && lines_[0].find('\t') == std::string::npos ? ',' : '\t', false};
         for (std::size_t k = 1; k < std::min<std::size_t>(lines_.size(), 12); ++k)
             if (lines_[k].starts_with("Separator"))
@@ -92,7 +92,7 @@ public:
 
 bool is_labview(std::string_view first_line) { return first_line.starts_with("LabVIEW Measurement"); }
 
-Result<LabviewHead> read_labview_head(const std::vector<std::string>& lines, const std::string& path) {
+Result<LabviewHeader> read_labview_header(const std::vector<std::string>& lines, const std::string& path) {
     return LabviewReader(lines, path).read();
 }
 

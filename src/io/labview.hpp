@@ -11,7 +11,7 @@
 
 namespace corpuscle {
 
-struct LabviewHead {
+struct LabviewHeader {
     Dialect dialect;
     std::vector<Column> columns;
     std::optional<double> rate = {};  ///< Hz, if the times are not in the table
@@ -21,6 +21,6 @@ struct LabviewHead {
 bool is_labview(std::string_view first_line);
 
 /// `lines` are the first lines that are not empty.
-Result<LabviewHead> read_labview_head(const std::vector<std::string>& lines, const std::string& path);
+Result<LabviewHeader> read_labview_header(const std::vector<std::string>& lines, const std::string& path);
 
 }  // namespace corpuscle

@@ -10,13 +10,13 @@
 namespace corpuscle {
 
 class LogHistogram {
-    static constexpr std::int64_t bins = 256, lowest = (std::int64_t{1023 - 44}) << 2;
+    static constexpr std::int64_t bins = 256, first_key = (std::int64_t{1023 - 44}) << 2;
     std::array<std::uint32_t, bins> counts_{};
 
     /// The bin is given by the exponent and the first two bits of the mantissa. Numbers <= 0 are in bin 0.
     static std::size_t bin(double x) {
         if (!(x > 0)) return 0;
-        const auto key = static_cast<std::int64_t>(std::bit_cast<std::uint64_t>(x) >> 50) - lowest;
+        const auto key = static_cast<std::int64_t>(std::bit_cast<std::uint64_t>(x) >> 50) - first_key;
         return static_cast<std::size_t>(std::clamp<std::int64_t>(key, 0, bins - 1));
     }
 
@@ -30,11 +30,11 @@ public:
         std::int64_t seen = all - count();
         std::size_t b = 0;
         while (b + 1 < counts_.size() && 2 * (seen += counts_[b]) < all) ++b;
-        return b == 0 ? 0 : std::bit_cast<double>(static_cast<std::uint64_t>(static_cast<std::int64_t>(b) + lowest) << 50);
+        return b == 0 ? 0 : std::bit_cast<double>(static_cast<std::uint64_t>(static_cast<std::int64_t>(b) + first_key) << 50);
     }
 
     /// The count of numbers above x, without those in the bin of x.
-    std::int64_t above(double x) const {
+    std::int64_t count_above(double x) const {
         std::int64_t count = 0;
         for (std::size_t b = bin(x) + 1; b < counts_.size(); ++b) count += counts_[b];
         return count;

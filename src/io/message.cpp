@@ -35,17 +35,17 @@ bool receive_all(int socket, void* data, std::size_t size) {
 }  // namespace
 
 bool Message::get(void* data, std::size_t size) {
-    if (bytes_.size() - at_ < size) return false;
-    if (size > 0) std::memcpy(data, bytes_.data() + at_, size);
-    at_ += size;
+    if (bytes_.size() - position_ < size) return false;
+    if (size > 0) std::memcpy(data, bytes_.data() + position_, size);
+    position_ += size;
     return true;
 }
 
 bool Message::get(std::string& s) {
     std::uint64_t size = 0;
-    if (!get(size) || bytes_.size() - at_ < size) return false;
-    s = bytes_.substr(at_, size);
-    at_ += size;
+    if (!get(size) || bytes_.size() - position_ < size) return false;
+    s = bytes_.substr(position_, size);
+    position_ += size;
     return true;
 }
 
@@ -57,7 +57,7 @@ bool Message::send(int socket) const {
 bool Message::receive(int socket) {
     std::uint64_t size = 0;
     bytes_.clear();
-    at_ = 0;
+    position_ = 0;
     if (!receive_all(socket, &size, sizeof size) || size > max_message) return false;
     while (bytes_.size() < size) {
         const auto had = bytes_.size();

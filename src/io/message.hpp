@@ -9,7 +9,7 @@ namespace corpuscle {
 /// Values are read in the order in which they were written.
 class Message {
     std::string bytes_;
-    std::size_t at_ = 0;
+    std::size_t position_ = 0;
 
 public:
     Message() = default;

@@ -82,7 +82,7 @@ std::optional<NpyField> parse_type(std::string_view text) {
     return field;
 }
 
-std::size_t elements_of(const Python& shape) {
+std::size_t elements_of(const PythonLiteral& shape) {
     std::size_t product = 1;
     for (const auto& n : shape.items)
         if (__builtin_mul_overflow(product, static_cast<std::size_t>(n.number), &product)) return max_header;
@@ -90,22 +90,22 @@ std::size_t elements_of(const Python& shape) {
 }
 
 /// Parses a type name, or the list of fields of a structured type: (name, type) or (name, type, shape).
-std::optional<std::vector<NpyField>> parse_fields(const Python& type, std::size_t& element) {
+std::optional<std::vector<NpyField>> parse_fields(const PythonLiteral& type, std::size_t& element) {
     std::vector<NpyField> fields;
-    if (type.kind == Python::text) {
-        const auto plain = parse_type(type.letters);
+    if (type.kind == PythonLiteral::text) {
+        const auto plain = parse_type(type.characters);
         if (!plain) return {};
         element = plain->size;
         return std::vector{*plain};
     }
-    if (type.kind != Python::list || type.items.empty()) return {};
+    if (type.kind != PythonLiteral::list || type.items.empty()) return {};
     for (const auto& item : type.items) {
-        if (item.items.size() < 2 || item.items[1].kind != Python::text) return {};
-        auto field = parse_type(item.items[1].letters);
+        if (item.items.size() < 2 || item.items[1].kind != PythonLiteral::text) return {};
+        auto field = parse_type(item.items[1].characters);
         if (!field || field->size > max_header) return {};
         if (item.items.size() > 2) field->kind = 'V', field->size *= elements_of(item.items[2]);  // an array in each element
         if (field->size > max_header) return {};
-        field->name = item.items[0].kind == Python::text ? item.items[0].letters : "";
+        field->name = item.items[0].kind == PythonLiteral::text ? item.items[0].characters : "";
         field->offset = element;
         element += field->size;
         if (field->name.empty()) field->kind = 'V';  // padding
@@ -116,27 +116,27 @@ std::optional<std::vector<NpyField>> parse_fields(const Python& type, std::size_
 
 /// Parses the dictionary of the header.
 Result<NpyHeader> parse_header(std::string_view text, const std::string& name) {
-    const auto dictionary = parse_python(text);
-    const Python *type = nullptr, *order = nullptr, *shape = nullptr;
+    const auto dictionary = parse_python_literal(text);
+    const PythonLiteral *type = nullptr, *order = nullptr, *shape = nullptr;
     if (dictionary) type = dictionary->find("descr"), order = dictionary->find("fortran_order"), shape = dictionary->find("shape");
-    if (!type || !order || order->kind != Python::truth || !shape || shape->kind != Python::list)
+    if (!type || !order || order->kind != PythonLiteral::boolean || !shape || shape->kind != PythonLiteral::list)
         return bad_input("the header does not contain descr, fortran_order and shape", {name});
     NpyHeader header;
-    header.by_columns = order->number != 0;
+    header.is_column_major = order->number != 0;
     header.type = type->source.substr(0, 60);
     for (const auto& n : shape->items) {
-        if (n.kind != Python::integer || n.number < 0)
+        if (n.kind != PythonLiteral::integer || n.number < 0)
             return bad_input("the shape in the header is not a list of non-negative integers", {name});
         header.shape.push_back(static_cast<std::uint64_t>(n.number));
     }
-    auto fields = parse_fields(*type, header.element);
-    if (!fields || header.element == 0 || header.element > max_header)
+    auto fields = parse_fields(*type, header.element_size);
+    if (!fields || header.element_size == 0 || header.element_size > max_header)
         return bad_input(fmt::format("unknown NumPy type {} in the header", header.type), {name});
     header.fields = *std::move(fields);
     return header;
 }
 
-Result<std::size_t> header_length(Bytes& bytes, int version) {
+Result<std::size_t> header_length(SeekableBytes& bytes, int version) {
     std::array<std::byte, 4> length{};
     if (auto ok = bytes.read(std::span(length).first(version == 1 ? 2 : 4)); !ok) return ok.error();
     return static_cast<std::size_t>(stored<std::uint32_t, false>(length.data()));
@@ -144,20 +144,20 @@ Result<std::size_t> header_length(Bytes& bytes, int version) {
 
 }  // namespace
 
-bool NpyField::numeric() const {
+bool NpyField::is_numeric() const {
     return (kind == 'b' && size == 1) || (kind == 'f' && (size == 2 || size == 4 || size == 8)) ||
            ((kind == 'i' || kind == 'u') && (size == 1 || size == 2 || size == 4 || size == 8));
 }
 
 double (*NpyField::decoder() const)(const std::byte*) { return big_endian ? decoder_of<true>(kind, size) : decoder_of<false>(kind, size); }
 
-std::uint64_t NpyHeader::count() const {
+std::uint64_t NpyHeader::element_count() const {
     std::uint64_t product = 1;
     for (const auto n : shape) product *= n;
     return product;
 }
 
-Result<NpyHeader> read_npy_header(Bytes& bytes) {
+Result<NpyHeader> read_npy_header(SeekableBytes& bytes) {
     std::array<std::byte, 8> start{};
     const bool is_complete = bytes.size() >= start.size();
     if (auto ok = is_complete ? bytes.read(start) : Result<void>(); !ok) return ok.error();
@@ -172,14 +172,14 @@ Result<NpyHeader> read_npy_header(Bytes& bytes) {
     if (auto ok = bytes.read(std::as_writable_bytes(std::span(text))); !ok) return ok.error();
     auto header = parse_header(text, bytes.name());
     if (!header) return header.error();
-    header->data_at = start.size() + (version == 1 ? 2 : 4) + *length;
-    std::uint64_t needed = header->element;
+    header->data_offset = start.size() + (version == 1 ? 2 : 4) + *length;
+    std::uint64_t needed = header->element_size;
     bool is_too_large = false;
     for (const auto n : header->shape) is_too_large = __builtin_mul_overflow(needed, n, &needed) || is_too_large;
     const bool pickled = std::any_of(header->fields.begin(), header->fields.end(), [](const auto& f) { return f.kind == 'O'; });
-    if (!pickled && (is_too_large || needed > bytes.size() - header->data_at))
+    if (!pickled && (is_too_large || needed > bytes.size() - header->data_offset))
         return bad_input(fmt::format("the array needs {} bytes, but the file has {}; it may be incomplete",
-                                     is_too_large ? "more than 2^64" : fmt::format("{}", needed), bytes.size() - header->data_at),
+                                     is_too_large ? "more than 2^64" : fmt::format("{}", needed), bytes.size() - header->data_offset),
                          {bytes.name()});
     return header;
 }

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "io/bytes.hpp"
+#include "io/seekable_bytes.hpp"
 
 namespace corpuscle {
 
@@ -15,7 +15,7 @@ struct NpyField {
     char kind = 'V';                   ///< NumPy's type letter: b i u f are numbers; c U S O V M m are not
     std::size_t size = 0, offset = 0;  ///< bytes within an element
     bool big_endian = false;
-    bool numeric() const;
+    bool is_numeric() const;
     /// A function that reads the number. Only for a numeric field.
     double (*decoder() const)(const std::byte*);
 };
@@ -23,16 +23,16 @@ struct NpyField {
 struct NpyHeader {
     std::string type = {};  ///< as written in the file
     std::vector<NpyField> fields = {};
-    std::size_t element = 0;  ///< bytes
-    bool by_columns = false;  ///< Fortran order
+    std::size_t element_size = 0;  ///< bytes
+    bool is_column_major = false;  ///< Fortran order
     std::vector<std::uint64_t> shape = {};
-    std::uint64_t data_at = 0;
+    std::uint64_t data_offset = 0;
 
-    std::uint64_t count() const;  ///< number of elements
+    std::uint64_t element_count() const;  ///< number of elements
 };
 
 /// Reads versions 1, 2 and 3. An unknown type, or more elements than the file has bytes for, is an error.
-Result<NpyHeader> read_npy_header(Bytes&);
+Result<NpyHeader> read_npy_header(SeekableBytes&);
 
 /// The header of a one-dimensional array of `count` elements.
 std::string npy_header(std::string_view type, std::size_t count);

@@ -5,7 +5,7 @@
 #include "io/foreign_format.hpp"
 #include "io/npy_table.hpp"
 #include "io/spike_columns.hpp"
-#include "io/trains.hpp"
+#include "io/train_collector.hpp"
 
 namespace corpuscle {
 namespace {
@@ -28,36 +28,36 @@ Result<std::vector<NamedTrain>> read_npy_spikes(const std::string& path, const S
     for (const auto& c : (*table)->columns()) headings.push_back(c.unit.empty() ? c.name : c.name + "_" + c.unit);
     if (headings.size() == 1) headings[0].clear();
     const bool plain = headings.size() > 1 && headings[0] == "ch1";
-    if (plain && !(wanted.time && wanted.unit))
+    if (plain && !(wanted.time && wanted.train))
         return bad_input(
             fmt::format("the array has {} columns; select the columns of times and trains, such as --time 1 --unit 2", headings.size()),
             {path});
     std::size_t column = 0;
     const auto found = find_spike_columns(headings, wanted, column);
-    if (!found) return bad_input(found.error().sentence, {path});
+    if (!found) return bad_input(found.error().message, {path});
     std::vector<std::size_t> columns = {found->time};
     if (found->afferent) columns.push_back(*found->afferent);
     if (found->channel) columns.push_back(*found->channel);
-    Trains trains;
+    TrainCollector trains;
     std::vector<double> all;
     for (std::vector<std::vector<double>> block(columns.size());;) {
-        const auto rows = (*table)->read(columns, rows_a_block, block);
+        const auto rows = (*table)->read(columns, rows_per_block, block);
         if (!rows) return rows.error();
         if (*rows == 0) break;
         for (std::size_t k = 0; k < *rows; ++k) {
             const auto afferent = found->afferent ? unit_name(block[1][k]) : std::string();
             const auto channel = found->channel ? unit_name(block.back()[k]) : std::string();
-            trains.of(afferent, channel).push_back(block[0][k] * found->seconds);
+            trains.train(afferent, channel).push_back(block[0][k] * found->seconds_per_unit);
             all.push_back(block[0][k]);
         }
     }
-    if (found->seconds == 1 && are_sample_numbers(all))
+    if (found->seconds_per_unit == 1 && are_sample_numbers(all))
         return bad_input(
             fmt::format("the times are integers, as sample numbers are; convert them to seconds with the sample rate: python3 -c "
                         "\"import numpy; numpy.save('seconds.npy', numpy.load('{}') / 30000)\"",
                         path.find_first_of("'\"\\$`!") == path.npos ? path : "FILE.npy"),
             {path});
-    return std::move(trains).in_order();
+    return std::move(trains).sorted();
 }
 
 }  // namespace corpuscle

@@ -11,23 +11,23 @@
 namespace corpuscle {
 namespace {
 
-bool is_column_major(const NpyHeader& header, const Extent& extent) { return extent.columns > 1 && header.by_columns != extent.lying; }
+bool is_column_major(const NpyHeader& header, const ArrayExtent& extent) { return extent.columns > 1 && header.is_column_major != extent.is_transposed; }
 
 class NpySamples final : public Samples {
-    std::unique_ptr<Bytes> bytes_;
+    std::unique_ptr<SeekableBytes> bytes_;
     NpyHeader header_;
-    Extent extent_;
+    ArrayExtent extent_;
     bool by_columns_;               // the elements of a channel are contiguous
     std::vector<NpyField> fields_;  // one for each column; a single one if the array is not is_structured
-    SamplesFacts info_;
+    SamplesInfo info_;
     std::vector<std::byte> buffer_;
 
     bool is_structured() const { return !header_.fields[0].name.empty(); }
     std::size_t field_of(std::size_t column) const { return is_structured() ? column : 0; }
-    std::uint64_t element(std::uint64_t number) const { return header_.data_at + number * header_.element; }
+    std::uint64_t element(std::uint64_t number) const { return header_.data_offset + number * header_.element_size; }
 
     Result<void> read_elements(std::uint64_t first, std::size_t count) {
-        buffer_.resize(count * header_.element);
+        buffer_.resize(count * header_.element_size);
         if (auto ok = bytes_->seek(element(first)); !ok) return ok;
         return bytes_->read(buffer_);
     }
@@ -35,8 +35,8 @@ class NpySamples final : public Samples {
     /// Decodes every `stride`-th element of the buffer, from index `from` on.
     void decode(const NpyField& field, std::size_t from, std::size_t stride, std::span<double> out) const {
         const auto number = field.decoder();
-        const auto* at = buffer_.data() + from * header_.element + field.offset;
-        for (auto& x : out) x = number(at), at += stride * header_.element;
+        const auto* at = buffer_.data() + from * header_.element_size + field.offset;
+        for (auto& x : out) x = number(at), at += stride * header_.element_size;
     }
 
     Result<void> fetch_columns(std::uint64_t first, std::size_t rows, std::span<const std::size_t> wanted,
@@ -49,9 +49,9 @@ class NpySamples final : public Samples {
     }
 
 public:
-    NpySamples(std::unique_ptr<Bytes> bytes, NpyHeader header, Extent extent)
+    NpySamples(std::unique_ptr<SeekableBytes> bytes, NpyHeader header, ArrayExtent extent)
         : bytes_(std::move(bytes)), header_(std::move(header)), extent_(std::move(extent)), by_columns_(is_column_major(header_, extent_)) {
-        if (!extent_.remark.empty()) info_.remarks.push_back(extent_.remark);
+        if (!extent_.note.empty()) info_.notes.push_back(extent_.note);
         info_.rows = static_cast<std::int64_t>(extent_.rows);
     }
 
@@ -61,18 +61,18 @@ public:
             info_.columns = columns_named_after(name, static_cast<std::size_t>(extent_.columns));
         }
         for (const auto& f : header_.fields)
-            if (is_structured() && f.numeric()) fields_.push_back(f), info_.columns.push_back(parse_heading(f.name));
+            if (is_structured() && f.is_numeric()) fields_.push_back(f), info_.columns.push_back(parse_heading(f.name));
     }
     void set_rate(std::optional<double> rate) { info_.rate = rate; }
 
-    const SamplesFacts& facts() const override { return info_; }
+    const SamplesInfo& info() const override { return info_; }
 
     Result<void> fetch(std::int64_t start, std::size_t rows, std::span<const std::size_t> wanted,
                        std::vector<std::vector<double>>& out) override {
         const auto first = static_cast<std::uint64_t>(start);
         const auto width = static_cast<std::size_t>(extent_.columns);
         if (by_columns_) return fetch_columns(first, rows, wanted, out);
-        const std::size_t max_rows = std::max<std::size_t>(1, (std::size_t{1} << 20) / (width * header_.element));
+        const std::size_t max_rows = std::max<std::size_t>(1, (std::size_t{1} << 20) / (width * header_.element_size));
         for (std::size_t done = 0; done < rows; done += max_rows) {
             const auto count = std::min(max_rows, rows - done);
             if (auto ok = read_elements((first + done) * width, count * width); !ok) return ok;
@@ -84,7 +84,7 @@ public:
 };
 
 bool has_numbers(const NpyHeader& header) {
-    return std::any_of(header.fields.begin(), header.fields.end(), [](const auto& f) { return f.numeric(); });
+    return std::any_of(header.fields.begin(), header.fields.end(), [](const auto& f) { return f.is_numeric(); });
 }
 
 Error no_numbers(const NpyHeader& header, const std::string& name) {
@@ -99,7 +99,7 @@ Error no_numbers(const NpyHeader& header, const std::string& name) {
 }
 
 /// One array as samples. `bytes` must be positioned after its header.
-Result<std::unique_ptr<NpySamples>> samples_of(std::unique_ptr<Bytes> bytes, NpyHeader header, const ArrayFacts& array,
+Result<std::unique_ptr<NpySamples>> samples_of(std::unique_ptr<SeekableBytes> bytes, NpyHeader header, const ArrayInfo& array,
                                                const ExtentHints& hints, bool packed = false) {
     const auto name = bytes->name();
     if (!has_numbers(header) || std::any_of(header.fields.begin(), header.fields.end(), [](const auto& f) { return f.kind == 'O'; }))
@@ -107,13 +107,13 @@ Result<std::unique_ptr<NpySamples>> samples_of(std::unique_ptr<Bytes> bytes, Npy
     const auto extent = extent_of(array, name, hints);
     if (!extent) return extent.error();
     if (packed && is_column_major(header, *extent)) {  // seeking in an archive is slow
-        auto copy = spooled(*bytes);
+        auto copy = copy_to_temporary_file(*bytes);
         if (!copy) return copy.error();
         bytes = *std::move(copy);
     }
     if (!header.fields[0].name.empty() && extent->columns > 1)
         return bad_input(
-            fmt::format("{}: a structured array must have one dimension, because its fields are the columns", described(array)), {name});
+            fmt::format("{}: a structured array must have one dimension, because its fields are the columns", describe(array)), {name});
     auto samples = std::make_unique<NpySamples>(std::move(bytes), std::move(header), *extent);
     samples->name_columns(array.name);
     return samples;
@@ -122,7 +122,7 @@ Result<std::unique_ptr<NpySamples>> samples_of(std::unique_ptr<Bytes> bytes, Npy
 /// The arrays of an NPZ file and their headers.
 struct Npz {
     NpzReader file;
-    std::vector<ArrayFacts> arrays = {};
+    std::vector<ArrayInfo> arrays = {};
     std::vector<NpyHeader> headers = {};
 
     void read_headers() {
@@ -146,13 +146,13 @@ struct Npz {
     ExtentHints hints(std::size_t chosen, std::optional<bool> transpose) const {
         ExtentHints out{transpose};
         for (std::size_t k = 0; k < arrays.size(); ++k)
-            if (const auto length = k == chosen ? std::nullopt : length_of_times(arrays[k])) out.samples.push_back(*length);
+            if (const auto length = k == chosen ? std::nullopt : time_list_length(arrays[k])) out.time_lengths.push_back(*length);
         return out;
     }
 
     std::optional<double> rate() const {
         for (std::size_t k = 0; k < arrays.size(); ++k)
-            if (names_rate(arrays[k].name) && arrays[k].numeric && headers[k].count() == 1)
+            if (is_rate_name(arrays[k].name) && arrays[k].is_numeric && headers[k].element_count() == 1)
                 if (const auto value = file.numbers(arrays[k].name)) return value->at(0);
         return {};
     }
@@ -160,7 +160,7 @@ struct Npz {
     /// The index of a list of times with `rows` elements, other than array number `chosen`.
     std::optional<std::size_t> times(std::size_t chosen, std::int64_t rows) const {
         for (std::size_t k = 0; k < arrays.size(); ++k)
-            if (k != chosen && length_of_times(arrays[k]) == static_cast<std::uint64_t>(rows) && headers[k].fields[0].name.empty())
+            if (k != chosen && time_list_length(arrays[k]) == static_cast<std::uint64_t>(rows) && headers[k].fields[0].name.empty())
                 return k;
         return {};
     }
@@ -171,7 +171,7 @@ SamplesResult open_npy(const std::string& path, const TableOptions& options) {
     if (!bytes) return bytes.error();
     auto header = read_npy_header(**bytes);
     if (!header) return header.error();
-    const ArrayFacts array{"", header->shape, has_numbers(*header)};
+    const ArrayInfo array{"", header->shape, has_numbers(*header)};
     auto samples = samples_of(*std::move(bytes), *std::move(header), array, {options.transpose});
     if (!samples) return samples.error();
     return std::unique_ptr<Samples>(*std::move(samples));
@@ -187,22 +187,22 @@ SamplesResult open_npz(const std::string& path, const TableOptions& options) {
     auto samples = npz.samples(*chosen, npz.hints(*chosen, options.transpose));
     if (!samples) return samples.error();
     (*samples)->set_rate(npz.rate());
-    const auto times = npz.times(*chosen, (*samples)->facts().rows);
+    const auto times = npz.times(*chosen, (*samples)->info().rows);
     if (!times) return std::unique_ptr<Samples>(*std::move(samples));
     auto clock = npz.samples(*times, {});
     if (!clock) return clock.error();
-    return with_times(*std::move(clock), *std::move(samples));
+    return add_time_column(*std::move(clock), *std::move(samples));
 }
 
 }  // namespace
 
 Result<std::unique_ptr<Table>> open_npy_table(const std::string& path, const TableOptions& options) {
     if (options.dataset) return bad_usage(fmt::format("--dataset {}: an NPY file has only one array", *options.dataset));
-    return table_of(open_npy(path, options), path);
+    return make_table(open_npy(path, options), path);
 }
 
 Result<std::unique_ptr<Table>> open_npz_table(const std::string& path, const TableOptions& options) {
-    return table_of(open_npz(path, options), path);
+    return make_table(open_npz(path, options), path);
 }
 
 }  // namespace corpuscle

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cstring>
 
-#include "signal/field.hpp"
+#include "signal/parameter.hpp"
 
 namespace corpuscle {
 namespace {
@@ -50,7 +50,7 @@ struct NpyArray {
     NpyHeader header;
     std::vector<std::byte> elements;
 
-    const std::byte* at(std::size_t k) const { return elements.data() + k * header.element; }
+    const std::byte* at(std::size_t k) const { return elements.data() + k * header.element_size; }
 };
 
 /// Reads an array whose elements are of one of these kinds. Reads in chunks, so that a wrong length in the archive allocates no memory.
@@ -60,11 +60,11 @@ Result<NpyArray> read_array(const NpzReader& npz, const std::string& name, std::
     auto header = read_member_header(**bytes);
     if (!header) return header.error();
     const auto& field = header->fields[0];
-    const bool fits = field.kind == 'U' || field.kind == 'S' || field.numeric();
+    const bool fits = field.kind == 'U' || field.kind == 'S' || field.is_numeric();
     if (!field.name.empty() || !fits || kinds.find(field.kind) == std::string_view::npos)
         return bad_input(fmt::format("the type is {}, expected {}", header->type, expected), {(*bytes)->name()});
     NpyArray out{*std::move(header), {}};
-    const std::uint64_t all = out.header.count() * out.header.element;
+    const std::uint64_t all = out.header.element_count() * out.header.element_size;
     while (out.elements.size() < all) {
         const auto had = out.elements.size();
         out.elements.resize(had + static_cast<std::size_t>(std::min<std::uint64_t>(all - had, 1 << 24)));
@@ -117,11 +117,11 @@ void NpzWriter::add(const std::string& name, std::span<const std::string> list) 
     arrays_.push_back({name + std::string(ending), std::move(bytes)});
 }
 
-Result<NpyHeader> read_member_header(Bytes& bytes) {
+Result<NpyHeader> read_member_header(SeekableBytes& bytes) {
     auto header = read_npy_header(bytes);
     if (!header) return header;
     const bool pickled = std::any_of(header->fields.begin(), header->fields.end(), [](const auto& f) { return f.kind == 'O'; });
-    const auto total = header->data_at + header->count() * header->element;
+    const auto total = header->data_offset + header->element_count() * header->element_size;
     if (pickled || total == bytes.size()) return header;
     return bad_input(fmt::format("the archive states {} bytes, but the array has {}; it may be damaged", bytes.size(), total),
                      {bytes.name()});
@@ -145,7 +145,7 @@ bool NpzReader::has(const std::string& name) const {
     return std::find(all.begin(), all.end(), name) != all.end();
 }
 
-Result<std::unique_ptr<Bytes>> NpzReader::bytes(const std::string& name) const {
+Result<std::unique_ptr<SeekableBytes>> NpzReader::bytes(const std::string& name) const {
     const auto& members = archive_.members();
     const auto file = name + std::string(ending);
     const auto found = std::find_if(members.begin(), members.end(), [&](const auto& m) { return m.name == file; });
@@ -158,7 +158,7 @@ Result<std::unique_ptr<Bytes>> NpzReader::bytes(const std::string& name) const {
 Result<std::vector<std::int64_t>> NpzReader::integers(const std::string& name) const {
     const auto array = read_array(*this, name, "biu", "integers");
     if (!array) return array.error();
-    std::vector<std::int64_t> out(array->header.count());
+    std::vector<std::int64_t> out(array->header.element_count());
     for (std::size_t k = 0; k < out.size(); ++k) out[k] = integer_at(array->header.fields[0], array->at(k));
     return out;
 }
@@ -167,15 +167,15 @@ Result<std::vector<double>> NpzReader::numbers(const std::string& name) const {
     const auto array = read_array(*this, name, "biuf", "numbers");
     if (!array) return array.error();
     const auto decode = array->header.fields[0].decoder();
-    std::vector<double> out(array->header.count());
+    std::vector<double> out(array->header.element_count());
     for (std::size_t k = 0; k < out.size(); ++k) out[k] = decode(array->at(k));
     return out;
 }
 
-Result<std::vector<std::string>> NpzReader::words(const std::string& name) const {
+Result<std::vector<std::string>> NpzReader::strings(const std::string& name) const {
     const auto array = read_array(*this, name, "US", "strings");
     if (!array) return array.error();
-    std::vector<std::string> out(array->header.count());
+    std::vector<std::string> out(array->header.element_count());
     for (std::size_t k = 0; k < out.size(); ++k) out[k] = string_at(array->header.fields[0], array->at(k));
     return out;
 }

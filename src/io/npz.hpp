@@ -12,7 +12,7 @@
 namespace corpuscle {
 
 class NpzWriter {
-    std::vector<Packed> arrays_;
+    std::vector<ArchiveEntry> arrays_;
 
 public:
     void add(const std::string& name, std::span<const std::int64_t>);
@@ -24,7 +24,7 @@ public:
 };
 
 /// Reads the header of an archive member. Bytes after the array are an error, because otherwise its checksum would not be checked.
-Result<NpyHeader> read_member_header(Bytes&);
+Result<NpyHeader> read_member_header(SeekableBytes&);
 
 class NpzReader {
     Archive archive_;
@@ -37,11 +37,11 @@ public:
     std::vector<std::string> names() const;
     bool has(const std::string& name) const;
     /// The bytes of an array, including its header.
-    Result<std::unique_ptr<Bytes>> bytes(const std::string& name) const;
+    Result<std::unique_ptr<SeekableBytes>> bytes(const std::string& name) const;
     // An entire array as a list, whatever its shape. An unknown name, or elements of another type, are errors.
     Result<std::vector<std::int64_t>> integers(const std::string& name) const;
     Result<std::vector<double>> numbers(const std::string& name) const;
-    Result<std::vector<std::string>> words(const std::string& name) const;
+    Result<std::vector<std::string>> strings(const std::string& name) const;
 };
 
 }  // namespace corpuscle

@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "io/npz.hpp"
-#include "io/trains.hpp"
+#include "io/train_collector.hpp"
 
 namespace corpuscle {
 namespace {
@@ -14,7 +14,7 @@ class NpzSpikes {
     std::vector<std::string> afferents_, channels_;
     bool has_exact_times_ = false;
     double rate_ = 1;
-    Trains trains_;
+    TrainCollector trains_;
 
     Error format_error(std::string message) const { return bad_input(std::move(message), {npz_.path()}); }
 
@@ -24,13 +24,13 @@ class NpzSpikes {
         ids_ = std::move(*ids);
         has_exact_times_ = npz_.has("unit_afferent");
         if (!has_exact_times_) return {};
-        auto afferents = npz_.words("unit_afferent"), channels = npz_.words("unit_channel");
+        auto afferents = npz_.strings("unit_afferent"), channels = npz_.strings("unit_channel");
         if (!afferents || !channels) return afferents ? channels.error() : afferents.error();
         afferents_ = std::move(*afferents), channels_ = std::move(*channels);
         if (afferents_.size() != ids_.size() || channels_.size() != ids_.size())
             return format_error(fmt::format("unit_ids has {} elements, unit_afferent {} and unit_channel {}", ids_.size(),
                                             afferents_.size(), channels_.size()));
-        for (std::size_t u = 0; u < ids_.size(); ++u) trains_.of(afferents_[u], channels_[u]);
+        for (std::size_t u = 0; u < ids_.size(); ++u) trains_.train(afferents_[u], channels_[u]);
         return {};
     }
 
@@ -44,8 +44,8 @@ class NpzSpikes {
     }
 
     std::vector<double>& train(std::size_t unit, std::int64_t segment) {
-        if (has_exact_times_) return trains_.of(afferents_[unit], channels_[unit]);
-        return trains_.of(std::to_string(ids_[unit]), segment == 0 ? "" : fmt::format("segment {}", segment + 1));
+        if (has_exact_times_) return trains_.train(afferents_[unit], channels_[unit]);
+        return trains_.train(std::to_string(ids_[unit]), segment == 0 ? "" : fmt::format("segment {}", segment + 1));
     }
 
     Result<void> read_segment(std::int64_t segment) {
@@ -81,7 +81,7 @@ public:
         rate_ = (*rate)[0];
         for (std::int64_t s = 0; s < (*segments)[0]; ++s)
             if (auto ok = read_segment(s); !ok) return ok.error();
-        return std::move(trains_).in_order();
+        return std::move(trains_).sorted();
     }
 };
 

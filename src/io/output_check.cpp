@@ -27,7 +27,7 @@ FileKind kind_of_file(const std::string& path) {
 
 /// Returns the kind of file at an output's path. An output that is also an input is an error.
 Result<FileKind> check_not_input(const std::string& path) {
-    if (const auto input = input_at(path))
+    if (const auto input = known_input_path(path))
         return bad_usage(*input == path ? fmt::format("{}: this output would replace an input of the command; name another", path)
                                         : fmt::format("{}: this output would replace an input of the command (as {}); name another", path,
                                                       *input == "-" ? "standard input" : *input));
@@ -71,7 +71,7 @@ void remove_stale_parts_in(const std::string& directory, const std::function<boo
 
 }  // namespace
 
-std::string beginning_of(const std::string& path) {
+std::string read_beginning(const std::string& path) {
     std::string text(4096, '\0');
     const int file = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
     if (file < 0) return "";
@@ -82,13 +82,13 @@ std::string beginning_of(const std::string& path) {
     return text;
 }
 
-void remove_dead_parts(const std::string& path) {
+void remove_stale_parts(const std::string& path) {
     const std::filesystem::path output(path);
     remove_stale_parts_in(output.parent_path().string(), [&](std::string_view name) { return name == output.filename().string(); });
 }
 
 /// Adds an output. Two outputs of one command with the same path are an error.
-Result<void> OutputCheck::enter(const std::string& path) {
+Result<void> OutputCheck::add_output(const std::string& path) {
     std::error_code status;
     const std::filesystem::path output(path);
     const auto above = output.parent_path();
@@ -100,32 +100,32 @@ Result<void> OutputCheck::enter(const std::string& path) {
     return {};
 }
 
-Result<void> OutputCheck::file(const std::string& path, Signature ours) {
-    if (auto ok = enter(path); !ok) return ok;
+Result<void> OutputCheck::check_file(const std::string& path, Signature ours) {
+    if (auto ok = add_output(path); !ok) return ok;
     const auto kind = check_not_input(path);
     if (!kind) return kind.error();
-    if (may_be_foreign(*kind) && !overwrite_ && !ours(beginning_of(path)))
+    if (may_be_foreign(*kind) && !overwrite_ && !ours(read_beginning(path)))
         return bad_input("this file was not written by corpuscle; name another, or add --overwrite to replace it", {path});
-    if (*kind != FileKind::device) remove_dead_parts(path);
+    if (*kind != FileKind::device) remove_stale_parts(path);
     return {};
 }
 
-Result<void> OutputCheck::growing_file(const std::string& path, Signature ours) {
-    if (auto ok = file(path, ours); !ok) return ok;
-    return kind_of_file(path) == FileKind::device ? Result<void>() : file(path + ".part", ours);
+Result<void> OutputCheck::check_growing_file(const std::string& path, Signature ours) {
+    if (auto ok = check_file(path, ours); !ok) return ok;
+    return kind_of_file(path) == FileKind::device ? Result<void>() : check_file(path + ".part", ours);
 }
 
-Result<void> OutputCheck::directory(const std::string& path, std::span<const std::string> names,
+Result<void> OutputCheck::check_directory(const std::string& path, std::span<const std::string> names,
                                     const std::function<bool(const std::string&)>& is_listed, bool (*is_output)(std::string_view),
                                     Signature page) {
     for (const auto& name : names) {
-        if (auto ok = enter(path + "/" + name); !ok) return ok;
+        if (auto ok = add_output(path + "/" + name); !ok) return ok;
         if (const auto kind = check_not_input(path + "/" + name); !kind) return kind.error();
     }
     for (const auto& name : names) {
         const auto output = path + "/" + name;
         if (!may_be_foreign(kind_of_file(output)) || overwrite_ || is_listed(name)) continue;
-        if (name.ends_with(".html") && page(beginning_of(output))) continue;
+        if (name.ends_with(".html") && page(read_beginning(output))) continue;
         return bad_input(
             "this file was not written by corpuscle (it is not listed in a summary.json in its directory); name another directory with "
             "--out, or add --overwrite to replace it",

@@ -16,7 +16,7 @@ class OutputCheck {
     bool overwrite_;
     std::vector<std::string> outputs_;  // absolute paths of this command's outputs
 
-    Result<void> enter(const std::string& path);
+    Result<void> add_output(const std::string& path);
 
 public:
     /// Returns true if a file with this beginning was written by this program.
@@ -25,19 +25,19 @@ public:
     explicit OutputCheck(bool overwrite) : overwrite_(overwrite) {}
 
     /// A single output file. Removes temporary files (path.part-PID) of runs that were killed.
-    Result<void> file(const std::string& path, Signature);
+    Result<void> check_file(const std::string& path, Signature);
     /// A single output file that grows as path.part.
-    Result<void> growing_file(const std::string& path, Signature);
+    Result<void> check_growing_file(const std::string& path, Signature);
     /// Outputs in a directory, whose summary.json lists the files of an earlier run. Removes temporary files of runs that were killed.
-    Result<void> directory(const std::string& path, std::span<const std::string> names,
+    Result<void> check_directory(const std::string& path, std::span<const std::string> names,
                            const std::function<bool(const std::string& name)>& is_listed, bool (*is_output)(std::string_view name),
                            Signature page);
 };
 
 /// The first bytes of a regular file, following links. "" if it cannot be read.
-std::string beginning_of(const std::string& path);
+std::string read_beginning(const std::string& path);
 
 /// Removes temporary files of this output that runs left when they were killed: each path.part-PID that no process has locked.
-void remove_dead_parts(const std::string& path);
+void remove_stale_parts(const std::string& path);
 
 }  // namespace corpuscle

@@ -20,16 +20,16 @@ class Parser {
         return true;
     }
 
-    std::optional<Python> quoted(char quote) {
+    std::optional<PythonLiteral> quoted(char quote) {
         const auto end = text_.find(quote, at_);
         if (end == std::string_view::npos) return {};
-        Python out{Python::text, std::string(text_.substr(at_, end - at_))};
+        PythonLiteral out{PythonLiteral::text, std::string(text_.substr(at_, end - at_))};
         at_ = end + 1;
         return out;
     }
 
-    std::optional<Python> integer() {
-        Python out{Python::integer};
+    std::optional<PythonLiteral> integer() {
+        PythonLiteral out{PythonLiteral::integer};
         const auto [end, status] = std::from_chars(text_.data() + at_, text_.data() + text_.size(), out.number);
         if (status != std::errc{}) return {};
         at_ = static_cast<std::size_t>(end - text_.data());
@@ -38,10 +38,10 @@ class Parser {
     }
 
     /// Values separated by commas up to `close`. A dictionary has a colon in each pair.
-    std::optional<Python> sequence(Python::Kind kind, std::string_view close, int depth) {
-        Python out{kind};
+    std::optional<PythonLiteral> sequence(PythonLiteral::Kind kind, std::string_view close, int depth) {
+        PythonLiteral out{kind};
         while (!accept(close)) {
-            if (!out.items.empty() && !accept(kind == Python::dictionary && out.items.size() % 2 ? ":" : ",")) return {};
+            if (!out.items.empty() && !accept(kind == PythonLiteral::dictionary && out.items.size() % 2 ? ":" : ",")) return {};
             if (accept(close)) break;  // a trailing comma
             auto item = value(depth + 1);
             if (!item) return {};
@@ -50,22 +50,22 @@ class Parser {
         return out;
     }
 
-    std::optional<Python> literal(int depth) {
+    std::optional<PythonLiteral> literal(int depth) {
         if (depth > 8) return {};
         if (accept("'")) return quoted('\'');
         if (accept("\"")) return quoted('"');
-        if (accept("True")) return Python{Python::truth, {}, 1};
-        if (accept("False")) return Python{Python::truth};
-        if (accept("(")) return sequence(Python::list, ")", depth);
-        if (accept("[")) return sequence(Python::list, "]", depth);
-        if (accept("{")) return sequence(Python::dictionary, "}", depth);
+        if (accept("True")) return PythonLiteral{PythonLiteral::boolean, {}, 1};
+        if (accept("False")) return PythonLiteral{PythonLiteral::boolean};
+        if (accept("(")) return sequence(PythonLiteral::list, ")", depth);
+        if (accept("[")) return sequence(PythonLiteral::list, "]", depth);
+        if (accept("{")) return sequence(PythonLiteral::dictionary, "}", depth);
         return integer();
     }
 
 public:
     explicit Parser(std::string_view text) : text_(text) {}
 
-    std::optional<Python> value(int depth) {
+    std::optional<PythonLiteral> value(int depth) {
         skip_blanks();
         const auto from = at_;
         auto out = literal(depth);
@@ -81,7 +81,7 @@ public:
 
 }  // namespace
 
-std::optional<Python> parse_python(std::string_view text) {
+std::optional<PythonLiteral> parse_python_literal(std::string_view text) {
     Parser parser(text);
     auto out = parser.value(0);
     return parser.ended() ? out : std::nullopt;

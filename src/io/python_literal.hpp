@@ -9,21 +9,21 @@
 
 namespace corpuscle {
 
-struct Python {
-    enum Kind { none, text, integer, truth, list, dictionary } kind = none;  // a tuple is a list
-    std::string letters = {};
+struct PythonLiteral {
+    enum Kind { none, text, integer, boolean, list, dictionary } kind = none;  // a tuple is a list
+    std::string characters = {};
     std::int64_t number = 0;
-    std::vector<Python> items = {};  ///< for a dictionary: key, value, key, value
+    std::vector<PythonLiteral> items = {};  ///< for a dictionary: key, value, key, value
     std::string source = {};         ///< the literal as written
 
-    const Python* find(std::string_view key) const {
+    const PythonLiteral* find(std::string_view key) const {
         for (std::size_t k = 0; kind == dictionary && k + 1 < items.size(); k += 2)
-            if (items[k].kind == text && items[k].letters == key) return &items[k + 1];
+            if (items[k].kind == text && items[k].characters == key) return &items[k + 1];
         return nullptr;
     }
 };
 
 /// Returns nullopt if the text is not one of these literals, or if anything but blanks follows it.
-std::optional<Python> parse_python(std::string_view);
+std::optional<PythonLiteral> parse_python_literal(std::string_view);
 
 }  // namespace corpuscle

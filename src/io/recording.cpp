@@ -6,17 +6,17 @@
 #include <unordered_map>
 #include <utility>
 
-#include "io/columns.hpp"
+#include "io/column_selection.hpp"
 #include "io/force_rows.hpp"
 #include "io/foreign_format.hpp"
-#include "io/formats.hpp"
-#include "io/layout.hpp"
+#include "io/recording_formats.hpp"
+#include "io/sensor_layout.hpp"
 #include "io/row_clock.hpp"
 #include "io/transposed_table.hpp"
-#include "io/verdict.hpp"
+#include "io/quality_report.hpp"
 #include "signal/afferent.hpp"
 #include "signal/input_files.hpp"
-#include "signal/text.hpp"
+#include "signal/ascii_text.hpp"
 
 namespace corpuscle {
 namespace {
@@ -28,7 +28,7 @@ std::string name_of_recording(const std::filesystem::path& path) {
     return (lower(path.extension().string()) == ".gz" ? path.stem().stem() : path.stem()).string();
 }
 
-class Recording final : public Source {
+class Recording final : public ForceSource {
     std::unique_ptr<Table> table_;
     RecordingOptions options_;
     std::string path_, name_;
@@ -45,22 +45,22 @@ class Recording final : public Source {
     double t_before_ = 0, t_at_ = 0;
     std::int64_t next_ = 0;
 
-    Result<std::vector<Placed>> choose(std::optional<std::size_t> time) {
-        std::vector<Placed> chosen;
+    Result<std::vector<SensorPlacement>> choose(std::optional<std::size_t> time) {
+        std::vector<SensorPlacement> chosen;
         if (!options_.layout.empty()) {
-            auto layout = read_layout(options_.layout, *table_, time);
+            auto layout = read_sensor_layout(options_.layout, *table_, time);
             if (!layout) return layout.error();
-            if (!layout->metres)
+            if (!layout->has_length_unit)
                 notes_.push_back("the layout has no unit of length, so only the relative positions of the sensors are used");
             if (options_.channels.empty()) return std::move(layout->sensors);
             chosen = std::move(layout->sensors);
         }
-        const auto columns = choose_columns(*table_, time, options_.channels, path_, &selection_notes_);
+        const auto columns = select_columns(*table_, time, options_.channels, path_, &selection_notes_);
         if (!columns) return columns.error();
-        std::vector<Placed> out;
+        std::vector<SensorPlacement> out;
         for (const auto c : *columns) {
-            const auto placed = std::find_if(chosen.begin(), chosen.end(), [&](const Placed& p) { return p.column == c; });
-            out.push_back(placed == chosen.end() ? Placed{c, "", {}} : *placed);
+            const auto placed = std::find_if(chosen.begin(), chosen.end(), [&](const SensorPlacement& p) { return p.column == c; });
+            out.push_back(placed == chosen.end() ? SensorPlacement{c, "", {}} : *placed);
         }
         return out;
     }
@@ -70,15 +70,15 @@ class Recording final : public Source {
         if (!rows) return rows.error();
         row_clock_ = std::move(*rows);
         clock_ = row_clock_.clock;
-        notes_.insert(notes_.end(), row_clock_.remarks.begin(), row_clock_.remarks.end());
+        notes_.insert(notes_.end(), row_clock_.notes.begin(), row_clock_.notes.end());
         if (!options_.resample) return {};
-        const auto even = clock_of(*options_.resample, clock_.t0);
+        const auto even = make_clock(*options_.resample, clock_.t0);
         if (!even) return even.error();
         clock_ = *even;
         return {};
     }
 
-    void add_channel(const Placed& placed, std::vector<std::string>& unitless) {
+    void add_channel(const SensorPlacement& placed, std::vector<std::string>& unitless) {
         const auto& column = table_->columns()[placed.column];
         if (column.unit.empty() && !options_.unit && !options_.scale) unitless.push_back("'" + column.name + "'");
         if (!column.unit.empty() && options_.unit && *options_.unit != column.unit && !options_.scale)
@@ -91,7 +91,7 @@ class Recording final : public Source {
     }
 
     /// Newtons per unit of each channel. Computed before reading, so that a unit that is not a force is reported at once.
-    Result<std::vector<double>> gains_of(const std::vector<Placed>& chosen) const {
+    Result<std::vector<double>> gains_of(const std::vector<SensorPlacement>& chosen) const {
         std::vector<double> gains;
         for (const auto& placed : chosen) {
             const auto gain = newtons_per_unit(table_->columns()[placed.column], options_, path_);
@@ -102,16 +102,16 @@ class Recording final : public Source {
     }
 
     /// Warns if there are more channels than samples and the columns have no names: the table may have to be transposed.
-    void doubt_orientation(Quality& quality) const {
+    void doubt_orientation(RecordingQuality& quality) const {
         const auto& columns = table_->columns();
         const auto samples = samples_;
         if (options_.table.transpose || options_.resample || static_cast<std::int64_t>(columns.size()) <= samples || samples == 0) return;
         const auto is_numbered = [this](const Column& c) {
-            if (table_->time_is_guessed() && c.name == "time") return true;
+            if (table_->is_time_guessed() && c.name == "time") return true;
             const std::string_view digits = std::string_view(c.name).substr(c.name.starts_with("ch") ? 2 : 0);
             return !digits.empty() && digits.find_first_not_of("0123456789") == std::string_view::npos;
         };
-        if (table_->orientation_is_known() || !std::all_of(columns.begin(), columns.end(), is_numbered)) return;
+        if (table_->is_orientation_known() || !std::all_of(columns.begin(), columns.end(), is_numbered)) return;
         quality.warnings.push_back(
             fmt::format("{} columns, but only {} rows. Use --transpose if each row is a channel, or --no-transpose if each row is "
                         "a sample",
@@ -123,11 +123,11 @@ class Recording final : public Source {
         const auto& columns = table_->columns();
         return time && options_.channels.empty() && columns.size() <= 3 && std::any_of(columns.begin(), columns.end(), [](const Column& c) {
                    constexpr std::string_view words[] = {"unit", "afferent", "cluster", "cluster_id", "unit_id", "neuron", "neuron_id"};
-                   return std::any_of(std::begin(words), std::end(words), [&](auto w) { return same_letters(c.name, w); });
+                   return std::any_of(std::begin(words), std::end(words), [&](auto w) { return equal_ignoring_case(c.name, w); });
                });
     }
 
-    void add_channels(const std::vector<Placed>& chosen) {
+    void add_channels(const std::vector<SensorPlacement>& chosen) {
         std::vector<std::string> unitless;
         for (const auto& placed : chosen) add_channel(placed, unitless);
         if (unitless.size() > 6) unitless.resize(6), unitless.push_back("...");
@@ -135,12 +135,12 @@ class Recording final : public Source {
     }
 
     /// The filters run on the rows if these are evenly spaced, and otherwise on the resampled rows.
-    Result<std::vector<ChannelPath>> paths_of(const std::vector<double>& gains) {
+    Result<std::vector<ChannelPipeline>> paths_of(const std::vector<double>& gains) {
         hum_table_ = std::make_unique<HumTable>(clock_);
-        const bool even = !row_clock_.by_times;
-        std::vector<ChannelPath> paths;
+        const bool even = !row_clock_.uses_row_times;
+        std::vector<ChannelPipeline> paths;
         for (const double gain : gains) {
-            auto path = ChannelPath::make(options_, gain, even ? row_clock_.clock : clock_, even, *hum_table_);
+            auto path = ChannelPipeline::make(options_, gain, even ? row_clock_.clock : clock_, even, *hum_table_);
             if (!path) return path.error();
             paths.push_back(std::move(*path));
         }
@@ -148,14 +148,14 @@ class Recording final : public Source {
     }
 
     Result<bool> advance_to_next_row() {
-        const auto some = rows_->more();
+        const auto some = rows_->fetch_row();
         if (!some || !*some) return some;
         before_ = at_, t_before_ = t_at_;
         at_.resize(channels_.size());
         for (std::size_t c = 0; c < channels_.size(); ++c) at_[c] = rows_->force(c);
         t_at_ =
-            row_clock_.by_times ? row_clock_.seconds(rows_->time()) : clock_.t0 + static_cast<double>(row_number_) * row_clock_.clock.T();
-        rows_->next();
+            row_clock_.uses_row_times ? row_clock_.seconds(rows_->time()) : clock_.t0 + static_cast<double>(row_number_) * row_clock_.clock.T();
+        rows_->advance();
         ++row_number_;
         return true;
     }
@@ -179,14 +179,14 @@ class Recording final : public Source {
 
     Result<void> read_rows(Frames& block) {
         while (block.count < block.capacity) {
-            const auto some = rows_->more();
+            const auto some = rows_->fetch_row();
             if (!some) return some.error();
             if (!*some) return {};
-            const auto n = std::min(rows_->ready(), block.capacity - block.count);
+            const auto n = std::min(rows_->ready_rows(), block.capacity - block.count);
             for (std::size_t c = 0; c < channels_.size(); ++c)
-                std::copy_n(rows_->ready_of(c), n, block.force[c].begin() + static_cast<std::ptrdiff_t>(block.count));
+                std::copy_n(rows_->ready_data(c), n, block.force[c].begin() + static_cast<std::ptrdiff_t>(block.count));
             block.count += n;
-            rows_->next(n);
+            rows_->advance(n);
         }
         return {};
     }
@@ -196,11 +196,11 @@ public:
         : table_(std::move(table)), options_(std::move(options)), path_(std::move(path)), name_(name_of_recording(path_)) {}
 
     Result<void> open() {
-        const auto time = choose_time(*table_, options_.time, path_);
+        const auto time = select_time_column(*table_, options_.time, path_);
         if (!time) return time.error();
-        notes_ = table_->remarks();
+        notes_ = table_->notes();
         if (*time && *time == table_->time_column())
-            for (auto& note : table_->time_remarks()) notes_.push_back(std::move(note));
+            for (auto& note : table_->time_notes()) notes_.push_back(std::move(note));
         if (holds_spikes(*time)) return bad_input("this file holds spikes, not force; 'corpuscle compare' reads it", {path_});
         const auto chosen = choose(*time);
         if (!chosen) return chosen.error();
@@ -219,18 +219,18 @@ public:
         if (!paths) return paths.error();
         std::vector<std::string> names;
         for (const auto& c : channels_) names.push_back(c.name);
-        const bool with_times = row_clock_.by_times || row_clock_.drops_untimed;
-        rows_.emplace(Rows(*table_, options_, columns, with_times ? *time : std::nullopt), std::move(*paths), path_, std::move(names),
-                      row_clock_.by_times);
+        const bool with_times = row_clock_.uses_row_times || row_clock_.drops_untimed;
+        rows_.emplace(RowReader(*table_, options_, columns, with_times ? *time : std::nullopt), std::move(*paths), path_, std::move(names),
+                      row_clock_.uses_row_times);
         return {};
     }
 
     const std::string& name() const override { return name_; }
     const Clock& clock() const override { return clock_; }
     const std::vector<Channel>& channels() const override { return channels_; }
-    double done() const override { return table_->done(); }
-    std::vector<Fact> facts() const override {
-        std::vector<Fact> all;
+    double progress() const override { return table_->progress(); }
+    std::vector<MetadataEntry> metadata() const override {
+        std::vector<MetadataEntry> all;
         for (std::size_t c = 0; c < channels_.size(); ++c)
             all.push_back({channels_[c].name + ": newtons per unit", rows_->paths()[c].gain(), "N"});
         all.push_back({"absolute value", options_.absolute ? 1.0 : 0.0, ""});
@@ -240,16 +240,16 @@ public:
         if (options_.despike) all.push_back({"despike", options_.despike->limit.value_or(0), ""});
         for (const double f : options_.notch) all.push_back({"notch", f, "Hz"});
         if (options_.lowpass) all.push_back({"low-pass", *options_.lowpass, "Hz"});
-        if (options_.resample) all.push_back({"resampled from", row_clock_.by_times ? 0 : row_clock_.clock.rate(), "Hz"});
+        if (options_.resample) all.push_back({"resampled from", row_clock_.uses_row_times ? 0 : row_clock_.clock.rate(), "Hz"});
         return all;
     }
-    std::string sentence() const override {
+    std::string description() const override {
         return fmt::format("{} of {} at {:g} Hz", channels_.size() == 1 ? "a channel" : fmt::format("{} channels", channels_.size()),
                            std::filesystem::path(path_).filename().string(), clock_.rate());
     }
-    std::vector<std::string> remarks() const override { return notes_; }
-    Quality quality() const override {
-        auto found = verdict(channels_, rows_->paths(), row_clock_, {rows_->rows().dropped, rows_->rows().out_of_range}, rows_->sums());
+    std::vector<std::string> notes() const override { return notes_; }
+    RecordingQuality quality() const override {
+        auto found = assess_quality(channels_, rows_->paths(), row_clock_, {rows_->rows().dropped, rows_->rows().out_of_range}, rows_->sums());
         doubt_orientation(found);
         return found;
     }
@@ -259,8 +259,8 @@ public:
         if (auto ok = options_.resample ? read_resampled(block) : read_rows(block); !ok) return ok;
         for (std::size_t c = 0; c < channels_.size(); ++c) {
             const std::span<double> force(block.force[c].data(), block.count);
-            rows_->paths()[c].complete(force);
-            if (const auto bad = first_not_finite(force); bad < force.size())
+            rows_->paths()[c].finish_force(force);
+            if (const auto bad = first_non_finite(force); bad < force.size())
                 return bad_input(
                     fmt::format("'{}': sample {} is not finite after processing: a value in the file is too large for --scale or the "
                                 "filters",
@@ -272,36 +272,36 @@ public:
     }
 };
 
-const Format& format_of_recording(const std::string& path) {
+const RecordingFormat& format_of_recording(const std::string& path) {
     const auto extension = lower(std::filesystem::path(path).extension().string());
     if (!extension.empty())
-        for (const auto& f : formats)
+        for (const auto& f : recording_formats)
             if ((" " + std::string(f.extensions) + " ").find(" " + extension + " ") != std::string::npos) return f;
-    return formats[0];
+    return recording_formats[0];
 }
 
 }  // namespace
 
-Result<std::unique_ptr<Source>> open_recording(const std::string& path, const RecordingOptions& options) {
+Result<std::unique_ptr<ForceSource>> open_recording(const std::string& path, const RecordingOptions& options) {
     if (options.unit && options.scale && *options.unit != "raw")
         return bad_usage("--unit and --scale exclude each other: both convert the values to newtons");
     const auto& format = format_of_recording(path);
-    if (options.table.skip > 0 && format.name != "text")
-        return bad_usage(fmt::format("--skip {}: only text files have lines to skip, and {} is {}", options.table.skip, path, format.name));
+    if (options.table.skip_lines > 0 && format.name != "text")
+        return bad_usage(fmt::format("--skip {}: only text files have lines to skip, and {} is {}", options.table.skip_lines, path, format.name));
     if (format.name != "text") {  // older MATLAB files have the same extension as its HDF5 files
-        const auto first = first_bytes_of_input(path, 512);
-        if (auto refusal = foreign_format(first, path); !refusal.empty()) return bad_input(std::move(refusal), {path});
+        const auto first = peek_input(path, 512);
+        if (auto refusal = describe_foreign_format(first, path); !refusal.empty()) return bad_input(std::move(refusal), {path});
     }
     auto table_options = options.table;
-    table_options.keep_on = [&] { return options.keep_on(0); };
+    table_options.should_continue = [&] { return options.should_continue(0); };
     auto table = format.open(path, table_options);
     if (!table) return table.error();
-    if (options.table.transpose == true && !(*table)->orientation_is_known()) table = transposed(std::move(*table), path);
+    if (options.table.transpose == true && !(*table)->is_orientation_known()) table = transpose_table(std::move(*table), path);
     if (!table) return table.error();
     remember_input(path);
     auto recording = std::make_unique<Recording>(path, std::move(*table), options);
     if (auto ok = recording->open(); !ok) return ok.error();
-    return std::unique_ptr<Source>(std::move(recording));
+    return std::unique_ptr<ForceSource>(std::move(recording));
 }
 
 }  // namespace corpuscle

@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "io/mend.hpp"
+#include "io/repair.hpp"
 #include "io/table.hpp"
-#include "signal/source.hpp"
+#include "signal/force_source.hpp"
 
 namespace corpuscle {
 
@@ -30,16 +30,16 @@ struct RecordingOptions {
     double offset = 0;                                    ///< the value in the file at zero force
     std::optional<std::pair<double, double>> range = {};  ///< valid values in the file; others are bad
     std::optional<BadFields> bad_fields = {};             ///< default: a non-numeric field is an error, other bad values are interpolated
-    std::optional<Despike> despike = {};
+    std::optional<DespikeOptions> despike = {};
     std::vector<double> notch = {};      ///< Hz
     std::optional<double> lowpass = {};  ///< Hz
     std::string layout = {};             ///< path of a file with the names and positions of the sensors; "": none
     /// Called for each block of the first pass through the file, with the fraction done. Returning false stops it.
-    std::function<bool(double)> keep_on = [](double) { return true; };
+    std::function<bool(double)> should_continue = [](double) { return true; };
 };
 
 /// Opens a recording in one of the formats of recording_formats.hpp. A unit that is not a force requires a scale. An uneven clock
 /// requires `rate` or `resample`. A file with a time column is read twice, first to determine its clock.
-Result<std::unique_ptr<Source>> open_recording(const std::string& path, const RecordingOptions&);
+Result<std::unique_ptr<ForceSource>> open_recording(const std::string& path, const RecordingOptions&);
 
 }  // namespace corpuscle

@@ -8,7 +8,7 @@
 #include <cerrno>
 #include <cstring>
 
-#include "io/bytes.hpp"
+#include "io/seekable_bytes.hpp"
 #include "io/helper_process.hpp"
 #include "io/samples_message.hpp"
 
@@ -20,11 +20,11 @@ constexpr std::size_t max_numbers_in_response = std::size_t{1} << 17;  // at lea
 class RemoteSamples final : public Samples {
     std::string path_, library_;
     HelperProcess helper_;
-    SamplesFacts info_;
+    SamplesInfo info_;
 
     Result<void> fetch_part(const FetchRequest& request, std::size_t done, std::vector<std::vector<double>>& out) {
-        helper_.ask(encode(request));
-        auto response = helper_.answer(path_, library_);
+        helper_.send(encode(request));
+        auto response = helper_.receive(path_, library_);
         if (!response) return response.error();
         return decode_rows(*response, done, request.rows, out, path_);
     }
@@ -34,16 +34,16 @@ public:
         : path_(std::move(path)), library_(std::move(library)), helper_(std::move(helper)) {}
 
     Result<void> open(const TableOptions& options) {
-        helper_.ask(encode(OpenRequest{path_, options}));
-        auto response = helper_.answer(path_, library_);
+        helper_.send(encode(OpenRequest{path_, options}));
+        auto response = helper_.receive(path_, library_);
         if (!response) return response.error();
-        auto info = decode_facts(*response, path_);
+        auto info = decode_info(*response, path_);
         if (!info) return info.error();
         info_ = *std::move(info);
         return {};
     }
 
-    const SamplesFacts& facts() const override { return info_; }
+    const SamplesInfo& info() const override { return info_; }
 
     Result<void> fetch(std::int64_t first, std::size_t rows, std::span<const std::size_t> wanted,
                        std::vector<std::vector<double>>& out) override {
@@ -74,21 +74,21 @@ public:
 
 }  // namespace
 
-SamplesResult remote_samples_by(const std::string& program, const std::string& path, const Reader& reader, const TableOptions& options) {
+SamplesResult open_remote_samples_with(const std::string& program, const std::string& path, const HelperProgram& reader, const TableOptions& options) {
     const OpenedFile file(path);
     if (file.number() < 0) return bad_input(fmt::format("cannot be opened: {}", std::strerror(errno)), {path});
     auto helper = HelperProcess::start(program, file.number());
-    if (!helper) return bad_input(helper.error().sentence, {path});
+    if (!helper) return bad_input(helper.error().message, {path});
     auto samples = std::make_unique<RemoteSamples>(path, reader.library, *std::move(helper));
     if (auto ok = samples->open(options); !ok) return ok.error();
     return std::unique_ptr<Samples>(std::move(samples));
 }
 
-SamplesResult remote_samples(const std::string& path, const Reader& reader, const TableOptions& options) {
+SamplesResult open_remote_samples(const std::string& path, const HelperProgram& reader, const TableOptions& options) {
     if (auto file = open_bytes(path); !file) return file.error();
-    const auto program = helper_program(reader.program);
-    if (!program) return bad_input(program.error().sentence, {path});
-    return remote_samples_by(*program, path, reader, options);
+    const auto program = find_helper_program(reader.program);
+    if (!program) return bad_input(program.error().message, {path});
+    return open_remote_samples_with(*program, path, reader, options);
 }
 
 }  // namespace corpuscle

@@ -6,15 +6,15 @@
 namespace corpuscle {
 
 /// The helper program for one file format.
-struct Reader {
+struct HelperProgram {
     std::string program;  ///< "corpuscle-hdf5"
     std::string library;  ///< the library's name, with which error messages begin: "the HDF5 library"
 };
 
 /// Starts the program, which reads this file until the samples are destroyed.
-SamplesResult remote_samples(const std::string& path, const Reader&, const TableOptions& = {});
+SamplesResult open_remote_samples(const std::string& path, const HelperProgram&, const TableOptions& = {});
 
 /// The same with the program at the path `program`.
-SamplesResult remote_samples_by(const std::string& program, const std::string& path, const Reader&, const TableOptions& = {});
+SamplesResult open_remote_samples_with(const std::string& program, const std::string& path, const HelperProgram&, const TableOptions& = {});
 
 }  // namespace corpuscle

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "io/clock_check.hpp"
-#include "io/columns.hpp"
-#include "io/rows.hpp"
+#include "io/clock_analysis.hpp"
+#include "io/column_selection.hpp"
+#include "io/row_reader.hpp"
 #include "io/time_stamp.hpp"
 #include "signal/quantity.hpp"
 
@@ -15,16 +15,16 @@ namespace {
 
 std::string hertz(double rate) { return fmt::format("{:.5g} Hz", rate); }
 
-std::string steps(const ClockCheck& c) {
-    return fmt::format("steps from {} to {}", format_quantity(c.least_step(), "s"), format_quantity(c.longest_step(), "s"));
+std::string steps(const ClockAnalysis& c) {
+    return fmt::format("steps from {} to {}", format_quantity(c.min_step(), "s"), format_quantity(c.max_step(), "s"));
 }
 
-struct TimeCheck : ClockCheck {
+struct TimeCheck : ClockAnalysis {
     std::optional<Error> duplicate;  ///< an error for the first time that occurs twice
 };
 
 /// Reads all times once. They may decrease only if --rate replaces them.
-Result<TimeCheck> check_times(Table& table, Rows rows, const RowClock& clock, const RecordingOptions& options) {
+Result<TimeCheck> check_times(Table& table, RowReader rows, const RowClock& clock, const RecordingOptions& options) {
     TimeCheck check;
     std::vector<std::vector<double>> block;
     for (double last = 0;;) {
@@ -38,45 +38,45 @@ Result<TimeCheck> check_times(Table& table, Rows rows, const RowClock& clock, co
                 continue;
             }
             if (check.count() > 0 && t < last && !options.rate) {
-                const auto trials = table.one_trial(rows.table_row(k));
+                const auto trials = table.single_trial_advice(rows.table_row(k));
                 return bad_input(fmt::format("the time decreases from {:g} s to {:g} s{}", last, t,
                                              trials.empty() ? "; use --rate to take the rows as evenly spaced" : ": " + trials),
-                                 rows.place(k));
+                                 rows.location(k));
             }
             if (check.count() > 0 && t == last && !check.duplicate)
                 check.duplicate =
-                    bad_input(fmt::format("the time {:g} s occurs twice; use --rate to take the rows as evenly spaced", t), rows.place(k));
+                    bad_input(fmt::format("the time {:g} s occurs twice; use --rate to take the rows as evenly spaced", t), rows.location(k));
             check.add(last = t);
         }
-        if (!options.keep_on(table.done())) return Error{Code::interrupted, "interrupted"};
+        if (!options.should_continue(table.progress())) return Error{ErrorCode::interrupted, "interrupted"};
     }
     if (auto ok = table.rewind(); !ok) return ok.error();
     return check;
 }
 
-std::string uneven_message(const std::string& name, const ClockCheck& c) {
+std::string uneven_message(const std::string& name, const ClockAnalysis& c) {
     const double mean = 1 / c.mean_step();
     return fmt::format(
         "the times in '{}' are not evenly spaced: mean rate {}, {}, jitter up to {}. Use --rate {:.5g}Hz to take the samples as evenly "
         "spaced{}",
-        name, hertz(mean), steps(c), format_quantity(c.spread(), "s"), mean,
-        c.least_step() > 0 ? fmt::format(", or --resample {:g}Hz to interpolate between their times", std::max(1.0, std::round(mean)))
+        name, hertz(mean), steps(c), format_quantity(c.peak_to_peak_jitter(), "s"), mean,
+        c.min_step() > 0 ? fmt::format(", or --resample {:g}Hz to interpolate between their times", std::max(1.0, std::round(mean)))
                            : "");
 }
 
 /// The clock of the given rate. Adds a note if the times contradict it.
-Result<Clock> clock_by_rate(double rate, const std::string& name, const ClockCheck& times, std::vector<std::string>& notes) {
-    if (times.count() > 1 && times.least_step() < 0)
+Result<Clock> clock_by_rate(double rate, const std::string& name, const ClockAnalysis& times, std::vector<std::string>& notes) {
+    if (times.count() > 1 && times.min_step() < 0)
         notes.push_back(
             fmt::format("the times in '{}' decrease (by up to {}), as in a file with several trials; with --rate all rows are one "
                         "recording",
-                        name, format_quantity(-times.least_step(), "s")));
+                        name, format_quantity(-times.min_step(), "s")));
     else if (times.count() > 1 && std::abs(times.mean_step() * rate - 1) > 0.01)
         notes.push_back(
             fmt::format("--rate is {}, but the mean rate of the times in '{}' is {}", hertz(rate), name, hertz(1 / times.mean_step())));
-    else if (times.count() > 1 && !times.even())
+    else if (times.count() > 1 && !times.is_even())
         notes.push_back(fmt::format("the uneven times in '{}' ({}) were replaced by an even clock of {}", name, steps(times), hertz(rate)));
-    return clock_of(rate, times.first());
+    return make_clock(rate, times.first());
 }
 
 /// The clock that follows from the times. Sets out.uses_row_times if the rows must be interpolated.
@@ -84,22 +84,22 @@ Result<Clock> clock_by_times(const std::string& name, const TimeCheck& times, co
     if (times.count() == 1) return bad_input("a single sample has no rate; give one, such as --rate 1kHz");
     if (!(times.mean_step() > 0))
         return bad_input(fmt::format("the times in '{}' do not increase; give a rate, such as --rate 1kHz", name));
-    if (times.even()) return times.clock();
+    if (times.is_even()) return times.clock();
     if (!options.resample) return bad_input(uneven_message(name, times));
     if (times.duplicate) return *times.duplicate;
-    out.by_times = true;
-    out.remarks.push_back(
+    out.uses_row_times = true;
+    out.notes.push_back(
         fmt::format("the uneven times in '{}' ({}) were interpolated at {}", name, steps(times), hertz(*options.resample)));
-    return clock_of(*options.resample, times.first());
+    return make_clock(*options.resample, times.first());
 }
 
 /// With --rate the times need not be readable. Notes the problem, and the rows start at 0 s.
 Result<RowClock> without_times(Table& table, double rate, const Error& problem, RowClock& out) {
     if (auto ok = table.rewind(); !ok) return ok.error();
-    out.remarks.push_back(fmt::format("the times were ignored ({}); the recording starts at 0 s",
-                                      problem.sentence.substr(0, std::min({problem.sentence.find("; --"), problem.sentence.find("; use "),
-                                                                           problem.sentence.find("; give ")}))));
-    const auto clock = clock_of(rate);
+    out.notes.push_back(fmt::format("the times were ignored ({}); the recording starts at 0 s",
+                                      problem.message.substr(0, std::min({problem.message.find("; --"), problem.message.find("; use "),
+                                                                           problem.message.find("; give ")}))));
+    const auto clock = make_clock(rate);
     if (!clock) return clock.error();
     out.clock = *clock;
     return out;
@@ -126,7 +126,7 @@ bool find_serial_days(const std::vector<double>& times, double step, const std::
     if (!(spreadsheet || matlab) || !(step > 0 && step < 1e-5)) return false;
     constexpr double day = 86'400;
     out.seconds_per_unit = day, out.origin = first;
-    out.remarks.push_back(fmt::format("the times in '{}' are serial days of {}; 0 s is {}, the first time", name,
+    out.notes.push_back(fmt::format("the times in '{}' are serial days of {}; 0 s is {}, the first time", name,
                                       spreadsheet ? "a spreadsheet" : "MATLAB",
                                       format_instant((first - (spreadsheet ? 25'569 : 719'529)) * day)));
     return true;
@@ -149,7 +149,7 @@ Result<void> find_epoch(Table& table, std::size_t column, double unit, bool unit
         const double factor = unit_is_known ? unit : seconds, since = times[0] * factor;
         if (!(since >= 1e9 && since < 3e9 && step >= 0 && step * factor <= 10)) continue;
         out.seconds_per_unit = factor, out.origin = times[0];
-        out.remarks.push_back(fmt::format("the times in '{}' are {} since 1970; 0 s is {} (UTC), the first time",
+        out.notes.push_back(fmt::format("the times in '{}' are {} since 1970; 0 s is {} (UTC), the first time",
                                           table.columns()[column].name, unit_is_known ? "counted" : name, format_instant(since)));
         return {};
     }
@@ -171,41 +171,41 @@ Result<RowClock> find_row_clock(Table& table, const RecordingOptions& options, c
                                          fmt::join(names, ", ")),
                              {path});
         }
-        const auto clock = clock_of(*rate);
+        const auto clock = make_clock(*rate);
         if (!clock) return clock.error();
         out.clock = *clock;
         return out;
     }
-    out.column = column;
-    if (!options.time && table.time_is_guessed())
-        out.remarks.push_back("no header: the first column increases evenly and is taken as the time (use --time none if it is a channel)");
-    const auto unit = seconds_per_unit(table.columns()[*out.column], options, path);
+    out.time_column = column;
+    if (!options.time && table.is_time_guessed())
+        out.notes.push_back("no header: the first column increases evenly and is taken as the time (use --time none if it is a channel)");
+    const auto unit = seconds_per_unit(table.columns()[*out.time_column], options, path);
     const bool drop = options.bad_fields == BadFields::drop;
     if (unit) {
         const auto& heading = table.columns()[*column];
         out.seconds_per_unit = *unit;
         if (options.time_unit && !heading.unit.empty() && *options.time_unit != heading.unit)
-            out.remarks.push_back(
+            out.notes.push_back(
                 fmt::format("--time-unit {} overrides the unit of '{}' in the header, {}", *options.time_unit, heading.name, heading.unit));
-        Rows rows(table, options, {}, column);  // sets whether the table allows gaps
-        if (!heading.stamps)
+        RowReader rows(table, options, {}, column);  // sets whether the table allows gaps
+        if (!heading.holds_time_stamps)
             if (auto ok = find_epoch(table, *column, *unit, options.time_unit || !heading.unit.empty(), out); !ok) return ok.error();
     }
-    const auto times = unit ? check_times(table, Rows(table, options, drop ? channels : std::vector<std::size_t>(), column), out, options)
+    const auto times = unit ? check_times(table, RowReader(table, options, drop ? channels : std::vector<std::size_t>(), column), out, options)
                             : Result<TimeCheck>(unit.error());
-    if (!times && times.error().code == Code::interrupted) return times.error();
+    if (!times && times.error().code == ErrorCode::interrupted) return times.error();
     if (!times && options.rate) return without_times(table, *options.rate, times.error(), out);
     if (!times) return times.error();
     if (times->count() < 1 && options.rate && drop)
         return without_times(table, *options.rate, bad_input(fmt::format("'{}' holds no times", table.columns()[*column].name)), out);
     out.drops_untimed = drop;
-    if (times->gaps() * 20 < times->count()) out.gaps = times->gaps();  // more gaps than that are normal for this clock
+    if (times->gap_count() * 20 < times->count()) out.gap_count = times->gap_count();  // more gaps than that are normal for this clock
     if (times->count() < 1) return bad_input("no data in this file", {path});
-    const auto& name = table.columns()[*out.column].name;
-    auto clock = options.rate ? clock_by_rate(*options.rate, name, *times, out.remarks) : clock_by_times(name, *times, options, out);
-    if (!clock) return bad_input(clock.error().sentence, clock.error().place.file.empty() ? Place{path} : clock.error().place);
+    const auto& name = table.columns()[*out.time_column].name;
+    auto clock = options.rate ? clock_by_rate(*options.rate, name, *times, out.notes) : clock_by_times(name, *times, options, out);
+    if (!clock) return bad_input(clock.error().message, clock.error().location.file.empty() ? SourceLocation{path} : clock.error().location);
     out.clock = *clock;
-    doubt_seconds(table.columns()[*out.column], options, out.clock, out.origin != 0, out.remarks);
+    doubt_seconds(table.columns()[*out.time_column], options, out.clock, out.origin != 0, out.notes);
     return out;
 }
 

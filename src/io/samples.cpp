@@ -7,8 +7,8 @@
 #include <numeric>
 
 #include "io/column_roles.hpp"
-#include "signal/field.hpp"
-#include "signal/text.hpp"
+#include "signal/parameter.hpp"
+#include "signal/ascii_text.hpp"
 
 namespace corpuscle {
 namespace {
@@ -23,19 +23,19 @@ class SamplesTable final : public Table {
     ColumnRoles roles_;
     std::int64_t block_ = 0, next_ = 0;  // first row of the last block and of the next block
 
-    const SamplesFacts& info() const { return samples_->facts(); }
+    const SamplesInfo& info() const { return samples_->info(); }
 
     /// Turns infinities into gaps too. Without allowed gaps, returns an error.
     Result<void> check(std::vector<double>& values, std::size_t column) {
         for (std::size_t k = 0; k < values.size(); ++k) {
             if (std::isfinite(values[k])) continue;
-            const auto field = gaps_allowed_ ? std::nullopt : samples_->place_of(next_ + static_cast<std::int64_t>(k), column);
+            const auto field = allows_gaps_ ? std::nullopt : samples_->location_of(next_ + static_cast<std::int64_t>(k), column);
             if (field)
                 return bad_input(fmt::format("field {} is not a number; use --bad-fields interpolate to fill it in, or --bad-fields drop "
                                              "to skip this sample in all channels",
                                              field->field),
-                                 field->place);
-            if (!gaps_allowed_)
+                                 field->location);
+            if (!allows_gaps_)
                 return bad_input(fmt::format("row {}: column '{}': {} where a number is expected", next_ + static_cast<std::int64_t>(k) + 1,
                                              columns()[column].name, values[k]),
                                  {path_});
@@ -46,12 +46,12 @@ class SamplesTable final : public Table {
 
 public:
     SamplesTable(std::string path, std::unique_ptr<Samples> samples)
-        : path_(std::move(path)), samples_(std::move(samples)), columns_(info().columns), roles_{.time = info().time} {}
+        : path_(std::move(path)), samples_(std::move(samples)), columns_(info().columns), roles_{.time_column = info().time_column} {}
 
     /// Determines the roles of the columns from their names and first rows, as for a text file.
     Result<void> find_roles() {
-        if (!are_named(columns_)) return {};
-        const auto rows = std::min({rows_looked_at, static_cast<std::size_t>(info().rows), max_inspected_numbers / columns_.size()});
+        if (!have_own_names(columns_)) return {};
+        const auto rows = std::min({inspected_rows, static_cast<std::size_t>(info().rows), max_inspected_numbers / columns_.size()});
         std::vector<std::size_t> all(columns_.size());
         std::iota(all.begin(), all.end(), std::size_t{0});
         std::vector<std::vector<double>> numbers(columns_.size(), std::vector<double>(rows));
@@ -59,19 +59,19 @@ public:
         std::vector<FirstFields> first(columns_.size());
         for (std::size_t c = 0; c < first.size(); ++c)
             for (const double x : numbers[c]) first[c].add_number(x);
-        roles_ = assign_roles(columns_, first, true, info().time);
+        roles_ = assign_roles(columns_, first, true, info().time_column);
         return {};
     }
 
     const std::vector<Column>& columns() const override { return columns_; }
     std::optional<double> rate() const override { return info().rate > 0.0 ? info().rate : std::nullopt; }
-    bool orientation_is_known() const override { return true; }
-    std::vector<std::string> remarks() const override { return info().remarks; }
-    std::optional<std::size_t> time_column() const override { return roles_.time; }
-    bool time_is_guessed() const override { return roles_.time_is_guessed; }
-    std::vector<std::string> time_remarks() const override { return roles_.remarks; }
-    double done() const override { return static_cast<double>(next_) / static_cast<double>(info().rows); }
-    Place place(std::size_t row) const override { return {path_, block_ + static_cast<long>(row) + 1}; }
+    bool is_orientation_known() const override { return true; }
+    std::vector<std::string> notes() const override { return info().notes; }
+    std::optional<std::size_t> time_column() const override { return roles_.time_column; }
+    bool is_time_guessed() const override { return roles_.is_time_guessed; }
+    std::vector<std::string> time_notes() const override { return roles_.notes; }
+    double progress() const override { return static_cast<double>(next_) / static_cast<double>(info().rows); }
+    SourceLocation location(std::size_t row) const override { return {path_, block_ + static_cast<long>(row) + 1}; }
     Result<void> rewind() override { return next_ = 0, Result<void>{}; }
 
     Result<std::size_t> read(const std::vector<std::size_t>& wanted, std::size_t rows, std::vector<std::vector<double>>& out) override {
@@ -89,17 +89,17 @@ public:
 
 class WithTimes final : public Samples {
     std::unique_ptr<Samples> times_, samples_;
-    SamplesFacts info_;
+    SamplesInfo info_;
 
 public:
     WithTimes(std::unique_ptr<Samples> times, std::unique_ptr<Samples> samples)
-        : times_(std::move(times)), samples_(std::move(samples)), info_(samples_->facts()) {
-        info_.columns.insert(info_.columns.begin(), times_->facts().columns[0]);
-        info_.time = 0;
-        info_.remarks.insert(info_.remarks.end(), times_->facts().remarks.begin(), times_->facts().remarks.end());
+        : times_(std::move(times)), samples_(std::move(samples)), info_(samples_->info()) {
+        info_.columns.insert(info_.columns.begin(), times_->info().columns[0]);
+        info_.time_column = 0;
+        info_.notes.insert(info_.notes.end(), times_->info().notes.begin(), times_->info().notes.end());
     }
 
-    const SamplesFacts& facts() const override { return info_; }
+    const SamplesInfo& info() const override { return info_; }
 
     Result<void> fetch(std::int64_t first, std::size_t rows, std::span<const std::size_t> wanted,
                        std::vector<std::vector<double>>& out) override {
@@ -123,44 +123,44 @@ public:
     }
 };
 
-std::string list_arrays(std::span<const ArrayFacts> arrays) {
+std::string list_arrays(std::span<const ArrayInfo> arrays) {
     constexpr std::size_t limit = 24;
     std::vector<std::string> texts;
-    for (const auto& a : arrays.first(std::min(arrays.size(), limit))) texts.push_back(described(a));
+    for (const auto& a : arrays.first(std::min(arrays.size(), limit))) texts.push_back(describe(a));
     return fmt::format("{}{}", fmt::join(texts, ", "), arrays.size() > limit ? " ..." : "");
 }
 
-bool is_usable(const ArrayFacts& a) { return a.numeric && (a.shape.size() == 1 || a.shape.size() == 2); }
+bool is_usable(const ArrayInfo& a) { return a.is_numeric && (a.shape.size() == 1 || a.shape.size() == 2); }
 
-bool is_single_value(const ArrayFacts& a) {
+bool is_single_value(const ArrayInfo& a) {
     return std::all_of(a.shape.begin(), a.shape.end(), [](auto n) { return n == 1; });
 }
 
 /// True for arrays of times and rates, which belong to another array.
-bool is_accessory(const ArrayFacts& a) {
-    const auto name = last_name(a.name);
-    return names_time(parse_heading(name).name) || (is_single_value(a) && (names_rate(name) || a.shape.empty()));
+bool is_accessory(const ArrayInfo& a) {
+    const auto name = last_path_component(a.name);
+    return is_time_name(parse_heading(name).name) || (is_single_value(a) && (is_rate_name(name) || a.shape.empty()));
 }
 
 /// Decides which dimension of an array is time.
-Result<void> orient(Extent& e, const ArrayFacts& a, const std::string& path, const ExtentHints& hints) {
-    const auto flip = [&e] { std::swap(e.rows, e.columns), e.lying = !e.lying; };
+Result<void> orient(ArrayExtent& e, const ArrayInfo& a, const std::string& path, const ExtentHints& hints) {
+    const auto flip = [&e] { std::swap(e.rows, e.columns), e.is_transposed = !e.is_transposed; };
     if (e.rows == 1 && e.columns > 1 && hints.transpose != false) return flip(), Result<void>{};
-    if (hints.by_columns && e.columns > 1) flip();
+    if (hints.is_column_major && e.columns > 1) flip();
     if (hints.transpose) return *hints.transpose ? flip() : void(), Result<void>{};
     if (e.columns <= e.rows || e.rows == 1) return {};
-    const auto is_length = [&](std::uint64_t n) { return std::find(hints.samples.begin(), hints.samples.end(), n) != hints.samples.end(); };
-    if (is_length(e.rows) || (hints.channels == e.columns && !is_length(e.columns))) return {};
-    if (is_length(e.columns) || hints.channels == e.rows) {
+    const auto is_length = [&](std::uint64_t n) { return std::find(hints.time_lengths.begin(), hints.time_lengths.end(), n) != hints.time_lengths.end(); };
+    if (is_length(e.rows) || (hints.channel_names == e.columns && !is_length(e.columns))) return {};
+    if (is_length(e.columns) || hints.channel_names == e.rows) {
         flip();
-        e.remark = fmt::format("{}: taken as {} channels of {} samples, to match {}; use --no-transpose if each row is a sample",
-                               described(a), e.columns, e.rows, is_length(e.rows) ? "the times" : "the channel names");
+        e.note = fmt::format("{}: taken as {} channels of {} samples, to match {}; use --no-transpose if each row is a sample",
+                               describe(a), e.columns, e.rows, is_length(e.rows) ? "the times" : "the channel names");
         return {};
     }
     return bad_input(
         fmt::format("{}: {} channels of only {} samples? Use --transpose if each row is a channel, or --no-transpose if each row is a "
                     "sample",
-                    described(a), e.columns, e.rows),
+                    describe(a), e.columns, e.rows),
         {path});
 }
 
@@ -171,7 +171,7 @@ bool ends_in(std::string_view path, std::string_view names) {
 
 /// The arrays that match `wanted`: the complete path (with or without the first slash), otherwise the end of a path. A group stands for
 /// its member `data`.
-std::vector<std::size_t> matching_arrays(std::string_view wanted, std::span<const ArrayFacts> arrays) {
+std::vector<std::size_t> matching_arrays(std::string_view wanted, std::span<const ArrayInfo> arrays) {
     if (wanted.starts_with('/')) wanted.remove_prefix(1);
     const auto find_all = [&](const auto& fits) {
         std::vector<std::size_t> found;
@@ -188,12 +188,12 @@ std::vector<std::size_t> matching_arrays(std::string_view wanted, std::span<cons
     return find_all([&](auto name) { return ends_in(name, wanted) || ends_in(name, data); });
 }
 
-Result<std::size_t> array_by_name(const std::string& wanted, std::span<const ArrayFacts> arrays, const std::string& path) {
+Result<std::size_t> array_by_name(const std::string& wanted, std::span<const ArrayInfo> arrays, const std::string& path) {
     std::vector<std::string_view> names;
     for (const auto& a : arrays) names.push_back(a.name);
     const auto matches = matching_arrays(wanted, arrays);
     if (matches.size() > 1) {
-        std::vector<ArrayFacts> several;
+        std::vector<ArrayInfo> several;
         for (const auto k : matches) several.push_back(arrays[k]);
         return bad_input(fmt::format("several arrays match '{}'; select one with --dataset PATH: {}", wanted, list_arrays(several)),
                          {path});
@@ -202,13 +202,13 @@ Result<std::size_t> array_by_name(const std::string& wanted, std::span<const Arr
         return bad_input(fmt::format("no array '{}'{}; arrays: {}", wanted, did_you_mean(wanted, names), list_arrays(arrays)), {path});
     const auto k = matches[0];
     if (is_usable(arrays[k])) return k;
-    return bad_input(fmt::format("{}: a recording must be numeric with one dimension, or two (rows and channels)", described(arrays[k])),
+    return bad_input(fmt::format("{}: a recording must be numeric with one dimension, or two (rows and channels)", describe(arrays[k])),
                      {path});
 }
 
-Result<std::size_t> only_array(std::span<const ArrayFacts> arrays, const std::string& path) {
+Result<std::size_t> only_array(std::span<const ArrayInfo> arrays, const std::string& path) {
     std::vector<std::size_t> able, likely;
-    std::vector<ArrayFacts> candidates;
+    std::vector<ArrayInfo> candidates;
     for (std::size_t k = 0; k < arrays.size(); ++k) {
         if (!is_usable(arrays[k])) continue;
         able.push_back(k);
@@ -226,47 +226,47 @@ Result<std::size_t> only_array(std::span<const ArrayFacts> arrays, const std::st
 
 }  // namespace
 
-Result<std::unique_ptr<Table>> table_of(SamplesResult samples, const std::string& path) {
+Result<std::unique_ptr<Table>> make_table(SamplesResult samples, const std::string& path) {
     if (!samples) return samples.error();
-    if ((*samples)->facts().rows < 1 || (*samples)->facts().columns.empty()) return bad_input("no data in this file", {path});
+    if ((*samples)->info().rows < 1 || (*samples)->info().columns.empty()) return bad_input("no data in this file", {path});
     auto table = std::make_unique<SamplesTable>(path, *std::move(samples));
     if (auto ok = table->find_roles(); !ok) return ok.error();
     return std::unique_ptr<Table>(std::move(table));
 }
 
-std::unique_ptr<Samples> with_times(std::unique_ptr<Samples> times, std::unique_ptr<Samples> samples) {
+std::unique_ptr<Samples> add_time_column(std::unique_ptr<Samples> times, std::unique_ptr<Samples> samples) {
     return std::make_unique<WithTimes>(std::move(times), std::move(samples));
 }
 
-std::string described(const ArrayFacts& a) {
+std::string describe(const ArrayInfo& a) {
     const auto shape = a.shape.empty() ? "scalar" : fmt::format("{}", fmt::join(a.shape, " x "));
-    return fmt::format("{} ({}{})", a.name.empty() ? "the array" : a.name, shape, a.numeric ? "" : ", not numeric");
+    return fmt::format("{} ({}{})", a.name.empty() ? "the array" : a.name, shape, a.is_numeric ? "" : ", not numeric");
 }
 
-Result<std::size_t> choose_array(std::span<const ArrayFacts> arrays, const std::optional<std::string>& wanted, const std::string& path) {
+Result<std::size_t> choose_array(std::span<const ArrayInfo> arrays, const std::optional<std::string>& wanted, const std::string& path) {
     if (arrays.empty()) return bad_input("there is no array in this file", {path});
     return wanted ? array_by_name(*wanted, arrays, path) : only_array(arrays, path);
 }
 
-bool names_rate(std::string_view name) {
+bool is_rate_name(std::string_view name) {
     constexpr std::string_view words[] = {"rate", "fs", "sampling_rate", "sample_rate", "sampling_frequency", "samplerate"};
     return std::find(std::begin(words), std::end(words), lower(name)) != std::end(words);
 }
 
-std::string_view last_name(std::string_view path) { return path.substr(path.rfind('/') + 1); }
+std::string_view last_path_component(std::string_view path) { return path.substr(path.rfind('/') + 1); }
 
-Result<Extent> extent_of(const ArrayFacts& a, const std::string& path, const ExtentHints& hints) {
+Result<ArrayExtent> extent_of(const ArrayInfo& a, const std::string& path, const ExtentHints& hints) {
     if (a.shape.empty() || a.shape.size() > 2)
-        return bad_input(fmt::format("{}: a recording must have one dimension, or two (rows and channels)", described(a)), {path});
-    Extent e{a.shape[0], a.shape.size() == 2 ? a.shape[1] : 1};
-    if (e.rows == 0 || e.columns == 0) return bad_input(fmt::format("{}: it has no samples", described(a)), {path});
+        return bad_input(fmt::format("{}: a recording must have one dimension, or two (rows and channels)", describe(a)), {path});
+    ArrayExtent e{a.shape[0], a.shape.size() == 2 ? a.shape[1] : 1};
+    if (e.rows == 0 || e.columns == 0) return bad_input(fmt::format("{}: it has no samples", describe(a)), {path});
     if (auto ok = a.shape.size() == 2 ? orient(e, a, path, hints) : Result<void>(); !ok) return ok.error();
-    if (e.columns > max_columns) return bad_input(fmt::format("{}: more than {} channels", described(a), max_columns), {path});
+    if (e.columns > max_columns) return bad_input(fmt::format("{}: more than {} channels", describe(a), max_columns), {path});
     return e;
 }
 
-std::optional<std::uint64_t> length_of_times(const ArrayFacts& a) {
-    if (!a.numeric || a.shape.empty() || a.shape.size() > 2 || !names_time(parse_heading(last_name(a.name)).name)) return {};
+std::optional<std::uint64_t> time_list_length(const ArrayInfo& a) {
+    if (!a.is_numeric || a.shape.empty() || a.shape.size() > 2 || !is_time_name(parse_heading(last_path_component(a.name)).name)) return {};
     if (a.shape.size() == 2 && a.shape[0] != 1 && a.shape[1] != 1) return {};
     return a.shape.size() == 2 ? a.shape[0] * a.shape[1] : a.shape[0];
 }

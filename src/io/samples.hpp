@@ -10,25 +10,25 @@
 namespace corpuscle {
 
 /// Properties that are known before the samples are read.
-struct SamplesFacts {
+struct SamplesInfo {
     std::vector<Column> columns = {};
     std::int64_t rows = 0;
     std::optional<double> rate = {};       ///< Hz
-    std::optional<std::size_t> time = {};  ///< the time column, if it is known otherwise than by its name
-    std::vector<std::string> remarks = {};
+    std::optional<std::size_t> time_column = {};  ///< the time column, if it is known otherwise than by its name
+    std::vector<std::string> notes = {};
 };
 
 /// The location of a value in a text file: line and field.
-struct FieldPlace {
-    Place place;
+struct FieldLocation {
+    SourceLocation location;
     std::size_t field;
 };
 
 class Samples {
 public:
     virtual ~Samples() = default;
-    virtual const SamplesFacts& facts() const = 0;
-    virtual std::optional<FieldPlace> place_of(std::int64_t row, std::size_t column) const {
+    virtual const SamplesInfo& info() const = 0;
+    virtual std::optional<FieldLocation> location_of(std::int64_t row, std::size_t column) const {
         return static_cast<void>(row), static_cast<void>(column), std::nullopt;
     }
     /// Reads `rows` rows, starting with row `first`, of column wanted[i] into out[i]. The rows must exist.
@@ -39,51 +39,51 @@ public:
 using SamplesResult = Result<std::unique_ptr<Samples>>;
 
 /// Wraps samples as a table. No samples are an error. A value that is not a finite number is an error when it is read.
-Result<std::unique_ptr<Table>> table_of(SamplesResult, const std::string& path);
+Result<std::unique_ptr<Table>> make_table(SamplesResult, const std::string& path);
 
 /// Adds a list of times as the first column of samples with the same number of rows.
-std::unique_ptr<Samples> with_times(std::unique_ptr<Samples> times, std::unique_ptr<Samples> samples);
+std::unique_ptr<Samples> add_time_column(std::unique_ptr<Samples> times, std::unique_ptr<Samples> samples);
 
 /// Describes one array of a file.
-struct ArrayFacts {
+struct ArrayInfo {
     std::string name;  ///< the path in HDF5
     std::vector<std::uint64_t> shape;
-    bool numeric = false;
+    bool is_numeric = false;
 };
 
 /// Name and shape: "force (12000 x 16)".
-std::string described(const ArrayFacts&);
+std::string describe(const ArrayInfo&);
 
 /// The index of the array called `wanted`. Without a name, the index of the only array that can be a recording: numbers in one or two
 /// dimensions that are neither times nor a rate. Otherwise returns an error that lists the arrays.
-Result<std::size_t> choose_array(std::span<const ArrayFacts>, const std::optional<std::string>& wanted, const std::string& path);
+Result<std::size_t> choose_array(std::span<const ArrayInfo>, const std::optional<std::string>& wanted, const std::string& path);
 
 /// True if an array, number or attribute of this name is the sample rate in Hz.
-bool names_rate(std::string_view name);
+bool is_rate_name(std::string_view name);
 
 /// The last component of a path.
-std::string_view last_name(std::string_view path);
+std::string_view last_path_component(std::string_view path);
 
 /// The orientation of an array. One dimension is one channel, two are rows and channels, a single row is one channel.
-struct Extent {
+struct ArrayExtent {
     std::uint64_t rows = 0, columns = 1;
-    bool lying = false;       ///< samples run along the second dimension
-    std::string remark = {};  ///< the reason for a transposition
+    bool is_transposed = false;       ///< samples run along the second dimension
+    std::string note = {};  ///< the reason for a transposition
 };
 
 /// Hints that distinguish samples from channels in an array with more columns than rows.
 struct ExtentHints {
     std::optional<bool> transpose = {};          ///< as requested by the user
-    bool by_columns = false;                     ///< column-major, as MATLAB writes arrays
-    std::vector<std::uint64_t> samples = {};     ///< lengths of time lists that may belong to the array
-    std::optional<std::uint64_t> channels = {};  ///< number of channel names
+    bool is_column_major = false;                     ///< column-major, as MATLAB writes arrays
+    std::vector<std::uint64_t> time_lengths = {};     ///< lengths of time lists that may belong to the array
+    std::optional<std::uint64_t> channel_names = {};  ///< number of channel names
 };
 
 /// More channels than samples are an error, unless a hint resolves the orientation.
-Result<Extent> extent_of(const ArrayFacts&, const std::string& path, const ExtentHints& = {});
+Result<ArrayExtent> extent_of(const ArrayInfo&, const std::string& path, const ExtentHints& = {});
 
 /// The length of the array if it can be a list of times, by its name, type and shape. Otherwise nullopt.
-std::optional<std::uint64_t> length_of_times(const ArrayFacts&);
+std::optional<std::uint64_t> time_list_length(const ArrayInfo&);
 
 /// Columns for an array. A single column has the array's name, several are called ch1, ch2 ... A unit in the array's name ("force_mN")
 /// applies to all.

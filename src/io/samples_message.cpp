@@ -13,9 +13,9 @@ std::optional<Error> error_in(Message& m, const std::string& path) {
     if (!m.get(code)) return broken_response(path);
     if (code == 0) return {};
     Error error;
-    error.code = static_cast<Code>(code);
-    const bool known = error.code == Code::bad_input || error.code == Code::bad_usage || error.code == Code::interrupted;
-    if (!known || !m.get(error.sentence) || !m.get(error.place.file)) return broken_response(path);
+    error.code = static_cast<ErrorCode>(code);
+    const bool known = error.code == ErrorCode::bad_input || error.code == ErrorCode::bad_usage || error.code == ErrorCode::interrupted;
+    if (!known || !m.get(error.message) || !m.get(error.location.file)) return broken_response(path);
     return error;
 }
 
@@ -80,21 +80,21 @@ bool decode(Message& m, FetchRequest& request) {
 Message encode(const Error& error) {
     Message m;
     m.put(static_cast<std::uint64_t>(error.code));
-    m.put(error.sentence);
-    m.put(error.place.file);
+    m.put(error.message);
+    m.put(error.location.file);
     return m;
 }
 
-Message encode(const SamplesFacts& info) {
+Message encode(const SamplesInfo& info) {
     Message m;
     m.put(0);
     m.put(static_cast<std::uint64_t>(info.rows));
     const double rate = info.rate.value_or(0);
     m.put(&rate, sizeof rate);
-    put_optional(m, info.time);
+    put_optional(m, info.time_column);
     m.put(info.columns.size());
     for (const auto& c : info.columns) m.put(c.name), m.put(c.unit);
-    put_texts(m, info.remarks);
+    put_texts(m, info.notes);
     return m;
 }
 
@@ -105,12 +105,12 @@ Message encode(const std::vector<std::vector<double>>& columns) {
     return m;
 }
 
-Result<SamplesFacts> decode_facts(Message& m, const std::string& path) {
-    SamplesFacts info;
+Result<SamplesInfo> decode_info(Message& m, const std::string& path) {
+    SamplesInfo info;
     if (auto error = error_in(m, path)) return *std::move(error);
     std::uint64_t rows = 0, columns = 0;
     double rate = 0;
-    bool is_complete = m.get(rows) && m.get(&rate, sizeof rate) && get_optional(m, info.time) && m.get(columns);
+    bool is_complete = m.get(rows) && m.get(&rate, sizeof rate) && get_optional(m, info.time_column) && m.get(columns);
     info.rows = static_cast<std::int64_t>(rows);
     if (rate != 0) info.rate = rate;
     for (std::uint64_t k = 0; is_complete && k < columns; ++k) {
@@ -118,7 +118,7 @@ Result<SamplesFacts> decode_facts(Message& m, const std::string& path) {
         is_complete = m.get(c.name) && m.get(c.unit);
         info.columns.push_back(std::move(c));
     }
-    if (!is_complete || !get_texts(m, info.remarks) || (info.time && *info.time >= info.columns.size())) return broken_response(path);
+    if (!is_complete || !get_texts(m, info.notes) || (info.time_column && *info.time_column >= info.columns.size())) return broken_response(path);
     return info;
 }
 

@@ -25,11 +25,11 @@ bool decode(Message&, FetchRequest&);
 
 // Responses. Each begins with 0, or is an error.
 Message encode(const Error&);
-Message encode(const SamplesFacts&);
+Message encode(const SamplesInfo&);
 Message encode(const std::vector<std::vector<double>>& columns);
 
 // Decode responses; `path` is for errors. The child is not trusted: any bytes give values or an error.
-Result<SamplesFacts> decode_facts(Message&, const std::string& path);
+Result<SamplesInfo> decode_info(Message&, const std::string& path);
 /// Decodes `rows` rows into each column of `out`, from row `at` on.
 Result<void> decode_rows(Message&, std::size_t at, std::size_t rows, std::vector<std::vector<double>>& out, const std::string& path);
 

@@ -5,7 +5,7 @@
 #include <charconv>
 
 #include "io/heading.hpp"
-#include "signal/text.hpp"
+#include "signal/ascii_text.hpp"
 
 namespace corpuscle {
 namespace {
@@ -15,7 +15,7 @@ constexpr std::string_view unit_names[] = {"unit",  "unit_id", "cluster",       
                                            "units", "index",   "address",        "spike_unit", "senders"};
 
 bool is_spike_time_name(std::string_view name) {
-    return names_time(name) || name == "spike_time" || name == "spike_times" || name == "spiketime" || name == "spiketimes" ||
+    return is_time_name(name) || name == "spike_time" || name == "spike_times" || name == "spiketime" || name == "spiketimes" ||
            name == "spike time";
 }
 
@@ -39,10 +39,10 @@ std::optional<std::size_t> requested_column(const std::vector<std::string>& head
 
 }  // namespace
 
-Result<SpikeColumnsFound> find_spike_columns(const std::vector<std::string>& headings, const SpikeColumns& wanted, std::size_t& column) {
+Result<ResolvedSpikeColumns> find_spike_columns(const std::vector<std::string>& headings, const SpikeColumns& wanted, std::size_t& column) {
     std::optional<std::size_t> time, unit;
-    SpikeColumnsFound out;
-    for (const auto& [option, requested, to] : {std::tuple{"--time", &wanted.time, &time}, {"--unit", &wanted.unit, &unit}}) {
+    ResolvedSpikeColumns out;
+    for (const auto& [option, requested, to] : {std::tuple{"--time", &wanted.time, &time}, {"--unit", &wanted.train, &unit}}) {
         if (!*requested) continue;
         *to = requested_column(headings, **requested);
         if (!*to)
@@ -51,7 +51,7 @@ Result<SpikeColumnsFound> find_spike_columns(const std::vector<std::string>& hea
     for (std::size_t c = 0; c < headings.size(); ++c) {
         const auto name = lower(parse_heading(headings[c]).name);
         if (!time && is_spike_time_name(name)) time = c;
-        if (name == "afferent" && !wanted.unit) out.afferent = c;
+        if (name == "afferent" && !wanted.train) out.afferent = c;
         if (name == "channel") out.channel = c;
     }
     for (const auto name : unit_names)
@@ -69,9 +69,9 @@ Result<SpikeColumnsFound> find_spike_columns(const std::vector<std::string>& hea
                         listed_headings(headings)));
     out.time = *time;
     const auto in = parse_heading(headings[*time]).unit;
-    const auto seconds = in.empty() ? std::optional(1.0) : seconds_in(in);
+    const auto seconds = in.empty() ? std::optional(1.0) : seconds_per_time_unit(in);
     if (!seconds) return column = *time + 1, bad_input(fmt::format("'{}' is not a unit of time; use s, ms, us or min", in));
-    out.seconds = *seconds;
+    out.seconds_per_unit = *seconds;
     return out;
 }
 

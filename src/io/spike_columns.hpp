@@ -6,18 +6,18 @@
 #include <string>
 #include <vector>
 
-#include "io/spikes.hpp"
+#include "io/spike_files.hpp"
 
 namespace corpuscle {
 
-struct SpikeColumnsFound {
+struct ResolvedSpikeColumns {
     std::size_t time = 0;
-    double seconds = 1;  ///< unit of the time column
+    double seconds_per_unit = 1;  ///< unit of the time column
     std::optional<std::size_t> afferent = {}, channel = {};
 };
 
 /// `headings` are the header fields of the file, "" without a header. If a column is missing or wrong, returns an error and stores the
 /// index of a wrong one in `column`.
-Result<SpikeColumnsFound> find_spike_columns(const std::vector<std::string>& headings, const SpikeColumns& wanted, std::size_t& column);
+Result<ResolvedSpikeColumns> find_spike_columns(const std::vector<std::string>& headings, const SpikeColumns& wanted, std::size_t& column);
 
 }  // namespace corpuscle

@@ -16,25 +16,25 @@ struct Column {
     std::string name;
     std::string unit;  ///< as written in the file; "" if there is none
     /// The reason why the column is not a channel unless it is requested by name, as a predicate ("holds words"). "": it may be one.
-    std::string left_out = {};
-    bool stamps = false;        ///< holds dates or times of day, which are read as seconds from the first
-    std::string evidence = {};  ///< if the column holds words: the first word, its line, and a remedy if one is known
+    std::string exclusion_reason = {};
+    bool holds_time_stamps = false;        ///< holds dates or times of day, which are read as seconds from the first
+    std::string exclusion_evidence = {};  ///< if the column holds words: the first word, its line, and a remedy if one is known
 };
 
-inline constexpr std::size_t rows_a_block = 4096;
+inline constexpr std::size_t rows_per_block = 4096;
 
 /// Options for opening a file.
 struct TableOptions {
     std::optional<std::string> dataset = {};  ///< the array to read: "/force/data" in HDF5, "force" in NPZ
     std::optional<bool> transpose = {};       ///< true: rows are channels; false: rows are samples, even if there are fewer rows
-    std::size_t skip = 0;                     ///< number of lines before the table in a text file
+    std::size_t skip_lines = 0;                     ///< number of lines before the table in a text file
     /// Called while a file is opened that must be read completely. Returning false stops it.
-    std::function<bool()> keep_on = [] { return true; };
+    std::function<bool()> should_continue = [] { return true; };
 };
 
 class Table {
 protected:
-    bool gaps_allowed_ = false;
+    bool allows_gaps_ = false;
 
 public:
     virtual ~Table() = default;
@@ -42,29 +42,29 @@ public:
     /// The sample rate in Hz, if the file contains it.
     virtual std::optional<double> rate() const { return {}; }
     /// True if the format has determined which dimension of the array is time.
-    virtual bool orientation_is_known() const { return false; }
+    virtual bool is_orientation_known() const { return false; }
     /// If gaps are allowed, a field that is not a finite number reads as NaN. Otherwise it is an error that names its location.
-    void allow_gaps(bool allowed) { gaps_allowed_ = allowed; }
+    void allow_gaps(bool allowed) { allows_gaps_ = allowed; }
     /// The time column, if the file shows one.
     virtual std::optional<std::size_t> time_column() const = 0;
     /// True if the time column was recognised by its values instead of its name.
-    virtual bool time_is_guessed() const = 0;
+    virtual bool is_time_guessed() const = 0;
     /// Reads up to `rows` rows of column wanted[i] into out[i]. Returns fewer only at the end of the file.
     virtual Result<std::size_t> read(const std::vector<std::size_t>& wanted, std::size_t rows, std::vector<std::vector<double>>& out) = 0;
     virtual Result<void> rewind() = 0;
     /// Notes for the user about how the file is read.
-    virtual std::vector<std::string> remarks() const { return {}; }
+    virtual std::vector<std::string> notes() const { return {}; }
     /// Notes for the user about the time column.
-    virtual std::vector<std::string> time_remarks() const { return {}; }
+    virtual std::vector<std::string> time_notes() const { return {}; }
     /// For row `row` of the last block, where the time decreases: if a new trial begins there, how to make a file of a single trial.
     /// Otherwise "". The table must be rewound afterwards.
-    virtual std::string one_trial(std::size_t row) { return static_cast<void>(row), std::string(); }
+    virtual std::string single_trial_advice(std::size_t row) { return static_cast<void>(row), std::string(); }
     /// The names of the rows, if each row begins with a name. The table must be rewound afterwards.
     virtual Result<std::vector<std::string>> row_names() { return std::vector<std::string>(); }
     /// The fraction of the file that has been read, 0 to 1.
-    virtual double done() const = 0;
+    virtual double progress() const = 0;
     /// The location of row number `row` of the last block, for messages.
-    virtual Place place(std::size_t row) const = 0;
+    virtual SourceLocation location(std::size_t row) const = 0;
 };
 
 }  // namespace corpuscle

@@ -44,7 +44,7 @@ public:
         if (const auto size = std::filesystem::file_size(path_, status); !status) size_ = static_cast<double>(size);
     }
     bool is_open() const { return file_ != nullptr; }
-    double done() const override { return size_ > 0 ? std::min(1.0, read_ / size_) : 1; }
+    double progress() const override { return size_ > 0 ? std::min(1.0, read_ / size_) : 1; }
 };
 
 class GzipText final : public TextInput {
@@ -102,8 +102,8 @@ public:
     GzipText(const GzipText&) = delete;
     GzipText& operator=(const GzipText&) = delete;
     ~GzipText() override { ::inflateEnd(&stream_); }
-    double done() const override { return packed_->done(); }
-    std::vector<std::string> commands() const override { return {"zcat"}; }
+    double progress() const override { return packed_->progress(); }
+    std::vector<std::string> shell_commands() const override { return {"zcat"}; }
 };
 
 void append_code_point(std::string& out, unsigned long c) {
@@ -174,9 +174,9 @@ class Utf16Text final : public TextInput {
 public:
     Utf16Text(std::string path, std::unique_ptr<TextInput> units, bool big_endian)
         : path_(std::move(path)), units_(std::move(units)), big_endian_(big_endian) {}
-    double done() const override { return units_->done(); }
-    std::vector<std::string> commands() const override {
-        auto all = units_->commands();
+    double progress() const override { return units_->progress(); }
+    std::vector<std::string> shell_commands() const override {
+        auto all = units_->shell_commands();
         all.push_back(fmt::format("iconv -f UTF-16{} -t UTF-8", big_endian_ ? "BE" : "LE"));
         return all;
     }
@@ -196,9 +196,9 @@ char utf16_order(std::string_view first) {
 }  // namespace
 
 Result<std::size_t> TextInput::read(char* to, std::size_t max_bytes) {
-    const std::size_t n = std::min(max_bytes, ahead_.size());
-    std::memcpy(to, ahead_.data(), n);
-    ahead_.erase(0, n);
+    const std::size_t n = std::min(max_bytes, lookahead_.size());
+    std::memcpy(to, lookahead_.data(), n);
+    lookahead_.erase(0, n);
     if (n == max_bytes) return n;
     const auto more = fetch(to + n, max_bytes - n);
     if (!more) return more.error();
@@ -206,17 +206,17 @@ Result<std::size_t> TextInput::read(char* to, std::size_t max_bytes) {
 }
 
 Result<std::string_view> TextInput::peek(std::size_t count) {
-    if (const std::size_t had = ahead_.size(); had < count) {
-        ahead_.resize(count);
-        const auto got = fetch(ahead_.data() + had, count - had);
-        ahead_.resize(had + (got ? *got : 0));
+    if (const std::size_t had = lookahead_.size(); had < count) {
+        lookahead_.resize(count);
+        const auto got = fetch(lookahead_.data() + had, count - had);
+        lookahead_.resize(had + (got ? *got : 0));
         if (!got) return got.error();
     }
-    return std::string_view(ahead_).substr(0, count);
+    return std::string_view(lookahead_).substr(0, count);
 }
 
 Result<void> TextInput::rewind() {
-    ahead_.clear();
+    lookahead_.clear();
     return restart();
 }
 
@@ -234,8 +234,8 @@ Result<std::unique_ptr<TextInput>> open_text_input(const std::string& path) {
         first = input->peek(signature_bytes);
     }
     if (!first) return first.error();
-    const auto foreign = foreign_format(*first, path);
-    if (const auto refusal = foreign.empty() ? misnamed_format(*first, path) : foreign; !refusal.empty())
+    const auto foreign = describe_foreign_format(*first, path);
+    if (const auto refusal = foreign.empty() ? describe_misnamed_format(*first, path) : foreign; !refusal.empty())
         return bad_input(
             packed ? "this gzip file does not contain text; decompress it first: " + unpack_command("gzip", ".gz", path) : refusal, {path});
     if (const char order = utf16_order(*first))

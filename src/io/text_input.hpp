@@ -12,7 +12,7 @@
 namespace corpuscle {
 
 class TextInput {
-    std::string ahead_;  // bytes read by peek() but not yet by read()
+    std::string lookahead_;  // bytes read by peek() but not yet by read()
 
     /// Reads up to `max_bytes` bytes. Returns fewer only at the end.
     virtual Result<std::size_t> fetch(char* to, std::size_t max_bytes) = 0;
@@ -25,9 +25,9 @@ public:
     Result<std::string_view> peek(std::size_t count);
     Result<void> rewind();
     /// The fraction of the file's bytes that has been read, 0 to 1.
-    virtual double done() const = 0;
+    virtual double progress() const = 0;
     /// Shell commands that convert the file to this text, in order: "zcat", "iconv -f UTF-16LE -t UTF-8".
-    virtual std::vector<std::string> commands() const { return {}; }
+    virtual std::vector<std::string> shell_commands() const { return {}; }
 };
 
 /// A file that is not text (workbooks, binary files of other programs, archives) is an error, which names its format and a command to

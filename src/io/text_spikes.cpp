@@ -7,10 +7,10 @@
 #include "io/dialect.hpp"
 #include "io/heading.hpp"
 #include "io/json_records.hpp"
-#include "io/lines.hpp"
+#include "io/line_reader.hpp"
 #include "io/spike_columns.hpp"
-#include "io/trains.hpp"
-#include "signal/text.hpp"
+#include "io/train_collector.hpp"
+#include "signal/ascii_text.hpp"
 
 namespace corpuscle {
 namespace {
@@ -57,21 +57,21 @@ bool split(std::string_view line, char separator, std::vector<CsvField>& out) {
     }
 }
 
-bool is_time(std::string_view text, char separator, double& value) { return Dialect{separator, separator != ','}.number(text, value); }
+bool is_time(std::string_view text, char separator, double& value) { return Dialect{separator, separator != ','}.parse_number(text, value); }
 
 /// Reads a text table with one row for each spike.
 class TextSpikes {
-    Lines lines_;
+    LineReader lines_;
     SpikeColumns wanted_;
     char separator_ = ',';
     std::vector<CsvField> fields_;
     std::string comment_;  // the last comment before the table
-    SpikeColumnsFound found_;
+    ResolvedSpikeColumns found_;
     std::size_t columns_ = 0;
-    Trains trains_;
+    TrainCollector trains_;
 
     Error error_at(std::string message, long column = 0) const {
-        return bad_input(std::move(message), {lines_.path(), lines_.number(), column});
+        return bad_input(std::move(message), {lines_.path(), lines_.line_number(), column});
     }
 
     /// Blanks are the separator only if the line begins with a number or the name of the time. Other names may contain blanks.
@@ -81,7 +81,7 @@ class TextSpikes {
         std::vector<CsvField> fields;
         double value;
         split(line, ' ', fields);
-        const bool blanks = fields.size() > 1 && (is_time(fields[0].text, ' ', value) || names_time(parse_heading(fields[0].text).name));
+        const bool blanks = fields.size() > 1 && (is_time(fields[0].text, ' ', value) || is_time_name(parse_heading(fields[0].text).name));
         return blanks ? ' ' : ',';
     }
 
@@ -111,12 +111,12 @@ class TextSpikes {
         std::vector<CsvField> commented;
         if (row && !comment_.empty() && split(comment_, separator_of(comment_), commented) && commented.size() == columns_)
             for (std::size_t c = 0; c < columns_; ++c) headings[c] = commented[c].text;
-        if (row && columns_ > 1 && headings[0].empty() && !(wanted_.time && wanted_.unit))
+        if (row && columns_ > 1 && headings[0].empty() && !(wanted_.time && wanted_.train))
             return error_at(
                 fmt::format("{} columns without a header; select the columns of times and trains, such as --time 1 --unit 2", columns_));
         std::size_t column = 0;
         const auto found = find_spike_columns(headings, wanted_, column);
-        if (!found) return error_at(found.error().sentence, column > 0 ? fields_[column - 1].column : 0);
+        if (!found) return error_at(found.error().message, column > 0 ? fields_[column - 1].column : 0);
         found_ = *found;
         return row;
     }
@@ -125,15 +125,15 @@ class TextSpikes {
         if (fields_.size() != columns_) return error_at(fmt::format("{} columns where {} are expected", fields_.size(), columns_));
         const auto& [text, column] = fields_[found_.time];
         double t = 0;
-        if (!is_time(text, separator_, t) || !std::isfinite(t * found_.seconds))
+        if (!is_time(text, separator_, t) || !std::isfinite(t * found_.seconds_per_unit))
             return error_at(fmt::format("'{}' where a time is expected", text.substr(0, 40)), column);
         const auto word = [this](const std::optional<std::size_t>& c) { return c ? fields_[*c].text : std::string(); };
-        trains_.of(word(found_.afferent), word(found_.channel)).push_back(t * found_.seconds);
+        trains_.train(word(found_.afferent), word(found_.channel)).push_back(t * found_.seconds_per_unit);
         return {};
     }
 
 public:
-    TextSpikes(Lines lines, SpikeColumns wanted) : lines_(std::move(lines)), wanted_(std::move(wanted)) {}
+    TextSpikes(LineReader lines, SpikeColumns wanted) : lines_(std::move(lines)), wanted_(std::move(wanted)) {}
 
     Result<std::vector<NamedTrain>> read() {
         const auto header = next();
@@ -146,7 +146,7 @@ public:
         for (;;) {
             const auto more = next();
             if (!more) return more.error();
-            if (!*more) return std::move(trains_).in_order();
+            if (!*more) return std::move(trains_).sorted();
             if (auto ok = add_row(); !ok) return ok.error();
         }
     }
@@ -154,11 +154,11 @@ public:
 
 /// Reads JSON with one record for each spike.
 class JsonSpikes {
-    Lines& lines_;
+    LineReader& lines_;
     SpikeColumns wanted_;
     std::vector<std::string> headings_;
-    SpikeColumnsFound found_;
-    Trains trains_;
+    ResolvedSpikeColumns found_;
+    TrainCollector trains_;
 
     static std::string word_of(const nlohmann::ordered_json& value) { return value.is_string() ? value.get<std::string>() : value.dump(); }
 
@@ -168,34 +168,34 @@ class JsonSpikes {
             for (const auto& f : fields) headings_.push_back(f.name == "ch1" && fields.size() == 1 ? "" : f.name);
             std::size_t column = 0;
             const auto found = find_spike_columns(headings_, wanted_, column);
-            if (!found) return error_here(found.error().sentence);
+            if (!found) return error_here(found.error().message);
             found_ = *found;
         }
         if (fields.size() != headings_.size())
             return error_here(fmt::format("{} fields where {} are expected", fields.size(), headings_.size()));
         const auto& time = *fields[found_.time].value;
-        const double t = time.is_number() ? time.get<double>() * found_.seconds : std::nan("");
+        const double t = time.is_number() ? time.get<double>() * found_.seconds_per_unit : std::nan("");
         if (!std::isfinite(t)) return error_here(fmt::format("{} where a time is expected", time.dump(-1, ' ', true).substr(0, 40)));
         const auto word = [&](const std::optional<std::size_t>& c) { return c ? word_of(*fields[*c].value) : std::string(); };
-        trains_.of(word(found_.afferent), word(found_.channel)).push_back(t);
+        trains_.train(word(found_.afferent), word(found_.channel)).push_back(t);
         return {};
     }
 
 public:
-    JsonSpikes(Lines& lines, SpikeColumns wanted) : lines_(lines), wanted_(std::move(wanted)) {}
+    JsonSpikes(LineReader& lines, SpikeColumns wanted) : lines_(lines), wanted_(std::move(wanted)) {}
 
     Result<std::vector<NamedTrain>> read() {
         if (auto ok = read_json_records(lines_, [this](auto fields, long line) { return add(fields, line); }); !ok) return ok.error();
-        return std::move(trains_).in_order();
+        return std::move(trains_).sorted();
     }
 };
 
 }  // namespace
 
 Result<std::vector<NamedTrain>> read_text_spikes(const std::string& path, const SpikeColumns& wanted) {
-    auto lines = Lines::open(path);
+    auto lines = LineReader::open(path);
     if (!lines) return lines.error();
-    const auto json = begins_like_json(*lines);
+    const auto json = looks_like_json(*lines);
     if (!json) return json.error();
     if (*json) return JsonSpikes(*lines, wanted).read();
     return TextSpikes(std::move(*lines), wanted).read();

@@ -8,16 +8,16 @@
 
 #include "io/json_records.hpp"
 #include "io/json_table.hpp"
-#include "io/text_form.hpp"
-#include "io/unread_field.hpp"
-#include "signal/text.hpp"
+#include "io/text_layout.hpp"
+#include "io/field_advice.hpp"
+#include "signal/ascii_text.hpp"
 
 namespace corpuscle {
 namespace {
 
 class TextTable final : public Table {
-    Lines lines_;
-    TextForm form_;
+    LineReader lines_;
+    TextLayout form_;
     Dialect dialect_;
     std::vector<Column> columns_;
     std::optional<std::size_t> time_;
@@ -31,26 +31,26 @@ class TextTable final : public Table {
     bool quoted_rows_ = false, quoted_separators_ = false;  // found by find_trials()
 
     Error error_at(std::string message, long column = 0) const {
-        return bad_input(std::move(message), {lines_.path(), lines_.number(), column});
+        return bad_input(std::move(message), {lines_.path(), lines_.line_number(), column});
     }
 
-    std::string column_label(std::size_t c) const { return form_.named ? fmt::format("'{}'", columns_[c].name) : fmt::format("{}", c + 1); }
+    std::string column_label(std::size_t c) const { return form_.has_header ? fmt::format("'{}'", columns_[c].name) : fmt::format("{}", c + 1); }
 
     /// Reads the next line that holds data.
     Result<bool> next_row(std::string_view& line) {
         for (;;) {
             const auto more = lines_.next(line);
             if (!more || !*more) return more;
-            if (lines_.number() >= form_.first_row && !is_comment(line)) return true;
+            if (lines_.line_number() >= form_.first_row_line && !is_comment(line)) return true;
         }
     }
 
     /// Seconds from the first time stamp. Times of day continue after midnight.
     std::optional<double> stamp_in(std::size_t c) {
         const auto stamp = parse_time_stamp(fields_[c]);
-        if (!stamp || !form_.first_stamp || stamp->dated != form_.first_stamp->dated) return {};
+        if (!stamp || !form_.first_stamp || stamp->has_date != form_.first_stamp->has_date) return {};
         double t = seconds_between(*form_.first_stamp, *stamp) + days_;
-        if (stamp->dated || c != time_) return t;
+        if (stamp->has_date || c != time_) return t;
         constexpr double day = 86'400;
         if (t < last_stamp_ - day / 2) days_ += day, t += day;
         return last_stamp_ = t;
@@ -58,7 +58,7 @@ class TextTable final : public Table {
 
     /// Options that help with a field that cannot be read.
     std::string remedy(std::size_t c) const {
-        const bool first = lines_.number() <= form_.first_row;
+        const bool first = lines_.line_number() <= form_.first_row_line;
         if (c == time_)
             return fmt::format("; use {}--rate, such as --rate 1kHz, to take the rows as evenly spaced, or --time to name another column",
                                first ? "" : "--bad-fields drop to skip the row, ");
@@ -68,27 +68,27 @@ class TextTable final : public Table {
 
     Result<double> number_in(std::string_view line, std::size_t c) {
         double value = 0;
-        if (columns_[c].stamps) {
+        if (columns_[c].holds_time_stamps) {
             if (const auto t = stamp_in(c)) return *t;
-        } else if (dialect_.number(fields_[c], value)) {
+        } else if (dialect_.parse_number(fields_[c], value)) {
             return value;
         }
-        if (gaps_allowed_) return std::numeric_limits<double>::quiet_NaN();
+        if (allows_gaps_) return std::numeric_limits<double>::quiet_NaN();
         const auto column = fields_[c].data() ? fields_[c].data() - line.data() + 1 : 0;
         const auto found = fields_[c].empty() ? std::string("an empty field") : fmt::format("'{}'", fields_[c].substr(0, 40));
-        const auto advice = columns_[c].stamps ? "" : advice_for(fields_[c]);
+        const auto advice = columns_[c].holds_time_stamps ? "" : advice_for(fields_[c]);
         return error_at(fmt::format("column {}: {} where a {} is expected{}", column_label(c), found,
-                                    columns_[c].stamps ? "time" : "number", advice.empty() ? remedy(c) : "; it contains " + advice),
+                                    columns_[c].holds_time_stamps ? "time" : "number", advice.empty() ? remedy(c) : "; it contains " + advice),
                         column);
     }
 
     /// The unusual feature of a field that should be a number, and how to convert the file. "" if it is not recognised.
     std::string advice_for(std::string_view field) const {
-        const auto advice = advice_on(field);
-        if (advice.what.empty()) return "";
+        const auto advice = advise_on_field(field);
+        if (advice.feature.empty()) return "";
         const auto command = advice.filter.empty() ? "" : lines_.copy_command(advice.filter, "-plain");
-        if (!command.empty()) return fmt::format("{}; convert the file: {}", advice.what, command);
-        return fmt::format("{}; {}", advice.what, advice.remedy.empty() ? "save the table without it" : advice.remedy);
+        if (!command.empty()) return fmt::format("{}; convert the file: {}", advice.feature, command);
+        return fmt::format("{}; {}", advice.feature, advice.remedy.empty() ? "save the table without it" : advice.remedy);
     }
 
     void store_evidence() {
@@ -96,22 +96,22 @@ class TextTable final : public Table {
         std::size_t count = 0;
         for (std::size_t c = 0; c < std::min(columns_.size(), form_.first_fields.size()) && count < max_evidence; ++c) {
             const auto& word = form_.first_fields[c];
-            if (!columns_[c].left_out.starts_with("holds words") || word.empty()) continue;
+            if (!columns_[c].exclusion_reason.starts_with("holds words") || word.empty()) continue;
             ++count;
             const auto advice = advice_for(word);
-            columns_[c].evidence = fmt::format("line {} has '{}'{}{}", form_.first_row, word.substr(0, 40),
+            columns_[c].exclusion_evidence = fmt::format("line {} has '{}'{}{}", form_.first_row_line, word.substr(0, 40),
                                                advice.empty() ? "" : ", which contains ", advice);
         }
     }
 
     void split(std::string_view line) {
         split_row(dialect_, line, columns_.size(), fields_);
-        if (form_.last_may_be_missing && fields_.size() + 1 == columns_.size()) fields_.emplace_back();
+        if (form_.is_last_field_optional && fields_.size() + 1 == columns_.size()) fields_.emplace_back();
     }
 
     /// For a table without a header: takes the first column as the time if it increases in similar steps over the first rows.
     Result<void> find_unnamed_time() {
-        if (!columns_[0].left_out.empty()) return {};
+        if (!columns_[0].exclusion_reason.empty()) return {};
         std::vector<std::vector<double>> first(1);
         const auto rows = read({0}, 64, first);
         if (!rows) return rows.error();
@@ -154,7 +154,7 @@ class TextTable final : public Table {
                 continue;
             }
             double value;
-            if (!dialect_.plain_number(p, end, value)) return false;
+            if (!dialect_.parse_plain_number(p, end, value)) return false;
             if (to_[c]) to_[c][row] = value;
         }
         return p == end;
@@ -163,14 +163,14 @@ class TextTable final : public Table {
     Result<void> read_row(std::string_view line, std::size_t row, const std::vector<std::size_t>& wanted,
                           std::vector<std::vector<double>>& out) {
         if (read_plain_row(line, row)) return {};
-        if (form_.last_may_be_missing && line.starts_with("Channels")) {
-            const auto command = lines_.copy_command(fmt::format("head -n {}", lines_.number() - 1), "-first");
+        if (form_.is_last_field_optional && line.starts_with("Channels")) {
+            const auto command = lines_.copy_command(fmt::format("head -n {}", lines_.line_number() - 1), "-first");
             return error_at(fmt::format("another segment of the measurement begins here, but only one can be read; keep the first{}{}",
                                   command.empty() ? "" : ": ", command));
         }
         split(line);
         if (fields_.size() != columns_.size()) {
-            if (!gaps_allowed_)
+            if (!allows_gaps_)
                 return error_at(
                     fmt::format("{} columns where {} are expected; use --bad-fields drop to skip such rows", fields_.size(),
                                 columns_.size()));
@@ -195,12 +195,12 @@ class TextTable final : public Table {
     /// changes there.
     Result<std::vector<TrialColumn>> find_trials(long begins) {
         std::vector<TrialColumn> found;
-        if (form_.trials.empty()) return found;
+        if (form_.trial_columns.empty()) return found;
         if (auto ok = lines_.rewind(); !ok) return ok.error();
         std::vector<std::string> first, last, now;
-        std::vector<bool> constant(form_.trials.size(), true);
+        std::vector<bool> constant(form_.trial_columns.size(), true);
         quoted_rows_ = quoted_separators_ = false;
-        for (std::string_view line; lines_.number() < begins;) {
+        for (std::string_view line; lines_.line_number() < begins;) {
             const auto more = next_row(line);
             if (!more) return more.error();
             if (!*more) return found;
@@ -212,15 +212,15 @@ class TextTable final : public Table {
             }
             last = std::move(now);
             now.clear();
-            for (const auto c : form_.trials) now.emplace_back(c < fields_.size() ? fields_[c] : std::string_view());
+            for (const auto c : form_.trial_columns) now.emplace_back(c < fields_.size() ? fields_[c] : std::string_view());
             if (first.empty()) first = now;
-            for (std::size_t k = 0; k < now.size() && lines_.number() < begins; ++k) constant[k] = constant[k] && now[k] == first[k];
+            for (std::size_t k = 0; k < now.size() && lines_.line_number() < begins; ++k) constant[k] = constant[k] && now[k] == first[k];
         }
         if (last.empty()) return found;
         for (std::size_t k = 0; k < now.size(); ++k) {
             const bool changes = now[k] != last[k];
-            if (changes || (constant[k] && names_trial(columns_[form_.trials[k]].name)))
-                found.push_back({form_.trials[k], first[k], changes});
+            if (changes || (constant[k] && is_trial_name(columns_[form_.trial_columns[k]].name)))
+                found.push_back({form_.trial_columns[k], first[k], changes});
         }
         // Keep the most likely column that changes, and the constant columns, which may change later.
         const auto one = std::find_if(found.begin(), found.end(), [](const TrialColumn& t) { return t.changes; });
@@ -243,13 +243,13 @@ class TextTable final : public Table {
             if (!plain) continue;
             double number;
             wanted += fmt::format("{}${}=={}", wanted.empty() ? "" : " && ", t.column + 1,
-                                  dialect_.number(t.first, number) ? t.first : "\"" + t.first + "\"");
+                                  dialect_.parse_number(t.first, number) ? t.first : "\"" + t.first + "\"");
         }
         const auto fields = separator == ' ' ? "" : separator == '\t' ? " -F'\\t'" : fmt::format(" -F' *[{}] *'", separator);
         // Remove CR, which would be part of the last field, and quotes, which would be part of any field.
         return quoted_rows_ ? fmt::format("awk{} '{{sub(/\\r$/, \"\"); row=$0; gsub(/\"/, \"\")}} NR<{} || ({}) {{print row}}'", fields,
-                                          form_.first_row, wanted)
-                            : fmt::format("awk{} '{{sub(/\\r$/, \"\")}} NR<{} || ({})'", fields, form_.first_row, wanted);
+                                          form_.first_row_line, wanted)
+                            : fmt::format("awk{} '{{sub(/\\r$/, \"\")}} NR<{} || ({})'", fields, form_.first_row_line, wanted);
     }
 
     void name_columns() {
@@ -265,15 +265,15 @@ class TextTable final : public Table {
     }
 
 public:
-    TextTable(Lines lines, std::size_t skip, bool rows_are_channels)
+    TextTable(LineReader lines, std::size_t skip, bool rows_are_channels)
         : lines_(std::move(lines)), skip_(skip), rows_are_channels_(rows_are_channels) {}
 
     Result<void> open() {
-        auto form = find_text_form(lines_, skip_, rows_are_channels_);
+        auto form = detect_text_layout(lines_, skip_, rows_are_channels_);
         if (!form) return form.error();
         form_ = std::move(*form);
-        dialect_ = form_.dialect, columns_ = form_.columns, time_ = form_.roles.time;
-        if (!form_.named && !time_ && !form_.rows_have_names)
+        dialect_ = form_.dialect, columns_ = form_.columns, time_ = form_.roles.time_column;
+        if (!form_.has_header && !time_ && !form_.has_row_names)
             if (auto ok = find_unnamed_time(); !ok) return ok;
         name_columns();
         store_evidence();
@@ -282,21 +282,21 @@ public:
 
     const std::vector<Column>& columns() const override { return columns_; }
     std::optional<std::size_t> time_column() const override { return time_; }
-    bool time_is_guessed() const override { return time_ && (!form_.named || form_.roles.time_is_guessed); }
+    bool is_time_guessed() const override { return time_ && (!form_.has_header || form_.roles.is_time_guessed); }
     std::optional<double> rate() const override { return form_.rate; }
-    std::vector<std::string> remarks() const override { return form_.remarks; }
-    std::vector<std::string> time_remarks() const override {
-        auto all = form_.roles.remarks;
-        if (time_ && columns_[*time_].stamps && form_.first_stamp) {
+    std::vector<std::string> notes() const override { return form_.notes; }
+    std::vector<std::string> time_notes() const override {
+        auto all = form_.roles.notes;
+        if (time_ && columns_[*time_].holds_time_stamps && form_.first_stamp) {
             const auto& s = *form_.first_stamp;
             const auto instant = format_instant(static_cast<double>(s.day) * 86'400 + static_cast<double>(s.nanoseconds) * 1e-9);
-            all.push_back(fmt::format("0 s is {}, the first time in '{}'", s.dated ? instant : instant.substr(11), columns_[*time_].name));
+            all.push_back(fmt::format("0 s is {}, the first time in '{}'", s.has_date ? instant : instant.substr(11), columns_[*time_].name));
         }
         return all;
     }
 
-    std::string one_trial(std::size_t row) override {
-        auto trials = find_trials(place(row).line);
+    std::string single_trial_advice(std::size_t row) override {
+        auto trials = find_trials(location(row).line);
         if (!trials || trials->empty()) return "";
         const auto telling = std::find_if(trials->begin(), trials->end(), [](const TrialColumn& t) { return t.changes; });
         const auto filter = trial_filter(*trials);
@@ -308,7 +308,7 @@ public:
 
     Result<std::vector<std::string>> row_names() override {
         std::vector<std::string> names;
-        if (!form_.rows_have_names) return names;
+        if (!form_.has_row_names) return names;
         for (std::string_view line;;) {
             const auto more = next_row(line);
             if (!more) return more.error();
@@ -318,8 +318,8 @@ public:
         }
     }
 
-    double done() const override { return lines_.done(); }
-    Place place(std::size_t row) const override { return {lines_.path(), row < numbers_.size() ? numbers_[row] : 0}; }
+    double progress() const override { return lines_.progress(); }
+    SourceLocation location(std::size_t row) const override { return {lines_.path(), row < numbers_.size() ? numbers_[row] : 0}; }
 
     Result<std::size_t> read(const std::vector<std::size_t>& wanted, std::size_t rows, std::vector<std::vector<double>>& out) override {
         for (auto& column : out) column.resize(rows);
@@ -331,7 +331,7 @@ public:
             if (!more) return more.error();
             if (!*more) break;
             if (auto ok = read_row(line, row, wanted, out); !ok) return ok.error();
-            numbers_.push_back(lines_.number());
+            numbers_.push_back(lines_.line_number());
         }
         return row;
     }
@@ -346,12 +346,12 @@ public:
 
 Result<std::unique_ptr<Table>> open_text_table(const std::string& path, const TableOptions& options) {
     if (options.dataset) return bad_usage(fmt::format("--dataset {}: a text file has only one table", *options.dataset));
-    auto lines = Lines::open(path);
+    auto lines = LineReader::open(path);
     if (!lines) return lines.error();
-    const auto json = begins_like_json(*lines);
+    const auto json = looks_like_json(*lines);
     if (!json) return json.error();
-    if (*json) return open_json_table(std::move(*lines), options.keep_on);
-    auto table = std::make_unique<TextTable>(std::move(*lines), options.skip, options.transpose == true);
+    if (*json) return open_json_table(std::move(*lines), options.should_continue);
+    auto table = std::make_unique<TextTable>(std::move(*lines), options.skip_lines, options.transpose == true);
     if (auto ok = table->open(); !ok) return ok.error();
     return std::unique_ptr<Table>(std::move(table));
 }

@@ -4,7 +4,7 @@
 #include <chrono>
 #include <cmath>
 
-#include "signal/text.hpp"
+#include "signal/ascii_text.hpp"
 
 namespace corpuscle {
 namespace {

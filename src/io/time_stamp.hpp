@@ -12,7 +12,7 @@ namespace corpuscle {
 struct TimeStamp {
     std::int64_t day = 0;          ///< days since 1970-01-01, in UTC if a time zone is given
     std::int64_t nanoseconds = 0;  ///< since the start of the day
-    bool dated = false;
+    bool has_date = false;
 };
 
 /// Parses "2026-03-01T12:00:00.000Z", "2026-03-01 12:00:00,5", "2026/03/01 12:00:00", "01.03.2026 12:00:00", "12:00:00.000": a time of

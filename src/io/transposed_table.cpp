@@ -13,20 +13,20 @@ namespace {
 constexpr std::size_t max_transposed_numbers = std::size_t{1} << 27;  // one gigabyte
 
 class MemorySamples final : public Samples {
-    SamplesFacts info_;
+    SamplesInfo info_;
     std::vector<std::vector<double>> channels_;
-    std::vector<Place> locations_;  // locations of the rows, which are the channels
+    std::vector<SourceLocation> locations_;  // locations of the rows, which are the channels
     std::size_t names_;             // number of fields before the samples
 
 public:
-    MemorySamples(SamplesFacts info, std::vector<std::vector<double>> channels, std::vector<Place> locations, std::size_t names)
+    MemorySamples(SamplesInfo info, std::vector<std::vector<double>> channels, std::vector<SourceLocation> locations, std::size_t names)
         : info_(std::move(info)), channels_(std::move(channels)), locations_(std::move(locations)), names_(names) {}
 
-    std::optional<FieldPlace> place_of(std::int64_t row, std::size_t column) const override {
-        return FieldPlace{locations_[column], static_cast<std::size_t>(row) + names_ + 1};
+    std::optional<FieldLocation> location_of(std::int64_t row, std::size_t column) const override {
+        return FieldLocation{locations_[column], static_cast<std::size_t>(row) + names_ + 1};
     }
 
-    const SamplesFacts& facts() const override { return info_; }
+    const SamplesInfo& info() const override { return info_; }
 
     Result<void> fetch(std::int64_t first, std::size_t rows, std::span<const std::size_t> wanted,
                        std::vector<std::vector<double>>& out) override {
@@ -38,7 +38,7 @@ public:
 
 }  // namespace
 
-Result<std::unique_ptr<Table>> transposed(std::unique_ptr<Table> table, const std::string& path) {
+Result<std::unique_ptr<Table>> transpose_table(std::unique_ptr<Table> table, const std::string& path) {
     const auto row_names = table->row_names();
     if (!row_names) return row_names.error();
     if (auto ok = table->rewind(); !ok) return ok.error();
@@ -46,7 +46,7 @@ Result<std::unique_ptr<Table>> transposed(std::unique_ptr<Table> table, const st
     std::vector<std::size_t> all(table->columns().size() - names);
     std::iota(all.begin(), all.end(), names);
     std::vector<std::vector<double>> block(all.size()), channels;
-    std::vector<Place> locations;
+    std::vector<SourceLocation> locations;
     table->allow_gaps(true);  // gaps are checked when the channels are read
     for (;;) {
         const auto rows = table->read(all, 64, block);
@@ -54,7 +54,7 @@ Result<std::unique_ptr<Table>> transposed(std::unique_ptr<Table> table, const st
         if (*rows == 0) break;
         for (std::size_t k = 0; k < *rows; ++k) {
             channels.emplace_back(all.size());
-            locations.push_back(table->place(k));
+            locations.push_back(table->location(k));
             for (std::size_t c = 0; c < all.size(); ++c) channels.back()[c] = block[c][k];
         }
         if (channels.size() * all.size() > max_transposed_numbers)
@@ -62,11 +62,11 @@ Result<std::unique_ptr<Table>> transposed(std::unique_ptr<Table> table, const st
                                          max_transposed_numbers),
                              {path});
     }
-    SamplesFacts info;
+    SamplesInfo info;
     info.rows = static_cast<std::int64_t>(all.size());
     info.columns = columns_named_after("", channels.size());
     for (std::size_t c = 0; c < std::min(channels.size(), row_names->size()); ++c) info.columns[c] = parse_heading((*row_names)[c]);
-    return table_of(
+    return make_table(
         std::unique_ptr<Samples>(std::make_unique<MemorySamples>(std::move(info), std::move(channels), std::move(locations), names)), path);
 }
 

@@ -6,6 +6,6 @@
 namespace corpuscle {
 
 /// Reads the entire table into memory, so the table must not be large. The columns are called ch1, ch2 ... unless the rows have names.
-Result<std::unique_ptr<Table>> transposed(std::unique_ptr<Table>, const std::string& path);
+Result<std::unique_ptr<Table>> transpose_table(std::unique_ptr<Table>, const std::string& path);
 
 }  // namespace corpuscle

@@ -38,7 +38,7 @@ bool is_utf8(std::string_view text) {
     return true;
 }
 
-std::string utf8_text(std::string_view text) {
+std::string to_utf8(std::string_view text) {
     if (is_utf8(text)) return std::string(text);
     std::string out;
     for (const char c : text) {

@@ -67,13 +67,13 @@ std::string missing_samples_note(const std::string& path) {
 /// Samples with an additional note.
 class AnnotatedSamples final : public Samples {
     std::unique_ptr<Samples> samples_;
-    SamplesFacts info_;
+    SamplesInfo info_;
 
 public:
-    AnnotatedSamples(std::unique_ptr<Samples> samples, std::string note) : samples_(std::move(samples)), info_(samples_->facts()) {
-        info_.remarks.push_back(std::move(note));
+    AnnotatedSamples(std::unique_ptr<Samples> samples, std::string note) : samples_(std::move(samples)), info_(samples_->info()) {
+        info_.notes.push_back(std::move(note));
     }
-    const SamplesFacts& facts() const override { return info_; }
+    const SamplesInfo& info() const override { return info_; }
     Result<void> fetch(std::int64_t first, std::size_t rows, std::span<const std::size_t> wanted,
                        std::vector<std::vector<double>>& out) override {
         return samples_->fetch(first, rows, wanted, out);
@@ -85,10 +85,10 @@ public:
 Result<std::unique_ptr<Table>> open_wav_table(const std::string& path, const TableOptions& options) {
     if (options.dataset) return bad_usage(fmt::format("--dataset {}: a sound file has only one array", *options.dataset));
     if (options.transpose) return bad_usage("--transpose: a sound file defines its channels, so it cannot be transposed");
-    auto samples = remote_samples(path, {"corpuscle-sound", "libsndfile"}, options);
+    auto samples = open_remote_samples(path, {"corpuscle-sound", "libsndfile"}, options);
     if (auto note = missing_samples_note(path); samples && !note.empty())
         samples = std::unique_ptr<Samples>(std::make_unique<AnnotatedSamples>(*std::move(samples), std::move(note)));
-    return table_of(std::move(samples), path);
+    return make_table(std::move(samples), path);
 }
 
 }  // namespace corpuscle

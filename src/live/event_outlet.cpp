@@ -156,11 +156,11 @@ void EventOutlet::lose_all() {
         if (const auto at = ring_.all_taken(); at < header_end_) chunk = chunk.substr(0, header_end_ - at);
         if (ring_.all_taken() >= header_end_) {
             bytes += chunk.size();
-            if (!format_.same_size()) lost_ += std::count(chunk.begin(), chunk.end(), '\n');
+            if (!format_.has_fixed_size()) lost_ += std::count(chunk.begin(), chunk.end(), '\n');
         }
         ring_.took(chunk.size());
     }
-    if (format_.same_size()) lost_ += static_cast<std::int64_t>((bytes + format_.most_bytes() - 1) / format_.most_bytes());
+    if (format_.has_fixed_size()) lost_ += static_cast<std::int64_t>((bytes + format_.max_bytes() - 1) / format_.max_bytes());
 }
 
 std::unique_ptr<EventOutlet> pipe_outlet(Descriptor own, int fd, std::string name, const EventFormat& format, std::size_t ring) {

@@ -32,7 +32,7 @@ protected:
 
 public:
     EventOutlet(const EventFormat& format, std::size_t ring)
-        : ring_(std::max(ring, 4 * format.most_bytes()) + format.header().size()), format_(format) {}
+        : ring_(std::max(ring, 4 * format.max_bytes()) + format.header().size()), format_(format) {}
     virtual ~EventOutlet() = default;
 
     /// Puts a whole event; false if the ring is full.

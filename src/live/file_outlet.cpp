@@ -12,7 +12,7 @@
 #include <optional>
 #include <thread>
 
-#include "io/output.hpp"
+#include "io/output_file.hpp"
 #include "live/descriptor.hpp"
 
 namespace corpuscle {
@@ -116,7 +116,7 @@ Result<std::unique_ptr<EventOutlet>> event_file(const std::string& path, const E
         const int fd = own.get();
         return pipe_outlet(std::move(own), fd, path, format, ring);
     }
-    auto opened = OutputFile::growing(path);
+    auto opened = OutputFile::create_growing(path);
     if (!opened) return opened.error();
     const auto file = std::make_shared<OutputFile>(std::move(*opened));
     return std::unique_ptr<EventOutlet>(std::make_unique<FileSink>(

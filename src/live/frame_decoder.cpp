@@ -8,7 +8,7 @@
 #include <limits>
 #include <utility>
 
-#include "signal/text.hpp"
+#include "signal/ascii_text.hpp"
 
 namespace corpuscle {
 namespace {
@@ -108,7 +108,7 @@ FrameDecoder::Found FrameDecoder::next() {
         }
         ++seen_;
         if (!refused_) return read_line(line);
-        if (!misfit_) misfit_ = FrameMisfit{FrameMisfit::header, seen_, 0, refused_->sentence};
+        if (!misfit_) misfit_ = FrameMisfit{FrameMisfit::header, seen_, 0, refused_->message};
         return Found::unreadable;
     }
 }

@@ -11,7 +11,7 @@
 #include "live/frame_order.hpp"
 #include "live/header_reader.hpp"
 #include "live/steady_clock.hpp"
-#include "signal/source.hpp"
+#include "signal/force_source.hpp"
 
 namespace corpuscle {
 
@@ -57,6 +57,6 @@ std::unique_ptr<FrameSource> frames_of(std::unique_ptr<ByteSource>, const FrameL
                                        std::size_t batch_frames = 1, HeaderReader = {});
 
 /// A recording, each frame at its time, or as fast as they can be simulated.
-std::unique_ptr<FrameSource> frames_of(std::unique_ptr<Source>, bool real_time);
+std::unique_ptr<FrameSource> frames_of(std::unique_ptr<ForceSource>, bool real_time);
 
 }  // namespace corpuscle

@@ -19,7 +19,7 @@ std::vector<std::string> names_in(std::string_view list) {
     return names;
 }
 
-Result<SkinClass> class_at_each_site(const std::string& name, std::span<const Wish> overrides) {
+Result<SkinClass> class_at_each_site(const std::string& name, std::span<const ParameterOverride> overrides) {
     const auto plan = plan_afferent(name, overrides);
     if (!plan) return plan.error();
     SkinClass each{.name = plan->name, .afferent = *plan};
@@ -35,7 +35,7 @@ bool is_afferents(std::string_view list) {
     return true;
 }
 
-Result<SkinPlan> plan_channels(std::string_view afferents, std::size_t channels, std::span<const Wish> overrides) {
+Result<SkinPlan> plan_channels(std::string_view afferents, std::size_t channels, std::span<const ParameterOverride> overrides) {
     auto sites = grid_sites(1, channels, 1e-3);
     if (!sites) return sites.error();
     SkinPlan plan;
@@ -53,14 +53,14 @@ Result<SkinPlan> plan_channels(std::string_view afferents, std::size_t channels,
     return plan;
 }
 
-Result<SkinPlan> plan_channels(std::string_view afferents, std::span<const Channel> channels, std::span<const Wish> overrides) {
+Result<SkinPlan> plan_channels(std::string_view afferents, std::span<const Channel> channels, std::span<const ParameterOverride> overrides) {
     auto plan = plan_channels(afferents, channels.size(), overrides);
     if (plan)
         for (std::size_t c = 0; c < channels.size(); ++c) plan->sites.names[c] = channels[c].name;
     return plan;
 }
 
-Result<SkinPlan> plan_live(std::string_view population, std::size_t channels, std::span<const Wish> overrides) {
+Result<SkinPlan> plan_live(std::string_view population, std::size_t channels, std::span<const ParameterOverride> overrides) {
     if (is_afferents(population)) return plan_channels(population, channels, overrides);
     auto plan = plan_skin(population);
     if (!plan) return plan;
@@ -68,8 +68,8 @@ Result<SkinPlan> plan_live(std::string_view population, std::size_t channels, st
     return plan;
 }
 
-EventUnits event_units(const Innervation& skin, const Clock& clock) {
-    EventUnits out{clock, {}, {}, {}, {}};
+EventAddressing event_units(const Innervation& skin, const Clock& clock) {
+    EventAddressing out{clock, {}, {}, {}, {}};
     bool one_each = true;
     for (const auto& c : skin.plan.classes) one_each &= c.density.empty() && c.per_site == 1;
     const auto classes = static_cast<std::uint32_t>(skin.plan.classes.size());

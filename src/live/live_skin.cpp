@@ -9,12 +9,12 @@ namespace corpuscle {
 
 struct LiveSkin::Held {
     std::unique_ptr<SkinStream> stream;
-    EventUnits afferents;
+    EventAddressing afferents;
     std::vector<Event> events = {};
 
     std::span<const Event> to_events(std::span<const Spike> spikes) {
         events.clear();
-        for (const auto& s : spikes) events.push_back({afferents.clock.time(s.step, s.offset), s.unit, afferents.addresses[s.unit]});
+        for (const auto& s : spikes) events.push_back({afferents.clock.time(s.step, s.offset), s.afferent_index, afferents.addresses[s.afferent_index]});
         return events;
     }
 };
@@ -30,9 +30,9 @@ T success_or_throw(Result<T>&& result) {
 }  // namespace
 
 LiveSkin::LiveSkin(const std::string& population, double rate, std::size_t channels, const std::vector<std::string>& settings) {
-    const auto clock = success_or_throw(clock_of(rate));
-    std::vector<Wish> overrides;
-    for (const auto& text : settings) overrides.push_back(success_or_throw(parse_wish(text)));
+    const auto clock = success_or_throw(make_clock(rate));
+    std::vector<ParameterOverride> overrides;
+    for (const auto& text : settings) overrides.push_back(success_or_throw(parse_override(text)));
     auto plan = success_or_throw(plan_live(population, channels, overrides));
     success_or_throw(check_all_used(plan, overrides));
     auto placed = success_or_throw(innervate(std::move(plan)));

@@ -9,7 +9,7 @@ class RecordedFrames final : public FrameSource {
     static constexpr std::size_t block = 1024;    // frames read ahead
     static constexpr std::int64_t at_once = 256;  // if not paced: frames between two polls of the stream loop
 
-    std::unique_ptr<Source> source_;
+    std::unique_ptr<ForceSource> source_;
     Frames frames_;
     std::size_t at_ = 0;       // position in the block
     std::int64_t begun_ = -1;  // when the first frame was due; ns
@@ -18,15 +18,15 @@ class RecordedFrames final : public FrameSource {
 
     std::int64_t due_of(std::int64_t frame) const {
         const auto& clock = source_->clock();
-        const auto cycles = frame / clock.per, rest = frame % clock.per;
-        return begun_ + cycles * clock.seconds * 1'000'000'000 + static_cast<std::int64_t>(static_cast<double>(rest) * clock.T() * 1e9);
+        const auto cycles = frame / clock.rate_numerator, rest = frame % clock.rate_numerator;
+        return begun_ + cycles * clock.rate_denominator * 1'000'000'000 + static_cast<std::int64_t>(static_cast<double>(rest) * clock.T() * 1e9);
     }
 
 public:
-    RecordedFrames(std::unique_ptr<Source> source, bool paced)
+    RecordedFrames(std::unique_ptr<ForceSource> source, bool paced)
         : source_(std::move(source)), frames_(source_->channels().size(), block), paced_(paced) {}
 
-    std::string sentence() const override { return source_->sentence(); }
+    std::string sentence() const override { return source_->description(); }
     std::int64_t due() const override { return begun_ < 0 || !paced_ ? 0 : due_of(count_); }
     bool is_live() const override { return paced_; }
     FrameCounts counts() const override { return {.frames = count_, .producers = 1}; }
@@ -51,7 +51,7 @@ public:
 
 }  // namespace
 
-std::unique_ptr<FrameSource> frames_of(std::unique_ptr<Source> source, bool real_time) {
+std::unique_ptr<FrameSource> frames_of(std::unique_ptr<ForceSource> source, bool real_time) {
     return std::make_unique<RecordedFrames>(std::move(source), real_time);
 }
 

@@ -13,7 +13,7 @@ class SkinStream {
     std::shared_ptr<const Innervation> innervation_;
     Clock clock_;
     std::unique_ptr<Skin> skin_;
-    Pool here_{1};
+    ThreadPool here_{1};
     std::vector<std::uint32_t> touched_, every_;
     std::vector<Spike> spikes_;
     // Frames of a batch: [site][frame], for the sites that any of them touches.

@@ -15,7 +15,7 @@ constexpr int grace_ms = 50;                   // after a stop: total wait for b
 
 StreamLoop::StreamLoop(SkinStream& skin, const EventFormat& format, FrameSource& frames, EventOutlet& outlet, Ways ways)
     : skin_(skin), format_(format), frames_(frames), outlet_(outlet), ways_(std::move(ways)), force_(skin.sites()),
-      event_(format.most_bytes()) {
+      event_(format.max_bytes()) {
     came_.reserve(skin.together());
 }
 
@@ -120,7 +120,7 @@ Result<void> StreamLoop::tell(const Result<std::span<const Spike>>& spikes) {
 Result<void> StreamLoop::put(std::span<const Spike> spikes) {
     done_.spikes += static_cast<std::int64_t>(spikes.size());
     for (const auto& s : spikes) {
-        const std::string_view event(event_.data(), format_.put(s, event_.data()));
+        const std::string_view event(event_.data(), format_.write(s, event_.data()));
         if (outlet_.take(event)) continue;
         const auto room = make_room(event.size());
         if (!room) return room.error();

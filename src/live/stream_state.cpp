@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 #include <cstring>
 
-#include "io/bytes.hpp"
-#include "io/output.hpp"
+#include "io/seekable_bytes.hpp"
+#include "io/output_file.hpp"
 #include "signal/checksum.hpp"
 
 namespace corpuscle {
@@ -65,7 +65,7 @@ Result<StreamState> unpacked(std::span<const std::byte> bytes, const std::string
     StreamState state;
     state.force.resize(head.sites);
     if (forces > 0) std::memcpy(state.force.data(), body.data(), forces);
-    if (first_not_finite(state.force) < state.force.size())
+    if (first_non_finite(state.force) < state.force.size())
         return bad_input("this saved state is damaged: a force is not a finite number", {file});
     if (head.numbered != 0) state.number = head.number;
     state.skin.assign(body.begin() + static_cast<std::ptrdiff_t>(forces), body.end());
@@ -77,7 +77,7 @@ Result<void> save_stream(const std::string& path, const StreamState& state) {
     if (!file) return file.error();
     const auto bytes = packed(state);
     if (auto ok = file->write({reinterpret_cast<const char*>(bytes.data()), bytes.size()}); !ok) return ok;
-    if (auto ok = file->commit(Sync::always); !ok) return ok;
+    if (auto ok = file->commit(SyncPolicy::always); !ok) return ok;
     return sync_directory_of(path);
 }
 

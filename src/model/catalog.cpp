@@ -11,13 +11,13 @@ namespace corpuscle {
 namespace {
 
 template <template <class> class... M>
-std::vector<Card> entries(ModelList<M...>) {
-    return {card_of<M<double>>()...};
+std::vector<CatalogEntry> entries(ModelList<M...>) {
+    return {catalog_entry_of<M<double>>()...};
 }
 
 template <class... M>
-std::vector<Card> entries(PartList<M...>) {
-    return {card_of<M>()...};
+std::vector<CatalogEntry> entries(PartList<M...>) {
+    return {catalog_entry_of<M>()...};
 }
 
 template <class List, class F>
@@ -28,9 +28,9 @@ void visit_component(List list, std::string_view name, const F& f) {
 }
 
 /// The catalogue entries of a plan's components, in the order of the signal.
-std::vector<Card> entries_of(const Parts& parts) {
-    std::vector<Card> all;
-    const auto add = [&](std::vector<Card> entries, std::string_view name) {
+std::vector<CatalogEntry> entries_of(const Parts& parts) {
+    std::vector<CatalogEntry> all;
+    const auto add = [&](std::vector<CatalogEntry> entries, std::string_view name) {
         for (auto& c : entries)
             if (c.name == name) all.push_back(std::move(c));
     };
@@ -42,7 +42,7 @@ std::vector<Card> entries_of(const Parts& parts) {
 template <class M>
 std::optional<Error> out_of_order(const AfferentPlan& plan) {
     if constexpr (requires { M::orders; })
-        return out_of_order<typename M::Params>(plan.name, M::orders, with<typename M::Params>(M::fields, settings_of(plan)));
+        return out_of_order<typename M::Params>(plan.name, M::orders, with_settings<typename M::Params>(M::fields, settings_of(plan)));
     return {};
 }
 
@@ -51,7 +51,7 @@ std::optional<Error> not_integer(const AfferentPlan& plan) {
     if constexpr (requires { M::whole; })
         for (const auto at : M::whole)
             for (const auto& f : M::fields)
-                if (const double x = *plan.value(f.name); f.at == at && x != std::floor(x))
+                if (const double x = *plan.value(f.name); f.member == at && x != std::floor(x))
                     return bad_input(fmt::format("{}: {} = {:g} must be an integer", plan.name, f.name, x));
     return {};
 }
@@ -62,7 +62,7 @@ std::vector<Order> orders_of(const AfferentPlan& plan) {
     std::vector<Order> all;
     const auto add = [&]<class M>() {
         if constexpr (requires { M::orders; })
-            for (const auto& o : M::orders) all.push_back({o.lesser, o.greater, o.or_equal});
+            for (const auto& o : M::orders) all.push_back({o.lower_name, o.upper_name, o.or_equal});
     };
     const auto model = [&]<template <class> class M>(Model<M>) { add.template operator()<M<double>>(); };
     const auto part = [&]<class M>(Part<M>) { add.template operator()<M>(); };
@@ -92,16 +92,16 @@ std::optional<Error> refusal(const AfferentPlan& plan) {
     return error;
 }
 
-std::vector<Card> sensor_cards() {
+std::vector<CatalogEntry> sensor_cards() {
     auto all = entries(Sensors{});
     for (auto& entry : all)
-        for (const auto& row : rows_of<Calibration::Params>(Calibration::fields)) entry.rows.push_back(row);
+        for (const auto& row : parameters_of<Calibration::Params>(Calibration::fields)) entry.parameters.push_back(row);
     return all;
 }
-std::vector<Card> transducer_cards() { return entries(Transducers{}); }
-std::vector<Card> converter_cards() { return entries(Converters{}); }
-std::vector<Card> receptor_cards() { return entries(Receptors{}); }
-std::vector<Card> neuron_cards() { return entries(Neurons{}); }
+std::vector<CatalogEntry> transducer_cards() { return entries(Transducers{}); }
+std::vector<CatalogEntry> converter_cards() { return entries(Converters{}); }
+std::vector<CatalogEntry> receptor_cards() { return entries(Receptors{}); }
+std::vector<CatalogEntry> neuron_cards() { return entries(Neurons{}); }
 
 std::optional<double> AfferentPlan::value(std::string_view parameter) const {
     for (std::size_t k = 0; k < values.size(); ++k)
@@ -130,7 +130,7 @@ bool goes_by(const AfferentPlan& plan, std::string_view requested, std::string_v
     return named && named->name == plan.name;
 }
 
-Result<AfferentPlan> plan_afferent(std::string_view text, std::span<const Wish> overrides) {
+Result<AfferentPlan> plan_afferent(std::string_view text, std::span<const ParameterOverride> overrides) {
     const auto parts = parse_parts(text);
     if (!parts) return parts.error();
     const auto* named = parts->named;
@@ -139,7 +139,7 @@ Result<AfferentPlan> plan_afferent(std::string_view text, std::span<const Wish> 
     AfferentPlan plan{std::string(text),
                       parts->receptor,
                       parts->neuron,
-                      named ? named->sentence : receptor.sentence,
+                      named ? named->sentence : receptor.description,
                       named ? named->source : receptor.source,
                       {},
                       {},
@@ -149,13 +149,13 @@ Result<AfferentPlan> plan_afferent(std::string_view text, std::span<const Wish> 
                       parts->converter};
     if (named)
         plan.name = named->front.empty() && !parts->front().empty() ? fmt::format("{}+{}", parts->front(), named->name) : named->name;
-    std::vector<Row> rows;
+    std::vector<ParameterInfo> rows;
     std::vector<Parameter> parameters;
     for (const auto& entry : entries)
-        for (const auto& row : entry.rows) {
+        for (const auto& row : entry.parameters) {
             rows.push_back(row);
             parameters.push_back({row, entry.name});
-            plan.values.push_back(row.initial);
+            plan.values.push_back(row.default_value);
         }
     const auto apply = [&](std::span<const Setting> settings, bool by_user) {
         for (const auto& s : settings)
@@ -165,12 +165,12 @@ Result<AfferentPlan> plan_afferent(std::string_view text, std::span<const Wish> 
     if (named) {
         apply(named->settings, false);
         for (std::size_t k = 0; k < parameters.size(); ++k)
-            if (auto& row = parameters[k].row; plan.values[k] != row.initial)
-                row.initial = plan.values[k], row.source = named->source;  // the default of the named afferent
+            if (auto& row = parameters[k].row; plan.values[k] != row.default_value)
+                row.default_value = plan.values[k], row.source = named->source;  // the default of the named afferent
     }
     for (const auto& o : overrides) {  // overrides may use any of its names
-        if (!goes_by(plan, text, o.of)) continue;
-        const auto settings = settings_for(o.of, rows, std::span(&o, 1));
+        if (!goes_by(plan, text, o.target)) continue;
+        const auto settings = settings_for(o.target, rows, std::span(&o, 1));
         if (!settings) return settings.error();
         apply(*settings, true);
     }
@@ -189,8 +189,8 @@ std::unique_ptr<Afferent> make_afferent(const AfferentPlan& plan, const Run& run
     std::unique_ptr<Afferent> afferent;
     with_named(Receptors{}, plan.receptor, [&]<template <class> class R>(Model<R>) {
         with_named(Neurons{}, plan.neuron, [&]<template <class> class N>(Model<N>) {
-            const auto r = with<typename R<double>::Params>(R<double>::fields, settings);
-            const auto n = with<typename N<double>::Params>(N<double>::fields, settings);
+            const auto r = with_settings<typename R<double>::Params>(R<double>::fields, settings);
+            const auto n = with_settings<typename N<double>::Params>(N<double>::fields, settings);
             afferent = std::make_unique<Chain<R, N>>(r, n, run);
         });
     });

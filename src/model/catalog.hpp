@@ -15,7 +15,7 @@
 #include "model/sensor/f2i.hpp"
 #include "model/sensor/f2v.hpp"
 #include "model/sensor/fsr.hpp"
-#include "signal/settings.hpp"
+#include "signal/parameter_override.hpp"
 
 namespace corpuscle {
 
@@ -43,15 +43,15 @@ struct NamedAfferent {
 };
 const std::vector<NamedAfferent>& named_afferents();
 
-std::vector<Card> sensor_cards();  ///< each with the rows of its calibration
-std::vector<Card> transducer_cards();
-std::vector<Card> converter_cards();
-std::vector<Card> receptor_cards();
-std::vector<Card> neuron_cards();
+std::vector<CatalogEntry> sensor_cards();  ///< each with the rows of its calibration
+std::vector<CatalogEntry> transducer_cards();
+std::vector<CatalogEntry> converter_cards();
+std::vector<CatalogEntry> receptor_cards();
+std::vector<CatalogEntry> neuron_cards();
 
 /// One parameter of an afferent.
 struct Parameter {
-    Row row;
+    ParameterInfo row;
     std::string_view of;  ///< the component that it belongs to
     bool set = false;     ///< true if the user set it
 };
@@ -73,7 +73,7 @@ struct AfferentPlan {
     std::uint32_t copy = 0;                                         ///< number among its copies, from 1; 0: not a copy
     std::string of = {};                                            ///< of a copy: the name of the original
     /// set if the afferent is not made of model equations; then there is no neuron either
-    std::shared_ptr<const Design> design = {};
+    std::shared_ptr<const AfferentFactory> design = {};
     std::optional<double> value(std::string_view parameter) const;
     std::string made_of() const;  ///< "fsr+f2v+adc+sa1a+lif-a"
 };
@@ -92,7 +92,7 @@ std::optional<Error> refusal(const AfferentPlan&);
 std::vector<Setting> settings_of(const AfferentPlan&);
 
 /// Parses "sa1", "SA1", "sa1b+izhikevich", "fsr+f2i+sa1". Overrides may use the requested name or the plan's own name.
-Result<AfferentPlan> plan_afferent(std::string_view text, std::span<const Wish> overrides);
+Result<AfferentPlan> plan_afferent(std::string_view text, std::span<const ParameterOverride> overrides);
 
 /// Builds the afferent of a plan, for samples run.dt apart.
 std::unique_ptr<Afferent> make_afferent(const AfferentPlan&, const Run&);

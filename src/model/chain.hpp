@@ -48,10 +48,10 @@ class Chain final : public Afferent {
 
     /// Receives the spikes of one step.
     struct Into {
-        Answer& response;
+        ResponseBlock& response;
         bool sampled;
         std::int64_t step;
-        void operator()(bool, double x) { response.spikes.push_back({step, sampled ? 1.0 : x, response.unit}); }
+        void operator()(bool, double x) { response.spikes.push_back({step, sampled ? 1.0 : x, response.afferent_index}); }
     };
 
     Receptor receptor_;
@@ -109,7 +109,7 @@ class Chain final : public Afferent {
     }
 
     /// Writes the recordable quantities of sample k, if probes are requested.
-    void show(const Values& s, const Currents& i, std::size_t k, Answer& response) const {
+    void show(const Values& s, const Currents& i, std::size_t k, ResponseBlock& response) const {
         if (response.probes.empty()) return;
         double shown[shown_parts];
         show(s, i, shown);
@@ -132,22 +132,22 @@ class Chain final : public Afferent {
 
     /// The first sample: the force before it is taken to be the same. Backward Euler takes a step there, as the published algorithms do,
     /// and puts its spikes on the sample, because there is no time before it. The exact method has no interval to integrate yet.
-    void begin(double force, Values& s, Answer& response) const {
+    void begin(double force, Values& s, ResponseBlock& response) const {
         s.receptor = receptor_.start(force);
         for (auto& n : s.neuron) n = neuron_.start();
         Currents i;
         receptor_.step(s.receptor, force, i);
         if (method_ == Method::backward_euler) {
-            if (noise_ > 0) disturb(i, response.unit, 0);
+            if (noise_ > 0) disturb(i, response.afferent_index, 0);
             Into into{response, true, 0};
-            response.capped += fire(s.neuron, i, into);
+            response.truncated_steps += fire(s.neuron, i, into);
         }
         show(s, i, 0, response);
     }
 
     /// Samples [from, to). Without probes and noise the state stays in registers.
     template <bool observed>
-    void run(std::span<const double> force, std::size_t from, std::size_t to, std::int64_t first, Values& state, Answer& response) const {
+    void run(std::span<const double> force, std::size_t from, std::size_t to, std::int64_t first, Values& state, ResponseBlock& response) const {
         Values s = state;
         Into into{response, sampled_, 0};
         for (std::size_t k = from; k < to; ++k) {
@@ -155,8 +155,8 @@ class Chain final : public Afferent {
             receptor_.step(s.receptor, force[k], i);
             into.step = first + static_cast<std::int64_t>(k);
             if constexpr (observed)
-                if (noise_ > 0) disturb(i, response.unit, into.step);
-            if (fire(s.neuron, i, into)) ++response.capped;
+                if (noise_ > 0) disturb(i, response.afferent_index, into.step);
+            if (fire(s.neuron, i, into)) ++response.truncated_steps;
             if constexpr (observed) show(s, i, k, response);
         }
         state = s;
@@ -178,9 +178,9 @@ public:
     }
 
     std::span<const Probe> probes() const override { return probes_; }
-    State start(Turn) const override { return {format_, 0, std::vector<double>(sizeof(Values) / sizeof(double))}; }
+    State start(ChannelSlot) const override { return {format_, 0, std::vector<double>(sizeof(Values) / sizeof(double))}; }
 
-    Result<void> respond(std::span<const double> force, State& state, Answer& response) const override {
+    Result<void> respond(std::span<const double> force, State& state, ResponseBlock& response) const override {
         if (auto ok = check_block(name_, format_, sizeof(Values) / sizeof(double), state, force); !ok) return ok;
         if (force.empty()) return {};
         Values s;
@@ -195,8 +195,8 @@ public:
             (this->*rest)(force, k, to, state.step, s, response);
         }
         std::memcpy(state.values.data(), &s, sizeof s);
-        if (first_not_finite(state.values) < state.values.size())
-            return Error{Code::not_converged, fmt::format("{}: its state became NaN or infinite between samples {} and {}; the force or a "
+        if (first_non_finite(state.values) < state.values.size())
+            return Error{ErrorCode::not_converged, fmt::format("{}: its state became NaN or infinite between samples {} and {}; the force or a "
                                                           "gain is far too large, or the substep too long",
                                                           name_, state.step, state.step + static_cast<std::int64_t>(force.size()))};
         state.step += static_cast<std::int64_t>(force.size());

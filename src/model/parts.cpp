@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 #include <algorithm>
 
-#include "signal/text.hpp"
+#include "signal/ascii_text.hpp"
 
 namespace corpuscle {
 namespace {
 
-std::vector<std::string_view> names_of(const std::vector<Card>& cards) {
+std::vector<std::string_view> names_of(const std::vector<CatalogEntry>& cards) {
     std::vector<std::string_view> names;
     for (const auto& c : cards) names.push_back(c.name);
     return names;
@@ -16,7 +16,7 @@ std::vector<std::string_view> names_of(const std::vector<Card>& cards) {
 
 /// The catalogue's spelling of a name, which is matched without regard to case; "" if there is none.
 std::string_view catalog_name(const std::vector<std::string_view>& names, std::string_view typed) {
-    const auto at = std::find_if(names.begin(), names.end(), [&](auto name) { return same_letters(name, typed); });
+    const auto at = std::find_if(names.begin(), names.end(), [&](auto name) { return equal_ignoring_case(name, typed); });
     return at == names.end() ? std::string_view() : *at;
 }
 
@@ -112,9 +112,9 @@ Result<void> take_afferent(std::string_view text, std::span<const std::string_vi
 
 const NamedAfferent* afferent_named(std::string_view text) {
     for (const auto& a : named_afferents()) {
-        if (same_letters(a.name, text)) return &a;
+        if (equal_ignoring_case(a.name, text)) return &a;
         for (const auto other : a.other_names)
-            if (same_letters(other, text)) return &a;
+            if (equal_ignoring_case(other, text)) return &a;
     }
     return nullptr;
 }

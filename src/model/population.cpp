@@ -48,7 +48,7 @@ std::optional<Error> check_alike(std::span<const AfferentPlan* const> plans) {
         if (plan->receptor != first.receptor || plan->neuron != first.neuron)
             return bad_input(fmt::format("a population of {} cannot contain a {}", first.made_of(), plan->made_of()));
         for (std::size_t k = 0; k < first.values.size(); ++k)
-            if (const auto& p = (*first.parameters)[k]; p.row.one_for_all && plan->values[k] != first.values[k])
+            if (const auto& p = (*first.parameters)[k]; p.row.is_shared_by_copies && plan->values[k] != first.values[k])
                 return bad_input(fmt::format("{} must be the same in a whole population, but {:g} and {:g} were given", p.row.name,
                                              first.values[k], plan->values[k]));
     }
@@ -64,7 +64,7 @@ Buffer<std::byte> models_of(List list, const L& lanes, int width, std::span<cons
         using P = typename M<double>::Params;
         std::vector<P> params;
         const bool shared = plans.size() == 1 || same_for_all(plans, lanes.name);
-        for (const auto* plan : shared ? plans.first(1) : plans) params.push_back(with<P>(M<double>::fields, settings_of(*plan)));
+        for (const auto* plan : shared ? plans.first(1) : plans) params.push_back(with_settings<P>(M<double>::fields, settings_of(*plan)));
         if (shared) {
             models = Buffer<std::byte>(lanes.model_bytes);
             lanes.build(models.data(), params.data(), 1, run.dt, run.method);

@@ -10,7 +10,7 @@
 
 #include "model/catalog.hpp"
 #include "signal/instruction_set.hpp"
-#include "signal/pool.hpp"
+#include "signal/thread_pool.hpp"
 
 namespace corpuscle {
 
@@ -67,7 +67,7 @@ public:
     virtual std::size_t units() const = 0;
     /// Simulates the next block of `steps` samples. The block size does not change the spikes. The force of all blocks must have the same
     /// layout. A NaN force, or a state that becomes NaN or infinite, is an error; the population cannot be used after it.
-    virtual Result<void> respond(const PopulationForce&, std::size_t steps, PopulationAnswer&, Pool&) = 0;
+    virtual Result<void> respond(const PopulationForce&, std::size_t steps, PopulationAnswer&, ThreadPool&) = 0;
     virtual std::int64_t step() const = 0;  ///< samples simulated so far
     /// The complete state. An identical new population resumes from it bit for bit, and refuses the state of another population.
     virtual std::vector<double> save() const = 0;

@@ -7,7 +7,7 @@
 
 #include "signal/quantity.hpp"
 #include "signal/random.hpp"
-#include "signal/text.hpp"
+#include "signal/ascii_text.hpp"
 
 namespace corpuscle {
 namespace {
@@ -21,12 +21,12 @@ std::size_t index_of(const AfferentPlan& plan, std::string_view parameter) {
 }
 
 /// Parses a standard deviation: a fraction of the value ("10%"), or a number in the parameter's own unit.
-Result<Spread> parse_spread(const AfferentPlan& plan, const Wish& w, const Row& row) {
+Result<Spread> parse_spread(const AfferentPlan& plan, const ParameterOverride& w, const ParameterInfo& row) {
     const auto error = [&](std::string_view why) { return bad_input(fmt::format("--spread {}: {}", w.text(), why)); };
     const bool is_percentage = trimmed(w.value).ends_with('%');
     const auto read = parse_quantity(w.value, is_percentage ? "" : row.unit);
     if (!read && is_percentage) return error(fmt::format("'{}' is not a percentage; write a number and %, such as '10%'", w.value));
-    if (!read) return error(read.error().sentence);
+    if (!read) return error(read.error().message);
     if (*read < 0) return error("a standard deviation must not be negative");
     if (!is_percentage) return Spread{plan.name, row.name, row.unit, *read};
     const double value = plan.values[index_of(plan, row.name)];
@@ -41,7 +41,7 @@ class CopySampler {
     struct SampledParameter {
         std::size_t at;  ///< index among the plan's parameters
         double value, deviation;
-        Row row;
+        ParameterInfo row;
         std::uint64_t stream;
         std::size_t group;  ///< parameters linked by order constraints are sampled together
         std::uint64_t count = 0;
@@ -107,7 +107,7 @@ class CopySampler {
             fmt::format("{}: none of {} samples of {} about {} with a standard deviation of {} is valid{}; lower its "
                         "--spread",
                         copy.name, max_samples, worst.row.name, format_quantity(worst.value, worst.row.unit),
-                        format_quantity(worst.deviation, worst.row.unit), last ? fmt::format(" (the last: {})", last->sentence) : ""));
+                        format_quantity(worst.deviation, worst.row.unit), last ? fmt::format(" (the last: {})", last->message) : ""));
     }
 
 public:
@@ -118,7 +118,7 @@ public:
             if (s.afferent != plan.name) continue;
             const auto at = index_of(plan, s.parameter);
             sampled_.push_back(
-                {at, plan.values[at], s.deviation, (*plan.parameters)[at].row, stream_of(fmt::format("{}.{}", plan.name, s.parameter)), 0});
+                {at, plan.values[at], s.deviation, (*plan.parameters)[at].row, stream_id(fmt::format("{}.{}", plan.name, s.parameter)), 0});
         }
         for (const auto& o : orders_of(plan)) bounds_.push_back({index_of(plan, o.lesser), index_of(plan, o.greater), o.or_equal});
         for (const auto& b : bounds_)
@@ -141,18 +141,18 @@ public:
 
 }  // namespace
 
-Result<std::vector<Spread>> spreads_for(const AfferentPlan& plan, std::string_view requested, std::span<const Wish> overrides) {
-    std::vector<Row> rows;
+Result<std::vector<Spread>> spreads_for(const AfferentPlan& plan, std::string_view requested, std::span<const ParameterOverride> overrides) {
+    std::vector<ParameterInfo> rows;
     for (const auto& p : *plan.parameters) rows.push_back(p.row);
     std::vector<Spread> spreads;
     for (const auto& w : overrides) {
-        if (!goes_by(plan, requested, w.of)) continue;
-        w.used = true;
-        const auto row = row_for(w, rows);
+        if (!goes_by(plan, requested, w.target)) continue;
+        w.is_used = true;
+        const auto row = find_parameter(w, rows);
         if (!row) return row.error();
-        if ((*row)->one_for_all)
+        if ((*row)->is_shared_by_copies)
             return bad_input(fmt::format("--spread {}: {} has one value for all copies; --set {}.{} changes it", w.text(), w.parameter,
-                                         w.of, w.parameter));
+                                         w.target, w.parameter));
         if (std::any_of(spreads.begin(), spreads.end(), [&](const Spread& s) { return s.parameter == w.parameter; }))
             return bad_usage(fmt::format("--spread {}: {}.{} is given twice", w.text(), plan.name, w.parameter));
         auto spread = parse_spread(plan, w, **row);

@@ -24,7 +24,7 @@ inline constexpr std::uint32_t most_copies = 1'000'000;
 
 /// Selects the overrides of --spread that belong to this plan ("sa1.f_B=10%", "sa1.f_B=2Hz"), which was requested as `requested`, and marks
 /// them used. Refuses a parameter that all copies share, an integer, a percentage of 0, and the same parameter twice.
-Result<std::vector<Spread>> spreads_for(const AfferentPlan&, std::string_view requested, std::span<const Wish> overrides);
+Result<std::vector<Spread>> spreads_for(const AfferentPlan&, std::string_view requested, std::span<const ParameterOverride> overrides);
 
 /// Copies 1 to n of a plan, each with its own values. A value depends only on the seed, the names of afferent and parameter, and the number
 /// of the copy. A value outside the parameter's range is sampled again. So are the parameters of an order constraint that is violated.

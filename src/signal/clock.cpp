@@ -5,7 +5,7 @@
 
 namespace corpuscle {
 
-Result<Clock> clock_of(double rate, double t0, double tolerance) {
+Result<Clock> make_clock(double rate, double t0, double tolerance) {
     if (!(rate >= 1e-6 && rate <= 1e12)) return bad_input(fmt::format("a rate of {:g} Hz is outside [1e-06, 1e+12]", rate));
     if (const double rounded = std::round(rate); rounded >= 1 && std::abs(rounded - rate) <= tolerance * rate)
         return Clock{static_cast<std::int64_t>(rounded), 1, t0};

@@ -14,7 +14,7 @@ Dual cos_turns(Dual x);
 /// e^x, with x limited to +- exp_limit (700 for double).
 template <class T>
 T exp(T x) {
-    x = num::min(num::max(x, T(-exp_reach<T>)), T(exp_reach<T>));
+    x = num::min(num::max(x, T(-exp_limit<T>)), T(exp_limit<T>));
     const T k = num::nearest(x * T(1.4426950408889634));
     const T r = (x - k * T(6.93147180369123816490e-01)) - k * T(1.90821492927058770002e-10);  // ln 2 as a sum of two constants
     // Taylor series to r^13; |r| <= 0.347, so the remainder is below 4e-18. Estrin's scheme gives short dependency chains.
@@ -85,7 +85,7 @@ template <class T>
 T exprel(T x) {
     T series = T(1.0 / 5040);  // to x^6: the remainder is below 3e-19 for |x| < 0.01, and below 6e-9 for 0.3
     for (const double f : {720.0, 120.0, 24.0, 6.0, 2.0, 1.0}) series = series * x + T(1.0 / f);
-    const auto small = num::abs(x) < T(series_reach<T>);
+    const auto small = num::abs(x) < T(series_limit<T>);
     return num::select(small, series, (num::exp(x) - T(1.0)) / num::select(small, T(1.0), x));
 }
 

@@ -8,26 +8,26 @@
 namespace corpuscle {
 
 /// Kinds of error. The numbers are the exit statuses of the program.
-enum class Code { bad_input = 1, bad_usage = 2, not_converged = 3, interrupted = 130 };
+enum class ErrorCode { bad_input = 1, bad_usage = 2, not_converged = 3, interrupted = 130 };
 
 /// A place in a text file.
-struct Place {
+struct SourceLocation {
     std::string file;
     long line = 0;    ///< 1-based; 0: unknown
     long column = 0;  ///< 1-based, in bytes; 0: unknown
 };
 
 struct Error {
-    Code code = Code::bad_input;
-    std::string sentence;  ///< names the thing, the value and what would be right
-    Place place = {};
+    ErrorCode code = ErrorCode::bad_input;
+    std::string message;  ///< names the thing, the value and what would be right
+    SourceLocation location = {};
 
     /// "file:line:column: message", as compilers write it.
     std::string text() const;
 };
 
-inline Error bad_input(std::string message, Place location = {}) { return {Code::bad_input, std::move(message), std::move(location)}; }
-inline Error bad_usage(std::string message) { return {Code::bad_usage, std::move(message)}; }
+inline Error bad_input(std::string message, SourceLocation location = {}) { return {ErrorCode::bad_input, std::move(message), std::move(location)}; }
+inline Error bad_usage(std::string message) { return {ErrorCode::bad_usage, std::move(message)}; }
 
 /// A value, or the error that prevented it.
 template <class T>

@@ -65,7 +65,7 @@ void remember_input(const std::string& path) {
     input_files().paths.try_emplace(*identity, path);
 }
 
-std::optional<std::string> input_at(const std::string& path) {
+std::optional<std::string> known_input_path(const std::string& path) {
     const auto identity = path == "-" ? std::nullopt : identity_of(path);
     if (!identity) return {};
     const std::scoped_lock lock(input_files().mutex);
@@ -76,7 +76,7 @@ std::optional<std::string> input_at(const std::string& path) {
     return {};
 }
 
-void set_interruption(bool (*is_interrupted)()) { interruption = is_interrupted; }
+void set_interruption_check(bool (*is_interrupted)()) { interruption = is_interrupted; }
 
 std::FILE* open_input(const std::string& path) {
     const int file = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
@@ -97,7 +97,7 @@ Result<std::size_t> read_input(std::FILE* file, std::span<char> to, const std::s
     std::size_t filled = 0;
     while (filled < to.size()) {
         const auto got = read_when_ready(::fileno(file), to.subspan(filled));
-        if (got < 0 && errno == EINTR) return Error{Code::interrupted, "interrupted", {name}};
+        if (got < 0 && errno == EINTR) return Error{ErrorCode::interrupted, "interrupted", {name}};
         if (got < 0) return error();
         if (got == 0) break;
         filled += static_cast<std::size_t>(got);
@@ -105,7 +105,7 @@ Result<std::size_t> read_input(std::FILE* file, std::span<char> to, const std::s
     return filled;
 }
 
-Result<std::string> read_whole_input(const std::string& path, std::size_t max_bytes, const std::string& kind) {
+Result<std::string> read_entire_input(const std::string& path, std::size_t max_bytes, const std::string& kind) {
     struct ::stat file_status = {};
     if (::stat(path.c_str(), &file_status) == 0 && S_ISDIR(file_status.st_mode))
         return bad_input(fmt::format("this is a directory, not a {}", kind), {path});
@@ -122,7 +122,7 @@ Result<std::string> read_whole_input(const std::string& path, std::size_t max_by
     }
 }
 
-std::string first_bytes_of_input(const std::string& path, std::size_t count) {
+std::string peek_input(const std::string& path, std::size_t count) {
     struct ::stat file_status = {};
     if (::stat(path.c_str(), &file_status) != 0 || !S_ISREG(file_status.st_mode)) return {};
     const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(open_input(path), std::fclose);

@@ -15,10 +15,10 @@ namespace corpuscle {
 void remember_input(const std::string& path);
 
 /// The path by which the file at `path` was read, possibly under another name. nullopt if it was not read.
-std::optional<std::string> input_at(const std::string& path);
+std::optional<std::string> known_input_path(const std::string& path);
 
 /// Sets the function that is called while a read waits. If it returns true, the read ends. Without it, reads wait without limit.
-void set_interruption(bool (*is_interrupted)());
+void set_interruption_check(bool (*is_interrupted)());
 
 /// Opens a file for reading and remembers it. Never waits, not even for the writer of a named pipe. On failure returns null and sets
 /// errno.
@@ -28,9 +28,9 @@ std::FILE* open_input(const std::string& path);
 Result<std::size_t> read_input(std::FILE*, std::span<char>, const std::string& name);
 
 /// Reads an entire file. A file larger than `max_bytes` is an error, which names the expected `kind` ("population file").
-Result<std::string> read_whole_input(const std::string& path, std::size_t max_bytes, const std::string& kind);
+Result<std::string> read_entire_input(const std::string& path, std::size_t max_bytes, const std::string& kind);
 
 /// The first bytes of a regular file. "" for a pipe or similar, which can be read only once, and for a file that cannot be opened.
-std::string first_bytes_of_input(const std::string& path, std::size_t count);
+std::string peek_input(const std::string& path, std::size_t count);
 
 }  // namespace corpuscle

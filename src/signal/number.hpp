@@ -17,10 +17,10 @@ struct MaskOf {
 };
 /// exp() limits its argument to +- this value, so that it never returns infinity.
 template <class T>
-inline constexpr double exp_reach = 700;
+inline constexpr double exp_limit = 700;
 /// For a smaller |x| a short series replaces e^x - 1, which would lose digits.
 template <class T>
-inline constexpr double series_reach = 0.01;
+inline constexpr double series_limit = 0.01;
 /// The type of a comparison of two T: bool, or a mask of lanes.
 template <class T>
 using Mask = typename MaskOf<T>::type;
@@ -28,7 +28,7 @@ using Mask = typename MaskOf<T>::type;
 }  // namespace corpuscle::num
 
 #ifdef CORPUSCLE_ISA  // in a file compiled for one instruction set
-#include "signal/lanes.hpp"
+#include "signal/simd_lanes.hpp"
 #endif
 
 namespace corpuscle::num {
@@ -79,7 +79,7 @@ inline double value(Dual x) { return x.v; }
 
 /// A mask with no lane set.
 template <class T>
-Mask<T> none() {
+Mask<T> empty_mask() {
     return T(0.0) > T(0.0);
 }
 
@@ -99,7 +99,7 @@ T abs(T a) {
 }
 /// max{x, 0}, the rectifier of the thesis (eq. 4).
 template <class T>
-T positive(T x) {
+T positive_part(T x) {
     return num::max(x, T(0.0));
 }
 

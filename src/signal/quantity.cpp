@@ -6,7 +6,7 @@
 #include <cmath>
 #include <optional>
 
-#include "signal/text.hpp"
+#include "signal/ascii_text.hpp"
 
 namespace corpuscle {
 namespace {
@@ -73,7 +73,7 @@ std::string_view dimension_name(const Unit& u) {
                               {"F", "a capacitance"}, {"", "a plain number"}, {"m/s", "a speed"},      {"W", "a power"},
                               {"m2", "an area"},      {"Pa", "a pressure"}};
     for (const auto& k : kinds)
-        if (parse_unit(k.unit)->same_kind(u)) return k.name;
+        if (parse_unit(k.unit)->has_same_dimension(u)) return k.name;
     return {};
 }
 
@@ -130,12 +130,12 @@ Result<double> parse_quantity(std::string_view text, std::string_view unit) {
     double factor = 1;
     if (!written.empty()) {
         const auto found = parse_unit(written);
-        if (found && found->same_kind(wanted)) {
+        if (found && found->has_same_dimension(wanted)) {
             factor = found->factor / wanted.factor;
         } else if (const auto bare = prefix_factor(written)) {
             factor = *bare;
         } else if (!found) {
-            return bad_input(fmt::format("'{}': {}; expected {}, such as '{}'", text, found.error().sentence,
+            return bad_input(fmt::format("'{}': {}; expected {}, such as '{}'", text, found.error().message,
                                          unit.empty() ? "a plain number" : fmt::format("a value in {}", unit), example));
         } else {
             return wrong_unit(text, unit, *found);

@@ -21,7 +21,7 @@ std::string format_quantity(double value, std::string_view unit);
 struct Unit {
     double factor = 1;
     signed char second = 0, metre = 0, newton = 0, volt = 0, ampere = 0;  ///< exponents of the base units
-    bool same_kind(const Unit& o) const {
+    bool has_same_dimension(const Unit& o) const {
         return second == o.second && metre == o.metre && newton == o.newton && volt == o.volt && ampere == o.ampere;
     }
 };

@@ -10,9 +10,9 @@
 
 namespace corpuscle {
 
-using Words = std::array<std::uint32_t, 4>;
+using PhiloxCounter = std::array<std::uint32_t, 4>;
 
-constexpr Words philox(Words counter, std::uint64_t key) {
+constexpr PhiloxCounter philox(PhiloxCounter counter, std::uint64_t key) {
     auto k0 = static_cast<std::uint32_t>(key), k1 = static_cast<std::uint32_t>(key >> 32);
     for (int round = 0; round < 10; ++round) {
         const std::uint64_t a = std::uint64_t{0xD2511F53} * counter[0], b = std::uint64_t{0xCD9E8D57} * counter[2];
@@ -24,7 +24,7 @@ constexpr Words philox(Words counter, std::uint64_t key) {
 }
 
 /// The identifier of a random stream, from its name: FNV-1a, 64 bits.
-constexpr std::uint64_t stream_of(std::string_view name) {
+constexpr std::uint64_t stream_id(std::string_view name) {
     std::uint64_t hash = 0xcbf29ce484222325;
     for (const char c : name) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3;
     return hash;
@@ -36,19 +36,19 @@ constexpr double unit_interval(std::uint32_t high, std::uint32_t low) {
 }
 
 /// Two independent standard normal deviates.
-struct Normals {
+struct NormalPair {
     double first, second;
 };
 /// Sample number `index` for (seed, stream, purpose), by the Box-Muller transform. `stream` is usually the number of an afferent.
-inline Normals normals(std::uint64_t seed, std::uint32_t stream, std::uint32_t purpose, std::uint64_t index) {
-    const Words w = philox({static_cast<std::uint32_t>(index), static_cast<std::uint32_t>(index >> 32), stream, purpose}, seed);
+inline NormalPair normal_pair(std::uint64_t seed, std::uint32_t stream, std::uint32_t purpose, std::uint64_t index) {
+    const PhiloxCounter w = philox({static_cast<std::uint32_t>(index), static_cast<std::uint32_t>(index >> 32), stream, purpose}, seed);
     const double u = unit_interval(w[0], w[1]), turns = unit_interval(w[2], w[3]);
     const double radius = num::sqrt(-2.0 * num::log(u));
     return {radius * num::cos_turns(turns), radius * num::cos_turns(turns - 0.25)};
 }
 /// The first deviate of normal_pair().
 inline double normal(std::uint64_t seed, std::uint32_t stream, std::uint32_t purpose, std::uint64_t index) {
-    return normals(seed, stream, purpose, index).first;
+    return normal_pair(seed, stream, purpose, index).first;
 }
 
 }  // namespace corpuscle

@@ -13,12 +13,12 @@ namespace corpuscle {
 struct Spike {
     std::int64_t step = 0;
     double offset = 1;       ///< in (0, 1]; 1 is the sample itself
-    std::uint32_t unit = 0;  ///< one index for each afferent on each channel
+    std::uint32_t afferent_index = 0;  ///< one index for each afferent on each channel
 
     friend auto operator<=>(const Spike&, const Spike&) = default;  // by time, then by afferent
 };
 
 /// The spike times of a train in s, in the train's order.
-std::vector<double> times(std::span<const Spike> train, const Clock& clock);
+std::vector<double> spike_times(std::span<const Spike> train, const Clock& clock);
 
 }  // namespace corpuscle

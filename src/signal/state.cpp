@@ -74,7 +74,7 @@ Error format_mismatch(std::string_view name, std::string_view format, std::strin
 
 }  // namespace
 
-std::size_t first_not_finite(std::span<const double> x) {
+std::size_t first_non_finite(std::span<const double> x) {
     constexpr std::uint64_t exponent = 0x7ff0000000000000U;
     std::uint64_t found = 0;  // without a branch, because almost always all are finite
     for (const double v : x) found |= (std::bit_cast<std::uint64_t>(v) & exponent) == exponent;
@@ -88,7 +88,7 @@ Result<void> check_block(std::string_view name, std::string_view format, std::si
     if (state.values.size() != values)
         return bad_input(fmt::format("{}: the saved state is damaged: it has {} values, expected {}; start again with start()", name,
                                      state.values.size(), values));
-    if (const auto bad = first_not_finite(force); bad < force.size())
+    if (const auto bad = first_non_finite(force); bad < force.size())
         return bad_input(fmt::format("{}: the force of sample {} is {}, not a finite number", name,
                                      state.step + static_cast<std::int64_t>(bad), force[bad]));
     return {};
@@ -124,7 +124,7 @@ Result<State> unpack(std::span<const std::byte> in) {
     take(in, s.values.data(), s.values.size());
     if (s.step < 0 || s.step > max_step)
         return bad_input("the saved afferent state is damaged: its sample number is " + std::to_string(s.step));
-    if (first_not_finite(s.values) < s.values.size()) return bad_input("the saved afferent state is damaged: it contains NaN or infinity");
+    if (first_non_finite(s.values) < s.values.size()) return bad_input("the saved afferent state is damaged: it contains NaN or infinity");
     return s;
 }
 

@@ -20,7 +20,7 @@ struct ErasedStimulus {
 template <class S>
 ErasedStimulus erase_stimulus(std::span<const Setting> settings, std::uint64_t seed) {
     S s;
-    s.p = with<typename S::Params>(S::fields, settings);
+    s.p = with_settings<typename S::Params>(S::fields, settings);
     if constexpr (requires { s.seed; }) s.seed = seed;
     double cycle = 0;
     if constexpr (requires { s.cycle(); }) cycle = s.cycle();
@@ -36,38 +36,38 @@ std::optional<ErasedStimulus> make_member(StimulusList<S...>, std::string_view n
 }
 
 template <class... S>
-std::vector<Card> catalog_of(StimulusList<S...>) {
-    return {card_of<S>()...};
+std::vector<CatalogEntry> catalog_of(StimulusList<S...>) {
+    return {catalog_entry_of<S>()...};
 }
 
-std::optional<Card> find_stimulus(std::string_view name) {
-    for (auto& card : stimulus_cards())
+std::optional<CatalogEntry> find_stimulus(std::string_view name) {
+    for (auto& card : stimulus_catalog())
         if (card.name == name) return card;
     return {};
 }
 
-class StimulusSum final : public Source {
+class StimulusSum final : public ForceSource {
     std::string name_;
     Clock clock_;
     std::vector<ErasedStimulus> members_;
-    std::vector<Fact> metadata_;
+    std::vector<MetadataEntry> metadata_;
     std::vector<Channel> channels_;
     std::int64_t samples_, next_ = 0;
 
 public:
-    StimulusSum(std::string name, Clock clock, std::vector<ErasedStimulus> members, std::vector<Fact> metadata, std::int64_t samples)
+    StimulusSum(std::string name, Clock clock, std::vector<ErasedStimulus> members, std::vector<MetadataEntry> metadata, std::int64_t samples)
         : name_(std::move(name)), clock_(clock), members_(std::move(members)), metadata_(std::move(metadata)), channels_{{0, name_}},
           samples_(samples) {}
     const std::string& name() const override { return name_; }
     const Clock& clock() const override { return clock_; }
     const std::vector<Channel>& channels() const override { return channels_; }
-    std::string sentence() const override {
+    std::string description() const override {
         std::vector<std::string_view> all;
-        for (const auto member : stimulus_members(name_)) all.push_back(find_stimulus(member)->sentence);
+        for (const auto member : stimulus_members(name_)) all.push_back(find_stimulus(member)->description);
         return fmt::format("{}", fmt::join(all, "; "));
     }
-    double done() const override { return static_cast<double>(next_) / static_cast<double>(samples_); }
-    std::vector<Fact> facts() const override { return metadata_; }
+    double progress() const override { return static_cast<double>(next_) / static_cast<double>(samples_); }
+    std::vector<MetadataEntry> metadata() const override { return metadata_; }
     std::vector<Phase> phases() const override {
         for (const auto& s : members_) {
             if (s.phases.empty()) continue;
@@ -79,7 +79,7 @@ public:
         return {};
     }
     /// The frequency of the only periodic member; 0 if there are several.
-    double cycle() const override {
+    double cycle_frequency() const override {
         double found = 0;
         for (const auto& s : members_)
             if (s.cycle > 0 && std::exchange(found, s.cycle) > 0) return 0;
@@ -109,32 +109,32 @@ std::vector<std::string_view> stimulus_members(std::string_view text) {
     }
 }
 
-std::vector<Card> stimulus_cards() { return catalog_of(Stimuli{}); }
+std::vector<CatalogEntry> stimulus_catalog() { return catalog_of(Stimuli{}); }
 
 bool is_stimulus(std::string_view text) {
     const auto names = stimulus_members(text);
     return std::all_of(names.begin(), names.end(), [](auto n) { return find_stimulus(n).has_value(); });
 }
 
-Result<std::unique_ptr<Source>> make_stimulus(std::string_view text, std::span<const Wish> overrides, double rate, std::uint64_t seed) {
-    const auto clock = clock_of(rate);
+Result<std::unique_ptr<ForceSource>> make_stimulus(std::string_view text, std::span<const ParameterOverride> overrides, double rate, std::uint64_t seed) {
+    const auto clock = make_clock(rate);
     if (!clock) return clock.error();
     std::vector<ErasedStimulus> members;
-    std::vector<Fact> metadata;
+    std::vector<MetadataEntry> metadata;
     double duration = 0;
     for (const auto name : stimulus_members(text)) {
         const auto card = find_stimulus(name);
         if (!card) {
             std::vector<std::string_view> names;
-            for (const auto& c : stimulus_cards()) names.push_back(c.name);
+            for (const auto& c : stimulus_catalog()) names.push_back(c.name);
             return bad_input(fmt::format("unknown stimulus '{}'{}", name, did_you_mean(name, names)));
         }
-        const auto settings = settings_for(name, card->rows, overrides);
+        const auto settings = settings_for(name, card->parameters, overrides);
         if (!settings) return settings.error();
-        for (const auto& row : card->rows) {
+        for (const auto& row : card->parameters) {
             const auto set = std::find_if(settings->rbegin(), settings->rend(), [&](const Setting& s) { return s.name == row.name; });
             metadata.push_back(
-                {fmt::format("{}.{}", name, row.name), set == settings->rend() ? row.initial : set->value, std::string(row.unit)});
+                {fmt::format("{}.{}", name, row.name), set == settings->rend() ? row.default_value : set->value, std::string(row.unit)});
         }
         members.push_back(*make_member(Stimuli{}, name, *settings, seed));
         duration = std::max(duration, members.back().duration);
@@ -142,7 +142,7 @@ Result<std::unique_ptr<Source>> make_stimulus(std::string_view text, std::span<c
     const double samples = std::round(duration * clock->rate());
     if (!(samples >= 1)) return bad_input(fmt::format("{}: {:g} s at {:g} Hz is less than one sample", text, duration, rate));
     if (samples > 1e15) return bad_input(fmt::format("{}: {:g} s at {:g} Hz is more than 1e15 samples", text, duration, rate));
-    return std::unique_ptr<Source>(std::make_unique<StimulusSum>(std::string(text), *clock, std::move(members), std::move(metadata),
+    return std::unique_ptr<ForceSource>(std::make_unique<StimulusSum>(std::string(text), *clock, std::move(members), std::move(metadata),
                                                                  static_cast<std::int64_t>(samples)));
 }
 

@@ -4,9 +4,9 @@
 
 namespace corpuscle {
 
-Result<void> set_classes(SkinPlan& plan, std::span<const Wish> overrides) {
+Result<void> set_classes(SkinPlan& plan, std::span<const ParameterOverride> overrides) {
     for (auto& c : plan.classes) {
-        std::vector<Row> rows;
+        std::vector<ParameterInfo> rows;
         for (const auto& p : *c.afferent.parameters) rows.push_back(p.row);
         const auto settings = settings_for(c.name, rows, overrides);
         if (!settings) return settings.error();
@@ -18,12 +18,12 @@ Result<void> set_classes(SkinPlan& plan, std::span<const Wish> overrides) {
     return {};
 }
 
-Result<void> check_all_used(const SkinPlan& plan, std::span<const Wish> overrides, std::span<const std::string_view> others) {
+Result<void> check_all_used(const SkinPlan& plan, std::span<const ParameterOverride> overrides, std::span<const std::string_view> others) {
     std::vector<std::string_view> names(others.begin(), others.end());
     for (const auto& c : plan.classes) names.push_back(c.name);
     for (const auto& o : overrides)
-        if (!o.used)
-            return bad_usage(fmt::format("{}: there is no '{}' here{} ({} can be set)", o.text(), o.of, did_you_mean(o.of, names),
+        if (!o.is_used)
+            return bad_usage(fmt::format("{}: there is no '{}' here{} ({} can be set)", o.text(), o.target, did_you_mean(o.target, names),
                                          fmt::join(names, ", ")));
     return {};
 }

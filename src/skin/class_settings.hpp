@@ -3,16 +3,16 @@
 
 #include <span>
 
-#include "signal/settings.hpp"
+#include "signal/parameter_override.hpp"
 #include "skin/plan.hpp"
 
 namespace corpuscle {
 
 /// "sa1.f_B=25Hz": sets the value about which the parameters of the class sa1 are sampled. Marks the overrides that name a class as used.
 /// Refuses a parameter that the class does not have, and a value outside its range.
-Result<void> set_classes(SkinPlan&, std::span<const Wish>);
+Result<void> set_classes(SkinPlan&, std::span<const ParameterOverride>);
 
 /// Refuses an override that has not been used: neither a class nor any of the other settable things has its name.
-Result<void> check_all_used(const SkinPlan&, std::span<const Wish>, std::span<const std::string_view> others = {});
+Result<void> check_all_used(const SkinPlan&, std::span<const ParameterOverride>, std::span<const std::string_view> others = {});
 
 }  // namespace corpuscle

@@ -12,8 +12,8 @@ constexpr double max_width = 0.1;                         // m, of a hot spot an
 constexpr double min_velocity = 0.1, max_velocity = 200;  // m/s
 
 /// The settings of a file for an afferent as overrides of the name by which it was requested. Each keeps its location.
-std::vector<Wish> overrides_for(std::string_view afferent, std::span<const SaidSetting> spec) {
-    std::vector<Wish> out;
+std::vector<ParameterOverride> overrides_for(std::string_view afferent, std::span<const LocatedSetting> spec) {
+    std::vector<ParameterOverride> out;
     for (const auto& s : spec) {
         const auto dot = s.name.rfind('.');  // "adc.bits" belongs to a component, "f_B" to the afferent
         if (dot == std::string::npos)
@@ -26,21 +26,21 @@ std::vector<Wish> overrides_for(std::string_view afferent, std::span<const SaidS
 
 /// Turns an error about overrides into one with a location in the file: that of the first setting that alone causes it.
 template <class F>
-Error in_file(std::span<const SaidSetting> spec, const Error& all, F&& fails_with) {
+Error in_file(std::span<const LocatedSetting> spec, const Error& all, F&& fails_with) {
     for (std::size_t k = 0; k < spec.size(); ++k)
-        if (fails_with(spec.subspan(k, 1))) return spec[k].value.wrong(all.sentence);
-    return spec.empty() ? all : spec.front().value.wrong(all.sentence);
+        if (fails_with(spec.subspan(k, 1))) return spec[k].value.error_here(all.message);
+    return spec.empty() ? all : spec.front().value.error_here(all.message);
 }
 
 Result<AfferentPlan> afferent_of(const SaidClass& spec) {
     if (!spec.afferent) return bad_input("[[class]]: afferent is missing: afferent = \"sa1\"", spec.place);
     const auto& text = spec.afferent->text;
-    if (const auto known = plan_afferent(text, {}); !known) return spec.afferent->wrong(known.error().sentence);
+    if (const auto known = plan_afferent(text, {}); !known) return spec.afferent->error_here(known.error().message);
     const auto overrides = overrides_for(text, spec.set);
     auto plan = plan_afferent(text, overrides);
     if (!plan) return in_file(spec.set, plan.error(), [&](auto some) { return !plan_afferent(text, overrides_for(text, some)); });
     for (std::size_t k = 0; k < overrides.size(); ++k)
-        if (!overrides[k].used) return spec.set[k].value.wrong(fmt::format("{} has no parameter '{}'", text, spec.set[k].name));
+        if (!overrides[k].is_used) return spec.set[k].value.error_here(fmt::format("{} has no parameter '{}'", text, spec.set[k].name));
     return plan;
 }
 
@@ -50,11 +50,11 @@ Result<std::vector<Spread>> spreads_of(const SaidClass& spec, const AfferentPlan
     auto spreads = spreads_for(plan, text, overrides);
     if (!spreads) {
         auto error = in_file(spec.spread, spreads.error(), [&](auto some) { return !spreads_for(plan, text, overrides_for(text, some)); });
-        if (error.sentence.starts_with("--spread ")) error.sentence.erase(0, 9);  // a file does not use this option
+        if (error.message.starts_with("--spread ")) error.message.erase(0, 9);  // a file does not use this option
         return error;
     }
     for (std::size_t k = 0; k < overrides.size(); ++k)
-        if (!overrides[k].used) return spec.spread[k].value.wrong(fmt::format("{} has no parameter '{}'", text, spec.spread[k].name));
+        if (!overrides[k].is_used) return spec.spread[k].value.error_here(fmt::format("{} has no parameter '{}'", text, spec.spread[k].name));
     return spreads;
 }
 
@@ -64,7 +64,7 @@ bool matches_region(std::string_view key, std::string_view region) {
 }
 
 Result<std::vector<double>> densities_of(const SaidClass& spec, const Sites& sites, const SaidNumbers& numbers) {
-    const auto density = [&](const Said& s) { return numbers.number(s, "density", "1/m2", 0, max_density); };
+    const auto density = [&](const LocatedText& s) { return numbers.number(s, "density", "1/m2", 0, max_density); };
     if (spec.even_density) {
         const auto all = density(*spec.even_density);
         return all ? std::vector<double>(sites.regions.size(), *all) : Result<std::vector<double>>(all.error());
@@ -82,14 +82,14 @@ Result<std::vector<double>> densities_of(const SaidClass& spec, const Sites& sit
         }
         if (matched) continue;
         const std::vector<std::string_view> names(sites.regions.begin(), sites.regions.end());
-        return s.value.wrong(
+        return s.value.error_here(
             fmt::format("density: there is no region '{}'{} (there are {})", s.name, did_you_mean(s.name, names), fmt::join(names, ", ")));
     }
     for (std::size_t r = 0; r < out.size(); ++r)
         if (out[r] < 0)
             return bad_input(
                 fmt::format("density: none is given for region '{0}'; write {0} = \"0 /cm2\" if it has no afferents", sites.regions[r]),
-                spec.density.front().value.place);
+                spec.density.front().value.location);
     return out;
 }
 
@@ -115,7 +115,7 @@ Result<void> read_numbers(const SaidClass& spec, const Sites& sites, const SaidN
 
 Result<void> read_field(const SaidClass& spec, const SaidNumbers& numbers, SkinClass& out) {
     struct FieldSetting {
-        const MaybeSaid& spec;
+        const OptionalLocatedText& spec;
         std::string_view name, unit;
         double low, high;
         double& target;
@@ -133,8 +133,8 @@ Result<void> read_field(const SaidClass& spec, const SaidNumbers& numbers, SkinC
     if (!spots) return spots.error();
     out.hot_spots = static_cast<std::uint32_t>(*spots);
     if (out.hot_spots > 1 && !(out.sigma > 0 && out.hot_spot_spread > 0))
-        return spec.hot_spots->wrong("several hot spots need a sigma and a hot_spot_spread");
-    if (spec.velocity_spread && !spec.velocity) return spec.velocity_spread->wrong("velocity_spread needs a velocity");
+        return spec.hot_spots->error_here("several hot spots need a sigma and a hot_spot_spread");
+    if (spec.velocity_spread && !spec.velocity) return spec.velocity_spread->error_here("velocity_spread needs a velocity");
     return {};
 }
 
@@ -145,7 +145,7 @@ Result<SkinClass> class_of(const SaidClass& spec, const Sites& sites, const Said
     out.name = spec.name ? spec.name->text : plan->name;
     if (out.name.empty() || out.name.find_first_of("# \t,\n\r\"") != std::string::npos)
         return (spec.name ? *spec.name : *spec.afferent)
-            .wrong(fmt::format("'{}' is not a valid class name: it must not contain blanks, commas, # or quotes", out.name));
+            .error_here(fmt::format("'{}' is not a valid class name: it must not contain blanks, commas, # or quotes", out.name));
     auto spreads = spreads_of(spec, *plan);
     if (!spreads) return spreads.error();
     plan->name = out.name;  // it identifies random streams and outputs: two classes may use the same afferent
@@ -158,7 +158,7 @@ Result<SkinClass> class_of(const SaidClass& spec, const Sites& sites, const Said
 
 }  // namespace
 
-std::vector<Sourced> sources_of(std::span<const SaidSetting> spec) {
+std::vector<Sourced> sources_of(std::span<const LocatedSetting> spec) {
     std::vector<Sourced> out;
     for (const auto& s : spec) out.push_back({s.name, s.value.text});
     return out;
@@ -171,7 +171,7 @@ Result<std::vector<SkinClass>> classes_of(const SkinText& spec, const Sites& sit
         auto one = class_of(c, sites, numbers);
         if (!one) return one.error();
         if (std::any_of(out.begin(), out.end(), [&](const SkinClass& other) { return other.name == one->name; }))
-            return (c.name ? *c.name : *c.afferent).wrong(fmt::format("there are two classes '{}'; rename one of them", one->name));
+            return (c.name ? *c.name : *c.afferent).error_here(fmt::format("there are two classes '{}'; rename one of them", one->name));
         out.push_back(std::move(*one));
     }
     return out;

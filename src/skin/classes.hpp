@@ -8,6 +8,6 @@ namespace corpuscle::skins {
 
 Result<std::vector<SkinClass>> classes_of(const SkinText&, const Sites&, const SaidNumbers&);
 
-std::vector<Sourced> sources_of(std::span<const SaidSetting>);
+std::vector<Sourced> sources_of(std::span<const LocatedSetting>);
 
 }  // namespace corpuscle::skins

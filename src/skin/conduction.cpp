@@ -29,11 +29,11 @@ Conduction::Conduction(const Innervation& skin, double T) {
 void Conduction::carry(std::span<const Spike> fired, std::int64_t now, std::vector<Spike>& arrived) {
     if (delays_.empty()) return append_sorted(fired, arrived);
     for (const auto& s : fired) {
-        const auto& d = delays_[s.unit];
+        const auto& d = delays_[s.afferent_index];
         const double offset = s.offset + d.rest;  // (0, 2)
         const bool next = offset > 1;
         const std::int64_t step = s.step + d.steps + (next ? 1 : 0);
-        at(step).push_back({step, next ? offset - 1 : offset, s.unit});
+        at(step).push_back({step, next ? offset - 1 : offset, s.afferent_index});
     }
     for (; told_ < now; ++told_) {
         auto& due = at(told_ + 1);

@@ -20,7 +20,7 @@ public:
     std::vector<Spike> on_their_way() const;
     /// True if a saved spike can be one of them.
     bool can_carry(const Spike& s, std::int64_t now) const {
-        return s.unit < delays_.size() && s.step > now && s.step < now + static_cast<std::int64_t>(arriving_.size()) && s.offset > 0 &&
+        return s.afferent_index < delays_.size() && s.step > now && s.step < now + static_cast<std::int64_t>(arriving_.size()) && s.offset > 0 &&
                s.offset <= 1;
     }
     void put_back(std::span<const Spike>, std::int64_t now);  ///< restores what in_transit() returned after sample `now`

@@ -38,12 +38,12 @@ FeltForce::FeltForce(const ReceptiveFields& fields, std::size_t first, std::size
     }
 }
 
-void FeltForce::feel(const SiteForce& force, std::span<const std::uint32_t> touched, std::size_t at, std::size_t steps, Pool& pool) {
+void FeltForce::feel(const SiteForce& force, std::span<const std::uint32_t> touched, std::size_t at, std::size_t steps, ThreadPool& pool) {
     const Call call{force, touched, at, steps};
     if (steps == 1) return feel_one_step(call);
     if (touched.size() * dense > pieces_[0].begin.size()) return feel_by_unit(call, pool);
     while (sums_.size() < pool.threads()) sums_.emplace_back(piece_tiles * force_tile * skin_steps);
-    pool.each(pieces_.size(), [&call, this](std::size_t piece, unsigned thread) { feel_piece(piece, call, sums_[thread].data()); });
+    pool.for_each(pieces_.size(), [&call, this](std::size_t piece, unsigned thread) { feel_piece(piece, call, sums_[thread].data()); });
 }
 
 void FeltForce::make_by_unit() {
@@ -59,13 +59,13 @@ void FeltForce::make_by_unit() {
 }
 
 /// All tiles are computed: with so many touched sites few would be without force.
-void FeltForce::feel_by_unit(const Call& call, Pool& pool) {
+void FeltForce::feel_by_unit(const Call& call, ThreadPool& pool) {
     static constexpr std::array<double, skin_steps> zero = {};
     if (!by_unit_) make_by_unit();
     site_rows_.assign(pieces_[0].begin.size() - 1, zero.data());
     for (const auto s : call.touched) site_rows_[s] = call.force.of + s * call.force.stride + call.at;
     std::fill(without_.begin(), without_.end(), std::uint8_t{0});
-    pool.each(tiles_, [&call, this](std::size_t tile, unsigned) {
+    pool.for_each(tiles_, [&call, this](std::size_t tile, unsigned) {
         by_unit_->feel_tile(tile, site_rows_, call.steps, rows_.data() + tile * call.steps * force_tile);
     });
 }

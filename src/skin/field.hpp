@@ -22,7 +22,7 @@ public:
     FeltForce(const ReceptiveFields&, std::size_t first, std::size_t count, std::size_t sites, InstructionSet);
 
     /// Computes the force for `steps` steps, at most skin_steps, from step `at` of the block.
-    void feel(const SiteForce&, std::span<const std::uint32_t> touched, std::size_t at, std::size_t steps, Pool&);
+    void feel(const SiteForce&, std::span<const std::uint32_t> touched, std::size_t at, std::size_t steps, ThreadPool&);
 
     ForceTiles<double> tiles() const { return {rows_.data(), without_.data()}; }
 
@@ -63,7 +63,7 @@ private:
 
     void feel_piece(std::size_t piece, const Call&, double* sums);
     void make_by_unit();
-    void feel_by_unit(const Call&, Pool&);
+    void feel_by_unit(const Call&, ThreadPool&);
     void make_one_step();
     class Eights;
     void make_tile(std::size_t tile, std::size_t sites, Eights&);

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <charconv>
 
-#include "signal/text.hpp"
+#include "signal/ascii_text.hpp"
 #include "skin/memory.hpp"
 
 namespace corpuscle {

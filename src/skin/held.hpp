@@ -32,7 +32,7 @@ struct Skin::Held {
     SkinWork work;
 
     std::span<const std::uint32_t> touched_in(const SiteForce&, std::size_t at, std::size_t steps);
-    Result<void> feel(const SiteForce&, std::size_t at, std::size_t steps, std::vector<Spike>&, Pool&);
+    Result<void> feel(const SiteForce&, std::size_t at, std::size_t steps, std::vector<Spike>&, ThreadPool&);
 };
 
 }  // namespace corpuscle

@@ -91,7 +91,7 @@ void set_delays(const SkinPlan& plan, const SkinClass& c, std::vector<SkinUnit>&
 }  // namespace
 
 std::uint32_t class_stream(const SkinClass& c, std::string_view what) {
-    return static_cast<std::uint32_t>(stream_of(fmt::format("skin.{}.{}", c.name, what)));
+    return static_cast<std::uint32_t>(stream_id(fmt::format("skin.{}.{}", c.name, what)));
 }
 
 std::vector<std::uint64_t> units_by_region(const SkinPlan& plan, std::uint32_t class_index) {

@@ -5,9 +5,9 @@
 #include <fmt/format.h>
 #include <filesystem>
 
-#include "signal/carried.hpp"
+#include "signal/embedded_files.hpp"
 #include "signal/input_files.hpp"
-#include "signal/text.hpp"
+#include "signal/ascii_text.hpp"
 #include "skin/grid.hpp"
 #include "skin/text.hpp"
 
@@ -30,9 +30,9 @@ Error unknown_skin(std::string_view name) {
 /// Titles and names of the built-in populations; they are kept as long as the program runs.
 std::vector<std::pair<std::string, std::string>> carried_skins() {
     std::vector<std::pair<std::string, std::string>> out;
-    for (const auto file : carried_files()) {
+    for (const auto file : embedded_files()) {
         if (!file.starts_with("skins/")) continue;
-        const auto spec = skins::read_skin_text(*carried_text(std::string(file)), std::string(file));
+        const auto spec = skins::read_skin_text(*embedded_text(std::string(file)), std::string(file));
         out.emplace_back(fs::path(file).stem().string(), spec && spec->title ? spec->title->text : "");
     }
     return out;
@@ -53,11 +53,11 @@ std::span<const NamedSkin> named_skins() {
 Result<SkinPlan> plan_skin(std::string_view name, std::span<const Channel> channels) {
     name = trimmed(name);
     if (is_grid(name)) return plan_grid(name);
-    if (const auto text = carried_text(carried_path(lower(name)))) return read_skin_plan(*text, carried_path(lower(name)), channels);
+    if (const auto text = embedded_text(carried_path(lower(name)))) return read_skin_plan(*text, carried_path(lower(name)), channels);
     const fs::path path(name);
     std::error_code status;
     if (fs::exists(path, status) && !fs::is_directory(path, status)) {
-        const auto text = read_whole_input(path.string(), max_file_size, "population file");
+        const auto text = read_entire_input(path.string(), max_file_size, "population file");
         return text ? read_skin_plan(*text, path.string(), channels) : Result<SkinPlan>(text.error());
     }
     if (path.extension() == ".toml") return bad_input("cannot be read: there is no such file", {path.string()});

@@ -20,8 +20,8 @@ constexpr double max_coordinate = 10, min_pitch = 10e-6, max_pitch = 0.1;  // m
 Result<SaidNumbers> numbers_of(const SkinText& spec) {
     if (!spec.unit) return SaidNumbers{};
     const auto unit = parse_unit(spec.unit->text);
-    if (!unit || !unit->same_kind(*parse_unit("m")))
-        return spec.unit->wrong(fmt::format("unit = '{}' is not a unit of length; write unit = \"mm\"", spec.unit->text));
+    if (!unit || !unit->has_same_dimension(*parse_unit("m")))
+        return spec.unit->error_here(fmt::format("unit = '{}' is not a unit of length; write unit = \"mm\"", spec.unit->text));
     return SaidNumbers(unit->factor);
 }
 
@@ -49,7 +49,7 @@ Result<SkinShape> shape_of(const SaidShape& spec, const SaidNumbers& numbers) {
         if (!position) return position.error();
         out.points.push_back(*position);
     }
-    const auto error = [&](std::string_view why) { return spec.kind.wrong(fmt::format("a {} {}", kind, why)); };
+    const auto error = [&](std::string_view why) { return spec.kind.error_here(fmt::format("a {} {}", kind, why)); };
     if (line && out.points.size() != 2) return error("needs the two ends of its centre line: [[x, y], [x, y]]");
     if (out.kind == Kind::polygon && (out.points.size() < 3 || out.points.size() > 1000)) return error("needs 3 to 1000 corners");
     const bool ellipse = out.kind == Kind::ellipse;
@@ -72,11 +72,11 @@ Result<SkinShape> shape_of(const SaidShape& spec, const SaidNumbers& numbers) {
 Result<Sites> sites_of_regions(const SkinText& spec, double pitch, const SaidNumbers& numbers) {
     std::vector<SkinRegion> regions;
     for (const auto& r : spec.regions) {
-        if (r.name.text.empty()) return r.name.wrong("a region needs a name");
+        if (r.name.text.empty()) return r.name.error_here("a region needs a name");
         for (const auto& other : regions)
-            if (other.name == r.name.text) return r.name.wrong(fmt::format("there are two regions '{}'", r.name.text));
+            if (other.name == r.name.text) return r.name.error_here(fmt::format("there are two regions '{}'", r.name.text));
         auto& region = regions.emplace_back(SkinRegion{r.name.text, {}});
-        if (r.shapes.empty()) return r.name.wrong(fmt::format("region '{}' has no shape", r.name.text));
+        if (r.shapes.empty()) return r.name.error_here(fmt::format("region '{}' has no shape", r.name.text));
         for (const auto& s : r.shapes) {
             auto shape = shape_of(s, numbers);
             if (!shape) return shape.error();
@@ -84,7 +84,7 @@ Result<Sites> sites_of_regions(const SkinText& spec, double pitch, const SaidNum
         }
     }
     auto sites = outline_sites(regions, pitch);
-    if (!sites) return bad_input(sites.error().sentence, spec.sites->place);
+    if (!sites) return bad_input(sites.error().message, spec.sites->place);
     return sites;
 }
 
@@ -96,7 +96,7 @@ Result<Sites> sites_of_list(const SaidSites& spec, const SaidNumbers& numbers) {
         const auto position = position_of({s.x, s.y}, s.name.text, numbers);
         if (!position) return position.error();
         if (s.name.text.empty() || !names.insert(s.name.text).second)
-            return s.name.wrong(s.name.text.empty() ? "a site needs a name" : fmt::format("there are two sites '{}'", s.name.text));
+            return s.name.error_here(s.name.text.empty() ? "a site needs a name" : fmt::format("there are two sites '{}'", s.name.text));
         out.at.push_back(*position), out.names.push_back(s.name.text);
         const std::string region = s.region ? s.region->text : "skin";
         const auto found = std::find(out.regions.begin(), out.regions.end(), region);
@@ -113,7 +113,7 @@ Result<Sites> sites_of_grid(const SaidSites& spec, double pitch, const SaidNumbe
     if (!columns) return columns.error();
     if (*rows == 0 || *columns == 0) return bad_input("a grid needs rows and columns", spec.place);
     auto grid = grid_sites(*rows, *columns, pitch);
-    if (!grid) return bad_input(grid.error().sentence, spec.place);
+    if (!grid) return bad_input(grid.error().message, spec.place);
     return grid;
 }
 
@@ -122,17 +122,17 @@ Result<Sites> requested_sites(const SkinText& spec, std::span<const Channel> cha
     const auto& s = *spec.sites;
     if (s.word) {
         if (s.word->text != "channels")
-            return s.word->wrong(fmt::format("sites = '{}': the only word allowed is \"channels\"", s.word->text));
+            return s.word->error_here(fmt::format("sites = '{}': the only word allowed is \"channels\"", s.word->text));
         if (channels.empty())
-            return s.word->wrong(
+            return s.word->error_here(
                 "its sites are the channels of a recording: it needs a recording with a layout that gives their positions");
         auto sites = channel_sites(channels);
-        return sites ? sites : Result<Sites>(s.word->wrong(sites.error().sentence));
+        return sites ? sites : Result<Sites>(s.word->error_here(sites.error().message));
     }
     const bool grid = s.rows || s.columns, list = s.listed || s.file, outline = !spec.regions.empty();
     if (grid + list + outline != 1)
         return bad_input("[sites] needs exactly one of these: rows and columns; a list; pitch and regions ([[region]])", s.place);
-    if (list && s.pitch) return s.pitch->wrong("a list of sites has no pitch");
+    if (list && s.pitch) return s.pitch->error_here("a list of sites has no pitch");
     if (s.file) return read_site_table((std::filesystem::path(spec.file).parent_path() / s.file->text).string());
     if (list) return sites_of_list(s, numbers);
     if (!s.pitch) return bad_input("pitch is missing: pitch = \"2 mm\"", s.place);
@@ -145,7 +145,7 @@ Result<Sites> sites_of(const SkinText& spec, std::span<const Channel> channels, 
     if (!spec.sites) return bad_input("the sites are missing: [sites]", {spec.file});
     auto sites = requested_sites(spec, channels, numbers);
     if (!sites || !spec.sites->area) return sites;
-    if (!spec.regions.empty()) return spec.sites->area->wrong("each site of a region represents pitch squared; remove area");
+    if (!spec.regions.empty()) return spec.sites->area->error_here("each site of a region represents pitch squared; remove area");
     const auto area = numbers.number(*spec.sites->area, "area", "m2", 1e-10, 1);
     if (!area) return area.error();
     sites->area = *area;
@@ -166,7 +166,7 @@ Result<SkinPlan> plan_of(const SkinText& spec, std::span<const Channel> channels
     const auto felt_area = numbers->number(spec.felt_area, "felt_area", "m2", 1e-10, 1, 0);
     if (!felt_area) return felt_area.error();
     if (spec.felt_area && !(plan.sites.area > 0))
-        return spec.felt_area->wrong("felt_area needs sites that represent an area of skin: regions, or area = \"4 mm2\" in [sites]");
+        return spec.felt_area->error_here("felt_area needs sites that represent an area of skin: regions, or area = \"4 mm2\" in [sites]");
     plan.felt_area = *felt_area;
     if (!spec.nerve.empty()) {
         const auto nerve = position_of(spec.nerve, "nerve", *numbers);

@@ -54,7 +54,7 @@ class FieldsOfClass {
     void add_spots(const SkinUnit& afferent) {
         if (class_.hot_spots <= 1) return add_spot(afferent, afferent.at.x, afferent.at.y);
         for (std::uint32_t h = 0; h < class_.hot_spots; ++h) {
-            const auto by = normals(plan_.seed, afferent.copy, stream_, h);
+            const auto by = normal_pair(plan_.seed, afferent.copy, stream_, h);
             add_spot(afferent, afferent.at.x + class_.hot_spot_spread * by.first, afferent.at.y + class_.hot_spot_spread * by.second);
         }
     }

@@ -4,7 +4,7 @@
 #include <charconv>
 
 #include "signal/quantity.hpp"
-#include "signal/text.hpp"
+#include "signal/ascii_text.hpp"
 
 namespace corpuscle::skins {
 namespace {
@@ -19,36 +19,36 @@ bool is_bare(std::string_view text) {
 
 }  // namespace
 
-Result<double> SaidNumbers::number(const Said& item, std::string_view name, std::string_view unit, double low, double high) const {
+Result<double> SaidNumbers::number(const LocatedText& item, std::string_view name, std::string_view unit, double low, double high) const {
     const bool bare = is_bare(item.text), length = unit == "m";
     if (bare && !unit.empty() && (!length || !metres_))
-        return item.wrong(fmt::format("{} = {}: the unit is missing; write {} = \"{} {}\"{}", name, item.text, name, trimmed(item.text),
+        return item.error_here(fmt::format("{} = {}: the unit is missing; write {} = \"{} {}\"{}", name, item.text, name, trimmed(item.text),
                                       length           ? "mm"
                                       : unit == "1/m2" ? "/cm2"
                                                        : unit,
                                       length ? ", or unit = \"mm\" at the top for all lengths" : ""));
     const auto value = parse_quantity(item.text, unit);
-    if (!value) return item.wrong(fmt::format("{}: {}", name, value.error().sentence));
+    if (!value) return item.error_here(fmt::format("{}: {}", name, value.error().message));
     const double si = bare && length ? *value * *metres_ : *value;
     if (!(si >= low && si <= high))
-        return item.wrong(fmt::format("{} = {} is outside [{}, {}]", name, format_quantity(si, unit), format_quantity(low, unit),
+        return item.error_here(fmt::format("{} = {} is outside [{}, {}]", name, format_quantity(si, unit), format_quantity(low, unit),
                                       format_quantity(high, unit)));
     return si;
 }
 
-Result<double> SaidNumbers::number(const MaybeSaid& item, std::string_view name, std::string_view unit, double low, double high,
+Result<double> SaidNumbers::number(const OptionalLocatedText& item, std::string_view name, std::string_view unit, double low, double high,
                                    double fallback) const {
     return item ? number(*item, name, unit, low, high) : Result<double>(fallback);
 }
 
-Result<std::uint64_t> SaidNumbers::whole(const MaybeSaid& item, std::string_view name, std::uint64_t low, std::uint64_t high,
+Result<std::uint64_t> SaidNumbers::whole(const OptionalLocatedText& item, std::string_view name, std::uint64_t low, std::uint64_t high,
                                          std::uint64_t fallback) const {
     if (!item) return fallback;
     const auto text = trimmed(item->text);
     std::uint64_t value = 0;
     const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (status != std::errc{} || end != text.data() + text.size() || value < low || value > high)
-        return item->wrong(fmt::format("{} = {}: must be an integer from {} to {}", name, text, low, high));
+        return item->error_here(fmt::format("{} = {}: must be an integer from {} to {}", name, text, low, high));
     return value;
 }
 

@@ -136,7 +136,7 @@ std::vector<std::byte> Skin::save() const {
     }
     const auto in_transit = h.conduction.on_their_way();
     to.put(std::uint64_t{in_transit.size()});
-    for (const auto& s : in_transit) to.put(PackedSpike{s.step, s.offset, s.unit});
+    for (const auto& s : in_transit) to.put(PackedSpike{s.step, s.offset, s.afferent_index});
     to.put(checksum_of(out));
     return out;
 }

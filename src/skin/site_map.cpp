@@ -11,9 +11,9 @@
 
 #include "io/dialect.hpp"
 #include "io/heading.hpp"
-#include "io/lines.hpp"
-#include "signal/field.hpp"
-#include "signal/text.hpp"
+#include "io/line_reader.hpp"
+#include "signal/parameter.hpp"
+#include "signal/ascii_text.hpp"
 
 namespace corpuscle {
 namespace {
@@ -36,7 +36,7 @@ std::string no_such_site(const Sites& sites, std::string_view name) {
 
 /// Reads a layout row by row.
 class SiteMapReader {
-    Lines lines_;
+    LineReader lines_;
     const Sites& sites_;
     SiteIndex index_;
     Dialect dialect_;
@@ -48,7 +48,7 @@ class SiteMapReader {
 
     Error error_at(std::string message, std::size_t field) const {
         const long column = field < fields_.size() ? fields_[field].data() - line_.data() + 1 : 0;
-        return bad_input(std::move(message), {lines_.path(), lines_.number(), column});
+        return bad_input(std::move(message), {lines_.path(), lines_.line_number(), column});
     }
 
     Result<bool> next_row() {
@@ -62,7 +62,7 @@ class SiteMapReader {
     Result<void> read_header() {
         const auto more = next_row();
         if (!more) return more.error();
-        dialect_ = Dialect::of(line_);
+        dialect_ = Dialect::detect(line_);
         if (*more) dialect_.split(line_, fields_);
         for (std::size_t f = 0; f < fields_.size(); ++f) {
             const auto word = lower(fields_[f]);
@@ -94,7 +94,7 @@ class SiteMapReader {
     }
 
 public:
-    SiteMapReader(Lines lines, const Sites& sites)
+    SiteMapReader(LineReader lines, const Sites& sites)
         : lines_(std::move(lines)), sites_(sites), index_(index_sites(sites)), taken_(sites.size()) {}
 
     Result<std::vector<std::uint32_t>> read() {
@@ -152,7 +152,7 @@ Result<std::optional<std::vector<std::uint32_t>>> sites_if_named(const Sites& si
 Result<std::vector<std::uint32_t>> read_site_map(const std::string& path, const Sites& sites) {
     std::error_code status;
     if (!std::filesystem::is_regular_file(path, status)) return bad_input("cannot be read: there is no such file", {path});
-    auto lines = Lines::open(path);
+    auto lines = LineReader::open(path);
     if (!lines) return lines.error();
     return SiteMapReader(std::move(*lines), sites).read();
 }

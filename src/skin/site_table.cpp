@@ -7,16 +7,16 @@
 #include <optional>
 
 #include "io/dialect.hpp"
-#include "io/lines.hpp"
+#include "io/line_reader.hpp"
 #include "io/text_table.hpp"
 #include "signal/quantity.hpp"
-#include "signal/text.hpp"
+#include "signal/ascii_text.hpp"
 
 namespace corpuscle {
 namespace {
 
 class SiteTable {
-    Lines lines_;
+    LineReader lines_;
     Dialect dialect_;
     Fields fields_;
     std::string_view line_;
@@ -26,7 +26,7 @@ class SiteTable {
 
     Error error_at(std::string message, std::size_t field = std::string::npos) const {
         const long column = field < fields_.size() ? fields_[field].data() - line_.data() + 1 : 0;
-        return bad_input(std::move(message), {lines_.path(), lines_.number(), column});
+        return bad_input(std::move(message), {lines_.path(), lines_.line_number(), column});
     }
 
     Result<bool> next_line() {
@@ -41,7 +41,7 @@ class SiteTable {
         const auto more = next_line();
         if (!more) return more.error();
         if (!*more) return bad_input("no sites in this file", {lines_.path()});
-        dialect_ = Dialect::of(line_);
+        dialect_ = Dialect::detect(line_);
         dialect_.split(line_, fields_);
         columns_ = fields_.size();
         for (std::size_t f = 0; f < fields_.size(); ++f) {
@@ -52,7 +52,7 @@ class SiteTable {
             for (std::size_t axis = 0; axis < 2; ++axis) {
                 if (word != std::string(1, "xy"[axis])) continue;
                 const auto unit = parse_unit(heading.unit);
-                if (heading.unit.empty() || !unit || !unit->same_kind(*parse_unit("m")))
+                if (heading.unit.empty() || !unit || !unit->has_same_dimension(*parse_unit("m")))
                     return error_at(fmt::format("column '{0}' needs a unit of length; write {1}_mm or {1}_m", fields_[f], word), f);
                 axes_[axis] = f, metres_[axis] = unit->factor;
             }
@@ -67,7 +67,7 @@ class SiteTable {
         if (fields_.size() != columns_) return error_at(fmt::format("{} columns instead of {}", fields_.size(), columns_));
         double position[2];
         for (std::size_t axis = 0; axis < 2; ++axis) {
-            if (!dialect_.number(fields_[*axes_[axis]], position[axis]))
+            if (!dialect_.parse_number(fields_[*axes_[axis]], position[axis]))
                 return error_at(fmt::format("'{}' is not a coordinate", fields_[*axes_[axis]].substr(0, 40)), *axes_[axis]);
             position[axis] *= metres_[axis];
             if (!(std::abs(position[axis]) <= 10))
@@ -83,7 +83,7 @@ class SiteTable {
     }
 
 public:
-    explicit SiteTable(Lines lines) : lines_(std::move(lines)) {}
+    explicit SiteTable(LineReader lines) : lines_(std::move(lines)) {}
 
     Result<Sites> read() {
         if (auto ok = read_header(); !ok) return ok.error();
@@ -105,7 +105,7 @@ public:
 Result<Sites> read_site_table(const std::string& path) {
     std::error_code status;
     if (!std::filesystem::is_regular_file(path, status)) return bad_input("cannot be read: there is no such file", {path});
-    auto lines = Lines::open(path);
+    auto lines = LineReader::open(path);
     if (!lines) return lines.error();
     return SiteTable(std::move(*lines)).read();
 }

@@ -69,7 +69,7 @@ std::optional<Error> check_finite(const Skin::Held& held, const SiteForce& force
                                   std::size_t steps) {
     if (steps == 1 && all_finite(force, touched)) return {};
     for (const auto s : touched)
-        if (const auto t = first_not_finite({force.of + s * force.stride, steps}); t < steps)
+        if (const auto t = first_non_finite({force.of + s * force.stride, steps}); t < steps)
             return bad_input(fmt::format("{}: the force at site {} is {} at sample {}, not a finite number", held.skin->plan.name,
                                          held.skin->plan.sites.names[s], force.of[s * force.stride + t],
                                          held.step + static_cast<std::int64_t>(t)));
@@ -90,7 +90,7 @@ std::span<const std::uint32_t> Skin::Held::touched_in(const SiteForce& force, st
 }
 
 /// Simulates some steps at once, at most skin_steps.
-Result<void> Skin::Held::feel(const SiteForce& force, std::size_t at, std::size_t steps, std::vector<Spike>& spikes, Pool& pool) {
+Result<void> Skin::Held::feel(const SiteForce& force, std::size_t at, std::size_t steps, std::vector<Spike>& spikes, ThreadPool& pool) {
     const auto sites = touched_in(force, at, steps);
     if (auto error = check_finite(*this, {force.of + at, force.stride}, sites, steps)) return *error;
     left.clear();
@@ -129,7 +129,7 @@ std::size_t Skin::sites() const { return held_->skin->plan.sites.size(); }
 std::int64_t Skin::step() const { return held_->step; }
 const SkinWork& Skin::work() const { return held_->work; }
 
-Result<void> Skin::respond(const SiteForce& force, std::size_t steps, std::vector<Spike>& spikes, Pool& pool) {
+Result<void> Skin::respond(const SiteForce& force, std::size_t steps, std::vector<Spike>& spikes, ThreadPool& pool) {
     for (std::size_t at = 0; at < steps; at += skin_steps)
         if (auto ok = held_->feel(force, at, std::min(skin_steps, steps - at), spikes, pool); !ok) return ok;
     return {};

@@ -9,7 +9,7 @@
 
 #include "model/chain.hpp"
 #include "signal/instruction_set.hpp"
-#include "signal/pool.hpp"
+#include "signal/thread_pool.hpp"
 #include "skin/innervation.hpp"
 
 namespace corpuscle {
@@ -50,7 +50,7 @@ public:
 
     /// Simulates the next block. Appends to `spikes` those that arrive in it, in order of time, then afferent. With one thread it allocates
     /// nothing after the first blocks, unless a step has more spikes than any before.
-    Result<void> respond(const SiteForce&, std::size_t steps, std::vector<Spike>& spikes, Pool&);
+    Result<void> respond(const SiteForce&, std::size_t steps, std::vector<Spike>& spikes, ThreadPool&);
     /// Returns the spikes that are still in transit to the recording point.
     void last(std::vector<Spike>& spikes);
 

@@ -2,12 +2,12 @@
 
 #include "skin/text.hpp"
 
-#include "signal/toml_reading.hpp"
+#include "signal/toml_reader.hpp"
 
 namespace corpuscle::skins {
 namespace {
 
-using Names = TomlReading::Names;
+using Names = TomlReader::Names;
 
 const Names skin_keys = {"title", "unit", "seed", "felt_area", "nerve", "sites", "region", "class", "source"};
 const Names skin_sources = {"sites", "felt_area", "nerve"};
@@ -22,49 +22,49 @@ const Names class_sources = {"afferent", "set",       "spread",          "densit
                              "sigma",    "hot_spots", "hot_spot_spread", "velocity", "velocity_spread"};
 
 /// Reads the tables of a population file.
-class SkinReading : public TomlReading {
+class SkinReading : public TomlReader {
 public:
-    using TomlReading::TomlReading;
+    using TomlReader::TomlReader;
 
-    Said wanted(const toml::table& from, std::string_view name, std::string_view where, std::string_view example) {
+    LocatedText wanted(const toml::table& from, std::string_view name, std::string_view where, std::string_view example) {
         if (auto value = scalar(from, name)) return *value;
-        refuse(from.source(), fmt::format("{}: {} is missing: {} = {}", where, name, name, example));
+        reject(from.source(), fmt::format("{}: {} is missing: {} = {}", where, name, name, example));
         return {};
     }
 
     Pair pair(const toml::node& node, std::string_view name) {
         const auto* array = node.as_array();
         if (array && array->size() == 2) return list(*array, name);
-        refuse(node.source(), fmt::format("{}: a position needs two numbers, [x, y]", name));
+        reject(node.source(), fmt::format("{}: a position needs two numbers, [x, y]", name));
         return {};
     }
 
     std::vector<Pair> places(const toml::node& node, std::string_view name) {
         std::vector<Pair> out;
         const auto* array = node.as_array();
-        if (!array) return refuse(node.source(), fmt::format("{} needs positions: [[x, y], [x, y] ...]", name)), out;
+        if (!array) return reject(node.source(), fmt::format("{} needs positions: [[x, y], [x, y] ...]", name)), out;
         for (const auto& one : *array) out.push_back(pair(one, name));
         return out;
     }
 
     void shape(const toml::node& node, std::vector<SaidShape>& out) {
         const auto* table = node.as_table();
-        if (!table) return refuse(node.source(), "a shape must be a table, such as {capsule = [[0, 0], [0, 20]], width = 16}");
-        only(*table, shape_keys, "a shape: ");
+        if (!table) return reject(node.source(), "a shape must be a table, such as {capsule = [[0, 0], [0, 20]], width = 16}");
+        reject_unknown_keys(*table, shape_keys, "a shape: ");
         SaidShape s;
         for (const auto kind : shape_kinds) {
             const auto* points = table->get(kind);
             if (!points) continue;
             if (!s.kind.text.empty())
-                return refuse(points->source(), fmt::format("a shape must be a {} or a {}, not both", s.kind.text, kind));
-            s.kind = {std::string(kind), place(node.source())};
+                return reject(points->source(), fmt::format("a shape must be a {} or a {}, not both", s.kind.text, kind));
+            s.kind = {std::string(kind), location_of(node.source())};
             if (kind == "ellipse")
                 s.points.push_back(pair(*points, kind));
             else
                 s.points = places(*points, kind);
         }
-        if (s.kind.text.empty()) return refuse(node.source(), fmt::format("a shape must be one of {}", fmt::join(shape_kinds, ", ")));
-        if (const auto* width = table->get("width")) s.width = width->is_array() ? list(*width->as_array(), "width") : std::vector<Said>{};
+        if (s.kind.text.empty()) return reject(node.source(), fmt::format("a shape must be one of {}", fmt::join(shape_kinds, ", ")));
+        if (const auto* width = table->get("width")) s.width = width->is_array() ? list(*width->as_array(), "width") : std::vector<LocatedText>{};
         if (const auto* width = table->get("width"); width && !width->is_array())
             if (auto value = scalar(*width, "width")) s.width.push_back(*value);
         s.height = scalar(*table, "height"), s.angle = scalar(*table, "angle");
@@ -72,29 +72,29 @@ public:
     }
 
     void region(const toml::table& from, std::vector<SaidRegion>& out) {
-        only(from, region_keys, "[[region]]: ");
+        reject_unknown_keys(from, region_keys, "[[region]]: ");
         SaidRegion r{wanted(from, "name", "[[region]]", "\"palm\""), {}};
         const auto* shapes = from.get("shapes");
         if (!shapes || !shapes->is_array())
-            return refuse(shapes ? shapes->source() : from.source(), "[[region]]: shapes must be a list: shapes = [{capsule = ...}]");
+            return reject(shapes ? shapes->source() : from.source(), "[[region]]: shapes must be a list: shapes = [{capsule = ...}]");
         for (const auto& one : *shapes->as_array()) shape(one, r.shapes);
         out.push_back(std::move(r));
     }
 
     void site(const toml::node& node, std::vector<SaidSite>& out) {
         const auto* table = node.as_table();
-        if (!table) return refuse(node.source(), "a site must be a table, such as {name = \"tip\", x = 0, y = 2}");
-        only(*table, site_keys, "a site: ");
+        if (!table) return reject(node.source(), "a site must be a table, such as {name = \"tip\", x = 0, y = 2}");
+        reject_unknown_keys(*table, site_keys, "a site: ");
         out.push_back({wanted(*table, "name", "a site", "\"tip\""), wanted(*table, "x", "a site", "0"), wanted(*table, "y", "a site", "2"),
                        scalar(*table, "region")});
     }
 
     SaidSites sites(const toml::node& node) {
-        SaidSites out{place(node.source()), {}, {}, {}, {}, {}, {}, {}};
+        SaidSites out{location_of(node.source()), {}, {}, {}, {}, {}, {}, {}};
         if (node.is_string()) return out.word = scalar(node, "sites"), out;
         const auto* table = node.as_table();
-        if (!table) return refuse(node.source(), "sites must be a table, [sites] on a line of its own, or sites = \"channels\""), out;
-        only(*table, sites_keys, "[sites]: ");
+        if (!table) return reject(node.source(), "sites must be a table, [sites] on a line of its own, or sites = \"channels\""), out;
+        reject_unknown_keys(*table, sites_keys, "[sites]: ");
         out.rows = scalar(*table, "rows"), out.columns = scalar(*table, "columns");
         out.pitch = scalar(*table, "pitch"), out.area = scalar(*table, "area");
         const auto* list = table->get("list");
@@ -103,23 +103,23 @@ public:
             out.listed = true;
             for (const auto& one : *array) site(one, out.list);
         } else if (list && !list->is_string()) {
-            refuse(list->source(), "list must contain sites, list = [{name = \"tip\", x = 0, y = 2}], or be the name of a file with them");
+            reject(list->source(), "list must contain sites, list = [{name = \"tip\", x = 0, y = 2}], or be the name of a file with them");
         }
         return out;
     }
 
     /// A table of texts; if `known` is not empty, only these keys are allowed.
-    void named(const toml::table& from, std::string_view name, const Names& known, std::vector<SaidSetting>& out) {
+    void named(const toml::table& from, std::string_view name, const Names& known, std::vector<LocatedSetting>& out) {
         const auto* inner = table(from, name);
         if (!inner) return;
-        if (!known.empty()) only(*inner, known, fmt::format("{}: ", name));
+        if (!known.empty()) reject_unknown_keys(*inner, known, fmt::format("{}: ", name));
         settings(*inner, "", out);
     }
 
     void a_class(const toml::table& from, std::vector<SaidClass>& out) {
-        only(from, class_keys, "[[class]]: ");
+        reject_unknown_keys(from, class_keys, "[[class]]: ");
         SaidClass c;
-        c.place = place(from.source());
+        c.place = location_of(from.source());
         c.name = scalar(from, "name"), c.afferent = scalar(from, "afferent"), c.per_site = scalar(from, "per_site");
         c.sigma = scalar(from, "sigma"), c.hot_spots = scalar(from, "hot_spots"), c.hot_spot_spread = scalar(from, "hot_spot_spread");
         c.velocity = scalar(from, "velocity"), c.velocity_spread = scalar(from, "velocity_spread");
@@ -134,7 +134,7 @@ public:
 
 SkinText skin_from(const toml::table& top, SkinReading& reading) {
     SkinText out;
-    reading.only(top, skin_keys, "");
+    reading.reject_unknown_keys(top, skin_keys, "");
     out.title = reading.scalar(top, "title"), out.unit = reading.scalar(top, "unit"), out.seed = reading.scalar(top, "seed"),
     out.felt_area = reading.scalar(top, "felt_area");
     if (const auto* nerve = top.get("nerve")) out.nerve = reading.pair(*nerve, "nerve");
@@ -152,7 +152,7 @@ Result<SkinText> read_skin_text(std::string_view text, const std::string& file) 
     if (!top) return top.error();
     SkinReading reading(file);
     auto out = skin_from(*top, reading);
-    if (reading.wrong) return *reading.wrong;
+    if (reading.first_error) return *reading.first_error;
     out.file = file;
     return out;
 }

@@ -4,58 +4,58 @@
 #include <string_view>
 #include <vector>
 
-#include "signal/said.hpp"
+#include "signal/located_text.hpp"
 
 namespace corpuscle::skins {
 
-using Pair = std::vector<Said>;  ///< two elements in a valid file
+using Pair = std::vector<LocatedText>;  ///< two elements in a valid file
 
 /// One shape of a region: { strip = [[x, y], [x, y]], width = [a, b] }.
 struct SaidShape {
-    Said kind;  ///< "strip"; its location is that of the shape
+    LocatedText kind;  ///< "strip"; its location is that of the shape
     std::vector<Pair> points;
-    std::vector<Said> width;
-    MaybeSaid height, angle;
+    std::vector<LocatedText> width;
+    OptionalLocatedText height, angle;
 };
 
 /// One [[region]].
 struct SaidRegion {
-    Said name;
+    LocatedText name;
     std::vector<SaidShape> shapes;
 };
 
 /// One site of a list.
 struct SaidSite {
-    Said name, x, y;
-    MaybeSaid region;
+    LocatedText name, x, y;
+    OptionalLocatedText region;
 };
 
 /// [sites].
 struct SaidSites {
-    Place place;
-    MaybeSaid word;  ///< sites = "channels"
-    MaybeSaid rows, columns, pitch, area, file;
+    SourceLocation place;
+    OptionalLocatedText word;  ///< sites = "channels"
+    OptionalLocatedText rows, columns, pitch, area, file;
     std::vector<SaidSite> list;
     bool listed = false;
 };
 
 /// One [[class]].
 struct SaidClass {
-    Place place;
-    MaybeSaid name, afferent, per_site, sigma, hot_spots, hot_spot_spread, velocity, velocity_spread;
-    MaybeSaid even_density;            ///< one for all regions
-    std::vector<SaidSetting> density;  ///< by region
-    std::vector<SaidSetting> set, spread, source;
+    SourceLocation place;
+    OptionalLocatedText name, afferent, per_site, sigma, hot_spots, hot_spot_spread, velocity, velocity_spread;
+    OptionalLocatedText even_density;            ///< one for all regions
+    std::vector<LocatedSetting> density;  ///< by region
+    std::vector<LocatedSetting> set, spread, source;
 };
 
 struct SkinText {
     std::string file;
-    MaybeSaid title, unit, seed, felt_area;
-    std::vector<Said> nerve;
+    OptionalLocatedText title, unit, seed, felt_area;
+    std::vector<LocatedText> nerve;
     std::optional<SaidSites> sites;
     std::vector<SaidRegion> regions;
     std::vector<SaidClass> classes;
-    std::vector<SaidSetting> source;
+    std::vector<LocatedSetting> source;
 };
 
 /// Reads TOML. Refuses unknown keys, and values of the wrong type.

@@ -7,7 +7,7 @@
 #include "circuit/afferent.hpp"
 #include "circuit/device/uicm_card.hpp"
 #include "circuit/traced.hpp"
-#include "signal/text.hpp"
+#include "signal/ascii_text.hpp"
 
 namespace corpuscle {
 namespace {
@@ -38,7 +38,7 @@ double number_of(const circuit::Circuit& c, std::string_view element, std::strin
     if (name.empty()) return e.letter == 'v' || e.letter == 'i' ? e.waveform.dc : e.value;
     if (e.letter == 'm')
         for (const auto& f : circuit::UicmInstance::fields)
-            if (f.name == name) return circuit::UicmInstance{}.*f.at;
+            if (f.name == name) return circuit::UicmInstance{}.*f.member;
     return name == "m" || name == "area" ? 1 : name == "temp" ? c.temperature : 0;
 }
 
@@ -81,14 +81,14 @@ Result<std::vector<std::string>> probes_in(const circuit::Circuit& circuit, cons
     return out;
 }
 
-Result<AfferentPlan> plan_netlist(std::string_view text, std::span<const Wish> settings, const OfNetlists& options) {
+Result<AfferentPlan> plan_netlist(std::string_view text, std::span<const ParameterOverride> settings, const OfNetlists& options) {
     const auto* embedded = circuit::carried_netlist(text);
     const std::string name(embedded ? embedded->name : text);
     auto overrides = options.knobs;
     for (const auto& setting : settings) {
         const auto override_name = knob_named(setting, text);
         if (!override_name) continue;
-        setting.used = true;
+        setting.is_used = true;
         overrides.push_back({*override_name, setting.value, "--set " + setting.text()});
     }
     options.used = true;
@@ -122,21 +122,21 @@ Error unknown_afferent(std::string_view text, Error error) {
     const auto hint = did_you_mean(lowercase, names);
     for (const auto& c : circuit::carried_netlists)
         if (text.find('+') == std::string_view::npos && hint.find(fmt::format("'{}'", c.name)) != std::string::npos)
-            error.sentence = fmt::format("unknown afferent '{}'{} ('corpuscle list' shows them all)", text, hint);
+            error.message = fmt::format("unknown afferent '{}'{} ('corpuscle list' shows them all)", text, hint);
     return error;
 }
 
 }  // namespace
 
-std::optional<std::string> knob_named(const Wish& setting, std::string_view netlist) {
-    const auto full_name = setting.of + "." + setting.parameter;
+std::optional<std::string> knob_named(const ParameterOverride& setting, std::string_view netlist) {
+    const auto full_name = setting.target + "." + setting.parameter;
     if (full_name.size() <= netlist.size() + 1 || full_name[netlist.size()] != '.') return {};
     const auto own = std::string_view(full_name).substr(0, netlist.size());
-    const bool same = circuit::carried_netlist(netlist) ? same_letters(own, netlist) : own == netlist;
+    const bool same = circuit::carried_netlist(netlist) ? equal_ignoring_case(own, netlist) : own == netlist;
     return same ? std::optional(full_name.substr(netlist.size() + 1)) : std::nullopt;
 }
 
-Result<AfferentPlan> plan_any_afferent(std::string_view text, std::span<const Wish> settings, const OfNetlists& options) {
+Result<AfferentPlan> plan_any_afferent(std::string_view text, std::span<const ParameterOverride> settings, const OfNetlists& options) {
     if (names_netlist(text)) return plan_netlist(text, settings, options);
     auto plan = plan_afferent(text, settings);
     return plan ? plan : unknown_afferent(text, plan.error());
@@ -152,7 +152,7 @@ Result<void> remake(AfferentPlan& copy, const AfferentPlan& original) {
     const auto made = CircuitDesign::of(design->netlist->with(std::move(changes)));
     if (!made) {
         auto error = made.error();
-        error.sentence = fmt::format("{}: {}", copy.name, error.sentence);
+        error.message = fmt::format("{}: {}", copy.name, error.message);
         return error;
     }
     copy.design = *made;

@@ -22,13 +22,13 @@ struct OfNetlists {
 
 /// Like plan_afferent, and accepts netlists: "sa1-circuit", or "path/own.cir" with a force input and a spike output (doc/circuits.md). An
 /// override for a netlist sets one of its values: "sa1-circuit.summer.N3B.w=1.2um".
-Result<AfferentPlan> plan_any_afferent(std::string_view text, std::span<const Wish> overrides, const OfNetlists& = {});
+Result<AfferentPlan> plan_any_afferent(std::string_view text, std::span<const ParameterOverride> overrides, const OfNetlists& = {});
 
 /// Rebuilds the copy of a netlist's plan with the copy's sampled values. Does nothing for other plans.
 Result<void> remake(AfferentPlan& copy, const AfferentPlan& original);
 
 /// The part of an override's name behind the netlist's name: "summer.N3B.w" of "sa1-circuit.summer.N3B.w=1.2um". Empty if the override
 /// names something else.
-std::optional<std::string> knob_named(const Wish&, std::string_view netlist);
+std::optional<std::string> knob_named(const ParameterOverride&, std::string_view netlist);
 
 }  // namespace corpuscle

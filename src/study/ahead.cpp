@@ -4,7 +4,7 @@
 
 namespace corpuscle {
 
-Result<void> Ahead::next(Source& source, Frames& block) {
+Result<void> Ahead::next(ForceSource& source, Frames& block) {
     if (more_ == 0) return source.read(block);
     for (auto& channel : held_) channel.erase(channel.begin(), channel.begin() + static_cast<std::ptrdiff_t>(block_));
     left_ -= block_;
@@ -15,7 +15,7 @@ Result<void> Ahead::next(Source& source, Frames& block) {
 }
 
 /// Reads until there is a full block and all samples to look ahead behind it.
-Result<void> Ahead::fill(Source& source, Frames& block) {
+Result<void> Ahead::fill(ForceSource& source, Frames& block) {
     while (!ended_ && left_ < block.capacity + more_) {
         if (auto ok = source.read(block); !ok) return ok;
         ended_ = block.count == 0;

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "signal/source.hpp"
+#include "signal/force_source.hpp"
 
 namespace corpuscle {
 
@@ -15,13 +15,13 @@ class Ahead {
     std::size_t block_ = 0, left_ = 0;       // samples of the last block; samples of the source in the buffer
     bool ended_ = false;
 
-    Result<void> fill(Source&, Frames&);
+    Result<void> fill(ForceSource&, Frames&);
 
 public:
     Ahead(std::size_t channels, std::size_t more) : more_(more), held_(channels) {}
 
     /// Reads the next block; count 0 means the end.
-    Result<void> next(Source&, Frames&);
+    Result<void> next(ForceSource&, Frames&);
     /// Samples of a channel, counted from the block's first; up to `more` behind its last.
     std::span<const double> of(std::size_t channel, std::size_t from, std::size_t count) const {
         return std::span(held_[channel]).subspan(from, count);

@@ -15,7 +15,7 @@ Result<void> BinsFile::begin(const Input& input) {
 }
 
 Result<void> BinsFile::block(const Input& input, const Answered& block) {
-    for (const auto& s : block.spikes) bins_.count(s, s.unit - input.first_unit);
+    for (const auto& s : block.spikes) bins_.count(s, s.afferent_index - input.first_unit);
     bins_.known_to(block.first + static_cast<std::int64_t>(block.force.count) - 1);
     return file_.write(bins_.lines());
 }

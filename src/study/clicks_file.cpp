@@ -96,7 +96,7 @@ Result<void> ClicksFile::block(const Input& input, const Answered& block) {
             fmt::format("'{}' is longer than the {:g} hours that a WAV file can hold; run it without --wav", input.name, longest / 3600),
             {sounds_.back().file.path()});
     for (const auto& s : block.spikes) {
-        const std::size_t afferent_index = s.unit - input.first_unit;
+        const std::size_t afferent_index = s.afferent_index - input.first_unit;
         click(afferent_index, place_of_[afferent_index % input.afferents.size()], frame_of(since_start(input, s.step, s.offset)));
     }
     return write_up_to(frame_of(elapsed));  // later clicks begin after this block's last sample

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "io/spikes.hpp"
+#include "io/spike_files.hpp"
 
 namespace corpuscle {
 

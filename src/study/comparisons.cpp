@@ -79,7 +79,7 @@ Result<void> Comparisons::begin(const Input& input) {
 
 Result<void> Comparisons::block(const Input& input, const Answered& block) {
     for (const auto& s : block.spikes)
-        if (const auto afferent_index = s.unit - input.first_unit; kept_[afferent_index % kept_.size()])
+        if (const auto afferent_index = s.afferent_index - input.first_unit; kept_[afferent_index % kept_.size()])
             trains_[afferent_index].push_back(since_start_.time(s.step, s.offset));
     return {};
 }

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <iterator>
 
-#include "io/spikes.hpp"
+#include "io/spike_files.hpp"
 #include "study/summary.hpp"
 
 namespace corpuscle {
@@ -18,27 +18,27 @@ CopiesFile::CopiesFile(OutputFile file, const Copies& copies) : file_(std::move(
     }
     std::string header = "afferent,channel";
     for (const auto& c : columns_)
-        header += "," + csv_field(c.unit.empty() ? std::string(c.parameter) : fmt::format("{}_{}", c.parameter, c.unit));
-    for (const auto& m : measures) header += "," + csv_field(key_of(m));
+        header += "," + quote_csv_field(c.unit.empty() ? std::string(c.parameter) : fmt::format("{}_{}", c.parameter, c.unit));
+    for (const auto& m : measures) header += "," + quote_csv_field(key_of(m));
     (void)file_.write(header + "\n");
 }
 
 Result<void> CopiesFile::begin(const Input& input) {
     since_start_ = input.source.clock();
     since_start_.t0 = 0;
-    tally_ = Tally({{.cycle = input.source.cycle()}}, input.units());
+    tally_ = Tally({{.cycle = input.source.cycle_frequency()}}, input.units());
     return {};
 }
 
 Result<void> CopiesFile::block(const Input& input, const Answered& block) {
-    for (const auto& s : block.spikes) tally_.spike(s.unit - input.first_unit, since_start_.time(s.step, s.offset));
+    for (const auto& s : block.spikes) tally_.spike(s.afferent_index - input.first_unit, since_start_.time(s.step, s.offset));
     return {};
 }
 
 void CopiesFile::put_row(const Input& input, std::size_t afferent_index) {
     const auto out = std::back_inserter(text_);
     const auto& plan = input.afferent_of(afferent_index);
-    fmt::format_to(out, "{},{}", csv_field(plan.name), csv_field(input.channel_name(input.channel_of(afferent_index))));
+    fmt::format_to(out, "{},{}", quote_csv_field(plan.name), quote_csv_field(input.channel_name(input.channel_of(afferent_index))));
     for (const auto& c : columns_) {
         const bool differs = std::find(c.afferents.begin(), c.afferents.end(), plan.of) != c.afferents.end();
         differs ? fmt::format_to(out, ",{}", *plan.value(c.parameter)) : fmt::format_to(out, ",");

@@ -37,8 +37,8 @@ Result<circuit::Cost> cost_under(const circuit::CircuitDesign& design, double fo
 }
 
 /// Energy used by an afferent's copies, which are adjacent; `of`: number of afferents.
-Spent energy_used_by(const Work& stats, std::size_t afferent, std::size_t of) {
-    Spent out;
+EnergyUse energy_used_by(const Work& stats, std::size_t afferent, std::size_t of) {
+    EnergyUse out;
     const std::size_t copies = stats.spent.size() / of;
     for (std::size_t k = 0; k < copies; ++k) out += stats.spent[afferent * copies + k];
     return out;

@@ -8,7 +8,7 @@
 #include "circuit/curves.hpp"
 #include "circuit/knobs.hpp"
 #include "circuit/variants.hpp"
-#include "signal/carried.hpp"
+#include "signal/embedded_files.hpp"
 #include "study/orders.hpp"
 
 namespace corpuscle {
@@ -31,7 +31,7 @@ Result<Netlist> netlist_of(const Deck& deck) {
     const auto file = own ? std::string("circuits/study.cir") : fmt::format("circuits/{}.cir", deck.circuit);
     std::string text = deck.circuit;
     if (!own) {
-        auto carried = carried_text(file);
+        auto carried = embedded_text(file);
         if (!carried) return carried.error();
         text = std::move(*carried);
     }
@@ -129,7 +129,7 @@ Result<std::vector<Found>> all_found_in(const Deck& deck) {
         auto outcome = circuit::run(*bench, orders);
         if (!outcome) {
             auto error = outcome.error();
-            if (!variant->label.empty()) error.sentence = fmt::format("{}: {}", variant->label, error.sentence);
+            if (!variant->label.empty()) error.message = fmt::format("{}: {}", variant->label, error.message);
             return error;
         }
         out.push_back({variant->label, variant->circuit, std::move(*outcome)});
@@ -144,7 +144,7 @@ Result<Found> found_in(const Deck& deck) {
 }
 
 Result<std::string> changed_text(const std::string& file, const std::vector<std::pair<std::string, std::string>>& changes) {
-    auto text = carried_text(file);
+    auto text = embedded_text(file);
     if (!text) return text.error();
     for (const auto& [from, to] : changes) {
         auto at = text->find(from);

@@ -2,14 +2,14 @@
 
 #include <iterator>
 
-#include "io/spikes.hpp"
+#include "io/spike_files.hpp"
 
 namespace corpuscle {
 
 std::vector<std::string> unit_names(const Input& input) {
     std::vector<std::string> names;
     for (std::size_t u = 0; u < input.units(); ++u)
-        names.push_back(csv_field(input.afferent_of(u).name) + "," + csv_field(input.channel_name(input.channel_of(u))));
+        names.push_back(quote_csv_field(input.afferent_of(u).name) + "," + quote_csv_field(input.channel_name(input.channel_of(u))));
     return names;
 }
 
@@ -27,7 +27,7 @@ Result<void> SpikesFile::begin(const Input& input) {
 Result<void> SpikesFile::block(const Input& input, const Answered& block) {
     text_.clear();
     for (const auto& s : block.spikes)
-        fmt::format_to(std::back_inserter(text_), "{},{:.9f}\n", names_[s.unit - input.first_unit],
+        fmt::format_to(std::back_inserter(text_), "{},{:.9f}\n", names_[s.afferent_index - input.first_unit],
                        input.source.clock().time(s.step, s.offset));
     return file_.write({text_.data(), text_.size()});
 }
@@ -36,10 +36,10 @@ Result<void> TracesFile::begin(const Input& input) {
     auto file = OutputFile::create(numbered(directory_, "traces", ".csv", input.index));
     if (!file) return file.error();
     std::string header = "time_s";
-    for (std::size_t c = 0; c < input.source.channels().size(); ++c) header += "," + csv_field(input.channel_name(c) + "_N");
+    for (std::size_t c = 0; c < input.source.channels().size(); ++c) header += "," + quote_csv_field(input.channel_name(c) + "_N");
     for (std::size_t u = 0; u < input.units(); ++u)
         for (const auto& p : input.probes[u % input.afferents.size()])
-            header += "," + csv_field(fmt::format("{}.{}.{} [{}]", input.afferent_of(u).name, input.channel_name(input.channel_of(u)),
+            header += "," + quote_csv_field(fmt::format("{}.{}.{} [{}]", input.afferent_of(u).name, input.channel_name(input.channel_of(u)),
                                                   p.name, p.unit));
     if (auto ok = file->write(header + "\n"); !ok) return ok;
     files_.push_back(std::move(*file));

@@ -11,10 +11,10 @@ namespace {
 constexpr double fingertip_rate = 1e3;          // Hz
 constexpr Position fingertip_centre{0, 12e-3};  // m, of the built-in fingertip
 
-Result<std::vector<Wish>> overrides_of(const std::vector<std::string>& texts) {
-    std::vector<Wish> out;
+Result<std::vector<ParameterOverride>> overrides_of(const std::vector<std::string>& texts) {
+    std::vector<ParameterOverride> out;
     for (const auto& text : texts) {
-        auto parsed = parse_wish(text);
+        auto parsed = parse_override(text);
         if (!parsed) return parsed.error();
         out.push_back(std::move(*parsed));
     }
@@ -27,7 +27,7 @@ Result<std::vector<TipTrain>> press_fingertip(const Innervation& tip, Skin& skin
         const double dx = u.at.x - fingertip_centre.x, dy = u.at.y - fingertip_centre.y;
         out.push_back({tip.plan.classes[u.of].name, num::sqrt(dx * dx + dy * dy), {}});
     }
-    Pool pool(1);
+    ThreadPool pool(1);
     std::vector<Spike> spikes;
     for (;;) {
         const auto block = force.next();
@@ -36,7 +36,7 @@ Result<std::vector<TipTrain>> press_fingertip(const Innervation& tip, Skin& skin
         if (auto ok = skin.respond(block->force, block->total.size(), spikes, pool); !ok) return ok.error();
     }
     skin.last(spikes);
-    for (const auto& s : spikes) out[s.unit].spikes.push_back(clock.time(s.step, s.offset));
+    for (const auto& s : spikes) out[s.afferent_index].spikes.push_back(clock.time(s.step, s.offset));
     return out;
 }
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "signal/source.hpp"
+#include "signal/force_source.hpp"
 
 namespace corpuscle {
 

@@ -19,7 +19,7 @@ Result<void> NpzFile::block(const Input& input, const Answered& block) {
     since_start.t0 = 0;
     for (const auto& s : block.spikes) {
         indexes_.push_back(std::llround(since_start.time(s.step, s.offset) * ticks_per_second));
-        labels_.push_back(s.unit);
+        labels_.push_back(s.afferent_index);
         times_.push_back(clock.time(s.step, s.offset));
     }
     return {};

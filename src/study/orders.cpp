@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "circuit/analyses.hpp"
-#include "signal/text.hpp"
+#include "signal/ascii_text.hpp"
 
 namespace corpuscle {
 namespace {

@@ -8,7 +8,7 @@
 namespace corpuscle {
 namespace {
 
-std::string unique_name(std::span<const std::unique_ptr<Source>> sources, std::size_t n) {
+std::string unique_name(std::span<const std::unique_ptr<ForceSource>> sources, std::size_t n) {
     int same = 1;
     for (std::size_t k = 0; k < n; ++k) same += sources[k]->name() == sources[n]->name();
     return same == 1 ? sources[n]->name() : fmt::format("{} ({})", sources[n]->name(), same);
@@ -21,12 +21,12 @@ std::string Input::channel_name(std::size_t channel) const {
     return of == 1 ? own : own == source.name() ? name : name + ":" + own;
 }
 
-Result<Work> respond(std::span<const std::unique_ptr<Source>> sources, std::span<const AfferentPlan> afferents,
+Result<Work> respond(std::span<const std::unique_ptr<ForceSource>> sources, std::span<const AfferentPlan> afferents,
                      std::span<Listener* const> sinks, const RespondOptions& options) {
     const bool wants_probes = std::any_of(sinks.begin(), sinks.end(), [](const Listener* l) { return l->wants_probes(); });
     Work stats;
-    Pool single_thread(1);
-    Pool& pool = options.pool ? *options.pool : single_thread;
+    ThreadPool single_thread(1);
+    ThreadPool& pool = options.pool ? *options.pool : single_thread;
     std::uint32_t first_afferent = 0;
     for (std::size_t n = 0; n < sources.size(); ++n) {
         auto& source = *sources[n];
@@ -40,8 +40,8 @@ Result<Work> respond(std::span<const std::unique_ptr<Source>> sources, std::span
             const auto more = units.answer_block(source, sinks, pool, stats);
             if (!more) return more.error();
             if (!*more) break;
-            if (!options.keep_on((static_cast<double>(n) + source.done()) / static_cast<double>(sources.size())))
-                return Error{Code::interrupted, "interrupted"};
+            if (!options.keep_on((static_cast<double>(n) + source.progress()) / static_cast<double>(sources.size())))
+                return Error{ErrorCode::interrupted, "interrupted"};
         }
         for (auto& warning : units.outside()) stats.outside.push_back(std::move(warning));
         if (units.samples() == 0) return bad_input("no samples of force", {source.name()});
@@ -82,7 +82,7 @@ std::vector<std::string> work_warnings(const Work& stats) {
     return warnings;
 }
 
-std::vector<std::string> rate_warnings(std::span<const std::unique_ptr<Source>> sources, std::span<const AfferentPlan> afferents) {
+std::vector<std::string> rate_warnings(std::span<const std::unique_ptr<ForceSource>> sources, std::span<const AfferentPlan> afferents) {
     std::vector<std::string> warnings;
     for (const auto& source : sources)
         for (const auto& a : afferents)

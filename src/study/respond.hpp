@@ -6,13 +6,13 @@
 #include <vector>
 
 #include "model/population.hpp"
-#include "signal/source.hpp"
+#include "signal/force_source.hpp"
 
 namespace corpuscle {
 
 /// One source with one afferent of each plan on each of its channels: afferent_index = first_afferent + channel * plans + plan.
 struct Input {
-    const Source& source;
+    const ForceSource& source;
     std::string name;  ///< of the source; a second one of the same name is "press (2)"
     std::span<const AfferentPlan> afferents;
     std::span<const std::span<const Probe>> probes;  ///< for each plan; empty if no sink wants probes and the afferent runs on SIMD lanes
@@ -53,7 +53,7 @@ struct Work {
     std::int64_t overflowed = 0;                           ///< results that overflowed the word length of a digital afferent
     std::int64_t steps = 0, rejected = 0, iterations = 0;  ///< of circuits: time steps, rejected time steps, and Newton iterations
     std::vector<std::string> outside;                      ///< quantities that left the range in which an afferent works as designed
-    std::vector<Spent> spent;  ///< of each circuit afferent, over its channels; empty if none is simulated alone
+    std::vector<EnergyUse> spent;  ///< of each circuit afferent, over its channels; empty if none is simulated alone
     std::vector<Error> lost;   ///< netlists that did not converge, and when; their channels have no later spikes
 };
 
@@ -63,14 +63,14 @@ struct RespondOptions {
     double noise = 0;        ///< of every membrane, see Run
     std::uint64_t seed = 0;  ///< of the noise
     Precision precision = Precision::in_double;
-    Pool* pool = nullptr;      ///< threads; the response does not depend on it; null: only the calling thread
+    ThreadPool* pool = nullptr;      ///< threads; the response does not depend on it; null: only the calling thread
     std::size_t block = 4096;  ///< samples; the response does not depend on it
     /// Called once a block with the completed fraction, 0 to 1; false stops the run.
     std::function<bool(double)> keep_on = [](double) { return true; };
 };
 
 /// Runs all sources through all afferents. A run that is stopped by this callback returns an error of code `interrupted`.
-Result<Work> respond(std::span<const std::unique_ptr<Source>> sources, std::span<const AfferentPlan> afferents,
+Result<Work> respond(std::span<const std::unique_ptr<ForceSource>> sources, std::span<const AfferentPlan> afferents,
                      std::span<Listener* const> sinks, const RespondOptions&);
 
 /// Warnings about noise: the afferents that it does not affect.
@@ -80,6 +80,6 @@ std::vector<std::string> noise_warnings(std::span<const AfferentPlan> afferents,
 std::vector<std::string> work_warnings(const Work&);
 
 /// Warnings before the run: sample rates that are too low for an afferent.
-std::vector<std::string> rate_warnings(std::span<const std::unique_ptr<Source>> sources, std::span<const AfferentPlan> afferents);
+std::vector<std::string> rate_warnings(std::span<const std::unique_ptr<ForceSource>> sources, std::span<const AfferentPlan> afferents);
 
 }  // namespace corpuscle

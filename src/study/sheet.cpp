@@ -71,11 +71,11 @@ Result<std::vector<SheetSpike>> sheet_answer(const Sheet& sheet, const std::stri
     std::vector<double> all;
     for (const auto& f : force.force) all.insert(all.end(), f.begin(), f.end());
     std::vector<Spike> spikes;
-    Pool pool(1);
+    ThreadPool pool(1);
     if (auto ok = (*skin)->respond({all.data(), steps}, steps, spikes, pool); !ok) return ok.error();
     (*skin)->last(spikes);
     std::vector<SheetSpike> out;
-    for (const auto& s : spikes) out.push_back({(static_cast<double>(s.step) - 1 + s.offset) * force.T, s.unit});
+    for (const auto& s : spikes) out.push_back({(static_cast<double>(s.step) - 1 + s.offset) * force.T, s.afferent_index});
     return out;
 }
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "signal/source.hpp"
+#include "signal/force_source.hpp"
 
 namespace corpuscle {
 

@@ -16,7 +16,7 @@ bool fires(const Afferent& afferent, std::span<const double> force, double facto
     constexpr std::size_t block = 4096;
     std::vector<double> scaled(block);
     std::vector<Spike> spikes;
-    Answer response{spikes};
+    ResponseBlock response{spikes};
     auto state = afferent.start();
     for (std::size_t at = 0; at < force.size(); at += block) {
         const auto count = std::min(block, force.size() - at);
@@ -58,7 +58,7 @@ Result<void> Silence::block(const Input& input, const Answered& block) {
         kept_[c].insert(kept_[c].end(), force, force + count);
         for (std::size_t k = 0; k < block.force.count; ++k) largest_[c] = std::max(largest_[c], force[k]);
     }
-    for (const auto& s : block.spikes) fired_[(s.unit - input.first_unit) % input.afferents.size()] = 1;
+    for (const auto& s : block.spikes) fired_[(s.afferent_index - input.first_unit) % input.afferents.size()] = 1;
     return {};
 }
 

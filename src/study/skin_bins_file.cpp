@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <map>
 
-#include "io/spikes.hpp"
+#include "io/spike_files.hpp"
 
 namespace corpuscle {
 
@@ -20,8 +20,8 @@ Result<void> SkinBinsFile::begin(const SkinInput& input) {
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> group_of;
     for (const auto& [class_and_region, count] : afferents_in) {
         group_of[class_and_region] = static_cast<std::uint32_t>(groups.size());
-        groups.push_back({fmt::format("{},{},{}", csv_field(plan.classes[class_and_region.first].name),
-                                      csv_field(plan.sites.regions[class_and_region.second]), count),
+        groups.push_back({fmt::format("{},{},{}", quote_csv_field(plan.classes[class_and_region.first].name),
+                                      quote_csv_field(plan.sites.regions[class_and_region.second]), count),
                           1.0 * count});
     }
     row_of_.clear();
@@ -31,13 +31,13 @@ Result<void> SkinBinsFile::begin(const SkinInput& input) {
 }
 
 Result<void> SkinBinsFile::block(const SkinInput&, const SkinAnswered& block) {
-    for (const auto& s : block.spikes) bins_.count(s, row_of_[s.unit]);
+    for (const auto& s : block.spikes) bins_.count(s, row_of_[s.afferent_index]);
     bins_.known_to(block.first + static_cast<std::int64_t>(block.steps) - 1);
     return file_.write(bins_.lines());
 }
 
 Result<void> SkinBinsFile::end(const SkinInput&, std::int64_t samples, std::span<const Spike> last) {
-    for (const auto& s : last) bins_.count(s, row_of_[s.unit]);
+    for (const auto& s : last) bins_.count(s, row_of_[s.afferent_index]);
     bins_.end(last.empty() ? samples : std::max(samples, last.back().step + 1));
     return file_.write(bins_.lines());
 }

@@ -12,8 +12,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include "io/bytes.hpp"
-#include "io/output.hpp"
+#include "io/seekable_bytes.hpp"
+#include "io/output_file.hpp"
 
 namespace corpuscle {
 namespace {
@@ -219,7 +219,7 @@ Result<void> SkinCheckpoint::resume() {
         !left.empty())
         return damaged;
     if (auto ok = skin_.resume(std::as_bytes(std::span(state))); !ok)
-        return bad_input(fmt::format("{}; {}", ok.error().sentence, remedy()), {file_});
+        return bad_input(fmt::format("{}; {}", ok.error().message, remedy()), {file_});
     resumed_ = skin_.step();
     return check_spikes(spikes_sum);
 }
@@ -283,7 +283,7 @@ Result<void> SkinCheckpoint::told(std::int64_t end, std::vector<Spike>& spikes) 
 
 Result<void> SkinCheckpoint::answered(std::span<const Spike> spikes) {
     std::string bytes;
-    for (const auto& s : spikes) append_bytes(bytes, StoredSpike{s.step, s.offset, s.unit});
+    for (const auto& s : spikes) append_bytes(bytes, StoredSpike{s.step, s.offset, s.afferent_index});
     std::fseek(spikes_, static_cast<long>(spikes_header.size() + count_ * sizeof(StoredSpike)), SEEK_SET);
     if (std::fwrite(bytes.data(), 1, bytes.size(), spikes_) != bytes.size()) return broken(spikes_file_);
     spikes_sum_.add(bytes.data(), bytes.size());
@@ -304,7 +304,7 @@ Result<void> SkinCheckpoint::keep() {
     auto out = OutputFile::create(file_);
     if (!out) return out.error();
     if (auto ok = out->write(bytes); !ok) return ok;
-    if (auto ok = out->commit(Sync::always); !ok) return ok;
+    if (auto ok = out->commit(SyncPolicy::always); !ok) return ok;
     return sync_directory_of(file_);
 }
 

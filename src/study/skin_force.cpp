@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "signal/settings.hpp"
+#include "signal/parameter_override.hpp"
 #include "skin/site_map.hpp"
 #include "study/skin_run.hpp"
 
@@ -13,20 +13,20 @@ namespace {
 constexpr std::size_t pressed_block = 64, site_block = 256;
 
 class PressedForce final : public SkinForce {
-    Source& source_;
+    ForceSource& source_;
     Contact& contact_;
     Frames frames_{1, pressed_block};
     std::int64_t first_ = 0;
 
 public:
-    PressedForce(Source& source, Contact& contact) : source_(source), contact_(contact) {}
-    double done() const override { return source_.done(); }
+    PressedForce(ForceSource& source, Contact& contact) : source_(source), contact_(contact) {}
+    double done() const override { return source_.progress(); }
 
     Result<Block> next() override {
         frames_.count = 0;
         if (auto ok = source_.read(frames_); !ok) return ok.error();
         const std::span<const double> force(frames_.force[0].data(), frames_.count);
-        if (const auto at = first_not_finite(force); at < force.size())
+        if (const auto at = first_non_finite(force); at < force.size())
             return bad_input(
                 fmt::format("the force of sample {} is {}, not a finite number", first_ + static_cast<std::int64_t>(at), force[at]));
         auto site_force = contact_.press(force, first_);
@@ -37,15 +37,15 @@ public:
 };
 
 class SitesForce final : public SkinForce {
-    Source& source_;
+    ForceSource& source_;
     std::vector<std::uint32_t> sites_;
     Frames frames_;
     std::vector<double> force_, total_ = std::vector<double>(site_block);  // [site][step]
 
 public:
-    SitesForce(Source& source, std::vector<std::uint32_t> sites, std::size_t all)
+    SitesForce(ForceSource& source, std::vector<std::uint32_t> sites, std::size_t all)
         : source_(source), sites_(std::move(sites)), frames_(sites_.size(), site_block), force_(all * site_block) {}
-    double done() const override { return source_.done(); }
+    double done() const override { return source_.progress(); }
 
     Result<Block> next() override {
         frames_.count = 0;
@@ -61,12 +61,12 @@ public:
 
 }  // namespace
 
-std::unique_ptr<SkinForce> pressed_force(Source& source, Contact& contact) { return std::make_unique<PressedForce>(source, contact); }
-std::unique_ptr<SkinForce> site_force(Source& source, std::vector<std::uint32_t> sites, std::size_t all_sites) {
+std::unique_ptr<SkinForce> pressed_force(ForceSource& source, Contact& contact) { return std::make_unique<PressedForce>(source, contact); }
+std::unique_ptr<SkinForce> site_force(ForceSource& source, std::vector<std::uint32_t> sites, std::size_t all_sites) {
     return std::make_unique<SitesForce>(source, std::move(sites), all_sites);
 }
 
-Result<std::vector<std::uint32_t>> sites_of(const SkinPlan& plan, const Source& source) {
+Result<std::vector<std::uint32_t>> sites_of(const SkinPlan& plan, const ForceSource& source) {
     std::vector<std::string> names;
     for (const auto& c : source.channels()) names.push_back(c.name);
     std::vector<std::uint32_t> in_order(plan.sites.size());
@@ -74,7 +74,7 @@ Result<std::vector<std::uint32_t>> sites_of(const SkinPlan& plan, const Source& 
     if (names == plan.sites.names) return in_order;
     auto named = sites_if_named(plan.sites, names);
     if (!named)
-        return bad_input(fmt::format("{}; --layout FILE renames channels, --channel selects some", named.error().sentence),
+        return bad_input(fmt::format("{}; --layout FILE renames channels, --channel selects some", named.error().message),
                          {source.name()});
     if (*named) return **std::move(named);
     if (source.channels().size() != plan.sites.size())

@@ -12,7 +12,7 @@ void SkinNpzFile::put(const Clock& clock, std::span<const Spike> spikes) {
     since_start.t0 = 0;
     for (const auto& s : spikes) {
         indexes_.push_back(std::llround(since_start.time(s.step, s.offset) * NpzFile::ticks_per_second));
-        labels_.push_back(s.unit);
+        labels_.push_back(s.afferent_index);
         times_.push_back(clock.time(s.step, s.offset));
     }
 }

@@ -30,7 +30,7 @@ struct PackedRankSpike {
 std::string pack_spikes(const std::vector<Spike>& spikes) {
     std::string text(1 + spikes.size() * sizeof(PackedRankSpike), spikes_of_block);
     for (std::size_t k = 0; k < spikes.size(); ++k) {
-        const PackedRankSpike s{spikes[k].step, spikes[k].offset, spikes[k].unit};
+        const PackedRankSpike s{spikes[k].step, spikes[k].offset, spikes[k].afferent_index};
         std::memcpy(text.data() + 1 + k * sizeof s, &s, sizeof s);
     }
     return text;
@@ -51,7 +51,7 @@ void pause_briefly() { std::this_thread::sleep_for(std::chrono::microseconds(20)
 class DistributedSimulator final : public SkinAnswerer {
     Ranks& ranks_;
     Skin& own_;
-    Pool& pool_;
+    ThreadPool& pool_;
     std::vector<std::deque<std::string>> received_;  // of each rank
     SkinWork others_stats_;
 
@@ -66,7 +66,7 @@ class DistributedSimulator final : public SkinAnswerer {
         }
         auto text = std::move(queue.front());
         queue.pop_front();
-        if (text[0] == worker_error) return Error{static_cast<Code>(static_cast<unsigned char>(text[1])), text.substr(2)};
+        if (text[0] == worker_error) return Error{static_cast<ErrorCode>(static_cast<unsigned char>(text[1])), text.substr(2)};
         return text;
     }
 
@@ -83,7 +83,7 @@ class DistributedSimulator final : public SkinAnswerer {
     }
 
 public:
-    DistributedSimulator(Ranks& ranks, Skin& own, Pool& pool)
+    DistributedSimulator(Ranks& ranks, Skin& own, ThreadPool& pool)
         : ranks_(ranks), own_(own), pool_(pool), received_(static_cast<std::size_t>(ranks.size())) {}
 
     Result<void> answer(const SiteForce& force, std::size_t steps, std::vector<Spike>& spikes) override {
@@ -139,7 +139,7 @@ public:
 };
 
 /// Returns false if the coordinator shut the run down before the end of the force.
-Result<bool> simulate_part(WorkerChannel& channel, SkinForce& force, Skin& skin, Pool& pool) {
+Result<bool> simulate_part(WorkerChannel& channel, SkinForce& force, Skin& skin, ThreadPool& pool) {
     std::vector<Spike> spikes;
     for (;;) {
         auto block = force.next();
@@ -158,7 +158,7 @@ Result<bool> simulate_part(WorkerChannel& channel, SkinForce& force, Skin& skin,
 
 }  // namespace
 
-std::unique_ptr<SkinAnswerer> leading_answerer(Ranks& ranks, Skin& own, Pool& pool) {
+std::unique_ptr<SkinAnswerer> leading_answerer(Ranks& ranks, Skin& own, ThreadPool& pool) {
     return std::make_unique<DistributedSimulator>(ranks, own, pool);
 }
 
@@ -171,7 +171,7 @@ void dismiss_skin(Ranks& ranks) {
     ranks.leave(true);
 }
 
-Result<void> follow_skin(Ranks& ranks, Result<SkinForce*> force, Skin* skin, Pool& pool) {
+Result<void> follow_skin(Ranks& ranks, Result<SkinForce*> force, Skin* skin, ThreadPool& pool) {
     WorkerChannel channel(ranks);
     auto done = force ? simulate_part(channel, **force, *skin, pool) : Result<bool>(force.error());
     if (!done) (void)channel.send(pack_error(done.error()));

@@ -7,10 +7,10 @@ namespace {
 
 class LocalSimulator final : public SkinAnswerer {
     Skin& skin_;
-    Pool& pool_;
+    ThreadPool& pool_;
 
 public:
-    LocalSimulator(Skin& skin, Pool& pool) : skin_(skin), pool_(pool) {}
+    LocalSimulator(Skin& skin, ThreadPool& pool) : skin_(skin), pool_(pool) {}
     Result<void> answer(const SiteForce& force, std::size_t steps, std::vector<Spike>& spikes) override {
         return skin_.respond(force, steps, spikes, pool_);
     }
@@ -44,7 +44,7 @@ Result<void> run_block(const SkinForce::Block& block, std::int64_t first, SkinAn
 
 }  // namespace
 
-std::unique_ptr<SkinAnswerer> alone_answerer(Skin& skin, Pool& pool) { return std::make_unique<LocalSimulator>(skin, pool); }
+std::unique_ptr<SkinAnswerer> alone_answerer(Skin& skin, ThreadPool& pool) { return std::make_unique<LocalSimulator>(skin, pool); }
 
 Result<SkinWork> run_skin(SkinForce& force, const SkinInput& input, SkinAnswerer& skin, std::span<SkinListener* const> sinks,
                           const SkinRunOptions& options) {
@@ -67,7 +67,7 @@ Result<SkinWork> run_skin(SkinForce& force, const SkinInput& input, SkinAnswerer
         const bool stop = !options.keep_on(force.done());
         if (options.spool && samples > options.spool->step() && (stop || flush_timer.is_due()))
             if (auto ok = options.spool->keep(); !ok) return ok.error();
-        if (stop) return Error{Code::interrupted, "interrupted"};
+        if (stop) return Error{ErrorCode::interrupted, "interrupted"};
     }
     if (samples == 0) return bad_input("no samples of force", {input.name});
     if (options.spool)

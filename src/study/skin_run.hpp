@@ -4,7 +4,7 @@
 #include <functional>
 #include <memory>
 
-#include "signal/source.hpp"
+#include "signal/force_source.hpp"
 #include "skin/contact/contact.hpp"
 #include "skin/skin.hpp"
 
@@ -52,11 +52,11 @@ public:
 };
 
 /// One channel of force, pressed onto the skin.
-std::unique_ptr<SkinForce> pressed_force(Source&, Contact&);
+std::unique_ptr<SkinForce> pressed_force(ForceSource&, Contact&);
 /// One channel for each site; `sites`: the site of each channel.
-std::unique_ptr<SkinForce> site_force(Source&, std::vector<std::uint32_t> sites, std::size_t all_sites);
+std::unique_ptr<SkinForce> site_force(ForceSource&, std::vector<std::uint32_t> sites, std::size_t all_sites);
 /// The site of each channel of a recording: by name, or by order if there are as many channels as sites.
-Result<std::vector<std::uint32_t>> sites_of(const SkinPlan&, const Source&);
+Result<std::vector<std::uint32_t>> sites_of(const SkinPlan&, const ForceSource&);
 
 /// Simulates a skin, in one process or divided among several.
 class SkinAnswerer {
@@ -67,7 +67,7 @@ public:
     virtual SkinWork work() const = 0;
 };
 /// Simulates the complete skin in this process.
-std::unique_ptr<SkinAnswerer> alone_answerer(Skin&, Pool&);
+std::unique_ptr<SkinAnswerer> alone_answerer(Skin&, ThreadPool&);
 
 /// A record of a run that can be stopped and resumed: the spikes so far, to be replayed, and the sample at which to continue.
 class SkinSpool {

@@ -39,7 +39,7 @@ double SkinSilence::most_felt(std::size_t class_index) {
 }
 
 Result<void> SkinSilence::block(const SkinInput&, const SkinAnswered& block) {
-    for (const auto& s : block.spikes) fired_[skin_->units[s.unit].of] = 1;
+    for (const auto& s : block.spikes) fired_[skin_->units[s.afferent_index].of] = 1;
     if (std::find(fired_.begin(), fired_.end(), 0) == fired_.end() || block.steps == 0) return {};
     const auto remaining = most_silent_samples - std::min(most_silent_samples, course_.size());
     course_.insert(course_.end(), block.total.begin(), block.total.begin() + static_cast<std::ptrdiff_t>(std::min(remaining, block.steps)));
@@ -51,7 +51,7 @@ Result<void> SkinSilence::block(const SkinInput&, const SkinAnswered& block) {
 }
 
 Result<void> SkinSilence::end(const SkinInput&, std::int64_t, std::span<const Spike> last) {
-    for (const auto& s : last) fired_[skin_->units[s.unit].of] = 1;
+    for (const auto& s : last) fired_[skin_->units[s.afferent_index].of] = 1;
     return {};
 }
 

@@ -65,10 +65,10 @@ void SkinSummary::add(std::span<const Spike> spikes, const SkinAnswered* block) 
     for (const auto& s : spikes) {
         const double t = since_start_.time(s.step, s.offset);
         const auto phase = phase_of(t);
-        if (counts_[s.unit]++ == 0) first_times_[s.unit] = t;
-        shortest_[s.unit] = std::min(shortest_[s.unit], t - std::exchange(last_times_[s.unit], t));
-        if (phase < phases_.size()) ++phase_counts_[phase * counts_.size() + s.unit];
-        if (block && touches(*block, s.unit, s.step)) ++while_touched_[group(skin_->units[s.unit], phase)];
+        if (counts_[s.afferent_index]++ == 0) first_times_[s.afferent_index] = t;
+        shortest_[s.afferent_index] = std::min(shortest_[s.afferent_index], t - std::exchange(last_times_[s.afferent_index], t));
+        if (phase < phases_.size()) ++phase_counts_[phase * counts_.size() + s.afferent_index];
+        if (block && touches(*block, s.afferent_index, s.step)) ++while_touched_[group(skin_->units[s.afferent_index], phase)];
     }
     all_spikes_ += static_cast<std::int64_t>(spikes.size());
 }

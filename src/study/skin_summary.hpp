@@ -17,7 +17,7 @@ struct SkinTold {
     Method method = Method::exact;
     bool sampled = false;
     std::string contact = {};                ///< its description; "": force at the sites, from a recording
-    std::vector<Fact> facts = {};            ///< of the force and of the contact
+    std::vector<MetadataEntry> facts = {};            ///< of the force and of the contact
     std::vector<std::string> remarks = {};   ///< of the source and of the contact: their simplifications
     std::vector<std::string> warnings = {};  ///< why the response may be wrong
     SkinWork work = {};

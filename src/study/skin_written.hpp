@@ -1,7 +1,7 @@
 #pragma once
 // Output files of a skin run, written block by block.
 
-#include "io/output.hpp"
+#include "io/output_file.hpp"
 #include "study/skin_run.hpp"
 
 namespace corpuscle {

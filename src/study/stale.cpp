@@ -66,7 +66,7 @@ std::vector<std::string> earlier_outputs(const std::string& directory) {
         if (!entry.is_string()) continue;
         auto name = entry.get<std::string>();
         if (!is_output_name(name) || name == "summary.json" || !is_plain_file(folder / name)) continue;
-        if (name.ends_with(".html") && !is_own_page(beginning_of((folder / name).string()))) continue;
+        if (name.ends_with(".html") && !is_own_page(read_beginning((folder / name).string()))) continue;
         all.push_back(std::move(name));
     }
     return all;
@@ -77,7 +77,7 @@ std::vector<std::string> remove_stale(const std::string& directory, const std::v
     for (const auto& name : earlier_outputs(directory)) {
         const auto path = (std::filesystem::path(directory) / name).string();
         const bool is_current = name == "summary.json" || std::find(written.begin(), written.end(), name) != written.end();
-        if (is_current || input_at(path) || !is_plain_file(path)) continue;
+        if (is_current || known_input_path(path) || !is_plain_file(path)) continue;
         std::error_code status;
         if (std::filesystem::remove(path, status)) removed.push_back(name);
     }

@@ -5,7 +5,7 @@
 #include <numeric>
 #include <optional>
 
-#include "signal/pool.hpp"
+#include "signal/thread_pool.hpp"
 
 namespace corpuscle {
 namespace {
@@ -29,7 +29,7 @@ public:
     void fail(std::string_view name, Error error) {
         const std::lock_guard lock(guard_);
         if (error_) return;
-        if (error.code != Code::interrupted) error.sentence = fmt::format("{}: {}", name, error.sentence);
+        if (error.code != ErrorCode::interrupted) error.message = fmt::format("{}: {}", name, error.message);
         error_ = std::move(error);
     }
     const std::optional<Error>& error() const { return error_; }
@@ -40,8 +40,8 @@ public:
 Result<std::vector<Outcome>> run_studies(std::span<const Study* const> studies, const StudyOptions& options) {
     std::vector<Outcome> outcomes(studies.size());
     StudyProgress progress(options, studies.size());
-    Pool pool;
-    pool.each(studies.size(), [&](std::size_t k, unsigned) {
+    ThreadPool pool;
+    pool.for_each(studies.size(), [&](std::size_t k, unsigned) {
         auto outcome = studies[k]->run({[&, k](double fraction) { return progress.update(k, fraction); }, options.recordings});
         outcome ? void(outcomes[k] = std::move(*outcome)) : progress.fail(studies[k]->name, outcome.error());
     });

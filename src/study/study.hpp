@@ -39,7 +39,7 @@ struct StudyOptions {
     std::string recordings = {};  ///< the folder of published recordings, for studies of them
 
     /// The same, as an error that a study returns.
-    Result<void> at(double fraction) const { return keep_on(fraction) ? Result<void>() : Error{Code::interrupted, "interrupted"}; }
+    Result<void> at(double fraction) const { return keep_on(fraction) ? Result<void>() : Error{ErrorCode::interrupted, "interrupted"}; }
 };
 
 struct Study {

@@ -27,7 +27,7 @@ Json position_document(const Summary::InputFacts& input) {
 
 Json quality_document(const Summary::InputFacts& input) {
     Json channels = Json::object();
-    const auto& findings = input.quality.findings;  // in order of channels
+    const auto& findings = input.quality.metrics;  // in order of channels
     for (std::size_t k = 0; k < findings.size();) {
         Json one = Json::object();
         const auto channel = findings[k].channel;
@@ -36,7 +36,7 @@ Json quality_document(const Summary::InputFacts& input) {
                 json_number(findings[k].value));
         add(channels, input.channels[channel], std::move(one));
     }
-    return {{"warnings", input.quality.warnings}, {"sentences", input.quality.sentences}, {"channels", channels}};
+    return {{"warnings", input.quality.warnings}, {"sentences", input.quality.descriptions}, {"channels", channels}};
 }
 
 Json input_document(const Summary::InputFacts& input) {
@@ -97,7 +97,7 @@ Json document_of(const AfferentPlan& plan) {
     }
     if (plan.design) {
         Json out = {{"name", plan.name}, {"made_of", plan.made_of()}, {"title", plan.sentence}};
-        for (const auto& [name, word] : plan.design->words()) out[name] = word;
+        for (const auto& [name, word] : plan.design->labels()) out[name] = word;
         out["parameters"] = std::move(parameters);
         return out;
     }
@@ -124,7 +124,7 @@ Json document_of(const Copies& copies) { return {{"of_each_afferent", copies.cop
 std::string heading(const Measure& m) { return std::string(m.title) + (m.unit.empty() ? "" : " (" + std::string(m.unit) + ")"); }
 
 Result<void> Summary::begin(const Input& input) {
-    InputFacts facts{input.name, input.source.clock(), 0, {}, input.source.remarks(), input.source.facts(), INFINITY,
+    InputFacts facts{input.name, input.source.clock(), 0, {}, input.source.notes(), input.source.metadata(), INFINITY,
                      -INFINITY,  input.source.phases()};
     for (std::size_t c = 0; c < input.source.channels().size(); ++c) facts.channels.push_back(input.channel_name(c));
     facts.sensors = input.source.channels();
@@ -132,8 +132,8 @@ Result<void> Summary::begin(const Input& input) {
     since_start_ = input.source.clock();
     since_start_.t0 = 0;  // times since 1970 would lose precision
     std::vector<Stretch> stretches;
-    for (const auto& p : inputs_.back().phases) stretches.push_back({p.from, p.to, input.source.cycle()});
-    if (stretches.empty()) stretches.push_back({.cycle = input.source.cycle()});
+    for (const auto& p : inputs_.back().phases) stretches.push_back({p.from, p.to, input.source.cycle_frequency()});
+    if (stretches.empty()) stretches.push_back({.cycle = input.source.cycle_frequency()});
     tally_ = Tally(std::move(stretches), input.units());
     return comparisons_.begin(input);
 }
@@ -143,7 +143,7 @@ Result<void> Summary::block(const Input& input, const Answered& block) {
     for (const auto& channel : block.force.force)
         for (std::size_t k = 0; k < block.force.count; ++k)
             facts.least = std::min(facts.least, channel[k]), facts.greatest = std::max(facts.greatest, channel[k]);
-    for (const auto& s : block.spikes) tally_.spike(s.unit - input.first_unit, since_start_.time(s.step, s.offset));
+    for (const auto& s : block.spikes) tally_.spike(s.afferent_index - input.first_unit, since_start_.time(s.step, s.offset));
     return comparisons_.block(input, block);
 }
 

@@ -53,10 +53,10 @@ public:
         Clock clock;
         std::int64_t samples = 0;
         std::vector<std::string> channels, remarks;
-        std::vector<Fact> facts;
+        std::vector<MetadataEntry> facts;
         double least = 0, greatest = 0;  ///< force, N
         std::vector<Phase> phases;       ///< phases of the stimulus; empty if it has none
-        Quality quality = {};            ///< of a recording
+        RecordingQuality quality = {};            ///< of a recording
         std::vector<Channel> sensors = {};
     };
 

@@ -8,10 +8,10 @@
 namespace corpuscle {
 namespace {
 
-Result<std::vector<Wish>> trial_overrides(const Asked& spec) {
-    std::vector<Wish> overrides;
+Result<std::vector<ParameterOverride>> trial_overrides(const Asked& spec) {
+    std::vector<ParameterOverride> overrides;
     for (const auto& text : spec.settings) {
-        auto parsed = parse_wish(text);
+        auto parsed = parse_override(text);
         if (!parsed) return parsed.error();
         overrides.push_back(std::move(*parsed));
     }
@@ -69,15 +69,15 @@ Result<Told> told_of(const Asked& spec) {
     trial->force.insert(trial->force.end(), delay, trial->force.back());
     auto state = afferent->start();
     std::vector<Spike> spikes;
-    std::vector<Outside> outside(afferent->ranges().size());
+    std::vector<RangeViolation> outside(afferent->ranges().size());
     std::vector<std::vector<double>> probe_values(spec.traces.empty() ? 0 : afferent->probes().size(),
                                                   std::vector<double>(trial->force.size()));
     std::vector<double*> probes;
     for (auto& values : probe_values) probes.push_back(values.data());
-    Answer response{spikes};
-    response.outside = outside, response.probes = probes;
+    ResponseBlock response{spikes};
+    response.range_violations = outside, response.probes = probes;
     if (auto ok = afferent->respond(trial->force, state, response); !ok) return ok.error();
-    Told out{times(spikes, trial->clock), {}, {}};
+    Told out{spike_times(spikes, trial->clock), {}, {}};
     for (std::size_t k = 0; k < outside.size(); ++k)
         if (outside[k].samples > 0) out.outside.emplace_back(afferent->ranges()[k].meaning);
     for (std::size_t k = 0; k < spec.traces.size(); ++k) {

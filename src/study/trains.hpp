@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "model/catalog.hpp"
-#include "signal/source.hpp"
+#include "signal/force_source.hpp"
 #include "study/line.hpp"
 
 namespace corpuscle {

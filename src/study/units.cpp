@@ -23,7 +23,7 @@ std::size_t block_for(const Input& input, const RespondOptions& options, bool wa
 std::string kind_of(const AfferentPlan& plan) {
     std::string kind = plan.made_of();
     for (std::size_t k = 0; k < plan.values.size(); ++k)
-        if ((*plan.parameters)[k].row.one_for_all) kind += fmt::format(" {}", plan.values[k]);
+        if ((*plan.parameters)[k].row.is_shared_by_copies) kind += fmt::format(" {}", plan.values[k]);
     return kind;
 }
 
@@ -128,12 +128,12 @@ Result<void> Units::seat_crowds(std::span<const std::size_t> plans, const Run& r
 }
 
 Error Units::of_unit(Error error, std::size_t afferent_index) const {
-    error.sentence = fmt::format("{} on {}: {}", input_.afferent_of(afferent_index).name,
-                                 input_.channel_name(input_.channel_of(afferent_index)), error.sentence);
+    error.message = fmt::format("{} on {}: {}", input_.afferent_of(afferent_index).name,
+                                 input_.channel_name(input_.channel_of(afferent_index)), error.message);
     return error;
 }
 
-Result<void> Units::answer_crowd(Crowd& group, Pool& pool, Work& stats) {
+Result<void> Units::answer_crowd(Crowd& group, ThreadPool& pool, Work& stats) {
     std::vector<const double*> columns;
     PopulationForce force;
     if (group.one_channel) {
@@ -155,25 +155,25 @@ void Units::answer_single(Single& single) {
     if (probed_)
         for (auto& p : shown_[u]) probe_values.push_back(p.data());
     single.spikes.clear();
-    Answer response{single.spikes, input_.first_unit + single.unit};
+    ResponseBlock response{single.spikes, input_.first_unit + single.unit};
     if (single.lost)
         for (double* p : probe_values) std::fill_n(p, force_.count, std::numeric_limits<double>::quiet_NaN());
     else if (auto ok = answer_force(single, response, probe_values); !ok)
         single.error = of_unit(ok.error(), u);
-    single.capped = response.capped, single.clipped = response.clipped, single.overflowed = response.overflowed;
-    single.steps = response.steps, single.rejected = response.rejected, single.iterations = response.iterations;
-    single.spent = response.spent;
+    single.capped = response.truncated_steps, single.clipped = response.saturated, single.overflowed = response.overflowed;
+    single.steps = response.steps, single.rejected = response.rejected_steps, single.iterations = response.newton_iterations;
+    single.spent = response.energy_use;
 }
 
 /// An afferent with a delay first receives that many samples before the first block.
-Result<void> Units::answer_force(Single& single, Answer& response, std::span<double* const> probe_values) {
+Result<void> Units::answer_force(Single& single, ResponseBlock& response, std::span<double* const> probe_values) {
     const auto& afferent = *afferents_[single.unit % afferents_.size()];
     const auto delay = static_cast<std::size_t>(afferent.delay()), channel = input_.channel_of(single.unit);
     if (delay > 0 && samples_ == 0)
         if (auto ok = afferent.respond(ahead_.of(channel, 0, delay), single.state, response); !ok) return ok;
     const std::span<const double> force =
         delay > 0 ? ahead_.of(channel, delay, force_.count) : std::span(force_of(single.unit), force_.count);
-    response.probes = probe_values, response.outside = single.outside;
+    response.probes = probe_values, response.range_violations = single.outside;
     return afferent.respond(force, single.state, response);
 }
 
@@ -193,13 +193,13 @@ std::vector<std::string> Units::outside() const {
     std::vector<std::string> warnings;
     const double T = input_.source.clock().T();
     for (std::size_t plan = 0; plan < afferents_.size(); ++plan) {
-        const auto ranges = afferents_[plan] ? afferents_[plan]->ranges() : std::span<const Range>{};
+        const auto ranges = afferents_[plan] ? afferents_[plan]->ranges() : std::span<const ValidRange>{};
         for (std::size_t r = 0; r < ranges.size(); ++r) {
             const auto [single, count] = longest_outside(plan, r);
             if (!single) continue;
             const auto& o = single->outside[r];
-            const auto violation = outside_sentence(ranges[r], static_cast<double>(o.samples) * T, static_cast<double>(samples_) * T,
-                                                    static_cast<double>(o.first) * T);
+            const auto violation = range_violation_message(ranges[r], static_cast<double>(o.samples) * T, static_cast<double>(samples_) * T,
+                                                    static_cast<double>(o.first_sample) * T);
             warnings.push_back(fmt::format("{} on {}: {}{}", input_.afferents[plan].name,
                                            input_.channel_name(input_.channel_of(single->unit)), violation,
                                            count > 1 ? fmt::format(" (also on {} more channels, for less time)", count - 1) : ""));
@@ -208,10 +208,10 @@ std::vector<std::string> Units::outside() const {
     return warnings;
 }
 
-Result<void> Units::answer_singles(Pool& pool, Work& stats) {
-    pool.each(singles_.size(), [this](std::size_t k, unsigned) { answer_single(singles_[k]); });
+Result<void> Units::answer_singles(ThreadPool& pool, Work& stats) {
+    pool.for_each(singles_.size(), [this](std::size_t k, unsigned) { answer_single(singles_[k]); });
     for (auto& s : singles_) {
-        if (s.error && !(s.error->code == Code::not_converged && input_.afferent_of(s.unit).design)) return *s.error;
+        if (s.error && !(s.error->code == ErrorCode::not_converged && input_.afferent_of(s.unit).design)) return *s.error;
         if (s.error) s.lost = true, stats.lost.push_back(*std::exchange(s.error, {}));
         spikes_.insert(spikes_.end(), s.spikes.begin(), s.spikes.end());
         stats.capped_steps += s.capped, stats.clipped += s.clipped, stats.overflowed += s.overflowed;
@@ -222,7 +222,7 @@ Result<void> Units::answer_singles(Pool& pool, Work& stats) {
     return {};
 }
 
-Result<bool> Units::answer_block(Source& source, std::span<Listener* const> sinks, Pool& pool, Work& stats) {
+Result<bool> Units::answer_block(ForceSource& source, std::span<Listener* const> sinks, ThreadPool& pool, Work& stats) {
     if (auto ok = ahead_.next(source, force_); !ok) return ok.error();
     if (force_.count == 0) return false;
     spikes_.clear();

@@ -18,7 +18,7 @@ public:
     std::vector<std::string> outside() const;
 
     /// Simulates one block of all afferents and passes it to all sinks; returns false at the end of the source.
-    Result<bool> answer_block(Source& source, std::span<Listener* const> sinks, Pool& pool, Work& stats);
+    Result<bool> answer_block(ForceSource& source, std::span<Listener* const> sinks, ThreadPool& pool, Work& stats);
 
 private:
     /// Afferents that are packed together on SIMD lanes.
@@ -33,8 +33,8 @@ private:
         State state;
         std::vector<Spike> spikes = {};
         std::int64_t capped = 0, clipped = 0, overflowed = 0, steps = 0, rejected = 0, iterations = 0;
-        std::vector<Outside> outside = {};  // for each of the afferent's ranges
-        Spent spent = {};
+        std::vector<RangeViolation> outside = {};  // for each of the afferent's ranges
+        EnergyUse spent = {};
         std::optional<Error> error = {};
         bool lost = false;  // a netlist that did not converge; it gives no more spikes
     };
@@ -42,10 +42,10 @@ private:
     Units(Input input, std::size_t block, bool probed);
     Result<void> seat(const RespondOptions& options, InstructionSet set);
     Result<void> seat_crowds(std::span<const std::size_t> plans, const Run& run, const RespondOptions& options, InstructionSet set);
-    Result<void> answer_crowd(Crowd& group, Pool& pool, Work& stats);
+    Result<void> answer_crowd(Crowd& group, ThreadPool& pool, Work& stats);
     void answer_single(Single& single);
-    Result<void> answer_force(Single& single, Answer& response, std::span<double* const> probe_values);
-    Result<void> answer_singles(Pool& pool, Work& stats);
+    Result<void> answer_force(Single& single, ResponseBlock& response, std::span<double* const> probe_values);
+    Result<void> answer_singles(ThreadPool& pool, Work& stats);
     std::pair<const Single*, std::size_t> longest_outside(std::size_t plan, std::size_t range) const;
     Error of_unit(Error error, std::size_t afferent_index) const;
     const double* force_of(std::size_t afferent_index) const { return force_.force[input_.channel_of(afferent_index)].data(); }

@@ -64,7 +64,7 @@ Result<void> VectorsFile::open(const Input& input, std::size_t afferent_index) {
     auto file = OutputFile::create(paths_.back());
     if (!file) return file.error();
     if (auto ok = file->write(header(input.afferents[a], one_line(input.channel_name(c)), *digital_[a])); !ok) return ok;
-    const Turn turn{static_cast<std::uint32_t>(c), static_cast<std::uint32_t>(input.source.channels().size())};
+    const ChannelSlot turn{static_cast<std::uint32_t>(c), static_cast<std::uint32_t>(input.source.channels().size())};
     units_[afferent_index] = Unit{a, std::move(*file), digital_[a]->start(turn)};
     return {};
 }
@@ -90,7 +90,7 @@ Result<void> VectorsFile::block(const Input& input, const Answered& block) {
             text.push_back('\n');
         };
         std::vector<Spike> spikes;
-        Answer response{spikes};
+        ResponseBlock response{spikes};
         const std::span force(block.force.force[input.channel_of(u)].data(), block.force.count);
         if (auto ok = digital_[units_[u]->afferent]->convert(force, units_[u]->state, response, row); !ok) return ok;
         if (auto ok = units_[u]->file.write({text.data(), text.size()}); !ok) return ok;

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "io/output.hpp"
+#include "io/output_file.hpp"
 #include "model/sensor/digital.hpp"
 #include "study/files.hpp"
 

@@ -250,11 +250,11 @@ TEST(Program, JsonIsOneDocumentAndNothingElse) {
 TEST(Program, ListNamesEveryParameterOfEveryModel) {
     const Folder folder;
     const auto text = run(folder, "list").out;
-    for (const auto& cards : {sensor_cards(), transducer_cards(), converter_cards(), receptor_cards(), neuron_cards(), stimulus_cards()})
+    for (const auto& cards : {sensor_cards(), transducer_cards(), converter_cards(), receptor_cards(), neuron_cards(), stimulus_catalog()})
         for (const auto& card : cards) {
             EXPECT_NE(text.find("  " + std::string(card.name) + ": "), std::string::npos) << card.name;
-            for (const auto& row : card.rows)
-                EXPECT_NE(text.find(std::string(row.sentence)), std::string::npos) << card.name << '.' << row.name;
+            for (const auto& row : card.parameters)
+                EXPECT_NE(text.find(std::string(row.description)), std::string::npos) << card.name << '.' << row.name;
         }
     EXPECT_EQ(run(folder, "list neuron").err, "corpuscle: list: there is no 'neuron'; did you mean 'neurons'?\n");
     EXPECT_NE(run(folder, "list sa1 press").out.find("half-cosine"), std::string::npos);
@@ -436,7 +436,7 @@ TEST(Program, HelpTeachesAndVersionTells) {
     EXPECT_NE(run(folder, "--help").out.find("corpuscle respond press"), std::string::npos);
     const auto help = run(folder, "respond --help");
     EXPECT_EQ(help.status, 0);
-    for (const auto& card : stimulus_cards()) EXPECT_NE(help.out.find(std::string(card.name)), std::string::npos) << card.name;
+    for (const auto& card : stimulus_catalog()) EXPECT_NE(help.out.find(std::string(card.name)), std::string::npos) << card.name;
     for (const auto& a : named_afferents()) EXPECT_NE(help.out.find(std::string(a.name)), std::string::npos) << a.name;
     EXPECT_EQ(run(folder, "--version").out.rfind("corpuscle ", 0), 0U);
 }

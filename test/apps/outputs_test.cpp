@@ -13,7 +13,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "io/output.hpp"
+#include "io/output_file.hpp"
 #include "io/output_check.hpp"
 #include "support/child_process.hpp"
 #include "support/places.hpp"
@@ -246,7 +246,7 @@ TEST(Outputs, PartsFollowNoLinks) {
     ASSERT_TRUE(file.commit());
     EXPECT_EQ(read_file(folder / "x.csv"), "1\n");
     fs::create_symlink("victim", folder / "y.csv.part");
-    const auto growing = OutputFile::growing(folder / "y.csv");
+    const auto growing = OutputFile::create_growing(folder / "y.csv");
     ASSERT_FALSE(growing);
     EXPECT_NE(growing.error().text().find("is a link or not a regular file"), std::string::npos) << growing.error().text();
     EXPECT_EQ(read_file(folder / "victim"), "mine");
@@ -263,7 +263,7 @@ TEST(Outputs, ThatCostMoreThanASecondOrAreToBeTakenUpAreSyncedBeforeTheyHaveThei
     auto quick = test::sure(OutputFile::create(folder / "quick.csv")), kept = test::sure(OutputFile::create(folder / "x.state")),
          slow = test::sure(OutputFile::create(folder / "slow.csv"));
     ASSERT_TRUE(quick.commit());
-    ASSERT_TRUE(kept.commit(Sync::always));
+    ASSERT_TRUE(kept.commit(SyncPolicy::always));
     ::usleep(1'050'000);
     ASSERT_TRUE(slow.commit());
     EXPECT_FALSE(quick.is_synced());

@@ -4,7 +4,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "io/spikes.hpp"
+#include "io/spike_files.hpp"
 #include "io/utf8.hpp"
 #include "support/places.hpp"
 #include "support/program.hpp"
@@ -134,7 +134,7 @@ TEST(PrintedText, SpikesCsvIsUtf8AndNamesComeBackAsTheyWere) {
     std::set<std::string> channels;
     for (const auto& train : test::sure(read_spikes(folder / "c/spikes.csv"))) channels.insert(train.channel);
     EXPECT_EQ(channels, (std::set<std::string>{"Kraft f\xc3\xbcr", "h \"q, r\" i", "=cmd|x"}));
-    EXPECT_EQ(utf8_text("\x80 \xb5"), "\xe2\x82\xac \xc2\xb5") << "Windows' euro, Latin-1's micro";
+    EXPECT_EQ(to_utf8("\x80 \xb5"), "\xe2\x82\xac \xc2\xb5") << "Windows' euro, Latin-1's micro";
 }
 
 TEST(PrintedText, PagesAndSummariesTellNoDirectories) {

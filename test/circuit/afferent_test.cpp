@@ -104,7 +104,7 @@ TEST(CircuitAfferent, ProbesAreTheSameInBlocksOfAnySize) {
         auto state = afferent->start();
         for (std::size_t k = 0; k < force.size(); k += block) {
             double* to[] = {u.data() + k, s.data() + k};
-            Answer answer{spikes, 0, to};
+            ResponseBlock answer{spikes, 0, to};
             if (!afferent->respond(std::span(force).subspan(k, std::min(block, force.size() - k)), state, answer)) ADD_FAILURE();
         }
         u.insert(u.end(), s.begin(), s.end());
@@ -119,7 +119,7 @@ TEST(CircuitAfferent, ProbesAreTheSameInBlocksOfAnySize) {
 /// Runs to a sample, keeps the state as bytes, and goes on with it elsewhere.
 std::vector<Spike> resumed(const CircuitDesign& made, const std::vector<double>& force, std::size_t at, double T) {
     std::vector<Spike> spikes;
-    Answer answer{spikes};
+    ResponseBlock answer{spikes};
     std::vector<std::byte> kept;
     {
         const auto first = made.make(T, false);
@@ -130,7 +130,7 @@ std::vector<Spike> resumed(const CircuitDesign& made, const std::vector<double>&
     const auto second = made.make(T, false);
     auto other = second->start();  // it has done something else before
     std::vector<Spike> nobodys;
-    Answer unheard{nobodys};
+    ResponseBlock unheard{nobodys};
     if (!second->respond(wave(90, T), other, unheard)) ADD_FAILURE();
     auto state = sure(unpack(kept));
     auto rest = std::vector<double>(force.begin() + static_cast<std::ptrdiff_t>(at), force.end());
@@ -166,7 +166,7 @@ TEST(CircuitAfferent, GoesOnForHoursWithTheDigitsOfItsFirstSecond) {
 TEST(CircuitAfferent, ADamagedStateIsRefusedOrHarmless) {
     const auto afferent = design(spiker())->make(1e-3, false);
     std::vector<Spike> spikes;
-    Answer answer{spikes};
+    ResponseBlock answer{spikes};
     auto good = afferent->start();
     const auto force = wave(100, 1e-3);
     ASSERT_TRUE(afferent->respond(force, good, answer));
@@ -177,12 +177,12 @@ TEST(CircuitAfferent, ADamagedStateIsRefusedOrHarmless) {
     cut.values.resize(cut.values.size() / 2);
     const auto refused = afferent->respond(force, cut, answer);
     ASSERT_FALSE(refused);
-    EXPECT_NE(refused.error().sentence.find("the saved state is damaged"), std::string::npos) << refused.error().sentence;
+    EXPECT_NE(refused.error().message.find("the saved state is damaged"), std::string::npos) << refused.error().message;
     EXPECT_TRUE(rc::check([&] {
         auto bad = good;
         bad.values[*rc::gen::inRange<std::size_t>(0, bad.values.size())] = *rc::gen::element(-1.0, 0.0, 0.5, 3.0, 1e9, 1e300, -1e300);
         std::vector<Spike> some;
-        Answer any{some};
+        ResponseBlock any{some};
         (void)afferent->respond(std::span(force).first(20), bad, any);
     }));
     EXPECT_EQ(answered(*afferent, force), answered(*design(spiker())->make(1e-3, false), force));
@@ -228,19 +228,19 @@ TEST(CircuitAfferent, CopiesAreTheChipsOfItsDraw) {
     ASSERT_EQ(chips.size(), 3U);
     const auto made = design(text);
     const auto press = corpuscle::test::force("press");
-    const auto clock = sure(clock_of(10e3));
+    const auto clock = sure(make_clock(10e3));
     for (std::uint32_t copy = 1; copy <= 3; ++copy) {
-        const auto spikes = times(answered(*made->make(1e-4, false, copy), press), clock);
+        const auto spikes = spike_times(answered(*made->make(1e-4, false, copy), press), clock);
         EXPECT_EQ(static_cast<double>(spikes.size()), chips[copy - 1].number("spikes")) << copy;
         EXPECT_NEAR(spikes[0], chips[copy - 1].number("first_spike"), 1e-6) << copy;
-        EXPECT_NE(spikes[0], times(answered(*made->make(1e-4, false), press), clock)[0]);
+        EXPECT_NE(spikes[0], spike_times(answered(*made->make(1e-4, false), press), clock)[0]);
     }
 }
 
 TEST(CircuitAfferent, AStateOfTheVersionBeforeIsRefusedWithBothVersionsAndARemedy) {
     const auto afferent = design(spiker())->make(1e-3, false);
     std::vector<Spike> spikes;
-    Answer answer{spikes};
+    ResponseBlock answer{spikes};
     auto before = afferent->start();
     const auto at = before.format.find("/2, ");
     ASSERT_NE(at, std::string::npos) << before.format;
@@ -248,7 +248,7 @@ TEST(CircuitAfferent, AStateOfTheVersionBeforeIsRefusedWithBothVersionsAndARemed
     before = sure(unpack(pack(before)));
     const auto refused = afferent->respond(wave(20, 1e-3), before, answer);
     ASSERT_FALSE(refused);
-    const auto& told = refused.error().sentence;
+    const auto& told = refused.error().message;
     EXPECT_NE(told.find("the saved state has version 1, but this program reads version 2; start again with start()"), std::string::npos)
         << told;
     before = afferent->start();  // the remedy
@@ -306,7 +306,7 @@ TEST(Respond, NetlistsBesideModelsInBlocksOfAnySize) {
     std::vector<Ear> ears(3);
     for (std::size_t k = 0; k < ears.size(); ++k) {
         const std::vector<AfferentPlan> plans = {sure(plan_any_afferent(path, {})), sure(plan_any_afferent("fa1", {}))};
-        std::vector<std::unique_ptr<Source>> sources;
+        std::vector<std::unique_ptr<ForceSource>> sources;
         sources.push_back(sure(make_stimulus("press", {}, 1e3, 0)));
         Listener* listeners[] = {&ears[k]};
         RespondOptions options;

@@ -157,7 +157,7 @@ TEST(Batch, StopsWhenItIsAskedTo) {
         spiker, [&]() -> std::optional<Chip> { return Chip{0, spiker, {}, force, batch_T}; }, [&](const Chip&, ChipAnswer&&) { ++told; },
         {.stop = [&] { return true; }});
     ASSERT_FALSE(done);
-    EXPECT_EQ(done.error().code, Code::interrupted);
+    EXPECT_EQ(done.error().code, ErrorCode::interrupted);
     EXPECT_EQ(told, 0);
 }
 

@@ -19,7 +19,7 @@ namespace {
 struct Heard {
     std::vector<double> spikes;                        // s
     std::map<std::string, std::vector<double>> shown;  // what .save names, a value a sample
-    std::vector<Outside> outside;
+    std::vector<RangeViolation> outside;
     std::optional<Error> error;
 
     std::size_t between(double from, double to) const {
@@ -46,7 +46,7 @@ Heard heard(const std::string& file, const Touch& touch, const Values& parameter
     std::vector<Spike> spikes;
     out.outside.resize(afferent->ranges().size());
     auto state = afferent->start();
-    Answer answer{spikes, 0, probes, out.outside};
+    ResponseBlock answer{spikes, 0, probes, out.outside};
     if (auto ok = afferent->respond(force, state, answer); !ok) out.error = ok.error();
     for (const auto& s : spikes) out.spikes.push_back((static_cast<double>(s.step) - 1 + s.offset) / touch.rate);
     for (std::size_t p = 0; p < curves.size(); ++p) {

@@ -223,7 +223,7 @@ TEST(ExportedOrders, ThatNgspiceLacksStayAsCommentsAndAreTold) {
           "* ngspice's result lacks the noise of the transistors"})
         EXPECT_NE(deck->text.find(line), std::string::npos) << line << "\n" << deck->text;
     EXPECT_EQ(deck->left_out.size(), 7U);
-    for (const auto& e : deck->left_out) EXPECT_GT(e.place.line, 10) << e.text();
+    for (const auto& e : deck->left_out) EXPECT_GT(e.location.line, 10) << e.text();
 }
 
 TEST(ExportedNames, AreLegalAndOneToOne) {
@@ -278,7 +278,7 @@ TEST(FormulaText, ReadsBackAsTheSameFormula) {
             return in.minus.empty() ? "v(" + in.name + ")" : "v(" + in.name + "," + in.minus + ")";
         });
         if (!written) {
-            RC_ASSERT(written.error().sentence.find("not finite") != std::string::npos);
+            RC_ASSERT(written.error().message.find("not finite") != std::string::npos);
             return;
         }
         const auto again = Formula::parse(*written, {}, scope);

@@ -203,7 +203,7 @@ TEST(Formula, RefusesWhatIsNestedTooDeepInsteadOfCrashing) {
          {std::string(n, '('), std::string(n, '(') + "1" + std::string(n, ')'), std::string(n, '{'), ternary + "1", calls}) {
         const auto f = read(text);
         ASSERT_FALSE(f);
-        EXPECT_EQ(f.error().sentence, "the expression is nested deeper than the limit of 200");
+        EXPECT_EQ(f.error().message, "the expression is nested deeper than the limit of 200");
     }
     EXPECT_EQ(value(std::string(n, '-') + "1"), 1) << "signs are not nested";
     EXPECT_EQ(value(powers), 1);
@@ -221,7 +221,7 @@ TEST(Formula, RefusesFunctionsThatMultiplyWithoutEnd) {
     };
     const auto f = read("f59(1)", s);
     ASSERT_FALSE(f);
-    EXPECT_EQ(f.error().sentence.substr(f.error().sentence.find("the ")), "the expression has more than 1000000 steps");
+    EXPECT_EQ(f.error().message.substr(f.error().message.find("the ")), "the expression has more than 1000000 steps");
     EXPECT_EQ(value("f8(3)", s), 3);
 }
 

@@ -39,7 +39,7 @@ public:
     }
     std::string refusal(const std::vector<std::string>& texts) const {
         const auto done = set(texts);
-        return done ? "" : done.error().sentence;
+        return done ? "" : done.error().message;
     }
 };
 
@@ -242,7 +242,7 @@ TEST(Traced, NodesAndCurrentsAreFoundByWhatIsTypedOfThem) {
                             .set({}));
     const auto is = [&](const std::string& word, const std::string& name) {
         const auto found = traced(c, word);
-        ASSERT_TRUE(found) << found.error().sentence;
+        ASSERT_TRUE(found) << found.error().message;
         EXPECT_EQ(found->value_or("nothing"), name) << word;
     };
     is("vf", "v(vf)"), is("VF", "v(vf)"), is("v(b.O)", "v(xb.o)"), is("v(vf, xc.o)", "v(vf,xc.o)"), is("i(VDD)", "i(vdd)");
@@ -250,7 +250,7 @@ TEST(Traced, NodesAndCurrentsAreFoundByWhatIsTypedOfThem) {
     const auto refused = [&](const std::string& word, const std::string& what) {
         const auto found = traced(c, word);
         ASSERT_FALSE(found) << word;
-        EXPECT_NE(found.error().sentence.find(what), std::string::npos) << found.error().sentence;
+        EXPECT_NE(found.error().message.find(what), std::string::npos) << found.error().message;
     };
     refused("o", "own.cir: xb.o, xc.o; write more of its path");
     refused("i(n1)", "xb.mn1, xc.mn1; write more of its path");

@@ -500,11 +500,11 @@ RC_GTEST_PROP(Netlist, TakesAnyTextWithoutHarm, (const std::vector<std::string>&
         text += *rc::gen::element<std::string>("R1 ", ".param ", "X1 a ", "", "+", ".ic ", "V1 ", ".subckt ") + line + "\n";
     const auto netlist = Netlist::parse(text, "t.cir", [](const std::string&) { return bad_input("no"); });
     if (!netlist) {
-        RC_ASSERT(!netlist.error().sentence.empty());
+        RC_ASSERT(!netlist.error().message.empty());
         return;
     }
     const auto c = netlist->elaborate();
-    if (!c) RC_ASSERT(!c.error().sentence.empty() && c.error().place.line > 0);
+    if (!c) RC_ASSERT(!c.error().message.empty() && c.error().location.line > 0);
 }
 
 }  // namespace

@@ -111,7 +111,7 @@ TEST(RestStates, AreAskedOfOp) {
     for (const char* wrong : {".op state", ".op states 0", ".op states 1m 2m", ".op states fast"}) {
         const auto refused = run(circuit_from(latch(0) + wrong + "\n"));
         ASSERT_FALSE(refused) << wrong;
-        EXPECT_GT(refused.error().place.column, 0) << refused.error().text();
+        EXPECT_GT(refused.error().location.column, 0) << refused.error().text();
     }
 }
 

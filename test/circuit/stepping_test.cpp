@@ -154,7 +154,7 @@ TEST(Transient, WithoutAnInitialConditionAnOscillatorIsKickedAndTold) {
     const auto s = found.curve("v(s)");
     EXPECT_GT(std::count_if(s.begin() + 1, s.end(), [](double v) { return v > 0.35; }), 100);
     ASSERT_FALSE(found.remarks().empty());
-    EXPECT_NE(found.remarks().back().sentence.find("the operating point is unstable"), std::string::npos);
+    EXPECT_NE(found.remarks().back().message.find("the operating point is unstable"), std::string::npos);
 }
 
 TEST(Transient, WhatRestsStaysWhereItRests) {
@@ -199,7 +199,7 @@ TEST(TransientPlan, RefusesWhatItDoesNotKnow) {
          {std::pair{"accuracy=great", "rough, normal, fine, finest"}, {"method=euler", "gear, trap"}, {"maxord=7", "from 1 to 5"}}) {
         const auto plan = transient_plan(*circuit_from(std::string("x\nr1 a 0 1\nv1 a 0 1\n.options ") + options + "\n.tran 1 2\n"));
         ASSERT_FALSE(plan);
-        EXPECT_NE(plan.error().sentence.find(what), std::string::npos) << plan.error().sentence;
+        EXPECT_NE(plan.error().message.find(what), std::string::npos) << plan.error().message;
     }
 }
 

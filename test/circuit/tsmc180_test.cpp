@@ -39,8 +39,8 @@ UicmCard model(const std::string& section, const std::string& name) {
         for (const auto& field : UicmCard::fields) {
             const auto said = m.values.find(field.name);
             if (said == m.values.end()) return ADD_FAILURE() << name << " does not say " << field.name, card;
-            card.*field.at = said->second;
-            EXPECT_FALSE(outside(name, {field.name, field.unit, 0, field.low, field.high, {}, {}}, said->second).has_value()) << field.name;
+            card.*field.member = said->second;
+            EXPECT_FALSE(check_range(name, {field.name, field.unit, 0, field.low, field.high, {}, {}}, said->second).has_value()) << field.name;
         }
         return card;
     }

@@ -19,10 +19,10 @@ const std::string follower = "follower\nvf f 0 force 1\nrf f s 1k\ncs s 0 1n\n.s
 TEST(Within, ATransientTellsHowLongAndSinceWhen) {
     const auto ramp = ran("t\nv1 a 0 pwl(0 0 1 1 2 0)\nr1 a 0 1k\n.within v(a) -1 0.2505 \"too high\"\n.within v(a) -1 2\n.tran 1m 2 0 1m\n");
     ASSERT_EQ(ramp.remarks().size(), 1U) << "one of two was left";
-    const auto& sentence = ramp.remarks()[0].sentence;
+    const auto& sentence = ramp.remarks()[0].message;
     EXPECT_TRUE(sentence.starts_with("v(a) was outside -1 V to 250.5 mV for 1.499 s of 2 s, first at 251 ms")) << sentence;
     EXPECT_TRUE(sentence.ends_with(": too high")) << sentence;
-    EXPECT_EQ(ramp.remarks()[0].place.line, 4);
+    EXPECT_EQ(ramp.remarks()[0].location.line, 4);
 }
 
 TEST(Within, AnAfferentCountsTheSamplesOutsideInBlocksOfAnySize) {
@@ -34,14 +34,14 @@ TEST(Within, AnAfferentCountsTheSamplesOutsideInBlocksOfAnySize) {
     force.insert(force.end(), static_cast<std::size_t>(afferent->delay()), 0.5);
     for (const std::size_t block : {std::size_t{1}, std::size_t{33}, force.size()}) {
         std::vector<Spike> spikes;
-        std::vector<Outside> outside(1);
-        Answer answer{spikes};
-        answer.outside = outside;
+        std::vector<RangeViolation> outside(1);
+        ResponseBlock answer{spikes};
+        answer.range_violations = outside;
         auto state = afferent->start();
         for (std::size_t k = 0; k < force.size(); k += block)
             ASSERT_TRUE(afferent->respond(std::span(force).subspan(k, std::min(block, force.size() - k)), state, answer));
         EXPECT_EQ(outside[0].samples, 50) << block;
-        EXPECT_EQ(outside[0].first, 100) << block;
+        EXPECT_EQ(outside[0].first_sample, 100) << block;
     }
 }
 
@@ -58,7 +58,7 @@ TEST(Within, RespondWarnsOnce) {
 TEST(Within, WhatIsMissingOrWrongIsToldByItsPlace) {
     const auto refusal = [](const std::string& line) {
         const auto made = CircuitDesign::of(test::sure(parsed("t\nvf f 0 force 1\nr1 f 0 1\n.spike v(f) 1\n" + line + "\n")));
-        return made ? std::string() : made.error().sentence;
+        return made ? std::string() : made.error().message;
     };
     EXPECT_EQ(refusal(".within v(f) 0 1"), "");
     EXPECT_NE(refusal(".within v(g) 0 1").find("v(g)"), std::string::npos);

@@ -9,11 +9,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     using namespace corpuscle;
     const std::string bytes(reinterpret_cast<const char*>(data), size);
     Message first(bytes), second(bytes);
-    const auto facts = decode_facts(first, "x.h5");
-    if (facts && facts->time && *facts->time >= facts->columns.size()) std::abort();
+    const auto facts = decode_info(first, "x.h5");
+    if (facts && facts->time_column && *facts->time_column >= facts->columns.size()) std::abort();
     std::vector<std::vector<double>> out(2, std::vector<double>(3));
     const auto rows = decode_rows(second, 1, 2, out, "x.h5");
-    if (!rows && rows.error().sentence.size() > size + 64) std::abort();
+    if (!rows && rows.error().message.size() > size + 64) std::abort();
     OpenRequest open;
     FetchRequest fetch;
     Message third(bytes), fourth(bytes);

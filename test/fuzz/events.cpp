@@ -9,7 +9,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "io/spikes.hpp"
+#include "io/spike_files.hpp"
 #include "live/stream_state.hpp"
 
 using namespace corpuscle;
@@ -33,7 +33,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
             std::fclose(f);
         }
         const auto trains = read_spikes(path);
-        if (!trains) require(!trains.error().sentence.empty());
+        if (!trains) require(!trains.error().message.empty());
         if (trains)
             for (const auto& t : *trains) {
                 require(!t.times.empty() && std::is_sorted(t.times.begin(), t.times.end()));
@@ -41,7 +41,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
             }
     }
     const auto state = unpacked({reinterpret_cast<const std::byte*>(data), size}, "state");
-    if (!state) return require(!state.error().sentence.empty()), 0;
+    if (!state) return require(!state.error().message.empty()), 0;
     const auto again = unpacked(packed(*state), "state");
     require(again && again->force == state->force && again->number == state->number && again->skin == state->skin);
     return 0;

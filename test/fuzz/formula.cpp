@@ -38,7 +38,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         const auto f = Formula::parse(text, {"f", 1, 1}, scope);
         if (f)
             work_out(*f);
-        else if (f.error().sentence.empty() || f.error().place.column < 1 || f.error().place.column > static_cast<long>(size) + 1)
+        else if (f.error().message.empty() || f.error().location.column < 1 || f.error().location.column > static_cast<long>(size) + 1)
             std::abort();
         if (f && !inputs && !f->constant()) std::abort();
     }

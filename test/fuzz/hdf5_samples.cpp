@@ -148,14 +148,14 @@ public:
 
 /// Blocks from anywhere, of any columns, hold what a reading of everything at once does.
 void check_samples(Samples& samples, FuzzedDataProvider& given) {
-    const auto& facts = samples.facts();
-    require(facts.rows > 0 && !facts.columns.empty() && (!facts.time || *facts.time < facts.columns.size()));
+    const auto& facts = samples.info();
+    require(facts.rows > 0 && !facts.columns.empty() && (!facts.time_column || *facts.time_column < facts.columns.size()));
     const auto rows = static_cast<std::size_t>(facts.rows), columns = facts.columns.size();
     require(rows <= 8000 && columns <= 400);
     const auto fetched = [&](std::size_t from, std::size_t count, const std::vector<std::size_t>& wanted) {
         std::optional<std::vector<std::vector<double>>> out(std::in_place, wanted.size(), std::vector<double>(count));
         const auto done = samples.fetch(static_cast<std::int64_t>(from), count, wanted, *out);
-        if (!done) require(!done.error().sentence.empty()), out.reset();
+        if (!done) require(!done.error().message.empty()), out.reset();
         return out;
     };
     std::vector<std::size_t> all(columns);
@@ -198,7 +198,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (samples)
         fuzz::check_samples(**samples, given);
     else
-        fuzz::require(!samples.error().sentence.empty());
+        fuzz::require(!samples.error().message.empty());
     samples = bad_input("closed");
     ::close(file);
     return 0;

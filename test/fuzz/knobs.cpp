@@ -28,7 +28,7 @@ void check(const Circuit& c) {
 void show(const Circuit& c, std::string_view text) {
     for (const auto& word : trace_words(text)) {
         const auto found = traced(c, word);
-        must(found || !found.error().sentence.empty());
+        must(found || !found.error().message.empty());
         if (!found || !*found) must(meant_trace(c, word).size() < 100'000);
     }
 }
@@ -50,9 +50,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
             shown += (shown.empty() ? "" : ",") + line;
     }
     const auto netlist = tuned("sa1-macro", knobs);
-    if (!netlist) return must(!netlist.error().sentence.empty()), 0;
+    if (!netlist) return must(!netlist.error().message.empty()), 0;
     const auto circuit = netlist->elaborate();
-    if (!circuit) return must(!circuit.error().sentence.empty()), 0;
+    if (!circuit) return must(!circuit.error().message.empty()), 0;
     check(*circuit);
     show(*circuit, shown);
     return 0;

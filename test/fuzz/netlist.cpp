@@ -29,7 +29,7 @@ std::string main_of(std::string_view text, Files& files) {
 }
 
 void check(const Error& e) {
-    if (e.sentence.empty() || e.place.file.empty()) std::abort();
+    if (e.message.empty() || e.location.file.empty()) std::abort();
 }
 
 void check(const Circuit& c) {

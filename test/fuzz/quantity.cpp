@@ -13,7 +13,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (size < 1) return 0;
     const std::string_view text(reinterpret_cast<const char*>(data + 1), size - 1), unit = units[data[0] % std::size(units)];
     const auto value = parse_quantity(text, unit);
-    if (!value) return value.error().sentence.empty() ? std::abort() : void(), 0;
+    if (!value) return value.error().message.empty() ? std::abort() : void(), 0;
     if (!std::isfinite(*value)) std::abort();
     const auto back = parse_quantity(format_quantity(*value, unit), unit);
     if (!back || std::abs(*back - *value) > 1e-3 * std::abs(*value)) std::abort();

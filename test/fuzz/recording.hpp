@@ -21,8 +21,8 @@ inline void require(bool holds) {
 
 /// A helper process may die of its library, by a signal or by a sanitizer; it may not give a broken answer.
 inline void check(const Error& error, long lines) {
-    require(!error.sentence.empty() && error.place.line <= lines);
-    require(!error.sentence.starts_with("invalid response of the helper"));
+    require(!error.message.empty() && error.location.line <= lines);
+    require(!error.message.starts_with("invalid response of the helper"));
 }
 
 inline void read_all(const std::string& path, const RecordingOptions& options, long lines) {

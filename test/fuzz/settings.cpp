@@ -24,17 +24,17 @@ std::vector<std::string> lines_of(std::string_view text) {
     return lines;
 }
 
-void run(const AfferentPlan& plan, Source& source, Method method) {
+void run(const AfferentPlan& plan, ForceSource& source, Method method) {
     if (source.clock().T() / plan.value("substep").value_or(1) > 1e3) return;  // slow, not wrong
     const auto afferent = make_afferent(plan, {source.clock().T(), method, false});
     auto state = afferent->start();
     std::vector<Spike> spikes;
-    Answer answer{spikes};
+    ResponseBlock answer{spikes};
     Frames block(1, 256);
     for (int k = 0; k < 4; ++k) {
         if (auto ok = source.read(block); !ok) return;
         if (const auto ok = afferent->respond({block.force[0].data(), block.count}, state, answer); !ok) {
-            if (ok.error().sentence.empty()) std::abort();
+            if (ok.error().message.empty()) std::abort();
             return;  // an error is an answer, silence is not
         }
     }
@@ -45,17 +45,17 @@ void run(const AfferentPlan& plan, Source& source, Method method) {
 }
 
 /// The same settings as spreads: copies that can stand, or an error with a sentence.
-void draw(std::string_view text, std::span<const Wish> wishes) {
+void draw(std::string_view text, std::span<const ParameterOverride> wishes) {
     const auto plan = plan_afferent(text, {});
     if (!plan) return;
     const auto spreads = spreads_for(*plan, text, wishes);
-    if (!spreads) return spreads.error().sentence.empty() ? std::abort() : void();
+    if (!spreads) return spreads.error().message.empty() ? std::abort() : void();
     const auto copies = copies_of(*plan, 3, *spreads, 1);
-    if (!copies) return copies.error().sentence.empty() ? std::abort() : void();
+    if (!copies) return copies.error().message.empty() ? std::abort() : void();
     for (const auto& copy : *copies) {
         if (refusal(copy)) std::abort();
         for (std::size_t k = 0; k < copy.values.size(); ++k)
-            if (outside(copy.name, (*copy.parameters)[k].row, copy.values[k])) std::abort();
+            if (check_range(copy.name, (*copy.parameters)[k].row, copy.values[k])) std::abort();
     }
 }
 
@@ -63,15 +63,15 @@ void draw(std::string_view text, std::span<const Wish> wishes) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     const auto lines = lines_of({reinterpret_cast<const char*>(data), size});
-    std::vector<Wish> wishes;
+    std::vector<ParameterOverride> wishes;
     for (std::size_t k = 2; k < lines.size(); ++k)
-        if (auto wish = parse_wish(lines[k])) wishes.push_back(std::move(*wish));
+        if (auto wish = parse_override(lines[k])) wishes.push_back(std::move(*wish));
     const auto plan = plan_afferent(lines[0], wishes);
-    if (!plan && plan.error().sentence.empty()) std::abort();
+    if (!plan && plan.error().message.empty()) std::abort();
     draw(lines[0], wishes);
     if (lines.size() < 2 || !is_stimulus(lines[1])) return 0;
     const auto source = make_stimulus(lines[1], wishes, 1e3, 1);
-    if (!source && source.error().sentence.empty()) std::abort();
+    if (!source && source.error().message.empty()) std::abort();
     if (plan && source) run(*plan, **source, size % 2 ? Method::exact : Method::backward_euler);
     return 0;
 }

@@ -37,7 +37,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const Channel channels[] = {{0, "p1", Position{0, 0, 0}}, {1, "p2", Position{2e-3, 0, 0}}};
     const auto plan = read_skin_plan({reinterpret_cast<const char*>(data), size}, "fuzz.toml", channels);
     if (!plan) {
-        must(!plan.error().sentence.empty() && !plan.error().place.file.empty());
+        must(!plan.error().message.empty() && !plan.error().location.file.empty());
         return 0;
     }
     must(!plan->sites.at.empty() && !plan->classes.empty());
@@ -47,6 +47,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
             work += static_cast<double>(n) * plan->classes[c].hot_spots * static_cast<double>(plan->sites.size());
     if (work > 1e7) return 0;  // a large skin is no other than a small one, but slow
     const auto skin = innervate(*plan);
-    skin ? check(**skin) : must(!skin.error().sentence.empty());
+    skin ? check(**skin) : must(!skin.error().message.empty());
     return 0;
 }

@@ -8,7 +8,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "io/spikes.hpp"
+#include "io/spike_files.hpp"
 #include "study/compare.hpp"
 
 using namespace corpuscle;
@@ -35,16 +35,16 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     put(path, data, size);
     const auto trains = read_spikes(path);
     if (!trains) {
-        require(!trains.error().sentence.empty());
+        require(!trains.error().message.empty());
         const bool packed = size > 1 && data[0] == 0x1f && data[1] == 0x8b;  // how many lines come out is not known
-        require(packed || trains.error().place.line <= 1 + std::count(data, data + size, '\n'));
+        require(packed || trains.error().location.line <= 1 + std::count(data, data + size, '\n'));
         return 0;
     }
     std::string text = "afferent,channel,time_s\n";
     for (const auto& t : *trains) {
         require(std::is_sorted(t.times.begin(), t.times.end()));
         for (const double x : t.times) require(std::isfinite(x));
-        text += csv_field(t.afferent) + "," + csv_field(t.channel) + ",0.5\n";
+        text += quote_csv_field(t.afferent) + "," + quote_csv_field(t.channel) + ",0.5\n";
     }
     put(path, text.data(), text.size());
     const auto again = read_spikes(path);

@@ -19,7 +19,7 @@ void try_state(std::span<const std::byte> bytes) {
     if (has_checksum && !std::equal(bytes.begin(), bytes.end(), again.begin(), again.end())) std::abort();
     static const auto afferent = make_afferent(*plan_afferent("sa1", {}), {});
     std::vector<Spike> spikes;
-    Answer answer{spikes};
+    ResponseBlock answer{spikes};
     const std::vector<double> force(64, 1.0);
     (void)afferent->respond(force, *state, answer);
 }

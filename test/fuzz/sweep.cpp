@@ -16,7 +16,7 @@ void must(bool ok) {
     if (!ok) std::abort();
 }
 
-void check(const Error& e) { must(!e.sentence.empty()); }
+void check(const Error& e) { must(!e.message.empty()); }
 
 void check(const Sweep& s) {
     must(s.units() >= 1 && !s.facts().empty());
@@ -37,7 +37,7 @@ void check(const Sweep& s) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     const auto said = read_sweep_text({reinterpret_cast<const char*>(data), size}, "fuzz.toml");
     if (!said) {
-        must(said.error().place.file == "fuzz.toml");
+        must(said.error().location.file == "fuzz.toml");
         return check(said.error()), 0;
     }
     // The words of the file are what is looked at; netlists and recordings have fuzzers of their own, and forces may be long.

@@ -39,7 +39,7 @@ std::string script(const Folder& folder, const std::string& lines) {
 std::string death_by(const std::string& lines) {
     const Folder folder;
     auto helper = test::sure(HelperProcess::start(script(folder, lines), STDIN_FILENO));
-    const auto answer = helper.answer("x.h5", "the library");
+    const auto answer = helper.receive("x.h5", "the library");
     return answer ? "answered" : answer.error().text();
 }
 
@@ -68,10 +68,10 @@ TEST(HelperProcess, OneThatCannotBeStartedIsNamed) {
     EXPECT_EQ(none.error().text(), "/nowhere/corpuscle-hdf5 cannot be started: No such file or directory");
     const Folder folder;
     ::setenv("CORPUSCLE_LIBEXEC", folder.path().c_str(), 1);
-    const auto missing = helper_program("corpuscle-hdf5");
-    const auto found = helper_program("script");
+    const auto missing = find_helper_program("corpuscle-hdf5");
+    const auto found = find_helper_program("script");
     const auto made = script(folder, "exit 0");
-    const auto there = helper_program("script");
+    const auto there = find_helper_program("script");
     ::unsetenv("CORPUSCLE_LIBEXEC");
     ASSERT_FALSE(missing);
     EXPECT_EQ(missing.error().text(), "the program 'corpuscle-hdf5', which reads this format, was not found in " + folder.path() +
@@ -98,7 +98,7 @@ TEST(HelperProcess, HoldsNothingOfOursAndLeavesNothingBehind) {
         EXPECT_EQ(held, (std::vector<int>{0, 1, 2, 3, 4}));
         EXPECT_EQ(test::read_file("environment").find("CORPUSCLE_SECRET"), std::string::npos);
         auto second = std::move(first);
-        EXPECT_TRUE(test::signal_child(second.id(), 0));
+        EXPECT_TRUE(test::signal_child(second.pid(), 0));
     }
     EXPECT_EQ(descriptors_open(), before);
     EXPECT_EQ(::waitpid(-1, nullptr, WNOHANG), -1);
@@ -114,13 +114,13 @@ std::string framed(const Message& m) {
 
 TEST(HelperProcess, ADeathWhileRowsAreReadIsAnErrorThenAndEverAfter) {
     const Folder folder;
-    folder.write("answers", framed(encode(SamplesFacts{{{"fz", "N"}}, 10, 100.0, {}, {"a remark"}})) +
+    folder.write("answers", framed(encode(SamplesInfo{{{"fz", "N"}}, 10, 100.0, {}, {"a remark"}})) +
                                 framed(encode(std::vector<std::vector<double>>{{7.0}})));
     const auto program = script(folder, "cat '" + folder / "answers" + "' >&3; kill -BUS $$");
-    auto samples = test::sure(remote_samples_by(program, folder.write("x.h5", ""), {"", "it"}));
-    EXPECT_EQ(samples->facts().columns.at(0).unit, "N");
-    EXPECT_EQ(samples->facts().rate, 100);
-    EXPECT_EQ(samples->facts().remarks, std::vector<std::string>{"a remark"});
+    auto samples = test::sure(open_remote_samples_with(program, folder.write("x.h5", ""), {"", "it"}));
+    EXPECT_EQ(samples->info().columns.at(0).unit, "N");
+    EXPECT_EQ(samples->info().rate, 100);
+    EXPECT_EQ(samples->info().notes, std::vector<std::string>{"a remark"});
     const std::vector<std::size_t> wanted = {0};
     std::vector<std::vector<double>> out(1, std::vector<double>(1));
     EXPECT_TRUE(samples->fetch(0, 1, wanted, out));
@@ -132,15 +132,15 @@ TEST(HelperProcess, ADeathWhileRowsAreReadIsAnErrorThenAndEverAfter) {
 
 TEST(HelperProcess, ABrokenAnswerIsAnError) {
     const Folder folder;
-    SamplesFacts facts{{{"fz", "N"}}, 10, 100.0, 5, {}};
+    SamplesInfo facts{{{"fz", "N"}}, 10, 100.0, 5, {}};
     std::vector<std::string> answers = {framed(encode(facts)), framed(Message("xx")), framed(Message(std::string(8, '\x7f')))};
-    facts.time.reset();
+    facts.time_column.reset();
     const auto whole = encode(facts).bytes();
     for (const std::size_t size : {9U, 20U, 33U, 50U}) answers.push_back(framed(Message(whole.substr(0, size))));
     for (const auto& answer : answers) {
         folder.write("answer", answer);
         const auto program = script(folder, "cat '" + folder / "answer" + "' >&3; exec sleep 30");
-        const auto made = remote_samples_by(program, folder.write("x.h5", ""), {"", "it"});
+        const auto made = open_remote_samples_with(program, folder.write("x.h5", ""), {"", "it"});
         ASSERT_FALSE(made);
         EXPECT_EQ(made.error().text(), folder / "x.h5" + ": invalid response of the helper process that reads this file");
     }
@@ -156,7 +156,7 @@ std::string answer_to_throw(const Thrown& thrown) {
     const bool talked = encode(OpenRequest{"x.h5", {}}).send(ends[0]) && answer.receive(ends[0]);
     program.join();
     ::close(ends[0]), ::close(ends[1]);
-    const auto facts = decode_facts(answer, "x.h5");
+    const auto facts = decode_info(answer, "x.h5");
     return talked && !facts ? facts.error().text() : "no error";
 }
 
@@ -193,7 +193,7 @@ TEST(HelperProcess, GivesUpWhatItDoesNotNeedAndRaisesNoLimit) {
         ::close(wait[1]);  // so that the read below ends with the parent
         const rlimit lower{std::uint64_t{3} << 30, std::uint64_t{3} << 30};
         ::setrlimit(RLIMIT_AS, &lower);
-        confine(HelperProcess::file_number, HelperProcess::memory);
+        confine(HelperProcess::file_descriptor, HelperProcess::memory_limit);
         const unsigned bits = freedoms();
         char end;
         if (::write(told[1], &bits, sizeof bits) == sizeof bits) (void)!::read(wait[0], &end, 1);

@@ -31,7 +31,7 @@ bool mentions(const std::vector<std::string>& sentences, const std::string& word
 }
 
 double finding(const LabRead& r, std::string_view name, std::uint32_t channel = 0) {
-    for (const auto& f : r.quality.findings)
+    for (const auto& f : r.quality.metrics)
         if (f.name == name && f.channel == channel) return f.value;
     return -1;
 }
@@ -64,7 +64,7 @@ TEST(BadFields, DroppedRowsLeaveTheTimesOfTheOthersAlone) {
     const auto path = folder.write("x.csv", text);
     const auto refused = try_recording(path, {.bad_fields = BadFields::drop});
     ASSERT_FALSE(refused);
-    EXPECT_NE(refused.error().sentence.find("not evenly spaced"), std::string::npos);
+    EXPECT_NE(refused.error().message.find("not evenly spaced"), std::string::npos);
     EXPECT_EQ(read_lab(path, {.resample = 1, .bad_fields = BadFields::drop}).force, (LabRows{right}));
 }
 
@@ -78,7 +78,7 @@ TEST(BadFields, ARowWhoseTimeIsBadIsDroppedAndTold) {
     for (const auto rate : {std::optional<double>(), std::optional<double>(1)}) {
         const auto r = read_lab(folder / "x.csv", {.rate = rate, .bad_fields = BadFields::drop});
         EXPECT_EQ(r.force, (LabRows{std::vector<double>(39, 1)}));
-        EXPECT_TRUE(mentions(r.quality.sentences, "1 rows with a bad field were dropped"));
+        EXPECT_TRUE(mentions(r.quality.descriptions, "1 rows with a bad field were dropped"));
     }
     const auto untimed = folder.write("y.csv", "time,F_N\nmorning,1\nnoon,2\n");
     EXPECT_EQ(read_lab(untimed, {.rate = 1, .bad_fields = BadFields::drop}).force, (LabRows{{1, 2}})) << "no time at all is no bad row";
@@ -185,10 +185,10 @@ TEST(Verdict, SpeaksOfWhatWouldMisleadAndOfNothingElse) {
         return read_lab(folder.write("x.csv", text), options, 500).quality;
     };
     EXPECT_TRUE(quality(good).warnings.empty());
-    EXPECT_TRUE(quality(good).sentences.empty());
+    EXPECT_TRUE(quality(good).descriptions.empty());
     EXPECT_TRUE(mentions(quality(heavy).warnings, "up to 200 N, but the models are fitted to 0.2 to 4 N"));
     EXPECT_TRUE(mentions(quality(negative).warnings, "but a press must be positive"));
-    EXPECT_TRUE(mentions(quality(weak).sentences, "all forces are below 0.2 N"));
+    EXPECT_TRUE(mentions(quality(weak).descriptions, "all forces are below 0.2 N"));
     EXPECT_NEAR(finding(read_lab(folder.write("x.csv", good), {}), "below_0.2N"), 0.205, 0.02);  // (pi - 2 asin 0.8) / 2 pi of each period
     EXPECT_TRUE(mentions(quality(full, {.scale = 1e-3}).warnings, "is 4095, the full scale of a 12-bit converter"));
 }
@@ -205,9 +205,9 @@ TEST(Dialect, PlainNumbersAreThoseThatFromCharsReads) {
         text += *rc::gen::element<std::string>("", std::string(1, dialect.separator), "x", "9", "\n") + std::string(16, '\0');
         const char *p = text.data(), *const end = text.data() + size;
         double plain, careful;
-        if (!dialect.plain_number(p, end, plain)) return;
+        if (!dialect.parse_plain_number(p, end, plain)) return;
         RC_ASSERT(p == end);
-        RC_ASSERT(dialect.number({text.data(), size}, careful));
+        RC_ASSERT(dialect.parse_number({text.data(), size}, careful));
         RC_ASSERT(plain == careful && std::signbit(plain) == std::signbit(careful));
     }));
 }

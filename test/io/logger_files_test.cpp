@@ -215,9 +215,9 @@ TEST(LoggerFiles, OpeningALargeJsonDocumentCanBeStopped) {
     std::string text = "[";
     for (int k = 0; k < 20'000; ++k) text += fmt::format("{}{{\"t\":{},\"F_N\":1}}", k > 0 ? "," : "", k);
     int asked = 0;
-    const auto made = try_recording(folder.write("x.json", text + "]"), {.keep_on = [&](double) { return ++asked < 3; }});
+    const auto made = try_recording(folder.write("x.json", text + "]"), {.should_continue = [&](double) { return ++asked < 3; }});
     ASSERT_FALSE(made);
-    EXPECT_EQ(made.error().code, Code::interrupted);
+    EXPECT_EQ(made.error().code, ErrorCode::interrupted);
     EXPECT_EQ(asked, 3);
 }
 
@@ -433,11 +433,11 @@ TEST(LoggerFiles, LinesBeforeTheTableArePassedOverAndToldOrSkipped) {
     const auto alike = read_logged(folder, "Subject,S07\nRate,100\ntime_s,F_N\n0,1\n1,2\n");
     EXPECT_EQ(alike.names, std::vector<std::string>{"F"});
     RecordingOptions skip;
-    skip.table.skip = 2;
+    skip.table.skip_lines = 2;
     EXPECT_EQ(read_logged(folder, "x,y\n1,2\ntime_s,F_N\n0,1\n1,2\n", skip).names, std::vector<std::string>{"F"});
     EXPECT_NE(refused_logged(folder, "x,y\nfirst,second\n1,2\n3,4\n", {.rate = 10}).find("--skip LINES to skip lines before the table"),
               std::string::npos);
-    skip.table.skip = 100;
+    skip.table.skip_lines = 100;
     EXPECT_EQ(refused_logged(folder, "x,y\n1,2\n", skip), "x.csv: no data in this file");
     EXPECT_NE(test::refusal(folder.write("x.npy", "?"), skip).find("--skip 100: only text files have lines to skip"), std::string::npos);
 }

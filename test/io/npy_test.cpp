@@ -169,7 +169,7 @@ TEST(Npy, WhatCannotBeReadIsSaid) {
 }
 
 /// An archive as numpy.savez_compressed makes it.
-void write_deflated(const std::string& path, const std::vector<Packed>& members) {
+void write_deflated(const std::string& path, const std::vector<ArchiveEntry>& members) {
     int code = 0;
     zip_t* z = zip_open(path.c_str(), ZIP_CREATE | ZIP_TRUNCATE, &code);
     for (const auto& m : members) zip_file_add(z, m.name.c_str(), zip_source_buffer(z, m.bytes.data(), m.bytes.size(), 0), 0);
@@ -184,13 +184,13 @@ std::string ramp_of(std::size_t count, double step = 1) {
 
 TEST(Npz, TheArrayIsChosenByNameAndRateOrTimesStandBesideIt) {
     const Folder folder;
-    const Packed force{"force_mN.npy", npy("'<f8'", "(9000, 2)", ramp_of(18000))},
+    const ArchiveEntry force{"force_mN.npy", npy("'<f8'", "(9000, 2)", ramp_of(18000))},
         turned{"turned.npy", npy("'<f8'", "(9000, 2)", ramp_of(18000), true)},
         rate{"fs.npy", npy("'<i8'", "()", bytes_of(std::int64_t(250), false))},
         times{"t.npy", npy("'<f8'", "(9000,)", ramp_of(9000, 0.01))}, words{"who.npy", npy("'<U1'", "(1,)", std::string(4, 'a'))};
     const auto path = folder / "x.npz";
     for (const bool deflated : {false, true}) {
-        const auto write = [&](const std::vector<Packed>& members) {
+        const auto write = [&](const std::vector<ArchiveEntry>& members) {
             deflated ? write_deflated(path, members) : void(folder.write("x.npz", test::sure(make_archive(members))));
         };
         write({force, rate, words});

@@ -34,7 +34,7 @@ TEST(Npz, ListsComeBackAsTheyWere) {
     EXPECT_EQ(test::sure(npz.integers("whole")), extreme_integers);
     EXPECT_EQ(test::sure(npz.numbers("numbers")), numbers);
     EXPECT_TRUE(std::signbit(test::sure(npz.numbers("numbers"))[1]));
-    EXPECT_EQ(test::sure(npz.words("words")), words);
+    EXPECT_EQ(test::sure(npz.strings("words")), words);
 }
 
 TEST(Npz, AnyListsComeBackAsTheyWere) {
@@ -54,7 +54,7 @@ TEST(Npz, AnyListsComeBackAsTheyWere) {
         std::filesystem::remove(path);
         RC_ASSERT(test::sure(back.integers("i")) == integers);
         RC_ASSERT(test::sure(back.numbers("r")) == reals);
-        RC_ASSERT(test::sure(back.words("t")) == plain);
+        RC_ASSERT(test::sure(back.strings("t")) == plain);
     }));
 }
 
@@ -76,8 +76,8 @@ TEST(Npz, WhatIsNotThereOrOfAnotherKindIsSaid) {
     const auto npz = test::sure(NpzReader::open(path));
     EXPECT_TRUE(npz.has("words"));
     EXPECT_FALSE(npz.has("word"));
-    EXPECT_EQ(npz.words("word").error().text(), path + ": no array 'word'; did you mean 'words'?");
-    EXPECT_EQ(npz.words("whole").error().text(), path + "/whole: the type is '<i8', expected strings");
+    EXPECT_EQ(npz.strings("word").error().text(), path + ": no array 'word'; did you mean 'words'?");
+    EXPECT_EQ(npz.strings("whole").error().text(), path + "/whole: the type is '<i8', expected strings");
     EXPECT_EQ(npz.integers("numbers").error().text(), path + "/numbers: the type is '<f8', expected integers");
     EXPECT_EQ(test::sure(npz.numbers("whole"))[1], -1) << "whole numbers are numbers";
     const auto text = folder.write("y.npz", "a,b\n1,2\n");
@@ -86,7 +86,7 @@ TEST(Npz, WhatIsNotThereOrOfAnotherKindIsSaid) {
     EXPECT_FALSE(NpzReader::open(cut));
     auto damaged = written();
     damaged[damaged.find("NUMPY", 200) + 127] ^= 1;  // one bit of the numbers: the archive's checksum tells
-    EXPECT_EQ(test::sure(NpzReader::open(folder.write("d.npz", damaged))).numbers("numbers").error().sentence,
+    EXPECT_EQ(test::sure(NpzReader::open(folder.write("d.npz", damaged))).numbers("numbers").error().message,
               "cannot be decompressed: CRC error");
 }
 
@@ -113,7 +113,7 @@ TEST(Npz, AWrongSizeInTheDirectoryHidesNoDamage) {
     EXPECT_FALSE(numbers_of(0, true));
     for (const int more : {-32, -8, -1, 1, 8, 4096})
         for (const bool damaged : {false, true}) EXPECT_FALSE(numbers_of(more, damaged)) << more;
-    EXPECT_EQ(numbers_of(8, true).error().sentence, "the archive states 168 bytes, but the array has 160; it may be damaged");
+    EXPECT_EQ(numbers_of(8, true).error().message, "the archive states 168 bytes, but the array has 160; it may be damaged");
 }
 
 }  // namespace

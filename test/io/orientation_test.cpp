@@ -50,10 +50,10 @@ TEST(Orientation, TimesInTheSameArchiveSayWhichDimensionIsTheirs) {
             const double t = static_cast<double>(k) * 0.01;
             data.append(reinterpret_cast<const char*>(&t), sizeof t);
         }
-        return Packed{"t.npy", npy("'<f8'", fmt::format("({},)", count), data)};
+        return ArchiveEntry{"t.npy", npy("'<f8'", fmt::format("({},)", count), data)};
     };
     for (const bool by_columns : {false, true}) {
-        const Packed force{"force.npy", lying_down(2, by_columns)};
+        const ArchiveEntry force{"force.npy", lying_down(2, by_columns)};
         const auto turned = recording(folder.write("x.npz", test::sure(make_archive({force, times(3000)}))));
         EXPECT_EQ(turned.force.size(), 2U);
         EXPECT_EQ(turned.force[1][5], 3005 * 1e-4);

@@ -6,8 +6,8 @@
 
 #include <cmath>
 
-#include "io/clock_check.hpp"
-#include "io/formats.hpp"
+#include "io/clock_analysis.hpp"
+#include "io/recording_formats.hpp"
 #include "support/property.hpp"
 #include "support/recordings.hpp"
 
@@ -187,8 +187,8 @@ TEST(Recording, TimesThatCannotBeReadDoNotMatterBesideARate) {
 }
 
 TEST(Recording, ARateCloseToAWholeNumberIsThatNumber) {
-    EXPECT_EQ(test::sure(clock_of(999.9128, 0, 1e-3)).rate(), 1000);
-    EXPECT_EQ(test::sure(clock_of(199.81, 0, 1e-3)).rate(), 200);
+    EXPECT_EQ(test::sure(make_clock(999.9128, 0, 1e-3)).rate(), 1000);
+    EXPECT_EQ(test::sure(make_clock(199.81, 0, 1e-3)).rate(), 200);
 }
 
 TEST(Recording, AnUnevenClockIsRefusedReplacedOrInterpolatedButKnowingly) {
@@ -283,10 +283,10 @@ TEST(Recording, EveryFormatReadsBackWhatWasWritten) {
     }));
 }
 
-TEST(ClockCheck, FindsTheFarthestSampleInOnePass) {
+TEST(ClockAnalysis, FindsTheFarthestSampleInOnePass) {
     EXPECT_TRUE(rc::check("against the plain two-pass answer", [] {
         const auto jitter = *rc::gen::container<std::vector<int>>(*rc::gen::inRange<std::size_t>(2, 200), rc::gen::inRange(0, 1000));
-        ClockCheck check;
+        ClockAnalysis check;
         std::vector<double> t;
         for (std::size_t k = 0; k < jitter.size(); ++k) t.push_back(static_cast<double>(k) + jitter[k] * 1e-3), check.add(t.back());
         const double step = (t.back() - t[0]) / static_cast<double>(t.size() - 1);
@@ -294,34 +294,34 @@ TEST(ClockCheck, FindsTheFarthestSampleInOnePass) {
         for (std::size_t k = 0; k < t.size(); ++k)
             late = std::max(late, t[k] - t[0] - static_cast<double>(k) * step),
             early = std::min(early, t[k] - t[0] - static_cast<double>(k) * step);
-        RC_ASSERT(std::abs(check.spread() - (late - early)) < 1e-9);
+        RC_ASSERT(std::abs(check.peak_to_peak_jitter() - (late - early)) < 1e-9);
     }));
 }
 
-TEST(ClockCheck, AClockThatSlowsSteadilyIsJudgedInLittleMemory) {  // every sample lies on the hull, which is thinned
-    ClockCheck check;
+TEST(ClockAnalysis, AClockThatSlowsSteadilyIsJudgedInLittleMemory) {  // every sample lies on the hull, which is thinned
+    ClockAnalysis check;
     std::vector<double> t;
     for (int k = 0; k < 300'000; ++k) t.push_back(1e-3 * k + 1e-11 * k * static_cast<double>(k)), check.add(t.back());
     const double step = (t.back() - t[0]) / static_cast<double>(t.size() - 1);
     double early = 0;
     for (std::size_t k = 0; k < t.size(); ++k) early = std::min(early, t[k] - static_cast<double>(k) * step);
-    EXPECT_NEAR(check.spread(), -early, 1e-6 * -early);
+    EXPECT_NEAR(check.peak_to_peak_jitter(), -early, 1e-6 * -early);
 }
 
-TEST(ClockCheck, CountsGapsAgainstTheUsualStep) {
-    ClockCheck check;
+TEST(ClockAnalysis, CountsGapsAgainstTheUsualStep) {
+    ClockAnalysis check;
     double t = 0;
     for (int k = 0; k < 1000; ++k) check.add(t), t += k % 100 == 50 ? 0.03 : 0.01;
-    EXPECT_EQ(check.gaps(), 10);
+    EXPECT_EQ(check.gap_count(), 10);
 }
 
 TEST(Recording, TheFirstPassThroughTheTimesCanBeStopped) {
     const Folder folder;
     RecordingOptions options;
-    options.keep_on = [](double) { return false; };
+    options.should_continue = [](double) { return false; };
     const auto made = try_recording(folder.write("x.csv", "t_s,F_N\n0,1\n1,2\n2,3\n"), options);
     ASSERT_FALSE(made);
-    EXPECT_EQ(made.error().code, Code::interrupted);
+    EXPECT_EQ(made.error().code, ErrorCode::interrupted);
 }
 
 TEST(Recording, MoreChannelsThanCanBeAnsweredAtOnceAreRefused) {
@@ -344,7 +344,7 @@ TEST(Recording, APersonsPressOnTheElectronicSkinIsFelt) {
     EXPECT_EQ(press.names[10], "fbg11");
     ASSERT_EQ(press.force[0].size(), 2125U);
     const auto train = [&](const std::string& who, std::size_t channel) {
-        return times(test::spikes(*test::afferent(who, {.rate = 100}), press.force[channel]), press.clock);
+        return spike_times(test::spikes(*test::afferent(who, {.rate = 100}), press.force[channel]), press.clock);
     };
     // Contact lasts from 17.2 to 21.2 s; the strongest sensor carries it.
     const auto sa1 = train("sa1", 10), fa1 = train("fa1", 10);

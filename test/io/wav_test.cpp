@@ -1,6 +1,6 @@
 // Sound files as recordings: whole numbers are parts of full scale, floats are newtons, and the rate is the file's.
 
-#include "io/formats.hpp"
+#include "io/recording_formats.hpp"
 #include "support/property.hpp"
 #include "support/recordings.hpp"
 #include "support/writers.hpp"

@@ -40,11 +40,11 @@ int main() {
         auto stream = SkinStream::make(*skin, clock);
         const double felt =
             (*skin)->plan.felt_area > 0 ? (*skin)->plan.sites.area / (*skin)->plan.felt_area : 1;  // N at a site that feel as 1 N
-        const auto format = event_format("lines", event_units(**skin, clock));
+        const auto format = make_event_format("lines", event_units(**skin, clock));
         if (!stream || !format) return std::puts("refused"), 1;
         FrameDecoder decoder({FrameKind::f64, FrameStamp::none, (*stream)->sites()});
         std::vector<double> sent((*stream)->sites()), force((*stream)->sites());
-        std::vector<char> event((*format)->most_bytes());
+        std::vector<char> event((*format)->max_bytes());
         long spikes = 0, bytes = 0;
         const long before = asked;
         for (int k = 0; k < 3000; ++k) {
@@ -63,7 +63,7 @@ int main() {
                     decoder.take(force);
                     const auto pushed = (*stream)->push(force);
                     if (!pushed) return std::puts(pushed.error().text().c_str()), 1;
-                    for (const auto& s : *pushed) bytes += static_cast<long>((*format)->put(s, event.data())), ++spikes;
+                    for (const auto& s : *pushed) bytes += static_cast<long>((*format)->write(s, event.data())), ++spikes;
                 }
             }
         }

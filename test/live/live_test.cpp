@@ -11,7 +11,7 @@
 
 #include "corpuscle.h"
 #include "io/events.hpp"
-#include "io/spikes.hpp"
+#include "io/spike_files.hpp"
 #include "live/byte_ring.hpp"
 #include "live/delays.hpp"
 #include "live/event_outlet.hpp"
@@ -34,8 +34,8 @@ using test::sure;
 
 std::string bytes_of(const EventFormat& format, std::span<const Spike> spikes) {
     std::string out;
-    std::vector<char> event(format.most_bytes());
-    for (const auto& s : spikes) out.append(event.data(), format.put(s, event.data()));
+    std::vector<char> event(format.max_bytes());
+    for (const auto& s : spikes) out.append(event.data(), format.write(s, event.data()));
     return out;
 }
 
@@ -47,7 +47,7 @@ TEST(Events, AreReadBackAsTheyWereWhateverTheFormat) {
         const auto clock = *rc::gen::element(Clock{1000, 1}, Clock{5200, 1}, Clock{1213, 5}, Clock{3, 7});
         const auto units = *rc::gen::inRange<std::uint32_t>(1, 40);
         const auto classes = *rc::gen::inRange<std::uint32_t>(1, 4);
-        EventUnits named{clock, {}, {}};
+        EventAddressing named{clock, {}, {}};
         for (std::uint32_t u = 0; u < units; ++u)
             named.names.push_back("k" + std::to_string(u % classes) + "#" + std::to_string(u / classes + 1)),
                 named.addresses.push_back(3 * u);
@@ -57,20 +57,20 @@ TEST(Events, AreReadBackAsTheyWereWhateverTheFormat) {
             spikes.push_back({step, (*rc::gen::inRange(1, 4097)) / 4096.0, static_cast<std::uint32_t>(step) % units});
         std::sort(spikes.begin(), spikes.end());
         for (const auto& [name, error] : {std::pair{"lines", 0.51e-9}, {"aer", 1e-12}, {"jsonl", 0.51e-9}, {"aedat2", 0.51e-6}}) {
-            if (name == std::string_view("aedat2") && clock.per < 10) continue;  // silent for more than 71 minutes: nobody can tell
-            const auto format = sure(event_format(name, named));
+            if (name == std::string_view("aedat2") && clock.rate_numerator < 10) continue;  // silent for more than 71 minutes: nobody can tell
+            const auto format = sure(make_event_format(name, named));
             const auto path = folder.write("events", format->header() + bytes_of(*format, spikes));
             std::map<std::string, std::vector<double>> wanted;
             for (const auto& s : spikes)
-                wanted[format->name() == "aedat2" ? std::to_string(3 * s.unit) : named.names[s.unit]].push_back(
+                wanted[format->name() == "aedat2" ? std::to_string(3 * s.afferent_index) : named.names[s.afferent_index]].push_back(
                     clock.time(s.step, s.offset));
             if (format->name() == "jsonl") {  // each line is a document
                 std::ifstream in(path);
                 std::size_t k = 0;
                 for (std::string line; std::getline(in, line); ++k) {
                     const auto event = nlohmann::json::parse(line);
-                    RC_ASSERT(event["afferent"] == named.names[spikes[k].unit]);
-                    RC_ASSERT(event["address"] == 3 * spikes[k].unit);
+                    RC_ASSERT(event["afferent"] == named.names[spikes[k].afferent_index]);
+                    RC_ASSERT(event["address"] == 3 * spikes[k].afferent_index);
                     RC_ASSERT(std::abs(event["time_s"].get<double>() - clock.time(spikes[k].step, spikes[k].offset)) < error);
                 }
                 RC_ASSERT(k == spikes.size());
@@ -90,7 +90,7 @@ TEST(Events, AreReadBackAsTheyWereWhateverTheFormat) {
 
 TEST(Events, MicrosecondsOfAedatGoRoundAfterSeventyOneMinutesAndAreReadOn) {
     const Folder folder;
-    const auto format = sure(event_format("aedat2", {Clock{1000, 1}, {"a"}, {}}));
+    const auto format = sure(make_event_format("aedat2", {Clock{1000, 1}, {"a"}, {}}));
     std::vector<Spike> spikes;
     for (std::int64_t s = 0; s < 10; ++s) spikes.push_back({1 + s * 1000 * 1000, 1, 0});  // 1000 s apart
     const auto trains = sure(read_spikes(folder.write("x.aedat", format->header() + bytes_of(*format, spikes))));
@@ -110,9 +110,9 @@ TEST(Events, LinesNameAfferentAndChannelAsRespondDoes) {
     const auto on_channels = sure(innervate(sure(plan_channels("sa1,fa1", channels))));
     const auto lines = [](const std::shared_ptr<const Innervation>& skin, std::uint32_t unit, const char* format) {
         const Spike spike{5, 1, unit};
-        return bytes_of(*sure(event_format(format, event_units(*skin, {1000, 1}))), {&spike, 1});
+        return bytes_of(*sure(make_event_format(format, event_units(*skin, {1000, 1}))), {&spike, 1});
     };
-    EXPECT_EQ(sure(event_format("lines", event_units(*on_channels, {1000, 1})))->header(), "afferent,channel,time_s\n");
+    EXPECT_EQ(sure(make_event_format("lines", event_units(*on_channels, {1000, 1})))->header(), "afferent,channel,time_s\n");
     EXPECT_EQ(lines(on_channels, 0, "lines"), "sa1,fz,0.005000000\n");
     EXPECT_EQ(lines(on_channels, 3, "lines"), "fa1,\"thumb, tip\",0.005000000\n");
     EXPECT_EQ(lines(on_channels, 3, "jsonl"), R"({"time_s":0.005000000,"afferent":"fa1","channel":"thumb, tip","address":3})"
@@ -125,7 +125,7 @@ TEST(Events, BinaryFormatsSayInTheirHeadersWhichChannelAnAddressStandsOn) {
     const Folder folder;
     const std::vector<Channel> channels = {{0, "fz"}, {1, "thumb\n#x"}, {2, "ch3"}};
     const auto units = event_units(*sure(innervate(sure(plan_channels("sa1,fa1", channels)))), {1000, 1});
-    const auto aer = sure(event_format("aer", units)), aedat = sure(event_format("aedat2", units));
+    const auto aer = sure(make_event_format("aer", units)), aedat = sure(make_event_format("aedat2", units));
     const std::vector<Spike> spikes = {{5, 1, 0}, {6, 1, 4}, {7, 1, 5}};  // units: class after class
     const auto trains = sure(read_spikes(folder.write("x.aer", aer->header() + bytes_of(*aer, spikes))));
     ASSERT_EQ(trains.size(), 3U);
@@ -139,16 +139,16 @@ TEST(Events, BinaryFormatsSayInTheirHeadersWhichChannelAnAddressStandsOn) {
               "# addresses 0, 1: channel fz\r\n# addresses 2, 3: channel thumb #x\r\n# addresses 4, 5: channel ch3\r\n");
     EXPECT_EQ(sure(read_spikes(folder.write("x.aedat", aedat->header() + bytes_of(*aedat, spikes)))).size(), 3U);
     const auto counted = event_units(*sure(innervate(sure(plan_channels("sa1,fa1", 3, {})))), {1000, 1});
-    EXPECT_LT(sure(event_format("aer", counted))->header().size(), aer->header().size()) << "ch1, ch2 ... need no table";
+    EXPECT_LT(sure(make_event_format("aer", counted))->header().size(), aer->header().size()) << "ch1, ch2 ... need no table";
     std::vector<Channel> many(4000);
     for (std::uint32_t c = 0; c < many.size(); ++c) many[c] = {c, fmt::format("a long name {}", c)};
-    const auto long_one = sure(event_format("aedat2", event_units(*sure(innervate(sure(plan_channels("sa1", many)))), {1000, 1})));
+    const auto long_one = sure(make_event_format("aedat2", event_units(*sure(innervate(sure(plan_channels("sa1", many)))), {1000, 1})));
     EXPECT_EQ(sure(read_spikes(folder.write("y.aedat", long_one->header() + bytes_of(*long_one, {spikes.data(), 1})))).size(), 1U);
 }
 
 TEST(Events, FilesThatAreDamagedAreRefused) {
     const Folder folder;
-    const auto format = sure(event_format("aer", {Clock{1000, 1}, {"sa1#1", "sa1#2"}, {}}));
+    const auto format = sure(make_event_format("aer", {Clock{1000, 1}, {"sa1#1", "sa1#2"}, {}}));
     const Spike spike{5, 0.5, 1};
     const auto whole = format->header() + bytes_of(*format, {&spike, 1});
     EXPECT_EQ(sure(read_spikes(folder.write("x.aer", whole))).at(0).name(), "sa1#2");
@@ -156,7 +156,7 @@ TEST(Events, FilesThatAreDamagedAreRefused) {
         if (cut != format->header().size()) {
             EXPECT_FALSE(read_spikes(folder.write("x.aer", whole.substr(0, cut)))) << cut;
         }
-    EXPECT_FALSE(event_format("aedat", {}));
+    EXPECT_FALSE(make_event_format("aedat", {}));
 }
 
 // --- frames out of bytes
@@ -262,7 +262,7 @@ std::vector<Spike> offline(const std::shared_ptr<const Innervation>& skin, const
     std::vector<double> force(skin->plan.sites.size() * frames.size());
     for (std::size_t k = 0; k < frames.size(); ++k)
         for (std::size_t s = 0; s < frames[k].size(); ++s) force[s * frames.size() + k] = frames[k][s];
-    Pool pool(2);
+    ThreadPool pool(2);
     std::vector<Spike> spikes;
     EXPECT_TRUE(made->respond({force.data(), frames.size(), {}, true}, frames.size(), spikes, pool));
     made->last(spikes);
@@ -277,7 +277,7 @@ TEST(SkinStream, LiveEqualsOfflineAndResumedEqualsUninterruptedByteForByte) {
             some_frames(*rc::gen::inRange<std::size_t>(1, 700), skin->plan.sites.size(), *rc::gen::arbitrary<std::uint64_t>());
         const auto cut = *rc::gen::inRange<std::size_t>(0, frames.size());
         const auto format =
-            sure(event_format(*rc::gen::element<std::string>("lines", "jsonl", "aer", "aedat2"), event_units(*skin, clock)));
+            sure(make_event_format(*rc::gen::element<std::string>("lines", "jsonl", "aer", "aedat2"), event_units(*skin, clock)));
         const auto together = *rc::gen::inRange<std::size_t>(1, 40);
         auto stream = sure(SkinStream::make(skin, clock)), grouped = sure(SkinStream::make(skin, clock, false, together));
         std::string live, in_groups;
@@ -316,7 +316,7 @@ TEST(SkinStream, AStateOfTheVersionBeforeIsReadAndOneOfALaterVersionIsRefused) {
     bytes[8] = std::byte{3};
     const auto later = unpacked(bytes, "now.state");
     ASSERT_FALSE(later);
-    EXPECT_NE(later.error().sentence.find("a saved state of version 3"), std::string::npos) << later.error().sentence;
+    EXPECT_NE(later.error().message.find("a saved state of version 3"), std::string::npos) << later.error().message;
     bytes[8] = std::byte{1};
     bytes.resize(bytes.size() - 8);  // version 1 has no checksum
     const auto before = sure(unpacked(bytes, "now.state"));
@@ -362,7 +362,7 @@ TEST(EventOutlet, AReaderThatComesBackIsFoundThoughTheNameServiceIsGone) {
     };
     auto to = sure(resolve(at));
     to.at.address = "robot.invalid";  // no name service knows it
-    const auto format = sure(event_format("lines", {Clock{1000, 1}, {"a"}, {}}));
+    const auto format = sure(make_event_format("lines", {Clock{1000, 1}, {"a"}, {}}));
     const auto outlet = sure(event_client(to, *format, 1024));
     accepted().close();
     const auto begun = steady_now();
@@ -470,7 +470,7 @@ TEST(SiteMap, NamesAreAllOfSitesOrNotOne) {
                                                     {{"r1c1", "r1c1 (2)"}, "two channels have the name 'r1c1', which is one site"}}) {
         const auto refused = found(names);
         ASSERT_FALSE(refused) << names[1];
-        EXPECT_NE(refused.error().sentence.find(said), std::string::npos) << refused.error().sentence;
+        EXPECT_NE(refused.error().message.find(said), std::string::npos) << refused.error().message;
     }
 }
 

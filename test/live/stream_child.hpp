@@ -130,7 +130,7 @@ std::string some_lines(int count, int first = 0) {
 
 const std::vector<std::string> plain = {"--rate", "1kHz"};
 
-std::vector<std::string> with(std::vector<std::string> more) {
+std::vector<std::string> with_settings(std::vector<std::string> more) {
     more.insert(more.begin(), plain.begin(), plain.end());
     return more;
 }

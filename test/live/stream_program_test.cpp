@@ -10,7 +10,7 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
-#include "io/spikes.hpp"
+#include "io/spike_files.hpp"
 #include "live/network.hpp"
 #include "stream_child.hpp"
 
@@ -22,12 +22,12 @@ using test::sure;
 TEST(StreamProgram, AnswersInPiecesAsInOneAndEachFrameWithoutWaitingForTheNext) {
     before();
     const Folder folder;
-    Child whole(folder, with({"--quiet"}));
+    Child whole(folder, with_settings({"--quiet"}));
     whole.send(some_lines(1000)), whole.close_in();
     const auto wanted = whole.read_out();
     EXPECT_EQ(whole.wait(), 0);
     EXPECT_GT(wanted.size(), 300U);
-    Child pieces(folder, with({"--quiet"}));
+    Child pieces(folder, with_settings({"--quiet"}));
     const auto lines = some_lines(1000);
     pieces.send(lines.substr(0, 401)), pieces.send(lines.substr(401, 2));
     pollfd spikes = {pieces.out, POLLIN, 0};
@@ -41,10 +41,10 @@ TEST(StreamProgram, AnswersInPiecesAsInOneAndEachFrameWithoutWaitingForTheNext) 
 TEST(StreamProgram, AStateKeptByCtrlCIsGoneOnFromAsIfNothingHadBeen) {
     before();
     const Folder folder;
-    Child whole(folder, with({"--format", "aer", "-o", folder / "whole.aer", "--quiet"}));
+    Child whole(folder, with_settings({"--format", "aer", "-o", folder / "whole.aer", "--quiet"}));
     whole.send(some_lines(1200)), whole.close_in();
     EXPECT_EQ(whole.wait(), 0) << whole.told();
-    Child first(folder, with({"--format", "aer", "-o", folder / "first.aer", "--save-state", folder / "now.state"}));
+    Child first(folder, with_settings({"--format", "aer", "-o", folder / "first.aer", "--save-state", folder / "now.state"}));
     first.send(some_lines(700));
     int unread = 1;
     for (int k = 0; k < 2000 && unread > 0; ++k) {
@@ -55,7 +55,7 @@ TEST(StreamProgram, AStateKeptByCtrlCIsGoneOnFromAsIfNothingHadBeen) {
     first.interrupt();
     EXPECT_EQ(first.wait(), 130) << first.told();
     EXPECT_NE(first.told().find("700 frames (700 ms of force)"), std::string::npos) << first.told();
-    Child second(folder, with({"--format", "aer", "-o", folder / "second.aer", "--resume", folder / "now.state", "--quiet"}));
+    Child second(folder, with_settings({"--format", "aer", "-o", folder / "second.aer", "--resume", folder / "now.state", "--quiet"}));
     second.send(some_lines(500, 700)), second.close_in();
     EXPECT_EQ(second.wait(), 0) << second.told();
     const auto header = test::read_file(folder / "whole.aer").find("fa1") + 4;
@@ -69,13 +69,13 @@ TEST(StreamProgram, AStateKeptByCtrlCIsGoneOnFromAsIfNothingHadBeen) {
 TEST(StreamProgram, GarbageWrongWidthsAndHalfAFrameAreCountedAndTold) {
     before();
     const Folder folder;
-    Child text(folder, with({"--channels", "2", "--out", "/dev/null"}));
+    Child text(folder, with_settings({"--channels", "2", "--out", "/dev/null"}));
     text.send("a,b\n1,2\nrubbish\n1\n1,2,3\nnan,1\n1e300,1\n\x01\xff\n1,");
     text.close_in();
     EXPECT_EQ(text.wait(), 0);
     for (const auto* said : {"3 frames (7 ms of force)", "4 frames unreadable", "2 readings invalid", "1 incomplete frame"})
         EXPECT_NE(text.told().find(said), std::string::npos) << said << "\n" << text.told();
-    Child binary(folder, with({"--channels", "3", "--frames", "f64", "--stamp", "count", "--out", folder / "s.csv", "--json"}));
+    Child binary(folder, with_settings({"--channels", "3", "--frames", "f64", "--stamp", "count", "--out", folder / "s.csv", "--json"}));
     std::string bytes(100 * 28 + 5, '\xff');  // NaN everywhere, always the same number
     binary.send(bytes), binary.close_in();
     const auto doc = nlohmann::json::parse(binary.read_out());
@@ -89,7 +89,7 @@ TEST(StreamProgram, GarbageWrongWidthsAndHalfAFrameAreCountedAndTold) {
 TEST(StreamProgram, AThousandClientsOneAfterAnotherSendTheirFrames) {
     before();
     const Folder folder;
-    Child child(folder, with({"--in", "tcp:0", "--clients", "1000", "--out", folder / "s.csv", "--json"}));
+    Child child(folder, with_settings({"--in", "tcp:0", "--clients", "1000", "--out", folder / "s.csv", "--json"}));
     const int port = child.port();
     for (int k = 0; k < 1000; ++k) {
         const int fd = connected(port);
@@ -112,7 +112,7 @@ TEST(StreamProgram, FramesAnsweredTogetherGiveTheSpikesOfFramesOneByOne) {
         for (int s = 0; s < 1000; ++s) frames.push_back(k % 200 < 50 ? 0.0F : 0.002F * static_cast<float>(s));
     const std::string_view bytes(reinterpret_cast<const char*>(frames.data()), frames.size() * sizeof(float));
     const std::vector<std::string> words = {"--channels", "1000", "--frames", "f32", "--format", "aer", "--quiet"};
-    Child alone(folder, with(words));
+    Child alone(folder, with_settings(words));
     std::thread feeding([&] { alone.send(bytes), alone.close_in(); });
     const auto wanted = alone.read_out();
     feeding.join();
@@ -121,7 +121,7 @@ TEST(StreamProgram, FramesAnsweredTogetherGiveTheSpikesOfFramesOneByOne) {
     auto together = words;
     together.insert(together.end(), {"--together", "16", "--clients", "1", "--in", "tcp:0"});
     together.erase(std::find(together.begin(), together.end(), "--quiet"));
-    Child child(folder, with(together));
+    Child child(folder, with_settings(together));
     const int fd = connected(child.port());
     std::thread sending([&] {
         for (std::size_t at = 0; at < bytes.size(); at += 333'333)  // neither whole frames nor whole groups
@@ -137,7 +137,7 @@ TEST(StreamProgram, FramesAnsweredTogetherGiveTheSpikesOfFramesOneByOne) {
 TEST(StreamProgram, FramesTooFewToGoTogetherAreAnsweredWhenItIsInterrupted) {
     before();
     const Folder folder;
-    Child child(folder, with({"--channels", "4", "--frames", "f64", "--together", "16", "--in", "tcp:0", "-o", folder / "s.csv"}));
+    Child child(folder, with_settings({"--channels", "4", "--frames", "f64", "--together", "16", "--in", "tcp:0", "-o", folder / "s.csv"}));
     const int fd = connected(child.port());
     const std::array<double, 5 * 4> frames = {};
     EXPECT_EQ(::send(fd, frames.data(), sizeof frames, 0), static_cast<ssize_t>(sizeof frames));
@@ -160,11 +160,11 @@ TEST(StreamProgram, ASerialLineIsReadAsRawBytesUntilItHangsUp) {
     char name[128];
     if (::openpty(&far, &near, name, nullptr, nullptr) != 0) GTEST_SKIP() << test::no_terminals;
     ::fcntl(far, F_SETFD, FD_CLOEXEC), ::fcntl(near, F_SETFD, FD_CLOEXEC);
-    Child whole(folder, with({"--quiet"}));
+    Child whole(folder, with_settings({"--quiet"}));
     whole.send(some_lines(500)), whole.close_in();
     const auto wanted = whole.read_out();
     EXPECT_EQ(whole.wait(), 0);
-    Child child(folder, with({"--in", std::string("serial:") + name, "--baud", "115200"}));
+    Child child(folder, with_settings({"--in", std::string("serial:") + name, "--baud", "115200"}));
     ASSERT_TRUE(child.said("serial line")) << child.told();
     const auto lines = some_lines(500);
     for (std::size_t at = 0; at < lines.size(); at += 100) {
@@ -207,7 +207,7 @@ TEST(StreamProgram, ASlowReaderLosesWholeEventsAndNeverHoldsUpTheForce) {
 TEST(StreamProgram, AReaderThatGoesIsToldAndEndsIt) {
     before();
     const Folder folder;
-    Child child(folder, with({}));
+    Child child(folder, with_settings({}));
     child.send(some_lines(150));
     pollfd spikes = {child.out, POLLIN, 0};
     EXPECT_EQ(::poll(&spikes, 1, 10000), 1);
@@ -221,7 +221,7 @@ TEST(StreamProgram, WhoListensMayGoAndComeBack) {
     before();
     const Folder folder;
     const auto [door, port] = listening();
-    Child child(folder, with({"--to", std::to_string(port), "--allow-drops"}));
+    Child child(folder, with_settings({"--to", std::to_string(port), "--allow-drops"}));
     int reader = ::accept(door, nullptr, nullptr);
     child.send(some_lines(400));
     char first = 0;
@@ -237,7 +237,7 @@ TEST(StreamProgram, WhoListensMayGoAndComeBack) {
     EXPECT_EQ(child.wait(), 0) << child.told();
     EXPECT_NE(child.told().find("2 connections"), std::string::npos) << child.told();
     ::close(reader), ::close(door);
-    Child alone(folder, with({"--to", std::to_string(port)}));
+    Child alone(folder, with_settings({"--to", std::to_string(port)}));
     EXPECT_EQ(alone.wait(), 1);
     EXPECT_NE(alone.told().find("cannot connect to 127.0.0.1:"), std::string::npos) << alone.told();
 }
@@ -246,7 +246,7 @@ TEST(StreamProgram, GapsDuplicatesAndLateFramesKeepTheSamplesTime) {
     before();
     const Folder folder;
     const auto run = [&](const std::string& text, const std::string& hold) {
-        Child child(folder, with({"--stamp", "count", "--hold", hold}));
+        Child child(folder, with_settings({"--stamp", "count", "--hold", hold}));
         child.send(text), child.close_in();
         auto out = child.read_out();
         EXPECT_EQ(child.wait(), 0);
@@ -342,12 +342,12 @@ TEST(StreamProgram, AFileOnStandardInputIsWaitedForAsARecordingIs) {
 TEST(StreamProgram, FramesInBulkHaveNoPaceAndFramesByAClockHaveOne) {
     before();
     const Folder folder;
-    Child bulk(folder, with({"--json", "-o", folder / "a.csv"}));
+    Child bulk(folder, with_settings({"--json", "-o", folder / "a.csv"}));
     bulk.send(some_lines(100'000)), bulk.close_in();
     const auto in_bulk = nlohmann::json::parse(bulk.read_out());
     EXPECT_EQ(bulk.wait(), 0);
     EXPECT_TRUE(in_bulk["came_at_Hz"].is_null() && in_bulk["jitter_s"].is_null()) << in_bulk;
-    Child clocked(folder, with({"--json", "-o", folder / "b.csv"}));
+    Child clocked(folder, with_settings({"--json", "-o", folder / "b.csv"}));
     while (!std::filesystem::exists(folder / "b.csv.part")) std::this_thread::sleep_for(std::chrono::milliseconds(1));
     for (int k = 0; k < 50; ++k) clocked.send("1\n"), std::this_thread::sleep_for(std::chrono::milliseconds(5));
     clocked.close_in();
@@ -398,7 +398,7 @@ TEST(StreamProgram, TheFirstFrameOfAnotherWidthSaysWhatWasWanted) {
     child.close_in();
     EXPECT_EQ(child.wait(), 1);
     EXPECT_TRUE(child.said("no valid frame from standard input: frame 1 has 4 numbers")) << child.told();
-    Child binary(folder, with({"--channels", "16", "--frames", "f32"}));
+    Child binary(folder, with_settings({"--channels", "16", "--frames", "f32"}));
     binary.send("abcdefgh"), binary.close_in();
     EXPECT_EQ(binary.wait(), 1);
     EXPECT_TRUE(binary.said("no complete frame from standard input: received 8 bytes, but a frame of 'sa1,fa1' (16 sites) has 64"))
@@ -407,7 +407,7 @@ TEST(StreamProgram, TheFirstFrameOfAnotherWidthSaysWhatWasWanted) {
     nothing.close_in();
     EXPECT_EQ(nothing.wait(), 1);
     EXPECT_TRUE(nothing.said("no frame from standard input")) << nothing.told();
-    Child stamped(folder, with({"--channels", "2", "--stamp", "count"}));
+    Child stamped(folder, with_settings({"--channels", "2", "--stamp", "count"}));
     stamped.send("1,1,1\n2.5,1,1\n"), stamped.close_in();
     EXPECT_EQ(stamped.wait(), 0);
     EXPECT_TRUE(stamped.said("frame 2 does not begin with its sequence number, an integer")) << stamped.told();
@@ -535,7 +535,7 @@ TEST(StreamProgram, ClassesOfAPopulationCanBeSet) {
 TEST(StreamProgram, FramesSentBeforeAnInterruptAreAnsweredAlsoThoseInTheSocket) {
     before();
     const Folder folder;
-    Child child(folder, with({"--in", "tcp:0", "--json", "-o", folder / "s.csv"}));
+    Child child(folder, with_settings({"--in", "tcp:0", "--json", "-o", folder / "s.csv"}));
     const int fd = connected(child.port());
     std::string frames;
     for (int k = 0; k < 300'000; ++k) frames += "2\n";
@@ -555,7 +555,7 @@ TEST(StreamProgram, FramesSentBeforeAnInterruptAreAnsweredAlsoThoseInTheSocket) 
 TEST(StreamProgram, AnIdleSenderMakesWayForTheNextAndStaysIfThereIsNone) {
     before();
     const Folder folder;
-    Child child(folder, with({"--in", "tcp:0", "--idle-limit", "300ms", "--clients", "2", "--json", "-o", folder / "s.csv"}));
+    Child child(folder, with_settings({"--in", "tcp:0", "--idle-limit", "300ms", "--clients", "2", "--json", "-o", folder / "s.csv"}));
     const int port = child.port(), silent = connected(port);
     EXPECT_EQ(::send(silent, "1\n", 2, MSG_NOSIGNAL), 2);
     std::this_thread::sleep_for(std::chrono::milliseconds(700));
@@ -597,12 +597,12 @@ void send_datagram(int fd, std::string_view text) { EXPECT_EQ(::send(fd, text.da
 TEST(StreamProgram, FramesInDatagramsGiveTheSpikesOfFramesInAPipe) {
     before();
     const Folder folder;
-    Child whole(folder, with({"--quiet"}));
+    Child whole(folder, with_settings({"--quiet"}));
     whole.send(some_lines(600)), whole.close_in();
     const auto wanted = whole.read_out();
     EXPECT_EQ(whole.wait(), 0);
     EXPECT_GT(wanted.size(), 200U);
-    Child child(folder, with({"--in", "udp:0", "--clients", "1"}));
+    Child child(folder, with_settings({"--in", "udp:0", "--clients", "1"}));
     const int fd = datagrams_to(child.port());
     for (int k = 0; k < 600; k += 3) {
         const auto lines = some_lines(3, k);
@@ -619,7 +619,7 @@ TEST(StreamProgram, FramesInDatagramsGiveTheSpikesOfFramesInAPipe) {
 TEST(StreamProgram, NumberedDatagramsKeepTheirTimeAndOnlyOneSenderIsHeard) {
     before();
     const Folder folder;
-    Child child(folder, with({"--in", "udp:0", "--clients", "1", "--stamp", "count", "--frames", "f64", "--json", "-o", folder / "s.csv"}));
+    Child child(folder, with_settings({"--in", "udp:0", "--clients", "1", "--stamp", "count", "--frames", "f64", "--json", "-o", folder / "s.csv"}));
     const int port = child.port(), fd = datagrams_to(port), stranger = datagrams_to(port);
     const auto frame = [](std::uint32_t number, double force) {
         std::string bytes(12, '\0');

@@ -31,25 +31,25 @@ TEST(Contract, EachAnswersToATouchOfItsKind) {
 }
 
 TEST(Contract, ParametersOfPartsThatJoinNeverShareAName) {
-    const std::vector<std::vector<Card>> kinds = {sensor_cards(), transducer_cards(), converter_cards(), receptor_cards(), neuron_cards()};
+    const std::vector<std::vector<CatalogEntry>> kinds = {sensor_cards(), transducer_cards(), converter_cards(), receptor_cards(), neuron_cards()};
     for (const auto& first : kinds)
         for (const auto& second : kinds) {
             if (&first == &second) continue;  // two of a kind do not join
             for (const auto& a : first)
                 for (const auto& b : second)
-                    for (const auto& x : a.rows)
-                        for (const auto& y : b.rows) EXPECT_NE(x.name, y.name) << a.name << " and " << b.name;
+                    for (const auto& x : a.parameters)
+                        for (const auto& y : b.parameters) EXPECT_NE(x.name, y.name) << a.name << " and " << b.name;
         }
 }
 
 TEST(Contract, EveryRowHasASentenceAReadableUnitAndItsDefaultInRange) {
-    for (const auto& cards : {sensor_cards(), transducer_cards(), converter_cards(), receptor_cards(), neuron_cards(), stimulus_cards()})
+    for (const auto& cards : {sensor_cards(), transducer_cards(), converter_cards(), receptor_cards(), neuron_cards(), stimulus_catalog()})
         for (const auto& card : cards) {
-            EXPECT_FALSE(card.sentence.empty() || card.source.empty()) << card.name;
-            for (const auto& row : card.rows) {
-                EXPECT_FALSE(row.sentence.empty()) << card.name << '.' << row.name;
+            EXPECT_FALSE(card.description.empty() || card.source.empty()) << card.name;
+            for (const auto& row : card.parameters) {
+                EXPECT_FALSE(row.description.empty()) << card.name << '.' << row.name;
                 EXPECT_TRUE(parse_unit(row.unit)) << card.name << '.' << row.name << ": " << row.unit;
-                EXPECT_TRUE(row.initial >= row.low && row.initial <= row.high) << card.name << '.' << row.name;
+                EXPECT_TRUE(row.default_value >= row.low && row.default_value <= row.high) << card.name << '.' << row.name;
             }
         }
 }
@@ -59,7 +59,7 @@ TEST(Contract, ValuesOutsideARowsRangeAreRefusedByName) {
         const auto plan = test::sure(plan_afferent(name, {}));
         for (const auto& p : *plan.parameters) {
             for (const double value : {p.row.high * 2 + 1, p.row.low - std::abs(p.row.low) - 1}) {
-                const Wish wish{name, std::string(p.row.name), fmt::format("{}", value)};
+                const ParameterOverride wish{name, std::string(p.row.name), fmt::format("{}", value)};
                 const auto refused = plan_afferent(name, std::span(&wish, 1));
                 ASSERT_FALSE(refused) << wish.text();
                 EXPECT_NE(refused.error().text().find(std::string(p.row.name) + " = "), std::string::npos) << refused.error().text();
@@ -87,7 +87,7 @@ TEST(Contract, BlocksOfAnySizeGiveTheSameSpikesAndTraces) {
                 const auto size = std::min(sizes[n % sizes.size()], f.size() - k);
                 std::vector<double*> here;
                 for (auto& p : probes) here.push_back(p.data() + k);
-                Answer answer{out, 3, here};
+                ResponseBlock answer{out, 3, here};
                 state = test::sure(unpack(pack(state)));  // and saved and resumed between blocks
                 RC_ASSERT(static_cast<bool>(a->respond(std::span(f).subspan(k, size), state, answer)));
                 k += size;
@@ -100,7 +100,7 @@ TEST(Contract, BlocksOfAnySizeGiveTheSameSpikesAndTraces) {
         RC_ASSERT(whole.second == parts.second);
         RC_ASSERT(spikes(*a, f) == [&] {
             auto s = whole.first;
-            for (auto& x : s) x.unit = 0;
+            for (auto& x : s) x.afferent_index = 0;
             return s;
         }());  // watching changes nothing
     }));
@@ -110,14 +110,14 @@ TEST(Contract, AForceThatIsNoNumberIsRefused) {
     for (const auto& name : every_afferent())
         for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity()}) {
             std::vector<Spike> out;
-            Answer answer{out};
+            ResponseBlock answer{out};
             const auto a = afferent(name);
             auto state = a->start();
             std::vector<double> f(100, 1.0);
             f[17] = bad;
             const auto done = a->respond(f, state, answer);
             ASSERT_FALSE(done) << name;
-            EXPECT_NE(done.error().sentence.find("the force of sample 17 is"), std::string::npos) << done.error().sentence;
+            EXPECT_NE(done.error().message.find("the force of sample 17 is"), std::string::npos) << done.error().message;
         }
 }
 
@@ -125,7 +125,7 @@ TEST(Contract, ForcesFarTooLargeGiveSpikesOrAnErrorNeverSilence) {
     for (const auto& name : every_afferent())
         for (const double newtons : {100.0, 3e4, 1e9}) {
             std::vector<Spike> out;
-            Answer answer{out};
+            ResponseBlock answer{out};
             const auto a = afferent(name);
             auto state = a->start();
             const auto f = force("step", {.settings = {"step.F_max=1000N"}});
@@ -135,7 +135,7 @@ TEST(Contract, ForcesFarTooLargeGiveSpikesOrAnErrorNeverSilence) {
             if (done) {
                 EXPECT_FALSE(out.empty()) << name << ' ' << newtons;
             } else {
-                EXPECT_EQ(done.error().code, Code::not_converged);
+                EXPECT_EQ(done.error().code, ErrorCode::not_converged);
             }
         }
 }
@@ -183,10 +183,10 @@ TEST(Contract, SpikesComeInOrderInsideTheirSteps) {
 
 TEST(Contract, AStateOfAnotherAfferentIsRefused) {
     std::vector<Spike> out;
-    Answer answer{out};
+    ResponseBlock answer{out};
     auto state = afferent("sa1")->start();
     const std::vector<double> f(10);
-    EXPECT_EQ(afferent("fa1")->respond(f, state, answer).error().sentence,
+    EXPECT_EQ(afferent("fa1")->respond(f, state, answer).error().message,
               "a state of 'sa1b+lif-b/2, T = 0.0001 s' was given to 'fa1b+lif-b/2, T = 0.0001 s'");
 }
 

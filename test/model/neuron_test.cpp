@@ -194,11 +194,11 @@ TEST(Neuron, SlopesByDualsMatchFiniteDifferencesForEveryParameter) {
             };
             Params p;
             if constexpr (has_refractory_time<N>) p.t_ref = 1.3e-3;  // at 0 it would have a slope to one side only
-            const auto dual = last_time(N<num::Dual>(Seeded<Params>{p, field.at}, dt, Method::exact), num::Dual{});
-            const double scale = p.*field.at != 0 ? std::abs(p.*field.at) : field.unit == "V" ? 1e-2 : field.unit == "s" ? 1e-3 : 1e-6;
+            const auto dual = last_time(N<num::Dual>(Seeded<Params>{p, field.member}, dt, Method::exact), num::Dual{});
+            const double scale = p.*field.member != 0 ? std::abs(p.*field.member) : field.unit == "V" ? 1e-2 : field.unit == "s" ? 1e-3 : 1e-6;
             const auto moved = [&](double by) {
                 Params q = p;
-                q.*field.at += by;
+                q.*field.member += by;
                 return last_time(N<double>(Same<Params>{q}, dt, Method::exact), 0.0);
             };
             const double h = 1e-6 * scale;

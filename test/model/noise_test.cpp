@@ -20,7 +20,7 @@ Noisy run(const std::string& name, const std::vector<std::string>& settings, con
     for (std::size_t k = 0; k < f.size(); k += block) {
         std::vector<double*> here;
         for (auto& p : out.probes) here.push_back(p.data() + k);
-        Answer answer{out.spikes, unit, here};
+        ResponseBlock answer{out.spikes, unit, here};
         EXPECT_TRUE(a->respond(std::span(f).subspan(k, std::min(block, f.size() - k)), state, answer));
     }
     return out;

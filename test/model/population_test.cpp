@@ -30,7 +30,7 @@ struct Case {
 std::vector<Spike> one_by_one(const Case& c) {
     std::vector<Spike> out;
     for (std::size_t u = 0; u < c.units(); ++u) {
-        Answer answer{out, static_cast<std::uint32_t>(u)};
+        ResponseBlock answer{out, static_cast<std::uint32_t>(u)};
         const auto a = make_afferent(c.plan(u), c.run);
         auto state = a->start();
         if (auto ok = a->respond(c.force[u], state, answer); !ok) throw std::runtime_error(ok.error().text());
@@ -43,7 +43,7 @@ struct How {
     InstructionSet set = InstructionSet::baseline;
     Precision precision = Precision::in_double;
     std::vector<std::size_t> blocks = {4096};
-    Pool* pool = nullptr;
+    ThreadPool* pool = nullptr;
 };
 
 std::unique_ptr<Population> population(const Case& c, const How& how) {
@@ -56,7 +56,7 @@ std::unique_ptr<Population> population(const Case& c, const How& how) {
 template <class Feed>
 std::vector<Spike> in_blocks(const Case& c, const How& how, const Feed& feed) {
     const auto p = population(c, how);
-    Pool own(1);
+    ThreadPool own(1);
     std::vector<Spike> out;
     const std::size_t samples = c.force[0].size();
     for (std::size_t k = 0, n = 0; k < samples; ++n) {
@@ -69,7 +69,7 @@ std::vector<Spike> in_blocks(const Case& c, const How& how, const Feed& feed) {
 }
 
 std::vector<Spike> on_lanes(const Case& c, const How& how) {
-    return in_blocks(c, how, [&](Population& p, std::size_t first, std::size_t count, PopulationAnswer& answer, Pool& pool) {
+    return in_blocks(c, how, [&](Population& p, std::size_t first, std::size_t count, PopulationAnswer& answer, ThreadPool& pool) {
         std::vector<const double*> columns;
         for (const auto& f : c.force) columns.push_back(f.data() + first);
         return p.respond(ForceColumns{columns}, count, answer, pool);
@@ -104,7 +104,7 @@ AfferentPlan scattered(AfferentPlan plan, std::uint64_t seed, std::uint32_t unit
         auto& value = plan.values[k];
         if (row.name == "t_ref")
             value = unit % 3 ? 0 : 1e-3 * unit;
-        else if (!row.one_for_all && row.name != "V_reset" && row.name != "c")
+        else if (!row.is_shared_by_copies && row.name != "V_reset" && row.name != "c")
             value = std::clamp(value * (1 + 0.1 * normal(seed, unit, k, 0)), row.low, row.high);
     }
     return plan;
@@ -142,7 +142,7 @@ TEST(Population, EveryChainOnLanesGivesTheBitsOfOneByOne) {
 }
 
 TEST(Population, AnyChunksAnyThreadsAnyLanesGiveTheSameSpikes) {
-    Pool three(3);
+    ThreadPool three(3);
     EXPECT_TRUE(rc::check("random blocks, chains, spreads, sets and threads", [&] {
         const auto names = every_chain();
         const auto& name = names[*rc::gen::inRange<std::size_t>(0, names.size())];
@@ -166,7 +166,7 @@ TEST(Population, AHundredThousandRandomAfferentsAnswerAsOneByOne) {
     for (const auto& p : plans) pointers.push_back(&p);
     std::vector<Spike> right;
     for (std::uint32_t u = 0; u < plans.size(); ++u) {
-        Answer answer{right, u};
+        ResponseBlock answer{right, u};
         const auto a = make_afferent(plans[u], run);
         auto state = a->start();
         ASSERT_TRUE(static_cast<bool>(a->respond(press, state, answer)));
@@ -175,7 +175,7 @@ TEST(Population, AHundredThousandRandomAfferentsAnswerAsOneByOne) {
     EXPECT_GT(right.size(), 1'000'000U);
     for (const auto set : lane_sets())
         for (const unsigned threads : {1U, 2U, 5U}) {
-            Pool pool(threads);
+            ThreadPool pool(threads);
             const auto p = sure(make_population({pointers, plans.size()}, run, set));
             std::vector<Spike> out;
             PopulationAnswer answer{&out};
@@ -204,13 +204,13 @@ TEST(Population, TilesAndWordsAreReadAsColumnsAre) {
     ASSERT_FALSE(right.empty());
     for (const auto set : lane_sets()) {
         EXPECT_EQ(in_blocks(c, {set, Precision::in_double, {33, 100}},
-                            [&](Population& p, std::size_t first, std::size_t count, PopulationAnswer& answer, Pool& pool) {
+                            [&](Population& p, std::size_t first, std::size_t count, PopulationAnswer& answer, ThreadPool& pool) {
                                 const auto rows = tiles<double>(c, first, count, 1);
                                 return p.respond(ForceTiles<double>{rows.data()}, count, answer, pool);
                             }),
                   right);
         EXPECT_EQ(in_blocks(c, {set, Precision::in_double, {33, 100}},
-                            [&](Population& p, std::size_t first, std::size_t count, PopulationAnswer& answer, Pool& pool) {
+                            [&](Population& p, std::size_t first, std::size_t count, PopulationAnswer& answer, ThreadPool& pool) {
                                 const auto rows = tiles<std::int16_t>(c, first, count, newtons);
                                 return p.respond(ForceWords{rows.data(), newtons}, count, answer, pool);
                             }),
@@ -222,7 +222,7 @@ TEST(Population, OneProfileIsEveryUnitsOwnForce) {
     for (const auto& name : every_chain()) {
         Case c = own_parameters(name, 70, {5e-4}, 0.3, 4);
         for (auto& f : c.force) f = c.force[0];
-        const auto by_profile = [&](Population& p, std::size_t first, std::size_t count, PopulationAnswer& answer, Pool& pool) {
+        const auto by_profile = [&](Population& p, std::size_t first, std::size_t count, PopulationAnswer& answer, ThreadPool& pool) {
             return p.respond(ForceProfile{std::span(c.force[0]).subspan(first, count)}, count, answer, pool);
         };
         for (const auto set : lane_sets()) EXPECT_EQ(in_blocks(c, {set, Precision::in_double, {77}}, by_profile), one_by_one(c)) << name;
@@ -246,12 +246,12 @@ TEST(Population, AGainTimesAProfileIsThatForceToRoundingWhetherTransducedOnceOrB
             ASSERT_FALSE(right.empty());
             const auto found =
                 in_blocks(c, {lane_sets().back(), Precision::in_double, {100}},
-                          [&](Population& p, std::size_t first, std::size_t count, PopulationAnswer& answer, Pool& pool) {
+                          [&](Population& p, std::size_t first, std::size_t count, PopulationAnswer& answer, ThreadPool& pool) {
                               return p.respond(ForceProfile{std::span(profile).subspan(first, count), gain}, count, answer, pool);
                           });
             ASSERT_EQ(found.size(), right.size()) << name;
             for (std::size_t k = 0; k < found.size(); ++k) {
-                ASSERT_EQ(found[k].unit, right[k].unit) << name;
+                ASSERT_EQ(found[k].afferent_index, right[k].afferent_index) << name;
                 ASSERT_NEAR(static_cast<double>(found[k].step) + found[k].offset, static_cast<double>(right[k].step) + right[k].offset,
                             1e-7);
             }
@@ -268,14 +268,14 @@ TEST(Population, MarksAreTheSampledSpikes) {
     for (const auto set : lane_sets()) {
         std::vector<std::uint64_t> marks;
         PopulationAnswer answer{nullptr, &marks};
-        Pool pool(2);
+        ThreadPool pool(2);
         ASSERT_TRUE(static_cast<bool>(population(c, {set})->respond(ForceColumns{columns}, steps, answer, pool)));
         ASSERT_EQ(marks.size(), 2 * steps);
         std::vector<std::uint64_t> right(marks.size());
         std::int64_t again = 0;
         for (const auto& s : one_by_one(c)) {
-            auto& word = right[s.unit / 64 * steps + static_cast<std::size_t>(s.step)];
-            const auto bit = std::uint64_t{1} << s.unit % 64;
+            auto& word = right[s.afferent_index / 64 * steps + static_cast<std::size_t>(s.step)];
+            const auto bit = std::uint64_t{1} << s.afferent_index % 64;
             again += (word & bit) != 0;
             word |= bit;
         }
@@ -295,12 +295,12 @@ TEST(Population, AForceThatIsNoNumberIsRefusedByUnitAndSampleInEveryChain) {
                 for (const auto set : lane_sets()) {
                     std::vector<Spike> out;
                     PopulationAnswer answer{&out};
-                    Pool pool(1);
+                    ThreadPool pool(1);
                     const auto done = population(c, {set})->respond(ForceColumns{columns}, 100, answer, pool);
                     ASSERT_FALSE(done) << name << ' ' << bad << ' ' << at << ' ' << name_of(set);
                     EXPECT_EQ(answer.failed, 66U) << name;
-                    EXPECT_NE(done.error().sentence.find(fmt::format("the force of sample {} is", at)), std::string::npos)
-                        << done.error().sentence;
+                    EXPECT_NE(done.error().message.find(fmt::format("the force of sample {} is", at)), std::string::npos)
+                        << done.error().message;
                 }
             }
 }
@@ -310,7 +310,7 @@ TEST(Population, WhatCannotStandSideBySideIsRefused) {
         std::vector<const AfferentPlan*> pointers;
         for (const auto& p : plans) pointers.push_back(&p);
         const auto made = make_population({pointers, plans.size()}, run, InstructionSet::baseline);
-        return made ? std::string() : made.error().sentence;
+        return made ? std::string() : made.error().message;
     };
     const auto plan = [](const std::string& name, const std::vector<std::string>& settings = {}) {
         return sure(plan_afferent(name, test::wishes(settings)));
@@ -327,7 +327,7 @@ TEST(Population, WhatCannotStandSideBySideIsRefused) {
 TEST(Population, ItsForceKeepsToOneWay) {
     const Case c{{sure(plan_afferent("sa1", {}))}, forces(3, 1e3, 0.1), {1e-3}};
     const auto p = population(c, {});
-    Pool pool(1);
+    ThreadPool pool(1);
     PopulationAnswer answer;
     std::vector<const double*> columns;
     for (const auto& f : c.force) columns.push_back(f.data());
@@ -353,7 +353,7 @@ TEST(Population, ItsForceKeepsToOneWay) {
 void expect_near(const Case& c, InstructionSet set, double bound) {
     const auto trains = [&](const std::vector<Spike>& all) {
         std::vector<std::vector<double>> of(c.units());
-        for (const auto& s : all) of[s.unit].push_back((static_cast<double>(s.step) + s.offset) * c.run.dt);
+        for (const auto& s : all) of[s.afferent_index].push_back((static_cast<double>(s.step) + s.offset) * c.run.dt);
         return of;
     };
     const auto right = trains(one_by_one(c)), found = trains(on_lanes(c, {set, Precision::in_float}));

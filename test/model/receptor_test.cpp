@@ -56,14 +56,14 @@ TEST(Receptor, SlopesByDualsMatchFiniteDifferencesForEveryParameter) {
                     return i[0].to;
                 };
                 const Params p;
-                const double scale = p.*field.at != 0 ? p.*field.at : 1e-6, h = 1e-5 * scale;
+                const double scale = p.*field.member != 0 ? p.*field.member : 1e-6, h = 1e-5 * scale;
                 const auto moved = [&](double by) {
                     Params q = p;
-                    q.*field.at += by;
+                    q.*field.member += by;
                     return current(R<double>(Same<Params>{q}, 1e-3, method), 0.0);
                 };
                 const double slope = (moved(h) - moved(-h)) / (2 * h) * scale,
-                             made = current(R<num::Dual>(Seeded<Params>{p, field.at}, 1e-3, method), num::Dual{}).d * scale;
+                             made = current(R<num::Dual>(Seeded<Params>{p, field.member}, 1e-3, method), num::Dual{}).d * scale;
                 EXPECT_NEAR(made, slope, 1e-7 * std::abs(slope) + 1e-17) << R<double>::name << '.' << field.name;
             }
     });
@@ -77,7 +77,7 @@ TEST(Receptor, StaticPartsAreProportionalToForce) {
         std::vector<double*> shown;
         for (auto& p : probes) shown.push_back(p.data());
         std::vector<Spike> out;
-        Answer answer{out, 0, shown};
+        ResponseBlock answer{out, 0, shown};
         auto state = a->start();
         ASSERT_TRUE(a->respond(f, state, answer));
         for (std::size_t p = 0; p < probes.size(); ++p)
@@ -132,13 +132,13 @@ TEST(Afferent, TouchSimsNamesAndOtherSpellingsAreAccepted) {
 }
 
 TEST(Afferent, WrongNamesAreRefusedWithWhatIsNear) {
-    EXPECT_EQ(plan_afferent("sa", {}).error().sentence,
+    EXPECT_EQ(plan_afferent("sa", {}).error().message,
               "unknown afferent 'sa'; did you mean 'sa1'? ('corpuscle list' shows them all; a receptor and a neuron are combined as "
               "'sa1b+lif-b')");
-    EXPECT_EQ(plan_afferent("sa1b+lifb", {}).error().sentence,
+    EXPECT_EQ(plan_afferent("sa1b+lifb", {}).error().message,
               "sa1b+lifb: unknown neuron 'lifb'; did you mean 'lif-b'? (there are lif-a, lif-b, adaptive, izhikevich, adex)");
-    EXPECT_EQ(plan_afferent("sa1", test::wishes({"sa1.V_reset=600mV"})).error().sentence, "sa1: V_reset = 0.6 must be below V_th = 0.5");
-    EXPECT_EQ(plan_afferent("sa1", test::wishes({"sa1.f_B=25ms"})).error().sentence,
+    EXPECT_EQ(plan_afferent("sa1", test::wishes({"sa1.V_reset=600mV"})).error().message, "sa1: V_reset = 0.6 must be below V_th = 0.5");
+    EXPECT_EQ(plan_afferent("sa1", test::wishes({"sa1.f_B=25ms"})).error().message,
               "sa1.f_B: '25ms' is a time; expected a value in Hz, such as '2 Hz'");
 }
 

@@ -137,10 +137,10 @@ TEST(Spread, GivesCopiesWithNamesAndNumbersThatShareWhatTheyAreMadeOf) {
 TEST(Contract, EveryParameterThatCopiesDoNotShareCanDifferInEveryAfferent) {
     for (const auto& name : test::every_afferent()) {
         const auto plan = sure(plan_afferent(name, {}));
-        std::vector<Wish> wishes;
+        std::vector<ParameterOverride> wishes;
         for (std::size_t k = 0; k < plan.values.size(); ++k) {
             const auto& row = (*plan.parameters)[k].row;
-            if (!row.one_for_all && plan.values[k] != 0) wishes.push_back({name, std::string(row.name), "2%"});
+            if (!row.is_shared_by_copies && plan.values[k] != 0) wishes.push_back({name, std::string(row.name), "2%"});
         }
         const auto spreads = sure(spreads_for(plan, name, wishes));
         const auto copies = sure(copies_of(plan, 4, spreads, 3));
@@ -148,7 +148,7 @@ TEST(Contract, EveryParameterThatCopiesDoNotShareCanDifferInEveryAfferent) {
             EXPECT_FALSE(refusal(copy)) << copy.name;
             for (const auto& s : spreads) EXPECT_NE(copy.value(s.parameter), plan.value(s.parameter)) << copy.name << '.' << s.parameter;
             for (std::size_t k = 0; k < copy.values.size(); ++k)
-                EXPECT_FALSE(outside(copy.name, (*copy.parameters)[k].row, copy.values[k])) << copy.name;
+                EXPECT_FALSE(check_range(copy.name, (*copy.parameters)[k].row, copy.values[k])) << copy.name;
             EXPECT_TRUE(make_afferent(copy, {1e-3})) << copy.name;
         }
     }
@@ -156,12 +156,12 @@ TEST(Contract, EveryParameterThatCopiesDoNotShareCanDifferInEveryAfferent) {
 
 TEST(Contract, CopiesShareWhatMustBeWholeAndEverySubstep) {
     for (const auto at : Adc::whole)
-        for (const auto& f : Adc::fields) EXPECT_TRUE(f.at != at || f.one_for_all) << f.name;
+        for (const auto& f : Adc::fields) EXPECT_TRUE(f.member != at || f.is_shared_by_copies) << f.name;
     int substeps = 0;
     for (const auto& card : neuron_cards())
-        for (const auto& row : card.rows) {
+        for (const auto& row : card.parameters) {
             if (row.name != "substep") continue;
-            EXPECT_TRUE(row.one_for_all) << card.name;
+            EXPECT_TRUE(row.is_shared_by_copies) << card.name;
             ++substeps;
         }
     EXPECT_GE(substeps, 2);

@@ -118,7 +118,7 @@ TEST(Lanes, TheEnvironmentNamesTheInstructionSetOrIsRefused) {
     const auto refused = instruction_set();
     unsetenv("CORPUSCLE_ISA");
     ASSERT_FALSE(refused);
-    EXPECT_NE(refused.error().sentence.find("CORPUSCLE_ISA=sse9: this machine supports scalar, baseline"), std::string::npos);
+    EXPECT_NE(refused.error().message.find("CORPUSCLE_ISA=sse9: this machine supports scalar, baseline"), std::string::npos);
     EXPECT_EQ(*instruction_set(), instruction_sets().back());
 }
 

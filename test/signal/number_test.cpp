@@ -70,7 +70,7 @@ TEST(Elementary, SlopesOfDualsMatchFiniteDifferences) {
         check([](Dual a) { return num::cos_turns(a); }, x);
         check([](Dual a) { return num::exprel(a); }, x);
         check([](Dual a) { return (a * a - Dual{2} / a + -a) / (a + Dual{1}); }, x);
-        check([](Dual a) { return num::max(a, Dual{2}) + num::min(a, Dual{2}) * num::positive(a - Dual{1}) + num::abs(-a); }, x);
+        check([](Dual a) { return num::max(a, Dual{2}) + num::min(a, Dual{2}) * num::positive_part(a - Dual{1}) + num::abs(-a); }, x);
     }
 }
 

@@ -63,18 +63,18 @@ TEST(Quantity, RefusesWhatIsNoneAndSaysWhatWouldBeRight) {
     for (const auto& c : cases) {
         const auto value = parse_quantity(c.text, c.unit);
         ASSERT_FALSE(value) << c.text << " gave " << *value;
-        EXPECT_EQ(value.error().sentence, c.said);
+        EXPECT_EQ(value.error().message, c.said);
     }
 }
 
 TEST(Quantity, OfEveryRowReadsItsOwnDefaultBack) {
-    for (const auto& cards : {receptor_cards(), neuron_cards(), stimulus_cards()})
+    for (const auto& cards : {receptor_cards(), neuron_cards(), stimulus_catalog()})
         for (const auto& card : cards)
-            for (const auto& row : card.rows) {
-                const auto text = format_quantity(row.initial, row.unit);
+            for (const auto& row : card.parameters) {
+                const auto text = format_quantity(row.default_value, row.unit);
                 const auto back = parse_quantity(text, row.unit);
                 ASSERT_TRUE(back) << card.name << '.' << row.name << ": " << back.error().text();
-                EXPECT_NEAR(*back, row.initial, 1e-3 * std::abs(row.initial)) << card.name << '.' << row.name << " as " << text;
+                EXPECT_NEAR(*back, row.default_value, 1e-3 * std::abs(row.default_value)) << card.name << '.' << row.name << " as " << text;
             }
 }
 

@@ -8,7 +8,7 @@ namespace {
 using test::Asked, test::force;
 
 TEST(Stimulus, EachIsFiniteNeverPullsAndComesAgainTheSame) {
-    for (const auto& card : stimulus_cards()) {
+    for (const auto& card : stimulus_catalog()) {
         const std::string name(card.name);
         const auto once = force(name), again = force(name);
         ASSERT_FALSE(once.empty()) << name;
@@ -20,7 +20,7 @@ TEST(Stimulus, EachIsFiniteNeverPullsAndComesAgainTheSame) {
 }
 
 TEST(Stimulus, EachIsTheSameAtEveryRate) {
-    for (const auto& card : stimulus_cards()) {
+    for (const auto& card : stimulus_catalog()) {
         const std::string name(card.name);
         const auto coarse = force(name, {.rate = 1e3}), fine = force(name, {.rate = 8e3});
         for (std::size_t k = 0; k < coarse.size(); ++k) ASSERT_NEAR(coarse[k], fine[8 * k], 1e-9) << name << " at " << k;
@@ -28,7 +28,7 @@ TEST(Stimulus, EachIsTheSameAtEveryRate) {
 }
 
 TEST(Stimulus, PhasesFollowEachOtherToTheEnd) {
-    for (const auto& card : stimulus_cards()) {
+    for (const auto& card : stimulus_catalog()) {
         const auto source = test::sure(make_stimulus(card.name, {}, 1e3, 0));
         double at = 0;
         for (const auto& p : source->phases()) {

@@ -12,24 +12,24 @@ namespace {
 
 TEST(Clock, IsAnExactFractionOfASecond) {
     const auto fraction = [](double rate) {
-        const auto c = test::sure(clock_of(rate));
-        return std::pair(c.per, c.seconds);
+        const auto c = test::sure(make_clock(rate));
+        return std::pair(c.rate_numerator, c.rate_denominator);
     };
     EXPECT_EQ(fraction(1000), std::pair(std::int64_t{1000}, std::int64_t{1}));
     EXPECT_EQ(fraction(242.6), std::pair(std::int64_t{1213}, std::int64_t{5}));
     EXPECT_EQ(fraction(0.1), std::pair(std::int64_t{1}, std::int64_t{10}));
-    for (const double rate : {M_PI, 1 / 3.0, 1e9 + 0.5, 44100 / 1.001}) EXPECT_NEAR(test::sure(clock_of(rate)).rate(), rate, 1e-12 * rate);
+    for (const double rate : {M_PI, 1 / 3.0, 1e9 + 0.5, 44100 / 1.001}) EXPECT_NEAR(test::sure(make_clock(rate)).rate(), rate, 1e-12 * rate);
 }
 
 TEST(Clock, TimesOfALongRunAreNotAccumulated) {
-    const auto c = test::sure(clock_of(10e3, 2.5));
+    const auto c = test::sure(make_clock(10e3, 2.5));
     EXPECT_EQ(c.time(0), 2.5);
     EXPECT_EQ(c.time(36'000'000'000), 2.5 + 3.6e6);  // a thousand hours
     EXPECT_EQ(c.time(11, 0.5), 2.5 + 10.5 / 10e3);
 }
 
 TEST(Clock, RefusesRatesThatAreNone) {
-    for (const double rate : {0.0, -1.0, 1e13, std::nan("")}) EXPECT_FALSE(clock_of(rate)) << rate;
+    for (const double rate : {0.0, -1.0, 1e13, std::nan("")}) EXPECT_FALSE(make_clock(rate)) << rate;
 }
 
 TEST(Spike, IsOrderedByTimeThenUnit) {
@@ -74,7 +74,7 @@ TEST(State, OneOfTheVersionBeforeIsReadAndOneOfALaterVersionIsRefused) {
     bytes[6] = std::byte{'3'};
     const auto later = unpack(bytes);
     ASSERT_FALSE(later);
-    EXPECT_NE(later.error().sentence.find("a later version than 2"), std::string::npos) << later.error().sentence;
+    EXPECT_NE(later.error().message.find("a later version than 2"), std::string::npos) << later.error().message;
     bytes[6] = std::byte{'1'};
     bytes.resize(bytes.size() - 8);  // version 1 has no checksum
     const auto before = unpack(bytes);
@@ -83,10 +83,10 @@ TEST(State, OneOfTheVersionBeforeIsReadAndOneOfALaterVersionIsRefused) {
 }
 
 TEST(Random, PhiloxGivesThePublishedWords) {  // known answers of Random123, kat_vectors
-    EXPECT_EQ(philox({0, 0, 0, 0}, 0), (Words{0x6627e8d5, 0xe169c58d, 0xbc57ac4c, 0x9b00dbd8}));
-    EXPECT_EQ(philox({~0U, ~0U, ~0U, ~0U}, ~0ULL), (Words{0x408f276d, 0x41c83b0e, 0xa20bc7c6, 0x6d5451fd}));
+    EXPECT_EQ(philox({0, 0, 0, 0}, 0), (PhiloxCounter{0x6627e8d5, 0xe169c58d, 0xbc57ac4c, 0x9b00dbd8}));
+    EXPECT_EQ(philox({~0U, ~0U, ~0U, ~0U}, ~0ULL), (PhiloxCounter{0x408f276d, 0x41c83b0e, 0xa20bc7c6, 0x6d5451fd}));
     EXPECT_EQ(philox({0x243f6a88, 0x85a308d3, 0x13198a2e, 0x03707344}, 0x299f31d0a4093822),
-              (Words{0xd16cfe09, 0x94fdcceb, 0x5001e420, 0x24126ea1}));
+              (PhiloxCounter{0xd16cfe09, 0x94fdcceb, 0x5001e420, 0x24126ea1}));
 }
 
 TEST(Random, NormalDeviatesHaveTheMomentsOfANormal) {

@@ -21,9 +21,9 @@ Sites sheet(double half, double pitch) {
 
 std::unique_ptr<Contact> pressing(std::string_view indenter, std::initializer_list<const char*> measures, const Sites& sites,
                                   double rate = 1000) {
-    std::vector<Wish> wishes;
-    for (const std::string text : measures) wishes.push_back(*parse_wish("contact." + text));
-    auto made = make_contact(indenter, wishes, sites, *clock_of(rate));
+    std::vector<ParameterOverride> wishes;
+    for (const std::string text : measures) wishes.push_back(*parse_override("contact." + text));
+    auto made = make_contact(indenter, wishes, sites, *make_clock(rate));
     EXPECT_TRUE(made) << made.error().text();
     return std::move(*made);
 }
@@ -55,7 +55,7 @@ Position centroid(const std::vector<double>& map, const Sites& sites) {
 RC_GTEST_PROP(Contacts, HaveAllOfTheForce, ()) {
     const auto sites = sheet(20e-3, 1e-3);
     const auto indenter = *rc::gen::element<std::string>("flat", "sphere", "edge", "grating");
-    std::vector<Wish> wishes;
+    std::vector<ParameterOverride> wishes;
     const auto wish = [&](const char* name, int low, int high, double unit) {
         wishes.push_back({"contact", name, std::to_string(*rc::gen::inRange(low, high) * unit)});
     };
@@ -64,7 +64,7 @@ RC_GTEST_PROP(Contacts, HaveAllOfTheForce, ()) {
     if (indenter != "edge") wish("radius", 1, 80, 1e-4);
     if (indenter == "edge") wish("length", 1, 150, 1e-4);
     const double force = *rc::gen::inRange(1, 4000) * 1e-3;
-    auto contact = make_contact(indenter, wishes, sites, *clock_of(1000));
+    auto contact = make_contact(indenter, wishes, sites, *make_clock(1000));
     RC_ASSERT(bool(contact));
     const double felt = sum(map_at(**contact, sites, force));
     RC_ASSERT(std::abs(felt - force) < 1e-12 || (indenter == "grating" && felt == 0));  // a patch in a groove touches nothing
@@ -212,9 +212,9 @@ RC_GTEST_PROP(Contacts, AreTheSameInAnyBlocks, ()) {
 TEST(ContactWords, AreRefusedWithWhatWouldBeRight) {
     const auto sites = sheet(10e-3, 1e-3);
     const auto wrong = [&](std::string_view indenter, std::initializer_list<const char*> measures) {
-        std::vector<Wish> wishes;
-        for (const std::string text : measures) wishes.push_back(*parse_wish("contact." + text));
-        const auto made = make_contact(indenter, wishes, sites, *clock_of(1000));
+        std::vector<ParameterOverride> wishes;
+        for (const std::string text : measures) wishes.push_back(*parse_override("contact." + text));
+        const auto made = make_contact(indenter, wishes, sites, *make_clock(1000));
         return made ? "nothing is wrong" : made.error().text();
     };
     EXPECT_EQ(wrong("spere", {}), "there is no indenter 'spere'; did you mean 'sphere'? (there are flat, sphere, edge, grating)");
@@ -226,7 +226,7 @@ TEST(ContactWords, AreRefusedWithWhatWouldBeRight) {
     EXPECT_EQ(wrong("flat", {"x1=3mm", "t_move=2s", "speed=1m/s"}), "contact: t_move and speed are alternatives; give only one of them");
     EXPECT_EQ(wrong("grating", {"ridge=3mm"}), "contact: ridge = 0.003 m must not be wider than period = 0.002 m");
     EXPECT_EQ(wrong("flat", {"radius=5s"}), "contact.radius: '5s' is a time; expected a value in m, such as '2 m'");
-    EXPECT_EQ(make_contact("flat", std::vector<Wish>{*parse_wish("contact.radius=1m")}, sheet(1e-3, 1e-5), *clock_of(1000)).operator bool(),
+    EXPECT_EQ(make_contact("flat", std::vector<ParameterOverride>{*parse_override("contact.radius=1m")}, sheet(1e-3, 1e-5), *make_clock(1000)).operator bool(),
               true);
     double force = 1;
     const auto wide = pressing("flat", {"radius=1m"}, sites);

@@ -48,7 +48,7 @@ std::unique_ptr<Skin> make_skin(const std::shared_ptr<const Innervation>& skin, 
     return std::move(*made);
 }
 
-std::vector<Spike> whole(Skin& skin, const Touch& touch, Pool& pool) {
+std::vector<Spike> whole(Skin& skin, const Touch& touch, ThreadPool& pool) {
     std::vector<Spike> spikes;
     EXPECT_TRUE(skin.respond(touch.at(0), touch.steps, spikes, pool));
     skin.last(spikes);
@@ -56,7 +56,7 @@ std::vector<Spike> whole(Skin& skin, const Touch& touch, Pool& pool) {
 }
 
 TEST(Skin, AnswersAsItsAfferentsWouldOneByOne) {
-    Pool pool(1);
+    ThreadPool pool(1);
     const auto map = small_skin(5, 6, true, 40);
     const Touch touch(30, 9000, 3);  // long enough to come to rest, and to be woken
     auto skin = make_skin(map);
@@ -77,7 +77,7 @@ TEST(Skin, AnswersAsItsAfferentsWouldOneByOne) {
             const auto afferent = make_afferent((*plans)[u], corpuscle::Run{skin_T});
             auto state = afferent->start();
             std::vector<Spike> own;
-            Answer answer{own, static_cast<std::uint32_t>(first + u)};
+            ResponseBlock answer{own, static_cast<std::uint32_t>(first + u)};
             ASSERT_TRUE(afferent->respond({felt.data() + u * touch.steps, touch.steps}, state, answer));
             const double delay = map->units[first + u].delay / skin_T, steps = std::floor(delay);
             for (auto s : own) {
@@ -94,7 +94,7 @@ TEST(Skin, AnswersAsItsAfferentsWouldOneByOne) {
 
 TEST(Skin, GivesTheSameWhateverTheBlocksAndAfterItWasSaved) {
     EXPECT_TRUE(rc::check([] {
-        Pool pool(1);
+        ThreadPool pool(1);
         const bool spread = *rc::gen::arbitrary<bool>();
         const auto map = small_skin(3, 4, spread, *rc::gen::element(0.0, 30.0));
         const Touch touch(12, 6000, *rc::gen::arbitrary<std::uint32_t>());
@@ -116,7 +116,7 @@ TEST(Skin, GivesTheSameWhateverTheBlocksAndAfterItWasSaved) {
 }
 
 TEST(Skin, GivesTheSameOnThreadsInSharesAndOnEveryInstructionSet) {
-    Pool one(1), three(3);
+    ThreadPool one(1), three(3);
     const auto map = small_skin(16, 24, true, 30);
     const Touch touch(16 * 24, 3000, 11);
     const auto expected = whole(*make_skin(map), touch, one);
@@ -133,18 +133,18 @@ TEST(Skin, GivesTheSameOnThreadsInSharesAndOnEveryInstructionSet) {
 }
 
 TEST(Skin, AForceThatIsNoNumberIsToldBySiteAndSample) {
-    Pool pool(1);
+    ThreadPool pool(1);
     auto skin = make_skin(small_skin(2, 2, false, 0));
     Touch touch(4, 100, 1);
     touch.force[2 * 100 + 40] = std::nan("");
     std::vector<Spike> spikes;
     const auto ok = skin->respond(touch.at(0), 100, spikes, pool);
     ASSERT_FALSE(ok);
-    EXPECT_NE(ok.error().sentence.find("the force at site r2c1 is nan at sample 40"), std::string::npos) << ok.error().sentence;
+    EXPECT_NE(ok.error().message.find("the force at site r2c1 is nan at sample 40"), std::string::npos) << ok.error().message;
 }
 
 TEST(Skin, RefusesAStateThatIsNotItsOwnOrIsCutShort) {
-    Pool pool(1);
+    ThreadPool pool(1);
     const auto map = small_skin(3, 3, true, 20);
     auto skin = make_skin(map);
     const Touch touch(9, 500, 5);
@@ -163,7 +163,7 @@ TEST(Skin, RefusesAStateThatIsNotItsOwnOrIsCutShort) {
 }
 
 TEST(Skin, AStateOfTheVersionBeforeIsReadAndOneOfALaterVersionIsRefused) {
-    Pool pool(1);
+    ThreadPool pool(1);
     const auto map = small_skin(3, 3, true, 20);
     const Touch touch(9, 500, 5);
     auto skin = make_skin(map);
@@ -172,7 +172,7 @@ TEST(Skin, AStateOfTheVersionBeforeIsReadAndOneOfALaterVersionIsRefused) {
     saved[6] = std::byte{'3'};
     const auto later = make_skin(map)->resume(saved);
     ASSERT_FALSE(later);
-    EXPECT_NE(later.error().sentence.find("a later version than 2"), std::string::npos) << later.error().sentence;
+    EXPECT_NE(later.error().message.find("a later version than 2"), std::string::npos) << later.error().message;
     saved[6] = std::byte{'1'};
     saved.resize(saved.size() - 8);  // version 1 has no checksum
     auto resumed = make_skin(map);

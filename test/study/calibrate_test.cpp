@@ -68,7 +68,7 @@ TEST(Calibrate, RefusesTrimsThatAreNoNumbers) {
     for (const char* wrong : {"h", "ra.w", "zz.m", ""}) {
         const auto trim = trim_of(asked.netlist, {}, {wrong}, 1, false);
         ASSERT_FALSE(trim) << wrong;
-        EXPECT_NE(trim.error().sentence.find(wrong), std::string::npos);
+        EXPECT_NE(trim.error().message.find(wrong), std::string::npos);
     }
 }
 

@@ -22,7 +22,7 @@ std::vector<NamedTrain> trains(const Names& names) {
 std::string pairs(const Names& a, const Names& b, const CompareOptions& options = {}) {
     const auto in_a = trains(a), in_b = trains(b);
     const auto found = pair_trains(in_a, in_b, options);
-    if (!found) return found.error().sentence;
+    if (!found) return found.error().message;
     std::string text;
     for (const auto& p : *found) text += (text.empty() ? "" : " ") + p.a + "=" + p.b;
     return text;

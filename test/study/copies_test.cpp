@@ -6,7 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "io/spikes.hpp"
+#include "io/spike_files.hpp"
 #include "study/summary.hpp"
 #include "support/property.hpp"
 #include "support/support.hpp"
@@ -35,7 +35,7 @@ Populated populate(const std::vector<std::string>& names, std::uint32_t n, const
 }
 
 void answer(std::span<const AfferentPlan> plans, std::initializer_list<Listener*> listeners) {
-    std::vector<std::unique_ptr<Source>> sources;
+    std::vector<std::unique_ptr<ForceSource>> sources;
     sources.push_back(sure(make_stimulus("press", {}, 2e3, 0)));
     sources.push_back(sure(make_stimulus("sine", {}, 2e3, 0)));
     (void)sure(respond(sources, plans, std::vector<Listener*>(listeners), {}));

@@ -27,7 +27,7 @@ TEST(Deck, SetsWhatIsSet) {
     EXPECT_TRUE(std::isnan(half.at_rest("v(nowhere)")));
     const auto refused = found_in({"bias", {"i_bia=100n"}, ".op"});
     ASSERT_FALSE(refused);
-    EXPECT_NE(refused.error().sentence.find("did you mean 'i_bias'"), std::string::npos) << refused.error().sentence;
+    EXPECT_NE(refused.error().message.find("did you mean 'i_bias'"), std::string::npos) << refused.error().message;
     EXPECT_FALSE(found_in({"nowhere"}));
     EXPECT_FALSE(found_in({"bias", {"i_bias"}, ".op"}));
 }

@@ -105,7 +105,7 @@ double held(int n, double truth, Draw&& draw) {
     int inside = 0;
     for (std::uint32_t sample = 0; sample < 2000; ++sample) {
         std::vector<double> values;
-        for (std::uint32_t k = 0; k < static_cast<std::uint32_t>(n); ++k) values.push_back(draw(normals(11, sample, 1, k)));
+        for (std::uint32_t k = 0; k < static_cast<std::uint32_t>(n); ++k) values.push_back(draw(normal_pair(11, sample, 1, k)));
         const auto sigma = Sorted(std::move(values)).sigma();
         inside += sigma.low <= truth && truth <= sigma.high;
     }
@@ -113,10 +113,10 @@ double held(int n, double truth, Draw&& draw) {
 }
 
 TEST(Estimate, TheIntervalOfADeviationHoldsItAsOftenAsItSaysAlsoWhereNothingIsNormal) {
-    EXPECT_NEAR(held(50, 1, [](Normals x) { return x.first; }), 0.95, 0.02);
-    EXPECT_NEAR(held(50, 1 / std::sqrt(12.0), [](Normals x) { return 0.5 * std::erfc(x.first / std::sqrt(2.0)); }), 0.95, 0.03);  // uniform
+    EXPECT_NEAR(held(50, 1, [](NormalPair x) { return x.first; }), 0.95, 0.02);
+    EXPECT_NEAR(held(50, 1 / std::sqrt(12.0), [](NormalPair x) { return 0.5 * std::erfc(x.first / std::sqrt(2.0)); }), 0.95, 0.03);  // uniform
     // Exponential: chi-squared's interval would hold it in 7 of 10.
-    EXPECT_NEAR(held(200, 2, [](Normals x) { return x.first * x.first + x.second * x.second; }), 0.95, 0.04);
+    EXPECT_NEAR(held(200, 2, [](NormalPair x) { return x.first * x.first + x.second * x.second; }), 0.95, 0.04);
 }
 
 TEST(Estimate, ANormalPlotTellsNormalSamplesFromOthers) {
@@ -125,7 +125,7 @@ TEST(Estimate, ANormalPlotTellsNormalSamplesFromOthers) {
         for (std::uint32_t sample = 0; sample < 60; ++sample) {
             std::vector<double> x, y;
             for (std::uint32_t k = 0; k < static_cast<std::uint32_t>(n); ++k) {
-                const auto drawn = normals(12, sample, 1, k);
+                const auto drawn = normal_pair(12, sample, 1, k);
                 x.push_back(drawn.first), y.push_back(drawn.first * drawn.first + drawn.second * drawn.second);
             }
             const Sorted a(std::move(x)), b(std::move(y));

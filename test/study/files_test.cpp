@@ -9,7 +9,7 @@
 #include <numeric>
 
 #include "io/npz.hpp"
-#include "io/spikes.hpp"
+#include "io/spike_files.hpp"
 #include "model/spread.hpp"
 #include "study/bins_file.hpp"
 #include "study/clicks_file.hpp"
@@ -26,7 +26,7 @@ using test::Folder;
 using test::sure;
 
 /// Force of one sample and more, that nobody looks at, on a clock.
-class Still final : public Source {
+class Still final : public ForceSource {
     std::string name_ = "still";
     Clock clock_;
     std::vector<Channel> channels_;
@@ -38,13 +38,13 @@ public:
     const std::string& name() const override { return name_; }
     const Clock& clock() const override { return clock_; }
     const std::vector<Channel>& channels() const override { return channels_; }
-    double done() const override { return 1; }
-    std::string sentence() const override { return "still"; }
+    double progress() const override { return 1; }
+    std::string description() const override { return "still"; }
     Result<void> read(Frames&) override { return {}; }
 };
 
 /// Hands spikes to listeners as a run would, in blocks.
-void hand(const Source& source, std::span<const AfferentPlan> plans, std::vector<Spike> spikes, std::int64_t samples, std::int64_t block,
+void hand(const ForceSource& source, std::span<const AfferentPlan> plans, std::vector<Spike> spikes, std::int64_t samples, std::int64_t block,
           std::initializer_list<Listener*> listeners) {
     const std::vector<std::span<const Probe>> probes(plans.size());
     const Input input{source, "still", plans, probes};
@@ -90,7 +90,7 @@ TEST(SpikesOut, AreTheSameSpikesReadBackFromCsvToTheNanosecondAndFromNpzExactly)
         hand(source, afferents, spikes, 500, *rc::gen::element(1, 7, 500), {&csv, &npz});
         RC_ASSERT(bool(csv.commit()) && bool(npz.commit()));
         std::vector<std::vector<double>> right(4);
-        for (const auto& s : spikes) right[s.unit].push_back(source.clock().time(s.step, s.offset));
+        for (const auto& s : spikes) right[s.afferent_index].push_back(source.clock().time(s.step, s.offset));
         for (auto& r : right) std::sort(r.begin(), r.end());
         const auto exact = sure(read_spikes(folder / "spikes.npz")), rounded = sure(read_spikes(folder / "spikes.csv"));
         RC_ASSERT(exact.size() == 4U);  // silent ones, too
@@ -145,7 +145,7 @@ TEST(BinsFile, CountsEverySpikeOnceInEvenBinsFromTheStartWhateverTheBlock) {
                 const int to = std::min(from + per_bin, 250);
                 const auto n = std::count_if(spikes.begin(), spikes.end(), [&](const Spike& s) {
                     const double at = static_cast<double>(s.step - 1) + s.offset;
-                    return s.unit == u && at >= from && at < to;
+                    return s.afferent_index == u && at >= from && at < to;
                 });
                 right.push_back(fmt::format("sa1,{},{:.9f},{:.9f},{},{:.6g}", u ? "b" : "a", source.clock().t0 + from * 1e-3,
                                             source.clock().t0 + to * 1e-3, n, static_cast<double>(n) / ((to - from) * 1e-3)));
@@ -272,7 +272,7 @@ TEST(RemoveStale, TakesOnlyWhatAnEarlierSummaryNamesInThatDirectory) {
 /// A measure at its simplest, on the run itself: force that repeats itself says so.
 TEST(Summary, KnowsTheCycleOfAStimulusAndLeavesOutColumnsWithoutValues) {
     const auto columns = [](const std::string& stimulus) {
-        std::vector<std::unique_ptr<Source>> sources;
+        std::vector<std::unique_ptr<ForceSource>> sources;
         sources.push_back(sure(make_stimulus(stimulus, {}, 10e3, 0)));
         const auto afferents = plans({"sa1"});
         Summary summary;

@@ -23,7 +23,7 @@ struct Ran {
 };
 
 Ran run(const Folder& folder, const std::vector<std::string>& stimuli, const std::vector<std::string>& names, std::size_t block) {
-    std::vector<std::unique_ptr<Source>> sources;
+    std::vector<std::unique_ptr<ForceSource>> sources;
     std::vector<AfferentPlan> plans;
     for (const auto& s : stimuli) sources.push_back(test::sure(make_stimulus(s, {}, 2e3, 9)));
     for (const auto& n : names) plans.push_back(test::sure(plan_afferent(n, {})));
@@ -91,7 +91,7 @@ TEST(Respond, TracesReadBackAsTheRecordingTheyAre) {
 }
 
 TEST(Respond, StopsWhenToldToAndSaysSo) {
-    std::vector<std::unique_ptr<Source>> sources;
+    std::vector<std::unique_ptr<ForceSource>> sources;
     sources.push_back(test::sure(make_stimulus("press", {}, 10e3, 0)));
     const auto plan = test::sure(plan_afferent("sa1", {}));
     RespondOptions options;
@@ -100,12 +100,12 @@ TEST(Respond, StopsWhenToldToAndSaysSo) {
     options.keep_on = [&](double) { return ++blocks < 3; };
     const auto work = respond(sources, std::span(&plan, 1), {}, options);
     ASSERT_FALSE(work);
-    EXPECT_EQ(work.error().code, Code::interrupted);
+    EXPECT_EQ(work.error().code, ErrorCode::interrupted);
     EXPECT_EQ(blocks, 3);
 }
 
 TEST(Respond, ARateTooLowForAnAfferentIsTold) {
-    std::vector<std::unique_ptr<Source>> sources;
+    std::vector<std::unique_ptr<ForceSource>> sources;
     sources.push_back(test::sure(make_stimulus("press", {}, 500, 0)));
     const auto fa2 = test::sure(plan_afferent("fa2", {})), sa1 = test::sure(plan_afferent("sa1", {}));
     EXPECT_EQ(rate_warnings(sources, std::span(&fa2, 1)).at(0),
@@ -130,7 +130,7 @@ TEST(OutputFile, LeavesNothingBehindUnlessItIsWhole) {
 
 TEST(Report, KeepsItsShareHoweverManyInputsAndChannels) {
     const auto points_of = [](int inputs) {
-        std::vector<std::unique_ptr<Source>> sources;
+        std::vector<std::unique_ptr<ForceSource>> sources;
         for (int k = 0; k < inputs; ++k) sources.push_back(test::sure(make_stimulus("press", {}, 20e3, 0)));
         const auto plan = test::sure(plan_afferent("sa1", {}));
         Report report(100'000);

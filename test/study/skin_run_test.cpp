@@ -31,7 +31,7 @@ Result<SkinWork> press_fingertip(const Folder& folder, const std::string& out, i
         if (!opened) return opened.error();
         spool = std::move(*opened);
     }
-    Pool pool(1);
+    ThreadPool pool(1);
     const auto answerer = alone_answerer(*at_work, pool);
     SkinEventsFile file(sure(OutputFile::create(folder / out)), "aer");
     SkinListener* const listeners[] = {&file};
@@ -53,7 +53,7 @@ TEST(SkinRun, StoppedAgainAndAgainItGoesOnToTheSameBytes) {
             EXPECT_EQ(done->at_rest, whole.at_rest);
             break;
         }
-        ASSERT_EQ(done.error().code, Code::interrupted);
+        ASSERT_EQ(done.error().code, ErrorCode::interrupted);
         EXPECT_FALSE(std::filesystem::exists(folder / "parts"));
     }
     EXPECT_EQ(read_file(folder / "parts"), read_file(folder / "whole"));
@@ -69,11 +69,11 @@ TEST(SkinRun, ACheckpointOfAnotherRunIsRefusedNamesWhatDiffersAndStays) {
     const auto kept = read_file(folder / "state"), spikes = read_file(folder / "state.spikes");
     const auto other = press_fingertip(folder, "a", 5, true, now);
     ASSERT_FALSE(other);
-    EXPECT_EQ(other.error().code, Code::bad_input);
-    EXPECT_NE(other.error().sentence.find("--scale was 1 and now is 3; --abs was true and now is not given; the contents of the recording "
+    EXPECT_EQ(other.error().code, ErrorCode::bad_input);
+    EXPECT_NE(other.error().message.find("--scale was 1 and now is 3; --abs was true and now is not given; the contents of the recording "
                                           "have changed; --despike was not given and now is auto. Repeat the run with its original options, remove "),
               std::string::npos)
-        << other.error().sentence;
+        << other.error().message;
     EXPECT_EQ(read_file(folder / "state"), kept);
     EXPECT_EQ(read_file(folder / "state.spikes"), spikes);
 }
@@ -83,8 +83,8 @@ TEST(SkinRun, ACheckpointOfAnotherForceIsRefusedWhateverWasTyped) {
     ASSERT_FALSE(press_fingertip(folder, "a", 5, true));
     const auto other = press_fingertip(folder, "a", -1, true, {{"FORCE", "press"}}, 1.5);
     ASSERT_FALSE(other);
-    EXPECT_NE(other.error().sentence.find("the force up to this checkpoint differs from the one that it was made with"), std::string::npos)
-        << other.error().sentence;
+    EXPECT_NE(other.error().message.find("the force up to this checkpoint differs from the one that it was made with"), std::string::npos)
+        << other.error().message;
     EXPECT_FALSE(std::filesystem::exists(folder / "a"));
 }
 
@@ -96,8 +96,8 @@ TEST(SkinRun, ACheckpointThatIsCutShortOrHasAFlippedBitIsRefused) {
     const auto refused = [&](const std::string& what) {
         const auto done = press_fingertip(folder, "a", 0, true);
         EXPECT_FALSE(done) << what;
-        EXPECT_EQ(done.error().code, Code::bad_input) << what << done.error().sentence;
-        EXPECT_NE(done.error().sentence.find("--checkpoint"), std::string::npos) << done.error().sentence;
+        EXPECT_EQ(done.error().code, ErrorCode::bad_input) << what << done.error().message;
+        EXPECT_NE(done.error().message.find("--checkpoint"), std::string::npos) << done.error().message;
     };
     for (const std::size_t size : {std::size_t{0}, std::size_t{3}, std::size_t{30}, kept.size() / 2, kept.size() - 1}) {
         folder.write("state", kept.substr(0, size));
@@ -122,7 +122,7 @@ TEST(SkinRun, ACheckpointThatIsCutShortOrHasAFlippedBitIsRefused) {
     std::filesystem::remove(folder / "state.spikes");
     refused("FILE.spikes removed");
     folder.write("state.spikes", spikes);
-    EXPECT_EQ(press_fingertip(folder, "a", 0, true).error().code, Code::interrupted) << "whole, it goes on";
+    EXPECT_EQ(press_fingertip(folder, "a", 0, true).error().code, ErrorCode::interrupted) << "whole, it goes on";
 }
 
 /// Where FILE holds the number of spikes: behind the magic, one pair of texts, and the checksum of the force.
@@ -143,7 +143,7 @@ TEST(SkinRun, ACheckpointThatCountsMoreSpikesThanThereAreIsRefusedAndNothingIsCu
         folder.write("state", more);
         const auto done = press_fingertip(folder, "a", -1, true);
         ASSERT_FALSE(done) << claimed;
-        EXPECT_NE(done.error().sentence.find("it has "), std::string::npos) << done.error().sentence;
+        EXPECT_NE(done.error().message.find("it has "), std::string::npos) << done.error().message;
         EXPECT_EQ(read_file(folder / "state.spikes"), spikes);
     }
 }
@@ -153,8 +153,8 @@ TEST(SkinRun, ACheckpointOfAnEarlierVersionIsRefusedWithItsVersionAndARemedy) {
     folder.write("state", std::string("corpuscle checkpoint 1\n") + std::string(200, '\0')), folder.write("state.spikes", "");
     const auto done = press_fingertip(folder, "a", 5, true);
     ASSERT_FALSE(done);
-    EXPECT_NE(done.error().sentence.find("a checkpoint of version 1;"), std::string::npos) << done.error().sentence;
-    EXPECT_NE(done.error().sentence.find("remove " + folder / "state"), std::string::npos) << done.error().sentence;
+    EXPECT_NE(done.error().message.find("a checkpoint of version 1;"), std::string::npos) << done.error().message;
+    EXPECT_NE(done.error().message.find("remove " + folder / "state"), std::string::npos) << done.error().message;
 }
 
 TEST(SkinRun, TwoRunsCannotShareACheckpoint) {
@@ -164,7 +164,7 @@ TEST(SkinRun, TwoRunsCannotShareACheckpoint) {
     auto first = sure(SkinCheckpoint::open(folder / "state", *one, {}));
     const auto second = SkinCheckpoint::open(folder / "state", *two, {});
     ASSERT_FALSE(second);
-    EXPECT_NE(second.error().sentence.find("another run is using this checkpoint"), std::string::npos) << second.error().sentence;
+    EXPECT_NE(second.error().message.find("another run is using this checkpoint"), std::string::npos) << second.error().message;
     first->done();
     EXPECT_TRUE(SkinCheckpoint::open(folder / "state", *two, {}));
 }
@@ -251,7 +251,7 @@ TEST(SkinRun, SpikesOfASkinAreNumPysArraysToo) {
     const auto npz = sure(NpzReader::open(folder / "a/spikes.npz"));
     const auto labels = sure(npz.integers("spike_labels_seg0")), indexes = sure(npz.integers("spike_indexes_seg0"));
     const auto times = sure(npz.numbers("spike_times_seg0"));
-    const auto names = sure(npz.words("unit_afferent")), regions = sure(npz.words("unit_channel"));
+    const auto names = sure(npz.strings("unit_afferent")), regions = sure(npz.strings("unit_channel"));
     std::string text = "afferent,channel,time_s\n";
     for (std::size_t k = 0; k < times.size(); ++k) {
         const auto unit = static_cast<std::size_t>(labels[k]);

@@ -67,7 +67,7 @@ TEST(Studies, OfARecordingThatIsAbsentSayWhereItWasSought) {
     for (const auto* s : recorded_studies) {
         const auto outcome = s->run({.recordings = "/nowhere"});
         ASSERT_FALSE(outcome);
-        EXPECT_NE(outcome.error().sentence.find("'/nowhere/" + std::string(s->recording) + "'"), std::string::npos)
+        EXPECT_NE(outcome.error().message.find("'/nowhere/" + std::string(s->recording) + "'"), std::string::npos)
             << outcome.error().text();
     }
 }
@@ -76,7 +76,7 @@ TEST(Studies, StopWhenTheyAreTold) {
     for (const auto* s : all_studies) {
         const auto outcome = s->run({[](double) { return false; }});
         ASSERT_FALSE(outcome) << s->name;
-        EXPECT_EQ(outcome.error().code, Code::interrupted) << s->name;
+        EXPECT_EQ(outcome.error().code, ErrorCode::interrupted) << s->name;
     }
 }
 
@@ -147,7 +147,7 @@ TEST(Studies, TheFirstErrorEndsThemAllAndNamesItsStudy) {
     const Study* all[] = {&good, &bad, &good};
     const auto outcomes = run_studies(all, {});
     ASSERT_FALSE(outcomes);
-    EXPECT_EQ(outcomes.error().sentence, "bad: no such thing");
+    EXPECT_EQ(outcomes.error().message, "bad: no such thing");
 }
 
 TEST(Studies, TheirTextKeepsItsTableWhateverIsInIt) {

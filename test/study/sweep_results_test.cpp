@@ -332,7 +332,7 @@ TEST(SweepResults, ThreadsThatAreStoppedLeaveWhatHadEnded) {
     const auto ok =
         run_sweep(sweep, results, {.threads = 2, .between_writes = 0.01, .stop = [&] { return results.finished() > 100; }}, count);
     ASSERT_FALSE(ok);
-    EXPECT_EQ(ok.error().code, Code::interrupted);
+    EXPECT_EQ(ok.error().code, ErrorCode::interrupted);
     EXPECT_EQ(count.ended(), results.finished());
     EXPECT_LT(results.finished(), 5000);
 }

@@ -14,7 +14,7 @@ const std::string kept = test::root() + "/test/study/vectors/",
 std::vector<std::string> write(const test::Folder& folder, const std::vector<std::string>& stimuli, const std::vector<std::string>& names,
                                const std::vector<std::string>& settings, std::size_t block = 4096) {
     const auto mine = test::wishes(settings);
-    std::vector<std::unique_ptr<Source>> sources;
+    std::vector<std::unique_ptr<ForceSource>> sources;
     std::vector<AfferentPlan> plans;
     for (const auto& s : stimuli) sources.push_back(test::sure(make_stimulus(s, mine, 2e3, 9)));
     for (const auto& n : names) plans.push_back(test::sure(plan_afferent(n, mine)));

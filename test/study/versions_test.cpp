@@ -48,7 +48,7 @@ struct VersionsRan {
 
 VersionsRan run_versions(const std::vector<std::string>& stimuli, const std::vector<std::string>& names, std::size_t block,
                          std::uint32_t copies = 0) {
-    std::vector<std::unique_ptr<Source>> sources;
+    std::vector<std::unique_ptr<ForceSource>> sources;
     std::vector<AfferentPlan> plans;
     for (const auto& s : stimuli) sources.push_back(sure(make_stimulus(s, {}, 2e3, 9)));
     for (const auto& n : names) plans.push_back(sure(plan_any_afferent(n, {})));

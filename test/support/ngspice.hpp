@@ -9,7 +9,7 @@
 #include <sstream>
 
 #include "circuit/run.hpp"
-#include "signal/text.hpp"
+#include "signal/ascii_text.hpp"
 #include "support/raw_file.hpp"
 #include "support/support.hpp"
 

@@ -11,7 +11,7 @@ struct WholeRecording {
     std::vector<std::vector<double>> force;
     Clock clock;
     std::vector<Channel> channels;
-    Quality quality = {};
+    RecordingQuality quality = {};
 };
 
 inline Result<WholeRecording> try_recording(const std::string& path, const RecordingOptions& options = {}, std::size_t block = 7) {
@@ -27,7 +27,7 @@ inline Result<WholeRecording> try_recording(const std::string& path, const Recor
             out.force[c].insert(out.force[c].end(), frames.force[c].begin(),
                                 frames.force[c].begin() + static_cast<std::ptrdiff_t>(frames.count));
     }
-    out.remarks = (*source)->remarks();
+    out.remarks = (*source)->notes();
     out.quality = (*source)->quality();
     return out;
 }

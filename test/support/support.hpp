@@ -29,9 +29,9 @@ T sure(Result<T> result) {
     return std::move(*result);
 }
 
-inline std::vector<Wish> wishes(const std::vector<std::string>& settings) {
-    std::vector<Wish> out;
-    for (const auto& s : settings) out.push_back(sure(parse_wish(s)));
+inline std::vector<ParameterOverride> wishes(const std::vector<std::string>& settings) {
+    std::vector<ParameterOverride> out;
+    for (const auto& s : settings) out.push_back(sure(parse_override(s)));
     return out;
 }
 
@@ -40,7 +40,7 @@ inline std::unique_ptr<Afferent> afferent(const std::string& name, const Asked& 
 }
 
 /// All of a source's first channel.
-inline std::vector<double> force_of(Source& source) {
+inline std::vector<double> force_of(ForceSource& source) {
     std::vector<double> all;
     for (Frames block(source.channels().size(), 1000);;) {
         if (auto ok = source.read(block); !ok) throw std::runtime_error(ok.error().text());
@@ -56,7 +56,7 @@ inline std::vector<double> force(const std::string& stimulus, const Asked& asked
 
 inline std::vector<Spike> spikes(const Afferent& a, const std::vector<double>& f, std::size_t block = 4096) {
     std::vector<Spike> out;
-    Answer answer{out};
+    ResponseBlock answer{out};
     auto state = a.start();
     for (std::size_t k = 0; k < f.size(); k += block)
         if (auto ok = a.respond(std::span(f).subspan(k, std::min(block, f.size() - k)), state, answer); !ok)
@@ -66,7 +66,7 @@ inline std::vector<Spike> spikes(const Afferent& a, const std::vector<double>& f
 
 /// Spike times (s) of an afferent under a stimulus; settings are for both.
 inline std::vector<double> train(const std::string& name, const std::string& stimulus = "press", const Asked& asked = {}) {
-    return times(spikes(*afferent(name, asked), force(stimulus, asked), asked.block), sure(clock_of(asked.rate)));
+    return spike_times(spikes(*afferent(name, asked), force(stimulus, asked), asked.block), sure(make_clock(asked.rate)));
 }
 
 /// The afferents of every name, every transduction with every neuron, and some of them behind each kind of front.

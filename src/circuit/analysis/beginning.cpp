@@ -23,7 +23,7 @@ Error unstable_warning(const TestBench& context, const Growth& mode) {
                     mode.rate > 0 ? fmt::format(" by a factor of {:.3g} in {}", std::exp(1.0), format_quantity(1 / mode.rate, "s"))
                                   : std::string(" while it oscillates"),
                     format_quantity(start_offset, "V"), context.system.names()[node]),
-        Place{context.circuit->file});
+        SourceLocation{context.circuit->file});
 }
 
 std::vector<double> charges_of(const Device& device, const std::vector<double>& v, const Instant& eval_context) {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "circuit/netlist/number.hpp"
-#include "signal/field.hpp"
+#include "signal/parameter.hpp"
 
 namespace corpuscle::circuit {
 
@@ -55,7 +55,7 @@ void TestBench::draw(const Draw& chip) {
     rest_.reset();
 }
 
-Error interruption() { return {Code::interrupted, "interrupted"}; }
+Error interruption() { return {ErrorCode::interrupted, "interrupted"}; }
 
 Error error_at(const Command& c, std::size_t word, std::string message) {
     auto location = c.place;

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "circuit/analyses.hpp"
-#include "signal/field.hpp"
+#include "signal/parameter.hpp"
 
 namespace corpuscle::circuit {
 namespace {
@@ -91,7 +91,7 @@ private:
         if (source == sources_.end()) source = sources_.insert(source, {name, given_.system.device(name)->setting().value_or(0), value});
         source->current = value;
         if (!context().system.device(name)->set(value))
-            return bad_input(fmt::format(".dc: {:g} is not an allowed value of {}", value, name), Place{given_.circuit->file});
+            return bad_input(fmt::format(".dc: {:g} is not an allowed value of {}", value, name), SourceLocation{given_.circuit->file});
         return {};
     }
 };
@@ -133,8 +133,8 @@ Result<Findings> analyse_dc(TestBench& given, const Command& c) {
             const auto found = operating_point(context.newton, x);
             if (!found) {
                 auto error = found.error();
-                error.sentence = fmt::format(".dc at {} = {:g}{}: {}", inner->variable, values[j],
-                                             outer ? fmt::format(", {} = {:g}", outer->variable, outer_values[k]) : "", error.sentence);
+                error.message = fmt::format(".dc at {} = {:g}{}: {}", inner->variable, values[j],
+                                             outer ? fmt::format(", {} = {:g}", outer->variable, outer_values[k]) : "", error.message);
                 return error;
             }
             x = found->x;

@@ -92,12 +92,12 @@ std::optional<Error> check_second_state(TestBench& context, const OperatingPoint
     for (std::size_t n = 0; n < static_cast<std::size_t>(context.system.nodes()); ++n)
         if (std::abs(again->x[n] - found.x[n]) > 1e-3)
             return Error{
-                Code::not_converged,
+                ErrorCode::not_converged,
                 fmt::format(
                     "more than one stable state: {} is {} if the search starts from 0 V, {} if it starts from {}; choose with .nodeset",
                     context.system.names()[n], format_quantity(found.x[n], "V"), format_quantity(again->x[n], "V"),
                     format_quantity(high, "V")),
-                Place{context.circuit->file}};
+                SourceLocation{context.circuit->file}};
     return {};
 }
 

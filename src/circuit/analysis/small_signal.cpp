@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "circuit/analyses.hpp"
-#include "signal/field.hpp"
+#include "signal/parameter.hpp"
 
 namespace corpuscle::circuit {
 namespace {

@@ -50,7 +50,7 @@ public:
     void report(std::vector<Error>& warnings) const {
         for (const auto& r : ranges_)
             if (r.first >= 0)
-                warnings.push_back(bad_input(outside_sentence(r.range.range(), r.outside, last_time_, r.first), r.range.place));
+                warnings.push_back(bad_input(range_violation_message(r.range.range(), r.outside, last_time_, r.first), r.range.place));
     }
 };
 
@@ -78,7 +78,7 @@ Result<std::vector<double>> run_transient(TestBench& context, const TranSetup& s
     if (!done) return done.error();
     if (stopped) return interruption();
     if (context.capped)
-        return Error{Code::not_converged,
+        return Error{ErrorCode::not_converged,
                      fmt::format("stopped at {} after {} iterations", format_quantity(t.time(), "s"), t.work().iterations)};
     return out;
 }
@@ -92,7 +92,7 @@ Result<double> spike_error(TestBench& context, TranSetup setup, const std::vecto
     setup.plan.reported = {setup.output->of.plus, setup.output->of.minus};
     Transient transient(context.system, context.newton, setup.plan);
     const auto finer = run_transient(context, setup, transient, [](double, std::span<const double>) { return true; });
-    if (!finer && finer.error().code == Code::interrupted) return finer.error();
+    if (!finer && finer.error().code == ErrorCode::interrupted) return finer.error();
     if (!finer || finer->size() != spikes.size()) return std::nan("");
     double largest = 0;
     for (std::size_t k = 0; k < spikes.size(); ++k) largest = std::max(largest, std::abs((*finer)[k] - spikes[k]));
@@ -139,7 +139,7 @@ Result<Findings> analyse_tran(TestBench& context, const Command& c) {
     if (!force) return force.error();
     if (*force && !context.system.hear(&**force))
         return bad_input(fmt::format(".force: no source has a force input; add one such as '{}' (60 nA/N)", "iin 0 fin force 60n"),
-                         Place{context.circuit->file});
+                         SourceLocation{context.circuit->file});
     TranSetup setup{*times, *plan, *output, {}};
     setup.plan.all_reported = true;
     setup.plan.stop = times->stop, setup.plan.longest = max_step_of(*times);

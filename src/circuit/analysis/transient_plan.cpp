@@ -14,7 +14,7 @@ struct Accuracy {
 constexpr Accuracy accuracies[] = {{"rough", 1e-3, 1e-5}, {"normal", 1e-5, 1e-6}, {"fine", 1e-6, 1e-7}, {"finest", 1e-8, 1e-9}};
 
 Error invalid_option(const Circuit& c, std::string_view option, std::string_view value, std::string_view known) {
-    return bad_input(fmt::format(".options {}={}: expected one of {}", option, value, known), Place{c.file});
+    return bad_input(fmt::format(".options {}={}: expected one of {}", option, value, known), SourceLocation{c.file});
 }
 
 }  // namespace
@@ -38,7 +38,7 @@ Result<TransientPlan> transient_plan(const Circuit& c) {
     }
     const double order = value_or(c.options, "maxord", plan.order);
     if (!(order >= 1 && order <= 5 && order == static_cast<int>(order)))
-        return bad_input(fmt::format(".options maxord={:g}: expected an integer from 1 to 5", order), Place{c.file});
+        return bad_input(fmt::format(".options maxord={:g}: expected an integer from 1 to 5", order), SourceLocation{c.file});
     plan.order = static_cast<int>(order);
     return plan;
 }

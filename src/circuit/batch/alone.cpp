@@ -40,14 +40,14 @@ public:
         std::vector<double> force(chip_.force.begin(), chip_.force.end());
         force.insert(force.end(), static_cast<std::size_t>(afferent_->delay()), force.back());
         for (std::size_t at = 0; at < force.size() && !out_.capped; at += block) {
-            if (options_.stop && options_.stop()) return Error{Code::interrupted, "interrupted"};
+            if (options_.stop && options_.stop()) return Error{ErrorCode::interrupted, "interrupted"};
             const auto count = std::min(block, force.size() - at);
             const auto first = state_.step - afferent_->delay();
-            Answer block_response{spikes_, 0, rows_, out_.outside};
+            ResponseBlock block_response{spikes_, 0, rows_, out_.outside};
             auto done = afferent_->respond(std::span(force).subspan(at, count), state_, block_response);
-            out_.work.steps += block_response.steps, out_.work.rejected += block_response.rejected,
-                out_.work.iterations += block_response.iterations;
-            out_.spent += block_response.spent;
+            out_.work.steps += block_response.steps, out_.work.rejected += block_response.rejected_steps,
+                out_.work.iterations += block_response.newton_iterations;
+            out_.spent += block_response.energy_use;
             if (!done) return done;
             record_probes(first, count);
             out_.capped = options_.most_iterations > 0 && out_.work.iterations > options_.most_iterations;

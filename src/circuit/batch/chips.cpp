@@ -176,7 +176,7 @@ void Batch::judge(std::uint8_t needs_error, std::uint8_t diverged, const Row& a)
 Result<void> Batch::run() {
     for (std::size_t l = 0; l < lanes_.size(); ++l) fill(l);
     for (long round = 0;; ++round) {
-        if (round % 64 == 0 && options_.stop && options_.stop()) return Error{Code::interrupted, "interrupted"};
+        if (round % 64 == 0 && options_.stop && options_.stop()) return Error{ErrorCode::interrupted, "interrupted"};
         lanes::SolveCall solve{};
         lanes::StepCall step{};
         const auto working = prepare(solve, step);
@@ -200,7 +200,7 @@ Result<void> run_all_scalar(const std::function<std::optional<Chip>()>& next, co
                             const BatchOptions& options) {
     while (const auto chip = next()) {
         auto response = run_chip_alone(*chip, options);
-        if (response.error && response.error->code == Code::interrupted) return *response.error;
+        if (response.error && response.error->code == ErrorCode::interrupted) return *response.error;
         response.alone = true;
         on_done(*chip, std::move(response));
     }

@@ -24,8 +24,8 @@ struct Chip {
 struct ChipAnswer {
     std::vector<double> spikes;  ///< s
     TransientWork work;
-    Spent spent;
-    std::vector<Outside> outside;           ///< by range of the design
+    EnergyUse spent;
+    std::vector<RangeViolation> outside;           ///< by range of the design
     std::vector<std::vector<float>> shown;  ///< [probe of the design][recorded sample]
     std::optional<Error> error;             ///< it did not converge: time and unknown
     bool capped = false;                    ///< stopped at the iteration limit

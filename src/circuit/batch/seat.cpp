@@ -287,7 +287,7 @@ void Seat::look_at_samples() {
         };
         for (std::size_t k = 0; k < design.kept.size(); ++k)
             if (auto& o = answer_.outside[k]; !design.kept[k].holds(design.kept[k].what.seen(system, value)))
-                o = {o.samples + 1, o.first < 0 ? sample_ : o.first};
+                o = {o.samples + 1, o.first_sample < 0 ? sample_ : o.first_sample};
         for (std::size_t p = 0; every > 0 && sample_ % every == 0 && p < design.shown.size(); ++p)
             answer_.shown[p].push_back(static_cast<float>(design.shown[p].seen(system, value)));
     }

@@ -7,7 +7,7 @@
 
 #include "circuit/points.hpp"
 #include "circuit/solve/system.hpp"
-#include "signal/source.hpp"
+#include "signal/force_source.hpp"
 
 namespace corpuscle::circuit {
 

@@ -58,7 +58,7 @@ struct Draw {
 class Device {
 public:
     std::string name;
-    Place place;
+    SourceLocation place;
     std::vector<int> unknowns;  ///< indices in the system; -1: ground
 
     virtual ~Device() = default;

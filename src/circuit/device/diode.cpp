@@ -14,7 +14,7 @@ struct DiodeCard {
            tnom = 27;
 };
 
-constexpr Field<DiodeCard> fields[] = {
+constexpr ParameterDef<DiodeCard> fields[] = {
     {"is", &DiodeCard::is, "A", 1e-40, 1, "saturation current"},
     {"n", &DiodeCard::n, "", 0.1, 100, "emission coefficient"},
     {"rs", &DiodeCard::rs, "ohm", 0, 1e12, "series resistance"},

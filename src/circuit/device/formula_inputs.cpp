@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "circuit/device/constants.hpp"
-#include "signal/field.hpp"
+#include "signal/parameter.hpp"
 
 namespace corpuscle::circuit {
 namespace {

@@ -28,7 +28,7 @@ template <class T>
 [[gnu::always_inline]] inline T inversion_seed(T x) {
     const auto far = x > T(6.0);
     const T y = num::max(x, T(6.0)), L = rough_log(y);
-    const T E = rough_exp(num::select(far, -L, num::max(num::min(x, T(-2.5)), T(-num::exp_reach<T>))));  // 1/x for x > 6
+    const T E = rough_exp(num::select(far, -L, num::max(num::min(x, T(-2.5)), T(-num::exp_limit<T>))));  // 1/x for x > 6
     const T low = E * (T(1.0) - E * (T(1.0) - E * (T(1.5) - E * T(8.0 / 3))));
     const T high = y - L + L * E * (T(1.0) + E * (T(0.5) * L - T(1.0)));
 
@@ -46,7 +46,7 @@ template <class T>
 /// Relative error below 1e-13 for |x| <= 700, mostly from the rounding of x. Returns e^-700 for smaller x. NaN in, NaN out.
 template <class T>
 [[gnu::always_inline]] inline T inversion(T x) {
-    const T q = detail::inversion_seed(x), r = num::max(T(-num::exp_reach<T>), x) - q - short_log(q);
+    const T q = detail::inversion_seed(x), r = num::max(T(-num::exp_limit<T>), x) - q - short_log(q);
     const T p = T(1.0) + q, a = T(2.0) * p * (p + r * T(2.0 / 3));
     return q + q * r * (a - r) / (p * (a - T(2.0) * r));
 }

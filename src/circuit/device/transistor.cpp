@@ -127,9 +127,9 @@ Result<UicmInstance> read_instance(const Element& e) {
     for (const auto& f : UicmInstance::fields) {
         const auto given = e.values.find(f.name);
         if (given == e.values.end()) continue;
-        const Row row{f.name, f.unit, instance.*f.at, f.low, f.high, f.sentence, {}};
-        if (auto wrong = outside(e.name, row, given->second)) return bad_input(wrong->sentence, e.place);
-        instance.*f.at = given->second;
+        const ParameterInfo row{f.name, f.unit, instance.*f.member, f.low, f.high, f.description, {}};
+        if (auto wrong = check_range(e.name, row, given->second)) return bad_input(wrong->message, e.place);
+        instance.*f.member = given->second;
     }
     return instance;
 }

@@ -63,7 +63,7 @@ UicmConstants uicm_constants(const UicmCard& card, const UicmInstance& instance,
 
 UicmShift mismatch(const UicmCard& card, const UicmInstance& instance, std::uint64_t seed, std::uint32_t device, std::uint64_t chip) {
     const double per_side = 1 / num::sqrt(instance.area());
-    const auto deviates = normals(seed, device, mismatch_purpose, chip);
+    const auto deviates = normal_pair(seed, device, mismatch_purpose, chip);
     return {card.A_VT * per_side * deviates.first, num::exp(card.A_IS * per_side * deviates.second)};
 }
 
@@ -74,7 +74,7 @@ UicmInstance with_mismatch(UicmInstance instance, const UicmCard& card, std::uin
 }
 
 ProcessDeviates process_deviates(std::uint64_t seed, std::uint64_t chip) {
-    const auto n = normals(seed, 0, process_purpose, chip), p = normals(seed, 1, process_purpose, chip);
+    const auto n = normal_pair(seed, 0, process_purpose, chip), p = normal_pair(seed, 1, process_purpose, chip);
     return {n.first, p.first, n.second, p.second};
 }
 

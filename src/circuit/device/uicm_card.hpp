@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "circuit/device/uicm_constants.hpp"
-#include "signal/field.hpp"
+#include "signal/parameter.hpp"
 
 namespace corpuscle::circuit {
 
@@ -22,7 +22,7 @@ struct UicmCard {
     static constexpr double level = 80;  ///< level= of this model in a .model line; no SPICE uses it for another model
     static constexpr std::string_view name = "uicm", sentence = "UICM transistor, all regions (with extensions from ACM2)";
     static constexpr std::string_view source = "choice: circuits of 0.18 um; see process/tsmc180.lib";
-    static constexpr Field<UicmCard> fields[] = {
+    static constexpr ParameterDef<UicmCard> fields[] = {
         {"isq", &UicmCard::I_SQ, "A", 1e-15, 1, "specific current per square, mu C_ox n phi_t^2 / 2"},
         {"vto", &UicmCard::V_T0, "V", -5, 5, "threshold: V_GB where V_P = 0; positive for enhancement devices of both polarities"},
         {"n", &UicmCard::n, "", 1.000001, 5, "slope factor"},
@@ -63,7 +63,7 @@ struct UicmCard {
 struct UicmInstance {
     double W = 1e-6, L = 1e-6, m = 1, stack = 1, delvto = 0, mulu0 = 1, AS = -1, AD = -1, PS = -1, PD = -1;
 
-    static constexpr Field<UicmInstance> fields[] = {
+    static constexpr ParameterDef<UicmInstance> fields[] = {
         {"w", &UicmInstance::W, "m", 1e-9, 1, "width of an element"},
         {"l", &UicmInstance::L, "m", 1e-9, 1, "length of an element"},
         {"m", &UicmInstance::m, "", 1e-6, 1e9, "columns in parallel"},

@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "circuit/netlist/netlist.hpp"
-#include "signal/field.hpp"
-#include "signal/text.hpp"
+#include "signal/parameter.hpp"
+#include "signal/ascii_text.hpp"
 
 namespace corpuscle::circuit {
 
@@ -17,7 +17,7 @@ inline double value_or(const Values& values, std::string_view name, double fallb
 
 /// Rejects a parameter name that is not in `known`. `owner`: name of the element or model.
 inline std::optional<Error> unknown_value(std::string_view owner, const Values& values, std::span<const std::string_view> known,
-                                          const Place& place) {
+                                          const SourceLocation& place) {
     for (const auto& [name, value] : values)
         if (std::find(known.begin(), known.end(), name) == known.end())
             return bad_input(fmt::format("{}: unknown parameter '{}'{}", owner, name, did_you_mean(name, known)), place);
@@ -26,7 +26,7 @@ inline std::optional<Error> unknown_value(std::string_view owner, const Values& 
 
 /// Reads a model card from a .model line. Names in `others` are accepted but not read.
 template <class P, std::size_t N>
-Result<P> card_from(const Field<P> (&fields)[N], const Model& model, std::initializer_list<std::string_view> others) {
+Result<P> card_from(const ParameterDef<P> (&fields)[N], const Model& model, std::initializer_list<std::string_view> others) {
     P card;
     std::vector<std::string_view> known(others);
     std::vector<std::string> names;
@@ -36,9 +36,9 @@ Result<P> card_from(const Field<P> (&fields)[N], const Model& model, std::initia
     for (std::size_t k = 0; k < N; ++k) {
         const auto given = model.values.find(names[k]);
         if (given == model.values.end()) continue;
-        const Row row{fields[k].name, fields[k].unit, card.*fields[k].at, fields[k].low, fields[k].high, fields[k].sentence, {}};
-        if (auto wrong = outside(model.name, row, given->second)) return bad_input(wrong->sentence, model.place);
-        card.*fields[k].at = given->second;
+        const ParameterInfo row{fields[k].name, fields[k].unit, card.*fields[k].member, fields[k].low, fields[k].high, fields[k].description, {}};
+        if (auto wrong = check_range(model.name, row, given->second)) return bad_input(wrong->message, model.place);
+        card.*fields[k].member = given->second;
     }
     return card;
 }

@@ -110,7 +110,7 @@ private:
 
     Result<std::string> with_expression() const {
         auto text = e_.formula->text([this](const FormulaInput& in) { return input(in); });
-        if (!text) return bad_input(fmt::format("{}: {}", e_.name, text.error().sentence), e_.place);
+        if (!text) return bad_input(fmt::format("{}: {}", e_.name, text.error().message), e_.place);
         const bool is_voltage = e_.formula_is_voltage;
         if (const double m = value("m", 1); m != 1 && !is_voltage) *text = fmt::format("{}*({})", m, *text);
         switch (e_.letter) {
@@ -145,7 +145,7 @@ private:
         const auto card = card_from<UicmCard>(UicmCard::fields, *model(), {"level"});
         if (!card) return card.error();
         UicmInstance size;
-        for (const auto& f : UicmInstance::fields) size.*f.at = value(f.name, size.*f.at);
+        for (const auto& f : UicmInstance::fields) size.*f.member = value(f.name, size.*f.member);
         const bool pmos = model()->type == "pmos";
         return fmt::format("{} {} {}", head_, pmos ? "uicm_p" : "uicm_n", uicm_parameters(*card, size, celsius(), pmos));
     }

@@ -80,7 +80,7 @@ void predict(const ChipBlock& block, const PredictCall& call) {
 
 inline std::uint8_t bits_of(bool m) { return m; }
 #ifdef CORPUSCLE_ISA
-inline std::uint8_t bits_of(xsimd::batch_bool<double> m) { return static_cast<std::uint8_t>(num::bits(m)); }
+inline std::uint8_t bits_of(xsimd::batch_bool<double> m) { return static_cast<std::uint8_t>(num::mask_bits(m)); }
 #endif
 
 template <class T>

@@ -87,7 +87,7 @@ private:
         if (name.starts_with("par(") && head_.is_complex)
             return error_here("par() does not work on the complex curves of .ac; use param= instead");
         if (name.starts_with("par("))
-            if (const auto expression = par_formula(name, command_.place); !expression) return error_here(expression.error().sentence);
+            if (const auto expression = par_formula(name, command_.place); !expression) return error_here(expression.error().message);
         return error_here(fmt::format("there is no curve '{}' in '{}'", name, head_.name));
     }
 

@@ -23,7 +23,7 @@ struct Text {
     const Statement* in = nullptr;
     Word word;
     std::string_view view() const { return in->text(word); }
-    Place place() const { return in->place(word); }
+    SourceLocation place() const { return in->place(word); }
 };
 
 template <class T>

@@ -7,8 +7,8 @@
 #include "circuit/netlist/number.hpp"
 #include "circuit/netlist/options.hpp"
 #include "circuit/netlist/parsed.hpp"
-#include "signal/field.hpp"
-#include "signal/text.hpp"
+#include "signal/parameter.hpp"
+#include "signal/ascii_text.hpp"
 
 namespace corpuscle::circuit {
 namespace {
@@ -23,7 +23,7 @@ class CircuitElaborator {
     struct NodeVoltage {  // of .ic and .nodeset
         std::string node;
         double value;
-        Place place;
+        SourceLocation place;
         bool is_ic;
     };
     std::vector<NodeVoltage> node_voltages_;

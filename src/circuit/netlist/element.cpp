@@ -6,7 +6,7 @@
 
 #include "circuit/netlist/flat.hpp"
 #include "circuit/netlist/number.hpp"
-#include "signal/field.hpp"
+#include "signal/parameter.hpp"
 
 namespace corpuscle::circuit {
 namespace {
@@ -223,7 +223,7 @@ private:
         out_.formula = std::move(*expression);
         return {};
     }
-    void add_forward_reference(const FormulaInput& input, const Place& location) {
+    void add_forward_reference(const FormulaInput& input, const SourceLocation& location) {
         using Kind = FormulaInput::Kind;
         if (input.kind == Kind::current)
             builder_.promises.push_back({input.name, location, std::string(name_), Promise::Of::current});

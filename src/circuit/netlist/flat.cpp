@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "circuit/netlist/number.hpp"
-#include "signal/field.hpp"
+#include "signal/parameter.hpp"
 
 namespace corpuscle::circuit {
 namespace {
@@ -91,7 +91,7 @@ Result<int> Flat::model(Frame& scope, const Text& name, std::string_view user, s
 Result<void> Flat::add(Element e) {
     const auto [at, is_new] = circuit.element_numbers.try_emplace(e.name, static_cast<int>(circuit.elements.size()));
     if (!is_new) {
-        const Place& first = circuit.elements[static_cast<std::size_t>(at->second)].place;
+        const SourceLocation& first = circuit.elements[static_cast<std::size_t>(at->second)].place;
         return bad_input(fmt::format("element '{}' is already defined at {}:{}", e.name, first.file, first.line), e.place);
     }
     circuit.elements.push_back(std::move(e));

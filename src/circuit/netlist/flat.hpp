@@ -8,7 +8,7 @@ namespace corpuscle::circuit {
 /// A name that must exist when the circuit is complete.
 struct Promise {
     std::string name;  ///< full path
-    Place place;
+    SourceLocation place;
     std::string who;  ///< the element that uses it, for the error message
     enum class Of { node, source, current } of;
 };

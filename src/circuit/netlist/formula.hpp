@@ -51,7 +51,7 @@ public:
     ///  - exp(x) and its derivative stay at e^700 beyond x = 700;
     ///  - limit(x,a,b) limits x to the range from a to b;
     ///  - agauss, gauss, unif, aunif and limit(x,d) return their nominal value x.
-    static Result<Formula> parse(std::string_view text, const Place& at, const FormulaScope&);
+    static Result<Formula> parse(std::string_view text, const SourceLocation& at, const FormulaScope&);
 
     /// The inputs, in the order in which value() takes them.
     std::span<const FormulaInput> inputs() const { return inputs_; }

@@ -6,8 +6,8 @@
 #include "circuit/netlist/formula.hpp"
 #include "circuit/netlist/formula_steps.hpp"
 #include "circuit/netlist/number.hpp"
-#include "signal/field.hpp"
-#include "signal/text.hpp"
+#include "signal/parameter.hpp"
+#include "signal/ascii_text.hpp"
 
 namespace corpuscle::circuit {
 namespace {
@@ -54,7 +54,7 @@ class FormulaReader {
     using Arguments = std::vector<std::pair<std::string, Index>>;
 
     const FormulaScope& scope_;
-    const Place& location_;
+    const SourceLocation& location_;
     Formula out_;
     std::string_view text_;
     std::size_t at_ = 0;
@@ -66,7 +66,7 @@ class FormulaReader {
     std::optional<Error> error_;
 
 public:
-    FormulaReader(std::string_view text, const Place& location, const FormulaScope& scope)
+    FormulaReader(std::string_view text, const SourceLocation& location, const FormulaScope& scope)
         : scope_(scope), location_(location), text_(text) {}
 
     Result<Formula> read() {
@@ -83,7 +83,7 @@ private:
     Index fail(std::string message, std::size_t at) {
         if (error_) return no_index;
         if (!calls_.empty()) message = fmt::format("in {}(): {}", calls_.back(), message);
-        Place location = location_;
+        SourceLocation location = location_;
         location.column = std::max(1L, location.column) + static_cast<long>(calls_.empty() ? at : call_at_);
         error_ = bad_input(std::move(message), std::move(location));
         return no_index;
@@ -421,7 +421,7 @@ private:
     }
 };
 
-Result<Formula> Formula::parse(std::string_view text, const Place& at, const FormulaScope& scope) {
+Result<Formula> Formula::parse(std::string_view text, const SourceLocation& at, const FormulaScope& scope) {
     return FormulaReader(text, at, scope).read();
 }
 

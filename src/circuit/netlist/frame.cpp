@@ -45,7 +45,7 @@ std::vector<std::string> dependencies_of(std::string_view text, const Frame& sco
 /// The same error, located in the line of the expression.
 Error relocated(const Error& error, const Text& text) {
     Error out = error;
-    out.place = text.in->line.place(text.word.at + static_cast<std::size_t>(std::max(1L, error.place.column) - 1));
+    out.location = text.in->line.place(text.word.at + static_cast<std::size_t>(std::max(1L, error.location.column) - 1));
     return out;
 }
 
@@ -79,7 +79,7 @@ std::vector<std::string> Frame::known() const {
 }
 
 Result<Formula> Frame::formula(const Text& text, FormulaScope scope) const {
-    const Place location{text.in->line.file ? *text.in->line.file : "", 1, 1};
+    const SourceLocation location{text.in->line.file ? *text.in->line.file : "", 1, 1};
     auto parsed = Formula::parse(text.view(), location, scope);
     if (parsed) return parsed;
     scope.known = known();

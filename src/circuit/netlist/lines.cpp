@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 
-#include "signal/text.hpp"
+#include "signal/ascii_text.hpp"
 
 namespace corpuscle::circuit {
 namespace {
@@ -34,7 +34,7 @@ std::string from_latin1(std::string_view s) {
 
 bool is_text(char c) { return c == '\t' || (c >= ' ' && c <= '~'); }
 
-Error invalid_byte(std::string_view line, std::size_t at, Place location) {
+Error invalid_byte(std::string_view line, std::size_t at, SourceLocation location) {
     const auto byte = static_cast<unsigned char>(line[at]);
     location.column = static_cast<long>(at) + 1;
     const bool is_micro = byte == 0xb5 || (byte == 0xc2 && at + 1 < line.size() && static_cast<unsigned char>(line[at + 1]) == 0xb5);
@@ -60,7 +60,7 @@ bool names_a_file(std::string_view text) {
 
 }  // namespace
 
-Place Line::place(std::size_t at) const {
+SourceLocation Line::place(std::size_t at) const {
     const auto after = std::upper_bound(pieces.begin(), pieces.end(), at, [](std::size_t a, const Piece& p) { return a < p.at; });
     const Piece piece = after == pieces.begin() ? Piece{0, 0, 0} : *(after - 1);
     return {file ? *file : "", static_cast<long>(piece.line), static_cast<long>(piece.column + (at - piece.at))};
@@ -91,7 +91,7 @@ void Lines::put_back() {
 bool Lines::skip_past(std::string_view word) {
     std::string_view line;
     while (take(line))
-        if (trimmed(line).size() >= word.size() && same_letters(trimmed(line).substr(0, word.size()), word)) return true;
+        if (trimmed(line).size() >= word.size() && equal_ignoring_case(trimmed(line).substr(0, word.size()), word)) return true;
     return false;
 }
 

@@ -23,7 +23,7 @@ struct Line {
 
     std::vector<std::uint32_t> capitals;  ///< offsets of capital F and M, which users often mean differently from SPICE
 
-    Place place(std::size_t at = 0) const;
+    SourceLocation place(std::size_t at = 0) const;
     bool was_capital(std::size_t at) const;
 };
 

@@ -9,7 +9,7 @@
 namespace corpuscle::circuit {
 namespace {
 
-Result<std::string> read_file_text(const std::string& path) { return read_whole_input(path, most_text, "netlist"); }
+Result<std::string> read_file_text(const std::string& path) { return read_entire_input(path, most_text, "netlist"); }
 
 int index_of_name(const std::unordered_map<std::string, int>& numbers, std::string_view name) {
     const auto at = numbers.find(std::string(name));

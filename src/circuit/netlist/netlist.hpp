@@ -33,7 +33,7 @@ struct Element {
     std::string name;        ///< in small letters, with the path of its subcircuit: "x1.xinv.m1"
     char letter = 0;         ///< r c l v i e f g h b d m
     std::vector<int> nodes;  ///< indices in Circuit::nodes, in netlist order; of E and G also the controlling nodes
-    Place place;
+    SourceLocation place;
     int model = -1;                   ///< index in Circuit::models; -1 if none
     double value = 0;                 ///< of R C L in ohm, farad, henry; of E F G H the gain
     Values values;                    ///< all values given by name: w, l, m, stack, delvto, ic, tc1 ...
@@ -45,7 +45,7 @@ struct Element {
 
 struct Model {
     std::string name, type;  ///< types are d, nmos, pmos, r, c, ...; the name of a local model has the path of its subcircuit
-    Place place;
+    SourceLocation place;
     Values values;
     std::map<std::string, std::string, std::less<>> words;  ///< values that are not numbers: text in double quotes, and version=3.3.0
 };
@@ -56,7 +56,7 @@ struct Command {
     std::string name;  ///< "op", "dc", ... without the dot
     std::vector<std::string> words;
     std::vector<int> columns;  ///< of each word
-    Place place;
+    SourceLocation place;
 };
 
 /// A flat netlist: subcircuits are expanded and parameters are evaluated.

@@ -7,8 +7,8 @@
 #include "circuit/netlist/body.hpp"
 #include "circuit/netlist/corner.hpp"
 #include "circuit/netlist/number.hpp"
-#include "signal/field.hpp"
-#include "signal/text.hpp"
+#include "signal/parameter.hpp"
+#include "signal/ascii_text.hpp"
 
 namespace corpuscle::circuit {
 namespace {
@@ -157,7 +157,7 @@ private:
         return keep_directive(std::move(line), out_.commands);
     }
 
-    static Error unknown(std::string_view word, Place location) {
+    static Error unknown(std::string_view word, SourceLocation location) {
         std::vector<std::string_view> known(std::begin(structural_directives), std::end(structural_directives));
         known.insert(known.end(), std::begin(circuit_directives), std::end(circuit_directives));
         if (word == ".if" || word == ".elseif" || word == ".else" || word == ".endif")
@@ -195,7 +195,7 @@ private:
         std::sort(names.begin(), names.end());
         const auto twice = std::adjacent_find(names.begin(), names.end());
         if (twice == names.end()) return {};
-        Place location;
+        SourceLocation location;
         for (const auto& pair : s.named)
             if (s.text(pair.name) == *twice) location = s.place(pair.name);
         return bad_input(fmt::format("{}: {} is given twice", s.text(std::size_t{0}), *twice), std::move(location));
@@ -234,7 +234,7 @@ private:
         return define(std::string(text.substr(from, close + 1 - from)), std::string(body), line.place(from));
     }
 
-    Result<void> define(std::string_view head, std::string text, Place location) {
+    Result<void> define(std::string_view head, std::string text, SourceLocation location) {
         const auto open = head.find('(');
         const std::string name(trimmed(head.substr(0, open)));
         if (open == std::string_view::npos || name.empty() || head.back() != ')')
@@ -266,7 +266,7 @@ private:
         return {};
     }
     static std::string location_text(const Statement& s) {
-        const Place p = s.line.place();
+        const SourceLocation p = s.line.place();
         return fmt::format("{}:{}", p.file, p.line);
     }
 
@@ -355,7 +355,7 @@ private:
     }
 
     /// Skips the definition of a section; it is read only by ".lib file section".
-    Result<void> skip_section(Lines& lines, Place from) {
+    Result<void> skip_section(Lines& lines, SourceLocation from) {
         Line line;
         while (true) {
             const auto more = lines.next(line);
@@ -365,7 +365,7 @@ private:
         }
     }
 
-    Result<void> open(std::string_view name, std::string section, Place location) {
+    Result<void> open(std::string_view name, std::string section, SourceLocation location) {
         ++opened_;
         const std::string path = resolved_path(open_files_.back().path, name);
         if (open_files_.size() > max_include_depth)
@@ -374,7 +374,7 @@ private:
         auto& text = texts_[path];
         if (!text) {
             auto opened = open_(path);
-            if (!opened) return bad_input(fmt::format("'{}': {}", name, opened.error().sentence), std::move(location));
+            if (!opened) return bad_input(fmt::format("'{}': {}", name, opened.error().message), std::move(location));
             text = std::make_shared<const std::string>(std::move(*opened));
         }
         const auto shared_text = text;
@@ -385,7 +385,7 @@ private:
         if (std::find(open_files_.begin(), open_files_.end(), Source{path, section}) != open_files_.end())
             return bad_input(fmt::format("'{}' includes itself", name), std::move(location));
         auto ok = read(*shared_text, path, section);
-        if (!ok && ok.error().place.file.empty()) return bad_input(ok.error().sentence, std::move(location));
+        if (!ok && ok.error().location.file.empty()) return bad_input(ok.error().message, std::move(location));
         return ok;
     }
 
@@ -410,7 +410,7 @@ private:
         }
     }
 
-    Result<void> until_endl(Lines& lines, const Place& from) {
+    Result<void> until_endl(Lines& lines, const SourceLocation& from) {
         Line line;
         while (!ended_) {
             const auto more = lines.next(line);

@@ -6,7 +6,7 @@
 #include <limits>
 #include <string>
 
-#include "signal/text.hpp"
+#include "signal/ascii_text.hpp"
 
 namespace corpuscle::circuit {
 namespace {
@@ -47,8 +47,8 @@ struct Scale {
 };
 
 Scale scale_of(std::string_view letters) {
-    if (same_letters(letters.substr(0, 3), "meg")) return {6};
-    if (same_letters(letters.substr(0, 3), "mil")) return {0, 25.4e-6};
+    if (equal_ignoring_case(letters.substr(0, 3), "meg")) return {6};
+    if (equal_ignoring_case(letters.substr(0, 3), "mil")) return {0, 25.4e-6};
     constexpr std::string_view names = "tgkmunpf";
     constexpr int powers[] = {12, 9, 3, -3, -6, -9, -12, -15};
     const auto k = letters.empty() ? std::string_view::npos : names.find(lower(letters[0]));

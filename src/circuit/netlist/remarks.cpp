@@ -4,7 +4,7 @@
 
 #include "circuit/netlist/body.hpp"
 #include "circuit/netlist/number.hpp"
-#include "signal/text.hpp"
+#include "signal/ascii_text.hpp"
 
 namespace corpuscle::circuit {
 namespace {
@@ -13,7 +13,7 @@ std::string warning_for(char element, const SpiceNumber& number, std::string_vie
     const auto scale = number.letters.substr(0, 3);
     const bool is_milli = scale.starts_with('m') && scale != "meg" && scale != "mil";
     const auto digits = as_read.substr(0, as_read.size() - number.letters.size());
-    if (element != 'v' && element != 'i' && element != 'b' && same_letters(number.letters, "a"))
+    if (element != 'v' && element != 'i' && element != 'b' && equal_ignoring_case(number.letters, "a"))
         return fmt::format("{}{} is {}, since 'a' is not a scale; for 1e-18 of it write {}e-18", digits, number.letters, digits, digits);
     if (element == 'r' && is_milli) return fmt::format("{}M is {} milliohm; for a megohm write {}Meg", digits, digits, digits);
     if (element == 'c' && number.letters == "f") return fmt::format("{}F is {} femtofarad; for a farad write {}", digits, digits, digits);
@@ -30,7 +30,7 @@ void remark_on_units(const Statement& s, std::vector<Error>& warnings) {
         const auto text = s.text(w);
         const auto number = whole_number(text);
         if (!number || number->letters.empty()) return;
-        if (!same_letters(number->letters, "a") && !s.line.was_capital(w.at + text.size() - number->letters.size())) return;
+        if (!equal_ignoring_case(number->letters, "a") && !s.line.was_capital(w.at + text.size() - number->letters.size())) return;
         const std::string warning = warning_for(s.line.text[0], *number, text);
         if (!warning.empty()) warnings.push_back(bad_input(fmt::format("{}: {}", s.text(std::size_t{0}), warning), s.place(w)));
     };

@@ -5,7 +5,7 @@
 
 #include "circuit/netlist/flat.hpp"
 #include "circuit/netlist/number.hpp"
-#include "signal/field.hpp"
+#include "signal/parameter.hpp"
 
 namespace corpuscle::circuit {
 namespace {

@@ -33,9 +33,9 @@ struct Statement {
 
     std::string_view text(const Word& w) const { return std::string_view(line.text).substr(w.at, w.size); }
     std::string_view text(std::size_t k) const { return k < words.size() ? text(words[k]) : std::string_view(); }
-    Place place(const Word& w) const { return line.place(w.at); }
+    SourceLocation place(const Word& w) const { return line.place(w.at); }
     /// The location of word k, or of the end of the line if there are fewer words.
-    Place place(std::size_t k) const { return line.place(k < words.size() ? words[k].at : line.text.size()); }
+    SourceLocation place(std::size_t k) const { return line.place(k < words.size() ? words[k].at : line.text.size()); }
     const Named* find(std::string_view name) const;
 };
 

@@ -206,18 +206,18 @@ private:
     Error failure() {
         const auto& c = system_.circuit();
         if (system_.linear() && newton_.singular >= 0)
-            return {Code::bad_input,
+            return {ErrorCode::bad_input,
                     fmt::format("the equations have no unique solution: the matrix is singular at {}",
                                 system_.names()[static_cast<std::size_t>(newton_.singular)]),
-                    Place{c.file}};
+                    SourceLocation{c.file}};
         return {
-            Code::not_converged,
+            ErrorCode::not_converged,
             fmt::format(
                 "no operating point found: Newton's method, gmin stepping, source stepping and pseudo-transient did not converge ({} "
                 "iterations); {}{}",
                 newton_.iterations, newton_.distance(last_),
                 newton_.singular >= 0 ? fmt::format("; singular at {}", system_.names()[static_cast<std::size_t>(newton_.singular)]) : ""),
-            Place{c.file}};
+            SourceLocation{c.file}};
     }
 };
 
@@ -232,10 +232,10 @@ Result<Tolerances> Tolerances::of(const Circuit& c) {
     t.itl1 = static_cast<int>(value_or(c.options, "itl1", t.itl1));
     for (const auto& [name, value] : {std::pair<std::string_view, double>{"reltol", t.reltol}, {"vntol", t.vntol}, {"abstol", t.abstol}})
         if (!(value > 0 && value < 1))
-            return bad_input(fmt::format(".options {} = {:g} must be above 0 and below 1", name, value), Place{c.file});
-    if (!(t.gmin >= 0 && t.gmin < 1)) return bad_input(fmt::format(".options gmin = {:g} must be in [0, 1)", t.gmin), Place{c.file});
+            return bad_input(fmt::format(".options {} = {:g} must be above 0 and below 1", name, value), SourceLocation{c.file});
+    if (!(t.gmin >= 0 && t.gmin < 1)) return bad_input(fmt::format(".options gmin = {:g} must be in [0, 1)", t.gmin), SourceLocation{c.file});
     if (t.itl1 < 1 || t.itl1 > 1'000'000)
-        return bad_input(fmt::format(".options itl1 = {} must be in [1, 1000000]", t.itl1), Place{c.file});
+        return bad_input(fmt::format(".options itl1 = {} must be in [1, 1000000]", t.itl1), SourceLocation{c.file});
     return t;
 }
 

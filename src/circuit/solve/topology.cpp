@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "circuit/devices.hpp"
-#include "signal/field.hpp"
+#include "signal/parameter.hpp"
 
 namespace corpuscle::circuit {
 namespace {
@@ -86,7 +86,7 @@ std::optional<Error> check_floating_nodes(const Circuit& c) {
     const auto subject = names.size() == 1 ? "it" : "their part of the circuit";
     return bad_input(fmt::format("{} no path to ground for direct current: {} {} (elements there: {}); add a large resistor to ground",
                                  what, subject, why, elements_at(c, first)),
-                     first_element != nullptr ? first_element->place : Place{c.file});
+                     first_element != nullptr ? first_element->place : SourceLocation{c.file});
 }
 
 std::optional<Error> check_voltage_loops(const Circuit& c) {
@@ -117,7 +117,7 @@ std::optional<Error> check_voltage_loops(const Circuit& c) {
 }  // namespace
 
 std::optional<Error> unanswerable(const Circuit& c) {
-    if (c.elements.empty()) return bad_input("the circuit has no elements", Place{c.file});
+    if (c.elements.empty()) return bad_input("the circuit has no elements", SourceLocation{c.file});
     if (std::none_of(c.elements.begin(), c.elements.end(),
                      [](const Element& e) { return std::find(e.nodes.begin(), e.nodes.end(), 0) != e.nodes.end(); }))
         return bad_input("no element is connected to ground (node 0)", c.elements[0].place);

@@ -257,10 +257,10 @@ Result<void> Transient::shorten(double h, double error) {
 }
 
 Error Transient::too_short(double h) {
-    return {Code::not_converged,
+    return {ErrorCode::not_converged,
             fmt::format("transient stopped at {}: the step became too short ({}); {}", format_quantity(time(), "s"),
                         format_quantity(h, "s"), newton_.distance(past_.next().x)),
-            Place{system_.circuit().file}};
+            SourceLocation{system_.circuit().file}};
 }
 
 /// Detects ringing of the trapezoidal rule: the change of some dq/dt alternates in sign from step to step.

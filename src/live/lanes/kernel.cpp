@@ -13,8 +13,8 @@ using T = num::Lanes<double>;
 constexpr std::size_t width = T::size;
 
 T numbers(const double* at) { return T::load_unaligned(at); }
-T numbers(const float* at) { return num::of_floats<double>(at); }
-T numbers(const std::int16_t* at) { return num::of_words<double>(at); }
+T numbers(const float* at) { return num::load_float<double>(at); }
+T numbers(const std::int16_t* at) { return num::load_int16<double>(at); }
 
 /// One vector; adds 1 to `bad` for each value that is not a valid force.
 template <class Value>

@@ -259,7 +259,7 @@ class Crowd final : public Population {
 
     Error lost(std::size_t afferent, const Block& b, PopulationAnswer& response) const {
         response.failed = afferent;
-        return {Code::not_converged,
+        return {ErrorCode::not_converged,
                 fmt::format("{}: its state became NaN or infinite between samples {} and {}; the force or a gain is "
                             "far too large, or the substep too long",
                             cast_.name, step_ / between_looks * between_looks, step_ + static_cast<std::int64_t>(b.steps))};
@@ -321,18 +321,18 @@ public:
         return {};
     }
 
-    Result<void> respond(const PopulationForce& force, std::size_t steps, PopulationAnswer& response, Pool& pool) override {
+    Result<void> respond(const PopulationForce& force, std::size_t steps, PopulationAnswer& response, ThreadPool& pool) override {
         if (auto ok = check(force, steps); !ok) return ok;
         if (steps == 0) return {};
         Block block{force, steps, once(force), nullptr};
         if (const auto* profile = std::get_if<ForceProfile>(&force)) {
-            if (const auto at = first_not_finite(profile->force.first(steps)); at < steps) return *no_force(block, response);
+            if (const auto at = first_non_finite(profile->force.first(steps)); at < steps) return *no_force(block, response);
             const auto now = profile->force.first(steps);
             block.once ? profile_.transduce(*cast_.once, now, step_ == 0, cast_.receptor->outputs) : profile_.keep(now);
         }
         if (response.marks) response.marks->assign(tiles_ * steps, 0), block.marks = response.marks->data();
         while (scratch_.size() < pool.threads()) scratch_.emplace_back();
-        pool.each(jobs_.size(), [&](std::size_t job, unsigned thread) { run_job(block, job, scratch_[thread]); });
+        pool.for_each(jobs_.size(), [&](std::size_t job, unsigned thread) { run_job(block, job, scratch_[thread]); });
         for (const auto& job : jobs_) response.capped += job.capped, response.unmarked += job.unmarked, response.passed += job.passed;
         if (auto error = wrong(block, response)) return *error;
         if (response.spikes) gather(jobs_, steps, step_, cast_.numbers, *response.spikes, begin_, at_);

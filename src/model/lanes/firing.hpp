@@ -12,7 +12,7 @@ struct Fired {
     FiringList<V>* list;
     int first;
 
-    std::uint64_t valid(num::Mask<Batch<V>> mask) const { return num::bits(mask) & (list->valid >> first); }
+    std::uint64_t valid(num::Mask<Batch<V>> mask) const { return num::mask_bits(mask) & (list->valid >> first); }
     [[gnu::noinline, gnu::cold]] void operator()(num::Mask<Batch<V>> mask, Batch<V> offset) const {
         const auto bits = valid(mask);
         if (bits == 0) return;

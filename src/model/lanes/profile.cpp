@@ -49,7 +49,7 @@ public:
 std::unique_ptr<ProfileTransduction> profile_transduction(const AfferentPlan& plan, const Run& run) {
     std::unique_ptr<ProfileTransduction> receptor;
     with_named(Receptors{}, plan.receptor, [&]<template <class> class R>(Model<R>) {
-        const auto params = with<typename R<double>::Params>(R<double>::fields, settings_of(plan));
+        const auto params = with_settings<typename R<double>::Params>(R<double>::fields, settings_of(plan));
         receptor = std::make_unique<Transduction<R<double>>>(R<double>(Same<typename R<double>::Params>{params}, run.dt, run.method));
     });
     return receptor;

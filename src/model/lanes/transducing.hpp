@@ -25,7 +25,7 @@ struct Force {
         if constexpr (feed == Feed::profile)
             return Batch<V>(profile[step]) * load(gain + first);
         else if constexpr (feed == Feed::words)
-            return num::of_words<V>(words + step * tile_units + first) * Batch<V>(scale);
+            return num::load_int16<V>(words + step * tile_units + first) * Batch<V>(scale);
         else
             return load(rows + step * tile_units + first);
     }

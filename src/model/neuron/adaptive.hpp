@@ -3,7 +3,7 @@
 #include "model/current.hpp"
 #include "model/neuron/step.hpp"
 #include "signal/afferent.hpp"
-#include "signal/field.hpp"
+#include "signal/parameter.hpp"
 
 namespace corpuscle {
 
@@ -20,7 +20,7 @@ struct AdaptiveFacts {
     };
     static constexpr std::string_view name = "adaptive", sentence = "no leak, and a threshold that rises with each spike and decays";
     static constexpr std::string_view source = "choice, after Lee et al. 2016 as described in thesis 3.1";
-    static constexpr Field<Params> fields[] = {
+    static constexpr ParameterDef<Params> fields[] = {
         {"C_m", &Params::C_m, "F", 1e-18, 1, "membrane capacitance"},
         {"E_L", &Params::E_L, "V", -10, 10, "resting potential, the lower limit"},
         {"V_th", &Params::V_th, "V", -10, 10, "threshold at rest"},
@@ -29,7 +29,7 @@ struct AdaptiveFacts {
         {"tau_th", &Params::tau_th, "s", 1e-6, 1e3, "time constant of the threshold's decay"},
         {"t_ref", &Params::t_ref, "s", 0, 10, "refractory time"},
     };
-    static constexpr Below<Params> orders[] = {
+    static constexpr OrderConstraint<Params> orders[] = {
         {"V_reset", &Params::V_reset, "V_th", &Params::V_th},
         {"E_L", &Params::E_L, "V_reset", &Params::V_reset, true},
     };

@@ -3,7 +3,7 @@
 #include "model/current.hpp"
 #include "model/neuron/substeps.hpp"
 #include "signal/afferent.hpp"
-#include "signal/field.hpp"
+#include "signal/parameter.hpp"
 
 namespace corpuscle {
 
@@ -18,7 +18,7 @@ struct AdexFacts {
     };
     static constexpr std::string_view name = "adex", sentence = "adaptive exponential integrate-and-fire";
     static constexpr std::string_view source = "Brette and Gerstner 2005, J Neurophysiol 94:3637; thesis 3.2";
-    static constexpr Field<Params> fields[] = {
+    static constexpr ParameterDef<Params> fields[] = {
         {"C_m", &Params::C_m, "F", 1e-15, 1, "membrane capacitance"},
         {"g_L", &Params::g_L, "S", 1e-15, 1, "leak conductance"},
         {"E_L", &Params::E_L, "V", -0.2, 0.1, "resting potential"},
@@ -33,7 +33,7 @@ struct AdexFacts {
         {"gain", &Params::gain, "", 0, 1e6, "gain from the receptor's current to the membrane's", "choice: tens of hertz at microamperes"},
         {"substep", &Params::substep, "s", 1e-8, 1e-3, "longest substep (at most a million substeps per sample)", "choice", true},
     };
-    static constexpr Below<Params> orders[] = {
+    static constexpr OrderConstraint<Params> orders[] = {
         {"V_reset", &Params::V_reset, "V_peak", &Params::V_peak},
         {"E_L", &Params::E_L, "V_T", &Params::V_T},
     };
@@ -76,7 +76,7 @@ struct Adex : AdexFacts {
         };
         advance(y, i, dt, count, V_peak, slopes, [this](Pair<T> at) { return Pair<T>{V_reset, at.w + b}; }, fired);
         s = {y.v, y.w};
-        return num::none<T>();
+        return num::empty_mask<T>();
     }
 
 private:

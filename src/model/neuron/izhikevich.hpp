@@ -3,7 +3,7 @@
 #include "model/current.hpp"
 #include "model/neuron/substeps.hpp"
 #include "signal/afferent.hpp"
-#include "signal/field.hpp"
+#include "signal/parameter.hpp"
 
 namespace corpuscle {
 
@@ -17,7 +17,7 @@ struct IzhikevichFacts {
     };
     static constexpr std::string_view name = "izhikevich", sentence = "Izhikevich 2003: quadratic membrane with recovery";
     static constexpr std::string_view source = "Izhikevich 2003, IEEE Trans Neural Netw 14:1569 (regular spiking); thesis 3.2";
-    static constexpr Field<Params> fields[] = {
+    static constexpr ParameterDef<Params> fields[] = {
         {"a", &Params::a, "1/s", 1e-3, 1e5, "rate of recovery"},
         {"b", &Params::b, "1/s", -1e5, 1e5, "recovery per membrane potential"},
         {"c", &Params::c, "V", -0.2, 0.02, "membrane after a spike"},
@@ -26,7 +26,7 @@ struct IzhikevichFacts {
         {"gain", &Params::gain, "V/s/A", 0, 1e15, "gain from the receptor's current to dv/dt", "choice: tens of hertz at microamperes"},
         {"substep", &Params::substep, "s", 1e-8, 1e-3, "longest substep (at most a million substeps per sample)", "choice", true},
     };
-    static constexpr Below<Params> orders[] = {
+    static constexpr OrderConstraint<Params> orders[] = {
         {"c", &Params::c, "V_peak", &Params::V_peak},
     };
     static constexpr Probe parts[] = {{"v", "V"}, {"w", "V/s"}};
@@ -46,7 +46,7 @@ struct Izhikevich : IzhikevichFacts {
     /// The stable resting state, dv/dt = dw/dt = 0; c if there is none.
     State start() const {
         const T p = T(5e3) - b, discriminant = p * p - T(4 * 4e4 * 140);
-        const T v = num::select(discriminant > T(0.0), (-p - num::sqrt(num::positive(discriminant))) / T(8e4), c);
+        const T v = num::select(discriminant > T(0.0), (-p - num::sqrt(num::positive_part(discriminant))) / T(8e4), c);
         return {v, b * v};
     }
     void show(const State& s, T (&out)[2]) const { out[0] = s.v, out[1] = s.w; }
@@ -61,7 +61,7 @@ struct Izhikevich : IzhikevichFacts {
         };
         advance(y, i, dt, count, V_peak, slopes, [this](Pair<T> at) { return Pair<T>{c, at.w + d}; }, fired);
         s = {y.v, y.w};
-        return num::none<T>();
+        return num::empty_mask<T>();
     }
 
 private:

@@ -3,7 +3,7 @@
 #include "model/current.hpp"
 #include "model/neuron/step.hpp"
 #include "signal/afferent.hpp"
-#include "signal/field.hpp"
+#include "signal/parameter.hpp"
 
 namespace corpuscle {
 
@@ -18,7 +18,7 @@ struct LifAFacts {
     };
     static constexpr std::string_view name = "lif-a", sentence = "LIF-A: integrate and fire with a leak resistor";
     static constexpr std::string_view source = "thesis 3.2, eq. 5, Alg. 3";
-    static constexpr Field<Params> fields[] = {
+    static constexpr ParameterDef<Params> fields[] = {
         {"C_m", &Params::C_m, "F", 1e-18, 1, "membrane capacitance (C)", "as lif-b"},
         {"R_m", &Params::R_m, "ohm", 1, 1e18, "membrane resistance (R)", "thesis fig. 16"},
         {"E_L", &Params::E_L, "V", -10, 10, "resting potential (u_rest)", "thesis fig. 16"},
@@ -26,7 +26,7 @@ struct LifAFacts {
         {"V_reset", &Params::V_reset, "V", -10, 10, "potential after a spike (u_rst)", "choice: as lif-b"},
         {"t_ref", &Params::t_ref, "s", 0, 10, "refractory time", "thesis: none"},
     };
-    static constexpr Below<Params> orders[] = {
+    static constexpr OrderConstraint<Params> orders[] = {
         {"V_reset", &Params::V_reset, "V_th", &Params::V_th},
         {"E_L", &Params::E_L, "V_th", &Params::V_th},
     };
@@ -97,7 +97,7 @@ private:
     template <class Fired>
     num::Mask<T> step_sampled(State& s, T i, Fired& fired) const {
         const auto refractory = s.wait > T(0.0);
-        s.wait = num::positive(s.wait - T(1.0));
+        s.wait = num::positive_part(s.wait - T(1.0));
         const T before = s.u, end = num::select(refractory, before, (before + theta * (E_L + R_m * i)) / (T(1.0) + theta));
         const T drop = V_th - V_reset;
         T level = V_th;  // of the straight line from `before` to `end`, continued without resets
@@ -107,7 +107,7 @@ private:
             const T x = offset_from((level - before) / num::select(over, end - before, T(1.0)), T(0.0));
             fired(over, x);
             s.u = num::select(over, num::select(ref > T(0.0), V_reset, s.u - drop), s.u);
-            s.wait = num::select(over, num::positive(x + ref - T(1.0)), s.wait);
+            s.wait = num::select(over, num::positive_part(x + ref - T(1.0)), s.wait);
             level = level + drop;
             over = over & (s.u > V_th);
         }

@@ -3,7 +3,7 @@
 #include "model/current.hpp"
 #include "model/neuron/step.hpp"
 #include "signal/afferent.hpp"
-#include "signal/field.hpp"
+#include "signal/parameter.hpp"
 
 namespace corpuscle {
 
@@ -17,7 +17,7 @@ struct LifBFacts {
     };
     static constexpr std::string_view name = "lif-b", sentence = "LIF-B: integrate and fire with a constant leak current";
     static constexpr std::string_view source = "thesis 3.2, eq. 6, 7, Alg. 4";
-    static constexpr Field<Params> fields[] = {
+    static constexpr ParameterDef<Params> fields[] = {
         {"C_m", &Params::C_m, "F", 1e-18, 1, "membrane capacitance (C)", "thesis 3.3"},
         {"I_leak0", &Params::I_leak0, "A", 0, 1, "leak above E_L; the rheobase", "thesis 3.3"},
         {"E_L", &Params::E_L, "V", -10, 10, "resting potential (u_rest)", "thesis fig. 16"},
@@ -25,7 +25,7 @@ struct LifBFacts {
         {"V_reset", &Params::V_reset, "V", -10, 10, "potential after a spike (u_rst)", "choice: not given in the thesis"},
         {"t_ref", &Params::t_ref, "s", 0, 10, "refractory time", "thesis: none"},
     };
-    static constexpr Below<Params> orders[] = {
+    static constexpr OrderConstraint<Params> orders[] = {
         {"V_reset", &Params::V_reset, "V_th", &Params::V_th},
         {"E_L", &Params::E_L, "V_reset", &Params::V_reset, true},
     };
@@ -73,7 +73,7 @@ struct LifB : LifBFacts {
             return over;
         }
         s = next;
-        return num::none<T>();
+        return num::empty_mask<T>();
     }
 
 private:

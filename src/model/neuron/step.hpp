@@ -22,7 +22,7 @@ struct Parabola {
     }
     /// The x at which q rises through c. The discriminant is kept from becoming negative by rounding.
     T rises_through(T c) const {
-        const T root = num::sqrt(num::positive(a * a + T(2.0) * b * c));
+        const T root = num::sqrt(num::positive_part(a * a + T(2.0) * b * c));
         const auto straight = a > T(0.0);
         const T numerator = num::select(straight, T(2.0) * c, root - a), denominator = num::select(straight, a + root, b);
         return numerator / denominator;

@@ -2,7 +2,7 @@
 
 #include "model/current.hpp"
 #include "signal/afferent.hpp"
-#include "signal/field.hpp"
+#include "signal/parameter.hpp"
 
 namespace corpuscle {
 
@@ -15,7 +15,7 @@ struct Fa1aFacts {
     };
     static constexpr std::string_view name = "fa1a", sentence = "FA-IA: one neuron for rising and one for falling force";
     static constexpr std::string_view source = "Lee et al. 2016; thesis eq. 2 to 4, Alg. 2; the value is a choice";
-    static constexpr Field<Params> fields[] = {
+    static constexpr ParameterDef<Params> fields[] = {
         {"k", &Params::k, "A s/N", 0, 1, "gain from slope of force to current"},
     };
     static constexpr int outputs = 2;
@@ -34,7 +34,7 @@ struct Fa1a : Fa1aFacts {
 
     State start(T F) const { return {F}; }
     void step(State& s, T F, Current<T> (&i)[outputs]) const {
-        const T slope = kT * (F - s.F), up = num::positive(slope), down = num::positive(-slope);
+        const T slope = kT * (F - s.F), up = num::positive_part(slope), down = num::positive_part(-slope);
         i[0] = {up, up};
         i[1] = {down, down};
         s.F = F;

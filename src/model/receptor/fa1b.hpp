@@ -2,7 +2,7 @@
 
 #include "model/current.hpp"
 #include "signal/afferent.hpp"
-#include "signal/field.hpp"
+#include "signal/parameter.hpp"
 
 namespace corpuscle {
 
@@ -14,7 +14,7 @@ struct Fa1bFacts {
     };
     static constexpr std::string_view name = "fa1b", sentence = "FA-IB: a slow high-pass, rectified with a gain for each direction";
     static constexpr std::string_view source = "thesis 3.4, Alg. 6";
-    static constexpr Field<Params> fields[] = {
+    static constexpr ParameterDef<Params> fields[] = {
         {"k_A", &Params::k_A, "A/N", 0, 1, "gain for rising force (protraction)"},
         {"k_B", &Params::k_B, "A/N", 0, 1, "gain for falling force (retraction)"},
         {"f", &Params::f, "Hz", 1e-6, 1e6, "corner of the high-pass"},
@@ -45,9 +45,9 @@ struct Fa1b : Fa1bFacts {
         s.F = F, s.I = current(s);
         i[0] = {hold ? before : s.I, s.I};
     }
-    T current(const State& s) const { return k_A * num::positive(s.x) + k_B * num::positive(-s.x); }
+    T current(const State& s) const { return k_A * num::positive_part(s.x) + k_B * num::positive_part(-s.x); }
     void settle(State& s) const { s.x = settled(s.x, faded_force), s.I = current(s); }
-    void show(const State& s, T (&out)[2]) const { out[0] = k_A * num::positive(s.x), out[1] = k_B * num::positive(-s.x); }
+    void show(const State& s, T (&out)[2]) const { out[0] = k_A * num::positive_part(s.x), out[1] = k_B * num::positive_part(-s.x); }
 
 private:
     T k_A, k_B;

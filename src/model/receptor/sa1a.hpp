@@ -2,7 +2,7 @@
 
 #include "model/current.hpp"
 #include "signal/afferent.hpp"
-#include "signal/field.hpp"
+#include "signal/parameter.hpp"
 
 namespace corpuscle {
 
@@ -14,7 +14,7 @@ struct Sa1aFacts {
     };
     static constexpr std::string_view name = "sa1a", sentence = "SA-IA: static part plus the absolute slope of the force";
     static constexpr std::string_view source = "Kim et al. 2012, doi 10.1186/1743-0003-9-45; thesis eq. 1, Alg. 1; values are a choice";
-    static constexpr Field<Params> fields[] = {
+    static constexpr ParameterDef<Params> fields[] = {
         {"beta", &Params::beta, "A", -1e-3, 1e-3, "current without force"},
         {"k_s", &Params::k_s, "A/N", 0, 1, "static gain"},
         {"k_d", &Params::k_d, "A s/N", 0, 1, "dynamic gain, for rising and falling force alike"},

@@ -2,7 +2,7 @@
 
 #include "model/current.hpp"
 #include "signal/afferent.hpp"
-#include "signal/field.hpp"
+#include "signal/parameter.hpp"
 
 namespace corpuscle {
 
@@ -15,7 +15,7 @@ struct Sa1bFacts {
     };
     static constexpr std::string_view name = "sa1b", sentence = "SA-IB: static part plus two rectified high-passes, one fast, one slow";
     static constexpr std::string_view source = "thesis 3.3, eq. 8 to 12, Alg. 5";
-    static constexpr Field<Params> fields[] = {
+    static constexpr ParameterDef<Params> fields[] = {
         {"k_A", &Params::k_A, "A/N", 0, 1, "gain of the static part I_A"},
         {"K_B", &Params::K_B, "A/N", 0, 1, "gain of the fast part I_B, active in protraction",
          "thesis 3.3, printed 8 A/A; applied to the force"},
@@ -51,7 +51,7 @@ struct Sa1b : Sa1bFacts {
         s.F = F, s.I = current(s);
         i[0] = {hold ? before : s.I, s.I};
     }
-    T current(const State& s) const { return k_A * s.F + num::positive(s.I_B) + num::positive(s.I_C); }
+    T current(const State& s) const { return k_A * s.F + num::positive_part(s.I_B) + num::positive_part(s.I_C); }
     void settle(State& s) const {
         s.I_B = settled(s.I_B, faded_current), s.I_C = settled(s.I_C, faded_current);
         s.I = current(s);

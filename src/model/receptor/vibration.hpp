@@ -2,7 +2,7 @@
 
 #include "model/current.hpp"
 #include "signal/afferent.hpp"
-#include "signal/field.hpp"
+#include "signal/parameter.hpp"
 
 namespace corpuscle {
 
@@ -18,7 +18,7 @@ struct VibrationFacts {
     static constexpr std::string_view name = "vibration", sentence = "a band of vibration: two high-passes and a low-pass, rectified";
     static constexpr std::string_view source = "choice, to the tuning of PC afferents in PMC2657072, table 1";
     static constexpr double least_rate = 1000;  ///< Hz; below this sampling rate the samples do not contain the band
-    static constexpr Field<Params> fields[] = {
+    static constexpr ParameterDef<Params> fields[] = {
         {"k", &Params::k, "A/N", 0, 1, "gain"},
         {"f_hp", &Params::f_hp, "Hz", 1e-6, 1e6, "cutoff frequency of the two high-passes"},
         {"f_lp", &Params::f_lp, "Hz", 1e-6, 1e6, "cutoff frequency of the low-pass"},
@@ -48,7 +48,7 @@ struct Vibration : VibrationFacts {
         s.F = F, s.x_1 = x_1, s.x_2 = x_2, s.x_3 = x_3, s.I = current(s);
         i[0] = {hold ? before : s.I, s.I};
     }
-    T current(const State& s) const { return k * num::positive(s.x_2 - s.x_3); }  // a low-pass is its input minus a high-pass
+    T current(const State& s) const { return k * num::positive_part(s.x_2 - s.x_3); }  // a low-pass is its input minus a high-pass
     void settle(State& s) const {
         s.x_1 = settled(s.x_1, faded_force), s.x_2 = settled(s.x_2, faded_force), s.x_3 = settled(s.x_3, faded_force);
         s.I = current(s);

@@ -18,7 +18,7 @@ struct Adc {
     };
     static constexpr std::string_view name = "adc", sentence = "analog-to-digital converter; the algorithms behind it run in fixed point";
     static constexpr std::string_view source = "thesis 1.3, fig. 6a; all values are a choice";
-    static constexpr Field<Params> fields[] = {
+    static constexpr ParameterDef<Params> fields[] = {
         {"bits", &Params::bits, "", 1, 16, "bits of a code", {}, true},
         {"f_s", &Params::f_s, "Hz", 0.1, 1e6, "conversions per second, and steps of the algorithms", {}, true},
         {"F_low", &Params::F_low, "N", -1e6, 1e6, "force of the lowest code"},
@@ -35,7 +35,7 @@ struct Adc {
         {"word", &Params::word, "", 8, 32, "bits of a word in the algorithms", {}, true},
         {"frac", &Params::frac, "", 0, 31, "fraction bits of a word: steps of 2^-frac N, uA, V", {}, true},
     };
-    static constexpr Below<Params> orders[] = {
+    static constexpr OrderConstraint<Params> orders[] = {
         {"F_low", &Params::F_low, "F_high", &Params::F_high},
         {"frac", &Params::frac, "word", &Params::word},
     };

@@ -11,7 +11,7 @@ constexpr double max_count = 0x1p53;            // the largest count that a doub
 }  // namespace
 
 struct Digital::Held {
-    Turn slot;
+    ChannelSlot slot;
     Instants instants;
     Instants::Place next;           ///< the next conversion
     double before = 0, sensed = 0;  ///< force of the last sample, and after the sensor's hysteresis; N
@@ -33,9 +33,9 @@ Digital::Digital(std::string name, Converter converter, std::unique_ptr<const Fi
 
 Instants Digital::instants_of(std::uint32_t channels) const { return {source_rate_, f_s_, channels}; }
 
-State Digital::start(Turn slot) const {
-    if (!shared_ || slot.of == 0) slot = {};
-    Held h{slot, instants_of(slot.of), {}};
+State Digital::start(ChannelSlot slot) const {
+    if (!shared_ || slot.channel_count == 0) slot = {};
+    Held h{slot, instants_of(slot.channel_count), {}};
     h.next = h.instants.first(slot.channel);
     Arithmetic a{chain_->constants().format()};
     chain_->start(0, h.state);
@@ -48,7 +48,7 @@ State Digital::start(Turn slot) const {
 
 void Digital::keep(const Held& h, State& state) const {
     auto to = state.values.begin();
-    for (const double x : {static_cast<double>(h.slot.channel), static_cast<double>(h.slot.of), static_cast<double>(h.next.step),
+    for (const double x : {static_cast<double>(h.slot.channel), static_cast<double>(h.slot.channel_count), static_cast<double>(h.next.step),
                            static_cast<double>(h.next.rest), h.before, h.sensed, static_cast<double>(h.code)})
         *to++ = x;
     for (std::size_t w = 0; w < chain_->words(); ++w) *to++ = static_cast<double>(h.state[w]);
@@ -62,8 +62,8 @@ std::optional<Digital::Held> Digital::held_of(const State& state) const {
     if (!is_count(v[1], 1, 0x1p20) || !is_count(v[0], 0, v[1] - 1) || !is_count(v[2], 0, max_count) || !is_count(v[3], 0, max_count))
         return {};
     if (!std::isfinite(v[4]) || !std::isfinite(v[5]) || !is_count(v[6], -1, static_cast<double>(converter_.most()))) return {};
-    const Turn slot{static_cast<std::uint32_t>(v[0]), static_cast<std::uint32_t>(v[1])};
-    Held h{slot, instants_of(slot.of),           {static_cast<std::int64_t>(v[2]), static_cast<std::int64_t>(v[3])}, v[4],
+    const ChannelSlot slot{static_cast<std::uint32_t>(v[0]), static_cast<std::uint32_t>(v[1])};
+    Held h{slot, instants_of(slot.channel_count),           {static_cast<std::int64_t>(v[2]), static_cast<std::int64_t>(v[3])}, v[4],
            v[5], static_cast<std::int64_t>(v[6])};
     if (h.next.rest >= h.instants.parts()) return {};
     const auto max_word = static_cast<double>(chain_->constants().format().most());
@@ -75,11 +75,11 @@ std::optional<Digital::Held> Digital::held_of(const State& state) const {
     return h;
 }
 
-Result<void> Digital::respond(std::span<const double> force, State& state, Answer& response) const {
+Result<void> Digital::respond(std::span<const double> force, State& state, ResponseBlock& response) const {
     return convert(force, state, response, [](const Conversion&) {});
 }
 
-Result<void> Digital::convert(std::span<const double> force, State& state, Answer& response, const Seen& seen) const {
+Result<void> Digital::convert(std::span<const double> force, State& state, ResponseBlock& response, const Seen& seen) const {
     const auto size = values_before_words + chain_->words() + chain_->shown().size();
     if (auto ok = check_block(name_, format_, size, state, force); !ok) return ok;
     auto unpacked = held_of(state);
@@ -94,7 +94,7 @@ Result<void> Digital::convert(std::span<const double> force, State& state, Answe
             const bool on_sample = h.next.rest == 0;
             const double x = on_sample ? 1 : static_cast<double>(h.next.rest) / static_cast<double>(h.instants.parts());
             const double F = on_sample ? force[k] : h.before + x * (force[k] - h.before);
-            one(h, front.played(h.sensed, F), {h.next.step + !on_sample, x, response.unit}, response, seen);
+            one(h, front.played(h.sensed, F), {h.next.step + !on_sample, x, response.afferent_index}, response, seen);
         }
         h.sensed = front.played(h.sensed, force[k]);
         h.before = force[k];
@@ -106,7 +106,7 @@ Result<void> Digital::convert(std::span<const double> force, State& state, Answe
 }
 
 /// One conversion of a force (after hysteresis) and one step of the algorithms.
-void Digital::one(Held& h, double sensed, Spike at, Answer& response, const Seen& seen) const {
+void Digital::one(Held& h, double sensed, Spike at, ResponseBlock& response, const Seen& seen) const {
     const auto [code, clipped] = converter_.convert(sensed);
     const Word F = rom_[static_cast<std::size_t>(code)];
     if (h.code < 0) chain_->start(F, h.state);
@@ -115,13 +115,13 @@ void Digital::one(Held& h, double sensed, Spike at, Answer& response, const Seen
     const auto stepped = chain_->step(h.state, F, h.shown, a);
     for (const bool spike : stepped.fired)
         if (spike) response.spikes.push_back(at);
-    response.capped += stepped.capped, response.clipped += clipped, response.overflowed += a.overflowed;
+    response.truncated_steps += stepped.capped, response.saturated += clipped, response.overflowed += a.overflowed;
     seen({code, F, std::span(h.shown).first(chain_->shown().size()),
           std::span(stepped.fired).first(static_cast<std::size_t>(chain_->outputs()))});
 }
 
 /// Records sample k: the front end at this sample, and the words of the last conversion.
-void Digital::show(const Held& h, double sensed, std::size_t k, Answer& response) const {
+void Digital::show(const Held& h, double sensed, std::size_t k, ResponseBlock& response) const {
     const auto format = chain_->constants().format();
     std::vector<double> shown(converter_.front().stages().size());
     (void)converter_.front().read(sensed, shown.data());

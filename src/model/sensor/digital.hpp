@@ -25,18 +25,18 @@ public:
     const std::vector<Word>& rom() const { return rom_; }
 
     std::span<const Probe> probes() const override { return probes_; }
-    State start(Turn) const override;
-    Result<void> respond(std::span<const double> force, State&, Answer&) const override;
+    State start(ChannelSlot) const override;
+    Result<void> respond(std::span<const double> force, State&, ResponseBlock&) const override;
     /// The same as respond(), with a call for each conversion.
-    Result<void> convert(std::span<const double> force, State&, Answer&, const Seen&) const;
+    Result<void> convert(std::span<const double> force, State&, ResponseBlock&, const Seen&) const;
 
 private:
     struct Held;  // the values of a State, as numbers of their types
     Instants instants_of(std::uint32_t channels) const;
     std::optional<Held> held_of(const State&) const;
     void keep(const Held&, State&) const;
-    void one(Held&, double sensed, Spike at, Answer&, const Seen&) const;
-    void show(const Held&, double sensed, std::size_t k, Answer&) const;
+    void one(Held&, double sensed, Spike at, ResponseBlock&, const Seen&) const;
+    void show(const Held&, double sensed, std::size_t k, ResponseBlock&) const;
 
     std::string name_, format_;
     Converter converter_;

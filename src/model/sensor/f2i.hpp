@@ -1,7 +1,7 @@
 #pragma once
 
 #include "model/sensor/stage.hpp"
-#include "signal/field.hpp"
+#include "signal/parameter.hpp"
 
 namespace corpuscle {
 
@@ -14,7 +14,7 @@ struct F2i {
     };
     static constexpr std::string_view name = "f2i", sentence = "force to current: a fraction of the sensor's current";
     static constexpr std::string_view source = "thesis 4.2, figs. 21 and 22, eq. 15, table 1";
-    static constexpr Field<Params> fields[] = {
+    static constexpr ParameterDef<Params> fields[] = {
         {"V_FSR", &Params::V_FSR, "V", 1e-6, 100, "voltage across the sensor (V_Y - V_SS)", "inferred from the gain of thesis fig. 24b"},
         {"S_1", &Params::S_1, "", 1e-6, 1e6, "aspect ratio of the array that carries I_F"},
         {"S_2", &Params::S_2, "", 0, 1e6, "aspect ratio of the array that carries the rest; 0: no split"},

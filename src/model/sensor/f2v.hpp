@@ -1,7 +1,7 @@
 #pragma once
 
 #include "model/sensor/stage.hpp"
-#include "signal/field.hpp"
+#include "signal/parameter.hpp"
 
 namespace corpuscle {
 
@@ -14,13 +14,13 @@ struct F2v {
     };
     static constexpr std::string_view name = "f2v", sentence = "force to voltage: transimpedance amplifier on a sensor's conductance";
     static constexpr std::string_view source = "thesis 4.2, fig. 20, eq. 14";
-    static constexpr Field<Params> fields[] = {
+    static constexpr ParameterDef<Params> fields[] = {
         {"V_FSR", &Params::V_FSR, "V", 1e-6, 100, "voltage across the sensor (V_Y - V_SS)", "inferred from the gain of thesis fig. 24b"},
         {"R_fb", &Params::R_fb, "ohm", 1e-3, 1e12, "feedback resistor (R_F)", "choice: 0.55 V at 4 N"},
         {"V_SS", &Params::V_SS, "V", -100, 100, "lower supply", "thesis 4.2"},
         {"V_DD", &Params::V_DD, "V", -100, 100, "upper supply, where V_Z saturates", "thesis 4.2"},
     };
-    static constexpr Below<Params> orders[] = {{"V_SS", &Params::V_SS, "V_DD", &Params::V_DD}};
+    static constexpr OrderConstraint<Params> orders[] = {{"V_SS", &Params::V_SS, "V_DD", &Params::V_DD}};
 
     static Stage stage(const Params& p) {
         return {.part = name,

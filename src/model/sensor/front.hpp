@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "model/sensor/stage.hpp"
-#include "signal/field.hpp"
+#include "signal/parameter.hpp"
 
 namespace corpuscle {
 
@@ -13,7 +13,7 @@ struct Calibration {
     struct Params {
         double F_cal = 4;
     };
-    static constexpr Field<Params> fields[] = {
+    static constexpr ParameterDef<Params> fields[] = {
         {"F_cal", &Params::F_cal, "N", 1e-6, 1e6, "force at which the chain is calibrated: a straight line through it and zero force",
          "choice: the top of the press", true},
     };

@@ -14,13 +14,13 @@ class Fronted final : public Afferent {
     std::vector<Probe> probes_;  // of the front end, the calibrated force, of the inner afferent
     std::size_t inner_values_;
 
-    std::vector<double> believed(std::span<const double> force, State&, Answer&) const;
+    std::vector<double> believed(std::span<const double> force, State&, ResponseBlock&) const;
 
 public:
     Fronted(Front, std::unique_ptr<Afferent>);
     std::span<const Probe> probes() const override { return probes_; }
-    State start(Turn) const override;
-    Result<void> respond(std::span<const double> force, State&, Answer&) const override;
+    State start(ChannelSlot) const override;
+    Result<void> respond(std::span<const double> force, State&, ResponseBlock&) const override;
 };
 
 }  // namespace corpuscle

@@ -20,7 +20,7 @@ std::string names_in(List list) {
     return names;
 }
 
-Adc::Params adc_of(const AfferentPlan& plan) { return with<Adc::Params>(Adc::fields, settings_of(plan)); }
+Adc::Params adc_of(const AfferentPlan& plan) { return with_settings<Adc::Params>(Adc::fields, settings_of(plan)); }
 
 }  // namespace
 
@@ -29,7 +29,7 @@ Front front_of(const AfferentPlan& plan) {
     std::vector<Stage> stages;
     const auto add = [&](std::string_view name) {
         return [&, name]<class M>(Part<M>) {
-            if (M::name == name) stages.push_back(M::stage(with<typename M::Params>(M::fields, settings)));
+            if (M::name == name) stages.push_back(M::stage(with_settings<typename M::Params>(M::fields, settings)));
         };
     };
     each(Sensors{}, add(plan.sensor)), each(Transducers{}, add(plan.transducer));
@@ -43,8 +43,8 @@ Result<std::unique_ptr<const FixedChain>> fixed_chain_of(const AfferentPlan& pla
     std::unique_ptr<const FixedChain> chain;
     with_fixed(FixedReceptors{}, plan.receptor, [&]<class R>(Part<R>) {
         with_fixed(FixedNeurons{}, plan.neuron, [&]<class N>(Part<N>) {
-            const auto r = with<typename R::Facts::Params>(R::Facts::fields, settings);
-            const auto n = with<typename N::Facts::Params>(N::Facts::fields, settings);
+            const auto r = with_settings<typename R::Facts::Params>(R::Facts::fields, settings);
+            const auto n = with_settings<typename N::Facts::Params>(N::Facts::fields, settings);
             chain = std::make_unique<FixedChainOf<R, N>>(r, n, adc.f_s, format);
         });
     });
@@ -54,7 +54,7 @@ Result<std::unique_ptr<const FixedChain>> fixed_chain_of(const AfferentPlan& pla
     const Converter converter(front_of(plan), adc);
     Constants constants = chain->constants();  // the force at both ends must fit as well
     for (const auto code : {std::int64_t{0}, converter.most()}) (void)constants.level("the force of a code", converter.force(code));
-    if (const auto& misfit = constants.misfit()) return bad_input(plan.name + ": " + misfit->sentence);
+    if (const auto& misfit = constants.misfit()) return bad_input(plan.name + ": " + misfit->message);
     return chain;
 }
 

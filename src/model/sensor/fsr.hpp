@@ -2,7 +2,7 @@
 
 #include "model/sensor/stage.hpp"
 #include "signal/elementary.hpp"
-#include "signal/field.hpp"
+#include "signal/parameter.hpp"
 
 namespace corpuscle {
 
@@ -17,7 +17,7 @@ struct Fsr {
     };
     static constexpr std::string_view name = "fsr", sentence = "force sensing resistor FSR 400: conductance of force";
     static constexpr std::string_view source = "thesis 4.1, eq. 13";
-    static constexpr Field<Params> fields[] = {
+    static constexpr ParameterDef<Params> fields[] = {
         {"R_0", &Params::R_0, "ohm", 1, 1e12, "resistance without force"},
         {"R_1gf", &Params::R_1gf, "ohm", 1, 1e12, "resistance of the film alone at 1 gf (a, in ohm gf^m)",
          "thesis 4.1, printed 170 ohm gf; the data sheet's curve needs kilohms"},

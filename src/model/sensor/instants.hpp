@@ -23,9 +23,9 @@ public:
     /// The ratio of the rates is replaced by the simplest fraction within 1e-12 of it.
     Instants(double source_rate, double f_s, std::uint32_t channels) : turns_(channels) {
         const double ratio = source_rate / f_s, above_one = ratio >= 1 ? ratio : 1 / ratio;
-        const auto fraction = clock_of(above_one);  // fails above 1e12, where the nearest integer is accurate enough
-        const std::int64_t numerator = fraction ? fraction->per : static_cast<std::int64_t>(above_one),
-                           denominator = fraction ? fraction->seconds : 1;
+        const auto fraction = make_clock(above_one);  // fails above 1e12, where the nearest integer is accurate enough
+        const std::int64_t numerator = fraction ? fraction->rate_numerator : static_cast<std::int64_t>(above_one),
+                           denominator = fraction ? fraction->rate_denominator : 1;
         const std::int64_t a = ratio >= 1 ? numerator : denominator, b = ratio >= 1 ? denominator : numerator;
         whole_ = a / b, part_ = a % b, base_ = b;
     }

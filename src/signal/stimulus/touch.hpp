@@ -4,13 +4,13 @@
 #include <vector>
 
 #include "signal/elementary.hpp"
-#include "signal/field.hpp"
-#include "signal/source.hpp"
+#include "signal/parameter.hpp"
+#include "signal/force_source.hpp"
 
 namespace corpuscle {
 
 /// The progress at time t of a movement that starts at `from` and takes `length`: 0 before, 1 after, linear between.
-inline double progress(double t, double from, double length) {
+inline double ramp_fraction(double t, double from, double length) {
     if (t < from) return 0;
     return t < from + length ? (t - from) / length : 1;
 }
@@ -28,9 +28,9 @@ struct Press {
         double F_min = 0.2, F_max = 4, t_rest = 0.25, t_up = 0.125, t_hold = 0.25, t_down = 0.125, t_post = 0.25;
     };
     static constexpr std::string_view name = "press",
-                                      sentence = "the fingertip experiment of the thesis: half-cosine up, hold, half-cosine down";
+                                      description = "the fingertip experiment of the thesis: half-cosine up, hold, half-cosine down";
     static constexpr std::string_view source = "thesis 1.2; Birznieks et al. 2001, J Neurosci 21:8222";
-    static constexpr Field<Params> fields[] = {
+    static constexpr ParameterDef<Params> fields[] = {
         {"F_min", &Params::F_min, "N", 0, 1e3, "force at rest"},
         {"F_max", &Params::F_max, "N", 0, 1e3, "force on the plateau"},
         {"t_rest", &Params::t_rest, "s", 0, 1e5, "time before protraction"},
@@ -43,7 +43,7 @@ struct Press {
     double duration() const { return p.t_rest + p.t_up + p.t_hold + p.t_down + p.t_post; }
     std::vector<Phase> phases() const { return five_phases(p.t_rest, p.t_up, p.t_hold, p.t_down, p.t_post); }
     double at(double t) const {
-        const double up = progress(t, p.t_rest, p.t_up), down = progress(t, p.t_rest + p.t_up + p.t_hold, p.t_down);
+        const double up = ramp_fraction(t, p.t_rest, p.t_up), down = ramp_fraction(t, p.t_rest + p.t_up + p.t_hold, p.t_down);
         const double x = down > 0 ? 1 - down : up;
         return p.F_min + (p.F_max - p.F_min) * 0.5 * (1 - num::cos_turns(0.5 * x));
     }
@@ -54,8 +54,8 @@ struct RampHold {
     struct Params {
         double F_min = 0, F_max = 1, t_rest = 0.25, t_up = 0.1, t_hold = 1, t_down = 0.1, t_post = 0.25;
     };
-    static constexpr std::string_view name = "ramp-hold", sentence = "linear ramp up, hold, linear ramp down", source = "choice";
-    static constexpr Field<Params> fields[] = {
+    static constexpr std::string_view name = "ramp-hold", description = "linear ramp up, hold, linear ramp down", source = "choice";
+    static constexpr ParameterDef<Params> fields[] = {
         {"F_min", &Params::F_min, "N", 0, 1e3, "force at rest"},
         {"F_max", &Params::F_max, "N", 0, 1e3, "force during the hold"},
         {"t_rest", &Params::t_rest, "s", 0, 1e5, "time before the ramp"},
@@ -68,7 +68,7 @@ struct RampHold {
     double duration() const { return p.t_rest + p.t_up + p.t_hold + p.t_down + p.t_post; }
     std::vector<Phase> phases() const { return five_phases(p.t_rest, p.t_up, p.t_hold, p.t_down, p.t_post); }
     double at(double t) const {
-        return p.F_min + (p.F_max - p.F_min) * (progress(t, p.t_rest, p.t_up) - progress(t, p.t_rest + p.t_up + p.t_hold, p.t_down));
+        return p.F_min + (p.F_max - p.F_min) * (ramp_fraction(t, p.t_rest, p.t_up) - ramp_fraction(t, p.t_rest + p.t_up + p.t_hold, p.t_down));
     }
 };
 
@@ -77,9 +77,9 @@ struct Step {
     struct Params {
         double F_min = 0, F_max = 1, t_rest = 0.25, t_hold = 0.5, t_post = 0.25;
     };
-    static constexpr std::string_view name = "step", sentence = "force switched on and off",
+    static constexpr std::string_view name = "step", description = "force switched on and off",
                                       source = "choice; thesis fig. 3 shows the shape";
-    static constexpr Field<Params> fields[] = {
+    static constexpr ParameterDef<Params> fields[] = {
         {"F_min", &Params::F_min, "N", 0, 1e3, "force at rest"},
         {"F_max", &Params::F_max, "N", 0, 1e3, "force during the hold"},
         {"t_rest", &Params::t_rest, "s", 0, 1e5, "time before the step"},

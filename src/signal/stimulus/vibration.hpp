@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "signal/elementary.hpp"
-#include "signal/field.hpp"
+#include "signal/parameter.hpp"
 #include "signal/random.hpp"
-#include "signal/source.hpp"
+#include "signal/force_source.hpp"
 
 namespace corpuscle {
 
@@ -15,8 +15,8 @@ struct Sine {
     struct Params {
         double F_mean = 1, F_amp = 0.5, f = 30, duration = 1;
     };
-    static constexpr std::string_view name = "sine", sentence = "a sinusoid around a mean force", source = "choice";
-    static constexpr Field<Params> fields[] = {
+    static constexpr std::string_view name = "sine", description = "a sinusoid around a mean force", source = "choice";
+    static constexpr ParameterDef<Params> fields[] = {
         {"F_mean", &Params::F_mean, "N", 0, 1e3, "mean force; use 0 to add the sinusoid to another stimulus"},
         {"F_amp", &Params::F_amp, "N", 0, 1e3, "amplitude, half of the peak-to-peak value"},
         {"f", &Params::f, "Hz", 0, 1e6, "frequency"},
@@ -34,8 +34,8 @@ struct Chirp {
     struct Params {
         double F_mean = 1, F_amp = 0.2, f_from = 1, f_to = 500, duration = 5;
     };
-    static constexpr std::string_view name = "chirp", sentence = "a sinusoid with a logarithmic frequency sweep", source = "choice";
-    static constexpr Field<Params> fields[] = {
+    static constexpr std::string_view name = "chirp", description = "a sinusoid with a logarithmic frequency sweep", source = "choice";
+    static constexpr ParameterDef<Params> fields[] = {
         {"F_mean", &Params::F_mean, "N", 0, 1e3, "mean force; use 0 to add the sweep to another stimulus"},
         {"F_amp", &Params::F_amp, "N", 0, 1e3, "amplitude, half of the peak-to-peak value"},
         {"f_from", &Params::f_from, "Hz", 1e-3, 1e6, "first frequency"},
@@ -57,8 +57,8 @@ struct Noise {
     struct Params {
         double F_mean = 1, F_sd = 0.2, f_max = 100, duration = 1;
     };
-    static constexpr std::string_view name = "noise", sentence = "Gaussian noise up to about f_max; see --seed", source = "choice";
-    static constexpr Field<Params> fields[] = {
+    static constexpr std::string_view name = "noise", description = "Gaussian noise up to about f_max; see --seed", source = "choice";
+    static constexpr ParameterDef<Params> fields[] = {
         {"F_mean", &Params::F_mean, "N", 0, 1e3, "mean force; use 0 to add the noise to another stimulus"},
         {"F_sd", &Params::F_sd, "N", 0, 1e3, "standard deviation of the deviates"},
         {"f_max", &Params::f_max, "Hz", 1e-3, 1e6, "upper frequency; the deviates are 1/(2 f_max) apart"},
@@ -83,9 +83,9 @@ struct Grating {
     struct Params {
         double F_contact = 1, F_ridge = 0.5, period = 2e-3, speed = 40e-3, duration = 1;
     };
-    static constexpr std::string_view name = "grating", sentence = "ridges moving over the skin; speed / period is the frequency",
+    static constexpr std::string_view name = "grating", description = "ridges moving over the skin; speed / period is the frequency",
                                       source = "choice";
-    static constexpr Field<Params> fields[] = {
+    static constexpr ParameterDef<Params> fields[] = {
         {"F_contact", &Params::F_contact, "N", 0, 1e3, "mean contact force"},
         {"F_ridge", &Params::F_ridge, "N", 0, 1e3, "force difference between ridge and groove"},
         {"period", &Params::period, "m", 1e-6, 1, "distance between ridges"},

@@ -119,14 +119,14 @@ public:
                fmt::format(", moved from {} to {} in {}", in_mm(p_.x, p_.y), in_mm(p_.x1, p_.y1), format_quantity(path_.seconds(), "s"));
     }
 
-    std::vector<Fact> facts() const override {
-        std::vector<Fact> out;
+    std::vector<MetadataEntry> facts() const override {
+        std::vector<MetadataEntry> out;
         const auto& own = indenter_.measures;
         for (const auto& f : contact_fields) {
             const bool target = f.name == "x1" || f.name == "y1", place = f.name == "x" || f.name == "y";
-            const bool path = target ? moves(p_) : place || p_.*f.at != 0;
+            const bool path = target ? moves(p_) : place || p_.*f.member != 0;
             if (std::find(own.begin(), own.end(), f.name) != own.end() || (is_path_measure(f.name) && path))
-                out.push_back({fmt::format("contact.{}", f.name), p_.*f.at, std::string(f.unit)});
+                out.push_back({fmt::format("contact.{}", f.name), p_.*f.member, std::string(f.unit)});
         }
         return out;
     }
@@ -171,7 +171,7 @@ public:
 
 }  // namespace
 
-Result<std::unique_ptr<Contact>> make_contact(std::string_view name, std::span<const Wish> overrides, const Sites& sites,
+Result<std::unique_ptr<Contact>> make_contact(std::string_view name, std::span<const ParameterOverride> overrides, const Sites& sites,
                                               const Clock& clock) {
     const auto indenter = indenter_named(name);
     if (!indenter) return indenter.error();

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string_view>
 
-#include "signal/settings.hpp"
+#include "signal/parameter_override.hpp"
 #include "skin/skin.hpp"
 
 namespace corpuscle {
@@ -14,7 +14,7 @@ class Contact {
 public:
     virtual ~Contact() = default;
     virtual std::string sentence() const = 0;              ///< "a sphere of 5 mm pressed at (12, 160) mm"
-    virtual std::vector<Fact> facts() const = 0;           ///< its parameters as used
+    virtual std::vector<MetadataEntry> facts() const = 0;           ///< its parameters as used
     virtual std::vector<std::string> remarks() const = 0;  ///< limitations of the model, and how much of the force was off the skin
     /// Force at the sites for `force.size()` samples of normal force (N); the first has number `first`. Valid until the next call. The sum
     /// over all sites is the force, except for the part off the skin.
@@ -22,10 +22,10 @@ public:
 };
 
 /// "flat", "sphere", "edge" or "grating" on this skin, for samples of this clock. Overrides set "contact.PARAMETER".
-Result<std::unique_ptr<Contact>> make_contact(std::string_view indenter, std::span<const Wish> overrides, const Sites&, const Clock&);
+Result<std::unique_ptr<Contact>> make_contact(std::string_view indenter, std::span<const ParameterOverride> overrides, const Sites&, const Clock&);
 
 /// The parameters of all contacts, for listings.
-std::vector<Row> contact_rows();
+std::vector<ParameterInfo> contact_rows();
 
 /// Named touches, which can be requested in place of a force: "stroke" (from the palm to the tip of the index finger), "scan" (a grating
 /// over the fingertip). A touch consists of a force, an indenter and a path.

@@ -44,7 +44,7 @@ bool is_path_measure(std::string_view name) {
     return std::find(std::begin(path_measures), std::end(path_measures), name) != std::end(path_measures);
 }
 
-std::vector<Row> contact_rows() { return rows_of<ContactParams>(contact_fields); }
+std::vector<ParameterInfo> contact_rows() { return parameters_of<ContactParams>(contact_fields); }
 
 Result<const Indenter*> indenter_named(std::string_view name) {
     std::vector<std::string_view> names;
@@ -55,7 +55,7 @@ Result<const Indenter*> indenter_named(std::string_view name) {
     return bad_usage(fmt::format("there is no indenter '{}'{} (there are {})", name, did_you_mean(name, names), fmt::join(names, ", ")));
 }
 
-Result<ContactParams> contact_params(const Indenter& indenter, std::span<const Wish> overrides, const Sites& sites) {
+Result<ContactParams> contact_params(const Indenter& indenter, std::span<const ParameterOverride> overrides, const Sites& sites) {
     const auto rows = contact_rows();
     const auto settings = settings_for("contact", rows, overrides);
     if (!settings) return settings.error();
@@ -68,7 +68,7 @@ Result<ContactParams> contact_params(const Indenter& indenter, std::span<const W
                 fmt::format("contact.{}: {} has no such parameter (it has {}, and for its path {})", s.name, indenter.name,
                             fmt::join(indenter.measures.begin(), std::find(indenter.measures.begin(), indenter.measures.end(), ""), ", "),
                             fmt::join(path_measures, ", ")));
-    auto p = with<ContactParams>(contact_fields, *settings);
+    auto p = with_settings<ContactParams>(contact_fields, *settings);
     if (!is_set("x") && !is_set("y")) {
         const auto middle = middle_of_first(sites);
         p.x = middle.x, p.y = middle.y;

@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "signal/settings.hpp"
+#include "signal/parameter_override.hpp"
 #include "skin/sites.hpp"
 
 namespace corpuscle {
@@ -14,7 +14,7 @@ struct ContactParams {
     double x = 0, y = 0, x1 = 0, y1 = 0, t_start = 0, t_move = 0, speed = 0;
 };
 
-inline constexpr Field<ContactParams> contact_fields[] = {
+inline constexpr ParameterDef<ContactParams> contact_fields[] = {
     {"radius", &ContactParams::radius, "m", 1e-5, 1, "radius of the sphere, of the flat punch, or of the patch in which a grating touches",
      "choice"},
     {"edge_radius", &ContactParams::edge_radius, "m", 1e-6, 0.1, "radius of a rounded edge", "choice"},
@@ -60,7 +60,7 @@ inline constexpr Indenter indenters[] = {
 Result<const Indenter*> indenter_named(std::string_view name);
 
 /// The parameters of a contact from the overrides. A position that is not given is computed from the sites.
-Result<ContactParams> contact_params(const Indenter&, std::span<const Wish>, const Sites&);
+Result<ContactParams> contact_params(const Indenter&, std::span<const ParameterOverride>, const Sites&);
 
 /// True for a parameter of position or movement; every indenter has these.
 bool is_path_measure(std::string_view name);

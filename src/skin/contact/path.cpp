@@ -12,7 +12,7 @@ ContactPath::ContactPath(const ContactParams& p)
 }
 
 Position ContactPath::at(double t) const {
-    const double fraction = length_ > 0 ? progress(t, start_, length_) : 0;
+    const double fraction = length_ > 0 ? ramp_fraction(t, start_, length_) : 0;
     return {from_.x + (to_.x - from_.x) * fraction, from_.y + (to_.y - from_.y) * fraction, 0};
 }
 

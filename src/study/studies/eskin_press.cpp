@@ -8,7 +8,7 @@
 #include <set>
 
 #include "io/recording.hpp"
-#include "io/spikes.hpp"
+#include "io/spike_files.hpp"
 #include "study/sheet.hpp"
 #include "study/studies.hpp"
 

@@ -34,7 +34,7 @@ Result<Plot::Series> tuning_curve(const std::string& afferent, const StudyOption
         const auto amplitude = detection_threshold(afferent, f, 20e3);
         if (!amplitude) return amplitude.error();
         if (*amplitude < 4) curve.x.push_back(f), curve.y.push_back(1e3 * *amplitude);
-        if (!options.keep_on(done += 1.0 / 33)) return Error{Code::interrupted, "interrupted"};
+        if (!options.keep_on(done += 1.0 / 33)) return Error{ErrorCode::interrupted, "interrupted"};
     }
     return curve;
 }

@@ -7,7 +7,7 @@
 #include <deque>
 #include <mutex>
 
-#include "signal/pool.hpp"
+#include "signal/thread_pool.hpp"
 #include "study/studies.hpp"
 #include "study/thesis/beside.hpp"
 
@@ -160,13 +160,13 @@ Result<Outcome> work(const StudyOptions& options) {
     std::mutex guard;
     std::size_t done = 0;
     bool interrupted = false;
-    Pool().each(all.size(), [&](std::size_t k, unsigned) {
+    ThreadPool().for_each(all.size(), [&](std::size_t k, unsigned) {
         if (const std::lock_guard lock(guard); interrupted) return;
         all[k].search();
         const std::lock_guard lock(guard);
         interrupted = interrupted || !options.keep_on(static_cast<double>(++done) / static_cast<double>(all.size()));
     });
-    if (interrupted) return Error{Code::interrupted, "interrupted"};
+    if (interrupted) return Error{ErrorCode::interrupted, "interrupted"};
     Outcome out;
     std::size_t runs = 0, failed_runs = 0;
     for (auto& t : all) {

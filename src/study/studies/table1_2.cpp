@@ -55,7 +55,7 @@ Result<Outcome> work(const StudyOptions&) {
         bool matches = true;
         for (const auto& name : split_words(row.devices)) {
             const auto* e = find_device(**circuit, name);
-            if (e == nullptr) return Error{Code::bad_input, fmt::format("transducer: no transistor {}", name)};
+            if (e == nullptr) return Error{ErrorCode::bad_input, fmt::format("transducer: no transistor {}", name)};
             const bool first = m != m;
             if (first) m = value_or_1(*e, "m"), n = value_or_1(*e, "stack"), W = value_or_1(*e, "w");
             matches = matches && value_or_1(*e, "m") == m && value_or_1(*e, "stack") == n && value_or_1(*e, "w") == W &&

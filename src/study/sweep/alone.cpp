@@ -26,9 +26,9 @@ Result<AloneAnswer> answer_alone(const Afferent& afferent, const FeltForce& forc
     std::vector<Spike> spikes;
     auto state = afferent.start();
     for (std::size_t at = 0; at < samples.size(); at += block_samples) {
-        if (stop && stop()) return Error{Code::interrupted, "interrupted"};
+        if (stop && stop()) return Error{ErrorCode::interrupted, "interrupted"};
         const auto count = std::min(block_samples, samples.size() - at);
-        Answer response{spikes, 0, rows};
+        ResponseBlock response{spikes, 0, rows};
         if (auto ok = afferent.respond(std::span(samples).subspan(at, count), state, response); !ok) return ok.error();
         for (std::size_t p = 0; p < probes.size(); ++p)
             for (std::size_t k = 0; k < count; ++k)
@@ -40,10 +40,10 @@ Result<AloneAnswer> answer_alone(const Afferent& afferent, const FeltForce& forc
     return out;
 }
 
-Result<double> model_says(const Said& model, const ForceMaker& force, const Said& measure) {
-    if (force.varies()) return model.wrong("like: the force varies between items, and so does a model's response; write numbers instead");
+Result<double> model_says(const LocatedText& model, const ForceMaker& force, const LocatedText& measure) {
+    if (force.varies()) return model.error_here("like: the force varies between items, and so does a model's response; write numbers instead");
     const auto plan = plan_any_afferent(model.text, {});
-    if (!plan) return model.wrong("like: " + plan.error().sentence);
+    if (!plan) return model.error_here("like: " + plan.error().message);
     const auto& sweep_force = *force.nominal();
     const auto afferent = make_afferent(*plan, {sweep_force.clock.T()});
     const auto response = answer_alone(*afferent, sweep_force);

@@ -7,7 +7,7 @@
 #include "circuit/analyses.hpp"
 #include "circuit/curves.hpp"
 #include "circuit/run.hpp"
-#include "signal/field.hpp"
+#include "signal/parameter.hpp"
 #include "study/sweep/netlists.hpp"
 #include "study/sweep/subject.hpp"
 
@@ -97,7 +97,7 @@ Result<void> AnalysesSweep::select_measures(const SweepText& spec) {
     if (found) without_transients = *found;
     if (!found && !has(*nominal_, "tran")) return found.error();
     const auto known = numbers_of(*nominal_, without_transients);
-    const auto column = [&](const Said& name) -> Result<std::size_t> {
+    const auto column = [&](const LocatedText& name) -> Result<std::size_t> {
         for (std::size_t k = 0; k < measures_.size(); ++k)
             if (measures_[k].name == name.text) return k;
         const bool is_known = std::find(known.begin(), known.end(), name.text) != known.end();
@@ -108,7 +108,7 @@ Result<void> AnalysesSweep::select_measures(const SweepText& spec) {
             std::vector<std::string> all = known;
             for (std::size_t n = 1; n < nominal_->nodes.size(); ++n) all.push_back(fmt::format("v({})", nominal_->nodes[n]));
             const std::vector<std::string_view> names(all.begin(), all.end());
-            return name.wrong(fmt::format("the netlist has no number '{}'{} (it has {}; voltages are v(NODE), currents i(SOURCE))",
+            return name.error_here(fmt::format("the netlist has no number '{}'{} (it has {}; voltages are v(NODE), currents i(SOURCE))",
                                           name.text, did_you_mean(name.text, names),
                                           known.empty() ? "none of its own" : fmt::format("{}", fmt::join(known, ", "))));
         }
@@ -123,17 +123,17 @@ Result<void> AnalysesSweep::select_measures(const SweepText& spec) {
             if (const auto ok = column({name, {}}); !ok) return ok.error();
     }
     const Limiting limiting{
-        column, [](const Said& model, std::size_t) -> Result<double> {
-            return model.wrong("like: models respond to a force; use it with afferent = ..., not with a netlist's own analyses");
+        column, [](const LocatedText& model, std::size_t) -> Result<double> {
+            return model.error_here("like: models respond to a force; use it with afferent = ..., not with a netlist's own analyses");
         }};
     if (auto ok = set_limits(spec, limiting, measures_); !ok) return ok;
     if (measures_.empty())
-        return spec.netlist->wrong("the netlist has no number of its own (.meas, .print op); name the measures: measures = [\"v(out)\"]");
+        return spec.netlist->error_here("the netlist has no number of its own (.meas, .print op); name the measures: measures = [\"v(out)\"]");
     return {};
 }
 
 Result<void> AnalysesSweep::select_trains(const SweepText& spec) {
-    if (!spec.traces.empty()) return spec.traces[0].wrong("traces is for afferent = ...; for a netlist's own analyses use .meas");
+    if (!spec.traces.empty()) return spec.traces[0].error_here("traces is for afferent = ...; for a netlist's own analyses use .meas");
     const auto keeps = keeps_spikes(spec);
     if (!keeps) return keeps.error();
     if (!*keeps || !has(*nominal_, "spike")) return {};
@@ -148,7 +148,7 @@ Result<std::unique_ptr<Sweep>> AnalysesSweep::make(const SweepText& spec, const 
     for (const auto& [name, value] :
          {std::pair{"force", &spec.force}, {"rate", &spec.rate}, {"channel", &spec.channel}, {"every", &spec.every}})
         if (*value)
-            return (*value)->wrong(fmt::format("{} is for afferent = ...; a netlist's own .tran takes its force from .force", name));
+            return (*value)->error_here(fmt::format("{} is for afferent = ...; a netlist's own .tran takes its force from .force", name));
     auto netlist = NetlistMaker::of(*spec.netlist, folder, spec.orders ? spec.orders->text : "");
     if (!netlist) return netlist.error();
     s.netlist_ = std::move(*netlist);
@@ -163,7 +163,7 @@ Result<std::unique_ptr<Sweep>> AnalysesSweep::make(const SweepText& spec, const 
     if (!written) return written.error();
     Varying varying;
     varying.named = s.netlist_.name(), varying.chips = true;
-    varying.target = [&](const Said& quantity) { return s.netlist_.target(quantity); };
+    varying.target = [&](const LocatedText& quantity) { return s.netlist_.target(quantity); };
     varying.vary = [&](const SweepAxis& a, const std::string& quantity, std::size_t axis) {
         s.netlist_.vary(quantity, axis, a.column.words);
     };
@@ -215,7 +215,7 @@ long AnalysesSweep::most_iterations(const std::function<bool()>& stop) const {
     orders.keep = orders.print = false;
     orders.stop = [&](std::string_view, double) { return stop(); };
     const auto found = circuit::run(**bench, orders);
-    if (!found && found.error().code == Code::interrupted) return 0;
+    if (!found && found.error().code == ErrorCode::interrupted) return 0;
     nominal_iteration_limit_ = found ? static_cast<long>(many_times_nominal * static_cast<double>(outcome(0, found).iterations)) : 0;
     return *nominal_iteration_limit_;
 }
@@ -261,8 +261,8 @@ Result<void> AnalysesSweep::work(const Next& next, const Told& on_outcome, const
             at.bench->draw(*draw);
         at.bench->most_iterations = limit, at.bench->capped = false;
         const auto found = circuit::run(*at.bench, orders);
-        if (!found && found.error().code == Code::interrupted) return {};
-        if (!found && found.error().code != Code::not_converged) return found.error();
+        if (!found && found.error().code == ErrorCode::interrupted) return {};
+        if (!found && found.error().code != ErrorCode::not_converged) return found.error();
         on_outcome(outcome(*item, found, at.bench->capped));
     }
     return {};

@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "signal/elementary.hpp"
-#include "signal/field.hpp"
+#include "signal/parameter.hpp"
 #include "signal/quantity.hpp"
-#include "signal/text.hpp"
+#include "signal/ascii_text.hpp"
 #include "study/sweep/sobol.hpp"
 
 namespace corpuscle::sweeps {
@@ -31,16 +31,16 @@ class AxisReader {
     const std::string method_ = method_of(spec_);
 
     std::string name() const { return spec_.what.text; }
-    Error error_at(const Said& at, std::string message) const { return at.wrong(fmt::format("{}: {}", name(), message)); }
+    Error error_at(const LocatedText& at, std::string message) const { return at.error_here(fmt::format("{}: {}", name(), message)); }
     Error missing(std::string message) const { return error_at(spec_.how ? *spec_.how : spec_.what, std::move(message)); }
 
-    Result<double> number(const Said& given) const {
+    Result<double> number(const LocatedText& given) const {
         auto value = target_.read(given);
-        if (!value) return error_at(given, value.error().sentence);
+        if (!value) return error_at(given, value.error().message);
         return value;
     }
     /// A value within the range of the subject.
-    Result<double> allowed(const Said& given) const {
+    Result<double> allowed(const LocatedText& given) const {
         const auto value = number(given);
         if (!value) return value;
         if (!(*value >= target_.low && *value <= target_.high))
@@ -48,13 +48,13 @@ class AxisReader {
                 given, fmt::format("{} is outside [{}, {}]", format_quantity(*value, target_.column.unit),
                                    format_quantity(target_.low, target_.column.unit), format_quantity(target_.high, target_.column.unit)));
         if (target_.check)
-            if (auto ok = target_.check(given.text); !ok) return given.wrong(ok.error().sentence);
+            if (auto ok = target_.check(given.text); !ok) return given.error_here(ok.error().message);
         return value;
     }
 
     /// Rejects keys that the method does not use.
     Result<void> accept_only(std::initializer_list<std::string_view> known) const {
-        const std::pair<std::string_view, const MaybeSaid*> all[] = {
+        const std::pair<std::string_view, const OptionalLocatedText*> all[] = {
             {"from", &spec_.from}, {"to", &spec_.to},       {"count", &spec_.count},       {"log", &spec_.log},
             {"mean", &spec_.mean}, {"sigma", &spec_.sigma}, {"at_least", &spec_.at_least}, {"at_most", &spec_.at_most}};
         for (const auto& [name, value] : all)
@@ -109,7 +109,7 @@ class AxisReader {
     Result<void> labels(SweepAxis& axis) const {
         for (const auto& label : *spec_.list) {
             if (target_.check)
-                if (auto ok = target_.check(label.text); !ok) return label.wrong(ok.error().sentence);
+                if (auto ok = target_.check(label.text); !ok) return label.error_here(ok.error().message);
             axis.values.push_back(static_cast<double>(axis.column.words.size()));
             axis.column.words.push_back(label.text);
         }
@@ -119,7 +119,7 @@ class AxisReader {
     Result<void> list(SweepAxis& axis) const {
         if (auto ok = accept_only({}); !ok) return ok;
         if (!spec_.list || spec_.list->empty()) return missing("the list is empty: list = [...]");
-        const auto is_label = [&](const Said& s) { return !target_.read(s); };
+        const auto is_label = [&](const LocatedText& s) { return !target_.read(s); };
         if (target_.words_alone || (target_.words_too && std::any_of(spec_.list->begin(), spec_.list->end(), is_label)))
             return labels(axis);
         for (const auto& one : *spec_.list) {
@@ -135,7 +135,7 @@ class AxisReader {
         const auto& given = *spec_.sigma;
         const bool is_percentage = trimmed(given.text).ends_with('%');
         const auto value = is_percentage ? parse_quantity(given.text, "") : number(given);
-        if (!value) return is_percentage ? error_at(given, value.error().sentence) : value.error();
+        if (!value) return is_percentage ? error_at(given, value.error().message) : value.error();
         if (!(*value >= 0)) return error_at(given, "sigma must not be negative");
         if (is_percentage && mean == 0) return error_at(given, "a percentage of a mean of 0 is 0; give sigma as a value");
         return is_percentage ? *value * std::abs(mean) : *value;
@@ -201,10 +201,10 @@ bool is_drawn(const SaidAxis& given) {
 
 Result<SweepAxis> axis_of(const SaidAxis& given, const Target& target, Drawing& drawing) { return AxisReader(given, target).read(drawing); }
 
-Result<std::int64_t> whole_of(const Said& given, std::string_view name, double min, double max) {
+Result<std::int64_t> whole_of(const LocatedText& given, std::string_view name, double min, double max) {
     const auto value = parse_quantity(given.text, "");
     if (!value || *value != std::floor(*value) || !(*value >= min && *value <= max))
-        return given.wrong(fmt::format("{} = {} must be an integer from {:g} to {:g}", name, given.text, min, max));
+        return given.error_here(fmt::format("{} = {} must be an integer from {:g} to {:g}", name, given.text, min, max));
     return static_cast<std::int64_t>(*value);
 }
 

@@ -14,7 +14,7 @@ struct Target {
     SweepColumn column;
     std::optional<double> nominal = {};  ///< value without a setting
     double low = -std::numeric_limits<double>::infinity(), high = std::numeric_limits<double>::infinity();
-    std::function<Result<double>(const Said&)> read = {};  ///< converts a text to a number
+    std::function<Result<double>(const LocatedText&)> read = {};  ///< converts a text to a number
     /// returns an error if the subject rejects the value; null: low and high are the only check
     std::function<Result<void>(const std::string& value)> check = {};
     /// only labels such as "ss"; or labels such as "8x4" as well as numbers
@@ -33,6 +33,6 @@ bool is_drawn(const SaidAxis&);
 Result<SweepAxis> axis_of(const SaidAxis&, const Target&, Drawing&);
 
 /// An integer from min to max.
-Result<std::int64_t> whole_of(const Said&, std::string_view name, double min, double max);
+Result<std::int64_t> whole_of(const LocatedText&, std::string_view name, double min, double max);
 
 }  // namespace corpuscle::sweeps

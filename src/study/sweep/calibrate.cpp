@@ -9,9 +9,9 @@
 #include <optional>
 
 #include "circuit/path_names.hpp"
-#include "signal/field.hpp"
-#include "signal/pool.hpp"
-#include "signal/text.hpp"
+#include "signal/parameter.hpp"
+#include "signal/thread_pool.hpp"
+#include "signal/ascii_text.hpp"
 
 namespace corpuscle {
 namespace {
@@ -36,7 +36,7 @@ class ChipPresser {
     const ChipCalibration& options_;
     const std::vector<Draw>& chips_;
     std::map<std::vector<double>, std::shared_ptr<const CircuitDesign>> designs_;
-    Pool pool_;
+    ThreadPool pool_;
 
     std::vector<double> values(const Codes& codes) const {
         std::vector<double> out;
@@ -91,7 +91,7 @@ public:
         const auto on_response = [&](const Chip& chip, ChipAnswer&& response) {
             evaluate(all[static_cast<std::size_t>(chip.number)], std::move(response));
         };
-        pool_.each(pool_.threads(), [&](std::size_t, unsigned) {
+        pool_.for_each(pool_.threads(), [&](std::size_t, unsigned) {
             if (auto done = circuit::run_chips(designs[0], more, on_response, options_.batch); !done) {
                 const std::lock_guard lock(mutex);
                 failed = done.error();

@@ -7,7 +7,7 @@
 
 #include "circuit/batch/chips.hpp"
 #include "circuit/traced.hpp"
-#include "signal/field.hpp"
+#include "signal/parameter.hpp"
 #include "study/sweep/netlists.hpp"
 #include "study/sweep/subject.hpp"
 
@@ -64,12 +64,12 @@ Result<void> ChipSweep::set(const SweepText& spec) {
 /// Selects measures and limits.
 Result<void> ChipSweep::select_measures(const SweepText& spec) {
     std::vector<std::string> ranges;
-    for (const auto& w : nominal_->kept) ranges.emplace_back(w.range().of);
+    for (const auto& w : nominal_->kept) ranges.emplace_back(w.range().quantity);
     afferent_measures_ = std::make_unique<AfferentMeasures>(*force_.nominal(), true, ranges);
     if (auto ok = afferent_measures_->choose(spec.measures); !ok) return ok;
-    const Limiting limiting{[&](const Said& name) { return afferent_measures_->column_of(name); },
-                            [&](const Said& model, std::size_t column) {
-                                return model_says(model, force_, {afferent_measures_->columns()[column].name, model.place});
+    const Limiting limiting{[&](const LocatedText& name) { return afferent_measures_->column_of(name); },
+                            [&](const LocatedText& model, std::size_t column) {
+                                return model_says(model, force_, {afferent_measures_->columns()[column].name, model.location});
                             }};
     if (auto ok = set_limits(spec, limiting, afferent_measures_->columns()); !ok) return ok;
     measures_ = afferent_measures_->columns();
@@ -80,9 +80,9 @@ Result<void> ChipSweep::select_measures(const SweepText& spec) {
 Result<void> ChipSweep::select_probes(const SweepText& spec) {
     for (const auto& word : spec.traces) {
         const auto found = circuit::traced(*nominal_->circuit, word.text);
-        if (!found) return word.wrong(found.error().sentence);
+        if (!found) return word.error_here(found.error().message);
         if (!*found)
-            return word.wrong(fmt::format("traces: {} has no node or device '{}'{}", netlist_.name(), word.text,
+            return word.error_here(fmt::format("traces: {} has no node or device '{}'{}", netlist_.name(), word.text,
                                           circuit::meant_trace(*nominal_->circuit, word.text)));
         traces_.push_back(**found);
     }
@@ -104,7 +104,7 @@ Result<void> ChipSweep::select_probes(const SweepText& spec) {
 Result<std::unique_ptr<Sweep>> ChipSweep::make(const SweepText& spec, const std::string& folder) {
     auto out = std::make_unique<ChipSweep>();
     auto& s = *out;
-    if (spec.orders) return spec.orders->wrong("orders is for netlist = ...; an afferent = ... responds to its force");
+    if (spec.orders) return spec.orders->error_here("orders is for netlist = ...; an afferent = ... responds to its force");
     auto netlist = NetlistMaker::of(*spec.afferent, folder);
     if (!netlist) return netlist.error();
     s.netlist_ = std::move(*netlist);
@@ -123,7 +123,7 @@ Result<std::unique_ptr<Sweep>> ChipSweep::make(const SweepText& spec, const std:
     if (!written) return written.error();
     Varying varying;
     varying.named = s.netlist_.name(), varying.chips = true;
-    varying.target = [&](const Said& quantity) {
+    varying.target = [&](const LocatedText& quantity) {
         return s.force_.owns(quantity.text) ? s.force_.target(quantity) : s.netlist_.target(quantity);
     };
     varying.vary = [&](const SweepAxis& a, const std::string& quantity, std::size_t axis) {
@@ -182,7 +182,7 @@ long ChipSweep::most_iterations(const std::function<bool()>& stop) const {
     options.stop = stop;
     const auto response =
         circuit::run_chip_alone({0, nominal_, circuit::own_draw(*nominal_->circuit), force.samples, force.clock.T()}, options);
-    if (response.error && response.error->code == Code::interrupted) return 0;
+    if (response.error && response.error->code == ErrorCode::interrupted) return 0;
     nominal_iteration_limit_ = response.error ? 0 : static_cast<long>(many_times_nominal * static_cast<double>(response.work.iterations));
     return *nominal_iteration_limit_;
 }
@@ -247,7 +247,7 @@ Result<void> ChipSweep::work(const Next& next, const Told& on_outcome, const std
                 return chip_of(*item, active_chip);
             }
             auto response = circuit::run_chip_alone(chip_of(*item, at), options);  // a different circuit cannot share lanes
-            if (response.error && response.error->code == Code::interrupted) return {};
+            if (response.error && response.error->code == ErrorCode::interrupted) return {};
             response.alone = true;
             on_outcome(outcome(*item, at, std::move(response)));
         }
@@ -255,12 +255,12 @@ Result<void> ChipSweep::work(const Next& next, const Told& on_outcome, const std
     };
     const auto ended = [&](const Chip& chip, ChipAnswer&& response) {
         const auto at = active.find(chip.number);
-        if (!response.error || response.error->code != Code::interrupted) on_outcome(outcome(chip.number, at->second, std::move(response)));
+        if (!response.error || response.error->code != ErrorCode::interrupted) on_outcome(outcome(chip.number, at->second, std::move(response)));
         active.erase(at);
     };
     const auto done = circuit::run_chips(nominal_, next_chip, ended, options);
     if (sweep_error) return *sweep_error;
-    if (!done && done.error().code == Code::interrupted) return {};
+    if (!done && done.error().code == ErrorCode::interrupted) return {};
     return done;
 }
 

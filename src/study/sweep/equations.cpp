@@ -5,7 +5,7 @@
 #include <map>
 
 #include "model/population.hpp"
-#include "signal/field.hpp"
+#include "signal/parameter.hpp"
 #include "signal/quantity.hpp"
 #include "study/afferents.hpp"
 #include "study/sweep/subject.hpp"
@@ -48,7 +48,7 @@ class ModelSweep final : public PlannedSweep {
         return dot != std::string_view::npos && goes_by(nominal_, afferent_name, text.substr(0, dot)) ? text.substr(dot + 1) : text;
     }
 
-    Result<Target> target(std::string_view afferent_name, const Said& quantity) const;
+    Result<Target> target(std::string_view afferent_name, const LocatedText& quantity) const;
     Result<void> set(const SweepText&);
     Result<void> select_probes(const SweepText&);
 
@@ -65,21 +65,21 @@ public:
     Result<void> work(const Next&, const Told&, const std::function<bool()>& stop) const override;
 };
 
-Result<Target> ModelSweep::target(std::string_view afferent_name, const Said& quantity) const {
+Result<Target> ModelSweep::target(std::string_view afferent_name, const LocatedText& quantity) const {
     if (force_.owns(quantity.text)) return force_.target(quantity);
-    std::vector<Row> rows;
+    std::vector<ParameterInfo> rows;
     for (const auto& p : *nominal_.parameters) rows.push_back(p.row);
-    const auto row = row_for({nominal_.name, std::string(parameter_name(afferent_name, quantity.text)), ""}, rows);
-    if (!row) return quantity.wrong(row.error().sentence);
+    const auto row = find_parameter({nominal_.name, std::string(parameter_name(afferent_name, quantity.text)), ""}, rows);
+    if (!row) return quantity.error_here(row.error().message);
     const auto& r = **row;
-    Target out{{quantity.text, std::string(r.unit), std::string(r.sentence)}, nominal_.values[parameter(r.name)], r.low, r.high};
-    out.read = [unit = std::string(r.unit)](const Said& s) { return parse_quantity(s.text, unit); };
+    Target out{{quantity.text, std::string(r.unit), std::string(r.description)}, nominal_.values[parameter(r.name)], r.low, r.high};
+    out.read = [unit = std::string(r.unit)](const LocatedText& s) { return parse_quantity(s.text, unit); };
     return out;
 }
 
 Result<void> ModelSweep::set(const SweepText& spec) {
     const auto& afferent_name = spec.afferent->text;
-    std::vector<Wish> wishes;
+    std::vector<ParameterOverride> wishes;
     for (const auto& s : spec.set) {
         if (force_.owns(s.name)) {
             if (auto ok = force_.set(s); !ok) return ok;
@@ -87,13 +87,13 @@ Result<void> ModelSweep::set(const SweepText& spec) {
         }
         wishes.assign(1, {afferent_name, std::string(parameter_name(afferent_name, s.name)), s.value.text});
         const auto one = plan_any_afferent(afferent_name, wishes);
-        if (!one) return s.value.wrong(one.error().sentence);
+        if (!one) return s.value.error_here(one.error().message);
     }
     wishes.clear();
     for (const auto& s : spec.set)
         if (!force_.owns(s.name)) wishes.push_back({afferent_name, std::string(parameter_name(afferent_name, s.name)), s.value.text});
     auto plan = plan_any_afferent(afferent_name, wishes);
-    if (!plan) return spec.set[0].value.wrong(plan.error().sentence);
+    if (!plan) return spec.set[0].value.error_here(plan.error().message);
     nominal_ = std::move(*plan);
     return {};
 }
@@ -108,7 +108,7 @@ Result<void> ModelSweep::select_probes(const SweepText& spec) {
     for (const auto& word : spec.traces) {
         const auto at = std::find(names.begin(), names.end(), word.text);
         if (at == names.end())
-            return word.wrong(fmt::format("traces: {} has no '{}'{} (it has {})", nominal_.name, word.text, did_you_mean(word.text, names),
+            return word.error_here(fmt::format("traces: {} has no '{}'{} (it has {})", nominal_.name, word.text, did_you_mean(word.text, names),
                                           fmt::join(names, ", ")));
         probes_.push_back(static_cast<std::size_t>(at - names.begin()));
         traces_.push_back(word.text);
@@ -123,12 +123,12 @@ Result<void> ModelSweep::select_probes(const SweepText& spec) {
 Result<std::unique_ptr<Sweep>> ModelSweep::make(const SweepText& spec, const std::string& folder) {
     auto out = std::make_unique<ModelSweep>();
     auto& s = *out;
-    if (spec.orders) return spec.orders->wrong("orders is for netlist = ...; an afferent = ... responds to its force");
+    if (spec.orders) return spec.orders->error_here("orders is for netlist = ...; an afferent = ... responds to its force");
     const auto& afferent_name = spec.afferent->text;
     if (spec.iterations)
-        return spec.iterations->wrong(fmt::format("{} is a model and has no iterations; remove iterations", afferent_name));
+        return spec.iterations->error_here(fmt::format("{} is a model and has no iterations; remove iterations", afferent_name));
     auto plan = plan_any_afferent(afferent_name, {});
-    if (!plan) return spec.afferent->wrong(plan.error().sentence);
+    if (!plan) return spec.afferent->error_here(plan.error().message);
     s.nominal_ = std::move(*plan);
     const auto seed = seed_of(spec);
     if (!seed) return seed.error();
@@ -139,7 +139,7 @@ Result<std::unique_ptr<Sweep>> ModelSweep::make(const SweepText& spec, const std
         if (auto ok = s.set(spec); !ok) return ok.error();
     Varying varying;
     varying.named = s.nominal_.name;
-    varying.target = [&](const Said& quantity) { return s.target(afferent_name, quantity); };
+    varying.target = [&](const LocatedText& quantity) { return s.target(afferent_name, quantity); };
     varying.vary = [&](const SweepAxis&, const std::string& quantity, std::size_t axis) {
         if (s.force_.owns(quantity))
             s.force_.vary(quantity, axis);
@@ -152,12 +152,12 @@ Result<std::unique_ptr<Sweep>> ModelSweep::make(const SweepText& spec, const std
     if (auto ok = s.force_.prepare(); !ok) return ok.error();
     if (const double rate = s.force_.nominal()->clock.rate(); rate < s.nominal_.least_rate)
         return (spec.rate ? *spec.rate : *spec.afferent)
-            .wrong(fmt::format("the sample rate is {:g} Hz, but {} needs {:g} Hz or more", rate, afferent_name, s.nominal_.least_rate));
+            .error_here(fmt::format("the sample rate is {:g} Hz, but {} needs {:g} Hz or more", rate, afferent_name, s.nominal_.least_rate));
     s.afferent_measures_ = std::make_unique<AfferentMeasures>(*s.force_.nominal(), false, std::span<const std::string>());
     if (auto ok = s.afferent_measures_->choose(spec.measures); !ok) return ok.error();
-    const Limiting limiting{[&](const Said& name) { return s.afferent_measures_->column_of(name); },
-                            [&](const Said& model, std::size_t column) {
-                                return model_says(model, s.force_, {s.afferent_measures_->columns()[column].name, model.place});
+    const Limiting limiting{[&](const LocatedText& name) { return s.afferent_measures_->column_of(name); },
+                            [&](const LocatedText& model, std::size_t column) {
+                                return model_says(model, s.force_, {s.afferent_measures_->columns()[column].name, model.location});
                             }};
     if (auto ok = set_limits(spec, limiting, s.afferent_measures_->columns()); !ok) return ok.error();
     s.measures_ = s.afferent_measures_->columns();
@@ -177,7 +177,7 @@ Result<ModelItem> ModelSweep::make_item(std::int64_t number) const {
     ModelItem out{number, nominal_, std::move(*force)};
     for (const auto& v : varied_) out.plan.values[v.parameter] = values[v.axis];
     if (!varied_.empty())
-        if (const auto wrong = refusal(out.plan)) out.failure = wrong->sentence;
+        if (const auto wrong = refusal(out.plan)) out.failure = wrong->message;
     return out;
 }
 
@@ -200,7 +200,7 @@ Result<void> ModelSweep::work(const Next& next, const Told& on_outcome, const st
             block.push_back(std::move(*made));
         }
         if (block.empty() || stop()) return {};
-        if (auto ok = respond(block, on_outcome, stop); !ok) return ok.error().code == Code::interrupted ? Result<void>() : ok;
+        if (auto ok = respond(block, on_outcome, stop); !ok) return ok.error().code == ErrorCode::interrupted ? Result<void>() : ok;
     }
 }
 
@@ -218,7 +218,7 @@ Result<void> ModelSweep::respond(std::vector<ModelItem>& block, const Told& on_o
         }
         std::vector<double> shared;
         for (std::size_t k = 0; k < u.plan.values.size(); ++k)
-            if ((*u.plan.parameters)[k].row.one_for_all) shared.push_back(u.plan.values[k]);
+            if ((*u.plan.parameters)[k].row.is_shared_by_copies) shared.push_back(u.plan.values[k]);
         kinds[shared].push_back(&u);
     }
     for (const auto& [shared, items] : kinds) {
@@ -253,9 +253,9 @@ Result<bool> ModelSweep::respond_on_lanes(std::span<ModelItem* const> items, Ins
     std::vector<std::vector<double>> padded(items.size());  // shorter forces are extended by their last value
     std::vector<const double*> columns(items.size());
     std::vector<Spike> spikes;
-    Pool single_thread(1);
+    ThreadPool single_thread(1);
     for (std::size_t at = 0; at < longest; at += block_steps) {
-        if (stop()) return Error{Code::interrupted, "interrupted"};
+        if (stop()) return Error{ErrorCode::interrupted, "interrupted"};
         const auto steps = std::min(block_steps, longest - at);
         PopulationForce force;
         if (one_force) {
@@ -275,7 +275,7 @@ Result<bool> ModelSweep::respond_on_lanes(std::span<ModelItem* const> items, Ins
         PopulationAnswer response{&spikes};
         if (const auto ok = (*population)->respond(force, steps, response, single_thread); !ok) return false;
         for (const auto& s : spikes) {
-            auto& u = *items[s.unit];
+            auto& u = *items[s.afferent_index];
             if (s.step < static_cast<std::int64_t>(u.force->samples.size())) u.spikes.push_back(u.force->clock.time(s.step, s.offset));
         }
     }
@@ -284,9 +284,9 @@ Result<bool> ModelSweep::respond_on_lanes(std::span<ModelItem* const> items, Ins
 
 Result<std::vector<std::vector<float>>> ModelSweep::respond_alone(ModelItem& u, const std::function<bool()>& stop) const {
     auto response = answer_alone(*make_afferent(u.plan, run_of(*u.force)), *u.force, probes_, every_, stop);
-    if (!response && response.error().code == Code::interrupted) return response.error();
+    if (!response && response.error().code == ErrorCode::interrupted) return response.error();
     if (!response) {
-        u.failure = response.error().sentence;
+        u.failure = response.error().message;
         return std::vector<std::vector<float>>();
     }
     u.spikes = std::move(response->spikes);

@@ -15,10 +15,10 @@ namespace {
 constexpr double max_samples = 5e7;  // of one force: 400 MB
 constexpr std::size_t max_cached_forces = 8;
 
-Result<std::shared_ptr<const FeltForce>> read_force(Source& source) {
+Result<std::shared_ptr<const FeltForce>> read_force(ForceSource& source) {
     auto force = std::make_shared<FeltForce>();
     force->clock = source.clock(), force->clock.t0 = 0;
-    force->phases = source.phases(), force->cycle = source.cycle();
+    force->phases = source.phases(), force->cycle = source.cycle_frequency();
     Frames frames(source.channels().size(), 4096);
     for (;;) {
         if (auto ok = source.read(frames); !ok) return ok.error();
@@ -35,10 +35,10 @@ Result<std::shared_ptr<const FeltForce>> read_force(Source& source) {
     return std::shared_ptr<const FeltForce>(std::move(force));
 }
 
-Result<double> number_of(const MaybeSaid& text, std::string_view unit, double fallback) {
+Result<double> number_of(const OptionalLocatedText& text, std::string_view unit, double fallback) {
     if (!text) return fallback;
     const auto value = parse_quantity(text->text, unit);
-    return value ? value : Result<double>(text->wrong(value.error().sentence));
+    return value ? value : Result<double>(text->error_here(value.error().message));
 }
 
 }  // namespace
@@ -58,14 +58,14 @@ Result<ForceMaker> ForceMaker::of(const SweepText& spec, const std::string& fold
     out.recording_ = !is_stimulus(out.text_);
     if (!out.recording_) {
         for (const auto& [name, value] : {std::pair{"channel", &spec.channel}, {"unit", &spec.unit}, {"scale", &spec.scale}})
-            if (*value) return (*value)->wrong(fmt::format("{} applies to recordings, but {} is a stimulus", name, out.text_));
+            if (*value) return (*value)->error_here(fmt::format("{} applies to recordings, but {} is a stimulus", name, out.text_));
         return out;
     }
     const auto path = (std::filesystem::path(folder) / out.text_).string();
     std::error_code status;
     if (!std::filesystem::exists(path, status)) {
         auto error = make_stimulus(out.text_, {}, out.rate_, seed).error();
-        return spec.force->wrong(fmt::format("{} (and there is no file '{}')", error.sentence, out.text_));
+        return spec.force->error_here(fmt::format("{} (and there is no file '{}')", error.message, out.text_));
     }
     RecordingOptions options;
     if (spec.channel) options.channels = {spec.channel->text};
@@ -79,7 +79,7 @@ Result<ForceMaker> ForceMaker::of(const SweepText& spec, const std::string& fold
     if ((*source)->channels().size() > 1) {
         std::vector<std::string_view> names;
         for (const auto& c : (*source)->channels()) names.push_back(c.name);
-        return spec.force->wrong(fmt::format("{} has {} channels; select one: channel = \"{}\"", out.text_, names.size(), names[0]));
+        return spec.force->error_here(fmt::format("{} has {} channels; select one: channel = \"{}\"", out.text_, names.size(), names[0]));
     }
     auto force = read_force(**source);
     if (!force) return force.error();
@@ -94,28 +94,28 @@ bool ForceMaker::owns(std::string_view name) const {
     return std::find(all.begin(), all.end(), name.substr(0, dot)) != all.end();
 }
 
-Result<Target> ForceMaker::target(const Said& quantity) const {
+Result<Target> ForceMaker::target(const LocatedText& quantity) const {
     const auto dot = quantity.text.find('.');
-    const Wish wish{quantity.text.substr(0, dot), quantity.text.substr(dot + 1), ""};
-    for (const auto& card : stimulus_cards()) {
-        if (card.name != wish.of) continue;
-        const auto row = row_for(wish, card.rows);
-        if (!row) return quantity.wrong(row.error().sentence);
-        Target out{{quantity.text, std::string((*row)->unit), std::string((*row)->sentence)}, (*row)->initial, (*row)->low, (*row)->high};
+    const ParameterOverride wish{quantity.text.substr(0, dot), quantity.text.substr(dot + 1), ""};
+    for (const auto& card : stimulus_catalog()) {
+        if (card.name != wish.target) continue;
+        const auto row = find_parameter(wish, card.parameters);
+        if (!row) return quantity.error_here(row.error().message);
+        Target out{{quantity.text, std::string((*row)->unit), std::string((*row)->description)}, (*row)->default_value, (*row)->low, (*row)->high};
         for (const auto& w : wishes_)
-            if (w.of == wish.of && w.parameter == wish.parameter) out.nominal = *parse_quantity(w.value, (*row)->unit);
-        out.read = [unit = std::string((*row)->unit)](const Said& s) { return parse_quantity(s.text, unit); };
+            if (w.target == wish.target && w.parameter == wish.parameter) out.nominal = *parse_quantity(w.value, (*row)->unit);
+        out.read = [unit = std::string((*row)->unit)](const LocatedText& s) { return parse_quantity(s.text, unit); };
         return out;
     }
-    return quantity.wrong(fmt::format("'{}' is not the stimulus of this sweep", wish.of));
+    return quantity.error_here(fmt::format("'{}' is not the stimulus of this sweep", wish.target));
 }
 
-Result<void> ForceMaker::set(const SaidSetting& setting) {
+Result<void> ForceMaker::set(const LocatedSetting& setting) {
     const auto dot = setting.name.find('.');
-    std::vector<Wish> settings = {{setting.name.substr(0, dot), setting.name.substr(dot + 1), setting.value.text}};
-    for (const auto& card : stimulus_cards())
-        if (card.name == settings[0].of)
-            if (const auto ok = settings_for(card.name, card.rows, settings); !ok) return setting.value.wrong(ok.error().sentence);
+    std::vector<ParameterOverride> settings = {{setting.name.substr(0, dot), setting.name.substr(dot + 1), setting.value.text}};
+    for (const auto& card : stimulus_catalog())
+        if (card.name == settings[0].target)
+            if (const auto ok = settings_for(card.name, card.parameters, settings); !ok) return setting.value.error_here(ok.error().message);
     wishes_.push_back(std::move(settings[0]));
     fixed_ = wishes_.size();
     return {};

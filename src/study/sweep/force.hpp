@@ -5,8 +5,8 @@
 #include <memory>
 #include <mutex>
 
-#include "signal/settings.hpp"
-#include "signal/source.hpp"
+#include "signal/parameter_override.hpp"
+#include "signal/force_source.hpp"
 #include "study/sweep/axis.hpp"
 
 namespace corpuscle::sweeps {
@@ -23,7 +23,7 @@ struct FeltForce {
 
 class ForceMaker {
     std::string text_;
-    std::vector<Wish> wishes_;  // fixed settings, then varied ones, whose value is filled in
+    std::vector<ParameterOverride> wishes_;  // fixed settings, then varied ones, whose value is filled in
     std::size_t fixed_ = 0;
     std::vector<std::size_t> axes_;  // of each varied setting: index of its axis
     double rate_ = 10e3;
@@ -41,8 +41,8 @@ public:
     const std::string& name() const { return text_; }
     /// True if "press.F_max" is a parameter of this force.
     bool owns(std::string_view name) const;
-    Result<Target> target(const Said& quantity) const;
-    Result<void> set(const SaidSetting&);
+    Result<Target> target(const LocatedText& quantity) const;
+    Result<void> set(const LocatedSetting&);
     void vary(const std::string& name, std::size_t axis);
     bool varies() const { return !axes_.empty(); }
 

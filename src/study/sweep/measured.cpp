@@ -36,13 +36,13 @@ AfferentMeasures::AfferentMeasures(const FeltForce& nominal, bool circuit, std::
                                fmt::format("{} ({})", measures[m].sentence, phase.name)}});
 }
 
-Result<void> AfferentMeasures::choose(const std::optional<std::vector<Said>>& names) {
+Result<void> AfferentMeasures::choose(const std::optional<std::vector<LocatedText>>& names) {
     if (names) {
         for (const auto& name : *names) {
             const auto before = columns_.size();
             const auto column = column_of(name);
             if (!column) return column.error();
-            if (columns_.size() == before) return name.wrong(fmt::format("measures: '{}' is listed twice", name.text));
+            if (columns_.size() == before) return name.error_here(fmt::format("measures: '{}' is listed twice", name.text));
         }
         return {};
     }
@@ -51,7 +51,7 @@ Result<void> AfferentMeasures::choose(const std::optional<std::vector<Said>>& na
     return {};
 }
 
-Result<std::size_t> AfferentMeasures::column_of(const Said& name) {
+Result<std::size_t> AfferentMeasures::column_of(const LocatedText& name) {
     for (std::size_t k = 0; k < columns_.size(); ++k)
         if (columns_[k].name == name.text) return k;
     for (const auto& entry : known_)
@@ -65,7 +65,7 @@ Result<std::size_t> AfferentMeasures::column_of(const Said& name) {
         names.push_back(entry.column.name);
         if (entry.of != Of::phase) listed += (listed.empty() ? "" : ", ") + entry.column.name;
     }
-    return name.wrong(fmt::format("unknown measure '{}'{} (known: {}; and for a phase, such as {})", name.text,
+    return name.error_here(fmt::format("unknown measure '{}'{} (known: {}; and for a phase, such as {})", name.text,
                                   did_you_mean(name.text, names), listed, names.back()));
 }
 

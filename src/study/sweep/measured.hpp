@@ -33,9 +33,9 @@ public:
     AfferentMeasures(const FeltForce& nominal, bool circuit, std::span<const std::string> ranges);
 
     /// Selects measures by name. Default: each measure over the complete force.
-    Result<void> choose(const std::optional<std::vector<Said>>& names);
+    Result<void> choose(const std::optional<std::vector<LocatedText>>& names);
     /// The index of a measure's column; the column is added if it was not selected.
-    Result<std::size_t> column_of(const Said& name);
+    Result<std::size_t> column_of(const LocatedText& name);
     std::vector<SweepColumn>& columns() { return columns_; }
     const std::vector<SweepColumn>& columns() const { return columns_; }
 

@@ -85,7 +85,7 @@ Result<std::int64_t> SweepResults::take(const SweepResults& from) {
     auto attach = sql::Statement::make(file, path(), "ATTACH ? AS source");
     if (!attach) return attach.error();
     if (auto ok = attach->set(1, std::string_view(from.path())).finish(); !ok)
-        return Error{ok.error().code, ok.error().sentence, {from.path()}};
+        return Error{ok.error().code, ok.error().message, {from.path()}};
     const auto before = impl.finished;
     auto ok = check_differences(file, impl.layout, path(), from.path());
     if (ok) {

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "signal/carried.hpp"
-#include "signal/field.hpp"
+#include "signal/embedded_files.hpp"
+#include "signal/parameter.hpp"
 #include "signal/input_files.hpp"
-#include "signal/text.hpp"
+#include "signal/ascii_text.hpp"
 #include "study/orders.hpp"
 
 namespace corpuscle::sweeps {
@@ -20,7 +20,7 @@ using circuit::Netlist;
 constexpr std::size_t max_bytes = std::size_t{64} << 20;
 
 bool is_embedded(std::string_view path) {
-    const auto all = carried_files();
+    const auto all = embedded_files();
     return std::find(all.begin(), all.end(), path) != all.end();
 }
 
@@ -29,14 +29,14 @@ Result<std::string> bytes_of(const fs::path& path, const std::string& name) {
     std::error_code status;
     if (fs::exists(path, status) && !fs::is_regular_file(path, status))
         return bad_input("this is not a regular file; save it to one", {name});
-    auto text = read_whole_input(path.string(), max_bytes, "netlist");
-    return text ? std::move(text) : Error{text.error().code, text.error().sentence, {name}};
+    auto text = read_entire_input(path.string(), max_bytes, "netlist");
+    return text ? std::move(text) : Error{text.error().code, text.error().message, {name}};
 }
 
-Knob override_of(const std::string& name, std::string value) { return {name, std::move(value), name, same_letters(name, "supply")}; }
+Knob override_of(const std::string& name, std::string value) { return {name, std::move(value), name, equal_ignoring_case(name, "supply")}; }
 
 /// Accepts "85" and "85C".
-Result<double> temperature_of(const Said& given) {
+Result<double> temperature_of(const LocatedText& given) {
     auto text = trimmed(given.text);
     for (const std::string_view unit : {"degC", "\u00b0C", "C"})
         if (text.ends_with(unit)) {
@@ -49,7 +49,7 @@ Result<double> temperature_of(const Said& given) {
     return value->value;
 }
 
-Result<double> any_number(const Said& given) {
+Result<double> any_number(const LocatedText& given) {
     const auto value = circuit::number_with_unit(given.text);
     return value ? Result<double>(value->value) : value.error();
 }
@@ -63,7 +63,7 @@ struct NetlistMaker::Files {
     std::map<std::string, Netlist> by_corner;
 };
 
-Result<NetlistMaker> NetlistMaker::of(const Said& given, const std::string& folder, const std::string& directives) {
+Result<NetlistMaker> NetlistMaker::of(const LocatedText& given, const std::string& folder, const std::string& directives) {
     NetlistMaker out;
     out.name_ = out.file_ = given.text, out.folder_ = folder, out.orders_ = directives, out.files_ = std::make_shared<Files>();
     std::error_code status;
@@ -74,11 +74,11 @@ Result<NetlistMaker> NetlistMaker::of(const Said& given, const std::string& fold
     }
     if (!out.carried_ && !fs::exists(fs::path(out.folder_) / out.file_, status)) {
         std::vector<std::string_view> known;
-        for (const auto file : carried_files())
+        for (const auto file : embedded_files())
             if (file.ends_with(".cir")) known.push_back(file);
         for (const auto& c : circuit::carried_netlists) known.push_back(c.name);
         if (!is_embedded(out.file_))
-            return given.wrong(fmt::format("there is no netlist '{}' beside the sweep file and no embedded one of this name{}", given.text,
+            return given.error_here(fmt::format("there is no netlist '{}' beside the sweep file and no embedded one of this name{}", given.text,
                                            did_you_mean(given.text, known)));
         out.carried_ = true;
     }
@@ -93,7 +93,7 @@ Result<std::string> NetlistMaker::text_of(const std::string& path) const {
         for (const auto& [name, text] : files_->texts)
             if (name == path) return text;
     }
-    auto text = carried_ ? carried_text(path) : bytes_of(fs::path(folder_) / path, path);
+    auto text = carried_ ? embedded_text(path) : bytes_of(fs::path(folder_) / path, path);
     if (!text) return text;
     const std::lock_guard lock(files_->mutex);
     files_->texts.emplace_back(path, *text);
@@ -124,15 +124,15 @@ Result<Netlist> NetlistMaker::tuned(std::span<const Knob> overrides) const {
     return netlist->with(std::move(changes));
 }
 
-Result<void> NetlistMaker::set(const SaidSetting& setting) {
+Result<void> NetlistMaker::set(const LocatedSetting& setting) {
     auto extended = set_;
     extended.push_back(override_of(setting.name, setting.value.text));
-    if (const auto ok = tuned(extended); !ok) return ok.error().place.line > 0 ? ok.error() : setting.value.wrong(ok.error().sentence);
+    if (const auto ok = tuned(extended); !ok) return ok.error().location.line > 0 ? ok.error() : setting.value.error_here(ok.error().message);
     set_ = std::move(extended);
     return {};
 }
 
-Result<Target> NetlistMaker::target(const Said& quantity) const {
+Result<Target> NetlistMaker::target(const LocatedText& quantity) const {
     const auto check = [this, name = quantity.text](const std::string& value) -> Result<void> {
         auto extended = set_;
         extended.push_back(override_of(name, value));
@@ -159,8 +159,8 @@ Result<Target> NetlistMaker::target(const Said& quantity) const {
     } else {
         out.column.sentence = fmt::format("device parameter in {}", file_);
         if (const auto ok = check("1");
-            !ok && (ok.error().sentence.find(" has no ") != std::string::npos || ok.error().sentence.find("may be") != std::string::npos))
-            return quantity.wrong(ok.error().sentence);
+            !ok && (ok.error().message.find(" has no ") != std::string::npos || ok.error().message.find("may be") != std::string::npos))
+            return quantity.error_here(ok.error().message);
     }
     return out;
 }

@@ -31,11 +31,11 @@ class NetlistMaker {
 
 public:
     /// "sa1-circuit", a path relative to the folder, or the path of an embedded netlist. `orders` replace its own directives.
-    static Result<NetlistMaker> of(const Said& name, const std::string& folder, const std::string& directives = "");
+    static Result<NetlistMaker> of(const LocatedText& name, const std::string& folder, const std::string& directives = "");
 
     const std::string& name() const { return name_; }
-    Result<void> set(const SaidSetting&);
-    Result<Target> target(const Said& quantity) const;
+    Result<void> set(const LocatedSetting&);
+    Result<Target> target(const LocatedText& quantity) const;
     void vary(const std::string& quantity, std::size_t axis, std::vector<std::string> labels);
     bool varies() const { return !varied_.empty(); }
     /// Replaces every .save.

@@ -78,7 +78,7 @@ class Coordinator {
             for (auto& o : outcomes)
                 if (worker.has.erase(o.unit) > 0) accept(std::move(o));
         if (word == RankWord::fault && get(m, error) && fault_)
-            fault_ = Error{error.code, fmt::format("rank {} on {}: {}", rank, worker.hello.host, error.sentence)};
+            fault_ = Error{error.code, fmt::format("rank {} on {}: {}", rank, worker.hello.host, error.message)};
     }
 
     void mark_dead(std::size_t rank) {
@@ -146,7 +146,7 @@ class Coordinator {
         }
         if (auto ok = results_.add(sweep_, std::exchange(pending_, {})); !ok) return ok;
         if (!fault_) return fault_;
-        if (stopped_) return Error{Code::interrupted, "interrupted"};
+        if (stopped_) return Error{ErrorCode::interrupted, "interrupted"};
         return {};
     }
 

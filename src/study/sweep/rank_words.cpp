@@ -143,8 +143,8 @@ bool get(Message& m, std::vector<UnitOutcome>& outcomes) {
 
 bool get(Message& m, Error& error) {
     std::uint64_t code = 0;
-    if (!m.get(code) || !m.get(error.sentence)) return false;
-    error.code = static_cast<Code>(code);
+    if (!m.get(code) || !m.get(error.message)) return false;
+    error.code = static_cast<ErrorCode>(code);
     return true;
 }
 

@@ -17,7 +17,7 @@ using sweeps::SweepText;
 constexpr std::size_t max_file_size = std::size_t{1} << 20;  // bytes
 
 Result<SweepText> text_at(const fs::path& path) {
-    const auto text = read_whole_input(path.string(), max_file_size, "sweep file");
+    const auto text = read_entire_input(path.string(), max_file_size, "sweep file");
     return text ? sweeps::read_sweep_text(*text, path.string()) : Result<SweepText>(text.error());
 }
 
@@ -26,13 +26,13 @@ SweepText of_netlist(const fs::path& path) {
     SweepText out;
     out.file = path.string();
     std::error_code status;
-    out.netlist = Said{fs::exists(path, status) ? path.filename().string() : path.string(), {}};
+    out.netlist = LocatedText{fs::exists(path, status) ? path.filename().string() : path.string(), {}};
     return out;
 }
 
 Result<std::unique_ptr<Sweep>> of_subject(const SweepText& spec, const std::string& folder) {
     if (spec.afferent && spec.netlist)
-        return spec.netlist->wrong("give either afferent = ..., which responds to a force, or netlist = ..., with its own analyses");
+        return spec.netlist->error_here("give either afferent = ..., which responds to a force, or netlist = ..., with its own analyses");
     if (spec.netlist) return sweeps::analyses_sweep(spec, folder);
     if (!spec.afferent)
         return bad_input("the sweep has no subject; give afferent = \"sa1\", or netlist = \"circuits/bias.cir\"", {spec.file});
@@ -40,9 +40,9 @@ Result<std::unique_ptr<Sweep>> of_subject(const SweepText& spec, const std::stri
 }
 
 /// Replaces a setting of the file by one of the command line.
-void put(MaybeSaid& into, std::string_view key, const std::optional<std::string>& requested, SweepText& spec) {
+void put(OptionalLocatedText& into, std::string_view key, const std::optional<std::string>& requested, SweepText& spec) {
     if (!requested || (into && into->text == *requested)) return;
-    into = Said{*requested, {}};
+    into = LocatedText{*requested, {}};
     spec.canonical += fmt::format("--{} {}\n", key, *requested);
 }
 
@@ -65,10 +65,10 @@ Result<std::unique_ptr<Sweep>> read_sweep(const std::string& path, const SweepAs
     if (sweep) return sweep;
     auto error = sweep.error();  // netlists and the files they include have paths relative to the folder
     std::error_code status;
-    if (const auto full_path = file.parent_path() / error.place.file;
-        !error.place.file.empty() && error.place.file != spec->file && fs::exists(full_path, status))
-        error.place.file = full_path.string();
-    if (error.place.file.empty()) error.place.file = path;
+    if (const auto full_path = file.parent_path() / error.location.file;
+        !error.location.file.empty() && error.location.file != spec->file && fs::exists(full_path, status))
+        error.location.file = full_path.string();
+    if (error.location.file.empty()) error.location.file = path;
     return error;
 }
 

@@ -36,7 +36,7 @@ Result<void> run_sweep(const Sweep& sweep, SweepResults& results, const SweepRun
         if (pool.is_done() && (stopped || queue.left() == 0 || !pool.fault())) break;
     }
     if (auto ok = pool.fault(); !ok) return ok;
-    if (stopped) return Error{Code::interrupted, "interrupted"};
+    if (stopped) return Error{ErrorCode::interrupted, "interrupted"};
     return {};
 }
 

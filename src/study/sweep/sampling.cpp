@@ -19,7 +19,7 @@ std::uint64_t stream_named(std::string_view name) {  // FNV-1a
     return hash;
 }
 
-Words random_words(std::uint64_t key, std::uint64_t stream, std::uint64_t index) {
+PhiloxCounter random_words(std::uint64_t key, std::uint64_t stream, std::uint64_t index) {
     return philox({static_cast<std::uint32_t>(index), static_cast<std::uint32_t>(index >> 32), static_cast<std::uint32_t>(stream),
                    static_cast<std::uint32_t>(stream >> 32)},
                   key);

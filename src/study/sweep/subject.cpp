@@ -6,9 +6,9 @@
 
 #include "circuit/knobs.hpp"
 #include "model/catalog.hpp"
-#include "signal/field.hpp"
+#include "signal/parameter.hpp"
 #include "signal/quantity.hpp"
-#include "signal/text.hpp"
+#include "signal/ascii_text.hpp"
 #include "study/sweep/drawn.hpp"
 
 namespace corpuscle::sweeps {
@@ -37,7 +37,7 @@ class PlanReader {
         chips_.seed = drawing_.seed;
         const auto* spec = chips_axis();
         if (spec && !varying_.chips)
-            return spec->what.wrong(fmt::format("{} is a model; '{}' applies to the chips of a circuit", varying_.named, spec->what.text));
+            return spec->what.error_here(fmt::format("{} is a model; '{}' applies to the chips of a circuit", varying_.named, spec->what.text));
         if (!spec && writes_chips()) {
             chips_.process = written_->chips().process, chips_.mismatch = written_->chips().mismatch;
             if (!spec_.seed) chips_.seed = drawing_.seed = written_->chips().seed;
@@ -45,9 +45,9 @@ class PlanReader {
         for (const auto& a : spec_.vary) {
             if (a.what.text != "process" && a.what.text != "mismatch") continue;
             if (a.how || a.from || a.to || a.count || a.list || a.mean || a.sigma || a.log || a.at_least || a.at_most)
-                return a.what.wrong(fmt::format("{}: its distribution comes from the process card; remove the other keys", a.what.text));
+                return a.what.error_here(fmt::format("{}: its distribution comes from the process card; remove the other keys", a.what.text));
             bool& one = a.what.text == "process" ? chips_.process : chips_.mismatch;
-            if (one) return a.what.wrong(fmt::format("'{}' varies twice", a.what.text));
+            if (one) return a.what.error_here(fmt::format("'{}' varies twice", a.what.text));
             one = true;
         }
         return {};
@@ -61,19 +61,19 @@ class PlanReader {
             const auto units = whole_of(*spec_.units, "units", 1, 1e9);
             if (!units) return units.error();
             if (!drawn && !writes_chips() && *units > 1)
-                return spec_.units->wrong(fmt::format(
+                return spec_.units->error_here(fmt::format(
                     "units = {}, but nothing is sampled, so all would be equal; remove units (a grid determines the number)", *units));
             drawing_.draws = static_cast<std::uint64_t>(*units);
         } else if (writes_chips()) {
             drawing_.draws = static_cast<std::uint64_t>(written_->chips().count);
         } else if (drawn) {
-            return drawn->what.wrong(fmt::format("{} is sampled, but the number of units is missing: units = 1000", drawn->what.text));
+            return drawn->what.error_here(fmt::format("{} is sampled, but the number of units is missing: units = 1000", drawn->what.text));
         }
         return {};
     }
 
     bool is_in_file(std::string_view name) const {
-        return std::any_of(spec_.vary.begin(), spec_.vary.end(), [&](const SaidAxis& a) { return same_letters(a.what.text, name); });
+        return std::any_of(spec_.vary.begin(), spec_.vary.end(), [&](const SaidAxis& a) { return equal_ignoring_case(a.what.text, name); });
     }
 
     /// Axes of the netlist's own .step, except those that the file sets.
@@ -92,7 +92,7 @@ class PlanReader {
 
     /// The unit used in the file, for quantities without a unit of their own.
     static std::string unit_in(const SaidAxis& spec) {
-        const Said* first = spec.list && !spec.list->empty() ? &spec.list->front()
+        const LocatedText* first = spec.list && !spec.list->empty() ? &spec.list->front()
                             : spec.from                      ? &*spec.from
                             : spec.mean                      ? &*spec.mean
                                                              : nullptr;
@@ -102,7 +102,7 @@ class PlanReader {
 
     Result<void> axis(const SaidAxis& spec) {
         for (const auto& other : axes_)
-            if (same_letters(other.column.name, spec.what.text)) return spec.what.wrong(fmt::format("'{}' varies twice", spec.what.text));
+            if (equal_ignoring_case(other.column.name, spec.what.text)) return spec.what.error_here(fmt::format("'{}' varies twice", spec.what.text));
         auto target = varying_.target(spec.what);
         if (!target) return target.error();
         if (target->column.unit.empty() && target->check) target->column.unit = unit_in(spec);
@@ -140,10 +140,10 @@ Result<void> set_limit(const SaidLimit& limit, const Limiting& limiting, std::ve
     const auto at = limiting.column(limit.measure);
     if (!at) return at.error();
     auto& column = columns[*at];
-    const auto wrong = [&](const Said& s, std::string why) { return s.wrong(fmt::format("{}: {}", limit.measure.text, why)); };
-    const auto read = [&](const Said& s) {
+    const auto wrong = [&](const LocatedText& s, std::string why) { return s.error_here(fmt::format("{}: {}", limit.measure.text, why)); };
+    const auto read = [&](const LocatedText& s) {
         const auto value = parse_quantity(s.text, column.unit);
-        return value ? value : Result<double>(wrong(s, value.error().sentence));
+        return value ? value : Result<double>(wrong(s, value.error().message));
     };
     if (limit.like) {
         if (limit.at_least || limit.at_most) return wrong(*limit.like, "give either like and within, or at_least and at_most");
@@ -153,7 +153,7 @@ Result<void> set_limit(const SaidLimit& limit, const Limiting& limiting, std::ve
         if (std::isnan(*model)) return wrong(*limit.like, fmt::format("{} has no value for this force", limit.like->text));
         const bool is_percentage = trimmed(limit.within->text).ends_with('%') && !column.unit.empty();
         auto within = is_percentage ? parse_quantity(limit.within->text, "") : read(*limit.within);
-        if (!within) return wrong(*limit.within, within.error().sentence);
+        if (!within) return wrong(*limit.within, within.error().message);
         if (is_percentage || trimmed(limit.within->text).ends_with('%')) *within *= std::abs(*model);
         if (!(*within >= 0)) return wrong(*limit.within, "within must not be negative");
         column.at_least = *model - *within, column.at_most = *model + *within;
@@ -203,7 +203,7 @@ Result<bool> keeps_spikes(const SweepText& spec) {
     if (!spec.keep) return true;
     for (const auto& word : *spec.keep)
         if (word.text != "spikes")
-            return word.wrong(fmt::format("keep: '{}' is unknown; known: \"spikes\" (traces are kept with traces = [...])", word.text));
+            return word.error_here(fmt::format("keep: '{}' is unknown; known: \"spikes\" (traces are kept with traces = [...])", word.text));
     return !spec.keep->empty();
 }
 
@@ -211,8 +211,8 @@ Result<std::size_t> samples_between(const SweepText& spec, double T) {
     double every = 1e-3;
     if (spec.every) {
         const auto value = parse_quantity(spec.every->text, "s");
-        if (!value) return spec.every->wrong("every: " + value.error().sentence);
-        if (!(*value > 0 && *value < 1e9)) return spec.every->wrong(fmt::format("every = {} must be above 0", spec.every->text));
+        if (!value) return spec.every->error_here("every: " + value.error().message);
+        if (!(*value > 0 && *value < 1e9)) return spec.every->error_here(fmt::format("every = {} must be above 0", spec.every->text));
         every = *value;
     }
     return static_cast<std::size_t>(std::max(1.0, std::round(every / T)));

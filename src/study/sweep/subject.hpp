@@ -42,7 +42,7 @@ Result<std::unique_ptr<Sweep>> analyses_sweep(const SweepText&, const std::strin
 
 /// The quantities of a subject that can vary.
 struct Varying {
-    std::function<Result<Target>(const Said& quantity)> target;
+    std::function<Result<Target>(const LocatedText& quantity)> target;
     std::function<void(const SweepAxis&, const std::string& quantity, std::size_t axis)> vary;
     bool chips = false;  ///< process and mismatch can be sampled
     std::string named;   ///< name of the subject
@@ -53,8 +53,8 @@ Result<SweepPlan> plan_of(const SweepText&, const Varying&, const circuit::Varia
 
 /// Looks up measures by name, and computes a model's values of them.
 struct Limiting {
-    std::function<Result<std::size_t>(const Said& measure)> column;
-    std::function<Result<double>(const Said& model, std::size_t column)> like;
+    std::function<Result<std::size_t>(const LocatedText& measure)> column;
+    std::function<Result<double>(const LocatedText& model, std::size_t column)> like;
 };
 Result<void> set_limits(const SweepText&, const Limiting&, std::vector<SweepColumn>&);
 
@@ -66,7 +66,7 @@ Result<std::size_t> samples_between(const SweepText&, double T);
 std::vector<Sweep::Fact> first_facts(const SweepText&, const std::string& title);
 
 /// The measure of a model afferent's response to a force.
-Result<double> model_says(const Said& model, const ForceMaker&, const Said& measure);
+Result<double> model_says(const LocatedText& model, const ForceMaker&, const LocatedText& measure);
 
 /// The response of one afferent to a complete force.
 struct AloneAnswer {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <map>
 
-#include "signal/field.hpp"
+#include "signal/parameter.hpp"
 #include "signal/quantity.hpp"
 #include "study/sweep/grid.hpp"
 #include "study/sweep/sweep_summary.hpp"

@@ -5,7 +5,7 @@
 #include <tuple>
 #include <unordered_map>
 
-#include "signal/pool.hpp"
+#include "signal/thread_pool.hpp"
 
 namespace corpuscle {
 namespace {
@@ -262,8 +262,8 @@ Result<SweepSummary> summary_of(const SweepTable& table, const std::optional<Dra
         finish(point, table.measures.size());
     }
     finish(out.all, table.measures.size());
-    Pool pool(table.rows() > 100000 ? 0 : 1);
-    pool.each(table.measures.size(), [&](std::size_t m, unsigned) { put_measure(out, table, *groups, m); });
+    ThreadPool pool(table.rows() > 100000 ? 0 : 1);
+    pool.for_each(table.measures.size(), [&](std::size_t m, unsigned) { put_measure(out, table, *groups, m); });
     if (!table.is_grid) {
         out.dependences = dependences_of(table, drawn, passed, out.chips);
         return out;

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "signal/field.hpp"
-#include "signal/pool.hpp"
+#include "signal/parameter.hpp"
+#include "signal/thread_pool.hpp"
 #include "study/sweep/grid.hpp"
 #include "study/sweep/sqlite.hpp"
 
@@ -77,7 +77,7 @@ Result<std::vector<ReadPart>> read_parts(const SweepResults& results, const std:
     const auto parts = results.finished() > large ? std::size_t{4} : std::size_t{1};
     std::vector<ReadPart> out(parts);
     std::vector<std::optional<Error>> errors(parts);
-    Pool(parts == 1 ? 1 : 0).each(parts, [&](std::size_t k, unsigned) {
+    ThreadPool(parts == 1 ? 1 : 0).for_each(parts, [&](std::size_t k, unsigned) {
         const auto at = [&](std::size_t part) {
             return part == parts ? std::numeric_limits<std::int64_t>::max() : results.units() / 4 * static_cast<std::int64_t>(part);
         };

@@ -4,12 +4,12 @@
 
 #include <sstream>
 
-#include "signal/toml_reading.hpp"
+#include "signal/toml_reader.hpp"
 
 namespace corpuscle::sweeps {
 namespace {
 
-using Names = TomlReading::Names;
+using Names = TomlReader::Names;
 
 const Names known_keys = {"title",      "afferent", "netlist", "force", "channel", "rate",     "unit", "scale",  "seed",  "units",
                           "iterations", "every",    "orders",  "set",   "vary",    "measures", "keep", "traces", "limits"};
@@ -17,16 +17,16 @@ const Names axis_keys = {"what", "how", "from", "to", "count", "log", "list", "m
 const Names limit_keys = {"at_least", "at_most", "like", "within"};
 
 /// Reads the tables of a sweep file.
-class SweepFileReader : public TomlReading {
+class SweepFileReader : public TomlReader {
 public:
-    using TomlReading::TomlReading;
+    using TomlReader::TomlReader;
 
     void limits(const toml::table& from, const std::string& before, std::vector<SaidLimit>& out) {
         for (const auto& [key, value] : from) {
-            SaidLimit limit{{before + std::string(key.str()), place(key.source())}, {}, {}, {}, {}};
+            SaidLimit limit{{before + std::string(key.str()), location_of(key.source())}, {}, {}, {}, {}};
             if (const auto* pair = value.as_array()) {
                 if (pair->size() != 2)
-                    return refuse(value.source(), fmt::format("{}: a limit needs two numbers, [min, max]", limit.measure.text));
+                    return reject(value.source(), fmt::format("{}: a limit needs two numbers, [min, max]", limit.measure.text));
                 limit.at_least = scalar((*pair)[0], limit.measure.text), limit.at_most = scalar((*pair)[1], limit.measure.text);
             } else if (const auto* inner = value.as_table()) {
                 const bool of_limit = inner->is_inline() || inner->empty() || std::any_of(inner->begin(), inner->end(), [](const auto& e) {
@@ -36,11 +36,11 @@ public:
                     limits(*inner, limit.measure.text + ".", out);
                     continue;
                 }
-                only(*inner, limit_keys, limit.measure.text + ": ");
+                reject_unknown_keys(*inner, limit_keys, limit.measure.text + ": ");
                 limit.at_least = scalar(*inner, "at_least"), limit.at_most = scalar(*inner, "at_most");
                 limit.like = scalar(*inner, "like"), limit.within = scalar(*inner, "within");
             } else {
-                return refuse(value.source(),
+                return reject(value.source(),
                               fmt::format("{0}: write {0} = [min, max], or {{at_least = ...}}, {{at_most = ...}}, {{like = \"sa1\", "
                                           "within = ...}}",
                                           limit.measure.text));
@@ -50,12 +50,12 @@ public:
     }
 
     void axis(const toml::table& from, std::vector<SaidAxis>& out) {
-        only(from, axis_keys, "[[vary]]: ");
+        reject_unknown_keys(from, axis_keys, "[[vary]]: ");
         SaidAxis a;
         if (auto what = scalar(from, "what"))
             a.what = std::move(*what);
         else
-            refuse(from.source(),
+            reject(from.source(),
                    "[[vary]]: 'what' is missing, the quantity that varies: what = \"process\", \"temp\", a parameter's name ...");
         a.how = scalar(from, "how"), a.from = scalar(from, "from"), a.to = scalar(from, "to"), a.count = scalar(from, "count");
         a.log = scalar(from, "log", true), a.mean = scalar(from, "mean"), a.sigma = scalar(from, "sigma");
@@ -66,7 +66,7 @@ public:
 
 SweepText text_from(const toml::table& top, SweepFileReader& reading) {
     SweepText out;
-    reading.only(top, known_keys, "");
+    reading.reject_unknown_keys(top, known_keys, "");
     out.title = reading.scalar(top, "title"), out.afferent = reading.scalar(top, "afferent"), out.netlist = reading.scalar(top, "netlist");
     out.force = reading.scalar(top, "force"), out.channel = reading.scalar(top, "channel"), out.rate = reading.scalar(top, "rate");
     out.unit = reading.scalar(top, "unit"), out.scale = reading.scalar(top, "scale");
@@ -104,7 +104,7 @@ Result<SweepText> read_sweep_text(std::string_view text, const std::string& file
     if (!top) return top.error();
     SweepFileReader reading(file);
     auto out = text_from(*top, reading);
-    if (reading.wrong) return *reading.wrong;
+    if (reading.first_error) return *reading.first_error;
     out.file = file, out.canonical = canonical_text(*top);
     return out;
 }

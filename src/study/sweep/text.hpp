@@ -5,30 +5,30 @@
 #include <string>
 #include <vector>
 
-#include "signal/said.hpp"
+#include "signal/located_text.hpp"
 
 namespace corpuscle::sweeps {
 
 /// One [[vary]].
 struct SaidAxis {
-    Said what;  ///< its location is that of the section if there is no name
-    MaybeSaid how, from, to, count, log, mean, sigma, at_least, at_most;
-    std::optional<std::vector<Said>> list;
+    LocatedText what;  ///< its location is that of the section if there is no name
+    OptionalLocatedText how, from, to, count, log, mean, sigma, at_least, at_most;
+    std::optional<std::vector<LocatedText>> list;
 };
 
 /// One line of [limits].
 struct SaidLimit {
-    Said measure;
-    MaybeSaid at_least, at_most, like, within;
+    LocatedText measure;
+    OptionalLocatedText at_least, at_most, like, within;
 };
 
 struct SweepText {
     std::string file;
-    MaybeSaid title, afferent, netlist, force, channel, rate, unit, scale, seed, units, iterations, every, orders;
-    std::vector<SaidSetting> set;
+    OptionalLocatedText title, afferent, netlist, force, channel, rate, unit, scale, seed, units, iterations, every, orders;
+    std::vector<LocatedSetting> set;
     std::vector<SaidAxis> vary;
-    std::optional<std::vector<Said>> measures, keep;
-    std::vector<Said> traces;
+    std::optional<std::vector<LocatedText>> measures, keep;
+    std::vector<LocatedText> traces;
     std::vector<SaidLimit> limits;
     std::string canonical;  ///< the text without comments and blanks; equal for files with the same content
 };

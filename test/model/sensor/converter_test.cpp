@@ -67,10 +67,10 @@ TEST(Digital, SpikesComeAtConversionsWhateverTheSourcesRate) {
 TEST(Digital, OneConverterForAllChannelsTakesThemInTurn) {
     std::vector<double> ramp;
     for (int k = 0; k < 4000; ++k) ramp.push_back(1e-3 * k);
-    const auto trained = [&](const char* shared, Turn turn) {
+    const auto trained = [&](const char* shared, ChannelSlot turn) {
         const auto a = test::afferent("adc+sa1", {.settings = {std::string("adc+sa1.shared=") + shared}, .rate = 1e3});
         std::vector<Spike> out;
-        Answer answer{out};
+        ResponseBlock answer{out};
         auto state = a->start(turn);
         EXPECT_TRUE(a->respond(ramp, state, answer));
         return out;
@@ -84,13 +84,13 @@ TEST(Digital, OneConverterForAllChannelsTakesThemInTurn) {
 
 TEST(Digital, ClippedConversionsAreCounted) {
     std::vector<Spike> out;
-    Answer answer{out};
+    ResponseBlock answer{out};
     const auto a = test::afferent("adc+sa1", {.rate = 10e3});
     auto state = a->start();
     std::vector<double> f(10000, 1.0);
     std::fill(f.begin() + 1001, f.begin() + 2001, 6.0);
     EXPECT_TRUE(a->respond(f, state, answer));
-    EXPECT_EQ(answer.clipped, 100) << "at 1 kHz, a tenth of the samples";
+    EXPECT_EQ(answer.saturated, 100) << "at 1 kHz, a tenth of the samples";
 }
 
 TEST(Digital, DamagedStatesAreRefusedNotRun) {
@@ -104,7 +104,7 @@ TEST(Digital, DamagedStatesAreRefusedNotRun) {
             state.values[v] = bad;
             if (v >= 7 && bad == -3) continue;  // a word like others
             std::vector<Spike> out;
-            Answer answer{out};
+            ResponseBlock answer{out};
             EXPECT_FALSE(a->respond(f, state, answer)) << v << ' ' << bad;
         }
 }

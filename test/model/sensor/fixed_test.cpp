@@ -203,7 +203,7 @@ Told told(const Afferent& a, const std::vector<double>& f, std::string_view memb
     std::vector<double*> rows;
     for (auto& v : values) rows.push_back(v.data());
     std::vector<Spike> spikes;
-    Answer answer{spikes, 0, rows};
+    ResponseBlock answer{spikes, 0, rows};
     auto state = a.start();
     EXPECT_TRUE(a.respond(f, state, answer));
     EXPECT_EQ(answer.overflowed, 0);
@@ -212,7 +212,7 @@ Told told(const Afferent& a, const std::vector<double>& f, std::string_view memb
         if (a.probes()[p].name == "F_read") out.F = values[p];
         if (a.probes()[p].name == membrane) out.u = values[p];
     }
-    out.spikes = times(spikes, Clock{1000, 1});
+    out.spikes = spike_times(spikes, Clock{1000, 1});
     return out;
 }
 

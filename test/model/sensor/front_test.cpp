@@ -73,14 +73,14 @@ TEST(Front, CalibrationIsExactAtNoForceAndAtItsOwn) {
 }
 
 /// What each probe shows over a stimulus.
-std::map<std::string, std::vector<double>> shown(const Afferent& a, const std::vector<double>& f, Answer& answer) {
+std::map<std::string, std::vector<double>> shown(const Afferent& a, const std::vector<double>& f, ResponseBlock& answer) {
     std::vector<std::vector<double>> values(a.probes().size(), std::vector<double>(f.size()));
     std::vector<double*> rows;
     for (auto& v : values) rows.push_back(v.data());
-    Answer mine{answer.spikes, 0, rows};
+    ResponseBlock mine{answer.spikes, 0, rows};
     auto state = a.start();
     if (auto ok = a.respond(f, state, mine); !ok) throw std::runtime_error(ok.error().text());
-    answer.capped = mine.capped, answer.clipped = mine.clipped, answer.overflowed = mine.overflowed;
+    answer.truncated_steps = mine.truncated_steps, answer.saturated = mine.saturated, answer.overflowed = mine.overflowed;
     std::map<std::string, std::vector<double>> out;
     for (std::size_t p = 0; p < values.size(); ++p) out[std::string(a.probes()[p].name)] = values[p];
     return out;
@@ -88,7 +88,7 @@ std::map<std::string, std::vector<double>> shown(const Afferent& a, const std::v
 
 TEST(Fronted, AnswersTheForceItsCalibrationBelievesAndShowsTheWayThere) {
     std::vector<Spike> fronted, plain;
-    Answer answer{fronted}, direct{plain};
+    ResponseBlock answer{fronted}, direct{plain};
     const auto f = test::force("press");
     const auto inside = shown(*test::afferent("fsr+f2v+sa1"), f, answer);
     const auto bare = shown(*test::afferent("sa1"), inside.at("F_read"), direct);
@@ -100,19 +100,19 @@ TEST(Fronted, AnswersTheForceItsCalibrationBelievesAndShowsTheWayThere) {
         EXPECT_EQ(inside.at("V_Z")[k], F2v_at(inside.at("G_FSR")[k]));
     }
     EXPECT_EQ(inside.at("F_read")[5000], 4) << "the plateau is where it was calibrated";
-    EXPECT_EQ(answer.clipped, 0);
+    EXPECT_EQ(answer.saturated, 0);
 }
 
 TEST(Fronted, EverySampleBeyondTheSupplyIsClippedAndCounted) {
     std::vector<Spike> spikes;
-    Answer answer{spikes};
+    ResponseBlock answer{spikes};
     std::vector<double> f(1000, 1.0);
     std::fill(f.begin() + 100, f.begin() + 137, 9.0);
     const auto inside = shown(*test::afferent("fsr+f2v+sa1"), f, answer);
-    EXPECT_EQ(answer.clipped, 37);
+    EXPECT_EQ(answer.saturated, 37);
     EXPECT_EQ(inside.at("V_Z")[120], 0.7);
     const auto current = shown(*test::afferent("fsr+f2i+sa1", {.settings = {"fsr+f2i+sa1.I_max=3uA"}}), f, answer);
-    EXPECT_EQ(answer.clipped, 37);
+    EXPECT_EQ(answer.saturated, 37);
     EXPECT_EQ(current.at("I_F")[120], 3e-6);
 }
 
@@ -133,7 +133,7 @@ TEST(Parts, WrongOrUnknownPartsAreRefusedWithWhatIsRight) {
         {"adc+fa2",
          "adc+fa2: vibration+lif-b has no fixed-point version; adc can be followed by sa1a, sa1b, fa1a, fa1b with lif-a, lif-b, adaptive"},
     };
-    for (const auto& [text, said] : cases) EXPECT_EQ(plan_afferent(text, {}).error().sentence, said);
+    for (const auto& [text, said] : cases) EXPECT_EQ(plan_afferent(text, {}).error().message, said);
 }
 
 TEST(Parts, NamesOfAnyCaseMeanTheSameAndSettingsFindThem) {
@@ -162,10 +162,10 @@ TEST(Parts, AFrontThatCannotMeasureItsOwnRangeIsRefused) {
     };
     for (const auto& [setting, said] : cases) {
         const auto mine = test::wishes({setting});
-        EXPECT_EQ(plan_afferent(mine[0].of, mine).error().sentence, said);
+        EXPECT_EQ(plan_afferent(mine[0].target, mine).error().message, said);
     }
     const auto unfelt = test::wishes({"fsr+sa1.F_cal=1uN", "fsr+sa1.m=2", "fsr+sa1.R_1gf=1e12", "fsr+sa1.R_0=1"});
-    EXPECT_EQ(plan_afferent("fsr+sa1", unfelt).error().sentence,
+    EXPECT_EQ(plan_afferent("fsr+sa1", unfelt).error().message,
               "fsr+sa1: F_cal = 1e-06 N gives the same reading as 0 N with this sensor; raise F_cal");
 }
 

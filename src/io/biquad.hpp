@@ -1,0 +1,42 @@
+#pragma once
+// Causal filters for recordings. The output depends only on earlier samples, so a stream and a file give the same result.
+
+#include "signal/clock.hpp"
+#include "signal/error.hpp"
+
+namespace corpuscle {
+
+/// A second-order section, y = b0 x + b1 x' + b2 x'' - a1 y' - a2 y'', in transposed direct form II.
+/// The initial state is the steady state for the first sample.
+class Biquad {
+    double b0_, b1_, b2_, a1_, a2_;
+    double s1_ = 0, s2_ = 0;
+    bool is_started_ = false;
+
+    Biquad(double b0, double b1, double b2, double a0, double a1, double a2)
+        : b0_(b0 / a0), b1_(b1 / a0), b2_(b2 / a0), a1_(a1 / a0), a2_(a2 / a0) {}
+
+public:
+    /// Removes a frequency f (Hz). The -3 dB points are at f +- 2 Hz, or at f +- f/4 if that is closer.
+    static Result<Biquad> notch(double f, const Clock&);
+    /// A second-order Butterworth low-pass filter, -3 dB at f (Hz).
+    static Result<Biquad> lowpass(double f, const Clock&);
+
+    double next(double x) {
+        if (!is_started_) {  // steady state for x: y = x, because both filters have unit gain at 0 Hz
+            is_started_ = true;
+            s2_ = (b2_ - a2_) * x;
+            s1_ = (b1_ - a1_) * x + s2_;
+        }
+        const double y = b0_ * x + s1_;
+        s1_ = flush_tiny(b1_ * x - a1_ * y + s2_);
+        s2_ = flush_tiny(b2_ * x - a2_ * y);
+        return y;
+    }
+
+private:
+    /// Flushes tiny values to zero. Otherwise the states would become denormal long after a touch, which is slow.
+    static double flush_tiny(double s) { return s > -1e-200 && s < 1e-200 ? 0 : s; }
+};
+
+}  // namespace corpuscle

@@ -1,0 +1,61 @@
+#pragma once
+// The processing of one channel from file values to newtons: outlier removal, gap filling, offset and gain, filters. Fault detectors
+// examine the channel on the way.
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "io/biquad.hpp"
+#include "io/repair.hpp"
+#include "io/fault_detectors.hpp"
+#include "io/recording.hpp"
+
+namespace corpuscle {
+
+/// Statistics of a channel's force relative to the range that the models are fitted to (thesis 1.2: 0.2 to 4 N).
+struct ForceLevels {
+    double min = 1e308, max = -1e308;
+    std::int64_t below_range = 0, above_range = 0, negative = 0, count = 0;
+    void add(std::span<const double>);
+    double fraction(std::int64_t n) const { return count > 0 ? static_cast<double>(n) / static_cast<double>(count) : 0; }
+};
+
+class ChannelPipeline {
+    std::optional<HampelFilter> outlier_filter_;
+    GapFiller gaps_;
+    double offset_, gain_;
+    std::vector<Biquad> filters_;
+    bool filters_rows_;                    // true: filter the evenly spaced rows; false: filter after resampling
+    std::vector<double> despiked_, repaired_;  // scratch memory
+
+    Result<void> repair(std::span<const double> read);
+
+public:
+    /// `filters` is the clock that the filters run on.
+    static Result<ChannelPipeline> make(const RecordingOptions&, double gain, const Clock& filters, bool filter_early, const HumTable&);
+
+    OutlierDetector outliers;
+    SaturationDetector saturation;
+    HumDetector hum;
+    ForceLevels levels;
+
+    double gain() const { return gain_; }
+    double offset() const { return offset_; }
+    std::int64_t outliers_removed() const { return outlier_filter_ ? outlier_filter_->outliers : 0; }
+    std::int64_t filled() const { return gaps_.filled; }
+
+    /// Processes samples and appends newtons to `out`. Samples that depend on their neighbours are appended by a later call.
+    Result<void> push(std::span<const double> read, std::vector<double>& out);
+    /// Appends the remaining samples.
+    Result<void> finish(std::vector<double>& out);
+    /// Applies the filters that run after resampling, and updates the statistics of the final force.
+    void finish_force(std::span<double> force);
+
+private:
+    ChannelPipeline(const RecordingOptions&, double gain, bool filter_early, const HumTable&);
+    void append(std::vector<double>& out);
+};
+
+}  // namespace corpuscle

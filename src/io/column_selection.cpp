@@ -1,0 +1,239 @@
+#include "io/column_selection.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <charconv>
+#include <span>
+
+#include "io/heading.hpp"
+#include "signal/parameter.hpp"
+#include "signal/quantity.hpp"
+#include "signal/ascii_text.hpp"
+
+namespace corpuscle {
+namespace {
+
+std::optional<std::size_t> parse_integer(std::string_view text) {
+    std::size_t n = 0;
+    const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), n);
+    if (status != std::errc{} || end != text.data() + text.size()) return {};
+    return n;
+}
+
+/// True if `name` is the column's name, its name and unit, or its heading as written, such as "Zeit [s]".
+bool matches_name(const Column& column, std::string_view name) {
+    if (column.name == name || (!column.unit.empty() && column.name + "_" + column.unit == name)) return true;
+    const auto heading = parse_heading(name);
+    return !heading.unit.empty() && column.name == heading.name && column.unit == heading.unit;
+}
+
+bool is_newtons(std::string_view unit) {
+    constexpr std::string_view words[] = {"Newton", "newton", "Newtons", "newtons"};
+    return std::find(std::begin(words), std::end(words), unit) != std::end(words);
+}
+
+bool is_force(std::string_view unit) {
+    if (is_newtons(unit)) return true;
+    const auto known = unit.empty() || unit == "raw" ? Result<Unit>(bad_input("")) : parse_unit(unit);
+    return known && known->has_same_dimension(*parse_unit("N"));
+}
+
+std::string_view without_quotes(std::string_view s) {
+    s = trimmed(s);
+    return s.size() > 2 && (s.front() == '\'' || s.front() == '"') && s.back() == s.front() ? s.substr(1, s.size() - 2) : s;
+}
+
+/// Selects the channels of a table.
+struct ChannelSelector {
+    const Table& table;
+    std::optional<std::size_t> time;
+    std::string path;
+    std::vector<std::size_t> data;  // columns other than the time
+
+    ChannelSelector(const Table& t, std::optional<std::size_t> time_column, std::string p)
+        : table(t), time(time_column), path(std::move(p)) {
+        for (std::size_t c = 0; c < table.columns().size(); ++c)
+            if (c != time) data.push_back(c);
+    }
+
+    Error unknown(std::string_view wanted) const {
+        std::vector<std::string_view> names;
+        for (const auto c : data) names.push_back(table.columns()[c].name);
+        const auto shown = std::span(names).first(std::min<std::size_t>(names.size(), 24));
+        return bad_input(fmt::format("no channel '{}'{}; there are {}: {}{}", wanted, did_you_mean(wanted, names), names.size(),
+                                     fmt::join(shown, ", "), shown.size() < names.size() ? " ..." : ""),
+                         {path});
+    }
+
+    /// The index in `data` of the column of this name.
+    std::optional<std::size_t> named(std::string_view wanted) const {
+        for (std::size_t k = 0; k < data.size(); ++k)
+            if (matches_name(table.columns()[data[k]], wanted)) return k;
+        return {};
+    }
+
+    /// The argument of --channel that selects a column: its number, or its name if another column is named by that number.
+    std::string option_of(std::size_t k) const {
+        auto number = std::to_string(k + 1);
+        const auto other = named(number);
+        return other && *other != k ? table.columns()[data[k]].name : number;
+    }
+
+    std::string name_of(std::size_t k) const { return fmt::format("'{}'", table.columns()[data[k]].name); }
+
+    /// Adds a range of `data`, without the columns that the table excludes.
+    void add_range(std::size_t from, std::size_t to, std::vector<std::size_t>& chosen) const {
+        for (std::size_t k = from; k <= to; ++k)
+            if (from == to || table.columns()[data[k]].exclusion_reason.empty()) chosen.push_back(data[k]);
+    }
+
+    /// Adds a range such as "fx-fz" or "'Channel 4'-'Channel 7'". Returns false if the text is not a range of names.
+    bool add_named_range(std::string_view wanted, std::vector<std::size_t>& chosen) const {
+        for (auto dash = wanted.find('-'); dash != wanted.npos; dash = wanted.find('-', dash + 1)) {
+            const auto from = named(without_quotes(wanted.substr(0, dash))), to = named(without_quotes(wanted.substr(dash + 1)));
+            if (from && to && *from <= *to) return add_range(*from, *to, chosen), true;
+        }
+        return false;
+    }
+
+    Result<void> add(std::string_view wanted, std::vector<std::size_t>& chosen, std::vector<std::string>* notes) const {
+        for (const auto name : {wanted, without_quotes(wanted)})
+            if (const auto k = named(name)) return chosen.push_back(data[*k]), Result<void>{};
+        if (add_named_range(wanted, chosen)) return {};
+        const auto dash = wanted.find('-');
+        const auto from = parse_integer(wanted.substr(0, dash)),
+                   to = dash == std::string_view::npos ? from : parse_integer(wanted.substr(dash + 1));
+        if (!from || !to || *from < 1 || *to > data.size() || *from > *to) return unknown(wanted);
+        add_range(*from - 1, *to - 1, chosen);
+        if (notes)
+            notes->push_back(*from == *to ? fmt::format("--channel {} is {}", wanted, name_of(*from - 1))
+                                          : fmt::format("--channel {} is {} to {}", wanted, name_of(*from - 1), name_of(*to - 1)));
+        return {};
+    }
+
+    /// The default selection: all columns that may be forces. If a column has a unit of force, columns with other known units are
+    /// excluded.
+    Result<std::vector<std::size_t>> default_selection(std::vector<std::string>* notes) const {
+        const auto in_force = [&](std::size_t c) { return table.columns()[c].exclusion_reason.empty() && is_force(table.columns()[c].unit); };
+        const bool some_in_force = std::any_of(data.begin(), data.end(), in_force);
+        const auto is_other = [&](const Column& c) {
+            return is_never_force(c.unit) || (some_in_force && !c.unit.empty() && is_unit(c.unit) && !is_force(c.unit));
+        };
+        std::vector<std::size_t> chosen, other;  // other: columns whose unit is not a force
+        for (const auto c : data)
+            if (table.columns()[c].exclusion_reason.empty()) (is_other(table.columns()[c]) ? other : chosen).push_back(c);
+        if (chosen.empty() && other.empty()) {
+            const auto known = std::find_if(data.begin(), data.end(), [&](std::size_t c) { return !table.columns()[c].exclusion_evidence.empty(); });
+            const auto& column = table.columns()[known == data.end() ? data[0] : *known];
+            return bad_input(fmt::format("no column holds force values: '{}' {}{}{}", column.name, column.exclusion_reason,
+                                         column.exclusion_evidence.empty() ? "" : "; ", column.exclusion_evidence),
+                             {path});
+        }
+        if (chosen.empty()) return other;
+        constexpr std::size_t max_notes = 16;
+        std::size_t left_out = 0;
+        for (std::size_t k = 0; notes && k < data.size(); ++k) {
+            const auto& c = table.columns()[data[k]];
+            if (c.exclusion_reason.empty() && !is_other(c)) continue;
+            if (++left_out > max_notes) continue;
+            if (c.exclusion_reason.empty())
+                notes->push_back(
+                    fmt::format("{} was ignored: {} is not a unit of force (if the header is wrong, use --channel {} --unit N)", name_of(k),
+                                c.unit, option_of(k)));
+            else if (c.exclusion_reason.starts_with("counts") || c.exclusion_reason.starts_with("identifies"))
+                notes->push_back(
+                    fmt::format("{} was ignored: it {} (use --channel {} to include it)", name_of(k), c.exclusion_reason, option_of(k)));
+            else
+                notes->push_back(fmt::format("{} was ignored: it {}", name_of(k), c.exclusion_reason));
+        }
+        if (left_out > max_notes)
+            notes->push_back(fmt::format("{} more columns were ignored because they hold no force (use --channel NAME to include one)",
+                                         left_out - max_notes));
+        return chosen;
+    }
+
+    Result<std::vector<std::size_t>> choose(const std::vector<std::string>& wanted, std::vector<std::string>* notes) const {
+        std::vector<std::size_t> chosen;
+        if (data.empty()) return bad_input("there is no channel, only the time column", {path});
+        if (wanted.empty()) return default_selection(notes);
+        for (const auto& list : wanted) {
+            if (const auto k = named(list)) {  // a name may contain commas
+                chosen.push_back(data[*k]);
+                continue;
+            }
+            for (std::size_t at = 0; at <= list.size();) {
+                const auto end = std::min(list.find(',', at), list.size());
+                if (auto ok = add(std::string_view(list).substr(at, end - at), chosen, notes); !ok) return ok.error();
+                at = end + 1;
+            }
+        }
+        std::vector<std::size_t> unique;
+        for (const auto c : chosen)
+            if (std::find(unique.begin(), unique.end(), c) == unique.end()) unique.push_back(c);
+        if (unique.empty()) return bad_input(fmt::format("--channel {} selects only columns without force values", wanted[0]), {path});
+        return unique;
+    }
+};
+
+}  // namespace
+
+Result<std::vector<std::size_t>> select_columns(const Table& table, std::optional<std::size_t> time, const std::vector<std::string>& wanted,
+                                                const std::string& path, std::vector<std::string>* notes) {
+    return ChannelSelector(table, time, path).choose(wanted, notes);
+}
+
+Result<std::optional<std::size_t>> select_time_column(const Table& table, const std::optional<std::string>& wanted, const std::string& path) {
+    if (!wanted) return table.time_column();
+    if (*wanted == "none") return std::optional<std::size_t>();
+    const auto& columns = table.columns();
+    const auto named = std::find_if(columns.begin(), columns.end(), [&](const Column& c) { return matches_name(c, *wanted); });
+    if (named != columns.end()) return std::optional(static_cast<std::size_t>(named - columns.begin()));
+    if (const auto number = parse_integer(*wanted); number && *number >= 1 && *number <= columns.size()) return std::optional(*number - 1);
+    std::vector<std::string_view> names;
+    for (const auto& c : columns) names.push_back(c.name);
+    const auto shown = std::span(names).first(std::min<std::size_t>(names.size(), 12));
+    return bad_input(fmt::format("no time column '{}'{}; give a name, a number or 'none' (columns: {}{})", *wanted,
+                                 did_you_mean(*wanted, names), fmt::join(shown, ", "), shown.size() < names.size() ? " ..." : ""),
+                     {path});
+}
+
+Result<double> newtons_per_unit(const Column& column, const RecordingOptions& options, const std::string& path) {
+    if (options.scale) return *options.scale;
+    const std::string& unit = options.unit ? *options.unit : column.unit;
+    if (unit.empty()) return 1.0;
+    if (is_newtons(unit)) return 1.0;
+    const auto known = unit == "raw" ? Result<Unit>(bad_input("")) : parse_unit(unit);
+    if (known && known->has_same_dimension(*parse_unit("N"))) return known->factor;
+    const auto subject =
+        options.unit ? fmt::format("'{}' is read as {}", column.name, unit) : fmt::format("'{}' is in {}", column.name, unit);
+    const auto problem = known           ? "which is not a force"
+                         : unit == "raw" ? "which needs a scale"
+                                         : "which is not a known unit of force (N, mN, gf, kgf, lbf ...)";
+    const auto alternatives = options.unit ? "" : ", --unit N if the header is wrong, or --channel to select another column";
+    if (unit == "g" || unit == "kg")  // for a load cell, usually a weight and not a mass
+        return bad_input(fmt::format("{}, which is a mass; use --unit {}f if it is the weight of that mass, or --scale S for S newtons "
+                                     "per {}{}",
+                                     subject, unit, unit, options.unit ? "" : ", or --channel to select another column"),
+                         {path});
+    return bad_input(
+        fmt::format("{}, {}; use --scale S for S newtons per {}{}", subject, problem, unit == "raw" ? "count" : unit, alternatives),
+        {path});
+}
+
+Result<double> seconds_per_unit(const Column& column, const RecordingOptions& options, const std::string& path) {
+    const std::string& unit = options.time_unit ? *options.time_unit : column.unit;
+    if (unit.empty()) return 1.0;
+    if (column.holds_time_stamps && options.time_unit)
+        return bad_usage(
+            fmt::format("--time-unit {}: '{}' holds dates or times of day, which have no unit; omit the option", unit, column.name));
+    if (const auto seconds = seconds_per_time_unit(unit)) return *seconds;
+    if (options.time_unit) return bad_usage(fmt::format("--time-unit {}: not a unit of time; use s, ms, us, ns or min", unit));
+    return bad_input(
+        fmt::format(
+            "the time column '{}' is in '{}', which is not a unit of time; give its unit with --time-unit, or another column or 'none' "
+            "with --time",
+            column.name, unit),
+        {path});
+}
+
+}  // namespace corpuscle

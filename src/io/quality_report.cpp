@@ -1,0 +1,194 @@
+#include "io/quality_report.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "signal/quantity.hpp"
+
+namespace corpuscle {
+namespace {
+
+constexpr double min_outliers_note = 1e-3, min_outliers_warning = 0.01, min_hum_note = 0.02, min_hum_warning = 0.1;
+constexpr double far_above = 40;  // N: ten times the upper end of the range that the models are fitted to
+
+std::string percent(double fraction) { return fmt::format("{:.3g} %", 100 * fraction); }
+
+double outlier_fraction(const ChannelPipeline& p) {
+    const auto examined = p.outliers.examined();
+    return examined > 0 ? static_cast<double>(p.outliers.count()) / static_cast<double>(examined) : 0;
+}
+
+/// The channels that have a fault, and the one that has it most.
+struct AffectedChannels {
+    std::vector<std::size_t> channels;
+    std::size_t worst = 0;
+    std::string names;  ///< "'fz'", "'ch3' (the worst of 5 channels)"
+};
+
+class ReportWriter {
+    const std::vector<Channel>& channels_;
+    const std::vector<ChannelPipeline>& paths_;
+    RecordingQuality out_;
+
+    /// The channels for which `amount` is above 0.
+    AffectedChannels affected_channels(const std::function<double(const ChannelPipeline&)>& amount) const {
+        AffectedChannels c;
+        for (std::size_t k = 0; k < paths_.size(); ++k) {
+            if (!(amount(paths_[k]) > 0)) continue;
+            if (c.channels.empty() || amount(paths_[k]) > amount(paths_[c.worst])) c.worst = k;
+            c.channels.push_back(k);
+        }
+        if (!c.channels.empty())
+            c.names = paths_.size() == 1       ? "the force"
+                      : c.channels.size() == 1 ? fmt::format("'{}'", channels_[c.worst].name)
+                                               : fmt::format("'{}' (the worst of {} channels)", channels_[c.worst].name, c.channels.size());
+        return c;
+    }
+
+    void add(bool is_warning, std::string message) { (is_warning ? out_.warnings : out_.descriptions).push_back(std::move(message)); }
+
+    void number(std::size_t channel, std::string_view name, double value, std::string_view unit = "") {
+        out_.metrics.push_back({channels_[channel].id, name, value, unit});
+    }
+
+    void outliers() {
+        const auto c = affected_channels([](const auto& p) { return outlier_fraction(p) > min_outliers_note ? outlier_fraction(p) : 0; });
+        if (c.channels.empty()) return;
+        const auto& worst = paths_[c.worst];
+        add(outlier_fraction(worst) > min_outliers_warning,
+            fmt::format(
+                "{}: {} of {} samples ({}) are isolated outliers, probably transmission errors; consecutive ones are not counted. Use "
+                "--range LO..HI or --despike LIMIT to remove them",
+                c.names, worst.outliers.count(), worst.outliers.examined(), percent(outlier_fraction(worst))));
+    }
+
+    void hum() {
+        const auto c = affected_channels([](const auto& p) { return p.hum.result().fraction > min_hum_note ? p.hum.result().fraction : 0; });
+        if (c.channels.empty()) return;
+        const auto found = paths_[c.worst].hum.result();
+        add(found.fraction > min_hum_warning,
+            fmt::format("{}: mains hum at {:g} Hz is {} of the variance within a second, and afferents that respond to the derivative "
+                        "amplify it; use --notch {:g}Hz to remove it",
+                        c.names, found.frequency, percent(found.fraction), found.frequency));
+    }
+
+    void saturation() {
+        const auto c = affected_channels([](const auto& p) { return p.saturation.is_likely() ? p.saturation.fraction() : 0; });
+        if (c.channels.empty()) return;
+        const auto& s = paths_[c.worst].saturation;
+        add(false, fmt::format("{}: repeatedly stays at its maximum, {:.4g} N ({} of the samples); the sensor or its converter may be "
+                               "saturated",
+                               c.names, s.highest(), percent(s.fraction())));
+    }
+
+    /// Warns if the maximum is 255, 1023, 4095 ..., the full-scale code of a converter.
+    void full_scale() {
+        const auto code = [](const ChannelPipeline& p) {
+            const double raw = p.saturation.highest() / p.gain() + p.offset(), next = std::round(raw) + 1;
+            const bool power = next >= 256 && next <= 0x1p32 && std::exp2(std::round(std::log2(next))) == next;
+            return power && std::abs(raw - (next - 1)) < 1e-6 * next && p.saturation.fraction() * static_cast<double>(p.levels.count) >= 3
+                       ? next
+                       : 0;
+        };
+        const auto c = affected_channels(code);
+        if (c.channels.empty()) return;
+        const auto& worst = paths_[c.worst];
+        add(true, fmt::format("{} is {:g}, the full scale of a {:g}-bit converter, for {} of the time; it is saturated, or not a force. "
+                              "Use --channel to select other columns",
+                              c.names, code(worst) - 1, std::log2(code(worst)), percent(worst.saturation.fraction())));
+    }
+
+    void sums(const SumDetector& check) {
+        for (const auto& s : check.find_sums())
+            add(false, fmt::format("'{}' is the sum of '{}' to '{}', not a sensor of its own; use --channel or --layout to exclude it",
+                                   channels_[s.channel].name, channels_[s.from].name, channels_[s.to].name));
+    }
+
+    void levels() {
+        const auto high = affected_channels([](const auto& p) { return p.levels.max > far_above ? p.levels.max : 0; });
+        if (!high.channels.empty())
+            add(true, fmt::format("{}: up to {:.4g} N, but the models are fitted to 0.2 to 4 N; use --scale S to convert to the force on "
+                                  "one receptor",
+                                  high.names, paths_[high.worst].levels.max));
+        const auto low =
+            affected_channels([](const auto& p) { return p.levels.max < 0.2 && p.levels.max > p.levels.min ? 1 : 0; });
+        if (!low.channels.empty() && low.channels.size() == paths_.size())
+            add(false, fmt::format("all forces are below 0.2 N, the lower end of the models' range (maximum {:.3g} N); check the unit",
+                                   paths_[low.worst].levels.max));
+        const auto negative = affected_channels(
+            [](const auto& p) { return p.levels.min < -0.2 && -p.levels.min > p.levels.max ? -p.levels.min : 0; });
+        if (!negative.channels.empty())
+            add(true, fmt::format("{}: mostly negative, down to {:.4g} N, but a press must be positive; use --abs or a negative --scale",
+                                  negative.names, paths_[negative.worst].levels.min));
+        const auto constant = affected_channels([](const auto& p) { return p.levels.max == p.levels.min ? 1 : 0; });
+        const auto& first = paths_[0].levels;
+        const bool all = constant.channels.size() == paths_.size();
+        if (paths_.size() == 1 && all && first.count > 1)
+            add(true, fmt::format("the force is constant, {:.4g} N; check the file and the channel", first.max));
+        else if (paths_.size() > 1 && constant.channels.size() == 1)
+            add(false, fmt::format("{} is constant", constant.names));
+        else if (paths_.size() > 1 && !constant.channels.empty())
+            add(all, fmt::format("{} channels are constant{}", constant.channels.size(), all ? "; check the file and the channels" : ""));
+    }
+
+    void repaired(const RowCounts& rows) {
+        std::int64_t outliers = 0, filled = 0;
+        for (const auto& p : paths_) outliers += p.outliers_removed(), filled += p.filled();
+        if (rows.dropped > 0) add(false, fmt::format("{} rows with a bad field were dropped", rows.dropped));
+        std::int64_t samples = 0;
+        for (const auto& p : paths_) samples += p.levels.count;
+        constexpr std::int64_t min_warning = 20;  // one sample in so many
+        if (filled > 0)
+            add(filled * min_warning > samples, fmt::format("{} of {} samples were interpolated ({} outside --range, {} outliers)", filled,
+                                                            samples, rows.out_of_range, outliers));
+        if (filled * 2 > samples) add(true, "more than half of the samples were interpolated; the response is not meaningful");
+    }
+
+    void clock(const RowClock& rows) {
+        if (rows.gap_count > 0 && !rows.uses_row_times && rows.time_column)
+            add(false, fmt::format("{} time steps are longer than 1.5 times the median step", rows.gap_count));
+    }
+
+    void numbers() {
+        for (std::size_t k = 0; k < paths_.size(); ++k) {
+            const auto& p = paths_[k];
+            number(k, "force_min", p.levels.min, "N");
+            number(k, "force_max", p.levels.max, "N");
+            number(k, "below_0.2N", p.levels.fraction(p.levels.below_range));
+            number(k, "above_4N", p.levels.fraction(p.levels.above_range));
+            number(k, "negative", p.levels.fraction(p.levels.negative));
+            number(k, "strays", outlier_fraction(p));
+            number(k, "at_highest", p.saturation.fraction());
+            number(k, "hum", p.hum.result().fraction);
+            number(k, "hum_frequency", p.hum.result().frequency, "Hz");
+            number(k, "filled", static_cast<double>(p.filled()));
+        }
+    }
+
+public:
+    ReportWriter(const std::vector<Channel>& channels, const std::vector<ChannelPipeline>& paths) : channels_(channels), paths_(paths) {}
+
+    RecordingQuality write(const RowClock& rows, const RowCounts& counts, const SumDetector& check) {
+        clock(rows);
+        sums(check);
+        repaired(counts);
+        outliers();
+        hum();
+        saturation();
+        full_scale();
+        levels();
+        numbers();
+        return std::move(out_);
+    }
+};
+
+}  // namespace
+
+RecordingQuality assess_quality(const std::vector<Channel>& channels, const std::vector<ChannelPipeline>& paths, const RowClock& rows, const RowCounts& counts,
+                const SumDetector& sums) {
+    return ReportWriter(channels, paths).write(rows, counts, sums);
+}
+
+}  // namespace corpuscle

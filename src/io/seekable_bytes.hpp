@@ -1,0 +1,30 @@
+#pragma once
+// A seekable sequence of bytes of known size, from a file or from a member of an archive.
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+
+#include "signal/error.hpp"
+
+namespace corpuscle {
+
+class SeekableBytes {
+public:
+    virtual ~SeekableBytes() = default;
+    /// The file, or the file and the member, for messages.
+    virtual const std::string& name() const = 0;
+    virtual std::uint64_t size() const = 0;
+    /// Reads the next bytes. Fills `out` completely, or returns an error.
+    virtual Result<void> read(std::span<std::byte> out) = 0;
+    virtual Result<void> seek(std::uint64_t at) = 0;
+};
+
+Result<std::unique_ptr<SeekableBytes>> open_bytes(const std::string& path);
+
+/// Copies the bytes to an anonymous temporary file, for bytes in which seeking is slow.
+Result<std::unique_ptr<SeekableBytes>> copy_to_temporary_file(SeekableBytes&);
+
+}  // namespace corpuscle

@@ -1,0 +1,25 @@
+#pragma once
+// Collects the spike trains of a file by name, and declares the readers of the spike formats.
+
+#include <map>
+#include <utility>
+
+#include "io/spike_files.hpp"
+
+namespace corpuscle {
+
+class TrainCollector {
+    std::map<std::pair<std::string, std::string>, std::vector<double>> trains_;
+
+public:
+    std::vector<double>& train(const std::string& afferent, const std::string& channel) { return trains_[{afferent, channel}]; }
+    std::vector<NamedTrain> sorted() &&;
+};
+
+Result<std::vector<NamedTrain>> read_text_spikes(const std::string& path, const SpikeColumns&);
+Result<std::vector<NamedTrain>> read_npy_spikes(const std::string& path, const SpikeColumns&);
+Result<std::vector<NamedTrain>> read_npz_spikes(const std::string& path);
+Result<std::vector<NamedTrain>> read_aer_spikes(const std::string& path);
+Result<std::vector<NamedTrain>> read_aedat2_spikes(const std::string& path);
+
+}  // namespace corpuscle

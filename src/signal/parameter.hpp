@@ -1,0 +1,98 @@
+#pragma once
+// Parameters are declared once, in a table row. Command line, JSON, reference, checks and defaults are generated from that row.
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "signal/error.hpp"
+
+namespace corpuscle {
+
+/// Declares one parameter of the struct P.
+template <class P>
+struct ParameterDef {
+    std::string_view name;
+    double P::* member;
+    std::string_view unit;  ///< SI, "" for a plain number
+    double low, high;       ///< the allowed range, ends included
+    std::string_view description;
+    std::string_view source = {};  ///< source of the default, if it is not the model's source
+    bool is_shared_by_copies = false;      ///< true if all copies of an afferent share the value, as for numerical or measurement options
+};
+
+/// Requires that one parameter is below another.
+template <class P>
+struct OrderConstraint {
+    std::string_view lower_name;
+    double P::* lower_member;
+    std::string_view upper_name;
+    double P::* upper_member;
+    bool or_equal = false;
+};
+
+/// A parameter without its struct type, for lists, pages and settings.
+struct ParameterInfo {
+    std::string_view name, unit;
+    double default_value;  ///< the default
+    double low, high;
+    std::string_view description;
+    std::string_view source;   ///< source of the default; "": that of the catalogue entry
+    bool is_shared_by_copies = false;  ///< true if all copies of an afferent share the value
+};
+
+/// An entry of a catalogue: a name, a description and parameters.
+struct CatalogEntry {
+    std::string_view name, description, source;
+    std::vector<ParameterInfo> parameters;
+};
+
+/// A parameter and its new value, in SI.
+struct Setting {
+    std::string_view name;
+    double value;
+};
+
+template <class P>
+std::vector<ParameterInfo> parameters_of(std::span<const ParameterDef<P>> fields) {
+    const P initial;
+    std::vector<ParameterInfo> rows;
+    for (const auto& f : fields) rows.push_back({f.name, f.unit, initial.*f.member, f.low, f.high, f.description, f.source, f.is_shared_by_copies});
+    return rows;
+}
+
+template <class M>  // a model or a stimulus with name, description, source, Params and fields
+CatalogEntry catalog_entry_of() {
+    return {M::name, M::sentence, M::source, parameters_of<typename M::Params>(M::fields)};
+}
+
+/// Returns an error if the value is outside the parameter's range: "lif-b: C_m = -1 F is outside [1e-15, 1]".
+std::optional<Error> check_range(std::string_view owner, const ParameterInfo&, double value);
+
+/// Returns an error if two parameters are in the wrong order: "lif-b: V_reset = 0.6 must be below V_th = 0.5".
+std::optional<Error> check_order(std::string_view owner, std::string_view lower_name, double lower, std::string_view upper_name,
+                                  double upper, bool or_equal);
+
+template <class P>
+std::optional<Error> check_order(std::string_view owner, std::span<const OrderConstraint<P>> constraints, const P& p) {
+    for (const auto& c : constraints)
+        if (auto error = check_order(owner, c.lower_name, p.*c.lower_member, c.upper_name, p.*c.upper_member, c.or_equal)) return error;
+    return {};
+}
+
+/// Suggests the name that is closest to a mistyped one, as "; did you mean 'out'?". "" if none is close.
+std::string did_you_mean(std::string_view typed, std::span<const std::string_view> names);
+
+/// The default parameters with the settings applied. Settings for other parameters are ignored: they may belong to a partner model.
+template <class P>
+P with_settings(std::span<const ParameterDef<P>> fields, std::span<const Setting> settings) {
+    P p;
+    for (const auto& s : settings)
+        for (const auto& f : fields)
+            if (f.name == s.name) p.*f.member = s.value;
+    return p;
+}
+
+}  // namespace corpuscle

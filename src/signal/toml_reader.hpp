@@ -1,0 +1,169 @@
+#pragma once
+// Reads TOML tables into texts with locations. toml++ is slow to compile, so only one file of each module includes this header.
+
+#include <fmt/format.h>
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <string_view>
+#include <vector>
+
+#include "signal/parameter.hpp"
+#include "signal/located_text.hpp"
+
+namespace corpuscle {
+
+/// Returns an error if keys or values are nested so deep that toml++, which is recursive, would overflow the stack. Counts the dots of
+/// a key and the open brackets.
+inline std::optional<Error> check_nesting(std::string_view text, const std::string& file) {
+    constexpr std::size_t max_dots = 32, max_open = 64;
+    std::size_t dots = 0, open = 0, line = 1, line_at = 0;
+    const auto error_at = [&](std::size_t k, std::string_view items, std::size_t limit) {
+        return bad_input(fmt::format("{} are nested more than {} deep", items, limit),
+                         {file, static_cast<long>(line), static_cast<long>(k - line_at + 1)});
+    };
+    for (std::size_t k = 0; k < text.size(); ++k) {
+        const char c = text[k];
+        if (c == '#') {
+            k = std::min(text.find('\n', k), text.size()) - 1;
+        } else if (c == '"' || c == '\'') {
+            const auto quotes = text.substr(k, 3) == std::string(3, c) ? 3U : 1U;
+            for (k += quotes; k < text.size() && text.substr(k, quotes) != std::string(quotes, c); ++k) {
+                if (c == '"' && text[k] == '\\') ++k;
+                if (k < text.size() && text[k] == '\n') {
+                    if (quotes == 1) {  // not closed; the parser reports it
+                        --k;
+                        break;
+                    }
+                    ++line, line_at = k + 1;
+                }
+            }
+            k += quotes - 1;
+        } else if (c == '\n') {
+            ++line, line_at = k + 1, dots = 0;
+        } else if (c == '.') {
+            if (++dots > max_dots) return error_at(k, "keys", max_dots);
+        } else if (c == '[' || c == '{') {
+            dots = 0;
+            if (++open > max_open) return error_at(k, "lists and tables", max_open);
+        } else if (c == ']' || c == '}') {
+            dots = 0, open -= open > 0;
+        } else if (c == ',' || c == '=') {
+            dots = 0;
+        }
+    }
+    return {};
+}
+
+/// Parses TOML, for sweeps and populations.
+inline Result<toml::table> parse_toml(std::string_view text, const std::string& file) {
+    if (auto wrong = check_nesting(text, file)) return *wrong;
+    try {
+        return toml::parse(text);
+    } catch (const toml::parse_error& error) {
+        const auto& at = error.source().begin;
+        return bad_input(std::string(error.description()), {file, static_cast<long>(at.line), static_cast<long>(at.column)});
+    }
+}
+
+/// Reads tables. Keeps the first error; later ones are ignored.
+class TomlReader {
+    const std::string& file_;
+
+public:
+    using Names = std::vector<std::string_view>;
+    std::optional<Error> first_error;
+
+    explicit TomlReader(const std::string& file) : file_(file) {}
+
+    SourceLocation location_of(const toml::source_region& at) const {
+        return {file_, static_cast<long>(at.begin.line), static_cast<long>(at.begin.column)};
+    }
+    void reject(const toml::source_region& at, std::string message) {
+        if (!first_error) first_error = bad_input(std::move(message), location_of(at));
+    }
+
+    static bool is_one_of(const Names& names, std::string_view name) { return std::find(names.begin(), names.end(), name) != names.end(); }
+
+    void reject_unknown_keys(const toml::table& table, const Names& known, std::string_view where) {
+        for (const auto& [key, value] : table)
+            if (!is_one_of(known, key.str()))
+                reject(key.source(), fmt::format("{}there is no '{}'{} (there are {})", where, key.str(), did_you_mean(key.str(), known),
+                                                 fmt::join(known, ", ")));
+    }
+
+    static std::string_view type_name(const toml::node& node) {
+        if (node.is_table()) return "a table";
+        if (node.is_array() || node.is_array_of_tables()) return "a list";
+        if (node.is_boolean()) return "true or false";
+        return "a date";
+    }
+
+    /// A text or a number. With `allow_boolean` also true or false.
+    OptionalLocatedText scalar(const toml::node& node, std::string_view name, bool allow_boolean = false) {
+        LocatedText out{{}, location_of(node.source())};
+        if (const auto* text = node.as_string())
+            out.text = text->get();
+        else if (const auto* integer = node.as_integer())
+            out.text = fmt::format("{}", integer->get());
+        else if (const auto* real = node.as_floating_point())
+            out.text = fmt::format("{}", real->get());
+        else if (const auto* boolean = node.as_boolean(); boolean && allow_boolean)
+            out.text = boolean->get() ? "true" : "false";
+        else
+            return reject(node.source(), fmt::format("{} is {}; expected a text or a number", name, type_name(node))), OptionalLocatedText{};
+        return out;
+    }
+    OptionalLocatedText scalar(const toml::table& table, std::string_view name, bool allow_boolean = false) {
+        const auto* node = table.get(name);
+        return node ? scalar(*node, name, allow_boolean) : std::nullopt;
+    }
+
+    std::vector<LocatedText> list(const toml::array& array, std::string_view name) {
+        std::vector<LocatedText> out;
+        for (const auto& one : array)
+            if (auto element = scalar(one, fmt::format("an element of {}", name))) out.push_back(std::move(*element));
+        return out;
+    }
+    std::optional<std::vector<LocatedText>> list(const toml::table& table, std::string_view name) {
+        const auto* node = table.get(name);
+        if (!node) return {};
+        const auto* array = node->as_array();
+        if (!array) return reject(node->source(), fmt::format("{0} must be a list: {0} = [...]", name)), std::nullopt;
+        return list(*array, name);
+    }
+
+    const toml::table* table(const toml::table& of, std::string_view name) {
+        const auto* node = of.get(name);
+        if (node && !node->is_table()) reject(node->source(), fmt::format("{0} must be a table: write [{0}] on a line of its own", name));
+        return node ? node->as_table() : nullptr;
+    }
+
+    /// Calls `each` for every table of [[name]].
+    template <class F>
+    void tables(const toml::table& of, std::string_view name, std::string_view one_for, F&& each) {
+        const auto* node = of.get(name);
+        if (!node) return;
+        const auto message = [&] { return fmt::format("{0} must be tables: write [[{0}]] on a line of its own for {1}", name, one_for); };
+        const auto* array = node->as_array();
+        if (!array) return reject(node->source(), message());
+        for (const auto& one : *array) {
+            const auto* inner = one.as_table();
+            if (!inner) return reject(one.source(), message());
+            each(*inner);
+        }
+    }
+
+    /// Reads [set]. press.F_max = "2N" is a nested table in TOML and means the same as "press.F_max" = "2N".
+    void settings(const toml::table& from, const std::string& before, std::vector<LocatedSetting>& out) {
+        for (const auto& [key, value] : from) {
+            const auto name = before + std::string(key.str());
+            if (const auto* inner = value.as_table())
+                settings(*inner, name + ".", out);
+            else if (auto setting = scalar(value, name))
+                out.push_back({name, std::move(*setting)});
+        }
+    }
+};
+
+}  // namespace corpuscle
