@@ -47,7 +47,7 @@ int main(int argc, char** argv) {
     asked.batch.most_iterations = 60'000;
     const auto press = stimulus("press");
     asked.force = press.force, asked.T = 1 / press.rate;
-    const Stretch phases[] = {{0, 0.25}, {0.25, 0.375}, {0.375, 0.625}, {0.625, 0.75}, {0.75, 1}};
+    const TimeWindow phases[] = {{0, 0.25}, {0.25, 0.375}, {0.375, 0.625}, {0.625, 0.75}, {0.75, 1}};
     asked.limits = FiringLimits::about(respond(kind->model, press).spikes, phases, 10e-3);
     asked.told = [](std::size_t left, std::size_t presses) { std::fprintf(stderr, "%zu chips left, %zu presses\n", left, presses); };
     fmt::print("{}, {} chips: {}\n", asked.netlist, count, asked.limits.text());

@@ -87,11 +87,11 @@ int main(int argc, char** argv) {
     std::shared_ptr<const Innervation> skin;
     for (int k = 0; k < runs; ++k) {
         const double from = processor();
-        skin = good(innervate(good(plan_skin("hand"))));
+        skin = good(innervate(good(load_skin_plan("hand"))));
         (void)good(Skin::make(skin, {1e-3}, set));
         built.push_back(processor() - from);
     }
-    fmt::print("hand: {} afferents, {} sites, {}\n", skin->units.size(), skin->plan.sites.size(), name_of(set));
+    fmt::print("hand: {} afferents, {} sites, {}\n", skin->afferents.size(), skin->plan.sites.size(), name_of(set));
     tell("built from its file", built, 0);
 
     const NamedTouch& stroke = named_touches()[0];
@@ -113,7 +113,7 @@ int main(int argc, char** argv) {
          }}};
     for (const auto& [name, make] : forces) {
         std::vector<double> ran;
-        SkinWork work;
+        SkinStats work;
         std::uintmax_t bytes = 0;
         for (int k = 0; k < runs; ++k) {
             auto force = make();
@@ -131,7 +131,7 @@ int main(int argc, char** argv) {
         }
         tell(name, ran, static_cast<double>(work.steps) * 1e-3);
         fmt::print("  {:<34} {:.3g} afferent-steps worked out, {:.3g} passed over; {} spikes, {} bytes\n", "",
-                   static_cast<double>(work.afferent_steps), static_cast<double>(work.at_rest), work.spikes, bytes);
+                   static_cast<double>(work.afferent_steps), static_cast<double>(work.skipped_steps), work.spikes, bytes);
     }
     rusage used{};
     getrusage(RUSAGE_SELF, &used);

@@ -22,7 +22,7 @@
 #include <sys/socket.h>
 #include <csignal>
 
-#include "live/delays.hpp"
+#include "live/latency_histogram.hpp"
 #include "live/live_population.hpp"
 #include "live/skin_stream.hpp"
 #include "live_program.hpp"
@@ -33,23 +33,23 @@ using namespace corpuscle;
 
 constexpr int start_up = 3;  // s in which the program builds its skin and warms up
 
-std::string row(const char* name, const Delays& d) {
+std::string row(const char* name, const LatencyHistogram& d) {
     std::uint64_t within = 0;
-    for (int b = 0; b < Delays::size() && Delays::end_of(b) <= 1'000'000; ++b) within += d.in(b);
+    for (int b = 0; b < LatencyHistogram::bin_count() && LatencyHistogram::end_of(b) <= 1'000'000; ++b) within += d.count_in(b);
     const auto us = [&](double q) { return static_cast<double>(d.quantile(q)) * 1e-3; };
     return fmt::format("{:28} {:9} {:8.1f} {:8.1f} {:8.1f} {:9.1f}   {:.4f} %\n", name, d.count(), us(0.5), us(0.99), us(0.999),
-                       static_cast<double>(d.most()) * 1e-3,
+                       static_cast<double>(d.max()) * 1e-3,
                        100 * static_cast<double>(within) / static_cast<double>(std::max<std::uint64_t>(1, d.count())));
 }
 
 /// Both as shares of an octave each.
-void print_histograms(const Delays& idle, const Delays& delay) {
+void print_histograms(const LatencyHistogram& idle, const LatencyHistogram& delay) {
     fmt::print("\n  up to us     idle %    delay %\n");
     std::uint64_t a = 0, b = 0;
     std::int64_t edge = 1024;
-    for (int k = 0; k < Delays::size(); ++k) {
-        a += idle.in(k), b += delay.in(k);
-        if (Delays::end_of(k) < edge) continue;
+    for (int k = 0; k < LatencyHistogram::bin_count(); ++k) {
+        a += idle.count_in(k), b += delay.count_in(k);
+        if (LatencyHistogram::end_of(k) < edge) continue;
         if (a + b > 0)
             fmt::print("{:10.1f} {:10.4f} {:10.4f}\n", static_cast<double>(edge) * 1e-3,
                        100 * static_cast<double>(a) / static_cast<double>(idle.count()),
@@ -58,8 +58,8 @@ void print_histograms(const Delays& idle, const Delays& delay) {
     }
 }
 
-Delays idle_loop(int rate, int seconds) {
-    Delays late;
+LatencyHistogram idle_loop(int rate, int seconds) {
+    LatencyHistogram late;
     const auto begin = steady_now() + 10'000'000;
     for (std::int64_t k = 0; k < std::int64_t{rate} * seconds; ++k) {
         const auto due = begin + k * 1'000'000'000 / rate;
@@ -70,7 +70,7 @@ Delays idle_loop(int rate, int seconds) {
 }
 
 std::shared_ptr<const Innervation> skin_of(const std::string& population) {
-    auto plan = plan_live(population, 1);
+    auto plan = make_live_plan(population, 1);
     auto skin = plan ? innervate(std::move(*plan)) : Result<std::shared_ptr<const Innervation>>(plan.error());
     if (!skin) fmt::print("{}\n", skin.error().text()), std::exit(1);
     return *skin;
@@ -80,7 +80,7 @@ int through_pipes(const std::string& program, const std::string& population, int
                   int together = 1, double turn_radius = 0) {
     const auto skin = skin_of(population);
     const auto sites = skin->plan.sites.size();
-    const auto header = (*make_event_format("aer", event_units(*skin, {rate, 1})))->header().size();
+    const auto header = (*make_event_format("aer", make_event_afferents(*skin, {rate, 1})))->header().size();
     const auto second = frames_of_a_second(skin->plan, rate, radius, noise, turn_radius);
     const int cores = static_cast<int>(std::thread::hardware_concurrency());
     if (cores > 1) bind_to(0, cores - 2);
@@ -98,7 +98,7 @@ int through_pipes(const std::string& program, const std::string& population, int
         begun = child.so_far();
     });
     Sender sender(second, sites, rate, count, false);
-    Delays delay;
+    LatencyHistogram delay;
     std::int64_t last = 0, spikes = 0;
     HelperProgram reader(child.out.get(), header, [&](const address_events::EncodedSpike& spike, std::int64_t now) {
         ++spikes;
@@ -126,7 +126,7 @@ int through_pipes(const std::string& program, const std::string& population, int
     const int status = child.wait();
     watch.join();
     fmt::print("{}: {} sites, {} afferents, {} frames of {} Hz sent, {} spikes read\n\n{:28} {:>9} {:>8} {:>8} {:>8} {:>9}   within 1 ms\n",
-               population, sites, skin->units.size(), count, rate, spikes, "us", "number", "50 %", "99 %", "99.9 %", "longest");
+               population, sites, skin->afferents.size(), count, rate, spikes, "us", "number", "50 %", "99 %", "99.9 %", "longest");
     fmt::print("{}{}", row("idle loop, late", idle), row("frame written to spike read", delay));
     print_histograms(idle, delay);
     fmt::print(
@@ -148,10 +148,10 @@ int soak(const std::string& program, int seconds) {
     constexpr int rate = 1000;
     const auto skin = skin_of("grid 16x16");
     const auto sites = skin->plan.sites.size();
-    const auto format = make_event_format("aer", event_units(*skin, {rate, 1}));
+    const auto format = make_event_format("aer", make_event_afferents(*skin, {rate, 1}));
     const auto second = frames_of_a_second(skin->plan, rate, 8e-3, true);
     Endpoint here;
-    auto door = listening_socket(here);
+    auto door = open_listening_socket(here);
     Program child(program,
                   {"--population", "grid 16x16", "--rate", "1kHz", "--frames", "f32", "--stamp", "count", "--format", "aer", "--in",
                    "tcp:0", "--clients", "1", "--to", std::to_string(here.port)},
@@ -181,7 +181,7 @@ int soak(const std::string& program, int seconds) {
             }
         }
     };
-    std::vector<Delays> minutes(static_cast<std::size_t>(seconds) / 60 + 1);
+    std::vector<LatencyHistogram> minutes(static_cast<std::size_t>(seconds) / 60 + 1);
     std::int64_t spikes = 0, wrong = 0, told_at = 0, last = -1;
     HelperProgram reader(events.get(), (*format)->header().size(), [&](const address_events::EncodedSpike& spike, std::int64_t now) {
         next(spike.step);

@@ -16,7 +16,7 @@
 #include "io/address_events.hpp"
 #include "live/descriptor.hpp"
 #include "live/frame_source.hpp"
-#include "live/network.hpp"
+#include "live/sockets.hpp"
 #include "signal/random.hpp"
 #include "skin/innervation.hpp"
 
@@ -40,15 +40,15 @@ inline std::vector<float> frames_of_a_second(const SkinPlan& plan, int rate, dou
     const auto& sites = plan.sites;
     const double felt = plan.felt_area > 0 && sites.area > 0 ? sites.area / plan.felt_area : 1;  // N at a site that a unit feels as 1 N
     std::vector<float> out(sites.size() * static_cast<std::size_t>(rate));
-    Position low = sites.at[0], high = low;
-    for (const auto& p : sites.at)
+    Position low = sites.positions[0], high = low;
+    for (const auto& p : sites.positions)
         low = {std::min(low.x, p.x), std::min(low.y, p.y)}, high = {std::max(high.x, p.x), std::max(high.y, p.y)};
     for (int k = 0; k < rate; ++k) {
         const double turn = 6.283185307179586 * k / rate;
         const double x = (low.x + high.x) / 2 + (turn_radius > 0 ? turn_radius : (high.x - low.x) / 4) * std::cos(turn),
                      y = (low.y + high.y) / 2 + (turn_radius > 0 ? turn_radius : (high.y - low.y) / 4) * std::sin(turn);
         for (std::size_t s = 0; s < sites.size(); ++s) {
-            const double d2 = (sites.at[s].x - x) * (sites.at[s].x - x) + (sites.at[s].y - y) * (sites.at[s].y - y);
+            const double d2 = (sites.positions[s].x - x) * (sites.positions[s].x - x) + (sites.positions[s].y - y) * (sites.positions[s].y - y);
             const auto w = philox({static_cast<std::uint32_t>(k), static_cast<std::uint32_t>(s), 0, 0}, 1);
             out[static_cast<std::size_t>(k) * sites.size() + s] =
                 static_cast<float>(felt * ((d2 < 6 * radius * radius ? 2 * std::exp(-d2 / (radius * radius)) : 0) +
@@ -116,7 +116,7 @@ inline Descriptor connected_to(const Program& child) {
     std::string said(200, '\0');
     said.resize(static_cast<std::size_t>(std::max<ssize_t>(0, ::read(child.err.get(), said.data(), said.size()))));
     const auto at = said.find("127.");
-    auto to = at < said.size() ? connected_socket(*parse_endpoint(said.substr(at, said.find('\n') - at)), 5000)
+    auto to = at < said.size() ? connect_socket(*parse_endpoint(said.substr(at, said.find('\n') - at)), 5000)
                                : Result<Descriptor>(bad_input("it does not listen: " + said));
     if (!to) fmt::print("{}\n", to.error().text()), std::exit(1);
     ::fcntl(to->get(), F_SETFL, 0);

@@ -21,8 +21,8 @@
 #include <functional>
 #include <string>
 
-#include "model/lanes/buffer.hpp"
-#include "model/population.hpp"
+#include "model/lanes/aligned_buffer.hpp"
+#include "model/lane_population.hpp"
 #include "signal/stimuli.hpp"
 
 namespace {
@@ -93,13 +93,13 @@ double gain(std::size_t unit) { return 0.5 + 0.5 * static_cast<double>(unit) / (
 
 /// The press times each afferent's gain, in tiles.
 template <class E>
-lanes::Buffer<E> tiles(const std::vector<double>& f, double scale) {
-    const std::size_t count = (most + force_tile - 1) / force_tile;
-    lanes::Buffer<E> rows(count * force_tile * stream_steps);
+lanes::AlignedBuffer<E> tiles(const std::vector<double>& f, double scale) {
+    const std::size_t count = (most + tile_width - 1) / tile_width;
+    lanes::AlignedBuffer<E> rows(count * tile_width * stream_steps);
     E* out = rows.data();
     for (std::size_t tile = 0; tile < count; ++tile)
         for (std::size_t t = 0; t < stream_steps; ++t)
-            for (std::size_t u = 0; u < force_tile; ++u) *out++ = static_cast<E>(f[2400 + t] * gain(tile * force_tile + u) * scale);
+            for (std::size_t u = 0; u < tile_width; ++u) *out++ = static_cast<E>(f[2400 + t] * gain(tile * tile_width + u) * scale);
     return rows;
 }
 
@@ -124,19 +124,19 @@ struct Case {
     std::size_t units = most, steps = 0, block = 0;
     Method method = Method::exact;
     bool own = false, sampled = true, marks = false;
-    Precision precision = Precision::in_double;
+    Precision precision = Precision::double_precision;
     InstructionSet set = InstructionSet::baseline;
     std::function<PopulationForce(std::size_t first, std::size_t steps)> force = {};
 
-    std::unique_ptr<Population> made() const {
+    std::unique_ptr<LanePopulation> made() const {
         const auto plan = plan_afferent("sa1", {});
         std::vector<AfferentPlan> plans(own ? units : 1, *plan);
         for (std::size_t u = 0; own && u < units; ++u)
             for (std::size_t k = 0; k < plans[u].values.size(); ++k)
-                if ((*plans[u].parameters)[k].row.name == "f_B") plans[u].values[k] = 15 + 10 * static_cast<double>(u) / (most - 1);
+                if ((*plans[u].parameters)[k].info.name == "f_B") plans[u].values[k] = 15 + 10 * static_cast<double>(u) / (most - 1);
         std::vector<const AfferentPlan*> pointers;
         for (const auto& p : plans) pointers.push_back(&p);
-        auto result = make_population({pointers, units, {}, precision}, {1e-4, method, sampled}, set);
+        auto result = make_lane_population({pointers, units, {}, precision}, {1e-4, method, sampled}, set);
         if (!result) stop(result.error().text());
         return std::move(*result);
     }
@@ -151,7 +151,7 @@ struct Case {
         for (std::size_t k = 0; k < steps; k += block) {
             const std::size_t count = std::min(block, steps - k);
             found.clear();
-            PopulationAnswer answer{marks ? nullptr : &found, marks ? &bits : nullptr};
+            PopulationResponse answer{marks ? nullptr : &found, marks ? &bits : nullptr};
             const auto f = force(k, count);
             const double begun = now();
             const auto done = population->respond(f, count, answer, alone);
@@ -167,9 +167,9 @@ struct Case {
 class Bench {
     std::string only_;
     std::vector<double> press_ = press(), gains_;
-    lanes::Buffer<double> doubles_ = tiles<double>(press_, 1);
-    lanes::Buffer<float> floats_ = tiles<float>(press_, 1);
-    lanes::Buffer<std::int16_t> words_ = tiles<std::int16_t>(press_, 8000);
+    lanes::AlignedBuffer<double> doubles_ = tiles<double>(press_, 1);
+    lanes::AlignedBuffer<float> floats_ = tiles<float>(press_, 1);
+    lanes::AlignedBuffer<std::int16_t> words_ = tiles<std::int16_t>(press_, 8000);
     std::vector<std::unique_ptr<Timed>> all_;
 
     void add(const std::string& name, const Case& c, double operations, double bytes) {
@@ -179,7 +179,7 @@ class Bench {
     }
 
     PopulationForce streamed(Precision precision) const {
-        if (precision == Precision::in_double) return ForceTiles<double>{doubles_.data()};
+        if (precision == Precision::double_precision) return ForceTiles<double>{doubles_.data()};
         return ForceTiles<float>{floats_.data()};
     }
 
@@ -190,7 +190,7 @@ class Bench {
     }
 
     void add_set(InstructionSet set, Precision precision) {
-        const bool in_double = precision == Precision::in_double;
+        const bool in_double = precision == Precision::double_precision;
         const std::string tag = fmt::format("{} {} ", name_of(set), in_double ? "double" : "float");
         const double one = in_double ? 1 : 0.5, bytes = in_double ? 8 : 4;
         const auto changed = [](Case c, auto change) { return change(c), c; };
@@ -206,7 +206,7 @@ class Bench {
         add(tag + "streamed, 16-bit words",
             changed(stream,
                     [&](Case& c) {
-                        c.force = [this](std::size_t, std::size_t) { return PopulationForce(ForceWords{words_.data(), 1.0 / 8000}); };
+                        c.force = [this](std::size_t, std::size_t) { return PopulationForce(ForceInt16{words_.data(), 1.0 / 8000}); };
                     }),
             20 * one, 2);
         add(tag + "streamed from the cache, N = 1000", changed(stream, [](Case& c) { c.units = 1000, c.steps = 10000, c.block = 100; }),
@@ -262,7 +262,7 @@ public:
                                                      }}));
         const auto sets = instruction_sets();
         for (std::size_t k = sets.size() - 1; k > 0; --k)  // without the scalar one
-            for (const auto precision : {Precision::in_double, Precision::in_float}) add_set(sets[k], precision);
+            for (const auto precision : {Precision::double_precision, Precision::single_precision}) add_set(sets[k], precision);
     }
 
     void run(int runs) {

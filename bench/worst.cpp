@@ -38,7 +38,7 @@ std::shared_ptr<const CircuitDesign> design_of(const std::string& name, const st
     return *design;
 }
 
-Trains pressed(const std::shared_ptr<const CircuitDesign>& design, const Chips& chips, const Touch& press) {
+Trains pressed(const std::shared_ptr<const CircuitDesign>& design, const Chips& chips, const ForceSignal& press) {
     Trains out(static_cast<std::size_t>(chips.count));
     std::mutex guard;
     std::size_t next = 0;
@@ -102,7 +102,7 @@ int main(int argc, char** argv) {
     const std::string model = argv[1], netlist = model + "-circuit";
     const Chips chips{argc > 2 ? std::atof(argv[2]) : 200, argc > 3 ? std::strtoull(argv[3], nullptr, 10) : 1, false, true};
     const auto press = stimulus("press");
-    const Stretch phases[] = {{0, 0.25}, {0.25, 0.375}, {0.375, 0.625}, {0.625, 0.75}, {0.75, 1}};
+    const TimeWindow phases[] = {{0, 0.25}, {0.25, 0.375}, {0.375, 0.625}, {0.625, 0.75}, {0.75, 1}};
     const auto limits = FiringLimits::about(respond(model, press).spikes, phases, 10e-3);
     fmt::print("{}: {}\n", netlist, limits.text());
 

@@ -2,7 +2,7 @@
 
 #include <cstdio>
 
-#include "model/population.hpp"
+#include "model/lane_population.hpp"
 #include "signal/stimuli.hpp"
 
 int main() {
@@ -10,7 +10,7 @@ int main() {
     const auto plan = plan_afferent("sa1", {});
     const auto press = make_stimulus("press", {}, 10e3, 0);
     const AfferentPlan* const plans[] = {&*plan};
-    const auto population = make_population({plans, 10'000}, {.dt = 1e-4}, *instruction_set());
+    const auto population = make_lane_population({plans, 10'000}, {.dt = 1e-4}, *instruction_set());
     if (!population) return std::puts(population.error().text().c_str()), 1;
 
     std::vector<double> gains;
@@ -18,7 +18,7 @@ int main() {
     ThreadPool threads;
     Frames force(1, 500);  // 50 ms
     for (std::vector<Spike> spikes; (*press)->read(force) && force.count > 0; spikes.clear()) {
-        PopulationAnswer answer{&spikes};
+        PopulationResponse answer{&spikes};
         const auto done = (*population)->respond(ForceProfile{{force.force[0].data(), force.count}, gains}, force.count, answer, threads);
         if (!done) return std::puts(done.error().text().c_str()), 1;
         std::printf("%6.2f N at the most: %5zu spikes\n", force.force[0][force.count - 1], spikes.size());

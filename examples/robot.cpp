@@ -13,10 +13,10 @@ int main() {
     for (int k = 0; k < 500; ++k) {
         for (std::size_t s = 0; s < frame.size(); ++s) frame[s] = k < 100 ? 0 : s % 8 < 4 ? 1.5 : 0;  // here a robot reads its sensors
         skin.push(frame, [&](const corpuscle::LiveSkin::Event& e) {
-            if (spikes++ < 10) std::printf("%.4f s  %s\n", e.time, skin.name(e.unit).c_str());
+            if (spikes++ < 10) std::printf("%.4f s  %s\n", e.time, skin.afferent_name(e.afferent_index).c_str());
         });
         std::this_thread::sleep_until(next += std::chrono::milliseconds(1));
     }
-    std::printf("%ld spikes of %zu afferents\n", spikes, skin.units());
+    std::printf("%ld spikes of %zu afferents\n", spikes, skin.afferents());
     return spikes == 0;
 }

@@ -19,7 +19,7 @@ int main(void) {
         if (corpuscle_push(skin, frame, corpuscle_sites(skin), count, &spikes) != 0) return puts(corpuscle_error(skin)), 1;
     }
     int refused = corpuscle_push(skin, NULL, 4, count, &spikes) == -1 && corpuscle_error(skin)[0] != '\0';
-    printf("%ld spikes of %zu afferents, the first of them %s\n", spikes, corpuscle_units(skin), corpuscle_unit_name(skin, 0));
+    printf("%ld spikes of %zu afferents, the first of them %s\n", spikes, corpuscle_afferents(skin), corpuscle_afferent_name(skin, 0));
     corpuscle_destroy(skin);
     return spikes == 0 || !refused;
 }

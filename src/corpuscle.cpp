@@ -9,7 +9,7 @@ namespace {
 
 template <class T>
 T value_or_throw(Result<T> result) {
-    if (!result) throw Refused(result.error().text());
+    if (!result) throw InputError(result.error().text());
     return std::move(*result);
 }
 
@@ -21,24 +21,24 @@ std::vector<ParameterOverride> parse_overrides(const std::vector<std::string>& s
 
 void check_used(std::span<const ParameterOverride> overrides) {
     for (const auto& o : overrides)
-        if (!o.is_used) throw Refused(o.text() + ": no model or stimulus in use is named '" + o.target + "'");
+        if (!o.is_used) throw InputError(o.text() + ": no model or stimulus in use is named '" + o.target + "'");
 }
 
 }  // namespace
 
-Touch stimulus(const std::string& name, const std::vector<std::string>& settings, double rate, std::uint64_t seed) {
+ForceSignal stimulus(const std::string& name, const std::vector<std::string>& settings, double rate, std::uint64_t seed) {
     const auto overrides = parse_overrides(settings);
     const auto source = value_or_throw(make_stimulus(name, overrides, rate, seed));
     check_used(overrides);
-    Touch signal{source->clock().rate(), {}};
+    ForceSignal signal{source->clock().rate(), {}};
     for (Frames block(1, 4096);;) {
-        if (auto ok = source->read(block); !ok) throw Refused(ok.error().text());
+        if (auto ok = source->read(block); !ok) throw InputError(ok.error().text());
         if (block.count == 0) return signal;
         signal.force.insert(signal.force.end(), block.force[0].begin(), block.force[0].begin() + static_cast<std::ptrdiff_t>(block.count));
     }
 }
 
-Response respond(const std::string& afferent, const Touch& signal, const std::vector<std::string>& settings) {
+Response respond(const std::string& afferent, const ForceSignal& signal, const std::vector<std::string>& settings) {
     const auto overrides = parse_overrides(settings);
     const auto plan = value_or_throw(plan_any_afferent(afferent, overrides));
     check_used(overrides);
@@ -49,10 +49,10 @@ Response respond(const std::string& afferent, const Touch& signal, const std::ve
     ResponseBlock response{spikes};
     auto force = signal.force;
     if (!force.empty()) force.insert(force.end(), static_cast<std::size_t>(model->delay()), force.back());
-    if (auto ok = model->respond(force, state, response); !ok) throw Refused(ok.error().text());
+    if (auto ok = model->respond(force, state, response); !ok) throw InputError(ok.error().text());
     return {spike_times(spikes, clock)};
 }
 
-std::vector<double> Response::rates() const { return instantaneous_rates(spikes); }
+std::vector<double> Response::instantaneous_rates() const { return instantaneous_rates(spikes); }
 
 }  // namespace corpuscle

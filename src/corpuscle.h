@@ -14,7 +14,7 @@ typedef struct corpuscle_skin corpuscle_skin;
 
 typedef struct corpuscle_spike {
     double time;      /* s; the first frame is at time 0 */
-    uint32_t unit;    /* index of the afferent; corpuscle_afferent_name gives its name */
+    uint32_t afferent;    /* index of the afferent; corpuscle_afferent_name gives its name */
     uint32_t address; /* the afferent's address in event files (doc/events.md) */
 } corpuscle_spike;
 
@@ -33,15 +33,15 @@ size_t corpuscle_sites(const corpuscle_skin* skin);                         /* n
 const char* corpuscle_site_name(const corpuscle_skin* skin, size_t site);   /* "r1c2"; sites count from 0; NULL: no such site */
 /* Position of a site in metres: x to the right, y away from the wrist. Returns 0, or -1 if there is no such site. */
 int corpuscle_site_position(const corpuscle_skin* skin, size_t site, double* x, double* y);
-size_t corpuscle_units(const corpuscle_skin* skin);                         /* number of afferents */
-const char* corpuscle_unit_name(const corpuscle_skin* skin, uint32_t unit); /* "sa1#17"; NULL: no such afferent */
+size_t corpuscle_afferents(const corpuscle_skin* skin);                         /* number of afferents */
+const char* corpuscle_afferent_name(const corpuscle_skin* skin, uint32_t unit); /* "sa1#17"; NULL: no such afferent */
 
 /* These return 0, or -1 on failure; corpuscle_error then gives the reason. */
 
 /* Simulates one frame: one force (N) for each site. Spikes that arrive during this frame are passed to `sink`, which may be NULL. */
 int corpuscle_push(corpuscle_skin* skin, const double* frame, size_t sites, corpuscle_sink sink, void* user);
 /* Call after the last frame: passes the spikes that are still travelling along the nerve to `sink`. */
-int corpuscle_last(corpuscle_skin* skin, corpuscle_sink sink, void* user);
+int corpuscle_finish(corpuscle_skin* skin, corpuscle_sink sink, void* user);
 
 /* Writes the state into `bytes`, a buffer of `size` bytes. Returns the number of bytes needed, or 0 on failure. With NULL nothing is
  * written. */

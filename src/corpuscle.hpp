@@ -12,27 +12,27 @@
 namespace corpuscle {
 
 /// Thrown by the functions of this header. what() is the error message, with file, line and column where they are known.
-struct Refused : std::runtime_error {
+struct InputError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
 /// Force over time, uniformly sampled.
-struct Touch {
+struct ForceSignal {
     double rate = 10e3;         ///< Hz
     std::vector<double> force;  ///< N, one value per sample
 };
 
 /// A stimulus by name, or a sum of stimuli ("press+noise"), with settings such as "press.F_max=2N". `rate` in Hz. Throws InputError.
-Touch stimulus(const std::string& name, const std::vector<std::string>& settings = {}, double rate = 10e3, std::uint64_t seed = 0);
+ForceSignal stimulus(const std::string& name, const std::vector<std::string>& settings = {}, double rate = 10e3, std::uint64_t seed = 0);
 
 /// Response of one afferent.
 struct Response {
     std::vector<double> spikes;         ///< s, in order; sample 0 is at 0 s
-    std::vector<double> rates() const;  ///< Hz, 1 / (t[k+1] - t[k]) at spike k (thesis 3.3); one value fewer than spikes
+    std::vector<double> instantaneous_rates() const;  ///< Hz, 1 / (t[k+1] - t[k]) at spike k (thesis 3.3); one value fewer than spikes
 };
 
 /// Simulates one afferent ("sa1", "sa1b+izhikevich") over the whole signal, with settings such as "sa1.f_B=25Hz". Throws InputError.
-Response respond(const std::string& afferent, const Touch&, const std::vector<std::string>& settings = {});
+Response respond(const std::string& afferent, const ForceSignal&, const std::vector<std::string>& settings = {});
 
 /// A simulated skin, made for robots: force frames in, spikes out, one frame at a time (doc/live.md). After construction it allocates no
 /// memory and takes no lock. The spikes are the same as those of a recording of these frames. It must not be used by two threads at the
@@ -41,7 +41,7 @@ class LiveSkin {
 public:
     struct Event {
         double time = 0;            ///< s; the first frame is at time 0
-        std::uint32_t unit = 0;     ///< index of the afferent; afferent_name() gives its name
+        std::uint32_t afferent_index = 0;     ///< index of the afferent; afferent_name() gives its name
         std::uint32_t address = 0;  ///< the afferent's address in event files (doc/events.md)
     };
 
@@ -62,27 +62,27 @@ public:
 
     std::size_t sites() const;                   ///< number of forces in a frame
     Site site(std::size_t number) const;         ///< site of force `number` of a frame, from 0
-    std::size_t units() const;                   ///< number of afferents
+    std::size_t afferents() const;                   ///< number of afferents
     std::int64_t frames() const;                 ///< frames simulated so far
-    std::string name(std::uint32_t unit) const;  ///< "sa1#17"
+    std::string afferent_name(std::uint32_t unit) const;  ///< "sa1#17"
 
     /// Simulates one frame: one force (N) for each site. Calls sink(event), in order, for each spike that arrives during this frame.
     template <class Sink>
     void push(std::span<const double> frame, Sink&& sink) {
-        for (const auto& e : answer(frame)) sink(e);
+        for (const auto& e : respond(frame)) sink(e);
     }
     /// The same, as a list that is valid until the next call.
-    std::span<const Event> answer(std::span<const double> frame);
+    std::span<const Event> respond(std::span<const double> frame);
     /// Call after the last frame: returns the spikes that are still travelling along the nerve.
-    std::span<const Event> last();
+    std::span<const Event> finish();
 
     /// The state as bytes. A LiveSkin constructed with the same arguments can resume from it.
     std::vector<std::byte> save() const;
     void resume(std::span<const std::byte>);
 
 private:
-    struct Held;
-    std::unique_ptr<Held> held_;
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
 };
 
 }  // namespace corpuscle

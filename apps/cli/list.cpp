@@ -48,18 +48,18 @@ std::vector<Entry> afferent_entries() {
     for (const auto& a : named_afferents()) {
         const auto plan = plan_afferent(a.name, {});
         entries.push_back({std::string(a.name),
-                           plan->made_of(),
-                           std::string(a.sentence),
+                           plan->composition(),
+                           std::string(a.description),
                            std::string(a.source),
                            *plan->parameters,
-                           {a.other_names.begin(), a.other_names.end()}});
+                           {a.aliases.begin(), a.aliases.end()}});
     }
     for (const auto& c : circuit::carried_netlists)
         if (const auto plan = plan_any_afferent(c.name, {}))
             entries.push_back(
                 {plan->name,
-                 plan->made_of(),
-                 std::string(plan->sentence) + "; also settable: temp, corner, mismatch, every array and device (doc/circuits.md)",
+                 plan->composition(),
+                 std::string(plan->description) + "; also settable: temp, corner, mismatch, every array and device (doc/circuits.md)",
                  std::string(c.file),
                  *keep_alive(plan->parameters),
                  {}});
@@ -88,15 +88,15 @@ std::vector<Section> circuit_sections() {
 std::vector<Section> catalogue() {
     std::vector<Entry> measure_entries, format_entries;
     for (const auto& m : measures)
-        measure_entries.push_back({std::string(m.name), std::string(m.unit), std::string(m.sentence), "", {}, {}, "unit"});
+        measure_entries.push_back({std::string(m.name), std::string(m.unit), std::string(m.description), "", {}, {}, "unit"});
     for (const auto& f : recording_formats)
         format_entries.push_back({std::string(f.name), std::string(f.extensions), std::string(f.description), "", {}, {}, "extensions"});
     std::vector<Section> all = {{"afferents", afferent_entries()},
-                                {"sensors", entries_of(sensor_cards())},
-                                {"transducers", entries_of(transducer_cards())},
-                                {"converters", entries_of(converter_cards())},
-                                {"transductions", entries_of(receptor_cards())},
-                                {"neurons", entries_of(neuron_cards())},
+                                {"sensors", entries_of(sensor_entries())},
+                                {"transducers", entries_of(transducer_entries())},
+                                {"converters", entries_of(converter_entries())},
+                                {"transductions", entries_of(receptor_entries())},
+                                {"neurons", entries_of(neuron_entries())},
                                 {"stimuli", entries_of(stimulus_catalog())},
                                 {"measures", measure_entries},
                                 {"formats", format_entries}};
@@ -147,8 +147,8 @@ std::string text_of(const Entry& e) {
     if (!e.other_names.empty()) text += fmt::format("    also called: {}\n", fmt::join(e.other_names, ", "));
     std::vector<std::vector<std::string>> rows = {{}};
     for (const auto& p : e.parameters)
-        rows.push_back({"    " + std::string(p.row.name), format_quantity(p.row.default_value, p.row.unit), range(p.row),
-                        std::string(p.row.description) + (p.row.source.empty() ? "" : fmt::format(" ({})", p.row.source))});
+        rows.push_back({"    " + std::string(p.info.name), format_quantity(p.info.default_value, p.info.unit), range(p.info),
+                        std::string(p.info.description) + (p.info.source.empty() ? "" : fmt::format(" ({})", p.info.source))});
     for (const auto& t : e.told) rows.push_back({"    " + t.of, t.text, t.source.empty() ? "" : "(" + t.source + ")"});
     return text + (rows.size() > 1 ? table({rows.begin() + 1, rows.end()}) : "");
 }
@@ -159,14 +159,14 @@ Json document_of(const Entry& e) {
     if (!e.source.empty()) out["source"] = e.source;
     if (!e.other_names.empty()) out["also_called"] = e.other_names;
     for (const auto& p : e.parameters)
-        out["parameters"].push_back({{"name", p.row.name},
-                                     {"default", p.row.default_value},
-                                     {"unit", p.row.unit},
-                                     {"low", has_range(p.row) ? Json(p.row.low) : Json(nullptr)},
-                                     {"high", has_range(p.row) ? Json(p.row.high) : Json(nullptr)},
-                                     {"sentence", p.row.description},
-                                     {"source", p.row.source},
-                                     {"of", p.of}});
+        out["parameters"].push_back({{"name", p.info.name},
+                                     {"default", p.info.default_value},
+                                     {"unit", p.info.unit},
+                                     {"low", has_range(p.info) ? Json(p.info.low) : Json(nullptr)},
+                                     {"high", has_range(p.info) ? Json(p.info.high) : Json(nullptr)},
+                                     {"sentence", p.info.description},
+                                     {"source", p.info.source},
+                                     {"of", p.component}});
     for (const auto& t : e.told) out["told"].push_back({{"of", t.of}, {"text", t.text}, {"source", t.source}});
     return out;
 }

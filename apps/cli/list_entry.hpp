@@ -15,7 +15,7 @@ struct CatalogNote {
 
 struct Entry {
     std::string name, made_of, sentence, source;
-    std::vector<Parameter> parameters;
+    std::vector<AfferentParameter> parameters;
     std::vector<std::string> other_names;
     std::string_view made_of_is = "made_of";  ///< the JSON key of made_of for this kind of entry
     std::vector<CatalogNote> told = {};

@@ -9,14 +9,14 @@
 #include "list_entry.hpp"
 #include "signal/quantity.hpp"
 #include "skin/contact/contact.hpp"
-#include "skin/contact/measures.hpp"
+#include "skin/contact/indenters.hpp"
 #include "skin/innervation.hpp"
 
 namespace corpuscle {
 namespace {
 
-std::string source_for(const std::vector<Sourced>& sources, std::string_view property) {
-    const auto found = std::find_if(sources.begin(), sources.end(), [&](const Sourced& s) { return s.of == property; });
+std::string source_for(const std::vector<SourceNote>& sources, std::string_view property) {
+    const auto found = std::find_if(sources.begin(), sources.end(), [&](const SourceNote& s) { return s.quantity == property; });
     return found == sources.end() ? "" : found->source;
 }
 
@@ -44,10 +44,10 @@ std::string densities(const SkinPlan& plan, const SkinClass& c) {
 
 void add_class_notes(const SkinPlan& plan, std::uint32_t k, std::vector<CatalogNote>& out) {
     const auto& c = plan.classes[k];
-    const auto by_region = units_by_region(plan, k);
+    const auto by_region = afferents_by_region(plan, k);
     const auto count = std::accumulate(by_region.begin(), by_region.end(), std::uint64_t{0});
     out.push_back(
-        {c.name, fmt::format("{} afferents, {}: {}", count, c.afferent.made_of(), densities(plan, c)), source_for(c.sources, "density")});
+        {c.name, fmt::format("{} afferents, {}: {}", count, c.afferent.composition(), densities(plan, c)), source_for(c.sources, "density")});
     const auto length = [](double m) { return format_quantity(m, "m"); };
     out.push_back({"", fmt::format("receptive field: Gaussian, sigma {}", length(c.sigma)), source_for(c.sources, "sigma")});
     if (c.hot_spots > 1)
@@ -59,15 +59,15 @@ void add_class_notes(const SkinPlan& plan, std::uint32_t k, std::vector<CatalogN
              fmt::format("conduction velocity: {} +- {}", format_quantity(c.velocity, "m/s"), format_quantity(c.velocity_spread, "m/s")),
              source_for(c.sources, "velocity")});
     std::string spread;
-    for (const auto& s : c.spreads)
+    for (const auto& s : c.distributions)
         spread += fmt::format("{}{} {}", spread.empty() ? "" : ", ", s.parameter,
-                              s.share ? fmt::format("{:.3g}%", *s.share * 100) : format_quantity(s.deviation, s.unit));
+                              s.fraction ? fmt::format("{:.3g}%", *s.fraction * 100) : format_quantity(s.deviation, s.unit));
     if (!spread.empty()) out.push_back({"", "spread: " + spread, source_for(c.sources, "spread")});
 }
 
 Entry entry_of_skin(const NamedSkin& named) {
-    Entry e{std::string(named.name), "", std::string(named.sentence), fmt::format("skins/{}.toml", named.name), {}, {}};
-    const auto plan = plan_skin(named.name);
+    Entry e{std::string(named.name), "", std::string(named.description), fmt::format("skins/{}.toml", named.name), {}, {}};
+    const auto plan = load_skin_plan(named.name);
     if (!plan) return e;  // a test makes sure that it exists
     const auto& sites = plan->sites;
     e.told.push_back({"sites", fmt::format("{}, {:.3g} mm2 each, in {} regions", sites.size(), sites.area * 1e6, sites.regions.size()),
@@ -79,19 +79,19 @@ Entry entry_of_skin(const NamedSkin& named) {
 
 std::vector<Entry> contact_entries() {
     std::vector<Entry> out;
-    const auto rows = contact_rows();
+    const auto rows = contact_parameters();
     for (const auto& i : indenters) {
-        Entry e{std::string(i.name), "", std::string(i.sentence), std::string(i.source), {}, {}};
+        Entry e{std::string(i.name), "", std::string(i.description), std::string(i.source), {}, {}};
         for (const auto& row : rows)
-            if (std::find(i.measures.begin(), i.measures.end(), row.name) != i.measures.end()) e.parameters.push_back({row, "contact"});
+            if (std::find(i.parameters.begin(), i.parameters.end(), row.name) != i.parameters.end()) e.parameters.push_back({row, "contact"});
         out.push_back(std::move(e));
     }
     Entry path{"path", "", "position and movement of any indenter", "", {}, {}};
     for (const auto& row : rows)
-        if (is_path_measure(row.name)) path.parameters.push_back({row, "contact"});
+        if (is_path_parameter(row.name)) path.parameters.push_back({row, "contact"});
     out.push_back(std::move(path));
     for (const auto& t : named_touches()) {
-        Entry e{std::string(t.name), fmt::format("{}, {}", t.force, t.indenter), std::string(t.sentence), "choice", {}, {}};
+        Entry e{std::string(t.name), fmt::format("{}, {}", t.force, t.indenter), std::string(t.description), "choice", {}, {}};
         const auto add_note = [&](std::string_view of, const std::vector<Setting>& settings) {
             std::string text;
             for (const auto& s : settings) text += fmt::format("{}{} = {:.4g}", text.empty() ? "" : ", ", s.name, s.value);
@@ -109,19 +109,19 @@ Result<std::string> sites_listing(const std::vector<std::string>& populations, b
     if (populations.size() != 1)
         return bad_usage(
             fmt::format("list --sites takes one population, such as 'corpuscle list hand --sites', not {}", populations.size()));
-    const auto plan = plan_skin(populations[0]);
+    const auto plan = load_skin_plan(populations[0]);
     if (!plan) return plan.error();
     const auto& sites = plan->sites;
     if (json) {
         nlohmann::ordered_json out = {{"population", plan->name}, {"site_area_m2", sites.area}, {"sites", nlohmann::ordered_json::array()}};
         for (std::size_t s = 0; s < sites.size(); ++s)
             out["sites"].push_back(
-                {{"name", sites.names[s]}, {"x_m", sites.at[s].x}, {"y_m", sites.at[s].y}, {"region", sites.regions[sites.region[s]]}});
+                {{"name", sites.names[s]}, {"x_m", sites.positions[s].x}, {"y_m", sites.positions[s].y}, {"region", sites.regions[sites.region[s]]}});
         return out.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
     }
     std::string out = "name,x_mm,y_mm,region\n";
     for (std::size_t s = 0; s < sites.size(); ++s)
-        out += fmt::format("{},{:.10g},{:.10g},{}\n", quote_csv_field(sites.names[s]), 1e3 * sites.at[s].x, 1e3 * sites.at[s].y,
+        out += fmt::format("{},{:.10g},{:.10g},{}\n", quote_csv_field(sites.names[s]), 1e3 * sites.positions[s].x, 1e3 * sites.positions[s].y,
                            quote_csv_field(sites.regions[sites.region[s]]));
     return out;
 }

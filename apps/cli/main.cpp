@@ -11,7 +11,7 @@
 #include "circuit/analyses.hpp"
 #include "force_words.hpp"
 #include "help.hpp"
-#include "model/spread.hpp"
+#include "model/copies.hpp"
 #include "signal/version.hpp"
 #include "stream_verbs.hpp"
 #include "study/studies.hpp"
@@ -139,7 +139,7 @@ void add_respond(CLI::App& app, RespondWords& w, Common& common) {
         ->allow_extra_args(false)
         ->type_name("NAME.PARAMETER=VALUE");
     verb.add_option("--copies", w.copies, "simulate N copies of each afferent on every channel: sa1#1 ... sa1#N")
-        ->check(CLI::Range(1U, most_copies))
+        ->check(CLI::Range(1U, max_copies))
         ->type_name("N");
     verb.add_option("--spread", w.spreads, "vary a parameter between copies: its standard deviation, relative (10%) or with its unit")
         ->allow_extra_args(false)

@@ -26,9 +26,9 @@ Result<void> Outputs::add(const char* name, A... how) {
     return {};
 }
 
-Result<void> Outputs::open_directory(const RespondWords& w, const Copies& copy_spec, std::optional<double> bin) {
+Result<void> Outputs::open_directory(const RespondWords& w, const CopySpec& copy_spec, std::optional<double> bin) {
     if (auto ok = add<SpikesFile>("spikes.csv"); !ok) return ok;
-    if (copy_spec.copies > 0)
+    if (copy_spec.count > 0)
         if (auto ok = add<CopiesFile>("copies.csv", copy_spec); !ok) return ok;
     if (w.npz)
         if (auto ok = add<NpzFile>("spikes.npz"); !ok) return ok;
@@ -53,10 +53,10 @@ std::vector<std::string> Outputs::paths() const {
 }
 
 /// Checks all output files before the first is created.
-Result<void> Outputs::check(const RespondWords& w, const Copies& copy_spec, const std::optional<std::string>& page,
+Result<void> Outputs::check(const RespondWords& w, const CopySpec& copy_spec, const std::optional<std::string>& page,
                             std::vector<std::string> later, OutputCheck& outputs) {
     const std::pair<const char*, bool> names[] = {{"spikes.csv", true},
-                                                  {"copies.csv", copy_spec.copies > 0},
+                                                  {"copies.csv", copy_spec.count > 0},
                                                   {"spikes.npz", w.npz},
                                                   {"psth.csv", w.bin.has_value()},
                                                   {"summary.json", true}};
@@ -65,7 +65,7 @@ Result<void> Outputs::check(const RespondWords& w, const Copies& copy_spec, cons
     return check_outputs(w.out, std::move(later), page, w.checkpoint, outputs);
 }
 
-Result<void> Outputs::open(const RespondWords& w, const Copies& copy_spec, std::vector<std::string> later, OutputCheck& outputs) {
+Result<void> Outputs::open(const RespondWords& w, const CopySpec& copy_spec, std::vector<std::string> later, OutputCheck& outputs) {
     const std::pair<const char*, bool> options[] = {
         {"--traces", w.traces}, {"--vectors", w.vectors}, {"--bin", w.bin.has_value()}, {"--npz", w.npz}, {"--wav", w.wav}};
     for (const auto& [option, given] : options)

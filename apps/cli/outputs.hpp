@@ -22,8 +22,8 @@ class Outputs {
 
     template <class F, class... A>
     Result<void> add(const char* name, A... how);
-    Result<void> open_directory(const RespondWords&, const Copies&, std::optional<double> bin);
-    Result<void> check(const RespondWords&, const Copies&, const std::optional<std::string>& page, std::vector<std::string> later,
+    Result<void> open_directory(const RespondWords&, const CopySpec&, std::optional<double> bin);
+    Result<void> check(const RespondWords&, const CopySpec&, const std::optional<std::string>& page, std::vector<std::string> later,
                        OutputCheck&);
     std::vector<std::string> paths() const;
 
@@ -33,7 +33,7 @@ public:
     Outputs& operator=(const Outputs&) = delete;
     ~Outputs();
     /// `later`: names of files in the directory that are created only during the run.
-    Result<void> open(const RespondWords&, const Copies&, std::vector<std::string> later, OutputCheck&);
+    Result<void> open(const RespondWords&, const CopySpec&, std::vector<std::string> later, OutputCheck&);
     void listen(std::vector<Listener*>&);
     /// The names of the files that are written into the directory.
     std::vector<std::string> names() const;

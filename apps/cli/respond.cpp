@@ -34,7 +34,7 @@ constexpr std::size_t max_rows_with_silent = 24;  // longer tables omit silent a
 struct Job {
     std::vector<ParameterOverride> overrides;
     std::vector<AfferentPlan> afferents;  // as requested
-    Copies copy_spec;
+    CopySpec copy_spec;
     std::vector<AfferentPlan> copies;  // of all afferents; without --copies the afferents themselves
     std::vector<std::unique_ptr<ForceSource>> sources;
     RespondOptions options;
@@ -63,19 +63,19 @@ std::vector<ParameterOverride> in_lower_case(std::vector<ParameterOverride> over
 Result<void> populate(Job& job, const RespondWords& w) {
     const auto overrides = spread_overrides(w);
     if (!overrides) return overrides.error();
-    job.copy_spec.copies = w.copies;
+    job.copy_spec.count = w.copies;
     if (w.copies == 0) job.copies = job.afferents;
     for (std::size_t a = 0; w.copies > 0 && a < job.afferents.size(); ++a) {
-        const auto own = job.afferents[a].design ? in_lower_case(*overrides) : *overrides;
-        auto spreads = spreads_for(job.afferents[a], w.afferents[a], own);
+        const auto own = job.afferents[a].factory ? in_lower_case(*overrides) : *overrides;
+        auto spreads = distributions_for(job.afferents[a], w.afferents[a], own);
         for (std::size_t k = 0; k < own.size(); ++k) (*overrides)[k].is_used |= own[k].is_used;
         if (!spreads) return spreads.error();
-        auto copies = copies_of(job.afferents[a], w.copies, *spreads, w.seed);
+        auto copies = make_copies(job.afferents[a], w.copies, *spreads, w.seed);
         if (!copies) return copies.error();
         for (auto& copy : *copies)
             if (auto ok = remake(copy, job.afferents[a]); !ok) return ok;
         std::move(copies->begin(), copies->end(), std::back_inserter(job.copies));
-        std::move(spreads->begin(), spreads->end(), std::back_inserter(job.copy_spec.spreads));
+        std::move(spreads->begin(), spreads->end(), std::back_inserter(job.copy_spec.distributions));
     }
     std::vector<std::string_view> names;
     for (const auto& a : job.afferents) names.push_back(a.name);
@@ -92,7 +92,7 @@ Result<void> check_afferent_count(const Job& job) {
     for (const auto& s : job.sources) count += s->channels().size() * job.copies.size();
     if (count <= std::numeric_limits<std::uint32_t>::max()) return {};
     return bad_usage(
-        fmt::format("--copies {}: {} afferents over all channels are too many; use fewer copies or channels", job.copy_spec.copies, count));
+        fmt::format("--copies {}: {} afferents over all channels are too many; use fewer copies or channels", job.copy_spec.count, count));
 }
 
 /// Every override must have been applied to an afferent or a stimulus.
@@ -158,7 +158,7 @@ Result<Job> prepare(const RespondWords& w, bool quiet) {
                                      job.afferents[0].name));
     job.options.method = w.method == "exact" ? Method::exact : Method::backward_euler;
     job.options.sampled = w.sampled;
-    job.options.precision = w.in_float ? Precision::in_float : Precision::in_double;
+    job.options.precision = w.in_float ? Precision::single_precision : Precision::double_precision;
     const auto noise = quantity(w.noise, "A", "--noise");
     if (!noise) return noise.error();
     if (noise->value_or(0) < 0)
@@ -170,7 +170,7 @@ Result<Job> prepare(const RespondWords& w, bool quiet) {
     return job;
 }
 
-std::string cell(const Measure& m, double x) { return std::isnan(x) ? "-" : fmt::format("{:.{}f}", x, m.decimals); }
+std::string cell(const MeasureInfo& m, double x) { return std::isnan(x) ? "-" : fmt::format("{:.{}f}", x, m.decimals); }
 
 /// The value of one afferent; of copies the mean and standard deviation, with at least one decimal.
 std::string cell(const RateRow& row, std::size_t m) {
@@ -192,11 +192,11 @@ std::string inputs_table(const Summary& summary) {
     return text;
 }
 
-std::string copies_line(const Copies& spec) {
-    if (spec.copies == 0) return "";
-    return spec.copies == 1
+std::string copies_line(const CopySpec& spec) {
+    if (spec.count == 0) return "";
+    return spec.count == 1
                ? "1 copy of each afferent\n"
-               : fmt::format("{} copies of each afferent; mean +- standard deviation over copies that have a value\n", spec.copies);
+               : fmt::format("{} copies of each afferent; mean +- standard deviation over copies that have a value\n", spec.count);
 }
 
 /// Rates and other measures. A long table omits afferents that did not fire.
@@ -244,7 +244,7 @@ void print_quality(Job& job, const Summary& summary, bool quiet) {
 
 /// Warns of rates above the physiological limit, for each afferent on its fastest channel.
 void warn_of_rates(Job& job, const Summary& summary) {
-    constexpr auto peak = place_of_measure<PeakRate>;
+    constexpr auto peak = measure_index<PeakRate>;
     for (const auto& plan : job.afferents) {
         const RateRow* fastest = nullptr;
         double rate = nerve_limit;
@@ -259,7 +259,7 @@ void warn_of_rates(Job& job, const Summary& summary) {
 std::size_t netlist_count(const Job& job) {
     std::size_t count = 0;
     for (const auto& s : job.sources)
-        for (const auto& a : job.copies) count += a.design ? s->channels().size() : 0;
+        for (const auto& a : job.copies) count += a.factory ? s->channels().size() : 0;
     return count;
 }
 
@@ -332,7 +332,7 @@ Result<void> run(const RespondWords& w, const Common& common) {
     const auto silent = silence.found(job->copies, job->options);
     for (const auto& s : common.quiet ? std::vector<SilentAfferent>{} : silent) tell(sentence_of(s));
     auto result = summary.document(job->afferents, *work, job->options, w.seed, job->warnings);
-    if (job->copy_spec.copies > 0) result["copies"] = document_of(job->copy_spec);
+    if (job->copy_spec.count > 0) result["copies"] = document_of(job->copy_spec);
     for (const auto& s : silent)
         result["silent"].push_back({{"afferent", s.name},
                                     {"force_max_N", s.force},

@@ -13,8 +13,8 @@
 #include "signal/stimuli.hpp"
 #include "signal/ascii_text.hpp"
 #include "signal/version.hpp"
-#include "skin/class_settings.hpp"
-#include "skin/pressed.hpp"
+#include "skin/class_overrides.hpp"
+#include "skin/indented_array.hpp"
 #include "skin_outputs.hpp"
 #include "skin_spike_times.hpp"
 #include "study/nerve_limit.hpp"
@@ -144,11 +144,11 @@ Result<SkinJob> prepare_skin(const RespondWords& w) {
     if (!source) return source.error();
     job.source = std::move(*source);
     job.name = stimulus ? std::string(stimulus->name) : job.source->name();
-    auto plan = plan_skin(w.population, job.source->channels());
+    auto plan = load_skin_plan(w.population, job.source->channels());
     if (!plan) return plan.error();
-    if (auto ok = set_classes(*plan, job.overrides); !ok) return ok.error();
+    if (auto ok = apply_class_overrides(*plan, job.overrides); !ok) return ok.error();
     if (w.seed != 0) plan->seed = w.seed;
-    if (job.source->channels().size() == 1) job.taken_for_skin = take_for_skin(*plan);
+    if (job.source->channels().size() == 1) job.taken_for_skin = treat_as_skin(*plan);
     auto skin = innervate(std::move(*plan));
     if (!skin) return skin.error();
     job.skin = std::move(*skin);
@@ -171,26 +171,26 @@ void add_force_notes(SkinJob& job) {
     run_info.warnings.insert(run_info.warnings.end(), quality.warnings.begin(), quality.warnings.end());
     if (!job.taken_for_skin.empty()) run_info.remarks.push_back(job.taken_for_skin);
     if (job.contact) {
-        run_info.contact = job.contact->sentence();
-        for (auto& f : job.contact->facts()) run_info.facts.push_back(std::move(f));
-        for (auto& r : job.contact->remarks()) run_info.remarks.push_back(std::move(r));
+        run_info.contact = job.contact->description();
+        for (auto& f : job.contact->metadata()) run_info.facts.push_back(std::move(f));
+        for (auto& r : job.contact->notes()) run_info.remarks.push_back(std::move(r));
     }
     for (const auto& c : job.skin->plan.classes)
-        if (job.source->clock().rate() < c.afferent.least_rate * (1 - 1e-9))
+        if (job.source->clock().rate() < c.afferent.min_rate * (1 - 1e-9))
             run_info.warnings.push_back(fmt::format("{}: the sampling rate of the force is {:g} Hz; {:g} Hz or more is needed", c.name,
-                                                job.source->clock().rate(), c.afferent.least_rate));
-    if (run_info.work.capped > 0)
+                                                job.source->clock().rate(), c.afferent.min_rate));
+    if (run_info.work.truncated_steps > 0)
         run_info.warnings.push_back(
             fmt::format("{} time steps reached the spike limit of one step and were truncated; increase the sampling rate or the "
                         "threshold",
-                        run_info.work.capped));
+                        run_info.work.truncated_steps));
 }
 
 /// A remedy for a stimulus that is too weak: the option that makes it stronger by this factor.
 std::string stronger_stimulus_advice(const SkinJob& job, const RespondWords& w, double factor) {
     const auto& plan = job.skin->plan;
     if (job.contact && plan.sites.area > 0 && !(plan.felt_area > 0)) {
-        const auto area = std::max(factor * plan.sites.area, usual_felt_area);
+        const auto area = std::max(factor * plan.sites.area, default_felt_area);
         return fmt::format("set felt_area = \"{} cm2\" in {}: without it an afferent receives the mean force of its sites",
                            rounded_up(1e4 * area), w.population);
     }
@@ -242,7 +242,7 @@ void add_rate_warnings(SkinJob& job, const SkinSummary& summary) {
         const auto& plan = job.skin->plan.classes[c].afferent;
         const auto [units, rate] = summary.faster_than(c, nerve_limit);
         if (units > 0)
-            job.run_info.warnings.push_back(fmt::format("{} of {} {} afferents: {}", units, job.skin->first[c + 1] - job.skin->first[c],
+            job.run_info.warnings.push_back(fmt::format("{} of {} {} afferents: {}", units, job.skin->class_begin[c + 1] - job.skin->class_begin[c],
                                                     job.skin->plan.classes[c].name,
                                                     rate_sentence(rate, plan, job.skin->plan.classes[c].name)));
     }
@@ -265,7 +265,7 @@ Result<void> add_contents(RunFingerprint& all, const std::string& kind, const st
 /// Checksum of the sites. A population file may include other files; their contents are covered by the sites.
 std::string sites_checksum(const Sites& sites) {
     Checksum sum;
-    for (const auto& p : sites.at) sum.add(p.x), sum.add(p.y), sum.add(p.z);
+    for (const auto& p : sites.positions) sum.add(p.x), sum.add(p.y), sum.add(p.z);
     for (const auto& name : sites.names) sum.add(std::string_view(name));
     for (const auto r : sites.region) sum.add(std::uint64_t{r});
     for (const auto& name : sites.regions) sum.add(std::string_view(name));
@@ -291,8 +291,8 @@ Result<RunFingerprint> fingerprint_of(const SkinJob& job, const RespondWords& w,
 struct SkinProcess {
     std::unique_ptr<Ranks> ranks;  ///< null: a single process
     bool is_coordinator() const { return !ranks || ranks->rank() == 0; }
-    SkinShare share() const {
-        return ranks ? SkinShare{static_cast<std::uint32_t>(ranks->rank()), static_cast<std::uint32_t>(ranks->size())} : SkinShare{};
+    SkinPart share() const {
+        return ranks ? SkinPart{static_cast<std::uint32_t>(ranks->rank()), static_cast<std::uint32_t>(ranks->size())} : SkinPart{};
     }
 };
 

@@ -4,10 +4,10 @@ namespace corpuscle {
 
 Result<void> SkinSpikeTimes::begin(const SkinInput& input) {
     const auto& skin = input.skin;
-    times_.assign(skin.units.size(), {});
-    for (std::size_t u = 0; u < skin.units.size(); ++u) {
-        afferents_.push_back(skin.unit_name(u));
-        channels_.push_back(skin.plan.sites.regions[skin.units[u].region]);
+    times_.assign(skin.afferents.size(), {});
+    for (std::size_t u = 0; u < skin.afferents.size(); ++u) {
+        afferents_.push_back(skin.afferent_name(u));
+        channels_.push_back(skin.plan.sites.regions[skin.afferents[u].region]);
     }
     return {};
 }

@@ -9,12 +9,12 @@
 
 #include "io/output_check.hpp"
 #include "live/live_population.hpp"
-#include "live/placed_frames.hpp"
+#include "live/site_frames.hpp"
 #include "live/stream_state.hpp"
 #include "own_files.hpp"
 #include "printable.hpp"
 #include "signal/input_files.hpp"
-#include "skin/class_settings.hpp"
+#include "skin/class_overrides.hpp"
 #include "skin/site_map.hpp"
 #include "stream_input.hpp"
 #include "stream_told.hpp"
@@ -26,11 +26,11 @@ namespace corpuscle {
 namespace {
 
 Result<SkinPlan> plan_of(const StreamWords& w, std::span<const Channel> channels, std::span<const ParameterOverride> overrides) {
-    if (channels.empty()) return plan_live(w.population, w.count, overrides);
-    if (is_afferents(w.population)) return plan_channels(w.population, channels, overrides);
-    auto plan = plan_skin(w.population, channels);
+    if (channels.empty()) return make_live_plan(w.population, w.count, overrides);
+    if (is_afferent_list(w.population)) return make_channel_plan(w.population, channels, overrides);
+    auto plan = load_skin_plan(w.population, channels);
     if (!plan) return plan;
-    if (auto ok = set_classes(*plan, overrides); !ok) return ok.error();
+    if (auto ok = apply_class_overrides(*plan, overrides); !ok) return ok.error();
     return plan;
 }
 
@@ -43,7 +43,7 @@ class LiveRun {
     const ForceSource* source_ = nullptr;  // of recorded frames, which own it; else null
     FrameLayout layout_;              // of live frames
     std::unique_ptr<EventFormat> format_;
-    std::unique_ptr<EventOutlet> outlet_;
+    std::unique_ptr<EventSink> outlet_;
     std::unique_ptr<StreamLoop> loop_;
     bool status_shown_ = false;
 
@@ -60,7 +60,7 @@ class LiveRun {
         auto sites = sites_of(*plan, **source);
         if (!sites) return sites.error();
         source_ = source->get();
-        frames_ = placed_frames(frames_of(std::move(*source), words_.pace == "real"), std::move(*sites), skin_->sites());
+        frames_ = assign_sites(make_frame_source(std::move(*source), words_.pace == "real"), std::move(*sites), skin_->sites());
         return {};
     }
 
@@ -69,7 +69,7 @@ class LiveRun {
     HeaderReader header_reader(std::vector<std::uint32_t> sites) const {
         return [this, sites = std::move(sites)](std::span<const std::string> names) -> Result<std::vector<std::uint32_t>> {
             const auto& all = skin_->innervation().plan.sites;
-            auto named = sites_if_named(all, names);
+            auto named = find_sites_if_named(all, names);
             const auto from = name_of_input(words_.in);
             if (!named)
                 return bad_input(
@@ -104,8 +104,8 @@ class LiveRun {
         if (!bytes) return bytes.error();
         const auto in_frames = [&](double seconds) { return static_cast<std::int64_t>(std::min(seconds * clock->rate(), 2e9)); };
         layout_ = *layout;
-        frames_ = frames_of(std::move(*bytes), *layout, in_frames(n.hold), in_frames(n.longest), words_.together, header_reader(sites));
-        if (!sites.empty()) frames_ = placed_frames(std::move(frames_), std::move(sites), skin_->sites());
+        frames_ = make_frame_source(std::move(*bytes), *layout, in_frames(n.hold), in_frames(n.longest), words_.together, header_reader(sites));
+        if (!sites.empty()) frames_ = assign_sites(std::move(frames_), std::move(sites), skin_->sites());
         return {};
     }
 
@@ -120,13 +120,13 @@ class LiveRun {
     }
 
     Result<void> open_outlet(const StreamNumbers& n) {
-        auto format = make_event_format(words_.format, event_units(skin_->innervation(), skin_->clock()));
+        auto format = make_event_format(words_.format, make_event_afferents(skin_->innervation(), skin_->clock()));
         if (!format) return format.error();
         format_ = std::move(*format);
         const auto ring = static_cast<std::size_t>(n.buffer);
-        auto outlet = !words_.to.empty()  ? event_client(words_.to, *format_, ring)
-                      : words_.out == "-" ? standard_output(*format_, ring)
-                                          : event_file(words_.out, *format_, ring);
+        auto outlet = !words_.to.empty()  ? connect_event_client(words_.to, *format_, ring)
+                      : words_.out == "-" ? open_standard_output(*format_, ring)
+                                          : create_event_file(words_.out, *format_, ring);
         if (!outlet) return outlet.error();
         outlet_ = std::move(*outlet);
         return {};
@@ -141,14 +141,14 @@ class LiveRun {
                              {words_.resume});
         if (auto ok = skin_->resume(state->skin); !ok) return Error{ok.error().code, ok.error().message, {words_.resume}};
         std::copy(state->force.begin(), state->force.end(), loop_->force().begin());
-        if (auto* order = frames_->order(); order && state->number) order->go_on_from(*state->number);
+        if (auto* order = frames_->sequence(); order && state->number) order->resume_after(*state->number);
         return {};
     }
 
     Result<void> save_state() {
         if (words_.save.empty()) return {};
         StreamState state{{loop_->force().begin(), loop_->force().end()}, {}, skin_->save()};
-        if (const auto* order = frames_->order(); order && order->begun()) state.number = order->last();
+        if (const auto* order = frames_->sequence(); order && order->has_begun()) state.number = order->last();
         return save_stream(words_.save, state);
     }
 
@@ -164,9 +164,9 @@ class LiveRun {
         for (const auto& r : notes) print(fmt::format("{}: {}", source_->name(), r));
         const double rate = skin_->clock().rate();
         for (const auto& c : skin_->innervation().plan.classes)
-            if (rate < c.afferent.least_rate * (1 - 1e-9))
+            if (rate < c.afferent.min_rate * (1 - 1e-9))
                 warn(fmt::format("the frame rate is {:g} Hz, but {} needs {:g} Hz or more; its spikes are not reliable", rate, c.name,
-                                 c.afferent.least_rate));
+                                 c.afferent.min_rate));
     }
 
     /// Prints the quality findings of a recording.
@@ -178,11 +178,11 @@ class LiveRun {
         for (const auto& s : quality.warnings) clear_status(), tell_warning(fmt::format("{}: {}", source_->name(), s));
     }
 
-    std::string misfit_text(const FrameMisfit& misfit) const {
-        const auto text = text_of(misfit, layout_, words_.layout.empty() ? words_.population : words_.layout);
+    std::string misfit_text(const FrameError& misfit) const {
+        const auto text = describe_frame_error(misfit, layout_, words_.layout.empty() ? words_.population : words_.layout);
         const auto stamps = layout_.stamp == FrameStamp::none ? 0U : 1U;
-        if (misfit.why == FrameMisfit::header) return "header: " + text;
-        if (misfit.why != FrameMisfit::width || !words_.layout.empty() || misfit.found <= stamps) return text;
+        if (misfit.reason == FrameError::header) return "header: " + text;
+        if (misfit.reason != FrameError::width || !words_.layout.empty() || misfit.found <= stamps) return text;
         const auto& plan = skin_->innervation().plan;
         if (plan.is_by_channel) return fmt::format("{}; use --channels {} for frames of this width", text, misfit.found - stamps);
         if (misfit.found - stamps > plan.sites.size()) return text;
@@ -194,23 +194,23 @@ class LiveRun {
         const auto counts = frames_->counts();
         const auto from = name_of_input(words_.in);
         if (counts.frames > 0) return {};
-        if (const auto misfit = frames_->first_misfit())
+        if (const auto misfit = frames_->first_error())
             return bad_input(fmt::format("no valid frame from {}: {}", from, misfit_text(*misfit)));
-        if (counts.halves > 0 && layout_.kind != FrameKind::csv)
+        if (counts.partial_frames > 0 && layout_.kind != FrameKind::csv)
             return bad_input(fmt::format("no complete frame from {}: received {} bytes, but a frame of '{}' ({} sites) has {}", from,
-                                         counts.half_bytes, words_.population, layout_.sites, layout_.bytes()));
-        return bad_input(counts.halves > 0 ? fmt::format("no complete frame from {}: the line does not end with a line break", from)
+                                         counts.partial_bytes, words_.population, layout_.sites, layout_.bytes()));
+        return bad_input(counts.partial_frames > 0 ? fmt::format("no complete frame from {}: the line does not end with a line break", from)
                                            : fmt::format("no frame from {}", from));
     }
 
     Result<void> check_drops() const {
-        const auto spikes = loop_->done().dropped + outlet_->lost(), datagrams = frames_->counts().senders.lost;
+        const auto spikes = loop_->stats().dropped + outlet_->dropped(), datagrams = frames_->counts().senders.dropped;
         if (words_.allow_drops || spikes + datagrams == 0) return {};
         std::string message;
-        if (spikes > 0) message = fmt::format("{} of {} spikes did not reach the receiver", spikes, loop_->done().spikes);
+        if (spikes > 0) message = fmt::format("{} of {} spikes did not reach the receiver", spikes, loop_->stats().spikes);
         if (datagrams > 0) message += fmt::format("{}{} datagrams were lost", message.empty() ? "" : ", and ", datagrams);
         return bad_input(
-            fmt::format("{}; use --allow-drops to accept this{}", message, loop_->done().dropped > 0 ? ", or a larger --buffer" : ""));
+            fmt::format("{}; use --allow-drops to accept this{}", message, loop_->stats().dropped > 0 ? ", or a larger --buffer" : ""));
     }
 
     /// Prints the status line, unless the terminal is blocked (Ctrl-S): it must not block the stream.
@@ -232,7 +232,7 @@ class LiveRun {
         if (auto ok = is_wire(words_.in) ? open_live(n, overrides) : open_recorded(n, overrides); !ok) return ok;
         std::vector<std::string_view> others;
         if (source_) others.push_back(source_->name());
-        if (auto ok = check_all_used(skin_->innervation().plan, overrides, others); !ok)
+        if (auto ok = check_overrides_used(skin_->innervation().plan, overrides, others); !ok)
             return bad_usage(fmt::format("--set {}", ok.error().message));
         if (auto ok = check_outputs(); !ok) return ok;
         return open_outlet(n);
@@ -264,12 +264,12 @@ public:
         if (!n) return n.error();
         if (auto ok = open(*n, overrides); !ok) return interrupted() ? stopped : ok;
         print_notes();
-        StreamLoop::Ways ways{.stop = interrupted, .spin = words_.spin, .goes_on = !words_.save.empty()};
-        ways.misfit = [this](const FrameMisfit& misfit) { warn(misfit_text(misfit)); };
-        if (!common_.quiet && !common_.json && ::isatty(STDERR_FILENO) && !::isatty(STDOUT_FILENO)) ways.seen = [this] { show_status(); };
+        StreamLoop::StreamOptions ways{.stop = interrupted, .busy_poll = words_.spin, .keeps_state = !words_.save.empty()};
+        ways.on_frame_error = [this](const FrameError& misfit) { warn(misfit_text(misfit)); };
+        if (!common_.quiet && !common_.json && ::isatty(STDERR_FILENO) && !::isatty(STDOUT_FILENO)) ways.on_second = [this] { show_status(); };
         loop_ = std::make_unique<StreamLoop>(*skin_, *format_, *frames_, *outlet_, std::move(ways));
         if (auto ok = load_state(); !ok) return ok;
-        if (is_wire(words_.in) && words_.in != "-") print(frames_->sentence());
+        if (is_wire(words_.in) && words_.in != "-") print(frames_->description());
         auto ended = loop_->run();
         print_quality();
         print_summary();

@@ -98,14 +98,14 @@ Result<FrameLayout> wire_layout(const StreamWords& w, const StreamNumbers& n, st
                   : w.frames == "f32" ? FrameKind::f32
                   : w.frames == "f64" ? FrameKind::f64
                                       : FrameKind::i16;
-    layout.stamp = w.stamp == "none" ? FrameStamp::none : w.stamp == "count" ? FrameStamp::count : FrameStamp::time;
+    layout.stamp = w.stamp == "none" ? FrameStamp::none : w.stamp == "count" ? FrameStamp::sequence : FrameStamp::time;
     layout.sites = sites, layout.rate = clock.rate();
     layout.scale = *scale, layout.offset = n.recording.offset, layout.limit = n.limit;
     return layout;
 }
 
 Result<std::unique_ptr<ByteSource>> open_wire(const StreamWords& w, const StreamNumbers& n, const FrameLayout& layout) {
-    if (w.in == "-") return standard_input();
+    if (w.in == "-") return open_standard_input();
     if (w.in.starts_with("serial:")) return open_serial(w.in.substr(7), w.baud);
     const auto port = port_of(w);
     if (!port) return port.error();

@@ -13,24 +13,24 @@ std::string time_of(std::int64_t ns) { return format_quantity(static_cast<double
 /// "3 gaps", "1 gap"
 std::string counted(std::int64_t n, std::string_view noun) { return fmt::format("{} {}{}", n, noun, n == 1 ? "" : "s"); }
 
-std::string quantiles(const Delays& d) {
+std::string quantiles(const LatencyHistogram& d) {
     return fmt::format("median {}, 99 % {}, 99.9 % {}, max {}", time_of(d.quantile(0.5)), time_of(d.quantile(0.99)),
-                       time_of(d.quantile(0.999)), time_of(d.most()));
+                       time_of(d.quantile(0.999)), time_of(d.max()));
 }
 
 /// True if frames arrived one by one at the pace of a clock. If they arrived in bulk, jitter is meaningless.
 bool is_paced(const StreamFacts& f) {
-    const auto& done = f.loop.done();
+    const auto& done = f.loop.stats();
     if (!f.frames.is_live() || done.rate() == 0) return false;
-    const bool in_bulk = done.came > 2 * static_cast<std::int64_t>(f.skin.together()) * done.reads;
+    const bool in_bulk = done.received > 2 * static_cast<std::int64_t>(f.skin.batch_frames()) * done.reads;
     return !in_bulk || done.rate() < 2 * f.skin.clock().rate();
 }
 
 /// Everything that went wrong, one line each.
 std::string problems(const StreamFacts& f) {
     const auto counts = f.frames.counts();
-    const auto& order = counts.order;
-    const auto& done = f.loop.done();
+    const auto& order = counts.sequence;
+    const auto& done = f.loop.stats();
     const std::pair<std::int64_t, std::string> all[] = {
         {order.gaps, fmt::format("{}: {} filled by the last force, {} by zero force", counted(order.gaps, "gap"),
                                  counted(order.held, "frame"), order.released)},
@@ -39,15 +39,15 @@ std::string problems(const StreamFacts& f) {
         {order.restarts,
          fmt::format("the sender's frame numbers restarted {}", order.restarts == 1 ? "once" : counted(order.restarts, "time"))},
         {counts.unreadable, counted(counts.unreadable, "frame") + " unreadable: replaced by the last force"},
-        {counts.values, counted(counts.values, "reading") + " invalid or beyond the limit: replaced by the last force of the site"},
-        {counts.halves, counted(counts.halves, "incomplete frame") + " at a disconnect"},
+        {counts.invalid_values, counted(counts.invalid_values, "reading") + " invalid or beyond the limit: replaced by the last force of the site"},
+        {counts.partial_frames, counted(counts.partial_frames, "incomplete frame") + " at a disconnect"},
         {counts.senders.idle, counted(counts.senders.idle, "sender") + " disconnected: idle while another was waiting"},
-        {counts.senders.strangers, counted(counts.senders.strangers, "datagram") + " from other senders ignored"},
-        {counts.senders.lost, counted(counts.senders.lost, "datagram") + " lost: they arrived faster than they were processed"},
+        {counts.senders.ignored, counted(counts.senders.ignored, "datagram") + " from other senders ignored"},
+        {counts.senders.dropped, counted(counts.senders.dropped, "datagram") + " lost: they arrived faster than they were processed"},
         {static_cast<std::int64_t>(done.unread), counted(static_cast<std::int64_t>(done.unread), "byte") + " of input unread at the end"},
         {done.dropped, counted(done.dropped, "spike") + " dropped: the receiver was too slow and the buffer full"},
-        {f.outlet.lost(), counted(f.outlet.lost(), "spike") + " lost: the receiver disconnected or stopped reading"},
-        {f.skin.work().capped, fmt::format("{} truncated at the spike limit of one step", counted(f.skin.work().capped, "step"))},
+        {f.outlet.dropped(), counted(f.outlet.dropped(), "spike") + " lost: the receiver disconnected or stopped reading"},
+        {f.skin.stats().truncated_steps, fmt::format("{} truncated at the spike limit of one step", counted(f.skin.stats().truncated_steps, "step"))},
     };
     std::string text;
     for (const auto& [count, message] : all)
@@ -55,65 +55,65 @@ std::string problems(const StreamFacts& f) {
     return text;
 }
 
-nlohmann::ordered_json in_seconds(const Delays& d) {
+nlohmann::ordered_json in_seconds(const LatencyHistogram& d) {
     const auto s = [](std::int64_t ns) { return static_cast<double>(ns) * 1e-9; };
     return {{"count", d.count()},
             {"p50", s(d.quantile(0.5))},
             {"p99", s(d.quantile(0.99))},
             {"p99.9", s(d.quantile(0.999))},
-            {"max", s(d.most())}};
+            {"max", s(d.max())}};
 }
 
 }  // namespace
 
 std::string stream_summary(const StreamFacts& f) {
-    const auto& done = f.loop.done();
+    const auto& done = f.loop.stats();
     const auto counts = f.frames.counts();
     const double T = f.skin.clock().T();
     auto text = fmt::format("{} ({} of force), {} from {}\n", counted(counts.frames, "frame"),
                             format_quantity(static_cast<double>(counts.frames + done.filled) * T, "s"), counted(done.spikes, "spike"),
-                            counted(static_cast<std::int64_t>(f.skin.innervation().units.size()), "afferent"));
-    if (counts.producers != 1) text += fmt::format("  {}\n", counted(counts.producers, "client"));
-    if (f.outlet.readers() != 1) text += fmt::format("  {}\n", counted(f.outlet.readers(), "connection") + " to the receiver");
-    if (done.delay.count() > 0) text += fmt::format("  latency from a frame to its written spikes: {}\n", quantiles(done.delay));
+                            counted(static_cast<std::int64_t>(f.skin.innervation().afferents.size()), "afferent"));
+    if (counts.sender_count != 1) text += fmt::format("  {}\n", counted(counts.sender_count, "client"));
+    if (f.outlet.connections() != 1) text += fmt::format("  {}\n", counted(f.outlet.connections(), "connection") + " to the receiver");
+    if (done.latency.count() > 0) text += fmt::format("  latency from a frame to its written spikes: {}\n", quantiles(done.latency));
     if (is_paced(f)) text += fmt::format("  input rate {}; jitter: {}\n", format_quantity(done.rate(), "Hz"), quantiles(done.jitter));
     return text + problems(f);
 }
 
 std::string stream_status(const StreamFacts& f) {
-    const auto& done = f.loop.done();
+    const auto& done = f.loop.stats();
     return fmt::format("{} frames  {} spikes  {} dropped  latency {} (99.9 %: {})", f.frames.counts().frames, done.spikes,
-                       done.dropped + f.outlet.lost(), time_of(done.delay.quantile(0.5)), time_of(done.delay.quantile(0.999)));
+                       done.dropped + f.outlet.dropped(), time_of(done.latency.quantile(0.5)), time_of(done.latency.quantile(0.999)));
 }
 
 nlohmann::ordered_json stream_document(const StreamFacts& f) {
-    const auto& done = f.loop.done();
+    const auto& done = f.loop.stats();
     const auto counts = f.frames.counts();
     const auto& plan = f.skin.innervation().plan;
     nlohmann::ordered_json doc = {
-        {"population", plan.name},          {"sites", f.skin.sites()}, {"units", f.skin.innervation().units.size()},
+        {"population", plan.name},          {"sites", f.skin.sites()}, {"units", f.skin.innervation().afferents.size()},
         {"rate_Hz", f.skin.clock().rate()}, {"frames", counts.frames}, {"frames_filled", done.filled},
         {"steps", f.skin.frames()},         {"spikes", done.spikes}};
     if (plan.is_by_channel) doc["channels"] = plan.sites.names;  // binary events refer to channels by index
-    doc["frames_in_order"] = {{"gaps", counts.order.gaps},         {"held", counts.order.held},
-                              {"released", counts.order.released}, {"duplicates", counts.order.duplicates},
-                              {"late", counts.order.late},         {"restarts", counts.order.restarts}};
-    doc["frames_as_bytes"] = {{"senders", counts.producers},
+    doc["frames_in_order"] = {{"gaps", counts.sequence.gaps},         {"held", counts.sequence.held},
+                              {"released", counts.sequence.released}, {"duplicates", counts.sequence.duplicates},
+                              {"late", counts.sequence.late},         {"restarts", counts.sequence.restarts}};
+    doc["frames_as_bytes"] = {{"senders", counts.sender_count},
                               {"headers", counts.headers},
                               {"unreadable", counts.unreadable},
-                              {"unreadable_forces", counts.values},
-                              {"halves", counts.halves},
+                              {"unreadable_forces", counts.invalid_values},
+                              {"halves", counts.partial_frames},
                               {"idle_senders", counts.senders.idle},
-                              {"datagrams_of_others", counts.senders.strangers},
-                              {"datagrams_lost", counts.senders.lost},
+                              {"datagrams_of_others", counts.senders.ignored},
+                              {"datagrams_lost", counts.senders.dropped},
                               {"bytes_unread", done.unread}};
     doc["events"] = {{"format", f.format.name()},
-                     {"to", f.outlet.sentence()},
+                     {"to", f.outlet.description()},
                      {"dropped", done.dropped},
-                     {"lost", f.outlet.lost()},
-                     {"readers", f.outlet.readers()}};
-    doc["work"] = {{"afferent_steps", f.skin.work().afferent_steps}, {"at_rest", f.skin.work().at_rest}, {"capped", f.skin.work().capped}};
-    doc["delay_s"] = in_seconds(done.delay);
+                     {"lost", f.outlet.dropped()},
+                     {"readers", f.outlet.connections()}};
+    doc["work"] = {{"afferent_steps", f.skin.stats().afferent_steps}, {"at_rest", f.skin.stats().skipped_steps}, {"capped", f.skin.stats().truncated_steps}};
+    doc["delay_s"] = in_seconds(done.latency);
     const bool paced = is_paced(f);
     doc["jitter_s"] = paced ? in_seconds(done.jitter) : nullptr;
     doc["came_at_Hz"] = paced ? nlohmann::ordered_json(done.rate()) : nullptr;

@@ -12,7 +12,7 @@ namespace corpuscle {
 struct StreamFacts {
     const SkinStream& skin;
     const FrameSource& frames;
-    const EventOutlet& outlet;
+    const EventSink& outlet;
     const EventFormat& format;
     const StreamLoop& loop;
 };

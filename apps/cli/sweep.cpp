@@ -39,7 +39,7 @@ void print_state(const Common& common, const SweepState& state) {
     if (common.json)
         fmt::print("{}\n", json_text(document_of(state)));
     else if (!common.quiet)
-        show(text_of(state));
+        show(describe_frame_error(state));
 }
 
 /// This process among the MPI ranks.

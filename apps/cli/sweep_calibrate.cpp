@@ -52,7 +52,7 @@ Result<void> set_target(ChipCalibration& calibration, const std::string& model, 
     const auto train = train_of(press);
     if (!train) return train.error();
     calibration.force = stimulus->force, calibration.T = stimulus->clock.T();
-    std::vector<Stretch> phases;
+    std::vector<TimeWindow> phases;
     double from = 0;
     for (const auto& p : stimulus->phases) {
         if (p.from > from) phases.push_back({from, p.from});
@@ -114,7 +114,7 @@ Result<void> calibrate_as(const SweepCalibrateWords& words, const Common& common
     if (common.json)
         fmt::print("{}\n", document_of(calibration, *done).dump(1));
     else
-        show(text_of(calibration, *done));
+        show(describe_frame_error(calibration, *done));
     return {};
 }
 

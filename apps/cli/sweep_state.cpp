@@ -64,7 +64,7 @@ Result<SweepState> state_of(const SweepResults& results, const Shard& shard) {
     }
 }
 
-std::string text_of(const SweepState& s) {
+std::string describe_frame_error(const SweepState& s) {
     const auto completed = s.finished - s.capped - s.lost;
     std::vector<std::vector<std::string>> rows = {{"items", "ended", "missing", "completed", "truncated", "diverged"}, {}};
     for (const auto n : {s.units, s.finished, s.missing(), completed, s.capped, s.lost}) rows[1].push_back(fmt::format("{}", n));

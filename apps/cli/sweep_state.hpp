@@ -23,7 +23,7 @@ struct SweepState {
 };
 
 Result<SweepState> state_of(const SweepResults&, const Shard&);
-std::string text_of(const SweepState&);
+std::string describe_frame_error(const SweepState&);
 nlohmann::ordered_json document_of(const SweepState&);
 
 }  // namespace corpuscle

@@ -17,20 +17,20 @@ PartJson trace_document(std::uint32_t channel, const PartJson& afferent, std::st
             {"data", base64(e.values().data(), e.values().size() * sizeof(float))}};
 }
 
-PartJson parameters_document(const AfferentPlan& plan, std::span<const Spread> spreads) {
+PartJson parameters_document(const AfferentPlan& plan, std::span<const ParameterDistribution> spreads) {
     PartJson out = PartJson::array();
     for (std::size_t k = 0; k < plan.values.size(); ++k) {
         const auto& p = (*plan.parameters)[k];
-        out.push_back({{"name", p.row.name},
+        out.push_back({{"name", p.info.name},
                        {"value", plan.values[k]},
-                       {"unit", p.row.unit},
-                       {"default", p.row.default_value},
-                       {"set", p.set},
-                       {"sentence", p.row.description},
-                       {"source", p.row.source},
-                       {"of", p.of}});
+                       {"unit", p.info.unit},
+                       {"default", p.info.default_value},
+                       {"set", p.set_by_user},
+                       {"sentence", p.info.description},
+                       {"source", p.info.source},
+                       {"of", p.component}});
         for (const auto& s : spreads)
-            if (s.afferent == plan.name && s.parameter == p.row.name) out.back()["spread"] = s.deviation;
+            if (s.afferent == plan.name && s.parameter == p.info.name) out.back()["spread"] = s.deviation;
     }
     return out;
 }

@@ -4,7 +4,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <span>
 
-#include "model/spread.hpp"
+#include "model/copies.hpp"
 #include "report/envelope.hpp"
 
 namespace corpuscle {
@@ -14,6 +14,6 @@ nlohmann::ordered_json trace_document(std::uint32_t channel, const nlohmann::ord
                                       std::string_view unit, const Envelope&);
 
 /// The parameters with defaults, descriptions and sources. Spreads of other afferents are ignored.
-nlohmann::ordered_json parameters_document(const AfferentPlan&, std::span<const Spread>);
+nlohmann::ordered_json parameters_document(const AfferentPlan&, std::span<const ParameterDistribution>);
 
 }  // namespace corpuscle

@@ -70,7 +70,7 @@ Json quality_document(const Summary& summary) {
 }  // namespace
 
 Result<void> Report::begin(const Input& input) {
-    groups_ = groups_of(input.afferents);
+    groups_ = copy_group_starts(input.afferents);
     const auto channels = input.source.channels().size();
     std::size_t traces = 1;  // per channel: the force and all probes
     for (std::size_t g = 0; g < groups(); ++g) traces += input.probes[groups_[g]].size();
@@ -143,7 +143,7 @@ Result<void> Report::end(const Input& input, std::int64_t samples) {
                 traces_.push_back(trace_document(first_channel_ + static_cast<std::uint32_t>(c), base_name(input.afferents[groups_[g]]),
                                                  probes[p].name, probes[p].unit, probes_[c * groups() + g][p]));
             tell_spikes(input, c, g);
-            if (population_.copies > 0) tell_rate(input, c, g, samples);
+            if (population_.count > 0) tell_rate(input, c, g, samples);
         }
     inputs_.push_back({{"name", input.name},
                        {"sentence", input.source.description()},
@@ -165,12 +165,12 @@ std::string Report::page(const Summary& summary, std::span<const AfferentPlan> p
         const auto& plan = plans[a];
         afferents.push_back({{"name", plan.name},
                              {"receptor", receptor_of(plan)},
-                             {"netlist", plan.design != nullptr},
-                             {"made_of", plan.made_of()},
-                             {"sentence", plan.sentence},
+                             {"netlist", plan.factory != nullptr},
+                             {"made_of", plan.composition()},
+                             {"sentence", plan.description},
                              {"V_th", level(first_[a], "V_th")},
                              {"V_reset", level(first_[a], "V_reset")},
-                             {"parameters", parameters_document(plan, population_.spreads)},
+                             {"parameters", parameters_document(plan, population_.distributions)},
                              {"parts", parts_[a]}});
     }
     for (const auto& w : warnings) notes.push_back(w);
@@ -189,9 +189,9 @@ std::string Report::page(const Summary& summary, std::span<const AfferentPlan> p
                      {"remarks", notes},
                      {"versions", {{"corpuscle", version}, {"compiler", compiler()}}}};
     document["costs"] = costs;
-    if (population_.copies > 0)
-        document["copies"] = {{"count", population_.copies},
-                              {"shown", std::min(population_.copies, most_copies)},
+    if (population_.count > 0)
+        document["copies"] = {{"count", population_.count},
+                              {"shown", std::min(population_.count, most_copies)},
                               {"traced", wants_probes()},
                               {"rates", rates_}};
     return filled(asset("page.html"), escaped(title), safe_json(document));

@@ -15,14 +15,14 @@ public:
     /// Limit on the total number of points of all traces of a page. With more channels or inputs each trace has fewer points.
     static constexpr std::size_t all_points = std::size_t{32} << 20;
     /// `with_probes`: show currents and membranes, unless there are too many copies.
-    explicit Report(std::size_t max_points = all_points, Copies copies = {}, bool with_probes = true)
+    explicit Report(std::size_t max_points = all_points, CopySpec copies = {}, bool with_probes = true)
         : most_points_(max_points), population_(std::move(copies)), inner_(with_probes) {}
 
     /// The raster shows at most this many copies of each afferent. Up to this number the probes of the first copy are recorded; with more
     /// copies none are.
     static constexpr std::uint32_t most_copies = 50;
 
-    bool wants_probes() const override { return inner_ && population_.copies <= most_copies; }
+    bool wants_probes() const override { return inner_ && population_.count <= most_copies; }
     Result<void> begin(const Input&) override;
     Result<void> block(const Input&, const Answered&) override;
     Result<void> end(const Input&, std::int64_t samples) override;
@@ -34,7 +34,7 @@ public:
 private:
     using Json = nlohmann::ordered_json;
     std::size_t most_points_;
-    Copies population_;
+    CopySpec population_;
     bool inner_;
     std::vector<std::size_t> groups_;            // of the current input: the first copy of each afferent, then the end
     std::vector<Envelope> forces_;               // by channel

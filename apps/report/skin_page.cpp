@@ -28,7 +28,7 @@ std::string places64(std::size_t count, Each at) {
 
 Json sites_document(const Sites& sites) {
     const std::vector<std::uint16_t> region(sites.region.begin(), sites.region.end());
-    return {{"places", places64(sites.size(), [&](std::size_t s) { return sites.at[s]; })},
+    return {{"places", places64(sites.size(), [&](std::size_t s) { return sites.positions[s]; })},
             {"side", 1e3 * std::sqrt(sites.area)},
             {"region", base64(region.data(), region.size() * sizeof(std::uint16_t))},
             {"names", sites.size() <= max_named ? Json(sites.names) : Json(nullptr)}};
@@ -36,7 +36,7 @@ Json sites_document(const Sites& sites) {
 
 /// The constant properties of each mark. A mark of several neighbours has their mean position and the earliest of their first spikes.
 Json marks_document(const SkinSummary& summary, std::span<const std::uint32_t> begin) {
-    const auto& units = summary.skin().units;
+    const auto& units = summary.skin().afferents;
     std::vector<std::uint16_t> region;
     std::vector<std::uint32_t> copy;
     std::vector<float> first;
@@ -45,11 +45,11 @@ Json marks_document(const SkinSummary& summary, std::span<const std::uint32_t> b
         Position mean;
         double earliest = no_value;
         for (auto u = begin[m]; u < begin[m + 1]; ++u) {
-            mean.x += units[u].at.x / (begin[m + 1] - begin[m]), mean.y += units[u].at.y / (begin[m + 1] - begin[m]);
+            mean.x += units[u].position.x / (begin[m + 1] - begin[m]), mean.y += units[u].position.y / (begin[m + 1] - begin[m]);
             earliest = std::fmin(earliest, summary.first_times()[u]);  // fmin ignores NaN
         }
         at.push_back(mean), first.push_back(static_cast<float>(earliest));
-        region.push_back(static_cast<std::uint16_t>(units[begin[m]].region)), copy.push_back(units[begin[m]].copy);
+        region.push_back(static_cast<std::uint16_t>(units[begin[m]].region)), copy.push_back(units[begin[m]].number);
     }
     return {{"begin", base64(begin.data(), begin.size_bytes())},
             {"places", places64(at.size(), [&](std::size_t m) { return at[m]; })},
@@ -63,12 +63,12 @@ Json classes_document(const Innervation& skin) {
     for (std::size_t c = 0; c < skin.plan.classes.size(); ++c) {
         const auto& k = skin.plan.classes[c];
         out.push_back({{"name", k.name},
-                       {"made_of", k.afferent.made_of()},
-                       {"sentence", k.afferent.sentence},
+                       {"made_of", k.afferent.composition()},
+                       {"sentence", k.afferent.description},
                        {"source", k.afferent.source},
-                       {"first", skin.first[c]},
-                       {"units", skin.first[c + 1] - skin.first[c]},
-                       {"parameters", parameters_document(k.afferent, k.spreads)}});
+                       {"first", skin.class_begin[c]},
+                       {"units", skin.class_begin[c + 1] - skin.class_begin[c]},
+                       {"parameters", parameters_document(k.afferent, k.distributions)}});
     }
     return out;
 }

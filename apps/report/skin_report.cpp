@@ -27,14 +27,14 @@ Result<void> SkinReport::begin(const SkinInput& input) {
     clock_ = input.clock;
     const auto samples_of = [&](double seconds) { return std::max<std::int64_t>(std::llround(clock_.rate() * seconds), 1); };
     const auto bin = samples_of(1e-3), frame = samples_of(10e-3);  // shorter frames give no useful rate of one afferent
-    units_a_mark_ = per_mark(skin.units.size(), most_.marks), sites_a_mark_ = per_mark(skin.plan.sites.size(), most_.marks);
+    units_a_mark_ = per_mark(skin.afferents.size(), most_.marks), sites_a_mark_ = per_mark(skin.plan.sites.size(), most_.marks);
     class_of_.clear(), mark_of_.clear(), mark_first_.clear();
-    for (std::uint32_t c = 0; c + 1 < skin.first.size(); ++c)
-        for (auto u = skin.first[c]; u < skin.first[c + 1]; ++u) {
-            if ((u - skin.first[c]) % units_a_mark_ == 0) mark_first_.push_back(static_cast<std::uint32_t>(u));
+    for (std::uint32_t c = 0; c + 1 < skin.class_begin.size(); ++c)
+        for (auto u = skin.class_begin[c]; u < skin.class_begin[c + 1]; ++u) {
+            if ((u - skin.class_begin[c]) % units_a_mark_ == 0) mark_first_.push_back(static_cast<std::uint32_t>(u));
             class_of_.push_back(c), mark_of_.push_back(static_cast<std::uint32_t>(mark_first_.size() - 1));
         }
-    mark_first_.push_back(static_cast<std::uint32_t>(skin.units.size()));
+    mark_first_.push_back(static_cast<std::uint32_t>(skin.afferents.size()));
     sites_count_ = skin.plan.sites.size();
     forces_ = Envelope(std::size_t{1} << 16);
     classes_ = Framed<std::uint32_t>(skin.plan.classes.size(), most_.bins, bin);
@@ -63,12 +63,12 @@ void SkinReport::add_force(const SkinAnswered& response) {
         to = std::min(static_cast<std::size_t>(sites_.open(response.first + static_cast<std::int64_t>(from)) - response.first),
                       response.steps);
         const auto add = [&](std::size_t s) {
-            const double* site_force = force.of + s * force.stride;
+            const double* site_force = force.data + s * force.stride;
             for (auto t = from; t < to; ++t) sites_.add(static_cast<std::uint32_t>(s / sites_a_mark_), site_force[t]);
         };
-        for (std::size_t s = 0; force.all && s < sites_count_; ++s) add(s);
+        for (std::size_t s = 0; force.reads_all && s < sites_count_; ++s) add(s);
         for (const auto s : force.touched)
-            if (!force.all) add(s);
+            if (!force.reads_all) add(s);
     }
 }
 

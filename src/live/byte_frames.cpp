@@ -9,13 +9,13 @@ namespace {
 class ByteFrames final : public FrameSource {
     std::unique_ptr<ByteSource> source_;
     FrameDecoder decoder_;
-    FrameOrder order_;
+    FrameSequence order_;
     FrameCounts counts_;
     std::int64_t hold_ = 0, release_ = 0;  // frames to insert before the found one
     bool found_ = false;
     std::size_t unnumbered_errors_ = 0;  // unreadable frames without a number; each is replaced by a filled one
 
-    bool has_header_error() const { return decoder_.refused_header() && source_->has_one_sender(); }
+    bool has_header_error() const { return decoder_.header_error() && source_->has_one_sender(); }
     bool is_numbered() const { return decoder_.layout().stamp != FrameStamp::none; }
 
     /// Reads the number of the next frame and decides if it is used, and how many frames are inserted before it.
@@ -24,19 +24,19 @@ class ByteFrames final : public FrameSource {
             found_ = true;
             return;
         }
-        const auto decision = order_.turn(decoder_.number());
+        const auto decision = order_.decide(decoder_.number());
         found_ = decision.take, hold_ = decision.hold, release_ = decision.release;
     }
 
     void end_sender() {
-        if (decoder_.begun()) ++counts_.halves, counts_.half_bytes = static_cast<std::int64_t>(decoder_.begun_bytes());
-        decoder_.forget();
-        order_.begin_anew();
+        if (decoder_.has_partial_frame()) ++counts_.partial_frames, counts_.partial_bytes = static_cast<std::int64_t>(decoder_.partial_bytes());
+        decoder_.reset();
+        order_.restart();
     }
 
-    void take_datagram(const Came& received) {
-        if (received.from_another) end_sender();
-        if (decoder_.came_datagram(received.count)) return;
+    void take_datagram(const ReadResult& received) {
+        if (received.is_new_sender) end_sender();
+        if (decoder_.add_datagram(received.count)) return;
         ++counts_.unreadable;
         if (!is_numbered()) ++unnumbered_errors_;
     }
@@ -45,38 +45,38 @@ public:
     ByteFrames(std::unique_ptr<ByteSource> source, const FrameLayout& layout, std::int64_t hold, std::int64_t max_gap,
                std::size_t batch_frames, HeaderReader read_header)
         : source_(std::move(source)), decoder_(layout, batch_frames, std::move(read_header)), order_(hold, max_gap) {
-        if (layout.kind != FrameKind::csv) source_->enough(batch_frames * layout.bytes());
+        if (layout.kind != FrameKind::csv) source_->set_low_watermark(batch_frames * layout.bytes());
     }
 
-    int waits_on() const override { return source_->waits_on(); }
-    std::string sentence() const override { return source_->sentence(); }
-    FrameOrder* order() override { return is_numbered() ? &order_ : nullptr; }
+    int poll_fd() const override { return source_->poll_fd(); }
+    std::string description() const override { return source_->description(); }
+    FrameSequence* sequence() override { return is_numbered() ? &order_ : nullptr; }
 
     FrameCounts counts() const override {
         auto counts = counts_;
-        counts.headers = decoder_.headers(), counts.producers = source_->producers(), counts.order = order_.counts();
-        counts.senders = source_->senders();
+        counts.headers = decoder_.headers(), counts.sender_count = source_->sender_count(), counts.sequence = order_.counts();
+        counts.senders = source_->sender_counts();
         return counts;
     }
-    std::int64_t due() const override { return has_header_error() ? 0 : source_->due(); }
+    std::int64_t due_time() const override { return has_header_error() ? 0 : source_->due_time(); }
     bool is_live() const override { return source_->is_live(); }
-    std::size_t unread_bytes() const override { return source_->unread(); }
-    std::optional<FrameMisfit> first_misfit() const override { return has_header_error() ? std::nullopt : decoder_.first_misfit(); }
+    std::size_t unread_bytes() const override { return source_->unread_bytes(); }
+    std::optional<FrameError> first_error() const override { return has_header_error() ? std::nullopt : decoder_.first_error(); }
 
-    void hurry() override { source_->enough(1); }
+    void disable_batching() override { source_->set_low_watermark(1); }
 
     Result<bool> receive() override {
-        if (has_header_error()) return *decoder_.refused_header();
-        auto space = decoder_.room();
+        if (has_header_error()) return *decoder_.header_error();
+        auto space = decoder_.buffer();
         if (source_->has_datagrams()) space = space.first(space.size() - 1);  // space for a line end
         const auto received = source_->read(space);
         if (!received) return received.error();
-        if (received->what == Came::bytes && source_->has_datagrams())
+        if (received->status == ReadResult::bytes && source_->has_datagrams())
             take_datagram(*received);
-        else if (received->what == Came::bytes)
-            decoder_.came(received->count);
-        if (received->what == Came::gone || received->what == Came::end) end_sender();
-        return received->what != Came::end;
+        else if (received->status == ReadResult::bytes)
+            decoder_.add_bytes(received->count);
+        if (received->status == ReadResult::gone || received->status == ReadResult::end) end_sender();
+        return received->status != ReadResult::end;
     }
 
     Next next(std::span<double> force) override {
@@ -88,16 +88,16 @@ public:
                 return --release_, Next::filled;
             }
             if (std::exchange(found_, false)) {
-                counts_.values += static_cast<std::int64_t>(decoder_.take(force)), ++counts_.frames;
+                counts_.invalid_values += static_cast<std::int64_t>(decoder_.read_forces(force)), ++counts_.frames;
                 return Next::frame;
             }
             switch (decoder_.next()) {
-                case FrameDecoder::Found::nothing:
+                case FrameDecoder::Status::nothing:
                     return Next::nothing;
-                case FrameDecoder::Found::frame:
+                case FrameDecoder::Status::frame:
                     classify_frame();
                     break;
-                case FrameDecoder::Found::unreadable:
+                case FrameDecoder::Status::unreadable:
                     if (has_header_error()) return Next::nothing;  // receive() returns the error
                     ++counts_.unreadable;
                     if (!is_numbered()) return Next::filled;
@@ -108,7 +108,7 @@ public:
 
 }  // namespace
 
-std::unique_ptr<FrameSource> frames_of(std::unique_ptr<ByteSource> source, const FrameLayout& layout, std::int64_t hold,
+std::unique_ptr<FrameSource> make_frame_source(std::unique_ptr<ByteSource> source, const FrameLayout& layout, std::int64_t hold,
                                        std::int64_t max_gap, std::size_t batch_frames, HeaderReader read_header) {
     return std::make_unique<ByteFrames>(std::move(source), layout, hold, max_gap, batch_frames, std::move(read_header));
 }

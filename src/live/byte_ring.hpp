@@ -20,11 +20,11 @@ public:
     /// At least `min_size` bytes, rounded up to a power of two.
     explicit ByteRing(std::size_t min_size) : bytes_(std::bit_ceil(std::max<std::size_t>(min_size, 64))) {}
     std::size_t size() const { return bytes_.size(); }
-    std::size_t all_put() const { return put_.load(std::memory_order_acquire); }
-    std::size_t all_taken() const { return taken_.load(std::memory_order_acquire); }
+    std::size_t total_put() const { return put_.load(std::memory_order_acquire); }
+    std::size_t total_taken() const { return taken_.load(std::memory_order_acquire); }
     std::size_t filled() const { return put_.load(std::memory_order_acquire) - taken_.load(std::memory_order_acquire); }
 
-    bool has_room(std::size_t bytes) const { return bytes <= bytes_.size() - filled(); }
+    bool has_space(std::size_t bytes) const { return bytes <= bytes_.size() - filled(); }
 
     /// Writes all of the text, or nothing if it does not fit.
     bool put(std::string_view text) {
@@ -38,12 +38,12 @@ public:
     }
 
     /// The next bytes to read in one piece; empty if there are none.
-    std::string_view next() const {
+    std::string_view readable() const {
         const auto at = taken_.load(std::memory_order_relaxed), filled = put_.load(std::memory_order_acquire) - at;
         const auto begin = at & (bytes_.size() - 1);
         return {bytes_.data() + begin, std::min(filled, bytes_.size() - begin)};
     }
-    void took(std::size_t bytes) { taken_.store(taken_.load(std::memory_order_relaxed) + bytes, std::memory_order_release); }
+    void consume(std::size_t bytes) { taken_.store(taken_.load(std::memory_order_relaxed) + bytes, std::memory_order_release); }
 };
 
 }  // namespace corpuscle

@@ -11,7 +11,7 @@
 #include <cerrno>
 #include <cstring>
 
-#include "live/network.hpp"
+#include "live/sockets.hpp"
 
 namespace corpuscle {
 namespace {
@@ -20,17 +20,17 @@ bool is_temporary(int why) { return why == EAGAIN || why == EWOULDBLOCK || why =
 
 class StandardInput final : public ByteSource {
 public:
-    int waits_on() const override { return STDIN_FILENO; }
-    std::string sentence() const override { return "standard input"; }
+    int poll_fd() const override { return STDIN_FILENO; }
+    std::string description() const override { return "standard input"; }
     bool is_live() const override {
         struct ::stat facts = {};
         return ::fstat(STDIN_FILENO, &facts) != 0 || !S_ISREG(facts.st_mode);
     }
-    Result<Came> read(std::span<char> out) override {
+    Result<ReadResult> read(std::span<char> out) override {
         const auto count = ::read(STDIN_FILENO, out.data(), out.size());
-        if (count > 0) return Came{Came::bytes, static_cast<std::size_t>(count)};
-        if (count == 0) return Came{Came::end};
-        if (is_temporary(errno)) return Came{Came::nothing};
+        if (count > 0) return ReadResult{ReadResult::bytes, static_cast<std::size_t>(count)};
+        if (count == 0) return ReadResult{ReadResult::end};
+        if (is_temporary(errno)) return ReadResult{ReadResult::nothing};
         return bad_input(fmt::format("standard input cannot be read: {}", std::strerror(errno)));
     }
 };
@@ -43,24 +43,24 @@ class Listener final : public ByteSource {
     std::int64_t clients_ = 0, idle_clients_ = 0, due_ = steady_never;
     int low_watermark_ = 1;
 
-    Came accept() {
+    ReadResult accept() {
         client_ = Descriptor(::accept4(listener_.get(), nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK));
-        if (!client_) return {Came::nothing};
+        if (!client_) return {ReadResult::nothing};
         ++clients_;
-        watch_peer(client_.get());
+        enable_keepalive(client_.get());
         apply_low_watermark();
         restart_idle_timer();
-        return {Came::nothing};
+        return {ReadResult::nothing};
     }
     void apply_low_watermark() const { ::setsockopt(client_.get(), SOL_SOCKET, SO_RCVLOWAT, &low_watermark_, sizeof low_watermark_); }
     void restart_idle_timer() {
         if (limits_.idle > 0) due_ = steady_now() + limits_.idle;
     }
 
-    Came disconnect() {
+    ReadResult disconnect() {
         client_.close();
         due_ = steady_never;
-        return {limits_.clients > 0 && clients_ >= limits_.clients ? Came::end : Came::gone};
+        return {limits_.clients > 0 && clients_ >= limits_.clients ? ReadResult::end : ReadResult::gone};
     }
 
     bool is_another_waiting() const {
@@ -69,11 +69,11 @@ class Listener final : public ByteSource {
     }
 
     /// Called when the client is connected but has sent nothing.
-    Came check_idle() {
+    ReadResult check_idle() {
         const auto now = steady_now();
-        if (now < due_) return {Came::nothing};
+        if (now < due_) return {ReadResult::nothing};
         due_ = now + check_interval;
-        if (!is_another_waiting()) return {Came::nothing};
+        if (!is_another_waiting()) return {ReadResult::nothing};
         ++idle_clients_;
         return disconnect();
     }
@@ -81,20 +81,20 @@ class Listener final : public ByteSource {
 public:
     Listener(const Endpoint& at, Descriptor listener, const SenderLimits& limits)
         : at_(at), listener_(std::move(listener)), limits_(limits) {}
-    int waits_on() const override { return client_ ? client_.get() : listener_.get(); }
-    std::int64_t due() const override { return due_; }
-    std::string sentence() const override { return "listening on " + at_.text(); }
-    void enough(std::size_t bytes) override {
+    int poll_fd() const override { return client_ ? client_.get() : listener_.get(); }
+    std::int64_t due_time() const override { return due_; }
+    std::string description() const override { return "listening on " + at_.text(); }
+    void set_low_watermark(std::size_t bytes) override {
         low_watermark_ = static_cast<int>(std::min<std::size_t>(bytes, 1 << 20));
         if (client_) apply_low_watermark();
     }
     bool has_one_sender() const override { return false; }
-    std::int64_t producers() const override { return clients_; }
-    SenderCounts senders() const override { return {.idle = idle_clients_}; }
-    Result<Came> read(std::span<char> out) override {
+    std::int64_t sender_count() const override { return clients_; }
+    SenderCounts sender_counts() const override { return {.idle = idle_clients_}; }
+    Result<ReadResult> read(std::span<char> out) override {
         if (!client_) return accept();
         const auto count = ::recv(client_.get(), out.data(), out.size(), 0);
-        if (count > 0) return restart_idle_timer(), Came{Came::bytes, static_cast<std::size_t>(count)};
+        if (count > 0) return restart_idle_timer(), ReadResult{ReadResult::bytes, static_cast<std::size_t>(count)};
         if (count < 0 && is_temporary(errno)) return check_idle();
         return disconnect();  // closed or failed: accept the next client
     }
@@ -106,13 +106,13 @@ class Serial final : public ByteSource {
 
 public:
     Serial(std::string path, Descriptor line) : path_(std::move(path)), line_(std::move(line)) {}
-    int waits_on() const override { return line_.get(); }
-    std::string sentence() const override { return "serial line " + path_; }
-    Result<Came> read(std::span<char> out) override {
+    int poll_fd() const override { return line_.get(); }
+    std::string description() const override { return "serial line " + path_; }
+    Result<ReadResult> read(std::span<char> out) override {
         const auto count = ::read(line_.get(), out.data(), out.size());
-        if (count > 0) return Came{Came::bytes, static_cast<std::size_t>(count)};
-        if (count < 0 && is_temporary(errno)) return Came{Came::nothing};
-        return Came{Came::end};  // disconnected or unplugged
+        if (count > 0) return ReadResult{ReadResult::bytes, static_cast<std::size_t>(count)};
+        if (count < 0 && is_temporary(errno)) return ReadResult{ReadResult::nothing};
+        return ReadResult{ReadResult::end};  // disconnected or unplugged
     }
 };
 
@@ -122,16 +122,16 @@ constexpr std::pair<long, speed_t> bauds[] = {{9600, B9600},       {19200, B1920
 
 }  // namespace
 
-Result<std::unique_ptr<ByteSource>> standard_input() { return std::unique_ptr<ByteSource>(std::make_unique<StandardInput>()); }
+Result<std::unique_ptr<ByteSource>> open_standard_input() { return std::unique_ptr<ByteSource>(std::make_unique<StandardInput>()); }
 
-std::size_t ByteSource::unread() const {
+std::size_t ByteSource::unread_bytes() const {
     int bytes = 0;
-    return ::ioctl(waits_on(), FIONREAD, &bytes) == 0 && bytes > 0 ? static_cast<std::size_t>(bytes) : 0;
+    return ::ioctl(poll_fd(), FIONREAD, &bytes) == 0 && bytes > 0 ? static_cast<std::size_t>(bytes) : 0;
 }
 
 Result<std::unique_ptr<ByteSource>> listen_on(const std::string& address, int port, const SenderLimits& limits) {
     Endpoint at{address, port};
-    auto listener = listening_socket(at);
+    auto listener = open_listening_socket(at);
     if (!listener) return listener.error();
     return std::unique_ptr<ByteSource>(std::make_unique<Listener>(at, std::move(*listener), limits));
 }

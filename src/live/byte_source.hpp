@@ -11,42 +11,42 @@
 namespace corpuscle {
 
 /// Result of a read.
-struct Came {
-    enum What {
+struct ReadResult {
+    enum Status {
         bytes,    ///< `count` bytes
         nothing,  ///< nothing yet
         gone,     ///< the sender has disconnected; another may connect
         end,      ///< no more data
-    } what;
+    } status;
     std::size_t count = 0;
-    bool from_another = false;  ///< these are the first bytes of another sender
+    bool is_new_sender = false;  ///< these are the first bytes of another sender
 };
 
 /// Statistics of senders on a network.
 struct SenderCounts {
     std::int64_t idle = 0;       ///< senders that were idle for the time limit while another wanted to send
-    std::int64_t strangers = 0;  ///< datagrams of senders other than the current one; ignored
-    std::int64_t lost = 0;       ///< datagrams dropped by the system because they were not read fast enough
+    std::int64_t ignored = 0;  ///< datagrams of senders other than the current one; ignored
+    std::int64_t dropped = 0;       ///< datagrams dropped by the system because they were not read fast enough
 };
 
 class ByteSource {
 public:
     virtual ~ByteSource() = default;
-    virtual int waits_on() const = 0;                          ///< file descriptor to poll for reading
-    virtual std::int64_t due() const { return steady_never; }  ///< time at which it must be read even if nothing has arrived
-    virtual Result<Came> read(std::span<char>) = 0;
-    virtual std::string sentence() const = 0;  ///< "127.0.0.1, port 7000"
+    virtual int poll_fd() const = 0;                          ///< file descriptor to poll for reading
+    virtual std::int64_t due_time() const { return steady_never; }  ///< time at which it must be read even if nothing has arrived
+    virtual Result<ReadResult> read(std::span<char>) = 0;
+    virtual std::string description() const = 0;  ///< "127.0.0.1, port 7000"
     /// Sets the number of bytes that are worth a read. If the source can, it lets the reader sleep until they have arrived.
-    virtual void enough(std::size_t) {}
-    virtual std::int64_t producers() const { return 1; }  ///< senders so far
-    virtual SenderCounts senders() const { return {}; }
+    virtual void set_low_watermark(std::size_t) {}
+    virtual std::int64_t sender_count() const { return 1; }  ///< senders so far
+    virtual SenderCounts sender_counts() const { return {}; }
     virtual bool has_one_sender() const { return true; }  ///< false: others may connect, so an error of one sender does not end the stream
     virtual bool is_live() const { return true; }         ///< false: a file, which can wait
     virtual bool has_datagrams() const { return false; }  ///< each read returns one datagram, which contains whole frames
-    virtual std::size_t unread() const;                   ///< bytes that have arrived but have not been read
+    virtual std::size_t unread_bytes() const;                   ///< bytes that have arrived but have not been read
 };
 
-Result<std::unique_ptr<ByteSource>> standard_input();
+Result<std::unique_ptr<ByteSource>> open_standard_input();
 
 /// Limits for the senders on a network, which send one after another.
 struct SenderLimits {

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "live/byte_source.hpp"
-#include "live/network.hpp"
+#include "live/sockets.hpp"
 
 namespace corpuscle {
 namespace {
@@ -49,25 +49,25 @@ class DatagramSource final : public ByteSource {
 
     bool is_idle(std::int64_t now) const { return limits_.idle > 0 && now - last_received_ >= limits_.idle; }
 
-    Came end_sender() {
+    ReadResult end_sender() {
         sender_.reset();
-        return {limits_.clients > 0 && senders_ >= limits_.clients ? Came::end : Came::gone};
+        return {limits_.clients > 0 && senders_ >= limits_.clients ? ReadResult::end : ReadResult::gone};
     }
 
-    Came accept(const Datagram& datagram) {
+    ReadResult accept(const Datagram& datagram) {
         const auto now = steady_now();
         bool from_another = false;
         if (!sender_ || !(*sender_ == datagram.from)) {
-            if (sender_ && !is_idle(now)) return ++counts_.strangers, Came{Came::nothing};
+            if (sender_ && !is_idle(now)) return ++counts_.ignored, ReadResult{ReadResult::nothing};
             if (sender_) {
                 ++counts_.idle;
-                if (end_sender().what == Came::end) return {Came::end};
+                if (end_sender().status == ReadResult::end) return {ReadResult::end};
             }
             sender_ = datagram.from, ++senders_, from_another = true;
         }
         last_received_ = now;
         if (datagram.bytes == 0) return end_sender();
-        return {Came::bytes, static_cast<std::size_t>(datagram.bytes), from_another};
+        return {ReadResult::bytes, static_cast<std::size_t>(datagram.bytes), from_another};
     }
 
 public:
@@ -76,18 +76,18 @@ public:
         ::setsockopt(fd_.get(), SOL_SOCKET, SO_RXQ_OVFL, &yes, sizeof yes);
         ::setsockopt(fd_.get(), SOL_SOCKET, SO_RCVBUF, &receive_buffer, sizeof receive_buffer);
     }
-    int waits_on() const override { return fd_.get(); }
-    std::string sentence() const override { return "listening on " + at_.text() + " for datagrams"; }
+    int poll_fd() const override { return fd_.get(); }
+    std::string description() const override { return "listening on " + at_.text() + " for datagrams"; }
     bool has_datagrams() const override { return true; }
     bool has_one_sender() const override { return false; }
-    std::int64_t producers() const override { return senders_; }
-    SenderCounts senders() const override { return counts_; }
-    Result<Came> read(std::span<char> out) override {
+    std::int64_t sender_count() const override { return senders_; }
+    SenderCounts sender_counts() const override { return counts_; }
+    Result<ReadResult> read(std::span<char> out) override {
         const auto datagram = receive_one(fd_.get(), out);
-        if (datagram.lost) counts_.lost = *datagram.lost;
+        if (datagram.lost) counts_.dropped = *datagram.lost;
         if (datagram.bytes >= 0) return accept(datagram);
         // An error caused by a datagram to an earlier sender, whose port was closed, does not concern the next sender.
-        if (errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR || errno == ECONNREFUSED) return Came{Came::nothing};
+        if (errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR || errno == ECONNREFUSED) return ReadResult{ReadResult::nothing};
         return bad_input(at_.text() + " cannot be read: " + std::strerror(errno));
     }
 };
@@ -96,7 +96,7 @@ public:
 
 Result<std::unique_ptr<ByteSource>> receive_datagrams(const std::string& address, int port, const SenderLimits& limits) {
     Endpoint at{address, port};
-    auto fd = datagram_socket(at);
+    auto fd = open_datagram_socket(at);
     if (!fd) return fd.error();
     return std::unique_ptr<ByteSource>(std::make_unique<DatagramSource>(at, std::move(*fd), limits));
 }

@@ -50,9 +50,9 @@ double number_of(std::string_view field) {
     return status == std::errc{} && end == field.data() + field.size() ? x : not_a_number;
 }
 
-const lanes::FrameLanes& best_lanes() {
+const lanes::FrameKernels& best_lanes() {
     const auto set = instruction_set();
-    return lanes::frame_lanes(set ? *set : InstructionSet::baseline);
+    return lanes::frame_kernels(set ? *set : InstructionSet::baseline);
 }
 
 }  // namespace
@@ -65,67 +65,67 @@ FrameDecoder::FrameDecoder(const FrameLayout& layout, std::size_t frames, Header
     if (layout.kind == FrameKind::csv) values_.resize(layout.sites);
 }
 
-std::span<char> FrameDecoder::room() {
-    if (begin_ == end_) begin_ = end_ = looked_ = 0;
+std::span<char> FrameDecoder::buffer() {
+    if (begin_ == end_) begin_ = end_ = scanned_ = 0;
     if (begin_ > 0 && end_ > bytes_.size() / 2) {
         std::memmove(bytes_.data(), bytes_.data() + begin_, end_ - begin_);
-        looked_ -= std::min(looked_, begin_), end_ -= begin_, begin_ = 0;
+        scanned_ -= std::min(scanned_, begin_), end_ -= begin_, begin_ = 0;
     }
-    if (end_ == bytes_.size()) skipping_ = true, begin_ = end_ = looked_ = 0;  // a line without an end
+    if (end_ == bytes_.size()) skipping_ = true, begin_ = end_ = scanned_ = 0;  // a line without an end
     return std::span(bytes_).subspan(end_);
 }
 
-void FrameDecoder::forget() {
-    begin_ = end_ = looked_ = 0, skipping_ = false, first_ = true;
-    places_.clear(), refused_.reset();
+void FrameDecoder::reset() {
+    begin_ = end_ = scanned_ = 0, skipping_ = false, first_ = true;
+    value_index_.clear(), header_error_.reset();
 }
 
-FrameDecoder::Found FrameDecoder::next() {
+FrameDecoder::Status FrameDecoder::next() {
     if (layout_.kind != FrameKind::csv) {
-        if (end_ - begin_ < layout_.bytes()) return Found::nothing;
+        if (end_ - begin_ < layout_.bytes()) return Status::nothing;
         ++seen_;
         const char* const at = bytes_.data() + begin_;
         begin_ += layout_.bytes();
         found_ = at + layout_.stamp_bytes();
-        if (layout_.stamp == FrameStamp::count) std::memcpy(&number_, at, sizeof number_);
-        if (layout_.stamp != FrameStamp::time) return Found::frame;
+        if (layout_.stamp == FrameStamp::sequence) std::memcpy(&number_, at, sizeof number_);
+        if (layout_.stamp != FrameStamp::time) return Status::frame;
         double seconds = 0;
         std::memcpy(&seconds, at, sizeof seconds);
-        return read_stamp(seconds) ? Found::frame : unreadable(FrameMisfit::stamp);
+        return read_stamp(seconds) ? Status::frame : unreadable(FrameError::stamp);
     }
     for (;;) {
-        looked_ = std::max(looked_, begin_);
-        const auto* const end = static_cast<const char*>(std::memchr(bytes_.data() + looked_, '\n', end_ - looked_));
-        if (!end) return looked_ = end_, Found::nothing;
+        scanned_ = std::max(scanned_, begin_);
+        const auto* const end = static_cast<const char*>(std::memchr(bytes_.data() + scanned_, '\n', end_ - scanned_));
+        if (!end) return scanned_ = end_, Status::nothing;
         const std::string_view full_line(bytes_.data() + begin_, end);
         begin_ = static_cast<std::size_t>(end - bytes_.data()) + 1;
-        if (std::exchange(skipping_, false)) return ++seen_, unreadable(FrameMisfit::endless);
+        if (std::exchange(skipping_, false)) return ++seen_, unreadable(FrameError::endless);
         const auto line = trimmed(full_line.ends_with('\r') ? full_line.substr(0, full_line.size() - 1) : full_line);
         if (line.empty() || line.front() == '#' || line.front() == '%') continue;
         if (std::exchange(first_, false) && is_header(line)) {
-            take_header(line);
+            read_header(line);
             continue;
         }
         ++seen_;
-        if (!refused_) return read_line(line);
-        if (!misfit_) misfit_ = FrameMisfit{FrameMisfit::header, seen_, 0, refused_->message};
-        return Found::unreadable;
+        if (!header_error_) return read_line(line);
+        if (!first_error_) first_error_ = FrameError{FrameError::header, seen_, 0, header_error_->message};
+        return Status::unreadable;
     }
 }
 
-FrameDecoder::Found FrameDecoder::unreadable(FrameMisfit::Why why, std::size_t found) {
-    if (!misfit_) misfit_ = FrameMisfit{why, seen_, found, {}};
-    return Found::unreadable;
+FrameDecoder::Status FrameDecoder::unreadable(FrameError::Reason why, std::size_t found) {
+    if (!first_error_) first_error_ = FrameError{why, seen_, found, {}};
+    return Status::unreadable;
 }
 
-bool FrameDecoder::came_datagram(std::size_t bytes) {
+bool FrameDecoder::add_datagram(std::size_t bytes) {
     if (layout_.kind == FrameKind::csv) {
         if (bytes > 0 && bytes_[end_ + bytes - 1] != '\n') bytes_[end_ + bytes++] = '\n';
     } else if (bytes % layout_.bytes() != 0) {
         ++seen_;
-        return unreadable(FrameMisfit::datagram, bytes), false;
+        return unreadable(FrameError::datagram, bytes), false;
     }
-    return came(bytes), true;
+    return add_bytes(bytes), true;
 }
 
 /// True for a line with as many words as a frame has numbers, none of them a number or nan.
@@ -136,7 +136,7 @@ bool FrameDecoder::is_header(std::string_view line) const {
     return fields == layout_.sites + (layout_.stamp == FrameStamp::none ? 0 : 1);
 }
 
-void FrameDecoder::take_header(std::string_view line) {
+void FrameDecoder::read_header(std::string_view line) {
     ++headers_;
     if (!read_header_) return;
     std::vector<std::string> names;
@@ -148,9 +148,9 @@ void FrameDecoder::take_header(std::string_view line) {
     if (layout_.stamp != FrameStamp::none) names.erase(names.begin());
     auto places = read_header_(names);
     if (!places)
-        refused_ = places.error();
+        header_error_ = places.error();
     else
-        places_ = *std::move(places);
+        value_index_ = *std::move(places);
 }
 
 bool FrameDecoder::read_stamp(double seconds) {
@@ -169,19 +169,19 @@ bool FrameDecoder::read_stamp(std::string_view text) {
 }
 
 /// Returns unreadable if the stamp is invalid, or the number of fields is wrong.
-FrameDecoder::Found FrameDecoder::read_line(const std::string_view line) {
+FrameDecoder::Status FrameDecoder::read_line(const std::string_view line) {
     auto rest = line;
     const bool is_stamped = layout_.stamp == FrameStamp::none || read_stamp(next_field(rest));
     for (std::size_t k = 0; k < values_.size(); ++k) {
-        if (rest.empty()) return unreadable(FrameMisfit::width, fields_in(line));
-        values_[places_.empty() ? k : places_[k]] = number_of(next_field(rest));
+        if (rest.empty()) return unreadable(FrameError::width, fields_in(line));
+        values_[value_index_.empty() ? k : value_index_[k]] = number_of(next_field(rest));
     }
-    if (!rest.empty()) return unreadable(FrameMisfit::width, fields_in(line));
-    return is_stamped ? Found::frame : unreadable(FrameMisfit::stamp);
+    if (!rest.empty()) return unreadable(FrameError::width, fields_in(line));
+    return is_stamped ? Status::frame : unreadable(FrameError::stamp);
 }
 
-std::size_t FrameDecoder::take(std::span<double> force) const {
-    const lanes::FrameForce scaling{layout_.offset, layout_.scale, layout_.limit};
+std::size_t FrameDecoder::read_forces(std::span<double> force) const {
+    const lanes::ForceScaling scaling{layout_.offset, layout_.scale, layout_.limit};
     switch (layout_.kind) {
         case FrameKind::f32:
             return lanes_.f32(found_, scaling, force.data(), force.size());

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "live/frame_layout.hpp"
-#include "live/frame_misfit.hpp"
+#include "live/frame_error.hpp"
 #include "live/header_reader.hpp"
 #include "live/lanes/kernel.hpp"
 
@@ -16,29 +16,29 @@ namespace corpuscle {
 
 class FrameDecoder {
 public:
-    enum class Found { nothing, frame, unreadable };
+    enum class Status { nothing, frame, unreadable };
 
 private:
     FrameLayout layout_;
-    const lanes::FrameLanes& lanes_;
+    const lanes::FrameKernels& lanes_;
     std::vector<char> bytes_;
     std::size_t begin_ = 0, end_ = 0;  // bytes that have arrived and are not decoded yet
-    std::size_t looked_ = 0;           // no line end before this position
+    std::size_t scanned_ = 0;           // no line end before this position
     bool skipping_ = false;            // skipping a line that is longer than any frame
     bool first_ = true;                // nothing has been read yet: a header may come
     const char* found_ = nullptr;      // forces of a binary frame
     std::vector<double> values_;       // of a line
     HeaderReader read_header_;
-    std::vector<std::uint32_t> places_;  // index into the values for each number of a line; empty: in order
-    std::optional<Error> refused_;       // error in the header of this sender
+    std::vector<std::uint32_t> value_index_;  // index into the values for each number of a line; empty: in order
+    std::optional<Error> header_error_;       // error in the header of this sender
     std::uint32_t number_ = 0;
     std::int64_t headers_ = 0, seen_ = 0;  // seen: frames, readable or not
-    std::optional<FrameMisfit> misfit_;
+    std::optional<FrameError> first_error_;
 
-    Found unreadable(FrameMisfit::Why, std::size_t found = 0);
+    Status unreadable(FrameError::Reason, std::size_t found = 0);
     bool is_header(std::string_view line) const;
-    void take_header(std::string_view line);
-    Found read_line(std::string_view line);
+    void read_header(std::string_view line);
+    Status read_line(std::string_view line);
     bool read_stamp(double seconds);
     bool read_stamp(std::string_view text);
 
@@ -47,25 +47,25 @@ public:
     explicit FrameDecoder(const FrameLayout&, std::size_t frames = 1, HeaderReader = {});
     const FrameLayout& layout() const { return layout_; }
 
-    std::span<char> room();                                    ///< destination of the next bytes; never empty
-    void came(std::size_t bytes) { end_ += bytes; }            ///< `bytes` have been written there
-    bool begun() const { return end_ > begin_ || skipping_; }  ///< part of a frame has arrived
+    std::span<char> buffer();                                    ///< destination of the next bytes; never empty
+    void add_bytes(std::size_t bytes) { end_ += bytes; }            ///< `bytes` have been written there
+    bool has_partial_frame() const { return end_ > begin_ || skipping_; }  ///< part of a frame has arrived
     /// `bytes` have been written there as one datagram. It must contain whole frames; its last line needs no line end. Returns false, and
     /// ignores it, if it does not.
-    bool came_datagram(std::size_t bytes);
-    std::size_t begun_bytes() const { return end_ - begin_; }  ///< size of the partial frame
-    void forget();                                             ///< discards everything, because the sender has disconnected
+    bool add_datagram(std::size_t bytes);
+    std::size_t partial_bytes() const { return end_ - begin_; }  ///< size of the partial frame
+    void reset();                                             ///< discards everything, because the sender has disconnected
 
     /// Finds the next complete frame and consumes its bytes.
-    Found next();
+    Status next();
     /// number of the found frame, modulo 2^32, if frames are stamped
     std::uint32_t number() const { return number_; }
-    const std::optional<Error>& refused_header() const { return refused_; }     ///< if set, the frames after it cannot be read
+    const std::optional<Error>& header_error() const { return header_error_; }     ///< if set, the frames after it cannot be read
     std::int64_t headers() const { return headers_; }                           ///< first lines that were names, not numbers
-    const std::optional<FrameMisfit>& first_misfit() const { return misfit_; }  ///< the first frame that could not be read
+    const std::optional<FrameError>& first_error() const { return first_error_; }  ///< the first frame that could not be read
     /// Writes the forces of the found frame over the last ones. A value that is NaN or beyond the limit is not written; returns the number
     /// of such values.
-    std::size_t take(std::span<double> force) const;
+    std::size_t read_forces(std::span<double> force) const;
 };
 
 }  // namespace corpuscle

@@ -9,7 +9,7 @@ namespace corpuscle {
 enum class FrameKind { csv, f32, f64, i16 };
 
 /// The data before the forces of a frame: none, its number (binary: u32), or its time in seconds (binary: f64).
-enum class FrameStamp { none, count, time };
+enum class FrameStamp { none, sequence, time };
 
 struct FrameLayout {
     FrameKind kind = FrameKind::csv;
@@ -18,7 +18,7 @@ struct FrameLayout {
     double rate = 1000;            ///< Hz: converts a stamped time to a frame number
     double scale = 1, offset = 0;  ///< force (N) = (value - offset) * scale
     double limit = 1000;           ///< N; larger values are not valid readings
-    std::size_t stamp_bytes() const { return stamp == FrameStamp::none ? 0 : stamp == FrameStamp::count ? 4 : 8; }
+    std::size_t stamp_bytes() const { return stamp == FrameStamp::none ? 0 : stamp == FrameStamp::sequence ? 4 : 8; }
     std::size_t value_bytes() const { return kind == FrameKind::i16 ? 2 : kind == FrameKind::f32 ? 4 : 8; }
     std::size_t bytes() const { return stamp_bytes() + sites * value_bytes(); }  ///< of a binary frame
 };

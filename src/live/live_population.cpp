@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "model/catalog.hpp"
-#include "skin/class_settings.hpp"
+#include "skin/class_overrides.hpp"
 #include "skin/sites.hpp"
 
 namespace corpuscle {
@@ -29,18 +29,18 @@ Result<SkinClass> class_at_each_site(const std::string& name, std::span<const Pa
 
 }  // namespace
 
-bool is_afferents(std::string_view list) {
+bool is_afferent_list(std::string_view list) {
     for (const auto& name : names_in(list))
         if (!plan_afferent(name, {})) return false;
     return true;
 }
 
-Result<SkinPlan> plan_channels(std::string_view afferents, std::size_t channels, std::span<const ParameterOverride> overrides) {
+Result<SkinPlan> make_channel_plan(std::string_view afferents, std::size_t channels, std::span<const ParameterOverride> overrides) {
     auto sites = grid_sites(1, channels, 1e-3);
     if (!sites) return sites.error();
     SkinPlan plan;
     plan.name = afferents, plan.is_by_channel = true;
-    plan.sentence = fmt::format("{} on {} channel{}", afferents, channels, channels == 1 ? "" : "s");
+    plan.description = fmt::format("{} on {} channel{}", afferents, channels, channels == 1 ? "" : "s");
     plan.sites = std::move(*sites);
     for (std::size_t c = 0; c < channels; ++c) plan.sites.names[c] = fmt::format("ch{}", c + 1);
     for (const auto& name : names_in(afferents)) {
@@ -53,33 +53,33 @@ Result<SkinPlan> plan_channels(std::string_view afferents, std::size_t channels,
     return plan;
 }
 
-Result<SkinPlan> plan_channels(std::string_view afferents, std::span<const Channel> channels, std::span<const ParameterOverride> overrides) {
-    auto plan = plan_channels(afferents, channels.size(), overrides);
+Result<SkinPlan> make_channel_plan(std::string_view afferents, std::span<const Channel> channels, std::span<const ParameterOverride> overrides) {
+    auto plan = make_channel_plan(afferents, channels.size(), overrides);
     if (plan)
         for (std::size_t c = 0; c < channels.size(); ++c) plan->sites.names[c] = channels[c].name;
     return plan;
 }
 
-Result<SkinPlan> plan_live(std::string_view population, std::size_t channels, std::span<const ParameterOverride> overrides) {
-    if (is_afferents(population)) return plan_channels(population, channels, overrides);
-    auto plan = plan_skin(population);
+Result<SkinPlan> make_live_plan(std::string_view population, std::size_t channels, std::span<const ParameterOverride> overrides) {
+    if (is_afferent_list(population)) return make_channel_plan(population, channels, overrides);
+    auto plan = load_skin_plan(population);
     if (!plan) return plan;
-    if (auto ok = set_classes(*plan, overrides); !ok) return ok.error();
+    if (auto ok = apply_class_overrides(*plan, overrides); !ok) return ok.error();
     return plan;
 }
 
-EventAddressing event_units(const Innervation& skin, const Clock& clock) {
+EventAddressing make_event_afferents(const Innervation& skin, const Clock& clock) {
     EventAddressing out{clock, {}, {}, {}, {}};
     bool one_each = true;
     for (const auto& c : skin.plan.classes) one_each &= c.density.empty() && c.per_site == 1;
     const auto classes = static_cast<std::uint32_t>(skin.plan.classes.size());
     const auto& sites = skin.plan.sites;
-    for (std::size_t u = 0; u < skin.units.size(); ++u) {
-        const auto& afferent = skin.units[u];
-        out.names.push_back(skin.unit_name(u));
-        out.addresses.push_back(one_each ? (afferent.copy - 1) * classes + afferent.of : static_cast<std::uint32_t>(u));
-        out.afferents.push_back(skin.plan.is_by_channel ? skin.plan.classes[afferent.of].name : out.names.back());
-        out.channels.push_back(skin.plan.is_by_channel ? sites.names[afferent.copy - 1] : sites.regions[afferent.region]);
+    for (std::size_t u = 0; u < skin.afferents.size(); ++u) {
+        const auto& afferent = skin.afferents[u];
+        out.names.push_back(skin.afferent_name(u));
+        out.addresses.push_back(one_each ? (afferent.number - 1) * classes + afferent.class_index : static_cast<std::uint32_t>(u));
+        out.afferents.push_back(skin.plan.is_by_channel ? skin.plan.classes[afferent.class_index].name : out.names.back());
+        out.channels.push_back(skin.plan.is_by_channel ? sites.names[afferent.number - 1] : sites.regions[afferent.region]);
     }
     return out;
 }

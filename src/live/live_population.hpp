@@ -8,17 +8,17 @@
 namespace corpuscle {
 
 /// True if every item of the list is a named afferent, or a combination of components.
-bool is_afferents(std::string_view list);
+bool is_afferent_list(std::string_view list);
 
 /// Named afferents ("sa1,fa1"), each on every one of `channels`. Overrides that name one of them are marked as used.
-Result<SkinPlan> plan_channels(std::string_view afferents, std::size_t channels, std::span<const ParameterOverride> overrides = {});
-Result<SkinPlan> plan_channels(std::string_view afferents, std::span<const Channel> channels, std::span<const ParameterOverride> overrides = {});
+Result<SkinPlan> make_channel_plan(std::string_view afferents, std::size_t channels, std::span<const ParameterOverride> overrides = {});
+Result<SkinPlan> make_channel_plan(std::string_view afferents, std::span<const Channel> channels, std::span<const ParameterOverride> overrides = {});
 
 /// "hand", "grid 8x8", a population file, or named afferents on channels. Overrides that name one of its classes are marked as used.
-Result<SkinPlan> plan_live(std::string_view population, std::size_t channels, std::span<const ParameterOverride> overrides = {});
+Result<SkinPlan> make_live_plan(std::string_view population, std::size_t channels, std::span<const ParameterOverride> overrides = {});
 
 /// The names of each afferent, its channel or region, and its address. If each class has one afferent at each site, as on a grid, the
 /// address is site * classes + class. Otherwise it is the index of the afferent.
-EventAddressing event_units(const Innervation&, const Clock&);
+EventAddressing make_event_afferents(const Innervation&, const Clock&);
 
 }  // namespace corpuscle

@@ -3,11 +3,11 @@
 #include "corpuscle.hpp"
 #include "live/live_population.hpp"
 #include "live/skin_stream.hpp"
-#include "skin/class_settings.hpp"
+#include "skin/class_overrides.hpp"
 
 namespace corpuscle {
 
-struct LiveSkin::Held {
+struct LiveSkin::Impl {
     std::unique_ptr<SkinStream> stream;
     EventAddressing afferents;
     std::vector<Event> events = {};
@@ -23,7 +23,7 @@ namespace {
 
 template <class T>
 T success_or_throw(Result<T>&& result) {
-    if (!result) throw Refused(result.error().text());
+    if (!result) throw InputError(result.error().text());
     if constexpr (!std::is_void_v<T>) return std::move(*result);
 }
 
@@ -33,36 +33,36 @@ LiveSkin::LiveSkin(const std::string& population, double rate, std::size_t chann
     const auto clock = success_or_throw(make_clock(rate));
     std::vector<ParameterOverride> overrides;
     for (const auto& text : settings) overrides.push_back(success_or_throw(parse_override(text)));
-    auto plan = success_or_throw(plan_live(population, channels, overrides));
-    success_or_throw(check_all_used(plan, overrides));
+    auto plan = success_or_throw(make_live_plan(population, channels, overrides));
+    success_or_throw(check_overrides_used(plan, overrides));
     auto placed = success_or_throw(innervate(std::move(plan)));
-    auto afferents = event_units(*placed, clock);
-    held_ = std::unique_ptr<Held>(new Held{success_or_throw(SkinStream::make(std::move(placed), clock)), std::move(afferents)});
-    held_->events.reserve(8 * held_->afferents.names.size() + 64);
+    auto afferents = make_event_afferents(*placed, clock);
+    impl_ = std::unique_ptr<Impl>(new Impl{success_or_throw(SkinStream::make(std::move(placed), clock)), std::move(afferents)});
+    impl_->events.reserve(8 * impl_->afferents.names.size() + 64);
 }
 LiveSkin::LiveSkin(LiveSkin&&) noexcept = default;
 LiveSkin& LiveSkin::operator=(LiveSkin&&) noexcept = default;
 LiveSkin::~LiveSkin() = default;
 
-std::size_t LiveSkin::sites() const { return held_->stream->sites(); }
+std::size_t LiveSkin::sites() const { return impl_->stream->sites(); }
 LiveSkin::Site LiveSkin::site(std::size_t number) const {
-    if (number >= sites()) throw Refused("there is no site " + std::to_string(number) + "; the last is " + std::to_string(sites() - 1));
-    const auto& all = held_->stream->innervation().plan.sites;
-    return {all.names[number], all.at[number].x, all.at[number].y};
+    if (number >= sites()) throw InputError("there is no site " + std::to_string(number) + "; the last is " + std::to_string(sites() - 1));
+    const auto& all = impl_->stream->innervation().plan.sites;
+    return {all.names[number], all.positions[number].x, all.positions[number].y};
 }
-std::size_t LiveSkin::units() const { return held_->afferents.names.size(); }
-std::int64_t LiveSkin::frames() const { return held_->stream->frames(); }
-std::string LiveSkin::name(std::uint32_t index) const {
-    if (index >= units()) throw Refused("there is no afferent " + std::to_string(index) + "; the last is " + std::to_string(units() - 1));
-    return held_->afferents.names[index];
+std::size_t LiveSkin::afferents() const { return impl_->afferents.names.size(); }
+std::int64_t LiveSkin::frames() const { return impl_->stream->frames(); }
+std::string LiveSkin::afferent_name(std::uint32_t index) const {
+    if (index >= afferents()) throw InputError("there is no afferent " + std::to_string(index) + "; the last is " + std::to_string(afferents() - 1));
+    return impl_->afferents.names[index];
 }
 
-std::span<const LiveSkin::Event> LiveSkin::answer(std::span<const double> frame) {
-    return held_->to_events(success_or_throw(held_->stream->push(frame)));
+std::span<const LiveSkin::Event> LiveSkin::respond(std::span<const double> frame) {
+    return impl_->to_events(success_or_throw(impl_->stream->push(frame)));
 }
-std::span<const LiveSkin::Event> LiveSkin::last() { return held_->to_events(held_->stream->last()); }
+std::span<const LiveSkin::Event> LiveSkin::finish() { return impl_->to_events(impl_->stream->finish()); }
 
-std::vector<std::byte> LiveSkin::save() const { return held_->stream->save(); }
-void LiveSkin::resume(std::span<const std::byte> state) { success_or_throw(held_->stream->resume(state)); }
+std::vector<std::byte> LiveSkin::save() const { return impl_->stream->save(); }
+void LiveSkin::resume(std::span<const std::byte> state) { success_or_throw(impl_->stream->resume(state)); }
 
 }  // namespace corpuscle

@@ -26,7 +26,7 @@ void copy_text(const char* text, char* to, std::size_t size) {
 void call_sink(std::span<const LiveSkin::Event> events, corpuscle_sink sink, void* user) {
     if (!sink) return;
     for (const auto& e : events) {
-        const corpuscle_spike spike{e.time, e.unit, e.address};
+        const corpuscle_spike spike{e.time, e.afferent_index, e.address};
         sink(user, &spike);
     }
 }
@@ -62,15 +62,15 @@ corpuscle_skin* corpuscle_create_with(const char* population, double rate_hz, si
                                       char* error, size_t error_size) {
     corpuscle::copy_text("", error, error_size);
     try {
-        if (!population) throw corpuscle::Refused("population is NULL");
-        if (!settings && count > 0) throw corpuscle::Refused("settings is NULL, but count is not 0");
+        if (!population) throw corpuscle::InputError("population is NULL");
+        if (!settings && count > 0) throw corpuscle::InputError("settings is NULL, but count is not 0");
         std::vector<std::string> texts;
         for (std::size_t k = 0; k < count; ++k) {
-            if (!settings[k]) throw corpuscle::Refused("setting " + std::to_string(k) + " is NULL");
+            if (!settings[k]) throw corpuscle::InputError("setting " + std::to_string(k) + " is NULL");
             texts.emplace_back(settings[k]);
         }
         auto made = std::unique_ptr<corpuscle_skin>(new corpuscle_skin{corpuscle::LiveSkin(population, rate_hz, channels, texts)});
-        for (std::uint32_t u = 0; u < made->skin.units(); ++u) made->names.push_back(made->skin.name(u));
+        for (std::uint32_t u = 0; u < made->skin.afferents(); ++u) made->names.push_back(made->skin.afferent_name(u));
         for (std::size_t s = 0; s < made->skin.sites(); ++s) made->sites.push_back(made->skin.site(s));
         return made.release();
     } catch (const std::exception& e) {
@@ -93,29 +93,29 @@ int corpuscle_site_position(const corpuscle_skin* skin, size_t site, double* x, 
     if (y) *y = skin->sites[site].y;
     return 0;
 }
-size_t corpuscle_units(const corpuscle_skin* skin) { return skin ? skin->names.size() : 0; }
-const char* corpuscle_unit_name(const corpuscle_skin* skin, uint32_t index) {
+size_t corpuscle_afferents(const corpuscle_skin* skin) { return skin ? skin->names.size() : 0; }
+const char* corpuscle_afferent_name(const corpuscle_skin* skin, uint32_t index) {
     return skin && index < skin->names.size() ? skin->names[index].c_str() : nullptr;
 }
 const char* corpuscle_error(const corpuscle_skin* skin) { return skin ? skin->error.c_str() : "skin is NULL"; }
 
 int corpuscle_push(corpuscle_skin* skin, const double* frame, size_t sites, corpuscle_sink sink, void* user) {
     return catch_errors(skin, -1, [&] {
-        if (!frame) throw corpuscle::Refused("frame is NULL");
-        corpuscle::call_sink(skin->skin.answer({frame, sites}), sink, user);
+        if (!frame) throw corpuscle::InputError("frame is NULL");
+        corpuscle::call_sink(skin->skin.respond({frame, sites}), sink, user);
         return 0;
     });
 }
 
-int corpuscle_last(corpuscle_skin* skin, corpuscle_sink sink, void* user) {
-    return catch_errors(skin, -1, [&] { return corpuscle::call_sink(skin->skin.last(), sink, user), 0; });
+int corpuscle_finish(corpuscle_skin* skin, corpuscle_sink sink, void* user) {
+    return catch_errors(skin, -1, [&] { return corpuscle::call_sink(skin->skin.finish(), sink, user), 0; });
 }
 
 size_t corpuscle_save(corpuscle_skin* skin, void* bytes, size_t size) {
     return catch_errors(skin, std::size_t{0}, [&] {
         const auto state = skin->skin.save();
         if (bytes && size < state.size())
-            throw corpuscle::Refused("a state of " + std::to_string(state.size()) + " bytes does not fit into a buffer of " +
+            throw corpuscle::InputError("a state of " + std::to_string(state.size()) + " bytes does not fit into a buffer of " +
                                      std::to_string(size));
         if (bytes) std::memcpy(bytes, state.data(), state.size());
         return state.size();
@@ -124,7 +124,7 @@ size_t corpuscle_save(corpuscle_skin* skin, void* bytes, size_t size) {
 
 int corpuscle_resume(corpuscle_skin* skin, const void* bytes, size_t size) {
     return catch_errors(skin, -1, [&] {
-        if (!bytes) throw corpuscle::Refused("the state is NULL");
+        if (!bytes) throw corpuscle::InputError("the state is NULL");
         skin->skin.resume({static_cast<const std::byte*>(bytes), size});
         return 0;
     });

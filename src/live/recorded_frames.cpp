@@ -26,10 +26,10 @@ public:
     RecordedFrames(std::unique_ptr<ForceSource> source, bool paced)
         : source_(std::move(source)), frames_(source_->channels().size(), block), paced_(paced) {}
 
-    std::string sentence() const override { return source_->description(); }
-    std::int64_t due() const override { return begun_ < 0 || !paced_ ? 0 : due_of(count_); }
+    std::string description() const override { return source_->description(); }
+    std::int64_t due_time() const override { return begun_ < 0 || !paced_ ? 0 : due_of(count_); }
     bool is_live() const override { return paced_; }
-    FrameCounts counts() const override { return {.frames = count_, .producers = 1}; }
+    FrameCounts counts() const override { return {.frames = count_, .sender_count = 1}; }
 
     Result<bool> receive() override {
         in_batch_ = 0;
@@ -51,7 +51,7 @@ public:
 
 }  // namespace
 
-std::unique_ptr<FrameSource> frames_of(std::unique_ptr<ForceSource> source, bool real_time) {
+std::unique_ptr<FrameSource> make_frame_source(std::unique_ptr<ForceSource> source, bool real_time) {
     return std::make_unique<RecordedFrames>(std::move(source), real_time);
 }
 

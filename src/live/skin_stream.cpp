@@ -10,10 +10,10 @@ Result<std::unique_ptr<SkinStream>> SkinStream::make(std::shared_ptr<const Inner
                                                      bool spikes_on_samples, std::size_t batch_frames) {
     const auto set = instruction_set();
     if (!set) return set.error();
-    auto skin = Skin::make(innervation, {.dt = clock.T(), .sampled = spikes_on_samples}, *set);
+    auto skin = Skin::make(innervation, {.dt = clock.T(), .spikes_on_samples = spikes_on_samples}, *set);
     if (!skin) return skin.error();
     std::unique_ptr<SkinStream> stream(new SkinStream(std::move(innervation), clock, std::move(*skin)));
-    stream->make_room(batch_frames);
+    stream->allocate(batch_frames);
     if (auto ok = stream->warm_up(); !ok) return ok.error();
     return stream;
 }
@@ -25,23 +25,23 @@ Result<void> SkinStream::warm_up() {
     const double press = plan.felt_area > 0 && plan.sites.area > 0 ? 10 * plan.sites.area / plan.felt_area : 10;
     std::vector<double> frame(sites());
     std::uint32_t chance = 1;
-    const auto frames = std::clamp<std::size_t>(2'000'000 / innervation_->units.size(), 32, 512);
+    const auto frames = std::clamp<std::size_t>(2'000'000 / innervation_->afferents.size(), 32, 512);
     for (std::size_t k = 0; k < frames; ++k) {
         chance = 1664525 * chance + 1013904223;
         std::fill(frame.begin(), frame.end(), chance >> 31 == 0 ? 0.0 : press);
-        if (k + 2 * together_ > frames) std::fill(frame.begin() + 1, frame.end(), 0.0);  // the last ones at one site only
-        if (together_ > 1 && !gather(frame)) continue;
-        if (auto done = together_ > 1 ? answer_gathered() : push(frame); !done) return done.error();
+        if (k + 2 * batch_frames_ > frames) std::fill(frame.begin() + 1, frame.end(), 0.0);  // the last ones at one site only
+        if (batch_frames_ > 1 && !add_to_batch(frame)) continue;
+        if (auto done = batch_frames_ > 1 ? run_batch() : push(frame); !done) return done.error();
     }
-    if (together_ > 1)
-        if (auto answered = answer_gathered(); !answered) return answered.error();
+    if (batch_frames_ > 1)
+        if (auto answered = run_batch(); !answered) return answered.error();
     return skin_->resume(start);
 }
 
 /// The sites with a force. Most of a skin is usually untouched, so blocks of sites are tested at once. Within a touched block no branches
 /// are used, because noise makes zeros unpredictable.
-std::span<const std::uint32_t> SkinStream::touched_by(std::span<const double> frame) {
-    if (std::count(frame.begin(), frame.end(), 0.0) == 0) return every_;
+std::span<const std::uint32_t> SkinStream::find_touched(std::span<const double> frame) {
+    if (std::count(frame.begin(), frame.end(), 0.0) == 0) return all_sites_;
     constexpr std::size_t block = 16;
     std::size_t touched = 0;
     for (std::size_t from = 0; from < frame.size(); from += block) {
@@ -55,46 +55,46 @@ std::span<const std::uint32_t> SkinStream::touched_by(std::span<const double> fr
 Result<std::span<const Spike>> SkinStream::push(std::span<const double> frame) {
     if (frame.size() != sites()) return bad_input(fmt::format("a frame has {} forces, but there are {} sites", frame.size(), sites()));
     spikes_.clear();
-    if (auto ok = skin_->respond({frame.data(), 1, touched_by(frame), false}, 1, spikes_, here_); !ok) return ok.error();
+    if (auto ok = skin_->respond({frame.data(), 1, find_touched(frame), false}, 1, spikes_, pool_); !ok) return ok.error();
     return std::span<const Spike>(spikes_);
 }
 
-void SkinStream::make_room(std::size_t batch_frames) {
-    touched_.resize(sites()), every_.resize(sites());
-    std::iota(every_.begin(), every_.end(), 0U);
-    spikes_.reserve(8 * innervation_->units.size() + 64);
-    together_ = batch_frames;
+void SkinStream::allocate(std::size_t batch_frames) {
+    touched_.resize(sites()), all_sites_.resize(sites());
+    std::iota(all_sites_.begin(), all_sites_.end(), 0U);
+    spikes_.reserve(8 * innervation_->afferents.size() + 64);
+    batch_frames_ = batch_frames;
     block_.assign(sites() * batch_frames, 0.0);
-    is_in_block_.assign(sites(), 0);
-    in_block_.reserve(sites());
+    is_in_batch_.assign(sites(), 0);
+    batch_sites_.reserve(sites());
 }
 
-bool SkinStream::gather(std::span<const double> frame) {
-    for (const auto s : touched_by(frame)) {
-        if (!is_in_block_[s]) {
-            is_in_block_[s] = 1;
-            in_block_.push_back(s);
-            std::fill_n(block_.begin() + static_cast<std::ptrdiff_t>(s * together_), together_, 0.0);
+bool SkinStream::add_to_batch(std::span<const double> frame) {
+    for (const auto s : find_touched(frame)) {
+        if (!is_in_batch_[s]) {
+            is_in_batch_[s] = 1;
+            batch_sites_.push_back(s);
+            std::fill_n(block_.begin() + static_cast<std::ptrdiff_t>(s * batch_frames_), batch_frames_, 0.0);
         }
-        block_[s * together_ + gathered_] = frame[s];
+        block_[s * batch_frames_ + batched_] = frame[s];
     }
-    return ++gathered_ == together_;
+    return ++batched_ == batch_frames_;
 }
 
-Result<std::span<const Spike>> SkinStream::answer_gathered() {
+Result<std::span<const Spike>> SkinStream::run_batch() {
     spikes_.clear();
-    std::sort(in_block_.begin(), in_block_.end());
-    const auto ok = skin_->respond({block_.data(), together_, in_block_, false}, gathered_, spikes_, here_);
-    for (const auto s : in_block_) is_in_block_[s] = 0;
-    in_block_.clear();
-    gathered_ = 0;
+    std::sort(batch_sites_.begin(), batch_sites_.end());
+    const auto ok = skin_->respond({block_.data(), batch_frames_, batch_sites_, false}, batched_, spikes_, pool_);
+    for (const auto s : batch_sites_) is_in_batch_[s] = 0;
+    batch_sites_.clear();
+    batched_ = 0;
     if (!ok) return ok.error();
     return std::span<const Spike>(spikes_);
 }
 
-std::span<const Spike> SkinStream::last() {
+std::span<const Spike> SkinStream::finish() {
     spikes_.clear();
-    skin_->last(spikes_);
+    skin_->finish(spikes_);
     return spikes_;
 }
 

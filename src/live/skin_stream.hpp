@@ -13,20 +13,20 @@ class SkinStream {
     std::shared_ptr<const Innervation> innervation_;
     Clock clock_;
     std::unique_ptr<Skin> skin_;
-    ThreadPool here_{1};
-    std::vector<std::uint32_t> touched_, every_;
+    ThreadPool pool_{1};
+    std::vector<std::uint32_t> touched_, all_sites_;
     std::vector<Spike> spikes_;
     // Frames of a batch: [site][frame], for the sites that any of them touches.
-    std::size_t together_ = 1, gathered_ = 0;
+    std::size_t batch_frames_ = 1, batched_ = 0;
     std::vector<double> block_;
-    std::vector<std::uint32_t> in_block_;
-    std::vector<std::uint8_t> is_in_block_;
+    std::vector<std::uint32_t> batch_sites_;
+    std::vector<std::uint8_t> is_in_batch_;
 
     SkinStream(std::shared_ptr<const Innervation> innervation, const Clock& clock, std::unique_ptr<Skin> skin)
         : innervation_(std::move(innervation)), clock_(clock), skin_(std::move(skin)) {}
-    void make_room(std::size_t batch_frames);
+    void allocate(std::size_t batch_frames);
     Result<void> warm_up();
-    std::span<const std::uint32_t> touched_by(std::span<const double> frame);
+    std::span<const std::uint32_t> find_touched(std::span<const double> frame);
 
 public:
     /// `spikes_on_samples`: spikes are put on samples, not between them. `batch_frames`: size of a batch.
@@ -37,19 +37,19 @@ public:
     const Clock& clock() const { return clock_; }
     std::size_t sites() const { return skin_->sites(); }
     std::int64_t frames() const { return skin_->step(); }  ///< simulated so far
-    const SkinWork& work() const { return skin_->work(); }
+    const SkinStats& stats() const { return skin_->stats(); }
 
     /// Simulates one frame: one force (N) for each site. Returns the spikes that arrive during it, in order of time, then afferent; valid
     /// until the next call.
     Result<std::span<const Spike>> push(std::span<const double> frame);
-    std::size_t together() const { return together_; }
+    std::size_t batch_frames() const { return batch_frames_; }
     /// Adds a frame to the batch, which is simulated at once: less work, but the spikes come later. Returns true when the batch is full.
-    bool gather(std::span<const double> frame);
+    bool add_to_batch(std::span<const double> frame);
     /// The spikes that arrive during the frames of the batch, which may be empty.
-    Result<std::span<const Spike>> answer_gathered();
+    Result<std::span<const Spike>> run_batch();
 
     /// Call after the last frame: the spikes that are still in transit.
-    std::span<const Spike> last();
+    std::span<const Spike> finish();
 
     /// The state; a stream with the same population and rate can resume from it.
     std::vector<std::byte> save() const { return skin_->save(); }

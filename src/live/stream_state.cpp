@@ -22,7 +22,7 @@ struct StateHead {
 
 }  // namespace
 
-std::vector<std::byte> packed(const StreamState& state) {
+std::vector<std::byte> pack_stream(const StreamState& state) {
     StateHead head = {{},
                       state_version,
                       state.number.has_value(),
@@ -40,7 +40,7 @@ std::vector<std::byte> packed(const StreamState& state) {
     return out;
 }
 
-Result<StreamState> unpacked(std::span<const std::byte> bytes, const std::string& file) {
+Result<StreamState> unpack_stream(std::span<const std::byte> bytes, const std::string& file) {
     StateHead head;
     if (bytes.size() < sizeof head || std::memcmp(bytes.data(), state_magic.data(), sizeof head.magic) != 0)
         return bad_input("not a saved state of a stream: it does not begin with 'corplive'", {file});
@@ -75,7 +75,7 @@ Result<StreamState> unpacked(std::span<const std::byte> bytes, const std::string
 Result<void> save_stream(const std::string& path, const StreamState& state) {
     auto file = OutputFile::create(path);
     if (!file) return file.error();
-    const auto bytes = packed(state);
+    const auto bytes = pack_stream(state);
     if (auto ok = file->write({reinterpret_cast<const char*>(bytes.data()), bytes.size()}); !ok) return ok;
     if (auto ok = file->commit(SyncPolicy::always); !ok) return ok;
     return sync_directory_of(path);
@@ -88,7 +88,7 @@ Result<StreamState> load_stream(const std::string& path) {
     if ((*file)->size() > max_size) return bad_input("this file is too large to be a saved state", {path});
     std::vector<std::byte> bytes((*file)->size());
     if (auto ok = (*file)->read(bytes); !ok) return ok.error();
-    return unpacked(bytes, path);
+    return unpack_stream(bytes, path);
 }
 
 }  // namespace corpuscle

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "live/frame_order.hpp"
+#include "live/frame_sequence.hpp"
 #include "live/skin_stream.hpp"
 
 namespace corpuscle {
@@ -15,9 +15,9 @@ struct StreamState {
     std::vector<std::byte> skin;
 };
 
-std::vector<std::byte> packed(const StreamState&);
+std::vector<std::byte> pack_stream(const StreamState&);
 /// Refuses bytes that are not such a state; errors name `file`.
-Result<StreamState> unpacked(std::span<const std::byte>, const std::string& file);
+Result<StreamState> unpack_stream(std::span<const std::byte>, const std::string& file);
 
 Result<void> save_stream(const std::string& path, const StreamState&);
 Result<StreamState> load_stream(const std::string& path);

@@ -8,19 +8,19 @@ namespace corpuscle {
 /// Adaptation ratio: the first interspike interval of the phase divided by its last, both between two spikes of the phase. This is early
 /// over late, as in NeuroElectro (Tripathy et al. 2014, Front Neuroinform 8:40). It needs two intervals. There is no value for a train
 /// whose pauses are longer in total than its firing.
-struct AdaptationRatio : Deaf {
-    static constexpr Measure row{"adaptation_ratio", "adaptation", "", 2,
+struct AdaptationRatio : MeasureBase {
+    static constexpr MeasureInfo info{"adaptation_ratio", "adaptation", "", 2,
                                  "first interval of the phase divided by its last: 1 is no adaptation, 0.5 a slowing to half"};
     int intervals = 0;  // up to 2; more are not counted
     double first = 0, last = 0;
-    Pauses pauses;
+    PauseDetector pauses;
     void interval(double from, double to, bool inside) {
         if (!inside || pauses.add(to - from)) return;
         last = to - from;
         if (intervals == 0) first = last;
         if (intervals < 2) ++intervals;
     }
-    double value(const Stretch&) const { return intervals == 2 && last > 0 && !pauses.outlast_firing() ? first / last : no_value; }
+    double value(const TimeWindow&) const { return intervals == 2 && last > 0 && !pauses.outlast_firing() ? first / last : no_value; }
 };
 
 }  // namespace corpuscle

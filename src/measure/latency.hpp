@@ -2,18 +2,18 @@
 
 #include <cmath>
 
-#include "measure/stretch.hpp"
+#include "measure/measure_base.hpp"
 
 namespace corpuscle {
 
 /// First-spike latency (Johansson & Birznieks 2004, Nat Neurosci 7:170), measured from the start of the phase, in which the force begins.
-struct Latency : Deaf {
-    static constexpr Measure row{"latency", "latency", "s", 4, "from the phase's start to its first spike"};
+struct Latency : MeasureBase {
+    static constexpr MeasureInfo info{"latency", "latency", "s", 4, "from the phase's start to its first spike"};
     double first = no_value;
-    void spike(double t, const Stretch&) {
+    void spike(double t, const TimeWindow&) {
         if (std::isnan(first)) first = t;
     }
-    double value(const Stretch& s) const { return first - s.from; }
+    double value(const TimeWindow& s) const { return first - s.from; }
 };
 
 }  // namespace corpuscle

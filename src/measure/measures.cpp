@@ -13,27 +13,27 @@ void each(Tuple& all, F&& f) {
 
 }  // namespace
 
-Tally::Tally(std::vector<Stretch> stretches, std::size_t trains)
-    : stretches_(std::move(stretches)), trains_(trains, Train{std::vector<Measures::Held>(stretches_.size())}) {}
+MeasureAccumulator::MeasureAccumulator(std::vector<TimeWindow> stretches, std::size_t trains)
+    : windows_(std::move(stretches)), trains_(trains, Train{std::vector<Measures::Tuple>(windows_.size())}) {}
 
-void Tally::spike(std::size_t number, double t) {
+void MeasureAccumulator::spike(std::size_t number, double t) {
     auto& train = trains_[number];
-    const std::size_t before = train.at;
-    while (train.at < stretches_.size() && t >= stretches_[train.at].to) ++train.at;
-    const bool here = train.at < stretches_.size() && t >= stretches_[train.at].from;
-    if (!std::isnan(train.last)) each(train.in[before], [&](auto& m) { m.interval(train.last, t, here && train.at == before); });
-    if (here) each(train.in[train.at], [&](auto& m) { m.spike(t, stretches_[train.at]); });
+    const std::size_t before = train.window;
+    while (train.window < windows_.size() && t >= windows_[train.window].to) ++train.window;
+    const bool here = train.window < windows_.size() && t >= windows_[train.window].from;
+    if (!std::isnan(train.last)) each(train.measures[before], [&](auto& m) { m.interval(train.last, t, here && train.window == before); });
+    if (here) each(train.measures[train.window], [&](auto& m) { m.spike(t, windows_[train.window]); });
     train.last = here ? t : no_value;
 }
 
-void Tally::end(double t) {
-    for (auto& s : stretches_)
+void MeasureAccumulator::set_end(double t) {
+    for (auto& s : windows_)
         if (std::isinf(s.to)) s.to = t;
 }
 
-std::vector<double> Tally::values(std::size_t train, std::size_t stretch) const {
+std::vector<double> MeasureAccumulator::values(std::size_t train, std::size_t stretch) const {
     std::vector<double> all;
-    each(trains_[train].in[stretch], [&](const auto& m) { all.push_back(m.value(stretches_[stretch])); });
+    each(trains_[train].measures[stretch], [&](const auto& m) { all.push_back(m.value(windows_[stretch])); });
     return all;
 }
 

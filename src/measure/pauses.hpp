@@ -6,23 +6,23 @@ namespace corpuscle {
 /// Separates pauses from interspike intervals, one by one. A pause is longer than half a second and longer than ten times the mean of the
 /// intervals before it. An interval of more than ten seconds is always a pause. Both are choices: touched afferents fire faster than once a
 /// second, most of them ten times as fast.
-class Pauses {
-    static constexpr double least = 0.5, times = 10;
+class PauseDetector {
+    static constexpr double min_pause = 0.5, min_ratio = 10;
     double firing_ = 0, paused_ = 0;  // s, in all
     double intervals_ = 0;            // not counting pauses
 
     double mean() const { return firing_ / intervals_; }
 
 public:
-    static constexpr double longest = 10;  ///< s: a longer one is always a pause
+    static constexpr double max_interval = 10;  ///< s: a longer one is always a pause
 
     /// Adds the next interval, s; returns true if it is a pause.
     bool add(double interval) {
-        if (interval > longest || (intervals_ > 0 && interval > least && interval > times * mean())) {
+        if (interval > max_interval || (intervals_ > 0 && interval > min_pause && interval > min_ratio * mean())) {
             paused_ += interval;
             return true;
         }
-        if (intervals_ > 0 && mean() > least && mean() > times * interval) paused_ += firing_, firing_ = intervals_ = 0;
+        if (intervals_ > 0 && mean() > min_pause && mean() > min_ratio * interval) paused_ += firing_, firing_ = intervals_ = 0;
         firing_ += interval, ++intervals_;
         return false;
     }

@@ -4,57 +4,57 @@
 #include <cmath>
 
 #include "measure/pauses.hpp"
-#include "measure/stretch.hpp"
+#include "measure/measure_base.hpp"
 
 namespace corpuscle {
 
 /// The thesis's instantaneous frequency, 1 / (t[k+1] - t[k]), plotted at t[k] (3.3). Two spikes on one sample have none.
 inline double rate_between(double from, double to) { return to > from ? 1 / (to - from) : no_value; }
 /// The same, but NaN over a pause.
-inline double firing_rate_between(double from, double to) { return to - from > Pauses::longest ? no_value : rate_between(from, to); }
+inline double firing_rate_between(double from, double to) { return to - from > PauseDetector::max_interval ? no_value : rate_between(from, to); }
 
-struct SpikeCount : Deaf {
-    static constexpr Measure row{"spikes", "spikes", "", 0, "spikes in the phase"};
+struct SpikeCount : MeasureBase {
+    static constexpr MeasureInfo info{"spikes", "spikes", "", 0, "spikes in the phase"};
     double count = 0;
-    void spike(double, const Stretch&) { ++count; }
-    double value(const Stretch&) const { return count; }
+    void spike(double, const TimeWindow&) { ++count; }
+    double value(const TimeWindow&) const { return count; }
 };
 
-struct MeanRate : Deaf {
-    static constexpr Measure row{"mean_rate", "mean", "Hz", 1, "spikes in the phase divided by its length"};
+struct MeanRate : MeasureBase {
+    static constexpr MeasureInfo info{"mean_rate", "mean", "Hz", 1, "spikes in the phase divided by its length"};
     double count = 0;
-    void spike(double, const Stretch&) { ++count; }
-    double value(const Stretch& s) const { return s.to > s.from ? count / (s.to - s.from) : no_value; }
+    void spike(double, const TimeWindow&) { ++count; }
+    double value(const TimeWindow& s) const { return s.to > s.from ? count / (s.to - s.from) : no_value; }
 };
 
-struct PeakRate : Deaf {
-    static constexpr Measure row{"peak_rate", "peak", "Hz", 1, "highest instantaneous frequency at a spike of the phase"};
+struct PeakRate : MeasureBase {
+    static constexpr MeasureInfo info{"peak_rate", "peak", "Hz", 1, "highest instantaneous frequency at a spike of the phase"};
     double peak = no_value;
     void interval(double from, double to, bool) {
         if (const double rate = firing_rate_between(from, to); rate > peak || std::isnan(peak)) peak = rate;
     }
-    double value(const Stretch&) const { return peak; }
+    double value(const TimeWindow&) const { return peak; }
 };
 
-struct FirstRate : Deaf {
-    static constexpr Measure row{"first_rate", "first", "Hz", 1, "instantaneous frequency at the phase's first spike"};
+struct FirstRate : MeasureBase {
+    static constexpr MeasureInfo info{"first_rate", "first", "Hz", 1, "instantaneous frequency at the phase's first spike"};
     bool seen = false;
     double first = no_value;
     void interval(double from, double to, bool) {
         if (!seen) first = firing_rate_between(from, to);
         seen = true;
     }
-    double value(const Stretch&) const { return first; }
+    double value(const TimeWindow&) const { return first; }
 };
 
-struct LastRate : Deaf {
-    static constexpr Measure row{"last_rate", "last", "Hz", 1, "last instantaneous frequency between two spikes of the phase"};
+struct LastRate : MeasureBase {
+    static constexpr MeasureInfo info{"last_rate", "last", "Hz", 1, "last instantaneous frequency between two spikes of the phase"};
     double last = no_value;
-    Pauses pauses;
+    PauseDetector pauses;
     void interval(double from, double to, bool inside) {
         if (inside) last = pauses.add(to - from) ? no_value : rate_between(from, to);
     }
-    double value(const Stretch&) const { return last; }
+    double value(const TimeWindow&) const { return last; }
 };
 
 }  // namespace corpuscle

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 #include <algorithm>
 
-#include "model/parts.hpp"
-#include "model/sensor/fronted.hpp"
-#include "model/sensor/fronts.hpp"
+#include "model/afferent_components.hpp"
+#include "model/sensor/front_end_afferent.hpp"
+#include "model/sensor/front_end_factory.hpp"
 
 namespace corpuscle {
 namespace {
@@ -16,40 +16,40 @@ std::vector<CatalogEntry> entries(ModelList<M...>) {
 }
 
 template <class... M>
-std::vector<CatalogEntry> entries(PartList<M...>) {
+std::vector<CatalogEntry> entries(ComponentList<M...>) {
     return {catalog_entry_of<M>()...};
 }
 
 template <class List, class F>
 void visit_component(List list, std::string_view name, const F& f) {
-    each(list, [&]<class M>(Part<M> m) {
+    for_each_type(list, [&]<class M>(ComponentTag<M> m) {
         if (M::name == name) f(m);
     });
 }
 
 /// The catalogue entries of a plan's components, in the order of the signal.
-std::vector<CatalogEntry> entries_of(const Parts& parts) {
+std::vector<CatalogEntry> entries_of(const AfferentComponents& parts) {
     std::vector<CatalogEntry> all;
     const auto add = [&](std::vector<CatalogEntry> entries, std::string_view name) {
         for (auto& c : entries)
             if (c.name == name) all.push_back(std::move(c));
     };
-    add(sensor_cards(), parts.sensor), add(transducer_cards(), parts.transducer), add(converter_cards(), parts.converter);
-    add(receptor_cards(), parts.receptor), add(neuron_cards(), parts.neuron);
+    add(sensor_entries(), parts.sensor), add(transducer_entries(), parts.transducer), add(converter_entries(), parts.converter);
+    add(receptor_entries(), parts.receptor), add(neuron_entries(), parts.neuron);
     return all;
 }
 
 template <class M>
 std::optional<Error> out_of_order(const AfferentPlan& plan) {
-    if constexpr (requires { M::orders; })
-        return out_of_order<typename M::Params>(plan.name, M::orders, with_settings<typename M::Params>(M::fields, settings_of(plan)));
+    if constexpr (requires { M::order_constraints; })
+        return out_of_order<typename M::Params>(plan.name, M::order_constraints, with_settings<typename M::Params>(M::fields, settings_of(plan)));
     return {};
 }
 
 template <class M>
 std::optional<Error> not_integer(const AfferentPlan& plan) {
-    if constexpr (requires { M::whole; })
-        for (const auto at : M::whole)
+    if constexpr (requires { M::integers; })
+        for (const auto at : M::integers)
             for (const auto& f : M::fields)
                 if (const double x = *plan.value(f.name); f.member == at && x != std::floor(x))
                     return bad_input(fmt::format("{}: {} = {:g} must be an integer", plan.name, f.name, x));
@@ -58,59 +58,59 @@ std::optional<Error> not_integer(const AfferentPlan& plan) {
 
 }  // namespace
 
-std::vector<Order> orders_of(const AfferentPlan& plan) {
-    std::vector<Order> all;
+std::vector<ParameterOrder> order_constraints_of(const AfferentPlan& plan) {
+    std::vector<ParameterOrder> all;
     const auto add = [&]<class M>() {
-        if constexpr (requires { M::orders; })
-            for (const auto& o : M::orders) all.push_back({o.lower_name, o.upper_name, o.or_equal});
+        if constexpr (requires { M::order_constraints; })
+            for (const auto& o : M::order_constraints) all.push_back({o.lower_name, o.upper_name, o.or_equal});
     };
-    const auto model = [&]<template <class> class M>(Model<M>) { add.template operator()<M<double>>(); };
-    const auto part = [&]<class M>(Part<M>) { add.template operator()<M>(); };
+    const auto model = [&]<template <class> class M>(ModelTag<M>) { add.template operator()<M<double>>(); };
+    const auto part = [&]<class M>(ComponentTag<M>) { add.template operator()<M>(); };
     visit_component(Sensors{}, plan.sensor, part), visit_component(Transducers{}, plan.transducer, part),
         visit_component(Converters{}, plan.converter, part);
-    with_named(Receptors{}, plan.receptor, model), with_named(Neurons{}, plan.neuron, model);
+    visit_named(Receptors{}, plan.receptor, model), visit_named(Neurons{}, plan.neuron, model);
     return all;
 }
 
-std::optional<Error> refusal(const AfferentPlan& plan) {
+std::optional<Error> check_plan(const AfferentPlan& plan) {
     std::optional<Error> error;
-    const auto model = [&]<template <class> class M>(Model<M>) {
+    const auto model = [&]<template <class> class M>(ModelTag<M>) {
         if (!error) error = out_of_order<M<double>>(plan);
     };
-    const auto part = [&]<class M>(Part<M>) {
+    const auto part = [&]<class M>(ComponentTag<M>) {
         if (!error) error = out_of_order<M>(plan);
         if (!error) error = not_integer<M>(plan);
     };
     visit_component(Sensors{}, plan.sensor, part), visit_component(Transducers{}, plan.transducer, part),
         visit_component(Converters{}, plan.converter, part);
-    with_named(Receptors{}, plan.receptor, model), with_named(Neurons{}, plan.neuron, model);
-    const auto front = front_of(plan);
-    if (!error && !plan.sensor.empty()) error = front.unreadable(plan.name, 0, "F_cal", *plan.value("F_cal"));
-    if (!error && !plan.converter.empty()) error = front.unreadable(plan.name, *plan.value("F_low"), "F_high", *plan.value("F_high"));
+    visit_named(Receptors{}, plan.receptor, model), visit_named(Neurons{}, plan.neuron, model);
+    const auto front = make_front_end(plan);
+    if (!error && !plan.sensor.empty()) error = front.check_range(plan.name, 0, "F_cal", *plan.value("F_cal"));
+    if (!error && !plan.converter.empty()) error = front.check_range(plan.name, *plan.value("F_low"), "F_high", *plan.value("F_high"));
     if (!error && !plan.converter.empty())
-        if (const auto chain = fixed_chain_of(plan); !chain) error = chain.error();
+        if (const auto chain = make_fixed_chain(plan); !chain) error = chain.error();
     return error;
 }
 
-std::vector<CatalogEntry> sensor_cards() {
+std::vector<CatalogEntry> sensor_entries() {
     auto all = entries(Sensors{});
     for (auto& entry : all)
         for (const auto& row : parameters_of<Calibration::Params>(Calibration::fields)) entry.parameters.push_back(row);
     return all;
 }
-std::vector<CatalogEntry> transducer_cards() { return entries(Transducers{}); }
-std::vector<CatalogEntry> converter_cards() { return entries(Converters{}); }
-std::vector<CatalogEntry> receptor_cards() { return entries(Receptors{}); }
-std::vector<CatalogEntry> neuron_cards() { return entries(Neurons{}); }
+std::vector<CatalogEntry> transducer_entries() { return entries(Transducers{}); }
+std::vector<CatalogEntry> converter_entries() { return entries(Converters{}); }
+std::vector<CatalogEntry> receptor_entries() { return entries(Receptors{}); }
+std::vector<CatalogEntry> neuron_entries() { return entries(Neurons{}); }
 
 std::optional<double> AfferentPlan::value(std::string_view parameter) const {
     for (std::size_t k = 0; k < values.size(); ++k)
-        if ((*parameters)[k].row.name == parameter) return values[k];
+        if ((*parameters)[k].info.name == parameter) return values[k];
     return {};
 }
 
-std::string AfferentPlan::made_of() const {
-    if (design) return std::string(design->kind());
+std::string AfferentPlan::composition() const {
+    if (factory) return std::string(factory->kind());
     std::string text;
     for (const auto part : {sensor, transducer, converter, receptor, neuron})
         if (!part.empty()) text += (text.empty() ? "" : "+") + std::string(part);
@@ -120,18 +120,18 @@ std::string AfferentPlan::made_of() const {
 std::vector<Setting> settings_of(const AfferentPlan& plan) {
     std::vector<Setting> settings;
     settings.reserve(plan.values.size());
-    for (std::size_t k = 0; k < plan.values.size(); ++k) settings.push_back({(*plan.parameters)[k].row.name, plan.values[k]});
+    for (std::size_t k = 0; k < plan.values.size(); ++k) settings.push_back({(*plan.parameters)[k].info.name, plan.values[k]});
     return settings;
 }
 
-bool goes_by(const AfferentPlan& plan, std::string_view requested, std::string_view name) {
+bool matches_name(const AfferentPlan& plan, std::string_view requested, std::string_view name) {
     if (name == requested || name == plan.name) return true;
-    const auto* named = afferent_named(name);
+    const auto* named = find_named_afferent(name);
     return named && named->name == plan.name;
 }
 
 Result<AfferentPlan> plan_afferent(std::string_view text, std::span<const ParameterOverride> overrides) {
-    const auto parts = parse_parts(text);
+    const auto parts = parse_components(text);
     if (!parts) return parts.error();
     const auto* named = parts->named;
     const auto entries = entries_of(*parts);
@@ -139,7 +139,7 @@ Result<AfferentPlan> plan_afferent(std::string_view text, std::span<const Parame
     AfferentPlan plan{std::string(text),
                       parts->receptor,
                       parts->neuron,
-                      named ? named->sentence : receptor.description,
+                      named ? named->description : receptor.description,
                       named ? named->source : receptor.source,
                       {},
                       {},
@@ -148,9 +148,9 @@ Result<AfferentPlan> plan_afferent(std::string_view text, std::span<const Parame
                       parts->transducer,
                       parts->converter};
     if (named)
-        plan.name = named->front.empty() && !parts->front().empty() ? fmt::format("{}+{}", parts->front(), named->name) : named->name;
+        plan.name = named->front_end.empty() && !parts->front_end().empty() ? fmt::format("{}+{}", parts->front_end(), named->name) : named->name;
     std::vector<ParameterInfo> rows;
-    std::vector<Parameter> parameters;
+    std::vector<AfferentParameter> parameters;
     for (const auto& entry : entries)
         for (const auto& row : entry.parameters) {
             rows.push_back(row);
@@ -160,41 +160,41 @@ Result<AfferentPlan> plan_afferent(std::string_view text, std::span<const Parame
     const auto apply = [&](std::span<const Setting> settings, bool by_user) {
         for (const auto& s : settings)
             for (std::size_t k = 0; k < parameters.size(); ++k)
-                if (parameters[k].row.name == s.name) plan.values[k] = s.value, parameters[k].set = by_user;
+                if (parameters[k].info.name == s.name) plan.values[k] = s.value, parameters[k].set_by_user = by_user;
     };
     if (named) {
         apply(named->settings, false);
         for (std::size_t k = 0; k < parameters.size(); ++k)
-            if (auto& row = parameters[k].row; plan.values[k] != row.default_value)
+            if (auto& row = parameters[k].info; plan.values[k] != row.default_value)
                 row.default_value = plan.values[k], row.source = named->source;  // the default of the named afferent
     }
     for (const auto& o : overrides) {  // overrides may use any of its names
-        if (!goes_by(plan, text, o.target)) continue;
+        if (!matches_name(plan, text, o.target)) continue;
         const auto settings = settings_for(o.target, rows, std::span(&o, 1));
         if (!settings) return settings.error();
         apply(*settings, true);
     }
-    plan.parameters = std::make_shared<const std::vector<Parameter>>(std::move(parameters));
-    if (const auto error = refusal(plan)) return *error;
-    with_named(Receptors{}, plan.receptor, [&]<template <class> class R>(Model<R>) {
-        if constexpr (requires { R<double>::least_rate; }) plan.least_rate = R<double>::least_rate;
+    plan.parameters = std::make_shared<const std::vector<AfferentParameter>>(std::move(parameters));
+    if (const auto error = check_plan(plan)) return *error;
+    visit_named(Receptors{}, plan.receptor, [&]<template <class> class R>(ModelTag<R>) {
+        if constexpr (requires { R<double>::min_rate; }) plan.min_rate = R<double>::min_rate;
     });
     return plan;
 }
 
-std::unique_ptr<Afferent> make_afferent(const AfferentPlan& plan, const Run& run) {
-    if (plan.design) return plan.design->make(run.dt, run.sampled, plan.copy);
+std::unique_ptr<Afferent> make_afferent(const AfferentPlan& plan, const SimulationOptions& run) {
+    if (plan.factory) return plan.factory->make(run.dt, run.spikes_on_samples, plan.copy_number);
     if (!plan.converter.empty()) return make_digital(plan, run);
     const auto settings = settings_of(plan);
     std::unique_ptr<Afferent> afferent;
-    with_named(Receptors{}, plan.receptor, [&]<template <class> class R>(Model<R>) {
-        with_named(Neurons{}, plan.neuron, [&]<template <class> class N>(Model<N>) {
+    visit_named(Receptors{}, plan.receptor, [&]<template <class> class R>(ModelTag<R>) {
+        visit_named(Neurons{}, plan.neuron, [&]<template <class> class N>(ModelTag<N>) {
             const auto r = with_settings<typename R<double>::Params>(R<double>::fields, settings);
             const auto n = with_settings<typename N<double>::Params>(N<double>::fields, settings);
             afferent = std::make_unique<Chain<R, N>>(r, n, run);
         });
     });
-    if (!plan.sensor.empty()) return std::make_unique<Fronted>(front_of(plan), std::move(afferent));
+    if (!plan.sensor.empty()) return std::make_unique<FrontEndAfferent>(make_front_end(plan), std::move(afferent));
     return afferent;
 }
 

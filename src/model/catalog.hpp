@@ -21,72 +21,72 @@ namespace corpuscle {
 
 /// The components before a receptor. They are written for double only.
 template <class... M>
-struct PartList {};
+struct ComponentList {};
 template <class M>
-struct Part {};
+struct ComponentTag {};
 template <class... M, class F>
-void each(PartList<M...>, const F& f) {
-    (f(Part<M>{}), ...);
+void for_each_type(ComponentList<M...>, const F& f) {
+    (f(ComponentTag<M>{}), ...);
 }
 
-using Sensors = PartList<Fsr>;
-using Transducers = PartList<F2v, F2i>;
-using Converters = PartList<Adc>;
+using Sensors = ComponentList<Fsr>;
+using Transducers = ComponentList<F2v, F2i>;
+using Converters = ComponentList<Adc>;
 
 /// An afferent with a name: a receptor, a neuron, and the parameters that differ from their defaults.
 struct NamedAfferent {
     std::string_view name, receptor, neuron;
     std::vector<Setting> settings;
-    std::vector<std::string_view> other_names;  ///< matched without regard to case
-    std::string_view sentence, source;
-    std::string_view front = {};  ///< sensor, transducer and converter before it: "fsr+f2v+adc"
+    std::vector<std::string_view> aliases;  ///< matched without regard to case
+    std::string_view description, source;
+    std::string_view front_end = {};  ///< sensor, transducer and converter before it: "fsr+f2v+adc"
 };
 const std::vector<NamedAfferent>& named_afferents();
 
-std::vector<CatalogEntry> sensor_cards();  ///< each with the rows of its calibration
-std::vector<CatalogEntry> transducer_cards();
-std::vector<CatalogEntry> converter_cards();
-std::vector<CatalogEntry> receptor_cards();
-std::vector<CatalogEntry> neuron_cards();
+std::vector<CatalogEntry> sensor_entries();  ///< each with the rows of its calibration
+std::vector<CatalogEntry> transducer_entries();
+std::vector<CatalogEntry> converter_entries();
+std::vector<CatalogEntry> receptor_entries();
+std::vector<CatalogEntry> neuron_entries();
 
 /// One parameter of an afferent.
-struct Parameter {
-    ParameterInfo row;
-    std::string_view of;  ///< the component that it belongs to
-    bool set = false;     ///< true if the user set it
+struct AfferentParameter {
+    ParameterInfo info;
+    std::string_view component;  ///< the component that it belongs to
+    bool set_by_user = false;     ///< true if the user set it
 };
 
 /// The first of two parameters of an afferent must be below the second.
-struct Order {
-    std::string_view lesser, greater;
+struct ParameterOrder {
+    std::string_view lower, upper;
     bool or_equal = false;
 };
 
 /// A complete description of an afferent, before its sampling interval is known.
 struct AfferentPlan {
     std::string name;  ///< as requested: "sa1", "sa1b+izhikevich"
-    std::string_view receptor, neuron, sentence, source;
-    std::shared_ptr<const std::vector<Parameter>> parameters;       ///< their descriptions, shared by all copies
+    std::string_view receptor, neuron, description, source;
+    std::shared_ptr<const std::vector<AfferentParameter>> parameters;       ///< their descriptions, shared by all copies
     std::vector<double> values;                                     ///< of each parameter, SI
-    double least_rate = 0;                                          ///< Hz; below this sampling rate the response is not reliable
+    double min_rate = 0;                                          ///< Hz; below this sampling rate the response is not reliable
     std::string_view sensor = {}, transducer = {}, converter = {};  ///< "": none
-    std::uint32_t copy = 0;                                         ///< number among its copies, from 1; 0: not a copy
-    std::string of = {};                                            ///< of a copy: the name of the original
+    std::uint32_t copy_number = 0;                                         ///< number among its copies, from 1; 0: not a copy
+    std::string original_name = {};                                            ///< of a copy: the name of the original
     /// set if the afferent is not made of model equations; then there is no neuron either
-    std::shared_ptr<const AfferentFactory> design = {};
+    std::shared_ptr<const AfferentFactory> factory = {};
     std::optional<double> value(std::string_view parameter) const;
-    std::string made_of() const;  ///< "fsr+f2v+adc+sa1a+lif-a"
+    std::string composition() const;  ///< "fsr+f2v+adc+sa1a+lif-a"
 };
 
 /// True if `name` refers to the plan that was requested as `requested`.
-bool goes_by(const AfferentPlan&, std::string_view requested, std::string_view name);
+bool matches_name(const AfferentPlan&, std::string_view requested, std::string_view name);
 
 /// Pairs of its parameters whose order is constrained.
-std::vector<Order> orders_of(const AfferentPlan&);
+std::vector<ParameterOrder> order_constraints_of(const AfferentPlan&);
 
 /// Checks what single rows cannot: order constraints, integers, a front end that cannot measure its own range, fixed-point words that are
 /// too short.
-std::optional<Error> refusal(const AfferentPlan&);
+std::optional<Error> check_plan(const AfferentPlan&);
 
 /// The values of a plan's parameters, in the form that `with` takes.
 std::vector<Setting> settings_of(const AfferentPlan&);
@@ -95,6 +95,6 @@ std::vector<Setting> settings_of(const AfferentPlan&);
 Result<AfferentPlan> plan_afferent(std::string_view text, std::span<const ParameterOverride> overrides);
 
 /// Builds the afferent of a plan, for samples run.dt apart.
-std::unique_ptr<Afferent> make_afferent(const AfferentPlan&, const Run&);
+std::unique_ptr<Afferent> make_afferent(const AfferentPlan&, const SimulationOptions&);
 
 }  // namespace corpuscle

@@ -23,11 +23,11 @@ struct Current {
 
 /// A current with the same shape on all lanes, times a gain for each lane. The sum of its ends is computed once. V: type of one lane.
 template <class T, class V, bool rising>
-struct Scaled {
-    T gain, both;
+struct ScaledCurrent {
+    T gain, end_sum;
     V from, to;
     operator Current<T>() const { return {gain * T(from), gain * T(to)}; }
-    T sum() const { return gain * both; }
+    T sum() const { return gain * end_sum; }
     num::Mask<T> rises_through(T level) const { return Current<T>(*this).rises_through(level); }
     static constexpr bool may_rise() { return rising; }
 };
@@ -36,43 +36,43 @@ struct Scaled {
 /// Backward Euler has the same form with other constants: x[n] = k (K (F[n] - F[n-1]) + x[n-1]), k = 1 / (1 + 2 pi f T).
 template <class T>
 struct HighPass {
-    T keep, gain;
+    T decay, gain;
     HighPass(T f, double dt, Method method, T K = T(1.0)) {
         const T theta = f * T(6.283185307179586 * dt);
-        keep = method == Method::exact ? num::exp(-theta) : T(1.0) / (T(1.0) + theta);
-        gain = K * (method == Method::exact ? num::exprel(-theta) : keep);
+        decay = method == Method::exact ? num::exp(-theta) : T(1.0) / (T(1.0) + theta);
+        gain = K * (method == Method::exact ? num::exprel(-theta) : decay);
     }
-    T next(T x, T dF) const { return keep * x + gain * dF; }
+    T next(T x, T dF) const { return decay * x + gain * dF; }
 };
 
 /// Every 1,024 samples, counted from the first, a model's flush_decayed() sets decayed state to zero. Without force a state then reaches
 /// exact rest. This also avoids denormals, which are slow.
-inline constexpr std::int64_t settling = 1024;
+inline constexpr std::int64_t flush_interval = 1024;
 /// State below these limits is set to zero: it is some 1e-16 of one ulp of its effect.
-inline constexpr double faded_current = 1e-24, faded_force = 1e-18, faded_voltage = 1e-20;  // A, N, V
+inline constexpr double negligible_current = 1e-24, negligible_force = 1e-18, negligible_voltage = 1e-20;  // A, N, V
 
 /// `level` where x is closer to it than `tolerance`, otherwise x.
 template <class T>
-T settled(T x, double tolerance, T level = T(0.0)) {
+T snap_to_level(T x, double tolerance, T level = T(0.0)) {
     return num::select(num::abs(x - level) < T(tolerance), level, x);
 }
 
 /// Gives a model the values of its parameters as T: here the same double on all lanes.
 template <class P>
-struct Same {
+struct UniformParams {
     const P& p;
     double operator()(double P::* at) const { return p.*at; }
     /// A value that must be the same on all lanes.
-    double one(double P::* at) const { return p.*at; }
+    double uniform(double P::* at) const { return p.*at; }
 };
 
 /// The parameters as dual numbers with slope 1 in one of them: everything computed from them carries the derivative.
 template <class P>
-struct Seeded {
+struct DualParams {
     const P& p;
-    double P::* by;
-    num::Dual operator()(double P::* at) const { return {p.*at, at == by ? 1.0 : 0.0}; }
-    double one(double P::* at) const { return p.*at; }
+    double P::* variable;
+    num::Dual operator()(double P::* at) const { return {p.*at, at == variable ? 1.0 : 0.0}; }
+    double uniform(double P::* at) const { return p.*at; }
 };
 
 }  // namespace corpuscle

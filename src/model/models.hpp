@@ -22,16 +22,16 @@ struct ModelList {
 };
 /// A model without its number type, to be passed to a function.
 template <template <class> class M>
-struct Model {};
+struct ModelTag {};
 template <template <class> class... M, class F>
-void each(ModelList<M...>, const F& f) {
-    (f(Model<M>{}), ...);
+void for_each_type(ModelList<M...>, const F& f) {
+    (f(ModelTag<M>{}), ...);
 }
 
 /// Calls f with the entry of the list that has this name.
 template <class List, class F>
-void with_named(List list, std::string_view name, const F& f) {
-    each(list, [&]<template <class> class M>(Model<M> m) {
+void visit_named(List list, std::string_view name, const F& f) {
+    for_each_type(list, [&]<template <class> class M>(ModelTag<M> m) {
         if (M<double>::name == name) f(m);
     });
 }

@@ -65,7 +65,7 @@ std::vector<ParameterInfo> parameters_of(std::span<const ParameterDef<P>> fields
 
 template <class M>  // a model or a stimulus with name, description, source, Params and fields
 CatalogEntry catalog_entry_of() {
-    return {M::name, M::sentence, M::source, parameters_of<typename M::Params>(M::fields)};
+    return {M::name, M::description, M::source, parameters_of<typename M::Params>(M::fields)};
 }
 
 /// Returns an error if the value is outside the parameter's range: "lif-b: C_m = -1 F is outside [1e-15, 1]".

@@ -15,42 +15,42 @@ void append_sorted(std::span<const Spike> spikes, std::vector<Spike>& to) {
 }  // namespace
 
 Conduction::Conduction(const Innervation& skin, double T) {
-    if (std::all_of(skin.units.begin(), skin.units.end(), [](const SkinUnit& u) { return u.delay == 0; })) return;
+    if (std::all_of(skin.afferents.begin(), skin.afferents.end(), [](const SkinAfferent& u) { return u.delay == 0; })) return;
     std::int32_t max_steps = 0;
-    for (const auto& u : skin.units) {
+    for (const auto& u : skin.afferents) {
         const double steps = u.delay / T, full_steps = std::floor(steps);
         delays_.push_back({static_cast<std::int32_t>(full_steps), steps - full_steps});
         max_steps = std::max(max_steps, delays_.back().steps);
     }
-    arriving_.resize(static_cast<std::size_t>(max_steps) + 2 + reach);
-    for (auto& step : arriving_) step.reserve(skin.units.size() / 16 + 16);
+    arriving_.resize(static_cast<std::size_t>(max_steps) + 2 + max_samples);
+    for (auto& step : arriving_) step.reserve(skin.afferents.size() / 16 + 16);
 }
 
-void Conduction::carry(std::span<const Spike> fired, std::int64_t now, std::vector<Spike>& arrived) {
+void Conduction::deliver(std::span<const Spike> fired, std::int64_t now, std::vector<Spike>& arrived) {
     if (delays_.empty()) return append_sorted(fired, arrived);
     for (const auto& s : fired) {
         const auto& d = delays_[s.afferent_index];
-        const double offset = s.offset + d.rest;  // (0, 2)
+        const double offset = s.offset + d.fraction;  // (0, 2)
         const bool next = offset > 1;
         const std::int64_t step = s.step + d.steps + (next ? 1 : 0);
         at(step).push_back({step, next ? offset - 1 : offset, s.afferent_index});
     }
-    for (; told_ < now; ++told_) {
-        auto& due = at(told_ + 1);
+    for (; delivered_ < now; ++delivered_) {
+        auto& due = at(delivered_ + 1);
         append_sorted(due, arrived);
         due.clear();
     }
 }
 
-std::vector<Spike> Conduction::on_their_way() const {
+std::vector<Spike> Conduction::in_transit() const {
     std::vector<Spike> all;
     for (const auto& step : arriving_) all.insert(all.end(), step.begin(), step.end());
     std::sort(all.begin(), all.end());
     return all;
 }
 
-void Conduction::put_back(std::span<const Spike> spikes, std::int64_t now) {
-    told_ = now;
+void Conduction::restore(std::span<const Spike> spikes, std::int64_t now) {
+    delivered_ = now;
     for (auto& step : arriving_) step.clear();
     for (const auto& s : spikes) at(s.step).push_back(s);
 }

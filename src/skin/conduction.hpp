@@ -13,26 +13,26 @@ public:
 
     /// Takes the spikes fired in the skin. Appends to `arrived`, in order of time, then afferent, all spikes that arrive up to sample
     /// `now`; no spike fired later can arrive before them. At most `reach` samples at a time.
-    void carry(std::span<const Spike> fired, std::int64_t now, std::vector<Spike>& arrived);
-    static constexpr std::size_t reach = 64;
+    void deliver(std::span<const Spike> fired, std::int64_t now, std::vector<Spike>& arrived);
+    static constexpr std::size_t max_samples = 64;
 
     /// Spikes that are still in transit, in order.
-    std::vector<Spike> on_their_way() const;
+    std::vector<Spike> in_transit() const;
     /// True if a saved spike can be one of them.
-    bool can_carry(const Spike& s, std::int64_t now) const {
+    bool can_be_in_transit(const Spike& s, std::int64_t now) const {
         return s.afferent_index < delays_.size() && s.step > now && s.step < now + static_cast<std::int64_t>(arriving_.size()) && s.offset > 0 &&
                s.offset <= 1;
     }
-    void put_back(std::span<const Spike>, std::int64_t now);  ///< restores what in_transit() returned after sample `now`
+    void restore(std::span<const Spike>, std::int64_t now);  ///< restores what in_transit() returned after sample `now`
 
 private:
     struct Delay {
         std::int32_t steps;
-        double rest;  // fraction of a step, [0, 1)
+        double fraction;  // fraction of a step, [0, 1)
     };
     std::vector<Delay> delays_;                 // of each afferent; empty: no delays
     std::vector<std::vector<Spike>> arriving_;  // a ring of steps
-    std::int64_t told_ = -1;                    // the last sample whose spikes have been delivered
+    std::int64_t delivered_ = -1;                    // the last sample whose spikes have been delivered
 
     std::vector<Spike>& at(std::int64_t step) { return arriving_[static_cast<std::size_t>(step) % arriving_.size()]; }
 };

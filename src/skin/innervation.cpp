@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "skin/memory.hpp"
-#include "skin/placing.hpp"
+#include "skin/memory_check.hpp"
+#include "skin/placement.hpp"
 
 namespace corpuscle {
 namespace {
@@ -13,9 +13,9 @@ namespace {
 /// Checks a plan that was not read from a file.
 std::optional<Error> check_sites(const SkinPlan& plan) {
     const auto& s = plan.sites;
-    if (s.at.empty() || s.names.size() != s.size() || s.region.size() != s.size() || s.regions.empty() || s.size() > most_sites)
+    if (s.positions.empty() || s.names.size() != s.size() || s.region.size() != s.size() || s.regions.empty() || s.size() > max_sites)
         return bad_input(fmt::format("{}: a skin needs sites, each with a name and a region ({} sites)", plan.name, s.size()));
-    for (const auto& p : s.at)
+    for (const auto& p : s.positions)
         if (!(std::abs(p.x) <= 1e3 && std::abs(p.y) <= 1e3))
             return bad_input(
                 fmt::format("{}: a site at ({:g}, {:g}) m is too far away: coordinates must be within 1,000 m", plan.name, p.x, p.y));
@@ -33,8 +33,8 @@ std::optional<Error> check_sites(const SkinPlan& plan) {
 
 /// Checks the memory that is needed, before any afferent is placed.
 Result<void> check_skin_memory(const SkinPlan& plan) {
-    double left = plan.sites.at[0].x, right = left, low = plan.sites.at[0].y, high = low;
-    for (const auto& p : plan.sites.at)
+    double left = plan.sites.positions[0].x, right = left, low = plan.sites.positions[0].y, high = low;
+    for (const auto& p : plan.sites.positions)
         left = std::min(left, p.x), right = std::max(right, p.x), low = std::min(low, p.y), high = std::max(high, p.y);
     const auto sites = static_cast<double>(plan.sites.size());
     const double a_site = plan.sites.area > 0 ? plan.sites.area : std::max((right - left) * (high - low) / sites, 1e-12);
@@ -42,18 +42,18 @@ Result<void> check_skin_memory(const SkinPlan& plan) {
     for (std::uint32_t c = 0; c < plan.classes.size(); ++c) {
         const auto& k = plan.classes[c];
         double all = 0;
-        for (const auto n : units_by_region(plan, c)) all += static_cast<double>(n);
+        for (const auto n : afferents_by_region(plan, c)) all += static_cast<double>(n);
         const double reach = 3 * k.sigma + (k.hot_spots > 1 ? k.hot_spot_spread : 0);  // that contains most of a field
         afferents += all, weights += all * std::clamp(3 * reach * reach / a_site, 1.0, sites);
     }
-    return check_memory(plan.name, sites, afferents, weights);
+    return check_available_memory(plan.name, sites, afferents, weights);
 }
 
 }  // namespace
 
-std::string Innervation::unit_name(std::size_t index) const {
-    const auto& u = units[index];
-    return fmt::format("{}#{}", plan.classes[u.of].name, u.copy);
+std::string Innervation::afferent_name(std::size_t index) const {
+    const auto& u = afferents[index];
+    return fmt::format("{}#{}", plan.classes[u.class_index].name, u.number);
 }
 
 Result<std::shared_ptr<const Innervation>> innervate(SkinPlan plan) {
@@ -62,20 +62,20 @@ Result<std::shared_ptr<const Innervation>> innervate(SkinPlan plan) {
     auto out = std::make_shared<Innervation>();
     out->plan = std::move(plan);
     const auto& p = out->plan;
-    const NearSites near(p.sites.at);
+    const SiteGrid near(p.sites.positions);
     const auto touching = touching_regions(p.sites, near);
-    out->first.push_back(0);
+    out->class_begin.push_back(0);
     for (std::uint32_t c = 0; c < p.classes.size(); ++c) {
-        const auto afferents = placed_units(p, c);
+        const auto afferents = place_afferents(p, c);
         if (!afferents) return afferents.error();
-        auto fields = fields_of(p, c, *afferents, near, touching);
+        auto fields = receptive_fields_of(p, c, *afferents, near, touching);
         if (!fields) return fields.error();
-        out->units.insert(out->units.end(), afferents->begin(), afferents->end());
+        out->afferents.insert(out->afferents.end(), afferents->begin(), afferents->end());
         out->fields.push_back(std::move(*fields));
-        out->first.push_back(out->units.size());
-        if (out->units.size() > most_units) return bad_input(fmt::format("{}: more than {} afferents", p.name, most_units));
+        out->class_begin.push_back(out->afferents.size());
+        if (out->afferents.size() > max_afferents) return bad_input(fmt::format("{}: more than {} afferents", p.name, max_afferents));
     }
-    if (out->units.empty()) return bad_input(fmt::format("{}: there are no afferents; raise a density, or add a class", p.name));
+    if (out->afferents.empty()) return bad_input(fmt::format("{}: there are no afferents; raise a density, or add a class", p.name));
     return std::shared_ptr<const Innervation>(std::move(out));
 }
 

@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "signal/random.hpp"
-#include "skin/placing.hpp"
+#include "skin/placement.hpp"
 
 namespace corpuscle {
 namespace {
@@ -29,7 +29,7 @@ struct FieldTable {
 class FieldsOfClass {
     const SkinPlan& plan_;
     const SkinClass& class_;
-    const NearSites& near_;
+    const SiteGrid& near_;
     const std::vector<char>& touching_;
     const double per_square_, scale_;
     const std::uint32_t stream_;
@@ -37,10 +37,10 @@ class FieldsOfClass {
     std::vector<std::uint32_t> reached_;                       // the sites where it is not 0
     std::vector<std::pair<std::uint32_t, double>> near_spot_;  // sites within reach of a hot spot, and their weights
 
-    void add_spot(const SkinUnit& afferent, double x, double y) {
+    void add_spot(const SkinAfferent& afferent, double x, double y) {
         const char* reaches = touching_.data() + afferent.region * plan_.sites.regions.size();
         near_spot_.clear();
-        near_.within(x, y, cut * class_.sigma, [&](std::uint32_t site, double d2) {
+        near_.for_each_within(x, y, cut * class_.sigma, [&](std::uint32_t site, double d2) {
             if (reaches[plan_.sites.region[site]]) near_spot_.emplace_back(site, d2);
         });
         // a loop of its own: the exponentials overlap in the pipeline
@@ -51,24 +51,24 @@ class FieldsOfClass {
         }
     }
 
-    void add_spots(const SkinUnit& afferent) {
-        if (class_.hot_spots <= 1) return add_spot(afferent, afferent.at.x, afferent.at.y);
+    void add_spots(const SkinAfferent& afferent) {
+        if (class_.hot_spots <= 1) return add_spot(afferent, afferent.position.x, afferent.position.y);
         for (std::uint32_t h = 0; h < class_.hot_spots; ++h) {
-            const auto by = normal_pair(plan_.seed, afferent.copy, stream_, h);
-            add_spot(afferent, afferent.at.x + class_.hot_spot_spread * by.first, afferent.at.y + class_.hot_spot_spread * by.second);
+            const auto by = normal_pair(plan_.seed, afferent.number, stream_, h);
+            add_spot(afferent, afferent.position.x + class_.hot_spot_spread * by.first, afferent.position.y + class_.hot_spot_spread * by.second);
         }
     }
 
 public:
-    FieldsOfClass(const SkinPlan& plan, const SkinClass& c, const NearSites& near, const std::vector<char>& touching)
+    FieldsOfClass(const SkinPlan& plan, const SkinClass& c, const SiteGrid& near, const std::vector<char>& touching)
         : plan_(plan), class_(c), near_(near), touching_(touching), per_square_(c.sigma > 0 ? 0.5 / (c.sigma * c.sigma) : 0),
           scale_(plan.felt_area > 0 && plan.sites.area > 0 ? plan.felt_area / plan.sites.area : 1), stream_(class_stream(c, "hot spots")),
           weights_(plan.sites.size()) {}
 
-    void add(const SkinUnit& afferent, FieldTable& out) {
+    void add(const SkinAfferent& afferent, FieldTable& out) {
         reached_.clear();
         if (class_.sigma > 0) add_spots(afferent);
-        if (reached_.empty()) reached_.push_back(near_.nearest(afferent.at.x, afferent.at.y)), weights_[reached_[0]] = 1;
+        if (reached_.empty()) reached_.push_back(near_.nearest(afferent.position.x, afferent.position.y)), weights_[reached_[0]] = 1;
         double sum = 0;
         for (const auto s : reached_) sum += weights_[s];
         for (const auto s : reached_) {
@@ -89,14 +89,14 @@ ReceptiveFields by_site(const FieldTable& felt, std::size_t sites) {
     for (std::size_t afferent = 0, k = 0; afferent < felt.end.size(); ++afferent)
         for (; k < felt.end[afferent]; ++k) {
             const auto to = next[felt.site[k]]++;
-            out.unit[to] = static_cast<std::uint32_t>(afferent), out.weight[to] = felt.weight[k];
+            out.afferent[to] = static_cast<std::uint32_t>(afferent), out.weight[to] = felt.weight[k];
         }
     return out;
 }
 
 }  // namespace
 
-std::vector<char> touching_regions(const Sites& sites, const NearSites& near) {
+std::vector<char> touching_regions(const Sites& sites, const SiteGrid& near) {
     const std::size_t n = sites.regions.size();
     if (!(sites.area > 0)) return std::vector<char>(n * n, 1);
     std::vector<char> out(n * n, 0);
@@ -104,22 +104,22 @@ std::vector<char> touching_regions(const Sites& sites, const NearSites& near) {
     if (n == 1) return out;
     const double reach = 1.5 * num::sqrt(sites.area);  // includes diagonal neighbours
     for (std::size_t s = 0; s < sites.size(); ++s)
-        near.within(sites.at[s].x, sites.at[s].y, reach,
+        near.for_each_within(sites.positions[s].x, sites.positions[s].y, reach,
                     [&](std::uint32_t other, double) { out[sites.region[s] * n + sites.region[other]] = 1; });
     return out;
 }
 
-Result<ReceptiveFields> fields_of(const SkinPlan& plan, std::uint32_t class_index, std::span<const SkinUnit> afferents,
-                                  const NearSites& near, const std::vector<char>& touching) {
+Result<ReceptiveFields> receptive_fields_of(const SkinPlan& plan, std::uint32_t class_index, std::span<const SkinAfferent> afferents,
+                                  const SiteGrid& near, const std::vector<char>& touching) {
     const auto& c = plan.classes[class_index];
     FieldsOfClass fields(plan, c, near, touching);
     FieldTable felt;
     felt.end.reserve(afferents.size());
     for (const auto& u : afferents) {
         fields.add(u, felt);
-        if (felt.site.size() > most_weights)
+        if (felt.site.size() > max_weights)
             return bad_input(fmt::format("{}: its receptive fields have more than {} weights in total; use a smaller sigma or fewer sites",
-                                         c.name, most_weights));
+                                         c.name, max_weights));
     }
     return by_site(felt, plan.sites.size());
 }

@@ -120,7 +120,7 @@ public:
 
 }  // namespace
 
-Result<std::vector<std::uint32_t>> sites_named(const Sites& sites, std::span<const std::string> names) {
+Result<std::vector<std::uint32_t>> find_sites(const Sites& sites, std::span<const std::string> names) {
     const auto index = index_sites(sites);
     std::vector<char> taken(sites.size());
     std::vector<std::uint32_t> found;
@@ -133,7 +133,7 @@ Result<std::vector<std::uint32_t>> sites_named(const Sites& sites, std::span<con
     return found;
 }
 
-Result<std::optional<std::vector<std::uint32_t>>> sites_if_named(const Sites& sites, std::span<const std::string> names) {
+Result<std::optional<std::vector<std::uint32_t>>> find_sites_if_named(const Sites& sites, std::span<const std::string> names) {
     std::unordered_set<std::string> known;  // in lower case: 'R1C1' also counts as a name
     for (const auto& name : sites.names) known.insert(lower(name));
     const auto is_site = [&](const std::string& name) { return known.contains(lower(name)); };
@@ -145,7 +145,7 @@ Result<std::optional<std::vector<std::uint32_t>>> sites_if_named(const Sites& si
         if (!is_site(name) && name.ends_with(')') && is_site(first))
             return bad_input(fmt::format("two channels have the name '{}', which is one site", first));
     }
-    auto found = sites_named(sites, bare);
+    auto found = find_sites(sites, bare);
     return found ? std::optional(std::move(*found)) : Result<std::optional<std::vector<std::uint32_t>>>(found.error());
 }
 

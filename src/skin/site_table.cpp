@@ -73,8 +73,8 @@ class SiteTable {
             if (!(std::abs(position[axis]) <= 10))
                 return error_at(fmt::format("{:g} m is too far away: coordinates must be within 10 m", position[axis]), *axes_[axis]);
         }
-        if (out.size() == most_sites) return error_at(fmt::format("more than {} sites", most_sites));
-        out.at.push_back({position[0], position[1], 0}), out.names.emplace_back(fields_[*name_]);
+        if (out.size() == max_sites) return error_at(fmt::format("more than {} sites", max_sites));
+        out.positions.push_back({position[0], position[1], 0}), out.names.emplace_back(fields_[*name_]);
         const std::string region(region_ ? fields_[*region_] : "skin");
         const auto found = std::find(out.regions.begin(), out.regions.end(), region);
         out.region.push_back(static_cast<std::uint32_t>(found - out.regions.begin()));
@@ -95,7 +95,7 @@ public:
             dialect_.split(line_, fields_);
             if (auto ok = add_site(out); !ok) return ok.error();
         }
-        if (out.at.empty()) return bad_input("no sites in this file", {lines_.path()});
+        if (out.positions.empty()) return bad_input("no sites in this file", {lines_.path()});
         return out;
     }
 };

@@ -16,53 +16,53 @@ namespace corpuscle {
 
 /// A block of force: site s at step t is of[s * stride + t], N.
 struct SiteForce {
-    const double* of = nullptr;
+    const double* data = nullptr;
     std::size_t stride = 0;
     /// The sites that are not 0 during the whole block, rising; the others are not read.
     std::span<const std::uint32_t> touched = {};
-    bool all = true;  ///< no list is given: all sites are read
+    bool reads_all = true;  ///< no list is given: all sites are read
 };
 
 /// The afferents of a skin that one process simulates: part `part` of `of` equal ranges of each class.
-struct SkinShare {
-    std::uint32_t part = 0, of = 1;
+struct SkinPart {
+    std::uint32_t part = 0, parts = 1;
 };
 
 /// Statistics of a run.
-struct SkinWork {
+struct SkinStats {
     std::int64_t steps = 0;           ///< samples of each site
     std::int64_t afferent_steps = 0;  ///< simulated
-    std::int64_t at_rest = 0;         ///< steps of afferents that were skipped: no force, and no state could change
+    std::int64_t skipped_steps = 0;         ///< steps of afferents that were skipped: no force, and no state could change
     std::int64_t spikes = 0;          ///< spikes that arrived
-    std::int64_t capped = 0;          ///< steps that reached the limit of spikes per step
+    std::int64_t truncated_steps = 0;          ///< steps that reached the limit of spikes per step
 };
 
 class Skin {
 public:
     /// Sensors, converters and noise are not supported: see can_use_lanes().
-    static Result<std::unique_ptr<Skin>> make(const std::shared_ptr<const Innervation>&, const Run&, InstructionSet, SkinShare = {});
+    static Result<std::unique_ptr<Skin>> make(const std::shared_ptr<const Innervation>&, const SimulationOptions&, InstructionSet, SkinPart = {});
     ~Skin();
 
     const Innervation& innervation() const;
     std::size_t sites() const;
     std::int64_t step() const;  ///< samples simulated so far
-    const SkinWork& work() const;
+    const SkinStats& stats() const;
 
     /// Simulates the next block. Appends to `spikes` those that arrive in it, in order of time, then afferent. With one thread it allocates
     /// nothing after the first blocks, unless a step has more spikes than any before.
     Result<void> respond(const SiteForce&, std::size_t steps, std::vector<Spike>& spikes, ThreadPool&);
     /// Returns the spikes that are still in transit to the recording point.
-    void last(std::vector<Spike>& spikes);
+    void finish(std::vector<Spike>& spikes);
 
     /// The complete state, in a format of its own. A new skin made with the same arguments can resume from it.
     std::vector<std::byte> save() const;
     Result<void> resume(std::span<const std::byte>);
 
-    struct Held;
+    struct Impl;
 
 private:
-    explicit Skin(std::unique_ptr<Held>);
-    std::unique_ptr<Held> held_;
+    explicit Skin(std::unique_ptr<Impl>);
+    std::unique_ptr<Impl> impl_;
 };
 
 }  // namespace corpuscle

@@ -17,7 +17,7 @@ using circuit::CircuitDesign;
 /// Parameters, and the texts that their rows refer to.
 struct NetlistParameters {
     std::deque<std::string> texts;
-    std::vector<Parameter> parameters;
+    std::vector<AfferentParameter> parameters;
     std::vector<double> values;
 
     void add(std::string name, std::string description, double initial, double value, bool set, bool one_for_all = true) {
@@ -107,8 +107,8 @@ Result<AfferentPlan> plan_netlist(std::string_view text, std::span<const Paramet
     if (!design) return design.error();
     AfferentPlan plan;
     plan.name = name;
-    plan.sentence = (*design)->title();
-    plan.design = *design;
+    plan.description = (*design)->title();
+    plan.factory = *design;
     if (auto ok = describe_parameters(plan, **design); !ok) return ok.error();
     return plan;
 }
@@ -143,19 +143,19 @@ Result<AfferentPlan> plan_any_afferent(std::string_view text, std::span<const Pa
 }
 
 Result<void> remake(AfferentPlan& copy, const AfferentPlan& original) {
-    const auto design = std::dynamic_pointer_cast<const CircuitDesign>(original.design);
+    const auto design = std::dynamic_pointer_cast<const CircuitDesign>(original.factory);
     if (!design || copy.values == original.values) return {};
     auto changes = design->netlist->changes();
     for (std::size_t k = 0; k < copy.values.size(); ++k)
         if (copy.values[k] != original.values[k])
-            changes.parameters.insert_or_assign(std::string((*copy.parameters)[k].row.name), copy.values[k]);
+            changes.parameters.insert_or_assign(std::string((*copy.parameters)[k].info.name), copy.values[k]);
     const auto made = CircuitDesign::of(design->netlist->with(std::move(changes)));
     if (!made) {
         auto error = made.error();
         error.message = fmt::format("{}: {}", copy.name, error.message);
         return error;
     }
-    copy.design = *made;
+    copy.factory = *made;
     return {};
 }
 

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "measure/distance.hpp"
+#include "measure/train_distance.hpp"
 
 namespace corpuscle {
 
 Result<Apart> apart(const std::vector<double>& exact, const std::vector<double>& other) {
-    const auto alignment = align(exact, other, 2 / 50e-3);
+    const auto alignment = align_trains(exact, other, 2 / 50e-3);
     if (!alignment) return alignment.error();
     Apart out;
     std::vector<double> delays;

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "model/spread.hpp"
+#include "model/copies.hpp"
 #include "signal/elementary.hpp"
 
 namespace corpuscle {
@@ -31,7 +31,7 @@ void ClicksFile::Close::operator()(sf_private_tag* wav) const { sf_close(wav); }
 
 /// Full level at once, then an exponential decay with a time constant of a quarter of a millisecond.
 Result<void> ClicksFile::shape_clicks(const Input& input) {
-    const auto groups = groups_of(input.afferents);
+    const auto groups = copy_group_starts(input.afferents);
     const std::size_t places = groups.size() - 1;  // copies share the position of their original
     place_of_.clear();
     for (std::size_t p = 0; p < places; ++p) place_of_.resize(groups[p + 1], p);

@@ -8,7 +8,7 @@
 #include <unordered_map>
 #include <utility>
 
-#include "measure/distance.hpp"
+#include "measure/train_distance.hpp"
 
 namespace corpuscle {
 namespace {
@@ -168,7 +168,7 @@ Result<std::vector<PairedTrains>> pair_trains(const Trains& a, const Trains& b, 
 Result<Difference> compare(const PairedTrains& pair, const CompareOptions& options) {
     static const std::vector<double> empty_train;
     const auto &a = pair.in_a ? *pair.in_a : empty_train, &b = pair.in_b ? *pair.in_b : empty_train;
-    const auto matched = align(a, b, 2 / options.window);
+    const auto matched = align_trains(a, b, 2 / options.window);
     const auto distance = victor_purpura(a, b, options.cost);
     if (!matched || !distance) return matched ? distance.error() : matched.error();
     Difference d{pair.a, pair.b, a.size(), b.size(), matched->moved.size()};

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "measure/distance.hpp"
+#include "measure/train_distance.hpp"
 #include "study/json_number.hpp"
 
 namespace corpuscle {
@@ -45,7 +45,7 @@ double median_shift_of(std::vector<double> values) {
 
 void measure_distance(std::span<const double> reference, std::span<const double> train, Comparison& c) {
     c.van_rossum = std::sqrt(van_rossum_squared(reference, train, Comparisons::tau));
-    const auto aligned = align(reference, train, Comparisons::cost);
+    const auto aligned = align_trains(reference, train, Comparisons::cost);
     if (!aligned) return;
     std::vector<double> shifts;
     double sum = 0;
@@ -65,7 +65,7 @@ double Comparison::Count::excess() const {
 Result<void> Comparisons::begin(const Input& input) {
     kept_.assign(input.afferents.size(), false);
     versions_.clear();
-    const bool copies = std::any_of(input.afferents.begin(), input.afferents.end(), [](const auto& a) { return a.copy > 0; });
+    const bool copies = std::any_of(input.afferents.begin(), input.afferents.end(), [](const auto& a) { return a.copy_number > 0; });
     for (auto& v : copies ? std::vector<Versions>{} : versions_of(input.afferents)) {
         if (v.members.size() < 2) continue;
         for (const auto m : v.members) kept_[m] = true;

@@ -9,8 +9,8 @@
 
 namespace corpuscle {
 
-CopiesFile::CopiesFile(OutputFile file, const Copies& copies) : file_(std::move(file)) {
-    for (const auto& s : copies.spreads) {
+CopiesFile::CopiesFile(OutputFile file, const CopySpec& copies) : file_(std::move(file)) {
+    for (const auto& s : copies.distributions) {
         auto at =
             std::find_if(columns_.begin(), columns_.end(), [&](const Column& c) { return c.parameter == s.parameter && c.unit == s.unit; });
         if (at == columns_.end()) at = columns_.insert(at, Column{s.parameter, s.unit, {}});
@@ -26,7 +26,7 @@ CopiesFile::CopiesFile(OutputFile file, const Copies& copies) : file_(std::move(
 Result<void> CopiesFile::begin(const Input& input) {
     since_start_ = input.source.clock();
     since_start_.t0 = 0;
-    tally_ = Tally({{.cycle = input.source.cycle_frequency()}}, input.units());
+    tally_ = MeasureAccumulator({{.stimulus_frequency = input.source.cycle_frequency()}}, input.units());
     return {};
 }
 
@@ -40,7 +40,7 @@ void CopiesFile::put_row(const Input& input, std::size_t afferent_index) {
     const auto& plan = input.afferent_of(afferent_index);
     fmt::format_to(out, "{},{}", quote_csv_field(plan.name), quote_csv_field(input.channel_name(input.channel_of(afferent_index))));
     for (const auto& c : columns_) {
-        const bool differs = std::find(c.afferents.begin(), c.afferents.end(), plan.of) != c.afferents.end();
+        const bool differs = std::find(c.afferents.begin(), c.afferents.end(), plan.original_name) != c.afferents.end();
         differs ? fmt::format_to(out, ",{}", *plan.value(c.parameter)) : fmt::format_to(out, ",");
     }
     for (const double x : tally_.values(afferent_index, 0)) std::isfinite(x) ? fmt::format_to(out, ",{:.9g}", x) : fmt::format_to(out, ",");
@@ -48,7 +48,7 @@ void CopiesFile::put_row(const Input& input, std::size_t afferent_index) {
 }
 
 Result<void> CopiesFile::end(const Input& input, std::int64_t samples) {
-    tally_.end(since_start_.time(samples));
+    tally_.set_end(since_start_.time(samples));
     for (std::size_t u = 0; u < input.units(); ++u) {
         put_row(input, u);
         if (text_.size() < std::size_t{1} << 16 && u + 1 < input.units()) continue;

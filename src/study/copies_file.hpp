@@ -2,7 +2,7 @@
 // Parameters and responses of each copy.
 
 #include "measure/measures.hpp"
-#include "model/spread.hpp"
+#include "model/copies.hpp"
 #include "study/files.hpp"
 
 namespace corpuscle {
@@ -18,13 +18,13 @@ class CopiesFile final : public WrittenFile {
     OutputFile file_;
     std::vector<Column> columns_;
     Clock since_start_;  // of the current input, with its first sample at 0 s
-    Tally tally_;        // on that clock
+    MeasureAccumulator tally_;        // on that clock
     fmt::memory_buffer text_;
 
     void put_row(const Input&, std::size_t afferent_index);
 
 public:
-    CopiesFile(OutputFile file, const Copies&);
+    CopiesFile(OutputFile file, const CopySpec&);
     Result<void> begin(const Input&) override;
     Result<void> block(const Input&, const Answered&) override;
     Result<void> end(const Input&, std::int64_t samples) override;

@@ -73,7 +73,7 @@ Json document_of(const circuit::Cost& cost) {
 Json costs_of(std::span<const AfferentPlan> afferents, const Work& stats, double force) {
     Json out = Json::array();
     for (std::size_t a = 0; a < afferents.size(); ++a) {
-        const auto* design = dynamic_cast<const circuit::CircuitDesign*>(afferents[a].design.get());
+        const auto* design = dynamic_cast<const circuit::CircuitDesign*>(afferents[a].factory.get());
         if (design == nullptr) continue;
         auto cost = cost_under(*design, force);
         if (!cost) continue;  // it has no operating point; this is reported elsewhere

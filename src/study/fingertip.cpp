@@ -23,9 +23,9 @@ Result<std::vector<ParameterOverride>> overrides_of(const std::vector<std::strin
 
 Result<std::vector<TipTrain>> press_fingertip(const Innervation& tip, Skin& skin, SkinForce& force, const Clock& clock) {
     std::vector<TipTrain> out;
-    for (const auto& u : tip.units) {
-        const double dx = u.at.x - fingertip_centre.x, dy = u.at.y - fingertip_centre.y;
-        out.push_back({tip.plan.classes[u.of].name, num::sqrt(dx * dx + dy * dy), {}});
+    for (const auto& u : tip.afferents) {
+        const double dx = u.position.x - fingertip_centre.x, dy = u.position.y - fingertip_centre.y;
+        out.push_back({tip.plan.classes[u.class_index].name, num::sqrt(dx * dx + dy * dy), {}});
     }
     ThreadPool pool(1);
     std::vector<Spike> spikes;
@@ -35,7 +35,7 @@ Result<std::vector<TipTrain>> press_fingertip(const Innervation& tip, Skin& skin
         if (block->total.empty()) break;
         if (auto ok = skin.respond(block->force, block->total.size(), spikes, pool); !ok) return ok.error();
     }
-    skin.last(spikes);
+    skin.finish(spikes);
     for (const auto& s : spikes) out[s.afferent_index].spikes.push_back(clock.time(s.step, s.offset));
     return out;
 }
@@ -43,7 +43,7 @@ Result<std::vector<TipTrain>> press_fingertip(const Innervation& tip, Skin& skin
 }  // namespace
 
 Result<std::vector<TipTrain>> fingertip_under(const Punch& punch) {
-    auto plan = plan_skin("fingertip");
+    auto plan = load_skin_plan("fingertip");
     if (!plan) return plan.error();
     plan->nerve.reset();
     const auto tip = innervate(std::move(*plan));

@@ -55,9 +55,9 @@ Result<Work> respond(std::span<const std::unique_ptr<ForceSource>> sources, std:
 std::vector<std::string> noise_warnings(std::span<const AfferentPlan> afferents, double noise) {
     std::vector<std::string> warnings;
     for (const auto& a : afferents)
-        if (noise > 0 && (a.design || !a.converter.empty()))
+        if (noise > 0 && (a.factory || !a.converter.empty()))
             warnings.push_back(fmt::format("{}: --noise has no effect; {}", a.name,
-                                           a.design ? "a netlist has no model membrane" : "behind a converter the membrane is digital"));
+                                           a.factory ? "a netlist has no model membrane" : "behind a converter the membrane is digital"));
     return warnings;
 }
 
@@ -67,7 +67,7 @@ std::vector<std::string> work_warnings(const Work& stats) {
         warnings.push_back(
             fmt::format("{} steps had more spikes than one step can hold ({}, or 1 behind a converter) and were "
                         "truncated; raise the rate, or the threshold",
-                        stats.capped_steps, spikes_a_step));
+                        stats.capped_steps, max_spikes_per_step));
     if (stats.clipped > 0)
         warnings.push_back(
             fmt::format("{} samples saturated a transducer or a converter, so the afferent received less force than was "
@@ -86,10 +86,10 @@ std::vector<std::string> rate_warnings(std::span<const std::unique_ptr<ForceSour
     std::vector<std::string> warnings;
     for (const auto& source : sources)
         for (const auto& a : afferents)
-            if (const double rate = source->clock().rate(); rate < a.least_rate)
+            if (const double rate = source->clock().rate(); rate < a.min_rate)
                 warnings.push_back(
                     fmt::format("{} on {}: the sample rate is {:g} Hz, but this afferent needs {:g} Hz or more; do not trust its spikes",
-                                a.name, source->name(), rate, a.least_rate));
+                                a.name, source->name(), rate, a.min_rate));
     return warnings;
 }
 

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "model/population.hpp"
+#include "model/lane_population.hpp"
 #include "signal/force_source.hpp"
 
 namespace corpuscle {
@@ -62,7 +62,7 @@ struct RespondOptions {
     bool sampled = false;
     double noise = 0;        ///< of every membrane, see Run
     std::uint64_t seed = 0;  ///< of the noise
-    Precision precision = Precision::in_double;
+    Precision precision = Precision::double_precision;
     ThreadPool* pool = nullptr;      ///< threads; the response does not depend on it; null: only the calling thread
     std::size_t block = 4096;  ///< samples; the response does not depend on it
     /// Called once a block with the completed fraction, 0 to 1; false stops the run.

@@ -15,23 +15,23 @@ std::shared_ptr<const Innervation> sheet_innervation(const Sheet& sheet, const s
     const std::size_t sensors = force.at.size(), units = sheet.rows * sheet.columns;
     auto& p = out->plan;
     p.name = "sheet";
-    p.sites.at = force.at;
+    p.sites.positions = force.at;
     for (std::size_t s = 0; s < sensors; ++s) p.sites.names.push_back(std::to_string(s + 1));
     p.sites.region.assign(sensors, 0);
     p.sites.regions = {"sheet"};
     p.classes.push_back({.name = afferent, .afferent = std::move(plan), .sigma = sigma});
-    for (std::size_t k = 0; k < units; ++k) out->units.push_back({0, static_cast<std::uint32_t>(k) + 1, 0, sheet.at(k), 0});
-    out->first = {0, units};
+    for (std::size_t k = 0; k < units; ++k) out->afferents.push_back({0, static_cast<std::uint32_t>(k) + 1, 0, sheet.at(k), 0});
+    out->class_begin = {0, units};
     auto& fields = out->fields.emplace_back();
     fields.begin.push_back(0);
     for (std::size_t s = 0; s < sensors; ++s) {
         for (std::size_t k = 0; k < units; ++k) {
-            const double dx = out->units[k].at.x - force.at[s].x, dy = out->units[k].at.y - force.at[s].y;
+            const double dx = out->afferents[k].position.x - force.at[s].x, dy = out->afferents[k].position.y - force.at[s].y;
             const double distance_squared = (dx * dx + dy * dy) / (sigma * sigma);
             if (distance_squared > 16) continue;
-            fields.unit.push_back(static_cast<std::uint32_t>(k)), fields.weight.push_back(num::exp(-0.5 * distance_squared));
+            fields.afferent.push_back(static_cast<std::uint32_t>(k)), fields.weight.push_back(num::exp(-0.5 * distance_squared));
         }
-        fields.begin.push_back(fields.unit.size());
+        fields.begin.push_back(fields.afferent.size());
     }
     return out;
 }
@@ -73,7 +73,7 @@ Result<std::vector<SheetSpike>> sheet_answer(const Sheet& sheet, const std::stri
     std::vector<Spike> spikes;
     ThreadPool pool(1);
     if (auto ok = (*skin)->respond({all.data(), steps}, steps, spikes, pool); !ok) return ok.error();
-    (*skin)->last(spikes);
+    (*skin)->finish(spikes);
     std::vector<SheetSpike> out;
     for (const auto& s : spikes) out.push_back({(static_cast<double>(s.step) - 1 + s.offset) * force.T, s.afferent_index});
     return out;

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "model/catalog.hpp"
-#include "model/spread.hpp"
+#include "model/copies.hpp"
 
 namespace corpuscle {
 namespace {
@@ -29,7 +29,7 @@ bool fires(const Afferent& afferent, std::span<const double> force, double facto
 
 }  // namespace
 
-std::optional<double> factor_to_fire(const AfferentPlan& plan, const Run& run, std::span<const double> force) {
+std::optional<double> factor_to_fire(const AfferentPlan& plan, const SimulationOptions& run, std::span<const double> force) {
     const auto afferent = make_afferent(plan, run);
     double low = 1, high = 1;
     while (!fires(*afferent, force, high)) {
@@ -74,12 +74,12 @@ Result<void> Silence::end(const Input& input, std::int64_t) {
 
 std::vector<SilentAfferent> Silence::found(std::span<const AfferentPlan> afferents, const RespondOptions& options) const {
     std::vector<SilentAfferent> out;
-    const auto groups = groups_of(afferents);
+    const auto groups = copy_group_starts(afferents);
     for (std::size_t g = 0; g + 1 < groups.size(); ++g) {
         const auto& plan = afferents[groups[g]];
         const auto from = fired_.begin() + static_cast<std::ptrdiff_t>(groups[g]),
                    to = fired_.begin() + static_cast<std::ptrdiff_t>(groups[g + 1]);
-        if (plan.design || std::find(from, to, 1) != to) continue;
+        if (plan.factory || std::find(from, to, 1) != to) continue;
         out.push_back({base_name(plan), force_, {}});
         if (force_ > 0) out.back().factor = factor_to_fire(plan, {dt_, options.method, options.sampled, 0, 0}, course_);
     }

@@ -15,7 +15,7 @@ inline constexpr std::size_t most_silent_samples = std::size_t{1} << 18;
 
 /// The factor, at least 1, by which force must be multiplied for the afferent to fire. Accurate to 2 %, rounded up. None if it exceeds a
 /// million.
-std::optional<double> factor_to_fire(const AfferentPlan&, const Run&, std::span<const double> force);
+std::optional<double> factor_to_fire(const AfferentPlan&, const SimulationOptions&, std::span<const double> force);
 
 /// An afferent that, with all of its copies, never fired on any channel of any input.
 struct SilentAfferent {

@@ -15,7 +15,7 @@ Result<void> SkinBinsFile::begin(const SkinInput& input) {
     if (auto ok = EvenBins::check(input.clock, bin_); !ok) return ok;
     const auto& [plan, units, first, fields] = input.skin;
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> afferents_in;  // by class and region
-    for (const auto& u : units) ++afferents_in[{u.of, u.region}];
+    for (const auto& u : units) ++afferents_in[{u.class_index, u.region}];
     std::vector<EvenBins::Row> groups;
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> group_of;
     for (const auto& [class_and_region, count] : afferents_in) {
@@ -25,7 +25,7 @@ Result<void> SkinBinsFile::begin(const SkinInput& input) {
                           1.0 * count});
     }
     row_of_.clear();
-    for (const auto& u : units) row_of_.push_back(group_of[{u.of, u.region}]);
+    for (const auto& u : units) row_of_.push_back(group_of[{u.class_index, u.region}]);
     bins_ = EvenBins(std::move(groups), input.clock, bin_);
     return {};
 }

@@ -241,7 +241,7 @@ Result<void> SkinCheckpoint::check_spikes(std::uint64_t checksum) {
         for (std::size_t k = 0; k < count; ++k) {
             const auto& s = buffer[k];
             const Spike spike{s.step, s.offset, static_cast<std::uint32_t>(s.unit)};
-            is_valid &= s.unit < skin_.innervation().units.size() && s.step >= 0 && s.step < resumed_ && s.offset > 0 && s.offset <= 1 &&
+            is_valid &= s.unit < skin_.innervation().afferents.size() && s.step >= 0 && s.step < resumed_ && s.offset > 0 && s.offset <= 1 &&
                         ((at == 0 && k == 0) || last <= spike);
             last = spike;
         }
@@ -254,10 +254,10 @@ Result<void> SkinCheckpoint::check_spikes(std::uint64_t checksum) {
 Result<void> SkinCheckpoint::force(const SkinForce::Block& block, std::int64_t first) {
     const auto steps = block.total.size();
     force_sum_.add(block.total.data(), block.total.size_bytes());
-    const auto add = [&](std::size_t site) { force_sum_.add(block.force.of + site * block.force.stride, steps * sizeof(double)); };
-    for (std::size_t s = 0; block.force.all && s < skin_.sites(); ++s) add(s);
+    const auto add = [&](std::size_t site) { force_sum_.add(block.force.data + site * block.force.stride, steps * sizeof(double)); };
+    for (std::size_t s = 0; block.force.reads_all && s < skin_.sites(); ++s) add(s);
     for (const auto s : block.force.touched)
-        if (!block.force.all) add(s);
+        if (!block.force.reads_all) add(s);
     const auto end = first + static_cast<std::int64_t>(steps);
     if (resumed_ <= first || resumed_ > end) return {};
     return resumed_ == end && force_sum_.value() == force_to_resumed_ ? Result<void>() : another_force();

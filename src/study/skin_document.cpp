@@ -16,9 +16,9 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::size_t max_first_spikes = 100;
 
-Json sources_document(const std::vector<Sourced>& all) {
+Json sources_document(const std::vector<SourceNote>& all) {
     Json out = Json::array();
-    for (const auto& s : all) out.push_back({{"of", s.of}, {"source", s.source}});
+    for (const auto& s : all) out.push_back({{"of", s.quantity}, {"source", s.source}});
     return out;
 }
 
@@ -26,7 +26,7 @@ Json sources_document(const std::vector<Sourced>& all) {
 Json density_document(const Innervation& skin, std::size_t c) {
     const auto& plan = skin.plan;
     std::vector<std::int64_t> units(plan.sites.regions.size());
-    for (std::size_t u = skin.first[c]; u < skin.first[c + 1]; ++u) ++units[skin.units[u].region];
+    for (std::size_t u = skin.class_begin[c]; u < skin.class_begin[c + 1]; ++u) ++units[skin.afferents[u].region];
     Json out = Json::object();
     for (std::size_t r = 0; r < units.size(); ++r) {
         out[plan.sites.regions[r]] = {{"units", units[r]}};
@@ -37,13 +37,13 @@ Json density_document(const Innervation& skin, std::size_t c) {
 
 Json class_document(const Innervation& skin, std::size_t c) {
     const auto& k = skin.plan.classes[c];
-    Json out = {{"name", k.name}, {"units", skin.first[c + 1] - skin.first[c]}};
+    Json out = {{"name", k.name}, {"units", skin.class_begin[c + 1] - skin.class_begin[c]}};
     if (k.per_site > 0) out["units_at_each_site"] = k.per_site;
     out["regions"] = density_document(skin, c);
     out["receptive_field"] = {{"sigma_m", k.sigma}, {"hot_spots", k.hot_spots}, {"hot_spot_spread_m", k.hot_spot_spread}};
     out["conduction"] = {{"velocity_m_s", k.velocity}, {"standard_deviation_m_s", k.velocity_spread}};
     out["afferent"] = document_of(k.afferent);
-    out["spreads"] = document_of(k.spreads);
+    out["spreads"] = document_of(k.distributions);
     out["sources"] = sources_document(k.sources);
     return out;
 }
@@ -56,7 +56,7 @@ Json skin_document(const Innervation& skin) {
     for (std::size_t r = 0; r < sites.size(); ++r)
         regions[plan.sites.regions[r]] = {{"sites", sites[r]}, {"area_cm2", 1e4 * static_cast<double>(sites[r]) * plan.sites.area}};
     Json out = {
-        {"name", plan.name}, {"sentence", plan.sentence}, {"seed", plan.seed}, {"units", skin.units.size()}, {"sites", plan.sites.size()}};
+        {"name", plan.name}, {"sentence", plan.description}, {"seed", plan.seed}, {"units", skin.afferents.size()}, {"sites", plan.sites.size()}};
     out["site_area_m2"] = plan.sites.area, out["felt_area_m2"] = plan.felt_area;
     out["nerve_m"] = plan.nerve ? Json{plan.nerve->x, plan.nerve->y} : Json(nullptr);
     out["regions"] = regions;
@@ -112,12 +112,12 @@ Json SkinSummary::document(const SkinTold& notes) const {
     for (const auto& r : rows_) out["rates"].push_back(skin_row_document(*this, r));
     for (const auto& f : first_spikes(max_first_spikes))
         out["first_spikes"].push_back({{"unit", f.unit},
-                                       {"afferent", skin_->unit_name(f.unit)},
-                                       {"region", skin_->plan.sites.regions[skin_->units[f.unit].region]},
+                                       {"afferent", skin_->afferent_name(f.unit)},
+                                       {"region", skin_->plan.sites.regions[skin_->afferents[f.unit].region]},
                                        {"time_s", f.time}});
     const auto& w = notes.work;
     out["work"] = {
-        {"steps", w.steps}, {"afferent_steps", w.afferent_steps}, {"at_rest", w.at_rest}, {"spikes", w.spikes}, {"capped_steps", w.capped}};
+        {"steps", w.steps}, {"afferent_steps", w.afferent_steps}, {"at_rest", w.skipped_steps}, {"spikes", w.spikes}, {"capped_steps", w.truncated_steps}};
     out["warnings"] = notes.warnings;
     return out;
 }

@@ -72,7 +72,7 @@ Result<std::vector<std::uint32_t>> sites_of(const SkinPlan& plan, const ForceSou
     std::vector<std::uint32_t> in_order(plan.sites.size());
     std::iota(in_order.begin(), in_order.end(), 0U);
     if (names == plan.sites.names) return in_order;
-    auto named = sites_if_named(plan.sites, names);
+    auto named = find_sites_if_named(plan.sites, names);
     if (!named)
         return bad_input(fmt::format("{}; --layout FILE renames channels, --channel selects some", named.error().message),
                          {source.name()});

@@ -24,13 +24,13 @@ Result<void> SkinNpzFile::block(const SkinInput& input, const SkinAnswered& bloc
 Result<void> SkinNpzFile::end(const SkinInput& input, std::int64_t, std::span<const Spike> last) {
     put(input.clock, last);
     const auto& skin = input.skin;
-    std::vector<std::int64_t> ids(skin.units.size());
+    std::vector<std::int64_t> ids(skin.afferents.size());
     std::iota(ids.begin(), ids.end(), std::int64_t{0});
     std::vector<std::string> names, regions;
     std::vector<double> x, y;
-    for (std::size_t u = 0; u < skin.units.size(); ++u) {
-        names.push_back(skin.unit_name(u)), regions.push_back(skin.plan.sites.regions[skin.units[u].region]);
-        x.push_back(skin.units[u].at.x), y.push_back(skin.units[u].at.y);
+    for (std::size_t u = 0; u < skin.afferents.size(); ++u) {
+        names.push_back(skin.afferent_name(u)), regions.push_back(skin.plan.sites.regions[skin.afferents[u].region]);
+        x.push_back(skin.afferents[u].position.x), y.push_back(skin.afferents[u].position.y);
     }
     npz_.add("spike_indexes_seg0", indexes_), npz_.add("spike_labels_seg0", labels_), npz_.add("spike_times_seg0", times_);
     npz_.add("unit_ids", ids), npz_.add("num_segment", std::vector<std::int64_t>{1});

@@ -53,7 +53,7 @@ class DistributedSimulator final : public SkinAnswerer {
     Skin& own_;
     ThreadPool& pool_;
     std::vector<std::deque<std::string>> received_;  // of each rank
-    SkinWork others_stats_;
+    SkinStats others_stats_;
 
     /// The next message of a rank.
     Result<std::string> next_from(int rank) {
@@ -91,22 +91,22 @@ public:
         return gather(spikes);
     }
     Result<void> last(std::vector<Spike>& spikes) override {
-        own_.last(spikes);
+        own_.finish(spikes);
         if (auto ok = gather(spikes); !ok) return ok;
         for (int rank = 1; rank < ranks_.size(); ++rank) {
             auto text = next_from(rank);
             if (!text) return text.error();
-            SkinWork work;
+            SkinStats work;
             std::memcpy(&work, text->data() + 1, std::min(sizeof work, text->size() - 1));
-            others_stats_.afferent_steps += work.afferent_steps, others_stats_.at_rest += work.at_rest, others_stats_.spikes += work.spikes;
-            others_stats_.capped += work.capped;
+            others_stats_.afferent_steps += work.afferent_steps, others_stats_.skipped_steps += work.skipped_steps, others_stats_.spikes += work.spikes;
+            others_stats_.truncated_steps += work.truncated_steps;
         }
         return {};
     }
-    SkinWork work() const override {
-        auto all = own_.work();
-        all.afferent_steps += others_stats_.afferent_steps, all.at_rest += others_stats_.at_rest, all.spikes += others_stats_.spikes;
-        all.capped += others_stats_.capped;
+    SkinStats work() const override {
+        auto all = own_.stats();
+        all.afferent_steps += others_stats_.afferent_steps, all.skipped_steps += others_stats_.skipped_steps, all.spikes += others_stats_.spikes;
+        all.truncated_steps += others_stats_.truncated_steps;
         return all;
     }
 };
@@ -150,9 +150,9 @@ Result<bool> simulate_part(WorkerChannel& channel, SkinForce& force, Skin& skin,
         if (!channel.send(pack_spikes(spikes))) return false;
     }
     spikes.clear();
-    skin.last(spikes);
+    skin.finish(spikes);
     if (!channel.send(pack_spikes(spikes))) return false;
-    const auto work = skin.work();
+    const auto work = skin.stats();
     return channel.send(std::string(1, worker_stats) + std::string(reinterpret_cast<const char*>(&work), sizeof work));
 }
 

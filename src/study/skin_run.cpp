@@ -14,8 +14,8 @@ public:
     Result<void> answer(const SiteForce& force, std::size_t steps, std::vector<Spike>& spikes) override {
         return skin_.respond(force, steps, spikes, pool_);
     }
-    Result<void> last(std::vector<Spike>& spikes) override { return skin_.last(spikes), Result<void>{}; }
-    SkinWork work() const override { return skin_.work(); }
+    Result<void> last(std::vector<Spike>& spikes) override { return skin_.finish(spikes), Result<void>{}; }
+    SkinStats work() const override { return skin_.stats(); }
 };
 
 /// Limits how often the log is flushed; the interval is long enough to make its cost negligible.
@@ -46,7 +46,7 @@ Result<void> run_block(const SkinForce::Block& block, std::int64_t first, SkinAn
 
 std::unique_ptr<SkinAnswerer> alone_answerer(Skin& skin, ThreadPool& pool) { return std::make_unique<LocalSimulator>(skin, pool); }
 
-Result<SkinWork> run_skin(SkinForce& force, const SkinInput& input, SkinAnswerer& skin, std::span<SkinListener* const> sinks,
+Result<SkinStats> run_skin(SkinForce& force, const SkinInput& input, SkinAnswerer& skin, std::span<SkinListener* const> sinks,
                           const SkinRunOptions& options) {
     for (auto* l : sinks)
         if (auto ok = l->begin(input); !ok) return ok.error();

@@ -64,7 +64,7 @@ public:
     virtual ~SkinAnswerer() = default;
     virtual Result<void> answer(const SiteForce&, std::size_t steps, std::vector<Spike>&) = 0;
     virtual Result<void> last(std::vector<Spike>&) = 0;
-    virtual SkinWork work() const = 0;
+    virtual SkinStats work() const = 0;
 };
 /// Simulates the complete skin in this process.
 std::unique_ptr<SkinAnswerer> alone_answerer(Skin&, ThreadPool&);
@@ -93,6 +93,6 @@ struct SkinRunOptions {
 };
 
 /// Runs a force through a skin. A run that is stopped by the callback returns an error of code `interrupted`.
-Result<SkinWork> run_skin(SkinForce&, const SkinInput&, SkinAnswerer&, std::span<SkinListener* const>, const SkinRunOptions&);
+Result<SkinStats> run_skin(SkinForce&, const SkinInput&, SkinAnswerer&, std::span<SkinListener* const>, const SkinRunOptions&);
 
 }  // namespace corpuscle

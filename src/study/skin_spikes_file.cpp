@@ -10,8 +10,8 @@ SkinSpikesFile::SkinSpikesFile(OutputFile file) : file_(std::move(file)) { (void
 
 Result<void> SkinSpikesFile::begin(const SkinInput& input) {
     names_.clear();
-    for (std::size_t u = 0; u < input.skin.units.size(); ++u)
-        names_.push_back(quote_csv_field(input.skin.unit_name(u)) + "," + quote_csv_field(input.skin.plan.sites.regions[input.skin.units[u].region]));
+    for (std::size_t u = 0; u < input.skin.afferents.size(); ++u)
+        names_.push_back(quote_csv_field(input.skin.afferent_name(u)) + "," + quote_csv_field(input.skin.plan.sites.regions[input.skin.afferents[u].region]));
     return {};
 }
 

@@ -9,13 +9,13 @@ namespace {
 
 /// For each afferent the site with its largest weight; the first of equals.
 std::vector<std::uint32_t> main_sites(const Innervation& skin) {
-    std::vector<std::uint32_t> site(skin.units.size());
-    std::vector<double> weight(skin.units.size());
+    std::vector<std::uint32_t> site(skin.afferents.size());
+    std::vector<double> weight(skin.afferents.size());
     for (std::size_t c = 0; c < skin.fields.size(); ++c) {
         const auto& field = skin.fields[c];
         for (std::uint32_t s = 0; s + 1 < field.begin.size(); ++s)
             for (std::size_t k = field.begin[s]; k < field.begin[s + 1]; ++k)
-                if (const auto afferent_index = skin.first[c] + field.unit[k]; field.weight[k] > weight[afferent_index])
+                if (const auto afferent_index = skin.class_begin[c] + field.afferent[k]; field.weight[k] > weight[afferent_index])
                     weight[afferent_index] = field.weight[k], site[afferent_index] = s;
     }
     return site;
@@ -34,7 +34,7 @@ Result<void> SkinSummary::begin(const SkinInput& input) {
     skin_ = &input.skin;
     name_ = input.name, sentence_ = input.sentence, clock_ = since_start_ = input.clock, phases_ = input.phases;
     since_start_.t0 = 0;  // times since 1970 would lose precision
-    const auto units = skin_->units.size();
+    const auto units = skin_->afferents.size();
     if (phases_.size() * units > most_phase_counts) phases_.clear();
     samples_ = all_spikes_ = 0, least_ = greatest_ = 0, touched_from_ = no_value;
     counts_.assign(units, 0), first_times_.assign(units, no_value);
@@ -68,7 +68,7 @@ void SkinSummary::add(std::span<const Spike> spikes, const SkinAnswered* block) 
         if (counts_[s.afferent_index]++ == 0) first_times_[s.afferent_index] = t;
         shortest_[s.afferent_index] = std::min(shortest_[s.afferent_index], t - std::exchange(last_times_[s.afferent_index], t));
         if (phase < phases_.size()) ++phase_counts_[phase * counts_.size() + s.afferent_index];
-        if (block && touches(*block, s.afferent_index, s.step)) ++while_touched_[group(skin_->units[s.afferent_index], phase)];
+        if (block && touches(*block, s.afferent_index, s.step)) ++while_touched_[group(skin_->afferents[s.afferent_index], phase)];
     }
     all_spikes_ += static_cast<std::int64_t>(spikes.size());
 }
@@ -81,12 +81,12 @@ void SkinSummary::add_touch(const SkinAnswered& block) {
         const auto phase = phase_of(time(from));
         while (to < block.steps && phase_of(time(to)) == phase) ++to;
         const auto count = [&](std::size_t s) {
-            const double* force = block.force.of + s * block.force.stride;
+            const double* force = block.force.data + s * block.force.stride;
             site_touched_[phase * sites + s] += std::count_if(force + from, force + to, [](double f) { return f > 0; });
         };
-        for (std::size_t s = 0; block.force.all && s < sites; ++s) count(s);
+        for (std::size_t s = 0; block.force.reads_all && s < sites; ++s) count(s);
         for (const auto s : block.force.touched)
-            if (!block.force.all) count(s);
+            if (!block.force.reads_all) count(s);
     }
 }
 
@@ -104,8 +104,8 @@ Result<void> SkinSummary::block(const SkinInput&, const SkinAnswered& block) {
 
 double SkinSummary::seconds() const { return since_start_.time(samples_); }
 
-std::size_t SkinSummary::group(const SkinUnit& u, std::size_t phase) const {
-    return (phase * skin_->plan.classes.size() + u.of) * skin_->plan.sites.regions.size() + u.region;
+std::size_t SkinSummary::group(const SkinAfferent& u, std::size_t phase) const {
+    return (phase * skin_->plan.classes.size() + u.class_index) * skin_->plan.sites.regions.size() + u.region;
 }
 
 /// Spikes of a class that arrived while their afferents were touched; in one region and phase, or in all.
@@ -114,7 +114,7 @@ std::int64_t SkinSummary::spikes_while_touched(const SkinRow& r) const {
     for (std::uint32_t region = 0; region < skin_->plan.sites.regions.size(); ++region)
         for (std::size_t phase = 0; phase <= phases_.size(); ++phase)
             if ((r.region == SkinRow::all || r.region == region) && (r.phase == SkinRow::all || r.phase == phase))
-                sum += while_touched_[group({.of = static_cast<std::uint32_t>(r.of), .region = region}, phase)];
+                sum += while_touched_[group({.class_index = static_cast<std::uint32_t>(r.of), .region = region}, phase)];
     return sum;
 }
 
@@ -161,11 +161,11 @@ Result<void> SkinSummary::end(const SkinInput&, std::int64_t samples, std::span<
     for (std::size_t u = 0; u < counts_.size(); ++u) unit_touched_.push_back(since_start_.time(touched_samples(u, SkinRow::all)));
     rows_.clear();
     const auto regions = skin_->plan.sites.regions.size();
-    for (std::size_t c = 0; c + 1 < skin_->first.size(); ++c) {
+    for (std::size_t c = 0; c + 1 < skin_->class_begin.size(); ++c) {
         std::vector<std::uint32_t> all;
         std::vector<std::vector<std::uint32_t>> of_region(regions);
-        for (std::size_t u = skin_->first[c]; u < skin_->first[c + 1]; ++u)
-            all.push_back(static_cast<std::uint32_t>(u)), of_region[skin_->units[u].region].push_back(static_cast<std::uint32_t>(u));
+        for (std::size_t u = skin_->class_begin[c]; u < skin_->class_begin[c + 1]; ++u)
+            all.push_back(static_cast<std::uint32_t>(u)), of_region[skin_->afferents[u].region].push_back(static_cast<std::uint32_t>(u));
         add_rows(c, SkinRow::all, all);
         for (std::size_t r = 0; regions > 1 && r < regions; ++r)
             if (!of_region[r].empty()) add_rows(c, r, of_region[r]);
@@ -174,8 +174,8 @@ Result<void> SkinSummary::end(const SkinInput&, std::int64_t samples, std::span<
 }
 
 std::pair<std::size_t, double> SkinSummary::faster_than(std::size_t class_index, double rate) const {
-    const auto from = shortest_.begin() + static_cast<std::ptrdiff_t>(skin_->first[class_index]),
-               to = shortest_.begin() + static_cast<std::ptrdiff_t>(skin_->first[class_index + 1]);
+    const auto from = shortest_.begin() + static_cast<std::ptrdiff_t>(skin_->class_begin[class_index]),
+               to = shortest_.begin() + static_cast<std::ptrdiff_t>(skin_->class_begin[class_index + 1]);
     const auto units = std::count_if(from, to, [&](double interval) { return interval < 1 / rate; });
     return {static_cast<std::size_t>(units), from == to ? 0 : 1 / *std::min_element(from, to)};
 }

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "measure/stretch.hpp"
+#include "measure/measure_base.hpp"
 #include "study/skin_run.hpp"
 
 namespace corpuscle {
@@ -20,7 +20,7 @@ struct SkinTold {
     std::vector<MetadataEntry> facts = {};            ///< of the force and of the contact
     std::vector<std::string> remarks = {};   ///< of the source and of the contact: their simplifications
     std::vector<std::string> warnings = {};  ///< why the response may be wrong
-    SkinWork work = {};
+    SkinStats work = {};
 };
 
 /// A class in one region or all, during one phase or all.
@@ -108,7 +108,7 @@ private:
 
     void add(std::span<const Spike>, const SkinAnswered*);
     bool touches(const SkinAnswered&, std::size_t afferent_index, std::int64_t sample) const;
-    std::size_t group(const SkinUnit&, std::size_t phase) const;
+    std::size_t group(const SkinAfferent&, std::size_t phase) const;
     std::int64_t spikes_while_touched(const SkinRow&) const;
     void add_touch(const SkinAnswered&);
     std::size_t phase_of(double t) const;

@@ -87,41 +87,41 @@ void OverCopies::add(double x) {
     squares_ += distance * (x - middle_);
 }
 
-std::string key_of(const Measure& m) { return m.unit.empty() ? std::string(m.name) : fmt::format("{}_{}", m.name, m.unit); }
+std::string key_of(const MeasureInfo& m) { return m.unit.empty() ? std::string(m.name) : fmt::format("{}_{}", m.name, m.unit); }
 
 Json document_of(const AfferentPlan& plan) {
     Json parameters = Json::object();
     for (std::size_t k = 0; k < plan.values.size(); ++k) {
         const auto& p = (*plan.parameters)[k];
-        parameters[std::string(p.row.name)] = {{"value", plan.values[k]}, {"unit", p.row.unit}, {"of", p.of}, {"set", p.set}};
+        parameters[std::string(p.info.name)] = {{"value", plan.values[k]}, {"unit", p.info.unit}, {"of", p.component}, {"set", p.set_by_user}};
     }
-    if (plan.design) {
-        Json out = {{"name", plan.name}, {"made_of", plan.made_of()}, {"title", plan.sentence}};
-        for (const auto& [name, word] : plan.design->labels()) out[name] = word;
+    if (plan.factory) {
+        Json out = {{"name", plan.name}, {"made_of", plan.composition()}, {"title", plan.description}};
+        for (const auto& [name, word] : plan.factory->labels()) out[name] = word;
         out["parameters"] = std::move(parameters);
         return out;
     }
     return {{"name", plan.name},
-            {"made_of", plan.made_of()},
+            {"made_of", plan.composition()},
             {"transduction", plan.receptor},
             {"neuron", plan.neuron},
             {"parameters", parameters}};
 }
 
-Json document_of(std::span<const Spread> all) {
+Json document_of(std::span<const ParameterDistribution> all) {
     Json spreads = Json::array();
     for (const auto& s : all)
         spreads.push_back({{"afferent", s.afferent},
                            {"parameter", s.parameter},
                            {"standard_deviation", s.deviation},
                            {"unit", s.unit},
-                           {"share", s.share ? Json(*s.share) : Json(nullptr)}});
+                           {"share", s.fraction ? Json(*s.fraction) : Json(nullptr)}});
     return spreads;
 }
 
-Json document_of(const Copies& copies) { return {{"of_each_afferent", copies.copies}, {"spreads", document_of(copies.spreads)}}; }
+Json document_of(const CopySpec& copies) { return {{"of_each_afferent", copies.count}, {"spreads", document_of(copies.distributions)}}; }
 
-std::string heading(const Measure& m) { return std::string(m.title) + (m.unit.empty() ? "" : " (" + std::string(m.unit) + ")"); }
+std::string heading(const MeasureInfo& m) { return std::string(m.title) + (m.unit.empty() ? "" : " (" + std::string(m.unit) + ")"); }
 
 Result<void> Summary::begin(const Input& input) {
     InputFacts facts{input.name, input.source.clock(), 0, {}, input.source.notes(), input.source.metadata(), INFINITY,
@@ -131,10 +131,10 @@ Result<void> Summary::begin(const Input& input) {
     inputs_.push_back(std::move(facts));
     since_start_ = input.source.clock();
     since_start_.t0 = 0;  // times since 1970 would lose precision
-    std::vector<Stretch> stretches;
+    std::vector<TimeWindow> stretches;
     for (const auto& p : inputs_.back().phases) stretches.push_back({p.from, p.to, input.source.cycle_frequency()});
-    if (stretches.empty()) stretches.push_back({.cycle = input.source.cycle_frequency()});
-    tally_ = Tally(std::move(stretches), input.units());
+    if (stretches.empty()) stretches.push_back({.stimulus_frequency = input.source.cycle_frequency()});
+    tally_ = MeasureAccumulator(std::move(stretches), input.units());
     return comparisons_.begin(input);
 }
 
@@ -151,8 +151,8 @@ Result<void> Summary::end(const Input& input, std::int64_t samples) {
     auto& facts = inputs_.back();
     facts.samples = samples;
     facts.quality = input.source.quality();
-    tally_.end(since_start_.time(samples));
-    const auto groups = groups_of(input.afferents);
+    tally_.set_end(since_start_.time(samples));
+    const auto groups = copy_group_starts(input.afferents);
     for (std::size_t c = 0; c < facts.channels.size(); ++c)
         for (std::size_t g = 0; g + 1 < groups.size(); ++g)
             for (std::size_t p = 0; p < std::max<std::size_t>(facts.phases.size(), 1); ++p)
@@ -166,8 +166,8 @@ RateRow Summary::row(const Input& input, std::size_t channel, std::size_t from, 
     const std::size_t first = channel * input.afferents.size();
     RateRow row{base_name(input.afferents[from]), facts.channels[channel], facts.phases.empty() ? "all" : facts.phases[phase].name,
                 tally_.values(first + from, phase)};
-    if (input.afferents[from].copy == 0) {
-        if (row.values[place_of_measure<SpikeCount>] == 1) row.values[place_of_measure<MeanRate>] = no_value;  // one spike has no rate
+    if (input.afferents[from].copy_number == 0) {
+        if (row.values[measure_index<SpikeCount>] == 1) row.values[measure_index<MeanRate>] = no_value;  // one spike has no rate
         return row;
     }
     row.over.resize(std::size(measures));
@@ -191,7 +191,7 @@ Json Summary::document(std::span<const AfferentPlan> afferents, const Work& stat
     Json out = {{"program", "corpuscle"}, {"version", version}};
     out["options"] = {{"method", options.method == Method::exact ? "exact" : "backward-euler"},
                       {"sampled", options.sampled},
-                      {"precision", options.precision == Precision::in_double ? "double" : "float"},
+                      {"precision", options.precision == Precision::double_precision ? "double" : "float"},
                       {"noise_A", options.noise},
                       {"seed", seed}};
     out["afferents"] = Json::array();

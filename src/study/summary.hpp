@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "measure/measures.hpp"
-#include "model/spread.hpp"
+#include "model/copies.hpp"
 #include "study/comparisons.hpp"
 #include "study/respond.hpp"
 
@@ -36,15 +36,15 @@ struct RateRow {
 };
 
 /// A measure as a column heading: "peak (Hz)".
-std::string heading(const Measure&);
+std::string heading(const MeasureInfo&);
 /// A measure as a key in files: "peak_rate_Hz".
-std::string key_of(const Measure&);
+std::string key_of(const MeasureInfo&);
 
 /// An afferent with all its parameters, as a JSON document.
 nlohmann::ordered_json document_of(const AfferentPlan&);
-nlohmann::ordered_json document_of(std::span<const Spread>);
+nlohmann::ordered_json document_of(std::span<const ParameterDistribution>);
 /// The number of copies of each afferent and their distributions, as a JSON document.
-nlohmann::ordered_json document_of(const Copies&);
+nlohmann::ordered_json document_of(const CopySpec&);
 
 class Summary final : public Listener {
 public:
@@ -77,7 +77,7 @@ public:
 private:
     std::vector<InputFacts> inputs_;
     Clock since_start_;  // of the current input, with its first sample at 0 s
-    Tally tally_;        // on that clock
+    MeasureAccumulator tally_;        // on that clock
     std::vector<RateRow> rows_;
     Comparisons comparisons_;
 

@@ -21,9 +21,9 @@ std::size_t block_for(const Input& input, const RespondOptions& options, bool wa
 
 /// Two afferents can share SIMD lanes if this text is equal.
 std::string kind_of(const AfferentPlan& plan) {
-    std::string kind = plan.made_of();
+    std::string kind = plan.composition();
     for (std::size_t k = 0; k < plan.values.size(); ++k)
-        if ((*plan.parameters)[k].row.is_shared_by_copies) kind += fmt::format(" {}", plan.values[k]);
+        if ((*plan.parameters)[k].info.is_shared_by_copies) kind += fmt::format(" {}", plan.values[k]);
     return kind;
 }
 
@@ -33,11 +33,11 @@ struct Kinds {
     std::vector<std::size_t> scalar;
 };
 
-Kinds kinds_of(std::span<const AfferentPlan> plans, const Run& run) {
+Kinds kinds_of(std::span<const AfferentPlan> plans, const SimulationOptions& run) {
     Kinds kinds;
     std::vector<std::string> names;
     for (std::size_t k = 0; k < plans.size(); ++k) {
-        if (!goes_on_lanes(plans[k], run)) {
+        if (!can_use_lanes(plans[k], run)) {
             kinds.scalar.push_back(k);
             continue;
         }
@@ -64,16 +64,16 @@ Result<Units> Units::make(Input input, const RespondOptions& options, bool wants
 }
 
 Result<void> Units::seat(const RespondOptions& options, InstructionSet set) {
-    const Run run{input_.source.clock().T(), options.method, options.sampled, options.noise, options.seed};
+    const SimulationOptions run{input_.source.clock().T(), options.method, options.sampled, options.noise, options.seed};
     const auto plans = input_.afferents;
     const std::size_t channels = input_.source.channels().size();
-    const bool in_float = options.precision == Precision::in_float;
+    const bool in_float = options.precision == Precision::single_precision;
     if (in_float && set == InstructionSet::scalar) return bad_usage("float needs SIMD lanes: CORPUSCLE_ISA=scalar has none");
     auto kinds = kinds_of(plans, run);
     if (in_float && (probed_ || !kinds.scalar.empty()))
         return bad_usage(probed_ ? "in float no probes are recorded: leave out --traces"
                                  : fmt::format("{}: {} cannot run in float", plans[kinds.scalar[0]].name,
-                                               plans[kinds.scalar[0]].design ? "netlists" : "sensors, converters and noise"));
+                                               plans[kinds.scalar[0]].factory ? "netlists" : "sensors, converters and noise"));
     std::vector<bool> is_scalar(plans.size());
     for (const auto k : kinds.scalar) is_scalar[k] = true;
     for (const auto& kind : kinds.on_lanes) {
@@ -104,7 +104,7 @@ Result<void> Units::seat(const RespondOptions& options, InstructionSet set) {
 }
 
 /// Packs all channels into one population, or one population for each channel if most of its afferents have the same force.
-Result<void> Units::seat_crowds(std::span<const std::size_t> plans, const Run& run, const RespondOptions& options, InstructionSet set) {
+Result<void> Units::seat_crowds(std::span<const std::size_t> plans, const SimulationOptions& run, const RespondOptions& options, InstructionSet set) {
     const std::size_t channels = input_.source.channels().size(), all = input_.afferents.size();
     const bool by_channel = plans.size() >= channels;
     Crowd group{{}, {}, by_channel};
@@ -118,7 +118,7 @@ Result<void> Units::seat_crowds(std::span<const std::size_t> plans, const Run& r
         if (plans.size() == 1) lane_plans = {&input_.afferents[plans[0]]};
         std::vector<std::uint32_t> numbers;
         for (const auto u : group.units) numbers.push_back(input_.first_unit + u);
-        auto population = make_population({lane_plans, group.units.size(), numbers, options.precision}, run, set);
+        auto population = make_lane_population({lane_plans, group.units.size(), numbers, options.precision}, run, set);
         if (!population) return population.error();
         group.population = std::move(*population);
         crowds_.push_back(std::exchange(group, {{}, {}, by_channel}));
@@ -142,10 +142,10 @@ Result<void> Units::answer_crowd(Crowd& group, ThreadPool& pool, Work& stats) {
         for (const auto u : group.units) columns.push_back(force_of(u));
         force = ForceColumns{columns};
     }
-    PopulationAnswer response{&spikes_};
+    PopulationResponse response{&spikes_};
     if (auto ok = group.population->respond(force, force_.count, response, pool); !ok)
-        return of_unit(ok.error(), group.units[response.failed]);
-    stats.capped_steps += response.capped;
+        return of_unit(ok.error(), group.units[response.failed_afferent]);
+    stats.capped_steps += response.truncated_steps;
     return {};
 }
 
@@ -211,7 +211,7 @@ std::vector<std::string> Units::outside() const {
 Result<void> Units::answer_singles(ThreadPool& pool, Work& stats) {
     pool.for_each(singles_.size(), [this](std::size_t k, unsigned) { answer_single(singles_[k]); });
     for (auto& s : singles_) {
-        if (s.error && !(s.error->code == ErrorCode::not_converged && input_.afferent_of(s.unit).design)) return *s.error;
+        if (s.error && !(s.error->code == ErrorCode::not_converged && input_.afferent_of(s.unit).factory)) return *s.error;
         if (s.error) s.lost = true, stats.lost.push_back(*std::exchange(s.error, {}));
         spikes_.insert(spikes_.end(), s.spikes.begin(), s.spikes.end());
         stats.capped_steps += s.capped, stats.clipped += s.clipped, stats.overflowed += s.overflowed;

@@ -1,7 +1,7 @@
 #pragma once
 // Simulates the afferents of one input on all threads: on SIMD lanes if possible, otherwise one by one.
 
-#include "model/population.hpp"
+#include "model/lane_population.hpp"
 #include "study/ahead.hpp"
 #include "study/respond.hpp"
 
@@ -23,7 +23,7 @@ public:
 private:
     /// Afferents that are packed together on SIMD lanes.
     struct Crowd {
-        std::unique_ptr<Population> population;
+        std::unique_ptr<LanePopulation> population;
         std::vector<std::uint32_t> units;  // indexes within the input, ascending
         bool one_channel;                  // all have the same force
     };
@@ -41,7 +41,7 @@ private:
 
     Units(Input input, std::size_t block, bool probed);
     Result<void> seat(const RespondOptions& options, InstructionSet set);
-    Result<void> seat_crowds(std::span<const std::size_t> plans, const Run& run, const RespondOptions& options, InstructionSet set);
+    Result<void> seat_crowds(std::span<const std::size_t> plans, const SimulationOptions& run, const RespondOptions& options, InstructionSet set);
     Result<void> answer_crowd(Crowd& group, ThreadPool& pool, Work& stats);
     void answer_single(Single& single);
     Result<void> answer_force(Single& single, ResponseBlock& response, std::span<double* const> probe_values);

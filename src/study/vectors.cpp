@@ -2,30 +2,30 @@
 
 #include <iterator>
 
-#include "model/sensor/fronts.hpp"
+#include "model/sensor/front_end_factory.hpp"
 
 namespace corpuscle {
 namespace {
 
 /// The comment lines above the rows: the afferent, and every constant.
-std::string header(const AfferentPlan& plan, const std::string& channel, const Digital& afferent) {
+std::string header(const AfferentPlan& plan, const std::string& channel, const DigitalAfferent& afferent) {
     const auto& constants = afferent.chain().constants();
     std::string text = "# corpuscle vectors 1, as doc/fixed-point.md tells them\n";
-    text += fmt::format("# afferent {}\n# parts {}\n# channel {}\n", plan.name, plan.made_of(), channel);
+    text += fmt::format("# afferent {}\n# parts {}\n# channel {}\n", plan.name, plan.composition(), channel);
     text += fmt::format("# word {}\n# frac {}\n# bits {:g}\n# f_s {} Hz\n", constants.format().word, constants.format().frac,
                         *plan.value("bits"), *plan.value("f_s"));
     for (const auto& c : constants.all())
         text += c.shift < 0 ? fmt::format("# level {} {} {}\n", c.name, c.value, c.word)
                             : fmt::format("# factor {} {} {} {}\n", c.name, c.value, c.word, c.shift);
     std::string columns = "code,F", bits;
-    for (const auto& [name, afferent_index] : afferent.chain().shown()) {
+    for (const auto& [name, afferent_index] : afferent.chain().recordables()) {
         columns += "," + name;
         if (name.starts_with("I")) bits += ",s" + name.substr(1);
     }
     return text + columns + bits + "\n";
 }
 
-std::string rom(const Digital& afferent) {
+std::string rom(const DigitalAfferent& afferent) {
     std::string text = "code,F\n";
     for (std::size_t code = 0; code < afferent.rom().size(); ++code) text += fmt::format("{},{}\n", code, afferent.rom()[code]);
     return text;
@@ -83,16 +83,16 @@ Result<void> VectorsFile::block(const Input& input, const Answered& block) {
     for (std::size_t u = 0; u < units_.size(); ++u) {
         if (!units_[u]) continue;
         fmt::memory_buffer text;
-        const auto row = [&](const Digital::Conversion& c) {
+        const auto row = [&](const DigitalAfferent::Conversion& c) {
             fmt::format_to(std::back_inserter(text), "{},{}", c.code, c.force);
-            for (const Word w : c.shown) fmt::format_to(std::back_inserter(text), ",{}", w);
+            for (const Word w : c.recorded) fmt::format_to(std::back_inserter(text), ",{}", w);
             for (const bool spike : c.fired) fmt::format_to(std::back_inserter(text), ",{:d}", spike);
             text.push_back('\n');
         };
         std::vector<Spike> spikes;
         ResponseBlock response{spikes};
         const std::span force(block.force.force[input.channel_of(u)].data(), block.force.count);
-        if (auto ok = digital_[units_[u]->afferent]->convert(force, units_[u]->state, response, row); !ok) return ok;
+        if (auto ok = digital_[units_[u]->afferent]->respond_and_report(force, units_[u]->state, response, row); !ok) return ok;
         if (auto ok = units_[u]->file.write({text.data(), text.size()}); !ok) return ok;
     }
     return {};

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include "io/output_file.hpp"
-#include "model/sensor/digital.hpp"
+#include "model/sensor/digital_afferent.hpp"
 #include "study/files.hpp"
 
 namespace corpuscle {
@@ -18,7 +18,7 @@ class VectorsFile final : public WrittenFile {
         State state;
     };
     std::string directory_;
-    std::vector<std::unique_ptr<Digital>> digital_;  // of the current input, for each plan; null if it is not digital
+    std::vector<std::unique_ptr<DigitalAfferent>> digital_;  // of the current input, for each plan; null if it is not digital
     std::vector<std::optional<Unit>> units_;         // of the current input
     std::vector<OutputFile> whole_;
     std::vector<int> made_;  // number of files for each plan

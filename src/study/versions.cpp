@@ -17,12 +17,12 @@ std::string in_lower_case(std::string text) {
 /// The catalogue's afferent with this name or alias; null if there is none.
 const NamedAfferent* find_afferent(const std::string& name) {
     for (const auto& a : named_afferents())
-        if (a.name == name || std::find(a.other_names.begin(), a.other_names.end(), name) != a.other_names.end()) return &a;
+        if (a.name == name || std::find(a.aliases.begin(), a.aliases.end(), name) != a.aliases.end()) return &a;
     return nullptr;
 }
 
 /// The afferent with the lowest rank is the reference: 0 the receptor itself, 1 another model, 2 a netlist.
-int reference_rank(const AfferentPlan& plan, const std::string& receptor) { return plan.design ? 2 : plan.name == receptor ? 0 : 1; }
+int reference_rank(const AfferentPlan& plan, const std::string& receptor) { return plan.factory ? 2 : plan.name == receptor ? 0 : 1; }
 
 }  // namespace
 

@@ -240,7 +240,7 @@ TEST(Program, JsonIsOneDocumentAndNothingElse) {
     EXPECT_EQ(document["afferents"][0]["parameters"]["f_B"], (Json{{"value", 25.0}, {"unit", "Hz"}, {"of", "sa1b"}, {"set", true}}));
     const auto listed = Json::parse(run(folder, "list --json").out);
     EXPECT_EQ(listed["afferents"].size(), named_afferents().size() + std::size(circuit::carried_netlists) + 1);  // and any netlist
-    for (const auto& card : receptor_cards())
+    for (const auto& card : receptor_entries())
         EXPECT_TRUE(std::any_of(listed["transductions"].begin(), listed["transductions"].end(), [&](const Json& e) {
             return e["name"] == card.name;
         })) << card.name;
@@ -250,7 +250,7 @@ TEST(Program, JsonIsOneDocumentAndNothingElse) {
 TEST(Program, ListNamesEveryParameterOfEveryModel) {
     const Folder folder;
     const auto text = run(folder, "list").out;
-    for (const auto& cards : {sensor_cards(), transducer_cards(), converter_cards(), receptor_cards(), neuron_cards(), stimulus_catalog()})
+    for (const auto& cards : {sensor_entries(), transducer_entries(), converter_entries(), receptor_entries(), neuron_entries(), stimulus_catalog()})
         for (const auto& card : cards) {
             EXPECT_NE(text.find("  " + std::string(card.name) + ": "), std::string::npos) << card.name;
             for (const auto& row : card.parameters)

@@ -27,7 +27,7 @@ struct Heard {
     }
 };
 
-Heard heard(const std::string& file, const Touch& touch, const Values& parameters = {}, double celsius = 27) {
+Heard heard(const std::string& file, const ForceSignal& touch, const Values& parameters = {}, double celsius = 27) {
     Heard out;
     const auto netlist = Netlist::read(corpuscle::test::root() + "/circuits/" + file);
     if (!netlist) return ADD_FAILURE() << netlist.error().text(), out;

@@ -30,7 +30,7 @@ double measured(const std::string& words, const std::vector<double>& t, const st
 
 const std::vector<double> times{0, 1, 3, 4, 8}, values{0, 2, -2, -1, 3};  // 0 at 2 s and 5 s
 
-TEST(Measure, FindsValuesBetweenPoints) {
+TEST(MeasureInfo, FindsValuesBetweenPoints) {
     EXPECT_DOUBLE_EQ(measured("find v(a) at=0.5", times, values), 1);
     EXPECT_DOUBLE_EQ(measured("find v(a) at=3", times, values), -2);
     EXPECT_DOUBLE_EQ(measured("find v(a) at=8.000000001", times, values), 3) << "rounding may put a place beyond the end";
@@ -41,7 +41,7 @@ TEST(Measure, FindsValuesBetweenPoints) {
     EXPECT_DOUBLE_EQ(measured("deriv v(a) when v(a)=0 rise=last", times, values), 1);
 }
 
-TEST(Measure, TellsCrossingsApart) {
+TEST(MeasureInfo, TellsCrossingsApart) {
     EXPECT_DOUBLE_EQ(measured("when v(a)=1", times, values), 0.5);
     EXPECT_DOUBLE_EQ(measured("when v(a)=1 cross=2", times, values), 1.5);
     EXPECT_DOUBLE_EQ(measured("when v(a)=1 rise=2", times, values), 6);
@@ -56,14 +56,14 @@ TEST(Measure, TellsCrossingsApart) {
     EXPECT_DOUBLE_EQ(measured("count v(a)=7", times, values), 0);
 }
 
-TEST(Measure, TakesTheTimeBetweenTwoEdges) {
+TEST(MeasureInfo, TakesTheTimeBetweenTwoEdges) {
     EXPECT_DOUBLE_EQ(measured("trig v(a) val=1 rise=1 targ v(a) val=1 rise=2", times, values), 5.5);
     EXPECT_DOUBLE_EQ(measured("trig at=1 targ v(a) td=2.5 val=0 cross=1", times, values), 4);
     EXPECT_DOUBLE_EQ(measured("trig v(a)=1 fall=1 targ at=1", times, values), -0.5) << "what comes before is negative";
     EXPECT_TRUE(std::isnan(measured("trig v(a) val=1 rise=1 targ v(a) val=9 rise=2", times, values)));
 }
 
-TEST(Measure, WeighsByTimeBetweenTheVeryEndsThatAreNamed) {
+TEST(MeasureInfo, WeighsByTimeBetweenTheVeryEndsThatAreNamed) {
     EXPECT_DOUBLE_EQ(measured("integ v(a)", times, values), 1 + 0 - 1.5 + 4);
     EXPECT_DOUBLE_EQ(measured("avg v(a)", times, values), 3.5 / 8);
     EXPECT_DOUBLE_EQ(measured("integ v(a) from=0.5 to=1.5", times, values), 0.75 + 0.75);
@@ -78,7 +78,7 @@ TEST(Measure, WeighsByTimeBetweenTheVeryEndsThatAreNamed) {
     EXPECT_TRUE(std::isnan(measured("max v(a) from=9", times, values)));
 }
 
-TEST(Measure, MorePointsOnTheSameLinesChangeNothing) {
+TEST(MeasureInfo, MorePointsOnTheSameLinesChangeNothing) {
     EXPECT_TRUE(rc::check([] {
         std::vector<double> t{0}, y{0};
         for (int k = 0; k < 6; ++k) t.push_back(t.back() + *rc::gen::inRange(1, 9)), y.push_back(*rc::gen::inRange(-9, 9));
@@ -103,7 +103,7 @@ TEST(Measure, MorePointsOnTheSameLinesChangeNothing) {
     }));
 }
 
-TEST(Measure, SaysWhatIsWrongAndWhere) {
+TEST(MeasureInfo, SaysWhatIsWrongAndWhere) {
     const auto told = [](const std::string& words) {
         const auto netlist = parsed("t\nv1 a 0 1\nr1 a 0 1k\n.tran 1m 2m\n.meas tran x " + words + "\n");
         const auto outcome = run(std::make_shared<const Circuit>(*netlist->elaborate()));
@@ -125,7 +125,7 @@ TEST(Measure, SaysWhatIsWrongAndWhere) {
 }
 
 /// A transient that is a closed form: v(out) of an RC behind a step at 1 ms.
-TEST(Measure, OfAChargingCapacitorIsWhatIsWrittenOnPaper) {
+TEST(MeasureInfo, OfAChargingCapacitorIsWhatIsWrittenOnPaper) {
     const auto found =
         ran("rc\nv1 in 0 pulse(0 1 1m 1n 1n 1 2)\nr1 in out 1k\nc1 out 0 1u\n.tran 10u 6m 0 2u\n.meas tran half when v(out)=0.5\n"
             ".meas tran later trig v(in) val=0.5 rise=1 targ v(out) val=0.9 rise=1\n.meas tran mean avg v(out) from=1.5m to=2.5m\n"
@@ -146,7 +146,7 @@ TEST(Measure, OfAChargingCapacitorIsWhatIsWrittenOnPaper) {
     EXPECT_DOUBLE_EQ(found.number("sum"), found.number("half") + found.number("later"));
 }
 
-TEST(Measure, TakesFormulasOfCurves) {
+TEST(MeasureInfo, TakesFormulasOfCurves) {
     const auto found =
         ran("t\nv1 a 0 pwl(0 0 1 2)\nr1 a 0 2\n.tran 1m 1 0 1m\n.meas tran energy integ par('-v(a)*i(v1)')\n"
             ".meas tran when_half when par('v(a)>=0.5 ? 1 : -1')=0\n.meas tran after trig par('v(a)^2') val=1 rise=1 targ "
@@ -156,7 +156,7 @@ TEST(Measure, TakesFormulasOfCurves) {
 }
 
 /// ngspice ends avg, min, max and pp at points, and has neither deriv nor count: short steps, and what both have.
-TEST(Measure, OfATransientIsThatOfNgspice) {
+TEST(MeasureInfo, OfATransientIsThatOfNgspice) {
     const Folder folder;
     const std::string deck = folder.write("x.cir", R"(measures in time
 .options reltol=1e-6 abstol=1e-14 vntol=1e-9

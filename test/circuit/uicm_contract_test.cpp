@@ -9,7 +9,7 @@
 #include "circuit/uicm_cards.hpp"
 #include "circuit/uicm_lanes.hpp"
 #include "circuit/uicm_numbers.hpp"
-#include "model/lanes/buffer.hpp"
+#include "model/lanes/aligned_buffer.hpp"
 #include "signal/instruction_set.hpp"
 
 namespace corpuscle::circuit {
@@ -160,8 +160,8 @@ TEST(UicmContract, PlainIsSmoothToThirdOrderAcrossZeroDrainVoltage) {
 TEST(UicmContract, LanesGiveTheBitsOfOne) {
     constexpr std::size_t count = 2048;
     std::vector<UicmConstants> constants;
-    lanes::Buffer<double> v[4] = {lanes::Buffer<double>(count), lanes::Buffer<double>(count), lanes::Buffer<double>(count),
-                                  lanes::Buffer<double>(count)};
+    lanes::AlignedBuffer<double> v[4] = {lanes::AlignedBuffer<double>(count), lanes::AlignedBuffer<double>(count), lanes::AlignedBuffer<double>(count),
+                                  lanes::AlignedBuffer<double>(count)};
     for (std::uint32_t k = 0; k < count; ++k) {
         const Random r(k);
         constants.push_back(r.c);
@@ -174,7 +174,7 @@ TEST(UicmContract, LanesGiveTheBitsOfOne) {
         if (set == InstructionSet::avx2) many = test::avx2::uicm_many;
         if (set == InstructionSet::avx512) many = test::avx512::uicm_many;
 #endif
-        std::vector<lanes::Buffer<double>> out;
+        std::vector<lanes::AlignedBuffer<double>> out;
         double* at[test::uicm_numbers];
         for (auto& p : at) p = out.emplace_back(count).data();
         many(constants.data(), points, count, at);

@@ -40,9 +40,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
                 for (const double x : t.times) require(std::isfinite(x));
             }
     }
-    const auto state = unpacked({reinterpret_cast<const std::byte*>(data), size}, "state");
+    const auto state = unpack_stream({reinterpret_cast<const std::byte*>(data), size}, "state");
     if (!state) return require(!state.error().message.empty()), 0;
-    const auto again = unpacked(packed(*state), "state");
+    const auto again = unpack_stream(pack_stream(*state), "state");
     require(again && again->force == state->force && again->number == state->number && again->skin == state->skin);
     return 0;
 }

@@ -27,15 +27,15 @@ std::vector<double> all_of(const FrameLayout& layout, std::span<const std::uint8
     FrameDecoder decoder(layout, 1, backwards);
     std::vector<double> all, force(layout.sites);
     while (!bytes.empty()) {
-        const auto room = decoder.room();
+        const auto room = decoder.buffer();
         require(!room.empty());
         const auto count = std::min({room.size(), bytes.size(), piece});
         std::copy_n(bytes.begin(), count, room.begin());
-        decoder.came(count), bytes = bytes.subspan(count);
-        for (auto found = decoder.next(); found != FrameDecoder::Found::nothing; found = decoder.next()) {
-            if (found == FrameDecoder::Found::frame) require(decoder.take(force) <= force.size());
+        decoder.add_bytes(count), bytes = bytes.subspan(count);
+        for (auto found = decoder.next(); found != FrameDecoder::Status::nothing; found = decoder.next()) {
+            if (found == FrameDecoder::Status::frame) require(decoder.read_forces(force) <= force.size());
             all.insert(all.end(), force.begin(), force.end());
-            all.push_back(found == FrameDecoder::Found::frame && layout.stamp != FrameStamp::none ? decoder.number() : -1.0);
+            all.push_back(found == FrameDecoder::Status::frame && layout.stamp != FrameStamp::none ? decoder.number() : -1.0);
         }
     }
     for (const double f : force) require(std::abs(f) <= layout.limit);
@@ -47,18 +47,18 @@ void take_datagrams(const FrameLayout& layout, std::span<const std::uint8_t> byt
     FrameDecoder decoder(layout, 1, backwards);
     std::vector<double> force(layout.sites);
     while (!bytes.empty()) {
-        const auto room = decoder.room();
+        const auto room = decoder.buffer();
         const auto count = std::min({room.size() - 1, bytes.size(), piece});
         std::copy_n(bytes.begin(), count, room.begin());
-        const bool is_whole = decoder.came_datagram(count);
+        const bool is_whole = decoder.add_datagram(count);
         require(is_whole == (layout.kind == FrameKind::csv || count % layout.bytes() == 0));
         bytes = bytes.subspan(count);
-        for (auto found = decoder.next(); found != FrameDecoder::Found::nothing; found = decoder.next())
-            if (found == FrameDecoder::Found::frame) require(decoder.take(force) <= force.size());
-        require(!decoder.begun());
+        for (auto found = decoder.next(); found != FrameDecoder::Status::nothing; found = decoder.next())
+            if (found == FrameDecoder::Status::frame) require(decoder.read_forces(force) <= force.size());
+        require(!decoder.has_partial_frame());
     }
     for (const double f : force) require(std::abs(f) <= layout.limit);
-    if (const auto& misfit = decoder.first_misfit()) require(!text_of(*misfit, layout, "hand").empty());
+    if (const auto& misfit = decoder.first_error()) require(!describe_frame_error(*misfit, layout, "hand").empty());
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "model/spread.hpp"
+#include "model/copies.hpp"
 #include "signal/stimuli.hpp"
 
 using namespace corpuscle;
@@ -48,14 +48,14 @@ void run(const AfferentPlan& plan, ForceSource& source, Method method) {
 void draw(std::string_view text, std::span<const ParameterOverride> wishes) {
     const auto plan = plan_afferent(text, {});
     if (!plan) return;
-    const auto spreads = spreads_for(*plan, text, wishes);
+    const auto spreads = distributions_for(*plan, text, wishes);
     if (!spreads) return spreads.error().message.empty() ? std::abort() : void();
-    const auto copies = copies_of(*plan, 3, *spreads, 1);
+    const auto copies = make_copies(*plan, 3, *spreads, 1);
     if (!copies) return copies.error().message.empty() ? std::abort() : void();
     for (const auto& copy : *copies) {
-        if (refusal(copy)) std::abort();
+        if (check_plan(copy)) std::abort();
         for (std::size_t k = 0; k < copy.values.size(); ++k)
-            if (check_range(copy.name, (*copy.parameters)[k].row, copy.values[k])) std::abort();
+            if (check_range(copy.name, (*copy.parameters)[k].info, copy.values[k])) std::abort();
     }
 }
 

@@ -15,16 +15,16 @@ void must(bool ok) {
 }
 
 void check(const Innervation& skin) {
-    must(skin.units.size() == skin.first.back() && skin.fields.size() == skin.plan.classes.size());
-    for (const auto& u : skin.units) must(std::isfinite(u.at.x) && std::isfinite(u.at.y) && std::isfinite(u.delay) && u.delay >= 0);
+    must(skin.afferents.size() == skin.class_begin.back() && skin.fields.size() == skin.plan.classes.size());
+    for (const auto& u : skin.afferents) must(std::isfinite(u.position.x) && std::isfinite(u.position.y) && std::isfinite(u.delay) && u.delay >= 0);
     for (std::size_t c = 0; c < skin.fields.size(); ++c) {
         const auto& f = skin.fields[c];
-        const auto units = skin.first[c + 1] - skin.first[c];
-        must(f.begin.size() == skin.plan.sites.size() + 1 && f.unit.size() == f.begin.back());
+        const auto units = skin.class_begin[c + 1] - skin.class_begin[c];
+        must(f.begin.size() == skin.plan.sites.size() + 1 && f.afferent.size() == f.begin.back());
         std::vector<double> sums(units);
-        for (std::size_t k = 0; k < f.unit.size(); ++k) {
-            must(f.unit[k] < units && f.weight[k] >= 0);
-            sums[f.unit[k]] += f.weight[k];
+        for (std::size_t k = 0; k < f.afferent.size(); ++k) {
+            must(f.afferent[k] < units && f.weight[k] >= 0);
+            sums[f.afferent[k]] += f.weight[k];
         }
         const double all = skin.plan.felt_area > 0 ? skin.plan.felt_area / skin.plan.sites.area : 1;
         for (const double s : sums) must(std::abs(s / all - 1) < 1e-9);
@@ -35,15 +35,15 @@ void check(const Innervation& skin) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     const Channel channels[] = {{0, "p1", Position{0, 0, 0}}, {1, "p2", Position{2e-3, 0, 0}}};
-    const auto plan = read_skin_plan({reinterpret_cast<const char*>(data), size}, "fuzz.toml", channels);
+    const auto plan = parse_skin_plan({reinterpret_cast<const char*>(data), size}, "fuzz.toml", channels);
     if (!plan) {
         must(!plan.error().message.empty() && !plan.error().location.file.empty());
         return 0;
     }
-    must(!plan->sites.at.empty() && !plan->classes.empty());
+    must(!plan->sites.positions.empty() && !plan->classes.empty());
     double work = 0;
     for (std::uint32_t c = 0; c < plan->classes.size(); ++c)
-        for (const auto n : units_by_region(*plan, c))
+        for (const auto n : afferents_by_region(*plan, c))
             work += static_cast<double>(n) * plan->classes[c].hot_spots * static_cast<double>(plan->sites.size());
     if (work > 1e7) return 0;  // a large skin is no other than a small one, but slow
     const auto skin = innervate(*plan);

@@ -34,13 +34,13 @@ int main() {
     const Clock clock{1000, 1};
     long all = 0;
     for (const char* population : {"grid 16x16", "sa1,fa1", "fingertip"}) {
-        auto plan = plan_live(population, 16);
+        auto plan = make_live_plan(population, 16);
         if (!plan) return std::puts(plan.error().text().c_str()), 1;
         const auto skin = innervate(std::move(*plan));
         auto stream = SkinStream::make(*skin, clock);
         const double felt =
             (*skin)->plan.felt_area > 0 ? (*skin)->plan.sites.area / (*skin)->plan.felt_area : 1;  // N at a site that feel as 1 N
-        const auto format = make_event_format("lines", event_units(**skin, clock));
+        const auto format = make_event_format("lines", make_event_afferents(**skin, clock));
         if (!stream || !format) return std::puts("refused"), 1;
         FrameDecoder decoder({FrameKind::f64, FrameStamp::none, (*stream)->sites()});
         std::vector<double> sent((*stream)->sites()), force((*stream)->sites());
@@ -55,12 +55,12 @@ int main() {
             const auto* const from = reinterpret_cast<const char*>(sent.data());
             const auto size = sent.size() * sizeof(double);
             for (std::size_t at = 0; at < size;) {
-                const auto room = decoder.room();
+                const auto room = decoder.buffer();
                 const auto count = std::min(room.size(), size - at);
                 std::copy_n(from + at, count, room.data());
-                decoder.came(count), at += count;
-                for (; decoder.next() == FrameDecoder::Found::frame;) {
-                    decoder.take(force);
+                decoder.add_bytes(count), at += count;
+                for (; decoder.next() == FrameDecoder::Status::frame;) {
+                    decoder.read_forces(force);
                     const auto pushed = (*stream)->push(force);
                     if (!pushed) return std::puts(pushed.error().text().c_str()), 1;
                     for (const auto& s : *pushed) bytes += static_cast<long>((*format)->write(s, event.data())), ++spikes;

@@ -30,7 +30,7 @@ std::vector<V> readings(std::size_t count) {
 
 /// The kernel's statement (see FrameForce), a number at a time.
 template <class V>
-std::size_t take_scalar(const std::vector<V>& from, const FrameForce& f, std::vector<double>& force) {
+std::size_t take_scalar(const std::vector<V>& from, const ForceScaling& f, std::vector<double>& force) {
     std::size_t bad = 0;
     for (std::size_t k = 0; k < force.size(); ++k) {
         const double x = (static_cast<double>(from[k]) - f.offset) * f.scale;
@@ -43,25 +43,25 @@ std::size_t take_scalar(const std::vector<V>& from, const FrameForce& f, std::ve
 }
 
 template <class V>
-void expect_same_on_every_set(FrameLanes::Take FrameLanes::* take) {
-    for (const FrameForce& f : {FrameForce{0, 1, 1e6}, FrameForce{0.25, -2e-3, 1e4}})
+void expect_same_on_every_set(FrameKernels::Take FrameKernels::* take) {
+    for (const ForceScaling& f : {ForceScaling{0, 1, 1e6}, ForceScaling{0.25, -2e-3, 1e4}})
         for (const std::size_t count : {1U, 3U, 4U, 7U, 8U, 16U, 17U, 333U}) {
             const auto from = readings<V>(count);
             std::vector<double> right(count, -0.0);
             const auto bad = take_scalar(from, f, right);
             for (const auto set : instruction_sets()) {
                 std::vector<double> force(count, -0.0);
-                EXPECT_EQ((frame_lanes(set).*take)(reinterpret_cast<const char*>(from.data()), f, force.data(), count), bad)
+                EXPECT_EQ((frame_kernels(set).*take)(reinterpret_cast<const char*>(from.data()), f, force.data(), count), bad)
                     << name_of(set);
                 EXPECT_EQ(std::memcmp(force.data(), right.data(), count * sizeof(double)), 0) << name_of(set) << ", " << count;
             }
         }
 }
 
-TEST(FrameLanes, GiveTheSameBitsOnEveryInstructionSet) {
-    expect_same_on_every_set<float>(&FrameLanes::f32);
-    expect_same_on_every_set<double>(&FrameLanes::f64);
-    expect_same_on_every_set<std::int16_t>(&FrameLanes::i16);
+TEST(FrameKernels, GiveTheSameBitsOnEveryInstructionSet) {
+    expect_same_on_every_set<float>(&FrameKernels::f32);
+    expect_same_on_every_set<double>(&FrameKernels::f64);
+    expect_same_on_every_set<std::int16_t>(&FrameKernels::i16);
 }
 
 }  // namespace

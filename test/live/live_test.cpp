@@ -13,12 +13,12 @@
 #include "io/events.hpp"
 #include "io/spike_files.hpp"
 #include "live/byte_ring.hpp"
-#include "live/delays.hpp"
-#include "live/event_outlet.hpp"
+#include "live/latency_histogram.hpp"
+#include "live/event_sink.hpp"
 #include "live/frame_decoder.hpp"
-#include "live/frame_order.hpp"
+#include "live/frame_sequence.hpp"
 #include "live/live_population.hpp"
-#include "live/placed_frames.hpp"
+#include "live/site_frames.hpp"
 #include "live/steady_clock.hpp"
 #include "live/stream_state.hpp"
 #include "model/catalog.hpp"
@@ -99,32 +99,32 @@ TEST(Events, MicrosecondsOfAedatGoRoundAfterSeventyOneMinutesAndAreReadOn) {
 }
 
 TEST(Events, AddressesOnAGridAreTaxelTimesClassesPlusClass) {
-    const auto skin = sure(innervate(sure(plan_channels("sa1,fa1", 3))));
-    const auto units = event_units(*skin, {1000, 1});
+    const auto skin = sure(innervate(sure(make_channel_plan("sa1,fa1", 3))));
+    const auto units = make_event_afferents(*skin, {1000, 1});
     EXPECT_EQ(units.names, (std::vector<std::string>{"sa1#1", "sa1#2", "sa1#3", "fa1#1", "fa1#2", "fa1#3"}));
     EXPECT_EQ(units.addresses, (std::vector<std::uint32_t>{0, 2, 4, 1, 3, 5}));
 }
 
 TEST(Events, LinesNameAfferentAndChannelAsRespondDoes) {
     const std::vector<Channel> channels = {{0, "fz"}, {1, "thumb, tip"}};
-    const auto on_channels = sure(innervate(sure(plan_channels("sa1,fa1", channels))));
+    const auto on_channels = sure(innervate(sure(make_channel_plan("sa1,fa1", channels))));
     const auto lines = [](const std::shared_ptr<const Innervation>& skin, std::uint32_t unit, const char* format) {
         const Spike spike{5, 1, unit};
-        return bytes_of(*sure(make_event_format(format, event_units(*skin, {1000, 1}))), {&spike, 1});
+        return bytes_of(*sure(make_event_format(format, make_event_afferents(*skin, {1000, 1}))), {&spike, 1});
     };
-    EXPECT_EQ(sure(make_event_format("lines", event_units(*on_channels, {1000, 1})))->header(), "afferent,channel,time_s\n");
+    EXPECT_EQ(sure(make_event_format("lines", make_event_afferents(*on_channels, {1000, 1})))->header(), "afferent,channel,time_s\n");
     EXPECT_EQ(lines(on_channels, 0, "lines"), "sa1,fz,0.005000000\n");
     EXPECT_EQ(lines(on_channels, 3, "lines"), "fa1,\"thumb, tip\",0.005000000\n");
     EXPECT_EQ(lines(on_channels, 3, "jsonl"), R"({"time_s":0.005000000,"afferent":"fa1","channel":"thumb, tip","address":3})"
                                               "\n");
-    const auto hand = sure(innervate(sure(plan_skin("fingertip"))));
-    EXPECT_TRUE(lines(hand, 16, "lines").starts_with("sa1#17," + hand->plan.sites.regions[hand->units[16].region] + ","));
+    const auto hand = sure(innervate(sure(load_skin_plan("fingertip"))));
+    EXPECT_TRUE(lines(hand, 16, "lines").starts_with("sa1#17," + hand->plan.sites.regions[hand->afferents[16].region] + ","));
 }
 
 TEST(Events, BinaryFormatsSayInTheirHeadersWhichChannelAnAddressStandsOn) {
     const Folder folder;
     const std::vector<Channel> channels = {{0, "fz"}, {1, "thumb\n#x"}, {2, "ch3"}};
-    const auto units = event_units(*sure(innervate(sure(plan_channels("sa1,fa1", channels)))), {1000, 1});
+    const auto units = make_event_afferents(*sure(innervate(sure(make_channel_plan("sa1,fa1", channels)))), {1000, 1});
     const auto aer = sure(make_event_format("aer", units)), aedat = sure(make_event_format("aedat2", units));
     const std::vector<Spike> spikes = {{5, 1, 0}, {6, 1, 4}, {7, 1, 5}};  // units: class after class
     const auto trains = sure(read_spikes(folder.write("x.aer", aer->header() + bytes_of(*aer, spikes))));
@@ -138,11 +138,11 @@ TEST(Events, BinaryFormatsSayInTheirHeadersWhichChannelAnAddressStandsOn) {
               "# addresses 0, 2 ... 4: sa1#1 ... sa1#3\r\n# addresses 1, 3 ... 5: fa1#1 ... fa1#3\r\n"
               "# addresses 0, 1: channel fz\r\n# addresses 2, 3: channel thumb #x\r\n# addresses 4, 5: channel ch3\r\n");
     EXPECT_EQ(sure(read_spikes(folder.write("x.aedat", aedat->header() + bytes_of(*aedat, spikes)))).size(), 3U);
-    const auto counted = event_units(*sure(innervate(sure(plan_channels("sa1,fa1", 3, {})))), {1000, 1});
+    const auto counted = make_event_afferents(*sure(innervate(sure(make_channel_plan("sa1,fa1", 3, {})))), {1000, 1});
     EXPECT_LT(sure(make_event_format("aer", counted))->header().size(), aer->header().size()) << "ch1, ch2 ... need no table";
     std::vector<Channel> many(4000);
     for (std::uint32_t c = 0; c < many.size(); ++c) many[c] = {c, fmt::format("a long name {}", c)};
-    const auto long_one = sure(make_event_format("aedat2", event_units(*sure(innervate(sure(plan_channels("sa1", many)))), {1000, 1})));
+    const auto long_one = sure(make_event_format("aedat2", make_event_afferents(*sure(innervate(sure(make_channel_plan("sa1", many)))), {1000, 1})));
     EXPECT_EQ(sure(read_spikes(folder.write("y.aedat", long_one->header() + bytes_of(*long_one, {spikes.data(), 1})))).size(), 1U);
 }
 
@@ -173,17 +173,17 @@ Decoded decoded(const FrameLayout& layout, std::string_view bytes, const std::ve
     Decoded out;
     std::vector<double> force(layout.sites);
     for (std::size_t k = 0; !bytes.empty(); ++k) {
-        const auto room = decoder.room();
+        const auto room = decoder.buffer();
         const auto piece = pieces.empty() ? bytes.size() : static_cast<std::size_t>(pieces[k % pieces.size()]);
         const auto count = std::min({room.size(), piece, bytes.size()});
         std::memcpy(room.data(), bytes.data(), count);
-        decoder.came(count), bytes.remove_prefix(count);
-        for (auto found = decoder.next(); found != FrameDecoder::Found::nothing; found = decoder.next()) {
-            if (found == FrameDecoder::Found::unreadable) {
+        decoder.add_bytes(count), bytes.remove_prefix(count);
+        for (auto found = decoder.next(); found != FrameDecoder::Status::nothing; found = decoder.next()) {
+            if (found == FrameDecoder::Status::unreadable) {
                 ++out.unreadable;
                 continue;
             }
-            out.bad += decoder.take(force);
+            out.bad += decoder.read_forces(force);
             out.frames.push_back(force);
         }
     }
@@ -194,7 +194,7 @@ TEST(Frames, AreTheSameHoweverTheirBytesArePutInPieces) {
     EXPECT_TRUE(rc::check([] {
         FrameLayout layout;
         layout.kind = *rc::gen::element(FrameKind::csv, FrameKind::f32, FrameKind::f64, FrameKind::i16);
-        layout.stamp = *rc::gen::element(FrameStamp::none, FrameStamp::count, FrameStamp::time);
+        layout.stamp = *rc::gen::element(FrameStamp::none, FrameStamp::sequence, FrameStamp::time);
         layout.sites = *rc::gen::inRange<std::size_t>(1, 5);
         const auto bytes = layout.kind == FrameKind::csv
                                ? *rc::gen::container<std::string>(rc::gen::element('1', '2', '.', ',', '\n', '-', 'x', ' '))
@@ -222,8 +222,8 @@ TEST(Frames, AFirstLineThatIsNoNumberButNanIsAFrame) {
 }
 
 TEST(Frames, NumbersSayWhatIsMissingTwiceOrLate) {
-    FrameOrder order(2, 10);
-    const auto turn = [&](std::uint32_t n) { return order.turn(n); };
+    FrameSequence order(2, 10);
+    const auto turn = [&](std::uint32_t n) { return order.decide(n); };
     EXPECT_TRUE(turn(4294967295U).take) << "the first begins the count";
     EXPECT_EQ(turn(0).hold, 0) << "it goes round at 2^32";
     EXPECT_FALSE(turn(0).take);
@@ -240,7 +240,7 @@ TEST(Frames, NumbersSayWhatIsMissingTwiceOrLate) {
 // --- a skin, frame by frame
 
 SkinPlan conducting_grid(std::size_t rows, std::size_t columns) {
-    auto plan = sure(plan_skin("grid " + std::to_string(rows) + "x" + std::to_string(columns)));
+    auto plan = sure(load_skin_plan("grid " + std::to_string(rows) + "x" + std::to_string(columns)));
     for (auto& c : plan.classes) c.velocity = 2, c.velocity_spread = 0.2;
     plan.nerve = Position{0, -0.02, 0};
     return plan;
@@ -265,7 +265,7 @@ std::vector<Spike> offline(const std::shared_ptr<const Innervation>& skin, const
     ThreadPool pool(2);
     std::vector<Spike> spikes;
     EXPECT_TRUE(made->respond({force.data(), frames.size(), {}, true}, frames.size(), spikes, pool));
-    made->last(spikes);
+    made->finish(spikes);
     return spikes;
 }
 
@@ -277,49 +277,49 @@ TEST(SkinStream, LiveEqualsOfflineAndResumedEqualsUninterruptedByteForByte) {
             some_frames(*rc::gen::inRange<std::size_t>(1, 700), skin->plan.sites.size(), *rc::gen::arbitrary<std::uint64_t>());
         const auto cut = *rc::gen::inRange<std::size_t>(0, frames.size());
         const auto format =
-            sure(make_event_format(*rc::gen::element<std::string>("lines", "jsonl", "aer", "aedat2"), event_units(*skin, clock)));
+            sure(make_event_format(*rc::gen::element<std::string>("lines", "jsonl", "aer", "aedat2"), make_event_afferents(*skin, clock)));
         const auto together = *rc::gen::inRange<std::size_t>(1, 40);
         auto stream = sure(SkinStream::make(skin, clock)), grouped = sure(SkinStream::make(skin, clock, false, together));
         std::string live, in_groups;
         for (std::size_t k = 0; k < frames.size(); ++k) {
             if (k == cut) {
-                const auto kept = sure(unpacked(packed({frames[k], 7, stream->save()}), "x"));
+                const auto kept = sure(unpack_stream(pack_stream({frames[k], 7, stream->save()}), "x"));
                 RC_ASSERT(kept.force == frames[k]);
                 stream = sure(SkinStream::make(skin, clock));
                 RC_ASSERT(bool(stream->resume(kept.skin)));
             }
             live += bytes_of(*format, sure(stream->push(frames[k])));
-            if (grouped->gather(frames[k])) in_groups += bytes_of(*format, sure(grouped->answer_gathered()));
+            if (grouped->add_to_batch(frames[k])) in_groups += bytes_of(*format, sure(grouped->run_batch()));
         }
-        live += bytes_of(*format, stream->last());
-        in_groups += bytes_of(*format, sure(grouped->answer_gathered()));
-        RC_ASSERT(in_groups + bytes_of(*format, grouped->last()) == live);
+        live += bytes_of(*format, stream->finish());
+        in_groups += bytes_of(*format, sure(grouped->run_batch()));
+        RC_ASSERT(in_groups + bytes_of(*format, grouped->finish()) == live);
         RC_ASSERT(live == bytes_of(*format, offline(skin, frames)));
     }));
 }
 
 TEST(SkinStream, AStateThatIsDamagedIsRefused) {
-    auto stream = sure(SkinStream::make(sure(innervate(sure(plan_channels("sa1", 2)))), {1000, 1}));
-    const auto bytes = packed({{0.5, 0.25}, {}, stream->save()});
-    EXPECT_TRUE(unpacked(bytes, "x"));
-    for (std::size_t size = 0; size < bytes.size(); ++size) EXPECT_FALSE(unpacked(std::span(bytes).first(size), "x")) << size;
+    auto stream = sure(SkinStream::make(sure(innervate(sure(make_channel_plan("sa1", 2)))), {1000, 1}));
+    const auto bytes = pack_stream({{0.5, 0.25}, {}, stream->save()});
+    EXPECT_TRUE(unpack_stream(bytes, "x"));
+    for (std::size_t size = 0; size < bytes.size(); ++size) EXPECT_FALSE(unpack_stream(std::span(bytes).first(size), "x")) << size;
     for (std::size_t bit = 0; bit < 8 * bytes.size(); ++bit) {
         auto damaged = bytes;
         damaged[bit / 8] ^= std::byte{1} << (bit % 8);
-        EXPECT_FALSE(unpacked(damaged, "x")) << bit;
+        EXPECT_FALSE(unpack_stream(damaged, "x")) << bit;
     }
 }
 
 TEST(SkinStream, AStateOfTheVersionBeforeIsReadAndOneOfALaterVersionIsRefused) {
-    auto stream = sure(SkinStream::make(sure(innervate(sure(plan_channels("sa1", 2)))), {1000, 1}));
-    auto bytes = packed({{0.5, 0.25}, 7, stream->save()});
+    auto stream = sure(SkinStream::make(sure(innervate(sure(make_channel_plan("sa1", 2)))), {1000, 1}));
+    auto bytes = pack_stream({{0.5, 0.25}, 7, stream->save()});
     bytes[8] = std::byte{3};
-    const auto later = unpacked(bytes, "now.state");
+    const auto later = unpack_stream(bytes, "now.state");
     ASSERT_FALSE(later);
     EXPECT_NE(later.error().message.find("a saved state of version 3"), std::string::npos) << later.error().message;
     bytes[8] = std::byte{1};
     bytes.resize(bytes.size() - 8);  // version 1 has no checksum
-    const auto before = sure(unpacked(bytes, "now.state"));
+    const auto before = sure(unpack_stream(bytes, "now.state"));
     EXPECT_EQ(before.force, (std::vector<double>{0.5, 0.25}));
     EXPECT_EQ(before.number, 7U);
     EXPECT_EQ(before.skin, stream->save());
@@ -334,8 +334,8 @@ TEST(ByteRing, GivesWholeEventsInOrderFromOneThreadToAnother) {
         std::string got;
         std::uint32_t last = 0;
         while (last != 1'000'000) {
-            const auto piece = ring.next();
-            got.append(piece), ring.took(piece.size());
+            const auto piece = ring.readable();
+            got.append(piece), ring.consume(piece.size());
             for (; got.size() >= sizeof last; got.erase(0, sizeof last)) {
                 std::uint32_t number = 0;
                 std::memcpy(&number, got.data(), sizeof number);
@@ -352,9 +352,9 @@ TEST(ByteRing, GivesWholeEventsInOrderFromOneThreadToAnother) {
     EXPECT_EQ(next, 1'000'000U);
 }
 
-TEST(EventOutlet, AReaderThatComesBackIsFoundThoughTheNameServiceIsGone) {
+TEST(EventSink, AReaderThatComesBackIsFoundThoughTheNameServiceIsGone) {
     Endpoint at;
-    auto door = sure(listening_socket(at));
+    auto door = sure(open_listening_socket(at));
     const auto accepted = [&] {
         pollfd there = {door.get(), POLLIN, 0};
         EXPECT_EQ(::poll(&there, 1, 10000), 1);
@@ -363,29 +363,29 @@ TEST(EventOutlet, AReaderThatComesBackIsFoundThoughTheNameServiceIsGone) {
     auto to = sure(resolve(at));
     to.at.address = "robot.invalid";  // no name service knows it
     const auto format = sure(make_event_format("lines", {Clock{1000, 1}, {"a"}, {}}));
-    const auto outlet = sure(event_client(to, *format, 1024));
+    const auto outlet = sure(connect_event_client(to, *format, 1024));
     accepted().close();
     const auto begun = steady_now();
     std::int64_t longest = 0;
-    while (outlet->readers() < 2 && steady_now() - begun < 10'000'000'000) {
+    while (outlet->connections() < 2 && steady_now() - begun < 10'000'000'000) {
         const auto before = steady_now();
-        EXPECT_TRUE(outlet->take("a,,0.1\n"));
+        EXPECT_TRUE(outlet->put("a,,0.1\n"));
         EXPECT_TRUE(outlet->flush());
         longest = std::max(longest, steady_now() - before);
         std::this_thread::sleep_for(std::chrono::milliseconds(5));
     }
-    EXPECT_EQ(outlet->readers(), 2);
+    EXPECT_EQ(outlet->connections(), 2);
     EXPECT_LT(longest, 1'000'000'000) << "no call waits";
-    EXPECT_GT(outlet->lost(), 0);
+    EXPECT_GT(outlet->dropped(), 0);
     accepted().close();
 }
 
-TEST(Delays, QuantilesAreWithinThreePercent) {
-    Delays d;
+TEST(LatencyHistogram, QuantilesAreWithinThreePercent) {
+    LatencyHistogram d;
     for (std::int64_t ns = 1; ns <= 1'000'000; ++ns) d.add(ns);
     for (const double share : {0.01, 0.5, 0.99, 0.999})
         EXPECT_NEAR(static_cast<double>(d.quantile(share)), share * 1e6, 0.032 * share * 1e6);
-    EXPECT_EQ(d.most(), 1'000'000);
+    EXPECT_EQ(d.max(), 1'000'000);
 }
 
 TEST(CHeader, SaysWhereEachSiteIs) {
@@ -411,7 +411,7 @@ class CountedFrames final : public FrameSource {
 public:
     Result<bool> receive() override { return true; }
     FrameCounts counts() const override { return {.frames = given_}; }
-    std::string sentence() const override { return "counted"; }
+    std::string description() const override { return "counted"; }
     Next next(std::span<double> force) override {
         if (++given_ == 3) return Next::filled;  // holds the last one
         force[0] = given_, force[1] = 10.0 * given_;
@@ -420,7 +420,7 @@ public:
 };
 
 TEST(PlacedFrames, GiveEachForceToItsSiteAndNoneToTheOthers) {
-    const auto frames = placed_frames(std::make_unique<CountedFrames>(), {4, 1}, 6);
+    const auto frames = assign_sites(std::make_unique<CountedFrames>(), {4, 1}, 6);
     std::vector<double> force(6);
     EXPECT_EQ(frames->next(force), FrameSource::Next::frame);
     EXPECT_EQ(force, (std::vector<double>{0, 10, 0, 0, 1, 0}));
@@ -432,7 +432,7 @@ TEST(PlacedFrames, GiveEachForceToItsSiteAndNoneToTheOthers) {
 TEST(PlacedFrames, OfAllSitesInOrderAreTheFramesThemselves) {
     auto counted = std::make_unique<CountedFrames>();
     const auto* const same = counted.get();
-    EXPECT_EQ(placed_frames(std::move(counted), {0, 1}, 2).get(), same);
+    EXPECT_EQ(assign_sites(std::move(counted), {0, 1}, 2).get(), same);
 }
 
 TEST(SiteMap, ReadsWhichSiteEachNumberOfAFrameIs) {
@@ -459,7 +459,7 @@ TEST(SiteMap, ReadsWhichSiteEachNumberOfAFrameIs) {
 TEST(SiteMap, NamesAreAllOfSitesOrNotOne) {
     const auto sites = sure(grid_sites(2, 2, 2e-3));
     using Names = std::vector<std::string>;
-    const auto found = [&](const Names& names) { return sites_if_named(sites, names); };
+    const auto found = [&](const Names& names) { return find_sites_if_named(sites, names); };
     EXPECT_EQ(*sure(found({"r2c2", "r1c1", "r1c2_N", "r2c1 [mN]"})), (std::vector<std::uint32_t>{3, 0, 1, 2}));
     EXPECT_EQ(*sure(found({"r2c1"})), std::vector<std::uint32_t>{2});
     EXPECT_FALSE(sure(found({"fx", "fy", "fz", "r3c3"})));

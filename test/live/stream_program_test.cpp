@@ -11,7 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "io/spike_files.hpp"
-#include "live/network.hpp"
+#include "live/sockets.hpp"
 #include "stream_child.hpp"
 
 namespace corpuscle {
@@ -573,7 +573,7 @@ TEST(StreamProgram, AnIdleSenderMakesWayForTheNextAndStaysIfThereIsNone) {
 /// The seconds of silence after which the system asks whether the other side of a connection still lives, as the child set them.
 TEST(Network, ADeadPeerIsNoticedWithinSecondsNotHours) {
     const int fd = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
-    watch_peer(fd);
+    enable_keepalive(fd);
     const auto option = [fd](int level, int name) {
         int value = 0;
         socklen_t size = sizeof value;

@@ -11,8 +11,8 @@ namespace {
 const std::vector<double> train = {0.1, 0.2, 0.25, 0.45, 0.95};
 
 /// One measure of a train in one stretch, fed through the tally.
-double measured(std::string_view name, const std::vector<double>& spikes, const Stretch& stretch) {
-    Tally tally({stretch}, 1);
+double measured(std::string_view name, const std::vector<double>& spikes, const TimeWindow& stretch) {
+    MeasureAccumulator tally({stretch}, 1);
     for (const double t : spikes) tally.spike(0, t);
     for (std::size_t m = 0; m < std::size(measures); ++m)
         if (measures[m].name == name) return tally.values(0, 0)[m];
@@ -20,7 +20,7 @@ double measured(std::string_view name, const std::vector<double>& spikes, const 
 }
 
 TEST(Measures, TakeThePhasesSpikesAndTheForwardFrequency) {
-    const Stretch hold{0.2, 0.5};
+    const TimeWindow hold{0.2, 0.5};
     EXPECT_EQ(measured("spikes", train, hold), 3);
     EXPECT_NEAR(measured("mean_rate", train, hold), 10, 1e-9);
     EXPECT_NEAR(measured("first_rate", train, hold), 20, 1e-9);
@@ -62,7 +62,7 @@ std::vector<double> presses(int count, double pause) {
 }
 
 TEST(Measures, HaveNoAdaptationAndNoVariationWherePausesAreLongerThanPresses) {
-    const Stretch all{0, 1000};
+    const TimeWindow all{0, 1000};
     for (const char* name : {"adaptation_ratio", "isi_cv"}) {
         EXPECT_FALSE(std::isnan(measured(name, presses(1, 0), all))) << name;
         EXPECT_TRUE(std::isnan(measured(name, presses(13, 9), all))) << name;
@@ -104,8 +104,8 @@ TEST(Measures, InstantaneousRatesAreOneFewerThanSpikes) {
 
 TEST(Measures, EachHasANameATitleAndASentenceOfItsOwn) {
     for (const auto& m : measures) {
-        EXPECT_FALSE(m.title.empty() || m.sentence.empty()) << m.name;
-        EXPECT_EQ(std::count_if(std::begin(measures), std::end(measures), [&](const Measure& o) { return o.name == m.name; }), 1) << m.name;
+        EXPECT_FALSE(m.title.empty() || m.description.empty()) << m.name;
+        EXPECT_EQ(std::count_if(std::begin(measures), std::end(measures), [&](const MeasureInfo& o) { return o.name == m.name; }), 1) << m.name;
     }
 }
 
@@ -143,7 +143,7 @@ TEST(Measures, VectorStrengthIsOneForALockAndNoneForAnEvenSpread) {
         twice.push_back((k + 0.3) / 50.0);
         spread.push_back((k + k / 100.0) / 25.0);
     }
-    const Stretch s{0, 4, 25};
+    const TimeWindow s{0, 4, 25};
     EXPECT_NEAR(measured("vector_strength", locked, s), 1, 1e-9);
     EXPECT_NEAR(measured("vector_strength", twice, {0, 2, 25}), 0, 1e-9) << "two spikes a cycle, on opposite sides";
     EXPECT_NEAR(measured("vector_strength", spread, s), 0, 1e-9);
@@ -162,17 +162,17 @@ TEST(Measures, WhatIsBehindTheLastWholeCycleDoesNotCount) {
 }
 
 /// The plain meaning of spikes, first, peak, last: over the whole train at once.
-TEST(Tally, GivesWhatTheWholeTrainWouldHoweverItIsCutIntoPhases) {
+TEST(MeasureAccumulator, GivesWhatTheWholeTrainWouldHoweverItIsCutIntoPhases) {
     EXPECT_TRUE(rc::check("against the train kept whole", [] {
         const auto steps = *rc::gen::container<std::vector<int>>(rc::gen::inRange(0, 40));
         const auto edges = *rc::gen::container<std::vector<int>>(*rc::gen::inRange<std::size_t>(1, 6), rc::gen::inRange(0, 100));
         std::vector<double> spikes;
         int at = 0;
         for (const int x : steps) spikes.push_back(1e-2 * (at += x));
-        std::vector<Stretch> stretches;
+        std::vector<TimeWindow> stretches;
         int edge = *rc::gen::inRange(0, 50);
         for (const int x : edges) stretches.push_back({1e-2 * edge, 1e-2 * (edge + x)}), edge += x + *rc::gen::element(0, 3);
-        Tally tally(stretches, 2);
+        MeasureAccumulator tally(stretches, 2);
         for (const double t : spikes) tally.spike(1, t);
         for (std::size_t p = 0; p < stretches.size(); ++p) {
             const auto begin = std::lower_bound(spikes.begin(), spikes.end(), stretches[p].from);

@@ -31,7 +31,7 @@ TEST(Contract, EachAnswersToATouchOfItsKind) {
 }
 
 TEST(Contract, ParametersOfPartsThatJoinNeverShareAName) {
-    const std::vector<std::vector<CatalogEntry>> kinds = {sensor_cards(), transducer_cards(), converter_cards(), receptor_cards(), neuron_cards()};
+    const std::vector<std::vector<CatalogEntry>> kinds = {sensor_entries(), transducer_entries(), converter_entries(), receptor_entries(), neuron_entries()};
     for (const auto& first : kinds)
         for (const auto& second : kinds) {
             if (&first == &second) continue;  // two of a kind do not join
@@ -43,7 +43,7 @@ TEST(Contract, ParametersOfPartsThatJoinNeverShareAName) {
 }
 
 TEST(Contract, EveryRowHasASentenceAReadableUnitAndItsDefaultInRange) {
-    for (const auto& cards : {sensor_cards(), transducer_cards(), converter_cards(), receptor_cards(), neuron_cards(), stimulus_catalog()})
+    for (const auto& cards : {sensor_entries(), transducer_entries(), converter_entries(), receptor_entries(), neuron_entries(), stimulus_catalog()})
         for (const auto& card : cards) {
             EXPECT_FALSE(card.description.empty() || card.source.empty()) << card.name;
             for (const auto& row : card.parameters) {
@@ -58,11 +58,11 @@ TEST(Contract, ValuesOutsideARowsRangeAreRefusedByName) {
     for (const auto& name : every_afferent()) {
         const auto plan = test::sure(plan_afferent(name, {}));
         for (const auto& p : *plan.parameters) {
-            for (const double value : {p.row.high * 2 + 1, p.row.low - std::abs(p.row.low) - 1}) {
-                const ParameterOverride wish{name, std::string(p.row.name), fmt::format("{}", value)};
+            for (const double value : {p.info.high * 2 + 1, p.info.low - std::abs(p.info.low) - 1}) {
+                const ParameterOverride wish{name, std::string(p.info.name), fmt::format("{}", value)};
                 const auto refused = plan_afferent(name, std::span(&wish, 1));
                 ASSERT_FALSE(refused) << wish.text();
-                EXPECT_NE(refused.error().text().find(std::string(p.row.name) + " = "), std::string::npos) << refused.error().text();
+                EXPECT_NE(refused.error().text().find(std::string(p.info.name) + " = "), std::string::npos) << refused.error().text();
             }
         }
     }

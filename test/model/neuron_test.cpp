@@ -16,7 +16,7 @@ struct Shown {
 template <template <class> class N>
 Shown run(typename N<double>::Params p, const std::function<double(double)>& current, double seconds, double dt,
           Method method = Method::exact) {
-    const N<double> neuron(Same<typename N<double>::Params>{p}, dt, method);
+    const N<double> neuron(UniformParams<typename N<double>::Params>{p}, dt, method);
     auto state = neuron.start();
     Shown out;
     for (long k = 1; k <= std::lround(seconds / dt); ++k) {
@@ -24,8 +24,8 @@ Shown run(typename N<double>::Params p, const std::function<double(double)>& cur
                      from = method == Method::exact ? current(static_cast<double>(k - 1) * dt) : end;
         out.capped += neuron.step(state, Current<double>{from, end},
                                   [&](bool, double x) { out.times.push_back((static_cast<double>(k - 1) + x) * dt); });
-        double parts[std::size(N<double>::parts)];
-        neuron.show(state, parts);
+        double parts[std::size(N<double>::recordables)];
+        neuron.record(state, parts);
         out.membrane.push_back(parts[0]);
     }
     return out;
@@ -41,7 +41,7 @@ template <template <class> class N>
 constexpr bool has_refractory_time = requires(typename N<double>::Params p) { p.t_ref; };
 
 TEST(Neuron, EachIsSilentAndStillAtRest) {
-    each(Neurons{}, []<template <class> class N>(Model<N>) {
+    for_each_type(Neurons{}, []<template <class> class N>(ModelTag<N>) {
         for (const auto method : {Method::exact, Method::backward_euler}) {
             const auto shown = run<N>({}, [](double) { return 0.0; }, 2, 1e-4, method);
             EXPECT_TRUE(shown.times.empty()) << N<double>::name;
@@ -51,7 +51,7 @@ TEST(Neuron, EachIsSilentAndStillAtRest) {
 }
 
 TEST(Neuron, EachFiresAsItIsDriven) {
-    each(Neurons{}, []<template <class> class N>(Model<N>) {
+    for_each_type(Neurons{}, []<template <class> class N>(ModelTag<N>) {
         const auto slow = run<N>({}, [](double) { return 2.5e-6; }, 2, 1e-4), fast = run<N>({}, [](double) { return 10e-6; }, 2, 1e-4);
         EXPECT_GT(slow.times.size(), 2U) << N<double>::name;
         EXPECT_GT(fast.times.size(), slow.times.size()) << N<double>::name;
@@ -59,7 +59,7 @@ TEST(Neuron, EachFiresAsItIsDriven) {
 }
 
 TEST(Neuron, EachWithARefractoryTimeKeepsItAndIsHeldThrough) {
-    each(Neurons{}, []<template <class> class N>(Model<N>) {
+    for_each_type(Neurons{}, []<template <class> class N>(ModelTag<N>) {
         if constexpr (!has_refractory_time<N>) {
             EXPECT_TRUE(N<double>::name == "izhikevich" || N<double>::name == "adex") << "their recovery variable is their refractoriness";
         } else {
@@ -113,7 +113,7 @@ TEST(Neuron, SeveralSpikesInAStepAreAllGivenUpToTheCapWhichIsTold) {
     EXPECT_NEAR(static_cast<double>(many.times.size()), (49.5e-6 * 0.5 / 500e-9 - 0.5) / 0.25 + 1, 1);
     EXPECT_EQ(many.capped, 0);
     const auto too_many = run<LifB>({}, [](double) { return 50e-6; }, 0.5, 0.5);
-    EXPECT_EQ(too_many.times.size(), static_cast<std::size_t>(spikes_a_step));
+    EXPECT_EQ(too_many.times.size(), static_cast<std::size_t>(max_spikes_per_step));
     EXPECT_EQ(too_many.capped, 1);
     EXPECT_EQ(run<LifA>({}, [](double) { return 50e-6; }, 0.5, 0.5).capped, 1);
     EXPECT_EQ(run<Adaptive>({}, [](double) { return 500e-6; }, 0.5, 0.5).capped, 1);
@@ -140,7 +140,7 @@ TEST(Neuron, AdaptiveFiresForAllTheTimeItIsDrivenInAStep) {
 
 TEST(Neuron, AdexWithoutARestStartsWhereItSays) {
     const Adex<double>::Params p{.Delta_T = 0.1};
-    const Adex<double> neuron(Same<Adex<double>::Params>{p}, 1e-4, Method::exact);
+    const Adex<double> neuron(UniformParams<Adex<double>::Params>{p}, 1e-4, Method::exact);
     EXPECT_EQ(neuron.start().v, p.E_L);
 }
 
@@ -174,7 +174,7 @@ TEST(Neuron, AdexFiresAsItsEquationsDo) {
 }
 
 TEST(Neuron, SlopesByDualsMatchFiniteDifferencesForEveryParameter) {
-    each(Neurons{}, []<template <class> class N>(Model<N>) {
+    for_each_type(Neurons{}, []<template <class> class N>(ModelTag<N>) {
         using Params = typename N<double>::Params;
         constexpr double dt = 1e-4;
         constexpr int steps = 400;
@@ -188,18 +188,18 @@ TEST(Neuron, SlopesByDualsMatchFiniteDifferencesForEveryParameter) {
                     const double from = 4e-6 + 1e-6 * k / steps, to = 4e-6 + 1e-6 * (k + 1) / steps;
                     (void)neuron.step(state, Current<T>{T(from), T(to)}, [&](bool, T x) { last = T(static_cast<double>(k)) + x; });
                 }
-                T parts[std::size(N<double>::parts)];
-                neuron.show(state, parts);
+                T parts[std::size(N<double>::recordables)];
+                neuron.record(state, parts);
                 return std::pair(last, parts[0]);
             };
             Params p;
             if constexpr (has_refractory_time<N>) p.t_ref = 1.3e-3;  // at 0 it would have a slope to one side only
-            const auto dual = last_time(N<num::Dual>(Seeded<Params>{p, field.member}, dt, Method::exact), num::Dual{});
+            const auto dual = last_time(N<num::Dual>(DualParams<Params>{p, field.member}, dt, Method::exact), num::Dual{});
             const double scale = p.*field.member != 0 ? std::abs(p.*field.member) : field.unit == "V" ? 1e-2 : field.unit == "s" ? 1e-3 : 1e-6;
             const auto moved = [&](double by) {
                 Params q = p;
                 q.*field.member += by;
-                return last_time(N<double>(Same<Params>{q}, dt, Method::exact), 0.0);
+                return last_time(N<double>(UniformParams<Params>{q}, dt, Method::exact), 0.0);
             };
             const double h = 1e-6 * scale;
             const auto up = moved(h), down = moved(-h);

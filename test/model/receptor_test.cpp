@@ -22,9 +22,9 @@ TEST(Receptor, HighPassUnderARampIsExactWhateverTheStep) {
 }
 
 TEST(Receptor, CurrentsOfAStepJoinOnToTheNextOrHoldASlope) {
-    each(Receptors{}, []<template <class> class R>(Model<R>) {
+    for_each_type(Receptors{}, []<template <class> class R>(ModelTag<R>) {
         const std::string name(R<double>::name);
-        const R<double> receptor(Same<typename R<double>::Params>{{}}, 1e-3, Method::exact);
+        const R<double> receptor(UniformParams<typename R<double>::Params>{{}}, 1e-3, Method::exact);
         const auto f = test::force("press", {.rate = 1e3});
         auto s = receptor.start(f[0]);
         Current<double> i[R<double>::outputs], before[R<double>::outputs] = {};
@@ -43,7 +43,7 @@ TEST(Receptor, CurrentsOfAStepJoinOnToTheNextOrHoldASlope) {
 }
 
 TEST(Receptor, SlopesByDualsMatchFiniteDifferencesForEveryParameter) {
-    each(Receptors{}, []<template <class> class R>(Model<R>) {
+    for_each_type(Receptors{}, []<template <class> class R>(ModelTag<R>) {
         using Params = typename R<double>::Params;
         const auto f = test::force("press", {.rate = 1e3});
         for (const auto method : {Method::exact, Method::backward_euler})
@@ -60,10 +60,10 @@ TEST(Receptor, SlopesByDualsMatchFiniteDifferencesForEveryParameter) {
                 const auto moved = [&](double by) {
                     Params q = p;
                     q.*field.member += by;
-                    return current(R<double>(Same<Params>{q}, 1e-3, method), 0.0);
+                    return current(R<double>(UniformParams<Params>{q}, 1e-3, method), 0.0);
                 };
                 const double slope = (moved(h) - moved(-h)) / (2 * h) * scale,
-                             made = current(R<num::Dual>(Seeded<Params>{p, field.member}, 1e-3, method), num::Dual{}).d * scale;
+                             made = current(R<num::Dual>(DualParams<Params>{p, field.member}, 1e-3, method), num::Dual{}).d * scale;
                 EXPECT_NEAR(made, slope, 1e-7 * std::abs(slope) + 1e-17) << R<double>::name << '.' << field.name;
             }
     });

@@ -131,7 +131,7 @@ TEST(Thesis, GoldenCasesAreMet) {
         }
         for (const auto& [name, facts] : g["stats"]["phases"].items()) {
             const auto& ends = golden["conventions"]["phases_s"][name];
-            const Stretch s{ends[0], ends[1]};
+            const TimeWindow s{ends[0], ends[1]};
             EXPECT_EQ(measure<SpikeCount>(right, s), facts["count"].get<double>());
             const auto same = [](double made, const nlohmann::json& value) {
                 if (value.is_null()) {
@@ -178,7 +178,7 @@ TEST(Thesis, Figure16sNeuronsMeetTheGoldenValues) {
 
 TEST(Thesis, DefaultPressHasTheDescribedPattern) {
     const auto sa1 = train("sa1"), fa1 = train("fa1");
-    const Stretch plateau{0.375, 0.625};
+    const TimeWindow plateau{0.375, 0.625};
     EXPECT_NEAR(measure<PeakRate>(sa1, {0, 1}), 76.0, 0.5);
     EXPECT_NEAR(measure<FirstRate>(sa1, plateau), 49, 0.5);
     EXPECT_NEAR(measure<LastRate>(sa1, plateau), 30, 0.5);

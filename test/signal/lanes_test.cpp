@@ -8,7 +8,7 @@
 #include <limits>
 #include <vector>
 
-#include "model/lanes/buffer.hpp"
+#include "model/lanes/aligned_buffer.hpp"
 #include "signal/elementary.hpp"
 #include "signal/instruction_set.hpp"
 #include "signal/number_functions.hpp"
@@ -40,7 +40,7 @@ test::NumberFunctions<V> on(InstructionSet set) {
 /// Numbers of all sizes, and those at the edges.
 template <class V>
 struct Arguments {
-    lanes::Buffer<V> a{points}, b{points};
+    lanes::AlignedBuffer<V> a{points}, b{points};
     Arguments() {
         const V odd[] = {0,
                          -V(0),
@@ -62,8 +62,8 @@ struct Arguments {
 };
 
 template <class V>
-std::vector<lanes::Buffer<V>> values(InstructionSet set, const Arguments<V>& x) {
-    std::vector<lanes::Buffer<V>> out;
+std::vector<lanes::AlignedBuffer<V>> values(InstructionSet set, const Arguments<V>& x) {
+    std::vector<lanes::AlignedBuffer<V>> out;
     V* at[functions];
     for (auto& p : at) p = out.emplace_back(points).data();
     on<V>(set)(x.a.data(), x.b.data(), points, at);

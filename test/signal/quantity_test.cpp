@@ -68,7 +68,7 @@ TEST(Quantity, RefusesWhatIsNoneAndSaysWhatWouldBeRight) {
 }
 
 TEST(Quantity, OfEveryRowReadsItsOwnDefaultBack) {
-    for (const auto& cards : {receptor_cards(), neuron_cards(), stimulus_catalog()})
+    for (const auto& cards : {receptor_entries(), neuron_entries(), stimulus_catalog()})
         for (const auto& card : cards)
             for (const auto& row : card.parameters) {
                 const auto text = format_quantity(row.default_value, row.unit);

@@ -14,7 +14,7 @@ namespace {
 Sites sheet(double half, double pitch) {
     const auto n = 2 * static_cast<std::size_t>(std::lround(half / pitch)) + 1;
     auto sites = *grid_sites(n, n, pitch);
-    for (auto& p : sites.at) p.x -= static_cast<double>(n / 2) * pitch, p.y -= static_cast<double>(n / 2) * pitch;
+    for (auto& p : sites.positions) p.x -= static_cast<double>(n / 2) * pitch, p.y -= static_cast<double>(n / 2) * pitch;
     sites.area = pitch * pitch;
     return sites;
 }
@@ -33,7 +33,7 @@ std::vector<double> map_at(Contact& contact, const Sites& sites, double force, s
     const auto pressed = contact.press({&force, 1}, at);
     EXPECT_TRUE(pressed) << pressed.error().text();
     std::vector<double> out(sites.size(), 0.0);
-    for (const auto s : pressed->touched) out[s] = pressed->of[s * pressed->stride];
+    for (const auto s : pressed->touched) out[s] = pressed->data[s * pressed->stride];
     return out;
 }
 
@@ -42,13 +42,13 @@ double sum(const std::vector<double>& all) { return std::accumulate(all.begin(),
 /// Force within a distance of the middle.
 double within(const std::vector<double>& map, const Sites& sites, double reach) {
     double out = 0;
-    for (std::size_t s = 0; s < map.size(); ++s) out += std::hypot(sites.at[s].x, sites.at[s].y) < reach ? map[s] : 0;
+    for (std::size_t s = 0; s < map.size(); ++s) out += std::hypot(sites.positions[s].x, sites.positions[s].y) < reach ? map[s] : 0;
     return out;
 }
 
 Position centroid(const std::vector<double>& map, const Sites& sites) {
     Position out;
-    for (std::size_t s = 0; s < map.size(); ++s) out.x += map[s] * sites.at[s].x / sum(map), out.y += map[s] * sites.at[s].y / sum(map);
+    for (std::size_t s = 0; s < map.size(); ++s) out.x += map[s] * sites.positions[s].x / sum(map), out.y += map[s] * sites.positions[s].y / sum(map);
     return out;
 }
 
@@ -75,7 +75,7 @@ TEST(Contacts, LoseWhatLiesOffTheSkinAndSaySo) {
     for (const auto* indenter : {"flat", "sphere", "edge", "grating"}) {
         const auto contact = pressing(indenter, {"x=10.5mm", "y=0mm"}, sites);  // the skin's very edge
         EXPECT_NEAR(sum(map_at(*contact, sites, 2)), 1, std::string(indenter) == "grating" ? 0.2 : 1e-9) << indenter;
-        const auto remarks = contact->remarks();
+        const auto remarks = contact->notes();
         EXPECT_TRUE(std::any_of(remarks.begin(), remarks.end(), [](const auto& r) {
             return r.find("% of the force, over time, was off the skin") != r.npos;
         })) << indenter;
@@ -86,10 +86,10 @@ TEST(Contacts, LoseWhatLiesOffTheSkinAndSaySo) {
 
 TEST(Contacts, OfSitesOnNoLatticeHaveAllOfTheForce) {
     auto sites = *grid_sites(4, 5, 3e-3);
-    for (std::size_t s = 0; s < sites.size(); ++s) sites.at[s].x += 0.3e-3 * static_cast<double>(s % 3);
+    for (std::size_t s = 0; s < sites.size(); ++s) sites.positions[s].x += 0.3e-3 * static_cast<double>(s % 3);
     const auto contact = pressing("flat", {"radius=4mm", "x=6mm", "y=4mm"}, sites);
     EXPECT_NEAR(sum(map_at(*contact, sites, 3)), 3, 1e-12);
-    EXPECT_NE(contact->remarks()[1].find("not on a lattice"), std::string::npos);
+    EXPECT_NE(contact->notes()[1].find("not on a lattice"), std::string::npos);
 }
 
 TEST(Contacts, AreAsEvenAsTheirIndenters) {
@@ -118,7 +118,7 @@ TEST(Sphere, HasHertzsRadiusAndPressureAsThePitchFalls) {
         EXPECT_LT(off, 0.4 * before);  // by the square of the pitch, less Gauss's own
         before = off;
         double far = 0;
-        for (std::size_t s = 0; s < map.size(); ++s) far = map[s] > 0 ? std::max(far, sites.at[s].x) : far;
+        for (std::size_t s = 0; s < map.size(); ++s) far = map[s] > 0 ? std::max(far, sites.positions[s].x) : far;
         EXPECT_NEAR(far, a, pitch);
         EXPECT_NEAR(within(map, sites, 0.6 * a), F * (1 - std::pow(1 - 0.36, 1.5)), 0.15 * pitch / 1e-3 + 0.005);
     }
@@ -149,7 +149,7 @@ TEST(Edge, IsAsWideAsHertzsCylinderAndTurns) {
         double along = 0, across = 0;
         for (std::size_t s = 0; s < map.size(); ++s) {
             const double c = std::cos(angle * M_PI / 180), n = std::sin(angle * M_PI / 180);
-            const double u = sites.at[s].x * c + sites.at[s].y * n, v = sites.at[s].y * c - sites.at[s].x * n;
+            const double u = sites.positions[s].x * c + sites.positions[s].y * n, v = sites.positions[s].y * c - sites.positions[s].x * n;
             along += map[s] * u * u, across += map[s] * v * v;
         }
         EXPECT_NEAR(along, L * L / 12, 0.01 * L * L / 12) << angle;  // second moments of an even line, and of half an ellipse
@@ -165,7 +165,7 @@ TEST(Grating, RepeatsAfterAPeriodAndPasses) {
     double same = 0, opposite = 0;
     for (std::size_t s = 0; s < first.size(); ++s) {
         EXPECT_NEAR(first[s], whole[s], 1e-12);
-        if (std::hypot(sites.at[s].x, sites.at[s].y) > 5e-3) continue;
+        if (std::hypot(sites.positions[s].x, sites.positions[s].y) > 5e-3) continue;
         same += first[s] * near[s], opposite += first[s] * half[s];
     }
     EXPECT_LT(opposite, 0.3 * same);
@@ -182,7 +182,7 @@ TEST(Path, IsWhereItShouldBeAtAnyTime) {
         EXPECT_NEAR(at.x, x * 1e-3, 5e-5) << sample;
         EXPECT_NEAR(at.y, y * 1e-3, 5e-5) << sample;
     }
-    EXPECT_NE(contact->sentence().find("moved from (-10, 5) mm to (10, -3) mm in 400 ms"), std::string::npos) << contact->sentence();
+    EXPECT_NE(contact->description().find("moved from (-10, 5) mm to (10, -3) mm in 400 ms"), std::string::npos) << contact->description();
     const auto speeding = pressing("flat", {"x=-10mm", "y=0", "x1=10mm", "speed=40mm/s"}, sites);
     EXPECT_NEAR(centroid(map_at(*speeding, sites, 1, 250), sites).x, 0, 5e-5);
 }
@@ -200,7 +200,7 @@ RC_GTEST_PROP(Contacts, AreTheSameInAnyBlocks, ()) {
             const auto pressed = *contact->press({force.data() + k, n}, static_cast<std::int64_t>(k));
             RC_ASSERT(std::is_sorted(pressed.touched.begin(), pressed.touched.end()));
             for (const auto s : pressed.touched)
-                for (std::size_t i = 0; i < n; ++i) out[s * samples + k + i] = pressed.of[s * pressed.stride + i];
+                for (std::size_t i = 0; i < n; ++i) out[s * samples + k + i] = pressed.data[s * pressed.stride + i];
             k += n;
         }
         return out;

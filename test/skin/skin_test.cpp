@@ -17,7 +17,7 @@ std::shared_ptr<const Innervation> small_skin(std::size_t rows, std::size_t colu
         SkinClass c{name, *plan_afferent(name, {})};
         c.per_site = 2, c.sigma = 1.5e-3, c.hot_spots = 2, c.hot_spot_spread = 1e-3;
         c.velocity = velocity, c.velocity_spread = velocity / 10;
-        if (spread) c.spreads.push_back({name, "V_th", "V", 0.03, {}});
+        if (spread) c.distributions.push_back({name, "V_th", "V", 0.03, {}});
         plan.classes.push_back(std::move(c));
     }
     if (velocity > 0) plan.nerve = Position{0, -0.2, 0};
@@ -42,8 +42,8 @@ struct Touch {
 };
 
 std::unique_ptr<Skin> make_skin(const std::shared_ptr<const Innervation>& skin, InstructionSet set = *instruction_set(),
-                                SkinShare share = {}) {
-    auto made = Skin::make(skin, Run{skin_T}, set == InstructionSet::scalar ? InstructionSet::baseline : set, share);
+                                SkinPart share = {}) {
+    auto made = Skin::make(skin, SimulationOptions{skin_T}, set == InstructionSet::scalar ? InstructionSet::baseline : set, share);
     EXPECT_TRUE(made) << made.error().text();
     return std::move(*made);
 }
@@ -51,7 +51,7 @@ std::unique_ptr<Skin> make_skin(const std::shared_ptr<const Innervation>& skin, 
 std::vector<Spike> whole(Skin& skin, const Touch& touch, ThreadPool& pool) {
     std::vector<Spike> spikes;
     EXPECT_TRUE(skin.respond(touch.at(0), touch.steps, spikes, pool));
-    skin.last(spikes);
+    skin.finish(spikes);
     return spikes;
 }
 
@@ -61,25 +61,25 @@ TEST(Skin, AnswersAsItsAfferentsWouldOneByOne) {
     const Touch touch(30, 9000, 3);  // long enough to come to rest, and to be woken
     auto skin = make_skin(map);
     const auto spikes = whole(*skin, touch, pool);
-    EXPECT_GT(skin->work().at_rest, 0);
+    EXPECT_GT(skin->stats().skipped_steps, 0);
     std::vector<Spike> alone;
     for (std::size_t c = 0; c < map->plan.classes.size(); ++c) {
         const auto& f = map->fields[c];
-        const std::size_t first = map->first[c], count = map->first[c + 1] - first;
+        const std::size_t first = map->class_begin[c], count = map->class_begin[c + 1] - first;
         const auto plans =
-            copies_of(map->plan.classes[c].afferent, static_cast<std::uint32_t>(count), map->plan.classes[c].spreads, map->plan.seed);
+            make_copies(map->plan.classes[c].afferent, static_cast<std::uint32_t>(count), map->plan.classes[c].distributions, map->plan.seed);
         std::vector<double> felt(count * touch.steps);
         for (std::size_t s = 0; s < touch.sites; ++s)
             for (std::size_t k = f.begin[s]; k < f.begin[s + 1]; ++k)
                 for (std::size_t t = 0; t < touch.steps; ++t)
-                    felt[f.unit[k] * touch.steps + t] += f.weight[k] * touch.force[s * touch.steps + t];
+                    felt[f.afferent[k] * touch.steps + t] += f.weight[k] * touch.force[s * touch.steps + t];
         for (std::size_t u = 0; u < count; ++u) {
-            const auto afferent = make_afferent((*plans)[u], corpuscle::Run{skin_T});
+            const auto afferent = make_afferent((*plans)[u], corpuscle::SimulationOptions{skin_T});
             auto state = afferent->start();
             std::vector<Spike> own;
             ResponseBlock answer{own, static_cast<std::uint32_t>(first + u)};
             ASSERT_TRUE(afferent->respond({felt.data() + u * touch.steps, touch.steps}, state, answer));
-            const double delay = map->units[first + u].delay / skin_T, steps = std::floor(delay);
+            const double delay = map->afferents[first + u].delay / skin_T, steps = std::floor(delay);
             for (auto s : own) {
                 s.offset += delay - steps, s.step += static_cast<std::int64_t>(steps);
                 if (s.offset > 1) s.offset -= 1, ++s.step;
@@ -110,7 +110,7 @@ TEST(Skin, GivesTheSameWhateverTheBlocksAndAfterItWasSaved) {
             skin = make_skin(map);
             RC_ASSERT(bool(skin->resume(saved)));
         }
-        skin->last(spikes);
+        skin->finish(spikes);
         RC_ASSERT(spikes == expected);
     }));
 }

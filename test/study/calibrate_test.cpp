@@ -20,7 +20,7 @@ ChipCalibration ramp(const test::Folder& folder, double meant, double off) {
     ChipCalibration out;
     out.netlist = path.string(), out.T = 1e-2, out.threads = 1;
     for (int k = 0; k <= 100; ++k) out.force.push_back(2 * 1e-2 * k);
-    const Stretch whole[] = {{0, 1}};
+    const TimeWindow whole[] = {{0, 1}};
     const double spike[] = {meant};
     out.limits = FiringLimits::about(spike, whole, off);
     return out;
@@ -59,7 +59,7 @@ TEST(Calibrate, TellsWhatCannotBeReached) {
     EXPECT_EQ(done->at(1).bits, -1);
     EXPECT_EQ(done->at(1).codes.back().at(0), 8) << "as near as it gets";
     EXPECT_LT(done->at(1).distance.back(), done->at(1).distance.front());
-    EXPECT_NE(text_of(asked, {told}).find("0.0 %"), std::string::npos);
+    EXPECT_NE(describe_frame_error(asked, {told}).find("0.0 %"), std::string::npos);
 }
 
 TEST(Calibrate, RefusesTrimsThatAreNoNumbers) {
@@ -83,7 +83,7 @@ TEST(Calibrate, CodesGoAroundWhatWasDesignedAndColumnsAreWhole) {
 
 TEST(FiringLimits, AreAboutAModelsSpikes) {
     const std::vector<double> model = {0.31, 0.33, 0.35, 0.40, 0.44, 0.5, 0.55, 0.6, 0.65, 0.66, 0.67, 0.68};
-    const Stretch phases[] = {{0, 0.3}, {0.3, 0.38}, {0.38, 0.7}, {0.7, 1}};
+    const TimeWindow phases[] = {{0, 0.3}, {0.3, 0.38}, {0.38, 0.7}, {0.7, 1}};
     const auto limits = FiringLimits::about(model, phases, 10e-3);
     EXPECT_TRUE(limits.kept(model));
     EXPECT_LT(limits.distance(model), 1e-20);

@@ -19,17 +19,17 @@ using Json = nlohmann::ordered_json;
 
 struct Populated {
     std::vector<AfferentPlan> base, copies;
-    Copies population;
+    CopySpec population;
 };
 
 Populated populate(const std::vector<std::string>& names, std::uint32_t n, const std::vector<std::string>& spreads) {
     Populated out;
-    out.population.copies = n;
+    out.population.count = n;
     for (const auto& name : names) {
         out.base.push_back(sure(plan_afferent(name, {})));
-        const auto mine = sure(spreads_for(out.base.back(), name, test::wishes(spreads)));
-        for (auto& c : sure(copies_of(out.base.back(), n, mine, 4))) out.copies.push_back(c);
-        out.population.spreads.insert(out.population.spreads.end(), mine.begin(), mine.end());
+        const auto mine = sure(distributions_for(out.base.back(), name, test::wishes(spreads)));
+        for (auto& c : sure(make_copies(out.base.back(), n, mine, 4))) out.copies.push_back(c);
+        out.population.distributions.insert(out.population.distributions.end(), mine.begin(), mine.end());
     }
     return out;
 }
@@ -93,7 +93,7 @@ double length_of(const Summary& summary, const RateRow& row) {
 TEST(Summary, OfCopiesIsThatOfTheirOwnRowsTakenTogether) {
     const auto p = populate({"sa1", "fa1"}, 25, {"sa1.f_B=20%", "sa1.V_th=40%", "fa1.k_A=40%"});
     auto alone = p.copies;  // the same plans as if each had been asked for
-    for (auto& plan : alone) plan.copy = 0;
+    for (auto& plan : alone) plan.copy_number = 0;
     Summary together, each;
     answer(p.copies, {&together});
     answer(alone, {&each});
@@ -104,7 +104,7 @@ TEST(Summary, OfCopiesIsThatOfTheirOwnRowsTakenTogether) {
             std::vector<double> values;
             for (const auto& r : each.rows())
                 if (r.afferent.starts_with(row.afferent + "#") && r.channel == row.channel && r.phase == row.phase)
-                    values.push_back(m == place_of_measure<MeanRate> ? r.values[place_of_measure<SpikeCount>] / length_of(each, r)
+                    values.push_back(m == measure_index<MeanRate> ? r.values[measure_index<SpikeCount>] / length_of(each, r)
                                                                      : r.values[m]);
             ASSERT_EQ(values.size(), 25U);
             const auto right = statistics(values);
@@ -162,11 +162,11 @@ TEST(CopiesFile, HasWhatEachCopyIsAndEveryMeasureOfItsWholeTrain) {
         const auto& plan = *std::find_if(p.copies.begin(), p.copies.end(), [&](const auto& c) { return c.name == rows[k][0]; });
         EXPECT_EQ(rows[k][1], k <= 8 ? "press" : "sine");
         EXPECT_EQ(std::stod(rows[k][at("V_th_V")]), *plan.value("V_th")) << "every digit";
-        EXPECT_EQ(rows[k][at("f_B_Hz")].empty(), plan.of == "fa1");
-        EXPECT_EQ(rows[k][at("k_A_A/N")].empty(), plan.of == "sa1");
+        EXPECT_EQ(rows[k][at("f_B_Hz")].empty(), plan.original_name == "fa1");
+        EXPECT_EQ(rows[k][at("k_A_A/N")].empty(), plan.original_name == "sa1");
         const auto train =
             std::find_if(trains.begin(), trains.end(), [&](const auto& t) { return t.name() == rows[k][0] + "," + rows[k][1]; });
-        EXPECT_EQ(rows[k][at("vector_strength")].empty(), rows[k][1] == "press" || plan.of == "fa1")
+        EXPECT_EQ(rows[k][at("vector_strength")].empty(), rows[k][1] == "press" || plan.original_name == "fa1")
             << "the press has no cycle, fa1 no spikes";
         EXPECT_EQ(std::stoul(rows[k][at("spikes")]), train == trains.end() ? 0 : train->times.size());
         if (train == trains.end()) continue;  // silent

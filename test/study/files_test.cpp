@@ -1,7 +1,7 @@
 // What respond writes, read back.
 
 #include "study/files.hpp"
-#include "model/spread.hpp"
+#include "model/copies.hpp"
 
 #include <sndfile.h>
 
@@ -10,7 +10,7 @@
 
 #include "io/npz.hpp"
 #include "io/spike_files.hpp"
-#include "model/spread.hpp"
+#include "model/copies.hpp"
 #include "study/bins_file.hpp"
 #include "study/clicks_file.hpp"
 #include "study/npz_file.hpp"
@@ -223,7 +223,7 @@ TEST(ClicksFile, LetsCopiesSoundFromThePlaceOfWhatTheyAreCopiesOf) {
     const Still source(Clock{10000, 1, 0.0}, {"a"});
     std::vector<AfferentPlan> copies;
     for (const auto& plan : plans({"sa1", "fa1"}))
-        for (auto& copy : sure(copies_of(plan, 3, {}, 0))) copies.push_back(std::move(copy));
+        for (auto& copy : sure(make_copies(plan, 3, {}, 0))) copies.push_back(std::move(copy));
     for (std::uint32_t unit = 0; unit < 6; ++unit) {
         ClicksFile clicks(folder.path());
         hand(source, copies, {{100, 1, unit}}, 400, 50, {&clicks});

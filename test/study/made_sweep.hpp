@@ -33,7 +33,7 @@ public:
         for (std::uint32_t d = 0; d < devices; ++d)
             drawn_.subjects[0].devices.push_back({"x1.m" + std::to_string(d), d, d % 2 == 1, 2e-6, 0.5e-6, 4, 2, 5e-3, 0.02});
         for (int k = 0; k < 50; ++k) times_.push_back(0.02 * k);
-        facts_ = {{"title", "A made-up sweep"}, {"sweep", "[vary]\n"}, {drawn_fact, text_of(drawn_)}};
+        facts_ = {{"title", "A made-up sweep"}, {"sweep", "[vary]\n"}, {drawn_fact, describe_frame_error(drawn_)}};
     }
     const Drawn& drawn() const { return drawn_; }
     std::int64_t units() const override { return 3 * chips_; }

@@ -93,7 +93,7 @@ TEST(Drawn, DevicesAreToldInTheOrderInWhichTheyDrawAndTheirDeviatesAreThoseOfThe
         "t.cir", [](const std::string&) -> Result<std::string> { return bad_input("none"); }));
     const auto circuit = sure(netlist.elaborate());
     Drawn drawn{9, 0, {{"t", drawn_devices(circuit)}}};
-    drawn = sure(drawn_of(text_of(drawn)));
+    drawn = sure(drawn_of(describe_frame_error(drawn)));
     const auto& devices = drawn.subjects[0].devices;
     ASSERT_EQ(devices.size(), 3U);
     EXPECT_EQ(devices[0].name, "m1");

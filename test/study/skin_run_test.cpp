@@ -18,9 +18,9 @@ namespace {
 using test::Folder, test::read_file, test::sure;
 
 /// One run of a press on a fingertip into `out`; stopped after so many blocks (none: -1).
-Result<SkinWork> press_fingertip(const Folder& folder, const std::string& out, int blocks, bool keeps,
+Result<SkinStats> press_fingertip(const Folder& folder, const std::string& out, int blocks, bool keeps,
                                  const RunFingerprint& fingerprint = {{"FORCE", "press"}}, double scale = 1) {
-    static const auto skin = sure(innervate(sure(plan_skin("fingertip"))));
+    static const auto skin = sure(innervate(sure(load_skin_plan("fingertip"))));
     const auto source = sure(make_stimulus("press", test::wishes({"press.F_max=" + std::to_string(4 * scale)}), 1e3, 0));
     const auto contact = sure(make_contact("sphere", {}, skin->plan.sites, source->clock()));
     const auto force = pressed_force(*source, *contact);
@@ -50,7 +50,7 @@ TEST(SkinRun, StoppedAgainAndAgainItGoesOnToTheSameBytes) {
         if (done) {
             EXPECT_GT(stops, 3);
             EXPECT_EQ(done->spikes, whole.spikes);
-            EXPECT_EQ(done->at_rest, whole.at_rest);
+            EXPECT_EQ(done->skipped_steps, whole.skipped_steps);
             break;
         }
         ASSERT_EQ(done.error().code, ErrorCode::interrupted);
@@ -159,7 +159,7 @@ TEST(SkinRun, ACheckpointOfAnEarlierVersionIsRefusedWithItsVersionAndARemedy) {
 
 TEST(SkinRun, TwoRunsCannotShareACheckpoint) {
     const Folder folder;
-    const auto map = sure(innervate(sure(plan_skin("grid 2x2"))));
+    const auto map = sure(innervate(sure(load_skin_plan("grid 2x2"))));
     const auto one = sure(Skin::make(map, {1e-3}, *instruction_set())), two = sure(Skin::make(map, {1e-3}, *instruction_set()));
     auto first = sure(SkinCheckpoint::open(folder / "state", *one, {}));
     const auto second = SkinCheckpoint::open(folder / "state", *two, {});

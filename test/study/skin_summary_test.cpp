@@ -24,14 +24,14 @@ Innervation small_skin() {
     Innervation skin;
     skin.plan.name = "small";
     skin.plan.sites = {
-        .at = {{0, 0}, {2e-3, 0}, {4e-3, 1e-3}}, .names = {"a", "b", "c"}, .region = {0, 0, 1}, .regions = {"tip", "palm"}, .area = 4e-6};
+        .positions = {{0, 0}, {2e-3, 0}, {4e-3, 1e-3}}, .names = {"a", "b", "c"}, .region = {0, 0, 1}, .regions = {"tip", "palm"}, .area = 4e-6};
     for (const auto* name : {"sa1", "fa1"})
         skin.plan.classes.push_back(
             {.name = name, .afferent = sure(plan_afferent(name, {})), .density = {1e6, 5e5}, .sources = {{"density", "made up"}}});
-    skin.units = {{0, 1, 0, {0, 0}}, {0, 2, 0, {2e-3, 0}}, {0, 3, 1, {4e-3, 1e-3}, 2e-3}, {1, 1, 0, {2e-3, 1e-3}}, {1, 2, 1, {4e-3, 0}}};
-    skin.first = {0, 3, 5};
-    skin.fields = {{.begin = {0, 2, 3, 4}, .unit = {0, 1, 1, 2}, .weight = {1, 0.4, 0.6, 1}},
-                   {.begin = {0, 0, 1, 2}, .unit = {0, 1}, .weight = {1, 1}}};
+    skin.afferents = {{0, 1, 0, {0, 0}}, {0, 2, 0, {2e-3, 0}}, {0, 3, 1, {4e-3, 1e-3}, 2e-3}, {1, 1, 0, {2e-3, 1e-3}}, {1, 2, 1, {4e-3, 0}}};
+    skin.class_begin = {0, 3, 5};
+    skin.fields = {{.begin = {0, 2, 3, 4}, .afferent = {0, 1, 1, 2}, .weight = {1, 0.4, 0.6, 1}},
+                   {.begin = {0, 0, 1, 2}, .afferent = {0, 1}, .weight = {1, 1}}};
     return skin;
 }
 

@@ -54,7 +54,7 @@ VersionsRan run_versions(const std::vector<std::string>& stimuli, const std::vec
     for (const auto& n : names) plans.push_back(sure(plan_any_afferent(n, {})));
     std::vector<AfferentPlan> standing;
     for (const auto& p : plans)
-        for (auto& copy : copies ? sure(copies_of(p, copies, {}, 1)) : std::vector{p}) standing.push_back(std::move(copy));
+        for (auto& copy : copies ? sure(make_copies(p, copies, {}, 1)) : std::vector{p}) standing.push_back(std::move(copy));
     VersionsRan ran;
     Listener* listeners[] = {&ran.summary};
     RespondOptions options;

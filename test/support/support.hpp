@@ -73,8 +73,8 @@ inline std::vector<double> train(const std::string& name, const std::string& sti
 inline std::vector<std::string> every_afferent() {
     std::vector<std::string> all;
     for (const auto& a : named_afferents()) all.emplace_back(a.name);
-    for (const auto& r : receptor_cards())
-        for (const auto& n : neuron_cards()) all.push_back(std::string(r.name) + "+" + std::string(n.name));
+    for (const auto& r : receptor_entries())
+        for (const auto& n : neuron_entries()) all.push_back(std::string(r.name) + "+" + std::string(n.name));
     for (const auto* fronted : {"fsr+sa1", "fsr+f2v+sa1", "fsr+f2i+fa1", "fsr+f2i+sa1b+izhikevich", "adc+sa1", "adc+sa1a+adaptive",
                                 "fsr+adc+fa1b+lif-a", "fsr+f2i+adc+fa1"})
         all.emplace_back(fronted);

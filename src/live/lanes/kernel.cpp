@@ -18,7 +18,7 @@ T numbers(const std::int16_t* at) { return num::load_int16<double>(at); }
 
 /// One vector; adds 1 to `bad` for each value that is not a valid force.
 template <class Value>
-[[gnu::always_inline]] inline void read_vector(const char* from, const FrameForce& scaling, double* force, T& bad) {
+[[gnu::always_inline]] inline void read_vector(const char* from, const ForceScaling& scaling, double* force, T& bad) {
     const T f = (numbers(reinterpret_cast<const Value*>(from)) - T(scaling.offset)) * T(scaling.scale);
     const auto good = num::abs(f) <= T(scaling.limit);
     num::select(good, f, T::load_unaligned(force)).store_unaligned(force);
@@ -26,7 +26,7 @@ template <class Value>
 }
 
 template <class Value>
-std::size_t take(const char* from, const FrameForce& scaling, double* force, std::size_t count) {
+std::size_t take(const char* from, const ForceScaling& scaling, double* force, std::size_t count) {
     T bad(0.0);
     std::size_t s = 0;
     for (; s + width <= count; s += width) read_vector<Value>(from + s * sizeof(Value), scaling, force + s, bad);
@@ -52,7 +52,7 @@ std::size_t take(const char* from, const FrameForce& scaling, double* force, std
 }  // namespace
 
 namespace CORPUSCLE_ISA {
-const FrameLanes frames{take<float>, take<double>, take<std::int16_t>};
+const FrameKernels frames{take<float>, take<double>, take<std::int16_t>};
 }
 
 }  // namespace corpuscle::lanes

@@ -9,28 +9,28 @@
 namespace corpuscle::lanes {
 
 /// Converts values to forces: (x - offset) * scale. A result that is NaN or larger than `limit` in magnitude is not valid.
-struct FrameForce {
+struct ForceScaling {
     double offset, scale, limit;
 };
 
 /// The functions of one instruction set. They read `count` values from `from` and overwrite the last forces, except where a value is not
 /// valid. They return the number of values that are not valid.
-struct FrameLanes {
-    using Take = std::size_t (*)(const char* from, const FrameForce&, double* force, std::size_t count);
+struct FrameKernels {
+    using Take = std::size_t (*)(const char* from, const ForceScaling&, double* force, std::size_t count);
     Take f32, f64, i16;
 };
 
 namespace baseline {
-extern const FrameLanes frames;
+extern const FrameKernels frames;
 }
 namespace avx2 {
-extern const FrameLanes frames;
+extern const FrameKernels frames;
 }
 namespace avx512 {
-extern const FrameLanes frames;
+extern const FrameKernels frames;
 }
 
-inline const FrameLanes& frame_lanes(InstructionSet set) {
+inline const FrameKernels& frame_kernels(InstructionSet set) {
 #ifdef __x86_64__
     if (set == InstructionSet::avx512) return avx512::frames;
     if (set == InstructionSet::avx2) return avx2::frames;

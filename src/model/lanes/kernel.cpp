@@ -3,16 +3,16 @@
 
 #include <array>
 
-#include "model/lanes/joined.hpp"
+#include "model/lanes/fused_kernels.hpp"
 #include "model/models.hpp"
 
 namespace corpuscle::lanes {
 namespace {
 
 template <class V, class R, class N>
-constexpr JoinedLanes<V> joined_lanes() {
-    if constexpr (joins<R, N>)
-        return {none_waits<N>, settle_felt<V, R>, feel_tile<V, R, N>};
+constexpr FusedKernel<V> joined_lanes() {
+    if constexpr (can_fuse<R, N>)
+        return {none_refractory<N>, flush_decayed_fused<V, R>, fused_tile<V, R, N>};
     else
         return {};
 }
@@ -20,36 +20,36 @@ template <class V, class R, class Neurons>
 struct Joined;
 template <class V, class R, template <class> class... N>
 struct Joined<V, R, ModelList<N...>> {
-    static constexpr JoinedLanes<V> with_each[] = {joined_lanes<V, R, N<Batch<V>>>()...};
+    static constexpr FusedKernel<V> with_each[] = {joined_lanes<V, R, N<Batch<V>>>()...};
 };
 
 template <class V, class R>
-constexpr ReceptorLanes<V> receptor_lanes() {
+constexpr ReceptorKernel<V> receptor_lanes() {
     return {R::name,
             R::outputs,
             continuous<R>,
             sizeof(R),
             sizeof(typename R::State) / sizeof(Batch<V>),
             build<V, R>,
-            start<V, R>,
-            settle<V, R>,
-            transduce_tile<V, R>,
+            start_states<V, R>,
+            flush_decayed<V, R>,
+            run_receptor_tile<V, R>,
             Joined<V, R, Neurons>::with_each};
 }
 template <class V, class N>
-constexpr NeuronLanes<V> neuron_lanes() {
-    return {N::name, sizeof(N), sizeof(typename N::State) / sizeof(Batch<V>), build<V, N>, start<V, N>, settle<V, N>, fire_tile<V, N>};
+constexpr NeuronKernel<V> neuron_lanes() {
+    return {N::name, sizeof(N), sizeof(typename N::State) / sizeof(Batch<V>), build<V, N>, start_states<V, N>, flush_decayed<V, N>, run_neuron_tile<V, N>};
 }
 
 template <class V>
 struct All {
     template <template <class> class... R>
     static constexpr auto receptors_of(ModelList<R...>) {
-        return std::array<ReceptorLanes<V>, sizeof...(R)>{receptor_lanes<V, R<Batch<V>>>()...};
+        return std::array<ReceptorKernel<V>, sizeof...(R)>{receptor_lanes<V, R<Batch<V>>>()...};
     }
     template <template <class> class... N>
     static constexpr auto neurons_of(ModelList<N...>) {
-        return std::array<NeuronLanes<V>, sizeof...(N)>{neuron_lanes<V, N<Batch<V>>>()...};
+        return std::array<NeuronKernel<V>, sizeof...(N)>{neuron_lanes<V, N<Batch<V>>>()...};
     }
     static constexpr auto receptors = receptors_of(Receptors{});
     static constexpr auto neurons = neurons_of(Neurons{});
@@ -58,8 +58,8 @@ struct All {
 }  // namespace
 
 namespace CORPUSCLE_ISA {
-const LaneTable<double> doubles{width<double>, All<double>::receptors, All<double>::neurons};
-const LaneTable<float> floats{width<float>, All<float>::receptors, All<float>::neurons};
+const KernelTable<double> doubles{width<double>, All<double>::receptors, All<double>::neurons};
+const KernelTable<float> floats{width<float>, All<float>::receptors, All<float>::neurons};
 }  // namespace CORPUSCLE_ISA
 
 }  // namespace corpuscle::lanes

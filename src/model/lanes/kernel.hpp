@@ -12,9 +12,9 @@
 
 namespace corpuscle::lanes {
 
-inline constexpr int tile_units = 64;    ///< afferents of a tile; the same for every instruction set, so that results do not depend on it
-inline constexpr int most_outputs = 2;   ///< neurons of one afferent
-inline constexpr int record_room = 256;  ///< capacity of a list of firing masks
+inline constexpr int tile_size = 64;    ///< afferents of a tile; the same for every instruction set, so that results do not depend on it
+inline constexpr int max_outputs = 2;   ///< neurons of one afferent
+inline constexpr int firing_list_capacity = 256;  ///< capacity of a list of firing masks
 
 /// Steps of a chunk. Its rows of force, and the currents computed from them, stay in the first-level cache.
 template <class V>
@@ -25,7 +25,7 @@ inline constexpr int current_rows = chunk_steps<V> + 1;
 
 /// Afferents of one vector that fired in a step: one bit for each, from afferent `first` of the tile on.
 struct Firing {
-    std::int32_t step, unit;
+    std::int32_t step, first;
     std::uint64_t bits;
 };
 
@@ -37,36 +37,36 @@ struct FiringList {
     int count;
     std::int32_t step;    ///< the current step
     std::uint64_t valid;  ///< one bit for each afferent of the tile that is not padding
-    std::int64_t capped;
+    std::int64_t truncated_steps;
     void (*full)(FiringList&);
 };
 
-enum class Feed { rows, words, profile };
+enum class ForceInput { rows, int16, profile };
 
 /// Memory to prefetch evenly while computing: the data of the next chunk.
-struct Ahead {
+struct PrefetchRange {
     const char* at;
     std::size_t bytes;
 };
 
 /// Arguments for the receptors of a tile over a chunk.
 template <class V>
-struct TransductionCall {
+struct ReceptorCall {
     const std::byte* models;
     std::size_t stride;  ///< bytes from a vector's model to the next; 0: one model for all
     V* state;            ///< [value][tile_size]
-    int units, steps;    ///< afferents of the tile without padding; steps of the chunk
+    int afferents, steps;    ///< afferents of the tile without padding; steps of the chunk
     Method method;
-    Feed feed;
+    ForceInput input;
     const V* rows;              ///< ForceInput::rows: force [step][tile_size], N
-    const std::int16_t* words;  ///< ForceInput::int16: the same as integers that are N when multiplied by `scale`
+    const std::int16_t* int16_rows;  ///< ForceInput::int16: the same as integers that are N when multiplied by `scale`
     V scale;
     const V* profile;  ///< ForceInput::profile: one force for each step, N, multiplied for each afferent by its ...
     const V* gain;     ///< [tile_size]
     V* from;           ///< out: currents, [output][current_rows][tile_size], A; for a continuous receptor only the first row
     V* to;
-    Ahead ahead;
-    bool strange;  ///< out: some force may be NaN or infinite
+    PrefetchRange prefetch;
+    bool has_non_finite;  ///< out: some force may be NaN or infinite
 };
 
 /// Arguments for the neurons of a tile over a chunk, for one output of the receptor.
@@ -75,66 +75,66 @@ struct NeuronCall {
     const std::byte* models;
     std::size_t stride;
     V* state;
-    int units, steps;
+    int afferents, steps;
     const V* from;  ///< [step][tile_size]; with gains one value for each step, as are the next two
     const V* to;
-    const V* both;
+    const V* end_sum;
     const V* gain;  ///< [tile_size]; null: every afferent has its own currents
     FiringList<V>* fired;
-    Ahead ahead;
+    PrefetchRange prefetch;
 };
 
 /// A receptor and a neuron in one loop. The pointers are null if this pair cannot be fused.
 template <class V>
-struct JoinedLanes {
-    bool (*suits)(const std::byte* neurons, std::size_t count);     ///< true if it can be used with these models
-    void (*settle)(const TransductionCall<V>&);                     ///< for the receptors
-    void (*run)(const TransductionCall<V>&, const NeuronCall<V>&);  ///< ignores the current arrays of the calls
+struct FusedKernel {
+    bool (*is_usable)(const std::byte* neurons, std::size_t count);     ///< true if it can be used with these models
+    void (*flush_decayed)(const ReceptorCall<V>&);                     ///< for the receptors
+    void (*run)(const ReceptorCall<V>&, const NeuronCall<V>&);  ///< ignores the current arrays of the calls
 };
 
 template <class V>
-struct ReceptorLanes {
+struct ReceptorKernel {
     std::string_view name;
     int outputs;
     bool continuous;
     std::size_t model_bytes, state_values;
     /// Builds the models of `count` afferents (one tile), or one for all if `count` is 1, from an array of the receptor's Params.
     void (*build)(std::byte* at, const void* params, int count, double dt, Method);
-    void (*start)(const TransductionCall<V>&);   ///< sets the state before the first row of force
-    void (*settle)(const TransductionCall<V>&);  ///< sets decayed state to zero; reads only models and state
-    void (*run)(TransductionCall<V>&);
-    std::span<const JoinedLanes<V>> joined;  ///< with each neuron of the table
+    void (*start)(const ReceptorCall<V>&);   ///< sets the state before the first row of force
+    void (*flush_decayed)(const ReceptorCall<V>&);  ///< sets decayed state to zero; reads only models and state
+    void (*run)(ReceptorCall<V>&);
+    std::span<const FusedKernel<V>> fused;  ///< with each neuron of the table
 };
 
 template <class V>
-struct NeuronLanes {
+struct NeuronKernel {
     std::string_view name;
     std::size_t model_bytes, state_values;
     void (*build)(std::byte* at, const void* params, int count, double dt, Method);
     void (*start)(const NeuronCall<V>&);
-    void (*settle)(const NeuronCall<V>&);
+    void (*flush_decayed)(const NeuronCall<V>&);
     void (*run)(const NeuronCall<V>&);
 };
 
 /// The kernels of one instruction set.
 template <class V>
-struct LaneTable {
+struct KernelTable {
     int lanes;
-    std::span<const ReceptorLanes<V>> receptors;
-    std::span<const NeuronLanes<V>> neurons;
+    std::span<const ReceptorKernel<V>> receptors;
+    std::span<const NeuronKernel<V>> neurons;
 };
 
 namespace baseline {
-extern const LaneTable<double> doubles;
-extern const LaneTable<float> floats;
+extern const KernelTable<double> doubles;
+extern const KernelTable<float> floats;
 }  // namespace baseline
 namespace avx2 {
-extern const LaneTable<double> doubles;
-extern const LaneTable<float> floats;
+extern const KernelTable<double> doubles;
+extern const KernelTable<float> floats;
 }  // namespace avx2
 namespace avx512 {
-extern const LaneTable<double> doubles;
-extern const LaneTable<float> floats;
+extern const KernelTable<double> doubles;
+extern const KernelTable<float> floats;
 }  // namespace avx512
 
 }  // namespace corpuscle::lanes

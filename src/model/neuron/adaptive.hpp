@@ -1,7 +1,7 @@
 #pragma once
 
 #include "model/current.hpp"
-#include "model/neuron/step.hpp"
+#include "model/neuron/threshold_crossing.hpp"
 #include "signal/afferent.hpp"
 #include "signal/parameter.hpp"
 
@@ -14,11 +14,11 @@ namespace corpuscle {
 /// touch long past.) After Lee et al. 2016 as described in the thesis (3.1: no leak, "an adaptive threshold potential"). The thesis gives
 /// no equation and no value, so the equations above and all defaults are our choice. Both methods integrate them exactly for the current
 /// that they are given.
-struct AdaptiveFacts {
+struct AdaptiveTraits {
     struct Params {
         double C_m = 500e-9, E_L = 0, V_th = 0.5, V_reset = 0.25, dV_th = 0.1, tau_th = 50e-3, t_ref = 0;
     };
-    static constexpr std::string_view name = "adaptive", sentence = "no leak, and a threshold that rises with each spike and decays";
+    static constexpr std::string_view name = "adaptive", description = "no leak, and a threshold that rises with each spike and decays";
     static constexpr std::string_view source = "choice, after Lee et al. 2016 as described in thesis 3.1";
     static constexpr ParameterDef<Params> fields[] = {
         {"C_m", &Params::C_m, "F", 1e-18, 1, "membrane capacitance"},
@@ -29,17 +29,17 @@ struct AdaptiveFacts {
         {"tau_th", &Params::tau_th, "s", 1e-6, 1e3, "time constant of the threshold's decay"},
         {"t_ref", &Params::t_ref, "s", 0, 10, "refractory time"},
     };
-    static constexpr OrderConstraint<Params> orders[] = {
+    static constexpr OrderConstraint<Params> order_constraints[] = {
         {"V_reset", &Params::V_reset, "V_th", &Params::V_th},
         {"E_L", &Params::E_L, "V_reset", &Params::V_reset, true},
     };
-    static constexpr Probe parts[] = {{"u", "V"}, {"theta", "V"}};
+    static constexpr Probe recordables[] = {{"u", "V"}, {"theta", "V"}};
 };
 
 template <class T>
-struct Adaptive : AdaptiveFacts {
+struct Adaptive : AdaptiveTraits {
     struct State {
-        T u, a, wait;  // membrane; threshold above V_th; rest of t_ref, in steps
+        T u, a, ref_steps;  // membrane; threshold above V_th; rest of t_ref, in steps
     };
 
     template <class Values>
@@ -48,18 +48,18 @@ struct Adaptive : AdaptiveFacts {
           dV_th(value(&Params::dV_th)), ref(value(&Params::t_ref) / dt), fall(T(dt) / value(&Params::tau_th)), decay(num::exp(-fall)) {}
 
     State start() const { return {E_L, T(0.0), T(0.0)}; }
-    void show(const State& s, T (&out)[2]) const { out[0] = s.u, out[1] = V_th + s.a; }
+    void record(const State& s, T (&out)[2]) const { out[0] = s.u, out[1] = V_th + s.a; }
 
     /// One sample under current i. Calls fired(mask, offset) for each spike. Returns the lanes where the limit of spikes truncated the
     /// step.
     template <class Fired>
     num::Mask<T> step(State& s, Current<T> i, Fired&& fired) const {
-        T x = num::min(s.wait, T(1.0)), a = s.a;  // a: the excess of the threshold at x
-        s.wait = s.wait - x;
+        T x = num::min(s.ref_steps, T(1.0)), a = s.a;  // a: the excess of the threshold at x
+        s.ref_steps = s.ref_steps - x;
         const auto late = x > T(0.0);
         if (num::any(late)) a = num::select(late, a * num::exp(-fall * x), a);
         const Parabola<T> rise{i.from * k, (i.to - i.from) * k};
-        T base = num::max(s.u - rise.at(x), E_L - rise.least_after(x));  // u(x) = base + rise.at(x), never below E_L
+        T base = num::max(s.u - rise.at(x), E_L - rise.min_from(x));  // u(x) = base + rise.at(x), never below E_L
         s.u = base + rise.at(T(1.0));
         s.a = a * decay;
         if (num::any(late)) s.a = num::select(late, a * num::exp(-fall * (T(1.0) - x)), s.a);
@@ -74,7 +74,7 @@ struct Adaptive : AdaptiveFacts {
             return (height > V_th) & (starts | ends) & (last > x);
         };
         num::Mask<T> over = passes();
-        for (int pass = 0; num::any(over) && pass < spikes_a_step; ++pass) {
+        for (int pass = 0; num::any(over) && pass < max_spikes_per_step; ++pass) {
             const auto margin = [&](T y) {
                 const T above = excess(y);
                 struct {
@@ -82,10 +82,10 @@ struct Adaptive : AdaptiveFacts {
                 } here{base + rise.at(y) - V_th - above, rise.a + rise.b * y + fall * above};
                 return here;
             };
-            const T at = offset_from(rising_root(margin, num::max(x, first), last), num::max(x, first));
+            const T at = spike_offset(rising_root(margin, num::max(x, first), last), num::max(x, first));
             fired(over, at);
             const T end = at + ref, from = num::min(end, T(1.0));
-            s.wait = num::select(over, end - from, s.wait);
+            s.ref_steps = num::select(over, end - from, s.ref_steps);
             base = num::select(over, V_reset - rise.at(from), base);
             a = num::select(over, (a * num::exp(-fall * (at - x)) + dV_th) * num::exp(-fall * (from - at)), a);
             x = num::select(over, from, x);

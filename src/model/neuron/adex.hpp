@@ -11,12 +11,12 @@ namespace corpuscle {
 ///     C_m dv/dt = -g_L (v - E_L) + g_L Delta_T exp((v - V_T) / Delta_T) - w + gain I,   tau_w dw/dt = a (v - E_L) - w
 ///     v > V_peak  =>  spike, then v = V_reset and w = w + b
 /// The exponential is limited to its value at V_peak. Both methods use the same substeps. No refractory time: adaptation takes its role.
-struct AdexFacts {
+struct AdexTraits {
     struct Params {
         double C_m = 281e-12, g_L = 30e-9, E_L = -70.6e-3, V_T = -50.4e-3, Delta_T = 2e-3, a = 4e-9, b = 80.5e-12, tau_w = 144e-3;
         double V_peak = -40.4e-3, V_reset = -70.6e-3, gain = 3e-4, substep = 20e-6;
     };
-    static constexpr std::string_view name = "adex", sentence = "adaptive exponential integrate-and-fire";
+    static constexpr std::string_view name = "adex", description = "adaptive exponential integrate-and-fire";
     static constexpr std::string_view source = "Brette and Gerstner 2005, J Neurophysiol 94:3637; thesis 3.2";
     static constexpr ParameterDef<Params> fields[] = {
         {"C_m", &Params::C_m, "F", 1e-15, 1, "membrane capacitance"},
@@ -33,15 +33,15 @@ struct AdexFacts {
         {"gain", &Params::gain, "", 0, 1e6, "gain from the receptor's current to the membrane's", "choice: tens of hertz at microamperes"},
         {"substep", &Params::substep, "s", 1e-8, 1e-3, "longest substep (at most a million substeps per sample)", "choice", true},
     };
-    static constexpr OrderConstraint<Params> orders[] = {
+    static constexpr OrderConstraint<Params> order_constraints[] = {
         {"V_reset", &Params::V_reset, "V_peak", &Params::V_peak},
         {"E_L", &Params::E_L, "V_T", &Params::V_T},
     };
-    static constexpr Probe parts[] = {{"v", "V"}, {"w", "A"}};
+    static constexpr Probe recordables[] = {{"v", "V"}, {"w", "A"}};
 };
 
 template <class T>
-struct Adex : AdexFacts {
+struct Adex : AdexTraits {
     struct State {
         T v, w;
     };
@@ -51,7 +51,7 @@ struct Adex : AdexFacts {
         : C_m(value(&Params::C_m)), g_L(value(&Params::g_L)), E_L(value(&Params::E_L)), V_T(value(&Params::V_T)),
           Delta_T(value(&Params::Delta_T)), a(value(&Params::a)), b(value(&Params::b)), tau_w(value(&Params::tau_w)),
           V_peak(value(&Params::V_peak)), V_reset(value(&Params::V_reset)), gain(value(&Params::gain)), dt(dt),
-          count(substeps_of(dt, value.one(&Params::substep))) {}
+          count(substep_count(dt, value.uniform(&Params::substep))) {}
 
     State start() const {  // the exponential raises the rest slightly above E_L; solved by Newton's method
         T v = E_L, step = T(0.0);
@@ -64,17 +64,17 @@ struct Adex : AdexFacts {
         v = num::select((num::abs(step) < T(1e-9)) & (v >= E_L) & (v < V_T), v, E_L);
         return {v, a * (v - E_L)};
     }
-    void show(const State& s, T (&out)[2]) const { out[0] = s.v, out[1] = s.w; }
+    void record(const State& s, T (&out)[2]) const { out[0] = s.v, out[1] = s.w; }
 
     /// One sample under current i. Calls fired(mask, offset) for each spike.
     template <class Fired>
     num::Mask<T> step(State& s, Current<T> i, Fired&& fired) const {
-        Pair<T> y{s.v, s.w};
-        const auto slopes = [this](Pair<T> at, T current) {
+        MembraneRecovery<T> y{s.v, s.w};
+        const auto slopes = [this](MembraneRecovery<T> at, T current) {
             const T upstroke = g_L * Delta_T * num::exp((num::min(at.v, V_peak) - V_T) / Delta_T);
-            return Pair<T>{(g_L * (E_L - at.v) + upstroke - at.w + gain * current) / C_m, (a * (at.v - E_L) - at.w) / tau_w};
+            return MembraneRecovery<T>{(g_L * (E_L - at.v) + upstroke - at.w + gain * current) / C_m, (a * (at.v - E_L) - at.w) / tau_w};
         };
-        advance(y, i, dt, count, V_peak, slopes, [this](Pair<T> at) { return Pair<T>{V_reset, at.w + b}; }, fired);
+        advance_substeps(y, i, dt, count, V_peak, slopes, [this](MembraneRecovery<T> at) { return MembraneRecovery<T>{V_reset, at.w + b}; }, fired);
         s = {y.v, y.w};
         return num::empty_mask<T>();
     }

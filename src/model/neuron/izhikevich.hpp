@@ -11,11 +11,11 @@ namespace corpuscle {
 ///     v > V_peak  =>  spike, then v = c and w = w + d
 /// These are the paper's 0.04, 5 and 140 in mV and ms. Its a = 0.02/ms is 20 1/s, b = 0.2/ms is 200 1/s, d = 8 mV/ms is 8 V/s.
 /// Both methods use the same substeps. No refractory time: recovery takes its role. Named in thesis 3.2 for adaptation.
-struct IzhikevichFacts {
+struct IzhikevichTraits {
     struct Params {
         double a = 20, b = 200, c = -65e-3, d = 8, V_peak = 30e-3, gain = 2.5e6, substep = 20e-6;
     };
-    static constexpr std::string_view name = "izhikevich", sentence = "Izhikevich 2003: quadratic membrane with recovery";
+    static constexpr std::string_view name = "izhikevich", description = "Izhikevich 2003: quadratic membrane with recovery";
     static constexpr std::string_view source = "Izhikevich 2003, IEEE Trans Neural Netw 14:1569 (regular spiking); thesis 3.2";
     static constexpr ParameterDef<Params> fields[] = {
         {"a", &Params::a, "1/s", 1e-3, 1e5, "rate of recovery"},
@@ -26,14 +26,14 @@ struct IzhikevichFacts {
         {"gain", &Params::gain, "V/s/A", 0, 1e15, "gain from the receptor's current to dv/dt", "choice: tens of hertz at microamperes"},
         {"substep", &Params::substep, "s", 1e-8, 1e-3, "longest substep (at most a million substeps per sample)", "choice", true},
     };
-    static constexpr OrderConstraint<Params> orders[] = {
+    static constexpr OrderConstraint<Params> order_constraints[] = {
         {"c", &Params::c, "V_peak", &Params::V_peak},
     };
-    static constexpr Probe parts[] = {{"v", "V"}, {"w", "V/s"}};
+    static constexpr Probe recordables[] = {{"v", "V"}, {"w", "V/s"}};
 };
 
 template <class T>
-struct Izhikevich : IzhikevichFacts {
+struct Izhikevich : IzhikevichTraits {
     struct State {
         T v, w;
     };
@@ -41,7 +41,7 @@ struct Izhikevich : IzhikevichFacts {
     template <class Values>
     Izhikevich(const Values& value, double dt, Method)
         : a(value(&Params::a)), b(value(&Params::b)), c(value(&Params::c)), d(value(&Params::d)), V_peak(value(&Params::V_peak)),
-          gain(value(&Params::gain)), dt(dt), count(substeps_of(dt, value.one(&Params::substep))) {}
+          gain(value(&Params::gain)), dt(dt), count(substep_count(dt, value.uniform(&Params::substep))) {}
 
     /// The stable resting state, dv/dt = dw/dt = 0; c if there is none.
     State start() const {
@@ -49,17 +49,17 @@ struct Izhikevich : IzhikevichFacts {
         const T v = num::select(discriminant > T(0.0), (-p - num::sqrt(num::positive_part(discriminant))) / T(8e4), c);
         return {v, b * v};
     }
-    void show(const State& s, T (&out)[2]) const { out[0] = s.v, out[1] = s.w; }
+    void record(const State& s, T (&out)[2]) const { out[0] = s.v, out[1] = s.w; }
 
     /// One sample under current i. Calls fired(mask, offset) for each spike.
     template <class Fired>
     num::Mask<T> step(State& s, Current<T> i, Fired&& fired) const {
-        Pair<T> y{s.v, s.w};
-        const auto slopes = [this](Pair<T> at, T current) {
+        MembraneRecovery<T> y{s.v, s.w};
+        const auto slopes = [this](MembraneRecovery<T> at, T current) {
             const T v = num::min(at.v, V_peak);  // the parabola is limited to its value at V_peak
-            return Pair<T>{v * (T(4e4) * v + T(5e3)) + T(140.0) - at.w + gain * current, a * (b * v - at.w)};
+            return MembraneRecovery<T>{v * (T(4e4) * v + T(5e3)) + T(140.0) - at.w + gain * current, a * (b * v - at.w)};
         };
-        advance(y, i, dt, count, V_peak, slopes, [this](Pair<T> at) { return Pair<T>{c, at.w + d}; }, fired);
+        advance_substeps(y, i, dt, count, V_peak, slopes, [this](MembraneRecovery<T> at) { return MembraneRecovery<T>{c, at.w + d}; }, fired);
         s = {y.v, y.w};
         return num::empty_mask<T>();
     }

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "model/current.hpp"
-#include "model/neuron/step.hpp"
+#include "model/neuron/threshold_crossing.hpp"
 #include "signal/afferent.hpp"
 #include "signal/parameter.hpp"
 
@@ -12,11 +12,11 @@ namespace corpuscle {
 /// (thesis eq. 5, Alg. 3.) Backward Euler is the published algorithm, u[n] = k_a I[n] + k_b u[n-1] + k_c, with constants as in the errata:
 /// k_a = R/(1 + RC/T), k_b = (RC/T)/(1 + RC/T), k_c = E_L/(1 + RC/T). A spike then subtracts V_th - V_reset; with a t_ref, which ends on a
 /// sample, it sets V_reset. Limitation: if u exceeds V_th within a step and is below it again at the end, no spike is detected.
-struct LifAFacts {
+struct LifATraits {
     struct Params {
         double C_m = 500e-9, R_m = 1e6, E_L = 0, V_th = 0.5, V_reset = 0.25, t_ref = 0;
     };
-    static constexpr std::string_view name = "lif-a", sentence = "LIF-A: integrate and fire with a leak resistor";
+    static constexpr std::string_view name = "lif-a", description = "LIF-A: integrate and fire with a leak resistor";
     static constexpr std::string_view source = "thesis 3.2, eq. 5, Alg. 3";
     static constexpr ParameterDef<Params> fields[] = {
         {"C_m", &Params::C_m, "F", 1e-18, 1, "membrane capacitance (C)", "as lif-b"},
@@ -26,17 +26,17 @@ struct LifAFacts {
         {"V_reset", &Params::V_reset, "V", -10, 10, "potential after a spike (u_rst)", "choice: as lif-b"},
         {"t_ref", &Params::t_ref, "s", 0, 10, "refractory time", "thesis: none"},
     };
-    static constexpr OrderConstraint<Params> orders[] = {
+    static constexpr OrderConstraint<Params> order_constraints[] = {
         {"V_reset", &Params::V_reset, "V_th", &Params::V_th},
         {"E_L", &Params::E_L, "V_th", &Params::V_th},
     };
-    static constexpr Probe parts[] = {{"u", "V"}};
+    static constexpr Probe recordables[] = {{"u", "V"}};
 };
 
 template <class T>
-struct LifA : LifAFacts {
+struct LifA : LifATraits {
     struct State {
-        T u, wait;  // membrane; rest of t_ref, in steps
+        T u, ref_steps;  // membrane; rest of t_ref, in steps
     };
 
     template <class Values>
@@ -46,8 +46,8 @@ struct LifA : LifAFacts {
           exact(method == Method::exact) {}
 
     State start() const { return {E_L, T(0.0)}; }
-    void settle(State& s) const { s.u = settled(s.u, faded_voltage, E_L); }
-    void show(const State& s, T (&out)[1]) const { out[0] = s.u; }
+    void flush_decayed(State& s) const { s.u = snap_to_level(s.u, negligible_voltage, E_L); }
+    void record(const State& s, T (&out)[1]) const { out[0] = s.u; }
 
     /// One sample under current i. Calls fired(mask, offset) for each spike. Returns the lanes where the limit of spikes truncated the
     /// step.
@@ -67,13 +67,13 @@ private:
     template <class Fired>
     num::Mask<T> step_exact(State& s, Current<T> i, Fired& fired) const {
         const T g = i.to - i.from;
-        T x = num::min(s.wait, T(1.0)), u = s.u;
-        s.wait = s.wait - x;
+        T x = num::min(s.ref_steps, T(1.0)), u = s.u;
+        s.ref_steps = s.ref_steps - x;
         s.u = after(u, i.from, g, T(1.0), decay, mean);
         const auto late = x > T(0.0);
         if (num::any(late)) s.u = num::select(late, after(u, i.from + g * x, g, T(1.0) - x), s.u);
         auto over = s.u > V_th;
-        for (int pass = 0; num::any(over) && pass < spikes_a_step; ++pass) {
+        for (int pass = 0; num::any(over) && pass < max_spikes_per_step; ++pass) {
             const T at = i.from + g * x;
             const auto rise = [&](T h) {
                 const T v = after(u, at, g, h);
@@ -82,10 +82,10 @@ private:
                 } here{v - V_th, theta * (E_L - v + R_m * (at + g * h))};
                 return here;
             };
-            x = num::select(over, offset_from(x + rising_root(rise, T(0.0), T(1.0) - x), x), x);
+            x = num::select(over, spike_offset(x + rising_root(rise, T(0.0), T(1.0) - x), x), x);
             fired(over, x);
             const T end = x + ref, from = num::min(end, T(1.0));
-            s.wait = num::select(over, end - from, s.wait);
+            s.ref_steps = num::select(over, end - from, s.ref_steps);
             x = num::select(over, from, x);
             u = num::select(over, V_reset, u);
             s.u = num::select(over, after(u, i.from + g * x, g, T(1.0) - x), s.u);
@@ -96,18 +96,18 @@ private:
 
     template <class Fired>
     num::Mask<T> step_sampled(State& s, T i, Fired& fired) const {
-        const auto refractory = s.wait > T(0.0);
-        s.wait = num::positive_part(s.wait - T(1.0));
+        const auto refractory = s.ref_steps > T(0.0);
+        s.ref_steps = num::positive_part(s.ref_steps - T(1.0));
         const T before = s.u, end = num::select(refractory, before, (before + theta * (E_L + R_m * i)) / (T(1.0) + theta));
         const T drop = V_th - V_reset;
         T level = V_th;  // of the straight line from `before` to `end`, continued without resets
         s.u = end;
         auto over = s.u > V_th;
-        for (int pass = 0; num::any(over) && pass < spikes_a_step; ++pass) {
-            const T x = offset_from((level - before) / num::select(over, end - before, T(1.0)), T(0.0));
+        for (int pass = 0; num::any(over) && pass < max_spikes_per_step; ++pass) {
+            const T x = spike_offset((level - before) / num::select(over, end - before, T(1.0)), T(0.0));
             fired(over, x);
             s.u = num::select(over, num::select(ref > T(0.0), V_reset, s.u - drop), s.u);
-            s.wait = num::select(over, num::positive_part(x + ref - T(1.0)), s.wait);
+            s.ref_steps = num::select(over, num::positive_part(x + ref - T(1.0)), s.ref_steps);
             level = level + drop;
             over = over & (s.u > V_th);
         }

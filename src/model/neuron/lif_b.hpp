@@ -1,7 +1,7 @@
 #pragma once
 
 #include "model/current.hpp"
-#include "model/neuron/step.hpp"
+#include "model/neuron/threshold_crossing.hpp"
 #include "signal/afferent.hpp"
 #include "signal/parameter.hpp"
 
@@ -11,11 +11,11 @@ namespace corpuscle {
 ///     C_m du/dt = I - I_leak0 above E_L, u held at E_L when I < I_leak0;   u > V_th  =>  spike, then u = V_reset for t_ref
 /// (thesis eq. 6, 7, Alg. 4; errata: the algorithm adds to u[n-1], not to u_rest. The thesis writes C, theta, u_rst, u_rest.)
 /// Limitation: if u exceeds V_th within a step and is below it again at the end, no spike is detected.
-struct LifBFacts {
+struct LifBTraits {
     struct Params {
         double C_m = 500e-9, I_leak0 = 500e-9, E_L = 0, V_th = 0.5, V_reset = 0.25, t_ref = 0;
     };
-    static constexpr std::string_view name = "lif-b", sentence = "LIF-B: integrate and fire with a constant leak current";
+    static constexpr std::string_view name = "lif-b", description = "LIF-B: integrate and fire with a constant leak current";
     static constexpr std::string_view source = "thesis 3.2, eq. 6, 7, Alg. 4";
     static constexpr ParameterDef<Params> fields[] = {
         {"C_m", &Params::C_m, "F", 1e-18, 1, "membrane capacitance (C)", "thesis 3.3"},
@@ -25,50 +25,50 @@ struct LifBFacts {
         {"V_reset", &Params::V_reset, "V", -10, 10, "potential after a spike (u_rst)", "choice: not given in the thesis"},
         {"t_ref", &Params::t_ref, "s", 0, 10, "refractory time", "thesis: none"},
     };
-    static constexpr OrderConstraint<Params> orders[] = {
+    static constexpr OrderConstraint<Params> order_constraints[] = {
         {"V_reset", &Params::V_reset, "V_th", &Params::V_th},
         {"E_L", &Params::E_L, "V_reset", &Params::V_reset, true},
     };
-    static constexpr Probe parts[] = {{"u", "V"}};
+    static constexpr Probe recordables[] = {{"u", "V"}};
 };
 
 /// The membrane is stored as a charge, expressed as the current that delivers it in half a step: q = 2 C_m u / T, in A. A whole step under
 /// a straight-line current then adds the sum of the currents at its ends minus twice the leak.
 template <class T>
-struct LifB : LifBFacts {
+struct LifB : LifBTraits {
     struct State {
-        T q, wait;  // charge; rest of t_ref, in steps
+        T q, ref_steps;  // charge; rest of t_ref, in steps
     };
-    static constexpr std::size_t values_of_waiting = 1;  ///< last in State; 0 where may_be_refractory() is false
+    static constexpr std::size_t refractory_values = 1;  ///< last in State; 0 where may_be_refractory() is false
 
     template <class Values>
     LifB(const Values& value, double dt, Method)
-        : C(T(2.0) * value(&Params::C_m) / dt), I_leak0(value(&Params::I_leak0)), leak(T(2.0) * I_leak0), least(C * value(&Params::E_L)),
+        : C(T(2.0) * value(&Params::C_m) / dt), I_leak0(value(&Params::I_leak0)), leak(T(2.0) * I_leak0), rest(C * value(&Params::E_L)),
           theta(C * value(&Params::V_th)), reset(C * value(&Params::V_reset)), drop(theta - reset), ref(value(&Params::t_ref) / dt),
           refractory(num::any(ref > T(0.0))) {}
 
-    State start() const { return {least, T(0.0)}; }
-    void show(const State& s, T (&out)[1]) const { out[0] = s.q / C; }
+    State start() const { return {rest, T(0.0)}; }
+    void record(const State& s, T (&out)[1]) const { out[0] = s.q / C; }
 
     /// Computes a step without events: no spike, no current that rises through the leak, no refractory time. The last is not tested unless
     /// `check_wait` is set. Returns the lanes in which an event is possible.
     template <bool check_wait, class I>
-    [[gnu::always_inline]] num::Mask<T> glance(const State& s, const I& i, State& next) const {
-        next = {num::max(least, s.q + (i.sum() - leak)), s.wait};
+    [[gnu::always_inline]] num::Mask<T> try_quiet_step(const State& s, const I& i, State& next) const {
+        next = {num::max(rest, s.q + (i.sum() - leak)), s.ref_steps};
         num::Mask<T> events = next.q > theta;
         if (i.may_rise()) events = events | i.rises_through(I_leak0);
-        if (check_wait) events = events | (s.wait > T(0.0));
+        if (check_wait) events = events | (s.ref_steps > T(0.0));
         return events;
     }
-    bool may_wait() const { return refractory; }
+    bool may_be_refractory() const { return refractory; }
 
     /// One sample under current i. Calls fired(mask, offset) for each spike. Returns the lanes where the limit of spikes truncated the
     /// step.
     template <class I, class Fired>
     [[gnu::always_inline]] num::Mask<T> step(State& s, const I& i, Fired&& fired) const {
         State next;
-        if (num::any(refractory ? glance<true>(s, i, next) : glance<false>(s, i, next))) {
-            const auto [end, over] = inside(s, i.sum() - leak, i, fired);
+        if (num::any(refractory ? try_quiet_step<true>(s, i, next) : try_quiet_step<false>(s, i, next))) {
+            const auto [end, over] = step_with_events(s, i.sum() - leak, i, fired);
             s = end;
             return over;
         }
@@ -77,36 +77,36 @@ struct LifB : LifBFacts {
     }
 
 private:
-    T C, I_leak0, leak, least, theta, reset, drop, ref;  // leak: of a step; then E_L, V_th, V_reset as charges like q
+    T C, I_leak0, leak, rest, theta, reset, drop, ref;  // leak: of a step; then E_L, V_th, V_reset as charges like q
     bool refractory;
 
-    struct Stepped {
+    struct StepResult {
         State end;
         num::Mask<T> over;
     };
 
     /// The same step with its events: q(x) = base + rise.at(x), not below E_L, from the end of the refractory time and between spikes.
     template <class Fired>
-    [[gnu::noinline, gnu::cold]] Stepped inside(State s, T increment, Current<T> i, Fired& fired) const {
+    [[gnu::noinline, gnu::cold]] StepResult step_with_events(State s, T increment, Current<T> i, Fired& fired) const {
         const Parabola<T> rise{T(2.0) * (i.from - I_leak0), T(2.0) * (i.to - i.from)};
-        T x = num::min(s.wait, T(1.0)), base = s.q;
-        s.wait = s.wait - x;
-        s.q = num::max(least, base + increment);
+        T x = num::min(s.ref_steps, T(1.0)), base = s.q;
+        s.ref_steps = s.ref_steps - x;
+        s.q = num::max(rest, base + increment);
         const num::Mask<T> bends = i.rises_through(I_leak0) | (x > T(0.0));
-        base = num::select(bends, num::max(base - rise.at(x), least - rise.least_after(x)), base);
-        s.q = num::select(bends, num::max(least, base + increment), s.q);
+        base = num::select(bends, num::max(base - rise.at(x), rest - rise.min_from(x)), base);
+        s.q = num::select(bends, num::max(rest, base + increment), s.q);
         num::Mask<T> over = s.q > theta;
-        for (int pass = 0; num::any(over) && pass < spikes_a_step; ++pass) {
-            x = num::select(over, offset_from(rise.rises_through(theta - base), x), x);
+        for (int pass = 0; num::any(over) && pass < max_spikes_per_step; ++pass) {
+            x = num::select(over, spike_offset(rise.rising_crossing(theta - base), x), x);
             fired(over, x);
             T next = base - drop;
             if (refractory) {
                 const T end = x + ref, from = num::min(end, T(1.0));
-                s.wait = num::select(over, end - from, s.wait);
+                s.ref_steps = num::select(over, end - from, s.ref_steps);
                 next = num::select(ref > T(0.0), reset - rise.at(from), next);
             }
             base = num::select(over, next, base);
-            s.q = num::select(over, num::max(least, base + increment), s.q);
+            s.q = num::select(over, num::max(rest, base + increment), s.q);
             over = over & (s.q > theta);
         }
         return {s, over};

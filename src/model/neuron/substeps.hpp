@@ -4,45 +4,45 @@
 // linear interpolation. v and w are reset there, and the rest of the substep is integrated as another one.
 
 #include "model/current.hpp"
-#include "model/neuron/step.hpp"
+#include "model/neuron/threshold_crossing.hpp"
 
 namespace corpuscle {
 
 template <class T>
-struct Pair {
+struct MembraneRecovery {
     T v, w;
-    friend Pair operator+(Pair a, Pair b) { return {a.v + b.v, a.w + b.w}; }
-    friend Pair operator*(T s, Pair a) { return {s * a.v, s * a.w}; }
+    friend MembraneRecovery operator+(MembraneRecovery a, MembraneRecovery b) { return {a.v + b.v, a.w + b.w}; }
+    friend MembraneRecovery operator*(T s, MembraneRecovery a) { return {s * a.v, s * a.w}; }
 };
 
 /// One Runge-Kutta step. slopes(y, current) returns dy/dt; h in seconds; the current changes by g over the step.
 template <class T, class Slopes>
-Pair<T> runge_kutta(const Slopes& slopes, Pair<T> y, T i, T g, T h) {
+MembraneRecovery<T> runge_kutta_step(const Slopes& slopes, MembraneRecovery<T> y, T i, T g, T h) {
     const T half = T(0.5) * h, middle = i + T(0.5) * g;
     const auto k1 = slopes(y, i), k2 = slopes(y + half * k1, middle), k3 = slopes(y + half * k2, middle), k4 = slopes(y + h * k3, i + g);
     return y + (h * T(1.0 / 6)) * (k1 + T(2.0) * (k2 + k3) + k4);
 }
 
 /// Number of substeps of at most `longest` in a step of dt, limited to a million.
-inline int substeps_of(double dt, double longest) {
+inline int substep_count(double dt, double longest) {
     const double n = dt / longest;
     return n <= 1 ? 1 : n > 1e6 ? 1'000'000 : static_cast<int>(n) + (static_cast<int>(n) < n);
 }
 
 /// One step in `count` substeps; jump(y) returns the state after a spike.
 template <class T, class Slopes, class Jump, class Fired>
-void advance(Pair<T>& y, Current<T> i, double dt, int count, T V_peak, const Slopes& slopes, const Jump& jump, Fired& fired) {
+void advance_substeps(MembraneRecovery<T>& y, Current<T> i, double dt, int count, T V_peak, const Slopes& slopes, const Jump& jump, Fired& fired) {
     const T h = T(dt / count), g = (i.to - i.from) * T(1.0 / count);
     for (int k = 0; k < count; ++k) {
         const T at = i.from + g * T(static_cast<double>(k));
-        const Pair<T> before = y;
-        y = runge_kutta(slopes, before, at, g, h);
+        const MembraneRecovery<T> before = y;
+        y = runge_kutta_step(slopes, before, at, g, h);
         const auto over = y.v > V_peak;
         if (!num::any(over)) continue;
-        const T x = offset_from((V_peak - before.v) / num::select(over, y.v - before.v, T(1.0)), T(0.0)), left = T(1.0) - x;
+        const T x = spike_offset((V_peak - before.v) / num::select(over, y.v - before.v, T(1.0)), T(0.0)), left = T(1.0) - x;
         fired(over, (T(static_cast<double>(k)) + x) * T(1.0 / count));
-        const Pair<T> after = jump(Pair<T>{V_peak, before.w + x * (y.w - before.w)});
-        const Pair<T> end = runge_kutta(slopes, after, at + g * x, g * left, h * left);
+        const MembraneRecovery<T> after = jump(MembraneRecovery<T>{V_peak, before.w + x * (y.w - before.w)});
+        const MembraneRecovery<T> end = runge_kutta_step(slopes, after, at + g * x, g * left, h * left);
         y.v = num::select(over, num::min(end.v, V_peak), y.v);  // at most one spike per substep
         y.w = num::select(over, end.w, y.w);
     }

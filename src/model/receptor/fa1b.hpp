@@ -8,11 +8,11 @@ namespace corpuscle {
 
 /// FA-IB, the thesis's proposal:   I = k_A max{I_0, 0} + k_B max{-I_0, 0},   I_0' + 2 pi f I_0 = F'
 /// (thesis 3.4, Alg. 6; errata: falling force excites too, although the printed sign would suppress it. I_0 is in newtons.)
-struct Fa1bFacts {
+struct Fa1bTraits {
     struct Params {
         double k_A = 3.5e-6, k_B = 2.75e-6, f = 2;
     };
-    static constexpr std::string_view name = "fa1b", sentence = "FA-IB: a slow high-pass, rectified with a gain for each direction";
+    static constexpr std::string_view name = "fa1b", description = "FA-IB: a slow high-pass, rectified with a gain for each direction";
     static constexpr std::string_view source = "thesis 3.4, Alg. 6";
     static constexpr ParameterDef<Params> fields[] = {
         {"k_A", &Params::k_A, "A/N", 0, 1, "gain for rising force (protraction)"},
@@ -23,36 +23,36 @@ struct Fa1bFacts {
     /// Exact method: the current at the beginning of a step equals that at the end of the step before. Without this it is constant in a
     /// step.
     static constexpr bool continuous = true;
-    static constexpr bool keeps_strays = true;  ///< a NaN force makes the state NaN for good, so one check per block is enough
-    static constexpr bool scales = true;        ///< twice the force gives twice the current
-    static constexpr Probe parts[] = {{"I_A", "A"}, {"I_B", "A"}};
+    static constexpr bool propagates_nan = true;  ///< a NaN force makes the state NaN for good, so one check per block is enough
+    static constexpr bool scales_with_force = true;        ///< twice the force gives twice the current
+    static constexpr Probe recordables[] = {{"I_A", "A"}, {"I_B", "A"}};
 };
 
 template <class T>
-struct Fa1b : Fa1bFacts {
+struct Fa1b : Fa1bTraits {
     struct State {
         T F, x, I;  // x: high-passed force I_0, N
     };
 
     template <class Values>
     Fa1b(const Values& value, double dt, Method method)
-        : k_A(value(&Params::k_A)), k_B(value(&Params::k_B)), filter(value(&Params::f), dt, method), hold(method == Method::exact) {}
+        : k_A(value(&Params::k_A)), k_B(value(&Params::k_B)), filter(value(&Params::f), dt, method), first_order_hold(method == Method::exact) {}
 
     State start(T F) const { return {F, T(0.0), T(0.0)}; }
     void step(State& s, T F, Current<T> (&i)[outputs]) const {
         const T before = s.I;
         s.x = filter.next(s.x, F - s.F);
         s.F = F, s.I = current(s);
-        i[0] = {hold ? before : s.I, s.I};
+        i[0] = {first_order_hold ? before : s.I, s.I};
     }
     T current(const State& s) const { return k_A * num::positive_part(s.x) + k_B * num::positive_part(-s.x); }
-    void settle(State& s) const { s.x = settled(s.x, faded_force), s.I = current(s); }
-    void show(const State& s, T (&out)[2]) const { out[0] = k_A * num::positive_part(s.x), out[1] = k_B * num::positive_part(-s.x); }
+    void flush_decayed(State& s) const { s.x = snap_to_level(s.x, negligible_force), s.I = current(s); }
+    void record(const State& s, T (&out)[2]) const { out[0] = k_A * num::positive_part(s.x), out[1] = k_B * num::positive_part(-s.x); }
 
 private:
     T k_A, k_B;
     HighPass<T> filter;
-    bool hold;
+    bool first_order_hold;
 };
 
 }  // namespace corpuscle

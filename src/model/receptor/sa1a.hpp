@@ -8,11 +8,11 @@ namespace corpuscle {
 
 /// SA-IA, Kim et al. 2012:   I = beta + k_s F + k_d |F'|      (thesis eq. 1, Alg. 1; errata: differences divided by T)
 /// The slope of the force is known only as a difference over a step, so the dynamic part is constant within a step.
-struct Sa1aFacts {
+struct Sa1aTraits {
     struct Params {
         double beta = 0, k_s = 1e-6, k_d = 100e-9;
     };
-    static constexpr std::string_view name = "sa1a", sentence = "SA-IA: static part plus the absolute slope of the force";
+    static constexpr std::string_view name = "sa1a", description = "SA-IA: static part plus the absolute slope of the force";
     static constexpr std::string_view source = "Kim et al. 2012, doi 10.1186/1743-0003-9-45; thesis eq. 1, Alg. 1; values are a choice";
     static constexpr ParameterDef<Params> fields[] = {
         {"beta", &Params::beta, "A", -1e-3, 1e-3, "current without force"},
@@ -20,31 +20,31 @@ struct Sa1aFacts {
         {"k_d", &Params::k_d, "A s/N", 0, 1, "dynamic gain, for rising and falling force alike"},
     };
     static constexpr int outputs = 1;
-    static constexpr Probe parts[] = {{"I_s", "A"}, {"I_d", "A"}};
+    static constexpr Probe recordables[] = {{"I_s", "A"}, {"I_d", "A"}};
 };
 
 template <class T>
-struct Sa1a : Sa1aFacts {
+struct Sa1a : Sa1aTraits {
     struct State {
         T F, I_d;
     };
 
     template <class Values>
     Sa1a(const Values& value, double dt, Method method)
-        : beta(value(&Params::beta)), k_s(value(&Params::k_s)), k_dT(value(&Params::k_d) / dt), hold(method == Method::exact) {}
+        : beta(value(&Params::beta)), k_s(value(&Params::k_s)), k_dT(value(&Params::k_d) / dt), first_order_hold(method == Method::exact) {}
 
     State start(T F) const { return {F, T(0.0)}; }
     void step(State& s, T F, Current<T> (&i)[outputs]) const {
         s.I_d = k_dT * num::abs(F - s.F);
         const T to = beta + k_s * F + s.I_d;
-        i[0] = {hold ? beta + k_s * s.F + s.I_d : to, to};
+        i[0] = {first_order_hold ? beta + k_s * s.F + s.I_d : to, to};
         s.F = F;
     }
-    void show(const State& s, T (&out)[2]) const { out[0] = k_s * s.F, out[1] = s.I_d; }
+    void record(const State& s, T (&out)[2]) const { out[0] = k_s * s.F, out[1] = s.I_d; }
 
 private:
     T beta, k_s, k_dT;
-    bool hold;
+    bool first_order_hold;
 };
 
 }  // namespace corpuscle

@@ -9,11 +9,11 @@ namespace corpuscle {
 /// SA-IB, the thesis's proposal:   I = k_A F + max{I_B, 0} + max{I_C, 0},   I_x' + 2 pi f_x I_x = K_x F'
 /// (thesis eq. 8 to 12, Alg. 5; signs and names of Alg. 5 follow its errata: I_x[n] = k_x2 (K_x dF + I_x[n-1]).)
 /// Between samples the current is approximated by a straight line: the error of a spike time decreases with T^2.
-struct Sa1bFacts {
+struct Sa1bTraits {
     struct Params {
         double k_A = 1e-6, K_B = 8e-6, f_B = 20, K_C = 2e-6, f_C = 2;
     };
-    static constexpr std::string_view name = "sa1b", sentence = "SA-IB: static part plus two rectified high-passes, one fast, one slow";
+    static constexpr std::string_view name = "sa1b", description = "SA-IB: static part plus two rectified high-passes, one fast, one slow";
     static constexpr std::string_view source = "thesis 3.3, eq. 8 to 12, Alg. 5";
     static constexpr ParameterDef<Params> fields[] = {
         {"k_A", &Params::k_A, "A/N", 0, 1, "gain of the static part I_A"},
@@ -28,13 +28,13 @@ struct Sa1bFacts {
     /// Exact method: the current at the beginning of a step equals that at the end of the step before. Without this it is constant in a
     /// step.
     static constexpr bool continuous = true;
-    static constexpr bool keeps_strays = true;  ///< a NaN force makes the state NaN for good, so one check per block is enough
-    static constexpr bool scales = true;        ///< twice the force gives twice the current
-    static constexpr Probe parts[] = {{"I_A", "A"}, {"I_B", "A"}, {"I_C", "A"}};
+    static constexpr bool propagates_nan = true;  ///< a NaN force makes the state NaN for good, so one check per block is enough
+    static constexpr bool scales_with_force = true;        ///< twice the force gives twice the current
+    static constexpr Probe recordables[] = {{"I_A", "A"}, {"I_B", "A"}, {"I_C", "A"}};
 };
 
 template <class T>
-struct Sa1b : Sa1bFacts {
+struct Sa1b : Sa1bTraits {
     struct State {
         T F, I_B, I_C, I;
     };
@@ -42,26 +42,26 @@ struct Sa1b : Sa1bFacts {
     template <class Values>
     Sa1b(const Values& value, double dt, Method method)
         : k_A(value(&Params::k_A)), B(value(&Params::f_B), dt, method, value(&Params::K_B)),
-          C(value(&Params::f_C), dt, method, value(&Params::K_C)), hold(method == Method::exact) {}
+          C(value(&Params::f_C), dt, method, value(&Params::K_C)), first_order_hold(method == Method::exact) {}
 
     State start(T F) const { return {F, T(0.0), T(0.0), k_A * F}; }
     void step(State& s, T F, Current<T> (&i)[outputs]) const {
         const T dF = F - s.F, before = s.I;
         s.I_B = B.next(s.I_B, dF), s.I_C = C.next(s.I_C, dF);
         s.F = F, s.I = current(s);
-        i[0] = {hold ? before : s.I, s.I};
+        i[0] = {first_order_hold ? before : s.I, s.I};
     }
     T current(const State& s) const { return k_A * s.F + num::positive_part(s.I_B) + num::positive_part(s.I_C); }
-    void settle(State& s) const {
-        s.I_B = settled(s.I_B, faded_current), s.I_C = settled(s.I_C, faded_current);
+    void flush_decayed(State& s) const {
+        s.I_B = snap_to_level(s.I_B, negligible_current), s.I_C = snap_to_level(s.I_C, negligible_current);
         s.I = current(s);
     }
-    void show(const State& s, T (&out)[3]) const { out[0] = k_A * s.F, out[1] = s.I_B, out[2] = s.I_C; }
+    void record(const State& s, T (&out)[3]) const { out[0] = k_A * s.F, out[1] = s.I_B, out[2] = s.I_C; }
 
 private:
     T k_A;
     HighPass<T> B, C;
-    bool hold;
+    bool first_order_hold;
 };
 
 }  // namespace corpuscle

@@ -11,13 +11,13 @@ namespace corpuscle {
 /// Our choice, for a class that the thesis names but does not model. It reproduces the tuning of Pacinian corpuscles (best at 200 to
 /// 300 Hz, no response to slow force), not their mechanics. Each section treats the output of the one before as a straight line between
 /// samples.
-struct VibrationFacts {
+struct VibrationTraits {
     struct Params {
         double k = 400e-6, f_hp = 180, f_lp = 180;
     };
-    static constexpr std::string_view name = "vibration", sentence = "a band of vibration: two high-passes and a low-pass, rectified";
+    static constexpr std::string_view name = "vibration", description = "a band of vibration: two high-passes and a low-pass, rectified";
     static constexpr std::string_view source = "choice, to the tuning of PC afferents in PMC2657072, table 1";
-    static constexpr double least_rate = 1000;  ///< Hz; below this sampling rate the samples do not contain the band
+    static constexpr double min_rate = 1000;  ///< Hz; below this sampling rate the samples do not contain the band
     static constexpr ParameterDef<Params> fields[] = {
         {"k", &Params::k, "A/N", 0, 1, "gain"},
         {"f_hp", &Params::f_hp, "Hz", 1e-6, 1e6, "cutoff frequency of the two high-passes"},
@@ -27,12 +27,12 @@ struct VibrationFacts {
     /// Exact method: the current at the beginning of a step equals that at the end of the step before. Without this it is constant in a
     /// step.
     static constexpr bool continuous = true;
-    static constexpr bool keeps_strays = true;  ///< a NaN force makes the state NaN for good, so one check per block is enough
-    static constexpr bool scales = true;        ///< twice the force gives twice the current
+    static constexpr bool propagates_nan = true;  ///< a NaN force makes the state NaN for good, so one check per block is enough
+    static constexpr bool scales_with_force = true;        ///< twice the force gives twice the current
 };
 
 template <class T>
-struct Vibration : VibrationFacts {
+struct Vibration : VibrationTraits {
     struct State {
         T F, x_1, x_2, x_3, I;
     };
@@ -40,24 +40,24 @@ struct Vibration : VibrationFacts {
     template <class Values>
     Vibration(const Values& value, double dt, Method method)
         : k(value(&Params::k)), high(value(&Params::f_hp), dt, method), low(value(&Params::f_lp), dt, method),
-          hold(method == Method::exact) {}
+          first_order_hold(method == Method::exact) {}
 
     State start(T F) const { return {F, T(0.0), T(0.0), T(0.0), T(0.0)}; }
     void step(State& s, T F, Current<T> (&i)[outputs]) const {
         const T before = s.I, x_1 = high.next(s.x_1, F - s.F), x_2 = high.next(s.x_2, x_1 - s.x_1), x_3 = low.next(s.x_3, x_2 - s.x_2);
         s.F = F, s.x_1 = x_1, s.x_2 = x_2, s.x_3 = x_3, s.I = current(s);
-        i[0] = {hold ? before : s.I, s.I};
+        i[0] = {first_order_hold ? before : s.I, s.I};
     }
     T current(const State& s) const { return k * num::positive_part(s.x_2 - s.x_3); }  // a low-pass is its input minus a high-pass
-    void settle(State& s) const {
-        s.x_1 = settled(s.x_1, faded_force), s.x_2 = settled(s.x_2, faded_force), s.x_3 = settled(s.x_3, faded_force);
+    void flush_decayed(State& s) const {
+        s.x_1 = snap_to_level(s.x_1, negligible_force), s.x_2 = snap_to_level(s.x_2, negligible_force), s.x_3 = snap_to_level(s.x_3, negligible_force);
         s.I = current(s);
     }
 
 private:
     T k;
     HighPass<T> high, low;
-    bool hold;
+    bool first_order_hold;
 };
 
 }  // namespace corpuscle

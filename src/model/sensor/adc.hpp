@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "model/sensor/front.hpp"
+#include "model/sensor/front_end.hpp"
 
 namespace corpuscle {
 
@@ -16,7 +16,7 @@ struct Adc {
     struct Params {
         double bits = 12, f_s = 1e3, F_low = 0, F_high = 5, shared = 0, linearise = 1, word = 32, frac = 20;
     };
-    static constexpr std::string_view name = "adc", sentence = "analog-to-digital converter; the algorithms behind it run in fixed point";
+    static constexpr std::string_view name = "adc", description = "analog-to-digital converter; the algorithms behind it run in fixed point";
     static constexpr std::string_view source = "thesis 1.3, fig. 6a; all values are a choice";
     static constexpr ParameterDef<Params> fields[] = {
         {"bits", &Params::bits, "", 1, 16, "bits of a code", {}, true},
@@ -35,46 +35,46 @@ struct Adc {
         {"word", &Params::word, "", 8, 32, "bits of a word in the algorithms", {}, true},
         {"frac", &Params::frac, "", 0, 31, "fraction bits of a word: steps of 2^-frac N, uA, V", {}, true},
     };
-    static constexpr OrderConstraint<Params> orders[] = {
+    static constexpr OrderConstraint<Params> order_constraints[] = {
         {"F_low", &Params::F_low, "F_high", &Params::F_high},
         {"frac", &Params::frac, "word", &Params::word},
     };
-    static constexpr double Params::* whole[] = {&Params::bits, &Params::shared, &Params::linearise, &Params::word, &Params::frac};
+    static constexpr double Params::* integers[] = {&Params::bits, &Params::shared, &Params::linearise, &Params::word, &Params::frac};
 };
 
 /// Converts measured values to codes, and codes back to force.
 class Converter {
-    Front front_;
+    FrontEnd front_end_;
     Adc::Params p_;
-    double low_, high_, most_;
+    double low_, high_, max_code_;
 
 public:
-    struct Code {
+    struct QuantizedCode {
         std::int64_t code = 0;
-        bool clipped = false;
+        bool saturated = false;
     };
 
-    Converter(Front front, const Adc::Params& p)
-        : front_(std::move(front)), p_(p), low_(front_.read(p.F_low).value), high_(front_.read(p.F_high).value),
-          most_(std::exp2(p.bits) - 1) {}
+    Converter(FrontEnd front, const Adc::Params& p)
+        : front_end_(std::move(front)), p_(p), low_(front_end_.read(p.F_low).value), high_(front_end_.read(p.F_high).value),
+          max_code_(std::exp2(p.bits) - 1) {}
 
-    const Front& front() const { return front_; }
-    std::int64_t most() const { return static_cast<std::int64_t>(most_); }
+    const FrontEnd& front_end() const { return front_end_; }
+    std::int64_t max_code() const { return static_cast<std::int64_t>(max_code_); }
 
-    Code convert(double sensed) const {
-        const auto reading = front_.read(sensed);
-        const double level = std::floor((reading.value - low_) / (high_ - low_) * most_ + 0.5);
+    QuantizedCode convert(double sensed) const {
+        const auto reading = front_end_.read(sensed);
+        const double level = std::floor((reading.value - low_) / (high_ - low_) * max_code_ + 0.5);
         if (level < 0) return {0, true};
-        if (level > most_) return {most(), true};
-        return {static_cast<std::int64_t>(level), reading.clipped};
+        if (level > max_code_) return {max_code(), true};
+        return {static_cast<std::int64_t>(level), reading.saturated};
     }
 
     /// The force that a code represents, N: by the inverse of the curve, or by the straight line of the calibration.
     double force(std::int64_t code) const {
-        const double fraction = static_cast<double>(code) / most_;
-        if (p_.linearise == 0) return front_.believed(low_ + fraction * (high_ - low_));
-        if (front_.stages().empty() || code == 0 || code == most()) return p_.F_low + fraction * (p_.F_high - p_.F_low);
-        return front_.inverse(low_ + fraction * (high_ - low_), p_.F_low, p_.F_high);
+        const double fraction = static_cast<double>(code) / max_code_;
+        if (p_.linearise == 0) return front_end_.calibrated_force(low_ + fraction * (high_ - low_));
+        if (front_end_.stages().empty() || code == 0 || code == max_code()) return p_.F_low + fraction * (p_.F_high - p_.F_low);
+        return front_end_.inverse(low_ + fraction * (high_ - low_), p_.F_low, p_.F_high);
     }
 };
 

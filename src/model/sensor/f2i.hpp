@@ -1,6 +1,6 @@
 #pragma once
 
-#include "model/sensor/stage.hpp"
+#include "model/sensor/front_end_stage.hpp"
 #include "signal/parameter.hpp"
 
 namespace corpuscle {
@@ -12,7 +12,7 @@ struct F2i {
     struct Params {
         double V_FSR = 0.1, S_1 = 1, S_2 = 16, I_max = 5e-6;
     };
-    static constexpr std::string_view name = "f2i", sentence = "force to current: a fraction of the sensor's current";
+    static constexpr std::string_view name = "f2i", description = "force to current: a fraction of the sensor's current";
     static constexpr std::string_view source = "thesis 4.2, figs. 21 and 22, eq. 15, table 1";
     static constexpr ParameterDef<Params> fields[] = {
         {"V_FSR", &Params::V_FSR, "V", 1e-6, 100, "voltage across the sensor (V_Y - V_SS)", "inferred from the gain of thesis fig. 24b"},
@@ -21,9 +21,9 @@ struct F2i {
         {"I_max", &Params::I_max, "A", 1e-15, 1e3, "limit of the amplifier, where I_F saturates", "choice: reached at about 10 N"},
     };
 
-    static Stage stage(const Params& p) {
-        return {.part = name,
-                .shows = {"I_F", "A"},
+    static FrontEndStage stage(const Params& p) {
+        return {.component = name,
+                .output = {"I_F", "A"},
                 .curve = [p](double G) { return p.V_FSR * G * (p.S_1 / (p.S_1 + p.S_2)); },
                 .limit = p.I_max,
                 .limit_name = "I_max",

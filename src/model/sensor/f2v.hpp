@@ -1,6 +1,6 @@
 #pragma once
 
-#include "model/sensor/stage.hpp"
+#include "model/sensor/front_end_stage.hpp"
 #include "signal/parameter.hpp"
 
 namespace corpuscle {
@@ -12,7 +12,7 @@ struct F2v {
     struct Params {
         double V_FSR = 0.1, R_fb = 10e3, V_SS = 0, V_DD = 0.7;
     };
-    static constexpr std::string_view name = "f2v", sentence = "force to voltage: transimpedance amplifier on a sensor's conductance";
+    static constexpr std::string_view name = "f2v", description = "force to voltage: transimpedance amplifier on a sensor's conductance";
     static constexpr std::string_view source = "thesis 4.2, fig. 20, eq. 14";
     static constexpr ParameterDef<Params> fields[] = {
         {"V_FSR", &Params::V_FSR, "V", 1e-6, 100, "voltage across the sensor (V_Y - V_SS)", "inferred from the gain of thesis fig. 24b"},
@@ -20,11 +20,11 @@ struct F2v {
         {"V_SS", &Params::V_SS, "V", -100, 100, "lower supply", "thesis 4.2"},
         {"V_DD", &Params::V_DD, "V", -100, 100, "upper supply, where V_Z saturates", "thesis 4.2"},
     };
-    static constexpr OrderConstraint<Params> orders[] = {{"V_SS", &Params::V_SS, "V_DD", &Params::V_DD}};
+    static constexpr OrderConstraint<Params> order_constraints[] = {{"V_SS", &Params::V_SS, "V_DD", &Params::V_DD}};
 
-    static Stage stage(const Params& p) {
-        return {.part = name,
-                .shows = {"V_Z", "V"},
+    static FrontEndStage stage(const Params& p) {
+        return {.component = name,
+                .output = {"V_Z", "V"},
                 .curve = [p](double G) { return p.V_SS + p.V_FSR + p.V_FSR * G * p.R_fb; },
                 .limit = p.V_DD,
                 .limit_name = "V_DD",

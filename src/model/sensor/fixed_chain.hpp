@@ -14,51 +14,51 @@ namespace corpuscle {
 class FixedChain {
 public:
     /// Result of one step: a spike bit for each neuron, and the number of neurons that reached the spike limit.
-    struct Stepped {
+    struct StepResult {
         std::array<bool, 2> fired = {};
-        int capped = 0;
+        int truncated_neurons = 0;
     };
-    static constexpr std::size_t most_words = 12, most_shown = 6;
+    static constexpr std::size_t max_words = 12, max_recordables = 6;
 
     FixedChain(Constants constants) : constants_(std::move(constants)) {}
     virtual ~FixedChain() = default;
     const Constants& constants() const { return constants_; }
     /// The words recorded after a step: "I" or "I_+", "I_-", then those of each neuron.
-    const std::vector<std::pair<std::string, std::string_view>>& shown() const { return shown_; }
+    const std::vector<std::pair<std::string, std::string_view>>& recordables() const { return recordables_; }
     virtual int outputs() const = 0;
     virtual std::size_t words() const = 0;
     /// The state before the first step; the force before it is taken to be the same.
     virtual void start(Word F, std::span<Word> state) const = 0;
-    virtual Stepped step(std::span<Word> state, Word F, std::span<Word> shown, Arithmetic&) const = 0;
+    virtual StepResult step(std::span<Word> state, Word F, std::span<Word> shown, Arithmetic&) const = 0;
 
 protected:
     Constants constants_;
-    std::vector<std::pair<std::string, std::string_view>> shown_;  // name, unit
+    std::vector<std::pair<std::string, std::string_view>> recordables_;  // name, unit
 };
 
 template <class R, class N>
-class FixedChainOf final : public FixedChain {
-    static constexpr int outputs_ = R::Facts::outputs;
+class FixedModelChain final : public FixedChain {
+    static constexpr int outputs_ = R::Traits::outputs;
     struct State {
         typename R::State receptor;
         typename N::State neuron[outputs_];
     };
     static constexpr std::size_t words_ = sizeof(State) / sizeof(Word);
-    static_assert(std::is_trivially_copyable_v<State> && words_ <= most_words && outputs_ * (1 + std::size(N::parts)) <= most_shown);
+    static_assert(std::is_trivially_copyable_v<State> && words_ <= max_words && outputs_ * (1 + std::size(N::parts)) <= max_recordables);
 
     R receptor_;
     N neuron_;
 
 public:
-    FixedChainOf(const typename R::Facts::Params& r, const typename N::Facts::Params& n, double f_s, WordFormat format)
+    FixedModelChain(const typename R::Traits::Params& r, const typename N::Traits::Params& n, double f_s, WordFormat format)
         : FixedChain(format), receptor_(r, f_s, constants_), neuron_(n, f_s, constants_) {
         const auto sign = [](int k) -> std::string {
-            if constexpr (requires { R::Facts::signs; }) return "_" + std::string(R::Facts::signs[k]);
+            if constexpr (requires { R::Traits::signs; }) return "_" + std::string(R::Traits::signs[k]);
             return k == 0 ? "" : std::to_string(k);
         };
-        for (int k = 0; k < outputs_; ++k) shown_.push_back({"I" + sign(k), "A"});
+        for (int k = 0; k < outputs_; ++k) recordables_.push_back({"I" + sign(k), "A"});
         for (int k = 0; k < outputs_; ++k)
-            for (const auto& p : N::parts) shown_.push_back({std::string(p.name) + sign(k), p.unit});
+            for (const auto& p : N::recordables) recordables_.push_back({std::string(p.name) + sign(k), p.unit});
     }
 
     int outputs() const override { return outputs_; }
@@ -71,18 +71,18 @@ public:
         std::memcpy(state.data(), &s, sizeof s);
     }
 
-    Stepped step(std::span<Word> state, Word F, std::span<Word> shown, Arithmetic& a) const override {
+    StepResult step(std::span<Word> state, Word F, std::span<Word> shown, Arithmetic& a) const override {
         State s;
         std::memcpy(&s, state.data(), sizeof s);
         Word I[outputs_];
         receptor_.step(s.receptor, F, I, a);
-        Stepped out;
+        StepResult out;
         for (int k = 0; k < outputs_; ++k) {
             const auto fired = neuron_.step(s.neuron[k], I[k], a);
             out.fired[static_cast<std::size_t>(k)] = fired.spike;
-            out.capped += fired.capped;
+            out.truncated_neurons += fired.truncated;
             shown[static_cast<std::size_t>(k)] = I[k];
-            neuron_.show(s.neuron[k], &shown[static_cast<std::size_t>(outputs_) + static_cast<std::size_t>(k) * std::size(N::parts)]);
+            neuron_.record(s.neuron[k], &shown[static_cast<std::size_t>(outputs_) + static_cast<std::size_t>(k) * std::size(N::recordables)]);
         }
         std::memcpy(state.data(), &s, sizeof s);
         return out;

@@ -6,13 +6,13 @@
 #include "model/neuron/adaptive.hpp"
 #include "model/neuron/lif_a.hpp"
 #include "model/neuron/lif_b.hpp"
-#include "model/sensor/fixed.hpp"
+#include "model/sensor/fixed_point.hpp"
 
 namespace corpuscle {
 
 /// Result of a neuron's step.
-struct Fired {
-    bool spike = false, capped = false;
+struct NeuronStep {
+    bool spike = false, truncated = false;
 };
 
 /// Common to the three neurons: the spike itself, and the refractory steps at V_reset after it.
@@ -23,13 +23,13 @@ struct FixedReset {
     FixedReset(const P& p, double f_s, Constants& c) : V_reset(c.level("V_reset", p.V_reset)), ref(c.count("ref", p.t_ref * f_s)) {}
 
     /// Counts down one refractory step; false if the neuron is not refractory.
-    static bool hold(Word& wait) {
+    static bool count_refractory_step(Word& wait) {
         if (wait == 0) return false;
         --wait;
         return true;
     }
-    Fired fire(Word& u, Word& wait, Word theta, Arithmetic& a) const {
-        u = ref > 0 ? V_reset : a.held(u - theta + V_reset);
+    NeuronStep fire(Word& u, Word& wait, Word theta, Arithmetic& a) const {
+        u = ref > 0 ? V_reset : a.saturate(u - theta + V_reset);
         wait = ref;
         return {true, u > theta};
     }
@@ -37,8 +37,8 @@ struct FixedReset {
 
 /// Alg. 3, LIF-A.
 struct FixedLifA {
-    using Facts = LifAFacts;
-    static constexpr Probe parts[] = {{"u", "V"}};
+    using Traits = LifATraits;
+    static constexpr Probe recordables[] = {{"u", "V"}};
     struct State {
         Word u, wait;
     };
@@ -48,24 +48,24 @@ struct FixedLifA {
     Factor k_a, k_b;
     Word k_c, E_L;
 
-    FixedLifA(const Facts::Params& p, double f_s, Constants& c)
+    FixedLifA(const Traits::Params& p, double f_s, Constants& c)
         : V_th(c.level("V_th", p.V_th)), reset(p, f_s, c), inertia(p.R_m * p.C_m * f_s),
           k_a(c.factor("k_a", p.R_m / micro / (1 + inertia))), k_b(c.factor("k_b", inertia / (1 + inertia))),
           k_c(c.level("k_c", p.E_L / (1 + inertia))), E_L(c.level("E_L", p.E_L)) {}
 
     State start() const { return {E_L, 0}; }
-    void show(const State& s, Word* out) const { out[0] = s.u; }
-    Fired step(State& s, Word I, Arithmetic& a) const {
-        if (FixedReset::hold(s.wait)) return {};
-        s.u = a.held(a.times(k_a, I) + a.times(k_b, s.u) + k_c);
-        return s.u > V_th ? reset.fire(s.u, s.wait, V_th, a) : Fired{};
+    void record(const State& s, Word* out) const { out[0] = s.u; }
+    NeuronStep step(State& s, Word I, Arithmetic& a) const {
+        if (FixedReset::count_refractory_step(s.wait)) return {};
+        s.u = a.saturate(a.times(k_a, I) + a.times(k_b, s.u) + k_c);
+        return s.u > V_th ? reset.fire(s.u, s.wait, V_th, a) : NeuronStep{};
     }
 };
 
 /// Alg. 4, LIF-B.
 struct FixedLifB {
-    using Facts = LifBFacts;
-    static constexpr Probe parts[] = {{"u", "V"}};
+    using Traits = LifBTraits;
+    static constexpr Probe recordables[] = {{"u", "V"}};
     struct State {
         Word u, wait;
     };
@@ -74,15 +74,15 @@ struct FixedLifB {
     Factor k;
     Word I_leak0, E_L;
 
-    FixedLifB(const Facts::Params& p, double f_s, Constants& c)
+    FixedLifB(const Traits::Params& p, double f_s, Constants& c)
         : V_th(c.level("V_th", p.V_th)), reset(p, f_s, c), k(c.factor("k_m", 1 / (p.C_m * f_s * micro))),
           I_leak0(c.level("I_leak0", p.I_leak0 * micro)), E_L(c.level("E_L", p.E_L)) {}
 
     State start() const { return {E_L, 0}; }
-    void show(const State& s, Word* out) const { out[0] = s.u; }
-    Fired step(State& s, Word I, Arithmetic& a) const {
-        if (FixedReset::hold(s.wait)) return {};
-        s.u = a.held(s.u + a.times(k, a.held(I - I_leak0)));
+    void record(const State& s, Word* out) const { out[0] = s.u; }
+    NeuronStep step(State& s, Word I, Arithmetic& a) const {
+        if (FixedReset::count_refractory_step(s.wait)) return {};
+        s.u = a.saturate(s.u + a.times(k, a.saturate(I - I_leak0)));
         if (s.u > V_th) return reset.fire(s.u, s.wait, V_th, a);
         s.u = std::max(s.u, E_L);
         return {};
@@ -91,8 +91,8 @@ struct FixedLifB {
 
 /// The adaptive threshold.
 struct FixedAdaptive {
-    using Facts = AdaptiveFacts;
-    static constexpr Probe parts[] = {{"u", "V"}, {"a", "V"}};
+    using Traits = AdaptiveTraits;
+    static constexpr Probe recordables[] = {{"u", "V"}, {"a", "V"}};
     struct State {
         Word u, a, wait;
     };
@@ -101,20 +101,20 @@ struct FixedAdaptive {
     Factor k, k_th;
     Word dV_th, E_L;
 
-    FixedAdaptive(const Facts::Params& p, double f_s, Constants& c)
+    FixedAdaptive(const Traits::Params& p, double f_s, Constants& c)
         : V_th(c.level("V_th", p.V_th)), reset(p, f_s, c), k(c.factor("k_m", 1 / (p.C_m * f_s * micro))),
           k_th(c.factor("k_th", num::exp(-1 / (p.tau_th * f_s)))), dV_th(c.level("dV_th", p.dV_th)), E_L(c.level("E_L", p.E_L)) {}
 
     State start() const { return {E_L, 0, 0}; }
-    void show(const State& s, Word* out) const { out[0] = s.u, out[1] = s.a; }
-    Fired step(State& s, Word I, Arithmetic& a) const {
+    void record(const State& s, Word* out) const { out[0] = s.u, out[1] = s.a; }
+    NeuronStep step(State& s, Word I, Arithmetic& a) const {
         s.a = a.times(k_th, s.a);
-        if (FixedReset::hold(s.wait)) return {};
-        s.u = std::max(a.held(s.u + a.times(k, I)), E_L);
-        const Word theta = a.held(V_th + s.a);
+        if (FixedReset::count_refractory_step(s.wait)) return {};
+        s.u = std::max(a.saturate(s.u + a.times(k, I)), E_L);
+        const Word theta = a.saturate(V_th + s.a);
         if (!(I > 0 && s.u > theta)) return {};
         const auto fired = reset.fire(s.u, s.wait, theta, a);
-        s.a = a.held(s.a + dV_th);
+        s.a = a.saturate(s.a + dV_th);
         return fired;
     }
 };

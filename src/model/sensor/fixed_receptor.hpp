@@ -6,41 +6,41 @@
 #include "model/receptor/fa1b.hpp"
 #include "model/receptor/sa1a.hpp"
 #include "model/receptor/sa1b.hpp"
-#include "model/sensor/fixed.hpp"
+#include "model/sensor/fixed_point.hpp"
 
 namespace corpuscle {
 
 /// Alg. 1, SA-IA.
 struct FixedSa1a {
-    using Facts = Sa1aFacts;
+    using Traits = Sa1aTraits;
     struct State {
         Word F;
     };
     Word beta;
     Factor k_s, k_d;
 
-    FixedSa1a(const Facts::Params& p, double f_s, Constants& c)
+    FixedSa1a(const Traits::Params& p, double f_s, Constants& c)
         : beta(c.level("beta", p.beta * micro)), k_s(c.factor("k_s", p.k_s * micro)), k_d(c.factor("k_d", p.k_d * micro * f_s)) {}
 
     void step(State& s, Word F, Word (&I)[1], Arithmetic& a) const {
-        const Word size = a.magnitude(a.held(F - s.F));
-        I[0] = a.held(beta + a.times(k_s, F) + a.times(k_d, size));
+        const Word size = a.magnitude(a.saturate(F - s.F));
+        I[0] = a.saturate(beta + a.times(k_s, F) + a.times(k_d, size));
         s.F = F;
     }
 };
 
 /// Alg. 2, FA-IA.
 struct FixedFa1a {
-    using Facts = Fa1aFacts;
+    using Traits = Fa1aTraits;
     struct State {
         Word F;
     };
     Factor k;
 
-    FixedFa1a(const Facts::Params& p, double f_s, Constants& c) : k(c.factor("k", p.k * micro * f_s)) {}
+    FixedFa1a(const Traits::Params& p, double f_s, Constants& c) : k(c.factor("k", p.k * micro * f_s)) {}
 
     void step(State& s, Word F, Word (&I)[2], Arithmetic& a) const {
-        const Word dF = a.held(F - s.F), slope = a.times(k, a.magnitude(dF));
+        const Word dF = a.saturate(F - s.F), slope = a.times(k, a.magnitude(dF));
         I[0] = dF > 0 ? slope : 0;
         I[1] = dF > 0 ? 0 : slope;
         s.F = F;
@@ -48,43 +48,43 @@ struct FixedFa1a {
 };
 
 /// The decay factor of a high-pass in a step of backward Euler.
-inline double kept(double f, double f_s) { return 1 / (1 + 6.283185307179586 * f / f_s); }
+inline double high_pass_decay(double f, double f_s) { return 1 / (1 + 6.283185307179586 * f / f_s); }
 
 /// Alg. 5, SA-IB.
 struct FixedSa1b {
-    using Facts = Sa1bFacts;
+    using Traits = Sa1bTraits;
     struct State {
         Word F, I_B, I_C;
     };
     Factor k_A, k_B1, k_B2, k_C1, k_C2;
 
-    FixedSa1b(const Facts::Params& p, double f_s, Constants& c)
-        : k_A(c.factor("k_A", p.k_A * micro)), k_B1(c.factor("k_B1", p.K_B * micro * kept(p.f_B, f_s))),
-          k_B2(c.factor("k_B2", kept(p.f_B, f_s))), k_C1(c.factor("k_C1", p.K_C * micro * kept(p.f_C, f_s))),
-          k_C2(c.factor("k_C2", kept(p.f_C, f_s))) {}
+    FixedSa1b(const Traits::Params& p, double f_s, Constants& c)
+        : k_A(c.factor("k_A", p.k_A * micro)), k_B1(c.factor("k_B1", p.K_B * micro * high_pass_decay(p.f_B, f_s))),
+          k_B2(c.factor("k_B2", high_pass_decay(p.f_B, f_s))), k_C1(c.factor("k_C1", p.K_C * micro * high_pass_decay(p.f_C, f_s))),
+          k_C2(c.factor("k_C2", high_pass_decay(p.f_C, f_s))) {}
 
     void step(State& s, Word F, Word (&I)[1], Arithmetic& a) const {
-        const Word dF = a.held(F - s.F);
-        s.I_B = a.held(a.times(k_B1, dF) + a.times(k_B2, s.I_B));
-        s.I_C = a.held(a.times(k_C1, dF) + a.times(k_C2, s.I_C));
-        I[0] = a.held(a.times(k_A, F) + std::max(s.I_B, Word{0}) + std::max(s.I_C, Word{0}));
+        const Word dF = a.saturate(F - s.F);
+        s.I_B = a.saturate(a.times(k_B1, dF) + a.times(k_B2, s.I_B));
+        s.I_C = a.saturate(a.times(k_C1, dF) + a.times(k_C2, s.I_C));
+        I[0] = a.saturate(a.times(k_A, F) + std::max(s.I_B, Word{0}) + std::max(s.I_C, Word{0}));
         s.F = F;
     }
 };
 
 /// Alg. 6, FA-IB.
 struct FixedFa1b {
-    using Facts = Fa1bFacts;
+    using Traits = Fa1bTraits;
     struct State {
         Word F, I_0;  // both N
     };
     Factor k, k_A, k_B;
 
-    FixedFa1b(const Facts::Params& p, double f_s, Constants& c)
-        : k(c.factor("k", kept(p.f, f_s))), k_A(c.factor("k_A", p.k_A * micro)), k_B(c.factor("k_B", p.k_B * micro)) {}
+    FixedFa1b(const Traits::Params& p, double f_s, Constants& c)
+        : k(c.factor("k", high_pass_decay(p.f, f_s))), k_A(c.factor("k_A", p.k_A * micro)), k_B(c.factor("k_B", p.k_B * micro)) {}
 
     void step(State& s, Word F, Word (&I)[1], Arithmetic& a) const {
-        s.I_0 = a.times(k, a.held(a.held(F - s.F) + s.I_0));
+        s.I_0 = a.times(k, a.saturate(a.saturate(F - s.F) + s.I_0));
         I[0] = s.I_0 > 0 ? a.times(k_A, s.I_0) : a.times(k_B, a.magnitude(s.I_0));
         s.F = F;
     }

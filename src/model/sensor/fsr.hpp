@@ -1,6 +1,6 @@
 #pragma once
 
-#include "model/sensor/stage.hpp"
+#include "model/sensor/front_end_stage.hpp"
 #include "signal/elementary.hpp"
 #include "signal/parameter.hpp"
 
@@ -15,7 +15,7 @@ struct Fsr {
     struct Params {
         double R_0 = 10e6, R_1gf = 170e3, m = 0.72, hysteresis = 0;
     };
-    static constexpr std::string_view name = "fsr", sentence = "force sensing resistor FSR 400: conductance of force";
+    static constexpr std::string_view name = "fsr", description = "force sensing resistor FSR 400: conductance of force";
     static constexpr std::string_view source = "thesis 4.1, eq. 13";
     static constexpr ParameterDef<Params> fields[] = {
         {"R_0", &Params::R_0, "ohm", 1, 1e12, "resistance without force"},
@@ -25,8 +25,8 @@ struct Fsr {
         {"hysteresis", &Params::hysteresis, "", 0, 1, "fraction by which falling force is read too high", "choice: none"},
     };
 
-    static Stage stage(const Params& p) {
-        return {.part = name, .shows = {"G_FSR", "S"}, .curve = [p](double F) { return conductance(p, F); }, .hysteresis = p.hysteresis};
+    static FrontEndStage stage(const Params& p) {
+        return {.component = name, .output = {"G_FSR", "S"}, .curve = [p](double F) { return conductance(p, F); }, .hysteresis = p.hysteresis};
     }
 
     static double conductance(const Params& p, double F) {

@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "signal/quantity.hpp"
-#include "skin/contact/cells.hpp"
-#include "skin/contact/path.hpp"
-#include "skin/contact/pressure.hpp"
+#include "skin/contact/skin_cells.hpp"
+#include "skin/contact/contact_path.hpp"
+#include "skin/contact/pressure_distribution.hpp"
 
 namespace corpuscle {
 namespace {
@@ -27,7 +27,7 @@ class IndenterContact final : public Contact {
     const std::size_t sites_;
     SkinCells cells_;
     ContactPath path_;
-    std::unique_ptr<Pressure> pressure_;
+    std::unique_ptr<PressureDistribution> pressure_;
 
     // The contact of the last sample. It is kept, so a constant force on a resting contact costs nothing.
     Position last_;
@@ -53,7 +53,7 @@ class IndenterContact final : public Contact {
         fractions_.clear();
         double all = 0, on = 0;
         const auto half = pressure_->box(size);
-        cells_.columns(at.x, at.y, half.width, half.height,
+        cells_.for_each_column(at.x, at.y, half.width, half.height,
                        [&](double x0, std::span<const double> edges, std::span<const std::uint32_t> sites) {
                            if (column_.size() < edges.size() * 2) column_.resize(edges.size() * 2);
                            double* y = column_.data() + edges.size();
@@ -93,7 +93,7 @@ class IndenterContact final : public Contact {
         }
         const double t = clock_.time(sample), size = pressure_->size(force);
         if (auto ok = check(size, force); !ok) return ok;
-        distribute(path_.at(t), size, path_.passed(t));
+        distribute(path_.at(t), size, path_.pattern_shift(t));
         pressed_ += force, off_skin_ += force * (1 - on_skin_), largest_ = std::max(largest_, size);
         for (const auto& s : fractions_) {
             touch(s.site, steps);
@@ -105,38 +105,38 @@ class IndenterContact final : public Contact {
 public:
     IndenterContact(const Indenter& indenter, const ContactParams& p, const Sites& sites, const Clock& clock)
         : indenter_(indenter), p_(p), clock_(clock), sites_(sites.size()), cells_(sites), path_(p),
-          pressure_(make_pressure(indenter, p, cells_.side())), in_block_(sites.size(), 0) {}
+          pressure_(make_pressure_distribution(indenter, p, cells_.side())), in_block_(sites.size(), 0) {}
 
-    std::string sentence() const override {
+    std::string description() const override {
         const auto length = [](double m) { return format_quantity(m, "m"); };
         std::string text = indenter_.name == "sphere" ? fmt::format("a sphere of {}", length(p_.radius))
                            : indenter_.name == "flat" ? fmt::format("a flat punch of {}", length(p_.radius))
                            : indenter_.name == "edge" ? fmt::format("an edge {} long", length(p_.length))
                                                       : fmt::format("a grating with a ridge every {}", length(p_.period));
-        if (!moves(p_) && p_.speed > 0) text += fmt::format(" moving past at {}", format_quantity(p_.speed, "m/s"));
-        if (!moves(p_)) return text + fmt::format(", pressed at {}", in_mm(p_.x, p_.y));
+        if (!is_moving(p_) && p_.speed > 0) text += fmt::format(" moving past at {}", format_quantity(p_.speed, "m/s"));
+        if (!is_moving(p_)) return text + fmt::format(", pressed at {}", in_mm(p_.x, p_.y));
         return text +
                fmt::format(", moved from {} to {} in {}", in_mm(p_.x, p_.y), in_mm(p_.x1, p_.y1), format_quantity(path_.seconds(), "s"));
     }
 
-    std::vector<MetadataEntry> facts() const override {
+    std::vector<MetadataEntry> metadata() const override {
         std::vector<MetadataEntry> out;
-        const auto& own = indenter_.measures;
+        const auto& own = indenter_.parameters;
         for (const auto& f : contact_fields) {
             const bool target = f.name == "x1" || f.name == "y1", place = f.name == "x" || f.name == "y";
-            const bool path = target ? moves(p_) : place || p_.*f.member != 0;
-            if (std::find(own.begin(), own.end(), f.name) != own.end() || (is_path_measure(f.name) && path))
+            const bool path = target ? is_moving(p_) : place || p_.*f.member != 0;
+            if (std::find(own.begin(), own.end(), f.name) != own.end() || (is_path_parameter(f.name) && path))
                 out.push_back({fmt::format("contact.{}", f.name), p_.*f.member, std::string(f.unit)});
         }
         return out;
     }
 
-    std::vector<std::string> remarks() const override {
+    std::vector<std::string> notes() const override {
         std::vector<std::string> out = {
             "the contact model is a rigid indenter on flat, elastic, frictionless and unbounded skin, without viscoelasticity, shear, "
             "slip, "
             "strain below the surface, or the curvature and edges of the finger"};
-        if (!cells_.tile())
+        if (!cells_.is_lattice())
             out.push_back(fmt::format(
                 "the sites are not on a lattice: each was treated as a square of {}, and together they receive all of the force",
                 format_quantity(cells_.side(), "m")));
@@ -173,9 +173,9 @@ public:
 
 Result<std::unique_ptr<Contact>> make_contact(std::string_view name, std::span<const ParameterOverride> overrides, const Sites& sites,
                                               const Clock& clock) {
-    const auto indenter = indenter_named(name);
+    const auto indenter = find_indenter(name);
     if (!indenter) return indenter.error();
-    const auto params = contact_params(**indenter, overrides, sites);
+    const auto params = read_contact_params(**indenter, overrides, sites);
     if (!params) return params.error();
     return std::unique_ptr<Contact>(std::make_unique<IndenterContact>(**indenter, *params, sites, clock));
 }

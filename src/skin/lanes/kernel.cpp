@@ -13,14 +13,14 @@ constexpr std::size_t vectors = 8;  // of sums that stay in registers
 
 void add_rows(const std::ptrdiff_t* row, std::size_t rows, const std::uint32_t* eights, const double* weights, const double* now,
               double* sums) {
-    constexpr std::size_t units = 64, a_row = units / eight, at_once = vectors * width;
+    constexpr std::size_t units = 64, a_row = units / group_size, at_once = vectors * width;
     for (std::size_t u = 0; u < units; u += at_once) {
         T sum[vectors];
         for (auto& s : sum) s = T(0.0);
         for (std::size_t k = 0; k < rows; ++k) {
             const double* const f = now + row[k] + u;
             for (std::size_t i = 0; i < vectors; ++i) {
-                const double* const w = weights + eights[k * a_row + (u + i * width) / eight] + i * width % eight;
+                const double* const w = weights + eights[k * a_row + (u + i * width) / group_size] + i * width % group_size;
                 sum[i] = sum[i] + T::load_aligned(w) * T::load_unaligned(f + i * width);
             }
         }
@@ -66,7 +66,7 @@ void add_unit(const std::uint32_t* site, const double* weight, std::size_t count
 }  // namespace
 
 namespace CORPUSCLE_ISA {
-const FieldLanes fields{add_rows, add_site, add_unit};
+const FieldKernels fields{add_rows, add_site, add_unit};
 }
 
 }  // namespace corpuscle::lanes

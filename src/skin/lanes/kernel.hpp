@@ -9,33 +9,33 @@
 
 namespace corpuscle::lanes {
 
-inline constexpr std::size_t eight = 8;  ///< weights in one group
+inline constexpr std::size_t group_size = 8;  ///< weights in one group
 
 /// The functions of one instruction set.
-struct FieldLanes {
+struct FieldKernels {
     /// 64 afferents at one step: sums[u] = sum over k of w * now[row[k] + u]. w is number u % group_size of the group of weights that
     /// begins at weights[eights[(64 k + u) / group_size]].
-    void (*add_rows)(const std::ptrdiff_t* row, std::size_t rows, const std::uint32_t* eights, const double* weights, const double* now,
+    void (*sum_rows)(const std::ptrdiff_t* row, std::size_t rows, const std::uint32_t* eights, const double* weights, const double* now,
                      double* sums);
     /// One site over some steps, added to each afferent that responds to it: sums[unit[k] * stride + t] += weight[k] * force[t].
     void (*add_site)(const std::uint32_t* unit, const double* weight, std::size_t count, const double* force, std::size_t steps,
                      double* sums, std::size_t stride);
     /// One afferent over some steps: column[t * stride] = sum over k of weight[k] * rows[site[k]][t].
-    void (*add_unit)(const std::uint32_t* site, const double* weight, std::size_t count, const double* const* rows, std::size_t steps,
+    void (*sum_afferent)(const std::uint32_t* site, const double* weight, std::size_t count, const double* const* rows, std::size_t steps,
                      double* column, std::size_t stride);
 };
 
 namespace baseline {
-extern const FieldLanes fields;
+extern const FieldKernels fields;
 }
 namespace avx2 {
-extern const FieldLanes fields;
+extern const FieldKernels fields;
 }
 namespace avx512 {
-extern const FieldLanes fields;
+extern const FieldKernels fields;
 }
 
-inline const FieldLanes& field_lanes(InstructionSet set) {
+inline const FieldKernels& field_kernels(InstructionSet set) {
 #ifdef __x86_64__
     if (set == InstructionSet::avx512) return avx512::fields;
     if (set == InstructionSet::avx2) return avx2::fields;

@@ -136,7 +136,7 @@ Result<void> algorithm_6(Outcome& out, const Line& force, Plot& rows) {
     const auto as_printed = lif_b(current(1), fa1_membrane).spikes, corrected = lif_b(current(-1), fa1_membrane).spikes;
     const auto catalogue_spikes = train_of(press::as_algorithm("fa1"));
     if (!catalogue_spikes) return catalogue_spikes.error();
-    const Stretch later{press::down.from, 2};
+    const TimeWindow later{press::down.from, 2};
     out.claim("Alg. 6: spikes from the start of retraction, as printed", press::count(as_printed, later), "spikes")
         .at_least(1, "thesis 1.2 and 3.4: discharges in retraction")
         .because("k_B I_0 is negative there; -k_B I_0 is meant, which makes a full-wave rectifier with two gains, as in 4.3.2 (B12)");

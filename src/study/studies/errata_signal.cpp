@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 #include <cmath>
 
-#include "measure/distance.hpp"
+#include "measure/train_distance.hpp"
 #include "study/studies.hpp"
 #include "study/thesis/beside.hpp"
 #include "study/thesis/load.hpp"

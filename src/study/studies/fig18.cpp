@@ -9,7 +9,7 @@
 namespace corpuscle::studies::fig18 {
 
 constexpr double leak = 1e-6, C = 500e-9;  // A, F: thesis 3.4
-constexpr Stretch rising{0.25, 0.625}, falling{0.625, 1.0};
+constexpr TimeWindow rising{0.25, 0.625}, falling{0.625, 1.0};
 
 /// I_A and I_B; one of them is always zero.
 struct Currents {
@@ -20,7 +20,7 @@ struct Currents {
 };
 
 /// Charge (C) of the current above the leak between two times.
-double net_charge(const Line& current, const Stretch& s) {
+double net_charge(const Line& current, const TimeWindow& s) {
     const auto part = current.between(s.from, s.to);
     double out = 0;
     for (std::size_t k = 1; k < part.x.size(); ++k)

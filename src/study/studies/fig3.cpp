@@ -9,7 +9,7 @@
 namespace corpuscle::studies::fig3 {
 
 constexpr double on = 0.25, off = 0.75;                                    // s: start and end of the step
-constexpr Stretch onset{on, on + 0.1}, last{0.5, off}, removal{off, 1.0};  // s: windows for a burst at either end, and for "still pressed"
+constexpr TimeWindow onset{on, on + 0.1}, last{0.5, off}, removal{off, 1.0};  // s: windows for a burst at either end, and for "still pressed"
 constexpr auto source = "thesis 1.2, fig. 3";
 
 struct Class {
@@ -37,7 +37,7 @@ Result<double> smallest_step(const char* afferent) {
 }
 
 void add_claims(Outcome& out, const Class& c, const std::vector<double>& train) {
-    const auto spikes = [&](const char* when, const Stretch& s) -> Claim& {
+    const auto spikes = [&](const char* when, const TimeWindow& s) -> Claim& {
         return out.claim(fmt::format("{}: {}", c.full, when), press::count(train, s), "spikes");
     };
     spikes("within 100 ms of the onset (two make a burst)", onset).at_least(2, source);

@@ -10,7 +10,7 @@ namespace corpuscle::studies::fig4 {
 constexpr auto source = "thesis 1.2, fig. 4";
 
 /// Time (s) within a window during which the force changes.
-double ramp_duration(const Line& force, const Stretch& s) {
+double ramp_duration(const Line& force, const TimeWindow& s) {
     double from = Claim::none, to = Claim::none;
     const auto part = force.between(s.from, s.to);
     for (std::size_t k = 1; k < part.x.size(); ++k)
@@ -68,7 +68,7 @@ Result<Outcome> work(const StudyOptions&) {
         const auto as_used = train_of({name}), as_printed = train_of({name, "press", {"press.t_down=250ms"}});
         if (!as_used) return as_used.error();
         if (!as_printed) return as_printed.error();
-        const Stretch later{press::down.from, 2};
+        const TimeWindow later{press::down.from, 2};
         out.claim(std::string(name) + ": spikes from the start of a retraction of 125 ms", press::count(*as_used, later), "spikes");
         out.claim(std::string(name) + ": spikes from the start of a retraction of 250 ms", press::count(*as_printed, later), "spikes");
     }

@@ -18,7 +18,7 @@ void report_pattern(const Beside& b, Outcome& out) {
     for (const auto& [name, phase] : {std::pair{"rising", P::up}, {"falling", P::down}}) {
         out.claim(std::string("spikes while the force is ") + name, press::count(chip, phase))
             .held_to(press::count(b.model, phase), similar);
-        const Stretch window{phase.from, phase.to + 0.1};
+        const TimeWindow window{phase.from, phase.to + 0.1};
         auto& c = out.claim(std::string("highest frequency, ") + name, f.between(window.from, window.to).most(), "Hz")
                       .held_to(expected.between(window.from, window.to).most(), similar);
         if (c.needs_reason())

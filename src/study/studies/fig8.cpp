@@ -58,14 +58,14 @@ Result<Outcome> work(const StudyOptions& options) {
                  down = press::count(spikes, press::down);
     out.claim("peak in protraction over the last frequency of the plateau", up / held)
         .at_least(1, "thesis 3.1: fires faster in protraction");
-    const Stretch plateau_late{0.5, 0.625};
+    const TimeWindow plateau_late{0.5, 0.625};
     out.claim("spikes in retraction", down, "spikes");
     out.claim("mean frequency in retraction over that of the second half of the plateau",
               measure<MeanRate>(spikes, press::down) / measure<MeanRate>(spikes, plateau_late))
         .at_least(1, "thesis 3.1: the output also increases for negative changes (printed \"at the protraction phase\"; errata B11a)");
     out.claim("spikes in retraction minus those of sa1", down - press::count(own->spikes, press::down), "spikes")
         .at_least(1, "thesis 3.1 and 3.3: SA-IA fires in retraction, the nerve and SA-IB hardly do");
-    const Stretch steady_plateau{press::plateau.from + 50e-3, press::plateau.to};
+    const TimeWindow steady_plateau{press::plateau.from + 50e-3, press::plateau.to};
     out.claim("last frequency of the plateau over its first, from 50 ms on",
               measure<LastRate>(spikes, steady_plateau) / measure<FirstRate>(spikes, steady_plateau))
         .between(0.9, 1.1, "thesis 3.3: SA-IA does not take the slow decay into account; a tenth is our choice");

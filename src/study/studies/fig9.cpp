@@ -24,7 +24,7 @@ double count_resets(const Line& u) {
 }
 
 /// Charge (C) of a current within a window.
-double charge(const Line& i, const Stretch& s) {
+double charge(const Line& i, const TimeWindow& s) {
     double out = 0;
     for (std::size_t k = 1; k < i.x.size(); ++k)
         if (i.x[k] >= s.from && i.x[k] < s.to) out += i.y[k] * (i.x[k] - i.x[k - 1]);
@@ -33,7 +33,7 @@ double charge(const Line& i, const Stretch& s) {
 
 void add_component_claims(Outcome& out, const Told& response) {
     const auto &plus = response.traces.at("I_+"), &minus = response.traces.at("I_-");
-    const Stretch rising{0, 0.5}, falling{0.5, 1.0};  // split at the middle of the plateau
+    const TimeWindow rising{0, 0.5}, falling{0.5, 1.0};  // split at the middle of the plateau
     out.claim("fraction of I+ that flows while the force rises", 100 * charge(plus, rising) / charge(plus, {}), "%")
         .held_to(100, "thesis 3.1, eq. 2");
     out.claim("fraction of I- that flows while the force falls", 100 * charge(minus, falling) / charge(minus, {}), "%")
@@ -55,7 +55,7 @@ Result<void> add_inhibition_claims(Outcome& out) {
     const auto with = simulate_lee(ramp, "ramp-hold"), without = simulate_lee(without_jump, "ramp-hold");
     if (!with) return with.error();
     if (!without) return without.error();
-    const Stretch slope{0.25, 0.75};
+    const TimeWindow slope{0.25, 0.75};
     const auto slowdown = [&](const Told& t) { return measure<FirstRate>(t.spikes, slope) / measure<LastRate>(t.spikes, slope); };
     out.claim("first frequency of a long slope over its last", slowdown(*with))
         .at_least(1.1, "thesis 2.2: inhibited after each spike by a feedback to the threshold; a tenth is our choice");

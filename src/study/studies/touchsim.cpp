@@ -13,7 +13,7 @@ namespace corpuscle::studies::touchsim {
 
 constexpr auto measured = "TouchSim's response, measured: median, noise on";
 constexpr double E_star = 1.19 / (2 * 5e-3 * 2e-3);  // Pa: from TouchSim's 1.19 N for a flat punch of 5 mm, 2 mm deep, on a half-space
-constexpr Stretch end_of_hold{0.575, 0.625};         // s, the last 50 ms
+constexpr TimeWindow end_of_hold{0.575, 0.625};         // s, the last 50 ms
 
 /// Peak and mean of protraction, mean and end of the hold, peak and mean of retraction; Hz.
 struct Rates {
@@ -38,8 +38,8 @@ constexpr Contact contacts[] = {
     {"flat of 5 mm, 2 mm deep", 5e-3, 2e-3, {133, 79, 4.9, 5.0, 0, 0.6}, {62, 40, 0, 0, 67, 44}, &Rates::up_peak}};
 
 Rates rates_of(const std::vector<double>& train) {
-    const auto mean = [&](const Stretch& s) { return press::count(train, s) / (s.to - s.from); };
-    const auto peak = [&](const Stretch& s) {
+    const auto mean = [&](const TimeWindow& s) { return press::count(train, s) / (s.to - s.from); };
+    const auto peak = [&](const TimeWindow& s) {
         const double x = measure<PeakRate>(train, s);
         return std::isfinite(x) ? x : 0;
     };
@@ -210,7 +210,7 @@ Result<void> report_press(Outcome& out) {
     if (!sa1) return sa1.error();
     if (!fa1) return fa1.error();
     constexpr auto bound = "our bound after Birznieks et al. 2001, as described in thesis 1.2";
-    const auto peak = [](const std::vector<double>& t, const Stretch& s) { return measure<PeakRate>(t, s); };
+    const auto peak = [](const std::vector<double>& t, const TimeWindow& s) { return measure<PeakRate>(t, s); };
     out.claim("4 N: SA-I, peak of protraction over the end of the hold", peak(*sa1, press::up) / measure<LastRate>(*sa1, press::plateau))
         .between(2, 3, bound);
     out.claim("4 N: SA-I, spikes after 40 % of retraction", press::count(*sa1, {press::down.from + 0.4 * 0.125, press::after.to}), "spikes")

@@ -35,7 +35,7 @@ int bits_worth_having(const CalibrationTold& result, int max) {
     return max;
 }
 
-std::string text_of(const ChipCalibration& options, const std::vector<CalibrationTold>& all) {
+std::string describe_frame_error(const ChipCalibration& options, const std::vector<CalibrationTold>& all) {
     std::size_t width = 5;
     for (const auto& set : all) width = std::max(width, set.names().size());
     std::string out = fmt::format("{}: {} chips; limits: {}\n\n{:{}}  as made", options.netlist, all.empty() ? 0 : all[0].chips.size(),

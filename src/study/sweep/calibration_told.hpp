@@ -21,7 +21,7 @@ struct CalibrationTold {
 
 /// A table with one row for each set of trims: yield without calibration and with 1, 2 ... bits, presses. Then the useful number of bits,
 /// see useful_bits().
-std::string text_of(const ChipCalibration&, const std::vector<CalibrationTold>&);
+std::string describe_frame_error(const ChipCalibration&, const std::vector<CalibrationTold>&);
 nlohmann::ordered_json document_of(const ChipCalibration&, const std::vector<CalibrationTold>&);
 
 /// The smallest number of bits with which at most 1 % of the chips fail that meet the limits with all bits.

@@ -46,7 +46,7 @@ std::vector<DrawnDevice> drawn_devices(const circuit::Circuit& circuit) {
     return out;
 }
 
-std::string text_of(const Drawn& samples) {
+std::string describe_frame_error(const Drawn& samples) {
     MismatchJson out = {{"seed", samples.seed}, {"chips", samples.chips}};
     out["columns"] = device_columns;
     out["subjects"] = MismatchJson::array();

@@ -45,7 +45,7 @@ std::vector<DrawnDevice> drawn_devices(const circuit::Circuit&);
 /// Name of the sweep's metadata entry with the samples.
 inline constexpr const char* drawn_fact = "drawn";
 /// Converts to and from the text of this metadata entry.
-std::string text_of(const Drawn&);
+std::string describe_frame_error(const Drawn&);
 Result<Drawn> drawn_of(const std::string& text);
 
 /// Standard normal deviates of a device's threshold and current, one for each chip.

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <map>
 
-#include "model/population.hpp"
+#include "model/lane_population.hpp"
 #include "signal/parameter.hpp"
 #include "signal/quantity.hpp"
 #include "study/afferents.hpp"
@@ -39,20 +39,20 @@ class ModelSweep final : public PlannedSweep {
 
     std::size_t parameter(std::string_view name) const {
         const auto& all = *nominal_.parameters;
-        return static_cast<std::size_t>(std::find_if(all.begin(), all.end(), [&](const Parameter& p) { return p.row.name == name; }) -
+        return static_cast<std::size_t>(std::find_if(all.begin(), all.end(), [&](const AfferentParameter& p) { return p.info.name == name; }) -
                                         all.begin());
     }
     /// "f_B" of "sa1.f_B".
     std::string_view parameter_name(std::string_view afferent_name, std::string_view text) const {
         const auto dot = text.rfind('.');
-        return dot != std::string_view::npos && goes_by(nominal_, afferent_name, text.substr(0, dot)) ? text.substr(dot + 1) : text;
+        return dot != std::string_view::npos && matches_name(nominal_, afferent_name, text.substr(0, dot)) ? text.substr(dot + 1) : text;
     }
 
     Result<Target> target(std::string_view afferent_name, const LocatedText& quantity) const;
     Result<void> set(const SweepText&);
     Result<void> select_probes(const SweepText&);
 
-    Run run_of(const FeltForce& force) const { return {force.clock.T()}; }
+    SimulationOptions run_of(const FeltForce& force) const { return {force.clock.T()}; }
     Result<ModelItem> make_item(std::int64_t number) const;
     std::size_t block_items() const;
     Result<void> respond(std::vector<ModelItem>&, const Told&, const std::function<bool()>& stop) const;
@@ -68,7 +68,7 @@ public:
 Result<Target> ModelSweep::target(std::string_view afferent_name, const LocatedText& quantity) const {
     if (force_.owns(quantity.text)) return force_.target(quantity);
     std::vector<ParameterInfo> rows;
-    for (const auto& p : *nominal_.parameters) rows.push_back(p.row);
+    for (const auto& p : *nominal_.parameters) rows.push_back(p.info);
     const auto row = find_parameter({nominal_.name, std::string(parameter_name(afferent_name, quantity.text)), ""}, rows);
     if (!row) return quantity.error_here(row.error().message);
     const auto& r = **row;
@@ -150,9 +150,9 @@ Result<std::unique_ptr<Sweep>> ModelSweep::make(const SweepText& spec, const std
     if (!sweep_plan) return sweep_plan.error();
     s.plan_ = std::move(*sweep_plan);
     if (auto ok = s.force_.prepare(); !ok) return ok.error();
-    if (const double rate = s.force_.nominal()->clock.rate(); rate < s.nominal_.least_rate)
+    if (const double rate = s.force_.nominal()->clock.rate(); rate < s.nominal_.min_rate)
         return (spec.rate ? *spec.rate : *spec.afferent)
-            .error_here(fmt::format("the sample rate is {:g} Hz, but {} needs {:g} Hz or more", rate, afferent_name, s.nominal_.least_rate));
+            .error_here(fmt::format("the sample rate is {:g} Hz, but {} needs {:g} Hz or more", rate, afferent_name, s.nominal_.min_rate));
     s.afferent_measures_ = std::make_unique<AfferentMeasures>(*s.force_.nominal(), false, std::span<const std::string>());
     if (auto ok = s.afferent_measures_->choose(spec.measures); !ok) return ok.error();
     const Limiting limiting{[&](const LocatedText& name) { return s.afferent_measures_->column_of(name); },
@@ -177,7 +177,7 @@ Result<ModelItem> ModelSweep::make_item(std::int64_t number) const {
     ModelItem out{number, nominal_, std::move(*force)};
     for (const auto& v : varied_) out.plan.values[v.parameter] = values[v.axis];
     if (!varied_.empty())
-        if (const auto wrong = refusal(out.plan)) out.failure = wrong->message;
+        if (const auto wrong = check_plan(out.plan)) out.failure = wrong->message;
     return out;
 }
 
@@ -212,13 +212,13 @@ Result<void> ModelSweep::respond(std::vector<ModelItem>& block, const Told& on_o
     std::vector<ModelItem*> singles;
     for (auto& u : block) {
         if (u.failure) continue;
-        if (*set == InstructionSet::scalar || !probes_.empty() || !goes_on_lanes(u.plan, run_of(*u.force))) {
+        if (*set == InstructionSet::scalar || !probes_.empty() || !can_use_lanes(u.plan, run_of(*u.force))) {
             singles.push_back(&u);
             continue;
         }
         std::vector<double> shared;
         for (std::size_t k = 0; k < u.plan.values.size(); ++k)
-            if ((*u.plan.parameters)[k].row.is_shared_by_copies) shared.push_back(u.plan.values[k]);
+            if ((*u.plan.parameters)[k].info.is_shared_by_copies) shared.push_back(u.plan.values[k]);
         kinds[shared].push_back(&u);
     }
     for (const auto& [shared, items] : kinds) {
@@ -244,7 +244,7 @@ Result<bool> ModelSweep::respond_on_lanes(std::span<ModelItem* const> items, Ins
     for (const auto* u : items) plans.push_back(&u->plan);
     const bool same_parameters = varied_.empty();
     auto population =
-        make_population({same_parameters ? std::span(plans).first(1) : std::span<const AfferentPlan* const>(plans), items.size()},
+        make_lane_population({same_parameters ? std::span(plans).first(1) : std::span<const AfferentPlan* const>(plans), items.size()},
                         run_of(*items[0]->force), set);
     if (!population) return population.error();
     const bool one_force = std::all_of(items.begin(), items.end(), [&](const ModelItem* u) { return u->force == items[0]->force; });
@@ -272,7 +272,7 @@ Result<bool> ModelSweep::respond_on_lanes(std::span<ModelItem* const> items, Ins
             force = ForceColumns{columns};
         }
         spikes.clear();
-        PopulationAnswer response{&spikes};
+        PopulationResponse response{&spikes};
         if (const auto ok = (*population)->respond(force, steps, response, single_thread); !ok) return false;
         for (const auto& s : spikes) {
             auto& u = *items[s.afferent_index];

@@ -10,7 +10,7 @@ namespace corpuscle::sweeps {
 AfferentMeasures::AfferentMeasures(const FeltForce& nominal, bool circuit, std::span<const std::string> ranges) {
     for (std::size_t m = 0; m < std::size(measures); ++m)
         known_.push_back(
-            {Of::whole, m, "", {std::string(measures[m].name), std::string(measures[m].unit), std::string(measures[m].sentence)}});
+            {Of::whole, m, "", {std::string(measures[m].name), std::string(measures[m].unit), std::string(measures[m].description)}});
     known_.push_back({Of::first, 0, "", {"first_spike", "s", "time of the first spike"}});
     known_.push_back({Of::last, 0, "", {"last_spike", "s", "time of the last spike"}});
     if (circuit) {
@@ -24,7 +24,7 @@ AfferentMeasures::AfferentMeasures(const FeltForce& nominal, bool circuit, std::
     }
     for (auto& entry : known_) {
         const bool needs_cycle =
-            entry.of == Of::whole && (entry.column.name == VectorStrength::row.name || entry.column.name == Entrainment::row.name);
+            entry.of == Of::whole && (entry.column.name == VectorStrength::info.name || entry.column.name == Entrainment::info.name);
         entry.usual = entry.of != Of::iterations && entry.of != Of::one_range && !(needs_cycle && nominal.cycle == 0);
     }
     for (const auto& phase : nominal.phases)
@@ -33,7 +33,7 @@ AfferentMeasures::AfferentMeasures(const FeltForce& nominal, bool circuit, std::
                               m,
                               phase.name,
                               {fmt::format("{}.{}", measures[m].name, phase.name), std::string(measures[m].unit),
-                               fmt::format("{} ({})", measures[m].sentence, phase.name)}});
+                               fmt::format("{} ({})", measures[m].description, phase.name)}});
 }
 
 Result<void> AfferentMeasures::choose(const std::optional<std::vector<LocatedText>>& names) {
@@ -70,15 +70,15 @@ Result<std::size_t> AfferentMeasures::column_of(const LocatedText& name) {
 }
 
 std::vector<double> AfferentMeasures::values(const FeltForce& force, const UnitAnswer& response) const {
-    std::vector<Stretch> stretches;
+    std::vector<TimeWindow> stretches;
     for (const auto& p : force.phases) stretches.push_back({p.from, p.to, force.cycle});
-    Tally total({{.cycle = force.cycle}}, 1), phases(std::move(stretches), 1);
+    MeasureAccumulator total({{.stimulus_frequency = force.cycle}}, 1), phases(std::move(stretches), 1);
     const bool by_phase = std::any_of(all_.begin(), all_.end(), [](const One& o) { return o.of == Of::phase; });
     for (const double t : response.spikes) {
         total.spike(0, t);
         if (by_phase) phases.spike(0, t);
     }
-    total.end(force.end()), phases.end(force.end());
+    total.set_end(force.end()), phases.set_end(force.end());
     const auto all = total.values(0, 0);
     std::vector<std::vector<double>> phase_values;
     for (std::size_t p = 0; by_phase && p < force.phases.size(); ++p) phase_values.push_back(phases.values(0, p));

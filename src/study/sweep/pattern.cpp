@@ -9,13 +9,13 @@
 namespace corpuscle {
 namespace {
 
-double count_in(std::span<const double> spikes, const Stretch& phase) {
+double count_in(std::span<const double> spikes, const TimeWindow& phase) {
     return static_cast<double>(std::count_if(spikes.begin(), spikes.end(), [&](double t) { return t >= phase.from && t < phase.to; }));
 }
 
 }  // namespace
 
-double spread_count(std::span<const double> spikes, const Stretch& phase) {
+double spread_count(std::span<const double> spikes, const TimeWindow& phase) {
     double out = 0;
     for (std::size_t k = 0; k + 1 < spikes.size(); ++k) {
         const double overlap = std::min(spikes[k + 1], phase.to) - std::max(spikes[k], phase.from);
@@ -24,7 +24,7 @@ double spread_count(std::span<const double> spikes, const Stretch& phase) {
     return out + (spikes.empty() ? 0 : count_in(spikes.last(1), phase));
 }
 
-FiringLimits FiringLimits::about(std::span<const double> designed, std::span<const Stretch> phases, double first_off) {
+FiringLimits FiringLimits::about(std::span<const double> designed, std::span<const TimeWindow> phases, double first_off) {
     FiringLimits out;
     bool fired = false;
     for (const auto& phase : phases) {

@@ -5,14 +5,14 @@
 #include <string>
 #include <vector>
 
-#include "measure/stretch.hpp"
+#include "measure/measure_base.hpp"
 
 namespace corpuscle {
 
 /// Limits on a chip's spikes.
 struct FiringLimits {
     struct OfPhase {
-        Stretch phase;       ///< s
+        TimeWindow phase;       ///< s
         double least, most;  ///< spikes
         double share;        ///< designed spike count, each spike spread over the interval after it
     };
@@ -21,7 +21,7 @@ struct FiringLimits {
 
     /// Limits around the spikes of a reference (a model). Each phase allows a quarter more or less, at least one spike. Phases before the
     /// reference's first spike allow none. The first spike must be within `first_off`.
-    static FiringLimits about(std::span<const double> meant, std::span<const Stretch> phases, double first_off);
+    static FiringLimits about(std::span<const double> meant, std::span<const TimeWindow> phases, double first_off);
 
     bool kept(std::span<const double> spikes) const;
     /// The distance from the designed response: sum of squared deviations, each relative to its allowed range. It has no steps where a
@@ -31,6 +31,6 @@ struct FiringLimits {
 };
 
 /// Spikes of a phase, each spread evenly over the interval after it; the last one is not spread.
-double spread_count(std::span<const double> spikes, const Stretch& phase);
+double spread_count(std::span<const double> spikes, const TimeWindow& phase);
 
 }  // namespace corpuscle

@@ -179,7 +179,7 @@ void PlannedSweep::tell_draws(const std::string& subject, const circuit::Circuit
     Drawn samples;
     samples.seed = plan_.chips().seed, samples.chips = plan_.draws();
     samples.subjects.push_back({subject, drawn_devices(circuit)});
-    facts_.push_back({drawn_fact, text_of(samples)});
+    facts_.push_back({drawn_fact, describe_frame_error(samples)});
 }
 
 Result<std::uint64_t> seed_of(const SweepText& spec) {

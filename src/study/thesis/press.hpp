@@ -11,13 +11,13 @@
 namespace corpuscle::press {
 
 // s; plateau_end: the plateau's last 100 ms
-inline constexpr Stretch rest{0, 0.25}, up{0.25, 0.375}, plateau{0.375, 0.625}, late{0.525, 0.625}, down{0.625, 0.75}, after{0.75, 1.0};
+inline constexpr TimeWindow rest{0, 0.25}, up{0.25, 0.375}, plateau{0.375, 0.625}, late{0.525, 0.625}, down{0.625, 0.75}, after{0.75, 1.0};
 inline constexpr double least = 0.2, most = 4;  // N
 
 /// Force (N) over time (s), sampled every T (s).
 Result<Line> samples(double T);
 
-inline double count(const std::vector<double>& train, const Stretch& s) { return measure<SpikeCount>(train, s); }
+inline double count(const std::vector<double>& train, const TimeWindow& s) { return measure<SpikeCount>(train, s); }
 /// "0 5 9 1 0": spike counts at rest, in protraction, plateau, retraction and after.
 std::string pattern(const std::vector<double>& train);
 /// The instantaneous frequency as the thesis plots it: 1/interval at the time of the interval's first spike (3.3).

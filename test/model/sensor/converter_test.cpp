@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "model/sensor/digital.hpp"
+#include "model/sensor/digital_afferent.hpp"
 #include "support/property.hpp"
 #include "support/support.hpp"
 
@@ -10,53 +10,53 @@ namespace corpuscle {
 namespace {
 
 TEST(Converter, RoundsToTheNearestLevelAndSaturatesAtBothEnds) {
-    const Converter adc(Front({}, 1), {.bits = 3, .F_low = 0, .F_high = 7});
+    const Converter adc(FrontEnd({}, 1), {.bits = 3, .F_low = 0, .F_high = 7});
     for (const double F : {0.0, 0.49, 0.5, 3.49, 3.5, 6.9, 7.0, 7.49}) {
         EXPECT_EQ(adc.convert(F).code, static_cast<std::int64_t>(F + 0.5)) << F;
-        EXPECT_FALSE(adc.convert(F).clipped) << F;
+        EXPECT_FALSE(adc.convert(F).saturated) << F;
     }
     EXPECT_EQ(adc.convert(7.5).code, 7);
-    EXPECT_TRUE(adc.convert(7.5).clipped);
+    EXPECT_TRUE(adc.convert(7.5).saturated);
     EXPECT_EQ(adc.convert(-0.51).code, 0);
-    EXPECT_TRUE(adc.convert(-0.51).clipped);
+    EXPECT_TRUE(adc.convert(-0.51).saturated);
 }
 
 TEST(Converter, TheTableUndoesTheCurveToHalfALevel) {
-    const Front front({Fsr::stage({}), F2v::stage({})}, 4);
+    const FrontEnd front({Fsr::stage({}), F2v::stage({})}, 4);
     const Converter adc(front, {.bits = 10});
     for (double F = 0; F < 5; F += 0.0137) {
         const auto [code, clipped] = adc.convert(F);
         EXPECT_FALSE(clipped);
         EXPECT_GE(F, adc.force(std::max<std::int64_t>(code - 1, 0)));
-        EXPECT_LE(F, adc.force(std::min(code + 1, adc.most())));
+        EXPECT_LE(F, adc.force(std::min(code + 1, adc.max_code())));
         EXPECT_EQ(adc.convert(adc.force(code)).code, code);
     }
     EXPECT_EQ(adc.force(0), 0);
-    EXPECT_EQ(adc.force(adc.most()), 5);
+    EXPECT_EQ(adc.force(adc.max_code()), 5);
 }
 
 TEST(Converter, WithoutTheTableItBelievesTheCalibrationsLine) {
-    const Front front({Fsr::stage({}), F2v::stage({})}, 4);
+    const FrontEnd front({Fsr::stage({}), F2v::stage({})}, 4);
     const Converter line(front, {.bits = 16, .linearise = 0});
     for (const double F : {0.0, 0.5, 1.0, 3.0, 4.0, 4.5})
-        EXPECT_NEAR(line.force(line.convert(F).code), front.believed(front.read(F).value), 1e-4) << F;
+        EXPECT_NEAR(line.force(line.convert(F).code), front.calibrated_force(front.read(F).value), 1e-4) << F;
 }
 
-TEST(Instants, StandWhereExactFractionsPutThem) {
+TEST(ConversionTimes, StandWhereExactFractionsPutThem) {
     EXPECT_TRUE(rc::check("any two rates, any turn", [] {
         const auto source = *rc::gen::inRange<std::int64_t>(1, 50000), adc = *rc::gen::inRange<std::int64_t>(1, 50000);
         const auto turns = *rc::gen::inRange<std::uint32_t>(1, 100), channel = *rc::gen::inRange<std::uint32_t>(0, turns);
-        const Instants instants(static_cast<double>(source), static_cast<double>(adc), turns);
+        const ConversionTimes instants(static_cast<double>(source), static_cast<double>(adc), turns);
         auto at = instants.first(channel);
         for (std::int64_t j = 0; j < 200; ++j, instants.advance(at)) {
             const std::int64_t above = (j * turns + channel) * source, below = adc * turns;  // place = above / below, exactly
             RC_ASSERT(at.step == above / below);
-            RC_ASSERT(at.rest * below == (above % below) * instants.parts());
+            RC_ASSERT(at.remainder * below == (above % below) * instants.parts_per_sample());
         }
     }));
 }
 
-TEST(Digital, SpikesComeAtConversionsWhateverTheSourcesRate) {
+TEST(DigitalAfferent, SpikesComeAtConversionsWhateverTheSourcesRate) {
     const auto fine = test::train("adc+sa1", "press", {.rate = 10e3}), coarse = test::train("adc+sa1", "press", {.rate = 4e3});
     EXPECT_EQ(fine, coarse) << "both rates have samples where the converter looks";
     for (const double t : fine) EXPECT_NEAR(t * 1e3, std::round(t * 1e3), 1e-9);
@@ -64,7 +64,7 @@ TEST(Digital, SpikesComeAtConversionsWhateverTheSourcesRate) {
         EXPECT_NEAR(t * 700, std::round(t * 700), 1e-9) << "between samples";
 }
 
-TEST(Digital, OneConverterForAllChannelsTakesThemInTurn) {
+TEST(DigitalAfferent, OneConverterForAllChannelsTakesThemInTurn) {
     std::vector<double> ramp;
     for (int k = 0; k < 4000; ++k) ramp.push_back(1e-3 * k);
     const auto trained = [&](const char* shared, ChannelSlot turn) {
@@ -82,7 +82,7 @@ TEST(Digital, OneConverterForAllChannelsTakesThemInTurn) {
     for (const auto& s : last) EXPECT_EQ(s.offset, 0.75) << "channel 3 of 4 waits three quarters of a conversion";
 }
 
-TEST(Digital, ClippedConversionsAreCounted) {
+TEST(DigitalAfferent, ClippedConversionsAreCounted) {
     std::vector<Spike> out;
     ResponseBlock answer{out};
     const auto a = test::afferent("adc+sa1", {.rate = 10e3});
@@ -93,7 +93,7 @@ TEST(Digital, ClippedConversionsAreCounted) {
     EXPECT_EQ(answer.saturated, 100) << "at 1 kHz, a tenth of the samples";
 }
 
-TEST(Digital, DamagedStatesAreRefusedNotRun) {
+TEST(DigitalAfferent, DamagedStatesAreRefusedNotRun) {
     const auto a = test::afferent("fa1-lee");
     const std::vector<double> f(10, 1.0);
     const auto fresh = a->start();

@@ -1,0 +1,69 @@
+#pragma once
+// Destinations of a stream's events. Events are put into a ring of fixed size, which never blocks; they wait there for a slow reader. When
+// the ring is full, the caller waits for space, or drops whole events and counts them.
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "io/events.hpp"
+#include "live/byte_ring.hpp"
+#include "live/descriptor.hpp"
+#include "live/sockets.hpp"
+
+namespace corpuscle {
+
+/// How long to wait, at the end of a stream, for a reader that does not read.
+struct FinishPolicy {
+    std::int64_t timeout = 1'000'000'000;               ///< ns
+    bool is_endless = false;                            ///< the time counts only from the moment the stream is stopped
+    std::function<bool()> stop = [] { return false; };  ///< called at least ten times a second
+};
+
+class EventSink {
+protected:
+    ByteRing ring_;
+    const EventFormat& format_;
+    std::int64_t dropped_ = 0, connections_ = 1;
+    std::size_t header_end_ = 0;  // of all bytes that were put
+
+    void put_header() { ring_.put(format_.header()), header_end_ = ring_.total_put(); }
+    void drop_all();  ///< discards and counts the events in the ring
+
+public:
+    EventSink(const EventFormat& format, std::size_t ring)
+        : ring_(std::max(ring, 4 * format.max_bytes()) + format.header().size()), format_(format) {}
+    virtual ~EventSink() = default;
+
+    /// Puts a whole event; false if the ring is full.
+    bool put(std::string_view event) { return ring_.put(event); }
+    /// Waits up to `ms` for space for `bytes`; false: not yet.
+    virtual Result<bool> wait_for_space(std::size_t bytes, int ms) = 0;
+    /// True for a file, which always accepts data sooner or later. Nothing is ever dropped then.
+    virtual bool is_file() const { return false; }
+    /// Writes as much as possible without blocking.
+    virtual Result<void> flush() = 0;
+    /// A descriptor to poll for writing before flush() is called; -1: nothing is waiting to be written.
+    virtual int poll_fd() const { return -1; }
+    /// Writes everything that is left, as long as the reader accepts it.
+    virtual Result<void> finish(const FinishPolicy&) = 0;
+    virtual std::string description() const = 0;
+    std::int64_t dropped() const { return dropped_; }        ///< events that were in the ring when their reader disconnected
+    std::int64_t connections() const { return connections_; }  ///< connections, one after another
+};
+
+/// Standard output: a pipe, a terminal or a file. It is an error if its reader has closed it.
+Result<std::unique_ptr<EventSink>> open_standard_output(const EventFormat&, std::size_t ring);
+
+/// An open pipe, terminal or socket; `own` is closed with it.
+std::unique_ptr<EventSink> make_pipe_sink(Descriptor own, int fd, std::string name, const EventFormat&, std::size_t ring);
+
+/// A file. It grows as PATH.part and is renamed when it is complete; a named pipe is written directly.
+Result<std::unique_ptr<EventSink>> create_event_file(const std::string& path, const EventFormat&, std::size_t ring);
+
+/// A TCP client. It reconnects every second; events in between are dropped and counted. The name is resolved once, before this function
+/// returns, because the name service might not respond later.
+Result<std::unique_ptr<EventSink>> connect_event_client(const std::string& endpoint, const EventFormat&, std::size_t ring);
+Result<std::unique_ptr<EventSink>> connect_event_client(ResolvedEndpoint, const EventFormat&, std::size_t ring);
+
+}  // namespace corpuscle

@@ -1,0 +1,56 @@
+#pragma once
+// The order of numbered frames: the policy for gaps, duplicates and late frames (doc/live.md).
+
+#include <cstdint>
+
+namespace corpuscle {
+
+/// Statistics of numbered frames.
+struct SequenceCounts {
+    std::int64_t gaps = 0;        ///< gaps in the sequence
+    std::int64_t held = 0;        ///< missing frames that were replaced by the last force
+    std::int64_t released = 0;    ///< further missing frames, replaced by zero force
+    std::int64_t duplicates = 0;  ///< frames received before; ignored
+    std::int64_t late = 0;        ///< frames older than the last one, or already replaced; ignored
+    std::int64_t restarts = 0;    ///< jumps larger than the limit: treated as a restart of the sender, without inserting frames
+};
+
+class FrameSequence {
+    std::int64_t hold_, max_gap_;  // frames
+    bool begun_ = false;
+    std::uint32_t last_ = 0;
+    SequenceCounts counts_;
+
+public:
+    /// The first `hold` missing frames of a gap repeat the last force. A gap of more than `max_gap` frames is treated as a restart of the
+    /// sender.
+    FrameSequence(std::int64_t hold, std::int64_t max_gap) : hold_(hold), max_gap_(max_gap) {}
+
+    struct FrameDecision {
+        bool take = true;                    ///< false: the frame is ignored
+        std::int64_t hold = 0, release = 0;  ///< frames to insert before it: with the last force, then with none
+    };
+
+    /// Frame numbers are modulo 2^32.
+    FrameDecision decide(std::uint32_t number) {
+        const std::int64_t ahead = begun_ ? static_cast<std::int32_t>(number - last_) : 1;
+        if (ahead == 0) return ++counts_.duplicates, FrameDecision{false};
+        if (ahead < 0 && -ahead <= max_gap_) return ++counts_.late, FrameDecision{false};
+        begun_ = true, last_ = number;
+        if (ahead == 1) return {};
+        if (ahead < 0 || ahead - 1 > max_gap_) return ++counts_.restarts, FrameDecision{};
+        const auto held = ahead - 1 < hold_ ? ahead - 1 : hold_;
+        ++counts_.gaps, counts_.held += held, counts_.released += ahead - 1 - held;
+        return {true, held, ahead - 1 - held};
+    }
+
+    /// Call when another sender begins: its first frame is the next one, whatever its number.
+    void restart() { begun_ = false; }
+    /// Continues as after a frame with this number.
+    void resume_after(std::uint32_t number) { begun_ = true, last_ = number; }
+    bool has_begun() const { return begun_; }
+    std::uint32_t last() const { return last_; }
+    const SequenceCounts& counts() const { return counts_; }
+};
+
+}  // namespace corpuscle

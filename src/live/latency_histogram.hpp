@@ -1,0 +1,50 @@
+#pragma once
+// A latency histogram of fixed size: 32 bins per octave (2 % wide), from nanoseconds to hours.
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
+
+namespace corpuscle {
+
+class LatencyHistogram {
+    static constexpr int sub = 32, bins = 44 * sub;
+    std::array<std::uint64_t, bins> counts_{};
+    std::uint64_t count_ = 0;
+    std::int64_t max_ = 0;
+
+    static int bin_of(std::int64_t ns) {
+        const auto n = static_cast<std::uint64_t>(std::max<std::int64_t>(ns, 0));
+        if (n < sub) return static_cast<int>(n);
+        const int octave = static_cast<int>(std::bit_width(n)) - 6;  // 0 for 32 ns
+        return std::min(bins - 1, (octave + 1) * sub + static_cast<int>((n >> octave) - sub));
+    }
+
+public:
+    void add(std::int64_t ns) { ++counts_[static_cast<std::size_t>(bin_of(ns))], ++count_, max_ = std::max(max_, ns); }
+    std::uint64_t count() const { return count_; }
+    std::int64_t max() const { return max_; }  ///< ns
+
+    /// The upper end of a bin, ns, exclusive.
+    static std::int64_t end_of(int bin) {
+        if (bin < sub) return bin + 1;
+        const int octave = bin / sub - 1;
+        return static_cast<std::int64_t>(static_cast<std::uint64_t>(bin % sub + sub + 1) << octave);
+    }
+    static constexpr int bin_count() { return bins; }
+    std::uint64_t count_in(int bin) const { return counts_[static_cast<std::size_t>(bin)]; }
+
+    /// The given quantile, ns: the upper end of its bin, or the maximum.
+    std::int64_t quantile(double fraction) const {
+        const auto rank = static_cast<std::uint64_t>(fraction * static_cast<double>(count_));
+        std::uint64_t seen = 0;
+        for (int b = 0; b < bins; ++b) {
+            seen += count_in(b);
+            if (seen > rank) return std::min(end_of(b), max_);
+        }
+        return max_;
+    }
+};
+
+}  // namespace corpuscle

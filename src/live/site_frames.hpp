@@ -1,0 +1,15 @@
+#pragma once
+// Frames with fewer forces than a skin has sites.
+
+#include <cstdint>
+#include <vector>
+
+#include "live/frame_source.hpp"
+
+namespace corpuscle {
+
+/// Assigns force k of each frame to site sites[k]; the other sites of all_sites get none. `from` gives frames of sites.size() forces. It is
+/// returned unchanged if these are all sites in order.
+std::unique_ptr<FrameSource> assign_sites(std::unique_ptr<FrameSource> from, std::vector<std::uint32_t> sites, std::size_t all_sites);
+
+}  // namespace corpuscle

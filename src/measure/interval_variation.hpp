@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cmath>
+
+#include "measure/pauses.hpp"
+#include "measure/measure_base.hpp"
+
+namespace corpuscle {
+
+/// Coefficient of variation of the interspike intervals (Softky & Koch 1993, J Neurosci 13:334): their population standard deviation
+/// divided by their mean. It is 0 for a clock and 1 for a Poisson process. It needs two intervals. There is no value for a train whose
+/// pauses are longer in total than its firing. Sums after Welford (1962).
+struct IntervalVariation : MeasureBase {
+    static constexpr MeasureInfo info{"isi_cv", "ISI CV", "", 2,
+                                 "standard deviation of the interspike intervals of the phase divided by their mean"};
+    double count = 0, mean = 0, squares = 0;  // squares: of the deviations from the mean
+    PauseDetector pauses;
+    void interval(double from, double to, bool inside) {
+        if (!inside) return;
+        pauses.add(to - from);
+        const double x = to - from, deviation = x - mean;
+        mean += deviation / ++count;
+        squares += deviation * (x - mean);
+    }
+    double value(const TimeWindow&) const {
+        return count >= 2 && mean > 0 && !pauses.outlast_firing() ? std::sqrt(squares / count) / mean : no_value;
+    }
+};
+
+}  // namespace corpuscle

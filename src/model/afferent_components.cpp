@@ -1,0 +1,146 @@
+#include "model/afferent_components.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+
+#include "signal/ascii_text.hpp"
+
+namespace corpuscle {
+namespace {
+
+std::vector<std::string_view> names_of(const std::vector<CatalogEntry>& cards) {
+    std::vector<std::string_view> names;
+    for (const auto& c : cards) names.push_back(c.name);
+    return names;
+}
+
+/// The catalogue's spelling of a name, which is matched without regard to case; "" if there is none.
+std::string_view catalog_name(const std::vector<std::string_view>& names, std::string_view typed) {
+    const auto at = std::find_if(names.begin(), names.end(), [&](auto name) { return equal_ignoring_case(name, typed); });
+    return at == names.end() ? std::string_view() : *at;
+}
+
+/// The kinds of component that can come before an afferent, in their order.
+struct Kind {
+    std::string_view article_and_name;
+    std::vector<std::string_view> names;
+    std::string_view AfferentComponents::* at;
+};
+const std::vector<Kind>& kinds() {
+    static const std::vector<Kind> all = {{"a sensor", names_of(sensor_entries()), &AfferentComponents::sensor},
+                                          {"a transducer", names_of(transducer_entries()), &AfferentComponents::transducer},
+                                          {"a converter", names_of(converter_entries()), &AfferentComponents::converter}};
+    return all;
+}
+
+/// "the signal goes through a sensor (fsr), a transducer (f2v, f2i), a converter (adc), then the afferent"
+std::string order() {
+    std::string text = "the signal goes through ";
+    for (const auto& kind : kinds()) text += fmt::format("{} ({}), ", kind.article_and_name, fmt::join(kind.names, ", "));
+    return text + "then the afferent";
+}
+
+std::vector<std::string_view> split(std::string_view text) {
+    std::vector<std::string_view> names;
+    for (std::size_t at = 0; at <= text.size();) {
+        const auto end = std::min(text.find('+', at), text.size());
+        names.push_back(text.substr(at, end - at));
+        at = end + 1;
+    }
+    return names;
+}
+
+Error unknown_afferent(std::string_view text) {
+    std::vector<std::string_view> names;
+    for (const auto& a : named_afferents()) names.push_back(a.name);
+    return bad_input(
+        fmt::format("unknown afferent '{}'{} ('corpuscle list' shows them all; a receptor and a neuron are combined as 'sa1b+lif-b')", text,
+                    did_you_mean(text, names)));
+}
+
+Result<std::string_view> part_named(std::string_view text, std::string_view typed, const std::vector<std::string_view>& names,
+                                    std::string_view kind) {
+    if (std::find(names.begin(), names.end(), typed) != names.end()) return *std::find(names.begin(), names.end(), typed);
+    return bad_input(
+        fmt::format("{}: unknown {} '{}'{} (there are {})", text, kind, typed, did_you_mean(typed, names), fmt::join(names, ", ")));
+}
+
+/// The error for a component after its place, or for a word that is not a component.
+Error misplaced(std::string_view text, std::string_view word, const AfferentComponents& parts) {
+    std::vector<std::string_view> known;
+    for (const auto& kind : kinds()) {
+        known.insert(known.end(), kind.names.begin(), kind.names.end());
+        const auto name = catalog_name(kind.names, word);
+        if (name.empty()) continue;
+        if (const auto first = parts.*kind.at; !first.empty())
+            return bad_input(fmt::format("{}: '{}' after '{}': use only one of them", text, name, first));
+        return bad_input(fmt::format("{}: '{}' is in the wrong place; {}", text, name, order()));
+    }
+    return bad_input(fmt::format("{}: '{}' is not a component that fits there{} ({})", text, word, did_you_mean(word, known), order()));
+}
+
+/// Reads the components of the front end from the first words; returns how many they were.
+std::size_t take_front(std::span<const std::string_view> words, AfferentComponents& parts) {
+    std::size_t taken = 0;
+    for (const auto& kind : kinds())
+        if (taken < words.size())
+            if (const auto name = catalog_name(kind.names, words[taken]); !name.empty()) parts.*kind.at = name, ++taken;
+    return taken;
+}
+
+Result<void> take_afferent(std::string_view text, std::span<const std::string_view> words, AfferentComponents& parts) {
+    static const auto receptors = names_of(receptor_entries()), neurons = names_of(neuron_entries());
+    if (words.empty())
+        return bad_input(fmt::format("{}: '{}' must be followed by an afferent, such as '{}+sa1'", text, parts.front_end(), text));
+    parts.named = find_named_afferent(words.back());
+    const std::size_t own = parts.named ? 1 : 2;  // words of the afferent itself
+    for (const auto& kind : kinds())
+        for (const auto word : words)
+            if (!catalog_name(kind.names, word).empty()) return misplaced(text, word, parts);
+    if (words.size() > own) return misplaced(text, words[0], parts);
+    if (words.size() < own) return unknown_afferent(words[0]);
+    if (parts.named) return {};
+    const auto receptor = part_named(text, words[0], receptors, "receptor");
+    if (!receptor) return receptor.error();
+    const auto neuron = part_named(text, words[1], neurons, "neuron");
+    if (!neuron) return neuron.error();
+    parts.receptor = *receptor, parts.neuron = *neuron;
+    return {};
+}
+
+}  // namespace
+
+const NamedAfferent* find_named_afferent(std::string_view text) {
+    for (const auto& a : named_afferents()) {
+        if (equal_ignoring_case(a.name, text)) return &a;
+        for (const auto other : a.aliases)
+            if (equal_ignoring_case(other, text)) return &a;
+    }
+    return nullptr;
+}
+
+std::string AfferentComponents::front_end() const {
+    std::string text;
+    for (const auto part : {sensor, transducer, converter})
+        if (!part.empty()) text += (text.empty() ? "" : "+") + std::string(part);
+    return text;
+}
+
+Result<AfferentComponents> parse_components(std::string_view text) {
+    AfferentComponents parts;
+    const auto words = split(text);
+    const auto taken = take_front(words, parts);
+    if (auto ok = take_afferent(text, std::span(words).subspan(taken), parts); !ok) return ok.error();
+    if (parts.named) {
+        parts.receptor = parts.named->receptor, parts.neuron = parts.named->neuron;
+        if (taken > 0 && !parts.named->front_end.empty())
+            return bad_input(fmt::format("{}: {} has its own front end ({}); put '{}' before {}+{} instead", text, parts.named->name,
+                                         parts.named->front_end, parts.front_end(), parts.receptor, parts.neuron));
+        if (taken == 0 && !parts.named->front_end.empty()) take_front(split(parts.named->front_end), parts);
+    }
+    if (parts.sensor.empty() && !parts.transducer.empty())
+        return bad_input(fmt::format("{}: {} needs the conductance of a sensor before it, such as 'fsr+{}'", text, parts.transducer, text));
+    return parts;
+}
+
+}  // namespace corpuscle

@@ -1,0 +1,188 @@
+#include "model/copies.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "signal/quantity.hpp"
+#include "signal/random.hpp"
+#include "signal/ascii_text.hpp"
+
+namespace corpuscle {
+namespace {
+
+constexpr std::uint64_t max_samples = 1000;  // for one parameter of one copy
+
+std::size_t index_of(const AfferentPlan& plan, std::string_view parameter) {
+    const auto& all = *plan.parameters;
+    return static_cast<std::size_t>(std::find_if(all.begin(), all.end(), [&](const AfferentParameter& p) { return p.info.name == parameter; }) -
+                                    all.begin());
+}
+
+/// Parses a standard deviation: a fraction of the value ("10%"), or a number in the parameter's own unit.
+Result<ParameterDistribution> parse_spread(const AfferentPlan& plan, const ParameterOverride& w, const ParameterInfo& row) {
+    const auto error = [&](std::string_view why) { return bad_input(fmt::format("--spread {}: {}", w.text(), why)); };
+    const bool is_percentage = trimmed(w.value).ends_with('%');
+    const auto read = parse_quantity(w.value, is_percentage ? "" : row.unit);
+    if (!read && is_percentage) return error(fmt::format("'{}' is not a percentage; write a number and %, such as '10%'", w.value));
+    if (!read) return error(read.error().message);
+    if (*read < 0) return error("a standard deviation must not be negative");
+    if (!is_percentage) return ParameterDistribution{plan.name, row.name, row.unit, *read};
+    const double value = plan.values[index_of(plan, row.name)];
+    if (value == 0 && *read > 0)
+        return error(fmt::format("a percentage of {} is 0; write the deviation itself{}", format_quantity(0, row.unit),
+                                 row.unit.empty() ? ", a plain number" : fmt::format(", in {}", row.unit)));
+    return ParameterDistribution{plan.name, row.name, row.unit, *read * std::abs(value), *read};
+}
+
+/// Samples the parameters of all copies of one plan.
+class CopySampler {
+    struct SampledParameter {
+        std::size_t at;  ///< index among the plan's parameters
+        double value, deviation;
+        ParameterInfo row;
+        std::uint64_t stream;
+        std::size_t group;  ///< parameters linked by order constraints are sampled together
+        std::uint64_t count = 0;
+    };
+    struct OrderBound {
+        std::size_t lower, upper;  ///< indices among the plan's parameters
+        bool or_equal;
+    };
+    const AfferentPlan& plan_;
+    std::uint64_t seed_;
+    std::vector<SampledParameter> sampled_;
+    std::vector<OrderBound> bounds_;
+    std::vector<std::size_t> group_of_;  // for each of the plan's parameters
+
+    void join(std::size_t a, std::size_t b) {
+        const auto from = group_of_[b], to = group_of_[a];
+        std::replace(group_of_.begin(), group_of_.end(), from, to);
+    }
+
+    bool is_sampled(std::size_t at) const {
+        return std::any_of(sampled_.begin(), sampled_.end(), [&](const SampledParameter& d) { return d.at == at; });
+    }
+
+    /// Samples until a value lies within the parameter's range; false if the limit of samples was reached.
+    bool sample(SampledParameter& d, AfferentPlan& copy) const {
+        while (d.count < max_samples) {
+            const auto index = (d.stream >> 32 << 32) | d.count++;
+            const double x = d.value + d.deviation * normal(seed_, copy.copy_number, static_cast<std::uint32_t>(d.stream), index);
+            if (!(x >= d.row.low && x <= d.row.high)) continue;
+            copy.values[d.at] = x;
+            return true;
+        }
+        return false;
+    }
+
+    bool in_order(const AfferentPlan& copy, std::size_t group) const {
+        return std::all_of(bounds_.begin(), bounds_.end(), [&](const OrderBound& b) {
+            const double lower = copy.values[b.lower], upper = copy.values[b.upper];
+            return (group_of_[b.lower] != group && group_of_[b.upper] != group) || (b.or_equal ? lower <= upper : lower < upper);
+        });
+    }
+
+    /// Samples the parameters of a group until its order constraints hold.
+    bool sample_group(std::size_t group, AfferentPlan& copy) {
+        do
+            for (auto& d : sampled_)
+                if (d.group == group && !sample(d, copy)) return false;
+        while (!in_order(copy, group));
+        return true;
+    }
+
+    bool sample_all(AfferentPlan& copy) {
+        for (std::size_t group = 0; group < group_of_.size(); ++group)
+            if (std::any_of(sampled_.begin(), sampled_.end(), [&](const SampledParameter& d) { return d.group == group; }))
+                if (!sample_group(group, copy)) return false;
+        return true;
+    }
+
+    Error exhausted(const AfferentPlan& copy, const std::optional<Error>& last) const {
+        const auto& worst = *std::max_element(sampled_.begin(), sampled_.end(),
+                                              [](const SampledParameter& a, const SampledParameter& b) { return a.count < b.count; });
+        return bad_input(
+            fmt::format("{}: none of {} samples of {} about {} with a standard deviation of {} is valid{}; lower its "
+                        "--spread",
+                        copy.name, max_samples, worst.row.name, format_quantity(worst.value, worst.row.unit),
+                        format_quantity(worst.deviation, worst.row.unit), last ? fmt::format(" (the last: {})", last->message) : ""));
+    }
+
+public:
+    CopySampler(const AfferentPlan& plan, std::span<const ParameterDistribution> spreads, std::uint64_t seed)
+        : plan_(plan), seed_(seed), group_of_(plan.values.size()) {
+        std::iota(group_of_.begin(), group_of_.end(), std::size_t{0});
+        for (const auto& s : spreads) {
+            if (s.afferent != plan.name) continue;
+            const auto at = index_of(plan, s.parameter);
+            sampled_.push_back(
+                {at, plan.values[at], s.deviation, (*plan.parameters)[at].info, stream_id(fmt::format("{}.{}", plan.name, s.parameter)), 0});
+        }
+        for (const auto& o : order_constraints_of(plan)) bounds_.push_back({index_of(plan, o.lower), index_of(plan, o.upper), o.or_equal});
+        for (const auto& b : bounds_)
+            if (is_sampled(b.lower) && is_sampled(b.upper)) join(b.lower, b.upper);
+        for (auto& d : sampled_) d.group = group_of_[d.at];
+    }
+
+    Result<AfferentPlan> copy(std::uint32_t number) {
+        AfferentPlan copy = plan_;
+        copy.original_name = plan_.name, copy.copy_number = number, copy.name = fmt::format("{}#{}", plan_.name, number);
+        if (sampled_.empty()) return copy;
+        for (auto& d : sampled_) d.count = 0;
+        std::optional<Error> error;
+        do
+            if (!sample_all(copy)) return exhausted(copy, error ? error : check_plan(copy));
+        while ((error = check_plan(copy)));
+        return copy;
+    }
+};
+
+}  // namespace
+
+Result<std::vector<ParameterDistribution>> distributions_for(const AfferentPlan& plan, std::string_view requested, std::span<const ParameterOverride> overrides) {
+    std::vector<ParameterInfo> rows;
+    for (const auto& p : *plan.parameters) rows.push_back(p.info);
+    std::vector<ParameterDistribution> spreads;
+    for (const auto& w : overrides) {
+        if (!matches_name(plan, requested, w.target)) continue;
+        w.is_used = true;
+        const auto row = find_parameter(w, rows);
+        if (!row) return row.error();
+        if ((*row)->is_shared_by_copies)
+            return bad_input(fmt::format("--spread {}: {} has one value for all copies; --set {}.{} changes it", w.text(), w.parameter,
+                                         w.target, w.parameter));
+        if (std::any_of(spreads.begin(), spreads.end(), [&](const ParameterDistribution& s) { return s.parameter == w.parameter; }))
+            return bad_usage(fmt::format("--spread {}: {}.{} is given twice", w.text(), plan.name, w.parameter));
+        auto spread = parse_spread(plan, w, **row);
+        if (!spread) return spread.error();
+        spreads.push_back(std::move(*spread));
+    }
+    return spreads;
+}
+
+Result<std::vector<AfferentPlan>> make_copies(const AfferentPlan& plan, std::uint32_t n, std::span<const ParameterDistribution> spreads,
+                                            std::uint64_t seed) {
+    std::vector<AfferentPlan> copies;
+    copies.reserve(n);
+    CopySampler sampler(plan, spreads, seed);
+    for (std::uint32_t number = 1; number <= n; ++number) {
+        auto copy = sampler.copy(number);
+        if (!copy) return copy.error();
+        copies.push_back(std::move(*copy));
+    }
+    return copies;
+}
+
+std::vector<std::size_t> copy_group_starts(std::span<const AfferentPlan> plans) {
+    std::vector<std::size_t> begins;
+    for (std::size_t k = 0; k < plans.size(); ++k)
+        if (plans[k].copy_number <= 1) begins.push_back(k);
+    begins.push_back(plans.size());
+    return begins;
+}
+
+const std::string& base_name(const AfferentPlan& plan) { return plan.copy_number > 0 ? plan.original_name : plan.name; }
+
+}  // namespace corpuscle

@@ -1,0 +1,68 @@
+#pragma once
+// The force input of a population of one precision: its checks, and a profile shared by all afferents.
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "model/lanes/aligned_buffer.hpp"
+#include "model/lanes/shared_receptor.hpp"
+#include "model/lane_population.hpp"
+
+namespace corpuscle::lanes {
+
+/// Returns an error if a block of force does not fit `size` afferents of precision V. `name` is the population's name for messages.
+template <class V>
+std::optional<Error> check_force(const PopulationForce& force, std::size_t steps, std::size_t size, std::string_view name) {
+    if (const auto* columns = std::get_if<ForceColumns>(&force); columns && columns->columns.size() != size)
+        return bad_input(fmt::format("{}: {} columns of force for {} afferents", name, columns->columns.size(), size));
+    if (!std::is_same_v<V, double> && std::holds_alternative<ForceTiles<double>>(force))
+        return bad_input(fmt::format("{}: a population in float needs tiles of float, not double", name));
+    if (!std::is_same_v<V, float> && std::holds_alternative<ForceTiles<float>>(force))
+        return bad_input(fmt::format("{}: a population in double needs tiles of double, not float", name));
+    const auto* profile = std::get_if<ForceProfile>(&force);
+    if (!profile) return {};
+    if (profile->force.size() < steps)
+        return bad_input(fmt::format("{}: a profile of {} samples for {} steps", name, profile->force.size(), steps));
+    if (!profile->gain.empty() && profile->gain.size() != size)
+        return bad_input(fmt::format("{}: {} gains for {} afferents", name, profile->gain.size(), size));
+    for (const double g : profile->gain)
+        if (!(g >= 0 && std::isfinite(g))) return bad_input(fmt::format("{}: a gain of {} is not in [0, inf)", name, g));
+    return {};
+}
+
+/// The gains of a tile whose first afferent is `first`; 1 where no gains are given.
+template <class V>
+void profile_gains(const ForceProfile& profile, std::size_t first, V* out) {
+    for (std::size_t u = 0; u < tile_size; ++u)
+        out[u] = profile.gain.empty() ? V(1) : first + u < profile.gain.size() ? static_cast<V>(profile.gain[first + u]) : V(0);
+}
+
+/// The profile of a block in V, or its currents if they are computed once for all.
+template <class V>
+class ProfileBuffers {
+    std::array<ProfileCurrents, max_outputs> in_double_;
+    std::array<std::array<AlignedBuffer<V>, 3>, max_outputs> currents_;  // from, to, both
+    AlignedBuffer<V> force_;
+
+    static void convert(std::span<const double> values, AlignedBuffer<V>& out) {
+        if (out.size() < values.size()) out = AlignedBuffer<V>(values.size());
+        std::transform(values.begin(), values.end(), out.data(), [](double x) { return static_cast<V>(x); });
+    }
+
+public:
+    void set_force(std::span<const double> force) { convert(force, force_); }
+    void compute_currents(SharedReceptor& by, std::span<const double> force, bool first, int outputs) {
+        by.run(force, first, in_double_);
+        for (std::size_t k = 0; k < static_cast<std::size_t>(outputs); ++k) {
+            const auto& c = in_double_[k];
+            convert(c.from, currents_[k][0]), convert(c.to, currents_[k][1]), convert(c.end_sum, currents_[k][2]);
+        }
+    }
+    const V* force() const { return force_.data(); }
+    const std::array<AlignedBuffer<V>, 3>& currents(int output) const { return currents_[static_cast<std::size_t>(output)]; }
+};
+
+}  // namespace corpuscle::lanes

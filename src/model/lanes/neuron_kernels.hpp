@@ -1,0 +1,155 @@
+#pragma once
+// Neurons of a tile over a chunk: currents in, spikes out. Included only by kernel.cpp.
+
+#include "model/lanes/tile_vectors.hpp"
+
+namespace corpuscle::lanes {
+namespace {
+
+/// Called when neurons of one vector fire, which is rare. The vector begins at afferent `first` of the tile.
+template <class V>
+struct FiringRecorder {
+    FiringList<V>* list;
+    int first;
+
+    std::uint64_t valid(num::Mask<Batch<V>> mask) const { return num::mask_bits(mask) & (list->valid >> first); }
+    [[gnu::noinline, gnu::cold]] void operator()(num::Mask<Batch<V>> mask, Batch<V> offset) const {
+        const auto bits = valid(mask);
+        if (bits == 0) return;
+        if (list->count == firing_list_capacity) list->full(*list);
+        if (list->offsets) offset.store_aligned(list->offsets + list->count * width<V>);
+        list->firings[list->count++] = {list->step, first, bits};
+    }
+    [[gnu::noinline, gnu::cold]] void truncated(num::Mask<Batch<V>> mask) const { list->truncated_steps += __builtin_popcountll(valid(mask)); }
+};
+
+template <class V, class N>
+void start_states(const NeuronCall<V>& c) {
+    for (int first = 0; first < tile_size; first += width<V>)
+        write(model<N>(c.models, c.stride, first / width<V>).start(), c.state, first);
+}
+
+/// One step of a vector under its current, with all events.
+template <class N, class S, class I, class F>
+[[gnu::always_inline]] inline void step_one(const N& n, S& s, const I& i, const F& fired) {
+    const auto capped = n.step(s, i, fired);
+    if (num::any(capped)) fired.truncated(capped);
+}
+
+/// The current into vector j, recomputed at each access.
+template <class F>
+struct ComputedCurrents : F {
+    [[gnu::always_inline]] const ComputedCurrents& copy() const { return *this; }
+};
+/// The same for stored currents. Only a copy is indexed at run time, so the originals can stay in registers.
+template <class T, int J>
+struct StoredCurrents {
+    const Current<T> (&i)[J];
+    struct Copy {
+        Current<T> i[J];
+        const Current<T>& operator()(int j) const { return i[j]; }
+    };
+    [[gnu::always_inline]] const Current<T>& operator()(int j) const { return i[j]; }
+    [[gnu::always_inline]] Copy copy() const {
+        Copy copy;
+        unrolled<J>([&](auto j) __attribute__((always_inline)) { copy.i[j] = i[j]; });
+        return copy;
+    }
+};
+
+/// One step of J vectors; current(j) is the current into vector j. If the neuron has a quick test for steps without events, all vectors are
+/// tested first. Those in which something may happen are then simulated in full, one after another.
+template <bool waits, int J, class N, class S, class F, class I>
+[[gnu::always_inline]] inline void step_all(const N* const (&n)[J], S (&s)[J], const F (&fired)[J], const I& current) {
+    if constexpr (requires(S next) { n[0]->template try_quiet_step<waits>(s[0], current(0), next); }) {
+        S next[J];
+        decltype(n[0]->template try_quiet_step<waits>(s[0], current(0), next[0])) something[J];
+        unrolled<J>([&](auto j) __attribute__((always_inline)) { something[j] = n[j]->template try_quiet_step<waits>(s[j], current(j), next[j]); });
+        if (num::any_of(something)) [[unlikely]] {
+            S before[J], after[J];
+            const auto again = current.copy();
+            unsigned where = 0;
+            unrolled<J>([&](auto j) __attribute__((always_inline)) {
+                before[j] = s[j], after[j] = next[j];
+                where |= static_cast<unsigned>(num::any(something[j])) << j;
+            });
+            for (; where != 0; where &= where - 1) {
+                const int k = __builtin_ctz(where);
+                S one = before[k];
+                step_one(*n[k], one, again(k), fired[k]);
+                after[k] = one;
+            }
+            unrolled<J>([&](auto j) __attribute__((always_inline)) { next[j] = after[j]; });
+        }
+        unrolled<J>([&](auto j) __attribute__((always_inline)) { s[j] = next[j]; });
+    } else {
+        unrolled<J>([&](auto j) __attribute__((always_inline)) { step_one(*n[j], s[j], current(j), fired[j]); });
+    }
+}
+
+template <class V, class N, bool scaled, bool waits, bool shared, int J>
+void run_neurons(const NeuronCall<V>& c, int first, Prefetcher& prefetch) {
+    constexpr int w = width<V>;
+    using T = Batch<V>;
+    const N* n[J];
+    typename N::State s[J];
+    FiringRecorder<V> fired[J];
+    unrolled<J>([&](auto j) __attribute__((always_inline)) {
+        n[j] = shared ? &model<N>(c.models, 0, 0) : &model<N>(c.models, c.stride, first / w + j);
+        s[j] = read<typename N::State>(c.state, first + j * w);
+        fired[j] = {c.fired, first + j * w};
+    });
+    const V *from = c.from + (scaled ? 0 : first), *to = c.to + (scaled ? 0 : first), *gain = scaled ? c.gain + first : nullptr;
+    FiringList<V>& list = *c.fired;
+    Prefetcher local = prefetch;
+    const V* const both_ends = c.end_sum;  // of a scaled current
+    for (int t = 0, steps = c.steps; t < steps; ++t) {
+        list.step = t;
+        if constexpr (!scaled) local.prefetch_next();
+        if constexpr (scaled) {
+            const T both(both_ends[t]);
+            const auto current = [&]<bool rising>(std::bool_constant<rising>) __attribute__((always_inline)) {
+                return ComputedCurrents{[&](int j)
+                                __attribute__((always_inline)) { return ScaledCurrent<T, V, rising>{load(gain + j * w), both, from[t], to[t]}; }};
+            };
+            if (to[t] > from[t])
+                step_all<waits, J>(n, s, fired, current(std::true_type{}));
+            else
+                step_all<waits, J>(n, s, fired, current(std::false_type{}));
+        } else {
+            step_all<waits, J>(n, s, fired, ComputedCurrents{[&](int j) __attribute__((always_inline)) {
+                                   return Current<T>{load(from + t * tile_size + j * w), load(to + t * tile_size + j * w)};
+                               }});
+        }
+    }
+    prefetch = local;
+    unrolled<J>([&](auto j) __attribute__((always_inline)) { write(s[j], c.state, first + j * w); });
+}
+
+/// True if one of J models of a tile, from `first` on, may be refractory.
+template <class V, class N, int J>
+bool any_refractory(const NeuronCall<V>& c, int first) {
+    bool any = false;
+    for (int j = 0; j < J; ++j) any |= model<N>(c.models, c.stride, first / width<V> + j).may_be_refractory();
+    return any;
+}
+
+template <class V, class N>
+void run_neuron_tile(const NeuronCall<V>& c) {
+    constexpr int J = 4;
+    Prefetcher local(c.prefetch, iteration_count<V, J>(c));
+    for (int first = 0; first < c.afferents; first += J * width<V>) {
+        if constexpr (requires(const N& n) { n.may_be_refractory(); })
+            if (!any_refractory<V, N, J>(c, first)) {
+                if (c.gain)
+                    c.stride == 0 ? run_neurons<V, N, true, false, true, J>(c, first, local) : run_neurons<V, N, true, false, false, J>(c, first, local);
+                else
+                    run_neurons<V, N, false, false, false, J>(c, first, local);
+                continue;
+            }
+        c.gain ? run_neurons<V, N, true, true, false, J>(c, first, local) : run_neurons<V, N, false, true, false, J>(c, first, local);
+    }
+}
+
+}  // namespace
+}  // namespace corpuscle::lanes

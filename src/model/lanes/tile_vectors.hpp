@@ -1,0 +1,129 @@
+#pragma once
+// Helpers of the loops over a tile's vectors: models and states in memory, unrolling, prefetching. Included only by kernel.cpp.
+
+#include <new>
+#include <type_traits>
+#include <utility>
+
+#include "model/lanes/kernel.hpp"
+
+namespace corpuscle::lanes {
+namespace {
+
+template <class V>
+using Batch = num::Lanes<V>;
+template <class V>
+inline constexpr int width = static_cast<int>(Batch<V>::size);
+
+/// Calls f(0), f(1) ... f(J - 1) with constant arguments: unrolled, so that arrays of states stay in registers.
+template <int J, class F>
+[[gnu::always_inline]] inline void unrolled(F&& f) {
+    [&]<int... j>(std::integer_sequence<int, j...>)
+        __attribute__((always_inline)) { (f(std::integral_constant<int, j>{}), ...); }(std::make_integer_sequence<int, J>{});
+}
+
+template <class V>
+Batch<V> load(const V* at) {
+    return Batch<V>::load_aligned(at);
+}
+
+/// Gives a model the values of its parameters: one afferent for all lanes, or one afferent for each lane.
+template <class V, class P>
+struct PerLaneParams {
+    const P* params;
+    int count;  ///< 1: one for all; the last afferent fills the lanes beyond the count
+    Batch<V> operator()(double P::* at) const {
+        alignas(64) V lanes[width<V>];
+        for (int l = 0; l < width<V>; ++l) lanes[l] = static_cast<V>(params[l < count ? l : count - 1].*at);
+        return load(lanes);
+    }
+    double uniform(double P::* at) const { return params[0].*at; }
+};
+
+template <class V, class M>
+void build(std::byte* at, const void* params, int count, double dt, Method method) {
+    using P = typename M::Params;
+    const auto* all = static_cast<const P*>(params);
+    for (int l = 0; l < (count == 1 ? 1 : tile_size); l += width<V>, at += sizeof(M)) {
+        const int from = l < count ? l : count - 1;
+        new (at) M(PerLaneParams<V, P>{all + from, count - from}, dt, method);
+    }
+}
+
+template <class M>
+const M& model(const std::byte* models, std::size_t stride, int vector) {
+    return *reinterpret_cast<const M*>(models + stride * static_cast<std::size_t>(vector));
+}
+
+/// Number of values of a state.
+template <class S, class V>
+inline constexpr std::size_t value_count = sizeof(S) / sizeof(Batch<V>);
+
+/// Loads a state from its tile, value by value; only the first `kept` values, the others are 0. It works through a copy: a loop variable
+/// without an address can stay in registers.
+template <class S, class V, std::size_t kept = value_count<S, V>>
+[[gnu::always_inline]] inline S read(const V* state, int first) {
+    return [&]<std::size_t... k>(std::index_sequence<k...>) __attribute__((always_inline)) {
+        return S{(k < kept ? load(state + k * tile_size + first) : Batch<V>(V(0)))...};
+    }(std::make_index_sequence<value_count<S, V>>{});
+}
+/// Stores a state into its tile; only the first `kept` values.
+template <class S, class V, std::size_t kept = value_count<S, V>>
+[[gnu::always_inline]] inline void write(const S& s, V* state, int first) {
+    constexpr auto values = value_count<S, V>;
+    const auto put = [&](const auto&... value) __attribute__((always_inline)) {
+        std::size_t k = 0;
+        ((k < kept ? value.store_aligned(state + k * tile_size + first) : void(), ++k), ...);
+    };
+    static_assert(values <= 5);
+    if constexpr (values == 1) {
+        const auto& [a] = s;
+        put(a);
+    } else if constexpr (values == 2) {
+        const auto& [a, b] = s;
+        put(a, b);
+    } else if constexpr (values == 3) {
+        const auto& [a, b, c] = s;
+        put(a, b, c);
+    } else if constexpr (values == 4) {
+        const auto& [a, b, c, d] = s;
+        put(a, b, c, d);
+    } else {
+        const auto& [a, b, c, d, e] = s;
+        put(a, b, c, d, e);
+    }
+}
+
+/// Sets the decayed states of one model in a tile to zero; `kept` values of each state are stored.
+template <class V, class M, class Call, std::size_t kept = value_count<typename M::State, V>>
+void flush_decayed(const Call& c) {
+    if constexpr (requires(const M& m, typename M::State& s) { m.flush_decayed(s); })
+        for (int first = 0; first < tile_size; first += width<V>) {
+            auto s = read<typename M::State, V, kept>(c.state, first);
+            model<M>(c.models, c.stride, first / width<V>).flush_decayed(s);
+            write<typename M::State, V, kept>(s, c.state, first);
+        }
+}
+
+/// Prefetches a range of memory, some cache lines in each call, so that all of it is requested in `times` calls.
+class Prefetcher {
+    const char *at_, *end_;
+    std::size_t step_;
+
+public:
+    Prefetcher(PrefetchRange ahead, int times)
+        : at_(ahead.at), end_(ahead.at + ahead.bytes), step_((ahead.bytes / static_cast<std::size_t>(times) + 63) / 64 * 64) {}
+    [[gnu::always_inline]] void prefetch_next() {
+        const char* const until = at_ + step_ < end_ ? at_ + step_ : end_;
+        for (; at_ < until; at_ += 64) __builtin_prefetch(at_);
+    }
+};
+
+/// Iterations of a loop over a tile with J vectors at once.
+template <class V, int J, class Call>
+int iteration_count(const Call& c) {
+    return (c.afferents + J * width<V> - 1) / (J * width<V>)*c.steps;
+}
+
+}  // namespace
+}  // namespace corpuscle::lanes

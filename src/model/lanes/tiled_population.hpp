@@ -1,0 +1,344 @@
+#pragma once
+// A population of one precision. Models and states are in tiles of 64 afferents; blocks are split into chunks that fit the cache.
+
+#include <fmt/format.h>
+#include <cmath>
+#include <optional>
+#include <tuple>
+
+#include "model/lanes/population_layout.hpp"
+#include "model/lanes/spike_collector.hpp"
+#include "model/lanes/force_input.hpp"
+#include "model/lanes/kernel.hpp"
+#include "model/lanes/shared_receptor.hpp"
+#include "model/lanes/tile_states.hpp"
+#include "model/lane_population.hpp"
+
+namespace corpuscle::lanes {
+
+template <class V>
+class TiledPopulation final : public LanePopulation {
+    static constexpr int chunk = chunk_steps<V>, long_chunk = 2 * chunk;  // long: used where no separate currents share the cache
+    static constexpr std::size_t tiles_per_job = 16;                        // 1,024 afferents: the work of one thread
+
+    /// Scratch memory of one thread.
+    struct Scratch {
+        AlignedBuffer<V> from{max_outputs * current_rows<V> * tile_size}, to{max_outputs * current_rows<V> * tile_size},
+            rows{long_chunk * tile_size}, gain{tile_size};
+        AlignedBuffer<Firing> firings{firing_list_capacity};
+        AlignedBuffer<V> offsets{firing_list_capacity * 16};
+        std::vector<V> saved_state = {};  // the state of a tile
+    };
+
+    /// The block that is being simulated.
+    struct Block {
+        const PopulationForce& force;
+        std::size_t steps;
+        bool shared_currents;  // the currents of the profile are computed once for all
+        std::uint64_t* spike_bits;
+    };
+
+    PopulationLayout<V> layout_;
+    Method method_;
+    bool spikes_on_samples_;
+    std::size_t tiles_;
+    TileStates<V> states_;
+    std::int64_t step_ = 0;
+    std::optional<std::pair<std::size_t, bool>> force_layout_;  // layout of the force so far, and whether its currents are shared
+    ProfileBuffers<V> profile_;
+    std::vector<Scratch> scratch_;
+    std::vector<JobResult> jobs_;
+    AlignedBuffer<V> zero_rows_{chunk_steps<V> * 2 * tile_size};  // rows of zero force
+    std::vector<std::size_t> begin_, at_;
+
+    /// The models of a tile, and the stride between them in bytes.
+    template <class L>
+    std::pair<const std::byte*, std::size_t> models_of(const AlignedBuffer<std::byte>& all, const L& of, std::size_t tile) const {
+        if (all.size() == of.model_bytes) return {all.data(), 0};
+        return {all.data() + tile * (tile_size / static_cast<std::size_t>(layout_.lanes)) * of.model_bytes, of.model_bytes};
+    }
+
+    int tile_size_of(std::size_t tile) const { return static_cast<int>(std::min<std::size_t>(tile_size, layout_.size - tile * tile_size)); }
+    std::uint64_t valid_bits(std::size_t tile) const { return ~std::uint64_t{0} >> (tile_size - tile_size_of(tile)); }
+
+    /// Transposes columns of force into rows, one chunk at a time.
+    void transpose_columns(const ForceColumns& columns, std::size_t first, std::size_t step, int steps, V* rows) const {
+        for (std::size_t u = 0; u < tile_size; ++u) {
+            const double* column = columns.columns[std::min(first + u, layout_.size - 1)] + step;
+            for (int t = 0; t < steps; ++t) rows[static_cast<std::size_t>(t) * tile_size + u] = static_cast<V>(column[t]);
+        }
+    }
+
+    /// The memory that the next chunk reads.
+    template <class E>
+    static PrefetchRange next_chunk(const E* rows, int steps) {
+        const auto chunk_size = static_cast<std::size_t>(steps) * tile_size;
+        return {reinterpret_cast<const char*>(rows + chunk_size), chunk_size * sizeof(E)};
+    }
+    /// Prefetches half of it during the receptors; the other half, which is returned, during the neurons.
+    static PrefetchRange take_second_half(PrefetchRange& all) {
+        all.bytes /= 2;
+        return {all.at + all.bytes, all.bytes};
+    }
+
+    /// The destination of the currents at the ends of steps. For a continuous receptor they are also the beginnings of the next step, one
+    /// row on.
+    V* step_ends(Scratch& s) const { return layout_.receptor->continuous ? s.from.data() + tile_size : s.to.data(); }
+
+    ReceptorCall<V> receptor_call(const Block& b, std::size_t tile, std::size_t step, int steps, Scratch& s) const {
+        const auto [models, stride] = this->models_of(layout_.receptors, *layout_.receptor, tile);
+        ReceptorCall<V> c{};
+        c.models = models, c.stride = stride, c.state = states_.receptor(tile);
+        c.afferents = tile_size_of(tile), c.steps = steps, c.method = method_;
+        c.from = s.from.data(), c.to = step_ends(s), c.gain = s.gain.data();
+        const std::size_t row = (tile * b.steps + step) * tile_size;
+        if (const auto* columns = std::get_if<ForceColumns>(&b.force)) {
+            transpose_columns(*columns, tile * tile_size, step, steps, s.rows.data());
+            c.input = ForceInput::rows, c.rows = s.rows.data();
+        } else if (const auto* tiles = std::get_if<ForceTiles<V>>(&b.force)) {
+            c.input = ForceInput::rows;
+            if (has_zero_force(b, tile))
+                c.rows = zero_rows_.data();
+            else
+                c.rows = tiles->rows + row, c.prefetch = next_chunk(c.rows, steps);
+        } else if (const auto* words = std::get_if<ForceInt16>(&b.force)) {
+            c.input = ForceInput::int16, c.int16_rows = words->rows + row, c.scale = static_cast<V>(words->scale), c.prefetch = next_chunk(c.int16_rows, steps);
+        } else {
+            c.input = ForceInput::profile, c.profile = profile_.force() + step;
+        }
+        return c;
+    }
+
+    NeuronCall<V> neuron_call(const Block& b, std::size_t tile, int output, std::size_t step, int steps, Scratch& s, SpikeCollector<V>& fired,
+                         PrefetchRange ahead) const {
+        const auto [models, stride] = this->models_of(layout_.neurons, *layout_.neuron, tile);
+        NeuronCall<V> c{};
+        c.models = models, c.stride = stride, c.afferents = tile_size_of(tile), c.steps = steps, c.fired = &fired, c.prefetch = ahead;
+        c.state = states_.neuron(tile) + static_cast<std::size_t>(output) * layout_.neuron->state_values * tile_size;
+        if (b.shared_currents) {
+            const auto& [from, to, both] = profile_.currents(output);
+            c.from = from.data() + step, c.to = to.data() + step, c.end_sum = both.data() + step, c.gain = s.gain.data();
+        } else {
+            c.to = step_ends(s) + output * current_rows<V> * tile_size;
+            c.from = layout_.receptor->continuous && method_ != Method::exact ? c.to : s.from.data() + output * current_rows<V> * tile_size;
+        }
+        return c;
+    }
+
+    /// Simulates some steps of a tile. For the first step of all, the force before it is taken to be the same. Backward Euler takes a step
+    /// there, with its spikes on the sample. The exact method has no interval to integrate yet.
+    void run_chunk(const Block& b, std::size_t tile, std::size_t step, int steps, Scratch& s, JobResult& job) const {
+        const bool first = step_ == 0 && step == 0, silent = first && method_ == Method::exact;
+        SpikeCollector<V> fired{{s.firings.data(), spikes_on_samples_ || first ? nullptr : s.offsets.data(), 0, 0, valid_bits(tile), 0,
+                            [](FiringList<V>& list) { static_cast<SpikeCollector<V>&>(list).flush(); }},
+                           job,
+                           b.spike_bits ? b.spike_bits + tile * b.steps + step : nullptr,
+                           static_cast<std::uint32_t>(tile * tile_size),
+                           static_cast<std::uint32_t>(step),
+                           layout_.lanes};
+        if (layout_.fused && !b.shared_currents && !first) {
+            layout_.fused->run(receptor_call(b, tile, step, steps, s), neuron_call(b, tile, 0, step, steps, s, fired, {}));
+        } else {
+            PrefetchRange ahead{};
+            if (!b.shared_currents) {
+                auto c = receptor_call(b, tile, step, steps, s);
+                if (first) layout_.receptor->start(c);
+                ahead = take_second_half(c.prefetch);
+                layout_.receptor->run(c);
+                job.non_finite |= c.has_non_finite;
+            }
+            for (int k = 0; k < layout_.receptor->outputs; ++k) {
+                const auto c = neuron_call(b, tile, k, step, steps, s, fired, k == 0 ? ahead : PrefetchRange{});
+                if (first) layout_.neuron->start(c);
+                if (!silent) layout_.neuron->run(c);
+                fired.flush();
+            }
+        }
+        fired.flush();
+        job.truncated_steps += fired.truncated_steps;
+    }
+
+    static bool has_zero_force(const Block& b, std::size_t tile) {
+        const auto* tiles = std::get_if<ForceTiles<V>>(&b.force);
+        return tiles && tiles->zero_force && tiles->zero_force[tile];
+    }
+
+    /// Sets the decayed state of a tile to zero.
+    void flush_decayed(std::size_t tile) const {
+        ReceptorCall<V> c{};
+        std::tie(c.models, c.stride) = models_of(layout_.receptors, *layout_.receptor, tile);
+        c.state = states_.receptor(tile);
+        (layout_.fused ? layout_.fused->flush_decayed : layout_.receptor->flush_decayed)(c);
+        NeuronCall<V> n{};
+        std::tie(n.models, n.stride) = models_of(layout_.neurons, *layout_.neuron, tile);
+        for (int k = 0; k < layout_.receptor->outputs; ++k) {
+            n.state = states_.neuron(tile) + static_cast<std::size_t>(k) * layout_.neuron->state_values * tile_size;
+            layout_.neuron->flush_decayed(n);
+        }
+    }
+
+    /// Takes one step without force. If this changes no bit of the tile's state and no afferent fires, the tile is at rest. It is then
+    /// skipped until force comes. The state is flushed first, so that a later flush cannot change it.
+    void check_rest(const Block& b, std::size_t tile, std::size_t step, Scratch& s, JobResult& job) {
+        states_.copy(tile, s.saved_state);
+        const auto fired = job.firings;
+        run_chunk(b, tile, step, 1, s, job);
+        if (job.firings != fired || !states_.equals(tile, s.saved_state)) return;
+        flush_decayed(tile);
+        states_.set_at_rest(tile, states_.equals(tile, s.saved_state));
+        states_.restore(tile, s.saved_state);
+    }
+
+    /// Runs as many steps as possible at once. A run ends where states are flushed; the step after which a tile may be found at rest is run
+    /// alone. Returns the number of steps taken before the tile was found at rest.
+    std::size_t run_tile(const Block& b, std::size_t tile, Scratch& s, JobResult& job) {
+        constexpr std::int64_t rest_interval = 256;
+        const bool without = has_zero_force(b, tile);
+        if (!without) states_.set_at_rest(tile, false);
+        const std::int64_t max_steps = b.shared_currents ? 256 : layout_.fused ? long_chunk : chunk;
+        std::size_t step = 0;
+        while (step < b.steps && !states_.is_at_rest(tile)) {
+            const std::int64_t now = step_ + static_cast<std::int64_t>(step);
+            if (now % flush_interval == 0 && now > 0) flush_decayed(tile);
+            const std::int64_t to_check = (rest_interval + 1 - now % rest_interval) % rest_interval;
+            if (without && to_check == 0) {
+                check_rest(b, tile, step++, s, job);
+                continue;
+            }
+            std::int64_t steps = std::min({max_steps, static_cast<std::int64_t>(b.steps - step), flush_interval - now % flush_interval});
+            if (without) steps = std::min(steps, to_check);
+            run_chunk(b, tile, step, now == 0 ? 1 : static_cast<int>(steps), s, job);
+            step += now == 0 ? 1 : static_cast<std::size_t>(steps);
+        }
+        return step;
+    }
+
+    /// A state that becomes NaN stays NaN. For blocks of one or two steps it is therefore checked only every few steps.
+    static constexpr std::int64_t check_interval = 64;
+    bool is_check_due(const Block& b) const { return step_ / check_interval != (step_ + static_cast<std::int64_t>(b.steps)) / check_interval; }
+
+    void run_job(const Block& b, std::size_t number, Scratch& s) {
+        auto& job = jobs_[number];
+        job.events.clear(), job.truncated_steps = job.extra_spikes = job.skipped_steps = job.firings = 0, job.non_finite = false;
+        for (std::size_t tile = number * tiles_per_job; tile < std::min(tiles_, (number + 1) * tiles_per_job); ++tile) {
+            if (const auto* profile = std::get_if<ForceProfile>(&b.force)) profile_gains(*profile, tile * tile_size, s.gain.data());
+            const std::size_t steps = run_tile(b, tile, s, job);
+            job.skipped_steps += static_cast<std::int64_t>(b.steps - steps) * tile_size_of(tile);
+            if (steps == 0 || !(is_check_due(b) || states_.is_at_rest(tile))) continue;
+            job.non_finite |= !states_.all_finite(tile);
+        }
+    }
+
+    /// The force of an afferent at a step of the block, as passed by the caller.
+    double force_of(const Block& b, std::size_t afferent, std::size_t step) const {
+        const std::size_t at = (afferent / tile_size * b.steps + step) * tile_size + afferent % tile_size;
+        if (const auto* columns = std::get_if<ForceColumns>(&b.force)) return columns->columns[afferent][step];
+        if (has_zero_force(b, afferent / tile_size)) return 0;
+        if (const auto* tiles = std::get_if<ForceTiles<V>>(&b.force)) return static_cast<double>(tiles->rows[at]);
+        if (const auto* profile = std::get_if<ForceProfile>(&b.force)) return profile->force[step];
+        return 0;  // integers are always finite
+    }
+
+    std::optional<Error> non_finite_force(const Block& b, PopulationResponse& response) const {
+        for (std::size_t afferent = 0; afferent < layout_.size; ++afferent)
+            for (std::size_t step = 0; step < b.steps; ++step)
+                if (const double f = force_of(b, afferent, step); !std::isfinite(f)) {
+                    response.failed_afferent = afferent;
+                    return bad_input(
+                        fmt::format("{}: the force of sample {} is {}", layout_.name, step_ + static_cast<std::int64_t>(step), f));
+                }
+        return {};
+    }
+
+    /// The first afferent whose state is not finite; none if only the padding is affected.
+    std::optional<std::size_t> first_non_finite_state() const {
+        for (std::size_t afferent = 0; afferent < layout_.size; ++afferent)
+            if (states_.has_non_finite(afferent)) return afferent;
+        return {};
+    }
+
+    Error non_finite_state(std::size_t afferent, const Block& b, PopulationResponse& response) const {
+        response.failed_afferent = afferent;
+        return {ErrorCode::not_converged,
+                fmt::format("{}: its state became NaN or infinite between samples {} and {}; the force or a gain is "
+                            "far too large, or the substep too long",
+                            layout_.name, step_ / check_interval * check_interval, step_ + static_cast<std::int64_t>(b.steps))};
+    }
+
+    /// The error of the jobs, if there is one.
+    std::optional<Error> find_error(const Block& b, PopulationResponse& response) const {
+        if (std::none_of(jobs_.begin(), jobs_.end(), [](const JobResult& job) { return job.non_finite; })) return {};
+        if (auto error = non_finite_force(b, response)) return error;
+        const auto afferent = first_non_finite_state();
+        return afferent ? std::optional(non_finite_state(*afferent, b, response)) : std::nullopt;
+    }
+
+    /// True if the currents of a profile are computed once for all afferents.
+    bool shares_currents(const PopulationForce& force) const {
+        const auto* profile = std::get_if<ForceProfile>(&force);
+        return profile && layout_.shared_receptor && (profile->gain.empty() || layout_.scales_with_force);
+    }
+
+    Result<void> check(const PopulationForce& force, std::size_t steps) {
+        const std::pair kind(force.index(), shares_currents(force));
+        if (force_layout_ && *force_layout_ != kind)
+            return bad_input(fmt::format("{}: the layout of its force must not change between blocks", layout_.name));
+        force_layout_ = kind;
+        if (auto error = check_force<V>(force, steps, layout_.size, layout_.name)) return *error;
+        return {};
+    }
+
+public:
+    TiledPopulation(PopulationLayout<V> layout, const SimulationOptions& run)
+        : layout_(std::move(layout)), method_(run.method), spikes_on_samples_(run.spikes_on_samples), tiles_((layout_.size + tile_size - 1) / tile_size),
+          states_(tiles_, layout_.receptor->state_values, layout_.neuron->state_values * static_cast<std::size_t>(layout_.receptor->outputs)),
+          jobs_((tiles_ + tiles_per_job - 1) / tiles_per_job) {}
+
+    std::size_t size() const override { return layout_.size; }
+    std::int64_t step() const override { return step_; }
+
+    std::vector<double> save() const override {
+        std::vector<double> all = {static_cast<double>(step_), force_layout_ ? static_cast<double>(1 + 2 * force_layout_->first + force_layout_->second) : 0.0};
+        states_.save(all);
+        if (layout_.shared_receptor) {
+            const auto profile = layout_.shared_receptor->save();
+            all.insert(all.end(), profile.begin(), profile.end());
+        }
+        return all;
+    }
+
+    Result<void> resume(std::span<const double> all) override {
+        constexpr double last_step = 1LL << 53, kinds = 2 * std::variant_size_v<PopulationForce>;
+        const std::size_t own = 2 + states_.size();
+        const auto is_integer = [](double x, double max) { return x >= 0 && x <= max && x == std::floor(x); };
+        const bool fits = all.size() >= own && is_integer(all[0], last_step) && is_integer(all[1], kinds) &&
+                          (layout_.shared_receptor ? layout_.shared_receptor->resume(all.subspan(own)) : all.size() == own) &&
+                          states_.resume(all.subspan(2, states_.size()));
+        if (!fits) return bad_input(fmt::format("{}: a saved state with {} values is not one of this population", layout_.name, all.size()));
+        step_ = static_cast<std::int64_t>(all[0]);
+        const auto kind = static_cast<std::size_t>(all[1]);
+        force_layout_ = kind == 0 ? std::nullopt : std::optional(std::pair((kind - 1) / 2, (kind - 1) % 2 == 1));
+        return {};
+    }
+
+    Result<void> respond(const PopulationForce& force, std::size_t steps, PopulationResponse& response, ThreadPool& pool) override {
+        if (auto ok = check(force, steps); !ok) return ok;
+        if (steps == 0) return {};
+        Block block{force, steps, shares_currents(force), nullptr};
+        if (const auto* profile = std::get_if<ForceProfile>(&force)) {
+            if (const auto at = first_non_finite(profile->force.first(steps)); at < steps) return *non_finite_force(block, response);
+            const auto now = profile->force.first(steps);
+            block.shared_currents ? profile_.compute_currents(*layout_.shared_receptor, now, step_ == 0, layout_.receptor->outputs) : profile_.set_force(now);
+        }
+        if (response.spike_bits) response.spike_bits->assign(tiles_ * steps, 0), block.spike_bits = response.spike_bits->data();
+        while (scratch_.size() < pool.threads()) scratch_.emplace_back();
+        pool.for_each(jobs_.size(), [&](std::size_t job, unsigned thread) { run_job(block, job, scratch_[thread]); });
+        for (const auto& job : jobs_) response.truncated_steps += job.truncated_steps, response.extra_spikes += job.extra_spikes, response.skipped_steps += job.skipped_steps;
+        if (auto error = find_error(block, response)) return *error;
+        if (response.spikes) merge_spikes(jobs_, steps, step_, layout_.afferent_numbers, *response.spikes, begin_, at_);
+        step_ += static_cast<std::int64_t>(steps);
+        return {};
+    }
+};
+
+}  // namespace corpuscle::lanes

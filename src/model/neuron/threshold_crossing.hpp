@@ -1,0 +1,53 @@
+#pragma once
+// Helpers of the integrate-and-fire neurons for events within one step. x is 0 at the last sample and 1 at this one.
+
+#include "signal/elementary.hpp"
+
+namespace corpuscle {
+
+/// Limit of spikes of one neuron in one step. Steps that it truncates are counted and reported.
+inline constexpr int max_spikes_per_step = 64;
+
+/// A function with a straight slope, up to its own constant: q(x) = a x + b x^2 / 2.
+template <class T>
+struct Parabola {
+    T a, b;
+    T at(T x) const { return x * (a + T(0.5) * b * x); }
+    /// The minimum of q on [x0, 1].
+    T min_from(T x0) const {
+        T least = num::min(at(x0), at(T(1.0)));
+        const num::Mask<T> has_minimum = (a + b * x0 < T(0.0)) & (a + b > T(0.0));
+        if (num::any(has_minimum)) least = num::select(has_minimum, T(-0.5) * a * a / num::select(has_minimum, b, T(1.0)), least);
+        return least;
+    }
+    /// The x at which q rises through c. The discriminant is kept from becoming negative by rounding.
+    T rising_crossing(T c) const {
+        const T root = num::sqrt(num::positive_part(a * a + T(2.0) * b * c));
+        const auto straight = a > T(0.0);
+        const T numerator = num::select(straight, T(2.0) * c, root - a), denominator = num::select(straight, a + root, b);
+        return numerator / denominator;
+    }
+};
+
+/// The time of a spike within its step: in (0, 1], not before x0.
+template <class T>
+T spike_offset(T x, T x0) {
+    return num::min(num::max(x, num::max(x0, T(0x1p-52))), T(1.0));
+}
+
+/// The root of a function that rises through 0 between low and high, by Newton's method, with bisection where a step would leave the
+/// bracket. The number of passes is fixed, so that lanes and scalars compute the same. f(x) returns {value, slope}.
+template <class T, class F>
+T rising_root(F f, T low, T high) {
+    T x = T(0.5) * (low + high);
+    for (int pass = 0; pass < 12; ++pass) {
+        const auto [v, slope] = f(x);
+        high = num::select(v > T(0.0), x, high);
+        low = num::select(v > T(0.0), low, x);
+        const T newton = x - v / slope;
+        x = num::select((newton >= low) & (newton <= high), newton, T(0.5) * (low + high));
+    }
+    return x;
+}
+
+}  // namespace corpuscle

@@ -1,0 +1,50 @@
+#pragma once
+// An afferent behind a converter. Everything after the converter is computed in words, at the converter's own rate.
+
+#include "model/sensor/adc.hpp"
+#include "model/sensor/fixed_chain.hpp"
+#include "model/sensor/conversion_times.hpp"
+
+namespace corpuscle {
+
+/// Between two samples of the source the force is a straight line. The converter samples it at its own times, and spikes occur there.
+class DigitalAfferent final : public Afferent {
+public:
+    /// One conversion and its result.
+    struct Conversion {
+        std::int64_t code;
+        Word force;
+        std::span<const Word> recorded;  ///< in the order of chain().recordables()
+        std::span<const bool> fired;  ///< a bit for each neuron: true if it fired
+    };
+    using ConversionCallback = std::function<void(const Conversion&)>;
+
+    DigitalAfferent(std::string name, Converter, std::unique_ptr<const FixedChain>, double f_s, bool shared, double dt);
+    const FixedChain& chain() const { return *chain_; }
+    /// The table from codes to words of force.
+    const std::vector<Word>& rom() const { return rom_; }
+
+    std::span<const Probe> probes() const override { return probes_; }
+    State start(ChannelSlot) const override;
+    Result<void> respond(std::span<const double> force, State&, ResponseBlock&) const override;
+    /// The same as respond(), with a call for each conversion.
+    Result<void> respond_and_report(std::span<const double> force, State&, ResponseBlock&, const ConversionCallback&) const;
+
+private:
+    struct TypedState;  // the values of a State, as numbers of their types
+    ConversionTimes conversion_times(std::uint32_t channels) const;
+    std::optional<TypedState> unpack_state(const State&) const;
+    void pack_state(const TypedState&, State&) const;
+    void convert_once(TypedState&, double sensed, Spike at, ResponseBlock&, const ConversionCallback&) const;
+    void record(const TypedState&, double sensed, std::size_t k, ResponseBlock&) const;
+
+    std::string name_, format_;
+    Converter converter_;
+    std::unique_ptr<const FixedChain> chain_;
+    double source_rate_, f_s_;
+    bool shared_;
+    std::vector<Word> rom_;
+    std::vector<Probe> probes_;
+};
+
+}  // namespace corpuscle

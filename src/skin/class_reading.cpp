@@ -1,0 +1,180 @@
+#include "skin/class_reading.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+
+namespace corpuscle::skins {
+namespace {
+
+constexpr double max_density = 1e10;                      // afferents per m2: a million in 1 cm2
+constexpr double max_width = 0.1;                         // m, of a hot spot and of the distances between them
+constexpr double min_velocity = 0.1, max_velocity = 200;  // m/s
+
+/// The settings of a file for an afferent as overrides of the name by which it was requested. Each keeps its location.
+std::vector<ParameterOverride> overrides_for(std::string_view afferent, std::span<const LocatedSetting> spec) {
+    std::vector<ParameterOverride> out;
+    for (const auto& s : spec) {
+        const auto dot = s.name.rfind('.');  // "adc.bits" belongs to a component, "f_B" to the afferent
+        if (dot == std::string::npos)
+            out.push_back({std::string(afferent), s.name, s.value.text});
+        else
+            out.push_back({s.name.substr(0, dot), s.name.substr(dot + 1), s.value.text});
+    }
+    return out;
+}
+
+/// Turns an error about overrides into one with a location in the file: that of the first setting that alone causes it.
+template <class F>
+Error in_file(std::span<const LocatedSetting> spec, const Error& all, F&& fails_with) {
+    for (std::size_t k = 0; k < spec.size(); ++k)
+        if (fails_with(spec.subspan(k, 1))) return spec[k].value.error_here(all.message);
+    return spec.empty() ? all : spec.front().value.error_here(all.message);
+}
+
+Result<AfferentPlan> afferent_of(const ClassSpec& spec) {
+    if (!spec.afferent) return bad_input("[[class]]: afferent is missing: afferent = \"sa1\"", spec.location);
+    const auto& text = spec.afferent->text;
+    if (const auto known = plan_afferent(text, {}); !known) return spec.afferent->error_here(known.error().message);
+    const auto overrides = overrides_for(text, spec.set);
+    auto plan = plan_afferent(text, overrides);
+    if (!plan) return in_file(spec.set, plan.error(), [&](auto some) { return !plan_afferent(text, overrides_for(text, some)); });
+    for (std::size_t k = 0; k < overrides.size(); ++k)
+        if (!overrides[k].is_used) return spec.set[k].value.error_here(fmt::format("{} has no parameter '{}'", text, spec.set[k].name));
+    return plan;
+}
+
+Result<std::vector<ParameterDistribution>> spreads_of(const ClassSpec& spec, const AfferentPlan& plan) {
+    const auto& text = spec.afferent->text;
+    const auto overrides = overrides_for(text, spec.spread);
+    auto spreads = distributions_for(plan, text, overrides);
+    if (!spreads) {
+        auto error = in_file(spec.spread, spreads.error(), [&](auto some) { return !distributions_for(plan, text, overrides_for(text, some)); });
+        if (error.message.starts_with("--spread ")) error.message.erase(0, 9);  // a file does not use this option
+        return error;
+    }
+    for (std::size_t k = 0; k < overrides.size(); ++k)
+        if (!overrides[k].is_used) return spec.spread[k].value.error_here(fmt::format("{} has no parameter '{}'", text, spec.spread[k].name));
+    return spreads;
+}
+
+/// True if the key of a density refers to a region: by its name, or by the part of it after a dot.
+bool matches_region(std::string_view key, std::string_view region) {
+    return region == key || (region.size() > key.size() && region.ends_with(key) && region[region.size() - key.size() - 1] == '.');
+}
+
+Result<std::vector<double>> densities_of(const ClassSpec& spec, const Sites& sites, const NumberReader& numbers) {
+    const auto density = [&](const LocatedText& s) { return numbers.number(s, "density", "1/m2", 0, max_density); };
+    if (spec.uniform_density) {
+        const auto all = density(*spec.uniform_density);
+        return all ? std::vector<double>(sites.regions.size(), *all) : Result<std::vector<double>>(all.error());
+    }
+    std::vector<double> out(sites.regions.size(), -1);
+    std::vector<char> exact(sites.regions.size(), 0);
+    for (const auto& s : spec.density) {
+        const auto value = density(s.value);
+        if (!value) return value.error();
+        bool matched = false;
+        for (std::size_t r = 0; r < out.size(); ++r) {
+            if (!matches_region(s.name, sites.regions[r])) continue;
+            matched = true;
+            if (const bool is_same = sites.regions[r] == s.name; is_same || !exact[r]) out[r] = *value, exact[r] = is_same;
+        }
+        if (matched) continue;
+        const std::vector<std::string_view> names(sites.regions.begin(), sites.regions.end());
+        return s.value.error_here(
+            fmt::format("density: there is no region '{}'{} (there are {})", s.name, did_you_mean(s.name, names), fmt::join(names, ", ")));
+    }
+    for (std::size_t r = 0; r < out.size(); ++r)
+        if (out[r] < 0)
+            return bad_input(
+                fmt::format("density: none is given for region '{0}'; write {0} = \"0 /cm2\" if it has no afferents", sites.regions[r]),
+                spec.density.front().value.location);
+    return out;
+}
+
+/// The number of afferents: a density, or a number for each site.
+Result<void> read_numbers(const ClassSpec& spec, const Sites& sites, const NumberReader& numbers, SkinClass& out) {
+    const bool dense = spec.uniform_density || !spec.density.empty();
+    if (dense == spec.per_site.has_value())
+        return bad_input(fmt::format("[[class]] {}: needs either density = \"70 /cm2\" or per_site = 1", out.name), spec.location);
+    if (dense && !(sites.area > 0))
+        return bad_input(fmt::format("[[class]] {}: a density needs sites that represent an area of skin: regions, or area = \"4 mm2\" in "
+                                     "[sites]; for sensors use per_site = 1",
+                                     out.name),
+                         spec.location);
+    const auto per_site = numbers.integer(spec.per_site, "per_site", 1, 1000, 0);
+    if (!per_site) return per_site.error();
+    out.per_site = static_cast<std::uint32_t>(*per_site);
+    if (!dense) return {};
+    auto density = densities_of(spec, sites, numbers);
+    if (!density) return density.error();
+    out.density = std::move(*density);
+    return {};
+}
+
+Result<void> read_field(const ClassSpec& spec, const NumberReader& numbers, SkinClass& out) {
+    struct FieldSetting {
+        const OptionalLocatedText& spec;
+        std::string_view name, unit;
+        double low, high;
+        double& target;
+    };
+    const FieldSetting all[] = {{spec.sigma, "sigma", "m", 0, max_width, out.sigma},
+                                {spec.hot_spot_spread, "hot_spot_spread", "m", 0, max_width, out.hot_spot_spread},
+                                {spec.velocity, "velocity", "m/s", min_velocity, max_velocity, out.velocity},
+                                {spec.velocity_spread, "velocity_spread", "m/s", 0, max_velocity, out.velocity_spread}};
+    for (const auto& one : all) {
+        const auto value = numbers.number(one.spec, one.name, one.unit, one.low, one.high, 0);
+        if (!value) return value.error();
+        one.target = *value;
+    }
+    const auto spots = numbers.integer(spec.hot_spots, "hot_spots", 1, 100, 1);
+    if (!spots) return spots.error();
+    out.hot_spots = static_cast<std::uint32_t>(*spots);
+    if (out.hot_spots > 1 && !(out.sigma > 0 && out.hot_spot_spread > 0))
+        return spec.hot_spots->error_here("several hot spots need a sigma and a hot_spot_spread");
+    if (spec.velocity_spread && !spec.velocity) return spec.velocity_spread->error_here("velocity_spread needs a velocity");
+    return {};
+}
+
+Result<SkinClass> class_of(const ClassSpec& spec, const Sites& sites, const NumberReader& numbers) {
+    SkinClass out;
+    auto plan = afferent_of(spec);
+    if (!plan) return plan.error();
+    out.name = spec.name ? spec.name->text : plan->name;
+    if (out.name.empty() || out.name.find_first_of("# \t,\n\r\"") != std::string::npos)
+        return (spec.name ? *spec.name : *spec.afferent)
+            .error_here(fmt::format("'{}' is not a valid class name: it must not contain blanks, commas, # or quotes", out.name));
+    auto spreads = spreads_of(spec, *plan);
+    if (!spreads) return spreads.error();
+    plan->name = out.name;  // it identifies random streams and outputs: two classes may use the same afferent
+    for (auto& s : *spreads) s.afferent = out.name;
+    out.afferent = std::move(*plan), out.distributions = std::move(*spreads), out.sources = read_sources(spec.source);
+    if (auto ok = read_numbers(spec, sites, numbers, out); !ok) return ok.error();
+    if (auto ok = read_field(spec, numbers, out); !ok) return ok.error();
+    return out;
+}
+
+}  // namespace
+
+std::vector<SourceNote> read_sources(std::span<const LocatedSetting> spec) {
+    std::vector<SourceNote> out;
+    for (const auto& s : spec) out.push_back({s.name, s.value.text});
+    return out;
+}
+
+Result<std::vector<SkinClass>> read_classes(const SkinSpec& spec, const Sites& sites, const NumberReader& numbers) {
+    if (spec.classes.empty()) return bad_input("a skin needs afferents: [[class]]", {spec.file});
+    std::vector<SkinClass> out;
+    for (const auto& c : spec.classes) {
+        auto one = class_of(c, sites, numbers);
+        if (!one) return one.error();
+        if (std::any_of(out.begin(), out.end(), [&](const SkinClass& other) { return other.name == one->name; }))
+            return (c.name ? *c.name : *c.afferent).error_here(fmt::format("there are two classes '{}'; rename one of them", one->name));
+        out.push_back(std::move(*one));
+    }
+    return out;
+}
+
+}  // namespace corpuscle::skins

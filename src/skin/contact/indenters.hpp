@@ -1,0 +1,71 @@
+#pragma once
+// The parameters of a contact, and those that each indenter uses.
+
+#include <array>
+
+#include "signal/parameter_override.hpp"
+#include "skin/sites.hpp"
+
+namespace corpuscle {
+
+/// Parameters of a contact, SI; lengths in the plane of the skin.
+struct ContactParams {
+    double radius = 5e-3, edge_radius = 0.5e-3, length = 10e-3, period = 2e-3, ridge = 1e-3, angle = 0, E_star = 100e3;
+    double x = 0, y = 0, x1 = 0, y1 = 0, t_start = 0, t_move = 0, speed = 0;
+};
+
+inline constexpr ParameterDef<ContactParams> contact_fields[] = {
+    {"radius", &ContactParams::radius, "m", 1e-5, 1, "radius of the sphere, of the flat punch, or of the patch in which a grating touches",
+     "choice"},
+    {"edge_radius", &ContactParams::edge_radius, "m", 1e-6, 0.1, "radius of a rounded edge", "choice"},
+    {"length", &ContactParams::length, "m", 1e-5, 1, "length of an edge", "choice"},
+    {"period", &ContactParams::period, "m", 1e-5, 0.1, "distance from one ridge of a grating to the next", "choice"},
+    {"ridge", &ContactParams::ridge, "m", 1e-6, 0.1, "width of one ridge", "choice"},
+    {"angle", &ContactParams::angle, "", -360, 360, "angle of an edge or of a grating's ridges from x, degrees counter-clockwise",
+     "choice"},
+    {"E_star", &ContactParams::E_star, "Pa", 1e2, 1e9, "reduced modulus E/(1 - nu^2) of the skin under a rigid indenter",
+     "choice: the order of magnitude for fingertips, from memory"},
+    {"x", &ContactParams::x, "m", -10, 10, "position; without x and y it is the middle of the skin's first region"},
+    {"y", &ContactParams::y, "m", -10, 10, "position"},
+    {"x1", &ContactParams::x1, "m", -10, 10, "end of the movement; default: x"},
+    {"y1", &ContactParams::y1, "m", -10, 10, "end of the movement; default: y"},
+    {"t_start", &ContactParams::t_start, "s", 0, 1e6, "start of the movement"},
+    {"t_move", &ContactParams::t_move, "s", 0, 1e6, "duration of the movement to x1, y1; alternatively give speed"},
+    {"speed", &ContactParams::speed, "m/s", 0, 100,
+     "speed of the movement to x1, y1; without x1 and y1, speed of a grating under its patch"},
+};
+
+/// One kind of indenter.
+struct Indenter {
+    std::string_view name, description, source;
+    std::array<std::string_view, 4> parameters;  ///< its own parameters, without those of the path
+};
+inline constexpr Indenter indenters[] = {
+    {"flat", "a rigid flat punch: p = F/(2 pi a^2) (1 - r^2/a^2)^(-1/2)", "Johnson 1985, Contact Mechanics, 3.8", {"radius"}},
+    {"sphere",
+     "a rigid sphere (Hertz): a^3 = 3 F R/(4 E*), p = 3F/(2 pi a^2) (1 - r^2/a^2)^(1/2)",
+     "Johnson 1985, 4.2",
+     {"radius", "E_star"}},
+    {"edge",
+     "a rounded edge (Hertz's cylinder with a finite length): b^2 = 4 F R/(pi L E*), p = 2F/(pi b L) (1 - d^2/b^2)^(1/2)",
+     "Johnson 1985, 4.2(c)",
+     {"edge_radius", "length", "angle", "E_star"}},
+    {"grating",
+     "ridges that carry the force evenly within a round patch, and can move through it",
+     "choice",
+     {"radius", "period", "ridge", "angle"}},
+};
+
+/// The indenter of this name; refuses unknown names.
+Result<const Indenter*> find_indenter(std::string_view name);
+
+/// The parameters of a contact from the overrides. A position that is not given is computed from the sites.
+Result<ContactParams> read_contact_params(const Indenter&, std::span<const ParameterOverride>, const Sites&);
+
+/// True for a parameter of position or movement; every indenter has these.
+bool is_path_parameter(std::string_view name);
+
+/// True if the contact moves over the skin.
+inline bool is_moving(const ContactParams& p) { return p.x1 != p.x || p.y1 != p.y; }
+
+}  // namespace corpuscle

@@ -1,0 +1,153 @@
+#include "skin/contact/pressure_distribution.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "signal/elementary.hpp"
+#include "skin/contact/arc_integrals.hpp"
+
+namespace corpuscle {
+namespace {
+
+constexpr double pi = 3.141592653589793;
+
+/// Round contacts: exact along y, two-point Gauss quadrature along x. Along a full chord both pressures are polynomials of x, so the
+/// fractions of all cells add up to the periods force.
+template <class Chord>
+void round_column(double a, double x0, double side, std::span<const double> y, double* parts, Chord&& chord) {
+    constexpr double at[] = {-0.5773502691896257, 0.5773502691896257};
+    const std::size_t cells = y.size() - 1;
+    std::fill(parts, parts + cells, 0.0);
+    const double from = std::max(x0, -a), to = std::min(x0 + side, a);
+    if (!(to > from)) return;
+    for (const double point : at) {
+        const double x = 0.5 * (from + to) + 0.5 * (to - from) * point, square = a * a - x * x;
+        if (!(square > 0)) continue;
+        const double per_half = 1 / num::sqrt(square), scale = 0.5 * (to - from) * chord.scale(square);
+        double below = chord(y[0] * per_half);
+        for (std::size_t c = 0; c < cells; ++c) {
+            const double above = chord(y[c + 1] * per_half);
+            parts[c] += scale * (above - below);
+            below = above;
+        }
+    }
+}
+
+/// p/F = 1/(2 pi a^2) (1 - r^2/a^2)^(-1/2): along a chord the integral is an arcsine.
+class FlatPressure final : public PressureDistribution {
+    double a_;
+    struct Chord {
+        double a;
+        double operator()(double u) const { return arcsine(u); }
+        double scale(double) const { return 1 / (2 * pi * a); }
+    };
+
+public:
+    explicit FlatPressure(const ContactParams& p) : a_(p.radius) {}
+    double size(double) const override { return a_; }
+    HalfBox box(double a) const override { return {a, a}; }
+    void column(double a, double, double x0, double side, std::span<const double> y, double* parts) const override {
+        round_column(a, x0, side, y, parts, Chord{a});
+    }
+};
+
+/// x^(1/3) by Newton's method: accurate to a few units in the last place, and the same on every machine.
+double cube_root(double x) {
+    double r = num::exp(num::log(x) * (1.0 / 3));
+    for (int k = 0; k < 2; ++k) r -= (r * r * r - x) / (3 * r * r);
+    return r;
+}
+
+/// p/F = 3/(2 pi a^3) (a^2 - r^2)^(1/2): along a chord of half length c the integral is c^2/2 times the area of the arc.
+class SpherePressure final : public PressureDistribution {
+    double per_newton_;  // a^3 / F
+    struct Chord {
+        double a;
+        double operator()(double u) const { return arc_area(std::clamp(u, -1.0, 1.0)); }
+        double scale(double half_square) const { return 3 / (4 * pi * a * a * a) * half_square; }
+    };
+
+public:
+    explicit SpherePressure(const ContactParams& p) : per_newton_(3 * p.radius / (4 * p.E_star)) {}
+    double size(double force) const override { return cube_root(per_newton_ * force); }
+    HalfBox box(double a) const override { return {a, a}; }
+    void column(double a, double, double x0, double side, std::span<const double> y, double* parts) const override {
+        round_column(a, x0, side, y, parts, Chord{a});
+    }
+};
+
+/// A rotated pattern. Each cell is treated as if it were rotated as well.
+struct Rotation {
+    double c, s;
+    explicit Rotation(double degrees) : c(num::cos_turns(degrees / 360)), s(num::sin_turns(degrees / 360)) {}
+    double along(double x, double y) const { return x * c + y * s; }
+    double across(double x, double y) const { return y * c - x * s; }
+};
+
+double overlap(double from, double to, double low, double high) { return std::max(0.0, std::min(to, high) - std::max(from, low)); }
+
+/// p/F = 2/(pi b L) (1 - d^2/b^2)^(1/2) along its length.
+class EdgePressure final : public PressureDistribution {
+    double half_length_, per_newton_;  // per_newton_: b^2 / F
+    Rotation rotation_;
+
+public:
+    explicit EdgePressure(const ContactParams& p)
+        : half_length_(0.5 * p.length), per_newton_(4 * p.edge_radius / (pi * p.length * p.E_star)), rotation_(p.angle) {}
+    double size(double force) const override { return num::sqrt(per_newton_ * force); }
+    HalfBox box(double b) const override {
+        const double c = num::abs(rotation_.c), s = num::abs(rotation_.s);
+        return {half_length_ * c + b * s, half_length_ * s + b * c};
+    }
+    void column(double b, double, double x0, double side, std::span<const double> y, double* parts) const override {
+        const double half = 0.5 * side, x = x0 + half;
+        for (std::size_t c = 0; c + 1 < y.size(); ++c) {
+            const double middle = y[c] + half, along = rotation_.along(x, middle), across = rotation_.across(x, middle);
+            parts[c] = 0;
+            const double beside = overlap(along - half, along + half, -half_length_, half_length_);
+            if (beside == 0 || num::abs(across) >= b + half) continue;
+            const auto arc = [b](double d) { return arc_area(std::clamp(d / b, -1.0, 1.0)); };
+            parts[c] = beside * (arc(across + half) - arc(across - half));
+        }
+    }
+};
+
+/// Uniform pressure on the ridges within a round patch.
+class GratingPressure final : public PressureDistribution {
+    double radius_, period_, ridge_, side_;
+    Rotation rotation_;
+
+    /// Total width of the ridges between 0 and d.
+    double ridges(double d) const {
+        const double periods = std::floor(d / period_);
+        return periods * ridge_ + std::min(d - periods * period_, ridge_);
+    }
+
+public:
+    GratingPressure(const ContactParams& p, double side)
+        : radius_(p.radius), period_(p.period), ridge_(p.ridge), side_(side), rotation_(p.angle) {}
+    double size(double) const override { return radius_; }
+    HalfBox box(double radius) const override { return {radius + 0.5 * side_, radius + 0.5 * side_}; }
+    void column(double radius, double shift, double x0, double side, std::span<const double> y, double* parts) const override {
+        const double half = 0.5 * side, x = x0 + half, reach = radius + half;
+        for (std::size_t c = 0; c + 1 < y.size(); ++c) {
+            const double middle = y[c] + half, square = x * x + middle * middle;
+            parts[c] = 0;
+            if (square >= reach * reach) continue;
+            const double inside = std::min(1.0, (reach - num::sqrt(square)) / side);  // fraction of the cell, at the edge of the patch
+            const double along = rotation_.along(x, middle) - shift;
+            parts[c] = inside * (ridges(along + half) - ridges(along - half));
+        }
+    }
+};
+
+}  // namespace
+
+std::unique_ptr<PressureDistribution> make_pressure_distribution(const Indenter& indenter, const ContactParams& p, double side) {
+    if (indenter.name == "flat") return std::make_unique<FlatPressure>(p);
+    if (indenter.name == "sphere") return std::make_unique<SpherePressure>(p);
+    if (indenter.name == "edge") return std::make_unique<EdgePressure>(p);
+    return std::make_unique<GratingPressure>(p, side);
+}
+
+}  // namespace corpuscle

@@ -1,0 +1,75 @@
+#pragma once
+// Sites as the squares of skin that they represent, searched by the position of a contact.
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <span>
+
+#include "skin/site_grid.hpp"
+
+namespace corpuscle {
+
+/// If the sites are on a lattice, their cells tile the skin, and cells without a site are not skin. Otherwise each site is the centre of a
+/// square; its side is the typical distance between sites.
+class SkinCells {
+public:
+    explicit SkinCells(const Sites&);
+
+    double side() const { return side_; }  ///< m
+    bool is_lattice() const { return !lattice_.empty(); }
+
+    /// Visits the columns of cells around (x, y) within half a box: calls f(x0, y edges from below, sites of the cells between them;
+    /// no_site: none).
+    template <class F>
+    void for_each_column(double x, double y, double half_width, double half_height, F&& f);
+
+    static constexpr std::uint32_t no_site = UINT32_MAX;
+
+private:
+    double side_, left_ = 0, low_ = 0;  // of the lattice's lower left corner
+    std::size_t columns_ = 0, rows_ = 0;
+    std::vector<std::uint32_t> lattice_;  // [column][row]
+    const Sites& sites_;
+    std::unique_ptr<SiteGrid> index_;
+    std::vector<double> edges_;
+    std::vector<std::uint32_t> column_sites_, found_;
+
+    bool build_lattice();
+};
+
+template <class F>
+void SkinCells::for_each_column(double x, double y, double half_width, double half_height, F&& f) {
+    if (!is_lattice()) {
+        found_.clear();
+        const double reach = (half_width > half_height ? half_width : half_height) * 1.4142135623730951 + side_;
+        index_->for_each_within(x, y, reach, [&](std::uint32_t site, double) { found_.push_back(site); });
+        std::sort(found_.begin(), found_.end());
+        edges_.resize(2);
+        for (const auto site : found_) {
+            const auto& at = sites_.positions[site];
+            edges_[0] = at.y - 0.5 * side_, edges_[1] = at.y + 0.5 * side_;
+            f(at.x - 0.5 * side_, std::span<const double>(edges_), std::span<const std::uint32_t>(&site, 1));
+        }
+        return;
+    }
+    constexpr double max_cells = 1e6;  // limit of a contact's distance from the skin and of its width, in cells
+    const auto cell = [&](double at, double from) {
+        return static_cast<std::int64_t>(std::max(-max_cells, std::min(max_cells, std::floor((at - from) / side_))));
+    };
+    const auto low = cell(y - half_height, low_), high = cell(y + half_height, low_);
+    const auto count = static_cast<std::size_t>(high - low + 1);
+    edges_.resize(count + 1), column_sites_.resize(count);
+    for (std::size_t k = 0; k <= count; ++k) edges_[k] = low_ + static_cast<double>(low + static_cast<std::int64_t>(k)) * side_;
+    for (auto c = cell(x - half_width, left_), last = cell(x + half_width, left_); c <= last; ++c) {
+        const bool on = c >= 0 && c < static_cast<std::int64_t>(columns_);
+        for (std::size_t k = 0; k < count; ++k) {
+            const auto r = low + static_cast<std::int64_t>(k);
+            const bool there = on && r >= 0 && r < static_cast<std::int64_t>(rows_);
+            column_sites_[k] = there ? lattice_[static_cast<std::size_t>(c) * rows_ + static_cast<std::size_t>(r)] : no_site;
+        }
+        f(left_ + static_cast<double>(c) * side_, std::span<const double>(edges_), std::span<const std::uint32_t>(column_sites_));
+    }
+}
+
+}  // namespace corpuscle

@@ -1,0 +1,38 @@
+#pragma once
+// Implementation of Skin. Included only by skin.cpp and skin_state.cpp.
+
+#include <optional>
+
+#include "model/lane_population.hpp"
+#include "skin/conduction.hpp"
+#include "skin/field_force.hpp"
+#include "skin/skin.hpp"
+
+namespace corpuscle {
+
+/// The afferents of one class and the force on them.
+struct ClassSimulation {
+    std::unique_ptr<LanePopulation> population;
+    std::shared_ptr<FieldForce> field_force;
+    bool shares_force = false;  ///< the force is shared with a class that has the same receptive fields and is computed there
+};
+
+struct Skin::Impl {
+    Impl(std::shared_ptr<const Innervation> skin, const SimulationOptions& run, SkinPart share)
+        : skin(std::move(skin)), run(run), part(share), conduction(*this->skin, run.dt) {}
+
+    std::shared_ptr<const Innervation> skin;
+    SimulationOptions run;
+    SkinPart part;
+    std::vector<ClassSimulation> classes;
+    Conduction conduction;
+    std::vector<Spike> fired;             // spikes fired in the current steps
+    std::vector<std::uint32_t> touched;  // sites touched in them
+    std::int64_t step = 0;
+    SkinStats stats;
+
+    std::span<const std::uint32_t> find_touched(const SiteForce&, std::size_t at, std::size_t steps);
+    Result<void> run_steps(const SiteForce&, std::size_t at, std::size_t steps, std::vector<Spike>&, ThreadPool&);
+};
+
+}  // namespace corpuscle

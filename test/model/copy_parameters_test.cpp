@@ -1,0 +1,216 @@
+// Copies of an afferent: what is drawn, from what, and what it does not depend on.
+
+#include "model/copies.hpp"
+
+#include <cmath>
+#include <numeric>
+
+#include "support/property.hpp"
+#include "support/support.hpp"
+
+namespace corpuscle {
+namespace {
+
+using test::sure;
+
+struct Drawn {
+    std::vector<std::string> settings, spreads;
+    std::uint32_t copies = 100'000;
+    std::uint64_t seed = 1;
+};
+
+std::vector<AfferentPlan> draw(const std::string& name, const Drawn& d) {
+    const auto plan = sure(plan_afferent(name, test::wishes(d.settings)));
+    return sure(make_copies(plan, d.copies, sure(distributions_for(plan, name, test::wishes(d.spreads))), d.seed));
+}
+
+std::vector<double> values(const std::vector<AfferentPlan>& copies, std::string_view parameter) {
+    std::vector<double> all;
+    for (const auto& c : copies) all.push_back(*c.value(parameter));
+    return all;
+}
+
+double mean_of(const std::vector<double>& x) { return std::accumulate(x.begin(), x.end(), 0.0) / static_cast<double>(x.size()); }
+
+double covariance_of(const std::vector<double>& x, const std::vector<double>& y) {
+    const double a = mean_of(x), b = mean_of(y);
+    double sum = 0;
+    for (std::size_t k = 0; k < x.size(); ++k) sum += (x[k] - a) * (y[k] - b);
+    return sum / static_cast<double>(x.size());
+}
+
+double deviation(const std::vector<double>& x) { return std::sqrt(covariance_of(x, x)); }
+
+double density(double z) { return std::exp(-z * z / 2) / std::sqrt(2 * M_PI); }
+double above(double z) { return 0.5 * std::erfc(z / std::sqrt(2.0)); }
+
+/// The mean, and the standard deviation, of a standard normal deviate that is above z.
+double mean_above(double z) { return density(z) / above(z); }
+double deviation_above(double z) { return std::sqrt(1 + z * mean_above(z) - mean_above(z) * mean_above(z)); }
+
+TEST(Spread, IsNormalAboutTheValueByAShareOrByAnAmount) {
+    for (const auto* said : {"sa1.f_B=10%", "sa1.f_B=2.5Hz"}) {
+        const auto x = values(draw("sa1", {{"sa1.f_B=25Hz"}, {said}}), "f_B");
+        const double n = static_cast<double>(x.size());
+        EXPECT_NEAR(mean_of(x), 25, 4 * 2.5 / std::sqrt(n)) << said;
+        EXPECT_NEAR(deviation(x), 2.5, 4 * 2.5 / std::sqrt(2 * n)) << said;
+        for (const double z : {-2.0, -1.0, 0.0, 1.0, 2.0}) {
+            const auto more = static_cast<double>(std::count_if(x.begin(), x.end(), [&](double v) { return v > 25 + 2.5 * z; }));
+            EXPECT_NEAR(more / n, above(z), 4 * std::sqrt(above(z) * (1 - above(z)) / n)) << said << " beyond " << z;
+        }
+    }
+}
+
+TEST(Spread, IsANormalCutOffWhereTheRowOrAnOrderEndsIt) {
+    // Below V_reset = 0.45 V no threshold can stand; below 0 A no leak.
+    const auto V_th = values(draw("sa1", {{"sa1.V_reset=0.45V"}, {"sa1.V_th=100mV"}}), "V_th");
+    EXPECT_NEAR(mean_of(V_th), 0.5 + 0.1 * mean_above(-0.5), 4 * 0.1 * deviation_above(-0.5) / std::sqrt(1e5));
+    EXPECT_GT(*std::min_element(V_th.begin(), V_th.end()), 0.45);
+    const auto leak = values(draw("sa1", {{}, {"sa1.I_leak0=1uA"}}), "I_leak0");
+    EXPECT_NEAR(mean_of(leak), 0.5e-6 + 1e-6 * mean_above(-0.5), 4e-6 * deviation_above(-0.5) / std::sqrt(1e5));
+    EXPECT_GE(*std::min_element(leak.begin(), leak.end()), 0);
+}
+
+TEST(Spread, OfTwoParametersInAnOrderIsDrawnForBothTogether) {
+    // Their difference is a normal deviate cut off at 0; their sum, being independent of it, is a whole one.
+    const auto copies = draw("sa1", {{"sa1.E_L=-9V", "sa1.V_reset=0.25V"}, {"sa1.V_th=250mV", "sa1.V_reset=250mV"}});
+    const auto V_th = values(copies, "V_th"), V_reset = values(copies, "V_reset");
+    std::vector<double> apart, sum;
+    for (std::size_t k = 0; k < V_th.size(); ++k) apart.push_back(V_th[k] - V_reset[k]), sum.push_back(V_th[k] + V_reset[k]);
+    const double sd = 0.25 * std::sqrt(2.0), z = -0.25 / sd, root = std::sqrt(1e5);
+    EXPECT_GT(*std::min_element(apart.begin(), apart.end()), 0);
+    EXPECT_NEAR(mean_of(apart), 0.25 + sd * mean_above(z), 4 * sd * deviation_above(z) / root);
+    EXPECT_NEAR(mean_of(sum), 0.75, 4 * sd / root);
+    EXPECT_NEAR(deviation(sum), sd, 4 * sd / root / std::sqrt(2.0));
+}
+
+TEST(Spread, DependsOnSeedNamesAndNumberAndNothingElse) {
+    EXPECT_TRUE(rc::check("more copies, other words in other orders, another way to say it", [] {
+        const auto seed = *rc::gen::inRange<std::uint64_t>(0, 1000);
+        const auto few = *rc::gen::inRange<std::uint32_t>(1, 20), many = few + *rc::gen::inRange<std::uint32_t>(0, 100);
+        std::vector<std::string> others = {"sa1.k_A=10%", "sa1.V_th=40%", "sa1.V_reset=60%", "sa1.t_ref=1ms", "sa1.K_B=300%"};
+        for (std::size_t k = others.size(); k > 1; --k) std::swap(others[k - 1], others[*rc::gen::inRange<std::size_t>(0, k)]);
+        others.resize(*rc::gen::inRange<std::size_t>(0, others.size() + 1));
+        others.insert(others.begin() + *rc::gen::inRange<std::ptrdiff_t>(0, static_cast<std::ptrdiff_t>(others.size()) + 1),
+                      "SA-I.f_B=2Hz");
+        const auto alone = values(draw("sa1", {{}, {"sa1.f_B=10%"}, few, seed}), "f_B");
+        auto among = values(draw("SA1", {{}, others, many, seed}), "f_B");
+        among.resize(few);
+        RC_ASSERT(alone == among);
+    }));
+}
+
+TEST(Spread, IsAnotherOneForEverySeedNumberAndName) {
+    const auto copies = draw("sa1", {{}, {"sa1.f_B=10%", "sa1.f_C=10%"}});
+    const auto f_B = values(copies, "f_B"), f_C = values(copies, "f_C");
+    const auto other_seed = values(draw("sa1", {{}, {"sa1.f_B=10%"}, 100'000, 2}), "f_B");
+    const auto other_name = values(draw("sa1b+lif-b", {{}, {"sa1b+lif-b.f_B=10%"}}), "f_B");
+    const auto next = [&] {
+        auto x = f_B;
+        std::rotate(x.begin(), x.begin() + 1, x.end());
+        return x;
+    }();
+    for (const auto* other : {&f_C, &other_seed, &other_name, &next})
+        EXPECT_NEAR(covariance_of(f_B, *other) / deviation(f_B) / deviation(*other), 0, 4 / std::sqrt(1e5));
+}
+
+TEST(Spread, GivesCopiesWithNamesAndNumbersThatShareWhatTheyAreMadeOf) {
+    const auto copies = draw("SA1", {{}, {"SA1.f_B=10%"}, 3});
+    ASSERT_EQ(copies.size(), 3U);
+    for (std::uint32_t k = 0; k < 3; ++k) {
+        EXPECT_EQ(copies[k].name, "sa1#" + std::to_string(k + 1));
+        EXPECT_EQ(copies[k].original_name, "sa1");
+        EXPECT_EQ(copies[k].copy_number, k + 1);
+        EXPECT_EQ(copies[k].parameters, copies[0].parameters) << "one list of rows for all";
+        EXPECT_EQ(*copies[k].value("V_th"), 0.5);
+    }
+    auto all = copies;
+    const auto other = draw("fa1", {{}, {}, 2});
+    all.insert(all.end(), other.begin(), other.end());
+    EXPECT_EQ(copy_group_starts(all), (std::vector<std::size_t>{0, 3, 5}));
+    const std::vector plain = {sure(plan_afferent("sa1", {})), sure(plan_afferent("fa1", {}))};
+    EXPECT_EQ(copy_group_starts(plain), (std::vector<std::size_t>{0, 1, 2}));
+    EXPECT_EQ(base_name(all[4]), "fa1");
+    EXPECT_EQ(base_name(plain[1]), "fa1");
+}
+
+TEST(Contract, EveryParameterThatCopiesDoNotShareCanDifferInEveryAfferent) {
+    for (const auto& name : test::every_afferent()) {
+        const auto plan = sure(plan_afferent(name, {}));
+        std::vector<ParameterOverride> wishes;
+        for (std::size_t k = 0; k < plan.values.size(); ++k) {
+            const auto& row = (*plan.parameters)[k].info;
+            if (!row.is_shared_by_copies && plan.values[k] != 0) wishes.push_back({name, std::string(row.name), "2%"});
+        }
+        const auto spreads = sure(distributions_for(plan, name, wishes));
+        const auto copies = sure(make_copies(plan, 4, spreads, 3));
+        for (const auto& copy : copies) {
+            EXPECT_FALSE(check_plan(copy)) << copy.name;
+            for (const auto& s : spreads) EXPECT_NE(copy.value(s.parameter), plan.value(s.parameter)) << copy.name << '.' << s.parameter;
+            for (std::size_t k = 0; k < copy.values.size(); ++k)
+                EXPECT_FALSE(check_range(copy.name, (*copy.parameters)[k].info, copy.values[k])) << copy.name;
+            EXPECT_TRUE(make_afferent(copy, {1e-3})) << copy.name;
+        }
+    }
+}
+
+TEST(Contract, CopiesShareWhatMustBeWholeAndEverySubstep) {
+    for (const auto at : Adc::integers)
+        for (const auto& f : Adc::fields) EXPECT_TRUE(f.member != at || f.is_shared_by_copies) << f.name;
+    int substeps = 0;
+    for (const auto& card : neuron_entries())
+        for (const auto& row : card.parameters) {
+            if (row.name != "substep") continue;
+            EXPECT_TRUE(row.is_shared_by_copies) << card.name;
+            ++substeps;
+        }
+    EXPECT_GE(substeps, 2);
+}
+
+TEST(Spread, OfWhatCannotDifferIsRefusedByName) {
+    const struct {
+        std::string name;
+        std::vector<std::string> spreads;
+        std::string said;
+    } cases[] = {
+        {"sa1b+adex",
+         {"sa1b+adex.substep=10%"},
+         "--spread sa1b+adex.substep=10%: substep has one value for all copies; --set sa1b+adex.substep changes it"},
+        {"sa1-kim", {"sa1-kim.word=1"}, "--spread sa1-kim.word=1: word has one value for all copies; --set sa1-kim.word changes it"},
+        {"sa1",
+         {"sa1.f_b=10%"},
+         "sa1: unknown parameter 'f_b'; did you mean 'f_B'? (it has k_A, K_B, f_B, K_C, f_C, C_m, I_leak0, E_L, V_th, V_reset, t_ref)"},
+        {"sa1", {"sa1.E_L=10%"}, "--spread sa1.E_L=10%: a percentage of 0 V is 0; write the deviation itself, in V"},
+        {"fsr+sa1",
+         {"fsr+sa1.hysteresis=10%"},
+         "--spread fsr+sa1.hysteresis=10%: a percentage of 0 is 0; write the deviation itself, a plain number"},
+        {"sa1", {"sa1.f_B=-1Hz"}, "--spread sa1.f_B=-1Hz: a standard deviation must not be negative"},
+        {"sa1", {"sa1.f_B=1ms"}, "--spread sa1.f_B=1ms: '1ms' is a time; expected a value in Hz, such as '2 Hz'"},
+        {"sa1", {"sa1.f_B=some%"}, "--spread sa1.f_B=some%: 'some%' is not a percentage; write a number and %, such as '10%'"},
+        {"sa1", {"sa1.f_B=1Hz", "SA-I.f_B=10%"}, "--spread SA-I.f_B=10%: sa1.f_B is given twice"},
+    };
+    for (const auto& c : cases) {
+        const auto spreads = distributions_for(sure(plan_afferent(c.name, {})), c.name, test::wishes(c.spreads));
+        ASSERT_FALSE(spreads) << c.said;
+        EXPECT_EQ(spreads.error().text(), c.said);
+    }
+}
+
+TEST(Spread, ThatNothingCanStandUnderIsAnErrorAfterAThousandDraws) {
+    const auto plan = sure(plan_afferent("sa1", {}));
+    const auto wide = make_copies(plan, 2, sure(distributions_for(plan, "sa1", test::wishes({"sa1.V_th=1GV"}))), 1);
+    ASSERT_FALSE(wide);
+    EXPECT_EQ(wide.error().text(),
+              "sa1#1: none of 1000 samples of V_th about 500 mV with a standard deviation of 1 GV is valid; lower its --spread");
+    // Half of R_fb's draws leave V_Z above V_DD at F_cal, where the sensor could not be calibrated: those are drawn again.
+    const auto edge = draw("fsr+f2v+sa1", {{"fsr+f2v+sa1.R_fb=13.3kohm"}, {"fsr+f2v+sa1.R_fb=10%"}, 1000});
+    for (const auto& copy : edge) EXPECT_FALSE(check_plan(copy));
+}
+
+TEST(Spread, OfNothingLeavesEveryCopyAsItIs) {
+    const auto plan = sure(plan_afferent("sa1", {}));
+    for (const auto& copy : draw("sa1", {{}, {"sa1.E_L=0%", "sa1.f_B=0Hz"}, 5})) EXPECT_EQ(copy.values, plan.values);
+}
+
+}  // namespace
+}  // namespace corpuscle

@@ -1,0 +1,173 @@
+// Sensor and transducers against the golden curve; what an analog front makes of a touch.
+
+#include "model/sensor/front_end.hpp"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "support/property.hpp"
+#include "support/support.hpp"
+
+namespace corpuscle {
+namespace {
+
+using test::Asked;
+
+double F2v_at(double G) { return F2v::stage({}).curve(G); }
+
+TEST(Sensor, FsrAndTransducersGiveTheGoldenCurve) {
+    const auto path = test::shared("../golden/behaviour.json");
+    CORPUSCLE_NEEDS(path);
+    const auto golden = nlohmann::json::parse(test::read_file(path))["fsr"];
+    const auto near = [&](const char* name, std::size_t k, double made) {
+        EXPECT_NEAR(made / golden[name][k].get<double>(), 1, 1e-12) << name << ' ' << k;
+    };
+    const auto sensor = Fsr::stage({}), current = F2i::stage({});
+    for (std::size_t k = 0; k < golden["gf"].size(); ++k) {
+        const double G = sensor.curve(golden["gf"][k].get<double>() * 9.80665e-3);
+        near("G_S", k, G);
+        near("R_ohm", k, 1 / G);
+        near("V_Z", k, F2v_at(G));
+        near("I_F", k, current.curve(G));
+        near("I_F0", k, F2i::stage({.S_2 = 0}).curve(G));
+    }
+}
+
+TEST(Sensor, WithoutForceOrPulledItShowsOnlyItsRestingConductance) {
+    for (const double F : {0.0, -1.0, -1e300, 1e-320}) EXPECT_EQ(Fsr::stage({}).curve(F), 1e-7) << F;
+    EXPECT_TRUE(std::isfinite(Fsr::stage({.m = 2}).curve(1e300)));
+}
+
+TEST(Sensor, HysteresisReadsFallingForceHighByItsShareAndRisingForceAsItIs) {
+    const FrontEnd front({Fsr::stage({.hysteresis = 0.1})}, 4);
+    double held = 0;
+    const auto felt = [&](double F) { return held = front.apply_hysteresis(held, F); };
+    EXPECT_EQ(felt(2), 2);
+    EXPECT_EQ(felt(1.9), 2) << "inside the play it stays";
+    EXPECT_DOUBLE_EQ(felt(1), 1.1) << "then it follows, a tenth too high";
+    EXPECT_DOUBLE_EQ(felt(1.05), 1.1);
+    EXPECT_EQ(felt(1.5), 1.5);
+    EXPECT_EQ(felt(0), 0) << "nothing is nothing";
+    EXPECT_EQ(FrontEnd({Fsr::stage({})}, 4).apply_hysteresis(2, 1.9), 1.9) << "none by default";
+}
+
+TEST(Sensor, HysteresisDoesNotDependOnHowOftenItIsLookedAt) {
+    EXPECT_TRUE(rc::check("a monotone ramp, at its end alone or all along", [] {
+        const double h = *rc::gen::inRange(0, 100) / 100.0, held = *rc::gen::inRange(0, 1000) / 100.0,
+                     from = held / (1 + *rc::gen::inRange(0, 100) / 100.0 * h), to = *rc::gen::inRange(0, 1000) / 100.0;
+        const FrontEnd front({Fsr::stage({.hysteresis = h})}, 4);
+        double all_along = held;
+        for (int k = 1; k <= 10; ++k) all_along = front.apply_hysteresis(all_along, k == 10 ? to : from + (to - from) * k / 10);
+        RC_ASSERT(std::abs(all_along - front.apply_hysteresis(held, to)) < 1e-12);
+    }));
+}
+
+TEST(FrontEnd, CalibrationIsExactAtNoForceAndAtItsOwn) {
+    for (const auto& last : {F2v::stage({}), F2i::stage({})}) {
+        const FrontEnd front({Fsr::stage({}), last}, 4);
+        EXPECT_EQ(front.calibrated_force(front.read(0).value), 0);
+        EXPECT_EQ(front.calibrated_force(front.read(4).value), 4);
+        EXPECT_GT(front.calibrated_force(front.read(1).value), 1.2) << "between them the film's curve reads high";
+        EXPECT_NEAR(front.inverse(front.read(1.7).value, 0, 5), 1.7, 1e-12);
+    }
+}
+
+/// What each probe shows over a stimulus.
+std::map<std::string, std::vector<double>> shown(const Afferent& a, const std::vector<double>& f, ResponseBlock& answer) {
+    std::vector<std::vector<double>> values(a.probes().size(), std::vector<double>(f.size()));
+    std::vector<double*> rows;
+    for (auto& v : values) rows.push_back(v.data());
+    ResponseBlock mine{answer.spikes, 0, rows};
+    auto state = a.start();
+    if (auto ok = a.respond(f, state, mine); !ok) throw std::runtime_error(ok.error().text());
+    answer.truncated_steps = mine.truncated_steps, answer.saturated = mine.saturated, answer.overflowed = mine.overflowed;
+    std::map<std::string, std::vector<double>> out;
+    for (std::size_t p = 0; p < values.size(); ++p) out[std::string(a.probes()[p].name)] = values[p];
+    return out;
+}
+
+TEST(FrontEndAfferent, AnswersTheForceItsCalibrationBelievesAndShowsTheWayThere) {
+    std::vector<Spike> fronted, plain;
+    ResponseBlock answer{fronted}, direct{plain};
+    const auto f = test::force("press");
+    const auto inside = shown(*test::afferent("fsr+f2v+sa1"), f, answer);
+    const auto bare = shown(*test::afferent("sa1"), inside.at("F_read"), direct);
+    EXPECT_EQ(fronted, plain);
+    EXPECT_EQ(inside.at("u"), bare.at("u"));
+    const Fsr::Params fsr;
+    for (std::size_t k = 0; k < f.size(); k += 100) {
+        EXPECT_EQ(inside.at("G_FSR")[k], Fsr::conductance(fsr, f[k]));
+        EXPECT_EQ(inside.at("V_Z")[k], F2v_at(inside.at("G_FSR")[k]));
+    }
+    EXPECT_EQ(inside.at("F_read")[5000], 4) << "the plateau is where it was calibrated";
+    EXPECT_EQ(answer.saturated, 0);
+}
+
+TEST(FrontEndAfferent, EverySampleBeyondTheSupplyIsClippedAndCounted) {
+    std::vector<Spike> spikes;
+    ResponseBlock answer{spikes};
+    std::vector<double> f(1000, 1.0);
+    std::fill(f.begin() + 100, f.begin() + 137, 9.0);
+    const auto inside = shown(*test::afferent("fsr+f2v+sa1"), f, answer);
+    EXPECT_EQ(answer.saturated, 37);
+    EXPECT_EQ(inside.at("V_Z")[120], 0.7);
+    const auto current = shown(*test::afferent("fsr+f2i+sa1", {.settings = {"fsr+f2i+sa1.I_max=3uA"}}), f, answer);
+    EXPECT_EQ(answer.saturated, 37);
+    EXPECT_EQ(current.at("I_F")[120], 3e-6);
+}
+
+TEST(Parts, WrongOrUnknownPartsAreRefusedWithWhatIsRight) {
+    const std::pair<const char*, const char*> cases[] = {
+        {"adc+fsr+sa1",
+         "adc+fsr+sa1: 'fsr' is in the wrong place; the signal goes through a sensor (fsr), a transducer (f2v, f2i), a converter (adc), "
+         "then the "
+         "afferent"},
+        {"fsr+f2v+f2i+sa1", "fsr+f2v+f2i+sa1: 'f2i' after 'f2v': use only one of them"},
+        {"fsrr+sa1",
+         "fsrr+sa1: 'fsrr' is not a component that fits there; did you mean 'fsr'? (the signal goes through a sensor (fsr), a transducer "
+         "(f2v, "
+         "f2i), a converter (adc), then the afferent)"},
+        {"f2v+sa1", "f2v+sa1: f2v needs the conductance of a sensor before it, such as 'fsr+f2v+sa1'"},
+        {"fsr+f2i", "fsr+f2i: 'fsr+f2i' must be followed by an afferent, such as 'fsr+f2i+sa1'"},
+        {"adc+sa1-kim", "adc+sa1-kim: sa1-kim has its own front end (fsr+f2v+adc); put 'adc' before sa1a+lif-a instead"},
+        {"adc+fa2",
+         "adc+fa2: vibration+lif-b has no fixed-point version; adc can be followed by sa1a, sa1b, fa1a, fa1b with lif-a, lif-b, adaptive"},
+    };
+    for (const auto& [text, said] : cases) EXPECT_EQ(plan_afferent(text, {}).error().message, said);
+}
+
+TEST(Parts, NamesOfAnyCaseMeanTheSameAndSettingsFindThem) {
+    EXPECT_EQ(test::sure(plan_afferent("FSR+f2i+RA", {})).name, "fsr+f2i+fa1");
+    for (const auto* of : {"fsr+f2i+fa1", "FSR+f2i+RA"}) {
+        const auto mine = test::wishes({std::string(of) + ".f=3Hz", std::string(of) + ".F_cal=2N"});
+        const auto plan = test::sure(plan_afferent("FSR+f2i+RA", mine));
+        EXPECT_EQ(plan.value("f"), 3);
+        EXPECT_EQ(plan.value("F_cal"), 2);
+        EXPECT_EQ(plan.value("I_leak0"), 1e-6) << "fa1's own";
+    }
+    EXPECT_EQ(test::sure(plan_afferent("sa1-kim", {})).composition(), "fsr+f2v+adc+sa1a+lif-a");
+}
+
+TEST(Parts, AFrontThatCannotMeasureItsOwnRangeIsRefused) {
+    const std::pair<std::string, std::string> cases[] = {
+        {"fsr+f2v+sa1.F_cal=8N", "fsr+f2v+sa1: at F_cal = 8 N V_Z would be 0.8344 V, above V_DD = 0.7 V; lower R_fb or F_cal"},
+        {"sa1-kim.F_high=7N", "sa1-kim: at F_high = 7 N V_Z would be 0.7671 V, above V_DD = 0.7 V; lower R_fb or F_high"},
+        {"sa1-kim.F_low=5N", "sa1-kim: F_low = 5 must be below F_high = 5"},
+        {"sa1-kim.bits=3.5", "sa1-kim: bits = 3.5 must be an integer"},
+        {"sa1-kim.word=18", "sa1-kim: frac = 20 must be below word = 18"},
+        {"sa1-kim.word=22",
+         "sa1-kim: the force of a code = 5 (in N, uA, V and steps) does not fit a word of 22 bits with 20 fraction bits; raise "
+         "word, or "
+         "lower frac"},
+    };
+    for (const auto& [setting, said] : cases) {
+        const auto mine = test::wishes({setting});
+        EXPECT_EQ(plan_afferent(mine[0].target, mine).error().message, said);
+    }
+    const auto unfelt = test::wishes({"fsr+sa1.F_cal=1uN", "fsr+sa1.m=2", "fsr+sa1.R_1gf=1e12", "fsr+sa1.R_0=1"});
+    EXPECT_EQ(plan_afferent("fsr+sa1", unfelt).error().message,
+              "fsr+sa1: F_cal = 1e-06 N gives the same reading as 0 N with this sensor; raise F_cal");
+}
+
+}  // namespace
+}  // namespace corpuscle
