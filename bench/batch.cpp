@@ -16,7 +16,7 @@
 #include <string>
 
 #include "circuit/batch/chips.hpp"
-#include "circuit/carried.hpp"
+#include "circuit/embedded_netlists.hpp"
 #include "signal/stimuli.hpp"
 
 namespace {
@@ -83,14 +83,14 @@ int main(int argc, char** argv) {
     if (argc > 3) options.lanes = static_cast<std::size_t>(std::atol(argv[3]));
     const auto netlist = open_netlist(argv[1]);
     if (!netlist) return std::fprintf(stderr, "%s\n", netlist.error().text().c_str()), 1;
-    const auto design = CircuitDesign::of(*netlist);
+    const auto design = CircuitAfferentFactory::create(*netlist);
     if (!design) return std::fprintf(stderr, "%s\n", design.error().text().c_str()), 1;
     const auto press = make_stimulus("press", {}, 1 / T, 0);
     Frames frames(1, 20000);
     if (!press || !(*press)->read(frames)) return std::fputs("no press\n", stderr), 1;
     const auto force = std::span<const double>(frames.force[0]).first(frames.count);
-    const Chips chips{static_cast<double>(count), 1};
-    const auto chip = [&](std::int64_t k) { return Chip{k, *design, chips.draw(static_cast<std::uint64_t>(k)), force, T}; };
+    const ChipSpec chips{static_cast<double>(count), 1};
+    const auto chip = [&](std::int64_t k) { return Chip{k, *design, chips.sample(static_cast<std::uint64_t>(k)), force, T}; };
 
     Answers lanes, alone;
     std::int64_t next = 0;

@@ -13,7 +13,7 @@
 #include <cstring>
 #include <string>
 
-#include "circuit/variants.hpp"
+#include "circuit/netlist_variants.hpp"
 #include "corpuscle.hpp"
 #include "study/sweep/calibrate.hpp"
 
@@ -37,9 +37,9 @@ int main(int argc, char** argv) {
         if (argc > 1 && std::strcmp(argv[1], k.model) == 0) kind = &k;
     if (kind == nullptr) return std::fputs("bench-calibrate sa1|fa1 [CHIPS] [BITS] [SEED] [TRIM ...]\n", stderr), 2;
     const int count = argc > 2 ? std::atoi(argv[2]) : 64, bits = argc > 3 ? std::atoi(argv[3]) : 4;
-    const circuit::Chips drawn{static_cast<double>(count), argc > 4 ? std::strtoull(argv[4], nullptr, 10) : 1};
+    const circuit::ChipSpec drawn{static_cast<double>(count), argc > 4 ? std::strtoull(argv[4], nullptr, 10) : 1};
     std::vector<circuit::Draw> chips;
-    for (int k = 0; k < count; ++k) chips.push_back(drawn.draw(static_cast<std::uint64_t>(k)));
+    for (int k = 0; k < count; ++k) chips.push_back(drawn.sample(static_cast<std::uint64_t>(k)));
 
     ChipCalibration asked;
     asked.netlist = std::string(kind->model) + "-circuit", asked.bits = bits;

@@ -15,7 +15,7 @@
 
 #include "circuit/analysis/beginning.hpp"
 #include "circuit/device/uicm_card.hpp"
-#include "circuit/variants.hpp"
+#include "circuit/netlist_variants.hpp"
 
 namespace {
 
@@ -54,11 +54,11 @@ int main(int argc, char** argv) {
     if (!circuit) return std::fprintf(stderr, "%s\n", circuit.error().text().c_str()), 1;
     auto bench = TestBench::make(std::make_shared<const Circuit>(std::move(*circuit)));
     if (!bench) return std::fprintf(stderr, "%s\n", bench.error().text().c_str()), 1;
-    const Chips drawn{chips, argc > 3 ? std::strtoull(argv[3], nullptr, 10) : 1};
+    const ChipSpec drawn{chips, argc > 3 ? std::strtoull(argv[3], nullptr, 10) : 1};
     for (const bool held : {false, true}) {
         std::map<std::string, Way> ways;
         for (std::uint64_t k = 0; static_cast<double>(k) < chips; ++k) {
-            (*bench)->draw(drawn.draw(k));
+            (*bench)->draw(drawn.sample(k));
             const double start = now();
             const auto found = held ? (*bench)->rest_held() : (*bench)->rest();
             auto& way = ways[found ? std::string(found->how) : "lost"];

@@ -19,7 +19,7 @@
 
 #include "circuit/batch/chips.hpp"
 #include "circuit/device/uicm_card.hpp"
-#include "circuit/knobs.hpp"
+#include "circuit/netlist_overrides.hpp"
 #include "corpuscle.hpp"
 #include "signal/thread_pool.hpp"
 #include "study/sweep/pattern.hpp"
@@ -30,15 +30,15 @@ using namespace corpuscle;
 using namespace corpuscle::circuit;
 using Trains = std::vector<std::vector<double>>;
 
-std::shared_ptr<const CircuitDesign> design_of(const std::string& name, const std::vector<Knob>& knobs) {
-    const auto netlist = tuned(name, knobs);
+std::shared_ptr<const CircuitAfferentFactory> design_of(const std::string& name, const std::vector<NetlistOverride>& knobs) {
+    const auto netlist = apply_overrides(name, knobs);
     if (!netlist) std::fprintf(stderr, "%s\n", netlist.error().text().c_str()), std::exit(1);
-    auto design = CircuitDesign::of(*netlist);
+    auto design = CircuitAfferentFactory::create(*netlist);
     if (!design) std::fprintf(stderr, "%s\n", design.error().text().c_str()), std::exit(1);
     return *design;
 }
 
-Trains pressed(const std::shared_ptr<const CircuitDesign>& design, const Chips& chips, const ForceSignal& press) {
+Trains pressed(const std::shared_ptr<const CircuitAfferentFactory>& design, const ChipSpec& chips, const ForceSignal& press) {
     Trains out(static_cast<std::size_t>(chips.count));
     std::mutex guard;
     std::size_t next = 0;
@@ -52,7 +52,7 @@ Trains pressed(const std::shared_ptr<const CircuitDesign>& design, const Chips& 
                 const std::lock_guard lock(guard);
                 if (next == out.size()) return {};
                 const auto k = next++;
-                return Chip{static_cast<std::int64_t>(k), design, chips.draw(k), press.force, 1 / press.rate};
+                return Chip{static_cast<std::int64_t>(k), design, chips.sample(k), press.force, 1 / press.rate};
             },
             [&](const Chip& chip, ChipAnswer&& answer) {
                 if (answer.error)
@@ -100,7 +100,7 @@ int main(int argc, char** argv) {
     if (argc < 2 || (std::strcmp(argv[1], "sa1") != 0 && std::strcmp(argv[1], "fa1") != 0))
         return std::fputs("bench-worst sa1|fa1 [CHIPS] [SEED]\n", stderr), 2;
     const std::string model = argv[1], netlist = model + "-circuit";
-    const Chips chips{argc > 2 ? std::atof(argv[2]) : 200, argc > 3 ? std::strtoull(argv[3], nullptr, 10) : 1, false, true};
+    const ChipSpec chips{argc > 2 ? std::atof(argv[2]) : 200, argc > 3 ? std::strtoull(argv[3], nullptr, 10) : 1, false, true};
     const auto press = stimulus("press");
     const TimeWindow phases[] = {{0, 0.25}, {0.25, 0.375}, {0.375, 0.625}, {0.625, 0.75}, {0.75, 1}};
     const auto limits = FiringLimits::about(respond(model, press).spikes, phases, 10e-3);
@@ -136,19 +136,19 @@ int main(int argc, char** argv) {
     }
     std::sort(shares.begin(), shares.end(),
               [](const Share& a, const Share& b) { return std::pair(-a.all(), a.device) < std::pair(-b.all(), b.device); });
-    std::vector<Knob> all;
+    std::vector<NetlistOverride> all;
     for (std::size_t k = 0; k < 8; ++k)
         fmt::print("  {:20} threshold {:+.2f}, current {:+.2f}\n", shares[k].device->name, shares[k].by_threshold, shares[k].by_current);
     for (std::size_t k = 0; k < 3; ++k) {
         const auto& e = *shares[k].device;
-        std::vector<Knob> own;
+        std::vector<NetlistOverride> own;
         for (const char* side : {"w", "l"}) own.push_back({e.name + "." + side, fmt::format("{:.17g}", 2 * e.values.at(side)), e.name});
         all.insert(all.end(), own.begin(), own.end());
         tell(fmt::format("{} four times as large", e.name).c_str(), pressed(design_of(netlist, own), chips, press), limits);
     }
     const auto larger = design_of(netlist, all);
     tell("all three", pressed(larger, chips, press), limits);
-    const auto plain = [&](const std::shared_ptr<const CircuitDesign>& design) {
+    const auto plain = [&](const std::shared_ptr<const CircuitAfferentFactory>& design) {
         return run_chip_alone({0, design, {}, press.force, 1 / press.rate}, {}).spikes.size();
     };
     fmt::print("without mismatch: {} spikes as designed, {} with all three\n", plain(designed), plain(larger));

@@ -40,17 +40,17 @@ bool is_visible(const Cost& cost, Of&& of) {
 std::string power_table(const Cost& cost) {
     Rows rows = {{"power, nW"}};
     for (const auto& [when, p] : cost.power) rows[0].push_back(when == "op" ? ".op" : when);
-    add_row(rows, cost, "delivered", [](const Powers& p) { return p.supplies; });
+    add_row(rows, cost, "delivered", [](const PowerBreakdown& p) { return p.supplies; });
     for (std::size_t k = 0; k < cost.sources.size(); ++k)
-        if (is_visible(cost, [k](const Powers& p) { return p.sources[k]; }))
-            add_row(rows, cost, "  by " + cost.sources[k], [k](const Powers& p) { return p.sources[k]; });
+        if (is_visible(cost, [k](const PowerBreakdown& p) { return p.sources[k]; }))
+            add_row(rows, cost, "  by " + cost.sources[k], [k](const PowerBreakdown& p) { return p.sources[k]; });
     if (cost.has_sensor) {
-        add_row(rows, cost, "  for the sensor current", [](const Powers& p) { return p.sensor; });
-        add_row(rows, cost, "  without the sensor", [](const Powers& p) { return p.own; });
+        add_row(rows, cost, "  for the sensor current", [](const PowerBreakdown& p) { return p.sensor; });
+        add_row(rows, cost, "  without the sensor", [](const PowerBreakdown& p) { return p.without_sensor; });
     }
     for (std::size_t k = 0; k < cost.blocks.size(); ++k)
-        if (is_visible(cost, [k](const Powers& p) { return p.blocks[k]; }))
-            add_row(rows, cost, "dissipated in " + cost.blocks[k].name, [k](const Powers& p) { return p.blocks[k]; });
+        if (is_visible(cost, [k](const PowerBreakdown& p) { return p.blocks[k]; }))
+            add_row(rows, cost, "dissipated in " + cost.blocks[k].name, [k](const PowerBreakdown& p) { return p.blocks[k]; });
     return table(rows);
 }
 
@@ -59,22 +59,22 @@ std::string area_table(const Cost& cost) {
         {"area, um2", "transistors", "elements", "gates", "arrays", "capacitors", "total", "isolated", "leakage, pA", "largest leak"}};
     const auto row = [&](const std::string& name, std::size_t transistors, std::size_t elements, const Area& a) {
         rows.push_back({name, fmt::format("{}", transistors), fmt::format("{}", elements), um2(a.gates), um2(a.arrays), um2(a.capacitors),
-                        um2(a.total()), um2(a.apart)});
+                        um2(a.total()), um2(a.islands)});
     };
     std::size_t transistors = 0, elements = 0;
     for (const auto& b : cost.blocks) {
-        transistors += b.transistors, elements += b.units;
+        transistors += b.transistors, elements += b.unit_transistors;
         if (b.area.total() == 0) continue;
-        row(b.name, b.transistors, b.units, b.area);
-        rows.back().push_back(b.worst_name.empty() ? "" : cell(b.worst.current * 1e12));
+        row(b.name, b.transistors, b.unit_transistors, b.area);
+        rows.back().push_back(b.worst_name.empty() ? "" : cell(b.worst_leak.current * 1e12));
         rows.back().push_back(b.worst_name);
     }
     if (rows.size() == 1) return "";
     row("total", transistors, elements, cost.area());
-    const auto unsized = cost.unsized == 0
+    const auto unsized = cost.unknown_areas == 0
                              ? ""
                              : fmt::format("Not counted: {} device{} of unknown area (resistors, inductors, diodes, charge expressions)\n",
-                                           cost.unsized, cost.unsized == 1 ? "" : "s");
+                                           cost.unknown_areas, cost.unknown_areas == 1 ? "" : "s");
     return "\n" + table(rows) + unsized;
 }
 
@@ -85,24 +85,24 @@ std::string leaks_table(const Cost& cost) {
         return fmt::format("\nNo transistor that is off leaks more than a tenth of the smallest bias current ({}).\n", bias);
     Rows rows = {{"off in .op", "leakage, pA", "%", "into"}};
     for (std::size_t k = 0; k < cost.leaks.size(); ++k)
-        rows.push_back({cost.leaking[k], cell(cost.leaks[k].current * 1e12), cell(100 * cost.leaks[k].current / cost.smallest_bias),
-                        cost.leaks[k].onto});
+        rows.push_back({cost.leaking_names[k], cell(cost.leaks[k].current * 1e12), cell(100 * cost.leaks[k].current / cost.smallest_bias),
+                        cost.leaks[k].capacitor_node});
     return fmt::format(
         "\nTransistors that are off but leak more than a tenth of the smallest bias current ({}), with V_GS = 0 and V_DS = {}:\n{}", bias,
         format_quantity(cost.supply, "V"), table(rows));
 }
 
-const Powers& typical(const Cost& cost) {
+const PowerBreakdown& typical(const Cost& cost) {
     const auto* mean = cost.powers("mean");
     return mean ? *mean : cost.power[0].second;
 }
 
 std::string density(const Cost& cost) {
-    if (!cost.is_receptor) return "";
+    if (!cost.is_afferent) return "";
     const auto& p = typical(cost);
     std::string out = "\nreceptors";
     if (cost.area().total() > 0) out += fmt::format(" per mm2: {:.3g};", cost.per_mm2());
-    if (p.own > 0) out += fmt::format(" per mW: {:.3g}", 1e-3 / p.own);
+    if (p.without_sensor > 0) out += fmt::format(" per mW: {:.3g}", 1e-3 / p.without_sensor);
     if (cost.has_sensor && p.supplies > 0) out += fmt::format(", {:.3g} with the sensor current", 1e-3 / p.supplies);
     return out + (cost.powers("mean") ? " (mean power)\n" : " (power in .op)\n") + std::string(published_silicon);
 }

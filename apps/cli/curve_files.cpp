@@ -20,11 +20,11 @@ using namespace circuit;
 void CurveFiles::next(const Variant& variant) {
     title_ = variant.circuit->title, label_ = variant.label;
     plots_ = 0, file_ = nullptr;
-    analyses_ = static_cast<std::size_t>(std::count_if(variant.circuit->commands.begin(), variant.circuit->commands.end(),
-                                                       [](const Command& c) { return analysis_of(c.name) != nullptr; }));
+    analyses_ = static_cast<std::size_t>(std::count_if(variant.circuit->directives.begin(), variant.circuit->directives.end(),
+                                                       [](const Directive& c) { return find_analysis(c.name) != nullptr; }));
 }
 
-Result<void> CurveFiles::whole(std::span<const Plot> plots) {
+Result<void> CurveFiles::add_plots(std::span<const Plot> plots) {
     has_whole_ = true;
     if (csv_) {
         for (const auto& plot : plots)
@@ -53,12 +53,12 @@ Result<void> CurveFiles::begin(const Plot& head) {
     if (csv_) return {};
     Plot named = head;
     if (!label_.empty()) named.name += fmt::format(" ({})", label_);
-    const auto text = raw_head(title_, named, !words_.ascii);
-    count_at_ = file_->size() + text.count_at;
+    const auto text = raw_header(title_, named, !words_.ascii);
+    count_at_ = file_->size() + text.count_offset;
     return file_->write(text.text);
 }
 
-Result<void> CurveFiles::point(std::span<const double> row) {
+Result<void> CurveFiles::add_point(std::span<const double> row) {
     if (csv_ && several_) rows_ += label_ + ",";
     csv_ ? append_csv_row(rows_, row) : append_raw_point(rows_, points_, row, !words_.ascii);
     ++points_, time_ = row[0];
@@ -76,7 +76,7 @@ Result<void> CurveFiles::write_out() {
 
 Result<void> CurveFiles::end() {
     if (auto ok = write_out(); !ok || csv_) return ok;
-    return file_->write(raw_tail(!words_.ascii));
+    return file_->write(raw_footer(!words_.ascii));
 }
 
 Result<void> CurveFiles::finish() {

@@ -3,9 +3,9 @@
 #include <chrono>
 #include <deque>
 
-#include "circuit/raw.hpp"
-#include "circuit/run.hpp"
-#include "circuit/variants.hpp"
+#include "circuit/plot_formats.hpp"
+#include "circuit/run_directives.hpp"
+#include "circuit/netlist_variants.hpp"
 #include "io/output_file.hpp"
 #include "io/output_check.hpp"
 #include "verbs.hpp"
@@ -43,9 +43,9 @@ public:
     /// Checks before the run that the files of a netlist with this many analyses may be written.
     Result<void> check(std::size_t analysis_count) const;
     void next(const circuit::Variant&);
-    Result<void> whole(std::span<const circuit::Plot>) override;
+    Result<void> add_plots(std::span<const circuit::Plot>) override;
     Result<void> begin(const circuit::Plot& head) override;
-    Result<void> point(std::span<const double> row) override;
+    Result<void> add_point(std::span<const double> row) override;
     Result<void> end() override;
 
     /// Renames the finished files to their final names.

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "circuit/carried.hpp"
-#include "circuit/export/ngspice.hpp"
+#include "circuit/embedded_netlists.hpp"
+#include "circuit/export/ngspice_deck.hpp"
 #include "io/output_check.hpp"
 #include "own_files.hpp"
 #include "printable.hpp"
@@ -32,7 +32,7 @@ Result<void> export_netlist(const ExportWords& words, const Common& common) {
         if (auto ok = outputs.check_file(words.out, is_own_deck); !ok) return ok;
     auto circuit = netlist->elaborate();
     if (!circuit) return circuit.error();
-    auto remarks = circuit->remarks;
+    auto remarks = circuit->warnings;
     const auto deck = ngspice_deck(std::make_shared<const Circuit>(std::move(*circuit)));
     if (!deck) return deck.error();
     remarks.insert(remarks.end(), deck->left_out.begin(), deck->left_out.end());

@@ -54,7 +54,7 @@ std::vector<Entry> afferent_entries() {
                            *plan->parameters,
                            {a.aliases.begin(), a.aliases.end()}});
     }
-    for (const auto& c : circuit::carried_netlists)
+    for (const auto& c : circuit::embedded_netlists)
         if (const auto plan = plan_any_afferent(c.name, {}))
             entries.push_back(
                 {plan->name,
@@ -79,9 +79,9 @@ std::vector<Section> circuit_sections() {
     const CatalogEntry size{"m", "transistor size: the parameters of an M line", "choice: 1 um / 1 um",
                     parameters_of<UicmInstance>(UicmInstance::fields)};
     std::vector<Entry> elements, analysis_entries;
-    for (const auto& d : circuit::devices) elements.push_back({std::string(1, d.letter), "", std::string(d.sentence), "", {}, {}});
+    for (const auto& d : circuit::devices) elements.push_back({std::string(1, d.letter), "", std::string(d.description), "", {}, {}});
     for (const auto& a : circuit::analyses)
-        analysis_entries.push_back({"." + std::string(a.word), std::string(a.usage), std::string(a.sentence), "", {}, {}, "usage"});
+        analysis_entries.push_back({"." + std::string(a.name), std::string(a.usage), std::string(a.description), "", {}, {}, "usage"});
     return {{"devices", elements}, {"models", entries_of({card, size})}, {"analyses", analysis_entries}};
 }
 

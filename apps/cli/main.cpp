@@ -236,7 +236,7 @@ void add_study(CLI::App& app, StudyWords& w, Common& common) {
 void add_run(CLI::App& app, RunWords& w, Common& common) {
     auto& verb = *app.add_subcommand("run", "run the analyses of a netlist -> .raw, CSV, printed measurements");
     std::string known;
-    for (const auto& a : circuit::analyses) known += fmt::format("\n  {}\n      {}", a.usage, a.sentence);
+    for (const auto& a : circuit::analyses) known += fmt::format("\n  {}\n      {}", a.usage, a.description);
     verb.footer(
         "A netlist is SPICE: a title, elements (R C L V I E F G H B D M X), .model, .subckt, .param, .include,\n"
         ".lib, .options ... and the analyses to run:" +

@@ -1,13 +1,13 @@
 #pragma once
 // Converts the netlist options of respond and run to overrides and probe names.
 
-#include "circuit/knobs.hpp"
+#include "circuit/netlist_overrides.hpp"
 #include "verbs.hpp"
 
 namespace corpuscle {
 
 /// --supply, --temp, --corner, --mismatch.
-std::vector<circuit::Knob> knobs_of(const NetlistWords&);
+std::vector<circuit::NetlistOverride> knobs_of(const NetlistWords&);
 
 /// The probes of all --trace options, one string each.
 std::vector<std::string> traces_of(const NetlistWords&);

@@ -8,10 +8,10 @@
 
 #include "budget_words.hpp"
 #include "circuit/analyses.hpp"
-#include "circuit/cost/accountant.hpp"
-#include "circuit/run.hpp"
-#include "circuit/traced.hpp"
-#include "circuit/variants.hpp"
+#include "circuit/cost/cost_meter.hpp"
+#include "circuit/run_directives.hpp"
+#include "circuit/resolve_probe.hpp"
+#include "circuit/netlist_variants.hpp"
 #include "curve_files.hpp"
 #include "netlist_words.hpp"
 #include "printable.hpp"
@@ -36,13 +36,13 @@ Json column(const Plot& plot, const Curve& curve) {
 
 /// Collects saved curves for the JSON document. It is not used if the curves go into a file.
 class CollectedPlots final : public CurveSink {
-    KeptPlot kept_;
+    PlotRecorder kept_;
 
 public:
     std::vector<Plot> plots;
-    Result<void> whole(std::span<const Plot> more) override { return plots.insert(plots.end(), more.begin(), more.end()), Result<void>(); }
+    Result<void> add_plots(std::span<const Plot> more) override { return plots.insert(plots.end(), more.begin(), more.end()), Result<void>(); }
     Result<void> begin(const Plot& head) override { return kept_.begin(head); }
-    Result<void> point(std::span<const double> row) override { return kept_.point(row); }
+    Result<void> add_point(std::span<const double> row) override { return kept_.add_point(row); }
     Result<void> end() override { return plots.push_back(std::move(kept_.plot)), Result<void>(); }
 };
 
@@ -63,19 +63,19 @@ Json document_of(const VariantResult& result) {
         plots.push_back({{"plot", plot.name}, {"complex", plot.is_complex}, {"curves", curves}});
     }
     for (const auto& a : outcome.analyses) {
-        Json one = {{"analysis", a.command->name}, {"points", a.points}};
-        for (const auto& [quantity, count] : a.findings.work) one[quantity] = static_cast<std::int64_t>(count);
+        Json one = {{"analysis", a.directive->name}, {"points", a.point_count}};
+        for (const auto& [quantity, count] : a.result.work) one[quantity] = static_cast<std::int64_t>(count);
         analyses.push_back(one);
     }
     for (const auto& [name, value] : outcome.numbers) numbers[name] = json_number(value);
     for (const auto& e : outcome.expectations)
         expectations.push_back(
-            {{"what", e.what}, {"found", json_number(e.found)}, {"expected", e.expected}, {"tolerance", e.tolerance}, {"holds", e.held}});
-    for (const auto& r : outcome.remarks) remarks.push_back(r.text());
+            {{"what", e.name}, {"found", json_number(e.actual)}, {"expected", e.expected}, {"tolerance", e.tolerance}, {"holds", e.is_met}});
+    for (const auto& r : outcome.warnings) remarks.push_back(r.text());
     Json out = {{"title", result.variant.circuit->title}, {"plots", plots},     {"analyses", analyses}, {"numbers", numbers},
                 {"expectations", expectations},           {"warnings", remarks}};
     for (const auto& a : outcome.analyses)
-        if (a.findings.spikes) out["spikes"].push_back(*a.findings.spikes);  // one list per .tran
+        if (a.result.spikes) out["spikes"].push_back(*a.result.spikes);  // one list per .tran
     if (result.cost) out["budget"] = corpuscle::document_of(*result.cost);
     return out;
 }
@@ -84,15 +84,15 @@ void print_numbers(const RunOutcome& outcome) {
     for (const auto& [name, value] : outcome.numbers)
         std::isnan(value) ? fmt::print("{:20} = failed\n", printable(name)) : fmt::print("{:20} = {:.6e}\n", printable(name), value);
     for (const auto& e : outcome.expectations)
-        fmt::print("{:20} = {:.6e}, expected {:g} within {:g}: {}\n", printable(e.what), e.found, e.expected, e.tolerance,
-                   e.held ? "holds" : "does not hold");
+        fmt::print("{:20} = {:.6e}, expected {:g} within {:g}: {}\n", printable(e.name), e.actual, e.expected, e.tolerance,
+                   e.is_met ? "holds" : "does not hold");
 }
 
 void print(const VariantResult& result) {
     for (const auto& a : result.outcome.analyses) {
-        fmt::print("{}.{}: {} point{}\n", &a == &result.outcome.analyses[0] ? "" : "\n", a.command->name, a.points,
-                   a.points == 1 ? "" : "s");
-        show(a.findings.table + a.printed);
+        fmt::print("{}.{}: {} point{}\n", &a == &result.outcome.analyses[0] ? "" : "\n", a.directive->name, a.point_count,
+                   a.point_count == 1 ? "" : "s");
+        show(a.result.table + a.printed_tables);
     }
     if (!result.outcome.numbers.empty() || !result.outcome.expectations.empty()) fmt::print("\n");
     print_numbers(result.outcome);
@@ -104,7 +104,7 @@ void print_line(const VariantResult& result) {
     fmt::print("{}:", printable(result.variant.label));
     for (const auto& [name, value] : result.outcome.numbers) fmt::print("  {} = {:.6e}", printable(name), value);
     fmt::print("{}\n", result.cost ? budget_line(*result.cost) : "");
-    for (const auto& a : result.outcome.analyses) show(a.printed);
+    for (const auto& a : result.outcome.analyses) show(a.printed_tables);
 }
 
 /// Statistics of one measurement over the chips of a .mc.
@@ -136,13 +136,13 @@ public:
         : common_(common), has_steps_(has_steps), is_monte_carlo_(is_monte_carlo) {}
 
     void add(const VariantResult& result) {
-        for (const auto& r : result.outcome.remarks) tell_warning(r.text());
+        for (const auto& r : result.outcome.warnings) tell_warning(r.text());
         for (const auto& e : result.outcome.expectations)
-            if (!e.held && !failed_expectation)
+            if (!e.is_met && !failed_expectation)
                 failed_expectation = bad_input(
                     fmt::format("{}{} is {:g}, not {:g} within {:g}", result.variant.label.empty() ? "" : result.variant.label + ": ",
-                                e.what, e.found, e.expected, e.tolerance),
-                    e.place);
+                                e.name, e.actual, e.expected, e.tolerance),
+                    e.location);
         add_stats(result.outcome.numbers);
         if (common_.json) {
             auto document = document_of(result);
@@ -189,7 +189,7 @@ class VariantProgress {
 
 public:
     explicit VariantProgress(const Circuit& circuit) {
-        for (const auto& c : circuit.commands) analyses_ += analysis_of(c.name) != nullptr, transients_ += c.name == "tran";
+        for (const auto& c : circuit.directives) analyses_ += find_analysis(c.name) != nullptr, transients_ += c.name == "tran";
     }
     double of(std::string_view analysis, double fraction) {
         if (transients_ > 0 && analysis != "tran") return static_cast<double>(done_) / static_cast<double>(transients_);
@@ -202,7 +202,7 @@ public:
 
 std::size_t analyses_of(const Circuit& circuit) {
     return static_cast<std::size_t>(
-        std::count_if(circuit.commands.begin(), circuit.commands.end(), [](const Command& c) { return analysis_of(c.name) != nullptr; }));
+        std::count_if(circuit.directives.begin(), circuit.directives.end(), [](const Directive& c) { return find_analysis(c.name) != nullptr; }));
 }
 
 /// Creates the analysis context of a variant, or reuses the last one if the circuit is the same.
@@ -213,33 +213,33 @@ Result<void> prepare(std::unique_ptr<TestBench>& context, const Variant& variant
         context = std::move(*made);
     }
     context->brief = brief;
-    if (variant.draw) context->draw(*variant.draw);
+    if (variant.sample) context->draw(*variant.sample);
     return {};
 }
 
-Result<void> run_all(Variants& variants, const RunWords& w, const Common& common, VariantPrinter& printer, CurveFiles& files) {
+Result<void> run_all(NetlistVariants& variants, const RunWords& w, const Common& common, VariantPrinter& printer, CurveFiles& files) {
     const auto count = variants.count();
     Progress progress(common.quiet);
     std::unique_ptr<TestBench> context;
     for (std::size_t k = 0; k < count; ++k) {
         auto variant = variants.at(k);
         if (!variant) return variant.error();
-        if (auto ok = prepare(context, *variant, k > 0 || variants.draws()); !ok) return ok;
+        if (auto ok = prepare(context, *variant, k > 0 || variants.has_chips()); !ok) return ok;
         if (k == 0)
             if (auto ok = files.check(analyses_of(*variant->circuit)); !ok) return ok;
         VariantProgress variant_progress(*variant->circuit);
         CollectedPlots collected;
-        RunOrders options;
-        options.keep = false, options.print = !common.json && !common.quiet;
-        if (common.json) options.curves = &collected;
-        if (!w.out.empty()) options.curves = &files, files.next(*variant);
-        options.stop = [&](std::string_view analysis, double fraction) {
+        RunOptions options;
+        options.keep_points = false, options.print_tables = !common.json && !common.quiet;
+        if (common.json) options.curve_sink = &collected;
+        if (!w.out.empty()) options.curve_sink = &files, files.next(*variant);
+        options.should_stop = [&](std::string_view analysis, double fraction) {
             progress.at((static_cast<double>(k) + variant_progress.of(analysis, fraction)) / static_cast<double>(count));
             return interrupted();
         };
-        Accountant accountant(*context);
-        const auto watched = w.budget ? accountant.watch(options) : Result<void>();
-        auto found = watched ? circuit::run(*context, options) : watched.error();
+        CostMeter accountant(*context);
+        const auto watched = w.budget ? accountant.attach(options) : Result<void>();
+        auto found = watched ? circuit::run_directives(*context, options) : watched.error();
         if (interrupted()) return Error{ErrorCode::interrupted, "interrupted"};
         progress.at(static_cast<double>(k + 1) / static_cast<double>(count));
         if (!found && found.error().code == ErrorCode::not_converged && count > 1) {
@@ -254,7 +254,7 @@ Result<void> run_all(Variants& variants, const RunWords& w, const Common& common
         auto plots = w.out.empty() ? std::move(collected.plots) : found->plots();
         VariantResult result{std::move(*variant), std::move(*found), std::move(plots)};
         if (w.budget) {
-            auto cost = accountant.found();
+            auto cost = accountant.cost();
             if (!cost) return cost.error();
             result.cost = std::move(*cost);
         }
@@ -273,11 +273,11 @@ void keep_partial_files(CurveFiles& files) {
 }
 
 /// Parses an override of --set: "summer.N3B=8x4".
-Result<Knob> parse_override(const std::string& text) {
+Result<NetlistOverride> parse_override(const std::string& text) {
     const auto equals = text.find('=');
     if (equals == 0 || equals == std::string::npos || equals + 1 == text.size())
         return bad_usage(fmt::format("--set {}: write NAME=VALUE, such as 'C_u=4pF'", text));
-    return Knob{text.substr(0, equals), text.substr(equals + 1), "--set " + text};
+    return NetlistOverride{text.substr(0, equals), text.substr(equals + 1), "--set " + text};
 }
 
 /// The netlist with its overrides and with the probes of --trace in addition to its own.
@@ -288,28 +288,28 @@ Result<Netlist> netlist_of(const RunWords& w) {
         if (!parsed) return parsed.error();
         overrides.push_back(std::move(*parsed));
     }
-    auto netlist = tuned(w.netlist, overrides);
+    auto netlist = apply_overrides(w.netlist, overrides);
     if (!netlist || w.netlists.traces.empty()) return netlist;
     const auto circuit = netlist->elaborate();
     if (!circuit) return circuit.error();
-    auto changes = netlist->changes();
+    auto changes = netlist->overrides();
     for (const auto& probe : traces_of(w.netlists)) {
-        const auto found = traced(*circuit, probe);
+        const auto found = resolve_probe(*circuit, probe);
         if (!found) return found.error();
         if (!*found)
-            return bad_input(fmt::format("--trace {}: {} has no such node or device{}", probe, w.netlist, meant_trace(*circuit, probe)));
+            return bad_input(fmt::format("--trace {}: {} has no such node or device{}", probe, w.netlist, suggest_probe(*circuit, probe)));
         changes.saved.push_back(**found);
     }
-    return netlist->with(std::move(changes));
+    return netlist->with_overrides(std::move(changes));
 }
 
 Result<void> run_netlist(const RunWords& w, const Common& common) {
     const auto netlist = netlist_of(w);
     if (!netlist) return netlist.error();
-    auto variants = Variants::of(*netlist);
+    auto variants = NetlistVariants::create(*netlist);
     if (!variants) return variants.error();
     const bool has_steps = variants->count() > 1;
-    VariantPrinter printer(common, has_steps, variants->draws());
+    VariantPrinter printer(common, has_steps, variants->has_chips());
     CurveFiles files(w, has_steps, common.overwrite);
     const auto done = run_all(*variants, w, common, printer, files);
     printer.finish();

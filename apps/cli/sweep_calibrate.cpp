@@ -4,7 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "circuit/variants.hpp"
+#include "circuit/netlist_variants.hpp"
 #include "study/sweep/calibration_told.hpp"
 #include "study/trains.hpp"
 #include "terminal.hpp"
@@ -66,9 +66,9 @@ Result<void> set_target(ChipCalibration& calibration, const std::string& model, 
 
 Result<std::vector<CalibrationTold>> run_calibrations(ChipCalibration& calibration, const std::vector<Trim>& trims,
                                                       const SweepCalibrateWords& words) {
-    const circuit::Chips sampler{static_cast<double>(words.units), words.seed};
+    const circuit::ChipSpec sampler{static_cast<double>(words.units), words.seed};
     std::vector<circuit::Draw> chips;
-    for (std::int64_t k = 0; k < words.units; ++k) chips.push_back(sampler.draw(static_cast<std::uint64_t>(k)));
+    for (std::int64_t k = 0; k < words.units; ++k) chips.push_back(sampler.sample(static_cast<std::uint64_t>(k)));
     std::vector<std::vector<Trim>> sets = {trims};
     if (words.apart && trims.size() > 1)
         for (const auto& t : trims) sets.push_back({t});

@@ -5,18 +5,18 @@
 
 namespace corpuscle::circuit {
 
-Result<Findings> analyse_op(TestBench&, const Command&);
-Result<Findings> analyse_dc(TestBench&, const Command&);
-Result<Findings> analyse_ac(TestBench&, const Command&);
-Result<Findings> analyse_noise(TestBench&, const Command&);
-Result<Findings> analyse_tran(TestBench&, const Command&);
-Result<Findings> analyse_tf(TestBench&, const Command&);
-Result<Findings> analyse_sens(TestBench&, const Command&);
+Result<Findings> analyse_op(TestBench&, const Directive&);
+Result<Findings> analyse_dc(TestBench&, const Directive&);
+Result<Findings> analyse_ac(TestBench&, const Directive&);
+Result<Findings> analyse_noise(TestBench&, const Directive&);
+Result<Findings> analyse_tran(TestBench&, const Directive&);
+Result<Findings> analyse_tf(TestBench&, const Directive&);
+Result<Findings> analyse_sens(TestBench&, const Directive&);
 
 /// An analysis: the name of its directive, its syntax, a description for help, and its function.
 struct Analysis {
-    std::string_view word, usage, sentence;
-    Result<Findings> (*run)(TestBench&, const Command&);
+    std::string_view name, usage, description;
+    Result<Findings> (*run)(TestBench&, const Directive&);
 };
 
 inline constexpr Analysis analyses[] = {
@@ -32,9 +32,9 @@ inline constexpr Analysis analyses[] = {
 };
 
 /// The analysis of this name; null if there is none.
-inline const Analysis* analysis_of(std::string_view name) {
+inline const Analysis* find_analysis(std::string_view name) {
     for (const auto& a : analyses)
-        if (a.word == name) return &a;
+        if (a.name == name) return &a;
     return nullptr;
 }
 

@@ -11,13 +11,13 @@ namespace corpuscle::circuit {
 /// A kind of device, chosen by the first letter of an element's name.
 struct DeviceKind {
     char letter;
-    std::string_view sentence;
+    std::string_view description;
     Result<std::unique_ptr<Device>> (*make)(const Element&, Setup&);
     /// At 0 Hz. conducts: the current depends, or may depend, on the voltage across the device. fixes_voltage: the device fixes the
     /// voltage between its first two terminals.
-    bool conducts, fixes_voltage;
+    bool conducts_dc, fixes_voltage;
     /// Makes the batch that evaluates devices of this kind together. If null, they are evaluated one by one.
-    Result<std::unique_ptr<Bank>> (*bank)() = nullptr;
+    Result<std::unique_ptr<Bank>> (*make_batch)() = nullptr;
 };
 
 inline constexpr DeviceKind devices[] = {
@@ -36,24 +36,24 @@ inline constexpr DeviceKind devices[] = {
 };
 
 /// The device of this letter; null if there is none.
-inline const DeviceKind* device_of(char letter) {
+inline const DeviceKind* find_device_kind(char letter) {
     for (const auto& d : devices)
         if (d.letter == letter) return &d;
     return nullptr;
 }
 
 /// True if the current through the element is an unknown of the system.
-inline bool has_branch(const Element& e) {
+inline bool has_branch_current(const Element& e) {
     switch (e.letter) {
         case 'v':
         case 'l':
         case 'h':
             return true;
         case 'e':
-            return !e.formula || e.formula_is_voltage;
+            return !e.expression || e.expression_is_voltage;
         case 'b':
         case 'g':
-            return e.formula && e.formula_is_voltage;
+            return e.expression && e.expression_is_voltage;
         default:
             return false;
     }

@@ -5,17 +5,17 @@
 namespace corpuscle::circuit {
 namespace {
 
-Result<SpikeOutput> parse_spike(const System& system, const Command& c) {
+Result<SpikeOutput> parse_spike(const System& system, const Directive& c) {
     const auto of = wanted_of(system, c, 0);
     if (!of) return of.error();
     if (c.words.size() < 2)
         return error_at(c, 1, fmt::format(".spike: {} needs a level to cross: .spike v(NODE) LEVEL [rise|fall]", c.words[0]));
     const auto level = number_of(c, 1, "the level to cross");
     if (!level) return level.error();
-    SpikeOutput out{c.words[0], *of, *level, true, c.place};
+    SpikeOutput out{c.words[0], *of, *level, true, c.location};
     if (c.words.size() > 2) {
         if (c.words[2] != "rise" && c.words[2] != "fall") return error_at(c, 2, fmt::format(".spike: '{}' must be rise or fall", c.words[2]));
-        out.upwards = c.words[2] == "rise";
+        out.is_rising = c.words[2] == "rise";
     }
     if (c.words.size() > 3)
         return error_at(c, 3, fmt::format(".spike: unexpected '{}'; expected .spike v(NODE) LEVEL [rise|fall]", c.words[3]));
@@ -24,11 +24,11 @@ Result<SpikeOutput> parse_spike(const System& system, const Command& c) {
 
 }  // namespace
 
-Result<std::optional<SpikeOutput>> spike_output(const System& system) {
+Result<std::optional<SpikeOutput>> read_spike_output(const System& system) {
     std::optional<SpikeOutput> out;
-    for (const auto& c : system.circuit().commands) {
+    for (const auto& c : system.circuit().directives) {
         if (c.name != "spike") continue;
-        if (out) return bad_input(fmt::format(".spike: only one is allowed; the first is in line {}", out->place.line), c.place);
+        if (out) return bad_input(fmt::format(".spike: only one is allowed; the first is in line {}", out->location.line), c.location);
         auto one = parse_spike(system, c);
         if (!one) return one.error();
         out = std::move(*one);

@@ -12,16 +12,16 @@ namespace corpuscle::circuit {
 /// or downwards.
 struct SpikeOutput {
     std::string text;  ///< "v(out)"
-    Wanted of;
+    Wanted unknowns;
     double level = 0;
-    bool upwards = true;
-    SourceLocation place;
+    bool is_rising = true;
+    SourceLocation location;
 
     /// The time of a spike within the last step of the transient, s; nothing if there is none.
-    std::optional<double> within(const Transient& t) const { return t.crossing(of.plus, of.minus, level, upwards); }
+    std::optional<double> find_spike(const Transient& t) const { return t.crossing(unknowns.plus, unknowns.minus, level, is_rising); }
 };
 
 /// Reads the .spike directive; nothing if there is none. A second one is an error.
-Result<std::optional<SpikeOutput>> spike_output(const System&);
+Result<std::optional<SpikeOutput>> read_spike_output(const System&);
 
 }  // namespace corpuscle::circuit

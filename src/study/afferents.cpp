@@ -4,15 +4,15 @@
 #include <deque>
 #include <limits>
 
-#include "circuit/afferent.hpp"
+#include "circuit/circuit_afferent.hpp"
 #include "circuit/device/uicm_card.hpp"
-#include "circuit/traced.hpp"
+#include "circuit/resolve_probe.hpp"
 #include "signal/ascii_text.hpp"
 
 namespace corpuscle {
 namespace {
 
-using circuit::CircuitDesign;
+using circuit::CircuitAfferentFactory;
 
 /// Parameters, and the texts that their rows refer to.
 struct NetlistParameters {
@@ -31,7 +31,7 @@ struct NetlistParameters {
 
 /// A device's parameter as set in a circuit, or its default; "" means its main value.
 double number_of(const circuit::Circuit& c, std::string_view element, std::string_view name) {
-    const int k = c.element(element);
+    const int k = c.find_element(element);
     if (k < 0) return 0;
     const auto& e = c.elements[static_cast<std::size_t>(k)];
     if (const auto found = e.values.find(name); found != e.values.end()) return found->second;
@@ -43,13 +43,13 @@ double number_of(const circuit::Circuit& c, std::string_view element, std::strin
 }
 
 /// Lists a netlist's parameters, then its other settings. The defaults are the netlist's own values.
-Result<void> describe_parameters(AfferentPlan& plan, const CircuitDesign& design) {
+Result<void> describe_parameters(AfferentPlan& plan, const CircuitAfferentFactory& design) {
     auto described = std::make_shared<NetlistParameters>();
-    const auto& changes = design.netlist->changes();
-    const auto original = design.netlist->with({}).elaborate();
+    const auto& changes = design.netlist->overrides();
+    const auto original = design.netlist->with_overrides({}).elaborate();
     if (!original) return original.error();
     for (const auto& [name, written] : design.netlist->parameters())
-        if (written.own || changes.parameters.contains(name))
+        if (written.is_own || changes.parameters.contains(name))
             described->add(name, fmt::format(".param {}={}", name, written.text), original->parameters.at(name),
                            design.circuit->parameters.at(name), changes.parameters.contains(name), false);
     for (const auto& [element, numbers] : changes.numbers)
@@ -57,9 +57,9 @@ Result<void> describe_parameters(AfferentPlan& plan, const CircuitDesign& design
             described->add(name.empty() ? element : element + "." + name, "parameter of one device", number_of(*original, element, name),
                            value, true);
     if (changes.temperature) described->add("temp", "temperature, degrees Celsius", original->temperature, *changes.temperature, true);
-    if (changes.mismatch)
-        described->add("mismatch", "seed of the chip's device mismatch", static_cast<double>(*changes.mismatch),
-                       static_cast<double>(*changes.mismatch), true);
+    if (changes.mismatch_seed)
+        described->add("mismatch", "seed of the chip's device mismatch", static_cast<double>(*changes.mismatch_seed),
+                       static_cast<double>(*changes.mismatch_seed), true);
     if (changes.chip > 0) described->add("chip", "index of the chip for this seed", 0, static_cast<double>(changes.chip), true);
     plan.values = described->values;
     plan.parameters = {described, &described->parameters};
@@ -71,18 +71,18 @@ Result<std::vector<std::string>> probes_in(const circuit::Circuit& circuit, cons
     options.traced.resize(options.traces.size());
     std::vector<std::string> out;
     for (std::size_t k = 0; k < options.traces.size(); ++k) {
-        const auto found = circuit::traced(circuit, options.traces[k]);
+        const auto found = circuit::resolve_probe(circuit, options.traces[k]);
         if (!found) return found.error();
         if (*found)
             options.traced[k] = true, out.push_back(**found);
         else if (options.hint.empty())
-            options.hint = meant_trace(circuit, options.traces[k]);
+            options.hint = suggest_probe(circuit, options.traces[k]);
     }
     return out;
 }
 
 Result<AfferentPlan> plan_netlist(std::string_view text, std::span<const ParameterOverride> settings, const OfNetlists& options) {
-    const auto* embedded = circuit::carried_netlist(text);
+    const auto* embedded = circuit::find_embedded_netlist(text);
     const std::string name(embedded ? embedded->name : text);
     auto overrides = options.knobs;
     for (const auto& setting : settings) {
@@ -92,18 +92,18 @@ Result<AfferentPlan> plan_netlist(std::string_view text, std::span<const Paramet
         overrides.push_back({*override_name, setting.value, "--set " + setting.text()});
     }
     options.used = true;
-    auto netlist = circuit::tuned(name, overrides);
+    auto netlist = circuit::apply_overrides(name, overrides);
     if (!netlist) return netlist.error();
     if (!options.traces.empty()) {
         const auto circuit = netlist->elaborate();
         if (!circuit) return circuit.error();
         auto traces = probes_in(*circuit, options);
         if (!traces) return traces.error();
-        auto changes = netlist->changes();
-        changes.saved_alone = !traces->empty(), changes.saved = std::move(*traces);
-        netlist = netlist->with(std::move(changes));
+        auto changes = netlist->overrides();
+        changes.replaces_saved = !traces->empty(), changes.saved = std::move(*traces);
+        netlist = netlist->with_overrides(std::move(changes));
     }
-    const auto design = CircuitDesign::of(*netlist);
+    const auto design = CircuitAfferentFactory::create(*netlist);
     if (!design) return design.error();
     AfferentPlan plan;
     plan.name = name;
@@ -117,10 +117,10 @@ Result<AfferentPlan> plan_netlist(std::string_view text, std::span<const Paramet
 Error unknown_afferent(std::string_view text, Error error) {
     std::vector<std::string_view> names;
     for (const auto& a : named_afferents()) names.push_back(a.name);
-    for (const auto& c : circuit::carried_netlists) names.push_back(c.name);
+    for (const auto& c : circuit::embedded_netlists) names.push_back(c.name);
     const auto lowercase = lower(text);
     const auto hint = did_you_mean(lowercase, names);
-    for (const auto& c : circuit::carried_netlists)
+    for (const auto& c : circuit::embedded_netlists)
         if (text.find('+') == std::string_view::npos && hint.find(fmt::format("'{}'", c.name)) != std::string::npos)
             error.message = fmt::format("unknown afferent '{}'{} ('corpuscle list' shows them all)", text, hint);
     return error;
@@ -132,7 +132,7 @@ std::optional<std::string> knob_named(const ParameterOverride& setting, std::str
     const auto full_name = setting.target + "." + setting.parameter;
     if (full_name.size() <= netlist.size() + 1 || full_name[netlist.size()] != '.') return {};
     const auto own = std::string_view(full_name).substr(0, netlist.size());
-    const bool same = circuit::carried_netlist(netlist) ? equal_ignoring_case(own, netlist) : own == netlist;
+    const bool same = circuit::find_embedded_netlist(netlist) ? equal_ignoring_case(own, netlist) : own == netlist;
     return same ? std::optional(full_name.substr(netlist.size() + 1)) : std::nullopt;
 }
 
@@ -143,13 +143,13 @@ Result<AfferentPlan> plan_any_afferent(std::string_view text, std::span<const Pa
 }
 
 Result<void> remake(AfferentPlan& copy, const AfferentPlan& original) {
-    const auto design = std::dynamic_pointer_cast<const CircuitDesign>(original.factory);
+    const auto design = std::dynamic_pointer_cast<const CircuitAfferentFactory>(original.factory);
     if (!design || copy.values == original.values) return {};
-    auto changes = design->netlist->changes();
+    auto changes = design->netlist->overrides();
     for (std::size_t k = 0; k < copy.values.size(); ++k)
         if (copy.values[k] != original.values[k])
             changes.parameters.insert_or_assign(std::string((*copy.parameters)[k].info.name), copy.values[k]);
-    const auto made = CircuitDesign::of(design->netlist->with(std::move(changes)));
+    const auto made = CircuitAfferentFactory::create(design->netlist->with_overrides(std::move(changes)));
     if (!made) {
         auto error = made.error();
         error.message = fmt::format("{}: {}", copy.name, error.message);

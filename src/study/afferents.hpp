@@ -1,19 +1,19 @@
 #pragma once
 // Finds afferents of every kind by name: entries of the catalogue and netlists.
 
-#include "circuit/knobs.hpp"
+#include "circuit/netlist_overrides.hpp"
 #include "model/catalog.hpp"
 
 namespace corpuscle {
 
 /// True if the text names a netlist: an embedded one or a path. Catalogue names contain neither a dot nor a slash.
 inline bool names_netlist(std::string_view text) {
-    return circuit::carried_netlist(text) != nullptr || text.find_first_of("./") != std::string_view::npos;
+    return circuit::find_embedded_netlist(text) != nullptr || text.find_first_of("./") != std::string_view::npos;
 }
 
 /// Options for every netlist of a run.
 struct OfNetlists {
-    std::vector<circuit::Knob> knobs = {};
+    std::vector<circuit::NetlistOverride> knobs = {};
     std::vector<std::string> traces = {};   ///< recorded instead of what .save names, by each netlist that has such a quantity
     mutable std::vector<bool> traced = {};  ///< for each entry of the line above: true if some netlist has it
     mutable std::string hint = {};          ///< suggestion for an entry that no netlist has

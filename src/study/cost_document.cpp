@@ -3,8 +3,8 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
-#include "circuit/afferent.hpp"
-#include "circuit/trace.hpp"
+#include "circuit/circuit_afferent.hpp"
+#include "circuit/force_waveform.hpp"
 
 namespace corpuscle {
 namespace {
@@ -13,11 +13,11 @@ using Json = nlohmann::ordered_json;
 
 Json document_of(const circuit::Area& a) {
     return {
-        {"gates_m2", a.gates}, {"arrays_m2", a.arrays}, {"apart_m2", a.apart}, {"capacitors_m2", a.capacitors}, {"total_m2", a.total()}};
+        {"gates_m2", a.gates}, {"arrays_m2", a.arrays}, {"apart_m2", a.islands}, {"capacitors_m2", a.capacitors}, {"total_m2", a.total()}};
 }
 
-Json document_of(const circuit::Cost& cost, const circuit::Powers& p) {
-    Json out = {{"delivered_W", p.supplies}, {"sensor_W", p.sensor}, {"own_W", p.own}};
+Json document_of(const circuit::Cost& cost, const circuit::PowerBreakdown& p) {
+    Json out = {{"delivered_W", p.supplies}, {"sensor_W", p.sensor}, {"own_W", p.without_sensor}};
     if (p.blocks.empty()) return out;  // means over a run have no blocks
     Json sources = Json::object(), blocks = Json::object();
     for (std::size_t k = 0; k < p.sources.size(); ++k) sources[cost.sources[k]] = p.sources[k];
@@ -27,10 +27,10 @@ Json document_of(const circuit::Cost& cost, const circuit::Powers& p) {
 }
 
 /// The cost at rest under this force.
-Result<circuit::Cost> cost_under(const circuit::CircuitDesign& design, double force) {
+Result<circuit::Cost> cost_under(const circuit::CircuitAfferentFactory& design, double force) {
     auto bench = circuit::TestBench::make(design.circuit);
     if (!bench) return bench.error();
-    circuit::Trace trace;
+    circuit::ForceWaveform trace;
     trace.append(std::array{force});
     (*bench)->system.hear(&trace);
     return circuit::cost_of(**bench);
@@ -50,20 +50,20 @@ Json document_of(const circuit::Cost& cost) {
     Json power = Json::object(), blocks = Json::array(), leaks = Json::array();
     for (const auto& [when, p] : cost.power) power[when] = document_of(cost, p);
     for (const auto& b : cost.blocks) {
-        blocks.push_back({{"block", b.name}, {"arrays", b.transistors}, {"units", b.units}, {"area", document_of(b.area)}});
-        if (!b.worst_name.empty()) blocks.back()["worst_leak"] = {{"transistor", b.worst_name}, {"current_A", b.worst.current}};
+        blocks.push_back({{"block", b.name}, {"arrays", b.transistors}, {"units", b.unit_transistors}, {"area", document_of(b.area)}});
+        if (!b.worst_name.empty()) blocks.back()["worst_leak"] = {{"transistor", b.worst_name}, {"current_A", b.worst_leak.current}};
     }
     for (std::size_t k = 0; k < cost.leaks.size(); ++k) {
-        leaks.push_back({{"transistor", cost.leaking[k]}, {"current_A", cost.leaks[k].current}});
-        if (!cost.leaks[k].onto.empty()) leaks.back()["onto"] = cost.leaks[k].onto;
+        leaks.push_back({{"transistor", cost.leaking_names[k]}, {"current_A", cost.leaks[k].current}});
+        if (!cost.leaks[k].capacitor_node.empty()) leaks.back()["onto"] = cost.leaks[k].capacitor_node;
     }
     Json out = {{"supply_V", cost.supply}, {"power", power}, {"area", document_of(cost.area())}, {"blocks", blocks}};
-    out["unsized_elements"] = cost.unsized;
+    out["unsized_elements"] = cost.unknown_areas;
     out["smallest_bias_A"] = cost.smallest_bias, out["off_leaks"] = leaks;
-    if (cost.is_receptor) {
+    if (cost.is_afferent) {
         Json per_mW = Json::object();
         for (const auto& [when, p] : cost.power)
-            per_mW[when] = {{"own", p.own > 0 ? Json(1e-3 / p.own) : Json()},
+            per_mW[when] = {{"own", p.without_sensor > 0 ? Json(1e-3 / p.without_sensor) : Json()},
                             {"delivered", p.supplies > 0 ? Json(1e-3 / p.supplies) : Json()}};
         out["receptors"] = {{"per_mm2", cost.area().total() > 0 ? Json(cost.per_mm2()) : Json()}, {"per_mW", per_mW}};
     }
@@ -73,13 +73,13 @@ Json document_of(const circuit::Cost& cost) {
 Json costs_of(std::span<const AfferentPlan> afferents, const Work& stats, double force) {
     Json out = Json::array();
     for (std::size_t a = 0; a < afferents.size(); ++a) {
-        const auto* design = dynamic_cast<const circuit::CircuitDesign*>(afferents[a].factory.get());
+        const auto* design = dynamic_cast<const circuit::CircuitAfferentFactory*>(afferents[a].factory.get());
         if (design == nullptr) continue;
         auto cost = cost_under(*design, force);
         if (!cost) continue;  // it has no operating point; this is reported elsewhere
         if (const auto spent = energy_used_by(stats, a, afferents.size()); spent.seconds > 0) {
             const double supplies = spent.supplies / spent.seconds, sensor = spent.sensor / spent.seconds;
-            cost->power.emplace_back("mean", circuit::Powers{supplies, sensor, supplies - sensor, {}, {}});
+            cost->power.emplace_back("mean", circuit::PowerBreakdown{supplies, sensor, supplies - sensor, {}, {}});
         }
         out.push_back({{"afferent", afferents[a].name}, {"rest_N", force}});
         out.back().update(document_of(*cost));

@@ -5,26 +5,26 @@
 #include <limits>
 
 #include "circuit/analyses.hpp"
-#include "circuit/curves.hpp"
-#include "circuit/knobs.hpp"
-#include "circuit/variants.hpp"
+#include "circuit/curve_view.hpp"
+#include "circuit/netlist_overrides.hpp"
+#include "circuit/netlist_variants.hpp"
 #include "signal/embedded_files.hpp"
 #include "study/orders.hpp"
 
 namespace corpuscle {
 namespace {
 
-using circuit::analysis_of;
+using circuit::find_analysis;
 using circuit::Circuit;
-using circuit::Knob;
+using circuit::NetlistOverride;
 using circuit::Netlist;
-using circuit::parse_carried;
-using circuit::RunOrders;
+using circuit::parse_embedded;
+using circuit::RunOptions;
 using circuit::TestBench;
-using circuit::tuned;
+using circuit::apply_overrides;
 using circuit::Values;
-using circuit::values_of;
-using circuit::Variants;
+using circuit::find_curve_values;
+using circuit::NetlistVariants;
 
 Result<Netlist> netlist_of(const Deck& deck) {
     const bool own = deck.circuit.find('\n') != std::string::npos;
@@ -36,13 +36,13 @@ Result<Netlist> netlist_of(const Deck& deck) {
         text = std::move(*carried);
     }
     if (!deck.orders.empty()) text = with_orders(text, deck.orders);
-    std::vector<Knob> knobs;
+    std::vector<NetlistOverride> knobs;
     for (const auto& setting : deck.settings) {
         const auto equals = setting.find('=');
         if (equals == std::string::npos) return bad_input(fmt::format("setting '{}' must be NAME=VALUE", setting));
         knobs.push_back({setting.substr(0, equals), setting.substr(equals + 1), setting});
     }
-    return tuned([&](const std::string& corner) { return parse_carried(text, file, corner); }, file, knobs);
+    return apply_overrides([&](const std::string& corner) { return parse_embedded(text, file, corner); }, file, knobs);
 }
 
 std::shared_ptr<const Circuit> with_models(const Circuit& circuit, const Values& numbers) {
@@ -58,10 +58,10 @@ Line Found::line(std::string_view analysis, const std::string& y) const { return
 
 Line Found::line(std::string_view analysis, const std::string& y, const std::string& over) const {
     for (const auto& a : outcome.analyses) {
-        if (a.command->name != analysis || a.findings.plots.empty()) continue;
-        const auto& plot = a.findings.plots[0];
-        const auto values = values_of(plot, y);
-        const auto along = over.empty() ? std::optional(plot.curves[0].values) : values_of(plot, over);
+        if (a.directive->name != analysis || a.result.plots.empty()) continue;
+        const auto& plot = a.result.plots[0];
+        const auto values = find_curve_values(plot, y);
+        const auto along = over.empty() ? std::optional(plot.curves[0].values) : find_curve_values(plot, over);
         if (!values || !along) return {};
         Line out;
         for (const auto& x : *along) out.x.push_back(x.real());
@@ -75,22 +75,22 @@ double Found::number(std::string_view name) const {
     for (const auto& [known, value] : outcome.numbers)
         if (known == name) return value;
     for (const auto& a : outcome.analyses)
-        for (const auto& [known, value] : a.findings.numbers)
+        for (const auto& [known, value] : a.result.numbers)
             if (known == name) return value;
     return std::numeric_limits<double>::quiet_NaN();
 }
 
 double Found::at_rest(const std::string& name) const {
     for (const auto& a : outcome.analyses)
-        if (a.command->name == "op" && !a.findings.plots.empty())
-            if (const auto values = values_of(a.findings.plots[0], name); values && !values->empty()) return (*values)[0].real();
+        if (a.directive->name == "op" && !a.result.plots.empty())
+            if (const auto values = find_curve_values(a.result.plots[0], name); values && !values->empty()) return (*values)[0].real();
     return std::numeric_limits<double>::quiet_NaN();
 }
 
 double Found::by(std::string_view output, std::string_view source) const {
     for (const auto& a : outcome.analyses)
-        if (const auto& words = a.command->words; a.command->name == "tf" && words.size() == 2 && words[0] == output && words[1] == source)
-            return a.findings.numbers.front().second;
+        if (const auto& words = a.directive->words; a.directive->name == "tf" && words.size() == 2 && words[0] == output && words[1] == source)
+            return a.result.numbers.front().second;
     return std::numeric_limits<double>::quiet_NaN();
 }
 
@@ -109,12 +109,12 @@ double Found::reading(std::string_view device, std::string_view name) const {
 Result<std::vector<Found>> all_found_in(const Deck& deck) {
     const auto netlist = netlist_of(deck);
     if (!netlist) return netlist.error();
-    auto variants = Variants::of(*netlist);
+    auto variants = NetlistVariants::create(*netlist);
     if (!variants) return variants.error();
     std::vector<Found> out;
     std::unique_ptr<TestBench> bench;
-    RunOrders orders;
-    orders.print = false;
+    RunOptions orders;
+    orders.print_tables = false;
     for (std::size_t k = 0; k < variants->count(); ++k) {
         auto variant = variants->at(k);
         if (!variant) return variant.error();
@@ -125,8 +125,8 @@ Result<std::vector<Found>> all_found_in(const Deck& deck) {
             bench = std::move(*context);
         }
         bench->brief = true;
-        if (variant->draw) bench->draw(*variant->draw);
-        auto outcome = circuit::run(*bench, orders);
+        if (variant->sample) bench->draw(*variant->sample);
+        auto outcome = circuit::run_directives(*bench, orders);
         if (!outcome) {
             auto error = outcome.error();
             if (!variant->label.empty()) error.message = fmt::format("{}: {}", variant->label, error.message);

@@ -1,7 +1,7 @@
 #pragma once
 // A netlist prepared for a study: an embedded netlist with settings and with the study's own directives.
 
-#include "circuit/run.hpp"
+#include "circuit/run_directives.hpp"
 #include "study/line.hpp"
 
 namespace corpuscle {

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "circuit/carried.hpp"
+#include "circuit/embedded_netlists.hpp"
 #include "support/child_process.hpp"
 #include "support/places.hpp"
 #include "support/program.hpp"
@@ -239,7 +239,7 @@ TEST(Program, JsonIsOneDocumentAndNothingElse) {
     const auto document = Json::parse(ran.out);
     EXPECT_EQ(document["afferents"][0]["parameters"]["f_B"], (Json{{"value", 25.0}, {"unit", "Hz"}, {"of", "sa1b"}, {"set", true}}));
     const auto listed = Json::parse(run(folder, "list --json").out);
-    EXPECT_EQ(listed["afferents"].size(), named_afferents().size() + std::size(circuit::carried_netlists) + 1);  // and any netlist
+    EXPECT_EQ(listed["afferents"].size(), named_afferents().size() + std::size(circuit::embedded_netlists) + 1);  // and any netlist
     for (const auto& card : receptor_entries())
         EXPECT_TRUE(std::any_of(listed["transductions"].begin(), listed["transductions"].end(), [&](const Json& e) {
             return e["name"] == card.name;

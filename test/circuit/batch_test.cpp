@@ -6,8 +6,8 @@
 #include <map>
 
 #include "circuit/batch/chips.hpp"
-#include "circuit/carried.hpp"
-#include "circuit/knobs.hpp"
+#include "circuit/embedded_netlists.hpp"
+#include "circuit/netlist_overrides.hpp"
 #include "signal/instruction_set.hpp"
 #include "signal/stimuli.hpp"
 #include "support/places.hpp"
@@ -17,10 +17,10 @@ namespace {
 
 constexpr double batch_T = 1e-4;
 
-std::shared_ptr<const CircuitDesign> design_of(const std::string& file, std::vector<Knob> knobs = {}) {
-    const auto netlist = tuned(file, knobs);
+std::shared_ptr<const CircuitAfferentFactory> design_of(const std::string& file, std::vector<NetlistOverride> knobs = {}) {
+    const auto netlist = apply_overrides(file, knobs);
     if (!netlist) throw std::runtime_error(netlist.error().text());
-    const auto design = CircuitDesign::of(*netlist);
+    const auto design = CircuitAfferentFactory::create(*netlist);
     if (!design) throw std::runtime_error(design.error().text());
     return *design;
 }
@@ -33,7 +33,7 @@ std::vector<double> pushed(std::size_t samples) {
 
 using Answers = std::map<std::int64_t, ChipAnswer>;
 
-Answers answers_of(const std::vector<Chip>& chips, const std::shared_ptr<const CircuitDesign>& nominal, const BatchOptions& options = {}) {
+Answers answers_of(const std::vector<Chip>& chips, const std::shared_ptr<const CircuitAfferentFactory>& nominal, const BatchOptions& options = {}) {
     Answers out;
     std::size_t next = 0;
     const auto done = run_chips(
@@ -43,10 +43,10 @@ Answers answers_of(const std::vector<Chip>& chips, const std::shared_ptr<const C
     return out;
 }
 
-std::vector<Chip> drawn_chips(const std::shared_ptr<const CircuitDesign>& design, std::span<const double> force, int count) {
-    const Chips chips{static_cast<double>(count), 3};
+std::vector<Chip> drawn_chips(const std::shared_ptr<const CircuitAfferentFactory>& design, std::span<const double> force, int count) {
+    const ChipSpec chips{static_cast<double>(count), 3};
     std::vector<Chip> out;
-    for (int k = 0; k < count; ++k) out.push_back({k, design, chips.draw(static_cast<std::uint64_t>(k)), force, batch_T});
+    for (int k = 0; k < count; ++k) out.push_back({k, design, chips.sample(static_cast<std::uint64_t>(k)), force, batch_T});
     return out;
 }
 

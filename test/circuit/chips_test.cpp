@@ -7,7 +7,7 @@
 #include <cmath>
 #include <map>
 
-#include "circuit/afferent.hpp"
+#include "circuit/circuit_afferent.hpp"
 #include "circuit/netlist_runner.hpp"
 #include "corpuscle.hpp"
 #include "support/support.hpp"
@@ -34,7 +34,7 @@ Heard heard(const std::string& file, const ForceSignal& touch, const Values& par
     auto circuit = netlist->elaborate(parameters);
     if (!circuit) return ADD_FAILURE() << circuit.error().text(), out;
     circuit->temperature = celsius;
-    const auto design = CircuitDesign::of(std::make_shared<const Circuit>(std::move(*circuit)));
+    const auto design = CircuitAfferentFactory::create(std::make_shared<const Circuit>(std::move(*circuit)));
     if (!design) return ADD_FAILURE() << design.error().text(), out;
     const auto afferent = (*design)->make(1 / touch.rate, false);
     const auto delay = static_cast<std::size_t>(afferent->delay());
@@ -58,7 +58,7 @@ Heard heard(const std::string& file, const ForceSignal& touch, const Values& par
 
 std::vector<double> spikes_of(const Ran& ran) {
     for (const auto& a : ran.analyses())
-        if (a.findings.spikes) return *a.findings.spikes;
+        if (a.result.spikes) return *a.result.spikes;
     return ADD_FAILURE() << ran.title() << ": no spikes", std::vector<double>();
 }
 

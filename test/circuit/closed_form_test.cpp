@@ -181,7 +181,7 @@ TEST(ClosedForm, SensitivitiesAreThoseOfNgspice) {
     ASSERT_EQ(theirs.size(), 1U);
     const auto mine = ran(text);
     for (const auto& [name, value] : all_values) {
-        const auto* curve = theirs[0].curve(fmt::format("v({}{})", name, name[0] == 'g' || name[0] == 'e' ? "_gain" : ""));
+        const auto* curve = theirs[0].find_curve(fmt::format("v({}{})", name, name[0] == 'g' || name[0] == 'e' ? "_gain" : ""));
         ASSERT_NE(curve, nullptr) << name;
         EXPECT_NEAR(mine.number(name) / curve->values[0].real(), 1, 1e-5) << name;
     }

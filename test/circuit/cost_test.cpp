@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
-#include "circuit/cost/accountant.hpp"
+#include "circuit/cost/cost_meter.hpp"
 #include "circuit/device/constants.hpp"
 #include "netlist_runner.hpp"
 #include "support/program.hpp"
@@ -39,11 +39,11 @@ Cost cost(std::shared_ptr<const Circuit> circuit) {
 /// With its transients.
 Cost cost_in_time(std::shared_ptr<const Circuit> circuit) {
     auto bench = cost_bench(std::move(circuit));
-    Accountant accountant(*bench);
-    RunOrders orders;
-    if (const auto watched = accountant.watch(orders); !watched) ADD_FAILURE() << watched.error().text();
-    if (const auto ran = run(*bench, orders); !ran) ADD_FAILURE() << ran.error().text();
-    auto found = accountant.found();
+    CostMeter accountant(*bench);
+    RunOptions orders;
+    if (const auto watched = accountant.attach(orders); !watched) ADD_FAILURE() << watched.error().text();
+    if (const auto ran = run_directives(*bench, orders); !ran) ADD_FAILURE() << ran.error().text();
+    auto found = accountant.cost();
     if (!found) return ADD_FAILURE() << found.error().text(), Cost();
     return std::move(*found);
 }
@@ -95,9 +95,9 @@ TEST(Cost, ABlocksAreaIsCountedByHand) {
     const auto c = cost(file("sa1.cir"));
     const auto& cco = block(c, "cco");  // 4 mirrors of 8 P; a trigger of 32 P and 32 N; switches
     EXPECT_EQ(cco.transistors, 14U);
-    EXPECT_EQ(cco.units, 4U * 8 + 64 + 8);
+    EXPECT_EQ(cco.unit_transistors, 4U * 8 + 64 + 8);
     EXPECT_NEAR(cco.area.gates / um2, 32 * 3 + 32 * (3 + 0.75) + 4 * 3 + 4 * 0.75, 1e-9);
-    EXPECT_NEAR(cco.area.apart / um2, (32 + 32 + 4) * 6.5 * 1.46 + (32 + 4) * 2 * 1.46, 1e-9);
+    EXPECT_NEAR(cco.area.islands / um2, (32 + 32 + 4) * 6.5 * 1.46 + (32 + 4) * 2 * 1.46, 1e-9);
     EXPECT_NEAR(cco.area.capacitors / um2, 2250, 1e-6);
     EXPECT_NEAR(block(c, "hpb").area.capacitors / um2, 400, 1e-6) << "20 x 20 um are 0.8 pF";
     EXPECT_EQ(block(c, "fsr").area.total(), 0);
@@ -144,13 +144,13 @@ TEST(Cost, PowerGoesWhereOhmSaysItDoes) {
     EXPECT_NEAR(p.sources[0], 2 * (1e-3 + 0.5e-3 + 1e-3), 1e-12);
     EXPECT_NEAR(p.sources[2], 9e-3, 1e-12);
     EXPECT_NEAR(p.sensor, 2 * 0.5e-3, 1e-12) << "all that the supply gives for it, in the sensor and beside it";
-    EXPECT_NEAR(p.own, 13e-3, 1e-12);
+    EXPECT_NEAR(p.without_sensor, 13e-3, 1e-12);
     EXPECT_NEAR(lost(c, "op", "a"), 1e-3, 1e-12);
     EXPECT_NEAR(lost(c, "op", "b"), 1e-3, 1e-12);
     EXPECT_NEAR(lost(c, "op", "s"), 1.5 * 0.5e-3, 1e-12);
     EXPECT_NEAR(lost(c, "op", "ideal currents"), 1e-3, 1e-12);
     EXPECT_NEAR(lost(c, "op", "top level"), 0.25e-3 + 1e-3 + 9e-3, 1e-12);
-    EXPECT_EQ(c.unsized, 5U);
+    EXPECT_EQ(c.unknown_areas, 5U);
 }
 
 TEST(Cost, ACapacitorFilledAndEmptiedCostsItsChargeTimesTheSupply) {
@@ -173,10 +173,10 @@ TEST(Cost, OverAPressTheChipLosesWhatIsDelivered) {
     double of_phases = 0;
     for (const auto& [name, seconds] :
          {std::pair{"rest", 0.25}, {"protraction", 0.125}, {"plateau", 0.25}, {"retraction", 0.125}, {"post", 0.25}})
-        of_phases += c.powers(name)->own * seconds;
-    EXPECT_NEAR(of_phases, mean.own, 1e-9 * mean.own);
+        of_phases += c.powers(name)->without_sensor * seconds;
+    EXPECT_NEAR(of_phases, mean.without_sensor, 1e-9 * mean.without_sensor);
     for (std::size_t b = 0; b < c.blocks.size(); ++b) EXPECT_GE(c.powers("peak")->blocks[b], mean.blocks[b]);
-    EXPECT_TRUE(c.is_receptor);
+    EXPECT_TRUE(c.is_afferent);
     EXPECT_TRUE(c.has_sensor);
 }
 
@@ -187,10 +187,10 @@ TEST(Cost, ATransistorLeaksAsItsThresholdSays) {
                                           " l=0.5u m=2\n.model x " + (pmos ? "pmos" : "nmos") +
                                           " (level=80 isq=100n vto=0.45 n=1.3 ve=1e30)\nib vdd 0 5p\n.op\n");
         const auto c = cost(circuit);
-        EXPECT_NEAR(block(c, "top level").worst.current, closed, 1e-4 * closed);
+        EXPECT_NEAR(block(c, "top level").worst_leak.current, closed, 1e-4 * closed);
         ASSERT_EQ(c.leaks.size(), 1U);
-        EXPECT_EQ(c.leaking[0], "m1");
-        EXPECT_EQ(c.leaks[0].onto, "");
+        EXPECT_EQ(c.leaking_names[0], "m1");
+        EXPECT_EQ(c.leaks[0].capacitor_node, "");
         EXPECT_DOUBLE_EQ(c.smallest_bias, 5e-12);
     }
 }
@@ -199,7 +199,7 @@ TEST(Cost, TheChipsSwitchesLeakOntoTheMembraneAndThoseOfHigherThresholdDoNot) {
     const auto onto_u = [](const Cost& c) {
         std::map<std::string, double> out;
         for (std::size_t k = 0; k < c.leaks.size(); ++k)
-            if (c.leaks[k].onto == "u") out[c.leaking[k]] = c.leaks[k].current;
+            if (c.leaks[k].capacitor_node == "u") out[c.leaking_names[k]] = c.leaks[k].current;
         return out;
     };
     const auto leaks = onto_u(cost(file("sa1.cir")));
@@ -217,7 +217,7 @@ TEST(Cost, TheChipsSwitchesLeakOntoTheMembraneAndThoseOfHigherThresholdDoNot) {
 TEST(Cost, JunctionsLeakToo) {
     const auto c = cost(circuit_from(
         "t\nvdd vdd 0 0.7\nm1 vdd 0 0 0 x w=1u l=1u\n.model x nmos (level=80 isq=1e-15 vto=2 js=5u jssw=1p ldif=0.5u)\n.op\n"));
-    EXPECT_NEAR(c.blocks[0].worst.current, 5e-6 * 0.5e-12 + 1e-12 * 3e-6, 1e-6 * 2.5e-18 + 1e-22);
+    EXPECT_NEAR(c.blocks[0].worst_leak.current, 5e-6 * 0.5e-12 + 1e-12 * 3e-6, 1e-6 * 2.5e-18 + 1e-22);
 }
 
 TEST(Cost, TheDocumentHasTheSheetAndTheTableHasItsWords) {
@@ -252,7 +252,7 @@ TEST(Cost, RespondTellsTheSheetAtRestAndTheMeanOverWhatWasAnswered) {
     EXPECT_TRUE(costs[0]["afferent"].get<std::string>().ends_with("sa1.cir"));
     EXPECT_EQ(costs[0]["rest_N"], 0.2);
     const auto c = cost_in_time(file("sa1.cir"));
-    for (const auto& [word, of] : {std::pair{"delivered_W", &Powers::supplies}, {"sensor_W", &Powers::sensor}, {"own_W", &Powers::own}}) {
+    for (const auto& [word, of] : {std::pair{"delivered_W", &PowerBreakdown::supplies}, {"sensor_W", &PowerBreakdown::sensor}, {"own_W", &PowerBreakdown::without_sensor}}) {
         EXPECT_NEAR(costs[0]["power"]["op"][word].get<double>(), c.powers("rest")->*of, 1e-4 * c.powers("rest")->*of) << word;
         // it goes on at rest for a step of 20 ms at the most after the press of 1 s, which brings the mean nearer to that
         const double press = c.powers("mean")->*of, rest = c.powers("rest")->*of, farthest = (press + 20e-3 * rest) / (1 + 20e-3);

@@ -5,9 +5,9 @@
 #include <map>
 #include <set>
 
-#include "circuit/export/names.hpp"
-#include "circuit/export/ngspice.hpp"
-#include "circuit/netlist/number.hpp"
+#include "circuit/export/export_names.hpp"
+#include "circuit/export/ngspice_deck.hpp"
+#include "circuit/netlist/spice_number.hpp"
 #include "support/ngspice.hpp"
 #include "support/program.hpp"
 #include "support/property.hpp"
@@ -50,7 +50,7 @@ std::string name_there(const ExportNames& names, const std::string& curve) {
 /// the largest current: its kT/q differs from the SI's in the seventh digit.
 void hold(const ExportNames& names, bool diodes, const Plot& mine, const Plot& theirs) {
     SCOPED_TRACE(mine.name);
-    ASSERT_EQ(mine.points(), theirs.points());
+    ASSERT_EQ(mine.point_count(), theirs.point_count());
     std::map<std::string, const Curve*> there;
     for (const auto& c : theirs.curves) there[plain(c.name)] = &c;
     const bool small = mine.is_complex || mine.name.find("oise") != std::string::npos;
@@ -92,10 +92,10 @@ std::string of_our_transistors(const Folder& folder, const std::string& path) {
 }
 
 /// A sweep as ngspice knows it: one way, and here with some fifty points, for it takes its time.
-void simplify(Command& dc) {
+void simplify(Directive& dc) {
     if (dc.words.back() == "updown") dc.words.pop_back();
     for (std::size_t k = 0; k + 3 < dc.words.size(); k += 4) {
-        const auto number = [&](std::size_t j) { return whole_number(dc.words[k + j])->value; };
+        const auto number = [&](std::size_t j) { return parse_number(dc.words[k + j])->value; };
         const double each = std::max(1.0, std::floor((number(2) - number(1)) / number(3) / 50)), step = number(3);
         dc.words[k + 3] = fmt::format("{:.17g}", step * each);
     }
@@ -105,10 +105,10 @@ void simplify(Command& dc) {
 /// own.
 std::shared_ptr<const Circuit> of_what_both_know(const std::shared_ptr<const Circuit>& circuit) {
     auto out = std::make_shared<Circuit>(*circuit);
-    std::erase_if(out->commands, [](const Command& c) {
+    std::erase_if(out->directives, [](const Directive& c) {
         return c.name == "expect" || c.name == "step" || c.name == "mc" || c.name == "tran" || c.name.starts_with("meas");
     });
-    for (auto& c : out->commands)
+    for (auto& c : out->directives)
         if (c.name == "dc") simplify(c);
     return out;
 }
@@ -121,7 +121,7 @@ TEST_P(Export, GivesInNgspiceWhatTheNetlistGivesHere) {
     ASSERT_TRUE(read);
     const auto circuit = of_what_both_know(read);
     const auto log = ngspice(folder.write("deck.cir", exported(circuit)), folder / "deck.raw");
-    const auto mine = run(circuit);
+    const auto mine = run_directives(circuit);
     ASSERT_TRUE(mine) << mine.error().text();
     const auto theirs = read_raw_file(folder / "deck.raw");
     ASSERT_FALSE(theirs.empty()) << log;
@@ -138,20 +138,20 @@ TEST_P(Export, ReadsBackHereAndMeansTheSame) {
     const auto read = circuit_of(of_our_transistors(folder, GetParam()));
     ASSERT_TRUE(read);
     const auto circuit = of_what_both_know(read);
-    const auto mine = run(circuit);
+    const auto mine = run_directives(circuit);
     ASSERT_TRUE(mine) << mine.error().text();
     const auto deck = circuit_of(folder.write("deck.cir", exported(circuit)));
     ASSERT_TRUE(deck);
     auto again = std::make_shared<Circuit>(*deck);
     for (const auto* name : {"reltol", "vntol"}) again->options.erase(name);  // ngspice needs them tight; ours are enough for us
-    const auto back = run(std::shared_ptr<const Circuit>(again));
+    const auto back = run_directives(std::shared_ptr<const Circuit>(again));
     ASSERT_TRUE(back) << back.error().text();
     hold_all(*circuit, mine->plots(), back->plots(), true);
     const auto second = circuit_of(folder.write("twice.cir", exported(again)));
     ASSERT_TRUE(second);
     auto twice = std::make_shared<Circuit>(*second);
     for (const auto* name : {"reltol", "vntol"}) twice->options.erase(name);
-    const auto last = run(std::shared_ptr<const Circuit>(twice));
+    const auto last = run_directives(std::shared_ptr<const Circuit>(twice));
     ASSERT_TRUE(last) << last.error().text();
     hold_all(*again, back->plots(), last->plots(), true);
 }
@@ -168,9 +168,9 @@ TEST(ExportedOrders, AreMeasuredByNgspiceAsHere) {
     const auto with_op = ngspice_deck(circuit);
     ASSERT_TRUE(with_op);
     EXPECT_NE(with_op->text.find("* .meas dc: ngspice measures only the analysis that it runs last, here .op"), std::string::npos);
-    std::erase_if(circuit->commands, [](const Command& c) { return c.name == "op"; });
+    std::erase_if(circuit->directives, [](const Directive& c) { return c.name == "op"; });
     const auto log = ngspice(folder.write("deck.cir", exported(circuit)), "");
-    const auto mine = run(circuit);
+    const auto mine = run_directives(circuit);
     ASSERT_TRUE(mine);
     ASSERT_EQ(mine->numbers.size(), 2U);
     for (const auto& [name, value] : mine->numbers) EXPECT_NEAR(number_of(log, name), value, 1e-4 * std::abs(value)) << log;
@@ -184,7 +184,7 @@ TEST(ExportedOrders, TheForceGoesAlongInItsSources) {
                                                  ".meas tran falling find v(s) at=0.7\n"));
     const auto shared = std::make_shared<Circuit>(*circuit);
     const auto log = ngspice(folder.write("deck.cir", exported(shared)), "");
-    const auto mine = run(shared);
+    const auto mine = run_directives(shared);
     ASSERT_TRUE(mine);
     ASSERT_EQ(mine->numbers.size(), 3U);
     for (const auto& [name, value] : mine->numbers) EXPECT_NEAR(number_of(log, name), value, 1e-3) << name << log;
@@ -268,27 +268,27 @@ rc::Gen<std::string> formulas(int depth) {
 TEST(FormulaText, ReadsBackAsTheSameFormula) {
     EXPECT_TRUE(rc::check([] {
         const auto text = *formulas(*rc::gen::inRange(0, 5));
-        FormulaScope scope;
-        scope.inputs = true;
-        const auto first = Formula::parse(text, {}, scope);
+        ExpressionScope scope;
+        scope.allows_inputs = true;
+        const auto first = Expression::parse(text, {}, scope);
         if (!first) RC_FAIL(text + ": " + first.error().text());
-        const auto written = first->text([](const FormulaInput& in) -> std::string {
-            if (in.kind == FormulaInput::Kind::current) return "i(" + in.name + ")";
-            if (in.kind == FormulaInput::Kind::temperature) return "temper";
+        const auto written = first->text([](const ExpressionInput& in) -> std::string {
+            if (in.kind == ExpressionInput::Kind::current) return "i(" + in.name + ")";
+            if (in.kind == ExpressionInput::Kind::temperature) return "temper";
             return in.minus.empty() ? "v(" + in.name + ")" : "v(" + in.name + "," + in.minus + ")";
         });
         if (!written) {
             RC_ASSERT(written.error().message.find("not finite") != std::string::npos);
             return;
         }
-        const auto again = Formula::parse(*written, {}, scope);
+        const auto again = Expression::parse(*written, {}, scope);
         if (!again) RC_FAIL(*written + ": " + again.error().text());
         for (const double x : {-1.5, -0.2, 0.0, 0.4, 1.0, 3.0}) {
-            const auto values = [&](const Formula& f) {
+            const auto values = [&](const Expression& f) {
                 std::vector<double> out;
                 for (const auto& in : f.inputs())
-                    out.push_back(in.kind == FormulaInput::Kind::voltage   ? (in.minus.empty() ? (in.name == "a" ? x : 0.7) : x - 0.7)
-                                  : in.kind == FormulaInput::Kind::current ? 0.3 * x
+                    out.push_back(in.kind == ExpressionInput::Kind::voltage   ? (in.minus.empty() ? (in.name == "a" ? x : 0.7) : x - 0.7)
+                                  : in.kind == ExpressionInput::Kind::current ? 0.3 * x
                                                                            : 27);
                 return out;
             };

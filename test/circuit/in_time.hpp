@@ -76,7 +76,7 @@ public:
         if (!made) throw std::runtime_error(made.error().text());
         bench_ = std::move(*made);
         bool uic = false;
-        for (const auto& c : bench_->circuit->commands)
+        for (const auto& c : bench_->circuit->directives)
             if (c.name == "tran") step_ = *number_of(c, 0, "step"), stop_ = *number_of(c, 1, "stop"), uic = c.words.back() == "uic";
         system().go(step_, stop_);
         const auto from = beginning(*bench_, uic);
@@ -121,10 +121,10 @@ public:
     }
     /// What its .ac gives first.
     std::complex<double> ac(const std::string& name) const {
-        for (const auto& c : bench_->circuit->commands)
+        for (const auto& c : bench_->circuit->directives)
             if (c.name == "ac")
                 if (const auto found = analyse_ac(*bench_, c))
-                    if (const auto* curve = found->plots[0].curve(name)) return curve->values[0];
+                    if (const auto* curve = found->plots[0].find_curve(name)) return curve->values[0];
         return std::nan("");
     }
     IdaAnswer ida(IdaQuestion q) const {

@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
-#include "circuit/curves.hpp"
-#include "circuit/run.hpp"
-#include "circuit/variants.hpp"
+#include "circuit/curve_view.hpp"
+#include "circuit/run_directives.hpp"
+#include "circuit/netlist_variants.hpp"
 #include "support/places.hpp"
 
 namespace corpuscle::circuit {
@@ -31,15 +31,15 @@ public:
     std::string title() const { return circuit_ ? circuit_->title : ""; }
     const std::vector<Expectation>& expectations() const { return outcome_.expectations; }
     const std::vector<std::pair<std::string, double>>& numbers() const { return outcome_.numbers; }
-    const std::vector<Error>& remarks() const { return outcome_.remarks; }
-    const std::vector<Analysed>& analyses() const { return outcome_.analyses; }
+    const std::vector<Error>& remarks() const { return outcome_.warnings; }
+    const std::vector<AnalysisRun>& analyses() const { return outcome_.analyses; }
 
     /// A curve of the first plot that has it, of one analysis ("ac") if named; as .print names them, so v(a,b) and vdb(a) too.
     std::vector<std::complex<double>> complex(const std::string& name, const std::string& analysis = "") const {
         for (const auto& a : outcome_.analyses)
-            if (analysis.empty() || a.command->name == analysis)
-                for (const auto& plot : a.findings.plots)
-                    if (auto values = values_of(plot, name)) return *values;
+            if (analysis.empty() || a.directive->name == analysis)
+                for (const auto& plot : a.result.plots)
+                    if (auto values = find_curve_values(plot, name)) return *values;
         ADD_FAILURE() << title() << ": no curve " << name;
         return {std::complex<double>(std::nan(""), 0)};
     }
@@ -74,7 +74,7 @@ inline std::shared_ptr<const Circuit> circuit_from(const std::string& text) {
 
 inline Ran ran(Circuit circuit) {
     const auto kept = std::make_shared<const Circuit>(std::move(circuit));
-    auto outcome = run(kept);
+    auto outcome = run_directives(kept);
     if (!outcome) return ADD_FAILURE() << outcome.error().text() << "\n" << kept->title, Ran();
     return {kept, std::move(*outcome)};
 }
@@ -93,7 +93,7 @@ inline std::vector<Ran> ran_all(const std::string& text) {
     std::vector<Ran> out;
     const auto netlist = parsed(text);
     if (!netlist) return ADD_FAILURE() << netlist.error().text() << "\n" << text, out;
-    auto variants = Variants::of(*netlist);
+    auto variants = NetlistVariants::create(*netlist);
     if (!variants) return ADD_FAILURE() << variants.error().text() << "\n" << text, out;
     std::unique_ptr<TestBench> bench;
     for (std::size_t k = 0; k < variants->count(); ++k) {
@@ -104,8 +104,8 @@ inline std::vector<Ran> ran_all(const std::string& text) {
             if (!made) return ADD_FAILURE() << made.error().text() << "\n" << text, out;
             bench = std::move(*made);
         }
-        if (one->draw) bench->draw(*one->draw);
-        auto outcome = run(*bench);
+        if (one->sample) bench->draw(*one->sample);
+        auto outcome = run_directives(*bench);
         if (!outcome) return ADD_FAILURE() << outcome.error().text() << "\n" << text, out;
         out.emplace_back(one->circuit, std::move(*outcome));
     }

@@ -10,7 +10,7 @@ namespace {
 
 using Files = std::map<std::string, std::string>;
 
-Netlist::Opener from(const Files& files) {
+Netlist::FileOpener from(const Files& files) {
     return [&files](const std::string& path) -> Result<std::string> {
         const auto at = files.find(path);
         if (at == files.end()) return bad_input("no such file");
@@ -37,7 +37,7 @@ std::string refusal(const std::string& body, const Files& files = {}) {
 
 const Element& element_in(const Circuit& c, std::string_view name) {
     static const Element none;
-    const int k = c.element(name);
+    const int k = c.find_element(name);
     EXPECT_GE(k, 0) << name;
     return k < 0 ? none : c.elements[static_cast<std::size_t>(k)];
 }
@@ -64,7 +64,7 @@ TEST(NetlistLines, KeepTitlesAndEndAtEnd) {
     EXPECT_EQ(c->title, "My Circuit");
     EXPECT_EQ(c->elements.size(), 1U);
     EXPECT_EQ(c->nodes, (std::vector<std::string>{"0", "a"}));
-    EXPECT_TRUE(c->remarks.empty());
+    EXPECT_TRUE(c->warnings.empty());
 }
 
 TEST(NetlistLines, TakeAnyLettersInCommentsAndTitlesOnly) {
@@ -123,8 +123,8 @@ TEST(NetlistElements, RCLTakeTheirValuesInEveryWay) {
     EXPECT_EQ(element_in(c, "c2").value, 2e-12);
     EXPECT_EQ(element_in(c, "l1").value, 1e-3);
     EXPECT_EQ(element_in(c, "l2").value, 2e-6);
-    ASSERT_TRUE(element_in(c, "c3").formula);
-    EXPECT_EQ(element_in(c, "c3").formula->inputs()[0].name, "a");
+    ASSERT_TRUE(element_in(c, "c3").expression);
+    EXPECT_EQ(element_in(c, "c3").expression->inputs()[0].name, "a");
     EXPECT_EQ(c.models[0].type, "r");
 }
 
@@ -162,18 +162,18 @@ TEST(NetlistElements, ControlledOnesKnowWhatControlsThem) {
         "B1 i 0 v = v(a) * 2 + i(v1) == 3 tc1=0.1\nB2 j 0 i={v(a)}*2\n");
     EXPECT_EQ(nodes(c, element_in(c, "e1")), "b 0 a 0");
     EXPECT_EQ(element_in(c, "e1").value, 10);
-    EXPECT_TRUE(element_in(c, "e2").formula_is_voltage);
-    EXPECT_EQ(element_in(c, "e3").formula->inputs()[0].minus, "b");
+    EXPECT_TRUE(element_in(c, "e2").expression_is_voltage);
+    EXPECT_EQ(element_in(c, "e3").expression->inputs()[0].minus, "b");
     EXPECT_EQ(nodes(c, element_in(c, "g1")), "e 0 a b");
-    EXPECT_FALSE(element_in(c, "g2").formula_is_voltage);
+    EXPECT_FALSE(element_in(c, "g2").expression_is_voltage);
     EXPECT_EQ(element_in(c, "g2").values.at("m"), 2);
-    EXPECT_EQ(element_in(c, "f1").control, "v1");
+    EXPECT_EQ(element_in(c, "f1").control_source, "v1");
     EXPECT_EQ(element_in(c, "h1").value, 6);
-    EXPECT_EQ(element_in(c, "b1").formula->inputs().size(), 2U);
-    EXPECT_TRUE(element_in(c, "b1").formula_is_voltage);
+    EXPECT_EQ(element_in(c, "b1").expression->inputs().size(), 2U);
+    EXPECT_TRUE(element_in(c, "b1").expression_is_voltage);
     EXPECT_EQ(element_in(c, "b1").values.at("tc1"), 0.1);
     const double x[] = {3};
-    EXPECT_EQ(element_in(c, "b2").formula->value(x), 6);
+    EXPECT_EQ(element_in(c, "b2").expression->value(x), 6);
 }
 
 TEST(NetlistElements, DiodesAndTransistorsHaveModelsAndGeometry) {
@@ -186,7 +186,7 @@ TEST(NetlistElements, DiodesAndTransistorsHaveModelsAndGeometry) {
     EXPECT_EQ(element_in(c, "m1").values, (Values{{"delvto", 0.01}, {"l", 1e-6}, {"mulu0", 1.1}, {"stack", 3}, {"w", 4e-6}}));
     ASSERT_EQ(c.models.size(), 2U) << "a model that nobody uses is not worked out";
     EXPECT_EQ(c.models[1].values, (Values{{"level", 1}, {"vto", 2e-6}}));
-    EXPECT_EQ(c.models[1].words.at("version"), "3.3.0");
+    EXPECT_EQ(c.models[1].texts.at("version"), "3.3.0");
     EXPECT_EQ(c.models[0].values.at("n"), 1);
 }
 
@@ -262,13 +262,13 @@ TEST(NetlistSubcircuits, AreFlattenedWithTheirPaths) {
     EXPECT_EQ(c.models[static_cast<std::size_t>(m2.model)].name, "pm");
     EXPECT_EQ(nodes(c, element_in(c, "xt.r1")), "vss xt.vd");
     EXPECT_EQ(nodes(c, element_in(c, "xt.x2.r1")), "xt.x2.n3 0");
-    const auto inputs = element_in(c, "xt.x2.b1").formula->inputs();
+    const auto inputs = element_in(c, "xt.x2.b1").expression->inputs();
     EXPECT_EQ(inputs[0].name, "xt.m");
     EXPECT_EQ(inputs[0].minus, "xt.x2.n3");
-    EXPECT_EQ(c.node("xt.x2.n3"), element_in(c, "xt.x2.r1").nodes[0]);
-    EXPECT_EQ(c.node("gnd"), 0);
-    EXPECT_EQ(c.node("nowhere"), -1);
-    EXPECT_EQ(element_in(c, "xu.x2.r1").place.line, 5);
+    EXPECT_EQ(c.find_node("xt.x2.n3"), element_in(c, "xt.x2.r1").nodes[0]);
+    EXPECT_EQ(c.find_node("gnd"), 0);
+    EXPECT_EQ(c.find_node("nowhere"), -1);
+    EXPECT_EQ(element_in(c, "xu.x2.r1").location.line, 5);
 }
 
 TEST(NetlistSubcircuits, SeeTheParametersOfTheirCallersAsInNgspice) {
@@ -297,7 +297,7 @@ TEST(NetlistSubcircuits, InParallelMultiplyCurrentsAndNothingElse) {
     for (const auto* name : {"x1.v1", "x1.f1", "x1.h1", "x1.e1", "x1.b1"}) EXPECT_TRUE(element_in(c, name).values.empty()) << name;
     EXPECT_EQ(element_in(c, "x1.f1").value, 2) << "what controls it is three times as large already";
     EXPECT_EQ(element_in(c, "x1.h1").value, 2);
-    EXPECT_EQ(element_in(c, "x1.f1").control, "x1.v1");
+    EXPECT_EQ(element_in(c, "x1.f1").control_source, "x1.v1");
 }
 
 TEST(NetlistSubcircuits, AreRefusedWithPlaceAndSuggestion) {
@@ -378,8 +378,8 @@ TEST(NetlistFiles, AreIncludedFromWhereTheyAreNamed) {
                       {"dir/b.inc", ".param w=5\n.subckt s a\nR1 a 0 1\n.ends\n"}};
     const auto c = circuit(".INCLUDE 'Sub/A.inc' ; comment\nX1 a s\nR2 a 0 1\n", files);
     EXPECT_EQ(element_in(c, "r1").value, 5);
-    EXPECT_EQ(element_in(c, "r1").place.file, "dir/Sub/A.inc");
-    EXPECT_EQ(element_in(c, "r1").place.line, 1);
+    EXPECT_EQ(element_in(c, "r1").location.file, "dir/Sub/A.inc");
+    EXPECT_EQ(element_in(c, "r1").location.line, 1);
     EXPECT_EQ(c.elements.size(), 3U);
 }
 
@@ -424,16 +424,16 @@ TEST(NetlistCommands, AreWordsWithTheirPlacesAndValues) {
         ".param vdd=1.8\nR1 a 0 1\n.TRAN 1n  10u\n.meas tran tt trig v( a , 0 ) val = {vdd/2} rise=1 targ v(a) val='vdd*0.9' fall = "
         "LAST\n.expect rate >= "
         "20, tol={unknown}\n.print \"Keep Case\" v(a,b),i(v1)\n.dc v1 0 {vdd} 0.1\n");
-    ASSERT_EQ(c.commands.size(), 5U);
-    EXPECT_EQ(c.commands[0].name, "tran");
-    EXPECT_EQ(c.commands[0].words, (std::vector<std::string>{"1n", "10u"}));
-    EXPECT_EQ(c.commands[0].columns, (std::vector<int>{7, 11}));
-    EXPECT_EQ(c.commands[0].place.line, 4);
-    EXPECT_EQ(c.commands[1].words, (std::vector<std::string>{"tran", "tt", "trig", "v(a,0)", "val=0.90000000000000002", "rise=1", "targ",
+    ASSERT_EQ(c.directives.size(), 5U);
+    EXPECT_EQ(c.directives[0].name, "tran");
+    EXPECT_EQ(c.directives[0].words, (std::vector<std::string>{"1n", "10u"}));
+    EXPECT_EQ(c.directives[0].columns, (std::vector<int>{7, 11}));
+    EXPECT_EQ(c.directives[0].location.line, 4);
+    EXPECT_EQ(c.directives[1].words, (std::vector<std::string>{"tran", "tt", "trig", "v(a,0)", "val=0.90000000000000002", "rise=1", "targ",
                                                              "v(a)", "val=1.6200000000000001", "fall=last"}));
-    EXPECT_EQ(c.commands[2].words, (std::vector<std::string>{"rate", ">=", "20", "tol={unknown}"}));
-    EXPECT_EQ(c.commands[3].words, (std::vector<std::string>{"\"Keep Case\"", "v(a,b)", "i(v1)"}));
-    EXPECT_EQ(c.commands[4].words[2], "1.8");
+    EXPECT_EQ(c.directives[2].words, (std::vector<std::string>{"rate", ">=", "20", "tol={unknown}"}));
+    EXPECT_EQ(c.directives[3].words, (std::vector<std::string>{"\"Keep Case\"", "v(a,b)", "i(v1)"}));
+    EXPECT_EQ(c.directives[4].words[2], "1.8");
 }
 
 TEST(NetlistCommands, SetOptionsTemperatureAndStarts) {
@@ -444,7 +444,7 @@ TEST(NetlistCommands, SetOptionsTemperatureAndStarts) {
     EXPECT_EQ(c.options, (Values{{"abstol", 1e-12}, {"noacct", 1}, {"reltol", 1e-4}}));
     EXPECT_EQ(c.option_words.at("method"), "gear");
     EXPECT_EQ(c.temperature, 85);
-    const int a = c.node("a"), n = c.node("x1.n");
+    const int a = c.find_node("a"), n = c.find_node("x1.n");
     EXPECT_EQ(c.ic, (std::vector<std::pair<int, double>>{{n, 2}, {a, 3}, {a, 1}, {n, 0.3}}));
     EXPECT_EQ(c.nodesets, (std::vector<std::pair<int, double>>{{a, 0.6}}));
 }
@@ -475,7 +475,7 @@ TEST(NetlistRemarks, PointAtWhatLooksLikeSomethingElse) {
         EXPECT_TRUE(c) << c.error().text();
         std::vector<std::string> out;
         const auto flat = c->elaborate();
-        for (const auto& r : flat->remarks) out.push_back(r.text());
+        for (const auto& r : flat->warnings) out.push_back(r.text());
         return out;
     };
     using Said = std::vector<std::string>;

@@ -12,10 +12,10 @@ namespace {
 
 /// ngspice leaves 1e-7 of the largest value of a curve, and currents below what its own tolerances mean.
 void hold_plot(const Plot& mine, const Plot& theirs, double share) {
-    ASSERT_EQ(mine.points(), theirs.points()) << mine.name;
+    ASSERT_EQ(mine.point_count(), theirs.point_count()) << mine.name;
     std::size_t held = 0;
     for (const auto& c : theirs.curves) {
-        const auto* other = mine.curve(plain(c.name));
+        const auto* other = mine.find_curve(plain(c.name));
         if (other == nullptr) continue;
         ++held;
         if (other->name == "inoise_total") continue;  // theirs is 12 % off where the gain falls: see the closed form below

@@ -109,7 +109,7 @@ TEST(RestStates, AreAskedOfOp) {
     EXPECT_EQ(found.number("stable_states"), 2);
     EXPECT_EQ(found.number("unstable_states"), 1);
     for (const char* wrong : {".op state", ".op states 0", ".op states 1m 2m", ".op states fast"}) {
-        const auto refused = run(circuit_from(latch(0) + wrong + "\n"));
+        const auto refused = run_directives(circuit_from(latch(0) + wrong + "\n"));
         ASSERT_FALSE(refused) << wrong;
         EXPECT_GT(refused.error().location.column, 0) << refused.error().text();
     }

@@ -36,7 +36,7 @@ TEST(Run, WritesRawFilesThatReadBackAlikeInBothForms) {
     ASSERT_EQ(b.size(), 2U);
     for (std::size_t p = 0; p < 2; ++p)
         for (std::size_t c = 0; c < a[p].curves.size(); ++c)
-            for (std::size_t k = 0; k < a[p].points(); ++k)
+            for (std::size_t k = 0; k < a[p].point_count(); ++k)
                 EXPECT_LE(std::abs(a[p].curves[c].values[k] - b[p].curves[c].values[k]), 1e-15 * std::abs(a[p].curves[c].values[k]));
     EXPECT_TRUE(read_file(folder / "c-1.csv").starts_with("frequency,v(in).re,v(in).im,v(out).re"));
     EXPECT_TRUE(read_file(folder / "c-2.csv").starts_with("v(in),v(out),i(v1)"));

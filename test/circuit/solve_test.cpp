@@ -10,8 +10,8 @@
 
 #include "circuit/device/uicm_card.hpp"
 #include "circuit/device/values.hpp"
-#include "circuit/run.hpp"
-#include "circuit/variants.hpp"
+#include "circuit/run_directives.hpp"
+#include "circuit/netlist_variants.hpp"
 #include "signal/instruction_set.hpp"
 #include "support/places.hpp"
 
@@ -45,11 +45,11 @@ Result<RunOutcome> run_text(const std::string& text, std::shared_ptr<const Circu
     static std::vector<std::shared_ptr<const Circuit>> all;  // an outcome points at its circuit's commands
     all.push_back(std::make_shared<const Circuit>(std::move(*circuit)));
     if (kept != nullptr) *kept = all.back();
-    return run(all.back());
+    return run_directives(all.back());
 }
 
 double found(const RunOutcome& outcome, const std::string& name) {
-    return outcome.analyses[0].findings.plots[0].curve(name)->values[0].real();
+    return outcome.analyses[0].result.plots[0].find_curve(name)->values[0].real();
 }
 
 std::string solve_refusal(const std::string& text) {
@@ -78,9 +78,9 @@ TEST(Topology, WhatHasNoAnswerIsRefusedWithItsLineAndWhy) {
 TEST(Topology, AMistypedNodeIsTold) {
     const auto outcome = run_text("t\nv1 in 0 1\nr1 in out 1k\nr2 out 0 1k\nr3 ouy 0 1k\n.op\n");
     ASSERT_TRUE(outcome);
-    ASSERT_EQ(outcome->remarks.size(), 1U);
-    EXPECT_NE(outcome->remarks[0].text().find("test.cir:5:1: node 'ouy' is connected only to r3; did you mean 'out'?"), std::string::npos)
-        << outcome->remarks[0].text();
+    ASSERT_EQ(outcome->warnings.size(), 1U);
+    EXPECT_NE(outcome->warnings[0].text().find("test.cir:5:1: node 'ouy' is connected only to r3; did you mean 'out'?"), std::string::npos)
+        << outcome->warnings[0].text();
 }
 
 TEST(OperatingPoint, ADiodeCarriesWhatItsEquationSays) {
@@ -161,11 +161,11 @@ TEST(OperatingPoint, OfAThousandRandomNetlistsAllAreFoundAndHold) {
         std::shared_ptr<const Circuit> circuit;
         const auto outcome = run_text(text, &circuit);
         ASSERT_TRUE(outcome) << outcome.error().text() << "\n" << text;
-        by_newton += outcome->analyses[0].findings.table.find("found by newton") != std::string::npos;
+        by_newton += outcome->analyses[0].result.table.find("found by newton") != std::string::npos;
         const auto system = System::make(circuit);
         ASSERT_TRUE(system);
         std::vector<double> x;
-        for (const auto& c : outcome->analyses[0].findings.plots[0].curves) x.push_back(c.values[0].real());
+        for (const auto& c : outcome->analyses[0].result.plots[0].curves) x.push_back(c.values[0].real());
         Sums sums;
         auto memory = system->fresh_memory();
         Instant at;
@@ -178,20 +178,20 @@ TEST(OperatingPoint, OfAThousandRandomNetlistsAllAreFoundAndHold) {
     EXPECT_GT(by_newton, 500);
 }
 
-TEST(Variants, DrawKIsTheSameWhateverElseIsDrawn) {
+TEST(NetlistVariants, DrawKIsTheSameWhateverElseIsDrawn) {
     const auto netlist = [](int count) {
         return netlist_of(
             fmt::format("t\ni1 0 a 1n\nm1 a a 0 0 n w=1u l=1u\n.model n nmos(level=80 avt=3e-9 svt0=10m)\n.mc {} seed=4\n.op\n", count));
     };
-    auto a = Variants::of(netlist(3)), b = Variants::of(netlist(7));
+    auto a = NetlistVariants::create(netlist(3)), b = NetlistVariants::create(netlist(7));
     ASSERT_TRUE(a && b);
     EXPECT_EQ(a->count(), 3U);
     for (std::size_t k = 0; k < 3; ++k) {
         const auto one = a->at(k), other = b->at(k);
         ASSERT_TRUE(one && other);
-        EXPECT_EQ(one->draw->chip, k);
-        EXPECT_EQ(one->draw->seed, other->draw->seed);
-        for (int d = 0; d < 4; ++d) EXPECT_EQ(one->draw->process[d], other->draw->process[d]);
+        EXPECT_EQ(one->sample->chip, k);
+        EXPECT_EQ(one->sample->seed, other->sample->seed);
+        for (int d = 0; d < 4; ++d) EXPECT_EQ(one->sample->process[d], other->sample->process[d]);
     }
 }
 
@@ -248,11 +248,11 @@ TEST(Chips, RestAtTheSameBitsOnEveryInstructionSet) {
     before ? ::setenv("CORPUSCLE_ISA", kept.c_str(), 1) : ::unsetenv("CORPUSCLE_ISA");
 }
 
-TEST(Variants, ABillionStepsAreRefusedAtOnce) {
+TEST(NetlistVariants, ABillionStepsAreRefusedAtOnce) {
     const auto netlist = Netlist::parse("t\n.param r=1\nv1 a 0 1\nr1 a 0 {r}\n.step param r 1 1g 1\n.op\n", "t.cir",
                                         [](const std::string&) -> Result<std::string> { return bad_input("none"); });
     ASSERT_TRUE(netlist);
-    const auto variants = Variants::of(*netlist);
+    const auto variants = NetlistVariants::create(*netlist);
     ASSERT_FALSE(variants);
     EXPECT_NE(variants.error().text().find("t.cir:5"), std::string::npos) << variants.error().text();
 }

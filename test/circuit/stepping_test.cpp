@@ -164,7 +164,7 @@ TEST(Transient, WhatRestsStaysWhereItRests) {
           "vi i 0 0.3\n.tran 1m 1\n"}) {
         const auto found = ran(netlist);
         EXPECT_TRUE(found.remarks().empty()) << found.remarks()[0].text();
-        for (const auto& curve : found.analyses()[0].findings.plots[0].curves)
+        for (const auto& curve : found.analyses()[0].result.plots[0].curves)
             if (curve.name != "time") {
                 EXPECT_NEAR(std::abs(curve.values.front() - curve.values.back()), 0, 1e-9) << curve.name;
             }

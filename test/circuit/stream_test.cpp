@@ -70,9 +70,9 @@ bool appears(const std::string& path, std::uintmax_t bytes = 1) {
 void expect_whole(const Plot& plot, std::size_t at_least) {
     ASSERT_EQ(plot.curves.size(), 3U);
     EXPECT_EQ(plot.curves[2].name, "v(in,out)");
-    ASSERT_GE(plot.points(), at_least);
+    ASSERT_GE(plot.point_count(), at_least);
     double before = -1;
-    for (std::size_t k = 0; k < plot.points(); ++k) {
+    for (std::size_t k = 0; k < plot.point_count(); ++k) {
         const double t = plot.curves[0].values[k].real(), out = plot.curves[1].values[k].real(), drop = plot.curves[2].values[k].real();
         ASSERT_GT(t, before) << k;
         ASSERT_LE(t, 10000);
@@ -121,7 +121,7 @@ TEST(Stream, AKilledRunLeavesAFileThatReadsToItsLastBlock) {
         ASSERT_NE(values, text.npos);
         const auto lines = std::count(text.begin() + static_cast<std::ptrdiff_t>(values) + 8, text.end(), '\n');
         const auto written = ascii ? static_cast<std::size_t>(lines) / 3 : (text.size() - values) / 24;  // points of three numbers
-        EXPECT_GE(plots[0].points() + 100'000 / (ascii ? 75 : 24), written) << "at most a block is left out";
+        EXPECT_GE(plots[0].point_count() + 100'000 / (ascii ? 75 : 24), written) << "at most a block is left out";
     }
 }
 
@@ -228,11 +228,11 @@ TEST(Stream, WhatIsStreamedIsWhatIsKept) {
     ASSERT_EQ(kept.size(), 2U);
     for (std::size_t p = 0; p < 2; ++p) {
         EXPECT_EQ(binary[p].name, kept[p].name);
-        ASSERT_EQ(binary[p].points(), kept[p].points());
+        ASSERT_EQ(binary[p].point_count(), kept[p].point_count());
         for (std::size_t c = 0; c < kept[p].curves.size(); ++c) {
             const auto& curve = kept[p].curves[c];
             EXPECT_EQ(binary[p].curves[c].name, curve.name);
-            for (std::size_t k = 0; k < kept[p].points(); ++k) {
+            for (std::size_t k = 0; k < kept[p].point_count(); ++k) {
                 EXPECT_EQ(binary[p].curves[c].values[k], curve.values[k]);
                 EXPECT_NEAR(letters[p].curves[c].values[k].real(), curve.values[k].real(), 1e-15 * std::abs(curve.values[k].real()));
                 EXPECT_EQ(document["plots"][p]["curves"][curve.name][k].get<double>(), curve.values[k].real());
@@ -241,7 +241,7 @@ TEST(Stream, WhatIsStreamedIsWhatIsKept) {
     }
     const auto table = read_file(folder / "x-1.csv");
     EXPECT_TRUE(table.starts_with("time,v(out),i(v1)\n0,0,"));
-    EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), static_cast<long>(kept[0].points()) + 1);
+    EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), static_cast<long>(kept[0].point_count()) + 1);
 }
 
 TEST(Stream, StepsFollowEachOtherInOneTable) {
@@ -263,7 +263,7 @@ TEST(Stream, NgspiceReadsWhatAKilledRunLeft) {
     Started killed(folder, {"run", "x.cir", "-o", "x.raw"});
     ASSERT_TRUE(appears(folder / "x.raw.part", 200'000));
     killed.end(SIGKILL);
-    const auto points = read_raw_file(folder / "x.raw.part")[0].points();
+    const auto points = read_raw_file(folder / "x.raw.part")[0].point_count();
     const auto head = read_file(folder / "x.raw.part").find("Binary:\n") + 8;
     std::filesystem::resize_file(folder / "x.raw.part", head + points * 24);  // it may have ended between a block and its count
     const auto deck =
@@ -278,9 +278,9 @@ TEST(Stream, BytesBehindTheCountedPointsDoNoHarm) {
     folder.write("x.cir", rc(1e-3));
     EXPECT_EQ(run(folder, "run x.cir -o x.raw").status, 0);
     const auto whole = read_file(folder / "x.raw");
-    const auto points = read_raw(whole)[0].points();
+    const auto points = read_raw(whole)[0].point_count();
     folder.write("y.raw", whole + whole.substr(whole.size() - 1003));
-    EXPECT_EQ(read_raw_file(folder / "y.raw")[0].points(), points);
+    EXPECT_EQ(read_raw_file(folder / "y.raw")[0].point_count(), points);
 }
 
 TEST(Stream, PrintsAtEveryStep) {

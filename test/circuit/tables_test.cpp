@@ -81,7 +81,7 @@ struct Compared {
     void device(const Circuit& circuit, const Stand& stand, const Row& row, const std::string& local) {
         const auto name = stand.path + local;
         sized[stand.circuit].insert(name);
-        const int k = circuit.element(name);
+        const int k = circuit.find_element(name);
         if (k < 0) return differences.push_back(fmt::format("table {} {}: {}.cir has no {}", row.table, row.name, stand.circuit, name));
         const double printed[] = {double(row.m), double(row.n), row.W, row.L};
         const auto size = size_of(circuit.elements[static_cast<std::size_t>(k)]);

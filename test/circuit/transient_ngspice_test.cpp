@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "circuit/netlist/number.hpp"
+#include "circuit/netlist/spice_number.hpp"
 #include "support/ngspice.hpp"
 
 namespace corpuscle::circuit::test {
@@ -79,7 +79,7 @@ TransientAsked asked_of(const std::string& deck) {
     const auto number = [](std::istream& from) {
         std::string word;
         from >> word;
-        const auto found = whole_number(word);
+        const auto found = parse_number(word);
         return found ? found->value : 0;
     };
     for (std::string line, star, what; std::getline(lines, line);) {
@@ -142,10 +142,10 @@ void hold_spikes(const std::string& name, const Wave& mine, const Wave& theirs, 
 
 /// Every voltage that both give.
 void hold_waves(const Plot& mine, const Plot& theirs, const TransientAsked& asked) {
-    std::printf("%zu points here, %zu there", mine.points(), theirs.points());
+    std::printf("%zu points here, %zu there", mine.point_count(), theirs.point_count());
     int held = 0;
     for (const auto& curve : theirs.curves) {
-        const auto* own = mine.curve(plain(curve.name));
+        const auto* own = mine.find_curve(plain(curve.name));
         if (curve.type != "voltage" || own == nullptr) continue;
         ++held;
         const Wave here(mine.curves[0], *own), there(theirs.curves[0], curve);

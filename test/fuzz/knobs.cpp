@@ -5,8 +5,8 @@
 #include <cstdlib>
 #include <string>
 
-#include "circuit/knobs.hpp"
-#include "circuit/traced.hpp"
+#include "circuit/netlist_overrides.hpp"
+#include "circuit/resolve_probe.hpp"
 
 using namespace corpuscle;
 using namespace corpuscle::circuit;
@@ -26,10 +26,10 @@ void check(const Circuit& c) {
 }
 
 void show(const Circuit& c, std::string_view text) {
-    for (const auto& word : trace_words(text)) {
-        const auto found = traced(c, word);
+    for (const auto& word : split_probes(text)) {
+        const auto found = resolve_probe(c, word);
         must(found || !found.error().message.empty());
-        if (!found || !*found) must(meant_trace(c, word).size() < 100'000);
+        if (!found || !*found) must(suggest_probe(c, word).size() < 100'000);
     }
 }
 
@@ -38,7 +38,7 @@ void show(const Circuit& c, std::string_view text) {
 /// Lines with '=' are set, all others shown.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     const std::string_view text(reinterpret_cast<const char*>(data), size);
-    std::vector<Knob> knobs;
+    std::vector<NetlistOverride> knobs;
     std::string shown;
     for (std::size_t at = 0; at < text.size() && knobs.size() < 8;) {
         const auto end = std::min(text.find('\n', at), text.size());
@@ -49,7 +49,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         else
             shown += (shown.empty() ? "" : ",") + line;
     }
-    const auto netlist = tuned("sa1-macro", knobs);
+    const auto netlist = apply_overrides("sa1-macro", knobs);
     if (!netlist) return must(!netlist.error().message.empty()), 0;
     const auto circuit = netlist->elaborate();
     if (!circuit) return must(!circuit.error().message.empty()), 0;

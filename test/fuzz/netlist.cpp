@@ -35,22 +35,22 @@ void check(const Error& e) {
 void check(const Circuit& c) {
     const auto must = [](bool ok) { return ok ? void() : std::abort(); };
     for (const auto& e : c.elements) {
-        must(c.element(e.name) >= 0 && std::isfinite(e.value) && e.place.line > 0);
+        must(c.find_element(e.name) >= 0 && std::isfinite(e.value) && e.location.line > 0);
         must(e.model >= -1 && e.model < static_cast<int>(c.models.size()));
         for (const int k : e.nodes) must(k >= 0 && k < static_cast<int>(c.nodes.size()));
         for (const auto& [name, value] : e.values) must(std::isfinite(value));
         for (const double x : e.waveform.numbers) must(std::isfinite(x));
-        if (!e.control.empty()) must(c.element(e.control) >= 0);
-        if (e.formula)
-            for (const auto& input : e.formula->inputs()) {
-                if (input.kind == FormulaInput::Kind::voltage)
-                    must(c.node(input.name) > 0 && (input.minus.empty() || c.node(input.minus) > 0));
-                if (input.kind == FormulaInput::Kind::current) must(c.element(input.name) >= 0);
+        if (!e.control_source.empty()) must(c.find_element(e.control_source) >= 0);
+        if (e.expression)
+            for (const auto& input : e.expression->inputs()) {
+                if (input.kind == ExpressionInput::Kind::voltage)
+                    must(c.find_node(input.name) > 0 && (input.minus.empty() || c.find_node(input.minus) > 0));
+                if (input.kind == ExpressionInput::Kind::current) must(c.find_element(input.name) >= 0);
             }
     }
-    for (std::size_t k = 0; k < c.nodes.size(); ++k) must(c.node(c.nodes[k]) == static_cast<int>(k));
-    for (const auto& command : c.commands) must(command.words.size() == command.columns.size());
-    for (const auto& remark : c.remarks) check(remark);
+    for (std::size_t k = 0; k < c.nodes.size(); ++k) must(c.find_node(c.nodes[k]) == static_cast<int>(k));
+    for (const auto& command : c.directives) must(command.words.size() == command.columns.size());
+    for (const auto& remark : c.warnings) check(remark);
 }
 
 }  // namespace

@@ -125,7 +125,7 @@ TEST(Sphere, HasHertzsRadiusAndPressureAsThePitchFalls) {
     EXPECT_LT(before, 0.005);
 }
 
-TEST(Flat, HasItsEdgeAndNoInfinity) {
+TEST(CircuitBuilder, HasItsEdgeAndNoInfinity) {
     const double F = 2, a = 4e-3;
     for (const double pitch : {0.5e-3, 0.1e-3}) {
         const auto sites = sheet(5e-3, pitch);

@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <sstream>
 
-#include "circuit/run.hpp"
+#include "circuit/run_directives.hpp"
 #include "signal/ascii_text.hpp"
 #include "support/raw_file.hpp"
 #include "support/support.hpp"
@@ -53,7 +53,7 @@ inline RunOutcome ours(const Result<Netlist>& netlist) {
     static std::vector<std::shared_ptr<const Circuit>> kept;  // an outcome points at its circuit's commands
     kept.push_back(circuit_of(netlist));
     if (!kept.back()) return {};
-    auto outcome = run(kept.back());
+    auto outcome = run_directives(kept.back());
     EXPECT_TRUE(outcome) << (outcome ? "" : outcome.error().text());
     return outcome ? *outcome : RunOutcome{};
 }

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "circuit/plot.hpp"
+#include "circuit/analysis_plot.hpp"
 
 namespace corpuscle::circuit {
 

@@ -6,7 +6,7 @@
 
 namespace corpuscle::circuit {
 
-Result<Findings> analyse_ac(TestBench& context, const Command& c) {
+Result<Findings> analyse_ac(TestBench& context, const Directive& c) {
     const auto frequencies = frequencies_of(c, 0);
     if (!frequencies) return frequencies.error();
     const auto operating_point = context.rest();
@@ -25,13 +25,13 @@ Result<Findings> analyse_ac(TestBench& context, const Command& c) {
     plot.is_complex = true;
     Solver<std::complex<double>> solver(system.pattern());
     for (const double f : *frequencies) {
-        if (context.stopped(static_cast<double>(plot.points()) / static_cast<double>(frequencies->size()))) return interruption();
+        if (context.stopped(static_cast<double>(plot.point_count()) / static_cast<double>(frequencies->size()))) return interruption();
         const auto values = admittances(evaluation, system.pattern().entries(), 6.283185307179586 * f);
         if (!solver.factor(values)) {
             const int at = solver.where().column;
             return bad_input(fmt::format(".ac at {:g} Hz: the matrix is singular{}", f,
                                          at < 0 ? "" : " at " + system.names()[static_cast<std::size_t>(at)]),
-                             c.place);
+                             c.location);
         }
         auto x = stimulus;
         solver.solve(x);

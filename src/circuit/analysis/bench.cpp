@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <cmath>
 
-#include "circuit/netlist/number.hpp"
+#include "circuit/netlist/spice_number.hpp"
 #include "signal/parameter.hpp"
 
 namespace corpuscle::circuit {
@@ -57,35 +57,35 @@ void TestBench::draw(const Draw& chip) {
 
 Error interruption() { return {ErrorCode::interrupted, "interrupted"}; }
 
-Error error_at(const Command& c, std::size_t word, std::string message) {
-    auto location = c.place;
+Error error_at(const Directive& c, std::size_t word, std::string message) {
+    auto location = c.location;
     if (word < c.columns.size()) location.column = c.columns[word];
     return bad_input(std::move(message), std::move(location));
 }
 
-Result<double> number_of(const Command& c, std::size_t word, std::string_view what) {
-    if (word >= c.words.size()) return bad_input(fmt::format(".{}: {} is missing", c.name, what), c.place);
-    if (const auto x = whole_number(c.words[word])) {
-        if (auto why = ambiguous(*x, c.words[word])) return error_at(c, word, fmt::format(".{}: {}", c.name, *why));
+Result<double> number_of(const Directive& c, std::size_t word, std::string_view what) {
+    if (word >= c.words.size()) return bad_input(fmt::format(".{}: {} is missing", c.name, what), c.location);
+    if (const auto x = parse_number(c.words[word])) {
+        if (auto why = ambiguity(*x, c.words[word])) return error_at(c, word, fmt::format(".{}: {}", c.name, *why));
         return x->value;
     }
     return error_at(c, word, fmt::format(".{}: '{}' is not a number; expected {}", c.name, c.words[word], what));
 }
 
-Result<std::vector<double>> frequencies_of(const Command& c, std::size_t word) {
+Result<std::vector<double>> frequencies_of(const Directive& c, std::size_t word) {
     const std::string kind = word < c.words.size() ? c.words[word] : "";
     if (kind != "dec" && kind != "oct" && kind != "lin")
-        return bad_input(fmt::format(".{}: '{}' must be dec, oct or lin", c.name, kind), c.place);
+        return bad_input(fmt::format(".{}: '{}' must be dec, oct or lin", c.name, kind), c.location);
     const auto points = number_of(c, word + 1, "the number of points"), from = number_of(c, word + 2, "the first frequency"),
                to = number_of(c, word + 3, "the last frequency");
     if (!points) return points.error();
     if (!from) return from.error();
     if (!to) return to.error();
     if (!(*points >= 1 && *points <= 1e7))
-        return bad_input(fmt::format(".{}: {:g} points is outside [1, 10000000]", c.name, *points), c.place);
+        return bad_input(fmt::format(".{}: {:g} points is outside [1, 10000000]", c.name, *points), c.location);
     if (!(*to >= *from && (*from > 0 || (kind == "lin" && *from >= 0))))
         return bad_input(fmt::format(".{}: from {:g} to {:g} Hz: the first must be above 0 and at most the second", c.name, *from, *to),
-                         c.place);
+                         c.location);
     const auto count = static_cast<long>(*points);
     std::vector<double> out;
     if (kind == "lin") {
@@ -95,7 +95,7 @@ Result<std::vector<double>> frequencies_of(const Command& c, std::size_t word) {
     }
     // As in ngspice: points are spaced evenly per decade (octave), and the last is at or below the end.
     const double base = kind == "dec" ? 10 : 2, steps = std::log(*to / *from) / std::log(base) * static_cast<double>(count);
-    if (steps > 1e7) return bad_input(fmt::format(".{}: {:g} frequencies; the maximum is 10000000", c.name, steps), c.place);
+    if (steps > 1e7) return bad_input(fmt::format(".{}: {:g} frequencies; the maximum is 10000000", c.name, steps), c.location);
     for (double k = 0; k <= std::floor(steps + 1e-9); ++k) out.push_back(*from * std::pow(base, k / static_cast<double>(count)));
     return out;
 }
@@ -110,12 +110,12 @@ int UnknownNames::index_of(std::string_view name) const {
     return at == at_.end() ? -1 : at->second;
 }
 
-Result<Wanted> wanted_of(const System& system, const Command& c, std::size_t word) { return wanted_of(UnknownNames(system), c, word); }
+Result<Wanted> wanted_of(const System& system, const Directive& c, std::size_t word) { return wanted_of(UnknownNames(system), c, word); }
 
-Result<Wanted> wanted_of(const UnknownNames& names, const Command& c, std::size_t word) {
+Result<Wanted> wanted_of(const UnknownNames& names, const Directive& c, std::size_t word) {
     if (word >= c.words.size())
-        return bad_input(fmt::format(".{}: an output is missing, v(node), v(node,node) or i(source)", c.name), c.place);
-    auto location = c.place;
+        return bad_input(fmt::format(".{}: an output is missing, v(node), v(node,node) or i(source)", c.name), c.location);
+    auto location = c.location;
     if (word < c.columns.size()) location.column = c.columns[word];
     const auto& text = c.words[word];
     const bool voltage = text.starts_with("v("), closed = text.ends_with(")");
@@ -148,7 +148,7 @@ double Wanted::of(std::span<const double> x) const {
 
 Plot plot_of(const System& system, std::string name, std::string swept, std::string type) {
     Plot plot{std::move(name), false, !swept.empty(), {}};
-    if (plot.swept) plot.curves.push_back({std::move(swept), std::move(type), {}});
+    if (plot.has_sweep) plot.curves.push_back({std::move(swept), std::move(type), {}});
     for (int n = 0; n < system.size(); ++n)
         plot.curves.push_back({system.names()[static_cast<std::size_t>(n)], system.is_voltage(n) ? "voltage" : "current", {}});
     return plot;

@@ -8,7 +8,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "circuit/points.hpp"
+#include "circuit/point_sink.hpp"
 #include "circuit/solve/operating_point.hpp"
 
 namespace corpuscle::circuit {
@@ -60,13 +60,13 @@ public:
 Error interruption();
 
 /// An error with the location of a word of a command.
-Error error_at(const Command&, std::size_t word, std::string message);
+Error error_at(const Directive&, std::size_t word, std::string message);
 
 /// Reads a number, with SPICE suffixes, from a word of a command. Errors name the command, the word and its location.
-Result<double> number_of(const Command&, std::size_t word, std::string_view what);
+Result<double> number_of(const Directive&, std::size_t word, std::string_view what);
 
 /// Reads frequencies (Hz) as "dec 10 1 1k", "oct ..." or "lin ...", starting at the given word.
-Result<std::vector<double>> frequencies_of(const Command&, std::size_t word);
+Result<std::vector<double>> frequencies_of(const Directive&, std::size_t word);
 
 /// An output variable v(a), v(a,b) or i(x): the difference of two unknowns. -1: 0.
 struct Wanted {
@@ -74,7 +74,7 @@ struct Wanted {
     std::complex<double> of(std::span<const std::complex<double>> x) const;
     double of(std::span<const double> x) const;
 };
-Result<Wanted> wanted_of(const System&, const Command&, std::size_t word);
+Result<Wanted> wanted_of(const System&, const Directive&, std::size_t word);
 
 /// Index of the system's unknowns by name. The system must outlive it.
 class UnknownNames {
@@ -86,7 +86,7 @@ public:
     int index_of(std::string_view name) const;  ///< -1: none
     const std::vector<std::string>& all() const { return system_.names(); }
 };
-Result<Wanted> wanted_of(const UnknownNames&, const Command&, std::size_t word);
+Result<Wanted> wanted_of(const UnknownNames&, const Directive&, std::size_t word);
 
 /// A plot with an empty curve for the swept quantity, then one for each unknown.
 Plot plot_of(const System&, std::string name, std::string swept, std::string type);

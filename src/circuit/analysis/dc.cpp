@@ -21,8 +21,8 @@ struct Sweep {
     }
 };
 
-Result<Sweep> read_sweep(const TestBench& context, const Command& c, std::size_t word) {
-    if (word >= c.words.size()) return bad_input(".dc: the sweep variable is missing", c.place);
+Result<Sweep> read_sweep(const TestBench& context, const Directive& c, std::size_t word) {
+    if (word >= c.words.size()) return bad_input(".dc: the sweep variable is missing", c.location);
     Sweep s{c.words[word], 0, 0, 0};
     const auto from = number_of(c, word + 1, "the first value"), to = number_of(c, word + 2, "the last value"),
                step = number_of(c, word + 3, "the step");
@@ -31,9 +31,9 @@ Result<Sweep> read_sweep(const TestBench& context, const Command& c, std::size_t
     s.from = *from, s.to = *to, s.step = *step;
     if (s.step == 0 || (s.to - s.from) / s.step < 0) s.step = s.to == s.from ? 1 : s.step;
     if (s.step == 0 || (s.to - s.from) / s.step < 0)
-        return bad_input(fmt::format(".dc {}: step {:g} does not lead from {:g} to {:g}", s.variable, *step, s.from, s.to), c.place);
+        return bad_input(fmt::format(".dc {}: step {:g} does not lead from {:g} to {:g}", s.variable, *step, s.from, s.to), c.location);
     if ((s.to - s.from) / s.step > 1e7)
-        return bad_input(fmt::format(".dc {}: {:g} points; the maximum is 10000000", s.variable, (s.to - s.from) / s.step), c.place);
+        return bad_input(fmt::format(".dc {}: {:g} points; the maximum is 10000000", s.variable, (s.to - s.from) / s.step), c.location);
     if (s.variable == "temp") return s;
     const auto* device = context.system.device(s.variable);
     if (device == nullptr || !device->setting()) {
@@ -41,7 +41,7 @@ Result<Sweep> read_sweep(const TestBench& context, const Command& c, std::size_t
         for (const auto& d : context.system.devices())
             if (d->setting()) known.push_back(d->name);
         return bad_input(fmt::format(".dc: '{}' is not a source, a resistor or temp{}", s.variable, did_you_mean(s.variable, known)),
-                         c.place);
+                         c.location);
     }
     return s;
 }
@@ -98,12 +98,12 @@ private:
 
 }  // namespace
 
-Result<Findings> analyse_dc(TestBench& given, const Command& c) {
+Result<Findings> analyse_dc(TestBench& given, const Directive& c) {
     auto words = c;
     const bool up_down = !words.words.empty() && words.words.back() == "updown";
     if (up_down) words.words.pop_back();
     if (words.words.size() != 4 && words.words.size() != 8)
-        return bad_input(fmt::format(".dc: {} words; expected .dc SOURCE FROM TO STEP, or these four twice", words.words.size()), c.place);
+        return bad_input(fmt::format(".dc: {} words; expected .dc SOURCE FROM TO STEP, or these four twice", words.words.size()), c.location);
     const auto inner = read_sweep(given, words, 0);
     if (!inner) return inner.error();
     std::optional<Sweep> outer;
@@ -117,7 +117,7 @@ Result<Findings> analyse_dc(TestBench& given, const Command& c) {
         for (std::size_t k = values.size() - 1; k-- > 0;) values.push_back(values[k]);
     const auto outer_values = outer ? outer->values() : std::vector<double>{0};
     if (static_cast<double>(values.size()) * static_cast<double>(outer_values.size()) > 1e7)
-        return bad_input(fmt::format(".dc: {} times {} points; the maximum is 10000000", values.size(), outer_values.size()), c.place);
+        return bad_input(fmt::format(".dc: {} times {} points; the maximum is 10000000", values.size(), outer_values.size()), c.location);
 
     Plot plot = plot_of(given.system, "DC transfer characteristic", name_of(inner->variable), type_of(inner->variable));
     SweptCircuit swept(given);

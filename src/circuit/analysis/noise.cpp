@@ -27,14 +27,14 @@ double area(double f0, double s0, double f1, double s1) {
 
 }  // namespace
 
-Result<Findings> analyse_noise(TestBench& context, const Command& c) {
+Result<Findings> analyse_noise(TestBench& context, const Directive& c) {
     const auto& system = context.system;
     const auto out = wanted_of(system, c, 0);
     if (!out) return out.error();
-    if (c.words.size() < 6) return bad_input(".noise: expected .noise v(OUT) SOURCE dec|oct|lin POINTS FROM TO", c.place);
+    if (c.words.size() < 6) return bad_input(".noise: expected .noise v(OUT) SOURCE dec|oct|lin POINTS FROM TO", c.location);
     const auto* source = system.device(c.words[1]);
     if (source == nullptr || !(source->name[0] == 'v' || source->name[0] == 'i'))
-        return bad_input(fmt::format(".noise: '{}' is not an independent source", c.words[1]), c.place);
+        return bad_input(fmt::format(".noise: '{}' is not an independent source", c.words[1]), c.location);
     const auto frequencies = frequencies_of(c, 2);
     if (!frequencies) return frequencies.error();
     const auto operating_point = context.rest();
@@ -61,9 +61,9 @@ Result<Findings> analyse_noise(TestBench& context, const Command& c) {
     Solver<std::complex<double>> solver(system.pattern());
     double f_last = 0;
     for (const double f : *frequencies) {
-        if (context.stopped(static_cast<double>(plot.points()) / static_cast<double>(frequencies->size()))) return interruption();
+        if (context.stopped(static_cast<double>(plot.point_count()) / static_cast<double>(frequencies->size()))) return interruption();
         if (!solver.factor(admittances(evaluation, system.pattern().entries(), 6.283185307179586 * f)))
-            return bad_input(fmt::format(".noise at {:g} Hz: the matrix is singular", f), c.place);
+            return bad_input(fmt::format(".noise at {:g} Hz: the matrix is singular", f), c.location);
         std::vector<std::complex<double>> lambda(operating_point->x.size());
         if (out->plus >= 0) lambda[static_cast<std::size_t>(out->plus)] += 1;
         if (out->minus >= 0) lambda[static_cast<std::size_t>(out->minus)] -= 1;

@@ -106,7 +106,7 @@ struct OpOptions {
     bool states = false;
     double rise = 1e-3;  // s
 };
-Result<OpOptions> read_op_options(const Command& c) {
+Result<OpOptions> read_op_options(const Directive& c) {
     OpOptions out;
     if (c.words.empty()) return out;
     if (c.words[0] != "states") return error_at(c, 0, fmt::format(".op: '{}' is not an option; the only one is 'states'", c.words[0]));
@@ -134,7 +134,7 @@ Result<void> report_states(TestBench& context, const OpOptions& options, Finding
 
 }  // namespace
 
-Result<Findings> analyse_op(TestBench& context, const Command& c) {
+Result<Findings> analyse_op(TestBench& context, const Directive& c) {
     const auto options = read_op_options(c);
     if (!options) return options.error();
     const auto found = context.rest();

@@ -19,7 +19,7 @@ std::shared_ptr<const Circuit> with_rising_sources(const TestBench& context, dou
         auto& e = copy->elements[k];
         if (e.letter != 'v' && e.letter != 'i') continue;
         e.waveform = Waveform{};
-        e.waveform.shape = Waveform::Shape::points;
+        e.waveform.shape = Waveform::Shape::piecewise_linear;
         e.waveform.numbers = {0, 0, rise, context.system.devices()[k]->setting().value_or(0)};
     }
     return copy;

@@ -16,12 +16,12 @@ struct LinearCircuit {
     Solver<double> solver;
 };
 
-Result<LinearCircuit> linearize(TestBench& context, const Command& c) {
+Result<LinearCircuit> linearize(TestBench& context, const Directive& c) {
     const auto operating_point = context.rest();
     if (!operating_point) return operating_point.error();
     LinearCircuit linear{operating_point->x, sums_at(context, operating_point->x), Solver<double>(context.system.pattern())};
     if (!linear.solver.factor(std::span<const double>(linear.evaluation.G).first(context.system.pattern().entries())))
-        return bad_input(fmt::format(".{}: the matrix is singular at the operating point", c.name), c.place);
+        return bad_input(fmt::format(".{}: the matrix is singular at the operating point", c.name), c.location);
     return linear;
 }
 
@@ -31,13 +31,13 @@ void add(std::vector<double>& to, int unknown, double value) {
 
 }  // namespace
 
-Result<Findings> analyse_tf(TestBench& context, const Command& c) {
+Result<Findings> analyse_tf(TestBench& context, const Directive& c) {
     const auto out = wanted_of(context.system, c, 0);
     if (!out) return out.error();
-    if (c.words.size() != 2) return bad_input(fmt::format(".tf: {} words; expected .tf OUTPUT SOURCE", c.words.size()), c.place);
+    if (c.words.size() != 2) return bad_input(fmt::format(".tf: {} words; expected .tf OUTPUT SOURCE", c.words.size()), c.location);
     const auto* source = context.system.device(c.words[1]);
     if (source == nullptr || !(source->name[0] == 'v' || source->name[0] == 'i'))
-        return bad_input(fmt::format(".tf: '{}' is not an independent source", c.words[1]), c.place);
+        return bad_input(fmt::format(".tf: '{}' is not an independent source", c.words[1]), c.location);
     auto linear = linearize(context, c);
     if (!linear) return linear.error();
     const bool voltage = source->unknowns.size() == 3;
@@ -78,7 +78,7 @@ Result<Findings> analyse_tf(TestBench& context, const Command& c) {
 }
 
 /// d out / d p = -lambda . df/dp, where G^T lambda selects the output. df/dp of a device is a difference quotient of its principal value.
-Result<Findings> analyse_sens(TestBench& context, const Command& c) {
+Result<Findings> analyse_sens(TestBench& context, const Directive& c) {
     const auto out = wanted_of(context.system, c, 0);
     if (!out) return out.error();
     auto linear = linearize(context, c);

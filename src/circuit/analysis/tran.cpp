@@ -9,9 +9,9 @@
 #include "circuit/analysis/beginning.hpp"
 #include "circuit/analysis/transient_plan.hpp"
 #include "circuit/device/values.hpp"
-#include "circuit/force_order.hpp"
+#include "circuit/force_directive.hpp"
 #include "circuit/spike_output.hpp"
-#include "circuit/within.hpp"
+#include "circuit/operating_range.hpp"
 #include "signal/quantity.hpp"
 
 namespace corpuscle::circuit {
@@ -27,7 +27,7 @@ struct TranSetup {
 /// Measures how long each operating range of the circuit is violated.
 class RangeMonitor {
     struct MonitoredRange {
-        Within range;
+        OperatingRange range;
         double outside = 0, first = -1;  // s
         bool is_outside = false;
     };
@@ -35,12 +35,12 @@ class RangeMonitor {
     double last_time_ = 0;
 
 public:
-    explicit RangeMonitor(std::vector<Within> ranges) {
+    explicit RangeMonitor(std::vector<OperatingRange> ranges) {
         for (auto& range : ranges) ranges_.push_back({std::move(range)});
     }
     void add_point(double t, std::span<const double> x) {
         for (auto& r : ranges_) {
-            const bool was_outside = std::exchange(r.is_outside, !r.range.holds(r.range.what.of.of(x)));
+            const bool was_outside = std::exchange(r.is_outside, !r.range.contains(r.range.quantity.unknowns.of(x)));
             r.outside +=
                 (t - last_time_) * (was_outside + r.is_outside) / 2;  // if it crossed the limit within the step, half of the step counts
             if (r.is_outside && r.first < 0) r.first = t;
@@ -50,7 +50,7 @@ public:
     void report(std::vector<Error>& warnings) const {
         for (const auto& r : ranges_)
             if (r.first >= 0)
-                warnings.push_back(bad_input(range_violation_message(r.range.range(), r.outside, last_time_, r.first), r.range.place));
+                warnings.push_back(bad_input(range_violation_message(r.range.range(), r.outside, last_time_, r.first), r.range.location));
     }
 };
 
@@ -70,7 +70,7 @@ Result<std::vector<double>> run_transient(TestBench& context, const TranSetup& s
             if (!each(time, x)) return false;
             if (time < t.time()) return true;  // within a step
             if (setup.output)
-                if (const auto spike = setup.output->within(t); spike && *spike >= setup.times.start) out.push_back(*spike);
+                if (const auto spike = setup.output->find_spike(t); spike && *spike >= setup.times.start) out.push_back(*spike);
             context.capped = context.most_iterations > 0 && t.work().iterations > context.most_iterations;
             return !context.capped && !(stopped = context.stopped(time / setup.times.stop));
         },
@@ -89,7 +89,7 @@ Result<double> spike_error(TestBench& context, TranSetup setup, const std::vecto
     for (double* tolerance : {&setup.plan.reltol, &setup.plan.vntol, &setup.plan.abstol}) *tolerance /= 10;
     // Only the spikes are compared, so other curves and points within a step are not needed.
     setup.plan.all_reported = false, setup.plan.steps_only = true;
-    setup.plan.reported = {setup.output->of.plus, setup.output->of.minus};
+    setup.plan.reported = {setup.output->unknowns.plus, setup.output->unknowns.minus};
     Transient transient(context.system, context.newton, setup.plan);
     const auto finer = run_transient(context, setup, transient, [](double, std::span<const double>) { return true; });
     if (!finer && finer.error().code == ErrorCode::interrupted) return finer.error();
@@ -115,7 +115,7 @@ Result<void> report_spikes(TestBench& context, const TranSetup& setup, std::vect
                 out.remarks.push_back(
                     bad_input(fmt::format("{} spikes, but a different number with a tenth of the tolerances; use .options accuracy=fine",
                                           spikes.size()),
-                              setup.output->place));
+                              setup.output->location));
         }
     }
     out.spikes = std::move(spikes);
@@ -124,18 +124,18 @@ Result<void> report_spikes(TestBench& context, const TranSetup& setup, std::vect
 
 }  // namespace
 
-Result<Findings> analyse_tran(TestBench& context, const Command& c) {
+Result<Findings> analyse_tran(TestBench& context, const Directive& c) {
     const auto times = transient_times(c);
     if (!times) return times.error();
     const auto plan = transient_plan(*context.circuit);
     if (!plan) return plan.error();
-    const auto output = spike_output(context.system);
+    const auto output = read_spike_output(context.system);
     if (!output) return output.error();
-    auto ranges = within_of(context.system);
+    auto ranges = read_operating_ranges(context.system);
     if (!ranges) return ranges.error();
     RangeMonitor range_monitor(std::move(*ranges));
     context.capped = false;
-    const auto force = force_order(*context.circuit);
+    const auto force = force_directive(*context.circuit);
     if (!force) return force.error();
     if (*force && !context.system.hear(&**force))
         return bad_input(fmt::format(".force: no source has a force input; add one such as '{}' (60 nA/N)", "iin 0 fin force 60n"),
@@ -143,7 +143,7 @@ Result<Findings> analyse_tran(TestBench& context, const Command& c) {
     TranSetup setup{*times, *plan, *output, {}};
     setup.plan.all_reported = true;
     setup.plan.stop = times->stop, setup.plan.longest = max_step_of(*times);
-    KeptPlot kept;
+    PlotRecorder kept;
     PointSink& points = context.points ? *context.points : kept;
     if (auto ok = points.begin(plot_of(context.system, "Transient Analysis", "time", "time")); !ok) return ok.error();
 
@@ -159,7 +159,7 @@ Result<Findings> analyse_tran(TestBench& context, const Command& c) {
         range_monitor.add_point(t, x);
         if (t < times->start) return true;
         row.assign(1, t), row.insert(row.end(), x.begin(), x.end());
-        written = points.point(row);
+        written = points.add_point(row);
         return static_cast<bool>(written);
     });
     const auto ended = points.end();

@@ -43,12 +43,12 @@ Result<TransientPlan> transient_plan(const Circuit& c) {
     return plan;
 }
 
-Result<TransientTimes> transient_times(const Command& command) {
+Result<TransientTimes> transient_times(const Directive& command) {
     auto c = command;
     TransientTimes out;
     out.uic = !c.words.empty() && c.words.back() == "uic";
     if (out.uic) c.words.pop_back();
-    if (c.words.size() < 2 || c.words.size() > 4) return bad_input(".tran: expected .tran STEP STOP [START [LONGEST]] [uic]", c.place);
+    if (c.words.size() < 2 || c.words.size() > 4) return bad_input(".tran: expected .tran STEP STOP [START [LONGEST]] [uic]", c.location);
     const auto step = number_of(c, 0, "the step"), stop = number_of(c, 1, "the stop time");
     const auto start = c.words.size() > 2 ? number_of(c, 2, "the start time") : Result<double>(0.0);
     if (!step) return step.error();
@@ -64,7 +64,7 @@ Result<TransientTimes> transient_times(const Command& command) {
         return bad_input(fmt::format(".tran: step {:g}, stop {:g}, start {:g}{} s: step, stop and maximum step must be above 0, the start "
                                      "at least 0 and below the stop",
                                      *step, *stop, *start, out.longest ? fmt::format(", maximum step {:g}", *out.longest) : ""),
-                         c.place);
+                         c.location);
     return out;
 }
 

@@ -15,6 +15,6 @@ struct TransientTimes {
     std::optional<double> longest;         ///< s, if given
     bool uic = false;
 };
-Result<TransientTimes> transient_times(const Command&);
+Result<TransientTimes> transient_times(const Directive&);
 
 }  // namespace corpuscle::circuit

@@ -209,18 +209,18 @@ Result<void> run_all_scalar(const std::function<std::optional<Chip>()>& next, co
 
 }  // namespace
 
-Result<void> run_chips(const std::shared_ptr<const CircuitDesign>& nominal, const std::function<std::optional<Chip>()>& next,
+Result<void> run_chips(const std::shared_ptr<const CircuitAfferentFactory>& nominal, const std::function<std::optional<Chip>()>& next,
                        const std::function<void(const Chip&, ChipAnswer&&)>& on_done, const BatchOptions& options) {
     const auto kernels = chip_kernels();
     if (!kernels) return kernels.error();
-    auto rig = Rig::make(*nominal, 1e-4, {});
+    auto rig = StreamingTransient::make(*nominal, 1e-4, {});
     if (!rig) return rig.error();
-    const auto& system = (*rig)->bench().system;
+    const auto& system = (*rig)->context().system;
     const auto* list = (*rig)->transient().elimination();
     if (list == nullptr || system.groups().empty() || nominal->plan.method != Integration::bdf)
         return run_all_scalar(next, on_done, options);
     return Batch(**kernels, system, *list, linearization_radius(nominal->plan),
-                 static_cast<std::size_t>(std::max(nominal->plan.order + 1, StepControl::curve_points)), (*rig)->bench().tolerances.gmin,
+                 static_cast<std::size_t>(std::max(nominal->plan.order + 1, StepControl::curve_points)), (*rig)->context().tolerances.gmin,
                  next, on_done, options)
         .run();
 }

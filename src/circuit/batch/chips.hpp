@@ -7,14 +7,14 @@
 #include <span>
 #include <vector>
 
-#include "circuit/afferent.hpp"
+#include "circuit/circuit_afferent.hpp"
 
 namespace corpuscle::circuit {
 
 /// A chip to simulate.
 struct Chip {
     std::int64_t number = 0;                      ///< chosen by the caller
-    std::shared_ptr<const CircuitDesign> design;  ///< all of one batch have the same devices at the same nodes
+    std::shared_ptr<const CircuitAfferentFactory> design;  ///< all of one batch have the same devices at the same nodes
     std::optional<Draw> draw;
     std::span<const double> force;  ///< N, sampled at interval T; must stay valid until the chip is done
     double T = 1e-4;                ///< s
@@ -42,7 +42,7 @@ struct BatchOptions {
 /// Simulates chips until `next` returns none. Calls on_done for each finished chip, in any order. The result of a chip does not depend on
 /// the other chips, the number of lanes or the instruction set. If the elimination or the convergence fails on a lane, the chip is
 /// simulated again from its beginning by the scalar code (CircuitDesign::make). Errors: interrupted by should_stop.
-Result<void> run_chips(const std::shared_ptr<const CircuitDesign>& nominal, const std::function<std::optional<Chip>()>& next,
+Result<void> run_chips(const std::shared_ptr<const CircuitAfferentFactory>& nominal, const std::function<std::optional<Chip>()>& next,
                        const std::function<void(const Chip&, ChipAnswer&&)>& on_done, const BatchOptions&);
 
 /// Simulates one chip by the scalar code.

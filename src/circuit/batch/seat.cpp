@@ -19,19 +19,19 @@ constexpr long rounds_between_sums = 256;
 Result<bool> Seat::take(const Chip& chip, const BatchOptions& options) {
     options_ = &options, answer_ = {};
     if (rig_ && design_ == chip.design && T_ == chip.T && chip.draw) {
-        rig_->draw(*chip.draw);
+        rig_->set_chip(*chip.draw);
     } else {
-        auto rig = Rig::make(*chip.design, chip.T, chip.draw);
+        auto rig = StreamingTransient::make(*chip.design, chip.T, chip.draw);
         if (!rig) return rig.error();
         rig_ = std::move(*rig), design_ = chip.design, T_ = chip.T;
     }
     if (!can_be_held()) return false;
     std::vector<double> force(chip.force.begin(), chip.force.end());
-    force.insert(force.end(), static_cast<std::size_t>(2 * Trace::lag + 2), force.back());
+    force.insert(force.end(), static_cast<std::size_t>(2 * ForceWaveform::lookahead + 2), force.back());
     if (auto ok = rig_->begin(force); !ok) return ok.error();
     chip_ = chip;
 
-    auto& context = rig_->bench();
+    auto& context = rig_->context();
     const auto start = rig_->transient().save();
     plan_ = rig_->transient().plan();
     pace_ = {}, newton_ = {}, bent_ = false, work_ = Work::nothing, looks_ = 0;
@@ -55,9 +55,9 @@ Result<bool> Seat::take(const Chip& chip, const BatchOptions& options) {
     for (const auto k : context.system.alone())
         if (const auto& d = *context.system.devices()[k]; d.linear() && d.varies()) sources_.push_back(k);
     x_ = start.past[0].x;
-    power_ = rig_->meter().delivered(x_, 0);
-    answer_.outside.resize(chip_->design->kept.size());
-    if (options.show_every > 0) answer_.shown.resize(chip_->design->shown.size());
+    power_ = rig_->meter().delivered_at(x_, 0);
+    answer_.outside.resize(chip_->design->operating_ranges.size());
+    if (options.show_every > 0) answer_.shown.resize(chip_->design->probes.size());
     sample_ = 0;
     look_at_samples();
     return true;
@@ -65,7 +65,7 @@ Result<bool> Seat::take(const Chip& chip, const BatchOptions& options) {
 
 bool Seat::can_be_held() const {
     const auto& plan = rig_->transient().plan();
-    return memory_.fits(rig_->bench().system) && plan.method == Integration::bdf &&
+    return memory_.fits(rig_->context().system) && plan.method == Integration::bdf &&
            static_cast<std::size_t>(plan.order) < memory_.block.points;
 }
 
@@ -77,8 +77,8 @@ ChipAnswer Seat::leave() {
 
 /// Writes the currents of the time-dependent sources at t to the block's base.
 void Seat::set_sources(double t) {
-    const auto& system = rig_->bench().system;
-    Instant eval_context{t, 1, rig_->bench().tolerances.gmin, true};
+    const auto& system = rig_->context().system;
+    Instant eval_context{t, 1, rig_->context().tolerances.gmin, true};
     for (const auto k : sources_)
         for (const int u : system.devices()[k]->unknowns)
             if (u >= 0) memory_.block.base[u].of[lane_] = 0;
@@ -96,7 +96,7 @@ void Seat::set_sources(double t) {
 /// Chooses the end of the next step and its predictor, as Transient::step() and attempt() do.
 void Seat::attempt() {
     const double now = times_[0];
-    if (!(now < corner_)) corner_ = std::min(plan_.stop, rig_->bench().system.next_corner(now));
+    if (!(now < corner_)) corner_ = std::min(plan_.stop, rig_->context().system.next_corner(now));
     double h = std::min(pace_.h, plan_.longest);
     last_ = now + 1.01 * h >= corner_;
     if (!last_ && now + 2 * h > corner_) h = (corner_ - now) / 2;
@@ -133,7 +133,7 @@ Seat::Work Seat::prepare(lanes::PredictCall& call, std::span<lanes::Row> value, 
 
 void Seat::look_at_others() {
     if (++looks_ % rounds_between_sums == 0) memory_.freshen(lane_);
-    auto& context = rig_->bench();
+    auto& context = rig_->context();
     limited_ = memory_.look_at_others(lane_, context.system, {work_ == Work::restart ? times_[0] : t_, 1, context.tolerances.gmin, true},
                                       context.newton.memory);
 }
@@ -154,7 +154,7 @@ Seat::Verdict Seat::iterated(double size, bool clamped, bool finite) {
     }
     auto status = newton_.after(size, limited_ || clamped);
     if (status == NewtonControl::Way::arrived && !jump_) {
-        auto& context = rig_->bench();
+        auto& context = rig_->context();
         if (!memory_.formulas_hold(lane_, context.system, {t_, 1, context.tolerances.gmin, true},
                                    {plan_.reltol, plan_.vntol, plan_.abstol}))
             status = newton_.not_yet();
@@ -266,30 +266,30 @@ double Seat::between(double t, int unknown) const {
 }
 
 std::optional<double> Seat::spike() const {
-    const auto& o = chip_->design->output;
+    const auto& o = chip_->design->spike_output;
     const auto u = [&](int k, int unknown) { return unknown < 0 ? 0 : past(memory_.block.past_x, k, static_cast<std::size_t>(unknown)); };
-    const double sign = o.upwards ? 1 : -1;
-    const auto beyond = [&](int k) { return sign * (u(k, o.of.plus) - u(k, o.of.minus) - o.level); };
+    const double sign = o.is_rising ? 1 : -1;
+    const auto beyond = [&](int k) { return sign * (u(k, o.unknowns.plus) - u(k, o.unknowns.minus) - o.level); };
     return crossing_within(times_[1], times_[0], beyond(1), beyond(0),
-                           [&](double t) { return sign * (between(t, o.of.plus) - between(t, o.of.minus) - o.level); });
+                           [&](double t) { return sign * (between(t, o.unknowns.plus) - between(t, o.unknowns.minus) - o.level); });
 }
 
 /// For all samples up to the current time: records the probes and checks the operating ranges.
 void Seat::look_at_samples() {
     const auto& design = *chip_->design;
     const auto every = static_cast<std::int64_t>(options_->show_every), count = static_cast<std::int64_t>(chip_->force.size());
-    if (design.kept.empty() && every == 0) return;
-    const auto& system = rig_->bench().system;
+    if (design.operating_ranges.empty() && every == 0) return;
+    const auto& system = rig_->context().system;
     for (; sample_ < count && static_cast<double>(sample_) * chip_->T <= times_[0]; ++sample_) {
         const double t = static_cast<double>(sample_) * chip_->T;
         const auto value = [&](int u) {
             return sample_ > 0 ? between(t, u) : u < 0 ? 0 : past(memory_.block.past_x, 0, static_cast<std::size_t>(u));
         };
-        for (std::size_t k = 0; k < design.kept.size(); ++k)
-            if (auto& o = answer_.outside[k]; !design.kept[k].holds(design.kept[k].what.seen(system, value)))
+        for (std::size_t k = 0; k < design.operating_ranges.size(); ++k)
+            if (auto& o = answer_.outside[k]; !design.operating_ranges[k].contains(design.operating_ranges[k].quantity.value(system, value)))
                 o = {o.samples + 1, o.first_sample < 0 ? sample_ : o.first_sample};
-        for (std::size_t p = 0; every > 0 && sample_ % every == 0 && p < design.shown.size(); ++p)
-            answer_.shown[p].push_back(static_cast<float>(design.shown[p].seen(system, value)));
+        for (std::size_t p = 0; every > 0 && sample_ % every == 0 && p < design.probes.size(); ++p)
+            answer_.shown[p].push_back(static_cast<float>(design.probes[p].value(system, value)));
     }
 }
 
@@ -297,7 +297,7 @@ void Seat::look_at_samples() {
 void Seat::spend(double from) {
     const double half = (times_[0] - from) / 2;
     const auto last = power_;
-    power_ = rig_->meter().delivered(x_, times_[0]);
+    power_ = rig_->meter().delivered_at(x_, times_[0]);
     answer_.spent += {2 * half, half * (last.supplies + power_.supplies), half * (last.sensor + power_.sensor)};
 }
 

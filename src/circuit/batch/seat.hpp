@@ -5,7 +5,7 @@
 
 #include "circuit/batch/block.hpp"
 #include "circuit/batch/chips.hpp"
-#include "circuit/rig.hpp"
+#include "circuit/streaming_transient.hpp"
 
 namespace corpuscle::circuit {
 
@@ -18,8 +18,8 @@ private:
     ChipMemory& memory_;
     std::size_t lane_;
     std::optional<Chip> chip_;
-    std::unique_ptr<Rig> rig_;  // reused for the next chip if only the sample differs
-    std::shared_ptr<const CircuitDesign> design_;
+    std::unique_ptr<StreamingTransient> rig_;  // reused for the next chip if only the sample differs
+    std::shared_ptr<const CircuitAfferentFactory> design_;
     double T_ = 0;
     ChipAnswer answer_;
     const BatchOptions* options_ = nullptr;
@@ -42,7 +42,7 @@ private:
     PastWeights value_{};
     std::vector<std::size_t> sources_;  // time-dependent sources
     std::vector<double> v_, stamp_, x_;
-    PowerMeter::Delivered power_;
+    PowerMeter::DeliveredPower power_;
     std::int64_t sample_ = 0;  // next sample to record
     long looks_ = 0;
 

@@ -13,7 +13,7 @@ constexpr double um = 1e-6, max_rows_of_array = 4096;
 }  // namespace
 
 Area& Area::operator+=(const Area& more) {
-    gates += more.gates, arrays += more.arrays, apart += more.apart, capacitors += more.capacitors;
+    gates += more.gates, arrays += more.arrays, islands += more.islands, capacitors += more.capacitors;
     return *this;
 }
 
@@ -31,11 +31,11 @@ double array_area(double W, double L, double unit_transistors) {
 
 Area area_of(const Element& e) {
     Area out;
-    if (e.letter == 'c' && !e.formula) out.capacitors = std::abs(e.value) * value_or(e.values, "m", 1) / capacitor_density;
+    if (e.letter == 'c' && !e.expression) out.capacitors = std::abs(e.value) * value_or(e.values, "m", 1) / capacitor_density;
     if (e.letter != 'm') return out;
     const double W = value_or(e.values, "w", 1 * um), L = value_or(e.values, "l", 1 * um);
     const double units = value_or(e.values, "m", 1) * value_or(e.values, "stack", 1);
-    out.gates = units * W * L, out.arrays = array_area(W, L, units), out.apart = units * rectangle_area(W, L, 1, 1);
+    out.gates = units * W * L, out.arrays = array_area(W, L, units), out.islands = units * rectangle_area(W, L, 1, 1);
     return out;
 }
 

@@ -14,37 +14,37 @@ constexpr double min_reported_leak = 0.1;  // as a fraction of the smallest bias
 bool is_afferent(const Circuit& circuit) {
     const auto& elements = circuit.elements;
     return std::any_of(elements.begin(), elements.end(), [](const auto& e) { return e.waveform.shape == Waveform::Shape::force; }) &&
-           std::any_of(circuit.commands.begin(), circuit.commands.end(), [](const auto& c) { return c.name == "spike"; });
+           std::any_of(circuit.directives.begin(), circuit.directives.end(), [](const auto& c) { return c.name == "spike"; });
 }
 
-bool has_no_size(const Element& e) { return e.letter == 'r' || e.letter == 'l' || e.letter == 'd' || (e.letter == 'c' && e.formula); }
+bool has_no_size(const Element& e) { return e.letter == 'r' || e.letter == 'l' || e.letter == 'd' || (e.letter == 'c' && e.expression); }
 
 void add_areas(const Circuit& circuit, const Blocks& blocks, Cost& out) {
     for (const auto& name : blocks.names) out.blocks.push_back({name, 0, 0, {}, {}, ""});
     for (std::size_t k = 0; k < circuit.elements.size(); ++k) {
         const auto& e = circuit.elements[k];
-        auto& block = out.blocks[blocks.of[k]];
+        auto& block = out.blocks[blocks.block_of_element[k]];
         block.area += area_of(e);
-        out.unsized += has_no_size(e);
+        out.unknown_areas += has_no_size(e);
         if (e.letter != 'm') continue;
         ++block.transistors;
-        block.units += static_cast<std::size_t>(std::ceil(value_or(e.values, "m", 1) * value_or(e.values, "stack", 1)));
+        block.unit_transistors += static_cast<std::size_t>(std::ceil(value_or(e.values, "m", 1) * value_or(e.values, "stack", 1)));
     }
 }
 
 void add_leakage(const TestBench& context, std::span<const double> x, const Blocks& blocks, Cost& out) {
     const auto& circuit = *context.circuit;
     out.smallest_bias = smallest_bias(circuit);
-    for (auto& leak : leaks_of(context.system, x, out.supply)) {
-        auto& block = out.blocks[blocks.of[leak.element]];
-        if (block.worst_name.empty() || leak.current > block.worst.current)
-            block.worst = leak, block.worst_name = circuit.elements[leak.element].name;
-        if (leak.off && out.smallest_bias > 0 && leak.current > min_reported_leak * out.smallest_bias) out.leaks.push_back(std::move(leak));
+    for (auto& leak : leakage_of(context.system, x, out.supply)) {
+        auto& block = out.blocks[blocks.block_of_element[leak.element]];
+        if (block.worst_name.empty() || leak.current > block.worst_leak.current)
+            block.worst_leak = leak, block.worst_name = circuit.elements[leak.element].name;
+        if (leak.is_off && out.smallest_bias > 0 && leak.current > min_reported_leak * out.smallest_bias) out.leaks.push_back(std::move(leak));
     }
-    std::sort(out.leaks.begin(), out.leaks.end(), [](const Leak& a, const Leak& b) {
-        return std::tuple(a.onto.empty(), -a.current, a.element) < std::tuple(b.onto.empty(), -b.current, b.element);
+    std::sort(out.leaks.begin(), out.leaks.end(), [](const Leakage& a, const Leakage& b) {
+        return std::tuple(a.capacitor_node.empty(), -a.current, a.element) < std::tuple(b.capacitor_node.empty(), -b.current, b.element);
     });
-    for (const auto& leak : out.leaks) out.leaking.push_back(circuit.elements[leak.element].name);
+    for (const auto& leak : out.leaks) out.leaking_names.push_back(circuit.elements[leak.element].name);
 }
 
 }  // namespace
@@ -55,7 +55,7 @@ Area Cost::area() const {
     return all;
 }
 
-const Powers* Cost::powers(std::string_view of) const {
+const PowerBreakdown* Cost::powers(std::string_view of) const {
     for (const auto& [name, powers] : power)
         if (name == of) return &powers;
     return nullptr;
@@ -67,12 +67,12 @@ Result<Cost> cost_of(TestBench& context, const PowerOverTime* over) {
     const PowerMeter meter(context.system, rest->x, context.tolerances.gmin);
     Cost out;
     out.supply = meter.supply(), out.sources = meter.sources(), out.has_sensor = meter.has_sensor();
-    out.is_receptor = is_afferent(*context.circuit);
+    out.is_afferent = is_afferent(*context.circuit);
     add_areas(*context.circuit, meter.blocks(), out);
     add_leakage(context, rest->x, meter.blocks(), out);
-    out.power.emplace_back("op", meter.at(rest->x));
+    out.power.emplace_back("op", meter.power_at(rest->x));
     if (over)
-        for (auto& named_power : over->told()) out.power.push_back(std::move(named_power));
+        for (auto& named_power : over->averages()) out.power.push_back(std::move(named_power));
     return out;
 }
 

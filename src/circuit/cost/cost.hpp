@@ -11,9 +11,9 @@ namespace corpuscle::circuit {
 /// Area and leakage of one block.
 struct BlockCost {
     std::string name;
-    std::size_t transistors = 0, units = 0;  ///< arrays, and the unit transistors that they consist of
+    std::size_t transistors = 0, unit_transistors = 0;  ///< arrays, and the unit transistors that they consist of
     Area area;
-    Leak worst;              ///< of the transistor with the largest leakage current
+    Leakage worst_leak;              ///< of the transistor with the largest leakage current
     std::string worst_name;  ///< "" if the block has no transistor
 };
 
@@ -22,17 +22,17 @@ struct Cost {
     double supply = 0;                                  ///< V, of the source that delivers the most power at the operating point
     std::vector<std::string> sources;                   ///< the sources that deliver power
     std::vector<BlockCost> blocks;                      ///< in netlist order
-    std::vector<std::pair<std::string, Powers>> power;  ///< "op"; for a transient also "mean", "peak" and the phases of its force
+    std::vector<std::pair<std::string, PowerBreakdown>> power;  ///< "op"; for a transient also "mean", "peak" and the phases of its force
     bool has_sensor = false;                            ///< if false, none of the power is the sensor's
-    bool is_receptor = false;                           ///< it has a force input and a spike output
-    std::size_t unsized = 0;   ///< elements of unknown area: resistors, inductors, diodes, capacitors with an expression
+    bool is_afferent = false;                           ///< it has a force input and a spike output
+    std::size_t unknown_areas = 0;   ///< elements of unknown area: resistors, inductors, diodes, capacitors with an expression
     double smallest_bias = 0;  ///< A; 0 if the circuit has no ideal bias source
-    std::vector<Leak>
+    std::vector<Leakage>
         leaks;  ///< devices that are off and leak more than a tenth of smallest_bias; those at capacitor nodes first, then by current
-    std::vector<std::string> leaking;  ///< names of the devices of `leaks`
+    std::vector<std::string> leaking_names;  ///< names of the devices of `leaks`
 
     Area area() const;
-    const Powers* powers(std::string_view of) const;  ///< null if there is none of this name
+    const PowerBreakdown* powers(std::string_view of) const;  ///< null if there is none of this name
     double per_mm2() const { return 1e-6 / area().total(); }
 };
 

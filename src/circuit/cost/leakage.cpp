@@ -57,8 +57,8 @@ double drain_current(const Device& d, double polarity, double supply, double for
 
 }  // namespace
 
-std::vector<Leak> leaks_of(const System& system, std::span<const double> x, double supply) {
-    std::vector<Leak> out;
+std::vector<Leakage> leakage_of(const System& system, std::span<const double> x, double supply) {
+    std::vector<Leakage> out;
     const auto& circuit = system.circuit();
     const MergedNodes merged(circuit);
     const auto held = capacitor_nodes(circuit, merged);
@@ -69,11 +69,11 @@ std::vector<Leak> leaks_of(const System& system, std::span<const double> x, doub
         const double polarity = circuit.models[static_cast<std::size_t>(e.model)].type == "pmos" ? -1 : 1;
         const auto v = system.terminals(d, x);
         const double source = std::min(polarity * v[D], polarity * v[S]);
-        Leak leak{k, drain_current(d, polarity, supply, std::max(polarity * v[B] - source, 0.0)), polarity * v[G] - source, false, ""};
-        leak.off = leak.V_GS < thermal_voltage(circuit.temperature + zero_celsius);
+        Leakage leak{k, drain_current(d, polarity, supply, std::max(polarity * v[B] - source, 0.0)), polarity * v[G] - source, false, ""};
+        leak.is_off = leak.V_GS < thermal_voltage(circuit.temperature + zero_celsius);
         for (const auto end : {D, S})
-            if (const auto node = held.find(merged.of(e.nodes[end])); leak.onto.empty() && node != held.end())
-                leak.onto = circuit.nodes[static_cast<std::size_t>(node->second)];
+            if (const auto node = held.find(merged.of(e.nodes[end])); leak.capacitor_node.empty() && node != held.end())
+                leak.capacitor_node = circuit.nodes[static_cast<std::size_t>(node->second)];
         out.push_back(std::move(leak));
     }
     return out;

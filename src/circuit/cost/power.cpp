@@ -28,15 +28,15 @@ std::vector<int> force_nodes(const System& system) {
 
 /// True for a current source with an expression that reads one of these nodes.
 bool is_sensor(const Element& e, const Device& d, std::span<const int> force) {
-    if (!e.formula || e.formula_is_voltage || (e.letter != 'b' && e.letter != 'g')) return false;
+    if (!e.expression || e.expression_is_voltage || (e.letter != 'b' && e.letter != 'g')) return false;
     return std::any_of(d.unknowns.begin() + 2, d.unknowns.end(),
                        [&](int u) { return std::find(force.begin(), force.end(), u) != force.end(); });
 }
 
 /// Calls f(a, b) for each pair of numbers.
 template <class F>
-void for_each_power(Powers& a, const Powers& b, F f) {
-    f(a.supplies, b.supplies), f(a.sensor, b.sensor), f(a.own, b.own);
+void for_each_power(PowerBreakdown& a, const PowerBreakdown& b, F f) {
+    f(a.supplies, b.supplies), f(a.sensor, b.sensor), f(a.without_sensor, b.without_sensor);
     a.sources.resize(b.sources.size()), a.blocks.resize(b.blocks.size());
     for (std::size_t k = 0; k < b.sources.size(); ++k) f(a.sources[k], b.sources[k]);
     for (std::size_t k = 0; k < b.blocks.size(); ++k) f(a.blocks[k], b.blocks[k]);
@@ -48,7 +48,7 @@ Blocks::Blocks(const Circuit& circuit) {
     for (const auto& e : circuit.elements) {
         const auto name = block_of(e);
         const auto at = std::find(names.begin(), names.end(), name);
-        of.push_back(static_cast<std::size_t>(at - names.begin()));
+        block_of_element.push_back(static_cast<std::size_t>(at - names.begin()));
         if (at == names.end()) names.push_back(name);
     }
 }
@@ -60,7 +60,7 @@ PowerMeter::PowerMeter(const System& system, std::span<const double> x, double g
     double max_delivered = -INFINITY;
     for (std::size_t k = 0; k < elements.size(); ++k) {
         const auto& e = elements[k];
-        role_.push_back(-1 - static_cast<int>(blocks_.of[k]));
+        role_.push_back(-1 - static_cast<int>(blocks_.block_of_element[k]));
         if (is_sensor(e, *system.devices()[k], force)) sensors_.push_back(k);
         if (!is_independent(e)) continue;
         double heat = 0;
@@ -92,8 +92,8 @@ double PowerMeter::current(std::size_t k, std::span<const double> x, double t, d
     return f_[0];
 }
 
-Powers PowerMeter::at(std::span<const double> x, double t) const {
-    Powers out;
+PowerBreakdown PowerMeter::power_at(std::span<const double> x, double t) const {
+    PowerBreakdown out;
     out.sources.resize(sources_.size()), out.blocks.resize(blocks_.names.size());
     double power = 0;
     for (std::size_t k = 0; k < role_.size(); ++k) {
@@ -106,12 +106,12 @@ Powers PowerMeter::at(std::span<const double> x, double t) const {
     }
     for (const double p : out.sources) out.supplies += p;
     for (const auto k : sensors_) out.sensor += std::abs(current(k, x, t, power)) * supply_;
-    out.own = out.supplies - out.sensor;
+    out.without_sensor = out.supplies - out.sensor;
     return out;
 }
 
-PowerMeter::Delivered PowerMeter::delivered(std::span<const double> x, double t) const {
-    Delivered out;
+PowerMeter::DeliveredPower PowerMeter::delivered_at(std::span<const double> x, double t) const {
+    DeliveredPower out;
     double power = 0;
     const auto at = [&](int unknown) { return unknown < 0 ? 0 : x[static_cast<std::size_t>(unknown)]; };
     for (const auto k : sources_) {
@@ -139,9 +139,9 @@ Result<void> PowerOverTime::begin(const Plot&) {
     return {};
 }
 
-Result<void> PowerOverTime::point(std::span<const double> row) {
+Result<void> PowerOverTime::add_point(std::span<const double> row) {
     const double t = row[0];
-    auto now = meter_.at(row.subspan(1), t);
+    auto now = meter_.power_at(row.subspan(1), t);
     if (!std::exchange(has_points_, true)) {
         peak_ = now;
     } else {
@@ -149,22 +149,22 @@ Result<void> PowerOverTime::point(std::span<const double> row) {
             const double from = p == 0 ? t_ : std::max(t_, phases_[p - 1].from), to = p == 0 ? t : std::min(t, phases_[p - 1].to);
             if (!(to > from)) continue;
             const double fraction = ((from + to) / 2 - t_) / (t - t_);  // linear between two points, so the middle is the mean
-            for_each_power(sums_[p], before_, [&](double& sum, double b) { sum += (to - from) * (1 - fraction) * b; });
+            for_each_power(sums_[p], previous_, [&](double& sum, double b) { sum += (to - from) * (1 - fraction) * b; });
             for_each_power(sums_[p], now, [&](double& sum, double n) { sum += (to - from) * fraction * n; });
             times_[p] += to - from;
         }
         for_each_power(peak_, now, [](double& peak, double n) { peak = std::max(peak, n); });
     }
-    before_ = std::move(now), t_ = t;
+    previous_ = std::move(now), t_ = t;
     return {};
 }
 
-std::vector<std::pair<std::string, Powers>> PowerOverTime::told() const {
-    std::vector<std::pair<std::string, Powers>> out;
+std::vector<std::pair<std::string, PowerBreakdown>> PowerOverTime::averages() const {
+    std::vector<std::pair<std::string, PowerBreakdown>> out;
     if (!has_points_) return out;
     for (std::size_t p = 0; p < sums_.size(); ++p) {
         if (!(times_[p] > 0)) continue;
-        Powers mean;
+        PowerBreakdown mean;
         for_each_power(mean, sums_[p], [&](double& m, double sum) { m = sum / times_[p]; });
         out.emplace_back(p == 0 ? "mean" : phases_[p - 1].name, std::move(mean));
         if (p == 0) out.emplace_back("peak", peak_);

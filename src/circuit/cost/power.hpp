@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "circuit/points.hpp"
+#include "circuit/point_sink.hpp"
 #include "circuit/solve/system.hpp"
 #include "signal/force_source.hpp"
 
@@ -15,15 +15,15 @@ namespace corpuscle::circuit {
 /// another ("ideal currents"), and all other elements of the top level the last ("top level").
 struct Blocks {
     std::vector<std::string> names;
-    std::vector<std::size_t> of;  ///< index of the block of each element
+    std::vector<std::size_t> block_of_element;  ///< index of the block of each element
     explicit Blocks(const Circuit&);
 };
 
 /// In W. Sources deliver power and blocks dissipate it. The difference charges capacitors; it averages to zero.
-struct Powers {
+struct PowerBreakdown {
     double supplies = 0;                  ///< delivered by all sources
     double sensor = 0;                    ///< of that, the power for the current through the sensor; see PowerMeter
-    double own = 0;                       ///< the rest
+    double without_sensor = 0;                       ///< the rest
     std::vector<double> sources, blocks;  ///< of each source and block, in the order of the meter
 };
 
@@ -46,12 +46,12 @@ public:
     /// x is the operating point; gmin is in S.
     PowerMeter(const System&, std::span<const double> x, double gmin);
 
-    Powers at(std::span<const double> x, double t = 0) const;
+    PowerBreakdown power_at(std::span<const double> x, double t = 0) const;
     /// Only the power of the sources and of the sensor, W; cheap enough for every time step.
-    struct Delivered {
+    struct DeliveredPower {
         double supplies = 0, sensor = 0;
     };
-    Delivered delivered(std::span<const double> x, double t) const;
+    DeliveredPower delivered_at(std::span<const double> x, double t) const;
     const Blocks& blocks() const { return blocks_; }
     std::vector<std::string> sources() const;
     double supply() const { return supply_; }  ///< V, of the source that delivers most
@@ -62,20 +62,20 @@ public:
 class PowerOverTime final : public PointSink {
     const PowerMeter& meter_;
     std::vector<Phase> phases_;
-    std::vector<Powers> sums_;  // J; the first is of the complete transient
+    std::vector<PowerBreakdown> sums_;  // J; the first is of the complete transient
     std::vector<double> times_;
-    Powers peak_, before_;
+    PowerBreakdown peak_, previous_;
     double t_ = 0;
     bool has_points_ = false;
 
 public:
     PowerOverTime(const PowerMeter& meter, std::vector<Phase> phases) : meter_(meter), phases_(std::move(phases)) {}
     Result<void> begin(const Plot&) override;
-    Result<void> point(std::span<const double> row) override;
+    Result<void> add_point(std::span<const double> row) override;
     Result<void> end() override { return {}; }
 
     /// "mean", "peak", then each phase by name; empty if there was no transient.
-    std::vector<std::pair<std::string, Powers>> told() const;
+    std::vector<std::pair<std::string, PowerBreakdown>> averages() const;
 };
 
 }  // namespace corpuscle::circuit

@@ -15,7 +15,7 @@ using Shape = Waveform::Shape;
 }  // namespace
 
 Course::Course(Waveform wave, double step, double stop) : wave_(std::move(wave)), step_(step), stop_(stop) {
-    if (wave_.shape == Shape::points)
+    if (wave_.shape == Shape::piecewise_linear)
         for (std::size_t k = 0; k + 1 < wave_.numbers.size(); k += 2) corners_.push_back(wave_.numbers[k]);
     if (wave_.shape == Shape::exponential) {
         const double first = number(2, 0);
@@ -32,7 +32,7 @@ double Course::at(double t) const {
             return sine(t);
         case Shape::exponential:
             return exponential(t);
-        case Shape::points:
+        case Shape::piecewise_linear:
             return points(t);
         default:
             return wave_.dc;

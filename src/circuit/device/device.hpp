@@ -16,7 +16,7 @@
 
 namespace corpuscle::circuit {
 
-class Trace;
+class ForceWaveform;
 
 /// The conditions under which a device is evaluated.
 struct Instant {
@@ -82,7 +82,7 @@ public:
     /// Starts a transient with this step and end (s). An end of 0 freezes the source at its DC value again.
     virtual void go(double /*step*/, double /*stop*/) {}
     /// Sets the force waveform of a source with the keyword FORCE; null: 0 N. Returns false for any other device.
-    virtual bool hear(const Trace*) { return false; }
+    virtual bool hear(const ForceWaveform*) { return false; }
     /// The first time after t (s) at which the waveform has a kink or a jump.
     virtual double next_corner(double /*t*/) const { return std::numeric_limits<double>::infinity(); }
     /// The longest step (s) that resolves the waveform between its breakpoints.

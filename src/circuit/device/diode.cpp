@@ -157,12 +157,12 @@ bool limit_junction(double& v, double v_before, double n_vt, double v_crit) {
 
 Result<std::unique_ptr<Device>> make_diode(const Element& e, Setup& setup) {
     static constexpr std::string_view known[] = {"area", "m", "pj", "temp", "dtemp", "ic", "off", "level"};
-    if (auto wrong = unknown_value(e.name, e.values, known, e.place)) return *wrong;
+    if (auto wrong = unknown_value(e.name, e.values, known, e.location)) return *wrong;
     const auto& model = setup.circuit().models[static_cast<std::size_t>(e.model)];
     if (value_or(e.values, "pj", 0) != 0)
-        return bad_input(fmt::format("{}: pj is not supported (this level 1 diode has no sidewalls); remove it", e.name), e.place);
+        return bad_input(fmt::format("{}: pj is not supported (this level 1 diode has no sidewalls); remove it", e.name), e.location);
     if (const double level = value_or(model.values, "level", 1); level != 1)
-        return bad_input(fmt::format("{}: diode level {:g} is not supported; use level=1", model.name, level), model.place);
+        return bad_input(fmt::format("{}: diode level {:g} is not supported; use level=1", model.name, level), model.location);
     const auto card = card_from<DiodeCard>(fields, model, {"level", "cj0", "jsw", "ikf", "trs", "rsw"});
     if (!card) return card.error();
     DiodeCard c = *card;
@@ -171,7 +171,7 @@ Result<std::unique_ptr<Device>> make_diode(const Element& e, Setup& setup) {
         if (value_or(model.values, name, 0) != 0)
             return bad_input(fmt::format("{}: {} is not supported (this level 1 diode has no sidewalls and no high injection); remove it",
                                          model.name, name),
-                             model.place);
+                             model.location);
     auto device = std::make_unique<Diode>(c, value_or(e.values, "area", 1) * value_or(e.values, "m", 1), setup.temperature(e));
     device->unknowns = {setup.node(e.nodes[0]), setup.node(e.nodes[1])};
     if (c.rs > 0) device->unknowns.push_back(setup.own(e.name + "#junction"));

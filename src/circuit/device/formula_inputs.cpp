@@ -23,37 +23,37 @@ int FormulaInputs::local_index(int unknown) {
     return static_cast<int>(std::find(unknowns_.begin(), unknowns_.end(), unknown) - unknowns_.begin());
 }
 
-Result<FormulaInputs> FormulaInputs::make(const Formula& expression, const Element& e, const Setup& setup, std::vector<int> first) {
+Result<FormulaInputs> FormulaInputs::make(const Expression& expression, const Element& e, const Setup& setup, std::vector<int> first) {
     FormulaInputs out;
     out.unknowns_ = std::move(first);
     const Circuit& circuit = setup.circuit();
     for (const auto& in : expression.inputs()) {
         Input input;
         const auto node = [&](const std::string& name) -> Result<int> {
-            const int number = circuit.node(name);
+            const int number = circuit.find_node(name);
             if (number < 0)
-                return bad_input(fmt::format("{}: unknown node '{}'{}", e.name, name, suggestion(name, circuit.nodes)), e.place);
+                return bad_input(fmt::format("{}: unknown node '{}'{}", e.name, name, suggestion(name, circuit.nodes)), e.location);
             return setup.node(number);
         };
         switch (in.kind) {
-            case FormulaInput::Kind::voltage: {
+            case ExpressionInput::Kind::voltage: {
                 const auto plus = node(in.name), minus = in.minus.empty() ? Result<int>(-1) : node(in.minus);
                 if (!plus) return plus.error();
                 if (!minus) return minus.error();
                 input.plus = out.local_index(*plus), input.minus = out.local_index(*minus);
                 break;
             }
-            case FormulaInput::Kind::current: {
-                const int element = circuit.element(in.name);
+            case ExpressionInput::Kind::current: {
+                const int element = circuit.find_element(in.name);
                 if (element < 0 || setup.branch(element) < 0)
-                    return bad_input(fmt::format("{}: i({}): no voltage source or inductor has this name", e.name, in.name), e.place);
+                    return bad_input(fmt::format("{}: i({}): no voltage source or inductor has this name", e.name, in.name), e.location);
                 input.plus = out.local_index(setup.branch(element));
                 break;
             }
-            case FormulaInput::Kind::time:
+            case ExpressionInput::Kind::time:
                 input.is_time = true;
                 break;
-            case FormulaInput::Kind::temperature:
+            case ExpressionInput::Kind::temperature:
                 input.constant = setup.temperature(e) - zero_celsius;
                 break;
         }

@@ -14,13 +14,13 @@ public:
     };
 
     /// `first`: the device's own terminals and branch; the unknowns that only the expression uses are appended to these.
-    static Result<FormulaInputs> make(const Formula&, const Element&, const Setup&, std::vector<int> first);
+    static Result<FormulaInputs> make(const Expression&, const Element&, const Setup&, std::vector<int> first);
 
     const std::vector<int>& unknowns() const { return unknowns_; }
 
     /// Calls use(value, slopes).
     template <class Use>
-    void eval(const Formula& expression, std::span<const double> v, const Instant& context, const Use& use) const {
+    void eval(const Expression& expression, std::span<const double> v, const Instant& context, const Use& use) const {
         std::vector<double> values, derivatives(inputs_.size());
         for (const auto& in : inputs_) values.push_back(in.value(v, context));
         const double value = expression.value(values, derivatives);

@@ -24,11 +24,11 @@ constexpr std::string_view model_values[] = {"tc1", "tc2", "tnom"};
 
 /// Rejects parameters of the element or its model that these devices do not have.
 std::optional<Error> check_parameters(const Element& e, const Setup& setup) {
-    if (auto wrong = unknown_value(e.name, e.values, passive_values, e.place)) return wrong;
-    if (value_or(e.values, "scale", 1) == 0) return bad_input(fmt::format("{}: scale must not be 0", e.name), e.place);
+    if (auto wrong = unknown_value(e.name, e.values, passive_values, e.location)) return wrong;
+    if (value_or(e.values, "scale", 1) == 0) return bad_input(fmt::format("{}: scale must not be 0", e.name), e.location);
     if (e.model < 0) return {};
     const Model& model = setup.circuit().models[static_cast<std::size_t>(e.model)];
-    return unknown_value(model.name, model.values, model_values, model.place);
+    return unknown_value(model.name, model.values, model_values, model.location);
 }
 
 /// i = v / R
@@ -67,12 +67,12 @@ public:
 
 /// q = an expression of voltages
 class ChargeExpression final : public Device {
-    Formula expression_;
+    Expression expression_;
     FormulaInputs binding_;
     double m_;
 
 public:
-    ChargeExpression(Formula expression, FormulaInputs binding, double m)
+    ChargeExpression(Expression expression, FormulaInputs binding, double m)
         : expression_(std::move(expression)), binding_(std::move(binding)), m_(m) {}
     bool linear() const override { return false; }
     void eval(std::span<const double> v, const Instant& context, const Stamp& out) const override {
@@ -106,7 +106,7 @@ public:
 Result<std::unique_ptr<Device>> make_resistor(const Element& e, Setup& setup) {
     if (auto wrong = check_parameters(e, setup)) return *wrong;
     const double r = at_temperature(e.value, e, setup), m = value_or(e.values, "m", 1);
-    if (r == 0) return bad_input(fmt::format("{}: 0 ohm is not allowed; use a voltage source of 0 V as a wire", e.name), e.place);
+    if (r == 0) return bad_input(fmt::format("{}: 0 ohm is not allowed; use a voltage source of 0 V as a wire", e.name), e.location);
     auto device = std::make_unique<Resistor>(r, m, setup.temperature(e));
     device->unknowns = {setup.node(e.nodes[0]), setup.node(e.nodes[1])};
     return std::unique_ptr<Device>(std::move(device));
@@ -116,14 +116,14 @@ Result<std::unique_ptr<Device>> make_capacitor(const Element& e, Setup& setup) {
     if (auto wrong = check_parameters(e, setup)) return *wrong;
     const double m = value_or(e.values, "m", 1);
     for (const std::string_view name : {"scale", "tc1", "tc2"})
-        if (e.formula && e.values.contains(name))
-            return bad_input(fmt::format("{}: {} has no effect on a charge expression; put it into q=", e.name, name), e.place);
+        if (e.expression && e.values.contains(name))
+            return bad_input(fmt::format("{}: {} has no effect on a charge expression; put it into q=", e.name, name), e.location);
     const std::vector<int> ends = {setup.node(e.nodes[0]), setup.node(e.nodes[1])};
-    if (e.formula) {
-        auto binding = FormulaInputs::make(*e.formula, e, setup, ends);
+    if (e.expression) {
+        auto binding = FormulaInputs::make(*e.expression, e, setup, ends);
         if (!binding) return binding.error();
         const auto unknowns = binding->unknowns();
-        auto device = std::make_unique<ChargeExpression>(*e.formula, std::move(*binding), m);
+        auto device = std::make_unique<ChargeExpression>(*e.expression, std::move(*binding), m);
         device->unknowns = unknowns;
         return std::unique_ptr<Device>(std::move(device));
     }
@@ -135,7 +135,7 @@ Result<std::unique_ptr<Device>> make_capacitor(const Element& e, Setup& setup) {
 Result<std::unique_ptr<Device>> make_inductor(const Element& e, Setup& setup) {
     if (auto wrong = check_parameters(e, setup)) return *wrong;
     auto device = std::make_unique<Inductor>(at_temperature(e.value, e, setup) / value_or(e.values, "m", 1));
-    device->unknowns = {setup.node(e.nodes[0]), setup.node(e.nodes[1]), setup.branch(setup.circuit().element(e.name))};
+    device->unknowns = {setup.node(e.nodes[0]), setup.node(e.nodes[1]), setup.branch(setup.circuit().find_element(e.name))};
     return std::unique_ptr<Device>(std::move(device));
 }
 

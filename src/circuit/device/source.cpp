@@ -6,7 +6,7 @@
 #include "circuit/device/course.hpp"
 #include "circuit/device/formula_inputs.hpp"
 #include "circuit/device/values.hpp"
-#include "circuit/trace.hpp"
+#include "circuit/force_waveform.hpp"
 #include "signal/elementary.hpp"
 
 namespace corpuscle::circuit {
@@ -21,7 +21,7 @@ double dc_value(const Waveform& w) {
             return w.numbers[0];
         case Waveform::Shape::sine:
             return w.numbers[0];
-        case Waveform::Shape::points:
+        case Waveform::Shape::piecewise_linear:
             return w.numbers.size() > 1 ? w.numbers[1] : 0;
         default:
             return w.dc;
@@ -38,7 +38,7 @@ class IndependentSource : public Device {
     Waveform wave_;
     double value_;
     std::optional<Course> waveform_;
-    const Trace* force_ = nullptr;
+    const ForceWaveform* force_ = nullptr;
 
     double value_at(double t) const { return waveform_ ? waveform_->at(t) : force_ ? value_ + wave_.numbers[0] * force_->at(t) : value_; }
 
@@ -54,7 +54,7 @@ public:
         waveform_.reset();
         if (stop > 0 && wave_.shape != Waveform::Shape::none && wave_.shape != Waveform::Shape::force) waveform_.emplace(wave_, step, stop);
     }
-    bool hear(const Trace* force) override {
+    bool hear(const ForceWaveform* force) override {
         const bool has_force = wave_.shape == Waveform::Shape::force;
         if (has_force) force_ = force;
         return has_force;
@@ -62,7 +62,7 @@ public:
     double pace() const override { return waveform_ ? waveform_->pace() : Device::pace(); }
     bool varies() const override { return waveform_ || force_; }
     double next_corner(double t) const override {
-        return waveform_ ? waveform_->next_corner(t) : force_ ? force_->next_corner(t) : Device::next_corner(t);
+        return waveform_ ? waveform_->next_corner(t) : force_ ? force_->next_breakpoint(t) : Device::next_corner(t);
     }
 };
 
@@ -125,21 +125,21 @@ public:
 };
 
 /// True if the text of an expression contains a comparison, a condition or a rounding function. An expression without text counts as such.
-bool contains_jumps(const Formula& expression) {
-    const auto text = expression.text([](const FormulaInput&) { return std::string("x"); });
+bool contains_jumps(const Expression& expression) {
+    const auto text = expression.text([](const ExpressionInput&) { return std::string("x"); });
     if (!text) return true;
     constexpr std::string_view signs[] = {"?", "<", ">", "==", "!=", "&&", "||", "sgn(", "u(", "floor(", "ceil(", "int("};
     return std::any_of(std::begin(signs), std::end(signs), [&](auto sign) { return text->find(sign) != std::string::npos; });
 }
 
 class ExpressionCurrentSource final : public Device {
-    Formula expression_;
+    Expression expression_;
     FormulaInputs binding_;
     double m_;
     bool jumps_ = contains_jumps(expression_);
 
 public:
-    ExpressionCurrentSource(Formula expression, FormulaInputs binding, double m)
+    ExpressionCurrentSource(Expression expression, FormulaInputs binding, double m)
         : expression_(std::move(expression)), binding_(std::move(binding)), m_(m) {}
     bool linear() const override { return false; }
     bool jumps() const override { return jumps_; }
@@ -155,12 +155,12 @@ public:
 };
 
 class ExpressionVoltageSource final : public Device {
-    Formula expression_;
+    Expression expression_;
     FormulaInputs binding_;
     bool jumps_ = contains_jumps(expression_);
 
 public:
-    ExpressionVoltageSource(Formula expression, FormulaInputs binding) : expression_(std::move(expression)), binding_(std::move(binding)) {}
+    ExpressionVoltageSource(Expression expression, FormulaInputs binding) : expression_(std::move(expression)), binding_(std::move(binding)) {}
     bool linear() const override { return false; }
     bool jumps() const override { return jumps_; }
     void eval(std::span<const double> v, const Instant& context, const Stamp& out) const override {
@@ -185,27 +185,27 @@ std::unique_ptr<Device> with_unknowns(std::unique_ptr<D> device, std::vector<int
 }  // namespace
 
 Result<std::unique_ptr<Device>> make_voltage_source(const Element& e, Setup& setup) {
-    if (auto wrong = unknown_value(e.name, e.values, source_values, e.place)) return *wrong;
+    if (auto wrong = unknown_value(e.name, e.values, source_values, e.location)) return *wrong;
     return with_unknowns(std::make_unique<VoltageSource>(e.waveform),
-                         {setup.node(e.nodes[0]), setup.node(e.nodes[1]), setup.branch(setup.circuit().element(e.name))});
+                         {setup.node(e.nodes[0]), setup.node(e.nodes[1]), setup.branch(setup.circuit().find_element(e.name))});
 }
 
 Result<std::unique_ptr<Device>> make_current_source(const Element& e, Setup& setup) {
-    if (auto wrong = unknown_value(e.name, e.values, source_values, e.place)) return *wrong;
+    if (auto wrong = unknown_value(e.name, e.values, source_values, e.location)) return *wrong;
     return with_unknowns(std::make_unique<CurrentSource>(e.waveform, value_or(e.values, "m", 1)),
                          {setup.node(e.nodes[0]), setup.node(e.nodes[1])});
 }
 
 Result<std::unique_ptr<Device>> make_controlled_source(const Element& e, Setup& setup) {
-    if (e.formula) return make_formula_source(e, setup);
-    if (auto wrong = unknown_value(e.name, e.values, source_values, e.place)) return *wrong;
+    if (e.expression) return make_formula_source(e, setup);
+    if (auto wrong = unknown_value(e.name, e.values, source_values, e.location)) return *wrong;
     const bool voltage = e.letter == 'e' || e.letter == 'h', by_current = e.letter == 'f' || e.letter == 'h';
     std::vector<int> unknowns = {setup.node(e.nodes[0]), setup.node(e.nodes[1])};
-    if (voltage) unknowns.push_back(setup.branch(setup.circuit().element(e.name)));
+    if (voltage) unknowns.push_back(setup.branch(setup.circuit().find_element(e.name)));
     if (by_current) {
-        const int control = setup.circuit().element(e.control);
+        const int control = setup.circuit().find_element(e.control_source);
         if (control < 0 || setup.branch(control) < 0)
-            return bad_input(fmt::format("{}: unknown voltage source '{}'; its current is the control", e.name, e.control), e.place);
+            return bad_input(fmt::format("{}: unknown voltage source '{}'; its current is the control", e.name, e.control_source), e.location);
         unknowns.push_back(setup.branch(control));
     } else {
         unknowns.push_back(setup.node(e.nodes[2]));
@@ -216,15 +216,15 @@ Result<std::unique_ptr<Device>> make_controlled_source(const Element& e, Setup& 
 }
 
 Result<std::unique_ptr<Device>> make_formula_source(const Element& e, Setup& setup) {
-    if (auto wrong = unknown_value(e.name, e.values, source_values, e.place)) return *wrong;
+    if (auto wrong = unknown_value(e.name, e.values, source_values, e.location)) return *wrong;
     std::vector<int> first = {setup.node(e.nodes[0]), setup.node(e.nodes[1])};
-    if (e.formula_is_voltage) first.push_back(setup.branch(setup.circuit().element(e.name)));
-    auto binding = FormulaInputs::make(*e.formula, e, setup, std::move(first));
+    if (e.expression_is_voltage) first.push_back(setup.branch(setup.circuit().find_element(e.name)));
+    auto binding = FormulaInputs::make(*e.expression, e, setup, std::move(first));
     if (!binding) return binding.error();
     auto unknowns = binding->unknowns();
-    if (e.formula_is_voltage)
-        return with_unknowns(std::make_unique<ExpressionVoltageSource>(*e.formula, std::move(*binding)), std::move(unknowns));
-    return with_unknowns(std::make_unique<ExpressionCurrentSource>(*e.formula, std::move(*binding), value_or(e.values, "m", 1)),
+    if (e.expression_is_voltage)
+        return with_unknowns(std::make_unique<ExpressionVoltageSource>(*e.expression, std::move(*binding)), std::move(unknowns));
+    return with_unknowns(std::make_unique<ExpressionCurrentSource>(*e.expression, std::move(*binding), value_or(e.values, "m", 1)),
                          std::move(unknowns));
 }
 

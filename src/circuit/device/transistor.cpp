@@ -123,12 +123,12 @@ Result<UicmInstance> read_instance(const Element& e) {
     UicmInstance instance;
     std::vector<std::string_view> known = {"temp", "dtemp", "ic", "off"};
     for (const auto& f : UicmInstance::fields) known.push_back(f.name);
-    if (auto wrong = unknown_value(e.name, e.values, known, e.place)) return *wrong;
+    if (auto wrong = unknown_value(e.name, e.values, known, e.location)) return *wrong;
     for (const auto& f : UicmInstance::fields) {
         const auto given = e.values.find(f.name);
         if (given == e.values.end()) continue;
         const ParameterInfo row{f.name, f.unit, instance.*f.member, f.low, f.high, f.description, {}};
-        if (auto wrong = check_range(e.name, row, given->second)) return bad_input(wrong->message, e.place);
+        if (auto wrong = check_range(e.name, row, given->second)) return bad_input(wrong->message, e.location);
         instance.*f.member = given->second;
     }
     return instance;
@@ -141,7 +141,7 @@ Result<std::unique_ptr<Device>> make_transistor(const Element& e, Setup& setup) 
     if (value_or(model.values, "level", 1) != UicmCard::level)
         return bad_input(fmt::format("{}: MOS model level {:g} is not supported; use level={:g}, UICM (model cards: process/tsmc180.lib)",
                                      model.name, value_or(model.values, "level", 1), UicmCard::level),
-                         model.place);
+                         model.location);
     const auto card = card_from<UicmCard>(UicmCard::fields, model, {"level"});
     if (!card) return card.error();
     const auto instance = read_instance(e);

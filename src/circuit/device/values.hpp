@@ -32,12 +32,12 @@ Result<P> card_from(const ParameterDef<P> (&fields)[N], const Model& model, std:
     std::vector<std::string> names;
     for (const auto& f : fields) names.push_back(lower(f.name));
     known.insert(known.end(), names.begin(), names.end());
-    if (auto wrong = unknown_value(model.name, model.values, known, model.place)) return *wrong;
+    if (auto wrong = unknown_value(model.name, model.values, known, model.location)) return *wrong;
     for (std::size_t k = 0; k < N; ++k) {
         const auto given = model.values.find(names[k]);
         if (given == model.values.end()) continue;
         const ParameterInfo row{fields[k].name, fields[k].unit, card.*fields[k].member, fields[k].low, fields[k].high, fields[k].description, {}};
-        if (auto wrong = check_range(model.name, row, given->second)) return bad_input(wrong->message, model.place);
+        if (auto wrong = check_range(model.name, row, given->second)) return bad_input(wrong->message, model.location);
         card.*fields[k].member = given->second;
     }
     return card;

@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 #include <algorithm>
 
-#include "circuit/netlist/flat.hpp"
-#include "circuit/netlist/number.hpp"
-#include "circuit/netlist/options.hpp"
-#include "circuit/netlist/parsed.hpp"
+#include "circuit/netlist/circuit_builder.hpp"
+#include "circuit/netlist/spice_number.hpp"
+#include "circuit/netlist/netlist_options.hpp"
+#include "circuit/netlist/netlist_impl.hpp"
 #include "signal/parameter.hpp"
 #include "signal/ascii_text.hpp"
 
@@ -17,8 +17,8 @@ constexpr int max_subcircuit_depth = 200;
 
 class CircuitElaborator {
     const ParsedNetlist& parsed_;
-    Flat builder_;
-    Frame top_;
+    CircuitBuilder builder_;
+    Scope top_;
 
     struct NodeVoltage {  // of .ic and .nodeset
         std::string node;
@@ -29,13 +29,13 @@ class CircuitElaborator {
     std::vector<NodeVoltage> node_voltages_;
 
 public:
-    CircuitElaborator(const ParsedNetlist& parsed, const Changes& changes) : parsed_(parsed), builder_(parsed, changes) {
-        top_.body = &parsed.top;
+    CircuitElaborator(const ParsedNetlist& parsed, const ResolvedOverrides& changes) : parsed_(parsed), builder_(parsed, changes) {
+        top_.definition = &parsed.top;
     }
 
     Result<Circuit> run(const Values& given) {
         Circuit& c = builder_.circuit;
-        c.title = parsed_.title, c.file = parsed_.file, c.remarks = parsed_.remarks;
+        c.title = parsed_.title, c.file = parsed_.file, c.warnings = parsed_.warnings;
         c.node_numbers.emplace("0", 0);
         if (auto ok = define_top(given); !ok) return ok.error();
         c.parameters = top_.parameters;
@@ -43,7 +43,7 @@ public:
         if (auto ok = elaborate_contents(top_); !ok) return ok.error();
         if (auto ok = check_references(); !ok) return ok.error();
         if (auto ok = resolve_node_voltages(); !ok) return ok.error();
-        for (const auto* s : parsed_.commands) add_directive(*s);
+        for (const auto* s : parsed_.directives) add_directive(*s);
         apply_overrides_to_directives(c);
         return std::move(c);
     }
@@ -51,43 +51,43 @@ public:
 private:
     Result<void> define_top(const Values& stepped) {
         auto given = stepped;
-        given.insert(builder_.changes.parameters.begin(), builder_.changes.parameters.end());
+        given.insert(builder_.overrides.parameters.begin(), builder_.overrides.parameters.end());
         for (const auto& [name, value] : given)
             if (!parsed_.top.parameters.contains(name))
-                return bad_input(fmt::format("there is no .param {}{}", name, did_you_mean(name, names_in(parsed_.top.parameters))),
+                return bad_input(fmt::format("there is no .param {}{}", name, did_you_mean(name, keys_of(parsed_.top.parameters))),
                                  {parsed_.file});
         return top_.define(given);
     }
 
     // ---- subcircuits ----
 
-    Result<void> elaborate_contents(Frame& scope) {
-        for (const auto* s : scope.body->elements) {
-            if (const auto ok = builder_.visit(scope, *s); !ok) return ok;
+    Result<void> elaborate_contents(Scope& scope) {
+        for (const auto* s : scope.definition->elements) {
+            if (const auto ok = builder_.count_statement(scope, *s); !ok) return ok;
             const auto ok = s->line.text[0] == 'x' ? elaborate_instance(scope, *s) : read_element(builder_, scope, *s);
             if (!ok) return ok;
         }
-        for (const auto* s : scope.body->ics) {
-            if (const auto ok = builder_.visit(scope, *s); !ok) return ok;
+        for (const auto* s : scope.definition->ics) {
+            if (const auto ok = builder_.count_statement(scope, *s); !ok) return ok;
             if (const auto ok = read_node_voltages(scope, *s); !ok) return ok;
         }
         return {};
     }
 
-    Result<void> elaborate_instance(Frame& scope, const Statement& s) {
+    Result<void> elaborate_instance(Scope& scope, const Statement& s) {
         const auto name = s.text(std::size_t{0});
         auto words = node_words(s);
         if (words.size() < 1)
-            return bad_input(fmt::format("{}: expected nodes and the name of a subcircuit", name), s.place(std::size_t{1}));
+            return bad_input(fmt::format("{}: expected nodes and the name of a subcircuit", name), s.location(std::size_t{1}));
         const Word of = words.back();
         words.pop_back();
-        Frame inner;
+        Scope inner;
         if (const auto ok = find_body(scope, s, of, inner); !ok) return ok;
         if (const auto ok = connect(scope, s, words, inner); !ok) return ok;
         inner.caller = &scope, inner.depth = scope.depth + 1, inner.path = fmt::format("{}{}.", scope.path, name);
         if (inner.depth > max_subcircuit_depth)
             return bad_input(fmt::format("{}: subcircuits are nested deeper than the limit of {}", name, max_subcircuit_depth),
-                             s.line.place());
+                             s.line.location());
         if (const auto ok = check_recursion(inner, s); !ok) return ok;
         Values given;
         if (const auto ok = read_overrides(scope, s, inner, given); !ok) return ok;
@@ -102,86 +102,86 @@ private:
         return words;
     }
 
-    static Result<void> find_body(Frame& scope, const Statement& s, const Word& of, Frame& inner) {
+    static Result<void> find_body(Scope& scope, const Statement& s, const Word& of, Scope& inner) {
         std::vector<std::string_view> known;
-        for (Frame* f = &scope; f; f = f->enclosing) {
-            if (const auto at = f->body->subcircuits.find(s.text(of)); at != f->body->subcircuits.end()) {
-                inner.body = at->second.get(), inner.enclosing = f;
+        for (Scope* f = &scope; f; f = f->enclosing) {
+            if (const auto at = f->definition->subcircuits.find(s.text(of)); at != f->definition->subcircuits.end()) {
+                inner.definition = at->second.get(), inner.enclosing = f;
                 return {};
             }
-            for (const auto n : names_in(f->body->subcircuits)) known.push_back(n);
+            for (const auto n : keys_of(f->definition->subcircuits)) known.push_back(n);
         }
         return bad_input(fmt::format("{}: unknown subcircuit '{}'{}", s.text(std::size_t{0}), s.text(of), did_you_mean(s.text(of), known)),
-                         s.place(of));
+                         s.location(of));
     }
 
-    Result<void> connect(Frame& scope, const Statement& s, const std::vector<Word>& words, Frame& inner) {
-        const auto& ports = inner.body->ports;
+    Result<void> connect(Scope& scope, const Statement& s, const std::vector<Word>& words, Scope& inner) {
+        const auto& ports = inner.definition->ports;
         if (words.size() != ports.size()) {
             std::string expected;
             for (const auto& port : ports) expected += expected.size() < 100 ? ' ' + port : std::string();
             return bad_input(fmt::format("{}: {} node{}, but subcircuit '{}' has {}:{}", s.text(std::size_t{0}), words.size(),
-                                         words.size() == 1 ? "" : "s", inner.body->name, ports.size(), expected),
-                             s.line.place());
+                                         words.size() == 1 ? "" : "s", inner.definition->name, ports.size(), expected),
+                             s.line.location());
         }
-        for (std::size_t k = 0; k < words.size(); ++k) inner.ports.emplace(ports[k], builder_.node(scope, s.text(words[k])));
+        for (std::size_t k = 0; k < words.size(); ++k) inner.ports.emplace(ports[k], builder_.find_or_add_node(scope, s.text(words[k])));
         return {};
     }
 
-    static Result<void> check_recursion(const Frame& inner, const Statement& s) {
-        for (const Frame* f = inner.caller; f; f = f->caller) {
-            if (f->body != inner.body) continue;
-            std::string chain = inner.body->name;
-            for (const Frame* g = inner.caller; g != f->caller; g = g->caller) chain = fmt::format("{} -> {}", g->body->name, chain);
-            return bad_input(fmt::format("subcircuit '{}' contains itself: {}", inner.body->name, chain), s.line.place());
+    static Result<void> check_recursion(const Scope& inner, const Statement& s) {
+        for (const Scope* f = inner.caller; f; f = f->caller) {
+            if (f->definition != inner.definition) continue;
+            std::string chain = inner.definition->name;
+            for (const Scope* g = inner.caller; g != f->caller; g = g->caller) chain = fmt::format("{} -> {}", g->definition->name, chain);
+            return bad_input(fmt::format("subcircuit '{}' contains itself: {}", inner.definition->name, chain), s.line.location());
         }
         return {};
     }
 
     /// Evaluates the parameters of the X line in the scope that contains it.
-    Result<void> read_overrides(const Frame& scope, const Statement& s, Frame& inner, Values& given) {
+    Result<void> read_overrides(const Scope& scope, const Statement& s, Scope& inner, Values& given) {
         inner.m = scope.m;
-        for (const auto& pair : s.named) {
+        for (const auto& pair : s.pairs) {
             auto name = s.text(pair.name);
             if (name.starts_with("params:")) name.remove_prefix(7);
-            const auto value = scope.number({&s, pair.value});
+            const auto value = scope.evaluate({&s, pair.value});
             if (!value) return value.error();
-            if (inner.body->defaults.contains(name))
+            if (inner.definition->defaults.contains(name))
                 given.insert_or_assign(std::string(name), *value);
             else if (name != "m")
-                return unknown_parameter(s, pair, name, *inner.body);
+                return unknown_parameter(s, pair, name, *inner.definition);
             else if (!(*value > 0))
-                return bad_input(fmt::format("{}: m = {:g} must be positive", s.text(std::size_t{0}), *value), s.place(pair.value));
+                return bad_input(fmt::format("{}: m = {:g} must be positive", s.text(std::size_t{0}), *value), s.location(pair.value));
             else
                 inner.m *= *value;
         }
         return {};
     }
-    static Error unknown_parameter(const Statement& s, const Named& pair, std::string_view name, const Body& body) {
+    static Error unknown_parameter(const Statement& s, const NameValue& pair, std::string_view name, const SubcktDef& body) {
         return bad_input(fmt::format("{}: subcircuit '{}' has no parameter '{}'{}", s.text(std::size_t{0}), body.name, name,
-                                     did_you_mean(name, names_in(body.defaults))),
-                         s.place(pair.name));
+                                     did_you_mean(name, keys_of(body.defaults))),
+                         s.location(pair.name));
     }
 
     /// Checks that all names in expressions, F and H exist.
     Result<void> check_references() const {
         const Circuit& c = builder_.circuit;
-        for (const auto& p : builder_.promises) {
-            if (p.of == Promise::Of::node) {
+        for (const auto& p : builder_.forward_refs) {
+            if (p.target == ForwardRef::Target::node) {
                 if (c.node_numbers.contains(p.name)) continue;
                 const std::vector<std::string_view> known(c.nodes.begin() + 1, c.nodes.end());
-                return bad_input(fmt::format("{}: unknown node '{}'{}", p.who, p.name, did_you_mean(p.name, known)), p.place);
+                return bad_input(fmt::format("{}: unknown node '{}'{}", p.user, p.name, did_you_mean(p.name, known)), p.location);
             }
-            const int k = c.element(p.name);
-            if (k < 0) return bad_input(fmt::format("{}: unknown element '{}'{}", p.who, p.name, did_you_mean(p.name, sources())), p.place);
+            const int k = c.find_element(p.name);
+            if (k < 0) return bad_input(fmt::format("{}: unknown element '{}'{}", p.user, p.name, did_you_mean(p.name, sources())), p.location);
             const Element& e = c.elements[static_cast<std::size_t>(k)];
             const bool has_current =
-                e.letter == 'v' || (p.of == Promise::Of::current &&
-                                    (e.letter == 'l' || e.letter == 'e' || e.letter == 'h' || (e.letter == 'b' && e.formula_is_voltage)));
+                e.letter == 'v' || (p.target == ForwardRef::Target::current &&
+                                    (e.letter == 'l' || e.letter == 'e' || e.letter == 'h' || (e.letter == 'b' && e.expression_is_voltage)));
             if (!has_current)
                 return bad_input(
-                    fmt::format("{}: '{}' is not a voltage source; put a 0 V source in series to measure its current", p.who, p.name),
-                    p.place);
+                    fmt::format("{}: '{}' is not a voltage source; put a 0 V source in series to measure its current", p.user, p.name),
+                    p.location);
         }
         return {};
     }
@@ -201,69 +201,69 @@ private:
         if (const auto at = c.options.find("temp"); at != c.options.end()) c.temperature = at->second;
         for (const auto* s : parsed_.temperatures) {
             if (s->words.size() != 2)
-                return bad_input(".temp: expected one temperature, in Celsius", s->place(std::min<std::size_t>(2, s->words.size())));
-            const auto value = top_.number(without_braces(*s, s->words[1], 0));
+                return bad_input(".temp: expected one temperature, in Celsius", s->location(std::min<std::size_t>(2, s->words.size())));
+            const auto value = top_.evaluate(without_braces(*s, s->words[1], 0));
             if (!value) return value.error();
             c.temperature = *value;
         }
-        c.temperature = builder_.changes.temperature.value_or(c.temperature);
-        c.mismatch = builder_.changes.mismatch, c.chip = builder_.changes.chip;
+        c.temperature = builder_.overrides.temperature.value_or(c.temperature);
+        c.mismatch_seed = builder_.overrides.mismatch_seed, c.chip = builder_.overrides.chip;
         return {};
     }
 
     Result<void> read_options(const Statement& s) {
         Circuit& c = builder_.circuit;
         for (std::size_t k = 1; k < s.words.size(); ++k) {
-            if (auto error = wrong_option(s.text(k), {}, {}, s.place(k))) return *error;
+            if (auto error = check_option(s.text(k), {}, {}, s.location(k))) return *error;
             c.options.insert_or_assign(std::string(s.text(k)), 1.0);
         }
-        for (const auto& pair : s.named) {
+        for (const auto& pair : s.pairs) {
             const std::string name(s.text(pair.name));
             const auto text = s.text(pair.value);
             const bool is_word = pair.value.kind == Word::Kind::quoted ||
                                  (pair.value.kind == Word::Kind::plain && text[0] >= 'a' && text[0] <= 'z' && !top_.parameter(text));
             if (is_word) {
-                if (auto error = wrong_option(name, {}, text, s.place(pair.name))) return *error;
+                if (auto error = check_option(name, {}, text, s.location(pair.name))) return *error;
                 c.option_words.insert_or_assign(name, std::string(text));
                 continue;
             }
-            const auto value = top_.number({&s, pair.value});
+            const auto value = top_.evaluate({&s, pair.value});
             if (!value) return value.error();
-            if (auto error = wrong_option(name, *value, {}, s.place(pair.name))) return *error;
+            if (auto error = check_option(name, *value, {}, s.location(pair.name))) return *error;
             c.options.insert_or_assign(name, *value);
         }
         return {};
     }
 
     /// The part of a directive's word from offset `from` on, without surrounding braces or quotes.
-    static Text without_braces(const Statement& s, Word w, std::uint32_t from) {
+    static WordRef without_braces(const Statement& s, Word w, std::uint32_t from) {
         w.at += from, w.size -= from;
         const auto text = s.text(w);
         if (text.size() >= 2 && ((text[0] == '{' && text.back() == '}') || (text[0] == '\'' && text.back() == '\'')))
-            w = {Word::Kind::formula, w.at + 1, w.size - 2};
+            w = {Word::Kind::expression, w.at + 1, w.size - 2};
         return {&s, w};
     }
 
     /// Reads .ic v(a)=1 v(b)={x}, or .nodeset.
-    Result<void> read_node_voltages(const Frame& scope, const Statement& s) {
+    Result<void> read_node_voltages(const Scope& scope, const Statement& s) {
         for (std::size_t k = 1; k < s.words.size(); ++k) {
             const auto text = s.text(k);
             const auto close = text.find(')'), equals = text.find_first_not_of(" \t", std::min(close, text.size() - 1) + 1);
             if (!text.starts_with("v(") || close == std::string_view::npos || equals == std::string_view::npos || text[equals] != '=')
-                return bad_input(fmt::format("expected v(node)=value, not '{}'", text), s.place(k));
+                return bad_input(fmt::format("expected v(node)=value, not '{}'", text), s.location(k));
             auto from = text.find_first_not_of(" \t", equals + 1);
-            const auto value = scope.number(without_braces(s, s.words[k], static_cast<std::uint32_t>(std::min(from, text.size()))));
+            const auto value = scope.evaluate(without_braces(s, s.words[k], static_cast<std::uint32_t>(std::min(from, text.size()))));
             if (!value) return value.error();
             const auto node = trimmed(text.substr(2, close - 2));
-            if (is_ground(node)) return bad_input("ground is always at 0 V", s.place(k));
-            node_voltages_.push_back({builder_.node_name(scope, node), *value, s.place(k), s.text(std::size_t{0}) == ".ic"});
+            if (is_ground(node)) return bad_input("ground is always at 0 V", s.location(k));
+            node_voltages_.push_back({builder_.node_name(scope, node), *value, s.location(k), s.text(std::size_t{0}) == ".ic"});
         }
         return {};
     }
     Result<void> resolve_node_voltages() {
         Circuit& c = builder_.circuit;
         for (const auto& voltage : node_voltages_) {
-            const int k = c.node(voltage.node);
+            const int k = c.find_node(voltage.node);
             if (k < 0) {
                 const std::vector<std::string_view> known(c.nodes.begin() + 1, c.nodes.end());
                 return bad_input(fmt::format("unknown node '{}'{}", voltage.node, did_you_mean(voltage.node, known)), voltage.place);
@@ -276,28 +276,28 @@ private:
     // ---- directives ----
 
     void add_directive(const Statement& s) {
-        Command out{std::string(s.text(std::size_t{0}).substr(1)), {}, {}, s.line.place()};
+        Directive out{std::string(s.text(std::size_t{0}).substr(1)), {}, {}, s.line.location()};
         for (std::size_t k = 1; k < s.words.size(); ++k) {
             out.words.push_back(without_blanks(s, s.words[k]));
-            out.columns.push_back(static_cast<int>(s.place(k).column));
+            out.columns.push_back(static_cast<int>(s.location(k).column));
         }
-        builder_.circuit.commands.push_back(std::move(out));
+        builder_.circuit.directives.push_back(std::move(out));
     }
 
     /// Applies the overrides that concern directives. .expect holds only for the netlist as written, so overrides remove it.
     void apply_overrides_to_directives(Circuit& c) const {
-        const auto& changes = builder_.changes;
+        const auto& changes = builder_.overrides;
         const auto expectation =
-            std::find_if(c.commands.begin(), c.commands.end(), [](const Command& directive) { return directive.name == "expect"; });
-        if (changes.numbers_changed() && expectation != c.commands.end()) {
-            c.remarks.push_back(bad_input("values of the netlist are overridden, so .expect is ignored", expectation->place));
-            std::erase_if(c.commands, [](const Command& directive) { return directive.name == "expect"; });
+            std::find_if(c.directives.begin(), c.directives.end(), [](const Directive& directive) { return directive.name == "expect"; });
+        if (changes.changes_values() && expectation != c.directives.end()) {
+            c.warnings.push_back(bad_input("values of the netlist are overridden, so .expect is ignored", expectation->location));
+            std::erase_if(c.directives, [](const Directive& directive) { return directive.name == "expect"; });
         }
-        std::erase_if(c.commands, [&](const Command& directive) {
-            return (changes.saved_alone && (directive.name == "save" || directive.name == "probe")) ||
-                   (changes.mismatch && directive.name == "mc");
+        std::erase_if(c.directives, [&](const Directive& directive) {
+            return (changes.replaces_saved && (directive.name == "save" || directive.name == "probe")) ||
+                   (changes.mismatch_seed && directive.name == "mc");
         });
-        if (!changes.saved.empty()) c.commands.push_back({"save", changes.saved, {}, {c.file}});
+        if (!changes.saved.empty()) c.directives.push_back({"save", changes.saved, {}, {c.file}});
     }
 
     /// The word without blanks outside quotes and braces. Expressions of parameters only are replaced by their values.
@@ -328,8 +328,8 @@ private:
     std::string evaluated(const Statement& s, const Word& w, std::size_t from, std::size_t end) const {
         const std::string original(s.text(w).substr(from, end - from));
         if (original[0] == '"' || original.size() < 3) return original;
-        const Word inside{Word::Kind::formula, static_cast<std::uint32_t>(w.at + from + 1), static_cast<std::uint32_t>(end - from - 2)};
-        const auto value = top_.number({&s, inside});
+        const Word inside{Word::Kind::expression, static_cast<std::uint32_t>(w.at + from + 1), static_cast<std::uint32_t>(end - from - 2)};
+        const auto value = top_.evaluate({&s, inside});
         return value ? fmt::format("{:.17g}", *value) : original;
     }
 };
@@ -337,8 +337,8 @@ private:
 }  // namespace
 
 Result<Circuit> Netlist::elaborate(const Values& parameters) const {
-    if (!parsed_) return Circuit{};
-    return CircuitElaborator(*parsed_, changes()).run(parameters);
+    if (!impl_) return Circuit{};
+    return CircuitElaborator(*impl_, overrides()).run(parameters);
 }
 
 }  // namespace corpuscle::circuit

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <memory>
 
-#include "circuit/netlist/parsed.hpp"
+#include "circuit/netlist/netlist_impl.hpp"
 #include "signal/input_files.hpp"
 
 namespace corpuscle::circuit {
 namespace {
 
-Result<std::string> read_file_text(const std::string& path) { return read_entire_input(path, most_text, "netlist"); }
+Result<std::string> read_file_text(const std::string& path) { return read_entire_input(path, max_text_bytes, "netlist"); }
 
 int index_of_name(const std::unordered_map<std::string, int>& numbers, std::string_view name) {
     const auto at = numbers.find(std::string(name));
@@ -18,24 +18,24 @@ int index_of_name(const std::unordered_map<std::string, int>& numbers, std::stri
 
 }  // namespace
 
-int Circuit::node(std::string_view name) const {
+int Circuit::find_node(std::string_view name) const {
     if (is_ground(name)) return 0;
     if (node_numbers.size() == nodes.size()) return index_of_name(node_numbers, name);
     const auto at = std::find(nodes.begin(), nodes.end(), name);
     return at == nodes.end() ? -1 : static_cast<int>(at - nodes.begin());
 }
 
-int Circuit::element(std::string_view name) const {
+int Circuit::find_element(std::string_view name) const {
     if (element_numbers.size() == elements.size()) return index_of_name(element_numbers, name);
     const auto at = std::find_if(elements.begin(), elements.end(), [&](const Element& e) { return e.name == name; });
     return at == elements.end() ? -1 : static_cast<int>(at - elements.begin());
 }
 
-Result<Netlist> Netlist::parse(std::string text, std::string file, const Opener& open, const std::string& corner) {
-    auto parsed = std::make_shared<Parsed>();
+Result<Netlist> Netlist::parse(std::string text, std::string file, const FileOpener& open, const std::string& corner) {
+    auto parsed = std::make_shared<Impl>();
     if (auto ok = read_netlist(text, file, open, corner, *parsed); !ok) return ok.error();
     Netlist out;
-    out.parsed_ = std::move(parsed);
+    out.impl_ = std::move(parsed);
     return out;
 }
 
@@ -45,22 +45,22 @@ Result<Netlist> Netlist::read(const std::string& path, const std::string& corner
     return parse(std::move(*text), path, read_file_text, corner);
 }
 
-Netlist Netlist::with(Changes changes) const {
+Netlist Netlist::with_overrides(ResolvedOverrides changes) const {
     Netlist out = *this;
-    out.changes_ = std::make_shared<const Changes>(std::move(changes));
+    out.overrides_ = std::make_shared<const ResolvedOverrides>(std::move(changes));
     return out;
 }
 
-const Changes& Netlist::changes() const {
-    static const Changes none;
-    return changes_ ? *changes_ : none;
+const ResolvedOverrides& Netlist::overrides() const {
+    static const ResolvedOverrides none;
+    return overrides_ ? *overrides_ : none;
 }
 
 std::map<std::string, Netlist::Parameter, std::less<>> Netlist::parameters() const {
     std::map<std::string, Parameter, std::less<>> out;
-    if (parsed_)
-        for (const auto& [name, text] : parsed_->top.parameters)
-            out.emplace(name, Parameter{std::string(text.view()), !parsed_->libraries.contains(text.place().file)});
+    if (impl_)
+        for (const auto& [name, text] : impl_->top.parameters)
+            out.emplace(name, Parameter{std::string(text.view()), !impl_->libraries.contains(text.location().file)});
     return out;
 }
 

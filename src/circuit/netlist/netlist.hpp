@@ -11,7 +11,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "circuit/netlist/formula.hpp"
+#include "circuit/netlist/expression.hpp"
 #include "signal/error.hpp"
 
 namespace corpuscle::circuit {
@@ -21,7 +21,7 @@ using Values = std::map<std::string, double, std::less<>>;
 
 /// The specification of a source: DC value, AC stimulus and time waveform.
 struct Waveform {
-    enum class Shape { none, pulse, sine, exponential, points, force } shape = Shape::none;
+    enum class Shape { none, pulse, sine, exponential, piecewise_linear, force } shape = Shape::none;
     double dc = 0;
     bool has_dc = false;
     double ac_magnitude = 0, ac_phase = 0;  ///< phase in degrees
@@ -33,30 +33,30 @@ struct Element {
     std::string name;        ///< in small letters, with the path of its subcircuit: "x1.xinv.m1"
     char letter = 0;         ///< r c l v i e f g h b d m
     std::vector<int> nodes;  ///< indices in Circuit::nodes, in netlist order; of E and G also the controlling nodes
-    SourceLocation place;
+    SourceLocation location;
     int model = -1;                   ///< index in Circuit::models; -1 if none
     double value = 0;                 ///< of R C L in ohm, farad, henry; of E F G H the gain
     Values values;                    ///< all values given by name: w, l, m, stack, delvto, ic, tc1 ...
     Waveform waveform;                ///< of V and I
-    std::optional<Formula> formula;   ///< of B (v= or i=), C (q=), E and G (value=)
-    bool formula_is_voltage = false;  ///< of B: true for v=, false for i=
-    std::string control;              ///< of F and H: the voltage source whose current controls, with its path
+    std::optional<Expression> expression;   ///< of B (v= or i=), C (q=), E and G (value=)
+    bool expression_is_voltage = false;  ///< of B: true for v=, false for i=
+    std::string control_source;              ///< of F and H: the voltage source whose current controls, with its path
 };
 
 struct Model {
     std::string name, type;  ///< types are d, nmos, pmos, r, c, ...; the name of a local model has the path of its subcircuit
-    SourceLocation place;
+    SourceLocation location;
     Values values;
-    std::map<std::string, std::string, std::less<>> words;  ///< values that are not numbers: text in double quotes, and version=3.3.0
+    std::map<std::string, std::string, std::less<>> texts;  ///< values that are not numbers: text in double quotes, and version=3.3.0
 };
 
 /// A directive of the circuit: .op, .dc, .ac, .meas, .print, .save, .expect, ... Words are in small letters except for quoted ones, and
 /// expressions in braces are replaced by their values.
-struct Command {
+struct Directive {
     std::string name;  ///< "op", "dc", ... without the dot
     std::vector<std::string> words;
     std::vector<int> columns;  ///< of each word
-    SourceLocation place;
+    SourceLocation location;
 };
 
 /// A flat netlist: subcircuits are expanded and parameters are evaluated.
@@ -65,56 +65,56 @@ struct Circuit {
     std::vector<std::string> nodes{"0"};  ///< 0 is ground ("0", "gnd")
     std::vector<Element> elements;
     std::vector<Model> models;
-    std::vector<Command> commands;
+    std::vector<Directive> directives;
     Values options;                                                ///< of .options; a flag is 1
     std::map<std::string, std::string, std::less<>> option_words;  ///< options whose value is a word: method=gear
     double temperature = 27;                                       ///< C
     std::vector<std::pair<int, double>> ic, nodesets;              ///< node, V
-    std::vector<Error> remarks;                                    ///< warnings, such as "1F is 1 femtofarad"
+    std::vector<Error> warnings;                                    ///< warnings, such as "1F is 1 femtofarad"
     Values parameters;                                             ///< .param of the top level
-    std::optional<std::uint64_t> mismatch;                         ///< seed of the mismatch sample; nothing for the nominal circuit
+    std::optional<std::uint64_t> mismatch_seed;                         ///< seed of the mismatch sample; nothing for the nominal circuit
     std::uint64_t chip = 0;                                        ///< number of the chip for this seed; copies are the following chips
 
     std::unordered_map<std::string, int> node_numbers, element_numbers;  ///< indices by name, filled by elaborate()
 
-    int node(std::string_view name) const;     ///< its index; -1 if there is none of this name
-    int element(std::string_view name) const;  ///< its index; -1 if there is none of this name
+    int find_node(std::string_view name) const;     ///< its index; -1 if there is none of this name
+    int find_element(std::string_view name) const;  ///< its index; -1 if there is none of this name
 };
 
 /// Overrides of the values in a netlist.
-struct Changes {
+struct ResolvedOverrides {
     std::string corner;                                  ///< section to read from libraries; "" means the sections that the netlist names
     Values parameters;                                   ///< .param of the top level
     std::map<std::string, Values, std::less<>> numbers;  ///< of elements, by full path; the name "" is the value of R C L V I ...
     std::optional<double> temperature;                   ///< C
-    std::optional<std::uint64_t> mismatch;               ///< seed of the mismatch sample; if set, .mc is ignored
+    std::optional<std::uint64_t> mismatch_seed;               ///< seed of the mismatch sample; if set, .mc is ignored
     std::uint64_t chip = 0;                              ///< number of the chip for this seed
     std::vector<std::string> saved;                      ///< additional names for .save
-    bool numbers_changed() const { return !corner.empty() || !parameters.empty() || !numbers.empty() || temperature || mismatch; }
-    bool saved_alone = false;  ///< `saved` replaces every .save
+    bool changes_values() const { return !corner.empty() || !parameters.empty() || !numbers.empty() || temperature || mismatch_seed; }
+    bool replaces_saved = false;  ///< `saved` replaces every .save
 };
 
 /// The statements of a netlist and of all files that it includes.
 class Netlist {
-    struct Parsed;
-    std::shared_ptr<const Parsed> parsed_;
-    std::shared_ptr<const Changes> changes_;
+    struct Impl;
+    std::shared_ptr<const Impl> impl_;
+    std::shared_ptr<const ResolvedOverrides> overrides_;
 
 public:
     /// Returns the text of an included file. The path is resolved against the including file.
-    using Opener = std::function<Result<std::string>(const std::string& path)>;
+    using FileOpener = std::function<Result<std::string>(const std::string& path)>;
     /// `corner` replaces the section of each line `.lib 'file' section` whose file has a section of this name. It is an error if no file
     /// has one.
-    static Result<Netlist> parse(std::string text, std::string file, const Opener& open, const std::string& corner = "");
+    static Result<Netlist> parse(std::string text, std::string file, const FileOpener& open, const std::string& corner = "");
     static Result<Netlist> read(const std::string& path, const std::string& corner = "");
 
     /// The same netlist with overrides. The corner is not applied here but by parse().
-    Netlist with(Changes) const;
-    const Changes& changes() const;
+    Netlist with_overrides(ResolvedOverrides) const;
+    const ResolvedOverrides& overrides() const;
     /// .param of the top level.
     struct Parameter {
         std::string text;  ///< as written in the netlist: "2*c_u"
-        bool own;          ///< defined in the netlist or an included file, not in a library section
+        bool is_own;          ///< defined in the netlist or an included file, not in a library section
     };
     std::map<std::string, Parameter, std::less<>> parameters() const;
 

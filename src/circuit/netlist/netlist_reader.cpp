@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "circuit/netlist/body.hpp"
-#include "circuit/netlist/corner.hpp"
-#include "circuit/netlist/number.hpp"
+#include "circuit/netlist/parsed_netlist.hpp"
+#include "circuit/netlist/corner_selector.hpp"
+#include "circuit/netlist/spice_number.hpp"
 #include "signal/parameter.hpp"
 #include "signal/ascii_text.hpp"
 
@@ -35,7 +35,7 @@ std::string resolved_path(const std::string& from, std::string_view name) {
 }
 
 class NetlistReader {
-    using Opener = Netlist::Opener;
+    using Opener = Netlist::FileOpener;
     struct Source {
         std::string path, section;
         bool operator==(const Source&) const = default;
@@ -44,10 +44,10 @@ class NetlistReader {
     const Opener& open_;
     std::map<std::string, std::shared_ptr<const std::string>> texts_;  // cached, because a library is often read for several sections
     std::vector<Source> open_files_;                                   // files being read, outermost first
-    Body *body_, *file_body_;  // the definition being read; the one in which the file began, which the file cannot close
+    SubcktDef *body_, *file_body_;  // the definition being read; the one in which the file began, which the file cannot close
     std::size_t text_read_ = 0, opened_ = 0, subcircuit_depth_ = 0;
     bool ended_ = false;
-    Corner corner_;
+    CornerSelector corner_;
 
 public:
     NetlistReader(ParsedNetlist& out, const Opener& open, std::string corner)
@@ -56,22 +56,22 @@ public:
     /// Reads the netlist, then checks that a library had the corner.
     Result<void> read_all(std::string_view text, const std::string& path) {
         if (auto ok = read(text, path, ""); !ok) return ok;
-        return corner_.found(path);
+        return corner_.check_found(path);
     }
 
     Result<void> read(std::string_view text, const std::string& path, const std::string& section) {
         text_read_ += text.size();
-        if (text_read_ > most_text)
-            return bad_input(fmt::format("the netlist and its included files exceed the limit of {} MB", most_text >> 20), {path});
-        Lines lines(text, std::make_shared<const std::string>(path));
+        if (text_read_ > max_text_bytes)
+            return bad_input(fmt::format("the netlist and its included files exceed the limit of {} MB", max_text_bytes >> 20), {path});
+        LogicalLineReader lines(text, std::make_shared<const std::string>(path));
         if (open_files_.empty())
             if (const auto ok = take_title(lines); !ok) return ok;
         open_files_.push_back({path, section});
         if (!section.empty()) out_.libraries.insert(path);
-        Body* const outer_body = std::exchange(file_body_, body_);
+        SubcktDef* const outer_body = std::exchange(file_body_, body_);
         auto ok = section.empty() ? statements(lines) : read_section(lines, section);
         if (ok && body_ != file_body_)
-            ok = bad_input(fmt::format(".subckt {} is not closed by .ends", body_->name), body_->head->place(std::size_t{0}));
+            ok = bad_input(fmt::format(".subckt {} is not closed by .ends", body_->name), body_->head->location(std::size_t{0}));
         file_body_ = outer_body;
         open_files_.pop_back();
         ended_ = false;
@@ -79,12 +79,12 @@ public:
     }
 
 private:
-    Result<void> take_title(Lines& lines) {
+    Result<void> take_title(LogicalLineReader& lines) {
         auto title = lines.title();
         if (!title) return title.error();
         out_.title = std::string(trimmed(*title));
         if (looks_like_statement(out_.title))
-            out_.remarks.push_back(bad_input(
+            out_.warnings.push_back(bad_input(
                 fmt::format("the first line is the title, so '{}' is not read as a statement", std::string_view(out_.title).substr(0, 40)),
                 {out_.file, 1, 1}));
         return {};
@@ -102,11 +102,11 @@ private:
         if (words[0][0] == '.') return true;
         if (words.size() < 4 || words[0].size() < 2 || element_letters.find(words[0][0]) == std::string_view::npos) return false;
         if (!std::any_of(words[0].begin(), words[0].end(), [](char c) { return c >= '0' && c <= '9'; })) return false;
-        return words.size() == 5 || whole_number(words[3]) || words[3].find_first_of("{'=") != std::string::npos;
+        return words.size() == 5 || parse_number(words[3]) || words[3].find_first_of("{'=") != std::string::npos;
     }
 
-    Result<void> statements(Lines& lines) {
-        Line line;
+    Result<void> statements(LogicalLineReader& lines) {
+        LogicalLine line;
         while (!ended_) {
             const auto more = lines.next(line);
             if (!more) return more.error();
@@ -116,9 +116,9 @@ private:
         return {};
     }
 
-    Result<void> statement(Lines& lines, Line line) {
-        if (out_.statements.size() >= most_elements)
-            return bad_input(fmt::format("the netlist exceeds the limit of {} statements", most_elements), line.place());
+    Result<void> statement(LogicalLineReader& lines, LogicalLine line) {
+        if (out_.statements.size() >= max_elements)
+            return bad_input(fmt::format("the netlist exceeds the limit of {} statements", max_elements), line.location());
         if (line.text[0] != '.') return element(std::move(line));
         const std::string word = lower(std::string_view(line.text).substr(0, line.text.find_first_of(" \t('\"{")));
         if (word == ".end") return ended_ = true, Result<void>();
@@ -131,30 +131,30 @@ private:
         if (word == ".include" || word == ".inc") return include(std::move(line));
         if (word == ".lib") return library(lines, std::move(line));
         if (word == ".endl" || word == ".endc")
-            return bad_input(fmt::format("{} without {}", word, word == ".endl" ? ".lib" : ".control"), line.place());
+            return bad_input(fmt::format("{} without {}", word, word == ".endl" ? ".lib" : ".control"), line.location());
         if (word == ".ic" || word == ".nodeset") return keep_directive(std::move(line), body_->ics);
         if (std::find(std::begin(structural_directives), std::end(structural_directives), word) == std::end(structural_directives) &&
             std::find(std::begin(circuit_directives), std::end(circuit_directives), word) == std::end(circuit_directives))
-            return unknown(word, line.place());
+            return unknown(word, line.location());
         if (word == ".four")
             return bad_input(".four: spectra of a transient are not supported; --out x.csv writes the curve for another program",
-                             line.place());
+                             line.location());
         if (body_->head)
-            return bad_input(fmt::format("{} is not allowed inside .subckt {}; move it outside", word, body_->name), line.place());
+            return bad_input(fmt::format("{} is not allowed inside .subckt {}; move it outside", word, body_->name), line.location());
         return top_level_directive(word, std::move(line));
     }
 
-    Result<void> top_level_directive(std::string_view word, Line line) {
+    Result<void> top_level_directive(std::string_view word, LogicalLine line) {
         if (word == ".title") return out_.title = trimmed(std::string_view(line.text).substr(word.size())), Result<void>();
         if (word == ".global") return global(std::move(line));
         if (word == ".temp") return keep_directive(std::move(line), out_.temperatures);
         if (word.starts_with(".opt")) {
-            auto read = element_statement(std::move(line), nullptr);
+            auto read = split_element(std::move(line), nullptr);
             if (!read) return read.error();
             out_.options.push_back(&keep(std::move(*read)));
             return {};
         }
-        return keep_directive(std::move(line), out_.commands);
+        return keep_directive(std::move(line), out_.directives);
     }
 
     static Error unknown(std::string_view word, SourceLocation location) {
@@ -167,71 +167,71 @@ private:
 
     Statement& keep(Statement s) { return out_.statements.emplace_back(std::move(s)); }
 
-    Result<void> keep_directive(Line line, std::vector<const Statement*>& list) {
-        auto read = command_statement(std::move(line));
+    Result<void> keep_directive(LogicalLine line, std::vector<const Statement*>& list) {
+        auto read = split_directive(std::move(line));
         if (!read) return read.error();
         list.push_back(&keep(std::move(*read)));
         return {};
     }
 
-    Result<void> element(Line line) {
+    Result<void> element(LogicalLine line) {
         if (element_letters.find(line.text[0]) == std::string_view::npos)
             return bad_input(
                 fmt::format("'{}': unknown element letter {}; known are R C L V I E F G H B D M X",
                             std::string_view(line.text).substr(0, std::min<std::size_t>(line.text.find_first_of(" \t"), 20)), line.text[0]),
-                line.place());
-        auto read = element_statement(std::move(line), is_long_value);
+                line.location());
+        auto read = split_element(std::move(line), is_long_value);
         if (!read) return read.error();
         if (const auto ok = check_duplicates(*read); !ok) return ok;
         body_->elements.push_back(&keep(std::move(*read)));
-        remark_on_units(*body_->elements.back(), out_.remarks);
+        warn_about_units(*body_->elements.back(), out_.warnings);
         return {};
     }
 
     static Result<void> check_duplicates(const Statement& s) {
-        if (s.words.empty()) return bad_input("the name before '=' is missing", s.line.place());
+        if (s.words.empty()) return bad_input("the name before '=' is missing", s.line.location());
         std::vector<std::string_view> names;
-        for (const auto& pair : s.named) names.push_back(s.text(pair.name));
+        for (const auto& pair : s.pairs) names.push_back(s.text(pair.name));
         std::sort(names.begin(), names.end());
         const auto twice = std::adjacent_find(names.begin(), names.end());
         if (twice == names.end()) return {};
         SourceLocation location;
-        for (const auto& pair : s.named)
-            if (s.text(pair.name) == *twice) location = s.place(pair.name);
+        for (const auto& pair : s.pairs)
+            if (s.text(pair.name) == *twice) location = s.location(pair.name);
         return bad_input(fmt::format("{}: {} is given twice", s.text(std::size_t{0}), *twice), std::move(location));
     }
 
     // ---- .param, .func, .model, .global ----
 
-    Result<void> parameters(Line line) {
-        auto read = assignments(std::move(line));
+    Result<void> parameters(LogicalLine line) {
+        auto read = split_assignments(std::move(line));
         if (!read) return read.error();
         const Statement& s = keep(std::move(*read));
-        if (s.named.empty()) return bad_input(".param: expected name=value", s.line.place());
-        for (const auto& pair : s.named) {
+        if (s.pairs.empty()) return bad_input(".param: expected name=value", s.line.location());
+        for (const auto& pair : s.pairs) {
             const std::string name(s.text(pair.name));
             if (const auto open = name.find('('); open != std::string::npos) {
-                if (const auto ok = define(name, std::string(s.text(pair.value)), s.place(pair.name)); !ok) return ok;
+                if (const auto ok = define(name, std::string(s.text(pair.value)), s.location(pair.name)); !ok) return ok;
                 continue;
             }
-            const auto [at, is_new] = body_->parameters.insert_or_assign(name, Text{&s, pair.value});
+            const auto [at, is_new] = body_->parameters.insert_or_assign(name, WordRef{&s, pair.value});
             if (!is_new)
-                out_.remarks.push_back(bad_input(fmt::format(".param {} is given twice; this value is used", name), s.place(pair.name)));
+                out_.warnings.push_back(bad_input(fmt::format(".param {} is given twice; this value is used", name), s.location(pair.name)));
         }
         return {};
     }
 
     /// Reads .func f(x, y) {text}; '=' before the text is optional, and the text may be in quotes instead of braces.
-    Result<void> function(Line line) {
+    Result<void> function(LogicalLine line) {
         const std::string_view text = line.text;
         const auto from = std::min(text.find_first_not_of(" \t", 5), text.size()), close = text.find(')', from);
-        if (close == std::string_view::npos) return bad_input(".func: expected a function such as f(x) {2*x}", line.place(from));
+        if (close == std::string_view::npos) return bad_input(".func: expected a function such as f(x) {2*x}", line.location(from));
         auto body = trimmed(text.substr(close + 1));
         if (body.starts_with('=')) body = trimmed(body.substr(1));
         const bool is_enclosed = body.size() >= 2 && ((body[0] == '{' && body.back() == '}') || (body[0] == '\'' && body.back() == '\''));
         if (is_enclosed && body[0] == '\'') body = body.substr(1, body.size() - 2);
-        if (body.empty()) return bad_input(".func: the expression is missing; write one such as f(x) {2*x}", line.place(close));
-        return define(std::string(text.substr(from, close + 1 - from)), std::string(body), line.place(from));
+        if (body.empty()) return bad_input(".func: the expression is missing; write one such as f(x) {2*x}", line.location(close));
+        return define(std::string(text.substr(from, close + 1 - from)), std::string(body), line.location(from));
     }
 
     Result<void> define(std::string_view head, std::string text, SourceLocation location) {
@@ -239,7 +239,7 @@ private:
         const std::string name(trimmed(head.substr(0, open)));
         if (open == std::string_view::npos || name.empty() || head.back() != ')')
             return bad_input(fmt::format("'{}' is not a function with arguments; write f(x,y)", head), std::move(location));
-        FormulaScope::Function f{{}, std::move(text)};
+        ExpressionScope::Function f{{}, std::move(text)};
         for (auto rest = trimmed(head.substr(open + 1, head.size() - open - 2)); !rest.empty();) {
             const auto comma = std::min(rest.find(','), rest.size());
             f.arguments.emplace_back(trimmed(rest.substr(0, comma)));
@@ -250,28 +250,28 @@ private:
         return {};
     }
 
-    Result<void> model(Line line) {
-        auto read = element_statement(std::move(line), nullptr);
+    Result<void> model(LogicalLine line) {
+        auto read = split_element(std::move(line), nullptr);
         if (!read) return read.error();
         if (read->words.size() < 3)
-            return bad_input(".model: expected a name and a type, such as .model nm nmos (vto=0.5)", read->place(read->words.size()));
+            return bad_input(".model: expected a name and a type, such as .model nm nmos (vto=0.5)", read->location(read->words.size()));
         if (read->words.size() > 3)
-            return bad_input(fmt::format("expected name=value, not '{}'", read->text(3)), read->place(std::size_t{3}));
+            return bad_input(fmt::format("expected name=value, not '{}'", read->text(3)), read->location(std::size_t{3}));
         if (const auto ok = check_duplicates(*read); !ok) return ok;
         const std::string name(read->text(1));
         if (const auto known = body_->models.find(name); known != body_->models.end())
             return bad_input(fmt::format("model '{}' is already defined at {}", name, location_text(*known->second)),
-                             read->place(std::size_t{1}));
+                             read->location(std::size_t{1}));
         body_->models.emplace(name, &keep(std::move(*read)));
         return {};
     }
     static std::string location_text(const Statement& s) {
-        const SourceLocation p = s.line.place();
+        const SourceLocation p = s.line.location();
         return fmt::format("{}:{}", p.file, p.line);
     }
 
-    Result<void> global(Line line) {
-        auto read = command_statement(std::move(line));
+    Result<void> global(LogicalLine line) {
+        auto read = split_directive(std::move(line));
         if (!read) return read.error();
         for (std::size_t k = 1; k < read->words.size(); ++k) out_.globals.emplace(read->text(k));
         return {};
@@ -279,50 +279,50 @@ private:
 
     // ---- .subckt ----
 
-    Result<void> subcircuit(Line line) {
-        auto read = element_statement(std::move(line), nullptr);
+    Result<void> subcircuit(LogicalLine line) {
+        auto read = split_element(std::move(line), nullptr);
         if (!read) return read.error();
-        if (read->words.size() < 2) return bad_input(".subckt: expected a name and nodes", read->place(std::size_t{1}));
+        if (read->words.size() < 2) return bad_input(".subckt: expected a name and nodes", read->location(std::size_t{1}));
         if (const auto ok = check_duplicates(*read); !ok) return ok;
         if (++subcircuit_depth_ > max_definition_depth)
             return bad_input(fmt::format("definitions of subcircuits are nested deeper than the limit of {}", max_definition_depth),
-                             read->line.place());
+                             read->line.location());
         const std::string name(read->text(1));
         auto& body = body_->subcircuits[name];
         if (body)
             return bad_input(fmt::format("subcircuit '{}' is already defined at {}", name, location_text(*body->head)),
-                             read->place(std::size_t{1}));
-        body = std::make_unique<Body>();
+                             read->location(std::size_t{1}));
+        body = std::make_unique<SubcktDef>();
         body->name = name, body->outer = body_, body->head = &keep(std::move(*read));
         body_ = body.get();
         return read_head(*body);
     }
 
-    Result<void> read_head(Body& body) {
+    Result<void> read_head(SubcktDef& body) {
         const Statement& s = *body.head;
         std::set<std::string_view> seen;
         for (std::size_t k = 2; k < s.words.size(); ++k) {
             const auto port = s.text(k);
             if (port == "params:") continue;
-            if (is_ground(port)) return bad_input(fmt::format(".subckt {}: ground must not be one of its nodes", body.name), s.place(k));
+            if (is_ground(port)) return bad_input(fmt::format(".subckt {}: ground must not be one of its nodes", body.name), s.location(k));
             if (!seen.insert(port).second)
-                return bad_input(fmt::format(".subckt {}: node '{}' is given twice", body.name, port), s.place(k));
+                return bad_input(fmt::format(".subckt {}: node '{}' is given twice", body.name, port), s.location(k));
             body.ports.emplace_back(port);
         }
-        for (const auto& pair : s.named) {
+        for (const auto& pair : s.pairs) {
             auto name = s.text(pair.name);
             if (name.starts_with("params:")) name.remove_prefix(7);
-            body.defaults.insert_or_assign(std::string(name), Text{&s, pair.value});
+            body.defaults.insert_or_assign(std::string(name), WordRef{&s, pair.value});
         }
         return {};
     }
 
-    Result<void> end_of_subcircuit(Line line) {
-        auto read = command_statement(std::move(line));
+    Result<void> end_of_subcircuit(LogicalLine line) {
+        auto read = split_directive(std::move(line));
         if (!read) return read.error();
-        if (body_ == file_body_) return bad_input(".ends without .subckt", read->line.place());
+        if (body_ == file_body_) return bad_input(".ends without .subckt", read->line.location());
         if (read->words.size() > 1 && read->text(1) != body_->name)
-            return bad_input(fmt::format(".ends {} does not match .subckt {}", read->text(1), body_->name), read->place(std::size_t{1}));
+            return bad_input(fmt::format(".ends {} does not match .subckt {}", read->text(1), body_->name), read->location(std::size_t{1}));
         body_ = body_->outer;
         --subcircuit_depth_;
         return {};
@@ -330,33 +330,33 @@ private:
 
     // ---- .control, .include, .lib ----
 
-    Result<void> skip_control(Lines& lines, const Line& from) {
-        out_.remarks.push_back(bad_input(".control ... .endc is an ngspice script and is ignored", from.place()));
-        if (!lines.skip_past(".endc")) return bad_input(".control is not closed by .endc", from.place());
+    Result<void> skip_control(LogicalLineReader& lines, const LogicalLine& from) {
+        out_.warnings.push_back(bad_input(".control ... .endc is an ngspice script and is ignored", from.location()));
+        if (!lines.skip_past(".endc")) return bad_input(".control is not closed by .endc", from.location());
         return {};
     }
 
-    Result<void> include(Line line) {
-        auto read = command_statement(std::move(line));
+    Result<void> include(LogicalLine line) {
+        auto read = split_directive(std::move(line));
         if (!read) return read.error();
         if (read->words.size() != 2)
-            return bad_input(".include: expected one file; put a name with blanks in quotes", read->place(read->words.size() < 2 ? 1 : 2));
-        return open(unquoted(read->text(1)), "", read->place(std::size_t{1}));
+            return bad_input(".include: expected one file; put a name with blanks in quotes", read->location(read->words.size() < 2 ? 1 : 2));
+        return open(unquoted(read->text(1)), "", read->location(std::size_t{1}));
     }
 
-    Result<void> library(Lines& lines, Line line) {
-        auto read = command_statement(std::move(line));
+    Result<void> library(LogicalLineReader& lines, LogicalLine line) {
+        auto read = split_directive(std::move(line));
         if (!read) return read.error();
-        if (read->words.size() == 3) return open(unquoted(read->text(1)), lower(unquoted(read->text(2))), read->place(std::size_t{1}));
+        if (read->words.size() == 3) return open(unquoted(read->text(1)), lower(unquoted(read->text(2))), read->location(std::size_t{1}));
         const bool file = read->words.size() == 2 && unquoted(read->text(1)) != read->text(1);
         if (read->words.size() != 2 || file)
-            return bad_input(".lib: expected a file and a section; to read a complete file, use .include", read->place(std::size_t{1}));
-        return skip_section(lines, read->line.place());
+            return bad_input(".lib: expected a file and a section; to read a complete file, use .include", read->location(std::size_t{1}));
+        return skip_section(lines, read->line.location());
     }
 
     /// Skips the definition of a section; it is read only by ".lib file section".
-    Result<void> skip_section(Lines& lines, SourceLocation from) {
-        Line line;
+    Result<void> skip_section(LogicalLineReader& lines, SourceLocation from) {
+        LogicalLine line;
         while (true) {
             const auto more = lines.next(line);
             if (!more) return more.error();
@@ -370,7 +370,7 @@ private:
         const std::string path = resolved_path(open_files_.back().path, name);
         if (open_files_.size() > max_include_depth)
             return bad_input(fmt::format("included files are nested deeper than the limit of {}", max_include_depth), std::move(location));
-        if (opened_ > most_elements) return bad_input(fmt::format("more than {} files are included", most_elements), std::move(location));
+        if (opened_ > max_elements) return bad_input(fmt::format("more than {} files are included", max_elements), std::move(location));
         auto& text = texts_[path];
         if (!text) {
             auto opened = open_(path);
@@ -381,7 +381,7 @@ private:
         const bool is_outside_library =
             std::all_of(open_files_.begin(), open_files_.end(), [](const Source& s) { return s.section.empty(); });
         // The corner does not replace the sections that a library itself names.
-        if (is_outside_library && !section.empty()) section = corner_.in_place_of(section, name, *shared_text);
+        if (is_outside_library && !section.empty()) section = corner_.select_section(section, name, *shared_text);
         if (std::find(open_files_.begin(), open_files_.end(), Source{path, section}) != open_files_.end())
             return bad_input(fmt::format("'{}' includes itself", name), std::move(location));
         auto ok = read(*shared_text, path, section);
@@ -390,9 +390,9 @@ private:
     }
 
     /// Reads the lines between ".lib section" and ".endl" of a library.
-    Result<void> read_section(Lines& lines, const std::string& section) {
+    Result<void> read_section(LogicalLineReader& lines, const std::string& section) {
         std::vector<std::string> known;
-        Line line;
+        LogicalLine line;
         while (true) {
             const auto more = lines.next(line);
             if (!more) return more.error();
@@ -402,16 +402,16 @@ private:
                     fmt::format("library '{}' has no section '{}'{}", open_files_.back().path, section, did_you_mean(section, names)));
             }
             if (lower(std::string_view(line.text).substr(0, 4)) != ".lib") continue;
-            const auto head = command_statement(std::move(line));
+            const auto head = split_directive(std::move(line));
             if (!head) return head.error();
             if (head->words.size() != 2) continue;
             known.emplace_back(lower(unquoted(head->text(1))));
-            if (known.back() == section) return until_endl(lines, head->line.place());
+            if (known.back() == section) return until_endl(lines, head->line.location());
         }
     }
 
-    Result<void> until_endl(Lines& lines, const SourceLocation& from) {
-        Line line;
+    Result<void> until_endl(LogicalLineReader& lines, const SourceLocation& from) {
+        LogicalLine line;
         while (!ended_) {
             const auto more = lines.next(line);
             if (!more) return more.error();
@@ -425,7 +425,7 @@ private:
 
 }  // namespace
 
-Result<void> read_netlist(const std::string& text, const std::string& file, const Netlist::Opener& open, const std::string& corner,
+Result<void> read_netlist(const std::string& text, const std::string& file, const Netlist::FileOpener& open, const std::string& corner,
                           ParsedNetlist& out) {
     out.file = file;
     return NetlistReader(out, open, corner).read_all(text, file);

@@ -10,18 +10,18 @@ bool is_in_name(char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9'
 
 /// A position in the text of a line.
 class Cursor {
-    const Line& line_;
+    const LogicalLine& line_;
     std::string_view s_;
 
 public:
     std::size_t at = 0;
-    explicit Cursor(const Line& line) : line_(line), s_(line.text) {}
+    explicit Cursor(const LogicalLine& line) : line_(line), s_(line.text) {}
 
     bool done() const { return at >= s_.size(); }
     char here() const { return done() ? '\0' : s_[at]; }
     std::string_view text() const { return s_; }
     void skip(std::string_view these) { at = std::min(s_.find_first_not_of(these, at), s_.size()); }
-    Error error_at(std::string sentence, std::size_t where) const { return bad_input(std::move(sentence), line_.place(where)); }
+    Error error_at(std::string sentence, std::size_t where) const { return bad_input(std::move(sentence), line_.location(where)); }
 
     /// True if the character is an assignment '=', not a part of == <= >= !=.
     bool is_assignment(std::size_t k) const {
@@ -109,7 +109,7 @@ Word value_word(std::string_view s, std::size_t from, std::size_t to) {
     if (open == '"' && close == '"' && inside.find('"') == std::string_view::npos) return word(from + 1, to - 1, Word::Kind::quoted);
     const bool is_quoted = open == '\'' && close == '\'' && inside.find('\'') == std::string_view::npos;
     const bool is_braced = open == '{' && close == '}' && inside.find_first_of("{}") == std::string_view::npos;
-    return is_quoted || is_braced ? word(from + 1, to - 1, Word::Kind::formula) : word(from, to);
+    return is_quoted || is_braced ? word(from + 1, to - 1, Word::Kind::expression) : word(from, to);
 }
 
 Result<Word> read_value(Cursor& c, bool is_long) {
@@ -149,13 +149,13 @@ Result<Word> plain_or_group(Cursor& c) {
 
 }  // namespace
 
-const Named* Statement::find(std::string_view name) const {
-    for (const auto& pair : named)
+const NameValue* Statement::find(std::string_view name) const {
+    for (const auto& pair : pairs)
         if (text(pair.name) == name) return &pair;
     return nullptr;
 }
 
-Result<Statement> element_statement(Line line, bool (*is_long_value)(char, std::string_view)) {
+Result<Statement> split_element(LogicalLine line, bool (*is_long_value)(char, std::string_view)) {
     Statement s{std::move(line), {}, {}};
     Cursor c(s.line);
     std::vector<std::size_t> open;
@@ -175,13 +175,13 @@ Result<Statement> element_statement(Line line, bool (*is_long_value)(char, std::
         ++c.at;
         const auto value = read_value(c, is_long_value && is_long_value(s.line.text[0], s.text(*first)));
         if (!value) return value.error();
-        s.named.push_back({*first, *value});
+        s.pairs.push_back({*first, *value});
     }
     if (!open.empty()) return c.error_at("this '(' is not closed", open.back());
     return s;
 }
 
-Result<Statement> assignments(Line line) {
+Result<Statement> split_assignments(LogicalLine line) {
     Statement s{std::move(line), {}, {}};
     Cursor c(s.line);
     while (!c.done() && !is_blank_char(c.here())) ++c.at;
@@ -201,12 +201,12 @@ Result<Statement> assignments(Line line) {
         ++c.at;
         const auto value = read_value(c, true);
         if (!value) return value.error();
-        s.named.push_back({word(from, to), *value});
+        s.pairs.push_back({word(from, to), *value});
     }
     return s;
 }
 
-Result<Statement> command_statement(Line line) {
+Result<Statement> split_directive(LogicalLine line) {
     Statement s{std::move(line), {}, {}};
     Cursor c(s.line);
     for (c.skip(" \t,"); !c.done(); c.skip(" \t,")) {

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "circuit/netlist/lines.hpp"
+#include "circuit/netlist/logical_lines.hpp"
 
 namespace corpuscle::circuit {
 
@@ -14,37 +14,37 @@ namespace corpuscle::circuit {
 struct Word {
     enum class Kind : std::uint8_t {
         plain,
-        formula,
+        expression,
         quoted
     } kind = Kind::plain;  ///< formula: an expression in {} or '', which are not part of it
     std::uint32_t at = 0, size = 0;
 };
 
 /// A pair name=value.
-struct Named {
+struct NameValue {
     Word name, value;
 };
 
 /// A logical line split into words and pairs.
 struct Statement {
-    Line line;
+    LogicalLine line;
     std::vector<Word> words;
-    std::vector<Named> named;
+    std::vector<NameValue> pairs;
 
     std::string_view text(const Word& w) const { return std::string_view(line.text).substr(w.at, w.size); }
     std::string_view text(std::size_t k) const { return k < words.size() ? text(words[k]) : std::string_view(); }
-    SourceLocation place(const Word& w) const { return line.place(w.at); }
+    SourceLocation location(const Word& w) const { return line.location(w.at); }
     /// The location of word k, or of the end of the line if there are fewer words.
-    SourceLocation place(std::size_t k) const { return line.place(k < words.size() ? words[k].at : line.text.size()); }
-    const Named* find(std::string_view name) const;
+    SourceLocation location(std::size_t k) const { return line.location(k < words.size() ? words[k].at : line.text.size()); }
+    const NameValue* find(std::string_view name) const;
 };
 
 /// Splits elements, .subckt and .model. Blanks, commas and parentheses separate words; "name = value" is a pair. A value ends at the next
 /// blank or comma, unless `is_long_value` is true for its name; it then extends to the next pair or the end, with its blanks.
-Result<Statement> element_statement(Line, bool (*is_long_value)(char letter, std::string_view name));
+Result<Statement> split_element(LogicalLine, bool (*is_long_value)(char letter, std::string_view name));
 
 /// Splits .param into pairs. A name may be "f(x, y)", and a value extends to the next pair.
-Result<Statement> assignments(Line);
+Result<Statement> split_assignments(LogicalLine);
 
 /// The word without its quotes.
 inline std::string_view unquoted(std::string_view s) {
@@ -53,6 +53,6 @@ inline std::string_view unquoted(std::string_view s) {
 }
 
 /// Splits all other directives. Blanks and commas outside parentheses, quotes and braces separate words; "a = 3" is one word.
-Result<Statement> command_statement(Line);
+Result<Statement> split_directive(LogicalLine);
 
 }  // namespace corpuscle::circuit

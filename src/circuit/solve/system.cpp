@@ -21,7 +21,7 @@ public:
         for (std::size_t k = 1; k < c.nodes.size(); ++k) system_.names_.push_back("v(" + c.nodes[k] + ")");
         system_.nodes_ = static_cast<int>(system_.names_.size());
         for (std::size_t k = 0; k < c.elements.size(); ++k) {
-            if (!has_branch(c.elements[k])) continue;
+            if (!has_branch_current(c.elements[k])) continue;
             branches_[k] = static_cast<int>(system_.names_.size());
             system_.names_.push_back("i(" + c.elements[k].name + ")");
         }
@@ -44,11 +44,11 @@ Result<System> System::make(std::shared_ptr<const Circuit> circuit) {
     system.circuit_ = std::move(circuit);
     Maker maker(system);
     for (const auto& e : system.circuit_->elements) {
-        const auto* kind = device_of(e.letter);
-        if (kind == nullptr) return bad_input(fmt::format("{}: no device has the letter '{}'", e.name, e.letter), e.place);
+        const auto* kind = find_device_kind(e.letter);
+        if (kind == nullptr) return bad_input(fmt::format("{}: no device has the letter '{}'", e.name, e.letter), e.location);
         auto device = kind->make(e, maker);
         if (!device) return device.error();
-        (*device)->name = e.name, (*device)->place = e.place;
+        (*device)->name = e.name, (*device)->place = e.location;
         system.memory_at_.push_back(system.memory_);
         system.memory_ += (*device)->memory();
         system.devices_.push_back(std::move(*device));
@@ -77,11 +77,11 @@ Result<void> System::make_groups() {
         for (std::size_t k = 0; k < devices_.size(); ++k)
             if (circuit_->elements[k].letter == kind.letter) members.push_back(k);
         if (members.empty()) continue;
-        if (kind.bank == nullptr) {
+        if (kind.make_batch == nullptr) {
             alone_.insert(alone_.end(), members.begin(), members.end());
             continue;
         }
-        auto bank = kind.bank();
+        auto bank = kind.make_batch();
         if (!bank) return bank.error();
         Group group{std::move(*bank), {}, devices_[members[0]]->unknowns.size(), (members.size() + 7) / 8 * 8, {}, {}};
         for (const auto k : members) {
@@ -111,7 +111,7 @@ double System::next_corner(double t) const {
     return time;
 }
 
-bool System::hear(const Trace* force) {
+bool System::hear(const ForceWaveform* force) {
     bool any = false;
     for (const auto& d : devices_) any |= d->hear(force);
     return any;

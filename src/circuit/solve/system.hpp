@@ -82,7 +82,7 @@ public:
     void go(double step, double stop);
     double next_corner(double t) const;
     double pace() const;
-    bool hear(const Trace*);  ///< returns true if a source has a force input
+    bool hear(const ForceWaveform*);  ///< returns true if a source has a force input
     /// Applies the process and mismatch sample of a chip to all devices; null: nominal.
     void draw(const Draw*);
     /// The values of a device's unknowns at x.

@@ -33,15 +33,15 @@ public:
 /// True if the element can determine the voltage of an otherwise floating node. A controlled current source can, if it depends on that
 /// voltage.
 bool conducts(const Element& e) {
-    if (e.letter == 'b') return has_branch(e) || !e.formula->constant();
-    const auto* kind = device_of(e.letter);
-    return kind != nullptr && kind->conducts;
+    if (e.letter == 'b') return has_branch_current(e) || !e.expression->is_constant();
+    const auto* kind = find_device_kind(e.letter);
+    return kind != nullptr && kind->conducts_dc;
 }
 
 bool fixes_voltage(const Element& e) {
-    if (e.letter == 'b' || e.letter == 'g') return has_branch(e);
-    const auto* kind = device_of(e.letter);
-    return kind != nullptr && kind->fixes_voltage && has_branch(e);
+    if (e.letter == 'b' || e.letter == 'g') return has_branch_current(e);
+    const auto* kind = find_device_kind(e.letter);
+    return kind != nullptr && kind->fixes_voltage && has_branch_current(e);
 }
 
 /// The nodes between which an element conducts: for a transistor drain, source and bulk, not the gate.
@@ -78,7 +78,7 @@ std::optional<Error> check_floating_nodes(const Circuit& c) {
         const bool touches = std::any_of(e.nodes.begin(), e.nodes.end(), [&](int n) { return sets.root(n) == sets.root(first); });
         if (!touches) continue;
         if (first_element == nullptr) first_element = &e;
-        sources |= e.letter == 'i' || (e.letter == 'b' && !has_branch(e));
+        sources |= e.letter == 'i' || (e.letter == 'b' && !has_branch_current(e));
     }
     const auto what = names.size() == 1 ? fmt::format("node '{}' has", names[0]) : fmt::format("nodes '{}' have", fmt::join(names, "', '"));
     const auto why = sources ? "is connected to ground only through current sources, so nothing sets its voltage"
@@ -86,7 +86,7 @@ std::optional<Error> check_floating_nodes(const Circuit& c) {
     const auto subject = names.size() == 1 ? "it" : "their part of the circuit";
     return bad_input(fmt::format("{} no path to ground for direct current: {} {} (elements there: {}); add a large resistor to ground",
                                  what, subject, why, elements_at(c, first)),
-                     first_element != nullptr ? first_element->place : SourceLocation{c.file});
+                     first_element != nullptr ? first_element->location : SourceLocation{c.file});
 }
 
 std::optional<Error> check_voltage_loops(const Circuit& c) {
@@ -101,7 +101,7 @@ std::optional<Error> check_voltage_loops(const Circuit& c) {
         if (e.nodes[0] == e.nodes[1])
             return bad_input(fmt::format("{}: both ends are connected to node '{}', so its voltage can only be 0", e.name,
                                          c.nodes[static_cast<std::size_t>(e.nodes[0])]),
-                             e.place);
+                             e.location);
         std::vector<std::string> names;
         for (const auto* other : joined)
             if (sets.root(other->nodes[0]) == sets.root(e.nodes[0]) && names.size() < 5) names.push_back(other->name);
@@ -109,7 +109,7 @@ std::optional<Error> check_voltage_loops(const Circuit& c) {
             fmt::format("{}: closes a loop of elements that each fix a voltage ({}), so the loop current is not determined; add "
                         "a small series resistor",
                         e.name, fmt::join(names, ", ")),
-            e.place);
+            e.location);
     }
     return {};
 }
@@ -120,7 +120,7 @@ std::optional<Error> unanswerable(const Circuit& c) {
     if (c.elements.empty()) return bad_input("the circuit has no elements", SourceLocation{c.file});
     if (std::none_of(c.elements.begin(), c.elements.end(),
                      [](const Element& e) { return std::find(e.nodes.begin(), e.nodes.end(), 0) != e.nodes.end(); }))
-        return bad_input("no element is connected to ground (node 0)", c.elements[0].place);
+        return bad_input("no element is connected to ground (node 0)", c.elements[0].location);
     if (auto wrong = check_voltage_loops(c)) return wrong;
     return check_floating_nodes(c);
 }
@@ -130,10 +130,10 @@ std::vector<Error> suspicious(const Circuit& c) {
     std::vector<const Element*> element(c.nodes.size());
     for (const auto& e : c.elements) {
         for (const int n : e.nodes) ++terminals[static_cast<std::size_t>(n)], element[static_cast<std::size_t>(n)] = &e;
-        if (!e.formula) continue;
-        for (const auto& in : e.formula->inputs())
+        if (!e.expression) continue;
+        for (const auto& in : e.expression->inputs())
             for (const auto& name : {in.name, in.minus})
-                if (const int n = c.node(name); in.kind == FormulaInput::Kind::voltage && n > 0) ++terminals[static_cast<std::size_t>(n)];
+                if (const int n = c.find_node(name); in.kind == ExpressionInput::Kind::voltage && n > 0) ++terminals[static_cast<std::size_t>(n)];
     }
     std::vector<std::string_view> shared;
     for (std::size_t n = 1; n < c.nodes.size(); ++n)
@@ -143,7 +143,7 @@ std::vector<Error> suspicious(const Circuit& c) {
         if (terminals[n] == 1 && c.nodes[n].find('.') == std::string::npos)
             out.push_back(bad_input(
                 fmt::format("node '{}' is connected only to {}{}", c.nodes[n], element[n]->name, did_you_mean(c.nodes[n], shared)),
-                element[n]->place));
+                element[n]->location));
     return out;
 }
 

@@ -23,7 +23,7 @@ struct Group {
 Result<void> add_variance(Group& group, const circuit::Circuit& c, const Found& rest) {
     constexpr double threshold = 1e-4, current = 1e-3;  // V; relative
     for (const char* device : group.devices) {
-        const auto k = static_cast<std::size_t>(c.element(device));
+        const auto k = static_cast<std::size_t>(c.find_element(device));
         const double sqrt_area = std::sqrt(area(c.elements[k]));
         const double by_V = card(c, k, "avt") / sqrt_area / threshold, by_I = card(c, k, "ais") / sqrt_area / current;
         for (const auto& [setting, deviations] :

@@ -15,7 +15,7 @@ constexpr double I_BIASF = 700e-9, V_DD = 0.7, pi = std::numbers::pi;  // A, V
 
 /// Aspect ratio of an array: W/L times columns over unit transistors in series.
 double aspect(const circuit::Circuit& c, const std::string& name) {
-    const auto& e = c.elements[static_cast<std::size_t>(c.element(name))];
+    const auto& e = c.elements[static_cast<std::size_t>(c.find_element(name))];
     const auto value = [&](const char* key, double otherwise) {
         const auto at = e.values.find(key);
         return at == e.values.end() ? otherwise : at->second;

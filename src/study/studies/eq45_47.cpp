@@ -54,7 +54,7 @@ Result<Found> run(const std::vector<std::string>& settings, const std::string& d
 struct Array {
     double n, V_T, I_S, V_A;
     Array(const circuit::Circuit& c, const char* name) {
-        const auto& m = c.elements[static_cast<std::size_t>(c.element(name))];
+        const auto& m = c.elements[static_cast<std::size_t>(c.find_element(name))];
         const auto& values = c.models[static_cast<std::size_t>(m.model)].values;
         const auto of = [](const circuit::Values& v, const char* what) { return v.find(what)->second; };
         n = of(values, "n"), V_T = of(values, "vto"), V_A = of(values, "ve") * of(m.values, "l") * of(m.values, "stack");

@@ -19,7 +19,7 @@ Result<void> add_sign_claims(Outcome& out) {
     if (!circuit) return circuit.error();
     const auto vto = [&](const char* name) {
         const auto& c = **circuit;
-        return c.models[static_cast<std::size_t>(c.elements[static_cast<std::size_t>(c.element(name))].model)].values.find("vto")->second;
+        return c.models[static_cast<std::size_t>(c.elements[static_cast<std::size_t>(c.find_element(name))].model)].values.find("vto")->second;
     };
     const auto found =
         found_in({"quiescent",
@@ -72,7 +72,7 @@ Result<Outcome> work(const StudyOptions& options) {
     if (auto ok = add_sign_claims(out); !ok) return ok.error();
     const auto generator = circuit_of({"bias"});
     if (!generator) return generator.error();
-    out.finds("I6: the replica is M5B over M4C", (*generator)->element("m5c") < 0 && (*generator)->element("m4c") >= 0,
+    out.finds("I6: the replica is M5B over M4C", (*generator)->find_element("m5c") < 0 && (*generator)->find_element("m4c") >= 0,
               "errata I6; the text names M4A and M5C, which table 16 does not list");
     const auto state = bias_state({});
     if (!state) return state.error();

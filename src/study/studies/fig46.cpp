@@ -20,7 +20,7 @@ constexpr int sizes[] = {1, 2, 4, 8};
 Result<void> add_lengths(Outcome& out) {
     const auto b1 = circuit_of({"rectangular_arrays"});
     if (!b1) return b1.error();
-    const auto& values = (*b1)->elements[static_cast<std::size_t>((*b1)->element("xb1.mg1"))].values;
+    const auto& values = (*b1)->elements[static_cast<std::size_t>((*b1)->find_element("xb1.mg1"))].values;
     const double L = values.at("l"), shift = values.at("delvto"), ratio = L / 0.18e-6;
     const int n = static_cast<int>(std::lround(ratio));
     const std::string unit = "0 nch018 w=0.42u l=0.18u";

@@ -39,7 +39,7 @@ constexpr SizeRow rows[] = {
 };
 
 const circuit::Element& element_of(const circuit::Circuit& c, const std::string& name) {
-    return c.elements[static_cast<std::size_t>(c.element(name))];
+    return c.elements[static_cast<std::size_t>(c.find_element(name))];
 }
 double value_or_1(const circuit::Element& e, const char* name) {
     const auto found = e.values.find(name);

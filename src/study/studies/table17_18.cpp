@@ -22,7 +22,7 @@ constexpr double tolerance = 25;  // %: tolerance of a predicted deviation, deci
 /// A_VT from table 12: its deviations minus the part of A_IS, each with its g_m/I_D and area. Both are derived from g_mg, so that misprints
 /// of single cells (errata U11, U12) have no effect. The mean of seven arrays, V um.
 void claim_calibration(Outcome& out, const circuit::Circuit& c) {
-    const auto m4a = static_cast<std::size_t>(c.element("m4a"));
+    const auto m4a = static_cast<std::size_t>(c.find_element("m4a"));
     const double A_IS = 1e6 * card(c, m4a, "ais");
     double mean = 0;
     for (const auto& a : printed_rectangles) {

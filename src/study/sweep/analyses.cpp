@@ -5,8 +5,8 @@
 #include <mutex>
 
 #include "circuit/analyses.hpp"
-#include "circuit/curves.hpp"
-#include "circuit/run.hpp"
+#include "circuit/curve_view.hpp"
+#include "circuit/run_directives.hpp"
 #include "signal/parameter.hpp"
 #include "study/sweep/netlists.hpp"
 #include "study/sweep/subject.hpp"
@@ -54,20 +54,20 @@ std::string unit_of(std::string_view name) {
 /// Results of the nominal circuit and their names. Transients are left out, because they may take long.
 Result<RunOutcome> run_without_transients(const Circuit& circuit) {
     auto without_transients = std::make_shared<Circuit>(circuit);
-    std::erase_if(without_transients->commands, [](const circuit::Command& c) {
+    std::erase_if(without_transients->directives, [](const circuit::Directive& c) {
         return c.name == "tran" || ((c.name == "meas" || c.name == "measure") && !c.words.empty() && c.words[0] == "tran") ||
                c.name == "expect" || ((c.name == "meas" || c.name == "measure") && c.words.size() > 2 && c.words[2].starts_with("param="));
     });
-    circuit::RunOrders orders;
-    orders.print = false;
+    circuit::RunOptions orders;
+    orders.print_tables = false;
     auto bench = TestBench::make(std::move(without_transients));
     if (!bench) return bench.error();
     (*bench)->brief = true;
-    return circuit::run(**bench, orders);
+    return circuit::run_directives(**bench, orders);
 }
 
 bool has(const Circuit& circuit, std::string_view command) {
-    return std::any_of(circuit.commands.begin(), circuit.commands.end(), [&](const auto& c) { return c.name == command; });
+    return std::any_of(circuit.directives.begin(), circuit.directives.end(), [&](const auto& c) { return c.name == command; });
 }
 
 /// The names of all numbers that the netlist computes.
@@ -78,12 +78,12 @@ std::vector<std::string> numbers_of(const Circuit& circuit, const std::optional<
     };
     if (without_transients)
         for (const auto& a : without_transients->analyses)
-            for (const auto& [name, value] : a.findings.numbers) add(name);
+            for (const auto& [name, value] : a.result.numbers) add(name);
     if (has(circuit, "tran") && has(circuit, "spike"))
         for (const auto name : spike_measures) add(std::string(name));
-    for (const auto& c : circuit.commands)
+    for (const auto& c : circuit.directives)
         if ((c.name == "meas" || c.name == "measure") && c.words.size() > 2) add(c.words[1]);
-    for (const auto& c : circuit.commands) {
+    for (const auto& c : circuit.directives) {
         if (c.name == "print" && c.words.size() > 1 && c.words[0] == "op")
             for (std::size_t k = 1; k < c.words.size(); ++k) add(c.words[k]);
         if (c.name == "expect" && !c.words.empty()) add(c.words[0].substr(0, c.words[0].find('=')));
@@ -101,9 +101,9 @@ Result<void> AnalysesSweep::select_measures(const SweepText& spec) {
         for (std::size_t k = 0; k < measures_.size(); ++k)
             if (measures_[k].name == name.text) return k;
         const bool is_known = std::find(known.begin(), known.end(), name.text) != known.end();
-        const bool is_curve = without_transients && without_transients->number(name.text);
+        const bool is_curve = without_transients && without_transients->find_number(name.text);
         const bool is_node = has(*nominal_, "tran") && name.text.starts_with("v(") && name.text.ends_with(')') &&
-                             nominal_->node(std::string_view(name.text).substr(2, name.text.size() - 3)) >= 0;
+                             nominal_->find_node(std::string_view(name.text).substr(2, name.text.size() - 3)) >= 0;
         if (!is_known && !is_curve && !is_node) {
             std::vector<std::string> all = known;
             for (std::size_t n = 1; n < nominal_->nodes.size(); ++n) all.push_back(fmt::format("v({})", nominal_->nodes[n]));
@@ -137,7 +137,7 @@ Result<void> AnalysesSweep::select_trains(const SweepText& spec) {
     const auto keeps = keeps_spikes(spec);
     if (!keeps) return keeps.error();
     if (!*keeps || !has(*nominal_, "spike")) return {};
-    for (const auto& c : nominal_->commands)
+    for (const auto& c : nominal_->directives)
         if (c.name == "tran") trains_.push_back(trains_.empty() ? "tran" : fmt::format("tran {}", trains_.size() + 1));
     return {};
 }
@@ -159,7 +159,7 @@ Result<std::unique_ptr<Sweep>> AnalysesSweep::make(const SweepText& spec, const 
     auto elaborated = nominal->elaborate();
     if (!elaborated) return elaborated.error();
     s.nominal_ = std::make_shared<const Circuit>(std::move(*elaborated));
-    auto written = circuit::Variants::of(*nominal);
+    auto written = circuit::NetlistVariants::create(*nominal);
     if (!written) return written.error();
     Varying varying;
     varying.named = s.netlist_.name(), varying.chips = true;
@@ -170,7 +170,7 @@ Result<std::unique_ptr<Sweep>> AnalysesSweep::make(const SweepText& spec, const 
     auto plan = plan_of(spec, varying, &*written);
     if (!plan) return plan.error();
     s.plan_ = std::move(*plan);
-    if (s.plan_.draws_chips() && s.nominal_->mismatch)
+    if (s.plan_.draws_chips() && s.nominal_->mismatch_seed)
         return bad_input("[set] selects one chip by mismatch = ..., but the sweep samples others; remove one of the two", {spec.file});
     if (spec.iterations) {
         const auto limit = whole_of(*spec.iterations, "iterations", 1, 1e12);
@@ -211,10 +211,10 @@ long AnalysesSweep::most_iterations(const std::function<bool()>& stop) const {
     auto bench = TestBench::make(nominal_);
     if (!bench) return 0;
     (*bench)->brief = true;
-    circuit::RunOrders orders;
-    orders.keep = orders.print = false;
-    orders.stop = [&](std::string_view, double) { return stop(); };
-    const auto found = circuit::run(**bench, orders);
+    circuit::RunOptions orders;
+    orders.keep_points = orders.print_tables = false;
+    orders.should_stop = [&](std::string_view, double) { return stop(); };
+    const auto found = circuit::run_directives(**bench, orders);
     if (!found && found.error().code == ErrorCode::interrupted) return 0;
     nominal_iteration_limit_ = found ? static_cast<long>(many_times_nominal * static_cast<double>(outcome(0, found).iterations)) : 0;
     return *nominal_iteration_limit_;
@@ -230,11 +230,11 @@ UnitOutcome AnalysesSweep::outcome(std::int64_t item, const Result<RunOutcome>& 
         return out;
     }
     for (std::size_t k = 0; k < measures_.size(); ++k)
-        if (const auto value = found->number(measures_[k].name)) out.measures[k] = *value;
+        if (const auto value = found->find_number(measures_[k].name)) out.measures[k] = *value;
     std::size_t train = 0;
     for (const auto& a : found->analyses) {
-        if (a.findings.spikes && train < out.spikes.size()) out.spikes[train++] = *a.findings.spikes;
-        for (const auto& [quantity, count] : a.findings.work) {
+        if (a.result.spikes && train < out.spikes.size()) out.spikes[train++] = *a.result.spikes;
+        for (const auto& [quantity, count] : a.result.work) {
             if (quantity == "steps") out.steps += static_cast<std::int64_t>(count);
             if (quantity == "iterations") out.iterations += static_cast<std::int64_t>(count);
         }
@@ -245,9 +245,9 @@ UnitOutcome AnalysesSweep::outcome(std::int64_t item, const Result<RunOutcome>& 
 Result<void> AnalysesSweep::work(const Next& next, const Told& on_outcome, const std::function<bool()>& stop) const {
     ThreadContext at;
     const auto limit = most_iterations(stop);
-    circuit::RunOrders orders;
-    orders.keep = orders.print = false;
-    orders.stop = [&](std::string_view, double) { return stop(); };
+    circuit::RunOptions orders;
+    orders.keep_points = orders.print_tables = false;
+    orders.should_stop = [&](std::string_view, double) { return stop(); };
     while (!stop()) {
         const auto item = next();
         if (!item) return {};
@@ -255,12 +255,12 @@ Result<void> AnalysesSweep::work(const Next& next, const Told& on_outcome, const
             on_outcome(outcome(*item, ok.error()));
             continue;
         }
-        if (const auto own = circuit::own_draw(*at.bench->circuit))
+        if (const auto own = circuit::chip_sample_of(*at.bench->circuit))
             at.bench->draw(*own);
         else if (const auto draw = plan_.draw(*item))
             at.bench->draw(*draw);
         at.bench->most_iterations = limit, at.bench->capped = false;
-        const auto found = circuit::run(*at.bench, orders);
+        const auto found = circuit::run_directives(*at.bench, orders);
         if (!found && found.error().code == ErrorCode::interrupted) return {};
         if (!found && found.error().code != ErrorCode::not_converged) return found.error();
         on_outcome(outcome(*item, found, at.bench->capped));

@@ -8,7 +8,7 @@
 #include <mutex>
 #include <optional>
 
-#include "circuit/path_names.hpp"
+#include "circuit/hierarchical_names.hpp"
 #include "signal/parameter.hpp"
 #include "signal/thread_pool.hpp"
 #include "signal/ascii_text.hpp"
@@ -18,7 +18,7 @@ namespace {
 
 using circuit::Chip;
 using circuit::ChipAnswer;
-using circuit::CircuitDesign;
+using circuit::CircuitAfferentFactory;
 using circuit::Draw;
 using Codes = std::vector<int>;
 
@@ -35,7 +35,7 @@ struct Press {
 class ChipPresser {
     const ChipCalibration& options_;
     const std::vector<Draw>& chips_;
-    std::map<std::vector<double>, std::shared_ptr<const CircuitDesign>> designs_;
+    std::map<std::vector<double>, std::shared_ptr<const CircuitAfferentFactory>> designs_;
     ThreadPool pool_;
 
     std::vector<double> values(const Codes& codes) const {
@@ -43,15 +43,15 @@ class ChipPresser {
         for (std::size_t k = 0; k < codes.size(); ++k) out.push_back(options_.trims[k].value(codes[k], options_.bits));
         return out;
     }
-    Result<std::shared_ptr<const CircuitDesign>> design(const Codes& codes) {
+    Result<std::shared_ptr<const CircuitAfferentFactory>> design(const Codes& codes) {
         const auto at = values(codes);
         if (const auto known = designs_.find(at); known != designs_.end()) return known->second;
         auto knobs = options_.knobs;
         for (std::size_t k = 0; k < at.size(); ++k)
             for (const auto& name : options_.trims[k].names) knobs.push_back({name, fmt::format("{:.17g}", at[k]), name});
-        const auto netlist = circuit::tuned(options_.netlist, knobs);
+        const auto netlist = circuit::apply_overrides(options_.netlist, knobs);
         if (!netlist) return netlist.error();
-        auto made = CircuitDesign::of(*netlist);
+        auto made = CircuitAfferentFactory::create(*netlist);
         if (!made) return made.error();
         return designs_.emplace(at, *made).first->second;
     }
@@ -73,7 +73,7 @@ public:
 
     Result<void> press(std::vector<Press>& all) {
         if (all.empty()) return {};
-        std::vector<std::shared_ptr<const CircuitDesign>> designs;
+        std::vector<std::shared_ptr<const CircuitAfferentFactory>> designs;
         for (const auto& p : all) {
             auto made = design(p.codes);
             if (!made) return made.error();
@@ -194,9 +194,9 @@ double Trim::value(int code, int bits) const {
     return whole ? std::max(1.0, std::round(value)) : value;
 }
 
-Result<Trim> trim_of(const std::string& netlist, const std::vector<circuit::Knob>& knobs, std::vector<std::string> names, double range,
+Result<Trim> trim_of(const std::string& netlist, const std::vector<circuit::NetlistOverride>& knobs, std::vector<std::string> names, double range,
                      bool is_integer) {
-    const auto read = circuit::tuned(netlist, knobs);
+    const auto read = circuit::apply_overrides(netlist, knobs);
     if (!read) return read.error();
     const auto circuit = read->elaborate();
     if (!circuit) return circuit.error();
@@ -206,7 +206,7 @@ Result<Trim> trim_of(const std::string& netlist, const std::vector<circuit::Knob
     const auto dot = full_name.rfind('.');
     std::vector<std::string_view> known;
     for (const auto& e : circuit->elements) known.push_back(e.name);
-    const auto found = circuit::meant(known, full_name.substr(0, dot), circuit::Last::element);
+    const auto found = circuit::find_matching_names(known, full_name.substr(0, dot), circuit::LastPiece::element);
     if (dot != std::string::npos && found.size() == 1) {
         const auto& values = circuit->elements[found[0]].values;
         if (const auto v = values.find(full_name.substr(dot + 1)); v != values.end())

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "circuit/batch/chips.hpp"
-#include "circuit/knobs.hpp"
+#include "circuit/netlist_overrides.hpp"
 #include "study/sweep/pattern.hpp"
 
 namespace corpuscle {
@@ -26,7 +26,7 @@ struct Trim {
 /// The chips to calibrate, their trims, and the target.
 struct ChipCalibration {
     std::string netlist;
-    std::vector<circuit::Knob> knobs = {};  ///< fixed settings, e.g. the process corner
+    std::vector<circuit::NetlistOverride> knobs = {};  ///< fixed settings, e.g. the process corner
     std::vector<Trim> trims = {};
     int bits = 4;               ///< of each trim, at most
     std::vector<double> force;  ///< N, of one press
@@ -53,7 +53,7 @@ struct CalibratedChip {
 Result<std::vector<CalibratedChip>> calibrate(const ChipCalibration&, const std::vector<circuit::Draw>& chips);
 
 /// The trim with the netlist's value of its first name; fails if that is not a number.
-Result<Trim> trim_of(const std::string& netlist, const std::vector<circuit::Knob>&, std::vector<std::string> names, double range,
+Result<Trim> trim_of(const std::string& netlist, const std::vector<circuit::NetlistOverride>&, std::vector<std::string> names, double range,
                      bool is_integer);
 
 }  // namespace corpuscle

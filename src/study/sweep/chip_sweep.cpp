@@ -6,7 +6,7 @@
 #include <map>
 
 #include "circuit/batch/chips.hpp"
-#include "circuit/traced.hpp"
+#include "circuit/resolve_probe.hpp"
 #include "signal/parameter.hpp"
 #include "study/sweep/netlists.hpp"
 #include "study/sweep/subject.hpp"
@@ -16,8 +16,8 @@ namespace {
 
 using circuit::Chip;
 using circuit::ChipAnswer;
-using circuit::CircuitDesign;
-using DesignPointer = std::shared_ptr<const CircuitDesign>;
+using circuit::CircuitAfferentFactory;
+using DesignPointer = std::shared_ptr<const CircuitAfferentFactory>;
 
 constexpr std::size_t max_cached_designs = 16;
 
@@ -44,7 +44,7 @@ class ChipSweep final : public PlannedSweep {
     Result<void> select_measures(const SweepText&);
     Result<void> select_probes(const SweepText&);
     Result<DesignPointer> design(std::span<const double> values) const;
-    std::optional<circuit::Draw> draw(std::int64_t item, const CircuitDesign&) const;
+    std::optional<circuit::Draw> draw(std::int64_t item, const CircuitAfferentFactory&) const;
     long most_iterations(const std::function<bool()>& stop) const;
     UnitOutcome outcome(std::int64_t item, const ActiveChip&, ChipAnswer&&) const;
     UnitOutcome failed_outcome(std::int64_t item, const Error&) const;
@@ -64,7 +64,7 @@ Result<void> ChipSweep::set(const SweepText& spec) {
 /// Selects measures and limits.
 Result<void> ChipSweep::select_measures(const SweepText& spec) {
     std::vector<std::string> ranges;
-    for (const auto& w : nominal_->kept) ranges.emplace_back(w.range().quantity);
+    for (const auto& w : nominal_->operating_ranges) ranges.emplace_back(w.range().quantity);
     afferent_measures_ = std::make_unique<AfferentMeasures>(*force_.nominal(), true, ranges);
     if (auto ok = afferent_measures_->choose(spec.measures); !ok) return ok;
     const Limiting limiting{[&](const LocatedText& name) { return afferent_measures_->column_of(name); },
@@ -79,18 +79,18 @@ Result<void> ChipSweep::select_measures(const SweepText& spec) {
 /// Selects the probes to keep, in place of those that the netlist saves.
 Result<void> ChipSweep::select_probes(const SweepText& spec) {
     for (const auto& word : spec.traces) {
-        const auto found = circuit::traced(*nominal_->circuit, word.text);
+        const auto found = circuit::resolve_probe(*nominal_->circuit, word.text);
         if (!found) return word.error_here(found.error().message);
         if (!*found)
             return word.error_here(fmt::format("traces: {} has no node or device '{}'{}", netlist_.name(), word.text,
-                                          circuit::meant_trace(*nominal_->circuit, word.text)));
+                                          circuit::suggest_probe(*nominal_->circuit, word.text)));
         traces_.push_back(**found);
     }
     if (traces_.empty()) return {};
     netlist_.save(traces_);
     const auto netlist = netlist_.nominal();
     if (!netlist) return netlist.error();
-    auto design = CircuitDesign::of(*netlist);
+    auto design = CircuitAfferentFactory::create(*netlist);
     if (!design) return design.error();
     nominal_ = std::move(*design);
     const auto& force = *force_.nominal();
@@ -116,10 +116,10 @@ Result<std::unique_ptr<Sweep>> ChipSweep::make(const SweepText& spec, const std:
     if (auto ok = s.set(spec); !ok) return ok.error();
     const auto nominal = s.netlist_.nominal();
     if (!nominal) return nominal.error();
-    auto design = CircuitDesign::of(*nominal);
+    auto design = CircuitAfferentFactory::create(*nominal);
     if (!design) return design.error();
     s.nominal_ = std::move(*design);
-    auto written = circuit::Variants::of(*nominal);
+    auto written = circuit::NetlistVariants::create(*nominal);
     if (!written) return written.error();
     Varying varying;
     varying.named = s.netlist_.name(), varying.chips = true;
@@ -132,7 +132,7 @@ Result<std::unique_ptr<Sweep>> ChipSweep::make(const SweepText& spec, const std:
     auto plan = plan_of(spec, varying, &*written);
     if (!plan) return plan.error();
     s.plan_ = std::move(*plan);
-    if (s.plan_.draws_chips() && s.nominal_->circuit->mismatch)
+    if (s.plan_.draws_chips() && s.nominal_->circuit->mismatch_seed)
         return bad_input("[set] selects one chip by mismatch = ..., but the sweep samples others; remove one of the two", {spec.file});
     if (spec.iterations) {
         const auto limit = whole_of(*spec.iterations, "iterations", 1, 1e12);
@@ -160,15 +160,15 @@ Result<DesignPointer> ChipSweep::design(std::span<const double> values) const {
         if (const auto at = designs_.find(own); at != designs_.end()) return at->second;
     }
     const auto netlist = netlist_.at(values);
-    const auto made = netlist ? CircuitDesign::of(*netlist) : Result<DesignPointer>(netlist.error());
+    const auto made = netlist ? CircuitAfferentFactory::create(*netlist) : Result<DesignPointer>(netlist.error());
     const std::lock_guard lock(mutex_);
     if (designs_.size() >= max_cached_designs) designs_.clear();
     designs_.emplace(own, made);
     return made;
 }
 
-std::optional<circuit::Draw> ChipSweep::draw(std::int64_t item, const CircuitDesign& design) const {
-    if (auto own = circuit::own_draw(*design.circuit)) return own;
+std::optional<circuit::Draw> ChipSweep::draw(std::int64_t item, const CircuitAfferentFactory& design) const {
+    if (auto own = circuit::chip_sample_of(*design.circuit)) return own;
     return plan_.draw(item);
 }
 
@@ -181,7 +181,7 @@ long ChipSweep::most_iterations(const std::function<bool()>& stop) const {
     circuit::BatchOptions options;
     options.stop = stop;
     const auto response =
-        circuit::run_chip_alone({0, nominal_, circuit::own_draw(*nominal_->circuit), force.samples, force.clock.T()}, options);
+        circuit::run_chip_alone({0, nominal_, circuit::chip_sample_of(*nominal_->circuit), force.samples, force.clock.T()}, options);
     if (response.error && response.error->code == ErrorCode::interrupted) return 0;
     nominal_iteration_limit_ = response.error ? 0 : static_cast<long>(many_times_nominal * static_cast<double>(response.work.iterations));
     return *nominal_iteration_limit_;
@@ -210,7 +210,7 @@ UnitOutcome ChipSweep::outcome(std::int64_t item, const ActiveChip& at, ChipAnsw
         measured.outside_of.push_back(static_cast<double>(o.samples) * T);
         measured.outside = std::max(measured.outside, measured.outside_of.back());
     }
-    measured.outside_of.resize(nominal_->kept.size());
+    measured.outside_of.resize(nominal_->operating_ranges.size());
     out.measures = response.capped ? std::vector<double>(measures_.size(), std::numeric_limits<double>::quiet_NaN())
                                    : afferent_measures_->values(*at.force, measured);
     if (!trains_.empty()) out.spikes.push_back(std::move(response.spikes));

@@ -14,7 +14,7 @@ namespace corpuscle::sweeps {
 namespace {
 
 namespace fs = std::filesystem;
-using circuit::Knob;
+using circuit::NetlistOverride;
 using circuit::Netlist;
 
 constexpr std::size_t max_bytes = std::size_t{64} << 20;
@@ -33,7 +33,7 @@ Result<std::string> bytes_of(const fs::path& path, const std::string& name) {
     return text ? std::move(text) : Error{text.error().code, text.error().message, {name}};
 }
 
-Knob override_of(const std::string& name, std::string value) { return {name, std::move(value), name, equal_ignoring_case(name, "supply")}; }
+NetlistOverride override_of(const std::string& name, std::string value) { return {name, std::move(value), name, equal_ignoring_case(name, "supply")}; }
 
 /// Accepts "85" and "85C".
 Result<double> temperature_of(const LocatedText& given) {
@@ -43,14 +43,14 @@ Result<double> temperature_of(const LocatedText& given) {
             text.remove_suffix(unit.size());
             break;
         }
-    const auto value = circuit::number_with_unit(text);
+    const auto value = circuit::parse_number_with_unit(text);
     if (!value || !value->unit.empty())
         return bad_input(fmt::format("'{}' is not a temperature; write degrees Celsius, such as 85", given.text));
     return value->value;
 }
 
 Result<double> any_number(const LocatedText& given) {
-    const auto value = circuit::number_with_unit(given.text);
+    const auto value = circuit::parse_number_with_unit(given.text);
     return value ? Result<double>(value->value) : value.error();
 }
 
@@ -67,7 +67,7 @@ Result<NetlistMaker> NetlistMaker::of(const LocatedText& given, const std::strin
     NetlistMaker out;
     out.name_ = out.file_ = given.text, out.folder_ = folder, out.orders_ = directives, out.files_ = std::make_shared<Files>();
     std::error_code status;
-    if (const auto* embedded = circuit::carried_netlist(given.text)) {
+    if (const auto* embedded = circuit::find_embedded_netlist(given.text)) {
         out.file_ = embedded->file, out.name_ = embedded->name, out.carried_ = true;
     } else if (const fs::path path = given.text; path.is_absolute()) {  // paths of this machine stay out of the results
         out.folder_ = path.parent_path().string(), out.name_ = out.file_ = path.filename().string();
@@ -76,7 +76,7 @@ Result<NetlistMaker> NetlistMaker::of(const LocatedText& given, const std::strin
         std::vector<std::string_view> known;
         for (const auto file : embedded_files())
             if (file.ends_with(".cir")) known.push_back(file);
-        for (const auto& c : circuit::carried_netlists) known.push_back(c.name);
+        for (const auto& c : circuit::embedded_netlists) known.push_back(c.name);
         if (!is_embedded(out.file_))
             return given.error_here(fmt::format("there is no netlist '{}' beside the sweep file and no embedded one of this name{}", given.text,
                                            did_you_mean(given.text, known)));
@@ -116,12 +116,12 @@ Result<Netlist> NetlistMaker::open(const std::string& corner) const {
     return netlist;
 }
 
-Result<Netlist> NetlistMaker::tuned(std::span<const Knob> overrides) const {
-    auto netlist = circuit::tuned([this](const std::string& corner) { return open(corner); }, file_, overrides);
+Result<Netlist> NetlistMaker::tuned(std::span<const NetlistOverride> overrides) const {
+    auto netlist = circuit::apply_overrides([this](const std::string& corner) { return open(corner); }, file_, overrides);
     if (!netlist || saved_.empty()) return netlist;
-    auto changes = netlist->changes();
-    changes.saved_alone = true, changes.saved = saved_;
-    return netlist->with(std::move(changes));
+    auto changes = netlist->overrides();
+    changes.replaces_saved = true, changes.saved = saved_;
+    return netlist->with_overrides(std::move(changes));
 }
 
 Result<void> NetlistMaker::set(const LocatedSetting& setting) {
@@ -201,7 +201,7 @@ bool same_devices(const circuit::Circuit& a, const circuit::Circuit& b) {
         const auto type = [](const circuit::Circuit& c, const circuit::Element& e) {
             return e.model < 0 ? std::string_view() : std::string_view(c.models[static_cast<std::size_t>(e.model)].type);
         };
-        if (x.name != y.name || x.letter != y.letter || x.nodes != y.nodes || x.control != y.control || type(a, x) != type(b, y))
+        if (x.name != y.name || x.letter != y.letter || x.nodes != y.nodes || x.control_source != y.control_source || type(a, x) != type(b, y))
             return false;
     }
     return true;

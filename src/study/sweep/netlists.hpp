@@ -6,7 +6,7 @@
 #include <mutex>
 #include <span>
 
-#include "circuit/knobs.hpp"
+#include "circuit/netlist_overrides.hpp"
 #include "study/sweep/axis.hpp"
 
 namespace corpuscle::sweeps {
@@ -15,7 +15,7 @@ class NetlistMaker {
     struct Files;
     std::string name_, folder_, file_, orders_;
     bool carried_ = false;
-    std::vector<circuit::Knob> set_;
+    std::vector<circuit::NetlistOverride> set_;
     struct Varied {
         std::string knob;
         std::size_t axis;
@@ -27,7 +27,7 @@ class NetlistMaker {
 
     Result<std::string> text_of(const std::string& path) const;
     Result<circuit::Netlist> open(const std::string& corner) const;
-    Result<circuit::Netlist> tuned(std::span<const circuit::Knob>) const;
+    Result<circuit::Netlist> tuned(std::span<const circuit::NetlistOverride>) const;
 
 public:
     /// "sa1-circuit", a path relative to the folder, or the path of an embedded netlist. `orders` replace its own directives.

@@ -12,13 +12,13 @@ double SweepAxis::drawn(std::uint64_t draw) const {
     return by_powers ? first * num::exp(u * num::log(second / first)) : first + u * (second - first);
 }
 
-SweepPlan::SweepPlan(std::vector<SweepAxis> axes, const circuit::Chips& chips, std::int64_t draws)
+SweepPlan::SweepPlan(std::vector<SweepAxis> axes, const circuit::ChipSpec& chips, std::int64_t draws)
     : axes_(std::move(axes)), chips_(chips), draws_(draws) {
     for (const auto& a : axes_) {
         columns_.push_back(a.column);
         if (!a.values.empty()) points_ *= static_cast<std::int64_t>(a.values.size());
     }
-    if (!chips.process) return;
+    if (!chips.has_process) return;
     for (const auto& [name, description] : {std::pair{"process.V_T0_n", "threshold of a chip's N devices"},
                                             {"process.V_T0_p", "threshold of a chip's P devices"},
                                             {"process.I_SQ_n", "specific current of a chip's N devices"},
@@ -40,8 +40,8 @@ std::vector<double> SweepPlan::values(std::int64_t item) const {
         out[k] = a.values[static_cast<std::size_t>(point % count)];
         point /= count;
     }
-    if (chips_.process) {
-        const auto chip = chips_.draw(draw);
+    if (chips_.has_process) {
+        const auto chip = chips_.sample(draw);
         out.insert(out.end(), std::begin(chip.process), std::end(chip.process));
     }
     return out;
@@ -49,7 +49,7 @@ std::vector<double> SweepPlan::values(std::int64_t item) const {
 
 std::optional<circuit::Draw> SweepPlan::draw(std::int64_t item) const {
     if (!draws_chips()) return {};
-    return chips_.draw(static_cast<std::uint64_t>(item % draws_));
+    return chips_.sample(static_cast<std::uint64_t>(item % draws_));
 }
 
 }  // namespace corpuscle::sweeps

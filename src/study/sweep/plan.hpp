@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "circuit/variants.hpp"
+#include "circuit/netlist_variants.hpp"
 #include "study/sweep/sampling.hpp"
 #include "study/sweep/sweep.hpp"
 
@@ -25,7 +25,7 @@ struct SweepAxis {
 class SweepPlan {
     std::vector<SweepAxis> axes_;
     std::vector<SweepColumn> columns_;
-    circuit::Chips chips_;
+    circuit::ChipSpec chips_;
     std::int64_t draws_ = 1, points_ = 1;
 
 public:
@@ -33,15 +33,15 @@ public:
 
     SweepPlan() = default;
     /// `chips`: the seed, and whether process and mismatch are sampled.
-    SweepPlan(std::vector<SweepAxis> axes, const circuit::Chips& chips, std::int64_t draws);
+    SweepPlan(std::vector<SweepAxis> axes, const circuit::ChipSpec& chips, std::int64_t draws);
 
     const std::vector<SweepAxis>& axes() const { return axes_; }
     /// One for each axis; then, if the process is sampled, its four deviates.
     const std::vector<SweepColumn>& columns() const { return columns_; }
-    const circuit::Chips& chips() const { return chips_; }
+    const circuit::ChipSpec& chips() const { return chips_; }
     std::int64_t draws() const { return draws_; }
     std::int64_t units() const { return points_ * draws_; }
-    bool draws_chips() const { return chips_.process || chips_.mismatch; }
+    bool draws_chips() const { return chips_.has_process || chips_.has_mismatch; }
 
     /// In the order of the columns.
     std::vector<double> values(std::int64_t item) const;

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <filesystem>
 
-#include "circuit/carried.hpp"
+#include "circuit/embedded_netlists.hpp"
 #include "signal/input_files.hpp"
 #include "study/afferents.hpp"
 #include "study/sweep/subject.hpp"

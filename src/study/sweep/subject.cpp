@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "circuit/knobs.hpp"
+#include "circuit/netlist_overrides.hpp"
 #include "model/catalog.hpp"
 #include "signal/parameter.hpp"
 #include "signal/quantity.hpp"
@@ -20,12 +20,12 @@ constexpr double max_seed = 0x1p53 - 1;
 class PlanReader {
     const SweepText& spec_;
     const Varying& varying_;
-    const circuit::Variants* written_;
-    circuit::Chips chips_{0, 0, false, false};
+    const circuit::NetlistVariants* written_;
+    circuit::ChipSpec chips_{0, 0, false, false};
     Drawing drawing_;
     std::vector<SweepAxis> axes_;
 
-    bool writes_chips() const { return written_ && written_->draws(); }
+    bool writes_chips() const { return written_ && written_->has_chips(); }
     const SaidAxis* chips_axis() const {
         for (const auto& a : spec_.vary)
             if (a.what.text == "process" || a.what.text == "mismatch") return &a;
@@ -39,14 +39,14 @@ class PlanReader {
         if (spec && !varying_.chips)
             return spec->what.error_here(fmt::format("{} is a model; '{}' applies to the chips of a circuit", varying_.named, spec->what.text));
         if (!spec && writes_chips()) {
-            chips_.process = written_->chips().process, chips_.mismatch = written_->chips().mismatch;
+            chips_.has_process = written_->chips().has_process, chips_.has_mismatch = written_->chips().has_mismatch;
             if (!spec_.seed) chips_.seed = drawing_.seed = written_->chips().seed;
         }
         for (const auto& a : spec_.vary) {
             if (a.what.text != "process" && a.what.text != "mismatch") continue;
             if (a.how || a.from || a.to || a.count || a.list || a.mean || a.sigma || a.log || a.at_least || a.at_most)
                 return a.what.error_here(fmt::format("{}: its distribution comes from the process card; remove the other keys", a.what.text));
-            bool& one = a.what.text == "process" ? chips_.process : chips_.mismatch;
+            bool& one = a.what.text == "process" ? chips_.has_process : chips_.has_mismatch;
             if (one) return a.what.error_here(fmt::format("'{}' varies twice", a.what.text));
             one = true;
         }
@@ -96,7 +96,7 @@ class PlanReader {
                             : spec.from                      ? &*spec.from
                             : spec.mean                      ? &*spec.mean
                                                              : nullptr;
-        const auto value = first ? circuit::number_with_unit(first->text) : Result<circuit::Measured>(Error{});
+        const auto value = first ? circuit::parse_number_with_unit(first->text) : Result<circuit::NumberWithUnit>(Error{});
         return value ? std::string(value->unit) : "";
     }
 
@@ -114,7 +114,7 @@ class PlanReader {
     }
 
 public:
-    PlanReader(const SweepText& spec, const Varying& varying, const circuit::Variants* written)
+    PlanReader(const SweepText& spec, const Varying& varying, const circuit::NetlistVariants* written)
         : spec_(spec), varying_(varying), written_(written) {}
 
     Result<SweepPlan> read() {
@@ -175,7 +175,7 @@ Result<void> set_limit(const SaidLimit& limit, const Limiting& limiting, std::ve
 }  // namespace
 
 void PlannedSweep::tell_draws(const std::string& subject, const circuit::Circuit& circuit) {
-    if (!plan_.chips().mismatch) return;
+    if (!plan_.chips().has_mismatch) return;
     Drawn samples;
     samples.seed = plan_.chips().seed, samples.chips = plan_.draws();
     samples.subjects.push_back({subject, drawn_devices(circuit)});
@@ -189,7 +189,7 @@ Result<std::uint64_t> seed_of(const SweepText& spec) {
     return static_cast<std::uint64_t>(*seed);
 }
 
-Result<SweepPlan> plan_of(const SweepText& spec, const Varying& varying, const circuit::Variants* written) {
+Result<SweepPlan> plan_of(const SweepText& spec, const Varying& varying, const circuit::NetlistVariants* written) {
     return PlanReader(spec, varying, written).read();
 }
 

@@ -49,7 +49,7 @@ struct Varying {
 };
 Result<std::uint64_t> seed_of(const SweepText&);
 /// `written`: the .step and .mc lines of the netlist itself.
-Result<SweepPlan> plan_of(const SweepText&, const Varying&, const circuit::Variants* written = nullptr);
+Result<SweepPlan> plan_of(const SweepText&, const Varying&, const circuit::NetlistVariants* written = nullptr);
 
 /// Looks up measures by name, and computes a model's values of them.
 struct Limiting {

@@ -21,7 +21,7 @@ std::string dc_directive(BiasAxis axis, const std::string& range) {
 
 /// Drain-source saturation voltage of a transistor at this current.
 double saturation_voltage(const circuit::Circuit& c, std::string_view name, double current) {
-    const auto& element = c.elements[static_cast<std::size_t>(c.element(name))];
+    const auto& element = c.elements[static_cast<std::size_t>(c.find_element(name))];
     const auto& card = c.models[static_cast<std::size_t>(element.model)].values;
     const auto of = [](const circuit::Values& values, std::string_view what) { return values.find(what)->second; };
     const double kelvin = c.temperature + 273.15, temperature_ratio = kelvin / (of(card, "tnom") + 273.15);

@@ -8,8 +8,8 @@
 #include <regex>
 #include <set>
 
-#include "circuit/run.hpp"
-#include "circuit/variants.hpp"
+#include "circuit/run_directives.hpp"
+#include "circuit/netlist_variants.hpp"
 #include "study/sweep/sampling.hpp"
 #include "study/sweep/sobol.hpp"
 #include "study/sweep/sweep.hpp"
@@ -175,14 +175,14 @@ constexpr const char* stepped =
 
 /// What `corpuscle run` finds, variant by variant.
 std::vector<double> ran(const std::string& path) {
-    auto variants = test::sure(circuit::Variants::of(test::sure(circuit::Netlist::read(path))));
+    auto variants = test::sure(circuit::NetlistVariants::create(test::sure(circuit::Netlist::read(path))));
     std::vector<double> out;
     std::unique_ptr<circuit::TestBench> bench;
     for (std::size_t k = 0; k < variants.count(); ++k) {
         const auto variant = test::sure(variants.at(k));
         if (!bench || bench->circuit != variant.circuit) bench = test::sure(circuit::TestBench::make(variant.circuit));
-        if (variant.draw) bench->draw(*variant.draw);
-        out.push_back(*test::sure(circuit::run(*bench)).number("out"));
+        if (variant.sample) bench->draw(*variant.sample);
+        out.push_back(*test::sure(circuit::run_directives(*bench)).find_number("out"));
     }
     return out;
 }

@@ -1,0 +1,17 @@
+#include "circuit/cost/cost_meter.hpp"
+
+#include "circuit/force_directive.hpp"
+
+namespace corpuscle::circuit {
+
+Result<void> CostMeter::attach(RunOptions& options) {
+    const auto rest = context_.rest();
+    if (!rest) return rest.error();
+    auto phases = force_phases(*context_.circuit);
+    if (!phases) return phases.error();
+    meter_.emplace(context_.system, rest->x, context_.tolerances.gmin);
+    options.unknowns_sink = &power_over_time_.emplace(*meter_, std::move(*phases));
+    return {};
+}
+
+}  // namespace corpuscle::circuit

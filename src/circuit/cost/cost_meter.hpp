@@ -1,0 +1,24 @@
+#pragma once
+// Computes the cost of a circuit while the directives of its netlist run.
+
+#include "circuit/cost/cost.hpp"
+#include "circuit/run_directives.hpp"
+
+namespace corpuscle::circuit {
+
+/// Measures power over a transient while it runs, and adds area and leakage afterwards.
+class CostMeter {
+    TestBench& context_;
+    std::optional<PowerMeter> meter_;
+    std::optional<PowerOverTime> power_over_time_;
+
+public:
+    explicit CostMeter(TestBench& context) : context_(context) {}
+    CostMeter(const CostMeter&) = delete;
+    /// Connects the meter to the options of a run. The options must not outlive this object.
+    Result<void> attach(RunOptions& options);
+    /// The cost; call it after the run.
+    Result<Cost> cost() const { return cost_of(context_, power_over_time_ ? &*power_over_time_ : nullptr); }
+};
+
+}  // namespace corpuscle::circuit

@@ -1,0 +1,24 @@
+#pragma once
+// Selects some curves of a plot, such as those that .save names.
+
+#include "circuit/analysis/bench.hpp"
+#include "circuit/curve_view.hpp"
+
+namespace corpuscle::circuit {
+
+/// The plot with only the named curves. If `names` is empty, or the plot has none of them (noise, transfer function), all curves remain.
+Plot select_curves(const Plot&, const std::vector<std::string>& names);
+
+/// The same for a plot that comes point by point.
+class CurveSelector {
+    std::vector<CurveView> views_;
+    std::vector<double> row_;
+    bool keeps_all_ = true;
+
+public:
+    /// Returns the head of the output.
+    Plot begin(const Plot& head, const std::vector<std::string>& names);
+    std::span<const double> select(std::span<const double> row);
+};
+
+}  // namespace corpuscle::circuit

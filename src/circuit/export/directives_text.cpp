@@ -1,0 +1,137 @@
+#include "circuit/export/directives_text.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <iterator>
+
+namespace corpuscle::circuit {
+namespace {
+
+class DirectiveExporter {
+    const Circuit& circuit_;
+    const ExportNames& names_;
+    std::vector<Error>& left_out_;
+
+public:
+    DirectiveExporter(const Circuit& circuit, const ExportNames& names, std::vector<Error>& left_out)
+        : circuit_(circuit), names_(names), left_out_(left_out) {}
+
+    std::string text(const Directive& c) const {
+        if (c.name == "dc") return dc(c);
+        if (c.name == "noise") return noise(c);
+        if (c.name == "print") return print(c);
+        if (c.name == "force") return "";  // the sources contain it
+        for (const std::string_view own : {"expect", "step", "mc", "spike", "within", "probe"})
+            if (c.name == own)
+                return comment_out(c, own == "step" || own == "mc" ? "ngspice has no such directive; the nominal values are exported"
+                                                                   : "ngspice has no such directive");
+        return line(c.name, renamed(c));
+    }
+
+private:
+    bool has_element(char letter) const {
+        return std::any_of(circuit_.elements.begin(), circuit_.elements.end(), [&](const Element& e) { return e.letter == letter; });
+    }
+    static std::string line(std::string_view name, const std::vector<std::string>& words) {
+        return fmt::format(".{}{}{}\n", name, words.empty() ? "" : " ", fmt::join(words, " "));
+    }
+    std::string comment_out(const Directive& c, std::string_view why) const {
+        auto text = line(c.name, c.words);
+        text.pop_back();
+        left_out_.push_back(bad_input(fmt::format("left out: {} ({})", text, why), c.location));
+        return fmt::format("* left out: {} ({})\n", text, why);
+    }
+    std::vector<std::string> renamed(const Directive& c) const {
+        std::vector<std::string> out;
+        for (const auto& w : c.words) out.push_back(names_.word(w));
+        if (c.name == "tf" && out.size() > 1) out[1] = element(out[1]);
+        return out;
+    }
+    /// The exported name of an element; any other word is returned as it is.
+    std::string element(const std::string& name) const {
+        const auto known = names_.element(name);
+        return known.empty() ? name : known;
+    }
+
+    std::string dc(const Directive& c) const {
+        auto words = c.words;
+        const bool is_updown = !words.empty() && words.back() == "updown";
+        if (is_updown) words.pop_back();
+        for (std::size_t k = 0; k < words.size(); k += 4) {
+            if (words[k] == "temp") {
+                if (has_element('m')) return comment_out(c, "the parameters of the transistors below are valid at one temperature only");
+                continue;
+            }
+            if (words[k].find_first_of("vir") != 0) return comment_out(c, "ngspice sweeps only sources, resistors and temp");
+            words[k] = element(words[k]);
+        }
+        std::string out = is_updown ? "* left out: updown; ngspice sweeps in one direction only\n" : "";
+        if (is_updown) left_out_.push_back(bad_input("left out: updown of .dc (ngspice sweeps in one direction only)", c.location));
+        return out + line("dc", words);
+    }
+
+    std::string noise(const Directive& c) const {
+        auto words = c.words;
+        if (!words.empty()) words[0] = names_.word(words[0]);
+        if (words.size() > 1) words[1] = element(words[1]);
+        if (!has_element('m')) return line("noise", words);
+        const std::string why = "ngspice's result lacks the noise of the transistors, because its expressions have none";
+        left_out_.push_back(bad_input(".noise: " + why, c.location));
+        return fmt::format("* {}\n{}", why, line("noise", words));
+    }
+
+    /// ngspice requires the name of an analysis; a .print without one is written for each analysis.
+    std::string print(const Directive& c) const {
+        constexpr std::string_view printed[] = {"op", "dc", "ac", "noise", "tran"};
+        const auto is_kind = [&](const std::string& w) {
+            return std::find(std::begin(printed), std::end(printed), w) != std::end(printed);
+        };
+        auto words = renamed(c);
+        if (words.empty() || is_kind(words[0])) return line("print", words);
+        words.insert(words.begin(), "");
+        std::string out;
+        for (const auto kind : printed) {
+            const bool has_analysis =
+                std::any_of(circuit_.directives.begin(), circuit_.directives.end(), [&](const Directive& other) { return other.name == kind; });
+            words[0] = kind;
+            if (has_analysis) out += line("print", words);
+        }
+        return out;
+    }
+};
+
+}  // namespace
+
+namespace {
+
+/// The order in which ngspice runs analyses, whatever the order of their lines. Of one kind, it runs the last line first.
+constexpr std::string_view run_order[] = {"ac", "dc", "op", "tran", "noise", "sens", "tf"};
+std::ptrdiff_t run_rank(std::string_view kind) {
+    return std::find(std::begin(run_order), std::end(run_order), kind) - std::begin(run_order);
+}
+bool is_analysis(const Directive& c) { return run_rank(c.name) < std::ssize(run_order); }
+
+}  // namespace
+
+std::string directives_text(const Circuit& circuit, const ExportNames& names, std::vector<Error>& left_out) {
+    const DirectiveExporter exporter(circuit, names, left_out);
+    std::string analyses, others;
+    std::string_view last = run_order[0];
+    for (const auto& c : circuit.directives)
+        if (is_analysis(c) && run_rank(c.name) > run_rank(last)) last = c.name;
+    for (const auto& c : circuit.directives) {
+        if (is_analysis(c)) {
+            analyses.insert(0, exporter.text(c));
+            continue;
+        }
+        if (c.name.starts_with("meas") && !c.words.empty() && c.words[0] != last) {
+            const auto why = fmt::format(".meas {}: ngspice measures only the analysis that it runs last, here .{}", c.words[0], last);
+            left_out.push_back(bad_input(why, c.location));
+            others += fmt::format("* {}\n", why);
+        }
+        others += exporter.text(c);
+    }
+    return analyses + others;
+}
+
+}  // namespace corpuscle::circuit

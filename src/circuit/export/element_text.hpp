@@ -1,0 +1,14 @@
+#pragma once
+// Elements and models of the flat circuit as lines of an ngspice netlist.
+
+#include "circuit/export/export_names.hpp"
+
+namespace corpuscle::circuit {
+
+/// The text of an element; ends with a newline and may have several lines.
+Result<std::string> element_text(const Circuit&, std::size_t element, const ExportNames&);
+
+/// The model of a diode, or the nominal temperature of an R, C or L; "" if the elements' lines contain all numbers.
+std::string model_text(const Circuit&, std::size_t model, const ExportNames&);
+
+}  // namespace corpuscle::circuit

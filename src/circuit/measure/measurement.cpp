@@ -1,0 +1,78 @@
+#include "circuit/measure/measurement.hpp"
+
+namespace corpuscle::circuit {
+
+bool CrossingCounter::add_point(double x, const PlotRow& row) {
+    if (!follower_.add_point(x, row)) return false;
+    const auto& segment = *follower_.segment();
+    if (!((segment.rises() && edges_.kind != EdgeSelection::Kind::fall) || (segment.falls() && edges_.kind != EdgeSelection::Kind::rise))) return false;
+    const double position = segment.zero();
+    if (!edges_.interval.contains(position)) return false;
+    ++count_;
+    if (edges_.number != 0 && count_ != edges_.number) return false;
+    position_ = position;
+    return true;
+}
+
+void ValueMeasurement::add_point(double x, const PlotRow& row) {
+    const bool has_segment = curve_.add_point(x, row), is_crossing = event_.add_point(x, row);
+    if (!has_segment) return;
+    const auto& segment = *curve_.segment();
+    if (!first_segment_) first_segment_ = segment;
+    const bool is_here = event_.crossing ? is_crossing : std::isnan(value_) && segment.contains(event_.at);
+    if (is_here) value_ = value_in(segment, event_.position());
+}
+
+/// A position that lies beyond an end only by rounding counts as the end.
+double ValueMeasurement::value() const {
+    if (!std::isnan(value_) || event_.crossing || !curve_.segment()) return value_;
+    const auto& last = *curve_.segment();
+    const auto& first = first_segment_ ? *first_segment_ : last;
+    const double tolerance = 1e-9 * std::abs(last.x1 - first.x0);
+    if (std::abs(event_.at - last.x1) <= tolerance) return value_in(last, last.x1);
+    if (std::abs(event_.at - first.x0) <= tolerance) return value_in(first, first.x0);
+    return not_found;
+}
+
+void SummaryMeasurement::update_extremes(double x, double y) {
+    if (!any_ || y < low_) low_ = y, low_at_ = x;
+    if (!any_ || y > high_) high_ = y, high_at_ = x;
+    any_ = true;
+}
+
+void SummaryMeasurement::add_point(double x, const PlotRow& row) {
+    curve_.add_point(x, row);
+    auto segment = *curve_.segment();  // at the first point a segment of length 0
+    if (!segment.cut(interval_.from, interval_.to)) return;
+    if (!any_) only_ = segment.y0;
+    update_extremes(segment.x0, segment.y0);
+    update_extremes(segment.x1, segment.y1);
+    const double integral = segment.integral();
+    length_ += segment.length(), integral_ += integral, area_ += segment.x1 < segment.x0 ? -integral : integral,
+        squares_ += segment.integral_of_square();
+}
+
+double SummaryMeasurement::value() const {
+    if (!any_) return not_found;
+    switch (statistic_) {
+        case Statistic::min:
+            return low_;
+        case Statistic::max:
+            return high_;
+        case Statistic::pp:
+            return high_ - low_;
+        case Statistic::min_at:
+            return low_at_;
+        case Statistic::max_at:
+            return high_at_;
+        case Statistic::avg:
+            return length_ == 0 ? only_ : area_ / length_;
+        case Statistic::rms:
+            return length_ == 0 ? std::abs(only_) : std::sqrt(squares_ / length_);
+        case Statistic::integ:
+            return integral_;
+    }
+    return not_found;
+}
+
+}  // namespace corpuscle::circuit

@@ -1,0 +1,238 @@
+#include "circuit/measure/measurement_parser.hpp"
+
+#include <fmt/format.h>
+
+#include "circuit/netlist/spice_number.hpp"
+
+namespace corpuscle::circuit {
+namespace {
+
+struct SummaryWord {
+    std::string_view word;
+    SummaryMeasurement::Statistic of;
+};
+constexpr SummaryWord summaries[] = {{"min", SummaryMeasurement::Statistic::min},       {"max", SummaryMeasurement::Statistic::max},       {"pp", SummaryMeasurement::Statistic::pp},
+                                     {"min_at", SummaryMeasurement::Statistic::min_at}, {"max_at", SummaryMeasurement::Statistic::max_at}, {"avg", SummaryMeasurement::Statistic::avg},
+                                     {"rms", SummaryMeasurement::Statistic::rms},       {"integ", SummaryMeasurement::Statistic::integ},   {"integral", SummaryMeasurement::Statistic::integ}};
+
+struct EdgeWord {
+    std::string_view word;
+    EdgeSelection::Kind kind;
+};
+constexpr EdgeWord edge_words[] = {{"rise", EdgeSelection::Kind::rise}, {"fall", EdgeSelection::Kind::fall}, {"cross", EdgeSelection::Kind::cross}};
+
+/// The position of '=' in CURVE=VALUE, ignoring those inside par('...').
+std::size_t equals_in(const std::string& word) {
+    const bool is_expression = word.starts_with("par('");
+    return word.find('=', is_expression ? word.find('\'', 5) : 0);
+}
+
+class MeasurementParser {
+    const Directive& command_;
+    const Plot& head_;
+    std::size_t at_ = 2;  // after "tran NAME"
+
+public:
+    MeasurementParser(const Directive& command, const Plot& head) : command_(command), head_(head) {}
+
+    Result<std::unique_ptr<Measurement>> parse() {
+        auto out = head_.has_sweep ? swept() : operating_point();
+        if (out && !done()) return error_here(fmt::format("unexpected '{}'", peek()));
+        return out;
+    }
+
+private:
+    using ParseResult = Result<std::unique_ptr<Measurement>>;
+
+    bool done() const { return at_ >= command_.words.size(); }
+    std::string peek() const { return done() ? "" : command_.words[at_]; }
+    std::string next() { return done() ? "" : command_.words[at_++]; }
+    Error error_here(std::string_view message) const {
+        auto location = command_.location;
+        if (at_ < command_.columns.size()) location.column = command_.columns[at_];
+        return bad_input(fmt::format(".meas: {}", message), location);
+    }
+
+    ParseResult swept() {
+        const auto what = peek();
+        for (const auto& s : summaries)
+            if (what == s.word) return ++at_, summary(s.of);
+        if (what == "find" || what == "deriv") return ++at_, find_or_deriv(what == "deriv");
+        if (what == "trig") return ++at_, between();
+        if (what == "when" || what == "count") {
+            ++at_;
+            auto crossings = edge(what == "count");
+            if (!crossings) return crossings.error();
+            if (what == "count") return ParseResult(std::make_unique<CountMeasurement>(std::move(*crossings)));
+            return ParseResult(std::make_unique<PositionMeasurement>(EventPoint{not_found, std::move(*crossings)}));
+        }
+        return error_here(
+            fmt::format("unknown measurement '{}'; expected one of find, when, deriv, min, max, pp, avg, rms, integ, min_at, max_at, trig, "
+                        "count, param=",
+                        what));
+    }
+
+    ParseResult operating_point() {
+        if (peek() != "find") return error_here("a measurement of .op must be find v(node), find v(a,b) or find i(source)");
+        ++at_;
+        const auto name = peek();
+        const auto view = CurveView::find(head_, name);
+        if (!view) return error_here(fmt::format("there is no curve {}", name));
+        ++at_;
+        return ParseResult(std::make_unique<OperatingPointMeasurement>(*view));
+    }
+
+    Result<CurveView> curve(std::string_view name) const {
+        if (const auto view = CurveView::find(head_, name)) return *view;
+        if (name.starts_with("par(") && head_.is_complex)
+            return error_here("par() does not work on the complex curves of .ac; use param= instead");
+        if (name.starts_with("par("))
+            if (const auto expression = parse_par_expression(name, command_.location); !expression) return error_here(expression.error().message);
+        return error_here(fmt::format("there is no curve '{}' in '{}'", name, head_.name));
+    }
+
+    /// Reads the next word as a curve.
+    Result<CurveView> curve() {
+        auto out = curve(peek());
+        if (out) ++at_;
+        return out;
+    }
+
+    /// Reads the number of "name=NUMBER", if the next word is that.
+    Result<std::optional<double>> option(std::string_view name) {
+        const auto word = peek();
+        if (!word.starts_with(name) || word.size() <= name.size() || word[name.size()] != '=') return std::optional<double>();
+        const auto number = parse_number(std::string_view(word).substr(name.size() + 1));
+        if (!number) return error_here(fmt::format("'{}': expected a number after '{}='", word, name));
+        if (const auto why = ambiguity(*number, std::string_view(word).substr(name.size() + 1))) return error_here(*why);
+        ++at_;
+        return std::optional<double>(number->value);
+    }
+
+    /// Reads from= and to=; true if there was one of them.
+    Result<bool> bounds(Interval& interval) {
+        const auto from = option("from");
+        if (!from) return from.error();
+        if (*from) interval.from = **from;
+        const auto to = option("to");
+        if (!to) return to.error();
+        if (*to) interval.to = **to;
+        return *from || *to;
+    }
+
+    /// Reads rise=, fall= or cross=; true if there was one of them.
+    Result<bool> which(EdgeSelection& edges) {
+        for (const auto& e : edge_words) {
+            const bool last = peek() == fmt::format("{}=last", e.word);
+            if (last) ++at_;
+            const auto number = last ? Result<std::optional<double>>(0.0) : option(e.word);
+            if (!number) return number.error();
+            if (!*number) continue;
+            if (!last && !(**number >= 1 && **number == std::floor(**number)))
+                return --at_, error_here(fmt::format("'{}' must be 1, 2 ... or last", peek()));
+            edges.kind = e.kind, edges.number = **number;
+            return true;
+        }
+        return false;
+    }
+
+    /// Reads rise= fall= cross= td= from= to= in any order. For count, the words rise, fall and cross select the edges.
+    Result<EdgeSelection> edges(bool is_count, std::optional<double>* level = nullptr) {
+        EdgeSelection out;
+        for (bool more = true; more;) {
+            more = false;
+            for (const auto& e : edge_words)
+                if (is_count && peek() == e.word) out.kind = e.kind, more = true, ++at_;
+            const auto chosen = is_count ? Result<bool>(false) : which(out);
+            if (!chosen) return chosen.error();
+            const auto bounded = bounds(out.interval);
+            if (!bounded) return bounded.error();
+            const auto delay = option("td");
+            if (!delay) return delay.error();
+            if (*delay) out.interval.from = **delay;
+            const auto value = level ? option("val") : Result<std::optional<double>>(std::nullopt);
+            if (!value) return value.error();
+            if (*value) *level = *value;
+            more = more || *chosen || *bounded || *delay || *value;
+        }
+        return out;
+    }
+
+    /// Reads CURVE=VALUE or CURVE=CURVE and the selection of edges.
+    Result<CrossingCounter> edge(bool is_count = false) {
+        const auto word = peek();
+        const auto equals = equals_in(word);
+        if (equals == std::string::npos) return error_here(fmt::format("'{}' must be CURVE=VALUE", word));
+        const auto left = curve(std::string_view(word).substr(0, equals));
+        if (!left) return left.error();
+        const auto right = std::string_view(word).substr(equals + 1);
+        const auto level = parse_number(right);
+        const auto other = level ? left : curve(right);
+        if (!other) return other.error();
+        ++at_;
+        const auto which = edges(is_count);
+        if (!which) return which.error();
+        return CrossingCounter(level ? CurveFollower(*left, level->value) : CurveFollower(*left, *other), *which);
+    }
+
+    ParseResult summary(SummaryMeasurement::Statistic of) {
+        const auto view = curve();
+        if (!view) return view.error();
+        Interval interval;
+        for (bool more = true; more;) {
+            const auto bounded = bounds(interval);
+            if (!bounded) return bounded.error();
+            more = *bounded;
+        }
+        return ParseResult(std::make_unique<SummaryMeasurement>(of, CurveFollower(*view), interval));
+    }
+
+    ParseResult find_or_deriv(bool slope) {
+        const auto view = curve();
+        if (!view) return view.error();
+        const auto at = option("at");
+        if (!at) return at.error();
+        if (*at) return ParseResult(std::make_unique<ValueMeasurement>(CurveFollower(*view), slope, EventPoint{**at, {}}));
+        if (peek() != "when") return error_here(fmt::format("'{}': expected at=VALUE or when CURVE=VALUE", peek()));
+        ++at_;
+        auto crossings = edge();
+        if (!crossings) return crossings.error();
+        return ParseResult(std::make_unique<ValueMeasurement>(CurveFollower(*view), slope, EventPoint{not_found, std::move(*crossings)}));
+    }
+
+    ParseResult between() {
+        auto trigger = position();
+        if (!trigger) return trigger.error();
+        if (peek() != "targ") return error_here("expected targ after trig");
+        ++at_;
+        auto target = position();
+        if (!target) return target.error();
+        return ParseResult(std::make_unique<DistanceMeasurement>(std::move(*trigger), std::move(*target)));
+    }
+
+    /// Reads the position after trig or targ: at=X, CURVE val=LEVEL with a selection of edges, or CURVE=VALUE as after when.
+    Result<EventPoint> position() {
+        const auto at = option("at");
+        if (!at) return at.error();
+        if (*at) return EventPoint{**at, {}};
+        const auto name = peek();
+        if (equals_in(name) != std::string::npos) {
+            auto crossings = edge();
+            if (!crossings) return crossings.error();
+            return EventPoint{not_found, std::move(*crossings)};
+        }
+        const auto view = curve();
+        if (!view) return view.error();
+        std::optional<double> level;
+        const auto which = edges(false, &level);
+        if (!which) return which.error();
+        if (!level) return error_here(fmt::format("expected val= after '{}'", name));
+        return EventPoint{not_found, CrossingCounter(CurveFollower(*view, *level), *which)};
+    }
+};
+
+}  // namespace
+
+Result<std::unique_ptr<Measurement>> parse_measurement(const Directive& c, const Plot& head) { return MeasurementParser(c, head).parse(); }
+
+}  // namespace corpuscle::circuit

@@ -1,0 +1,157 @@
+#include "circuit/netlist/logical_lines.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+
+#include "signal/ascii_text.hpp"
+
+namespace corpuscle::circuit {
+namespace {
+
+bool is_blank(char c) { return c == ' ' || c == '\t'; }
+
+/// True if the text is UTF-8, judged by the lengths of its sequences.
+bool is_utf8(std::string_view s) {
+    for (std::size_t k = 0; k < s.size();) {
+        const auto c = static_cast<unsigned char>(s[k++]);
+        int more = c < 0x80 ? 0 : c >= 0xc2 && c < 0xe0 ? 1 : c >= 0xe0 && c < 0xf0 ? 2 : c >= 0xf0 && c < 0xf5 ? 3 : -1;
+        if (more < 0) return false;
+        for (; more > 0; --more, ++k)
+            if (k >= s.size() || (static_cast<unsigned char>(s[k]) & 0xc0) != 0x80) return false;
+    }
+    return true;
+}
+
+std::string from_latin1(std::string_view s) {
+    std::string out;
+    for (const char c : s) {
+        const auto byte = static_cast<unsigned char>(c);
+        if (byte >= 0x80) out += static_cast<char>(0xc0 | byte >> 6);
+        out += byte >= 0x80 ? static_cast<char>(0x80 | (byte & 0x3f)) : c;
+    }
+    return out;
+}
+
+bool is_text(char c) { return c == '\t' || (c >= ' ' && c <= '~'); }
+
+Error invalid_byte(std::string_view line, std::size_t at, SourceLocation location) {
+    const auto byte = static_cast<unsigned char>(line[at]);
+    location.column = static_cast<long>(at) + 1;
+    const bool is_micro = byte == 0xb5 || (byte == 0xc2 && at + 1 < line.size() && static_cast<unsigned char>(line[at + 1]) == 0xb5);
+    const char* hint = is_micro    ? "write u for micro"
+                       : byte == 0 ? "a netlist is text; is this UTF-16? Save it as UTF-8"
+                                   : "a netlist must be plain ASCII outside comments";
+    return bad_input(fmt::format("byte 0x{:02X}: {}", byte, hint), std::move(location));
+}
+
+/// True if a comment begins here; call it outside quotes only.
+bool begins_comment(std::string_view line, std::size_t k) {
+    if (line[k] == ';') return true;
+    if (line[k] == '/') return k + 1 < line.size() && line[k + 1] == '/';
+    if (line[k] != '$') return false;
+    return (k == 0 || is_blank(line[k - 1]) || line[k - 1] == ',') && (k + 1 == line.size() || is_blank(line[k + 1]));
+}
+
+bool names_a_file(std::string_view text) {
+    text = text.substr(0, 9);
+    const auto word = lower(text.substr(0, text.find_first_of(" \t'\"")));
+    return word == ".include" || word == ".inc" || word == ".lib";
+}
+
+}  // namespace
+
+SourceLocation LogicalLine::location(std::size_t at) const {
+    const auto after = std::upper_bound(segments.begin(), segments.end(), at, [](std::size_t a, const Segment& p) { return a < p.at; });
+    const Segment piece = after == segments.begin() ? Segment{0, 0, 0} : *(after - 1);
+    return {file ? *file : "", static_cast<long>(piece.line), static_cast<long>(piece.column + (at - piece.at))};
+}
+
+bool LogicalLine::was_capital(std::size_t at) const { return std::binary_search(capitals.begin(), capitals.end(), at); }
+
+LogicalLineReader::LogicalLineReader(std::string_view text, std::shared_ptr<const std::string> file) : file_(std::move(file)), rest_(text) {
+    if (rest_.starts_with("\xef\xbb\xbf")) rest_.remove_prefix(3);
+}
+
+bool LogicalLineReader::take(std::string_view& physical) {
+    if (rest_.empty()) return false;
+    last_ = rest_;
+    const auto end = std::min(rest_.find('\n'), rest_.size());
+    physical = rest_.substr(0, end);
+    rest_.remove_prefix(std::min(end + 1, rest_.size()));
+    if (physical.ends_with('\r')) physical.remove_suffix(1);
+    ++number_;
+    return true;
+}
+
+void LogicalLineReader::put_back() {
+    rest_ = last_;
+    --number_;
+}
+
+bool LogicalLineReader::skip_past(std::string_view word) {
+    std::string_view line;
+    while (take(line))
+        if (trimmed(line).size() >= word.size() && equal_ignoring_case(trimmed(line).substr(0, word.size()), word)) return true;
+    return false;
+}
+
+Result<std::string> LogicalLineReader::title() {
+    std::string_view line;
+    if (!take(line)) return std::string();
+    for (std::size_t k = 0; k < line.size(); ++k)
+        if (!is_text(line[k]) && static_cast<unsigned char>(line[k]) < 0x80) return invalid_byte(line, k, {*file_, 1, 0});
+    return is_utf8(line) ? std::string(line) : from_latin1(line);
+}
+
+Result<bool> LogicalLineReader::next(LogicalLine& out) {
+    std::string_view line;
+    while (take(line)) {
+        const auto first = std::min(line.find_first_not_of(" \t"), line.size());
+        if (first == line.size() || line[first] == '*') continue;
+        const bool is_continuation = line[first] == '+';
+        if (is_continuation && !has_next_)
+            return bad_input("'+' continues the previous line, but there is none",
+                             {*file_, static_cast<long>(number_), static_cast<long>(first) + 1});
+        if (!is_continuation && has_next_) {  // the previous line is complete; this one begins the next
+            put_back();
+            if (auto complete = finish_line(out); !complete || *complete) return complete;
+            continue;
+        }
+        if (const auto ok = append(line, is_continuation ? first + 1 : first); !ok) return ok.error();
+    }
+    return has_next_ ? finish_line(out) : Result<bool>(false);
+}
+
+/// Appends the text of a physical line, up to its comment, to the logical line.
+Result<void> LogicalLineReader::append(std::string_view line, std::size_t from) {
+    if (has_next_) next_.text += ' ';
+    next_.segments.push_back({static_cast<std::uint32_t>(next_.text.size()), number_, static_cast<std::uint32_t>(from) + 1});
+    const bool keeps_case = names_a_file(has_next_ ? next_.text : line.substr(from));
+    has_next_ = true;
+    for (std::size_t k = from; k < line.size(); ++k) {
+        char c = line[k];
+        if (quote_ == 0 && begins_comment(line, k)) break;
+        if (!is_text(c)) return invalid_byte(line, k, {*file_, static_cast<long>(number_), 0});
+        const auto at = static_cast<std::uint32_t>(next_.text.size());
+        if (c == quote_)
+            quote_ = 0;
+        else if (quote_ == 0 && (c == '\'' || c == '"'))
+            quote_ = c, quote_at_ = at;
+        if (c == 'M' || c == 'F') next_.capitals.push_back(at);
+        next_.text += keeps_case || quote_ == '"' ? c : lower(c);
+    }
+    return {};
+}
+
+/// Returns the completed line; false if it contained only a comment.
+Result<bool> LogicalLineReader::finish_line(LogicalLine& out) {
+    has_next_ = false;
+    out = std::exchange(next_, {});
+    out.file = file_;
+    if (std::exchange(quote_, '\0') != 0)
+        return bad_input(fmt::format("this {} is not closed", out.text[quote_at_] == '"' ? "\"" : "'"), out.location(quote_at_));
+    while (!out.text.empty() && is_blank(out.text.back())) out.text.pop_back();
+    return !out.text.empty();
+}
+
+}  // namespace corpuscle::circuit

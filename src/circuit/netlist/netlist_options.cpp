@@ -1,0 +1,83 @@
+#include "circuit/netlist/netlist_options.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+#include "signal/parameter.hpp"
+
+namespace corpuscle::circuit {
+namespace {
+
+constexpr double unlimited = std::numeric_limits<double>::infinity();
+
+struct OptionRow {
+    std::string_view name;
+    bool takes_word;
+    double min, max;
+    std::string_view example;
+};
+constexpr OptionRow option_rows[] = {
+    {"reltol", false, 1e-15, 0.5, "1e-6"},
+    {"vntol", false, 1e-300, unlimited, "1n"},
+    {"abstol", false, 1e-300, unlimited, "1e-16"},
+    {"gmin", false, 0, 1, "1e-15"},
+    {"itl1", false, 1, 1e6, "500"},
+    {"temp", false, -273.15, 1000, "27"},
+    {"tnom", false, -273.15, 1000, "27"},
+    {"maxord", false, -unlimited, unlimited, "4"},
+    {"spikecheck", false, 0, 1, "0"},
+    {"accuracy", true, 0, 0, "fine"},
+    {"method", true, 0, 0, "gear"},
+};
+
+/// Options of other simulators that control iterations, memory or output. They are ignored, since they do not change the equations.
+constexpr std::string_view without_effect[] = {
+    "abstolpow",    "acct",   "autostop",    "bypass",      "chgtol",    "cptime",    "dvdt",         "gminsteps",
+    "gshuntsteps",  "ingold", "interp",      "itl2",        "itl3",      "itl4",      "itl5",         "itl6",
+    "keepopinfo",   "klu",    "limpts",      "limtim",      "linsolver", "list",      "lvltim",       "measdgt",
+    "minbreak",     "noacct", "noinit",      "node",        "nomod",     "noopalter", "noopiter",     "nopage",
+    "nutmeg",       "numdgt", "numthreads",  "num_threads", "opts",      "optran",    "oldlimit",     "output",
+    "pivrel",       "pivtol", "plotwinsize", "post",        "probe",     "relv",      "reli",         "runlvl",
+    "savecurrents", "seed",   "sparse",      "srcsteps",    "threads",   "trtol",     "trytocompact", "width",
+    "wnflag",       "xmu",    "numsteps",    "ngdebug",     "brief",     "scalestop", "rawfmt",       "autoconv",
+};
+
+/// Options that change the circuit itself. Ignoring them would simulate a different circuit, so they are errors.
+constexpr std::string_view unsupported[] = {"defl",   "defw",   "defad", "defas",   "defnrd",    "defnrs",  "scale", "scalm",  "rshunt",
+                                            "gshunt", "cshunt", "cmin",  "badmos3", "geoshrink", "rseries", "minr",  "resmin", "parhier"};
+
+template <class Names>
+bool contains_name(const Names& names, std::string_view name) {
+    return std::find(std::begin(names), std::end(names), name) != std::end(names);
+}
+
+}  // namespace
+
+std::optional<Error> check_option(std::string_view name, std::optional<double> number, std::optional<std::string_view> word,
+                                  const SourceLocation& location) {
+    const auto* row = std::find_if(std::begin(option_rows), std::end(option_rows), [&](const OptionRow& r) { return r.name == name; });
+    if (row == std::end(option_rows)) {
+        if (contains_name(without_effect, name)) return {};
+        if (contains_name(unsupported, name))
+            return bad_input(
+                fmt::format(".options {}: not supported, because it changes the circuit; set it at the elements instead", name), location);
+        std::vector<std::string_view> known;
+        for (const auto& r : option_rows) known.push_back(r.name);
+        const auto hint = did_you_mean(name, known);
+        return bad_input(fmt::format("unknown option '{}'{}", name,
+                                     hint.empty() ? "; known are reltol, vntol, abstol, gmin, itl1, temp, tnom, accuracy, method, maxord, "
+                                                    "spikecheck"
+                                                  : hint),
+                         location);
+    }
+    if (row->takes_word && word) return {};
+    if (row->takes_word) return bad_input(fmt::format(".options {0}: expected a word, such as {0}={1}", name, row->example), location);
+    if (!number) return bad_input(fmt::format(".options {0}: expected a number, such as {0}={1}", name, row->example), location);
+    if (!(*number >= row->min && *number <= row->max))
+        return bad_input(fmt::format(".options {}={:g} is outside [{:g}, {:g}]", name, *number, row->min, row->max), location);
+    return {};
+}
+
+}  // namespace corpuscle::circuit

@@ -1,0 +1,153 @@
+#include "circuit/netlist/scope.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+
+#include "circuit/netlist/spice_number.hpp"
+
+namespace corpuscle::circuit {
+namespace {
+
+/// Calls f(name) for each name in the text of an expression. Letters after digits are a scale, not a name.
+template <class F>
+void for_each_name(std::string_view text, F&& f) {
+    const auto digit = [](char c) { return (c >= '0' && c <= '9') || c == '.'; };
+    const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || c == '_'; };
+    for (std::size_t k = 0; k < text.size();) {
+        const auto from = k;
+        while (k < text.size() && (letter(text[k]) || digit(text[k]))) ++k;
+        if (k == from)
+            ++k;
+        else if (letter(text[from]))
+            f(text.substr(from, k - from));
+    }
+}
+
+/// The names that an expression uses, including those in the functions that it calls.
+std::vector<std::string> dependencies_of(std::string_view text, const Scope& scope) {
+    std::vector<std::string> names;
+    std::set<std::string, std::less<>> seen;
+    std::vector<const ExpressionScope::Function*> functions;
+    const auto collect_names = [&](std::string_view in, const ExpressionScope::Function* of) {
+        for_each_name(in, [&](std::string_view name) {
+            const bool is_argument = of && std::find(of->arguments.begin(), of->arguments.end(), name) != of->arguments.end();
+            if (is_argument || !seen.emplace(name).second) return;
+            names.emplace_back(name);
+            if (const auto* f = scope.function(name)) functions.push_back(f);
+        });
+    };
+    collect_names(text, nullptr);
+    for (std::size_t k = 0; k < functions.size(); ++k) collect_names(functions[k]->text, functions[k]);
+    return names;
+}
+
+/// The same error, located in the line of the expression.
+Error relocated(const Error& error, const WordRef& text) {
+    Error out = error;
+    out.location = text.statement->line.location(text.word.at + static_cast<std::size_t>(std::max(1L, error.location.column) - 1));
+    return out;
+}
+
+}  // namespace
+
+std::optional<double> Scope::parameter(std::string_view name) const {
+    for (const Scope* f = this; f; f = f->caller)
+        if (const auto at = f->parameters.find(name); at != f->parameters.end()) return at->second;
+    return {};
+}
+
+const ExpressionScope::Function* Scope::function(std::string_view name) const {
+    for (const Scope* f = this; f; f = f->caller)
+        if (const auto at = f->definition->functions.find(name); at != f->definition->functions.end()) return &at->second;
+    return nullptr;
+}
+
+ExpressionScope Scope::expression_scope() const {
+    ExpressionScope s;
+    s.parameter = [this](std::string_view name) { return parameter(name); };
+    s.function = [this](std::string_view name) { return function(name); };
+    return s;
+}
+
+std::vector<std::string> Scope::known_names() const {
+    std::vector<std::string> names;
+    for (const Scope* f = this; f; f = f->caller)
+        for (const auto* definitions : {&f->definition->parameters, &f->definition->defaults})
+            for (const auto& [name, text] : *definitions) names.push_back(name);
+    return names;
+}
+
+Result<Expression> Scope::parse_expression(const WordRef& text, ExpressionScope scope) const {
+    const SourceLocation location{text.statement->line.file ? *text.statement->line.file : "", 1, 1};
+    auto parsed = Expression::parse(text.view(), location, scope);
+    if (parsed) return parsed;
+    scope.suggestions = known_names();
+    return relocated(Expression::parse(text.view(), location, scope).error(), text);
+}
+
+Result<double> Scope::evaluate(const WordRef& text) const {
+    double value = 0;
+    if (const auto plain = text.word.kind == Word::Kind::plain ? parse_number(text.view()) : std::nullopt) {
+        if (auto why = ambiguity(*plain, text.view())) return bad_input(std::move(*why), text.location());
+        value = plain->value;
+    } else {
+        const auto expression = parse_expression(text, expression_scope());
+        if (!expression) return expression.error();
+        value = expression->value();
+    }
+    if (std::isnan(value)) return bad_input(fmt::format("'{}' is not a number", text.view().substr(0, 60)), text.location());
+    if (!std::isfinite(value))
+        return bad_input(fmt::format("'{}' is {}, not a finite number", text.view().substr(0, 60), value), text.location());
+    return value;
+}
+
+Result<void> Scope::define(const Values& given) {
+    parameters = given;
+    ByName<WordRef> pending;
+    for (const auto* definitions : {&definition->parameters, &definition->defaults})
+        for (const auto& [name, text] : *definitions)
+            if (!parameters.contains(name)) pending.emplace(name, text);
+    while (!pending.empty())
+        if (const auto ok = define(std::string(pending.begin()->first), pending); !ok) return ok;
+    return {};
+}
+
+/// Evaluates one parameter after all parameters that it depends on. A stack replaces recursion, which a long chain would make too deep.
+Result<void> Scope::define(const std::string& first, ByName<WordRef>& pending) {
+    struct Pending {
+        std::string name;
+        std::vector<std::string> dependencies;
+        std::size_t next = 0;
+    };
+    std::vector<Pending> stack;
+    std::set<std::string, std::less<>> on_stack;
+    const auto push = [&](const std::string& name) {
+        stack.push_back({name, dependencies_of(pending.find(name)->second.view(), *this)});
+        on_stack.insert(name);
+    };
+    const auto cycle_error = [&](const std::string& name) {
+        std::string chain;
+        auto at = std::find_if(stack.begin(), stack.end(), [&](const Pending& b) { return b.name == name; });
+        for (int shown = 0; at != stack.end() && shown < 20; ++at, ++shown) chain += at->name + " -> ";
+        return bad_input(fmt::format("parameter {} depends on itself: {}{}", name, chain, name), pending.find(name)->second.location());
+    };
+    for (push(first); !stack.empty();) {
+        auto& top = stack.back();
+        if (top.next < top.dependencies.size()) {
+            const std::string& name = top.dependencies[top.next++];
+            if (on_stack.contains(name)) return cycle_error(name);
+            if (pending.contains(name)) push(std::string(name));
+            continue;
+        }
+        const auto value = evaluate(pending.find(top.name)->second);
+        if (!value) return value.error();
+        parameters.emplace(top.name, *value);
+        pending.erase(top.name);
+        on_stack.erase(top.name);
+        stack.pop_back();
+    }
+    return {};
+}
+
+}  // namespace corpuscle::circuit

@@ -1,0 +1,42 @@
+// Warnings about numbers whose meaning in SPICE differs from their appearance.
+
+#include <fmt/format.h>
+
+#include "circuit/netlist/parsed_netlist.hpp"
+#include "circuit/netlist/spice_number.hpp"
+#include "signal/ascii_text.hpp"
+
+namespace corpuscle::circuit {
+namespace {
+
+std::string warning_for(char element, const SpiceNumber& number, std::string_view as_read) {
+    const auto scale = number.suffix.substr(0, 3);
+    const bool is_milli = scale.starts_with('m') && scale != "meg" && scale != "mil";
+    const auto digits = as_read.substr(0, as_read.size() - number.suffix.size());
+    if (element != 'v' && element != 'i' && element != 'b' && equal_ignoring_case(number.suffix, "a"))
+        return fmt::format("{}{} is {}, since 'a' is not a scale; for 1e-18 of it write {}e-18", digits, number.suffix, digits, digits);
+    if (element == 'r' && is_milli) return fmt::format("{}M is {} milliohm; for a megohm write {}Meg", digits, digits, digits);
+    if (element == 'c' && number.suffix == "f") return fmt::format("{}F is {} femtofarad; for a farad write {}", digits, digits, digits);
+    if ((element == 'v' || element == 'i') && number.suffix == "mhz")
+        return fmt::format("{}MHz is {} millihertz; for a megahertz write {}Meg", digits, digits, digits);
+    return "";
+}
+
+}  // namespace
+
+void warn_about_units(const Statement& s, std::vector<Error>& warnings) {
+    const auto check = [&](const Word& w) {
+        if (w.kind != Word::Kind::plain) return;
+        const auto text = s.text(w);
+        const auto number = parse_number(text);
+        if (!number || number->suffix.empty()) return;
+        if (!equal_ignoring_case(number->suffix, "a") && !s.line.was_capital(w.at + text.size() - number->suffix.size())) return;
+        const std::string warning = warning_for(s.line.text[0], *number, text);
+        if (!warning.empty()) warnings.push_back(bad_input(fmt::format("{}: {}", s.text(std::size_t{0}), warning), s.location(w)));
+    };
+    for (std::size_t k = 3; k < s.words.size(); ++k) check(s.words[k]);
+    for (const auto& pair : s.pairs)
+        if (s.text(pair.name) == "r" || s.text(pair.name) == "c") check(pair.value);
+}
+
+}  // namespace corpuscle::circuit

@@ -1,0 +1,180 @@
+#include "circuit/output_directives.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+
+#include "circuit/analyses.hpp"
+#include "circuit/curve_view.hpp"
+#include "circuit/measurement_set.hpp"
+#include "signal/parameter.hpp"
+
+namespace corpuscle::circuit {
+namespace {
+
+/// An analysis and its curves, without values.
+struct Head {
+    const Directive* command;
+    Plot plot;
+};
+
+/// The curves that the analysis will give, without values.
+
+Plot expected_curves(const System& system, const DeviceCurrents& currents, const Directive& c) {
+    if (c.name == "noise")
+        return {"Noise Spectral Density Curves",
+                false,
+                true,
+                {{"frequency", "frequency", {}}, {"onoise_spectrum", "notype", {}}, {"inoise_spectrum", "notype", {}}}};
+    if (c.name == "tf") {
+        Plot plot{"Transfer Function", false, false, {{"transfer_function", "notype", {}}}};
+        if (c.words.size() == 2)
+            for (const auto& name : {c.words[1] + "#input_impedance", "output_impedance_at_" + c.words[0]})
+                plot.curves.push_back({name, "notype", {}});
+        return plot;
+    }
+    if (c.name == "sens") {
+        Plot plot{"Sensitivity Analysis", false, false, {}};
+        for (const auto& d : system.devices())
+            if (d->setting()) plot.curves.push_back({d->name, "notype", {}});
+        return plot;
+    }
+    if (c.name == "op") {
+        auto plot = plot_of(system, "Operating Point", "", "");
+        return currents.extend_head(plot), plot;
+    }
+    if (c.name == "ac") {
+        auto plot = plot_of(system, "AC Analysis", "frequency", "frequency");
+        return plot.is_complex = true, plot;
+    }
+    if (c.name == "tran") {
+        auto plot = plot_of(system, "Transient Analysis", "time", "time");
+        return currents.extend_head(plot), plot;
+    }
+    const std::string what = c.words.empty() ? "v" : c.words[0];
+    const bool temperature = what == "temp";
+    auto plot = plot_of(system, "DC transfer characteristic",
+                        temperature      ? "temp-sweep"
+                        : what[0] == 'i' ? "i-sweep"
+                        : what[0] == 'v' ? "v-sweep"
+                                         : "res-sweep",
+                        "");
+    if (!temperature) currents.extend_head(plot);
+    return plot;
+}
+
+class OutputDirectives {
+    const Circuit& circuit_;
+    std::vector<Head> heads_;
+    std::vector<CurveIndex> names_;
+    std::vector<Error>& warnings_;
+
+public:
+    OutputDirectives(const System& system, const DeviceCurrents& currents, std::vector<Error>& warnings)
+        : circuit_(system.circuit()), warnings_(warnings) {
+        for (const auto& c : circuit_.directives)
+            if (find_analysis(c.name) != nullptr) heads_.push_back({&c, expected_curves(system, currents, c)});
+        for (const auto& head : heads_) names_.emplace_back(head.plot);
+    }
+
+    Result<void> check() {
+        if (heads_.empty()) return {};  // the run reports that there is no analysis
+        for (const auto& c : circuit_.directives)
+            if (c.name == "print" || c.name == "plot") {
+                if (auto ok = check_columns(c); !ok) return ok;
+            } else if (c.name == "probe") {
+                for (std::size_t k = 0; k < c.words.size(); ++k)
+                    if (is_unsupported_probe(circuit_, c, c.words[k]))
+                        warnings_.push_back(error_at(c, k, fmt::format(".probe: '{}' is not supported and is ignored", c.words[k])));
+            }
+        MeasurementSet measures(circuit_);
+        for (const auto& head : heads_)
+            if (auto ok = measures.begin(head.command->name, head.plot); !ok) return ok;
+        const auto known = numbers();
+        if (auto ok = measures.check(known); !ok) return ok;
+        for (const auto& c : circuit_.directives)
+            if (c.name == "expect")
+                if (auto wrong = unknown_expectation(c, known)) return *wrong;
+        return {};
+    }
+
+private:
+    /// Each word of .print and .plot must be a curve of the analysis that is named first, or else of any analysis.
+    Result<void> check_columns(const Directive& c) {
+        if (c.name == "plot")
+            warnings_.push_back(
+                bad_input(".plot has no effect here; --out x.csv or x.raw writes the curves, .print prints columns", c.location));
+        const bool named = !c.words.empty() && find_analysis(c.words[0]) != nullptr;
+        if (c.words.size() == (named ? 1U : 0U))
+            return bad_input(fmt::format(".{}: expected .{} tran v(NODE) ...", c.name, c.name), c.location);
+        if (named && std::none_of(heads_.begin(), heads_.end(), [&](const Head& h) { return h.command->name == c.words[0]; })) {
+            warnings_.push_back(bad_input(fmt::format(".{}: the netlist has no .{}, so nothing is printed", c.name, c.words[0]), c.location));
+            return {};
+        }
+        for (std::size_t k = named ? 1 : 0; k < c.words.size(); ++k)
+            if (c.words[k].find('=') != std::string::npos && !c.words[k].starts_with("par("))
+                warnings_.push_back(error_at(c, k, fmt::format(".{}: '{}' has no effect here", c.name, c.words[k])));
+            else if (c.words[k] == "all")
+                continue;
+            else if (auto wrong = check_curve(c, k, named))
+                return *wrong;
+        return {};
+    }
+    std::optional<Error> check_curve(const Directive& c, std::size_t k, bool named) const {
+        const auto& word = c.words[k];
+        for (std::size_t h = 0; h < heads_.size(); ++h)
+            if ((!named || heads_[h].command->name == c.words[0]) && CurveView::find(heads_[h].plot, word, &names_[h])) return {};
+        std::vector<std::string_view> known;
+        for (const auto& head : heads_)
+            if (!named || head.command->name == c.words[0])
+                for (const auto& curve : head.plot.curves) known.push_back(curve.name);
+        if (word.starts_with("par("))
+            if (const auto expression = parse_par_expression(word, c.location); !expression) return error_at(c, k, expression.error().message);
+        const bool is_axis_limit = c.name == "plot" && word.starts_with("(");
+        if (is_axis_limit) return {};
+        const bool is_device_current =
+            word.starts_with("i(") && circuit_.find_element(word.size() > 3 ? word.substr(2, word.size() - 3) : "") >= 0;
+        const auto hint =
+            is_device_current
+                ? fmt::format("; '.save {}' records the current of an M, D or R; for any other element, put a 0 V source in series", word)
+                : did_you_mean(word, known);
+        return error_at(c, k, fmt::format(".{}: there is no curve '{}'{}", c.name, word, hint));
+    }
+
+    /// An error if the name of an .expect is neither a measurement, a number of an analysis nor a curve.
+    std::optional<Error> unknown_expectation(const Directive& c, const std::vector<std::string>& given) const {
+        if (c.words.empty()) return {};  // run_directives() reports the syntax
+        const auto name = c.words[0].substr(0, c.words.size() == 2 ? c.words[0].find('=') : std::string::npos);
+        std::vector<std::string_view> known(given.begin(), given.end());
+        for (const auto& other : circuit_.directives)
+            if ((other.name == "meas" || other.name == "measure") && other.words.size() > 1) known.push_back(other.words[1]);
+        if (std::find(known.begin(), known.end(), name) != known.end()) return {};
+        for (std::size_t h = 0; h < heads_.size(); ++h)
+            if (CurveView::find(heads_[h].plot, name, &names_[h])) return {};
+        return bad_input(fmt::format(".expect: there is no measurement, number or curve '{}'{}", name, did_you_mean(name, known)), c.location);
+    }
+
+    /// Names of the numbers that the analyses may give.
+    std::vector<std::string> numbers() const {
+        std::vector<std::string> out;
+        for (const auto& head : heads_) {
+            const auto& word = head.command->name;
+            if (word == "tran")
+                for (const auto* name : {"spikes", "first_spike", "last_spike", "mean_interval", "spike_error"}) out.emplace_back(name);
+            if (word == "noise")
+                for (const auto* name : {"onoise_total", "inoise_total"}) out.emplace_back(name);
+            if (word == "op")
+                for (const auto* name : {"stable_states", "unstable_states", "power_on_elsewhere"}) out.emplace_back(name);
+            if (word == "tf" || word == "sens")
+                for (const auto& curve : head.plot.curves) out.push_back(curve.name);
+        }
+        return out;
+    }
+};
+
+}  // namespace
+
+Result<void> check_output_directives(const System& system, const DeviceCurrents& currents, std::vector<Error>& warnings) {
+    return OutputDirectives(system, currents, warnings).check();
+}
+
+}  // namespace corpuscle::circuit

@@ -1,0 +1,30 @@
+#pragma once
+// File formats of plots: ngspice's .raw, binary or ASCII, and CSV.
+
+#include <span>
+#include <string>
+
+#include "circuit/point_sink.hpp"
+
+namespace corpuscle::circuit {
+
+/// All plots one after another, as ngspice's `write` does. Binary numbers are little-endian doubles.
+std::string raw_text(std::string_view title, std::span<const Plot>, bool binary);
+
+/// The same for a plot that comes point by point: header, points, footer. The header contains a point count of 0. The count has a fixed
+/// width, so that raw_count() can overwrite it at the end.
+struct RawHeader {
+    std::string text;
+    std::size_t count_offset;  ///< offset of the count in the text
+};
+RawHeader raw_header(std::string_view title, const Plot&, bool binary);
+std::string raw_count(std::size_t points);
+void append_raw_point(std::string&, std::size_t number, const PlotRow&, bool binary);
+std::string_view raw_footer(bool binary);
+
+/// One plot as CSV: a header of names, then one row per point. A complex curve has two columns, name.re and name.im.
+std::string csv_header(const Plot&);
+std::string csv_rows(const Plot&, std::string_view prefix = {});  ///< each row begins with `prefix`
+void append_csv_row(std::string&, std::span<const double> row);
+
+}  // namespace corpuscle::circuit

@@ -1,0 +1,225 @@
+#include "circuit/run_directives.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "circuit/analyses.hpp"
+#include "circuit/curve_view.hpp"
+#include "circuit/measurement_set.hpp"
+#include "circuit/curve_selector.hpp"
+#include "circuit/netlist/spice_number.hpp"
+#include "circuit/device_currents.hpp"
+#include "circuit/print_directive.hpp"
+#include "circuit/output_directives.hpp"
+#include "circuit/saved_quantities.hpp"
+#include "circuit/solve/topology.hpp"
+#include "circuit/netlist_warnings.hpp"
+#include "signal/parameter.hpp"
+
+namespace corpuscle::circuit {
+namespace {
+
+/// Parses "v(out) 0.35 1%" or "v(out)=0.35 2m".
+Result<Expectation> expectation_of(const Directive& c) {
+    auto words = c.words;
+    if (words.size() == 2 && words[0].find('=') != std::string::npos) {  // v(out)=0.35 1%
+        const auto at = words[0].find('=');
+        words.insert(words.begin() + 1, words[0].substr(at + 1));
+        words[0].resize(at);
+    }
+    if (words.size() != 3) return bad_input(".expect: expected .expect NAME VALUE TOLERANCE, such as '.expect v(out) 0.35 1%'", c.location);
+    const bool is_relative = words[2].ends_with('%');
+    const auto value = parse_number(words[1]), tolerance = parse_number(is_relative ? words[2].substr(0, words[2].size() - 1) : words[2]);
+    if (!value) return bad_input(fmt::format(".expect: '{}' is not a number", words[1]), c.location);
+    if (!tolerance || !(tolerance->value >= 0))
+        return bad_input(fmt::format(".expect: '{}' is not a tolerance; write one such as 1% or 2m", words[2]), c.location);
+    return Expectation{words[0], value->value, is_relative ? std::abs(value->value) * tolerance->value / 100 : tolerance->value,
+                       0,        false,        c.location};
+}
+
+Result<void> check_expectations(const Circuit& circuit, RunOutcome& out) {
+    for (const auto& c : circuit.directives) {
+        if (c.name != "expect") continue;
+        auto e = expectation_of(c);
+        if (!e) return e.error();
+        const auto found = out.find_number(e->name);
+        if (!found) {
+            std::vector<std::string_view> known;
+            for (const auto& [name, value] : out.numbers) known.push_back(name);
+            return bad_input(fmt::format(".expect: there is no measurement, number or curve '{}'{}", e->name, did_you_mean(e->name, known)),
+                             c.location);
+        }
+        e->actual = *found, e->is_met = std::abs(*found - e->expected) <= e->tolerance;
+        out.expectations.push_back(std::move(*e));
+    }
+    return {};
+}
+
+/// A number of .tran STEP STOP [START ...]; 0 if it is missing.
+double tran_number(const Directive& c, std::size_t word) { return number_of(c, word, "a number") ? *number_of(c, word, "a number") : 0; }
+
+/// Passes each point of a transient to the measurements, to .print, to the sinks of the options and, if requested, to memory. Only the
+/// last of these grows with the length of the run.
+class PointDispatcher final : public PointSink {
+    const RunOptions& options_;
+    RunOutcome& out_;
+    MeasurementSet& measures_;
+    AnalysisRun& analysed_;
+    DeviceCurrents currents_;
+    std::optional<TransientPrinter> printed_;
+    CurveSelector selector_;
+    std::optional<PlotRecorder> recorder_;
+    std::vector<double> last_;
+    PointSink* unknowns_ = nullptr;
+    bool begun_ = false;
+
+public:
+    PointDispatcher(const Circuit& circuit, const RunOptions& options, RunOutcome& out, MeasurementSet& measures, AnalysisRun& analysed,
+                    const DeviceCurrents& currents)
+        : options_(options), out_(out), measures_(measures), analysed_(analysed), currents_(currents) {
+        const auto& c = *analysed.directive;
+        if (options.print_tables && c.name == "tran") printed_.emplace(circuit, tran_number(c, 2), tran_number(c, 0), tran_number(c, 1));
+        if (options.keep_points) recorder_.emplace();
+    }
+    bool begun() const { return begun_; }
+
+    Result<void> begin(const Plot& unknowns) override {
+        Plot head = unknowns;
+        currents_.extend_head(head);
+        analysed_.last_point = head;
+        unknowns_ = analysed_.directive->name == "tran" ? options_.unknowns_sink : nullptr;
+        if (unknowns_)
+            if (auto ok = unknowns_->begin(head); !ok) return ok;
+        if (auto ok = measures_.begin(analysed_.directive->name, head); !ok) return ok;
+        if (printed_)
+            if (auto ok = printed_->begin(head); !ok) return ok;
+        if (recorder_)
+            if (auto ok = recorder_->begin(head); !ok) return ok;
+        begun_ = true;
+        const auto selected_head = selector_.begin(head, out_.saved_curves);
+        return options_.curve_sink ? options_.curve_sink->begin(selected_head) : Result<void>();
+    }
+    Result<void> add_point(std::span<const double> unknowns) override {
+        const auto row = currents_.extend_point(unknowns);
+        ++analysed_.point_count;
+        last_.assign(row.begin(), row.end());
+        measures_.add_point(row[0], row);
+        if (printed_) printed_->add_point(row);
+        if (unknowns_)
+            if (auto ok = unknowns_->add_point(row); !ok) return ok;
+        if (recorder_)
+            if (auto ok = recorder_->add_point(row); !ok) return ok;
+        return options_.curve_sink ? options_.curve_sink->add_point(selector_.select(row)) : Result<void>();
+    }
+    Result<void> end() override {
+        for (std::size_t k = 0; k < last_.size(); ++k) analysed_.last_point.curves[k].values = {last_[k]};
+        if (printed_) analysed_.printed_tables = printed_->end();
+        return options_.curve_sink ? options_.curve_sink->end() : Result<void>();
+    }
+    /// Moves the kept points into the result of the analysis.
+    void move_points_to(Findings& found) {
+        if (recorder_) found.plots.insert(found.plots.begin(), std::move(recorder_->plot));
+    }
+};
+
+/// Runs one analysis; measures, prints and passes on its plots.
+Result<void> analyse(TestBench& context, const Analysis& analysis, const Directive& c, const RunOptions& options, MeasurementSet& measures,
+                     const DeviceCurrents& currents, RunOutcome& out) {
+    AnalysisRun done{&c, {}, 0, {}, {}};
+    PointDispatcher dispatcher(*context.circuit, options, out, measures, done, currents);
+    if (options.should_stop) context.stop = [&](double progress) { return options.should_stop(c.name, progress); };
+    context.points = &dispatcher;
+    auto found = analysis.run(context, c);
+    context.points = nullptr, context.stop = {};
+    if (!found) return found.error();
+    done.result = std::move(*found);
+    for (const auto& number : done.result.numbers) out.numbers.push_back(number);
+    for (const auto& warning : done.result.remarks) out.warnings.push_back(warning);
+    if (dispatcher.begun()) {
+        dispatcher.move_points_to(done.result);
+    } else if (!done.result.plots.empty()) {
+        for (auto& plot : done.result.plots) (void)currents.extend_plot(plot);
+        const auto& plot = done.result.plots[0];
+        done.point_count = plot.point_count();
+        if (auto ok = measures.add_plot(c.name, plot); !ok) return ok;
+        if (options.print_tables) done.printed_tables = print_tables(*context.circuit, c.name, plot);
+        if (options.curve_sink)
+            if (auto ok = options.curve_sink->add_plots(out.plots(done)); !ok) return ok;
+    }
+    out.analyses.push_back(std::move(done));
+    return {};
+}
+
+}  // namespace
+
+Result<RunOutcome> run_directives(std::shared_ptr<const Circuit> circuit, const RunOptions& options) {
+    auto context = TestBench::make(std::move(circuit));
+    if (!context) return context.error();
+    return run_directives(**context, options);
+}
+
+Result<RunOutcome> run_directives(TestBench& context, const RunOptions& options) {
+    const Circuit* const circuit = context.circuit.get();
+    RunOutcome out;
+    if (!context.brief) {
+        out.warnings = circuit->warnings;
+        for (auto& warning : suspicious(*circuit)) out.warnings.push_back(std::move(warning));
+        for (auto& warning : netlist_warnings(*circuit)) out.warnings.push_back(std::move(warning));
+    }
+    const auto saved = resolve_saved_quantities(context.system);
+    if (!saved) return saved.error();
+    for (const auto& curve : *saved) out.saved_curves.push_back(curve.name);
+    const DeviceCurrents currents(context.system, *saved);
+    if (!std::exchange(context.requests_checked, true))
+        if (auto ok = check_output_directives(context.system, currents, out.warnings); !ok) return ok.error();
+    MeasurementSet measures(*circuit);
+    for (const auto& c : circuit->directives) {
+        const auto* analysis = find_analysis(c.name);
+        if (analysis == nullptr) continue;
+        if (auto ok = analyse(context, *analysis, c, options, measures, currents, out); !ok) {
+            auto error = ok.error();
+            if (error.location.line == 0 && (error.location.file.empty() || error.location.file == circuit->file)) error.location = c.location;
+            return error;
+        }
+    }
+    if (out.analyses.empty()) {
+        std::string known;
+        for (const auto& a : analyses) known += fmt::format("\n  {}", a.usage);
+        return bad_input("the netlist has no analysis directive; add one of these:" + known, SourceLocation{circuit->file});
+    }
+    if (auto ok = measures.finish(out.numbers, out.warnings); !ok) return ok.error();
+    if (auto ok = check_expectations(*circuit, out); !ok) return ok.error();
+    return out;
+}
+
+std::optional<double> RunOutcome::find_number(std::string_view name) const {
+    for (const auto& [known, value] : numbers)
+        if (known == name) return value;
+    const auto last = [&](const Plot& plot) -> std::optional<double> {
+        const auto values = find_curve_values(plot, name);
+        return values && !values->empty() ? std::optional(values->back().real()) : std::nullopt;
+    };
+    for (const auto& a : analyses) {
+        if (const auto value = last(a.last_point)) return value;
+        for (const auto& plot : a.result.plots)
+            if (const auto value = last(plot)) return value;
+    }
+    return {};
+}
+
+std::vector<Plot> RunOutcome::plots(const AnalysisRun& a) const {
+    std::vector<Plot> out;
+    for (const auto& plot : a.result.plots) out.push_back(select_curves(plot, saved_curves));
+    return out;
+}
+
+std::vector<Plot> RunOutcome::plots() const {
+    std::vector<Plot> out;
+    for (const auto& a : analyses)
+        for (auto& plot : plots(a)) out.push_back(std::move(plot));
+    return out;
+}
+
+}  // namespace corpuscle::circuit

@@ -1,0 +1,40 @@
+#pragma once
+// .save and .probe: the curves to keep.
+
+#include "circuit/analysis/bench.hpp"
+
+namespace corpuscle::circuit {
+
+/// A voltage or a current. The current through a voltage source is an unknown of the system. The current into the first terminal of a
+/// device (drain, anode) is computed from its terminal voltages without displacement current; for a transistor it is the channel and the
+/// drain junction.
+struct SavedQuantity {
+    std::string name;  ///< "v(out)", "v(a,b)", "i(v1)", "i(x1.m1)"
+    Wanted unknowns = {};
+    int device_index = -1;  ///< index in System::devices() if it is the current of a device
+
+    bool is_voltage() const { return name[0] == 'v'; }
+    /// The value of the quantity. `value_of(u)` must return the value of unknown u; -1 is ground.
+    template <class Value>
+    double value(const System& system, Value&& value_of) const {
+        if (device_index < 0) return value_of(unknowns.plus) - value_of(unknowns.minus);
+        const auto& d = *system.devices()[static_cast<std::size_t>(device_index)];
+        std::vector<double> v;
+        for (const int u : d.unknowns) v.push_back(value_of(u));
+        return current_into(d, v);
+    }
+
+private:
+    static double current_into(const Device&, std::span<const double> v);
+};
+
+/// True if the current of the element is not an unknown but follows from its terminal voltages.
+inline bool has_device_current(const Element& e) { return e.letter == 'm' || e.letter == 'd' || e.letter == 'r'; }
+
+/// The quantities that .save names; "out" means v(out). An empty list means all, which is the default and the meaning of "all".
+Result<std::vector<SavedQuantity>> resolve_saved_quantities(const System&);
+
+/// True if a word of .probe is not supported: the current of a capacitor, vd(r2), p(x1).
+bool is_unsupported_probe(const Circuit&, const Directive& probe, std::string_view word);
+
+}  // namespace corpuscle::circuit

@@ -1,0 +1,213 @@
+#include "circuit/streaming_transient.hpp"
+
+#include <fmt/format.h>
+#include <cmath>
+
+#include "signal/quantity.hpp"
+
+namespace corpuscle::circuit {
+namespace {
+
+constexpr double max_time_before_shift = 100;  // s; then the time origin is shifted, to keep the resolution of the time
+constexpr double stop_time = 1e3;              // s, of a transient whose origin can be shifted
+constexpr double stop_time_unshifted = 1e5;    // s, if sources depend on absolute time
+
+void append_values(std::vector<double>& out, std::span<const double> x) { out.insert(out.end(), x.begin(), x.end()); }
+
+}  // namespace
+
+Result<std::unique_ptr<StreamingTransient>> StreamingTransient::make(const CircuitAfferentFactory& design, double T, const std::optional<Draw>& chip) {
+    auto bench = TestBench::make(design.circuit);
+    if (!bench) return bench.error();
+    std::unique_ptr<StreamingTransient> out(new StreamingTransient(design, T));
+    out->context_ = std::move(*bench);
+    if (chip) out->context_->draw(*chip);
+    auto& system = out->context_->system;
+    system.go(design.times.step > 0 ? design.times.step : T, design.times.stop > 0 ? design.times.stop : 1);
+    for (const auto& d : system.devices()) out->is_time_dependent_ |= d->varies();
+    system.hear(&out->force_);
+    out->solve_rest();
+    auto plan = design.plan;
+    plan.stop = out->is_time_dependent_ ? stop_time_unshifted : stop_time;
+    out->transient_.emplace(system, out->context_->newton, plan);
+    (void)out->transient_->begin(out->rest_);  // called only to choose the elimination order
+    return out;
+}
+
+/// Finds the operating point at 0 N. If there is none, takes the initial condition of .ic.
+void StreamingTransient::solve_rest() {
+    auto found = beginning(*context_, design_.times.uic);
+    rest_ = found ? std::move(found->x) : beginning(*context_, true)->x;
+    meter_.emplace(context_->system, rest_, context_->tolerances.gmin);
+}
+
+void StreamingTransient::set_chip(const Draw& chip) {
+    context_->draw(chip);
+    force_ = ForceWaveform(force_.T());
+    solve_rest();
+}
+
+Result<Beginning> StreamingTransient::solve_start(std::span<const double> force, std::vector<double> from) {
+    force_ = ForceWaveform(force_.T());
+    force_.append(force);
+    return beginning(*context_, design_.times.uic, std::move(from));
+}
+
+/// The operating point under this force, found by raising the force in steps from 0 N. If that fails, the last point that was found.
+std::vector<double> StreamingTransient::continue_from_rest(double force) {
+    constexpr double min_step = 1.0 / 64;  // as a fraction of the force
+    auto found = rest_;
+    for (double fraction = 0, step = 0.25; fraction < 1 && step >= min_step;) {
+        const double next = std::min(1.0, fraction + step), steady[] = {next * force, next * force};
+        if (auto x = solve_start(steady, found))
+            fraction = next, found = std::move(x->x);
+        else
+            step /= 2;
+    }
+    return found;
+}
+
+Result<void> StreamingTransient::begin(std::span<const double> force) {
+    origin_sample_ = 0, pending_spike_.reset(), power_now_.reset();
+    auto x = solve_start(force, rest_);
+    if (!x) x = solve_start(force, continue_from_rest(force[0]));
+    if (!x) {
+        auto error = x.error();
+        error.message = fmt::format("under the first force, {}: {}", format_quantity(force[0], "N"), error.message);
+        return error;
+    }
+    start_ = std::move(x->x);
+    return transient_->begin(start_, x->settled, x->charge);
+}
+
+Result<void> StreamingTransient::step() {
+    if (!is_time_dependent_ && transient_->time() > max_time_before_shift) shift_origin();
+    if (is_time_dependent_ && transient_->time() >= stop_time_unshifted)
+        return bad_input(fmt::format("a netlist whose sources depend on time runs for at most {:g} s", stop_time_unshifted),
+                         {design_.circuit->file});
+    const double from = transient_->time();
+    if (!power_now_) power_now_ = meter_->delivered_at(transient_->x(), from);
+    const auto stepped = transient_->step(force_.known_until());
+    if (!stepped) return stepped.error();
+    if (!*stepped)
+        return bad_input("a time step needs force samples that were not given yet",
+                         {design_.circuit->file});  // cannot happen: delay() is long enough
+    add_energy(from);
+    const auto spike = design_.spike_output.find_spike(*transient_);
+    if (!spike) return {};
+    const double at = *spike / force_.T(), before = std::ceil(at) - 1;
+    pending_spike_ = {origin_sample_ + static_cast<std::int64_t>(before) + 1, at - before, 0};
+    return {};
+}
+
+/// Adds the energy of the last step, with the power interpolated linearly.
+void StreamingTransient::add_energy(double from) {
+    const double to = transient_->time(), half = (to - from) / 2;
+    const auto then = *power_now_;
+    power_now_ = meter_->delivered_at(transient_->x(), to);
+    energy_use_ += {to - from, half * (then.supplies + power_now_->supplies), half * (then.sensor + power_now_->sensor)};
+}
+
+void StreamingTransient::shift_origin() {
+    const auto samples = static_cast<std::int64_t>(std::floor(transient_->time() / force_.T()));
+    auto state = transient_->save();
+    for (auto& point : state.past) point.t -= static_cast<double>(samples) * force_.T();
+    transient_->restore(state);
+    force_.shift_origin(samples);
+    origin_sample_ += samples;
+}
+
+double StreamingTransient::probe_value(const SavedQuantity& saved, std::int64_t sample) const {
+    if (sample <= 0) return saved.value(context_->system, [&](int u) { return u < 0 ? 0 : start_[static_cast<std::size_t>(u)]; });
+    const double t = time_of(sample);
+    return saved.value(context_->system, [&](int u) { return transient_->between(t, u); });
+}
+
+/// Reads the numbers that save() wrote. After a missing or impossible number, all following values are 0.
+class StateReader {
+    std::span<const double> rest_;
+
+public:
+    bool is_valid = true;
+    explicit StateReader(std::span<const double> in) : rest_(in) {}
+
+    double next() {
+        is_valid &= !rest_.empty();
+        if (!is_valid) return 0;
+        const double x = rest_.front();
+        rest_ = rest_.subspan(1);
+        return x;
+    }
+    std::int64_t integer(double low, double high) {
+        const double x = next();
+        is_valid &= x >= low && x <= high && x == std::floor(x);
+        return is_valid ? static_cast<std::int64_t>(x) : 0;
+    }
+    std::vector<double> many(std::size_t count) {
+        is_valid &= rest_.size() >= count;
+        if (!is_valid) return std::vector<double>(count);
+        std::vector<double> out(rest_.begin(), rest_.begin() + static_cast<std::ptrdiff_t>(count));
+        rest_ = rest_.subspan(count);
+        return out;
+    }
+    std::span<const double> rest() const { return rest_; }
+};
+
+void StreamingTransient::save(std::vector<double>& out) {
+    const auto s = transient_->save();
+    force_.discard_before(transient_->time());
+    append_values(out, std::vector<double>{static_cast<double>(origin_sample_), static_cast<double>(pending_spike_.has_value()),
+                                           static_cast<double>(pending_spike_.value_or(Spike{}).step), pending_spike_.value_or(Spike{}).offset});
+    append_values(out, start_);
+    append_values(out, std::vector<double>{static_cast<double>(s.past.size()), static_cast<double>(s.order),
+                                           static_cast<double>(s.since_choice), static_cast<double>(s.failures),
+                                           static_cast<double>(s.calming), static_cast<double>(s.starting), static_cast<double>(s.bent),
+                                           static_cast<double>(s.count), static_cast<double>(s.curve), static_cast<double>(s.opening), s.h,
+                                           s.bend, s.calm, static_cast<double>(s.work.steps), static_cast<double>(s.work.rejected),
+                                           static_cast<double>(s.work.lost), static_cast<double>(s.work.iterations)});
+    for (const auto& point : s.past) out.push_back(point.t), append_values(out, point.x), append_values(out, point.q);
+    append_values(out, s.scale), append_values(out, s.rate), append_values(out, s.turn), append_values(out, s.fastest),
+        append_values(out, s.memory);
+    append_values(out, std::vector<double>(s.alternations.begin(), s.alternations.end()));
+    force_.save(out);
+}
+
+void StreamingTransient::read_state(StateReader& in, TransientState& s) {
+    constexpr double max_count = 0x1p53;
+    const auto size = start_.size();
+    const auto points = static_cast<std::size_t>(in.integer(1, Past::most));
+    s.order = static_cast<int>(in.integer(1, design_.plan.order));
+    s.since_choice = static_cast<int>(in.integer(0, 1e9)), s.failures = static_cast<int>(in.integer(0, 1e9));
+    s.calming = static_cast<int>(in.integer(0, 2)), s.starting = in.integer(0, 1) != 0, s.bent = in.integer(0, 1) != 0;
+    s.count = static_cast<int>(in.integer(1, static_cast<double>(points)));
+    s.curve = static_cast<int>(in.integer(0, static_cast<double>(points))), s.opening = static_cast<int>(in.integer(0, 2));
+    s.h = in.next(), s.bend = in.next(), s.calm = in.next();
+    for (long* n : {&s.work.steps, &s.work.rejected, &s.work.lost, &s.work.iterations}) *n = in.integer(0, max_count);
+    for (std::size_t k = 0; k < points; ++k) {
+        s.past.push_back({in.next(), in.many(size), in.many(size)});
+        in.is_valid &= std::abs(s.past[k].t) <= stop_time_unshifted && (k == 0 || s.past[k].t < s.past[k - 1].t);
+    }
+    s.scale = in.many(size), s.rate = in.many(size), s.turn = in.many(size), s.fastest = in.many(size),
+    s.memory = in.many(context_->system.fresh_memory().size());
+    for (std::size_t n = 0; n < size; ++n) s.alternations.push_back(static_cast<int>(in.integer(0, 1e9)));
+    in.is_valid &= s.h > 0 && s.bend > 0 && s.calm >= 0;
+}
+
+bool StreamingTransient::restore(std::span<const double> values, std::int64_t samples) {
+    constexpr double max_count = 0x1p53;
+    StateReader in(values);
+    origin_sample_ = in.integer(0, max_count);
+    const bool spike = in.integer(0, 1) != 0;
+    const Spike at{in.integer(0, max_count), in.next(), 0};
+    pending_spike_ = spike ? std::optional(at) : std::nullopt;
+    start_ = in.many(static_cast<std::size_t>(context_->system.size()));
+    TransientState s;
+    power_now_.reset(), energy_use_ = {};
+    read_state(in, s);
+    if (!in.is_valid || !force_.restore(in.rest()) || force_.end_sample() + origin_sample_ != samples) return false;
+    if (!transient_->begin(start_)) return false;
+    transient_->restore(s);
+    return true;
+}
+
+}  // namespace corpuscle::circuit

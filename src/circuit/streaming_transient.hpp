@@ -1,0 +1,71 @@
+#pragma once
+// A transient simulation that is driven by a force given block by block.
+
+#include "circuit/circuit_afferent.hpp"
+#include "circuit/analysis/beginning.hpp"
+#include "circuit/cost/power.hpp"
+#include "circuit/force_waveform.hpp"
+
+namespace corpuscle::circuit {
+
+class StateReader;
+
+/// Bound to one netlist and sample time T, s. The elimination order of the matrix is chosen at 0 N, so that the results depend on the
+/// force alone and not on earlier runs.
+class StreamingTransient {
+    const CircuitAfferentFactory& design_;
+    std::unique_ptr<TestBench> context_;
+    ForceWaveform force_;
+    std::optional<Transient> transient_;
+    std::optional<PowerMeter> meter_;
+    std::optional<PowerMeter::DeliveredPower> power_now_;  // power at the end of the last step, once evaluated
+    EnergyUse energy_use_;
+    bool is_time_dependent_ = false;  // a source other than the force depends on absolute time
+    std::vector<double> rest_;        // operating point at 0 N
+    std::vector<double> start_;       // operating point at the first force
+    std::int64_t origin_sample_ = 0;         // the sample at which the time of the transient is 0
+    std::optional<Spike> pending_spike_;     // found, but not yet reported
+
+    StreamingTransient(const CircuitAfferentFactory& design, double T) : design_(design), force_(T) {}
+    void shift_origin();
+    void solve_rest();
+    Result<Beginning> solve_start(std::span<const double> force, std::vector<double> from);
+    std::vector<double> continue_from_rest(double force);
+    void add_energy(double from);
+
+public:
+    static Result<std::unique_ptr<StreamingTransient>> make(const CircuitAfferentFactory&, double T, const std::optional<Draw>& chip);
+    StreamingTransient(const StreamingTransient&) = delete;
+    /// Switches to another chip of the same netlist. The elimination order of the matrix does not change.
+    void set_chip(const Draw& chip);
+
+    /// Restarts from the operating point under the first of these samples.
+    Result<void> begin(std::span<const double> force);
+    void append_force(std::span<const double> force) { force_.append(force); }
+    /// Takes one time step. A spike within the step is stored in `pending_spike`.
+    Result<void> step();
+    std::optional<Spike>& pending_spike() { return pending_spike_; }
+
+    /// True if the transient has reached this sample.
+    bool has_reached(std::int64_t sample) const { return transient_->time() >= time_of(sample); }
+    /// The value of a saved quantity at a sample within the last step, or at the start.
+    double probe_value(const SavedQuantity&, std::int64_t sample) const;
+    const TransientWork& work() const { return transient_->work(); }
+    /// The energy used since the last call.
+    EnergyUse take_energy_use() { return std::exchange(energy_use_, {}); }
+
+    TestBench& context() { return *context_; }
+    const ForceWaveform& force() const { return force_; }
+    const Transient& transient() const { return *transient_; }
+    const PowerMeter& meter() const { return *meter_; }
+
+    void save(std::vector<double>& out);
+    /// Restores the state that save() wrote after so many samples. Returns false if `in` cannot be such a state.
+    bool restore(std::span<const double> in, std::int64_t samples);
+
+private:
+    double time_of(std::int64_t sample) const { return static_cast<double>(sample - origin_sample_) * force_.T(); }
+    void read_state(StateReader&, TransientState&);
+};
+
+}  // namespace corpuscle::circuit

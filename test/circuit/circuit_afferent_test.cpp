@@ -1,0 +1,401 @@
+// Netlists as afferents: their spikes, whole and in pieces, kept and resumed, and what is refused.
+
+#include "circuit/circuit_afferent.hpp"
+
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "circuit/netlist_runner.hpp"
+#include "study/afferents.hpp"
+#include "study/respond.hpp"
+#include "support/program.hpp"
+#include "support/property.hpp"
+
+namespace corpuscle::circuit {
+namespace {
+
+using corpuscle::test::Folder;
+using corpuscle::test::read_file;
+using corpuscle::test::sure;
+
+/// Force charges a capacitor, a rapid switch at 1 V empties it: quick to run, and it never rests.
+constexpr const char* relaxer =
+    "relaxer\niin 0 a dc 0.1u force 1u\nca a 0 10n\nb1 a 0 i={1m*v(a)*0.5*(1+tanh((v(s)-0.5)*20))}\n"
+    "b2 t 0 v={0.5*(1+tanh((v(a)-1+0.8*v(s))*20))}\nr2 t s 1k\nc2 s 0 10n\n.tran 1m 1 0 5m uic\n";
+
+std::shared_ptr<const CircuitAfferentFactory> design(const std::string& text) {
+    const auto netlist = sure(parsed(text));
+    return sure(CircuitAfferentFactory::create(std::make_shared<const Circuit>(sure(netlist.elaborate()))));
+}
+std::string afferent_refusal(const std::string& text) {
+    const auto netlist = parsed(text);
+    if (!netlist) return netlist.error().text();
+    auto circuit = netlist->elaborate();
+    if (!circuit) return circuit.error().text();
+    const auto made = CircuitAfferentFactory::create(std::make_shared<const Circuit>(std::move(*circuit)));
+    return made ? "" : made.error().text();
+}
+std::string spiker() { return read_file(corpuscle::test::root() + "/circuits/spiker.cir"); }
+
+/// Hands in force, in blocks of `block`, and what it takes to hear the end.
+std::vector<Spike> answered(const Afferent& afferent, std::vector<double> force, std::size_t block = 4096) {
+    force.insert(force.end(), static_cast<std::size_t>(afferent.delay()), force.back());
+    return corpuscle::test::spikes(afferent, force, block);
+}
+
+std::vector<double> wave(std::size_t count, double T) {
+    std::vector<double> out;
+    for (std::size_t k = 0; k < count; ++k) {
+        const double t = static_cast<double>(k) * T;
+        out.push_back(1 + std::sin(40 * t) + (std::fmod(t, 0.1) < 0.02 ? 1 : 0));
+    }
+    return out;
+}
+
+TEST(CircuitAfferent, FiresFasterThePressedHarder) {
+    const auto afferent = design(spiker())->make(1e-3, false);
+    std::size_t before = 0;
+    for (const double force : {0.5, 1.0, 2.0, 4.0, 8.0}) {
+        const auto spikes = answered(*afferent, std::vector<double>(300, force));
+        EXPECT_GT(spikes.size(), before) << force;
+        before = spikes.size();
+    }
+    EXPECT_EQ(answered(*afferent, std::vector<double>(300, 0.0)).size(), 0U);
+}
+
+TEST(CircuitAfferent, SpikesComeInOrderWithinTheForceAndOnSamplesIfAsked) {
+    const auto made = design(spiker());
+    const auto exact = answered(*made->make(1e-3, false), wave(400, 1e-3)), sampled = answered(*made->make(1e-3, true), wave(400, 1e-3));
+    ASSERT_GT(exact.size(), 10U);
+    ASSERT_EQ(sampled.size(), exact.size());
+    for (std::size_t k = 0; k < exact.size(); ++k) {
+        EXPECT_TRUE(exact[k].offset > 0 && exact[k].offset <= 1);
+        EXPECT_TRUE(k == 0 || exact[k - 1] < exact[k]);
+        EXPECT_TRUE(exact[k].step > 0 && exact[k].step < 400);
+        EXPECT_EQ(sampled[k].step, exact[k].step);
+        EXPECT_EQ(sampled[k].offset, 1);
+    }
+}
+
+TEST(CircuitAfferent, ForceInBlocksOfAnySizeGivesTheSameSpikes) {
+    for (const auto& text : {spiker(), std::string(relaxer) + ".spike v(s) 0.5\n.save v(a) v(a,s)\n"}) {
+        const auto afferent = design(text)->make(1e-3, false);
+        const auto force = wave(300, 1e-3);
+        const auto whole = answered(*afferent, force);
+        ASSERT_GT(whole.size(), 10U);
+        EXPECT_EQ(answered(*afferent, force, 1), whole);
+        EXPECT_EQ(answered(*afferent, force, 7), whole);
+        EXPECT_EQ(answered(*afferent, force, 100), whole);
+    }
+}
+
+TEST(CircuitAfferent, ProbesAreTheSameInBlocksOfAnySize) {
+    const auto afferent = design(spiker())->make(1e-3, false);
+    ASSERT_EQ(afferent->probes().size(), 2U);
+    EXPECT_EQ(afferent->probes()[0].name, "v(u)");
+    EXPECT_EQ(afferent->probes()[0].unit, "V");
+    const auto force = wave(300, 1e-3);
+    const auto shown = [&](std::size_t block) {
+        std::vector<double> u(force.size()), s(force.size());
+        std::vector<Spike> spikes;
+        auto state = afferent->start();
+        for (std::size_t k = 0; k < force.size(); k += block) {
+            double* to[] = {u.data() + k, s.data() + k};
+            ResponseBlock answer{spikes, 0, to};
+            if (!afferent->respond(std::span(force).subspan(k, std::min(block, force.size() - k)), state, answer)) ADD_FAILURE();
+        }
+        u.insert(u.end(), s.begin(), s.end());
+        return u;
+    };
+    const auto whole = shown(300), parts = shown(13);
+    EXPECT_EQ(whole, parts);
+    for (const double v : whole) EXPECT_TRUE(v > -0.01 && v < 0.71) << v;
+    EXPECT_NEAR(whole[0], 0.6, 1e-3);  // .ic
+}
+
+/// Runs to a sample, keeps the state as bytes, and goes on with it elsewhere.
+std::vector<Spike> resumed(const CircuitAfferentFactory& made, const std::vector<double>& force, std::size_t at, double T) {
+    std::vector<Spike> spikes;
+    ResponseBlock answer{spikes};
+    std::vector<std::byte> kept;
+    {
+        const auto first = made.make(T, false);
+        auto state = first->start();
+        if (!first->respond(std::span(force).first(at), state, answer)) ADD_FAILURE();
+        kept = pack(state);
+    }
+    const auto second = made.make(T, false);
+    auto other = second->start();  // it has done something else before
+    std::vector<Spike> nobodys;
+    ResponseBlock unheard{nobodys};
+    if (!second->respond(wave(90, T), other, unheard)) ADD_FAILURE();
+    auto state = sure(unpack(kept));
+    auto rest = std::vector<double>(force.begin() + static_cast<std::ptrdiff_t>(at), force.end());
+    rest.insert(rest.end(), static_cast<std::size_t>(second->delay()), force.back());
+    if (!second->respond(rest, state, answer)) ADD_FAILURE();
+    return spikes;
+}
+
+TEST(CircuitAfferent, AResumedOneGoesOnToTheLastBit) {
+    const auto made = design(spiker());
+    const auto force = wave(250, 1e-3);
+    const auto whole = answered(*made->make(1e-3, false), force);
+    EXPECT_TRUE(rc::check([&] {
+        const auto at = *rc::gen::inRange<std::size_t>(1, force.size());
+        RC_ASSERT(resumed(*made, force, at, 1e-3) == whole);
+    }));
+}
+
+TEST(CircuitAfferent, GoesOnForHoursWithTheDigitsOfItsFirstSecond) {
+    const auto made = design("slow\niin 0 a force 1\nr1 a 0 1\nc1 a 0 0.1\n.spike v(a) 0.5\n.tran 1 1 0 0.2\n");
+    std::vector<double> force;
+    for (int k = 0; k < 40000; ++k) force.push_back(k % 200 < 100 ? 1 : 0);  // 4000 s: a touch each 20 s
+    const auto spikes = answered(*made->make(0.1, false), force);
+    ASSERT_EQ(spikes.size(), 199U);  // the first touch has always been
+    for (std::size_t k = 1; k < spikes.size(); ++k) {
+        EXPECT_EQ(spikes[k].step - spikes[k - 1].step, 200) << k;
+        EXPECT_NEAR(spikes[k].offset, spikes[0].offset, 1e-3) << k;
+    }
+    EXPECT_EQ(answered(*made->make(0.1, false), force, 333), spikes);
+    EXPECT_EQ(resumed(*made, force, 12345, 0.1), spikes);
+}
+
+TEST(CircuitAfferent, ADamagedStateIsRefusedOrHarmless) {
+    const auto afferent = design(spiker())->make(1e-3, false);
+    std::vector<Spike> spikes;
+    ResponseBlock answer{spikes};
+    auto good = afferent->start();
+    const auto force = wave(100, 1e-3);
+    ASSERT_TRUE(afferent->respond(force, good, answer));
+    auto other = good;
+    other.format += "x";
+    EXPECT_FALSE(afferent->respond(force, other, answer));
+    auto cut = good;
+    cut.values.resize(cut.values.size() / 2);
+    const auto refused = afferent->respond(force, cut, answer);
+    ASSERT_FALSE(refused);
+    EXPECT_NE(refused.error().message.find("the saved state is damaged"), std::string::npos) << refused.error().message;
+    EXPECT_TRUE(rc::check([&] {
+        auto bad = good;
+        bad.values[*rc::gen::inRange<std::size_t>(0, bad.values.size())] = *rc::gen::element(-1.0, 0.0, 0.5, 3.0, 1e9, 1e300, -1e300);
+        std::vector<Spike> some;
+        ResponseBlock any{some};
+        (void)afferent->respond(std::span(force).first(20), bad, any);
+    }));
+    EXPECT_EQ(answered(*afferent, force), answered(*design(spiker())->make(1e-3, false), force));
+}
+
+TEST(CircuitAfferent, ALevelThatIsNeverReachedGivesNoSpike) {
+    EXPECT_EQ(answered(*design(std::string(relaxer) + ".spike v(s) 5\n")->make(1e-3, false), wave(300, 1e-3)).size(), 0U);
+}
+
+TEST(CircuitAfferent, FallingIsTheOtherFlank) {
+    const auto rise = answered(*design(std::string(relaxer) + ".spike v(s) 0.5 rise\n")->make(1e-3, false), wave(300, 1e-3)),
+               fall = answered(*design(std::string(relaxer) + ".spike v(s) 0.5 fall\n")->make(1e-3, false), wave(300, 1e-3));
+    ASSERT_GT(rise.size(), 10U);
+    ASSERT_NEAR(static_cast<double>(rise.size()), static_cast<double>(fall.size()), 1);
+    for (std::size_t k = 0; k < fall.size(); ++k) EXPECT_LT(rise[k], fall[k]);
+}
+
+TEST(CircuitAfferent, WhatIsMissingOrWrongIsToldByItsPlace) {
+    const std::string t = "t\niin 0 a force 1u\nr1 a 0 1k\n", file = corpuscle::test::root() + "/process/test.cir";
+    const auto says = [&](const std::string& text, const std::string& what) {
+        EXPECT_NE(afferent_refusal(text).find(what), std::string::npos) << afferent_refusal(text);
+    };
+    says("t\niin 0 a 1u\nr1 a 0 1k\n.spike v(a) 1\n", file + ": no source carries a force; add one, such as 'iin 0 fin force 60n'");
+    says(t, file + ": no .spike directive defines the spike output; add '.spike v(NODE) LEVEL [rise|fall]'");
+    says(t + ".spike v(b) 1\n", file + ":4:8: .spike: unknown output v(b); did you mean 'v(a)'?");
+    says(t + ".spike v(a) 1\n.spike v(a) 2\n", file + ":5:1: .spike: only one is allowed; the first is in line 4");
+    says(t + ".spike v(a)\n", file + ":4:1: .spike: v(a) needs a level to cross");
+    says(t + ".spike\n", file + ":4:1: .spike: an output is missing");
+    says(t + ".spike v(a) high\n", file + ":4:13: .spike: 'high' is not a number; expected the level to cross");
+    says(t + ".spike v(a) 1 up\n", file + ":4:15: .spike: 'up' must be rise or fall");
+    says(t + ".spike v(a) 1 rise now\n", file + ":4:20: .spike: unexpected 'now'");
+    says("t\niin 0 a force 1u 2u\nr1 a 0 1k\n.spike v(a) 1\n", file + ":2:9: iin: force has 2 numbers; expected force [scale]");
+    EXPECT_EQ(afferent_refusal(t + ".spike v(a) 1\n"), "");
+}
+
+TEST(CircuitAfferent, CopiesAreTheChipsOfItsDraw) {
+    auto text = spiker();
+    text.insert(text.find(".save"), ".mc 3 seed=5\n.meas tran u max v(u)\n");
+    text.replace(text.find("tt"), 2, "mc");
+    const auto cut = text.find(".expect");
+    text.replace(cut, text.find(".end", cut) - cut, "");
+    const auto chips = ran_all(text);
+    ASSERT_EQ(chips.size(), 3U);
+    const auto made = design(text);
+    const auto press = corpuscle::test::force("press");
+    const auto clock = sure(make_clock(10e3));
+    for (std::uint32_t copy = 1; copy <= 3; ++copy) {
+        const auto spikes = spike_times(answered(*made->make(1e-4, false, copy), press), clock);
+        EXPECT_EQ(static_cast<double>(spikes.size()), chips[copy - 1].number("spikes")) << copy;
+        EXPECT_NEAR(spikes[0], chips[copy - 1].number("first_spike"), 1e-6) << copy;
+        EXPECT_NE(spikes[0], spike_times(answered(*made->make(1e-4, false), press), clock)[0]);
+    }
+}
+
+TEST(CircuitAfferent, AStateOfTheVersionBeforeIsRefusedWithBothVersionsAndARemedy) {
+    const auto afferent = design(spiker())->make(1e-3, false);
+    std::vector<Spike> spikes;
+    ResponseBlock answer{spikes};
+    auto before = afferent->start();
+    const auto at = before.format.find("/2, ");
+    ASSERT_NE(at, std::string::npos) << before.format;
+    before.format[at + 1] = '1';
+    before = sure(unpack(pack(before)));
+    const auto refused = afferent->respond(wave(20, 1e-3), before, answer);
+    ASSERT_FALSE(refused);
+    const auto& told = refused.error().message;
+    EXPECT_NE(told.find("the saved state has version 1, but this program reads version 2; start again with start()"), std::string::npos)
+        << told;
+    before = afferent->start();  // the remedy
+    EXPECT_TRUE(afferent->respond(wave(20, 1e-3), before, answer));
+}
+
+TEST(CircuitAfferent, OfTwoNetlistsNeitherTakesTheOthersState) {
+    const auto a = design(std::string(relaxer) + ".spike v(s) 0.5\n"), b = design(std::string(relaxer) + ".spike v(s) 0.6\n");
+    EXPECT_NE(a->make(1e-3, false)->start().format, b->make(1e-3, false)->start().format);
+    EXPECT_NE(a->make(1e-3, false)->start().format, a->make(2e-3, false)->start().format);
+}
+
+TEST(Run, TellsSpikesUnderAForceOfTheNetlistsOwn) {
+    const std::string t = "t\niin 0 a dc 0.1 force 1\nr1 a 0 1\nc1 a 0 1m\n.spike v(a) 1.1\n";
+    const auto found = ran(t + ".force press f_min=0 f_max=2 rate=2k\n.tran 1m 1\n");
+    EXPECT_EQ(found.number("spikes"), 1);
+    EXPECT_NEAR(found.number("first_spike"), 0.3135, 1e-3);  // half way up, and 1 ms
+    EXPECT_NEAR(found.curve("v(a)").front(), 0.1, 1e-6);
+    EXPECT_EQ(ran(t + ".tran 1m 1\n").number("spikes"), 0);  // no force: 0 N
+    EXPECT_NEAR(ran(t + ".op\n.force press\n").number("v(a)"), 0.1, 1e-9);
+    const auto refused = [&](const std::string& order) {
+        auto circuit = sure(sure(parsed(t + order + "\n.tran 1m 1\n")).elaborate());
+        const auto run_ = run_directives(std::make_shared<const Circuit>(std::move(circuit)));
+        return run_ ? std::string() : run_.error().text();
+    };
+    EXPECT_NE(refused(".force prees").find(":6:8: .force: "), std::string::npos) << refused(".force prees");
+    EXPECT_NE(refused(".force press f_mox=1").find("did you mean 'F_max'?"), std::string::npos) << refused(".force press f_mox=1");
+    EXPECT_NE(refused(".force press f_max").find(":6:14: .force: 'f_max' must be PARAMETER=VALUE"), std::string::npos);
+    EXPECT_NE(refused(".force press\n.force step").find("only one is allowed"), std::string::npos);
+    EXPECT_NE(refused(".force").find("a stimulus is missing"), std::string::npos) << refused(".force");
+}
+
+/// Keeps what it hears.
+struct Ear final : Listener {
+    std::vector<Spike> spikes;
+    std::vector<double> shown;
+    std::int64_t samples = 0;
+    bool wants_probes() const override { return true; }
+    Result<void> block(const Input&, const Answered& a) override {
+        EXPECT_EQ(a.first, samples);
+        samples += static_cast<std::int64_t>(a.force.count);
+        for (const auto& s : a.spikes) {
+            EXPECT_TRUE(s.step >= a.first && s.step < samples);
+            spikes.push_back(s);
+        }
+        for (std::size_t k = 0; k < a.force.count; ++k)
+            for (const auto& unit : a.probes)
+                for (const auto& probe : unit) shown.push_back(probe[k]);
+        return {};
+    }
+};
+
+TEST(Respond, NetlistsBesideModelsInBlocksOfAnySize) {
+    const auto path = corpuscle::test::root() + "/circuits/spiker.cir";
+    std::vector<Ear> ears(3);
+    for (std::size_t k = 0; k < ears.size(); ++k) {
+        const std::vector<AfferentPlan> plans = {sure(plan_any_afferent(path, {})), sure(plan_any_afferent("fa1", {}))};
+        std::vector<std::unique_ptr<ForceSource>> sources;
+        sources.push_back(sure(make_stimulus("press", {}, 1e3, 0)));
+        Listener* listeners[] = {&ears[k]};
+        RespondOptions options;
+        options.block = std::vector<std::size_t>{4096, 1, 37}[k];
+        const auto work = sure(respond(sources, plans, listeners, options));
+        EXPECT_EQ(work.samples, 1000);
+        EXPECT_GT(work.steps, 10000);
+        EXPECT_EQ(ears[k].samples, 1000);
+        EXPECT_TRUE(ears[k].spikes == ears[0].spikes);
+        EXPECT_TRUE(ears[k].shown == ears[0].shown);
+    }
+    EXPECT_GT(ears[0].spikes.size(), 60U);
+}
+
+class Responding : public ::testing::Test {
+protected:
+    const Folder folder;
+    std::string words(const std::string& afferents, const std::string& more = "") const {
+        return "respond press.csv --afferent " + afferents + " --time t " + more;
+    }
+    void SetUp() override {
+        std::string text = "t_s,a_N,b_N,c_N\n";
+        for (int k = 0; k < 500; ++k) {
+            const double t = k / 1000.0;
+            text += fmt::format("{},{},{},{}\n", t, std::abs(4 * std::sin(6 * t)), k < 250 ? 0.0 : 2.0, 1.0);
+        }
+        folder.write("press.csv", text);
+        folder.write("relaxer.cir", std::string(relaxer) + ".spike v(s) 0.5\n");
+        std::filesystem::copy(corpuscle::test::root() + "/circuits/spiker.cir", folder / "spiker.cir");
+        auto cir = spiker();
+        cir.replace(cir.find("../process"), 10, corpuscle::test::root() + "/process");
+        folder.write("spiker.cir", cir);
+    }
+};
+
+TEST_F(Responding, NetlistsAnswerBesideModelsTheSameOnAnyNumberOfThreads) {
+    const std::string names = "sa1,./spiker.cir,relaxer.cir";
+    const auto one = corpuscle::test::run(folder, words(names, "--out one --traces -j 1 --report"));
+    ASSERT_EQ(one.status, 0) << one.err;
+    ASSERT_EQ(corpuscle::test::run(folder, words(names, "--out four --traces -j 4")).status, 0);
+    for (const std::string name : {"/spikes.csv", "/traces.csv"})
+        EXPECT_TRUE(read_file(folder / ("one" + name)) == read_file(folder / ("four" + name))) << name;
+    const auto summary = nlohmann::json::parse(read_file(folder / "one/summary.json"));
+    EXPECT_EQ(summary["afferents"][1]["name"], "./spiker.cir");
+    EXPECT_EQ(summary["afferents"][1]["made_of"], "netlist");
+    EXPECT_GT(summary["work"]["circuits"]["steps"], 1000);
+    EXPECT_EQ(summary["work"]["circuits"]["not_converged"], 0);
+    const auto spikes = read_file(folder / "one/spikes.csv");
+    for (const std::string train : {"\nsa1,a,", "\n./spiker.cir,a,", "\n./spiker.cir,b,", "\nrelaxer.cir,c,"})
+        EXPECT_NE(spikes.find(train), std::string::npos) << train;
+    const auto traces = read_file(folder / "one/traces.csv");
+    EXPECT_NE(traces.substr(0, traces.find('\n')).find("./spiker.cir.b.v(u) [V]"), std::string::npos);
+    EXPECT_EQ(std::count(traces.begin(), traces.end(), '\n'), 501);
+    EXPECT_EQ(traces.find("nan"), std::string::npos);
+}
+
+TEST_F(Responding, AnswersAlikeInSmallBlocks) {
+    ASSERT_EQ(corpuscle::test::run(folder, words("spiker.cir", "--out whole")).status, 0);
+    ASSERT_EQ(corpuscle::test::run(folder, words("spiker.cir", "--out float --float")).status, 2);
+    const auto refused = corpuscle::test::run(folder, words("spiker.cir", "--float"));
+    EXPECT_NE(refused.err.find("spiker.cir: netlists cannot run in float"), std::string::npos) << refused.err;
+}
+
+TEST_F(Responding, OneThatDoesNotConvergeIsToldAndTheOthersGoOn) {
+    // dv/dt = F - 0.5 - v^2: with less than half a newton it falls without end
+    folder.write("falls.cir",
+                 "falls\niin 0 a force 1\nb1 a 0 i={0.5+v(a)*v(a)*v(a)*v(a)*v(a)*v(a)-0*v(a)+2*v(a)*v(a)}\nca a 0 1m\n.spike v(a) 0.2\n");
+    const auto ran = corpuscle::test::run(folder, words("sa1,falls.cir,spiker.cir", "--out answer"));
+    EXPECT_EQ(ran.status, 3) << ran.err;
+    EXPECT_NE(ran.err.find("did not converge"), std::string::npos) << ran.err;
+    const auto summary = nlohmann::json::parse(read_file(folder / "answer/summary.json"));
+    EXPECT_GT(summary["work"]["circuits"]["not_converged"], 0);
+    EXPECT_NE(read_file(folder / "answer/spikes.csv").find("\nspiker.cir,a,"), std::string::npos);
+    EXPECT_NE(read_file(folder / "answer/spikes.csv").find("\nsa1,a,"), std::string::npos);
+}
+
+TEST_F(Responding, ANetlistThatCannotBeReadIsRefused) {
+    const auto none = corpuscle::test::run(folder, words("none.cir"));
+    EXPECT_EQ(none.status, 1);
+    EXPECT_NE(none.err.find("none.cir: cannot be read"), std::string::npos) << none.err;
+    folder.write("bad.cir", "t\niin 0 a force\nr1 a\n.spike v(a) 1\n");
+    const auto bad = corpuscle::test::run(folder, words("bad.cir"));
+    EXPECT_EQ(bad.status, 1);
+    EXPECT_NE(bad.err.find("bad.cir:3:"), std::string::npos) << bad.err;
+    EXPECT_EQ(corpuscle::test::run(folder, words("spiker.cir,spiker.cir")).status, 2);
+    const auto unknown = corpuscle::test::run(folder, words("spiker.cir", "--set spiker.cir.vddd=1"));
+    EXPECT_EQ(unknown.status, 1);
+    EXPECT_NE(unknown.err.find("--set spiker.cir.vddd=1: spiker.cir has no parameter or device 'vddd'"), std::string::npos) << unknown.err;
+}
+
+}  // namespace
+}  // namespace corpuscle::circuit

@@ -1,0 +1,281 @@
+// What is set of netlists by name, and what is shown of them.
+
+#include "circuit/netlist_overrides.hpp"
+
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "circuit/circuit_afferent.hpp"
+#include "circuit/netlist_runner.hpp"
+#include "circuit/hierarchical_names.hpp"
+#include "circuit/resolve_probe.hpp"
+#include "support/support.hpp"
+
+namespace corpuscle::circuit {
+namespace {
+
+using corpuscle::test::sure;
+
+NetlistOverride knob(const std::string& text) {
+    const auto equals = text.find('=');
+    return {text.substr(0, equals), text.substr(equals + 1), "--set " + text};
+}
+
+/// Files of a test's own, and what is set of the first, which is called own.cir.
+class KnobFiles {
+    corpuscle::test::Folder folder_;
+
+public:
+    KnobFiles(const std::string& netlist, const std::map<std::string, std::string>& more = {}) {
+        folder_.write("own.cir", netlist);
+        for (const auto& [name, text] : more) folder_.write(name, text);
+    }
+    Result<Circuit> set(const std::vector<std::string>& texts) const {
+        std::vector<NetlistOverride> knobs;
+        for (const auto& t : texts) knobs.push_back(knob(t));
+        const auto netlist = apply_overrides(folder_ / "own.cir", knobs);
+        return netlist ? netlist->elaborate() : netlist.error();
+    }
+    std::string refusal(const std::vector<std::string>& texts) const {
+        const auto done = set(texts);
+        return done ? "" : done.error().message;
+    }
+};
+
+const Element& element(const Circuit& c, const std::string& name) { return c.elements[static_cast<std::size_t>(c.find_element(name))]; }
+
+constexpr const char* blocks =
+    "blocks\n.param c_u=1p gain=2 i_0='2*gain*1n'\n.model nm nmos (level=80)\n"
+    ".subckt cell a b\nmn1 a b 0 0 nm w=1u l=0.5u m=2 stack=4\nru a b 10k\ncu a 0 {c_u}\n.ends\n"
+    ".subckt pair a b\nxleft a b cell\nxright b a cell\n.ends\n"
+    "xone p q pair\nxtwo q p pair\nxtriple p q cell m=3\nvp p 0 1\nii q 0 {i_0}\nvs s 0 sin(0 1 1k)\nrs s 0 1k\nb1 q 0 "
+    "i={gain*v(p)*1n}\n.op\n";
+
+std::vector<std::string_view> some_names() { return {"xone.xleft.mn1", "xone.xright.mn1", "xtwo.xleft.mn1", "mn1", "m1", "xone.x", "mm1"}; }
+
+TEST(PathNames, ATailIsEnoughAndAWholeNameGoesBefore) {
+    const auto names = some_names();
+    using Places = std::vector<std::size_t>;
+    EXPECT_EQ(find_matching_names(names, "xone.xleft.mn1", LastPiece::element), Places{0});
+    EXPECT_EQ(find_matching_names(names, "ONE.Left.N1", LastPiece::element), Places{0});
+    EXPECT_EQ(find_matching_names(names, "right.n1", LastPiece::element), Places{1});
+    EXPECT_EQ(find_matching_names(names, "left.n1", LastPiece::element), (Places{0, 2}));
+    EXPECT_EQ(find_matching_names(names, "mn1", LastPiece::element), Places{3});
+    EXPECT_EQ(find_matching_names(names, "m1", LastPiece::element), Places{4}) << "mm1 without its letter comes behind";
+    EXPECT_EQ(find_matching_names(names, "x", LastPiece::node), Places{5});
+    EXPECT_TRUE(find_matching_names(names, "n1", LastPiece::node).empty()) << "a node's own name has no letter to leave out";
+    EXPECT_TRUE(find_matching_names(names, "ft.n1", LastPiece::element).empty());
+    EXPECT_TRUE(find_matching_names(names, "", LastPiece::element).empty());
+    EXPECT_EQ(short_name("xone.xleft.mn1", 2, LastPiece::element), "left.n1");
+    EXPECT_EQ(short_name("xone.xleft.mn1", 9, LastPiece::node), "one.left.mn1");
+}
+
+TEST(Knobs, ANumberHasTheUnitsOfTheDoor) {
+    const auto is = [](const std::string& text, double value, std::string_view unit) {
+        const auto read = parse_number_with_unit(text);
+        ASSERT_TRUE(read) << text;
+        EXPECT_NEAR(read->value, value, 1e-12 * std::abs(value)) << text;
+        EXPECT_EQ(read->unit, unit) << text;
+    };
+    is("4pF", 4e-12, "F"), is("7 pA", 7e-12, "A"), is("0.65V", 0.65, "V"), is("200nA", 200e-9, "A"), is("10Mohm", 1e7, "ohm");
+    is("5m", 5e-3, ""), is("5M", 5e6, ""), is("1.2um", 1.2e-6, "m"), is("-3", -3, ""), is("20 kHz", 2e4, "Hz"), is("3 ms", 3e-3, "s");
+    for (const auto* wrong : {"10meg", "", "four", "4pF5", "1e999"}) EXPECT_FALSE(parse_number_with_unit(wrong)) << wrong;
+}
+
+TEST(Knobs, WhatIsSetIsWhatTheCircuitHasAndNothingElseIs) {
+    const KnobFiles files(blocks);
+    const auto plain = sure(files.set({}));
+    const auto c = sure(files.set({"C_u=4pF", "GAIN=3", "one.left.N1=8x3", "xtwo.xright.mn1.w=1.2um", "triple.n1.M=5",
+                                   "two.left.ru=20 kohm", "two.right.cu=7p", "triple.ru.m=4", "p=2 V", "temp=85"}));
+    EXPECT_EQ(c.parameters.at("c_u"), 4e-12);
+    EXPECT_EQ(element(c, "xone.xleft.cu").value, 4e-12);
+    EXPECT_EQ(element(c, "xtwo.xright.cu").value, 7e-12);
+    EXPECT_NEAR(element(c, "ii").waveform.dc, 6e-9, 1e-21) << "a .param made of the one that is set";
+    EXPECT_EQ(element(c, "xone.xleft.mn1").values.at("m"), 8);
+    EXPECT_EQ(element(c, "xone.xleft.mn1").values.at("stack"), 3);
+    EXPECT_EQ(element(c, "xtwo.xright.mn1").values.at("w"), 1.2e-6);
+    EXPECT_EQ(element(c, "xtriple.mn1").values.at("m"), 15) << "five columns in each of three";
+    EXPECT_EQ(element(c, "xtriple.ru").values.at("m"), 12);
+    EXPECT_EQ(element(c, "xtwo.xleft.ru").value, 20e3);
+    EXPECT_EQ(element(c, "vp").waveform.dc, 2);
+    EXPECT_EQ(c.temperature, 85);
+    EXPECT_EQ(plain.temperature, 27);
+    for (const auto* untouched : {"xone.xright.mn1", "xtwo.xleft.mn1"})
+        EXPECT_EQ(element(c, untouched).values, element(plain, untouched).values);
+    EXPECT_EQ(sure(files.set({"c_u=1p", "C_U=2p"})).parameters.at("c_u"), 2e-12) << "the later goes before";
+}
+
+TEST(Knobs, WhatIsUnknownOrNonsenseIsToldWithWhatThereIs) {
+    const KnobFiles files(blocks);
+    const auto says = [&](const std::string& knob_text, const std::string& what) {
+        const auto said = files.refusal({knob_text});
+        EXPECT_NE(said.find("--set " + knob_text + ": "), std::string::npos) << said;
+        EXPECT_NE(said.find(what), std::string::npos) << said;
+    };
+    says("c_v=4pF", "has no parameter or device 'c_v'; did you mean 'c_u'?");
+    says("one.left.n2=8x4", "did you mean 'one.left.n1'?");
+    says("one.lft.n1.w=1u", "did you mean 'one.left.n1.w'?");
+    says("left.n1=8x4", "'left.n1' is ambiguous: xone.xleft.mn1, xtwo.xleft.mn1; write more of its path");
+    says("left.n1.w=1u", "'left.n1' is ambiguous: xone.xleft.mn1, xtwo.xleft.mn1; write more of its path");
+    says("one.left.n1.ww=1u", "xone.xleft.mn1 has no 'ww'; did you mean 'w'? (it has w, l, m, stack, delvto");
+    says("one.left.n1=0x4", "0 columns; at least 1 is required");
+    says("one.left.n1=8x0", "0 units in series; at least 1 is required");
+    says("one.left.n1=2.5x4", "'2.5x4' is not an array; write COLUMNSxSERIES, such as 8x4");
+    says("one.left.n1=4pF", "'4pF' is not an array");
+    says("one.left.n1.w=-1u", "-1 um is outside [1 nm, 1 m]");
+    says("one.left.n1.w=1V", "'1V' is a voltage; expected a value in m");
+    says("one.left.n1.m=0", "0 is outside [1e-06, 1e+09]");
+    says("one.left.ru=0", "a resistor must not be 0 ohm");
+    says("one.left.cu=-1p", "-1 pF must not be below 0");
+    says("one.left.ru.m=0", "0 must be above 0");
+    says("vs=2V", "vs is a source with a time waveform");
+    says("b1=2", "b1 has an expression; its value is not a single number");
+    says("c_u=4q", "'4q' is not a number; write a number and a unit of V, A, F, ohm, s, Hz, m, S, N or none");
+    says("temp=hot", "'hot' is not a temperature");
+    says("temp=-300", "-300 C is outside");
+    says("mismatch=-1", "'-1' is not a seed");
+    says("mismatch=7/half", "'7/half' is not a seed; write an integer from 0 to 2^53, or SEED/CHIP");
+    says("corner=ss", "there is no corner 'ss': the netlist has no line .lib 'file' section");
+}
+
+constexpr const char* cards =
+    ".lib tt\n.param shift=0\n.lib 'card.lib' devices\n.endl\n.lib ss\n.param shift=40m\n.lib 'card.lib' devices\n.endl\n"
+    ".lib devices\n.model nm nmos (level=80 vto='0.4+shift')\n.endl\n";
+
+TEST(Knobs, AChipOfASeedIsTheOneThatADrawOfManyHas) {
+    const KnobFiles files("t\nm1 a a 0 0 nm\n.model nm nmos (level=80 avt=1n)\nv1 a 0 1\n.op\n", {});
+    const auto chip = chip_sample_of(sure(files.set({"mismatch=7/5"})));
+    ASSERT_TRUE(chip);
+    EXPECT_EQ(chip->seed, 7U);
+    EXPECT_EQ(chip->chip, 5U);
+    EXPECT_TRUE(std::ranges::equal(chip->process, ChipSpec{10, 7}.sample(5).process));
+    EXPECT_EQ(chip_sample_of(sure(files.set({"mismatch=7"})))->chip, 0U);
+    EXPECT_FALSE(chip_sample_of(sure(files.set({}))));
+}
+
+TEST(Knobs, ACornerIsReadInPlaceOfTheSectionOfEachLibraryThatHasIt) {
+    const std::string netlist = "t\n.lib 'card.lib' tt\nm1 a a 0 0 nm\nv1 a 0 1\n.op\n";
+    const KnobFiles files(netlist, {{"card.lib", cards}});
+    EXPECT_NEAR(sure(files.set({})).models[0].values.at("vto"), 0.4, 1e-12);
+    EXPECT_NEAR(sure(files.set({"corner=SS"})).models[0].values.at("vto"), 0.44, 1e-12);
+    EXPECT_NEAR(sure(files.set({"corner=ss", "corner=tt"})).models[0].values.at("vto"), 0.4, 1e-12);
+    EXPECT_NE(
+        files.refusal({"corner=sz"}).find("--set corner=sz: no corner 'sz': library 'card.lib' has tt, ss, devices; did you mean 'ss'?"),
+        std::string::npos)
+        << files.refusal({"corner=sz"});
+    const KnobFiles two(
+        netlist + ".include 'more.inc'\n",
+        {{"card.lib", cards}, {"other.lib", ".lib usual\n.param r=1k\n.endl\n"}, {"more.inc", ".lib 'other.lib' usual\nr1 a 0 {r}\n"}});
+    const auto c = sure(two.set({"corner=ss"}));
+    EXPECT_NEAR(c.models[0].values.at("vto"), 0.44, 1e-12);
+    EXPECT_EQ(element(c, "r1").value, 1e3) << "a library without that corner keeps its own section";
+}
+
+TEST(EmbeddedNetlist, NetlistsByNameAreTheFilesOfTheProject) {
+    for (const auto& c : embedded_netlists) {
+        const auto by_name = sure(CircuitAfferentFactory::create(sure(open_netlist(std::string(c.name)))));
+        const auto by_path = sure(CircuitAfferentFactory::create(sure(Netlist::read(test::root() + "/" + std::string(c.file)))));
+        EXPECT_EQ(by_name->fingerprint, by_path->fingerprint) << c.name;
+        EXPECT_EQ(by_name->title(), by_path->title());
+        EXPECT_EQ(by_name->circuit->file, c.file);
+    }
+    EXPECT_NE(find_embedded_netlist("SA1-Circuit"), nullptr);
+    EXPECT_EQ(find_embedded_netlist("sa1"), nullptr);
+    const auto ss = sure(sure(apply_overrides("sa1-circuit", std::vector<NetlistOverride>{knob("corner=ss"), knob("summer.N3B=8x4")})).elaborate());
+    EXPECT_EQ(element(ss, "xsummer.mn3b").values.at("m"), 8);
+    EXPECT_NEAR(ss.models[0].values.at("vto") - sure(sure(open_netlist("sa1-circuit")).elaborate()).models[0].values.at("vto"), 0.04,
+                1e-12);
+}
+
+std::string spiker_text(const std::string& section, const std::string& more) {
+    auto text = corpuscle::test::read_file(test::root() + "/circuits/spiker.cir");
+    text.replace(text.find("tt"), 2, section);
+    text.insert(text.find(".save"), more);
+    return text;
+}
+
+std::vector<Spike> spikes_of_copy(const Netlist& netlist, std::uint32_t copy) {
+    const auto afferent = sure(CircuitAfferentFactory::create(netlist))->make(1e-3, false, copy);
+    std::vector<double> force(200 + static_cast<std::size_t>(afferent->delay()), 4.0);
+    return corpuscle::test::spikes(*afferent, force, 4096);
+}
+
+TEST(Knobs, MismatchIsTheFirstChipOfADraw) {
+    for (const std::string section : {"tt", "mc"}) {
+        const auto drawn = sure(parsed(spiker_text(section, ".mc 3 seed=7\n"))), plain = sure(parsed(spiker_text(section, "")));
+        auto with = [&](const Netlist& netlist) {
+            ResolvedOverrides changes;
+            changes.mismatch_seed = 7;
+            return netlist.with_overrides(changes);
+        };
+        const auto chip = spikes_of_copy(drawn, 1);
+        ASSERT_GT(chip.size(), 3U);
+        EXPECT_EQ(spikes_of_copy(with(plain), 0), chip);
+        EXPECT_EQ(spikes_of_copy(with(drawn), 0), chip) << "in place of .mc";
+        EXPECT_EQ(spikes_of_copy(with(plain), 2), spikes_of_copy(drawn, 2)) << "its copies are the chips of that seed";
+        EXPECT_NE(spikes_of_copy(plain, 0), chip);
+        auto variants = sure(NetlistVariants::create(with(drawn)));
+        EXPECT_EQ(variants.count(), 1U);
+        EXPECT_FALSE(variants.has_chips());
+        ASSERT_TRUE(sure(variants.at(0)).sample);
+    }
+}
+
+TEST(Knobs, AnotherNumberIsAnotherMarkAlsoInAFormula) {
+    const std::string text =
+        "t\n.param g=1 v0=0\niin 0 a force 1u\nr1 a 0 1k\nb1 a 0 i={g*1u*v(a)}\nc1 a 0 1n\n.ic v(a)={v0}\n.spike v(a) 1\n";
+    const KnobFiles files(text);
+    const auto mark = [&](const std::vector<std::string>& knobs) {
+        return sure(CircuitAfferentFactory::create(std::make_shared<const Circuit>(sure(files.set(knobs)))))->fingerprint;
+    };
+    EXPECT_EQ(mark({}), mark({"g=1"}));
+    EXPECT_NE(mark({}), mark({"g=2"}));
+    EXPECT_NE(mark({}), mark({"v0=1"}));
+    EXPECT_NE(mark({}), mark({"r1=2k"}));
+    EXPECT_NE(mark({}), mark({"temp=28"}));
+}
+
+TEST(CurveFollower, NodesAndCurrentsAreFoundByWhatIsTypedOfThem) {
+    const auto c = sure(KnobFiles("t\n.model nm nmos (level=80)\n.subckt cell a\nmn1 a o 0 0 nm\nro o 0 1k\nco o 0 1p\n.ends\n"
+                                  "xb Vf cell\nxc vf cell\nvdd vf 0 1\nr1 vf u 1\nr2 u 0 1\n.op\n")
+                            .set({}));
+    const auto is = [&](const std::string& word, const std::string& name) {
+        const auto found = resolve_probe(c, word);
+        ASSERT_TRUE(found) << found.error().message;
+        EXPECT_EQ(found->value_or("nothing"), name) << word;
+    };
+    is("vf", "v(vf)"), is("VF", "v(vf)"), is("v(b.O)", "v(xb.o)"), is("v(vf, xc.o)", "v(vf,xc.o)"), is("i(VDD)", "i(vdd)");
+    is("i(c.n1)", "i(xc.mn1)"), is("I(xb.ro)", "i(xb.ro)"), is("V(u,0)", "v(u,0)"), is("w", "nothing"), is("i(m9)", "nothing");
+    const auto refused = [&](const std::string& word, const std::string& what) {
+        const auto found = resolve_probe(c, word);
+        ASSERT_FALSE(found) << word;
+        EXPECT_NE(found.error().message.find(what), std::string::npos) << found.error().message;
+    };
+    refused("o", "own.cir: xb.o, xc.o; write more of its path");
+    refused("i(n1)", "xb.mn1, xc.mn1; write more of its path");
+    refused("i(b.co)", "the current of xb.co cannot be recorded");
+    for (const auto* wrong : {"", "v()", "i(a,b)", "v(a", "p(a)", "a b"}) refused(wrong, "write a node, v(NODE), v(NODE,NODE), i(SOURCE)");
+    EXPECT_EQ(suggest_probe(c, "vg"), "; did you mean 'vf'?");
+    EXPECT_EQ(suggest_probe(c, "c.n1"), "; a device's current is i(c.n1)");
+    EXPECT_EQ(split_probes("vf,v(a,b),i(N3B)"), (std::vector<std::string>{"vf", "v(a,b)", "i(N3B)"}));
+}
+
+TEST(SavedQuantity, ADevicesOwnCurrentIsWhatItsSupplyGives) {
+    const auto found =
+        ran("t\n.lib 'tsmc180.lib' tt\nvd d 0 0.5\nvg g 0 0.45\nm1 d g 0 0 nch w=1.5u l=0.5u m=2\nvr a 0 1\nr1 a 0 4k\n"
+            ".save i(m1) i(vd) i(r1) v(d)\n.meas dc most max i(m1)\n.op\n.dc vg 0.3 0.5 0.1\n.tran 1m 2m\n");
+    for (const std::string analysis : {"op", "dc", "tran"}) {
+        const auto drain = found.curve("i(m1)", analysis), supply = found.curve("i(vd)", analysis);
+        ASSERT_EQ(drain.size(), supply.size()) << analysis;
+        for (std::size_t k = 0; k < drain.size(); ++k) {
+            EXPECT_GT(drain[k], 1e-9);
+            EXPECT_NEAR(drain[k], -supply[k], 1e-9 * drain[k] + 1e-14) << analysis;
+            EXPECT_NEAR(found.curve("i(r1)", analysis)[k], 0.25e-3, 1e-12);
+        }
+    }
+    EXPECT_EQ(found.number("most"), found.curve("i(m1)", "dc").back());
+}
+
+}  // namespace
+}  // namespace corpuscle::circuit

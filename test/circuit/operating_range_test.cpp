@@ -1,0 +1,72 @@
+// .within: what leaves the range it was designed for is told, in a netlist's own transient and of a netlist afferent.
+
+#include "circuit/operating_range.hpp"
+
+#include <gtest/gtest.h>
+
+#include "circuit/circuit_afferent.hpp"
+#include "circuit/netlist_runner.hpp"
+#include "study/respond.hpp"
+#include "support/program.hpp"
+#include "support/support.hpp"
+
+namespace corpuscle::circuit {
+namespace {
+
+/// A force in volts, and a comparator of it; outside above 1 V.
+const std::string follower = "follower\nvf f 0 force 1\nrf f s 1k\ncs s 0 1n\n.spike v(s) 2 rise\n.within v(f) -1 1 \"too much force\"\n";
+
+TEST(OperatingRange, ATransientTellsHowLongAndSinceWhen) {
+    const auto ramp = ran("t\nv1 a 0 pwl(0 0 1 1 2 0)\nr1 a 0 1k\n.within v(a) -1 0.2505 \"too high\"\n.within v(a) -1 2\n.tran 1m 2 0 1m\n");
+    ASSERT_EQ(ramp.remarks().size(), 1U) << "one of two was left";
+    const auto& sentence = ramp.remarks()[0].message;
+    EXPECT_TRUE(sentence.starts_with("v(a) was outside -1 V to 250.5 mV for 1.499 s of 2 s, first at 251 ms")) << sentence;
+    EXPECT_TRUE(sentence.ends_with(": too high")) << sentence;
+    EXPECT_EQ(ramp.remarks()[0].location.line, 4);
+}
+
+TEST(OperatingRange, AnAfferentCountsTheSamplesOutsideInBlocksOfAnySize) {
+    const auto design = test::sure(CircuitAfferentFactory::create(test::sure(parsed(follower))));
+    const auto afferent = design->make(1e-3, false);
+    ASSERT_EQ(afferent->ranges().size(), 1U);
+    std::vector<double> force(400, 0.5);
+    for (std::size_t k = 100; k < 150; ++k) force[k] = 1.5;
+    force.insert(force.end(), static_cast<std::size_t>(afferent->delay()), 0.5);
+    for (const std::size_t block : {std::size_t{1}, std::size_t{33}, force.size()}) {
+        std::vector<Spike> spikes;
+        std::vector<RangeViolation> outside(1);
+        ResponseBlock answer{spikes};
+        answer.range_violations = outside;
+        auto state = afferent->start();
+        for (std::size_t k = 0; k < force.size(); k += block)
+            ASSERT_TRUE(afferent->respond(std::span(force).subspan(k, std::min(block, force.size() - k)), state, answer));
+        EXPECT_EQ(outside[0].samples, 50) << block;
+        EXPECT_EQ(outside[0].first_sample, 100) << block;
+    }
+}
+
+TEST(OperatingRange, RespondWarnsOnce) {
+    const test::Folder folder;
+    folder.write("f.cir", follower);
+    const auto ran = test::run(folder, "respond press --afferent f.cir --quiet");
+    EXPECT_EQ(ran.status, 0);
+    EXPECT_NE(ran.err.find("warning: f.cir on press: v(f) was outside -1 V to 1 V for"), std::string::npos) << ran.err;
+    EXPECT_NE(ran.err.find(": too much force"), std::string::npos) << ran.err;
+    EXPECT_EQ(test::run(folder, "respond press --afferent f.cir --quiet --set press.F_max=0.9N").err, "");
+}
+
+TEST(OperatingRange, WhatIsMissingOrWrongIsToldByItsPlace) {
+    const auto refusal = [](const std::string& line) {
+        const auto made = CircuitAfferentFactory::create(test::sure(parsed("t\nvf f 0 force 1\nr1 f 0 1\n.spike v(f) 1\n" + line + "\n")));
+        return made ? std::string() : made.error().message;
+    };
+    EXPECT_EQ(refusal(".within v(f) 0 1"), "");
+    EXPECT_NE(refusal(".within v(g) 0 1").find("v(g)"), std::string::npos);
+    EXPECT_EQ(refusal(".within v(f) 1 0"), ".within: 1 to 0: the first must be below the second");
+    EXPECT_EQ(refusal(".within v(f) 1"), ".within: the highest value is missing");
+    EXPECT_NE(refusal(".within v(f) 0 1 loud").find("'loud' must be a message in double quotes"), std::string::npos);
+    EXPECT_NE(refusal(".within v(f) 0 1 \"a\" \"b\"").find("unexpected '\"b\"'"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace corpuscle::circuit
