@@ -15,7 +15,7 @@
 #include <map>
 #include <string>
 
-#include "circuit/batch/chips.hpp"
+#include "circuit/batch/chip_batch.hpp"
 #include "circuit/embedded_netlists.hpp"
 #include "signal/stimuli.hpp"
 
@@ -28,15 +28,15 @@ constexpr double T = 1e-4;
 
 double seconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
-using Answers = std::map<std::int64_t, ChipAnswer>;
+using Answers = std::map<std::int64_t, ChipResponse>;
 
 
 void tell(const Answers& answers, double took) {
     long steps = 0, rejected = 0, iterations = 0, most = 0, left = 0, lost = 0;
     std::map<std::size_t, int> counts;
     for (const auto& [number, a] : answers) {
-        steps += a.work.steps, rejected += a.work.rejected, iterations += a.work.iterations, most = std::max(most, a.work.iterations);
-        left += a.alone, lost += a.error.has_value(), ++counts[a.spikes.size()];
+        steps += a.stats.steps, rejected += a.stats.rejected, iterations += a.stats.iterations, most = std::max(most, a.stats.iterations);
+        left += a.is_scalar, lost += a.error.has_value(), ++counts[a.spikes.size()];
     }
     const auto chips = static_cast<double>(answers.size());
     std::printf(
@@ -54,8 +54,8 @@ void compare(const Answers& lanes, const Answers& alone) {
     std::vector<double> apart;
     for (const auto& [number, a] : lanes) {
         const auto& b = alone.at(number);
-        other_steps += a.work.steps != b.work.steps || a.work.rejected != b.work.rejected;
-        steps += std::labs(a.work.steps - b.work.steps) + std::labs(a.work.rejected - b.work.rejected), of += b.work.steps;
+        other_steps += a.stats.steps != b.stats.steps || a.stats.rejected != b.stats.rejected;
+        steps += std::labs(a.stats.steps - b.stats.steps) + std::labs(a.stats.rejected - b.stats.rejected), of += b.stats.steps;
         if (a.spikes.size() != b.spikes.size()) {
             ++other_counts;
             continue;
@@ -97,13 +97,13 @@ int main(int argc, char** argv) {
     double began = seconds();
     const auto done = run_chips(
         *design, [&]() -> std::optional<Chip> { return next < count ? std::optional(chip(next++)) : std::nullopt; },
-        [&](const Chip& c, ChipAnswer&& a) { lanes.emplace(c.number, std::move(a)); }, options);
+        [&](const Chip& c, ChipResponse&& a) { lanes.emplace(c.id, std::move(a)); }, options);
     if (!done) return std::fprintf(stderr, "%s\n", done.error().text().c_str()), 1;
     std::printf("on lanes, ");
     tell(lanes, seconds() - began);
     if (argc < 5) return 0;
     began = seconds();
-    for (std::int64_t k = 0; k < count; ++k) alone.emplace(k, run_chip_alone(chip(k), options));
+    for (std::int64_t k = 0; k < count; ++k) alone.emplace(k, run_chip_scalar(chip(k), options));
     std::printf("alone, ");
     tell(alone, seconds() - began);
     compare(lanes, alone);

@@ -38,13 +38,13 @@ int main(int argc, char** argv) {
     if (kind == nullptr) return std::fputs("bench-calibrate sa1|fa1 [CHIPS] [BITS] [SEED] [TRIM ...]\n", stderr), 2;
     const int count = argc > 2 ? std::atoi(argv[2]) : 64, bits = argc > 3 ? std::atoi(argv[3]) : 4;
     const circuit::ChipSpec drawn{static_cast<double>(count), argc > 4 ? std::strtoull(argv[4], nullptr, 10) : 1};
-    std::vector<circuit::Draw> chips;
+    std::vector<circuit::ChipSample> chips;
     for (int k = 0; k < count; ++k) chips.push_back(drawn.sample(static_cast<std::uint64_t>(k)));
 
     ChipCalibration asked;
     asked.netlist = std::string(kind->model) + "-circuit", asked.bits = bits;
     asked.knobs = {{"corner", "mc", "corner=mc"}};
-    asked.batch.most_iterations = 60'000;
+    asked.batch.max_iterations = 60'000;
     const auto press = stimulus("press");
     asked.force = press.force, asked.T = 1 / press.rate;
     const TimeWindow phases[] = {{0, 0.25}, {0.25, 0.375}, {0.375, 0.625}, {0.625, 0.75}, {0.75, 1}};

@@ -13,7 +13,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "circuit/analysis/bench.hpp"
+#include "circuit/analysis/analysis_context.hpp"
 #include "circuit/device/uicm_card.hpp"
 
 namespace {
@@ -26,20 +26,20 @@ struct Work {
     std::vector<double> sum, squares;
 };
 
-Work round_of(TestBench& bench, std::uint64_t chips) {
+Work round_of(AnalysisContext& bench, std::uint64_t chips) {
     Work work;
     const auto nodes = static_cast<std::size_t>(bench.system.nodes());
     work.sum.resize(nodes), work.squares.resize(nodes);
     for (std::uint64_t chip = 0; chip < chips; ++chip) {
-        Draw draw{1, chip, true, {}};
-        std::copy_n(process_deviates(draw.seed, chip).of, 4, draw.process);
-        bench.draw(draw);
-        const auto found = bench.rest();
+        ChipSample draw{1, chip, true, {}};
+        std::copy_n(sample_process(draw.seed, chip).values, 4, draw.process);
+        bench.apply_variation(draw);
+        const auto found = bench.operating_point();
         if (!found) {
             ++work.lost;
             continue;
         }
-        work.steps += found->iterations, work.detours += found->how != "newton";
+        work.steps += found->iterations, work.detours += found->method != "newton";
         for (std::size_t n = 0; n < nodes; ++n) work.sum[n] += found->x[n], work.squares[n] += found->x[n] * found->x[n];
     }
     return work;
@@ -54,7 +54,7 @@ int main(int argc, char** argv) {
     if (!netlist) return std::fprintf(stderr, "%s\n", netlist.error().text().c_str()), 1;
     auto circuit = netlist->elaborate();
     if (!circuit) return std::fprintf(stderr, "%s\n", circuit.error().text().c_str()), 1;
-    auto bench = TestBench::make(std::make_shared<const Circuit>(std::move(*circuit)));
+    auto bench = AnalysisContext::make(std::make_shared<const Circuit>(std::move(*circuit)));
     if (!bench) return std::fprintf(stderr, "%s\n", bench.error().text().c_str()), 1;
     std::vector<double> us;
     Work work;
@@ -67,7 +67,7 @@ int main(int argc, char** argv) {
     std::printf(
         "%llu chips: %.2f us each (%.2f ... %.2f), %.2f Newton steps each, %ld by another way, %ld lost, %ld matrices beside the list\n",
         static_cast<unsigned long long>(chips), us[us.size() / 2], us.front(), us.back(),
-        static_cast<double>(work.steps) / static_cast<double>(chips), work.detours, work.lost, (*bench)->newton.solver.strayed());
+        static_cast<double>(work.steps) / static_cast<double>(chips), work.detours, work.lost, (*bench)->newton.linear_solver.fallback_count());
     const double count = static_cast<double>(chips) - static_cast<double>(work.lost);
     for (std::size_t n = 0; n < work.sum.size(); ++n) {
         const double mean = work.sum[n] / count;

@@ -16,7 +16,7 @@
 #include <ctime>
 #include <functional>
 
-#include "circuit/analysis/beginning.hpp"
+#include "circuit/analysis/initial_condition.hpp"
 #include "circuit/analysis/transient_plan.hpp"
 
 namespace {
@@ -46,7 +46,7 @@ double median(std::vector<double> times) {
 
 struct Second {
     std::vector<double> times;  // of each round
-    TransientWork work;
+    TransientStats work;
     double reltol = 0;
     std::vector<double> spikes;  // s
     std::vector<std::vector<double>> points;
@@ -54,34 +54,34 @@ struct Second {
 };
 
 /// One second, `rounds` times from the same start.
-Result<Second> second_of(TestBench& bench, int rounds, bool quiet) {
+Result<Second> second_of(AnalysisContext& bench, int rounds, bool quiet) {
     Second out;
     const int spiking = bench.system.unknown("v(s)");
     TransientPlan plan;
-    plan.stop = seconds, plan.longest = seconds / 50;
+    plan.stop = seconds, plan.max_step = seconds / 50;
     out.reltol = plan.reltol;
     for (int round = 0; round < rounds; ++round) {
-        bench.system.go(1e-3, seconds);
-        if (auto* force = bench.system.device("if"); quiet && force != nullptr) force->go(0, 0), force->set(quiet_force);
-        const auto from = beginning(bench, false);
+        bench.system.start_transient(1e-3, seconds);
+        if (auto* force = bench.system.device("if"); quiet && force != nullptr) force->start_transient(0, 0), force->set_principal_value(quiet_force);
+        const auto from = find_initial_condition(bench, false);
         if (!from) return from.error();
         out.spikes.clear(), out.points.clear(), out.at.clear();
         Transient transient(bench.system, bench.newton, plan);
         const long apart = std::max(1L, out.work.steps / static_cast<long>(points_kept));
         const double start = now();
-        if (auto ok = transient.begin(from->x, from->settled); !ok) return ok.error();
+        if (auto ok = transient.begin(from->x, from->is_consistent); !ok) return ok.error();
         while (transient.time() < seconds) {
             if (const auto ok = transient.step(seconds); !ok) return ok.error();
             if (const auto at = transient.crossing(spiking, -1, level, true)) out.spikes.push_back(*at);
-            if (round > 0 && transient.work().steps % apart == 0) {
+            if (round > 0 && transient.stats().steps % apart == 0) {
                 out.points.emplace_back(transient.x().begin(), transient.x().end());
                 out.at.push_back(transient.time());
             }
         }
         out.times.push_back(now() - start);
-        bench.newton.instant.charges = false;
-        bench.system.go(0, 0);
-        out.work = transient.work();
+        bench.newton.context.with_charges = false;
+        bench.system.start_transient(0, 0);
+        out.work = transient.stats();
     }
     return out;
 }
@@ -102,15 +102,15 @@ struct Parts {
     long strayed = 0;
 };
 
-Parts parts_of(const TestBench& bench, const Second& run, int rounds) {
+Parts parts_of(const AnalysisContext& bench, const Second& run, int rounds) {
     Parts out;
-    Instant at;
+    EvalContext at;
     at.gmin = bench.tolerances.gmin;
-    auto memory = bench.system.fresh_memory();
-    Sums sums;
+    auto memory = bench.system.initial_limiting_state();
+    SystemEvaluation sums;
     const auto count = run.points.size(), entries = bench.system.pattern().entries();
-    const Group& transistors = bench.system.groups()[0];
-    const auto n = transistors.terminals, room = transistors.room;
+    const DeviceGroup& transistors = bench.system.groups()[0];
+    const auto n = transistors.terminals, room = transistors.stride;
     struct alignas(64) Line {
         double of[8];
     };
@@ -122,7 +122,7 @@ Parts parts_of(const TestBench& bench, const Second& run, int rounds) {
                 const int u = transistors.unknowns[m * n + j];
                 v[j * room + m] = u < 0 ? 0 : run.points[k][static_cast<std::size_t>(u)];
             }
-        transistors.bank->eval(at, {room, v, f, df, nullptr, q, df + n * n * room, 1e5});
+        transistors.batch->eval(at, {room, v, f, df, nullptr, q, df + n * n * room, 1e5});
     });
     std::vector<std::vector<double>> matrices;
     for (std::size_t k = 0; k < count; ++k) {
@@ -131,18 +131,18 @@ Parts parts_of(const TestBench& bench, const Second& run, int rounds) {
         matrices.emplace_back(entries);
         for (std::size_t e = 0; e < entries; ++e) matrices.back()[e] = sums.G[e] + sums.C[e] / step;
     }
-    Solver<double> solver(bench.system.pattern());
+    LinearSolver<double> solver(bench.system.pattern());
     std::vector<double> b(static_cast<std::size_t>(bench.system.size()), 1e-9);
     const auto factors = [&](std::size_t k) { (void)solver.factor(matrices[k]); };
     const auto solves = [&](std::size_t) { solver.solve(b), b.assign(b.size(), 1e-9); };
     out.factor = each(rounds, count, factors), out.solve = each(rounds, count, solves);
-    solver.settle(matrices[count / 2]);
+    solver.fix_pivot_order(matrices[count / 2]);
     out.factor_listed = each(rounds, count, factors), out.solve_listed = each(rounds, count, solves);
-    out.strayed = solver.strayed() / rounds;
+    out.strayed = solver.fallback_count() / rounds;
     return out;
 }
 
-void report(const TestBench& bench, const Second& whole, const Second& quiet, const Parts& parts) {
+void report(const AnalysisContext& bench, const Second& whole, const Second& quiet, const Parts& parts) {
     const auto row = [](const char* what, const Second& s) {
         std::printf("%s, to %g a step: %ld steps, %ld rejected, %ld Newton iterations, %zu spikes", what, s.reltol, s.work.steps,
                     s.work.rejected, s.work.iterations, s.spikes.size());
@@ -180,7 +180,7 @@ int main(int argc, char** argv) {
     if (!netlist) return fail(netlist.error());
     auto circuit = netlist->elaborate();
     if (!circuit) return fail(circuit.error());
-    auto bench = TestBench::make(std::make_shared<const Circuit>(std::move(*circuit)));
+    auto bench = AnalysisContext::make(std::make_shared<const Circuit>(std::move(*circuit)));
     if (!bench) return fail(bench.error());
     if ((*bench)->system.unknown("v(s)") < 0) return std::fputs("bench-loop: the netlist has no node s\n", stderr), 1;
     const auto whole = second_of(**bench, rounds, false);

@@ -13,7 +13,7 @@
 #include <map>
 #include <string>
 
-#include "circuit/analysis/beginning.hpp"
+#include "circuit/analysis/initial_condition.hpp"
 #include "circuit/device/uicm_card.hpp"
 #include "circuit/netlist_variants.hpp"
 
@@ -52,16 +52,16 @@ int main(int argc, char** argv) {
     if (!netlist) return std::fprintf(stderr, "%s\n", netlist.error().text().c_str()), 1;
     auto circuit = netlist->elaborate();
     if (!circuit) return std::fprintf(stderr, "%s\n", circuit.error().text().c_str()), 1;
-    auto bench = TestBench::make(std::make_shared<const Circuit>(std::move(*circuit)));
+    auto bench = AnalysisContext::make(std::make_shared<const Circuit>(std::move(*circuit)));
     if (!bench) return std::fprintf(stderr, "%s\n", bench.error().text().c_str()), 1;
     const ChipSpec drawn{chips, argc > 3 ? std::strtoull(argv[3], nullptr, 10) : 1};
     for (const bool held : {false, true}) {
         std::map<std::string, Way> ways;
         for (std::uint64_t k = 0; static_cast<double>(k) < chips; ++k) {
-            (*bench)->draw(drawn.sample(k));
+            (*bench)->apply_variation(drawn.sample(k));
             const double start = now();
-            const auto found = held ? (*bench)->rest_held() : (*bench)->rest();
-            auto& way = ways[found ? std::string(found->how) : "lost"];
+            const auto found = held ? (*bench)->initial_operating_point() : (*bench)->operating_point();
+            auto& way = ways[found ? std::string(found->method) : "lost"];
             way.seconds += now() - start;
             way.steps.push_back((*bench)->newton.iterations);
         }

@@ -27,7 +27,7 @@ constexpr std::size_t count = 512, rounds = 64;
 
 double one_by_one(const UicmConstants& constants, const double* const (&v)[4], std::size_t points, std::size_t times) {
     const Uicm<double> device(constants);
-    UicmAnswer<double> answer;
+    UicmEvaluation<double> answer;
     double sum = 0;
     for (std::size_t round = 0; round < times; ++round)
         for (std::size_t k = 0; k < points; ++k) {

@@ -17,7 +17,7 @@
 #include <mutex>
 #include <numeric>
 
-#include "circuit/batch/chips.hpp"
+#include "circuit/batch/chip_batch.hpp"
 #include "circuit/device/uicm_card.hpp"
 #include "circuit/netlist_overrides.hpp"
 #include "corpuscle.hpp"
@@ -43,7 +43,7 @@ Trains pressed(const std::shared_ptr<const CircuitAfferentFactory>& design, cons
     std::mutex guard;
     std::size_t next = 0;
     BatchOptions options;
-    options.most_iterations = 200'000;
+    options.max_iterations = 200'000;
     ThreadPool pool;
     pool.for_each(pool.threads(), [&](std::size_t, unsigned) {
         const auto done = run_chips(
@@ -54,10 +54,10 @@ Trains pressed(const std::shared_ptr<const CircuitAfferentFactory>& design, cons
                 const auto k = next++;
                 return Chip{static_cast<std::int64_t>(k), design, chips.sample(k), press.force, 1 / press.rate};
             },
-            [&](const Chip& chip, ChipAnswer&& answer) {
+            [&](const Chip& chip, ChipResponse&& answer) {
                 if (answer.error)
-                    std::fprintf(stderr, "chip %lld: %s\n", static_cast<long long>(chip.number), answer.error->text().c_str());
-                out[static_cast<std::size_t>(chip.number)] = std::move(answer.spikes);
+                    std::fprintf(stderr, "chip %lld: %s\n", static_cast<long long>(chip.id), answer.error->text().c_str());
+                out[static_cast<std::size_t>(chip.id)] = std::move(answer.spikes);
             },
             options);
         if (!done) std::fprintf(stderr, "%s\n", done.error().text().c_str());
@@ -128,7 +128,7 @@ int main(int argc, char** argv) {
         if (e.letter != 'm') continue;
         std::vector<double> threshold, current;
         for (std::size_t k = 0; k < before.size(); ++k) {
-            const auto own = mismatch(card, square, chips.seed, number, k);
+            const auto own = sample_mismatch(card, square, chips.seed, number, k);
             threshold.push_back(own.V_T), current.push_back(std::log(own.factor));
         }
         shares.push_back({&e, correlation(order, threshold), correlation(order, current)});
@@ -149,7 +149,7 @@ int main(int argc, char** argv) {
     const auto larger = design_of(netlist, all);
     tell("all three", pressed(larger, chips, press), limits);
     const auto plain = [&](const std::shared_ptr<const CircuitAfferentFactory>& design) {
-        return run_chip_alone({0, design, {}, press.force, 1 / press.rate}, {}).spikes.size();
+        return run_chip_scalar({0, design, {}, press.force, 1 / press.rate}, {}).spikes.size();
     };
     fmt::print("without mismatch: {} spikes as designed, {} with all three\n", plain(designed), plain(larger));
 }

@@ -75,7 +75,7 @@ std::vector<Entry> afferent_entries() {
 /// The contents of netlists: devices by letter, parameters of .model and M lines, analyses.
 std::vector<Section> circuit_sections() {
     using namespace circuit;
-    const CatalogEntry card{UicmCard::name, UicmCard::sentence, UicmCard::source, parameters_of<UicmCard>(UicmCard::fields)};
+    const CatalogEntry card{UicmCard::name, UicmCard::description, UicmCard::source, parameters_of<UicmCard>(UicmCard::fields)};
     const CatalogEntry size{"m", "transistor size: the parameters of an M line", "choice: 1 um / 1 um",
                     parameters_of<UicmInstance>(UicmInstance::fields)};
     std::vector<Entry> elements, analysis_entries;

@@ -64,7 +64,7 @@ Json document_of(const VariantResult& result) {
     }
     for (const auto& a : outcome.analyses) {
         Json one = {{"analysis", a.directive->name}, {"points", a.point_count}};
-        for (const auto& [quantity, count] : a.result.work) one[quantity] = static_cast<std::int64_t>(count);
+        for (const auto& [quantity, count] : a.result.stats) one[quantity] = static_cast<std::int64_t>(count);
         analyses.push_back(one);
     }
     for (const auto& [name, value] : outcome.numbers) numbers[name] = json_number(value);
@@ -206,21 +206,21 @@ std::size_t analyses_of(const Circuit& circuit) {
 }
 
 /// Creates the analysis context of a variant, or reuses the last one if the circuit is the same.
-Result<void> prepare(std::unique_ptr<TestBench>& context, const Variant& variant, bool brief) {
+Result<void> prepare(std::unique_ptr<AnalysisContext>& context, const Variant& variant, bool brief) {
     if (!context || context->circuit != variant.circuit) {
-        auto made = TestBench::make(variant.circuit);
+        auto made = AnalysisContext::make(variant.circuit);
         if (!made) return made.error();
         context = std::move(*made);
     }
-    context->brief = brief;
-    if (variant.sample) context->draw(*variant.sample);
+    context->is_brief = brief;
+    if (variant.sample) context->apply_variation(*variant.sample);
     return {};
 }
 
 Result<void> run_all(NetlistVariants& variants, const RunWords& w, const Common& common, VariantPrinter& printer, CurveFiles& files) {
     const auto count = variants.count();
     Progress progress(common.quiet);
-    std::unique_ptr<TestBench> context;
+    std::unique_ptr<AnalysisContext> context;
     for (std::size_t k = 0; k < count; ++k) {
         auto variant = variants.at(k);
         if (!variant) return variant.error();

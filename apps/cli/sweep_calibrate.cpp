@@ -67,7 +67,7 @@ Result<void> set_target(ChipCalibration& calibration, const std::string& model, 
 Result<std::vector<CalibrationTold>> run_calibrations(ChipCalibration& calibration, const std::vector<Trim>& trims,
                                                       const SweepCalibrateWords& words) {
     const circuit::ChipSpec sampler{static_cast<double>(words.units), words.seed};
-    std::vector<circuit::Draw> chips;
+    std::vector<circuit::ChipSample> chips;
     for (std::int64_t k = 0; k < words.units; ++k) chips.push_back(sampler.sample(static_cast<std::uint64_t>(k)));
     std::vector<std::vector<Trim>> sets = {trims};
     if (words.apart && trims.size() > 1)
@@ -93,8 +93,8 @@ Result<void> calibrate_as(const SweepCalibrateWords& words, const Common& common
     ChipCalibration calibration;
     calibration.netlist = words.netlist, calibration.bits = words.bits, calibration.threads = words.threads;
     calibration.knobs = {{"corner", words.corner, "--corner " + words.corner}};
-    calibration.batch.most_iterations = 60'000;
-    calibration.batch.stop = interrupted;
+    calibration.batch.max_iterations = 60'000;
+    calibration.batch.should_stop = interrupted;
     if (auto ok = set_target(calibration, words.like.empty() ? known->model : words.like, words); !ok) return ok;
     std::vector<Trim> trims;
     for (const auto& text :

@@ -1,22 +1,22 @@
 #pragma once
 // All analyses, by directive name. To add one, add its declaration and its line.
 
-#include "circuit/analysis/bench.hpp"
+#include "circuit/analysis/analysis_context.hpp"
 
 namespace corpuscle::circuit {
 
-Result<Findings> analyse_op(TestBench&, const Directive&);
-Result<Findings> analyse_dc(TestBench&, const Directive&);
-Result<Findings> analyse_ac(TestBench&, const Directive&);
-Result<Findings> analyse_noise(TestBench&, const Directive&);
-Result<Findings> analyse_tran(TestBench&, const Directive&);
-Result<Findings> analyse_tf(TestBench&, const Directive&);
-Result<Findings> analyse_sens(TestBench&, const Directive&);
+Result<AnalysisResult> analyse_op(AnalysisContext&, const Directive&);
+Result<AnalysisResult> analyse_dc(AnalysisContext&, const Directive&);
+Result<AnalysisResult> analyse_ac(AnalysisContext&, const Directive&);
+Result<AnalysisResult> analyse_noise(AnalysisContext&, const Directive&);
+Result<AnalysisResult> analyse_tran(AnalysisContext&, const Directive&);
+Result<AnalysisResult> analyse_tf(AnalysisContext&, const Directive&);
+Result<AnalysisResult> analyse_sens(AnalysisContext&, const Directive&);
 
 /// An analysis: the name of its directive, its syntax, a description for help, and its function.
 struct Analysis {
     std::string_view name, usage, description;
-    Result<Findings> (*run)(TestBench&, const Directive&);
+    Result<AnalysisResult> (*run)(AnalysisContext&, const Directive&);
 };
 
 inline constexpr Analysis analyses[] = {

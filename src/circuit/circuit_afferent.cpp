@@ -57,7 +57,7 @@ class CircuitAfferent final : public Afferent {
     std::shared_ptr<const CircuitAfferentFactory> design_;
     double T_;
     bool sampled_;
-    std::optional<Draw> chip_;
+    std::optional<ChipSample> chip_;
     std::int64_t delay_;
     std::string format_;
     std::vector<Probe> probes_;
@@ -85,9 +85,9 @@ class CircuitAfferent final : public Afferent {
     Result<void> simulate_samples(StreamingTransient&, std::int64_t from, std::int64_t to, ResponseBlock&) const;
 
 public:
-    CircuitAfferent(std::shared_ptr<const CircuitAfferentFactory> design, double dt, bool sampled, std::optional<Draw> chip)
+    CircuitAfferent(std::shared_ptr<const CircuitAfferentFactory> design, double dt, bool sampled, std::optional<ChipSample> chip)
         : design_(std::move(design)), T_(dt), sampled_(sampled), chip_(std::move(chip)),
-          delay_(static_cast<std::int64_t>(std::ceil(2.1 * design_->plan.longest / dt)) + ForceWaveform::lookahead + 2),
+          delay_(static_cast<std::int64_t>(std::ceil(2.1 * design_->plan.max_step / dt)) + ForceWaveform::lookahead + 2),
           format_(fmt::format("netlist {:016x}/2{}, T = {} s", design_->fingerprint,
                               chip_ ? fmt::format(", chip {} of {}", chip_->chip + 1, chip_->seed) : "", dt)) {
         for (const auto& s : design_->probes) probes_.push_back({s.name, s.is_voltage() ? "V" : "A"});
@@ -169,10 +169,10 @@ Result<std::shared_ptr<const CircuitAfferentFactory>> CircuitAfferentFactory::cr
 }
 
 Result<std::shared_ptr<const CircuitAfferentFactory>> CircuitAfferentFactory::create(std::shared_ptr<const Circuit> circuit) {
-    const auto context = TestBench::make(circuit);
+    const auto context = AnalysisContext::make(circuit);
     if (!context) return context.error();
     const SourceLocation place{circuit->file};
-    const auto plan = transient_plan(*circuit);
+    const auto plan = read_transient_plan(*circuit);
     if (!plan) return plan.error();
     const auto output = read_spike_output((*context)->system);
     if (!output) return output.error();
@@ -180,7 +180,7 @@ Result<std::shared_ptr<const CircuitAfferentFactory>> CircuitAfferentFactory::cr
     if (!probes) return probes.error();
     auto ranges = read_operating_ranges((*context)->system);
     if (!ranges) return ranges.error();
-    if (!(*context)->system.hear(nullptr))
+    if (!(*context)->system.set_force_input(nullptr))
         return bad_input("no source carries a force; add one, such as 'iin 0 fin force 60n' (60 nA per newton)", place);
     if (!*output) return bad_input("no .spike directive defines the spike output; add '.spike v(NODE) LEVEL [rise|fall]'", place);
     auto design = std::make_shared<CircuitAfferentFactory>();
@@ -191,7 +191,7 @@ Result<std::shared_ptr<const CircuitAfferentFactory>> CircuitAfferentFactory::cr
             design->chips = *chips;
         }
         if (c.name != "tran") continue;
-        const auto times = transient_times(c);
+        const auto times = read_transient_times(c);
         if (!times) return times.error();
         design->times = *times;
     }
@@ -200,7 +200,7 @@ Result<std::shared_ptr<const CircuitAfferentFactory>> CircuitAfferentFactory::cr
     design->circuit = std::move(circuit), design->plan = *plan, design->spike_output = **output, design->probes = std::move(*probes),
     design->operating_ranges = std::move(*ranges);
     design->plan.reported = interpolated_unknowns(*design);
-    design->plan.longest = design->times.longest.value_or(default_max_step);
+    design->plan.max_step = design->times.max_step.value_or(default_max_step);
     design->fingerprint = fingerprint_of(*design->circuit);
     return std::shared_ptr<const CircuitAfferentFactory>(std::move(design));
 }
@@ -216,7 +216,7 @@ std::unique_ptr<Afferent> CircuitAfferentFactory::make(double dt, bool sampled, 
     return std::make_unique<CircuitAfferent>(shared_from_this(), dt, sampled, chip);
 }
 
-std::unique_ptr<Afferent> CircuitAfferentFactory::make(double dt, const std::optional<Draw>& chip) const {
+std::unique_ptr<Afferent> CircuitAfferentFactory::make(double dt, const std::optional<ChipSample>& chip) const {
     return std::make_unique<CircuitAfferent>(shared_from_this(), dt, false, chip);
 }
 

@@ -24,7 +24,7 @@ public:
     std::string_view title() const override { return circuit->title; }
     std::vector<std::pair<std::string, std::string>> labels() const override;
     std::unique_ptr<Afferent> make(double dt, bool sampled, std::uint32_t copy = 0) const override;
-    std::unique_ptr<Afferent> make(double dt, const std::optional<Draw>& chip) const;
+    std::unique_ptr<Afferent> make(double dt, const std::optional<ChipSample>& chip) const;
 
     std::optional<Netlist> netlist;  ///< the source of the circuit, with its overrides
     std::shared_ptr<const Circuit> circuit;

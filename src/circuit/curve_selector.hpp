@@ -1,7 +1,7 @@
 #pragma once
 // Selects some curves of a plot, such as those that .save names.
 
-#include "circuit/analysis/bench.hpp"
+#include "circuit/analysis/analysis_context.hpp"
 #include "circuit/curve_view.hpp"
 
 namespace corpuscle::circuit {

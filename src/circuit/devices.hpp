@@ -12,12 +12,12 @@ namespace corpuscle::circuit {
 struct DeviceKind {
     char letter;
     std::string_view description;
-    Result<std::unique_ptr<Device>> (*make)(const Element&, Setup&);
+    Result<std::unique_ptr<Device>> (*make)(const Element&, DeviceSetup&);
     /// At 0 Hz. conducts: the current depends, or may depend, on the voltage across the device. fixes_voltage: the device fixes the
     /// voltage between its first two terminals.
     bool conducts_dc, fixes_voltage;
     /// Makes the batch that evaluates devices of this kind together. If null, they are evaluated one by one.
-    Result<std::unique_ptr<Bank>> (*make_batch)() = nullptr;
+    Result<std::unique_ptr<DeviceBatch>> (*make_batch)() = nullptr;
 };
 
 inline constexpr DeviceKind devices[] = {
@@ -32,7 +32,7 @@ inline constexpr DeviceKind devices[] = {
     {'h', "voltage source controlled by a current", make_controlled_source, true, true},
     {'b', "voltage or current source with an expression", make_formula_source, true, false},
     {'d', "junction diode", make_diode, true, false},
-    {'m', "MOS transistor, UICM", make_transistor, true, false, make_transistor_bank},
+    {'m', "MOS transistor, UICM", make_transistor, true, false, make_transistor_batch},
 };
 
 /// The device of this letter; null if there is none.

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "circuit/analysis/bench.hpp"
+#include "circuit/analysis/analysis_context.hpp"
 #include "circuit/netlist/spice_number.hpp"
 #include "signal/stimuli.hpp"
 #include "signal/ascii_text.hpp"

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "circuit/analysis/bench.hpp"
+#include "circuit/analysis/analysis_context.hpp"
 #include "circuit/device/uicm_card.hpp"
 #include "circuit/netlist/spice_number.hpp"
 
@@ -18,8 +18,8 @@ Error too_many(const Directive& c, double count) {
 }
 
 Result<std::vector<double>> linear_values(const Directive& c, std::size_t word) {
-    const auto from = number_of(c, word, "the first value"), to = number_of(c, word + 1, "the last value"),
-               step = number_of(c, word + 2, "a step");
+    const auto from = read_number(c, word, "the first value"), to = read_number(c, word + 1, "the last value"),
+               step = read_number(c, word + 2, "a step");
     for (const auto* number : {&from, &to, &step})
         if (!*number) return number->error();
     const double count = std::floor((*to - *from) / *step + 1e-9);
@@ -31,8 +31,8 @@ Result<std::vector<double>> linear_values(const Directive& c, std::size_t word) 
 }
 
 Result<std::vector<double>> log_values(const Directive& c, std::size_t word, double base) {
-    const auto from = number_of(c, word, "the first value"), to = number_of(c, word + 1, "the last value"),
-               points = number_of(c, word + 2, "the number of points");
+    const auto from = read_number(c, word, "the first value"), to = read_number(c, word + 1, "the last value"),
+               points = read_number(c, word + 2, "the number of points");
     for (const auto* number : {&from, &to, &points})
         if (!*number) return number->error();
     if (!(*from > 0 && *to >= *from && *points >= 1))
@@ -50,7 +50,7 @@ Result<std::vector<double>> log_values(const Directive& c, std::size_t word, dou
 
 Result<ChipSpec> parse_chip_spec(const Directive& c) {
     ChipSpec out;
-    const auto count = number_of(c, 0, "the number of chips");
+    const auto count = read_number(c, 0, "the number of chips");
     if (!count) return count.error();
     out.count = *count;
     for (std::size_t k = 1; k < c.words.size(); ++k) {
@@ -70,13 +70,13 @@ Result<ChipSpec> parse_chip_spec(const Directive& c) {
     return out;
 }
 
-Draw ChipSpec::sample(std::uint64_t chip) const {
-    Draw out{seed, first_chip + chip, has_mismatch, {}};
-    if (has_process) std::copy_n(process_deviates(seed, first_chip + chip).of, 4, out.process);
+ChipSample ChipSpec::sample(std::uint64_t chip) const {
+    ChipSample out{seed, first_chip + chip, has_mismatch, {}};
+    if (has_process) std::copy_n(sample_process(seed, first_chip + chip).values, 4, out.process);
     return out;
 }
 
-std::optional<Draw> chip_sample_of(const Circuit& c) {
+std::optional<ChipSample> chip_sample_of(const Circuit& c) {
     if (!c.mismatch_seed) return {};
     return ChipSpec{1, *c.mismatch_seed, true, true, c.chip}.sample(0);
 }
@@ -101,7 +101,7 @@ Result<NetlistVariants> NetlistVariants::create(const Netlist& netlist) {
             ++at;
             if (word() == "list") {
                 for (++at; at < c.words.size(); ++at) {
-                    const auto value = number_of(c, at, "a value");
+                    const auto value = read_number(c, at, "a value");
                     if (!value) return value.error();
                     axis.values.push_back(*value);
                 }

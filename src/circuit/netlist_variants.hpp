@@ -12,7 +12,7 @@ namespace corpuscle::circuit {
 struct Variant {
     std::string label;                       ///< "r=1000", "temp=85", "mc=17", separated by blanks; "" if there is only one variant
     std::shared_ptr<const Circuit> circuit;  ///< shared with the previous variant if only the chip differs
-    std::optional<Draw> sample;
+    std::optional<ChipSample> sample;
 };
 
 /// The chips that a .mc line requests.
@@ -22,12 +22,12 @@ struct ChipSpec {
     bool has_process = true, has_mismatch = true;
     std::uint64_t first_chip = 0;  ///< number of the first chip
 
-    Draw sample(std::uint64_t chip) const;  ///< `chip` counts from `first_chip`
+    ChipSample sample(std::uint64_t chip) const;  ///< `chip` counts from `first_chip`
 };
 /// Reads a .mc line.
 Result<ChipSpec> parse_chip_spec(const Directive&);
 /// The sample of the circuit's chip; nothing if the circuit has no mismatch seed.
-std::optional<Draw> chip_sample_of(const Circuit&);
+std::optional<ChipSample> chip_sample_of(const Circuit&);
 
 /// All combinations of the values of .step with the chips of .mc:
 ///     .step param NAME FROM TO STEP | .step param NAME list A B ... | .step dec|oct param NAME FROM TO POINTS

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "circuit/device/uicm_card.hpp"
-#include "circuit/device/values.hpp"
+#include "circuit/device/named_values.hpp"
 #include "circuit/netlist/spice_number.hpp"
 #include "signal/quantity.hpp"
 

@@ -7,9 +7,9 @@ namespace {
 
 Result<OperatingRange> parse_range(const System& system, const Directive& c) {
     constexpr std::string_view syntax = ".within v(NODE) LOW HIGH [\"MESSAGE\"]";
-    const auto of = wanted_of(system, c, 0);
+    const auto of = read_output_variable(system, c, 0);
     if (!of) return of.error();
-    const auto low = number_of(c, 1, "the lowest value"), high = number_of(c, 2, "the highest value");
+    const auto low = read_number(c, 1, "the lowest value"), high = read_number(c, 2, "the highest value");
     if (!low) return low.error();
     if (!high) return high.error();
     if (!(*low < *high)) return error_at(c, 1, fmt::format(".within: {:g} to {:g}: the first must be below the second", *low, *high));

@@ -35,24 +35,24 @@ Plot expected_curves(const System& system, const DeviceCurrents& currents, const
     if (c.name == "sens") {
         Plot plot{"Sensitivity Analysis", false, false, {}};
         for (const auto& d : system.devices())
-            if (d->setting()) plot.curves.push_back({d->name, "notype", {}});
+            if (d->principal_value()) plot.curves.push_back({d->name, "notype", {}});
         return plot;
     }
     if (c.name == "op") {
-        auto plot = plot_of(system, "Operating Point", "", "");
+        auto plot = make_plot(system, "Operating Point", "", "");
         return currents.extend_head(plot), plot;
     }
     if (c.name == "ac") {
-        auto plot = plot_of(system, "AC Analysis", "frequency", "frequency");
+        auto plot = make_plot(system, "AC Analysis", "frequency", "frequency");
         return plot.is_complex = true, plot;
     }
     if (c.name == "tran") {
-        auto plot = plot_of(system, "Transient Analysis", "time", "time");
+        auto plot = make_plot(system, "Transient Analysis", "time", "time");
         return currents.extend_head(plot), plot;
     }
     const std::string what = c.words.empty() ? "v" : c.words[0];
     const bool temperature = what == "temp";
-    auto plot = plot_of(system, "DC transfer characteristic",
+    auto plot = make_plot(system, "DC transfer characteristic",
                         temperature      ? "temp-sweep"
                         : what[0] == 'i' ? "i-sweep"
                         : what[0] == 'v' ? "v-sweep"

@@ -58,7 +58,7 @@ Result<void> check_expectations(const Circuit& circuit, RunOutcome& out) {
 }
 
 /// A number of .tran STEP STOP [START ...]; 0 if it is missing.
-double tran_number(const Directive& c, std::size_t word) { return number_of(c, word, "a number") ? *number_of(c, word, "a number") : 0; }
+double tran_number(const Directive& c, std::size_t word) { return read_number(c, word, "a number") ? *read_number(c, word, "a number") : 0; }
 
 /// Passes each point of a transient to the measurements, to .print, to the sinks of the options and, if requested, to memory. Only the
 /// last of these grows with the length of the run.
@@ -119,24 +119,24 @@ public:
         return options_.curve_sink ? options_.curve_sink->end() : Result<void>();
     }
     /// Moves the kept points into the result of the analysis.
-    void move_points_to(Findings& found) {
+    void move_points_to(AnalysisResult& found) {
         if (recorder_) found.plots.insert(found.plots.begin(), std::move(recorder_->plot));
     }
 };
 
 /// Runs one analysis; measures, prints and passes on its plots.
-Result<void> analyse(TestBench& context, const Analysis& analysis, const Directive& c, const RunOptions& options, MeasurementSet& measures,
+Result<void> analyse(AnalysisContext& context, const Analysis& analysis, const Directive& c, const RunOptions& options, MeasurementSet& measures,
                      const DeviceCurrents& currents, RunOutcome& out) {
     AnalysisRun done{&c, {}, 0, {}, {}};
     PointDispatcher dispatcher(*context.circuit, options, out, measures, done, currents);
-    if (options.should_stop) context.stop = [&](double progress) { return options.should_stop(c.name, progress); };
+    if (options.should_stop) context.should_stop = [&](double progress) { return options.should_stop(c.name, progress); };
     context.points = &dispatcher;
     auto found = analysis.run(context, c);
-    context.points = nullptr, context.stop = {};
+    context.points = nullptr, context.should_stop = {};
     if (!found) return found.error();
     done.result = std::move(*found);
     for (const auto& number : done.result.numbers) out.numbers.push_back(number);
-    for (const auto& warning : done.result.remarks) out.warnings.push_back(warning);
+    for (const auto& warning : done.result.warnings) out.warnings.push_back(warning);
     if (dispatcher.begun()) {
         dispatcher.move_points_to(done.result);
     } else if (!done.result.plots.empty()) {
@@ -155,17 +155,17 @@ Result<void> analyse(TestBench& context, const Analysis& analysis, const Directi
 }  // namespace
 
 Result<RunOutcome> run_directives(std::shared_ptr<const Circuit> circuit, const RunOptions& options) {
-    auto context = TestBench::make(std::move(circuit));
+    auto context = AnalysisContext::make(std::move(circuit));
     if (!context) return context.error();
     return run_directives(**context, options);
 }
 
-Result<RunOutcome> run_directives(TestBench& context, const RunOptions& options) {
+Result<RunOutcome> run_directives(AnalysisContext& context, const RunOptions& options) {
     const Circuit* const circuit = context.circuit.get();
     RunOutcome out;
-    if (!context.brief) {
+    if (!context.is_brief) {
         out.warnings = circuit->warnings;
-        for (auto& warning : suspicious(*circuit)) out.warnings.push_back(std::move(warning));
+        for (auto& warning : find_dangling_nodes(*circuit)) out.warnings.push_back(std::move(warning));
         for (auto& warning : netlist_warnings(*circuit)) out.warnings.push_back(std::move(warning));
     }
     const auto saved = resolve_saved_quantities(context.system);

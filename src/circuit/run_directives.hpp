@@ -4,14 +4,14 @@
 #include <functional>
 #include <optional>
 
-#include "circuit/analysis/bench.hpp"
+#include "circuit/analysis/analysis_context.hpp"
 
 namespace corpuscle::circuit {
 
 /// One analysis and its result.
 struct AnalysisRun {
     const Directive* directive;  ///< of the circuit
-    Findings result;
+    AnalysisResult result;
     std::size_t point_count = 0;  ///< in the first plot
     std::string printed_tables;     ///< the tables of .print
     Plot last_point;               ///< the last point of a transient, whose points may not have been kept
@@ -57,7 +57,7 @@ struct RunOptions {
     bool print_tables = true;              ///< make the tables of .print
 };
 /// Runs all directives. A directive that is wrong, or an analysis that fails, is an error. An .expect that is not met is not an error.
-Result<RunOutcome> run_directives(TestBench&, const RunOptions& = {});
+Result<RunOutcome> run_directives(AnalysisContext&, const RunOptions& = {});
 Result<RunOutcome> run_directives(std::shared_ptr<const Circuit>, const RunOptions& = {});
 
 }  // namespace corpuscle::circuit

@@ -39,8 +39,8 @@ double SavedQuantity::current_into(const Device& d, std::span<const double> v) {
     const auto n = v.size();
     std::vector<double> stamp(2 * n + 2 * n * n);
     const auto all = std::span(stamp);
-    Instant at;
-    at.charges = false;
+    EvalContext at;
+    at.with_charges = false;
     d.eval(v, at, {all.first(n), all.subspan(n, n), all.subspan(2 * n, n * n), all.subspan(2 * n + n * n)});
     return stamp[0];
 }
@@ -70,7 +70,7 @@ Result<std::vector<SavedQuantity>> resolve_saved_quantities(const System& system
             }
             Directive one{c.name, {name}, {}, c.location};
             if (k < c.columns.size()) one.columns = {c.columns[k]};
-            const auto of = wanted_of(names, one, 0);
+            const auto of = read_output_variable(names, one, 0);
             if (!of) return of.error();
             out.push_back({name, *of});
         }

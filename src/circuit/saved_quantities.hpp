@@ -1,7 +1,7 @@
 #pragma once
 // .save and .probe: the curves to keep.
 
-#include "circuit/analysis/bench.hpp"
+#include "circuit/analysis/analysis_context.hpp"
 
 namespace corpuscle::circuit {
 
@@ -10,7 +10,7 @@ namespace corpuscle::circuit {
 /// drain junction.
 struct SavedQuantity {
     std::string name;  ///< "v(out)", "v(a,b)", "i(v1)", "i(x1.m1)"
-    Wanted unknowns = {};
+    OutputVariable unknowns = {};
     int device_index = -1;  ///< index in System::devices() if it is the current of a device
 
     bool is_voltage() const { return name[0] == 'v'; }

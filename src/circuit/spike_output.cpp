@@ -6,11 +6,11 @@ namespace corpuscle::circuit {
 namespace {
 
 Result<SpikeOutput> parse_spike(const System& system, const Directive& c) {
-    const auto of = wanted_of(system, c, 0);
+    const auto of = read_output_variable(system, c, 0);
     if (!of) return of.error();
     if (c.words.size() < 2)
         return error_at(c, 1, fmt::format(".spike: {} needs a level to cross: .spike v(NODE) LEVEL [rise|fall]", c.words[0]));
-    const auto level = number_of(c, 1, "the level to cross");
+    const auto level = read_number(c, 1, "the level to cross");
     if (!level) return level.error();
     SpikeOutput out{c.words[0], *of, *level, true, c.location};
     if (c.words.size() > 2) {

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "circuit/analysis/bench.hpp"
+#include "circuit/analysis/analysis_context.hpp"
 #include "circuit/solve/transient.hpp"
 
 namespace corpuscle::circuit {
@@ -12,7 +12,7 @@ namespace corpuscle::circuit {
 /// or downwards.
 struct SpikeOutput {
     std::string text;  ///< "v(out)"
-    Wanted unknowns;
+    OutputVariable unknowns;
     double level = 0;
     bool is_rising = true;
     SourceLocation location;

@@ -16,16 +16,16 @@ void append_values(std::vector<double>& out, std::span<const double> x) { out.in
 
 }  // namespace
 
-Result<std::unique_ptr<StreamingTransient>> StreamingTransient::make(const CircuitAfferentFactory& design, double T, const std::optional<Draw>& chip) {
-    auto bench = TestBench::make(design.circuit);
+Result<std::unique_ptr<StreamingTransient>> StreamingTransient::make(const CircuitAfferentFactory& design, double T, const std::optional<ChipSample>& chip) {
+    auto bench = AnalysisContext::make(design.circuit);
     if (!bench) return bench.error();
     std::unique_ptr<StreamingTransient> out(new StreamingTransient(design, T));
     out->context_ = std::move(*bench);
-    if (chip) out->context_->draw(*chip);
+    if (chip) out->context_->apply_variation(*chip);
     auto& system = out->context_->system;
-    system.go(design.times.step > 0 ? design.times.step : T, design.times.stop > 0 ? design.times.stop : 1);
-    for (const auto& d : system.devices()) out->is_time_dependent_ |= d->varies();
-    system.hear(&out->force_);
+    system.start_transient(design.times.step > 0 ? design.times.step : T, design.times.stop > 0 ? design.times.stop : 1);
+    for (const auto& d : system.devices()) out->is_time_dependent_ |= d->is_time_dependent();
+    system.set_force_input(&out->force_);
     out->solve_rest();
     auto plan = design.plan;
     plan.stop = out->is_time_dependent_ ? stop_time_unshifted : stop_time;
@@ -36,21 +36,21 @@ Result<std::unique_ptr<StreamingTransient>> StreamingTransient::make(const Circu
 
 /// Finds the operating point at 0 N. If there is none, takes the initial condition of .ic.
 void StreamingTransient::solve_rest() {
-    auto found = beginning(*context_, design_.times.uic);
-    rest_ = found ? std::move(found->x) : beginning(*context_, true)->x;
+    auto found = find_initial_condition(*context_, design_.times.uic);
+    rest_ = found ? std::move(found->x) : find_initial_condition(*context_, true)->x;
     meter_.emplace(context_->system, rest_, context_->tolerances.gmin);
 }
 
-void StreamingTransient::set_chip(const Draw& chip) {
-    context_->draw(chip);
+void StreamingTransient::set_chip(const ChipSample& chip) {
+    context_->apply_variation(chip);
     force_ = ForceWaveform(force_.T());
     solve_rest();
 }
 
-Result<Beginning> StreamingTransient::solve_start(std::span<const double> force, std::vector<double> from) {
+Result<InitialCondition> StreamingTransient::solve_start(std::span<const double> force, std::vector<double> from) {
     force_ = ForceWaveform(force_.T());
     force_.append(force);
-    return beginning(*context_, design_.times.uic, std::move(from));
+    return find_initial_condition(*context_, design_.times.uic, std::move(from));
 }
 
 /// The operating point under this force, found by raising the force in steps from 0 N. If that fails, the last point that was found.
@@ -77,7 +77,7 @@ Result<void> StreamingTransient::begin(std::span<const double> force) {
         return error;
     }
     start_ = std::move(x->x);
-    return transient_->begin(start_, x->settled, x->charge);
+    return transient_->begin(start_, x->is_consistent, x->charge);
 }
 
 Result<void> StreamingTransient::step() {
@@ -111,7 +111,7 @@ void StreamingTransient::add_energy(double from) {
 void StreamingTransient::shift_origin() {
     const auto samples = static_cast<std::int64_t>(std::floor(transient_->time() / force_.T()));
     auto state = transient_->save();
-    for (auto& point : state.past) point.t -= static_cast<double>(samples) * force_.T();
+    for (auto& point : state.history) point.t -= static_cast<double>(samples) * force_.T();
     transient_->restore(state);
     force_.shift_origin(samples);
     origin_sample_ += samples;
@@ -120,7 +120,7 @@ void StreamingTransient::shift_origin() {
 double StreamingTransient::probe_value(const SavedQuantity& saved, std::int64_t sample) const {
     if (sample <= 0) return saved.value(context_->system, [&](int u) { return u < 0 ? 0 : start_[static_cast<std::size_t>(u)]; });
     const double t = time_of(sample);
-    return saved.value(context_->system, [&](int u) { return transient_->between(t, u); });
+    return saved.value(context_->system, [&](int u) { return transient_->interpolate(t, u); });
 }
 
 /// Reads the numbers that save() wrote. After a missing or impossible number, all following values are 0.
@@ -159,15 +159,15 @@ void StreamingTransient::save(std::vector<double>& out) {
     append_values(out, std::vector<double>{static_cast<double>(origin_sample_), static_cast<double>(pending_spike_.has_value()),
                                            static_cast<double>(pending_spike_.value_or(Spike{}).step), pending_spike_.value_or(Spike{}).offset});
     append_values(out, start_);
-    append_values(out, std::vector<double>{static_cast<double>(s.past.size()), static_cast<double>(s.order),
-                                           static_cast<double>(s.since_choice), static_cast<double>(s.failures),
-                                           static_cast<double>(s.calming), static_cast<double>(s.starting), static_cast<double>(s.bent),
-                                           static_cast<double>(s.count), static_cast<double>(s.curve), static_cast<double>(s.opening), s.h,
-                                           s.bend, s.calm, static_cast<double>(s.work.steps), static_cast<double>(s.work.rejected),
-                                           static_cast<double>(s.work.lost), static_cast<double>(s.work.iterations)});
-    for (const auto& point : s.past) out.push_back(point.t), append_values(out, point.x), append_values(out, point.q);
-    append_values(out, s.scale), append_values(out, s.rate), append_values(out, s.turn), append_values(out, s.fastest),
-        append_values(out, s.memory);
+    append_values(out, std::vector<double>{static_cast<double>(s.history.size()), static_cast<double>(s.order),
+                                           static_cast<double>(s.steps_since_order_change), static_cast<double>(s.failures),
+                                           static_cast<double>(s.damping_steps), static_cast<double>(s.is_starting), static_cast<double>(s.restart_pending),
+                                           static_cast<double>(s.count), static_cast<double>(s.curve_points), static_cast<double>(s.start_phase), s.h,
+                                           s.quadratic_factor, s.recent_max_step, static_cast<double>(s.stats.steps), static_cast<double>(s.stats.rejected),
+                                           static_cast<double>(s.stats.diverged), static_cast<double>(s.stats.iterations)});
+    for (const auto& point : s.history) out.push_back(point.t), append_values(out, point.x), append_values(out, point.q);
+    append_values(out, s.scale), append_values(out, s.rate), append_values(out, s.rate_change), append_values(out, s.max_rate),
+        append_values(out, s.limiting_state);
     append_values(out, std::vector<double>(s.alternations.begin(), s.alternations.end()));
     force_.save(out);
 }
@@ -175,22 +175,22 @@ void StreamingTransient::save(std::vector<double>& out) {
 void StreamingTransient::read_state(StateReader& in, TransientState& s) {
     constexpr double max_count = 0x1p53;
     const auto size = start_.size();
-    const auto points = static_cast<std::size_t>(in.integer(1, Past::most));
-    s.order = static_cast<int>(in.integer(1, design_.plan.order));
-    s.since_choice = static_cast<int>(in.integer(0, 1e9)), s.failures = static_cast<int>(in.integer(0, 1e9));
-    s.calming = static_cast<int>(in.integer(0, 2)), s.starting = in.integer(0, 1) != 0, s.bent = in.integer(0, 1) != 0;
+    const auto points = static_cast<std::size_t>(in.integer(1, History::max_points));
+    s.order = static_cast<int>(in.integer(1, design_.plan.max_order));
+    s.steps_since_order_change = static_cast<int>(in.integer(0, 1e9)), s.failures = static_cast<int>(in.integer(0, 1e9));
+    s.damping_steps = static_cast<int>(in.integer(0, 2)), s.is_starting = in.integer(0, 1) != 0, s.restart_pending = in.integer(0, 1) != 0;
     s.count = static_cast<int>(in.integer(1, static_cast<double>(points)));
-    s.curve = static_cast<int>(in.integer(0, static_cast<double>(points))), s.opening = static_cast<int>(in.integer(0, 2));
-    s.h = in.next(), s.bend = in.next(), s.calm = in.next();
-    for (long* n : {&s.work.steps, &s.work.rejected, &s.work.lost, &s.work.iterations}) *n = in.integer(0, max_count);
+    s.curve_points = static_cast<int>(in.integer(0, static_cast<double>(points))), s.start_phase = static_cast<int>(in.integer(0, 2));
+    s.h = in.next(), s.quadratic_factor = in.next(), s.recent_max_step = in.next();
+    for (long* n : {&s.stats.steps, &s.stats.rejected, &s.stats.diverged, &s.stats.iterations}) *n = in.integer(0, max_count);
     for (std::size_t k = 0; k < points; ++k) {
-        s.past.push_back({in.next(), in.many(size), in.many(size)});
-        in.is_valid &= std::abs(s.past[k].t) <= stop_time_unshifted && (k == 0 || s.past[k].t < s.past[k - 1].t);
+        s.history.push_back({in.next(), in.many(size), in.many(size)});
+        in.is_valid &= std::abs(s.history[k].t) <= stop_time_unshifted && (k == 0 || s.history[k].t < s.history[k - 1].t);
     }
-    s.scale = in.many(size), s.rate = in.many(size), s.turn = in.many(size), s.fastest = in.many(size),
-    s.memory = in.many(context_->system.fresh_memory().size());
+    s.scale = in.many(size), s.rate = in.many(size), s.rate_change = in.many(size), s.max_rate = in.many(size),
+    s.limiting_state = in.many(context_->system.initial_limiting_state().size());
     for (std::size_t n = 0; n < size; ++n) s.alternations.push_back(static_cast<int>(in.integer(0, 1e9)));
-    in.is_valid &= s.h > 0 && s.bend > 0 && s.calm >= 0;
+    in.is_valid &= s.h > 0 && s.quadratic_factor > 0 && s.recent_max_step >= 0;
 }
 
 bool StreamingTransient::restore(std::span<const double> values, std::int64_t samples) {

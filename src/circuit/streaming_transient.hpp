@@ -2,7 +2,7 @@
 // A transient simulation that is driven by a force given block by block.
 
 #include "circuit/circuit_afferent.hpp"
-#include "circuit/analysis/beginning.hpp"
+#include "circuit/analysis/initial_condition.hpp"
 #include "circuit/cost/power.hpp"
 #include "circuit/force_waveform.hpp"
 
@@ -14,7 +14,7 @@ class StateReader;
 /// force alone and not on earlier runs.
 class StreamingTransient {
     const CircuitAfferentFactory& design_;
-    std::unique_ptr<TestBench> context_;
+    std::unique_ptr<AnalysisContext> context_;
     ForceWaveform force_;
     std::optional<Transient> transient_;
     std::optional<PowerMeter> meter_;
@@ -29,15 +29,15 @@ class StreamingTransient {
     StreamingTransient(const CircuitAfferentFactory& design, double T) : design_(design), force_(T) {}
     void shift_origin();
     void solve_rest();
-    Result<Beginning> solve_start(std::span<const double> force, std::vector<double> from);
+    Result<InitialCondition> solve_start(std::span<const double> force, std::vector<double> from);
     std::vector<double> continue_from_rest(double force);
     void add_energy(double from);
 
 public:
-    static Result<std::unique_ptr<StreamingTransient>> make(const CircuitAfferentFactory&, double T, const std::optional<Draw>& chip);
+    static Result<std::unique_ptr<StreamingTransient>> make(const CircuitAfferentFactory&, double T, const std::optional<ChipSample>& chip);
     StreamingTransient(const StreamingTransient&) = delete;
     /// Switches to another chip of the same netlist. The elimination order of the matrix does not change.
-    void set_chip(const Draw& chip);
+    void set_chip(const ChipSample& chip);
 
     /// Restarts from the operating point under the first of these samples.
     Result<void> begin(std::span<const double> force);
@@ -50,11 +50,11 @@ public:
     bool has_reached(std::int64_t sample) const { return transient_->time() >= time_of(sample); }
     /// The value of a saved quantity at a sample within the last step, or at the start.
     double probe_value(const SavedQuantity&, std::int64_t sample) const;
-    const TransientWork& work() const { return transient_->work(); }
+    const TransientStats& work() const { return transient_->stats(); }
     /// The energy used since the last call.
     EnergyUse take_energy_use() { return std::exchange(energy_use_, {}); }
 
-    TestBench& context() { return *context_; }
+    AnalysisContext& context() { return *context_; }
     const ForceWaveform& force() const { return force_; }
     const Transient& transient() const { return *transient_; }
     const PowerMeter& meter() const { return *meter_; }

@@ -28,11 +28,11 @@ Json document_of(const circuit::Cost& cost, const circuit::PowerBreakdown& p) {
 
 /// The cost at rest under this force.
 Result<circuit::Cost> cost_under(const circuit::CircuitAfferentFactory& design, double force) {
-    auto bench = circuit::TestBench::make(design.circuit);
+    auto bench = circuit::AnalysisContext::make(design.circuit);
     if (!bench) return bench.error();
     circuit::ForceWaveform trace;
     trace.append(std::array{force});
-    (*bench)->system.hear(&trace);
+    (*bench)->system.set_force_input(&trace);
     return circuit::cost_of(**bench);
 }
 

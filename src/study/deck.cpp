@@ -20,7 +20,7 @@ using circuit::NetlistOverride;
 using circuit::Netlist;
 using circuit::parse_embedded;
 using circuit::RunOptions;
-using circuit::TestBench;
+using circuit::AnalysisContext;
 using circuit::apply_overrides;
 using circuit::Values;
 using circuit::find_curve_values;
@@ -96,12 +96,12 @@ double Found::by(std::string_view output, std::string_view source) const {
 
 double Found::reading(std::string_view device, std::string_view name) const {
     constexpr double none = std::numeric_limits<double>::quiet_NaN();
-    const auto bench = TestBench::make(circuit);
+    const auto bench = AnalysisContext::make(circuit);
     const auto* found = bench ? (*bench)->system.device(device) : nullptr;
     if (found == nullptr) return none;
     std::vector<double> x;
     for (const auto& unknown : (*bench)->system.names()) x.push_back(at_rest(unknown));
-    for (const auto& r : found->readings((*bench)->system.terminals(*found, x)))
+    for (const auto& r : found->operating_info((*bench)->system.terminal_values(*found, x)))
         if (r.name == name) return r.value;
     return none;
 }
@@ -112,7 +112,7 @@ Result<std::vector<Found>> all_found_in(const Deck& deck) {
     auto variants = NetlistVariants::create(*netlist);
     if (!variants) return variants.error();
     std::vector<Found> out;
-    std::unique_ptr<TestBench> bench;
+    std::unique_ptr<AnalysisContext> bench;
     RunOptions orders;
     orders.print_tables = false;
     for (std::size_t k = 0; k < variants->count(); ++k) {
@@ -120,12 +120,12 @@ Result<std::vector<Found>> all_found_in(const Deck& deck) {
         if (!variant) return variant.error();
         if (!deck.of_models.empty()) variant->circuit = with_models(*variant->circuit, deck.of_models);
         if (!bench || bench->circuit != variant->circuit) {
-            auto context = TestBench::make(variant->circuit);
+            auto context = AnalysisContext::make(variant->circuit);
             if (!context) return context.error();
             bench = std::move(*context);
         }
-        bench->brief = true;
-        if (variant->sample) bench->draw(*variant->sample);
+        bench->is_brief = true;
+        if (variant->sample) bench->apply_variation(*variant->sample);
         auto outcome = circuit::run_directives(*bench, orders);
         if (!outcome) {
             auto error = outcome.error();

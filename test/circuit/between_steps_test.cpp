@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "circuit/device/course.hpp"
+#include "circuit/device/source_waveform.hpp"
 #include "circuit/in_time.hpp"
 
 namespace corpuscle::circuit {
@@ -115,11 +115,11 @@ TEST(AfterACorner, AJumpIsNotDrawnAsARamp) {
 /// A comparator has no charge and no corner that a source would name; its edge is where its input crosses.
 TEST(AfterACorner, ASourceHasItsLastDigits) {
     const double since = 1e-12, slope = 4e3;  // s, V/s: 4 nV of 4 V
-    const Course charges({Waveform::Shape::exponential, 0, false, 0, 0, {0, 4, 2e-4, 1e-3, 1, 1}}, 1e-6, 3e-3);
+    const SourceWaveform charges({Waveform::Shape::exponential, 0, false, 0, 0, {0, 4, 2e-4, 1e-3, 1, 1}}, 1e-6, 3e-3);
     const double late = 2e-4 + since;
     EXPECT_NEAR(charges.at(late), slope * (late - 2e-4), 1e-9 * slope * since);
-    const Course returns({Waveform::Shape::pulse, 0, false, 0, 0, {4, 0, 1e-4, 3e-5, 1e-3, 2e-4, 2e-3}}, 1e-6, 3e-3);
-    const double corner = returns.next_corner(2e-4), then = corner + since;
+    const SourceWaveform returns({Waveform::Shape::pulse, 0, false, 0, 0, {4, 0, 1e-4, 3e-5, 1e-3, 2e-4, 2e-3}}, 1e-6, 3e-3);
+    const double corner = returns.next_breakpoint(2e-4), then = corner + since;
     EXPECT_EQ(returns.at(corner), 0);
     EXPECT_NEAR(returns.at(then), slope * (then - corner), 1e-9 * slope * since);
 }
@@ -148,7 +148,7 @@ TEST(AfterACorner, RoundingRefusesNoStep) {
     plan.all_reported = true;
     plan.reltol = 1e-8, plan.vntol = 1e-9, plan.abstol = 1e-19;
     for (const double longest : {60e-6, 30e-6, 15e-6}) {
-        plan.longest = longest;
+        plan.max_step = longest;
         const auto run = circuit.run(plan);
         EXPECT_EQ(run.wrong, "") << longest;
         EXPECT_LT(run.work.steps, 20'000) << longest;

@@ -20,12 +20,12 @@ struct Kept {
     long steps = 0;
 };
 
-std::unique_ptr<TestBench> bench_of(const std::string& text) {
+std::unique_ptr<AnalysisContext> bench_of(const std::string& text) {
     const auto netlist = parsed(text);
     if (!netlist) return ADD_FAILURE() << netlist.error().text(), nullptr;
     auto circuit = netlist->elaborate();
     if (!circuit) return ADD_FAILURE() << circuit.error().text(), nullptr;
-    auto bench = TestBench::make(std::make_shared<const Circuit>(std::move(*circuit)));
+    auto bench = AnalysisContext::make(std::make_shared<const Circuit>(std::move(*circuit)));
     if (!bench) return ADD_FAILURE() << bench.error().text(), nullptr;
     return std::move(*bench);
 }
@@ -41,9 +41,9 @@ Kept kept(const std::string& text, double cycle, const std::vector<std::string>&
     std::vector<std::size_t> nodes;
     for (const auto& name : net) nodes.push_back(static_cast<std::size_t>(bench->system.unknown("v(" + name + ")")));
 
-    Sums sums;
-    auto memory = bench->system.fresh_memory();
-    Instant at;
+    SystemEvaluation sums;
+    auto memory = bench->system.initial_limiting_state();
+    EvalContext at;
     at.gmin = bench->tolerances.gmin;
     double before = 0;
     std::vector<double> low(nodes.size(), 1e300), high(nodes.size(), -1e300);
@@ -51,7 +51,7 @@ Kept kept(const std::string& text, double cycle, const std::vector<std::string>&
         at.time = t;
         for (int looks = 0; looks < 100; ++looks) {
             bench->system.eval(x, at, memory, sums);
-            if (!sums.limited) break;
+            if (!sums.is_limited) break;
         }
         double all = 0;
         for (std::size_t k = 0; k < nodes.size(); ++k) {
@@ -61,9 +61,9 @@ Kept kept(const std::string& text, double cycle, const std::vector<std::string>&
         if (t == 0) before = all;
         out.drift = std::max(out.drift, std::abs(all - before));
     };
-    bench->system.go(cycle / 100, stop);
+    bench->system.start_transient(cycle / 100, stop);
     TransientPlan plan;
-    plan.stop = stop, plan.longest = cycle / 8;  // long steps could meet a sine where it is zero
+    plan.stop = stop, plan.max_step = cycle / 8;  // long steps could meet a sine where it is zero
     plan.reltol = 1e-3;                          // charge is not a matter of accuracy
     Transient transient(bench->system, bench->newton, plan);
     auto stepped = Result<bool>(true);
@@ -71,7 +71,7 @@ Kept kept(const std::string& text, double cycle, const std::vector<std::string>&
     for (see(0, start); stepped && transient.time() < stop; see(transient.time(), transient.x())) stepped = transient.step(stop);
     EXPECT_TRUE(stepped) << (stepped ? "" : stepped.error().text());
     for (std::size_t k = 0; k < nodes.size(); ++k) out.swing = std::max(out.swing, high[k] - low[k]);
-    out.steps = transient.work().steps;
+    out.steps = transient.stats().steps;
     std::printf("%ld steps: a drift of %.2g C, %.2g of the swing\n", out.steps, out.drift, out.drift / out.swing);
     return out;
 }

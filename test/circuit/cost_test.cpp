@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "circuit/cost/cost_meter.hpp"
-#include "circuit/device/constants.hpp"
+#include "circuit/device/physical_constants.hpp"
 #include "netlist_runner.hpp"
 #include "support/program.hpp"
 
@@ -14,9 +14,9 @@ namespace {
 
 using test::Folder;
 
-std::unique_ptr<TestBench> cost_bench(std::shared_ptr<const Circuit> circuit) {
+std::unique_ptr<AnalysisContext> cost_bench(std::shared_ptr<const Circuit> circuit) {
     if (!circuit) return nullptr;
-    auto bench = TestBench::make(std::move(circuit));
+    auto bench = AnalysisContext::make(std::move(circuit));
     if (!bench) return ADD_FAILURE() << bench.error().text(), nullptr;
     return std::move(*bench);
 }
@@ -119,10 +119,10 @@ TEST(Cost, WhatSourcesDeliverIsWhatBlocksLoseInEveryCircuit) {
         const auto& p = found->power[0].second;
         EXPECT_NEAR(p.supplies, sum(p.blocks), 1e-6 * p.supplies + 1e-15) << name;
         powered += p.supplies > 0;
-        const auto x = bench->rest()->x;
+        const auto x = bench->operating_point()->x;
         for (std::size_t k = 0; k < found->sources.size(); ++k) {  // and each source by the branch current that was solved for
             if (found->sources[k][0] != 'v') continue;
-            const auto v = bench->system.terminals(*bench->system.device(found->sources[k]), x);
+            const auto v = bench->system.terminal_values(*bench->system.device(found->sources[k]), x);
             EXPECT_NEAR(p.sources[k], -(v[0] - v[1]) * v[2], 1e-12 * std::abs(p.sources[k])) << name << ", " << found->sources[k];
         }
         ++seen;

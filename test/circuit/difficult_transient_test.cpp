@@ -145,7 +145,7 @@ Faded after_a_thousand_periods(double reltol, Integration method) {
     const auto circuit = InTime::text(
         fmt::format("tank\nl1 a 0 1m\nc1 a 0 1u\nr1 a 0 1e15\n.ic v(a)=1\n.tran 1u {:.15g} uic\n", 1000 * two_pi * std::sqrt(1e-9)));
     TransientPlan plan;
-    plan.reltol = reltol, plan.vntol = reltol / 10, plan.method = method, plan.longest = two_pi * std::sqrt(1e-9) / 100;
+    plan.reltol = reltol, plan.vntol = reltol / 10, plan.method = method, plan.max_step = two_pi * std::sqrt(1e-9) / 100;
     const auto run = circuit.run(plan);
     EXPECT_EQ(run.wrong, "");
     const auto v = run.x.back()[static_cast<std::size_t>(circuit.unknown("v(a)"))];

@@ -33,15 +33,15 @@ double* of(const Vector& v) { return of(v.get()); }
 class Looked {
     System& system_;
     std::vector<double> memory_;
-    Instant at_;
+    EvalContext at_;
 
 public:
-    Sums sums;
+    SystemEvaluation sums;
     long evaluations = 0;
     std::size_t watched = 0;
     double level = 0;
 
-    Looked(System& system, double gmin) : system_(system), memory_(system.fresh_memory()) { at_.gmin = gmin; }
+    Looked(System& system, double gmin) : system_(system), memory_(system.initial_limiting_state()) { at_.gmin = gmin; }
     std::size_t size() const { return static_cast<std::size_t>(system_.size()); }
     const System& system() const { return system_; }
     bool at(const double* x, double t) {
@@ -49,7 +49,7 @@ public:
         for (int k = 0; k < 200; ++k) {
             system_.eval({x, size()}, at_, memory_, sums);
             ++evaluations;
-            if (!sums.limited) return true;
+            if (!sums.is_limited) return true;
         }
         return false;
     }
@@ -78,8 +78,8 @@ int jacobian(double t, double cj, N_Vector y, N_Vector, N_Vector, SUNMatrix J, v
     sunindextype at = 0;
     const auto put = [&](sunindextype row, double value) { rows[at] = row, values[at++] = value; };
     for (sunindextype c = 0; c < n; ++c) {
-        const auto first = static_cast<std::size_t>(pattern.begin()[static_cast<std::size_t>(c)]),
-                   last = static_cast<std::size_t>(pattern.begin()[static_cast<std::size_t>(c) + 1]);
+        const auto first = static_cast<std::size_t>(pattern.column_begin()[static_cast<std::size_t>(c)]),
+                   last = static_cast<std::size_t>(pattern.column_begin()[static_cast<std::size_t>(c) + 1]);
         begin[c] = at;
         for (auto k = first; k < last; ++k) put(pattern.rows()[k], looked.sums.G[k]);
         for (auto k = first; k < last; ++k) put(n + pattern.rows()[k], -looked.sums.C[k]);
@@ -148,7 +148,7 @@ Run::Run(System& system, double gmin, const std::vector<double>& start, const Id
 void Run::floors() {
     const auto& system = looked_.system();
     for (std::size_t k = 0; k < n_; ++k) {
-        const double c = std::abs(looked_.sums.C[system.pattern().place(static_cast<int>(k), static_cast<int>(k))]);
+        const double c = std::abs(looked_.sums.C[system.pattern().entry_index(static_cast<int>(k), static_cast<int>(k))]);
         of(floor_)[k] = system.is_voltage(static_cast<int>(k)) ? asked_.vntol : 1;
         of(floor_)[n_ + k] = c > 0 ? c * asked_.vntol : 1;
     }
@@ -157,7 +157,7 @@ void Run::floors() {
 /// One step of backward Euler, so short that nothing charged moves: all else finds its place. Then dq/dt = -f.
 bool Run::settle(double h) {
     const auto& pattern = looked_.system().pattern();
-    Solver<double> solver(pattern);
+    LinearSolver<double> solver(pattern);
     double* x = of(y_);
     if (!looked_.at(x, t_)) return false;
     const auto before = looked_.sums.q;
@@ -218,7 +218,7 @@ bool Run::go_to(double corner) {
 IdaAnswer Run::whole() {
     for (; next_ < asked_.times.size() && asked_.times[next_] <= 0; ++next_) out_.x.emplace_back(of(y_), of(y_) + n_);
     while (t_ < asked_.stop) {
-        double corner = looked_.system().next_corner(t_ + 1e-12 * asked_.stop);  // the same corner, rounded otherwise, is none
+        double corner = looked_.system().next_breakpoint(t_ + 1e-12 * asked_.stop);  // the same corner, rounded otherwise, is none
         if (corner > asked_.stop * (1 - 1e-12)) corner = asked_.stop;
         if (!settle(std::min(1e-12 * asked_.stop, 1e-6 * (corner - t_)))) {
             out_.wrong = fmt::format("nothing settles at {:.9g} s", t_);
@@ -233,9 +233,9 @@ IdaAnswer Run::whole() {
 }  // namespace
 
 IdaAnswer ask_ida(System& system, double gmin, const std::vector<double>& start, const IdaQuestion& asked) {
-    system.go(asked.step, asked.stop);
+    system.start_transient(asked.step, asked.stop);
     auto answer = Run(system, gmin, start, asked).whole();
-    system.go(0, 0);
+    system.start_transient(0, 0);
     return answer;
 }
 

@@ -82,7 +82,7 @@ const Rule trapezoidal = {"trapezoidal", Integration::trapezoidal, 2};
 /// Every step as long as the others, whatever its error.
 TransientPlan even(double longest, const Rule& rule) {
     TransientPlan plan;
-    plan.reltol = 1e9, plan.longest = longest, plan.method = rule.method, plan.order = rule.order;
+    plan.reltol = 1e9, plan.max_step = longest, plan.method = rule.method, plan.max_order = rule.order;
     return plan;
 }
 

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "circuit/analyses.hpp"
-#include "circuit/analysis/beginning.hpp"
-#include "circuit/analysis/bench.hpp"
+#include "circuit/analysis/initial_condition.hpp"
+#include "circuit/analysis/analysis_context.hpp"
 #include "circuit/ida.hpp"
 #include "circuit/netlist_runner.hpp"
 #include "circuit/solve/transient.hpp"
@@ -23,7 +23,7 @@ namespace corpuscle::circuit {
 struct Points {
     std::vector<double> t;
     std::vector<std::vector<double>> x;
-    TransientWork work;
+    TransientStats work;
     std::string wrong;  ///< why it ended early; empty: it did not
 
     std::vector<double> of(int unknown) const {
@@ -61,7 +61,7 @@ inline std::vector<double> crossings(const std::vector<double>& t, const std::ve
 }
 
 class InTime {
-    std::unique_ptr<TestBench> bench_;
+    std::unique_ptr<AnalysisContext> bench_;
     std::vector<double> start_;
     bool settled_ = true;
     double step_ = 0, stop_ = 0;
@@ -72,17 +72,17 @@ public:
         if (!netlist) throw std::runtime_error(netlist.error().text());
         auto circuit = netlist->elaborate({});
         if (!circuit) throw std::runtime_error(circuit.error().text());
-        auto made = TestBench::make(std::make_shared<const Circuit>(std::move(*circuit)));
+        auto made = AnalysisContext::make(std::make_shared<const Circuit>(std::move(*circuit)));
         if (!made) throw std::runtime_error(made.error().text());
         bench_ = std::move(*made);
         bool uic = false;
         for (const auto& c : bench_->circuit->directives)
-            if (c.name == "tran") step_ = *number_of(c, 0, "step"), stop_ = *number_of(c, 1, "stop"), uic = c.words.back() == "uic";
-        system().go(step_, stop_);
-        const auto from = beginning(*bench_, uic);
-        system().go(0, 0);
+            if (c.name == "tran") step_ = *read_number(c, 0, "step"), stop_ = *read_number(c, 1, "stop"), uic = c.words.back() == "uic";
+        system().start_transient(step_, stop_);
+        const auto from = find_initial_condition(*bench_, uic);
+        system().start_transient(0, 0);
         if (!from) throw std::runtime_error(from.error().text());
-        start_ = from->x, settled_ = from->settled;
+        start_ = from->x, settled_ = from->is_consistent;
     }
     static InTime file(const std::string& path) { return InTime(Netlist::read(path)); }
     /// Lines that begin so read otherwise; .meas and .expect are left out.
@@ -106,17 +106,17 @@ public:
 
     Points run(TransientPlan plan) const {
         plan.stop = stop_;
-        if (plan.longest == 0) plan.longest = stop_ / 50;
-        system().go(step_, stop_);
+        if (plan.max_step == 0) plan.max_step = stop_ / 50;
+        system().start_transient(step_, stop_);
         Transient transient(bench_->system, bench_->newton, plan);
         Points out;
         const auto done = transient.run(start_, settled_, [&](double t, std::span<const double> x) {
             out.t.push_back(t), out.x.emplace_back(x.begin(), x.end());
             return true;
         });
-        system().go(0, 0);
+        system().start_transient(0, 0);
         if (!done) out.wrong = done.error().text();
-        out.work = transient.work();
+        out.work = transient.stats();
         return out;
     }
     /// What its .ac gives first.
@@ -129,7 +129,7 @@ public:
     }
     IdaAnswer ida(IdaQuestion q) const {
         q.step = step_, q.stop = stop_;
-        return ask_ida(bench_->system, bench_->newton.instant.gmin, start_, q);
+        return ask_ida(bench_->system, bench_->newton.context.gmin, start_, q);
     }
     std::vector<double> spikes(const Points& p, const std::string& name, double level) const {
         return crossings(p.t, p.of(unknown(name)), level);

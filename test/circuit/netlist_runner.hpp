@@ -95,16 +95,16 @@ inline std::vector<Ran> ran_all(const std::string& text) {
     if (!netlist) return ADD_FAILURE() << netlist.error().text() << "\n" << text, out;
     auto variants = NetlistVariants::create(*netlist);
     if (!variants) return ADD_FAILURE() << variants.error().text() << "\n" << text, out;
-    std::unique_ptr<TestBench> bench;
+    std::unique_ptr<AnalysisContext> bench;
     for (std::size_t k = 0; k < variants->count(); ++k) {
         auto one = variants->at(k);
         if (!one) return ADD_FAILURE() << one.error().text() << "\n" << text, out;
         if (!bench || bench->circuit != one->circuit) {
-            auto made = TestBench::make(one->circuit);
+            auto made = AnalysisContext::make(one->circuit);
             if (!made) return ADD_FAILURE() << made.error().text() << "\n" << text, out;
             bench = std::move(*made);
         }
-        if (one->sample) bench->draw(*one->sample);
+        if (one->sample) bench->apply_variation(*one->sample);
         auto outcome = run_directives(*bench);
         if (!outcome) return ADD_FAILURE() << outcome.error().text() << "\n" << text, out;
         out.emplace_back(one->circuit, std::move(*outcome));

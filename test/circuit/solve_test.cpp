@@ -9,7 +9,7 @@
 #include <random>
 
 #include "circuit/device/uicm_card.hpp"
-#include "circuit/device/values.hpp"
+#include "circuit/device/named_values.hpp"
 #include "circuit/run_directives.hpp"
 #include "circuit/netlist_variants.hpp"
 #include "signal/instruction_set.hpp"
@@ -31,10 +31,10 @@ Netlist netlist_of(const std::string& text) {
     return std::move(*netlist);
 }
 
-std::unique_ptr<TestBench> solve_bench(const std::string& text) {
+std::unique_ptr<AnalysisContext> solve_bench(const std::string& text) {
     auto circuit = netlist_of(text).elaborate();
     EXPECT_TRUE(circuit) << circuit.error().text();
-    auto bench = TestBench::make(std::make_shared<const Circuit>(std::move(*circuit)));
+    auto bench = AnalysisContext::make(std::make_shared<const Circuit>(std::move(*circuit)));
     EXPECT_TRUE(bench) << bench.error().text();
     return std::move(*bench);
 }
@@ -166,14 +166,14 @@ TEST(OperatingPoint, OfAThousandRandomNetlistsAllAreFoundAndHold) {
         ASSERT_TRUE(system);
         std::vector<double> x;
         for (const auto& c : outcome->analyses[0].result.plots[0].curves) x.push_back(c.values[0].real());
-        Sums sums;
-        auto memory = system->fresh_memory();
-        Instant at;
+        SystemEvaluation sums;
+        auto memory = system->initial_limiting_state();
+        EvalContext at;
         at.gmin = 1e-15;
         do system->eval(x, at, memory, sums);
-        while (sums.limited);
+        while (sums.is_limited);
         for (std::size_t n = 0; n < x.size(); ++n)
-            ASSERT_LE(std::abs(sums.f[n]), 1e-6 * sums.size[n] + 1e-16) << system->names()[n] << " of\n" << text;
+            ASSERT_LE(std::abs(sums.f[n]), 1e-6 * sums.scale[n] + 1e-16) << system->names()[n] << " of\n" << text;
     }
     EXPECT_GT(by_newton, 500);
 }
@@ -209,22 +209,22 @@ TEST(Chips, RestWhereTheSameMismatchWrittenOutDoes) {
     auto drawn = solve_bench(four_transistors({}));
     const auto& circuit = *drawn->circuit;
     for (std::uint64_t chip = 0; chip < 50; ++chip) {
-        Draw draw{9, chip, true, {}};
-        std::copy_n(process_deviates(9, chip).of, 4, draw.process);
-        drawn->draw(draw);
+        ChipSample draw{9, chip, true, {}};
+        std::copy_n(sample_process(9, chip).values, 4, draw.process);
+        drawn->apply_variation(draw);
         std::array<std::string, 4> more;
         std::uint32_t device = 0;
         for (const auto& e : circuit.elements) {
             if (e.letter != 'm') continue;
             const auto& model = circuit.models[static_cast<std::size_t>(e.model)];
-            const auto card = *card_from<UicmCard>(UicmCard::fields, model, {"level"});
+            const auto card = *read_model_card<UicmCard>(UicmCard::fields, model, {"level"});
             UicmInstance size;
             size.W = e.values.at("w"), size.L = e.values.at("l");
-            const auto own = mismatch(card, size, 9, device, chip), all = process(card, model.type == "pmos", draw.process);
+            const auto own = sample_mismatch(card, size, 9, device, chip), all = process_shift(card, model.type == "pmos", draw.process);
             more[device++] = fmt::format(" delvto={:.17g} mulu0={:.17g}", own.V_T + all.V_T, own.factor);
         }
         const auto written = solve_bench(four_transistors(more));
-        const auto a = drawn->rest(), b = written->rest();
+        const auto a = drawn->operating_point(), b = written->operating_point();
         ASSERT_TRUE(a && b);
         for (std::size_t n = 0; n < a->x.size(); ++n) EXPECT_NEAR(a->x[n], b->x[n], 1e-5 * std::abs(b->x[n])) << n;
     }
@@ -238,8 +238,8 @@ TEST(Chips, RestAtTheSameBitsOnEveryInstructionSet) {
         ::setenv("CORPUSCLE_ISA", std::string(name_of(set)).c_str(), 1);
         auto bench = solve_bench(four_transistors({}));
         for (std::uint64_t chip = 0; chip < 20; ++chip) {
-            bench->draw({9, chip, true, {}});
-            const auto rest = bench->rest();
+            bench->apply_variation({9, chip, true, {}});
+            const auto rest = bench->operating_point();
             ASSERT_TRUE(rest);
             if (first.size() <= chip) first.push_back(rest->x);
             EXPECT_EQ(rest->x, first[chip]) << name_of(set) << ", chip " << chip;

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "circuit/analysis/beginning.hpp"
+#include "circuit/analysis/initial_condition.hpp"
 #include "circuit/analysis/transient_plan.hpp"
 #include "circuit/netlist_runner.hpp"
 #include "circuit/oscillator.hpp"
@@ -13,50 +13,50 @@
 namespace corpuscle::circuit {
 namespace {
 
-Past cubic_past() {
-    Past past;
+History cubic_past() {
+    History past;
     for (const double t : {0.0, 0.5, 0.7, 1.5, 1.6}) {
-        auto& next = past.next();
+        auto& next = past.next_point();
         next.t = t, next.x = {t * t * t - 2 * t + 1}, next.q = {0};
         past.accept();
     }
     return past;
 }
 
-TEST(Past, FollowsAPolynomialOfItsDegree) {
-    const Past past = cubic_past();
+TEST(History, FollowsAPolynomialOfItsDegree) {
+    const History past = cubic_past();
     double value = 0;
-    past.sum(past.value(2.5, 4), 4, &Moment::x, {&value, 1});
+    past.combine(past.value_weights(2.5, 4), 4, &TimePoint::x, {&value, 1});
     EXPECT_NEAR(value, 2.5 * 2.5 * 2.5 - 2 * 2.5 + 1, 1e-12);
     double leading = 0, slope = 0;
-    const auto weights = past.slope(2.0, 3, leading);
-    past.sum(weights, 3, &Moment::x, {&slope, 1});
+    const auto weights = past.slope_weights(2.0, 3, leading);
+    past.combine(weights, 3, &TimePoint::x, {&slope, 1});
     EXPECT_NEAR(slope + leading * 5.0, 3 * 4.0 - 2, 1e-12);
 }
 
-TEST(Past, KeepsTheNewestPoints) {
-    Past past;
-    for (int k = 0; k < 30; ++k) past.next().t = k, past.next().x = {0}, past.next().q = {0}, past.accept();
-    EXPECT_EQ(past.count(), Past::most);
+TEST(History, KeepsTheNewestPoints) {
+    History past;
+    for (int k = 0; k < 30; ++k) past.next_point().t = k, past.next_point().x = {0}, past.next_point().q = {0}, past.accept();
+    EXPECT_EQ(past.count(), History::max_points);
     for (int k = 0; k < past.count(); ++k) EXPECT_EQ(past[k].t, 29 - k);
 }
 
 /// One circuit, with all that a transient of it needs.
 struct Stepped {
-    std::unique_ptr<TestBench> bench;
+    std::unique_ptr<AnalysisContext> bench;
     TransientPlan plan;
     Stepped(const std::string& netlist, double stop) {
-        auto made = TestBench::make(circuit_from(netlist));
+        auto made = AnalysisContext::make(circuit_from(netlist));
         EXPECT_TRUE(made) << made.error().text();
         bench = std::move(*made);
-        plan.stop = stop, plan.longest = stop / 50;
-        bench->system.go(stop / 1000, stop);
+        plan.stop = stop, plan.max_step = stop / 50;
+        bench->system.start_transient(stop / 1000, stop);
     }
     std::unique_ptr<Transient> begun() {
         auto out = std::make_unique<Transient>(bench->system, bench->newton, plan);
-        const auto from = beginning(*bench, false);
+        const auto from = find_initial_condition(*bench, false);
         EXPECT_TRUE(from) << from.error().text();
-        EXPECT_TRUE(out->begin(from->x, from->settled));
+        EXPECT_TRUE(out->begin(from->x, from->is_consistent));
         return out;
     }
 };
@@ -76,7 +76,7 @@ TEST(Transient, GoesOnFromAKeptStateAsIfItHadNeverStopped) {
     for (int k = 701; k < 2000; ++k) ASSERT_TRUE(resumed->step(0.2));
     EXPECT_EQ(resumed->time(), whole->time());
     for (std::size_t n = 0; n < whole->x().size(); ++n) EXPECT_EQ(resumed->x()[n], whole->x()[n]) << n;
-    EXPECT_EQ(resumed->work().iterations, whole->work().iterations);
+    EXPECT_EQ(resumed->stats().iterations, whole->stats().iterations);
 }
 
 TEST(Transient, GivesTheSameBitsOnLanesOfAnyWidth) {
@@ -87,7 +87,7 @@ TEST(Transient, GivesTheSameBitsOnLanesOfAnyWidth) {
         auto t = one.begun();
         while (t->time() < 0.1) ASSERT_TRUE(t->step(0.1));
         ends.emplace_back(t->x().begin(), t->x().end());
-        ends.back().push_back(static_cast<double>(t->work().steps));
+        ends.back().push_back(static_cast<double>(t->stats().steps));
         EXPECT_EQ(ends.back(), ends.front()) << name_of(set);
     }
     unsetenv("CORPUSCLE_ISA");
@@ -115,7 +115,7 @@ TEST(Transient, TakesTheSameStepsHoweverFarItMayGoAtATime) {
 
 TEST(Transient, FindsWhereALevelIsCrossedWithinAStep) {
     Stepped sine("sine\nv1 a 0 sin(0 1 50)\nr1 a b 1k\nc1 b 0 1n\n.tran 1u 0.1\n", 0.1);
-    sine.plan.longest = 1e-3;
+    sine.plan.max_step = 1e-3;
     auto t = sine.begun();
     const int node = sine.bench->system.unknown("v(a)");
     std::vector<double> up, down;
@@ -182,7 +182,7 @@ TEST(Transient, WithUicWhatNoChargeHoldsFollows) {
 TEST(Transient, TheTrapezoidalRuleDoesNotGoOnRinging) {
     for (const auto method : {Integration::trapezoidal, Integration::bdf}) {
         Stepped ramp("ramp\nb1 a 0 v=uramp(time-10.0303m)\nc1 a 0 1n\n.end\n", 0.02);
-        ramp.plan.longest = 1e-4, ramp.plan.reltol = 1, ramp.plan.vntol = 1;  // steps as long as they may be
+        ramp.plan.max_step = 1e-4, ramp.plan.reltol = 1, ramp.plan.vntol = 1;  // steps as long as they may be
         ramp.plan.method = method;
         auto t = ramp.begun();
         double off = 0;
@@ -197,7 +197,7 @@ TEST(Transient, TheTrapezoidalRuleDoesNotGoOnRinging) {
 TEST(TransientPlan, RefusesWhatItDoesNotKnow) {
     for (const auto& [options, what] :
          {std::pair{"accuracy=great", "rough, normal, fine, finest"}, {"method=euler", "gear, trap"}, {"maxord=7", "from 1 to 5"}}) {
-        const auto plan = transient_plan(*circuit_from(std::string("x\nr1 a 0 1\nv1 a 0 1\n.options ") + options + "\n.tran 1 2\n"));
+        const auto plan = read_transient_plan(*circuit_from(std::string("x\nr1 a 0 1\nv1 a 0 1\n.options ") + options + "\n.tran 1 2\n"));
         ASSERT_FALSE(plan);
         EXPECT_NE(plan.error().message.find(what), std::string::npos) << plan.error().message;
     }

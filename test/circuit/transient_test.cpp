@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "circuit/device/course.hpp"
+#include "circuit/device/source_waveform.hpp"
 #include "circuit/netlist_runner.hpp"
 #include "circuit/oscillator.hpp"
 
@@ -43,23 +43,23 @@ TEST(Transient, CornersOfASourceAreAmongThePoints) {
     }
 }
 
-TEST(Course, GoesAsSpiceSays) {
+TEST(SourceWaveform, GoesAsSpiceSays) {
     Waveform pulse;
     pulse.shape = Waveform::Shape::pulse, pulse.numbers = {1, 3, 1e-3, 1e-4, 2e-4, 5e-4, 2e-3, 2};
-    const Course p(pulse, 1e-5, 1);
+    const SourceWaveform p(pulse, 1e-5, 1);
     for (const auto& [t, v] :
          {std::pair{0.0, 1.0}, {1.05e-3, 2.0}, {1.3e-3, 3.0}, {1.7e-3, 2.0}, {2e-3, 1.0}, {3.05e-3, 2.0}, {5.05e-3, 1.0}})
         EXPECT_NEAR(p.at(t), v, 1e-9) << t;
     double t = 0;
-    for (const double corner : {1e-3, 1.1e-3, 1.6e-3, 1.8e-3, 3e-3, 3.1e-3}) EXPECT_NEAR(t = p.next_corner(t), corner, 1e-15);
+    for (const double corner : {1e-3, 1.1e-3, 1.6e-3, 1.8e-3, 3e-3, 3.1e-3}) EXPECT_NEAR(t = p.next_breakpoint(t), corner, 1e-15);
     Waveform sine;
     sine.shape = Waveform::Shape::sine, sine.numbers = {0.5, 2, 100, 1e-3, 10};
-    const Course s(sine, 1e-5, 1);
+    const SourceWaveform s(sine, 1e-5, 1);
     EXPECT_NEAR(s.at(0.5e-3), 0.5, 1e-12);
     EXPECT_NEAR(s.at(8e-3), 0.5 + 2 * std::sin(6.283185307179586 * 0.7) * std::exp(-0.07), 1e-12);
     Waveform rise;
     rise.shape = Waveform::Shape::exponential, rise.numbers = {0, 1, 1e-3, 2e-3, 5e-3, 1e-3};
-    const Course e(rise, 1e-5, 1);
+    const SourceWaveform e(rise, 1e-5, 1);
     EXPECT_NEAR(e.at(3e-3), 1 - std::exp(-1), 1e-12);
     EXPECT_NEAR(e.at(6e-3), (1 - std::exp(-2.5)) - (1 - std::exp(-1)), 1e-12);
 }

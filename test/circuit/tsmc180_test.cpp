@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "circuit/device/uicm_card.hpp"
-#include "circuit/device/uicm_point.hpp"
+#include "circuit/device/uicm_operating_point.hpp"
 #include "circuit/netlist/netlist.hpp"
 #include "netlist_runner.hpp"
 
@@ -53,7 +53,7 @@ UicmConstants array(const UicmCard& card, double W, double L, double m, double s
     return uicm_constants(card, at, 27, pmos);
 }
 
-double drain_current(const UicmConstants& c, double d, double g, double s, double b) { return uicm_point(c, {d, g, s, b}).I_D; }
+double drain_current(const UicmConstants& c, double d, double g, double s, double b) { return uicm_operating_point(c, {d, g, s, b}).I_D; }
 
 /// The unbiased inverter with output tied to input (fig. 51a, arrays 2x8 of table 16): V_Q and I_Q.
 struct Quiet {

@@ -35,13 +35,13 @@ inline UicmConstants sized(const UicmCard& card, double W, double L, double m = 
     return uicm_constants(card, at, T, pmos);
 }
 
-inline UicmAnswer<double> answer(const UicmConstants& c, double d, double g, double s, double b) {
-    UicmAnswer<double> out;
+inline UicmEvaluation<double> answer(const UicmConstants& c, double d, double g, double s, double b) {
+    UicmEvaluation<double> out;
     Uicm<double>(c).eval({d, g, s, b}, out);
     return out;
 }
 
-inline double current(const UicmConstants& c, double d, double g, double s, double b = 0) { return Uicm<double>(c).inside({d, g, s, b}).I; }
+inline double current(const UicmConstants& c, double d, double g, double s, double b = 0) { return Uicm<double>(c).internals({d, g, s, b}).I; }
 
 /// Number k of a course of random devices and voltages: weak to strong inversion, forward bulks, V_DS of 0 in every fourth.
 struct Random {

@@ -22,7 +22,7 @@ template <class Read>
 double dual_slope(const Random& r, int by, const Read& read) {
     num::Dual v[4] = {r.v[0], r.v[1], r.v[2], r.v[3]};
     v[by].d = 1;
-    UicmAnswer<num::Dual> out;
+    UicmEvaluation<num::Dual> out;
     Uicm<num::Dual>(r.c).eval(v, out);
     return read(out).d;
 }
@@ -36,7 +36,7 @@ void near(double found, double right, double scale, std::uint32_t k, const char*
 TEST(UicmContract, ItsSlopesAreThoseOfDualsAtAHundredThousandPoints) {
     for (std::uint32_t k = 0; k < 100000 && !testing::Test::HasFailure(); ++k) {
         const Random r(k);
-        UicmAnswer<double> out;
+        UicmEvaluation<double> out;
         Uicm<double>(r.c).eval(r.v, out);
         double most_i = 0, most_q = 0;
         for (int a = 0; a < 16; ++a)
@@ -55,7 +55,7 @@ TEST(UicmContract, ItsSlopesAreThoseOfFiniteDifferences) {
         Random r(k);
         for (int b = 0; b < 4; ++b) {
             const double h = 1e-5;
-            UicmAnswer<double> at, up, down;
+            UicmEvaluation<double> at, up, down;
             const Uicm<double> device(r.c);
             device.eval(r.v, at);
             r.v[b] += h, device.eval(r.v, up), r.v[b] -= 2 * h, device.eval(r.v, down), r.v[b] += h;
@@ -72,7 +72,7 @@ TEST(UicmContract, SwappingDrainAndSourceNegatesTheCurrentToTheLastBit) {
     for (std::uint32_t k = 0; k < 10000; ++k) {
         const Random r(k);
         const Uicm<double> device(r.c);
-        const double there = device.inside({r.v[0], r.v[1], r.v[2], r.v[3]}).I, back = device.inside({r.v[2], r.v[1], r.v[0], r.v[3]}).I;
+        const double there = device.internals({r.v[0], r.v[1], r.v[2], r.v[3]}).I, back = device.internals({r.v[2], r.v[1], r.v[0], r.v[3]}).I;
         ASSERT_EQ(there, -back) << k;
         if (r.v[D] == r.v[S]) {
             ASSERT_EQ(there, 0) << k;
@@ -128,7 +128,7 @@ TEST(UicmContract, CurrentNeverFallsAsTheDrainRises) {
 
 TEST(UicmContract, SlopesDoNotJumpAcrossZeroDrainVoltageNorWhereAFormulaEnds) {
     const auto c = sized(whole(), 1.5e-6, 0.5e-6);
-    const double top = c.top_s / c.per_n_phi_t, corner = c.v_top;
+    const double top = c.exp_limit_s / c.per_n_phi_t, corner = c.v_limit;
     for (const double g : {-0.2, 0.3, 0.5, 1.0, 1.8})
         for (const double b : {0.0, corner, top})  // of the bulk above source and drain
             for (const double step : {1e-9, 1e-8}) {

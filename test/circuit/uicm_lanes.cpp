@@ -23,7 +23,7 @@ void uicm_many(const UicmConstants* constants, const double* const (&v)[4], std:
 
 double uicm_rounds(const UicmConstants& constants, const double* const (&v)[4], std::size_t count, std::size_t rounds) {
     const Uicm<T> device(constants);
-    UicmAnswer<T> answer;
+    UicmEvaluation<T> answer;
     T sum(0.0);
     for (std::size_t round = 0; round < rounds; ++round)
         for (std::size_t k = 0; k < count; k += T::size) {

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "circuit/device/uicm_point.hpp"
+#include "circuit/device/uicm_operating_point.hpp"
 #include "circuit/uicm_cards.hpp"
 
 namespace corpuscle::circuit {
@@ -17,7 +17,7 @@ TEST(Uicm, PlainIsTheThesissModelWithItsDerivedSlopes) {  // eq. 21 to 30
     for (double g = 0; g < 1.5; g += 0.07)
         for (double d = 0; d < 1; d += 0.11) {
             const auto out = answer(c, d, g, 0.05, 0);
-            const double V_P = (g - 0.461) / 1.27, q_S = inversion((V_P - 0.05) / phi_t + 1), q_D = inversion((V_P - d) / phi_t + 1);
+            const double V_P = (g - 0.461) / 1.27, q_S = inversion_charge((V_P - 0.05) / phi_t + 1), q_D = inversion_charge((V_P - d) / phi_t + 1);
             const double I = c.I_S * ((q_S * q_S + 2 * q_S) - (q_D * q_D + 2 * q_D)), scale = c.I_S * (q_S + q_D) * (q_S + q_D + 2);
             ASSERT_NEAR(out.i[D], I, 3e-12 * scale);
             ASSERT_NEAR(-out.di[D][S], 2 * c.I_S * q_S / phi_t, 3e-12 * scale / phi_t);
@@ -28,7 +28,7 @@ TEST(Uicm, PlainIsTheThesissModelWithItsDerivedSlopes) {  // eq. 21 to 30
 }
 
 TEST(Uicm, ForwardInversionIsThreeWhereThePinchOffVoltageIsTheSource) {
-    const auto inside = Uicm<double>(sized(plain(), 1e-6, 1e-6)).inside({0.5, 0.461, 0, 0});
+    const auto inside = Uicm<double>(sized(plain(), 1e-6, 1e-6)).internals({0.5, 0.461, 0, 0});
     EXPECT_NEAR(inside.q_S * (inside.q_S + 2), 3, 3e-15);
 }
 
@@ -48,7 +48,7 @@ TEST(Uicm, VelocitySaturationTakesItsShareInWeakInversionAndItsChargeInSaturatio
     EXPECT_NEAR(current(c, 0.9, -0.1, 0) / current(without, 0.9, -0.1, 0), 1 / 1.1, 1e-7);
     EXPECT_NEAR(current(c, 1e-6, -0.1, 0) / current(without, 1e-6, -0.1, 0), 1, 1e-5);
     for (double g = 0.2; g < 1.8; g += 0.2) {
-        const double q = inversion((g - 0.461) / 1.27 / phi_t + 1), i = current(c, 5, g, 0) / c.I_S;
+        const double q = inversion_charge((g - 0.461) / 1.27 / phi_t + 1), i = current(c, 5, g, 0) / c.I_S;
         EXPECT_NEAR(2 * (q + 1 - std::sqrt(1 + i)) / i, 0.1, 1e-9) << g;  // how zeta is extracted
     }
 }
@@ -132,11 +132,11 @@ TEST(Uicm, JunctionsAreShockleysUpToTheirTangentAndNoisyAsTwoShotCurrents) {  //
     const auto c = sized(whole(), 1.5e-6, 0.5e-6);
     EXPECT_GT(c.I_sat_s, 0);
     for (double v = -0.5; v < 0.85; v += 0.05) {
-        const auto inside = Uicm<double>(c).inside({0, -5, 0, v});
+        const auto inside = Uicm<double>(c).internals({0, -5, 0, v});
         EXPECT_NEAR(inside.I_s, c.I_sat_s * std::expm1(v / (1.05 * phi_t)), 1e-13 * std::abs(inside.I_s) + 1e-15 * c.I_sat_s) << v;
     }
-    EXPECT_NEAR(Uicm<double>(c).inside({0, -5, 0, c.top_s / c.per_n_phi_t}).I_s, junction_current_top, 1e-14);
-    EXPECT_LT(Uicm<double>(c).inside({0, -5, 0, 5}).I_s, 2);
+    EXPECT_NEAR(Uicm<double>(c).internals({0, -5, 0, c.exp_limit_s / c.per_n_phi_t}).I_s, junction_current_limit, 1e-14);
+    EXPECT_LT(Uicm<double>(c).internals({0, -5, 0, 5}).I_s, 2);
     EXPECT_TRUE(std::isfinite(answer(c, 1e3, -1e3, 1e3, -1e3).i[D]) && std::isfinite(answer(c, -1e3, 1e3, -1e3, 1e3).q[B]));
     const auto noise = Uicm<double>(c).noise({0, 0, 0, 0});
     EXPECT_NEAR(noise.shot_s, 4 * charge * c.I_sat_s, 1e-12 * noise.shot_s);
@@ -148,7 +148,7 @@ TEST(Uicm, CapacitancesAreAcm2sForALongChannel) {
     for (const double g : {-0.2, 0.4, 0.8, 1.5})
         for (const double d : {0.0, 0.1, 0.9}) {
             const auto out = answer(c, d, g, 0, 0);
-            const auto inside = Uicm<double>(c).inside({d, g, 0, 0});
+            const auto inside = Uicm<double>(c).internals({d, g, 0, 0});
             const double q = inside.q_S, r = inside.q_D, a = (r + 1) / (q + 1), per = 1 / ((1 + a) * (1 + a));
             const double C_gs = 2.0 / 3 * gate * (1 + 2 * a) * per * q / (1 + q),
                          C_gd = 2.0 / 3 * gate * (a * a + 2 * a) * per * r / (1 + r);
@@ -205,9 +205,9 @@ TEST(Uicm, ItsPointSaysTheRegionAndConductancesThatSumUp) {
                  {0.05, 0.3, "weak", "triode"},    {0.7, 0.5, "moderate", "saturation"},
                  {0.2, 0.6, "moderate", "triode"}, {1.8, 1.8, "strong", "saturation"}};
     for (const auto& x : cases) {
-        const auto a = uicm_point(n, {x.d, x.g, 0, 0.3}), b = uicm_point(p, {-x.d, -x.g, 0, -0.3});
-        EXPECT_EQ(uicm_point(n, {x.d, x.g, 0, 0}).inversion, x.inversion) << x.d << ' ' << x.g;
-        EXPECT_EQ(uicm_point(n, {x.d, x.g, 0, 0}).region, x.region) << x.d << ' ' << x.g;
+        const auto a = uicm_operating_point(n, {x.d, x.g, 0, 0.3}), b = uicm_operating_point(p, {-x.d, -x.g, 0, -0.3});
+        EXPECT_EQ(uicm_operating_point(n, {x.d, x.g, 0, 0}).inversion_level, x.inversion) << x.d << ' ' << x.g;
+        EXPECT_EQ(uicm_operating_point(n, {x.d, x.g, 0, 0}).region, x.region) << x.d << ' ' << x.g;
         EXPECT_NEAR(a.g_mg + a.g_md + a.g_mb, a.g_ms, 1e-14 * a.g_ms);
         EXPECT_EQ(a.I_D, -b.I_D);
         EXPECT_EQ(a.g_mg, b.g_mg);

@@ -170,7 +170,7 @@ TEST(Layout, ErrorsNameLineColumnAndWhatWouldBeRight) {
     EXPECT_EQ(wrong("sensor,x\n"), "l.csv: the layout names no sensor");
 }
 
-TEST(Verdict, SpeaksOfWhatWouldMisleadAndOfNothingElse) {
+TEST(IterationStatus, SpeaksOfWhatWouldMisleadAndOfNothingElse) {
     const Folder folder;
     std::string good = "t_s,F_N\n", heavy = good, negative = good, weak = good, full = "t_s,F\n";
     for (int k = 0; k < 2000; ++k) {

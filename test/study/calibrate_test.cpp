@@ -36,7 +36,7 @@ TEST(Calibrate, FindsTheCodeThatIsKnown) {
         ASSERT_TRUE(trim) << trim.error().text();
         EXPECT_DOUBLE_EQ(trim->designed, 1e-3);
         asked.trims = {*trim};
-        const auto done = calibrate(asked, {circuit::Draw{1, 0}});
+        const auto done = calibrate(asked, {circuit::ChipSample{1, 0}});
         ASSERT_TRUE(done) << done.error().text();
         const auto& chip = done->at(0);
         EXPECT_EQ(chip.bits, bits) << meant;
@@ -52,7 +52,7 @@ TEST(Calibrate, TellsWhatCannotBeReached) {
     auto asked = ramp(folder, 0.15, 4e-3);  // twice as much is 0.25 s
     asked.bits = 4;
     asked.trims = {*trim_of(asked.netlist, {}, {"g"}, 1, false)};
-    const auto done = calibrate(asked, {circuit::Draw{1, 0}, circuit::Draw{1, 1}});
+    const auto done = calibrate(asked, {circuit::ChipSample{1, 0}, circuit::ChipSample{1, 1}});
     ASSERT_TRUE(done);
     const CalibrationTold told{asked.trims, *done};
     EXPECT_EQ(told.kept(4), 0U);

@@ -104,7 +104,7 @@ TEST(Drawn, DevicesAreToldInTheOrderInWhichTheyDrawAndTheirDeviatesAreThoseOfThe
     const circuit::UicmCard card{.A_VT = 3e-9, .A_IS = 1e-8};
     const circuit::UicmInstance size{.W = 2e-6, .L = 0.5e-6, .m = 3, .stack = 2};
     const auto own = deviates_of(devices[0], drawn.seed, {0, 41});
-    const auto shift = circuit::mismatch(card, size, 9, 0, 41);
+    const auto shift = circuit::sample_mismatch(card, size, 9, 0, 41);
     EXPECT_NEAR(own.V_T[1] * devices[0].sigma_VT, shift.V_T, 1e-12);
     EXPECT_NEAR(own.I_S[1] * devices[0].sigma_IS, std::log(shift.factor), 1e-12);
     EXPECT_FALSE(drawn_of("{\"seed\":1"));

@@ -6,29 +6,29 @@
 
 namespace corpuscle::circuit {
 
-Result<Findings> analyse_ac(TestBench& context, const Directive& c) {
-    const auto frequencies = frequencies_of(c, 0);
+Result<AnalysisResult> analyse_ac(AnalysisContext& context, const Directive& c) {
+    const auto frequencies = read_frequencies(c, 0);
     if (!frequencies) return frequencies.error();
-    const auto operating_point = context.rest();
+    const auto operating_point = context.operating_point();
     if (!operating_point) return operating_point.error();
     const auto& system = context.system;
-    const auto evaluation = sums_at(context, operating_point->x);
+    const auto evaluation = evaluate_operating_point(context, operating_point->x);
     std::vector<std::complex<double>> stimulus(static_cast<std::size_t>(system.size()));
     for (const auto& d : system.devices()) {
         std::vector<std::complex<double>> contribution(d->unknowns.size());
-        d->drive(contribution);
+        d->add_ac_stimulus(contribution);
         for (std::size_t k = 0; k < contribution.size(); ++k)
             if (d->unknowns[k] >= 0) stimulus[static_cast<std::size_t>(d->unknowns[k])] += contribution[k];
     }
-    Findings result;
-    Plot plot = plot_of(system, "AC Analysis", "frequency", "frequency");
+    AnalysisResult result;
+    Plot plot = make_plot(system, "AC Analysis", "frequency", "frequency");
     plot.is_complex = true;
-    Solver<std::complex<double>> solver(system.pattern());
+    LinearSolver<std::complex<double>> solver(system.pattern());
     for (const double f : *frequencies) {
-        if (context.stopped(static_cast<double>(plot.point_count()) / static_cast<double>(frequencies->size()))) return interruption();
+        if (context.is_stopped(static_cast<double>(plot.point_count()) / static_cast<double>(frequencies->size()))) return interrupted_error();
         const auto values = admittances(evaluation, system.pattern().entries(), 6.283185307179586 * f);
         if (!solver.factor(values)) {
-            const int at = solver.where().column;
+            const int at = solver.singularity().column;
             return bad_input(fmt::format(".ac at {:g} Hz: the matrix is singular{}", f,
                                          at < 0 ? "" : " at " + system.names()[static_cast<std::size_t>(at)]),
                              c.location);

@@ -21,11 +21,11 @@ struct Sweep {
     }
 };
 
-Result<Sweep> read_sweep(const TestBench& context, const Directive& c, std::size_t word) {
+Result<Sweep> read_sweep(const AnalysisContext& context, const Directive& c, std::size_t word) {
     if (word >= c.words.size()) return bad_input(".dc: the sweep variable is missing", c.location);
     Sweep s{c.words[word], 0, 0, 0};
-    const auto from = number_of(c, word + 1, "the first value"), to = number_of(c, word + 2, "the last value"),
-               step = number_of(c, word + 3, "the step");
+    const auto from = read_number(c, word + 1, "the first value"), to = read_number(c, word + 2, "the last value"),
+               step = read_number(c, word + 3, "the step");
     for (const auto* part : {&from, &to, &step})
         if (!*part) return part->error();
     s.from = *from, s.to = *to, s.step = *step;
@@ -36,10 +36,10 @@ Result<Sweep> read_sweep(const TestBench& context, const Directive& c, std::size
         return bad_input(fmt::format(".dc {}: {:g} points; the maximum is 10000000", s.variable, (s.to - s.from) / s.step), c.location);
     if (s.variable == "temp") return s;
     const auto* device = context.system.device(s.variable);
-    if (device == nullptr || !device->setting()) {
+    if (device == nullptr || !device->principal_value()) {
         std::vector<std::string_view> known = {"temp"};
         for (const auto& d : context.system.devices())
-            if (d->setting()) known.push_back(d->name);
+            if (d->principal_value()) known.push_back(d->name);
         return bad_input(fmt::format(".dc: '{}' is not a source, a resistor or temp{}", s.variable, did_you_mean(s.variable, known)),
                          c.location);
     }
@@ -55,8 +55,8 @@ std::string name_of(const std::string& variable) {
 
 /// The circuit of a sweep: the given one, whose source values are restored at the end, or a copy at another temperature.
 class SweptCircuit {
-    TestBench& given_;
-    std::unique_ptr<TestBench> copy_;
+    AnalysisContext& given_;
+    std::unique_ptr<AnalysisContext> copy_;
     struct Source {
         std::string name;
         double original, current;
@@ -64,12 +64,12 @@ class SweptCircuit {
     std::vector<Source> sources_;
 
 public:
-    explicit SweptCircuit(TestBench& given) : given_(given) {}
+    explicit SweptCircuit(AnalysisContext& given) : given_(given) {}
     SweptCircuit(const SweptCircuit&) = delete;
     ~SweptCircuit() {
-        for (const auto& s : sources_) given_.system.device(s.name)->set(s.original);
+        for (const auto& s : sources_) given_.system.device(s.name)->set_principal_value(s.original);
     }
-    TestBench& context() { return copy_ ? *copy_ : given_; }
+    AnalysisContext& context() { return copy_ ? *copy_ : given_; }
 
     Result<void> set(const std::string& variable, double value) {
         return variable == "temp" ? set_temperature(value) : set_source(variable, value);
@@ -79,18 +79,18 @@ private:
     Result<void> set_temperature(double value) {
         auto copy = std::make_shared<Circuit>(*given_.circuit);
         copy->temperature = value;
-        auto context = TestBench::make(std::move(copy));
+        auto context = AnalysisContext::make(std::move(copy));
         if (!context) return context.error();
         copy_ = std::move(*context);
-        if (given_.drawn()) copy_->draw(*given_.drawn());
-        for (const auto& s : sources_) copy_->system.device(s.name)->set(s.current);
+        if (given_.chip_sample()) copy_->apply_variation(*given_.chip_sample());
+        for (const auto& s : sources_) copy_->system.device(s.name)->set_principal_value(s.current);
         return {};
     }
     Result<void> set_source(const std::string& name, double value) {
         auto source = std::find_if(sources_.begin(), sources_.end(), [&](const Source& s) { return s.name == name; });
-        if (source == sources_.end()) source = sources_.insert(source, {name, given_.system.device(name)->setting().value_or(0), value});
+        if (source == sources_.end()) source = sources_.insert(source, {name, given_.system.device(name)->principal_value().value_or(0), value});
         source->current = value;
-        if (!context().system.device(name)->set(value))
+        if (!context().system.device(name)->set_principal_value(value))
             return bad_input(fmt::format(".dc: {:g} is not an allowed value of {}", value, name), SourceLocation{given_.circuit->file});
         return {};
     }
@@ -98,7 +98,7 @@ private:
 
 }  // namespace
 
-Result<Findings> analyse_dc(TestBench& given, const Directive& c) {
+Result<AnalysisResult> analyse_dc(AnalysisContext& given, const Directive& c) {
     auto words = c;
     const bool up_down = !words.words.empty() && words.words.back() == "updown";
     if (up_down) words.words.pop_back();
@@ -119,18 +119,18 @@ Result<Findings> analyse_dc(TestBench& given, const Directive& c) {
     if (static_cast<double>(values.size()) * static_cast<double>(outer_values.size()) > 1e7)
         return bad_input(fmt::format(".dc: {} times {} points; the maximum is 10000000", values.size(), outer_values.size()), c.location);
 
-    Plot plot = plot_of(given.system, "DC transfer characteristic", name_of(inner->variable), type_of(inner->variable));
+    Plot plot = make_plot(given.system, "DC transfer characteristic", name_of(inner->variable), type_of(inner->variable));
     SweptCircuit swept(given);
     for (std::size_t k = 0; k < outer_values.size(); ++k) {
         if (outer)
             if (auto ok = swept.set(outer->variable, outer_values[k]); !ok) return ok.error();
         std::vector<double> x;
         for (std::size_t j = 0; j < values.size(); ++j) {
-            if (given.stopped(static_cast<double>(k * values.size() + j) / static_cast<double>(outer_values.size() * values.size())))
-                return interruption();
+            if (given.is_stopped(static_cast<double>(k * values.size() + j) / static_cast<double>(outer_values.size() * values.size())))
+                return interrupted_error();
             if (auto ok = swept.set(inner->variable, values[j]); !ok) return ok.error();
             auto& context = swept.context();
-            const auto found = operating_point(context.newton, x);
+            const auto found = find_operating_point(context.newton, x);
             if (!found) {
                 auto error = found.error();
                 error.message = fmt::format(".dc at {} = {:g}{}: {}", inner->variable, values[j],
@@ -141,7 +141,7 @@ Result<Findings> analyse_dc(TestBench& given, const Directive& c) {
             append(plot, values[j], std::span<const double>(x));
         }
     }
-    Findings result;
+    AnalysisResult result;
     result.plots.push_back(std::move(plot));
     return result;
 }

@@ -27,19 +27,19 @@ double area(double f0, double s0, double f1, double s1) {
 
 }  // namespace
 
-Result<Findings> analyse_noise(TestBench& context, const Directive& c) {
+Result<AnalysisResult> analyse_noise(AnalysisContext& context, const Directive& c) {
     const auto& system = context.system;
-    const auto out = wanted_of(system, c, 0);
+    const auto out = read_output_variable(system, c, 0);
     if (!out) return out.error();
     if (c.words.size() < 6) return bad_input(".noise: expected .noise v(OUT) SOURCE dec|oct|lin POINTS FROM TO", c.location);
     const auto* source = system.device(c.words[1]);
     if (source == nullptr || !(source->name[0] == 'v' || source->name[0] == 'i'))
         return bad_input(fmt::format(".noise: '{}' is not an independent source", c.words[1]), c.location);
-    const auto frequencies = frequencies_of(c, 2);
+    const auto frequencies = read_frequencies(c, 2);
     if (!frequencies) return frequencies.error();
-    const auto operating_point = context.rest();
+    const auto operating_point = context.operating_point();
     if (!operating_point) return operating_point.error();
-    const auto evaluation = sums_at(context, operating_point->x);
+    const auto evaluation = evaluate_operating_point(context, operating_point->x);
 
     struct Source {
         const Device* device;
@@ -49,19 +49,19 @@ Result<Findings> analyse_noise(TestBench& context, const Directive& c) {
     std::vector<Source> sources;
     std::vector<NoiseContribution> contributions;
     for (const auto& d : system.devices())
-        for (const auto& n : d->noise(system.terminals(*d, operating_point->x))) {
+        for (const auto& n : d->noise(system.terminal_values(*d, operating_point->x))) {
             sources.push_back({d.get(), n, contributions.size()});
-            contributions.push_back({fmt::format("{} {}", d->name, n.what)});
+            contributions.push_back({fmt::format("{} {}", d->name, n.mechanism)});
         }
 
     Plot plot{"Noise Spectral Density Curves",
               false,
               true,
               {{"frequency", "frequency", {}}, {"onoise_spectrum", "notype", {}}, {"inoise_spectrum", "notype", {}}}};
-    Solver<std::complex<double>> solver(system.pattern());
+    LinearSolver<std::complex<double>> solver(system.pattern());
     double f_last = 0;
     for (const double f : *frequencies) {
-        if (context.stopped(static_cast<double>(plot.point_count()) / static_cast<double>(frequencies->size()))) return interruption();
+        if (context.is_stopped(static_cast<double>(plot.point_count()) / static_cast<double>(frequencies->size()))) return interrupted_error();
         if (!solver.factor(admittances(evaluation, system.pattern().entries(), 6.283185307179586 * f)))
             return bad_input(fmt::format(".noise at {:g} Hz: the matrix is singular", f), c.location);
         std::vector<std::complex<double>> lambda(operating_point->x.size());
@@ -91,7 +91,7 @@ Result<Findings> analyse_noise(TestBench& context, const Directive& c) {
     }
     double total = 0, total_in = 0;
     for (const auto& contribution : contributions) total += contribution.total, total_in += contribution.total_in;
-    Findings result;
+    AnalysisResult result;
     result.plots.push_back(std::move(plot));
     Plot totals{"Integrated Noise",
                 false,

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "circuit/analyses.hpp"
-#include "circuit/analysis/rest_states.hpp"
+#include "circuit/analysis/equilibria.hpp"
 #include "signal/quantity.hpp"
 
 namespace corpuscle::circuit {
@@ -65,11 +65,11 @@ std::string operating_point_table(const System& system, std::span<const double> 
     }
     DeviceTable table;
     for (const auto& d : system.devices()) {
-        const auto v = system.terminals(*d, x);
-        const auto quantities = d->readings(v);
+        const auto v = system.terminal_values(*d, x);
+        const auto quantities = d->operating_info(v);
         if (quantities.empty()) continue;
         std::vector<std::string_view> names;
-        DeviceTable::DeviceRow row{d->name, std::string(d->state(v)), {}};
+        DeviceTable::DeviceRow row{d->name, std::string(d->operating_region(v)), {}};
         for (const auto& r : quantities) names.push_back(r.name), row.cells.push_back(format_quantity(r.value, r.unit));
         if (names != table.quantities) {
             out += table.text();
@@ -81,13 +81,13 @@ std::string operating_point_table(const System& system, std::span<const double> 
 }
 
 /// Searches again with all nodes at the highest voltage. Returns a warning if the result is different.
-std::optional<Error> check_second_state(TestBench& context, const OperatingPoint& found) {
-    if (context.system.linear() || !context.circuit->nodesets.empty()) return {};
+std::optional<Error> check_second_state(AnalysisContext& context, const OperatingPoint& found) {
+    if (context.system.is_linear() || !context.circuit->nodesets.empty()) return {};
     double high = 0;
     for (std::size_t n = 0; n < static_cast<std::size_t>(context.system.nodes()); ++n) high = std::max(high, std::abs(found.x[n]));
     std::vector<double> start(found.x.size());
     for (std::size_t n = 0; n < static_cast<std::size_t>(context.system.nodes()); ++n) start[n] = high;
-    const auto again = operating_point(context.newton, std::move(start));
+    const auto again = find_operating_point(context.newton, std::move(start));
     if (!again) return {};
     for (std::size_t n = 0; n < static_cast<std::size_t>(context.system.nodes()); ++n)
         if (std::abs(again->x[n] - found.x[n]) > 1e-3)
@@ -113,7 +113,7 @@ Result<OpOptions> read_op_options(const Directive& c) {
     if (c.words.size() > 2) return error_at(c, 2, fmt::format(".op: unexpected '{}'; expected .op states [RISE]", c.words[2]));
     out.states = true;
     if (c.words.size() == 1) return out;
-    const auto rise = number_of(c, 1, "the rise time of the sources");
+    const auto rise = read_number(c, 1, "the rise time of the sources");
     if (!rise) return rise.error();
     if (!(*rise > 0 && *rise <= 1e3))
         return error_at(c, 1, fmt::format(".op: the rise time {:g} s must be above 0 and at most 1000 s", *rise));
@@ -121,35 +121,35 @@ Result<OpOptions> read_op_options(const Directive& c) {
 }
 
 /// Adds the numbers of states, which .mc evaluates over its chips, and their table.
-Result<void> report_states(TestBench& context, const OpOptions& options, Findings& out) {
-    const auto states = rest_states(context, options.rise);
+Result<void> report_states(AnalysisContext& context, const OpOptions& options, AnalysisResult& out) {
+    const auto states = find_equilibria(context, options.rise);
     if (!states) return states.error();
     double stable = 0, elsewhere = 1;  // at power-on the circuit reaches another state than .op, or none
-    for (const auto& s : *states) stable += s.stable, elsewhere -= s.usual && s.power_on;
+    for (const auto& s : *states) stable += s.is_stable, elsewhere -= s.is_default && s.is_power_on;
     out.numbers = {
         {"stable_states", stable}, {"unstable_states", static_cast<double>(states->size()) - stable}, {"power_on_elsewhere", elsewhere}};
-    out.table = told(context, *states);
+    out.table = describe(context, *states);
     return {};
 }
 
 }  // namespace
 
-Result<Findings> analyse_op(TestBench& context, const Directive& c) {
+Result<AnalysisResult> analyse_op(AnalysisContext& context, const Directive& c) {
     const auto options = read_op_options(c);
     if (!options) return options.error();
-    const auto found = context.rest();
+    const auto found = context.operating_point();
     if (!found) return found.error();
-    Findings out;
-    Plot plot = plot_of(context.system, "Operating Point", "", "");
+    AnalysisResult out;
+    Plot plot = make_plot(context.system, "Operating Point", "", "");
     for (std::size_t n = 0; n < found->x.size(); ++n) plot.curves[n].values.emplace_back(found->x[n]);
     out.plots.push_back(std::move(plot));
     if (options->states)
         if (auto done = report_states(context, *options, out); !done) return done.error();
-    if (context.brief) return out;
-    out.table = fmt::format("found by {} ({} iterations, gmin {:g} S)\n{}{}", found->how, found->iterations, context.tolerances.gmin,
+    if (context.is_brief) return out;
+    out.table = fmt::format("found by {} ({} iterations, gmin {:g} S)\n{}{}", found->method, found->iterations, context.tolerances.gmin,
                             out.table, operating_point_table(context.system, found->x));
     if (options->states) return out;
-    if (auto other = check_second_state(context, *found)) out.remarks.push_back(std::move(*other));
+    if (auto other = check_second_state(context, *found)) out.warnings.push_back(std::move(*other));
     return out;
 }
 

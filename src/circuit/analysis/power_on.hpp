@@ -1,12 +1,12 @@
 #pragma once
 // The state that a circuit reaches at power-on.
 
-#include "circuit/analysis/bench.hpp"
+#include "circuit/analysis/analysis_context.hpp"
 
 namespace corpuscle::circuit {
 
 /// The final state of a transient that starts at 0 V everywhere, without .ic, while all sources rise from 0 within `rise` (s). Returns
 /// nothing if the circuit keeps oscillating.
-Result<std::optional<std::vector<double>>> powered_on(const TestBench&, double rise);
+Result<std::optional<std::vector<double>>> power_on_state(const AnalysisContext&, double rise);
 
 }  // namespace corpuscle::circuit

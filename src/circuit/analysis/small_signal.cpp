@@ -12,14 +12,14 @@ namespace {
 
 struct LinearCircuit {
     std::vector<double> x;
-    Sums evaluation;
-    Solver<double> solver;
+    SystemEvaluation evaluation;
+    LinearSolver<double> solver;
 };
 
-Result<LinearCircuit> linearize(TestBench& context, const Directive& c) {
-    const auto operating_point = context.rest();
+Result<LinearCircuit> linearize(AnalysisContext& context, const Directive& c) {
+    const auto operating_point = context.operating_point();
     if (!operating_point) return operating_point.error();
-    LinearCircuit linear{operating_point->x, sums_at(context, operating_point->x), Solver<double>(context.system.pattern())};
+    LinearCircuit linear{operating_point->x, evaluate_operating_point(context, operating_point->x), LinearSolver<double>(context.system.pattern())};
     if (!linear.solver.factor(std::span<const double>(linear.evaluation.G).first(context.system.pattern().entries())))
         return bad_input(fmt::format(".{}: the matrix is singular at the operating point", c.name), c.location);
     return linear;
@@ -31,8 +31,8 @@ void add(std::vector<double>& to, int unknown, double value) {
 
 }  // namespace
 
-Result<Findings> analyse_tf(TestBench& context, const Directive& c) {
-    const auto out = wanted_of(context.system, c, 0);
+Result<AnalysisResult> analyse_tf(AnalysisContext& context, const Directive& c) {
+    const auto out = read_output_variable(context.system, c, 0);
     if (!out) return out.error();
     if (c.words.size() != 2) return bad_input(fmt::format(".tf: {} words; expected .tf OUTPUT SOURCE", c.words.size()), c.location);
     const auto* source = context.system.device(c.words[1]);
@@ -47,9 +47,9 @@ Result<Findings> analyse_tf(TestBench& context, const Directive& c) {
     else
         add(response, source->unknowns[0], -1), add(response, source->unknowns[1], 1);
     linear->solver.solve(response);
-    Findings result;
+    AnalysisResult result;
     const auto across = [&](const std::vector<double>& x) {
-        return Wanted{source->unknowns[0], source->unknowns[1]}.of(std::span<const double>(x));
+        return OutputVariable{source->unknowns[0], source->unknowns[1]}.value(std::span<const double>(x));
     };
     const double input_resistance = voltage ? (response[static_cast<std::size_t>(source->unknowns[2])] == 0
                                                    ? 1e20
@@ -61,14 +61,14 @@ Result<Findings> analyse_tf(TestBench& context, const Directive& c) {
     if (of_voltage) {
         add(output_response, out->plus, 1), add(output_response, out->minus, -1);
         linear->solver.solve(output_response);
-        resistance = out->of(std::span<const double>(output_response));
+        resistance = out->value(std::span<const double>(output_response));
     } else {
         add(output_response, out->plus, -1);
         linear->solver.solve(output_response);
         const double g = output_response[static_cast<std::size_t>(out->plus)];
         resistance = g == 0 ? 1e20 : std::abs(1 / g);
     }
-    result.numbers = {{"transfer_function", out->of(std::span<const double>(response))},
+    result.numbers = {{"transfer_function", out->value(std::span<const double>(response))},
                       {source->name + "#input_impedance", std::abs(input_resistance)},
                       {"output_impedance_at_" + c.words[0], std::abs(resistance)}};
     Plot plot{"Transfer Function", false, false, {}};
@@ -78,34 +78,34 @@ Result<Findings> analyse_tf(TestBench& context, const Directive& c) {
 }
 
 /// d out / d p = -lambda . df/dp, where G^T lambda selects the output. df/dp of a device is a difference quotient of its principal value.
-Result<Findings> analyse_sens(TestBench& context, const Directive& c) {
-    const auto out = wanted_of(context.system, c, 0);
+Result<AnalysisResult> analyse_sens(AnalysisContext& context, const Directive& c) {
+    const auto out = read_output_variable(context.system, c, 0);
     if (!out) return out.error();
     auto linear = linearize(context, c);
     if (!linear) return linear.error();
     std::vector<double> lambda(linear->x.size());
     add(lambda, out->plus, 1), add(lambda, out->minus, -1);
     linear->solver.solve_transposed(lambda);
-    Findings result;
+    AnalysisResult result;
     Plot plot{"Sensitivity Analysis", false, false, {}};
-    Instant eval_context;
+    EvalContext eval_context;
     eval_context.gmin = context.tolerances.gmin;
     for (const auto& d : context.system.devices()) {
-        const auto value = d->setting();
+        const auto value = d->principal_value();
         if (!value) continue;
-        const auto v = context.system.terminals(*d, linear->x);
+        const auto v = context.system.terminal_values(*d, linear->x);
         const auto n = v.size();
         const auto currents = [&](double p) {
             std::vector<double> stamp(2 * n + 2 * n * n);
             const std::span<double> all(stamp);
-            d->set(p);
+            d->set_principal_value(p);
             d->eval(v, eval_context, {all.first(n), all.subspan(n, n), all.subspan(2 * n, n * n), all.subspan(2 * n + n * n)});
             stamp.resize(n);
             return stamp;
         };
         const double h = std::max(std::abs(*value), *value == 0 ? 1.0 : 0.0) * 1e-5;
         const auto up = currents(*value + h), down = currents(*value - h);
-        d->set(*value);
+        d->set_principal_value(*value);
         double slope = 0;
         for (std::size_t k = 0; k < n; ++k)
             if (d->unknowns[k] >= 0) slope -= lambda[static_cast<std::size_t>(d->unknowns[k])] * (up[k] - down[k]) / (2 * h);

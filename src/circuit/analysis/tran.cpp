@@ -6,9 +6,9 @@
 #include <utility>
 
 #include "circuit/analyses.hpp"
-#include "circuit/analysis/beginning.hpp"
+#include "circuit/analysis/initial_condition.hpp"
 #include "circuit/analysis/transient_plan.hpp"
-#include "circuit/device/values.hpp"
+#include "circuit/device/named_values.hpp"
 #include "circuit/force_directive.hpp"
 #include "circuit/spike_output.hpp"
 #include "circuit/operating_range.hpp"
@@ -21,7 +21,7 @@ struct TranSetup {
     TransientTimes times;
     TransientPlan plan;
     std::optional<SpikeOutput> output;
-    Beginning from;
+    InitialCondition from;
 };
 
 /// Measures how long each operating range of the circuit is violated.
@@ -40,7 +40,7 @@ public:
     }
     void add_point(double t, std::span<const double> x) {
         for (auto& r : ranges_) {
-            const bool was_outside = std::exchange(r.is_outside, !r.range.contains(r.range.quantity.unknowns.of(x)));
+            const bool was_outside = std::exchange(r.is_outside, !r.range.contains(r.range.quantity.unknowns.value(x)));
             r.outside +=
                 (t - last_time_) * (was_outside + r.is_outside) / 2;  // if it crossed the limit within the step, half of the step counts
             if (r.is_outside && r.first < 0) r.first = t;
@@ -57,35 +57,35 @@ public:
 /// The maximum step: LONGEST if given, otherwise STEP limited to 1/200 to 1/50 of the duration, so that short events are not missed.
 double max_step_of(const TransientTimes& t) {
     const double duration = t.stop - t.start;
-    return t.longest.value_or(std::clamp(t.step, duration / 200, duration / 50));
+    return t.max_step.value_or(std::clamp(t.step, duration / 200, duration / 50));
 }
 
 /// Runs a transient, passes its points to each(), and returns its spikes (s).
-Result<std::vector<double>> run_transient(TestBench& context, const TranSetup& setup, Transient& t, const Transient::Each& each) {
+Result<std::vector<double>> run_transient(AnalysisContext& context, const TranSetup& setup, Transient& t, const Transient::PointCallback& each) {
     std::vector<double> out;
     bool stopped = false;
     const auto done = t.run(
-        setup.from.x, setup.from.settled,
+        setup.from.x, setup.from.is_consistent,
         [&](double time, std::span<const double> x) {
             if (!each(time, x)) return false;
             if (time < t.time()) return true;  // within a step
             if (setup.output)
                 if (const auto spike = setup.output->find_spike(t); spike && *spike >= setup.times.start) out.push_back(*spike);
-            context.capped = context.most_iterations > 0 && t.work().iterations > context.most_iterations;
-            return !context.capped && !(stopped = context.stopped(time / setup.times.stop));
+            context.hit_iteration_limit = context.max_iterations > 0 && t.stats().iterations > context.max_iterations;
+            return !context.hit_iteration_limit && !(stopped = context.is_stopped(time / setup.times.stop));
         },
         setup.from.charge);
     if (!done) return done.error();
-    if (stopped) return interruption();
-    if (context.capped)
+    if (stopped) return interrupted_error();
+    if (context.hit_iteration_limit)
         return Error{ErrorCode::not_converged,
-                     fmt::format("stopped at {} after {} iterations", format_quantity(t.time(), "s"), t.work().iterations)};
+                     fmt::format("stopped at {} after {} iterations", format_quantity(t.time(), "s"), t.stats().iterations)};
     return out;
 }
 
 /// Estimates the largest error of a spike time (s) by a second run with a tenth of the tolerances, whose errors are at most a third. NaN:
 /// the second run has a different number of spikes.
-Result<double> spike_error(TestBench& context, TranSetup setup, const std::vector<double>& spikes) {
+Result<double> spike_error(AnalysisContext& context, TranSetup setup, const std::vector<double>& spikes) {
     for (double* tolerance : {&setup.plan.reltol, &setup.plan.vntol, &setup.plan.abstol}) *tolerance /= 10;
     // Only the spikes are compared, so other curves and points within a step are not needed.
     setup.plan.all_reported = false, setup.plan.steps_only = true;
@@ -100,19 +100,19 @@ Result<double> spike_error(TestBench& context, TranSetup setup, const std::vecto
 }
 
 /// Adds the spikes to the printed numbers, which .expect can check.
-Result<void> report_spikes(TestBench& context, const TranSetup& setup, std::vector<double> spikes, Findings& out) {
+Result<void> report_spikes(AnalysisContext& context, const TranSetup& setup, std::vector<double> spikes, AnalysisResult& out) {
     out.numbers.emplace_back("spikes", static_cast<double>(spikes.size()));
     if (!spikes.empty()) {
         out.numbers.emplace_back("first_spike", spikes.front());
         out.numbers.emplace_back("last_spike", spikes.back());
         if (spikes.size() > 1)
             out.numbers.emplace_back("mean_interval", (spikes.back() - spikes.front()) / static_cast<double>(spikes.size() - 1));
-        if (!context.brief && value_or(context.circuit->options, "spikecheck", 1) != 0) {
+        if (!context.is_brief && value_or(context.circuit->options, "spikecheck", 1) != 0) {
             const auto error = spike_error(context, setup, spikes);
             if (!error) return error.error();
             out.numbers.emplace_back("spike_error", *error);
             if (std::isnan(*error))
-                out.remarks.push_back(
+                out.warnings.push_back(
                     bad_input(fmt::format("{} spikes, but a different number with a tenth of the tolerances; use .options accuracy=fine",
                                           spikes.size()),
                               setup.output->location));
@@ -124,37 +124,37 @@ Result<void> report_spikes(TestBench& context, const TranSetup& setup, std::vect
 
 }  // namespace
 
-Result<Findings> analyse_tran(TestBench& context, const Directive& c) {
-    const auto times = transient_times(c);
+Result<AnalysisResult> analyse_tran(AnalysisContext& context, const Directive& c) {
+    const auto times = read_transient_times(c);
     if (!times) return times.error();
-    const auto plan = transient_plan(*context.circuit);
+    const auto plan = read_transient_plan(*context.circuit);
     if (!plan) return plan.error();
     const auto output = read_spike_output(context.system);
     if (!output) return output.error();
     auto ranges = read_operating_ranges(context.system);
     if (!ranges) return ranges.error();
     RangeMonitor range_monitor(std::move(*ranges));
-    context.capped = false;
+    context.hit_iteration_limit = false;
     const auto force = force_directive(*context.circuit);
     if (!force) return force.error();
-    if (*force && !context.system.hear(&**force))
+    if (*force && !context.system.set_force_input(&**force))
         return bad_input(fmt::format(".force: no source has a force input; add one such as '{}' (60 nA/N)", "iin 0 fin force 60n"),
                          SourceLocation{context.circuit->file});
     TranSetup setup{*times, *plan, *output, {}};
     setup.plan.all_reported = true;
-    setup.plan.stop = times->stop, setup.plan.longest = max_step_of(*times);
+    setup.plan.stop = times->stop, setup.plan.max_step = max_step_of(*times);
     PlotRecorder kept;
     PointSink& points = context.points ? *context.points : kept;
-    if (auto ok = points.begin(plot_of(context.system, "Transient Analysis", "time", "time")); !ok) return ok.error();
+    if (auto ok = points.begin(make_plot(context.system, "Transient Analysis", "time", "time")); !ok) return ok.error();
 
-    context.system.go(times->step, times->stop);
-    Findings out;
+    context.system.start_transient(times->step, times->stop);
+    AnalysisResult out;
     Transient transient(context.system, context.newton, setup.plan);
     Result<void> written;
     std::vector<double> row(1);
-    auto from = beginning(context, times->uic);
+    auto from = find_initial_condition(context, times->uic);
     if (from) setup.from = std::move(*from);
-    if (setup.from.remark && !context.brief) out.remarks.push_back(*setup.from.remark);
+    if (setup.from.warning && !context.is_brief) out.warnings.push_back(*setup.from.warning);
     auto spikes = !from ? from.error() : run_transient(context, setup, transient, [&](double t, std::span<const double> x) {
         range_monitor.add_point(t, x);
         if (t < times->start) return true;
@@ -165,14 +165,14 @@ Result<Findings> analyse_tran(TestBench& context, const Directive& c) {
     const auto ended = points.end();
     const auto reported =
         spikes && written && ended && setup.output ? report_spikes(context, setup, std::move(*spikes), out) : Result<void>();
-    context.system.go(0, 0), context.system.hear(nullptr);
+    context.system.start_transient(0, 0), context.system.set_force_input(nullptr);
     if (!spikes) return spikes.error();
     for (const auto& done : {written, ended, reported})
         if (!done) return done.error();
-    if (!context.brief) range_monitor.report(out.remarks);
-    const auto& work = transient.work();
+    if (!context.is_brief) range_monitor.report(out.warnings);
+    const auto& work = transient.stats();
     out.table = fmt::format("{} steps, {} rejected, {} Newton iterations\n", work.steps, work.rejected, work.iterations);
-    out.work = {{"steps", static_cast<double>(work.steps)},
+    out.stats = {{"steps", static_cast<double>(work.steps)},
                 {"rejected", static_cast<double>(work.rejected)},
                 {"iterations", static_cast<double>(work.iterations)}};
     if (!context.points) out.plots.push_back(std::move(kept.plot));

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "circuit/device/values.hpp"
+#include "circuit/device/named_values.hpp"
 
 namespace corpuscle::circuit {
 namespace {
@@ -19,7 +19,7 @@ Error invalid_option(const Circuit& c, std::string_view option, std::string_view
 
 }  // namespace
 
-Result<TransientPlan> transient_plan(const Circuit& c) {
+Result<TransientPlan> read_transient_plan(const Circuit& c) {
     TransientPlan plan;
     if (const auto given = c.option_words.find("accuracy"); given != c.option_words.end()) {
         const Accuracy* found = nullptr;
@@ -36,34 +36,34 @@ Result<TransientPlan> transient_plan(const Circuit& c) {
         if (word != "gear" && word != "bdf" && !word.starts_with("trap")) return invalid_option(c, "method", word, "gear, trap");
         if (word.starts_with("trap")) plan.method = Integration::trapezoidal;
     }
-    const double order = value_or(c.options, "maxord", plan.order);
+    const double order = value_or(c.options, "maxord", plan.max_order);
     if (!(order >= 1 && order <= 5 && order == static_cast<int>(order)))
         return bad_input(fmt::format(".options maxord={:g}: expected an integer from 1 to 5", order), SourceLocation{c.file});
-    plan.order = static_cast<int>(order);
+    plan.max_order = static_cast<int>(order);
     return plan;
 }
 
-Result<TransientTimes> transient_times(const Directive& command) {
+Result<TransientTimes> read_transient_times(const Directive& command) {
     auto c = command;
     TransientTimes out;
     out.uic = !c.words.empty() && c.words.back() == "uic";
     if (out.uic) c.words.pop_back();
     if (c.words.size() < 2 || c.words.size() > 4) return bad_input(".tran: expected .tran STEP STOP [START [LONGEST]] [uic]", c.location);
-    const auto step = number_of(c, 0, "the step"), stop = number_of(c, 1, "the stop time");
-    const auto start = c.words.size() > 2 ? number_of(c, 2, "the start time") : Result<double>(0.0);
+    const auto step = read_number(c, 0, "the step"), stop = read_number(c, 1, "the stop time");
+    const auto start = c.words.size() > 2 ? read_number(c, 2, "the start time") : Result<double>(0.0);
     if (!step) return step.error();
     if (!stop) return stop.error();
     if (!start) return start.error();
     out.step = *step, out.stop = *stop, out.start = *start;
     if (c.words.size() > 3) {
-        const auto max_step = number_of(c, 3, "the maximum step");
+        const auto max_step = read_number(c, 3, "the maximum step");
         if (!max_step) return max_step.error();
-        out.longest = *max_step;
+        out.max_step = *max_step;
     }
-    if (!(*step > 0 && *stop > 0 && *start >= 0 && *start < *stop && out.longest.value_or(1) > 0))
+    if (!(*step > 0 && *stop > 0 && *start >= 0 && *start < *stop && out.max_step.value_or(1) > 0))
         return bad_input(fmt::format(".tran: step {:g}, stop {:g}, start {:g}{} s: step, stop and maximum step must be above 0, the start "
                                      "at least 0 and below the stop",
-                                     *step, *stop, *start, out.longest ? fmt::format(", maximum step {:g}", *out.longest) : ""),
+                                     *step, *stop, *start, out.max_step ? fmt::format(", maximum step {:g}", *out.max_step) : ""),
                          c.location);
     return out;
 }

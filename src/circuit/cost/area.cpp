@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "circuit/device/values.hpp"
+#include "circuit/device/named_values.hpp"
 
 namespace corpuscle::circuit {
 namespace {

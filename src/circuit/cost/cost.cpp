@@ -4,7 +4,7 @@
 #include <cmath>
 #include <tuple>
 
-#include "circuit/device/values.hpp"
+#include "circuit/device/named_values.hpp"
 
 namespace corpuscle::circuit {
 namespace {
@@ -32,7 +32,7 @@ void add_areas(const Circuit& circuit, const Blocks& blocks, Cost& out) {
     }
 }
 
-void add_leakage(const TestBench& context, std::span<const double> x, const Blocks& blocks, Cost& out) {
+void add_leakage(const AnalysisContext& context, std::span<const double> x, const Blocks& blocks, Cost& out) {
     const auto& circuit = *context.circuit;
     out.smallest_bias = smallest_bias(circuit);
     for (auto& leak : leakage_of(context.system, x, out.supply)) {
@@ -61,8 +61,8 @@ const PowerBreakdown* Cost::powers(std::string_view of) const {
     return nullptr;
 }
 
-Result<Cost> cost_of(TestBench& context, const PowerOverTime* over) {
-    const auto rest = context.rest();
+Result<Cost> cost_of(AnalysisContext& context, const PowerOverTime* over) {
+    const auto rest = context.operating_point();
     if (!rest) return rest.error();
     const PowerMeter meter(context.system, rest->x, context.tolerances.gmin);
     Cost out;

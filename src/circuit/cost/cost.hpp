@@ -1,7 +1,7 @@
 #pragma once
 // The cost of a circuit: power, area, leakage.
 
-#include "circuit/analysis/bench.hpp"
+#include "circuit/analysis/analysis_context.hpp"
 #include "circuit/cost/area.hpp"
 #include "circuit/cost/leakage.hpp"
 #include "circuit/cost/power.hpp"
@@ -37,6 +37,6 @@ struct Cost {
 };
 
 /// The cost of a circuit in its present state. `over` holds the power over a transient; null omits it.
-Result<Cost> cost_of(TestBench&, const PowerOverTime* over = nullptr);
+Result<Cost> cost_of(AnalysisContext&, const PowerOverTime* over = nullptr);
 
 }  // namespace corpuscle::circuit

@@ -5,7 +5,7 @@
 namespace corpuscle::circuit {
 
 Result<void> CostMeter::attach(RunOptions& options) {
-    const auto rest = context_.rest();
+    const auto rest = context_.operating_point();
     if (!rest) return rest.error();
     auto phases = force_phases(*context_.circuit);
     if (!phases) return phases.error();

@@ -8,12 +8,12 @@ namespace corpuscle::circuit {
 
 /// Measures power over a transient while it runs, and adds area and leakage afterwards.
 class CostMeter {
-    TestBench& context_;
+    AnalysisContext& context_;
     std::optional<PowerMeter> meter_;
     std::optional<PowerOverTime> power_over_time_;
 
 public:
-    explicit CostMeter(TestBench& context) : context_(context) {}
+    explicit CostMeter(AnalysisContext& context) : context_(context) {}
     CostMeter(const CostMeter&) = delete;
     /// Connects the meter to the options of a run. The options must not outlive this object.
     Result<void> attach(RunOptions& options);

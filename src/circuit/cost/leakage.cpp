@@ -5,8 +5,8 @@
 #include <map>
 #include <numeric>
 
-#include "circuit/device/constants.hpp"
-#include "circuit/device/values.hpp"
+#include "circuit/device/physical_constants.hpp"
+#include "circuit/device/named_values.hpp"
 
 namespace corpuscle::circuit {
 namespace {
@@ -49,8 +49,8 @@ std::map<int, int> capacitor_nodes(const Circuit& circuit, const MergedNodes& me
 double drain_current(const Device& d, double polarity, double supply, double forward) {
     const double v[4] = {polarity * supply, 0, 0, polarity * forward};
     double f[4] = {}, q[4] = {}, df[16] = {}, dq[16] = {};
-    Instant at;
-    at.charges = false;
+    EvalContext at;
+    at.with_charges = false;
     d.eval(v, at, {f, q, df, dq});
     return std::abs(f[D]);
 }
@@ -67,7 +67,7 @@ std::vector<Leakage> leakage_of(const System& system, std::span<const double> x,
         if (e.letter != 'm') continue;
         const auto& d = *system.devices()[k];
         const double polarity = circuit.models[static_cast<std::size_t>(e.model)].type == "pmos" ? -1 : 1;
-        const auto v = system.terminals(d, x);
+        const auto v = system.terminal_values(d, x);
         const double source = std::min(polarity * v[D], polarity * v[S]);
         Leakage leak{k, drain_current(d, polarity, supply, std::max(polarity * v[B] - source, 0.0)), polarity * v[G] - source, false, ""};
         leak.is_off = leak.V_GS < thermal_voltage(circuit.temperature + zero_celsius);

@@ -70,7 +70,7 @@ PowerMeter::PowerMeter(const System& system, std::span<const double> x, double g
         sources_.push_back(k);
         if (e.letter != 'v' || carries_force(e) || -heat <= max_delivered) continue;
         max_delivered = -heat;
-        const auto v = system.terminals(*system.devices()[k], x);
+        const auto v = system.terminal_values(*system.devices()[k], x);
         supply_ = std::abs(v[0] - v[1]);
     }
 }
@@ -83,8 +83,8 @@ double PowerMeter::current(std::size_t k, std::span<const double> x, double t, d
     for (std::size_t u = 0; u < n; ++u) v_[u] = d.unknowns[u] < 0 ? 0 : x[static_cast<std::size_t>(d.unknowns[u])];
     for (auto* currents : {&f_, &q_}) currents->assign(n, 0);
     for (auto* derivatives : {&df_, &dq_}) derivatives->assign(n * n, 0);
-    Instant at;
-    at.time = t, at.gmin = gmin_, at.charges = false;
+    EvalContext at;
+    at.time = t, at.gmin = gmin_, at.with_charges = false;
     d.eval(v_, at, {f_, q_, df_, dq_});
     power = 0;
     for (std::size_t u = 0; u < n; ++u)

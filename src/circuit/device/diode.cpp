@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "circuit/device/constants.hpp"
-#include "circuit/device/values.hpp"
+#include "circuit/device/physical_constants.hpp"
+#include "circuit/device/named_values.hpp"
 #include "signal/elementary.hpp"
 
 namespace corpuscle::circuit {
@@ -94,8 +94,8 @@ public:
         if (c_.bv > 0 && c_.ibv > c_.is * area_)  // so that the current at bv is ibv
             v_breakdown_ = c_.bv - n_vt_ * std::log(c_.ibv / (c_.is * area_));
     }
-    bool linear() const override { return false; }
-    std::size_t memory() const override { return 1; }
+    bool is_linear() const override { return false; }
+    std::size_t limiting_state_size() const override { return 1; }
     bool limit(std::span<double> v, std::span<double> state) const override {
         double u = v[junction_anode()] - v[1];
         const double unlimited = u;
@@ -111,7 +111,7 @@ public:
         v[junction_anode()] += u - unlimited;
         return shortened;
     }
-    void eval(std::span<const double> v, const Instant& context, const Stamp& out) const override {
+    void eval(std::span<const double> v, const EvalContext& context, const Stamp& out) const override {
         const std::size_t a = junction_anode();
         const double u = v[a] - v[1];
         auto [i, g] = current(u);
@@ -133,7 +133,7 @@ public:
         if (c_.rs > 0) out.push_back({"thermal", 0, 2, 4 * boltzmann * (n_vt_ / c_.n * electron_charge / boltzmann) * area_ / c_.rs, 0});
         return out;
     }
-    std::vector<Reading> readings(std::span<const double> v) const override {
+    std::vector<OperatingValue> operating_info(std::span<const double> v) const override {
         const double u = v[junction_anode()] - v[1];
         const auto [i, g] = current(u);
         return {{"v", "V", u}, {"i", "A", i}, {"g", "S", g}, {"c", "F", depletion(u).second + c_.tt * g}};
@@ -155,15 +155,15 @@ bool limit_junction(double& v, double v_before, double n_vt, double v_crit) {
     return v != unlimited;
 }
 
-Result<std::unique_ptr<Device>> make_diode(const Element& e, Setup& setup) {
+Result<std::unique_ptr<Device>> make_diode(const Element& e, DeviceSetup& setup) {
     static constexpr std::string_view known[] = {"area", "m", "pj", "temp", "dtemp", "ic", "off", "level"};
-    if (auto wrong = unknown_value(e.name, e.values, known, e.location)) return *wrong;
+    if (auto wrong = check_value_names(e.name, e.values, known, e.location)) return *wrong;
     const auto& model = setup.circuit().models[static_cast<std::size_t>(e.model)];
     if (value_or(e.values, "pj", 0) != 0)
         return bad_input(fmt::format("{}: pj is not supported (this level 1 diode has no sidewalls); remove it", e.name), e.location);
     if (const double level = value_or(model.values, "level", 1); level != 1)
         return bad_input(fmt::format("{}: diode level {:g} is not supported; use level=1", model.name, level), model.location);
-    const auto card = card_from<DiodeCard>(fields, model, {"level", "cj0", "jsw", "ikf", "trs", "rsw"});
+    const auto card = read_model_card<DiodeCard>(fields, model, {"level", "cj0", "jsw", "ikf", "trs", "rsw"});
     if (!card) return card.error();
     DiodeCard c = *card;
     if (const auto alias = model.values.find("cj0"); alias != model.values.end()) c.cjo = alias->second;
@@ -173,8 +173,8 @@ Result<std::unique_ptr<Device>> make_diode(const Element& e, Setup& setup) {
                                          model.name, name),
                              model.location);
     auto device = std::make_unique<Diode>(c, value_or(e.values, "area", 1) * value_or(e.values, "m", 1), setup.temperature(e));
-    device->unknowns = {setup.node(e.nodes[0]), setup.node(e.nodes[1])};
-    if (c.rs > 0) device->unknowns.push_back(setup.own(e.name + "#junction"));
+    device->unknowns = {setup.node_unknown(e.nodes[0]), setup.node_unknown(e.nodes[1])};
+    if (c.rs > 0) device->unknowns.push_back(setup.add_unknown(e.name + "#junction"));
     return std::unique_ptr<Device>(std::move(device));
 }
 

@@ -5,7 +5,7 @@
 
 namespace corpuscle::circuit {
 
-Result<std::unique_ptr<Device>> make_diode(const Element&, Setup&);
+Result<std::unique_ptr<Device>> make_diode(const Element&, DeviceSetup&);
 
 /// Limits the Newton step of a junction voltage v (V), after Nagel's SPICE2. A large forward step is shortened to the voltage at which the
 /// exponential reaches the current that the linearization predicts. v_before: voltage of the last evaluation; n_vt: n kT/q of the

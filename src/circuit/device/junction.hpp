@@ -1,20 +1,20 @@
 #pragma once
 
-#include "circuit/device/short_log.hpp"
+#include "circuit/device/fast_log.hpp"
 
 namespace corpuscle::circuit {
 
 /// Constants common to all junctions of one model card at one temperature. Above the exponential's argument `exp_limit` (where the current
 /// is junction_current_limit) the current follows its tangent. Above v_limit = F_C P_B the capacitance follows its tangent.
 template <class T>
-struct JunctionLaw {
+struct JunctionConstants {
     T per_n_phi_t;                                            ///< 1 / (n_dio phi_t), 1/V
     T per_P_B, v_limit;                                       ///< 1 / P_B, F_C P_B
     T charge_exponent, P_B_per_charge_exponent, per_P_B_M_J;  ///< 1 - M_J, P_B / (1 - M_J), M_J / P_B
 };
 
 template <class T>
-struct JunctionAnswer {
+struct JunctionEvaluation {
     T i, g, q, c;  ///< A, S, C, F
 };
 
@@ -22,11 +22,11 @@ struct JunctionAnswer {
 ///     q = C_0 P_B / (1 - M_J) (1 - (1 - v / P_B)^(1 - M_J)),   c = dq/dv = C_0 / (1 - v / P_B)^M_J
 /// Both have continuous derivatives; the extrapolation of the charge is that of SPICE. No breakdown, series resistance or transit time.
 template <class T>
-[[gnu::always_inline]] inline JunctionAnswer<T> junction(T v, T I_sat, T exp_limit, T C_0, const JunctionLaw<T>& constants) {
+[[gnu::always_inline]] inline JunctionEvaluation<T> junction(T v, T I_sat, T exp_limit, T C_0, const JunctionConstants<T>& constants) {
     const T x = v * constants.per_n_phi_t, x_e = num::min(x, exp_limit), e = I_sat * num::exp(x_e);
 
     const T v_c = num::min(v, constants.v_limit), dv = v - v_c;
-    const T t = T(1.0) - v_c * constants.per_P_B, per_t = T(1.0) / t, y = num::exp(constants.charge_exponent * short_log(t));
+    const T t = T(1.0) - v_c * constants.per_P_B, per_t = T(1.0) / t, y = num::exp(constants.charge_exponent * fast_log(t));
     const T c = C_0 * y * per_t, c_v = c * constants.per_P_B_M_J * per_t;
     const T q = C_0 * constants.P_B_per_charge_exponent * (T(1.0) - y);
 

@@ -5,8 +5,8 @@
 
 namespace corpuscle::circuit {
 
-Result<std::unique_ptr<Device>> make_resistor(const Element&, Setup&);
-Result<std::unique_ptr<Device>> make_capacitor(const Element&, Setup&);
-Result<std::unique_ptr<Device>> make_inductor(const Element&, Setup&);
+Result<std::unique_ptr<Device>> make_resistor(const Element&, DeviceSetup&);
+Result<std::unique_ptr<Device>> make_capacitor(const Element&, DeviceSetup&);
+Result<std::unique_ptr<Device>> make_inductor(const Element&, DeviceSetup&);
 
 }  // namespace corpuscle::circuit

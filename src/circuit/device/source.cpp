@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <iterator>
 
-#include "circuit/device/course.hpp"
-#include "circuit/device/formula_inputs.hpp"
-#include "circuit/device/values.hpp"
+#include "circuit/device/source_waveform.hpp"
+#include "circuit/device/expression_binding.hpp"
+#include "circuit/device/named_values.hpp"
 #include "circuit/force_waveform.hpp"
 #include "signal/elementary.hpp"
 
@@ -37,32 +37,32 @@ std::complex<double> phasor(const Waveform& w) {
 class IndependentSource : public Device {
     Waveform wave_;
     double value_;
-    std::optional<Course> waveform_;
+    std::optional<SourceWaveform> waveform_;
     const ForceWaveform* force_ = nullptr;
 
     double value_at(double t) const { return waveform_ ? waveform_->at(t) : force_ ? value_ + wave_.numbers[0] * force_->at(t) : value_; }
 
 protected:
     std::complex<double> phasor_;
-    double value(const Instant& context) const { return context.sources * value_at(context.time); }
+    double value(const EvalContext& context) const { return context.source_scale * value_at(context.time); }
 
 public:
     explicit IndependentSource(const Waveform& wave) : wave_(wave), value_(dc_value(wave)), phasor_(phasor(wave)) {}
-    bool set(double value) override { return value_ = value, true; }
-    std::optional<double> setting() const override { return value_; }
-    void go(double step, double stop) override {
+    bool set_principal_value(double value) override { return value_ = value, true; }
+    std::optional<double> principal_value() const override { return value_; }
+    void start_transient(double step, double stop) override {
         waveform_.reset();
         if (stop > 0 && wave_.shape != Waveform::Shape::none && wave_.shape != Waveform::Shape::force) waveform_.emplace(wave_, step, stop);
     }
-    bool hear(const ForceWaveform* force) override {
+    bool set_force_input(const ForceWaveform* force) override {
         const bool has_force = wave_.shape == Waveform::Shape::force;
         if (has_force) force_ = force;
         return has_force;
     }
-    double pace() const override { return waveform_ ? waveform_->pace() : Device::pace(); }
-    bool varies() const override { return waveform_ || force_; }
-    double next_corner(double t) const override {
-        return waveform_ ? waveform_->next_corner(t) : force_ ? force_->next_breakpoint(t) : Device::next_corner(t);
+    double max_step() const override { return waveform_ ? waveform_->max_step() : Device::max_step(); }
+    bool is_time_dependent() const override { return waveform_ || force_; }
+    double next_breakpoint(double t) const override {
+        return waveform_ ? waveform_->next_breakpoint(t) : force_ ? force_->next_breakpoint(t) : Device::next_breakpoint(t);
     }
 };
 
@@ -70,13 +70,13 @@ public:
 class VoltageSource final : public IndependentSource {
 public:
     using IndependentSource::IndependentSource;
-    void eval(std::span<const double> v, const Instant& context, const Stamp& out) const override {
+    void eval(std::span<const double> v, const EvalContext& context, const Stamp& out) const override {
         out.f[0] += v[2], out.f[1] -= v[2];
         out.slope(0, 2) += 1, out.slope(1, 2) -= 1;
         out.f[2] += v[0] - v[1] - value(context);
         out.slope(2, 0) += 1, out.slope(2, 1) -= 1;
     }
-    void drive(std::span<std::complex<double>> out) const override { out[2] += phasor_; }
+    void add_ac_stimulus(std::span<std::complex<double>> out) const override { out[2] += phasor_; }
 };
 
 class CurrentSource final : public IndependentSource {
@@ -84,11 +84,11 @@ class CurrentSource final : public IndependentSource {
 
 public:
     CurrentSource(const Waveform& wave, double m) : IndependentSource(wave), m_(m) {}
-    void eval(std::span<const double>, const Instant& context, const Stamp& out) const override {
+    void eval(std::span<const double>, const EvalContext& context, const Stamp& out) const override {
         const double i = value(context) * m_;
         out.f[0] += i, out.f[1] -= i;
     }
-    void drive(std::span<std::complex<double>> out) const override { out[0] -= m_ * phasor_, out[1] += m_ * phasor_; }
+    void add_ac_stimulus(std::span<std::complex<double>> out) const override { out[0] -= m_ * phasor_, out[1] += m_ * phasor_; }
 };
 
 /// v(+) - v(-) = gain times a voltage (E: unknowns 3 and 4) or a current (H: unknown 3)
@@ -97,15 +97,15 @@ class ControlledVoltageSource final : public Device {
 
 public:
     explicit ControlledVoltageSource(double gain) : gain_(gain) {}
-    void eval(std::span<const double> v, const Instant&, const Stamp& out) const override {
+    void eval(std::span<const double> v, const EvalContext&, const Stamp& out) const override {
         out.f[0] += v[2], out.f[1] -= v[2];
         out.slope(0, 2) += 1, out.slope(1, 2) -= 1;
         out.f[2] += v[0] - v[1] - gain_ * (v[3] - (v.size() > 4 ? v[4] : 0));
         out.slope(2, 0) += 1, out.slope(2, 1) -= 1, out.slope(2, 3) -= gain_;
         if (v.size() > 4) out.slope(2, 4) += gain_;
     }
-    bool set(double gain) override { return gain_ = gain, true; }
-    std::optional<double> setting() const override { return gain_; }
+    bool set_principal_value(double gain) override { return gain_ = gain, true; }
+    std::optional<double> principal_value() const override { return gain_; }
 };
 
 /// i = gain times a voltage (G: unknowns 2 and 3) or a current (F: unknown 2)
@@ -114,14 +114,14 @@ class ControlledCurrentSource final : public Device {
 
 public:
     explicit ControlledCurrentSource(double gain) : gain_(gain) {}
-    void eval(std::span<const double> v, const Instant&, const Stamp& out) const override {
+    void eval(std::span<const double> v, const EvalContext&, const Stamp& out) const override {
         const double i = gain_ * (v[2] - (v.size() > 3 ? v[3] : 0));
         out.f[0] += i, out.f[1] -= i;
         out.slope(0, 2) += gain_, out.slope(1, 2) -= gain_;
         if (v.size() > 3) out.slope(0, 3) -= gain_, out.slope(1, 3) += gain_;
     }
-    bool set(double gain) override { return gain_ = gain, true; }
-    std::optional<double> setting() const override { return gain_; }
+    bool set_principal_value(double gain) override { return gain_ = gain, true; }
+    std::optional<double> principal_value() const override { return gain_; }
 };
 
 /// True if the text of an expression contains a comparison, a condition or a rounding function. An expression without text counts as such.
@@ -134,21 +134,21 @@ bool contains_jumps(const Expression& expression) {
 
 class ExpressionCurrentSource final : public Device {
     Expression expression_;
-    FormulaInputs binding_;
+    ExpressionBinding binding_;
     double m_;
     bool jumps_ = contains_jumps(expression_);
 
 public:
-    ExpressionCurrentSource(Expression expression, FormulaInputs binding, double m)
+    ExpressionCurrentSource(Expression expression, ExpressionBinding binding, double m)
         : expression_(std::move(expression)), binding_(std::move(binding)), m_(m) {}
-    bool linear() const override { return false; }
-    bool jumps() const override { return jumps_; }
-    void eval(std::span<const double> v, const Instant& context, const Stamp& out) const override {
-        binding_.eval(expression_, v, context, [&](double i, std::span<const FormulaInputs::Slope> slopes) {
-            out.f[0] += m_ * i * context.sources, out.f[1] -= m_ * i * context.sources;
+    bool is_linear() const override { return false; }
+    bool has_jumps() const override { return jumps_; }
+    void eval(std::span<const double> v, const EvalContext& context, const Stamp& out) const override {
+        binding_.eval(expression_, v, context, [&](double i, std::span<const ExpressionBinding::Slope> slopes) {
+            out.f[0] += m_ * i * context.source_scale, out.f[1] -= m_ * i * context.source_scale;
             for (const auto& s : slopes) {
-                out.slope(0, s.unknown) += m_ * s.value * context.sources;
-                out.slope(1, s.unknown) -= m_ * s.value * context.sources;
+                out.slope(0, s.unknown) += m_ * s.value * context.source_scale;
+                out.slope(1, s.unknown) -= m_ * s.value * context.source_scale;
             }
         });
     }
@@ -156,20 +156,20 @@ public:
 
 class ExpressionVoltageSource final : public Device {
     Expression expression_;
-    FormulaInputs binding_;
+    ExpressionBinding binding_;
     bool jumps_ = contains_jumps(expression_);
 
 public:
-    ExpressionVoltageSource(Expression expression, FormulaInputs binding) : expression_(std::move(expression)), binding_(std::move(binding)) {}
-    bool linear() const override { return false; }
-    bool jumps() const override { return jumps_; }
-    void eval(std::span<const double> v, const Instant& context, const Stamp& out) const override {
+    ExpressionVoltageSource(Expression expression, ExpressionBinding binding) : expression_(std::move(expression)), binding_(std::move(binding)) {}
+    bool is_linear() const override { return false; }
+    bool has_jumps() const override { return jumps_; }
+    void eval(std::span<const double> v, const EvalContext& context, const Stamp& out) const override {
         out.f[0] += v[2], out.f[1] -= v[2];
         out.slope(0, 2) += 1, out.slope(1, 2) -= 1;
-        binding_.eval(expression_, v, context, [&](double value, std::span<const FormulaInputs::Slope> slopes) {
-            out.f[2] += v[0] - v[1] - value * context.sources;
+        binding_.eval(expression_, v, context, [&](double value, std::span<const ExpressionBinding::Slope> slopes) {
+            out.f[2] += v[0] - v[1] - value * context.source_scale;
             out.slope(2, 0) += 1, out.slope(2, 1) -= 1;
-            for (const auto& s : slopes) out.slope(2, s.unknown) -= s.value * context.sources;
+            for (const auto& s : slopes) out.slope(2, s.unknown) -= s.value * context.source_scale;
         });
     }
 };
@@ -184,42 +184,42 @@ std::unique_ptr<Device> with_unknowns(std::unique_ptr<D> device, std::vector<int
 
 }  // namespace
 
-Result<std::unique_ptr<Device>> make_voltage_source(const Element& e, Setup& setup) {
-    if (auto wrong = unknown_value(e.name, e.values, source_values, e.location)) return *wrong;
+Result<std::unique_ptr<Device>> make_voltage_source(const Element& e, DeviceSetup& setup) {
+    if (auto wrong = check_value_names(e.name, e.values, source_values, e.location)) return *wrong;
     return with_unknowns(std::make_unique<VoltageSource>(e.waveform),
-                         {setup.node(e.nodes[0]), setup.node(e.nodes[1]), setup.branch(setup.circuit().find_element(e.name))});
+                         {setup.node_unknown(e.nodes[0]), setup.node_unknown(e.nodes[1]), setup.branch_unknown(setup.circuit().find_element(e.name))});
 }
 
-Result<std::unique_ptr<Device>> make_current_source(const Element& e, Setup& setup) {
-    if (auto wrong = unknown_value(e.name, e.values, source_values, e.location)) return *wrong;
+Result<std::unique_ptr<Device>> make_current_source(const Element& e, DeviceSetup& setup) {
+    if (auto wrong = check_value_names(e.name, e.values, source_values, e.location)) return *wrong;
     return with_unknowns(std::make_unique<CurrentSource>(e.waveform, value_or(e.values, "m", 1)),
-                         {setup.node(e.nodes[0]), setup.node(e.nodes[1])});
+                         {setup.node_unknown(e.nodes[0]), setup.node_unknown(e.nodes[1])});
 }
 
-Result<std::unique_ptr<Device>> make_controlled_source(const Element& e, Setup& setup) {
+Result<std::unique_ptr<Device>> make_controlled_source(const Element& e, DeviceSetup& setup) {
     if (e.expression) return make_formula_source(e, setup);
-    if (auto wrong = unknown_value(e.name, e.values, source_values, e.location)) return *wrong;
+    if (auto wrong = check_value_names(e.name, e.values, source_values, e.location)) return *wrong;
     const bool voltage = e.letter == 'e' || e.letter == 'h', by_current = e.letter == 'f' || e.letter == 'h';
-    std::vector<int> unknowns = {setup.node(e.nodes[0]), setup.node(e.nodes[1])};
-    if (voltage) unknowns.push_back(setup.branch(setup.circuit().find_element(e.name)));
+    std::vector<int> unknowns = {setup.node_unknown(e.nodes[0]), setup.node_unknown(e.nodes[1])};
+    if (voltage) unknowns.push_back(setup.branch_unknown(setup.circuit().find_element(e.name)));
     if (by_current) {
         const int control = setup.circuit().find_element(e.control_source);
-        if (control < 0 || setup.branch(control) < 0)
+        if (control < 0 || setup.branch_unknown(control) < 0)
             return bad_input(fmt::format("{}: unknown voltage source '{}'; its current is the control", e.name, e.control_source), e.location);
-        unknowns.push_back(setup.branch(control));
+        unknowns.push_back(setup.branch_unknown(control));
     } else {
-        unknowns.push_back(setup.node(e.nodes[2]));
-        unknowns.push_back(setup.node(e.nodes[3]));
+        unknowns.push_back(setup.node_unknown(e.nodes[2]));
+        unknowns.push_back(setup.node_unknown(e.nodes[3]));
     }
     if (voltage) return with_unknowns(std::make_unique<ControlledVoltageSource>(e.value), std::move(unknowns));
     return with_unknowns(std::make_unique<ControlledCurrentSource>(e.value * value_or(e.values, "m", 1)), std::move(unknowns));
 }
 
-Result<std::unique_ptr<Device>> make_formula_source(const Element& e, Setup& setup) {
-    if (auto wrong = unknown_value(e.name, e.values, source_values, e.location)) return *wrong;
-    std::vector<int> first = {setup.node(e.nodes[0]), setup.node(e.nodes[1])};
-    if (e.expression_is_voltage) first.push_back(setup.branch(setup.circuit().find_element(e.name)));
-    auto binding = FormulaInputs::make(*e.expression, e, setup, std::move(first));
+Result<std::unique_ptr<Device>> make_formula_source(const Element& e, DeviceSetup& setup) {
+    if (auto wrong = check_value_names(e.name, e.values, source_values, e.location)) return *wrong;
+    std::vector<int> first = {setup.node_unknown(e.nodes[0]), setup.node_unknown(e.nodes[1])};
+    if (e.expression_is_voltage) first.push_back(setup.branch_unknown(setup.circuit().find_element(e.name)));
+    auto binding = ExpressionBinding::make(*e.expression, e, setup, std::move(first));
     if (!binding) return binding.error();
     auto unknowns = binding->unknowns();
     if (e.expression_is_voltage)

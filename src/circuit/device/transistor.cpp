@@ -2,17 +2,17 @@
 
 #include <cmath>
 
-#include "circuit/device/constants.hpp"
+#include "circuit/device/physical_constants.hpp"
 #include "circuit/device/uicm_card.hpp"
-#include "circuit/device/uicm_point.hpp"
-#include "circuit/device/values.hpp"
-#include "circuit/lanes/chips_on.hpp"
+#include "circuit/device/uicm_operating_point.hpp"
+#include "circuit/device/named_values.hpp"
+#include "circuit/lanes/chip_kernels_impl.hpp"
 #include "signal/instruction_set.hpp"
 
 namespace corpuscle::circuit {
 
-const lanes::TransistorLanes lanes::one_by_one = lanes::transistor_kernels_for<double>;
-const lanes::ChipLanes lanes::chips_one_by_one = lanes::chip_kernels_for<double>;
+const lanes::TransistorKernels lanes::scalar_transistor_kernels = lanes::transistor_kernels_for<double>;
+const lanes::ChipKernels lanes::scalar_chip_kernels = lanes::chip_kernels_for<double>;
 
 namespace {
 
@@ -33,20 +33,20 @@ public:
         : card_(card), instance_(instance), pmos_(pmos), nominal_(uicm_constants(card, instance, temperature, pmos)), constants_(nominal_) {
     }
     const UicmConstants& constants() const { return constants_; }
-    bool linear() const override { return false; }
+    bool is_linear() const override { return false; }
 
-    void eval(std::span<const double> v, const Instant& context, const Stamp& out) const override {
+    void eval(std::span<const double> v, const EvalContext& context, const Stamp& out) const override {
         const Uicm<double> model(constants_);
         double max_term[4];
-        lanes::one_by_one.eval({reinterpret_cast<const std::byte*>(&model), 1, 1, v.data(), context.gmin, out.f.data(), out.df.data(),
-                                max_term, context.charges ? out.q.data() : nullptr, out.dq.data(), 0});
+        lanes::scalar_transistor_kernels.eval({reinterpret_cast<const std::byte*>(&model), 1, 1, v.data(), context.gmin, out.f.data(), out.df.data(),
+                                max_term, context.with_charges ? out.q.data() : nullptr, out.dq.data(), 0});
     }
 
-    bool draw(const Draw* chip, std::uint32_t index) override {
+    bool apply_variation(const ChipSample* chip, std::uint32_t index) override {
         constants_ = chip == nullptr
                          ? nominal_
-                         : shifted(nominal_, chip->mismatch ? mismatch(card_, instance_, chip->seed, index, chip->chip) : UicmShift{},
-                                   process(card_, pmos_, chip->process));
+                         : with_shifts(nominal_, chip->has_mismatch ? sample_mismatch(card_, instance_, chip->seed, index, chip->chip) : UicmShift{},
+                                   process_shift(card_, pmos_, chip->process));
         return true;
     }
 
@@ -57,8 +57,8 @@ public:
                 {"drain junction", Terminals::B, Terminals::D, n.shot_d, 0}};
     }
 
-    std::vector<Reading> readings(std::span<const double> v) const override {
-        const auto p = uicm_point(constants_, Voltages(v).v);
+    std::vector<OperatingValue> operating_info(std::span<const double> v) const override {
+        const auto p = uicm_operating_point(constants_, Voltages(v).v);
         return {{"i_d", "A", p.I_D},
                 {"i_f", "", p.i_f},
                 {"i_r", "", p.i_r},
@@ -76,32 +76,32 @@ public:
                 {"c_bs", "F", p.C_bs},
                 {"c_bd", "F", p.C_bd}};
     }
-    std::string state(std::span<const double> v) const override {
-        const auto p = uicm_point(constants_, Voltages(v).v);
-        return p.inversion == "off" ? "off" : fmt::format("{}, {}", p.inversion, p.region);
+    std::string operating_region(std::span<const double> v) const override {
+        const auto p = uicm_operating_point(constants_, Voltages(v).v);
+        return p.inversion_level == "off" ? "off" : fmt::format("{}, {}", p.inversion_level, p.region);
     }
 
 private:
     /// Current from drain to source with the gate at the source's voltage, A.
     double off_current(std::span<const double> v) const {
         const double off[4] = {v[Terminals::D], v[Terminals::S], v[Terminals::S], v[Terminals::B]};
-        return constants_.polarity * Uicm<double>(constants_).inside(off).I;
+        return constants_.polarity * Uicm<double>(constants_).internals(off).I;
     }
 };
 
-class TransistorBank final : public Bank {
+class TransistorBatch final : public DeviceBatch {
     struct alignas(64) CacheLine {
         std::byte bytes[64];
     };
-    const lanes::TransistorLanes& kernels_;
+    const lanes::TransistorKernels& kernels_;
     std::vector<CacheLine> models_;
     std::size_t count_ = 0;
 
 public:
-    explicit TransistorBank(const lanes::TransistorLanes& kernels) : kernels_(kernels) {}
+    explicit TransistorBatch(const lanes::TransistorKernels& kernels) : kernels_(kernels) {}
 
-    void take(std::span<const Device* const> devices) override {
-        UicmConstants constants[lanes::widest];
+    void bind(std::span<const Device* const> devices) override {
+        UicmConstants constants[lanes::max_lanes];
         count_ = devices.size();
         models_.resize(((count_ + kernels_.lanes - 1) / kernels_.lanes * kernels_.model_bytes + sizeof(CacheLine) - 1) / sizeof(CacheLine));
         auto* at = models_.data()->bytes;
@@ -112,10 +112,10 @@ public:
         }
     }
 
-    void eval(const Instant& context, const BankStamp& s) const override {
-        kernels_.eval({models_.data()->bytes, count_, s.room, s.v, context.gmin, s.f, s.df, s.most, s.q, s.dq, s.rate});
+    void eval(const EvalContext& context, const BatchStamp& s) const override {
+        kernels_.eval({models_.data()->bytes, count_, s.stride, s.v, context.gmin, s.f, s.df, s.max_term, s.q, s.dq, s.rate});
     }
-    void follow(std::size_t stride, const double* dv, const double* dq, double* q) const override { kernels_.follow(stride, dv, dq, q); }
+    void extrapolate(std::size_t stride, const double* dv, const double* dq, double* q) const override { kernels_.extrapolate(stride, dv, dq, q); }
 };
 
 /// The instance parameters of an M line.
@@ -123,7 +123,7 @@ Result<UicmInstance> read_instance(const Element& e) {
     UicmInstance instance;
     std::vector<std::string_view> known = {"temp", "dtemp", "ic", "off"};
     for (const auto& f : UicmInstance::fields) known.push_back(f.name);
-    if (auto wrong = unknown_value(e.name, e.values, known, e.location)) return *wrong;
+    if (auto wrong = check_value_names(e.name, e.values, known, e.location)) return *wrong;
     for (const auto& f : UicmInstance::fields) {
         const auto given = e.values.find(f.name);
         if (given == e.values.end()) continue;
@@ -136,18 +136,18 @@ Result<UicmInstance> read_instance(const Element& e) {
 
 }  // namespace
 
-Result<std::unique_ptr<Device>> make_transistor(const Element& e, Setup& setup) {
+Result<std::unique_ptr<Device>> make_transistor(const Element& e, DeviceSetup& setup) {
     const auto& model = setup.circuit().models[static_cast<std::size_t>(e.model)];
     if (value_or(model.values, "level", 1) != UicmCard::level)
         return bad_input(fmt::format("{}: MOS model level {:g} is not supported; use level={:g}, UICM (model cards: process/tsmc180.lib)",
                                      model.name, value_or(model.values, "level", 1), UicmCard::level),
                          model.location);
-    const auto card = card_from<UicmCard>(UicmCard::fields, model, {"level"});
+    const auto card = read_model_card<UicmCard>(UicmCard::fields, model, {"level"});
     if (!card) return card.error();
     const auto instance = read_instance(e);
     if (!instance) return instance.error();
     auto device = std::make_unique<Transistor>(*card, *instance, setup.temperature(e) - zero_celsius, model.type == "pmos");
-    for (const int node : e.nodes) device->unknowns.push_back(setup.node(node));
+    for (const int node : e.nodes) device->unknowns.push_back(setup.node_unknown(node));
     return std::unique_ptr<Device>(std::move(device));
 }
 
@@ -181,12 +181,12 @@ Result<const Table*> best_of(const Table& scalar, [[maybe_unused]] const Table& 
 #define CORPUSCLE_BEST_OF(scalar, table) best_of(scalar, lanes::baseline::table, lanes::baseline::table, lanes::baseline::table)
 #endif
 
-Result<std::unique_ptr<Bank>> make_transistor_bank() {
-    const auto best = CORPUSCLE_BEST_OF(lanes::one_by_one, transistors);
+Result<std::unique_ptr<DeviceBatch>> make_transistor_batch() {
+    const auto best = CORPUSCLE_BEST_OF(lanes::scalar_transistor_kernels, transistor_kernel_table);
     if (!best) return best.error();
-    return std::unique_ptr<Bank>(std::make_unique<TransistorBank>(**best));
+    return std::unique_ptr<DeviceBatch>(std::make_unique<TransistorBatch>(**best));
 }
 
-Result<const lanes::ChipLanes*> chip_kernels() { return CORPUSCLE_BEST_OF(lanes::chips_one_by_one, chip_lanes); }
+Result<const lanes::ChipKernels*> chip_kernels() { return CORPUSCLE_BEST_OF(lanes::scalar_chip_kernels, chip_kernel_table); }
 
 }  // namespace corpuscle::circuit

@@ -5,19 +5,19 @@
 namespace corpuscle::circuit {
 
 /// M: drain, gate, source, bulk, with a model of level=80. The equations are in uicm.hpp.
-Result<std::unique_ptr<Device>> make_transistor(const Element&, Setup&);
+Result<std::unique_ptr<Device>> make_transistor(const Element&, DeviceSetup&);
 /// Transistors on SIMD lanes of the best instruction set of this machine. Results are bit-identical on all instruction sets. Errors: see
 /// instruction_set().
-Result<std::unique_ptr<Bank>> make_transistor_bank();
+Result<std::unique_ptr<DeviceBatch>> make_transistor_batch();
 
 /// The constants of a transistor, with its variation applied. The reference is valid as long as the device.
 struct UicmConstants;
 const UicmConstants& transistor_constants(const Device&);
 
 namespace lanes {
-struct ChipLanes;
+struct ChipKernels;
 }
 /// The kernels for blocks of chips, for the best instruction set of this machine.
-Result<const lanes::ChipLanes*> chip_kernels();
+Result<const lanes::ChipKernels*> chip_kernels();
 
 }  // namespace corpuscle::circuit

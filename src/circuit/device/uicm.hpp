@@ -1,6 +1,6 @@
 #pragma once
 
-#include "circuit/device/channel.hpp"
+#include "circuit/device/mos_channel.hpp"
 #include "circuit/device/junction.hpp"
 #include "circuit/device/uicm_constants.hpp"
 
@@ -14,7 +14,7 @@ struct Terminals {
 /// Currents from the nodes into the device (A) and charges on it (C), at drain, gate, source, bulk. di[a][b] is the derivative of i[a] by
 /// the voltage of b; dq likewise.
 template <class T>
-struct UicmAnswer : Terminals {
+struct UicmEvaluation : Terminals {
     T i[4], q[4], di[4][4], dq[4][4];
 };
 
@@ -26,7 +26,7 @@ struct UicmNoise {
 
 /// Internal quantities of a transistor, for the polarity of an NMOS.
 template <class T>
-struct UicmInside {
+struct UicmInternals {
     T q_S, q_D;     ///< inversion charges at source and drain; i_f = q_S (q_S + 2), i_r = q_D (q_D + 2)
     T I, I_s, I_d;  ///< A: channel current, drain to source; junction currents, bulk to source and bulk to drain
 };
@@ -47,7 +47,7 @@ template <class T>
 class Uicm : public Terminals {
     T polarity, V_T, per_n, per_phi_t, sigma_n, zeta, I_S, lambda, knee, Q_0, C_dep, C_gs, C_gd, C_gb;
     T I_sat_s, I_sat_d, exp_limit_s, exp_limit_d, C_js, C_jd, thermal, flicker;
-    JunctionLaw<T> junction_constants;
+    JunctionConstants<T> junction_constants;
 
 public:
     /// `value(&UicmConstants::x)` returns each constant, which may differ between lanes.
@@ -58,21 +58,21 @@ public:
           I_S(value(&UicmConstants::I_S)), lambda(value(&UicmConstants::lambda)), knee(value(&UicmConstants::knee)),
           Q_0(value(&UicmConstants::Q_0)), C_dep(value(&UicmConstants::C_dep)), C_gs(value(&UicmConstants::C_gs)),
           C_gd(value(&UicmConstants::C_gd)), C_gb(value(&UicmConstants::C_gb)), I_sat_s(value(&UicmConstants::I_sat_s)),
-          I_sat_d(value(&UicmConstants::I_sat_d)), exp_limit_s(value(&UicmConstants::top_s)), exp_limit_d(value(&UicmConstants::top_d)),
+          I_sat_d(value(&UicmConstants::I_sat_d)), exp_limit_s(value(&UicmConstants::exp_limit_s)), exp_limit_d(value(&UicmConstants::exp_limit_d)),
           C_js(value(&UicmConstants::C_js)), C_jd(value(&UicmConstants::C_jd)), thermal(value(&UicmConstants::thermal)),
           flicker(value(&UicmConstants::flicker)), junction_constants{
                                                        value(&UicmConstants::per_n_phi_t),  value(&UicmConstants::per_P_B),
-                                                       value(&UicmConstants::v_top),        value(&UicmConstants::rest),
-                                                       value(&UicmConstants::P_B_per_rest), value(&UicmConstants::per_P_B_M_J)} {}
+                                                       value(&UicmConstants::v_limit),        value(&UicmConstants::charge_exponent),
+                                                       value(&UicmConstants::P_B_per_charge_exponent), value(&UicmConstants::per_P_B_M_J)} {}
 
     /// One transistor, or the same in all lanes.
     explicit Uicm(const UicmConstants& c) : Uicm([&c](double UicmConstants::*member) { return T(c.*member); }) {}
 
     /// Evaluates currents, charges and derivatives at the voltages of drain, gate, source and bulk. Inlined so that the compiler removes
     /// derivatives that are not used.
-    [[gnu::always_inline]] void eval(const T (&v)[4], UicmAnswer<T>& out) const {
+    [[gnu::always_inline]] void eval(const T (&v)[4], UicmEvaluation<T>& out) const {
         const Voltages at(v, polarity);
-        const Channel<T> c = evaluate_at(at);
+        const MosChannel<T> c = evaluate_at(at);
         const T early = num::sqrt(at.ds * at.ds + knee * knee), factor = I_S * (T(1.0) + lambda * (early - knee));
         const auto b_s = junction(-at.sb, I_sat_s, exp_limit_s, C_js, junction_constants),
                    b_d = junction(-at.db, I_sat_d, exp_limit_d, C_jd, junction_constants);
@@ -82,7 +82,7 @@ public:
 
     UicmNoise<T> noise(const T (&v)[4]) const {
         const Voltages at(v, polarity);
-        const Channel<T> c = evaluate_at(at);
+        const MosChannel<T> c = evaluate_at(at);
         const auto b_s = junction(-at.sb, I_sat_s, exp_limit_s, C_js, junction_constants),
                    b_d = junction(-at.db, I_sat_d, exp_limit_d, C_jd, junction_constants);
         const auto shot = [](const T& i, const T& I_sat) { return T(2 * 1.602176634e-19) * num::abs(i + T(2.0) * I_sat); };
@@ -90,9 +90,9 @@ public:
         return {thermal * c.Q(), flicker * I_S * num::abs(c.i.value) * span, shot(b_s.i, I_sat_s), shot(b_d.i, I_sat_d)};
     }
 
-    UicmInside<T> inside(const T (&v)[4]) const {
+    UicmInternals<T> internals(const T (&v)[4]) const {
         const Voltages at(v, polarity);
-        const Channel<T> c = evaluate_at(at);
+        const MosChannel<T> c = evaluate_at(at);
         const T early = num::sqrt(at.ds * at.ds + knee * knee);
         return {c.q_S, c.q_D, I_S * (T(1.0) + lambda * (early - knee)) * c.i.value,
                 junction(-at.sb, I_sat_s, exp_limit_s, C_js, junction_constants).i,
@@ -107,9 +107,9 @@ private:
             : gb(polarity * (v[G] - v[B])), sb(polarity * (v[S] - v[B])), db(polarity * (v[D] - v[B])), ds(polarity * (v[D] - v[S])) {}
     };
 
-    [[gnu::always_inline]] Channel<T> evaluate_at(const Voltages& at) const {
+    [[gnu::always_inline]] MosChannel<T> evaluate_at(const Voltages& at) const {
         const T V_P = (at.gb - V_T) * per_n + sigma_n * (at.db + at.sb);
-        return channel((V_P - at.sb) * per_phi_t + T(1.0), (V_P - at.db) * per_phi_t + T(1.0), zeta);
+        return evaluate_channel((V_P - at.sb) * per_phi_t + T(1.0), (V_P - at.db) * per_phi_t + T(1.0), zeta);
     }
 
     /// Derivatives by the four terminal voltages, from the derivatives by x at source and drain. They sum to zero.
@@ -123,8 +123,8 @@ private:
     }
 
     /// `early_d`: derivative of I_D by V_DS that comes from the Early factor.
-    [[gnu::always_inline]] void currents(const Sloped<T>& i, T factor, T early_d, const JunctionAnswer<T>& b_s,
-                                         const JunctionAnswer<T>& b_d, UicmAnswer<T>& out) const {
+    [[gnu::always_inline]] void currents(const ValueWithSlopes<T>& i, T factor, T early_d, const JunctionEvaluation<T>& b_s,
+                                         const JunctionEvaluation<T>& b_d, UicmEvaluation<T>& out) const {
         const T I = factor * i.value, zero(0.0);
         const Slopes g = by_voltages(factor * i.by_S, factor * i.by_D);
         const T g_d = g.d + early_d, g_s = g.s - early_d;
@@ -136,8 +136,8 @@ private:
         put(out.di[B], -b_d.g, zero, -b_s.g, b_s.g + b_d.g);
     }
 
-    [[gnu::always_inline]] void charges(const Voltages& at, const Channel<T>& c, const JunctionAnswer<T>& b_s, const JunctionAnswer<T>& b_d,
-                                        UicmAnswer<T>& out) const {
+    [[gnu::always_inline]] void charges(const Voltages& at, const MosChannel<T>& c, const JunctionEvaluation<T>& b_s, const JunctionEvaluation<T>& b_d,
+                                        UicmEvaluation<T>& out) const {
         const T gd = at.gb - at.db, gs = at.gb - at.sb, o_d = C_gd * gd, o_s = C_gs * gs, o_b = (C_gb + C_dep) * at.gb;
         const T Q_S = -(Q_0 * c.Q_S.value), Q_D = -(Q_0 * c.Q_D.value), Q_B = -((T(1.0) - per_n) * (Q_S + Q_D));
         const T d = Q_D - o_d - b_d.q, s = Q_S - o_s - b_s.q, b = Q_B - o_b + b_s.q + b_d.q;

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "circuit/device/constants.hpp"
+#include "circuit/device/physical_constants.hpp"
 #include "signal/elementary.hpp"
 #include "signal/random.hpp"
 
@@ -27,7 +27,7 @@ double junction_growth(const UicmCard& card, double T, double T_nom, double phi_
 }
 
 /// Argument of exp at which the junction current is junction_current_limit.
-double exp_limit_of(double I_sat) { return I_sat > 0 ? std::clamp(num::log(junction_current_top / I_sat), 0.0, 600.0) : 0; }
+double exp_limit_of(double I_sat) { return I_sat > 0 ? std::clamp(num::log(junction_current_limit / I_sat), 0.0, 600.0) : 0; }
 
 enum RandomPurpose : std::uint32_t { mismatch_purpose = 0x75690001, process_purpose };  // separates the streams of the Philox generator
 
@@ -51,44 +51,44 @@ UicmConstants uicm_constants(const UicmCard& card, const UicmInstance& instance,
     c.I_S = I_S, c.lambda = 1 / (card.V_E * length), c.knee = 4 * phi_t;
     c.Q_0 = card.n * phi_t * gate, c.C_dep = (card.n - 1) / card.n * gate;
     c.C_gs = card.C_GSO * width, c.C_gd = card.C_GDO * width, c.C_gb = card.C_GBO * length * instance.m;
-    c.I_sat_s = I_sat(source), c.I_sat_d = I_sat(drain), c.top_s = exp_limit_of(c.I_sat_s), c.top_d = exp_limit_of(c.I_sat_d);
+    c.I_sat_s = I_sat(source), c.I_sat_d = I_sat(drain), c.exp_limit_s = exp_limit_of(c.I_sat_s), c.exp_limit_d = exp_limit_of(c.I_sat_d);
     c.C_js = C_0(source), c.C_jd = C_0(drain);
-    c.per_n_phi_t = 1 / (card.n_dio * phi_t), c.per_P_B = 1 / card.P_B, c.v_top = card.F_C * card.P_B;
-    c.rest = 1 - card.M_J, c.P_B_per_rest = card.P_B / c.rest, c.per_P_B_M_J = card.M_J / card.P_B;
+    c.per_n_phi_t = 1 / (card.n_dio * phi_t), c.per_P_B = 1 / card.P_B, c.v_limit = card.F_C * card.P_B;
+    c.charge_exponent = 1 - card.M_J, c.P_B_per_charge_exponent = card.P_B / c.charge_exponent, c.per_P_B_M_J = card.M_J / card.P_B;
     c.thermal = 8 * boltzmann * T * I_S / phi_t;
     const double e_n = electron_charge / (card.n * card.C_ox * phi_t);
     c.flicker = card.C_ox > 0 ? 2 * e_n * e_n * card.N_ot * I_S / instance.area() : 0;
     return c;
 }
 
-UicmShift mismatch(const UicmCard& card, const UicmInstance& instance, std::uint64_t seed, std::uint32_t device, std::uint64_t chip) {
+UicmShift sample_mismatch(const UicmCard& card, const UicmInstance& instance, std::uint64_t seed, std::uint32_t device, std::uint64_t chip) {
     const double per_side = 1 / num::sqrt(instance.area());
     const auto deviates = normal_pair(seed, device, mismatch_purpose, chip);
     return {card.A_VT * per_side * deviates.first, num::exp(card.A_IS * per_side * deviates.second)};
 }
 
 UicmInstance with_mismatch(UicmInstance instance, const UicmCard& card, std::uint64_t seed, std::uint32_t device, std::uint64_t chip) {
-    const UicmShift shift = mismatch(card, instance, seed, device, chip);
+    const UicmShift shift = sample_mismatch(card, instance, seed, device, chip);
     instance.delvto += shift.V_T, instance.mulu0 *= shift.factor;
     return instance;
 }
 
-ProcessDeviates process_deviates(std::uint64_t seed, std::uint64_t chip) {
+ProcessDeviates sample_process(std::uint64_t seed, std::uint64_t chip) {
     const auto n = normal_pair(seed, 0, process_purpose, chip), p = normal_pair(seed, 1, process_purpose, chip);
     return {n.first, p.first, n.second, p.second};
 }
 
-UicmShift process(const UicmCard& card, bool pmos, const double (&deviates)[4]) {
+UicmShift process_shift(const UicmCard& card, bool pmos, const double (&deviates)[4]) {
     return {card.S_VT0 * deviates[pmos ? 1 : 0], num::exp(card.S_IS * deviates[pmos ? 3 : 2])};
 }
 
 UicmCard with_process(UicmCard card, bool pmos, std::uint64_t seed, std::uint64_t chip) {
-    const UicmShift shift = process(card, pmos, process_deviates(seed, chip).of);
+    const UicmShift shift = process_shift(card, pmos, sample_process(seed, chip).values);
     card.V_T0 += shift.V_T, card.I_SQ *= shift.factor;
     return card;
 }
 
-UicmConstants shifted(UicmConstants c, const UicmShift& mismatch, const UicmShift& process) {
+UicmConstants with_shifts(UicmConstants c, const UicmShift& mismatch, const UicmShift& process) {
     const double factor = mismatch.factor * process.factor;
     c.V_T += mismatch.V_T + process.V_T;
     c.I_S *= factor, c.thermal *= factor, c.flicker *= factor;

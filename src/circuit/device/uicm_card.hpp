@@ -20,7 +20,7 @@ struct UicmCard {
     double A_VT = 0, A_IS = 0, S_VT0 = 0, S_IS = 0;
 
     static constexpr double level = 80;  ///< level= of this model in a .model line; no SPICE uses it for another model
-    static constexpr std::string_view name = "uicm", sentence = "UICM transistor, all regions (with extensions from ACM2)";
+    static constexpr std::string_view name = "uicm", description = "UICM transistor, all regions (with extensions from ACM2)";
     static constexpr std::string_view source = "choice: circuits of 0.18 um; see process/tsmc180.lib";
     static constexpr ParameterDef<UicmCard> fields[] = {
         {"isq", &UicmCard::I_SQ, "A", 1e-15, 1, "specific current per square, mu C_ox n phi_t^2 / 2"},
@@ -79,7 +79,7 @@ struct UicmInstance {
 };
 
 /// A: above this current a junction follows its tangent, so that Newton iterations cannot overflow. Real currents are far lower.
-inline constexpr double junction_current_top = 10e-3;
+inline constexpr double junction_current_limit = 10e-3;
 
 /// temperature: degrees Celsius.
 UicmConstants uicm_constants(const UicmCard&, const UicmInstance&, double temperature, bool pmos);
@@ -91,21 +91,21 @@ struct UicmShift {
 
 /// The mismatch of one transistor, a random sample for (seed, device, chip): A_VT / sqrt(area) times a normal deviate, and the factor
 /// exp(A_IS / sqrt(area) times another). The area is the total gate area of the array. `device`: index of the transistor in the netlist.
-UicmShift mismatch(const UicmCard&, const UicmInstance&, std::uint64_t seed, std::uint32_t device, std::uint64_t chip);
+UicmShift sample_mismatch(const UicmCard&, const UicmInstance&, std::uint64_t seed, std::uint32_t device, std::uint64_t chip);
 /// The same mismatch as changes of delvto and mulu0.
 UicmInstance with_mismatch(UicmInstance, const UicmCard&, std::uint64_t seed, std::uint32_t device, std::uint64_t chip);
 
 /// Normal deviates common to all transistors of a chip, a random sample for (seed, chip): V_T0 of NMOS and PMOS, then I_SQ of NMOS and
 /// PMOS.
 struct ProcessDeviates {
-    double of[4];
+    double values[4];
 };
-ProcessDeviates process_deviates(std::uint64_t seed, std::uint64_t chip);
-UicmShift process(const UicmCard&, bool pmos, const double (&deviates)[4]);
+ProcessDeviates sample_process(std::uint64_t seed, std::uint64_t chip);
+UicmShift process_shift(const UicmCard&, bool pmos, const double (&deviates)[4]);
 /// The card with the process variation of one chip.
 UicmCard with_process(UicmCard, bool pmos, std::uint64_t seed, std::uint64_t chip);
 
 /// Constants with mismatch and process shifts applied: equal to those of with_mismatch and with_process, except for rounding.
-UicmConstants shifted(UicmConstants, const UicmShift& mismatch, const UicmShift& process);
+UicmConstants with_shifts(UicmConstants, const UicmShift& mismatch, const UicmShift& process);
 
 }  // namespace corpuscle::circuit

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 
-#include "circuit/device/values.hpp"
+#include "circuit/device/named_values.hpp"
 #include "circuit/export/pwl_force.hpp"
 #include "circuit/export/transistor_text.hpp"
 
@@ -142,7 +142,7 @@ private:
     }
 
     Result<std::string> transistor() const {
-        const auto card = card_from<UicmCard>(UicmCard::fields, *model(), {"level"});
+        const auto card = read_model_card<UicmCard>(UicmCard::fields, *model(), {"level"});
         if (!card) return card.error();
         UicmInstance size;
         for (const auto& f : UicmInstance::fields) size.*f.member = value(f.name, size.*f.member);

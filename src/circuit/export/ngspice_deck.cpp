@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 
-#include "circuit/analysis/bench.hpp"
+#include "circuit/analysis/analysis_context.hpp"
 #include "circuit/export/element_text.hpp"
 #include "circuit/export/directives_text.hpp"
 #include "circuit/export/transistor_text.hpp"
@@ -60,7 +60,7 @@ std::string node_voltages(std::string_view word, const std::vector<std::pair<int
 }  // namespace
 
 Result<NgspiceDeck> ngspice_deck(std::shared_ptr<const Circuit> circuit) {
-    const auto context = TestBench::make(circuit);
+    const auto context = AnalysisContext::make(circuit);
     if (!context) return context.error();
     const Circuit& c = *circuit;
     const ExportNames names(c);

@@ -66,7 +66,7 @@ std::string uicm_parameters(const UicmCard& card, const UicmInstance& size, doub
     std::string out = fmt::format("vt={} slope={} phit={} sigma={} zeta={} is={} va={}\n", c.V_T, card.n, 1 / c.per_phi_t,
                                   c.sigma_n * card.n, c.zeta, c.I_S, 1 / c.lambda);
     out += fmt::format("+ cox={} cgs={} cgd={} cgb={}", card.C_ox * size.area(), c.C_gs, c.C_gd, c.C_gb);
-    out += fmt::format(" iss={} isd={} tops={} topd={} njphit={}\n", c.I_sat_s, c.I_sat_d, c.top_s, c.top_d, 1 / c.per_n_phi_t);
+    out += fmt::format(" iss={} isd={} tops={} topd={} njphit={}\n", c.I_sat_s, c.I_sat_d, c.exp_limit_s, c.exp_limit_d, 1 / c.per_n_phi_t);
     return out + fmt::format("+ cjs={} cjd={} pb={} mj={} fc={}\n", c.C_js, c.C_jd, card.P_B, card.M_J, card.F_C);
 }
 

@@ -9,7 +9,7 @@ namespace corpuscle::circuit {
 
 /// By bisection. Returns nothing unless f(from) <= 0 and f(to) > 0.
 template <class Function>
-std::optional<double> crossing_between(double from, double to, const Function& f) {
+std::optional<double> bisect_crossing(double from, double to, const Function& f) {
     if (!(f(from) <= 0 && f(to) > 0)) return {};
     for (int k = 0; k < 50; ++k) {
         const double half = from + (to - from) / 2;
@@ -21,13 +21,13 @@ std::optional<double> crossing_between(double from, double to, const Function& f
 /// The same with known values at both ends. Without a sign change, f may still cross zero twice in the interval. If an end is closer to
 /// zero than the ends are to each other, four subintervals are searched, too.
 template <class Function>
-std::optional<double> crossing_within(double from, double to, double f_from, double f_to, const Function& f) {
-    if (f_from <= 0 && f_to > 0) return crossing_between(from, to, f);
+std::optional<double> find_crossing(double from, double to, double f_from, double f_to, const Function& f) {
+    if (f_from <= 0 && f_to > 0) return bisect_crossing(from, to, f);
     if (std::min(std::abs(f_from), std::abs(f_to)) > std::abs(f_to - f_from)) return {};
     constexpr int parts = 4;
     for (int k = 0; k < parts; ++k) {
         const double a = from + (to - from) * k / parts, b = k + 1 < parts ? from + (to - from) * (k + 1) / parts : to;
-        if (const auto found = crossing_between(a, b, f)) return found;
+        if (const auto found = bisect_crossing(a, b, f)) return found;
     }
     return {};
 }

@@ -18,11 +18,11 @@ std::vector<int> inverse_permutation(std::span<const int> permutation) {
 }
 
 /// The columns in each row of the factored matrix, including fill-in. Rows and columns are numbered by elimination step.
-std::vector<std::vector<int>> pattern_with_fill(const Pattern& p, std::span<const int> step_of_row, std::span<const int> step_of_column) {
+std::vector<std::vector<int>> pattern_with_fill(const SparsityPattern& p, std::span<const int> step_of_row, std::span<const int> step_of_column) {
     const auto n = static_cast<std::size_t>(p.size());
     std::vector<std::vector<char>> occupied(n, std::vector<char>(n));
     for (std::size_t column = 0; column < n; ++column)
-        for (int e = p.begin()[column]; e < p.begin()[column + 1]; ++e)
+        for (int e = p.column_begin()[column]; e < p.column_begin()[column + 1]; ++e)
             occupied[static_cast<std::size_t>(step_of_row[static_cast<std::size_t>(p.rows()[static_cast<std::size_t>(e)])])]
                     [static_cast<std::size_t>(step_of_column[column])] = 1;
     for (std::size_t k = 0; k < n; ++k) {
@@ -39,7 +39,7 @@ std::vector<std::vector<int>> pattern_with_fill(const Pattern& p, std::span<cons
 
 }  // namespace
 
-Elimination::Elimination(const Pattern& p, std::span<const int> rows, std::span<const int> columns, std::span<const double> values)
+Elimination::Elimination(const SparsityPattern& p, std::span<const int> rows, std::span<const int> columns, std::span<const double> values)
     : rows_(rows.begin(), rows.end()), columns_(columns.begin(), columns.end()) {
     const auto n = static_cast<std::size_t>(p.size());
     const auto step_of_row = inverse_permutation(rows), step_of_column = inverse_permutation(columns);
@@ -59,7 +59,7 @@ Elimination::Elimination(const Pattern& p, std::span<const int> rows, std::span<
             if (j > static_cast<int>(k)) put(static_cast<int>(k), j);
         pivots_[k].u_end = static_cast<int>(slot.size());
     }
-    l_from_ = static_cast<int>(slot.size());
+    l_first_slot_ = static_cast<int>(slot.size());
     u_columns_.resize(slot.size());
     for (const auto& [position, index] : slot) u_columns_[static_cast<std::size_t>(index)] = position.second;
     for (std::size_t k = 0; k < n; ++k) {
@@ -74,11 +74,11 @@ Elimination::Elimination(const Pattern& p, std::span<const int> rows, std::span<
     for (auto& pivot : pivots_) {
         for (int l = pivot.l_begin; l < pivot.l_end; ++l)
             for (int u = pivot.u_begin; u < pivot.u_end; ++u)
-                updates_.push_back(slot.at({l_rows_[static_cast<std::size_t>(l - l_from_)], u_columns_[static_cast<std::size_t>(u)]}));
+                updates_.push_back(slot.at({l_rows_[static_cast<std::size_t>(l - l_first_slot_)], u_columns_[static_cast<std::size_t>(u)]}));
     }
     scale_.assign(n, 0);
     for (std::size_t column = 0; column < n; ++column)
-        for (int e = p.begin()[column]; e < p.begin()[column + 1]; ++e) {
+        for (int e = p.column_begin()[column]; e < p.column_begin()[column + 1]; ++e) {
             const auto entry = static_cast<std::size_t>(e);
             const auto row = static_cast<std::size_t>(p.rows()[entry]);
             entry_slot_.push_back(slot.at({step_of_row[row], step_of_column[column]}));
@@ -86,12 +86,12 @@ Elimination::Elimination(const Pattern& p, std::span<const int> rows, std::span<
             scale_[row] = std::max(scale_[row], std::abs(values[entry]));
         }
     for (double& s : scale_) s = s > 0 ? 1 / s : 1;
-    slots_.resize(slot.size()), per_pivot_.resize(n), work_.resize(n);
+    slots_.resize(slot.size()), inverse_pivot_.resize(n), work_.resize(n);
 }
 
 lanes::EliminationList Elimination::list() const {
     return {pivots_.size(),     entry_slot_.size(), slots_.size(), pivots_.data(),  updates_.data(), l_rows_.data(), u_columns_.data(),
-            entry_slot_.data(), entry_row_.data(),  rows_.data(),  columns_.data(), scale_.data(),   l_from_};
+            entry_slot_.data(), entry_row_.data(),  rows_.data(),  columns_.data(), scale_.data(),   l_first_slot_};
 }
 
 bool Elimination::factor(std::span<const double> values) {
@@ -103,7 +103,7 @@ bool Elimination::factor(std::span<const double> values) {
     for (std::size_t k = 0; k < pivots_.size(); ++k) {
         const Pivot& p = pivots_[k];
         const double inverse = 1 / s[p.u_begin - 1];
-        per_pivot_[k] = inverse;
+        inverse_pivot_[k] = inverse;
         for (int l = p.l_begin; l < p.l_end; ++l) {
             const double m = s[l] *= inverse;
             largest = std::max(largest, std::abs(m));
@@ -121,11 +121,11 @@ void Elimination::solve(std::span<double> b) const {
     const auto n = pivots_.size();
     for (std::size_t k = 0; k < n; ++k) y[k] = b[static_cast<std::size_t>(rows_[k])] * scale_[static_cast<std::size_t>(rows_[k])];
     for (std::size_t k = 0; k < n; ++k)
-        for (int l = pivots_[k].l_begin; l < pivots_[k].l_end; ++l) y[l_rows_[static_cast<std::size_t>(l - l_from_)]] -= s[l] * y[k];
+        for (int l = pivots_[k].l_begin; l < pivots_[k].l_end; ++l) y[l_rows_[static_cast<std::size_t>(l - l_first_slot_)]] -= s[l] * y[k];
     for (std::size_t k = n; k-- > 0;) {
         double x = y[k];
         for (int u = pivots_[k].u_begin; u < pivots_[k].u_end; ++u) x -= s[u] * y[u_columns_[static_cast<std::size_t>(u)]];
-        y[k] = x * per_pivot_[k];
+        y[k] = x * inverse_pivot_[k];
         b[static_cast<std::size_t>(columns_[k])] = y[k];
     }
 }

@@ -6,11 +6,11 @@
 #include <span>
 #include <vector>
 
-#include "circuit/lanes/chips.hpp"
+#include "circuit/lanes/chip_kernels.hpp"
 
 namespace corpuscle::circuit {
 
-class Pattern;
+class SparsityPattern;
 
 /// P R A Q = L U with row scales R, row order P and column order Q chosen in advance. The slots hold U row by row, each row starting with
 /// its pivot, then L column by column.
@@ -21,14 +21,14 @@ class Elimination {
     std::vector<int> l_rows_, u_columns_;  // row or column of each slot, numbered by elimination step
     std::vector<int> entry_slot_, entry_row_;
     std::vector<int> rows_, columns_;  // P, Q
-    std::vector<double> scale_, slots_, per_pivot_;
-    int l_from_ = 0;
+    std::vector<double> scale_, slots_, inverse_pivot_;
+    int l_first_slot_ = 0;
     double growth_ = 0;
     mutable std::vector<double> work_;
 
 public:
     /// rows[k], columns[k]: row and column of A that step k eliminates. values: matrix values from which the row scales are computed.
-    Elimination(const Pattern&, std::span<const int> rows, std::span<const int> columns, std::span<const double> values);
+    Elimination(const SparsityPattern&, std::span<const int> rows, std::span<const int> columns, std::span<const double> values);
 
     /// Returns false if the pivot order is not stable for these values (a pivot is far too small compared with its column).
     bool factor(std::span<const double> values);

@@ -10,23 +10,23 @@
 
 namespace corpuscle::circuit {
 
-Pattern::Pattern(int size, std::vector<std::pair<int, int>> entries) : size_(size), begin_(static_cast<std::size_t>(size) + 1) {
+SparsityPattern::SparsityPattern(int size, std::vector<std::pair<int, int>> entries) : size_(size), begin_(static_cast<std::size_t>(size) + 1) {
     std::sort(entries.begin(), entries.end(), [](auto a, auto b) { return std::pair(a.second, a.first) < std::pair(b.second, b.first); });
     entries.erase(std::unique(entries.begin(), entries.end()), entries.end());
     for (const auto& [row, column] : entries) rows_.push_back(row), ++begin_[static_cast<std::size_t>(column) + 1];
     for (std::size_t k = 1; k < begin_.size(); ++k) begin_[k] += begin_[k - 1];
 }
 
-std::size_t Pattern::place(int row, int column) const {
+std::size_t SparsityPattern::entry_index(int row, int column) const {
     const auto from = rows_.begin() + begin_[static_cast<std::size_t>(column)],
                to = rows_.begin() + begin_[static_cast<std::size_t>(column) + 1];
     return static_cast<std::size_t>(std::lower_bound(from, to, row) - rows_.begin());
 }
 
 template <class T>
-struct Solver<T>::Impl {
+struct LinearSolver<T>::Impl {
     static constexpr bool is_complex = !std::is_same_v<T, double>;
-    const Pattern& pattern;
+    const SparsityPattern& pattern;
     int size;
     std::vector<int> begin, rows;
     klu_common common;
@@ -36,8 +36,8 @@ struct Solver<T>::Impl {
     bool by_list = false;  // the last factorization used the list
     long fallback_count = 0;
 
-    explicit Impl(const Pattern& p)
-        : pattern(p), size(p.size()), begin(p.begin().begin(), p.begin().end()), rows(p.rows().begin(), p.rows().end()) {
+    explicit Impl(const SparsityPattern& p)
+        : pattern(p), size(p.size()), begin(p.column_begin().begin(), p.column_begin().end()), rows(p.rows().begin(), p.rows().end()) {
         klu_defaults(&common);
         symbolic = klu_analyze(size, begin.data(), rows.data(), &common);
     }
@@ -72,39 +72,39 @@ struct Solver<T>::Impl {
 };
 
 template <class T>
-Solver<T>::Solver(const Pattern& p) : impl_(std::make_unique<Impl>(p)) {}
+LinearSolver<T>::LinearSolver(const SparsityPattern& p) : impl_(std::make_unique<Impl>(p)) {}
 template <class T>
-Solver<T>::~Solver() = default;
+LinearSolver<T>::~LinearSolver() = default;
 template <class T>
-Solver<T>::Solver(Solver&&) noexcept = default;
+LinearSolver<T>::LinearSolver(LinearSolver&&) noexcept = default;
 
 template <class T>
-bool Solver<T>::factor(std::span<const T> values) {
+bool LinearSolver<T>::factor(std::span<const T> values) {
     auto* numbers = reinterpret_cast<double*>(const_cast<T*>(values.data()));  // KLU has no const arguments but does not write here
     if (impl_->symbolic == nullptr) return false;
     if constexpr (!Impl::is_complex) {
         impl_->by_list = impl_->list && impl_->list->factor(values);
         if (impl_->by_list) return true;
-        if (impl_->list) return factor_anew(values);
+        if (impl_->list) return factor_with_new_pivots(values);
     }
     // With a list the previous pivots are not reused: a solution must depend on its matrix only, not on earlier matrices.
     return (impl_->numeric != nullptr && !impl_->list && impl_->refactor(numbers)) || impl_->factor(numbers);
 }
 
 template <class T>
-bool Solver<T>::factor_anew(std::span<const T> values) {
+bool LinearSolver<T>::factor_with_new_pivots(std::span<const T> values) {
     impl_->by_list = false;
     impl_->fallback_count += impl_->list.has_value();
     return impl_->factor(reinterpret_cast<double*>(const_cast<T*>(values.data())));
 }
 
 template <class T>
-double Solver<T>::growth() const {
+double LinearSolver<T>::growth() const {
     return impl_->by_list ? impl_->list->growth() : 0;
 }
 
 template <class T>
-void Solver<T>::settle(std::span<const T> values) {
+void LinearSolver<T>::fix_pivot_order(std::span<const T> values) {
     if constexpr (!Impl::is_complex) {
         constexpr int too_large = 3000;  // unknowns: the constructor of Elimination needs a dense matrix of bytes
         auto* numbers = const_cast<double*>(values.data());
@@ -119,22 +119,22 @@ void Solver<T>::settle(std::span<const T> values) {
 }
 
 template <class T>
-const Elimination* Solver<T>::list() const {
+const Elimination* LinearSolver<T>::elimination() const {
     return impl_->list ? &*impl_->list : nullptr;
 }
 
 template <class T>
-long Solver<T>::strayed() const {
+long LinearSolver<T>::fallback_count() const {
     return impl_->fallback_count;
 }
 
 template <class T>
-Singular Solver<T>::where() const {
+Singularity LinearSolver<T>::singularity() const {
     return {impl_->symbolic == nullptr || impl_->common.singular_col >= impl_->size ? -1 : impl_->common.singular_col};
 }
 
 template <class T>
-void Solver<T>::solve(std::span<T> b) const {
+void LinearSolver<T>::solve(std::span<T> b) const {
     auto* numbers = reinterpret_cast<double*>(b.data());
     if constexpr (!Impl::is_complex)
         if (impl_->by_list) return impl_->list->solve(b);
@@ -145,7 +145,7 @@ void Solver<T>::solve(std::span<T> b) const {
 }
 
 template <class T>
-void Solver<T>::solve_transposed(std::span<T> b) const {
+void LinearSolver<T>::solve_transposed(std::span<T> b) const {
     auto* numbers = reinterpret_cast<double*>(b.data());
     if constexpr (Impl::is_complex)
         klu_z_tsolve(impl_->symbolic, impl_->numeric, impl_->size, 1, numbers, 0, &impl_->common);
@@ -153,7 +153,7 @@ void Solver<T>::solve_transposed(std::span<T> b) const {
         klu_tsolve(impl_->symbolic, impl_->numeric, impl_->size, 1, numbers, &impl_->common);
 }
 
-template class Solver<double>;
-template class Solver<std::complex<double>>;
+template class LinearSolver<double>;
+template class LinearSolver<std::complex<double>>;
 
 }  // namespace corpuscle::circuit

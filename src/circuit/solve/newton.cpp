@@ -13,46 +13,46 @@ double max_voltage_step(const System& system) {
     double limit = 0.3;
     const auto& elements = system.circuit().elements;
     for (std::size_t k = 0; k < elements.size(); ++k)
-        if (elements[k].letter == 'v') limit = std::max(limit, std::abs(system.devices()[k]->setting().value_or(0)) / 2);
+        if (elements[k].letter == 'v') limit = std::max(limit, std::abs(system.devices()[k]->principal_value().value_or(0)) / 2);
     return limit;
 }
 
 }  // namespace
 
-Newton::Newton(const System& s, const Tolerances& t) : system(s), tolerances(t), solver(s.pattern()), memory(s.fresh_memory()) {
-    instant.gmin = t.gmin, instant.charges = false;
+NewtonSolver::NewtonSolver(const System& s, const Tolerances& t) : system(s), tolerances(t), linear_solver(s.pattern()), limiting_state(s.initial_limiting_state()) {
+    context.gmin = t.gmin, context.with_charges = false;
     step.resize(static_cast<std::size_t>(s.size()));
 }
 
-bool Newton::balanced() const {
-    for (std::size_t n = 0; n < sums.f.size(); ++n) {
+bool NewtonSolver::is_balanced() const {
+    for (std::size_t n = 0; n < evaluation.f.size(); ++n) {
         const double floor = n < static_cast<std::size_t>(system.nodes()) ? tolerances.abstol : tolerances.vntol;
-        if (!(std::abs(sums.f[n]) <= tolerances.reltol * sums.size[n] + sums.grain[n] + floor)) return false;
+        if (!(std::abs(evaluation.f[n]) <= tolerances.reltol * evaluation.scale[n] + evaluation.roundoff[n] + floor)) return false;
     }
     return true;
 }
 
-bool Newton::run(std::vector<double>& x, const Springs& clamps, int max_iterations) {
+bool NewtonSolver::solve(std::vector<double>& x, const NodeClamps& clamps, int max_iterations) {
     const auto count = static_cast<std::size_t>(system.size()), nodes = static_cast<std::size_t>(system.nodes());
-    const bool linear = system.linear();
+    const bool linear = system.is_linear();
     const double limit = linear ? 0 : max_voltage_step(system);
     bool is_close = false;  // the last step was small
-    singular = -1;
+    singular_unknown = -1;
     for (int k = 0; k < (max_iterations > 0 ? max_iterations : tolerances.itl1); ++k) {
-        system.eval(x, instant, memory, sums);
+        system.eval(x, context, limiting_state, evaluation);
         ++iterations;
-        for (std::size_t n = 0; n < nodes && !clamps.g.empty(); ++n) {
-            sums.f[n] += clamps.g[n] * (x[n] - clamps.to[n]);
-            sums.G[system.pattern().place(static_cast<int>(n), static_cast<int>(n))] += clamps.g[n];
-            sums.size[n] = std::max(sums.size[n], clamps.g[n] * std::abs(x[n]));
+        for (std::size_t n = 0; n < nodes && !clamps.conductance.empty(); ++n) {
+            evaluation.f[n] += clamps.conductance[n] * (x[n] - clamps.voltage[n]);
+            evaluation.G[system.pattern().entry_index(static_cast<int>(n), static_cast<int>(n))] += clamps.conductance[n];
+            evaluation.scale[n] = std::max(evaluation.scale[n], clamps.conductance[n] * std::abs(x[n]));
         }
-        if (is_close && !sums.limited && balanced()) return true;
-        if (!solver.factor(std::span<const double>(sums.G).first(system.pattern().entries()))) {
-            singular = solver.where().column;
+        if (is_close && !evaluation.is_limited && is_balanced()) return true;
+        if (!linear_solver.factor(std::span<const double>(evaluation.G).first(system.pattern().entries()))) {
+            singular_unknown = linear_solver.singularity().column;
             return false;
         }
-        for (std::size_t n = 0; n < count; ++n) step[n] = -sums.f[n];
-        solver.solve(step);
+        for (std::size_t n = 0; n < count; ++n) step[n] = -evaluation.f[n];
+        linear_solver.solve(step);
         if (!std::all_of(step.begin(), step.end(), [](double d) { return std::isfinite(d); })) return false;
         double largest_current = 0;
         for (std::size_t n = 0; n < count; ++n)
@@ -69,13 +69,13 @@ bool Newton::run(std::vector<double>& x, const Springs& clamps, int max_iteratio
     return false;
 }
 
-std::string Newton::distance(std::span<const double> x) {
-    system.eval(x, instant, memory, sums);
+std::string NewtonSolver::describe_residual(std::span<const double> x) {
+    system.eval(x, context, limiting_state, evaluation);
     std::size_t worst = 0;
     double largest = -1;
-    for (std::size_t n = 0; n < sums.f.size(); ++n) {
+    for (std::size_t n = 0; n < evaluation.f.size(); ++n) {
         const double off =
-            std::isfinite(sums.f[n]) ? std::abs(sums.f[n]) / (tolerances.reltol * sums.size[n] + sums.grain[n] + tolerances.abstol) : 1e300;
+            std::isfinite(evaluation.f[n]) ? std::abs(evaluation.f[n]) / (tolerances.reltol * evaluation.scale[n] + evaluation.roundoff[n] + tolerances.abstol) : 1e300;
         if (off > largest) largest = off, worst = n;
     }
     const Device* device = nullptr;
@@ -83,16 +83,16 @@ std::string Newton::distance(std::span<const double> x) {
     for (const auto& d : system.devices()) {
         const auto at = std::find(d->unknowns.begin(), d->unknowns.end(), static_cast<int>(worst));
         if (at == d->unknowns.end()) continue;
-        const auto v = system.terminals(*d, x);
+        const auto v = system.terminal_values(*d, x);
         const auto n = v.size();
         std::vector<double> stamp(2 * n + 2 * n * n);
         const std::span<double> all(stamp);
-        d->eval(v, instant, {all.first(n), all.subspan(n, n), all.subspan(2 * n, n * n), all.subspan(2 * n + n * n)});
+        d->eval(v, context, {all.first(n), all.subspan(n, n), all.subspan(2 * n, n * n), all.subspan(2 * n + n * n)});
         const double f = std::abs(stamp[static_cast<std::size_t>(at - d->unknowns.begin())]);
         if (!(f <= contribution)) contribution = f, device = d.get();
     }
     const bool is_current = worst < static_cast<std::size_t>(system.nodes());
-    return fmt::format("largest residual: {1} at {0}{2}", system.names()[worst], format_quantity(sums.f[worst], is_current ? "A" : "V"),
+    return fmt::format("largest residual: {1} at {0}{2}", system.names()[worst], format_quantity(evaluation.f[worst], is_current ? "A" : "V"),
                        device ? fmt::format(", mostly from {}", device->name) : "");
 }
 

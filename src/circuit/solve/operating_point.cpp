@@ -7,7 +7,7 @@
 #include <functional>
 #include <optional>
 
-#include "circuit/device/values.hpp"
+#include "circuit/device/named_values.hpp"
 
 namespace corpuscle::circuit {
 namespace {
@@ -33,41 +33,41 @@ public:
 
 /// Searches for the operating point with one method after another.
 class OperatingPointSearch {
-    Newton& newton_;
+    NewtonSolver& newton_;
     const System& system_;
     bool has_guess_;                    // the start is near the solution; .nodeset is then ignored
     std::vector<double> start_, last_;  // last: where plain Newton's method failed
     std::size_t nodes_;
-    Springs clamps_;  // clamps that are part of the solved circuit
+    NodeClamps clamps_;  // clamps that are part of the solved circuit
 
     /// A clamp at every node. A node that is clamped already keeps its clamp.
-    Springs clamp_all(double g, const std::vector<double>& to) const {
-        Springs out{std::vector<double>(nodes_, g), to};
-        for (std::size_t n = 0; n < clamps_.g.size(); ++n)
-            if (clamps_.g[n] > 0) out.g[n] = clamps_.g[n], out.to[n] = clamps_.to[n];
+    NodeClamps clamp_all(double g, const std::vector<double>& to) const {
+        NodeClamps out{std::vector<double>(nodes_, g), to};
+        for (std::size_t n = 0; n < clamps_.conductance.size(); ++n)
+            if (clamps_.conductance[n] > 0) out.conductance[n] = clamps_.conductance[n], out.voltage[n] = clamps_.voltage[n];
         return out;
     }
 
     bool plain(std::vector<double>& x) {
         constexpr int near = 40;  // iterations: from a good guess Newton's method needs at most half of these, or diverges
-        newton_.memory = system_.fresh_memory();
-        return newton_.run(x, clamps_, has_guess_ ? std::min(near, newton_.tolerances.itl1) : 0);
+        newton_.limiting_state = system_.initial_limiting_state();
+        return newton_.solve(x, clamps_, has_guess_ ? std::min(near, newton_.tolerances.itl1) : 0);
     }
 
     /// gmin stepping: a conductance from every node to ground, reduced decade by decade.
     bool by_gmin(std::vector<double>& x) {
         const std::vector<double> ground(x.size());
         double g = 1e-2, factor = 10;
-        newton_.memory = system_.fresh_memory();
+        newton_.limiting_state = system_.initial_limiting_state();
         for (int tries = 0; tries < 200; ++tries) {
             auto next = x;
-            const auto memory = newton_.memory;
-            if (newton_.run(next, clamp_all(g, ground), 50)) {
+            const auto memory = newton_.limiting_state;
+            if (newton_.solve(next, clamp_all(g, ground), 50)) {
                 x = next;
-                if (g < 1e-15) return newton_.run(x, clamps_);
+                if (g < 1e-15) return newton_.solve(x, clamps_);
                 g /= factor, factor = std::min(factor * 1.5, 10.0);
             } else {
-                newton_.memory = memory;
+                newton_.limiting_state = memory;
                 if (factor < 1.001) return false;
                 g *= factor, factor = std::sqrt(factor), g /= factor;
             }
@@ -78,21 +78,21 @@ class OperatingPointSearch {
     /// Source stepping: all sources rise from 0.
     bool by_sources(std::vector<double>& x) {
         double reached = 0, step = 0.1;
-        newton_.memory = system_.fresh_memory();
-        newton_.instant.sources = 0;
-        bool found = newton_.run(x, clamps_);
+        newton_.limiting_state = system_.initial_limiting_state();
+        newton_.context.source_scale = 0;
+        bool found = newton_.solve(x, clamps_);
         for (int tries = 0; found && reached < 1 && tries < 500; ++tries) {
             auto next = x;
-            const auto memory = newton_.memory;
-            newton_.instant.sources = std::min(1.0, reached + step);
-            if (newton_.run(next, clamps_, 30)) {
-                x = next, reached = newton_.instant.sources, step *= 2;
+            const auto memory = newton_.limiting_state;
+            newton_.context.source_scale = std::min(1.0, reached + step);
+            if (newton_.solve(next, clamps_, 30)) {
+                x = next, reached = newton_.context.source_scale, step *= 2;
             } else {
-                newton_.memory = memory, step /= 4;
+                newton_.limiting_state = memory, step /= 4;
                 found = step > 1e-7;
             }
         }
-        newton_.instant.sources = 1;
+        newton_.context.source_scale = 1;
         return found && reached >= 1;
     }
 
@@ -105,13 +105,13 @@ class OperatingPointSearch {
         const LooseTolerances loose(newton_.tolerances);
         double g = 1e-4, rate = 0, too_small = 0;
         int careful = 0;  // remaining steps with a length limit, after one that was too long
-        newton_.memory = system_.fresh_memory();
+        newton_.limiting_state = system_.initial_limiting_state();
         for (int tries = 0; tries < 600; ++tries) {
             auto next = x;
-            const auto memory = newton_.memory;
+            const auto memory = newton_.limiting_state;
             const int before = newton_.iterations;
-            if (!newton_.run(next, clamp_all(g, x), patience)) {
-                newton_.memory = memory;
+            if (!newton_.solve(next, clamp_all(g, x), patience)) {
+                newton_.limiting_state = memory;
                 too_small = g, careful = 20, g *= 3;
                 if (g > 1e6) return false;
                 continue;
@@ -119,7 +119,7 @@ class OperatingPointSearch {
             const double moved = farthest(x, next), faster = rate > 0 ? moved * g / rate : 0;
             x = std::move(next), rate = moved * g;
             if (moved < 10 * settled_below && g < 1e-13) {
-                if (auto solution = x; loose.with_tight([&] { return newton_.run(solution, clamps_, 20); }))
+                if (auto solution = x; loose.with_tight([&] { return newton_.solve(solution, clamps_, 20); }))
                     return x = std::move(solution), true;
                 if (g < 1e-19) return false;
             }
@@ -132,16 +132,16 @@ class OperatingPointSearch {
     /// Pseudo-transient with tight tolerances in every step, shortened only after a failure: slow but robust.
     bool by_exact_time(std::vector<double>& x) {
         double g = 1e-4;
-        newton_.memory = system_.fresh_memory();
+        newton_.limiting_state = system_.initial_limiting_state();
         for (int tries = 0; tries < 2000; ++tries) {
             auto next = x;
-            const auto memory = newton_.memory;
-            if (newton_.run(next, clamp_all(g, x), 20)) {
+            const auto memory = newton_.limiting_state;
+            if (newton_.solve(next, clamp_all(g, x), 20)) {
                 x = next;
-                if (g < 1e-19) return newton_.run(x, clamps_);
+                if (g < 1e-19) return newton_.solve(x, clamps_);
                 g /= 2;
             } else {
-                newton_.memory = memory;
+                newton_.limiting_state = memory;
                 g *= 8;
                 if (g > 1e6) return false;
             }
@@ -158,15 +158,15 @@ class OperatingPointSearch {
     void apply_nodesets(std::vector<double>& x) {
         const auto& nodesets = system_.circuit().nodesets;
         if (nodesets.empty()) return;
-        Springs clamps = clamp_all(0, std::vector<double>(x.size()));
+        NodeClamps clamps = clamp_all(0, std::vector<double>(x.size()));
         for (const auto& [node, v] : nodesets)
-            clamps.g[static_cast<std::size_t>(node) - 1] = 1e3, clamps.to[static_cast<std::size_t>(node) - 1] = v;
+            clamps.conductance[static_cast<std::size_t>(node) - 1] = 1e3, clamps.voltage[static_cast<std::size_t>(node) - 1] = v;
         auto clamped = x;
-        if (newton_.run(clamped, clamps)) x = clamped;
+        if (newton_.solve(clamped, clamps)) x = clamped;
     }
 
 public:
-    OperatingPointSearch(Newton& newton, std::vector<double> start, Springs clamps)
+    OperatingPointSearch(NewtonSolver& newton, std::vector<double> start, NodeClamps clamps)
         : newton_(newton), system_(newton.system), has_guess_(!start.empty()), start_(std::move(start)),
           nodes_(static_cast<std::size_t>(system_.nodes())), clamps_(std::move(clamps)) {
         start_.resize(static_cast<std::size_t>(system_.size()));
@@ -176,7 +176,7 @@ public:
     Result<OperatingPoint> run() {
         if (has_guess_)
             if (auto found = from_start()) return *found;
-        if (has_guess_ && !system_.linear()) has_guess_ = false, start_.assign(start_.size(), 0.0);  // retry without the guess
+        if (has_guess_ && !system_.is_linear()) has_guess_ = false, start_.assign(start_.size(), 0.0);  // retry without the guess
         if (!has_guess_) {
             apply_nodesets(start_);
             if (auto found = from_start()) return *found;
@@ -198,32 +198,32 @@ private:
             auto x = start_;
             if ((this->*method.run)(x)) return OperatingPoint{std::move(x), method.name, newton_.iterations};
             if (last_.empty()) last_ = std::move(x);
-            if (system_.linear()) break;
+            if (system_.is_linear()) break;
         }
         return {};
     }
 
     Error failure() {
         const auto& c = system_.circuit();
-        if (system_.linear() && newton_.singular >= 0)
+        if (system_.is_linear() && newton_.singular_unknown >= 0)
             return {ErrorCode::bad_input,
                     fmt::format("the equations have no unique solution: the matrix is singular at {}",
-                                system_.names()[static_cast<std::size_t>(newton_.singular)]),
+                                system_.names()[static_cast<std::size_t>(newton_.singular_unknown)]),
                     SourceLocation{c.file}};
         return {
             ErrorCode::not_converged,
             fmt::format(
                 "no operating point found: Newton's method, gmin stepping, source stepping and pseudo-transient did not converge ({} "
                 "iterations); {}{}",
-                newton_.iterations, newton_.distance(last_),
-                newton_.singular >= 0 ? fmt::format("; singular at {}", system_.names()[static_cast<std::size_t>(newton_.singular)]) : ""),
+                newton_.iterations, newton_.describe_residual(last_),
+                newton_.singular_unknown >= 0 ? fmt::format("; singular at {}", system_.names()[static_cast<std::size_t>(newton_.singular_unknown)]) : ""),
             SourceLocation{c.file}};
     }
 };
 
 }  // namespace
 
-Result<Tolerances> Tolerances::of(const Circuit& c) {
+Result<Tolerances> Tolerances::from_options(const Circuit& c) {
     Tolerances t;
     t.reltol = value_or(c.options, "reltol", t.reltol);
     t.vntol = value_or(c.options, "vntol", t.vntol);
@@ -239,7 +239,7 @@ Result<Tolerances> Tolerances::of(const Circuit& c) {
     return t;
 }
 
-Result<OperatingPoint> operating_point(Newton& newton, std::vector<double> start, Springs clamps) {
+Result<OperatingPoint> find_operating_point(NewtonSolver& newton, std::vector<double> start, NodeClamps clamps) {
     return OperatingPointSearch(newton, std::move(start), std::move(clamps)).run();
 }
 

@@ -17,41 +17,41 @@ struct Tolerances {
     int itl1 = 100;         ///< maximum number of Newton iterations in one attempt
 
     /// From .options. Errors: a value out of range.
-    static Result<Tolerances> of(const Circuit&);
+    static Result<Tolerances> from_options(const Circuit&);
 };
 
 struct OperatingPoint {
     std::vector<double> x;
-    std::string_view how;  ///< "newton", "gmin", "source", "pseudo-transient"
+    std::string_view method;  ///< "newton", "gmin", "source", "pseudo-transient"
     int iterations = 0;    ///< Newton iterations of all attempts
 };
 
 /// Conductances that pull nodes to given voltages: conductance (x - voltage) is added to the equation of each node. Empty: no clamps.
-struct Springs {
-    std::vector<double> g, to;
+struct NodeClamps {
+    std::vector<double> conductance, voltage;
 };
 
 /// Newton's method for one system. It refers to the system and keeps the symbolic analysis of its matrix.
-struct Newton {
+struct NewtonSolver {
     const System& system;
     Tolerances tolerances;
-    Instant instant;
-    Solver<double> solver;
-    Sums sums;
-    std::vector<double> memory;
+    EvalContext context;
+    LinearSolver<double> linear_solver;
+    SystemEvaluation evaluation;
+    std::vector<double> limiting_state;
     int iterations = 0;
-    int singular = -1;  ///< unknown at which the matrix of the last solve was singular; -1: not singular
+    int singular_unknown = -1;  ///< unknown at which the matrix of the last solve was singular; -1: not singular
     std::vector<double> step;
 
-    Newton(const System&, const Tolerances&);
-    bool balanced() const;  ///< true if the last residual is below the tolerances
+    NewtonSolver(const System&, const Tolerances&);
+    bool is_balanced() const;  ///< true if the last residual is below the tolerances
     /// Iterates from x; afterwards x is the last iterate. max_iterations 0: itl1. Returns true if it converged.
-    bool run(std::vector<double>& x, const Springs& = {}, int max_iterations = 0);
+    bool solve(std::vector<double>& x, const NodeClamps& = {}, int max_iterations = 0);
     /// Describes the largest residual at x as text: the unknown, the value and the device.
-    std::string distance(std::span<const double> x);
+    std::string describe_residual(std::span<const double> x);
 };
 
 /// Starts from `start`; if that is empty, from 0 with the voltages of .nodeset. `clamps` are part of the solved circuit.
-Result<OperatingPoint> operating_point(Newton&, std::vector<double> start = {}, Springs clamps = {});
+Result<OperatingPoint> find_operating_point(NewtonSolver&, std::vector<double> start = {}, NodeClamps clamps = {});
 
 }  // namespace corpuscle::circuit

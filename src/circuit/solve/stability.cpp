@@ -26,7 +26,7 @@ class Disturbance {
         const auto& p = system_.pattern();
         std::fill(next_.begin(), next_.end(), 0.0);
         for (int column = 0; column < p.size(); ++column)
-            for (int e = p.begin()[static_cast<std::size_t>(column)]; e < p.begin()[static_cast<std::size_t>(column) + 1]; ++e) {
+            for (int e = p.column_begin()[static_cast<std::size_t>(column)]; e < p.column_begin()[static_cast<std::size_t>(column) + 1]; ++e) {
                 const auto k = static_cast<std::size_t>(e);
                 next_[static_cast<std::size_t>(p.rows()[k])] += (c * C_[k] - g * G_[k]) * v_[static_cast<std::size_t>(column)];
             }
@@ -52,7 +52,7 @@ public:
     double growth_per_step(double a) {
         constexpr int steps = 80;
         for (std::size_t k = 0; k < sum_.size(); ++k) sum_[k] = G_[k] + a * C_[k];
-        Solver<double> solver(system_.pattern());
+        LinearSolver<double> solver(system_.pattern());
         if (!solver.factor(sum_)) return 0;
         v_.assign(next_.size(), 0);
         for (std::size_t n = 0; n < v_.size(); ++n) v_[n] = 1 - 2 * std::fmod(0.6180339887498949 * static_cast<double>(n + 1), 1.0);
@@ -73,14 +73,14 @@ public:
 
 }  // namespace
 
-std::optional<Growth> growth_at(Newton& newton, std::span<const double> x) {
+std::optional<UnstableMode> find_unstable_mode(NewtonSolver& newton, std::span<const double> x) {
     const System& system = newton.system;
-    Instant context = newton.instant;
-    context.charges = true;
-    auto memory = newton.memory;
-    system.eval(x, context, memory, newton.sums);
+    EvalContext context = newton.context;
+    context.with_charges = true;
+    auto memory = newton.limiting_state;
+    system.eval(x, context, memory, newton.evaluation);
     const auto entries = system.pattern().entries();
-    Disturbance disturbance(system, std::span(newton.sums.G).first(entries), std::span(newton.sums.C).first(entries));
+    Disturbance disturbance(system, std::span(newton.evaluation.G).first(entries), std::span(newton.evaluation.C).first(entries));
     double largest = 1.02, best = 0;
     for (double a = 1e-2; a < 1e13; a *= 10)
         if (const double growth = disturbance.growth_per_step(a); growth > largest) largest = growth, best = a;
@@ -88,7 +88,7 @@ std::optional<Growth> growth_at(Newton& newton, std::span<const double> x) {
     (void)disturbance.growth_per_step(best);
     const double z = disturbance.ratio(), rate = best * (z - 1) / (z + 1);
     const bool steady = std::abs(std::abs(z) / largest - 1) < 1e-3 && rate > 0;
-    return Growth{disturbance.direction(), steady ? rate : 0};
+    return UnstableMode{disturbance.direction(), steady ? rate : 0};
 }
 
 }  // namespace corpuscle::circuit

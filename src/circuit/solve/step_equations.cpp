@@ -12,75 +12,75 @@ constexpr double doubtful_growth = 1e4, doubtful_residual = 1e-9;
 
 }  // namespace
 
-StepEquations::StepEquations(const System& system, Newton& newton)
-    : system_(system), newton_(newton), side_by_side_(system), solver_(system.pattern()) {
+StepEquations::StepEquations(const System& system, NewtonSolver& newton)
+    : system_(system), newton_(newton), batched_devices_(system), solver_(system.pattern()) {
     const auto count = static_cast<std::size_t>(system.size());
-    x_.resize(count + 1), still_.resize(count + 1), base_.resize(count + 1), r_.resize(count + 1), step_.resize(count + 1);
+    x_.resize(count + 1), constant_currents_.resize(count + 1), base_.resize(count + 1), r_.resize(count + 1), step_.resize(count + 1);
     J_.resize(system.pattern().entries() + 1), J_0_.resize(J_.size());
-    for (int n = 0; n < system.size(); ++n) voltage_.push_back(system.is_voltage(n));
-    std::vector<Linear> sums(J_.size(), Linear{0, -1, -1, 0, 0});
-    for (const auto k : system.alone()) {
+    for (int n = 0; n < system.size(); ++n) is_voltage_.push_back(system.is_voltage(n));
+    std::vector<LinearEntry> sums(J_.size(), LinearEntry{0, -1, -1, 0, 0});
+    for (const auto k : system.scalar_devices()) {
         const Device& d = *system.devices()[k];
         const auto n = d.unknowns.size();
-        Own scalar{k, n, d.unknowns, std::vector<double>(n), std::vector<double>(n), std::vector<double>(2 * n + 2 * n * n)};
+        ScalarDevice scalar{k, n, d.unknowns, std::vector<double>(n), std::vector<double>(n), std::vector<double>(2 * n + 2 * n * n)};
         for (int& u : scalar.unknowns) u = u < 0 ? static_cast<int>(count) : u;
-        if (!d.linear()) {
-            own_.push_back(std::move(scalar));
+        if (!d.is_linear()) {
+            scalar_devices_.push_back(std::move(scalar));
             continue;
         }
-        if (d.varies()) varying_.push_back(k);
+        if (d.is_time_dependent()) time_dependent_.push_back(k);
         const std::span<double> all(scalar.stamp);
-        d.eval(scalar.v, newton.instant, {all.first(n), all.subspan(n, n), all.subspan(2 * n, n * n), all.subspan(2 * n + n * n)});
+        d.eval(scalar.v, newton.context, {all.first(n), all.subspan(n, n), all.subspan(2 * n, n * n), all.subspan(2 * n + n * n)});
         for (std::size_t row = 0; row < n; ++row) {
-            if (!d.varies()) still_[static_cast<std::size_t>(scalar.unknowns[row])] += all[row];
+            if (!d.is_time_dependent()) constant_currents_[static_cast<std::size_t>(scalar.unknowns[row])] += all[row];
             for (std::size_t column = 0; column < n; ++column) {
-                auto& sum = sums[system.places(k)[row * n + column]];
+                auto& sum = sums[system.entries(k)[row * n + column]];
                 sum.row = scalar.unknowns[row], sum.column = scalar.unknowns[column];
                 sum.g += all[2 * n + row * n + column], sum.c += all[2 * n + n * n + row * n + column];
             }
         }
     }
     for (std::size_t place = 0; place + 1 < sums.size(); ++place)
-        if (sums[place].g != 0 || sums[place].c != 0) linear_.push_back(sums[place]), linear_.back().place = place;
+        if (sums[place].g != 0 || sums[place].c != 0) linear_.push_back(sums[place]), linear_.back().entry = place;
 }
 
 void StepEquations::prepare(double t, double a, std::span<const double> history) {
-    newton_.instant.time = t, newton_.instant.charges = true;
+    newton_.context.time = t, newton_.context.with_charges = true;
     a_ = a, newton_control_.begin();
-    base_ = still_;
+    base_ = constant_currents_;
     for (std::size_t n = 0; n < history.size(); ++n) base_[n] += history[n];
-    for (const auto k : varying_) {
+    for (const auto k : time_dependent_) {
         const Device& d = *system_.devices()[k];
         const auto n = d.unknowns.size();
         scratch_.assign(3 * n + 2 * n * n, 0.0);
         const std::span<double> all(scratch_);
-        d.eval(all.last(n), newton_.instant,
+        d.eval(all.last(n), newton_.context,
                {all.first(n), all.subspan(n, n), all.subspan(2 * n, n * n), all.subspan(2 * n + n * n, n * n)});
         for (std::size_t row = 0; row < n; ++row)
             if (d.unknowns[row] >= 0) base_[static_cast<std::size_t>(d.unknowns[row])] += all[row];
     }
     std::fill(J_0_.begin(), J_0_.end(), 0.0);
-    for (const auto& l : linear_) J_0_[l.place] = l.g + a * l.c;
+    for (const auto& l : linear_) J_0_[l.entry] = l.g + a * l.c;
 }
 
-void StepEquations::look_at_own(Own& scalar) {
+void StepEquations::linearize_device(ScalarDevice& scalar) {
     const Device& d = *system_.devices()[scalar.device];
     const auto n = scalar.terminals;
     for (std::size_t j = 0; j < n; ++j) scalar.v[j] = x_[static_cast<std::size_t>(scalar.unknowns[j])];
-    scalar.looked = scalar.v;
-    scalar.limited = d.memory() > 0 && d.limit(scalar.looked, system_.memory_of(scalar.device, newton_.memory));
+    scalar.linearized_at = scalar.v;
+    scalar.limited = d.limiting_state_size() > 0 && d.limit(scalar.linearized_at, system_.limiting_state_of(scalar.device, newton_.limiting_state));
     limited_ |= scalar.limited;
     std::fill(scalar.stamp.begin(), scalar.stamp.end(), 0.0);
     const std::span<double> all(scalar.stamp);
     const Stamp stamp{all.first(n), all.subspan(n, n), all.subspan(2 * n, n * n), all.subspan(2 * n + n * n)};
-    d.eval(scalar.looked, newton_.instant, stamp);
-    const auto places = system_.places(scalar.device);
+    d.eval(scalar.linearized_at, newton_.context, stamp);
+    const auto places = system_.entries(scalar.device);
     for (std::size_t row = 0; row < n; ++row) {
         for (std::size_t column = 0; column < n; ++column) {
             const double slope = stamp.slope(row, column), c = stamp.capacitance(row, column);
             if (scalar.limited)
-                stamp.f[row] += slope * (scalar.v[column] - scalar.looked[column]),
-                    stamp.q[row] += c * (scalar.v[column] - scalar.looked[column]);
+                stamp.f[row] += slope * (scalar.v[column] - scalar.linearized_at[column]),
+                    stamp.q[row] += c * (scalar.v[column] - scalar.linearized_at[column]);
             J_[places[row * n + column]] += slope + a_ * c;
         }
         r_[static_cast<std::size_t>(scalar.unknowns[row])] += stamp.f[row] + a_ * stamp.q[row];
@@ -88,13 +88,13 @@ void StepEquations::look_at_own(Own& scalar) {
 }
 
 /// Computes r and J at x.
-void StepEquations::look(std::span<const double> x) {
+void StepEquations::linearize(std::span<const double> x) {
     std::copy(x.begin(), x.end(), x_.begin());
     J_ = J_0_, r_ = base_;
-    for (const auto& l : linear_) r_[static_cast<std::size_t>(l.row)] += J_0_[l.place] * x_[static_cast<std::size_t>(l.column)];
+    for (const auto& l : linear_) r_[static_cast<std::size_t>(l.row)] += J_0_[l.entry] * x_[static_cast<std::size_t>(l.column)];
     limited_ = false;
-    for (auto& scalar : own_) look_at_own(scalar);
-    side_by_side_.look(newton_.instant, a_, x_, J_, r_);
+    for (auto& scalar : scalar_devices_) linearize_device(scalar);
+    batched_devices_.evaluate(newton_.context, a_, x_, J_, r_);
 }
 
 double StepEquations::largest_step(std::span<const double> allowed, bool& clamped) {
@@ -102,7 +102,7 @@ double StepEquations::largest_step(std::span<const double> allowed, bool& clampe
     for (std::size_t n = 0; n < allowed.size(); ++n) {
         double& d = step_[n];
         if (!std::isfinite(d)) return d;
-        if (voltage_[n] && !system_.linear() && std::abs(d) > 0.5) d = std::copysign(0.5, d), clamped = true;
+        if (is_voltage_[n] && !system_.is_linear() && std::abs(d) > 0.5) d = std::copysign(0.5, d), clamped = true;
         if (allowed[n] > 0) largest = std::max(largest, std::abs(d) / allowed[n]);
     }
     return largest;
@@ -118,18 +118,18 @@ bool StepEquations::solve_for_step() {
     };
     if (!solver_.factor(J)) return false;
     solve();
-    if (solver_.growth() < doubtful_growth || left_over() < doubtful_residual) return true;
-    if (!solver_.factor_anew(J)) return false;
+    if (solver_.growth() < doubtful_growth || relative_residual() < doubtful_residual) return true;
+    if (!solver_.factor_with_new_pivots(J)) return false;
     return solve(), true;
 }
 
 /// The largest residual of J step + r, relative to the largest term of its row.
-double StepEquations::left_over() {
+double StepEquations::relative_residual() {
     const auto& p = system_.pattern();
     scratch_.assign(r_.begin(), r_.end());
     std::vector<double> largest(r_.size());
     for (std::size_t column = 0; column + 1 < step_.size(); ++column)
-        for (int e = p.begin()[column]; e < p.begin()[column + 1]; ++e) {
+        for (int e = p.column_begin()[column]; e < p.column_begin()[column + 1]; ++e) {
             const auto row = static_cast<std::size_t>(p.rows()[static_cast<std::size_t>(e)]);
             const double term = J_[static_cast<std::size_t>(e)] * step_[column];
             scratch_[row] += term, largest[row] = std::max(largest[row], std::abs(term));
@@ -140,24 +140,24 @@ double StepEquations::left_over() {
     return largest_residual;
 }
 
-StepEquations::Way StepEquations::iterate(std::vector<double>& x, std::span<const double> allowed) {
-    look(x);
+StepEquations::Status StepEquations::iterate(std::vector<double>& x, std::span<const double> allowed) {
+    linearize(x);
     ++iterations;
-    if (!solve_for_step()) return Way::lost;
+    if (!solve_for_step()) return Status::diverged;
     bool clamped = false;
     const double size = largest_step(allowed, clamped);
-    if (!std::isfinite(size)) return Way::lost;
+    if (!std::isfinite(size)) return Status::diverged;
     for (std::size_t n = 0; n < x.size(); ++n) x[n] += step_[n];
-    if (system_.linear()) return Way::arrived;
-    const auto status = newton_control_.after(size, limited_ || clamped);
-    return status != Way::arrived || !checks_formulas_ || formulas_hold() ? status : newton_control_.not_yet();
+    if (system_.is_linear()) return Status::converged;
+    const auto status = newton_control_.update(size, limited_ || clamped);
+    return status != Status::converged || !checks_expressions_ || expressions_match() ? status : newton_control_.continue_iterating();
 }
 
 /// Compares the expressions after the Newton step with their linearizations.
-bool StepEquations::formulas_hold() {
-    for (const auto& scalar : own_) {
+bool StepEquations::expressions_match() {
+    for (const auto& scalar : scalar_devices_) {
         const Device& d = *system_.devices()[scalar.device];
-        if (!d.jumps()) continue;
+        if (!d.has_jumps()) continue;
         const auto n = scalar.terminals;
         scratch_.assign(3 * n + 2 * n * n, 0.0);
         const std::span<double> all(scratch_);
@@ -166,25 +166,25 @@ bool StepEquations::formulas_hold() {
             const auto u = static_cast<std::size_t>(scalar.unknowns[j]);
             v[j] = x_[u] + step_[u];
         }
-        d.eval(v, newton_.instant, {f, all.subspan(n, n), all.subspan(2 * n, n * n), all.subspan(2 * n + n * n, n * n)});
+        d.eval(v, newton_.context, {f, all.subspan(n, n), all.subspan(2 * n, n * n), all.subspan(2 * n + n * n, n * n)});
         for (std::size_t row = 0; row < n; ++row) {
             double linear = scalar.stamp[row];
             for (std::size_t column = 0; column < n; ++column)
                 linear += scalar.stamp[2 * n + row * n + column] * (v[column] - scalar.v[column]);
-            const bool is_voltage = scalar.unknowns[row] < system_.size() && !voltage_[static_cast<std::size_t>(scalar.unknowns[row])];
+            const bool is_voltage = scalar.unknowns[row] < system_.size() && !is_voltage_[static_cast<std::size_t>(scalar.unknowns[row])];
             const double scale = is_voltage ? std::abs(v[0] - v[1]) : std::max(std::abs(f[row]), std::abs(linear));
-            if (!formulas_.holds(is_voltage, f[row] - linear, scale)) return false;
+            if (!expression_tolerance_.accepts(is_voltage, f[row] - linear, scale)) return false;
         }
     }
     return true;
 }
 
-void StepEquations::charges(std::span<double> q) {
+void StepEquations::read_charges(std::span<double> q) {
     const auto count = q.size();
     for (std::size_t n = 0; n < count; ++n) x_[n] += step_[n];  // last evaluation plus the Newton step
     std::fill(r_.begin(), r_.end(), 0.0);
     for (const auto& l : linear_) r_[static_cast<std::size_t>(l.row)] += l.c * x_[static_cast<std::size_t>(l.column)];
-    for (const auto& scalar : own_) {
+    for (const auto& scalar : scalar_devices_) {
         const auto n = scalar.terminals;
         for (std::size_t row = 0; row < n; ++row) {
             double sum = scalar.stamp[n + row];
@@ -193,24 +193,24 @@ void StepEquations::charges(std::span<double> q) {
             r_[static_cast<std::size_t>(scalar.unknowns[row])] += sum;
         }
     }
-    side_by_side_.charges(step_, r_);
+    batched_devices_.add_charges(step_, r_);
     std::copy(r_.begin(), r_.begin() + static_cast<std::ptrdiff_t>(count), q.begin());
 }
 
-void StepEquations::at(double t, std::span<const double> x, std::span<double> f, std::span<double> q) {
+void StepEquations::evaluate_static(double t, std::span<const double> x, std::span<double> f, std::span<double> q) {
     constexpr int max_evaluations = 100;
     prepare(t, 0, {});
-    look(x);
-    for (int k = 1; limited_ && k < max_evaluations; ++k) look(x);  // until limit() changes no voltage; otherwise the charge is wrong
+    linearize(x);
+    for (int k = 1; limited_ && k < max_evaluations; ++k) linearize(x);  // until limit() changes no voltage; otherwise the charge is wrong
     std::copy(r_.begin(), r_.begin() + static_cast<std::ptrdiff_t>(f.size()), f.begin());
     std::fill(step_.begin(), step_.end(), 0.0);
-    charges(q);
+    read_charges(q);
 }
 
-void StepEquations::settle(std::span<const double> x, double a) {
-    prepare(newton_.instant.time, a, {});
-    look(x);
-    solver_.settle(std::span<const double>(J_).first(J_.size() - 1));
+void StepEquations::fix_pivot_order(std::span<const double> x, double a) {
+    prepare(newton_.context.time, a, {});
+    linearize(x);
+    solver_.fix_pivot_order(std::span<const double>(J_).first(J_.size() - 1));
 }
 
 }  // namespace corpuscle::circuit

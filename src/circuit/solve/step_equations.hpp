@@ -2,15 +2,15 @@
 // The equations of one time step, f(x, t) + a q(x) + history = 0, and their solution by Newton's method.
 
 #include "circuit/solve/operating_point.hpp"
-#include "circuit/solve/side_by_side.hpp"
+#include "circuit/solve/batched_devices.hpp"
 #include "circuit/solve/step_control.hpp"
 
 namespace corpuscle::circuit {
 
 /// The largest difference allowed between an expression and its linearization when a Newton iteration ends.
-struct FormulaTolerance {
+struct ExpressionTolerance {
     double reltol = 0, vntol = 0, abstol = 0;
-    bool holds(bool is_voltage, double difference, double scale) const {
+    bool accepts(bool is_voltage, double difference, double scale) const {
         constexpr double factor = 10;
         return std::abs(difference) <= factor * (reltol * scale + (is_voltage ? vntol : abstol));
     }
@@ -21,66 +21,66 @@ struct FormulaTolerance {
 /// charge residual of a step enters the next one, so charge is conserved.
 class StepEquations {
     const System& system_;
-    Newton& newton_;
-    struct Linear {
-        std::size_t place;
+    NewtonSolver& newton_;
+    struct LinearEntry {
+        std::size_t entry;
         int row, column;
         double g, c;
     };
-    std::vector<Linear> linear_;
-    std::vector<double> still_;         // currents of time-independent linear devices at x = 0
-    std::vector<std::size_t> varying_;  // time-dependent sources
-    struct Own {                        // a nonlinear device that is not in a group
+    std::vector<LinearEntry> linear_;
+    std::vector<double> constant_currents_;         // currents of time-independent linear devices at x = 0
+    std::vector<std::size_t> time_dependent_;  // time-dependent sources
+    struct ScalarDevice {                        // a nonlinear device that is not in a group
         std::size_t device, terminals;
         std::vector<int> unknowns;
-        std::vector<double> v, looked, stamp;
+        std::vector<double> v, linearized_at, stamp;
         bool limited = false;
     };
-    std::vector<Own> own_;
-    SideBySide side_by_side_;
-    Solver<double> solver_;  // not the one of the operating point, whose pivot order differs
+    std::vector<ScalarDevice> scalar_devices_;
+    BatchedDevices batched_devices_;
+    LinearSolver<double> solver_;  // not the one of the operating point, whose pivot order differs
     std::vector<double> x_, base_, J_0_, J_, r_, step_, scratch_;
-    std::vector<char> voltage_;
+    std::vector<char> is_voltage_;
     NewtonControl newton_control_;
     double a_ = 0;
-    bool limited_ = false, checks_formulas_ = false;
-    FormulaTolerance formulas_;
-    bool formulas_hold();
+    bool limited_ = false, checks_expressions_ = false;
+    ExpressionTolerance expression_tolerance_;
+    bool expressions_match();
 
-    void look(std::span<const double> x);
-    void look_at_own(Own&);
+    void linearize(std::span<const double> x);
+    void linearize_device(ScalarDevice&);
     bool solve_for_step();
-    double left_over();
+    double relative_residual();
     double largest_step(std::span<const double> allowed, bool& clamped);
 
 public:
     long iterations = 0;
 
-    StepEquations(const System&, Newton&);
+    StepEquations(const System&, NewtonSolver&);
 
     /// Prepares a step that ends at t (s), with dq/dt = a q + history.
     void prepare(double t, double a, std::span<const double> history);
     /// If on, an iteration converges only when each expression with jumps matches its linearization at the solution. At a jump the
     /// linearization is wrong even if the last Newton step was short.
-    void check_formulas(bool on, const FormulaTolerance& t) { checks_formulas_ = on, formulas_ = t; }
-    using Way = NewtonControl::Way;
+    void check_expressions(bool on, const ExpressionTolerance& t) { checks_expressions_ = on, expression_tolerance_ = t; }
+    using Status = NewtonControl::Status;
     /// One Newton step from x. converged: the error of every unknown with allowed[n] > 0 is a small part of allowed[n].
-    Way iterate(std::vector<double>& x, std::span<const double> allowed);
+    Status iterate(std::vector<double>& x, std::span<const double> allowed);
     /// The largest component of the last Newton step, relative to the allowed error.
-    double step_size() const { return newton_control_.before; }
+    double step_size() const { return newton_control_.last_size; }
     /// The charges of the solution.
-    void charges(std::span<double> q);
+    void read_charges(std::span<double> q);
     /// Solves (G + a C) e = r in place, with the derivatives at the solution: the effect of a perturbation of the equations on the
     /// unknowns.
-    void answer_to(std::span<double> r) const { solver_.solve(r); }
+    void solve_perturbation(std::span<double> r) const { solver_.solve(r); }
     /// Evaluates f(x, t) and q(x) without history and with a = 0.
-    void at(double t, std::span<const double> x, std::span<double> f, std::span<double> q);
+    void evaluate_static(double t, std::span<const double> x, std::span<double> f, std::span<double> q);
     /// Fixes the pivot order of all later matrices to that of the matrix at x with dq/dt = a q.
-    void settle(std::span<const double> x, double a);
-    double bend() const { return newton_control_.bend; }
-    void set_bend(double bend) { newton_control_.bend = bend; }
+    void fix_pivot_order(std::span<const double> x, double a);
+    double quadratic_factor() const { return newton_control_.quadratic_factor; }
+    void set_quadratic_factor(double bend) { newton_control_.quadratic_factor = bend; }
     /// The elimination list after fix_pivot_order(); null: there is none.
-    const Elimination* elimination() const { return solver_.list(); }
+    const Elimination* elimination() const { return solver_.elimination(); }
 };
 
 }  // namespace corpuscle::circuit

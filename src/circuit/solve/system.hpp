@@ -11,48 +11,48 @@
 namespace corpuscle::circuit {
 
 /// The sum of all devices' contributions at one x.
-struct Sums {
+struct SystemEvaluation {
     std::vector<double> f, q;   ///< by equation
     std::vector<double> G, C;   ///< derivatives of f and q, by entry of the sparsity pattern
-    std::vector<double> size;   ///< largest single contribution to each equation, the scale for a relative tolerance
-    std::vector<double> grain;  ///< rounding error of each equation, from the rounding of x and of the devices' sums
-    bool limited = false;       ///< a device was evaluated at limited voltages; its part of f is extrapolated linearly to x
+    std::vector<double> scale;   ///< largest single contribution to each equation, the scale for a relative tolerance
+    std::vector<double> roundoff;  ///< rounding error of each equation, from the rounding of x and of the devices' sums
+    bool is_limited = false;       ///< a device was evaluated at limited voltages; its part of f is extrapolated linearly to x
 
 private:
     friend class System;
-    struct alignas(64) Line {
-        double of[8];
+    struct alignas(64) CacheLine {
+        double values[8];
     };
-    std::vector<double> v_, looked_, own_;  // buffers of add_device()
-    std::vector<Line> side_by_side_;        // buffer of add_group()
+    std::vector<double> v_, limited_v_, stamp_;  // buffers of add_device()
+    std::vector<CacheLine> batch_buffer_;        // buffer of add_group()
 };
 
 /// Devices of one kind that are evaluated together.
-struct Group {
-    std::unique_ptr<Bank> bank;
+struct DeviceGroup {
+    std::unique_ptr<DeviceBatch> batch;
     std::vector<const Device*> members;
-    std::size_t terminals, room;
+    std::size_t terminals, stride;
     std::vector<int> unknowns;        ///< [member][terminal]
-    std::vector<std::size_t> places;  ///< [member][terminal^2]: matrix entry of each derivative; past the end of the pattern: ground
+    std::vector<std::size_t> entries;  ///< [member][terminal^2]: matrix entry of each derivative; past the end of the pattern: ground
 };
 
 class System {
     std::shared_ptr<const Circuit> circuit_;
     std::vector<std::string> names_;
     std::vector<std::unique_ptr<Device>> devices_;
-    std::vector<std::size_t> memory_at_;
-    std::size_t memory_ = 0;
-    std::unique_ptr<Pattern> pattern_;
-    std::vector<std::vector<std::size_t>> places_;  // matrix entry of each device's derivatives; past the end of the pattern: ground
-    std::vector<Group> groups_;
-    std::vector<std::size_t> alone_;  // devices in no group
+    std::vector<std::size_t> limiting_state_offset_;
+    std::size_t limiting_state_size_ = 0;
+    std::unique_ptr<SparsityPattern> pattern_;
+    std::vector<std::vector<std::size_t>> entries_;  // matrix entry of each device's derivatives; past the end of the pattern: ground
+    std::vector<DeviceGroup> groups_;
+    std::vector<std::size_t> scalar_devices_;  // devices in no group
     int nodes_ = 0;
-    bool linear_ = true;
+    bool is_linear_ = true;
 
-    class Maker;
+    class Builder;
     Result<void> make_groups();
-    void add_device(std::size_t k, std::span<const double> x, const Instant&, std::vector<double>& limiting_state, Sums&) const;
-    void add_group(const Group&, std::span<const double> x, const Instant&, Sums&) const;
+    void add_device(std::size_t k, std::span<const double> x, const EvalContext&, std::vector<double>& limiting_state, SystemEvaluation&) const;
+    void add_group(const DeviceGroup&, std::span<const double> x, const EvalContext&, SystemEvaluation&) const;
 
 public:
     /// Errors: circuits without a unique solution (floating nodes, loops of voltage sources), wrong parameters.
@@ -64,29 +64,29 @@ public:
     bool is_voltage(int unknown) const { return names_[static_cast<std::size_t>(unknown)][0] == 'v'; }
     const std::vector<std::string>& names() const { return names_; }  ///< "v(out)", "i(v1)"
     int unknown(std::string_view name) const;                         ///< -1: no unknown has this name
-    const Pattern& pattern() const { return *pattern_; }
+    const SparsityPattern& pattern() const { return *pattern_; }
     const std::vector<std::unique_ptr<Device>>& devices() const { return devices_; }
     Device* device(std::string_view name) const;  ///< null: no device has this name
-    std::span<const Group> groups() const { return groups_; }
-    std::span<const std::size_t> alone() const { return alone_; }  ///< devices in no group
-    std::span<const std::size_t> places(std::size_t device) const { return places_[device]; }
+    std::span<const DeviceGroup> groups() const { return groups_; }
+    std::span<const std::size_t> scalar_devices() const { return scalar_devices_; }  ///< devices in no group
+    std::span<const std::size_t> entries(std::size_t device) const { return entries_[device]; }
     /// The part of a limiting state that belongs to a device.
-    std::span<double> memory_of(std::size_t device, std::vector<double>& state) const {
-        return std::span(state).subspan(memory_at_[device], devices_[device]->memory());
+    std::span<double> limiting_state_of(std::size_t device, std::vector<double>& state) const {
+        return std::span(state).subspan(limiting_state_offset_[device], devices_[device]->limiting_state_size());
     }
-    bool linear() const { return linear_; }
-    std::vector<double> fresh_memory() const { return std::vector<double>(memory_); }
+    bool is_linear() const { return is_linear_; }
+    std::vector<double> initial_limiting_state() const { return std::vector<double>(limiting_state_size_); }
 
-    void eval(std::span<const double> x, const Instant&, std::vector<double>& limiting_state, Sums&) const;
+    void eval(std::span<const double> x, const EvalContext&, std::vector<double>& limiting_state, SystemEvaluation&) const;
     // The same functions of all devices; see Device.
-    void go(double step, double stop);
-    double next_corner(double t) const;
-    double pace() const;
-    bool hear(const ForceWaveform*);  ///< returns true if a source has a force input
+    void start_transient(double step, double stop);
+    double next_breakpoint(double t) const;
+    double max_step() const;
+    bool set_force_input(const ForceWaveform*);  ///< returns true if a source has a force input
     /// Applies the process and mismatch sample of a chip to all devices; null: nominal.
-    void draw(const Draw*);
+    void apply_variation(const ChipSample*);
     /// The values of a device's unknowns at x.
-    std::vector<double> terminals(const Device&, std::span<const double> x) const;
+    std::vector<double> terminal_values(const Device&, std::span<const double> x) const;
 };
 
 }  // namespace corpuscle::circuit

@@ -116,7 +116,7 @@ std::optional<Error> check_voltage_loops(const Circuit& c) {
 
 }  // namespace
 
-std::optional<Error> unanswerable(const Circuit& c) {
+std::optional<Error> check_solvable(const Circuit& c) {
     if (c.elements.empty()) return bad_input("the circuit has no elements", SourceLocation{c.file});
     if (std::none_of(c.elements.begin(), c.elements.end(),
                      [](const Element& e) { return std::find(e.nodes.begin(), e.nodes.end(), 0) != e.nodes.end(); }))
@@ -125,7 +125,7 @@ std::optional<Error> unanswerable(const Circuit& c) {
     return check_floating_nodes(c);
 }
 
-std::vector<Error> suspicious(const Circuit& c) {
+std::vector<Error> find_dangling_nodes(const Circuit& c) {
     std::vector<int> terminals(c.nodes.size());
     std::vector<const Element*> element(c.nodes.size());
     for (const auto& e : c.elements) {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "circuit/solve/bend.hpp"
+#include "circuit/solve/interpolant.hpp"
 #include "signal/quantity.hpp"
 
 namespace corpuscle::circuit {
@@ -20,185 +20,185 @@ constexpr double large_newton_step = 20, hopeless_error = 2;
 }  // namespace
 
 Result<void> Transient::begin(std::vector<double> x, bool settled, std::span<const double> charge) {
-    plan_.longest = std::min(plan_.longest, system_.pace());
+    plan_.max_step = std::min(plan_.max_step, system_.max_step());
     const auto count = x.size();
-    for (auto* v : {&scale_, &allowed_, &may_err_, &rounding_, &history_, &rate_, &error_, &turn_, &fastest_}) v->assign(count, 0);
-    newton_.memory = system_.fresh_memory();
-    newton_.instant.charges = true, newton_.instant.time = 0;
-    system_.eval(x, newton_.instant, newton_.memory, newton_.sums);
-    work_ = {}, equations_.iterations = 0, equations_.set_bend(1);
-    alternations_.assign(count, 0), calming_ = 0, charged_.assign(count, 0);
+    for (auto* v : {&scale_, &allowed_error_, &tolerance_, &rounding_, &history_, &rate_, &error_, &rate_change_, &max_rate_}) v->assign(count, 0);
+    newton_.limiting_state = system_.initial_limiting_state();
+    newton_.context.with_charges = true, newton_.context.time = 0;
+    system_.eval(x, newton_.context, newton_.limiting_state, newton_.evaluation);
+    stats_ = {}, equations_.iterations = 0, equations_.set_quadratic_factor(1);
+    alternations_.assign(count, 0), damping_steps_ = 0, has_charge_.assign(count, 0);
     for (std::size_t n = 0; n < count; ++n)
-        charged_[n] = newton_.sums.C[system_.pattern().place(static_cast<int>(n), static_cast<int>(n))] != 0;
-    capacity_.assign(count, 0);
+        has_charge_[n] = newton_.evaluation.C[system_.pattern().entry_index(static_cast<int>(n), static_cast<int>(n))] != 0;
+    capacitance_.assign(count, 0);
     const auto& pattern = system_.pattern();
     for (std::size_t column = 0; column < count; ++column)
-        for (int e = pattern.begin()[column]; e < pattern.begin()[column + 1]; ++e)
-            capacity_[static_cast<std::size_t>(pattern.rows()[static_cast<std::size_t>(e)])] +=
-                std::abs(newton_.sums.C[static_cast<std::size_t>(e)]);
-    find_held();
-    past_.clear();
-    auto& first = past_.next();
+        for (int e = pattern.column_begin()[column]; e < pattern.column_begin()[column + 1]; ++e)
+            capacitance_[static_cast<std::size_t>(pattern.rows()[static_cast<std::size_t>(e)])] +=
+                std::abs(newton_.evaluation.C[static_cast<std::size_t>(e)]);
+    find_source_nodes();
+    history_points_.clear();
+    auto& first = history_points_.next_point();
     first.t = 0, first.x = std::move(x), first.q.assign(count, 0);
-    past_.accept();
-    pace_.h = plan_.longest, pace_.calm = 0, bent_ = false;
-    curve_ = 0, opening_ = plan_.all_reported ? Opening::at_once : Opening::none;
-    equations_.at(0, past_[0].x, rate_, first.q);
+    history_points_.accept();
+    control_.h = plan_.max_step, control_.recent_max_step = 0, restart_pending_ = false;
+    curve_points_ = 0, start_phase_ = plan_.all_reported ? StartPhase::breakpoint : StartPhase::none;
+    equations_.evaluate_static(0, history_points_[0].x, rate_, first.q);
     for (std::size_t n = 0; n < charge.size(); ++n) first.q[n] += charge[n];
-    start_over(true);
-    allow();
-    if (!std::exchange(ordered_, true)) equations_.settle(past_[0].x, 1e3 / plan_.longest);
+    restart(true);
+    update_tolerances();
+    if (!std::exchange(pivot_order_fixed_, true)) equations_.fix_pivot_order(history_points_[0].x, 1e3 / plan_.max_step);
     if (settled) return {};
-    auto ok = settle();
-    start_over(true);
+    auto ok = make_consistent();
+    restart(true);
     return ok;
 }
 
 /// Computes the unknowns without charge by a step so short that no charge changes.
-Result<void> Transient::settle() {
-    const double h = 1e-15 * plan_.longest;
-    auto now = past_[0];
+Result<void> Transient::make_consistent() {
+    const double h = 1e-15 * plan_.max_step;
+    auto now = history_points_[0];
     for (std::size_t n = 0; n < now.q.size(); ++n) history_[n] = -now.q[n] / h;
     equations_.prepare(0, 1 / h, history_);
-    const auto allowed = std::exchange(allowed_, std::vector<double>(now.x.size(), plan_.vntol));
-    auto status = StepEquations::Way::on;
-    for (int k = 0; k < 100 && status != StepEquations::Way::arrived; ++k) {
+    const auto allowed = std::exchange(allowed_error_, std::vector<double>(now.x.size(), plan_.vntol));
+    auto status = StepEquations::Status::iterating;
+    for (int k = 0; k < 100 && status != StepEquations::Status::converged; ++k) {
         if (k % 10 == 9) equations_.prepare(0, 1 / h, history_);  // resets the iteration count
-        status = equations_.iterate(now.x, allowed_);
+        status = equations_.iterate(now.x, allowed_error_);
     }
-    allowed_ = allowed;
-    if (status != StepEquations::Way::arrived) {
-        past_.next() = std::move(now);
-        return too_short(h);
+    allowed_error_ = allowed;
+    if (status != StepEquations::Status::converged) {
+        history_points_.next_point() = std::move(now);
+        return step_too_short(h);
     }
-    past_.clear();
-    past_.next() = std::move(now);
-    past_.accept();
-    allow();
+    history_points_.clear();
+    history_points_.next_point() = std::move(now);
+    history_points_.accept();
+    update_tolerances();
     return {};
 }
 
 /// Integration continues from the newest point only; dq/dt there follows from the currents. With `exact`, the charge is recomputed from x.
 /// Otherwise it keeps the value of the last step, whose small residual would be a large current in a short first step.
-void Transient::start_over(bool forget, bool exact) {
-    Moment& now = past_.newest();
-    equations_.at(now.t, now.x, rate_, error_);
+void Transient::restart(bool forget, bool exact) {
+    TimePoint& now = history_points_.newest();
+    equations_.evaluate_static(now.t, now.x, rate_, error_);
     if (exact) now.q = error_;
     for (double& r : rate_) r = -r;
-    past_.start_over(forget);
-    pace_.start_over();
+    history_points_.restart(forget);
+    control_.restart();
 }
 
-void Transient::allow() {
+void Transient::update_tolerances() {
     constexpr double of_largest = 1e-9;  // allowed error of a current, relative to the largest current
     double largest = 0;
-    for (std::size_t n = 0; n < allowed_.size(); ++n) {
+    for (std::size_t n = 0; n < allowed_error_.size(); ++n) {
         const bool voltage = system_.is_voltage(static_cast<int>(n));
-        scale_[n] = std::max(scale_[n], std::abs(past_[0].x[n]));
-        may_err_[n] = plan_.reltol * scale_[n] + (voltage ? plan_.vntol : plan_.abstol);
-        if (charged_[n] || (plan_.all_reported && voltage)) allowed_[n] = may_err_[n];
+        scale_[n] = std::max(scale_[n], std::abs(history_points_[0].x[n]));
+        tolerance_[n] = plan_.reltol * scale_[n] + (voltage ? plan_.vntol : plan_.abstol);
+        if (has_charge_[n] || (plan_.all_reported && voltage)) allowed_error_[n] = tolerance_[n];
         if (!voltage) largest = std::max(largest, scale_[n]);
-        if (!voltage && !plan_.all_reported) may_err_[n] *= Bend::current_may;
+        if (!voltage && !plan_.all_reported) tolerance_[n] *= Interpolant::current_tolerance_factor;
     }
     if (!plan_.all_reported) return;
-    largest_charge_ = fastest_charge_ = 0;
-    volts_ = 1;  // V: the charge of a junction is a difference of terms as large as at its built-in potential
-    for (std::size_t n = 0; n < allowed_.size(); ++n) {
-        largest_charge_ = std::max(largest_charge_, std::abs(past_[0].q[n]));
-        fastest_charge_ = std::max(fastest_charge_, std::abs(rate_[n]));
-        if (system_.is_voltage(static_cast<int>(n))) volts_ = std::max(volts_, scale_[n]);
-        if (!system_.is_voltage(static_cast<int>(n))) may_err_[n] += of_largest * largest;
+    largest_charge_ = largest_current_ = 0;
+    voltage_scale_ = 1;  // V: the charge of a junction is a difference of terms as large as at its built-in potential
+    for (std::size_t n = 0; n < allowed_error_.size(); ++n) {
+        largest_charge_ = std::max(largest_charge_, std::abs(history_points_[0].q[n]));
+        largest_current_ = std::max(largest_current_, std::abs(rate_[n]));
+        if (system_.is_voltage(static_cast<int>(n))) voltage_scale_ = std::max(voltage_scale_, scale_[n]);
+        if (!system_.is_voltage(static_cast<int>(n))) tolerance_[n] += of_largest * largest;
     }
     // A capacitor between nodes of similar voltage has a small charge, but the rounding error of its terminals' voltages.
-    largest_charge_ = std::max(largest_charge_, *std::max_element(capacity_.begin(), capacity_.end()) * volts_);
+    largest_charge_ = std::max(largest_charge_, *std::max_element(capacitance_.begin(), capacitance_.end()) * voltage_scale_);
 }
 
 /// Solves the step to t; the solution is history_points_.next_point(). Stops early if the error will be far too large. Returns false if the
 /// iterations diverged.
 bool Transient::attempt(double t, double& error) {
-    const double h = t - past_[0].t;
-    auto& next = past_.next();
+    const double h = t - history_points_[0].t;
+    auto& next = history_points_.next_point();
     const auto count = scale_.size();
     next.t = t, next.x.resize(count), next.q.resize(count);
-    const int points = std::min(pace_.order + 1, past_.count());
-    past_.sum(past_.value(t, points), points, &Moment::x, next.x);
-    if (trapezoid() && past_.count() > 1) {
+    const int points = std::min(control_.order + 1, history_points_.count());
+    history_points_.combine(history_points_.value_weights(t, points), points, &TimePoint::x, next.x);
+    if (uses_trapezoidal() && history_points_.count() > 1) {
         leading_ = 2 / h;
-        for (std::size_t n = 0; n < count; ++n) history_[n] = -leading_ * past_[0].q[n] - rate_[n];
+        for (std::size_t n = 0; n < count; ++n) history_[n] = -leading_ * history_points_[0].q[n] - rate_[n];
     } else {
-        const auto weights = past_.slope(t, pace_.order, leading_);
-        past_.sum(weights, pace_.order, &Moment::q, history_);
+        const auto weights = history_points_.slope_weights(t, control_.order, leading_);
+        history_points_.combine(weights, control_.order, &TimePoint::q, history_);
     }
     if (rounding_measured_) std::fill(rounding_.begin(), rounding_.end(), 0.0), rounding_measured_ = false;
     equations_.prepare(t, leading_, history_);
-    equations_.check_formulas(!jump_, {plan_.reltol, plan_.vntol, plan_.abstol});
-    const bool must_converge = plan_.all_reported && past_.count() == 1;  // rounding_error() of a first step needs the solution
+    equations_.check_expressions(!may_jump_, {plan_.reltol, plan_.vntol, plan_.abstol});
+    const bool must_converge = plan_.all_reported && history_points_.count() == 1;  // rounding_error() of a first step needs the solution
     for (;;) {
-        using Status = StepEquations::Way;
-        const auto status = equations_.iterate(next.x, allowed_);
-        if (status == Status::lost) return false;
+        using Status = StepEquations::Status;
+        const auto status = equations_.iterate(next.x, allowed_error_);
+        if (status == Status::diverged) return false;
         const bool far =
-            status == Status::on && equations_.step_size() > large_newton_step && !must_converge;  // check whether to stop early
-        if (status == Status::on && !far) continue;
-        equations_.charges(next.q);
-        arrived_ = status == Status::arrived;
-        error = error_of(pace_.order);
-        if (status == Status::arrived || error > hopeless_error) return true;
+            status == Status::iterating && equations_.step_size() > large_newton_step && !must_converge;  // check whether to stop early
+        if (status == Status::iterating && !far) continue;
+        equations_.read_charges(next.q);
+        converged_ = status == Status::converged;
+        error = error_of(control_.order);
+        if (status == Status::converged || error > hopeless_error) return true;
     }
 }
 
 double Transient::worst_error() {
-    equations_.answer_to(error_);
+    equations_.solve_perturbation(error_);
     constexpr double uncharged_factor = 2;  // factor of the allowed error without charge, where the error does not reach the next step
     constexpr double sum_factor =
         1.5;  // stricter than in an afferent, so that the errors of many steps add up to less than ten allowed ones
     double worst = 0;
-    others_ = 0;
+    uncharged_error_ = 0;
     for (std::size_t n = 0; n < error_.size(); ++n)
-        if (charged_[n] && allowed_[n] > 0) worst = std::max(worst, std::abs(error_[n]) / (allowed_[n] + rounding_[n]));
+        if (has_charge_[n] && allowed_error_[n] > 0) worst = std::max(worst, std::abs(error_[n]) / (allowed_error_[n] + rounding_[n]));
     if (plan_.all_reported) worst *= sum_factor;
     if (!plan_.all_reported || plan_.method != Integration::bdf) return worst;
     for (std::size_t n = 0; n < error_.size(); ++n)
-        if (!charged_[n] && may_err_[n] > 0)
-            others_ = std::max(others_, std::abs(error_[n]) / (uncharged_factor * (may_err_[n] + noise(static_cast<int>(n)))));
-    return jump_ ? worst : std::max(worst, others_);
+        if (!has_charge_[n] && tolerance_[n] > 0)
+            uncharged_error_ = std::max(uncharged_error_, std::abs(error_[n]) / (uncharged_factor * (tolerance_[n] + rounding_error(static_cast<int>(n)))));
+    return may_jump_ ? worst : std::max(worst, uncharged_error_);
 }
 
 /// Rounding error of a current, from the charges and the step length. For a voltage: as measured by measure_rounding(), otherwise 0.
-double Transient::noise(int unknown) const {
+double Transient::rounding_error(int unknown) const {
     const double measured = rounding_[static_cast<std::size_t>(unknown)];
     if (system_.is_voltage(unknown)) return measured;
-    return std::max(measured, std::abs(leading_) * (1e-14 * largest_charge_ + 1e-15 * past_[0].t * fastest_charge_));
+    return std::max(measured, std::abs(leading_) * (1e-14 * largest_charge_ + 1e-15 * history_points_[0].t * largest_current_));
 }
 
 /// Before a step is rejected: computes the error of each unknown from the rounding of the charges, and adds it to the tolerances. This
 /// error grows as the step gets shorter, most at nodes that are connected only to capacitors.
 void Transient::measure_rounding(double& error, double& curve_error) {
     constexpr double roundoff = 1e-15;
-    if (!arrived_ || !plan_.all_reported || std::max(error, curve_error) <= 1) return;
-    for (std::size_t n = 0; n < rounding_.size(); ++n) rounding_[n] = roundoff * std::abs(leading_) * capacity_[n] * volts_;
-    equations_.answer_to(rounding_);
+    if (!converged_ || !plan_.all_reported || std::max(error, curve_error) <= 1) return;
+    for (std::size_t n = 0; n < rounding_.size(); ++n) rounding_[n] = roundoff * std::abs(leading_) * capacitance_[n] * voltage_scale_;
+    equations_.solve_perturbation(rounding_);
     rounding_measured_ = true;
     for (double& r : rounding_) r = std::abs(r);
-    error = error_of(pace_.order), curve_error = bend();
+    error = error_of(control_.order), curve_error = interpolation_error();
 }
 
 /// The interpolation error at the middle of the step just solved, relative to the allowed error. Uses the number of points with the
 /// smallest error. The first step after a breakpoint has no third point for an estimate.
-double Transient::bend() {
+double Transient::interpolation_error() {
     constexpr double convergence_ratio = 3;  // each higher degree must change the curve at least this many times less
     constexpr double output_factor = 2.2;    // stricter than in an afferent, since users draw straight lines between the points
-    curve_ = 0;
+    curve_points_ = 0;
     if (curves_.empty()) return 0;
-    const auto& next = past_.next();
-    std::array<double, Past::most + 1> times{next.t};
-    const auto before = past_.times();
+    const auto& next = history_points_.next_point();
+    std::array<double, History::max_points + 1> times{next.t};
+    const auto before = history_points_.times();
     std::copy(before.begin(), before.end(), times.begin() + 1);
-    std::array<const double*, Past::most + 1> x{next.x.data()};
-    for (int k = 0; k < past_.seen(); ++k) x[static_cast<std::size_t>(k) + 1] = past_[k].x.data();
+    std::array<const double*, History::max_points + 1> x{next.x.data()};
+    for (int k = 0; k < history_points_.smooth_count(); ++k) x[static_cast<std::size_t>(k) + 1] = history_points_[k].x.data();
     auto& tolerance = error_;
-    for (const int u : curves_) tolerance[static_cast<std::size_t>(u)] = may_err_[static_cast<std::size_t>(u)] + noise(u);
-    const auto worst_of = [&](const PastWeights& w, int points) {
+    for (const int u : curves_) tolerance[static_cast<std::size_t>(u)] = tolerance_[static_cast<std::size_t>(u)] + rounding_error(u);
+    const auto worst_of = [&](const HistoryWeights& w, int points) {
         double worst = 0;
         for (const int u : curves_) {
             const auto n = static_cast<std::size_t>(u);
@@ -208,103 +208,103 @@ double Transient::bend() {
         }
         return worst;
     };
-    const auto curve = least_bend(times, past_.seen(), worst_of);
-    curve_ = curve.points;
-    if (!plan_.all_reported) return curve.off;
+    const auto curve = best_interpolant(times, history_points_.smooth_count(), worst_of);
+    curve_points_ = curve.points;
+    if (!plan_.all_reported) return curve.error;
     // A small change with one more degree may be coincidence, so the next degree is checked as well.
     const int more = curve.points + 1;
-    if (more > past_.seen()) return output_factor * curve.off;
-    const auto weights = weights_of_bend(std::span(times).first(static_cast<std::size_t>(more) + 1));
-    return output_factor * std::max(curve.off, convergence_ratio * worst_of(weights, more) / StepControl::curved);
+    if (more > history_points_.smooth_count()) return output_factor * curve.error;
+    const auto weights = weights_of_interpolation_error(std::span(times).first(static_cast<std::size_t>(more) + 1));
+    return output_factor * std::max(curve.error, convergence_ratio * worst_of(weights, more) / StepControl::curve_tolerance);
 }
 
 /// The error that the step just solved would have with this order, relative to the allowed error.
 double Transient::error_of(int order) {
     constexpr double max_spacing = 1.2;  // step lengths per point: a longer history underestimates the error of this step
-    const auto& next = past_.next();
-    const double h = next.t - past_[0].t;
-    if (past_.count() == 1) {
-        for (std::size_t n = 0; n < error_.size(); ++n) error_[n] = (next.q[n] - past_[0].q[n]) / h - rate_[n];
+    const auto& next = history_points_.next_point();
+    const double h = next.t - history_points_[0].t;
+    if (history_points_.count() == 1) {
+        for (std::size_t n = 0; n < error_.size(); ++n) error_[n] = (next.q[n] - history_points_[0].q[n]) / h - rate_[n];
         return worst_error();
     }
-    const int points = std::min(order + 1, past_.count());
-    past_.sum(past_.value(next.t, points), points, &Moment::q, error_);
-    double scale = 1 / (next.t - past_[points - 1].t);
+    const int points = std::min(order + 1, history_points_.count());
+    history_points_.combine(history_points_.value_weights(next.t, points), points, &TimePoint::q, error_);
+    double scale = 1 / (next.t - history_points_[points - 1].t);
     if (plan_.all_reported) scale = std::max(scale, 1 / (max_spacing * points * h));
-    if (trapezoid() && points == 3) scale *= h / (next.t - past_[1].t);
+    if (uses_trapezoidal() && points == 3) scale *= h / (next.t - history_points_[1].t);
     for (std::size_t n = 0; n < error_.size(); ++n) error_[n] = (next.q[n] - error_[n]) * scale;
     return worst_error();
 }
 
 /// Chooses the order and length of the next step after a step of this length and error.
-void Transient::choose(double h, double error) {
-    const int points = past_.count(), highest = std::min(trapezoid() ? 2 : plan_.order, points - 1);
-    if (!trapezoid()) return pace_.choose(h, error, points, highest, [this](int order) { return error_of(order); });
-    const double factor = StepControl::growth(error, pace_.order);
-    pace_.order = std::max(1, highest);
-    pace_.stretch(h, factor, points);
+void Transient::choose_step(double h, double error) {
+    const int points = history_points_.count(), highest = std::min(uses_trapezoidal() ? 2 : plan_.max_order, points - 1);
+    if (!uses_trapezoidal()) return control_.choose(h, error, points, highest, [this](int order) { return error_of(order); });
+    const double factor = StepControl::growth_factor(error, control_.order);
+    control_.order = std::max(1, highest);
+    control_.scale_step(h, factor, points);
 }
 
 /// Shortens the step after a rejection. error 0: its equations were not solved.
-Result<void> Transient::shorten(double h, double error) {
+Result<void> Transient::reject_step(double h, double error) {
     constexpr int max_failures = 3;  // before a restart with order 1, which gives inaccurate currents
-    ++work_.rejected;
-    if (error == 0) ++work_.lost;
-    if (pace_.shorten(h, error, past_.count() > 1 ? past_[0].t - past_[1].t : 0, plan_.all_reported ? max_failures : 1))
-        start_over(false, plan_.all_reported);
-    if (pace_.h >= min_relative_step * plan_.stop) return {};
-    return too_short(pace_.h);
+    ++stats_.rejected;
+    if (error == 0) ++stats_.diverged;
+    if (control_.shorten(h, error, history_points_.count() > 1 ? history_points_[0].t - history_points_[1].t : 0, plan_.all_reported ? max_failures : 1))
+        restart(false, plan_.all_reported);
+    if (control_.h >= min_relative_step * plan_.stop) return {};
+    return step_too_short(control_.h);
 }
 
-Error Transient::too_short(double h) {
+Error Transient::step_too_short(double h) {
     return {ErrorCode::not_converged,
             fmt::format("transient stopped at {}: the step became too short ({}); {}", format_quantity(time(), "s"),
-                        format_quantity(h, "s"), newton_.distance(past_.next().x)),
+                        format_quantity(h, "s"), newton_.describe_residual(history_points_.next_point().x)),
             SourceLocation{system_.circuit().file}};
 }
 
 /// Detects ringing of the trapezoidal rule: the change of some dq/dt alternates in sign from step to step.
-void Transient::watch() {
+void Transient::detect_ringing() {
     constexpr int min_alternations = 3;
     constexpr double visible = 1e-2;  // relative to the largest rate so far
     bool rings = false;
     for (std::size_t n = 0; n < rate_.size(); ++n) {
-        const double before = std::exchange(turn_[n], leading_ * past_.next().q[n] + history_[n] - rate_[n]);
-        fastest_[n] = std::max(fastest_[n], std::abs(rate_[n]));
-        const bool reversed = turn_[n] * before < 0 && std::abs(turn_[n]) > 0.5 * std::abs(before);
-        alternations_[n] = reversed && std::abs(turn_[n]) > visible * fastest_[n] ? alternations_[n] + 1 : 0;
-        rings |= allowed_[n] > 0 && alternations_[n] >= min_alternations;
+        const double before = std::exchange(rate_change_[n], leading_ * history_points_.next_point().q[n] + history_[n] - rate_[n]);
+        max_rate_[n] = std::max(max_rate_[n], std::abs(rate_[n]));
+        const bool reversed = rate_change_[n] * before < 0 && std::abs(rate_change_[n]) > 0.5 * std::abs(before);
+        alternations_[n] = reversed && std::abs(rate_change_[n]) > visible * max_rate_[n] ? alternations_[n] + 1 : 0;
+        rings |= allowed_error_[n] > 0 && alternations_[n] >= min_alternations;
     }
-    if (calming_ > 0) --calming_;
+    if (damping_steps_ > 0) --damping_steps_;
     if (!rings) return;
-    calming_ = 2, pace_.order = std::min(2, past_.count());
+    damping_steps_ = 2, control_.order = std::min(2, history_points_.count());
     std::fill(alternations_.begin(), alternations_.end(), 0);
 }
 
-void Transient::take() {
-    const auto& next = past_.next();
-    if (plan_.method == Integration::trapezoidal) watch();
+void Transient::accept_step() {
+    const auto& next = history_points_.next_point();
+    if (plan_.method == Integration::trapezoidal) detect_ringing();
     for (std::size_t n = 0; n < rate_.size(); ++n) rate_[n] = leading_ * next.q[n] + history_[n];
-    pace_.took(next.t - past_[0].t);
-    past_.accept();
-    allow();
-    ++work_.steps, ++pace_.since_choice, pace_.failures = 0;
+    control_.record_step(next.t - history_points_[0].t);
+    history_points_.accept();
+    update_tolerances();
+    ++stats_.steps, ++control_.steps_since_order_change, control_.failures = 0;
 }
 
 /// Takes a step right after a breakpoint, so short that no charge changes. It gives the values of unknowns without charge after their jump.
-bool Transient::open(double t0, double breakpoint, double& t) {
+bool Transient::take_breakpoint_step(double t0, double breakpoint, double& t) {
     // Relative to the next step. A shorter step has more rounding error at nodes with only capacitors; the tolerance limits that error.
     const double fraction = 1e-8 * std::clamp(1e-5 / plan_.reltol, 1.0, 10.0);
-    if (opening_ != Opening::at_once) return false;
-    opening_ = Opening::first;
-    start_over(true, true);
-    t = t0 + fraction * std::min({pace_.h, plan_.longest, breakpoint - t0});
+    if (start_phase_ != StartPhase::breakpoint) return false;
+    start_phase_ = StartPhase::first_step;
+    restart(true, true);
+    t = t0 + fraction * std::min({control_.h, plan_.max_step, breakpoint - t0});
     double error = 0;
-    jump_ = true;
+    may_jump_ = true;
     if (t - t0 < min_relative_gap * t0 || !attempt(t, error) || !(error <= 1)) return false;
-    curve_ = 2;
-    take();
-    return bent_ = true;
+    curve_points_ = 2;
+    accept_step();
+    return restart_pending_ = true;
 }
 
 Result<bool> Transient::step(double until) {
@@ -313,78 +313,78 @@ Result<bool> Transient::step(double until) {
     // attempts the step is accepted.
     constexpr double no_better = 0.9;
     constexpr int max_alike = 3;
-    if (std::exchange(bent_, false)) start_over(true, plan_.all_reported);
+    if (std::exchange(restart_pending_, false)) restart(true, plan_.all_reported);
     double rejected = 0;  // error of the last attempt
     int alike = 0;        // number of successive attempts with no smaller error
     for (;;) {
-        const double t0 = time(), breakpoint = std::min(plan_.stop, system_.next_corner(t0));
-        double h = std::min(pace_.h, plan_.longest), after = 0;
+        const double t0 = time(), breakpoint = std::min(plan_.stop, system_.next_breakpoint(t0));
+        double h = std::min(control_.h, plan_.max_step), after = 0;
         if (until < plan_.stop && t0 + 2.1 * h > until) return false;
-        if (open(t0, breakpoint, after)) return true;
-        if (std::exchange(opening_, Opening::none) == Opening::first)
+        if (take_breakpoint_step(t0, breakpoint, after)) return true;
+        if (std::exchange(start_phase_, StartPhase::none) == StartPhase::first_step)
             h = std::max(first_part * std::min(h, breakpoint - t0), min_relative_gap * t0);
         const bool last = t0 + 1.01 * h >= breakpoint;
         if (!last && t0 + 2 * h > breakpoint) h = (breakpoint - t0) / 2;
         const double t = last ? breakpoint : t0 + h;
         double error = 0;
-        jump_ = !curves_.empty() && t - t0 <= pace_.jump(plan_.reltol, plan_.longest);
+        may_jump_ = !curves_.empty() && t - t0 <= control_.jump_step_limit(plan_.reltol, plan_.max_step);
         const bool found = attempt(t, error);
-        work_.iterations = equations_.iterations;
-        double curve_error = found ? bend() : 0;
+        stats_.iterations = equations_.iterations;
+        double curve_error = found ? interpolation_error() : 0;
         if (found) measure_rounding(error, curve_error);
-        const double worst = jump_ ? error : std::max(error, curve_error);
+        const double worst = may_jump_ ? error : std::max(error, curve_error);
         alike =
-            found && arrived_ && plan_.all_reported && past_.count() == 1 && worst > no_better * rejected && rejected > 0 ? alike + 1 : 0;
+            found && converged_ && plan_.all_reported && history_points_.count() == 1 && worst > no_better * rejected && rejected > 0 ? alike + 1 : 0;
         rejected = found ? worst : 0;
         if (!found || (!(worst <= 1) && alike < max_alike)) {
-            if (auto ok = shorten(t - t0, found ? worst : 0); !ok) return ok.error();
+            if (auto ok = reject_step(t - t0, found ? worst : 0); !ok) return ok.error();
             continue;
         }
-        const bool jumped = jump_ && (others_ > 1 || curve_error > 1);
-        const double planned = pace_.h;
-        choose(t - t0, error);
-        if (!jump_) pace_.hold(t - t0, curve_error, curve_);
-        if (last && t - t0 < planned) pace_.h = std::max(pace_.h, std::min(planned, plan_.longest));
-        if (jumped) curve_ = 2;
-        take();
-        bent_ = last || jumped;
-        if (last && plan_.all_reported) opening_ = Opening::at_once;
+        const bool jumped = may_jump_ && (uncharged_error_ > 1 || curve_error > 1);
+        const double planned = control_.h;
+        choose_step(t - t0, error);
+        if (!may_jump_) control_.limit_by_curve(t - t0, curve_error, curve_points_);
+        if (last && t - t0 < planned) control_.h = std::max(control_.h, std::min(planned, plan_.max_step));
+        if (jumped) curve_points_ = 2;
+        accept_step();
+        restart_pending_ = last || jumped;
+        if (last && plan_.all_reported) start_phase_ = StartPhase::breakpoint;
         return true;
     }
 }
 
 TransientState Transient::save() const {
     TransientState s;
-    for (int k = 0; k < past_.seen(); ++k) s.past.push_back(past_[k]);
-    s.order = pace_.order, s.since_choice = pace_.since_choice, s.failures = pace_.failures, s.calming = calming_,
-    s.starting = pace_.starting, s.bent = bent_;
-    s.count = past_.count(), s.curve = curve_, s.opening = static_cast<int>(opening_), s.calm = pace_.calm;
-    s.h = pace_.h, s.bend = equations_.bend(), s.work = work_;
-    s.scale = scale_, s.rate = rate_, s.turn = turn_, s.fastest = fastest_, s.alternations = alternations_, s.memory = newton_.memory;
+    for (int k = 0; k < history_points_.smooth_count(); ++k) s.history.push_back(history_points_[k]);
+    s.order = control_.order, s.steps_since_order_change = control_.steps_since_order_change, s.failures = control_.failures, s.damping_steps = damping_steps_,
+    s.is_starting = control_.starting, s.restart_pending = restart_pending_;
+    s.count = history_points_.count(), s.curve_points = curve_points_, s.start_phase = static_cast<int>(start_phase_), s.recent_max_step = control_.recent_max_step;
+    s.h = control_.h, s.quadratic_factor = equations_.quadratic_factor(), s.stats = stats_;
+    s.scale = scale_, s.rate = rate_, s.rate_change = rate_change_, s.max_rate = max_rate_, s.alternations = alternations_, s.limiting_state = newton_.limiting_state;
     return s;
 }
 
 void Transient::restore(const TransientState& s) {
-    past_.clear();
-    for (auto point = s.past.rbegin(); point != s.past.rend(); ++point) past_.next() = *point, past_.accept();
-    past_.count_only(s.count);
-    curve_ = s.curve, opening_ = static_cast<Opening>(s.opening), pace_.calm = s.calm;
-    pace_.order = s.order, pace_.since_choice = s.since_choice, pace_.failures = s.failures, calming_ = s.calming,
-    pace_.starting = s.starting, bent_ = s.bent;
-    pace_.h = s.h, equations_.set_bend(s.bend), work_ = s.work, equations_.iterations = s.work.iterations;
-    scale_ = s.scale, rate_ = s.rate, turn_ = s.turn, fastest_ = s.fastest, alternations_ = s.alternations, newton_.memory = s.memory;
-    allow();
+    history_points_.clear();
+    for (auto point = s.history.rbegin(); point != s.history.rend(); ++point) history_points_.next_point() = *point, history_points_.accept();
+    history_points_.set_count(s.count);
+    curve_points_ = s.curve_points, start_phase_ = static_cast<StartPhase>(s.start_phase), control_.recent_max_step = s.recent_max_step;
+    control_.order = s.order, control_.steps_since_order_change = s.steps_since_order_change, control_.failures = s.failures, damping_steps_ = s.damping_steps,
+    control_.starting = s.is_starting, restart_pending_ = s.restart_pending;
+    control_.h = s.h, equations_.set_quadratic_factor(s.quadratic_factor), stats_ = s.stats, equations_.iterations = s.stats.iterations;
+    scale_ = s.scale, rate_ = s.rate, rate_change_ = s.rate_change, max_rate_ = s.max_rate, alternations_ = s.alternations, newton_.limiting_state = s.limiting_state;
+    update_tolerances();
 }
 
-Result<void> Transient::run(std::vector<double> x, bool settled, const Each& each, std::span<const double> charge) {
+Result<void> Transient::run(std::vector<double> x, bool settled, const PointCallback& each, std::span<const double> charge) {
     auto done = begin(std::move(x), settled, charge);
     bool more = done && each(time(), this->x());
     while (more && time() < plan_.stop) {
         const auto stepped = step(plan_.stop);
         if (!stepped) done = stepped.error();
-        more = stepped && tell(each);
+        more = stepped && emit_points(each);
     }
-    newton_.instant.charges = false;
+    newton_.context.with_charges = false;
     return done;
 }
 

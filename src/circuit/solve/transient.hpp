@@ -5,7 +5,7 @@
 #include <functional>
 #include <optional>
 
-#include "circuit/solve/past.hpp"
+#include "circuit/solve/history.hpp"
 #include "circuit/solve/step_equations.hpp"
 
 namespace corpuscle::circuit {
@@ -13,9 +13,9 @@ namespace corpuscle::circuit {
 enum class Integration { bdf, trapezoidal };
 
 struct TransientPlan {
-    double stop = 0, longest = 0;  ///< s: end time; maximum step
+    double stop = 0, max_step = 0;  ///< s: end time; maximum step
     Integration method = Integration::bdf;
-    int order = 4;          ///< maximum order of BDF
+    int max_order = 4;          ///< maximum order of BDF
     double reltol = 1e-5;   ///< allowed error of a step, relative to the largest value so far
     double vntol = 1e-6;    ///< V, added for voltages
     double abstol = 1e-16;  ///< A, added for currents
@@ -26,21 +26,21 @@ struct TransientPlan {
 };
 
 /// Counters of a transient.
-struct TransientWork {
-    long steps = 0, rejected = 0, lost = 0, iterations = 0;  ///< diverged: those of the rejected steps whose Newton iterations diverged
+struct TransientStats {
+    long steps = 0, rejected = 0, diverged = 0, iterations = 0;  ///< diverged: those of the rejected steps whose Newton iterations diverged
 };
 
 /// The complete state of a transient. The next steps depend on this, the circuit and the initial x only.
 struct TransientState {
-    std::vector<Moment> past;  ///< newest first
-    int order = 1, since_choice = 0, failures = 0;
-    bool starting = true, bent = false;
-    double h = 0, bend = 1, calm = 0;
-    int calming = 0;
-    int count = 1, curve = 0, opening = 0;  ///< points of the integration formula; points of the last interpolation; start phase
-    std::vector<double> scale, rate, memory, turn, fastest;
+    std::vector<TimePoint> history;  ///< newest first
+    int order = 1, steps_since_order_change = 0, failures = 0;
+    bool is_starting = true, restart_pending = false;
+    double h = 0, quadratic_factor = 1, recent_max_step = 0;
+    int damping_steps = 0;
+    int count = 1, curve_points = 0, start_phase = 0;  ///< points of the integration formula; points of the last interpolation; start phase
+    std::vector<double> scale, rate, limiting_state, rate_change, max_rate;
     std::vector<int> alternations;
-    TransientWork work;
+    TransientStats stats;
 };
 
 /// Integration with variable step and order: variable-coefficient BDF or the trapezoidal rule. The polynomial through the earlier points is
@@ -54,75 +54,75 @@ struct TransientState {
 /// Integration restarts with order 1 at the beginning, at every breakpoint of a source, and when the step must shrink tenfold.
 class Transient {
 public:
-    using Each = std::function<bool(double t, std::span<const double> x)>;
+    using PointCallback = std::function<bool(double t, std::span<const double> x)>;
 
 private:
     System& system_;
-    Newton& newton_;
+    NewtonSolver& newton_;
     TransientPlan plan_;
     StepEquations equations_;
-    Past past_;
-    StepControl pace_;
+    History history_points_;
+    StepControl control_;
     double leading_ = 0;
-    bool ordered_ = false;  // the pivot order of the matrix
-    bool bent_ = false;     // the last point is a breakpoint of a source or the end of a jump: integration restarts there
-    bool jump_ = false;     // the current step is so short that it may contain a jump
-    enum class Opening { none, first, at_once } opening_ = Opening::none;  // after a breakpoint: a point immediately, then a first step
-    int curve_ = 0;                                               // points of the interpolation in the last step; 0: as in the formula
-    double others_ = 0;                                           // error of unknowns without charge in the last step / allowed error
-    double volts_ = 0, largest_charge_ = 0, fastest_charge_ = 0;  // V, C, A: scales of the rounding error
-    bool arrived_ = false, rounding_measured_ = false;            // of the current step
-    std::vector<double> capacity_, rounding_;                     // F, by node; by unknown, see rounding_error()
-    std::vector<double> scale_, allowed_, may_err_, history_, rate_, error_;  // allowed_: of a step; tolerance_: of reported values
-    std::vector<char> charged_;
+    bool pivot_order_fixed_ = false;  // the pivot order of the matrix
+    bool restart_pending_ = false;     // the last point is a breakpoint of a source or the end of a jump: integration restarts there
+    bool may_jump_ = false;     // the current step is so short that it may contain a jump
+    enum class StartPhase { none, first_step, breakpoint } start_phase_ = StartPhase::none;  // after a breakpoint: a point immediately, then a first step
+    int curve_points_ = 0;                                               // points of the interpolation in the last step; 0: as in the formula
+    double uncharged_error_ = 0;                                           // error of unknowns without charge in the last step / allowed error
+    double voltage_scale_ = 0, largest_charge_ = 0, largest_current_ = 0;  // V, C, A: scales of the rounding error
+    bool converged_ = false, rounding_measured_ = false;            // of the current step
+    std::vector<double> capacitance_, rounding_;                     // F, by node; by unknown, see rounding_error()
+    std::vector<double> scale_, allowed_error_, tolerance_, history_, rate_, error_;  // allowed_: of a step; tolerance_: of reported values
+    std::vector<char> has_charge_;
     std::vector<int> curves_;  // reported unknowns that are interpolated
-    struct Held {              // a node whose voltage is that of node `base` plus that of a source
+    struct SourceNode {              // a node whose voltage is that of node `base` plus that of a source
         int unknown, base;
         const Device* source;
         double sign;
     };
-    std::vector<Held> held_;
-    std::vector<int> held_at_;
-    std::vector<double> turn_, fastest_;  // trapezoidal rule: last change of dq/dt, largest dq/dt
+    std::vector<SourceNode> source_nodes_;
+    std::vector<int> source_node_index_;
+    std::vector<double> rate_change_, max_rate_;  // trapezoidal rule: last change of dq/dt, largest dq/dt
     std::vector<int> alternations_;       // number of successive sign changes
-    int calming_ = 0;                     // remaining BDF steps that damp ringing
+    int damping_steps_ = 0;                     // remaining BDF steps that damp ringing
 
-    TransientWork work_;
+    TransientStats stats_;
 
-    bool trapezoid() const { return plan_.method == Integration::trapezoidal && calming_ == 0; }
-    void watch();
-    int points_between() const { return curve_ > 0 ? curve_ : std::min(std::max(pace_.order + 1, 4), past_.count()); }
-    void find_held();
-    double held(const Held&, double t) const;
-    double noise(int unknown) const;
+    bool uses_trapezoidal() const { return plan_.method == Integration::trapezoidal && damping_steps_ == 0; }
+    void detect_ringing();
+    int interpolation_points() const { return curve_points_ > 0 ? curve_points_ : std::min(std::max(control_.order + 1, 4), history_points_.count()); }
+    void find_source_nodes();
+    double source_node_voltage(const SourceNode&, double t) const;
+    double rounding_error(int unknown) const;
     void measure_rounding(double& error, double& curve_error);
-    double bend();
-    bool open(double t0, double breakpoint, double& t);
-    void start_over(bool forget, bool exact = false);
-    Result<void> settle();
-    Error too_short(double h);
+    double interpolation_error();
+    bool take_breakpoint_step(double t0, double breakpoint, double& t);
+    void restart(bool forget, bool exact = false);
+    Result<void> make_consistent();
+    Error step_too_short(double h);
     bool attempt(double t, double& error);
     double error_of(int order);
     double worst_error();
-    void allow();
-    void choose(double h, double error);
-    Result<void> shorten(double h, double error);
-    void take();
-    bool tell(const Each& each);
+    void update_tolerances();
+    void choose_step(double h, double error);
+    Result<void> reject_step(double h, double error);
+    void accept_step();
+    bool emit_points(const PointCallback& each);
 
 public:
-    Transient(System& system, Newton& newton, const TransientPlan& plan)
+    Transient(System& system, NewtonSolver& newton, const TransientPlan& plan)
         : system_(system), newton_(newton), plan_(plan), equations_(system, newton) {}
 
     /// See begin(). Calls each(t, x) from t = 0 until it returns false or the end is reached: at the end of every step, and between where
     /// linear interpolation would have more than a few times the allowed error. Errors: the time and unknown where the step became too
     /// short.
-    Result<void> run(std::vector<double> x, bool settled, const Each& each, std::span<const double> charge = {});
-    const TransientWork& work() const { return work_; }
+    Result<void> run(std::vector<double> x, bool settled, const PointCallback& each, std::span<const double> charge = {});
+    const TransientStats& stats() const { return stats_; }
     const TransientPlan& plan() const { return plan_; }
     std::span<const int> curves() const { return curves_; }  ///< unknowns whose interpolation error is controlled
     /// True if the unknown has a charge, so that its error is controlled.
-    bool charged(std::size_t unknown) const { return charged_[unknown] != 0; }
+    bool has_charge(std::size_t unknown) const { return has_charge_[unknown] != 0; }
     /// The elimination list, after begin(); null: there is none.
     const Elimination* elimination() const { return equations_.elimination(); }
 
@@ -131,14 +131,14 @@ public:
     /// passed, so that the steps after restore() are identical to those without a save.
     Result<void> begin(std::vector<double> x, bool settled = true, std::span<const double> charge = {});
     /// The voltage of a node that is defined by sources only, at least one of them time-dependent. Nothing for any other unknown.
-    std::optional<double> given(double t, int unknown) const;
+    std::optional<double> source_voltage(double t, int unknown) const;
     /// Takes one step that ends at or before `until`. Returns false if the step would end later, or if its length depends on later input.
     Result<bool> step(double until);
-    double time() const { return past_[0].t; }
-    std::span<const double> x() const { return past_[0].x; }
+    double time() const { return history_points_[0].t; }
+    std::span<const double> x() const { return history_points_[0].x; }
     /// Interpolates an unknown (-1: ground) between the last two points.
-    double between(double t, int unknown) const;
-    void between(double t, std::span<double> x) const;
+    double interpolate(double t, int unknown) const;
+    void interpolate(double t, std::span<double> x) const;
     /// The first time in the last step at which plus - minus (unknowns; -1: ground) crosses a level, upwards or downwards.
     std::optional<double> crossing(int plus, int minus, double level, bool upwards) const;
 

@@ -11,9 +11,9 @@ namespace corpuscle::circuit {
 
 /// Finds the nodes that a chain of voltage sources connects to ground, at least one of them time-dependent. Sources with a force input are
 /// not included, since the force of later blocks is not known yet.
-void Transient::find_held() {
+void Transient::find_source_nodes() {
     const auto count = static_cast<std::size_t>(system_.size());
-    held_.clear(), held_at_.assign(count, -1), curves_.clear();
+    source_nodes_.clear(), source_node_index_.assign(count, -1), curves_.clear();
     std::vector<char> known(count + 1);  // the last element is ground
     known[count] = 1;
     const auto& elements = system_.circuit().elements;
@@ -26,78 +26,78 @@ void Transient::find_held() {
             if (plus == minus) continue;
             const int u = d.unknowns[plus ? 1 : 0], base = d.unknowns[plus ? 0 : 1];
             known[at(u)] = 1, more = true;
-            if (!d.varies() && (base < 0 || held_at_[at(base)] < 0)) continue;
-            held_at_[at(u)] = static_cast<int>(held_.size());
-            held_.push_back({u, base, &d, plus ? -1.0 : 1.0});
+            if (!d.is_time_dependent() && (base < 0 || source_node_index_[at(base)] < 0)) continue;
+            source_node_index_[at(u)] = static_cast<int>(source_nodes_.size());
+            source_nodes_.push_back({u, base, &d, plus ? -1.0 : 1.0});
         }
     const auto add = [&](int u) {
-        if (u < 0 || held_at_[static_cast<std::size_t>(u)] >= 0 || std::find(curves_.begin(), curves_.end(), u) != curves_.end()) return;
+        if (u < 0 || source_node_index_[static_cast<std::size_t>(u)] >= 0 || std::find(curves_.begin(), curves_.end(), u) != curves_.end()) return;
         if (plan_.method == Integration::bdf || system_.is_voltage(u)) curves_.push_back(u);  // currents ring with the trapezoidal rule
     };
     for (const int u : plan_.reported) add(u);
     for (int u = 0; plan_.all_reported && u < system_.size(); ++u) add(u);
 }
 
-double Transient::held(const Held& h, double t) const {
+double Transient::source_node_voltage(const SourceNode& h, double t) const {
     const double zero[3] = {};
     double f[3] = {}, q[3] = {}, df[9] = {}, dq[9] = {};
-    h.source->eval(zero, {t, 1, newton_.instant.gmin, false}, {f, q, df, dq});
-    const double base = h.base < 0 ? 0 : given(t, h.base).value_or(past_[0].x[static_cast<std::size_t>(h.base)]);
+    h.source->eval(zero, {t, 1, newton_.context.gmin, false}, {f, q, df, dq});
+    const double base = h.base < 0 ? 0 : source_voltage(t, h.base).value_or(history_points_[0].x[static_cast<std::size_t>(h.base)]);
     return base - h.sign * f[2];
 }
 
-std::optional<double> Transient::given(double t, int unknown) const {
-    if (unknown < 0 || held_at_[static_cast<std::size_t>(unknown)] < 0) return {};
-    return held(held_[static_cast<std::size_t>(held_at_[static_cast<std::size_t>(unknown)])], t);
+std::optional<double> Transient::source_voltage(double t, int unknown) const {
+    if (unknown < 0 || source_node_index_[static_cast<std::size_t>(unknown)] < 0) return {};
+    return source_node_voltage(source_nodes_[static_cast<std::size_t>(source_node_index_[static_cast<std::size_t>(unknown)])], t);
 }
 
-double Transient::between(double t, int unknown) const {
+double Transient::interpolate(double t, int unknown) const {
     if (unknown < 0) return 0;
-    if (const auto source = given(t, unknown)) return *source;
-    const int points = points_between();
-    const auto w = past_.value(t, points);
+    if (const auto source = source_voltage(t, unknown)) return *source;
+    const int points = interpolation_points();
+    const auto w = history_points_.value_weights(t, points);
     double sum = 0;
-    for (int k = 0; k < points; ++k) sum += w[static_cast<std::size_t>(k)] * past_[k].x[static_cast<std::size_t>(unknown)];
+    for (int k = 0; k < points; ++k) sum += w[static_cast<std::size_t>(k)] * history_points_[k].x[static_cast<std::size_t>(unknown)];
     return sum;
 }
 
-void Transient::between(double t, std::span<double> x) const {
-    const int points = points_between();
-    past_.sum(past_.value(t, points), points, &Moment::x, x);
-    for (const auto& h : held_) x[static_cast<std::size_t>(h.unknown)] = held(h, t);
+void Transient::interpolate(double t, std::span<double> x) const {
+    const int points = interpolation_points();
+    history_points_.combine(history_points_.value_weights(t, points), points, &TimePoint::x, x);
+    for (const auto& h : source_nodes_) x[static_cast<std::size_t>(h.unknown)] = source_node_voltage(h, t);
 }
 
 /// Passes the last step to the callback, with enough intermediate points for linear interpolation.
-bool Transient::tell(const Each& each) {
+bool Transient::emit_points(const PointCallback& each) {
     constexpr double linear_tolerance = 2;  // error of linear interpolation, relative to the allowed error
-    const double t0 = past_[1].t, t1 = past_[0].t;
-    if (plan_.steps_only) return each(t1, past_[0].x);
+    const double t0 = history_points_[1].t, t1 = history_points_[0].t;
+    if (plan_.steps_only) return each(t1, history_points_[0].x);
     auto& x = error_;
     double deviation = 0;
     for (const double part : {0.25, 0.75}) {
-        between(t0 + part * (t1 - t0), x);
+        interpolate(t0 + part * (t1 - t0), x);
         for (std::size_t n = 0; n < x.size(); ++n) {
-            const double tolerance = plan_.all_reported ? may_err_[n] + noise(static_cast<int>(n)) : allowed_[n];
-            const double line = past_[1].x[n] + part * (past_[0].x[n] - past_[1].x[n]);
+            const double tolerance = plan_.all_reported ? tolerance_[n] + rounding_error(static_cast<int>(n)) : allowed_error_[n];
+            const double line = history_points_[1].x[n] + part * (history_points_[0].x[n] - history_points_[1].x[n]);
             if (tolerance > 0) deviation = std::max(deviation, 4.0 / 3 * std::abs(x[n] - line) / tolerance);
         }
     }
     const int parts = static_cast<int>(std::min(std::ceil(std::sqrt(deviation / linear_tolerance)), 1000.0));
     for (int k = 1; k < parts; ++k) {
         const double t = t0 + (t1 - t0) * k / parts;
-        between(t, x);
+        interpolate(t, x);
         if (!each(t, x)) return false;
     }
-    return each(t1, past_[0].x);
+    return each(t1, history_points_[0].x);
 }
 
 std::optional<double> Transient::crossing(int plus, int minus, double level, bool upwards) const {
-    if (past_.count() < 2) return {};
+    if (history_points_.count() < 2) return {};
     const double sign = upwards ? 1 : -1;
-    const auto at = [&](int k, int u) { return u < 0 ? 0 : past_[k].x[static_cast<std::size_t>(u)]; };
+    const auto at = [&](int k, int u) { return u < 0 ? 0 : history_points_[k].x[static_cast<std::size_t>(u)]; };
     const auto end = [&](int k) { return sign * (at(k, plus) - at(k, minus) - level); };
-    const auto above = [&](double t) { return sign * (between(t, plus) - between(t, minus) - level); };
-    return crossing_within(past_[1].t, past_[0].t, end(1), end(0), above);
+    const auto above = [&](double t) { return sign * (interpolate(t, plus) - interpolate(t, minus) - level); };
+    return find_crossing(history_points_[1].t, history_points_[0].t, end(1), end(0), above);
 }
 
 }  // namespace corpuscle::circuit

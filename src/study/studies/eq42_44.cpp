@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "circuit/device/constants.hpp"
+#include "circuit/device/physical_constants.hpp"
 #include "study/deck.hpp"
 #include "study/studies.hpp"
 #include "study/thesis/array_text.hpp"

@@ -16,7 +16,7 @@ namespace {
 
 using circuit::Circuit;
 using circuit::RunOutcome;
-using circuit::TestBench;
+using circuit::AnalysisContext;
 
 constexpr std::string_view spike_measures[] = {"spikes", "first_spike", "last_spike", "mean_interval"};
 
@@ -36,7 +36,7 @@ class AnalysesSweep final : public PlannedSweep {
     /// A thread's analysis context, and the values for which it was made.
     struct ThreadContext {
         std::vector<double> own;
-        std::unique_ptr<TestBench> bench;
+        std::unique_ptr<AnalysisContext> bench;
     };
     Result<void> prepare(ThreadContext&, std::span<const double> values) const;
 
@@ -60,9 +60,9 @@ Result<RunOutcome> run_without_transients(const Circuit& circuit) {
     });
     circuit::RunOptions orders;
     orders.print_tables = false;
-    auto bench = TestBench::make(std::move(without_transients));
+    auto bench = AnalysisContext::make(std::move(without_transients));
     if (!bench) return bench.error();
-    (*bench)->brief = true;
+    (*bench)->is_brief = true;
     return circuit::run_directives(**bench, orders);
 }
 
@@ -197,9 +197,9 @@ Result<void> AnalysesSweep::prepare(ThreadContext& at, std::span<const double> v
         if (!made) return made.error();
         circuit = std::make_shared<const Circuit>(std::move(*made));
     }
-    auto bench = TestBench::make(std::move(circuit));
+    auto bench = AnalysisContext::make(std::move(circuit));
     if (!bench) return bench.error();
-    at.bench = std::move(*bench), at.bench->brief = true, at.own = std::move(own);
+    at.bench = std::move(*bench), at.bench->is_brief = true, at.own = std::move(own);
     return {};
 }
 
@@ -208,9 +208,9 @@ long AnalysesSweep::most_iterations(const std::function<bool()>& stop) const {
     if (iteration_limit_ > 0 || !has(*nominal_, "tran")) return iteration_limit_;
     const std::lock_guard lock(mutex_);
     if (nominal_iteration_limit_) return *nominal_iteration_limit_;
-    auto bench = TestBench::make(nominal_);
+    auto bench = AnalysisContext::make(nominal_);
     if (!bench) return 0;
-    (*bench)->brief = true;
+    (*bench)->is_brief = true;
     circuit::RunOptions orders;
     orders.keep_points = orders.print_tables = false;
     orders.should_stop = [&](std::string_view, double) { return stop(); };
@@ -234,7 +234,7 @@ UnitOutcome AnalysesSweep::outcome(std::int64_t item, const Result<RunOutcome>& 
     std::size_t train = 0;
     for (const auto& a : found->analyses) {
         if (a.result.spikes && train < out.spikes.size()) out.spikes[train++] = *a.result.spikes;
-        for (const auto& [quantity, count] : a.result.work) {
+        for (const auto& [quantity, count] : a.result.stats) {
             if (quantity == "steps") out.steps += static_cast<std::int64_t>(count);
             if (quantity == "iterations") out.iterations += static_cast<std::int64_t>(count);
         }
@@ -256,14 +256,14 @@ Result<void> AnalysesSweep::work(const Next& next, const Told& on_outcome, const
             continue;
         }
         if (const auto own = circuit::chip_sample_of(*at.bench->circuit))
-            at.bench->draw(*own);
+            at.bench->apply_variation(*own);
         else if (const auto draw = plan_.draw(*item))
-            at.bench->draw(*draw);
-        at.bench->most_iterations = limit, at.bench->capped = false;
+            at.bench->apply_variation(*draw);
+        at.bench->max_iterations = limit, at.bench->hit_iteration_limit = false;
         const auto found = circuit::run_directives(*at.bench, orders);
         if (!found && found.error().code == ErrorCode::interrupted) return {};
         if (!found && found.error().code != ErrorCode::not_converged) return found.error();
-        on_outcome(outcome(*item, found, at.bench->capped));
+        on_outcome(outcome(*item, found, at.bench->hit_iteration_limit));
     }
     return {};
 }

@@ -17,9 +17,9 @@ namespace corpuscle {
 namespace {
 
 using circuit::Chip;
-using circuit::ChipAnswer;
+using circuit::ChipResponse;
 using circuit::CircuitAfferentFactory;
-using circuit::Draw;
+using circuit::ChipSample;
 using Codes = std::vector<int>;
 
 /// A chip to press with these codes, and its response.
@@ -34,7 +34,7 @@ struct Press {
 /// Presses chips, many at once. Designs are made once for each set of values.
 class ChipPresser {
     const ChipCalibration& options_;
-    const std::vector<Draw>& chips_;
+    const std::vector<ChipSample>& chips_;
     std::map<std::vector<double>, std::shared_ptr<const CircuitAfferentFactory>> designs_;
     ThreadPool pool_;
 
@@ -55,17 +55,17 @@ class ChipPresser {
         if (!made) return made.error();
         return designs_.emplace(at, *made).first->second;
     }
-    void evaluate(Press& p, ChipAnswer&& response) const {
+    void evaluate(Press& p, ChipResponse&& response) const {
         p.spikes = std::move(response.spikes), p.diverged = response.error.has_value();
-        p.meets_limits = !p.diverged && !response.capped && options_.limits.kept(p.spikes);
+        p.meets_limits = !p.diverged && !response.hit_iteration_limit && options_.limits.kept(p.spikes);
         p.distance = p.diverged ? std::numeric_limits<double>::infinity() : options_.limits.distance(p.spikes);
         // A run that was stopped for firing too often is worse than any complete run, and the worse the earlier it was stopped.
-        if (response.capped)
+        if (response.hit_iteration_limit)
             p.distance = 1e6 * (2 - (p.spikes.empty() ? 0 : p.spikes.back() / (options_.T * static_cast<double>(options_.force.size()))));
     }
 
 public:
-    ChipPresser(const ChipCalibration& options, const std::vector<Draw>& chips)
+    ChipPresser(const ChipCalibration& options, const std::vector<ChipSample>& chips)
         : options_(options), chips_(chips), pool_(options.threads) {}
 
     /// True if two codes give the same chip; after rounding to integer columns there are fewer values than codes.
@@ -88,8 +88,8 @@ public:
             const auto k = next++;
             return Chip{static_cast<std::int64_t>(k), designs[k], chips_[all[k].chip], options_.force, options_.T};
         };
-        const auto on_response = [&](const Chip& chip, ChipAnswer&& response) {
-            evaluate(all[static_cast<std::size_t>(chip.number)], std::move(response));
+        const auto on_response = [&](const Chip& chip, ChipResponse&& response) {
+            evaluate(all[static_cast<std::size_t>(chip.id)], std::move(response));
         };
         pool_.for_each(pool_.threads(), [&](std::size_t, unsigned) {
             if (auto done = circuit::run_chips(designs[0], more, on_response, options_.batch); !done) {
@@ -219,7 +219,7 @@ Result<Trim> trim_of(const std::string& netlist, const std::vector<circuit::Netl
                     netlist, did_you_mean(full_name, parameters)));
 }
 
-Result<std::vector<CalibratedChip>> calibrate(const ChipCalibration& options, const std::vector<Draw>& chips) {
+Result<std::vector<CalibratedChip>> calibrate(const ChipCalibration& options, const std::vector<ChipSample>& chips) {
     if (options.bits < 1 || options.bits > 12) return bad_input(fmt::format("calibration: bits = {} is outside 1 to 12", options.bits));
     ChipPresser presser(options, chips);
     std::vector<TrimSearch> searches;

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "circuit/batch/chips.hpp"
+#include "circuit/batch/chip_batch.hpp"
 #include "circuit/netlist_overrides.hpp"
 #include "study/sweep/pattern.hpp"
 
@@ -50,7 +50,7 @@ struct CalibratedChip {
 /// Calibrates each chip separately, from coarse steps to fine ones: with one bit, then two, and so on. From the best codes so far, each
 /// trim is moved one step up or down, then all improving trims together, until nothing improves. A chip that meets the limits is finished.
 /// The first steps with many bits are those with few, so one search gives the result for each number of bits.
-Result<std::vector<CalibratedChip>> calibrate(const ChipCalibration&, const std::vector<circuit::Draw>& chips);
+Result<std::vector<CalibratedChip>> calibrate(const ChipCalibration&, const std::vector<circuit::ChipSample>& chips);
 
 /// The trim with the netlist's value of its first name; fails if that is not a number.
 Result<Trim> trim_of(const std::string& netlist, const std::vector<circuit::NetlistOverride>&, std::vector<std::string> names, double range,

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <map>
 
-#include "circuit/batch/chips.hpp"
+#include "circuit/batch/chip_batch.hpp"
 #include "circuit/resolve_probe.hpp"
 #include "signal/parameter.hpp"
 #include "study/sweep/netlists.hpp"
@@ -15,7 +15,7 @@ namespace corpuscle::sweeps {
 namespace {
 
 using circuit::Chip;
-using circuit::ChipAnswer;
+using circuit::ChipResponse;
 using circuit::CircuitAfferentFactory;
 using DesignPointer = std::shared_ptr<const CircuitAfferentFactory>;
 
@@ -44,9 +44,9 @@ class ChipSweep final : public PlannedSweep {
     Result<void> select_measures(const SweepText&);
     Result<void> select_probes(const SweepText&);
     Result<DesignPointer> design(std::span<const double> values) const;
-    std::optional<circuit::Draw> draw(std::int64_t item, const CircuitAfferentFactory&) const;
+    std::optional<circuit::ChipSample> draw(std::int64_t item, const CircuitAfferentFactory&) const;
     long most_iterations(const std::function<bool()>& stop) const;
-    UnitOutcome outcome(std::int64_t item, const ActiveChip&, ChipAnswer&&) const;
+    UnitOutcome outcome(std::int64_t item, const ActiveChip&, ChipResponse&&) const;
     UnitOutcome failed_outcome(std::int64_t item, const Error&) const;
 
 public:
@@ -167,7 +167,7 @@ Result<DesignPointer> ChipSweep::design(std::span<const double> values) const {
     return made;
 }
 
-std::optional<circuit::Draw> ChipSweep::draw(std::int64_t item, const CircuitAfferentFactory& design) const {
+std::optional<circuit::ChipSample> ChipSweep::draw(std::int64_t item, const CircuitAfferentFactory& design) const {
     if (auto own = circuit::chip_sample_of(*design.circuit)) return own;
     return plan_.draw(item);
 }
@@ -179,11 +179,11 @@ long ChipSweep::most_iterations(const std::function<bool()>& stop) const {
     if (nominal_iteration_limit_) return *nominal_iteration_limit_;
     const auto& force = *force_.nominal();
     circuit::BatchOptions options;
-    options.stop = stop;
+    options.should_stop = stop;
     const auto response =
-        circuit::run_chip_alone({0, nominal_, circuit::chip_sample_of(*nominal_->circuit), force.samples, force.clock.T()}, options);
+        circuit::run_chip_scalar({0, nominal_, circuit::chip_sample_of(*nominal_->circuit), force.samples, force.clock.T()}, options);
     if (response.error && response.error->code == ErrorCode::interrupted) return 0;
-    nominal_iteration_limit_ = response.error ? 0 : static_cast<long>(many_times_nominal * static_cast<double>(response.work.iterations));
+    nominal_iteration_limit_ = response.error ? 0 : static_cast<long>(many_times_nominal * static_cast<double>(response.stats.iterations));
     return *nominal_iteration_limit_;
 }
 
@@ -196,25 +196,25 @@ UnitOutcome ChipSweep::failed_outcome(std::int64_t item, const Error& error) con
     return out;
 }
 
-UnitOutcome ChipSweep::outcome(std::int64_t item, const ActiveChip& at, ChipAnswer&& response) const {
+UnitOutcome ChipSweep::outcome(std::int64_t item, const ActiveChip& at, ChipResponse&& response) const {
     auto out = response.error ? failed_outcome(item, *response.error) : UnitOutcome{};
-    out.unit = item, out.alone = response.alone;
-    out.steps = response.work.steps, out.iterations = response.work.iterations;
+    out.unit = item, out.alone = response.is_scalar;
+    out.steps = response.stats.steps, out.iterations = response.stats.iterations;
     if (response.error) return out;
-    if (response.capped) out.end = UnitEnd::capped, out.why = fmt::format("stopped after {} iterations", response.work.iterations);
+    if (response.hit_iteration_limit) out.end = UnitEnd::capped, out.why = fmt::format("stopped after {} iterations", response.stats.iterations);
     UnitAnswer measured;
-    measured.spikes = response.spikes, measured.iterations = static_cast<double>(response.work.iterations);
-    const double T = at.force->clock.T(), seconds = response.spent.seconds;
-    measured.power = response.spent.supplies / seconds, measured.sensor_power = response.spent.sensor / seconds;
-    for (const auto& o : response.outside) {
+    measured.spikes = response.spikes, measured.iterations = static_cast<double>(response.stats.iterations);
+    const double T = at.force->clock.T(), seconds = response.energy_use.seconds;
+    measured.power = response.energy_use.supplies / seconds, measured.sensor_power = response.energy_use.sensor / seconds;
+    for (const auto& o : response.range_violations) {
         measured.outside_of.push_back(static_cast<double>(o.samples) * T);
         measured.outside = std::max(measured.outside, measured.outside_of.back());
     }
     measured.outside_of.resize(nominal_->operating_ranges.size());
-    out.measures = response.capped ? std::vector<double>(measures_.size(), std::numeric_limits<double>::quiet_NaN())
+    out.measures = response.hit_iteration_limit ? std::vector<double>(measures_.size(), std::numeric_limits<double>::quiet_NaN())
                                    : afferent_measures_->values(*at.force, measured);
     if (!trains_.empty()) out.spikes.push_back(std::move(response.spikes));
-    out.traces = std::move(response.shown);
+    out.traces = std::move(response.probes);
     out.traces.resize(traces_.size());
     for (auto& t : out.traces) t.resize(trace_times_.size(), std::numeric_limits<float>::quiet_NaN());
     return out;
@@ -222,8 +222,8 @@ UnitOutcome ChipSweep::outcome(std::int64_t item, const ActiveChip& at, ChipAnsw
 
 Result<void> ChipSweep::work(const Next& next, const Told& on_outcome, const std::function<bool()>& stop) const {
     circuit::BatchOptions options;
-    options.stop = stop, options.show_every = every_, options.lanes = lanes_;
-    options.most_iterations = most_iterations(stop);
+    options.should_stop = stop, options.probe_every = every_, options.lanes = lanes_;
+    options.max_iterations = most_iterations(stop);
     std::map<std::int64_t, ActiveChip> active;
     std::optional<Error> sweep_error;
     const auto chip_of = [&](std::int64_t item, ActiveChip& at) {
@@ -246,16 +246,16 @@ Result<void> ChipSweep::work(const Next& next, const Told& on_outcome, const std
                 auto& active_chip = active[*item] = std::move(at);
                 return chip_of(*item, active_chip);
             }
-            auto response = circuit::run_chip_alone(chip_of(*item, at), options);  // a different circuit cannot share lanes
+            auto response = circuit::run_chip_scalar(chip_of(*item, at), options);  // a different circuit cannot share lanes
             if (response.error && response.error->code == ErrorCode::interrupted) return {};
-            response.alone = true;
+            response.is_scalar = true;
             on_outcome(outcome(*item, at, std::move(response)));
         }
         return {};
     };
-    const auto ended = [&](const Chip& chip, ChipAnswer&& response) {
-        const auto at = active.find(chip.number);
-        if (!response.error || response.error->code != ErrorCode::interrupted) on_outcome(outcome(chip.number, at->second, std::move(response)));
+    const auto ended = [&](const Chip& chip, ChipResponse&& response) {
+        const auto at = active.find(chip.id);
+        if (!response.error || response.error->code != ErrorCode::interrupted) on_outcome(outcome(chip.id, at->second, std::move(response)));
         active.erase(at);
     };
     const auto done = circuit::run_chips(nominal_, next_chip, ended, options);

@@ -79,7 +79,7 @@ DeviceDeviates deviates_of(const DrawnDevice& device, std::uint64_t seed, const 
     DeviceDeviates out;
     out.V_T.reserve(chips.size()), out.I_S.reserve(chips.size());
     for (const auto chip : chips) {
-        const auto shift = circuit::mismatch(card, size, seed, device.number, chip);
+        const auto shift = circuit::sample_mismatch(card, size, seed, device.number, chip);
         out.V_T.push_back(shift.V_T), out.I_S.push_back(std::log(shift.factor));
     }
     return out;

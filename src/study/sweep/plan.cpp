@@ -47,7 +47,7 @@ std::vector<double> SweepPlan::values(std::int64_t item) const {
     return out;
 }
 
-std::optional<circuit::Draw> SweepPlan::draw(std::int64_t item) const {
+std::optional<circuit::ChipSample> SweepPlan::draw(std::int64_t item) const {
     if (!draws_chips()) return {};
     return chips_.sample(static_cast<std::uint64_t>(item % draws_));
 }

@@ -45,7 +45,7 @@ public:
 
     /// In the order of the columns.
     std::vector<double> values(std::int64_t item) const;
-    std::optional<circuit::Draw> draw(std::int64_t item) const;
+    std::optional<circuit::ChipSample> draw(std::int64_t item) const;
 };
 
 }  // namespace corpuscle::sweeps

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "circuit/cost/area.hpp"
-#include "circuit/device/constants.hpp"
-#include "circuit/device/inversion.hpp"
+#include "circuit/device/physical_constants.hpp"
+#include "circuit/device/inversion_charge.hpp"
 #include "study/deck.hpp"
 #include "study/spread.hpp"
 
@@ -46,7 +46,7 @@ void measure_size(OurArray& out, const circuit::Circuit& circuit, const std::str
 /// g_mg/I_D in saturation by the equations of appendix A if the printed V_T is taken as V_T0.
 double g_by_I_with_published_threshold(const PrintedArray& p) {
     const double v_t = circuit::thermal_voltage(300.15), n = 1 + p.slope;
-    const double q = circuit::inversion((half_volt - 1e-3 * p.V_T) / (n * v_t) + 1);
+    const double q = circuit::inversion_charge((half_volt - 1e-3 * p.V_T) / (n * v_t) + 1);
     return 2 / (n * v_t * (q + 2));
 }
 

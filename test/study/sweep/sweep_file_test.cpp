@@ -177,11 +177,11 @@ constexpr const char* stepped =
 std::vector<double> ran(const std::string& path) {
     auto variants = test::sure(circuit::NetlistVariants::create(test::sure(circuit::Netlist::read(path))));
     std::vector<double> out;
-    std::unique_ptr<circuit::TestBench> bench;
+    std::unique_ptr<circuit::AnalysisContext> bench;
     for (std::size_t k = 0; k < variants.count(); ++k) {
         const auto variant = test::sure(variants.at(k));
-        if (!bench || bench->circuit != variant.circuit) bench = test::sure(circuit::TestBench::make(variant.circuit));
-        if (variant.sample) bench->draw(*variant.sample);
+        if (!bench || bench->circuit != variant.circuit) bench = test::sure(circuit::AnalysisContext::make(variant.circuit));
+        if (variant.sample) bench->apply_variation(*variant.sample);
         out.push_back(*test::sure(circuit::run_directives(*bench)).find_number("out"));
     }
     return out;

@@ -1,0 +1,184 @@
+#include "circuit/analysis/analysis_context.hpp"
+
+#include <fmt/format.h>
+#include <cmath>
+
+#include "circuit/netlist/spice_number.hpp"
+#include "signal/parameter.hpp"
+
+namespace corpuscle::circuit {
+
+AnalysisContext::AnalysisContext(std::shared_ptr<const Circuit> c, System s, const Tolerances& t)
+    : circuit(std::move(c)), system(std::move(s)), tolerances(t), newton(system, t) {}
+
+Result<std::unique_ptr<AnalysisContext>> AnalysisContext::make(std::shared_ptr<const Circuit> circuit) {
+    auto tolerances = Tolerances::from_options(*circuit);
+    if (!tolerances) return tolerances.error();
+    auto system = System::make(circuit);
+    if (!system) return system.error();
+    return std::unique_ptr<AnalysisContext>(new AnalysisContext(std::move(circuit), std::move(*system), *tolerances));
+}
+
+NodeClamps AnalysisContext::initial_clamps() const {
+    if (circuit->ic.empty()) return {};
+    NodeClamps out{std::vector<double>(static_cast<std::size_t>(system.nodes())),
+                std::vector<double>(static_cast<std::size_t>(system.size()))};
+    for (const auto& [node, v] : circuit->ic)
+        out.conductance[static_cast<std::size_t>(node) - 1] = 1e3, out.voltage[static_cast<std::size_t>(node) - 1] = v;
+    return out;
+}
+
+Result<OperatingPoint> AnalysisContext::operating_point() {
+    if (operating_point_) return *operating_point_;
+    auto found = find_operating_point(newton, nominal_x_);
+    if (found) operating_point_ = *found;
+    return found;
+}
+
+Result<OperatingPoint> AnalysisContext::initial_operating_point() { return find_operating_point(newton, circuit->ic.empty() ? nominal_x_ : nominal_initial_x_, initial_clamps()); }
+
+/// Solves the nominal circuit. Chips are solved from its operating point, with the pivot order of its matrix there.
+void AnalysisContext::solve_nominal() {
+    if (!circuit->ic.empty())
+        if (auto begun = initial_operating_point()) nominal_initial_x_ = std::move(begun->x);
+    const auto found = operating_point();
+    if (!found) return;
+    nominal_x_ = found->x;
+    system.eval(nominal_x_, newton.context, newton.limiting_state, newton.evaluation);
+    newton.linear_solver.fix_pivot_order(std::span<const double>(newton.evaluation.G).first(system.pattern().entries()));
+}
+
+void AnalysisContext::apply_variation(const ChipSample& chip) {
+    if (!chip_sample_) solve_nominal();
+    chip_sample_ = chip;
+    system.apply_variation(&chip);
+    operating_point_.reset();
+}
+
+Error interrupted_error() { return {ErrorCode::interrupted, "interrupted"}; }
+
+Error error_at(const Directive& c, std::size_t word, std::string message) {
+    auto location = c.location;
+    if (word < c.columns.size()) location.column = c.columns[word];
+    return bad_input(std::move(message), std::move(location));
+}
+
+Result<double> read_number(const Directive& c, std::size_t word, std::string_view what) {
+    if (word >= c.words.size()) return bad_input(fmt::format(".{}: {} is missing", c.name, what), c.location);
+    if (const auto x = parse_number(c.words[word])) {
+        if (auto why = ambiguity(*x, c.words[word])) return error_at(c, word, fmt::format(".{}: {}", c.name, *why));
+        return x->value;
+    }
+    return error_at(c, word, fmt::format(".{}: '{}' is not a number; expected {}", c.name, c.words[word], what));
+}
+
+Result<std::vector<double>> read_frequencies(const Directive& c, std::size_t word) {
+    const std::string kind = word < c.words.size() ? c.words[word] : "";
+    if (kind != "dec" && kind != "oct" && kind != "lin")
+        return bad_input(fmt::format(".{}: '{}' must be dec, oct or lin", c.name, kind), c.location);
+    const auto points = read_number(c, word + 1, "the number of points"), from = read_number(c, word + 2, "the first frequency"),
+               to = read_number(c, word + 3, "the last frequency");
+    if (!points) return points.error();
+    if (!from) return from.error();
+    if (!to) return to.error();
+    if (!(*points >= 1 && *points <= 1e7))
+        return bad_input(fmt::format(".{}: {:g} points is outside [1, 10000000]", c.name, *points), c.location);
+    if (!(*to >= *from && (*from > 0 || (kind == "lin" && *from >= 0))))
+        return bad_input(fmt::format(".{}: from {:g} to {:g} Hz: the first must be above 0 and at most the second", c.name, *from, *to),
+                         c.location);
+    const auto count = static_cast<long>(*points);
+    std::vector<double> out;
+    if (kind == "lin") {
+        for (long k = 0; k < count; ++k)
+            out.push_back(count == 1 ? *from : *from + (*to - *from) * static_cast<double>(k) / static_cast<double>(count - 1));
+        return out;
+    }
+    // As in ngspice: points are spaced evenly per decade (octave), and the last is at or below the end.
+    const double base = kind == "dec" ? 10 : 2, steps = std::log(*to / *from) / std::log(base) * static_cast<double>(count);
+    if (steps > 1e7) return bad_input(fmt::format(".{}: {:g} frequencies; the maximum is 10000000", c.name, steps), c.location);
+    for (double k = 0; k <= std::floor(steps + 1e-9); ++k) out.push_back(*from * std::pow(base, k / static_cast<double>(count)));
+    return out;
+}
+
+UnknownNames::UnknownNames(const System& system) : system_(system) {
+    const auto& names = system.names();
+    for (std::size_t k = 0; k < names.size(); ++k) at_.try_emplace(names[k], static_cast<int>(k));
+}
+
+int UnknownNames::index_of(std::string_view name) const {
+    const auto at = at_.find(name);
+    return at == at_.end() ? -1 : at->second;
+}
+
+Result<OutputVariable> read_output_variable(const System& system, const Directive& c, std::size_t word) { return read_output_variable(UnknownNames(system), c, word); }
+
+Result<OutputVariable> read_output_variable(const UnknownNames& names, const Directive& c, std::size_t word) {
+    if (word >= c.words.size())
+        return bad_input(fmt::format(".{}: an output is missing, v(node), v(node,node) or i(source)", c.name), c.location);
+    auto location = c.location;
+    if (word < c.columns.size()) location.column = c.columns[word];
+    const auto& text = c.words[word];
+    const bool voltage = text.starts_with("v("), closed = text.ends_with(")");
+    if (!closed || !(voltage || text.starts_with("i(")))
+        return bad_input(fmt::format(".{}: '{}' must be v(node), v(node,node) or i(source)", c.name, text), location);
+    const auto inside = text.substr(2, text.size() - 3);
+    const auto unknown = [&](const std::string& name) -> Result<int> {
+        if (voltage && (name == "0" || name == "gnd")) return -1;
+        const auto full = fmt::format("{}({})", voltage ? 'v' : 'i', name);
+        const int index = names.index_of(full);
+        if (index >= 0) return index;
+        const std::vector<std::string_view> known(names.all().begin(), names.all().end());
+        return bad_input(fmt::format(".{}: unknown output {}{}", c.name, full, did_you_mean(full, known)), location);
+    };
+    const auto comma = inside.find(',');
+    const auto plus = unknown(inside.substr(0, comma));
+    if (!plus) return plus.error();
+    if (comma == std::string::npos) return OutputVariable{*plus, -1};
+    const auto minus = unknown(inside.substr(comma + 1));
+    if (!minus) return minus.error();
+    return OutputVariable{*plus, *minus};
+}
+
+std::complex<double> OutputVariable::value(std::span<const std::complex<double>> x) const {
+    return (plus < 0 ? 0 : x[static_cast<std::size_t>(plus)]) - (minus < 0 ? 0 : x[static_cast<std::size_t>(minus)]);
+}
+double OutputVariable::value(std::span<const double> x) const {
+    return (plus < 0 ? 0 : x[static_cast<std::size_t>(plus)]) - (minus < 0 ? 0 : x[static_cast<std::size_t>(minus)]);
+}
+
+Plot make_plot(const System& system, std::string name, std::string swept, std::string type) {
+    Plot plot{std::move(name), false, !swept.empty(), {}};
+    if (plot.has_sweep) plot.curves.push_back({std::move(swept), std::move(type), {}});
+    for (int n = 0; n < system.size(); ++n)
+        plot.curves.push_back({system.names()[static_cast<std::size_t>(n)], system.is_voltage(n) ? "voltage" : "current", {}});
+    return plot;
+}
+
+void append(Plot& plot, std::complex<double> swept, std::span<const std::complex<double>> x) {
+    plot.curves[0].values.push_back(swept);
+    for (std::size_t n = 0; n < x.size(); ++n) plot.curves[n + 1].values.push_back(x[n]);
+}
+void append(Plot& plot, std::complex<double> swept, std::span<const double> x) {
+    plot.curves[0].values.push_back(swept);
+    for (std::size_t n = 0; n < x.size(); ++n) plot.curves[n + 1].values.emplace_back(x[n]);
+}
+
+std::vector<std::complex<double>> admittances(const SystemEvaluation& sums, std::size_t entries, double omega) {
+    std::vector<std::complex<double>> out(entries);
+    for (std::size_t k = 0; k < entries; ++k) out[k] = {sums.G[k], omega * sums.C[k]};
+    return out;
+}
+
+SystemEvaluation evaluate_operating_point(const AnalysisContext& context, std::span<const double> x) {
+    SystemEvaluation sums;
+    EvalContext eval_context;
+    eval_context.gmin = context.tolerances.gmin;
+    auto limiting_state = context.system.initial_limiting_state();
+    for (int k = 0; k < 200; ++k) {  // until limit() changes no voltage
+        context.system.eval(x, eval_context, limiting_state, sums);
+        if (!sums.is_limited) break;
+    }
+    return sums;
+}
+
+}  // namespace corpuscle::circuit

@@ -1,0 +1,134 @@
+#include "circuit/analysis/equilibria.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+#include <utility>
+
+#include "circuit/analysis/power_on.hpp"
+#include "circuit/solve/stability.hpp"
+#include "signal/quantity.hpp"
+
+namespace corpuscle::circuit {
+namespace {
+
+constexpr double min_difference = 1e-3;  // V, between two equilibria
+
+/// Collects equilibria without duplicates.
+class EquilibriumSet {
+    AnalysisContext& context_;
+    std::vector<Equilibrium> found_;
+
+    std::size_t nodes() const { return static_cast<std::size_t>(context_.system.nodes()); }
+
+public:
+    explicit EquilibriumSet(AnalysisContext& context) : context_(context) {
+        context.newton.context.time = 0, context.newton.context.with_charges = false;
+    }
+
+    bool same(const std::vector<double>& a, const std::vector<double>& b) const {
+        for (std::size_t n = 0; n < nodes(); ++n)
+            if (std::abs(a[n] - b[n]) > min_difference) return false;
+        return true;
+    }
+    Equilibrium& add(std::vector<double> x) {
+        for (auto& s : found_)
+            if (same(s.x, x)) return s;
+        context_.newton.limiting_state = context_.system.initial_limiting_state();
+        const bool stable = context_.system.is_linear() || !find_unstable_mode(context_.newton, x);
+        context_.newton.context.with_charges = false;
+        return found_.emplace_back(Equilibrium{std::move(x), stable});
+    }
+    Equilibrium* add_from(std::vector<double> start) {
+        auto found = find_operating_point(context_.newton, std::move(start));
+        return found ? &add(std::move(found->x)) : nullptr;
+    }
+    /// Searches with a node clamped to a voltage, then from there without the clamp.
+    void add_from_clamped(const std::vector<double>& x, std::size_t node, double to) {
+        NodeClamps clamps{std::vector<double>(nodes()), std::vector<double>(x.size())};
+        clamps.conductance[node] = 1, clamps.voltage[node] = to;
+        auto clamped = find_operating_point(context_.newton, x, clamps);
+        if (clamped) (void)add_from(std::move(clamped->x));
+    }
+    /// A copy of the stable equilibria found so far.
+    std::vector<std::vector<double>> stable() const {
+        std::vector<std::vector<double>> out;
+        for (const auto& s : found_)
+            if (s.is_stable) out.push_back(s.x);
+        return out;
+    }
+    std::vector<Equilibrium> take() {
+        std::sort(found_.begin(), found_.end(), [](const Equilibrium& a, const Equilibrium& b) {
+            return std::tuple(!a.is_default, !a.is_stable, a.x) < std::tuple(!b.is_default, !b.is_stable, b.x);
+        });
+        return std::move(found_);
+    }
+};
+
+/// The lowest and the highest voltage of ground and all voltage sources.
+std::pair<double, double> supply_range(const AnalysisContext& context) {
+    double low = 0, high = 0;
+    const auto& elements = context.circuit->elements;
+    for (std::size_t k = 0; k < elements.size(); ++k)
+        if (elements[k].letter == 'v') {
+            const double v = context.system.devices()[k]->principal_value().value_or(0);
+            low = std::min(low, v), high = std::max(high, v);
+        }
+    return {low, high};
+}
+
+}  // namespace
+
+Result<std::vector<Equilibrium>> find_equilibria(AnalysisContext& context, double rise) {
+    const auto operating_point = context.operating_point();
+    if (!operating_point) return operating_point.error();
+    EquilibriumSet states(context);
+    states.add(operating_point->x).is_default = true;
+    if (context.system.is_linear()) return states.take();
+    const auto [low, high] = supply_range(context);
+    for (std::size_t n = 0; n < static_cast<std::size_t>(context.system.nodes()); ++n) {
+        if (context.is_stopped(static_cast<double>(n) / context.system.nodes())) return interrupted_error();
+        for (const double end : {low, high})
+            if (std::abs(operating_point->x[n] - end) > min_difference) states.add_from_clamped(operating_point->x, n, end);
+    }
+    const auto power_on = power_on_state(context, rise);
+    if (power_on && *power_on)
+        if (auto* reached = states.add_from(**power_on)) reached->is_power_on = true;
+    const auto stable = states.stable();
+    for (std::size_t a = 0; a < stable.size(); ++a)
+        for (std::size_t b = 0; b < a; ++b) {
+            auto between = stable[a];
+            for (std::size_t n = 0; n < between.size(); ++n) between[n] = (between[n] + stable[b][n]) / 2;
+            (void)states.add_from(std::move(between));
+        }
+    return states.take();
+}
+
+std::vector<std::size_t> differing_nodes(const AnalysisContext& context, const Equilibrium& a, const Equilibrium& b) {
+    const auto difference = [&](std::size_t n) { return std::abs(a.x[n] - b.x[n]); };
+    std::vector<std::size_t> out;
+    for (std::size_t n = 0; n < static_cast<std::size_t>(context.system.nodes()); ++n)
+        if (difference(n) > min_difference) out.push_back(n);
+    std::sort(out.begin(), out.end(),
+              [&](std::size_t m, std::size_t n) { return std::pair(-difference(m), m) < std::pair(-difference(n), n); });
+    return out;
+}
+
+std::string describe(const AnalysisContext& context, const std::vector<Equilibrium>& states) {
+    constexpr std::size_t max_nodes = 6;
+    std::string out;
+    for (const auto& s : states) {
+        out += fmt::format("state {}: {}{}{}\n", &s - states.data() + 1, s.is_stable ? "stable" : "unstable",
+                           s.is_default ? ", the state of .op" : "", s.is_power_on ? ", the state after power-on" : "");
+        if (&s == states.data()) continue;
+        const auto nodes = differing_nodes(context, states[0], s);
+        for (std::size_t k = 0; k < std::min(max_nodes, nodes.size()); ++k)
+            out += fmt::format("  {:24} {:>12}, in state 1 {:>12}\n", context.system.names()[nodes[k]], format_quantity(s.x[nodes[k]], "V"),
+                               format_quantity(states[0].x[nodes[k]], "V"));
+        if (nodes.size() > max_nodes) out += fmt::format("  and {} more nodes that differ by more than 1 mV\n", nodes.size() - max_nodes);
+    }
+    return out;
+}
+
+}  // namespace corpuscle::circuit

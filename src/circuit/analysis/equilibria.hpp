@@ -1,0 +1,30 @@
+#pragma once
+// The equilibria of a circuit, as far as a search finds them, and the one that it reaches at power-on.
+
+#include "circuit/analysis/analysis_context.hpp"
+
+namespace corpuscle::circuit {
+
+struct Equilibrium {
+    std::vector<double> x;
+    bool is_stable = true;     ///< small disturbances decay (find_unstable_mode)
+    bool is_default = false;     ///< the one that AnalysisContext::operating_point() returns
+    bool is_power_on = false;  ///< the one that the circuit reaches at power-on
+};
+
+/// Finds equilibria by a search from these points: the start of .op; each node clamped to either supply voltage, then released; the end of
+/// the power-on transient; the midpoint of any two stable equilibria, between which there is an unstable one. Two equilibria differ if a
+/// node differs by more than 1 mV. The list may be incomplete. Order: the default one, then stable ones, then unstable ones, each sorted by
+/// their voltages. With variation applied, these are the equilibria of that chip.
+///
+/// Power-on is a transient from 0 V everywhere, without .ic, in which all V and I sources rise linearly within `rise` (s) to their values
+/// in .op. If it settles, its end is an equilibrium. Otherwise no equilibrium has is_power_on.
+Result<std::vector<Equilibrium>> find_equilibria(AnalysisContext&, double rise = 1e-3);
+
+/// The nodes that differ by more than 1 mV between two equilibria, the largest difference first.
+std::vector<std::size_t> differing_nodes(const AnalysisContext&, const Equilibrium&, const Equilibrium&);
+
+/// Describes the equilibria as text: stability, default and power-on state, and the nodes that differ.
+std::string describe(const AnalysisContext&, const std::vector<Equilibrium>&);
+
+}  // namespace corpuscle::circuit

@@ -1,0 +1,228 @@
+#include "circuit/batch/chip_batch.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "circuit/batch/chip_lane.hpp"
+#include "circuit/device/transistor.hpp"
+
+namespace corpuscle::circuit {
+namespace {
+
+using lanes::LaneRow;
+
+/// Simulates a block of lanes. Each round makes one Newton iteration for every chip in the block.
+class Batch {
+    const lanes::ChipKernels& kernels_;
+    const std::function<std::optional<Chip>()>& next_;
+    const std::function<void(const Chip&, ChipResponse&&)>& on_done_;
+    const BatchOptions& options_;
+    ChipMemory memory_;
+    std::vector<ChipLane> lanes_;
+    std::vector<LaneRow> value_, slope_, weights_;
+    bool more_ = true;
+    double gmin_;
+    std::array<double, lanes::chips_per_block> error_{}, lower_{}, higher_{};
+
+    void fill(std::size_t lane);
+    void run_scalar(const Chip&, long iterations);
+    void finish(std::size_t lane);
+    void fail(std::size_t lane);
+    std::uint8_t prepare(lanes::SolveCall&, lanes::StepCall&);
+    std::uint8_t inaccurate(std::uint8_t working, const lanes::SolveCall&);
+    void iterate(std::uint8_t working, lanes::SolveCall&, lanes::StepCall&);
+    void judge(std::uint8_t needs_error, std::uint8_t diverged, const LaneRow& a);
+    template <class Needs, class OrderOf>
+    void errors(std::uint8_t of, const Needs& needs, const OrderOf& order_of, std::array<double, lanes::chips_per_block>& out);
+
+public:
+    Batch(const lanes::ChipKernels& kernels, const System& system, const Elimination& list, double radius, std::size_t points, double gmin,
+          const std::function<std::optional<Chip>()>& next, const std::function<void(const Chip&, ChipResponse&&)>& on_done,
+          const BatchOptions& options)
+        : kernels_(kernels), next_(next), on_done_(on_done), options_(options), memory_(system, list, points), value_(points),
+          slope_(points), weights_(points), gmin_(gmin) {
+        memory_.linearization_radius = radius;
+        for (std::size_t l = 0; l < options.lanes; ++l) lanes_.emplace_back(memory_, l);
+    }
+    Result<void> run();
+};
+
+// A solution is checked if the pivot growth of its elimination exceeds the first value. The second is the allowed relative residual.
+constexpr double doubtful_lane_growth = 1e6, doubtful_lane_residual = 1e-9;
+
+bool contains(std::uint8_t set, std::size_t lane) { return (set >> lane & 1) != 0; }
+std::uint8_t bit(std::size_t lane) { return static_cast<std::uint8_t>(1u << lane); }
+
+/// Loads the next chip that has an initial condition into a free lane.
+void Batch::fill(std::size_t lane) {
+    while (more_ && !lanes_[lane].is_occupied()) {
+        auto chip = next_();
+        more_ = chip.has_value();
+        if (!chip) return;
+        const auto started = lanes_[lane].start(*chip, options_);
+        if (!started) {
+            ChipResponse response;
+            response.error = started.error();
+            on_done_(*chip, std::move(response));
+        } else if (!*started) {
+            run_scalar(*chip, 0);
+        }
+    }
+}
+
+void Batch::run_scalar(const Chip& chip, long iterations) {
+    auto response = run_chip_scalar(chip, options_);
+    response.is_scalar = true, response.stats.iterations += iterations;
+    on_done_(chip, std::move(response));
+}
+
+void Batch::finish(std::size_t lane) {
+    const Chip chip = lanes_[lane].chip();
+    on_done_(chip, lanes_[lane].finish());
+    fill(lane);
+}
+
+void Batch::fail(std::size_t lane) {
+    const Chip chip = lanes_[lane].chip();
+    run_scalar(chip, lanes_[lane].finish().stats.iterations);
+    fill(lane);
+}
+
+std::uint8_t Batch::prepare(lanes::SolveCall& solve, lanes::StepCall& step) {
+    lanes::PredictCall predict{{}, value_.data(), slope_.data()};
+    std::uint8_t working = 0;
+    for (std::size_t l = 0; l < lanes_.size(); ++l)
+        if (lanes_[l].prepare(predict, value_, slope_, solve, step) != ChipLane::NextTask::nothing) working |= bit(l);
+    kernels_.predict(memory_.block, predict);
+    return working;
+}
+
+template <class Needs, class OrderOf>
+void Batch::errors(std::uint8_t of, const Needs& needs, const OrderOf& order_of, std::array<double, lanes::chips_per_block>& out) {
+    lanes::ErrorCall call{};
+    call.past_weights = weights_.data();
+    std::fill(weights_.begin(), weights_.end(), LaneRow{});
+    bool any = false;
+    for (std::size_t l = 0; l < lanes_.size(); ++l)
+        if (contains(of, l) && needs(lanes_[l])) lanes_[l].set_error_weights(order_of(lanes_[l]), call, weights_), any = true;
+    if (!any) return;
+    kernels_.estimate_error(memory_.block, call);
+    for (std::size_t l = 0; l < lanes_.size(); ++l) out[l] = call.worst.value[l];
+}
+
+/// The chips whose elimination was not accurate enough.
+std::uint8_t Batch::inaccurate(std::uint8_t working, const lanes::SolveCall& solve) {
+    std::uint8_t doubtful = 0;
+    for (std::size_t l = 0; l < lanes_.size(); ++l)
+        if (contains(working, l) && !lanes_[l].is_restarting() && !(solve.growth.value[l] < doubtful_lane_growth)) doubtful |= bit(l);
+    if (doubtful == 0) return 0;
+    LaneRow residual;
+    kernels_.residual(memory_.block, solve, residual);
+    std::uint8_t out = 0;
+    for (std::size_t l = 0; l < lanes_.size(); ++l)
+        if (contains(doubtful, l) && !(residual.value[l] < doubtful_lane_residual)) out |= bit(l);
+    return out;
+}
+
+void Batch::iterate(std::uint8_t working, lanes::SolveCall& solve, lanes::StepCall& step) {
+    const auto failed = inaccurate(working, solve);
+    kernels_.apply_step(memory_.block, step);
+    std::uint8_t needs_error = 0, diverged = 0;
+    for (std::size_t l = 0; l < lanes_.size(); ++l) {
+        if (!contains(working, l)) continue;
+        if (contains(failed, l)) {
+            fail(l);
+            continue;
+        }
+        const auto status = lanes_[l].finish_iteration(step.size.value[l], step.clamped.value[l] > 0, step.non_finite.value[l] == 0);
+        if (status == ChipLane::IterationStatus::needs_error) needs_error |= bit(l);
+        if (status == ChipLane::IterationStatus::failed) diverged |= bit(l);
+    }
+    judge(needs_error, diverged, solve.a);
+}
+
+void Batch::judge(std::uint8_t needs_error, std::uint8_t diverged, const LaneRow& a) {
+    if ((needs_error | diverged) == 0) return;
+    kernels_.evaluate_charges(memory_.block);
+    errors(needs_error, [](const ChipLane&) { return true; }, [](const ChipLane& s) { return s.order(); }, error_);
+    lanes::AcceptCall accept{{}, a};
+    std::uint8_t accepted = 0, around = 0;
+    for (std::size_t l = 0; l < lanes_.size(); ++l) {
+        if (!contains(needs_error | diverged, l)) continue;
+        switch (lanes_[l].decide_step(contains(diverged, l) ? std::numeric_limits<double>::infinity() : error_[l])) {
+            case ChipLane::StepStatus::accepted:
+                accepted |= bit(l), accept.is_accepted.value[l] = 1;
+                if (lanes_[l].is_order_change_due()) around |= bit(l);
+                break;
+            case ChipLane::StepStatus::failed:
+                fail(l);
+                break;
+            default:
+                break;
+        }
+    }
+    if (accepted == 0) return;
+    errors(around, [](const ChipLane& s) { return s.can_lower_order(); }, [](const ChipLane& s) { return s.order() - 1; }, lower_);
+    errors(around, [](const ChipLane& s) { return s.can_raise_order(); }, [](const ChipLane& s) { return s.order() + 1; }, higher_);
+    kernels_.accept(memory_.block, accept);
+    for (std::size_t l = 0; l < lanes_.size(); ++l) {
+        if (!contains(accepted, l)) continue;
+        lanes_[l].choose_step(error_[l], lower_[l], higher_[l]);
+        if (!lanes_[l].accept_step()) finish(l);
+    }
+}
+
+Result<void> Batch::run() {
+    for (std::size_t l = 0; l < lanes_.size(); ++l) fill(l);
+    for (long round = 0;; ++round) {
+        if (round % 64 == 0 && options_.should_stop && options_.should_stop()) return Error{ErrorCode::interrupted, "interrupted"};
+        lanes::SolveCall solve{};
+        lanes::StepCall step{};
+        const auto working = prepare(solve, step);
+        if (working == 0) return {};
+        memory_.relinearize(kernels_, working, gmin_);
+        for (std::size_t l = 0; l < lanes_.size(); ++l)
+            if (contains(working, l)) lanes_[l].relinearize_nonlinear_devices();
+        kernels_.solve(memory_.block, solve);
+        iterate(working, solve, step);
+    }
+}
+
+/// V: distance from its linearization point at which a transistor is linearized again. The relative error of its current there is at most
+/// (radius / n phi_t)^2 / 2. This equals an error of the gate voltage of that fraction of n phi_t, here a sixteenth of the allowed error.
+double linearization_radius(const TransientPlan& plan) {
+    constexpr double phi_t = 0.026, fraction = 1.0 / 16;
+    return std::sqrt(2 * phi_t * fraction * (plan.reltol * 0.5 + plan.vntol));
+}
+
+Result<void> run_all_scalar(const std::function<std::optional<Chip>()>& next, const std::function<void(const Chip&, ChipResponse&&)>& on_done,
+                            const BatchOptions& options) {
+    while (const auto chip = next()) {
+        auto response = run_chip_scalar(*chip, options);
+        if (response.error && response.error->code == ErrorCode::interrupted) return *response.error;
+        response.is_scalar = true;
+        on_done(*chip, std::move(response));
+    }
+    return {};
+}
+
+}  // namespace
+
+Result<void> run_chips(const std::shared_ptr<const CircuitAfferentFactory>& nominal, const std::function<std::optional<Chip>()>& next,
+                       const std::function<void(const Chip&, ChipResponse&&)>& on_done, const BatchOptions& options) {
+    const auto kernels = chip_kernels();
+    if (!kernels) return kernels.error();
+    auto rig = StreamingTransient::make(*nominal, 1e-4, {});
+    if (!rig) return rig.error();
+    const auto& system = (*rig)->context().system;
+    const auto* list = (*rig)->transient().elimination();
+    if (list == nullptr || system.groups().empty() || nominal->plan.method != Integration::bdf)
+        return run_all_scalar(next, on_done, options);
+    return Batch(**kernels, system, *list, linearization_radius(nominal->plan),
+                 static_cast<std::size_t>(std::max(nominal->plan.max_order + 1, StepControl::max_curve_points)), (*rig)->context().tolerances.gmin,
+                 next, on_done, options)
+        .run();
+}
+
+}  // namespace corpuscle::circuit

@@ -1,0 +1,304 @@
+#include "circuit/batch/chip_lane.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "circuit/solve/interpolant.hpp"
+#include "circuit/solve/crossing.hpp"
+
+namespace corpuscle::circuit {
+namespace {
+
+// As in transient.cpp.
+constexpr double min_lane_step = 1e-15;  // relative to the end time
+constexpr double large_lane_step = 20, hopeless_lane_error = 2;
+constexpr long rounds_between_sums = 256;
+
+}  // namespace
+
+Result<bool> ChipLane::start(const Chip& chip, const BatchOptions& options) {
+    options_ = &options, response_ = {};
+    if (simulation_ && design_ == chip.design && T_ == chip.T && chip.sample) {
+        simulation_->set_chip(*chip.sample);
+    } else {
+        auto rig = StreamingTransient::make(*chip.design, chip.T, chip.sample);
+        if (!rig) return rig.error();
+        simulation_ = std::move(*rig), design_ = chip.design, T_ = chip.T;
+    }
+    if (!is_compatible()) return false;
+    std::vector<double> force(chip.force.begin(), chip.force.end());
+    force.insert(force.end(), static_cast<std::size_t>(2 * ForceWaveform::lookahead + 2), force.back());
+    if (auto ok = simulation_->begin(force); !ok) return ok.error();
+    chip_ = chip;
+
+    auto& context = simulation_->context();
+    const auto start = simulation_->transient().save();
+    plan_ = simulation_->transient().plan();
+    control_ = {}, newton_ = {}, restart_pending_ = false, next_task_ = NextTask::nothing, rounds_ = 0;
+    control_.h = start.h, times_ = {}, points_ = smooth_count_ = 1, newest_slot_ = curve_points_ = 0, breakpoint_ = -1, jumped_ = false;
+    end_time_ = static_cast<double>(chip_->force.size() - 1) * chip_->T;
+    const EvalContext eval_context{0, 1, context.tolerances.gmin, true};
+    memory_.load_chip(lane_, context.system, eval_context);
+    context.newton.limiting_state = start.limiting_state;
+    auto& b = memory_.block;
+    for (std::size_t n = 0; n < b.unknowns; ++n) {
+        for (std::size_t s = 0; s < b.points; ++s) b.past_x[s * b.unknowns + n].value[lane_] = b.past_q[s * b.unknowns + n].value[lane_] = 0;
+        b.past_x[n].value[lane_] = b.x[n].value[lane_] = start.history[0].x[n], b.past_q[n].value[lane_] = start.history[0].q[n];
+        b.rate[n].value[lane_] = start.rate[n], b.scale[n].value[lane_] = start.scale[n];
+        const bool charged = simulation_->transient().has_charge(n), voltage = b.is_voltage[n] != 0;
+        const double relative = charged ? plan_.reltol : 0, floor = !charged ? 0 : voltage ? plan_.vntol : plan_.abstol;
+        const double allowed = relative * start.scale[n] + floor;
+        b.relative[n].value[lane_] = relative, b.floor[n].value[lane_] = floor;
+        b.inverse_allowed[n].value[lane_] = allowed > 0 ? 1 / allowed : 0;
+    }
+    sources_.clear();
+    for (const auto k : context.system.scalar_devices())
+        if (const auto& d = *context.system.devices()[k]; d.is_linear() && d.is_time_dependent()) sources_.push_back(k);
+    x_ = start.history[0].x;
+    power_ = simulation_->meter().delivered_at(x_, 0);
+    response_.range_violations.resize(chip_->design->operating_ranges.size());
+    if (options.probe_every > 0) response_.probes.resize(chip_->design->probes.size());
+    next_sample_ = 0;
+    record_samples();
+    return true;
+}
+
+bool ChipLane::is_compatible() const {
+    const auto& plan = simulation_->transient().plan();
+    return memory_.is_compatible(simulation_->context().system) && plan.method == Integration::bdf &&
+           static_cast<std::size_t>(plan.max_order) < memory_.block.points;
+}
+
+ChipResponse ChipLane::finish() {
+    chip_.reset();
+    next_task_ = NextTask::nothing;
+    return std::move(response_);
+}
+
+/// Writes the currents of the time-dependent sources at t to the block's base.
+void ChipLane::set_sources(double t) {
+    const auto& system = simulation_->context().system;
+    EvalContext eval_context{t, 1, simulation_->context().tolerances.gmin, true};
+    for (const auto k : sources_)
+        for (const int u : system.devices()[k]->unknowns)
+            if (u >= 0) memory_.block.source_currents[u].value[lane_] = 0;
+    for (const auto k : sources_) {
+        const Device& d = *system.devices()[k];
+        const auto n = d.unknowns.size();
+        v_.assign(n, 0), stamp_.assign(2 * n + 2 * n * n, 0);
+        const std::span<double> all(stamp_);
+        d.eval(v_, eval_context, {all.first(n), all.subspan(n, n), all.subspan(2 * n, n * n), all.subspan(2 * n + n * n)});
+        for (std::size_t row = 0; row < n; ++row)
+            if (d.unknowns[row] >= 0) memory_.block.source_currents[d.unknowns[row]].value[lane_] += stamp_[row];
+    }
+}
+
+/// Chooses the end of the next step and its predictor, as Transient::step() and attempt() do.
+void ChipLane::start_step() {
+    const double now = times_[0];
+    if (!(now < breakpoint_)) breakpoint_ = std::min(plan_.stop, simulation_->context().system.next_breakpoint(now));
+    double h = std::min(control_.h, plan_.max_step);
+    ends_at_breakpoint_ = now + 1.01 * h >= breakpoint_;
+    if (!ends_at_breakpoint_ && now + 2 * h > breakpoint_) h = (breakpoint_ - now) / 2;
+    t_ = ends_at_breakpoint_ ? breakpoint_ : now + h;
+    may_jump_ = !simulation_->transient().curves().empty() && t_ - now <= control_.jump_step_limit(plan_.reltol, plan_.max_step);
+    predictor_weights_ = weights_of_value(times(std::min(control_.order + 1, points_)), t_);
+    newton_.begin();
+    is_new_step_ = true;
+}
+
+ChipLane::NextTask ChipLane::prepare(lanes::PredictCall& call, std::span<lanes::LaneRow> value, std::span<lanes::LaneRow> slope, lanes::SolveCall& solve,
+                         lanes::StepCall& step) {
+    is_new_step_ = false;
+    if (!is_occupied()) return next_task_ = NextTask::nothing;
+    if (next_task_ == NextTask::restart) {  // at the last point, without history
+        a_ = 0;
+        set_sources(times_[0]);
+        for (std::size_t n = 0; n < memory_.unknowns(); ++n)
+            memory_.block.x[n].value[lane_] = past(memory_.block.past_x, 0, n), memory_.block.history[n].value[lane_] = 0;
+    } else if (next_task_ == NextTask::nothing) {
+        start_step();
+        set_sources(t_);
+        const auto weights = weights_of_slope(times(control_.order), t_, a_);
+        for (int k = 0; k < points_; ++k)
+            value[history_slot(k)].value[lane_] = predictor_weights_[static_cast<std::size_t>(k)], slope[history_slot(k)].value[lane_] = weights[static_cast<std::size_t>(k)];
+        for (int k = points_; k < static_cast<int>(memory_.block.points); ++k) value[history_slot(k)].value[lane_] = slope[history_slot(k)].value[lane_] = 0;
+        next_task_ = NextTask::iterate;
+    }
+    call.is_new_step.value[lane_] = is_new_step_;
+    solve.a.value[lane_] = a_;
+    step.updates_x.value[lane_] = next_task_ == NextTask::iterate;
+    return next_task_;
+}
+
+void ChipLane::relinearize_nonlinear_devices() {
+    if (++rounds_ % rounds_between_sums == 0) memory_.sum_again(lane_);
+    auto& context = simulation_->context();
+    is_limited_ = memory_.relinearize_nonlinear_devices(lane_, context.system, {next_task_ == NextTask::restart ? times_[0] : t_, 1, context.tolerances.gmin, true},
+                                      context.newton.limiting_state);
+}
+
+ChipLane::IterationStatus ChipLane::finish_iteration(double size, bool clamped, bool finite) {
+    if (next_task_ == NextTask::restart) {
+        for (std::size_t n = 0; n < memory_.unknowns(); ++n) memory_.block.rate[n].value[lane_] = -memory_.block.r[n].value[lane_];
+        points_ = 1;
+        if (restart_pending_) smooth_count_ = 1;
+        control_.restart();
+        next_task_ = NextTask::nothing;
+        return IterationStatus::iterating;
+    }
+    ++response_.stats.iterations;
+    if (!finite || !std::isfinite(size)) {
+        is_iterating_ = false;
+        return IterationStatus::failed;
+    }
+    auto status = newton_.update(size, is_limited_ || clamped);
+    if (status == NewtonControl::Status::converged && !may_jump_) {
+        auto& context = simulation_->context();
+        if (!memory_.expressions_match(lane_, context.system, {t_, 1, context.tolerances.gmin, true},
+                                   {plan_.reltol, plan_.vntol, plan_.abstol}))
+            status = newton_.continue_iterating();
+    }
+    if (status == NewtonControl::Status::diverged) return IterationStatus::failed;
+    is_iterating_ = status == NewtonControl::Status::iterating;
+    return !is_iterating_ || newton_.last_size > large_lane_step ? IterationStatus::needs_error : IterationStatus::iterating;
+}
+
+void ChipLane::set_error_weights(int order, lanes::ErrorCall& call, std::span<lanes::LaneRow> of_past) const {
+    for (auto& row : of_past) row.value[lane_] = 0;
+    if (points_ == 1) {
+        const double per = 1 / (t_ - times_[0]);
+        call.charge_weight.value[lane_] = per, of_past[history_slot(0)].value[lane_] = -per, call.rate_weight.value[lane_] = -1;
+        return;
+    }
+    const int points = std::min(order + 1, points_);
+    const auto weights = order == control_.order ? predictor_weights_ : weights_of_value(times(points), t_);
+    const double per = 1 / (t_ - times_[static_cast<std::size_t>(points) - 1]);
+    call.charge_weight.value[lane_] = per, call.rate_weight.value[lane_] = 0;
+    for (int k = 0; k < points; ++k) of_past[history_slot(k)].value[lane_] = -per * weights[static_cast<std::size_t>(k)];
+}
+
+/// As in Transient.
+double ChipLane::interpolation_error() {
+    const auto curves = simulation_->transient().curves();
+    curve_points_ = 0;
+    if (curves.empty()) return 0;
+    auto& b = memory_.block;
+    std::array<double, 9> times{t_};
+    std::copy(times_.begin(), times_.end(), times.begin() + 1);
+    std::array<const lanes::LaneRow*, StepControl::max_curve_points + 1> rows{b.x};
+    for (int k = 0; k < StepControl::max_curve_points; ++k) rows[static_cast<std::size_t>(k) + 1] = b.past_x + history_slot(k) * b.unknowns;
+    const auto curve = best_interpolant(times, smooth_count_, [&](const HistoryWeights& w, int points) {
+        double worst = 0;
+        for (const int n : curves) {
+            double sum = 0;
+            for (std::size_t k = 0; k <= static_cast<std::size_t>(points); ++k) sum += w[k] * rows[k][n].value[lane_];
+            const double tolerance = plan_.reltol * b.scale[n].value[lane_] + (b.is_voltage[n] ? plan_.vntol : plan_.abstol);
+            worst = std::max(worst, std::abs(sum) / (b.is_voltage[n] ? tolerance : Interpolant::current_tolerance_factor * tolerance));
+        }
+        return worst;
+    });
+    curve_points_ = curve.points;
+    return curve.error;
+}
+
+/// Decides about the step after the Newton iterations. error infinite: they diverged.
+ChipLane::StepStatus ChipLane::decide_step(double error) {
+    const bool diverged = std::isinf(error);
+    if (!diverged && is_iterating_ && !(error > hopeless_lane_error)) return StepStatus::iterating;
+    interpolation_error_ = diverged ? 0 : interpolation_error();
+    const double worst = may_jump_ ? error : std::max(error, interpolation_error_);
+    jumped_ = !diverged && worst <= 1 && interpolation_error_ > 1;
+    if (!diverged && worst <= 1) return StepStatus::accepted;
+    ++response_.stats.rejected;
+    if (diverged) ++response_.stats.diverged;
+    next_task_ = NextTask::nothing, restart_pending_ = false;
+    if (control_.shorten(t_ - times_[0], diverged ? 0 : worst, points_ > 1 ? times_[0] - times_[1] : 0)) next_task_ = NextTask::restart;
+    return control_.h >= min_lane_step * plan_.stop ? StepStatus::rejected : StepStatus::failed;
+}
+
+void ChipLane::choose_step(double error, double lower, double higher) {
+    const double now = times_[0], planned = control_.h;
+    const int order = control_.order;
+    control_.choose(t_ - now, error, points_, std::min(plan_.max_order, points_ - 1), [&](int other) { return other < order ? lower : higher; });
+    if (!may_jump_) control_.limit_by_curve(t_ - now, interpolation_error_, curve_points_);
+    if (jumped_) curve_points_ = 2;
+    if (ends_at_breakpoint_ && t_ - now < planned) control_.h = std::max(control_.h, std::min(planned, plan_.max_step));
+}
+
+/// Makes the end of the step the newest point.
+void ChipLane::advance() {
+    auto& b = memory_.block;
+    const int capacity = static_cast<int>(b.points);
+    control_.record_step(t_ - times_[0]);
+    newest_slot_ = (newest_slot_ + capacity - 1) % capacity, points_ = std::min(points_ + 1, capacity), smooth_count_ = std::min(smooth_count_ + 1, capacity);
+    std::copy_backward(times_.begin(), times_.end() - 1, times_.end());
+    times_[0] = t_;
+    const auto first = static_cast<std::size_t>(newest_slot_) * b.unknowns;
+    for (std::size_t n = 0; n < b.unknowns; ++n) {
+        x_[n] = b.past_x[first + n].value[lane_] = b.x[n].value[lane_];
+        b.past_q[first + n].value[lane_] = b.q[n].value[lane_];
+    }
+    restart_pending_ = ends_at_breakpoint_ || jumped_;
+    ++response_.stats.steps, ++control_.steps_since_order_change, control_.failures = 0;
+    next_task_ = restart_pending_ ? NextTask::restart : NextTask::nothing;
+}
+
+bool ChipLane::accept_step() {
+    const double from = times_[0];
+    advance();
+    add_energy(from);
+    if (const auto at = spike(); at && std::ceil(*at / chip_->T) < static_cast<double>(chip_->force.size())) response_.spikes.push_back(*at);
+    record_samples();
+    response_.hit_iteration_limit = options_->max_iterations > 0 && response_.stats.iterations > options_->max_iterations;
+    return !response_.hit_iteration_limit && times_[0] < end_time_;
+}
+
+double ChipLane::interpolate(double t, int unknown) const {
+    if (unknown < 0) return 0;
+    if (const auto source = simulation_->transient().source_voltage(t, unknown)) return *source;
+    const int points = curve_points_ > 0 ? curve_points_ : std::min(std::max(control_.order + 1, 4), points_);
+    const auto w = weights_of_value(times(points), t);
+    double sum = 0;
+    for (int k = 0; k < points; ++k)
+        sum += w[static_cast<std::size_t>(k)] * past(memory_.block.past_x, k, static_cast<std::size_t>(unknown));
+    return sum;
+}
+
+std::optional<double> ChipLane::spike() const {
+    const auto& o = chip_->design->spike_output;
+    const auto u = [&](int k, int unknown) { return unknown < 0 ? 0 : past(memory_.block.past_x, k, static_cast<std::size_t>(unknown)); };
+    const double sign = o.is_rising ? 1 : -1;
+    const auto beyond = [&](int k) { return sign * (u(k, o.unknowns.plus) - u(k, o.unknowns.minus) - o.level); };
+    return find_crossing(times_[1], times_[0], beyond(1), beyond(0),
+                           [&](double t) { return sign * (interpolate(t, o.unknowns.plus) - interpolate(t, o.unknowns.minus) - o.level); });
+}
+
+/// For all samples up to the current time: records the probes and checks the operating ranges.
+void ChipLane::record_samples() {
+    const auto& design = *chip_->design;
+    const auto every = static_cast<std::int64_t>(options_->probe_every), count = static_cast<std::int64_t>(chip_->force.size());
+    if (design.operating_ranges.empty() && every == 0) return;
+    const auto& system = simulation_->context().system;
+    for (; next_sample_ < count && static_cast<double>(next_sample_) * chip_->T <= times_[0]; ++next_sample_) {
+        const double t = static_cast<double>(next_sample_) * chip_->T;
+        const auto value = [&](int u) {
+            return next_sample_ > 0 ? interpolate(t, u) : u < 0 ? 0 : past(memory_.block.past_x, 0, static_cast<std::size_t>(u));
+        };
+        for (std::size_t k = 0; k < design.operating_ranges.size(); ++k)
+            if (auto& o = response_.range_violations[k]; !design.operating_ranges[k].contains(design.operating_ranges[k].quantity.value(system, value)))
+                o = {o.samples + 1, o.first_sample < 0 ? next_sample_ : o.first_sample};
+        for (std::size_t p = 0; every > 0 && next_sample_ % every == 0 && p < design.probes.size(); ++p)
+            response_.probes[p].push_back(static_cast<float>(design.probes[p].value(system, value)));
+    }
+}
+
+/// Adds the energy of the last step, by the trapezoidal rule for the power.
+void ChipLane::add_energy(double from) {
+    const double half = (times_[0] - from) / 2;
+    const auto last = power_;
+    power_ = simulation_->meter().delivered_at(x_, times_[0]);
+    response_.energy_use += {2 * half, half * (last.supplies + power_.supplies), half * (last.sensor + power_.sensor)};
+}
+
+}  // namespace corpuscle::circuit

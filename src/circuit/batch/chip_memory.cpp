@@ -1,0 +1,249 @@
+#include "circuit/batch/chip_memory.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include "circuit/device/transistor.hpp"
+#include "circuit/device/uicm.hpp"
+
+namespace corpuscle::circuit {
+namespace {
+
+/// Allocates several arrays of rows from one block of memory.
+class RowAllocator {
+    std::vector<std::pair<lanes::LaneRow**, std::size_t>> requests_;
+
+public:
+    void request(lanes::LaneRow*& array, std::size_t count) { requests_.emplace_back(&array, count); }
+    void allocate(std::vector<lanes::LaneRow>& memory) {
+        std::size_t total = 0;
+        for (const auto& [array, count] : requests_) total += count;
+        memory.assign(total, {});
+        total = 0;
+        for (const auto& [array, count] : requests_) *array = memory.data() + total, total += count;
+    }
+};
+
+/// The unknowns of the transistors' terminals; ground is the index after the last unknown.
+std::vector<int> transistor_terminals(const System& system) {
+    std::vector<int> out;
+    for (const auto& group : system.groups())
+        for (const int u : group.unknowns) out.push_back(u < 0 ? system.size() : u);
+    return out;
+}
+/// The unknowns of the other devices.
+std::vector<std::vector<int>> other_unknowns(const System& system) {
+    std::vector<std::vector<int>> out;
+    for (const auto k : system.scalar_devices()) out.push_back(system.devices()[k]->unknowns);
+    return out;
+}
+
+}  // namespace
+
+ChipMemory::ChipMemory(const System& system, const Elimination& elimination, std::size_t points)
+    : terminals_(transistor_terminals(system)), transistors_(terminals_.size() / 4), scalar_unknowns_(other_unknowns(system)) {
+    const auto& p = system.pattern();
+    const auto n = static_cast<std::size_t>(system.size()), entries = p.entries();
+    const auto list = elimination.list();
+    std::vector<std::size_t> order(entries);
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return list.entry_slot[a] < list.entry_slot[b]; });
+    std::vector<int> columns(entries);
+    for (int column = 0; column < p.size(); ++column)
+        for (int e = p.column_begin()[static_cast<std::size_t>(column)]; e < p.column_begin()[static_cast<std::size_t>(column) + 1]; ++e)
+            columns[static_cast<std::size_t>(e)] = column;
+    entry_.resize(entries + 1, entries);
+    for (const auto place : order) {
+        entry_[place] = row_.size();
+        row_.push_back(p.rows()[place]), column_.push_back(columns[place]), slot_.push_back(list.entry_slot[place]);
+    }
+    for (int u = 0; u < system.size(); ++u) voltage_.push_back(system.is_voltage(u));
+    for (const auto& group : system.groups())
+        for (const auto place : group.entries) entries_.push_back(entry_[place]);
+    auto& b = block;
+    b.unknowns = n, b.entries = entries, b.points = points, b.devices = transistors_, b.list = list;
+    b.row = row_.data(), b.column = column_.data(), b.slot = slot_.data(), b.is_voltage = voltage_.data(), b.terminals = terminals_.data();
+    RowAllocator rows;
+    for (auto* array : {&b.q, &b.source_currents, &b.history, &b.rate, &b.r, &b.step, &b.error, &b.inverse_pivot, &b.work, &b.scale, &b.inverse_allowed,
+                        &b.relative, &b.floor})
+        rows.request(*array, n);
+    for (auto* array : {&b.x, &b.I, &b.Q}) rows.request(*array, n + 1);
+    for (auto* array : {&b.G, &b.C}) rows.request(*array, entries + 1);
+    rows.request(b.slots, b.list.slots);
+    for (auto* array : {&b.past_x, &b.past_q}) rows.request(*array, points * n);
+    rows.request(b.linearized_at, 4 * transistors_);
+    rows.allocate(rows_);
+    std::vector<char> has_entry(b.list.slots);
+    for (std::size_t e = 0; e < entries; ++e) has_entry[static_cast<std::size_t>(slot_[e])] = 1;
+    for (std::size_t k = 0; k < b.list.slots; ++k)
+        if (!has_entry[k]) fill_.push_back(static_cast<int>(k));
+    b.fill = fill_.data(), b.fill_count = fill_.size();
+    linearizations_.resize(lanes::chips_per_block * transistors_), constants_.resize(linearizations_.size()), moved_.resize(transistors_);
+    linear_sums_.resize(n + 2 * entries);
+    moved_v_.resize(4 * transistors_), new_linearizations_.resize(lanes::chips_per_block * transistors_);
+}
+
+bool ChipMemory::is_compatible(const System& system) const {
+    return static_cast<std::size_t>(system.size()) == block.unknowns && transistor_terminals(system) == terminals_ &&
+           other_unknowns(system) == scalar_unknowns_;
+}
+
+void ChipMemory::sum_linear_devices(const System& system, std::size_t chip, const EvalContext& context) {
+    lanes::LaneRow *const I = linear_sums_.data(), *const G = I + block.unknowns, *const C = G + block.entries;
+    for (auto& row : linear_sums_) row.value[chip] = 0;
+    nonlinear_devices_[chip].clear();
+    for (const auto k : system.scalar_devices()) {
+        const Device& d = *system.devices()[k];
+        const auto n = d.unknowns.size();
+        NonlinearDevice other{k, d.unknowns, {}, std::vector<double>(n), {}, std::vector<double>(2 * n + 2 * n * n), {}};
+        for (const auto place : system.entries(k)) other.entries.push_back(entry_[place]);
+        if (!d.is_linear()) {
+            other.last_linearization = other.linearization;
+            nonlinear_devices_[chip].push_back(std::move(other));
+            continue;
+        }
+        const std::span<double> all(other.linearization);
+        d.eval(other.v, context, {all.first(n), all.subspan(n, n), all.subspan(2 * n, n * n), all.subspan(2 * n + n * n)});
+        for (std::size_t row = 0; row < n; ++row) {
+            if (!d.is_time_dependent() && d.unknowns[row] >= 0) I[d.unknowns[row]].value[chip] += all[row];
+            for (std::size_t column = 0; column < n; ++column) {
+                const auto place = other.entries[row * n + column];
+                if (place >= block.entries) continue;
+                G[place].value[chip] += all[2 * n + row * n + column];
+                C[place].value[chip] += all[2 * n + n * n + row * n + column];
+            }
+        }
+    }
+}
+
+void ChipMemory::load_chip(std::size_t chip, const System& system, const EvalContext& context) {
+    sum_linear_devices(system, chip, context);
+    auto* constants = constants_.data() + chip * transistors_;
+    for (const auto& group : system.groups())
+        for (const auto* device : group.members) *constants++ = &transistor_constants(*device);
+    std::fill_n(linearizations_.begin() + static_cast<std::ptrdiff_t>(chip * transistors_), transistors_, Linearization{});
+    for (std::size_t k = 0; k < 4 * transistors_; ++k) block.linearized_at[k].value[chip] = 1e30;
+    for (std::size_t n = 0; n < block.unknowns; ++n) block.source_currents[n].value[chip] = 0;
+    sum_again(chip);
+}
+
+void ChipMemory::sum_again(std::size_t chip) {
+    const lanes::LaneRow *const I = linear_sums_.data(), *const G = I + block.unknowns, *const C = G + block.entries;
+    for (std::size_t n = 0; n < block.unknowns; ++n) block.I[n].value[chip] = I[n].value[chip], block.Q[n].value[chip] = 0;
+    for (std::size_t e = 0; e < block.entries; ++e) block.G[e].value[chip] = G[e].value[chip], block.C[e].value[chip] = C[e].value[chip];
+    const auto n = static_cast<int>(block.unknowns);
+    for (std::size_t d = 0; d < transistors_; ++d) {
+        const Linearization& line = linearizations_[chip * transistors_ + d];
+        for (std::size_t j = 0; j < 4; ++j)
+            if (const int u = terminals_[4 * d + j]; u < n) block.I[u].value[chip] += line.i[j], block.Q[u].value[chip] += line.q[j];
+        for (std::size_t e = 0; e < 16; ++e)
+            if (const auto place = entries_[16 * d + e]; place < block.entries)
+                block.G[place].value[chip] += line.g[e], block.C[place].value[chip] += line.c[e];
+    }
+    for (auto& other : nonlinear_devices_[chip]) std::fill(other.last_linearization.begin(), other.last_linearization.end(), 0.0);
+}
+
+void ChipMemory::replace_linearization(const DeviceOnChip& p, const Linearization& now) {
+    constexpr std::size_t row = lanes::chips_per_block;  // distance between rows
+    Linearization &old = linearizations_[p.chip * transistors_ + p.device], change;
+    for (std::size_t k = 0; k < 4; ++k) change.i[k] = now.i[k] - old.i[k], change.q[k] = now.q[k] - old.q[k];
+    for (std::size_t e = 0; e < 16; ++e) change.g[e] = now.g[e] - old.g[e], change.c[e] = now.c[e] - old.c[e];
+    old = now;
+    double *const I = block.I->value + p.chip, *const Q = block.Q->value + p.chip, *const G = block.G->value + p.chip,
+                  *const C = block.C->value + p.chip;
+    const std::size_t* const place = entries_.data() + 16 * p.device;
+    for (std::size_t e = 0; e < 16; ++e) C[place[e] * row] += change.c[e];
+    for (std::size_t e = 0; e < 16; ++e)
+        if (e / 4 != Terminals::G) G[place[e] * row] += change.g[e];  // the gate current is 0
+    for (std::size_t k = 0; k < 4; ++k) {
+        const std::size_t u = static_cast<std::size_t>(terminals_[4 * p.device + k]);
+        I[u * row] += change.i[k], Q[u * row] += change.q[k];
+        block.linearized_at[4 * p.device + k].value[p.chip] = block.x[u].value[p.chip];
+    }
+}
+
+/// Prefetches the data of the next replace_linearization(), which is mostly in a slower cache.
+void ChipMemory::prefetch(const DeviceOnChip& p) const {
+    const std::size_t* const place = entries_.data() + 16 * p.device;
+    for (std::size_t e = 0; e < 16; ++e) {
+        __builtin_prefetch(block.G[place[e]].value, 1);
+        __builtin_prefetch(block.C[place[e]].value, 1);
+    }
+    const auto* const line = reinterpret_cast<const char*>(&linearizations_[p.chip * transistors_ + p.device]);
+    for (std::size_t at = 0; at < sizeof(Linearization); at += 64) __builtin_prefetch(line + at, 1);
+}
+
+void ChipMemory::relinearize(const lanes::ChipKernels& kernels, std::uint8_t chips, double gmin) {
+    kernels.find_moved(block, linearization_radius, moved_.data());
+    moved_devices_.clear(), moved_constants_.clear();
+    for (std::size_t d = 0; d < transistors_; ++d)
+        for (unsigned bits = moved_[d] & chips; bits != 0; bits &= bits - 1) {
+            const auto chip = static_cast<std::size_t>(__builtin_ctz(bits));
+            moved_devices_.push_back({d, chip}), moved_constants_.push_back(constants_[chip * transistors_ + d]);
+        }
+    if (moved_devices_.empty()) return;
+    const std::size_t stride = (moved_devices_.size() + lanes::chips_per_block - 1) / lanes::chips_per_block * lanes::chips_per_block;
+    moved_constants_.resize(stride, moved_constants_.back());
+    double* const v = moved_v_[0].value;
+    for (std::size_t k = 0; k < stride; ++k) {
+        const auto& p = moved_devices_[std::min(k, moved_devices_.size() - 1)];
+        for (std::size_t j = 0; j < 4; ++j) v[j * stride + k] = block.x[terminals_[4 * p.device + j]].value[p.chip];
+    }
+    kernels.linearize({moved_constants_.data(), moved_devices_.size(), stride, v, gmin, new_linearizations_.data()});
+    for (std::size_t k = 0; k < moved_devices_.size(); ++k) {
+        if (k + 1 < moved_devices_.size()) prefetch(moved_devices_[k + 1]);
+        replace_linearization(moved_devices_[k], new_linearizations_[k]);
+    }
+}
+
+bool ChipMemory::relinearize_nonlinear_devices(std::size_t chip, const System& system, const EvalContext& context, std::vector<double>& limiting_state) {
+    bool limited = false;
+    for (auto& o : nonlinear_devices_[chip]) {
+        const Device& d = *system.devices()[o.index];
+        const auto n = o.unknowns.size();
+        for (std::size_t j = 0; j < n; ++j) o.v[j] = o.unknowns[j] < 0 ? 0 : block.x[o.unknowns[j]].value[chip];
+        o.limited_v = o.v;
+        limited |= d.limiting_state_size() > 0 && d.limit(o.limited_v, system.limiting_state_of(o.index, limiting_state));
+        std::fill(o.linearization.begin(), o.linearization.end(), 0.0);
+        const std::span<double> all(o.linearization);
+        const auto i = all.first(n), q = all.subspan(n, n), g = all.subspan(2 * n, n * n), c = all.subspan(2 * n + n * n);
+        d.eval(o.limited_v, context, {i, q, g, c});
+        for (std::size_t row = 0; row < n; ++row) {
+            for (std::size_t column = 0; column < n; ++column) {
+                const auto e = row * n + column;
+                i[row] -= g[e] * o.limited_v[column], q[row] -= c[e] * o.limited_v[column];
+                if (o.entries[e] >= block.entries) continue;
+                block.G[o.entries[e]].value[chip] += g[e] - o.last_linearization[2 * n + e];
+                block.C[o.entries[e]].value[chip] += c[e] - o.last_linearization[2 * n + n * n + e];
+            }
+            if (o.unknowns[row] < 0) continue;
+            block.I[o.unknowns[row]].value[chip] += i[row] - o.last_linearization[row];
+            block.Q[o.unknowns[row]].value[chip] += q[row] - o.last_linearization[n + row];
+        }
+        std::swap(o.last_linearization, o.linearization);
+    }
+    return limited;
+}
+
+bool ChipMemory::expressions_match(std::size_t chip, const System& system, const EvalContext& context, const ExpressionTolerance& tolerance) {
+    for (auto& o : nonlinear_devices_[chip]) {
+        const Device& d = *system.devices()[o.index];
+        if (!d.has_jumps()) continue;
+        const auto n = o.unknowns.size();
+        for (std::size_t j = 0; j < n; ++j) o.v[j] = o.unknowns[j] < 0 ? 0 : block.x[o.unknowns[j]].value[chip];
+        std::fill(o.linearization.begin(), o.linearization.end(), 0.0);
+        const std::span<double> all(o.linearization);
+        const auto f = all.first(n);
+        d.eval(o.v, context, {f, all.subspan(n, n), all.subspan(2 * n, n * n), all.subspan(2 * n + n * n)});
+        for (std::size_t row = 0; row < n; ++row) {
+            double linear = o.last_linearization[row];
+            for (std::size_t column = 0; column < n; ++column) linear += o.last_linearization[2 * n + row * n + column] * o.v[column];
+            const bool is_voltage = o.unknowns[row] >= 0 && !system.is_voltage(o.unknowns[row]);
+            const double scale = is_voltage ? std::abs(o.v[0] - o.v[1]) : std::max(std::abs(f[row]), std::abs(linear));
+            if (!tolerance.accepts(is_voltage, f[row] - linear, scale)) return false;
+        }
+    }
+    return true;
+}
+
+}  // namespace corpuscle::circuit

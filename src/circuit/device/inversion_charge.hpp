@@ -1,0 +1,60 @@
+#pragma once
+// Inversion charge density at one end of a channel from the voltage there: solves q + ln q = x in constant time, without branches.
+
+#include "circuit/device/fast_log.hpp"
+
+namespace corpuscle::circuit {
+
+num::Dual inversion_charge(num::Dual x);
+
+namespace detail {
+
+/// e^x with a relative error below 8e-5.
+template <class T>
+[[gnu::always_inline]] inline T rough_exp(T x) {
+    const T y = x * T(1.4426950408889634), k = num::nearest(y), f = y - k;
+    return num::times_power_of_two(T(0.99992807) + f * (T(0.69326099) + f * (T(0.24261112) + f * T(0.05517166))), k);
+}
+
+/// ln x with an absolute error below 5e-4, for a normal x > 0.
+template <class T>
+[[gnu::always_inline]] inline T rough_log(T x) {
+    const T m = num::mantissa(x);
+    return num::exponent(x) * T(0.6931471805599453) + (T(-1.49277583) + m * (T(2.11263167) + m * (T(-0.72910377) + m * T(0.10968954))));
+}
+
+/// q with a relative error of about 3e-4: a series in e^x below -2.5, one in ln x above 6, a polynomial between.
+template <class T>
+[[gnu::always_inline]] inline T inversion_seed(T x) {
+    const auto far = x > T(6.0);
+    const T y = num::max(x, T(6.0)), L = rough_log(y);
+    const T E = rough_exp(num::select(far, -L, num::max(num::min(x, T(-2.5)), T(-num::exp_limit<T>))));  // 1/x for x > 6
+    const T low = E * (T(1.0) - E * (T(1.0) - E * (T(1.5) - E * T(8.0 / 3))));
+    const T high = y - L + L * E * (T(1.0) + E * (T(0.5) * L - T(1.0)));
+
+    const T s = (num::min(num::max(x, T(-2.5)), T(6.0)) - T(1.75)) * T(1 / 4.25), ss = s * s;
+    const T even = T(1.408131135) + ss * (T(0.9115124333) + ss * (T(0.03677439334) + ss * T(-0.07109053874)));
+    const T odd = T(2.489977625) + ss * (T(-0.4564352694) + ss * (T(0.2518980967) + ss * T(-0.07615062164)));
+    const T middle = even + s * odd;
+
+    return num::select(x < T(-2.5), low, num::select(far, high, middle));
+}
+
+}  // namespace detail
+
+/// Solves q + ln q = x for q: the seed, then one fourth-order step of Fritsch, Shafer and Crowley (algorithm 443, Comm. ACM 16, 1973).
+/// Relative error below 1e-13 for |x| <= 700, mostly from the rounding of x. Returns e^-700 for smaller x. NaN in, NaN out.
+template <class T>
+[[gnu::always_inline]] inline T inversion_charge(T x) {
+    const T q = detail::inversion_seed(x), r = num::max(T(-num::exp_limit<T>), x) - q - fast_log(q);
+    const T p = T(1.0) + q, a = T(2.0) * p * (p + r * T(2.0 / 3));
+    return q + q * r * (a - r) / (p * (a - T(2.0) * r));
+}
+
+/// dq/dx = q / (1 + q).
+inline num::Dual inversion_charge(num::Dual x) {
+    const double q = inversion_charge(x.v);
+    return {q, q / (1 + q) * x.d};
+}
+
+}  // namespace corpuscle::circuit

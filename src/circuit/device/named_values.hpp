@@ -1,0 +1,46 @@
+#pragma once
+// Named parameter values of an element or a model.
+
+#include <fmt/format.h>
+#include <algorithm>
+
+#include "circuit/netlist/netlist.hpp"
+#include "signal/parameter.hpp"
+#include "signal/ascii_text.hpp"
+
+namespace corpuscle::circuit {
+
+inline double value_or(const Values& values, std::string_view name, double fallback) {
+    const auto at = values.find(name);
+    return at == values.end() ? fallback : at->second;
+}
+
+/// Rejects a parameter name that is not in `known`. `owner`: name of the element or model.
+inline std::optional<Error> check_value_names(std::string_view owner, const Values& values, std::span<const std::string_view> known,
+                                          const SourceLocation& place) {
+    for (const auto& [name, value] : values)
+        if (std::find(known.begin(), known.end(), name) == known.end())
+            return bad_input(fmt::format("{}: unknown parameter '{}'{}", owner, name, did_you_mean(name, known)), place);
+    return {};
+}
+
+/// Reads a model card from a .model line. Names in `others` are accepted but not read.
+template <class P, std::size_t N>
+Result<P> read_model_card(const ParameterDef<P> (&fields)[N], const Model& model, std::initializer_list<std::string_view> others) {
+    P card;
+    std::vector<std::string_view> known(others);
+    std::vector<std::string> names;
+    for (const auto& f : fields) names.push_back(lower(f.name));
+    known.insert(known.end(), names.begin(), names.end());
+    if (auto wrong = check_value_names(model.name, model.values, known, model.location)) return *wrong;
+    for (std::size_t k = 0; k < N; ++k) {
+        const auto given = model.values.find(names[k]);
+        if (given == model.values.end()) continue;
+        const ParameterInfo row{fields[k].name, fields[k].unit, card.*fields[k].member, fields[k].low, fields[k].high, fields[k].description, {}};
+        if (auto wrong = check_range(model.name, row, given->second)) return bad_input(wrong->message, model.location);
+        card.*fields[k].member = given->second;
+    }
+    return card;
+}
+
+}  // namespace corpuscle::circuit

@@ -1,0 +1,34 @@
+#pragma once
+// The waveform of an independent source.
+
+#include <vector>
+
+#include "circuit/netlist/netlist.hpp"
+
+namespace corpuscle::circuit {
+
+/// PULSE, SIN, EXP and PWL as in SPICE. Defaults depend on the analysis: rise and fall times are its step, pulse width and period are its
+/// end, and a sine has one period.
+class SourceWaveform {
+    Waveform wave_;
+    double step_ = 0, stop_ = 0;
+    std::vector<double> breakpoints_;  // ascending; not used by PULSE
+
+    double number(std::size_t k, double fallback) const { return k < wave_.numbers.size() ? wave_.numbers[k] : fallback; }
+    double pulse(double t) const;
+    double sine(double t) const;
+    double frequency() const { return number(2, 0) > 0 ? number(2, 0) : 1 / stop_; }
+    double exponential(double t) const;
+    double piecewise_linear(double t) const;
+
+public:
+    SourceWaveform(Waveform, double step, double stop);
+
+    double at(double t) const;
+    /// The first time after t (s) with a kink or a jump; infinity if there is none.
+    double next_breakpoint(double t) const;
+    /// A tenth of a sine's period, s; infinity for the other waveforms.
+    double max_step() const;
+};
+
+}  // namespace corpuscle::circuit

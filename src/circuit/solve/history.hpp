@@ -1,0 +1,60 @@
+#pragma once
+// The last accepted points of a transient, and the polynomials through them.
+
+#include <algorithm>
+#include <array>
+#include <span>
+#include <vector>
+
+namespace corpuscle::circuit {
+
+/// An accepted point in time (s): the unknowns and the charge (C) of each equation.
+struct TimePoint {
+    double t = 0;
+    std::vector<double> x, q;
+};
+
+/// Weights of the values at some times, newest first. The weighted sum is a property of the polynomial through these points.
+using HistoryWeights = std::array<double, 7>;
+/// The value of the polynomial at t.
+HistoryWeights weights_of_value(std::span<const double> times, double t);
+/// The derivative at t of the polynomial through these points and a new one at t: `leading` times the new value plus the weighted sum.
+HistoryWeights weights_of_slope(std::span<const double> times, double t, double& leading);
+/// The error estimate half way between the first two times: the difference between the polynomials without and with the last point.
+HistoryWeights weights_of_interpolation_error(std::span<const double> times);
+
+/// The newest points, newest first.
+class History {
+public:
+    static constexpr int max_points = std::tuple_size_v<HistoryWeights>;  ///< points
+
+    void clear() { count_ = smooth_count_ = 0; }
+    /// Integration continues from the newest point only. `forget`: the earlier points are not on its smooth curve, either.
+    void restart(bool forget) { count_ = std::min(count_, 1), smooth_count_ = forget ? count_ : smooth_count_; }
+    int count() const { return count_; }  ///< points that the integration formula may use
+    int smooth_count() const { return smooth_count_; }    ///< points that lie on one smooth curve, at least count()
+    /// Sets the number of points that the integration formula may use.
+    void set_count(int count) { count_ = std::clamp(count, std::min(smooth_count_, 1), smooth_count_); }
+    const TimePoint& operator[](int k) const { return ring_[static_cast<std::size_t>((first_ + k) % capacity)]; }
+    TimePoint& newest() { return ring_[static_cast<std::size_t>(first_)]; }
+    /// Storage for the next point: fill it, then call accept().
+    TimePoint& next_point() { return ring_[static_cast<std::size_t>((first_ + capacity - 1) % capacity)]; }
+    void accept();
+
+    std::array<double, max_points> times() const;
+    using Weights = HistoryWeights;
+    /// weights_of_value() for the newest `points` points.
+    Weights value_weights(double t, int points) const;
+    /// weights_of_slope() for the newest `order` points.
+    Weights slope_weights(double t, int order, double& leading) const;
+
+    /// Writes the weighted sum of a member (&TimePoint::x or &TimePoint::q) of the newest points to `out`.
+    void combine(const Weights&, int points, std::vector<double> TimePoint::*member, std::span<double> out) const;
+
+private:
+    static constexpr int capacity = max_points + 1;
+    std::array<TimePoint, capacity> ring_;
+    int first_ = 0, count_ = 0, smooth_count_ = 0;
+};
+
+}  // namespace corpuscle::circuit

@@ -1,0 +1,35 @@
+#pragma once
+// Chooses the polynomial that interpolates between the two newest points, and estimates its error there.
+
+#include "circuit/solve/history.hpp"
+#include "circuit/solve/step_control.hpp"
+
+namespace corpuscle::circuit {
+
+struct Interpolant {
+    int points = 2;
+    double error = 0;  ///< error at mid-step, relative to the allowed error
+
+    /// Factor of the tolerance of currents in an afferent, where they are only plotted. On lanes the linearized current of a transistor has
+    /// an error above `reltol`.
+    static constexpr double current_tolerance_factor = 10;
+};
+
+/// times: the newest point, then the `smooth_count` points that lie on one smooth curve with it. worst_of(weights, points): the largest
+/// weighted sum of an unknown's values at the newest points, relative to its allowed error. With only two points there is no estimate; the
+/// error is 0.
+template <class WorstOf>
+Interpolant best_interpolant(std::span<const double> times, int smooth_count, const WorstOf& worst_of) {
+    constexpr double good_enough = 0.05;
+    Interpolant best;
+    bool found = false;
+    for (const int points : {4, 3, 2, StepControl::max_curve_points}) {
+        if (points > smooth_count) continue;
+        const double error = worst_of(weights_of_interpolation_error(times.first(static_cast<std::size_t>(points) + 1)), points) / StepControl::curve_tolerance;
+        if (!found || error < best.error) best = {points, error}, found = true;
+        if (best.error < good_enough) break;
+    }
+    return best;
+}
+
+}  // namespace corpuscle::circuit
