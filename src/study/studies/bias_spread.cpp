@@ -24,8 +24,8 @@ Result<void> add_variance(Group& group, const circuit::Circuit& c, const Found& 
     constexpr double threshold = 1e-4, current = 1e-3;  // V; relative
     for (const char* device : group.devices) {
         const auto k = static_cast<std::size_t>(c.find_element(device));
-        const double sqrt_area = std::sqrt(area(c.elements[k]));
-        const double by_V = card(c, k, "avt") / sqrt_area / threshold, by_I = card(c, k, "ais") / sqrt_area / current;
+        const double sqrt_area = std::sqrt(channel_area(c.elements[k]));
+        const double by_V = model_parameter(c, k, "avt") / sqrt_area / threshold, by_I = model_parameter(c, k, "ais") / sqrt_area / current;
         for (const auto& [setting, deviations] :
              {std::pair{fmt::format("{}.delvto={}", device, threshold), by_V}, {fmt::format("{}.mulu0={}", device, 1 + current), by_I}}) {
             const auto shifted = found_in({"bias", {setting}, ".op"});
@@ -64,7 +64,7 @@ Result<void> claim_bulk_connections(Outcome& out, const Chips& nominal) {
     const auto add_claim = [&](const std::string& connection, const Chips& chips) {
         auto& c =
             out.claim(fmt::format("biasing, mismatch, {}: standard deviation of V_Q", connection), spread_of(chips, "v(q)").percent(), "%")
-                .printed_as(rows[1].V[1].spread, "table 17");
+                .printed_as(inverter_cases[1].V[1].percent, "table 17");
         if (c.needs_reason())
             c.because(
                 "closer than as built; the divider adds spread for every bulk connection that fig. 52 allows, and fig. 52 does not show "
@@ -73,7 +73,7 @@ Result<void> claim_bulk_connections(Outcome& out, const Chips& nominal) {
     const double mean = spread_of(nominal, "v(q)").mean;
     out.claim("biasing, mismatch, each bulk of the divider at its source, as built: standard deviation of V_Q relative to V_REF",
               100 * spread_of(nominal, "v(q,ref)").deviation / mean, "%")
-        .printed_as(rows[1].V[1].spread, "table 17, if it is relative to V_REF");
+        .printed_as(inverter_cases[1].V[1].percent, "table 17, if it is relative to V_REF");
     out.claim("standard deviation of V_REF", spread_of(nominal, "v(ref)").percent(), "%");
     const auto at_rails =
         changed_text("circuits/bias.cir", {{"m2a top top ref ref", "m2a top top ref 0"}, {"m1b low low ref ref", "m1b low low ref vdd"}});
@@ -84,7 +84,7 @@ Result<void> claim_bulk_connections(Outcome& out, const Chips& nominal) {
     for (const auto& [connection, text] :
          {std::pair{"divider's bulks at the rails", &at_rails}, {"divider's bulks at BP and BN", &lifted}}) {
         if (!*text) return text->error();
-        const auto chips = chips_of(**text, ways[1]);
+        const auto chips = simulate_chips(**text, variations[1]);
         if (!chips) return chips.error();
         add_claim(connection, *chips);
     }
@@ -106,7 +106,7 @@ Result<Outcome> work(const StudyOptions& options) {
     Outcome out;
     const auto circuit = circuit_of({"bias"});
     if (!circuit) return circuit.error();
-    const auto process = chips_of("bias", ways[0]), mismatch = chips_of("bias", ways[1]);
+    const auto process = simulate_chips("bias", variations[0]), mismatch = simulate_chips("bias", variations[1]);
     if (!process) return process.error();
     if (!mismatch) return mismatch.error();
     if (auto ok = claim_bulk_connections(out, *mismatch); !ok) return ok.error();

@@ -26,12 +26,12 @@ constexpr PublishedRange published_ranges[] = {
 constexpr double threshold_shift = 35e-3;  // V: the threshold shift that is tried
 
 double covered_percent(const PublishedRange& p, const Range& r, const double (&range)[2]) {
-    if (p.axis != BiasAxis::current) return 100 * r.share_of(range[0], range[1]);
-    return 100 * Range{std::log(r.from), std::log(r.to), false, false}.share_of(std::log(range[0]), std::log(range[1]));
+    if (p.axis != BiasAxis::current) return 100 * r.covered_fraction(range[0], range[1]);
+    return 100 * Range{std::log(r.from), std::log(r.to), false, false}.covered_fraction(std::log(range[0]), std::log(range[1]));
 }
 
 Result<BiasSweep> sweep(const PublishedRange& p, std::vector<std::string> settings) {
-    return BiasSweep::along(p.axis, p.sweep, std::move(settings));
+    return BiasSweep::run(p.axis, p.sweep, std::move(settings));
 }
 
 std::string range_text(const PublishedRange& p, const Range& r) {
@@ -50,7 +50,7 @@ Result<void> claim_coverage(Outcome& out, const std::string& prefix, const Publi
     for (const bool below : {true, false}) {
         const double end = below ? r.from : r.to, published_end = below ? range[0] : range[1];
         if (below ? end <= published_end : end >= published_end) continue;
-        const auto why = why_it_ends(below ? low : high, end, false);
+        const auto why = explain_range_end(below ? low : high, end, false);
         if (!why) return why.error();
         note += fmt::format("; {}: {}", below ? "below" : "above", *why);
     }
@@ -64,10 +64,10 @@ Result<void> claim_axis(Outcome& out, const PublishedRange& p) {
     for (const char* corner : {"tt", "ss", "ff"}) {
         auto s = sweep(p, {fmt::format("corner={}", corner)});
         if (!s) return s.error();
-        works.push_back(s->works()), sweeps.push_back(std::move(*s));
+        works.push_back(s->working_range()), sweeps.push_back(std::move(*s));
     }
     if (auto ok = claim_coverage(out, "typical", p, works[0], sweeps[0], sweeps[0], p.typical); !ok) return ok;
-    const auto all = common(common(works[0], works[1]), works[2]);
+    const auto all = range_intersection(range_intersection(works[0], works[1]), works[2]);
     const auto limiting_corner = [&](bool low) {
         for (std::size_t k = 0; k < 3; ++k)
             if ((low ? works[k].from : works[k].to) == (low ? all.from : all.to)) return k;
@@ -84,19 +84,19 @@ Result<void> claim_axis(Outcome& out, const PublishedRange& p) {
 Result<void> claim_causes(Outcome& out) {
     const auto s = sweep(published_ranges[0], {});
     if (!s) return s.error();
-    const auto r = s->works();
-    const auto low = bias_state({bias_setting(BiasAxis::current, r.from)}), high = bias_state({bias_setting(BiasAxis::current, r.to)}),
-               state_at_2_uA = bias_state({"i_bias=2u"});
+    const auto r = s->working_range();
+    const auto low = simulate_bias_state({bias_setting(BiasAxis::current, r.from)}), high = simulate_bias_state({bias_setting(BiasAxis::current, r.to)}),
+               state_at_2_uA = simulate_bias_state({"i_bias=2u"});
     for (const auto* state : {&low, &high, &state_at_2_uA})
         if (!*state) return state->error();
     out.finds("at the lower end M4A is in the linear region and the bulk current is below a thousandth of I_BIAS",
-              low->V_M4A < low->needs_M4A && low->bulks < 1e-3 * low->asked,
+              low->V_M4A < low->V_sat_M4A && low->bulk_current < 1e-3 * low->I_BIAS,
               "thesis E.2: below, these transistors operate in the linear region");
-    out.finds("at the upper end M3B is in the linear region", high->V_M3B < high->needs_M3B, "thesis E.2: as above");
-    out.claim("at the upper end: bulk junction current over I_BIAS", 100 * high->bulks / high->asked, "%");
-    out.claim("at 2 uA: bulk junction current over I_BIAS", 100 * state_at_2_uA->bulks / state_at_2_uA->asked, "%");
+    out.finds("at the upper end M3B is in the linear region", high->V_M3B < high->V_sat_M3B, "thesis E.2: as above");
+    out.claim("at the upper end: bulk junction current over I_BIAS", 100 * high->bulk_current / high->I_BIAS, "%");
+    out.claim("at 2 uA: bulk junction current over I_BIAS", 100 * state_at_2_uA->bulk_current / state_at_2_uA->I_BIAS, "%");
     out.claim("V_BN at 2 uA", state_at_2_uA->V_BN, "V").printed_as(0.6, "thesis E.2: up to 600 mV");
-    out.claim("I_Q at 2 uA", state_at_2_uA->I_Q, "A").held_to(2e-6, "thesis E.2: I_Q = I_BIAS up to there").because(state_at_2_uA->words());
+    out.claim("I_Q at 2 uA", state_at_2_uA->I_Q, "A").held_to(2e-6, "thesis E.2: I_Q = I_BIAS up to there").because(state_at_2_uA->description());
     return {};
 }
 
@@ -117,9 +117,9 @@ Result<void> add_plots(Outcome& out) {
     for (double& v : V_M3B.y) v += 0.7;
     Line saturation;
     for (const double I : {50e-9, 100e-9, 300e-9, 1e-6, 3e-6}) {
-        const auto state = bias_state({bias_setting(BiasAxis::current, I)});
+        const auto state = simulate_bias_state({bias_setting(BiasAxis::current, I)});
         if (!state) return state.error();
-        saturation.x.push_back(1e9 * I), saturation.y.push_back(state->needs_M4A);
+        saturation.x.push_back(1e9 * I), saturation.y.push_back(state->V_sat_M4A);
     }
     drain_plot.add("M4A", V_BN.times(1e9, 1)).add("M3B", V_M3B).add("saturation voltage", saturation);
     return {};
@@ -132,15 +132,15 @@ Result<void> claim_trade(Outcome& out) {
     for (const auto& p : published_ranges) {
         const auto s = sweep(p, shift);
         if (!s) return s.error();
-        const auto r = s->works();
+        const auto r = s->working_range();
         for (const bool low : {true, false}) {
             auto& c = out.claim(fmt::format("{}, typical: works {}, {}", prefix, low ? "from" : "to", p.name), low ? r.from : r.to, p.unit);
-            if (low && r.open_below) {
+            if (low && r.reaches_sweep_start) {
                 c.at_most(p.typical[0], "thesis E.2; our value is the end of the sweep");
                 continue;
             }
             c.printed_as(p.typical[low ? 0 : 1], "thesis E.2");
-            auto why = why_it_ends(*s, low ? r.from : r.to, low ? r.open_below : r.open_above);
+            auto why = explain_range_end(*s, low ? r.from : r.to, low ? r.reaches_sweep_start : r.reaches_sweep_end);
             if (!why) return why.error();
             if (c.needs_reason()) c.because(std::move(*why));
         }

@@ -5,11 +5,11 @@
 #include <cmath>
 
 #include "study/studies.hpp"
-#include "study/thesis/oscillator_alone.hpp"
+#include "study/thesis/isolated_oscillator.hpp"
 
 namespace corpuscle::studies::cco {
 
-using O = OscillatorAlone;
+using O = IsolatedOscillator;
 constexpr auto source = "thesis 4.4";
 
 /// Overshoot of the membrane beyond its window, over its speed.
@@ -17,7 +17,7 @@ Result<void> report_delay(const Hysteresis& t, Outcome& out) {
     Line below, above;
     double delay = 0, overshoot = 0;
     for (const double I : {20e-12, 100e-12, 300e-12, 600e-12, 850e-12}) {
-        const auto found = driven({.current = I, .until = 20e-3 + 2.25e-12 * 2 / I, .better_switches = true});
+        const auto found = simulate_oscillator({.current = I, .stop_time = 20e-3 + 2.25e-12 * 2 / I, .has_high_threshold_switches = true});
         if (!found) return found.error();
         const auto u = found->line("tran", "v(u)").between(found->number("first_spike") - 1e-3, 1);
         below.x.push_back(1e12 * I), below.y.push_back(1e3 * (t.V_L - u.least()));
@@ -107,7 +107,7 @@ Result<void> report_body_bias(const Hysteresis& t, Outcome& out) {
         for (const double bias : {0.0, 0.1, 0.2, 0.3, 0.37}) {
             const auto found = found_in({netlist, {fmt::format("{}={}", parameter, bias)}});
             if (!found) return found.error();
-            const auto h = hysteresis_in(*found, "v(out)");
+            const auto h = find_hysteresis(*found, "v(out)");
             high.x.push_back(bias), high.y.push_back(h.V_H), low.x.push_back(bias), low.y.push_back(h.V_L);
         }
         const double window = 100 * ((high.y.back() - low.y.back()) / (t.V_H - t.V_L) - 1);
@@ -123,7 +123,7 @@ Result<void> report_body_bias(const Hysteresis& t, Outcome& out) {
 
 Result<Outcome> work(const StudyOptions& options) {
     Outcome out;
-    const auto t = trigger_alone();
+    const auto t = simulate_trigger();
     if (!t) return t.error();
     if (auto ok = report_delay(*t, out); !ok) return ok.error();
     if (auto ok = options.at(0.5); !ok) return ok.error();

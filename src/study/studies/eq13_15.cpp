@@ -15,7 +15,7 @@ template <class Formula>
 double percent_off(const Line& line, Formula formula) {
     double largest = 0;
     for (std::size_t k = 0; k < line.x.size(); ++k)
-        if (line.x[k] >= least_gf && line.x[k] <= most_gf) largest = std::max(largest, std::abs(line.y[k] / formula(line.x[k]) - 1));
+        if (line.x[k] >= min_gf && line.x[k] <= max_gf) largest = std::max(largest, std::abs(line.y[k] / formula(line.x[k]) - 1));
     return 100 * largest;
 }
 
@@ -40,7 +40,7 @@ Result<Outcome> work(const StudyOptions&) {
     const std::string bound = "; the bound is our choice", range = ", largest difference from 20 to 400 gf";
 
     out.claim("eq. 13: parallel resistances against the sum of conductances" + range,
-              percent_off(sensor.conductances(1, 500), [](double gf) { return 1 / sensor.R_0 + 1 / (sensor.a * std::pow(gf, -sensor.m)); }),
+              percent_off(sensor.conductance_curve(1, 500), [](double gf) { return 1 / sensor.R_0 + 1 / (sensor.a * std::pow(gf, -sensor.m)); }),
               "%")
         .at_most(1e-9, "thesis eq. 13: printed as approximate, but exact (errata F1a)");
     out.claim("eq. 13 with a = 170 ohm: G over that with 170 kohm, at 400 gf", ForceSensor{.a = 170}.conductance(400) / G(400), "times")
@@ -71,7 +71,7 @@ Result<Outcome> work(const StudyOptions&) {
     out.finds("the largest current is at the largest conductance", I_F->peak() == 500 && G(500) > G(1),
               "printed: at the smallest conductance (errata F4)");
     const auto percents = [](const Line& line, auto formula) {
-        Line p = line.between(least_gf, most_gf);
+        Line p = line.between(min_gf, max_gf);
         for (std::size_t k = 0; k < p.x.size(); ++k) p.y[k] = 100 * (p.y[k] / formula(p.x[k]) - 1);
         return p;
     };

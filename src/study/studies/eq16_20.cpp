@@ -7,7 +7,7 @@
 
 #include "study/deck.hpp"
 #include "study/studies.hpp"
-#include "study/thesis/load.hpp"
+#include "study/thesis/active_load.hpp"
 
 namespace corpuscle::studies::eq16_20 {
 
@@ -40,7 +40,7 @@ Result<void> eq_16_18(Outcome& out) {
     if (!cell) return cell.error();
     const auto V_F = found->line("dc", "v(vf)"), I_A0 = found->line("dc", "i(va0)");
     const double k_1 = ratio(*found->circuit, "m3b", "m3a"), k_4 = ratio(*found->circuit, "m4b", "m4a");
-    const double R = load_of(cell->line("dc", "i(vin)").times(1, -1)).resistance.at(0.35);
+    const double R = analyse_load(cell->line("dc", "i(vin)").times(1, -1)).resistance.at(0.35);
     out.claim("(16), (18): k_1 = S_3B / S_3A of table 3", k_1, "times").held_to(0.5, "table 3, errata S1");
     out.claim("(16): measured copy I_A0 / I_F at 1.4 uA", I_A0.at(1.4e-6) / 1.4e-6, "times").held_to(k_1, "eq. 16, errata S1");
     out.claim("V_F where (S_3B/S_3A) I_F = (S_4B/S_4A) I_BIASF, I_F = 1.4 uA", V_F.at(k_4 * I_BIASF / k_1), "V")

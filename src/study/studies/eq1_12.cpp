@@ -37,7 +37,7 @@ Result<void> equation_1(Outcome& out) {
 Result<void> equations_2_to_4(Outcome& out) {
     const auto response = told_of({.afferent = "fa1a+lif-b", .traces = {"I_+", "I_-"}});
     if (!response) return response.error();
-    const auto force = press::samples(1e-4);
+    const auto force = press::force_curve(1e-4);
     if (!force) return force.error();
     const auto slope = [&](std::size_t k) { return k == 0 ? 0 : 100e-9 * (force->y[k] - force->y[k - 1]) / 1e-4; };
     out.claim("(2): I+ against k max(F', 0), k = 100 nA s/N",
@@ -99,7 +99,7 @@ Result<void> equations_5_to_7(Outcome& out) {
 Result<void> equations_8_to_10(Outcome& out) {
     const auto response = told_of({.afferent = "sa1", .traces = {"I", "I_A", "I_B", "I_C"}});
     if (!response) return response.error();
-    const auto force = press::samples(1e-4);
+    const auto force = press::force_curve(1e-4);
     if (!force) return force.error();
     const auto &I_A = response->traces.at("I_A"), &I_B = response->traces.at("I_B"), &I_C = response->traces.at("I_C");
     out.claim("(8): I against I_A + max(I_B, 0) + max(I_C, 0)",

@@ -11,7 +11,7 @@
 
 namespace corpuscle::studies::eq21_30 {
 
-constexpr double W_by_L = 3, I_S = plain_I_SQ * W_by_L, V_S = 0.1, solver_accuracy = 1e-6;  // V; %: the accuracy of the solution
+constexpr double W_by_L = 3, I_S = simple_I_SQ * W_by_L, V_S = 0.1, solver_accuracy = 1e-6;  // V; %: the accuracy of the solution
 const double phi_t = circuit::thermal_voltage(300.15);
 
 /// A transistor at one bias point: its currents, inversion levels and slopes from the solved circuit.
@@ -58,9 +58,9 @@ constexpr Equation equations[] = {
     {"(21): largest error of I_D = I_S (i_f - i_r)", "thesis eq. 21",
      [](const BiasPoint& a) { return a.I_D / (I_S * (a.i_f - a.i_r)) - 1; }},
     {"(23) to (25): largest error of f(i_f) = (V_GB - V_T0 - n V_SB)/(n phi_t), of phi_t", "thesis eq. 23 to 25; errata U4",
-     [](const BiasPoint& a) { return f_of(a.i_f) - (a.V_G - plain_V_T0 - plain_n * V_S) / (plain_n * phi_t); }},
+     [](const BiasPoint& a) { return f_of(a.i_f) - (a.V_G - simple_V_T0 - simple_n * V_S) / (simple_n * phi_t); }},
     {"(23) to (25): the same for f(i_r), with V_DB", "thesis eq. 23 to 25",
-     [](const BiasPoint& a) { return f_of(a.i_r) - (a.V_G - plain_V_T0 - plain_n * a.V_D) / (plain_n * phi_t); }},
+     [](const BiasPoint& a) { return f_of(a.i_r) - (a.V_G - simple_V_T0 - simple_n * a.V_D) / (simple_n * phi_t); }},
     {"(27): largest error of g_ms = g_mg + g_md + g_mb", "thesis eq. 27; g_ms = -dI_D/dV_S",
      [](const BiasPoint& a) { return (a.by_G + a.by_D + a.by_B) / -a.by_S - 1; }},
     {"(28): largest error of g_ms = 2 I_S/phi_t (sqrt(1 + i_f) - 1)", "thesis eq. 28",
@@ -68,17 +68,17 @@ constexpr Equation equations[] = {
     {"(28): the same for g_md, with i_r, relative to g_ms", "thesis eq. 28",
      [](const BiasPoint& a) { return (a.by_D - 2 * I_S / phi_t * charge(a.i_r)) / -a.by_S; }},
     {"(29), corrected: largest error of g_mb/g_mg = n - 1", "errata U5",
-     [](const BiasPoint& a) { return a.by_B / a.by_G / (plain_n - 1) - 1; }},
+     [](const BiasPoint& a) { return a.by_B / a.by_G / (simple_n - 1) - 1; }},
     {"(30): largest error of g_mg = (g_ms - g_md)/n", "thesis eq. 30",
-     [](const BiasPoint& a) { return a.by_G * plain_n / (-a.by_S - a.by_D) - 1; }},
+     [](const BiasPoint& a) { return a.by_G * simple_n / (-a.by_S - a.by_D) - 1; }},
 };
 
 void add_errata(Outcome& out, const std::vector<BiasPoint>& all) {
     out.finds("(26): dI_D/dV_S is negative at all points; g_ms > 0 of (27) and (28) is its opposite",
               std::all_of(all.begin(), all.end(), [](const BiasPoint& a) { return a.by_S < 0; }), "errata U2");
     const auto& a = all.back();
-    out.claim("g_mb/g_mg", a.by_B / a.by_G).held_to(plain_n - 1, "thesis eq. 29, inverted: errata U5");
-    out.finds("g_mg/g_mb, as (29) prints it, is 1/(n - 1), not n - 1", std::abs(a.by_G / a.by_B * (plain_n - 1) - 1) < 1e-9, "errata U5");
+    out.claim("g_mb/g_mg", a.by_B / a.by_G).held_to(simple_n - 1, "thesis eq. 29, inverted: errata U5");
+    out.finds("g_mg/g_mb, as (29) prints it, is 1/(n - 1), not n - 1", std::abs(a.by_G / a.by_B * (simple_n - 1) - 1) < 1e-9, "errata U5");
 }
 
 /// f(i) and its asymptotes.
@@ -95,17 +95,17 @@ Plot inversion_plot() {
 }
 
 Result<Outcome> work(const StudyOptions&) {
-    const auto simple = solve_bias_points(plain_card, "plain"), complete = solve_bias_points(whole_card, "nch"),
-               channel = solve_bias_points(whole_card, "nch", true);
+    const auto simple = solve_bias_points(simple_card, "plain"), complete = solve_bias_points(process_card, "nch"),
+               channel = solve_bias_points(process_card, "nch", true);
     if (!simple || !complete || !channel) return !simple ? simple.error() : !complete ? complete.error() : channel.error();
     Outcome out;
     for (const auto& e : equations) out.claim(e.what, largest_error(*simple, e.error), "%").at_most(solver_accuracy, e.source);
     add_errata(out, *simple);
     const auto pinched_off =
-        found_in({fmt::format("pinch-off\n{}vd d 0 1\nvg g 0 {}\nm1 d g 0 0 plain w=1u l=1u\n", plain_card, plain_V_T0), {}, ".op"});
+        found_in({fmt::format("pinch-off\n{}vd d 0 1\nvg g 0 {}\nm1 d g 0 0 plain w=1u l=1u\n", simple_card, simple_V_T0), {}, ".op"});
     if (!pinched_off) return pinched_off.error();
     out.claim("(23): i_f where V_P = V_S", pinched_off->reading("m1", "i_f")).held_to(3, "thesis eq. 23; errata U4");
-    const auto card = circuit_of({fmt::format("card\n{}m1 0 0 0 0 nch w=1u l=1u\n", whole_card), {}, ".op"});
+    const auto card = circuit_of({fmt::format("card\n{}m1 0 0 0 0 nch w=1u l=1u\n", process_card), {}, ".op"});
     if (!card) return card.error();
     for (const auto& m : (*card)->models)
         if (m.name == "nch")

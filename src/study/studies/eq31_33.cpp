@@ -26,7 +26,7 @@ double published_ratio(const std::string& name, double S) {
                                                             {"1x8", "G1"}, {"1x4 under 4x1", "G2"}, {"1x1 under 7x1", "G3"}};
     const auto& [first, second] = std::pair(corpuscle::rectangles, corpuscle::trapezoids);
     for (const auto& [array, row] : rows)
-        if (name == array) return printed(*row == 'G' ? second : first, row).I_D / (S * printed(first, "A").I_D);
+        if (name == array) return find_published(*row == 'G' ? second : first, row).I_D / (S * find_published(first, "A").I_D);
     return Claim::none;
 }
 
@@ -53,9 +53,9 @@ struct Array {
     SubArray low, high;
 };
 
-std::string rectangle(const Array& a, const std::string& rest) { return units_text("a", "d", "g", "0", a.low.m, a.low.n, rest); }
+std::string rectangle(const Array& a, const std::string& rest) { return array_lines("a", "d", "g", "0", a.low.m, a.low.n, rest); }
 std::string trapezoid(const Array& a, const std::string& rest) {
-    return units_text("l", "y", "g", "0", a.low.m, a.low.n, rest) + units_text("h", "d", "g", "y", a.high.m, a.high.n, rest);
+    return array_lines("l", "y", "g", "0", a.low.m, a.low.n, rest) + array_lines("h", "d", "g", "y", a.high.m, a.high.n, rest);
 }
 
 std::vector<Array> arrays() {
@@ -71,7 +71,7 @@ Result<void> add_mirror(Outcome& out) {
     for (const double ratio : {0.25, 4.0}) {
         const auto found =
             found_in({fmt::format("mirror\n{}iin 0 a 100n\nma a a 0 0 plain w=1.5u l=0.5u\nmb b a 0 0 plain w={}u l=0.5u\nvo b 0 0.35\n",
-                                  plain_card, 1.5 * ratio),
+                                  simple_card, 1.5 * ratio),
                       {},
                       ".op"});
         if (!found) return found.error();
@@ -85,11 +85,11 @@ Result<Outcome> work(const StudyOptions&) {
     Outcome out;
     double worst = 0;
     for (const auto& a : arrays()) {
-        const auto simple = ratios(plain_card, "plain", a.text(a, fmt::format("0 plain w={}u l={}u", W, L)), a.S,
+        const auto simple = ratios(simple_card, "plain", a.text(a, fmt::format("0 plain w={}u l={}u", W, L)), a.S,
                                    ".step param vg list 0.2 0.35 0.5 0.9 1.8\n.step param vd list 0.02 0.1 0.5");
         if (!simple) return simple.error();
         for (const double r : *simple) worst = std::max(worst, std::abs(r - 1));
-        const auto with_process_card = ratios(whole_card, "nch018", a.text(a, fmt::format("0 nch018 w={}u l={}u", W, L)), a.S, "");
+        const auto with_process_card = ratios(process_card, "nch018", a.text(a, fmt::format("0 nch018 w={}u l={}u", W, L)), a.S, "");
         if (!with_process_card) return with_process_card.error();
         const double published_value = published_ratio(a.name, a.S);
         out.claim(fmt::format("{}: with the process card at 0.5 V, its current over that of one unit transistor of S_eq = {:.4g}", a.name,

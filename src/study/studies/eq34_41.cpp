@@ -30,7 +30,7 @@ std::string common_lines(std::string_view card, double current) {
 Result<Found> simulate_parallel_series(std::string_view card, const std::string& model, int n, double current = I_in) {
     const auto unit = unit_transistor(model);
     return found_in(
-        {common_lines(card, current) + units_text("a", "in", "in", "0", n, 1, unit) + units_text("b", "out", "in", "0", 1, n, unit),
+        {common_lines(card, current) + array_lines("a", "in", "in", "0", n, 1, unit) + array_lines("b", "out", "in", "0", 1, n, unit),
          {},
          ".op\n.tf i(vout) vout"});
 }
@@ -41,9 +41,9 @@ struct SplitCurrents {
 };
 Result<SplitCurrents> simulate_split(std::string_view card, const std::string& model, int n) {
     const auto unit = unit_transistor(model);
-    const auto found = found_in({common_lines(card, I_in) + "vb yb y 0\n" + units_text("a", "in", "in", "0", n, 1, unit) +
-                                     units_text("b", "y", "in", "0", 1, n, unit) + units_text("c", "vdd", "in", "yb", n, 1, unit) +
-                                     units_text("d", "out", "in", "yb", 1, n, unit),
+    const auto found = found_in({common_lines(card, I_in) + "vb yb y 0\n" + array_lines("a", "in", "in", "0", n, 1, unit) +
+                                     array_lines("b", "y", "in", "0", 1, n, unit) + array_lines("c", "vdd", "in", "yb", n, 1, unit) +
+                                     array_lines("d", "out", "in", "yb", 1, n, unit),
                                  {},
                                  ".op"});
     if (!found) return found.error();
@@ -55,8 +55,8 @@ constexpr const char* length_modulation =
 
 Result<void> add_parallel_series(Outcome& out) {
     for (const int n : sizes) {
-        const auto simple = simulate_parallel_series(plain_card, "plain", n),
-                   with_process_card = simulate_parallel_series(whole_card, "nch", n);
+        const auto simple = simulate_parallel_series(simple_card, "plain", n),
+                   with_process_card = simulate_parallel_series(process_card, "nch", n);
         if (!simple || !with_process_card) return simple ? with_process_card.error() : simple.error();
         const auto prefix = fmt::format("parallel-series, N = {}: I_in/I_out, ", n);
         out.claim(prefix + "equations only", I_in / -simple->at_rest("i(vout)")).held_to(n * n, "thesis eq. 34; errata C1");
@@ -79,7 +79,7 @@ Result<void> add_split(Outcome& out) {
     Plot plot{"Attenuation of a current-splitting mirror over N", "N", "I_in/I_out over N^4", {}};
     Line by_40, exact, simple_line, process_line;
     for (const int n : sizes) {
-        const auto simple = simulate_split(plain_card, "plain", n), with_process_card = simulate_split(whole_card, "nch", n);
+        const auto simple = simulate_split(simple_card, "plain", n), with_process_card = simulate_split(process_card, "nch", n);
         if (!simple || !with_process_card) return simple ? with_process_card.error() : simple.error();
         const double N2 = n * n, by_38_39 = N2 * (N2 + 2);
         const auto prefix = fmt::format("current splitting, N = {}: ", n);
@@ -122,7 +122,7 @@ Result<void> add_split(Outcome& out) {
 Result<void> add_output(Outcome& out) {
     const auto found =
         found_in({fmt::format("mirror\n{}iin 0 in {:g}\nma in in 0 0 nch w=1.5u l=0.5u\nmb out in 0 0 nch w=1.5u l=0.5u\nvout out 0 0.35\n",
-                              whole_card, I_in),
+                              process_card, I_in),
                   {},
                   ".op\n.dc vout 0.2 0.7 10m"});
     if (!found) return found.error();

@@ -17,7 +17,7 @@ const double phi_t = circuit::thermal_voltage(300.15);
 /// (42), for a drain at 0.6 V: accurate in weak inversion to the order of i_f, not above it.
 Result<void> add_42(Outcome& out) {
     const auto found = all_found_in(
-        {fmt::format("weak\n{}vd d 0 0.6\nvg g 0 {{vg}}\nvb b 0 {{vb}}\nm1 d g 0 b plain w=1.5u l=0.5u\n.param vg=0.2 vb=0\n", plain_card),
+        {fmt::format("weak\n{}vd d 0 0.6\nvg g 0 {{vg}}\nvb b 0 {{vb}}\nm1 d g 0 b plain w=1.5u l=0.5u\n.param vg=0.2 vb=0\n", simple_card),
          {},
          ".op\n.step param vb list 0 0.1 0.2\n.step param vg 0.05 0.5 0.025"});
     if (!found) return found.error();
@@ -27,7 +27,7 @@ Result<void> add_42(Outcome& out) {
     for (const auto& f : *found) {
         const double V_G = f.at_rest("v(g)"), V_B = f.at_rest("v(b)"), I = -f.at_rest("i(vd)"), i_f = f.reading("m1", "i_f");
         const double by_42 =
-            2 * std::numbers::e * plain_I_SQ * W_by_L * std::exp((V_G + (plain_n - 1) * V_B - plain_V_T0) / (plain_n * phi_t));
+            2 * std::numbers::e * simple_I_SQ * W_by_L * std::exp((V_G + (simple_n - 1) * V_B - simple_V_T0) / (simple_n * phi_t));
         if (i_f < 0.01)
             worst = std::max(worst, std::abs(by_42 / I - 1)), worst_without_2 = std::max(worst_without_2, std::abs(by_42 / 2 / I - 1));
         if (V_B > 0.15) weak.x.push_back(V_G), weak.y.push_back(1e9 * by_42), complete.x.push_back(V_G), complete.y.push_back(1e9 * I);
@@ -43,7 +43,7 @@ Result<void> add_42(Outcome& out) {
 /// The junction from bulk to source, with both junction areas of the process card.
 Result<void> add_43(Outcome& out) {
     const auto found =
-        found_in({fmt::format("junction\n{}vd d 0 0.9\nvb b 0 0\nm1 d 0 0 b nch w=1.5u l=0.5u\n.options gmin=0\n", whole_card),
+        found_in({fmt::format("junction\n{}vd d 0 0.9\nvb b 0 0\nm1 d 0 0 b nch w=1.5u l=0.5u\n.options gmin=0\n", process_card),
                   {},
                   ".dc vb 0.2 0.7 5m"});
     if (!found) return found.error();
@@ -64,12 +64,12 @@ Result<void> add_43(Outcome& out) {
 /// At equal current in weak inversion V_X = n V_Y: exact in the simple model, because the exponents are equal.
 Result<void> add_44(Outcome& out) {
     const auto found = found_in(
-        {fmt::format("diodes\n{}ix 0 x 1n\niy 0 y 1n\nmx x x 0 0 plain w=1.5u l=0.5u\nmy y y 0 y plain w=1.5u l=0.5u\n", plain_card),
+        {fmt::format("diodes\n{}ix 0 x 1n\niy 0 y 1n\nmx x x 0 0 plain w=1.5u l=0.5u\nmy y y 0 y plain w=1.5u l=0.5u\n", simple_card),
          {},
          ".op"});
     if (!found) return found.error();
     const double V_X = found->at_rest("v(x)"), V_Y = found->at_rest("v(y)");
-    out.claim("(44): V_X/V_Y at 1 nA, equations only", V_X / V_Y).held_to(plain_n, "thesis eq. 44");
+    out.claim("(44): V_X/V_Y at 1 nA, equations only", V_X / V_Y).held_to(simple_n, "thesis eq. 44");
     out.claim("(44): i_fX/i_fY at 1 nA", found->reading("mx", "i_f") / found->reading("my", "i_f"))
         .held_to(1, "thesis app. D: about the same");
     out.finds("the second diode's voltage is V_Y, the lower one", V_Y < V_X, "errata C8");

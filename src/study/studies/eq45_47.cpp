@@ -122,10 +122,10 @@ Result<void> claim_gain(Outcome& out) {
     const auto V_o = open->line("dc", "v(o)");
     out.claim("V_Q - V_o for an input 20 uV above V_Q", V_Q - V_o.at(V_o.x[V_o.x.size() - 1]), "V")
         .held_to(s->G_m / s->G_o * (V_o.x.back() - V_Q), "eq. 46a");
-    const auto inverters = Inverters::swept(1e-3);
+    const auto inverters = InverterSweep::run(1e-3);
     if (!inverters) return inverters.error();
-    auto& c = out.claim("INVA biased at 200 nA and 0.7 V: G_m", inverters->at_rest('a'), "S")
-                  .held_to(2 * inverters->taken('a').at(0) / (N.n * phi_t), "eq. 46b with its I_Q");
+    auto& c = out.claim("INVA biased at 200 nA and 0.7 V: G_m", inverters->transconductance_at_zero('a'), "S")
+                  .held_to(2 * inverters->supply_current('a').at(0) / (N.n * phi_t), "eq. 46b with its I_Q");
     if (c.needs_reason()) c.because("eq. 46b holds in weak inversion; 200 nA in these arrays is moderate inversion");
     return {};
 }

@@ -38,7 +38,7 @@ Result<void> add_sign_claims(Outcome& out) {
 Result<void> add_generator_claims(Outcome& out) {
     const auto by_4 = found_in({"bias_table4", {}, ".dc vi 0.1 8 0.02"});
     if (!by_4) return by_4.error();
-    const auto by_16 = bias_state({});
+    const auto by_16 = simulate_bias_state({});
     if (!by_16) return by_16.error();
     const auto I_Q6 = by_4->line("dc", "i(vis6)"), V_BN6 = by_4->line("dc", "v(bn6)"), I_Q1 = by_4->line("dc", "i(vis1)"),
                V_BN1 = by_4->line("dc", "v(bn1)");
@@ -59,9 +59,9 @@ Result<void> add_generator_claims(Outcome& out) {
     }
     auto& plot = out.plot("I18: V_BN of three generators", "I_BIAS (uA)", "V");
     plot.log_x = true;
-    const auto sweep = BiasSweep::along(BiasAxis::current);
+    const auto sweep = BiasSweep::run(BiasAxis::current);
     if (!sweep) return sweep.error();
-    plot.add("table 16", sweep->line("v(bn)").times(1e6, 1))
+    plot.add("table 16", sweep->curve("v(bn)").times(1e6, 1))
         .add("table 4 as printed", V_BN6)
         .add("table 4 with NMOS arrays of 1.5 um", V_BN1);
     return {};
@@ -74,20 +74,20 @@ Result<Outcome> work(const StudyOptions& options) {
     if (!generator) return generator.error();
     out.finds("I6: the replica is M5B over M4C", (*generator)->find_element("m5c") < 0 && (*generator)->find_element("m4c") >= 0,
               "errata I6; the text names M4A and M5C, which table 16 does not list");
-    const auto state = bias_state({});
+    const auto state = simulate_bias_state({});
     if (!state) return state.error();
     out.claim("I9: table 17's 350.1 as V_Q", state->V_Q, "V").printed_as(350.1e-3, "errata I9; the table's head says I_D in nA");
     auto& current = out.claim("I9: table 17's 350.1 as I_D", state->I_Q, "A").printed_as(350.1e-9, "table 17's head");
     if (current.needs_reason()) current.because("the head is table 18's: errata I9");
-    const auto inverters = Inverters::swept(10e-3);
+    const auto inverters = InverterSweep::run(10e-3);
     if (!inverters) return inverters.error();
-    const double G_B = inverters->at_rest('b'), G_C = inverters->at_rest('c'), C = G_B / (2 * pi * 2);
+    const double G_B = inverters->transconductance_at_zero('b'), G_C = inverters->transconductance_at_zero('c'), C = G_B / (2 * pi * 2);
     out.claim("I13: capacitor of a 2 Hz filter with INVB", C, "F").held_to(0.2e-6, "errata I13: from 2.5 uS");
     out.claim("I13: over one microfarad", C / 1e-6).at_most(1, "E.4: would need micro Farad capacitors; a fifth of a microfarad is enough");
     out.finds("I14: INVC, not INVB, has the very small transconductance", G_C < 1e-3 * G_B, "errata I14");
-    const auto fine_sweep = Inverters::ordered(".dc vin 0.345 0.355 20u");
+    const auto fine_sweep = InverterSweep::run_with_directives(".dc vin 0.345 0.355 20u");
     if (!fine_sweep) return fine_sweep.error();
-    auto rest = fine_sweep->characteristic('c');
+    auto rest = fine_sweep->transfer_curve('c');
     for (std::size_t k = 0; k < rest.x.size(); ++k) rest.y[k] -= rest.x[k];
     const double V_Q = rest.where(0);
     auto& offset_claim =

@@ -10,7 +10,7 @@
 
 namespace corpuscle::studies::errata_models {
 
-using algorithms::k2, algorithms::lif_b, algorithms::Membrane;
+using algorithms::k2, algorithms::lif_b, algorithms::MembraneParams;
 
 constexpr double T = 1e-3;                                  // s: thesis 3.3
 constexpr Membrane fig16_membrane{500e-9, 500e-9, 1, 0.5};  // SA-I with fig. 16's theta
@@ -36,7 +36,7 @@ Result<void> algorithm_1(Outcome& out) {
     double as_printed[2], corrected[2];
     for (int k = 0; k < 2; ++k) {
         const double step = k == 0 ? 1e-3 : 1e-4;
-        const auto force = press::samples(step);
+        const auto force = press::force_curve(step);
         if (!force) return force.error();
         as_printed[k] = apply(*force, [&](double F, double before) { return k_d / 1e-3 * std::abs(F - before); }).most();
         corrected[k] = apply(*force, [&](double F, double before) { return k_d / step * std::abs(F - before); }).most();
@@ -54,13 +54,13 @@ Result<void> algorithm_2(Outcome& out, const Line& force) {
     const auto plus = apply(force, [](double F, double before) { return F + before > 0 ? F - before : 0; });
     const auto corrected = apply(force, [](double F, double before) { return F - before > 0 ? 0 : before - F; });
     out.claim("Alg. 2: sum of I- under the press stimulus, as printed", sum(minus), "N")
-        .held_to(press::most - press::least, "thesis 3.1, eq. 3: max(-F', 0); the total fall of the force")
+        .held_to(press::max_force - press::min_force, "thesis 3.1, eq. 3: max(-F', 0); the total fall of the force")
         .because("the test is on F[n] + F[n-1], which is never negative for a force; F[n] - F[n-1] is meant (B3)");
     out.claim("Alg. 2: smallest I+, as printed", plus.least(), "N")
         .at_least(0, "thesis 3.1, eq. 2: max(F', 0)")
         .because("as above: falling force enters I+ with its sign (B3)");
     out.claim("Alg. 2: sum of I-, as corrected", sum(corrected), "N")
-        .held_to(press::most - press::least, "thesis 3.1, eq. 3: the total fall of the force");
+        .held_to(press::max_force - press::min_force, "thesis 3.1, eq. 3: the total fall of the force");
     return {};
 }
 
@@ -97,11 +97,11 @@ Result<void> algorithm_5(Outcome& out, const Line& force, Plot& rows) {
     Line static_part = force;
     for (double& y : static_part.y) y *= 1e-6;
     const auto static_spikes = lif_b(static_part, fig16_membrane).spikes;
-    const auto catalogue_spikes = train_of(press::as_algorithm("sa1", {"sa1.V_th=1", "sa1.V_reset=0.5"}));
+    const auto catalogue_spikes = train_of(press::thesis_algorithm("sa1", {"sa1.V_th=1", "sa1.V_reset=0.5"}));
     if (!catalogue_spikes) return catalogue_spikes.error();
-    const auto largest_I_B = apply_filter(force, 8e-6, 20, FilterForm::difference).between(0, press::up.from + 50e-3).absolute().most();
+    const auto largest_I_B = apply_filter(force, 8e-6, 20, FilterForm::difference).between(0, press::protraction.from + 50e-3).absolute().most();
     out.claim("Alg. 5: largest I_B in the first 50 ms of the ramp if I' is a difference, as printed", largest_I_B, "A")
-        .at_most(8e-6 * (press::most - press::least), "eq. 12: a high-pass of gain K_B cannot give more than K_B times the step")
+        .at_most(8e-6 * (press::max_force - press::min_force), "eq. 12: a high-pass of gain K_B cannot give more than K_B times the step")
         .because("it is unstable (B8)");
     out.claim("Alg. 5: spikes if I' is I[n-1], as printed", static_cast<double>(value.size()), "spikes")
         .between(static_cast<double>(catalogue_spikes->size()), static_cast<double>(catalogue_spikes->size()),
@@ -134,14 +134,14 @@ Result<void> algorithm_6(Outcome& out, const Line& force, Plot& rows) {
         });
     };
     const auto as_printed = lif_b(current(1), fa1_membrane).spikes, corrected = lif_b(current(-1), fa1_membrane).spikes;
-    const auto catalogue_spikes = train_of(press::as_algorithm("fa1"));
+    const auto catalogue_spikes = train_of(press::thesis_algorithm("fa1"));
     if (!catalogue_spikes) return catalogue_spikes.error();
-    const TimeWindow later{press::down.from, 2};
-    out.claim("Alg. 6: spikes from the start of retraction, as printed", press::count(as_printed, later), "spikes")
+    const TimeWindow later{press::retraction.from, 2};
+    out.claim("Alg. 6: spikes from the start of retraction, as printed", press::spike_count(as_printed, later), "spikes")
         .at_least(1, "thesis 1.2 and 3.4: discharges in retraction")
         .because("k_B I_0 is negative there; -k_B I_0 is meant, which makes a full-wave rectifier with two gains, as in 4.3.2 (B12)");
-    out.claim("Alg. 6: the same, as corrected", press::count(corrected, later), "spikes")
-        .between(press::count(*catalogue_spikes, later), press::count(*catalogue_spikes, later), "fa1 of the catalogue");
+    out.claim("Alg. 6: the same, as corrected", press::spike_count(corrected, later), "spikes")
+        .between(press::spike_count(*catalogue_spikes, later), press::spike_count(*catalogue_spikes, later), "fa1 of the catalogue");
     rows.row("Alg. 6 as printed", as_printed).row("Alg. 6 as corrected", corrected).row("fa1", *catalogue_spikes);
     return {};
 }
@@ -155,7 +155,7 @@ void check_first_sample(Outcome& out, const Line& force) {
 
 Result<Outcome> work(const StudyOptions& options) {
     Outcome out;
-    const auto force = press::samples(T);
+    const auto force = press::force_curve(T);
     if (!force) return force.error();
     Plot rows{"Spikes under the press stimulus, T = 1 ms", "time (s)", "", {}};
     if (auto ok = algorithm_1(out); !ok) return ok.error();
@@ -170,7 +170,7 @@ Result<Outcome> work(const StudyOptions& options) {
         .add("as corrected", apply_filter(*force, 8e-6, 20, FilterForm::corrected).times(1, 1e6))
         .add("as printed, I' = I[n-1]", apply_filter(*force, 8e-6, 20, FilterForm::value).times(1, 1e6))
         .add("as printed, I' a difference, its first 20 ms",
-             apply_filter(*force, 8e-6, 20, FilterForm::difference).between(0, press::up.from + 20e-3).times(1, 1e6));
+             apply_filter(*force, 8e-6, 20, FilterForm::difference).between(0, press::protraction.from + 20e-3).times(1, 1e6));
     out.note(
         "The other errata are in these studies. B1: fig4. B11a: fig8. B10a, B13, B13a: fig18. B14: fig5. B15: fig17. B9a: eq1-12. The "
         "neurons' errata: errata-neurons. B2a, B8a, B9, B11, B12a to B12c and B17 to B19 concern names, units and wording.");

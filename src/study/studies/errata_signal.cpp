@@ -6,9 +6,9 @@
 
 #include "measure/train_distance.hpp"
 #include "study/studies.hpp"
-#include "study/thesis/beside.hpp"
-#include "study/thesis/load.hpp"
-#include "study/thesis/oscillator_alone.hpp"
+#include "study/thesis/chip_vs_model.hpp"
+#include "study/thesis/active_load.hpp"
+#include "study/thesis/isolated_oscillator.hpp"
 
 namespace corpuscle::studies::errata_signal {
 
@@ -21,10 +21,10 @@ Result<void> report_M6(Outcome& out) {
     const auto as_printed = found_in({"invc", {"xl.mn6a=8x2", "xl.mn6b=2x4", "xh.mn6a=8x2", "xh.mn6b=2x4"}, ".dc vin 0 0.7 0.5m"});
     if (!corrected) return corrected.error();
     if (!as_printed) return as_printed.error();
-    const auto corrected_load = load_of(corrected->line("dc", "i(vl)")), printed_load = load_of(as_printed->line("dc", "i(vl)"));
-    out.claim("S7: rest voltage of the filter's output, M6 corrected", corrected_load.rest, "V")
+    const auto corrected_load = analyse_load(corrected->line("dc", "i(vl)")), printed_load = analyse_load(as_printed->line("dc", "i(vl)"));
+    out.claim("S7: rest voltage of the filter's output, M6 corrected", corrected_load.zero_current_voltage, "V")
         .printed_as(350e-3, "thesis 4.3.1, fig. 30a");
-    out.claim("S7: rest voltage of the filter's output, M6 as printed", printed_load.rest, "V")
+    out.claim("S7: rest voltage of the filter's output, M6 as printed", printed_load.zero_current_voltage, "V")
         .printed_as(350e-3, "thesis 4.3.1, fig. 30a")
         .because(M6);
     const auto current = printed_load.current.between(0.1, 0.6);
@@ -79,14 +79,14 @@ Result<void> report_weights(Outcome& out) {
 Result<void> report_charging(Outcome& out) {
     constexpr double I = 300e-12, large_leak = 200e-12;
     double speed[2];
-    for (const auto& [k, leak] : {std::pair{0, OscillatorAlone::I_LEAK}, {1, large_leak}}) {
-        const auto found = driven({.current = I, .until = 30e-3, .better_switches = true, .leak = leak});
+    for (const auto& [k, leak] : {std::pair{0, IsolatedOscillator::I_LEAK}, {1, large_leak}}) {
+        const auto found = simulate_oscillator({.current = I, .stop_time = 30e-3, .has_high_threshold_switches = true, .leak = leak});
         if (!found) return found.error();
         const auto u = found->line("tran", "v(u)");
         speed[k] = u.slope_at(u.where(0.35, found->number("first_spike")));
     }
-    const double charge = OscillatorAlone::I_CHARGE;
-    const double by_errata = (charge + large_leak - I) / (charge + OscillatorAlone::I_LEAK - I);
+    const double charge = IsolatedOscillator::I_CHARGE;
+    const double by_errata = (charge + large_leak - I) / (charge + IsolatedOscillator::I_LEAK - I);
     out.claim("S16: at 300 pA, charging rate with I_LEAK 200 pA over that with 2 pA", speed[1] / speed[0], "times")
         .held_to(by_errata, "errata S16: I_CHARGE + I_LEAK - I");
     out.claim("S16: the same by the printed I_CHARGE - I", speed[1] / speed[0], "times")
@@ -98,9 +98,9 @@ Result<void> report_charging(Outcome& out) {
 void report_chip(const std::string& name, const std::vector<double>& chip, const std::vector<double>& model, const std::string& why,
                  Outcome& out) {
     const std::string source = "the model's, computed here; thesis 4.4: similar";
-    for (const auto& [phase, window] : {std::pair{"rising", P::up}, {"holding", P::plateau}, {"falling", P::down}, {"after", P::after}}) {
+    for (const auto& [phase, window] : {std::pair{"rising", P::protraction}, {"holding", P::plateau}, {"falling", P::retraction}, {"after", P::after}}) {
         auto& c =
-            out.claim(fmt::format("{}: spikes, {}", name, phase), press::count(chip, window)).held_to(press::count(model, window), source);
+            out.claim(fmt::format("{}: spikes, {}", name, phase), press::spike_count(chip, window)).held_to(press::spike_count(model, window), source);
         if (c.needs_reason()) c.because(why);
     }
 }

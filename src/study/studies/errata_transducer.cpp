@@ -42,8 +42,8 @@ Result<void> report_transistors(Outcome& out) {
     const std::string swapped =
         "mn1 if vz vx tb nch w=1.5u l=0.5u m=16\nmn2 vdd vz vx tb nch w=1.5u l=0.5u m=4 stack=4\nmn3 vz vdd tb tb nch w=1.5u l=0.5u m=8\n";
     const std::string drain_at_vss = improved_cell_at("0");
-    const TransducerCell cells[] = {{"built", improved_cell()}, {"swapped", swapped}, {"without", drain_at_vss}, {"plain", plain_cell(16)}};
-    const auto found = found_in({transducers(cells, "4"), {}, ".op"});
+    const TransducerCell cells[] = {{"built", improved_cell()}, {"swapped", swapped}, {"without", drain_at_vss}, {"plain", single_transistor_cell(16)}};
+    const auto found = found_in({transducer_netlist(cells, "4"), {}, ".op"});
     if (!found) return found.error();
     const auto current = [&](const char* name) {
         return found->at_rest(fmt::format("i(x{}.vif)", name)) /
@@ -114,7 +114,7 @@ Result<void> report_reference(Outcome& out) {
         .if_off("no single V_Y gives both published slopes");
     const double I_mid = 2 * 700e-9, I_most = 0.1 * sensor.conductance(400) / 17;
     out.claim("F12: force at which half of I_F is I_BIASF, at 0.1 V",
-              ForceSensor{.R_0 = 1e30}.conductances(1, 400).times(1, 0.1 / 17).where(I_mid), "gf")
+              ForceSensor{.R_0 = 1e30}.conductance_curve(1, 400).times(1, 0.1 / 17).where(I_mid), "gf")
         .between(100, 300, "thesis 4.3.1: V_F is at half the supply there; the middle half of 0 to 400 gf is our choice");
     out.claim("F12: I_F at 400 gf, at 0.1 V", I_most, "A");
     Line at_20, at_400, V_Z;

@@ -12,12 +12,12 @@ namespace corpuscle::studies::fig12 {
 constexpr double S_1 = 2.0 / 8, S_N = 2.0 / 9, S_M = 16;  // aspect ratios of the netlist's arrays: columns over unit transistors in series
 
 /// The netlist without the devices on these lines.
-Result<Transconductor> simulate_without(const std::vector<std::string>& lines) {
+Result<TransconductorCurve> simulate_without(const std::vector<std::string>& lines) {
     std::vector<std::pair<std::string, std::string>> changes;
     for (const auto& line : lines) changes.emplace_back("\n" + line, "\n* " + line);
     const auto text = changed_text("circuits/ota_cancelling.cir", changes);
     if (!text) return text.error();
-    return transconductor_of({*text});
+    return simulate_transconductor({*text});
 }
 
 /// Current of M_M over that of M_1.
@@ -35,12 +35,12 @@ Result<void> add_pair_claims(Outcome& out, const StudyOptions& options) {
     plot.shape("\"the transconductance linearity is also proportional to the transistor inversion\"");
     Line straight, g_m;
     for (const double i_b : {1e-9, 3e-9, 10e-9, 30e-9, 100e-9, 300e-9, 1e-6, 3e-6, 10e-6, 30e-6}) {
-        const auto pair = pair_alone(i_b, 2, 8);
+        const auto pair = simulate_isolated_pair(i_b, 2, 8);
         if (!pair) return pair.error();
-        straight.x.insert(straight.x.begin(), pair->g_m / i_b), straight.y.insert(straight.y.begin(), pair->straight);
+        straight.x.insert(straight.x.begin(), pair->g_m / i_b), straight.y.insert(straight.y.begin(), pair->linear_range);
         g_m.x.push_back(i_b), g_m.y.push_back(pair->g_m);
     }
-    const auto wide = pair_alone(10e-6, 16, 1);
+    const auto wide = simulate_isolated_pair(10e-6, 16, 1);
     if (!wide) return wide.error();
     out.claim("pair 2x8: transconductance at 10 nA of tail current over that at 1 nA", g_m.at(10e-9) / g_m.at(1e-9), "times")
         .between(9, 11, source + ": proportional to the current while inversion is weak");
@@ -99,14 +99,14 @@ Result<Outcome> work(const StudyOptions& options) {
     out.claim("both: G_m over that of the pair without either", all->g_m / bare->g_m)
         .held_to((S_1 - S_N) / (S_1 + S_N + S_M), source + ", in weak inversion")
         .if_off("the product of the two errors above");
-    out.claim("linear range (slope within 5 %) up to", all->straight, "V");
-    out.claim("the same of the pair without either", bare->straight, "V");
-    out.finds("with both the pair keeps its linear range to a tenth", std::abs(all->straight / bare->straight - 1) < 0.1,
+    out.claim("linear range (slope within 5 %) up to", all->linear_range, "V");
+    out.claim("the same of the pair without either", bare->linear_range, "V");
+    out.finds("with both the pair keeps its linear range to a tenth", std::abs(all->linear_range / bare->linear_range - 1) < 0.1,
               "thesis 2.3: they balance linearity and transconductance; the bound is our choice");
     out.claim("power", all->power, "W");
     Plot& plot = out.plot("Output current over its largest positive value, over the input voltage", "V_+ - V_- (V)", "I / largest");
     for (const auto& [name, t] : {std::pair{"complete", &*all}, {"without M_N", &*no_n}, {"pair only", &*bare}})
-        plot.add(name, t->current.between(-0.15, 0.15).times(1, t->sense() / t->most));
+        plot.add(name, t->current.between(-0.15, 0.15).times(1, t->sign() / t->max_current));
     out.note(
         "Beyond 0.2 V the tail node falls below the output, which is held at 0.35 V here, and M_N conducts in the other direction; the "
         "curve ends before that.");

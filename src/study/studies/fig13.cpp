@@ -9,12 +9,12 @@
 
 namespace corpuscle::studies::fig13 {
 
-Result<Transconductor> simulate_mirrors(int N, double i_b) {
+Result<TransconductorCurve> simulate_mirrors(int N, double i_b) {
     const auto text =
         changed_text("circuits/ota_series_parallel.cir", {{"nch_hv w=1.5u l=0.5u m=8\n", fmt::format("nch_hv w=1.5u l=0.5u m={}\n", N)},
                                                           {"l=0.5u stack=8\n", fmt::format("l=0.5u stack={}\n", N)}});
     if (!text) return text.error();
-    return transconductor_of({*text, {fmt::format("i_b={}", i_b)}});
+    return simulate_transconductor({*text, {fmt::format("i_b={}", i_b)}});
 }
 
 Result<Outcome> work(const StudyOptions& options) {
@@ -23,7 +23,7 @@ Result<Outcome> work(const StudyOptions& options) {
     constexpr double i_b = 502e-12,
                      strong = 100e-9;  // A: the netlist's current, and a larger one for which the mirrors' voltages matter more
     Line weak_by, strong_by;
-    Transconductor with_8;
+    TransconductorCurve with_8;
     double plain = 0, plain_strong = 0;
     for (const int N : {1, 2, 3, 4, 6, 8}) {
         const auto t = simulate_mirrors(N, i_b), s = simulate_mirrors(N, strong);
@@ -42,17 +42,17 @@ Result<Outcome> work(const StudyOptions& options) {
         out.claim(fmt::format("N = {}: G_m is divided by", N), weak_by.at(N), "times")
             .held_to(N * N, source + ": N^2, current and transconductance alike")
             .if_off(why);
-    const auto pair_only = pair_alone(i_b, 2, 8);
+    const auto pair_only = simulate_isolated_pair(i_b, 2, 8);
     if (!pair_only) return pair_only.error();
-    out.claim("N = 8: tail current over the largest output current", i_b / with_8.most, "times").held_to(64, source + ": N^2").if_off(why);
+    out.claim("N = 8: tail current over the largest output current", i_b / with_8.max_current, "times").held_to(64, source + ": N^2").if_off(why);
     out.claim("N = 8: G_m (chosen equal to INVC's of circuits/invc.cir)", with_8.g_m, "S");
-    out.claim("linear range (slope within 5 %) up to", with_8.straight, "V");
-    out.claim("the same of the pair without load", pair_only->straight, "V");
-    out.finds("the mirrors keep the pair's linear range to a tenth", std::abs(with_8.straight / pair_only->straight - 1) < 0.1,
+    out.claim("linear range (slope within 5 %) up to", with_8.linear_range, "V");
+    out.claim("the same of the pair without load", pair_only->linear_range, "V");
+    out.finds("the mirrors keep the pair's linear range to a tenth", std::abs(with_8.linear_range / pair_only->linear_range - 1) < 0.1,
               "thesis 2.3: the mirrors attenuate only the output");
     out.claim("power", with_8.power, "W");
 
-    const auto cancelling = transconductor_of({"ota_cancelling"}), invc = transconductor_of({R"(INVC under the conditions of fig. 13
+    const auto cancelling = simulate_transconductor({"ota_cancelling"}), invc = simulate_transconductor({R"(INVC under the conditions of fig. 13
 .lib '../process/tsmc180.lib' tt
 .include 'parts/transconductor.inc'
 vdd vdd 0 0.7
@@ -65,9 +65,9 @@ vout out 0 0.35
 )"});
     if (!cancelling) return cancelling.error();
     if (!invc) return invc.error();
-    out.claim("INVC, the thesis's own: linear range up to", invc->straight, "V");
+    out.claim("INVC, the thesis's own: linear range up to", invc->linear_range, "V");
     out.claim("INVC: power", invc->power, "W");
-    out.finds("INVC has a larger linear range than either", invc->straight > with_8.straight && invc->straight > cancelling->straight,
+    out.finds("INVC has a larger linear range than either", invc->linear_range > with_8.linear_range && invc->linear_range > cancelling->linear_range,
               "thesis 2.3: it \"combines the two techniques\"; app. E: linearised");
     out.finds("INVC takes less power than either", invc->power < with_8.power && invc->power < cancelling->power,
               "thesis 2.3: \"to decrease the ... total power consumption\"")
@@ -81,9 +81,9 @@ vout out 0 0.35
         .add(fmt::format("tail {:g} nA", strong * 1e9), strong_by)
         .shape("N^2 by the text");
     out.plot("Three transconductors of equal transconductance", "V_+ - V_- (V)", "I (pA)")
-        .add("fig. 12", cancelling->current.between(-0.15, 0.15).times(1, 1e12 * cancelling->sense()))
-        .add("fig. 13", with_8.current.between(-0.15, 0.15).times(1, 1e12 * with_8.sense()))
-        .add("INVC", invc->current.between(-0.15, 0.15).times(1, 1e12 * invc->sense()))
+        .add("fig. 12", cancelling->current.between(-0.15, 0.15).times(1, 1e12 * cancelling->sign()))
+        .add("fig. 13", with_8.current.between(-0.15, 0.15).times(1, 1e12 * with_8.sign()))
+        .add("INVC", invc->current.between(-0.15, 0.15).times(1, 1e12 * invc->sign()))
         .shape("the thesis names the balance of linearity and low transconductance");
     return out;
 }

@@ -52,7 +52,7 @@ void report_currents(Outcome& out, const Currents& i, const Line& force) {
     out.claim("fraction of the decay of I in the plateau that is due to I_C, from 50 ms on",
               100 * (value_at(i.C, from) - value_at(i.C, to)) / (value_at(i.I, from) - value_at(i.I, to)), "%")
         .between(95, 105, "thesis 3.3: I_C is responsible for the slow decay; the range is our choice");
-    const double t = (press::down.from + press::down.to) / 2 + 20e-3;
+    const double t = (press::retraction.from + press::retraction.to) / 2 + 20e-3;
     out.claim("I_B + I_C late in retraction, before rectification", value_at(i.B, t) + value_at(i.C, t), "A")
         .at_most(0, "thesis 3.3: negative there");
     out.claim("their contribution to I at that time", value_at(i.I, t) - value_at(i.A, t), "A")
@@ -69,11 +69,11 @@ void report_currents(Outcome& out, const Currents& i, const Line& force) {
 
 Result<Outcome> work(const StudyOptions& options) {
     Outcome out;
-    auto spec = press::as_algorithm("sa1");
+    auto spec = press::thesis_algorithm("sa1");
     spec.traces = {"I_A", "I_B", "I_C", "u"};
     const auto response = told_of(spec);
     if (!response) return response.error();
-    const auto force = press::samples(1e-3);
+    const auto force = press::force_curve(1e-3);
     if (!force) return force.error();
     report_currents(out, Currents(*response), *force);
     out.plot("Membrane, T = 1 ms", "time (s)", "u (V)").add("u", response->traces.at("u"));
@@ -81,25 +81,25 @@ Result<Outcome> work(const StudyOptions& options) {
     Plot frequencies{"Instantaneous frequency", "time (s)", "frequency (Hz)", {}};
     for (const auto& r : threshold_cases) {
         const std::vector<std::string> set = {fmt::format("sa1.V_th={}", r.theta), fmt::format("sa1.V_reset={}", r.reset)};
-        const auto algorithm = train_of(press::as_algorithm("sa1", set)), exact = train_of({"sa1", "press", set});
+        const auto algorithm = train_of(press::thesis_algorithm("sa1", set)), exact = train_of({"sa1", "press", set});
         if (!algorithm) return algorithm.error();
         if (!exact) return exact.error();
         if (auto ok = options.at(static_cast<double>(&r - threshold_cases + 1) / 4); !ok) return ok.error();
         const auto named = [&](const char* what) { return fmt::format("theta, u_rst {}: {}", r.name, what); };
-        const auto f = press::frequency(*exact), plateau = f.between(press::plateau.from, press::plateau.to);
-        out.claim(named("peak of the frequency"), measure<PeakRate>(*exact, press::up), "Hz");
+        const auto f = press::frequency_at_start(*exact), plateau = f.between(press::plateau.from, press::plateau.to);
+        out.claim(named("peak of the frequency"), measure<PeakRate>(*exact, press::protraction), "Hz");
         out.claim(named("first frequency of the plateau"), plateau.y.front(), "Hz");
         out.claim(named("last frequency of the plateau"), measure<LastRate>(*exact, press::plateau), "Hz");
         out.finds(named("highest in protraction, and the first frequency of the plateau above its last"),
-                  f.peak() < press::up.to && plateau.y.front() > plateau.y.back(), "thesis 1.2 and 3.3, fig. 17c");
-        out.claim(named("spikes after 40 % of retraction"), press::count(*exact, {0.675, 0.75}), "spikes")
+                  f.peak() < press::protraction.to && plateau.y.front() > plateau.y.back(), "thesis 1.2 and 3.3, fig. 17c");
+        out.claim(named("spikes after 40 % of retraction"), press::spike_count(*exact, {0.675, 0.75}), "spikes")
             .at_most(1, "thesis 1.2: almost no response; the number is our choice");
         double worst_difference = algorithm->size() == exact->size() ? 0 : Claim::none;
         for (std::size_t k = 0; k < std::min(algorithm->size(), exact->size()); ++k)
             worst_difference = std::max(worst_difference, std::abs((*algorithm)[k] - (*exact)[k]));
         auto& c = out.claim(named("largest spike time difference between T = 1 ms and the exact solution"), worst_difference, "s");
         if (std::isnan(worst_difference)) c.because("the numbers of spikes differ");
-        frequencies.points(r.name, press::frequency(*algorithm));
+        frequencies.points(r.name, press::frequency_at_start(*algorithm));
     }
     out.plots.push_back(frequencies.shape("points, one per discharge, close to the curve of the nerve (which is lost)"));
     out.note(

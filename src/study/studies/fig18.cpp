@@ -43,10 +43,10 @@ void report_currents(Outcome& out, const Currents& i, const Line& force) {
     out.claim("the same ratio, above the leak", (up - leak) / (down - leak)).held_to(3.5 / 2.75, "thesis 3.4: k_A and k_B");
     out.claim("I_A: delay of its peak after the peak of the slope", i.A.peak() - force.slope().peak(), "s")
         .at_least(1e-3, "thesis 3.4: slightly delayed in protraction; at least one sample of 1 ms");
-    out.claim("I stays above the leak after protraction for", i.A.where(leak, i.A.peak()) - press::up.to, "s");
-    out.claim("I stays above the leak after retraction for", i.B.where(leak, i.B.peak()) - press::down.to, "s");
-    out.claim("charge above the leak in protraction", net_charge(i.I, press::up), "C");
-    out.claim("upper limit of theta - u_rest for a discharge in protraction", net_charge(i.I, press::up) / C, "V");
+    out.claim("I stays above the leak after protraction for", i.A.where(leak, i.A.peak()) - press::protraction.to, "s");
+    out.claim("I stays above the leak after retraction for", i.B.where(leak, i.B.peak()) - press::retraction.to, "s");
+    out.claim("charge above the leak in protraction", net_charge(i.I, press::protraction), "C");
+    out.claim("upper limit of theta - u_rest for a discharge in protraction", net_charge(i.I, press::protraction) / C, "V");
     out.plot("Receptor currents", "time (s)", "current (uA)")
         .add("I", i.I.times(1, 1e6))
         .add("I_A", i.A.times(1, 1e6))
@@ -56,9 +56,9 @@ void report_currents(Outcome& out, const Currents& i, const Line& force) {
 
 /// Claims that the train discharges in protraction and retraction only.
 void report_train(Outcome& out, const std::string& name, const std::vector<double>& train, const char* why) {
-    out.claim(name + ": discharges in protraction", press::count(train, press::up), "spikes").at_least(1, "thesis 3.4, fig. 18c");
-    out.claim(name + ": discharges in retraction", press::count(train, press::down), "spikes").at_least(1, "thesis 3.4, fig. 18c");
-    out.claim(name + ": discharges in plateau and after", press::count(train, press::plateau) + press::count(train, press::after), "spikes")
+    out.claim(name + ": discharges in protraction", press::spike_count(train, press::protraction), "spikes").at_least(1, "thesis 3.4, fig. 18c");
+    out.claim(name + ": discharges in retraction", press::spike_count(train, press::retraction), "spikes").at_least(1, "thesis 3.4, fig. 18c");
+    out.claim(name + ": discharges in plateau and after", press::spike_count(train, press::plateau) + press::spike_count(train, press::after), "spikes")
         .between(0, 0, "thesis 1.2: only in protraction and retraction");
     for (auto c = out.claims.end() - 3; c != out.claims.end(); ++c)
         if (c->needs_reason()) c->because(why);
@@ -71,9 +71,9 @@ Result<Outcome> work(const StudyOptions& options) {
                with_20_Hz_and_gain = simulate({"fa1.f=20", "fa1.k_A=35e-6", "fa1.k_B=27.5e-6", "fa1.V_th=1", "fa1.V_reset=0.5"});
     for (const auto* t : {&response, &with_fig16_threshold, &with_20_Hz, &with_20_Hz_and_gain})
         if (!*t) return t->error();
-    const auto algorithm = train_of(press::as_algorithm("fa1"));
+    const auto algorithm = train_of(press::thesis_algorithm("fa1"));
     if (!algorithm) return algorithm.error();
-    const auto force = press::samples(1e-4);
+    const auto force = press::force_curve(1e-4);
     if (!force) return force.error();
     if (auto ok = options.at(0.8); !ok) return ok.error();
     const Currents i(*response);
@@ -93,8 +93,8 @@ Result<Outcome> work(const StudyOptions& options) {
         .add("theta 0.5 V, u_rst 0.25 V", response->traces.at("u"))
         .add("1 and 0.5 V", with_fig16_threshold->traces.at("u"));
     out.plot("Instantaneous frequency", "time (s)", "frequency (Hz)")
-        .points("T = 1 ms", press::frequency(*algorithm))
-        .points("exact solution", press::frequency(response->spikes))
+        .points("T = 1 ms", press::frequency_at_start(*algorithm))
+        .points("exact solution", press::frequency_at_start(response->spikes))
         .add("force, 10 Hz per newton", force->times(1, 10))
         .shape(
             "in protraction, slightly late, and in retraction; \"the maximum amplitude for the protraction and retraction phase matches\" "

@@ -42,7 +42,7 @@ Result<Outcome> work(const StudyOptions&) {
     out.claim("the netlist's sensor against eq. 13, largest difference", 100 * worst_error, "%")
         .at_most(0.001, "the same formula; the bound is our choice");
     out.claim("resistance without force", sensor.resistance(0), "ohm").printed_as(10e6, source + ": R_0; \"> 10 Mohms\" in the " + sheet);
-    for (const double gf : {least_gf, from, 100.0, most_gf, 1000.0, to})
+    for (const double gf : {min_gf, from, 100.0, max_gf, 1000.0, to})
         out.claim(fmt::format("resistance at {:g} gf", gf), sensor.resistance(gf), "ohm");
     out.claim("with a = 170 ohm gf: resistance at 100 gf", as_printed.resistance(100), "ohm")
         .at_least(100, "a sensor of some kilohms, by the " + sheet + "; the bound is our choice")
@@ -50,12 +50,12 @@ Result<Outcome> work(const StudyOptions&) {
     out.claim("with a as printed, 170 times F^m as a conductance: resistance at 100 gf", 1 / (170 * std::pow(100, sensor.m)), "ohm")
         .at_least(100, "as above")
         .if_off("a of eq. 13 is used as a conductance and has the unit of a resistance (errata F1)");
-    const auto G = sensor.conductances(least_gf, most_gf);
+    const auto G = sensor.conductance_curve(min_gf, max_gf);
     Line R = G;
     for (double& v : R.y) v = 1 / v;
     out.claim("19b: nonlinearity of the conductance from 20 to 400 gf", 100 * nonlinearity(G), "%")
         .at_most(10, source + ": \"almost linearly\"; the bound is our choice");
-    out.claim("19b: slope at 20 gf over slope at 400 gf", sensor.slope(least_gf) / sensor.slope(most_gf), "times")
+    out.claim("19b: slope at 20 gf over slope at 400 gf", sensor.slope(min_gf) / sensor.slope(max_gf), "times")
         .held_to(1, source + ": \"as the slope factor m is close to unity\"")
         .if_off("m is 0.72, so the slope falls as F^-0.28 (errata F3)");
     out.claim("19a: nonlinearity of the resistance from 20 to 400 gf", 100 * nonlinearity(R), "%")
@@ -74,7 +74,7 @@ Result<Outcome> work(const StudyOptions&) {
         .add("a = 170 ohm, as printed", sample_logarithmically(as_printed, &ForceSensor::resistance));
     a.shape("the supplier's typical curve, straight on two logarithmic axes, with the model on it");
     out.plot("19b: conductance", "force (gf)", "conductance (uS)")
-        .add("eq. 13", sensor.conductances(0, 1000, 5).times(1, 1e6))
+        .add("eq. 13", sensor.conductance_curve(0, 1000, 5).times(1, 1e6))
         .add("netlist", netlist->between(20, 1000).times(1, 1e6), Plot::Style::points)
         .shape("almost linear");
     out.note(

@@ -17,12 +17,12 @@ Result<Line> gain(std::vector<std::string> settings) {
 }
 
 /// Eq. 14 over the force in gf.
-Line equation(double V, double R_F) { return ForceSensor().conductances(1, 500).times(1, V * R_F); }
+Line equation(double V, double R_F) { return ForceSensor().conductance_curve(1, 500).times(1, V * R_F); }
 
 double worst_error(const Line& a, const Line& b) {
     double worst = 0;
     for (std::size_t k = 0; k < a.x.size(); ++k)
-        if (a.x[k] >= least_gf && a.x[k] <= most_gf) worst = std::max(worst, std::abs(a.y[k] / b.at(a.x[k]) - 1));
+        if (a.x[k] >= min_gf && a.x[k] <= max_gf) worst = std::max(worst, std::abs(a.y[k] / b.at(a.x[k]) - 1));
     return worst;
 }
 
@@ -66,7 +66,7 @@ Result<Outcome> work(const StudyOptions& options) {
         cells.push_back({fmt::format("r{:g}", R), voltage_cell(R)});
         lowest.x.push_back(equation(0.1, R).at(400));
     }
-    auto supplies = lowest_supplies(cells, 4);
+    auto supplies = find_lowest_supplies(cells, 4);
     if (!supplies) return supplies.error();
     lowest.y = std::move(*supplies);
     out.claim("lowest supply at 4 N: rise per volt of rise of V_Z", lowest.straight().slope)

@@ -16,7 +16,7 @@ Result<Outcome> work(const StudyOptions& options) {
     if (!found) return found.error();
     const auto I = found->line("dc", "i(vif)"), I_4 = found->line("dc", "i(vif4)"), V_X = found->line("dc", "v(vx)");
     double worst_error = 0;
-    for (double gf = least_gf; gf <= most_gf; ++gf)
+    for (double gf = min_gf; gf <= max_gf; ++gf)
         worst_error = std::max(worst_error, std::abs(I.at(gf) / (V_X.at(gf) * ForceSensor().conductance(gf)) - 1));
     out.claim("I_F against V_X G_FSR, largest difference from 20 to 400 gf", 100 * worst_error, "%")
         .at_most(0.1, "thesis eq. 15; the bound is our choice");
@@ -28,11 +28,11 @@ Result<Outcome> work(const StudyOptions& options) {
 
     const int columns[] = {8, 16, 32, 64, 128, 256, 512};
     std::vector<TransducerCell> cells;
-    for (const int m : columns) cells.push_back({fmt::format("m{}", m), plain_cell(m)});
+    for (const int m : columns) cells.push_back({fmt::format("m{}", m), single_transistor_cell(m)});
     cells.push_back({"improved", improved_cell()});
-    const auto at_4N = found_in({transducers(cells, "4"), {}, ".op"});
+    const auto at_4N = found_in({transducer_netlist(cells, "4"), {}, ".op"});
     if (!at_4N) return at_4N.error();
-    const auto lowest = lowest_supplies(cells, 4);
+    const auto lowest = find_lowest_supplies(cells, 4);
     if (!lowest) return lowest.error();
     if (auto ok = options.at(0.8); !ok) return ok.error();
     Line V_Z, supply;

@@ -17,12 +17,12 @@ struct Variant {
 };
 std::vector<Variant> variants() {
     return {{"voltage", "fig. 20 with a follower of 64 unit transistors, 3.6 kohm", voltage_cell(3.6e3)},
-            {"plain", "fig. 21, M1 16x1", plain_cell(16)},
-            {"plain40", "fig. 21, M1 of as many unit transistors as fig. 22 has", plain_cell(40)},
+            {"plain", "fig. 21, M1 16x1", single_transistor_cell(16)},
+            {"plain40", "fig. 21, M1 of as many unit transistors as fig. 22 has", single_transistor_cell(40)},
             {"atvss", "fig. 22 without M3, bulks at vss", improved_cell_at("0")},
             {"atsource", "fig. 22 without M3, bulks at the source", improved_cell_at("vx")},
             {"improved", "fig. 22", improved_cell()},
-            {"read", "fig. 22, loaded by the diode of table 3", read_cell()}};
+            {"read", "fig. 22, loaded by the diode of table 3", improved_cell_with_diode()}};
 }
 
 std::vector<TransducerCell> cells() {
@@ -33,7 +33,7 @@ std::vector<TransducerCell> cells() {
 
 /// Effect of the two techniques at 4 N and 0.9 V, where all transducers hold their sensor.
 Result<void> report_techniques(Outcome& out) {
-    const auto found = found_in({transducers(cells(), "4"),
+    const auto found = found_in({transducer_netlist(cells(), "4"),
                                  {"vdd=0.9"},
                                  ".save i(ximproved.mn1) i(ximproved.mn2) i(ximproved.mn3) v(ximproved.tb) "
                                  "v(ximproved.vx) v(ximproved.vz) v(xatvss.vz) v(xplain.vz) v(xatsource.vz) "
@@ -60,7 +60,7 @@ Result<void> report_techniques(Outcome& out) {
 
 /// V_X over the supply, and the lowest supply of each.
 Result<void> report_supplies(Outcome& out) {
-    const auto found = found_in({transducers(cells(), "4"), {}, ".dc vdd 0.3 1 5m"});
+    const auto found = found_in({transducer_netlist(cells(), "4"), {}, ".dc vdd 0.3 1 5m"});
     if (!found) return found.error();
     Plot plot{"V_X at 4 N over the supply", "V_DD (V)", "V_X (mV)", {}};
     std::map<std::string, double> lowest;
@@ -90,7 +90,7 @@ Result<void> report_forces_and_corners(Outcome& out, const StudyOptions& options
     const std::vector<TransducerCell> two_cells = {{"lifted", improved_cell()}, {"atvss", improved_cell_at("0")}};
     Line lifted, at_vss;
     for (const double newtons : {0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 4.0, 6.0, 8.0}) {
-        const auto lowest = lowest_supplies(two_cells, newtons);
+        const auto lowest = find_lowest_supplies(two_cells, newtons);
         if (!lowest) return lowest.error();
         lifted.x.push_back(newtons), lifted.y.push_back((*lowest)[0]);
         at_vss.x.push_back(newtons), at_vss.y.push_back((*lowest)[1]);
@@ -100,7 +100,7 @@ Result<void> report_forces_and_corners(Outcome& out, const StudyOptions& options
     plot.log_x = true;
     plot.add("fig. 22", lifted).add("without M3, bulks at vss", at_vss);
     for (const char* corner : {"ss", "ff", "sf", "fs"}) {
-        const auto lowest = lowest_supplies(two_cells, 4, {fmt::format("corner={}", corner)});
+        const auto lowest = find_lowest_supplies(two_cells, 4, {fmt::format("corner={}", corner)});
         if (!lowest) return lowest.error();
         out.claim(fmt::format("corner {}: lowest supply at 4 N, fig. 22", corner), (*lowest)[0], "V")
             .at_most(0.7, "thesis 4.2: works \"at worst case process corners\"");
@@ -119,7 +119,7 @@ Result<void> report_split(Outcome& out) {
             {fmt::format("s{}", m), fmt::format("mn1 if vz vx tb nch w=1.5u l=0.5u m={} stack={}\nmn2 vdd vz vx tb nch w=1.5u l=0.5u m=16\n"
                                                 "mn3 vz vdd tb tb nch w=1.5u l=0.5u m=8\n",
                                                 m, 16 / m)});
-    const auto found = found_in({transducers(all, "4"), {}, ".op"});
+    const auto found = found_in({transducer_netlist(all, "4"), {}, ".op"});
     if (!found) return found.error();
     for (const int m : columns) {
         const double S = m / (16.0 / m), I_F0 = 0.1 * ForceSensor().conductance(4 / gram_force);

@@ -120,7 +120,7 @@ Result<Supplies> find_supplies(const Changes& changes) {
                               *parts),
                   {},
                   ".dc vdd 0.25 0.7 5m"});
-    const auto transducer = lowest_supplies({&cell, 1}, 0.2, {}, *parts);
+    const auto transducer = find_lowest_supplies({&cell, 1}, 0.2, {}, *parts);
     if (!found) return found.error();
     if (!transducer) return transducer.error();
     const auto g_m = found->line("dc", "par('(i(v1)-i(v2))/0.2m')"), diode = found->line("dc", "v(vdd,pg1)");

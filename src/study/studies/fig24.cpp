@@ -29,15 +29,15 @@ Result<void> report_curves(Outcome& out) {
         .if_off(inconsistent_slopes);
     out.claim("24a: I_F at 20 gf", I.at(20), "A");
     out.claim("24a: I_F at 400 gf", I.at(400), "A");
-    const auto G = ForceSensor().conductances(1, 500);
+    const auto G = ForceSensor().conductance_curve(1, 500);
     double worst_ratio_error = 0;
-    for (double gf = least_gf; gf <= most_gf; ++gf)
-        worst_ratio_error = std::max(worst_ratio_error, std::abs(I.at(gf) / G.at(gf) / (I.at(most_gf) / G.at(most_gf)) - 1));
+    for (double gf = min_gf; gf <= max_gf; ++gf)
+        worst_ratio_error = std::max(worst_ratio_error, std::abs(I.at(gf) / G.at(gf) / (I.at(max_gf) / G.at(max_gf)) - 1));
     out.claim("24a: I_F against a current proportional to G_FSR, largest difference", 100 * worst_ratio_error, "%")
         .at_most(5, "thesis 4.2: \"the output current is proportional to G_FSR\"; the bound is our choice");
     out.claim("24c: V_X at 400 gf", V_X.at(400), "V").held_to(0.1, "thesis 4.2, fig. 24c: V_X follows V_Y (0.1 V, errata F12)");
     double worst_V_X_error = 0;
-    for (double gf = least_gf; gf <= most_gf; ++gf) worst_V_X_error = std::max(worst_V_X_error, std::abs(V_X.at(gf) - 0.1));
+    for (double gf = min_gf; gf <= max_gf; ++gf) worst_V_X_error = std::max(worst_V_X_error, std::abs(V_X.at(gf) - 0.1));
     out.claim("24c: V_X against V_Y, largest difference from 20 to 400 gf", worst_V_X_error, "V");
     out.claim("24c: V_Z at 400 gf", V_Z.at(400), "V").printed_as(V_DD - headroom, "thesis 4.2, fig. 24c: 175 mV below V_DD");
     out.plot("24a: characteristic", "force (gf)", "I_F (uA)")
@@ -70,8 +70,8 @@ Result<void> report_corners(Outcome& out) {
 }
 
 Result<void> report_press(Outcome& out) {
-    const TransducerCell cell{"t", read_cell()};
-    const auto found = found_in({transducers({&cell, 1}, "dc 0 force 1"), {}, ".dc vforce 0.1 4.2 10m\n.force press\n.tran 1m 1 0 5m"});
+    const TransducerCell cell{"t", improved_cell_with_diode()};
+    const auto found = found_in({transducer_netlist({&cell, 1}, "dc 0 force 1"), {}, ".dc vforce 0.1 4.2 10m\n.force press\n.tran 1m 1 0 5m"});
     if (!found) return found.error();
     const auto I = found->line("tran", "i(xt.vif)"), force = found->line("tran", "v(force)"), static_curve = found->line("dc", "i(xt.vif)");
     double worst_error = 0;

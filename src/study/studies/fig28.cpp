@@ -5,7 +5,7 @@
 
 #include "study/deck.hpp"
 #include "study/studies.hpp"
-#include "study/thesis/load.hpp"
+#include "study/thesis/active_load.hpp"
 
 namespace corpuscle::studies::fig28 {
 
@@ -18,19 +18,19 @@ Result<double> zero_current_voltage_in(const char* corner) {
     return found->line("dc", "i(vin)").where(0);
 }
 
-void add_claims(const Load& load, Outcome& out) {
-    out.claim("zero input current at", load.rest, "V").printed_as(350e-3, source);
-    out.claim("largest resistance", load.most, "ohm").printed_as(413e3, source);
-    out.claim("largest resistance at", load.at, "V").printed_as(350e-3, source);
-    out.claim("linear range from", load.from, "V").printed_as(300e-3, source);
-    auto& end = out.claim("linear range to", load.to, "V").printed_as(500e-3, source);
+void add_claims(const ActiveLoad& load, Outcome& out) {
+    out.claim("zero input current at", load.zero_current_voltage, "V").printed_as(350e-3, source);
+    out.claim("largest resistance", load.max_resistance, "ohm").printed_as(413e3, source);
+    out.claim("largest resistance at", load.max_resistance_at, "V").printed_as(350e-3, source);
+    out.claim("linear range from", load.linear_from, "V").printed_as(300e-3, source);
+    auto& end = out.claim("linear range to", load.linear_to, "V").printed_as(500e-3, source);
     for (auto* c = &end - 1; c <= &end; ++c)
         if (c->needs_reason())
             c->because(
                 fmt::format("the thesis does not define the linear range; here it is where the resistance is at most a tenth below its "
                             "largest. The simulated curve is almost symmetric about {:.3g} mV, which a range from 300 to 500 mV is not",
-                            1e3 * load.at));
-    const auto deviation_percent = [&](double v) { return 100 * (load.resistance.at(v) / load.most - 1); };
+                            1e3 * load.max_resistance_at));
+    const auto deviation_percent = [&](double v) { return 100 * (load.resistance.at(v) / load.max_resistance - 1); };
     out.claim("resistance at 300 mV, relative to its largest", deviation_percent(300e-3), "%");
     out.claim("resistance at 500 mV, relative to its largest", deviation_percent(500e-3), "%");
     out.claim("resistance at 200 mV, relative to its largest", deviation_percent(200e-3), "%");
@@ -42,7 +42,7 @@ Result<Outcome> work(const StudyOptions& options) {
     Outcome out;
     const auto found = found_in({"invb", {}, ".dc vin 0 0.7 0.5m"});
     if (!found) return found.error();
-    const auto load = load_of(found->line("dc", "i(vin)").times(1, -1));
+    const auto load = analyse_load(found->line("dc", "i(vin)").times(1, -1));
     add_claims(load, out);
     for (const char* corner : {"ss", "ff", "sf", "fs"}) {
         const auto rest = zero_current_voltage_in(corner);

@@ -38,7 +38,7 @@ Result<double> smallest_step(const char* afferent) {
 
 void add_claims(Outcome& out, const Class& c, const std::vector<double>& train) {
     const auto spikes = [&](const char* when, const TimeWindow& s) -> Claim& {
-        return out.claim(fmt::format("{}: {}", c.full, when), press::count(train, s), "spikes");
+        return out.claim(fmt::format("{}: {}", c.full, when), press::spike_count(train, s), "spikes");
     };
     spikes("within 100 ms of the onset (two make a burst)", onset).at_least(2, source);
     auto& held = spikes("in the last 250 ms of the step", last);
@@ -67,7 +67,7 @@ Result<Outcome> work(const StudyOptions& options) {
     for (const auto& c : classes) {
         const auto smallest = smallest_step(c.name);
         if (!smallest) return smallest.error();
-        press::known_as(out.claim(fmt::format("{}: smallest step that evokes a spike", c.full), *smallest, "N"), c.threshold,
+        press::set_reference(out.claim(fmt::format("{}: smallest step that evokes a spike", c.full), *smallest, "N"), c.threshold,
                         "median of the nerve, from memory, not verified");
         if (auto ok = options.at(static_cast<double>(&c - classes + 1) / 5); !ok) return ok.error();
     }

@@ -6,7 +6,7 @@
 
 #include "study/deck.hpp"
 #include "study/studies.hpp"
-#include "study/thesis/load.hpp"
+#include "study/thesis/active_load.hpp"
 
 namespace corpuscle::studies::fig30 {
 
@@ -14,8 +14,8 @@ constexpr auto source = "thesis 4.3.1, fig. 30";
 constexpr double C_B = 0.8e-12, C_C = 8.8e-12;  // F, table 5's text, errata S4
 
 struct Loads {
-    Load b, c;  ///< INVB and INVC
-    double times() const { return c.most / b.most; }
+    ActiveLoad b, c;  ///< INVB and INVC
+    double times() const { return c.max_resistance / b.max_resistance; }
 };
 Result<Loads> simulate_loads(const circuit::Values& of_models = {}) {
     const auto found = found_in({"invc", {}, ".dc vin 0 0.7 0.5m", of_models});
@@ -23,7 +23,7 @@ Result<Loads> simulate_loads(const circuit::Values& of_models = {}) {
     // INVB's output is held at half the supply like its input, so that the load's curve equals that of invb.cir.
     const auto b = found_in({"invb", {}, ".dc vin 0 0.7 0.5m", of_models});
     if (!b) return b.error();
-    return Loads{load_of(b->line("dc", "i(vin)").times(1, -1)), load_of(found->line("dc", "i(vl)"))};
+    return Loads{analyse_load(b->line("dc", "i(vin)").times(1, -1)), analyse_load(found->line("dc", "i(vl)"))};
 }
 
 struct CornerFrequencies {
@@ -45,7 +45,7 @@ double largest_difference(const Loads& loads, double from, double to) {
     double largest = 0;
     const auto c = loads.c.resistance.between(from, to);
     for (std::size_t k = 0; k < c.x.size(); ++k)
-        largest = std::max(largest, std::abs(c.y[k] / loads.c.most - loads.b.resistance.at(c.x[k]) / loads.b.most));
+        largest = std::max(largest, std::abs(c.y[k] / loads.c.max_resistance - loads.b.resistance.at(c.x[k]) / loads.b.max_resistance));
     return largest;
 }
 
@@ -55,11 +55,11 @@ void add_claims(const Loads& loads, const Loads& ideal, Outcome& out) {
         "by {:.0f}. With length modulation the mirrors' diodes have more voltage than the series arrays, so the currents are divided by "
         "more. Why the foundry's mirrors divide by less than the ratios is not known",
         ideal.times());
-    out.claim("largest resistance", loads.c.most, "ohm").printed_as(6.6e9, source).because(why);
+    out.claim("largest resistance", loads.c.max_resistance, "ohm").printed_as(6.6e9, source).because(why);
     out.claim("ratio to INVB's", loads.times(), "times").printed_as(16000, source).because(why);
     out.claim("without length modulation: ratio to INVB's", ideal.times(), "times").held_to(18432, "eq. 38 and 39, errata S7b");
-    out.claim("zero input current at", loads.c.rest, "V").held_to(350e-3, "thesis 4.3.1: the same shape as fig. 28a");
-    out.claim("largest resistance at", loads.c.at, "V").held_to(350e-3, "thesis 4.3.1: the same shape as fig. 28b");
+    out.claim("zero input current at", loads.c.zero_current_voltage, "V").held_to(350e-3, "thesis 4.3.1: the same shape as fig. 28a");
+    out.claim("largest resistance at", loads.c.max_resistance_at, "V").held_to(350e-3, "thesis 4.3.1: the same shape as fig. 28b");
     out.claim("resistance as a fraction of its largest, largest difference from INVB's, 200 to 500 mV", largest_difference(loads, 0.2, 0.5))
         .at_most(0.1, "thesis 4.3.1: \"a similar shape\"; a tenth is our choice");
 }

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "study/studies.hpp"
-#include "study/thesis/beside.hpp"
-#include "study/thesis/oscillator_alone.hpp"
+#include "study/thesis/chip_vs_model.hpp"
+#include "study/thesis/isolated_oscillator.hpp"
 
 namespace corpuscle::studies::fig34 {
 
@@ -75,7 +75,7 @@ xb gp gn u vdd rectifier_sa
 .dc vhp 0.347 0.354 0.1m updown
 )"});
     if (!found) return found.error();
-    const auto en = hysteresis_in(*found, "v(xb.en)");
+    const auto en = find_hysteresis(*found, "v(xb.en)");
     out.claim("comparator: closes at a filter output of", en.V_H, "V"), out.claim("comparator: opens at a filter output of", en.V_L, "V");
     out.claim("comparator: hysteresis", en.V_H - en.V_L, "V")
         .between(0.1e-3, 10e-3, "thesis 4.3.1: a small hysteresis; 0.1 to 10 mV, compared with signals of 30 to 200 mV, is our choice");

@@ -5,7 +5,7 @@
 
 #include "study/deck.hpp"
 #include "study/studies.hpp"
-#include "study/thesis/beside.hpp"
+#include "study/thesis/chip_vs_model.hpp"
 
 namespace corpuscle::studies::fig37 {
 

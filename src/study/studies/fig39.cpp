@@ -6,12 +6,12 @@
 #include <cmath>
 
 #include "study/studies.hpp"
-#include "study/thesis/oscillator_alone.hpp"
+#include "study/thesis/isolated_oscillator.hpp"
 
 namespace corpuscle::studies::fig39 {
 
 constexpr auto source = "thesis 4.4, fig. 39";
-using O = OscillatorAlone;
+using O = IsolatedOscillator;
 constexpr double I_shown = 20e-12;  // A: our choice, the current of fig. 39a is not published
 
 void report_swing(const Found& found, const Hysteresis& t, Outcome& out) {
@@ -52,7 +52,7 @@ Result<CurrentSweep> sweep_current(bool high_threshold_switches, double swing) {
     CurrentSweep out;
     for (const double I : currents) {
         const double until = 30e-3 + 2.5e-12 * (6 * swing + 0.25) / (I - O::I_LEAK);
-        const auto found = driven({.current = I, .until = until, .better_switches = high_threshold_switches});
+        const auto found = simulate_oscillator({.current = I, .stop_time = until, .has_high_threshold_switches = high_threshold_switches});
         if (!found) return found.error();
         const double T = found->number("mean_interval"), first = found->number("first_spike");
         if (!(T > 0)) continue;
@@ -102,9 +102,9 @@ Result<void> report_frequency(const Hysteresis& t, const StudyOptions& options, 
 
 Result<Outcome> work(const StudyOptions& options) {
     Outcome out;
-    const auto t = trigger_alone();
+    const auto t = simulate_trigger();
     if (!t) return t.error();
-    const auto shown_case = driven({.current = I_shown}), below_leak = driven({.current = O::I_LEAK / 2, .until = 0.3});
+    const auto shown_case = simulate_oscillator({.current = I_shown}), below_leak = simulate_oscillator({.current = O::I_LEAK / 2, .stop_time = 0.3});
     if (!shown_case) return shown_case.error();
     if (!below_leak) return below_leak.error();
     report_swing(*shown_case, *t, out);
@@ -119,8 +119,8 @@ Result<Outcome> work(const StudyOptions& options) {
         .add("s", shown_case->line("tran", "v(s)"));
     out.plot("39b, the trigger's curve", "V_IN (V)", "V_OUT (V)")
         .shape("a hysteresis window between theta and u_rst")
-        .add("rising", t->up)
-        .add("falling", t->down);
+        .add("rising", t->rising)
+        .add("falling", t->falling);
     if (auto ok = report_frequency(*t, options, out); !ok) return ok.error();
     out.note(
         "I_LEAK 2 pA, I_CHARGE 1 nA and 1.8 pF as published; the current of fig. 39a is not published, 20 pA is our choice. 39b is the "

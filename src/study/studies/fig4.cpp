@@ -23,18 +23,18 @@ double ramp_duration(const Line& force, const TimeWindow& s) {
 
 /// Largest difference (N) between retraction and time-reversed protraction.
 double asymmetry(const Line& force) {
-    const double middle = (press::up.from + press::down.to) / 2;
+    const double middle = (press::protraction.from + press::retraction.to) / 2;
     double out = 0;
-    for (double t = press::up.from; t < press::up.to; t += 1e-3) out = std::max(out, std::abs(force.at(t) - force.at(2 * middle - t)));
+    for (double t = press::protraction.from; t < press::protraction.to; t += 1e-3) out = std::max(out, std::abs(force.at(t) - force.at(2 * middle - t)));
     return out;
 }
 
 /// Largest difference (N) between protraction and half a cosine.
 double cosine_error(const Line& force) {
     double out = 0;
-    const auto ramp = force.between(press::up.from, press::up.to);
+    const auto ramp = force.between(press::protraction.from, press::protraction.to);
     for (std::size_t k = 0; k < ramp.x.size(); ++k) {
-        const double fraction = (ramp.x[k] - press::up.from) / (press::up.to - press::up.from);
+        const double fraction = (ramp.x[k] - press::protraction.from) / (press::protraction.to - press::protraction.from);
         out = std::max(out, std::abs(ramp.y[k] - (force.least() + (force.most() - force.least()) * (1 - std::cos(M_PI * fraction)) / 2)));
     }
     return out;
@@ -42,7 +42,7 @@ double cosine_error(const Line& force) {
 
 Result<Outcome> work(const StudyOptions&) {
     Outcome out;
-    const auto force = press::samples(1e-4);
+    const auto force = press::force_curve(1e-4);
     if (!force) return force.error();
     const double half = (press::plateau.from + press::plateau.to) / 2, end = press::after.to;
     const double up = ramp_duration(*force, {0, half}), down = ramp_duration(*force, {half, end});
@@ -68,9 +68,9 @@ Result<Outcome> work(const StudyOptions&) {
         const auto as_used = train_of({name}), as_printed = train_of({name, "press", {"press.t_down=250ms"}});
         if (!as_used) return as_used.error();
         if (!as_printed) return as_printed.error();
-        const TimeWindow later{press::down.from, 2};
-        out.claim(std::string(name) + ": spikes from the start of a retraction of 125 ms", press::count(*as_used, later), "spikes");
-        out.claim(std::string(name) + ": spikes from the start of a retraction of 250 ms", press::count(*as_printed, later), "spikes");
+        const TimeWindow later{press::retraction.from, 2};
+        out.claim(std::string(name) + ": spikes from the start of a retraction of 125 ms", press::spike_count(*as_used, later), "spikes");
+        out.claim(std::string(name) + ": spikes from the start of a retraction of 250 ms", press::spike_count(*as_printed, later), "spikes");
     }
     out.plot("Force of the experiment", "time (s)", "force (N)")
         .add("as used here: retraction of 125 ms", *force)

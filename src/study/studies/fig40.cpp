@@ -6,42 +6,42 @@
 #include <cmath>
 
 #include "study/studies.hpp"
-#include "study/thesis/beside.hpp"
+#include "study/thesis/chip_vs_model.hpp"
 
 namespace corpuscle::studies::fig40 {
 
 namespace P = press;
 
-void report_pattern(const Beside& b, const std::vector<double>& low_leak_spikes, Outcome& out) {
+void report_pattern(const ChipVsModel& b, const std::vector<double>& low_leak_spikes, Outcome& out) {
     const auto& chip = b.chip.spikes;
-    const auto f = press::frequency(chip), expected = press::frequency(b.model), low_leak = press::frequency(low_leak_spikes);
+    const auto f = press::frequency_at_start(chip), expected = press::frequency_at_start(b.model_spikes), low_leak = press::frequency_at_start(low_leak_spikes);
     const auto reason =
         fmt::format("leakage of its switches: with high-threshold switches the frequency 100 ms before the end of the plateau is {:.1f} Hz",
-                    low_leak.at(P::late.from));
+                    low_leak.at(P::plateau_end.from));
     const std::string similar = "thesis 4.4: similar to the model's of fig. 17c; the published value is the model's, computed here";
-    out.claim("spikes", static_cast<double>(chip.size())).held_to(static_cast<double>(b.model.size()), similar);
-    out.claim("spikes while the force rises", press::count(chip, P::up)).held_to(press::count(b.model, P::up), similar);
+    out.claim("spikes", static_cast<double>(chip.size())).held_to(static_cast<double>(b.model_spikes.size()), similar);
+    out.claim("spikes while the force rises", press::spike_count(chip, P::protraction)).held_to(press::spike_count(b.model_spikes, P::protraction), similar);
     for (const auto& [what, computed, model_value, unit] :
-         {std::tuple{"spikes on the plateau", press::count(chip, P::plateau), press::count(b.model, P::plateau), ""},
+         {std::tuple{"spikes on the plateau", press::spike_count(chip, P::plateau), press::spike_count(b.model_spikes, P::plateau), ""},
           {"highest frequency", f.most(), expected.most(), "Hz"},
           {"frequency as the plateau begins", f.at(P::plateau.from + 0.02), expected.at(P::plateau.from + 0.02), "Hz"},
-          {"frequency 100 ms before the plateau ends", f.at(P::late.from), expected.at(P::late.from), "Hz"}})
+          {"frequency 100 ms before the plateau ends", f.at(P::plateau_end.from), expected.at(P::plateau_end.from), "Hz"}})
         if (auto& c = out.claim(what, computed, unit).held_to(model_value, similar); c.needs_reason()) c.because(reason);
     const auto plateau = f.between(P::plateau.from, P::plateau.to - 0.05);
-    out.claim("spikes at rest", press::count(chip, P::rest)).between(0, 0, "thesis 1.2, fig. 5a");
+    out.claim("spikes at rest", press::spike_count(chip, P::rest)).between(0, 0, "thesis 1.2, fig. 5a");
     out.finds("highest while the force rises, then a sustained but slowly decaying frequency",
-              f.peak() < P::plateau.from && std::is_sorted(plateau.y.rbegin(), plateau.y.rend()) && press::count(chip, P::late) > 0,
+              f.peak() < P::plateau.from && std::is_sorted(plateau.y.rbegin(), plateau.y.rend()) && press::spike_count(chip, P::plateau_end) > 0,
               "thesis 1.2, fig. 5a");
-    out.claim("spikes from the retraction on", press::count(chip, {P::down.from, 1})).at_most(1, "thesis 1.2: almost no response");
+    out.claim("spikes from the retraction on", press::spike_count(chip, {P::retraction.from, 1})).at_most(1, "thesis 1.2: almost no response");
 }
 
 void report_glitches(const Told& chip, Outcome& out) {
     const auto& I = chip.traces.at("i(vi)");
     const std::vector<double> spikes_under_force(
-        chip.spikes.begin(), chip.spikes.begin() + static_cast<std::ptrdiff_t>(press::count(chip.spikes, {0, P::plateau.to})));
-    out.claim("glitch in I at each spike: smallest, over I before it", least_jump(I, spikes_under_force, 1.5e-3), "times")
+        chip.spikes.begin(), chip.spikes.begin() + static_cast<std::ptrdiff_t>(press::spike_count(chip.spikes, {0, P::plateau.to})));
+    out.claim("glitch in I at each spike: smallest, over I before it", min_jump(I, spikes_under_force, 1.5e-3), "times")
         .at_least(1.2, "thesis 4.4: glitches in the input signal I at each firing event; a fifth is our choice");
-    const double charging_time = longest_above(chip.traces.at("v(s)"), 0.35);
+    const double charging_time = longest_time_above(chip.traces.at("v(s)"), 0.35);
     double shortest = 1;
     for (std::size_t k = 1; k < chip.spikes.size(); ++k) shortest = std::min(shortest, chip.spikes[k] - chip.spikes[k - 1]);
     out.claim("charging time of the membrane", charging_time, "s");
@@ -63,7 +63,7 @@ void report_glitches(const Told& chip, Outcome& out) {
 Result<Outcome> work(const StudyOptions& options) {
     Outcome out;
     const auto b =
-        beside({.afferent = "sa1-circuit", .rate = 20e3, .traces = {"i(vi)", "i(via)", "i(vib)", "i(vic)", "v(u)", "v(s)", "v(xrectb.en)"}},
+        compare_chip_with_model({.afferent = "sa1-circuit", .rate = 20e3, .traces = {"i(vi)", "i(via)", "i(vib)", "i(vic)", "v(u)", "v(s)", "v(xrectb.en)"}},
                "sa1");
     if (!b) return b.error();
     const auto low_leak_spikes = train_of({"sa1-circuit", "press", {"sa1-circuit.hv_switches=1"}});
@@ -80,9 +80,9 @@ Result<Outcome> work(const StudyOptions& options) {
         .add("s", traces.at("v(s)"));
     out.plot("Frequency compared with the model's of fig. 17c", "time (s)", "frequency (Hz)")
         .shape("similar to the model's")
-        .points("chip", press::frequency(b->chip.spikes))
-        .points("model", press::frequency(b->model));
-    out.plot("Spikes", "time (s)", "").row("chip", b->chip.spikes).row("model", b->model);
+        .points("chip", press::frequency_at_start(b->chip.spikes))
+        .points("model", press::frequency_at_start(b->model_spikes));
+    out.plot("Spikes", "time (s)", "").row("chip", b->chip.spikes).row("model", b->model_spikes);
     out.note(
         "Gains as intended (errata S9a, S10a), with the matching leak of 7 pA and membrane of 4.5 pF. For the tables' sizes and the "
         "published 5 pA and 1.8 pF see errata-signal.");

@@ -1,12 +1,12 @@
 // Fig. 43: the layout of the rectangular arrays, computed with one rule.
 
 #include "study/studies.hpp"
-#include "study/thesis/layout.hpp"
+#include "study/thesis/array_layout.hpp"
 
 namespace corpuscle::studies::fig43 {
 
 Result<Outcome> work(const StudyOptions&) {
-    return tell_layout(rectangles, "fig. 43", "A has a single channel; by the same rule its rectangle is larger than published.");
+    return report_layout(rectangles, "fig. 43", "A has a single channel; by the same rule its rectangle is larger than published.");
 }
 
 const Study study{"fig43", "Layout of the rectangular arrays",

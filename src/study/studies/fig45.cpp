@@ -1,12 +1,12 @@
 // Fig. 45: the layout of the trapezoidal arrays, computed with one rule.
 
 #include "study/studies.hpp"
-#include "study/thesis/layout.hpp"
+#include "study/thesis/array_layout.hpp"
 
 namespace corpuscle::studies::fig45 {
 
 Result<Outcome> work(const StudyOptions&) {
-    return tell_layout(
+    return report_layout(
         trapezoids, "fig. 45",
         "F's two channels are closer together than those of the other arrays; by the same rule its rectangle is longer than published.");
 }

@@ -26,10 +26,10 @@ Result<void> add_lengths(Outcome& out) {
     const std::string unit = "0 nch018 w=0.42u l=0.18u";
     const auto mirror = [&](const std::string& output) {
         return found_in(
-            {fmt::format("mirror\n{}iin 0 in 100n\nma in in {}\nvo out 0 {}\n", whole_card, "0 " + unit, V_out) + output, {}, ".op"});
+            {fmt::format("mirror\n{}iin 0 in 100n\nma in in {}\nvo out 0 {}\n", process_card, "0 " + unit, V_out) + output, {}, ".op"});
     };
     const auto by_length = mirror(fmt::format("mb out in 0 0 nch018 w=0.42u l={} delvto={}\n", L, shift));
-    const auto by_array = mirror(units_text("b", "out", "in", "0", 1, n, unit));
+    const auto by_array = mirror(array_lines("b", "out", "in", "0", 1, n, unit));
     if (!by_length || !by_array) return by_length ? by_array.error() : by_length.error();
     const double long_transistor = I_in / -by_length->at_rest("i(vo)"), array = I_in / -by_array->at_rest("i(vo)");
     out.claim(fmt::format("0.18 um to {:g} um: I_in/I_out over the ratio of aspect ratios", 1e6 * L), long_transistor / ratio)
@@ -46,8 +46,8 @@ Result<void> add_lengths(Outcome& out) {
 Result<void> add_spread(Outcome& out) {
     const std::string unit = "0 nch w=1.5u l=0.5u";
     const auto deviation = [&](int m, int n) -> Result<double> {
-        const auto chips = all_found_in({fmt::format("mirror\n{}iin 0 in 100n\nvo out 0 {}\n", whole_card, V_out) +
-                                             units_text("a", "in", "in", "0", m, 1, unit) + units_text("b", "out", "in", "0", 1, n, unit),
+        const auto chips = all_found_in({fmt::format("mirror\n{}iin 0 in 100n\nvo out 0 {}\n", process_card, V_out) +
+                                             array_lines("a", "in", "in", "0", m, 1, unit) + array_lines("b", "out", "in", "0", 1, n, unit),
                                          {},
                                          ".op\n.mc 1000 process=0"});
         if (!chips) return chips.error();

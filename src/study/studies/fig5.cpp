@@ -8,7 +8,7 @@
 
 namespace corpuscle::studies::fig5 {
 
-using press::count;
+using press::spike_count;
 
 constexpr auto source = "thesis 1.2, fig. 5";
 constexpr auto inferred = "Birznieks et al. 2001, population mean, inferred from the thesis's parameters, not read in the paper";
@@ -20,26 +20,26 @@ bool is_falling(const Line& line) {
 }
 
 void add_sa1_claims(Outcome& out, const std::vector<double>& train) {
-    const double peak = measure<PeakRate>(train, press::up), last = measure<LastRate>(train, press::plateau);
-    const auto plateau = press::frequency(train).between(press::plateau.from, press::plateau.to);
-    press::known_as(out.claim("SA-I: peak in protraction", peak, "Hz"), 38, inferred);
-    press::known_as(out.claim("SA-I: first frequency of the plateau", plateau.y.front(), "Hz"), 30, inferred);
-    press::known_as(out.claim("SA-I: last frequency of the plateau", last, "Hz"), 15, inferred);
+    const double peak = measure<PeakRate>(train, press::protraction), last = measure<LastRate>(train, press::plateau);
+    const auto plateau = press::frequency_at_start(train).between(press::plateau.from, press::plateau.to);
+    press::set_reference(out.claim("SA-I: peak in protraction", peak, "Hz"), 38, inferred);
+    press::set_reference(out.claim("SA-I: first frequency of the plateau", plateau.y.front(), "Hz"), 30, inferred);
+    press::set_reference(out.claim("SA-I: last frequency of the plateau", last, "Hz"), 15, inferred);
     out.claim("SA-I: peak over the last frequency of the plateau", peak / last)
         .between(2, 3, "thesis 1.2: high, then sustained; the range is our choice");
     out.finds("SA-I: frequency falls steadily through the plateau", is_falling(plateau), source);
-    out.claim("SA-I: spikes after 40 % of retraction", count(train, {0.675, 0.75}), "spikes")
+    out.claim("SA-I: spikes after 40 % of retraction", spike_count(train, {0.675, 0.75}), "spikes")
         .at_most(1, "thesis 1.2: almost no response; the number is our choice");
 }
 
 void add_fa1_claims(Outcome& out, const std::vector<double>& train) {
     const double up = measure<PeakRate>(train, {0.25, 0.5}), down = measure<PeakRate>(train, {0.625, 1.0});
-    press::known_as(out.claim("FA-I: peak of the rising force", up, "Hz"), 25, inferred);
-    press::known_as(out.claim("FA-I: peak of the falling force", down, "Hz"), 19, inferred);
+    press::set_reference(out.claim("FA-I: peak of the rising force", up, "Hz"), 25, inferred);
+    press::set_reference(out.claim("FA-I: peak of the falling force", down, "Hz"), 19, inferred);
     out.claim("FA-I: ratio of the two peaks", up / down)
         .between(1.2, 1.5, "thesis 1.2: asymmetrical, protraction above retraction; the range is our choice");
-    out.claim("FA-I: spikes in the plateau's last 100 ms", count(train, press::late), "spikes").between(0, 0, source);
-    const double other_spikes = count(train, press::plateau) + count(train, press::after);
+    out.claim("FA-I: spikes in the plateau's last 100 ms", spike_count(train, press::plateau_end), "spikes").between(0, 0, source);
+    const double other_spikes = spike_count(train, press::plateau) + spike_count(train, press::after);
     auto& c = out.claim("FA-I: spikes outside protraction and retraction", other_spikes, "spikes")
                   .between(0, 0, fmt::format("{}: only there", source));
     if (c.needs_reason())
@@ -51,19 +51,19 @@ void add_fa1_claims(Outcome& out, const std::vector<double>& train) {
 Result<Outcome> work(const StudyOptions& options) {
     Outcome out;
     const auto sa1 = train_of({"sa1"}), fa1 = train_of({"fa1"});
-    const auto force = press::samples(1e-3);
+    const auto force = press::force_curve(1e-3);
     if (!sa1) return sa1.error();
     if (!fa1) return fa1.error();
     if (!force) return force.error();
     if (auto ok = options.at(0.5); !ok) return ok.error();
     add_sa1_claims(out, *sa1), add_fa1_claims(out, *fa1);
-    const auto ahead = press::frequency(*sa1), behind = press::frequency_behind(*sa1);
+    const auto ahead = press::frequency_at_start(*sa1), behind = press::frequency_at_end(*sa1);
     out.claim("SA-I: time of the peak, frequency at the start of each interval", ahead.peak(), "s");
     out.claim("the same, frequency at the end of each interval", behind.peak(), "s");
     for (const auto& [name, train] : {std::pair{"SA-I", &*sa1}, {"FA-I", &*fa1}})
         out.plot(fmt::format("{}: instantaneous frequency", name), "time (s)", "frequency (Hz)")
-            .points("at the first spike of the interval", press::frequency(*train))
-            .points("at the second spike of the interval", press::frequency_behind(*train))
+            .points("at the first spike of the interval", press::frequency_at_start(*train))
+            .points("at the second spike of the interval", press::frequency_at_end(*train))
             .add("force, 10 Hz per newton", force->times(1, 10))
             .shape(name == std::string_view("SA-I")
                        ? "high in protraction, sustained and slowly decaying in the plateau, almost nothing in retraction"

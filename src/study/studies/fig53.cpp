@@ -9,17 +9,17 @@ constexpr BiasFigure figure{BiasAxis::current, "53", "I_BIAS (nA)", "A", 1e9, {1
 
 /// True if both transistors at node BN are saturated.
 Result<bool> is_saturated(double I_BIAS) {
-    const auto s = bias_state({bias_setting(BiasAxis::current, I_BIAS)});
+    const auto s = simulate_bias_state({bias_setting(BiasAxis::current, I_BIAS)});
     if (!s) return s.error();
-    return s->V_M3B >= s->needs_M3B && s->V_M4A >= s->needs_M4A;
+    return s->V_M3B >= s->V_sat_M3B && s->V_M4A >= s->V_sat_M4A;
 }
 
 Result<Outcome> work(const StudyOptions& options) {
     Outcome out;
-    const auto corners = make(figure, out, options);
+    const auto corners = simulate_bias_figure(figure, out, options);
     if (!corners) return corners.error();
     const auto& typical = corners->front();
-    const auto V_BN = typical.sweep.line("v(bn)");
+    const auto V_BN = typical.sweep.curve("v(bn)");
     const std::string why =
         "V_BN follows from V_T, n and I_SQ of the process card. Its V_T is set so that the unbiased inverter carries the published 17.5 "
         "nA; the study bias-valid shows the effect of thresholds some tens of millivolts lower";
@@ -29,7 +29,7 @@ Result<Outcome> work(const StudyOptions& options) {
         if (c.needs_reason()) c.because(why);
     }
     out.finds("V_BN rises with I_BIAS", V_BN.slope().between(20e-9, 2e-6).least() > 0, figure.source());
-    const auto inside = is_saturated(200e-9), below = is_saturated(0.5 * typical.works.from), above = is_saturated(2 * typical.works.to);
+    const auto inside = is_saturated(200e-9), below = is_saturated(0.5 * typical.working_range.from), above = is_saturated(2 * typical.working_range.to);
     for (const auto* s : {&inside, &below, &above})
         if (!*s) return s->error();
     const char* source = "E.2: saturated in the range, in the linear region below and above it";

@@ -21,13 +21,13 @@ Result<void> claim_regions(Outcome& out) {
     const auto found = found_in({"invb", {}, ".op"});
     if (!found) return found.error();
     const double tail_N = found->at_rest("v(xh.sn)"), tail_P = 0.7 - found->at_rest("v(xh.sp)");
-    const auto state = bias_state({});
+    const auto state = simulate_bias_state({});
     if (!state) return state.error();
     out.claim("INVB: voltage across M2A, which is held in the linear region", tail_N, "V")
-        .at_most(state->needs_M4A, "E.3, fig. 56 (errata I11); such an array at 200 nA is saturated from this voltage on");
+        .at_most(state->V_sat_M4A, "E.3, fig. 56 (errata I11); such an array at 200 nA is saturated from this voltage on");
     out.claim("INVB: voltage across M1A, which is held in the linear region", tail_P, "V")
-        .at_most(state->needs_M3B, "E.3, fig. 56 (errata I11); as above");
-    const double i_f = std::pow(state->needs_M4A / (1.380649e-23 * 300.15 / 1.602176634e-19) - 3, 2) - 1;
+        .at_most(state->V_sat_M3B, "E.3, fig. 56 (errata I11); as above");
+    const double i_f = std::pow(state->V_sat_M4A / (1.380649e-23 * 300.15 / 1.602176634e-19) - 3, 2) - 1;
     auto& weak =
         out.claim("inversion level i_f of INVA's arrays at 200 nA", i_f).at_most(1, "E.3: the transistors operate in weak inversion");
     if (weak.needs_reason()) weak.because("200 nA in these arrays is moderate inversion by I_SQ of tables 11 to 14");
@@ -36,9 +36,9 @@ Result<void> claim_regions(Outcome& out) {
 
 Result<Outcome> work(const StudyOptions& options) {
     Outcome out;
-    const auto inverters = Inverters::swept(2e-3);
+    const auto inverters = InverterSweep::run(2e-3);
     if (!inverters) return inverters.error();
-    const auto I_A = inverters->current('a'), I_B = inverters->current('b'), G_A = inverters->transconductance('a'),
+    const auto I_A = inverters->output_current('a'), I_B = inverters->output_current('b'), G_A = inverters->transconductance('a'),
                G_B = inverters->transconductance('b');
     auto& currents = out.plot("Fig. 57a: output current, held at 0 V", "V_IN (mV)", "I_o (uA)");
     currents.add("INVA", I_A.times(1e3, 1e6)).add("INVB", I_B.times(1e3, 1e6)).shape("INVA's much larger; V_IN from -350 to 350 mV");

@@ -18,7 +18,7 @@ double largest_deviation(const Line& G, double within) {
 
 Result<Outcome> work(const StudyOptions& options) {
     Outcome out;
-    const auto at_700_mV = Inverters::swept(2e-3), at_800_mV = Inverters::swept(2e-3, 0.8);
+    const auto at_700_mV = InverterSweep::run(2e-3), at_800_mV = InverterSweep::run(2e-3, 0.8);
     for (const auto* s : {&at_700_mV, &at_800_mV})
         if (!*s) return s->error();
     out.plot("Fig. 58a: output current over G_m(0)", "V_IN (mV)", "I_o / G_m(0) (mV)");
@@ -26,8 +26,8 @@ Result<Outcome> work(const StudyOptions& options) {
     Line G[2];
     for (int k = 0; k < 2; ++k) {
         const char inverter = inverter_letters[k];
-        G[k] = normalise(at_700_mV->transconductance(inverter), at_700_mV->at_rest(inverter));
-        out.plots[0].add(inverter_names[k], normalise(at_700_mV->current(inverter), at_700_mV->at_rest(inverter)).times(1e3, 1e3));
+        G[k] = normalise(at_700_mV->transconductance(inverter), at_700_mV->transconductance_at_zero(inverter));
+        out.plots[0].add(inverter_names[k], normalise(at_700_mV->output_current(inverter), at_700_mV->transconductance_at_zero(inverter)).times(1e3, 1e3));
         out.plots[1].add(inverter_names[k], G[k].times(1e3, 1));
     }
     out.plots[0].add("linear", {{-350, 350}, {350, -350}}).shape("INVB's is the more linear one");
@@ -39,10 +39,10 @@ Result<Outcome> work(const StudyOptions& options) {
         out.finds(fmt::format("INVB's deviation is smaller within {:g} mV", 1e3 * within),
                   largest_deviation(G[1], within) < largest_deviation(G[0], within), "E.3: INVB is still non-linear, but better");
     }
-    const auto G_more = normalise(at_800_mV->transconductance('b'), at_800_mV->at_rest('b'));
+    const auto G_more = normalise(at_800_mV->transconductance('b'), at_800_mV->transconductance_at_zero('b'));
     out.finds("INVB's deviation within 200 mV is smaller at 0.8 V than at 0.7 V",
               largest_deviation(G_more, 0.2) < largest_deviation(G[1], 0.2), "E.3: even better results with higher supply voltages");
-    out.claim("INVB at 0.8 V: transconductance over that at 0.7 V", at_800_mV->at_rest('b') / at_700_mV->at_rest('b'), "times")
+    out.claim("INVB at 0.8 V: transconductance over that at 0.7 V", at_800_mV->transconductance_at_zero('b') / at_700_mV->transconductance_at_zero('b'), "times")
         .at_least(1, "E.3: the transconductance would also increase accordingly");
     if (auto& last = out.claims.back(); last.needs_reason())
         last.because("the bias generator keeps 200 nA at any supply, and so the transconductance");

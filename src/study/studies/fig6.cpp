@@ -33,7 +33,7 @@ Result<void> add_comparison(Outcome& out, Plot& rows, const Implementation& impl
     if (!timing_error) return timing_error.error();
     const auto named = [&](const char* what) { return fmt::format("{}: {}", implementation.name, what); };
     const auto because = fmt::format("{}; {} spikes: {}; of the model: {}", implementation.description, implementation.name,
-                                     press::pattern(*train), press::pattern(model));
+                                     press::phase_counts(*train), press::phase_counts(model));
     out.claim(named("number of spikes over the model's"), static_cast<double>(train->size()) / static_cast<double>(model.size()))
         .because(because);
     out.claim(named("rms error of spike times"), timing_error->rms, "s")

@@ -18,10 +18,10 @@ double largest_difference(const Line& a, const Line& b, double within) {
 
 Result<Outcome> work(const StudyOptions& options) {
     Outcome out;
-    const auto all = Inverters::swept(2e-3);
+    const auto all = InverterSweep::run(2e-3);
     if (!all) return all.error();
-    const double G_B = all->at_rest('b'), G_C = all->at_rest('c');
-    const auto I_B = all->current('b').times(1, 1 / G_B), I_C = all->current('c').times(1, 1 / G_C);
+    const double G_B = all->transconductance_at_zero('b'), G_C = all->transconductance_at_zero('c');
+    const auto I_B = all->output_current('b').times(1, 1 / G_B), I_C = all->output_current('c').times(1, 1 / G_C);
     const auto by_ratios = [] {  // from the ratios of table 20 only: M3 and M4 split (eq. 38, 39), M5 and M6 divide
         constexpr double wide = 8, narrow = 2.0 / 4, last = (2.0 / 8) / 16;
         return 1 / (narrow * narrow / (wide * (wide + 2 * narrow)) * last);
@@ -38,7 +38,7 @@ Result<Outcome> work(const StudyOptions& options) {
         .printed_as(16000, "E.4")
         .because("8x1 and 2x4 split by 1/288, not 1/256: errata S7b");
     out.claim("from the published transconductances only", 2.5e-6 / 146e-12, "times").printed_as(16000, "E.4: 2.5 uS and 146 pS");
-    const auto current = all->current('c');
+    const auto current = all->output_current('c');
     out.claim("INVC: current at V_IN = -350 mV", current.y.front(), "A").between(1e-12, 999e-12, "E.4: in the pico ampere range");
     out.claim("INVC: current at V_IN = 350 mV", -current.y.back(), "A").between(1e-12, 999e-12, "E.4: in the pico ampere range");
     auto& shape = out.claim("largest difference of INVC's normalised current from INVB's", 100 * largest_difference(I_B, I_C, 0.35), "%")
@@ -46,7 +46,7 @@ Result<Outcome> work(const StudyOptions& options) {
     if (shape.needs_reason())
         shape.because("the mirrors divide by more where they carry less, because their diodes then have less drain voltage");
     out.plot("Fig. 60a: output currents", "V_IN (mV)", "I_o (INVB: uA, INVC: 20 pA)")
-        .add("INVB", all->current('b').times(1e3, 1e6))
+        .add("INVB", all->output_current('b').times(1e3, 1e6))
         .add("INVC", current.times(1e3, 0.05e12))
         .shape("INVC's has exactly the same shape as INVB's, in the picoampere range");
     auto& both = out.plot("Fig. 60b: transconductances", "V_IN (mV)", "G_m (S)");

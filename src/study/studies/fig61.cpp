@@ -10,27 +10,27 @@ namespace corpuscle::studies::fig61 {
 
 /// A coarse sweep over all of V_IN, and a fine one where the outputs switch.
 struct Curves {
-    Inverters coarse, fine;
+    InverterSweep coarse, fine;
     static Result<Curves> swept() {
-        auto coarse = Inverters::swept(2e-3);
+        auto coarse = InverterSweep::run(2e-3);
         if (!coarse) return coarse.error();
-        auto fine = Inverters::ordered(".dc vin 0.34 0.36 20u");
+        auto fine = InverterSweep::run_with_directives(".dc vin 0.34 0.36 20u");
         if (!fine) return fine.error();
         return Curves{std::move(*coarse), std::move(*fine)};
     }
     double V_Q(char inverter) const {  // relative to V_SS
-        auto distance = fine.characteristic(inverter);
+        auto distance = fine.transfer_curve(inverter);
         for (std::size_t k = 0; k < distance.x.size(); ++k) distance.y[k] -= distance.x[k];
         return 0.35 + distance.where(0);
     }
     double swing(char inverter) const {
-        const auto curve = coarse.characteristic(inverter);
+        const auto curve = coarse.transfer_curve(inverter);
         return curve.most() - curve.least();
     }
-    double largest_gain(char inverter) const { return fine.gain(inverter).most(); }
+    double largest_gain(char inverter) const { return fine.voltage_gain(inverter).most(); }
     /// Output range (V) in which the gain is at least half of its largest.
     double excursion(char inverter) const {
-        const auto gain = fine.gain(inverter);
+        const auto gain = fine.voltage_gain(inverter);
         const double half = 0.5 * gain.most();
         double from = Claim::none, to = Claim::none;
         for (std::size_t k = 0; k < gain.x.size(); ++k)
@@ -42,8 +42,8 @@ struct Curves {
 /// The gain is G_m / I times half an Early voltage; in the process card arrays of eight unit transistors have the same Early voltage at any
 /// current.
 void claim_gains(Outcome& out, const Curves& c) {
-    const auto per_current = [&](char input, double branch) { return c.coarse.at_rest(input) / branch; };
-    const double ratio_A = per_current('a', c.coarse.taken('a').at(0)), ratio_C = per_current('b', 0.5 * c.coarse.taken('b').at(0));
+    const auto per_current = [&](char input, double branch) { return c.coarse.transconductance_at_zero(input) / branch; };
+    const double ratio_A = per_current('a', c.coarse.supply_current('a').at(0)), ratio_C = per_current('b', 0.5 * c.coarse.supply_current('b').at(0));
     out.claim("INVA: G_m over the current of one branch", ratio_A, "1/V");
     out.claim("INVC: the same for its INVB, in each of the two mirrored branches", ratio_C, "1/V");
     for (const char inverter : {'b', 'a'}) {
@@ -69,8 +69,8 @@ Result<Outcome> work(const StudyOptions& options) {
     for (int k = 0; k < 3; ++k) {
         const char inverter = inverter_letters[k];
         const std::string name = inverter_names[k];
-        out.plots[0].add(name, c.coarse.characteristic(inverter).times(1e3, 1e3));
-        out.plots[1].add(name, c.fine.gain(inverter).times(1e3, 1));
+        out.plots[0].add(name, c.coarse.transfer_curve(inverter).times(1e3, 1e3));
+        out.plots[1].add(name, c.fine.voltage_gain(inverter).times(1e3, 1));
         out.claim(name + ": V_Q", c.V_Q(inverter), "V");
         if (inverter == 'c') out.claims.back().printed_as(347e-3, "E.4, fig. 61a (-3 mV in fig. 57's terms, errata I16)");
         out.claim(name + ": largest gain", c.largest_gain(inverter), "times");

@@ -13,7 +13,7 @@ constexpr double largest = 0.35;           // V: half the supply, the largest ex
 
 /// V/sqrt(Hz) over Hz; without_bias: leaves out the noise of the bias generator.
 Result<Line> input_noise(char inverter, bool without_bias) {
-    const auto found = Inverters::ordered(fmt::format(".noise v(i{}) vin dec 10 {} {}", inverter, slow, fast),
+    const auto found = InverterSweep::run_with_directives(fmt::format(".noise v(i{}) vin dec 10 {} {}", inverter, slow, fast),
                                           {fmt::format("c_bias={}", without_bias ? "1000" : "0")});
     if (!found) return found.error();
     return found->found.line("noise", "inoise_spectrum");
@@ -51,17 +51,17 @@ Result<Outcome> work(const StudyOptions& options) {
         out.claim(fmt::format("INVC's 1/f noise over {}'s, at 1 mHz", inverter_names[k]), over(noise[2], noise[k], false), "times")
             .at_least(1, "E.4: larger, as it has extra transistors");
     }
-    const auto filter = Inverters::ordered(".noise v(load) vin dec 10 1m 100k");
+    const auto filter = InverterSweep::run_with_directives(".noise v(load) vin dec 10 1m 100k");
     if (!filter) return filter.error();
     const double total = filter->found.number("onoise_total");
     out.claim("INVC as a load of 0.8 pF (filter B): noise from 1 mHz to 100 kHz", total, "V");
     out.claim("half the supply over this noise", 20 * std::log10(largest / total), "dB")
         .at_least(40, "E.4: adequate for its application; 40 dB is our choice");
-    const auto rest = Inverters::swept(0.35);
+    const auto rest = InverterSweep::run(0.35);
     if (!rest) return rest.error();
     double taken[3];
     for (int k = 0; k < 3; ++k)
-        out.claim(fmt::format("{}: supply current at V_IN = 0", inverter_names[k]), taken[k] = rest->taken(inverter_letters[k]).at(0), "A");
+        out.claim(fmt::format("{}: supply current at V_IN = 0", inverter_names[k]), taken[k] = rest->supply_current(inverter_letters[k]).at(0), "A");
     out.finds("INVC takes more current than INVA and INVB", taken[2] > taken[0] && taken[2] > taken[1],
               "E.4: very power inefficient (INVC is meant, errata I14)");
     out.note(

@@ -46,7 +46,7 @@ Result<Outcome> work(const StudyOptions& options) {
     if (!kim) return kim.error();
     if (!own) return own.error();
     if (auto ok = options.at(0.6); !ok) return ok.error();
-    const auto force = press::samples(1e-4);
+    const auto force = press::force_curve(1e-4);
     if (!force) return force.error();
     const auto& spikes = kim->spikes;
     double worst_error = 0;
@@ -54,16 +54,16 @@ Result<Outcome> work(const StudyOptions& options) {
         worst_error = std::max(worst_error, std::abs(kim->traces.at("F_read").at(t) - force->at(t)));
     out.claim("error of the converted force, at four times of the stimulus", worst_error, "N")
         .at_most(0.1, "thesis 2.2: the force signal in the digital domain; the range is our choice, a sample is up to 1 ms old");
-    const double up = measure<PeakRate>(spikes, press::up), held = measure<LastRate>(spikes, press::plateau),
-                 down = press::count(spikes, press::down);
+    const double up = measure<PeakRate>(spikes, press::protraction), held = measure<LastRate>(spikes, press::plateau),
+                 down = press::spike_count(spikes, press::retraction);
     out.claim("peak in protraction over the last frequency of the plateau", up / held)
         .at_least(1, "thesis 3.1: fires faster in protraction");
     const TimeWindow plateau_late{0.5, 0.625};
     out.claim("spikes in retraction", down, "spikes");
     out.claim("mean frequency in retraction over that of the second half of the plateau",
-              measure<MeanRate>(spikes, press::down) / measure<MeanRate>(spikes, plateau_late))
+              measure<MeanRate>(spikes, press::retraction) / measure<MeanRate>(spikes, plateau_late))
         .at_least(1, "thesis 3.1: the output also increases for negative changes (printed \"at the protraction phase\"; errata B11a)");
-    out.claim("spikes in retraction minus those of sa1", down - press::count(own->spikes, press::down), "spikes")
+    out.claim("spikes in retraction minus those of sa1", down - press::spike_count(own->spikes, press::retraction), "spikes")
         .at_least(1, "thesis 3.1 and 3.3: SA-IA fires in retraction, the nerve and SA-IB hardly do");
     const TimeWindow steady_plateau{press::plateau.from + 50e-3, press::plateau.to};
     out.claim("last frequency of the plateau over its first, from 50 ms on",
@@ -71,8 +71,8 @@ Result<Outcome> work(const StudyOptions& options) {
         .between(0.9, 1.1, "thesis 3.3: SA-IA does not take the slow decay into account; a tenth is our choice");
     out.plot("Spikes under the press stimulus", "time (s)", "").row("sa1-kim", spikes).row("sa1", own->spikes);
     out.plot("Instantaneous frequency", "time (s)", "frequency (Hz)")
-        .points("sa1-kim", press::frequency(spikes))
-        .points("sa1", press::frequency(own->spikes))
+        .points("sa1-kim", press::frequency_at_start(spikes))
+        .points("sa1", press::frequency_at_start(own->spikes))
         .add("force, 10 Hz per newton", force->times(1, 10))
         .shape("rises with the slope of the force in both directions; the thesis finds that more suitable to SA-II");
     out.plot("Current of the fixed-point model", "time (s)", "current (uA)").add("I", kim->traces.at("I").times(1, 1e6));

@@ -38,12 +38,12 @@ void add_component_claims(Outcome& out, const Told& response) {
         .held_to(100, "thesis 3.1, eq. 2");
     out.claim("fraction of I- that flows while the force falls", 100 * charge(minus, falling) / charge(minus, {}), "%")
         .held_to(100, "thesis 3.1, eq. 3");
-    out.claim("I+ and I- in the last 100 ms of the plateau", charge(plus, press::late) + charge(minus, press::late), "C")
+    out.claim("I+ and I- in the last 100 ms of the plateau", charge(plus, press::plateau_end) + charge(minus, press::plateau_end), "C")
         .between(0, 0, "thesis 2.2: no static component");
     const double up = count_resets(response.traces.at("u_+")), down = count_resets(response.traces.at("u_-"));
-    out.claim("spikes of the first neuron over all spikes until the middle of the plateau", up / press::count(response.spikes, rising))
+    out.claim("spikes of the first neuron over all spikes until the middle of the plateau", up / press::spike_count(response.spikes, rising))
         .between(1, 1, "thesis 3.1: two independent neurons");
-    out.claim("spikes of the second neuron over all spikes after it", down / press::count(response.spikes, falling))
+    out.claim("spikes of the second neuron over all spikes after it", down / press::spike_count(response.spikes, falling))
         .between(1, 1, "thesis 3.1: two independent neurons");
 }
 
@@ -62,7 +62,7 @@ Result<void> add_inhibition_claims(Outcome& out) {
     out.claim("the same without the threshold feedback", slowdown(*without))
         .between(0.95, 1.05, "a regular train except for its grid of 1 ms; the range is our choice");
     out.claim("spikes of the slope without the feedback over those with it",
-              press::count(without->spikes, slope) / press::count(with->spikes, slope))
+              press::spike_count(without->spikes, slope) / press::spike_count(with->spikes, slope))
         .at_least(1.1, "thesis 2.2: inhibition; a tenth is our choice");
     out.plot("Rise of the threshold under a long slope, ten times the gain", "time (s)", "a (V)").add("a_+", with->traces.at("a_+"));
     return {};
@@ -74,17 +74,17 @@ Result<Outcome> work(const StudyOptions& options) {
     if (!response) return response.error();
     const auto own = train_of({"fa1"});
     if (!own) return own.error();
-    const auto force = press::samples(1e-4);
+    const auto force = press::force_curve(1e-4);
     if (!force) return force.error();
     add_component_claims(out, *response);
     if (auto ok = options.at(0.5); !ok) return ok.error();
     if (auto ok = add_inhibition_claims(out); !ok) return ok.error();
     for (const auto& [name, train] : {std::pair{"fa1-lee", &response->spikes}, {"fa1", &*own}}) {
         out.claim(fmt::format("{}: spikes in protraction and retraction", name),
-                  press::count(*train, press::up) + press::count(*train, press::down), "spikes")
+                  press::spike_count(*train, press::protraction) + press::spike_count(*train, press::retraction), "spikes")
             .at_least(2, "thesis 1.2 and 2.2");
         auto& c = out.claim(fmt::format("{}: spikes in plateau and after", name),
-                            press::count(*train, press::plateau) + press::count(*train, press::after), "spikes")
+                            press::spike_count(*train, press::plateau) + press::spike_count(*train, press::after), "spikes")
                       .between(0, 0, "thesis 1.2: only in protraction and retraction");
         if (c.needs_reason()) c.because("a high-pass of 2 Hz continues after the ramp (errata B13); a plain derivative ends with it");
     }
@@ -94,8 +94,8 @@ Result<Outcome> work(const StudyOptions& options) {
         .add("I-", response->traces.at("I_-").times(1, 1e6))
         .shape("one current from rising and one from falling force, each to its own neuron");
     out.plot("Instantaneous frequency", "time (s)", "frequency (Hz)")
-        .points("fa1-lee", press::frequency(response->spikes))
-        .points("fa1", press::frequency(*own))
+        .points("fa1-lee", press::frequency_at_start(response->spikes))
+        .points("fa1", press::frequency_at_start(*own))
         .add("force, 10 Hz per newton", force->times(1, 10));
     out.note(
         "The thesis says that Lee's neuron has no leak, an adaptive threshold, and a membrane that \"increases by a non-proportional "

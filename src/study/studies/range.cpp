@@ -9,7 +9,7 @@
 
 #include "signal/thread_pool.hpp"
 #include "study/studies.hpp"
-#include "study/thesis/beside.hpp"
+#include "study/thesis/chip_vs_model.hpp"
 
 namespace corpuscle::studies::range {
 
@@ -32,14 +32,14 @@ struct Condition {
 /// True if the chip is silent at rest and fires as designed. SA-I: while the force rises and at the end of the plateau, not after
 /// retraction. FA-I: in both ramps, not at the end of the plateau.
 bool is_working(std::string_view chip, const std::vector<double>& t) {
-    if (press::count(t, P::rest) > 0 || press::count(t, P::up) == 0) return false;
-    if (chip.starts_with("sa1")) return press::count(t, P::late) > 0 && press::count(t, P::after) == 0;
-    return press::count(t, P::late) == 0 && press::count(t, P::down) > 0;
+    if (press::spike_count(t, P::rest) > 0 || press::spike_count(t, P::protraction) == 0) return false;
+    if (chip.starts_with("sa1")) return press::spike_count(t, P::plateau_end) > 0 && press::spike_count(t, P::after) == 0;
+    return press::spike_count(t, P::plateau_end) == 0 && press::spike_count(t, P::retraction) > 0;
 }
 
 std::string phase_counts(const std::vector<double>& t) {
-    return fmt::format("{:g} / {:g} / {:g} / {:g}", press::count(t, P::up), press::count(t, P::plateau), press::count(t, P::down),
-                       press::count(t, P::after));
+    return fmt::format("{:g} / {:g} / {:g} / {:g}", press::spike_count(t, P::protraction), press::spike_count(t, P::plateau), press::spike_count(t, P::retraction),
+                       press::spike_count(t, P::after));
 }
 
 /// The last condition on an axis at which the chip works, and the reason beyond it; NaN: none.

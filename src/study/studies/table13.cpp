@@ -10,12 +10,12 @@
 namespace corpuscle::studies::table13 {
 
 Result<Outcome> work(const StudyOptions&) {
-    const auto found = arrays_of(trapezoids);
-    const auto rectangular = arrays_of(rectangles);
+    const auto found = simulate_arrays(trapezoids);
+    const auto rectangular = simulate_arrays(rectangles);
     if (!found || !rectangular) return found ? rectangular.error() : found.error();
     const auto& ours = *found;
     Outcome out;
-    put_sizes(out, trapezoids, ours);
+    add_sizes(out, trapezoids, ours);
     const std::string source = "thesis B.2";
     const auto A = [&](const char* name) { return ours(name).A; };
     out.claim("E's active area over G1's", A("E") / A("G1")).printed_as(4, source + ": about 4; errata U18: 3.63");

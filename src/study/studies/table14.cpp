@@ -10,9 +10,9 @@ namespace corpuscle::studies::table14 {
 
 /// F in both orientations (errata U17).
 Result<void> add_f(Outcome& out) {
-    const auto& f = printed(trapezoids, "F");
-    const Meant orientations[] = {{&f, "xf"}, {&f, "xf_printed"}};
-    const auto ours = arrays_of(trapezoids.circuit, orientations);
+    const auto& f = find_published(trapezoids, "F");
+    const ArrayMatch orientations[] = {{&f, "xf"}, {&f, "xf_printed"}};
+    const auto ours = simulate_arrays(trapezoids.circuit, orientations);
     if (!ours) return ours.error();
     const char* names[] = {"F, the short transistor at the drain as in the text", "F, the short transistor at the source as in table 13"};
     for (std::size_t k = 0; k < 2; ++k) {
@@ -26,15 +26,15 @@ Result<void> add_f(Outcome& out) {
 }
 
 Result<Outcome> work(const StudyOptions&) {
-    const auto found = arrays_of(trapezoids);
-    const auto rectangular = arrays_of(rectangles);
+    const auto found = simulate_arrays(trapezoids);
+    const auto rectangular = simulate_arrays(rectangles);
     if (!found || !rectangular) return found ? rectangular.error() : found.error();
     Outcome out;
-    put_small_signals(out, trapezoids, *found);
+    add_small_signals(out, trapezoids, *found);
     if (auto ok = add_f(out); !ok) return ok.error();
     out.claim("G3's drain current over A's", (*found)("G3").I_D / (*rectangular)("A").I_D)
-        .held_to(printed(trapezoids, "G3").I_D / printed(rectangles, "A").I_D, "thesis B.2: similar; tables 14 and 11");
-    put_sum_rule(out, trapezoids, 1e-9, "errata U8: a tenth of the printed value, in nS");
+        .held_to(find_published(trapezoids, "G3").I_D / find_published(rectangles, "A").I_D, "thesis B.2: similar; tables 14 and 11");
+    add_sum_rule(out, trapezoids, 1e-9, "errata U8: a tenth of the printed value, in nS");
     double worst = 0;
     for (const auto& a : *found) worst = std::max(worst, std::abs((a.g_mg + a.g_md + a.g_mb) / a.g_ms - 1));
     out.claim("simulated: largest error of the sum against g_ms", 100 * worst, "%")

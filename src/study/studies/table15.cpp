@@ -11,15 +11,15 @@
 namespace corpuscle::studies::table15 {
 
 void add_errata(Outcome& out) {
-    put_ratio_rule(out, trapezoids, 1e-9, "errata U8: g_md is a tenth of the value in table 14");
-    for (const auto& a : printed_trapezoids) {
+    add_ratio_rule(out, trapezoids, 1e-9, "errata U8: g_md is a tenth of the value in table 14");
+    for (const auto& a : published_trapezoids) {
         out.claim(fmt::format("{}: g_mg over A (table 13), as printed", a.name), 1e-6 * a.g_mg / a.A, "S/um^2")
             .printed_as(1e-6 * a.g_by_A, "table 15, nS corrected to uS: errata U9");
-        out.claim(fmt::format("{}: g_mb/g_mg by table 14 as printed", a.name), a.g_mb / a.g_mg).printed_as(a.slope, "table 15, errata U5");
+        out.claim(fmt::format("{}: g_mb/g_mg by table 14 as printed", a.name), a.g_mb / a.g_mg).printed_as(a.bulk_ratio, "table 15, errata U5");
     }
 }
 
-void add_text(Outcome& out, const OurArrays& ours, const OurArrays& rectangular) {
+void add_text(Outcome& out, const SimulatedArrays& ours, const SimulatedArrays& rectangular) {
     const std::string source = "thesis B.2";
     const auto gain = [&](const char* name) { return ours(name).gain(); };
     const auto V_A = [&](const char* name) { return ours(name).V_A(); };
@@ -30,12 +30,12 @@ void add_text(Outcome& out, const OurArrays& ours, const OurArrays& rectangular)
     out.finds("F's gain is slightly lower than E's", gain("F") < gain("E"), source);
     out.finds("G1's gain is considerably smaller than E's", gain("G1") < gain("E") - 3, source + "; 3 dB here, 7 dB published");
     const auto highest_gain = std::max_element(ours.begin(), ours.end(), [](const auto& a, const auto& b) { return a.gain() < b.gain(); });
-    out.finds("G2 has the largest gain", highest_gain->printed->name == std::string_view("G2"), source);
+    out.finds("G2 has the largest gain", highest_gain->published->name == std::string_view("G2"), source);
 }
 
 void add_mismatch_text(Outcome& out, const std::vector<double>& sigma, double of_a) {
     const std::string source = "thesis B.2";
-    const auto of = [&](const char* name) { return sigma[static_cast<std::size_t>(&printed(trapezoids, name) - printed_trapezoids)]; };
+    const auto of = [&](const char* name) { return sigma[static_cast<std::size_t>(&find_published(trapezoids, name) - published_trapezoids)]; };
     out.claim("E's deviation over G1's", of("E") / of("G1")).held_to(2.36 / 5.77, source + ": half; table 15").because("");
     out.claim("E's deviation over G1's, by the areas of table 13", std::sqrt(0.6048 / 2.1924))
         .held_to(2.36 / 5.77, "errata U18: 3.63 times the area")
@@ -48,13 +48,13 @@ void add_mismatch_text(Outcome& out, const std::vector<double>& sigma, double of
 }
 
 /// F with the short transistor at the source, as labelled in table 13; the last array (errata U17).
-void add_f(Outcome& out, const OurArrays& orientations, const std::vector<double>& sigma) {
+void add_f(Outcome& out, const SimulatedArrays& orientations, const std::vector<double>& sigma) {
     const auto &e = orientations[0], &text = orientations[1], &table = orientations.back();
-    const auto& f = *text.printed;
+    const auto& f = *text.published;
     const double of_text = sigma[1], of_table = sigma.back();
-    const auto add_gain_claim = [&](const char* what, const OurArray& array) -> Claim& {
+    const auto add_gain_claim = [&](const char* what, const SimulatedArray& array) -> Claim& {
         return out.claim(fmt::format("F, short transistor at the {}: gain of E minus gain of F", what), e.gain() - array.gain(), "dB")
-            .held_to(printed(trapezoids, "E").gain - f.gain, "thesis B.2: slightly lower; table 15");
+            .held_to(find_published(trapezoids, "E").gain - f.gain, "thesis B.2: slightly lower; table 15");
     };
     out.claim("F, short transistor at the source as in table 13: deviation of I_D", of_table, "%").printed_as(f.sigma, "table 15");
     if (auto& c = add_gain_claim("source as in table 13", table); c.needs_reason())
@@ -81,22 +81,22 @@ Result<void> add_wider(Outcome& out, double gain_of_f, double gain_of_e) {
 }
 
 Result<Outcome> work(const StudyOptions&) {
-    auto matches = all_meant(trapezoids);
-    matches.push_back({&printed(trapezoids, "F"), "xf_printed"});
-    auto ours = arrays_of(trapezoids.circuit, matches);
-    const auto rectangular = arrays_of(rectangles);
+    auto matches = all_matches(trapezoids);
+    matches.push_back({&find_published(trapezoids, "F"), "xf_printed"});
+    auto ours = simulate_arrays(trapezoids.circuit, matches);
+    const auto rectangular = simulate_arrays(rectangles);
     if (!ours || !rectangular) return ours ? rectangular.error() : ours.error();
-    auto sigma = mismatch_of(trapezoids.circuit, matches);
-    const Meant a{&printed(rectangles, "A"), "xa"};
-    const auto of_a = mismatch_of(rectangles.circuit, {&a, 1});
+    auto sigma = simulate_mismatch(trapezoids.circuit, matches);
+    const ArrayMatch a{&find_published(rectangles, "A"), "xa"};
+    const auto of_a = simulate_mismatch(rectangles.circuit, {&a, 1});
     if (!sigma || !of_a) return sigma ? of_a.error() : sigma.error();
     Outcome orientations;
     add_f(orientations, *ours, *sigma);
     if (auto ok = add_wider(orientations, (*ours)[1].gain(), (*ours)[0].gain()); !ok) return ok.error();
     ours->pop_back(), sigma->pop_back();
     Outcome out;
-    put_ratios(out, trapezoids, *ours);
-    put_mismatch(out, trapezoids, *ours, *sigma);
+    add_ratios(out, trapezoids, *ours);
+    add_mismatch(out, trapezoids, *ours, *sigma);
     add_errata(out);
     add_text(out, *ours, *rectangular);
     add_mismatch_text(out, *sigma, of_a->front());

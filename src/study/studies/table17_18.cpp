@@ -23,35 +23,35 @@ constexpr double tolerance = 25;  // %: tolerance of a predicted deviation, deci
 /// of single cells (errata U11, U12) have no effect. The mean of seven arrays, V um.
 void claim_calibration(Outcome& out, const circuit::Circuit& c) {
     const auto m4a = static_cast<std::size_t>(c.find_element("m4a"));
-    const double A_IS = 1e6 * card(c, m4a, "ais");
+    const double A_IS = 1e6 * model_parameter(c, m4a, "ais");
     double mean = 0;
-    for (const auto& a : printed_rectangles) {
+    for (const auto& a : published_rectangles) {
         const double variance = 1e-4 * a.sigma * a.sigma * a.g_mg / a.g_by_A;
-        mean += std::sqrt(variance - A_IS * A_IS) / (a.g_mg / a.I_D) / static_cast<double>(std::size(printed_rectangles));
+        mean += std::sqrt(variance - A_IS * A_IS) / (a.g_mg / a.I_D) / static_cast<double>(std::size(published_rectangles));
     }
-    out.claim("A_VT of the process card, fitted to table 12 only", 1e6 * card(c, m4a, "avt"), "V um")
+    out.claim("A_VT of the process card, fitted to table 12 only", 1e6 * model_parameter(c, m4a, "avt"), "V um")
         .printed_as(mean, "tables 11 and 12, mean of seven arrays");
 }
 
-std::string reason(const Row& row, std::size_t variation, bool voltage) {
-    if (row.fitted && variation == 2 && voltage)
+std::string reason(const InverterCase& row, std::size_t variation, bool voltage) {
+    if (row.is_fitted && variation == 2 && voltage)
         return fmt::format(
             "the published rows disagree: {:g} % of process and {:g} % of mismatch give {:.3g} %, not {:g} %; 1000 chips give a deviation "
             "with an uncertainty of 2.2 %",
-            row.V[0].spread, row.V[1].spread, std::hypot(row.V[0].spread, row.V[1].spread), row.V[2].spread);
-    if (row.fitted) return "A_VT is table 12's; 1000 chips give a deviation with an uncertainty of 2.2 %";
+            row.V[0].percent, row.V[1].percent, std::hypot(row.V[0].percent, row.V[1].percent), row.V[2].percent);
+    if (row.is_fitted) return "A_VT is table 12's; 1000 chips give a deviation with an uncertainty of 2.2 %";
     if (voltage && variation == 0) return "published with one digit";
     if (voltage) return divider_reason;
     return "the simulated deviation comes mostly from the Early voltage: I_Q follows V_BN (bias-spread). The published one needs a larger "
            "effect or another cause, which is not known; the inferred bulks of fig. 52 are not the cause";
 }
 
-void claim(Outcome& out, const Row& row, std::size_t variation, const SampleSpread& s, bool voltage) {
+void claim(Outcome& out, const InverterCase& row, std::size_t variation, const SampleSpread& s, bool voltage) {
     const auto& printed = (voltage ? row.V : row.I)[variation];
     const char *symbol = voltage ? "V_Q" : "I_Q", *table = voltage ? "table 17" : "table 18";
-    const auto prefix = fmt::format("{}, {}{}: ", row.name, ways[variation].name, row.fitted && variation == 0 ? " (fitted)" : "");
+    const auto prefix = fmt::format("{}, {}{}: ", row.name, variations[variation].name, row.is_fitted && variation == 0 ? " (fitted)" : "");
     out.claim(prefix + "mean " + symbol, s.mean, voltage ? "V" : "A").printed_as(printed.mean, table);
-    auto& c = out.claim(prefix + "standard deviation of " + symbol, s.percent(), "%").printed_as(printed.spread, table);
+    auto& c = out.claim(prefix + "standard deviation of " + symbol, s.percent(), "%").printed_as(printed.percent, table);
     const double error = std::abs(100 * c.deviation());
     if (c.needs_reason()) c.because(reason(row, variation, voltage));
     if (variation != 1) return;
@@ -68,7 +68,7 @@ Result<void> claim_text(Outcome& out, const circuit::Circuit& generator, const d
         .at_least(90, "E.2: almost exclusively a result of mismatch; nine tenths is our choice");
     out.claim("no biasing, process: standard deviation of I_Q, against the text", I_Q[0][0], "%")
         .printed_as(27.2, "E.2's text; table 18 has this value for all and 28.4 % for process: errata I10");
-    Deck larger{"bias", {}, fmt::format(".op\n.mc 1000 {}", ways[1].words)};
+    Deck larger{"bias", {}, fmt::format(".op\n.mc 1000 {}", variations[1].mc_options)};
     for (const auto& e : generator.elements)
         if (e.letter == 'm') larger.settings.push_back(e.name + "=4x16");
     const auto chips = all_found_in(larger);
@@ -85,19 +85,19 @@ Result<Outcome> work(const StudyOptions& options) {
     if (!circuit) return circuit.error();
     claim_calibration(out, **circuit);
     double deviations[2][3];  // of I_Q, %
-    for (const auto& row : rows) {
+    for (const auto& row : inverter_cases) {
         Plot V_plot{fmt::format("V_Q of 1000 chips, {}", row.name), "V_Q (mV)", "chips, in 30 bins", {}};
         Plot I_plot{fmt::format("I_Q of 1000 chips, {}", row.name), "I_Q (nA)", "chips, in 30 bins", {}};
         for (std::size_t k = 0; k < 3; ++k) {
-            auto chips = chips_of(row.circuit, ways[k]);
+            auto chips = simulate_chips(row.circuit, variations[k]);
             if (!chips) return chips.error();
             const auto V = spread_of(*chips, row.voltage), I = spread_of(*chips, row.current);
             claim(out, row, k, V, true), claim(out, row, k, I, false);
-            V_plot.add(ways[k].name, histogram_of(V.values).times(1e3, 1)), I_plot.add(ways[k].name, histogram_of(I.values).times(1e9, 1));
-            deviations[row.fitted ? 0 : 1][k] = I.percent();
+            V_plot.add(variations[k].name, histogram_of(V.values).times(1e3, 1)), I_plot.add(variations[k].name, histogram_of(I.values).times(1e9, 1));
+            deviations[row.is_fitted ? 0 : 1][k] = I.percent();
         }
         out.plots.push_back(std::move(V_plot)), out.plots.push_back(std::move(I_plot));
-        if (auto ok = options.at(row.fitted ? 0.4 : 0.8); !ok) return ok.error();
+        if (auto ok = options.at(row.is_fitted ? 0.4 : 0.8); !ok) return ok.error();
     }
     if (auto ok = claim_text(out, **circuit, deviations); !ok) return ok.error();
     return out;

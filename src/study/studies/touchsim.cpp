@@ -38,12 +38,12 @@ constexpr Contact contacts[] = {
     {"flat of 5 mm, 2 mm deep", 5e-3, 2e-3, {133, 79, 4.9, 5.0, 0, 0.6}, {62, 40, 0, 0, 67, 44}, &Rates::up_peak}};
 
 Rates rates_of(const std::vector<double>& train) {
-    const auto mean = [&](const TimeWindow& s) { return press::count(train, s) / (s.to - s.from); };
+    const auto mean = [&](const TimeWindow& s) { return press::spike_count(train, s) / (s.to - s.from); };
     const auto peak = [&](const TimeWindow& s) {
         const double x = measure<PeakRate>(train, s);
         return std::isfinite(x) ? x : 0;
     };
-    return {peak(press::up), mean(press::up), mean(press::plateau), mean(end_of_hold), peak(press::down), mean(press::down)};
+    return {peak(press::protraction), mean(press::protraction), mean(press::plateau), mean(end_of_hold), peak(press::retraction), mean(press::retraction)};
 }
 
 double median(std::vector<double> v) {
@@ -147,7 +147,7 @@ Result<double> detection_threshold(const std::string& afferent, const std::vecto
         all.insert(all.end(), settings.begin(), settings.end());
         const auto train = train_of({afferent, "sine", all});
         if (!train) return train.error();
-        (press::count(*train, {0.5, 1.0}) >= std::max(1.0, spikes_per_period * 0.5 * f) ? high : low) = middle;
+        (press::spike_count(*train, {0.5, 1.0}) >= std::max(1.0, spikes_per_period * 0.5 * f) ? high : low) = middle;
     }
     return high;
 }
@@ -211,13 +211,13 @@ Result<void> report_press(Outcome& out) {
     if (!fa1) return fa1.error();
     constexpr auto bound = "our bound after Birznieks et al. 2001, as described in thesis 1.2";
     const auto peak = [](const std::vector<double>& t, const TimeWindow& s) { return measure<PeakRate>(t, s); };
-    out.claim("4 N: SA-I, peak of protraction over the end of the hold", peak(*sa1, press::up) / measure<LastRate>(*sa1, press::plateau))
+    out.claim("4 N: SA-I, peak of protraction over the end of the hold", peak(*sa1, press::protraction) / measure<LastRate>(*sa1, press::plateau))
         .between(2, 3, bound);
-    out.claim("4 N: SA-I, spikes after 40 % of retraction", press::count(*sa1, {press::down.from + 0.4 * 0.125, press::after.to}), "spikes")
+    out.claim("4 N: SA-I, spikes after 40 % of retraction", press::spike_count(*sa1, {press::retraction.from + 0.4 * 0.125, press::after.to}), "spikes")
         .at_most(1, bound);
-    out.claim("4 N: FA-I, peak of protraction over that of retraction", peak(*fa1, press::up) / peak(*fa1, press::down))
+    out.claim("4 N: FA-I, peak of protraction over that of retraction", peak(*fa1, press::protraction) / peak(*fa1, press::retraction))
         .between(1.2, 1.5, bound);
-    out.claim("4 N: FA-I, spikes in the last 100 ms of the hold", press::count(*fa1, press::late), "spikes").at_most(0, bound);
+    out.claim("4 N: FA-I, spikes in the last 100 ms of the hold", press::spike_count(*fa1, press::plateau_end), "spikes").at_most(0, bound);
     return {};
 }
 

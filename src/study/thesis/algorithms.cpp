@@ -5,8 +5,8 @@
 
 namespace corpuscle::algorithms {
 
-Fired lif_b(const Line& current, const Membrane& m) {
-    Fired out;
+MembraneResponse lif_b(const Line& current, const MembraneParams& m) {
+    MembraneResponse out;
     const double T = current.x[1] - current.x[0];
     double u = 0;
     for (std::size_t n = 0; n < current.x.size(); ++n) {

@@ -8,16 +8,16 @@
 
 namespace corpuscle::algorithms {
 
-struct Membrane {
+struct MembraneParams {
     double C = 500e-9, leak = 500e-9, theta = 0.5, reset = 0.25;  ///< F, A, V, V; u_rest is 0
 };
-struct Fired {
+struct MembraneResponse {
     std::vector<double> spikes;  ///< s
     Line u;
 };
 
 /// Algorithm 4: u[n] = u[n-1] + (T / C) (I[n] - I_leak0).
-Fired lif_b(const Line& current, const Membrane&);
+MembraneResponse lif_b(const Line& current, const MembraneParams&);
 
 /// Factor k_x2 of Algorithms 5 and 6 for a corner frequency f (Hz) and a time step T (s); k_x1 = K k_x2.
 double k2(double f, double T);

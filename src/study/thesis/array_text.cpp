@@ -4,7 +4,7 @@
 
 namespace corpuscle {
 
-std::string units_text(const std::string& name, const std::string& drain, const std::string& gate, const std::string& source, int m, int n,
+std::string array_lines(const std::string& name, const std::string& drain, const std::string& gate, const std::string& source, int m, int n,
                        const std::string& rest) {
     std::string out;
     for (int column = 0; column < m; ++column)

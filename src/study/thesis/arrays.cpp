@@ -27,7 +27,7 @@ double value(const circuit::Element& e, const char* name, double otherwise) {
 }
 
 /// Sizes are those of the copy whose gate moves; its transistors are in series.
-void measure_size(OurArray& out, const circuit::Circuit& circuit, const std::string& array) {
+void measure_size(SimulatedArray& out, const circuit::Circuit& circuit, const std::string& array) {
     double inverse_S = 0;
     for (const auto& e : circuit.elements) {
         if (!e.name.starts_with(array + ".mg")) continue;
@@ -39,61 +39,61 @@ void measure_size(OurArray& out, const circuit::Circuit& circuit, const std::str
         inverse_S += n * L / (m * W), out.A += m * n * W * L;
     }
     out.S = 1 / inverse_S;
-    const double rows = out.printed->rows, columns = out.printed->columns;
+    const double rows = out.published->rows, columns = out.published->columns;
     out.A_T = circuit::rectangle_area(out.W, out.A / (out.W * rows * columns), rows, columns);
 }
 
 /// g_mg/I_D in saturation by the equations of appendix A if the printed V_T is taken as V_T0.
-double g_by_I_with_published_threshold(const PrintedArray& p) {
-    const double v_t = circuit::thermal_voltage(300.15), n = 1 + p.slope;
+double g_by_I_with_published_threshold(const PublishedArray& p) {
+    const double v_t = circuit::thermal_voltage(300.15), n = 1 + p.bulk_ratio;
     const double q = circuit::inversion_charge((half_volt - 1e-3 * p.V_T) / (n * v_t) + 1);
     return 2 / (n * v_t * (q + 2));
 }
 
-std::string early_voltage_reason(const OurArray&) {
+std::string early_voltage_reason(const SimulatedArray&) {
     return "V_A = V_E L with a single V_E, fitted to the seven arrays of the shortest unit transistor, is simpler than the foundry's model";
 }
 
-std::string threshold_reason(const OurArray& a) {
+std::string threshold_reason(const SimulatedArray& a) {
     return fmt::format(
         "another definition: the simulator's V_T at its operating point. Used as V_T0 in the equations of appendix A it would give "
         "g_mg/I_D = {:.1f} 1/V, but {:.2f} 1/V is printed",
-        g_by_I_with_published_threshold(*a.printed), a.printed->g_by_I);
+        g_by_I_with_published_threshold(*a.published), a.published->g_by_I);
 }
 
 }  // namespace
 
-const PrintedArray& printed(const PrintedArrays& all, std::string_view name) {
+const PublishedArray& find_published(const PublishedArrays& all, std::string_view name) {
     return *std::find_if(all.arrays.begin(), all.arrays.end(), [&](const auto& a) { return a.name == name; });
 }
 
-const OurArray& OurArrays::operator()(std::string_view name) const {
-    return *std::find_if(begin(), end(), [&](const auto& a) { return a.printed->name == name; });
+const SimulatedArray& SimulatedArrays::operator()(std::string_view name) const {
+    return *std::find_if(begin(), end(), [&](const auto& a) { return a.published->name == name; });
 }
 
-std::vector<Meant> all_meant(const PrintedArrays& all) {
-    std::vector<Meant> out;
-    for (const auto& a : all.arrays) out.push_back({&a, a.ours});
+std::vector<ArrayMatch> all_matches(const PublishedArrays& all) {
+    std::vector<ArrayMatch> out;
+    for (const auto& a : all.arrays) out.push_back({&a, a.subcircuit});
     return out;
 }
 
-double OurArray::gain() const { return 20 * std::log10(g_mg / g_md); }
+double SimulatedArray::gain() const { return 20 * std::log10(g_mg / g_md); }
 
-double OurArray::law(double with_g_by_I) const { return 100 * std::hypot(A_VT * with_g_by_I, A_IS) / std::sqrt(A); }
+double SimulatedArray::predicted_mismatch(double with_g_by_I) const { return 100 * std::hypot(A_VT * with_g_by_I, A_IS) / std::sqrt(A); }
 
-double known_to() { return 100 / std::sqrt(2.0 * chips); }
+double mismatch_uncertainty() { return 100 / std::sqrt(2.0 * chips); }
 
-Result<OurArrays> arrays_of(const PrintedArrays& all) { return arrays_of(all.circuit, all_meant(all)); }
+Result<SimulatedArrays> simulate_arrays(const PublishedArrays& all) { return simulate_arrays(all.circuit, all_matches(all)); }
 
-Result<OurArrays> arrays_of(const char* circuit, std::span<const Meant> matches) {
+Result<SimulatedArrays> simulate_arrays(const char* circuit, std::span<const ArrayMatch> matches) {
     std::string directives = ".op\n";
-    for (const auto& match : matches) directives += slope_directives(match.ours);
+    for (const auto& match : matches) directives += slope_directives(match.subcircuit);
     const auto found = found_in({circuit, {}, directives});
     if (!found) return found.error();
-    OurArrays out;
+    SimulatedArrays out;
     for (const auto& [published, array] : matches) {
         const auto g = [&](char moved, const char* by) { return found->by(fmt::format("i({}.v{})", array, moved), by); };
-        OurArray a{.printed = published, .g_md = g('d', "vi"), .g_mg = g('g', "vi"), .g_mb = g('b', "vi")};
+        SimulatedArray a{.published = published, .g_md = g('d', "vi"), .g_mg = g('g', "vi"), .g_mb = g('b', "vi")};
         a.g_ms = g('b', "vh") + a.g_mb;  // all but the source moved
         a.I_D = found->at_rest(fmt::format("i({}.vg)", array));
         a.V_T = found->reading(array + ".mg2", "v_t");
@@ -104,64 +104,64 @@ Result<OurArrays> arrays_of(const char* circuit, std::span<const Meant> matches)
     return out;
 }
 
-Result<std::vector<double>> mismatch_of(const char* circuit, std::span<const Meant> matches) {
+Result<std::vector<double>> simulate_mismatch(const char* circuit, std::span<const ArrayMatch> matches) {
     const auto found = all_found_in({circuit, {}, fmt::format(".op\n.mc {} process=0", chips)});
     if (!found) return found.error();
     std::vector<double> out;
-    for (const auto& match : matches) out.push_back(spread_of(*found, fmt::format("i({}.vg)", match.ours)).percent());
+    for (const auto& match : matches) out.push_back(spread_of(*found, fmt::format("i({}.vg)", match.subcircuit)).percent());
     return out;
 }
 
-Result<std::vector<double>> mismatch_of(const PrintedArrays& all) { return mismatch_of(all.circuit, all_meant(all)); }
+Result<std::vector<double>> simulate_mismatch(const PublishedArrays& all) { return simulate_mismatch(all.circuit, all_matches(all)); }
 
-void put_column(Outcome& out, const TableColumn& column, const OurArrays& ours, const std::string& source) {
+void add_column(Outcome& out, const TableColumn& column, const SimulatedArrays& ours, const std::string& source) {
     for (const auto& a : ours) {
-        auto& c = out.claim(fmt::format("{}: {}", a.printed->name, column.what), column.made(a), column.unit);
-        c.printed_as(column.factor * a.printed->*column.printed, *column.reading == 0 ? source : source + ", " + column.reading);
-        if (c.needs_reason() && column.why != nullptr) c.because(column.why(a));
+        auto& c = out.claim(fmt::format("{}: {}", a.published->name, column.quantity), column.computed(a), column.unit);
+        c.printed_as(column.factor * a.published->*column.published, *column.source_note == 0 ? source : source + ", " + column.source_note);
+        if (c.needs_reason() && column.reason != nullptr) c.because(column.reason(a));
     }
 }
 
-void put_sizes(Outcome& out, const PrintedArrays& all, const OurArrays& ours) {
-    using P = PrintedArray;
+void add_sizes(Outcome& out, const PublishedArrays& all, const SimulatedArrays& ours) {
+    using P = PublishedArray;
     const TableColumn columns[] = {
-        {"S_eq", "", [](const OurArray& a) { return a.S; }, &P::S},
-        {"A", "um^2", [](const OurArray& a) { return a.A / um2; }, &P::A},
-        {"A_T", "um^2", [](const OurArray& a) { return a.A_T / um2; }, &P::A_T},
-        {"A/A_T", "", [](const OurArray& a) { return a.A / a.A_T; }, &P::share},
+        {"S_eq", "", [](const SimulatedArray& a) { return a.S; }, &P::S},
+        {"A", "um^2", [](const SimulatedArray& a) { return a.A / um2; }, &P::A},
+        {"A_T", "um^2", [](const SimulatedArray& a) { return a.A_T / um2; }, &P::A_T},
+        {"A/A_T", "", [](const SimulatedArray& a) { return a.A / a.A_T; }, &P::area_ratio},
     };
-    for (const auto& column : columns) put_column(out, column, ours, all.sizes);
+    for (const auto& column : columns) add_column(out, column, ours, all.sizes_table);
 }
 
-void put_small_signals(Outcome& out, const PrintedArrays& all, const OurArrays& ours) {
-    using P = PrintedArray;
+void add_small_signals(Outcome& out, const PublishedArrays& all, const SimulatedArrays& ours) {
+    using P = PublishedArray;
     const TableColumn columns[] = {
-        {"g_md", "S", [](const OurArray& a) { return a.g_md; }, &P::g_md, all.g_md, early_voltage_reason, all.g_md_is},
-        {"g_mg", "S", [](const OurArray& a) { return a.g_mg; }, &P::g_mg, 1e-6},
-        {"g_ms", "S", [](const OurArray& a) { return a.g_ms; }, &P::g_ms, 1e-6},
-        {"g_mb", "S", [](const OurArray& a) { return a.g_mb; }, &P::g_mb, 1e-6},
-        {"I_D", "A", [](const OurArray& a) { return a.I_D; }, &P::I_D, 1e-6},
-        {"V_T", "V", [](const OurArray& a) { return a.V_T; }, &P::V_T, 1e-3, threshold_reason},
+        {"g_md", "S", [](const SimulatedArray& a) { return a.g_md; }, &P::g_md, all.g_md, early_voltage_reason, all.g_md_note},
+        {"g_mg", "S", [](const SimulatedArray& a) { return a.g_mg; }, &P::g_mg, 1e-6},
+        {"g_ms", "S", [](const SimulatedArray& a) { return a.g_ms; }, &P::g_ms, 1e-6},
+        {"g_mb", "S", [](const SimulatedArray& a) { return a.g_mb; }, &P::g_mb, 1e-6},
+        {"I_D", "A", [](const SimulatedArray& a) { return a.I_D; }, &P::I_D, 1e-6},
+        {"V_T", "V", [](const SimulatedArray& a) { return a.V_T; }, &P::V_T, 1e-3, threshold_reason},
     };
-    for (const auto& column : columns) put_column(out, column, ours, all.small_signals);
+    for (const auto& column : columns) add_column(out, column, ours, all.small_signal_table);
 }
 
-void put_ratios(Outcome& out, const PrintedArrays& all, const OurArrays& ours) {
-    using P = PrintedArray;
+void add_ratios(Outcome& out, const PublishedArrays& all, const SimulatedArrays& ours) {
+    using P = PublishedArray;
     const TableColumn columns[] = {
-        {"g_mg/I_D", "1/V", [](const OurArray& a) { return a.g_by_I(); }, &P::g_by_I},
-        {"I_D/g_md", "V", [](const OurArray& a) { return a.V_A(); }, &P::V_A, 1, early_voltage_reason},
-        {"g_mg/g_md", "dB", [](const OurArray& a) { return a.gain(); }, &P::gain},
-        {"g_mb/g_mg", "", [](const OurArray& a) { return a.slope(); }, &P::slope, 1, {}, "the column g_mg/g_mb is inverted: errata U5"},
-        {"g_mg/A", "S/um^2", [](const OurArray& a) { return a.g_by_A(); }, &P::g_by_A, all.g_by_A, {}, all.g_by_A_is},
+        {"g_mg/I_D", "1/V", [](const SimulatedArray& a) { return a.g_by_I(); }, &P::g_by_I},
+        {"I_D/g_md", "V", [](const SimulatedArray& a) { return a.V_A(); }, &P::V_A, 1, early_voltage_reason},
+        {"g_mg/g_md", "dB", [](const SimulatedArray& a) { return a.gain(); }, &P::gain},
+        {"g_mb/g_mg", "", [](const SimulatedArray& a) { return a.bulk_ratio(); }, &P::bulk_ratio, 1, {}, "the column g_mg/g_mb is inverted: errata U5"},
+        {"g_mg/A", "S/um^2", [](const SimulatedArray& a) { return a.g_by_A(); }, &P::g_by_A, all.g_by_A, {}, all.g_by_A_note},
     };
-    for (const auto& column : columns) put_column(out, column, ours, all.ratios);
+    for (const auto& column : columns) add_column(out, column, ours, all.ratios_table);
 }
 
 namespace {
 
-std::string mismatch_reason(const OurArray& a) {
-    const std::string name = a.printed->name;
+std::string mismatch_reason(const SimulatedArray& a) {
+    const std::string name = a.published->name;
     if (name == "G3")
         return "in the equations the unit transistor at the source is not fully saturated (i_r is one eighth of i_f), so the seven above "
                "it contribute to the deviation";
@@ -171,29 +171,29 @@ std::string mismatch_reason(const OurArray& a) {
     return fmt::format(
         "one A_VT is used for all arrays. For a single transistor of this area the card's law gives {:.2f} % with the published g_mg/I_D "
         "and {:.2f} % with the simulated one. The uncertainty of a deviation is {:.1f} % here, 2.2 % with 1000 chips",
-        a.law(a.printed->g_by_I), a.law(a.g_by_I()), known_to());
+        a.predicted_mismatch(a.published->g_by_I), a.predicted_mismatch(a.g_by_I()), mismatch_uncertainty());
 }
 
 }  // namespace
 
-void put_mismatch(Outcome& out, const PrintedArrays& all, const OurArrays& ours, const std::vector<double>& sigmas) {
+void add_mismatch(Outcome& out, const PublishedArrays& all, const SimulatedArrays& ours, const std::vector<double>& sigmas) {
     for (std::size_t k = 0; k < sigmas.size(); ++k) {
-        auto& c = out.claim(fmt::format("{}: standard deviation of I_D over its mean", ours[k].printed->name), sigmas[k], "%");
-        c.printed_as(ours[k].printed->sigma, all.ratios);
+        auto& c = out.claim(fmt::format("{}: standard deviation of I_D over its mean", ours[k].published->name), sigmas[k], "%");
+        c.printed_as(ours[k].published->sigma, all.ratios_table);
         if (c.needs_reason()) c.because(mismatch_reason(ours[k]));
     }
 }
 
 namespace {
 
-double sum_residual(const PrintedArray& a, double g_md) {
+double sum_residual(const PublishedArray& a, double g_md) {
     return std::abs(1e-6 * (a.g_mg + a.g_mb - a.g_ms) + g_md * a.g_md) / (1e-6 * a.g_ms);
 }
 
-double ratio_residual(const PrintedArray& a, double g_md) { return std::abs(1e-6 * a.I_D / (g_md * a.g_md * a.V_A) - 1); }
+double ratio_residual(const PublishedArray& a, double g_md) { return std::abs(1e-6 * a.I_D / (g_md * a.g_md * a.V_A) - 1); }
 
-void add_rule(Outcome& out, const PrintedArrays& all, double head, const std::string& erratum, const std::string& what,
-              double (*residual)(const PrintedArray&, double)) {
+void add_rule(Outcome& out, const PublishedArrays& all, double head, const std::string& erratum, const std::string& what,
+              double (*residual)(const PublishedArray&, double)) {
     double with_ours = 0, with_head = 0;
     bool all_closer = true;
     for (const auto& a : all.arrays) {
@@ -208,11 +208,11 @@ void add_rule(Outcome& out, const PrintedArrays& all, double head, const std::st
 
 }  // namespace
 
-void put_sum_rule(Outcome& out, const PrintedArrays& all, double head, const std::string& erratum) {
+void add_sum_rule(Outcome& out, const PublishedArrays& all, double head, const std::string& erratum) {
     add_rule(out, all, head, erratum, "g_mg + g_md + g_mb differs from g_ms", sum_residual);
 }
 
-void put_ratio_rule(Outcome& out, const PrintedArrays& all, double head, const std::string& erratum) {
+void add_ratio_rule(Outcome& out, const PublishedArrays& all, double head, const std::string& erratum) {
     add_rule(out, all, head, erratum, "I_D over g_md differs from its column", ratio_residual);
 }
 

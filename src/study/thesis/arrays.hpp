@@ -11,24 +11,24 @@ namespace corpuscle {
 
 /// A row of tables 10 to 12 or 13 to 15 exactly as printed, misprints included. Lengths in um, areas in um^2, S_eq as a ratio; the rest in
 /// the units of the table's head.
-struct PrintedArray {
-    const char *name, *ours;  ///< subcircuit: its name in the netlist
+struct PublishedArray {
+    const char *name, *subcircuit;  ///< subcircuit: its name in the netlist
     double rows, columns;     ///< as drawn; inferred from A_T
-    double S, A, A_T, share;
+    double S, A, A_T, area_ratio;
     double g_md, g_mg, g_ms, g_mb, I_D, V_T;
-    double g_by_I, V_A, gain, slope, g_by_A, sigma;
+    double g_by_I, V_A, gain, bulk_ratio, g_by_A, sigma;
 };
 
 /// Tables of one kind of array. g_md and g_by_A are the correct units of the columns g_md and g_mg/A, in S and S/um^2.
-struct PrintedArrays {
+struct PublishedArrays {
     const char* circuit;
-    std::span<const PrintedArray> arrays;
-    const char *sizes, *small_signals, *ratios;  ///< "table 10"
+    std::span<const PublishedArray> arrays;
+    const char *sizes_table, *small_signal_table, *ratios_table;  ///< "table 10"
     double g_md, g_by_A;
-    const char *g_md_is, *g_by_A_is;  ///< remark if the correct unit differs from the printed one; else ""
+    const char *g_md_note, *g_by_A_note;  ///< remark if the correct unit differs from the printed one; else ""
 };
 
-inline constexpr PrintedArray printed_rectangles[] = {
+inline constexpr PublishedArray published_rectangles[] = {
     // clang-format off
     {"A", "xa", 1, 1, 2.3333, 0.0756, 1.0120, 0.075, 1.021, 31.83, 41.28, 8.430, 2.141, 531.7, 14.87, 2.10, 29.9, 0.265, 421.0, 15.6},
     {"B1", "xb1", 2, 1, 0.2333, 0.7560, 3.0132, 0.251, 0.013, 3.272, 4.154, 0.869, 0.240, 479.6, 13.63, 18.4, 48.0, 0.265, 4.328, 4.41},
@@ -41,7 +41,7 @@ inline constexpr PrintedArray printed_rectangles[] = {
 };
 
 /// F with the short transistor at the drain, as in the thesis's text.
-inline constexpr PrintedArray printed_trapezoids[] = {
+inline constexpr PublishedArray published_trapezoids[] = {
     // clang-format off
     {"E", "xe", 1, 1, 0.0805, 2.1924, 5.6856, 0.386, 31.73, 1.550, 1.963, 0.410, 0.120, 441.4, 12.96, 37.82, 53.8, 0.264, 0.709, 2.36},
     {"F", "xf", 1, 2, 0.0845, 2.0874, 5.6856, 0.367, 36.85, 1.587, 2.010, 0.419, 0.123, 442.6, 12.90, 33.38, 52.7, 0.264, 0.760, 2.51},
@@ -51,17 +51,17 @@ inline constexpr PrintedArray printed_trapezoids[] = {
     // clang-format on
 };
 
-inline constexpr PrintedArrays rectangles = {
-    "rectangular_arrays", printed_rectangles, "table 10", "table 11", "table 12", 1e-6, 1e-6, "its nS read as uS: errata U7", ""};
-inline constexpr PrintedArrays trapezoids = {
-    "trapezoidal_arrays",          printed_trapezoids, "table 13", "table 14", "table 15", 1e-10, 1e-6, "divided by ten: errata U8",
+inline constexpr PublishedArrays rectangles = {
+    "rectangular_arrays", published_rectangles, "table 10", "table 11", "table 12", 1e-6, 1e-6, "its nS read as uS: errata U7", ""};
+inline constexpr PublishedArrays trapezoids = {
+    "trapezoidal_arrays",          published_trapezoids, "table 13", "table 14", "table 15", 1e-10, 1e-6, "divided by ten: errata U8",
     "its nS read as uS: errata U9"};
 
-const PrintedArray& printed(const PrintedArrays&, std::string_view name);
+const PublishedArray& find_published(const PublishedArrays&, std::string_view name);
 
 /// Our simulation of an array; SI units.
-struct OurArray {
-    const PrintedArray* printed = nullptr;
+struct SimulatedArray {
+    const PublishedArray* published = nullptr;
     double W = 0;                                      ///< channel width of a unit transistor
     std::vector<double> lengths{};                     ///< channel length of each unit transistor, from the drain down
     double S = 0, A = 0, A_T = 0, A_VT = 0, A_IS = 0;  ///< A_VT and A_IS are from its model card
@@ -69,51 +69,51 @@ struct OurArray {
     double g_by_I() const { return g_mg / I_D; }
     double V_A() const { return I_D / g_md; }
     double gain() const;  ///< dB
-    double slope() const { return g_mb / g_mg; }
+    double bulk_ratio() const { return g_mb / g_mg; }
     double g_by_A() const { return 1e-12 * g_mg / A; }  ///< S/um^2
     /// Mismatch (%) of one transistor of the same area, by the card's law at this g_mg/I_D.
-    double law(double g_by_I) const;
+    double predicted_mismatch(double g_by_I) const;
 };
-struct OurArrays : std::vector<OurArray> {
-    const OurArray& operator()(std::string_view name) const;
+struct SimulatedArrays : std::vector<SimulatedArray> {
+    const SimulatedArray& operator()(std::string_view name) const;
 };
 
 /// Simulates the arrays at V_G = V_D = 0.5 V; every unit transistor is solved.
-Result<OurArrays> arrays_of(const PrintedArrays&);
+Result<SimulatedArrays> simulate_arrays(const PublishedArrays&);
 /// Other subcircuits of the same netlist, each with the table row to compare it with.
-struct Meant {
-    const PrintedArray* printed;
-    std::string ours;
+struct ArrayMatch {
+    const PublishedArray* published;
+    std::string subcircuit;
 };
-std::vector<Meant> all_meant(const PrintedArrays&);
-Result<OurArrays> arrays_of(const char* circuit, std::span<const Meant>);
+std::vector<ArrayMatch> all_matches(const PublishedArrays&);
+Result<SimulatedArrays> simulate_arrays(const char* circuit, std::span<const ArrayMatch>);
 /// sigma/mu of the drain currents (%), in the order of the matches.
-Result<std::vector<double>> mismatch_of(const char* circuit, std::span<const Meant>);
-Result<std::vector<double>> mismatch_of(const PrintedArrays&);
+Result<std::vector<double>> simulate_mismatch(const char* circuit, std::span<const ArrayMatch>);
+Result<std::vector<double>> simulate_mismatch(const PublishedArrays&);
 /// Statistical uncertainty of a simulated deviation, % of it.
-double known_to();
+double mismatch_uncertainty();
 
 /// A column of a table: the published number in its unit, and the simulated one.
 struct TableColumn {
-    const char *what, *unit;
-    double (*made)(const OurArray&);
-    double PrintedArray::* printed;
+    const char *quantity, *unit;
+    double (*computed)(const SimulatedArray&);
+    double PublishedArray::* published;
     double factor = 1;                         ///< published number to SI
-    std::string (*why)(const OurArray&) = {};  ///< reason for a difference
-    const char* reading = "";                  ///< remark on the unit if the head of the table is wrong
+    std::string (*reason)(const SimulatedArray&) = {};  ///< reason for a difference
+    const char* source_note = "";                  ///< remark on the unit if the head of the table is wrong
 };
 /// Adds one claim per cell.
-void put_column(Outcome&, const TableColumn&, const OurArrays&, const std::string& source);
+void add_column(Outcome&, const TableColumn&, const SimulatedArrays&, const std::string& source);
 
-void put_sizes(Outcome&, const PrintedArrays&, const OurArrays&);
-void put_small_signals(Outcome&, const PrintedArrays&, const OurArrays&);
-void put_ratios(Outcome&, const PrintedArrays&, const OurArrays&);
-void put_mismatch(Outcome&, const PrintedArrays&, const OurArrays&, const std::vector<double>& sigmas);
+void add_sizes(Outcome&, const PublishedArrays&, const SimulatedArrays&);
+void add_small_signals(Outcome&, const PublishedArrays&, const SimulatedArrays&);
+void add_ratios(Outcome&, const PublishedArrays&, const SimulatedArrays&);
+void add_mismatch(Outcome&, const PublishedArrays&, const SimulatedArrays&, const std::vector<double>& sigmas);
 
 /// The identity g_mg + g_md + g_mb = g_ms (eq. 27) gives the unit of the printed g_md. Adds the residual of the sum with the unit used here
 /// and with `head`, the head's unit in S.
-void put_sum_rule(Outcome&, const PrintedArrays&, double head, const std::string& erratum);
+void add_sum_rule(Outcome&, const PublishedArrays&, double head, const std::string& erratum);
 /// The same check with the ratio I_D/g_md.
-void put_ratio_rule(Outcome&, const PrintedArrays&, double head, const std::string& erratum);
+void add_ratio_rule(Outcome&, const PublishedArrays&, double head, const std::string& erratum);
 
 }  // namespace corpuscle

@@ -4,15 +4,15 @@
 
 namespace corpuscle::bias_chips {
 
-Result<Chips> chips_of(const std::string& circuit, const Way& way) {
-    return all_found_in({circuit, {fmt::format("corner={}", way.corner)}, fmt::format(".op\n.mc 1000 {}", way.words)});
+Result<Chips> simulate_chips(const std::string& circuit, const Variation& way) {
+    return all_found_in({circuit, {fmt::format("corner={}", way.corner)}, fmt::format(".op\n.mc 1000 {}", way.mc_options)});
 }
 
-double card(const circuit::Circuit& c, std::size_t element, const char* name) {
+double model_parameter(const circuit::Circuit& c, std::size_t element, const char* name) {
     return c.models[static_cast<std::size_t>(c.elements[element].model)].values.find(name)->second;
 }
 
-double area(const circuit::Element& e) {
+double channel_area(const circuit::Element& e) {
     double out = 1;
     for (const char* name : {"w", "l", "m", "stack"}) out *= e.values.find(name)->second;
     return out;

@@ -5,14 +5,14 @@
 
 namespace corpuscle::bias_chips {
 
-struct Row {
+struct InverterCase {
     const char *circuit, *name, *voltage, *current;
-    struct Printed {
-        double mean, spread;  // V or A; % of the mean
+    struct PublishedSpread {
+        double mean, percent;  // V or A; % of the mean
     } V[3], I[3];
-    bool fitted;  ///< true: the spread of the process card was fitted to this row
+    bool is_fitted;  ///< true: the spread of the process card was fitted to this row
 };
-inline constexpr Row rows[] = {
+inline constexpr InverterCase inverter_cases[] = {
     {"quiescent",
      "no biasing",
      "v(qa)",
@@ -28,18 +28,18 @@ inline constexpr Row rows[] = {
      {{199.6e-9, 0.77}, {199.4e-9, 2.56}, {199.0e-9, 2.59}},
      false},
 };
-struct Way {
-    const char *name, *corner, *words;
+struct Variation {
+    const char *name, *corner, *mc_options;
 };
-inline constexpr Way ways[] = {{"process", "mc", "mismatch=0"}, {"mismatch", "tt", "process=0"}, {"all", "mc", ""}};
+inline constexpr Variation variations[] = {{"process", "mc", "mismatch=0"}, {"mismatch", "tt", "process=0"}, {"all", "mc", ""}};
 
 using Chips = std::vector<Found>;
 /// Simulates 1000 chips of a circuit.
-Result<Chips> chips_of(const std::string& circuit, const Way&);
+Result<Chips> simulate_chips(const std::string& circuit, const Variation&);
 
 /// A parameter of a transistor's model card: "avt", V m.
-double card(const circuit::Circuit&, std::size_t element, const char* name);
+double model_parameter(const circuit::Circuit&, std::size_t element, const char* name);
 /// Channel area of all its unit transistors, m^2.
-double area(const circuit::Element&);
+double channel_area(const circuit::Element&);
 
 }  // namespace corpuscle::bias_chips

@@ -10,7 +10,7 @@ namespace {
 Result<void> claim_end(Outcome& out, const std::string& what, const BiasSweep& sweep, double end, bool open, double printed,
                        const BiasFigure& figure) {
     auto& claim = out.claim(what, end, figure.unit).printed_as(printed, figure.source());
-    auto why = why_it_ends(sweep, end, open);
+    auto why = explain_range_end(sweep, end, open);
     if (!why) return why.error();
     claim.because(std::move(*why));
     return {};
@@ -19,26 +19,26 @@ Result<void> claim_end(Outcome& out, const std::string& what, const BiasSweep& s
 Result<void> claim_ranges(const BiasFigure& figure, std::span<const BiasCorner> corners, Outcome& out) {
     const auto& typical = corners[0];
     if (auto ok =
-            claim_end(out, "typical: works from", typical.sweep, typical.works.from, typical.works.open_below, figure.typical[0], figure);
+            claim_end(out, "typical: works from", typical.sweep, typical.working_range.from, typical.working_range.reaches_sweep_start, figure.typical_range[0], figure);
         !ok)
         return ok;
-    if (auto ok = claim_end(out, "typical: works to", typical.sweep, typical.works.to, typical.works.open_above, figure.typical[1], figure);
+    if (auto ok = claim_end(out, "typical: works to", typical.sweep, typical.working_range.to, typical.working_range.reaches_sweep_end, figure.typical_range[1], figure);
         !ok)
         return ok;
-    if (std::isnan(figure.corners[0])) return {};
+    if (std::isnan(figure.corner_range[0])) return {};
     const BiasCorner *lowest = corners.data(), *highest = lowest;
     for (const auto& c : corners) {
-        if (c.works.from > lowest->works.from) lowest = &c;
-        if (c.works.to < highest->works.to) highest = &c;
+        if (c.working_range.from > lowest->working_range.from) lowest = &c;
+        if (c.working_range.to < highest->working_range.to) highest = &c;
     }
     const auto name = [](const char* what, const BiasCorner& c) {
         return fmt::format("all corners: works {} (limited by {})", what, c.name);
     };
     if (auto ok =
-            claim_end(out, name("from", *lowest), lowest->sweep, lowest->works.from, lowest->works.open_below, figure.corners[0], figure);
+            claim_end(out, name("from", *lowest), lowest->sweep, lowest->working_range.from, lowest->working_range.reaches_sweep_start, figure.corner_range[0], figure);
         !ok)
         return ok;
-    return claim_end(out, name("to", *highest), highest->sweep, highest->works.to, highest->works.open_above, figure.corners[1], figure);
+    return claim_end(out, name("to", *highest), highest->sweep, highest->working_range.to, highest->working_range.reaches_sweep_end, figure.corner_range[1], figure);
 }
 
 void add_plots(const BiasFigure& figure, std::span<const BiasCorner> corners, Outcome& out) {
@@ -46,36 +46,36 @@ void add_plots(const BiasFigure& figure, std::span<const BiasCorner> corners, Ou
     auto& voltages = out.plot(fmt::format("Fig. {}a: body voltages, typical", figure.number), figure.x_label, "V");
     voltages.log_x = log;
     for (const auto& [node, name] : {std::pair{"v(bn)", "V_BN"}, {"v(bp)", "V_BP"}, {"v(ref)", "V_REF"}, {"v(q)", "V_Q"}})
-        voltages.add(name, corners[0].sweep.line(node).times(figure.scale, 1));
+        voltages.add(name, corners[0].sweep.curve(node).times(figure.plot_scale, 1));
     auto& currents = out.plot(fmt::format("Fig. {}b: I_Q in the corners", figure.number), figure.x_label, "I_Q (nA)");
     currents.log_x = currents.log_y = log;
-    for (const auto& c : corners) currents.add(c.name, c.sweep.I_Q().times(figure.scale, 1e9));
+    for (const auto& c : corners) currents.add(c.name, c.sweep.I_Q().times(figure.plot_scale, 1e9));
     if (log) currents.add("I_Q = I_BIAS", {{10, 3000}, {10, 3000}});
     auto& errors =
         out.plot("Error over its margin: 1 is 5 mV of V_Q or a tenth of I_Q, the worse of the two", figure.x_label, "error over margin");
     errors.log_x = log, errors.log_y = true;
-    for (const auto& c : corners) errors.add(c.name, c.sweep.miss().times(figure.scale, 1));
-    errors.add("limit", {{corners[0].sweep.miss().x.front() * figure.scale, corners[0].sweep.miss().x.back() * figure.scale}, {1, 1}});
+    for (const auto& c : corners) errors.add(c.name, c.sweep.worst_error().times(figure.plot_scale, 1));
+    errors.add("limit", {{corners[0].sweep.worst_error().x.front() * figure.plot_scale, corners[0].sweep.worst_error().x.back() * figure.plot_scale}, {1, 1}});
 }
 
 }  // namespace
 
-Result<std::string> why_it_ends(const BiasSweep& sweep, double end, bool open) {
+Result<std::string> explain_range_end(const BiasSweep& sweep, double end, bool open) {
     auto settings = sweep.settings;
     settings.push_back(bias_setting(sweep.axis, end));
-    const auto state = bias_state(settings);
+    const auto state = simulate_bias_state(settings);
     if (!state) return state.error();
-    if (open) return "works to the end of the sweep; " + state->words();
-    const bool current_is_worse = sweep.miss_of_current().at(end) > sweep.miss_of_voltage().at(end);
-    return fmt::format("{} leaves its margin; {}", current_is_worse ? "I_Q" : "V_Q", state->words());
+    if (open) return "works to the end of the sweep; " + state->description();
+    const bool current_is_worse = sweep.current_error().at(end) > sweep.voltage_error().at(end);
+    return fmt::format("{} leaves its margin; {}", current_is_worse ? "I_Q" : "V_Q", state->description());
 }
 
-Result<std::vector<BiasCorner>> make(const BiasFigure& figure, Outcome& out, const StudyOptions& options) {
+Result<std::vector<BiasCorner>> simulate_bias_figure(const BiasFigure& figure, Outcome& out, const StudyOptions& options) {
     std::vector<BiasCorner> corners;
     for (const char* name : {"tt", "ss", "ff"}) {
-        auto sweep = BiasSweep::along(figure.axis, {fmt::format("corner={}", name)});
+        auto sweep = BiasSweep::run(figure.axis, {fmt::format("corner={}", name)});
         if (!sweep) return sweep.error();
-        const auto works = sweep->works();
+        const auto works = sweep->working_range();
         corners.push_back({name, std::move(*sweep), works});
         if (auto ok = options.at(static_cast<double>(corners.size()) / 4); !ok) return ok.error();
     }

@@ -9,9 +9,9 @@ namespace corpuscle {
 struct BiasFigure {
     BiasAxis axis;
     const char *number, *x_label, *unit;  ///< "53", "I_BIAS (nA)", "A"
-    double scale;                         ///< factor of the x axis: 1e9, A to nA
-    double typical[2];                    ///< published working range
-    double corners[2];                    ///< the same over all corners; NaN: not published
+    double plot_scale;                         ///< factor of the x axis: 1e9, A to nA
+    double typical_range[2];                    ///< published working range
+    double corner_range[2];                    ///< the same over all corners; NaN: not published
 
     std::string source() const { return std::string("thesis E.2, fig. ") + number; }
 };
@@ -19,13 +19,13 @@ struct BiasFigure {
 struct BiasCorner {
     const char* name;
     BiasSweep sweep;
-    BiasSweep::Range works;
+    BiasSweep::Range working_range;
 };
 
 /// Sweeps the corners tt, ss and ff; adds the claims on the working range and both plots.
-Result<std::vector<BiasCorner>> make(const BiasFigure&, Outcome&, const StudyOptions&);
+Result<std::vector<BiasCorner>> simulate_bias_figure(const BiasFigure&, Outcome&, const StudyOptions&);
 
 /// Reason for which the generator stops working at this end of its range.
-Result<std::string> why_it_ends(const BiasSweep&, double end, bool open);
+Result<std::string> explain_range_end(const BiasSweep&, double end, bool open);
 
 }  // namespace corpuscle

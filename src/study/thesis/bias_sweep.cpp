@@ -32,27 +32,27 @@ double saturation_voltage(const circuit::Circuit& c, std::string_view name, doub
 
 }  // namespace
 
-Result<BiasSweep> BiasSweep::along(BiasAxis axis, std::vector<std::string> settings) {
+Result<BiasSweep> BiasSweep::run(BiasAxis axis, std::vector<std::string> settings) {
     constexpr const char* ranges[] = {"10n 3u 2n", "0.4 0.9 2m", "-55 125 5"};
-    return along(axis, ranges[static_cast<int>(axis)], std::move(settings));
+    return run(axis, ranges[static_cast<int>(axis)], std::move(settings));
 }
 
-Result<BiasSweep> BiasSweep::along(BiasAxis axis, const std::string& range, std::vector<std::string> settings) {
+Result<BiasSweep> BiasSweep::run(BiasAxis axis, const std::string& range, std::vector<std::string> settings) {
     auto found = found_in({"bias", settings, dc_directive(axis, range)});
     if (!found) return found.error();
     return BiasSweep{axis, std::move(settings), std::move(*found)};
 }
 
-Line BiasSweep::line(const std::string& name) const { return found.line("dc", name); }
+Line BiasSweep::curve(const std::string& name) const { return found.line("dc", name); }
 
-Line BiasSweep::miss_of_voltage() const {
+Line BiasSweep::voltage_error() const {
     auto out = V_Q();
-    const auto supply = line("v(vdd)");
+    const auto supply = curve("v(vdd)");
     for (std::size_t k = 0; k < out.x.size(); ++k) out.y[k] = std::abs(out.y[k] - supply.y[k] / 2) / bias_voltage_margin;
     return out;
 }
 
-Line BiasSweep::miss_of_current() const {
+Line BiasSweep::current_error() const {
     auto out = I_Q();
     for (std::size_t k = 0; k < out.x.size(); ++k) {
         const double I_BIAS = axis == BiasAxis::current ? out.x[k] : parameter(found, "i_bias");
@@ -61,15 +61,15 @@ Line BiasSweep::miss_of_current() const {
     return out;
 }
 
-Line BiasSweep::miss() const {
-    auto out = miss_of_voltage();
-    const auto other = miss_of_current();
+Line BiasSweep::worst_error() const {
+    auto out = voltage_error();
+    const auto other = current_error();
     for (std::size_t k = 0; k < out.x.size(); ++k) out.y[k] = std::max(out.y[k], other.y[k]);
     return out;
 }
 
-BiasSweep::Range BiasSweep::works() const {
-    const auto m = miss();
+BiasSweep::Range BiasSweep::working_range() const {
+    const auto m = worst_error();
     const auto best = static_cast<std::size_t>(std::min_element(m.y.begin(), m.y.end()) - m.y.begin());
     if (m.y.empty() || m.y[best] > 1) return {Claim::none, Claim::none, false, false};
     std::size_t low = best, high = best;
@@ -82,15 +82,15 @@ BiasSweep::Range BiasSweep::works() const {
     return {all_below ? m.x[low] : edge(low, low - 1), all_above ? m.x[high] : edge(high, high + 1), all_below, all_above};
 }
 
-double BiasSweep::Range::share_of(double min, double max) const {
+double BiasSweep::Range::covered_fraction(double min, double max) const {
     return std::max(0.0, std::min(to, max) - std::max(from, min)) / (max - min);
 }
 
-BiasSweep::Range common(const BiasSweep::Range& a, const BiasSweep::Range& b) {
-    return {std::max(a.from, b.from), std::min(a.to, b.to), a.open_below && b.open_below, a.open_above && b.open_above};
+BiasSweep::Range range_intersection(const BiasSweep::Range& a, const BiasSweep::Range& b) {
+    return {std::max(a.from, b.from), std::min(a.to, b.to), a.reaches_sweep_start && b.reaches_sweep_start, a.reaches_sweep_end && b.reaches_sweep_end};
 }
 
-Result<BiasState> bias_state(const std::vector<std::string>& settings) {
+Result<BiasState> simulate_bias_state(const std::vector<std::string>& settings) {
     const auto found = found_in({"bias", settings, ".op\n.save i(m3b) i(m4a)"});
     if (!found) return found.error();
     const auto at = [&](const char* name) { return found->at_rest(name); };
@@ -105,18 +105,18 @@ Result<BiasState> bias_state(const std::vector<std::string>& settings) {
                   0,
                   0,
                   parameter(*found, "i_bias")};
-    out.needs_M3B = saturation_voltage(*found->circuit, "m3b", out.asked);
-    out.needs_M4A = saturation_voltage(*found->circuit, "m4a", out.asked);
-    out.bulks = -at("i(m3b)") - at("i(m4a)");
+    out.V_sat_M3B = saturation_voltage(*found->circuit, "m3b", out.I_BIAS);
+    out.V_sat_M4A = saturation_voltage(*found->circuit, "m4a", out.I_BIAS);
+    out.bulk_current = -at("i(m3b)") - at("i(m4a)");
     return out;
 }
 
-std::string BiasState::words() const {
+std::string BiasState::description() const {
     const auto mV = [](double v) { return format_quantity(v, "V"); };
     return fmt::format(
         "at this point V_Q is {} and I_Q is {}; M4A has V_DS {} and saturates at {}, M3B has {} and saturates at {}; the bulk junctions "
         "take {:.2g} % of I_BIAS from BN",
-        mV(V_Q), format_quantity(I_Q, "A"), mV(V_M4A), mV(needs_M4A), mV(V_M3B), mV(needs_M3B), 100 * bulks / asked);
+        mV(V_Q), format_quantity(I_Q, "A"), mV(V_M4A), mV(V_sat_M4A), mV(V_M3B), mV(V_sat_M3B), 100 * bulk_current / I_BIAS);
 }
 
 std::string bias_setting(BiasAxis axis, double value) {

@@ -16,41 +16,41 @@ struct BiasSweep {
     std::vector<std::string> settings;
     Found found;
 
-    static Result<BiasSweep> along(BiasAxis, std::vector<std::string> settings = {});
-    static Result<BiasSweep> along(BiasAxis, const std::string& range, std::vector<std::string> settings);  ///< "10n 3u 2n"
+    static Result<BiasSweep> run(BiasAxis, std::vector<std::string> settings = {});
+    static Result<BiasSweep> run(BiasAxis, const std::string& range, std::vector<std::string> settings);  ///< "10n 3u 2n"
 
-    Line line(const std::string& name) const;  ///< "v(bn)"
-    Line V_Q() const { return line("v(q)"); }
-    Line I_Q() const { return line("i(vis)"); }
+    Line curve(const std::string& name) const;  ///< "v(bn)"
+    Line V_Q() const { return curve("v(q)"); }
+    Line I_Q() const { return curve("i(vis)"); }
     /// Errors of V_Q and I_Q over their margins: 1 is the limit.
-    Line miss_of_voltage() const;
-    Line miss_of_current() const;
-    Line miss() const;  ///< the larger of the two
+    Line voltage_error() const;
+    Line current_error() const;
+    Line worst_error() const;  ///< the larger of the two
 
     /// The working range about the best point. An end outside the sweep is replaced by the sweep's end.
     struct Range {
         double from, to;
-        bool open_below, open_above;                    ///< the range is limited by the sweep only
-        double share_of(double min, double max) const;  ///< fraction of the range [min, max] that this range covers
+        bool reaches_sweep_start, reaches_sweep_end;                    ///< the range is limited by the sweep only
+        double covered_fraction(double min, double max) const;  ///< fraction of the range [min, max] that this range covers
     };
-    Range works() const;
+    Range working_range() const;
 };
 
 /// Intersection of two ranges.
-BiasSweep::Range common(const BiasSweep::Range&, const BiasSweep::Range&);
+BiasSweep::Range range_intersection(const BiasSweep::Range&, const BiasSweep::Range&);
 
 /// An operating point of the generator: the quantities that can limit it.
 struct BiasState {
     double V_Q, I_Q, V_BN, V_BP, V_REF;  // V, A
     double V_M3B, V_M4A;                 // V: drain-source voltages
-    double needs_M3B, needs_M4A;         // V, to be saturated: phi_t (sqrt(1 + i_f) + 3), eq. 23 where i_r is a hundredth or so of i_f
-    double bulks;                        // A: what flows from BN into the bulks' junctions
-    double asked;                        // A: I_BIAS
+    double V_sat_M3B, V_sat_M4A;         // V, to be saturated: phi_t (sqrt(1 + i_f) + 3), eq. 23 where i_r is a hundredth or so of i_f
+    double bulk_current;                        // A: what flows from BN into the bulks' junctions
+    double I_BIAS;                        // A: I_BIAS
 
-    std::string words() const;
+    std::string description() const;
 };
 /// Settings "i_bias=100n", "supply=0.8", "temp=95", "corner=ff", "vtn_shift=-35m".
-Result<BiasState> bias_state(const std::vector<std::string>& settings);
+Result<BiasState> simulate_bias_state(const std::vector<std::string>& settings);
 
 /// The setting for a value on the axis: "supply=0.61".
 std::string bias_setting(BiasAxis, double value);

@@ -8,7 +8,7 @@ namespace corpuscle {
 double ForceSensor::conductance(double gf) const { return 1 / R_0 + std::pow(gf, m) / a; }
 double ForceSensor::slope(double gf) const { return m * std::pow(gf, m - 1) / a; }
 
-Line ForceSensor::conductances(double from, double to, double step) const {
+Line ForceSensor::conductance_curve(double from, double to, double step) const {
     Line out;
     for (double gf = from; gf <= to; gf += step) out.x.push_back(gf), out.y.push_back(conductance(gf));
     return out;
@@ -23,9 +23,9 @@ std::string improved_cell_at(const std::string& bulk, const std::string& drain) 
 
 std::string improved_cell(const std::string& drain) { return improved_cell_at("tb", drain) + "mn3 vz vdd tb tb nch w=1.5u l=0.5u m=8\n"; }
 
-std::string read_cell() { return improved_cell("d") + "mp3a d d if if pch w=6u l=0.5u m=8 stack=2\n"; }
+std::string improved_cell_with_diode() { return improved_cell("d") + "mp3a d d if if pch w=6u l=0.5u m=8 stack=2\n"; }
 
-std::string plain_cell(int columns) { return fmt::format("mn1 if vz vx 0 nch w=1.5u l=0.5u m={}\n", columns); }
+std::string single_transistor_cell(int columns) { return fmt::format("mn1 if vz vx 0 nch w=1.5u l=0.5u m={}\n", columns); }
 
 std::string voltage_cell(double R_F) {
     return fmt::format(
@@ -35,7 +35,7 @@ std::string voltage_cell(double R_F) {
         R_F);
 }
 
-std::string transducers(std::span<const TransducerCell> cells, const std::string& force, const std::string& parts) {
+std::string transducer_netlist(std::span<const TransducerCell> cells, const std::string& force, const std::string& parts) {
     std::string out = fmt::format(
         "Transducers side by side\n.lib '../process/tsmc180.lib' tt\n{}\nvdd vdd 0 0.7\nvy vy 0 0.1\nvforce force 0 {}\n", parts, force);
     for (const auto& cell : cells)
@@ -46,9 +46,9 @@ std::string transducers(std::span<const TransducerCell> cells, const std::string
     return out;
 }
 
-Result<std::vector<double>> lowest_supplies(std::span<const TransducerCell> cells, double newtons, const std::vector<std::string>& settings,
+Result<std::vector<double>> find_lowest_supplies(std::span<const TransducerCell> cells, double newtons, const std::vector<std::string>& settings,
                                             const std::string& parts) {
-    const auto found = found_in({transducers(cells, fmt::format("{}", newtons), parts), settings, ".dc vdd 0.3 1 5m"});
+    const auto found = found_in({transducer_netlist(cells, fmt::format("{}", newtons), parts), settings, ".dc vdd 0.3 1 5m"});
     if (!found) return found.error();
     std::vector<double> out;
     for (const auto& cell : cells) out.push_back(found->line("dc", fmt::format("v(x{}.vx)", cell.name)).where(0.95 * 0.1));

@@ -10,7 +10,7 @@
 namespace corpuscle {
 
 constexpr double gram_force = 9.80665e-3;       // N
-constexpr double least_gf = 20, most_gf = 400;  ///< range over which the thesis evaluates its transducer (4.2)
+constexpr double min_gf = 20, max_gf = 400;  ///< range over which the thesis evaluates its transducer (4.2)
 
 /// Eq. 13 corrected (errata F1): G = 1/R_0 + F^m / a, F in gf, a = 170 kohm gf^m.
 struct ForceSensor {
@@ -18,7 +18,7 @@ struct ForceSensor {
     double conductance(double gf) const;
     double resistance(double gf) const { return 1 / conductance(gf); }
     double slope(double gf) const;  ///< dG/dF, S/gf
-    Line conductances(double from, double to, double step = 1) const;
+    Line conductance_curve(double from, double to, double step = 1) const;
 };
 
 /// A transducer with its own sensor: netlist lines between the nodes vx (sensor), vz (amplifier output), if (output, held at the supply by
@@ -31,21 +31,21 @@ struct TransducerCell {
 std::string improved_cell(const std::string& drain = "if");
 std::string improved_cell_at(const std::string& bulk, const std::string& drain = "if");
 /// Fig. 22 with the diode of the next block's mirror (table 3's M3A) as its load; the diode is connected to the source vif.
-std::string read_cell();
+std::string improved_cell_with_diode();
 /// Fig. 21: one transistor of `columns` unit transistors in parallel.
-std::string plain_cell(int columns);
+std::string single_transistor_cell(int columns);
 
 /// Fig. 20 with a follower behind the amplifier; the follower's output is node z.
 std::string voltage_cell(double R_F);
 
 /// All cells side by side with a common force (source vforce, 1 V per N: "4", "dc 0 force 1"), supply (vdd) and reference (vy). Node and
 /// current names: v(xNAME.vx), i(xNAME.vif). `parts` is the line that includes the subcircuits.
-std::string transducers(std::span<const TransducerCell>, const std::string& force,
+std::string transducer_netlist(std::span<const TransducerCell>, const std::string& force,
                         const std::string& parts = ".include 'parts/transducer.inc'");
 
 /// The lowest supply at which each cell still holds its sensor: v_x at least 95 % of the 0.1 V of v_y, so that the sensor's current follows
 /// eq. 15. NaN: no such supply up to 1 V.
-Result<std::vector<double>> lowest_supplies(std::span<const TransducerCell>, double newtons, const std::vector<std::string>& settings = {},
+Result<std::vector<double>> find_lowest_supplies(std::span<const TransducerCell>, double newtons, const std::vector<std::string>& settings = {},
                                             const std::string& parts = ".include 'parts/transducer.inc'");
 
 }  // namespace corpuscle

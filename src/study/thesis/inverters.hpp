@@ -8,25 +8,25 @@ namespace corpuscle {
 constexpr const char* inverter_names[] = {"INVA", "INVB", "INVC"};
 constexpr char inverter_letters[] = {'a', 'b', 'c'};
 
-struct Inverters {
+struct InverterSweep {
     Found found;
     double supply;  // V
 
     /// `run` sweeps V_IN over the supply in steps of `step` (V); `run_with_directives` takes other directives.
-    static Result<Inverters> swept(double step, double supply = 0.7);
-    static Result<Inverters> ordered(const std::string& directives, std::vector<std::string> settings = {});
+    static Result<InverterSweep> run(double step, double supply = 0.7);
+    static Result<InverterSweep> run_with_directives(const std::string& directives, std::vector<std::string> settings = {});
 
     /// Output current (A) over V_IN (V) with the output held at half the supply.
-    Line current(char which) const;
+    Line output_current(char which) const;
     /// Transconductance: the negative slope of that current, S over V.
     Line transconductance(char which) const;
-    double at_rest(char which) const { return transconductance(which).at(0); }  ///< S, at V_IN = 0
+    double transconductance_at_zero(char which) const { return transconductance(which).at(0); }  ///< S, at V_IN = 0
     /// Voltage of the open output, V over V.
-    Line characteristic(char which) const;
+    Line transfer_curve(char which) const;
     /// Gain of the open output at each output voltage: |dV_OUT/dV_IN| over V_OUT.
-    Line gain(char which) const;
+    Line voltage_gain(char which) const;
     /// Supply current with the output held, A over V.
-    Line taken(char which) const;
+    Line supply_current(char which) const;
 };
 
 }  // namespace corpuscle

@@ -11,24 +11,24 @@
 namespace corpuscle::press {
 
 // s; plateau_end: the plateau's last 100 ms
-inline constexpr TimeWindow rest{0, 0.25}, up{0.25, 0.375}, plateau{0.375, 0.625}, late{0.525, 0.625}, down{0.625, 0.75}, after{0.75, 1.0};
-inline constexpr double least = 0.2, most = 4;  // N
+inline constexpr TimeWindow rest{0, 0.25}, protraction{0.25, 0.375}, plateau{0.375, 0.625}, plateau_end{0.525, 0.625}, retraction{0.625, 0.75}, after{0.75, 1.0};
+inline constexpr double min_force = 0.2, max_force = 4;  // N
 
 /// Force (N) over time (s), sampled every T (s).
-Result<Line> samples(double T);
+Result<Line> force_curve(double T);
 
-inline double count(const std::vector<double>& train, const TimeWindow& s) { return measure<SpikeCount>(train, s); }
+inline double spike_count(const std::vector<double>& train, const TimeWindow& s) { return measure<SpikeCount>(train, s); }
 /// "0 5 9 1 0": spike counts at rest, in protraction, plateau, retraction and after.
-std::string pattern(const std::vector<double>& train);
+std::string phase_counts(const std::vector<double>& train);
 /// The instantaneous frequency as the thesis plots it: 1/interval at the time of the interval's first spike (3.3).
-Line frequency(const std::vector<double>& train);
+Line frequency_at_start(const std::vector<double>& train);
 /// The same at the time of the second spike, as many tools plot it.
-Line frequency_behind(const std::vector<double>& train);
+Line frequency_at_end(const std::vector<double>& train);
 
 /// Adds a reference value from elsewhere and its reliability to a claim; no verdict depends on it.
-Claim& known_as(Claim&, double value, const std::string& mark);
+Claim& set_reference(Claim&, double value, const std::string& mark);
 
 /// Runs a model as the thesis does: Algorithms 4 to 6 at 1 ms, spikes on the samples.
-Asked as_algorithm(std::string afferent, std::vector<std::string> settings = {});
+Asked thesis_algorithm(std::string afferent, std::vector<std::string> settings = {});
 
 }  // namespace corpuscle::press

@@ -21,22 +21,22 @@ double half_width(const Line& slope, double middle, double g_m) {
 
 }  // namespace
 
-Result<Transconductor> transconductor_of(Deck deck, const std::string& out) {
+Result<TransconductorCurve> simulate_transconductor(Deck deck, const std::string& out) {
     deck.orders = ".dc vplus 0.15 0.55 0.5m";
     const auto found = found_in(deck);
     if (!found) return found.error();
-    Transconductor t{found->line("dc", out)};
+    TransconductorCurve t{found->line("dc", out)};
     for (double& v : t.current.x) v -= 0.35;
-    t.middle = t.current.where(0);
+    t.zero_current_voltage = t.current.where(0);
     const auto slope = t.current.slope().absolute();
-    t.g_m = slope.at(t.middle), t.most = std::min(t.current.most(), -t.current.least());
-    t.straight = half_width(slope, t.middle, t.g_m);
+    t.g_m = slope.at(t.zero_current_voltage), t.max_current = std::min(t.current.most(), -t.current.least());
+    t.linear_range = half_width(slope, t.zero_current_voltage, t.g_m);
     t.power = 0.7 * found->line("dc", "i(vi)").at(0.35);
     return t;
 }
 
-Result<Transconductor> pair_alone(double i_b, int columns, int stack) {
-    return transconductor_of(
+Result<TransconductorCurve> simulate_isolated_pair(double i_b, int columns, int stack) {
+    return simulate_transconductor(
         {fmt::format("A differential pair\n.lib '../process/tsmc180.lib' tt\nvdd vdd 0 0.7\nvi vdd supply 0\nib supply t {}\n"
                      "vplus plus 0 0.35\nvminus minus 0 0.35\n"
                      "m1a l plus t vdd pch w=6u l=0.5u m={} stack={}\nm1b r minus t vdd pch w=6u l=0.5u m={} stack={}\n"

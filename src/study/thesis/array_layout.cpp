@@ -1,4 +1,4 @@
-#include "study/thesis/layout.hpp"
+#include "study/thesis/array_layout.hpp"
 
 #include <fmt/format.h>
 #include <numeric>
@@ -19,8 +19,8 @@ void append_rectangle(Line& path, double left, double low, double width, double 
 }
 
 /// Appends the channels (W in rows, L in columns) and the total area; returns the array's width (um).
-double append_array(const OurArray& a, double left, Line& channels, Line& total) {
-    const auto rows = static_cast<std::size_t>(a.printed->rows), columns = static_cast<std::size_t>(a.printed->columns);
+double append_array(const SimulatedArray& a, double left, Line& channels, Line& total) {
+    const auto rows = static_cast<std::size_t>(a.published->rows), columns = static_cast<std::size_t>(a.published->columns);
     const double W = um * a.W, pitch = W + um * Rule::between_W;
     double x = left + 0.5 * um * Rule::around_L;
     for (std::size_t column = 0; column < columns; ++column) {
@@ -36,7 +36,7 @@ double append_array(const OurArray& a, double left, Line& channels, Line& total)
 
 }  // namespace
 
-Plot layout_of(const OurArrays& arrays, std::string title) {
+Plot layout_plot(const SimulatedArrays& arrays, std::string title) {
     Plot out{std::move(title), "along the channels, arrays side by side (um)", "across (um)", {}};
     Line channels, total;
     double left = 0;
@@ -44,23 +44,23 @@ Plot layout_of(const OurArrays& arrays, std::string title) {
     return out.add("channels", channels, Plot::Style::path).add("total area", total, Plot::Style::path);
 }
 
-Result<Outcome> tell_layout(const PrintedArrays& tables, const std::string& figure, const std::string& remark) {
-    const auto ours = arrays_of(tables);
+Result<Outcome> report_layout(const PublishedArrays& tables, const std::string& figure, const std::string& remark) {
+    const auto ours = simulate_arrays(tables);
     if (!ours) return ours.error();
     Outcome out;
     double published_sum = 0, sum = 0;
     std::string names;
     for (const auto& a : *ours) {
-        out.claim(fmt::format("{}: total area", a.printed->name), 1e12 * a.A_T, "um^2")
-            .printed_as(a.printed->A_T, fmt::format("{}, of the arrays in {}", tables.sizes, figure));
-        out.claim(fmt::format("{}: active area from its channels", a.printed->name),
+        out.claim(fmt::format("{}: total area", a.published->name), 1e12 * a.A_T, "um^2")
+            .printed_as(a.published->A_T, fmt::format("{}, of the arrays in {}", tables.sizes_table, figure));
+        out.claim(fmt::format("{}: active area from its channels", a.published->name),
                   1e12 * a.W * std::accumulate(a.lengths.begin(), a.lengths.end(), 0.0), "um^2")
-            .printed_as(a.printed->A, tables.sizes);
-        published_sum += a.printed->A_T, sum += 1e12 * a.A_T;
-        names += fmt::format("{}{}", names.empty() ? "" : ", ", a.printed->name);
+            .printed_as(a.published->A, tables.sizes_table);
+        published_sum += a.published->A_T, sum += 1e12 * a.A_T;
+        names += fmt::format("{}{}", names.empty() ? "" : ", ", a.published->name);
     }
-    out.claim("sum of all total areas", sum, "um^2").held_to(published_sum, tables.sizes);
-    out.plots.push_back(layout_of(*ours, fmt::format("Channels and total areas of {}, from the left", names))
+    out.claim("sum of all total areas", sum, "um^2").held_to(published_sum, tables.sizes_table);
+    out.plots.push_back(layout_plot(*ours, fmt::format("Channels and total areas of {}, from the left", names))
                             .shape("polysilicon and diffusion of each array in its rectangle; the original figure is lost"));
     out.note(
         "The numbers of rows and columns are those that reproduce the published total areas; one rule gives the margins and spacings of "

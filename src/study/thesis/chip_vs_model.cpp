@@ -1,26 +1,26 @@
-#include "study/thesis/beside.hpp"
+#include "study/thesis/chip_vs_model.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 namespace corpuscle {
 
-Result<Beside> beside(const Asked& chip_spec, const std::string& model) {
+Result<ChipVsModel> compare_chip_with_model(const Asked& chip_spec, const std::string& model) {
     auto chip = told_of(chip_spec);
     if (!chip) return chip.error();
     auto train = train_of({model});
     if (!train) return train.error();
-    return Beside{std::move(*chip), std::move(*train)};
+    return ChipVsModel{std::move(*chip), std::move(*train)};
 }
 
-double least_jump(const Line& trace, const std::vector<double>& spikes, double duration) {
+double min_jump(const Line& trace, const std::vector<double>& spikes, double duration) {
     double min_ratio = std::numeric_limits<double>::infinity();
     for (const double t : spikes)
         min_ratio = std::min(min_ratio, trace.between(t, t + duration).most() / trace.between(t - 2 * duration, t - duration / 2).most());
     return min_ratio;
 }
 
-double longest_above(const Line& trace, double level) {
+double longest_time_above(const Line& trace, double level) {
     double longest = 0, start = NAN;
     for (std::size_t k = 0; k < trace.x.size(); ++k) {
         if (trace.y[k] < level)

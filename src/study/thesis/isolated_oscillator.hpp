@@ -6,23 +6,23 @@
 namespace corpuscle {
 
 /// I_LEAK 2 pA, I_CHARGE 1 nA and 1.8 pF, as published with fig. 39.
-struct OscillatorAlone {
+struct IsolatedOscillator {
     static constexpr double I_LEAK = 2e-12, I_CHARGE = 1e-9, C = 1.8e-12;  // A, F
     double current = 20e-12;                                               ///< A, from 10 ms on
-    double until = 0.2;                                                    ///< s
-    bool better_switches = false;                                          ///< switches with a higher threshold, which leak almost nothing
+    double stop_time = 0.2;                                                    ///< s
+    bool has_high_threshold_switches = false;                                          ///< switches with a higher threshold, which leak almost nothing
     double leak = I_LEAK;                                                  ///< A
 };
 /// Records v(u) and v(s) over time, the spikes, and v(u) at rest.
-Result<Found> driven(const OscillatorAlone&);
+Result<Found> simulate_oscillator(const IsolatedOscillator&);
 
 /// An output over an input that is swept up and down again.
 struct Hysteresis {
-    Line up, down;
+    Line rising, falling;
     double V_H, V_L;  ///< input at which the output crosses half the supply of 0.7 V, going up and down
 };
 /// From the first .dc analysis that has `updown`.
-Hysteresis hysteresis_in(const Found&, const std::string& output);
-Result<Hysteresis> trigger_alone();
+Hysteresis find_hysteresis(const Found&, const std::string& output);
+Result<Hysteresis> simulate_trigger();
 
 }  // namespace corpuscle

@@ -1,4 +1,4 @@
-#include "study/thesis/oscillator_alone.hpp"
+#include "study/thesis/isolated_oscillator.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -24,27 +24,27 @@ iin u 0 pwl(0 0 10m 0 10.1m {i_in})
 
 }  // namespace
 
-Result<Found> driven(const OscillatorAlone& o) {
+Result<Found> simulate_oscillator(const IsolatedOscillator& o) {
     return found_in({netlist,
-                     {fmt::format("i_in={}", o.current), fmt::format("until={}", o.until),
-                      fmt::format("hv={}", o.better_switches ? 0.15 : 0), fmt::format("i_leak={}", o.leak)}});
+                     {fmt::format("i_in={}", o.current), fmt::format("until={}", o.stop_time),
+                      fmt::format("hv={}", o.has_high_threshold_switches ? 0.15 : 0), fmt::format("i_leak={}", o.leak)}});
 }
 
-Hysteresis hysteresis_in(const Found& found, const std::string& output) {
+Hysteresis find_hysteresis(const Found& found, const std::string& output) {
     const auto [x, y] = found.line("dc", output);
     const auto turning_point = std::max_element(x.begin(), x.end()) - x.begin();
     Hysteresis out{{{x.begin(), x.begin() + turning_point + 1}, {y.begin(), y.begin() + turning_point + 1}},
                    {{x.rbegin(), x.rend() - turning_point}, {y.rbegin(), y.rend() - turning_point}},
                    0,
                    0};
-    out.V_H = out.up.where(0.35), out.V_L = out.down.where(0.35);
+    out.V_H = out.rising.where(0.35), out.V_L = out.falling.where(0.35);
     return out;
 }
 
-Result<Hysteresis> trigger_alone() {
+Result<Hysteresis> simulate_trigger() {
     const auto found = found_in({"schmitt", {}, ".dc vin 0 0.7 1m updown"});
     if (!found) return found.error();
-    return hysteresis_in(*found, "v(out)");
+    return find_hysteresis(*found, "v(out)");
 }
 
 }  // namespace corpuscle
