@@ -43,13 +43,13 @@ int main(int argc, char** argv) {
 
     ChipCalibration asked;
     asked.netlist = std::string(kind->model) + "-circuit", asked.bits = bits;
-    asked.knobs = {{"corner", "mc", "corner=mc"}};
+    asked.overrides = {{"corner", "mc", "corner=mc"}};
     asked.batch.max_iterations = 60'000;
     const auto press = stimulus("press");
     asked.force = press.force, asked.T = 1 / press.rate;
     const TimeWindow phases[] = {{0, 0.25}, {0.25, 0.375}, {0.375, 0.625}, {0.625, 0.75}, {0.75, 1}};
-    asked.limits = FiringLimits::about(respond(kind->model, press).spikes, phases, 10e-3);
-    asked.told = [](std::size_t left, std::size_t presses) { std::fprintf(stderr, "%zu chips left, %zu presses\n", left, presses); };
+    asked.limits = FiringLimits::around(respond(kind->model, press).spikes, phases, 10e-3);
+    asked.on_progress = [](std::size_t left, std::size_t presses) { std::fprintf(stderr, "%zu chips left, %zu presses\n", left, presses); };
     fmt::print("{}, {} chips: {}\n", asked.netlist, count, asked.limits.text());
 
     const std::vector<std::string> trims[] = {{"i_leak"}, {"i_biasb"}, kind->gain};
@@ -64,7 +64,7 @@ int main(int argc, char** argv) {
         std::string names;
         for (const int k : set) {
             const auto& name = trims[k];
-            auto trim = trim_of(asked.netlist, asked.knobs, name, k == 0 ? 1.0 : k == 1 ? 0.25 : 0.5, k == 2);
+            auto trim = trim_of(asked.netlist, asked.overrides, name, k == 0 ? 1.0 : k == 1 ? 0.25 : 0.5, k == 2);
             if (!trim) return fail(trim.error());
             names += (names.empty() ? "" : ", ") + name[0];
             asked.trims.push_back(*trim);
@@ -74,7 +74,7 @@ int main(int argc, char** argv) {
         std::vector<int> kept(static_cast<std::size_t>(bits) + 1), presses(kept.size());
         int total = 0, most = 0, lost = 0;
         for (const auto& c : *all) {
-            total += c.presses, most = std::max(most, c.presses), lost += c.lost;
+            total += c.presses, most = std::max(most, c.presses), lost += c.diverged;
             for (int b = 0; b <= bits; ++b) kept[static_cast<std::size_t>(b)] += c.bits >= 0 && c.bits <= b;
         }
         fmt::print("{}: kept to them as made {}", names, kept[0]);

@@ -50,7 +50,7 @@ public:
         left_ -= static_cast<std::int64_t>(steps);
         return Block{{force_.data(), block}, {total_.data(), steps}};
     }
-    double done() const override { return 1 - static_cast<double>(left_) / static_cast<double>(all_); }
+    double progress() const override { return 1 - static_cast<double>(left_) / static_cast<double>(all_); }
 };
 
 /// What is pressed: a stimulus and an indenter.
@@ -63,7 +63,7 @@ struct Pressed {
 Pressed press(const Innervation& skin, std::string_view stimulus, std::string_view indenter, std::vector<ParameterOverride> wishes) {
     Pressed p{good(make_stimulus(stimulus, wishes, 1e3, 0)), {}, {}};
     p.contact = good(make_contact(indenter, wishes, skin.plan.sites, p.source->clock()));
-    p.force = pressed_force(*p.source, *p.contact);
+    p.force = make_pressed_force(*p.source, *p.contact);
     return p;
 }
 
@@ -119,9 +119,9 @@ int main(int argc, char** argv) {
             auto force = make();
             auto at_work = good(Skin::make(skin, {1e-3}, set));
             auto out = SkinEventsFile(good(OutputFile::create(file)), "aer");
-            SkinListener* const listeners[] = {&out};
+            SkinSink* const listeners[] = {&out};
             const SkinInput input{name, "", *make_clock(1e3), {}, *skin};
-            const auto answerer = alone_answerer(*at_work, alone);
+            const auto answerer = local_skin_simulator(*at_work, alone);
             const double from = processor();
             work = good(run_skin(*force.force, input, *answerer, listeners, {}));
             if (!out.commit()) return 1;

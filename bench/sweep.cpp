@@ -12,9 +12,9 @@
 #include <filesystem>
 #include <random>
 
-#include "study/sweep/rank_words.hpp"
+#include "study/sweep/rank_messages.hpp"
 #include "study/sweep/ranks.hpp"
-#include "study/sweep/results.hpp"
+#include "study/sweep/sweep_results.hpp"
 #include "study/sweep/sqlite.hpp"
 
 namespace {
@@ -39,30 +39,30 @@ class Drawn final : public Sweep {
     std::vector<SweepColumn> axes_, measures_;
     std::vector<std::string> trains_ = {"sa1"}, traces_;
     std::vector<double> times_;
-    std::vector<Fact> facts_ = {{"title", "bench"}};
+    std::vector<MetadataText> facts_ = {{"title", "bench"}};
 
 public:
     explicit Drawn(std::int64_t units) : units_(units) {
         for (int k = 0; k < 6; ++k) axes_.push_back({fmt::format("axis{}", k), ""});
         for (int k = 0; k < 10; ++k) measures_.push_back({fmt::format("measure{}", k), ""});
     }
-    std::int64_t units() const override { return units_; }
+    std::int64_t item_count() const override { return units_; }
     const std::vector<SweepColumn>& axes() const override { return axes_; }
     const std::vector<SweepColumn>& measures() const override { return measures_; }
-    const std::vector<std::string>& trains() const override { return trains_; }
-    const std::vector<std::string>& traces() const override { return traces_; }
-    const std::vector<double>& trace_times() const override { return times_; }
-    const std::vector<Fact>& facts() const override { return facts_; }
+    const std::vector<std::string>& train_names() const override { return trains_; }
+    const std::vector<std::string>& probe_names() const override { return traces_; }
+    const std::vector<double>& probe_times() const override { return times_; }
+    const std::vector<MetadataText>& metadata() const override { return facts_; }
     std::vector<double> values(std::int64_t unit) const override {
         std::vector<double> out(axes_.size());
         for (std::size_t k = 0; k < out.size(); ++k) out[k] = 1 / static_cast<double>(3 + unit + static_cast<std::int64_t>(k));
         return out;
     }
-    Result<void> work(const Next&, const Told&, const std::function<bool()>&) const override { return {}; }
+    Result<void> run_items(const NextItem&, const OutcomeHandler&, const std::function<bool()>&) const override { return {}; }
 
-    UnitOutcome outcome(std::int64_t unit, std::mt19937& random) const {
+    ItemOutcome outcome(std::int64_t unit, std::mt19937& random) const {
         std::uniform_real_distribution<> number;
-        UnitOutcome o{unit};
+        ItemOutcome o{unit};
         for (std::size_t k = 0; k < measures_.size(); ++k) o.measures.push_back(number(random));
         o.spikes.resize(1);
         for (int k = 0; k < 15; ++k) o.spikes[0].push_back(number(random));
@@ -72,7 +72,7 @@ public:
 
 void ask(const SweepResults& results, const char* query) {
     const auto begun = Clock::now();
-    const auto answer = sql::integer(results.handle(), results.path(), query);
+    const auto answer = sql::query_integer(results.handle(), results.path(), query);
     fmt::print("  {:.3f} s  {}  ({})\n", since(begun), query, answer ? *answer : -1);
 }
 
@@ -86,12 +86,12 @@ int rows(std::int64_t units, const std::string& folder) {
     std::mt19937 random(1);
     double writing = 0, writing_wall = 0, packing = 0, unpacking = 0, at_tenth = 0;
     for (std::int64_t from = 0; from < units; from += batch) {
-        std::vector<UnitOutcome> outcomes, back;
+        std::vector<ItemOutcome> outcomes, back;
         for (std::int64_t k = from; k < std::min(units, from + batch); ++k) outcomes.push_back(sweep.outcome(k, random));
         auto begun = processor();
-        auto packed = message(outcomes);
+        auto packed = rank_message(outcomes);
         packing += processor() - begun, begun = processor();
-        (void)word_of(packed), (void)get(packed, back);
+        (void)decode_rank_message_type(packed), (void)decode_rank_message(packed, back);
         unpacking += processor() - begun, begun = processor();
         const auto wall = Clock::now();
         if (auto ok = results->add(sweep, std::move(back)); !ok) return fmt::print("{}\n", ok.error().text()), 1;
@@ -99,7 +99,7 @@ int rows(std::int64_t units, const std::string& folder) {
         if (at_tenth == 0 && from >= units / 10) at_tenth = memory_MB();
     }
     const auto begun = Clock::now();
-    const auto folded = results->fold();
+    const auto folded = results->checkpoint();
     const auto n = static_cast<double>(units);
     fmt::print("{} rows: {:.2f} us of the processor a row, {:.2f} us of the wall ({:.0f} a second)\n", units, writing / n * 1e6,
                writing_wall / n * 1e6, n / writing_wall);

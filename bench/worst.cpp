@@ -22,7 +22,7 @@
 #include "circuit/netlist_overrides.hpp"
 #include "corpuscle.hpp"
 #include "signal/thread_pool.hpp"
-#include "study/sweep/pattern.hpp"
+#include "study/sweep/firing_limits.hpp"
 
 namespace {
 
@@ -86,7 +86,7 @@ void tell(const char* what, const Trains& trains, const FiringLimits& limits) {
     long kept = 0;
     for (const auto& t : trains) {
         const auto n = static_cast<double>(t.size());
-        sum += n, squares += n * n, kept += limits.kept(t);
+        sum += n, squares += n * n, kept += limits.are_met(t);
     }
     const auto count = static_cast<double>(trains.size());
     fmt::print("{:40} {:6.2f} spikes, deviation {:6.3f}; {} of {} chips keep to the limits\n", what, sum / count,
@@ -103,7 +103,7 @@ int main(int argc, char** argv) {
     const ChipSpec chips{argc > 2 ? std::atof(argv[2]) : 200, argc > 3 ? std::strtoull(argv[3], nullptr, 10) : 1, false, true};
     const auto press = stimulus("press");
     const TimeWindow phases[] = {{0, 0.25}, {0.25, 0.375}, {0.375, 0.625}, {0.625, 0.75}, {0.75, 1}};
-    const auto limits = FiringLimits::about(respond(model, press).spikes, phases, 10e-3);
+    const auto limits = FiringLimits::around(respond(model, press).spikes, phases, 10e-3);
     fmt::print("{}: {}\n", netlist, limits.text());
 
     const auto designed = design_of(netlist, {});

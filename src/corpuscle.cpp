@@ -2,7 +2,7 @@
 
 #include "measure/measures.hpp"
 #include "signal/stimuli.hpp"
-#include "study/afferents.hpp"
+#include "study/afferent_plan.hpp"
 
 namespace corpuscle {
 namespace {

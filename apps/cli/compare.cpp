@@ -1,6 +1,6 @@
 // corpuscle compare: compares two spike files, train by train.
 
-#include "study/compare.hpp"
+#include "study/train_comparison.hpp"
 
 #include <fmt/format.h>
 #include <cmath>
@@ -40,21 +40,21 @@ void warn_of_window(const CompareOptions& options, const CompareWords& w) {
                has_no_unit ? fmt::format("; for milliseconds write --window {}ms", w.window) : "");
 }
 
-Json document_of(const Difference& d) {
+Json document_of(const TrainDifference& d) {
     const auto seconds = [&](double x) { return d.matched > 0 ? Json(x) : Json(nullptr); };
-    return {{"spikes_a", d.in_a},
-            {"spikes_b", d.in_b},
+    return {{"spikes_a", d.spikes_a},
+            {"spikes_b", d.spikes_b},
             {"matched", d.matched},
             {"missing", d.missing()},
             {"extra", d.extra()},
-            {"largest_s", seconds(d.largest)},
+            {"largest_s", seconds(d.max_shift)},
             {"rms_s", seconds(d.rms())},
             {"victor_purpura", d.victor_purpura},
-            {"victor_purpura_per_spike", d.per_spike()},
+            {"victor_purpura_per_spike", d.victor_purpura_per_spike()},
             {"van_rossum", d.van_rossum()}};
 }
 
-std::string document(const CompareOptions& options, const std::vector<Difference>& all, const Difference& total) {
+std::string document(const CompareOptions& options, const std::vector<TrainDifference>& all, const TrainDifference& total) {
     Json out = {{"window_s", options.window}, {"cost_Hz", options.cost}, {"tau_s", options.tau}};
     out["pairs"] = Json::array();
     for (const auto& d : all) {
@@ -66,23 +66,23 @@ std::string document(const CompareOptions& options, const std::vector<Difference
     return json_text(out) + "\n";
 }
 
-std::vector<std::string> line_of(const Difference& d, const std::string& a, const std::string& b) {
+std::vector<std::string> line_of(const TrainDifference& d, const std::string& a, const std::string& b) {
     const auto milliseconds = [&](double x) { return d.matched > 0 ? fmt::format("{:.3f}", 1e3 * x) : "-"; };
     return {a,
             b,
-            fmt::format("{}", d.in_a),
-            fmt::format("{}", d.in_b),
+            fmt::format("{}", d.spikes_a),
+            fmt::format("{}", d.spikes_b),
             fmt::format("{}", d.matched),
             fmt::format("{}", d.missing()),
             fmt::format("{}", d.extra()),
-            milliseconds(d.largest),
+            milliseconds(d.max_shift),
             milliseconds(d.rms()),
             fmt::format("{:.2f}", d.victor_purpura),
-            fmt::format("{:.3f}", d.per_spike()),
+            fmt::format("{:.3f}", d.victor_purpura_per_spike()),
             fmt::format("{:.2f}", d.van_rossum())};
 }
 
-std::string text(const CompareOptions& options, const std::vector<Difference>& all, const Difference& total) {
+std::string text(const CompareOptions& options, const std::vector<TrainDifference>& all, const TrainDifference& total) {
     std::vector<std::vector<std::string>> rows = {
         {"A", "B", "in A", "in B", "matched", "missing", "extra", "max (ms)", "RMS (ms)", "Victor-Purpura", "per spike", "van Rossum"}};
     const auto shown = [](const std::string& name) { return name.empty() ? "-" : name; };
@@ -111,11 +111,11 @@ Result<void> run(const CompareWords& w, const Common& common) {
     if (!b) return b.error();
     const auto pairs = pair_trains(*a, *b, *options);
     if (!pairs) return pairs.error();
-    std::vector<Difference> all;
-    Difference total;
+    std::vector<TrainDifference> all;
+    TrainDifference total;
     for (const auto& p : *pairs) {
         if (interrupted()) return Error{ErrorCode::interrupted, "interrupted"};
-        const auto difference = compare(p, *options);
+        const auto difference = compare_trains(p, *options);
         if (!difference) return difference.error();
         all.push_back(*difference);
         total.add(*difference);
@@ -129,7 +129,7 @@ Result<void> run(const CompareWords& w, const Common& common) {
 
 }  // namespace
 
-int compare(const CompareWords& words, const Common& common) {
+int compare_trains(const CompareWords& words, const Common& common) {
     catch_interrupt();
     const auto done = run(words, common);
     return done ? 0 : fail(done.error());

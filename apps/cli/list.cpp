@@ -15,7 +15,7 @@
 #include "model/catalog.hpp"
 #include "signal/quantity.hpp"
 #include "signal/stimuli.hpp"
-#include "study/afferents.hpp"
+#include "study/afferent_plan.hpp"
 #include "terminal.hpp"
 #include "verbs.hpp"
 

@@ -325,7 +325,7 @@ int main(int argc, char** argv) {
                : app.got_subcommand("study")   ? study(study_arguments, common)
                : app.got_subcommand("sweep")   ? sweeps.run(common)
                : app.got_subcommand("stream")  ? live.run(common)
-               : app.got_subcommand("compare") ? compare(compare_arguments, common)
+               : app.got_subcommand("compare") ? compare_trains(compare_arguments, common)
                                                : respond(respond_arguments, common);
     };
     int status = 0;

@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include "recording_words.hpp"
-#include "study/bins_file.hpp"
-#include "study/clicks_file.hpp"
+#include "study/psth_file.hpp"
+#include "study/spike_sound_file.hpp"
 #include "study/copies_file.hpp"
 #include "study/npz_file.hpp"
-#include "study/stale.hpp"
-#include "study/vectors.hpp"
+#include "study/earlier_outputs.hpp"
+#include "study/test_vectors_file.hpp"
 #include "written.hpp"
 
 namespace corpuscle {
@@ -33,10 +33,10 @@ Result<void> Outputs::open_directory(const RespondWords& w, const CopySpec& copy
     if (w.npz)
         if (auto ok = add<NpzFile>("spikes.npz"); !ok) return ok;
     if (bin)
-        if (auto ok = add<BinsFile>("psth.csv", *bin); !ok) return ok;
-    if (w.wav) files_.push_back(std::make_unique<ClicksFile>(directory_));
-    if (w.traces) files_.push_back(std::make_unique<TracesFile>(directory_));
-    if (w.vectors) files_.push_back(std::make_unique<VectorsFile>(directory_));
+        if (auto ok = add<PsthFile>("psth.csv", *bin); !ok) return ok;
+    if (w.wav) files_.push_back(std::make_unique<SpikeSoundFile>(directory_));
+    if (w.traces) files_.push_back(std::make_unique<ProbesFile>(directory_));
+    if (w.vectors) files_.push_back(std::make_unique<TestVectorsFile>(directory_));
     auto summary = OutputFile::create(directory_ + "/summary.json");
     if (!summary) return summary.error();
     summary_file_ = std::move(*summary);
@@ -91,24 +91,24 @@ Result<void> Outputs::open(const RespondWords& w, const CopySpec& copy_spec, std
     return {};
 }
 
-void Outputs::listen(std::vector<Listener*>& listeners) {
+void Outputs::listen(std::vector<ResponseSink*>& listeners) {
     for (auto& file : files_) listeners.push_back(&*file);
     if (report_) listeners.push_back(&*report_);
 }
 
 std::vector<std::string> Outputs::names() const { return names_in(directory_, paths()); }
 
-Result<void> Outputs::commit(const Summary& summary, std::span<const AfferentPlan> afferents, const std::vector<std::string>& warnings,
+Result<void> Outputs::commit(const RunSummary& summary, std::span<const AfferentPlan> afferents, const std::vector<std::string>& warnings,
                              const std::string& document, const std::string& command, const nlohmann::ordered_json& costs) {
     if (report_)
         if (auto ok = put_whole(*report_file_, report_->page(summary, afferents, command, warnings, costs)); !ok) return ok;
     for (auto& file : files_)
         if (auto ok = file->commit(); !ok) return ok;
     if (!summary_file_) return {};
-    removed_ = remove_stale(directory_, names());
+    removed_ = remove_stale_outputs(directory_, names());
     return put_whole(*summary_file_, document);
 }
 
-std::string Outputs::told() const { return told_of(paths(), removed_); }
+std::string Outputs::told() const { return run_trial(paths(), removed_); }
 
 }  // namespace corpuscle

@@ -7,7 +7,7 @@
 
 #include "io/output_check.hpp"
 #include "report/report.hpp"
-#include "study/files.hpp"
+#include "study/file_sinks.hpp"
 #include "verbs.hpp"
 
 namespace corpuscle {
@@ -15,7 +15,7 @@ namespace corpuscle {
 /// The output files of one run of respond. They are created before the run and renamed to their final names after it.
 class Outputs {
     std::string directory_;
-    std::vector<std::unique_ptr<WrittenFile>> files_;
+    std::vector<std::unique_ptr<FileSink>> files_;
     std::optional<Report> report_;
     std::optional<OutputFile> summary_file_, report_file_;
     std::vector<std::string> removed_;
@@ -34,10 +34,10 @@ public:
     ~Outputs();
     /// `later`: names of files in the directory that are created only during the run.
     Result<void> open(const RespondWords&, const CopySpec&, std::vector<std::string> later, OutputCheck&);
-    void listen(std::vector<Listener*>&);
+    void listen(std::vector<ResponseSink*>&);
     /// The names of the files that are written into the directory.
     std::vector<std::string> names() const;
-    Result<void> commit(const Summary&, std::span<const AfferentPlan>, const std::vector<std::string>& warnings,
+    Result<void> commit(const RunSummary&, std::span<const AfferentPlan>, const std::vector<std::string>& warnings,
                         const std::string& document, const std::string& command, const nlohmann::ordered_json& costs);
     std::string told() const;
 };

@@ -16,10 +16,10 @@
 #include "recording_words.hpp"
 #include "signal/quantity.hpp"
 #include "signal/ascii_text.hpp"
-#include "study/afferents.hpp"
+#include "study/afferent_plan.hpp"
 #include "study/nerve_limit.hpp"
-#include "study/silence.hpp"
-#include "study/summary.hpp"
+#include "study/silent_afferents.hpp"
+#include "study/run_summary.hpp"
 #include "terminal.hpp"
 #include "verbs.hpp"
 #include "versions_table.hpp"
@@ -73,7 +73,7 @@ Result<void> populate(Job& job, const RespondWords& w) {
         auto copies = make_copies(job.afferents[a], w.copies, *spreads, w.seed);
         if (!copies) return copies.error();
         for (auto& copy : *copies)
-            if (auto ok = remake(copy, job.afferents[a]); !ok) return ok;
+            if (auto ok = rebuild_copy(copy, job.afferents[a]); !ok) return ok;
         std::move(copies->begin(), copies->end(), std::back_inserter(job.copies));
         std::move(spreads->begin(), spreads->end(), std::back_inserter(job.copy_spec.distributions));
     }
@@ -108,18 +108,18 @@ Result<void> check_overrides(const Job& job) {
 }
 
 /// Options and probes of netlists must have been used by a netlist.
-Result<void> check_netlist_options(const NetlistWords& w, const OfNetlists& netlist_options) {
-    if (const auto option = said_of(w); !option.empty() && !netlist_options.used)
+Result<void> check_netlist_options(const NetlistWords& w, const NetlistOptions& netlist_options) {
+    if (const auto option = said_of(w); !option.empty() && !netlist_options.is_used)
         return bad_usage(fmt::format("{}: there is no netlist in this run; try --afferent sa1-circuit", option));
-    for (std::size_t k = 0; k < netlist_options.traces.size(); ++k)
-        if (!netlist_options.traced[k])
-            return bad_input(fmt::format("--trace {}: no netlist of this run has such a node or device{}", netlist_options.traces[k],
-                                         netlist_options.hint));
+    for (std::size_t k = 0; k < netlist_options.probes.size(); ++k)
+        if (!netlist_options.probe_found[k])
+            return bad_input(fmt::format("--trace {}: no netlist of this run has such a node or device{}", netlist_options.probes[k],
+                                         netlist_options.probe_hint));
     return {};
 }
 
 Result<void> plan_afferents(Job& job, const RespondWords& w) {
-    const OfNetlists netlist_options{knobs_of(w.netlists), traces_of(w.netlists)};
+    const NetlistOptions netlist_options{knobs_of(w.netlists), traces_of(w.netlists)};
     for (const auto& name : w.afferents) {
         auto plan = plan_any_afferent(name, job.overrides, netlist_options);
         if (!plan) return plan.error();
@@ -173,22 +173,22 @@ Result<Job> prepare(const RespondWords& w, bool quiet) {
 std::string cell(const MeasureInfo& m, double x) { return std::isnan(x) ? "-" : fmt::format("{:.{}f}", x, m.decimals); }
 
 /// The value of one afferent; of copies the mean and standard deviation, with at least one decimal.
-std::string cell(const RateRow& row, std::size_t m) {
-    if (row.over.empty()) return cell(measures[m], row.values[m]);
+std::string cell(const MeasureRow& row, std::size_t m) {
+    if (row.copy_statistics.empty()) return cell(measures[m], row.values[m]);
     const int decimals = std::max(measures[m].decimals, 1);
-    const double mean = row.over[m].mean(), deviation = row.over[m].deviation();
+    const double mean = row.copy_statistics[m].mean(), deviation = row.copy_statistics[m].standard_deviation();
     if (std::isnan(mean)) return "-";
     return fmt::format("{:.{}f}", mean, decimals) + (std::isnan(deviation) ? "" : fmt::format(" +- {:.{}f}", deviation, decimals));
 }
 
 /// One line per input. It shows rate, duration and force range, so that a wrong unit or sampling rate is noticed.
-std::string inputs_table(const Summary& summary) {
+std::string inputs_table(const RunSummary& summary) {
     std::string text;
     for (const auto& i : summary.inputs())
         text += fmt::format("{}: {}{} samples at {}, {}, {:.4g} to {:.4g} N\n", printable(i.name),
                             i.channels.size() == 1 ? "" : fmt::format("{} channels, ", i.channels.size()), i.samples,
                             format_quantity(i.clock.rate(), "Hz"), format_quantity(static_cast<double>(i.samples) * i.clock.T(), "s"),
-                            i.least + 0.0, i.greatest + 0.0);  // no -0
+                            i.min_force + 0.0, i.max_force + 0.0);  // no -0
     return text;
 }
 
@@ -200,13 +200,13 @@ std::string copies_line(const CopySpec& spec) {
 }
 
 /// Rates and other measures. A long table omits afferents that did not fire.
-std::string rate_table(const Summary& summary) {
+std::string rate_table(const RunSummary& summary) {
     std::map<std::pair<std::string, std::string>, double> spikes;
     for (const auto& r : summary.rows()) spikes[{r.afferent, r.channel}] += r.values[0];
     const bool with_silent = summary.rows().size() <= max_rows_with_silent;
     std::vector<std::vector<std::string>> rows = {{"afferent", "channel", "phase"}};
     const auto columns = summary.columns();
-    for (const auto c : columns) rows[0].push_back(heading(measures[c]));
+    for (const auto c : columns) rows[0].push_back(column_heading(measures[c]));
     std::size_t omitted = 0;
     for (const auto& r : summary.rows()) {
         if (!with_silent && spikes[{r.afferent, r.channel}] == 0) continue;
@@ -235,7 +235,7 @@ void warn(Job& job, std::string message) {
 }
 
 /// Prints the quality findings of the recordings, which are known after the run.
-void print_quality(Job& job, const Summary& summary, bool quiet) {
+void print_quality(Job& job, const RunSummary& summary, bool quiet) {
     for (const auto& i : summary.inputs()) {
         for (const auto& s : quiet ? std::vector<std::string>{} : i.quality.descriptions) tell(fmt::format("{}: {}", i.name, s));
         for (const auto& s : i.quality.warnings) warn(job, fmt::format("{}: {}", i.name, s));
@@ -243,15 +243,15 @@ void print_quality(Job& job, const Summary& summary, bool quiet) {
 }
 
 /// Warns of rates above the physiological limit, for each afferent on its fastest channel.
-void warn_of_rates(Job& job, const Summary& summary) {
+void warn_of_rates(Job& job, const RunSummary& summary) {
     constexpr auto peak = measure_index<PeakRate>;
     for (const auto& plan : job.afferents) {
-        const RateRow* fastest = nullptr;
-        double rate = nerve_limit;
+        const MeasureRow* fastest = nullptr;
+        double rate = max_nerve_rate;
         for (const auto& row : summary.rows())
-            if (const double r = row.over.empty() ? row.values[peak] : row.over[peak].greatest; row.afferent == plan.name && r > rate)
+            if (const double r = row.copy_statistics.empty() ? row.values[peak] : row.copy_statistics[peak].max; row.afferent == plan.name && r > rate)
                 fastest = &row, rate = r;
-        if (fastest) warn(job, fmt::format("{}: on {} {}", plan.name, fastest->channel, rate_sentence(rate, plan, plan.name)));
+        if (fastest) warn(job, fmt::format("{}: on {} {}", plan.name, fastest->channel, excessive_rate_warning(rate, plan, plan.name)));
     }
 }
 
@@ -264,22 +264,22 @@ std::size_t netlist_count(const Job& job) {
 }
 
 /// Collects the spikes of every afferent for the JSON document on standard output.
-class SpikeTimes final : public Listener {
+class SpikeTimes final : public ResponseSink {
     nlohmann::ordered_json trains_ = nlohmann::ordered_json::array();
     std::size_t first_ = 0;
 
 public:
     Result<void> begin(const Input& input) override {
         first_ = trains_.size();
-        for (std::size_t u = 0; u < input.units(); ++u)
-            trains_.push_back({{"afferent", input.afferent_of(u).name},
+        for (std::size_t u = 0; u < input.afferent_count(); ++u)
+            trains_.push_back({{"afferent", input.plan_of(u).name},
                                {"channel", input.channel_name(input.channel_of(u))},
                                {"times_s", nlohmann::ordered_json::array()}});
         return {};
     }
-    Result<void> block(const Input& input, const Answered& response) override {
+    Result<void> block(const Input& input, const RunBlock& response) override {
         for (const auto& s : response.spikes)
-            trains_[first_ + s.afferent_index - input.first_unit]["times_s"].push_back(input.source.clock().time(s.step, s.offset));
+            trains_[first_ + s.afferent_index - input.first_afferent]["times_s"].push_back(input.source.clock().time(s.step, s.offset));
         return {};
     }
     const nlohmann::ordered_json& document() const { return trains_; }
@@ -314,23 +314,23 @@ Result<void> run(const RespondWords& w, const Common& common) {
 
     ThreadPool pool(w.threads);
     job->options.pool = &pool;
-    Summary summary;
-    Silence silence;
-    std::vector<Listener*> listeners = {&summary, &silence};
+    RunSummary summary;
+    SilenceDetector silence;
+    std::vector<ResponseSink*> listeners = {&summary, &silence};
     outputs.listen(listeners);
     SpikeTimes times;
     if (common.json) listeners.push_back(&times);
-    Result<Work> work = [&] {
+    Result<RunStats> work = [&] {
         Progress progress(common.quiet);
-        job->options.keep_on = [&](double fraction) { return progress.at(fraction), !interrupted(); };
+        job->options.should_continue = [&](double fraction) { return progress.at(fraction), !interrupted(); };
         return respond(job->sources, job->copies, listeners, job->options);
     }();
     if (!work) return work.error();
     print_quality(*job, summary, common.quiet);
-    for (const auto& warning : work_warnings(*work)) warn(*job, warning);
+    for (const auto& warning : response_warnings(*work)) warn(*job, warning);
     warn_of_rates(*job, summary);
-    const auto silent = silence.found(job->copies, job->options);
-    for (const auto& s : common.quiet ? std::vector<SilentAfferent>{} : silent) tell(sentence_of(s));
+    const auto silent = silence.silent_afferents(job->copies, job->options);
+    for (const auto& s : common.quiet ? std::vector<SilentAfferent>{} : silent) tell(silence_message(s));
     auto result = summary.document(job->afferents, *work, job->options, w.seed, job->warnings);
     if (job->copy_spec.count > 0) result["copies"] = document_of(job->copy_spec);
     for (const auto& s : silent)
@@ -347,10 +347,10 @@ Result<void> run(const RespondWords& w, const Common& common) {
     else if (!common.quiet)
         show(inputs_table(summary) + copies_line(job->copy_spec) + rate_table(summary) + versions_table(summary.comparisons()) +
              outputs.told());
-    if (!work->lost.empty()) {
-        auto error = work->lost[0];
+    if (!work->diverged.empty()) {
+        auto error = work->diverged[0];
         error.message =
-            fmt::format("{} of {} netlists did not converge; the first: {}", work->lost.size(), netlist_count(*job), error.message);
+            fmt::format("{} of {} netlists did not converge; the first: {}", work->diverged.size(), netlist_count(*job), error.message);
         return error;
     }
     return {};

@@ -18,10 +18,10 @@
 #include "skin_outputs.hpp"
 #include "skin_spike_times.hpp"
 #include "study/nerve_limit.hpp"
-#include "study/silence.hpp"
+#include "study/silent_afferents.hpp"
 #include "study/skin_checkpoint.hpp"
 #include "study/skin_ranks.hpp"
-#include "study/skin_silence.hpp"
+#include "study/skin_silent_classes.hpp"
 #include "terminal.hpp"
 
 namespace corpuscle {
@@ -83,7 +83,7 @@ struct SkinJob {
     std::shared_ptr<const Innervation> skin;
     std::unique_ptr<Contact> contact;  ///< null: the channels are forces at the sites
     std::unique_ptr<SkinForce> force;
-    SkinTold run_info;
+    SkinRunNotes run_info;
     std::string name;
     std::string taken_for_skin;  ///< note that the site table is used as a skin; "": it is not
 };
@@ -115,16 +115,16 @@ Result<void> open_contact(SkinJob& job, const RespondWords& w, const NamedTouch*
         if (!w.contact.empty())
             return bad_usage(fmt::format("--contact {}: {} has {} channels; an indenter needs a force of one channel", w.contact,
                                          job.source->name(), channels));
-        auto at = sites_of(job.skin->plan, *job.source);
+        auto at = match_sites(job.skin->plan, *job.source);
         if (!at) return at.error();
-        job.force = site_force(*job.source, std::move(*at), sites.size());
+        job.force = make_site_force(*job.source, std::move(*at), sites.size());
         return {};
     }
     const std::string indenter = !w.contact.empty() ? w.contact : stimulus ? std::string(stimulus->indenter) : default_indenter;
     auto contact = make_contact(indenter, job.overrides, sites, job.source->clock());
     if (!contact) return contact.error();
     job.contact = std::move(*contact);
-    job.force = pressed_force(*job.source, *job.contact);
+    job.force = make_pressed_force(*job.source, *job.contact);
     return {};
 }
 
@@ -164,26 +164,26 @@ Result<SkinJob> prepare_skin(const RespondWords& w) {
 /// Collects metadata, notes and warnings of the force.
 void add_force_notes(SkinJob& job) {
     auto& run_info = job.run_info;
-    run_info.facts = job.source->metadata();
-    run_info.remarks = job.source->notes();
+    run_info.metadata = job.source->metadata();
+    run_info.notes = job.source->notes();
     const auto quality = job.source->quality();
-    run_info.remarks.insert(run_info.remarks.end(), quality.descriptions.begin(), quality.descriptions.end());
+    run_info.notes.insert(run_info.notes.end(), quality.descriptions.begin(), quality.descriptions.end());
     run_info.warnings.insert(run_info.warnings.end(), quality.warnings.begin(), quality.warnings.end());
-    if (!job.taken_for_skin.empty()) run_info.remarks.push_back(job.taken_for_skin);
+    if (!job.taken_for_skin.empty()) run_info.notes.push_back(job.taken_for_skin);
     if (job.contact) {
         run_info.contact = job.contact->description();
-        for (auto& f : job.contact->metadata()) run_info.facts.push_back(std::move(f));
-        for (auto& r : job.contact->notes()) run_info.remarks.push_back(std::move(r));
+        for (auto& f : job.contact->metadata()) run_info.metadata.push_back(std::move(f));
+        for (auto& r : job.contact->notes()) run_info.notes.push_back(std::move(r));
     }
     for (const auto& c : job.skin->plan.classes)
         if (job.source->clock().rate() < c.afferent.min_rate * (1 - 1e-9))
             run_info.warnings.push_back(fmt::format("{}: the sampling rate of the force is {:g} Hz; {:g} Hz or more is needed", c.name,
                                                 job.source->clock().rate(), c.afferent.min_rate));
-    if (run_info.work.truncated_steps > 0)
+    if (run_info.stats.truncated_steps > 0)
         run_info.warnings.push_back(
             fmt::format("{} time steps reached the spike limit of one step and were truncated; increase the sampling rate or the "
                         "threshold",
-                        run_info.work.truncated_steps));
+                        run_info.stats.truncated_steps));
 }
 
 /// A remedy for a stimulus that is too weak: the option that makes it stronger by this factor.
@@ -192,17 +192,17 @@ std::string stronger_stimulus_advice(const SkinJob& job, const RespondWords& w, 
     if (job.contact && plan.sites.area > 0 && !(plan.felt_area > 0)) {
         const auto area = std::max(factor * plan.sites.area, default_felt_area);
         return fmt::format("set felt_area = \"{} cm2\" in {}: without it an afferent receives the mean force of its sites",
-                           rounded_up(1e4 * area), w.population);
+                           format_rounded_up(1e4 * area), w.population);
     }
     const auto facts = job.source->metadata();
     if (!is_stimulus(job.source->name())) {
         const bool has_gain = !facts.empty() && facts[0].name.ends_with("newtons per unit");
-        return has_gain ? fmt::format("try --scale {}{}", rounded_up(factor * facts[0].value), w.unit ? " in place of --unit" : "") : "";
+        return has_gain ? fmt::format("try --scale {}{}", format_rounded_up(factor * facts[0].value), w.unit ? " in place of --unit" : "") : "";
     }
     const MetadataEntry* largest = nullptr;
     for (const auto& f : facts)
         if (f.unit == "N" && (!largest || f.value > largest->value)) largest = &f;
-    return largest ? fmt::format("try --set {}={}N", largest->name, rounded_up(factor * largest->value)) : "";
+    return largest ? fmt::format("try --set {}={}N", largest->name, format_rounded_up(factor * largest->value)) : "";
 }
 
 /// Reports classes without spikes: as a warning if no class fired, else as a note.
@@ -211,19 +211,19 @@ void add_silence_notes(SkinJob& job, const RespondWords& w, const std::vector<Si
     std::vector<std::string> messages;
     std::optional<double> min_factor;
     for (const auto& s : silent) {
-        auto text = job.skin->plan.classes[s.of].name;
-        if (!(s.felt > 0))
+        auto text = job.skin->plan.classes[s.class_index].name;
+        if (!(s.max_force > 0))
             text += " received no force";
         else if (!s.factor)
-            text += fmt::format(" received at most {:.2g} N, and would not fire even at a million times this force", s.felt);
+            text += fmt::format(" received at most {:.2g} N, and would not fire even at a million times this force", s.max_force);
         else
-            text += fmt::format(" received at most {:.2g} N, and needs about {} N of the same stimulus to fire ({} times as much)", s.felt,
-                                rounded_up(*s.factor * s.felt), rounded_up(*s.factor));
+            text += fmt::format(" received at most {:.2g} N, and needs about {} N of the same stimulus to fire ({} times as much)", s.max_force,
+                                format_rounded_up(*s.factor * s.max_force), format_rounded_up(*s.factor));
         messages.push_back(std::move(text));
         if (s.factor) min_factor = std::min(*s.factor, min_factor.value_or(*s.factor));
     }
     if (silent.empty()) return;
-    const bool any_force = std::any_of(silent.begin(), silent.end(), [](const SilentClass& s) { return s.felt > 0; });
+    const bool any_force = std::any_of(silent.begin(), silent.end(), [](const SilentClass& s) { return s.max_force > 0; });
     const bool all = silent.size() == job.skin->plan.classes.size();
     auto text = fmt::format("{}: {}", all ? "no afferent fired" : "never fired", fmt::join(messages, "; "));
     if (all && min_factor)
@@ -233,18 +233,18 @@ void add_silence_notes(SkinJob& job, const RespondWords& w, const std::vector<Si
             "; --set contact.x=... and --set contact.y=... place the indenter (for positions see units.csv, or type: corpuscle list {} "
             "--sites)",
             quote_shell_word(w.population));
-    (all ? job.run_info.warnings : job.run_info.remarks).push_back(std::move(text));
+    (all ? job.run_info.warnings : job.run_info.notes).push_back(std::move(text));
 }
 
 /// Warns of rates above the physiological limit.
 void add_rate_warnings(SkinJob& job, const SkinSummary& summary) {
     for (std::size_t c = 0; c < job.skin->plan.classes.size(); ++c) {
         const auto& plan = job.skin->plan.classes[c].afferent;
-        const auto [units, rate] = summary.faster_than(c, nerve_limit);
+        const auto [units, rate] = summary.count_faster_than(c, max_nerve_rate);
         if (units > 0)
             job.run_info.warnings.push_back(fmt::format("{} of {} {} afferents: {}", units, job.skin->class_begin[c + 1] - job.skin->class_begin[c],
                                                     job.skin->plan.classes[c].name,
-                                                    rate_sentence(rate, plan, job.skin->plan.classes[c].name)));
+                                                    excessive_rate_warning(rate, plan, job.skin->plan.classes[c].name)));
     }
 }
 
@@ -256,7 +256,7 @@ constexpr std::string_view output_options[] = {"--checkpoint", "--out",       "-
 Result<void> add_contents(RunFingerprint& all, const std::string& kind, const std::string& path) {
     std::error_code status;
     if (!std::filesystem::is_regular_file(path, status)) return {};
-    auto contents = contents_of(path);
+    auto contents = checksum_of_file(path);
     if (!contents) return contents.error();
     all.emplace_back(fmt::format("contents of the {}", kind), std::move(*contents));
     return {};
@@ -306,7 +306,7 @@ Result<void> coordinate_skin(SkinJob& job, const RespondWords& w, const Common& 
     auto skin = make_skin(job, self);
     if (!skin) return skin.error();
     SkinSummary summary;
-    SkinSilence silence;
+    SkinSilenceDetector silence;
     SkinOutputs outputs;
     OutputCheck check(common.overwrite);
     if (auto ok = outputs.open(w, summary, check); !ok) return ok;
@@ -319,15 +319,15 @@ Result<void> coordinate_skin(SkinJob& job, const RespondWords& w, const Common& 
         auto opened = SkinCheckpoint::open(w.checkpoint, **skin, std::move(*fingerprint));
         if (!opened) return opened.error();
         checkpoint = std::move(*opened);
-        if (checkpoint->step() > 0 && !common.quiet)
-            tell(fmt::format("resuming after {:.3f} s, from {}", job.source->clock().T() * static_cast<double>(checkpoint->step()),
+        if (checkpoint->resumed_samples() > 0 && !common.quiet)
+            tell(fmt::format("resuming after {:.3f} s, from {}", job.source->clock().T() * static_cast<double>(checkpoint->resumed_samples()),
                              w.checkpoint));
     }
     SkinSpikeTimes times;
-    std::vector<SkinListener*> listeners = {&summary, &silence};
+    std::vector<SkinSink*> listeners = {&summary, &silence};
     if (common.json) listeners.push_back(&times);
     outputs.listen(listeners);
-    const auto simulator = self.ranks ? leading_answerer(*self.ranks, **skin, pool) : alone_answerer(**skin, pool);
+    const auto simulator = self.ranks ? distributed_skin_simulator(*self.ranks, **skin, pool) : local_skin_simulator(**skin, pool);
     const SkinInput input{job.name, job.source->description(), job.source->clock(), job.source->phases(), *job.skin};
     const auto work = [&] {
         Progress progress(common.quiet);
@@ -337,16 +337,16 @@ Result<void> coordinate_skin(SkinJob& job, const RespondWords& w, const Common& 
     if (!work && work.error().code == ErrorCode::interrupted && checkpoint)
         return Error{ErrorCode::interrupted, fmt::format("interrupted; the same command resumes from {}", w.checkpoint)};
     if (!work) return work.error();
-    job.run_info.work = *work;
+    job.run_info.stats = *work;
     add_force_notes(job);
-    add_silence_notes(job, w, silence.found(job.run_info.method, job.run_info.sampled));
+    add_silence_notes(job, w, silence.silent_classes(job.run_info.method, job.run_info.sampled));
     add_rate_warnings(job, summary);
     auto result = summary.document(job.run_info);
     result["files"] = outputs.names();
     const auto document = json_text(result) + "\n";
     if (auto ok = outputs.commit(summary, job.run_info, document, common.command); !ok) return ok;
-    if (checkpoint) checkpoint->done();
-    for (const auto& r : common.quiet ? std::vector<std::string>{} : job.run_info.remarks) tell(fmt::format("{}: {}", job.name, r));
+    if (checkpoint) checkpoint->remove_files();
+    for (const auto& r : common.quiet ? std::vector<std::string>{} : job.run_info.notes) tell(fmt::format("{}: {}", job.name, r));
     for (const auto& warning : job.run_info.warnings) tell_warning(warning);
     if (common.json) result["spikes"] = times.document();
     if (common.json && times.are_too_many())
@@ -363,13 +363,13 @@ Result<void> run_as(const RespondWords& w, const Common& common, const SkinProce
     auto job = prepare_skin(w);
     if (!self.is_coordinator()) {
         ThreadPool pool(std::max(1U, w.threads));
-        if (!job) return follow_skin(*self.ranks, job.error(), nullptr, pool);
+        if (!job) return run_skin_worker(*self.ranks, job.error(), nullptr, pool);
         auto skin = make_skin(*job, self);
-        if (!skin) return follow_skin(*self.ranks, skin.error(), nullptr, pool);
-        return follow_skin(*self.ranks, job->force.get(), skin->get(), pool);
+        if (!skin) return run_skin_worker(*self.ranks, skin.error(), nullptr, pool);
+        return run_skin_worker(*self.ranks, job->force.get(), skin->get(), pool);
     }
     auto done = job ? coordinate_skin(*job, w, common, self) : Result<void>(job.error());
-    if (self.ranks) dismiss_skin(*self.ranks);
+    if (self.ranks) shut_down_skin_workers(*self.ranks);
     return done;
 }
 
@@ -380,7 +380,7 @@ int respond_skin(const RespondWords& w, const Common& common) {
     SkinProcess self;
     if (Ranks::are_started()) {
         auto ranks = Ranks::join();
-        if (!ranks) return Ranks::speaks() ? fail(ranks.error()) : static_cast<int>(ranks.error().code);
+        if (!ranks) return Ranks::reports_errors() ? fail(ranks.error()) : static_cast<int>(ranks.error().code);
         if ((*ranks)->size() > 1) self.ranks = std::move(*ranks);
     }
     const auto done = run_as(w, common, self);

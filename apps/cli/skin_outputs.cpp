@@ -5,12 +5,12 @@
 
 #include "recording_words.hpp"
 #include "signal/ascii_text.hpp"
-#include "study/skin_bins_file.hpp"
+#include "study/skin_psth_file.hpp"
 #include "study/skin_events_file.hpp"
 #include "study/skin_npz_file.hpp"
 #include "study/skin_spikes_file.hpp"
-#include "study/skin_units_file.hpp"
-#include "study/stale.hpp"
+#include "study/skin_afferents_file.hpp"
+#include "study/earlier_outputs.hpp"
 #include "written.hpp"
 
 namespace corpuscle {
@@ -47,11 +47,11 @@ Result<void> SkinOutputs::open_directory(const RespondWords& w, const SkinSummar
     if (auto ok = check_outputs(w.out, std::move(names), page, w.checkpoint, outputs); !ok) return ok;
     auto ok = w.events.empty() ? add<SkinSpikesFile>(spikes) : add<SkinEventsFile>(spikes, w.events);
     if (!ok) return ok;
-    if (ok = add<SkinUnitsFile>("units.csv", std::cref(summary)); !ok) return ok;
+    if (ok = add<SkinAfferentsFile>("units.csv", std::cref(summary)); !ok) return ok;
     if (w.npz)
         if (ok = add<SkinNpzFile>("spikes.npz"); !ok) return ok;
     if (*bin)
-        if (ok = add<SkinBinsFile>("psth.csv", **bin); !ok) return ok;
+        if (ok = add<SkinPsthFile>("psth.csv", **bin); !ok) return ok;
     auto file = OutputFile::create(directory_ + "/summary.json");
     if (!file) return file.error();
     summary_file_ = std::move(*file);
@@ -76,7 +76,7 @@ Result<void> SkinOutputs::open(const RespondWords& w, const SkinSummary& summary
     return {};
 }
 
-void SkinOutputs::listen(std::vector<SkinListener*>& listeners) {
+void SkinOutputs::listen(std::vector<SkinSink*>& listeners) {
     for (auto& file : files_) listeners.push_back(&*file);
     if (report_) listeners.push_back(&*report_);
 }
@@ -92,17 +92,17 @@ std::vector<std::string> SkinOutputs::paths() const {
 
 std::vector<std::string> SkinOutputs::names() const { return names_in(directory_, paths()); }
 
-Result<void> SkinOutputs::commit(const SkinSummary& summary, const SkinTold& run_info, const std::string& document,
+Result<void> SkinOutputs::commit(const SkinSummary& summary, const SkinRunNotes& run_info, const std::string& document,
                                  const std::string& command) {
     if (report_)
         if (auto ok = put_whole(*report_file_, skin_page(summary, *report_, run_info, command)); !ok) return ok;
     for (auto& file : files_)
         if (auto ok = file->commit(); !ok) return ok;
     if (!summary_file_) return {};
-    removed_ = remove_stale(directory_, names());
+    removed_ = remove_stale_outputs(directory_, names());
     return put_whole(*summary_file_, document);
 }
 
-std::string SkinOutputs::told() const { return told_of(paths(), removed_); }
+std::string SkinOutputs::told() const { return run_trial(paths(), removed_); }
 
 }  // namespace corpuscle

@@ -8,14 +8,14 @@
 
 #include "io/output_check.hpp"
 #include "report/skin_page.hpp"
-#include "study/skin_written.hpp"
+#include "study/skin_file_sink.hpp"
 #include "verbs.hpp"
 
 namespace corpuscle {
 
 class SkinOutputs {
     std::string directory_;
-    std::vector<std::unique_ptr<SkinWrittenFile>> files_;
+    std::vector<std::unique_ptr<SkinFileSink>> files_;
     std::optional<SkinReport> report_;
     std::optional<OutputFile> summary_file_, report_file_;
     std::vector<std::string> removed_;
@@ -32,9 +32,9 @@ public:
     ~SkinOutputs();
     /// The summary must be called before the files: some of them write what it has counted.
     Result<void> open(const RespondWords&, const SkinSummary&, OutputCheck&);
-    void listen(std::vector<SkinListener*>&);
+    void listen(std::vector<SkinSink*>&);
     std::vector<std::string> names() const;
-    Result<void> commit(const SkinSummary&, const SkinTold&, const std::string& document, const std::string& command);
+    Result<void> commit(const SkinSummary&, const SkinRunNotes&, const std::string& document, const std::string& command);
     std::string told() const;
 };
 

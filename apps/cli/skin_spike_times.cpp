@@ -18,7 +18,7 @@ void SkinSpikeTimes::add(const Clock& clock, std::span<const Spike> spikes) {
     for (const auto& s : spikes) times_[s.afferent_index].push_back(clock.time(s.step, s.offset));
 }
 
-Result<void> SkinSpikeTimes::block(const SkinInput& input, const SkinAnswered& response) {
+Result<void> SkinSpikeTimes::block(const SkinInput& input, const SkinRunBlock& response) {
     return add(input.clock, response.spikes), Result<void>();
 }
 

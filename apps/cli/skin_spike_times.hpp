@@ -8,7 +8,7 @@
 
 namespace corpuscle {
 
-class SkinSpikeTimes final : public SkinListener {
+class SkinSpikeTimes final : public SkinSink {
     std::vector<std::vector<double>> times_;  // s, one list per afferent
     std::vector<std::string> afferents_, channels_;
     std::size_t count_ = 0;
@@ -19,7 +19,7 @@ public:
     static constexpr std::size_t most = 10'000'000;  ///< with more, the document has none
 
     Result<void> begin(const SkinInput&) override;
-    Result<void> block(const SkinInput&, const SkinAnswered&) override;
+    Result<void> block(const SkinInput&, const SkinRunBlock&) override;
     Result<void> end(const SkinInput&, std::int64_t samples, std::span<const Spike> last) override;
     bool are_too_many() const { return count_ > most; }
     /// A list with afferent, channel and times_s (s) of each afferent that fired, named as in spikes.csv. null if there are too many

@@ -57,7 +57,7 @@ class LiveRun {
         const auto plan = plan_of(words_, channels, overrides);
         if (!plan) return plan.error();
         if (auto ok = open_skin(*plan, (*source)->clock()); !ok) return ok;
-        auto sites = sites_of(*plan, **source);
+        auto sites = match_sites(*plan, **source);
         if (!sites) return sites.error();
         source_ = source->get();
         frames_ = assign_sites(make_frame_source(std::move(*source), words_.pace == "real"), std::move(*sites), skin_->sites());

@@ -10,7 +10,7 @@
 #include "own_files.hpp"
 #include "report/study_page.hpp"
 #include "signal/parameter.hpp"
-#include "study/stale.hpp"
+#include "study/earlier_outputs.hpp"
 #include "study/studies.hpp"
 #include "study/study_document.hpp"
 #include "terminal.hpp"
@@ -56,13 +56,13 @@ Result<std::vector<const Study*>> chosen(const std::vector<std::string>& names) 
     return out;
 }
 
-std::string text_of(const Study& study, const Outcome& outcome) {
+std::string text_of(const Study& study, const StudyResult& outcome) {
     std::vector<std::vector<std::string>> rows = {{"", "computed", "published", "deviation", "allowed", ""}};
     for (const auto& c : outcome.claims)
-        rows.push_back({c.what, quantity_of(c.made, c), printed_of(c), deviation_of(c), allowed_of(c), c.verdict()});
+        rows.push_back({c.label, format_claim_value(c.computed, c), format_published(c), format_deviation(c), format_allowed_range(c), c.verdict()});
     std::string text = fmt::format("{}: {}\n{}\n\n{}", study.name, study.title, study.question, table(rows));
     for (const auto& c : outcome.claims)
-        if (!c.note.empty()) text += fmt::format("\n{}: {}\n", c.what, c.note);
+        if (!c.note.empty()) text += fmt::format("\n{}: {}\n", c.label, c.note);
     for (const auto& n : outcome.notes) text += fmt::format("\n{}\n", n);
     return text;
 }

@@ -32,7 +32,7 @@ Result<Shard> shard_of(const std::string& text) {
 std::string results_path(const SweepWords& w, const Shard& shard) {
     if (!w.out.empty()) return w.out;
     const auto stem = fs::path(w.file).stem().string();
-    return shard.of == 1 ? stem + ".sqlite" : fmt::format("{}-{}of{}.sqlite", stem, shard.index + 1, shard.of);
+    return shard.shard_count == 1 ? stem + ".sqlite" : fmt::format("{}-{}of{}.sqlite", stem, shard.index + 1, shard.shard_count);
 }
 
 void print_state(const Common& common, const SweepState& state) {
@@ -48,18 +48,18 @@ struct SweepProcess {
     bool is_coordinator() const { return !ranks || ranks->rank() == 0; }
 };
 
-Result<void> run_units(const SweepProcess& self, const Sweep& sweep, SweepResults& results, const SweepRun& run, const Common& common) {
-    SweepCount count;
+Result<void> run_units(const SweepProcess& self, const Sweep& sweep, SweepResults& results, const SweepRunOptions& run, const Common& common) {
+    SweepProgress count;
     if (!self.ranks) return run_sweep(sweep, results, run, count);
-    if (!self.ranks->outlive_one() && !common.quiet)
+    if (!self.ranks->survive_death_of_one() && !common.quiet)
         fmt::print(stderr,
                    "corpuscle: note: if one rank dies, mpirun ends all of them (the same command then resumes the sweep); "
                    "with 'mpirun --enable-recovery ...' the others finish\n");
-    RanksLost lost;
-    auto ok = lead(*self.ranks, sweep, results, run, count, lost);
-    if (lost.dead > 0)
-        fmt::print(stderr, "corpuscle: warning: {} rank{} died or stopped responding; other ranks repeat {} items\n", lost.dead,
-                   lost.dead == 1 ? "" : "s", lost.units);
+    DeadRanks lost;
+    auto ok = run_coordinator(*self.ranks, sweep, results, run, count, lost);
+    if (lost.ranks > 0)
+        fmt::print(stderr, "corpuscle: warning: {} rank{} died or stopped responding; other ranks repeat {} items\n", lost.ranks,
+                   lost.ranks == 1 ? "" : "s", lost.redistributed_items);
     return ok;
 }
 
@@ -67,34 +67,34 @@ Result<void> run_units(const SweepProcess& self, const Sweep& sweep, SweepResult
 Error with_advice(const Error& error, const SweepResults& results) {
     if (error.code != ErrorCode::interrupted) return error;
     return {error.code, fmt::format("interrupted; {} of {} items have ended and are saved in {}; the same command resumes the sweep",
-                                    results.finished(), results.units(), results.path())};
+                                    results.finished_count(), results.item_count(), results.path())};
 }
 
 Result<void> coordinate_run(const SweepProcess& self, const Sweep& sweep, const SweepWords& w, const Common& common, const Shard& shard) {
     auto results = SweepResults::open(results_path(w, shard), sweep);
     if (!results) {
-        if (self.ranks) dismiss(*self.ranks);
+        if (self.ranks) shut_down_workers(*self.ranks);
         return results.error();
     }
-    const auto before = results->finished();
-    SweepRun run{.threads = self.ranks ? std::max(1U, w.threads) : w.threads, .shard = shard, .stop = interrupted};
+    const auto before = results->finished_count();
+    SweepRunOptions run{.threads = self.ranks ? std::max(1U, w.threads) : w.threads, .shard = shard, .should_stop = interrupted};
     auto done = [&] {
         Progress progress(common.quiet);
-        run.seen = [&](const SweepCount& c) {
-            progress.at(static_cast<double>(c.ended()) / static_cast<double>(std::max<std::int64_t>(1, c.to_do)));
+        run.on_progress = [&](const SweepProgress& c) {
+            progress.at(static_cast<double>(c.finished()) / static_cast<double>(std::max<std::int64_t>(1, c.planned)));
         };
         return run_units(self, sweep, *results, run, common);
     }();
-    if (const auto folded = results->fold(); !folded && !common.quiet)
+    if (const auto folded = results->checkpoint(); !folded && !common.quiet)
         tell_warning(fmt::format("the results are complete only if {} is kept together with {}-wal: {}", results->path(), results->path(),
                                  folded.error().message));
     if (!done) return with_advice(done.error(), *results);
     const auto state = state_of(*results, shard);
     if (!state) return state.error();
     auto final_state = *state;
-    final_state.now = results->finished() - before, final_state.sweep = w.file;
+    final_state.now = results->finished_count() - before, final_state.sweep = w.file;
     print_state(common, final_state);
-    if (results->finished() > 0 && final_state.lost == results->finished())
+    if (results->finished_count() > 0 && final_state.lost == results->finished_count())
         return Error{ErrorCode::not_converged,
                      fmt::format("none of {} items converged: {}", final_state.lost, final_state.reasons.front().first)};
     return {};
@@ -110,9 +110,9 @@ Result<void> run(const SweepWords& w, const Common& common, SweepProcess& self) 
     }
     auto sweep = read_sweep(w.file, {w.seed, w.units});
     if (sweep) (*sweep)->set_lanes(w.lanes);
-    if (!self.is_coordinator()) return follow(*self.ranks, sweep, {.threads = w.threads, .stop = interrupted});
+    if (!self.is_coordinator()) return run_worker(*self.ranks, sweep, {.threads = w.threads, .should_stop = interrupted});
     if (!sweep) {
-        if (self.ranks) dismiss(*self.ranks);
+        if (self.ranks) shut_down_workers(*self.ranks);
         return sweep.error();
     }
     return coordinate_run(self, **sweep, w, common, *shard);
@@ -121,7 +121,7 @@ Result<void> run(const SweepWords& w, const Common& common, SweepProcess& self) 
 Result<void> status(const SweepWords& w, const Common& common) {
     const auto shard = shard_of(w.shard);
     if (!shard) return shard.error();
-    const auto results = SweepResults::look(results_path(w, *shard));
+    const auto results = SweepResults::open_read_only(results_path(w, *shard));
     if (!results) return results.error();
     auto state = state_of(*results, *shard);
     if (!state) return state.error();
@@ -137,9 +137,9 @@ Result<void> status(const SweepWords& w, const Common& common) {
 Result<void> merge_all(SweepResults& out, const std::vector<SweepResults>& in, const Common& common) {
     for (const auto& from : in) {
         if (interrupted()) return Error{ErrorCode::interrupted, "interrupted; the same command resumes"};
-        const auto added = out.take(from);
+        const auto added = out.merge(from);
         if (!added) return added.error();
-        if (!common.json && !common.quiet) show(fmt::format("{}: {} items, {} of them new\n", from.path(), from.finished(), *added));
+        if (!common.json && !common.quiet) show(fmt::format("{}: {} items, {} of them new\n", from.path(), from.finished_count(), *added));
     }
     return {};
 }
@@ -147,15 +147,15 @@ Result<void> merge_all(SweepResults& out, const std::vector<SweepResults>& in, c
 Result<void> merge(const SweepMergeWords& w, const Common& common) {
     std::vector<SweepResults> in;
     for (const auto& path : w.in) {
-        auto results = SweepResults::look(path);
+        auto results = SweepResults::open_read_only(path);
         if (!results) return results.error();
         in.push_back(std::move(*results));
-        if (auto ok = in.back().same_sweep(in.front()); !ok) return ok;
+        if (auto ok = in.back().check_same_sweep(in.front()); !ok) return ok;
     }
     auto out = SweepResults::open(w.out, in.front());
     if (!out) return out.error();
     auto ok = merge_all(*out, in, common);
-    if (auto folded = out->fold(); ok) ok = folded;
+    if (auto folded = out->checkpoint(); ok) ok = folded;
     if (!ok) return ok;
     const auto state = state_of(*out, {});
     if (!state) return state.error();
@@ -164,7 +164,7 @@ Result<void> merge(const SweepMergeWords& w, const Common& common) {
 }
 
 Result<void> dump(const std::string& path) {
-    const auto results = SweepResults::look(path);
+    const auto results = SweepResults::open_read_only(path);
     if (!results) return results.error();
     bool written = true;
     auto ok = dump_results(*results, [&](const std::string& text) {
@@ -186,7 +186,7 @@ int sweep(const SweepWords& w, const Common& common) {
     SweepProcess self;
     const auto done = run(w, common, self);
     // With several ranks the coordinator prints errors. Other ranks have sent theirs to it, unless it has died.
-    const bool prints_errors = self.ranks ? self.is_coordinator() || !done : Ranks::speaks();
+    const bool prints_errors = self.ranks ? self.is_coordinator() || !done : Ranks::reports_errors();
     const int code = done ? 0 : prints_errors ? fail(done.error()) : static_cast<int>(done.error().code);
     if (self.ranks && !self.ranks->left_together()) {
         std::fflush(nullptr);

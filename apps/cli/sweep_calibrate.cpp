@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "circuit/netlist_variants.hpp"
-#include "study/sweep/calibration_told.hpp"
-#include "study/trains.hpp"
+#include "study/sweep/calibration_report.hpp"
+#include "study/trial.hpp"
 #include "terminal.hpp"
 #include "verbs.hpp"
 
@@ -39,17 +39,17 @@ Result<Trim> parse_trim(const std::string& text, const ChipCalibration& calibrat
     }
     if (names.empty() || names[0].empty()) return bad_usage(fmt::format("--trim {}: the name before = is missing", text));
     const bool is_integer = names[0].ends_with(".m");
-    return trim_of(calibration.netlist, calibration.knobs, std::move(names), percent / 100, is_integer);
+    return trim_of(calibration.netlist, calibration.overrides, std::move(names), percent / 100, is_integer);
 }
 
 constexpr double max_first_spike_error = 10e-3;  // s
 
 /// Sets the stimulus, and the limits from the response of the model.
 Result<void> set_target(ChipCalibration& calibration, const std::string& model, const SweepCalibrateWords& words) {
-    const Asked press{model, words.force, {}, 10e3};
-    const auto stimulus = touch_of(press);
+    const TrialSpec press{model, words.force, {}, 10e3};
+    const auto stimulus = trial_force(press);
     if (!stimulus) return stimulus.error();
-    const auto train = train_of(press);
+    const auto train = simulate_train(press);
     if (!train) return train.error();
     calibration.force = stimulus->force, calibration.T = stimulus->clock.T();
     std::vector<TimeWindow> phases;
@@ -60,11 +60,11 @@ Result<void> set_target(ChipCalibration& calibration, const std::string& model, 
     }
     const double end = static_cast<double>(calibration.force.size()) * calibration.T;
     if (end > from) phases.push_back({from, end});
-    calibration.limits = FiringLimits::about(*train, phases, max_first_spike_error);
+    calibration.limits = FiringLimits::around(*train, phases, max_first_spike_error);
     return {};
 }
 
-Result<std::vector<CalibrationTold>> run_calibrations(ChipCalibration& calibration, const std::vector<Trim>& trims,
+Result<std::vector<CalibrationResult>> run_calibrations(ChipCalibration& calibration, const std::vector<Trim>& trims,
                                                       const SweepCalibrateWords& words) {
     const circuit::ChipSpec sampler{static_cast<double>(words.units), words.seed};
     std::vector<circuit::ChipSample> chips;
@@ -72,7 +72,7 @@ Result<std::vector<CalibrationTold>> run_calibrations(ChipCalibration& calibrati
     std::vector<std::vector<Trim>> sets = {trims};
     if (words.apart && trims.size() > 1)
         for (const auto& t : trims) sets.push_back({t});
-    std::vector<CalibrationTold> out;
+    std::vector<CalibrationResult> out;
     for (const auto& set : sets) {
         calibration.trims = set;
         auto done = calibrate(calibration, chips);
@@ -92,7 +92,7 @@ Result<void> calibrate_as(const SweepCalibrateWords& words, const Common& common
     if (words.units < 1 || words.units > 1'000'000) return bad_usage(fmt::format("--units {}: must be from 1 to 1000000", words.units));
     ChipCalibration calibration;
     calibration.netlist = words.netlist, calibration.bits = words.bits, calibration.threads = words.threads;
-    calibration.knobs = {{"corner", words.corner, "--corner " + words.corner}};
+    calibration.overrides = {{"corner", words.corner, "--corner " + words.corner}};
     calibration.batch.max_iterations = 60'000;
     calibration.batch.should_stop = interrupted;
     if (auto ok = set_target(calibration, words.like.empty() ? known->model : words.like, words); !ok) return ok;
@@ -105,7 +105,7 @@ Result<void> calibrate_as(const SweepCalibrateWords& words, const Common& common
     }
     auto done = [&] {
         Progress progress(common.quiet);
-        calibration.told = [&](std::size_t left, std::size_t) {
+        calibration.on_progress = [&](std::size_t left, std::size_t) {
             progress.at(1 - static_cast<double>(left) / static_cast<double>(words.units));
         };
         return run_calibrations(calibration, trims, words);

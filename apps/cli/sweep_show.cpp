@@ -9,7 +9,7 @@
 #include "printable.hpp"
 #include "report/sweep_page.hpp"
 #include "signal/input_files.hpp"
-#include "study/stale.hpp"
+#include "study/earlier_outputs.hpp"
 #include "study/sweep/sweep_document.hpp"
 #include "sweep_tables.hpp"
 #include "terminal.hpp"
@@ -19,9 +19,9 @@
 namespace corpuscle {
 namespace {
 
-Result<SweepQuestion> question_of(const SweepShowWords& words) {
-    SweepQuestion out;
-    out.by = words.by;
+Result<SweepSummaryOptions> question_of(const SweepShowWords& words) {
+    SweepSummaryOptions out;
+    out.axes = words.by;
     if (words.quantiles.empty()) return out;
     for (const double q : words.quantiles)
         if (!(q > 0 && q < 1))
@@ -35,7 +35,7 @@ Result<SweepQuestion> question_of(const SweepShowWords& words) {
 Result<void> run(const SweepShowWords& words, const Common& common) {
     const auto question = question_of(words);
     if (!question) return question.error();
-    const auto results = SweepResults::look(words.results);
+    const auto results = SweepResults::open_read_only(words.results);
     if (!results) return results.error();
     remember_input(words.results);
     OutputCheck outputs(common.overwrite);
@@ -43,9 +43,9 @@ Result<void> run(const SweepShowWords& words, const Common& common) {
         if (auto ok = outputs.check_file(words.report_file, is_own_page); !ok) return ok;
     const auto table = read_table(*results, words.measures);
     if (!table) return table.error();
-    std::optional<Drawn> samples;
-    if (const auto text = results->about(drawn_fact); !text.empty()) {
-        auto read = drawn_of(text);
+    std::optional<MismatchSamples> samples;
+    if (const auto text = results->about(mismatch_metadata_name); !text.empty()) {
+        auto read = parse_mismatch_samples(text);
         if (!read) return bad_input(read.error().message, {words.results});
         samples = std::move(*read);
     }

@@ -17,7 +17,7 @@ double rate_of(const SweepState& s) {
 }
 
 double seconds_left(const SweepState& s) {
-    const double left = static_cast<double>(s.writer->to_do - (s.finished - s.writer->finished));
+    const double left = static_cast<double>(s.writer->planned - (s.finished - s.writer->finished));
     return left / rate_of(s);
 }
 
@@ -34,10 +34,10 @@ std::string next_step(const SweepState& s) {
         return s.sweep.empty() ? ""
                                : fmt::format("{} items are missing: 'corpuscle sweep {}' with the same options resumes the sweep\n",
                                              s.missing(), s.sweep);
-    if (s.shard.of > 1)
+    if (s.shard.shard_count > 1)
         return fmt::format(
             "This part is complete. When all {0} are complete: corpuscle sweep merge ALL.sqlite PART1.sqlite ... PART{0}.sqlite\n",
-            s.shard.of);
+            s.shard.shard_count);
     return fmt::format("Analyse:  corpuscle sweep show {0}\nAll rows: corpuscle sweep dump {0}\n", s.results);
 }
 
@@ -45,7 +45,7 @@ std::string next_step(const SweepState& s) {
 
 Result<SweepState> state_of(const SweepResults& results, const Shard& shard) {
     SweepState out;
-    out.results = results.path(), out.shard = shard, out.units = shard.count(0, results.units());
+    out.results = results.path(), out.shard = shard, out.units = shard.count(0, results.item_count());
     auto* file = results.handle();
     auto counts = sql::Statement::make(file, results.path(),
                                        "SELECT count(*), total(ended = 'capped'), total(ended = 'lost'), total(iterations) FROM units");
@@ -81,7 +81,7 @@ nlohmann::ordered_json document_of(const SweepState& s) {
                                   {"missing", s.missing()}, {"capped", s.capped}, {"lost", s.lost}};
     out["iterations"] = s.iterations;
     if (s.now) out["now"] = *s.now;
-    if (s.shard.of > 1) out["shard"] = {{"part", s.shard.index + 1}, {"of", s.shard.of}};
+    if (s.shard.shard_count > 1) out["shard"] = {{"part", s.shard.index + 1}, {"of", s.shard.shard_count}};
     auto& reasons = out["reasons"] = nlohmann::ordered_json::array();
     for (const auto& [reason, items] : s.reasons) reasons.push_back({{"why", reason}, {"units", items}});
     if (!s.writer) return out;

@@ -3,8 +3,8 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "study/sweep/results.hpp"
-#include "study/sweep/unit_queue.hpp"
+#include "study/sweep/sweep_results.hpp"
+#include "study/sweep/item_queue.hpp"
 #include "study/sweep/writer_lock.hpp"
 
 namespace corpuscle {

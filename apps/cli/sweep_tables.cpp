@@ -25,8 +25,8 @@ class NumberFormat {
 
 public:
     NumberFormat(const std::string& unit, const MeasureSummary& m, bool counts = false)
-        : integers_(counts && unit.empty() && m.least == std::round(m.least) && m.greatest == std::round(m.greatest)), unit_(unit) {
-        const double size = std::max(std::abs(m.least), std::abs(m.greatest)),
+        : integers_(counts && unit.empty() && m.min == std::round(m.min) && m.max == std::round(m.max)), unit_(unit) {
+        const double size = std::max(std::abs(m.min), std::abs(m.max)),
                      typical = std::abs(m.mean.value) > 0.01 * size ? std::abs(m.mean.value) : size;
         if (!(typical > 0)) return;
         const auto text = unit.empty() ? "" : format_quantity(typical, unit);
@@ -60,18 +60,18 @@ std::string heading_of(const SweepColumn& c, const std::string& unit) {
 
 std::string limits_of(const SweepColumn& c) {
     const auto formatted = [&](double x) { return format_quantity(x, c.unit); };
-    return c.at_least && c.at_most ? fmt::format("{} ... {}", formatted(*c.at_least), formatted(*c.at_most))
-           : c.at_least            ? "min " + formatted(*c.at_least)
-                                   : "max " + formatted(*c.at_most);
+    return c.min && c.max ? fmt::format("{} ... {}", formatted(*c.min), formatted(*c.max))
+           : c.min            ? "min " + formatted(*c.min)
+                                   : "max " + formatted(*c.max);
 }
 
 std::string opening(const SweepTable& from, const SweepSummary& s, const std::string& title) {
     const auto finished = static_cast<std::int64_t>(from.rows());
-    std::string text = finished == from.units
-                           ? fmt::format("{}: {} items, all finished", title, from.units)
-                           : fmt::format("{}: {} of {} items are finished and analysed here", title, finished, from.units);
-    if (s.all.capped > 0) text += fmt::format("; {} truncated (too costly)", s.all.capped);
-    if (s.all.lost > 0) text += fmt::format("; {} diverged", s.all.lost);
+    std::string text = finished == from.item_count
+                           ? fmt::format("{}: {} items, all finished", title, from.item_count)
+                           : fmt::format("{}: {} of {} items are finished and analysed here", title, finished, from.item_count);
+    if (s.all.iteration_limit > 0) text += fmt::format("; {} truncated (too costly)", s.all.iteration_limit);
+    if (s.all.diverged > 0) text += fmt::format("; {} diverged", s.all.diverged);
     return text + ".\n";
 }
 
@@ -79,27 +79,27 @@ std::string yields(const SweepTable& from, const SweepSummary& s) {
     Rows rows = {{"yield", "limits", "passed", "of", "%", "95 % CI"}};
     const auto line = [&](const std::string& name, const std::string& limits, std::int64_t passed, const Estimate& share) {
         rows.push_back(
-            {name, limits, fmt::format("{}", passed), fmt::format("{}", s.all.units), percent(share.value), percent_interval(share)});
+            {name, limits, fmt::format("{}", passed), fmt::format("{}", s.all.items), percent(share.value), percent_interval(share)});
     };
     line(from.has_limits() ? "all limits" : "completed", "", s.all.passed, s.all.yield);
     for (std::size_t m = 0; m < from.measures.size(); ++m)
         if (const auto& own = s.all.measures[m].yield)
-            line(from.measures[m].name, limits_of(from.measures[m]), std::llround(own->value * static_cast<double>(s.all.units)), *own);
+            line(from.measures[m].name, limits_of(from.measures[m]), std::llround(own->value * static_cast<double>(s.all.items)), *own);
     return "\n" + table(rows);
 }
 
 std::string measures_text(const SweepTable& from, const SweepSummary& s) {
     Rows rows = {{"measure", "items", "mean", "95 % CI", "sigma", "95 % CI", "min"}};
-    for (const double q : s.question.quantiles) rows[0].push_back(q == 0.5 ? "median" : fmt::format("{:g} %", 100 * q));
+    for (const double q : s.options.quantiles) rows[0].push_back(q == 0.5 ? "median" : fmt::format("{:g} %", 100 * q));
     for (const char* last : {"max", "normality (r)"}) rows[0].emplace_back(last);
     for (std::size_t m = 0; m < from.measures.size(); ++m) {
         const auto& one = s.all.measures[m];
         const NumberFormat format(from.measures[m].unit, one);
         rows.push_back({heading_of(from.measures[m], format.unit()), fmt::format("{}", one.count), format(one.mean.value),
-                        format.interval(one.mean), format(one.sigma.value), format.interval(one.sigma), format(one.least)});
-        for (std::size_t q = 0; q < s.question.quantiles.size(); ++q)
+                        format.interval(one.mean), format(one.sigma.value), format.interval(one.sigma), format(one.min)});
+        for (std::size_t q = 0; q < s.options.quantiles.size(); ++q)
             rows.back().push_back(q < one.quantiles.size() ? format(one.quantiles[q].value) : "-");
-        rows.back().push_back(format(one.greatest));
+        rows.back().push_back(format(one.max));
         rows.back().push_back(std::isnan(one.normality)              ? "-"
                               : one.normality >= one.normality_floor ? fmt::format("{:.4f}, normal", one.normality)
                                                                      : fmt::format("{:.4f}, not normal", one.normality));
@@ -116,7 +116,7 @@ std::string points_text(const SweepTable& from, const SweepSummary& s) {
         rows[0].push_back(heading_of(from.measures[m], formats.back().unit()));
     }
     for (const auto& p : s.points) {
-        rows.push_back({p.label, fmt::format("{}", p.units), percent(p.yield.value), percent_interval(p.yield)});
+        rows.push_back({p.label, fmt::format("{}", p.items), percent(p.yield.value), percent_interval(p.yield)});
         for (std::size_t m = 0; m < from.measures.size(); ++m) {
             const auto& one = p.measures[m];
             rows.back().push_back(one.count == 0 ? "-"
@@ -129,7 +129,7 @@ std::string points_text(const SweepTable& from, const SweepSummary& s) {
 }
 
 /// "4x2 of 2 x 0.5 um".
-std::string array_of(const DrawnDevice& d) {
+std::string array_of(const MismatchDevice& d) {
     const auto size = fmt::format("{:.4g} x {:.4g} um", 1e6 * d.W, 1e6 * d.L);
     return d.m == 1 && d.stack == 1 ? size : fmt::format("{:g}x{:g} of {}", d.m, d.stack, size);
 }
@@ -140,15 +140,15 @@ void put_dependence(Rows& rows, const SweepTable& from, const SweepSummary& s, c
         rows.push_back({name}), name.clear();
         for (auto& c : cells) rows.back().push_back(std::move(c));
     };
-    for (const auto& [axis, between] : d.points) line({from.axes[axis].name, "grid axis", "", percent(between.share), "", "", ""});
+    for (const auto& [axis, between] : d.points) line({from.axes[axis].name, "grid axis", "", percent(between.fraction), "", "", ""});
     for (const auto& i : d.influences)
-        if (i.device < 0 && i.found.share.value >= min_fraction) line({i.name, "random", "", percent(i.found.share.value), "", "", ""});
+        if (i.device < 0 && i.influence.fraction.value >= min_fraction) line({i.name, "random", "", percent(i.influence.fraction.value), "", "", ""});
     for (std::size_t k = 0; k < std::min(d.devices.size(), max_devices); ++k) {
         const auto& share = d.devices[k];
-        const auto& device = s.drawn->subjects[static_cast<std::size_t>(share.subject)].devices[static_cast<std::size_t>(share.device)];
-        line({device.name, array_of(device), fmt::format("{:.4g}", 1e12 * device.area()), percent(share.share()), percent(share.V_T),
+        const auto& device = s.mismatch->subjects[static_cast<std::size_t>(share.subject)].devices[static_cast<std::size_t>(share.device)];
+        line({device.name, array_of(device), fmt::format("{:.4g}", 1e12 * device.area()), percent(share.fraction()), percent(share.V_T),
               percent(share.I_S),
-              d.measure == "yield" ? "" : fmt::format("{:.1f}", 100 * (sigma_with_four_times_the_area(share.share()) - 1))});
+              d.measure == "yield" ? "" : fmt::format("{:.1f}", 100 * (relative_sigma_at_four_times_area(share.fraction()) - 1))});
     }
     if (d.devices.size() > max_devices) line({fmt::format("and {} more devices", d.devices.size() - max_devices), "", "", "", "", "", ""});
 }
@@ -161,17 +161,17 @@ std::string dependences_text(const SweepTable& from, const SweepSummary& s) {
         const auto before = rows.size();
         put_dependence(rows, from, s, d);
         if (rows.size() == before) independent.push_back(d.measure);
-        if (!d.influences.empty()) explained += fmt::format("{}{} {}", explained.empty() ? "" : ", ", d.measure, percent(d.all.explained));
+        if (!d.influences.empty()) explained += fmt::format("{}{} {}", explained.empty() ? "" : ", ", d.measure, percent(d.sensitivity.explained));
     }
     std::string text;
     if (rows.size() > 1)
         text = fmt::format(
             "\nInfluences, in percent of variance (grid axes: of the total variance; random parameters: of the variance within a grid\n"
             "point, {} chips):\n{}",
-            s.chips, table(rows));
+            s.searched_chips, table(rows));
     if (!explained.empty())
         text += fmt::format("A linear model explains (%): {}. The rest is nonlinear, an interaction, or not significant.\n", explained);
-    if (!independent.empty() && (s.drawn || !from.axes.empty()))
+    if (!independent.empty() && (s.mismatch || !from.axes.empty()))
         text += fmt::format("No significant influence on: {}.\n", fmt::join(independent, ", "));
     return text;
 }
@@ -186,15 +186,15 @@ std::string grid_opening(const SweepTable& from) {
 }
 
 std::string grid_yields(const SweepTable& from, const SweepSummary& s) {
-    if (s.all.passed == s.all.units) return "";
+    if (s.all.passed == s.all.items) return "";
     Rows rows = {{"yield", "limits", "passed", "of", "%"}};
     const auto line = [&](const std::string& name, const std::string& limits, std::int64_t passed, double share) {
-        rows.push_back({name, limits, fmt::format("{}", passed), fmt::format("{}", s.all.units), percent(share)});
+        rows.push_back({name, limits, fmt::format("{}", passed), fmt::format("{}", s.all.items), percent(share)});
     };
     line(from.has_limits() ? "all limits" : "completed", "", s.all.passed, s.all.yield.value);
     for (std::size_t m = 0; m < from.measures.size(); ++m)
         if (const auto& own = s.all.measures[m].yield)
-            line(from.measures[m].name, limits_of(from.measures[m]), std::llround(own->value * static_cast<double>(s.all.units)),
+            line(from.measures[m].name, limits_of(from.measures[m]), std::llround(own->value * static_cast<double>(s.all.items)),
                  own->value);
     return "\n" + table(rows);
 }
@@ -211,10 +211,10 @@ std::string grid_measures(const SweepTable& from, const SweepSummary& s) {
     for (std::size_t m = 0; m < from.measures.size(); ++m) {
         const auto& one = s.all.measures[m];
         const NumberFormat format(from.measures[m].unit, one, true);
-        const bool varies = one.least < one.greatest;
-        rows.push_back({heading_of(from.measures[m], format.unit()), fmt::format("{}", one.count), format(one.least),
-                        varies ? point_of(from, m, one.least) : "all", format(one.greatest),
-                        varies ? point_of(from, m, one.greatest) : "all", format(one.mean.value)});
+        const bool varies = one.min < one.max;
+        rows.push_back({heading_of(from.measures[m], format.unit()), fmt::format("{}", one.count), format(one.min),
+                        varies ? point_of(from, m, one.min) : "all", format(one.max),
+                        varies ? point_of(from, m, one.max) : "all", format(one.mean.value)});
     }
     return "\n" + table(rows);
 }
@@ -232,12 +232,12 @@ std::string effects_text(const SweepTable& from, const SweepSummary& s) {
         for (const auto& e : one.effects) {
             const auto& axis = from.axes[e.axis];
             const auto value = [&](double x) {
-                return axis.words.empty() ? format_quantity(x, axis.unit)
-                                          : axis.words[std::min(static_cast<std::size_t>(x), axis.words.size() - 1)];
+                return axis.labels.empty() ? format_quantity(x, axis.unit)
+                                          : axis.labels[std::min(static_cast<std::size_t>(x), axis.labels.size() - 1)];
             };
-            rows.push_back({&e == &one.effects[0] ? name : "", axis.name, percent(e.share), value(from.points[e.axis].front()),
+            rows.push_back({&e == &one.effects[0] ? name : "", axis.name, percent(e.fraction), value(from.points[e.axis].front()),
                             mean(e.means.front()), value(from.points[e.axis].back()), mean(e.means.back())});
-            rest -= e.share;
+            rest -= e.fraction;
         }
         if (one.effects.size() > 1 && rest >= min_fraction) rows.push_back({"", "interactions", percent(rest)});
         if (one.effects.empty()) rows.push_back({name, "none (constant)"});
@@ -260,11 +260,11 @@ std::string grid_points(const SweepTable& from, const SweepSummary& s) {
     }
     for (const auto& p : s.points) {
         rows.push_back({p.label});
-        if (limits) rows.back().push_back(p.units == 1 ? (p.passed ? "yes" : "no") : fmt::format("{} of {}", p.passed, p.units));
+        if (limits) rows.back().push_back(p.items == 1 ? (p.passed ? "yes" : "no") : fmt::format("{} of {}", p.passed, p.items));
         for (std::size_t m = 0; m < from.measures.size(); ++m)
             rows.back().push_back(p.measures[m].count == 0 ? "-" : formats[m](p.measures[m].mean.value));
     }
-    const bool means = std::any_of(s.points.begin(), s.points.end(), [](const PointSummary& p) { return p.units > 1; });
+    const bool means = std::any_of(s.points.begin(), s.points.end(), [](const PointSummary& p) { return p.items > 1; });
     return fmt::format("\nBy grid point{}:\n{}", means ? ", means" : "", table(rows));
 }
 
@@ -275,8 +275,8 @@ std::string quantiles_text(const SweepTable& from, const SweepSummary& s) {
         const NumberFormat format(from.measures[m].unit, s.all.measures[m]);
         rows[0].push_back(heading_of(from.measures[m], format.unit()));
         if (!from.is_grid) rows[0].push_back("95 % CI");
-        for (std::size_t q = 0; q < s.question.quantiles.size(); ++q) {
-            if (m == 0) rows.push_back({fmt::format("{:g} %", 100 * s.question.quantiles[q])});
+        for (std::size_t q = 0; q < s.options.quantiles.size(); ++q) {
+            if (m == 0) rows.push_back({fmt::format("{:g} %", 100 * s.options.quantiles[q])});
             const auto& all = s.all.measures[m].quantiles;
             rows[q + 1].push_back(q < all.size() ? format(all[q].value) : "-");
             if (!from.is_grid) rows[q + 1].push_back(q < all.size() ? format.interval(all[q]) : "-");
@@ -288,7 +288,7 @@ std::string quantiles_text(const SweepTable& from, const SweepSummary& s) {
 }  // namespace
 
 std::string sweep_tables(const SweepTable& from, const SweepSummary& s, const std::string& title, bool quantiles) {
-    if (from.rows() == 0) return fmt::format("{}: none of {} items is finished yet.\n", title, from.units);
+    if (from.rows() == 0) return fmt::format("{}: none of {} items is finished yet.\n", title, from.item_count);
     if (from.is_grid) {
         auto text = opening(from, s, title) + grid_opening(from) + grid_yields(from, s);
         if (!from.measures.empty()) text += grid_measures(from, s) + (quantiles ? quantiles_text(from, s) : "");

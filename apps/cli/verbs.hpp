@@ -127,7 +127,7 @@ struct ListWords {
 
 int respond(const RespondWords&, const Common&);
 int respond_skin(const RespondWords&, const Common&);
-int compare(const CompareWords&, const Common&);
+int compare_trains(const CompareWords&, const Common&);
 int study(const StudyWords&, const Common&);
 int run(const RunWords&, const Common&);
 int export_to(const ExportWords&, const Common&);

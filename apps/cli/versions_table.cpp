@@ -14,19 +14,19 @@ constexpr std::size_t max_rows = 30;
 constexpr std::size_t max_rows_with_silent = 8;  // longer tables omit pairs without spikes
 
 /// The counts of all phases: "0 5 8 1 0".
-std::string by_phase(const Comparison& c, std::size_t Comparison::Count::*count) {
+std::string by_phase(const VersionComparison& c, std::size_t Comparison::PhaseCount::*count) {
     std::string text;
     for (const auto& p : c.phases) text += fmt::format("{}{}", text.empty() ? "" : " ", p.*count);
     return text.empty() ? "-" : text;
 }
 
-std::vector<std::string> line_of(const Comparison& c) {
+std::vector<std::string> line_of(const VersionComparison& c) {
     const auto shown = [](double x, const char* format) { return std::isnan(x) ? std::string("-") : fmt::format(fmt::runtime(format), x); };
     return {c.afferent,
             c.channel,
-            fmt::format("{}", c.all.spikes),
-            by_phase(c, &Comparison::Count::spikes),
-            shown(100 * c.all.excess(), "{:+.0f}"),
+            fmt::format("{}", c.total.spikes),
+            by_phase(c, &VersionComparison::PhaseCount::spikes),
+            shown(100 * c.total.excess(), "{:+.0f}"),
             fmt::format("{}", c.matched),
             shown(1e3 * c.median_shift, "{:+.2f}"),
             shown(c.victor_purpura, "{:.2f}"),
@@ -34,20 +34,20 @@ std::vector<std::string> line_of(const Comparison& c) {
 }
 
 /// The reference that the following lines are compared with.
-std::vector<std::string> reference_line(const Comparison& c) {
-    return {c.reference, c.channel, fmt::format("{}", c.all.in_reference), by_phase(c, &Comparison::Count::in_reference)};
+std::vector<std::string> reference_line(const VersionComparison& c) {
+    return {c.reference, c.channel, fmt::format("{}", c.total.reference_spikes), by_phase(c, &VersionComparison::PhaseCount::reference_spikes)};
 }
 
 }  // namespace
 
-std::string versions_table(const Comparisons& comparisons) {
+std::string versions_table(const VersionComparisons& comparisons) {
     std::vector<std::vector<std::string>> rows = {
         {"implementation", "channel", "spikes", "by phase", "change (%)", "matched", "shift (ms)", "Victor-Purpura", "van Rossum"}};
     const auto& all = comparisons.rows();
     std::size_t omitted = 0, silent = 0;
-    const Comparison* last = nullptr;  // the last printed; its reference has been printed, too
+    const VersionComparison* last = nullptr;  // the last printed; its reference has been printed, too
     for (const auto& c : all) {
-        if (c.all.spikes + c.all.in_reference == 0 && all.size() > max_rows_with_silent) {
+        if (c.total.spikes + c.total.reference_spikes == 0 && all.size() > max_rows_with_silent) {
             ++silent;
             continue;
         }
@@ -63,7 +63,7 @@ std::string versions_table(const Comparisons& comparisons) {
     return text + fmt::format(
                       "Compared with the first implementation of each receptor. Spikes within {} match; shift: median of matched spikes.\n"
                       "Victor-Purpura cost {:g} per second; van Rossum time constant {}.\n",
-                      format_quantity(2 / Comparisons::cost, "s"), Comparisons::cost, format_quantity(Comparisons::tau, "s"));
+                      format_quantity(2 / VersionComparisons::cost, "s"), VersionComparisons::cost, format_quantity(VersionComparisons::tau, "s"));
 }
 
 }  // namespace corpuscle

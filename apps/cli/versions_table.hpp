@@ -2,11 +2,11 @@
 
 #include <string>
 
-#include "study/comparisons.hpp"
+#include "study/version_comparison.hpp"
 
 namespace corpuscle {
 
 /// A table of the differences between the implementations of one receptor. Empty if no receptor has two.
-std::string versions_table(const Comparisons&);
+std::string versions_table(const VersionComparisons&);
 
 }  // namespace corpuscle

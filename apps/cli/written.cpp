@@ -6,7 +6,7 @@
 
 #include "own_files.hpp"
 #include "printable.hpp"
-#include "study/stale.hpp"
+#include "study/earlier_outputs.hpp"
 
 namespace corpuscle {
 
@@ -51,7 +51,7 @@ Result<void> check_outputs(const std::string& directory, std::vector<std::string
     return outputs.check_directory(directory, names, is_listed, is_output_name, is_own_page);
 }
 
-std::string told_of(const std::vector<std::string>& paths, const std::vector<std::string>& removed) {
+std::string run_trial(const std::vector<std::string>& paths, const std::vector<std::string>& removed) {
     if (paths.empty()) return "Nothing was written: --out DIR writes the spikes, --report writes a report page.\n";
     const auto removed_text =
         removed.empty() ? "" : fmt::format("Removed files of an earlier run: {}\n", printable(fmt::format("{}", fmt::join(removed, ", "))));

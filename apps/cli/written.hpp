@@ -26,6 +26,6 @@ Result<void> check_outputs(const std::string& directory, std::vector<std::string
                            const std::string& checkpoint, OutputCheck&);
 
 /// "Written: a, b", and the files of an earlier run that were removed; or that nothing was written.
-std::string told_of(const std::vector<std::string>& paths, const std::vector<std::string>& removed);
+std::string run_trial(const std::vector<std::string>& paths, const std::vector<std::string>& removed);
 
 }  // namespace corpuscle

@@ -29,17 +29,17 @@ double round_part(double length, int parts) {
 }
 
 /// A value; for copies their mean and standard deviation.
-Json cell_document(const RateRow& row, std::size_t m) {
+Json cell_document(const MeasureRow& row, std::size_t m) {
     const auto number = [](double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); };
-    if (row.over.empty() || row.over[m].copies < 2) return number(row.values[m]);
-    return {number(row.over[m].mean()), number(row.over[m].deviation())};
+    if (row.copy_statistics.empty() || row.copy_statistics[m].copies < 2) return number(row.values[m]);
+    return {number(row.copy_statistics[m].mean()), number(row.copy_statistics[m].standard_deviation())};
 }
 
-Json table_document(const Summary& summary) {
+Json table_document(const RunSummary& summary) {
     Json columns = {"afferent", "channel", "phase"}, decimals = {nullptr, nullptr, nullptr}, rows = Json::array();
     const auto shown = summary.columns();
-    const bool means = !summary.rows().empty() && !summary.rows()[0].over.empty();  // counts then need a decimal, too
-    for (const auto m : shown) columns.push_back(heading(measures[m])), decimals.push_back(std::max(measures[m].decimals, means ? 1 : 0));
+    const bool means = !summary.rows().empty() && !summary.rows()[0].copy_statistics.empty();  // counts then need a decimal, too
+    for (const auto m : shown) columns.push_back(column_heading(measures[m])), decimals.push_back(std::max(measures[m].decimals, means ? 1 : 0));
     for (const auto& r : summary.rows()) {
         Json row = {r.afferent, r.channel, r.phase};
         for (const auto m : shown) row.push_back(cell_document(r, m));
@@ -49,7 +49,7 @@ Json table_document(const Summary& summary) {
 }
 
 /// Recording quality: findings as text, and a row of numbers per channel. Stimuli have no rows.
-Json quality_document(const Summary& summary) {
+Json quality_document(const RunSummary& summary) {
     Json messages = Json::array(), columns = {"channel"}, rows = Json::array();
     const bool several = summary.inputs().size() > 1;
     for (const auto& i : summary.inputs()) {
@@ -70,35 +70,35 @@ Json quality_document(const Summary& summary) {
 }  // namespace
 
 Result<void> Report::begin(const Input& input) {
-    groups_ = copy_group_starts(input.afferents);
+    groups_ = copy_group_starts(input.plans);
     const auto channels = input.source.channels().size();
     std::size_t traces = 1;  // per channel: the force and all probes
     for (std::size_t g = 0; g < groups(); ++g) traces += input.probes[groups_[g]].size();
     // A trace beyond this limit is kept as pairs of two points.
-    const std::size_t max_points = std::clamp<std::size_t>(most_points_ / (2 * traces * channels * input.of), 16, std::size_t{1} << 20);
+    const std::size_t max_points = std::clamp<std::size_t>(most_points_ / (2 * traces * channels * input.input_count), 16, std::size_t{1} << 20);
     forces_.assign(channels, Envelope(max_points));
     probes_.clear();
     for (std::size_t k = 0; wants_probes() && k < channels * groups(); ++k)
         probes_.emplace_back(input.probes[groups_[k % groups()]].size(), Envelope(max_points));
-    trains_.assign(input.units(), {});
+    trains_.assign(input.afferent_count(), {});
     if (parts_.empty())
         for (std::size_t g = 0; g < groups(); ++g) {
             Json parts = Json::array();
             for (const auto& p : input.probes[groups_[g]]) parts.push_back({{"name", p.name}, {"unit", p.unit}});
             parts_.push_back(std::move(parts));
-            first_.push_back(input.afferents[groups_[g]]);
+            first_.push_back(input.plans[groups_[g]]);
         }
     return {};
 }
 
-Result<void> Report::block(const Input& input, const Answered& response) {
+Result<void> Report::block(const Input& input, const RunBlock& response) {
     for (std::size_t c = 0; c < forces_.size(); ++c)
         for (std::size_t k = 0; k < response.force.count; ++k) forces_[c].add(response.force.force[c][k]);
     for (std::size_t u = 0; u < probes_.size(); ++u)
         for (std::size_t p = 0; p < probes_[u].size(); ++p)
             for (std::size_t k = 0; k < response.force.count; ++k)
                 probes_[u][p].add(response.probes[unit(u / groups(), u % groups())][p][k]);
-    for (const auto& s : response.spikes) trains_[s.afferent_index - input.first_unit].push_back(input.source.clock().time(s.step, s.offset));
+    for (const auto& s : response.spikes) trains_[s.afferent_index - input.first_afferent].push_back(input.source.clock().time(s.step, s.offset));
     return {};
 }
 
@@ -107,7 +107,7 @@ void Report::tell_spikes(const Input& input, std::size_t channel, std::size_t gr
     const std::size_t shown = std::min<std::size_t>(groups_[group + 1] - groups_[group], most_copies);
     for (std::size_t k = 0; k < shown; ++k) {
         const auto& train = trains_[unit(channel, group) + k];
-        spikes_.push_back({{"afferent", input.afferents[groups_[group] + k].name},
+        spikes_.push_back({{"afferent", input.plans[groups_[group] + k].name},
                            {"channel", first_channel_ + channel},
                            {"count", train.size()},
                            {"times", base64(train.data(), train.size() * sizeof(double))}});
@@ -126,7 +126,7 @@ void Report::tell_rate(const Input& input, std::size_t channel, std::size_t grou
     for (std::size_t b = 0; b < rates.size(); ++b)
         rates[b] /= static_cast<double>(copies) * std::min(bin, length - static_cast<double>(b) * bin);
     rates_.push_back(
-        {{"afferent", base_name(input.afferents[groups_[group]])}, {"channel", first_channel_ + channel}, {"bin", bin}, {"values", rates}});
+        {{"afferent", base_name(input.plans[groups_[group]])}, {"channel", first_channel_ + channel}, {"bin", bin}, {"values", rates}});
 }
 
 Result<void> Report::end(const Input& input, std::int64_t samples) {
@@ -140,7 +140,7 @@ Result<void> Report::end(const Input& input, std::int64_t samples) {
         for (std::size_t g = 0; g < groups(); ++g) {
             const auto& probes = input.probes[groups_[g]];
             for (std::size_t p = 0; !probes_.empty() && p < probes.size(); ++p)
-                traces_.push_back(trace_document(first_channel_ + static_cast<std::uint32_t>(c), base_name(input.afferents[groups_[g]]),
+                traces_.push_back(trace_document(first_channel_ + static_cast<std::uint32_t>(c), base_name(input.plans[groups_[g]]),
                                                  probes[p].name, probes[p].unit, probes_[c * groups() + g][p]));
             tell_spikes(input, c, g);
             if (population_.count > 0) tell_rate(input, c, g, samples);
@@ -156,7 +156,7 @@ Result<void> Report::end(const Input& input, std::int64_t samples) {
     return {};
 }
 
-std::string Report::page(const Summary& summary, std::span<const AfferentPlan> plans, const std::string& command,
+std::string Report::page(const RunSummary& summary, std::span<const AfferentPlan> plans, const std::string& command,
                          const std::vector<std::string>& warnings, const Json& costs) const {
     std::string title;
     for (const auto& i : summary.inputs()) title += (title.empty() ? "" : ", ") + i.name;
@@ -175,7 +175,7 @@ std::string Report::page(const Summary& summary, std::span<const AfferentPlan> p
     }
     for (const auto& w : warnings) notes.push_back(w);
     for (const auto& i : summary.inputs())
-        for (const auto& r : i.remarks) notes.push_back(i.name + ": " + r);
+        for (const auto& r : i.notes) notes.push_back(i.name + ": " + r);
     Json document = {{"title", title},
                      {"program", fmt::format("corpuscle {}", version)},
                      {"command", command},

@@ -5,12 +5,12 @@
 
 #include "io/output_file.hpp"
 #include "report/envelope.hpp"
-#include "study/summary.hpp"
+#include "study/run_summary.hpp"
 
 namespace corpuscle {
 
 /// Collects traces and spikes during the run; page() fills the template with them.
-class Report final : public Listener {
+class Report final : public ResponseSink {
 public:
     /// Limit on the total number of points of all traces of a page. With more channels or inputs each trace has fewer points.
     static constexpr std::size_t all_points = std::size_t{32} << 20;
@@ -24,11 +24,11 @@ public:
 
     bool wants_probes() const override { return inner_ && population_.count <= most_copies; }
     Result<void> begin(const Input&) override;
-    Result<void> block(const Input&, const Answered&) override;
+    Result<void> block(const Input&, const RunBlock&) override;
     Result<void> end(const Input&, std::int64_t samples) override;
 
     /// `costs`: the document of costs_of().
-    std::string page(const Summary&, std::span<const AfferentPlan>, const std::string& command, const std::vector<std::string>& warnings,
+    std::string page(const RunSummary&, std::span<const AfferentPlan>, const std::string& command, const std::vector<std::string>& warnings,
                      const nlohmann::ordered_json& costs) const;
 
 private:

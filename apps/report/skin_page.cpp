@@ -75,10 +75,10 @@ Json classes_document(const Innervation& skin) {
 
 }  // namespace
 
-std::string skin_page(const SkinSummary& summary, const SkinReport& report, const SkinTold& run_info, const std::string& command) {
+std::string skin_page(const SkinSummary& summary, const SkinReport& report, const SkinRunNotes& run_info, const std::string& command) {
     const auto title = fmt::format("{} on {}", summary.name(), summary.skin().plan.name);
     Json notes = run_info.warnings;
-    for (const auto& r : run_info.remarks) notes.push_back(r);
+    for (const auto& r : run_info.notes) notes.push_back(r);
     const Json page = {{"title", title},
                        {"program", fmt::format("corpuscle {}", version)},
                        {"command", command},

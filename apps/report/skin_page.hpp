@@ -9,6 +9,6 @@
 namespace corpuscle {
 
 /// Both must have recorded the same run. The innervation must still exist.
-std::string skin_page(const SkinSummary&, const SkinReport&, const SkinTold&, const std::string& command);
+std::string skin_page(const SkinSummary&, const SkinReport&, const SkinRunNotes&, const std::string& command);
 
 }  // namespace corpuscle

@@ -57,10 +57,10 @@ void SkinReport::add(const Spike& s) {
     }
 }
 
-void SkinReport::add_force(const SkinAnswered& response) {
+void SkinReport::add_force(const SkinRunBlock& response) {
     const auto& force = response.force;
     for (std::size_t from = 0, to = 0; from < response.steps; from = to) {
-        to = std::min(static_cast<std::size_t>(sites_.open(response.first + static_cast<std::int64_t>(from)) - response.first),
+        to = std::min(static_cast<std::size_t>(sites_.open(response.first_sample + static_cast<std::int64_t>(from)) - response.first_sample),
                       response.steps);
         const auto add = [&](std::size_t s) {
             const double* site_force = force.data + s * force.stride;
@@ -72,8 +72,8 @@ void SkinReport::add_force(const SkinAnswered& response) {
     }
 }
 
-Result<void> SkinReport::block(const SkinInput&, const SkinAnswered& response) {
-    for (const double f : response.total) forces_.add(f);
+Result<void> SkinReport::block(const SkinInput&, const SkinRunBlock& response) {
+    for (const double f : response.total_force) forces_.add(f);
     add_force(response);
     for (const auto& s : response.spikes) add(s);
     return {};

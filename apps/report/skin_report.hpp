@@ -17,12 +17,12 @@ struct SkinReportLimits {
     std::size_t spikes = 2'000'000;         ///< with times; with more spikes only counts per frame are kept
 };
 
-class SkinReport final : public SkinListener {
+class SkinReport final : public SkinSink {
 public:
     explicit SkinReport(SkinReportLimits limits = {}) : most_(limits), forces_(std::size_t{1} << 16) {}
 
     Result<void> begin(const SkinInput&) override;
-    Result<void> block(const SkinInput&, const SkinAnswered&) override;
+    Result<void> block(const SkinInput&, const SkinRunBlock&) override;
     Result<void> end(const SkinInput&, std::int64_t samples, std::span<const Spike> last) override;
 
     /// The first afferent of each mark on the maps, then the end.
@@ -45,7 +45,7 @@ private:
     std::vector<std::int64_t> spike_ticks_;   // tenths of a sample
 
     void add(const Spike&);
-    void add_force(const SkinAnswered&);
+    void add_force(const SkinRunBlock&);
     nlohmann::ordered_json spikes_document() const;
 };
 

@@ -15,10 +15,10 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// Reduces a long line to its minimum and maximum in each of 600 segments, so that peaks are kept and the page stays small.
-Plot::Series thinned(const Plot::Series& all) {
+StudyPlot::Series thinned(const StudyPlot::Series& all) {
     constexpr std::size_t segments = 600;
-    if (all.style != Plot::Style::line || all.x.size() <= 2 * segments) return all;
-    Plot::Series out{all.name, {}, {}, all.style};
+    if (all.style != StudyPlot::Style::line || all.x.size() <= 2 * segments) return all;
+    StudyPlot::Series out{all.name, {}, {}, all.style};
     for (std::size_t s = 0; s < segments; ++s) {
         const auto from = static_cast<std::ptrdiff_t>(s * all.y.size() / segments),
                    to = static_cast<std::ptrdiff_t>((s + 1) * all.y.size() / segments);
@@ -36,7 +36,7 @@ Json rounded(Json values) {
     return values;
 }
 
-Json page_document(const Study& study, Outcome outcome) {
+Json page_document(const Study& study, StudyResult outcome) {
     for (auto& p : outcome.plots)
         for (auto& s : p.series) s = thinned(s);
     auto document = document_of(study, outcome);
@@ -44,22 +44,22 @@ Json page_document(const Study& study, Outcome outcome) {
         for (auto& s : p["series"]) s["x"] = rounded(s["x"]), s["y"] = rounded(s["y"]);
     for (std::size_t k = 0; k < outcome.claims.size(); ++k) {
         const auto& c = outcome.claims[k];
-        document["claims"][k]["on_top"] = belongs_on_top(c);
-        document["claims"][k]["texts"] = {quantity_of(c.made, c), printed_of(c), deviation_of(c), allowed_of(c)};
+        document["claims"][k]["on_top"] = is_headline(c);
+        document["claims"][k]["texts"] = {format_claim_value(c.computed, c), format_published(c), format_deviation(c), format_allowed_range(c)};
     }
     return document;
 }
 
 }  // namespace
 
-std::string study_page(std::span<const Study* const> studies, std::span<const Outcome> outcomes, const std::string& command) {
+std::string study_page(std::span<const Study* const> studies, std::span<const StudyResult> outcomes, const std::string& command) {
     Json all = Json::array();
     for (std::size_t k = 0; k < studies.size(); ++k) all.push_back(page_document(*studies[k], outcomes[k]));
     const std::string title = studies.size() == 1 ? std::string(studies[0]->title) : "Reproduction of all figures and tables";
     const Json document = {{"title", title},
                            {"program", "corpuscle " + std::string(version)},
                            {"command", command},
-                           {"tally", tally_of(outcomes)},
+                           {"tally", verdict_counts(outcomes)},
                            {"studies", all}};
     return filled(asset("study.html"), escaped(title), safe_json(document));
 }

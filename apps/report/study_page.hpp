@@ -8,6 +8,6 @@
 
 namespace corpuscle {
 
-std::string study_page(std::span<const Study* const>, std::span<const Outcome>, const std::string& command);
+std::string study_page(std::span<const Study* const>, std::span<const StudyResult>, const std::string& command);
 
 }  // namespace corpuscle

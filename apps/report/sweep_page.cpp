@@ -8,7 +8,7 @@
 #include "report/sweep_plots.hpp"
 #include "report/template.hpp"
 #include "signal/version.hpp"
-#include "study/sweep/drawn.hpp"
+#include "study/sweep/mismatch_samples.hpp"
 #include "study/sweep/sweep_document.hpp"
 
 namespace corpuscle {
@@ -38,7 +38,7 @@ public:
             return shown_numbers(selected);
         };
         for (const auto& [row, n] : number_) {
-            out["row"].push_back(row), out["unit"].push_back(table_.unit[row]), out["end"].push_back(static_cast<int>(table_.end[row]));
+            out["row"].push_back(row), out["unit"].push_back(table_.items[row]), out["end"].push_back(static_cast<int>(table_.ends[row]));
             out["passes"].push_back(table_.passes(row) ? 1 : 0);
         }
         out["axes"] = Json::array(), out["measures"] = Json::array(), out["groups"] = Json::array();
@@ -70,18 +70,18 @@ std::vector<std::size_t> extremes_of(const std::vector<double>& values) {
 
 /// A factor for a scatter plot: the index of an axis, or the mismatch deviates of a device for the plotted rows.
 Json factor_document(const SweepTable& table, const SweepSummary& s, const NamedInfluence& i, const std::vector<std::size_t>& rows) {
-    Json out = {{"name", i.name}, {"part", i.part}, {"share", i.found.share.value}};
+    Json out = {{"name", i.name}, {"part", i.quantity}, {"share", i.influence.fraction.value}};
     if (i.device < 0) {
         out["axis"] = i.axis, out["unit"] = table.axes[static_cast<std::size_t>(i.axis)].unit;
         return out;
     }
-    const auto& device = s.drawn->subjects[static_cast<std::size_t>(i.subject)].devices[static_cast<std::size_t>(i.device)];
+    const auto& device = s.mismatch->subjects[static_cast<std::size_t>(i.subject)].devices[static_cast<std::size_t>(i.device)];
     std::vector<std::uint64_t> chips;
-    for (const auto r : rows) chips.push_back(s.drawn->chip(table.unit[r]));
-    auto deviates = deviates_of(device, s.drawn->seed, chips);
-    auto& values = i.part == "V_T" ? deviates.V_T : deviates.I_S;
-    for (auto& x : values) x *= i.part == "V_T" ? device.sigma_VT : 100 * device.sigma_IS;
-    out["unit"] = i.part == "V_T" ? "V" : "%", out["values"] = shown_numbers(values);
+    for (const auto r : rows) chips.push_back(s.mismatch->chip(table.items[r]));
+    auto deviates = deviates_of(device, s.mismatch->seed, chips);
+    auto& values = i.quantity == "V_T" ? deviates.V_T : deviates.I_S;
+    for (auto& x : values) x *= i.quantity == "V_T" ? device.sigma_VT : 100 * device.sigma_IS;
+    out["unit"] = i.quantity == "V_T" ? "V" : "%", out["values"] = shown_numbers(values);
     return out;
 }
 
@@ -92,9 +92,9 @@ Json factors_document(const SweepTable& table, const SweepSummary& s, const std:
         out.push_back(Json::array());
         for (const auto& [axis, between] : d.points)
             out.back().push_back(
-                {{"name", table.axes[axis].name}, {"part", ""}, {"share", between.share}, {"axis", axis}, {"unit", table.axes[axis].unit}});
+                {{"name", table.axes[axis].name}, {"part", ""}, {"share", between.fraction}, {"axis", axis}, {"unit", table.axes[axis].unit}});
         for (const auto& i : d.influences)
-            if (out.back().size() < max_scatters && i.found.share.value > 0) out.back().push_back(factor_document(table, s, i, points));
+            if (out.back().size() < max_scatters && i.influence.fraction.value > 0) out.back().push_back(factor_document(table, s, i, points));
     }
     return out;
 }
@@ -110,11 +110,11 @@ Json grids_document(const SweepTable& table) {
     constexpr std::size_t max_axes = 4, max_cells = 40'000;
     Json out = Json::array();
     for (const auto& values : table.measure_values) {
-        const auto effects = effects_of(table, values);
+        const auto effects = axis_effects(table, values);
         Json one = {{"effects", Json::array()}, {"pairs", Json::array()}};
         for (const auto& e : effects)
             one["effects"].push_back(
-                {{"axis", e.axis}, {"share", e.share}, {"values", shown_numbers(table.points[e.axis])}, {"means", shown_numbers(e.means)}});
+                {{"axis", e.axis}, {"share", e.fraction}, {"values", shown_numbers(table.points[e.axis])}, {"means", shown_numbers(e.means)}});
         for (std::size_t a = 0; a < std::min(effects.size(), max_axes); ++a)
             for (std::size_t b = a + 1; b < std::min(effects.size(), max_axes); ++b) {
                 const auto x = effects[a].axis, y = effects[b].axis;
@@ -140,10 +140,10 @@ std::vector<std::size_t> failed_rows(const SweepTable& table) {
 /// The size of each device as text.
 Json sizes_document(const SweepSummary& s) {
     Json out = Json::object();
-    if (!s.drawn) return out;
+    if (!s.mismatch) return out;
     for (const auto& d : s.dependences)
         for (const auto& share : d.devices) {
-            const auto& device = s.drawn->subjects[static_cast<std::size_t>(share.subject)].devices[static_cast<std::size_t>(share.device)];
+            const auto& device = s.mismatch->subjects[static_cast<std::size_t>(share.subject)].devices[static_cast<std::size_t>(share.device)];
             out[device.name] = fmt::format("{:g}x{:g} of {:.4g} x {:.4g} um", device.m, device.stack, 1e6 * device.W, 1e6 * device.L);
         }
     return out;
@@ -164,7 +164,7 @@ Result<std::string> sweep_page(const SweepResults& results, const SweepTable& ta
         for (const auto& one : g.by.groups) labels.push_back(one.label.empty() ? "all items" : one.label);
         page["groupings"].push_back({{"name", g.name}, {"groups", labels}});
     }
-    if (const auto samples = drawn_of(results.about(drawn_fact)))
+    if (const auto samples = parse_mismatch_samples(results.about(mismatch_metadata_name)))
         page["alone"] = fmt::format(
             "To simulate one chip: corpuscle respond or run with the settings of the sweep and --mismatch {}/CHIP; CHIP is the number of "
             "the item{}.",
@@ -185,20 +185,20 @@ Result<std::string> sweep_page(const SweepResults& results, const SweepTable& ta
     const auto points = thinned_rows(table.rows(), max_points), chips = thinned_rows(table.rows(), max_rasters);
     const auto traced = thinned_rows(table.rows(), max_traces), failed = failed_rows(table);
     page["rasters"] = Json::array(), page["traces"] = Json::array();
-    for (std::size_t t = 0; t < std::min<std::size_t>(results.trains().size(), 4); ++t) {
+    for (std::size_t t = 0; t < std::min<std::size_t>(results.train_names().size(), 4); ++t) {
         auto raster = rasters(results, t, table, chips);
         if (!raster) return raster.error();
         page["rasters"].push_back(std::move(*raster));
     }
-    for (std::size_t t = 0; t < std::min<std::size_t>(results.traces().size(), 8); ++t) {
+    for (std::size_t t = 0; t < std::min<std::size_t>(results.probe_names().size(), 8); ++t) {
         auto one = envelopes(results, t, table, traced, groupings);
         if (!one) return one.error();
         page["traces"].push_back(std::move(*one));
     }
-    const auto diverged = lost_units(results, max_failed);
+    const auto diverged = failed_items(results, max_failed);
     if (!diverged) return diverged.error();
     page["why"] = Json::object();
-    for (const auto& l : *diverged) page["why"][fmt::format("{}", l.unit)] = l.why;
+    for (const auto& l : *diverged) page["why"][fmt::format("{}", l.item)] = l.reason;
     for (const auto* rows : {&points, &chips, &failed}) shown.add(*rows);
     page["points"] = points, page["failed"] = failed;
     page["factors"] = factors_document(table, summary, points);

@@ -80,9 +80,9 @@ PlotJson shown_numbers(const std::vector<double>& values) {
 }
 
 std::vector<Grouping> groupings_of(const SweepTable& table) {
-    std::vector<Grouping> out = {{"all together", grouped_by(table, {})}};
+    std::vector<Grouping> out = {{"all together", group_rows_by_axes(table, {})}};
     for (std::size_t a = 0; a < table.axes.size() && out.size() < 12; ++a) {
-        auto groups = grouped_by(table, {a});
+        auto groups = group_rows_by_axes(table, {a});
         if (groups.groups.size() > 1 && groups.groups.size() <= most_groups_drawn) out.push_back({table.axes[a].name, std::move(groups)});
     }
     return out;
@@ -121,7 +121,7 @@ PlotJson normal_plots(const std::vector<double>& values, const SweepGroups& grou
     for (const auto& g : groups.groups) {
         std::vector<double> group_values, scores, points;
         for (const auto r : g.rows) group_values.push_back(values[r]);
-        const Sorted sorted(std::move(group_values));
+        const SortedSample sorted(std::move(group_values));
         const auto n = static_cast<double>(sorted.count());
         for (const auto k : ranks_in_normal_plot(sorted.count())) {
             scores.push_back(normal_quantile((static_cast<double>(k) + 1 - 0.375) / (n + 0.25)));
@@ -136,10 +136,10 @@ PlotJson normal_plots(const std::vector<double>& values, const SweepGroups& grou
 
 Result<PlotJson> envelopes(const SweepResults& results, std::size_t trace, const SweepTable& table, const std::vector<std::size_t>& rows,
                            const std::vector<Grouping>& groupings) {
-    const auto shown = thinned_rows(results.trace_times().size(), max_times);
+    const auto shown = thinned_rows(results.probe_times().size(), max_times);
     std::vector<std::vector<float>> all;  // [row][time]
     for (const auto r : rows) {
-        const auto samples = results.trace(table.unit[r], trace);
+        const auto samples = results.probe_samples(table.items[r], trace);
         if (!samples) return samples.error();
         all.emplace_back();
         for (const auto k : shown) all.back().push_back(k < samples->size() ? (*samples)[k] : std::nanf(""));
@@ -156,7 +156,7 @@ Result<PlotJson> envelopes(const SweepResults& results, std::size_t trace, const
         return stats;
     };
     std::vector<double> times;
-    for (const auto k : shown) times.push_back(results.trace_times()[k]);
+    for (const auto k : shown) times.push_back(results.probe_times()[k]);
     const auto overall = stats_over([](std::size_t) { return true; });
     PlotJson medians = PlotJson::array();
     for (const auto& g : groupings) {
@@ -164,9 +164,9 @@ Result<PlotJson> envelopes(const SweepResults& results, std::size_t trace, const
         for (std::size_t k = 0; k < g.by.groups.size() && g.by.groups.size() > 1; ++k)
             medians.back().push_back(shown_numbers(stats_over([&](std::size_t r) { return g.by.group_of[r] == k; }).median));
     }
-    return PlotJson{{"name", results.traces()[trace]},
+    return PlotJson{{"name", results.probe_names()[trace]},
                     {"times", shown_numbers(times)},
-                    {"every", results.trace_times().size() > max_times},
+                    {"every", results.probe_times().size() > max_times},
                     {"units", rows.size()},
                     {"least", shown_numbers(overall.min)},
                     {"low", shown_numbers(overall.low)},
@@ -180,13 +180,13 @@ Result<PlotJson> rasters(const SweepResults& results, std::size_t train, const S
     PlotJson shown = PlotJson::array(), counts = PlotJson::array();
     std::vector<float> times;
     for (const auto r : rows) {
-        const auto spikes = results.spikes(table.unit[r], train);
+        const auto spikes = results.spikes(table.items[r], train);
         if (!spikes) return spikes.error();
         if (times.size() + spikes->size() > max_spikes) break;
         shown.push_back(r), counts.push_back(spikes->size());
         for (const double t : *spikes) times.push_back(static_cast<float>(t));
     }
-    return PlotJson{{"name", results.trains()[train]},
+    return PlotJson{{"name", results.train_names()[train]},
                     {"rows", shown},
                     {"counts", counts},
                     {"times", base64(times.data(), times.size() * sizeof(float))}};

@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "study/sweep/results.hpp"
+#include "study/sweep/sweep_results.hpp"
 #include "study/sweep/sweep_summary.hpp"
 
 namespace corpuscle {

@@ -6,10 +6,10 @@ namespace corpuscle {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using Count = Comparison::Count;
+using Count = VersionComparison::PhaseCount;
 
 /// The phases of all inputs.
-std::vector<std::string> phases_of(const Comparisons& comparisons) {
+std::vector<std::string> phases_of(const VersionComparisons& comparisons) {
     std::vector<std::string> all;
     for (const auto& c : comparisons.rows())
         for (const auto& p : c.phases)
@@ -18,8 +18,8 @@ std::vector<std::string> phases_of(const Comparisons& comparisons) {
 }
 
 /// Afferent, channel, and spike counts in total and in each phase.
-Json counts_row(const Comparison& c, const std::string& afferent, const std::vector<std::string>& phases, std::size_t Count::*count) {
-    Json row = {afferent, c.channel, c.all.*count};
+Json counts_row(const VersionComparison& c, const std::string& afferent, const std::vector<std::string>& phases, std::size_t Count::*count) {
+    Json row = {afferent, c.channel, c.total.*count};
     for (const auto& phase : phases) {
         const auto p = std::find_if(c.phases.begin(), c.phases.end(), [&](const Count& one) { return one.phase == phase; });
         row.push_back(p == c.phases.end() ? Json(nullptr) : Json((*p).*count));
@@ -27,10 +27,10 @@ Json counts_row(const Comparison& c, const std::string& afferent, const std::vec
     return row;
 }
 
-Json row_document(const Comparison& c, const std::vector<std::string>& phases) {
+Json row_document(const VersionComparison& c, const std::vector<std::string>& phases) {
     const auto number = [](double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); };
     auto row = counts_row(c, c.afferent, phases, &Count::spikes);
-    row.push_back(number(100 * c.all.excess()));
+    row.push_back(number(100 * c.total.excess()));
     row.push_back(c.matched);
     for (const double x : {1e3 * c.mean_shift, 1e3 * c.median_shift, c.victor_purpura, c.van_rossum}) row.push_back(number(x));
     return row;
@@ -38,7 +38,7 @@ Json row_document(const Comparison& c, const std::vector<std::string>& phases) {
 
 }  // namespace
 
-Json versions_document(const Comparisons& comparisons) {
+Json versions_document(const VersionComparisons& comparisons) {
     const auto phases = phases_of(comparisons);
     Json columns = {"afferent", "channel", "spikes"}, decimals = {nullptr, nullptr, 0}, rows = Json::array();
     for (const auto& p : phases) columns.push_back(p), decimals.push_back(0);
@@ -49,16 +49,16 @@ Json versions_document(const Comparisons& comparisons) {
                                        {"Victor-Purpura", 2},
                                        {"van Rossum", 2}})
         columns.push_back(name), decimals.push_back(places);
-    const Comparison* last = nullptr;
+    const VersionComparison* last = nullptr;
     for (const auto& c : comparisons.rows()) {
         if (!last || last->reference != c.reference || last->channel != c.channel) {
-            rows.push_back(counts_row(c, c.reference, phases, &Count::in_reference));
+            rows.push_back(counts_row(c, c.reference, phases, &Count::reference_spikes));
             while (rows.back().size() < columns.size()) rows.back().push_back(nullptr);
         }
         rows.push_back(row_document(c, phases));
         last = &c;
     }
-    return {{"columns", columns}, {"decimals", decimals}, {"rows", rows}, {"cost", Comparisons::cost}, {"tau", Comparisons::tau}};
+    return {{"columns", columns}, {"decimals", decimals}, {"rows", rows}, {"cost", VersionComparisons::cost}, {"tau", VersionComparisons::tau}};
 }
 
 }  // namespace corpuscle

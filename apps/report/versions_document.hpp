@@ -2,11 +2,11 @@
 
 #include <nlohmann/json.hpp>
 
-#include "study/comparisons.hpp"
+#include "study/version_comparison.hpp"
 
 namespace corpuscle {
 
 /// The table of implementations: for each receptor and channel a row of the reference, then a row for each other implementation.
-nlohmann::ordered_json versions_document(const Comparisons&);
+nlohmann::ordered_json versions_document(const VersionComparisons&);
 
 }  // namespace corpuscle

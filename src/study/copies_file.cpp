@@ -5,7 +5,7 @@
 #include <iterator>
 
 #include "io/spike_files.hpp"
-#include "study/summary.hpp"
+#include "study/run_summary.hpp"
 
 namespace corpuscle {
 
@@ -19,25 +19,25 @@ CopiesFile::CopiesFile(OutputFile file, const CopySpec& copies) : file_(std::mov
     std::string header = "afferent,channel";
     for (const auto& c : columns_)
         header += "," + quote_csv_field(c.unit.empty() ? std::string(c.parameter) : fmt::format("{}_{}", c.parameter, c.unit));
-    for (const auto& m : measures) header += "," + quote_csv_field(key_of(m));
+    for (const auto& m : measures) header += "," + quote_csv_field(measure_key(m));
     (void)file_.write(header + "\n");
 }
 
 Result<void> CopiesFile::begin(const Input& input) {
     since_start_ = input.source.clock();
     since_start_.t0 = 0;
-    tally_ = MeasureAccumulator({{.stimulus_frequency = input.source.cycle_frequency()}}, input.units());
+    tally_ = MeasureAccumulator({{.stimulus_frequency = input.source.cycle_frequency()}}, input.afferent_count());
     return {};
 }
 
-Result<void> CopiesFile::block(const Input& input, const Answered& block) {
-    for (const auto& s : block.spikes) tally_.spike(s.afferent_index - input.first_unit, since_start_.time(s.step, s.offset));
+Result<void> CopiesFile::block(const Input& input, const RunBlock& block) {
+    for (const auto& s : block.spikes) tally_.spike(s.afferent_index - input.first_afferent, since_start_.time(s.step, s.offset));
     return {};
 }
 
 void CopiesFile::put_row(const Input& input, std::size_t afferent_index) {
     const auto out = std::back_inserter(text_);
-    const auto& plan = input.afferent_of(afferent_index);
+    const auto& plan = input.plan_of(afferent_index);
     fmt::format_to(out, "{},{}", quote_csv_field(plan.name), quote_csv_field(input.channel_name(input.channel_of(afferent_index))));
     for (const auto& c : columns_) {
         const bool differs = std::find(c.afferents.begin(), c.afferents.end(), plan.original_name) != c.afferents.end();
@@ -49,9 +49,9 @@ void CopiesFile::put_row(const Input& input, std::size_t afferent_index) {
 
 Result<void> CopiesFile::end(const Input& input, std::int64_t samples) {
     tally_.set_end(since_start_.time(samples));
-    for (std::size_t u = 0; u < input.units(); ++u) {
+    for (std::size_t u = 0; u < input.afferent_count(); ++u) {
         put_row(input, u);
-        if (text_.size() < std::size_t{1} << 16 && u + 1 < input.units()) continue;
+        if (text_.size() < std::size_t{1} << 16 && u + 1 < input.afferent_count()) continue;
         if (auto ok = file_.write({text_.data(), text_.size()}); !ok) return ok;
         text_.clear();
     }

@@ -3,14 +3,14 @@
 
 #include "measure/measures.hpp"
 #include "model/copies.hpp"
-#include "study/files.hpp"
+#include "study/file_sinks.hpp"
 
 namespace corpuscle {
 
 /// copies.csv: one row for each copy and channel, input after input. The columns are afferent, channel, each parameter that differs
 /// (f_B_Hz), and every measure over the complete input. A field is empty if the parameter does not differ in this afferent, or if the
 /// measure has no value. Parameters are written with all digits, so that they reproduce the copy's response.
-class CopiesFile final : public WrittenFile {
+class CopiesFile final : public FileSink {
     struct Column {
         std::string_view parameter, unit;
         std::vector<std::string> afferents;  // in which it differs
@@ -26,7 +26,7 @@ class CopiesFile final : public WrittenFile {
 public:
     CopiesFile(OutputFile file, const CopySpec&);
     Result<void> begin(const Input&) override;
-    Result<void> block(const Input&, const Answered&) override;
+    Result<void> block(const Input&, const RunBlock&) override;
     Result<void> end(const Input&, std::int64_t samples) override;
     std::vector<std::string> paths() const override { return {file_.path()}; }
     Result<void> commit() override { return file_.commit(); }

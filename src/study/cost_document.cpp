@@ -37,10 +37,10 @@ Result<circuit::Cost> cost_under(const circuit::CircuitAfferentFactory& design, 
 }
 
 /// Energy used by an afferent's copies, which are adjacent; `of`: number of afferents.
-EnergyUse energy_used_by(const Work& stats, std::size_t afferent, std::size_t of) {
+EnergyUse energy_used_by(const RunStats& stats, std::size_t afferent, std::size_t of) {
     EnergyUse out;
-    const std::size_t copies = stats.spent.size() / of;
-    for (std::size_t k = 0; k < copies; ++k) out += stats.spent[afferent * copies + k];
+    const std::size_t copies = stats.energy_use.size() / of;
+    for (std::size_t k = 0; k < copies; ++k) out += stats.energy_use[afferent * copies + k];
     return out;
 }
 
@@ -70,7 +70,7 @@ Json document_of(const circuit::Cost& cost) {
     return out;
 }
 
-Json costs_of(std::span<const AfferentPlan> afferents, const Work& stats, double force) {
+Json cost_documents_of(std::span<const AfferentPlan> afferents, const RunStats& stats, double force) {
     Json out = Json::array();
     for (std::size_t a = 0; a < afferents.size(); ++a) {
         const auto* design = dynamic_cast<const circuit::CircuitAfferentFactory*>(afferents[a].factory.get());

@@ -21,8 +21,8 @@ Result<std::vector<ParameterOverride>> overrides_of(const std::vector<std::strin
     return out;
 }
 
-Result<std::vector<TipTrain>> press_fingertip(const Innervation& tip, Skin& skin, SkinForce& force, const Clock& clock) {
-    std::vector<TipTrain> out;
+Result<std::vector<FingertipTrain>> press_fingertip(const Innervation& tip, Skin& skin, SkinForce& force, const Clock& clock) {
+    std::vector<FingertipTrain> out;
     for (const auto& u : tip.afferents) {
         const double dx = u.position.x - fingertip_centre.x, dy = u.position.y - fingertip_centre.y;
         out.push_back({tip.plan.classes[u.class_index].name, num::sqrt(dx * dx + dy * dy), {}});
@@ -32,8 +32,8 @@ Result<std::vector<TipTrain>> press_fingertip(const Innervation& tip, Skin& skin
     for (;;) {
         const auto block = force.next();
         if (!block) return block.error();
-        if (block->total.empty()) break;
-        if (auto ok = skin.respond(block->force, block->total.size(), spikes, pool); !ok) return ok.error();
+        if (block->total_force.empty()) break;
+        if (auto ok = skin.respond(block->force, block->total_force.size(), spikes, pool); !ok) return ok.error();
     }
     skin.finish(spikes);
     for (const auto& s : spikes) out[s.afferent_index].spikes.push_back(clock.time(s.step, s.offset));
@@ -42,7 +42,7 @@ Result<std::vector<TipTrain>> press_fingertip(const Innervation& tip, Skin& skin
 
 }  // namespace
 
-Result<std::vector<TipTrain>> fingertip_under(const Punch& punch) {
+Result<std::vector<FingertipTrain>> simulate_fingertip(const Punch& punch) {
     auto plan = load_skin_plan("fingertip");
     if (!plan) return plan.error();
     plan->nerve.reset();
@@ -60,7 +60,7 @@ Result<std::vector<TipTrain>> fingertip_under(const Punch& punch) {
     if (!set) return set.error();
     auto skin = Skin::make(*tip, {.dt = 1 / fingertip_rate}, *set);
     if (!skin) return skin.error();
-    const auto force = pressed_force(**source, **contact);
+    const auto force = make_pressed_force(**source, **contact);
     return press_fingertip(**tip, **skin, *force, (*source)->clock());
 }
 

@@ -14,11 +14,11 @@ struct Punch {
 };
 
 /// One afferent's spikes, s, without conduction delay.
-struct TipTrain {
-    std::string of;   ///< afferent type: "sa1"
-    double from = 0;  ///< from the punch's centre to the afferent, m
+struct FingertipTrain {
+    std::string afferent;   ///< afferent type: "sa1"
+    double distance = 0;  ///< from the punch's centre to the afferent, m
     std::vector<double> spikes;
 };
-Result<std::vector<TipTrain>> fingertip_under(const Punch&);
+Result<std::vector<FingertipTrain>> simulate_fingertip(const Punch&);
 
 }  // namespace corpuscle

@@ -4,8 +4,8 @@
 
 namespace corpuscle {
 
-Line histogram_of(const std::vector<double>& values, int bins) {
-    Line out;
+StudyCurve histogram_of(const std::vector<double>& values, int bins) {
+    StudyCurve out;
     if (values.empty()) return out;
     const auto [low, high] = std::minmax_element(values.begin(), values.end());
     const double width = (*high - *low) / bins;

@@ -1,11 +1,11 @@
 #pragma once
 // The histogram of a list of numbers, for plots.
 
-#include "study/line.hpp"
+#include "study/study_curve.hpp"
 
 namespace corpuscle {
 
 /// Divides the range from the smallest to the largest value into `bins` equal parts. Each pair is the centre of a bin and its count.
-Line histogram_of(const std::vector<double>& values, int bins = 30);
+StudyCurve histogram_of(const std::vector<double>& values, int bins = 30);
 
 }  // namespace corpuscle

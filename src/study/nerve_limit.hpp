@@ -8,9 +8,9 @@
 namespace corpuscle {
 
 /// Hz. The absolute refractory period is about 1 ms (Hodgkin & Huxley 1952, J Physiol 117:500).
-inline constexpr double nerve_limit = 1e3;
+inline constexpr double max_nerve_rate = 1e3;
 
 /// "spikes come at up to 4.5 MHz ...", with advice. `name`: the afferent's name for --set.
-std::string rate_sentence(double rate, const AfferentPlan&, const std::string& name);
+std::string excessive_rate_warning(double rate, const AfferentPlan&, const std::string& name);
 
 }  // namespace corpuscle

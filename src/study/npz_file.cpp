@@ -6,14 +6,14 @@
 namespace corpuscle {
 
 Result<void> NpzFile::begin(const Input& input) {
-    for (std::size_t u = 0; u < input.units(); ++u) {
-        afferents_.push_back(input.afferent_of(u).name);
+    for (std::size_t u = 0; u < input.afferent_count(); ++u) {
+        afferents_.push_back(input.plan_of(u).name);
         channels_.push_back(input.channel_name(input.channel_of(u)));
     }
     return {};
 }
 
-Result<void> NpzFile::block(const Input& input, const Answered& block) {
+Result<void> NpzFile::block(const Input& input, const RunBlock& block) {
     const auto& clock = input.source.clock();
     auto since_start = clock;
     since_start.t0 = 0;

@@ -103,13 +103,13 @@ bool is_file_at(int file, const std::string& path) {
 
 }  // namespace
 
-Error SkinCheckpoint::broken(const std::string& path) const { return bad_input(std::strerror(errno), {path}); }
+Error SkinCheckpoint::damaged_file_error(const std::string& path) const { return bad_input(std::strerror(errno), {path}); }
 
 std::string SkinCheckpoint::remedy() const {
     return fmt::format("remove {} and {} to start over, or name another file with --checkpoint", file_, spikes_file_);
 }
 
-Error SkinCheckpoint::another_force() const {
+Error SkinCheckpoint::changed_force_error() const {
     return bad_input(fmt::format("the force up to this checkpoint differs from the one that it was made with; {}", remedy()), {file_});
 }
 
@@ -120,8 +120,8 @@ Result<std::unique_ptr<SkinCheckpoint>> SkinCheckpoint::open(const std::string& 
     std::error_code status;
     if (fs::exists(file, status))
         if (auto ok = checkpoint->resume(); !ok) return ok.error();
-    const auto end = spikes_header.size() + checkpoint->count_ * sizeof(StoredSpike);
-    if (::ftruncate(::fileno(checkpoint->spikes_), static_cast<off_t>(end)) != 0) return checkpoint->broken(checkpoint->spikes_file_);
+    const auto end = spikes_header.size() + checkpoint->spike_count_ * sizeof(StoredSpike);
+    if (::ftruncate(::fileno(checkpoint->spikes_), static_cast<off_t>(end)) != 0) return checkpoint->damaged_file_error(checkpoint->spikes_file_);
     return checkpoint;
 }
 
@@ -163,15 +163,15 @@ Result<void> SkinCheckpoint::lock_spikes() {
     for (int tries = 0; tries < 100; ++tries) {
         int file = ::open(spikes_file_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
         const bool is_new = file >= 0;
-        if (!is_new && errno != EEXIST) return broken(spikes_file_);
+        if (!is_new && errno != EEXIST) return damaged_file_error(spikes_file_);
         if (!is_new) file = ::open(spikes_file_.c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC);
         if (file < 0 && errno == ENOENT) continue;
-        if (file < 0) return broken(spikes_file_);
+        if (file < 0) return damaged_file_error(spikes_file_);
         if (::flock(file, LOCK_EX | LOCK_NB) != 0) {
             const int why = errno;
             ::close(file);
             errno = why;
-            if (why != EWOULDBLOCK) return broken(spikes_file_);
+            if (why != EWOULDBLOCK) return damaged_file_error(spikes_file_);
             return bad_input("another run is using this checkpoint; wait for it to end, or name another file with --checkpoint", {file_});
         }
         if (!is_file_at(file, spikes_file_)) {
@@ -179,7 +179,7 @@ Result<void> SkinCheckpoint::lock_spikes() {
             continue;
         }
         if (is_new && ::write(file, spikes_header.data(), spikes_header.size()) != static_cast<ssize_t>(spikes_header.size())) {
-            const auto error = broken(spikes_file_);
+            const auto error = damaged_file_error(spikes_file_);
             ::unlink(spikes_file_.c_str());
             ::close(file);
             return error;
@@ -215,12 +215,12 @@ Result<void> SkinCheckpoint::resume() {
             fmt::format("this checkpoint belongs to another run: {}. Repeat the run with its original options, {}", differing, remedy()),
             {file_});
     std::string state;
-    if (!take_front(left, force_to_resumed_) || !take_front(left, count_) || !take_front(left, spikes_sum) || !take_text(left, state) ||
+    if (!take_front(left, force_to_resumed_) || !take_front(left, spike_count_) || !take_front(left, spikes_sum) || !take_text(left, state) ||
         !left.empty())
         return damaged;
     if (auto ok = skin_.resume(std::as_bytes(std::span(state))); !ok)
         return bad_input(fmt::format("{}; {}", ok.error().message, remedy()), {file_});
-    resumed_ = skin_.step();
+    resumed_samples_ = skin_.step();
     return check_spikes(spikes_sum);
 }
 
@@ -228,20 +228,20 @@ Result<void> SkinCheckpoint::resume() {
 Result<void> SkinCheckpoint::check_spikes(std::uint64_t checksum) {
     std::error_code status;
     const auto size = fs::file_size(spikes_file_, status), have = (size - std::min(size, spikes_header.size())) / sizeof(StoredSpike);
-    if (status || count_ > have)
-        return bad_input(fmt::format("it has {} spikes, but {} was written after {}; {}", have, file_, count_, remedy()), {spikes_file_});
+    if (status || spike_count_ > have)
+        return bad_input(fmt::format("it has {} spikes, but {} was written after {}; {}", have, file_, spike_count_, remedy()), {spikes_file_});
     std::fseek(spikes_, static_cast<long>(spikes_header.size()), SEEK_SET);
     std::array<StoredSpike, 1024> buffer;
     Spike last;
     bool is_valid = true;
-    for (std::uint64_t at = 0; at < count_ && is_valid;) {
-        const auto count = std::fread(buffer.data(), sizeof buffer[0], std::min<std::uint64_t>(buffer.size(), count_ - at), spikes_);
-        if (count == 0) return broken(spikes_file_);
+    for (std::uint64_t at = 0; at < spike_count_ && is_valid;) {
+        const auto count = std::fread(buffer.data(), sizeof buffer[0], std::min<std::uint64_t>(buffer.size(), spike_count_ - at), spikes_);
+        if (count == 0) return damaged_file_error(spikes_file_);
         spikes_sum_.add(buffer.data(), count * sizeof buffer[0]);
         for (std::size_t k = 0; k < count; ++k) {
             const auto& s = buffer[k];
             const Spike spike{s.step, s.offset, static_cast<std::uint32_t>(s.unit)};
-            is_valid &= s.unit < skin_.innervation().afferents.size() && s.step >= 0 && s.step < resumed_ && s.offset > 0 && s.offset <= 1 &&
+            is_valid &= s.unit < skin_.innervation().afferents.size() && s.step >= 0 && s.step < resumed_samples_ && s.offset > 0 && s.offset <= 1 &&
                         ((at == 0 && k == 0) || last <= spike);
             last = spike;
         }
@@ -251,53 +251,53 @@ Result<void> SkinCheckpoint::check_spikes(std::uint64_t checksum) {
     return bad_input(fmt::format("these spikes are damaged: they do not match {}; {}", file_, remedy()), {spikes_file_});
 }
 
-Result<void> SkinCheckpoint::force(const SkinForce::Block& block, std::int64_t first) {
-    const auto steps = block.total.size();
-    force_sum_.add(block.total.data(), block.total.size_bytes());
+Result<void> SkinCheckpoint::add_force(const SkinForce::Block& block, std::int64_t first) {
+    const auto steps = block.total_force.size();
+    force_sum_.add(block.total_force.data(), block.total_force.size_bytes());
     const auto add = [&](std::size_t site) { force_sum_.add(block.force.data + site * block.force.stride, steps * sizeof(double)); };
     for (std::size_t s = 0; block.force.reads_all && s < skin_.sites(); ++s) add(s);
     for (const auto s : block.force.touched)
         if (!block.force.reads_all) add(s);
     const auto end = first + static_cast<std::int64_t>(steps);
-    if (resumed_ <= first || resumed_ > end) return {};
-    return resumed_ == end && force_sum_.value() == force_to_resumed_ ? Result<void>() : another_force();
+    if (resumed_samples_ <= first || resumed_samples_ > end) return {};
+    return resumed_samples_ == end && force_sum_.value() == force_to_resumed_ ? Result<void>() : changed_force_error();
 }
 
-Result<void> SkinCheckpoint::ended(std::int64_t samples) { return samples < resumed_ ? Result<void>(another_force()) : Result<void>(); }
+Result<void> SkinCheckpoint::finish(std::int64_t samples) { return samples < resumed_samples_ ? Result<void>(changed_force_error()) : Result<void>(); }
 
-Result<void> SkinCheckpoint::told(std::int64_t end, std::vector<Spike>& spikes) {
+Result<void> SkinCheckpoint::replay(std::int64_t end, std::vector<Spike>& spikes) {
     // A block includes the spikes that arrive up to its last sample.
-    if (told_ == 0 && ahead_.empty()) std::fseek(spikes_, static_cast<long>(spikes_header.size()), SEEK_SET);
+    if (replayed_ == 0 && read_ahead_.empty()) std::fseek(spikes_, static_cast<long>(spikes_header.size()), SEEK_SET);
     for (StoredSpike stored{};;) {
-        if (ahead_.empty()) {
-            if (told_ >= count_) return {};
-            if (std::fread(&stored, sizeof stored, 1, spikes_) != 1) return broken(spikes_file_);
-            ++told_;
-            ahead_.push_back({stored.step, stored.offset, static_cast<std::uint32_t>(stored.unit)});
+        if (read_ahead_.empty()) {
+            if (replayed_ >= spike_count_) return {};
+            if (std::fread(&stored, sizeof stored, 1, spikes_) != 1) return damaged_file_error(spikes_file_);
+            ++replayed_;
+            read_ahead_.push_back({stored.step, stored.offset, static_cast<std::uint32_t>(stored.unit)});
         }
-        if (ahead_[0].step >= end) return {};
-        spikes.push_back(ahead_[0]);
-        ahead_.clear();
+        if (read_ahead_[0].step >= end) return {};
+        spikes.push_back(read_ahead_[0]);
+        read_ahead_.clear();
     }
 }
 
-Result<void> SkinCheckpoint::answered(std::span<const Spike> spikes) {
+Result<void> SkinCheckpoint::append(std::span<const Spike> spikes) {
     std::string bytes;
     for (const auto& s : spikes) append_bytes(bytes, StoredSpike{s.step, s.offset, s.afferent_index});
-    std::fseek(spikes_, static_cast<long>(spikes_header.size() + count_ * sizeof(StoredSpike)), SEEK_SET);
-    if (std::fwrite(bytes.data(), 1, bytes.size(), spikes_) != bytes.size()) return broken(spikes_file_);
+    std::fseek(spikes_, static_cast<long>(spikes_header.size() + spike_count_ * sizeof(StoredSpike)), SEEK_SET);
+    if (std::fwrite(bytes.data(), 1, bytes.size(), spikes_) != bytes.size()) return damaged_file_error(spikes_file_);
     spikes_sum_.add(bytes.data(), bytes.size());
-    count_ += spikes.size();
+    spike_count_ += spikes.size();
     return {};
 }
 
 /// Writes the spikes to disk before the FILE that counts them, and FILE before it gets its name.
-Result<void> SkinCheckpoint::keep() {
-    if (std::fflush(spikes_) != 0 || ::fsync(::fileno(spikes_)) != 0) return broken(spikes_file_);
+Result<void> SkinCheckpoint::flush() {
+    if (std::fflush(spikes_) != 0 || ::fsync(::fileno(spikes_)) != 0) return damaged_file_error(spikes_file_);
     std::string bytes = fmt::format("{}{}\n", checkpoint_magic, checkpoint_version);
     append_bytes(bytes, std::uint64_t{fingerprint_.size()});
     for (const auto& [name, value] : fingerprint_) append_text(bytes, name), append_text(bytes, value);
-    append_bytes(bytes, force_sum_.value()), append_bytes(bytes, count_), append_bytes(bytes, spikes_sum_.value());
+    append_bytes(bytes, force_sum_.value()), append_bytes(bytes, spike_count_), append_bytes(bytes, spikes_sum_.value());
     const auto state = skin_.save();
     append_text(bytes, {reinterpret_cast<const char*>(state.data()), state.size()});
     append_bytes(bytes, checksum_of(std::as_bytes(std::span(bytes))));
@@ -309,14 +309,14 @@ Result<void> SkinCheckpoint::keep() {
 }
 
 /// The lock is held until both files are removed. An output that has the same name is not a checkpoint and is kept.
-void SkinCheckpoint::done() {
+void SkinCheckpoint::remove_files() {
     std::error_code ignored;
     if (begins_with(file_, checkpoint_magic)) fs::remove(file_, ignored);
     if (is_file_at(::fileno(spikes_), spikes_file_)) fs::remove(spikes_file_, ignored);
     std::fclose(std::exchange(spikes_, nullptr));
 }
 
-Result<std::string> contents_of(const std::string& path) {
+Result<std::string> checksum_of_file(const std::string& path) {
     auto file = open_bytes(path);
     if (!file) return file.error();
     Checksum sum;

@@ -7,7 +7,7 @@
 #include "signal/version.hpp"
 #include "study/json_number.hpp"
 #include "study/skin_summary.hpp"
-#include "study/summary.hpp"
+#include "study/run_summary.hpp"
 
 namespace corpuscle {
 namespace {
@@ -64,37 +64,37 @@ Json skin_document(const Innervation& skin) {
     return out;
 }
 
-Json skin_input_document(const SkinSummary& s, const SkinTold& notes) {
+Json skin_input_document(const SkinSummary& s, const SkinRunNotes& notes) {
     Json phases = Json::array(), facts = Json::object();
     for (const auto& p : s.phases()) phases.push_back({{"name", p.name}, {"from_s", p.from}, {"to_s", p.to}});
-    for (const auto& f : notes.facts) facts[f.name] = {{"value", f.value}, {"unit", f.unit}};
-    return {{"name", s.name()},         {"sentence", s.sentence()},
+    for (const auto& f : notes.metadata) facts[f.name] = {{"value", f.value}, {"unit", f.unit}};
+    return {{"name", s.name()},         {"sentence", s.description()},
             {"contact", notes.contact}, {"parameters", facts},
-            {"force_min_N", s.least()}, {"force_max_N", s.greatest()},
+            {"force_min_N", s.min_force()}, {"force_max_N", s.max_force()},
             {"samples", s.samples()},   {"rate_Hz", s.clock().rate()},
-            {"t0_s", s.clock().t0},     {"touched_from_s", json_number(s.touched_from())},
-            {"phases", phases},         {"remarks", notes.remarks}};
+            {"t0_s", s.clock().t0},     {"touched_from_s", json_number(s.touch_start())},
+            {"phases", phases},         {"remarks", notes.notes}};
 }
 
-std::string region_name(const SkinSummary& s, const SkinRow& r) {
-    return r.region == SkinRow::all ? "all" : s.skin().plan.sites.regions[r.region];
+std::string region_name(const SkinSummary& s, const SkinSummaryRow& r) {
+    return r.region == SkinSummaryRow::all ? "all" : s.skin().plan.sites.regions[r.region];
 }
 
-std::string phase_name(const SkinSummary& s, const SkinRow& r) { return r.phase == SkinRow::all ? "all" : s.phases()[r.phase].name; }
+std::string phase_name(const SkinSummary& s, const SkinSummaryRow& r) { return r.phase == SkinSummaryRow::all ? "all" : s.phases()[r.phase].name; }
 
-Json skin_row_document(const SkinSummary& s, const SkinRow& r) {
-    return {{"afferent", s.skin().plan.classes[r.of].name},
+Json skin_row_document(const SkinSummary& s, const SkinSummaryRow& r) {
+    return {{"afferent", s.skin().plan.classes[r.class_index].name},
             {"region", region_name(s, r)},
             {"phase", phase_name(s, r)},
-            {"units", r.units},
+            {"units", r.afferents},
             {"touched", r.touched},
             {"active", r.active},
             {"spikes", r.spikes},
             {"rate_of_active_Hz", json_number(r.rate())},
             {"rate_while_touched_Hz", json_number(r.touched_rate)},
-            {"busiest_Hz", json_number(r.busiest)},
-            {"first_spike_s", json_number(r.first)},
-            {"median_first_spike_s", json_number(r.median_first)}};
+            {"busiest_Hz", json_number(r.max_rate)},
+            {"first_spike_s", json_number(r.first_spike)},
+            {"median_first_spike_s", json_number(r.median_first_spike)}};
 }
 
 std::string hertz_cell(double x) { return std::isfinite(x) ? fmt::format("{:.1f}", x) : "-"; }
@@ -102,7 +102,7 @@ std::string millisecond_cell(double x) { return std::isfinite(x) ? fmt::format("
 
 }  // namespace
 
-Json SkinSummary::document(const SkinTold& notes) const {
+Json SkinSummary::document(const SkinRunNotes& notes) const {
     Json out = {{"program", "corpuscle"}, {"version", version}};
     out["options"] = {{"method", notes.method == Method::exact ? "exact" : "backward-euler"}, {"sampled", notes.sampled}};
     out["skin"] = skin_document(*skin_);
@@ -111,11 +111,11 @@ Json SkinSummary::document(const SkinTold& notes) const {
     for (std::size_t c = 0; c < skin_->plan.classes.size(); ++c) out["classes"].push_back(class_document(*skin_, c));
     for (const auto& r : rows_) out["rates"].push_back(skin_row_document(*this, r));
     for (const auto& f : first_spikes(max_first_spikes))
-        out["first_spikes"].push_back({{"unit", f.unit},
-                                       {"afferent", skin_->afferent_name(f.unit)},
-                                       {"region", skin_->plan.sites.regions[skin_->afferents[f.unit].region]},
+        out["first_spikes"].push_back({{"unit", f.afferent_index},
+                                       {"afferent", skin_->afferent_name(f.afferent_index)},
+                                       {"region", skin_->plan.sites.regions[skin_->afferents[f.afferent_index].region]},
                                        {"time_s", f.time}});
-    const auto& w = notes.work;
+    const auto& w = notes.stats;
     out["work"] = {
         {"steps", w.steps}, {"afferent_steps", w.afferent_steps}, {"at_rest", w.skipped_steps}, {"spikes", w.spikes}, {"capped_steps", w.truncated_steps}};
     out["warnings"] = notes.warnings;
@@ -129,22 +129,22 @@ std::vector<std::vector<std::string>> SkinSummary::table() const {
     if (phases) out[0].push_back("phase");
     for (const auto* heading : {"afferents", "touched", "active", "spikes", "touched (Hz)", "max (Hz)", "first (ms)", "median first (ms)"})
         out[0].push_back(heading);
-    const auto put = [&](const SkinRow& r) {
-        std::vector<std::string> cells = {skin_->plan.classes[r.of].name};
+    const auto put = [&](const SkinSummaryRow& r) {
+        std::vector<std::string> cells = {skin_->plan.classes[r.class_index].name};
         if (regions) cells.push_back(region_name(*this, r));
         if (phases) cells.push_back(phase_name(*this, r));
-        for (const auto n : {r.units, r.touched, r.active, r.spikes}) cells.push_back(fmt::format("{}", n));
-        for (const auto x : {r.touched_rate, r.busiest}) cells.push_back(hertz_cell(x));
-        for (const auto x : {r.first, r.median_first}) cells.push_back(millisecond_cell(x));
+        for (const auto n : {r.afferents, r.touched, r.active, r.spikes}) cells.push_back(fmt::format("{}", n));
+        for (const auto x : {r.touched_rate, r.max_rate}) cells.push_back(hertz_cell(x));
+        for (const auto x : {r.first_spike, r.median_first_spike}) cells.push_back(millisecond_cell(x));
         out.push_back(std::move(cells));
     };
     const auto put_if = [&](auto wanted) {
         for (const auto& r : rows_)
             if (wanted(r)) put(r);
     };
-    put_if([](const SkinRow& r) { return r.region == SkinRow::all && r.phase == SkinRow::all; });
-    put_if([](const SkinRow& r) { return r.region == SkinRow::all && r.phase != SkinRow::all; });
-    put_if([](const SkinRow& r) { return r.region != SkinRow::all && r.phase == SkinRow::all && r.active > 0; });
+    put_if([](const SkinSummaryRow& r) { return r.region == SkinSummaryRow::all && r.phase == SkinSummaryRow::all; });
+    put_if([](const SkinSummaryRow& r) { return r.region == SkinSummaryRow::all && r.phase != SkinSummaryRow::all; });
+    put_if([](const SkinSummaryRow& r) { return r.region != SkinSummaryRow::all && r.phase == SkinSummaryRow::all && r.active > 0; });
     return out;
 }
 

@@ -20,7 +20,7 @@ class PressedForce final : public SkinForce {
 
 public:
     PressedForce(ForceSource& source, Contact& contact) : source_(source), contact_(contact) {}
-    double done() const override { return source_.progress(); }
+    double progress() const override { return source_.progress(); }
 
     Result<Block> next() override {
         frames_.count = 0;
@@ -45,7 +45,7 @@ class SitesForce final : public SkinForce {
 public:
     SitesForce(ForceSource& source, std::vector<std::uint32_t> sites, std::size_t all)
         : source_(source), sites_(std::move(sites)), frames_(sites_.size(), site_block), force_(all * site_block) {}
-    double done() const override { return source_.progress(); }
+    double progress() const override { return source_.progress(); }
 
     Result<Block> next() override {
         frames_.count = 0;
@@ -61,12 +61,12 @@ public:
 
 }  // namespace
 
-std::unique_ptr<SkinForce> pressed_force(ForceSource& source, Contact& contact) { return std::make_unique<PressedForce>(source, contact); }
-std::unique_ptr<SkinForce> site_force(ForceSource& source, std::vector<std::uint32_t> sites, std::size_t all_sites) {
+std::unique_ptr<SkinForce> make_pressed_force(ForceSource& source, Contact& contact) { return std::make_unique<PressedForce>(source, contact); }
+std::unique_ptr<SkinForce> make_site_force(ForceSource& source, std::vector<std::uint32_t> sites, std::size_t all_sites) {
     return std::make_unique<SitesForce>(source, std::move(sites), all_sites);
 }
 
-Result<std::vector<std::uint32_t>> sites_of(const SkinPlan& plan, const ForceSource& source) {
+Result<std::vector<std::uint32_t>> match_sites(const SkinPlan& plan, const ForceSource& source) {
     std::vector<std::string> names;
     for (const auto& c : source.channels()) names.push_back(c.name);
     std::vector<std::uint32_t> in_order(plan.sites.size());

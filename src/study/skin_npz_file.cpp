@@ -17,7 +17,7 @@ void SkinNpzFile::put(const Clock& clock, std::span<const Spike> spikes) {
     }
 }
 
-Result<void> SkinNpzFile::block(const SkinInput& input, const SkinAnswered& block) {
+Result<void> SkinNpzFile::block(const SkinInput& input, const SkinRunBlock& block) {
     return put(input.clock, block.spikes), Result<void>();
 }
 

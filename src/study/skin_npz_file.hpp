@@ -2,13 +2,13 @@
 // Spikes of a skin as NumPy's arrays.
 
 #include "io/npz.hpp"
-#include "study/skin_written.hpp"
+#include "study/skin_file_sink.hpp"
 
 namespace corpuscle {
 
 /// spikes.npz: the arrays of NpzFile (npz_file.hpp), one segment. unit_ids are the numbers of units.csv, unit_channel the regions; unit_x_m
 /// and unit_y_m are positions. The spikes are kept in memory until the end.
-class SkinNpzFile final : public SkinWrittenFile {
+class SkinNpzFile final : public SkinFileSink {
     OutputFile file_;
     NpzWriter npz_;
     std::vector<std::int64_t> indexes_, labels_;
@@ -18,7 +18,7 @@ class SkinNpzFile final : public SkinWrittenFile {
 
 public:
     explicit SkinNpzFile(OutputFile file) : file_(std::move(file)) {}
-    Result<void> block(const SkinInput&, const SkinAnswered&) override;
+    Result<void> block(const SkinInput&, const SkinRunBlock&) override;
     Result<void> end(const SkinInput&, std::int64_t samples, std::span<const Spike> last) override;
     std::vector<std::string> paths() const override { return {file_.path()}; }
     Result<void> commit() override;

@@ -48,7 +48,7 @@ std::string pack_error(const Error& error) { return std::string(1, worker_error)
 
 void pause_briefly() { std::this_thread::sleep_for(std::chrono::microseconds(20)); }
 
-class DistributedSimulator final : public SkinAnswerer {
+class DistributedSimulator final : public SkinSimulator {
     Ranks& ranks_;
     Skin& own_;
     ThreadPool& pool_;
@@ -86,11 +86,11 @@ public:
     DistributedSimulator(Ranks& ranks, Skin& own, ThreadPool& pool)
         : ranks_(ranks), own_(own), pool_(pool), received_(static_cast<std::size_t>(ranks.size())) {}
 
-    Result<void> answer(const SiteForce& force, std::size_t steps, std::vector<Spike>& spikes) override {
+    Result<void> respond(const SiteForce& force, std::size_t steps, std::vector<Spike>& spikes) override {
         if (auto ok = own_.respond(force, steps, spikes, pool_); !ok) return ok;
         return gather(spikes);
     }
-    Result<void> last(std::vector<Spike>& spikes) override {
+    Result<void> flush(std::vector<Spike>& spikes) override {
         own_.finish(spikes);
         if (auto ok = gather(spikes); !ok) return ok;
         for (int rank = 1; rank < ranks_.size(); ++rank) {
@@ -103,7 +103,7 @@ public:
         }
         return {};
     }
-    SkinStats work() const override {
+    SkinStats stats() const override {
         auto all = own_.stats();
         all.afferent_steps += others_stats_.afferent_steps, all.skipped_steps += others_stats_.skipped_steps, all.spikes += others_stats_.spikes;
         all.truncated_steps += others_stats_.truncated_steps;
@@ -144,9 +144,9 @@ Result<bool> simulate_part(WorkerChannel& channel, SkinForce& force, Skin& skin,
     for (;;) {
         auto block = force.next();
         if (!block) return block.error();
-        if (block->total.empty()) break;
+        if (block->total_force.empty()) break;
         spikes.clear();
-        if (auto ok = skin.respond(block->force, block->total.size(), spikes, pool); !ok) return ok.error();
+        if (auto ok = skin.respond(block->force, block->total_force.size(), spikes, pool); !ok) return ok.error();
         if (!channel.send(pack_spikes(spikes))) return false;
     }
     spikes.clear();
@@ -158,11 +158,11 @@ Result<bool> simulate_part(WorkerChannel& channel, SkinForce& force, Skin& skin,
 
 }  // namespace
 
-std::unique_ptr<SkinAnswerer> leading_answerer(Ranks& ranks, Skin& own, ThreadPool& pool) {
+std::unique_ptr<SkinSimulator> distributed_skin_simulator(Ranks& ranks, Skin& own, ThreadPool& pool) {
     return std::make_unique<DistributedSimulator>(ranks, own, pool);
 }
 
-void dismiss_skin(Ranks& ranks) {
+void shut_down_skin_workers(Ranks& ranks) {
     for (int rank = 1; rank < ranks.size(); ++rank) ranks.send(rank, std::string(1, shutdown));
     while (ranks.unsent() > 0) {
         (void)ranks.receive();
@@ -171,7 +171,7 @@ void dismiss_skin(Ranks& ranks) {
     ranks.leave(true);
 }
 
-Result<void> follow_skin(Ranks& ranks, Result<SkinForce*> force, Skin* skin, ThreadPool& pool) {
+Result<void> run_skin_worker(Ranks& ranks, Result<SkinForce*> force, Skin* skin, ThreadPool& pool) {
     WorkerChannel channel(ranks);
     auto done = force ? simulate_part(channel, **force, *skin, pool) : Result<bool>(force.error());
     if (!done) (void)channel.send(pack_error(done.error()));

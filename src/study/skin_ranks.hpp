@@ -8,10 +8,10 @@
 namespace corpuscle {
 
 /// For rank 0: simulates its own part and gathers the others'. An error of any rank is reported as its own.
-std::unique_ptr<SkinAnswerer> leading_answerer(Ranks&, Skin& own, ThreadPool&);
+std::unique_ptr<SkinSimulator> distributed_skin_simulator(Ranks&, Skin& own, ThreadPool&);
 /// For rank 0, at the end of the run or after an error: makes the other ranks end.
-void dismiss_skin(Ranks&);
+void shut_down_skin_workers(Ranks&);
 /// For all other ranks: simulates until the force ends or rank 0 shuts the run down.
-Result<void> follow_skin(Ranks&, Result<SkinForce*>, Skin*, ThreadPool&);
+Result<void> run_skin_worker(Ranks&, Result<SkinForce*>, Skin*, ThreadPool&);
 
 }  // namespace corpuscle

@@ -21,7 +21,7 @@ Result<void> SkinSpikesFile::put(const Clock& clock, std::span<const Spike> spik
     return file_.write({text_.data(), text_.size()});
 }
 
-Result<void> SkinSpikesFile::block(const SkinInput& input, const SkinAnswered& block) { return put(input.clock, block.spikes); }
+Result<void> SkinSpikesFile::block(const SkinInput& input, const SkinRunBlock& block) { return put(input.clock, block.spikes); }
 
 Result<void> SkinSpikesFile::end(const SkinInput& input, std::int64_t, std::span<const Spike> last) { return put(input.clock, last); }
 

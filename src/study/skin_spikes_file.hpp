@@ -3,12 +3,12 @@
 
 #include <fmt/format.h>
 
-#include "study/skin_written.hpp"
+#include "study/skin_file_sink.hpp"
 
 namespace corpuscle {
 
 /// spikes.csv: afferent,channel,time_s, as for afferents on channels; the channel is the region. In order of time, to the nanosecond.
-class SkinSpikesFile final : public SkinWrittenFile {
+class SkinSpikesFile final : public SkinFileSink {
     OutputFile file_;
     std::vector<std::string> names_;  // "sa1#17,palm" of each afferent
     fmt::memory_buffer text_;
@@ -18,7 +18,7 @@ class SkinSpikesFile final : public SkinWrittenFile {
 public:
     explicit SkinSpikesFile(OutputFile file);
     Result<void> begin(const SkinInput&) override;
-    Result<void> block(const SkinInput&, const SkinAnswered&) override;
+    Result<void> block(const SkinInput&, const SkinRunBlock&) override;
     Result<void> end(const SkinInput&, std::int64_t samples, std::span<const Spike> last) override;
     std::vector<std::string> paths() const override { return {file_.path()}; }
     Result<void> commit() override { return file_.commit(); }

@@ -32,17 +32,17 @@ double median_of(std::vector<double>& values) {
 
 Result<void> SkinSummary::begin(const SkinInput& input) {
     skin_ = &input.skin;
-    name_ = input.name, sentence_ = input.sentence, clock_ = since_start_ = input.clock, phases_ = input.phases;
+    name_ = input.name, description_ = input.description, clock_ = since_start_ = input.clock, phases_ = input.phases;
     since_start_.t0 = 0;  // times since 1970 would lose precision
     const auto units = skin_->afferents.size();
-    if (phases_.size() * units > most_phase_counts) phases_.clear();
-    samples_ = all_spikes_ = 0, least_ = greatest_ = 0, touched_from_ = no_value;
+    if (phases_.size() * units > max_phase_counts) phases_.clear();
+    samples_ = all_spikes_ = 0, min_force_ = max_force_ = 0, touch_start_ = no_value;
     counts_.assign(units, 0), first_times_.assign(units, no_value);
-    last_times_.assign(units, -INFINITY), shortest_.assign(units, INFINITY);
+    last_times_.assign(units, -INFINITY), shortest_intervals_.assign(units, INFINITY);
     phase_counts_.assign(phases_.size() * units, 0);
-    site_touched_.assign((phases_.size() + 1) * skin_->plan.sites.size(), 0);
-    while_touched_.assign((phases_.size() + 1) * skin_->plan.classes.size() * skin_->plan.sites.regions.size(), 0);
-    felt_most_ = main_sites(*skin_);
+    site_touched_samples_.assign((phases_.size() + 1) * skin_->plan.sites.size(), 0);
+    spikes_while_touched_.assign((phases_.size() + 1) * skin_->plan.classes.size() * skin_->plan.sites.regions.size(), 0);
+    main_site_ = main_sites(*skin_);
     return {};
 }
 
@@ -53,36 +53,36 @@ std::size_t SkinSummary::phase_of(double t) const {
 }
 
 /// True if the site of an afferent's largest weight has force at this sample of the block.
-bool SkinSummary::touches(const SkinAnswered& block, std::size_t afferent_index, std::int64_t sample) const {
-    const auto site = felt_most_[afferent_index];
+bool SkinSummary::is_touched(const SkinRunBlock& block, std::size_t afferent_index, std::int64_t sample) const {
+    const auto site = main_site_[afferent_index];
     const auto& [of, stride, touched, all] = block.force;
     if (!all && !std::binary_search(touched.begin(), touched.end(), site)) return false;
-    return of[site * stride + static_cast<std::size_t>(sample - block.first)] > 0;
+    return of[site * stride + static_cast<std::size_t>(sample - block.first_sample)] > 0;
 }
 
 /// `block`: the block in which the spikes arrive; null after the last block.
-void SkinSummary::add(std::span<const Spike> spikes, const SkinAnswered* block) {
+void SkinSummary::add(std::span<const Spike> spikes, const SkinRunBlock* block) {
     for (const auto& s : spikes) {
         const double t = since_start_.time(s.step, s.offset);
         const auto phase = phase_of(t);
         if (counts_[s.afferent_index]++ == 0) first_times_[s.afferent_index] = t;
-        shortest_[s.afferent_index] = std::min(shortest_[s.afferent_index], t - std::exchange(last_times_[s.afferent_index], t));
+        shortest_intervals_[s.afferent_index] = std::min(shortest_intervals_[s.afferent_index], t - std::exchange(last_times_[s.afferent_index], t));
         if (phase < phases_.size()) ++phase_counts_[phase * counts_.size() + s.afferent_index];
-        if (block && touches(*block, s.afferent_index, s.step)) ++while_touched_[group(skin_->afferents[s.afferent_index], phase)];
+        if (block && is_touched(*block, s.afferent_index, s.step)) ++spikes_while_touched_[group_index(skin_->afferents[s.afferent_index], phase)];
     }
     all_spikes_ += static_cast<std::int64_t>(spikes.size());
 }
 
 /// Splits the block into parts that are in one phase and counts the samples with force at each site.
-void SkinSummary::add_touch(const SkinAnswered& block) {
+void SkinSummary::count_touched_samples(const SkinRunBlock& block) {
     const auto sites = skin_->plan.sites.size();
-    const auto time = [&](std::size_t k) { return since_start_.time(block.first + static_cast<std::int64_t>(k)); };
+    const auto time = [&](std::size_t k) { return since_start_.time(block.first_sample + static_cast<std::int64_t>(k)); };
     for (std::size_t from = 0, to = 0; from < block.steps; from = to) {
         const auto phase = phase_of(time(from));
         while (to < block.steps && phase_of(time(to)) == phase) ++to;
         const auto count = [&](std::size_t s) {
             const double* force = block.force.data + s * block.force.stride;
-            site_touched_[phase * sites + s] += std::count_if(force + from, force + to, [](double f) { return f > 0; });
+            site_touched_samples_[phase * sites + s] += std::count_if(force + from, force + to, [](double f) { return f > 0; });
         };
         for (std::size_t s = 0; block.force.reads_all && s < sites; ++s) count(s);
         for (const auto s : block.force.touched)
@@ -90,75 +90,75 @@ void SkinSummary::add_touch(const SkinAnswered& block) {
     }
 }
 
-Result<void> SkinSummary::block(const SkinInput&, const SkinAnswered& block) {
+Result<void> SkinSummary::block(const SkinInput&, const SkinRunBlock& block) {
     for (std::size_t k = 0; k < block.steps; ++k) {
-        const double f = block.total[k];
-        if (block.first == 0 && k == 0) least_ = greatest_ = f;
-        least_ = std::min(least_, f), greatest_ = std::max(greatest_, f);
-        if (f > 0 && std::isnan(touched_from_)) touched_from_ = since_start_.time(block.first + static_cast<std::int64_t>(k));
+        const double f = block.total_force[k];
+        if (block.first_sample == 0 && k == 0) min_force_ = max_force_ = f;
+        min_force_ = std::min(min_force_, f), max_force_ = std::max(max_force_, f);
+        if (f > 0 && std::isnan(touch_start_)) touch_start_ = since_start_.time(block.first_sample + static_cast<std::int64_t>(k));
     }
-    add_touch(block);
+    count_touched_samples(block);
     add(block.spikes, &block);
     return {};
 }
 
 double SkinSummary::seconds() const { return since_start_.time(samples_); }
 
-std::size_t SkinSummary::group(const SkinAfferent& u, std::size_t phase) const {
+std::size_t SkinSummary::group_index(const SkinAfferent& u, std::size_t phase) const {
     return (phase * skin_->plan.classes.size() + u.class_index) * skin_->plan.sites.regions.size() + u.region;
 }
 
 /// Spikes of a class that arrived while their afferents were touched; in one region and phase, or in all.
-std::int64_t SkinSummary::spikes_while_touched(const SkinRow& r) const {
+std::int64_t SkinSummary::count_spikes_while_touched(const SkinSummaryRow& r) const {
     std::int64_t sum = 0;
     for (std::uint32_t region = 0; region < skin_->plan.sites.regions.size(); ++region)
         for (std::size_t phase = 0; phase <= phases_.size(); ++phase)
-            if ((r.region == SkinRow::all || r.region == region) && (r.phase == SkinRow::all || r.phase == phase))
-                sum += while_touched_[group({.class_index = static_cast<std::uint32_t>(r.of), .region = region}, phase)];
+            if ((r.region == SkinSummaryRow::all || r.region == region) && (r.phase == SkinSummaryRow::all || r.phase == phase))
+                sum += spikes_while_touched_[group_index({.class_index = static_cast<std::uint32_t>(r.class_index), .region = region}, phase)];
     return sum;
 }
 
 /// In one phase, or in all.
 std::int64_t SkinSummary::touched_samples(std::size_t afferent_index, std::size_t phase) const {
     const auto sites = skin_->plan.sites.size();
-    if (phase != SkinRow::all) return site_touched_[phase * sites + felt_most_[afferent_index]];
+    if (phase != SkinSummaryRow::all) return site_touched_samples_[phase * sites + main_site_[afferent_index]];
     std::int64_t sum = 0;
-    for (std::size_t p = 0; p <= phases_.size(); ++p) sum += site_touched_[p * sites + felt_most_[afferent_index]];
+    for (std::size_t p = 0; p <= phases_.size(); ++p) sum += site_touched_samples_[p * sites + main_site_[afferent_index]];
     return sum;
 }
 
-SkinRow SkinSummary::row(std::size_t class_index, std::size_t region, std::size_t phase, std::span<const std::uint32_t> units) const {
-    SkinRow r{.of = class_index, .region = region, .phase = phase, .units = static_cast<std::int64_t>(units.size())};
-    r.seconds = phase == SkinRow::all ? seconds() : std::max(std::min(phases_[phase].to, seconds()) - phases_[phase].from, 0.0);
+SkinSummaryRow SkinSummary::row(std::size_t class_index, std::size_t region, std::size_t phase, std::span<const std::uint32_t> units) const {
+    SkinSummaryRow r{.class_index = class_index, .region = region, .phase = phase, .afferents = static_cast<std::int64_t>(units.size())};
+    r.seconds = phase == SkinSummaryRow::all ? seconds() : std::max(std::min(phases_[phase].to, seconds()) - phases_[phase].from, 0.0);
     std::int64_t max_spikes = 0, touched = 0;
     std::vector<double> firsts;
     for (const auto u : units) {
-        const std::int64_t spikes = phase == SkinRow::all ? counts_[u] : phase_counts_[phase * counts_.size() + u];
+        const std::int64_t spikes = phase == SkinSummaryRow::all ? counts_[u] : phase_counts_[phase * counts_.size() + u];
         const auto samples = touched_samples(u, phase);
         r.spikes += spikes, r.active += spikes > 0, r.touched += samples > 0;
         max_spikes = std::max(max_spikes, spikes), touched += samples;
-        if (phase == SkinRow::all && spikes > 0) firsts.push_back(first_times_[u]);
+        if (phase == SkinSummaryRow::all && spikes > 0) firsts.push_back(first_times_[u]);
     }
     if (max_spikes == 1)
-        r.busiest = no_value;
+        r.max_rate = no_value;
     else if (r.seconds > 0)
-        r.busiest = static_cast<double>(max_spikes) / r.seconds;
-    if (touched > 0 && r.spikes != 1) r.touched_rate = static_cast<double>(spikes_while_touched(r)) / since_start_.time(touched);
-    if (!firsts.empty()) r.first = *std::min_element(firsts.begin(), firsts.end());
-    r.median_first = median_of(firsts);
+        r.max_rate = static_cast<double>(max_spikes) / r.seconds;
+    if (touched > 0 && r.spikes != 1) r.touched_rate = static_cast<double>(count_spikes_while_touched(r)) / since_start_.time(touched);
+    if (!firsts.empty()) r.first_spike = *std::min_element(firsts.begin(), firsts.end());
+    r.median_first_spike = median_of(firsts);
     return r;
 }
 
 void SkinSummary::add_rows(std::size_t class_index, std::size_t region, const std::vector<std::uint32_t>& units) {
-    rows_.push_back(row(class_index, region, SkinRow::all, units));
+    rows_.push_back(row(class_index, region, SkinSummaryRow::all, units));
     for (std::size_t p = 0; p < phases_.size(); ++p) rows_.push_back(row(class_index, region, p, units));
 }
 
 Result<void> SkinSummary::end(const SkinInput&, std::int64_t samples, std::span<const Spike> last) {
     add(last, nullptr);
     samples_ = samples;
-    unit_touched_.clear();
-    for (std::size_t u = 0; u < counts_.size(); ++u) unit_touched_.push_back(since_start_.time(touched_samples(u, SkinRow::all)));
+    touched_times_.clear();
+    for (std::size_t u = 0; u < counts_.size(); ++u) touched_times_.push_back(since_start_.time(touched_samples(u, SkinSummaryRow::all)));
     rows_.clear();
     const auto regions = skin_->plan.sites.regions.size();
     for (std::size_t c = 0; c + 1 < skin_->class_begin.size(); ++c) {
@@ -166,27 +166,27 @@ Result<void> SkinSummary::end(const SkinInput&, std::int64_t samples, std::span<
         std::vector<std::vector<std::uint32_t>> of_region(regions);
         for (std::size_t u = skin_->class_begin[c]; u < skin_->class_begin[c + 1]; ++u)
             all.push_back(static_cast<std::uint32_t>(u)), of_region[skin_->afferents[u].region].push_back(static_cast<std::uint32_t>(u));
-        add_rows(c, SkinRow::all, all);
+        add_rows(c, SkinSummaryRow::all, all);
         for (std::size_t r = 0; regions > 1 && r < regions; ++r)
             if (!of_region[r].empty()) add_rows(c, r, of_region[r]);
     }
     return {};
 }
 
-std::pair<std::size_t, double> SkinSummary::faster_than(std::size_t class_index, double rate) const {
-    const auto from = shortest_.begin() + static_cast<std::ptrdiff_t>(skin_->class_begin[class_index]),
-               to = shortest_.begin() + static_cast<std::ptrdiff_t>(skin_->class_begin[class_index + 1]);
+std::pair<std::size_t, double> SkinSummary::count_faster_than(std::size_t class_index, double rate) const {
+    const auto from = shortest_intervals_.begin() + static_cast<std::ptrdiff_t>(skin_->class_begin[class_index]),
+               to = shortest_intervals_.begin() + static_cast<std::ptrdiff_t>(skin_->class_begin[class_index + 1]);
     const auto units = std::count_if(from, to, [&](double interval) { return interval < 1 / rate; });
     return {static_cast<std::size_t>(units), from == to ? 0 : 1 / *std::min_element(from, to)};
 }
 
-std::vector<SkinSummary::First> SkinSummary::first_spikes(std::size_t count) const {
-    std::vector<First> all;
+std::vector<SkinSummary::FirstSpike> SkinSummary::first_spikes(std::size_t count) const {
+    std::vector<FirstSpike> all;
     for (std::size_t u = 0; u < first_times_.size(); ++u)
         if (!std::isnan(first_times_[u])) all.push_back({u, first_times_[u]});
     const auto end_of_first = all.begin() + static_cast<std::ptrdiff_t>(std::min(count, all.size()));
     std::partial_sort(all.begin(), end_of_first, all.end(),
-                      [](const First& a, const First& b) { return std::pair(a.time, a.unit) < std::pair(b.time, b.unit); });
+                      [](const FirstSpike& a, const FirstSpike& b) { return std::pair(a.time, a.afferent_index) < std::pair(b.time, b.afferent_index); });
     all.erase(end_of_first, all.end());
     for (auto& f : all) f.time += clock_.t0;
     return all;

@@ -13,29 +13,29 @@
 namespace corpuscle {
 
 /// The settings of a run and the notes about it, apart from its response.
-struct SkinTold {
+struct SkinRunNotes {
     Method method = Method::exact;
     bool sampled = false;
     std::string contact = {};                ///< its description; "": force at the sites, from a recording
-    std::vector<MetadataEntry> facts = {};            ///< of the force and of the contact
-    std::vector<std::string> remarks = {};   ///< of the source and of the contact: their simplifications
+    std::vector<MetadataEntry> metadata = {};            ///< of the force and of the contact
+    std::vector<std::string> notes = {};   ///< of the source and of the contact: their simplifications
     std::vector<std::string> warnings = {};  ///< why the response may be wrong
-    SkinStats work = {};
+    SkinStats stats = {};
 };
 
 /// A class in one region or all, during one phase or all.
-struct SkinRow {
+struct SkinSummaryRow {
     static constexpr std::size_t all = static_cast<std::size_t>(-1);
-    std::size_t of = 0, region = all, phase = all;
-    std::int64_t units = 0, active = 0;  ///< active: with at least one spike
+    std::size_t class_index = 0, region = all, phase = all;
+    std::int64_t afferents = 0, active = 0;  ///< active: with at least one spike
     std::int64_t touched = 0;            ///< afferents whose site of largest weight had force
     std::int64_t spikes = 0;
     double seconds = 0;  ///< duration of the phase
     /// Hz: spikes that arrived while their afferent was touched, divided by the time that afferents were touched
     double touched_rate = no_value;
-    double busiest = 0;              ///< Hz: highest rate of an afferent over the phase; none if it has one spike
-    double first = no_value;         ///< s since the start: the earliest spike; for rows over all phases
-    double median_first = no_value;  ///< s since the start: median of the afferents' first spikes
+    double max_rate = 0;              ///< Hz: highest rate of an afferent over the phase; none if it has one spike
+    double first_spike = no_value;         ///< s since the start: the earliest spike; for rows over all phases
+    double median_first_spike = no_value;  ///< s since the start: median of the afferents' first spikes
     /// Hz, of one active afferent; a single spike has no rate.
     double rate() const {
         if (spikes == 1) return no_value;
@@ -43,78 +43,78 @@ struct SkinRow {
     }
 };
 
-class SkinSummary final : public SkinListener {
+class SkinSummary final : public SkinSink {
 public:
     /// With more phases times afferents than this, phases are not reported separately.
-    static constexpr std::size_t most_phase_counts = std::size_t{1} << 26;
+    static constexpr std::size_t max_phase_counts = std::size_t{1} << 26;
 
     /// The first spike of an afferent.
-    struct First {
-        std::size_t unit = 0;
+    struct FirstSpike {
+        std::size_t afferent_index = 0;
         double time = no_value;  ///< s, on the clock of the force
     };
 
     Result<void> begin(const SkinInput&) override;
-    Result<void> block(const SkinInput&, const SkinAnswered&) override;
+    Result<void> block(const SkinInput&, const SkinRunBlock&) override;
     Result<void> end(const SkinInput&, std::int64_t samples, std::span<const Spike> last) override;
 
     /// Valid after end(). Classes, then each of their regions; for each, all phases together, then phase by phase.
-    const std::vector<SkinRow>& rows() const { return rows_; }
+    const std::vector<SkinSummaryRow>& rows() const { return rows_; }
     /// The earliest first spikes of the population, in order of time, then afferent index.
-    std::vector<First> first_spikes(std::size_t count) const;
+    std::vector<FirstSpike> first_spikes(std::size_t count) const;
 
     const Innervation& skin() const { return *skin_; }
     const std::string& name() const { return name_; }
-    const std::string& sentence() const { return sentence_; }
+    const std::string& description() const { return description_; }
     const Clock& clock() const { return clock_; }
     const std::vector<Phase>& phases() const { return phases_; }
     std::int64_t samples() const { return samples_; }
     std::int64_t spikes() const { return all_spikes_; }
     double seconds() const;  ///< of the force
-    double least() const { return least_; }
-    double greatest() const { return greatest_; }  ///< total force of all sites, N
+    double min_force() const { return min_force_; }
+    double max_force() const { return max_force_; }  ///< total force of all sites, N
     /// s since the start: the first sample with force; NaN if there is none
-    double touched_from() const { return touched_from_; }
+    double touch_start() const { return touch_start_; }
     const std::vector<std::int64_t>& counts() const { return counts_; }      ///< spikes of each afferent
     const std::vector<double>& first_times() const { return first_times_; }  ///< s since the start; NaN if there is none
     /// s during which the site of each afferent's largest weight had force
-    const std::vector<double>& touched_times() const { return unit_touched_; }
+    const std::vector<double>& touched_times() const { return touched_times_; }
 
     /// The number of afferents of a class that had an interval shorter than 1 / rate, and the highest rate of any interval; Hz.
-    std::pair<std::size_t, double> faster_than(std::size_t class_index, double rate) const;
+    std::pair<std::size_t, double> count_faster_than(std::size_t class_index, double rate) const;
 
     /// As a JSON document: versions, parameters, seed, classes, rows, first spikes. The same run gives the same bytes.
-    nlohmann::ordered_json document(const SkinTold&) const;
+    nlohmann::ordered_json document(const SkinRunNotes&) const;
     /// As a table for a terminal: its heading and a line for each class, then lines by phase if there are phases, and by region if there
     /// are several.
     std::vector<std::vector<std::string>> table() const;
 
 private:
     const Innervation* skin_ = nullptr;
-    std::string name_, sentence_;
+    std::string name_, description_;
     Clock clock_, since_start_;
     std::vector<Phase> phases_;
     std::int64_t samples_ = 0, all_spikes_ = 0;
-    double least_ = 0, greatest_ = 0, touched_from_ = no_value;
+    double min_force_ = 0, max_force_ = 0, touch_start_ = no_value;
     std::vector<std::int64_t> counts_;
     std::vector<std::uint32_t> phase_counts_;  // [phase][unit]
-    std::vector<double> first_times_, unit_touched_;
-    std::vector<double> last_times_, shortest_;  // of each afferent: its last spike, and its shortest interval; s
-    std::vector<std::uint32_t> felt_most_;       // site of each afferent's largest weight
-    std::vector<std::int64_t> site_touched_;     // [phase; after the last: no phase][site], samples
-    std::vector<SkinRow> rows_;
+    std::vector<double> first_times_, touched_times_;
+    std::vector<double> last_times_, shortest_intervals_;  // of each afferent: its last spike, and its shortest interval; s
+    std::vector<std::uint32_t> main_site_;       // site of each afferent's largest weight
+    std::vector<std::int64_t> site_touched_samples_;     // [phase; after the last: no phase][site], samples
+    std::vector<SkinSummaryRow> rows_;
 
-    std::vector<std::int64_t> while_touched_;  // [phase; after the last: no phase][class][region], spikes
+    std::vector<std::int64_t> spikes_while_touched_;  // [phase; after the last: no phase][class][region], spikes
 
-    void add(std::span<const Spike>, const SkinAnswered*);
-    bool touches(const SkinAnswered&, std::size_t afferent_index, std::int64_t sample) const;
-    std::size_t group(const SkinAfferent&, std::size_t phase) const;
-    std::int64_t spikes_while_touched(const SkinRow&) const;
-    void add_touch(const SkinAnswered&);
+    void add(std::span<const Spike>, const SkinRunBlock*);
+    bool is_touched(const SkinRunBlock&, std::size_t afferent_index, std::int64_t sample) const;
+    std::size_t group_index(const SkinAfferent&, std::size_t phase) const;
+    std::int64_t count_spikes_while_touched(const SkinSummaryRow&) const;
+    void count_touched_samples(const SkinRunBlock&);
     std::size_t phase_of(double t) const;
     std::int64_t touched_samples(std::size_t afferent_index, std::size_t phase) const;
     void add_rows(std::size_t class_index, std::size_t region, const std::vector<std::uint32_t>& units);
-    SkinRow row(std::size_t class_index, std::size_t region, std::size_t phase, std::span<const std::uint32_t> units) const;
+    SkinSummaryRow row(std::size_t class_index, std::size_t region, std::size_t phase, std::span<const std::uint32_t> units) const;
 };
 
 }  // namespace corpuscle

@@ -24,7 +24,7 @@ public:
         const std::lock_guard lock(guard_);
         fractions_[which] = fraction;
         return !error_ &&
-               options_.keep_on(std::accumulate(fractions_.begin(), fractions_.end(), 0.0) / static_cast<double>(fractions_.size()));
+               options_.should_continue(std::accumulate(fractions_.begin(), fractions_.end(), 0.0) / static_cast<double>(fractions_.size()));
     }
     void fail(std::string_view name, Error error) {
         const std::lock_guard lock(guard_);
@@ -37,12 +37,12 @@ public:
 
 }  // namespace
 
-Result<std::vector<Outcome>> run_studies(std::span<const Study* const> studies, const StudyOptions& options) {
-    std::vector<Outcome> outcomes(studies.size());
+Result<std::vector<StudyResult>> run_studies(std::span<const Study* const> studies, const StudyOptions& options) {
+    std::vector<StudyResult> outcomes(studies.size());
     StudyProgress progress(options, studies.size());
     ThreadPool pool;
     pool.for_each(studies.size(), [&](std::size_t k, unsigned) {
-        auto outcome = studies[k]->run({[&, k](double fraction) { return progress.update(k, fraction); }, options.recordings});
+        auto outcome = studies[k]->run({[&, k](double fraction) { return progress.update(k, fraction); }, options.recordings_folder});
         outcome ? void(outcomes[k] = std::move(*outcome)) : progress.fail(studies[k]->name, outcome.error());
     });
     if (progress.error()) return *progress.error();

@@ -9,56 +9,56 @@
 
 #include "signal/error.hpp"
 #include "study/claim.hpp"
-#include "study/plot.hpp"
+#include "study/study_plot.hpp"
 
 namespace corpuscle {
 
-struct Outcome {
+struct StudyResult {
     std::vector<Claim> claims;
-    std::vector<Plot> plots;
+    std::vector<StudyPlot> plots;
     std::vector<std::string> notes;  ///< findings, and what is left out
 
     /// A computed number. The published value follows: claim("V_Q", v, "V").published_as(350.1e-3, "table 17").
     Claim& claim(std::string label, double computed, std::string unit = {}) {
-        return claims.emplace_back(Claim{.what = std::move(label), .made = computed, .unit = std::move(unit)});
+        return claims.emplace_back(Claim{.label = std::move(label), .computed = computed, .unit = std::move(unit)});
     }
     /// A statement that is true or false.
-    Claim& finds(std::string label, bool is_true, std::string source) {
+    Claim& claim_true(std::string label, bool is_true, std::string source) {
         return claims.emplace_back(
-            Claim{.what = std::move(label), .made = is_true ? 1.0 : 0.0, .low = 1, .source = std::move(source), .is_truth = true});
+            Claim{.label = std::move(label), .computed = is_true ? 1.0 : 0.0, .allowed_min = 1, .source = std::move(source), .is_boolean = true});
     }
-    Plot& plot(std::string title, std::string x_label, std::string y_label, bool log_x = false, bool log_y = false) {
-        return plots.emplace_back(Plot{std::move(title), std::move(x_label), std::move(y_label), {}, log_x, log_y});
+    StudyPlot& plot(std::string title, std::string x_label, std::string y_label, bool log_x = false, bool log_y = false) {
+        return plots.emplace_back(StudyPlot{std::move(title), std::move(x_label), std::move(y_label), {}, log_x, log_y});
     }
     void note(std::string text) { notes.push_back(std::move(text)); }
 };
 
 struct StudyOptions {
     /// Called with the completed fraction, 0 to 1; false stops the study.
-    std::function<bool(double)> keep_on = [](double) { return true; };
-    std::string recordings = {};  ///< the folder of published recordings, for studies of them
+    std::function<bool(double)> should_continue = [](double) { return true; };
+    std::string recordings_folder = {};  ///< the folder of published recordings, for studies of them
 
     /// The same, as an error that a study returns.
-    Result<void> at(double fraction) const { return keep_on(fraction) ? Result<void>() : Error{ErrorCode::interrupted, "interrupted"}; }
+    Result<void> report_progress(double fraction) const { return should_continue(fraction) ? Result<void>() : Error{ErrorCode::interrupted, "interrupted"}; }
 };
 
 struct Study {
     std::string_view name, title;
     std::string_view question;  ///< the published statement or the question, and its source
-    Result<Outcome> (*work)(const StudyOptions&);
-    std::string_view recording = {};  ///< the folder it needs within StudyOptions::recordings; "": none
+    Result<StudyResult> (*compute)(const StudyOptions&);
+    std::string_view recording_folder = {};  ///< the folder it needs within StudyOptions::recordings; "": none
 
     /// Runs the study, unless it is stopped before or after.
-    Result<Outcome> run(const StudyOptions& options) const {
-        if (auto ok = options.at(0); !ok) return ok.error();
-        auto outcome = work(options);
+    Result<StudyResult> run(const StudyOptions& options) const {
+        if (auto ok = options.report_progress(0); !ok) return ok.error();
+        auto outcome = compute(options);
         if (!outcome) return outcome;
-        if (auto ok = options.at(1); !ok) return ok.error();
+        if (auto ok = options.report_progress(1); !ok) return ok.error();
         return outcome;
     }
 };
 
 /// Runs all of them, several at once. The first error ends the run.
-Result<std::vector<Outcome>> run_studies(std::span<const Study* const>, const StudyOptions&);
+Result<std::vector<StudyResult>> run_studies(std::span<const Study* const>, const StudyOptions&);
 
 }  // namespace corpuscle

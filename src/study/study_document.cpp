@@ -18,25 +18,25 @@ Json numbers(const std::vector<double>& values) {
 }
 
 Json document_of(const Claim& c) {
-    return {{"what", c.what},
-            {"made", c.is_truth ? Json(c.made > 0) : json_number(c.made)},
+    return {{"what", c.label},
+            {"made", c.is_boolean ? Json(c.computed > 0) : json_number(c.computed)},
             {"unit", c.unit},
-            {"printed", json_number(c.printed)},
-            {"follows", c.follows},
+            {"printed", json_number(c.published)},
+            {"follows", c.is_derived},
             {"deviation", json_number(c.deviation())},
-            {"low", c.is_truth ? Json(nullptr) : json_number(c.low)},
-            {"high", json_number(c.high)},
+            {"low", c.is_boolean ? Json(nullptr) : json_number(c.allowed_min)},
+            {"high", json_number(c.allowed_max)},
             {"verdict", c.verdict()},
             {"source", c.source},
             {"note", c.note}};
 }
 
-Json document_of(const Plot& p) {
+Json document_of(const StudyPlot& p) {
     Json series = Json::array();
     constexpr const char* styles[] = {"line", "points", "raster", "path"};
     for (const auto& s : p.series)
         series.push_back({{"name", s.name}, {"style", styles[static_cast<int>(s.style)]}, {"x", numbers(s.x)}, {"y", numbers(s.y)}});
-    return {{"title", p.title}, {"printed", p.printed}, {"x", p.x_label},  {"y", p.y_label},
+    return {{"title", p.title}, {"printed", p.published_shape}, {"x", p.x_label},  {"y", p.y_label},
             {"log_x", p.log_x}, {"log_y", p.log_y},     {"series", series}};
 }
 
@@ -53,44 +53,44 @@ std::string cell(std::string_view text) {
 /// Number of claims of a kind that agree, and that do not.
 struct VerdictCount {
     int agreeing = 0, deviating = 0;
-    void add(const Claim& c) { c.needs_reason() ? ++deviating : ++agreeing; }
+    void add(const Claim& c) { c.needs_explanation() ? ++deviating : ++agreeing; }
 };
 
-void put_table(std::string& text, const Outcome& outcome) {
+void put_table(std::string& text, const StudyResult& outcome) {
     if (outcome.claims.empty()) return;
     text += "| | computed | published | deviation | allowed | | source, reason |\n|---|---|---|---|---|---|---|\n";
     for (const auto& c : outcome.claims)
-        text += fmt::format("| {} | {} | {} | {} | {} | {} | {} |\n", cell(c.what), quantity_of(c.made, c), printed_of(c), deviation_of(c),
-                            allowed_of(c), c.verdict(), cell(c.source + (c.source.empty() || c.note.empty() ? "" : "; ") + c.note));
+        text += fmt::format("| {} | {} | {} | {} | {} | {} | {} |\n", cell(c.label), format_claim_value(c.computed, c), format_published(c), format_deviation(c),
+                            format_allowed_range(c), c.verdict(), cell(c.source + (c.source.empty() || c.note.empty() ? "" : "; ") + c.note));
     text += '\n';
 }
 
-void put_deviations(std::string& text, std::span<const Study* const> studies, std::span<const Outcome> outcomes) {
+void put_deviations(std::string& text, std::span<const Study* const> studies, std::span<const StudyResult> outcomes) {
     text += "| study | what | computed | published | deviation | allowed | reason, if it deviates |\n|---|---|---|---|---|---|---|\n";
     for (std::size_t k = 0; k < studies.size(); ++k)
         for (const auto& c : outcomes[k].claims)
-            if (belongs_on_top(c))
-                text += fmt::format("| [{0}](#{0}) | {1} | {2} | {3} | {4} | {5} | {6} |\n", studies[k]->name, cell(c.what),
-                                    quantity_of(c.made, c), printed_of(c), deviation_of(c), allowed_of(c),
-                                    c.needs_reason() ? cell(c.note) : "");
+            if (is_headline(c))
+                text += fmt::format("| [{0}](#{0}) | {1} | {2} | {3} | {4} | {5} | {6} |\n", studies[k]->name, cell(c.label),
+                                    format_claim_value(c.computed, c), format_published(c), format_deviation(c), format_allowed_range(c),
+                                    c.needs_explanation() ? cell(c.note) : "");
 }
 
 }  // namespace
 
-bool belongs_on_top(const Claim& c) { return c.needs_reason() || (!std::isnan(c.printed) && !c.follows); }
+bool is_headline(const Claim& c) { return c.needs_explanation() || (!std::isnan(c.published) && !c.is_derived); }
 
-std::string tally_of(std::span<const Outcome> outcomes) {
+std::string verdict_counts(std::span<const StudyResult> outcomes) {
     VerdictCount printed, follow, other;
     for (const auto& outcome : outcomes)
         for (const auto& c : outcome.claims)
-            if (*c.verdict() != 0) (c.judged() ? other : c.follows ? follow : printed).add(c);
+            if (*c.verdict() != 0) (c.has_allowed_range() ? other : c.is_derived ? follow : printed).add(c);
     return fmt::format(
         "{} published numbers agree within a tenth, {} differ by more. {} numbers agree with values derived from published ones (in "
         "brackets: by an equation, a sentence or the thesis's model), {} differ. {} claims in words hold, {} do not.",
         printed.agreeing, printed.deviating, follow.agreeing, follow.deviating, other.agreeing, other.deviating);
 }
 
-Json document_of(const Study& study, const Outcome& outcome) {
+Json document_of(const Study& study, const StudyResult& outcome) {
     Json claims = Json::array(), plots = Json::array();
     for (const auto& c : outcome.claims) claims.push_back(document_of(c));
     for (const auto& p : outcome.plots) plots.push_back(document_of(p));
@@ -98,19 +98,19 @@ Json document_of(const Study& study, const Outcome& outcome) {
             {"claims", claims},   {"plots", plots},       {"notes", outcome.notes}};
 }
 
-std::string markdown_of(std::span<const Study* const> studies, std::span<const Outcome> outcomes) {
-    const bool from_recording = !studies.empty() && !studies.front()->recording.empty();
+std::string markdown_of(std::span<const Study* const> studies, std::span<const StudyResult> outcomes) {
+    const bool from_recording = !studies.empty() && !studies.front()->recording_folder.empty();
     std::string text = fmt::format(
         "# {}, reproduced\n\nWritten by `corpuscle study {}` (`make reproduction` writes this page{}); its only typed numbers are the "
         "published ones. {} Deviations have a reason if one is known.\n\n## Published numbers, and deviations\n\n",
         from_recording ? "A published recording" : "Every figure and table", from_recording ? studies.front()->name : "all",
-        from_recording ? " if the recording is in CORPUSCLE_DATA" : ", and `out/reproduction.html` with the pictures", tally_of(outcomes));
+        from_recording ? " if the recording is in CORPUSCLE_DATA" : ", and `out/reproduction.html` with the pictures", verdict_counts(outcomes));
     put_deviations(text, studies, outcomes);
     for (std::size_t k = 0; k < studies.size(); ++k) {
         text += fmt::format("\n## {}\n\n**{}.** {}\n\n", studies[k]->name, studies[k]->title, studies[k]->question);
         put_table(text, outcomes[k]);
         for (const auto& p : outcomes[k].plots)
-            text += fmt::format("- Picture: {}.{}\n", p.title, p.printed.empty() ? "" : fmt::format(" Published: {}", p.printed));
+            text += fmt::format("- Picture: {}.{}\n", p.title, p.published_shape.empty() ? "" : fmt::format(" Published: {}", p.published_shape));
         for (const auto& n : outcomes[k].notes) text += fmt::format("- {}\n", n);
     }
     return text;

@@ -9,14 +9,14 @@
 namespace corpuscle {
 
 /// The complete result of a study, as `--json` prints it.
-nlohmann::ordered_json document_of(const Study&, const Outcome&);
+nlohmann::ordered_json document_of(const Study&, const StudyResult&);
 
 /// The number of claims with each verdict, in words.
-std::string tally_of(std::span<const Outcome>);
+std::string verdict_counts(std::span<const StudyResult>);
 /// True for a claim that is listed at the top as well: it has a published number, or it deviates.
-bool belongs_on_top(const Claim&);
+bool is_headline(const Claim&);
 
 /// All results as one Markdown text: the top claims first, then study by study.
-std::string markdown_of(std::span<const Study* const>, std::span<const Outcome>);
+std::string markdown_of(std::span<const Study* const>, std::span<const StudyResult>);
 
 }  // namespace corpuscle

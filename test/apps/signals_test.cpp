@@ -36,7 +36,7 @@ std::vector<std::string> lines_that_signal() {
 TEST(Signals, AreSentOnlyBehindACheckThatTheProcessWasStarted) {
     const std::map<std::string, std::string> checked = {
         {"src/io/helper_process.cpp", "behind child > 0"},
-        {"src/study/sweep/rank_words.cpp", "signal 0, which asks; behind a check of the id"},
+        {"src/study/sweep/rank_messages.cpp", "signal 0, which asks; behind a check of the id"},
         {"test/support/child_process.hpp", "the check itself, and what says so"},
     };
     for (const auto& line : lines_that_signal()) EXPECT_TRUE(checked.contains(line.substr(0, line.find(':')))) << line;

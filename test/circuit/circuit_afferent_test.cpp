@@ -9,8 +9,8 @@
 #include <nlohmann/json.hpp>
 
 #include "circuit/netlist_runner.hpp"
-#include "study/afferents.hpp"
-#include "study/respond.hpp"
+#include "study/afferent_plan.hpp"
+#include "study/afferent_run.hpp"
 #include "support/program.hpp"
 #include "support/property.hpp"
 
@@ -282,16 +282,16 @@ TEST(Run, TellsSpikesUnderAForceOfTheNetlistsOwn) {
 }
 
 /// Keeps what it hears.
-struct Ear final : Listener {
+struct Ear final : ResponseSink {
     std::vector<Spike> spikes;
     std::vector<double> shown;
     std::int64_t samples = 0;
     bool wants_probes() const override { return true; }
-    Result<void> block(const Input&, const Answered& a) override {
-        EXPECT_EQ(a.first, samples);
+    Result<void> block(const Input&, const RunBlock& a) override {
+        EXPECT_EQ(a.first_sample, samples);
         samples += static_cast<std::int64_t>(a.force.count);
         for (const auto& s : a.spikes) {
-            EXPECT_TRUE(s.step >= a.first && s.step < samples);
+            EXPECT_TRUE(s.step >= a.first_sample && s.step < samples);
             spikes.push_back(s);
         }
         for (std::size_t k = 0; k < a.force.count; ++k)
@@ -308,7 +308,7 @@ TEST(Respond, NetlistsBesideModelsInBlocksOfAnySize) {
         const std::vector<AfferentPlan> plans = {sure(plan_any_afferent(path, {})), sure(plan_any_afferent("fa1", {}))};
         std::vector<std::unique_ptr<ForceSource>> sources;
         sources.push_back(sure(make_stimulus("press", {}, 1e3, 0)));
-        Listener* listeners[] = {&ears[k]};
+        ResponseSink* listeners[] = {&ears[k]};
         RespondOptions options;
         options.block = std::vector<std::size_t>{4096, 1, 37}[k];
         const auto work = sure(respond(sources, plans, listeners, options));

@@ -6,7 +6,7 @@
 
 #include "circuit/circuit_afferent.hpp"
 #include "circuit/netlist_runner.hpp"
-#include "study/respond.hpp"
+#include "study/afferent_run.hpp"
 #include "support/program.hpp"
 #include "support/support.hpp"
 

@@ -9,7 +9,7 @@
 #include <cstdlib>
 
 #include "io/spike_files.hpp"
-#include "study/compare.hpp"
+#include "study/train_comparison.hpp"
 
 using namespace corpuscle;
 
@@ -55,6 +55,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const auto pairs = pair_trains(*trains, *trains, {});
     require(bool(pairs));
     for (const auto& p : *pairs)
-        if (p.in_a->size() < 100) require(compare(p, {})->matched == p.in_a->size());
+        if (p.train_a->size() < 100) require(compare_trains(p, {})->matched == p.train_a->size());
     return 0;
 }

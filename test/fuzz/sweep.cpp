@@ -19,14 +19,14 @@ void must(bool ok) {
 void check(const Error& e) { must(!e.message.empty()); }
 
 void check(const Sweep& s) {
-    must(s.units() >= 1 && !s.facts().empty());
-    for (const auto& f : s.facts()) must(!f.name.empty());
-    for (const auto unit : {std::int64_t{0}, s.units() / 2, s.units() - 1}) {
+    must(s.item_count() >= 1 && !s.metadata().empty());
+    for (const auto& f : s.metadata()) must(!f.name.empty());
+    for (const auto unit : {std::int64_t{0}, s.item_count() / 2, s.item_count() - 1}) {
         const auto values = s.values(unit);
         must(values.size() == s.axes().size());
         for (std::size_t k = 0; k < values.size(); ++k) {
             must(std::isfinite(values[k]));
-            const auto& words = s.axes()[k].words;
+            const auto& words = s.axes()[k].labels;
             must(words.empty() || static_cast<std::size_t>(values[k]) < words.size());
         }
     }
@@ -44,13 +44,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const bool known = said->afferent ? said->afferent->text == "sa1" || said->afferent->text == "sa1-macro"
                                       : said->netlist && said->netlist->text == "circuits/bias.cir";
     if (!known || said->force || said->rate || (said->afferent && said->netlist)) return 0;
-    for (const auto& s : said->set)
+    for (const auto& s : said->settings)
         if (s.name.find(".t_") != std::string::npos) return 0;
-    for (const auto& a : said->vary)
+    for (const auto& a : said->axes)
         if (a.count && a.count->text.size() > 3) return 0;
-    const auto sweep = said->netlist                   ? analyses_sweep(*said, "/nowhere")
-                       : said->afferent->text == "sa1" ? equations_sweep(*said, "/nowhere")
-                                                       : chips_sweep(*said, "/nowhere");
+    const auto sweep = said->netlist                   ? make_analysis_sweep(*said, "/nowhere")
+                       : said->afferent->text == "sa1" ? make_model_sweep(*said, "/nowhere")
+                                                       : make_chip_sweep(*said, "/nowhere");
     sweep ? check(**sweep) : check(sweep.error());
     return 0;
 }

@@ -1,6 +1,6 @@
 // Trims: what a chip's limits are, and whether the search finds codes that are known.
 
-#include "study/sweep/calibration_told.hpp"
+#include "study/sweep/calibration_report.hpp"
 
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ ChipCalibration ramp(const test::Folder& folder, double meant, double off) {
     for (int k = 0; k <= 100; ++k) out.force.push_back(2 * 1e-2 * k);
     const TimeWindow whole[] = {{0, 1}};
     const double spike[] = {meant};
-    out.limits = FiringLimits::about(spike, whole, off);
+    out.limits = FiringLimits::around(spike, whole, off);
     return out;
 }
 
@@ -54,8 +54,8 @@ TEST(Calibrate, TellsWhatCannotBeReached) {
     asked.trims = {*trim_of(asked.netlist, {}, {"g"}, 1, false)};
     const auto done = calibrate(asked, {circuit::ChipSample{1, 0}, circuit::ChipSample{1, 1}});
     ASSERT_TRUE(done);
-    const CalibrationTold told{asked.trims, *done};
-    EXPECT_EQ(told.kept(4), 0U);
+    const CalibrationResult told{asked.trims, *done};
+    EXPECT_EQ(told.count_within_limits(4), 0U);
     EXPECT_EQ(done->at(1).bits, -1);
     EXPECT_EQ(done->at(1).codes.back().at(0), 8) << "as near as it gets";
     EXPECT_LT(done->at(1).distance.back(), done->at(1).distance.front());
@@ -84,19 +84,19 @@ TEST(Calibrate, CodesGoAroundWhatWasDesignedAndColumnsAreWhole) {
 TEST(FiringLimits, AreAboutAModelsSpikes) {
     const std::vector<double> model = {0.31, 0.33, 0.35, 0.40, 0.44, 0.5, 0.55, 0.6, 0.65, 0.66, 0.67, 0.68};
     const TimeWindow phases[] = {{0, 0.3}, {0.3, 0.38}, {0.38, 0.7}, {0.7, 1}};
-    const auto limits = FiringLimits::about(model, phases, 10e-3);
-    EXPECT_TRUE(limits.kept(model));
+    const auto limits = FiringLimits::around(model, phases, 10e-3);
+    EXPECT_TRUE(limits.are_met(model));
     EXPECT_LT(limits.distance(model), 1e-20);
     auto other = model;
     other.insert(other.begin(), 0.1);
-    EXPECT_FALSE(limits.kept(other)) << "none before the force";
+    EXPECT_FALSE(limits.are_met(other)) << "none before the force";
     other = model, other.push_back(0.9);
-    EXPECT_TRUE(limits.kept(other)) << "one more, where the model has none after it has fired";
+    EXPECT_TRUE(limits.are_met(other)) << "one more, where the model has none after it has fired";
     other.push_back(0.95);
-    EXPECT_FALSE(limits.kept(other));
+    EXPECT_FALSE(limits.are_met(other));
     other.assign(model.begin() + 2, model.end());
-    EXPECT_FALSE(limits.kept(other)) << "two of three are missing, and the first is late";
-    EXPECT_FALSE(limits.kept({}));
+    EXPECT_FALSE(limits.are_met(other)) << "two of three are missing, and the first is late";
+    EXPECT_FALSE(limits.are_met({}));
     EXPECT_GT(limits.distance({}), limits.distance(other));
 }
 

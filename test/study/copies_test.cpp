@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "io/spike_files.hpp"
-#include "study/summary.hpp"
+#include "study/run_summary.hpp"
 #include "support/property.hpp"
 #include "support/support.hpp"
 
@@ -34,11 +34,11 @@ Populated populate(const std::vector<std::string>& names, std::uint32_t n, const
     return out;
 }
 
-void answer(std::span<const AfferentPlan> plans, std::initializer_list<Listener*> listeners) {
+void answer(std::span<const AfferentPlan> plans, std::initializer_list<ResponseSink*> listeners) {
     std::vector<std::unique_ptr<ForceSource>> sources;
     sources.push_back(sure(make_stimulus("press", {}, 2e3, 0)));
     sources.push_back(sure(make_stimulus("sine", {}, 2e3, 0)));
-    (void)sure(respond(sources, plans, std::vector<Listener*>(listeners), {}));
+    (void)sure(respond(sources, plans, std::vector<ResponseSink*>(listeners), {}));
 }
 
 struct Statistics {
@@ -64,22 +64,22 @@ Statistics statistics(std::vector<double> x) {
 
 bool alike(double a, double b) { return (std::isnan(a) && std::isnan(b)) || std::abs(a - b) <= 1e-9 * (1 + std::abs(b)); }
 
-TEST(OverCopies, AreTheMeanDeviationLeastAndGreatestOfThoseThatHaveAValue) {
+TEST(CopyStatistics, AreTheMeanDeviationLeastAndGreatestOfThoseThatHaveAValue) {
     EXPECT_TRUE(rc::check("against the definitions", [] {
         std::vector<double> x;
         for (const int k : *rc::gen::container<std::vector<int>>(rc::gen::inRange(-1000, 1001)))
             x.push_back(k % 7 == 0 ? no_value : k / 8.0);
-        OverCopies over;
+        CopyStatistics over;
         for (const double v : x) over.add(v);
         const auto right = statistics(x);
         RC_ASSERT(over.copies == right.n);
-        RC_ASSERT(alike(over.mean(), right.mean) && alike(over.deviation(), right.deviation));
-        RC_ASSERT(alike(over.least, right.least) && alike(over.greatest, right.greatest));
+        RC_ASSERT(alike(over.mean(), right.mean) && alike(over.standard_deviation(), right.deviation));
+        RC_ASSERT(alike(over.min, right.least) && alike(over.max, right.greatest));
     }));
 }
 
 /// Of a row's phase, or of its whole input, s.
-double length_of(const Summary& summary, const RateRow& row) {
+double length_of(const RunSummary& summary, const MeasureRow& row) {
     for (const auto& input : summary.inputs()) {
         if (std::find(input.channels.begin(), input.channels.end(), row.channel) == input.channels.end()) continue;
         for (const auto& p : input.phases)
@@ -94,7 +94,7 @@ TEST(Summary, OfCopiesIsThatOfTheirOwnRowsTakenTogether) {
     const auto p = populate({"sa1", "fa1"}, 25, {"sa1.f_B=20%", "sa1.V_th=40%", "fa1.k_A=40%"});
     auto alone = p.copies;  // the same plans as if each had been asked for
     for (auto& plan : alone) plan.copy_number = 0;
-    Summary together, each;
+    RunSummary together, each;
     answer(p.copies, {&together});
     answer(alone, {&each});
     ASSERT_EQ(together.rows().size(), 2U * 5 + 2);
@@ -108,17 +108,17 @@ TEST(Summary, OfCopiesIsThatOfTheirOwnRowsTakenTogether) {
                                                                      : r.values[m]);
             ASSERT_EQ(values.size(), 25U);
             const auto right = statistics(values);
-            const auto& over = row.over[m];
+            const auto& over = row.copy_statistics[m];
             EXPECT_EQ(over.copies, right.n) << row.phase << ' ' << measures[m].name;
-            EXPECT_TRUE(alike(over.mean(), right.mean) && alike(over.deviation(), right.deviation)) << row.phase << ' ' << measures[m].name;
-            EXPECT_TRUE(alike(over.least, right.least) && alike(over.greatest, right.greatest)) << row.phase << ' ' << measures[m].name;
+            EXPECT_TRUE(alike(over.mean(), right.mean) && alike(over.standard_deviation(), right.deviation)) << row.phase << ' ' << measures[m].name;
+            EXPECT_TRUE(alike(over.min, right.least) && alike(over.max, right.greatest)) << row.phase << ' ' << measures[m].name;
         }
 }
 
 TEST(Summary, OfAHundredTimesTheCopiesIsNoLonger) {
     const auto size = [](std::uint32_t n) {
         const auto p = populate({"sa1"}, n, {"sa1.f_B=10%"});
-        Summary summary;
+        RunSummary summary;
         answer(p.copies, {&summary});
         const auto document = summary.document(p.base, {}, {}, 0, {});
         EXPECT_EQ(document["afferents"].size(), 1U);

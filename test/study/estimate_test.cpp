@@ -44,18 +44,18 @@ TEST(Estimate, AYieldHasTheIntervalOfClopperAndPearson) {
                 {874, 1000, 0.8518262835291261, 0.893943167737706},
                 {999000, 1000000, 0.9989360818926863, 0.9990609987920546}};
     for (const auto& r : rows) {
-        const auto share = share_of(r.some, r.all);
+        const auto share = estimate_proportion(r.some, r.all);
         EXPECT_DOUBLE_EQ(share.value, static_cast<double>(r.some) / static_cast<double>(r.all));
         EXPECT_NEAR(share.low, r.low, 1e-12);
         EXPECT_NEAR(share.high, r.high, 1e-12);
     }
-    EXPECT_TRUE(std::isnan(share_of(0, 0).value));
+    EXPECT_TRUE(std::isnan(estimate_proportion(0, 0).value));
 }
 
 const std::vector<double> ten = {3.1, 2.4, 5.6, 4.4, 9.9, std::nan(""), 3.3, 2.8, 4.1, 6.5, 3.9};
 
 TEST(Estimate, ASampleOfTenHasTheMeanDeviationAndQuantilesOfScipyAndNumpy) {
-    const Sorted sample(ten);
+    const SortedSample sample(ten);
     ASSERT_EQ(sample.count(), 10U);
     EXPECT_NEAR(sample.mean().value, 4.6, 1e-12);
     EXPECT_NEAR(sample.mean().low, 2.9915512862913634, 1e-9);  // stats.t.interval(.95, 9, mean, stats.sem(x))
@@ -79,7 +79,7 @@ TEST(Estimate, AQuantileLiesBetweenTheOrderStatisticsThatTheBinomialDistribution
     for (const auto& r : rows) {
         std::vector<double> values;
         for (int k = r.n; k >= 1; --k) values.push_back(k);
-        const auto found = Sorted(values).quantile(r.q);
+        const auto found = SortedSample(values).quantile(r.q);
         if (r.low == 0) {
             EXPECT_TRUE(std::isnan(found.low) && std::isnan(found.high)) << r.n;
         } else {
@@ -90,7 +90,7 @@ TEST(Estimate, AQuantileLiesBetweenTheOrderStatisticsThatTheBinomialDistribution
 }
 
 TEST(Estimate, NoSampleAndOneNumberSayWhatTheyCan) {
-    const Sorted none(std::vector<double>{}), one({3}), same({2, 2, 2, 2, 2, 2});
+    const SortedSample none(std::vector<double>{}), one({3}), same({2, 2, 2, 2, 2, 2});
     EXPECT_TRUE(std::isnan(none.mean().value) && std::isnan(none.sigma().value) && std::isnan(none.quantile(0.5).value));
     EXPECT_EQ(one.mean().value, 3);
     EXPECT_TRUE(std::isnan(one.mean().low) && std::isnan(one.sigma().value));
@@ -106,7 +106,7 @@ double held(int n, double truth, Draw&& draw) {
     for (std::uint32_t sample = 0; sample < 2000; ++sample) {
         std::vector<double> values;
         for (std::uint32_t k = 0; k < static_cast<std::uint32_t>(n); ++k) values.push_back(draw(normal_pair(11, sample, 1, k)));
-        const auto sigma = Sorted(std::move(values)).sigma();
+        const auto sigma = SortedSample(std::move(values)).sigma();
         inside += sigma.low <= truth && truth <= sigma.high;
     }
     return inside / 2000.0;
@@ -128,7 +128,7 @@ TEST(Estimate, ANormalPlotTellsNormalSamplesFromOthers) {
                 const auto drawn = normal_pair(12, sample, 1, k);
                 x.push_back(drawn.first), y.push_back(drawn.first * drawn.first + drawn.second * drawn.second);
             }
-            const Sorted a(std::move(x)), b(std::move(y));
+            const SortedSample a(std::move(x)), b(std::move(y));
             normal += a.normality() >= a.normality_floor(), others += b.normality() >= b.normality_floor();
         }
         EXPECT_GE(normal, 51) << n;  // 57 of 60 are awaited; fewer than 51, once in 200 times

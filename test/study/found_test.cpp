@@ -2,26 +2,26 @@
 
 #include <cmath>
 
-#include "study/deck.hpp"
+#include "study/study_netlist.hpp"
 #include "support/support.hpp"
 
 namespace corpuscle {
 namespace {
 
 TEST(Found, ADevicesReadingsAreTheSlopesOfTheCircuitAboutIt) {
-    const auto found = test::sure(found_in({"one\n.lib '../process/tsmc180.lib' tt\nvd d 0 0.5\nvg g 0 0.4\nm1 d g 0 0 nch w=1.5u l=0.5u\n",
+    const auto found = test::sure(run_study_netlist({"one\n.lib '../process/tsmc180.lib' tt\nvd d 0 0.5\nvg g 0 0.4\nm1 d g 0 0 nch w=1.5u l=0.5u\n",
                                             {},
                                             ".op\n.tf i(vd) vg\n.tf i(vd) vd"}));
-    EXPECT_NEAR(found.reading("m1", "i_d") / -found.at_rest("i(vd)"), 1, 1e-6);
-    EXPECT_NEAR(found.reading("m1", "g_mg") / -found.by("i(vd)", "vg"), 1, 1e-6);
-    EXPECT_NEAR(found.reading("m1", "g_md") / -found.by("i(vd)", "vd"), 1, 1e-6);
+    EXPECT_NEAR(found.operating_info("m1", "i_d") / -found.operating_point("i(vd)"), 1, 1e-6);
+    EXPECT_NEAR(found.operating_info("m1", "g_mg") / -found.derivative("i(vd)", "vg"), 1, 1e-6);
+    EXPECT_NEAR(found.operating_info("m1", "g_md") / -found.derivative("i(vd)", "vd"), 1, 1e-6);
 }
 
 TEST(Found, WhatWasNotAskedIsNaN) {
-    const auto found = test::sure(found_in({"one\nv1 a 0 1\nr1 a 0 1k\n", {}, ".op\n.tf i(v1) v1"}));
-    EXPECT_TRUE(std::isnan(found.by("v(a)", "v1")));
-    EXPECT_TRUE(std::isnan(found.reading("m1", "i_d")));
-    EXPECT_TRUE(std::isnan(found.reading("r1", "i_f")));
+    const auto found = test::sure(run_study_netlist({"one\nv1 a 0 1\nr1 a 0 1k\n", {}, ".op\n.tf i(v1) v1"}));
+    EXPECT_TRUE(std::isnan(found.derivative("v(a)", "v1")));
+    EXPECT_TRUE(std::isnan(found.operating_info("m1", "i_d")));
+    EXPECT_TRUE(std::isnan(found.operating_info("r1", "i_f")));
 }
 
 }  // namespace

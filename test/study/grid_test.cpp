@@ -34,11 +34,11 @@ list = ["20Hz", "40Hz", "80Hz"]
 /// z = 10 x + y over x in 0 ... 3, y in 0 ... 2; the last unit has none.
 SweepTable made_grid() {
     SweepTable out;
-    out.units = 12, out.is_grid = true;
+    out.item_count = 12, out.is_grid = true;
     out.axes = {{"x", "V"}, {"kind", "", "", {"a", "b", "c"}}}, out.measures = {{"z", ""}};
     out.axis_values.resize(2), out.measure_values.resize(1);
     for (int unit = 0; unit < 12; ++unit) {
-        out.unit.push_back(unit), out.end.push_back(unit == 11 ? UnitEnd::lost : UnitEnd::done);
+        out.items.push_back(unit), out.ends.push_back(unit == 11 ? ItemEnd::diverged : ItemEnd::done);
         out.axis_values[0].push_back(unit / 3), out.axis_values[1].push_back(unit % 3);
         out.measure_values[0].push_back(unit == 11 ? std::nan("") : 10.0 * (unit / 3) + unit % 3);
     }
@@ -48,25 +48,25 @@ SweepTable made_grid() {
 
 TEST(PlainGrid, EffectsAreTheMeansAtEachValueAndTheirShareOfTheVariance) {
     auto table = made_grid();
-    table.measure_values[0][11] = 32, table.end[11] = UnitEnd::done;
-    const auto effects = effects_of(table, table.measure_values[0]);
+    table.measure_values[0][11] = 32, table.ends[11] = ItemEnd::done;
+    const auto effects = axis_effects(table, table.measure_values[0]);
     ASSERT_EQ(effects.size(), 2U);
     EXPECT_EQ(effects[0].axis, 0U);
     EXPECT_EQ(effects[0].means, (std::vector<double>{1, 11, 21, 31}));
     EXPECT_EQ(effects[1].means, (std::vector<double>{15, 16, 17}));
-    EXPECT_NEAR(effects[0].share, 125 / (125 + 2.0 / 3), 1e-12) << "variances of 10 x and of y";
-    EXPECT_NEAR(effects[0].share + effects[1].share, 1, 1e-12);
+    EXPECT_NEAR(effects[0].fraction, 125 / (125 + 2.0 / 3), 1e-12) << "variances of 10 x and of y";
+    EXPECT_NEAR(effects[0].fraction + effects[1].fraction, 1, 1e-12);
     EXPECT_EQ(means_over(table, table.measure_values[0], 1, 0)[2], (std::vector<double>{2, 12, 22, 32}));
     EXPECT_EQ(point_label(table, 11), "x = 3 V, kind = c");
 }
 
 TEST(PlainGrid, WithoutAUnitIsToldFromThoseThatAreThere) {
     const auto table = made_grid();
-    const auto effects = effects_of(table, table.measure_values[0]);
+    const auto effects = axis_effects(table, table.measure_values[0]);
     ASSERT_EQ(effects.size(), 2U);
     EXPECT_EQ(effects[0].means.back(), 30.5);
     EXPECT_TRUE(std::isnan(means_over(table, table.measure_values[0], 0, 1)[3][2]));
-    EXPECT_TRUE(effects_of(table, std::vector<double>(12, 5)).empty());
+    EXPECT_TRUE(axis_effects(table, std::vector<double>(12, 5)).empty());
 }
 
 TEST(PlainGrid, TellsEveryAxisAndNoChance) {
@@ -92,13 +92,13 @@ TEST(PlainGrid, IsNoneWhereAnythingIsDrawn) {
     const Folder folder;
     folder.write("drawn.toml", std::string(grid_file) + "[[vary]]\nwhat = \"sa1.f_C\"\nhow = \"uniform\"\nfrom = \"5Hz\"\nto = \"10Hz\"\n");
     ASSERT_EQ(run(folder, "sweep drawn.toml --units 2 --out r.sqlite --quiet").status, 0);
-    EXPECT_FALSE(draws_nothing(sure(SweepResults::look(folder / "r.sqlite"))));
+    EXPECT_FALSE(is_deterministic(sure(SweepResults::open_read_only(folder / "r.sqlite"))));
     folder.write("plain.toml", grid_file);
     ASSERT_EQ(run(folder, "sweep plain.toml --seed 3 --out p.sqlite --quiet").status, 0);
-    EXPECT_TRUE(draws_nothing(sure(SweepResults::look(folder / "p.sqlite"))));
+    EXPECT_TRUE(is_deterministic(sure(SweepResults::open_read_only(folder / "p.sqlite"))));
     folder.write("step.cir", "t\nv1 a 0 1\nr1 a 0 {r}\n.param r=1k\n.step param r list 1k 2k 3k\n.op\n.meas op i find i(v1)\n");
     ASSERT_EQ(run(folder, "sweep step.cir --out s.sqlite --quiet").status, 0);
-    EXPECT_TRUE(draws_nothing(sure(SweepResults::look(folder / "s.sqlite"))));
+    EXPECT_TRUE(is_deterministic(sure(SweepResults::open_read_only(folder / "s.sqlite"))));
 }
 
 }  // namespace

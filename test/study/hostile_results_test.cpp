@@ -27,9 +27,9 @@ std::string changed_results(const Folder& folder, const std::string& statements)
     const PlainSweep sweep(100);
     {
         auto results = sure(SweepResults::open(path, sweep));
-        std::vector<UnitOutcome> all;
+        std::vector<ItemOutcome> all;
         for (std::int64_t unit = 0; unit < 100; ++unit) all.push_back(sweep.outcome(unit));
-        EXPECT_TRUE(results.add(sweep, std::move(all)) && results.fold());
+        EXPECT_TRUE(results.add(sweep, std::move(all)) && results.checkpoint());
     }
     sqlite3* file = nullptr;
     EXPECT_EQ(sqlite3_open(path.c_str(), &file), SQLITE_OK);
@@ -39,7 +39,7 @@ std::string changed_results(const Folder& folder, const std::string& statements)
 }
 
 std::string refusal_of(const std::string& path) {
-    const auto results = SweepResults::look(path);
+    const auto results = SweepResults::open_read_only(path);
     return results ? "" : results.error().text();
 }
 
@@ -71,13 +71,13 @@ std::string written(const Folder& folder, const std::string& statements) {
 
 TEST(SweepResults, OfTheFirstFormatAreReadAndOfALaterOneRefused) {
     const Folder folder;
-    const auto results = sure(SweepResults::look(written(folder, std::string(first_format) + "PRAGMA user_version = 1;")));
-    EXPECT_EQ(results.finished(), 2);
+    const auto results = sure(SweepResults::open_read_only(written(folder, std::string(first_format) + "PRAGMA user_version = 1;")));
+    EXPECT_EQ(results.finished_count(), 2);
     std::string text;
     ASSERT_TRUE(dump_results(results, [&](const std::string& more) { return text += more, true; }));
     EXPECT_EQ(text, "unit,ended,steps,iterations,alone,why,temp,v(q),spikes of out\n0,done,1,2,0,,27,0.35,1\n1,lost,1,2,0,no rest,85,,\n");
     const Folder later;
-    const auto refused = SweepResults::look(written(later, std::string(first_format) + "PRAGMA user_version = 2;"));
+    const auto refused = SweepResults::open_read_only(written(later, std::string(first_format) + "PRAGMA user_version = 2;"));
     ASSERT_FALSE(refused);
     EXPECT_NE(refused.error().text().find("was written by a later corpuscle (its format is 2, this one reads up to 1): use the later version"),
               std::string::npos)
@@ -120,12 +120,12 @@ TEST(HostileResults, RunNothingThatTheirSchemaHolds) {
                                       "CREATE TRIGGER t AFTER INSERT ON units BEGIN UPDATE units SET ended = 'lost'; END");
     const PlainSweep sweep(100);
     auto results = sure(SweepResults::open(path, sweep));
-    std::vector<UnitOutcome> one;
+    std::vector<ItemOutcome> one;
     one.push_back(sweep.outcome(60));
     ASSERT_TRUE(results.add(sweep, std::move(one)));
     std::int64_t lost = 0, should = 0;
-    ASSERT_TRUE(results.each([&](const SweepResults::Row& row) {
-        lost += row.end == UnitEnd::lost, should += sweep.outcome(row.unit).end == UnitEnd::lost;
+    ASSERT_TRUE(results.for_each_row([&](const SweepResults::Row& row) {
+        lost += row.end == ItemEnd::diverged, should += sweep.outcome(row.item).end == ItemEnd::diverged;
         return true;
     }));
     EXPECT_EQ(lost, should);
@@ -158,13 +158,13 @@ TEST(HostileResults, InAnotherOrderOfColumnsAreMergedColumnByColumn) {
                                       "unit < 50; ALTER TABLE units ADD COLUMN extra; ALTER TABLE units RENAME COLUMN why TO w;"
                                       "ALTER TABLE units ADD COLUMN why TEXT NOT NULL DEFAULT ''; UPDATE units SET why = w");
     auto into = sure(SweepResults::open(folder / "all.sqlite", sweep));
-    const auto taken = into.take(sure(SweepResults::look(path)));
+    const auto taken = into.merge(sure(SweepResults::open_read_only(path)));
     ASSERT_TRUE(taken) << taken.error().text();
     EXPECT_EQ(*taken, 50);
-    ASSERT_TRUE(into.each([&](const SweepResults::Row& row) {
-        const auto o = sweep.outcome(row.unit);
+    ASSERT_TRUE(into.for_each_row([&](const SweepResults::Row& row) {
+        const auto o = sweep.outcome(row.item);
         EXPECT_EQ(row.steps, o.steps);
-        EXPECT_EQ(row.why, o.why);
+        EXPECT_EQ(row.reason, o.reason);
         return true;
     }));
 }

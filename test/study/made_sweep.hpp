@@ -5,21 +5,21 @@
 #include <cmath>
 
 #include "signal/random.hpp"
-#include "study/sweep/drawn.hpp"
-#include "study/sweep/results.hpp"
+#include "study/sweep/mismatch_samples.hpp"
+#include "study/sweep/sweep_results.hpp"
 #include "support/support.hpp"
 
 namespace corpuscle::test {
 
 class MadeSweep final : public Sweep {
     std::int64_t chips_;
-    Drawn drawn_;
+    MismatchSamples drawn_;
     std::vector<SweepColumn> axes_{{"temp", "C", "temperature"}, {"corner", "", "", {"tt", "ss"}}, {"process.vt_n", "", "drawn"}};
     std::vector<SweepColumn> measures_{
         {"line", "V", "a straight line of what is drawn", {}, -0.5, 0.5}, {"noise", "s", ""}, {"count", "", "", {}, 3.0, {}}};
     std::vector<std::string> trains_{"out"}, traces_{"vf"};
     std::vector<double> times_;
-    std::vector<Fact> facts_;
+    std::vector<MetadataText> facts_;
 
 public:
     static constexpr double temps[] = {0, 27, 85};
@@ -33,37 +33,37 @@ public:
         for (std::uint32_t d = 0; d < devices; ++d)
             drawn_.subjects[0].devices.push_back({"x1.m" + std::to_string(d), d, d % 2 == 1, 2e-6, 0.5e-6, 4, 2, 5e-3, 0.02});
         for (int k = 0; k < 50; ++k) times_.push_back(0.02 * k);
-        facts_ = {{"title", "A made-up sweep"}, {"sweep", "[vary]\n"}, {drawn_fact, describe_frame_error(drawn_)}};
+        facts_ = {{"title", "A made-up sweep"}, {"sweep", "[vary]\n"}, {mismatch_metadata_name, describe_frame_error(drawn_)}};
     }
-    const Drawn& drawn() const { return drawn_; }
-    std::int64_t units() const override { return 3 * chips_; }
+    const MismatchSamples& drawn() const { return drawn_; }
+    std::int64_t item_count() const override { return 3 * chips_; }
     const std::vector<SweepColumn>& axes() const override { return axes_; }
     const std::vector<SweepColumn>& measures() const override { return measures_; }
-    const std::vector<std::string>& trains() const override { return trains_; }
-    const std::vector<std::string>& traces() const override { return traces_; }
-    const std::vector<double>& trace_times() const override { return times_; }
-    const std::vector<Fact>& facts() const override { return facts_; }
+    const std::vector<std::string>& train_names() const override { return trains_; }
+    const std::vector<std::string>& probe_names() const override { return traces_; }
+    const std::vector<double>& probe_times() const override { return times_; }
+    const std::vector<MetadataText>& metadata() const override { return facts_; }
     std::vector<double> values(std::int64_t unit) const override {
         return {temps[unit / chips_], 0, normal(99, static_cast<std::uint32_t>(unit % chips_), 1, 0)};
     }
-    Result<void> work(const Next&, const Told&, const std::function<bool()>&) const override { return {}; }
+    Result<void> run_items(const NextItem&, const OutcomeHandler&, const std::function<bool()>&) const override { return {}; }
 
-    UnitOutcome outcome(std::int64_t unit) const {
+    ItemOutcome outcome(std::int64_t unit) const {
         const auto chip = drawn_.chip(unit);
         const auto own = [&](std::size_t d) { return deviates_of(drawn_.subjects[0].devices[d], drawn_.seed, {chip}); };
         const double at = values(unit)[0], noise = normal(7, static_cast<std::uint32_t>(unit), 2, 0);
         const double line = of_m7 * own(7).V_T[0] + of_m20 * own(20).I_S[0] + of_m3 * own(3).V_T[0] + of_process * values(unit)[2] +
                             of_noise * noise + (at == 85 ? at_85 : 0);
-        UnitOutcome out;
-        out.unit = unit, out.steps = 100 + unit % 7, out.iterations = 300 + unit % 11;
+        ItemOutcome out;
+        out.item = unit, out.steps = 100 + unit % 7, out.iterations = 300 + unit % 11;
         out.measures = {line, std::exp(normal(8, static_cast<std::uint32_t>(unit), 3, 0)), 4 + static_cast<double>(unit % 3)};
-        if (unit % 50 == 9) out.end = UnitEnd::capped, out.why = "more than 1000 iterations by 0.4 s", out.measures[2] = std::nan("");
+        if (unit % 50 == 9) out.end = ItemEnd::iteration_limit, out.reason = "more than 1000 iterations by 0.4 s", out.measures[2] = std::nan("");
         if (unit % 500 == 11)
-            out.end = UnitEnd::lost, out.why = "did not converge at 0.3 s", out.measures = {std::nan(""), std::nan(""), std::nan("")};
+            out.end = ItemEnd::diverged, out.reason = "did not converge at 0.3 s", out.measures = {std::nan(""), std::nan(""), std::nan("")};
         out.spikes.emplace_back();
         for (int k = 0; k < 5 + unit % 3; ++k) out.spikes[0].push_back(0.1 * k + 0.02 + 0.004 * line);
-        out.traces.emplace_back();
-        for (const double t : times_) out.traces[0].push_back(static_cast<float>(std::sin(6 * t) + 0.1 * line));
+        out.probes.emplace_back();
+        for (const double t : times_) out.probes[0].push_back(static_cast<float>(std::sin(6 * t) + 0.1 * line));
         return out;
     }
 };
@@ -71,9 +71,9 @@ public:
 /// All of its units in a file.
 inline SweepResults made_results(const std::string& path, const MadeSweep& sweep) {
     auto results = sure(SweepResults::open(path, sweep));
-    std::vector<UnitOutcome> all;
-    for (std::int64_t unit = 0; unit < sweep.units(); ++unit) all.push_back(sweep.outcome(unit));
-    EXPECT_TRUE(results.add(sweep, std::move(all)) && results.fold());
+    std::vector<ItemOutcome> all;
+    for (std::int64_t unit = 0; unit < sweep.item_count(); ++unit) all.push_back(sweep.outcome(unit));
+    EXPECT_TRUE(results.add(sweep, std::move(all)) && results.checkpoint());
     return results;
 }
 

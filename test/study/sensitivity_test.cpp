@@ -57,7 +57,7 @@ TEST(Sensitivity, SharesAreTheSquaresOfTheSlopesAndTheirIntervalsHoldThem) {
         EXPECT_NEAR(s.influences[0].slope, 0.6, 0.06);
         EXPECT_NEAR(s.influences[1].slope, -0.3, 0.06);
         EXPECT_NEAR(s.explained, 1 - 0.25 / variance, 0.05);
-        const auto& first = s.influences[0].share;
+        const auto& first = s.influences[0].fraction;
         inside += first.low <= 0.36 / variance && 0.36 / variance <= first.high;
     }
     EXPECT_GE(all_found, 13);
@@ -72,18 +72,18 @@ TEST(Sensitivity, AFactorThatIsMadeOfOthersOrNeverChangesDoesNoHarm) {
     for (std::size_t k = 0; k < 200; ++k) measure[k] = factors[0][k];
     measure[5] = std::nan("");
     const auto s = sensitivity_of(measure, factors);
-    EXPECT_EQ(s.units, 199U);
+    EXPECT_EQ(s.items, 199U);
     ASSERT_EQ(s.influences.size(), 1U);
-    EXPECT_NEAR(s.influences[0].share.value, 1, 1e-9);
+    EXPECT_NEAR(s.influences[0].fraction.value, 1, 1e-9);
     EXPECT_NEAR(s.explained, 1, 1e-9);
     EXPECT_TRUE(sensitivity_of(std::vector<double>(200, 3.0), factors).influences.empty());
     EXPECT_TRUE(sensitivity_of(std::vector<double>{1, 2}, std::vector<SweepFactor>{{1, 2}}).influences.empty());
 }
 
 TEST(Sensitivity, FourTimesTheAreaHalvesWhatADeviceBrings) {
-    EXPECT_DOUBLE_EQ(sigma_with_four_times_the_area(1), 0.5);
-    EXPECT_DOUBLE_EQ(sigma_with_four_times_the_area(0), 1);
-    EXPECT_DOUBLE_EQ(sigma_with_four_times_the_area(0.64), std::sqrt(0.36 + 0.16));
+    EXPECT_DOUBLE_EQ(relative_sigma_at_four_times_area(1), 0.5);
+    EXPECT_DOUBLE_EQ(relative_sigma_at_four_times_area(0), 1);
+    EXPECT_DOUBLE_EQ(relative_sigma_at_four_times_area(0.64), std::sqrt(0.36 + 0.16));
 }
 
 TEST(Drawn, DevicesAreToldInTheOrderInWhichTheyDrawAndTheirDeviatesAreThoseOfTheChip) {
@@ -92,8 +92,8 @@ TEST(Drawn, DevicesAreToldInTheOrderInWhichTheyDrawAndTheirDeviatesAreThoseOfThe
         ".subckt s a\nm2 a a 0 0 pch w=1u l=1u\n.ends\nx1 d s\nr1 d 0 1k\nm3 d d 0 0 nch\n.end\n",
         "t.cir", [](const std::string&) -> Result<std::string> { return bad_input("none"); }));
     const auto circuit = sure(netlist.elaborate());
-    Drawn drawn{9, 0, {{"t", drawn_devices(circuit)}}};
-    drawn = sure(drawn_of(describe_frame_error(drawn)));
+    MismatchSamples drawn{9, 0, {{"t", mismatch_devices(circuit)}}};
+    drawn = sure(parse_mismatch_samples(describe_frame_error(drawn)));
     const auto& devices = drawn.subjects[0].devices;
     ASSERT_EQ(devices.size(), 3U);
     EXPECT_EQ(devices[0].name, "m1");
@@ -107,8 +107,8 @@ TEST(Drawn, DevicesAreToldInTheOrderInWhichTheyDrawAndTheirDeviatesAreThoseOfThe
     const auto shift = circuit::sample_mismatch(card, size, 9, 0, 41);
     EXPECT_NEAR(own.V_T[1] * devices[0].sigma_VT, shift.V_T, 1e-12);
     EXPECT_NEAR(own.I_S[1] * devices[0].sigma_IS, std::log(shift.factor), 1e-12);
-    EXPECT_FALSE(drawn_of("{\"seed\":1"));
-    EXPECT_FALSE(drawn_of("{\"seed\":1,\"chips\":0,\"subjects\":[{\"name\":\"a\",\"devices\":[[1]]}]}"));
+    EXPECT_FALSE(parse_mismatch_samples("{\"seed\":1"));
+    EXPECT_FALSE(parse_mismatch_samples("{\"seed\":1,\"chips\":0,\"subjects\":[{\"name\":\"a\",\"devices\":[[1]]}]}"));
 }
 
 class Summed : public testing::Test {
@@ -122,7 +122,7 @@ protected:
         sweep = std::make_unique<MadeSweep>(1000);
         const auto results = test::made_results(folder / "made.sqlite", *sweep);
         table = sure(read_table(results, {}));
-        summary = sure(summary_of(table, sure(drawn_of(results.about(drawn_fact))), {}));
+        summary = sure(summary_of(table, sure(parse_mismatch_samples(results.about(mismatch_metadata_name))), {}));
     }
     static void TearDownTestSuite() { sweep.reset(), table = {}, summary = {}; }
 };
@@ -130,22 +130,22 @@ protected:
 TEST_F(Summed, PointsAreTheTemperaturesAndEndsAndYieldsAreCounted) {
     ASSERT_EQ(summary.points.size(), 3U);  // the corner has one value, the process 1000
     EXPECT_EQ(summary.points[2].label, "temp = 85 C");
-    EXPECT_EQ(summary.all.units, 3000);
-    EXPECT_EQ(summary.all.capped, 60);
-    EXPECT_EQ(summary.all.lost, 6);
+    EXPECT_EQ(summary.all.items, 3000);
+    EXPECT_EQ(summary.all.iteration_limit, 60);
+    EXPECT_EQ(summary.all.diverged, 6);
     std::int64_t passed = 0, line = 0, count = 0;
-    for (std::int64_t unit = 0; unit < sweep->units(); ++unit) {
+    for (std::int64_t unit = 0; unit < sweep->item_count(); ++unit) {
         const auto o = sweep->outcome(unit);
-        const bool done = o.end == UnitEnd::done, in_line = done && std::abs(o.measures[0]) <= 0.5, counts = done && o.measures[2] >= 3;
+        const bool done = o.end == ItemEnd::done, in_line = done && std::abs(o.measures[0]) <= 0.5, counts = done && o.measures[2] >= 3;
         passed += in_line && counts, line += in_line, count += counts;
     }
     EXPECT_EQ(summary.all.passed, passed);
     EXPECT_EQ(summary.all.measures[0].yield->value, static_cast<double>(line) / 3000);
     EXPECT_EQ(summary.all.measures[2].yield->value, static_cast<double>(count) / 3000);
     EXPECT_FALSE(summary.all.measures[1].yield);
-    EXPECT_EQ(summary.all.measures[0].without, 6);
+    EXPECT_EQ(summary.all.measures[0].missing, 6);
     EXPECT_EQ(table.measures.back().name, "iterations");
-    EXPECT_EQ(summary.all.measures.back().least, 300);
+    EXPECT_EQ(summary.all.measures.back().min, 300);
 }
 
 TEST_F(Summed, DevicesOfKnownWeightAreFoundAndRankedAndNoOthers) {
@@ -158,15 +158,15 @@ TEST_F(Summed, DevicesOfKnownWeightAreFoundAndRankedAndNoOthers) {
     EXPECT_EQ(line.devices[1].V_T, 0);
     // The noise is of a unit, the rest of a chip: over three temperatures a third of its variance is left.
     const double variance = 0.09 + 0.04 + 0.01 + 0.01 + 0.0225 / 3;
-    EXPECT_NEAR(line.devices[0].share(), 0.09 / variance, 0.05);
-    EXPECT_NEAR(line.devices[1].share(), 0.04 / variance, 0.04);
-    EXPECT_NEAR(line.devices[2].share(), 0.01 / variance, 0.02);
+    EXPECT_NEAR(line.devices[0].fraction(), 0.09 / variance, 0.05);
+    EXPECT_NEAR(line.devices[1].fraction(), 0.04 / variance, 0.04);
+    EXPECT_NEAR(line.devices[2].fraction(), 0.01 / variance, 0.02);
     ASSERT_EQ(line.influences.size(), 4U);
     EXPECT_EQ(std::count_if(line.influences.begin(), line.influences.end(), [](const auto& i) { return i.name == "process.vt_n"; }), 1);
-    EXPECT_NEAR(line.all.explained, 1 - 0.0075 / variance, 0.02);
+    EXPECT_NEAR(line.sensitivity.explained, 1 - 0.0075 / variance, 0.02);
     ASSERT_EQ(line.points.size(), 1U);
     const double between = 2.0 / 9;  // of 0, 0, 1 V
-    EXPECT_NEAR(line.points[0].second.share, between / (between + variance + 0.015), 0.03);
+    EXPECT_NEAR(line.points[0].second.fraction, between / (between + variance + 0.015), 0.03);
     EXPECT_TRUE(summary.dependences[1].influences.empty()) << "noise";
     EXPECT_TRUE(summary.dependences[3].influences.empty()) << "iterations";
     const auto& yield = summary.dependences.back();
@@ -189,10 +189,10 @@ TEST_F(Summed, TheDocumentSaysTheSameAsTheSummary) {
 }
 
 TEST_F(Summed, AnAxisOfManyValuesIsCutIntoBandsAndAWrongNameIsMended) {
-    const auto bands = sure(grouped(table, {"process.vt_n"}));
+    const auto bands = sure(group_rows(table, {"process.vt_n"}));
     ASSERT_EQ(bands.groups.size(), SweepGroups::bands);
     for (const auto& g : bands.groups) EXPECT_NEAR(static_cast<double>(g.rows.size()), 600, 10);
-    const auto wrong = grouped(table, {"tmep"});
+    const auto wrong = group_rows(table, {"tmep"});
     ASSERT_FALSE(wrong);
     EXPECT_EQ(wrong.error().message, "--by tmep: unknown axis; did you mean 'temp'?; known: temp, corner, process.vt_n");
 }

@@ -23,7 +23,7 @@ Result<SkinStats> press_fingertip(const Folder& folder, const std::string& out, 
     static const auto skin = sure(innervate(sure(load_skin_plan("fingertip"))));
     const auto source = sure(make_stimulus("press", test::wishes({"press.F_max=" + std::to_string(4 * scale)}), 1e3, 0));
     const auto contact = sure(make_contact("sphere", {}, skin->plan.sites, source->clock()));
-    const auto force = pressed_force(*source, *contact);
+    const auto force = make_pressed_force(*source, *contact);
     const auto at_work = sure(Skin::make(skin, {1e-3}, *instruction_set()));
     std::unique_ptr<SkinCheckpoint> spool;
     if (keeps) {
@@ -32,12 +32,12 @@ Result<SkinStats> press_fingertip(const Folder& folder, const std::string& out, 
         spool = std::move(*opened);
     }
     ThreadPool pool(1);
-    const auto answerer = alone_answerer(*at_work, pool);
+    const auto answerer = local_skin_simulator(*at_work, pool);
     SkinEventsFile file(sure(OutputFile::create(folder / out)), "aer");
-    SkinListener* const listeners[] = {&file};
+    SkinSink* const listeners[] = {&file};
     const SkinInput input{"press", "", source->clock(), {}, *skin};
     auto done = run_skin(*force, input, *answerer, listeners, {[&](double) { return blocks-- != 0; }, spool.get()});
-    if (done && file.commit() && spool) spool->done();
+    if (done && file.commit() && spool) spool->remove_files();
     return done;
 }
 
@@ -165,7 +165,7 @@ TEST(SkinRun, TwoRunsCannotShareACheckpoint) {
     const auto second = SkinCheckpoint::open(folder / "state", *two, {});
     ASSERT_FALSE(second);
     EXPECT_NE(second.error().message.find("another run is using this checkpoint"), std::string::npos) << second.error().message;
-    first->done();
+    first->remove_files();
     EXPECT_TRUE(SkinCheckpoint::open(folder / "state", *two, {}));
 }
 

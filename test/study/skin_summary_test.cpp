@@ -7,9 +7,9 @@
 
 #include "report/framed.hpp"
 #include "report/skin_page.hpp"
-#include "study/skin_bins_file.hpp"
+#include "study/skin_psth_file.hpp"
 #include "study/skin_spikes_file.hpp"
-#include "study/skin_units_file.hpp"
+#include "study/skin_afferents_file.hpp"
 #include "support/property.hpp"
 #include "support/support.hpp"
 
@@ -43,7 +43,7 @@ const std::vector<Spike> late = {{21, 0.5, 3}};
 double force_at(std::size_t site, std::int64_t k) { return site == 0 && k >= 2 && k <= 11 ? 1 : site == 1 && k >= 5 && k <= 9 ? 2 : 0; }
 
 /// Tells it all in blocks; `listed`: says which sites are touched.
-void tell(const Innervation& skin, std::vector<SkinListener*> listeners, std::int64_t block = samples, bool listed = false) {
+void tell(const Innervation& skin, std::vector<SkinSink*> listeners, std::int64_t block = samples, bool listed = false) {
     const SkinInput input{"poke", "by hand", {1000, 1, 0}, {{"on", 0, 0.01}, {"off", 0.01, 0.02}}, skin};
     for (auto* l : listeners) ASSERT_TRUE(l->begin(input));
     for (std::int64_t first = 0; first < samples; first += block) {
@@ -64,9 +64,9 @@ void tell(const Innervation& skin, std::vector<SkinListener*> listeners, std::in
     for (auto* l : listeners) ASSERT_TRUE(l->end(input, samples, late));
 }
 
-const SkinRow& row_of(const SkinSummary& s, std::size_t of, std::size_t region, std::size_t phase) {
+const SkinSummaryRow& row_of(const SkinSummary& s, std::size_t of, std::size_t region, std::size_t phase) {
     return *std::find_if(s.rows().begin(), s.rows().end(),
-                         [&](const SkinRow& r) { return r.of == of && r.region == region && r.phase == phase; });
+                         [&](const SkinSummaryRow& r) { return r.class_index == of && r.region == region && r.phase == phase; });
 }
 
 SkinJson page_data(const std::string& page) {
@@ -119,26 +119,26 @@ TEST(SkinSummary, CountsClassesByRegionAndPhase) {
     const auto skin = small_skin();
     SkinSummary s;
     tell(skin, {&s});
-    const auto& sa1 = row_of(s, 0, SkinRow::all, SkinRow::all);
-    EXPECT_EQ(sa1.units, 3);
+    const auto& sa1 = row_of(s, 0, SkinSummaryRow::all, SkinSummaryRow::all);
+    EXPECT_EQ(sa1.afferents, 3);
     EXPECT_EQ(sa1.active, 2);
     EXPECT_EQ(sa1.touched, 2);
     EXPECT_EQ(sa1.spikes, 4);
-    EXPECT_DOUBLE_EQ(sa1.busiest, 100);
+    EXPECT_DOUBLE_EQ(sa1.max_rate, 100);
     EXPECT_DOUBLE_EQ(sa1.rate(), 100);
-    EXPECT_DOUBLE_EQ(sa1.first, 2.5e-3);
-    EXPECT_DOUBLE_EQ(sa1.median_first, 4.25e-3);
-    EXPECT_EQ(row_of(s, 0, SkinRow::all, 0).spikes, 2);
-    EXPECT_EQ(row_of(s, 0, SkinRow::all, 1).spikes, 2);
-    EXPECT_EQ(row_of(s, 0, 1, SkinRow::all).units, 1);
-    EXPECT_EQ(row_of(s, 0, 1, SkinRow::all).active, 0);
-    const auto& fa1 = row_of(s, 1, SkinRow::all, SkinRow::all);
+    EXPECT_DOUBLE_EQ(sa1.first_spike, 2.5e-3);
+    EXPECT_DOUBLE_EQ(sa1.median_first_spike, 4.25e-3);
+    EXPECT_EQ(row_of(s, 0, SkinSummaryRow::all, 0).spikes, 2);
+    EXPECT_EQ(row_of(s, 0, SkinSummaryRow::all, 1).spikes, 2);
+    EXPECT_EQ(row_of(s, 0, 1, SkinSummaryRow::all).afferents, 1);
+    EXPECT_EQ(row_of(s, 0, 1, SkinSummaryRow::all).active, 0);
+    const auto& fa1 = row_of(s, 1, SkinSummaryRow::all, SkinSummaryRow::all);
     EXPECT_EQ(fa1.spikes, 3) << "the one that was still on its way, too";
-    EXPECT_EQ(row_of(s, 1, SkinRow::all, 1).spikes, 1) << "which is in no phase";
+    EXPECT_EQ(row_of(s, 1, SkinSummaryRow::all, 1).spikes, 1) << "which is in no phase";
     EXPECT_EQ(s.rows().size(), 2 * 3 * 3);
-    EXPECT_DOUBLE_EQ(s.greatest(), 3);
-    EXPECT_DOUBLE_EQ(s.least(), 0);
-    EXPECT_DOUBLE_EQ(s.touched_from(), 2e-3);
+    EXPECT_DOUBLE_EQ(s.max_force(), 3);
+    EXPECT_DOUBLE_EQ(s.min_force(), 0);
+    EXPECT_DOUBLE_EQ(s.touch_start(), 2e-3);
 }
 
 TEST(SkinSummary, ARateWhileTouchedIsOfTheSiteThatAUnitFeelsMost) {
@@ -148,11 +148,11 @@ TEST(SkinSummary, ARateWhileTouchedIsOfTheSiteThatAUnitFeelsMost) {
     EXPECT_DOUBLE_EQ(s.touched_times()[0], 10e-3);
     EXPECT_DOUBLE_EQ(s.touched_times()[1], 5e-3) << "of its two sites the second";
     EXPECT_DOUBLE_EQ(s.touched_times()[2], 0) << "a site that is not listed is not looked at";
-    EXPECT_DOUBLE_EQ(row_of(s, 0, SkinRow::all, SkinRow::all).touched_rate, 3 / 15e-3);
-    EXPECT_DOUBLE_EQ(row_of(s, 0, SkinRow::all, 0).touched_rate, 2 / 13e-3);
-    EXPECT_DOUBLE_EQ(row_of(s, 0, SkinRow::all, 1).touched_rate, 1 / 2e-3);
-    EXPECT_DOUBLE_EQ(row_of(s, 1, SkinRow::all, SkinRow::all).touched_rate, 1 / 5e-3);
-    EXPECT_TRUE(std::isnan(row_of(s, 0, 1, SkinRow::all).touched_rate));
+    EXPECT_DOUBLE_EQ(row_of(s, 0, SkinSummaryRow::all, SkinSummaryRow::all).touched_rate, 3 / 15e-3);
+    EXPECT_DOUBLE_EQ(row_of(s, 0, SkinSummaryRow::all, 0).touched_rate, 2 / 13e-3);
+    EXPECT_DOUBLE_EQ(row_of(s, 0, SkinSummaryRow::all, 1).touched_rate, 1 / 2e-3);
+    EXPECT_DOUBLE_EQ(row_of(s, 1, SkinSummaryRow::all, SkinSummaryRow::all).touched_rate, 1 / 5e-3);
+    EXPECT_TRUE(std::isnan(row_of(s, 0, 1, SkinSummaryRow::all).touched_rate));
 }
 
 TEST(SkinSummary, FirstSpikesComeInOrderOfTimeThenUnit) {
@@ -161,9 +161,9 @@ TEST(SkinSummary, FirstSpikesComeInOrderOfTimeThenUnit) {
     tell(skin, {&s});
     const auto all = s.first_spikes(10);
     ASSERT_EQ(all.size(), 3U);
-    EXPECT_EQ(all[0].unit, 0U);
-    EXPECT_EQ(all[1].unit, 1U);
-    EXPECT_EQ(all[2].unit, 3U);
+    EXPECT_EQ(all[0].afferent_index, 0U);
+    EXPECT_EQ(all[1].afferent_index, 1U);
+    EXPECT_EQ(all[2].afferent_index, 3U);
     EXPECT_DOUBLE_EQ(all[1].time, 6e-3);
     EXPECT_EQ(s.first_spikes(2).size(), 2U);
     EXPECT_TRUE(std::isnan(s.first_times()[2]));
@@ -174,11 +174,11 @@ TEST(SkinSummary, FilesHoldWhatWasTold) {
     const Folder folder;
     SkinSummary s;
     SkinSpikesFile spikes(sure(OutputFile::create(folder / "spikes.csv")));
-    SkinUnitsFile units(sure(OutputFile::create(folder / "units.csv")), s);
-    SkinBinsFile bins(sure(OutputFile::create(folder / "psth.csv")), 10e-3);
+    SkinAfferentsFile units(sure(OutputFile::create(folder / "units.csv")), s);
+    SkinPsthFile bins(sure(OutputFile::create(folder / "psth.csv")), 10e-3);
     tell(skin, {&s, &spikes, &units, &bins}, 7);
-    for (SkinWrittenFile* file :
-         {static_cast<SkinWrittenFile*>(&spikes), static_cast<SkinWrittenFile*>(&units), static_cast<SkinWrittenFile*>(&bins)})
+    for (SkinFileSink* file :
+         {static_cast<SkinFileSink*>(&spikes), static_cast<SkinFileSink*>(&units), static_cast<SkinFileSink*>(&bins)})
         ASSERT_TRUE(file->commit());
     EXPECT_EQ(test::read_file(folder / "spikes.csv"),
               "afferent,channel,time_s\nsa1#1,tip,0.002500000\nsa1#2,tip,0.006000000\nfa1#1,tip,0.006000000\nsa1#1,tip,0.010250000\n"
@@ -199,7 +199,7 @@ TEST(SkinPage, CarriesForceMapsAndEverySpike) {
     SkinSummary s;
     SkinReport report;
     tell(skin, {&s, &report});
-    const auto data = page_data(skin_page(s, report, {.remarks = {"</script> left out"}}, "corpuscle respond poke"));
+    const auto data = page_data(skin_page(s, report, {.notes = {"</script> left out"}}, "corpuscle respond poke"));
     EXPECT_EQ(data["remarks"], (SkinJson{"</script> left out"}));
     const auto& over = data["over"];
     EXPECT_EQ(over["samples"], 20);

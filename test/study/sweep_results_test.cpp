@@ -1,6 +1,6 @@
 // A sweep's file of results: rows come back as they went in, whoever wrote them, and nothing is lost.
 
-#include "study/sweep/results.hpp"
+#include "study/sweep/sweep_results.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -31,14 +31,14 @@ std::string all_of(const SweepResults& results) {
     return ok ? out : throw std::runtime_error(ok.error().text());
 }
 
-std::string all_of(const std::string& path) { return all_of(sure(SweepResults::look(path))); }
+std::string all_of(const std::string& path) { return all_of(sure(SweepResults::open_read_only(path))); }
 
-void run_sweep_of(const Sweep& sweep, const std::string& path, const SweepRun& how) {
+void run_sweep_of(const Sweep& sweep, const std::string& path, const SweepRunOptions& how) {
     auto results = sure(SweepResults::open(path, sweep));
-    SweepCount count;
+    SweepProgress count;
     const auto ok = run_sweep(sweep, results, how, count);
     if (!ok) throw std::runtime_error(ok.error().text());
-    if (const auto folded = results.fold(); !folded) throw std::runtime_error(folded.error().text());
+    if (const auto folded = results.checkpoint(); !folded) throw std::runtime_error(folded.error().text());
 }
 
 TEST(SweepResults, GiveBackWhatWasPutInAndAreOneFileInTheEnd) {
@@ -46,33 +46,33 @@ TEST(SweepResults, GiveBackWhatWasPutInAndAreOneFileInTheEnd) {
     const PlainSweep sweep(1000);
     run_sweep_of(sweep, folder / "r.sqlite", {.threads = 3});
     EXPECT_EQ(folder.names(), std::vector<std::string>{"r.sqlite"});
-    const auto results = sure(SweepResults::look(folder / "r.sqlite"));
-    EXPECT_EQ(results.units(), 1000);
-    EXPECT_EQ(results.finished(), 1000);
+    const auto results = sure(SweepResults::open_read_only(folder / "r.sqlite"));
+    EXPECT_EQ(results.item_count(), 1000);
+    EXPECT_EQ(results.finished_count(), 1000);
     EXPECT_EQ(results.about("netlist circuits/sa1.cir"), "a\nb\nc\n");
-    EXPECT_EQ(results.axes()[1].words, (std::vector<std::string>{"even", "odd"}));
-    EXPECT_EQ(results.measures()[2].at_most, 0.75);
-    EXPECT_EQ(results.stored(), (std::vector<std::string>{"gain", "kind", "rate", "Rate_2", "why_2"}));
-    EXPECT_EQ(results.trace_times(), sweep.trace_times());
+    EXPECT_EQ(results.axes()[1].labels, (std::vector<std::string>{"even", "odd"}));
+    EXPECT_EQ(results.measures()[2].max, 0.75);
+    EXPECT_EQ(results.stored_column_names(), (std::vector<std::string>{"gain", "kind", "rate", "Rate_2", "why_2"}));
+    EXPECT_EQ(results.probe_times(), sweep.probe_times());
     std::int64_t unit = 0;
-    const auto ok = results.each([&](const SweepResults::Row& row) {
+    const auto ok = results.for_each_row([&](const SweepResults::Row& row) {
         const auto o = sweep.outcome(unit);
-        EXPECT_EQ(row.unit, unit);
+        EXPECT_EQ(row.item, unit);
         EXPECT_EQ(row.end, o.end);
-        EXPECT_EQ(row.why, o.why);
+        EXPECT_EQ(row.reason, o.reason);
         EXPECT_EQ(row.steps, o.steps);
-        EXPECT_EQ(row.alone, o.alone);
+        EXPECT_EQ(row.ran_alone, o.ran_alone);
         EXPECT_EQ(row.axes, sweep.values(unit));
         for (std::size_t k = 0; k < row.measures.size(); ++k)
             EXPECT_TRUE(o.measures.empty() || std::isnan(o.measures[k]) ? std::isnan(row.measures[k]) : row.measures[k] == o.measures[k]);
         for (std::size_t t = 0; t < 2; ++t)
             EXPECT_EQ(sure(results.spikes(unit, t)), o.spikes.empty() ? std::vector<double>{} : o.spikes[t]);
-        EXPECT_EQ(sure(results.trace(unit, 0)), o.traces.empty() ? std::vector<float>{} : o.traces[0]);
+        EXPECT_EQ(sure(results.probe_samples(unit, 0)), o.probes.empty() ? std::vector<float>{} : o.probes[0]);
         return ++unit < 400;
     });
     EXPECT_TRUE(ok);
     EXPECT_EQ(unit, 400) << "stopped where it was told to";
-    EXPECT_EQ(sure(results.ended(UnitEnd::lost)), 11);
+    EXPECT_EQ(sure(results.count_ended(ItemEnd::diverged)), 11);
 }
 
 namespace fs = std::filesystem;
@@ -105,17 +105,17 @@ void copy(const std::string& from, const std::string& to) {
 
 /// So many rows, of the first units, and each as it must be; of a sweep of one thread.
 std::int64_t prefix_of(const std::string& path, const std::string& whole) {
-    const auto results = sure(SweepResults::look(path));
+    const auto results = sure(SweepResults::open_read_only(path));
     const auto text = all_of(results);
     EXPECT_EQ(text, whole.substr(0, text.size()));
-    EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), results.finished() + 1);
-    return results.finished();
+    EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), results.finished_count() + 1);
+    return results.finished_count();
 }
 
 TEST(SweepResults, KilledAtAnyMomentKeepWhatHadEndedAndAreFinishedByTheSameCommand) {
     const Folder folder;
     const PlainSweep sweep(300, "x", pause);
-    const SweepRun how{.threads = 2, .between_writes = soon};
+    const SweepRunOptions how{.threads = 2, .write_interval = soon};
     const auto begun = std::chrono::steady_clock::now();
     run_sweep_of(sweep, folder / "whole.sqlite", how);
     const std::chrono::duration<double> length = std::chrono::steady_clock::now() - begun;
@@ -132,16 +132,16 @@ TEST(SweepResults, KilledAtAnyMomentKeepWhatHadEndedAndAreFinishedByTheSameComma
         if (!fs::exists(path)) continue;
         std::int64_t rows = 0;
         {
-            const auto results = sure(SweepResults::look(path));
-            rows = results.finished();
+            const auto results = sure(SweepResults::open_read_only(path));
+            rows = results.finished_count();
             std::int64_t before = -1;
-            const auto ok = results.each([&](const SweepResults::Row& row) {
-                EXPECT_GT(row.unit, before);
-                before = row.unit;
-                const auto o = sweep.outcome(row.unit);
+            const auto ok = results.for_each_row([&](const SweepResults::Row& row) {
+                EXPECT_GT(row.item, before);
+                before = row.item;
+                const auto o = sweep.outcome(row.item);
                 EXPECT_EQ(row.steps, o.steps);
                 EXPECT_EQ(row.end, o.end);
-                EXPECT_EQ(sure(results.spikes(row.unit, 0)), o.spikes.empty() ? std::vector<double>{} : o.spikes[0]);
+                EXPECT_EQ(sure(results.spikes(row.item, 0)), o.spikes.empty() ? std::vector<double>{} : o.spikes[0]);
                 return true;
             });
             EXPECT_TRUE(ok);
@@ -162,7 +162,7 @@ TEST(SweepResults, CopiesTakenAtAnyMomentAreWhole) {
     run_sweep_of(PlainSweep(800, "x"), folder / "whole.sqlite", {.threads = 1});
     const auto whole = all_of(folder / "whole.sqlite");
     const auto path = folder / "r.sqlite";
-    const auto id = child([&] { run_sweep_of(sweep, path, {.threads = 1, .between_writes = soon}); });
+    const auto id = child([&] { run_sweep_of(sweep, path, {.threads = 1, .write_interval = soon}); });
     while (!fs::exists(path)) std::this_thread::sleep_for(std::chrono::milliseconds(1));
     std::mt19937 random(2);
     std::vector<std::pair<std::string, bool>> copies;
@@ -184,20 +184,20 @@ TEST(SweepResults, AReplacedFileBesideTheRowsOfTheOldOneIsTheSame) {
     const PlainSweep sweep(300);
     const auto path = folder / "r.sqlite";
     auto results = sure(SweepResults::open(path, sweep));
-    SweepCount count;
+    SweepProgress count;
     ASSERT_TRUE(run_sweep(sweep, results, {.shard = {0, 2}}, count));
-    ASSERT_TRUE(results.fold());
+    ASSERT_TRUE(results.checkpoint());
     EXPECT_FALSE(fs::exists(path + "-wal"));
     const auto half = all_of(path);
     ASSERT_TRUE(run_sweep(sweep, results, {}, count));
-    EXPECT_EQ(count.to_do, 150);
+    EXPECT_EQ(count.planned, 150);
     copy(path, folder / "old.sqlite");
     copy(path + "-wal", folder / "new.sqlite-wal");
-    ASSERT_TRUE(results.fold());
+    ASSERT_TRUE(results.checkpoint());
     copy(path, folder / "new.sqlite");
     EXPECT_EQ(all_of(folder / "old.sqlite"), half) << "without its rows";
     EXPECT_EQ(all_of(folder / "new.sqlite"), all_of(path)) << "as if killed between the two steps";
-    EXPECT_EQ(sure(SweepResults::look(folder / "new.sqlite")).finished(), 300);
+    EXPECT_EQ(sure(SweepResults::open_read_only(folder / "new.sqlite")).finished_count(), 300);
 }
 
 TEST(SweepResults, ThatMayNotGrowKeepWhatWasWrittenAndSayWhatToDo) {
@@ -210,8 +210,8 @@ TEST(SweepResults, ThatMayNotGrowKeepWhatWasWrittenAndSayWhatToDo) {
         ::setrlimit(RLIMIT_FSIZE, &limit);
         auto results = sure(SweepResults::open(path, sweep));
         Result<void> ok;
-        for (std::int64_t unit = 0; ok && unit < sweep.units(); unit += 100) {
-            std::vector<UnitOutcome> some;
+        for (std::int64_t unit = 0; ok && unit < sweep.item_count(); unit += 100) {
+            std::vector<ItemOutcome> some;
             for (std::int64_t k = unit; k < unit + 100; ++k) some.push_back(sweep.outcome(k));
             ok = results.add(sweep, std::move(some));
         }
@@ -220,10 +220,10 @@ TEST(SweepResults, ThatMayNotGrowKeepWhatWasWrittenAndSayWhatToDo) {
             throw std::runtime_error(ok ? "all of it fitted" : ok.error().text());
         const rlimit less{40'000, 40'000};
         ::setrlimit(RLIMIT_FSIZE, &less);
-        if (results.fold()) throw std::runtime_error("a file larger than the limit was made");
+        if (results.checkpoint()) throw std::runtime_error("a file larger than the limit was made");
     });
     ASSERT_EQ(end_of(id), 0);
-    EXPECT_GT(sure(SweepResults::look(path)).finished(), 0);
+    EXPECT_GT(sure(SweepResults::open_read_only(path)).finished_count(), 0);
     EXPECT_FALSE(fs::exists(path + "-fold"));
     run_sweep_of(sweep, path, {});
     run_sweep_of(sweep, folder / "whole.sqlite", {.threads = 1});
@@ -237,7 +237,7 @@ TEST(SweepResults, InAFolderThatCannotBeWrittenAreReadAndNotBegun) {
     fs::permissions(folder.path(), fs::perms(0555));
     const auto id = child([&] {
         if (::geteuid() == 0 && ::seteuid(65534) != 0) throw std::runtime_error("root writes everywhere");
-        if (sure(SweepResults::look(folder / "r.sqlite")).finished() != 50) throw std::runtime_error("rows are missing");
+        if (sure(SweepResults::open_read_only(folder / "r.sqlite")).finished_count() != 50) throw std::runtime_error("rows are missing");
         for (const char* name : {"r.sqlite", "new.sqlite"}) {
             const auto results = SweepResults::open(folder / name, sweep);
             if (results || results.error().text().find("give a writable path with --out") == std::string::npos)
@@ -272,7 +272,7 @@ TEST(SweepResults, RefuseWhatIsNoSuchFile) {
     const Folder folder;
     EXPECT_NE(refusal(folder.write("text", std::string(5000, 'x')), PlainSweep(2)).find("is not an SQLite file"), std::string::npos);
     EXPECT_NE(refusal(folder.write("empty", ""), PlainSweep(2)).find("holds no results of a sweep"), std::string::npos);
-    EXPECT_NE(SweepResults::look(folder / "none").error().text().find("does not exist"), std::string::npos);
+    EXPECT_NE(SweepResults::open_read_only(folder / "none").error().text().find("does not exist"), std::string::npos);
     run_sweep_of(PlainSweep(2), folder / "r.sqlite", {});
     const int file = ::open((folder / "r.sqlite").c_str(), O_RDWR);
     ASSERT_EQ(::pwrite(file, "\0\0\0\7", 4, 60), 4) << "SQLite's user version";
@@ -289,8 +289,8 @@ TEST(SweepResults, AreWrittenByOneAtATimeAndReadMeanwhile) {
         ASSERT_TRUE(first.add(sweep, {sweep.outcome(3)}));
         EXPECT_NE(refusal(path, sweep).find(fmt::format("is being written by process {} on ", ::getpid())), std::string::npos);
         ASSERT_TRUE(first.add(sweep, {sweep.outcome(4), sweep.outcome(3)}));
-        EXPECT_EQ(sure(SweepResults::look(path)).finished(), 2) << "a row a unit";
-        EXPECT_EQ(first.finished(), 2);
+        EXPECT_EQ(sure(SweepResults::open_read_only(path)).finished_count(), 2) << "a row a unit";
+        EXPECT_EQ(first.finished_count(), 2);
     }
     EXPECT_EQ(refusal(path, sweep), "") << "the lock is gone with its owner";
     EXPECT_FALSE(fs::exists(path + "-writer"));
@@ -299,7 +299,7 @@ TEST(SweepResults, AreWrittenByOneAtATimeAndReadMeanwhile) {
 /// One unit that somebody has changed.
 struct Changed : PlainSweep {
     using PlainSweep::PlainSweep;
-    UnitOutcome outcome(std::int64_t unit) const override {
+    ItemOutcome outcome(std::int64_t unit) const override {
         auto o = PlainSweep::outcome(unit);
         if (unit == 7) o.spikes[0].back() += 1e-9;
         return o;
@@ -313,14 +313,14 @@ TEST(SweepResults, ShardsMergeIntoTheWholeAndNothingIsCountedTwice) {
     for (std::int64_t k = 0; k < 3; ++k) run_sweep_of(sweep, folder / fmt::format("{}", k), {.threads = 2, .shard = {k, 3}});
     auto all = sure(SweepResults::open(folder / "all.sqlite", sweep));
     for (const auto& [shard, rows] : {std::pair{"2", 333}, {"0", 334}, {"2", 0}, {"1", 334}})
-        EXPECT_EQ(sure(all.take(sure(SweepResults::look(folder / shard)))), rows);
+        EXPECT_EQ(sure(all.merge(sure(SweepResults::open_read_only(folder / shard)))), rows);
     EXPECT_EQ(all_of(all), all_of(folder / "whole.sqlite"));
     run_sweep_of(Changed(1001), folder / "changed", {.shard = {1, 3}});
-    const auto taken = all.take(sure(SweepResults::look(folder / "changed")));
+    const auto taken = all.merge(sure(SweepResults::open_read_only(folder / "changed")));
     ASSERT_FALSE(taken);
     EXPECT_NE(taken.error().text().find("changed: unit 7 has other results than"), std::string::npos) << taken.error().text();
     run_sweep_of(PlainSweep(1001, "other"), folder / "other", {});
-    EXPECT_NE(all.take(sure(SweepResults::look(folder / "other"))).error().text().find("belongs to another sweep than"), std::string::npos);
+    EXPECT_NE(all.merge(sure(SweepResults::open_read_only(folder / "other"))).error().text().find("belongs to another sweep than"), std::string::npos);
     EXPECT_EQ(all_of(all), all_of(folder / "whole.sqlite"));
 }
 
@@ -328,13 +328,13 @@ TEST(SweepResults, ThreadsThatAreStoppedLeaveWhatHadEnded) {
     const Folder folder;
     const PlainSweep sweep(100'000, "x", pause);
     auto results = sure(SweepResults::open(folder / "r.sqlite", sweep));
-    SweepCount count;
+    SweepProgress count;
     const auto ok =
-        run_sweep(sweep, results, {.threads = 2, .between_writes = 0.01, .stop = [&] { return results.finished() > 100; }}, count);
+        run_sweep(sweep, results, {.threads = 2, .write_interval = 0.01, .should_stop = [&] { return results.finished_count() > 100; }}, count);
     ASSERT_FALSE(ok);
     EXPECT_EQ(ok.error().code, ErrorCode::interrupted);
-    EXPECT_EQ(count.ended(), results.finished());
-    EXPECT_LT(results.finished(), 5000);
+    EXPECT_EQ(count.finished(), results.finished_count());
+    EXPECT_LT(results.finished_count(), 5000);
 }
 
 }  // namespace

@@ -19,37 +19,37 @@ class PlainSweep : public Sweep {
     std::vector<double> times_ = {0, 0.1, 0.2, 0.3};
 
 public:
-    std::vector<Fact> facts_;
+    std::vector<MetadataText> facts_;
 
     explicit PlainSweep(std::int64_t units, std::string netlist = "a\nb\nc\n", double seconds = 0)
         : units_(units), seconds_(seconds), facts_({{"title", "plain"}, {"netlist circuits/sa1.cir", std::move(netlist)}}) {}
 
-    std::int64_t units() const override { return units_; }
+    std::int64_t item_count() const override { return units_; }
     const std::vector<SweepColumn>& axes() const override { return axes_; }
     const std::vector<SweepColumn>& measures() const override { return measures_; }
-    const std::vector<std::string>& trains() const override { return trains_; }
-    const std::vector<std::string>& traces() const override { return traces_; }
-    const std::vector<double>& trace_times() const override { return times_; }
-    const std::vector<Fact>& facts() const override { return facts_; }
+    const std::vector<std::string>& train_names() const override { return trains_; }
+    const std::vector<std::string>& probe_names() const override { return traces_; }
+    const std::vector<double>& probe_times() const override { return times_; }
+    const std::vector<MetadataText>& metadata() const override { return facts_; }
     std::vector<double> values(std::int64_t unit) const override {
         return {0.5 + static_cast<double>(unit) / 7, static_cast<double>(unit % 2)};
     }
 
-    virtual UnitOutcome outcome(std::int64_t unit) const {
-        UnitOutcome o{unit};
+    virtual ItemOutcome outcome(std::int64_t unit) const {
+        ItemOutcome o{unit};
         const auto x = static_cast<double>(unit % 1000) / 1000;
-        if (unit % 97 == 5) o.end = UnitEnd::capped, o.why = "more than 1000 iterations";
-        if (unit % 97 == 6) return o.end = UnitEnd::lost, o.why = "no rest", o;
+        if (unit % 97 == 5) o.end = ItemEnd::iteration_limit, o.reason = "more than 1000 iterations";
+        if (unit % 97 == 6) return o.end = ItemEnd::diverged, o.reason = "no rest", o;
         o.measures = {100 * x, unit % 5 == 0 ? std::nan("") : -x, x * x};
         o.spikes.resize(2);
         for (std::int64_t k = 0; k < unit % 4; ++k) o.spikes[0].push_back(x + 0.1 * static_cast<double>(k));
         if (unit % 3 == 0) o.spikes[1] = {1 / (1 + x)};
-        if (unit % 10 == 0) o.traces = {{0, 1, static_cast<float>(x), 3}};
-        o.steps = unit, o.iterations = 3 * unit, o.alone = unit % 50 == 0;
+        if (unit % 10 == 0) o.probes = {{0, 1, static_cast<float>(x), 3}};
+        o.steps = unit, o.iterations = 3 * unit, o.ran_alone = unit % 50 == 0;
         return o;
     }
 
-    Result<void> work(const Next& next, const Told& told, const std::function<bool()>& stop) const override {
+    Result<void> run_items(const NextItem& next, const OutcomeHandler& told, const std::function<bool()>& stop) const override {
         for (auto unit = next(); unit; unit = next()) {
             if (stop()) return {};
             if (seconds_ > 0) std::this_thread::sleep_for(std::chrono::duration<double>(seconds_));

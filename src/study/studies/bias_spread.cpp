@@ -20,7 +20,7 @@ struct Group {
     Variance variance = {};
 };
 
-Result<void> add_variance(Group& group, const circuit::Circuit& c, const Found& rest) {
+Result<void> add_variance(Group& group, const circuit::Circuit& c, const NetlistResult& rest) {
     constexpr double threshold = 1e-4, current = 1e-3;  // V; relative
     for (const char* device : group.devices) {
         const auto k = static_cast<std::size_t>(c.find_element(device));
@@ -28,17 +28,17 @@ Result<void> add_variance(Group& group, const circuit::Circuit& c, const Found& 
         const double by_V = model_parameter(c, k, "avt") / sqrt_area / threshold, by_I = model_parameter(c, k, "ais") / sqrt_area / current;
         for (const auto& [setting, deviations] :
              {std::pair{fmt::format("{}.delvto={}", device, threshold), by_V}, {fmt::format("{}.mulu0={}", device, 1 + current), by_I}}) {
-            const auto shifted = found_in({"bias", {setting}, ".op"});
+            const auto shifted = run_study_netlist({"bias", {setting}, ".op"});
             if (!shifted) return shifted.error();
-            group.variance.V += std::pow((shifted->at_rest("v(q)") - rest.at_rest("v(q)")) * deviations, 2);
-            group.variance.I += std::pow((shifted->at_rest("i(vis)") - rest.at_rest("i(vis)")) * deviations, 2);
+            group.variance.V += std::pow((shifted->operating_point("v(q)") - rest.operating_point("v(q)")) * deviations, 2);
+            group.variance.I += std::pow((shifted->operating_point("i(vis)") - rest.operating_point("i(vis)")) * deviations, 2);
         }
     }
     return {};
 }
 
-Result<void> claim_contributions(Outcome& out, const circuit::Circuit& c) {
-    const auto rest = found_in({"bias", {}, ".op"});
+Result<void> claim_contributions(StudyResult& out, const circuit::Circuit& c) {
+    const auto rest = run_study_netlist({"bias", {}, ".op"});
     if (!rest) return rest.error();
     Group groups[] = {{"divider M1A-M2B", {"m1a", "m2a", "m1b", "m2b"}},
                       {"current mirror M3A, M3B", {"m3a", "m3b"}},
@@ -50,8 +50,8 @@ Result<void> claim_contributions(Outcome& out, const circuit::Circuit& c) {
         if (auto ok = add_variance(group, c, *rest); !ok) return ok;
         total.V += group.variance.V, total.I += group.variance.I;
     }
-    out.claim("biasing, mismatch to first order: standard deviation of V_Q", 100 * std::sqrt(total.V) / rest->at_rest("v(q)"), "%");
-    out.claim("biasing, mismatch to first order: standard deviation of I_Q", 100 * std::sqrt(total.I) / rest->at_rest("i(vis)"), "%");
+    out.claim("biasing, mismatch to first order: standard deviation of V_Q", 100 * std::sqrt(total.V) / rest->operating_point("v(q)"), "%");
+    out.claim("biasing, mismatch to first order: standard deviation of I_Q", 100 * std::sqrt(total.I) / rest->operating_point("i(vis)"), "%");
     for (const auto& group : groups) {
         out.claim(fmt::format("contribution to the variance of V_Q, {}", group.name), 100 * group.variance.V / total.V, "%");
         out.claim(fmt::format("contribution to the variance of I_Q, {}", group.name), 100 * group.variance.I / total.I, "%");
@@ -60,24 +60,24 @@ Result<void> claim_contributions(Outcome& out, const circuit::Circuit& c) {
 }
 
 /// The generator with other connections of the divider's bulks, which fig. 52 does not show.
-Result<void> claim_bulk_connections(Outcome& out, const Chips& nominal) {
+Result<void> claim_bulk_connections(StudyResult& out, const Chips& nominal) {
     const auto add_claim = [&](const std::string& connection, const Chips& chips) {
         auto& c =
-            out.claim(fmt::format("biasing, mismatch, {}: standard deviation of V_Q", connection), spread_of(chips, "v(q)").percent(), "%")
-                .printed_as(inverter_cases[1].V[1].percent, "table 17");
-        if (c.needs_reason())
-            c.because(
+            out.claim(fmt::format("biasing, mismatch, {}: standard deviation of V_Q", connection), sample_statistics(chips, "v(q)").cv_percent(), "%")
+                .published_as(inverter_cases[1].V[1].percent, "table 17");
+        if (c.needs_explanation())
+            c.explain(
                 "closer than as built; the divider adds spread for every bulk connection that fig. 52 allows, and fig. 52 does not show "
                 "its bulks");
     };
-    const double mean = spread_of(nominal, "v(q)").mean;
+    const double mean = sample_statistics(nominal, "v(q)").mean;
     out.claim("biasing, mismatch, each bulk of the divider at its source, as built: standard deviation of V_Q relative to V_REF",
-              100 * spread_of(nominal, "v(q,ref)").deviation / mean, "%")
-        .printed_as(inverter_cases[1].V[1].percent, "table 17, if it is relative to V_REF");
-    out.claim("standard deviation of V_REF", spread_of(nominal, "v(ref)").percent(), "%");
+              100 * sample_statistics(nominal, "v(q,ref)").standard_deviation / mean, "%")
+        .published_as(inverter_cases[1].V[1].percent, "table 17, if it is relative to V_REF");
+    out.claim("standard deviation of V_REF", sample_statistics(nominal, "v(ref)").cv_percent(), "%");
     const auto at_rails =
-        changed_text("circuits/bias.cir", {{"m2a top top ref ref", "m2a top top ref 0"}, {"m1b low low ref ref", "m1b low low ref vdd"}});
-    const auto lifted = changed_text("circuits/bias.cir", {{"m1a top top vdd vdd", "m1a top top vdd bp"},
+        substitute_in_embedded_text("circuits/bias.cir", {{"m2a top top ref ref", "m2a top top ref 0"}, {"m1b low low ref ref", "m1b low low ref vdd"}});
+    const auto lifted = substitute_in_embedded_text("circuits/bias.cir", {{"m1a top top vdd vdd", "m1a top top vdd bp"},
                                                            {"m2a top top ref ref", "m2a top top ref bn"},
                                                            {"m1b low low ref ref", "m1b low low ref bp"},
                                                            {"m2b low low 0   0  ", "m2b low low 0   bn "}});
@@ -92,25 +92,25 @@ Result<void> claim_bulk_connections(Outcome& out, const Chips& nominal) {
 }
 
 /// Relation of I_Q and V_BN from chip to chip, with process variation only.
-void claim_early(Outcome& out, const Chips& chips) {
-    Line points;
-    for (const auto& chip : chips) points.x.push_back(chip.at_rest("v(bn)")), points.y.push_back(std::log(chip.at_rest("i(vis)")));
-    const auto fit = points.straight();
-    const auto V_BN = spread_of(points.x), I_Q = spread_of(points.y);
-    out.claim("biasing, process: standard deviation of V_BN", V_BN.deviation, "V");
+void claim_early(StudyResult& out, const Chips& chips) {
+    StudyCurve points;
+    for (const auto& chip : chips) points.x.push_back(chip.operating_point("v(bn)")), points.y.push_back(std::log(chip.operating_point("i(vis)")));
+    const auto fit = points.fit_line();
+    const auto V_BN = sample_statistics(points.x), I_Q = sample_statistics(points.y);
+    out.claim("biasing, process: standard deviation of V_BN", V_BN.standard_deviation, "V");
     out.claim("I_Q falls as V_BN rises, by an Early voltage of", -1 / fit.slope, "V");
-    out.claim("contribution of that to the variance of I_Q", 100 * std::pow(fit.slope * V_BN.deviation / I_Q.deviation, 2), "%");
+    out.claim("contribution of that to the variance of I_Q", 100 * std::pow(fit.slope * V_BN.standard_deviation / I_Q.standard_deviation, 2), "%");
 }
 
-Result<Outcome> work(const StudyOptions& options) {
-    Outcome out;
-    const auto circuit = circuit_of({"bias"});
+Result<StudyResult> work(const StudyOptions& options) {
+    StudyResult out;
+    const auto circuit = elaborate_study_netlist({"bias"});
     if (!circuit) return circuit.error();
     const auto process = simulate_chips("bias", variations[0]), mismatch = simulate_chips("bias", variations[1]);
     if (!process) return process.error();
     if (!mismatch) return mismatch.error();
     if (auto ok = claim_bulk_connections(out, *mismatch); !ok) return ok.error();
-    if (auto ok = options.at(0.5); !ok) return ok.error();
+    if (auto ok = options.report_progress(0.5); !ok) return ok.error();
     if (auto ok = claim_contributions(out, **circuit); !ok) return ok.error();
     claim_early(out, *process);
     return out;

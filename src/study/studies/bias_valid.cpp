@@ -40,12 +40,12 @@ std::string range_text(const PublishedRange& p, const Range& r) {
 }
 
 /// Adds the covered fraction of a published range, and the reasons for both ends of our range.
-Result<void> claim_coverage(Outcome& out, const std::string& prefix, const PublishedRange& p, const Range& r, const BiasSweep& low,
+Result<void> claim_coverage(StudyResult& out, const std::string& prefix, const PublishedRange& p, const Range& r, const BiasSweep& low,
                             const BiasSweep& high, const double (&range)[2]) {
     auto& c = out.claim(fmt::format("{}: covered fraction of the published {}{}", prefix, p.name,
                                     p.axis == BiasAxis::current ? " (in decades)" : ""),
                         covered_percent(p, r, range), "%")
-                  .held_to(100, fmt::format("thesis E.2: {}", range_text(p, {range[0], range[1], false, false})));
+                  .derived_as(100, fmt::format("thesis E.2: {}", range_text(p, {range[0], range[1], false, false})));
     std::string note = "our range is " + range_text(p, r);
     for (const bool below : {true, false}) {
         const double end = below ? r.from : r.to, published_end = below ? range[0] : range[1];
@@ -54,11 +54,11 @@ Result<void> claim_coverage(Outcome& out, const std::string& prefix, const Publi
         if (!why) return why.error();
         note += fmt::format("; {}: {}", below ? "below" : "above", *why);
     }
-    c.because(note);
+    c.explain(note);
     return {};
 }
 
-Result<void> claim_axis(Outcome& out, const PublishedRange& p) {
+Result<void> claim_axis(StudyResult& out, const PublishedRange& p) {
     std::vector<BiasSweep> sweeps;
     std::vector<Range> works;
     for (const char* corner : {"tt", "ss", "ff"}) {
@@ -75,13 +75,13 @@ Result<void> claim_axis(Outcome& out, const PublishedRange& p) {
     };
     if (!std::isnan(p.corners[0]))
         return claim_coverage(out, "all corners", p, all, sweeps[limiting_corner(true)], sweeps[limiting_corner(false)], p.corners);
-    out.finds("FF is the first corner to leave the published temperature range", limiting_corner(false) == 2,
+    out.claim_true("FF is the first corner to leave the published temperature range", limiting_corner(false) == 2,
               "thesis E.2: in special for the FF corner");
     return claim_coverage(out, "FF", p, works[2], sweeps[2], sweeps[2], p.typical);
 }
 
 /// The limiting mechanism at both ends of the typical current range, from the simulation.
-Result<void> claim_causes(Outcome& out) {
+Result<void> claim_causes(StudyResult& out) {
     const auto s = sweep(published_ranges[0], {});
     if (!s) return s.error();
     const auto r = s->working_range();
@@ -89,23 +89,23 @@ Result<void> claim_causes(Outcome& out) {
                state_at_2_uA = simulate_bias_state({"i_bias=2u"});
     for (const auto* state : {&low, &high, &state_at_2_uA})
         if (!*state) return state->error();
-    out.finds("at the lower end M4A is in the linear region and the bulk current is below a thousandth of I_BIAS",
+    out.claim_true("at the lower end M4A is in the linear region and the bulk current is below a thousandth of I_BIAS",
               low->V_M4A < low->V_sat_M4A && low->bulk_current < 1e-3 * low->I_BIAS,
               "thesis E.2: below, these transistors operate in the linear region");
-    out.finds("at the upper end M3B is in the linear region", high->V_M3B < high->V_sat_M3B, "thesis E.2: as above");
+    out.claim_true("at the upper end M3B is in the linear region", high->V_M3B < high->V_sat_M3B, "thesis E.2: as above");
     out.claim("at the upper end: bulk junction current over I_BIAS", 100 * high->bulk_current / high->I_BIAS, "%");
     out.claim("at 2 uA: bulk junction current over I_BIAS", 100 * state_at_2_uA->bulk_current / state_at_2_uA->I_BIAS, "%");
-    out.claim("V_BN at 2 uA", state_at_2_uA->V_BN, "V").printed_as(0.6, "thesis E.2: up to 600 mV");
-    out.claim("I_Q at 2 uA", state_at_2_uA->I_Q, "A").held_to(2e-6, "thesis E.2: I_Q = I_BIAS up to there").because(state_at_2_uA->description());
+    out.claim("V_BN at 2 uA", state_at_2_uA->V_BN, "V").published_as(0.6, "thesis E.2: up to 600 mV");
+    out.claim("I_Q at 2 uA", state_at_2_uA->I_Q, "A").derived_as(2e-6, "thesis E.2: I_Q = I_BIAS up to there").explain(state_at_2_uA->description());
     return {};
 }
 
 /// Bulk current over I_BIAS, and both drain-source voltages.
-Result<void> add_plots(Outcome& out) {
-    auto found = found_in({"bias", {}, ".dc ibias 50n 3u 10n\n.save i(m3b) i(m4a)"});
+Result<void> add_plots(StudyResult& out) {
+    auto found = run_study_netlist({"bias", {}, ".dc ibias 50n 3u 10n\n.save i(m3b) i(m4a)"});
     if (!found) return found.error();
-    const auto I_P = found->line("dc", "i(m3b)"), I_N = found->line("dc", "i(m4a)"), V_BN = found->line("dc", "v(bn)");
-    Line bulks;
+    const auto I_P = found->curve("dc", "i(m3b)"), I_N = found->curve("dc", "i(m4a)"), V_BN = found->curve("dc", "v(bn)");
+    StudyCurve bulks;
     for (std::size_t k = 0; k < I_P.x.size(); ++k)
         bulks.x.push_back(1e9 * I_P.x[k]), bulks.y.push_back(-100 * (I_P.y[k] + I_N.y[k]) / I_P.x[k]);
     auto& bulk_plot = out.plot("Bulk junction current taken from BN, typical", "I_BIAS (nA)", "% of I_BIAS");
@@ -113,20 +113,20 @@ Result<void> add_plots(Outcome& out) {
     bulk_plot.add("current from BN", bulks);
     auto& drain_plot = out.plot("Drain-source voltage, typical", "I_BIAS (nA)", "V");
     drain_plot.log_x = true;
-    auto V_M3B = V_BN.times(1e9, -1);
+    auto V_M3B = V_BN.scaled(1e9, -1);
     for (double& v : V_M3B.y) v += 0.7;
-    Line saturation;
+    StudyCurve saturation;
     for (const double I : {50e-9, 100e-9, 300e-9, 1e-6, 3e-6}) {
         const auto state = simulate_bias_state({bias_setting(BiasAxis::current, I)});
         if (!state) return state.error();
         saturation.x.push_back(1e9 * I), saturation.y.push_back(state->V_sat_M4A);
     }
-    drain_plot.add("M4A", V_BN.times(1e9, 1)).add("M3B", V_M3B).add("saturation voltage", saturation);
+    drain_plot.add("M4A", V_BN.scaled(1e9, 1)).add("M3B", V_M3B).add("saturation voltage", saturation);
     return {};
 }
 
 /// All thresholds lower by the shift: the published ranges result, but not the published current without biasing.
-Result<void> claim_trade(Outcome& out) {
+Result<void> claim_trade(StudyResult& out) {
     const std::vector<std::string> shift = {fmt::format("vtn_shift={}", -threshold_shift), fmt::format("vtp_shift={}", -threshold_shift)};
     const auto prefix = fmt::format("thresholds {:g} mV lower", 1e3 * threshold_shift);
     for (const auto& p : published_ranges) {
@@ -136,29 +136,29 @@ Result<void> claim_trade(Outcome& out) {
         for (const bool low : {true, false}) {
             auto& c = out.claim(fmt::format("{}, typical: works {}, {}", prefix, low ? "from" : "to", p.name), low ? r.from : r.to, p.unit);
             if (low && r.reaches_sweep_start) {
-                c.at_most(p.typical[0], "thesis E.2; our value is the end of the sweep");
+                c.allow_max(p.typical[0], "thesis E.2; our value is the end of the sweep");
                 continue;
             }
-            c.printed_as(p.typical[low ? 0 : 1], "thesis E.2");
+            c.published_as(p.typical[low ? 0 : 1], "thesis E.2");
             auto why = explain_range_end(*s, low ? r.from : r.to, low ? r.reaches_sweep_start : r.reaches_sweep_end);
             if (!why) return why.error();
-            if (c.needs_reason()) c.because(std::move(*why));
+            if (c.needs_explanation()) c.explain(std::move(*why));
         }
     }
-    const auto unbiased = found_in({"quiescent", shift, ".op"});
+    const auto unbiased = run_study_netlist({"quiescent", shift, ".op"});
     if (!unbiased) return unbiased.error();
-    out.claim(prefix + ": I_Q without biasing", unbiased->at_rest("i(visa)"), "A")
-        .printed_as(17.5e-9, "thesis table 18")
-        .because("this contradicts lower thresholds: with the process card's thresholds the current is the published one");
+    out.claim(prefix + ": I_Q without biasing", unbiased->operating_point("i(visa)"), "A")
+        .published_as(17.5e-9, "thesis table 18")
+        .explain("this contradicts lower thresholds: with the process card's thresholds the current is the published one");
     return {};
 }
 
-Result<Outcome> work(const StudyOptions& options) {
-    Outcome out;
+Result<StudyResult> work(const StudyOptions& options) {
+    StudyResult out;
     double done = 0;
     for (const auto& p : published_ranges) {
         if (auto ok = claim_axis(out, p); !ok) return ok.error();
-        if (auto ok = options.at(done += 0.2); !ok) return ok.error();
+        if (auto ok = options.report_progress(done += 0.2); !ok) return ok.error();
     }
     if (auto ok = claim_causes(out); !ok) return ok.error();
     if (auto ok = claim_trade(out); !ok) return ok.error();

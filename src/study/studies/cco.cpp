@@ -13,33 +13,33 @@ using O = IsolatedOscillator;
 constexpr auto source = "thesis 4.4";
 
 /// Overshoot of the membrane beyond its window, over its speed.
-Result<void> report_delay(const Hysteresis& t, Outcome& out) {
-    Line below, above;
+Result<void> report_delay(const Hysteresis& t, StudyResult& out) {
+    StudyCurve below, above;
     double delay = 0, overshoot = 0;
     for (const double I : {20e-12, 100e-12, 300e-12, 600e-12, 850e-12}) {
         const auto found = simulate_oscillator({.current = I, .stop_time = 20e-3 + 2.25e-12 * 2 / I, .has_high_threshold_switches = true});
         if (!found) return found.error();
-        const auto u = found->line("tran", "v(u)").between(found->number("first_spike") - 1e-3, 1);
-        below.x.push_back(1e12 * I), below.y.push_back(1e3 * (t.V_L - u.least()));
+        const auto u = found->curve("tran", "v(u)").between(found->number("first_spike") - 1e-3, 1);
+        below.x.push_back(1e12 * I), below.y.push_back(1e3 * (t.V_L - u.min()));
         const auto filled = u.between(found->number("first_spike") + 50e-6, 1);
-        above.x.push_back(1e12 * I), above.y.push_back(1e3 * (filled.most() - t.V_H));
+        above.x.push_back(1e12 * I), above.y.push_back(1e3 * (filled.max() - t.V_H));
         if (I > 20e-12) continue;
-        const double speed = u.slope_at(filled.where(0.35));
-        overshoot = filled.most() - t.V_H, delay = overshoot / speed;
+        const double speed = u.slope_at(filled.crossing(0.35));
+        overshoot = filled.max() - t.V_H, delay = overshoot / speed;
     }
     out.claim("at 20 pA: overshoot of the charged membrane beyond V_H", overshoot, "V");
     out.claim("at 20 pA: overshoot over the window", 100 * overshoot / (t.V_H - t.V_L), "%");
     out.claim("at 20 pA: delay of the trigger from this overshoot", delay, "s");
-    out.finds("switching takes time, so the swing is not exactly the window: at 20 pA more than 1 mV beyond V_H", overshoot > 1e-3, source);
-    out.finds("the faster the membrane falls, the larger the undershoot below V_L", std::is_sorted(below.y.begin(), below.y.end()), source);
+    out.claim_true("switching takes time, so the swing is not exactly the window: at 20 pA more than 1 mV beyond V_H", overshoot > 1e-3, source);
+    out.claim_true("the faster the membrane falls, the larger the undershoot below V_L", std::is_sorted(below.y.begin(), below.y.end()), source);
     out.claim("at 850 pA: undershoot below V_L", 1e-3 * below.y.back(), "V");
     out.plot("Overshoot beyond the window", "I (pA)", "mV").points("below V_L", below).points("above V_H", above).log_x = true;
     return {};
 }
 
 /// The current that pulls the membrane up, over the membrane voltage, in the state in which the trigger waits for it to fall.
-Result<void> report_leak(Outcome& out) {
-    const auto found = found_in({R"(The leak over the membrane voltage, without switches, for 2 and for 200 pA
+Result<void> report_leak(StudyResult& out) {
+    const auto found = run_study_netlist({R"(The leak over the membrane voltage, without switches, for 2 and for 200 pA
 .lib '../process/tsmc180.lib' tt
 vdd vdd 0 0.7
 vu u 0 0.7
@@ -56,27 +56,27 @@ voff off 0 0.35
 .dc vu 0.25 0.7 2.5m
 )"});
     if (!found) return found.error();
-    const auto leak = found->line("dc", "i(vd)").times(1, -1), larger_leak = found->line("dc", "i(vd2)").times(1, -1);
-    const double middle = leak.at(0.35), off = found->line("dc", "i(voff)").absolute().at(0.35);
+    const auto leak = found->curve("dc", "i(vd)").scaled(1, -1), larger_leak = found->curve("dc", "i(vd2)").scaled(1, -1);
+    const double middle = leak.at(0.35), off = found->curve("dc", "i(voff)").absolute().at(0.35);
     out.claim("pull-up current for I_LEAK 2 pA, at 350 mV", middle, "A")
-        .printed_as(O::I_LEAK, "thesis 4.4, fig. 39")
-        .because(fmt::format("M1A and M1B carry {:.2f} pA at V_GS = 0. As a diode of 2 pA, M1A is therefore within three thermal voltages "
+        .published_as(O::I_LEAK, "thesis 4.4, fig. 39")
+        .explain(fmt::format("M1A and M1B carry {:.2f} pA at V_GS = 0. As a diode of 2 pA, M1A is therefore within three thermal voltages "
                              "of the supply and not saturated, while M1B is",
                              1e12 * off));
-    out.claim("pull-up current for I_LEAK 200 pA, at 350 mV", larger_leak.at(0.35), "A").held_to(200e-12, "1:1, table 9");
-    const auto remainder = [&](const Line& line, double below) { return 100 * line.at(0.7 - below) / line.at(0.35); };
+    out.claim("pull-up current for I_LEAK 200 pA, at 350 mV", larger_leak.at(0.35), "A").derived_as(200e-12, "1:1, table 9");
+    const auto remainder = [&](const StudyCurve& line, double below) { return 100 * line.at(0.7 - below) / line.at(0.35); };
     for (const double below : {100e-3, 50e-3, 25e-3, 10e-3})
         out.claim(fmt::format("remainder of the leak {:.0f} mV below the supply", 1e3 * below), remainder(leak, below), "%");
     const double g = leak.at(0.7 - 10e-3) / 10e-3;
-    out.finds("100 mV below the supply it equals the value at 350 mV within a tenth, 25 mV below it does not",
+    out.claim_true("100 mV below the supply it equals the value at 350 mV within a tenth, 25 mV below it does not",
               std::abs(remainder(leak, 100e-3) - 100) < 10 && std::abs(remainder(leak, 25e-3) - 100) > 10, source);
     out.claim("resistance of the leak close to the supply", 1 / g, "ohm");
     const double linearity = leak.at(0.7 - 5e-3) / 5e-3 / g;
     out.claim("change of its conductance between 5 and 10 mV below the supply", 100 * std::abs(linearity - 1), "%")
-        .at_most(20, "thesis 4.4: it behaves as a resistor; a fifth is our choice");
+        .allow_max(20, "thesis 4.4: it behaves as a resistor; a fifth is our choice");
     out.plot("The leak as the membrane nears the supply", "u (V)", "pA")
-        .shape("constant, then resistive")
-        .add("I_LEAK 2 pA", leak.times(1, 1e12));
+        .describe_published("constant, then resistive")
+        .add("I_LEAK 2 pA", leak.scaled(1, 1e12));
     return {};
 }
 
@@ -100,12 +100,12 @@ m4b vdd out n   bnf nch w=1.5u l=0.5u m=8
 .dc vin 0 0.7 1m updown
 )";
 
-Result<void> report_body_bias(const Hysteresis& t, Outcome& out) {
-    Plot& plot = out.plot("The window under forward body bias", "forward body bias (V)", "threshold (V)");
+Result<void> report_body_bias(const Hysteresis& t, StudyResult& out) {
+    StudyPlot& plot = out.plot("The window under forward body bias", "forward body bias (V)", "threshold (V)");
     for (const auto& [name, parameter] : {std::pair{"all six devices", "all"}, {"the feedback devices", "feedback"}}) {
-        Line high, low;
+        StudyCurve high, low;
         for (const double bias : {0.0, 0.1, 0.2, 0.3, 0.37}) {
-            const auto found = found_in({netlist, {fmt::format("{}={}", parameter, bias)}});
+            const auto found = run_study_netlist({netlist, {fmt::format("{}={}", parameter, bias)}});
             if (!found) return found.error();
             const auto h = find_hysteresis(*found, "v(out)");
             high.x.push_back(bias), high.y.push_back(h.V_H), low.x.push_back(bias), low.y.push_back(h.V_L);
@@ -115,18 +115,18 @@ Result<void> report_body_bias(const Hysteresis& t, Outcome& out) {
         out.claim(fmt::format("change of V_H, body bias on {}", name), high.y.back() - t.V_H, "V"),
             out.claim(fmt::format("change of V_L, body bias on {}", name), low.y.back() - t.V_L, "V");
         if (name == std::string_view("the feedback devices"))
-            out.finds("forward body bias controls the size of the window: by at least a tenth", std::abs(window) > 10, source);
+            out.claim_true("forward body bias controls the size of the window: by at least a tenth", std::abs(window) > 10, source);
         plot.add(fmt::format("V_H, {}", name), high).add(fmt::format("V_L, {}", name), low);
     }
     return {};
 }
 
-Result<Outcome> work(const StudyOptions& options) {
-    Outcome out;
+Result<StudyResult> work(const StudyOptions& options) {
+    StudyResult out;
     const auto t = simulate_trigger();
     if (!t) return t.error();
     if (auto ok = report_delay(*t, out); !ok) return ok.error();
-    if (auto ok = options.at(0.5); !ok) return ok.error();
+    if (auto ok = options.report_progress(0.5); !ok) return ok.error();
     if (auto ok = report_leak(out); !ok) return ok.error();
     if (auto ok = report_body_bias(*t, out); !ok) return ok.error();
     return out;

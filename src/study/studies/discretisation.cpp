@@ -16,11 +16,11 @@ constexpr const char* tenfold = "thesis 3.2: Euler's backward method, of first o
 constexpr std::pair<double, double> threshold_pairs[] = {{1, 0.5}, {0.5, 0.25}, {0.2, 0}};
 
 /// Largest difference of a trace from the exact one, at its own samples, over the largest exact value.
-double relative_error(const Line& rough, const Line& exact) {
+double relative_error(const StudyCurve& rough, const StudyCurve& exact) {
     const auto stride = static_cast<std::size_t>(std::lround((rough.x[1] - rough.x[0]) / fine));
     double largest = 0;
     for (std::size_t k = 0; k < rough.y.size(); ++k) largest = std::max(largest, std::abs(rough.y[k] - exact.y[k * stride]));
-    return largest / exact.absolute().most();
+    return largest / exact.absolute().max();
 }
 
 /// Largest time difference of two trains of equal count; NaN if the counts differ.
@@ -31,47 +31,47 @@ double largest_time_difference(const std::vector<double>& a, const std::vector<d
     return out;
 }
 
-Result<Told> simulate_at_step(const char* afferent, double T, bool exact, const std::pair<double, double>& thresholds,
+Result<TrialResult> simulate_at_step(const char* afferent, double T, bool exact, const std::pair<double, double>& thresholds,
                               std::vector<std::string> traces = {}) {
-    return told_of(
+    return run_trial(
         {.afferent = afferent,
          .settings = {fmt::format("{}.V_th={}", afferent, thresholds.first), fmt::format("{}.V_reset={}", afferent, thresholds.second)},
          .rate = 1 / T,
-         .traces = std::move(traces),
+         .probes = std::move(traces),
          .method = exact ? Method::exact : Method::backward_euler,
          .sampled = !exact});
 }
 
-void add_claims(Outcome& out, Plot& plot, const std::string& what, const double (&errors)[3], const char* unit) {
-    Line line;
+void add_claims(StudyResult& out, StudyPlot& plot, const std::string& what, const double (&errors)[3], const char* unit) {
+    StudyCurve line;
     for (int k = 0; k < 3; ++k) {
         auto& c = out.claim(fmt::format("{}, T = {} ms", what, 1e3 * steps[k]), errors[k], unit);
-        if (std::isnan(errors[k])) c.because("the numbers of spikes differ");
+        if (std::isnan(errors[k])) c.explain("the numbers of spikes differ");
         line.x.push_back(1e3 * steps[k]), line.y.push_back(unit == std::string_view("s") ? errors[k] * 1e3 : errors[k]);
     }
     out.claim(what + ": at 1 ms over that at 0.1 ms", errors[0] / errors[1])
-        .between(5, 20, std::string(tenfold) + "; the bounds of half and twice that are our choice");
+        .allow_range(5, 20, std::string(tenfold) + "; the bounds of half and twice that are our choice");
     out.claim(what + ": at 0.1 ms over that at 0.01 ms", errors[1] / errors[2])
-        .between(5, 20, std::string(tenfold) + "; the bounds of half and twice that are our choice");
+        .allow_range(5, 20, std::string(tenfold) + "; the bounds of half and twice that are our choice");
     plot.add(what, line);
 }
 
 /// One recorded current at three steps.
-Result<void> report_current(Outcome& out, Plot& plot, const char* afferent, const char* trace, const std::string& what) {
+Result<void> report_current(StudyResult& out, StudyPlot& plot, const char* afferent, const char* trace, const std::string& what) {
     const auto exact = simulate_at_step(afferent, fine, true, threshold_pairs[1], {trace});
     if (!exact) return exact.error();
     double errors[3];
     for (int k = 0; k < 3; ++k) {
         const auto rough = simulate_at_step(afferent, steps[k], false, threshold_pairs[1], {trace});
         if (!rough) return rough.error();
-        errors[k] = 100 * relative_error(rough->traces.at(trace), exact->traces.at(trace));
+        errors[k] = 100 * relative_error(rough->probes.at(trace), exact->probes.at(trace));
     }
     add_claims(out, plot, what, errors, "%");
     return {};
 }
 
 /// The largest spike time error over the three threshold pairs, at three steps.
-Result<void> report_spikes(Outcome& out, Plot& plot, const char* afferent) {
+Result<void> report_spikes(StudyResult& out, StudyPlot& plot, const char* afferent) {
     double errors[3] = {};
     for (const auto& thresholds : threshold_pairs) {
         const auto exact = simulate_at_step(afferent, fine, true, thresholds);
@@ -87,16 +87,16 @@ Result<void> report_spikes(Outcome& out, Plot& plot, const char* afferent) {
     return {};
 }
 
-Result<Outcome> work(const StudyOptions& options) {
-    Outcome out;
-    Plot currents{"Error of currents, over their largest value", "T (ms)", "error (%)", {}, true, true},
+Result<StudyResult> work(const StudyOptions& options) {
+    StudyResult out;
+    StudyPlot currents{"Error of currents, over their largest value", "T (ms)", "error (%)", {}, true, true},
         spikes{"Largest spike time error", "T (ms)", "error (ms)", {}, true, true};
     if (auto ok = report_current(out, currents, "sa1", "I_B", "high-pass of 20 Hz"); !ok) return ok.error();
     if (auto ok = report_current(out, currents, "sa1", "I_C", "high-pass of 2 Hz"); !ok) return ok.error();
-    if (auto ok = options.at(0.3); !ok) return ok.error();
+    if (auto ok = options.report_progress(0.3); !ok) return ok.error();
     if (auto ok = report_current(out, currents, "sa1", "I", "SA-I's current"); !ok) return ok.error();
     if (auto ok = report_current(out, currents, "fa1", "I", "FA-I's current"); !ok) return ok.error();
-    if (auto ok = options.at(0.6); !ok) return ok.error();
+    if (auto ok = options.report_progress(0.6); !ok) return ok.error();
     if (auto ok = report_spikes(out, spikes, "sa1"); !ok) return ok.error();
     if (auto ok = report_spikes(out, spikes, "fa1"); !ok) return ok.error();
     out.plots = {std::move(currents), std::move(spikes)};

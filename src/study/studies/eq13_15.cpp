@@ -12,21 +12,21 @@ const ForceSensor sensor;
 
 /// The largest relative difference (%) between a curve over the force in gf and a formula, in the transducer's range.
 template <class Formula>
-double percent_off(const Line& line, Formula formula) {
+double percent_off(const StudyCurve& line, Formula formula) {
     double largest = 0;
     for (std::size_t k = 0; k < line.x.size(); ++k)
         if (line.x[k] >= min_gf && line.x[k] <= max_gf) largest = std::max(largest, std::abs(line.y[k] / formula(line.x[k]) - 1));
     return 100 * largest;
 }
 
-Result<Line> force_sweep(const std::string& circuit, const std::string& curve) {
-    const auto found = found_in({circuit, {}, ".dc vgf 1 500 1"});
+Result<StudyCurve> force_sweep(const std::string& circuit, const std::string& curve) {
+    const auto found = run_study_netlist({circuit, {}, ".dc vgf 1 500 1"});
     if (!found) return found.error();
-    return found->line("dc", curve);
+    return found->curve("dc", curve);
 }
 
-Result<Outcome> work(const StudyOptions&) {
-    Outcome out;
+Result<StudyResult> work(const StudyOptions&) {
+    StudyResult out;
     const auto G = [](double gf) { return sensor.conductance(gf); };
     const auto without_G0 = [](double gf) { return std::pow(gf, sensor.m) / sensor.a; };
     const auto ideal = force_sweep("force_to_voltage", "par('v(z)-v(x)')"),
@@ -42,36 +42,36 @@ Result<Outcome> work(const StudyOptions&) {
     out.claim("eq. 13: parallel resistances against the sum of conductances" + range,
               percent_off(sensor.conductance_curve(1, 500), [](double gf) { return 1 / sensor.R_0 + 1 / (sensor.a * std::pow(gf, -sensor.m)); }),
               "%")
-        .at_most(1e-9, "thesis eq. 13: printed as approximate, but exact (errata F1a)");
+        .allow_max(1e-9, "thesis eq. 13: printed as approximate, but exact (errata F1a)");
     out.claim("eq. 13 with a = 170 ohm: G over that with 170 kohm, at 400 gf", ForceSensor{.a = 170}.conductance(400) / G(400), "times")
-        .held_to(1, "thesis eq. 13")
-        .if_off("a misprint for 170 kohm (errata F1)");
+        .derived_as(1, "thesis eq. 13")
+        .explain_if_needed("a misprint for 170 kohm (errata F1)");
     out.claim("eq. 14, V_Z - V_X with an ideal amplifier" + range, percent_off(*ideal, [&](double gf) { return 0.1 * G(gf) * 9.1e3; }), "%")
-        .at_most(1, "thesis eq. 14" + bound);
+        .allow_max(1, "thesis eq. 14" + bound);
     out.claim("eq. 14, with fig. 23's amplifier and a follower" + range,
               percent_off(*follower, [&](double gf) { return 0.1 * G(gf) * 3.6e3; }), "%")
-        .at_most(5, "thesis eq. 14" + bound);
+        .allow_max(5, "thesis eq. 14" + bound);
     out.claim("eq. 14's last line omits G_0: error of V_Z - V_X at 20 gf", 100 * (1 - without_G0(20) / G(20)), "%")
-        .at_most(1, "printed as approximate (errata F5)" + bound);
+        .allow_max(1, "printed as approximate (errata F5)" + bound);
     out.claim("eq. 14's last line with a F^m, a = 170: V_Z - V_X at 400 gf, R_F 9.1 kohm", 0.1 * 170 * std::pow(400, sensor.m) * 9.1e3, "V")
-        .at_most(0.7, "the supply")
-        .if_off("a is printed where 1/a is meant, and is a thousand times too small (errata F1)");
+        .allow_max(0.7, "the supply")
+        .explain_if_needed("a is printed where 1/a is meant, and is a thousand times too small (errata F1)");
     out.claim("eq. 15, (V_Z - V_X) / R_F over V_X, fig. 20 with a follower" + range, percent_off(*i_b, G), "%")
-        .at_most(0.1, "thesis eq. 15" + bound);
-    out.claim("eq. 15, I_F over V_X, fig. 21" + range, percent_off(*plain, G), "%").at_most(0.1, "thesis eq. 15" + bound);
+        .allow_max(0.1, "thesis eq. 15" + bound);
+    out.claim("eq. 15, I_F over V_X, fig. 21" + range, percent_off(*plain, G), "%").allow_max(0.1, "thesis eq. 15" + bound);
     out.claim("I_F against V_Y G, 16x1" + range, percent_off(*plain_Y, [&](double gf) { return 0.1 * G(gf); }), "%")
-        .at_most(5, "V_X follows V_Y" + bound);
+        .allow_max(5, "V_X follows V_Y" + bound);
     out.claim("I_F against V_Y G, 64x1" + range, percent_off(*plain4_Y, [&](double gf) { return 0.1 * G(gf); }), "%")
-        .at_most(5, "V_X follows V_Y" + bound);
+        .allow_max(5, "V_X follows V_Y" + bound);
     out.claim("eq. 15 and the split, I_F against V_Y G / 17, fig. 22" + range,
               percent_off(*I_F, [&](double gf) { return 0.1 * G(gf) / 17; }), "%")
-        .at_most(10, "thesis 4.2" + bound);
+        .allow_max(10, "thesis 4.2" + bound);
     out.claim("V_X against V_Y, fig. 22" + range, percent_off(*sensor_i, [](double) { return 0.1; }), "%")
-        .at_most(5, "V_X follows V_Y" + bound);
-    out.finds("the largest current is at the largest conductance", I_F->peak() == 500 && G(500) > G(1),
+        .allow_max(5, "V_X follows V_Y" + bound);
+    out.claim_true("the largest current is at the largest conductance", I_F->x_of_max() == 500 && G(500) > G(1),
               "printed: at the smallest conductance (errata F4)");
-    const auto percents = [](const Line& line, auto formula) {
-        Line p = line.between(min_gf, max_gf);
+    const auto percents = [](const StudyCurve& line, auto formula) {
+        StudyCurve p = line.between(min_gf, max_gf);
         for (std::size_t k = 0; k < p.x.size(); ++k) p.y[k] = 100 * (p.y[k] / formula(p.x[k]) - 1);
         return p;
     };

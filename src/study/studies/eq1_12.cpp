@@ -16,7 +16,7 @@ constexpr double K_B = 8e-6, f_B = 20;  // A/N, Hz: thesis 3.3, interpreted as i
 
 /// The largest |a - b| as a percentage of the largest |b|.
 template <class At>
-double largest_difference(const Line& a, At&& b) {
+double largest_difference(const StudyCurve& a, At&& b) {
     double worst = 0, largest = 0;
     for (std::size_t k = 0; k < a.x.size(); ++k)
         worst = std::max(worst, std::abs(a.y[k] - b(k))), largest = std::max(largest, std::abs(b(k)));
@@ -24,28 +24,28 @@ double largest_difference(const Line& a, At&& b) {
 }
 
 /// (1): a ramp of 10 N/s with a constant slope.
-Result<void> equation_1(Outcome& out) {
+Result<void> equation_1(StudyResult& out) {
     const auto response =
-        told_of({.afferent = "sa1a+lif-a", .stimulus = "ramp-hold", .settings = {"sa1a+lif-a.beta=100nA"}, .traces = {"I"}});
+        run_trial({.afferent = "sa1a+lif-a", .stimulus = "ramp-hold", .settings = {"sa1a+lif-a.beta=100nA"}, .probes = {"I"}});
     if (!response) return response.error();
-    out.claim("(1): I at 0.5 N of a ramp of 10 N/s; beta 100 nA, k_s 1 uA/N, k_d 100 nA s/N", response->traces.at("I").at(0.3), "A")
-        .held_to(100e-9 + 1e-6 * 0.5 + 100e-9 * 10, "thesis 3.1, eq. 1");
+    out.claim("(1): I at 0.5 N of a ramp of 10 N/s; beta 100 nA, k_s 1 uA/N, k_d 100 nA s/N", response->probes.at("I").at(0.3), "A")
+        .derived_as(100e-9 + 1e-6 * 0.5 + 100e-9 * 10, "thesis 3.1, eq. 1");
     return {};
 }
 
 /// (2) to (4) under the press stimulus, with a gain k (B2a).
-Result<void> equations_2_to_4(Outcome& out) {
-    const auto response = told_of({.afferent = "fa1a+lif-b", .traces = {"I_+", "I_-"}});
+Result<void> equations_2_to_4(StudyResult& out) {
+    const auto response = run_trial({.afferent = "fa1a+lif-b", .probes = {"I_+", "I_-"}});
     if (!response) return response.error();
     const auto force = press::force_curve(1e-4);
     if (!force) return force.error();
     const auto slope = [&](std::size_t k) { return k == 0 ? 0 : 100e-9 * (force->y[k] - force->y[k - 1]) / 1e-4; };
     out.claim("(2): I+ against k max(F', 0), k = 100 nA s/N",
-              largest_difference(response->traces.at("I_+"), [&](std::size_t k) { return std::max(slope(k), 0.0); }), "%")
-        .at_most(1e-6, "thesis 3.1, eq. 2 and 4; a gain added (B2a)");
+              largest_difference(response->probes.at("I_+"), [&](std::size_t k) { return std::max(slope(k), 0.0); }), "%")
+        .allow_max(1e-6, "thesis 3.1, eq. 2 and 4; a gain added (B2a)");
     out.claim("(3): I- against k max(-F', 0)",
-              largest_difference(response->traces.at("I_-"), [&](std::size_t k) { return std::max(-slope(k), 0.0); }), "%")
-        .at_most(1e-6, "thesis 3.1, eq. 3 and 4; a gain added (B2a)");
+              largest_difference(response->probes.at("I_-"), [&](std::size_t k) { return std::max(-slope(k), 0.0); }), "%")
+        .allow_max(1e-6, "thesis 3.1, eq. 3 and 4; a gain added (B2a)");
     return {};
 }
 
@@ -53,7 +53,7 @@ Result<void> equations_2_to_4(Outcome& out) {
 /// which the current falls.
 Result<double> frequency(const std::string& neuron, double current, double u_rest) {
     const std::string afferent = "sa1a+" + neuron;
-    const auto train = train_of(
+    const auto train = simulate_train(
         {afferent,
          "step",
          {afferent + ".k_d=0", afferent + ".C_m=1uF", afferent + ".V_th=1", afferent + ".V_reset=0.5",
@@ -64,8 +64,8 @@ Result<double> frequency(const std::string& neuron, double current, double u_res
 }
 
 /// (5) to (7): frequencies under constant currents, compared with the exact solutions.
-Result<void> equations_5_to_7(Outcome& out) {
-    Line A, B, exact_A, exact_B;
+Result<void> equations_5_to_7(StudyResult& out) {
+    StudyCurve A, B, exact_A, exact_B;
     double error_A = 0, error_B = 0, error_raised = 0;
     for (const double I : {1.05e-6, 1.2e-6, 1.5e-6, 2e-6, 3e-6, 5e-6, 10e-6, 30e-6}) {
         const auto a = frequency("lif-a", I, 0), raised = frequency("lif-a", I, 0.2), b = frequency("lif-b", I, 0);
@@ -83,10 +83,10 @@ Result<void> equations_5_to_7(Outcome& out) {
     }
     const std::string solution = "solution of (5), errata B5b";
     out.claim("(5): LIF-A's frequency against 1 / {RC ln[(R I - u_rst) / (R I - theta)]}, 1.05 to 30 uA", 100 * error_A, "%")
-        .at_most(0.1, solution);
-    out.claim("(5): the same with u_rest = 0.2 V", 100 * error_raised, "%").at_most(0.1, solution);
+        .allow_max(0.1, solution);
+    out.claim("(5): the same with u_rest = 0.2 V", 100 * error_raised, "%").allow_max(0.1, solution);
     out.claim("(6), (7): LIF-B's frequency against (I - I_leak0) / [C (theta - u_rst)]", 100 * error_B, "%")
-        .at_most(0.1, "thesis 3.2: equal");
+        .allow_max(0.1, "thesis 3.2: equal");
     out.plot("Frequency under a constant current", "current (uA)", "frequency (Hz)", true, true)
         .points("LIF-A", A)
         .add("solution of (5)", exact_A)
@@ -96,42 +96,42 @@ Result<void> equations_5_to_7(Outcome& out) {
 }
 
 /// (8) and (9) under the press stimulus, and (10) as printed: I_B - alpha F' + beta I_B' at 10 kHz.
-Result<void> equations_8_to_10(Outcome& out) {
-    const auto response = told_of({.afferent = "sa1", .traces = {"I", "I_A", "I_B", "I_C"}});
+Result<void> equations_8_to_10(StudyResult& out) {
+    const auto response = run_trial({.afferent = "sa1", .probes = {"I", "I_A", "I_B", "I_C"}});
     if (!response) return response.error();
     const auto force = press::force_curve(1e-4);
     if (!force) return force.error();
-    const auto &I_A = response->traces.at("I_A"), &I_B = response->traces.at("I_B"), &I_C = response->traces.at("I_C");
+    const auto &I_A = response->probes.at("I_A"), &I_B = response->probes.at("I_B"), &I_C = response->probes.at("I_C");
     out.claim("(8): I against I_A + max(I_B, 0) + max(I_C, 0)",
-              largest_difference(response->traces.at("I"),
+              largest_difference(response->probes.at("I"),
                                  [&](std::size_t k) { return I_A.y[k] + std::max(I_B.y[k], 0.0) + std::max(I_C.y[k], 0.0); }),
               "%")
-        .at_most(1e-6, "thesis 3.3, eq. 8");
+        .allow_max(1e-6, "thesis 3.3, eq. 8");
     out.claim("(9): I_A against k_A F", largest_difference(I_A, [&](std::size_t k) { return 1e-6 * force->y[k]; }), "%")
-        .at_most(1e-6, "thesis 3.3, eq. 9");
+        .allow_max(1e-6, "thesis 3.3, eq. 9");
     for (const auto& [name, I, K, f] : {std::tuple{"(10): I_B", &I_B, K_B, f_B}, {"(11): I_C", &I_C, 2e-6, 2.0}}) {
         const double beta = 1 / (2 * M_PI * f), alpha = K * beta;
         auto slope_F = force->slope(), slope_I = I->slope();
-        Line combination = slope_F;
+        StudyCurve combination = slope_F;
         for (std::size_t k = 0; k < combination.y.size(); ++k) combination.y[k] = alpha * slope_F.y[k] - beta * slope_I.y[k];
         out.claim(fmt::format("{} against alpha F' - beta I', alpha = K / 2 pi f, beta = 1 / 2 pi f", name),
                   largest_difference(combination, [&](std::size_t k) { return I->y[k + 1]; }), "%")
-            .at_most(1, "thesis 3.3; a hundredth is our choice, for slopes by differences of 0.1 ms at the corners of the force");
+            .allow_max(1, "thesis 3.3; a hundredth is our choice, for slopes by differences of 0.1 ms at the corners of the force");
     }
     return {};
 }
 
 /// Response of I_B to a sine of force: amplitude and phase relative to the force.
 Result<Complex> response(double f) {
-    const auto response = told_of({.afferent = "sa1",
+    const auto response = run_trial({.afferent = "sa1",
                                    .stimulus = "sine",
                                    .settings = {fmt::format("sine.f={}", f), "sine.F_amp=1", "sine.F_mean=2", "sine.duration=2"},
                                    .rate = 10e3,
-                                   .traces = {"I_B"}});
+                                   .probes = {"I_B"}});
     if (!response) return response.error();
-    const auto force = touch_of({{}, "sine", {fmt::format("sine.f={}", f), "sine.F_amp=1", "sine.F_mean=2", "sine.duration=2"}, 10e3});
+    const auto force = trial_force({{}, "sine", {fmt::format("sine.f={}", f), "sine.F_amp=1", "sine.F_mean=2", "sine.duration=2"}, 10e3});
     if (!force) return force.error();
-    const auto& I = response->traces.at("I_B");
+    const auto& I = response->probes.at("I_B");
     Complex of_I = 0, of_F = 0;
     for (std::size_t k = I.x.size() / 2; k < I.x.size(); ++k) {  // an integer number of periods in the last second
         const auto rotation = std::polar(1.0, -2 * M_PI * f * I.x[k]);
@@ -140,8 +140,8 @@ Result<Complex> response(double f) {
     return of_I / of_F;
 }
 
-Result<void> equation_12(Outcome& out, const StudyOptions& options) {
-    Line computed, exact;
+Result<void> equation_12(StudyResult& out, const StudyOptions& options) {
+    StudyCurve computed, exact;
     double worst = 0;
     for (const double f : {1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0}) {
         const auto H = response(f);
@@ -151,32 +151,32 @@ Result<void> equation_12(Outcome& out, const StudyOptions& options) {
         computed.x.push_back(f), computed.y.push_back(1e6 * std::abs(*H));
         exact.x.push_back(f), exact.y.push_back(1e6 * std::abs(expected));
         if (f == f_B)
-            out.claim("(12): phase of I_B at its corner frequency", std::arg(*H) * 180 / M_PI, "degrees").held_to(45, "thesis 3.3, eq. 12");
-        if (auto ok = options.at(0.5 + f / 1100); !ok) return ok.error();
+            out.claim("(12): phase of I_B at its corner frequency", std::arg(*H) * 180 / M_PI, "degrees").derived_as(45, "thesis 3.3, eq. 12");
+        if (auto ok = options.report_progress(0.5 + f / 1100); !ok) return ok.error();
     }
     out.claim("(12): I_B / F under sines of 1 to 500 Hz against K s / (s + 2 pi f), largest difference over K", 100 * worst, "%")
-        .at_most(1, "thesis 3.3, eq. 12; a hundredth is our choice, at 20 samples a period");
-    out.claim("(12): gain at 500 Hz", computed.y.back() * 1e-6, "A/N").held_to(K_B, "thesis 3.3: limited above the corner");
+        .allow_max(1, "thesis 3.3, eq. 12; a hundredth is our choice, at 20 samples a period");
+    out.claim("(12): gain at 500 Hz", computed.y.back() * 1e-6, "A/N").derived_as(K_B, "thesis 3.3: limited above the corner");
     out.claim("(12): gain at 2 Hz over that at 1 Hz", computed.at(2) / computed.at(1))
-        .held_to(2, "thesis 3.3: far below it a differentiator");
+        .derived_as(2, "thesis 3.3: far below it a differentiator");
     const double T = 1e-3, beta = 1 / (2 * M_PI * f_B);
     out.claim("k_x2 = 1 / (1 + 2 pi f T), from alpha and beta: beta / (T + beta)", beta / (T + beta))
-        .held_to(algorithms::k2(f_B, T), "thesis 3.3; B9a");
+        .derived_as(algorithms::k2(f_B, T), "thesis 3.3; B9a");
     out.claim("k_x1 = K k_x2, from alpha and beta: alpha / (T + beta)", K_B * beta / (T + beta), "A/N")
-        .held_to(K_B * algorithms::k2(f_B, T), "thesis 3.3; B9a");
+        .derived_as(K_B * algorithms::k2(f_B, T), "thesis 3.3; B9a");
     out.plot("I_B for a sine of force", "frequency (Hz)", "gain (uA/N)", true, true)
         .points("model", computed)
         .add("K s / (s + 2 pi f)", exact);
     return {};
 }
 
-Result<Outcome> work(const StudyOptions& options) {
-    Outcome out;
+Result<StudyResult> work(const StudyOptions& options) {
+    StudyResult out;
     if (auto ok = equation_1(out); !ok) return ok.error();
     if (auto ok = equations_2_to_4(out); !ok) return ok.error();
     if (auto ok = equations_5_to_7(out); !ok) return ok.error();
     if (auto ok = equations_8_to_10(out); !ok) return ok.error();
-    if (auto ok = options.at(0.5); !ok) return ok.error();
+    if (auto ok = options.report_progress(0.5); !ok) return ok.error();
     if (auto ok = equation_12(out, options); !ok) return ok.error();
     out.note("alpha_C1 in (11) is alpha_C (B9). The studies errata-models and errata-neurons run the printed forms that do not hold.");
     return out;

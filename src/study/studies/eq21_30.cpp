@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "circuit/device/physical_constants.hpp"
-#include "study/deck.hpp"
+#include "study/study_netlist.hpp"
 #include "study/studies.hpp"
 #include "study/thesis/array_text.hpp"
 
@@ -21,7 +21,7 @@ struct BiasPoint {
 
 /// Solves the transistor at many bias points. channel_only: slopes of the channel without the junctions in parallel.
 Result<std::vector<BiasPoint>> solve_bias_points(std::string_view card, const std::string& model, bool channel_only = false) {
-    const auto found = all_found_in(
+    const auto found = run_study_variants(
         {fmt::format(
              "a transistor\n{}vd d 0 {{vd}}\nvg g 0 {{vg}}\nvs s 0 {}\nvb b 0 0\nm1 d g s b {} w=1.5u l=0.5u\n.param vg=0.5 vd=0.5\n", card,
              V_S, model),
@@ -31,9 +31,9 @@ Result<std::vector<BiasPoint>> solve_bias_points(std::string_view card, const st
     std::vector<BiasPoint> out;
     for (const auto& f : *found) {
         const auto slope = [&](const char* source, const char* reading) {
-            return channel_only ? f.reading("m1", reading) : -f.by("i(vd)", source);
+            return channel_only ? f.operating_info("m1", reading) : -f.derivative("i(vd)", source);
         };
-        out.push_back({f.at_rest("v(g)"), f.at_rest("v(d)"), -f.at_rest("i(vd)"), f.reading("m1", "i_f"), f.reading("m1", "i_r"),
+        out.push_back({f.operating_point("v(g)"), f.operating_point("v(d)"), -f.operating_point("i(vd)"), f.operating_info("m1", "i_f"), f.operating_info("m1", "i_r"),
                        slope("vg", "g_mg"), slope("vd", "g_md"), slope("vs", "g_ms") * (channel_only ? -1 : 1), slope("vb", "g_mb")});
     }
     return out;
@@ -73,18 +73,18 @@ constexpr Equation equations[] = {
      [](const BiasPoint& a) { return a.by_G * simple_n / (-a.by_S - a.by_D) - 1; }},
 };
 
-void add_errata(Outcome& out, const std::vector<BiasPoint>& all) {
-    out.finds("(26): dI_D/dV_S is negative at all points; g_ms > 0 of (27) and (28) is its opposite",
+void add_errata(StudyResult& out, const std::vector<BiasPoint>& all) {
+    out.claim_true("(26): dI_D/dV_S is negative at all points; g_ms > 0 of (27) and (28) is its opposite",
               std::all_of(all.begin(), all.end(), [](const BiasPoint& a) { return a.by_S < 0; }), "errata U2");
     const auto& a = all.back();
-    out.claim("g_mb/g_mg", a.by_B / a.by_G).held_to(simple_n - 1, "thesis eq. 29, inverted: errata U5");
-    out.finds("g_mg/g_mb, as (29) prints it, is 1/(n - 1), not n - 1", std::abs(a.by_G / a.by_B * (simple_n - 1) - 1) < 1e-9, "errata U5");
+    out.claim("g_mb/g_mg", a.by_B / a.by_G).derived_as(simple_n - 1, "thesis eq. 29, inverted: errata U5");
+    out.claim_true("g_mg/g_mb, as (29) prints it, is 1/(n - 1), not n - 1", std::abs(a.by_G / a.by_B * (simple_n - 1) - 1) < 1e-9, "errata U5");
 }
 
 /// f(i) and its asymptotes.
-Plot inversion_plot() {
-    Plot out{"Eq. 23: inversion level over the pinch-off voltage", "(V_P - V_S)/phi_t", "i_f", {}, false, true};
-    Line exact, weak, strong;
+StudyPlot inversion_plot() {
+    StudyPlot out{"Eq. 23: inversion level over the pinch-off voltage", "(V_P - V_S)/phi_t", "i_f", {}, false, true};
+    StudyCurve exact, weak, strong;
     for (double u = -2.3; u < 1.4; u += 0.05) {
         const double q = std::pow(10, u), i = q * (q + 2), x = f_of(i);
         exact.x.push_back(x), exact.y.push_back(i);
@@ -94,27 +94,27 @@ Plot inversion_plot() {
     return out.add("eq. 23", exact).add("weak: 2 exp(x + 1), as eq. 42", weak).add("strong: x^2", strong);
 }
 
-Result<Outcome> work(const StudyOptions&) {
+Result<StudyResult> work(const StudyOptions&) {
     const auto simple = solve_bias_points(simple_card, "plain"), complete = solve_bias_points(process_card, "nch"),
                channel = solve_bias_points(process_card, "nch", true);
     if (!simple || !complete || !channel) return !simple ? simple.error() : !complete ? complete.error() : channel.error();
-    Outcome out;
-    for (const auto& e : equations) out.claim(e.what, largest_error(*simple, e.error), "%").at_most(solver_accuracy, e.source);
+    StudyResult out;
+    for (const auto& e : equations) out.claim(e.what, largest_error(*simple, e.error), "%").allow_max(solver_accuracy, e.source);
     add_errata(out, *simple);
     const auto pinched_off =
-        found_in({fmt::format("pinch-off\n{}vd d 0 1\nvg g 0 {}\nm1 d g 0 0 plain w=1u l=1u\n", simple_card, simple_V_T0), {}, ".op"});
+        run_study_netlist({fmt::format("pinch-off\n{}vd d 0 1\nvg g 0 {}\nm1 d g 0 0 plain w=1u l=1u\n", simple_card, simple_V_T0), {}, ".op"});
     if (!pinched_off) return pinched_off.error();
-    out.claim("(23): i_f where V_P = V_S", pinched_off->reading("m1", "i_f")).held_to(3, "thesis eq. 23; errata U4");
-    const auto card = circuit_of({fmt::format("card\n{}m1 0 0 0 0 nch w=1u l=1u\n", process_card), {}, ".op"});
+    out.claim("(23): i_f where V_P = V_S", pinched_off->operating_info("m1", "i_f")).derived_as(3, "thesis eq. 23; errata U4");
+    const auto card = elaborate_study_netlist({fmt::format("card\n{}m1 0 0 0 0 nch w=1u l=1u\n", process_card), {}, ".op"});
     if (!card) return card.error();
     for (const auto& m : (*card)->models)
         if (m.name == "nch")
             out.claim("(22): mobility that follows from the card's I_SQ, C_ox and n",
                       2e4 * m.values.at("isq") / (m.values.at("cox") * m.values.at("n") * phi_t * phi_t), "cm^2/(V s)")
-                .between(200, 500, "usual for electrons at 0.18 um");
+                .allow_range(200, 500, "usual for electrons at 0.18 um");
     for (const auto& e : {equations[3], equations[6], equations[7]}) {
         out.claim(fmt::format("process card, channel only, {}", e.what), largest_error(*channel, e.error), "%")
-            .at_most(solver_accuracy, e.source);
+            .allow_max(solver_accuracy, e.source);
         out.claim(fmt::format("process card, with junctions, {}", e.what), largest_error(*complete, e.error), "%");
     }
     out.claim(fmt::format("process card, {}", equations[4].what), largest_error(*complete, equations[4].error), "%");

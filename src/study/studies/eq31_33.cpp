@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "study/deck.hpp"
+#include "study/study_netlist.hpp"
 #include "study/studies.hpp"
 #include "study/thesis/array_text.hpp"
 #include "study/thesis/arrays.hpp"
@@ -35,14 +35,14 @@ constexpr double W = 0.42, L = 0.18;  // um: the unit transistor of tables 10 an
 /// The array's current over that of one transistor of aspect ratio S_eq, at several bias points.
 Result<std::vector<double>> ratios(std::string_view card, const std::string& model, const std::string& array, double S,
                                    const std::string& steps) {
-    const auto all = all_found_in(
+    const auto all = run_study_variants(
         {fmt::format("array\n{}{}m1 e g 0 0 {} w={:.15g}u l={}u\nvg g 0 {{vg}}\nvd d 0 {{vd}}\nve e 0 {{vd}}\n.param vg=0.5 vd=0.5\n", card,
                      array, model, S * W, L),
          {},
          ".op\n" + steps});
     if (!all) return all.error();
     std::vector<double> out;
-    for (const auto& f : *all) out.push_back(f.at_rest("i(vd)") / f.at_rest("i(ve)"));
+    for (const auto& f : *all) out.push_back(f.operating_point("i(vd)") / f.operating_point("i(ve)"));
     return out;
 }
 
@@ -67,22 +67,22 @@ std::vector<Array> arrays() {
 }
 
 /// (33): a mirror of two widths.
-Result<void> add_mirror(Outcome& out) {
+Result<void> add_mirror(StudyResult& out) {
     for (const double ratio : {0.25, 4.0}) {
         const auto found =
-            found_in({fmt::format("mirror\n{}iin 0 a 100n\nma a a 0 0 plain w=1.5u l=0.5u\nmb b a 0 0 plain w={}u l=0.5u\nvo b 0 0.35\n",
+            run_study_netlist({fmt::format("mirror\n{}iin 0 a 100n\nma a a 0 0 plain w=1.5u l=0.5u\nmb b a 0 0 plain w={}u l=0.5u\nvo b 0 0.35\n",
                                   simple_card, 1.5 * ratio),
                       {},
                       ".op"});
         if (!found) return found.error();
-        out.claim(fmt::format("mirror of S_B/S_A = {}: I_out/I_in", ratio), -found->at_rest("i(vo)") / 100e-9)
-            .held_to(ratio, "thesis eq. 33");
+        out.claim(fmt::format("mirror of S_B/S_A = {}: I_out/I_in", ratio), -found->operating_point("i(vo)") / 100e-9)
+            .derived_as(ratio, "thesis eq. 33");
     }
     return {};
 }
 
-Result<Outcome> work(const StudyOptions&) {
-    Outcome out;
+Result<StudyResult> work(const StudyOptions&) {
+    StudyResult out;
     double worst = 0;
     for (const auto& a : arrays()) {
         const auto simple = ratios(simple_card, "plain", a.text(a, fmt::format("0 plain w={}u l={}u", W, L)), a.S,
@@ -95,11 +95,11 @@ Result<Outcome> work(const StudyOptions&) {
         out.claim(fmt::format("{}: with the process card at 0.5 V, its current over that of one unit transistor of S_eq = {:.4g}", a.name,
                               a.S),
                   with_process_card->front())
-            .held_to(std::isnan(published_value) ? 1 : published_value,
+            .derived_as(std::isnan(published_value) ? 1 : published_value,
                      fmt::format("thesis {}{}", a.equation, std::isnan(published_value) ? "" : "; value from tables 11 and 14"));
     }
     out.claim("equations only: largest error of all arrays, V_G 0.2 to 1.8 V, V_D 20 to 500 mV", 100 * worst, "%")
-        .at_most(1e-6, "thesis eq. 31 and 32, exact in eq. 21 to 25");
+        .allow_max(1e-6, "thesis eq. 31 and 32, exact in eq. 21 to 25");
     if (auto ok = add_mirror(out); !ok) return ok.error();
     out.note(
         "With the process card, as in tables 11 and 14, arrays carry less than the equations give. One transistor of the unit's length has "

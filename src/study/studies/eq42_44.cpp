@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "circuit/device/physical_constants.hpp"
-#include "study/deck.hpp"
+#include "study/study_netlist.hpp"
 #include "study/studies.hpp"
 #include "study/thesis/array_text.hpp"
 
@@ -15,17 +15,17 @@ constexpr double W_by_L = 3;  // of 1.5/0.5 um
 const double phi_t = circuit::thermal_voltage(300.15);
 
 /// (42), for a drain at 0.6 V: accurate in weak inversion to the order of i_f, not above it.
-Result<void> add_42(Outcome& out) {
-    const auto found = all_found_in(
+Result<void> add_42(StudyResult& out) {
+    const auto found = run_study_variants(
         {fmt::format("weak\n{}vd d 0 0.6\nvg g 0 {{vg}}\nvb b 0 {{vb}}\nm1 d g 0 b plain w=1.5u l=0.5u\n.param vg=0.2 vb=0\n", simple_card),
          {},
          ".op\n.step param vb list 0 0.1 0.2\n.step param vg 0.05 0.5 0.025"});
     if (!found) return found.error();
-    Plot plot{"Eq. 42 against the complete equations, V_BS = 0.2 V", "V_GS (V)", "I_D (nA)", {}, false, true};
-    Line weak, complete;
+    StudyPlot plot{"Eq. 42 against the complete equations, V_BS = 0.2 V", "V_GS (V)", "I_D (nA)", {}, false, true};
+    StudyCurve weak, complete;
     double worst = 0, worst_without_2 = 0;
     for (const auto& f : *found) {
-        const double V_G = f.at_rest("v(g)"), V_B = f.at_rest("v(b)"), I = -f.at_rest("i(vd)"), i_f = f.reading("m1", "i_f");
+        const double V_G = f.operating_point("v(g)"), V_B = f.operating_point("v(b)"), I = -f.operating_point("i(vd)"), i_f = f.operating_info("m1", "i_f");
         const double by_42 =
             2 * std::numbers::e * simple_I_SQ * W_by_L * std::exp((V_G + (simple_n - 1) * V_B - simple_V_T0) / (simple_n * phi_t));
         if (i_f < 0.01)
@@ -33,51 +33,51 @@ Result<void> add_42(Outcome& out) {
         if (V_B > 0.15) weak.x.push_back(V_G), weak.y.push_back(1e9 * by_42), complete.x.push_back(V_G), complete.y.push_back(1e9 * I);
     }
     out.claim("(42): largest error against the complete equations where i_f < 0.01", 100 * worst, "%")
-        .at_most(1, "thesis eq. 42, its factor 2 e (errata I1); i_f << 1");
+        .allow_max(1, "thesis eq. 42, its factor 2 e (errata I1); i_f << 1");
     out.claim("(42) without the factor 2, as printed in (45a) and (45b): largest error", 100 * worst_without_2, "%")
-        .between(49, 51, "errata I1: a factor of two");
+        .allow_range(49, 51, "errata I1: a factor of two");
     out.plots.push_back(plot.add("eq. 42", weak).add("complete equations", complete));
     return {};
 }
 
 /// The junction from bulk to source, with both junction areas of the process card.
-Result<void> add_43(Outcome& out) {
+Result<void> add_43(StudyResult& out) {
     const auto found =
-        found_in({fmt::format("junction\n{}vd d 0 0.9\nvb b 0 0\nm1 d 0 0 b nch w=1.5u l=0.5u\n.options gmin=0\n", process_card),
+        run_study_netlist({fmt::format("junction\n{}vd d 0 0.9\nvb b 0 0\nm1 d 0 0 b nch w=1.5u l=0.5u\n.options gmin=0\n", process_card),
                   {},
                   ".dc vb 0.2 0.7 5m"});
     if (!found) return found.error();
-    Line logarithm;
-    const auto I = found->line("dc", "i(vb)").times(1, -1);
+    StudyCurve logarithm;
+    const auto I = found->curve("dc", "i(vb)").scaled(1, -1);
     for (std::size_t k = 0; k < I.x.size(); ++k) logarithm.x.push_back(I.x[k]), logarithm.y.push_back(std::log(I.y[k]));
-    const auto fit = logarithm.straight();
+    const auto fit = logarithm.fit_line();
     double n_dio = 0;
     for (const auto& m : found->circuit->models)
         if (m.name == "nch") n_dio = m.values.at("nj");
-    out.claim("(43): n_dio of I_B from 0.2 to 0.7 V", 1 / (fit.slope * phi_t)).held_to(n_dio, "thesis eq. 43; value of the process card");
-    out.claim("(43): largest difference of ln I_B from a straight line", 100 * fit.farthest, "%")
-        .at_most(2, "thesis eq. 43: an exponential");
-    out.claim("(43): I_Sdio of one unit transistor of 1.5/0.5 um", std::exp(fit.at_zero), "A");
+    out.claim("(43): n_dio of I_B from 0.2 to 0.7 V", 1 / (fit.slope * phi_t)).derived_as(n_dio, "thesis eq. 43; value of the process card");
+    out.claim("(43): largest difference of ln I_B from a straight line", 100 * fit.max_deviation, "%")
+        .allow_max(2, "thesis eq. 43: an exponential");
+    out.claim("(43): I_Sdio of one unit transistor of 1.5/0.5 um", std::exp(fit.intercept), "A");
     return {};
 }
 
 /// At equal current in weak inversion V_X = n V_Y: exact in the simple model, because the exponents are equal.
-Result<void> add_44(Outcome& out) {
-    const auto found = found_in(
+Result<void> add_44(StudyResult& out) {
+    const auto found = run_study_netlist(
         {fmt::format("diodes\n{}ix 0 x 1n\niy 0 y 1n\nmx x x 0 0 plain w=1.5u l=0.5u\nmy y y 0 y plain w=1.5u l=0.5u\n", simple_card),
          {},
          ".op"});
     if (!found) return found.error();
-    const double V_X = found->at_rest("v(x)"), V_Y = found->at_rest("v(y)");
-    out.claim("(44): V_X/V_Y at 1 nA, equations only", V_X / V_Y).held_to(simple_n, "thesis eq. 44");
-    out.claim("(44): i_fX/i_fY at 1 nA", found->reading("mx", "i_f") / found->reading("my", "i_f"))
-        .held_to(1, "thesis app. D: about the same");
-    out.finds("the second diode's voltage is V_Y, the lower one", V_Y < V_X, "errata C8");
+    const double V_X = found->operating_point("v(x)"), V_Y = found->operating_point("v(y)");
+    out.claim("(44): V_X/V_Y at 1 nA, equations only", V_X / V_Y).derived_as(simple_n, "thesis eq. 44");
+    out.claim("(44): i_fX/i_fY at 1 nA", found->operating_info("mx", "i_f") / found->operating_info("my", "i_f"))
+        .derived_as(1, "thesis app. D: about the same");
+    out.claim_true("the second diode's voltage is V_Y, the lower one", V_Y < V_X, "errata C8");
     return {};
 }
 
-Result<Outcome> work(const StudyOptions&) {
-    Outcome out;
+Result<StudyResult> work(const StudyOptions&) {
+    StudyResult out;
     for (const auto add : {add_42, add_43, add_44})
         if (auto ok = add(out); !ok) return ok.error();
     return out;

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 #include <cmath>
 
-#include "study/deck.hpp"
+#include "study/study_netlist.hpp"
 #include "study/studies.hpp"
 #include "study/thesis/inverters.hpp"
 
@@ -46,8 +46,8 @@ mpo o in vdd vdd pch w=6u l=0.5u m=2 stack=8
 mno o in 0   0   nch w=1.5u l=0.5u m=2 stack=8
 )";
 
-Result<Found> run(const std::vector<std::string>& settings, const std::string& directives) {
-    return found_in({circuit, settings, directives});
+Result<NetlistResult> run(const std::vector<std::string>& settings, const std::string& directives) {
+    return run_study_netlist({circuit, settings, directives});
 }
 
 /// The parameters of a transistor in the process card; V_A of a stack is that of all its unit transistors.
@@ -63,19 +63,19 @@ struct Array {
     double weak(double V_GS, double V_BS) const { return I_S * e * std::exp((V_GS + (n - 1) * V_BS - V_T) / (n * phi_t)); }
 };
 
-void claim_both(Outcome& out, const std::string& what, double by_corrected, double by_printed, const char* equation, const char* erratum) {
-    out.claim(fmt::format("{}, over eq. {} as corrected", what, equation), by_corrected).held_to(1, fmt::format("errata {}", erratum));
-    auto& c = out.claim(fmt::format("{}, over eq. {} as printed", what, equation), by_printed).held_to(1, fmt::format("eq. {}", equation));
-    if (c.needs_reason()) c.because(fmt::format("misprinted: errata {}", erratum));
+void claim_both(StudyResult& out, const std::string& what, double by_corrected, double by_printed, const char* equation, const char* erratum) {
+    out.claim(fmt::format("{}, over eq. {} as corrected", what, equation), by_corrected).derived_as(1, fmt::format("errata {}", erratum));
+    auto& c = out.claim(fmt::format("{}, over eq. {} as printed", what, equation), by_printed).derived_as(1, fmt::format("eq. {}", equation));
+    if (c.needs_explanation()) c.explain(fmt::format("misprinted: errata {}", erratum));
 }
 
-Result<void> claim_currents(Outcome& out) {
+Result<void> claim_currents(StudyResult& out) {
     const auto f = run({}, ".dc vbn 0 0.15 5m");
     if (!f) return f.error();
     const Array N(*f->circuit, "m1");
-    const double I_D = f->line("dc", "i(vs1)").at(0), I_unit = f->line("dc", "i(vs2)").at(0);
+    const double I_D = f->curve("dc", "i(vs1)").at(0), I_unit = f->curve("dc", "i(vs2)").at(0);
     claim_both(out, "array: I_D at V_GS = 0.2 V", I_D / (2 * N.weak(0.2, 0)), I_D / N.weak(0.2, 0), "45a", "I1");
-    const auto I_Q = f->line("dc", "i(visq)"), V_Q = f->line("dc", "v(q)");
+    const auto I_Q = f->curve("dc", "i(visq)"), V_Q = f->curve("dc", "v(q)");
     for (const double V_BN : {0.0, 0.15}) {
         const double weak = N.weak(V_Q.at(V_BN), V_BN);
         claim_both(out, fmt::format("I_Q at {:g} V and V_BN = {:g} V", low, V_BN), I_Q.at(V_BN) / (2 * weak), I_Q.at(V_BN) / weak, "45b",
@@ -83,8 +83,8 @@ Result<void> claim_currents(Outcome& out) {
     }
     const double slope = std::log(I_Q.at(0.1) / I_Q.at(0.05)) / 0.05;
     out.claim("slope of ln I_Q over V_BN, both bulks biased equally", slope, "1/V")
-        .held_to((N.n - 1) / (N.n * phi_t), "E.1: I_Q grows exponentially with (n-1) V_BN; by eq. 45b (n-1)/(n phi_t)");
-    out.claim("I_D of a 2x8 array over that of one unit transistor", I_D / I_unit).held_to(2.0 / 8, "eq. 45c with eq. 31: S_eq");
+        .derived_as((N.n - 1) / (N.n * phi_t), "E.1: I_Q grows exponentially with (n-1) V_BN; by eq. 45b (n-1)/(n phi_t)");
+    out.claim("I_D of a 2x8 array over that of one unit transistor", I_D / I_unit).derived_as(2.0 / 8, "eq. 45c with eq. 31: S_eq");
     return {};
 }
 
@@ -98,71 +98,71 @@ struct Slopes {
             const double middle = source == std::string_view("vb") ? 0 : V_Q;
             const auto f = run(settings, fmt::format(".dc {} {} {} 1m", source, middle - 2e-3, middle + 2e-3));
             if (!f) return f.error();
-            *slope = std::abs(f->line("dc", "i(vh)").slope_at(middle));
+            *slope = std::abs(f->curve("dc", "i(vh)").slope_at(middle));
         }
         return out;
     }
 };
 
-Result<void> claim_gain(Outcome& out) {
+Result<void> claim_gain(StudyResult& out) {
     const std::vector<std::string> settings = {fmt::format("low={}", saturated)};
     const auto rest = run(settings, ".op");
     if (!rest) return rest.error();
-    const double V_Q = rest->at_rest("v(q)"), I_Q = rest->at_rest("i(visq)");
+    const double V_Q = rest->operating_point("v(q)"), I_Q = rest->operating_point("i(visq)");
     const Array N(*rest->circuit, "mnq"), P(*rest->circuit, "mpq");
     const auto s = Slopes::at(V_Q, saturated);
     if (!s) return s.error();
-    out.claim(fmt::format("G_m at {:g} V", saturated), s->G_m, "S").held_to(I_Q / phi_t * (1 / P.n + 1 / N.n), "eq. 46b with this I_Q");
-    out.claim("G_o", s->G_o, "S").held_to(I_Q * (1 / P.V_A + 1 / N.V_A), "eq. 46c with this I_Q and V_A = V_E L of the process card");
+    out.claim(fmt::format("G_m at {:g} V", saturated), s->G_m, "S").derived_as(I_Q / phi_t * (1 / P.n + 1 / N.n), "eq. 46b with this I_Q");
+    out.claim("G_o", s->G_o, "S").derived_as(I_Q * (1 / P.V_A + 1 / N.V_A), "eq. 46c with this I_Q and V_A = V_E L of the process card");
     const double by_printed = 1 / (N.n * phi_t * (1 / P.V_A + 1 / N.V_A));
     claim_both(out, "A_V = G_m / G_o", s->G_m / s->G_o / (2 * by_printed), s->G_m / s->G_o / by_printed, "46d", "I2");
     const double step = 20e-6;
     const auto open = run(settings, fmt::format(".dc vin {} {} 1u", V_Q - step, V_Q + step));
     if (!open) return open.error();
-    const auto V_o = open->line("dc", "v(o)");
+    const auto V_o = open->curve("dc", "v(o)");
     out.claim("V_Q - V_o for an input 20 uV above V_Q", V_Q - V_o.at(V_o.x[V_o.x.size() - 1]), "V")
-        .held_to(s->G_m / s->G_o * (V_o.x.back() - V_Q), "eq. 46a");
+        .derived_as(s->G_m / s->G_o * (V_o.x.back() - V_Q), "eq. 46a");
     const auto inverters = InverterSweep::run(1e-3);
     if (!inverters) return inverters.error();
     auto& c = out.claim("INVA biased at 200 nA and 0.7 V: G_m", inverters->transconductance_at_zero('a'), "S")
-                  .held_to(2 * inverters->supply_current('a').at(0) / (N.n * phi_t), "eq. 46b with its I_Q");
-    if (c.needs_reason()) c.because("eq. 46b holds in weak inversion; 200 nA in these arrays is moderate inversion");
+                  .derived_as(2 * inverters->supply_current('a').at(0) / (N.n * phi_t), "eq. 46b with its I_Q");
+    if (c.needs_explanation()) c.explain("eq. 46b holds in weak inversion; 200 nA in these arrays is moderate inversion");
     return {};
 }
 
-Result<void> claim_rest(Outcome& out) {
-    const auto f = found_in({"quiescent", {}, ".op"});
+Result<void> claim_rest(StudyResult& out) {
+    const auto f = run_study_netlist({"quiescent", {}, ".op"});
     if (!f) return f.error();
-    const double V_Q = f->at_rest("v(qa)"), V_Q0 = f->at_rest("v(qb)"), V_DD = 0.7;
+    const double V_Q = f->operating_point("v(qa)"), V_Q0 = f->operating_point("v(qb)"), V_DD = 0.7;
     const Array N(*f->circuit, "mn2a"), P(*f->circuit, "mp1a");
     const auto s = Slopes::at(low / 2, low);
     if (!s) return s.error();
     const double offset = V_Q0 - V_DD / 2;
     out.claim("V_Q with bulks at the rails", V_Q, "V")
-        .held_to(V_Q0 + (N.n - 1) * offset, "eq. 47a, second line, with the simulated V_Q0 (errata I4: as printed)");
-    out.claim("V_Q - V_Q0", V_Q - V_Q0, "V").held_to((N.n - 1) * offset, "eq. 47a, second line");
-    out.claim("G_mb / (G_m + G_o) at 0.4 V", s->G_mb / (s->G_m + s->G_o)).held_to(N.n - 1, "eq. 47a, both lines");
+        .derived_as(V_Q0 + (N.n - 1) * offset, "eq. 47a, second line, with the simulated V_Q0 (errata I4: as printed)");
+    out.claim("V_Q - V_Q0", V_Q - V_Q0, "V").derived_as((N.n - 1) * offset, "eq. 47a, second line");
+    out.claim("G_mb / (G_m + G_o) at 0.4 V", s->G_mb / (s->G_m + s->G_o)).derived_as(N.n - 1, "eq. 47a, both lines");
     for (const double stronger : {1.0, 2.0, 4.0}) {
         const auto result = run({fmt::format("stronger={}", stronger)}, ".op");
         if (!result) return result.error();
         const double middle = low / 2 + (N.V_T - P.V_T) / (2 * N.n), shift = phi_t / 2 * std::log(stronger * P.I_S / N.I_S);
-        out.claim(fmt::format("V_Q0 at {:g} V with I_SP = {:g} I_SN", low, stronger), result->at_rest("v(q0)"), "V")
-            .held_to(middle + shift, "eq. 47b with + and V_TP < 0 (errata I5)");
+        out.claim(fmt::format("V_Q0 at {:g} V with I_SP = {:g} I_SN", low, stronger), result->operating_point("v(q0)"), "V")
+            .derived_as(middle + shift, "eq. 47b with + and V_TP < 0 (errata I5)");
         if (stronger == 1) continue;
         out.claim(fmt::format("the same minus V_DD / 2 + (V_TP + V_TN) / 2n, I_SP = {:g} I_SN", stronger),
-                  result->at_rest("v(q0)") - middle, "V")
-            .held_to(-shift, "eq. 47b with the printed -")
-            .because("the sign is misprinted: a stronger PMOS raises V_Q (errata I5)");
+                  result->operating_point("v(q0)") - middle, "V")
+            .derived_as(-shift, "eq. 47b with the printed -")
+            .explain("the sign is misprinted: a stronger PMOS raises V_Q (errata I5)");
     }
     return {};
 }
 
-Result<Outcome> work(const StudyOptions& options) {
-    Outcome out;
+Result<StudyResult> work(const StudyOptions& options) {
+    StudyResult out;
     if (auto ok = claim_currents(out); !ok) return ok.error();
-    if (auto ok = options.at(0.3); !ok) return ok.error();
+    if (auto ok = options.report_progress(0.3); !ok) return ok.error();
     if (auto ok = claim_gain(out); !ok) return ok.error();
-    if (auto ok = options.at(0.6); !ok) return ok.error();
+    if (auto ok = options.report_progress(0.6); !ok) return ok.error();
     if (auto ok = claim_rest(out); !ok) return ok.error();
     out.note(
         "The computed values are simulated with the process card at 0.4 V, so that all transistors are in weak inversion (eq. 46 at 0.6 V, "

@@ -11,8 +11,8 @@ namespace corpuscle::studies::errata_neurons {
 
 constexpr double R = 1e6, C = 1e-6, T = 1e-3, leak = 500e-9;  // ohm, F, s, A: fig. 16 and 3.3
 
-Line constant_current(double current, double seconds) {
-    Line out;
+StudyCurve constant_current(double current, double seconds) {
+    StudyCurve out;
     for (int n = 0; n < std::lround(seconds / T); ++n) out.x.push_back(n * T), out.y.push_back(current);
     return out;
 }
@@ -24,36 +24,36 @@ double membrane_a(double k_a, double k_b, double k_c, double current, int sample
     return u;
 }
 
-void algorithm_3(Outcome& out) {
+void algorithm_3(StudyResult& out) {
     const double r = R * C / T, k_a = R / (1 + r), k_b = r / (1 + r), u_rest = 0.1;
     out.claim("Alg. 3: k_b as printed", r * (1 + r))
-        .between(-1, 1, "u must settle")
-        .because("RC/T (1 + RC/T) is printed instead of (RC/T) / (1 + RC/T) (B4)");
-    out.claim("Alg. 3: k_b as corrected", k_b).between(-1, 1, "u must settle");
+        .allow_range(-1, 1, "u must settle")
+        .explain("RC/T (1 + RC/T) is printed instead of (RC/T) / (1 + RC/T) (B4)");
+    out.claim("Alg. 3: k_b as corrected", k_b).allow_range(-1, 1, "u must settle");
     out.claim("Alg. 3: u after two samples of 2 uA, as printed", membrane_a(k_a, r * (1 + r), 0, 2e-6, 2), "V")
-        .at_most(2, "eq. 5: never above R I")
-        .because("it grows by k_b each sample (B4)");
-    out.claim("Alg. 3: u after ten thousand, as corrected", membrane_a(k_a, k_b, 0, 2e-6, 10000), "V").held_to(2, "eq. 5: R I");
+        .allow_max(2, "eq. 5: never above R I")
+        .explain("it grows by k_b each sample (B4)");
+    out.claim("Alg. 3: u after ten thousand, as corrected", membrane_a(k_a, k_b, 0, 2e-6, 10000), "V").derived_as(2, "eq. 5: R I");
     out.claim("Alg. 3: u at rest for u_rest = 0.1 V, with k_c = u_rest as printed", membrane_a(k_a, k_b, u_rest, 0, 20000), "V")
-        .held_to(u_rest, "eq. 5")
-        .because("k_c is u_rest / (1 + RC/T); the printed one is correct for RC far below T, and makes no difference for u_rest = 0 (B5)");
-    out.claim("Alg. 3: the same with k_c as corrected", membrane_a(k_a, k_b, u_rest / (1 + r), 0, 20000), "V").held_to(u_rest, "eq. 5");
+        .derived_as(u_rest, "eq. 5")
+        .explain("k_c is u_rest / (1 + RC/T); the printed one is correct for RC far below T, and makes no difference for u_rest = 0 (B5)");
+    out.claim("Alg. 3: the same with k_c as corrected", membrane_a(k_a, k_b, u_rest / (1 + r), 0, 20000), "V").derived_as(u_rest, "eq. 5");
 }
 
 /// Algorithm 4 as printed: the current is added to u_rest, not to u[n-1] (B6).
-Result<void> algorithm_4(Outcome& out) {
-    const auto response = told_of({.afferent = "sa1", .rate = 1 / T, .traces = {"I"}, .method = Method::backward_euler, .sampled = true});
+Result<void> algorithm_4(StudyResult& out) {
+    const auto response = run_trial({.afferent = "sa1", .rate = 1 / T, .probes = {"I"}, .method = Method::backward_euler, .sampled = true});
     if (!response) return response.error();
-    const auto& I = response->traces.at("I");
+    const auto& I = response->probes.at("I");
     const double theta = 0.5, C_m = 500e-9;
-    Line u = I;
+    StudyCurve u = I;
     for (double& y : u.y) y = T / C_m * (y - leak);
-    out.claim("Alg. 4: largest u under the press stimulus, as printed", u.most(), "V")
-        .at_least(theta, "thesis 3.3, fig. 17b: it fires; theta is our choice")
-        .because("u[n] does not contain u[n-1], so it holds the charge of one step only (B6)");
+    out.claim("Alg. 4: largest u under the press stimulus, as printed", u.max(), "V")
+        .allow_min(theta, "thesis 3.3, fig. 17b: it fires; theta is our choice")
+        .explain("u[n] does not contain u[n-1], so it holds the charge of one step only (B6)");
     const auto corrected = algorithms::lif_b(I, {});
     out.claim("Alg. 4: spikes, as corrected", static_cast<double>(corrected.spikes.size()), "spikes")
-        .between(static_cast<double>(response->spikes.size()), static_cast<double>(response->spikes.size()), "sa1 of the catalogue");
+        .allow_range(static_cast<double>(response->spikes.size()), static_cast<double>(response->spikes.size()), "sa1 of the catalogue");
     out.plot("Membrane of SA-I under the press stimulus", "time (s)", "u (V)")
         .add("Alg. 4 as printed", u)
         .add("as corrected", corrected.u)
@@ -76,26 +76,26 @@ double interval(double current, double u_rst, double theta) {
 }
 
 /// A sample that brings more charge than u_rst to theta needs (B6c).
-Result<void> one_spike_per_sample(Outcome& out) {
+Result<void> one_spike_per_sample(StudyResult& out) {
     const double current = 400e-6;
     const auto as_printed = algorithms::lif_b(constant_current(current, 0.1), {});
     const std::string afferent = "sa1a+lif-b";
-    const auto catalogue_spikes = train_of(
+    const auto catalogue_spikes = simulate_train(
         {afferent,
          "step",
          {fmt::format("step.F_max={}", current / 1e-6), "step.t_rest=0", "step.t_hold=100ms", "step.t_post=0", afferent + ".k_d=0"}});
     if (!catalogue_spikes) return catalogue_spikes.error();
     const double expected = (current - leak) / 500e-9 / 0.25;
     out.claim("Alg. 4: frequency at 400 uA, one spike per sample as printed", static_cast<double>(as_printed.spikes.size()) / 0.1, "Hz")
-        .held_to(expected, "thesis 3.2: (I - I_leak0) / [C (theta - u_rst)]")
-        .because("if a sample brings more than theta - u_rst, the rest stays above theta and grows (B6c)");
+        .derived_as(expected, "thesis 3.2: (I - I_leak0) / [C (theta - u_rst)]")
+        .explain("if a sample brings more than theta - u_rst, the rest stays above theta and grows (B6c)");
     out.claim("LIF-B at 400 uA, with several spikes per sample as here", static_cast<double>(catalogue_spikes->size()) / 0.1, "Hz")
-        .held_to(expected, "thesis 3.2, the same");
+        .derived_as(expected, "thesis 3.2, the same");
     return {};
 }
 
 /// At 2 uA and 1 ms fig. 16's LIF-B reaches theta exactly, so rounding decides (B7).
-void check_rounding(Outcome& out) {
+void check_rounding(StudyResult& out) {
     const auto spike_shift = [](double current) {
         const auto with = [&](double theta) { return algorithms::lif_b(constant_current(current, 2), {C, leak, theta, 0.5}).spikes; };
         const auto lower = with(1 - 1e-9), higher = with(1 + 1e-9);
@@ -104,25 +104,25 @@ void check_rounding(Outcome& out) {
         return largest;
     };
     out.claim("fig. 16's LIF-B at 2 uA, T = 1 ms: largest shift of a spike for a 2 nV change of theta", spike_shift(2e-6), "s")
-        .at_least(T / 2, "B7: u reaches theta exactly, so rounding moves it by a sample");
-    out.claim("the same at 2.03 uA", spike_shift(2.03e-6), "s").between(0, 0, "B7: no exact equality there");
+        .allow_min(T / 2, "B7: u reaches theta exactly, so rounding moves it by a sample");
+    out.claim("the same at 2.03 uA", spike_shift(2.03e-6), "s").allow_range(0, 0, "B7: no exact equality there");
 }
 
-Result<Outcome> work(const StudyOptions& options) {
-    Outcome out;
+Result<StudyResult> work(const StudyOptions& options) {
+    StudyResult out;
     algorithm_3(out);
     if (auto ok = algorithm_4(out); !ok) return ok.error();
     out.claim("(6) and (7) only: u after a second of -0.5 uA", integrate_equations(-0.5e-6, 1), "V")
-        .between(0, 0, "Alg. 4: not below u_rest")
-        .because("the equations have no lower bound; the algorithm's bound is meant (B6a)");
-    if (auto ok = options.at(0.5); !ok) return ok.error();
+        .allow_range(0, 0, "Alg. 4: not below u_rest")
+        .explain("the equations have no lower bound; the algorithm's bound is meant (B6a)");
+    if (auto ok = options.report_progress(0.5); !ok) return ok.error();
     const double current = 2e-6, below = -0.25;
     out.claim("(6) and (7): frequency with u_rst 0.25 V below u_rest", 1 / interval(current, below, 1), "Hz")
-        .held_to((current - leak) / C / (1 - below), "thesis 3.2: \"equal\" to [I - I_leak0] / [C (theta - u_rst)]");
+        .derived_as((current - leak) / C / (1 - below), "thesis 3.2: \"equal\" to [I - I_leak0] / [C (theta - u_rst)]");
     out.claim("(6) and (7): the same with u_rst 0.25 V above u_rest", 1 / interval(current, -below, 1), "Hz")
-        .held_to((current - leak) / C / (1 + below), "thesis 3.2, the same");
+        .derived_as((current - leak) / C / (1 + below), "thesis 3.2, the same");
     if (auto& c = out.claims[out.claims.size() - 2]; true)
-        c.because("below u_rest there is no leak, so the interval has two parts; the formula is exact for u_rst at or above u_rest (B6b)");
+        c.explain("below u_rest there is no leak, so the interval has two parts; the formula is exact for u_rst at or above u_rest (B6b)");
     if (auto ok = one_spike_per_sample(out); !ok) return ok.error();
     check_rounding(out);
     out.note("fig16 covers B5a and B5b (rheobase and frequency of LIF-A). The catalogue's LIF-B rejects u_rst below u_rest.");

@@ -12,64 +12,64 @@ namespace corpuscle::studies::errata_transducer {
 const ForceSensor sensor;
 
 /// F1 to F5: the sensor and its equations.
-void report_sensor(Outcome& out) {
+void report_sensor(StudyResult& out) {
     const double press = 4 / gram_force;
     out.claim("F1: sensor current at 4 N and 0.1 V, a = 170 kohm", 0.1 * sensor.conductance(press), "A");
     out.claim("F1: with a = 170 ohm, as printed", 0.1 * ForceSensor{.a = 170}.conductance(press), "A")
-        .at_most(1e-3, "thesis 4.2: I_F is 1/17 of it and drives a mirror of 100 nA unit transistors; a milliampere is our choice")
-        .if_off("a misprint for 170 kohm");
+        .allow_max(1e-3, "thesis 4.2: I_F is 1/17 of it and drives a mirror of 100 nA unit transistors; a milliampere is our choice")
+        .explain_if_needed("a misprint for 170 kohm");
     out.claim("F1: with a = 170 as a conductance (a F^m)", 0.1 * 170 * std::pow(press, sensor.m), "A")
-        .at_most(1e-3, "as above")
-        .if_off("a is a resistance, used where a conductance is meant");
+        .allow_max(1e-3, "as above")
+        .explain_if_needed("a is a resistance, used where a conductance is meant");
     out.claim("F2: 0.2 N, while the fit is stated to be fair from 50 gf on", 0.2 / gram_force, "gf")
-        .at_least(50, "thesis 4.1")
-        .if_off("the press stimulus begins below it, and so does fig. 24's 20 gf");
+        .allow_min(50, "thesis 4.1")
+        .explain_if_needed("the press stimulus begins below it, and so does fig. 24's 20 gf");
     out.claim("F3: dI_F/dF at 20 gf over that at 400 gf, by m = 0.72", sensor.slope(20) / sensor.slope(400), "times")
-        .held_to(12.0 / 4, "thesis 4.2, fig. 24b")
-        .if_off("eq. 13 gives (400/20)^0.28; both published numbers are \"approximately\"");
+        .derived_as(12.0 / 4, "thesis 4.2, fig. 24b")
+        .explain_if_needed("eq. 13 gives (400/20)^0.28; both published numbers are \"approximately\"");
     out.claim("F3: m that would give fig. 24b's slopes", 1 - std::log(12.0 / 4) / std::log(400.0 / 20))
-        .printed_as(sensor.m, "thesis 4.1")
-        .if_off("12 and 4 are round numbers from a figure");
-    out.finds("F4: the largest force gives the smallest conductance", sensor.conductance(press) < sensor.conductance(0.2 / gram_force),
+        .published_as(sensor.m, "thesis 4.1")
+        .explain_if_needed("12 and 4 are round numbers from a figure");
+    out.claim_true("F4: the largest force gives the smallest conductance", sensor.conductance(press) < sensor.conductance(0.2 / gram_force),
               "thesis 4.2, as printed")
-        .if_off("it gives the largest conductance: resistance falls with force");
+        .explain_if_needed("it gives the largest conductance: resistance falls with force");
     out.claim("F5: G_0, which eq. 14's last line omits, over G at 20 gf", 100 / sensor.R_0 / sensor.conductance(20), "%")
-        .at_most(1, "printed as approximate; the bound is our choice");
+        .allow_max(1, "printed as approximate; the bound is our choice");
 }
 
 /// F7 to F9: fig. 22's transistors.
-Result<void> report_transistors(Outcome& out) {
+Result<void> report_transistors(StudyResult& out) {
     const std::string swapped =
         "mn1 if vz vx tb nch w=1.5u l=0.5u m=16\nmn2 vdd vz vx tb nch w=1.5u l=0.5u m=4 stack=4\nmn3 vz vdd tb tb nch w=1.5u l=0.5u m=8\n";
     const std::string drain_at_vss = improved_cell_at("0");
     const TransducerCell cells[] = {{"built", improved_cell()}, {"swapped", swapped}, {"without", drain_at_vss}, {"plain", single_transistor_cell(16)}};
-    const auto found = found_in({transducer_netlist(cells, "4"), {}, ".op"});
+    const auto found = run_study_netlist({transducer_netlist(cells, "4"), {}, ".op"});
     if (!found) return found.error();
     const auto current = [&](const char* name) {
-        return found->at_rest(fmt::format("i(x{}.vif)", name)) /
-               (found->at_rest(fmt::format("v(x{}.vx)", name)) * sensor.conductance(4 / gram_force));
+        return found->operating_point(fmt::format("i(x{}.vif)", name)) /
+               (found->operating_point(fmt::format("v(x{}.vx)", name)) * sensor.conductance(4 / gram_force));
     };
-    out.claim("F7: V_BS of fig. 21's M_1 with its bulk at vss", -found->at_rest("v(xplain.vx)"), "V")
-        .held_to(-0.1, "thesis 4.2: V_BS = -V_X, at V_Y = 0.1 V; it is the bulk that is at vss");
-    out.claim("F8: I_F over I_F0 with S_1 = 4/4, S_2 = 16", current("built")).held_to(1.0 / 17, "S_1 / (S_1 + S_2) by table 1");
+    out.claim("F7: V_BS of fig. 21's M_1 with its bulk at vss", -found->operating_point("v(xplain.vx)"), "V")
+        .derived_as(-0.1, "thesis 4.2: V_BS = -V_X, at V_Y = 0.1 V; it is the bulk that is at vss");
+    out.claim("F8: I_F over I_F0 with S_1 = 4/4, S_2 = 16", current("built")).derived_as(1.0 / 17, "S_1 / (S_1 + S_2) by table 1");
     out.claim("F8: the same against S_1 / S_2, as printed", current("built"))
-        .held_to(1.0 / 16, "thesis 4.2: I_F = (S_1/S_2) I_D2, taken as the fraction of I_F0")
-        .if_off("S_1 / S_2 is I_F over I_D2, not over I_F0, and M_2's single transistors take a little more");
+        .derived_as(1.0 / 16, "thesis 4.2: I_F = (S_1/S_2) I_D2, taken as the fraction of I_F0")
+        .explain_if_needed("S_1 / S_2 is I_F over I_D2, not over I_F0, and M_2's single transistors take a little more");
     out.claim("F8: I_F over I_F0 with the \"maximum\" S_1 / S_2 (16x1 and 4x4)", current("swapped"))
-        .at_most(0.5, "thesis 4.2: the aim is a smaller I_F; a half is our choice")
-        .if_off("the minimum is meant");
-    out.claim("F9: V_X at 4 N and 0.7 V with 8x1 as M_3", found->at_rest("v(xbuilt.vx)"), "V")
-        .held_to(0.1, "thesis 4.2, fig. 24c: V_X follows V_Y");
-    out.claim("F9: V_X without M_3, bulks at vss", found->at_rest("v(xwithout.vx)"), "V").held_to(0.1, "thesis 4.2, fig. 24c");
-    out.claim("F9: V_Z without M_3", found->at_rest("v(xwithout.vz)"), "V")
-        .at_most(0.525, "thesis 4.2, fig. 24c: V_Z at most V_DD - 175 mV")
-        .if_off("without body bias the gate voltages must be higher: the second M_1 of table 1 is M_3");
+        .allow_max(0.5, "thesis 4.2: the aim is a smaller I_F; a half is our choice")
+        .explain_if_needed("the minimum is meant");
+    out.claim("F9: V_X at 4 N and 0.7 V with 8x1 as M_3", found->operating_point("v(xbuilt.vx)"), "V")
+        .derived_as(0.1, "thesis 4.2, fig. 24c: V_X follows V_Y");
+    out.claim("F9: V_X without M_3, bulks at vss", found->operating_point("v(xwithout.vx)"), "V").derived_as(0.1, "thesis 4.2, fig. 24c");
+    out.claim("F9: V_Z without M_3", found->operating_point("v(xwithout.vz)"), "V")
+        .allow_max(0.525, "thesis 4.2, fig. 24c: V_Z at most V_DD - 175 mV")
+        .explain_if_needed("without body bias the gate voltages must be higher: the second M_1 of table 1 is M_3");
     return {};
 }
 
 /// F10a: tests whether the amplifier's input pair could be NMOS, 1.5 um wide, as in table 2.
-Result<void> report_pair(Outcome& out) {
-    const auto found = found_in({R"(Current of a transistor of table 2's M3 with its gate at V_Y
+Result<void> report_pair(StudyResult& out) {
+    const auto found = run_study_netlist({R"(Current of a transistor of table 2's M3 with its gate at V_Y
 .lib '../process/tsmc180.lib' tt
 vg g 0 0.1
 vd d 0 0.35
@@ -84,18 +84,18 @@ mnb db g 0 b nch w=1.5u l=0.5u m=16
     if (!found) return found.error();
     const std::string needs = "half of the tail's 200 nA (table 2, I_BIASA 100 nA)",
                       reason = "not possible: the gate is far below the threshold even with the source at vss";
-    out.claim("F10a: current of an N transistor 16x1 at V_G = 0.1 V, its source at vss", found->at_rest("i(va)"), "A")
-        .at_least(100e-9, needs)
-        .if_off(reason);
-    out.claim("F10a: the same with its bulk at 0.4 V", found->at_rest("i(vc)"), "A").at_least(100e-9, needs).if_off(reason);
-    const auto narrow = changed_text("circuits/parts/transducer.inc", {{"mp3a f1 plus  t b3 pch w=6u", "mp3a f1 plus  t b3 pch w=1.5u"},
+    out.claim("F10a: current of an N transistor 16x1 at V_G = 0.1 V, its source at vss", found->operating_point("i(va)"), "A")
+        .allow_min(100e-9, needs)
+        .explain_if_needed(reason);
+    out.claim("F10a: the same with its bulk at 0.4 V", found->operating_point("i(vc)"), "A").allow_min(100e-9, needs).explain_if_needed(reason);
+    const auto narrow = substitute_in_embedded_text("circuits/parts/transducer.inc", {{"mp3a f1 plus  t b3 pch w=6u", "mp3a f1 plus  t b3 pch w=1.5u"},
                                                                        {"mp3b f2 minus t b4 pch w=6u", "mp3b f2 minus t b4 pch w=1.5u"}});
-    const auto usual = changed_text("circuits/parts/transducer.inc", {});
+    const auto usual = substitute_in_embedded_text("circuits/parts/transducer.inc", {});
     for (const auto& [description, parts] : {std::pair{"a P pair of 6 um", &usual}, {"a P pair of 1.5 um", &narrow}}) {
         if (!*parts) return parts->error();
-        const auto netlist = changed_text("circuits/amplifier.cir", {{".include 'parts/transducer.inc'", **parts}});
+        const auto netlist = substitute_in_embedded_text("circuits/amplifier.cir", {{".include 'parts/transducer.inc'", **parts}});
         if (!netlist) return netlist.error();
-        const auto pair = found_in({*netlist});
+        const auto pair = run_study_netlist({*netlist});
         if (!pair) return pair.error();
         out.claim(fmt::format("F10a: {}: transconductance at V_Y", description), pair->number("g_m"), "S");
         out.claim(fmt::format("F10a: {}: common-mode input up to", description), pair->number("up_to"), "V");
@@ -104,47 +104,47 @@ mnb db g 0 b nch w=1.5u l=0.5u m=16
 }
 
 /// F12: the value of V_Y.
-Result<void> report_reference(Outcome& out) {
+Result<void> report_reference(StudyResult& out) {
     const double V_20 = 17 * 12e-9 / sensor.slope(20), V_400 = 17 * 4e-9 / sensor.slope(400);
     out.claim("F12: V_Y that gives 12 nA/gf at 20 gf", V_20, "V")
-        .held_to(0.1, "the interpretation that is built")
-        .if_off("no single V_Y gives both published slopes");
+        .derived_as(0.1, "the interpretation that is built")
+        .explain_if_needed("no single V_Y gives both published slopes");
     out.claim("F12: V_Y that gives 4 nA/gf at 400 gf", V_400, "V")
-        .held_to(0.1, "the interpretation that is built")
-        .if_off("no single V_Y gives both published slopes");
+        .derived_as(0.1, "the interpretation that is built")
+        .explain_if_needed("no single V_Y gives both published slopes");
     const double I_mid = 2 * 700e-9, I_most = 0.1 * sensor.conductance(400) / 17;
     out.claim("F12: force at which half of I_F is I_BIASF, at 0.1 V",
-              ForceSensor{.R_0 = 1e30}.conductance_curve(1, 400).times(1, 0.1 / 17).where(I_mid), "gf")
-        .between(100, 300, "thesis 4.3.1: V_F is at half the supply there; the middle half of 0 to 400 gf is our choice");
+              ForceSensor{.R_0 = 1e30}.conductance_curve(1, 400).scaled(1, 0.1 / 17).crossing(I_mid), "gf")
+        .allow_range(100, 300, "thesis 4.3.1: V_F is at half the supply there; the middle half of 0 to 400 gf is our choice");
     out.claim("F12: I_F at 400 gf, at 0.1 V", I_most, "A");
-    Line at_20, at_400, V_Z;
+    StudyCurve at_20, at_400, V_Z;
     for (const double V_Y : {0.06, 0.07, 0.08, 0.09, 0.1, 0.11, 0.12, 0.13, 0.14}) {
-        const auto found = found_in({"transducer", {fmt::format("vy={}", V_Y)}, ".dc vgf 18 402 2"});
+        const auto found = run_study_netlist({"transducer", {fmt::format("vy={}", V_Y)}, ".dc vgf 18 402 2"});
         if (!found) return found.error();
-        const auto slope = found->line("dc", "i(vif)").slope();
+        const auto slope = found->curve("dc", "i(vif)").slope();
         for (auto [line, value] :
-             {std::pair{&at_20, slope.at(20) * 1e9}, {&at_400, slope.at(400) * 1e9}, {&V_Z, found->line("dc", "v(x.vz)").at(400)}})
+             {std::pair{&at_20, slope.at(20) * 1e9}, {&at_400, slope.at(400) * 1e9}, {&V_Z, found->curve("dc", "v(x.vz)").at(400)}})
             line->x.push_back(V_Y), line->y.push_back(value);
     }
-    out.claim("F12: V_Y at which the netlist has 12 nA/gf at 20 gf", at_20.where(12), "V");
-    out.claim("F12: V_Y at which the netlist has 4 nA/gf at 400 gf", at_400.where(4), "V");
-    out.claim("F12: V_Y at which the netlist has V_Z = 525 mV at 400 gf", V_Z.where(0.525), "V");
+    out.claim("F12: V_Y at which the netlist has 12 nA/gf at 20 gf", at_20.crossing(12), "V");
+    out.claim("F12: V_Y at which the netlist has 4 nA/gf at 400 gf", at_400.crossing(4), "V");
+    out.claim("F12: V_Y at which the netlist has V_Z = 525 mV at 400 gf", V_Z.crossing(0.525), "V");
     out.plot("F12: slopes over V_Y", "V_Y (V)", "dI_F/dF (nA/gf)")
         .add("at 20 gf", at_20)
         .add("at 400 gf", at_400)
         .add("12, published", {{0.06, 0.14}, {12, 12}})
         .add("4, published", {{0.06, 0.14}, {4, 4}})
-        .shape("12 at 20 gf and 4 at 400 gf, V_Y not given");
+        .describe_published("12 at 20 gf and 4 at 400 gf, V_Y not given");
     return {};
 }
 
-Result<Outcome> work(const StudyOptions& options) {
-    Outcome out;
+Result<StudyResult> work(const StudyOptions& options) {
+    StudyResult out;
     report_sensor(out);
     double done = 0;
     for (const auto report : {report_transistors, report_pair, report_reference}) {
         if (auto ok = report(out); !ok) return ok.error();
-        if (auto ok = options.at(done += 0.3); !ok) return ok.error();
+        if (auto ok = options.report_progress(done += 0.3); !ok) return ok.error();
     }
     out.note(
         "The result of each printed interpretation has a row of its own, which does not hold or differs where the errata say so. F1a is "

@@ -9,7 +9,7 @@
 
 #include "io/recording.hpp"
 #include "io/spike_files.hpp"
-#include "study/sheet.hpp"
+#include "study/afferent_sheet.hpp"
 #include "study/studies.hpp"
 
 namespace corpuscle::studies::eskin_press {
@@ -31,7 +31,7 @@ struct Published {
 
 Counts counts_of(const std::vector<SheetSpike>& spikes) {
     Counts out;
-    for (const auto& s : spikes) out[s.unit] += 1;
+    for (const auto& s : spikes) out[s.afferent_index] += 1;
     return out;
 }
 
@@ -39,12 +39,12 @@ Result<SheetForce> read_force(const std::string& path, const std::string& layout
     auto source = open_recording(path, {.rate = rate, .scale = scale, .layout = layout});
     if (!source) return source.error();
     SheetForce out{(*source)->clock().T(), {}, {}};
-    for (const auto& c : (*source)->channels()) out.at.push_back({c.position->x * 1e-3, c.position->y * 1e-3});  // mm
-    out.force.resize(out.at.size());
-    for (Frames block(out.at.size(), 1024);;) {
+    for (const auto& c : (*source)->channels()) out.positions.push_back({c.position->x * 1e-3, c.position->y * 1e-3});  // mm
+    out.force.resize(out.positions.size());
+    for (Frames block(out.positions.size(), 1024);;) {
         if (auto ok = (*source)->read(block); !ok) return ok.error();
         if (block.count == 0) return out;
-        for (std::size_t s = 0; s < out.at.size(); ++s)  // negative readings are not forces
+        for (std::size_t s = 0; s < out.positions.size(); ++s)  // negative readings are not forces
             for (std::size_t k = 0; k < block.count; ++k) out.force[s].push_back(std::max(0.0, block.force[s][k]));
     }
 }
@@ -102,7 +102,7 @@ std::vector<double> times_of(const std::vector<SheetSpike>& spikes) {
     return out;
 }
 
-std::vector<double> dense_counts(const Counts& counts, const Sheet& sheet) {
+std::vector<double> dense_counts(const Counts& counts, const AfferentSheet& sheet) {
     std::vector<double> out(sheet.rows * sheet.columns);
     for (const auto& [u, n] : counts)
         if (u < out.size()) out[u] = n;
@@ -113,7 +113,7 @@ std::vector<double> dense_counts(const Counts& counts, const Sheet& sheet) {
 std::pair<double, double> press_interval(const SheetForce& force) {
     std::size_t most = 0;
     const auto top = [&](std::size_t s) { return *std::max_element(force.force[s].begin(), force.force[s].end()); };
-    for (std::size_t s = 0; s < force.at.size(); ++s)
+    for (std::size_t s = 0; s < force.positions.size(); ++s)
         if (top(s) > top(most)) most = s;
     const auto& f = force.force[most];
     const auto above = [&](double x) { return x > 0.05 * top(most); };
@@ -130,37 +130,37 @@ double longest_silence(const std::vector<double>& t) {
 }
 
 struct Comparison {
-    Sheet sheet;
+    AfferentSheet sheet;
     SheetForce force;
     Published published;
     std::vector<SheetSpike> sa1, fa1;
 };
 
 /// Properties of the network's neuron numbers.
-void report_numbers(Outcome& out, const Comparison& a) {
+void report_numbers(StudyResult& out, const Comparison& a) {
     const auto counts = counts_of(a.published.network);
     const std::size_t columns = columns_of(counts), top = most_active(counts);
-    out.claim("network: neurons that fired", static_cast<double>(counts.size()), "neurons").printed_as(123, "the recording's README");
-    out.claim("network: spikes", static_cast<double>(a.published.network.size()), "spikes").printed_as(42156, "the recording's README");
+    out.claim("network: neurons that fired", static_cast<double>(counts.size()), "neurons").published_as(123, "the recording's README");
+    out.claim("network: spikes", static_cast<double>(a.published.network.size()), "spikes").published_as(42156, "the recording's README");
     out.claim("width of the sheet for which they are closest together", static_cast<double>(columns), "neurons")
-        .held_to(30, "900 neurons are 30 x 30 if the sheet is square, which is not stated");
+        .derived_as(30, "900 neurons are 30 x 30 if the sheet is square, which is not stated");
     out.claim("their spread for this width", extent(counts, columns), "neurons");
     out.claim("their spread for a sheet two columns narrower", extent(counts, columns - 2), "neurons")
-        .at_least(1.5 * extent(counts, columns), "check: no other width gives a disc");
+        .allow_min(1.5 * extent(counts, columns), "check: no other width gives a disc");
     out.claim("most active neuron: row, from 0", static_cast<double>(top / columns));
     out.claim("most active neuron: column, from 0", static_cast<double>(top % columns));
     out.claim("difference between the halves on either side of its row", asymmetry(counts, columns, top / columns))
-        .at_most(0.05, "check: the press is in the middle of the skin's width");
+        .allow_max(0.05, "check: the press is in the middle of the skin's width");
 }
 
-void report_time(Outcome& out, const Comparison& a) {
+void report_time(StudyResult& out, const Comparison& a) {
     const auto [on, off] = press_interval(a.force);
     const auto add_edge_claims = [&](const char* source, const std::vector<double>& t) {
         if (t.empty()) return;
         out.claim(fmt::format("{}: first spike after the sensor's 5 %", source), t.front() - on, "s")
-            .between(-arrival_gap, arrival_gap, "the recording's timestamps: gaps of up to 163 ms");
+            .allow_range(-arrival_gap, arrival_gap, "the recording's timestamps: gaps of up to 163 ms");
         out.claim(fmt::format("{}: last spike after the sensor's 5 %", source), t.back() - off, "s")
-            .between(-arrival_gap, arrival_gap, "the recording's timestamps: gaps of up to 163 ms");
+            .allow_range(-arrival_gap, arrival_gap, "the recording's timestamps: gaps of up to 163 ms");
     };
     out.claim("sensor 11: above a twentieth of its maximum from", on, "s");
     out.claim("sensor 11: above a twentieth of its maximum until", off, "s");
@@ -180,9 +180,9 @@ void report_time(Outcome& out, const Comparison& a) {
     out.claim("our SA-I: longest silence while the skin is pressed", longest_silence(times_of(a.sa1)), "s");
     out.claim("network: fraction of spikes at least 0.5 s from both edges", fraction_away_from_edges(a.published.network));
     out.claim("our SA-I: fraction of spikes at least 0.5 s from both edges", fraction_away_from_edges(a.sa1))
-        .held_to(fraction_away_from_edges(a.published.network), "the network's");
+        .derived_as(fraction_away_from_edges(a.published.network), "the network's");
     out.claim("our FA-I: fraction of spikes at least 0.5 s from both edges", fraction_away_from_edges(a.fa1))
-        .at_most(0.5 * fraction_away_from_edges(a.published.network), "a fast afferent responds at the edges");
+        .allow_max(0.5 * fraction_away_from_edges(a.published.network), "a fast afferent responds at the edges");
 }
 
 /// Spike rate of the display in each bin.
@@ -190,12 +190,12 @@ std::vector<double> display_rate(const Published& published) {
     std::vector<SheetSpike> display_spikes;
     for (const auto& [name, t] : published.motors)
         for (const double x : t) display_spikes.push_back({x, 0});
-    return track_of(Sheet{}, display_spikes, from, to, bin).weight;
+    return centroid_track(AfferentSheet{}, display_spikes, from, to, bin).weight;
 }
 
-void report_place(Outcome& out, const Comparison& a) {
-    const auto sensors = track_of(a.force, from, to, bin), published = track_of(a.sheet, a.published.network, from, to, bin),
-               ours = track_of(a.sheet, a.sa1, from, to, bin);
+void report_place(StudyResult& out, const Comparison& a) {
+    const auto sensors = centroid_track(a.force, from, to, bin), published = centroid_track(a.sheet, a.published.network, from, to, bin),
+               ours = centroid_track(a.sheet, a.sa1, from, to, bin);
     const auto mean = [](const std::vector<double>& v) {
         double n = 0, sum = 0;
         for (const double x : v)
@@ -208,11 +208,11 @@ void report_place(Outcome& out, const Comparison& a) {
         out.claim(fmt::format("{}: mean position along the skin", source), mean(track->y), "m");
     }
     const auto add_correlation = [&](const char* what, const std::vector<double>& v, const std::vector<double>& w, double least) -> Claim& {
-        return out.claim(what, correlation(v, w)).at_least(least, "check: rates follow the position");
+        return out.claim(what, correlation(v, w)).allow_min(least, "check: rates follow the position");
     };
     add_correlation("our SA-I follow the sensors across the skin: r", ours.x, sensors.x, 0.8);
     add_correlation("our SA-I follow the sensors along the skin: r", ours.y, sensors.y, 0.8)
-        .if_off(
+        .explain_if_needed(
             "sensors far from the press read 0.1 to 0.2 N, too little for a response of SA-I, but these readings count in the sensors' "
             "mean position");
     add_correlation("the network's row follows the sensors across the skin: r", published.x, sensors.x, 0.5);
@@ -222,13 +222,13 @@ void report_place(Outcome& out, const Comparison& a) {
     out.claim("rates of the network and of the display over time: r", correlation(published.weight, display_rate(a.published)));
     const auto map = dense_counts(counts_of(a.published.network), a.sheet), mine = dense_counts(counts_of(a.sa1), a.sheet);
     add_correlation("spike counts of 900 neurons, network and our SA-I, compared by number: r", map, mine, 0.8);
-    Plot across{"Position of the press across the skin", "time (s)", "x (mm)", {}},
+    StudyPlot across{"Position of the press across the skin", "time (s)", "x (mm)", {}},
         along{"Position of the press along the skin", "time (s)", "y (mm)", {}},
         rates{"Spikes, and sum of the sensors, in 100 ms", "time (s)", "fraction of the largest", {}};
     for (const auto& [source, track] : {std::pair{"sensors", &sensors}, {"our SA-I", &ours}, {"network", &published}}) {
         const double most = *std::max_element(track->weight.begin(), track->weight.end());
         const auto line = [&](const std::vector<double>& v, double times) {
-            Line scaled{track->t, v};
+            StudyCurve scaled{track->t, v};
             for (double& y : scaled.y) y *= times;
             return scaled;
         };
@@ -237,8 +237,8 @@ void report_place(Outcome& out, const Comparison& a) {
     for (auto* plot : {&across, &along, &rates}) out.plots.push_back(std::move(*plot));
 }
 
-Result<Outcome> work(const StudyOptions& options) {
-    const std::string path = options.recordings + "/" + folder;
+Result<StudyResult> work(const StudyOptions& options) {
+    const std::string path = options.recordings_folder + "/" + folder;
     if (!std::filesystem::is_directory(path))
         return bad_input(fmt::format("no recording in '{}'; CORPUSCLE_DATA must name the folder that contains '{}'", path, folder));
     Comparison a;
@@ -250,12 +250,12 @@ Result<Outcome> work(const StudyOptions& options) {
     a.published = std::move(*published);
     a.sheet.corner = {-0.5 * static_cast<double>(a.sheet.rows) * a.sheet.pitch, 0};
     for (const auto& [name, spikes] : {std::pair{"sa1", &a.sa1}, {"fa1", &a.fa1}}) {
-        auto response = sheet_answer(a.sheet, name, a.force, sigma);
+        auto response = simulate_sheet(a.sheet, name, a.force, sigma);
         if (!response) return response.error();
         *spikes = std::move(*response);
-        if (auto ok = options.at(name[0] == 's' ? 0.4 : 0.8); !ok) return ok.error();
+        if (auto ok = options.report_progress(name[0] == 's' ? 0.4 : 0.8); !ok) return ok.error();
     }
-    Outcome out;
+    StudyResult out;
     report_numbers(out, a);
     report_time(out, a);
     report_place(out, a);

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <cmath>
 
-#include "study/deck.hpp"
+#include "study/study_netlist.hpp"
 #include "study/studies.hpp"
 #include "study/thesis/press.hpp"
 
@@ -23,43 +23,43 @@ e1 out 0 0 minus 1e6
 constexpr double capacitor_density = 2e-3;  // F/m^2, 2 fF/um^2: the density of the thesis's MIM capacitors (errata S4)
 
 /// Decades of amplitude per decade of frequency.
-double gain_slope(const Line& magnitude, double from, double to) {
+double gain_slope(const StudyCurve& magnitude, double from, double to) {
     return std::log10(magnitude.at(to) / magnitude.at(from)) / std::log10(to / from);
 }
 
-void add_press_claims(Outcome& out, const Found& press, double tau) {
-    const auto force = press.line("tran", "v(in)"), response = press.line("tran", "v(out)");
-    const auto slope = force.slope().times(1, -tau);
+void add_press_claims(StudyResult& out, const NetlistResult& press, double tau) {
+    const auto force = press.curve("tran", "v(in)"), response = press.curve("tran", "v(out)");
+    const auto slope = force.slope().scaled(1, -tau);
     double off = 0;
     for (std::size_t k = 0; k < response.x.size(); ++k)
         if (const double d = std::abs(response.y[k] - slope.at(response.x[k])); d > off) off = d;
-    out.claim("under the press stimulus: largest difference from -RC dF/dt, of the largest -RC dF/dt", 100 * off / slope.absolute().most(),
+    out.claim("under the press stimulus: largest difference from -RC dF/dt, of the largest -RC dF/dt", 100 * off / slope.absolute().max(),
               "%")
-        .at_most(2, "thesis 2.2 and 2.3: a differentiator; the range is our choice, for steps of at most 1 ms");
+        .allow_max(2, "thesis 2.2 and 2.3: a differentiator; the range is our choice, for steps of at most 1 ms");
     out.plot("Under the press stimulus, one volt per newton", "time (s)", "voltage (V)").add("v(out)", response).add("-RC dF/dt", slope);
 }
 
-Result<Outcome> work(const StudyOptions&) {
-    Outcome out;
-    const auto ac = found_in({"differentiator", {}, ".ac dec 20 0.1 1k"}), press = found_in({under_press, {}, {}});
+Result<StudyResult> work(const StudyOptions&) {
+    StudyResult out;
+    const auto ac = run_study_netlist({"differentiator", {}, ".ac dec 20 0.1 1k"}), press = run_study_netlist({under_press, {}, {}});
     if (!ac) return ac.error();
     if (!press) return press.error();
-    const auto magnitude = ac->line("ac", "vm(out)"), phase = ac->line("ac", "vp(out)");
-    const double tau = 1 / (2 * M_PI * magnitude.where(1)), model_B = 1 / (2 * M_PI * 20), model_C = 1 / (2 * M_PI * 2);
+    const auto magnitude = ac->curve("ac", "vm(out)"), phase = ac->curve("ac", "vp(out)");
+    const double tau = 1 / (2 * M_PI * magnitude.crossing(1)), model_B = 1 / (2 * M_PI * 20), model_C = 1 / (2 * M_PI * 2);
     out.claim("tau of the differentiator, from the frequency at which its gain is 1", tau, "s")
-        .between(1e-3, 10e-3, "thesis 2.3: tau = RC in the order of milliseconds; a decade is our choice");
-    out.claim("tau of the model's fast filter (20 Hz)", model_B, "s").between(1e-3, 10e-3, "thesis 2.3: accordingly to the model");
+        .allow_range(1e-3, 10e-3, "thesis 2.3: tau = RC in the order of milliseconds; a decade is our choice");
+    out.claim("tau of the model's fast filter (20 Hz)", model_B, "s").allow_range(1e-3, 10e-3, "thesis 2.3: accordingly to the model");
     out.claim("tau of the model's slow filter (2 Hz)", model_C, "s")
-        .between(1e-3, 10e-3, "thesis 2.3: accordingly to the model")
-        .because("section 2.3 is about the differentiator of Kim's model; the thesis's own slow filter comes later (3.3)");
+        .allow_range(1e-3, 10e-3, "thesis 2.3: accordingly to the model")
+        .explain("section 2.3 is about the differentiator of Kim's model; the thesis's own slow filter comes later (3.3)");
     out.claim("growth of the gain from 1 to 100 Hz, decades per decade", gain_slope(magnitude, 1, 100))
-        .held_to(1, "thesis 3.3: amplitude increases proportionally with frequency");
+        .derived_as(1, "thesis 3.3: amplitude increases proportionally with frequency");
     out.claim("growth of the gain from 100 Hz to 1 kHz, decades per decade", gain_slope(magnitude, 100, 1000))
-        .held_to(1, "thesis 3.3: susceptible to high frequencies");
-    out.claim("phase at 20 Hz", phase.at(20) * 180 / M_PI, "degrees").held_to(-90, "an inverted derivative: 90 - 180 degrees");
+        .derived_as(1, "thesis 3.3: susceptible to high frequencies");
+    out.claim("phase at 20 Hz", phase.at(20) * 180 / M_PI, "degrees").derived_as(-90, "an inverted derivative: 90 - 180 degrees");
     const double high_pass_gain = 1 / std::sqrt(1 + std::pow(20.0 / 1e3, 2));
     out.claim("gain at 1 kHz over that of a high-pass of 20 Hz", magnitude.at(1e3) / high_pass_gain)
-        .at_least(10, "thesis 3.3: to be limited above a corner; ten times is our choice");
+        .allow_min(10, "thesis 3.3: to be limited above a corner; ten times is our choice");
     for (const double R : {1e6, 1e9})
         out.claim(fmt::format("plate area of C for this tau at R = {}", R < 1e9 ? "1 Mohm" : "1 Gohm"), tau / R / capacitor_density * 1e12,
                   "um^2");

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <cmath>
 
-#include "study/deck.hpp"
+#include "study/study_netlist.hpp"
 #include "study/studies.hpp"
 
 namespace corpuscle::studies::fig11 {
@@ -45,62 +45,62 @@ vmid mid 0 0.35
 constexpr double half = 0.35, offset = 0.1,
                  on = 50.1e-3;  // V: half the supply; V: distance from it at which loads are compared; s: time of the step
 
-double largest_difference(const Line& a, const Line& b) {
+double largest_difference(const StudyCurve& a, const StudyCurve& b) {
     double out = 0;
     for (std::size_t k = 0; k < a.x.size(); ++k) out = std::max(out, std::abs(a.y[k] - b.y[k]));
     return out;
 }
 
-void add_ideal_claims(Outcome& out, const Found& ideal) {
-    const auto a = ideal.line("ac", "vm(a)"), b = ideal.line("ac", "vm(b)");
+void add_ideal_claims(StudyResult& out, const NetlistResult& ideal) {
+    const auto a = ideal.curve("ac", "vm(a)"), b = ideal.curve("ac", "vm(b)");
     out.claim("ideal: largest difference of the active filter's gain from the passive one's", largest_difference(a, b))
-        .at_most(1e-6, "thesis 2.3: tau = C / G_m instead of RC; R is 1 / G_m here");
+        .allow_max(1e-6, "thesis 2.3: tau = C / G_m instead of RC; R is 1 / G_m here");
     for (const auto& [node, C, printed] : {std::tuple{"b", 0.8e-12, 30.0}, {"c", 8.8e-12, 2.7}}) {
-        const double f = ideal.line("ac", fmt::format("vp({})", node)).where(M_PI / 4);
-        out.claim(fmt::format("ideal, 6.6 Gohm and {:.2g} pF: corner", C * 1e12), f, "Hz").printed_as(printed, "thesis 4.3.1");
-        out.claim(fmt::format("ideal, {:.2g} pF: tau over C / G_m", C * 1e12), 1 / (2 * M_PI * f) / (C * 6.6e9)).held_to(1, "thesis 2.3");
+        const double f = ideal.curve("ac", fmt::format("vp({})", node)).crossing(M_PI / 4);
+        out.claim(fmt::format("ideal, 6.6 Gohm and {:.2g} pF: corner", C * 1e12), f, "Hz").published_as(printed, "thesis 4.3.1");
+        out.claim(fmt::format("ideal, {:.2g} pF: tau over C / G_m", C * 1e12), 1 / (2 * M_PI * f) / (C * 6.6e9)).derived_as(1, "thesis 2.3");
     }
     out.plot("Gain", "frequency (Hz)", "gain", true, true)
         .add("passive: C and R", a)
         .add("active: C and G_m", b)
-        .add("active, eleven times the C", ideal.line("ac", "vm(c)"))
-        .shape("the same high-pass, with 1 / G_m instead of R");
+        .add("active, eleven times the C", ideal.curve("ac", "vm(c)"))
+        .describe_published("the same high-pass, with 1 / G_m instead of R");
 }
 
 /// A load's current times its resistance at half the supply, over the voltage from there.
-Line normalised_current(const Line& current) {
+StudyCurve normalised_current(const StudyCurve& current) {
     const double slope = current.slope_at(half), middle = current.at(half);
-    Line out;
+    StudyCurve out;
     for (std::size_t k = 0; k < current.x.size(); ++k)
         out.x.push_back(current.x[k] - half), out.y.push_back((current.y[k] - middle) / slope);
     return out;
 }
-double nonlinearity(const Line& straight) {
+double nonlinearity(const StudyCurve& straight) {
     return 100 * std::max(std::abs(straight.at(-offset) / offset + 1), std::abs(straight.at(offset) / offset - 1));
 }
 
-void add_load_claims(Outcome& out, const Found& found) {
-    const auto plain = normalised_current(found.line("dc", "i(ea)")), invc = normalised_current(found.line("dc", "i(ec)"));
+void add_load_claims(StudyResult& out, const NetlistResult& found) {
+    const auto plain = normalised_current(found.curve("dc", "i(ea)")), invc = normalised_current(found.curve("dc", "i(ec)"));
     out.claim("a plain inverter as a load: nonlinearity of its current at 100 mV", nonlinearity(plain), "%")
-        .at_least(5, "thesis 2.3: active devices are very non-linear by nature; more than 5 % is our choice");
+        .allow_min(5, "thesis 2.3: active devices are very non-linear by nature; more than 5 % is our choice");
     out.claim("INVC as a load: the same", nonlinearity(invc), "%")
-        .at_most(nonlinearity(plain), "thesis 2.3: techniques that balance linearity and low transconductance");
+        .allow_max(nonlinearity(plain), "thesis 2.3: techniques that balance linearity and low transconductance");
     out.plot("Current times the resistance at half the supply", "voltage from half the supply (V)", "current times resistance (V)")
         .add("plain inverter", plain)
         .add("INVC", invc)
         .add("resistor", {{-0.2, 0.2}, {-0.2, 0.2}})
-        .shape("a resistor obeys Ohm's law; a transconductor of transistors does not");
+        .describe_published("a resistor obeys Ohm's law; a transconductor of transistors does not");
 }
 
 /// Fraction of a step that remains after a time, for v(hp) and v(a).
 struct Remainder {
     double invc, resistor;
 };
-Result<Remainder> remainder_after_step(double size, double resistance, Plot* plot) {
-    const auto found = found_in({steps, {fmt::format("size={}", size), fmt::format("r={}", resistance)}, {}});
+Result<Remainder> remainder_after_step(double size, double resistance, StudyPlot* plot) {
+    const auto found = run_study_netlist({steps, {fmt::format("size={}", size), fmt::format("r={}", resistance)}, {}});
     if (!found) return found.error();
     const auto normalised_step = [&](const char* node) {
-        auto v = found->line("tran", node);
+        auto v = found->curve("tran", node);
         const double before = v.at(on - 2e-4), top = v.at(on + 1e-4) - before;
         for (double& y : v.y) y = (y - before) / top;
         return v;
@@ -111,23 +111,23 @@ Result<Remainder> remainder_after_step(double size, double resistance, Plot* plo
     return Remainder{hp.at(on + 50e-3), a.at(on + 50e-3)};
 }
 
-Result<Outcome> work(const StudyOptions& options) {
-    Outcome out;
-    const auto ideal = found_in({"high_pass_ideal", {}, ".ac dec 50 10m 10k"}), real_loads = found_in({loads, {}, {}});
+Result<StudyResult> work(const StudyOptions& options) {
+    StudyResult out;
+    const auto ideal = run_study_netlist({"high_pass_ideal", {}, ".ac dec 50 10m 10k"}), real_loads = run_study_netlist({loads, {}, {}});
     if (!ideal) return ideal.error();
     if (!real_loads) return real_loads.error();
     add_ideal_claims(out, *ideal), add_load_claims(out, *real_loads);
-    if (auto ok = options.at(0.5); !ok) return ok.error();
-    const double resistance = 1 / real_loads->line("dc", "i(ec)").absolute().slope().absolute().at(half + 10e-3);
-    Plot plot{"Response to a step, relative to its start", "time (s)", "fraction of the step", {}};
+    if (auto ok = options.report_progress(0.5); !ok) return ok.error();
+    const double resistance = 1 / real_loads->curve("dc", "i(ec)").absolute().slope().absolute().at(half + 10e-3);
+    StudyPlot plot{"Response to a step, relative to its start", "time (s)", "fraction of the step", {}};
     const auto small = remainder_after_step(20e-3, resistance, &plot), large = remainder_after_step(200e-3, resistance, &plot),
                resistor = remainder_after_step(20e-3, resistance, nullptr);
     for (const auto* p : {&small, &large, &resistor})
         if (!*p) return p->error();
     out.claim("resistor: remainder of 200 mV after 50 ms, over that of 20 mV", large->resistor / small->resistor)
-        .held_to(1, "thesis 2.3: linear");
+        .derived_as(1, "thesis 2.3: linear");
     out.claim("INVC: the same", large->invc / small->invc)
-        .at_most(1, "thesis 2.3: large signals are distorted; beyond its linear range INVC takes more current than a resistor");
+        .allow_max(1, "thesis 2.3: large signals are distorted; beyond its linear range INVC takes more current than a resistor");
     out.plots.push_back(std::move(plot));
     out.note(
         "Of the ways to a low transconductance in the references (bulk- or drain-driven inputs, pseudo-resistors) only those of figs. 12 "

@@ -15,25 +15,25 @@ constexpr double S_1 = 2.0 / 8, S_N = 2.0 / 9, S_M = 16;  // aspect ratios of th
 Result<TransconductorCurve> simulate_without(const std::vector<std::string>& lines) {
     std::vector<std::pair<std::string, std::string>> changes;
     for (const auto& line : lines) changes.emplace_back("\n" + line, "\n* " + line);
-    const auto text = changed_text("circuits/ota_cancelling.cir", changes);
+    const auto text = substitute_in_embedded_text("circuits/ota_cancelling.cir", changes);
     if (!text) return text.error();
     return simulate_transconductor({*text});
 }
 
 /// Current of M_M over that of M_1.
 Result<double> simulate_split() {
-    const auto found = found_in({"ota_cancelling", {}, ".save i(mma) i(m1a)\n.op"});
+    const auto found = run_study_netlist({"ota_cancelling", {}, ".save i(mma) i(m1a)\n.op"});
     if (!found) return found.error();
-    return found->at_rest("i(mma)") / found->at_rest("i(m1a)");
+    return found->operating_point("i(mma)") / found->operating_point("i(m1a)");
 }
 
 /// The thesis's statements on any pair: low transconductance by small currents and small aspect ratios, better linearity in stronger
 /// inversion.
-Result<void> add_pair_claims(Outcome& out, const StudyOptions& options) {
+Result<void> add_pair_claims(StudyResult& out, const StudyOptions& options) {
     const std::string source = "thesis 2.3, text";
-    Plot& plot = out.plot("Linear range of a pair without load (slope within 5 %)", "transconductance over tail current (1/V)", "V");
-    plot.shape("\"the transconductance linearity is also proportional to the transistor inversion\"");
-    Line straight, g_m;
+    StudyPlot& plot = out.plot("Linear range of a pair without load (slope within 5 %)", "transconductance over tail current (1/V)", "V");
+    plot.describe_published("\"the transconductance linearity is also proportional to the transistor inversion\"");
+    StudyCurve straight, g_m;
     for (const double i_b : {1e-9, 3e-9, 10e-9, 30e-9, 100e-9, 300e-9, 1e-6, 3e-6, 10e-6, 30e-6}) {
         const auto pair = simulate_isolated_pair(i_b, 2, 8);
         if (!pair) return pair.error();
@@ -43,18 +43,18 @@ Result<void> add_pair_claims(Outcome& out, const StudyOptions& options) {
     const auto wide = simulate_isolated_pair(10e-6, 16, 1);
     if (!wide) return wide.error();
     out.claim("pair 2x8: transconductance at 10 nA of tail current over that at 1 nA", g_m.at(10e-9) / g_m.at(1e-9), "times")
-        .between(9, 11, source + ": proportional to the current while inversion is weak");
+        .allow_range(9, 11, source + ": proportional to the current while inversion is weak");
     out.claim("at 10 uA: transconductance of 2x8 over that of 16x1", g_m.at(10e-6) / wide->g_m)
-        .at_most(0.9, source + ": falls with the aspect ratio, in stronger inversion");
+        .allow_max(0.9, source + ": falls with the aspect ratio, in stronger inversion");
     out.claim("pair 2x8: linear range at 30 uA over that at 1 nA", straight.y.front() / straight.y.back(), "times")
-        .at_least(1, source + ": more linear in stronger inversion");
+        .allow_min(1, source + ": more linear in stronger inversion");
     plot.add("P pair of 2x8, 1 nA to 30 uA", straight);
-    return options.at(0.5);
+    return options.report_progress(0.5);
 }
 
 /// Transconductances from bulk and drain compared with that from the gate.
-Result<void> add_terminal_claims(Outcome& out) {
-    const auto found = found_in({R"(One transistor three times, driven at its gate, bulk and drain
+Result<void> add_terminal_claims(StudyResult& out) {
+    const auto found = run_study_netlist({R"(One transistor three times, driven at its gate, bulk and drain
 .lib '../process/tsmc180.lib' tt
 vs s 0 0
 vg g1 s 0.35
@@ -69,15 +69,15 @@ m3 d3 g2 0 0 nch w=1.5u l=0.5u m=2 stack=8
                                  {},
                                  ".dc vs -2m 2m 1m"});
     if (!found) return found.error();
-    const auto slope = [&](const char* current) { return -found->line("dc", current).slope_at(0); };
+    const auto slope = [&](const char* current) { return -found->curve("dc", current).slope_at(0); };
     const std::string source = "thesis 2.3: bulk and drain transconductances \"are a fraction of the gate transconductance\"";
-    out.claim("N 2x8 at 0.35 V: bulk transconductance over gate transconductance", slope("i(v2)") / slope("i(v1)")).between(0, 1, source);
-    out.claim("N 2x8 at 0.35 V: drain transconductance over gate transconductance", slope("i(v3)") / slope("i(v1)")).between(0, 1, source);
+    out.claim("N 2x8 at 0.35 V: bulk transconductance over gate transconductance", slope("i(v2)") / slope("i(v1)")).allow_range(0, 1, source);
+    out.claim("N 2x8 at 0.35 V: drain transconductance over gate transconductance", slope("i(v3)") / slope("i(v1)")).allow_range(0, 1, source);
     return {};
 }
 
-Result<Outcome> work(const StudyOptions& options) {
-    Outcome out;
+Result<StudyResult> work(const StudyOptions& options) {
+    StudyResult out;
     const auto all = simulate_without({}), no_n = simulate_without({"mna ", "mnb "}),
                bare = simulate_without({"mna ", "mnb ", "mma ", "mmb "});
     const auto no_m = simulate_without({"mma ", "mmb "});
@@ -88,25 +88,25 @@ Result<Outcome> work(const StudyOptions& options) {
     const std::string source = "thesis 2.3, fig. 12";
     out.claim("G_m of the complete circuit (chosen equal to INVC's of circuits/invc.cir)", all->g_m, "S");
     out.claim("current of M_M over that of M_1", *i_m, "times")
-        .held_to(S_M / S_1, source + ": \"proportionally to their dimensions\"")
-        .if_off("M_M's drain is at vss, M_1's at the load: the single transistors of M_M have the lower Early voltage");
+        .derived_as(S_M / S_1, source + ": \"proportionally to their dimensions\"")
+        .explain_if_needed("M_M's drain is at vss, M_1's at the load: the single transistors of M_M have the lower Early voltage");
     out.claim("splitting only: G_m with M_M over that without", no_n->g_m / bare->g_m)
-        .held_to(S_1 / (S_1 + S_M), source + ": lower by the split of the current, in weak inversion")
-        .if_off("the error of the split");
+        .derived_as(S_1 / (S_1 + S_M), source + ": lower by the split of the current, in weak inversion")
+        .explain_if_needed("the error of the split");
     out.claim("cancellation only: G_m with M_N over that without", no_m->g_m / bare->g_m)
-        .held_to((S_1 - S_N) / (S_1 + S_N), source + ": the difference of two transconductances, in weak inversion")
-        .if_off("a difference of nearly equal numbers amplifies the error of each");
+        .derived_as((S_1 - S_N) / (S_1 + S_N), source + ": the difference of two transconductances, in weak inversion")
+        .explain_if_needed("a difference of nearly equal numbers amplifies the error of each");
     out.claim("both: G_m over that of the pair without either", all->g_m / bare->g_m)
-        .held_to((S_1 - S_N) / (S_1 + S_N + S_M), source + ", in weak inversion")
-        .if_off("the product of the two errors above");
+        .derived_as((S_1 - S_N) / (S_1 + S_N + S_M), source + ", in weak inversion")
+        .explain_if_needed("the product of the two errors above");
     out.claim("linear range (slope within 5 %) up to", all->linear_range, "V");
     out.claim("the same of the pair without either", bare->linear_range, "V");
-    out.finds("with both the pair keeps its linear range to a tenth", std::abs(all->linear_range / bare->linear_range - 1) < 0.1,
+    out.claim_true("with both the pair keeps its linear range to a tenth", std::abs(all->linear_range / bare->linear_range - 1) < 0.1,
               "thesis 2.3: they balance linearity and transconductance; the bound is our choice");
     out.claim("power", all->power, "W");
-    Plot& plot = out.plot("Output current over its largest positive value, over the input voltage", "V_+ - V_- (V)", "I / largest");
+    StudyPlot& plot = out.plot("Output current over its largest positive value, over the input voltage", "V_+ - V_- (V)", "I / largest");
     for (const auto& [name, t] : {std::pair{"complete", &*all}, {"without M_N", &*no_n}, {"pair only", &*bare}})
-        plot.add(name, t->current.between(-0.15, 0.15).times(1, t->sign() / t->max_current));
+        plot.add(name, t->current.between(-0.15, 0.15).scaled(1, t->sign() / t->max_current));
     out.note(
         "Beyond 0.2 V the tail node falls below the output, which is held at 0.35 V here, and M_N conducts in the other direction; the "
         "curve ends before that.");

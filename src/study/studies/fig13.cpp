@@ -11,18 +11,18 @@ namespace corpuscle::studies::fig13 {
 
 Result<TransconductorCurve> simulate_mirrors(int N, double i_b) {
     const auto text =
-        changed_text("circuits/ota_series_parallel.cir", {{"nch_hv w=1.5u l=0.5u m=8\n", fmt::format("nch_hv w=1.5u l=0.5u m={}\n", N)},
+        substitute_in_embedded_text("circuits/ota_series_parallel.cir", {{"nch_hv w=1.5u l=0.5u m=8\n", fmt::format("nch_hv w=1.5u l=0.5u m={}\n", N)},
                                                           {"l=0.5u stack=8\n", fmt::format("l=0.5u stack={}\n", N)}});
     if (!text) return text.error();
     return simulate_transconductor({*text, {fmt::format("i_b={}", i_b)}});
 }
 
-Result<Outcome> work(const StudyOptions& options) {
-    Outcome out;
+Result<StudyResult> work(const StudyOptions& options) {
+    StudyResult out;
     const std::string source = "thesis 2.3, fig. 13";
     constexpr double i_b = 502e-12,
                      strong = 100e-9;  // A: the netlist's current, and a larger one for which the mirrors' voltages matter more
-    Line weak_by, strong_by;
+    StudyCurve weak_by, strong_by;
     TransconductorCurve with_8;
     double plain = 0, plain_strong = 0;
     for (const int N : {1, 2, 3, 4, 6, 8}) {
@@ -34,21 +34,21 @@ Result<Outcome> work(const StudyOptions& options) {
         strong_by.x.push_back(N), strong_by.y.push_back(plain_strong / s->g_m);
         if (N == 8) with_8 = *t;
     }
-    if (auto ok = options.at(0.5); !ok) return ok.error();
+    if (auto ok = options.report_progress(0.5); !ok) return ok.error();
     const std::string why =
         "length modulation: the parallel diode has all of its voltage across one unit transistor, the series array across N of them, so "
         "the diode carries more than its ratio";
     for (const double N : {2.0, 4.0, 8.0})
         out.claim(fmt::format("N = {}: G_m is divided by", N), weak_by.at(N), "times")
-            .held_to(N * N, source + ": N^2, current and transconductance alike")
-            .if_off(why);
+            .derived_as(N * N, source + ": N^2, current and transconductance alike")
+            .explain_if_needed(why);
     const auto pair_only = simulate_isolated_pair(i_b, 2, 8);
     if (!pair_only) return pair_only.error();
-    out.claim("N = 8: tail current over the largest output current", i_b / with_8.max_current, "times").held_to(64, source + ": N^2").if_off(why);
+    out.claim("N = 8: tail current over the largest output current", i_b / with_8.max_current, "times").derived_as(64, source + ": N^2").explain_if_needed(why);
     out.claim("N = 8: G_m (chosen equal to INVC's of circuits/invc.cir)", with_8.g_m, "S");
     out.claim("linear range (slope within 5 %) up to", with_8.linear_range, "V");
     out.claim("the same of the pair without load", pair_only->linear_range, "V");
-    out.finds("the mirrors keep the pair's linear range to a tenth", std::abs(with_8.linear_range / pair_only->linear_range - 1) < 0.1,
+    out.claim_true("the mirrors keep the pair's linear range to a tenth", std::abs(with_8.linear_range / pair_only->linear_range - 1) < 0.1,
               "thesis 2.3: the mirrors attenuate only the output");
     out.claim("power", with_8.power, "W");
 
@@ -67,11 +67,11 @@ vout out 0 0.35
     if (!invc) return invc.error();
     out.claim("INVC, the thesis's own: linear range up to", invc->linear_range, "V");
     out.claim("INVC: power", invc->power, "W");
-    out.finds("INVC has a larger linear range than either", invc->linear_range > with_8.linear_range && invc->linear_range > cancelling->linear_range,
+    out.claim_true("INVC has a larger linear range than either", invc->linear_range > with_8.linear_range && invc->linear_range > cancelling->linear_range,
               "thesis 2.3: it \"combines the two techniques\"; app. E: linearised");
-    out.finds("INVC takes less power than either", invc->power < with_8.power && invc->power < cancelling->power,
+    out.claim_true("INVC takes less power than either", invc->power < with_8.power && invc->power < cancelling->power,
               "thesis 2.3: \"to decrease the ... total power consumption\"")
-        .if_off(
+        .explain_if_needed(
             "at the same transconductance the pairs take less: their tails carry nanoamperes, INVC's linear stage the bias of 200 nA. It "
             "buys a range many times as wide; a fair comparison would be a pair degenerated to that range");
     for (auto* line : {&weak_by, &strong_by})
@@ -79,12 +79,12 @@ vout out 0 0.35
     out.plot("Divisor of G_m by N parallel to N in series, over N^2", "N", "times")
         .add(fmt::format("tail {:g} pA", i_b * 1e12), weak_by)
         .add(fmt::format("tail {:g} nA", strong * 1e9), strong_by)
-        .shape("N^2 by the text");
+        .describe_published("N^2 by the text");
     out.plot("Three transconductors of equal transconductance", "V_+ - V_- (V)", "I (pA)")
-        .add("fig. 12", cancelling->current.between(-0.15, 0.15).times(1, 1e12 * cancelling->sign()))
-        .add("fig. 13", with_8.current.between(-0.15, 0.15).times(1, 1e12 * with_8.sign()))
-        .add("INVC", invc->current.between(-0.15, 0.15).times(1, 1e12 * invc->sign()))
-        .shape("the thesis names the balance of linearity and low transconductance");
+        .add("fig. 12", cancelling->current.between(-0.15, 0.15).scaled(1, 1e12 * cancelling->sign()))
+        .add("fig. 13", with_8.current.between(-0.15, 0.15).scaled(1, 1e12 * with_8.sign()))
+        .add("INVC", invc->current.between(-0.15, 0.15).scaled(1, 1e12 * invc->sign()))
+        .describe_published("the thesis names the balance of linearity and low transconductance");
     return out;
 }
 

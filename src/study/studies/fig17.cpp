@@ -16,92 +16,92 @@ struct ThresholdCase {
 constexpr ThresholdCase threshold_cases[] = {
     {"1 and 0.5 V as in fig. 16", 1, 0.5}, {"0.5 and 0.25 V (our choice)", 0.5, 0.25}, {"0.2 and 0 V", 0.2, 0}};
 
-Line sum(const Line& a, const Line& b) {
-    Line out = a;
+StudyCurve sum(const StudyCurve& a, const StudyCurve& b) {
+    StudyCurve out = a;
     for (std::size_t k = 0; k < a.y.size(); ++k) out.y[k] += b.y[k];
     return out;
 }
-Line positive(Line a) {
+StudyCurve positive(StudyCurve a) {
     for (double& y : a.y) y = std::max(y, 0.0);
     return a;
 }
 
 struct Currents {
-    Line A, B, C, I;
-    explicit Currents(const Told& response)
-        : A(response.traces.at("I_A")), B(response.traces.at("I_B")), C(response.traces.at("I_C")),
+    StudyCurve A, B, C, I;
+    explicit Currents(const TrialResult& response)
+        : A(response.probes.at("I_A")), B(response.probes.at("I_B")), C(response.probes.at("I_C")),
           I(sum(A, sum(positive(B), positive(C)))) {}
 };
 
-void report_currents(Outcome& out, const Currents& i, const Line& force) {
+void report_currents(StudyResult& out, const Currents& i, const StudyCurve& force) {
     const auto source = "thesis 3.3, fig. 17a";
     double worst_error = 0;
     for (std::size_t k = 0; k < force.y.size(); ++k) worst_error = std::max(worst_error, std::abs(i.A.y[k] / 1e-6 - force.y[k]));
     out.claim("I_A / k_A: largest difference from the force", worst_error, "N")
-        .at_most(1e-9, "thesis 3.3: I_A is an exact copy of the force");
-    const double late = i.B.peak() - force.slope().peak();
+        .allow_max(1e-9, "thesis 3.3: I_A is an exact copy of the force");
+    const double late = i.B.x_of_max() - force.slope().x_of_max();
     out.claim("I_B: delay of its peak after the peak of the slope", late, "s")
-        .between(0, 10e-3, "thesis 3.3: proportional to the derivative; the range is our choice, the filter's time constant is 8 ms");
-    out.claim("I_B: peak over that of a derivative with the same gain", i.B.most() / (8e-6 / (2 * M_PI * 20) * force.slope().most()))
-        .between(0.9, 1.1, "thesis 3.3: proportional to the derivative; a tenth is our choice");
+        .allow_range(0, 10e-3, "thesis 3.3: proportional to the derivative; the range is our choice, the filter's time constant is 8 ms");
+    out.claim("I_B: peak over that of a derivative with the same gain", i.B.max() / (8e-6 / (2 * M_PI * 20) * force.slope().max()))
+        .allow_range(0.9, 1.1, "thesis 3.3: proportional to the derivative; a tenth is our choice");
     const double w = 2 * M_PI * 4, corner = 2 * M_PI * 20;  // the half-cosine of 125 ms is half a period of 4 Hz
     out.claim("high-pass of 20 Hz at 4 Hz: amplitude below a derivative's", 100 * (1 - corner / std::hypot(w, corner)), "%");
     out.claim("high-pass of 20 Hz at 4 Hz: phase lag to a derivative", std::atan(w / corner) * 180 / M_PI, "degrees");
-    const auto value_at = [&](const Line& x, double t) { return x.at(t); };
+    const auto value_at = [&](const StudyCurve& x, double t) { return x.at(t); };
     const double from = press::plateau.from + 50e-3, to = press::plateau.to - 1e-3;  // I_B has decayed by then
     out.claim("fraction of the decay of I in the plateau that is due to I_C, from 50 ms on",
               100 * (value_at(i.C, from) - value_at(i.C, to)) / (value_at(i.I, from) - value_at(i.I, to)), "%")
-        .between(95, 105, "thesis 3.3: I_C is responsible for the slow decay; the range is our choice");
+        .allow_range(95, 105, "thesis 3.3: I_C is responsible for the slow decay; the range is our choice");
     const double t = (press::retraction.from + press::retraction.to) / 2 + 20e-3;
     out.claim("I_B + I_C late in retraction, before rectification", value_at(i.B, t) + value_at(i.C, t), "A")
-        .at_most(0, "thesis 3.3: negative there");
+        .allow_max(0, "thesis 3.3: negative there");
     out.claim("their contribution to I at that time", value_at(i.I, t) - value_at(i.A, t), "A")
-        .between(0, 0, "thesis 3.3: negative values do not contribute");
-    out.claim("I: peak", i.I.most(), "A");
+        .allow_range(0, 0, "thesis 3.3: negative values do not contribute");
+    out.claim("I: peak", i.I.max(), "A");
     out.plot("Receptor currents, T = 1 ms", "time (s)", "current (uA)")
-        .add("I", i.I.times(1, 1e6))
-        .add("I_A", i.A.times(1, 1e6))
-        .add("I_B", i.B.times(1, 1e6))
-        .add("I_C", i.C.times(1, 1e6))
-        .shape(fmt::format("{}: I_A a copy of the force, I_B its derivative, I_C a slow decay; I is their sum without negative values",
+        .add("I", i.I.scaled(1, 1e6))
+        .add("I_A", i.A.scaled(1, 1e6))
+        .add("I_B", i.B.scaled(1, 1e6))
+        .add("I_C", i.C.scaled(1, 1e6))
+        .describe_published(fmt::format("{}: I_A a copy of the force, I_B its derivative, I_C a slow decay; I is their sum without negative values",
                            source));
 }
 
-Result<Outcome> work(const StudyOptions& options) {
-    Outcome out;
+Result<StudyResult> work(const StudyOptions& options) {
+    StudyResult out;
     auto spec = press::thesis_algorithm("sa1");
-    spec.traces = {"I_A", "I_B", "I_C", "u"};
-    const auto response = told_of(spec);
+    spec.probes = {"I_A", "I_B", "I_C", "u"};
+    const auto response = run_trial(spec);
     if (!response) return response.error();
     const auto force = press::force_curve(1e-3);
     if (!force) return force.error();
     report_currents(out, Currents(*response), *force);
-    out.plot("Membrane, T = 1 ms", "time (s)", "u (V)").add("u", response->traces.at("u"));
+    out.plot("Membrane, T = 1 ms", "time (s)", "u (V)").add("u", response->probes.at("u"));
 
-    Plot frequencies{"Instantaneous frequency", "time (s)", "frequency (Hz)", {}};
+    StudyPlot frequencies{"Instantaneous frequency", "time (s)", "frequency (Hz)", {}};
     for (const auto& r : threshold_cases) {
         const std::vector<std::string> set = {fmt::format("sa1.V_th={}", r.theta), fmt::format("sa1.V_reset={}", r.reset)};
-        const auto algorithm = train_of(press::thesis_algorithm("sa1", set)), exact = train_of({"sa1", "press", set});
+        const auto algorithm = simulate_train(press::thesis_algorithm("sa1", set)), exact = simulate_train({"sa1", "press", set});
         if (!algorithm) return algorithm.error();
         if (!exact) return exact.error();
-        if (auto ok = options.at(static_cast<double>(&r - threshold_cases + 1) / 4); !ok) return ok.error();
+        if (auto ok = options.report_progress(static_cast<double>(&r - threshold_cases + 1) / 4); !ok) return ok.error();
         const auto named = [&](const char* what) { return fmt::format("theta, u_rst {}: {}", r.name, what); };
         const auto f = press::frequency_at_start(*exact), plateau = f.between(press::plateau.from, press::plateau.to);
         out.claim(named("peak of the frequency"), measure<PeakRate>(*exact, press::protraction), "Hz");
         out.claim(named("first frequency of the plateau"), plateau.y.front(), "Hz");
         out.claim(named("last frequency of the plateau"), measure<LastRate>(*exact, press::plateau), "Hz");
-        out.finds(named("highest in protraction, and the first frequency of the plateau above its last"),
-                  f.peak() < press::protraction.to && plateau.y.front() > plateau.y.back(), "thesis 1.2 and 3.3, fig. 17c");
+        out.claim_true(named("highest in protraction, and the first frequency of the plateau above its last"),
+                  f.x_of_max() < press::protraction.to && plateau.y.front() > plateau.y.back(), "thesis 1.2 and 3.3, fig. 17c");
         out.claim(named("spikes after 40 % of retraction"), press::spike_count(*exact, {0.675, 0.75}), "spikes")
-            .at_most(1, "thesis 1.2: almost no response; the number is our choice");
+            .allow_max(1, "thesis 1.2: almost no response; the number is our choice");
         double worst_difference = algorithm->size() == exact->size() ? 0 : Claim::none;
         for (std::size_t k = 0; k < std::min(algorithm->size(), exact->size()); ++k)
             worst_difference = std::max(worst_difference, std::abs((*algorithm)[k] - (*exact)[k]));
         auto& c = out.claim(named("largest spike time difference between T = 1 ms and the exact solution"), worst_difference, "s");
-        if (std::isnan(worst_difference)) c.because("the numbers of spikes differ");
+        if (std::isnan(worst_difference)) c.explain("the numbers of spikes differ");
         frequencies.points(r.name, press::frequency_at_start(*algorithm));
     }
-    out.plots.push_back(frequencies.shape("points, one per discharge, close to the curve of the nerve (which is lost)"));
+    out.plots.push_back(frequencies.describe_published("points, one per discharge, close to the curve of the nerve (which is lost)"));
     out.note(
         "theta, u_rst and the curve of fig. 17c are not in the text, so only the shape of the frequency can be checked. It is plotted at "
         "the spike that begins the interval.");

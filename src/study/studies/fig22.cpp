@@ -32,86 +32,86 @@ std::vector<TransducerCell> cells() {
 }
 
 /// Effect of the two techniques at 4 N and 0.9 V, where all transducers hold their sensor.
-Result<void> report_techniques(Outcome& out) {
-    const auto found = found_in({transducer_netlist(cells(), "4"),
+Result<void> report_techniques(StudyResult& out) {
+    const auto found = run_study_netlist({transducer_netlist(cells(), "4"),
                                  {"vdd=0.9"},
                                  ".save i(ximproved.mn1) i(ximproved.mn2) i(ximproved.mn3) v(ximproved.tb) "
                                  "v(ximproved.vx) v(ximproved.vz) v(xatvss.vz) v(xplain.vz) v(xatsource.vz) "
                                  "i(xplain.vif) i(ximproved.vif)\n.op"});
     if (!found) return found.error();
-    const auto at = [&](const std::string& name) { return found->at_rest(name); };
+    const auto at = [&](const std::string& name) { return found->operating_point(name); };
     out.claim("4 N, 0.9 V: I_D1 over I_D2", at("i(ximproved.mn1)") / at("i(ximproved.mn2)"))
-        .held_to(1.0 / 16, source + ": S_1 / S_2")
-        .if_off(
+        .derived_as(1.0 / 16, source + ": S_1 / S_2")
+        .explain_if_needed(
             "the single transistors of M_2 have the lower Early voltage and carry more than their ratio; the effect is smaller at 0.7 V, "
             "where their drain is lower");
     out.claim("I_F over fig. 21's", at("i(ximproved.vif)") / at("i(xplain.vif)"))
-        .held_to(1.0 / 17, source + ": I_F = I_F0 S_1 / (S_1 + S_2), errata F8")
-        .if_off("as above");
-    out.claim("V_BS of M_1 and M_2, set by M_3", at("v(ximproved.tb)") - at("v(ximproved.vx)"), "V").at_least(0, source + ": forward");
+        .derived_as(1.0 / 17, source + ": I_F = I_F0 S_1 / (S_1 + S_2), errata F8")
+        .explain_if_needed("as above");
+    out.claim("V_BS of M_1 and M_2, set by M_3", at("v(ximproved.tb)") - at("v(ximproved.vx)"), "V").allow_min(0, source + ": forward");
     out.claim("current of M_3, through the bulks", at("i(ximproved.mn3)"), "A")
-        .at_most(0.01 * at("i(ximproved.vif)"), "thesis app. D: M_3 limits it; a hundredth of I_F is our choice");
+        .allow_max(0.01 * at("i(ximproved.vif)"), "thesis app. D: M_3 limits it; a hundredth of I_F is our choice");
     out.claim("V_Z, fig. 22", at("v(ximproved.vz)"), "V");
     out.claim("V_Z without M_3, bulks at the source", at("v(xatsource.vz)"), "V");
     out.claim("V_Z without M_3, bulks at vss", at("v(xatvss.vz)"), "V")
-        .at_least(at("v(ximproved.vz)"), source + ": forward bias decreases V_GS1 \"without increasing the transistor size\"");
+        .allow_min(at("v(ximproved.vz)"), source + ": forward bias decreases V_GS1 \"without increasing the transistor size\"");
     return {};
 }
 
 /// V_X over the supply, and the lowest supply of each.
-Result<void> report_supplies(Outcome& out) {
-    const auto found = found_in({transducer_netlist(cells(), "4"), {}, ".dc vdd 0.3 1 5m"});
+Result<void> report_supplies(StudyResult& out) {
+    const auto found = run_study_netlist({transducer_netlist(cells(), "4"), {}, ".dc vdd 0.3 1 5m"});
     if (!found) return found.error();
-    Plot plot{"V_X at 4 N over the supply", "V_DD (V)", "V_X (mV)", {}};
+    StudyPlot plot{"V_X at 4 N over the supply", "V_DD (V)", "V_X (mV)", {}};
     std::map<std::string, double> lowest;
     for (const auto& variant : variants()) {
-        const auto V_X = found->line("dc", fmt::format("v(x{}.vx)", variant.name));
-        lowest[variant.name] = V_X.where(0.95 * 0.1);
-        plot.add(variant.description, V_X.times(1, 1e3));
+        const auto V_X = found->curve("dc", fmt::format("v(x{}.vx)", variant.name));
+        lowest[variant.name] = V_X.crossing(0.95 * 0.1);
+        plot.add(variant.description, V_X.scaled(1, 1e3));
         out.claim(fmt::format("lowest supply at 4 N: {}", variant.description), lowest[variant.name], "V");
     }
     plot.add("limit: 95 % of V_Y", {{0.3, 1}, {95, 95}});
-    out.claim("supply saved by M_3, compared with bulks at vss", lowest["atvss"] - lowest["improved"], "V").at_least(0, source);
-    out.claim("supply saved by M_3, compared with bulks at the source", lowest["atsource"] - lowest["improved"], "V").at_least(0, source);
+    out.claim("supply saved by M_3, compared with bulks at vss", lowest["atvss"] - lowest["improved"], "V").allow_min(0, source);
+    out.claim("supply saved by M_3, compared with bulks at the source", lowest["atsource"] - lowest["improved"], "V").allow_min(0, source);
     out.claim("supply saved by the split and M_3, compared with fig. 21 of as many unit transistors",
               lowest["plain40"] - lowest["improved"], "V")
-        .at_least(0, source + ": lower \"without increasing the transistor size\"");
+        .allow_min(0, source + ": lower \"without increasing the transistor size\"");
     out.claim("supply saved by fig. 22, compared with fig. 20", lowest["voltage"] - lowest["improved"], "V")
-        .at_least(0, "thesis 4.5: force to current \"allows lower supply voltage operation\"");
+        .allow_min(0, "thesis 4.5: force to current \"allows lower supply voltage operation\"");
     const double I = 0.1 * ForceSensor().conductance(4 / gram_force) / 17;
-    const auto I_F = found->line("dc", "i(xread.vif)");
-    out.claim("loaded by table 3's diode: I_F within a tenth of eq. 15 / 17 from a supply of", I_F.where(0.9 * I), "V")
-        .at_most(0.7, "thesis 4.2: works at 0.7 V; the tenth is our choice");
+    const auto I_F = found->curve("dc", "i(xread.vif)");
+    out.claim("loaded by table 3's diode: I_F within a tenth of eq. 15 / 17 from a supply of", I_F.crossing(0.9 * I), "V")
+        .allow_max(0.7, "thesis 4.2: works at 0.7 V; the tenth is our choice");
     out.plots.push_back(std::move(plot));
     return {};
 }
 
-Result<void> report_forces_and_corners(Outcome& out, const StudyOptions& options) {
+Result<void> report_forces_and_corners(StudyResult& out, const StudyOptions& options) {
     const std::vector<TransducerCell> two_cells = {{"lifted", improved_cell()}, {"atvss", improved_cell_at("0")}};
-    Line lifted, at_vss;
+    StudyCurve lifted, at_vss;
     for (const double newtons : {0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 4.0, 6.0, 8.0}) {
         const auto lowest = find_lowest_supplies(two_cells, newtons);
         if (!lowest) return lowest.error();
         lifted.x.push_back(newtons), lifted.y.push_back((*lowest)[0]);
         at_vss.x.push_back(newtons), at_vss.y.push_back((*lowest)[1]);
     }
-    if (auto ok = options.at(0.7); !ok) return ok;
-    Plot& plot = out.plot("Lowest supply over the force", "force (N)", "lowest V_DD (V)");
+    if (auto ok = options.report_progress(0.7); !ok) return ok;
+    StudyPlot& plot = out.plot("Lowest supply over the force", "force (N)", "lowest V_DD (V)");
     plot.log_x = true;
     plot.add("fig. 22", lifted).add("without M3, bulks at vss", at_vss);
     for (const char* corner : {"ss", "ff", "sf", "fs"}) {
         const auto lowest = find_lowest_supplies(two_cells, 4, {fmt::format("corner={}", corner)});
         if (!lowest) return lowest.error();
         out.claim(fmt::format("corner {}: lowest supply at 4 N, fig. 22", corner), (*lowest)[0], "V")
-            .at_most(0.7, "thesis 4.2: works \"at worst case process corners\"");
+            .allow_max(0.7, "thesis 4.2: works \"at worst case process corners\"");
         out.claim(fmt::format("corner {}: without M_3, bulks at vss", corner), (*lowest)[1], "V");
     }
     return {};
 }
 
 /// Which aspect ratios give which fraction of the current (errata F8).
-Result<void> report_split(Outcome& out) {
-    Line simulated, expected;
+Result<void> report_split(StudyResult& out) {
+    StudyCurve simulated, expected;
     std::vector<TransducerCell> all;
     const int columns[] = {1, 2, 4, 8, 16};
     for (const int m : columns)
@@ -119,26 +119,26 @@ Result<void> report_split(Outcome& out) {
             {fmt::format("s{}", m), fmt::format("mn1 if vz vx tb nch w=1.5u l=0.5u m={} stack={}\nmn2 vdd vz vx tb nch w=1.5u l=0.5u m=16\n"
                                                 "mn3 vz vdd tb tb nch w=1.5u l=0.5u m=8\n",
                                                 m, 16 / m)});
-    const auto found = found_in({transducer_netlist(all, "4"), {}, ".op"});
+    const auto found = run_study_netlist({transducer_netlist(all, "4"), {}, ".op"});
     if (!found) return found.error();
     for (const int m : columns) {
         const double S = m / (16.0 / m), I_F0 = 0.1 * ForceSensor().conductance(4 / gram_force);
-        simulated.x.push_back(S / 16), simulated.y.push_back(1e6 * found->at_rest(fmt::format("i(xs{}.vif)", m)));
+        simulated.x.push_back(S / 16), simulated.y.push_back(1e6 * found->operating_point(fmt::format("i(xs{}.vif)", m)));
         expected.x.push_back(S / 16), expected.y.push_back(1e6 * I_F0 * S / (S + 16));
     }
-    out.finds("a smaller S_1 / S_2 gives a smaller I_F", simulated.y.front() < simulated.y.back(),
+    out.claim_true("a smaller S_1 / S_2 gives a smaller I_F", simulated.y.front() < simulated.y.back(),
               "printed: \"maximum S_1/S_2\", errata F8: minimum");
-    Plot& plot = out.plot("I_F at 4 N over S_1 / S_2, sixteen unit transistors in M_1 each", "S_1 / S_2", "I_F (uA)");
+    StudyPlot& plot = out.plot("I_F at 4 N over S_1 / S_2, sixteen unit transistors in M_1 each", "S_1 / S_2", "I_F (uA)");
     plot.log_x = plot.log_y = true;
-    plot.add("netlist", simulated, Plot::Style::points).add("I_F0 S_1 / (S_1 + S_2)", expected).shape("table 1 has 4x4 and 16x1: 1/16");
+    plot.add("netlist", simulated, StudyPlot::Style::points).add("I_F0 S_1 / (S_1 + S_2)", expected).describe_published("table 1 has 4x4 and 16x1: 1/16");
     return {};
 }
 
-Result<Outcome> work(const StudyOptions& options) {
-    Outcome out;
+Result<StudyResult> work(const StudyOptions& options) {
+    StudyResult out;
     if (auto ok = report_supplies(out); !ok) return ok.error();
     if (auto ok = report_techniques(out); !ok) return ok.error();
-    if (auto ok = options.at(0.4); !ok) return ok.error();
+    if (auto ok = options.report_progress(0.4); !ok) return ok.error();
     if (auto ok = report_forces_and_corners(out, options); !ok) return ok.error();
     if (auto ok = report_split(out); !ok) return ok.error();
     out.note(

@@ -21,57 +21,57 @@ const Changes bulks_at_vss = {{"mp3c plus  0 b3 b3 pch w=6u l=0.5u m=16", "vb3 b
                               {"mp3d minus 0 b4 b4 pch w=6u l=0.5u m=16", "vb4 b4 0 0"}};
 
 /// circuits/amplifier.cir with these changes in its subcircuits.
-Result<Found> simulate_amplifier(const Changes& changes, const std::string& orders = "") {
-    const auto parts = changed_text("circuits/parts/transducer.inc", changes);
+Result<NetlistResult> simulate_amplifier(const Changes& changes, const std::string& orders = "") {
+    const auto parts = substitute_in_embedded_text("circuits/parts/transducer.inc", changes);
     if (!parts) return parts.error();
-    auto netlist = changed_text("circuits/amplifier.cir", {{".include 'parts/transducer.inc'", *parts}});
+    auto netlist = substitute_in_embedded_text("circuits/amplifier.cir", {{".include 'parts/transducer.inc'", *parts}});
     if (!netlist) return netlist.error();
-    return found_in({std::move(*netlist), {}, orders});
+    return run_study_netlist({std::move(*netlist), {}, orders});
 }
 
 /// Transconductance over the common mode, from the pair of cells in circuits/amplifier.cir with inputs of +0.1 mV and -0.1 mV.
-Result<Line> transconductance(const Changes& changes) {
+Result<StudyCurve> transconductance(const Changes& changes) {
     const auto found = simulate_amplifier(changes, ".dc vs 0 0.7 2m");
     if (!found) return found.error();
-    return found->line("dc", "par('(i(v1)-i(v2))/0.2m')");
+    return found->curve("dc", "par('(i(v1)-i(v2))/0.2m')");
 }
-double common_mode_limit(const Line& g_m) { return g_m.where(g_m.at(0.1) / 2, 0.1); }
+double common_mode_limit(const StudyCurve& g_m) { return g_m.crossing(g_m.at(0.1) / 2, 0.1); }
 
 /// Gain, bandwidth and ranges of the amplifier without the sensor loop.
-Result<void> report_amplifier(Outcome& out) {
+Result<void> report_amplifier(StudyResult& out) {
     const auto found = simulate_amplifier({});
     if (!found) return found.error();
     const auto supply =
-        found_in({"One amplifier\n.lib '../process/tsmc180.lib' tt\n.include 'parts/transducer.inc'\nvdd vdd 0 0.7\nvi vdd top 0\n"
+        run_study_netlist({"One amplifier\n.lib '../process/tsmc180.lib' tt\n.include 'parts/transducer.inc'\nvdd vdd 0 0.7\nvi vdd top 0\n"
                   "vp plus 0 0.1\niba pg 0 100n\nxamp plus plus out pg top amplifier\nvo out 0 0.35\n",
                   {},
                   ".op"});
     if (!supply) return supply.error();
-    const double I = supply->at_rest("i(vi)");
+    const double I = supply->operating_point("i(vi)");
     out.claim("gain into the transducer's M_1 to M_3", 20 * std::log10(found->number("gain")), "dB");
     out.claim("gain-bandwidth there", found->number("f_unity"), "Hz");
     out.claim("phase margin there, with feedback of one", found->number("margin"), "degrees")
-        .at_least(45, "not published; the bound is our choice");
+        .allow_min(45, "not published; the bound is our choice");
     out.claim("input transconductance at V_Y", found->number("g_m"), "S");
     out.claim("offset", found->number("offset"), "V");
-    out.claim("supply current", I, "A").held_to(500e-9, "five trapezoidal arrays of I_BIASA, fig. 23 and table 2");
+    out.claim("supply current", I, "A").derived_as(500e-9, "five trapezoidal arrays of I_BIASA, fig. 23 and table 2");
     out.claim("power at 0.7 V", 0.7 * I, "W");
-    const auto g_m = found->line("dc", "par('(i(v1)-i(v2))/0.2m')");
-    Line gain = found->line("dc", "i(v3)").slope().absolute();
+    const auto g_m = found->curve("dc", "par('(i(v1)-i(v2))/0.2m')");
+    StudyCurve gain = found->curve("dc", "i(v3)").slope().absolute();
     for (double& g : gain.y) g = g_m.at(0.1) / g;
-    const double half = gain.most() / 2;
+    const double half = gain.max() / 2;
     out.claim("common-mode input up to (half of the transconductance)", common_mode_limit(g_m), "V")
-        .at_least(0.1, "V_Y, which must be in its input range (errata F12)");
-    out.claim("output from (half of the gain)", gain.where(half), "V");
-    out.claim("output to", gain.where(half, gain.peak()), "V")
-        .at_least(525e-3, "thesis 4.2, fig. 24c: the largest V_Z")
-        .if_off("half of the gain is our bound; beyond it the gain that remains is enough for the loop (transducer-loop)");
+        .allow_min(0.1, "V_Y, which must be in its input range (errata F12)");
+    out.claim("output from (half of the gain)", gain.crossing(half), "V");
+    out.claim("output to", gain.crossing(half, gain.x_of_max()), "V")
+        .allow_min(525e-3, "thesis 4.2, fig. 24c: the largest V_Z")
+        .explain_if_needed("half of the gain is our bound; beyond it the gain that remains is enough for the loop (transducer-loop)");
     out.claim("gain at 525 mV", 20 * std::log10(gain.at(525e-3)), "dB");
     out.plot("Gain over the output voltage", "V_Z (V)", "gain").add("g_m over the output conductance", gain);
     return {};
 }
 
-Result<void> report_input_pair(Outcome& out) {
+Result<void> report_input_pair(StudyResult& out) {
     const auto lifted = transconductance({}), at_supply = transconductance(pair_at_supply), at_source = transconductance(pair_at_source);
     for (const auto* r : {&lifted, &at_supply, &at_source})
         if (!*r) return r->error();
@@ -79,26 +79,26 @@ Result<void> report_input_pair(Outcome& out) {
     out.claim("common-mode input up to, bulks at the source", common_mode_limit(*at_source), "V");
     out.claim("gain in common-mode range by the biased bulks, compared with bulks at the supply",
               common_mode_limit(*lifted) - common_mode_limit(*at_supply), "V")
-        .at_least(0, source + ": \"to increase the OTA common-mode input voltage excursion\"");
+        .allow_min(0, source + ": \"to increase the OTA common-mode input voltage excursion\"");
     out.plot("Transconductance over the common mode", "V (both inputs)", "g_m (uS)")
-        .add("fig. 23: bulks by M_3C, D", lifted->times(1, 1e6))
-        .add("bulks at the source", at_source->times(1, 1e6))
-        .add("bulks at the supply", at_supply->times(1, 1e6));
+        .add("fig. 23: bulks by M_3C, D", lifted->scaled(1, 1e6))
+        .add("bulks at the source", at_source->scaled(1, 1e6))
+        .add("bulks at the supply", at_supply->scaled(1, 1e6));
     const auto bulks = simulate_amplifier(bulks_at_vss, ".dc vs 0 0.7 2m"),
                held = simulate_amplifier({}, ".save v(x3.b3) v(x3.t) i(vplus) i(vs)\n.dc vs 0 0.7 2m");
     if (!bulks) return bulks.error();
     if (!held) return held.error();
-    const auto free_current = bulks->line("dc", "i(x1.vb3)").absolute();
+    const auto free_current = bulks->curve("dc", "i(x1.vb3)").absolute();
     const auto limited =
-        found_in({"One amplifier\n.lib '../process/tsmc180.lib' tt\n.include 'parts/transducer.inc'\nvdd vdd 0 0.7\nvp plus 0 0.1\n"
+        run_study_netlist({"One amplifier\n.lib '../process/tsmc180.lib' tt\n.include 'parts/transducer.inc'\nvdd vdd 0 0.7\nvp plus 0 0.1\n"
                   "vm minus plus 0\niba pg 0 100n\nxamp plus minus out pg vdd amplifier\nvo out 0 0.35\n",
                   {},
                   ".dc vp 0 0.7 2m"});
     if (!limited) return limited.error();
-    const auto kept = limited->line("dc", "i(vm)").absolute();
+    const auto kept = limited->curve("dc", "i(vm)").absolute();
     out.claim("bulk current with both inputs at 0.4 V, bulk directly at vss", free_current.at(0.4), "A");
     out.claim("the same limited by M_3C, D; it flows out of the input", kept.at(0.4), "A")
-        .at_most(free_current.at(0.4), source + ": M_3C, D limit the parasitic substrate current");
+        .allow_max(free_current.at(0.4), source + ": M_3C, D limit the parasitic substrate current");
     out.claim("current out of an input at V_Y", kept.at(0.1), "A");
     return {};
 }
@@ -110,10 +110,10 @@ struct Supplies {
 };
 Result<Supplies> find_supplies(const Changes& changes) {
     const TransducerCell cell{"t", improved_cell()};
-    const auto parts = changed_text("circuits/parts/transducer.inc", changes);
+    const auto parts = substitute_in_embedded_text("circuits/parts/transducer.inc", changes);
     if (!parts) return parts.error();
     const auto found =
-        found_in({fmt::format("Two amplifiers, 0.1 mV apart either way\n.lib '../process/tsmc180.lib' tt\n{}\nvdd vdd 0 0.7\n"
+        run_study_netlist({fmt::format("Two amplifiers, 0.1 mV apart either way\n.lib '../process/tsmc180.lib' tt\n{}\nvdd vdd 0 0.7\n"
                               "vs s 0 0.1\nvup up s 50u\nvdown s down 50u\nib1 pg1 0 100n\nx1 up down o1 pg1 vdd amplifier\n"
                               "v1 o1 half 0\nib2 pg2 0 100n\nx2 down up o2 pg2 vdd amplifier\nv2 o2 half 0\n"
                               "ehalf half 0 vdd 0 0.5\n",
@@ -123,34 +123,34 @@ Result<Supplies> find_supplies(const Changes& changes) {
     const auto transducer = find_lowest_supplies({&cell, 1}, 0.2, {}, *parts);
     if (!found) return found.error();
     if (!transducer) return transducer.error();
-    const auto g_m = found->line("dc", "par('(i(v1)-i(v2))/0.2m')"), diode = found->line("dc", "v(vdd,pg1)");
-    return Supplies{g_m.where(g_m.at(0.7) / 2), diode.at(0.7), transducer->front()};
+    const auto g_m = found->curve("dc", "par('(i(v1)-i(v2))/0.2m')"), diode = found->curve("dc", "v(vdd,pg1)");
+    return Supplies{g_m.crossing(g_m.at(0.7) / 2), diode.at(0.7), transducer->front()};
 }
 
-Result<void> report_supply(Outcome& out) {
+Result<void> report_supply(StudyResult& out) {
     const auto lifted = find_supplies({}), no_n = find_supplies(n_unlifted), no_p = find_supplies(p_unlifted);
     for (const auto* r : {&lifted, &no_n, &no_p})
         if (!*r) return r->error();
     const std::string lower = source + ": forward body bias in the mirrors \"to decrease the minimum voltage supply requirement\"";
     out.claim("lowest supply of the amplifier", lifted->amplifier, "V");
-    out.claim("lowest supply of the amplifier, N mirrors' bulks at vss", no_n->amplifier, "V").at_least(lifted->amplifier, lower);
+    out.claim("lowest supply of the amplifier, N mirrors' bulks at vss", no_n->amplifier, "V").allow_min(lifted->amplifier, lower);
     out.claim("voltage of I_BIASA's diode", lifted->diode, "V");
-    out.claim("voltage of I_BIASA's diode, P mirrors' bulks at the supply", no_p->diode, "V").at_least(lifted->diode, lower);
+    out.claim("voltage of I_BIASA's diode, P mirrors' bulks at the supply", no_p->diode, "V").allow_min(lifted->diode, lower);
     out.claim("lowest supply of the transducer at 0.2 N", lifted->transducer, "V");
     out.claim("lowest supply of the transducer at 0.2 N, N mirrors' bulks at vss", no_n->transducer, "V")
-        .at_least(lifted->transducer, lower)
-        .if_off(
+        .allow_min(lifted->transducer, lower)
+        .explain_if_needed(
             "V_Z limits it, not the mirrors: both branches then have too little supply. With the bulks at vss the end of the left branch "
             "is about as high as V_Z, so both branches lack the same voltage and stay matched");
     return {};
 }
 
-Result<Outcome> work(const StudyOptions& options) {
-    Outcome out;
+Result<StudyResult> work(const StudyOptions& options) {
+    StudyResult out;
     double done = 0;
     for (const auto report : {report_amplifier, report_input_pair, report_supply}) {
         if (auto ok = report(out); !ok) return ok.error();
-        if (auto ok = options.at(done += 0.3); !ok) return ok.error();
+        if (auto ok = options.report_progress(done += 0.3); !ok) return ok.error();
     }
     out.note(
         "The thesis gives only sizes, I_BIASA and text for the amplifier. That its pair is PMOS (errata F10a) and how it folds into the N "

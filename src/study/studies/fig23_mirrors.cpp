@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "study/deck.hpp"
+#include "study/study_netlist.hpp"
 #include "study/studies.hpp"
 
 namespace corpuscle::studies::fig23_mirrors {
@@ -11,9 +11,9 @@ namespace corpuscle::studies::fig23_mirrors {
 const std::string source = "thesis 4.2, fig. 23";
 
 /// Mirrors of 100 nA with equal inputs: the output voltage from which the resistance is at least half of that at 0.5 V.
-Result<Outcome> work(const StudyOptions&) {
-    Outcome out;
-    const auto found = found_in({R"(Mirrors of fig. 23 and alternatives
+Result<StudyResult> work(const StudyOptions&) {
+    StudyResult out;
+    const auto found = run_study_netlist({R"(Mirrors of fig. 23 and alternatives
 .lib '../process/tsmc180.lib' tt
 vdd vdd 0 0.7
 vout out 0 0.35
@@ -61,32 +61,32 @@ vq oq out 0
                                  ".dc vout 0 0.7 1m"});
     if (!found) return found.error();
     const auto output_from = [&](const char* current) {
-        const auto G = found->line("dc", current).slope().absolute();
-        return G.where(2 * G.at(0.5));
+        const auto G = found->curve("dc", current).slope().absolute();
+        return G.crossing(2 * G.at(0.5));
     };
-    const auto resistance = [&](const char* current) { return 1 / std::abs(found->line("dc", current).slope_at(0.35)); };
+    const auto resistance = [&](const char* current) { return 1 / std::abs(found->curve("dc", current).slope_at(0.35)); };
     out.claim("self-cascode mirror of 100 nA: output from (half of its resistance at 0.5 V)", output_from("i(va)"), "V");
     out.claim("conventional cascode, two stacked diodes: output from", output_from("i(vd)"), "V")
-        .at_least(output_from("i(va)"), source + ": the self-cascode \"allows a larger output voltage excursion\"");
-    Line ratio = found->line("dc", "i(va)").slope().absolute();
-    const auto other = found->line("dc", "i(vd)").slope().absolute();
+        .allow_min(output_from("i(va)"), source + ": the self-cascode \"allows a larger output voltage excursion\"");
+    StudyCurve ratio = found->curve("dc", "i(va)").slope().absolute();
+    const auto other = found->curve("dc", "i(vd)").slope().absolute();
     for (std::size_t k = 0; k < ratio.x.size(); ++k) ratio.y[k] /= other.y[k];
-    out.claim("the conventional cascode has the higher resistance from", ratio.where(1, 0.2), "V");
-    out.claim("voltage of the conventional cascode's diodes", found->line("dc", "v(d)").at(0.35), "V")
-        .at_least(0.7, source + ": the self-cascode's advantage at \"similar ... power supplies\"; at 0.7 V nothing would remain");
-    out.claim("self-cascode: input voltage, bulks at vss", found->line("dc", "v(c)").at(0.35), "V");
-    out.claim("self-cascode: input voltage, bulks forward biased", found->line("dc", "v(a)").at(0.35), "V")
-        .at_most(found->line("dc", "v(c)").at(0.35), source + ": \"to decrease the minimum voltage supply requirement\"");
+    out.claim("the conventional cascode has the higher resistance from", ratio.crossing(1, 0.2), "V");
+    out.claim("voltage of the conventional cascode's diodes", found->curve("dc", "v(d)").at(0.35), "V")
+        .allow_min(0.7, source + ": the self-cascode's advantage at \"similar ... power supplies\"; at 0.7 V nothing would remain");
+    out.claim("self-cascode: input voltage, bulks at vss", found->curve("dc", "v(c)").at(0.35), "V");
+    out.claim("self-cascode: input voltage, bulks forward biased", found->curve("dc", "v(a)").at(0.35), "V")
+        .allow_max(found->curve("dc", "v(c)").at(0.35), source + ": \"to decrease the minimum voltage supply requirement\"");
     out.claim("P trapezoid: output resistance at 0.35 V", resistance("i(vp)"), "ohm")
-        .at_least(resistance("i(vq)"), source + ": trapezoidal arrays \"to increase the output impedance\", compared with the 4x4 array");
+        .allow_min(resistance("i(vq)"), source + ": trapezoidal arrays \"to increase the output impedance\", compared with the 4x4 array");
     out.claim("the 4x4 array without the trapezoid", resistance("i(vq)"), "ohm");
-    Plot& plot = out.plot("Output resistance of N mirrors of 100 nA", "V_OUT (V)", "Mohm");
+    StudyPlot& plot = out.plot("Output resistance of N mirrors of 100 nA", "V_OUT (V)", "Mohm");
     plot.log_y = true;
     for (const auto& [name, current] : {std::pair{"self-cascode, bulks forward biased (fig. 23)", "i(va)"},
                                         {"self-cascode, bulks at vss", "i(vc)"},
                                         {"conventional cascode", "i(vd)"},
                                         {"4x4 array", "i(ve)"}}) {
-        auto R = found->line("dc", current).slope().absolute().times(1, 1e6);
+        auto R = found->curve("dc", current).slope().absolute().scaled(1, 1e6);
         for (double& v : R.y) v = 1 / v;
         plot.add(name, std::move(R));
     }

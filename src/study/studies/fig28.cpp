@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "study/deck.hpp"
+#include "study/study_netlist.hpp"
 #include "study/studies.hpp"
 #include "study/thesis/active_load.hpp"
 
@@ -13,20 +13,20 @@ constexpr auto source = "thesis 4.3.1, fig. 28";
 
 /// Voltage at which the input current is zero, in a corner.
 Result<double> zero_current_voltage_in(const char* corner) {
-    const auto found = found_in({"invb", {fmt::format("corner={}", corner)}, ".dc vin 0.3 0.4 2m"});
+    const auto found = run_study_netlist({"invb", {fmt::format("corner={}", corner)}, ".dc vin 0.3 0.4 2m"});
     if (!found) return found.error();
-    return found->line("dc", "i(vin)").where(0);
+    return found->curve("dc", "i(vin)").crossing(0);
 }
 
-void add_claims(const ActiveLoad& load, Outcome& out) {
-    out.claim("zero input current at", load.zero_current_voltage, "V").printed_as(350e-3, source);
-    out.claim("largest resistance", load.max_resistance, "ohm").printed_as(413e3, source);
-    out.claim("largest resistance at", load.max_resistance_at, "V").printed_as(350e-3, source);
-    out.claim("linear range from", load.linear_from, "V").printed_as(300e-3, source);
-    auto& end = out.claim("linear range to", load.linear_to, "V").printed_as(500e-3, source);
+void add_claims(const ActiveLoad& load, StudyResult& out) {
+    out.claim("zero input current at", load.zero_current_voltage, "V").published_as(350e-3, source);
+    out.claim("largest resistance", load.max_resistance, "ohm").published_as(413e3, source);
+    out.claim("largest resistance at", load.max_resistance_at, "V").published_as(350e-3, source);
+    out.claim("linear range from", load.linear_from, "V").published_as(300e-3, source);
+    auto& end = out.claim("linear range to", load.linear_to, "V").published_as(500e-3, source);
     for (auto* c = &end - 1; c <= &end; ++c)
-        if (c->needs_reason())
-            c->because(
+        if (c->needs_explanation())
+            c->explain(
                 fmt::format("the thesis does not define the linear range; here it is where the resistance is at most a tenth below its "
                             "largest. The simulated curve is almost symmetric about {:.3g} mV, which a range from 300 to 500 mV is not",
                             1e3 * load.max_resistance_at));
@@ -34,30 +34,30 @@ void add_claims(const ActiveLoad& load, Outcome& out) {
     out.claim("resistance at 300 mV, relative to its largest", deviation_percent(300e-3), "%");
     out.claim("resistance at 500 mV, relative to its largest", deviation_percent(500e-3), "%");
     out.claim("resistance at 200 mV, relative to its largest", deviation_percent(200e-3), "%");
-    out.finds("outside 300 to 500 mV it is significantly non-linear: the resistance is a fifth lower at 150 and at 550 mV",
+    out.claim_true("outside 300 to 500 mV it is significantly non-linear: the resistance is a fifth lower at 150 and at 550 mV",
               deviation_percent(150e-3) < -20 && deviation_percent(550e-3) < -20, source);
 }
 
-Result<Outcome> work(const StudyOptions& options) {
-    Outcome out;
-    const auto found = found_in({"invb", {}, ".dc vin 0 0.7 0.5m"});
+Result<StudyResult> work(const StudyOptions& options) {
+    StudyResult out;
+    const auto found = run_study_netlist({"invb", {}, ".dc vin 0 0.7 0.5m"});
     if (!found) return found.error();
-    const auto load = analyse_load(found->line("dc", "i(vin)").times(1, -1));
+    const auto load = analyse_load(found->curve("dc", "i(vin)").scaled(1, -1));
     add_claims(load, out);
     for (const char* corner : {"ss", "ff", "sf", "fs"}) {
         const auto rest = zero_current_voltage_in(corner);
         if (!rest) return rest.error();
         out.claim(fmt::format("{}: zero input current at", corner), *rest, "V")
-            .printed_as(350e-3, "thesis 4.3.1: even with process variability");
-        if (auto ok = options.at(0.5); !ok) return ok.error();
+            .published_as(350e-3, "thesis 4.3.1: even with process variability");
+        if (auto ok = options.report_progress(0.5); !ok) return ok.error();
     }
     out.plot("28a, input current over input voltage", "V_IN (mV)", "current (nA)")
-        .shape("zero at 350 mV, linear from 300 to 500 mV, significantly non-linear outside")
-        .add("into INVB as a load", load.current.times(1e3, 1e9));
+        .describe_published("zero at 350 mV, linear from 300 to 500 mV, significantly non-linear outside")
+        .add("into INVB as a load", load.current.scaled(1e3, 1e9));
     const auto inside = load.resistance.between(0.1, 0.6);
     out.plot("28b, resistance over input voltage", "V_IN (mV)", "resistance (kohm)")
-        .shape("about 413 kohm at its maximum, at 350 mV")
-        .add("INVB as a load", inside.times(1e3, 1e-3))
+        .describe_published("about 413 kohm at its maximum, at 350 mV")
+        .add("INVB as a load", inside.scaled(1e3, 1e-3))
         .points("published", {{350}, {413}});
     return out;
 }

@@ -21,7 +21,7 @@ constexpr Class classes[] = {
     {"sa1", "SA-I", true, 1.3e-3}, {"sa2", "SA-II", true, 7.5e-3}, {"fa1", "FA-I", false, 0.58e-3}, {"fa2", "FA-II", false, 0.54e-3}};
 
 Result<std::vector<double>> simulate_step(const char* afferent, double force) {
-    return train_of({afferent, "step", {fmt::format("step.F_max={}", force)}});
+    return simulate_train({afferent, "step", {fmt::format("step.F_max={}", force)}});
 }
 
 /// The smallest step that evokes a spike (N), by bisection on a logarithmic scale.
@@ -36,32 +36,32 @@ Result<double> smallest_step(const char* afferent) {
     return high;
 }
 
-void add_claims(Outcome& out, const Class& c, const std::vector<double>& train) {
+void add_claims(StudyResult& out, const Class& c, const std::vector<double>& train) {
     const auto spikes = [&](const char* when, const TimeWindow& s) -> Claim& {
         return out.claim(fmt::format("{}: {}", c.full, when), press::spike_count(train, s), "spikes");
     };
-    spikes("within 100 ms of the onset (two make a burst)", onset).at_least(2, source);
+    spikes("within 100 ms of the onset (two make a burst)", onset).allow_min(2, source);
     auto& held = spikes("in the last 250 ms of the step", last);
-    c.slow ? held.at_least(2, fmt::format("{}: a sustained discharge", source))
-           : held.between(0, 0, fmt::format("{}: only at onset and removal", source));
+    c.slow ? held.allow_min(2, fmt::format("{}: a sustained discharge", source))
+           : held.allow_range(0, 0, fmt::format("{}: only at onset and removal", source));
     auto& gone = spikes("after the removal", removal);
-    if (!c.slow) gone.at_least(2, fmt::format("{}: a burst at the removal", source));
+    if (!c.slow) gone.allow_min(2, fmt::format("{}: a burst at the removal", source));
 }
 
 /// Peak frequency after the onset over the frequency of the hold.
 double onset_ratio(const std::vector<double>& train) { return measure<PeakRate>(train, onset) / measure<LastRate>(train, last); }
 
-Result<Outcome> work(const StudyOptions& options) {
-    Outcome out;
-    const auto stimulus = touch_of({"sa1", "step", {"step.F_max=4"}});
+Result<StudyResult> work(const StudyOptions& options) {
+    StudyResult out;
+    const auto stimulus = trial_force({"sa1", "step", {"step.F_max=4"}});
     if (!stimulus) return stimulus.error();
-    Plot spikes{"Spikes of the four classes", "time (s)", "", {}};
+    StudyPlot spikes{"Spikes of the four classes", "time (s)", "", {}};
     std::vector<double> onset_ratios;
     for (const auto& c : classes) {
         const auto train = simulate_step(c.name, 4);
         if (!train) return train.error();
         add_claims(out, c, *train);
-        spikes.row(c.full, *train);
+        spikes.raster_row(c.full, *train);
         if (c.slow) onset_ratios.push_back(onset_ratio(*train));
     }
     for (const auto& c : classes) {
@@ -69,14 +69,14 @@ Result<Outcome> work(const StudyOptions& options) {
         if (!smallest) return smallest.error();
         press::set_reference(out.claim(fmt::format("{}: smallest step that evokes a spike", c.full), *smallest, "N"), c.threshold,
                         "median of the nerve, from memory, not verified");
-        if (auto ok = options.at(static_cast<double>(&c - classes + 1) / 5); !ok) return ok.error();
+        if (auto ok = options.report_progress(static_cast<double>(&c - classes + 1) / 5); !ok) return ok.error();
     }
-    out.finds(
+    out.claim_true(
         fmt::format("type I has the larger ratio of onset to hold frequency: SA-I {:.2g}, SA-II {:.2g}", onset_ratios[0], onset_ratios[1]),
         onset_ratios[0] > onset_ratios[1], source);
-    out.plot("The step", "time (s)", "force (N)").add("force", stimulus->line());
+    out.plot("The step", "time (s)", "force (N)").add("force", stimulus->curve());
     out.plots.push_back(
-        spikes.shape("slowly adapting classes fire as long as the skin is pressed, fast adapting classes at onset and removal"));
+        spikes.describe_published("slowly adapting classes fire as long as the skin is pressed, fast adapting classes at onset and removal"));
     out.note(
         "The thesis separates type I from type II by the ratio of onset to sustained discharge. The literature it cites uses the receptive "
         "field: small and sharp for type I, large and diffuse for type II (errata B18). A single afferent cannot show that.");

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "study/deck.hpp"
+#include "study/study_netlist.hpp"
 #include "study/studies.hpp"
 #include "study/thesis/active_load.hpp"
 
@@ -18,12 +18,12 @@ struct Loads {
     double times() const { return c.max_resistance / b.max_resistance; }
 };
 Result<Loads> simulate_loads(const circuit::Values& of_models = {}) {
-    const auto found = found_in({"invc", {}, ".dc vin 0 0.7 0.5m", of_models});
+    const auto found = run_study_netlist({"invc", {}, ".dc vin 0 0.7 0.5m", of_models});
     if (!found) return found.error();
     // INVB's output is held at half the supply like its input, so that the load's curve equals that of invb.cir.
-    const auto b = found_in({"invb", {}, ".dc vin 0 0.7 0.5m", of_models});
+    const auto b = run_study_netlist({"invb", {}, ".dc vin 0 0.7 0.5m", of_models});
     if (!b) return b.error();
-    return Loads{analyse_load(b->line("dc", "i(vin)").times(1, -1)), analyse_load(found->line("dc", "i(vl)"))};
+    return Loads{analyse_load(b->curve("dc", "i(vin)").scaled(1, -1)), analyse_load(found->curve("dc", "i(vl)"))};
 }
 
 struct CornerFrequencies {
@@ -31,7 +31,7 @@ struct CornerFrequencies {
                                                   ///< corners; top_B, top_C: gain far above the corners
 };
 Result<CornerFrequencies> simulate_corners(const std::vector<std::string>& settings = {}) {
-    const auto found = found_in({"high_pass", settings,
+    const auto found = run_study_netlist({"high_pass", settings,
                                  ".ac dec 50 1m 10k\n.meas ac f_b when vp(hpb)=0.785398\n.meas ac f_c when vp(hpc)=0.785398\n"
                                  ".meas ac low_b find vm(hpb) at=1m\n.meas ac low_c find vm(hpc) at=1m\n"
                                  ".meas ac top_b max vm(hpb)\n.meas ac top_c max vm(hpc)"});
@@ -49,63 +49,63 @@ double largest_difference(const Loads& loads, double from, double to) {
     return largest;
 }
 
-void add_claims(const Loads& loads, const Loads& ideal, Outcome& out) {
+void add_claims(const Loads& loads, const Loads& ideal, StudyResult& out) {
     const auto why = fmt::format(
         "by their ratios its mirrors divide by 288 x 64 = 18432 (eq. 38, 39; errata S7b); simulated without length modulation they divide "
         "by {:.0f}. With length modulation the mirrors' diodes have more voltage than the series arrays, so the currents are divided by "
         "more. Why the foundry's mirrors divide by less than the ratios is not known",
         ideal.times());
-    out.claim("largest resistance", loads.c.max_resistance, "ohm").printed_as(6.6e9, source).because(why);
-    out.claim("ratio to INVB's", loads.times(), "times").printed_as(16000, source).because(why);
-    out.claim("without length modulation: ratio to INVB's", ideal.times(), "times").held_to(18432, "eq. 38 and 39, errata S7b");
-    out.claim("zero input current at", loads.c.zero_current_voltage, "V").held_to(350e-3, "thesis 4.3.1: the same shape as fig. 28a");
-    out.claim("largest resistance at", loads.c.max_resistance_at, "V").held_to(350e-3, "thesis 4.3.1: the same shape as fig. 28b");
+    out.claim("largest resistance", loads.c.max_resistance, "ohm").published_as(6.6e9, source).explain(why);
+    out.claim("ratio to INVB's", loads.times(), "times").published_as(16000, source).explain(why);
+    out.claim("without length modulation: ratio to INVB's", ideal.times(), "times").derived_as(18432, "eq. 38 and 39, errata S7b");
+    out.claim("zero input current at", loads.c.zero_current_voltage, "V").derived_as(350e-3, "thesis 4.3.1: the same shape as fig. 28a");
+    out.claim("largest resistance at", loads.c.max_resistance_at, "V").derived_as(350e-3, "thesis 4.3.1: the same shape as fig. 28b");
     out.claim("resistance as a fraction of its largest, largest difference from INVB's, 200 to 500 mV", largest_difference(loads, 0.2, 0.5))
-        .at_most(0.1, "thesis 4.3.1: \"a similar shape\"; a tenth is our choice");
+        .allow_max(0.1, "thesis 4.3.1: \"a similar shape\"; a tenth is our choice");
 }
 
-void add_claims(const CornerFrequencies& f, Outcome& out) {
+void add_claims(const CornerFrequencies& f, StudyResult& out) {
     const double parasitic = C_B * (f.alone_B / f.B - 1);
     const auto why = fmt::format(
         "INVC's resistance is larger than published, and its node has a parasitic capacitance in parallel: {:.2g} pF for filter B, from "
         "the corner with and without it",
         1e12 * parasitic);
-    out.claim("corner of filter B", f.B, "Hz").printed_as(30, source).because(why);
-    out.claim("corner of filter C", f.C, "Hz").printed_as(2.7, source).because(why);
+    out.claim("corner of filter B", f.B, "Hz").published_as(30, source).explain(why);
+    out.claim("corner of filter C", f.C, "Hz").published_as(2.7, source).explain(why);
     out.claim("corner of filter B by its capacitor only, G_m / 2 pi C", f.alone_B, "Hz")
-        .printed_as(30, source)
-        .because("the resistance of INVC");
-    out.claim("corner of filter C by its capacitor only", f.alone_C, "Hz").printed_as(2.7, source).because("the resistance of INVC");
+        .published_as(30, source)
+        .explain("the resistance of INVC");
+    out.claim("corner of filter C by its capacitor only", f.alone_C, "Hz").published_as(2.7, source).explain("the resistance of INVC");
     out.claim("with the published 6.6 Gohm and the capacitor only: corner of filter B", 1 / (2 * std::numbers::pi * 6.6e9 * C_B), "Hz")
-        .printed_as(30, source);
+        .published_as(30, source);
     out.claim("with the published 6.6 Gohm and the capacitor only: corner of filter C", 1 / (2 * std::numbers::pi * 6.6e9 * C_C), "Hz")
-        .printed_as(2.7, source);
+        .published_as(2.7, source);
     out.claim("parasitic capacitance of filter B's node", parasitic, "F");
     out.claim("signal lost by this capacitance far above the corner: B", 100 * (1 - f.top_B), "%");
     out.claim("signal lost by this capacitance far above the corner: C", 100 * (1 - f.top_C), "%");
 }
 
-Result<Outcome> work(const StudyOptions& options) {
-    Outcome out;
+Result<StudyResult> work(const StudyOptions& options) {
+    StudyResult out;
     const auto loads = simulate_loads(), ideal = simulate_loads(ideal_mirrors);
     if (!loads) return loads.error();
     if (!ideal) return ideal.error();
     const auto f = simulate_corners(), pico = simulate_corners({"cb=800p"});
     if (!f) return f.error();
     if (!pico) return pico.error();
-    if (auto ok = options.at(0.9); !ok) return ok.error();
+    if (auto ok = options.report_progress(0.9); !ok) return ok.error();
     add_claims(*loads, *ideal, out);
     add_claims(*f, out);
     out.claim("with the printed 800 pF: corner of filter B", pico->B, "Hz")
-        .printed_as(30, source)
-        .because("\"800 pF\" is 800 fF: 20 x 20 um at 2 fF/um^2, and eleven of them are the 8.8 pF of the same sentence (errata S4)");
+        .published_as(30, source)
+        .explain("\"800 pF\" is 800 fF: 20 x 20 um at 2 fF/um^2, and eleven of them are the 8.8 pF of the same sentence (errata S4)");
     out.plot("30a, input current over input voltage", "V_IN (mV)", "current (pA)")
-        .shape("as 28a, in picoamperes")
-        .add("into INVC as a load", loads->c.current.times(1e3, 1e12));
+        .describe_published("as 28a, in picoamperes")
+        .add("into INVC as a load", loads->c.current.scaled(1e3, 1e12));
     out.plot("30b, resistance over input voltage", "V_IN (mV)", "resistance (Gohm)")
-        .shape("at most 6.6 Gohm")
-        .add("INVC as a load", loads->c.resistance.between(0.1, 0.6).times(1e3, 1e-9))
-        .add("INVB as a load, times 16000", loads->b.resistance.between(0.1, 0.6).times(1e3, 16000e-9))
+        .describe_published("at most 6.6 Gohm")
+        .add("INVC as a load", loads->c.resistance.between(0.1, 0.6).scaled(1e3, 1e-9))
+        .add("INVB as a load, times 16000", loads->b.resistance.between(0.1, 0.6).scaled(1e3, 16000e-9))
         .points("published", {{350}, {6.6}});
     return out;
 }

@@ -14,53 +14,53 @@ constexpr auto source = "thesis 4.3.1";
 constexpr double at_rest = 0.2, at_hold = 0.6, mid_rise = 0.3125;  // s, in the press stimulus
 constexpr double step = 0.5e-3;  // s, sampling step for currents, to separate them from pulses of microseconds
 
-void report_static(const Found& found, Outcome& out) {
-    const auto V_F = found.line("tran", "v(vf)"), I_A = found.line("tran", "i(via)");
-    const auto I_F = found.line("tran", "i(xccvs.mp3a)").absolute();
+void report_static(const NetlistResult& found, StudyResult& out) {
+    const auto V_F = found.curve("tran", "v(vf)"), I_A = found.curve("tran", "i(via)");
+    const auto I_F = found.curve("tran", "i(xccvs.mp3a)").absolute();
     out.claim("I_F at 0.2 N", I_F.at(at_rest), "A"), out.claim("I_F at 4 N", I_F.at(at_hold), "A");
     out.claim("V_F at 0.2 N", V_F.at(at_rest), "V"), out.claim("V_F at 4 N", V_F.at(at_hold), "V");
-    out.finds("V_F stays where its transconductor is linear, 300 to 500 mV", V_F.least() >= 0.3 && V_F.most() <= 0.5,
+    out.claim_true("V_F stays where its transconductor is linear, 300 to 500 mV", V_F.min() >= 0.3 && V_F.max() <= 0.5,
               "thesis 4.3.1, fig. 28")
-        .because(fmt::format("I_F / 2 - I_BIASF rises from {:.0f} to {:.0f} nA with these sizes and V_Y = 0.1 V, while 150 mV over the "
+        .explain(fmt::format("I_F / 2 - I_BIASF rises from {:.0f} to {:.0f} nA with these sizes and V_Y = 0.1 V, while 150 mV over the "
                              "published 413 kohm need {:.0f} nA; beyond that V_F is compressed",
                              1e9 * (I_F.at(at_rest) / 2 - 700e-9), 1e9 * (I_F.at(at_hold) / 2 - 700e-9), 150e-3 / 413e3 * 1e9));
     out.claim("I_A at 4 N", I_A.at(at_hold), "A"), out.claim("I_A at 0.2 N", I_A.at(at_rest), "A");
     const double fraction = I_A.at(at_rest) / I_A.at(at_hold), expected = I_F.at(at_rest) / I_F.at(at_hold);
-    out.claim("I_A is proportional to I_F: I_A at 0.2 N as a fraction of I_A at 4 N", 100 * fraction, "%").held_to(100 * expected, source);
+    out.claim("I_A is proportional to I_F: I_A at 0.2 N as a fraction of I_A at 4 N", 100 * fraction, "%").derived_as(100 * expected, source);
 }
 
 /// A rectified component: its largest value, its time, and the rest where max{I_X, 0} is 0.
-void report_dynamic(const Found& found, const std::string& name, const char* curve, const char* enable, Outcome& out) {
-    const auto all = found.line("tran", curve), I = all.every(step), en = found.line("tran", enable);
+void report_dynamic(const NetlistResult& found, const std::string& name, const char* curve, const char* enable, StudyResult& out) {
+    const auto all = found.curve("tran", curve), I = all.resampled(step), en = found.curve("tran", enable);
     const auto rise = I.between(0.26, 0.5);
-    out.claim(name + ": largest value", rise.most(), "A"),
-        out.claim(name + ": delay of its peak after the steepest point of the ramp", rise.peak() - mid_rise, "s");
+    out.claim(name + ": largest value", rise.max(), "A"),
+        out.claim(name + ": delay of its peak after the steepest point of the ramp", rise.x_of_max() - mid_rise, "s");
     out.claim(name + ": at rest", I.at(at_rest), "A")
-        .between(-0.1e-12, 0.1e-12, "thesis 4.3.1, eq. 4 and 8: otherwise I_X = 0; 0.1 pA is our choice");
-    auto& least = out.finds(name + " is never negative", I.least() >= -0.1e-12, "thesis 4.3.1, max{I_X, 0}");
-    const double opening = en.between(0.63, 1).where(0.35);
-    if (least.needs_reason())
-        least.because(fmt::format(
+        .allow_range(-0.1e-12, 0.1e-12, "thesis 4.3.1, eq. 4 and 8: otherwise I_X = 0; 0.1 pA is our choice");
+    auto& least = out.claim_true(name + " is never negative", I.min() >= -0.1e-12, "thesis 4.3.1, max{I_X, 0}");
+    const double opening = en.between(0.63, 1).crossing(0.35);
+    if (least.needs_explanation())
+        least.explain(fmt::format(
             "while its switch is closed it outputs the leakage of M5A as a negative current ({:.1f} pA at 620 ms). The comparator has to "
             "charge capacitances with picoamperes, so it opens the switch only {:.0f} ms after the force begins to fall; {:.1f} pA then",
-            1e12 * I.at(0.62), 1e3 * (opening - 0.625), 1e12 * I.least()));
-    const double closing = en.where(0.35, 0.25);
+            1e12 * I.at(0.62), 1e3 * (opening - 0.625), 1e12 * I.min()));
+    const double closing = en.crossing(0.35, 0.25);
     out.claim(name + ": largest glitch when its switch closes, for microseconds",
-              all.between(closing - 1e-3, closing + 1e-3).absolute().most(), "A");
-    out.claim(name + ": largest glitch when its switch opens", all.between(opening - 1e-3, opening + 1e-3).absolute().most(), "A");
+              all.between(closing - 1e-3, closing + 1e-3).absolute().max(), "A");
+    out.claim(name + ": largest glitch when its switch opens", all.between(opening - 1e-3, opening + 1e-3).absolute().max(), "A");
     out.claim(name + ": 25 ms after its switch has opened", I.at(opening + 25e-3), "A")
-        .between(-0.1e-12, 0.1e-12, "thesis 4.3.1: the switch is open");
+        .allow_range(-0.1e-12, 0.1e-12, "thesis 4.3.1: the switch is open");
 }
 
-double largest_step(const Line& line) {
-    const auto even = line.between(0.25, 0.3).every(10e-6);
+double largest_step(const StudyCurve& line) {
+    const auto even = line.between(0.25, 0.3).resampled(10e-6);
     double largest = 0;
     for (std::size_t k = 1; k < even.y.size(); ++k) largest = std::max(largest, std::abs(even.y[k] - even.y[k - 1]));
     return largest;
 }
 
-Result<void> report_comparator(Outcome& out) {
-    const auto found = found_in({R"(The comparator of I_B's rectifier
+Result<void> report_comparator(StudyResult& out) {
+    const auto found = run_study_netlist({R"(The comparator of I_B's rectifier
 .lib '../process/tsmc180.lib' tt
 .include 'parts/transconductor.inc'
 .include 'parts/trigger.inc'
@@ -78,35 +78,35 @@ xb gp gn u vdd rectifier_sa
     const auto en = find_hysteresis(*found, "v(xb.en)");
     out.claim("comparator: closes at a filter output of", en.V_H, "V"), out.claim("comparator: opens at a filter output of", en.V_L, "V");
     out.claim("comparator: hysteresis", en.V_H - en.V_L, "V")
-        .between(0.1e-3, 10e-3, "thesis 4.3.1: a small hysteresis; 0.1 to 10 mV, compared with signals of 30 to 200 mV, is our choice");
+        .allow_range(0.1e-3, 10e-3, "thesis 4.3.1: a small hysteresis; 0.1 to 10 mV, compared with signals of 30 to 200 mV, is our choice");
     return {};
 }
 
-Result<Outcome> work(const StudyOptions& options) {
-    Outcome out;
+Result<StudyResult> work(const StudyOptions& options) {
+    StudyResult out;
     const auto found =
-        found_in({"asp_sa1",
+        run_study_netlist({"asp_sa1",
                   {},
                   ".save v(vf) v(hpb) v(hpc) i(vi) i(via) i(vib) i(vic) v(xrectb.en) v(xrectc.en) i(xccvs.mp3a)\n.op\n.tran 1m 1 0 5m"});
     if (!found) return found.error();
-    if (auto ok = options.at(0.5); !ok) return ok.error();
+    if (auto ok = options.report_progress(0.5); !ok) return ok.error();
     report_static(*found, out);
     report_dynamic(*found, "I_B", "i(vib)", "v(xrectb.en)", out);
     report_dynamic(*found, "I_C", "i(vic)", "v(xrectc.en)", out);
-    const auto I_B = found->line("tran", "i(vib)").every(step), I_C = found->line("tran", "i(vic)").every(step);
-    out.finds("I_B ends with the ramp and I_C decays through the plateau: at 420 ms I_B is below a tenth of its largest value, I_C above",
-              I_B.at(0.42) < 0.1 * I_B.most() && I_C.at(0.42) > 0.1 * I_C.most(), "thesis 3.3, fig. 17a, which this circuit implements");
-    const auto I = found->line("tran", "i(vi)").every(step), I_A = found->line("tran", "i(via)").every(step);
-    out.claim("I: largest value", I.most(), "A");
+    const auto I_B = found->curve("tran", "i(vib)").resampled(step), I_C = found->curve("tran", "i(vic)").resampled(step);
+    out.claim_true("I_B ends with the ramp and I_C decays through the plateau: at 420 ms I_B is below a tenth of its largest value, I_C above",
+              I_B.at(0.42) < 0.1 * I_B.max() && I_C.at(0.42) > 0.1 * I_C.max(), "thesis 3.3, fig. 17a, which this circuit implements");
+    const auto I = found->curve("tran", "i(vi)").resampled(step), I_A = found->curve("tran", "i(via)").resampled(step);
+    out.claim("I: largest value", I.max(), "A");
     if (auto ok = report_comparator(out); !ok) return ok.error();
-    Plot& a = out.plot("34a, voltages", "time (s)", "V")
-                  .shape("V_F, V_HPB (printed as V_HPA) and V_HPC (printed as V_HPB) under the press stimulus; the text gives no details");
+    StudyPlot& a = out.plot("34a, voltages", "time (s)", "V")
+                  .describe_published("V_F, V_HPB (printed as V_HPA) and V_HPC (printed as V_HPB) under the press stimulus; the text gives no details");
     for (const auto& [name, curve] : {std::pair{"V_F", "v(vf)"}, {"V_HPB", "v(hpb)"}, {"V_HPC", "v(hpc)"}})
-        a.add(name, found->line("tran", curve));
-    Plot& b = out.plot("34b, currents", "time (s)", "pA").shape("I_A, I_B and I_C, whose sum is I");
-    b.add("I_A", I_A.times(1, 1e12)).add("I_B", I_B.times(1, 1e12)).add("I_C", I_C.times(1, 1e12)).add("I", I.times(1, 1e12));
-    out.finds("I has a glitch when the rectifiers switch, I_A has none: the largest step of I_A in 10 us is less than a tenth of I_B's",
-              largest_step(found->line("tran", "i(via)")) < 0.1 * largest_step(found->line("tran", "i(vib)")), "thesis 4.4, errata S18");
+        a.add(name, found->curve("tran", curve));
+    StudyPlot& b = out.plot("34b, currents", "time (s)", "pA").describe_published("I_A, I_B and I_C, whose sum is I");
+    b.add("I_A", I_A.scaled(1, 1e12)).add("I_B", I_B.scaled(1, 1e12)).add("I_C", I_C.scaled(1, 1e12)).add("I", I.scaled(1, 1e12));
+    out.claim_true("I has a glitch when the rectifiers switch, I_A has none: the largest step of I_A in 10 us is less than a tenth of I_B's",
+              largest_step(found->curve("tran", "i(via)")) < 0.1 * largest_step(found->curve("tran", "i(vib)")), "thesis 4.4, errata S18");
     out.note(
         "As in circuits/asp_sa1.cir: 0.7 V, I_BIASB 200 nA, I_BIASF 700 nA, 27 C, typical, as published; the membrane is held at half the "
         "supply. Gains as intended (errata S9a, S10a). The numbers of the figure are not in the text; the claims come from its words.");

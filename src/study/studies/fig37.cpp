@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <cmath>
 
-#include "study/deck.hpp"
+#include "study/study_netlist.hpp"
 #include "study/studies.hpp"
 #include "study/thesis/chip_vs_model.hpp"
 
@@ -12,72 +12,72 @@ namespace corpuscle::studies::fig37 {
 constexpr double K_A = 3.5, K_B = 2.75;  // uA/N, of the model (thesis 3.4)
 
 /// The gains of the rectified source, with the sizes of table 8 and as intended.
-Result<void> report_gains(Outcome& out) {
-    const auto found = found_in({"rectifier_fa", {}, ".dc vhp 0.31 0.39 1m"});
+Result<void> report_gains(StudyResult& out) {
+    const auto found = run_study_netlist({"rectifier_fa", {}, ".dc vhp 0.31 0.39 1m"});
     if (!found) return found.error();
-    const auto I_N = found->line("dc", "i(vn)"), as_printed = found->line("dc", "i(v3)"), intended = found->line("dc", "i(v6)");
-    const auto gain = [&](const Line& line, double v) { return std::abs(line.slope_at(v) / I_N.slope_at(v)); };
+    const auto I_N = found->curve("dc", "i(vn)"), as_printed = found->curve("dc", "i(v3)"), intended = found->curve("dc", "i(v6)");
+    const auto gain = [&](const StudyCurve& line, double v) { return std::abs(line.slope_at(v) / I_N.slope_at(v)); };
     const double up = gain(as_printed, 0.38), down = gain(as_printed, 0.32), corrected = gain(intended, 0.32);
-    out.claim("table 8: gain while the force rises", up, "times").held_to(8, "table 8, M1A over table 5's M5B");
-    out.claim("table 8: gain while the force falls", down, "times").held_to(3, "table 8, M1B over table 5's M5B");
-    out.finds(
+    out.claim("table 8: gain while the force rises", up, "times").derived_as(8, "table 8, M1A over table 5's M5B");
+    out.claim("table 8: gain while the force falls", down, "times").derived_as(3, "table 8, M1B over table 5's M5B");
+    out.claim_true(
         "a full-wave rectifier with different gains: both signs of the filter's current give a sinking current, one larger than the other",
         as_printed.at(0.38) > 0 && as_printed.at(0.32) > 0 && up > 1.1 * down, "thesis 4.3.2");
     out.claim("table 8: ratio of the gains", up / down, "times")
-        .held_to(K_A / K_B, "thesis 3.4, 3.5 over 2.75 uA/N of the model")
-        .because("the ratio of table 8's sizes is 8 to 3 (errata S15)");
-    out.claim("as intended here, pair B 6x4: ratio of the gains", up / corrected, "times").held_to(K_A / K_B, "thesis 3.4, of the model");
+        .derived_as(K_A / K_B, "thesis 3.4, 3.5 over 2.75 uA/N of the model")
+        .explain("the ratio of table 8's sizes is 8 to 3 (errata S15)");
+    out.claim("as intended here, pair B 6x4: ratio of the gains", up / corrected, "times").derived_as(K_A / K_B, "thesis 3.4, of the model");
     return {};
 }
 
-Result<Outcome> work(const StudyOptions& options) {
-    Outcome out;
-    const auto found = found_in({"asp_fa1", {}, ".save v(vf) v(hpc) i(vi) i(via) i(vib) v(xrect.en)\n.op\n.tran 1m 1 0 5m"});
+Result<StudyResult> work(const StudyOptions& options) {
+    StudyResult out;
+    const auto found = run_study_netlist({"asp_fa1", {}, ".save v(vf) v(hpc) i(vi) i(via) i(vib) v(xrect.en)\n.op\n.tran 1m 1 0 5m"});
     if (!found) return found.error();
     if (auto ok = report_gains(out); !ok) return ok.error();
-    if (auto ok = options.at(0.8); !ok) return ok.error();
+    if (auto ok = options.report_progress(0.8); !ok) return ok.error();
     // resampled at even steps, to remove the microsecond pulses of the switches
-    const auto all = found->line("tran", "i(vi)"), I = all.every(0.5e-3);
-    const auto I_A = found->line("tran", "i(via)").every(0.5e-3), I_B = found->line("tran", "i(vib)").every(0.5e-3);
-    const auto model = told_of({.afferent = "fa1", .traces = {"I"}});
+    const auto all = found->curve("tran", "i(vi)"), I = all.resampled(0.5e-3);
+    const auto I_A = found->curve("tran", "i(via)").resampled(0.5e-3), I_B = found->curve("tran", "i(vib)").resampled(0.5e-3);
+    const auto model = run_trial({.afferent = "fa1", .probes = {"I"}});
     if (!model) return model.error();
-    const auto& expected = model->traces.at("I");
+    const auto& expected = model->probes.at("I");
     const auto up = I.between(0.26, 0.5), down = I.between(0.68, 0.9), model_up = expected.between(0.26, 0.5),
                model_down = expected.between(0.63, 0.9);
-    out.claim("I: largest value, rising", up.most(), "A"), out.claim("I: largest value, falling", down.most(), "A");
-    out.claim("ratio of the two", up.most() / down.most(), "times")
-        .held_to(model_up.most() / model_down.most(), "of the model, thesis 3.4 and fig. 18a");
-    const auto macro = told_of({.afferent = "fa1-macro", .traces = {"i(vi)"}});
+    out.claim("I: largest value, rising", up.max(), "A"), out.claim("I: largest value, falling", down.max(), "A");
+    out.claim("ratio of the two", up.max() / down.max(), "times")
+        .derived_as(model_up.max() / model_down.max(), "of the model, thesis 3.4 and fig. 18a");
+    const auto macro = run_trial({.afferent = "fa1-macro", .probes = {"i(vi)"}});
     if (!macro) return macro.error();
-    const double delay_of_ideal_blocks = macro->traces.at("i(vi)").between(0.26, 0.5).peak() - model_up.peak();
-    out.claim("rising: delay after the model", up.peak() - model_up.peak(), "s")
-        .because(fmt::format("the same design of ideal blocks is {:.1f} ms late, because of the sensor's curve and a corner above the "
+    const double delay_of_ideal_blocks = macro->probes.at("i(vi)").between(0.26, 0.5).x_of_max() - model_up.x_of_max();
+    out.claim("rising: delay after the model", up.x_of_max() - model_up.x_of_max(), "s")
+        .explain(fmt::format("the same design of ideal blocks is {:.1f} ms late, because of the sensor's curve and a corner above the "
                              "model's 2 Hz; the rest is probably V_F's compression above 500 mV",
                              1e3 * delay_of_ideal_blocks));
-    out.claim("falling: delay after the model", down.peak() - model_down.peak(), "s");
-    out.finds("I_A drives the rise and I_B the fall: at the peak of one the other is below a tenth of it",
-              std::abs(I_B.at(up.peak())) < 0.1 * I_A.at(up.peak()) && std::abs(I_A.at(down.peak())) < 0.1 * I_B.at(down.peak()),
+    out.claim("falling: delay after the model", down.x_of_max() - model_down.x_of_max(), "s");
+    out.claim_true("I_A drives the rise and I_B the fall: at the peak of one the other is below a tenth of it",
+              std::abs(I_B.at(up.x_of_max())) < 0.1 * I_A.at(up.x_of_max()) && std::abs(I_A.at(down.x_of_max())) < 0.1 * I_B.at(down.x_of_max()),
               "thesis 4.3.2");
-    out.claim("I at rest", I.at(0.2), "A").between(-0.2e-12, 0.2e-12, "thesis 4.3.2: it has no static current; 0.2 pA is our choice");
-    const double switching_time = found->line("tran", "v(xrect.en)").where(0.35, 0.63);
-    auto& least = out.finds("I is never negative", I.least() > -0.2e-12, "thesis 4.3.2, fig. 36: a full-wave rectifier");
-    if (least.needs_reason())
-        least.because(
+    out.claim("I at rest", I.at(0.2), "A").allow_range(-0.2e-12, 0.2e-12, "thesis 4.3.2: it has no static current; 0.2 pA is our choice");
+    const double switching_time = found->curve("tran", "v(xrect.en)").crossing(0.35, 0.63);
+    auto& least = out.claim_true("I is never negative", I.min() > -0.2e-12, "thesis 4.3.2, fig. 36: a full-wave rectifier");
+    if (least.needs_explanation())
+        least.explain(
             fmt::format("the comparator's input is driven by the filter's small current, so it switches {:.0f} ms after the force begins "
                         "to fall. Until then the current has the wrong sign, at most {:.0f} pA",
-                        1e3 * (switching_time - 0.625), -1e12 * I.least()));
+                        1e3 * (switching_time - 0.625), -1e12 * I.min()));
     out.claim("largest glitch when the comparator switches, falling, for microseconds",
-              all.between(switching_time - 1e-3, switching_time + 1e-3).absolute().most(), "A");
+              all.between(switching_time - 1e-3, switching_time + 1e-3).absolute().max(), "A");
     out.plot("37a, filter output", "time (s)", "V")
-        .shape("V_HP; the text gives no details")
-        .add("V_HP", found->line("tran", "v(hpc)"))
-        .add("V_F", found->line("tran", "v(vf)"));
-    const double scale = up.most() / model_up.most();
+        .describe_published("V_HP; the text gives no details")
+        .add("V_HP", found->curve("tran", "v(hpc)"))
+        .add("V_F", found->curve("tran", "v(vf)"));
+    const double scale = up.max() / model_up.max();
     out.plot("37b, currents", "time (s)", "pA")
-        .shape("I_A and I_B, rectified, whose sum is I")
-        .add("I_A", I_A.times(1, 1e12))
-        .add("I_B", I_B.times(1, 1e12))
-        .add("the model's I, scaled to the same rising peak", expected.times(1, scale * 1e12));
+        .describe_published("I_A and I_B, rectified, whose sum is I")
+        .add("I_A", I_A.scaled(1, 1e12))
+        .add("I_B", I_B.scaled(1, 1e12))
+        .add("the model's I, scaled to the same rising peak", expected.scaled(1, scale * 1e12));
     out.note("As in circuits/asp_fa1.cir, gains as intended (errata S15); the membrane is held at half the supply.");
     return out;
 }

@@ -14,21 +14,21 @@ constexpr auto source = "thesis 4.4, fig. 39";
 using O = IsolatedOscillator;
 constexpr double I_shown = 20e-12;  // A: our choice, the current of fig. 39a is not published
 
-void report_swing(const Found& found, const Hysteresis& t, Outcome& out) {
-    const auto u = found.line("tran", "v(u)"), s = found.line("tran", "v(s)");
-    const double first = found.number("first_spike"), low = u.least(), high = u.between(first + 5e-3, u.x.back()).most();
-    out.claim("rest voltage of the membrane", found.at_rest("v(u)"), "V").held_to(0.7, "thesis 4.4: u_rest is the supply");
+void report_swing(const NetlistResult& found, const Hysteresis& t, StudyResult& out) {
+    const auto u = found.curve("tran", "v(u)"), s = found.curve("tran", "v(s)");
+    const double first = found.number("first_spike"), low = u.min(), high = u.between(first + 5e-3, u.x.back()).max();
+    out.claim("rest voltage of the membrane", found.operating_point("v(u)"), "V").derived_as(0.7, "thesis 4.4: u_rest is the supply");
     out.claim("the membrane falls to", low, "V"), out.claim("V_L of the trigger", t.V_L, "V");
     out.claim("the membrane is charged to", high, "V"), out.claim("V_H of the trigger", t.V_H, "V");
-    out.finds("the swing equals the hysteresis window, but not exactly: it is larger at one end at least",
+    out.claim_true("the swing equals the hysteresis window, but not exactly: it is larger at one end at least",
               high > t.V_H + 1e-3 && high < t.V_H + 0.1 * (t.V_H - t.V_L) && std::abs(low - t.V_L) < 0.1 * (t.V_H - t.V_L),
               "thesis 4.4: not exactly defined by the window, since there is a switching delay");
-    const double middle = (t.V_L + t.V_H) / 2, falls = u.where(middle, first + 5e-3);
+    const double middle = (t.V_L + t.V_H) / 2, falls = u.crossing(middle, first + 5e-3);
     const auto rise = s.between(first, first + 5e-3);
-    const double filled = u.between(first, first + 5e-3).where(middle, first);
+    const double filled = u.between(first, first + 5e-3).crossing(middle, first);
     out.claim("discharge rate at the middle of the swing", u.slope_at(falls), "V/s");
     out.claim("charging rate at the middle of the swing", u.slope_at(filled), "V/s");
-    out.claim("duration of a spike", rise.where(0.35, first + 1e-4) - first, "s");
+    out.claim("duration of a spike", rise.crossing(0.35, first + 1e-4) - first, "s");
 }
 
 /// Membrane capacitance and leak, from its slopes at two currents.
@@ -46,7 +46,7 @@ constexpr double currents[] = {4e-12, 8e-12, 20e-12, 60e-12, 200e-12, 500e-12, 8
 
 /// Frequency at each current and slope of the membrane at 350 mV, for currents above the leak.
 struct CurrentSweep {
-    Line frequency, falls;
+    StudyCurve frequency, falls;
 };
 Result<CurrentSweep> sweep_current(bool high_threshold_switches, double swing) {
     CurrentSweep out;
@@ -56,19 +56,19 @@ Result<CurrentSweep> sweep_current(bool high_threshold_switches, double swing) {
         if (!found) return found.error();
         const double T = found->number("mean_interval"), first = found->number("first_spike");
         if (!(T > 0)) continue;
-        const auto u = found->line("tran", "v(u)");
+        const auto u = found->curve("tran", "v(u)");
         out.frequency.x.push_back(I), out.frequency.y.push_back(1 / T);
-        out.falls.x.push_back(I), out.falls.y.push_back(-u.slope_at(u.where(0.35, first + T / 4)));
+        out.falls.x.push_back(I), out.falls.y.push_back(-u.slope_at(u.crossing(0.35, first + T / 4)));
     }
     return out;
 }
 
-Result<void> report_frequency(const Hysteresis& t, const StudyOptions& options, Outcome& out) {
+Result<void> report_frequency(const Hysteresis& t, const StudyOptions& options, StudyResult& out) {
     const double swing = t.V_H - t.V_L;
     const auto standard = sweep_current(false, swing), high_threshold = sweep_current(true, swing);
     if (!standard) return standard.error();
     if (!high_threshold) return high_threshold.error();
-    if (auto ok = options.at(0.9); !ok) return ok;
+    if (auto ok = options.report_progress(0.9); !ok) return ok;
     const Membrane m(currents[1], high_threshold->falls.at(currents[1]), currents[2], high_threshold->falls.at(currents[2]));
     const auto worst_error = [&](double leak, double C, double to) {
         double worst = 0;
@@ -77,48 +77,48 @@ Result<void> report_frequency(const Hysteresis& t, const StudyOptions& options, 
         return 100 * worst;
     };
     out.claim("membrane capacitance, with the trigger's gates", m.C, "F")
-        .printed_as(O::C, "thesis 4.4: 1.8 pF of input capacitance")
-        .because("the gates of the trigger are in parallel with the capacitor");
+        .published_as(O::C, "thesis 4.4: 1.8 pF of input capacitance")
+        .explain("the gates of the trigger are in parallel with the capacitor");
     out.claim("its leak with high-threshold switches", m.leak, "A")
-        .printed_as(O::I_LEAK, source)
-        .because(
+        .published_as(O::I_LEAK, source)
+        .explain(
             "2 pA is only a little more than the current of M1A at V_GS = 0, so M1A as a diode is not saturated, while M1B is (see cco)");
     out.claim("frequency against (6) with these two values, 4 to 60 pA: largest difference", worst_error(m.leak, m.C, 60e-12), "%")
-        .at_most(10, "thesis 4.4: it implements the leaky integrate-and-fire sub-model B, (6); a tenth is our choice");
-    auto& fast_range = out.claim("the same up to 800 pA", worst_error(m.leak, m.C, 1e-9), "%").at_most(10, "as above");
-    if (fast_range.needs_reason())
-        fast_range.because("the delay of the trigger increases the swing, more so the faster the membrane falls (see cco)");
+        .allow_max(10, "thesis 4.4: it implements the leaky integrate-and-fire sub-model B, (6); a tenth is our choice");
+    auto& fast_range = out.claim("the same up to 800 pA", worst_error(m.leak, m.C, 1e-9), "%").allow_max(10, "as above");
+    if (fast_range.needs_explanation())
+        fast_range.explain("the delay of the trigger increases the swing, more so the faster the membrane falls (see cco)");
     out.claim("frequency against (6) with the published 2 pA and 1.8 pF, 4 to 800 pA: largest difference",
               worst_error(O::I_LEAK, O::C, 1e-9), "%");
-    Line expected;
+    StudyCurve expected;
     for (const double I : currents) expected.x.push_back(I), expected.y.push_back(ideal_frequency(I, O::I_LEAK, O::C, swing));
     auto& p = out.plot("Frequency over the current", "I (pA)", "frequency (Hz)")
-                  .points("switches as printed", standard->frequency.times(1e12, 1))
-                  .points("high-threshold switches", high_threshold->frequency.times(1e12, 1))
-                  .add("(6) with 2 pA, 1.8 pF and the trigger's window", expected.times(1e12, 1));
+                  .points("switches as printed", standard->frequency.scaled(1e12, 1))
+                  .points("high-threshold switches", high_threshold->frequency.scaled(1e12, 1))
+                  .add("(6) with 2 pA, 1.8 pF and the trigger's window", expected.scaled(1e12, 1));
     p.log_x = p.log_y = true;
     return {};
 }
 
-Result<Outcome> work(const StudyOptions& options) {
-    Outcome out;
+Result<StudyResult> work(const StudyOptions& options) {
+    StudyResult out;
     const auto t = simulate_trigger();
     if (!t) return t.error();
     const auto shown_case = simulate_oscillator({.current = I_shown}), below_leak = simulate_oscillator({.current = O::I_LEAK / 2, .stop_time = 0.3});
     if (!shown_case) return shown_case.error();
     if (!below_leak) return below_leak.error();
     report_swing(*shown_case, *t, out);
-    const auto u = shown_case->line("tran", "v(u)");
-    out.claim("with half of I_LEAK the membrane stays at", below_leak->line("tran", "v(u)").least(), "V")
-        .held_to(0.7, "thesis 4.4: I < I_LEAK");
-    out.claim("with half of I_LEAK: spikes", below_leak->number("spikes")).between(0, 0, source);
+    const auto u = shown_case->curve("tran", "v(u)");
+    out.claim("with half of I_LEAK the membrane stays at", below_leak->curve("tran", "v(u)").min(), "V")
+        .derived_as(0.7, "thesis 4.4: I < I_LEAK");
+    out.claim("with half of I_LEAK: spikes", below_leak->number("spikes")).allow_range(0, 0, source);
     out.claim("V_H - V_L", t->V_H - t->V_L, "V");
     out.plot("39a, membrane and spikes at 20 pA", "time (s)", "V")
-        .shape("u falls from the supply to theta and is charged fast to u_rst; s is high meanwhile")
+        .describe_published("u falls from the supply to theta and is charged fast to u_rst; s is high meanwhile")
         .add("u", u)
-        .add("s", shown_case->line("tran", "v(s)"));
+        .add("s", shown_case->curve("tran", "v(s)"));
     out.plot("39b, the trigger's curve", "V_IN (V)", "V_OUT (V)")
-        .shape("a hysteresis window between theta and u_rst")
+        .describe_published("a hysteresis window between theta and u_rst")
         .add("rising", t->rising)
         .add("falling", t->falling);
     if (auto ok = report_frequency(*t, options, out); !ok) return ok.error();

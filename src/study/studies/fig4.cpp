@@ -10,7 +10,7 @@ namespace corpuscle::studies::fig4 {
 constexpr auto source = "thesis 1.2, fig. 4";
 
 /// Time (s) within a window during which the force changes.
-double ramp_duration(const Line& force, const TimeWindow& s) {
+double ramp_duration(const StudyCurve& force, const TimeWindow& s) {
     double from = Claim::none, to = Claim::none;
     const auto part = force.between(s.from, s.to);
     for (std::size_t k = 1; k < part.x.size(); ++k)
@@ -22,7 +22,7 @@ double ramp_duration(const Line& force, const TimeWindow& s) {
 }
 
 /// Largest difference (N) between retraction and time-reversed protraction.
-double asymmetry(const Line& force) {
+double asymmetry(const StudyCurve& force) {
     const double middle = (press::protraction.from + press::retraction.to) / 2;
     double out = 0;
     for (double t = press::protraction.from; t < press::protraction.to; t += 1e-3) out = std::max(out, std::abs(force.at(t) - force.at(2 * middle - t)));
@@ -30,42 +30,42 @@ double asymmetry(const Line& force) {
 }
 
 /// Largest difference (N) between protraction and half a cosine.
-double cosine_error(const Line& force) {
+double cosine_error(const StudyCurve& force) {
     double out = 0;
     const auto ramp = force.between(press::protraction.from, press::protraction.to);
     for (std::size_t k = 0; k < ramp.x.size(); ++k) {
         const double fraction = (ramp.x[k] - press::protraction.from) / (press::protraction.to - press::protraction.from);
-        out = std::max(out, std::abs(ramp.y[k] - (force.least() + (force.most() - force.least()) * (1 - std::cos(M_PI * fraction)) / 2)));
+        out = std::max(out, std::abs(ramp.y[k] - (force.min() + (force.max() - force.min()) * (1 - std::cos(M_PI * fraction)) / 2)));
     }
     return out;
 }
 
-Result<Outcome> work(const StudyOptions&) {
-    Outcome out;
+Result<StudyResult> work(const StudyOptions&) {
+    StudyResult out;
     const auto force = press::force_curve(1e-4);
     if (!force) return force.error();
     const double half = (press::plateau.from + press::plateau.to) / 2, end = press::after.to;
     const double up = ramp_duration(*force, {0, half}), down = ramp_duration(*force, {half, end});
-    out.claim("smallest force", force->least(), "N").printed_as(0.2, source);
-    out.claim("largest force", force->most(), "N").printed_as(4, source);
-    out.claim("rest before protraction", force->where(force->least() + 1e-9), "s").printed_as(250e-3, source);
-    out.claim("protraction", up, "s").printed_as(125e-3, source);
-    out.claim("plateau", ramp_duration(*force, {0, end}) - up - down, "s").printed_as(250e-3, source);
+    out.claim("smallest force", force->min(), "N").published_as(0.2, source);
+    out.claim("largest force", force->max(), "N").published_as(4, source);
+    out.claim("rest before protraction", force->crossing(force->min() + 1e-9), "s").published_as(250e-3, source);
+    out.claim("protraction", up, "s").published_as(125e-3, source);
+    out.claim("plateau", ramp_duration(*force, {0, end}) - up - down, "s").published_as(250e-3, source);
     out.claim("retraction", down, "s")
-        .printed_as(250e-3, source)
-        .because(
+        .published_as(250e-3, source)
+        .explain(
             "\"symmetrical to the protraction phase\" and 250 ms contradict each other; symmetry is used here (errata B1). A later paper "
             "of the same group has forces that rise in 125 ms");
-    out.claim("retraction, if symmetrical", down, "s").printed_as(125e-3, "thesis 1.2: \"symmetrical to the protraction phase\"");
+    out.claim("retraction, if symmetrical", down, "s").published_as(125e-3, "thesis 1.2: \"symmetrical to the protraction phase\"");
     out.claim("retraction against time-reversed protraction, largest difference", asymmetry(*force), "N")
-        .at_most(1e-3, "thesis 1.2: symmetrical; within 1 mN here");
+        .allow_max(1e-3, "thesis 1.2: symmetrical; within 1 mN here");
     out.claim("protraction against half a cosine, largest difference", cosine_error(*force), "N")
-        .at_most(1e-3, "thesis 1.2: a sinusoidal ramp; within 1 mN here");
-    out.claim("steepest slope", force->slope().most(), "N/s");
-    const auto slow_retraction = touch_of({{}, "press", {"press.t_down=250ms"}});
+        .allow_max(1e-3, "thesis 1.2: a sinusoidal ramp; within 1 mN here");
+    out.claim("steepest slope", force->slope().max(), "N/s");
+    const auto slow_retraction = trial_force({{}, "press", {"press.t_down=250ms"}});
     if (!slow_retraction) return slow_retraction.error();
     for (const char* name : {"sa1", "fa1"}) {
-        const auto as_used = train_of({name}), as_printed = train_of({name, "press", {"press.t_down=250ms"}});
+        const auto as_used = simulate_train({name}), as_printed = simulate_train({name, "press", {"press.t_down=250ms"}});
         if (!as_used) return as_used.error();
         if (!as_printed) return as_printed.error();
         const TimeWindow later{press::retraction.from, 2};
@@ -74,8 +74,8 @@ Result<Outcome> work(const StudyOptions&) {
     }
     out.plot("Force of the experiment", "time (s)", "force (N)")
         .add("as used here: retraction of 125 ms", *force)
-        .add("as printed: retraction of 250 ms", slow_retraction->line())
-        .shape("rest, sinusoidal ramp, plateau and a symmetrical retraction, 0.2 to 4 N");
+        .add("as printed: retraction of 250 ms", slow_retraction->curve())
+        .describe_published("rest, sinusoidal ramp, plateau and a symmetrical retraction, 0.2 to 4 N");
     out.note("The five directions and several places on the fingertip (fig. 4 A, B) are not modelled: the models have one force input.");
     out.note(
         "The abstract of Birznieks et al. 2001 reports 196 afferents, not \"196 afferent nerve impulses\" (errata B18a). The protocol of "

@@ -10,53 +10,53 @@ namespace corpuscle::studies::fig41 {
 
 namespace P = press;
 
-void report_pattern(const ChipVsModel& b, Outcome& out) {
+void report_pattern(const ChipVsModel& b, StudyResult& out) {
     const std::string similar = "thesis 4.4: similar to the model's of fig. 18; the published value is the model's, computed here";
     const auto& chip = b.chip.spikes;
-    out.claim("spikes", static_cast<double>(chip.size())).held_to(static_cast<double>(b.model_spikes.size()), similar);
+    out.claim("spikes", static_cast<double>(chip.size())).derived_as(static_cast<double>(b.model_spikes.size()), similar);
     const auto f = press::frequency_at_start(chip), expected = press::frequency_at_start(b.model_spikes);
     for (const auto& [name, phase] : {std::pair{"rising", P::protraction}, {"falling", P::retraction}}) {
         out.claim(std::string("spikes while the force is ") + name, press::spike_count(chip, phase))
-            .held_to(press::spike_count(b.model_spikes, phase), similar);
+            .derived_as(press::spike_count(b.model_spikes, phase), similar);
         const TimeWindow window{phase.from, phase.to + 0.1};
-        auto& c = out.claim(std::string("highest frequency, ") + name, f.between(window.from, window.to).most(), "Hz")
-                      .held_to(expected.between(window.from, window.to).most(), similar);
-        if (c.needs_reason())
-            c.because("each ramp has only two or three intervals, and each depends on the first spike; the comparator is late");
+        auto& c = out.claim(std::string("highest frequency, ") + name, f.between(window.from, window.to).max(), "Hz")
+                      .derived_as(expected.between(window.from, window.to).max(), similar);
+        if (c.needs_explanation())
+            c.explain("each ramp has only two or three intervals, and each depends on the first spike; the comparator is late");
     }
-    out.finds("it responds to the ramps only: no spike at rest and in the last 100 ms of the plateau",
+    out.claim_true("it responds to the ramps only: no spike at rest and in the last 100 ms of the plateau",
               press::spike_count(chip, P::rest) == 0 && press::spike_count(chip, P::plateau_end) == 0 && press::spike_count(chip, P::protraction) > 0 &&
                   press::spike_count(chip, P::retraction) > 0,
               "thesis 1.2, fig. 5b");
-    out.finds("asymmetrical: faster while the force rises",
-              f.between(P::protraction.from, P::plateau.from + 0.1).most() > f.between(P::retraction.from, 1).most(), "thesis 1.2, fig. 5b");
+    out.claim_true("asymmetrical: faster while the force rises",
+              f.between(P::protraction.from, P::plateau.from + 0.1).max() > f.between(P::retraction.from, 1).max(), "thesis 1.2, fig. 5b");
     out.claim("delay of the first spike after the model's", chip.empty() ? NAN : chip[0] - b.model_spikes[0], "s");
 }
 
-Result<Outcome> work(const StudyOptions& options) {
-    Outcome out;
-    const auto b = compare_chip_with_model({.afferent = "fa1-circuit", .rate = 20e3, .traces = {"i(vi)", "v(u)", "v(s)"}}, "fa1");
+Result<StudyResult> work(const StudyOptions& options) {
+    StudyResult out;
+    const auto b = compare_chip_with_model({.afferent = "fa1-circuit", .rate = 20e3, .probes = {"i(vi)", "v(u)", "v(s)"}}, "fa1");
     if (!b) return b.error();
-    if (auto ok = options.at(0.9); !ok) return ok.error();
+    if (auto ok = options.report_progress(0.9); !ok) return ok.error();
     report_pattern(*b, out);
-    const auto& I = b->chip.traces.at("i(vi)");
+    const auto& I = b->chip.probes.at("i(vi)");
     const std::vector<double> rising(
         b->chip.spikes.begin(), b->chip.spikes.begin() + static_cast<std::ptrdiff_t>(press::spike_count(b->chip.spikes, {0, P::plateau.to})));
     out.claim("glitch in I at each spike up to the end of the plateau: smallest, over I just before it", min_jump(I, rising, 0.3e-3),
               "times")
-        .because(
+        .explain(
             "its membrane capacitance is three times SA-I's, so it is charged at a third of the speed and draws a third of the current "
             "through the rectifier's capacitances");
-    out.plot("41a, input", "time (s)", "pA").shape("similar to SA-I's").add("I", I.times(1, 1e12));
+    out.plot("41a, input", "time (s)", "pA").describe_published("similar to SA-I's").add("I", I.scaled(1, 1e12));
     out.plot("41b, membrane and output", "time (s)", "V")
-        .shape("similar to the model's firing pattern")
-        .add("u", b->chip.traces.at("v(u)"))
-        .add("s", b->chip.traces.at("v(s)"));
+        .describe_published("similar to the model's firing pattern")
+        .add("u", b->chip.probes.at("v(u)"))
+        .add("s", b->chip.probes.at("v(s)"));
     out.plot("Frequency compared with the model's of fig. 18c", "time (s)", "frequency (Hz)")
-        .shape("similar to the model's")
+        .describe_published("similar to the model's")
         .points("chip", press::frequency_at_start(b->chip.spikes))
         .points("model", press::frequency_at_start(b->model_spikes));
-    out.plot("Spikes", "time (s)", "").row("chip", b->chip.spikes).row("model", b->model_spikes);
+    out.plot("Spikes", "time (s)", "").raster_row("chip", b->chip.spikes).raster_row("model", b->model_spikes);
     out.note(
         "Gains as intended (errata S15), a leak of 10 pA and a membrane of 14.4 pF. For table 8's sizes, 5 pA and 5.4 pF see "
         "errata-signal.");

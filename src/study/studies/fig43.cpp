@@ -5,7 +5,7 @@
 
 namespace corpuscle::studies::fig43 {
 
-Result<Outcome> work(const StudyOptions&) {
+Result<StudyResult> work(const StudyOptions&) {
     return report_layout(rectangles, "fig. 43", "A has a single channel; by the same rule its rectangle is larger than published.");
 }
 

@@ -5,7 +5,7 @@
 
 namespace corpuscle::studies::fig45 {
 
-Result<Outcome> work(const StudyOptions&) {
+Result<StudyResult> work(const StudyOptions&) {
     return report_layout(
         trapezoids, "fig. 45",
         "F's two channels are closer together than those of the other arrays; by the same rule its rectangle is longer than published.");

@@ -14,8 +14,8 @@ Result<bool> is_saturated(double I_BIAS) {
     return s->V_M3B >= s->V_sat_M3B && s->V_M4A >= s->V_sat_M4A;
 }
 
-Result<Outcome> work(const StudyOptions& options) {
-    Outcome out;
+Result<StudyResult> work(const StudyOptions& options) {
+    StudyResult out;
     const auto corners = simulate_bias_figure(figure, out, options);
     if (!corners) return corners.error();
     const auto& typical = corners->front();
@@ -25,19 +25,19 @@ Result<Outcome> work(const StudyOptions& options) {
         "nA; the study bias-valid shows the effect of thresholds some tens of millivolts lower";
     for (const auto& [I, printed] : {std::pair{100e-9, 100e-3}, {2e-6, 600e-3}}) {
         auto& c =
-            out.claim(I < 1e-6 ? "typical: V_BN at 100 nA" : "typical: V_BN at 2 uA", V_BN.at(I), "V").printed_as(printed, figure.source());
-        if (c.needs_reason()) c.because(why);
+            out.claim(I < 1e-6 ? "typical: V_BN at 100 nA" : "typical: V_BN at 2 uA", V_BN.at(I), "V").published_as(printed, figure.source());
+        if (c.needs_explanation()) c.explain(why);
     }
-    out.finds("V_BN rises with I_BIAS", V_BN.slope().between(20e-9, 2e-6).least() > 0, figure.source());
+    out.claim_true("V_BN rises with I_BIAS", V_BN.slope().between(20e-9, 2e-6).min() > 0, figure.source());
     const auto inside = is_saturated(200e-9), below = is_saturated(0.5 * typical.working_range.from), above = is_saturated(2 * typical.working_range.to);
     for (const auto* s : {&inside, &below, &above})
         if (!*s) return s->error();
     const char* source = "E.2: saturated in the range, in the linear region below and above it";
-    out.finds("M3B and M4A are saturated at 200 nA", *inside, source);
-    out.finds("not both are saturated at half the lower end of the working range", !*below, source);
-    out.finds("not both are saturated at twice the upper end of the working range", !*above, source);
-    out.plots[0].shape("V_BN from 100 to 600 mV over 100 nA to 2 uA");
-    out.plots[1].shape("three corners, each with its own range; 100 to 700 nA is common to all");
+    out.claim_true("M3B and M4A are saturated at 200 nA", *inside, source);
+    out.claim_true("not both are saturated at half the lower end of the working range", !*below, source);
+    out.claim_true("not both are saturated at twice the upper end of the working range", !*above, source);
+    out.plots[0].describe_published("V_BN from 100 to 600 mV over 100 nA to 2 uA");
+    out.plots[1].describe_published("three corners, each with its own range; 100 to 700 nA is common to all");
     return out;
 }
 

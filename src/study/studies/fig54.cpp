@@ -10,25 +10,25 @@ namespace corpuscle::studies::fig54 {
 
 constexpr BiasFigure figure{BiasAxis::supply, "54", "V_DD (V)", "V", 1, {550e-3, 800e-3}, {650e-3, 750e-3}};
 
-Result<Outcome> work(const StudyOptions& options) {
-    Outcome out;
+Result<StudyResult> work(const StudyOptions& options) {
+    StudyResult out;
     const auto corners = simulate_bias_figure(figure, out, options);
     if (!corners) return corners.error();
     const auto& typical = corners->front();
     double largest_error = 0;
     const auto V_REF = typical.sweep.curve("v(ref)");
     for (std::size_t k = 0; k < V_REF.x.size(); ++k) largest_error = std::max(largest_error, std::abs(V_REF.y[k] / V_REF.x[k] - 0.5));
-    out.finds("V_REF is half the supply, within a thousandth of it, from 0.4 to 0.9 V", largest_error < 1e-3, "thesis E.2");
+    out.claim_true("V_REF is half the supply, within a thousandth of it, from 0.4 to 0.9 V", largest_error < 1e-3, "thesis E.2");
     const auto from = typical.working_range.from, to = typical.working_range.to;
-    out.finds("V_BP rises with the supply", typical.sweep.curve("v(bp)").between(from, to).slope().least() > 0,
+    out.claim_true("V_BP rises with the supply", typical.sweep.curve("v(bp)").between(from, to).slope().min() > 0,
               "E.2: as V_DD increases, so does V_REF, and V_BP and V_BN");
-    out.finds("V_BN falls as the supply rises", typical.sweep.curve("v(bn)").between(from, to).slope().most() < 0,
+    out.claim_true("V_BN falls as the supply rises", typical.sweep.curve("v(bn)").between(from, to).slope().max() < 0,
               "follows from E.2: V_REF drives M4A, whose current is constant, so its bulk needs less bias");
     out.note(
         "I_BIAS is not given; it is 200 nA here, as in table 18. The text can also be read as V_BN rising with the supply, which would "
         "contradict the circuit: BN comes closer to its rail, as BP does to its own.");
-    out.plots[0].shape("V_DD from 400 to 900 mV, typical, at room temperature");
-    out.plots[1].shape("the corners limit the supply range severely");
+    out.plots[0].describe_published("V_DD from 400 to 900 mV, typical, at room temperature");
+    out.plots[1].describe_published("the corners limit the supply range severely");
     return out;
 }
 

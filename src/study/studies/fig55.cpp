@@ -10,26 +10,26 @@ namespace corpuscle::studies::fig55 {
 constexpr BiasFigure figure{BiasAxis::temperature, "55", "temperature (C)", "C", 1, {-55, 95}, {Claim::none, Claim::none}};
 
 /// Largest relative error of I_Q.
-double largest_error(const BiasCorner& c) { return c.sweep.current_error().most() * bias_current_margin; }
+double largest_error(const BiasCorner& c) { return c.sweep.current_error().max() * bias_current_margin; }
 
-Result<Outcome> work(const StudyOptions& options) {
-    Outcome out;
+Result<StudyResult> work(const StudyOptions& options) {
+    StudyResult out;
     const auto corners = simulate_bias_figure(figure, out, options);
     if (!corners) return corners.error();
     const auto& c = *corners;
-    out.finds("V_BN falls as the temperature rises", c[0].sweep.curve("v(bn)").slope().most() < 0,
+    out.claim_true("V_BN falls as the temperature rises", c[0].sweep.curve("v(bn)").slope().max() < 0,
               "E.2: V_T decreases, V_BP and V_BN compensate");
-    out.finds("V_BP rises, so the body bias decreases", c[0].sweep.curve("v(bp)").slope().least() > 0, "E.2: as above");
+    out.claim_true("V_BP rises, so the body bias decreases", c[0].sweep.curve("v(bp)").slope().min() > 0, "E.2: as above");
     for (const auto& corner : c) out.claim(std::string(corner.name) + ": largest error of I_Q", 100 * largest_error(corner), "%");
-    out.finds("the error of I_Q is largest in the FF corner",
+    out.claim_true("the error of I_Q is largest in the FF corner",
               largest_error(c[2]) > largest_error(c[1]) && largest_error(c[2]) > largest_error(c[0]), "E.2: in special for the FF corner");
     out.claim("FF: works to", c[2].working_range.to, "C");
     out.claim("SS: works from", c[1].working_range.from, "C");
     out.note(
         "I_BIAS is not given; it is 200 nA here, as in table 18. E.2 prints voltages where it means temperatures between -55 and 95 C "
         "(errata I8).");
-    out.plots[0].shape("V_BN and V_BP follow V_T; -55 to 125 C at 0.7 V, typical");
-    out.plots[1].shape("I_Q depends on the corner, especially FF");
+    out.plots[0].describe_published("V_BN and V_BP follow V_T; -55 to 125 C at 0.7 V, typical");
+    out.plots[1].describe_published("I_Q depends on the corner, especially FF");
     return out;
 }
 

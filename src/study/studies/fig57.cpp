@@ -9,57 +9,57 @@
 namespace corpuscle::studies::fig57 {
 
 /// The largest difference between the two sides of V_IN = 0, over the largest value.
-double asymmetry(const Line& G) {
+double asymmetry(const StudyCurve& G) {
     double out = 0;
     for (std::size_t k = 0; k < G.x.size(); ++k)
         if (G.x[k] >= 0 && !std::isnan(G.at(-G.x[k]))) out = std::max(out, std::abs(G.y[k] - G.at(-G.x[k])));
-    return out / G.most();
+    return out / G.max();
 }
 
 /// E.3: the tails M1A and M2A are resistors that the diodes hold in the linear region; the transistors of INVA are in weak inversion.
-Result<void> claim_regions(Outcome& out) {
-    const auto found = found_in({"invb", {}, ".op"});
+Result<void> claim_regions(StudyResult& out) {
+    const auto found = run_study_netlist({"invb", {}, ".op"});
     if (!found) return found.error();
-    const double tail_N = found->at_rest("v(xh.sn)"), tail_P = 0.7 - found->at_rest("v(xh.sp)");
+    const double tail_N = found->operating_point("v(xh.sn)"), tail_P = 0.7 - found->operating_point("v(xh.sp)");
     const auto state = simulate_bias_state({});
     if (!state) return state.error();
     out.claim("INVB: voltage across M2A, which is held in the linear region", tail_N, "V")
-        .at_most(state->V_sat_M4A, "E.3, fig. 56 (errata I11); such an array at 200 nA is saturated from this voltage on");
+        .allow_max(state->V_sat_M4A, "E.3, fig. 56 (errata I11); such an array at 200 nA is saturated from this voltage on");
     out.claim("INVB: voltage across M1A, which is held in the linear region", tail_P, "V")
-        .at_most(state->V_sat_M3B, "E.3, fig. 56 (errata I11); as above");
+        .allow_max(state->V_sat_M3B, "E.3, fig. 56 (errata I11); as above");
     const double i_f = std::pow(state->V_sat_M4A / (1.380649e-23 * 300.15 / 1.602176634e-19) - 3, 2) - 1;
     auto& weak =
-        out.claim("inversion level i_f of INVA's arrays at 200 nA", i_f).at_most(1, "E.3: the transistors operate in weak inversion");
-    if (weak.needs_reason()) weak.because("200 nA in these arrays is moderate inversion by I_SQ of tables 11 to 14");
+        out.claim("inversion level i_f of INVA's arrays at 200 nA", i_f).allow_max(1, "E.3: the transistors operate in weak inversion");
+    if (weak.needs_explanation()) weak.explain("200 nA in these arrays is moderate inversion by I_SQ of tables 11 to 14");
     return {};
 }
 
-Result<Outcome> work(const StudyOptions& options) {
-    Outcome out;
+Result<StudyResult> work(const StudyOptions& options) {
+    StudyResult out;
     const auto inverters = InverterSweep::run(2e-3);
     if (!inverters) return inverters.error();
     const auto I_A = inverters->output_current('a'), I_B = inverters->output_current('b'), G_A = inverters->transconductance('a'),
                G_B = inverters->transconductance('b');
     auto& currents = out.plot("Fig. 57a: output current, held at 0 V", "V_IN (mV)", "I_o (uA)");
-    currents.add("INVA", I_A.times(1e3, 1e6)).add("INVB", I_B.times(1e3, 1e6)).shape("INVA's much larger; V_IN from -350 to 350 mV");
+    currents.add("INVA", I_A.scaled(1e3, 1e6)).add("INVB", I_B.scaled(1e3, 1e6)).describe_published("INVA's much larger; V_IN from -350 to 350 mV");
     auto& conductances = out.plot("Fig. 57b: transconductance", "V_IN (mV)", "G_m (uS)");
-    conductances.add("INVA", G_A.times(1e3, 1e6)).add("INVB", G_B.times(1e3, 1e6)).shape("INVA's higher, and much more non-linear");
+    conductances.add("INVA", G_A.scaled(1e3, 1e6)).add("INVB", G_B.scaled(1e3, 1e6)).describe_published("INVA's higher, and much more non-linear");
     double smallest_ratio = 1e300;
     for (std::size_t k = 0; k < I_A.x.size(); ++k)
         if (std::abs(I_A.x[k]) > 0.05) smallest_ratio = std::min(smallest_ratio, std::abs(I_A.y[k] / I_B.y[k]));
     out.claim("INVA's current over INVB's, smallest beyond 50 mV", smallest_ratio, "times")
-        .at_least(2, "E.3: much larger; a factor of two is our choice");
+        .allow_min(2, "E.3: much larger; a factor of two is our choice");
     out.claim("INVA: transconductance at V_IN = 0", G_A.at(0), "S");
-    out.claim("INVB: transconductance at V_IN = 0", G_B.at(0), "S").printed_as(2.5e-6, "E.4: about 2.5 uS");
+    out.claim("INVB: transconductance at V_IN = 0", G_B.at(0), "S").published_as(2.5e-6, "E.4: about 2.5 uS");
     out.claim("INVA's transconductance over INVB's at V_IN = 0", G_A.at(0) / G_B.at(0), "times")
-        .at_least(1, "E.3: a higher transconductance");
+        .allow_min(1, "E.3: a higher transconductance");
     auto& asymmetry_claim =
         out.claim("INVA: largest difference between both sides of V_IN = 0, over the largest value", 100 * asymmetry(G_A), "%")
-            .at_most(10, "E.3: symmetrical; a tenth is our choice");
-    if (asymmetry_claim.needs_reason())
-        asymmetry_claim.because("the difference is at the rails, where velocity saturation affects N more than P");
+            .allow_max(10, "E.3: symmetrical; a tenth is our choice");
+    if (asymmetry_claim.needs_explanation())
+        asymmetry_claim.explain("the difference is at the rails, where velocity saturation affects N more than P");
     if (auto ok = claim_regions(out); !ok) return ok.error();
-    if (auto ok = options.at(0.9); !ok) return ok.error();
+    if (auto ok = options.report_progress(0.9); !ok) return ok.error();
     out.note("Half the supply counts as 0 V in these figures (errata I16). The gate transconductance is meant, not gate-to-drain (I3).");
     return out;
 }

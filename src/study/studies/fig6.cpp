@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "study/apart.hpp"
+#include "study/spike_timing_error.hpp"
 #include "study/studies.hpp"
 #include "study/thesis/press.hpp"
 
@@ -26,52 +26,52 @@ const Class classes[] = {{"sa1",
                            {"fa1-circuit", "(b), the chip"}}}};
 
 /// Compares its spikes with the model's, phase by phase.
-Result<void> add_comparison(Outcome& out, Plot& rows, const Implementation& implementation, const std::vector<double>& model) {
-    const auto train = train_of({implementation.name});
+Result<void> add_comparison(StudyResult& out, StudyPlot& rows, const Implementation& implementation, const std::vector<double>& model) {
+    const auto train = simulate_train({implementation.name});
     if (!train) return train.error();
-    const auto timing_error = apart(model, *train);
+    const auto timing_error = spike_timing_error(model, *train);
     if (!timing_error) return timing_error.error();
     const auto named = [&](const char* what) { return fmt::format("{}: {}", implementation.name, what); };
     const auto because = fmt::format("{}; {} spikes: {}; of the model: {}", implementation.description, implementation.name,
                                      press::phase_counts(*train), press::phase_counts(model));
     out.claim(named("number of spikes over the model's"), static_cast<double>(train->size()) / static_cast<double>(model.size()))
-        .because(because);
+        .explain(because);
     out.claim(named("rms error of spike times"), timing_error->rms, "s")
-        .because(fmt::format("{:g} spikes have no partner within 50 ms", timing_error->unmatched));
+        .explain(fmt::format("{:g} spikes have no partner within 50 ms", timing_error->unmatched));
     out.claim(named("median delay of spikes"), timing_error->median, "s");
-    rows.row(implementation.name, *train);
+    rows.raster_row(implementation.name, *train);
     return {};
 }
 
 /// One converter for ten sensors: each is converted at a tenth of the rate. The delay between channels is left out.
-Result<void> add_shared_converter(Outcome& out) {
+Result<void> add_shared_converter(StudyResult& out) {
     const std::string name = "fsr+f2v+adc+sa1";
-    const auto single = train_of({name});
-    const auto shared = train_of({name, "press", {name + ".f_s=100"}});
+    const auto single = simulate_train({name});
+    const auto shared = simulate_train({name, "press", {name + ".f_s=100"}});
     if (!single) return single.error();
     if (!shared) return shared.error();
-    const auto timing_error = apart(*single, *shared);
+    const auto timing_error = spike_timing_error(*single, *shared);
     if (!timing_error) return timing_error.error();
     out.claim("a converter of 1 kHz shared by ten sensors: rms change of spike times", timing_error->rms, "s")
-        .because(fmt::format("each sensor is then converted at 100 Hz; {:g} spikes have no partner", timing_error->unmatched));
+        .explain(fmt::format("each sensor is then converted at 100 Hz; {:g} spikes have no partner", timing_error->unmatched));
     return {};
 }
 
-Result<Outcome> work(const StudyOptions& options) {
-    Outcome out;
+Result<StudyResult> work(const StudyOptions& options) {
+    StudyResult out;
     double done = 0;
     for (const auto& c : classes) {
-        const auto model = train_of({c.model});
+        const auto model = simulate_train({c.model});
         if (!model) return model.error();
-        Plot rows{fmt::format("{}: spikes under the press stimulus", c.model), "time (s)", "", {}};
-        rows.row(c.model, *model);
+        StudyPlot rows{fmt::format("{}: spikes under the press stimulus", c.model), "time (s)", "", {}};
+        rows.raster_row(c.model, *model);
         for (const auto& implementation : c.implementations) {
             if (auto ok = add_comparison(out, rows, implementation, *model); !ok) return ok.error();
-            if (auto ok = options.at(done += 1.0 / 7); !ok) return ok.error();
+            if (auto ok = options.report_progress(done += 1.0 / 7); !ok) return ok.error();
         }
         const auto n = out.claims.size();
-        out.finds(fmt::format("{}: spike times of the digital implementation are closer to the model's than those of the chip", c.model),
-                  out.claims[n - 8].made < out.claims[n - 2].made,
+        out.claim_true(fmt::format("{}: spike times of the digital implementation are closer to the model's than those of the chip", c.model),
+                  out.claims[n - 8].computed < out.claims[n - 2].computed,
                   "thesis 1.3: analog blocks depend on their accuracy, linearity and noise");
         out.plots.push_back(rows);
     }

@@ -21,17 +21,17 @@ struct Curves {
     double V_Q(char inverter) const {  // relative to V_SS
         auto distance = fine.transfer_curve(inverter);
         for (std::size_t k = 0; k < distance.x.size(); ++k) distance.y[k] -= distance.x[k];
-        return 0.35 + distance.where(0);
+        return 0.35 + distance.crossing(0);
     }
     double swing(char inverter) const {
         const auto curve = coarse.transfer_curve(inverter);
-        return curve.most() - curve.least();
+        return curve.max() - curve.min();
     }
-    double largest_gain(char inverter) const { return fine.voltage_gain(inverter).most(); }
+    double largest_gain(char inverter) const { return fine.voltage_gain(inverter).max(); }
     /// Output range (V) in which the gain is at least half of its largest.
     double excursion(char inverter) const {
         const auto gain = fine.voltage_gain(inverter);
-        const double half = 0.5 * gain.most();
+        const double half = 0.5 * gain.max();
         double from = Claim::none, to = Claim::none;
         for (std::size_t k = 0; k < gain.x.size(); ++k)
             if (gain.y[k] >= half) (from == from ? to : from) = gain.x[k];
@@ -41,17 +41,17 @@ struct Curves {
 
 /// The gain is G_m / I times half an Early voltage; in the process card arrays of eight unit transistors have the same Early voltage at any
 /// current.
-void claim_gains(Outcome& out, const Curves& c) {
+void claim_gains(StudyResult& out, const Curves& c) {
     const auto per_current = [&](char input, double branch) { return c.coarse.transconductance_at_zero(input) / branch; };
     const double ratio_A = per_current('a', c.coarse.supply_current('a').at(0)), ratio_C = per_current('b', 0.5 * c.coarse.supply_current('b').at(0));
     out.claim("INVA: G_m over the current of one branch", ratio_A, "1/V");
     out.claim("INVC: the same for its INVB, in each of the two mirrored branches", ratio_C, "1/V");
     for (const char inverter : {'b', 'a'}) {
         const auto statement = fmt::format("INVC's gain is larger than {}'s", inverter_names[inverter - 'a']);
-        auto& claim = out.finds(statement, c.largest_gain('c') > c.largest_gain(inverter),
+        auto& claim = out.claim_true(statement, c.largest_gain('c') > c.largest_gain(inverter),
                                 "E.4: INVC voltage gain is also bigger; the text does not say than whose");
-        if (claim.needs_reason())
-            claim.because(
+        if (claim.needs_explanation())
+            claim.explain(
                 inverter == 'a'
                     ? "degeneration reduces G_m over current, and by the process card its output has the same Early voltage as INVA's. A "
                       "longer Early voltage of the foundry's transistors at picoamperes would explain it, but is not known"
@@ -59,8 +59,8 @@ void claim_gains(Outcome& out, const Curves& c) {
     }
 }
 
-Result<Outcome> work(const StudyOptions& options) {
-    Outcome out;
+Result<StudyResult> work(const StudyOptions& options) {
+    StudyResult out;
     const auto curves = Curves::swept();
     if (!curves) return curves.error();
     const auto& c = *curves;
@@ -69,30 +69,30 @@ Result<Outcome> work(const StudyOptions& options) {
     for (int k = 0; k < 3; ++k) {
         const char inverter = inverter_letters[k];
         const std::string name = inverter_names[k];
-        out.plots[0].add(name, c.coarse.transfer_curve(inverter).times(1e3, 1e3));
-        out.plots[1].add(name, c.fine.voltage_gain(inverter).times(1e3, 1));
+        out.plots[0].add(name, c.coarse.transfer_curve(inverter).scaled(1e3, 1e3));
+        out.plots[1].add(name, c.fine.voltage_gain(inverter).scaled(1e3, 1));
         out.claim(name + ": V_Q", c.V_Q(inverter), "V");
-        if (inverter == 'c') out.claims.back().printed_as(347e-3, "E.4, fig. 61a (-3 mV in fig. 57's terms, errata I16)");
+        if (inverter == 'c') out.claims.back().published_as(347e-3, "E.4, fig. 61a (-3 mV in fig. 57's terms, errata I16)");
         out.claim(name + ": largest gain", c.largest_gain(inverter), "times");
         out.claim(name + ": output swing for V_IN from rail to rail", c.swing(inverter), "V");
         out.claim(name + ": output range with at least half of the largest gain", c.excursion(inverter), "V");
     }
-    out.finds("INVB's output excursion is smaller than INVA's", c.swing('b') < c.swing('a'),
+    out.claim_true("INVB's output excursion is smaller than INVA's", c.swing('b') < c.swing('a'),
               "E.4: slightly smaller, by its source degeneration (errata I15)");
-    out.finds("INVC is displaced more than INVA", std::abs(c.V_Q('c') - 0.35) > std::abs(c.V_Q('a') - 0.35),
+    out.claim_true("INVC is displaced more than INVA", std::abs(c.V_Q('c') - 0.35) > std::abs(c.V_Q('a') - 0.35),
               "E.4: INVC's characteristic curve is slightly displaced");
-    auto& down = out.finds("INVC is displaced downwards", c.V_Q('c') < 0.35, "E.4: V_Q is about 347 mV");
-    if (down.needs_reason())
-        down.because(
+    auto& down = out.claim_true("INVC is displaced downwards", c.V_Q('c') < 0.35, "E.4: V_Q is about 347 mV");
+    if (down.needs_explanation())
+        down.explain(
             "the simulated curve is displaced by less and in the other direction. The displacement is the difference between the division "
             "ratios of the N and P mirrors, for which the thesis has no numbers");
     claim_gains(out, c);
     auto& same = out.claim("INVC's swing over INVA's", c.swing('c') / c.swing('a'), "times")
-                     .held_to(1, "E.4: its output excursion is similar to INVA's");
-    if (same.needs_reason()) same.because("reason unknown");
-    out.plots[0].shape("INVB's excursion slightly smaller; INVC's curve slightly displaced, V_Q about 347 mV");
-    out.plots[1].shape("INVC's gain bigger, its excursion like INVA's");
-    return options.at(0.9) ? Result<Outcome>(out) : options.at(0.9).error();
+                     .derived_as(1, "E.4: its output excursion is similar to INVA's");
+    if (same.needs_explanation()) same.explain("reason unknown");
+    out.plots[0].describe_published("INVB's excursion slightly smaller; INVC's curve slightly displaced, V_Q about 347 mV");
+    out.plots[1].describe_published("INVC's gain bigger, its excursion like INVA's");
+    return options.report_progress(0.9) ? Result<StudyResult>(out) : options.report_progress(0.9).error();
 }
 
 const Study study{

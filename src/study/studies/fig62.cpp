@@ -12,57 +12,57 @@ constexpr double slow = 1e-3, fast = 1e5;  // Hz
 constexpr double largest = 0.35;           // V: half the supply, the largest excursion of a filter's node
 
 /// V/sqrt(Hz) over Hz; without_bias: leaves out the noise of the bias generator.
-Result<Line> input_noise(char inverter, bool without_bias) {
+Result<StudyCurve> input_noise(char inverter, bool without_bias) {
     const auto found = InverterSweep::run_with_directives(fmt::format(".noise v(i{}) vin dec 10 {} {}", inverter, slow, fast),
                                           {fmt::format("c_bias={}", without_bias ? "1000" : "0")});
     if (!found) return found.error();
-    return found->found.line("noise", "inoise_spectrum");
+    return found->found.curve("noise", "inoise_spectrum");
 }
 
 /// Corner frequency (Hz): 1/f noise equals the thermal noise, which is the smallest density.
-double corner_frequency(const Line& noise) { return noise.where(std::sqrt(2) * noise.least()); }
+double corner_frequency(const StudyCurve& noise) { return noise.crossing(std::sqrt(2) * noise.min()); }
 
-Result<Outcome> work(const StudyOptions& options) {
-    Outcome out;
+Result<StudyResult> work(const StudyOptions& options) {
+    StudyResult out;
     out.plot("Fig. 62: input-referred noise", "Hz", "V/sqrt(Hz)");
-    Line noise[3];
+    StudyCurve noise[3];
     for (int k = 0; k < 3; ++k) {
         auto without_bias = input_noise(inverter_letters[k], true), with_bias = input_noise(inverter_letters[k], false);
         for (const auto* line : {&without_bias, &with_bias})
             if (!*line) return line->error();
         const std::string name = inverter_names[k];
         out.plots[0].add(name, *without_bias).add(name + " with its bias generator", *with_bias);
-        out.claim(name + ": thermal noise", without_bias->least(), "V/sqrt(Hz)");
+        out.claim(name + ": thermal noise", without_bias->min(), "V/sqrt(Hz)");
         out.claim(name + ": at 1 mHz", without_bias->y.front(), "V/sqrt(Hz)");
         out.claim(name + ": corner frequency of thermal and 1/f noise", corner_frequency(*without_bias), "Hz");
         out.claim(name + ": at 100 Hz, with over without the noise of the bias generator", with_bias->at(100) / without_bias->at(100),
                   "times");
         noise[k] = std::move(*without_bias);
-        if (auto ok = options.at(0.3 * (k + 1)); !ok) return ok.error();
+        if (auto ok = options.report_progress(0.3 * (k + 1)); !ok) return ok.error();
     }
     out.plots[0].log_x = out.plots[0].log_y = true;
-    out.plots[0].shape("INVC's thermal noise is orders of magnitude larger, its 1/f noise is larger as well");
-    const auto over = [](const Line& a, const Line& b, bool thermal) {
-        return thermal ? a.least() / b.least() : a.y.front() / b.y.front();
+    out.plots[0].describe_published("INVC's thermal noise is orders of magnitude larger, its 1/f noise is larger as well");
+    const auto over = [](const StudyCurve& a, const StudyCurve& b, bool thermal) {
+        return thermal ? a.min() / b.min() : a.y.front() / b.y.front();
     };
     for (int k = 0; k < 2; ++k) {
         out.claim(fmt::format("INVC's thermal noise over {}'s", inverter_names[k]), over(noise[2], noise[k], true), "times")
-            .at_least(10, "E.4: orders of magnitude larger");
+            .allow_min(10, "E.4: orders of magnitude larger");
         out.claim(fmt::format("INVC's 1/f noise over {}'s, at 1 mHz", inverter_names[k]), over(noise[2], noise[k], false), "times")
-            .at_least(1, "E.4: larger, as it has extra transistors");
+            .allow_min(1, "E.4: larger, as it has extra transistors");
     }
     const auto filter = InverterSweep::run_with_directives(".noise v(load) vin dec 10 1m 100k");
     if (!filter) return filter.error();
     const double total = filter->found.number("onoise_total");
     out.claim("INVC as a load of 0.8 pF (filter B): noise from 1 mHz to 100 kHz", total, "V");
     out.claim("half the supply over this noise", 20 * std::log10(largest / total), "dB")
-        .at_least(40, "E.4: adequate for its application; 40 dB is our choice");
+        .allow_min(40, "E.4: adequate for its application; 40 dB is our choice");
     const auto rest = InverterSweep::run(0.35);
     if (!rest) return rest.error();
     double taken[3];
     for (int k = 0; k < 3; ++k)
         out.claim(fmt::format("{}: supply current at V_IN = 0", inverter_names[k]), taken[k] = rest->supply_current(inverter_letters[k]).at(0), "A");
-    out.finds("INVC takes more current than INVA and INVB", taken[2] > taken[0] && taken[2] > taken[1],
+    out.claim_true("INVC takes more current than INVA and INVB", taken[2] > taken[0] && taken[2] > taken[1],
               "E.4: very power inefficient (INVC is meant, errata I14)");
     out.note(
         "The divider of the bias generator has very large resistances (E.2); its noise enters through BN and BP up to the frequency at "

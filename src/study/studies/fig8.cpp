@@ -13,69 +13,69 @@ struct Components {
     double ramp_dynamic = 0, hold_static = 0, hold_dynamic = 0, down_dynamic = 0;  // A
 };
 Result<Components> components_under(double force, double seconds) {
-    const auto response = told_of({.afferent = "sa1a+lif-a",
+    const auto response = run_trial({.afferent = "sa1a+lif-a",
                                    .stimulus = "ramp-hold",
                                    .settings = {fmt::format("ramp-hold.F_max={}", force), fmt::format("ramp-hold.t_up={}", seconds),
                                                 fmt::format("ramp-hold.t_down={}", seconds)},
                                    .rate = 1e3,
-                                   .traces = {"I_s", "I_d"}});
+                                   .probes = {"I_s", "I_d"}});
     if (!response) return response.error();
-    const auto &s = response->traces.at("I_s"), &d = response->traces.at("I_d");
+    const auto &s = response->probes.at("I_s"), &d = response->probes.at("I_d");
     const double up = 0.25 + seconds / 2, hold = 0.25 + seconds + 0.5, down = 0.25 + seconds + 1 + seconds / 2;
     return Components{d.at(up), s.at(hold), d.at(hold), d.at(down)};
 }
 
-Result<void> add_component_claims(Outcome& out) {
+Result<void> add_component_claims(StudyResult& out) {
     const auto once = components_under(1, 0.1), twice = components_under(2, 0.1), slower = components_under(1, 0.2);
     for (const auto* p : {&once, &twice, &slower})
         if (!*p) return p->error();
     out.claim("static component at twice the force", twice->hold_static / once->hold_static)
-        .held_to(2, "thesis 2.2: proportional to the force");
+        .derived_as(2, "thesis 2.2: proportional to the force");
     out.claim("dynamic component at half the slope", slower->ramp_dynamic / once->ramp_dynamic)
-        .held_to(0.5, "thesis 2.2: proportional to its rate of change");
-    out.claim("dynamic component in the hold", once->hold_dynamic, "A").between(0, 0, "thesis 2.2: due to the ramp");
+        .derived_as(0.5, "thesis 2.2: proportional to its rate of change");
+    out.claim("dynamic component in the hold", once->hold_dynamic, "A").allow_range(0, 0, "thesis 2.2: due to the ramp");
     out.claim("dynamic component of falling force over that of rising force", once->down_dynamic / once->ramp_dynamic)
-        .held_to(1, "thesis 3.1: for both positive and negative changes");
+        .derived_as(1, "thesis 3.1: for both positive and negative changes");
     return {};
 }
 
-Result<Outcome> work(const StudyOptions& options) {
-    Outcome out;
+Result<StudyResult> work(const StudyOptions& options) {
+    StudyResult out;
     if (auto ok = add_component_claims(out); !ok) return ok.error();
-    const auto kim = told_of({.afferent = "sa1-kim", .traces = {"F_read", "I", "u"}}), own = told_of({.afferent = "sa1"});
+    const auto kim = run_trial({.afferent = "sa1-kim", .probes = {"F_read", "I", "u"}}), own = run_trial({.afferent = "sa1"});
     if (!kim) return kim.error();
     if (!own) return own.error();
-    if (auto ok = options.at(0.6); !ok) return ok.error();
+    if (auto ok = options.report_progress(0.6); !ok) return ok.error();
     const auto force = press::force_curve(1e-4);
     if (!force) return force.error();
     const auto& spikes = kim->spikes;
     double worst_error = 0;
     for (const double t : {0.2, 0.3, 0.5, 0.7})
-        worst_error = std::max(worst_error, std::abs(kim->traces.at("F_read").at(t) - force->at(t)));
+        worst_error = std::max(worst_error, std::abs(kim->probes.at("F_read").at(t) - force->at(t)));
     out.claim("error of the converted force, at four times of the stimulus", worst_error, "N")
-        .at_most(0.1, "thesis 2.2: the force signal in the digital domain; the range is our choice, a sample is up to 1 ms old");
+        .allow_max(0.1, "thesis 2.2: the force signal in the digital domain; the range is our choice, a sample is up to 1 ms old");
     const double up = measure<PeakRate>(spikes, press::protraction), held = measure<LastRate>(spikes, press::plateau),
                  down = press::spike_count(spikes, press::retraction);
     out.claim("peak in protraction over the last frequency of the plateau", up / held)
-        .at_least(1, "thesis 3.1: fires faster in protraction");
+        .allow_min(1, "thesis 3.1: fires faster in protraction");
     const TimeWindow plateau_late{0.5, 0.625};
     out.claim("spikes in retraction", down, "spikes");
     out.claim("mean frequency in retraction over that of the second half of the plateau",
               measure<MeanRate>(spikes, press::retraction) / measure<MeanRate>(spikes, plateau_late))
-        .at_least(1, "thesis 3.1: the output also increases for negative changes (printed \"at the protraction phase\"; errata B11a)");
+        .allow_min(1, "thesis 3.1: the output also increases for negative changes (printed \"at the protraction phase\"; errata B11a)");
     out.claim("spikes in retraction minus those of sa1", down - press::spike_count(own->spikes, press::retraction), "spikes")
-        .at_least(1, "thesis 3.1 and 3.3: SA-IA fires in retraction, the nerve and SA-IB hardly do");
+        .allow_min(1, "thesis 3.1 and 3.3: SA-IA fires in retraction, the nerve and SA-IB hardly do");
     const TimeWindow steady_plateau{press::plateau.from + 50e-3, press::plateau.to};
     out.claim("last frequency of the plateau over its first, from 50 ms on",
               measure<LastRate>(spikes, steady_plateau) / measure<FirstRate>(spikes, steady_plateau))
-        .between(0.9, 1.1, "thesis 3.3: SA-IA does not take the slow decay into account; a tenth is our choice");
-    out.plot("Spikes under the press stimulus", "time (s)", "").row("sa1-kim", spikes).row("sa1", own->spikes);
+        .allow_range(0.9, 1.1, "thesis 3.3: SA-IA does not take the slow decay into account; a tenth is our choice");
+    out.plot("Spikes under the press stimulus", "time (s)", "").raster_row("sa1-kim", spikes).raster_row("sa1", own->spikes);
     out.plot("Instantaneous frequency", "time (s)", "frequency (Hz)")
         .points("sa1-kim", press::frequency_at_start(spikes))
         .points("sa1", press::frequency_at_start(own->spikes))
-        .add("force, 10 Hz per newton", force->times(1, 10))
-        .shape("rises with the slope of the force in both directions; the thesis finds that more suitable to SA-II");
-    out.plot("Current of the fixed-point model", "time (s)", "current (uA)").add("I", kim->traces.at("I").times(1, 1e6));
+        .add("force, 10 Hz per newton", force->scaled(1, 10))
+        .describe_published("rises with the slope of the force in both directions; the thesis finds that more suitable to SA-II");
+    out.plot("Current of the fixed-point model", "time (s)", "current (uA)").add("I", kim->probes.at("I").scaled(1, 1e6));
     out.note(
         "The thesis does not give Kim's parameters (beta, k_s, k_d, those of the neuron); those of sa1-kim are our choice (corpuscle "
         "list). The study kim compares the equation with the intervals in the paper's abstract. Whether it was fitted to ex vivo mouse "

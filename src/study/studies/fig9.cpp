@@ -9,46 +9,46 @@
 
 namespace corpuscle::studies::fig9 {
 
-Result<Told> simulate_lee(std::vector<std::string> settings = {}, const char* stimulus = "press") {
-    return told_of({.afferent = "fa1-lee",
+Result<TrialResult> simulate_lee(std::vector<std::string> settings = {}, const char* stimulus = "press") {
+    return run_trial({.afferent = "fa1-lee",
                     .stimulus = stimulus,
                     .settings = std::move(settings),
-                    .traces = {"I_+", "I_-", "u_+", "u_-", "a_+", "a_-"}});
+                    .probes = {"I_+", "I_-", "u_+", "u_-", "a_+", "a_-"}});
 }
 
 /// Number of spikes, counted as sudden falls of the membrane by more than a tenth of its largest value.
-double count_resets(const Line& u) {
+double count_resets(const StudyCurve& u) {
     double out = 0;
-    for (std::size_t k = 1; k < u.y.size(); ++k) out += u.y[k - 1] - u.y[k] > 0.1 * u.most();
+    for (std::size_t k = 1; k < u.y.size(); ++k) out += u.y[k - 1] - u.y[k] > 0.1 * u.max();
     return out;
 }
 
 /// Charge (C) of a current within a window.
-double charge(const Line& i, const TimeWindow& s) {
+double charge(const StudyCurve& i, const TimeWindow& s) {
     double out = 0;
     for (std::size_t k = 1; k < i.x.size(); ++k)
         if (i.x[k] >= s.from && i.x[k] < s.to) out += i.y[k] * (i.x[k] - i.x[k - 1]);
     return out;
 }
 
-void add_component_claims(Outcome& out, const Told& response) {
-    const auto &plus = response.traces.at("I_+"), &minus = response.traces.at("I_-");
+void add_component_claims(StudyResult& out, const TrialResult& response) {
+    const auto &plus = response.probes.at("I_+"), &minus = response.probes.at("I_-");
     const TimeWindow rising{0, 0.5}, falling{0.5, 1.0};  // split at the middle of the plateau
     out.claim("fraction of I+ that flows while the force rises", 100 * charge(plus, rising) / charge(plus, {}), "%")
-        .held_to(100, "thesis 3.1, eq. 2");
+        .derived_as(100, "thesis 3.1, eq. 2");
     out.claim("fraction of I- that flows while the force falls", 100 * charge(minus, falling) / charge(minus, {}), "%")
-        .held_to(100, "thesis 3.1, eq. 3");
+        .derived_as(100, "thesis 3.1, eq. 3");
     out.claim("I+ and I- in the last 100 ms of the plateau", charge(plus, press::plateau_end) + charge(minus, press::plateau_end), "C")
-        .between(0, 0, "thesis 2.2: no static component");
-    const double up = count_resets(response.traces.at("u_+")), down = count_resets(response.traces.at("u_-"));
+        .allow_range(0, 0, "thesis 2.2: no static component");
+    const double up = count_resets(response.probes.at("u_+")), down = count_resets(response.probes.at("u_-"));
     out.claim("spikes of the first neuron over all spikes until the middle of the plateau", up / press::spike_count(response.spikes, rising))
-        .between(1, 1, "thesis 3.1: two independent neurons");
+        .allow_range(1, 1, "thesis 3.1: two independent neurons");
     out.claim("spikes of the second neuron over all spikes after it", down / press::spike_count(response.spikes, falling))
-        .between(1, 1, "thesis 3.1: two independent neurons");
+        .allow_range(1, 1, "thesis 3.1: two independent neurons");
 }
 
 /// Under a long slope the rising threshold lengthens the intervals.
-Result<void> add_inhibition_claims(Outcome& out) {
+Result<void> add_inhibition_claims(StudyResult& out) {
     const std::vector<std::string> ramp = {"ramp-hold.F_max=5", "ramp-hold.t_up=500ms", "ramp-hold.t_hold=100ms", "fa1-lee.k=2e-6"};
     auto without_jump = ramp;
     without_jump.push_back("fa1-lee.dV_th=0");
@@ -56,47 +56,47 @@ Result<void> add_inhibition_claims(Outcome& out) {
     if (!with) return with.error();
     if (!without) return without.error();
     const TimeWindow slope{0.25, 0.75};
-    const auto slowdown = [&](const Told& t) { return measure<FirstRate>(t.spikes, slope) / measure<LastRate>(t.spikes, slope); };
+    const auto slowdown = [&](const TrialResult& t) { return measure<FirstRate>(t.spikes, slope) / measure<LastRate>(t.spikes, slope); };
     out.claim("first frequency of a long slope over its last", slowdown(*with))
-        .at_least(1.1, "thesis 2.2: inhibited after each spike by a feedback to the threshold; a tenth is our choice");
+        .allow_min(1.1, "thesis 2.2: inhibited after each spike by a feedback to the threshold; a tenth is our choice");
     out.claim("the same without the threshold feedback", slowdown(*without))
-        .between(0.95, 1.05, "a regular train except for its grid of 1 ms; the range is our choice");
+        .allow_range(0.95, 1.05, "a regular train except for its grid of 1 ms; the range is our choice");
     out.claim("spikes of the slope without the feedback over those with it",
               press::spike_count(without->spikes, slope) / press::spike_count(with->spikes, slope))
-        .at_least(1.1, "thesis 2.2: inhibition; a tenth is our choice");
-    out.plot("Rise of the threshold under a long slope, ten times the gain", "time (s)", "a (V)").add("a_+", with->traces.at("a_+"));
+        .allow_min(1.1, "thesis 2.2: inhibition; a tenth is our choice");
+    out.plot("Rise of the threshold under a long slope, ten times the gain", "time (s)", "a (V)").add("a_+", with->probes.at("a_+"));
     return {};
 }
 
-Result<Outcome> work(const StudyOptions& options) {
-    Outcome out;
+Result<StudyResult> work(const StudyOptions& options) {
+    StudyResult out;
     const auto response = simulate_lee();
     if (!response) return response.error();
-    const auto own = train_of({"fa1"});
+    const auto own = simulate_train({"fa1"});
     if (!own) return own.error();
     const auto force = press::force_curve(1e-4);
     if (!force) return force.error();
     add_component_claims(out, *response);
-    if (auto ok = options.at(0.5); !ok) return ok.error();
+    if (auto ok = options.report_progress(0.5); !ok) return ok.error();
     if (auto ok = add_inhibition_claims(out); !ok) return ok.error();
     for (const auto& [name, train] : {std::pair{"fa1-lee", &response->spikes}, {"fa1", &*own}}) {
         out.claim(fmt::format("{}: spikes in protraction and retraction", name),
                   press::spike_count(*train, press::protraction) + press::spike_count(*train, press::retraction), "spikes")
-            .at_least(2, "thesis 1.2 and 2.2");
+            .allow_min(2, "thesis 1.2 and 2.2");
         auto& c = out.claim(fmt::format("{}: spikes in plateau and after", name),
                             press::spike_count(*train, press::plateau) + press::spike_count(*train, press::after), "spikes")
-                      .between(0, 0, "thesis 1.2: only in protraction and retraction");
-        if (c.needs_reason()) c.because("a high-pass of 2 Hz continues after the ramp (errata B13); a plain derivative ends with it");
+                      .allow_range(0, 0, "thesis 1.2: only in protraction and retraction");
+        if (c.needs_explanation()) c.explain("a high-pass of 2 Hz continues after the ramp (errata B13); a plain derivative ends with it");
     }
-    out.plot("Spikes under the press stimulus", "time (s)", "").row("fa1-lee", response->spikes).row("fa1", *own);
+    out.plot("Spikes under the press stimulus", "time (s)", "").raster_row("fa1-lee", response->spikes).raster_row("fa1", *own);
     out.plot("Currents of the fixed-point model", "time (s)", "current (uA)")
-        .add("I+", response->traces.at("I_+").times(1, 1e6))
-        .add("I-", response->traces.at("I_-").times(1, 1e6))
-        .shape("one current from rising and one from falling force, each to its own neuron");
+        .add("I+", response->probes.at("I_+").scaled(1, 1e6))
+        .add("I-", response->probes.at("I_-").scaled(1, 1e6))
+        .describe_published("one current from rising and one from falling force, each to its own neuron");
     out.plot("Instantaneous frequency", "time (s)", "frequency (Hz)")
         .points("fa1-lee", press::frequency_at_start(response->spikes))
         .points("fa1", press::frequency_at_start(*own))
-        .add("force, 10 Hz per newton", force->times(1, 10));
+        .add("force, 10 Hz per newton", force->scaled(1, 10));
     out.note(
         "The thesis says that Lee's neuron has no leak, an adaptive threshold, and a membrane that \"increases by a non-proportional "
         "rate\". The last has no equation and is not modelled. \"Each with its own parameters\" is not modelled either: both neurons have "

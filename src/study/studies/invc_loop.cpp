@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "study/deck.hpp"
+#include "study/study_netlist.hpp"
 #include "study/studies.hpp"
 
 namespace corpuscle::studies::invc_loop {
@@ -32,47 +32,47 @@ vnext next 0 0.35
 )";
 
 struct Loop {
-    Line dB, phase;                               ///< phase: degrees above -180 of the closed loop's return ratio
+    StudyCurve dB, phase;                               ///< phase: degrees above -180 of the closed loop's return ratio
     double gain, unity, margin, phase_crossover;  ///< dB, Hz, degrees, Hz; turn: phase margin zero
     double gain_margin;                           ///< dB below unity at that frequency
     double inner;                                 ///< Hz: 45 degrees more than the 90 degrees of the outer pole
 };
 Result<Loop> loop_with(double farad) {
-    const auto found = found_in({opened, {fmt::format("c_hp={}", farad)}});
+    const auto found = run_study_netlist({opened, {fmt::format("c_hp={}", farad)}});
     if (!found) return found.error();
-    const auto degrees = found->line("ac", "vp(out)").times(1, 180 / std::numbers::pi);
-    Loop out{found->line("ac", "vdb(out)"), degrees, 0, 0, 0, 0, 0, 0};
+    const auto degrees = found->curve("ac", "vp(out)").scaled(1, 180 / std::numbers::pi);
+    Loop out{found->curve("ac", "vdb(out)"), degrees, 0, 0, 0, 0, 0, 0};
     for (double& p : out.phase.y)
         if (p < -90) p += 360;  // -180 is 180
-    out.gain = out.dB.y[0], out.unity = out.dB.where(0), out.margin = out.phase.at(out.unity);
-    out.phase_crossover = out.phase.where(0, out.unity), out.gain_margin = -out.dB.at(out.phase_crossover),
-    out.inner = out.phase.where(45, out.unity);
+    out.gain = out.dB.y[0], out.unity = out.dB.crossing(0), out.margin = out.phase.at(out.unity);
+    out.phase_crossover = out.phase.crossing(0, out.unity), out.gain_margin = -out.dB.at(out.phase_crossover),
+    out.inner = out.phase.crossing(45, out.unity);
     return out;
 }
 
-void add_claims(const std::string& name, const Loop& loop, Outcome& out) {
+void add_claims(const std::string& name, const Loop& loop, StudyResult& out) {
     out.claim(name + ": unity-gain frequency of the loop", loop.unity, "Hz");
-    out.claim(name + ": phase margin", loop.margin, "degrees").at_least(60, "thesis E.4: inherently stable; 60 degrees is our choice");
-    out.claim(name + ": gain margin", loop.gain_margin, "dB").at_least(20, "thesis E.4: inherently stable; 20 dB is our choice");
+    out.claim(name + ": phase margin", loop.margin, "degrees").allow_min(60, "thesis E.4: inherently stable; 60 degrees is our choice");
+    out.claim(name + ": gain margin", loop.gain_margin, "dB").allow_min(20, "thesis E.4: inherently stable; 20 dB is our choice");
     out.claim(name + ": poles of the inner nodes over the unity-gain frequency", loop.inner / loop.unity, "times")
-        .at_least(10, "thesis E.4: its output impedance is very large compared with the inner nodes'; ten times is our choice");
+        .allow_min(10, "thesis E.4: its output impedance is very large compared with the inner nodes'; ten times is our choice");
 }
 
-Result<Outcome> work(const StudyOptions& options) {
-    Outcome out;
+Result<StudyResult> work(const StudyOptions& options) {
+    StudyResult out;
     auto& gain = out.plot("Gain of the loop", "frequency (Hz)", "dB");
     gain.log_x = true;
-    Plot phase{"Phase above -180 degrees", "frequency (Hz)", "degrees", {}, true};
+    StudyPlot phase{"Phase above -180 degrees", "frequency (Hz)", "degrees", {}, true};
     for (const auto& [name, farad] : {std::pair{"filter B, 0.8 pF", 0.8e-12}, {"filter C, 8.8 pF", 8.8e-12}, {"no capacitor", 1e-18}}) {
         const auto loop = loop_with(farad);
         if (!loop) return loop.error();
         if (farad == 0.8e-12) {
             out.claim("loop gain at 0.1 mHz", loop->gain, "dB");
-            out.finds("the loop inverts: three inversions in all", std::abs(loop->phase.y[0] - 180) < 5, source);
+            out.claim_true("the loop inverts: three inversions in all", std::abs(loop->phase.y[0] - 180) < 5, source);
         }
         add_claims(name, *loop, out);
         gain.add(name, loop->dB.between(0.1, 1e5)), phase.add(name, loop->phase.between(0.1, 1e5));
-        if (auto ok = options.at(0.3); !ok) return ok.error();
+        if (auto ok = options.report_progress(0.3); !ok) return ok.error();
     }
     out.plots.push_back(std::move(phase));
     out.note(

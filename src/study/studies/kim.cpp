@@ -6,7 +6,7 @@
 #include "measure/measures.hpp"
 #include "signal/elementary.hpp"
 #include "study/studies.hpp"
-#include "study/trains.hpp"
+#include "study/trial.hpp"
 
 namespace corpuscle::studies::kim {
 
@@ -35,25 +35,25 @@ std::pair<double, double> fit_current() {
     return {current - product / square * depth, product / square};
 }
 
-Result<Outcome> work(const StudyOptions&) {
-    Outcome out;
+Result<StudyResult> work(const StudyOptions&) {
+    StudyResult out;
     const auto [beta, slope] = fit_current();
     const double contact = -beta / slope;  // mm: below it the fitted current is negative
-    Plot plot{"Interval in the hold",
+    StudyPlot plot{"Interval in the hold",
               "depth (mm)",
               "interval (ms)",
-              {{"published", {}, {}, Plot::Style::points}, {"computed", {}, {}, Plot::Style::line}}};
+              {{"published", {}, {}, StudyPlot::Style::points}, {"computed", {}, {}, StudyPlot::Style::line}}};
     for (const auto& h : holds) {
         const double F = h.depth - contact;  // 1 N represents a millimetre beyond contact
-        const auto train = train_of({"sa1a+lif-a",
+        const auto train = simulate_train({"sa1a+lif-a",
                                      "ramp-hold",
                                      {fmt::format("sa1a+lif-a.k_s={}", slope), "sa1a+lif-a.beta=0", "sa1a+lif-a.k_d=0",
                                       fmt::format("ramp-hold.F_max={}", F), "ramp-hold.t_hold=5"}});
         if (!train) return train.error();
         const double computed = 1 / measure<LastRate>(*train, {1, 5.35});
         out.claim(fmt::format("interval in the hold at {} mm", h.depth), computed, "s")
-            .printed_as(h.interval, source)
-            .between(h.interval - h.spread, h.interval + h.spread, source);
+            .published_as(h.interval, source)
+            .allow_range(h.interval - h.spread, h.interval + h.spread, source);
         plot.series[0].x.push_back(h.depth), plot.series[0].y.push_back(1e3 * h.interval);
         plot.series[1].x.push_back(h.depth), plot.series[1].y.push_back(1e3 * computed);
     }
@@ -62,7 +62,7 @@ Result<Outcome> work(const StudyOptions&) {
     for (const double ramp : ramps)
         out.claim(fmt::format("slope of the ramp that gives {:.1f} ms, over that of the first ramp", 1e3 * ramp),
                   (current_for(ramp) - hold_current / 2) / first)
-            .because("the abstract does not give the ramps");
+            .explain("the abstract does not give the ramps");
     out.plots.push_back(std::move(plot));
     out.notes = {fmt::format("A current linear in depth (contact at {:.3f} mm, {:.3g} A/mm) gives all three intervals within their "
                              "published standard deviations: two parameters fitted to three values.",

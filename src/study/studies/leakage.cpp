@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 
-#include "study/deck.hpp"
+#include "study/study_netlist.hpp"
 #include "study/studies.hpp"
 
 namespace corpuscle::studies::leakage {
@@ -30,62 +30,62 @@ vu u 0 0.5
 )";
 
 struct LeakageCurrents {
-    Line P, N, membrane;  ///< A over C: one switch each, and the total current that pulls an SA-I membrane up
+    StudyCurve P, N, membrane;  ///< A over C: one switch each, and the total current that pulls an SA-I membrane up
 };
 Result<LeakageCurrents> simulate_leakage(bool high_threshold) {
-    const auto found = found_in({off, {high_threshold ? "hv=0.15" : "hv=0"}});
+    const auto found = run_study_netlist({off, {high_threshold ? "hv=0.15" : "hv=0"}});
     if (!found) return found.error();
-    return LeakageCurrents{found->line("dc", "i(vp)").absolute(), found->line("dc", "i(vn)").absolute(),
-                           found->line("dc", "i(vu)").absolute()};
+    return LeakageCurrents{found->curve("dc", "i(vp)").absolute(), found->curve("dc", "i(vn)").absolute(),
+                           found->curve("dc", "i(vu)").absolute()};
 }
 
 /// I_A under a constant 4 N: the only current of SA-I at the end of the plateau.
-Result<Line> simulate_static_current() {
-    const auto found = found_in({"asp_sa1", {"vforce=4"}, ".dc temp -55 125 5"});
+Result<StudyCurve> simulate_static_current() {
+    const auto found = run_study_netlist({"asp_sa1", {"vforce=4"}, ".dc temp -55 125 5"});
     if (!found) return found.error();
-    return found->line("dc", "i(via)");
+    return found->curve("dc", "i(via)");
 }
 
 /// Net current at the end of the plateau: I_A minus the current that pulls the membrane up, minus the leakage of M5A of both rectifiers.
 /// Their closed switches pass this leakage on.
-Line net_current(const Line& I_A, const LeakageCurrents& leakage) {
-    Line out = I_A;
+StudyCurve net_current(const StudyCurve& I_A, const LeakageCurrents& leakage) {
+    StudyCurve out = I_A;
     for (std::size_t k = 0; k < out.x.size(); ++k) out.y[k] -= leakage.membrane.at(out.x[k]) + 2 * leakage.P.at(out.x[k]);
     return out;
 }
 
-void add_claims(const std::string& name, const LeakageCurrents& leakage, const Line& I_A, Outcome& out) {
+void add_claims(const std::string& name, const LeakageCurrents& leakage, const StudyCurve& I_A, StudyResult& out) {
     out.claim(name + ": leakage of a P switch (2x1, 6 um) at 27 C", leakage.P.at(27), "A");
     out.claim(name + ": leakage of an N switch (2x1, 1.5 um) at 27 C", leakage.N.at(27), "A");
     out.claim(name + ": leakage of the P switch at 37 C over that at 27 C", leakage.P.at(37) / leakage.P.at(27), "times");
-    out.claim(name + ": leakage of the P switch reaches SA-I's I_LEAK of 7 pA at", leakage.P.where(I_LEAK_SA), "C");
-    out.claim(name + ": leakage of the P switch reaches FA-I's 10 pA at", leakage.P.where(I_LEAK_FA), "C");
+    out.claim(name + ": leakage of the P switch reaches SA-I's I_LEAK of 7 pA at", leakage.P.crossing(I_LEAK_SA), "C");
+    out.claim(name + ": leakage of the P switch reaches FA-I's 10 pA at", leakage.P.crossing(I_LEAK_FA), "C");
     out.claim(name + ": I_A at 4 N no longer exceeds the current that pulls up, so SA-I's plateau response ends, at",
-              net_current(I_A, leakage).where(0), "C");
+              net_current(I_A, leakage).crossing(0), "C");
 }
 
-Result<Outcome> work(const StudyOptions& options) {
-    Outcome out;
+Result<StudyResult> work(const StudyOptions& options) {
+    StudyResult out;
     const auto standard = simulate_leakage(false), high_threshold = simulate_leakage(true);
     if (!standard) return standard.error();
     if (!high_threshold) return high_threshold.error();
     const auto I_A = simulate_static_current();
     if (!I_A) return I_A.error();
-    if (auto ok = options.at(0.9); !ok) return ok.error();
+    if (auto ok = options.report_progress(0.9); !ok) return ok.error();
     add_claims("as printed", *standard, *I_A, out), add_claims("hv_switches=1", *high_threshold, *I_A, out);
-    auto& least = out.finds("at 27 C the leakage of a switch is below a tenth of the published I_LEAK of 5 pA",
+    auto& least = out.claim_true("at 27 C the leakage of a switch is below a tenth of the published I_LEAK of 5 pA",
                             standard->P.at(27) < 0.5e-12, "thesis 4.4: the membrane's leak is I_LEAK only");
-    if (least.needs_reason())
-        least.because(
+    if (least.needs_explanation())
+        least.explain(
             "table 9's switches are 2x1 with a threshold of 0.45 V in our process card. Either the foundry's leak less or the switches are "
             "of another type; the thesis does not say");
-    out.finds("the same with high-threshold switches", high_threshold->P.at(27) < 0.5e-12, "as above");
+    out.claim_true("the same with high-threshold switches", high_threshold->P.at(27) < 0.5e-12, "as above");
     auto& p = out.plot("Currents that pull up a membrane, over temperature", "temperature (C)", "pA");
-    p.add("P switch, off", standard->P.times(1, 1e12)).add("P switch of high threshold, off", high_threshold->P.times(1, 1e12));
-    p.add("N switch, off", standard->N.times(1, 1e12));
-    p.add("total current that pulls up SA-I's membrane", standard->membrane.times(1, 1e12))
-        .add("the same with hv_switches=1", high_threshold->membrane.times(1, 1e12));
-    p.add("SA-I's I_A at 4 N", I_A->times(1, 1e12)), p.log_y = true;
+    p.add("P switch, off", standard->P.scaled(1, 1e12)).add("P switch of high threshold, off", high_threshold->P.scaled(1, 1e12));
+    p.add("N switch, off", standard->N.scaled(1, 1e12));
+    p.add("total current that pulls up SA-I's membrane", standard->membrane.scaled(1, 1e12))
+        .add("the same with hv_switches=1", high_threshold->membrane.scaled(1, 1e12));
+    p.add("SA-I's I_A at 4 N", I_A->scaled(1, 1e12)), p.log_y = true;
     out.note(
         "M5B connects the charged node of M2B to the membrane, M5A of each rectifier the supply to its output. Both pull up against the "
         "current that the force makes sink. The study range finds the temperature limits of the chips.");

@@ -6,7 +6,7 @@
 
 #include "measure/measures.hpp"
 #include "study/studies.hpp"
-#include "study/trains.hpp"
+#include "study/trial.hpp"
 
 namespace corpuscle::studies::nerve {
 
@@ -18,7 +18,7 @@ Result<double> detection_threshold(const std::string& afferent, double f, double
     for (int k = 0; k < 14; ++k) {
         const double middle = std::sqrt(low * high);
         const auto train =
-            train_of({afferent,
+            simulate_train({afferent,
                       "sine",
                       {fmt::format("sine.f={}", f), fmt::format("sine.F_amp={}", middle), "sine.F_mean=0.2", "sine.duration=1"},
                       rate});
@@ -28,19 +28,19 @@ Result<double> detection_threshold(const std::string& afferent, double f, double
     return high;
 }
 
-Result<Plot::Series> tuning_curve(const std::string& afferent, const StudyOptions& options, double& done) {
-    Plot::Series curve{afferent, {}, {}, Plot::Style::line};
+Result<StudyPlot::Series> tuning_curve(const std::string& afferent, const StudyOptions& options, double& done) {
+    StudyPlot::Series curve{afferent, {}, {}, StudyPlot::Style::line};
     for (const double f : {4.0, 8.0, 16.0, 32.0, 64.0, 128.0, 200.0, 250.0, 300.0, 400.0, 600.0}) {
         const auto amplitude = detection_threshold(afferent, f, 20e3);
         if (!amplitude) return amplitude.error();
         if (*amplitude < 4) curve.x.push_back(f), curve.y.push_back(1e3 * *amplitude);
-        if (!options.keep_on(done += 1.0 / 33)) return Error{ErrorCode::interrupted, "interrupted"};
+        if (!options.should_continue(done += 1.0 / 33)) return Error{ErrorCode::interrupted, "interrupted"};
     }
     return curve;
 }
 
 /// The frequency range in which it needs at most a tenth more than the smallest amplitude.
-std::pair<double, double> most_sensitive_band(const Plot::Series& curve) {
+std::pair<double, double> most_sensitive_band(const StudyPlot::Series& curve) {
     std::pair band{none, none};
     if (curve.y.empty()) return band;
     const double smallest = *std::min_element(curve.y.begin(), curve.y.end());
@@ -49,9 +49,9 @@ std::pair<double, double> most_sensitive_band(const Plot::Series& curve) {
     return band;
 }
 
-Result<Outcome> work(const StudyOptions& options) {
-    Outcome out;
-    Plot plot{"Detection threshold of vibration", "frequency (Hz)", "amplitude (mN)", {}, true, true};
+Result<StudyResult> work(const StudyOptions& options) {
+    StudyResult out;
+    StudyPlot plot{"Detection threshold of vibration", "frequency (Hz)", "amplitude (mN)", {}, true, true};
     double done = 0;
     for (const auto& [name, low, high, source] :
          {std::tuple{"sa1", none, 60.0, "SA lowest: Johansson et al. 1982, Brain Res 244:17"},
@@ -62,8 +62,8 @@ Result<Outcome> work(const StudyOptions& options) {
         const auto [from, to] = most_sensitive_band(*curve);
         for (const auto& [end, f] : {std::pair{"from", from}, {"to", to}})
             out.claim(fmt::format("{}: most sensitive {}", name, end), f, "Hz")
-                .between(low, high, source)
-                .if_off(
+                .allow_range(low, high, source)
+                .explain_if_needed(
                     "above the corners of their high-passes sa1 and fa1 are equally sensitive to all frequencies: the low-pass of the skin "
                     "is not modelled");
         plot.series.push_back(std::move(*curve));

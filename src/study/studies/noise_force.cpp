@@ -50,7 +50,7 @@ ro out 0 1g
 
 /// Force noise in the band (N rms) at a node of a netlist with a source vforce.
 Result<double> force_noise(const std::string& circuit, const std::string& output, double newtons, const std::string& extra_lines = "") {
-    const auto found = found_in(
+    const auto found = run_study_netlist(
         {circuit, {fmt::format("vforce={}", newtons)}, extra_lines + fmt::format(".noise v({}) vforce dec 20 {} {}", output, from, to)});
     if (!found) return found.error();
     return found->number("inoise_total");
@@ -58,9 +58,9 @@ Result<double> force_noise(const std::string& circuit, const std::string& output
 
 /// dI/dF of the membrane current, A/N.
 Result<double> gain(double newtons) {
-    const auto found = found_in({chain, {}, fmt::format(".dc vforce {} {} {}", 0.99 * newtons, 1.01 * newtons, 0.005 * newtons)});
+    const auto found = run_study_netlist({chain, {}, fmt::format(".dc vforce {} {} {}", 0.99 * newtons, 1.01 * newtons, 0.005 * newtons)});
     if (!found) return found.error();
-    return found->line("dc", "i(vi)").slope_at(newtons);
+    return found->curve("dc", "i(vi)").slope_at(newtons);
 }
 
 /// Thermal noise of the sensor as a resistor, N rms.
@@ -75,7 +75,7 @@ struct NoiseParts {
 };
 Result<NoiseParts> noise_parts(double newtons) {
     const auto dI_dF = gain(newtons);
-    const auto cco = found_in({oscillator, {}, fmt::format(".noise v(out) ilk dec 20 {} {}", from, to)});
+    const auto cco = run_study_netlist({oscillator, {}, fmt::format(".noise v(out) ilk dec 20 {} {}", from, to)});
     if (!dI_dF) return dI_dF.error();
     if (!cco) return cco.error();
     const std::string readout = "ha i_a 0 via 1\nra i_a 0 1g\n";
@@ -87,7 +87,7 @@ Result<NoiseParts> noise_parts(double newtons) {
     return NoiseParts{sensor_noise(newtons), *t, *asp, cco->number("onoise_total") / *dI_dF, *all, *b, *c};
 }
 
-Result<void> add_claims(Outcome& out, double newtons) {
+Result<void> add_claims(StudyResult& out, double newtons) {
     const auto p = noise_parts(newtons);
     if (!p) return p.error();
     const auto what = [&](const char* quantity) { return fmt::format("{:g} N: {}", newtons, quantity); };
@@ -98,31 +98,31 @@ Result<void> add_claims(Outcome& out, double newtons) {
     out.claim(what("transducer and signal processing, at the membrane"), p->chain, "N");
     out.claim(what("oscillator's input, from dI/dF"), p->oscillator, "N");
     out.claim(what("total"), total, "N")
-        .at_most(repeatability * newtons,
+        .allow_max(repeatability * newtons,
                  "thesis E.4: \"adequate for its application\"; taken here as below the sensor's own repeatability, 2 % of the force "
                  "(FSR 400 series data sheet, Interlink)");
-    out.claim(what("at filter B's output"), p->filter_B, "N").at_most(repeatability * newtons, "as above");
-    out.claim(what("at filter C's output"), p->filter_C, "N").at_most(repeatability * newtons, "as above");
+    out.claim(what("at filter B's output"), p->filter_B, "N").allow_max(repeatability * newtons, "as above");
+    out.claim(what("at filter C's output"), p->filter_C, "N").allow_max(repeatability * newtons, "as above");
     out.claim(what("total, over the 3.8 N range of the press stimulus"), 100 * total / 3.8, "%");
     return {};
 }
 
-Result<Outcome> work(const StudyOptions& options) {
-    Outcome out;
+Result<StudyResult> work(const StudyOptions& options) {
+    StudyResult out;
     for (const double newtons : {0.2, 4.0}) {
         if (auto ok = add_claims(out, newtons); !ok) return ok.error();
-        if (auto ok = options.at(newtons / 10); !ok) return ok.error();
+        if (auto ok = options.report_progress(newtons / 10); !ok) return ok.error();
     }
-    Plot& spectrum = out.plot("Noise of transducer and signal processing as a force", "frequency (Hz)", "mN / sqrt(Hz)");
+    StudyPlot& spectrum = out.plot("Noise of transducer and signal processing as a force", "frequency (Hz)", "mN / sqrt(Hz)");
     spectrum.log_x = spectrum.log_y = true;
     for (const double newtons : {0.2, 4.0})
         for (const auto& [name, node] : {std::pair{"transducer", "i_f"}, {"at the membrane", "i_m"}}) {
             const auto found =
-                found_in({chain, {fmt::format("vforce={}", newtons)}, fmt::format(".noise v({}) vforce dec 10 0.1 1k", node)});
+                run_study_netlist({chain, {fmt::format("vforce={}", newtons)}, fmt::format(".noise v({}) vforce dec 10 0.1 1k", node)});
             if (!found) return found.error();
-            spectrum.add(fmt::format("{}, {:g} N", name, newtons), found->line("noise", "inoise_spectrum").times(1, 1e3));
+            spectrum.add(fmt::format("{}, {:g} N", name, newtons), found->curve("noise", "inoise_spectrum").scaled(1, 1e3));
         }
-    Line transducer, membrane, sensor;
+    StudyCurve transducer, membrane, sensor;
     for (const double newtons : {0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 3.0, 4.0, 5.0}) {
         const auto t = force_noise(chain, "i_f", newtons), m = force_noise(chain, "i_m", newtons);
         if (!t) return t.error();
@@ -130,7 +130,7 @@ Result<Outcome> work(const StudyOptions& options) {
         for (auto [line, value] : {std::pair{&transducer, *t}, {&membrane, *m}, {&sensor, repeatability * newtons}})
             line->x.push_back(newtons), line->y.push_back(1e3 * value);
     }
-    Plot& along = out.plot("Noise from 1 to 100 Hz over the force", "force (N)", "mN rms");
+    StudyPlot& along = out.plot("Noise from 1 to 100 Hz over the force", "force (N)", "mN rms");
     along.log_x = along.log_y = true;
     along.add("transducer", transducer).add("at the membrane", membrane).add("2 %, the sensor's repeatability", sensor);
     out.note(

@@ -24,7 +24,7 @@ const std::vector<double> lower_supplies = {0.65, 0.6, 0.55, 0.5}, higher_suppli
 struct Condition {
     double supply = nominal_supply, celsius = nominal_temperature;
     bool high_threshold = false;
-    Told response{};
+    TrialResult response{};
     std::string failed{};  // error text if it did not converge, else ""
     bool works = false;
 };
@@ -56,7 +56,7 @@ class ChipExplorer {
 
     std::string setting(const char* what, auto value) const { return fmt::format("{}.{}={}", chip_, what, value); }
     Condition run(Condition condition) const {
-        auto response = told_of({chip_,
+        auto response = run_trial({chip_,
                                  "press",
                                  {setting("supply", condition.supply), setting("temp", condition.celsius), setting("corner", corner_),
                                   setting("hv_switches", condition.high_threshold ? 1 : 0)}});
@@ -68,7 +68,7 @@ class ChipExplorer {
     std::string reason(const Condition& condition) {
         if (!condition.failed.empty()) return condition.failed;
         std::string out;
-        for (const auto& meaning : condition.response.outside) out += (out.empty() ? "" : "; ") + meaning;
+        for (const auto& meaning : condition.response.range_warnings) out += (out.empty() ? "" : "; ") + meaning;
         if (out.empty() && !condition.high_threshold && at(condition.supply, condition.celsius, true).works)
             return "switches that are off leak as much as the membrane's own leak; it works with hv_switches=1";
         return out.empty() ? "its currents are too small or too large, but nothing is saturated" : out;
@@ -124,13 +124,13 @@ public:
     }
 };
 
-void report(ChipExplorer& t, Outcome& out) {
+void report(ChipExplorer& t, StudyResult& out) {
     const auto& nominal = t.at(nominal_supply, nominal_temperature);
     const auto spikes = phase_counts(nominal.response.spikes);
     out.claim(t.name() + ": spikes under the press stimulus at 0.7 V, 27 C", static_cast<double>(nominal.response.spikes.size()))
-        .because(nominal.works ? spikes : "does not work; " + t.ends.hot.beyond);
+        .explain(nominal.works ? spikes : "does not work; " + t.ends.hot.beyond);
     const auto add = [&](const char* what, const Limit& end, const char* unit) {
-        if (!std::isnan(end.last)) out.claim(t.name() + ": " + what, end.last, unit).because(end.beyond);
+        if (!std::isnan(end.last)) out.claim(t.name() + ": " + what, end.last, unit).explain(end.beyond);
     };
     add("works at 27 C down to", t.ends.low, "V"), add("works at 27 C up to", t.ends.high, "V");
     add("works at 0.7 V down to", t.ends.cold, "C"), add("works at 0.7 V up to", t.ends.hot, "C");
@@ -139,8 +139,8 @@ void report(ChipExplorer& t, Outcome& out) {
 
 /// The spikes of all conditions on one axis, in the typical corner.
 void add_plot(const ChipExplorer& t, const char* axis_name, const char* unit, double Condition::* axis, double Condition::* other,
-              double nominal, Outcome& out) {
-    Line standard, with_high_threshold;
+              double nominal, StudyResult& out) {
+    StudyCurve standard, with_high_threshold;
     for (const auto& condition : t.conditions())
         for (const double at : condition.response.spikes) {
             if (condition.*other != nominal) continue;
@@ -153,7 +153,7 @@ void add_plot(const ChipExplorer& t, const char* axis_name, const char* unit, do
     if (!with_high_threshold.empty()) plot.points("hv_switches=1", with_high_threshold);
 }
 
-Result<Outcome> work(const StudyOptions& options) {
+Result<StudyResult> work(const StudyOptions& options) {
     std::vector<ChipExplorer> all;
     for (const char* chip : chips)
         for (const char* corner : corner_names) all.emplace_back(chip, corner);
@@ -164,10 +164,10 @@ Result<Outcome> work(const StudyOptions& options) {
         if (const std::lock_guard lock(guard); interrupted) return;
         all[k].search();
         const std::lock_guard lock(guard);
-        interrupted = interrupted || !options.keep_on(static_cast<double>(++done) / static_cast<double>(all.size()));
+        interrupted = interrupted || !options.should_continue(static_cast<double>(++done) / static_cast<double>(all.size()));
     });
     if (interrupted) return Error{ErrorCode::interrupted, "interrupted"};
-    Outcome out;
+    StudyResult out;
     std::size_t runs = 0, failed_runs = 0;
     for (auto& t : all) {
         report(t, out);

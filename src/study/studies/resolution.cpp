@@ -3,50 +3,50 @@
 
 #include <fmt/format.h>
 
-#include "study/apart.hpp"
+#include "study/spike_timing_error.hpp"
 #include "study/studies.hpp"
-#include "study/trains.hpp"
+#include "study/trial.hpp"
 
 namespace corpuscle::studies::resolution {
 
-Result<Apart> digital_timing_error(const std::string& name, double bits, double rate) {
-    const auto exact = train_of({name});
+Result<SpikeTimingError> digital_timing_error(const std::string& name, double bits, double rate) {
+    const auto exact = simulate_train({name});
     if (!exact) return exact.error();
     const auto afferent = "adc+" + name;
-    const auto train = train_of({afferent, "press", {fmt::format("{}.bits={}", afferent, bits), fmt::format("{}.f_s={}", afferent, rate)}});
+    const auto train = simulate_train({afferent, "press", {fmt::format("{}.bits={}", afferent, bits), fmt::format("{}.f_s={}", afferent, rate)}});
     if (!train) return train.error();
-    return apart(*exact, *train);
+    return spike_timing_error(*exact, *train);
 }
 
 std::string frequency_text(double f) { return f < 1e3 ? fmt::format("{:g} Hz", f) : fmt::format("{:g} kHz", f / 1e3); }
 
 /// Adds one point of a curve, and its claim.
-Result<void> add_point(Outcome& out, Line& curve, double x, const std::string& name, double bits, double rate) {
+Result<void> add_point(StudyResult& out, StudyCurve& curve, double x, const std::string& name, double bits, double rate) {
     const auto a = digital_timing_error(name, bits, rate);
     if (!a) return a.error();
     curve.x.push_back(x), curve.y.push_back(1e3 * a->rms);
     out.claim(fmt::format("{}: {:g} bits, {}: rms error of spike times", name, bits, frequency_text(rate)), a->rms, "s")
-        .because(fmt::format("{:g} spikes have no partner", a->unmatched));
+        .explain(fmt::format("{:g} spikes have no partner", a->unmatched));
     return {};
 }
 
-Result<Outcome> work(const StudyOptions& options) {
-    Outcome out;
+Result<StudyResult> work(const StudyOptions& options) {
+    StudyResult out;
     const double all_bits[] = {4, 6, 8, 10, 12, 14, 16}, rates[] = {100, 200, 500, 1e3, 2e3, 5e3, 10e3};
-    Plot by_bits{"Error of spike times over bits, at 10 kHz", "bits", "rms error (ms)", {}, false, true};
-    Plot by_rate{"Error of spike times over sampling rate, with 16 bits", "sampling rate (Hz)", "rms error (ms)", {}, true, true};
+    StudyPlot by_bits{"Error of spike times over bits, at 10 kHz", "bits", "rms error (ms)", {}, false, true};
+    StudyPlot by_rate{"Error of spike times over sampling rate, with 16 bits", "sampling rate (Hz)", "rms error (ms)", {}, true, true};
     double done = 0;
     for (const char* name : {"sa1", "fa1"}) {
-        Line bits, rate;
+        StudyCurve bits, rate;
         for (const double b : all_bits) {
             if (auto ok = add_point(out, bits, b, name, b, 10e3); !ok) return ok.error();
-            if (auto ok = options.at(done += 1.0 / 28); !ok) return ok.error();
+            if (auto ok = options.report_progress(done += 1.0 / 28); !ok) return ok.error();
         }
         for (const double f : rates) {
             if (auto ok = add_point(out, rate, f, name, 16, f); !ok) return ok.error();
-            if (auto ok = options.at(done += 1.0 / 28); !ok) return ok.error();
+            if (auto ok = options.report_progress(done += 1.0 / 28); !ok) return ok.error();
         }
-        out.finds(fmt::format("{}: fewer bits or samples reduce the resolution", name),
+        out.claim_true(fmt::format("{}: fewer bits or samples reduce the resolution", name),
                   bits.y.front() > bits.y.back() && rate.y.front() > rate.y.back(),
                   "thesis 1.3: signal resolution loss due to conversion and quantization");
         by_bits.add(name, bits), by_rate.add(name, rate);

@@ -9,24 +9,24 @@
 
 namespace corpuscle::studies::table13 {
 
-Result<Outcome> work(const StudyOptions&) {
+Result<StudyResult> work(const StudyOptions&) {
     const auto found = simulate_arrays(trapezoids);
     const auto rectangular = simulate_arrays(rectangles);
     if (!found || !rectangular) return found ? rectangular.error() : found.error();
     const auto& ours = *found;
-    Outcome out;
+    StudyResult out;
     add_sizes(out, trapezoids, ours);
     const std::string source = "thesis B.2";
     const auto A = [&](const char* name) { return ours(name).A; };
-    out.claim("E's active area over G1's", A("E") / A("G1")).printed_as(4, source + ": about 4; errata U18: 3.63");
-    out.finds("G1, G2 and G3 have the same active area", std::abs(A("G1") / A("G2") - 1) < 1e-9 && std::abs(A("G1") / A("G3") - 1) < 1e-9,
+    out.claim("E's active area over G1's", A("E") / A("G1")).published_as(4, source + ": about 4; errata U18: 3.63");
+    out.claim_true("G1, G2 and G3 have the same active area", std::abs(A("G1") / A("G2") - 1) < 1e-9 && std::abs(A("G1") / A("G3") - 1) < 1e-9,
               source);
     const auto& A_T = [&](const char* name) { return ours(name).A_T; };
-    out.finds("E, G1, G2 and G3 have the same total area by the rule of table 10",
+    out.claim_true("E, G1, G2 and G3 have the same total area by the rule of table 10",
               std::abs(A_T("G1") / A_T("E") - 1) < 1e-9 && A_T("G1") == A_T("G2") && A_T("G1") == A_T("G3"), source);
     out.claim("G1's S_eq over that of one unit transistor, eight in series", ours("G1").S / (*rectangular)("A").S)
-        .held_to(0.125, source + ": a rectangular series array");
-    out.claim("G3's S_eq over A's", ours("G3").S / (*rectangular)("A").S).between(0.8, 1.25, source + ": similar (0.8 to 1.25 here)");
+        .derived_as(0.125, source + ": a rectangular series array");
+    out.claim("G3's S_eq over A's", ours("G3").S / (*rectangular)("A").S).allow_range(0.8, 1.25, source + ": similar (0.8 to 1.25 here)");
     out.note(
         "F's two transistors have different lengths. Its rectangle is computed as two transistors of their mean length with the usual "
         "spacing. It is too wide by the amount that F's published A_T is smaller, because F's two channels are closer together.");

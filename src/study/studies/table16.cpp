@@ -4,7 +4,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "study/deck.hpp"
+#include "study/study_netlist.hpp"
 #include "study/studies.hpp"
 
 namespace corpuscle::studies::table16 {
@@ -64,50 +64,50 @@ bool as_printed(const SizeRow& row, const circuit::Circuit& c, double& area) {
 }
 
 /// Effect of M6 on INVC: the ratio of its currents at both rails.
-Result<void> add_symmetry(Outcome& out) {
+Result<void> add_symmetry(StudyResult& out) {
     double ratios[2];
     for (const bool printed : {false, true}) {
         std::vector<std::string> settings;
         if (printed) settings = {"xh.mn6a=8x2", "xh.mn6b=2x4"};
-        const auto found = found_in({"invc", settings, ".dc vin 0 0.7 10m"});
+        const auto found = run_study_netlist({"invc", settings, ".dc vin 0 0.7 10m"});
         if (!found) return found.error();
-        const auto I = found->line("dc", "i(vhalf)");
+        const auto I = found->curve("dc", "i(vhalf)");
         ratios[printed] = std::abs(I.y.back() / I.y.front());
     }
     out.claim("INVC with M6 as built: output current at V_IN = V_DD over that at 0", ratios[0], "times")
-        .held_to(1, "fig. 60a: the exact same shape as INVB's");
+        .derived_as(1, "fig. 60a: the exact same shape as INVB's");
     out.claim("INVC with M6 as printed: the same", ratios[1], "times")
-        .between(0.9, 1.1, "fig. 60a: as INVB's, which is symmetric")
-        .because("M6 as printed divides by 8, but M5 by 64: errata S7");
+        .allow_range(0.9, 1.1, "fig. 60a: as INVB's, which is symmetric")
+        .explain("M6 as printed divides by 8, but M5 by 64: errata S7");
     return {};
 }
 
-Result<Outcome> work(const StudyOptions& options) {
-    Outcome out;
+Result<StudyResult> work(const StudyOptions& options) {
+    StudyResult out;
     std::map<std::string, std::shared_ptr<const circuit::Circuit>> circuits;
     std::map<std::string, double> areas;
     for (const auto& row : rows) {
         auto& c = circuits[row.circuit];
         if (!c) {
-            auto built = circuit_of({row.circuit});
+            auto built = elaborate_study_netlist({row.circuit});
             if (!built) return built.error();
             c = std::move(*built);
         }
         const auto source = fmt::format("table {}", row.table);
         auto& area = areas[std::string_view(row.name).starts_with("INV") ? std::string(row.name, 4) : source];
-        auto& claim = out.finds(fmt::format("table {}: {} is {:g}x{:g} of {:g}/{:g} um", row.table, row.name, row.m, row.n, row.W, row.L),
+        auto& claim = out.claim_true(fmt::format("table {}: {} is {:g}x{:g} of {:g}/{:g} um", row.table, row.name, row.m, row.n, row.W, row.L),
                                 as_printed(row, *c, area), source);
-        if (claim.needs_reason()) claim.because(fmt::format("errata {}", row.erratum));
+        if (claim.needs_explanation()) claim.explain(fmt::format("errata {}", row.erratum));
     }
     out.claim("gate area of the bias generator", areas["table 16"], "um^2");
     out.claim("gate area of INVA", areas["INVA"], "um^2");
-    out.claim("gate area of INVB over INVA's", areas["INVB"] / areas["INVA"], "times").printed_as(3, "E.3: three times more area");
+    out.claim("gate area of INVB over INVA's", areas["INVB"] / areas["INVA"], "times").published_as(3, "E.3: three times more area");
     out.claim("gate area of INVC over INVA's", areas["table 20"] / areas["INVA"], "times");
     if (auto ok = add_symmetry(out); !ok) return ok.error();
     out.note(
         "The replica that the text calls M4A and M5C is M4C and M5B (errata I6): table 16 has no M5C, and M4A and M5A set BN and BP. Table "
         "19 has the caption of table 16 (errata I12).");
-    return options.at(1) ? Result<Outcome>(out) : options.at(1).error();
+    return options.report_progress(1) ? Result<StudyResult>(out) : options.report_progress(1).error();
 }
 
 const Study study{"table16", "The inverters' arrays as built",

@@ -21,7 +21,7 @@ constexpr double tolerance = 25;  // %: tolerance of a predicted deviation, deci
 
 /// A_VT from table 12: its deviations minus the part of A_IS, each with its g_m/I_D and area. Both are derived from g_mg, so that misprints
 /// of single cells (errata U11, U12) have no effect. The mean of seven arrays, V um.
-void claim_calibration(Outcome& out, const circuit::Circuit& c) {
+void claim_calibration(StudyResult& out, const circuit::Circuit& c) {
     const auto m4a = static_cast<std::size_t>(c.find_element("m4a"));
     const double A_IS = 1e6 * model_parameter(c, m4a, "ais");
     double mean = 0;
@@ -30,7 +30,7 @@ void claim_calibration(Outcome& out, const circuit::Circuit& c) {
         mean += std::sqrt(variance - A_IS * A_IS) / (a.g_mg / a.I_D) / static_cast<double>(std::size(published_rectangles));
     }
     out.claim("A_VT of the process card, fitted to table 12 only", 1e6 * model_parameter(c, m4a, "avt"), "V um")
-        .printed_as(mean, "tables 11 and 12, mean of seven arrays");
+        .published_as(mean, "tables 11 and 12, mean of seven arrays");
 }
 
 std::string reason(const InverterCase& row, std::size_t variation, bool voltage) {
@@ -46,58 +46,58 @@ std::string reason(const InverterCase& row, std::size_t variation, bool voltage)
            "effect or another cause, which is not known; the inferred bulks of fig. 52 are not the cause";
 }
 
-void claim(Outcome& out, const InverterCase& row, std::size_t variation, const SampleSpread& s, bool voltage) {
+void claim(StudyResult& out, const InverterCase& row, std::size_t variation, const SampleStatistics& s, bool voltage) {
     const auto& printed = (voltage ? row.V : row.I)[variation];
     const char *symbol = voltage ? "V_Q" : "I_Q", *table = voltage ? "table 17" : "table 18";
     const auto prefix = fmt::format("{}, {}{}: ", row.name, variations[variation].name, row.is_fitted && variation == 0 ? " (fitted)" : "");
-    out.claim(prefix + "mean " + symbol, s.mean, voltage ? "V" : "A").printed_as(printed.mean, table);
-    auto& c = out.claim(prefix + "standard deviation of " + symbol, s.percent(), "%").printed_as(printed.percent, table);
+    out.claim(prefix + "mean " + symbol, s.mean, voltage ? "V" : "A").published_as(printed.mean, table);
+    auto& c = out.claim(prefix + "standard deviation of " + symbol, s.cv_percent(), "%").published_as(printed.percent, table);
     const double error = std::abs(100 * c.deviation());
-    if (c.needs_reason()) c.because(reason(row, variation, voltage));
+    if (c.needs_explanation()) c.explain(reason(row, variation, voltage));
     if (variation != 1) return;
     auto& tolerance_claim =
-        out.claim(prefix + "relative error of that deviation", error, "%").at_most(tolerance, "decided in advance, with A_VT of table 12");
-    if (tolerance_claim.needs_reason()) tolerance_claim.because(divider_reason);
+        out.claim(prefix + "relative error of that deviation", error, "%").allow_max(tolerance, "decided in advance, with A_VT of table 12");
+    if (tolerance_claim.needs_explanation()) tolerance_claim.explain(divider_reason);
 }
 
 /// Statements of E.2 on the tables.
-Result<void> claim_text(Outcome& out, const circuit::Circuit& generator, const double (&I_Q)[2][3]) {
+Result<void> claim_text(StudyResult& out, const circuit::Circuit& generator, const double (&I_Q)[2][3]) {
     out.claim("I_Q's standard deviation without biasing over that with it, all", I_Q[0][2] / I_Q[1][2], "times")
-        .printed_as(10, "E.2: ten times lower");
+        .published_as(10, "E.2: ten times lower");
     out.claim("biasing: contribution of mismatch to the variance of I_Q", 100 * std::pow(I_Q[1][1] / I_Q[1][2], 2), "%")
-        .at_least(90, "E.2: almost exclusively a result of mismatch; nine tenths is our choice");
+        .allow_min(90, "E.2: almost exclusively a result of mismatch; nine tenths is our choice");
     out.claim("no biasing, process: standard deviation of I_Q, against the text", I_Q[0][0], "%")
-        .printed_as(27.2, "E.2's text; table 18 has this value for all and 28.4 % for process: errata I10");
-    Deck larger{"bias", {}, fmt::format(".op\n.mc 1000 {}", variations[1].mc_options)};
+        .published_as(27.2, "E.2's text; table 18 has this value for all and 28.4 % for process: errata I10");
+    StudyNetlist larger{"bias", {}, fmt::format(".op\n.mc 1000 {}", variations[1].mc_options)};
     for (const auto& e : generator.elements)
         if (e.letter == 'm') larger.settings.push_back(e.name + "=4x16");
-    const auto chips = all_found_in(larger);
+    const auto chips = run_study_variants(larger);
     if (!chips) return chips.error();
     out.claim("arrays of four times the area and the same aspect ratio (4x16): standard deviation of I_Q by mismatch, over that of 2x8",
-              spread_of(*chips, "i(vis)").percent() / I_Q[1][1], "times")
-        .held_to(0.5, "E.2: reduced by larger arrays; Pelgrom: by the square root of the area");
+              sample_statistics(*chips, "i(vis)").cv_percent() / I_Q[1][1], "times")
+        .derived_as(0.5, "E.2: reduced by larger arrays; Pelgrom: by the square root of the area");
     return {};
 }
 
-Result<Outcome> work(const StudyOptions& options) {
-    Outcome out;
-    const auto circuit = circuit_of({"bias"});
+Result<StudyResult> work(const StudyOptions& options) {
+    StudyResult out;
+    const auto circuit = elaborate_study_netlist({"bias"});
     if (!circuit) return circuit.error();
     claim_calibration(out, **circuit);
     double deviations[2][3];  // of I_Q, %
     for (const auto& row : inverter_cases) {
-        Plot V_plot{fmt::format("V_Q of 1000 chips, {}", row.name), "V_Q (mV)", "chips, in 30 bins", {}};
-        Plot I_plot{fmt::format("I_Q of 1000 chips, {}", row.name), "I_Q (nA)", "chips, in 30 bins", {}};
+        StudyPlot V_plot{fmt::format("V_Q of 1000 chips, {}", row.name), "V_Q (mV)", "chips, in 30 bins", {}};
+        StudyPlot I_plot{fmt::format("I_Q of 1000 chips, {}", row.name), "I_Q (nA)", "chips, in 30 bins", {}};
         for (std::size_t k = 0; k < 3; ++k) {
             auto chips = simulate_chips(row.circuit, variations[k]);
             if (!chips) return chips.error();
-            const auto V = spread_of(*chips, row.voltage), I = spread_of(*chips, row.current);
+            const auto V = sample_statistics(*chips, row.voltage), I = sample_statistics(*chips, row.current);
             claim(out, row, k, V, true), claim(out, row, k, I, false);
-            V_plot.add(variations[k].name, histogram_of(V.values).times(1e3, 1)), I_plot.add(variations[k].name, histogram_of(I.values).times(1e9, 1));
-            deviations[row.is_fitted ? 0 : 1][k] = I.percent();
+            V_plot.add(variations[k].name, histogram_of(V.values).scaled(1e3, 1)), I_plot.add(variations[k].name, histogram_of(I.values).scaled(1e9, 1));
+            deviations[row.is_fitted ? 0 : 1][k] = I.cv_percent();
         }
         out.plots.push_back(std::move(V_plot)), out.plots.push_back(std::move(I_plot));
-        if (auto ok = options.at(row.is_fitted ? 0.4 : 0.8); !ok) return ok.error();
+        if (auto ok = options.report_progress(row.is_fitted ? 0.4 : 0.8); !ok) return ok.error();
     }
     if (auto ok = claim_text(out, **circuit, deviations); !ok) return ok.error();
     return out;

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 
-#include "study/deck.hpp"
+#include "study/study_netlist.hpp"
 #include "study/studies.hpp"
 
 namespace corpuscle::studies::table1_2 {
@@ -46,9 +46,9 @@ std::vector<std::string> split_words(std::string_view text) {
     return out;
 }
 
-Result<Outcome> work(const StudyOptions&) {
-    Outcome out;
-    const auto circuit = circuit_of({"transducer"});
+Result<StudyResult> work(const StudyOptions&) {
+    StudyResult out;
+    const auto circuit = elaborate_study_netlist({"transducer"});
     if (!circuit) return circuit.error();
     for (const auto& row : rows) {
         double m = Claim::none, n = Claim::none, W = Claim::none;
@@ -62,9 +62,9 @@ Result<Outcome> work(const StudyOptions&) {
                       value_or_1(*e, "l") == 0.5e-6;
         }
         matches = matches && m == row.m && n == row.n && W == row.W * 1e-6;
-        auto& c = out.finds(fmt::format("{}: {:g} by {:g} of {:g}/0.5 um", row.name, row.m, row.n, row.W), matches,
+        auto& c = out.claim_true(fmt::format("{}: {:g} by {:g} of {:g}/0.5 um", row.name, row.m, row.n, row.W), matches,
                             fmt::format("table {}", row.table));
-        c.if_off(row.reason);
+        c.explain_if_needed(row.reason);
     }
     const auto& all = (*circuit)->elements;
     const auto of_width = [&](const char* type, double W) {
@@ -72,8 +72,8 @@ Result<Outcome> work(const StudyOptions&) {
             return e.letter != 'm' || (*circuit)->models[static_cast<std::size_t>(e.model)].type != type || value_or_1(e, "w") == W;
         });
     };
-    out.finds("every PMOS has W = 6 um", of_width("pmos", 6e-6), "thesis 4.2");
-    out.finds("every NMOS has W = 1.5 um", of_width("nmos", 1.5e-6), "thesis 4.2");
+    out.claim_true("every PMOS has W = 6 um", of_width("pmos", 6e-6), "thesis 4.2");
+    out.claim_true("every NMOS has W = 1.5 um", of_width("nmos", 1.5e-6), "thesis 4.2");
     return out;
 }
 

@@ -69,10 +69,10 @@ const char* reason(const std::string& of, const RateRow& row, bool wide_contact)
 
 constexpr double max_distance = 1.5e-3;  // m, distance from the centre of the punch
 
-std::vector<Rates> rates_within_distance(const std::vector<TipTrain>& trains, const std::string& of) {
+std::vector<Rates> rates_within_distance(const std::vector<FingertipTrain>& trains, const std::string& of) {
     std::vector<Rates> out;
     for (const auto& t : trains)
-        if (t.of == of && t.from <= max_distance) out.push_back(rates_of(t.spikes));
+        if (t.afferent == of && t.distance <= max_distance) out.push_back(rates_of(t.spikes));
     return out;
 }
 
@@ -87,26 +87,26 @@ Result<double> force_for(const Contact& contact) {
     double low = 0.01, high = 100;
     for (int k = 0; k < 14; ++k) {
         const double middle = std::sqrt(low * high);
-        const auto trains = fingertip_under({contact.radius, middle});
+        const auto trains = simulate_fingertip({contact.radius, middle});
         if (!trains) return trains.error();
         (median_of(rates_within_distance(*trains, "sa1"), contact.matched) < contact.sa1.*contact.matched ? low : high) = middle;
     }
     return high;
 }
 
-void report_row(Outcome& out, const std::string& name, const RateRow& row, const std::vector<Rates>& ours, const Rates& theirs,
+void report_row(StudyResult& out, const std::string& name, const RateRow& row, const std::vector<Rates>& ours, const Rates& theirs,
                 const char* reason_text) {
     auto& claim = out.claim(fmt::format("{}: {}", name, row.name), median_of(ours, row.of), "Hz")
-                      .held_to(theirs.*row.of, measured)
-                      .if_off(reason_text);
-    if (theirs.*row.of == 0 && claim.made > 0) claim.because(reason_text);
+                      .derived_as(theirs.*row.of, measured)
+                      .explain_if_needed(reason_text);
+    if (theirs.*row.of == 0 && claim.computed > 0) claim.explain(reason_text);
 }
 
-Result<void> report_touch(Outcome& out, const Contact& contact) {
+Result<void> report_touch(StudyResult& out, const Contact& contact) {
     const double equivalent_force = 2 * E_star * contact.radius * contact.depth;
     const auto matching_force = force_for(contact);
     if (!matching_force) return matching_force.error();
-    const auto at = fingertip_under({contact.radius, equivalent_force}), matched = fingertip_under({contact.radius, *matching_force});
+    const auto at = simulate_fingertip({contact.radius, equivalent_force}), matched = simulate_fingertip({contact.radius, *matching_force});
     if (!at) return at.error();
     if (!matched) return matched.error();
     out.claim(fmt::format("{}: equivalent force", contact.name), equivalent_force, "N");
@@ -118,8 +118,8 @@ Result<void> report_touch(Outcome& out, const Contact& contact) {
     out.claim(fmt::format("{}: force at which our SA-I match TouchSim's {}", contact.name,
                           contact.matched == &Rates::hold ? "mean of the hold" : "peak"),
               *matching_force, "N")
-        .held_to(equivalent_force, "the equivalent force")
-        .if_off("as above: the models' range is that of the thesis's stimulus");
+        .derived_as(equivalent_force, "the equivalent force")
+        .explain_if_needed("as above: the models' range is that of the thesis's stimulus");
     for (const auto& [of, theirs] : {std::pair{"sa1", &contact.sa1}, {"fa1", &contact.ra}})
         for (const auto& row : rows)
             report_row(out, fmt::format("{} at that force, {}", contact.name, of == std::string("sa1") ? "SA-I" : "FA-I"), row,
@@ -127,10 +127,10 @@ Result<void> report_touch(Outcome& out, const Contact& contact) {
     return {};
 }
 
-Result<void> report_touches(Outcome& out, const StudyOptions& options) {
+Result<void> report_touches(StudyResult& out, const StudyOptions& options) {
     for (const auto& contact : contacts) {
         if (auto ok = report_touch(out, contact); !ok) return ok;
-        if (auto ok = options.at(0.2 * static_cast<double>(&contact - contacts + 1)); !ok) return ok;
+        if (auto ok = options.report_progress(0.2 * static_cast<double>(&contact - contacts + 1)); !ok) return ok;
     }
     return {};
 }
@@ -145,7 +145,7 @@ Result<double> detection_threshold(const std::string& afferent, const std::vecto
         std::vector<std::string> all = {fmt::format("sine.f={}", f), fmt::format("sine.F_amp={}", middle), "sine.F_mean=0.2",
                                         "sine.duration=1"};
         all.insert(all.end(), settings.begin(), settings.end());
-        const auto train = train_of({afferent, "sine", all});
+        const auto train = simulate_train({afferent, "sine", all});
         if (!train) return train.error();
         (press::spike_count(*train, {0.5, 1.0}) >= std::max(1.0, spikes_per_period * 0.5 * f) ? high : low) = middle;
     }
@@ -154,7 +154,7 @@ Result<double> detection_threshold(const std::string& afferent, const std::vecto
 
 constexpr double frequencies[] = {1, 2, 4, 8, 16, 24, 32, 40, 50, 64, 100, 150, 200, 250, 300, 400};
 
-Result<void> report_tuning(Outcome& out, const StudyOptions& options) {
+Result<void> report_tuning(StudyResult& out, const StudyOptions& options) {
     struct Curve {
         const char *name, *afferent;
         std::vector<std::string> settings;
@@ -164,15 +164,15 @@ Result<void> report_tuning(Outcome& out, const StudyOptions& options) {
                             {"FA-I, one spike per period", "fa1", {}, 1},
                             {"FA-I, its corner at 40 Hz instead of 2", "fa1", {"fa1.f=40Hz"}, 0},
                             {"FA-II", "fa2", {}, 0}};
-    Plot plot{"Detection threshold of vibration", "frequency (Hz)", "amplitude (mN)", {}, true, true};
+    StudyPlot plot{"Detection threshold of vibration", "frequency (Hz)", "amplitude (mN)", {}, true, true};
     double done = 0;
     for (const auto& c : curves) {
-        Line line;
+        StudyCurve line;
         for (const double f : frequencies) {
             const auto smallest = detection_threshold(c.afferent, c.settings, f, c.spikes_per_period);
             if (!smallest) return smallest.error();
             if (*smallest < 3.99) line.x.push_back(f), line.y.push_back(1e3 * *smallest);
-            if (auto ok = options.at(0.4 + 0.6 * (done += 1.0 / 64)); !ok) return ok;
+            if (auto ok = options.report_progress(0.4 + 0.6 * (done += 1.0 / 64)); !ok) return ok;
         }
         const auto at = [&](double f) {
             const auto found = std::find(line.x.begin(), line.x.end(), f);
@@ -182,12 +182,12 @@ Result<void> report_tuning(Outcome& out, const StudyOptions& options) {
         if (name == "FA-II") {
             const auto best = std::min_element(line.y.begin(), line.y.end()) - line.y.begin();
             out.claim("FA-II: most sensitive at", line.x[static_cast<std::size_t>(best)], "Hz")
-                .between(200, 300, "PC best at 200 to 300 Hz: PMC2657072, table 1");
+                .allow_range(200, 300, "PC best at 200 to 300 Hz: PMC2657072, table 1");
         } else if (c.spikes_per_period == 0) {
             const auto add_ratio = [&](double f) -> Claim& {
                 return out.claim(fmt::format("{}: threshold at {} Hz over that at 40 Hz", name, f), at(f) / at(40))
-                    .at_least(1.5, "RA best at 40 to 60 Hz (PMC2657072, table 1): the threshold is higher on either side")
-                    .if_off(
+                    .allow_min(1.5, "RA best at 40 to 60 Hz (PMC2657072, table 1): the threshold is higher on either side")
+                    .explain_if_needed(
                         "a high-pass has no upper limit: above its corner the mean rectified current is the same at every frequency; the "
                         "low-passes of skin and receptor are not modelled");
             };
@@ -196,8 +196,8 @@ Result<void> report_tuning(Outcome& out, const StudyOptions& options) {
             const auto one = std::count_if(line.x.begin(), line.x.end(), [](double f) { return f >= 8 && f <= 64; });
             out.claim("FA-I: number of the frequencies 8, 16, 24, 32, 40, 50 and 64 Hz with one spike per period, up to 4 N",
                       static_cast<double>(one))
-                .at_least(1, "RA most excitable at 8 to 64 Hz, entrained: Johansson et al. 1982, Jarvilehto 1976; the bound is our choice")
-                .if_off("the 2 Hz filter and the leak limit the charge, and so the firing rate");
+                .allow_min(1, "RA most excitable at 8 to 64 Hz, entrained: Johansson et al. 1982, Jarvilehto 1976; the bound is our choice")
+                .explain_if_needed("the 2 Hz filter and the leak limit the charge, and so the firing rate");
         }
         plot.add(c.name, std::move(line));
     }
@@ -205,24 +205,24 @@ Result<void> report_tuning(Outcome& out, const StudyOptions& options) {
     return {};
 }
 
-Result<void> report_press(Outcome& out) {
-    const auto sa1 = train_of({"sa1"}), fa1 = train_of({"fa1"});
+Result<void> report_press(StudyResult& out) {
+    const auto sa1 = simulate_train({"sa1"}), fa1 = simulate_train({"fa1"});
     if (!sa1) return sa1.error();
     if (!fa1) return fa1.error();
     constexpr auto bound = "our bound after Birznieks et al. 2001, as described in thesis 1.2";
     const auto peak = [](const std::vector<double>& t, const TimeWindow& s) { return measure<PeakRate>(t, s); };
     out.claim("4 N: SA-I, peak of protraction over the end of the hold", peak(*sa1, press::protraction) / measure<LastRate>(*sa1, press::plateau))
-        .between(2, 3, bound);
+        .allow_range(2, 3, bound);
     out.claim("4 N: SA-I, spikes after 40 % of retraction", press::spike_count(*sa1, {press::retraction.from + 0.4 * 0.125, press::after.to}), "spikes")
-        .at_most(1, bound);
+        .allow_max(1, bound);
     out.claim("4 N: FA-I, peak of protraction over that of retraction", peak(*fa1, press::protraction) / peak(*fa1, press::retraction))
-        .between(1.2, 1.5, bound);
-    out.claim("4 N: FA-I, spikes in the last 100 ms of the hold", press::spike_count(*fa1, press::plateau_end), "spikes").at_most(0, bound);
+        .allow_range(1.2, 1.5, bound);
+    out.claim("4 N: FA-I, spikes in the last 100 ms of the hold", press::spike_count(*fa1, press::plateau_end), "spikes").allow_max(0, bound);
     return {};
 }
 
-Result<Outcome> work(const StudyOptions& options) {
-    Outcome out;
+Result<StudyResult> work(const StudyOptions& options) {
+    StudyResult out;
     if (auto ok = report_touches(out, options); !ok) return ok.error();
     if (auto ok = report_tuning(out, options); !ok) return ok.error();
     if (auto ok = report_press(out); !ok) return ok.error();

@@ -17,8 +17,8 @@ constexpr std::string_view methods[] = {"grid", "list", "uniform", "normal", "la
 constexpr double max_values = 1e6;
 
 /// The method given by `how`, otherwise the one implied by the given keys.
-std::string method_of(const SaidAxis& given) {
-    if (given.how) return given.how->text;
+std::string method_of(const AxisSpec& given) {
+    if (given.distribution) return given.distribution->text;
     if (given.list) return "list";
     if (given.mean || given.sigma) return "normal";
     return "grid";
@@ -26,16 +26,16 @@ std::string method_of(const SaidAxis& given) {
 
 /// Reads one axis.
 class AxisReader {
-    const SaidAxis& spec_;
-    const Target& target_;
+    const AxisSpec& spec_;
+    const VariedQuantity& target_;
     const std::string method_ = method_of(spec_);
 
-    std::string name() const { return spec_.what.text; }
+    std::string name() const { return spec_.name.text; }
     Error error_at(const LocatedText& at, std::string message) const { return at.error_here(fmt::format("{}: {}", name(), message)); }
-    Error missing(std::string message) const { return error_at(spec_.how ? *spec_.how : spec_.what, std::move(message)); }
+    Error missing(std::string message) const { return error_at(spec_.distribution ? *spec_.distribution : spec_.name, std::move(message)); }
 
     Result<double> number(const LocatedText& given) const {
-        auto value = target_.read(given);
+        auto value = target_.parse(given);
         if (!value) return error_at(given, value.error().message);
         return value;
     }
@@ -43,10 +43,10 @@ class AxisReader {
     Result<double> allowed(const LocatedText& given) const {
         const auto value = number(given);
         if (!value) return value;
-        if (!(*value >= target_.low && *value <= target_.high))
+        if (!(*value >= target_.min && *value <= target_.max))
             return error_at(
                 given, fmt::format("{} is outside [{}, {}]", format_quantity(*value, target_.column.unit),
-                                   format_quantity(target_.low, target_.column.unit), format_quantity(target_.high, target_.column.unit)));
+                                   format_quantity(target_.min, target_.column.unit), format_quantity(target_.max, target_.column.unit)));
         if (target_.check)
             if (auto ok = target_.check(given.text); !ok) return given.error_here(ok.error().message);
         return value;
@@ -56,13 +56,13 @@ class AxisReader {
     Result<void> accept_only(std::initializer_list<std::string_view> known) const {
         const std::pair<std::string_view, const OptionalLocatedText*> all[] = {
             {"from", &spec_.from}, {"to", &spec_.to},       {"count", &spec_.count},       {"log", &spec_.log},
-            {"mean", &spec_.mean}, {"sigma", &spec_.sigma}, {"at_least", &spec_.at_least}, {"at_most", &spec_.at_most}};
+            {"mean", &spec_.mean}, {"sigma", &spec_.sigma}, {"at_least", &spec_.min}, {"at_most", &spec_.max}};
         for (const auto& [name, value] : all)
             if (*value && std::find(known.begin(), known.end(), name) == known.end())
                 return error_at(**value,
                                 fmt::format("'{}' has no meaning for how = \"{}\" (it takes {})", name, method_, fmt::join(known, ", ")));
         if (spec_.list && method_ != "list")
-            return error_at(spec_.list->empty() ? spec_.what : spec_.list->front(),
+            return error_at(spec_.list->empty() ? spec_.name : spec_.list->front(),
                             fmt::format("list and how = \"{}\" exclude each other", method_));
         return {};
     }
@@ -84,7 +84,7 @@ class AxisReader {
         const auto logarithmic = is_logarithmic();
         if (!logarithmic) return logarithmic.error();
         if (*logarithmic && !(*from > 0 && *to > 0)) return error_at(*spec_.log, "log = true needs values above 0");
-        axis.first = *from, axis.second = *to, axis.by_powers = *logarithmic;
+        axis.first = *from, axis.second = *to, axis.is_logarithmic = *logarithmic;
         return {};
     }
 
@@ -93,14 +93,14 @@ class AxisReader {
         if (auto ok = range(axis); !ok) return ok;
         if (!spec_.count)
             return missing("count is missing: the number of values between from and to (or how = \"uniform\" for random values)");
-        const auto count = whole_of(*spec_.count, name() + ": count", 1, max_values);
+        const auto count = parse_integer(*spec_.count, name() + ": count", 1, max_values);
         if (!count) return count.error();
         if (*count == 1 && axis.first != axis.second) return error_at(*spec_.count, "count must be 2 or more, because from and to differ");
         for (std::int64_t k = 0; k < *count; ++k) {
             const double fraction = *count == 1 ? 0 : static_cast<double>(k) / static_cast<double>(*count - 1);
             axis.values.push_back(k == 0            ? axis.first
                                   : k == *count - 1 ? axis.second
-                                  : axis.by_powers  ? axis.first * num::exp(fraction * num::log(axis.second / axis.first))
+                                  : axis.is_logarithmic  ? axis.first * num::exp(fraction * num::log(axis.second / axis.first))
                                                     : axis.first + fraction * (axis.second - axis.first));
         }
         return {};
@@ -110,8 +110,8 @@ class AxisReader {
         for (const auto& label : *spec_.list) {
             if (target_.check)
                 if (auto ok = target_.check(label.text); !ok) return label.error_here(ok.error().message);
-            axis.values.push_back(static_cast<double>(axis.column.words.size()));
-            axis.column.words.push_back(label.text);
+            axis.values.push_back(static_cast<double>(axis.column.labels.size()));
+            axis.column.labels.push_back(label.text);
         }
         return {};
     }
@@ -119,8 +119,8 @@ class AxisReader {
     Result<void> list(SweepAxis& axis) const {
         if (auto ok = accept_only({}); !ok) return ok;
         if (!spec_.list || spec_.list->empty()) return missing("the list is empty: list = [...]");
-        const auto is_label = [&](const LocatedText& s) { return !target_.read(s); };
-        if (target_.words_alone || (target_.words_too && std::any_of(spec_.list->begin(), spec_.list->end(), is_label)))
+        const auto is_label = [&](const LocatedText& s) { return !target_.parse(s); };
+        if (target_.labels_only || (target_.allows_labels && std::any_of(spec_.list->begin(), spec_.list->end(), is_label)))
             return labels(axis);
         for (const auto& one : *spec_.list) {
             const auto value = allowed(one);
@@ -149,9 +149,9 @@ class AxisReader {
         if (!mean) return mean.error();
         const auto deviation = sigma(*mean);
         if (!deviation) return deviation.error();
-        axis.normal = true, axis.first = *mean, axis.second = *deviation;
-        double low = target_.low, high = target_.high;
-        for (const auto& [given, end] : {std::pair{&spec_.at_least, &low}, {&spec_.at_most, &high}}) {
+        axis.is_normal = true, axis.first = *mean, axis.second = *deviation;
+        double low = target_.min, high = target_.max;
+        for (const auto& [given, end] : {std::pair{&spec_.min, &low}, {&spec_.max, &high}}) {
             if (!*given) continue;
             const auto value = allowed(**given);
             if (!value) return value.error();
@@ -159,33 +159,33 @@ class AxisReader {
         }
         if (!(*mean >= low && *mean <= high)) return missing("the mean is not between at_least and at_most");
         if (*deviation == 0) return {};
-        if (std::isfinite(low)) axis.least_share = normal_share((low - *mean) / *deviation);
-        if (std::isfinite(high)) axis.most_share = normal_share((high - *mean) / *deviation);
+        if (std::isfinite(low)) axis.min_probability = normal_probability((low - *mean) / *deviation);
+        if (std::isfinite(high)) axis.max_probability = normal_probability((high - *mean) / *deviation);
         return {};
     }
 
-    Result<void> sampled(SweepAxis& axis, Drawing& drawing) const {
+    Result<void> sampled(SweepAxis& axis, SamplingSpec& drawing) const {
         const auto sampling = method_ == "latin" ? Sampling::latin : method_ == "sobol" ? Sampling::sobol : Sampling::random;
         const bool as_normal = method_ == "normal" || (method_ != "uniform" && (spec_.mean || spec_.sigma));
         if (!as_normal)
             if (auto ok = accept_only({"from", "to", "log"}); !ok) return ok;
         if (auto ok = as_normal ? normal(axis) : range(axis); !ok) return ok;
         if (sampling == Sampling::sobol && drawing.dimension == sobol_dimensions)
-            return error_at(*spec_.how, fmt::format("Sobol points are available for at most {} axes", sobol_dimensions));
+            return error_at(*spec_.distribution, fmt::format("Sobol points are available for at most {} axes", sobol_dimensions));
         axis.numbers.emplace(sampling, drawing.seed, axis.column.name, sampling == Sampling::sobol ? drawing.dimension++ : 0,
-                             drawing.draws);
+                             drawing.samples);
         return {};
     }
 
 public:
-    AxisReader(const SaidAxis& given, const Target& target) : spec_(given), target_(target) {}
+    AxisReader(const AxisSpec& given, const VariedQuantity& target) : spec_(given), target_(target) {}
 
-    Result<SweepAxis> read(Drawing& drawing) const {
+    Result<SweepAxis> read(SamplingSpec& drawing) const {
         SweepAxis axis{target_.column};
         if (std::find(std::begin(methods), std::end(methods), method_) == std::end(methods))
-            return error_at(*spec_.how, fmt::format("how = \"{}\" is unknown{} (there are {})", method_, did_you_mean(method_, methods),
+            return error_at(*spec_.distribution, fmt::format("how = \"{}\" is unknown{} (there are {})", method_, did_you_mean(method_, methods),
                                                     fmt::join(methods, ", ")));
-        if (target_.words_alone && method_ != "list")
+        if (target_.labels_only && method_ != "list")
             return missing(fmt::format("it takes labels only: list = [\"{}\", ...]", target_.column.name == "corner" ? "ss" : "..."));
         if (auto ok = method_ == "grid" ? grid(axis) : method_ == "list" ? list(axis) : sampled(axis, drawing); !ok) return ok.error();
         return axis;
@@ -194,14 +194,14 @@ public:
 
 }  // namespace
 
-bool is_drawn(const SaidAxis& given) {
+bool is_sampled(const AxisSpec& given) {
     const auto method = method_of(given);
     return method == "uniform" || method == "normal" || method == "latin" || method == "sobol";
 }
 
-Result<SweepAxis> axis_of(const SaidAxis& given, const Target& target, Drawing& drawing) { return AxisReader(given, target).read(drawing); }
+Result<SweepAxis> axis_of(const AxisSpec& given, const VariedQuantity& target, SamplingSpec& drawing) { return AxisReader(given, target).read(drawing); }
 
-Result<std::int64_t> whole_of(const LocatedText& given, std::string_view name, double min, double max) {
+Result<std::int64_t> parse_integer(const LocatedText& given, std::string_view name, double min, double max) {
     const auto value = parse_quantity(given.text, "");
     if (!value || *value != std::floor(*value) || !(*value >= min && *value <= max))
         return given.error_here(fmt::format("{} = {} must be an integer from {:g} to {:g}", name, given.text, min, max));

@@ -4,35 +4,35 @@
 #include <functional>
 #include <limits>
 
-#include "study/sweep/plan.hpp"
-#include "study/sweep/text.hpp"
+#include "study/sweep/sweep_plan.hpp"
+#include "study/sweep/sweep_text.hpp"
 
 namespace corpuscle::sweeps {
 
 /// A quantity of a subject that can vary.
-struct Target {
+struct VariedQuantity {
     SweepColumn column;
     std::optional<double> nominal = {};  ///< value without a setting
-    double low = -std::numeric_limits<double>::infinity(), high = std::numeric_limits<double>::infinity();
-    std::function<Result<double>(const LocatedText&)> read = {};  ///< converts a text to a number
+    double min = -std::numeric_limits<double>::infinity(), max = std::numeric_limits<double>::infinity();
+    std::function<Result<double>(const LocatedText&)> parse = {};  ///< converts a text to a number
     /// returns an error if the subject rejects the value; null: low and high are the only check
     std::function<Result<void>(const std::string& value)> check = {};
     /// only labels such as "ss"; or labels such as "8x4" as well as numbers
-    bool words_alone = false, words_too = false;
+    bool labels_only = false, allows_labels = false;
 };
 
 /// Number of samples and seed for the axes that are sampled; `dimension` counts those with Sobol points.
-struct Drawing {
+struct SamplingSpec {
     std::uint64_t seed = 0;
-    std::uint64_t draws = 1;
+    std::uint64_t samples = 1;
     std::size_t dimension = 0;
 };
 
 /// True if the axis is sampled rather than listed.
-bool is_drawn(const SaidAxis&);
-Result<SweepAxis> axis_of(const SaidAxis&, const Target&, Drawing&);
+bool is_sampled(const AxisSpec&);
+Result<SweepAxis> axis_of(const AxisSpec&, const VariedQuantity&, SamplingSpec&);
 
 /// An integer from min to max.
-Result<std::int64_t> whole_of(const LocatedText&, std::string_view name, double min, double max);
+Result<std::int64_t> parse_integer(const LocatedText&, std::string_view name, double min, double max);
 
 }  // namespace corpuscle::sweeps

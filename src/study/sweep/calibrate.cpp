@@ -46,7 +46,7 @@ class ChipPresser {
     Result<std::shared_ptr<const CircuitAfferentFactory>> design(const Codes& codes) {
         const auto at = values(codes);
         if (const auto known = designs_.find(at); known != designs_.end()) return known->second;
-        auto knobs = options_.knobs;
+        auto knobs = options_.overrides;
         for (std::size_t k = 0; k < at.size(); ++k)
             for (const auto& name : options_.trims[k].names) knobs.push_back({name, fmt::format("{:.17g}", at[k]), name});
         const auto netlist = circuit::apply_overrides(options_.netlist, knobs);
@@ -57,7 +57,7 @@ class ChipPresser {
     }
     void evaluate(Press& p, ChipResponse&& response) const {
         p.spikes = std::move(response.spikes), p.diverged = response.error.has_value();
-        p.meets_limits = !p.diverged && !response.hit_iteration_limit && options_.limits.kept(p.spikes);
+        p.meets_limits = !p.diverged && !response.hit_iteration_limit && options_.limits.are_met(p.spikes);
         p.distance = p.diverged ? std::numeric_limits<double>::infinity() : options_.limits.distance(p.spikes);
         // A run that was stopped for firing too often is worse than any complete run, and the worse the earlier it was stopped.
         if (response.hit_iteration_limit)
@@ -163,7 +163,7 @@ public:
         const auto passing = std::find_if(all.begin(), all.end(), [](const Press& p) { return p.meets_limits; });
         if (passing != all.end()) out_.bits = bits_, best_ = passing->codes, distance_ = passing->distance, out_.spikes = passing->spikes;
         if (bits_ == 0) {
-            out_.spikes_before = all[0].spikes, out_.lost = all[0].diverged;
+            out_.spikes_before = all[0].spikes, out_.diverged = all[0].diverged;
             if (passing == all.end()) distance_ = all[0].distance, out_.spikes = all[0].spikes;
             return finish_bits();
         }
@@ -191,7 +191,7 @@ public:
 
 double Trim::value(int code, int bits) const {
     const double change = range * static_cast<double>(code) / static_cast<double>(1 << (bits - 1)), value = designed * (1 + change);
-    return whole ? std::max(1.0, std::round(value)) : value;
+    return is_integer ? std::max(1.0, std::round(value)) : value;
 }
 
 Result<Trim> trim_of(const std::string& netlist, const std::vector<circuit::NetlistOverride>& knobs, std::vector<std::string> names, double range,
@@ -238,8 +238,8 @@ Result<std::vector<CalibratedChip>> calibrate(const ChipCalibration& options, co
             searches[all[from].chip].take_results({std::make_move_iterator(all.begin() + static_cast<std::ptrdiff_t>(from)),
                                                    std::make_move_iterator(all.begin() + static_cast<std::ptrdiff_t>(to))});
         }
-        if (options.told)
-            options.told(
+        if (options.on_progress)
+            options.on_progress(
                 static_cast<std::size_t>(std::count_if(searches.begin(), searches.end(), [](const auto& s) { return !s.is_finished(); })),
                 presses);
     }

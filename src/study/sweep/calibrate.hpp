@@ -8,7 +8,7 @@
 
 #include "circuit/batch/chip_batch.hpp"
 #include "circuit/netlist_overrides.hpp"
-#include "study/sweep/pattern.hpp"
+#include "study/sweep/firing_limits.hpp"
 
 namespace corpuscle {
 
@@ -18,7 +18,7 @@ struct Trim {
     std::vector<std::string> names;  ///< numeric netlist parameters: "i_leak"; "rect.p1b.m" and "rect.n2b.m" are switched together
     double designed = 0;
     double range = 0.5;  ///< relative change at the largest code
-    bool whole = false;  ///< columns of an array: rounded to the nearest integer, at least 1
+    bool is_integer = false;  ///< columns of an array: rounded to the nearest integer, at least 1
 
     double value(int code, int bits) const;
 };
@@ -26,7 +26,7 @@ struct Trim {
 /// The chips to calibrate, their trims, and the target.
 struct ChipCalibration {
     std::string netlist;
-    std::vector<circuit::NetlistOverride> knobs = {};  ///< fixed settings, e.g. the process corner
+    std::vector<circuit::NetlistOverride> overrides = {};  ///< fixed settings, e.g. the process corner
     std::vector<Trim> trims = {};
     int bits = 4;               ///< of each trim, at most
     std::vector<double> force;  ///< N, of one press
@@ -34,7 +34,7 @@ struct ChipCalibration {
     FiringLimits limits;
     circuit::BatchOptions batch = {};
     unsigned threads = 0;  ///< 0: one for each core
-    std::function<void(std::size_t chips_left, std::size_t presses)> told = {};
+    std::function<void(std::size_t chips_left, std::size_t presses)> on_progress = {};
 };
 
 /// One chip's calibration. codes[k] and distance[k]: the best result with k bits; at 0 the chip without calibration.
@@ -44,7 +44,7 @@ struct CalibratedChip {
     int bits = -1;                              ///< number of bits with which it meets the limits: 0 without calibration; -1 if none
     int presses = 0;                            ///< total number of presses
     std::vector<double> spikes_before, spikes;  ///< s, before calibration and after
-    bool lost = false;                          ///< did not converge without calibration
+    bool diverged = false;                          ///< did not converge without calibration
 };
 
 /// Calibrates each chip separately, from coarse steps to fine ones: with one bit, then two, and so on. From the best codes so far, each

@@ -8,7 +8,7 @@
 #include "circuit/batch/chip_batch.hpp"
 #include "circuit/resolve_probe.hpp"
 #include "signal/parameter.hpp"
-#include "study/sweep/netlists.hpp"
+#include "study/sweep/netlist_factory.hpp"
 #include "study/sweep/subject.hpp"
 
 namespace corpuscle::sweeps {
@@ -22,8 +22,8 @@ using DesignPointer = std::shared_ptr<const CircuitAfferentFactory>;
 constexpr std::size_t max_cached_designs = 16;
 
 class ChipSweep final : public PlannedSweep {
-    NetlistMaker netlist_{};
-    ForceMaker force_;
+    NetlistFactory netlist_{};
+    ForceFactory force_;
     DesignPointer nominal_;
     std::unique_ptr<AfferentMeasures> afferent_measures_;
     std::size_t every_ = 0, lanes_ = circuit::BatchOptions{}.lanes;
@@ -36,7 +36,7 @@ class ChipSweep final : public PlannedSweep {
 
     /// The data of a chip that is being simulated.
     struct ActiveChip {
-        std::shared_ptr<const FeltForce> force;
+        std::shared_ptr<const SweepForce> force;
         DesignPointer design;
     };
 
@@ -46,18 +46,18 @@ class ChipSweep final : public PlannedSweep {
     Result<DesignPointer> design(std::span<const double> values) const;
     std::optional<circuit::ChipSample> draw(std::int64_t item, const CircuitAfferentFactory&) const;
     long most_iterations(const std::function<bool()>& stop) const;
-    UnitOutcome outcome(std::int64_t item, const ActiveChip&, ChipResponse&&) const;
-    UnitOutcome failed_outcome(std::int64_t item, const Error&) const;
+    ItemOutcome outcome(std::int64_t item, const ActiveChip&, ChipResponse&&) const;
+    ItemOutcome failed_outcome(std::int64_t item, const Error&) const;
 
 public:
     static Result<std::unique_ptr<Sweep>> make(const SweepText&, const std::string& folder);
     void set_lanes(std::size_t lanes) override { lanes_ = lanes; }
-    Result<void> work(const Next&, const Told&, const std::function<bool()>& stop) const override;
+    Result<void> run_items(const NextItem&, const OutcomeHandler&, const std::function<bool()>& stop) const override;
 };
 
 Result<void> ChipSweep::set(const SweepText& spec) {
-    for (const auto& s : spec.set)
-        if (auto ok = force_.owns(s.name) ? force_.set(s) : netlist_.set(s); !ok) return ok;
+    for (const auto& s : spec.settings)
+        if (auto ok = force_.has_parameter(s.name) ? force_.set(s) : netlist_.set(s); !ok) return ok;
     return {};
 }
 
@@ -66,10 +66,10 @@ Result<void> ChipSweep::select_measures(const SweepText& spec) {
     std::vector<std::string> ranges;
     for (const auto& w : nominal_->operating_ranges) ranges.emplace_back(w.range().quantity);
     afferent_measures_ = std::make_unique<AfferentMeasures>(*force_.nominal(), true, ranges);
-    if (auto ok = afferent_measures_->choose(spec.measures); !ok) return ok;
-    const Limiting limiting{[&](const LocatedText& name) { return afferent_measures_->column_of(name); },
+    if (auto ok = afferent_measures_->select(spec.measures); !ok) return ok;
+    const MeasureLookup limiting{[&](const LocatedText& name) { return afferent_measures_->require_column(name); },
                             [&](const LocatedText& model, std::size_t column) {
-                                return model_says(model, force_, {afferent_measures_->columns()[column].name, model.location});
+                                return model_measure(model, force_, {afferent_measures_->columns()[column].name, model.location});
                             }};
     if (auto ok = set_limits(spec, limiting, afferent_measures_->columns()); !ok) return ok;
     measures_ = afferent_measures_->columns();
@@ -78,39 +78,39 @@ Result<void> ChipSweep::select_measures(const SweepText& spec) {
 
 /// Selects the probes to keep, in place of those that the netlist saves.
 Result<void> ChipSweep::select_probes(const SweepText& spec) {
-    for (const auto& word : spec.traces) {
+    for (const auto& word : spec.probes) {
         const auto found = circuit::resolve_probe(*nominal_->circuit, word.text);
         if (!found) return word.error_here(found.error().message);
         if (!*found)
             return word.error_here(fmt::format("traces: {} has no node or device '{}'{}", netlist_.name(), word.text,
                                           circuit::suggest_probe(*nominal_->circuit, word.text)));
-        traces_.push_back(**found);
+        probe_names_.push_back(**found);
     }
-    if (traces_.empty()) return {};
-    netlist_.save(traces_);
+    if (probe_names_.empty()) return {};
+    netlist_.save(probe_names_);
     const auto netlist = netlist_.nominal();
     if (!netlist) return netlist.error();
     auto design = CircuitAfferentFactory::create(*netlist);
     if (!design) return design.error();
     nominal_ = std::move(*design);
     const auto& force = *force_.nominal();
-    const auto every = samples_between(spec, force.clock.T());
+    const auto every = probe_stride(spec, force.clock.T());
     if (!every) return every.error();
     every_ = *every;
-    for (std::size_t k = 0; k < force.samples.size(); k += every_) trace_times_.push_back(force.clock.time(static_cast<std::int64_t>(k)));
+    for (std::size_t k = 0; k < force.samples.size(); k += every_) probe_times_.push_back(force.clock.time(static_cast<std::int64_t>(k)));
     return {};
 }
 
 Result<std::unique_ptr<Sweep>> ChipSweep::make(const SweepText& spec, const std::string& folder) {
     auto out = std::make_unique<ChipSweep>();
     auto& s = *out;
-    if (spec.orders) return spec.orders->error_here("orders is for netlist = ...; an afferent = ... responds to its force");
-    auto netlist = NetlistMaker::of(*spec.afferent, folder);
+    if (spec.directives) return spec.directives->error_here("orders is for netlist = ...; an afferent = ... responds to its force");
+    auto netlist = NetlistFactory::of(*spec.afferent, folder);
     if (!netlist) return netlist.error();
     s.netlist_ = std::move(*netlist);
     const auto seed = seed_of(spec);
     if (!seed) return seed.error();
-    auto force = ForceMaker::of(spec, folder, *seed);
+    auto force = ForceFactory::of(spec, folder, *seed);
     if (!force) return force.error();
     s.force_ = std::move(*force);
     if (auto ok = s.set(spec); !ok) return ok.error();
@@ -121,21 +121,21 @@ Result<std::unique_ptr<Sweep>> ChipSweep::make(const SweepText& spec, const std:
     s.nominal_ = std::move(*design);
     auto written = circuit::NetlistVariants::create(*nominal);
     if (!written) return written.error();
-    Varying varying;
-    varying.named = s.netlist_.name(), varying.chips = true;
-    varying.target = [&](const LocatedText& quantity) {
-        return s.force_.owns(quantity.text) ? s.force_.target(quantity) : s.netlist_.target(quantity);
+    VariableQuantities varying;
+    varying.subject_name = s.netlist_.name(), varying.can_sample_chips = true;
+    varying.find_quantity = [&](const LocatedText& quantity) {
+        return s.force_.has_parameter(quantity.text) ? s.force_.find_quantity(quantity) : s.netlist_.find_quantity(quantity);
     };
     varying.vary = [&](const SweepAxis& a, const std::string& quantity, std::size_t axis) {
-        s.force_.owns(quantity) ? s.force_.vary(quantity, axis) : s.netlist_.vary(quantity, axis, a.column.words);
+        s.force_.has_parameter(quantity) ? s.force_.vary(quantity, axis) : s.netlist_.vary(quantity, axis, a.column.labels);
     };
     auto plan = plan_of(spec, varying, &*written);
     if (!plan) return plan.error();
     s.plan_ = std::move(*plan);
-    if (s.plan_.draws_chips() && s.nominal_->circuit->mismatch_seed)
+    if (s.plan_.samples_chips() && s.nominal_->circuit->mismatch_seed)
         return bad_input("[set] selects one chip by mismatch = ..., but the sweep samples others; remove one of the two", {spec.file});
     if (spec.iterations) {
-        const auto limit = whole_of(*spec.iterations, "iterations", 1, 1e12);
+        const auto limit = parse_integer(*spec.iterations, "iterations", 1, 1e12);
         if (!limit) return limit.error();
         s.iteration_limit_ = static_cast<long>(*limit);
     }
@@ -143,18 +143,18 @@ Result<std::unique_ptr<Sweep>> ChipSweep::make(const SweepText& spec, const std:
     if (auto ok = s.select_measures(spec); !ok) return ok.error();
     const auto keeps = keeps_spikes(spec);
     if (!keeps) return keeps.error();
-    if (*keeps) s.trains_ = {s.netlist_.name()};
+    if (*keeps) s.train_names_ = {s.netlist_.name()};
     if (auto ok = s.select_probes(spec); !ok) return ok.error();
-    s.facts_ = first_facts(spec, s.nominal_->circuit->title);
-    for (auto& fact : s.netlist_.facts()) s.facts_.push_back(std::move(fact));
-    if (auto recorded = s.force_.recorded(); !recorded.empty()) s.facts_.push_back({"recording " + s.force_.name(), std::move(recorded)});
-    s.tell_draws(s.netlist_.name(), *s.nominal_->circuit);
+    s.metadata_ = first_metadata(spec, s.nominal_->circuit->title);
+    for (auto& fact : s.netlist_.metadata()) s.metadata_.push_back(std::move(fact));
+    if (auto recorded = s.force_.recording_summary(); !recorded.empty()) s.metadata_.push_back({"recording " + s.force_.name(), std::move(recorded)});
+    s.add_mismatch_metadata(s.netlist_.name(), *s.nominal_->circuit);
     return std::unique_ptr<Sweep>(std::move(out));
 }
 
 Result<DesignPointer> ChipSweep::design(std::span<const double> values) const {
     if (!netlist_.varies()) return nominal_;
-    const auto own = netlist_.own(values);
+    const auto own = netlist_.own_values(values);
     {
         const std::lock_guard lock(mutex_);
         if (const auto at = designs_.find(own); at != designs_.end()) return at->second;
@@ -169,7 +169,7 @@ Result<DesignPointer> ChipSweep::design(std::span<const double> values) const {
 
 std::optional<circuit::ChipSample> ChipSweep::draw(std::int64_t item, const CircuitAfferentFactory& design) const {
     if (auto own = circuit::chip_sample_of(*design.circuit)) return own;
-    return plan_.draw(item);
+    return plan_.chip_sample(item);
 }
 
 /// Iteration limit of an item: from the file, otherwise a multiple of what the nominal chip takes with the nominal force.
@@ -183,44 +183,44 @@ long ChipSweep::most_iterations(const std::function<bool()>& stop) const {
     const auto response =
         circuit::run_chip_scalar({0, nominal_, circuit::chip_sample_of(*nominal_->circuit), force.samples, force.clock.T()}, options);
     if (response.error && response.error->code == ErrorCode::interrupted) return 0;
-    nominal_iteration_limit_ = response.error ? 0 : static_cast<long>(many_times_nominal * static_cast<double>(response.stats.iterations));
+    nominal_iteration_limit_ = response.error ? 0 : static_cast<long>(iteration_limit_factor * static_cast<double>(response.stats.iterations));
     return *nominal_iteration_limit_;
 }
 
-UnitOutcome ChipSweep::failed_outcome(std::int64_t item, const Error& error) const {
-    UnitOutcome out;
-    out.unit = item, out.end = UnitEnd::lost, out.why = error.text();
+ItemOutcome ChipSweep::failed_outcome(std::int64_t item, const Error& error) const {
+    ItemOutcome out;
+    out.item = item, out.end = ItemEnd::diverged, out.reason = error.text();
     out.measures.assign(measures_.size(), std::numeric_limits<double>::quiet_NaN());
-    out.spikes.resize(trains_.size());
-    out.traces.assign(traces_.size(), std::vector<float>(trace_times_.size(), std::numeric_limits<float>::quiet_NaN()));
+    out.spikes.resize(train_names_.size());
+    out.probes.assign(probe_names_.size(), std::vector<float>(probe_times_.size(), std::numeric_limits<float>::quiet_NaN()));
     return out;
 }
 
-UnitOutcome ChipSweep::outcome(std::int64_t item, const ActiveChip& at, ChipResponse&& response) const {
-    auto out = response.error ? failed_outcome(item, *response.error) : UnitOutcome{};
-    out.unit = item, out.alone = response.is_scalar;
+ItemOutcome ChipSweep::outcome(std::int64_t item, const ActiveChip& at, ChipResponse&& response) const {
+    auto out = response.error ? failed_outcome(item, *response.error) : ItemOutcome{};
+    out.item = item, out.ran_alone = response.is_scalar;
     out.steps = response.stats.steps, out.iterations = response.stats.iterations;
     if (response.error) return out;
-    if (response.hit_iteration_limit) out.end = UnitEnd::capped, out.why = fmt::format("stopped after {} iterations", response.stats.iterations);
-    UnitAnswer measured;
+    if (response.hit_iteration_limit) out.end = ItemEnd::iteration_limit, out.reason = fmt::format("stopped after {} iterations", response.stats.iterations);
+    ItemResponse measured;
     measured.spikes = response.spikes, measured.iterations = static_cast<double>(response.stats.iterations);
     const double T = at.force->clock.T(), seconds = response.energy_use.seconds;
     measured.power = response.energy_use.supplies / seconds, measured.sensor_power = response.energy_use.sensor / seconds;
     for (const auto& o : response.range_violations) {
-        measured.outside_of.push_back(static_cast<double>(o.samples) * T);
-        measured.outside = std::max(measured.outside, measured.outside_of.back());
+        measured.time_outside_ranges.push_back(static_cast<double>(o.samples) * T);
+        measured.time_outside = std::max(measured.time_outside, measured.time_outside_ranges.back());
     }
-    measured.outside_of.resize(nominal_->operating_ranges.size());
+    measured.time_outside_ranges.resize(nominal_->operating_ranges.size());
     out.measures = response.hit_iteration_limit ? std::vector<double>(measures_.size(), std::numeric_limits<double>::quiet_NaN())
                                    : afferent_measures_->values(*at.force, measured);
-    if (!trains_.empty()) out.spikes.push_back(std::move(response.spikes));
-    out.traces = std::move(response.probes);
-    out.traces.resize(traces_.size());
-    for (auto& t : out.traces) t.resize(trace_times_.size(), std::numeric_limits<float>::quiet_NaN());
+    if (!train_names_.empty()) out.spikes.push_back(std::move(response.spikes));
+    out.probes = std::move(response.probes);
+    out.probes.resize(probe_names_.size());
+    for (auto& t : out.probes) t.resize(probe_times_.size(), std::numeric_limits<float>::quiet_NaN());
     return out;
 }
 
-Result<void> ChipSweep::work(const Next& next, const Told& on_outcome, const std::function<bool()>& stop) const {
+Result<void> ChipSweep::run_items(const NextItem& next, const OutcomeHandler& on_outcome, const std::function<bool()>& stop) const {
     circuit::BatchOptions options;
     options.should_stop = stop, options.probe_every = every_, options.lanes = lanes_;
     options.max_iterations = most_iterations(stop);
@@ -266,6 +266,6 @@ Result<void> ChipSweep::work(const Next& next, const Told& on_outcome, const std
 
 }  // namespace
 
-Result<std::unique_ptr<Sweep>> chips_sweep(const SweepText& spec, const std::string& folder) { return ChipSweep::make(spec, folder); }
+Result<std::unique_ptr<Sweep>> make_chip_sweep(const SweepText& spec, const std::string& folder) { return ChipSweep::make(spec, folder); }
 
 }  // namespace corpuscle::sweeps

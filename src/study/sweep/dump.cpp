@@ -18,7 +18,7 @@ std::string field(const std::string& text) {
 }
 
 std::string number(double x, const SweepColumn& column) {
-    const auto& words = column.words;
+    const auto& words = column.labels;
     if (!words.empty() && x >= 0 && x < static_cast<double>(words.size()) && x == std::floor(x))
         return field(words[static_cast<std::size_t>(x)]);
     return std::isnan(x) ? "" : fmt::format("{}", x);
@@ -65,9 +65,9 @@ public:
 
 std::string names(const SweepResults& results) {
     std::string text = "unit,ended,steps,iterations,alone,why";
-    for (const auto& name : results.stored()) text += "," + field(name);
-    for (const auto& name : results.trains()) text += "," + field("spikes of " + name);
-    for (const auto& name : results.traces()) text += "," + field("trace of " + name);
+    for (const auto& name : results.stored_column_names()) text += "," + field(name);
+    for (const auto& name : results.train_names()) text += "," + field("spikes of " + name);
+    for (const auto& name : results.probe_names()) text += "," + field("trace of " + name);
     return text + "\n";
 }
 
@@ -82,13 +82,13 @@ Result<void> dump_results(const SweepResults& results, const std::function<bool(
     bool should_continue = ok && put(names(results));
     Result<void> each;
     if (should_continue)
-        each = results.each([&](const SweepResults::Row& row) {
+        each = results.for_each_row([&](const SweepResults::Row& row) {
             auto text =
-                fmt::format("{},{},{},{},{},{}", row.unit, word_of(row.end), row.steps, row.iterations, row.alone ? 1 : 0, field(row.why));
+                fmt::format("{},{},{},{},{},{}", row.item, end_name(row.end), row.steps, row.iterations, row.ran_alone ? 1 : 0, field(row.reason));
             for (std::size_t k = 0; k < row.axes.size(); ++k) text += "," + number(row.axes[k], results.axes()[k]);
             for (std::size_t k = 0; k < row.measures.size(); ++k) text += "," + number(row.measures[k], results.measures()[k]);
-            ok = spikes.put(row.unit, results.trains().size(), text);
-            if (ok) ok = traces.put(row.unit, results.traces().size(), text);
+            ok = spikes.put(row.item, results.train_names().size(), text);
+            if (ok) ok = traces.put(row.item, results.probe_names().size(), text);
             should_continue = ok && put(text + "\n");
             return should_continue;
         });

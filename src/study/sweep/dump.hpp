@@ -1,7 +1,7 @@
 #pragma once
 // All rows of a results file as text, in order of items. The same sweep gives the same bytes, independent of shards.
 
-#include "study/sweep/results.hpp"
+#include "study/sweep/sweep_results.hpp"
 
 namespace corpuscle {
 

@@ -28,20 +28,20 @@ double trimmed_mean(const std::vector<double>& sorted, double proportion) {
 
 }  // namespace
 
-Estimate share_of(std::int64_t count, std::int64_t total) {
+Estimate estimate_proportion(std::int64_t count, std::int64_t total) {
     if (total <= 0) return {};
     const auto k = static_cast<double>(count), n = static_cast<double>(total);
     return {k / n, count == 0 ? 0 : beta_quantile(k, n - k + 1, tail), count == total ? 1 : beta_quantile(k + 1, n - k, 1 - tail)};
 }
 
-Sorted::Sorted(std::vector<double> values) : values_(std::move(values)) {
+SortedSample::SortedSample(std::vector<double> values) : values_(std::move(values)) {
     std::erase_if(values_, [](double x) { return std::isnan(x); });
     std::sort(values_.begin(), values_.end());
-    sum_up();
+    compute_moments();
 }
 
-Sorted Sorted::merged(const std::vector<Sorted>& all) {
-    Sorted out;
+SortedSample SortedSample::merged(const std::vector<SortedSample>& all) {
+    SortedSample out;
     std::vector<std::ptrdiff_t> ends = {0};
     for (const auto& sample : all) {
         out.values_.insert(out.values_.end(), sample.values_.begin(), sample.values_.end());
@@ -54,11 +54,11 @@ Sorted Sorted::merged(const std::vector<Sorted>& all) {
             std::merge(at(k), at(k + width), at(k + width), at(k + 2 * width), merged.begin() + ends[k]);
         out.values_.swap(merged);
     }
-    out.sum_up();
+    out.compute_moments();
     return out;
 }
 
-void Sorted::sum_up() {
+void SortedSample::compute_moments() {
     const auto n = static_cast<double>(values_.size());
     if (values_.empty()) return;
     double sum = 0;
@@ -71,14 +71,14 @@ void Sorted::sum_up() {
     }
 }
 
-Estimate Sorted::mean() const {
+Estimate SortedSample::mean() const {
     const auto n = static_cast<double>(count());
     if (n < 2) return {mean_};
     const double half = student_quantile(n - 1, 1 - tail) * std::sqrt(squares_ / (n - 1) / n);
     return {mean_, mean_ - half, mean_ + half};
 }
 
-Estimate Sorted::sigma() const {
+Estimate SortedSample::sigma() const {
     const auto n = static_cast<double>(count());
     if (n < 2) return {};
     const double variance = squares_ / (n - 1);
@@ -88,7 +88,7 @@ Estimate Sorted::sigma() const {
     return {std::sqrt(variance), std::sqrt(c * variance * std::exp(-z * error)), std::sqrt(c * variance * std::exp(z * error))};
 }
 
-Estimate Sorted::quantile(double q) const {
+Estimate SortedSample::quantile(double q) const {
     if (values_.empty()) return {};
     const auto n = static_cast<double>(count());
     const double at = q * (n - 1), below = std::floor(at);
@@ -109,7 +109,7 @@ Estimate Sorted::quantile(double q) const {
     return out;
 }
 
-double Sorted::normality() const {
+double SortedSample::normality() const {
     const auto n = count(), plotted = std::min(n, max_plotted);
     if (n < 3 || squares_ == 0) return Estimate::none;
     double sum = 0, squares = 0, products = 0, scores = 0;
@@ -122,7 +122,7 @@ double Sorted::normality() const {
     return variance_sum > 0 ? products / std::sqrt(variance_sum * scores) : Estimate::none;
 }
 
-double Sorted::normality_floor() const {
+double SortedSample::normality_floor() const {
     const auto n = static_cast<double>(count());
     if (n < 5) return Estimate::none;
     const auto* above = std::upper_bound(std::begin(normality_deviation), std::end(normality_deviation), n,

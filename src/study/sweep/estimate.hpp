@@ -18,22 +18,22 @@ struct Estimate {
 
 /// The proportion some / all with the interval of Clopper and Pearson. Its coverage is never below the confidence level, even if none or
 /// all passed. (Wilson's interval is narrower, but its coverage can be lower.)
-Estimate share_of(std::int64_t count, std::int64_t total);
+Estimate estimate_proportion(std::int64_t count, std::int64_t total);
 
 /// A sample in ascending order.
-class Sorted {
+class SortedSample {
     std::vector<double> values_;
     // sums of powers of the distances from the mean; fourths_: from the trimmed mean
     double mean_ = Estimate::none, squares_ = 0, fourths_ = 0;
-    void sum_up();
+    void compute_moments();
 
-    Sorted() = default;
+    SortedSample() = default;
 
 public:
     /// NaNs are left out.
-    explicit Sorted(std::vector<double> values);
+    explicit SortedSample(std::vector<double> values);
     /// All samples together.
-    static Sorted merged(const std::vector<Sorted>&);
+    static SortedSample merged(const std::vector<SortedSample>&);
     std::size_t count() const { return values_.size(); }
     const std::vector<double>& values() const { return values_; }
 

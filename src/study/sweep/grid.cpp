@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "study/sweep/axis.hpp"
-#include "study/sweep/drawn.hpp"
+#include "study/sweep/mismatch_samples.hpp"
 
 namespace corpuscle {
 namespace {
@@ -34,19 +34,19 @@ std::string file_text(const std::string& stored) {
 
 }  // namespace
 
-bool draws_nothing(const SweepResults& results) {
-    if (!results.about(drawn_fact).empty() || results.axes().empty()) return false;
+bool is_deterministic(const SweepResults& results) {
+    if (!results.about(mismatch_metadata_name).empty() || results.axes().empty()) return false;
     for (const auto& axis : results.axes())
         if (axis.name.starts_with("process.")) return false;
     const auto stored = results.about("sweep file");  // "": a netlist alone, with .step
     const auto text = sweeps::read_sweep_text(file_text(stored), results.path());
     if (!text) return false;
-    return std::none_of(text->vary.begin(), text->vary.end(), [](const sweeps::SaidAxis& axis) {
-        return axis.what.text == "process" || axis.what.text == "mismatch" || sweeps::is_drawn(axis);
+    return std::none_of(text->axes.begin(), text->axes.end(), [](const sweeps::AxisSpec& axis) {
+        return axis.name.text == "process" || axis.name.text == "mismatch" || sweeps::is_sampled(axis);
     });
 }
 
-std::vector<AxisEffect> effects_of(const SweepTable& table, const std::vector<double>& measure) {
+std::vector<AxisEffect> axis_effects(const SweepTable& table, const std::vector<double>& measure) {
     double sum = 0, count = 0, squares = 0;
     for (const double x : measure)
         if (std::isfinite(x)) sum += x, ++count;
@@ -66,12 +66,12 @@ std::vector<AxisEffect> effects_of(const SweepTable& table, const std::vector<do
         for (std::size_t k = 0; k < table.points[a].size(); ++k) {
             effect.means.push_back(counts[k] > 0 ? sums[k] / counts[k] : no_mean);
             const double deviation = counts[k] > 0 ? effect.means[k] - sum / count : 0;
-            effect.share += counts[k] * deviation * deviation / squares;
+            effect.fraction += counts[k] * deviation * deviation / squares;
         }
         out.push_back(std::move(effect));
     }
     std::sort(out.begin(), out.end(),
-              [](const AxisEffect& x, const AxisEffect& y) { return std::pair(-x.share, x.axis) < std::pair(-y.share, y.axis); });
+              [](const AxisEffect& x, const AxisEffect& y) { return std::pair(-x.fraction, x.axis) < std::pair(-y.fraction, y.axis); });
     return out;
 }
 

@@ -12,26 +12,26 @@ inline RankTime rank_time() { return std::chrono::steady_clock::now(); }
 inline double seconds_between(RankTime from, RankTime to) { return std::chrono::duration<double>(to - from).count(); }
 
 inline constexpr std::chrono::milliseconds rank_tick{1};
-inline constexpr double between_beats = 1;     // s
-inline constexpr double longest_silence = 20;  // s; death of a rank on the same machine is noticed at once
+inline constexpr double heartbeat_interval = 1;     // s
+inline constexpr double rank_timeout = 20;  // s; death of a rank on the same machine is noticed at once
 
 /// Number of items to keep queued at a rank: half a second's work, so that requests cost no time, and enough to fill its lanes.
-class RankPace {
+class RankThroughput {
     RankTime since_ = rank_time();
-    std::size_t ended_ = 0;
+    std::size_t finished_ = 0;
     double rate_ = 0;  // units a second
 
 public:
-    void ended(std::size_t units, RankTime now) {
+    void add_finished(std::size_t units, RankTime now) {
         constexpr double min_seconds = 0.1, weight = 0.3;
-        ended_ += units;
+        finished_ += units;
         const double seconds = seconds_between(since_, now);
         if (seconds < min_seconds) return;
-        const double rate = static_cast<double>(ended_) / seconds;
+        const double rate = static_cast<double>(finished_) / seconds;
         rate_ = rate_ == 0 ? rate : rate_ + weight * (rate - rate_);
-        since_ = now, ended_ = 0;
+        since_ = now, finished_ = 0;
     }
-    std::int64_t ahead(unsigned threads) const {
+    std::int64_t queue_target(unsigned threads) const {
         constexpr double seconds = 0.5;
         constexpr std::int64_t lanes = 8, max = 1 << 14;
         return std::clamp<std::int64_t>(static_cast<std::int64_t>(rate_ * seconds), lanes * threads, max);

@@ -30,7 +30,7 @@ bool Ranks::are_started() {
     return size > 1 || (size < 0 && launcher_variable("PMIX_RANK") >= 0);
 }
 
-bool Ranks::speaks() { return launcher_variable("OMPI_COMM_WORLD_RANK") <= 0 && launcher_variable("PMIX_RANK") <= 0; }
+bool Ranks::reports_errors() { return launcher_variable("OMPI_COMM_WORLD_RANK") <= 0 && launcher_variable("PMIX_RANK") <= 0; }
 
 #ifdef CORPUSCLE_MPI
 
@@ -86,7 +86,7 @@ struct PendingMessage {
 
 }  // namespace
 
-struct Ranks::Held {
+struct Ranks::Impl {
     Mpi mpi;
     int rank = 0, size = 1;
     std::list<PendingMessage> sent, coming;
@@ -101,7 +101,7 @@ struct Ranks::Held {
 };
 
 Result<std::unique_ptr<Ranks>> Ranks::join() {
-    auto impl = std::make_unique<Held>();
+    auto impl = std::make_unique<Impl>();
     auto& mpi = impl->mpi;
     if (!mpi.missing.empty())
         return bad_input(
@@ -117,7 +117,7 @@ Result<std::unique_ptr<Ranks>> Ranks::join() {
     return std::unique_ptr<Ranks>(new Ranks(std::move(impl)));
 }
 
-void Ranks::Held::begin_receiving() {
+void Ranks::Impl::begin_receiving() {
     for (;;) {
         int there = 0;
         MPI_Message found = {};
@@ -130,47 +130,47 @@ void Ranks::Held::begin_receiving() {
     }
 }
 
-int Ranks::rank() const { return held_->rank; }
-int Ranks::size() const { return held_->size; }
+int Ranks::rank() const { return impl_->rank; }
+int Ranks::size() const { return impl_->size; }
 
-bool Ranks::outlive_one() const {
+bool Ranks::survive_death_of_one() const {
     return launcher_variable("OMPI_COMM_WORLD_SIZE") < 0 || launcher_variable("OMPI_MCA_orte_enable_recovery") == 1;
 }
 
 void Ranks::send(int to, std::string message) {
-    auto& m = held_->sent.emplace_back(PendingMessage{to, std::move(message), {}});
-    const auto& mpi = held_->mpi;
+    auto& m = impl_->sent.emplace_back(PendingMessage{to, std::move(message), {}});
+    const auto& mpi = impl_->mpi;
     if (mpi.isend(m.bytes.data(), static_cast<int>(m.bytes.size()), mpi.byte, to, 0, mpi.world, &m.request) != MPI_SUCCESS)
-        held_->sent.pop_back();
+        impl_->sent.pop_back();
 }
 
 std::size_t Ranks::unsent() const {
-    held_->sent.remove_if([&](PendingMessage& m) { return held_->state(m) != Held::State::under_way; });
-    return held_->sent.size();
+    impl_->sent.remove_if([&](PendingMessage& m) { return impl_->state(m) != Impl::State::under_way; });
+    return impl_->sent.size();
 }
 
 std::optional<Ranks::Received> Ranks::receive() {
-    held_->begin_receiving();
+    impl_->begin_receiving();
     std::vector<int> incomplete;  // senders with an earlier message that is incomplete
-    for (auto m = held_->coming.begin(); m != held_->coming.end();) {
+    for (auto m = impl_->coming.begin(); m != impl_->coming.end();) {
         const auto here = m++;
         if (std::find(incomplete.begin(), incomplete.end(), here->other) != incomplete.end()) continue;
-        const auto state = held_->state(*here);
-        if (state == Held::State::under_way) {
+        const auto state = impl_->state(*here);
+        if (state == Impl::State::under_way) {
             incomplete.push_back(here->other);
             continue;
         }
         Received out{here->other, std::move(here->bytes)};
-        held_->coming.erase(here);
-        if (state == Held::State::arrived) return out;
+        impl_->coming.erase(here);
+        if (state == Impl::State::arrived) return out;
     }
     return {};
 }
 
 // MPI may still write into these buffers, so they are never freed.
-void Ranks::forget(int rank) {
+void Ranks::drop_messages_to(int rank) {
     static std::list<PendingMessage> forgotten;
-    for (auto* all : {&held_->sent, &held_->coming})
+    for (auto* all : {&impl_->sent, &impl_->coming})
         for (auto m = all->begin(); m != all->end();) {
             const auto here = m++;
             if (here->other == rank) forgotten.splice(forgotten.end(), *all, here);
@@ -178,8 +178,8 @@ void Ranks::forget(int rank) {
 }
 
 void Ranks::leave(bool together) {
-    together_ = together;
-    if (together) held_->mpi.finalize();
+    left_together_ = together;
+    if (together) impl_->mpi.finalize();
 }
 
 #else
@@ -202,7 +202,7 @@ void Ranks::leave(bool) {}
 
 #endif
 
-Ranks::Ranks(std::unique_ptr<Held> impl) : held_(std::move(impl)) {}
+Ranks::Ranks(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 Ranks::~Ranks() = default;
 
 }  // namespace corpuscle

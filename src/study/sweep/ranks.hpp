@@ -15,7 +15,7 @@ public:
     /// True if mpirun, or another launcher, started more than one process.
     static bool are_started();
     /// True for the first process or the only one. It alone prints errors that all processes have.
-    static bool speaks();
+    static bool reports_errors();
     /// Waits for all other processes.
     static Result<std::unique_ptr<Ranks>> join();
     ~Ranks();
@@ -23,7 +23,7 @@ public:
     int rank() const;
     int size() const;
     /// True if the launcher keeps the other processes alive when one dies, or if this is unknown.
-    bool outlive_one() const;
+    bool survive_death_of_one() const;
 
     /// Does not block; the message is kept until it has been sent.
     void send(int to, std::string message);
@@ -35,16 +35,16 @@ public:
     /// A completely received message, if there is one.
     std::optional<Received> receive();
     /// Drops the messages that are kept for this rank, because it is dead.
-    void forget(int rank);
+    void drop_messages_to(int rank);
     /// Ends this rank's part. `together`: all ranks are alive and leave as well; otherwise the process must exit at once.
     void leave(bool together);
-    bool left_together() const { return together_; }
+    bool left_together() const { return left_together_; }
 
 private:
-    struct Held;
-    std::unique_ptr<Held> held_;
-    bool together_ = true;
-    explicit Ranks(std::unique_ptr<Held>);
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+    bool left_together_ = true;
+    explicit Ranks(std::unique_ptr<Impl>);
 };
 
 }  // namespace corpuscle

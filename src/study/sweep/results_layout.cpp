@@ -116,9 +116,9 @@ Result<std::vector<SweepColumn>> read_columns(sqlite3* file, const std::string& 
         if (words > max_label_bytes)
             return changed_by_other_program(path, fmt::format("its table columns holds more than {} MB of labels", max_label_bytes >> 20));
         SweepColumn c{rows->text(0), rows->text(1), rows->text(2)};
-        c.words = Json::parse(rows->text(3)).get<std::vector<std::string>>();
-        if (!rows->is_nothing(4)) c.at_least = rows->number(4);
-        if (!rows->is_nothing(5)) c.at_most = rows->number(5);
+        c.labels = Json::parse(rows->text(3)).get<std::vector<std::string>>();
+        if (!rows->is_null(4)) c.min = rows->number(4);
+        if (!rows->is_null(5)) c.max = rows->number(5);
         out.push_back(std::move(c));
         stored.push_back(rows->text(6));
     }
@@ -130,11 +130,11 @@ Result<void> write_columns(sqlite3* file, const std::string& path, const char* k
     if (!row) return row.error();
     for (std::size_t k = 0; k < columns.size(); ++k) {
         const auto& c = columns[k];
-        const auto words = Json(c.words).dump();
+        const auto words = Json(c.labels).dump();
         row->set(1, static_cast<std::int64_t>(first + k)).set(2, std::string_view(kind)).set(3, std::string_view(c.name));
-        row->set(4, std::string_view(c.unit)).set(5, std::string_view(c.sentence)).set(6, std::string_view(words));
-        c.at_least ? row->set(7, *c.at_least) : row->set_nothing(7);
-        c.at_most ? row->set(8, *c.at_most) : row->set_nothing(8);
+        row->set(4, std::string_view(c.unit)).set(5, std::string_view(c.description)).set(6, std::string_view(words));
+        c.min ? row->set(7, *c.min) : row->set_null(7);
+        c.max ? row->set(8, *c.max) : row->set_null(8);
         row->set(9, std::string_view(stored[first + k]));
         if (auto ok = row->finish(); !ok) return ok;
     }
@@ -159,11 +159,11 @@ Result<std::map<std::string, std::string>> read_about(sqlite3* file, const std::
 
 /// Checks that the file is a results file of a known format; an SQLite file can contain anything.
 Result<void> check_kind(sqlite3* file, const std::string& path) {
-    const auto application = sql::integer(file, path, "PRAGMA application_id");
+    const auto application = sql::query_integer(file, path, "PRAGMA application_id");
     if (!application) return application.error();
-    const auto written = sql::integer(file, path, "PRAGMA user_version");
+    const auto written = sql::query_integer(file, path, "PRAGMA user_version");
     if (!written) return written.error();
-    if (*application != ResultsLayout::application)
+    if (*application != ResultsLayout::application_id)
         return bad_input("is an SQLite file, but holds no results of a sweep; name another file", {path});
     if (*written < 1) return changed_by_other_program(path, "its format version is missing");
     if (*written > ResultsLayout::format)
@@ -177,7 +177,7 @@ Result<void> check_kind(sqlite3* file, const std::string& path) {
 
 bool same_columns(const std::vector<SweepColumn>& a, const std::vector<SweepColumn>& b) {
     return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const SweepColumn& x, const SweepColumn& y) {
-        return x.name == y.name && x.unit == y.unit && x.words == y.words && x.at_least == y.at_least && x.at_most == y.at_most;
+        return x.name == y.name && x.unit == y.unit && x.labels == y.labels && x.min == y.min && x.max == y.max;
     });
 }
 
@@ -185,12 +185,12 @@ bool same_columns(const std::vector<SweepColumn>& a, const std::vector<SweepColu
 
 ResultsLayout ResultsLayout::of(const Sweep& sweep) {
     ResultsLayout out;
-    out.units = sweep.units();
+    out.item_count = sweep.item_count();
     out.axes = sweep.axes(), out.measures = sweep.measures();
-    out.trains = sweep.trains(), out.traces = sweep.traces(), out.trace_times = sweep.trace_times();
-    out.stored = unique_names(out.axes, out.measures);
-    for (const auto& fact : sweep.facts()) {
-        out.facts.push_back(fact.name);
+    out.train_names = sweep.train_names(), out.probe_names = sweep.probe_names(), out.probe_times = sweep.probe_times();
+    out.stored_column_names = unique_names(out.axes, out.measures);
+    for (const auto& fact : sweep.metadata()) {
+        out.metadata_names.push_back(fact.name);
         out.about[fact.name] = fact.text;
     }
     return out;
@@ -214,61 +214,61 @@ Result<ResultsLayout> ResultsLayout::read(sqlite3* file, const std::string& path
                                          {"trace_times", max_time_bytes}})
             if (out.about.at(key).size() > limit)
                 return changed_by_other_program(path, fmt::format("'{}' of its table about is larger than {} MB", key, limit >> 20));
-        out.units = std::stoll(out.about.at("units"));
-        out.facts = Json::parse(out.about.at("facts")).get<std::vector<std::string>>();
-        out.trains = Json::parse(out.about.at("trains")).get<std::vector<std::string>>();
-        out.traces = Json::parse(out.about.at("traces")).get<std::vector<std::string>>();
-        out.trace_times = Json::parse(out.about.at("trace_times")).get<std::vector<double>>();
+        out.item_count = std::stoll(out.about.at("units"));
+        out.metadata_names = Json::parse(out.about.at("facts")).get<std::vector<std::string>>();
+        out.train_names = Json::parse(out.about.at("trains")).get<std::vector<std::string>>();
+        out.probe_names = Json::parse(out.about.at("traces")).get<std::vector<std::string>>();
+        out.probe_times = Json::parse(out.about.at("trace_times")).get<std::vector<double>>();
         for (auto [kind, into] : {std::pair{"axis", &out.axes}, std::pair{"measure", &out.measures}}) {
-            auto columns = read_columns(file, path, kind, out.stored);
+            auto columns = read_columns(file, path, kind, out.stored_column_names);
             if (!columns) return columns.error();
             *into = std::move(*columns);
         }
     } catch (const std::exception&) {  // a table that was edited by hand
         return bad_input("is damaged: its tables about and columns cannot be read; name another file", {path});
     }
-    if (out.units < 1 || out.units > max_items) return changed_by_other_program(path, fmt::format("its number of units is {}", out.units));
-    if (auto ok = check_tables(file, path, out.stored); !ok) return ok.error();
-    if (auto ok = check_units(file, path, out.units); !ok) return ok.error();
+    if (out.item_count < 1 || out.item_count > max_items) return changed_by_other_program(path, fmt::format("its number of units is {}", out.item_count));
+    if (auto ok = check_tables(file, path, out.stored_column_names); !ok) return ok.error();
+    if (auto ok = check_units(file, path, out.item_count); !ok) return ok.error();
     return out;
 }
 
 Result<void> ResultsLayout::write(sqlite3* file, const std::string& path) const {
-    if (stored.size() > max_columns)
+    if (stored_column_names.size() > max_columns)
         return bad_input(
-            fmt::format("{} axes and measures are more than a table can have ({}); vary or measure fewer", stored.size(), max_columns),
+            fmt::format("{} axes and measures are more than a table can have ({}); vary or measure fewer", stored_column_names.size(), max_columns),
             {path});
-    std::string statements = fmt::format("PRAGMA application_id = {}; PRAGMA user_version = {}; BEGIN;{}", application, format, tables);
-    for (const auto& column : stored) statements += fmt::format(", {} REAL", sql::name(column));
+    std::string statements = fmt::format("PRAGMA application_id = {}; PRAGMA user_version = {}; BEGIN;{}", application_id, format, tables);
+    for (const auto& column : stored_column_names) statements += fmt::format(", {} REAL", sql::quoted_name(column));
     if (auto ok = sql::run(file, path, statements + ");"); !ok) return ok;
     auto row = sql::Statement::make(file, path, "INSERT INTO about VALUES(?, ?)");
     if (!row) return row.error();
     auto all = about;
-    all["units"] = fmt::format("{}", units);
-    all["facts"] = Json(facts).dump();
-    all["trains"] = Json(trains).dump();
-    all["traces"] = Json(traces).dump();
-    all["trace_times"] = Json(trace_times).dump();
+    all["units"] = fmt::format("{}", item_count);
+    all["facts"] = Json(metadata_names).dump();
+    all["trains"] = Json(train_names).dump();
+    all["traces"] = Json(probe_names).dump();
+    all["trace_times"] = Json(probe_times).dump();
     for (const auto& [key, value] : all)
         if (auto ok = row->set(1, std::string_view(key)).set(2, std::string_view(value)).finish(); !ok) return ok;
-    if (auto ok = write_columns(file, path, "axis", axes, stored, 0); !ok) return ok;
-    if (auto ok = write_columns(file, path, "measure", measures, stored, axes.size()); !ok) return ok;
+    if (auto ok = write_columns(file, path, "axis", axes, stored_column_names, 0); !ok) return ok;
+    if (auto ok = write_columns(file, path, "measure", measures, stored_column_names, axes.size()); !ok) return ok;
     return sql::run(file, path, "COMMIT");
 }
 
-std::string ResultsLayout::differs_from(const ResultsLayout& there) const {
-    for (const auto& name : facts) {
+std::string ResultsLayout::difference_from(const ResultsLayout& there) const {
+    for (const auto& name : metadata_names) {
         const auto found = there.about.find(name);
-        if (found == there.about.end() || std::find(there.facts.begin(), there.facts.end(), name) == there.facts.end())
+        if (found == there.about.end() || std::find(there.metadata_names.begin(), there.metadata_names.end(), name) == there.metadata_names.end())
             return fmt::format("it has no entry '{}'", name);
         if (found->second != about.at(name)) return name + describe_difference(about.at(name), found->second);
     }
-    for (const auto& name : there.facts)
+    for (const auto& name : there.metadata_names)
         if (!about.contains(name)) return fmt::format("'{}' is not part of the sweep now", name);
-    if (units != there.units) return fmt::format("the number of units was {} and is {} now", there.units, units);
+    if (item_count != there.item_count) return fmt::format("the number of units was {} and is {} now", there.item_count, item_count);
     if (!same_columns(axes, there.axes)) return "the axes have changed since";
     if (!same_columns(measures, there.measures)) return "the measures have changed since";
-    if (trains != there.trains || traces != there.traces || trace_times != there.trace_times)
+    if (train_names != there.train_names || probe_names != there.probe_names || probe_times != there.probe_times)
         return "the kept trains and traces have changed since";
     return "";
 }

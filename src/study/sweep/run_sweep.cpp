@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "study/sweep/crew.hpp"
+#include "study/sweep/worker_pool.hpp"
 
 namespace corpuscle {
 namespace {
@@ -11,31 +11,31 @@ constexpr std::size_t queue_length = 1 << 14;  // items queued for the worker po
 
 }  // namespace
 
-void SweepCount::count(const UnitOutcome& o) {
-    ++(o.end == UnitEnd::done ? done : o.end == UnitEnd::capped ? capped : lost);
-    steps += o.steps, iterations += o.iterations, alone += o.alone;
+void SweepProgress::add(const ItemOutcome& o) {
+    ++(o.end == ItemEnd::done ? done : o.end == ItemEnd::iteration_limit ? iteration_limit : diverged);
+    steps += o.steps, iterations += o.iterations, ran_alone += o.ran_alone;
     for (const auto& train : o.spikes) spikes += static_cast<std::int64_t>(train.size());
 }
 
-Result<void> run_sweep(const Sweep& sweep, SweepResults& results, const SweepRun& run, SweepCount& count) {
-    auto missing = results.missing();
+Result<void> run_sweep(const Sweep& sweep, SweepResults& results, const SweepRunOptions& run, SweepProgress& count) {
+    auto missing = results.missing_ranges();
     if (!missing) return missing.error();
-    UnitQueue queue(std::move(*missing), run.shard);
-    count = {.to_do = queue.left()};
-    if (count.to_do == 0) return {};
-    results.note(count.to_do);
-    Crew pool(sweep, run.threads);
+    ItemQueue queue(std::move(*missing), run.shard);
+    count = {.planned = queue.remaining()};
+    if (count.planned == 0) return {};
+    results.announce_run(count.planned);
+    WorkerPool pool(sweep, run.threads);
     bool stopped = false;
     for (;;) {
-        if (!stopped && pool.waiting() < queue_length / 2) pool.give(queue.take(queue_length));
-        auto outcomes = pool.collect(run.between_writes);
-        for (const auto& o : outcomes) count.count(o);
+        if (!stopped && pool.queued() < queue_length / 2) pool.add(queue.take(queue_length));
+        auto outcomes = pool.collect(run.write_interval);
+        for (const auto& o : outcomes) count.add(o);
         if (auto ok = results.add(sweep, std::move(outcomes)); !ok) return ok;
-        run.seen(count);
-        if (!stopped && run.stop()) stopped = true, pool.stop();
-        if (pool.is_done() && (stopped || queue.left() == 0 || !pool.fault())) break;
+        run.on_progress(count);
+        if (!stopped && run.should_stop()) stopped = true, pool.stop();
+        if (pool.is_done() && (stopped || queue.remaining() == 0 || !pool.sweep_error())) break;
     }
-    if (auto ok = pool.fault(); !ok) return ok;
+    if (auto ok = pool.sweep_error(); !ok) return ok;
     if (stopped) return Error{ErrorCode::interrupted, "interrupted"};
     return {};
 }

@@ -37,16 +37,16 @@ double polynomial(const double (&c)[8], double x) {
 
 }  // namespace
 
-UnitNumbers::UnitNumbers(Sampling method, std::uint64_t seed, std::string_view axis, std::size_t dimension, std::uint64_t count)
-    : how_(method), key_(seed ^ sweep_key), stream_(stream_named(axis)), of_(std::max<std::uint64_t>(count, 1)) {
-    half_bits_ = static_cast<unsigned>(std::max(1, (static_cast<int>(std::bit_width(of_ - 1)) + 1) / 2));
+UniformNumbers::UniformNumbers(Sampling method, std::uint64_t seed, std::string_view axis, std::size_t dimension, std::uint64_t count)
+    : method_(method), key_(seed ^ sweep_key), stream_(stream_named(axis)), count_(std::max<std::uint64_t>(count, 1)) {
+    half_bits_ = static_cast<unsigned>(std::max(1, (static_cast<int>(std::bit_width(count_ - 1)) + 1) / 2));
     if (method != Sampling::sobol) return;
     directions_ = sobol_directions(dimension);
     shift_ = random_words(~key_, stream_, 0)[0];
 }
 
 /// A permutation of the sample indexes: a Feistel network over the next power of 4, repeated until the result is in range.
-std::uint64_t UnitNumbers::shuffled(std::uint64_t draw) const {
+std::uint64_t UniformNumbers::shuffled(std::uint64_t draw) const {
     const std::uint64_t mask = (std::uint64_t{1} << half_bits_) - 1;
     do {
         std::uint64_t left = draw >> half_bits_, right = draw & mask;
@@ -56,17 +56,17 @@ std::uint64_t UnitNumbers::shuffled(std::uint64_t draw) const {
             left = right, right = next;
         }
         draw = left << half_bits_ | right;
-    } while (draw >= of_);
+    } while (draw >= count_);
     return draw;
 }
 
-double UnitNumbers::at(std::uint64_t draw) const {
-    if (how_ == Sampling::sobol)
+double UniformNumbers::at(std::uint64_t draw) const {
+    if (method_ == Sampling::sobol)
         return (static_cast<double>(sobol_point(directions_, static_cast<std::uint32_t>(draw)) ^ shift_) + 0.5) * 0x1p-32;
     const auto w = random_words(key_, stream_, draw);
     const double u = fraction(w[0], w[1]);
-    if (how_ == Sampling::random) return u;
-    return std::clamp((static_cast<double>(shuffled(draw)) + u) / static_cast<double>(of_), 0x1p-60, 1 - 0x1p-53);
+    if (method_ == Sampling::random) return u;
+    return std::clamp((static_cast<double>(shuffled(draw)) + u) / static_cast<double>(count_), 0x1p-60, 1 - 0x1p-53);
 }
 
 double normal_quantile(double u) {
@@ -112,7 +112,7 @@ double normal_quantile(double u) {
     return centred < 0 ? -x : x;
 }
 
-double normal_share(double deviate) {
+double normal_probability(double deviate) {
     double low = 0, high = 1;
     for (int k = 0; k < 1100; ++k) {
         const double midpoint = low + (high - low) / 2;

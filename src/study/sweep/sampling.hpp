@@ -11,9 +11,9 @@ enum class Sampling { random, latin, sobol };
 
 /// The numbers of one axis. They depend on seed, name and sample; for a Latin hypercube also on the number of samples, for Sobol points on
 /// the dimension.
-class UnitNumbers {
-    Sampling how_;
-    std::uint64_t key_, stream_, of_;
+class UniformNumbers {
+    Sampling method_;
+    std::uint64_t key_, stream_, count_;
     std::array<std::uint32_t, 32> directions_{};
     std::uint32_t shift_ = 0;
     unsigned half_bits_ = 1;  // of the permutation
@@ -21,7 +21,7 @@ class UnitNumbers {
     std::uint64_t shuffled(std::uint64_t draw) const;
 
 public:
-    UnitNumbers(Sampling method, std::uint64_t seed, std::string_view axis, std::size_t dimension, std::uint64_t count);
+    UniformNumbers(Sampling method, std::uint64_t seed, std::string_view axis, std::size_t dimension, std::uint64_t count);
     /// In (0, 1).
     double at(std::uint64_t draw) const;
 };
@@ -29,6 +29,6 @@ public:
 /// Quantile of the standard normal distribution, 0 < u < 1: Wichura, algorithm AS 241, Appl. Stat. 37 (1988), to 1e-16.
 double normal_quantile(double u);
 /// The inverse: cumulative probability of a standard normal deviate, by bisection to full precision.
-double normal_share(double deviate);
+double normal_probability(double deviate);
 
 }  // namespace corpuscle::sweeps

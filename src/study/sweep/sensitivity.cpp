@@ -93,7 +93,7 @@ void keep_discoveries(std::vector<Candidate>& all, std::size_t tried) {
               [](const auto& a, const auto& b) { return std::pair(a.chance, a.factor) < std::pair(b.chance, b.factor); });
     std::size_t accepted = 0;
     for (std::size_t k = 0; k < all.size(); ++k)
-        if (all[k].chance <= false_discoveries * static_cast<double>(k + 1) / static_cast<double>(tried)) accepted = k + 1;
+        if (all[k].chance <= false_discovery_rate * static_cast<double>(k + 1) / static_cast<double>(tried)) accepted = k + 1;
     all.resize(accepted);
 }
 
@@ -143,7 +143,7 @@ Sensitivity sensitivity_of(std::span<const double> measure, std::span<const Swee
             ++tried;
             const double r = std::clamp(product(x, regression.residual) / std::sqrt(unexplained), -1.0, 1.0);
             const double chance = student_two_sided(degrees_of_freedom, r * std::sqrt(degrees_of_freedom / std::max(1 - r * r, 1e-300)));
-            if (chance <= false_discoveries) found.push_back({f, chance, std::move(x)});
+            if (chance <= false_discovery_rate) found.push_back({f, chance, std::move(x)});
         }
         keep_discoveries(found, tried);
         const auto max_factors = static_cast<std::size_t>(n / 4);  // a regression with as many factors as items explains anything
@@ -157,17 +157,17 @@ Sensitivity sensitivity_of(std::span<const double> measure, std::span<const Swee
         const double b = regression.slopes[i], error = std::sqrt(noise * regression.diagonal[i]),
                      low = std::max(std::abs(b) - t_limit * error, 0.0);
         Influence one{regression.selected[i], b * std::sqrt(out.variance), {std::max(b * b - error * error, 0.0), low * low, 0}};
-        one.share.high = std::min((std::abs(b) + t_limit * error) * (std::abs(b) + t_limit * error), 1.0);
-        one.chance = error > 0 ? student_two_sided(degrees_of_freedom, b / error) : 0;
+        one.fraction.high = std::min((std::abs(b) + t_limit * error) * (std::abs(b) + t_limit * error), 1.0);
+        one.p_value = error > 0 ? student_two_sided(degrees_of_freedom, b / error) : 0;
         out.influences.push_back(one);
     }
     out.explained = regression.selected.empty() ? 0 : std::max(1 - noise * (n - 1), 0.0);
     std::sort(out.influences.begin(), out.influences.end(),
-              [](const auto& a, const auto& b) { return std::pair(-a.share.value, a.factor) < std::pair(-b.share.value, b.factor); });
+              [](const auto& a, const auto& b) { return std::pair(-a.fraction.value, a.factor) < std::pair(-b.fraction.value, b.factor); });
     return out;
 }
 
-Between between_groups(std::span<const double> measure, std::span<const std::size_t> group, std::size_t groups) {
+GroupEffect group_effect(std::span<const double> measure, std::span<const std::size_t> group, std::size_t groups) {
     std::vector<double> sums(groups), counts(groups);
     double sum = 0, n = 0, squares = 0, inside = 0;
     for (std::size_t k = 0; k < measure.size(); ++k)
@@ -185,6 +185,6 @@ Between between_groups(std::span<const double> measure, std::span<const std::siz
             noise > 0 ? fisher_upper(used - 1, n - used, between / (used - 1) / noise) : 0};
 }
 
-double sigma_with_four_times_the_area(double share_of_device) { return std::sqrt(std::max(1 - 0.75 * share_of_device, 0.0)); }
+double relative_sigma_at_four_times_area(double share_of_device) { return std::sqrt(std::max(1 - 0.75 * share_of_device, 0.0)); }
 
 }  // namespace corpuscle

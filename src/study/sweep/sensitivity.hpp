@@ -17,19 +17,19 @@ using SweepFactor = std::vector<double>;
 struct Influence {
     std::size_t factor = 0;
     double slope = 0;   ///< change of the measure for one standard deviation of the factor
-    Estimate share;     ///< fraction of the measure's variance, minus what is expected by chance
-    double chance = 1;  ///< probability that a factor without effect is as strong
+    Estimate fraction;     ///< fraction of the measure's variance, minus what is expected by chance
+    double p_value = 1;  ///< probability that a factor without effect is as strong
 };
 
 struct Sensitivity {
-    std::size_t units = 0, factors = 0;      ///< that were examined
+    std::size_t items = 0, factors = 0;      ///< that were examined
     double variance = 0;                     ///< of the measure
     double explained = 0;                    ///< fraction explained by all influences together; the rest is nonlinear, joint or noise
     std::vector<Influence> influences = {};  ///< the strongest first
 };
 
 /// Fraction of the reported factors that may have no effect (false discovery rate of Benjamini and Hochberg).
-inline constexpr double false_discoveries = 0.01;
+inline constexpr double false_discovery_rate = 0.01;
 
 /// `measure` and each factor have one number for each item; items whose measure is NaN are left out. In rounds, factors with a significant
 /// correlation with the residual are added, then a regression on all added factors is computed. The significance is exact for a factor that
@@ -38,12 +38,12 @@ inline constexpr double false_discoveries = 0.01;
 Sensitivity sensitivity_of(std::span<const double> measure, std::span<const SweepFactor> factors);
 
 /// Effect of a grid's points: the fraction of the variance between groups (omega squared), and its significance by Fisher's F.
-struct Between {
-    double share = 0, chance = 1;
+struct GroupEffect {
+    double fraction = 0, p_value = 1;
 };
-Between between_groups(std::span<const double> measure, std::span<const std::size_t> group, std::size_t groups);
+GroupEffect group_effect(std::span<const double> measure, std::span<const std::size_t> group, std::size_t groups);
 
 /// The relative standard deviation of a measure if the gate area of a device is four times as large, which halves its mismatch.
-double sigma_with_four_times_the_area(double share_of_device);
+double relative_sigma_at_four_times_area(double share_of_device);
 
 }  // namespace corpuscle

@@ -39,7 +39,7 @@ bool is_full(sqlite3* file) {
 
 }  // namespace
 
-Error failed(sqlite3* file, const std::string& path) {
+Error error_of(sqlite3* file, const std::string& path) {
     const auto error = [&](const std::string& sentence) { return bad_input(sentence, {path}); };
     if (!file) return error("there is not enough memory to open it");
     if (cause_of(file) == EFBIG)
@@ -79,17 +79,17 @@ Error failed(sqlite3* file, const std::string& path) {
     }
 }
 
-std::string name(std::string_view text) {
+std::string quoted_name(std::string_view text) {
     std::string out = "\"";
     for (const char c : text) out += c == '"' ? "\"\"" : std::string(1, c);
     return out + "\"";
 }
 
-void Closer::operator()(sqlite3* file) const { sqlite3_close(file); }
-void Closer::operator()(sqlite3_stmt* statement) const { sqlite3_finalize(statement); }
+void Deleter::operator()(sqlite3* file) const { sqlite3_close(file); }
+void Deleter::operator()(sqlite3_stmt* statement) const { sqlite3_finalize(statement); }
 
 Result<void> run(sqlite3* file, const std::string& path, const std::string& statements) {
-    if (sqlite3_exec(file, statements.c_str(), nullptr, nullptr, nullptr) != SQLITE_OK) return failed(file, path);
+    if (sqlite3_exec(file, statements.c_str(), nullptr, nullptr, nullptr) != SQLITE_OK) return error_of(file, path);
     return {};
 }
 
@@ -97,7 +97,7 @@ Result<Handle> open(const std::string& path, int flags) {
     sqlite3* opened = nullptr;
     const int code = sqlite3_open_v2(path.c_str(), &opened, flags | SQLITE_OPEN_EXRESCODE, nullptr);
     Handle file(opened);
-    if (code != SQLITE_OK) return failed(opened, path);
+    if (code != SQLITE_OK) return error_of(opened, path);
     sqlite3_busy_timeout(opened, wait_ms);
     sqlite3_db_config(opened, SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 1, nullptr);
     disable_schema_code(opened);
@@ -108,8 +108,8 @@ Result<Statement> Statement::make(sqlite3* file, const std::string& path, const 
     Statement out;
     sqlite3_stmt* opened = nullptr;
     if (sqlite3_prepare_v3(file, text.c_str(), static_cast<int>(text.size()), SQLITE_PREPARE_PERSISTENT, &opened, nullptr) != SQLITE_OK)
-        return failed(file, path);
-    out.statement_.reset(opened), out.of_ = file, out.path_ = &path;
+        return error_of(file, path);
+    out.statement_.reset(opened), out.database_ = file, out.path_ = &path;
     return out;
 }
 
@@ -122,14 +122,14 @@ Statement& Statement::set(int place, std::string_view x) {
 Statement& Statement::set(int place, std::span<const std::byte> x) {
     return sqlite3_bind_blob64(statement_.get(), place, x.data(), x.size(), SQLITE_STATIC), *this;
 }
-Statement& Statement::set_nothing(int place) { return sqlite3_bind_null(statement_.get(), place), *this; }
+Statement& Statement::set_null(int place) { return sqlite3_bind_null(statement_.get(), place), *this; }
 
 Result<bool> Statement::step() {
     const int code = sqlite3_step(statement_.get());
     if (code == SQLITE_ROW) return true;
     if (code == SQLITE_DONE) return false;
-    const auto error = failed(of_, *path_);
-    rewind();
+    const auto error = error_of(database_, *path_);
+    reset();
     return error;
 }
 
@@ -139,27 +139,27 @@ Result<void> Statement::finish() {
         if (!more) return more.error();
         if (!*more) break;
     }
-    rewind();
+    reset();
     return {};
 }
 
-void Statement::rewind() { sqlite3_reset(statement_.get()); }
+void Statement::reset() { sqlite3_reset(statement_.get()); }
 
 std::int64_t Statement::integer(int column) const { return sqlite3_column_int64(statement_.get(), column); }
 double Statement::number(int column) const {
-    return is_nothing(column) ? std::numeric_limits<double>::quiet_NaN() : sqlite3_column_double(statement_.get(), column);
+    return is_null(column) ? std::numeric_limits<double>::quiet_NaN() : sqlite3_column_double(statement_.get(), column);
 }
 std::string Statement::text(int column) const {
     const auto bytes_there = bytes(column);
     return {reinterpret_cast<const char*>(bytes_there.data()), bytes_there.size()};
 }
-bool Statement::is_nothing(int column) const { return sqlite3_column_type(statement_.get(), column) == SQLITE_NULL; }
+bool Statement::is_null(int column) const { return sqlite3_column_type(statement_.get(), column) == SQLITE_NULL; }
 std::span<const std::byte> Statement::bytes(int column) const {
     const auto* data = static_cast<const std::byte*>(sqlite3_column_blob(statement_.get(), column));
     return {data, static_cast<std::size_t>(sqlite3_column_bytes(statement_.get(), column))};
 }
 
-Result<std::int64_t> integer(sqlite3* file, const std::string& path, const std::string& text) {
+Result<std::int64_t> query_integer(sqlite3* file, const std::string& path, const std::string& text) {
     auto statement = Statement::make(file, path, text);
     if (!statement) return statement.error();
     const auto found = statement->step();

@@ -15,25 +15,25 @@ struct sqlite3_stmt;
 namespace corpuscle::sql {
 
 /// The error of the last call on this file.
-Error failed(sqlite3*, const std::string& path);
+Error error_of(sqlite3*, const std::string& path);
 
 /// A table or column name, quoted for a statement.
-std::string name(std::string_view);
+std::string quoted_name(std::string_view);
 
 Result<void> run(sqlite3*, const std::string& path, const std::string& statements);
 
-struct Closer {
+struct Deleter {
     void operator()(sqlite3*) const;
     void operator()(sqlite3_stmt*) const;
 };
-using Handle = std::unique_ptr<sqlite3, Closer>;
+using Handle = std::unique_ptr<sqlite3, Deleter>;
 
 /// Opens a file with these flags (SQLITE_OPEN_...). Closing never writes into the file. Waits a while for other processes' locks.
 Result<Handle> open(const std::string& path, int flags);
 
 class Statement {
-    std::unique_ptr<sqlite3_stmt, Closer> statement_;
-    sqlite3* of_ = nullptr;
+    std::unique_ptr<sqlite3_stmt, Deleter> statement_;
+    sqlite3* database_ = nullptr;
     const std::string* path_ = nullptr;  // path of the file, which outlives the statement
 
 public:
@@ -45,23 +45,23 @@ public:
     Statement& set(int place, double);  ///< NaN is stored as NULL
     Statement& set(int place, std::string_view);
     Statement& set(int place, std::span<const std::byte>);
-    Statement& set_nothing(int place);
+    Statement& set_null(int place);
 
     /// Returns true if there is a (further) row.
     Result<bool> step();
     /// Runs a statement that returns no rows, and resets it.
     Result<void> finish();
-    void rewind();
+    void reset();
 
     /// Values of the current row; columns count from 0.
     std::int64_t integer(int column) const;
     double number(int column) const;  ///< NULL gives NaN
     std::string text(int column) const;
-    bool is_nothing(int column) const;
+    bool is_null(int column) const;
     std::span<const std::byte> bytes(int column) const;  ///< valid until the next step
 };
 
 /// The first column of the first row; 0 if there is no row.
-Result<std::int64_t> integer(sqlite3*, const std::string& path, const std::string& text);
+Result<std::int64_t> query_integer(sqlite3*, const std::string& path, const std::string& text);
 
 }  // namespace corpuscle::sql

@@ -9,7 +9,7 @@
 #include "signal/parameter.hpp"
 #include "signal/quantity.hpp"
 #include "signal/ascii_text.hpp"
-#include "study/sweep/drawn.hpp"
+#include "study/sweep/mismatch_samples.hpp"
 
 namespace corpuscle::sweeps {
 namespace {
@@ -19,16 +19,16 @@ constexpr double max_seed = 0x1p53 - 1;
 /// Reads the varied quantities of a sweep file into a plan.
 class PlanReader {
     const SweepText& spec_;
-    const Varying& varying_;
+    const VariableQuantities& varying_;
     const circuit::NetlistVariants* written_;
     circuit::ChipSpec chips_{0, 0, false, false};
-    Drawing drawing_;
+    SamplingSpec drawing_;
     std::vector<SweepAxis> axes_;
 
     bool writes_chips() const { return written_ && written_->has_chips(); }
-    const SaidAxis* chips_axis() const {
-        for (const auto& a : spec_.vary)
-            if (a.what.text == "process" || a.what.text == "mismatch") return &a;
+    const AxisSpec* chips_axis() const {
+        for (const auto& a : spec_.axes)
+            if (a.name.text == "process" || a.name.text == "mismatch") return &a;
         return nullptr;
     }
 
@@ -36,44 +36,44 @@ class PlanReader {
     Result<void> chips() {
         chips_.seed = drawing_.seed;
         const auto* spec = chips_axis();
-        if (spec && !varying_.chips)
-            return spec->what.error_here(fmt::format("{} is a model; '{}' applies to the chips of a circuit", varying_.named, spec->what.text));
+        if (spec && !varying_.can_sample_chips)
+            return spec->name.error_here(fmt::format("{} is a model; '{}' applies to the chips of a circuit", varying_.subject_name, spec->name.text));
         if (!spec && writes_chips()) {
             chips_.has_process = written_->chips().has_process, chips_.has_mismatch = written_->chips().has_mismatch;
             if (!spec_.seed) chips_.seed = drawing_.seed = written_->chips().seed;
         }
-        for (const auto& a : spec_.vary) {
-            if (a.what.text != "process" && a.what.text != "mismatch") continue;
-            if (a.how || a.from || a.to || a.count || a.list || a.mean || a.sigma || a.log || a.at_least || a.at_most)
-                return a.what.error_here(fmt::format("{}: its distribution comes from the process card; remove the other keys", a.what.text));
-            bool& one = a.what.text == "process" ? chips_.has_process : chips_.has_mismatch;
-            if (one) return a.what.error_here(fmt::format("'{}' varies twice", a.what.text));
+        for (const auto& a : spec_.axes) {
+            if (a.name.text != "process" && a.name.text != "mismatch") continue;
+            if (a.distribution || a.from || a.to || a.count || a.list || a.mean || a.sigma || a.log || a.min || a.max)
+                return a.name.error_here(fmt::format("{}: its distribution comes from the process card; remove the other keys", a.name.text));
+            bool& one = a.name.text == "process" ? chips_.has_process : chips_.has_mismatch;
+            if (one) return a.name.error_here(fmt::format("'{}' varies twice", a.name.text));
             one = true;
         }
         return {};
     }
 
     Result<void> units() {
-        const SaidAxis* drawn = chips_axis();
-        for (const auto& a : spec_.vary)
-            if (!drawn && is_drawn(a)) drawn = &a;
-        if (spec_.units) {
-            const auto units = whole_of(*spec_.units, "units", 1, 1e9);
+        const AxisSpec* drawn = chips_axis();
+        for (const auto& a : spec_.axes)
+            if (!drawn && is_sampled(a)) drawn = &a;
+        if (spec_.items) {
+            const auto units = parse_integer(*spec_.items, "units", 1, 1e9);
             if (!units) return units.error();
             if (!drawn && !writes_chips() && *units > 1)
-                return spec_.units->error_here(fmt::format(
+                return spec_.items->error_here(fmt::format(
                     "units = {}, but nothing is sampled, so all would be equal; remove units (a grid determines the number)", *units));
-            drawing_.draws = static_cast<std::uint64_t>(*units);
+            drawing_.samples = static_cast<std::uint64_t>(*units);
         } else if (writes_chips()) {
-            drawing_.draws = static_cast<std::uint64_t>(written_->chips().count);
+            drawing_.samples = static_cast<std::uint64_t>(written_->chips().count);
         } else if (drawn) {
-            return drawn->what.error_here(fmt::format("{} is sampled, but the number of units is missing: units = 1000", drawn->what.text));
+            return drawn->name.error_here(fmt::format("{} is sampled, but the number of units is missing: units = 1000", drawn->name.text));
         }
         return {};
     }
 
     bool is_in_file(std::string_view name) const {
-        return std::any_of(spec_.vary.begin(), spec_.vary.end(), [&](const SaidAxis& a) { return equal_ignoring_case(a.what.text, name); });
+        return std::any_of(spec_.axes.begin(), spec_.axes.end(), [&](const AxisSpec& a) { return equal_ignoring_case(a.name.text, name); });
     }
 
     /// Axes of the netlist's own .step, except those that the file sets.
@@ -81,7 +81,7 @@ class PlanReader {
         if (!written_) return {};
         for (const auto& step : written_->axes()) {
             if (is_in_file(step.name)) continue;
-            const auto target = varying_.target({step.name, {}});
+            const auto target = varying_.find_quantity({step.name, {}});
             if (!target) return target.error();
             SweepAxis axis{target->column, step.values};
             varying_.vary(axis, step.name, axes_.size());
@@ -91,7 +91,7 @@ class PlanReader {
     }
 
     /// The unit used in the file, for quantities without a unit of their own.
-    static std::string unit_in(const SaidAxis& spec) {
+    static std::string unit_in(const AxisSpec& spec) {
         const LocatedText* first = spec.list && !spec.list->empty() ? &spec.list->front()
                             : spec.from                      ? &*spec.from
                             : spec.mean                      ? &*spec.mean
@@ -100,21 +100,21 @@ class PlanReader {
         return value ? std::string(value->unit) : "";
     }
 
-    Result<void> axis(const SaidAxis& spec) {
+    Result<void> axis(const AxisSpec& spec) {
         for (const auto& other : axes_)
-            if (equal_ignoring_case(other.column.name, spec.what.text)) return spec.what.error_here(fmt::format("'{}' varies twice", spec.what.text));
-        auto target = varying_.target(spec.what);
+            if (equal_ignoring_case(other.column.name, spec.name.text)) return spec.name.error_here(fmt::format("'{}' varies twice", spec.name.text));
+        auto target = varying_.find_quantity(spec.name);
         if (!target) return target.error();
         if (target->column.unit.empty() && target->check) target->column.unit = unit_in(spec);
         auto axis = axis_of(spec, *target, drawing_);
         if (!axis) return axis.error();
-        varying_.vary(*axis, spec.what.text, axes_.size());
+        varying_.vary(*axis, spec.name.text, axes_.size());
         axes_.push_back(std::move(*axis));
         return {};
     }
 
 public:
-    PlanReader(const SweepText& spec, const Varying& varying, const circuit::NetlistVariants* written)
+    PlanReader(const SweepText& spec, const VariableQuantities& varying, const circuit::NetlistVariants* written)
         : spec_(spec), varying_(varying), written_(written) {}
 
     Result<SweepPlan> read() {
@@ -124,19 +124,19 @@ public:
         if (auto ok = chips(); !ok) return ok.error();
         if (auto ok = units(); !ok) return ok.error();
         if (auto ok = steps(); !ok) return ok.error();
-        for (const auto& a : spec_.vary)
-            if (a.what.text != "process" && a.what.text != "mismatch")
+        for (const auto& a : spec_.axes)
+            if (a.name.text != "process" && a.name.text != "mismatch")
                 if (auto ok = axis(a); !ok) return ok.error();
-        double count = static_cast<double>(drawing_.draws);
+        double count = static_cast<double>(drawing_.samples);
         for (const auto& a : axes_) count *= a.values.empty() ? 1 : static_cast<double>(a.values.size());
-        if (count > SweepPlan::most_units)
-            return bad_input(fmt::format("{:g} units are more than the limit of {:g}", count, SweepPlan::most_units), {spec_.file});
-        return SweepPlan(std::move(axes_), chips_, static_cast<std::int64_t>(drawing_.draws));
+        if (count > SweepPlan::max_items)
+            return bad_input(fmt::format("{:g} units are more than the limit of {:g}", count, SweepPlan::max_items), {spec_.file});
+        return SweepPlan(std::move(axes_), chips_, static_cast<std::int64_t>(drawing_.samples));
     }
 };
 
 /// Reads one line of [limits] into its column.
-Result<void> set_limit(const SaidLimit& limit, const Limiting& limiting, std::vector<SweepColumn>& columns) {
+Result<void> set_limit(const LimitSpec& limit, const MeasureLookup& limiting, std::vector<SweepColumn>& columns) {
     const auto at = limiting.column(limit.measure);
     if (!at) return at.error();
     auto& column = columns[*at];
@@ -146,9 +146,9 @@ Result<void> set_limit(const SaidLimit& limit, const Limiting& limiting, std::ve
         return value ? value : Result<double>(wrong(s, value.error().message));
     };
     if (limit.like) {
-        if (limit.at_least || limit.at_most) return wrong(*limit.like, "give either like and within, or at_least and at_most");
+        if (limit.min || limit.max) return wrong(*limit.like, "give either like and within, or at_least and at_most");
         if (!limit.within) return wrong(*limit.like, "within is missing: the allowed distance from the model, such as 3 or \"10%\"");
-        const auto model = limiting.like(*limit.like, *at);
+        const auto model = limiting.model_value(*limit.like, *at);
         if (!model) return model.error();
         if (std::isnan(*model)) return wrong(*limit.like, fmt::format("{} has no value for this force", limit.like->text));
         const bool is_percentage = trimmed(limit.within->text).ends_with('%') && !column.unit.empty();
@@ -156,44 +156,44 @@ Result<void> set_limit(const SaidLimit& limit, const Limiting& limiting, std::ve
         if (!within) return wrong(*limit.within, within.error().message);
         if (is_percentage || trimmed(limit.within->text).ends_with('%')) *within *= std::abs(*model);
         if (!(*within >= 0)) return wrong(*limit.within, "within must not be negative");
-        column.at_least = *model - *within, column.at_most = *model + *within;
+        column.min = *model - *within, column.max = *model + *within;
         return {};
     }
     if (limit.within) return wrong(*limit.within, "within needs like = \"sa1\"");
-    for (const auto& [spec, end] : {std::pair{&limit.at_least, &column.at_least}, {&limit.at_most, &column.at_most}}) {
+    for (const auto& [spec, end] : {std::pair{&limit.min, &column.min}, {&limit.max, &column.max}}) {
         if (!*spec) continue;
         const auto value = read(**spec);
         if (!value) return value.error();
         *end = *value;
     }
-    if (!limit.at_least && !limit.at_most) return wrong(limit.measure, "the limit is empty; write at_least, at_most or both");
-    if (column.at_least && column.at_most && *column.at_least > *column.at_most)
-        return wrong(limit.at_least ? *limit.at_least : limit.measure, "at_least is above at_most");
+    if (!limit.min && !limit.max) return wrong(limit.measure, "the limit is empty; write at_least, at_most or both");
+    if (column.min && column.max && *column.min > *column.max)
+        return wrong(limit.min ? *limit.min : limit.measure, "at_least is above at_most");
     return {};
 }
 
 }  // namespace
 
-void PlannedSweep::tell_draws(const std::string& subject, const circuit::Circuit& circuit) {
+void PlannedSweep::add_mismatch_metadata(const std::string& subject, const circuit::Circuit& circuit) {
     if (!plan_.chips().has_mismatch) return;
-    Drawn samples;
-    samples.seed = plan_.chips().seed, samples.chips = plan_.draws();
-    samples.subjects.push_back({subject, drawn_devices(circuit)});
-    facts_.push_back({drawn_fact, describe_frame_error(samples)});
+    MismatchSamples samples;
+    samples.seed = plan_.chips().seed, samples.chips = plan_.samples();
+    samples.subjects.push_back({subject, mismatch_devices(circuit)});
+    metadata_.push_back({mismatch_metadata_name, describe_frame_error(samples)});
 }
 
 Result<std::uint64_t> seed_of(const SweepText& spec) {
     if (!spec.seed) return std::uint64_t{0};
-    const auto seed = whole_of(*spec.seed, "seed", 0, max_seed);
+    const auto seed = parse_integer(*spec.seed, "seed", 0, max_seed);
     if (!seed) return seed.error();
     return static_cast<std::uint64_t>(*seed);
 }
 
-Result<SweepPlan> plan_of(const SweepText& spec, const Varying& varying, const circuit::NetlistVariants* written) {
+Result<SweepPlan> plan_of(const SweepText& spec, const VariableQuantities& varying, const circuit::NetlistVariants* written) {
     return PlanReader(spec, varying, written).read();
 }
 
-Result<void> set_limits(const SweepText& spec, const Limiting& limiting, std::vector<SweepColumn>& columns) {
+Result<void> set_limits(const SweepText& spec, const MeasureLookup& limiting, std::vector<SweepColumn>& columns) {
     for (const auto& limit : spec.limits)
         if (auto ok = set_limit(limit, limiting, columns); !ok) return ok;
     return {};
@@ -207,7 +207,7 @@ Result<bool> keeps_spikes(const SweepText& spec) {
     return !spec.keep->empty();
 }
 
-Result<std::size_t> samples_between(const SweepText& spec, double T) {
+Result<std::size_t> probe_stride(const SweepText& spec, double T) {
     double every = 1e-3;
     if (spec.every) {
         const auto value = parse_quantity(spec.every->text, "s");
@@ -218,8 +218,8 @@ Result<std::size_t> samples_between(const SweepText& spec, double T) {
     return static_cast<std::size_t>(std::max(1.0, std::round(every / T)));
 }
 
-std::vector<Sweep::Fact> first_facts(const SweepText& spec, const std::string& title) {
-    std::vector<Sweep::Fact> out = {{"title", spec.title ? spec.title->text : title},
+std::vector<Sweep::MetadataText> first_metadata(const SweepText& spec, const std::string& title) {
+    std::vector<Sweep::MetadataText> out = {{"title", spec.title ? spec.title->text : title},
                                     {"results format", fmt::format("{}", results_format)}};
     if (!spec.canonical.empty()) out.push_back({"sweep file", spec.canonical});
     return out;

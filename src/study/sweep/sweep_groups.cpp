@@ -18,8 +18,8 @@ struct AxisParts {
 };
 
 std::string value_label(const SweepColumn& axis, double value) {
-    const bool word = !axis.words.empty() && value >= 0 && value < static_cast<double>(axis.words.size());
-    return word ? axis.words[static_cast<std::size_t>(value)] : format_quantity(value, axis.unit);
+    const bool word = !axis.labels.empty() && value >= 0 && value < static_cast<double>(axis.labels.size());
+    return word ? axis.labels[static_cast<std::size_t>(value)] : format_quantity(value, axis.unit);
 }
 
 AxisParts points_of(const SweepColumn& axis, const std::vector<double>& all, const std::vector<double>& values) {
@@ -52,7 +52,7 @@ AxisParts bands_of(const SweepColumn& axis, const std::vector<double>& all) {
 
 AxisParts parts_of_axis(const SweepTable& table, std::size_t axis) {
     const auto& all = table.axis_values[axis];
-    return table.makes_points(axis) ? points_of(table.axes[axis], all, table.points[axis]) : bands_of(table.axes[axis], all);
+    return table.has_points(axis) ? points_of(table.axes[axis], all, table.points[axis]) : bands_of(table.axes[axis], all);
 }
 
 }  // namespace
@@ -66,7 +66,7 @@ std::string point_label(const SweepTable& table, std::size_t row) {
     return out;
 }
 
-SweepGroups grouped_by(const SweepTable& table, const std::vector<std::size_t>& axes) {
+SweepGroups group_rows_by_axes(const SweepTable& table, const std::vector<std::size_t>& axes) {
     SweepGroups out;
     out.axes = axes;
     if (table.rows() == 0) return out;
@@ -94,7 +94,7 @@ SweepGroups grouped_by(const SweepTable& table, const std::vector<std::size_t>& 
     return out;
 }
 
-Result<SweepGroups> grouped(const SweepTable& table, const std::vector<std::string>& by) {
+Result<SweepGroups> group_rows(const SweepTable& table, const std::vector<std::string>& by) {
     std::vector<std::size_t> axes;
     std::vector<std::string_view> known;
     for (const auto& a : table.axes) known.push_back(a.name);
@@ -106,11 +106,11 @@ Result<SweepGroups> grouped(const SweepTable& table, const std::vector<std::stri
                               : fmt::format("--by {}: unknown axis{}; known: {}", name, did_you_mean(name, known), fmt::join(known, ", ")));
         axes.push_back(static_cast<std::size_t>(at - known.begin()));
     }
-    if (!by.empty()) return grouped_by(table, axes);
+    if (!by.empty()) return group_rows_by_axes(table, axes);
     for (std::size_t a = 0; a < known.size(); ++a)
         if (table.points[a].size() > 1) axes.push_back(a);
-    auto out = grouped_by(table, axes);
-    return out.groups.size() <= SweepGroups::most ? out : grouped_by(table, {});
+    auto out = group_rows_by_axes(table, axes);
+    return out.groups.size() <= SweepGroups::max_groups ? out : group_rows_by_axes(table, {});
 }
 
 }  // namespace corpuscle

@@ -10,12 +10,12 @@
 namespace corpuscle {
 namespace {
 
-MeasureSummary measure_summary(const Sorted& sorted, std::size_t units, const SweepQuestion& question) {
+MeasureSummary measure_summary(const SortedSample& sorted, std::size_t units, const SweepSummaryOptions& question) {
     MeasureSummary out;
     out.count = static_cast<std::int64_t>(sorted.count());
-    out.without = static_cast<std::int64_t>(units) - out.count;
+    out.missing = static_cast<std::int64_t>(units) - out.count;
     if (out.count == 0) return out;
-    out.least = sorted.values().front(), out.greatest = sorted.values().back();
+    out.min = sorted.values().front(), out.max = sorted.values().back();
     out.mean = sorted.mean(), out.sigma = sorted.sigma();
     for (const double q : question.quantiles) out.quantiles.push_back(sorted.quantile(q));
     out.normality = sorted.normality(), out.normality_floor = sorted.normality_floor();
@@ -24,24 +24,24 @@ MeasureSummary measure_summary(const Sorted& sorted, std::size_t units, const Sw
 
 /// Summarises one measure, at each point and then over all.
 void put_measure(SweepSummary& out, const SweepTable& table, const SweepGroups& groups, std::size_t measure) {
-    std::vector<Sorted> sorted;
+    std::vector<SortedSample> sorted;
     std::int64_t total_passed = 0;
-    const auto put = [&](PointSummary& point, const Sorted& values, std::size_t units, std::int64_t passed) {
+    const auto put = [&](PointSummary& point, const SortedSample& values, std::size_t units, std::int64_t passed) {
         auto& at = point.measures[measure];
-        at = measure_summary(values, units, out.question);
-        if (table.has_limits(measure)) at.yield = share_of(passed, static_cast<std::int64_t>(units));
+        at = measure_summary(values, units, out.options);
+        if (table.has_limits(measure)) at.yield = estimate_proportion(passed, static_cast<std::int64_t>(units));
     };
     for (std::size_t p = 0; p < groups.groups.size(); ++p) {
         const auto& rows = groups.groups[p].rows;
         std::vector<double> values;
         std::int64_t passed = 0;
         values.reserve(rows.size());
-        for (const auto r : rows) values.push_back(table.measure_values[measure][r]), passed += table.keeps(r, measure);
+        for (const auto r : rows) values.push_back(table.measure_values[measure][r]), passed += table.meets_limits(r, measure);
         sorted.emplace_back(std::move(values));
         put(out.points[p], sorted.back(), rows.size(), passed);
         total_passed += passed;
     }
-    put(out.all, sorted.size() == 1 ? sorted[0] : Sorted::merged(sorted), table.rows(), total_passed);
+    put(out.all, sorted.size() == 1 ? sorted[0] : SortedSample::merged(sorted), table.rows(), total_passed);
 }
 
 /// Counts how the items of a point ended.
@@ -49,15 +49,15 @@ PointSummary point_summary(const SweepTable& table, const SweepGroup& group, con
     PointSummary out;
     out.label = group.label;
     for (const auto r : group.rows) {
-        ++(table.end[r] == UnitEnd::done ? out.done : table.end[r] == UnitEnd::capped ? out.capped : out.lost);
+        ++(table.ends[r] == ItemEnd::done ? out.done : table.ends[r] == ItemEnd::iteration_limit ? out.iteration_limit : out.diverged);
         out.passed += passed[r];
     }
     return out;
 }
 
 void finish(PointSummary& point, std::size_t measures) {
-    point.units = point.done + point.capped + point.lost;
-    point.yield = share_of(point.passed, point.units);
+    point.items = point.done + point.iteration_limit + point.diverged;
+    point.yield = estimate_proportion(point.passed, point.items);
     point.measures.resize(measures);
 }
 
@@ -79,10 +79,10 @@ class ChipMeans {
 public:
     ChipMeans(const SweepTable& table, std::int64_t draws) {
         std::unordered_map<std::uint64_t, std::size_t> number;
-        for (const auto unit : table.unit) {
+        for (const auto unit : table.items) {
             const auto chip = static_cast<std::uint64_t>(draws > 0 ? unit % draws : unit);
             const auto known = number.find(chip);
-            if (known == number.end() && chips_.size() == most_chips_searched) {
+            if (known == number.end() && chips_.size() == max_searched_chips) {
                 chip_of_.push_back(none);
                 continue;
             }
@@ -102,7 +102,7 @@ public:
 };
 
 /// The subject of a measure: from NAME.MEASURE, or the only subject; -1 if there is none.
-std::ptrdiff_t subject_of(const std::string& measure, const Drawn& drawn) {
+std::ptrdiff_t subject_of(const std::string& measure, const MismatchSamples& drawn) {
     if (drawn.subjects.size() == 1) return 0;
     for (std::size_t s = 0; s < drawn.subjects.size(); ++s)
         if (measure.starts_with(drawn.subjects[s].name + ".")) return static_cast<std::ptrdiff_t>(s);
@@ -120,10 +120,10 @@ struct Factors {
     std::vector<OfSubject> subjects;
 };
 
-Factors factors_of(const SweepTable& table, const std::optional<Drawn>& drawn, const ChipMeans& means) {
+Factors factors_of(const SweepTable& table, const std::optional<MismatchSamples>& drawn, const ChipMeans& means) {
     Factors out;
     for (std::size_t a = 0; a < table.axes.size(); ++a) {
-        if (table.makes_points(a)) continue;
+        if (table.has_points(a)) continue;
         out.axes.push_back(means.of(table.axis_values[a]));
         out.axis_names.push_back({table.axes[a].name, "", -1, -1, static_cast<std::ptrdiff_t>(a), {}});
     }
@@ -138,7 +138,7 @@ Factors factors_of(const SweepTable& table, const std::optional<Drawn>& drawn, c
             const auto add = [&](double sigma, const char* part, SweepFactor& values) {
                 if (sigma == 0) return;
                 of.values.push_back(std::move(values)), of.names.push_back(name);
-                of.names.back().part = part;
+                of.names.back().quantity = part;
             };
             add(devices[d].sigma_VT, "V_T", own.V_T), add(devices[d].sigma_IS, "I_S", own.I_S);
         }
@@ -146,23 +146,23 @@ Factors factors_of(const SweepTable& table, const std::optional<Drawn>& drawn, c
     return out;
 }
 
-std::vector<DeviceShare> device_contributions(const std::vector<NamedInfluence>& influences) {
-    std::vector<DeviceShare> out;
+std::vector<DeviceContribution> device_contributions(const std::vector<NamedInfluence>& influences) {
+    std::vector<DeviceContribution> out;
     for (const auto& i : influences) {
-        if (i.device < 0 || !(i.found.share.value > 0)) continue;
+        if (i.device < 0 || !(i.influence.fraction.value > 0)) continue;
         auto at = std::find_if(out.begin(), out.end(), [&](const auto& d) { return d.device == i.device && d.subject == i.subject; });
         if (at == out.end()) at = out.insert(at, {i.subject, i.device});
-        (i.part.starts_with("V_T") ? at->V_T : at->I_S) += i.found.share.value;
+        (i.quantity.starts_with("V_T") ? at->V_T : at->I_S) += i.influence.fraction.value;
     }
     std::sort(out.begin(), out.end(), [](const auto& a, const auto& b) {
-        return std::tuple(-a.share(), a.subject, a.device) < std::tuple(-b.share(), b.subject, b.device);
+        return std::tuple(-a.fraction(), a.subject, a.device) < std::tuple(-b.fraction(), b.subject, b.device);
     });
     return out;
 }
 
 struct DependenceSearch {
     const SweepTable& table;
-    const std::optional<Drawn>& drawn;
+    const std::optional<MismatchSamples>& drawn;
     SweepGroups points;
     std::vector<std::pair<std::size_t, SweepGroups>> by_axis;
     ChipMeans means;
@@ -176,7 +176,7 @@ void add_squares(Factors::OfSubject& own) {
         SweepFactor squares;
         for (const double x : own.values[f]) squares.push_back(x * x);
         own.values.push_back(std::move(squares)), own.names.push_back(own.names[f]);
-        own.names.back().part += " squared";
+        own.names.back().quantity += " squared";
     }
 }
 
@@ -184,21 +184,21 @@ void add_squares(Factors::OfSubject& own) {
 Dependence dependence_of(const std::string& name, const std::vector<double>& values, DependenceSearch& in) {
     Dependence out{name, {}, {}, {}, {}, {}};
     for (const auto& [axis, groups] : in.by_axis) {
-        const auto between = between_groups(values, groups.group_of, groups.groups.size());
-        if (between.chance <= false_discoveries && between.share > 0) out.points.emplace_back(axis, between);
+        const auto between = group_effect(values, groups.group_of, groups.groups.size());
+        if (between.p_value <= false_discovery_rate && between.fraction > 0) out.points.emplace_back(axis, between);
     }
     std::sort(out.points.begin(), out.points.end(),
-              [](const auto& a, const auto& b) { return std::pair(-a.second.share, a.first) < std::pair(-b.second.share, b.first); });
+              [](const auto& a, const auto& b) { return std::pair(-a.second.fraction, a.first) < std::pair(-b.second.fraction, b.first); });
     auto& all = in.factors.axes;
     const auto axes = all.size();
     const auto subject = in.drawn ? subject_of(name, *in.drawn) : -1;
     auto* own = subject >= 0 ? &in.factors.subjects[static_cast<std::size_t>(subject)] : nullptr;
     if (own)
         for (auto& f : own->values) all.push_back(std::move(f));
-    out.all = sensitivity_of(in.means.of(inside_groups(values, in.points)), all);
-    for (const auto& i : out.all.influences) {
+    out.sensitivity = sensitivity_of(in.means.of(inside_groups(values, in.points)), all);
+    for (const auto& i : out.sensitivity.influences) {
         out.influences.push_back(i.factor < axes ? in.factors.axis_names[i.factor] : own->names[i.factor - axes]);
-        out.influences.back().found = i;
+        out.influences.back().influence = i;
     }
     if (own)
         for (std::size_t f = 0; f < own->values.size(); ++f) own->values[f] = std::move(all[axes + f]);
@@ -207,18 +207,18 @@ Dependence dependence_of(const std::string& name, const std::vector<double>& val
     return out;
 }
 
-std::vector<Dependence> dependences_of(const SweepTable& table, const std::optional<Drawn>& drawn, const std::vector<char>& passed,
+std::vector<Dependence> dependences_of(const SweepTable& table, const std::optional<MismatchSamples>& drawn, const std::vector<char>& passed,
                                        std::size_t& chips) {
     std::vector<std::size_t> point_axes;
     for (std::size_t a = 0; a < table.axes.size(); ++a)
-        if (table.makes_points(a)) point_axes.push_back(a);
-    auto points = grouped_by(table, point_axes);
+        if (table.has_points(a)) point_axes.push_back(a);
+    auto points = group_rows_by_axes(table, point_axes);
     const auto count = static_cast<std::int64_t>(points.groups.size());
-    const ChipMeans means(table, drawn ? drawn->chips : count > 0 && table.units % count == 0 ? table.units / count : 0);
+    const ChipMeans means(table, drawn ? drawn->chips : count > 0 && table.item_count % count == 0 ? table.item_count / count : 0);
     chips = means.chips().size();
     DependenceSearch in{table, drawn, std::move(points), {}, means, factors_of(table, drawn, means)};
     for (const auto a : point_axes)
-        if (auto groups = grouped_by(table, {a}); groups.groups.size() > 1) in.by_axis.emplace_back(a, std::move(groups));
+        if (auto groups = group_rows_by_axes(table, {a}); groups.groups.size() > 1) in.by_axis.emplace_back(a, std::move(groups));
     std::vector<Dependence> out;
     for (std::size_t m = 0; m < table.measures.size(); ++m)
         out.push_back(dependence_of(table.measures[m].name, table.measure_values[m], in));
@@ -242,30 +242,30 @@ void remove_statistics(PointSummary& point) {
 std::vector<Dependence> effects_on_all(const SweepTable& table, const std::vector<char>& passed) {
     std::vector<Dependence> out;
     for (std::size_t m = 0; m < table.measures.size(); ++m)
-        out.push_back({table.measures[m].name, {}, {}, {}, {}, effects_of(table, table.measure_values[m])});
-    if (table.has_limits()) out.push_back({"yield", {}, {}, {}, {}, effects_of(table, {passed.begin(), passed.end()})});
+        out.push_back({table.measures[m].name, {}, {}, {}, {}, axis_effects(table, table.measure_values[m])});
+    if (table.has_limits()) out.push_back({"yield", {}, {}, {}, {}, axis_effects(table, {passed.begin(), passed.end()})});
     return out;
 }
 
 }  // namespace
 
-Result<SweepSummary> summary_of(const SweepTable& table, const std::optional<Drawn>& drawn, const SweepQuestion& question) {
-    const auto groups = grouped(table, question.by);
+Result<SweepSummary> summary_of(const SweepTable& table, const std::optional<MismatchSamples>& drawn, const SweepSummaryOptions& question) {
+    const auto groups = group_rows(table, question.axes);
     if (!groups) return groups.error();
     SweepSummary out;
-    out.question = question, out.by = groups->axes, out.drawn = drawn;
+    out.options = question, out.axes = groups->axes, out.mismatch = drawn;
     std::vector<char> passed(table.rows());
     for (std::size_t r = 0; r < passed.size(); ++r) passed[r] = table.passes(r);
     for (const auto& g : groups->groups) {
         auto& point = out.points.emplace_back(point_summary(table, g, passed));
-        out.all.done += point.done, out.all.capped += point.capped, out.all.lost += point.lost, out.all.passed += point.passed;
+        out.all.done += point.done, out.all.iteration_limit += point.iteration_limit, out.all.diverged += point.diverged, out.all.passed += point.passed;
         finish(point, table.measures.size());
     }
     finish(out.all, table.measures.size());
     ThreadPool pool(table.rows() > 100000 ? 0 : 1);
     pool.for_each(table.measures.size(), [&](std::size_t m, unsigned) { put_measure(out, table, *groups, m); });
     if (!table.is_grid) {
-        out.dependences = dependences_of(table, drawn, passed, out.chips);
+        out.dependences = dependences_of(table, drawn, passed, out.searched_chips);
         return out;
     }
     remove_statistics(out.all);

@@ -4,15 +4,15 @@
 #include <map>
 #include <optional>
 
-#include "study/sweep/drawn.hpp"
+#include "study/sweep/mismatch_samples.hpp"
 #include "study/sweep/grid.hpp"
 #include "study/sweep/sensitivity.hpp"
 #include "study/sweep/sweep_table.hpp"
 
 namespace corpuscle {
 
-struct SweepQuestion {
-    std::vector<std::string> by;  ///< axes; empty: all that are listed rather than sampled, if they have few points
+struct SweepSummaryOptions {
+    std::vector<std::string> axes;  ///< axes; empty: all that are listed rather than sampled, if they have few points
     std::vector<double> quantiles = {0.05, 0.25, 0.5, 0.75, 0.95};
 };
 
@@ -23,18 +23,18 @@ struct SweepGroup {
 };
 /// Groups of a table's rows: by the values of an axis with few values, or by five bands of equal size for an axis with many.
 struct SweepGroups {
-    static constexpr std::size_t most = 64, bands = 5;
+    static constexpr std::size_t max_groups = 64, bands = 5;
     std::vector<std::size_t> axes;  ///< that define the groups
     std::vector<SweepGroup> groups;
     std::vector<std::size_t> group_of;  ///< for each row
 };
-Result<SweepGroups> grouped(const SweepTable&, const std::vector<std::string>& by);
+Result<SweepGroups> group_rows(const SweepTable&, const std::vector<std::string>& by);
 /// For axes that have points or are divided into bands.
-SweepGroups grouped_by(const SweepTable&, const std::vector<std::size_t>& axes);
+SweepGroups group_rows_by_axes(const SweepTable&, const std::vector<std::size_t>& axes);
 
 struct MeasureSummary {
-    std::int64_t count = 0, without = 0;  ///< items that have the measure, and that do not
-    double least = Estimate::none, greatest = Estimate::none;
+    std::int64_t count = 0, missing = 0;  ///< items that have the measure, and that do not
+    double min = Estimate::none, max = Estimate::none;
     Estimate mean, sigma;
     std::vector<Estimate> quantiles;
     double normality = Estimate::none, normality_floor = Estimate::none;
@@ -42,7 +42,7 @@ struct MeasureSummary {
 };
 struct PointSummary {
     std::string label;
-    std::int64_t units = 0, done = 0, capped = 0, lost = 0, passed = 0;
+    std::int64_t items = 0, done = 0, iteration_limit = 0, diverged = 0, passed = 0;
     Estimate yield;  ///< items that ended and meet all limits
     std::vector<MeasureSummary> measures;
 };
@@ -50,39 +50,39 @@ struct PointSummary {
 /// A sampled factor that a measure depends on.
 struct NamedInfluence {
     std::string name;                          ///< of a device or an axis
-    std::string part;                          ///< of a device: "V_T" or "I_S"; for the yield also "V_T squared"
+    std::string quantity;                          ///< of a device: "V_T" or "I_S"; for the yield also "V_T squared"
     std::ptrdiff_t device = -1, subject = -1;  ///< in the mismatch samples
     std::ptrdiff_t axis = -1;
-    Influence found;
+    Influence influence;
 };
 /// A device with both of its factors.
-struct DeviceShare {
+struct DeviceContribution {
     std::ptrdiff_t subject, device;
     double V_T = 0, I_S = 0;  ///< fractions of the variance
-    double share() const { return V_T + I_S; }
+    double fraction() const { return V_T + I_S; }
 };
 struct Dependence {
     std::string measure;  ///< "yield": whether an item passes
-    Sensitivity all;
+    Sensitivity sensitivity;
     std::vector<NamedInfluence> influences;               ///< the strongest first
-    std::vector<DeviceShare> devices;                     ///< those with a fraction of the variance, the largest first
-    std::vector<std::pair<std::size_t, Between>> points;  ///< axes with points, and the effect of each
+    std::vector<DeviceContribution> devices;                     ///< those with a fraction of the variance, the largest first
+    std::vector<std::pair<std::size_t, GroupEffect>> points;  ///< axes with points, and the effect of each
     std::vector<AxisEffect> effects;                      ///< for a full grid, instead of all others
 };
 
 struct SweepSummary {
-    SweepQuestion question;
-    std::vector<std::size_t> by;  ///< axes
+    SweepSummaryOptions options;
+    std::vector<std::size_t> axes;  ///< axes
     std::vector<PointSummary> points;
     PointSummary all;
-    std::optional<Drawn> drawn;
-    std::size_t chips = 0;                ///< number of chips in which dependences were searched
+    std::optional<MismatchSamples> mismatch;
+    std::size_t searched_chips = 0;                ///< number of chips in which dependences were searched
     std::vector<Dependence> dependences;  ///< for each measure that varies, then for the yield, if there are limits
 };
 
 /// The search for dependences uses at most this many chips, the first ones; more would give the same result.
-inline constexpr std::size_t most_chips_searched = 4000;
+inline constexpr std::size_t max_searched_chips = 4000;
 
-Result<SweepSummary> summary_of(const SweepTable&, const std::optional<Drawn>&, const SweepQuestion&);
+Result<SweepSummary> summary_of(const SweepTable&, const std::optional<MismatchSamples>&, const SweepSummaryOptions&);
 
 }  // namespace corpuscle

@@ -47,7 +47,7 @@ std::vector<double> few_values(const std::vector<double>& all, bool is_listed, s
 /// Columns read for a range of rows.
 struct ReadPart {
     std::vector<std::int64_t> unit;
-    std::vector<UnitEnd> end;
+    std::vector<ItemEnd> end;
     std::vector<std::vector<double>> columns;
 };
 
@@ -66,7 +66,7 @@ Result<ReadPart> read_part(const SweepResults& results, const std::string& colum
         if (!*more) return out;
         out.unit.push_back(rows->integer(0));
         const auto ended = rows->text(1);
-        out.end.push_back(ended == "done" ? UnitEnd::done : ended == "capped" ? UnitEnd::capped : UnitEnd::lost);
+        out.end.push_back(ended == "done" ? ItemEnd::done : ended == "capped" ? ItemEnd::iteration_limit : ItemEnd::diverged);
         for (std::size_t k = 0; k < columns; ++k) out.columns[k].push_back(rows->number(static_cast<int>(k) + 2));
     }
 }
@@ -74,14 +74,14 @@ Result<ReadPart> read_part(const SweepResults& results, const std::string& colum
 /// Reads large tables in several parts in parallel, each with its own connection.
 Result<std::vector<ReadPart>> read_parts(const SweepResults& results, const std::string& columns_sql, std::size_t columns) {
     constexpr std::int64_t large = 100000;
-    const auto parts = results.finished() > large ? std::size_t{4} : std::size_t{1};
+    const auto parts = results.finished_count() > large ? std::size_t{4} : std::size_t{1};
     std::vector<ReadPart> out(parts);
     std::vector<std::optional<Error>> errors(parts);
     ThreadPool(parts == 1 ? 1 : 0).for_each(parts, [&](std::size_t k, unsigned) {
         const auto at = [&](std::size_t part) {
-            return part == parts ? std::numeric_limits<std::int64_t>::max() : results.units() / 4 * static_cast<std::int64_t>(part);
+            return part == parts ? std::numeric_limits<std::int64_t>::max() : results.item_count() / 4 * static_cast<std::int64_t>(part);
         };
-        const auto own = parts == 1 ? Result<SweepResults>(Error{}) : SweepResults::look(results.path());
+        const auto own = parts == 1 ? Result<SweepResults>(Error{}) : SweepResults::open_read_only(results.path());
         if (parts > 1 && !own) return void(errors[k] = own.error());
         auto read = read_part(parts == 1 ? results : *own, columns_sql, columns, at(k), at(k + 1));
         read ? void(out[k] = std::move(*read)) : void(errors[k] = read.error());
@@ -93,11 +93,11 @@ Result<std::vector<ReadPart>> read_parts(const SweepResults& results, const std:
 
 }  // namespace
 
-bool SweepTable::keeps(std::size_t row, std::size_t measure) const {
-    if (end[row] != UnitEnd::done) return false;
+bool SweepTable::meets_limits(std::size_t row, std::size_t measure) const {
+    if (ends[row] != ItemEnd::done) return false;
     const auto& m = measures[measure];
     const double x = measure_values[measure][row];
-    return (!m.at_least || x >= *m.at_least) && (!m.at_most || x <= *m.at_most);
+    return (!m.min || x >= *m.min) && (!m.max || x <= *m.max);
 }
 
 bool SweepTable::has_limits() const {
@@ -107,9 +107,9 @@ bool SweepTable::has_limits() const {
 }
 
 bool SweepTable::passes(std::size_t row) const {
-    if (end[row] != UnitEnd::done) return false;
+    if (ends[row] != ItemEnd::done) return false;
     for (std::size_t m = 0; m < measures.size(); ++m)
-        if (!keeps(row, m)) return false;
+        if (!meets_limits(row, m)) return false;
     return true;
 }
 
@@ -117,12 +117,12 @@ Result<SweepTable> read_table(const SweepResults& results, const std::vector<std
     const auto wanted = find_measures(results, measures);
     if (!wanted) return wanted.error();
     SweepTable out;
-    out.units = results.units(), out.axes = results.axes();
+    out.item_count = results.item_count(), out.axes = results.axes();
     std::vector<std::string> columns_sql;
-    for (std::size_t k = 0; k < results.axes().size(); ++k) columns_sql.push_back(sql::name(results.stored()[k]));
+    for (std::size_t k = 0; k < results.axes().size(); ++k) columns_sql.push_back(sql::quoted_name(results.stored_column_names()[k]));
     for (const auto m : *wanted)
-        columns_sql.push_back(sql::name(results.stored()[results.axes().size() + m])), out.measures.push_back(results.measures()[m]);
-    const auto has_iterations = sql::integer(results.handle(), results.path(), "SELECT EXISTS(SELECT 1 FROM units WHERE iterations > 0)");
+        columns_sql.push_back(sql::quoted_name(results.stored_column_names()[results.axes().size() + m])), out.measures.push_back(results.measures()[m]);
+    const auto has_iterations = sql::query_integer(results.handle(), results.path(), "SELECT EXISTS(SELECT 1 FROM units WHERE iterations > 0)");
     if (!has_iterations) return has_iterations.error();
     if (*has_iterations && measures.empty()) {
         columns_sql.emplace_back("iterations");
@@ -135,24 +135,24 @@ Result<SweepTable> read_table(const SweepResults& results, const std::vector<std
         all.empty() ? void(all = std::move(part)) : void(all.insert(all.end(), part.begin(), part.end()));
     };
     for (auto& part : *parts) {
-        put(out.unit, part.unit), put(out.end, part.end);
+        put(out.items, part.unit), put(out.ends, part.end);
         for (std::size_t k = 0; k < columns_sql.size(); ++k) {
             put(k < out.axes.size() ? out.axis_values[k] : out.measure_values[k - out.axes.size()], part.columns[k]);
             std::vector<double>().swap(part.columns[k]);
         }
     }
-    out.is_grid = draws_nothing(results);
+    out.is_grid = is_deterministic(results);
     for (std::size_t a = 0; a < out.axes.size(); ++a)
-        out.points.push_back(few_values(out.axis_values[a], out.is_grid || !out.axes[a].words.empty(),
-                                        out.is_grid ? SweepTable::most_levels : SweepTable::most_points));
+        out.points.push_back(few_values(out.axis_values[a], out.is_grid || !out.axes[a].labels.empty(),
+                                        out.is_grid ? SweepTable::max_grid_points : SweepTable::max_points));
     return out;
 }
 
-Result<std::vector<LostUnit>> lost_units(const SweepResults& results, std::size_t limit) {
+Result<std::vector<FailedItem>> failed_items(const SweepResults& results, std::size_t limit) {
     auto rows = sql::Statement::make(results.handle(), results.path(),
                                      fmt::format("SELECT unit, ended, why FROM units WHERE ended <> 'done' ORDER BY unit LIMIT {}", limit));
     if (!rows) return rows.error();
-    std::vector<LostUnit> out;
+    std::vector<FailedItem> out;
     for (;;) {
         const auto more = rows->step();
         if (!more) return more.error();

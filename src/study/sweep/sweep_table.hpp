@@ -4,29 +4,29 @@
 #include <string>
 #include <vector>
 
-#include "study/sweep/results.hpp"
+#include "study/sweep/sweep_results.hpp"
 
 namespace corpuscle {
 
 struct SweepTable {
-    std::int64_t units = 0;  ///< of the complete sweep; only finished items have rows
-    std::vector<std::int64_t> unit;
-    std::vector<UnitEnd> end;
+    std::int64_t item_count = 0;  ///< of the complete sweep; only finished items have rows
+    std::vector<std::int64_t> items;
+    std::vector<ItemEnd> ends;
     std::vector<SweepColumn> axes, measures;
     std::vector<std::vector<double>> axis_values, measure_values;  ///< [column][row]
 
     /// For each axis with few values, such as a listed one, its values in ascending order, which are its points. Otherwise empty.
     std::vector<std::vector<double>> points;
     /// limits for an axis with points: in a sampled sweep, and in a grid
-    static constexpr std::size_t most_points = 64, most_levels = 10'000;
+    static constexpr std::size_t max_points = 64, max_grid_points = 10'000;
     bool is_grid = false;  ///< nothing is sampled, see grid.hpp
 
-    std::size_t rows() const { return unit.size(); }
+    std::size_t rows() const { return items.size(); }
     /// True if a row ended normally and meets a measure's limits; false without the measure.
-    bool keeps(std::size_t row, std::size_t measure) const;
-    bool has_limits(std::size_t measure) const { return measures[measure].at_least || measures[measure].at_most; }
+    bool meets_limits(std::size_t row, std::size_t measure) const;
+    bool has_limits(std::size_t measure) const { return measures[measure].min || measures[measure].max; }
     bool has_limits() const;
-    bool makes_points(std::size_t axis) const { return !points[axis].empty(); }
+    bool has_points(std::size_t axis) const { return !points[axis].empty(); }
     /// True if a row ended normally and meets all limits.
     bool passes(std::size_t row) const;
 };
@@ -35,10 +35,10 @@ struct SweepTable {
 Result<SweepTable> read_table(const SweepResults&, const std::vector<std::string>& measures);
 
 /// Why an item failed; only the first items are listed.
-struct LostUnit {
-    std::int64_t unit;
-    std::string why;
+struct FailedItem {
+    std::int64_t item;
+    std::string reason;
 };
-Result<std::vector<LostUnit>> lost_units(const SweepResults&, std::size_t limit);
+Result<std::vector<FailedItem>> failed_items(const SweepResults&, std::size_t limit);
 
 }  // namespace corpuscle

@@ -95,14 +95,14 @@ Result<WriterLock> WriterLock::take(const std::string& results) {
         if (is_file_at_path(file, path)) {
             if (!is_ours(file)) return ::close(file), not_ours(path, "holds something else");
             lock.path_ = path, lock.file_ = file;
-            lock.note(0, 0);
+            lock.write_progress(0, 0);
             return lock;
         }
         ::close(file);
     }
 }
 
-void WriterLock::note(std::int64_t finished, std::int64_t planned) const {
+void WriterLock::write_progress(std::int64_t finished, std::int64_t planned) const {
     std::array<char, 256> host = {};
     ::gethostname(host.data(), host.size() - 1);
     const auto now = std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
@@ -122,7 +122,7 @@ std::optional<WriterLock::Writer> WriterLock::holder(const std::string& results)
     ::close(file);
     if (free) return {};
     Writer out;
-    if (size > 0) std::istringstream(text.data()) >> out.process >> out.since >> out.finished >> out.to_do >> out.host;
+    if (size > 0) std::istringstream(text.data()) >> out.process >> out.since >> out.finished >> out.planned >> out.host;
     return out;
 }
 

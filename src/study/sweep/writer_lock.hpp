@@ -20,7 +20,7 @@ public:
         long process = 0;
         std::string host;
         double since = 0;                      ///< s, system clock
-        std::int64_t finished = 0, to_do = 0;  ///< items, at the start
+        std::int64_t finished = 0, planned = 0;  ///< items, at the start
     };
 
     WriterLock() = default;
@@ -31,7 +31,7 @@ public:
     /// Fails if another process has the lock, and names it.
     static Result<WriterLock> take(const std::string& results);
     /// Records the number of finished items at the start, and of items to run.
-    void note(std::int64_t finished, std::int64_t to_do) const;
+    void write_progress(std::int64_t finished, std::int64_t to_do) const;
     /// The current owner of the lock, if any.
     static std::optional<Writer> holder(const std::string& results);
 };

@@ -5,14 +5,14 @@
 
 namespace corpuscle {
 
-ActiveLoad analyse_load(Line current, double tolerance) {
+ActiveLoad analyse_load(StudyCurve current, double tolerance) {
     ActiveLoad out;
     out.current = std::move(current);
     out.resistance = out.current.slope().inverse();
-    out.zero_current_voltage = out.current.where(0);
-    out.max_resistance = out.resistance.most(), out.max_resistance_at = out.resistance.peak();
+    out.zero_current_voltage = out.current.crossing(0);
+    out.max_resistance = out.resistance.max(), out.max_resistance_at = out.resistance.x_of_max();
     const double min_resistance = (1 - tolerance) * out.max_resistance;
-    out.linear_to = out.resistance.where(min_resistance, out.max_resistance_at);
+    out.linear_to = out.resistance.crossing(min_resistance, out.max_resistance_at);
     const auto& [x, y] = out.resistance;
     auto k = static_cast<std::size_t>(std::max_element(y.begin(), y.end()) - y.begin());
     while (k > 0 && y[k - 1] >= min_resistance) --k;

@@ -1,18 +1,18 @@
 #pragma once
 // A transconductor with its output tied to its input, which then acts as a resistor.
 
-#include "study/line.hpp"
+#include "study/study_curve.hpp"
 
 namespace corpuscle {
 
 struct ActiveLoad {
-    Line current, resistance;  ///< input current, A, and dV/dI, ohm, over the voltage
+    StudyCurve current, resistance;  ///< input current, A, and dV/dI, ohm, over the voltage
     double zero_current_voltage = 0;           ///< V: the current is zero
     double max_resistance = 0, max_resistance_at = 0;   ///< largest resistance, ohm, and its voltage, V
     double linear_from = 0, linear_to = 0;   ///< V: linear range, in which the resistance is close to its largest
 };
 
 /// From the input current over the voltage. The linear range ends where the resistance is below its largest by the fraction `tolerance`.
-ActiveLoad analyse_load(Line current, double tolerance = 0.1);
+ActiveLoad analyse_load(StudyCurve current, double tolerance = 0.1);
 
 }  // namespace corpuscle

@@ -5,7 +5,7 @@
 
 namespace corpuscle::algorithms {
 
-MembraneResponse lif_b(const Line& current, const MembraneParams& m) {
+MembraneResponse lif_b(const StudyCurve& current, const MembraneParams& m) {
     MembraneResponse out;
     const double T = current.x[1] - current.x[0];
     double u = 0;

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "study/line.hpp"
+#include "study/study_curve.hpp"
 
 namespace corpuscle::algorithms {
 
@@ -13,11 +13,11 @@ struct MembraneParams {
 };
 struct MembraneResponse {
     std::vector<double> spikes;  ///< s
-    Line u;
+    StudyCurve u;
 };
 
 /// Algorithm 4: u[n] = u[n-1] + (T / C) (I[n] - I_leak0).
-MembraneResponse lif_b(const Line& current, const MembraneParams&);
+MembraneResponse lif_b(const StudyCurve& current, const MembraneParams&);
 
 /// Factor k_x2 of Algorithms 5 and 6 for a corner frequency f (Hz) and a time step T (s); k_x1 = K k_x2.
 double k2(double f, double T);

@@ -12,14 +12,14 @@ using Rule = circuit::RectangleRule;
 constexpr double um = 1e6, gap_between_arrays = 0.8;  // um per m; um
 
 /// Appends a rectangle (um) to a path.
-void append_rectangle(Line& path, double left, double low, double width, double height) {
+void append_rectangle(StudyCurve& path, double left, double low, double width, double height) {
     const double x[] = {left, left + width, left + width, left, left, Claim::none};
     const double y[] = {low, low, low + height, low + height, low, Claim::none};
     path.x.insert(path.x.end(), std::begin(x), std::end(x)), path.y.insert(path.y.end(), std::begin(y), std::end(y));
 }
 
 /// Appends the channels (W in rows, L in columns) and the total area; returns the array's width (um).
-double append_array(const SimulatedArray& a, double left, Line& channels, Line& total) {
+double append_array(const SimulatedArray& a, double left, StudyCurve& channels, StudyCurve& total) {
     const auto rows = static_cast<std::size_t>(a.published->rows), columns = static_cast<std::size_t>(a.published->columns);
     const double W = um * a.W, pitch = W + um * Rule::between_W;
     double x = left + 0.5 * um * Rule::around_L;
@@ -36,32 +36,32 @@ double append_array(const SimulatedArray& a, double left, Line& channels, Line& 
 
 }  // namespace
 
-Plot layout_plot(const SimulatedArrays& arrays, std::string title) {
-    Plot out{std::move(title), "along the channels, arrays side by side (um)", "across (um)", {}};
-    Line channels, total;
+StudyPlot layout_plot(const SimulatedArrays& arrays, std::string title) {
+    StudyPlot out{std::move(title), "along the channels, arrays side by side (um)", "across (um)", {}};
+    StudyCurve channels, total;
     double left = 0;
     for (const auto& a : arrays) left += append_array(a, left, channels, total) + gap_between_arrays;
-    return out.add("channels", channels, Plot::Style::path).add("total area", total, Plot::Style::path);
+    return out.add("channels", channels, StudyPlot::Style::path).add("total area", total, StudyPlot::Style::path);
 }
 
-Result<Outcome> report_layout(const PublishedArrays& tables, const std::string& figure, const std::string& remark) {
+Result<StudyResult> report_layout(const PublishedArrays& tables, const std::string& figure, const std::string& remark) {
     const auto ours = simulate_arrays(tables);
     if (!ours) return ours.error();
-    Outcome out;
+    StudyResult out;
     double published_sum = 0, sum = 0;
     std::string names;
     for (const auto& a : *ours) {
         out.claim(fmt::format("{}: total area", a.published->name), 1e12 * a.A_T, "um^2")
-            .printed_as(a.published->A_T, fmt::format("{}, of the arrays in {}", tables.sizes_table, figure));
+            .published_as(a.published->A_T, fmt::format("{}, of the arrays in {}", tables.sizes_table, figure));
         out.claim(fmt::format("{}: active area from its channels", a.published->name),
                   1e12 * a.W * std::accumulate(a.lengths.begin(), a.lengths.end(), 0.0), "um^2")
-            .printed_as(a.published->A, tables.sizes_table);
+            .published_as(a.published->A, tables.sizes_table);
         published_sum += a.published->A_T, sum += 1e12 * a.A_T;
         names += fmt::format("{}{}", names.empty() ? "" : ", ", a.published->name);
     }
-    out.claim("sum of all total areas", sum, "um^2").held_to(published_sum, tables.sizes_table);
+    out.claim("sum of all total areas", sum, "um^2").derived_as(published_sum, tables.sizes_table);
     out.plots.push_back(layout_plot(*ours, fmt::format("Channels and total areas of {}, from the left", names))
-                            .shape("polysilicon and diffusion of each array in its rectangle; the original figure is lost"));
+                            .describe_published("polysilicon and diffusion of each array in its rectangle; the original figure is lost"));
     out.note(
         "The numbers of rows and columns are those that reproduce the published total areas; one rule gives the margins and spacings of "
         "all channels. " +

@@ -6,9 +6,9 @@
 namespace corpuscle {
 
 /// The arrays side by side, in um.
-Plot layout_plot(const SimulatedArrays&, std::string title);
+StudyPlot layout_plot(const SimulatedArrays&, std::string title);
 
 /// All of a layout figure: each array's areas beside the published ones, and the drawing. `remark` explains differences.
-Result<Outcome> report_layout(const PublishedArrays&, const std::string& figure, const std::string& remark);
+Result<StudyResult> report_layout(const PublishedArrays&, const std::string& figure, const std::string& remark);
 
 }  // namespace corpuscle

@@ -7,8 +7,8 @@
 #include "circuit/cost/area.hpp"
 #include "circuit/device/physical_constants.hpp"
 #include "circuit/device/inversion_charge.hpp"
-#include "study/deck.hpp"
-#include "study/spread.hpp"
+#include "study/study_netlist.hpp"
+#include "study/sample_statistics.hpp"
 
 namespace corpuscle {
 namespace {
@@ -88,16 +88,16 @@ Result<SimulatedArrays> simulate_arrays(const PublishedArrays& all) { return sim
 Result<SimulatedArrays> simulate_arrays(const char* circuit, std::span<const ArrayMatch> matches) {
     std::string directives = ".op\n";
     for (const auto& match : matches) directives += slope_directives(match.subcircuit);
-    const auto found = found_in({circuit, {}, directives});
+    const auto found = run_study_netlist({circuit, {}, directives});
     if (!found) return found.error();
     SimulatedArrays out;
     for (const auto& [published, array] : matches) {
-        const auto g = [&](char moved, const char* by) { return found->by(fmt::format("i({}.v{})", array, moved), by); };
+        const auto g = [&](char moved, const char* by) { return found->derivative(fmt::format("i({}.v{})", array, moved), by); };
         SimulatedArray a{.published = published, .g_md = g('d', "vi"), .g_mg = g('g', "vi"), .g_mb = g('b', "vi")};
         a.g_ms = g('b', "vh") + a.g_mb;  // all but the source moved
-        a.I_D = found->at_rest(fmt::format("i({}.vg)", array));
-        a.V_T = found->reading(array + ".mg2", "v_t");
-        if (std::isnan(a.V_T)) a.V_T = found->reading(array + ".mg1", "v_t");
+        a.I_D = found->operating_point(fmt::format("i({}.vg)", array));
+        a.V_T = found->operating_info(array + ".mg2", "v_t");
+        if (std::isnan(a.V_T)) a.V_T = found->operating_info(array + ".mg1", "v_t");
         measure_size(a, *found->circuit, array);
         out.push_back(a);
     }
@@ -105,24 +105,24 @@ Result<SimulatedArrays> simulate_arrays(const char* circuit, std::span<const Arr
 }
 
 Result<std::vector<double>> simulate_mismatch(const char* circuit, std::span<const ArrayMatch> matches) {
-    const auto found = all_found_in({circuit, {}, fmt::format(".op\n.mc {} process=0", chips)});
+    const auto found = run_study_variants({circuit, {}, fmt::format(".op\n.mc {} process=0", chips)});
     if (!found) return found.error();
     std::vector<double> out;
-    for (const auto& match : matches) out.push_back(spread_of(*found, fmt::format("i({}.vg)", match.subcircuit)).percent());
+    for (const auto& match : matches) out.push_back(sample_statistics(*found, fmt::format("i({}.vg)", match.subcircuit)).cv_percent());
     return out;
 }
 
 Result<std::vector<double>> simulate_mismatch(const PublishedArrays& all) { return simulate_mismatch(all.circuit, all_matches(all)); }
 
-void add_column(Outcome& out, const TableColumn& column, const SimulatedArrays& ours, const std::string& source) {
+void add_column(StudyResult& out, const TableColumn& column, const SimulatedArrays& ours, const std::string& source) {
     for (const auto& a : ours) {
         auto& c = out.claim(fmt::format("{}: {}", a.published->name, column.quantity), column.computed(a), column.unit);
-        c.printed_as(column.factor * a.published->*column.published, *column.source_note == 0 ? source : source + ", " + column.source_note);
-        if (c.needs_reason() && column.reason != nullptr) c.because(column.reason(a));
+        c.published_as(column.factor * a.published->*column.published, *column.source_note == 0 ? source : source + ", " + column.source_note);
+        if (c.needs_explanation() && column.reason != nullptr) c.explain(column.reason(a));
     }
 }
 
-void add_sizes(Outcome& out, const PublishedArrays& all, const SimulatedArrays& ours) {
+void add_sizes(StudyResult& out, const PublishedArrays& all, const SimulatedArrays& ours) {
     using P = PublishedArray;
     const TableColumn columns[] = {
         {"S_eq", "", [](const SimulatedArray& a) { return a.S; }, &P::S},
@@ -133,7 +133,7 @@ void add_sizes(Outcome& out, const PublishedArrays& all, const SimulatedArrays& 
     for (const auto& column : columns) add_column(out, column, ours, all.sizes_table);
 }
 
-void add_small_signals(Outcome& out, const PublishedArrays& all, const SimulatedArrays& ours) {
+void add_small_signals(StudyResult& out, const PublishedArrays& all, const SimulatedArrays& ours) {
     using P = PublishedArray;
     const TableColumn columns[] = {
         {"g_md", "S", [](const SimulatedArray& a) { return a.g_md; }, &P::g_md, all.g_md, early_voltage_reason, all.g_md_note},
@@ -146,7 +146,7 @@ void add_small_signals(Outcome& out, const PublishedArrays& all, const Simulated
     for (const auto& column : columns) add_column(out, column, ours, all.small_signal_table);
 }
 
-void add_ratios(Outcome& out, const PublishedArrays& all, const SimulatedArrays& ours) {
+void add_ratios(StudyResult& out, const PublishedArrays& all, const SimulatedArrays& ours) {
     using P = PublishedArray;
     const TableColumn columns[] = {
         {"g_mg/I_D", "1/V", [](const SimulatedArray& a) { return a.g_by_I(); }, &P::g_by_I},
@@ -176,11 +176,11 @@ std::string mismatch_reason(const SimulatedArray& a) {
 
 }  // namespace
 
-void add_mismatch(Outcome& out, const PublishedArrays& all, const SimulatedArrays& ours, const std::vector<double>& sigmas) {
+void add_mismatch(StudyResult& out, const PublishedArrays& all, const SimulatedArrays& ours, const std::vector<double>& sigmas) {
     for (std::size_t k = 0; k < sigmas.size(); ++k) {
         auto& c = out.claim(fmt::format("{}: standard deviation of I_D over its mean", ours[k].published->name), sigmas[k], "%");
-        c.printed_as(ours[k].published->sigma, all.ratios_table);
-        if (c.needs_reason()) c.because(mismatch_reason(ours[k]));
+        c.published_as(ours[k].published->sigma, all.ratios_table);
+        if (c.needs_explanation()) c.explain(mismatch_reason(ours[k]));
     }
 }
 
@@ -192,7 +192,7 @@ double sum_residual(const PublishedArray& a, double g_md) {
 
 double ratio_residual(const PublishedArray& a, double g_md) { return std::abs(1e-6 * a.I_D / (g_md * a.g_md * a.V_A) - 1); }
 
-void add_rule(Outcome& out, const PublishedArrays& all, double head, const std::string& erratum, const std::string& what,
+void add_rule(StudyResult& out, const PublishedArrays& all, double head, const std::string& erratum, const std::string& what,
               double (*residual)(const PublishedArray&, double)) {
     double with_ours = 0, with_head = 0;
     bool all_closer = true;
@@ -200,7 +200,7 @@ void add_rule(Outcome& out, const PublishedArrays& all, double head, const std::
         with_ours = std::max(with_ours, residual(a, all.g_md)), with_head = std::max(with_head, residual(a, head));
         all_closer = all_closer && residual(a, all.g_md) < residual(a, head);
     }
-    out.finds(fmt::format("Published numbers only: {} by up to {:.2g} % with the unit of g_md used here, by up to {:.2g} % with the head's "
+    out.claim_true(fmt::format("Published numbers only: {} by up to {:.2g} % with the unit of g_md used here, by up to {:.2g} % with the head's "
                           "unit; smaller in every row",
                           what, 100 * with_ours, 100 * with_head),
               all_closer, erratum);
@@ -208,11 +208,11 @@ void add_rule(Outcome& out, const PublishedArrays& all, double head, const std::
 
 }  // namespace
 
-void add_sum_rule(Outcome& out, const PublishedArrays& all, double head, const std::string& erratum) {
+void add_sum_rule(StudyResult& out, const PublishedArrays& all, double head, const std::string& erratum) {
     add_rule(out, all, head, erratum, "g_mg + g_md + g_mb differs from g_ms", sum_residual);
 }
 
-void add_ratio_rule(Outcome& out, const PublishedArrays& all, double head, const std::string& erratum) {
+void add_ratio_rule(StudyResult& out, const PublishedArrays& all, double head, const std::string& erratum) {
     add_rule(out, all, head, erratum, "I_D over g_md differs from its column", ratio_residual);
 }
 

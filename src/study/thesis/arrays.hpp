@@ -103,17 +103,17 @@ struct TableColumn {
     const char* source_note = "";                  ///< remark on the unit if the head of the table is wrong
 };
 /// Adds one claim per cell.
-void add_column(Outcome&, const TableColumn&, const SimulatedArrays&, const std::string& source);
+void add_column(StudyResult&, const TableColumn&, const SimulatedArrays&, const std::string& source);
 
-void add_sizes(Outcome&, const PublishedArrays&, const SimulatedArrays&);
-void add_small_signals(Outcome&, const PublishedArrays&, const SimulatedArrays&);
-void add_ratios(Outcome&, const PublishedArrays&, const SimulatedArrays&);
-void add_mismatch(Outcome&, const PublishedArrays&, const SimulatedArrays&, const std::vector<double>& sigmas);
+void add_sizes(StudyResult&, const PublishedArrays&, const SimulatedArrays&);
+void add_small_signals(StudyResult&, const PublishedArrays&, const SimulatedArrays&);
+void add_ratios(StudyResult&, const PublishedArrays&, const SimulatedArrays&);
+void add_mismatch(StudyResult&, const PublishedArrays&, const SimulatedArrays&, const std::vector<double>& sigmas);
 
 /// The identity g_mg + g_md + g_mb = g_ms (eq. 27) gives the unit of the printed g_md. Adds the residual of the sum with the unit used here
 /// and with `head`, the head's unit in S.
-void add_sum_rule(Outcome&, const PublishedArrays&, double head, const std::string& erratum);
+void add_sum_rule(StudyResult&, const PublishedArrays&, double head, const std::string& erratum);
 /// The same check with the ratio I_D/g_md.
-void add_ratio_rule(Outcome&, const PublishedArrays&, double head, const std::string& erratum);
+void add_ratio_rule(StudyResult&, const PublishedArrays&, double head, const std::string& erratum);
 
 }  // namespace corpuscle

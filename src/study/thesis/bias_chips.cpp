@@ -5,7 +5,7 @@
 namespace corpuscle::bias_chips {
 
 Result<Chips> simulate_chips(const std::string& circuit, const Variation& way) {
-    return all_found_in({circuit, {fmt::format("corner={}", way.corner)}, fmt::format(".op\n.mc 1000 {}", way.mc_options)});
+    return run_study_variants({circuit, {fmt::format("corner={}", way.corner)}, fmt::format(".op\n.mc 1000 {}", way.mc_options)});
 }
 
 double model_parameter(const circuit::Circuit& c, std::size_t element, const char* name) {

@@ -1,7 +1,7 @@
 #pragma once
 // A thousand chips of the inverter, without and with its bias generator, and the means and spreads of tables 17 and 18.
 
-#include "study/spread.hpp"
+#include "study/sample_statistics.hpp"
 
 namespace corpuscle::bias_chips {
 
@@ -33,7 +33,7 @@ struct Variation {
 };
 inline constexpr Variation variations[] = {{"process", "mc", "mismatch=0"}, {"mismatch", "tt", "process=0"}, {"all", "mc", ""}};
 
-using Chips = std::vector<Found>;
+using Chips = std::vector<NetlistResult>;
 /// Simulates 1000 chips of a circuit.
 Result<Chips> simulate_chips(const std::string& circuit, const Variation&);
 

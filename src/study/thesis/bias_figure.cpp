@@ -7,16 +7,16 @@ namespace corpuscle {
 namespace {
 
 /// Adds a claim on one end of a range, with the reason that limits the generator there.
-Result<void> claim_end(Outcome& out, const std::string& what, const BiasSweep& sweep, double end, bool open, double printed,
+Result<void> claim_end(StudyResult& out, const std::string& what, const BiasSweep& sweep, double end, bool open, double printed,
                        const BiasFigure& figure) {
-    auto& claim = out.claim(what, end, figure.unit).printed_as(printed, figure.source());
+    auto& claim = out.claim(what, end, figure.unit).published_as(printed, figure.source());
     auto why = explain_range_end(sweep, end, open);
     if (!why) return why.error();
-    claim.because(std::move(*why));
+    claim.explain(std::move(*why));
     return {};
 }
 
-Result<void> claim_ranges(const BiasFigure& figure, std::span<const BiasCorner> corners, Outcome& out) {
+Result<void> claim_ranges(const BiasFigure& figure, std::span<const BiasCorner> corners, StudyResult& out) {
     const auto& typical = corners[0];
     if (auto ok =
             claim_end(out, "typical: works from", typical.sweep, typical.working_range.from, typical.working_range.reaches_sweep_start, figure.typical_range[0], figure);
@@ -41,20 +41,20 @@ Result<void> claim_ranges(const BiasFigure& figure, std::span<const BiasCorner> 
     return claim_end(out, name("to", *highest), highest->sweep, highest->working_range.to, highest->working_range.reaches_sweep_end, figure.corner_range[1], figure);
 }
 
-void add_plots(const BiasFigure& figure, std::span<const BiasCorner> corners, Outcome& out) {
+void add_plots(const BiasFigure& figure, std::span<const BiasCorner> corners, StudyResult& out) {
     const bool log = figure.axis == BiasAxis::current;
     auto& voltages = out.plot(fmt::format("Fig. {}a: body voltages, typical", figure.number), figure.x_label, "V");
     voltages.log_x = log;
     for (const auto& [node, name] : {std::pair{"v(bn)", "V_BN"}, {"v(bp)", "V_BP"}, {"v(ref)", "V_REF"}, {"v(q)", "V_Q"}})
-        voltages.add(name, corners[0].sweep.curve(node).times(figure.plot_scale, 1));
+        voltages.add(name, corners[0].sweep.curve(node).scaled(figure.plot_scale, 1));
     auto& currents = out.plot(fmt::format("Fig. {}b: I_Q in the corners", figure.number), figure.x_label, "I_Q (nA)");
     currents.log_x = currents.log_y = log;
-    for (const auto& c : corners) currents.add(c.name, c.sweep.I_Q().times(figure.plot_scale, 1e9));
+    for (const auto& c : corners) currents.add(c.name, c.sweep.I_Q().scaled(figure.plot_scale, 1e9));
     if (log) currents.add("I_Q = I_BIAS", {{10, 3000}, {10, 3000}});
     auto& errors =
         out.plot("Error over its margin: 1 is 5 mV of V_Q or a tenth of I_Q, the worse of the two", figure.x_label, "error over margin");
     errors.log_x = log, errors.log_y = true;
-    for (const auto& c : corners) errors.add(c.name, c.sweep.worst_error().times(figure.plot_scale, 1));
+    for (const auto& c : corners) errors.add(c.name, c.sweep.worst_error().scaled(figure.plot_scale, 1));
     errors.add("limit", {{corners[0].sweep.worst_error().x.front() * figure.plot_scale, corners[0].sweep.worst_error().x.back() * figure.plot_scale}, {1, 1}});
 }
 
@@ -70,14 +70,14 @@ Result<std::string> explain_range_end(const BiasSweep& sweep, double end, bool o
     return fmt::format("{} leaves its margin; {}", current_is_worse ? "I_Q" : "V_Q", state->description());
 }
 
-Result<std::vector<BiasCorner>> simulate_bias_figure(const BiasFigure& figure, Outcome& out, const StudyOptions& options) {
+Result<std::vector<BiasCorner>> simulate_bias_figure(const BiasFigure& figure, StudyResult& out, const StudyOptions& options) {
     std::vector<BiasCorner> corners;
     for (const char* name : {"tt", "ss", "ff"}) {
         auto sweep = BiasSweep::run(figure.axis, {fmt::format("corner={}", name)});
         if (!sweep) return sweep.error();
         const auto works = sweep->working_range();
         corners.push_back({name, std::move(*sweep), works});
-        if (auto ok = options.at(static_cast<double>(corners.size()) / 4); !ok) return ok.error();
+        if (auto ok = options.report_progress(static_cast<double>(corners.size()) / 4); !ok) return ok.error();
     }
     if (auto ok = claim_ranges(figure, corners, out); !ok) return ok.error();
     add_plots(figure, corners, out);

@@ -23,7 +23,7 @@ struct BiasCorner {
 };
 
 /// Sweeps the corners tt, ss and ff; adds the claims on the working range and both plots.
-Result<std::vector<BiasCorner>> simulate_bias_figure(const BiasFigure&, Outcome&, const StudyOptions&);
+Result<std::vector<BiasCorner>> simulate_bias_figure(const BiasFigure&, StudyResult&, const StudyOptions&);
 
 /// Reason for which the generator stops working at this end of its range.
 Result<std::string> explain_range_end(const BiasSweep&, double end, bool open);

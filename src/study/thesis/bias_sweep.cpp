@@ -12,7 +12,7 @@ namespace {
 
 constexpr double k_over_q = 1.380649e-23 / 1.602176634e-19;  // V/K
 
-double parameter(const Found& found, std::string_view name) { return found.circuit->parameters.find(name)->second; }
+double parameter(const NetlistResult& found, std::string_view name) { return found.circuit->parameters.find(name)->second; }
 
 std::string dc_directive(BiasAxis axis, const std::string& range) {
     constexpr const char* swept[] = {"ibias", "vdd", "temp"};
@@ -38,21 +38,21 @@ Result<BiasSweep> BiasSweep::run(BiasAxis axis, std::vector<std::string> setting
 }
 
 Result<BiasSweep> BiasSweep::run(BiasAxis axis, const std::string& range, std::vector<std::string> settings) {
-    auto found = found_in({"bias", settings, dc_directive(axis, range)});
+    auto found = run_study_netlist({"bias", settings, dc_directive(axis, range)});
     if (!found) return found.error();
     return BiasSweep{axis, std::move(settings), std::move(*found)};
 }
 
-Line BiasSweep::curve(const std::string& name) const { return found.line("dc", name); }
+StudyCurve BiasSweep::curve(const std::string& name) const { return found.curve("dc", name); }
 
-Line BiasSweep::voltage_error() const {
+StudyCurve BiasSweep::voltage_error() const {
     auto out = V_Q();
     const auto supply = curve("v(vdd)");
     for (std::size_t k = 0; k < out.x.size(); ++k) out.y[k] = std::abs(out.y[k] - supply.y[k] / 2) / bias_voltage_margin;
     return out;
 }
 
-Line BiasSweep::current_error() const {
+StudyCurve BiasSweep::current_error() const {
     auto out = I_Q();
     for (std::size_t k = 0; k < out.x.size(); ++k) {
         const double I_BIAS = axis == BiasAxis::current ? out.x[k] : parameter(found, "i_bias");
@@ -61,7 +61,7 @@ Line BiasSweep::current_error() const {
     return out;
 }
 
-Line BiasSweep::worst_error() const {
+StudyCurve BiasSweep::worst_error() const {
     auto out = voltage_error();
     const auto other = current_error();
     for (std::size_t k = 0; k < out.x.size(); ++k) out.y[k] = std::max(out.y[k], other.y[k]);
@@ -91,9 +91,9 @@ BiasSweep::Range range_intersection(const BiasSweep::Range& a, const BiasSweep::
 }
 
 Result<BiasState> simulate_bias_state(const std::vector<std::string>& settings) {
-    const auto found = found_in({"bias", settings, ".op\n.save i(m3b) i(m4a)"});
+    const auto found = run_study_netlist({"bias", settings, ".op\n.save i(m3b) i(m4a)"});
     if (!found) return found.error();
-    const auto at = [&](const char* name) { return found->at_rest(name); };
+    const auto at = [&](const char* name) { return found->operating_point(name); };
     BiasState out{at("v(q)"),
                   at("i(vis)"),
                   at("v(bn)"),

@@ -1,7 +1,7 @@
 #pragma once
 // Sweeps of the bias generator (circuits/bias.cir) over its current, supply or temperature: the working range, and the reason for its ends.
 
-#include "study/deck.hpp"
+#include "study/study_netlist.hpp"
 
 namespace corpuscle {
 
@@ -14,18 +14,18 @@ constexpr double bias_voltage_margin = 5e-3, bias_current_margin = 0.1;  // V, o
 struct BiasSweep {
     BiasAxis axis;
     std::vector<std::string> settings;
-    Found found;
+    NetlistResult found;
 
     static Result<BiasSweep> run(BiasAxis, std::vector<std::string> settings = {});
     static Result<BiasSweep> run(BiasAxis, const std::string& range, std::vector<std::string> settings);  ///< "10n 3u 2n"
 
-    Line curve(const std::string& name) const;  ///< "v(bn)"
-    Line V_Q() const { return curve("v(q)"); }
-    Line I_Q() const { return curve("i(vis)"); }
+    StudyCurve curve(const std::string& name) const;  ///< "v(bn)"
+    StudyCurve V_Q() const { return curve("v(q)"); }
+    StudyCurve I_Q() const { return curve("i(vis)"); }
     /// Errors of V_Q and I_Q over their margins: 1 is the limit.
-    Line voltage_error() const;
-    Line current_error() const;
-    Line worst_error() const;  ///< the larger of the two
+    StudyCurve voltage_error() const;
+    StudyCurve current_error() const;
+    StudyCurve worst_error() const;  ///< the larger of the two
 
     /// The working range about the best point. An end outside the sweep is replaced by the sweep's end.
     struct Range {

@@ -5,22 +5,22 @@
 
 namespace corpuscle {
 
-Result<ChipVsModel> compare_chip_with_model(const Asked& chip_spec, const std::string& model) {
-    auto chip = told_of(chip_spec);
+Result<ChipVsModel> compare_chip_with_model(const TrialSpec& chip_spec, const std::string& model) {
+    auto chip = run_trial(chip_spec);
     if (!chip) return chip.error();
-    auto train = train_of({model});
+    auto train = simulate_train({model});
     if (!train) return train.error();
     return ChipVsModel{std::move(*chip), std::move(*train)};
 }
 
-double min_jump(const Line& trace, const std::vector<double>& spikes, double duration) {
+double min_jump(const StudyCurve& trace, const std::vector<double>& spikes, double duration) {
     double min_ratio = std::numeric_limits<double>::infinity();
     for (const double t : spikes)
-        min_ratio = std::min(min_ratio, trace.between(t, t + duration).most() / trace.between(t - 2 * duration, t - duration / 2).most());
+        min_ratio = std::min(min_ratio, trace.between(t, t + duration).max() / trace.between(t - 2 * duration, t - duration / 2).max());
     return min_ratio;
 }
 
-double longest_time_above(const Line& trace, double level) {
+double longest_time_above(const StudyCurve& trace, double level) {
     double longest = 0, start = NAN;
     for (std::size_t k = 0; k < trace.x.size(); ++k) {
         if (trace.y[k] < level)

@@ -6,17 +6,17 @@
 namespace corpuscle {
 
 struct ChipVsModel {
-    Told chip;                  ///< with the requested probes
+    TrialResult chip;                  ///< with the requested probes
     std::vector<double> model_spikes;  ///< spike times of the model, s
 };
 /// Runs the chip as requested, and the model with the thesis's parameters.
-Result<ChipVsModel> compare_chip_with_model(const Asked& chip, const std::string& model);
+Result<ChipVsModel> compare_chip_with_model(const TrialSpec& chip, const std::string& model);
 
 /// For each spike: the largest value of a trace in `duration` (s) after the spike, over the largest in the same time before it. Returns the
 /// smallest of these ratios.
-double min_jump(const Line& trace, const std::vector<double>& spikes, double duration);
+double min_jump(const StudyCurve& trace, const std::vector<double>& spikes, double duration);
 
 /// The longest time (s) for which a trace stays above a level.
-double longest_time_above(const Line& trace, double level);
+double longest_time_above(const StudyCurve& trace, double level);
 
 }  // namespace corpuscle

@@ -8,8 +8,8 @@ namespace corpuscle {
 double ForceSensor::conductance(double gf) const { return 1 / R_0 + std::pow(gf, m) / a; }
 double ForceSensor::slope(double gf) const { return m * std::pow(gf, m - 1) / a; }
 
-Line ForceSensor::conductance_curve(double from, double to, double step) const {
-    Line out;
+StudyCurve ForceSensor::conductance_curve(double from, double to, double step) const {
+    StudyCurve out;
     for (double gf = from; gf <= to; gf += step) out.x.push_back(gf), out.y.push_back(conductance(gf));
     return out;
 }
@@ -48,10 +48,10 @@ std::string transducer_netlist(std::span<const TransducerCell> cells, const std:
 
 Result<std::vector<double>> find_lowest_supplies(std::span<const TransducerCell> cells, double newtons, const std::vector<std::string>& settings,
                                             const std::string& parts) {
-    const auto found = found_in({transducer_netlist(cells, fmt::format("{}", newtons), parts), settings, ".dc vdd 0.3 1 5m"});
+    const auto found = run_study_netlist({transducer_netlist(cells, fmt::format("{}", newtons), parts), settings, ".dc vdd 0.3 1 5m"});
     if (!found) return found.error();
     std::vector<double> out;
-    for (const auto& cell : cells) out.push_back(found->line("dc", fmt::format("v(x{}.vx)", cell.name)).where(0.95 * 0.1));
+    for (const auto& cell : cells) out.push_back(found->curve("dc", fmt::format("v(x{}.vx)", cell.name)).crossing(0.95 * 0.1));
     return out;
 }
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "study/deck.hpp"
+#include "study/study_netlist.hpp"
 
 namespace corpuscle {
 
@@ -18,7 +18,7 @@ struct ForceSensor {
     double conductance(double gf) const;
     double resistance(double gf) const { return 1 / conductance(gf); }
     double slope(double gf) const;  ///< dG/dF, S/gf
-    Line conductance_curve(double from, double to, double step = 1) const;
+    StudyCurve conductance_curve(double from, double to, double step = 1) const;
 };
 
 /// A transducer with its own sensor: netlist lines between the nodes vx (sensor), vz (amplifier output), if (output, held at the supply by

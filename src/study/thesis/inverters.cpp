@@ -7,7 +7,7 @@
 namespace corpuscle {
 namespace {
 
-Line relative_to_half_supply(Line line, double half) {
+StudyCurve relative_to_half_supply(StudyCurve line, double half) {
     for (double& x : line.x) x -= half;
     return line;
 }
@@ -15,33 +15,33 @@ Line relative_to_half_supply(Line line, double half) {
 }  // namespace
 
 Result<InverterSweep> InverterSweep::run(double step, double supply) {
-    auto found = found_in({"inverters", {fmt::format("supply={}", supply)}, fmt::format(".dc vin 0 {} {}", supply, step)});
+    auto found = run_study_netlist({"inverters", {fmt::format("supply={}", supply)}, fmt::format(".dc vin 0 {} {}", supply, step)});
     if (!found) return found.error();
     return InverterSweep{std::move(*found), supply};
 }
 
 Result<InverterSweep> InverterSweep::run_with_directives(const std::string& directives, std::vector<std::string> settings) {
-    auto found = found_in({"inverters", std::move(settings), directives});
+    auto found = run_study_netlist({"inverters", std::move(settings), directives});
     if (!found) return found.error();
     return InverterSweep{std::move(*found), 0.7};
 }
 
-Line InverterSweep::output_current(char which) const { return relative_to_half_supply(found.line("dc", fmt::format("i(vh{})", which)), supply / 2); }
-Line InverterSweep::transconductance(char which) const { return output_current(which).slope().times(1, -1); }
+StudyCurve InverterSweep::output_current(char which) const { return relative_to_half_supply(found.curve("dc", fmt::format("i(vh{})", which)), supply / 2); }
+StudyCurve InverterSweep::transconductance(char which) const { return output_current(which).slope().scaled(1, -1); }
 
-Line InverterSweep::transfer_curve(char which) const {
-    auto out = relative_to_half_supply(found.line("dc", fmt::format("v(o{})", which)), supply / 2);
+StudyCurve InverterSweep::transfer_curve(char which) const {
+    auto out = relative_to_half_supply(found.curve("dc", fmt::format("v(o{})", which)), supply / 2);
     for (double& y : out.y) y -= supply / 2;
     return out;
 }
 
-Line InverterSweep::voltage_gain(char which) const {
+StudyCurve InverterSweep::voltage_gain(char which) const {
     const auto curve = transfer_curve(which), slope = curve.slope().absolute();
-    Line out;
+    StudyCurve out;
     for (std::size_t k = slope.x.size(); k-- > 0;) out.x.push_back(curve.y[k + 1]), out.y.push_back(slope.y[k]);
     return out;
 }
 
-Line InverterSweep::supply_current(char which) const { return relative_to_half_supply(found.line("dc", fmt::format("i(vs{})", which)), supply / 2); }
+StudyCurve InverterSweep::supply_current(char which) const { return relative_to_half_supply(found.curve("dc", fmt::format("i(vs{})", which)), supply / 2); }
 
 }  // namespace corpuscle

@@ -1,7 +1,7 @@
 #pragma once
 // INVA, INVB and INVC with one bias generator (circuits/inverters.cir), as in appendix E: voltages are relative to half the supply.
 
-#include "study/deck.hpp"
+#include "study/study_netlist.hpp"
 
 namespace corpuscle {
 
@@ -9,7 +9,7 @@ constexpr const char* inverter_names[] = {"INVA", "INVB", "INVC"};
 constexpr char inverter_letters[] = {'a', 'b', 'c'};
 
 struct InverterSweep {
-    Found found;
+    NetlistResult found;
     double supply;  // V
 
     /// `run` sweeps V_IN over the supply in steps of `step` (V); `run_with_directives` takes other directives.
@@ -17,16 +17,16 @@ struct InverterSweep {
     static Result<InverterSweep> run_with_directives(const std::string& directives, std::vector<std::string> settings = {});
 
     /// Output current (A) over V_IN (V) with the output held at half the supply.
-    Line output_current(char which) const;
+    StudyCurve output_current(char which) const;
     /// Transconductance: the negative slope of that current, S over V.
-    Line transconductance(char which) const;
+    StudyCurve transconductance(char which) const;
     double transconductance_at_zero(char which) const { return transconductance(which).at(0); }  ///< S, at V_IN = 0
     /// Voltage of the open output, V over V.
-    Line transfer_curve(char which) const;
+    StudyCurve transfer_curve(char which) const;
     /// Gain of the open output at each output voltage: |dV_OUT/dV_IN| over V_OUT.
-    Line voltage_gain(char which) const;
+    StudyCurve voltage_gain(char which) const;
     /// Supply current with the output held, A over V.
-    Line supply_current(char which) const;
+    StudyCurve supply_current(char which) const;
 };
 
 }  // namespace corpuscle

@@ -24,25 +24,25 @@ iin u 0 pwl(0 0 10m 0 10.1m {i_in})
 
 }  // namespace
 
-Result<Found> simulate_oscillator(const IsolatedOscillator& o) {
-    return found_in({netlist,
+Result<NetlistResult> simulate_oscillator(const IsolatedOscillator& o) {
+    return run_study_netlist({netlist,
                      {fmt::format("i_in={}", o.current), fmt::format("until={}", o.stop_time),
                       fmt::format("hv={}", o.has_high_threshold_switches ? 0.15 : 0), fmt::format("i_leak={}", o.leak)}});
 }
 
-Hysteresis find_hysteresis(const Found& found, const std::string& output) {
-    const auto [x, y] = found.line("dc", output);
+Hysteresis find_hysteresis(const NetlistResult& found, const std::string& output) {
+    const auto [x, y] = found.curve("dc", output);
     const auto turning_point = std::max_element(x.begin(), x.end()) - x.begin();
     Hysteresis out{{{x.begin(), x.begin() + turning_point + 1}, {y.begin(), y.begin() + turning_point + 1}},
                    {{x.rbegin(), x.rend() - turning_point}, {y.rbegin(), y.rend() - turning_point}},
                    0,
                    0};
-    out.V_H = out.rising.where(0.35), out.V_L = out.falling.where(0.35);
+    out.V_H = out.rising.crossing(0.35), out.V_L = out.falling.crossing(0.35);
     return out;
 }
 
 Result<Hysteresis> simulate_trigger() {
-    const auto found = found_in({"schmitt", {}, ".dc vin 0 0.7 1m updown"});
+    const auto found = run_study_netlist({"schmitt", {}, ".dc vin 0 0.7 1m updown"});
     if (!found) return found.error();
     return find_hysteresis(*found, "v(out)");
 }

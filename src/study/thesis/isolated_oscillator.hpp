@@ -1,7 +1,7 @@
 #pragma once
 // The oscillator of fig. 38 under a constant current, and the thresholds of its trigger.
 
-#include "study/deck.hpp"
+#include "study/study_netlist.hpp"
 
 namespace corpuscle {
 
@@ -14,15 +14,15 @@ struct IsolatedOscillator {
     double leak = I_LEAK;                                                  ///< A
 };
 /// Records v(u) and v(s) over time, the spikes, and v(u) at rest.
-Result<Found> simulate_oscillator(const IsolatedOscillator&);
+Result<NetlistResult> simulate_oscillator(const IsolatedOscillator&);
 
 /// An output over an input that is swept up and down again.
 struct Hysteresis {
-    Line rising, falling;
+    StudyCurve rising, falling;
     double V_H, V_L;  ///< input at which the output crosses half the supply of 0.7 V, going up and down
 };
 /// From the first .dc analysis that has `updown`.
-Hysteresis find_hysteresis(const Found&, const std::string& output);
+Hysteresis find_hysteresis(const NetlistResult&, const std::string& output);
 Result<Hysteresis> simulate_trigger();
 
 }  // namespace corpuscle

@@ -4,10 +4,10 @@
 
 namespace corpuscle::press {
 
-Result<Line> force_curve(double T) {
-    auto stimulus = touch_of({.afferent = {}, .rate = 1 / T});
+Result<StudyCurve> force_curve(double T) {
+    auto stimulus = trial_force({.afferent = {}, .rate = 1 / T});
     if (!stimulus) return stimulus.error();
-    return stimulus->line();
+    return stimulus->curve();
 }
 
 std::string phase_counts(const std::vector<double>& train) {
@@ -17,24 +17,24 @@ std::string phase_counts(const std::vector<double>& train) {
     return out;
 }
 
-Line frequency_at_start(const std::vector<double>& train) {
-    Line out{{}, instantaneous_rates(train)};
+StudyCurve frequency_at_start(const std::vector<double>& train) {
+    StudyCurve out{{}, instantaneous_rates(train)};
     if (!train.empty()) out.x.assign(train.begin(), train.end() - 1);
     return out;
 }
 
-Line frequency_at_end(const std::vector<double>& train) {
-    Line out{{}, instantaneous_rates(train)};
+StudyCurve frequency_at_end(const std::vector<double>& train) {
+    StudyCurve out{{}, instantaneous_rates(train)};
     if (!train.empty()) out.x.assign(train.begin() + 1, train.end());
     return out;
 }
 
 Claim& set_reference(Claim& c, double value, const std::string& mark) {
-    c.source = fmt::format("{}: {}", quantity_of(value, c), mark);
+    c.source = fmt::format("{}: {}", format_claim_value(value, c), mark);
     return c;
 }
 
-Asked thesis_algorithm(std::string afferent, std::vector<std::string> settings) {
+TrialSpec thesis_algorithm(std::string afferent, std::vector<std::string> settings) {
     return {
         .afferent = std::move(afferent), .settings = std::move(settings), .rate = 1e3, .method = Method::backward_euler, .sampled = true};
 }

@@ -6,7 +6,7 @@
 
 #include "measure/measures.hpp"
 #include "study/claim.hpp"
-#include "study/trains.hpp"
+#include "study/trial.hpp"
 
 namespace corpuscle::press {
 
@@ -15,20 +15,20 @@ inline constexpr TimeWindow rest{0, 0.25}, protraction{0.25, 0.375}, plateau{0.3
 inline constexpr double min_force = 0.2, max_force = 4;  // N
 
 /// Force (N) over time (s), sampled every T (s).
-Result<Line> force_curve(double T);
+Result<StudyCurve> force_curve(double T);
 
 inline double spike_count(const std::vector<double>& train, const TimeWindow& s) { return measure<SpikeCount>(train, s); }
 /// "0 5 9 1 0": spike counts at rest, in protraction, plateau, retraction and after.
 std::string phase_counts(const std::vector<double>& train);
 /// The instantaneous frequency as the thesis plots it: 1/interval at the time of the interval's first spike (3.3).
-Line frequency_at_start(const std::vector<double>& train);
+StudyCurve frequency_at_start(const std::vector<double>& train);
 /// The same at the time of the second spike, as many tools plot it.
-Line frequency_at_end(const std::vector<double>& train);
+StudyCurve frequency_at_end(const std::vector<double>& train);
 
 /// Adds a reference value from elsewhere and its reliability to a claim; no verdict depends on it.
 Claim& set_reference(Claim&, double value, const std::string& mark);
 
 /// Runs a model as the thesis does: Algorithms 4 to 6 at 1 ms, spikes on the samples.
-Asked thesis_algorithm(std::string afferent, std::vector<std::string> settings = {});
+TrialSpec thesis_algorithm(std::string afferent, std::vector<std::string> settings = {});
 
 }  // namespace corpuscle::press

@@ -9,7 +9,7 @@ namespace corpuscle {
 namespace {
 
 /// Half the width of the range about the middle in which the slope is within 5 % of g_m.
-double half_width(const Line& slope, double middle, double g_m) {
+double half_width(const StudyCurve& slope, double middle, double g_m) {
     double from = slope.x.front(), to = slope.x.back();
     for (std::size_t k = 0; k < slope.x.size(); ++k) {
         if (std::abs(slope.y[k] / g_m - 1) <= 0.05) continue;
@@ -21,17 +21,17 @@ double half_width(const Line& slope, double middle, double g_m) {
 
 }  // namespace
 
-Result<TransconductorCurve> simulate_transconductor(Deck deck, const std::string& out) {
-    deck.orders = ".dc vplus 0.15 0.55 0.5m";
-    const auto found = found_in(deck);
+Result<TransconductorCurve> simulate_transconductor(StudyNetlist deck, const std::string& out) {
+    deck.directives = ".dc vplus 0.15 0.55 0.5m";
+    const auto found = run_study_netlist(deck);
     if (!found) return found.error();
-    TransconductorCurve t{found->line("dc", out)};
+    TransconductorCurve t{found->curve("dc", out)};
     for (double& v : t.current.x) v -= 0.35;
-    t.zero_current_voltage = t.current.where(0);
+    t.zero_current_voltage = t.current.crossing(0);
     const auto slope = t.current.slope().absolute();
-    t.g_m = slope.at(t.zero_current_voltage), t.max_current = std::min(t.current.most(), -t.current.least());
+    t.g_m = slope.at(t.zero_current_voltage), t.max_current = std::min(t.current.max(), -t.current.min());
     t.linear_range = half_width(slope, t.zero_current_voltage, t.g_m);
-    t.power = 0.7 * found->line("dc", "i(vi)").at(0.35);
+    t.power = 0.7 * found->curve("dc", "i(vi)").at(0.35);
     return t;
 }
 

@@ -1,12 +1,12 @@
 #pragma once
 // The current of a transconductor over its differential input voltage, and the figures of merit read from it.
 
-#include "study/deck.hpp"
+#include "study/study_netlist.hpp"
 
 namespace corpuscle {
 
 struct TransconductorCurve {
-    Line current;         ///< A, over the differential input voltage, V
+    StudyCurve current;         ///< A, over the differential input voltage, V
     double zero_current_voltage = 0;    ///< V: input at which the current is zero
     double g_m = 0;       ///< S, at that input; positive
     double max_current = 0;      ///< A, the largest current; the smaller of the two signs
@@ -16,7 +16,7 @@ struct TransconductorCurve {
 };
 
 /// Sweeps the source `vplus` of a netlist about 0.35 V at a supply of 0.7 V. `out` is the output current; i(vi) is the supply current.
-Result<TransconductorCurve> simulate_transconductor(Deck, const std::string& out = "i(vout)");
+Result<TransconductorCurve> simulate_transconductor(StudyNetlist, const std::string& out = "i(vout)");
 
 /// A differential pair without its load: `columns` by `stack` unit transistors (P), an ideal tail current `i_b`, both drains held. The
 /// current is the difference of the drain currents.

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "study/sweep/text.hpp"
+#include "study/sweep/sweep_text.hpp"
 #include "support/program.hpp"
 #include "support/support.hpp"
 

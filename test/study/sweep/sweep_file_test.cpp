@@ -19,7 +19,7 @@ namespace corpuscle {
 namespace {
 
 using sweeps::Sampling;
-using sweeps::UnitNumbers;
+using sweeps::UniformNumbers;
 
 /// What is said of a sweep in a folder of the test's own.
 class Written {
@@ -44,19 +44,19 @@ public:
     }
 };
 
-using Outcomes = std::map<std::int64_t, UnitOutcome>;
+using Outcomes = std::map<std::int64_t, ItemOutcome>;
 
 /// These units, one call.
 Outcomes worked(const Sweep& sweep, std::vector<std::int64_t> units) {
     Outcomes out;
     std::size_t at = 0;
     const auto next = [&]() -> std::optional<std::int64_t> { return at < units.size() ? std::optional(units[at++]) : std::nullopt; };
-    const auto done = sweep.work(next, [&](UnitOutcome&& o) { out[o.unit] = std::move(o); }, [] { return false; });
+    const auto done = sweep.run_items(next, [&](ItemOutcome&& o) { out[o.item] = std::move(o); }, [] { return false; });
     EXPECT_TRUE(done) << done.error().text();
     return out;
 }
 Outcomes worked(const Sweep& sweep) {
-    std::vector<std::int64_t> all(static_cast<std::size_t>(sweep.units()));
+    std::vector<std::int64_t> all(static_cast<std::size_t>(sweep.item_count()));
     std::iota(all.begin(), all.end(), 0);
     return worked(sweep, all);
 }
@@ -70,9 +70,9 @@ void expect_same_bytes(const std::vector<T>& a, const std::vector<T>& b) {
 /// In order, and backwards in several calls.
 void expect_the_same_whoever_runs(const Sweep& sweep) {
     const auto forth = worked(sweep);
-    ASSERT_EQ(forth.size(), static_cast<std::size_t>(sweep.units()));
+    ASSERT_EQ(forth.size(), static_cast<std::size_t>(sweep.item_count()));
     Outcomes back;
-    for (auto to = sweep.units(); to > 0;) {
+    for (auto to = sweep.item_count(); to > 0;) {
         const auto from = std::max<std::int64_t>(to - 3, 0);
         std::vector<std::int64_t> few;
         for (auto u = to; u-- > from;) few.push_back(u);
@@ -85,13 +85,13 @@ void expect_the_same_whoever_runs(const Sweep& sweep) {
         expect_same_bytes(one.measures, other.measures);
         ASSERT_EQ(one.spikes.size(), other.spikes.size());
         for (std::size_t k = 0; k < one.spikes.size(); ++k) expect_same_bytes(one.spikes[k], other.spikes[k]);
-        for (std::size_t k = 0; k < one.traces.size(); ++k) expect_same_bytes(one.traces[k], other.traces[k]);
+        for (std::size_t k = 0; k < one.probes.size(); ++k) expect_same_bytes(one.probes[k], other.probes[k]);
     }
 }
 
 TEST(Sampling, ALatinHypercubeHasOneDrawInEachStratum) {
     for (const std::uint64_t n : {1, 2, 7, 64, 1000}) {
-        const UnitNumbers one(Sampling::latin, 5, "a", 0, n), other(Sampling::latin, 5, "b", 0, n);
+        const UniformNumbers one(Sampling::latin, 5, "a", 0, n), other(Sampling::latin, 5, "b", 0, n);
         std::set<std::uint64_t> strata;
         bool alike = true;
         for (std::uint64_t k = 0; k < n; ++k) {
@@ -133,9 +133,9 @@ TEST(Sampling, SobolsPointsAreThoseOfJoeAndKuo) {
 TEST(Sampling, NormalDeviatesHaveTheirMomentsAndTheirTails) {
     EXPECT_NEAR(sweeps::normal_quantile(0.975), 1.959963984540054, 1e-14);
     EXPECT_NEAR(sweeps::normal_quantile(1e-10), -6.361340902404056, 1e-13);
-    EXPECT_NEAR(sweeps::normal_share(-1), 0.15865525393145707, 1e-15);
+    EXPECT_NEAR(sweeps::normal_probability(-1), 0.15865525393145707, 1e-15);
     for (const auto how : {Sampling::random, Sampling::latin, Sampling::sobol}) {
-        const UnitNumbers u(how, 3, "f_B", 4, 20000);
+        const UniformNumbers u(how, 3, "f_B", 4, 20000);
         double sum = 0, squares = 0, fourth = 0;
         for (std::uint64_t k = 0; k < 20000; ++k) {
             const double x = sweeps::normal_quantile(u.at(k));
@@ -153,7 +153,7 @@ TEST(SweepFile, ANormalAxisKeepsToItsLimitsAndTheSameDrawIsTheSameAtEachPoint) {
     const auto s = w.sweep(
         "afferent = 'sa1'\nunits = 200\nseed = 9\n[[vary]]\nwhat = 'press.F_max'\nlist = ['1N', 2]\n[[vary]]\nwhat = 'f_B'\nmean = "
         "'20Hz'\nsigma = '50%'\nat_least = '15Hz'\nat_most = '26Hz'\n");
-    ASSERT_EQ(s->units(), 400);
+    ASSERT_EQ(s->item_count(), 400);
     std::set<double> seen;
     for (std::int64_t k = 0; k < 200; ++k) {
         const auto one = s->values(k), other = s->values(200 + k);
@@ -215,7 +215,7 @@ TEST(SweepFile, AStepAndMcOfANetlistMeanTheSameChipsAsTheFileDoes) {
     // What the file says goes before what the netlist says, word by word.
     const auto fewer = w.sweep("netlist = 'mine/x.cir'\nunits = 2\n[[vary]]\nwhat = 'temp'\nlist = [85]\n");
     expect_same_bytes(first_measures(*fewer), std::vector<double>{expected[6], expected[7], expected[15], expected[16]});
-    for (const auto& f : fewer->facts()) {
+    for (const auto& f : fewer->metadata()) {
         EXPECT_EQ(f.name.find(w.path("")), std::string::npos) << f.name;
         EXPECT_EQ(f.text.find(w.path("")), std::string::npos) << f.name;
     }
@@ -263,15 +263,15 @@ TEST(SweepFile, ChipsOfANetlistDrawAlikeWithinAndWithoutADesignOfTheirOwn) {
     const auto plain = w.sweep(head), wider = w.sweep(head + "[[vary]]\nwhat = 'c'\nlist = ['10nF', '20nF']\n");
     const auto one = worked(*plain), more = worked(*wider);
     for (std::int64_t unit = 0; unit < 3; ++unit) {
-        ASSERT_GT(one.at(unit).spikes.at(0).size(), 3u) << one.at(unit).why;
+        ASSERT_GT(one.at(unit).spikes.at(0).size(), 3u) << one.at(unit).reason;
         expect_same_bytes(one.at(unit).spikes[0], more.at(unit).spikes.at(0));
         expect_same_bytes(one.at(unit).measures, more.at(unit).measures);
         EXPECT_LT(more.at(3 + unit).spikes.at(0).size(), one.at(unit).spikes[0].size());
-        EXPECT_EQ(one.at(unit).traces.at(0).size(), plain->trace_times().size());
+        EXPECT_EQ(one.at(unit).probes.at(0).size(), plain->probe_times().size());
     }
     EXPECT_NE(one.at(0).spikes[0], one.at(1).spikes[0]);
-    EXPECT_EQ(worked(*w.sweep("iterations = 20\n" + head)).at(2).end, UnitEnd::capped);
-    EXPECT_EQ(plain->facts().back().name, "drawn");
+    EXPECT_EQ(worked(*w.sweep("iterations = 20\n" + head)).at(2).end, ItemEnd::iteration_limit);
+    EXPECT_EQ(plain->metadata().back().name, "drawn");
     expect_the_same_whoever_runs(*wider);
 }
 
@@ -284,12 +284,12 @@ TEST(SweepFile, ALimitIsTwoNumbersOrWhatAModelSaysUnderTheSameForce) {
     std::map<std::string, SweepColumn> columns;
     for (const auto& c : s->measures()) columns[c.name] = c;
     EXPECT_EQ(s->measures()[0].name, "first_spike");
-    EXPECT_EQ(columns.at("spikes").at_least, static_cast<double>(model.size()) - 3);
-    EXPECT_EQ(columns.at("spikes").at_most, static_cast<double>(model.size()) + 3);
-    EXPECT_FALSE(columns.at("first_spike").at_least);
-    EXPECT_EQ(columns.at("first_spike").at_most, 0.32);
-    EXPECT_EQ(columns.at("peak_rate.plateau").at_most, 1000);
-    EXPECT_DOUBLE_EQ(*columns.at("last_spike").at_least, 0.9 * model.back());
+    EXPECT_EQ(columns.at("spikes").min, static_cast<double>(model.size()) - 3);
+    EXPECT_EQ(columns.at("spikes").max, static_cast<double>(model.size()) + 3);
+    EXPECT_FALSE(columns.at("first_spike").min);
+    EXPECT_EQ(columns.at("first_spike").max, 0.32);
+    EXPECT_EQ(columns.at("peak_rate.plateau").max, 1000);
+    EXPECT_DOUBLE_EQ(*columns.at("last_spike").min, 0.9 * model.back());
 }
 
 TEST(SweepFile, ErrorsSayWhereAndWhatWouldBeRight) {
@@ -342,10 +342,10 @@ TEST(SweepFile, WhatIsLaidOutOtherwiseIsTheSameSweep) {
     const auto a = w.sweep("# one\nunits = 3\nafferent = 'sa1'\n[set]\n'press.F_max' = 2\n[[vary]]\nwhat = 'f_B'\nsigma = '5%'\n");
     const auto b =
         w.sweep("afferent   = \"sa1\"  # two\nunits = 3\nset = {'press.F_max' = 2}\n\n[[vary]]\nsigma = '5%'\nwhat = 'f_B'\n", "y.toml");
-    ASSERT_EQ(a->facts().size(), b->facts().size());
-    for (std::size_t k = 0; k < a->facts().size(); ++k) EXPECT_EQ(a->facts()[k].text, b->facts()[k].text) << a->facts()[k].name;
+    ASSERT_EQ(a->metadata().size(), b->metadata().size());
+    for (std::size_t k = 0; k < a->metadata().size(); ++k) EXPECT_EQ(a->metadata()[k].text, b->metadata()[k].text) << a->metadata()[k].name;
     const auto c = w.sweep("afferent = 'sa1'\nunits = 3\n[set]\n'press.F_max' = 3\n[[vary]]\nwhat = 'f_B'\nsigma = '5%'\n");
-    EXPECT_NE(a->facts().at(2).text, c->facts().at(2).text);
+    EXPECT_NE(a->metadata().at(2).text, c->metadata().at(2).text);
 }
 
 /// The examples, with few units.
@@ -354,11 +354,11 @@ TEST(SweepFile, TheExamplesRun) {
     int count = 0;
     for (const auto& file : std::filesystem::directory_iterator(test::root() + "/examples/sweeps")) {
         const auto whole = test::read_file(file.path().string());
-        EXPECT_GT(test::sure(read_sweep(file.path().string()))->units(), 50);
+        EXPECT_GT(test::sure(read_sweep(file.path().string()))->item_count(), 50);
         const auto s = w.sweep(std::regex_replace(whole, std::regex("units( *)= [0-9]+"), "units = 2"));
-        const auto all = worked(*s, {0, s->units() - 1});
+        const auto all = worked(*s, {0, s->item_count() - 1});
         for (const auto& [unit, o] : all) {
-            EXPECT_EQ(o.end, UnitEnd::done) << file.path() << o.why;
+            EXPECT_EQ(o.end, ItemEnd::done) << file.path() << o.reason;
             EXPECT_TRUE(std::isfinite(o.measures.at(0))) << file.path();
         }
         EXPECT_EQ(all.size(), 2u);

@@ -1,0 +1,34 @@
+#pragma once
+// Finds afferents of every kind by name: entries of the catalogue and netlists.
+
+#include "circuit/netlist_overrides.hpp"
+#include "model/catalog.hpp"
+
+namespace corpuscle {
+
+/// True if the text names a netlist: an embedded one or a path. Catalogue names contain neither a dot nor a slash.
+inline bool names_netlist(std::string_view text) {
+    return circuit::find_embedded_netlist(text) != nullptr || text.find_first_of("./") != std::string_view::npos;
+}
+
+/// Options for every netlist of a run.
+struct NetlistOptions {
+    std::vector<circuit::NetlistOverride> overrides = {};
+    std::vector<std::string> probes = {};   ///< recorded instead of what .save names, by each netlist that has such a quantity
+    mutable std::vector<bool> probe_found = {};  ///< for each entry of the line above: true if some netlist has it
+    mutable std::string probe_hint = {};          ///< suggestion for an entry that no netlist has
+    mutable bool is_used = false;
+};
+
+/// Like plan_afferent, and accepts netlists: "sa1-circuit", or "path/own.cir" with a force input and a spike output (doc/circuits.md). An
+/// override for a netlist sets one of its values: "sa1-circuit.summer.N3B.w=1.2um".
+Result<AfferentPlan> plan_any_afferent(std::string_view text, std::span<const ParameterOverride> overrides, const NetlistOptions& = {});
+
+/// Rebuilds the copy of a netlist's plan with the copy's sampled values. Does nothing for other plans.
+Result<void> rebuild_copy(AfferentPlan& copy, const AfferentPlan& original);
+
+/// The part of an override's name behind the netlist's name: "summer.N3B.w" of "sa1-circuit.summer.N3B.w=1.2um". Empty if the override
+/// names something else.
+std::optional<std::string> netlist_override_name(const ParameterOverride&, std::string_view netlist);
+
+}  // namespace corpuscle

@@ -1,0 +1,85 @@
+#pragma once
+// Simulates every source of force with every afferent, block by block.
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "model/lane_population.hpp"
+#include "signal/force_source.hpp"
+
+namespace corpuscle {
+
+/// One source with one afferent of each plan on each of its channels: afferent_index = first_afferent + channel * plans + plan.
+struct Input {
+    const ForceSource& source;
+    std::string name;  ///< of the source; a second one of the same name is "press (2)"
+    std::span<const AfferentPlan> plans;
+    std::span<const std::span<const Probe>> probes;  ///< for each plan; empty if no sink wants probes and the afferent runs on SIMD lanes
+    std::uint32_t first_afferent = 0;
+    std::size_t index = 0, input_count = 1;  ///< number of this input, and number of inputs
+
+    std::size_t afferent_count() const { return source.channels().size() * plans.size(); }
+    const AfferentPlan& plan_of(std::size_t afferent_index) const { return plans[afferent_index % plans.size()]; }
+    std::size_t channel_of(std::size_t afferent_index) const { return afferent_index / plans.size(); }
+    /// The channel's name in outputs; preceded by the source's name if there are several sources.
+    std::string channel_name(std::size_t channel) const;
+};
+
+/// The response to one block of force.
+struct RunBlock {
+    std::int64_t first_sample = 0;  ///< number of the block's first sample
+    const Frames& force;
+    std::span<const Spike> spikes;                                ///< of all afferents, in order of time, then afferent index
+    const std::vector<std::vector<std::vector<double>>>& probes;  ///< [afferent of this input][probe][sample]; empty if no sink wants them
+};
+
+/// Receives the response block by block, e.g. a file, a table or a page. An error that it returns ends the run.
+class ResponseSink {
+public:
+    virtual ~ResponseSink() = default;
+    virtual bool wants_probes() const { return false; }
+    virtual Result<void> begin(const Input&) { return {}; }
+    virtual Result<void> block(const Input&, const RunBlock&) { return {}; }
+    virtual Result<void> end(const Input&, std::int64_t /*samples*/) { return {}; }
+};
+
+struct RunStats {
+    std::int64_t samples = 0;         ///< of force, over all channels
+    std::int64_t afferent_steps = 0;  ///< samples times afferents
+    std::int64_t spikes = 0;
+    std::int64_t truncated_steps = 0;                         ///< steps that reached the limit on spikes in one step
+    std::int64_t saturated = 0;                              ///< samples beyond the range of a sensor's electronics or converter
+    std::int64_t overflowed = 0;                           ///< results that overflowed the word length of a digital afferent
+    std::int64_t steps = 0, rejected = 0, iterations = 0;  ///< of circuits: time steps, rejected time steps, and Newton iterations
+    std::vector<std::string> range_warnings;                      ///< quantities that left the range in which an afferent works as designed
+    std::vector<EnergyUse> energy_use;  ///< of each circuit afferent, over its channels; empty if none is simulated alone
+    std::vector<Error> diverged;   ///< netlists that did not converge, and when; their channels have no later spikes
+};
+
+struct RespondOptions {
+    Method method = Method::exact;
+    bool sampled = false;
+    double noise = 0;        ///< of every membrane, see Run
+    std::uint64_t seed = 0;  ///< of the noise
+    Precision precision = Precision::double_precision;
+    ThreadPool* pool = nullptr;      ///< threads; the response does not depend on it; null: only the calling thread
+    std::size_t block = 4096;  ///< samples; the response does not depend on it
+    /// Called once a block with the completed fraction, 0 to 1; false stops the run.
+    std::function<bool(double)> should_continue = [](double) { return true; };
+};
+
+/// Runs all sources through all afferents. A run that is stopped by this callback returns an error of code `interrupted`.
+Result<RunStats> respond(std::span<const std::unique_ptr<ForceSource>> sources, std::span<const AfferentPlan> afferents,
+                     std::span<ResponseSink* const> sinks, const RespondOptions&);
+
+/// Warnings about noise: the afferents that it does not affect.
+std::vector<std::string> noise_warnings(std::span<const AfferentPlan> afferents, double noise);
+
+/// Warnings about the response: spikes that reached the limit, saturation, overflow.
+std::vector<std::string> response_warnings(const RunStats&);
+
+/// Warnings before the run: sample rates that are too low for an afferent.
+std::vector<std::string> rate_warnings(std::span<const std::unique_ptr<ForceSource>> sources, std::span<const AfferentPlan> afferents);
+
+}  // namespace corpuscle

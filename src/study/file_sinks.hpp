@@ -1,0 +1,54 @@
+#pragma once
+// Output files of a run: spikes and probes, written block by block.
+
+#include <fmt/format.h>
+
+#include "io/output_file.hpp"
+#include "study/afferent_run.hpp"
+
+namespace corpuscle {
+
+/// A sink that writes files. The files get their final names in commit().
+class FileSink : public ResponseSink {
+public:
+    virtual std::vector<std::string> paths() const = 0;
+    virtual Result<void> commit() = 0;
+};
+
+/// "sa1,press" of each afferent of an input, as fields of a CSV file.
+std::vector<std::string> afferent_csv_names(const Input&);
+
+/// DIR/traces.csv for the first input, DIR/traces-2.csv for the second.
+std::string numbered_path(const std::string& directory, std::string_view name, std::string_view extension, std::size_t index);
+
+/// spikes.csv: afferent,channel,time_s; in order of time, input after input. Times to the nanosecond.
+class SpikesFile final : public FileSink {
+    OutputFile file_;
+    std::vector<std::string> names_;  // "sa1,press" of each afferent of the current input
+    fmt::memory_buffer text_;
+
+public:
+    explicit SpikesFile(OutputFile file);
+    Result<void> begin(const Input&) override;
+    Result<void> block(const Input&, const RunBlock&) override;
+    std::vector<std::string> paths() const override { return {file_.path()}; }
+    Result<void> commit() override { return file_.commit(); }
+};
+
+/// traces.csv: time_s, the force of each channel, the probes of each afferent on it; one row for each sample. A second input gives
+/// traces-2.csv ...
+class ProbesFile final : public FileSink {
+    std::string directory_;
+    std::vector<OutputFile> files_;
+    fmt::memory_buffer text_;
+
+public:
+    explicit ProbesFile(std::string directory) : directory_(std::move(directory)) {}
+    bool wants_probes() const override { return true; }
+    Result<void> begin(const Input&) override;
+    Result<void> block(const Input&, const RunBlock&) override;
+    std::vector<std::string> paths() const override;
+    Result<void> commit() override;
+};
+
+}  // namespace corpuscle

@@ -1,0 +1,33 @@
+#include "study/lookahead_buffer.hpp"
+
+#include <algorithm>
+
+namespace corpuscle {
+
+Result<void> LookaheadBuffer::next(ForceSource& source, Frames& block) {
+    if (lookahead_ == 0) return source.read(block);
+    for (auto& channel : buffer_) channel.erase(channel.begin(), channel.begin() + static_cast<std::ptrdiff_t>(block_));
+    available_ -= block_;
+    if (auto ok = fill(source, block); !ok) return ok;
+    block_ = block.count = std::min(block.capacity, ended_ ? available_ : available_ - lookahead_);
+    for (std::size_t c = 0; c < buffer_.size(); ++c) std::copy_n(buffer_[c].begin(), block_, block.force[c].begin());
+    return {};
+}
+
+/// Reads until there is a full block and all samples to look ahead behind it.
+Result<void> LookaheadBuffer::fill(ForceSource& source, Frames& block) {
+    while (!ended_ && available_ < block.capacity + lookahead_) {
+        if (auto ok = source.read(block); !ok) return ok;
+        ended_ = block.count == 0;
+        available_ += block.count;
+        for (std::size_t c = 0; c < buffer_.size(); ++c) {
+            auto& channel = buffer_[c];
+            const auto& force = block.force[c];
+            channel.insert(channel.end(), force.begin(), force.begin() + static_cast<std::ptrdiff_t>(block.count));
+            if (ended_ && !channel.empty()) channel.insert(channel.end(), lookahead_, channel.back());
+        }
+    }
+    return {};
+}
+
+}  // namespace corpuscle

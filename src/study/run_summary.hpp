@@ -1,0 +1,87 @@
+#pragma once
+// Statistics of a run: every measure for every afferent, channel and phase; parameters, clocks, run statistics and warnings.
+
+#include <cmath>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "measure/measures.hpp"
+#include "model/copies.hpp"
+#include "study/version_comparison.hpp"
+#include "study/afferent_run.hpp"
+
+namespace corpuscle {
+
+/// A measure over those copies of an afferent that have a value for it. Sums after Welford (1962).
+class CopyStatistics {
+    double sum_ = 0, mean_ = 0, squares_ = 0;  // squares: sum of squared distances from the mean so far
+
+public:
+    std::int64_t copies = 0;
+    double min = no_value, max = no_value;
+
+    void add(double);  ///< NaN: this copy has no value
+    double mean() const { return copies > 0 ? sum_ / static_cast<double>(copies) : no_value; }
+    /// Sample standard deviation, over n - 1; needs two copies.
+    double standard_deviation() const { return copies >= 2 ? std::sqrt(squares_ / static_cast<double>(copies - 1)) : no_value; }
+};
+
+/// One line of the table, for an afferent in a phase, with one value for each measure (NaN if it has none). Copies share one line, with
+/// their means.
+struct MeasureRow {
+    std::string afferent, channel, phase;
+    std::vector<double> values;
+    std::vector<CopyStatistics> copy_statistics = {};  ///< one entry for each measure; empty without copies
+};
+
+/// A measure as a column heading: "peak (Hz)".
+std::string column_heading(const MeasureInfo&);
+/// A measure as a key in files: "peak_rate_Hz".
+std::string measure_key(const MeasureInfo&);
+
+/// An afferent with all its parameters, as a JSON document.
+nlohmann::ordered_json document_of(const AfferentPlan&);
+nlohmann::ordered_json document_of(std::span<const ParameterDistribution>);
+/// The number of copies of each afferent and their distributions, as a JSON document.
+nlohmann::ordered_json document_of(const CopySpec&);
+
+class RunSummary final : public ResponseSink {
+public:
+    struct InputSummary {
+        std::string name;
+        Clock clock;
+        std::int64_t samples = 0;
+        std::vector<std::string> channels, notes;
+        std::vector<MetadataEntry> metadata;
+        double min_force = 0, max_force = 0;  ///< force, N
+        std::vector<Phase> phases;       ///< phases of the stimulus; empty if it has none
+        RecordingQuality quality = {};            ///< of a recording
+        std::vector<Channel> sensors = {};
+    };
+
+    Result<void> begin(const Input&) override;
+    Result<void> block(const Input&, const RunBlock&) override;
+    Result<void> end(const Input&, std::int64_t samples) override;
+
+    const std::vector<MeasureRow>& rows() const { return rows_; }
+    const std::vector<InputSummary>& inputs() const { return inputs_; }
+    /// Comparisons of the afferents that have several versions.
+    const VersionComparisons& comparisons() const { return comparisons_; }
+    /// The measures (by index) that have a value in some row: the columns of a table.
+    std::vector<std::size_t> columns() const;
+    /// The summary as a JSON document; the same input and options give the same bytes.
+    nlohmann::ordered_json document(std::span<const AfferentPlan>, const RunStats&, const RespondOptions&, std::uint64_t seed,
+                                    const std::vector<std::string>& warnings) const;
+
+private:
+    std::vector<InputSummary> inputs_;
+    Clock since_start_;  // of the current input, with its first sample at 0 s
+    MeasureAccumulator tally_;        // on that clock
+    std::vector<MeasureRow> rows_;
+    VersionComparisons comparisons_;
+
+    MeasureRow row(const Input&, std::size_t channel, std::size_t from, std::size_t to, std::size_t phase) const;
+};
+
+}  // namespace corpuscle

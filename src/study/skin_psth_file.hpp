@@ -1,0 +1,26 @@
+#pragma once
+// Counts spikes of a skin's classes in time bins of equal width and writes each bin as it completes.
+
+#include "study/time_bins.hpp"
+#include "study/skin_file_sink.hpp"
+
+namespace corpuscle {
+
+/// psth.csv: afferent,channel,units,from_s,to_s,spikes,rate_Hz. One row for each class in a region, bin after bin. The rate is per
+/// afferent: spikes divided by afferents and seconds. Bins as in time_bins.hpp.
+class SkinPsthFile final : public SkinFileSink {
+    OutputFile file_;
+    double bin_width_;  // s
+    TimeBins bins_;
+    std::vector<std::uint32_t> group_of_;  // of each afferent
+
+public:
+    SkinPsthFile(OutputFile file, double bin);
+    Result<void> begin(const SkinInput&) override;
+    Result<void> block(const SkinInput&, const SkinRunBlock&) override;
+    Result<void> end(const SkinInput&, std::int64_t samples, std::span<const Spike> last) override;
+    std::vector<std::string> paths() const override { return {file_.path()}; }
+    Result<void> commit() override { return file_.commit(); }
+};
+
+}  // namespace corpuscle

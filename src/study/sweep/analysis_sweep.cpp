@@ -1,0 +1,277 @@
+// A sweep over a netlist's own analyses: runs them for each chip or value in turn, on one analysis context for each thread.
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <mutex>
+
+#include "circuit/analyses.hpp"
+#include "circuit/curve_view.hpp"
+#include "circuit/run_directives.hpp"
+#include "signal/parameter.hpp"
+#include "study/sweep/netlist_factory.hpp"
+#include "study/sweep/subject.hpp"
+
+namespace corpuscle::sweeps {
+namespace {
+
+using circuit::Circuit;
+using circuit::RunOutcome;
+using circuit::AnalysisContext;
+
+constexpr std::string_view spike_measures[] = {"spikes", "first_spike", "last_spike", "mean_interval"};
+
+class AnalysesSweep final : public PlannedSweep {
+    NetlistFactory netlist_{};
+    std::shared_ptr<const Circuit> nominal_;
+    long iteration_limit_ = 0;  // iteration limit of the file; 0 if it has none
+    mutable std::mutex mutex_;
+    mutable std::optional<long> nominal_iteration_limit_;
+
+    long most_iterations(const std::function<bool()>& stop) const;
+    Result<void> select_measures(const SweepText&);
+    Result<void> select_trains(const SweepText&);
+    Result<std::shared_ptr<const Circuit>> circuit(std::span<const double> values) const;
+    ItemOutcome outcome(std::int64_t item, const Result<RunOutcome>&, bool capped = false) const;
+
+    /// A thread's analysis context, and the values for which it was made.
+    struct ThreadContext {
+        std::vector<double> own;
+        std::unique_ptr<AnalysisContext> bench;
+    };
+    Result<void> prepare(ThreadContext&, std::span<const double> values) const;
+
+public:
+    static Result<std::unique_ptr<Sweep>> make(const SweepText&, const std::string& folder);
+    Result<void> run_items(const NextItem&, const OutcomeHandler&, const std::function<bool()>& stop) const override;
+};
+
+std::string unit_of(std::string_view name) {
+    if (name.find("spike") != std::string_view::npos && name != "spikes") return "s";
+    if (name == "mean_interval") return "s";
+    return name.starts_with("v(") ? "V" : name.starts_with("i(") ? "A" : "";
+}
+
+/// Results of the nominal circuit and their names. Transients are left out, because they may take long.
+Result<RunOutcome> run_without_transients(const Circuit& circuit) {
+    auto without_transients = std::make_shared<Circuit>(circuit);
+    std::erase_if(without_transients->directives, [](const circuit::Directive& c) {
+        return c.name == "tran" || ((c.name == "meas" || c.name == "measure") && !c.words.empty() && c.words[0] == "tran") ||
+               c.name == "expect" || ((c.name == "meas" || c.name == "measure") && c.words.size() > 2 && c.words[2].starts_with("param="));
+    });
+    circuit::RunOptions orders;
+    orders.print_tables = false;
+    auto bench = AnalysisContext::make(std::move(without_transients));
+    if (!bench) return bench.error();
+    (*bench)->is_brief = true;
+    return circuit::run_directives(**bench, orders);
+}
+
+bool has(const Circuit& circuit, std::string_view command) {
+    return std::any_of(circuit.directives.begin(), circuit.directives.end(), [&](const auto& c) { return c.name == command; });
+}
+
+/// The names of all numbers that the netlist computes.
+std::vector<std::string> numbers_of(const Circuit& circuit, const std::optional<RunOutcome>& without_transients) {
+    std::vector<std::string> out;
+    const auto add = [&](std::string name) {
+        if (std::find(out.begin(), out.end(), name) == out.end()) out.push_back(std::move(name));
+    };
+    if (without_transients)
+        for (const auto& a : without_transients->analyses)
+            for (const auto& [name, value] : a.result.numbers) add(name);
+    if (has(circuit, "tran") && has(circuit, "spike"))
+        for (const auto name : spike_measures) add(std::string(name));
+    for (const auto& c : circuit.directives)
+        if ((c.name == "meas" || c.name == "measure") && c.words.size() > 2) add(c.words[1]);
+    for (const auto& c : circuit.directives) {
+        if (c.name == "print" && c.words.size() > 1 && c.words[0] == "op")
+            for (std::size_t k = 1; k < c.words.size(); ++k) add(c.words[k]);
+        if (c.name == "expect" && !c.words.empty()) add(c.words[0].substr(0, c.words[0].find('=')));
+    }
+    return out;
+}
+
+Result<void> AnalysesSweep::select_measures(const SweepText& spec) {
+    const auto found = run_without_transients(*nominal_);
+    std::optional<RunOutcome> without_transients;
+    if (found) without_transients = *found;
+    if (!found && !has(*nominal_, "tran")) return found.error();
+    const auto known = numbers_of(*nominal_, without_transients);
+    const auto column = [&](const LocatedText& name) -> Result<std::size_t> {
+        for (std::size_t k = 0; k < measures_.size(); ++k)
+            if (measures_[k].name == name.text) return k;
+        const bool is_known = std::find(known.begin(), known.end(), name.text) != known.end();
+        const bool is_curve = without_transients && without_transients->find_number(name.text);
+        const bool is_node = has(*nominal_, "tran") && name.text.starts_with("v(") && name.text.ends_with(')') &&
+                             nominal_->find_node(std::string_view(name.text).substr(2, name.text.size() - 3)) >= 0;
+        if (!is_known && !is_curve && !is_node) {
+            std::vector<std::string> all = known;
+            for (std::size_t n = 1; n < nominal_->nodes.size(); ++n) all.push_back(fmt::format("v({})", nominal_->nodes[n]));
+            const std::vector<std::string_view> names(all.begin(), all.end());
+            return name.error_here(fmt::format("the netlist has no number '{}'{} (it has {}; voltages are v(NODE), currents i(SOURCE))",
+                                          name.text, did_you_mean(name.text, names),
+                                          known.empty() ? "none of its own" : fmt::format("{}", fmt::join(known, ", "))));
+        }
+        measures_.push_back({name.text, unit_of(name.text), ""});
+        return measures_.size() - 1;
+    };
+    if (spec.measures) {
+        for (const auto& name : *spec.measures)
+            if (const auto ok = column(name); !ok) return ok.error();
+    } else {
+        for (const auto& name : known)
+            if (const auto ok = column({name, {}}); !ok) return ok.error();
+    }
+    const MeasureLookup limiting{
+        column, [](const LocatedText& model, std::size_t) -> Result<double> {
+            return model.error_here("like: models respond to a force; use it with afferent = ..., not with a netlist's own analyses");
+        }};
+    if (auto ok = set_limits(spec, limiting, measures_); !ok) return ok;
+    if (measures_.empty())
+        return spec.netlist->error_here("the netlist has no number of its own (.meas, .print op); name the measures: measures = [\"v(out)\"]");
+    return {};
+}
+
+Result<void> AnalysesSweep::select_trains(const SweepText& spec) {
+    if (!spec.probes.empty()) return spec.probes[0].error_here("traces is for afferent = ...; for a netlist's own analyses use .meas");
+    const auto keeps = keeps_spikes(spec);
+    if (!keeps) return keeps.error();
+    if (!*keeps || !has(*nominal_, "spike")) return {};
+    for (const auto& c : nominal_->directives)
+        if (c.name == "tran") train_names_.push_back(train_names_.empty() ? "tran" : fmt::format("tran {}", train_names_.size() + 1));
+    return {};
+}
+
+Result<std::unique_ptr<Sweep>> AnalysesSweep::make(const SweepText& spec, const std::string& folder) {
+    auto out = std::make_unique<AnalysesSweep>();
+    auto& s = *out;
+    for (const auto& [name, value] :
+         {std::pair{"force", &spec.force}, {"rate", &spec.rate}, {"channel", &spec.channel}, {"every", &spec.every}})
+        if (*value)
+            return (*value)->error_here(fmt::format("{} is for afferent = ...; a netlist's own .tran takes its force from .force", name));
+    auto netlist = NetlistFactory::of(*spec.netlist, folder, spec.directives ? spec.directives->text : "");
+    if (!netlist) return netlist.error();
+    s.netlist_ = std::move(*netlist);
+    for (const auto& setting : spec.settings)
+        if (auto ok = s.netlist_.set(setting); !ok) return ok.error();
+    const auto nominal = s.netlist_.nominal();
+    if (!nominal) return nominal.error();
+    auto elaborated = nominal->elaborate();
+    if (!elaborated) return elaborated.error();
+    s.nominal_ = std::make_shared<const Circuit>(std::move(*elaborated));
+    auto written = circuit::NetlistVariants::create(*nominal);
+    if (!written) return written.error();
+    VariableQuantities varying;
+    varying.subject_name = s.netlist_.name(), varying.can_sample_chips = true;
+    varying.find_quantity = [&](const LocatedText& quantity) { return s.netlist_.find_quantity(quantity); };
+    varying.vary = [&](const SweepAxis& a, const std::string& quantity, std::size_t axis) {
+        s.netlist_.vary(quantity, axis, a.column.labels);
+    };
+    auto plan = plan_of(spec, varying, &*written);
+    if (!plan) return plan.error();
+    s.plan_ = std::move(*plan);
+    if (s.plan_.samples_chips() && s.nominal_->mismatch_seed)
+        return bad_input("[set] selects one chip by mismatch = ..., but the sweep samples others; remove one of the two", {spec.file});
+    if (spec.iterations) {
+        const auto limit = parse_integer(*spec.iterations, "iterations", 1, 1e12);
+        if (!limit) return limit.error();
+        s.iteration_limit_ = static_cast<long>(*limit);
+    }
+    if (auto ok = s.select_measures(spec); !ok) return ok.error();
+    if (auto ok = s.select_trains(spec); !ok) return ok.error();
+    s.metadata_ = first_metadata(spec, s.nominal_->title);
+    for (auto& fact : s.netlist_.metadata()) s.metadata_.push_back(std::move(fact));
+    s.add_mismatch_metadata(s.netlist_.name(), *s.nominal_);
+    return std::unique_ptr<Sweep>(std::move(out));
+}
+
+Result<void> AnalysesSweep::prepare(ThreadContext& at, std::span<const double> values) const {
+    auto own = netlist_.own_values(values);
+    if (at.bench && at.own == own) return {};
+    at.bench.reset();
+    std::shared_ptr<const Circuit> circuit = nominal_;
+    if (netlist_.varies()) {
+        const auto netlist = netlist_.at(values);
+        if (!netlist) return netlist.error();
+        auto made = netlist->elaborate();
+        if (!made) return made.error();
+        circuit = std::make_shared<const Circuit>(std::move(*made));
+    }
+    auto bench = AnalysisContext::make(std::move(circuit));
+    if (!bench) return bench.error();
+    at.bench = std::move(*bench), at.bench->is_brief = true, at.own = std::move(own);
+    return {};
+}
+
+/// Iteration limit of each transient: from the file, otherwise a multiple of what the nominal circuit takes.
+long AnalysesSweep::most_iterations(const std::function<bool()>& stop) const {
+    if (iteration_limit_ > 0 || !has(*nominal_, "tran")) return iteration_limit_;
+    const std::lock_guard lock(mutex_);
+    if (nominal_iteration_limit_) return *nominal_iteration_limit_;
+    auto bench = AnalysisContext::make(nominal_);
+    if (!bench) return 0;
+    (*bench)->is_brief = true;
+    circuit::RunOptions orders;
+    orders.keep_points = orders.print_tables = false;
+    orders.should_stop = [&](std::string_view, double) { return stop(); };
+    const auto found = circuit::run_directives(**bench, orders);
+    if (!found && found.error().code == ErrorCode::interrupted) return 0;
+    nominal_iteration_limit_ = found ? static_cast<long>(iteration_limit_factor * static_cast<double>(outcome(0, found).iterations)) : 0;
+    return *nominal_iteration_limit_;
+}
+
+ItemOutcome AnalysesSweep::outcome(std::int64_t item, const Result<RunOutcome>& found, bool capped) const {
+    ItemOutcome out;
+    out.item = item;
+    out.measures.assign(measures_.size(), std::numeric_limits<double>::quiet_NaN());
+    out.spikes.resize(train_names_.size());
+    if (!found) {
+        out.end = capped ? ItemEnd::iteration_limit : ItemEnd::diverged, out.reason = found.error().text();
+        return out;
+    }
+    for (std::size_t k = 0; k < measures_.size(); ++k)
+        if (const auto value = found->find_number(measures_[k].name)) out.measures[k] = *value;
+    std::size_t train = 0;
+    for (const auto& a : found->analyses) {
+        if (a.result.spikes && train < out.spikes.size()) out.spikes[train++] = *a.result.spikes;
+        for (const auto& [quantity, count] : a.result.stats) {
+            if (quantity == "steps") out.steps += static_cast<std::int64_t>(count);
+            if (quantity == "iterations") out.iterations += static_cast<std::int64_t>(count);
+        }
+    }
+    return out;
+}
+
+Result<void> AnalysesSweep::run_items(const NextItem& next, const OutcomeHandler& on_outcome, const std::function<bool()>& stop) const {
+    ThreadContext at;
+    const auto limit = most_iterations(stop);
+    circuit::RunOptions orders;
+    orders.keep_points = orders.print_tables = false;
+    orders.should_stop = [&](std::string_view, double) { return stop(); };
+    while (!stop()) {
+        const auto item = next();
+        if (!item) return {};
+        if (const auto ok = prepare(at, plan_.values(*item)); !ok) {
+            on_outcome(outcome(*item, ok.error()));
+            continue;
+        }
+        if (const auto own = circuit::chip_sample_of(*at.bench->circuit))
+            at.bench->apply_variation(*own);
+        else if (const auto draw = plan_.chip_sample(*item))
+            at.bench->apply_variation(*draw);
+        at.bench->max_iterations = limit, at.bench->hit_iteration_limit = false;
+        const auto found = circuit::run_directives(*at.bench, orders);
+        if (!found && found.error().code == ErrorCode::interrupted) return {};
+        if (!found && found.error().code != ErrorCode::not_converged) return found.error();
+        on_outcome(outcome(*item, found, at.bench->hit_iteration_limit));
+    }
+    return {};
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Sweep>> make_analysis_sweep(const SweepText& spec, const std::string& folder) {
+    return AnalysesSweep::make(spec, folder);
+}
+
+}  // namespace corpuscle::sweeps

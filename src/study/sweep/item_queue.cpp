@@ -1,0 +1,22 @@
+#include "study/sweep/item_queue.hpp"
+
+#include <algorithm>
+
+namespace corpuscle {
+
+std::vector<std::int64_t> ItemQueue::take(std::int64_t max) {
+    std::vector<std::int64_t> out;
+    out.reserve(static_cast<std::size_t>(std::clamp<std::int64_t>(max, 0, remaining_)));
+    const auto is_short = [&] { return static_cast<std::int64_t>(out.size()) < max; };
+    for (; is_short() && !returned_.empty(); returned_.pop_back()) out.push_back(returned_.back());
+    for (; is_short() && at_ < ranges_.size(); ++at_) {
+        auto& [from, to] = ranges_[at_];
+        for (; from < to && is_short(); ++from)
+            if (shard_.contains(from)) out.push_back(from);
+        if (from < to) break;
+    }
+    remaining_ -= static_cast<std::int64_t>(out.size());
+    return out;
+}
+
+}  // namespace corpuscle

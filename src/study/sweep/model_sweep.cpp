@@ -1,0 +1,318 @@
+// A sweep over a model afferent: simulates blocks of items on SIMD lanes, and items that cannot share lanes one by one.
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <map>
+
+#include "model/lane_population.hpp"
+#include "signal/parameter.hpp"
+#include "signal/quantity.hpp"
+#include "study/afferent_plan.hpp"
+#include "study/sweep/subject.hpp"
+
+namespace corpuscle::sweeps {
+namespace {
+
+constexpr std::size_t max_block_items = 1024, min_block_items = 64;  // items
+constexpr std::size_t max_varied_samples = std::size_t{1} << 22;     // total samples of a block's forces, if they vary: 32 MB
+constexpr std::size_t block_steps = 1024;                            // samples between two calls of `stop`
+
+/// A work item.
+struct ModelItem {
+    std::int64_t number;
+    AfferentPlan plan;
+    std::shared_ptr<const SweepForce> force;
+    std::vector<double> spikes = {};
+    std::optional<std::string> failure = {};
+};
+
+class ModelSweep final : public PlannedSweep {
+    AfferentPlan nominal_;
+    ForceFactory force_;
+    std::unique_ptr<AfferentMeasures> afferent_measures_;
+    struct Varied {
+        std::size_t parameter, axis;
+    };
+    std::vector<Varied> varied_;
+    std::vector<std::size_t> probes_;
+    std::size_t every_ = 0;
+
+    std::size_t parameter(std::string_view name) const {
+        const auto& all = *nominal_.parameters;
+        return static_cast<std::size_t>(std::find_if(all.begin(), all.end(), [&](const AfferentParameter& p) { return p.info.name == name; }) -
+                                        all.begin());
+    }
+    /// "f_B" of "sa1.f_B".
+    std::string_view parameter_name(std::string_view afferent_name, std::string_view text) const {
+        const auto dot = text.rfind('.');
+        return dot != std::string_view::npos && matches_name(nominal_, afferent_name, text.substr(0, dot)) ? text.substr(dot + 1) : text;
+    }
+
+    Result<VariedQuantity> target(std::string_view afferent_name, const LocatedText& quantity) const;
+    Result<void> set(const SweepText&);
+    Result<void> select_probes(const SweepText&);
+
+    SimulationOptions run_of(const SweepForce& force) const { return {force.clock.T()}; }
+    Result<ModelItem> make_item(std::int64_t number) const;
+    std::size_t block_items() const;
+    Result<void> respond(std::vector<ModelItem>&, const OutcomeHandler&, const std::function<bool()>& stop) const;
+    Result<bool> respond_on_lanes(std::span<ModelItem* const>, InstructionSet, const std::function<bool()>& stop) const;
+    Result<std::vector<std::vector<float>>> respond_alone(ModelItem&, const std::function<bool()>& stop) const;
+    void report(ModelItem&, std::vector<std::vector<float>> traces, const OutcomeHandler&) const;
+
+public:
+    static Result<std::unique_ptr<Sweep>> make(const SweepText&, const std::string& folder);
+    Result<void> run_items(const NextItem&, const OutcomeHandler&, const std::function<bool()>& stop) const override;
+};
+
+Result<VariedQuantity> ModelSweep::target(std::string_view afferent_name, const LocatedText& quantity) const {
+    if (force_.has_parameter(quantity.text)) return force_.find_quantity(quantity);
+    std::vector<ParameterInfo> rows;
+    for (const auto& p : *nominal_.parameters) rows.push_back(p.info);
+    const auto row = find_parameter({nominal_.name, std::string(parameter_name(afferent_name, quantity.text)), ""}, rows);
+    if (!row) return quantity.error_here(row.error().message);
+    const auto& r = **row;
+    VariedQuantity out{{quantity.text, std::string(r.unit), std::string(r.description)}, nominal_.values[parameter(r.name)], r.low, r.high};
+    out.parse = [unit = std::string(r.unit)](const LocatedText& s) { return parse_quantity(s.text, unit); };
+    return out;
+}
+
+Result<void> ModelSweep::set(const SweepText& spec) {
+    const auto& afferent_name = spec.afferent->text;
+    std::vector<ParameterOverride> wishes;
+    for (const auto& s : spec.settings) {
+        if (force_.has_parameter(s.name)) {
+            if (auto ok = force_.set(s); !ok) return ok;
+            continue;
+        }
+        wishes.assign(1, {afferent_name, std::string(parameter_name(afferent_name, s.name)), s.value.text});
+        const auto one = plan_any_afferent(afferent_name, wishes);
+        if (!one) return s.value.error_here(one.error().message);
+    }
+    wishes.clear();
+    for (const auto& s : spec.settings)
+        if (!force_.has_parameter(s.name)) wishes.push_back({afferent_name, std::string(parameter_name(afferent_name, s.name)), s.value.text});
+    auto plan = plan_any_afferent(afferent_name, wishes);
+    if (!plan) return spec.settings[0].value.error_here(plan.error().message);
+    nominal_ = std::move(*plan);
+    return {};
+}
+
+/// Selects the probes to keep.
+Result<void> ModelSweep::select_probes(const SweepText& spec) {
+    if (spec.probes.empty()) return {};
+    const auto& force = *force_.nominal();
+    const auto afferent = make_afferent(nominal_, run_of(force));
+    std::vector<std::string_view> names;
+    for (const auto& p : afferent->probes()) names.push_back(p.name);
+    for (const auto& word : spec.probes) {
+        const auto at = std::find(names.begin(), names.end(), word.text);
+        if (at == names.end())
+            return word.error_here(fmt::format("traces: {} has no '{}'{} (it has {})", nominal_.name, word.text, did_you_mean(word.text, names),
+                                          fmt::join(names, ", ")));
+        probes_.push_back(static_cast<std::size_t>(at - names.begin()));
+        probe_names_.push_back(word.text);
+    }
+    const auto every = probe_stride(spec, force.clock.T());
+    if (!every) return every.error();
+    every_ = *every;
+    for (std::size_t k = 0; k < force.samples.size(); k += every_) probe_times_.push_back(force.clock.time(static_cast<std::int64_t>(k)));
+    return {};
+}
+
+Result<std::unique_ptr<Sweep>> ModelSweep::make(const SweepText& spec, const std::string& folder) {
+    auto out = std::make_unique<ModelSweep>();
+    auto& s = *out;
+    if (spec.directives) return spec.directives->error_here("orders is for netlist = ...; an afferent = ... responds to its force");
+    const auto& afferent_name = spec.afferent->text;
+    if (spec.iterations)
+        return spec.iterations->error_here(fmt::format("{} is a model and has no iterations; remove iterations", afferent_name));
+    auto plan = plan_any_afferent(afferent_name, {});
+    if (!plan) return spec.afferent->error_here(plan.error().message);
+    s.nominal_ = std::move(*plan);
+    const auto seed = seed_of(spec);
+    if (!seed) return seed.error();
+    auto force = ForceFactory::of(spec, folder, *seed);
+    if (!force) return force.error();
+    s.force_ = std::move(*force);
+    if (!spec.settings.empty())
+        if (auto ok = s.set(spec); !ok) return ok.error();
+    VariableQuantities varying;
+    varying.subject_name = s.nominal_.name;
+    varying.find_quantity = [&](const LocatedText& quantity) { return s.target(afferent_name, quantity); };
+    varying.vary = [&](const SweepAxis&, const std::string& quantity, std::size_t axis) {
+        if (s.force_.has_parameter(quantity))
+            s.force_.vary(quantity, axis);
+        else
+            s.varied_.push_back({s.parameter(s.parameter_name(afferent_name, quantity)), axis});
+    };
+    auto sweep_plan = plan_of(spec, varying);
+    if (!sweep_plan) return sweep_plan.error();
+    s.plan_ = std::move(*sweep_plan);
+    if (auto ok = s.force_.prepare(); !ok) return ok.error();
+    if (const double rate = s.force_.nominal()->clock.rate(); rate < s.nominal_.min_rate)
+        return (spec.rate ? *spec.rate : *spec.afferent)
+            .error_here(fmt::format("the sample rate is {:g} Hz, but {} needs {:g} Hz or more", rate, afferent_name, s.nominal_.min_rate));
+    s.afferent_measures_ = std::make_unique<AfferentMeasures>(*s.force_.nominal(), false, std::span<const std::string>());
+    if (auto ok = s.afferent_measures_->select(spec.measures); !ok) return ok.error();
+    const MeasureLookup limiting{[&](const LocatedText& name) { return s.afferent_measures_->require_column(name); },
+                            [&](const LocatedText& model, std::size_t column) {
+                                return model_measure(model, s.force_, {s.afferent_measures_->columns()[column].name, model.location});
+                            }};
+    if (auto ok = set_limits(spec, limiting, s.afferent_measures_->columns()); !ok) return ok.error();
+    s.measures_ = s.afferent_measures_->columns();
+    const auto keeps = keeps_spikes(spec);
+    if (!keeps) return keeps.error();
+    if (*keeps) s.train_names_ = {s.nominal_.name};
+    if (auto ok = s.select_probes(spec); !ok) return ok.error();
+    s.metadata_ = first_metadata(spec, fmt::format("{}, {}", afferent_name, s.force_.name()));
+    if (auto recorded = s.force_.recording_summary(); !recorded.empty()) s.metadata_.push_back({"recording " + s.force_.name(), std::move(recorded)});
+    return std::unique_ptr<Sweep>(std::move(out));
+}
+
+Result<ModelItem> ModelSweep::make_item(std::int64_t number) const {
+    const auto values = plan_.values(number);
+    auto force = force_.at(values);
+    if (!force) return force.error();
+    ModelItem out{number, nominal_, std::move(*force)};
+    for (const auto& v : varied_) out.plan.values[v.parameter] = values[v.axis];
+    if (!varied_.empty())
+        if (const auto wrong = check_plan(out.plan)) out.failure = wrong->message;
+    return out;
+}
+
+std::size_t ModelSweep::block_items() const {
+    auto limit = max_block_items;
+    if (force_.varies()) limit = std::clamp<std::size_t>(max_varied_samples / force_.nominal()->samples.size(), 1, limit);
+    const auto fraction =
+        static_cast<std::size_t>(std::min<std::int64_t>(item_count() / 8, max_block_items)) / min_block_items * min_block_items;
+    return std::min(limit, std::max(fraction, min_block_items));
+}
+
+Result<void> ModelSweep::run_items(const NextItem& next, const OutcomeHandler& on_outcome, const std::function<bool()>& stop) const {
+    const auto limit = block_items();
+    for (std::vector<ModelItem> block;; block.clear()) {
+        while (block.size() < limit && !stop()) {
+            const auto number = next();
+            if (!number) break;
+            auto made = make_item(*number);
+            if (!made) return made.error();
+            block.push_back(std::move(*made));
+        }
+        if (block.empty() || stop()) return {};
+        if (auto ok = respond(block, on_outcome, stop); !ok) return ok.error().code == ErrorCode::interrupted ? Result<void>() : ok;
+    }
+}
+
+/// Simulates items with equal shared parameters together; these must be the same in a whole population.
+Result<void> ModelSweep::respond(std::vector<ModelItem>& block, const OutcomeHandler& on_outcome, const std::function<bool()>& stop) const {
+    const auto set = instruction_set();
+    if (!set) return set.error();
+    std::map<std::vector<double>, std::vector<ModelItem*>> kinds;
+    std::vector<ModelItem*> singles;
+    for (auto& u : block) {
+        if (u.failure) continue;
+        if (*set == InstructionSet::scalar || !probes_.empty() || !can_use_lanes(u.plan, run_of(*u.force))) {
+            singles.push_back(&u);
+            continue;
+        }
+        std::vector<double> shared;
+        for (std::size_t k = 0; k < u.plan.values.size(); ++k)
+            if ((*u.plan.parameters)[k].info.is_shared_by_copies) shared.push_back(u.plan.values[k]);
+        kinds[shared].push_back(&u);
+    }
+    for (const auto& [shared, items] : kinds) {
+        const auto done = respond_on_lanes(items, *set, stop);
+        if (!done) return done.error();
+        if (!*done) singles.insert(singles.end(), items.begin(), items.end());
+    }
+    std::vector<bool> is_reported(block.size());
+    for (auto* u : singles) {
+        u->spikes.clear();
+        auto traces = respond_alone(*u, stop);
+        if (!traces) return traces.error();
+        report(*u, std::move(*traces), on_outcome), is_reported[static_cast<std::size_t>(u - block.data())] = true;
+    }
+    for (std::size_t k = 0; k < block.size(); ++k)
+        if (!is_reported[k]) report(block[k], {}, on_outcome);
+    return {};
+}
+
+/// Returns false if the state of an item became NaN or infinite; then all items are simulated one by one.
+Result<bool> ModelSweep::respond_on_lanes(std::span<ModelItem* const> items, InstructionSet set, const std::function<bool()>& stop) const {
+    std::vector<const AfferentPlan*> plans;
+    for (const auto* u : items) plans.push_back(&u->plan);
+    const bool same_parameters = varied_.empty();
+    auto population =
+        make_lane_population({same_parameters ? std::span(plans).first(1) : std::span<const AfferentPlan* const>(plans), items.size()},
+                        run_of(*items[0]->force), set);
+    if (!population) return population.error();
+    const bool one_force = std::all_of(items.begin(), items.end(), [&](const ModelItem* u) { return u->force == items[0]->force; });
+    std::size_t longest = 0;
+    for (const auto* u : items) longest = std::max(longest, u->force->samples.size());
+    std::vector<std::vector<double>> padded(items.size());  // shorter forces are extended by their last value
+    std::vector<const double*> columns(items.size());
+    std::vector<Spike> spikes;
+    ThreadPool single_thread(1);
+    for (std::size_t at = 0; at < longest; at += block_steps) {
+        if (stop()) return Error{ErrorCode::interrupted, "interrupted"};
+        const auto steps = std::min(block_steps, longest - at);
+        PopulationForce force;
+        if (one_force) {
+            force = ForceProfile{std::span(items[0]->force->samples).subspan(at, steps)};
+        } else {
+            for (std::size_t k = 0; k < items.size(); ++k) {
+                const auto& samples = items[k]->force->samples;
+                columns[k] = samples.data() + at;
+                if (at + steps <= samples.size()) continue;
+                padded[k].assign(samples.begin() + static_cast<std::ptrdiff_t>(std::min(at, samples.size())), samples.end());
+                padded[k].resize(steps, samples.back());
+                columns[k] = padded[k].data();
+            }
+            force = ForceColumns{columns};
+        }
+        spikes.clear();
+        PopulationResponse response{&spikes};
+        if (const auto ok = (*population)->respond(force, steps, response, single_thread); !ok) return false;
+        for (const auto& s : spikes) {
+            auto& u = *items[s.afferent_index];
+            if (s.step < static_cast<std::int64_t>(u.force->samples.size())) u.spikes.push_back(u.force->clock.time(s.step, s.offset));
+        }
+    }
+    return true;
+}
+
+Result<std::vector<std::vector<float>>> ModelSweep::respond_alone(ModelItem& u, const std::function<bool()>& stop) const {
+    auto response = simulate_afferent(*make_afferent(u.plan, run_of(*u.force)), *u.force, probes_, every_, stop);
+    if (!response && response.error().code == ErrorCode::interrupted) return response.error();
+    if (!response) {
+        u.failure = response.error().message;
+        return std::vector<std::vector<float>>();
+    }
+    u.spikes = std::move(response->spikes);
+    return std::move(response->probe_samples);
+}
+
+void ModelSweep::report(ModelItem& u, std::vector<std::vector<float>> traces, const OutcomeHandler& on_outcome) const {
+    ItemOutcome out;
+    out.item = u.number;
+    if (u.failure) {
+        out.end = ItemEnd::diverged, out.reason = *u.failure, u.spikes.clear();
+        out.measures.assign(measures_.size(), std::numeric_limits<double>::quiet_NaN());
+    } else {
+        ItemResponse response;
+        response.spikes = u.spikes;
+        out.measures = afferent_measures_->values(*u.force, response);
+    }
+    if (!train_names_.empty()) out.spikes.push_back(std::move(u.spikes));
+    traces.resize(probe_names_.size());
+    for (auto& t : traces) t.resize(probe_times_.size(), std::numeric_limits<float>::quiet_NaN());
+    out.probes = std::move(traces);
+    on_outcome(std::move(out));
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Sweep>> make_model_sweep(const SweepText& spec, const std::string& folder) { return ModelSweep::make(spec, folder); }
+
+}  // namespace corpuscle::sweeps

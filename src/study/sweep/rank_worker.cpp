@@ -1,0 +1,109 @@
+// Worker ranks (all except rank 0): request items and deliver outcomes.
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <chrono>
+#include <thread>
+
+#include "study/sweep/worker_pool.hpp"
+#include "study/sweep/rank_run.hpp"
+#include "study/sweep/rank_time.hpp"
+#include "study/sweep/rank_messages.hpp"
+
+namespace corpuscle {
+namespace {
+
+class RankWorker {
+    static constexpr double between_outcomes = 0.1;  // s
+    static constexpr std::size_t max_unsent = 8;     // messages; the worker threads wait if there are more
+
+    Ranks& ranks_;
+    const SweepRunOptions& run_;
+    const unsigned threads_;
+    std::optional<WorkerPool> pool_;
+    RankHandshake coordinator_;
+    RankTime now_, last_received_ = rank_time(), last_sent_ = last_received_, last_delivered_ = last_received_;
+    RankThroughput pace_;
+    bool has_request_ = false, error_reported_ = false, is_over_ = false, leave_together_ = true, is_stopped_ = false,
+         sees_coordinator_ = false;
+
+    void send(const Message& m) {
+        ranks_.send(0, m.bytes());
+        last_sent_ = now_;
+    }
+
+    void handle(Message m) {
+        last_received_ = now_;
+        const auto word = decode_rank_message_type(m);
+        std::uint64_t together = 0;
+        std::vector<std::int64_t> units;
+        if (word == RankMessageType::handshake && decode_rank_message(m, coordinator_)) sees_coordinator_ = coordinator_.is_on_this_machine();
+        if (word == RankMessageType::shutdown && m.get(together)) is_over_ = true, leave_together_ = together != 0;
+        if (word == RankMessageType::items && decode_rank_message(m, units) && pool_) pool_->add(units), has_request_ = false;
+    }
+
+    void deliver_outcomes() {
+        if (seconds_between(last_delivered_, now_) < between_outcomes || ranks_.unsent() >= max_unsent) return;
+        const auto outcomes = pool_->collect(0);
+        pace_.add_finished(outcomes.size(), now_);
+        last_delivered_ = now_;
+        if (!outcomes.empty()) send(rank_message(outcomes));
+    }
+
+    void request_items() {
+        const auto wanted = pace_.queue_target(threads_);
+        const auto waiting = static_cast<std::int64_t>(pool_->queued());
+        if (has_request_ || is_stopped_ || 2 * waiting > wanted) return;
+        has_request_ = true;
+        send(rank_message(RankMessageType::request, static_cast<std::uint64_t>(wanted - waiting)));
+    }
+
+    void work() {
+        deliver_outcomes();
+        if (const auto ok = pool_->sweep_error(); !ok && !error_reported_) send(rank_message(ok.error())), error_reported_ = true;
+        request_items();
+        if (!is_stopped_ && run_.should_stop()) is_stopped_ = true, pool_->stop();
+    }
+
+    bool coordinator_is_gone() const {
+        return (sees_coordinator_ && coordinator_.is_dead()) || seconds_between(last_received_, now_) > rank_timeout;
+    }
+
+public:
+    RankWorker(Ranks& ranks, const Result<std::unique_ptr<Sweep>>& sweep, const SweepRunOptions& run)
+        : ranks_(ranks), run_(run), threads_(std::max(1U, run.threads)) {
+        now_ = rank_time();
+        send(rank_message(RankHandshake::of_this_process(sweep ? sweep->get() : nullptr)));
+        if (sweep)
+            pool_.emplace(**sweep, threads_);
+        else
+            send(rank_message(sweep.error()));
+    }
+
+    Result<void> follow() {
+        for (; !is_over_; std::this_thread::sleep_for(rank_tick)) {
+            now_ = rank_time();
+            while (auto received = ranks_.receive()) handle(Message(std::move(received->message)));
+            if (pool_) work();
+            if (seconds_between(last_sent_, now_) > heartbeat_interval) send(rank_message(RankMessageType::heartbeat));
+            if (coordinator_is_gone()) {
+                ranks_.leave(false);
+                return bad_input(
+                    fmt::format("rank {}: rank 0, which writes the results, has died; results so far are kept, and the same "
+                                "command resumes",
+                                ranks_.rank()));
+            }
+        }
+        pool_.reset();
+        ranks_.leave(leave_together_);
+        return {};
+    }
+};
+
+}  // namespace
+
+Result<void> run_worker(Ranks& ranks, const Result<std::unique_ptr<Sweep>>& sweep, const SweepRunOptions& run) {
+    return RankWorker(ranks, sweep, run).follow();
+}
+
+}  // namespace corpuscle

@@ -1,0 +1,75 @@
+// Reads a sweep file, selects the kind of sweep, and reports errors with paths as the user knows them.
+
+#include <fmt/format.h>
+#include <filesystem>
+
+#include "circuit/embedded_netlists.hpp"
+#include "signal/input_files.hpp"
+#include "study/afferent_plan.hpp"
+#include "study/sweep/subject.hpp"
+
+namespace corpuscle {
+namespace {
+
+namespace fs = std::filesystem;
+using sweeps::SweepText;
+
+constexpr std::size_t max_file_size = std::size_t{1} << 20;  // bytes
+
+Result<SweepText> text_at(const fs::path& path) {
+    const auto text = read_entire_input(path.string(), max_file_size, "sweep file");
+    return text ? sweeps::read_sweep_text(*text, path.string()) : Result<SweepText>(text.error());
+}
+
+/// A netlist alone: its own .step and .mc define what varies.
+SweepText of_netlist(const fs::path& path) {
+    SweepText out;
+    out.file = path.string();
+    std::error_code status;
+    out.netlist = LocatedText{fs::exists(path, status) ? path.filename().string() : path.string(), {}};
+    return out;
+}
+
+Result<std::unique_ptr<Sweep>> of_subject(const SweepText& spec, const std::string& folder) {
+    if (spec.afferent && spec.netlist)
+        return spec.netlist->error_here("give either afferent = ..., which responds to a force, or netlist = ..., with its own analyses");
+    if (spec.netlist) return sweeps::make_analysis_sweep(spec, folder);
+    if (!spec.afferent)
+        return bad_input("the sweep has no subject; give afferent = \"sa1\", or netlist = \"circuits/bias.cir\"", {spec.file});
+    return names_netlist(spec.afferent->text) ? sweeps::make_chip_sweep(spec, folder) : sweeps::make_model_sweep(spec, folder);
+}
+
+/// Replaces a setting of the file by one of the command line.
+void put(OptionalLocatedText& into, std::string_view key, const std::optional<std::string>& requested, SweepText& spec) {
+    if (!requested || (into && into->text == *requested)) return;
+    into = LocatedText{*requested, {}};
+    spec.canonical += fmt::format("--{} {}\n", key, *requested);
+}
+
+template <class N>
+std::optional<std::string> text_of(const std::optional<N>& number) {
+    return number ? std::optional(fmt::format("{}", *number)) : std::nullopt;
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Sweep>> read_sweep(const std::string& path, const SweepOverrides& requested) {
+    const fs::path file = path;
+    const auto folder = file.parent_path().string();
+    const bool is_netlist = file.extension() != ".toml";
+    auto spec = is_netlist ? Result<SweepText>(of_netlist(file)) : text_at(file);
+    if (!spec) return spec.error();
+    put(spec->seed, "seed", text_of(requested.seed), *spec);
+    put(spec->items, "units", text_of(requested.items), *spec);
+    auto sweep = of_subject(*spec, folder);
+    if (sweep) return sweep;
+    auto error = sweep.error();  // netlists and the files they include have paths relative to the folder
+    std::error_code status;
+    if (const auto full_path = file.parent_path() / error.location.file;
+        !error.location.file.empty() && error.location.file != spec->file && fs::exists(full_path, status))
+        error.location.file = full_path.string();
+    if (error.location.file.empty()) error.location.file = path;
+    return error;
+}
+
+}  // namespace corpuscle

@@ -1,0 +1,112 @@
+// Reads a sweep file's TOML; the only file that uses toml++.
+
+#include "study/sweep/sweep_text.hpp"
+
+#include <sstream>
+
+#include "signal/toml_reader.hpp"
+
+namespace corpuscle::sweeps {
+namespace {
+
+using Names = TomlReader::Names;
+
+const Names known_keys = {"title",      "afferent", "netlist", "force", "channel", "rate",     "unit", "scale",  "seed",  "units",
+                          "iterations", "every",    "orders",  "set",   "vary",    "measures", "keep", "traces", "limits"};
+const Names axis_keys = {"what", "how", "from", "to", "count", "log", "list", "mean", "sigma", "at_least", "at_most"};
+const Names limit_keys = {"at_least", "at_most", "like", "within"};
+
+/// Reads the tables of a sweep file.
+class SweepFileReader : public TomlReader {
+public:
+    using TomlReader::TomlReader;
+
+    void limits(const toml::table& from, const std::string& before, std::vector<LimitSpec>& out) {
+        for (const auto& [key, value] : from) {
+            LimitSpec limit{{before + std::string(key.str()), location_of(key.source())}, {}, {}, {}, {}};
+            if (const auto* pair = value.as_array()) {
+                if (pair->size() != 2)
+                    return reject(value.source(), fmt::format("{}: a limit needs two numbers, [min, max]", limit.measure.text));
+                limit.min = scalar((*pair)[0], limit.measure.text), limit.max = scalar((*pair)[1], limit.measure.text);
+            } else if (const auto* inner = value.as_table()) {
+                const bool of_limit = inner->is_inline() || inner->empty() || std::any_of(inner->begin(), inner->end(), [](const auto& e) {
+                                          return is_one_of(limit_keys, e.first.str());
+                                      });
+                if (!of_limit) {
+                    limits(*inner, limit.measure.text + ".", out);
+                    continue;
+                }
+                reject_unknown_keys(*inner, limit_keys, limit.measure.text + ": ");
+                limit.min = scalar(*inner, "at_least"), limit.max = scalar(*inner, "at_most");
+                limit.like = scalar(*inner, "like"), limit.within = scalar(*inner, "within");
+            } else {
+                return reject(value.source(),
+                              fmt::format("{0}: write {0} = [min, max], or {{at_least = ...}}, {{at_most = ...}}, {{like = \"sa1\", "
+                                          "within = ...}}",
+                                          limit.measure.text));
+            }
+            out.push_back(std::move(limit));
+        }
+    }
+
+    void axis(const toml::table& from, std::vector<AxisSpec>& out) {
+        reject_unknown_keys(from, axis_keys, "[[vary]]: ");
+        AxisSpec a;
+        if (auto what = scalar(from, "what"))
+            a.name = std::move(*what);
+        else
+            reject(from.source(),
+                   "[[vary]]: 'what' is missing, the quantity that varies: what = \"process\", \"temp\", a parameter's name ...");
+        a.distribution = scalar(from, "how"), a.from = scalar(from, "from"), a.to = scalar(from, "to"), a.count = scalar(from, "count");
+        a.log = scalar(from, "log", true), a.mean = scalar(from, "mean"), a.sigma = scalar(from, "sigma");
+        a.min = scalar(from, "at_least"), a.max = scalar(from, "at_most"), a.list = list(from, "list");
+        out.push_back(std::move(a));
+    }
+};
+
+SweepText text_from(const toml::table& top, SweepFileReader& reading) {
+    SweepText out;
+    reading.reject_unknown_keys(top, known_keys, "");
+    out.title = reading.scalar(top, "title"), out.afferent = reading.scalar(top, "afferent"), out.netlist = reading.scalar(top, "netlist");
+    out.force = reading.scalar(top, "force"), out.channel = reading.scalar(top, "channel"), out.rate = reading.scalar(top, "rate");
+    out.unit = reading.scalar(top, "unit"), out.scale = reading.scalar(top, "scale");
+    out.seed = reading.scalar(top, "seed"), out.items = reading.scalar(top, "units"), out.every = reading.scalar(top, "every");
+    out.iterations = reading.scalar(top, "iterations"), out.directives = reading.scalar(top, "orders");
+    out.measures = reading.list(top, "measures"), out.keep = reading.list(top, "keep");
+    if (auto traces = reading.list(top, "traces")) out.probes = std::move(*traces);
+    if (const auto* set = reading.table(top, "set")) reading.settings(*set, "", out.settings);
+    if (const auto* limits = reading.table(top, "limits")) reading.limits(*limits, "", out.limits);
+    reading.tables(top, "vary", "each thing that varies", [&](const toml::table& one) { reading.axis(one, out.axes); });
+    return out;
+}
+
+/// Makes all tables regular ones, however they were written.
+void make_tables_regular(toml::node& node) {
+    if (auto* table = node.as_table()) {
+        table->is_inline(false);
+        for (auto&& [key, value] : *table) make_tables_regular(value);
+    }
+    if (auto* array = node.as_array())
+        for (auto& value : *array) make_tables_regular(value);
+}
+
+std::string canonical_text(toml::table top) {
+    make_tables_regular(top);
+    std::ostringstream out;
+    out << toml::toml_formatter{top} << '\n';
+    return out.str();
+}
+
+}  // namespace
+
+Result<SweepText> read_sweep_text(std::string_view text, const std::string& file) {
+    const auto top = parse_toml(text, file);
+    if (!top) return top.error();
+    SweepFileReader reading(file);
+    auto out = text_from(*top, reading);
+    if (reading.first_error) return *reading.first_error;
+    out.file = file, out.canonical = canonical_text(*top);
+    return out;
+}
+
+}  // namespace corpuscle::sweeps

@@ -1,0 +1,114 @@
+#include "study/version_comparison.hpp"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "measure/train_distance.hpp"
+#include "study/json_number.hpp"
+
+namespace corpuscle {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json count_document(const VersionComparison::PhaseCount& c) {
+    return {{"spikes", c.spikes}, {"reference_spikes", c.reference_spikes}, {"excess", json_number(c.excess())}};
+}
+
+Json row_document(const VersionComparison& c) {
+    Json out = {{"receptor", c.receptor}, {"afferent", c.afferent}, {"reference", c.reference}, {"channel", c.channel}};
+    out.update(count_document(c.total));
+    out["phases"] = Json::array();
+    for (const auto& p : c.phases) {
+        Json one = {{"phase", p.phase}};
+        one.update(count_document(p));
+        out["phases"].push_back(std::move(one));
+    }
+    out["matched"] = c.matched;
+    out["mean_shift_s"] = json_number(c.mean_shift);
+    out["median_shift_s"] = json_number(c.median_shift);
+    out["victor_purpura"] = json_number(c.victor_purpura);
+    out["van_rossum"] = c.van_rossum;
+    return out;
+}
+
+/// Number of spikes of a train in [from, to).
+std::size_t count(std::span<const double> train, double from, double to) {
+    return static_cast<std::size_t>(std::lower_bound(train.begin(), train.end(), to) - std::lower_bound(train.begin(), train.end(), from));
+}
+
+double median_shift_of(std::vector<double> values) {
+    std::sort(values.begin(), values.end());
+    const auto n = values.size();
+    return n == 0 ? NAN : n % 2 == 1 ? values[n / 2] : (values[n / 2 - 1] + values[n / 2]) / 2;
+}
+
+void measure_distance(std::span<const double> reference, std::span<const double> train, VersionComparison& c) {
+    c.van_rossum = std::sqrt(van_rossum_squared(reference, train, VersionComparisons::tau));
+    const auto aligned = align_trains(reference, train, VersionComparisons::cost);
+    if (!aligned) return;
+    std::vector<double> shifts;
+    double sum = 0;
+    for (const auto& m : aligned->moved) shifts.push_back(train[m.b] - reference[m.a]), sum += shifts.back();
+    c.matched = shifts.size();
+    c.victor_purpura = aligned->distance;
+    c.mean_shift = shifts.empty() ? NAN : sum / static_cast<double>(shifts.size());
+    c.median_shift = median_shift_of(std::move(shifts));
+}
+
+}  // namespace
+
+double VersionComparison::PhaseCount::excess() const {
+    return reference_spikes == 0 ? NAN : static_cast<double>(spikes) / static_cast<double>(reference_spikes) - 1;
+}
+
+Result<void> VersionComparisons::begin(const Input& input) {
+    is_kept_.assign(input.plans.size(), false);
+    groups_.clear();
+    const bool copies = std::any_of(input.plans.begin(), input.plans.end(), [](const auto& a) { return a.copy_number > 0; });
+    for (auto& v : copies ? std::vector<VersionGroup>{} : version_groups(input.plans)) {
+        if (v.members.size() < 2) continue;
+        for (const auto m : v.members) is_kept_[m] = true;
+        groups_.push_back(std::move(v));
+    }
+    trains_.assign(groups_.empty() ? 0 : input.afferent_count(), {});
+    since_start_ = input.source.clock();
+    since_start_.t0 = 0;
+    return {};
+}
+
+Result<void> VersionComparisons::block(const Input& input, const RunBlock& block) {
+    for (const auto& s : block.spikes)
+        if (const auto afferent_index = s.afferent_index - input.first_afferent; is_kept_[afferent_index % is_kept_.size()])
+            trains_[afferent_index].push_back(since_start_.time(s.step, s.offset));
+    return {};
+}
+
+Result<void> VersionComparisons::end(const Input& input, std::int64_t) {
+    for (std::size_t c = 0; c < input.source.channels().size(); ++c)
+        for (const auto& v : groups_)
+            for (std::size_t m = 1; m < v.members.size(); ++m) rows_.push_back(compare_version(input, c, v, m));
+    trains_.clear();
+    return {};
+}
+
+VersionComparison VersionComparisons::compare_version(const Input& input, std::size_t channel, const VersionGroup& v, std::size_t member) const {
+    const std::size_t first = channel * input.plans.size();
+    const auto &reference = trains_[first + v.members[0]], &train = trains_[first + v.members[member]];
+    VersionComparison out{v.receptor,
+                   input.plans[v.members[member]].name,
+                   input.plans[v.members[0]].name,
+                   input.channel_name(channel),
+                   {"", train.size(), reference.size()}};
+    for (const auto& p : input.source.phases()) out.phases.push_back({p.name, count(train, p.from, p.to), count(reference, p.from, p.to)});
+    measure_distance(reference, train, out);
+    return out;
+}
+
+Json VersionComparisons::document() const {
+    Json pairs = Json::array();
+    for (const auto& r : rows_) pairs.push_back(row_document(r));
+    return {{"cost_Hz", cost}, {"tau_s", tau}, {"pairs", pairs}};
+}
+
+}  // namespace corpuscle

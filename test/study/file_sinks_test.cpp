@@ -1,0 +1,291 @@
+// What respond writes, read back.
+
+#include "study/file_sinks.hpp"
+#include "model/copies.hpp"
+
+#include <sndfile.h>
+
+#include <cmath>
+#include <numeric>
+
+#include "io/npz.hpp"
+#include "io/spike_files.hpp"
+#include "model/copies.hpp"
+#include "study/psth_file.hpp"
+#include "study/spike_sound_file.hpp"
+#include "study/npz_file.hpp"
+#include "study/earlier_outputs.hpp"
+#include "study/run_summary.hpp"
+#include "support/property.hpp"
+#include "support/support.hpp"
+
+namespace corpuscle {
+namespace {
+
+using test::Folder;
+using test::sure;
+
+/// Force of one sample and more, that nobody looks at, on a clock.
+class Still final : public ForceSource {
+    std::string name_ = "still";
+    Clock clock_;
+    std::vector<Channel> channels_;
+
+public:
+    Still(Clock clock, const std::vector<std::string>& channels) : clock_(clock) {
+        for (const auto& c : channels) channels_.push_back({static_cast<std::uint32_t>(channels_.size()), c});
+    }
+    const std::string& name() const override { return name_; }
+    const Clock& clock() const override { return clock_; }
+    const std::vector<Channel>& channels() const override { return channels_; }
+    double progress() const override { return 1; }
+    std::string description() const override { return "still"; }
+    Result<void> read(Frames&) override { return {}; }
+};
+
+/// Hands spikes to listeners as a run would, in blocks.
+void hand(const ForceSource& source, std::span<const AfferentPlan> plans, std::vector<Spike> spikes, std::int64_t samples, std::int64_t block,
+          std::initializer_list<ResponseSink*> listeners) {
+    const std::vector<std::span<const Probe>> probes(plans.size());
+    const Input input{source, "still", plans, probes};
+    std::sort(spikes.begin(), spikes.end());
+    for (auto* l : listeners)
+        if (auto ok = l->begin(input); !ok) throw std::runtime_error(ok.error().text());
+    for (std::int64_t first = 0; first < samples; first += block) {
+        Frames force(source.channels().size(), static_cast<std::size_t>(block));
+        force.count = static_cast<std::size_t>(std::min(block, samples - first));
+        std::vector<Spike> here;
+        for (const auto& s : spikes)
+            if (s.step >= first && s.step < first + block) here.push_back(s);
+        const RunBlock answered{first, force, here, {}};
+        for (auto* l : listeners)
+            if (auto ok = l->block(input, answered); !ok) throw std::runtime_error(ok.error().text());
+    }
+    for (auto* l : listeners)
+        if (auto ok = l->end(input, samples); !ok) throw std::runtime_error(ok.error().text());
+}
+
+std::vector<AfferentPlan> plans(const std::vector<std::string>& names) {
+    std::vector<AfferentPlan> all;
+    for (const auto& n : names) all.push_back(sure(plan_afferent(n, {})));
+    return all;
+}
+
+std::vector<Spike> any_spikes(std::int64_t samples, std::uint32_t units) {
+    std::vector<Spike> all;
+    for (const auto& [step, part, unit] : *rc::gen::container<std::vector<std::tuple<std::int64_t, int, std::uint32_t>>>(rc::gen::tuple(
+             rc::gen::inRange<std::int64_t>(1, samples), rc::gen::inRange(1, 1001), rc::gen::inRange<std::uint32_t>(0, units))))
+        all.push_back({step, part / 1000.0, unit});
+    return all;
+}
+
+TEST(SpikesOut, AreTheSameSpikesReadBackFromCsvToTheNanosecondAndFromNpzExactly) {
+    const Folder folder;
+    const auto afferents = plans({"sa1", "fa1"});
+    EXPECT_TRUE(rc::check("written and read", [&] {
+        const Still source(Clock{3000, 1, *rc::gen::element(0.0, 12.3456, 1.7e6)}, {"a", "b c"});
+        const auto spikes = any_spikes(500, 4);
+        SpikesFile csv(sure(OutputFile::create(folder / "spikes.csv")));
+        NpzFile npz(sure(OutputFile::create(folder / "spikes.npz")));
+        hand(source, afferents, spikes, 500, *rc::gen::element(1, 7, 500), {&csv, &npz});
+        RC_ASSERT(bool(csv.commit()) && bool(npz.commit()));
+        std::vector<std::vector<double>> right(4);
+        for (const auto& s : spikes) right[s.afferent_index].push_back(source.clock().time(s.step, s.offset));
+        for (auto& r : right) std::sort(r.begin(), r.end());
+        const auto exact = sure(read_spikes(folder / "spikes.npz")), rounded = sure(read_spikes(folder / "spikes.csv"));
+        RC_ASSERT(exact.size() == 4U);  // silent ones, too
+        std::size_t heard = 0;
+        for (const auto& train : exact) {
+            const std::size_t unit = (train.channel == "a" ? 0U : 2U) + (train.afferent == "sa1" ? 0U : 1U);
+            RC_ASSERT(train.times == right[unit]);
+            const auto same = std::find_if(rounded.begin(), rounded.end(), [&](const auto& t) { return t.name() == train.name(); });
+            RC_ASSERT((same == rounded.end()) == train.times.empty());
+            if (same == rounded.end()) continue;
+            RC_ASSERT(same->times.size() == train.times.size());
+            for (std::size_t k = 0; k < train.times.size(); ++k) RC_ASSERT(std::abs(same->times[k] - train.times[k]) < 0.8e-9);
+            ++heard;
+        }
+        RC_ASSERT(heard == rounded.size());
+    }));
+}
+
+TEST(SpikesOut, NpzHasTheListsThatSpikeInterfaceReads) {
+    const Folder folder;
+    const Still source(Clock{1000, 1, 5.0}, {"a"});
+    NpzFile npz(sure(OutputFile::create(folder / "spikes.npz")));
+    hand(source, plans({"sa1", "fa1"}), {{2, 0.5, 1}, {1, 0.25, 0}}, 10, 4, {&npz});
+    ASSERT_TRUE(npz.commit());
+    const auto checked = std::system(("/usr/bin/python3 -c \"\nimport numpy as np\nz = np.load('" + folder / "spikes.npz" + R"(')
+assert z['unit_ids'].dtype == np.int64 and list(z['unit_ids']) == [0, 1]
+assert int(z['num_segment'][0]) == 1 and z['num_segment'].dtype == np.int64
+assert float(z['sampling_frequency'][0]) == 1e6 and z['sampling_frequency'].dtype == np.float64
+assert z['spike_indexes_seg0'].dtype == np.int64 and list(z['spike_indexes_seg0']) == [250, 1500]
+assert list(z['spike_labels_seg0']) == [0, 1]
+assert list(z['spike_times_seg0']) == [5.00025, 5.0015]
+assert list(z['unit_afferent']) == ['sa1', 'fa1'] and list(z['unit_channel']) == ['a', 'a']
+")")
+                                         .c_str());
+    EXPECT_EQ(checked, 0);
+}
+
+/// Bins by counting, with the words of the file.
+TEST(PsthFile, CountsEverySpikeOnceInEvenBinsFromTheStartWhateverTheBlock) {
+    const Folder folder;
+    const auto afferents = plans({"sa1"});
+    EXPECT_TRUE(rc::check("against counting", [&] {
+        const Still source(Clock{1000, 1, *rc::gen::element(0.0, 100.0)}, {"a", "b"});
+        const auto spikes = any_spikes(250, 2);
+        const int per_bin = *rc::gen::element(1, 7, 10, 250, 1000);  // samples
+        PsthFile bins(sure(OutputFile::create(folder / "psth.csv")), per_bin * 1e-3);
+        hand(source, afferents, spikes, 250, *rc::gen::element(1, 9, 250), {&bins});
+        RC_ASSERT(bool(bins.commit()));
+        std::vector<std::string> right = {"afferent,channel,from_s,to_s,spikes,rate_Hz"};
+        for (int from = 0; from < 250; from += per_bin)
+            for (std::uint32_t u = 0; u < 2; ++u) {
+                const int to = std::min(from + per_bin, 250);
+                const auto n = std::count_if(spikes.begin(), spikes.end(), [&](const Spike& s) {
+                    const double at = static_cast<double>(s.step - 1) + s.offset;
+                    return s.afferent_index == u && at >= from && at < to;
+                });
+                right.push_back(fmt::format("sa1,{},{:.9f},{:.9f},{},{:.6g}", u ? "b" : "a", source.clock().t0 + from * 1e-3,
+                                            source.clock().t0 + to * 1e-3, n, static_cast<double>(n) / ((to - from) * 1e-3)));
+            }
+        RC_ASSERT(test::read_file(folder / "psth.csv") == fmt::format("{}\n", fmt::join(right, "\n")));
+    }));
+}
+
+struct Heard {
+    int ears = 0;
+    std::vector<short> samples;
+};
+
+Heard listen_to(const std::string& path) {
+    SF_INFO info = {};
+    SNDFILE* file = sf_open(path.c_str(), SFM_READ, &info);
+    if (!file) throw std::runtime_error(sf_strerror(nullptr));
+    EXPECT_EQ(info.samplerate, 44100);
+    EXPECT_EQ(info.format & SF_FORMAT_SUBMASK, SF_FORMAT_PCM_16);
+    Heard heard{info.channels, std::vector<short>(static_cast<std::size_t>(info.frames * info.channels))};
+    EXPECT_EQ(sf_readf_short(file, heard.samples.data(), info.frames), info.frames);
+    sf_close(file);
+    return heard;
+}
+
+TEST(SpikeSoundFile, HasAClickForEachSpikeAtItsSampleWhateverTheBlock) {
+    const Folder folder;
+    const Still source(Clock{10000, 1, 77.0}, {"a"});
+    std::vector<Spike> spikes;
+    for (std::int64_t k = 0; k < 40; ++k) spikes.push_back({50 + 37 * k, static_cast<double>(1 + k % 7) / 7, 0});
+    for (const std::int64_t block : {1, 13, 2000}) {
+        SpikeSoundFile clicks(folder.path());
+        hand(source, plans({"sa1"}), spikes, 2000, block, {&clicks});
+        ASSERT_TRUE(clicks.commit());
+        const auto heard = listen_to(folder / "spikes.wav");
+        EXPECT_EQ(heard.ears, 1);
+        EXPECT_EQ(heard.samples.size(), 8820U) << "as long as the input";
+        std::vector<std::size_t> found;
+        for (std::size_t k = 0; k < heard.samples.size(); ++k)
+            if (heard.samples[k] > (k ? heard.samples[k - 1] : 0)) found.push_back(k);
+        ASSERT_EQ(found.size(), spikes.size());
+        for (std::size_t k = 0; k < found.size(); ++k) {
+            const double t = (static_cast<double>(spikes[k].step - 1) + spikes[k].offset) / 10e3;
+            EXPECT_EQ(found[k], static_cast<std::size_t>(std::lround(t * 44100)));
+        }
+    }
+}
+
+TEST(SpikeSoundFile, SetsAfferentsFromLeftToRightAndNeverClips) {
+    const Folder folder;
+    const Still source(Clock{10000, 1, 0.0}, {"a", "b"});
+    std::vector<Spike> all;  // everybody at once, again and again, some within each other's clicks
+    for (const std::int64_t step : {10, 11, 12, 100, 101, 300})
+        for (std::uint32_t u = 0; u < 6; ++u) all.push_back({step, 1, u});
+    SpikeSoundFile clicks(folder.path());
+    hand(source, plans({"sa1", "fa1", "sa2"}), all, 400, 50, {&clicks});
+    ASSERT_TRUE(clicks.commit());
+    const auto heard = listen_to(folder / "spikes.wav");
+    EXPECT_EQ(heard.ears, 2);
+    EXPECT_LE(*std::max_element(heard.samples.begin(), heard.samples.end()), 29490) << "nine tenths of the full range";
+    EXPECT_GE(*std::max_element(heard.samples.begin(), heard.samples.end()), 29480);
+    EXPECT_GE(*std::min_element(heard.samples.begin(), heard.samples.end()), 0) << "what is cut short leaves nothing";
+    SpikeSoundFile left(folder.path());
+    hand(source, plans({"sa1", "fa1"}), {{100, 1, 0}}, 400, 50, {&left});
+    ASSERT_TRUE(left.commit());
+    const auto one = listen_to(folder / "spikes.wav");
+    int on_left = 0, on_right = 0;
+    for (std::size_t k = 0; k < one.samples.size(); k += 2) on_left += one.samples[k] != 0, on_right += one.samples[k + 1] != 0;
+    EXPECT_GT(on_left, 40);
+    EXPECT_EQ(on_right, 0);
+}
+
+TEST(SpikeSoundFile, LetsCopiesSoundFromThePlaceOfWhatTheyAreCopiesOf) {
+    const Folder folder;
+    const Still source(Clock{10000, 1, 0.0}, {"a"});
+    std::vector<AfferentPlan> copies;
+    for (const auto& plan : plans({"sa1", "fa1"}))
+        for (auto& copy : sure(make_copies(plan, 3, {}, 0))) copies.push_back(std::move(copy));
+    for (std::uint32_t unit = 0; unit < 6; ++unit) {
+        SpikeSoundFile clicks(folder.path());
+        hand(source, copies, {{100, 1, unit}}, 400, 50, {&clicks});
+        ASSERT_TRUE(clicks.commit());
+        const auto heard = listen_to(folder / "spikes.wav");
+        ASSERT_EQ(heard.ears, 2);
+        int loudest[2] = {0, 0};
+        for (std::size_t k = 0; k < heard.samples.size(); ++k) loudest[k % 2] = std::max<int>(loudest[k % 2], heard.samples[k]);
+        EXPECT_EQ(loudest[unit < 3 ? 0 : 1], 9830) << "a third of nine tenths of the full range";
+        EXPECT_EQ(loudest[unit < 3 ? 1 : 0], 0);
+    }
+}
+
+TEST(SpikeSoundFile, RefusesMoreThanAWavFileHoldsAndLeavesNothing) {
+    const Folder folder;
+    const Still source(Clock{1, 1000, 0.0}, {"a"});  // a sample every 1000 s
+    {
+        SpikeSoundFile clicks(folder.path());
+        try {
+            hand(source, plans({"sa1"}), {}, 30, 1, {&clicks});
+            ADD_FAILURE() << "was written";
+        } catch (const std::runtime_error& e) {
+            EXPECT_NE(std::string(e.what()).find("'still' is longer than the 6 hours that a WAV file can hold; run it without --wav"),
+                      std::string::npos)
+                << e.what();
+        }
+    }
+    EXPECT_TRUE(folder.names().empty());
+}
+
+TEST(RemoveStale, TakesOnlyWhatAnEarlierSummaryNamesInThatDirectory) {
+    const Folder folder;
+    folder.write("summary.json", R"({"program": "corpuscle", "files": ["psth.csv", "spikes.csv", "../outside", "sub", "gone.csv", 3]})");
+    for (const char* name : {"psth.csv", "spikes.csv", "mine.csv"}) folder.write(name, "");
+    std::filesystem::create_directory(folder / "sub");
+    EXPECT_EQ(remove_stale_outputs(folder.path(), {"spikes.csv", "summary.json"}), std::vector<std::string>{"psth.csv"});
+    EXPECT_EQ(folder.names(), (std::vector<std::string>{"mine.csv", "spikes.csv", "sub", "summary.json"}));
+    for (const char* other : {"", "{", "[]", R"({"program": "another", "files": ["mine.csv"]})", R"({"program": "corpuscle", "files": 7})",
+                              R"({"files": ["mine.csv"]})"}) {
+        folder.write("summary.json", other);
+        EXPECT_TRUE(remove_stale_outputs(folder.path(), {}).empty()) << other;
+    }
+    EXPECT_TRUE(remove_stale_outputs(folder / "nowhere", {}).empty());
+}
+
+/// A measure at its simplest, on the run itself: force that repeats itself says so.
+TEST(Summary, KnowsTheCycleOfAStimulusAndLeavesOutColumnsWithoutValues) {
+    const auto columns = [](const std::string& stimulus) {
+        std::vector<std::unique_ptr<ForceSource>> sources;
+        sources.push_back(sure(make_stimulus(stimulus, {}, 10e3, 0)));
+        const auto afferents = plans({"sa1"});
+        RunSummary summary;
+        ResponseSink* listeners[] = {&summary};
+        (void)sure(respond(sources, afferents, listeners, {}));
+        std::vector<std::string_view> names;
+        for (const auto c : summary.columns()) names.push_back(measures[c].name);
+        return names;
+    };
+    const auto has = [](const auto& names, std::string_view name) { return std::find(names.begin(), names.end(), name) != names.end(); };
+    for (const char* cyclic : {"sine", "grating", "press+sine", "sine+noise"}) EXPECT_TRUE(has(columns(cyclic), "entrainment")) << cyclic;
+    for (const char* other : {"press", "noise", "chirp", "sine+grating"}) EXPECT_FALSE(has(columns(other), "entrainment")) << other;
+}
+
+}  // namespace
+}  // namespace corpuscle

@@ -1,0 +1,78 @@
+// The files that hardware is checked with: the program writes those kept here, and a second building from the page agrees.
+
+#include "study/test_vectors_file.hpp"
+
+#include "support/support.hpp"
+
+namespace corpuscle {
+namespace {
+
+const std::string kept = test::root() + "/test/study/vectors/",
+                  python = "/usr/bin/python3 " + test::root() + "/test/model/fixed_reference.py";
+
+/// Writes the vectors of some afferents under some stimuli at 2 kHz.
+std::vector<std::string> write(const test::Folder& folder, const std::vector<std::string>& stimuli, const std::vector<std::string>& names,
+                               const std::vector<std::string>& settings, std::size_t block = 4096) {
+    const auto mine = test::wishes(settings);
+    std::vector<std::unique_ptr<ForceSource>> sources;
+    std::vector<AfferentPlan> plans;
+    for (const auto& s : stimuli) sources.push_back(test::sure(make_stimulus(s, mine, 2e3, 9)));
+    for (const auto& n : names) plans.push_back(test::sure(plan_afferent(n, mine)));
+    TestVectorsFile vectors(folder.path());
+    ResponseSink* listeners[] = {&vectors};
+    RespondOptions options;
+    options.block = block;
+    (void)test::sure(respond(sources, plans, listeners, options));
+    EXPECT_TRUE(vectors.commit());
+    return vectors.paths();
+}
+
+/// What a small converter of 8 bits at 250 Hz makes of the press: short enough to keep.
+std::vector<std::string> small(const std::string& name) { return {name + ".bits=8", name + ".f_s=250Hz"}; }
+
+bool reference_agrees(const std::string& vectors, const std::string& rom) {
+    return std::system((python + " '" + vectors + "' '" + rom + "' > /dev/null").c_str()) == 0;
+}
+
+TEST(Vectors, ThePressGivesTheFilesKeptHereByteForByte) {
+    for (const std::string name : {"sa1-kim", "fa1-lee"}) {
+        const test::Folder folder;
+        write(folder, {"press"}, {name}, small(name));
+        for (const auto& file : {"vectors-" + name + ".csv", "rom-" + name + ".csv"})
+            EXPECT_EQ(test::read_file(folder / file), test::read_file(kept + file)) << file;
+        EXPECT_TRUE(reference_agrees(kept + "vectors-" + name + ".csv", kept + "rom-" + name + ".csv")) << name;
+    }
+}
+
+TEST(Vectors, ASecondBuildingFromThePageAgreesOnEveryAlgorithmAndOddWords) {
+    for (const std::string receptor : {"sa1a", "sa1b", "fa1a", "fa1b"})
+        for (const std::string neuron : {"lif-a", "lif-b", "adaptive"})
+            for (const auto& [word, frac] : {std::pair{"32", "24"}, {"24", "20"}, {"17", "9"}, {"12", "5"}}) {
+                const test::Folder folder;
+                const auto name = "fsr+adc+" + receptor + "+" + neuron;
+                write(folder, {"press+noise"}, {name},
+                      {"noise.F_mean=0", name + ".word=" + word, name + ".frac=" + frac, name + ".f_s=700Hz", name + ".t_ref=3ms",
+                       name + ".E_L=0.1"});
+                EXPECT_TRUE(reference_agrees(folder / ("vectors-" + name + ".csv"), folder / ("rom-" + name + ".csv"))) << name << word;
+            }
+}
+
+TEST(Vectors, TheReferenceSeesASingleWrongBit) {
+    const test::Folder folder;
+    auto text = test::read_file(kept + "vectors-sa1-kim.csv");
+    const auto at = text.rfind(",0\n");
+    text[at + 1] = '1';
+    EXPECT_FALSE(reference_agrees(folder.write("wrong.csv", text), kept + "rom-sa1-kim.csv"));
+}
+
+TEST(Vectors, DoNotDependOnTheBlockAndEachInputHasItsOwn) {
+    const test::Folder whole, parts;
+    const auto paths = write(whole, {"press", "ramp-hold"}, {"sa1", "sa1-kim"}, {});
+    write(parts, {"press", "ramp-hold"}, {"sa1", "sa1-kim"}, {}, 7);
+    EXPECT_EQ(whole.names(), (std::vector<std::string>{"rom-sa1-kim.csv", "vectors-sa1-kim-2.csv", "vectors-sa1-kim.csv"}));
+    EXPECT_EQ(paths.size(), 3U);
+    for (const auto& name : whole.names()) EXPECT_EQ(test::read_file(whole / name), test::read_file(parts / name)) << name;
+}
+
+}  // namespace
+}  // namespace corpuscle
