@@ -17,7 +17,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Result<CompareOptions> options_of(const CompareWords& w) {
+Result<CompareOptions> options_of(const CompareArguments& w) {
     CompareOptions options{.pairs = w.pairs, .by_order = w.by_order};
     for (const auto& [text, unit, option, to] : {std::tuple{&w.window, "s", "--window", &options.window},
                                                  {&w.cost, "Hz", "--cost", &options.cost},
@@ -32,7 +32,7 @@ Result<CompareOptions> options_of(const CompareWords& w) {
 }
 
 /// Warns of a window above 0.5 s. It is probably a number meant as milliseconds; a number without a unit is in seconds.
-void warn_of_window(const CompareOptions& options, const CompareWords& w) {
+void warn_of_window(const CompareOptions& options, const CompareArguments& w) {
     constexpr double max_usual = 0.5;  // s
     if (options.window <= max_usual) return;
     const bool has_no_unit = w.window.find_first_not_of("+0123456789.eE") == std::string::npos;
@@ -88,24 +88,24 @@ std::string text(const CompareOptions& options, const std::vector<TrainDifferenc
     const auto shown = [](const std::string& name) { return name.empty() ? "-" : name; };
     for (const auto& d : all) rows.push_back(line_of(d, shown(d.a), shown(d.b)));
     if (all.size() > 1) rows.push_back(line_of(total, "total", ""));
-    return table(rows) + fmt::format("Matching window {}; Victor-Purpura cost {:g} per second; van Rossum time constant {}.\n",
+    return format_table(rows) + fmt::format("Matching window {}; Victor-Purpura cost {:g} per second; van Rossum time constant {}.\n",
                                      format_quantity(options.window, "s"), options.cost, format_quantity(options.tau, "s"));
 }
 
-Result<void> run(const CompareWords& w, const Common& common) {
+Result<void> run(const CompareArguments& w, const CommonArguments& common) {
     const auto options = options_of(w);
     if (!options) return options.error();
     if (w.files.empty()) return bad_usage("compare: no files given; try 'corpuscle compare A/spikes.csv B/spikes.csv'");
     if (w.files.size() == 1 && w.pairs.empty())
         return bad_usage(fmt::format("compare {}: needs a second file, or two trains of this file: --pair sa1=fa1", w.files[0]));
     warn_of_window(*options, w);
-    const SpikeColumns columns{w.time, w.unit};
+    const SpikeColumns columns{w.time_column, w.train_column};
     auto a = read_spikes(w.files.front(), columns);
     auto b = w.files.size() == 1 ? a : read_spikes(w.files.back(), columns);
     // --time and --unit apply to the file that has these columns; the other file is read with the default columns.
-    if (!a && b && w.files.size() == 2 && (w.time || w.unit))
+    if (!a && b && w.files.size() == 2 && (w.time_column || w.train_column))
         if (auto with_defaults = read_spikes(w.files.front())) a = std::move(with_defaults);
-    if (a && !b && (w.time || w.unit))
+    if (a && !b && (w.time_column || w.train_column))
         if (auto with_defaults = read_spikes(w.files.back())) b = std::move(with_defaults);
     if (!a) return a.error();
     if (!b) return b.error();
@@ -123,16 +123,16 @@ Result<void> run(const CompareWords& w, const Common& common) {
     if (common.json)
         fmt::print("{}", document(*options, all, total));
     else if (!common.quiet)
-        show(text(*options, all, total));
+        print_text(text(*options, all, total));
     return {};
 }
 
 }  // namespace
 
-int compare_trains(const CompareWords& words, const Common& common) {
+int compare_trains(const CompareArguments& words, const CommonArguments& common) {
     catch_interrupt();
     const auto done = run(words, common);
-    return done ? 0 : fail(done.error());
+    return done ? 0 : report_error(done.error());
 }
 
 }  // namespace corpuscle

@@ -16,33 +16,33 @@ namespace corpuscle {
 /// With several steps each CSV row begins with its step. A transient's points are written in blocks; the files are readable at any time.
 class CurveFiles final : public circuit::CurveSink {
     using Clock = std::chrono::steady_clock;
-    const RunWords& words_;
+    const RunArguments& arguments_;
     OutputCheck check_;
-    bool several_, csv_;
+    bool has_steps_, is_csv_;
     std::deque<OutputFile> files_;  // a deque keeps addresses stable
     std::string title_, label_;
-    std::size_t analyses_ = 0, plots_ = 0;  // of the current variant: number of analyses; plots written so far
+    std::size_t analysis_count_ = 0, plot_count_ = 0;  // of the current variant: number of analyses; plots written so far
     // state of the current transient:
     OutputFile* file_ = nullptr;
     std::string rows_;  // not written yet
-    std::size_t points_ = 0, count_at_ = 0;
-    double time_ = 0, written_to_ = 0;  // s: newest point; last point written to the file
-    Clock::time_point written_;
-    bool streamed_ = false;   // a transient has delivered more than its first point
-    bool has_whole_ = false;  // an analysis has delivered complete plots
+    std::size_t point_count_ = 0, count_offset_ = 0;
+    double newest_time_ = 0, written_time_ = 0;  // s: newest point; last point written to the file
+    Clock::time_point last_write_;
+    bool has_streamed_ = false;   // a transient has delivered more than its first point
+    bool has_complete_plots_ = false;  // an analysis has delivered complete plots
 
-    Result<void> write_out();
-    Result<void> table(const circuit::Plot&, std::size_t count);
+    Result<void> write_pending();
+    Result<void> write_table(const circuit::Plot&, std::size_t count);
     std::string path_of(std::size_t count, std::size_t k) const;
     Result<OutputFile*> open(std::size_t count, std::size_t k, const std::string& head);
 
 public:
-    CurveFiles(const RunWords& words, bool several, bool overwrite)
-        : words_(words), check_(overwrite), several_(several), csv_(words.out.ends_with(".csv")) {}
+    CurveFiles(const RunArguments& words, bool several, bool overwrite)
+        : arguments_(words), check_(overwrite), has_steps_(several), is_csv_(words.out.ends_with(".csv")) {}
 
     /// Checks before the run that the files of a netlist with this many analyses may be written.
     Result<void> check(std::size_t analysis_count) const;
-    void next(const circuit::Variant&);
+    void begin_variant(const circuit::Variant&);
     Result<void> add_plots(std::span<const circuit::Plot>) override;
     Result<void> begin(const circuit::Plot& head) override;
     Result<void> add_point(std::span<const double> row) override;

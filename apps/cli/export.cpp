@@ -10,7 +10,7 @@
 #include "printable.hpp"
 #include "terminal.hpp"
 #include "verbs.hpp"
-#include "written.hpp"
+#include "output_files.hpp"
 
 namespace corpuscle {
 namespace {
@@ -24,7 +24,7 @@ Json document_of(const NgspiceDeck& deck, const std::vector<Error>& remarks) {
     return {{"for", "ngspice"}, {"deck", deck.text}, {"warnings", warnings}};
 }
 
-Result<void> export_netlist(const ExportWords& words, const Common& common) {
+Result<void> export_netlist(const ExportArguments& words, const CommonArguments& common) {
     const auto netlist = open_netlist(words.netlist);
     if (!netlist) return netlist.error();
     OutputCheck outputs(common.overwrite);
@@ -37,8 +37,8 @@ Result<void> export_netlist(const ExportWords& words, const Common& common) {
     if (!deck) return deck.error();
     remarks.insert(remarks.end(), deck->left_out.begin(), deck->left_out.end());
     if (!words.out.empty())
-        if (auto ok = write_whole(words.out, deck->text); !ok) return ok;
-    for (const auto& r : remarks) tell_warning(r.text());
+        if (auto ok = write_file(words.out, deck->text); !ok) return ok;
+    for (const auto& r : remarks) print_warning(r.text());
     if (common.json)
         fmt::print("{}\n", json_text(document_of(*deck, remarks)));
     else if (words.out.empty())
@@ -48,9 +48,9 @@ Result<void> export_netlist(const ExportWords& words, const Common& common) {
 
 }  // namespace
 
-int export_to(const ExportWords& words, const Common& common) {
+int export_to(const ExportArguments& words, const CommonArguments& common) {
     const auto done = export_netlist(words, common);
-    return done ? 0 : fail(done.error());
+    return done ? 0 : report_error(done.error());
 }
 
 }  // namespace corpuscle

@@ -112,7 +112,7 @@ std::string Help::make_help(const CLI::App* app, std::string name, CLI::AppForma
     return out;
 }
 
-std::vector<std::string> with_help_first(std::vector<std::string> arguments) {
+std::vector<std::string> normalize_help(std::vector<std::string> arguments) {
     if (arguments.empty()) return {"--help"};
     if (arguments[0] != "help") return arguments;
     arguments.erase(arguments.begin());
@@ -120,7 +120,7 @@ std::vector<std::string> with_help_first(std::vector<std::string> arguments) {
     return arguments;
 }
 
-std::string unknown_verb(const CLI::App& app, const std::vector<std::string>& arguments) {
+std::string unknown_verb_error(const CLI::App& app, const std::vector<std::string>& arguments) {
     if (arguments.empty() || arguments[0].empty() || arguments[0].starts_with('-')) return "";
     std::vector<std::string> names;
     for (const auto* verb : app.get_subcommands([](const CLI::App*) { return true; })) names.push_back(verb->get_name());

@@ -17,9 +17,9 @@ private:
 };
 
 /// Rewrites "help respond" to "respond --help", and an empty command line to "--help".
-std::vector<std::string> with_help_first(std::vector<std::string> arguments);
+std::vector<std::string> normalize_help(std::vector<std::string> arguments);
 
 /// The error message if the first argument is not a verb of the program, else "".
-std::string unknown_verb(const CLI::App&, const std::vector<std::string>& arguments);
+std::string unknown_verb_error(const CLI::App&, const std::vector<std::string>& arguments);
 
 }  // namespace corpuscle

@@ -24,14 +24,14 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Entry entry_of(const CatalogEntry& card) {
-    Entry e{std::string(card.name), "", std::string(card.description), std::string(card.source), {}, {}};
+ListEntry entry_of(const CatalogEntry& card) {
+    ListEntry e{std::string(card.name), "", std::string(card.description), std::string(card.source), {}, {}};
     for (const auto& row : card.parameters) e.parameters.push_back({row, card.name});
     return e;
 }
 
-std::vector<Entry> entries_of(const std::vector<CatalogEntry>& cards) {
-    std::vector<Entry> entries;
+std::vector<ListEntry> entries_of(const std::vector<CatalogEntry>& cards) {
+    std::vector<ListEntry> entries;
     for (const auto& c : cards) entries.push_back(entry_of(c));
     return entries;
 }
@@ -43,8 +43,8 @@ const std::shared_ptr<T>& keep_alive(const std::shared_ptr<T>& object) {
     return all.emplace_back(object);
 }
 
-std::vector<Entry> afferent_entries() {
-    std::vector<Entry> entries;
+std::vector<ListEntry> afferent_entries() {
+    std::vector<ListEntry> entries;
     for (const auto& a : named_afferents()) {
         const auto plan = plan_afferent(a.name, {});
         entries.push_back({std::string(a.name),
@@ -73,25 +73,25 @@ std::vector<Entry> afferent_entries() {
 }
 
 /// The contents of netlists: devices by letter, parameters of .model and M lines, analyses.
-std::vector<Section> circuit_sections() {
+std::vector<ListSection> circuit_sections() {
     using namespace circuit;
     const CatalogEntry card{UicmCard::name, UicmCard::description, UicmCard::source, parameters_of<UicmCard>(UicmCard::fields)};
     const CatalogEntry size{"m", "transistor size: the parameters of an M line", "choice: 1 um / 1 um",
                     parameters_of<UicmInstance>(UicmInstance::fields)};
-    std::vector<Entry> elements, analysis_entries;
+    std::vector<ListEntry> elements, analysis_entries;
     for (const auto& d : circuit::devices) elements.push_back({std::string(1, d.letter), "", std::string(d.description), "", {}, {}});
     for (const auto& a : circuit::analyses)
         analysis_entries.push_back({"." + std::string(a.name), std::string(a.usage), std::string(a.description), "", {}, {}, "usage"});
     return {{"devices", elements}, {"models", entries_of({card, size})}, {"analyses", analysis_entries}};
 }
 
-std::vector<Section> catalogue() {
-    std::vector<Entry> measure_entries, format_entries;
+std::vector<ListSection> catalogue() {
+    std::vector<ListEntry> measure_entries, format_entries;
     for (const auto& m : measures)
         measure_entries.push_back({std::string(m.name), std::string(m.unit), std::string(m.description), "", {}, {}, "unit"});
     for (const auto& f : recording_formats)
         format_entries.push_back({std::string(f.name), std::string(f.extensions), std::string(f.description), "", {}, {}, "extensions"});
-    std::vector<Section> all = {{"afferents", afferent_entries()},
+    std::vector<ListSection> all = {{"afferents", afferent_entries()},
                                 {"sensors", entries_of(sensor_entries())},
                                 {"transducers", entries_of(transducer_entries())},
                                 {"converters", entries_of(converter_entries())},
@@ -106,10 +106,10 @@ std::vector<Section> catalogue() {
 }
 
 /// The requested sections and entries; all if `what` is empty.
-Result<std::vector<Section>> select_sections(const std::vector<std::string>& what) {
+Result<std::vector<ListSection>> select_sections(const std::vector<std::string>& what) {
     auto all = catalogue();
     if (what.empty()) return all;
-    std::vector<Section> out;
+    std::vector<ListSection> out;
     std::vector<std::string_view> known;
     for (const auto& s : all) {
         known.push_back(s.name);
@@ -125,9 +125,9 @@ Result<std::vector<Section>> select_sections(const std::vector<std::string>& wha
                 out.push_back(s);
                 continue;
             }
-            Section selected{s.name, {}};
+            ListSection selected{s.name, {}};
             std::copy_if(s.entries.begin(), s.entries.end(), std::back_inserter(selected.entries),
-                         [&](const Entry& e) { return e.name == w; });
+                         [&](const ListEntry& e) { return e.name == w; });
             if (!selected.entries.empty()) out.push_back(selected);
         }
     }
@@ -141,21 +141,21 @@ std::string range(const ParameterInfo& r) {
     return fmt::format("[{}, {}]", format_quantity(r.low, r.unit), format_quantity(r.high, r.unit));
 }
 
-std::string text_of(const Entry& e) {
-    std::string text = fmt::format("  {}{}: {}\n", e.name, e.made_of.empty() ? "" : fmt::format(" ({})", e.made_of), e.sentence);
+std::string text_of(const ListEntry& e) {
+    std::string text = fmt::format("  {}{}: {}\n", e.name, e.detail.empty() ? "" : fmt::format(" ({})", e.detail), e.description);
     if (!e.source.empty()) text += fmt::format("    source: {}\n", e.source);
     if (!e.other_names.empty()) text += fmt::format("    also called: {}\n", fmt::join(e.other_names, ", "));
     std::vector<std::vector<std::string>> rows = {{}};
     for (const auto& p : e.parameters)
         rows.push_back({"    " + std::string(p.info.name), format_quantity(p.info.default_value, p.info.unit), range(p.info),
                         std::string(p.info.description) + (p.info.source.empty() ? "" : fmt::format(" ({})", p.info.source))});
-    for (const auto& t : e.told) rows.push_back({"    " + t.of, t.text, t.source.empty() ? "" : "(" + t.source + ")"});
-    return text + (rows.size() > 1 ? table({rows.begin() + 1, rows.end()}) : "");
+    for (const auto& t : e.notes) rows.push_back({"    " + t.subject, t.text, t.source.empty() ? "" : "(" + t.source + ")"});
+    return text + (rows.size() > 1 ? format_table({rows.begin() + 1, rows.end()}) : "");
 }
 
-Json document_of(const Entry& e) {
-    Json out = {{"name", e.name}, {"sentence", e.sentence}};
-    if (!e.made_of.empty()) out[std::string(e.made_of_is)] = e.made_of;
+Json document_of(const ListEntry& e) {
+    Json out = {{"name", e.name}, {"sentence", e.description}};
+    if (!e.detail.empty()) out[std::string(e.detail_key)] = e.detail;
     if (!e.source.empty()) out["source"] = e.source;
     if (!e.other_names.empty()) out["also_called"] = e.other_names;
     for (const auto& p : e.parameters)
@@ -167,21 +167,21 @@ Json document_of(const Entry& e) {
                                      {"sentence", p.info.description},
                                      {"source", p.info.source},
                                      {"of", p.component}});
-    for (const auto& t : e.told) out["told"].push_back({{"of", t.of}, {"text", t.text}, {"source", t.source}});
+    for (const auto& t : e.notes) out["told"].push_back({{"of", t.subject}, {"text", t.text}, {"source", t.source}});
     return out;
 }
 
 }  // namespace
 
-int list(const ListWords& words, const Common& common) {
-    if (words.sites) {
-        const auto sites = sites_listing(words.what, common.json);
-        if (!sites) return fail(sites.error());
+int list(const ListArguments& words, const CommonArguments& common) {
+    if (words.list_sites) {
+        const auto sites = sites_listing(words.names, common.json);
+        if (!sites) return report_error(sites.error());
         fmt::print("{}", *sites);
         return 0;
     }
-    const auto sections = select_sections(words.what);
-    if (!sections) return fail(sections.error());
+    const auto sections = select_sections(words.names);
+    if (!sections) return report_error(sections.error());
     if (common.json) {
         Json out = Json::object();
         for (const auto& s : *sections)
@@ -194,7 +194,7 @@ int list(const ListWords& words, const Common& common) {
         text += fmt::format("{}{}\n", text.empty() ? "" : "\n", s.name);
         for (const auto& e : s.entries) text += text_of(e);
     }
-    show(text);
+    print_text(text);
     return 0;
 }
 

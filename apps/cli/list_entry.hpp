@@ -10,24 +10,24 @@ namespace corpuscle {
 
 /// A property of an entry other than a parameter: its name, its text, and the source of its value.
 struct CatalogNote {
-    std::string of, text, source;
+    std::string subject, text, source;
 };
 
-struct Entry {
-    std::string name, made_of, sentence, source;
+struct ListEntry {
+    std::string name, detail, description, source;
     std::vector<AfferentParameter> parameters;
     std::vector<std::string> other_names;
-    std::string_view made_of_is = "made_of";  ///< the JSON key of made_of for this kind of entry
-    std::vector<CatalogNote> told = {};
+    std::string_view detail_key = "made_of";  ///< the JSON key of made_of for this kind of entry
+    std::vector<CatalogNote> notes = {};
 };
 
-struct Section {
+struct ListSection {
     std::string_view name;
-    std::vector<Entry> entries;
+    std::vector<ListEntry> entries;
 };
 
 /// Skin populations, and indenters.
-std::vector<Section> skin_sections();
+std::vector<ListSection> skin_sections();
 
 /// The sites of one population in frame order. The CSV form can be used as the site list of a population file.
 Result<std::string> sites_listing(const std::vector<std::string>& populations, bool json);

@@ -65,37 +65,37 @@ void add_class_notes(const SkinPlan& plan, std::uint32_t k, std::vector<CatalogN
     if (!spread.empty()) out.push_back({"", "spread: " + spread, source_for(c.sources, "spread")});
 }
 
-Entry entry_of_skin(const NamedSkin& named) {
-    Entry e{std::string(named.name), "", std::string(named.description), fmt::format("skins/{}.toml", named.name), {}, {}};
+ListEntry entry_of_skin(const NamedSkin& named) {
+    ListEntry e{std::string(named.name), "", std::string(named.description), fmt::format("skins/{}.toml", named.name), {}, {}};
     const auto plan = load_skin_plan(named.name);
     if (!plan) return e;  // a test makes sure that it exists
     const auto& sites = plan->sites;
-    e.told.push_back({"sites", fmt::format("{}, {:.3g} mm2 each, in {} regions", sites.size(), sites.area * 1e6, sites.regions.size()),
+    e.notes.push_back({"sites", fmt::format("{}, {:.3g} mm2 each, in {} regions", sites.size(), sites.area * 1e6, sites.regions.size()),
                       source_for(plan->sources, "sites")});
-    e.told.push_back({"felt_area", fmt::format("{:.3g} cm2", plan->felt_area * 1e4), source_for(plan->sources, "felt_area")});
-    for (std::uint32_t k = 0; k < plan->classes.size(); ++k) add_class_notes(*plan, k, e.told);
+    e.notes.push_back({"felt_area", fmt::format("{:.3g} cm2", plan->felt_area * 1e4), source_for(plan->sources, "felt_area")});
+    for (std::uint32_t k = 0; k < plan->classes.size(); ++k) add_class_notes(*plan, k, e.notes);
     return e;
 }
 
-std::vector<Entry> contact_entries() {
-    std::vector<Entry> out;
+std::vector<ListEntry> contact_entries() {
+    std::vector<ListEntry> out;
     const auto rows = contact_parameters();
     for (const auto& i : indenters) {
-        Entry e{std::string(i.name), "", std::string(i.description), std::string(i.source), {}, {}};
+        ListEntry e{std::string(i.name), "", std::string(i.description), std::string(i.source), {}, {}};
         for (const auto& row : rows)
             if (std::find(i.parameters.begin(), i.parameters.end(), row.name) != i.parameters.end()) e.parameters.push_back({row, "contact"});
         out.push_back(std::move(e));
     }
-    Entry path{"path", "", "position and movement of any indenter", "", {}, {}};
+    ListEntry path{"path", "", "position and movement of any indenter", "", {}, {}};
     for (const auto& row : rows)
         if (is_path_parameter(row.name)) path.parameters.push_back({row, "contact"});
     out.push_back(std::move(path));
     for (const auto& t : named_touches()) {
-        Entry e{std::string(t.name), fmt::format("{}, {}", t.force, t.indenter), std::string(t.description), "choice", {}, {}};
+        ListEntry e{std::string(t.name), fmt::format("{}, {}", t.force, t.indenter), std::string(t.description), "choice", {}, {}};
         const auto add_note = [&](std::string_view of, const std::vector<Setting>& settings) {
             std::string text;
             for (const auto& s : settings) text += fmt::format("{}{} = {:.4g}", text.empty() ? "" : ", ", s.name, s.value);
-            e.told.push_back({std::string(of), text + " (SI)", ""});
+            e.notes.push_back({std::string(of), text + " (SI)", ""});
         };
         add_note("contact", t.settings), add_note(t.force, t.force_settings);
         out.push_back(std::move(e));
@@ -126,8 +126,8 @@ Result<std::string> sites_listing(const std::vector<std::string>& populations, b
     return out;
 }
 
-std::vector<Section> skin_sections() {
-    std::vector<Entry> skins;
+std::vector<ListSection> skin_sections() {
+    std::vector<ListEntry> skins;
     for (const auto& s : named_skins()) skins.push_back(entry_of_skin(s));
     skins.push_back({"grid 8x8",
                      "",

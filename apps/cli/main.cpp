@@ -9,7 +9,7 @@
 #include <system_error>
 
 #include "circuit/analyses.hpp"
-#include "force_words.hpp"
+#include "force_argument.hpp"
 #include "help.hpp"
 #include "model/copies.hpp"
 #include "signal/version.hpp"
@@ -18,7 +18,7 @@
 #include "sweep_verbs.hpp"
 #include "terminal.hpp"
 #include "verbs.hpp"
-#include "word_groups.hpp"
+#include "option_groups.hpp"
 
 namespace {
 
@@ -126,7 +126,7 @@ Examples:
   ngspice -b amplifier-ng.cir -r amplifier.raw                          the same curves as 'corpuscle run amplifier.cir'
   corpuscle export amplifier.cir --for ngspice > deck.cir && ngspice -b deck.cir       tables and measurements)";
 
-void add_respond(CLI::App& app, RespondWords& w, Common& common) {
+void add_respond(CLI::App& app, RespondArguments& w, CommonArguments& common) {
     auto& verb = *app.add_subcommand("respond", "simulate afferents: force recordings or stimuli -> spikes, rates, report");
     verb.footer(respond_examples);
     verb.add_option("FORCE", w.forces, "recordings and stimuli");
@@ -144,7 +144,7 @@ void add_respond(CLI::App& app, RespondWords& w, Common& common) {
     verb.add_option("--spread", w.spreads, "vary a parameter between copies: its standard deviation, relative (10%) or with its unit")
         ->allow_extra_args(false)
         ->type_name("NAME.PARAMETER=10%");
-    add_skin_words(verb, w);
+    add_skin_options(verb, w);
     verb.add_option("--method", w.method, "time stepping: exact, or backward-euler as in the thesis")
         ->check(CLI::IsMember({"exact", "backward-euler"}))
         ->capture_default_str()
@@ -159,17 +159,17 @@ void add_respond(CLI::App& app, RespondWords& w, Common& common) {
         ->capture_default_str()
         ->type_name("N");
     verb.add_flag(
-        "--float", w.in_float,
+        "--float", w.use_float,
         "single precision: up to twice as fast, but spike times change (see doc/lanes.md); currents and membranes are not recorded");
     verb.add_option(
             "--rate", w.rate,
             "sampling rate of a stimulus (default 10 kHz; with --population 1 kHz); of a recording: assume even sampling at this rate")
         ->type_name("FREQUENCY");
-    add_recording_words(verb, w);
+    add_recording_options(verb, w);
     verb.add_option("--out,-o", w.out, "write spikes.csv, summary.json and, with --copies, copies.csv into this directory")
         ->type_name("DIR")
         ->group("Output");
-    verb.add_flag("--traces", w.traces, "with --out, also write traces.csv: force, currents, membranes")->group("Output");
+    verb.add_flag("--traces", w.probe_files, "with --out, also write traces.csv: force, currents, membranes")->group("Output");
     verb.add_option("--bin", w.bin, "with --out, also write psth.csv: spike counts and rates in bins of this length")
         ->type_name("TIME")
         ->group("Output");
@@ -182,20 +182,20 @@ void add_respond(CLI::App& app, RespondWords& w, Common& common) {
                        ->expected(0, 1)
                        ->type_name("[FILE.html]")
                        ->group("Output");
-    add_netlist_words(verb, w.netlists);
+    add_netlist_options(verb, w.netlists);
     add_common(verb, common);
     add_overwrite(verb, common);
     verb.callback([&w, report] {
-        w.report = report->count() > 0;
+        w.has_report = report->count() > 0;
         if (w.report_file.empty() || w.report_file.ends_with(".html")) return;
         // "respond --report press": the argument is not a page, so it is the force. If a force was given it may be a misspelt page.
-        if (!is_force(w.report_file)) throw CLI::ValidationError(page_name_needed(w.report_file));
-        if (!w.forces.empty()) throw CLI::ValidationError(force_behind_report(w.report_file, w.forces));
+        if (!is_force(w.report_file)) throw CLI::ValidationError(page_name_error(w.report_file));
+        if (!w.forces.empty()) throw CLI::ValidationError(report_argument_error(w.report_file, w.forces));
         w.forces.push_back(std::exchange(w.report_file, ""));
     });
 }
 
-void add_compare(CLI::App& app, CompareWords& w, Common& common) {
+void add_compare(CLI::App& app, CompareArguments& w, CommonArguments& common) {
     auto& verb = *app.add_subcommand("compare", "compare two spike files: matches, distances, missing and extra spikes");
     verb.footer(compare_examples);
     verb.add_option("FILES", w.files, "the spike files A and B (CSV, NPZ ...), or one file with --pair")
@@ -205,15 +205,15 @@ void add_compare(CLI::App& app, CompareWords& w, Common& common) {
         ->allow_extra_args(false)
         ->type_name("A-NAME=B-NAME");
     verb.add_flag("--by-order", w.by_order, "ignore names: compare the first train of A with the first of B, and so on");
-    verb.add_option("--time", w.time, "column of spike times, by name or number (default: time_s)")->type_name("COLUMN");
-    verb.add_option("--unit", w.unit, "column that identifies the train, by name or number")->type_name("COLUMN");
+    verb.add_option("--time", w.time_column, "column of spike times, by name or number (default: time_s)")->type_name("COLUMN");
+    verb.add_option("--unit", w.train_column, "column that identifies the train, by name or number")->type_name("COLUMN");
     verb.add_option("--window", w.window, "maximum distance of matching spikes")->capture_default_str()->type_name("TIME");
     verb.add_option("--cost", w.cost, "Victor-Purpura distance: cost per second of shift")->capture_default_str()->type_name("FREQUENCY");
     verb.add_option("--tau", w.tau, "van Rossum distance: time constant")->capture_default_str()->type_name("TIME");
     add_common(verb, common);
 }
 
-void add_study(CLI::App& app, StudyWords& w, Common& common) {
+void add_study(CLI::App& app, StudyArguments& w, CommonArguments& common) {
     auto& verb = *app.add_subcommand("study", "reproduce published results and compare them with the published numbers");
     std::string known;
     for (const auto* s : all_studies) known += fmt::format("\n  {:14} {}", s->name, s->title);
@@ -226,14 +226,14 @@ void add_study(CLI::App& app, StudyWords& w, Common& common) {
     verb.add_option("NAME", w.names, "the studies to run (default: all)");
     verb.add_option("--report", w.report_file, "write a report page: figures, published and computed numbers")->type_name("FILE.html");
     verb.callback([&w] {
-        if (!w.report_file.empty() && !w.report_file.ends_with(".html")) throw CLI::ValidationError(page_name_needed(w.report_file));
+        if (!w.report_file.empty() && !w.report_file.ends_with(".html")) throw CLI::ValidationError(page_name_error(w.report_file));
     });
     verb.add_option("--markdown", w.markdown_file, "write all numbers as Markdown")->type_name("FILE.md");
     add_common(verb, common);
     add_overwrite(verb, common);
 }
 
-void add_run(CLI::App& app, RunWords& w, Common& common) {
+void add_run(CLI::App& app, RunArguments& w, CommonArguments& common) {
     auto& verb = *app.add_subcommand("run", "run the analyses of a netlist -> .raw, CSV, printed measurements");
     std::string known;
     for (const auto& a : circuit::analyses) known += fmt::format("\n  {}\n      {}", a.usage, a.description);
@@ -247,7 +247,7 @@ void add_run(CLI::App& app, RunWords& w, Common& common) {
         ->allow_extra_args(false)
         ->type_name("NAME=VALUE");
     verb.add_flag("--budget", w.budget, "also print power, area and leakage of each block");
-    add_netlist_words(verb, w.netlists);
+    add_netlist_options(verb, w.netlists);
     verb.add_option("--out,-o", w.out, "write the curves: x.raw (the format of ngspice, binary) or x.csv")
         ->type_name("FILE")
         ->group("Output");
@@ -256,7 +256,7 @@ void add_run(CLI::App& app, RunWords& w, Common& common) {
     add_overwrite(verb, common);
 }
 
-void add_export(CLI::App& app, ExportWords& w, Common& common) {
+void add_export(CLI::App& app, ExportArguments& w, CommonArguments& common) {
     auto& verb = *app.add_subcommand("export", "convert a netlist to the format of another simulator");
     verb.footer(export_examples);
     verb.add_option("NETLIST", w.netlist, "a SPICE netlist, or a built-in one: sa1-circuit, fa1-circuit")->required();
@@ -269,14 +269,14 @@ void add_export(CLI::App& app, ExportWords& w, Common& common) {
     add_overwrite(verb, common);
 }
 
-void add_list(CLI::App& app, ListWords& w, Common& common) {
+void add_list(CLI::App& app, ListArguments& w, CommonArguments& common) {
     auto& verb =
         *app.add_subcommand("list", "list all models, stimuli, circuits ... with the default, range and description of every parameter");
     verb.footer("Examples:\n  corpuscle list\n  corpuscle list neurons\n  corpuscle list sa1 press\n  corpuscle list 'grid 4x4' --sites");
     verb.add_option(
-        "WHAT", w.what,
+        "WHAT", w.names,
         "afferents, sensors, transducers, converters, transductions, neurons, stimuli, measures, formats, or the name of an entry");
-    verb.add_flag("--sites", w.sites,
+    verb.add_flag("--sites", w.list_sites,
                   "print the sites of a population (hand, 'grid 4x4', own.toml) in frame order, as CSV: name, x_mm, y_mm, region");
     add_common(verb, common);
 }
@@ -293,14 +293,14 @@ std::vector<TypedOption> typed_options(const CLI::App& app) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    Common common;
-    common.command = quoted(argc, argv);
-    RespondWords respond_arguments;
-    CompareWords compare_arguments;
-    StudyWords study_arguments;
-    RunWords run_arguments;
-    ExportWords export_arguments;
-    ListWords list_arguments;
+    CommonArguments common;
+    common.command = quote_command(argc, argv);
+    RespondArguments respond_arguments;
+    CompareArguments compare_arguments;
+    StudyArguments study_arguments;
+    RunArguments run_arguments;
+    ExportArguments export_arguments;
+    ListArguments list_arguments;
 
     std::signal(SIGXFSZ, SIG_IGN);  // exceeding the file size limit is a write error
     CLI::App app(about, "corpuscle");
@@ -330,30 +330,30 @@ int main(int argc, char** argv) {
     };
     int status = 0;
     try {
-        auto arguments = with_help_first({argv + 1, argv + argc});
-        if (const auto error = unknown_verb(app, arguments); !error.empty()) return fail(bad_usage(error));
+        auto arguments = normalize_help({argv + 1, argv + argc});
+        if (const auto error = unknown_verb_error(app, arguments); !error.empty()) return report_error(bad_usage(error));
         std::reverse(arguments.begin(), arguments.end());  // CLI11 takes them in reverse order
         app.parse(std::move(arguments));
         common.typed = typed_options(app);
         status = run_verb();
     } catch (const CLI::ParseError& e) {
         if (e.get_exit_code() != 0) {
-            tell(e.what());
-            tell("'corpuscle --help' and 'corpuscle VERB --help' list the options");
+            print_message(e.what());
+            print_message("'corpuscle --help' and 'corpuscle VERB --help' list the options");
             return 2;
         }
         std::ostringstream text;
         app.exit(e, text, text);
         std::fwrite(text.str().data(), 1, text.str().size(), stdout);
     } catch (const std::system_error&) {  // standard output failed: a closed pipe, a full disk
-        if (interrupted()) return fail({ErrorCode::interrupted, "interrupted"});
+        if (interrupted()) return report_error({ErrorCode::interrupted, "interrupted"});
         const auto done = finish_output();
-        return fail(done ? bad_input("cannot write all of standard output") : done.error());
+        return report_error(done ? bad_input("cannot write all of standard output") : done.error());
     } catch (const std::bad_alloc&) {
-        return fail(bad_input("not enough memory; use fewer afferents, sites or samples at a time"));
+        return report_error(bad_input("not enough memory; use fewer afferents, sites or samples at a time"));
     } catch (const std::exception& e) {
-        return fail(bad_input(e.what()));
+        return report_error(bad_input(e.what()));
     }
     const auto done = finish_output();
-    return status == 0 && !done ? fail(done.error()) : status;
+    return status == 0 && !done ? report_error(done.error()) : status;
 }

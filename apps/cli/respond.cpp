@@ -9,11 +9,11 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "force_words.hpp"
-#include "netlist_words.hpp"
-#include "outputs.hpp"
+#include "force_argument.hpp"
+#include "netlist_arguments.hpp"
+#include "respond_outputs.hpp"
 #include "printable.hpp"
-#include "recording_words.hpp"
+#include "recording_arguments.hpp"
 #include "signal/quantity.hpp"
 #include "signal/ascii_text.hpp"
 #include "study/afferent_plan.hpp"
@@ -22,7 +22,7 @@
 #include "study/run_summary.hpp"
 #include "terminal.hpp"
 #include "verbs.hpp"
-#include "versions_table.hpp"
+#include "implementations_table.hpp"
 
 namespace corpuscle {
 namespace {
@@ -41,7 +41,7 @@ struct Job {
     std::vector<std::string> warnings;
 };
 
-Result<std::vector<ParameterOverride>> spread_overrides(const RespondWords& w) {
+Result<std::vector<ParameterOverride>> spread_overrides(const RespondArguments& w) {
     if (w.copies == 0 && !w.spreads.empty())
         return bad_usage(fmt::format("--spread {} needs --copies N, such as --copies 100", w.spreads[0]));
     std::vector<ParameterOverride> overrides;
@@ -60,7 +60,7 @@ std::vector<ParameterOverride> in_lower_case(std::vector<ParameterOverride> over
 }
 
 /// Replaces every afferent by its copies, if --copies was given.
-Result<void> populate(Job& job, const RespondWords& w) {
+Result<void> populate(Job& job, const RespondArguments& w) {
     const auto overrides = spread_overrides(w);
     if (!overrides) return overrides.error();
     job.copy_spec.count = w.copies;
@@ -108,8 +108,8 @@ Result<void> check_overrides(const Job& job) {
 }
 
 /// Options and probes of netlists must have been used by a netlist.
-Result<void> check_netlist_options(const NetlistWords& w, const NetlistOptions& netlist_options) {
-    if (const auto option = said_of(w); !option.empty() && !netlist_options.is_used)
+Result<void> check_netlist_options(const NetlistArguments& w, const NetlistOptions& netlist_options) {
+    if (const auto option = first_netlist_option(w); !option.empty() && !netlist_options.is_used)
         return bad_usage(fmt::format("{}: there is no netlist in this run; try --afferent sa1-circuit", option));
     for (std::size_t k = 0; k < netlist_options.probes.size(); ++k)
         if (!netlist_options.probe_found[k])
@@ -118,8 +118,8 @@ Result<void> check_netlist_options(const NetlistWords& w, const NetlistOptions& 
     return {};
 }
 
-Result<void> plan_afferents(Job& job, const RespondWords& w) {
-    const NetlistOptions netlist_options{knobs_of(w.netlists), traces_of(w.netlists)};
+Result<void> plan_afferents(Job& job, const RespondArguments& w) {
+    const NetlistOptions netlist_options{netlist_overrides(w.netlists), probe_names(w.netlists)};
     for (const auto& name : w.afferents) {
         auto plan = plan_any_afferent(name, job.overrides, netlist_options);
         if (!plan) return plan.error();
@@ -130,7 +130,7 @@ Result<void> plan_afferents(Job& job, const RespondWords& w) {
     return check_netlist_options(w.netlists, netlist_options);
 }
 
-Result<Job> prepare(const RespondWords& w, bool quiet) {
+Result<Job> prepare(const RespondArguments& w, bool quiet) {
     Job job;
     if (w.forces.empty()) return bad_usage("respond: no FORCE given; try 'corpuscle respond press'");
     for (const auto& text : w.settings) {
@@ -143,14 +143,14 @@ Result<Job> prepare(const RespondWords& w, bool quiet) {
     auto options = recording_options(w);
     if (!options) return options.error();
     Progress progress(quiet);
-    options->should_continue = [&](double fraction) { return progress.at(fraction), !interrupted(); };
+    options->should_continue = [&](double fraction) { return progress.update(fraction), !interrupted(); };
     for (const auto& force : w.forces) {
         auto source = open_force(force, *options, job.overrides, default_rate, w.seed);
         if (!source) return source.error();
         job.sources.push_back(std::move(*source));
     }
     if (auto ok = check_overrides(job); !ok) return ok.error();
-    if (auto ok = check_recording_words(w); !ok) return ok.error();
+    if (auto ok = check_recording_arguments(w); !ok) return ok.error();
     if (auto ok = check_afferent_count(job); !ok) return ok.error();
     if (w.vectors && !w.out.empty() &&
         std::all_of(job.afferents.begin(), job.afferents.end(), [](const auto& a) { return a.converter.empty(); }))
@@ -158,8 +158,8 @@ Result<Job> prepare(const RespondWords& w, bool quiet) {
                                      job.afferents[0].name));
     job.options.method = w.method == "exact" ? Method::exact : Method::backward_euler;
     job.options.sampled = w.sampled;
-    job.options.precision = w.in_float ? Precision::single_precision : Precision::double_precision;
-    const auto noise = quantity(w.noise, "A", "--noise");
+    job.options.precision = w.use_float ? Precision::single_precision : Precision::double_precision;
+    const auto noise = optional_quantity(w.noise, "A", "--noise");
     if (!noise) return noise.error();
     if (noise->value_or(0) < 0)
         return bad_usage(fmt::format("--noise '{}' is negative; write a standard deviation, such as '50 nA'", *w.noise));
@@ -214,7 +214,7 @@ std::string rate_table(const RunSummary& summary) {
         rows.push_back({r.afferent, r.channel, r.phase});
         for (const auto c : columns) rows.back().push_back(cell(r, c));
     }
-    auto text = table(rows);
+    auto text = format_table(rows);
     if (omitted > 0) text += fmt::format("... and {} more rows; --out writes all of them to summary.json\n", omitted);
     const auto silent = std::count_if(spikes.begin(), spikes.end(), [](const auto& s) { return s.second == 0; });
     if (!with_silent && silent > 0)
@@ -225,19 +225,19 @@ std::string rate_table(const RunSummary& summary) {
 /// Prints warnings, and notes unless --quiet was given.
 void print_notes(const Job& job, bool quiet) {
     for (const auto& s : job.sources)
-        for (const auto& r : quiet ? std::vector<std::string>{} : s->notes()) tell(fmt::format("{}: {}", s->name(), r));
-    for (const auto& w : job.warnings) tell_warning(w);
+        for (const auto& r : quiet ? std::vector<std::string>{} : s->notes()) print_message(fmt::format("{}: {}", s->name(), r));
+    for (const auto& w : job.warnings) print_warning(w);
 }
 
 void warn(Job& job, std::string message) {
-    tell_warning(message);
+    print_warning(message);
     job.warnings.push_back(std::move(message));
 }
 
 /// Prints the quality findings of the recordings, which are known after the run.
 void print_quality(Job& job, const RunSummary& summary, bool quiet) {
     for (const auto& i : summary.inputs()) {
-        for (const auto& s : quiet ? std::vector<std::string>{} : i.quality.descriptions) tell(fmt::format("{}: {}", i.name, s));
+        for (const auto& s : quiet ? std::vector<std::string>{} : i.quality.descriptions) print_message(fmt::format("{}: {}", i.name, s));
         for (const auto& s : i.quality.warnings) warn(job, fmt::format("{}: {}", i.name, s));
     }
 }
@@ -286,12 +286,12 @@ public:
 };
 
 /// Names of the files that are written per input, per afferent or per channel.
-std::vector<std::string> later_names(const Job& job, const RespondWords& w) {
+std::vector<std::string> later_names(const Job& job, const RespondArguments& w) {
     std::vector<std::string> all;
     std::size_t channels = 0;
     for (std::size_t k = 0; k < job.sources.size(); ++k) {
         const auto number = k == 0 ? "" : fmt::format("-{}", k + 1);
-        if (w.traces) all.push_back(fmt::format("traces{}.csv", number));
+        if (w.probe_files) all.push_back(fmt::format("traces{}.csv", number));
         if (w.wav) all.push_back(fmt::format("spikes{}.wav", number));
         channels += job.sources[k]->channels().size();
     }
@@ -304,10 +304,10 @@ std::vector<std::string> later_names(const Job& job, const RespondWords& w) {
     return all;
 }
 
-Result<void> run(const RespondWords& w, const Common& common) {
+Result<void> run(const RespondArguments& w, const CommonArguments& common) {
     auto job = prepare(w, common.quiet);
     if (!job) return job.error();
-    Outputs outputs;
+    RespondOutputs outputs;
     OutputCheck check(common.overwrite);
     if (auto ok = outputs.open(w, job->copy_spec, later_names(*job, w), check); !ok) return ok;
     print_notes(*job, common.quiet);
@@ -317,12 +317,12 @@ Result<void> run(const RespondWords& w, const Common& common) {
     RunSummary summary;
     SilenceDetector silence;
     std::vector<ResponseSink*> listeners = {&summary, &silence};
-    outputs.listen(listeners);
+    outputs.add_listeners(listeners);
     SpikeTimes times;
     if (common.json) listeners.push_back(&times);
     Result<RunStats> work = [&] {
         Progress progress(common.quiet);
-        job->options.should_continue = [&](double fraction) { return progress.at(fraction), !interrupted(); };
+        job->options.should_continue = [&](double fraction) { return progress.update(fraction), !interrupted(); };
         return respond(job->sources, job->copies, listeners, job->options);
     }();
     if (!work) return work.error();
@@ -330,7 +330,7 @@ Result<void> run(const RespondWords& w, const Common& common) {
     for (const auto& warning : response_warnings(*work)) warn(*job, warning);
     warn_of_rates(*job, summary);
     const auto silent = silence.silent_afferents(job->copies, job->options);
-    for (const auto& s : common.quiet ? std::vector<SilentAfferent>{} : silent) tell(silence_message(s));
+    for (const auto& s : common.quiet ? std::vector<SilentAfferent>{} : silent) print_message(silence_message(s));
     auto result = summary.document(job->afferents, *work, job->options, w.seed, job->warnings);
     if (job->copy_spec.count > 0) result["copies"] = document_of(job->copy_spec);
     for (const auto& s : silent)
@@ -338,15 +338,15 @@ Result<void> run(const RespondWords& w, const Common& common) {
                                     {"force_max_N", s.force},
                                     {"factor_to_fire", s.factor ? nlohmann::ordered_json(*s.factor) : nlohmann::ordered_json(nullptr)}});
     const auto costs = result.value("costs", nlohmann::ordered_json::array());
-    result["files"] = outputs.names();
+    result["files"] = outputs.file_names();
     const auto document = json_text(result) + "\n";
     if (auto ok = outputs.commit(summary, job->afferents, job->warnings, document, common.command, costs); !ok) return ok;
     if (common.json) result["spikes"] = times.document();
     if (common.json)
         fmt::print("{}\n", json_text(result));
     else if (!common.quiet)
-        show(inputs_table(summary) + copies_line(job->copy_spec) + rate_table(summary) + versions_table(summary.comparisons()) +
-             outputs.told());
+        print_text(inputs_table(summary) + copies_line(job->copy_spec) + rate_table(summary) + implementations_table(summary.comparisons()) +
+             outputs.written_text());
     if (!work->diverged.empty()) {
         auto error = work->diverged[0];
         error.message =
@@ -358,17 +358,17 @@ Result<void> run(const RespondWords& w, const Common& common) {
 
 }  // namespace
 
-int respond(const RespondWords& typed, const Common& common) {
+int respond(const RespondArguments& typed, const CommonArguments& common) {
     if (!typed.population.empty()) return respond_skin(typed, common);
     catch_interrupt();
     auto w = typed;
-    if (!w.netlists.traces.empty()) {
-        if (w.out.empty() && !w.report)
-            return fail(bad_usage(fmt::format("{} needs --out DIR or --report", said_of({{}, {}, {}, {}, w.netlists.traces}))));
-        w.traces |= !w.out.empty();
+    if (!w.netlists.probes.empty()) {
+        if (w.out.empty() && !w.has_report)
+            return report_error(bad_usage(fmt::format("{} needs --out DIR or --report", first_netlist_option({{}, {}, {}, {}, w.netlists.probes}))));
+        w.probe_files |= !w.out.empty();
     }
     const auto done = run(w, common);
-    return done ? 0 : fail(done.error());
+    return done ? 0 : report_error(done.error());
 }
 
 }  // namespace corpuscle

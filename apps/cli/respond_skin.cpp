@@ -6,10 +6,10 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "force_words.hpp"
+#include "force_argument.hpp"
 #include "io/foreign_format.hpp"
 #include "printable.hpp"
-#include "recording_words.hpp"
+#include "recording_arguments.hpp"
 #include "signal/stimuli.hpp"
 #include "signal/ascii_text.hpp"
 #include "signal/version.hpp"
@@ -31,7 +31,7 @@ constexpr double skin_rate = 1e3;  // Hz, of stimuli
 constexpr const char* default_indenter = "flat";
 
 /// Rejects options that apply only to afferents without a skin, each with the reason and a remedy.
-Result<void> check_skin_options(const RespondWords& w) {
+Result<void> check_skin_options(const RespondArguments& w) {
     struct Refusal {
         const char* option;
         bool given;
@@ -47,15 +47,15 @@ Result<void> check_skin_options(const RespondWords& w) {
     constexpr const char* netlists =
         "the afferents of a skin are models, not netlists; run a netlist with --afferent sa1-circuit, without "
         "--population";
-    const RespondWords plain;
+    const RespondArguments plain;
     const Refusal refusals[] = {
         {"--afferent", w.afferents != plain.afferents, in_file},
         {"--copies", w.copies > 0, spread},
         {"--spread", !w.spreads.empty(), spread},
         {"--noise", w.noise.has_value(), "membranes of a skin have no noise; for a noisy force use press+noise as FORCE"},
-        {"--float", w.in_float, "a skin is simulated in double precision only; remove --float"},
-        {"--traces", w.traces, traces},
-        {"--trace", !w.netlists.traces.empty(), netlists},
+        {"--float", w.use_float, "a skin is simulated in double precision only; remove --float"},
+        {"--traces", w.probe_files, traces},
+        {"--trace", !w.netlists.probes.empty(), netlists},
         {"--vectors", w.vectors,
          "afferents of a skin have no converter; run an afferent with one: --afferent sa1-kim, without --population"},
         {"--wav", w.wav, "the clicks of thousands of afferents are not audible one by one; run one afferent without --population"},
@@ -108,7 +108,7 @@ Result<void> check_skin_overrides(const SkinJob& job) {
     return {};
 }
 
-Result<void> open_contact(SkinJob& job, const RespondWords& w, const NamedTouch* stimulus) {
+Result<void> open_contact(SkinJob& job, const RespondArguments& w, const NamedTouch* stimulus) {
     const auto& sites = job.skin->plan.sites;
     const std::size_t channels = job.source->channels().size();
     if (channels > 1 || sites.size() == 1) {
@@ -128,7 +128,7 @@ Result<void> open_contact(SkinJob& job, const RespondWords& w, const NamedTouch*
     return {};
 }
 
-Result<SkinJob> prepare_skin(const RespondWords& w) {
+Result<SkinJob> prepare_skin(const RespondArguments& w) {
     if (auto ok = check_skin_options(w); !ok) return ok.error();
     SkinJob job;
     for (const auto& text : w.settings) {
@@ -155,7 +155,7 @@ Result<SkinJob> prepare_skin(const RespondWords& w) {
     if (auto ok = open_contact(job, w, stimulus); !ok) return ok.error();
     if (auto ok = check_skin_overrides(job); !ok) return ok.error();
     if (!stimulus)
-        if (auto ok = check_recording_words(w); !ok) return ok.error();
+        if (auto ok = check_recording_arguments(w); !ok) return ok.error();
     job.run_info.method = w.method == "exact" ? Method::exact : Method::backward_euler;
     job.run_info.sampled = w.sampled;
     return job;
@@ -187,7 +187,7 @@ void add_force_notes(SkinJob& job) {
 }
 
 /// A remedy for a stimulus that is too weak: the option that makes it stronger by this factor.
-std::string stronger_stimulus_advice(const SkinJob& job, const RespondWords& w, double factor) {
+std::string stronger_stimulus_advice(const SkinJob& job, const RespondArguments& w, double factor) {
     const auto& plan = job.skin->plan;
     if (job.contact && plan.sites.area > 0 && !(plan.felt_area > 0)) {
         const auto area = std::max(factor * plan.sites.area, default_felt_area);
@@ -206,7 +206,7 @@ std::string stronger_stimulus_advice(const SkinJob& job, const RespondWords& w, 
 }
 
 /// Reports classes without spikes: as a warning if no class fired, else as a note.
-void add_silence_notes(SkinJob& job, const RespondWords& w, const std::vector<SilentClass>& silent) {
+void add_silence_notes(SkinJob& job, const RespondArguments& w, const std::vector<SilentClass>& silent) {
     constexpr double margin = 1.25;  // afferents of a class vary, and receive different forces
     std::vector<std::string> messages;
     std::optional<double> min_factor;
@@ -274,7 +274,7 @@ std::string sites_checksum(const Sites& sites) {
 }
 
 /// Everything that determines the response: all options except output options, and the contents of the files they name.
-Result<RunFingerprint> fingerprint_of(const SkinJob& job, const RespondWords& w, const Common& common) {
+Result<RunFingerprint> fingerprint_of(const SkinJob& job, const RespondArguments& w, const CommonArguments& common) {
     RunFingerprint all = {{"the program", fmt::format("version {}", version)}, {"FORCE", w.forces[0]}};
     for (const auto& [name, values] : common.typed)
         if (name != "FORCE" && std::find(std::begin(output_options), std::end(output_options), name) == std::end(output_options))
@@ -302,7 +302,7 @@ Result<std::unique_ptr<Skin>> make_skin(const SkinJob& job, const SkinProcess& s
     return Skin::make(job.skin, {job.source->clock().T(), job.run_info.method, job.run_info.sampled, 0, 0}, *set, self.share());
 }
 
-Result<void> coordinate_skin(SkinJob& job, const RespondWords& w, const Common& common, const SkinProcess& self) {
+Result<void> coordinate_skin(SkinJob& job, const RespondArguments& w, const CommonArguments& common, const SkinProcess& self) {
     auto skin = make_skin(job, self);
     if (!skin) return skin.error();
     SkinSummary summary;
@@ -320,19 +320,19 @@ Result<void> coordinate_skin(SkinJob& job, const RespondWords& w, const Common& 
         if (!opened) return opened.error();
         checkpoint = std::move(*opened);
         if (checkpoint->resumed_samples() > 0 && !common.quiet)
-            tell(fmt::format("resuming after {:.3f} s, from {}", job.source->clock().T() * static_cast<double>(checkpoint->resumed_samples()),
+            print_message(fmt::format("resuming after {:.3f} s, from {}", job.source->clock().T() * static_cast<double>(checkpoint->resumed_samples()),
                              w.checkpoint));
     }
     SkinSpikeTimes times;
     std::vector<SkinSink*> listeners = {&summary, &silence};
     if (common.json) listeners.push_back(&times);
-    outputs.listen(listeners);
+    outputs.add_listeners(listeners);
     const auto simulator = self.ranks ? distributed_skin_simulator(*self.ranks, **skin, pool) : local_skin_simulator(**skin, pool);
     const SkinInput input{job.name, job.source->description(), job.source->clock(), job.source->phases(), *job.skin};
     const auto work = [&] {
         Progress progress(common.quiet);
         return run_skin(*job.force, input, *simulator, listeners,
-                        {[&](double fraction) { return progress.at(fraction), !interrupted(); }, checkpoint.get()});
+                        {[&](double fraction) { return progress.update(fraction), !interrupted(); }, checkpoint.get()});
     }();
     if (!work && work.error().code == ErrorCode::interrupted && checkpoint)
         return Error{ErrorCode::interrupted, fmt::format("interrupted; the same command resumes from {}", w.checkpoint)};
@@ -342,24 +342,24 @@ Result<void> coordinate_skin(SkinJob& job, const RespondWords& w, const Common& 
     add_silence_notes(job, w, silence.silent_classes(job.run_info.method, job.run_info.sampled));
     add_rate_warnings(job, summary);
     auto result = summary.document(job.run_info);
-    result["files"] = outputs.names();
+    result["files"] = outputs.file_names();
     const auto document = json_text(result) + "\n";
     if (auto ok = outputs.commit(summary, job.run_info, document, common.command); !ok) return ok;
     if (checkpoint) checkpoint->remove_files();
-    for (const auto& r : common.quiet ? std::vector<std::string>{} : job.run_info.notes) tell(fmt::format("{}: {}", job.name, r));
-    for (const auto& warning : job.run_info.warnings) tell_warning(warning);
+    for (const auto& r : common.quiet ? std::vector<std::string>{} : job.run_info.notes) print_message(fmt::format("{}: {}", job.name, r));
+    for (const auto& warning : job.run_info.warnings) print_warning(warning);
     if (common.json) result["spikes"] = times.document();
-    if (common.json && times.are_too_many())
-        tell_warning(fmt::format("{}: more than {} million spikes, which are too many for --json; --out DIR writes them to spikes.csv",
-                                 job.name, SkinSpikeTimes::most / 1'000'000));
+    if (common.json && times.is_over_limit())
+        print_warning(fmt::format("{}: more than {} million spikes, which are too many for --json; --out DIR writes them to spikes.csv",
+                                 job.name, SkinSpikeTimes::max_spikes / 1'000'000));
     if (common.json)
         fmt::print("{}\n", json_text(result));
     else if (!common.quiet)
-        show(table(summary.table()) + outputs.told());
+        print_text(format_table(summary.table()) + outputs.written_text());
     return {};
 }
 
-Result<void> run_as(const RespondWords& w, const Common& common, const SkinProcess& self) {
+Result<void> run_as(const RespondArguments& w, const CommonArguments& common, const SkinProcess& self) {
     auto job = prepare_skin(w);
     if (!self.is_coordinator()) {
         ThreadPool pool(std::max(1U, w.threads));
@@ -375,16 +375,16 @@ Result<void> run_as(const RespondWords& w, const Common& common, const SkinProce
 
 }  // namespace
 
-int respond_skin(const RespondWords& w, const Common& common) {
+int respond_skin(const RespondArguments& w, const CommonArguments& common) {
     catch_interrupt();
     SkinProcess self;
     if (Ranks::are_started()) {
         auto ranks = Ranks::join();
-        if (!ranks) return Ranks::reports_errors() ? fail(ranks.error()) : static_cast<int>(ranks.error().code);
+        if (!ranks) return Ranks::reports_errors() ? report_error(ranks.error()) : static_cast<int>(ranks.error().code);
         if ((*ranks)->size() > 1) self.ranks = std::move(*ranks);
     }
     const auto done = run_as(w, common, self);
-    return done ? 0 : fail(done.error());
+    return done ? 0 : report_error(done.error());
 }
 
 }  // namespace corpuscle

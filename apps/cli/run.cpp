@@ -6,14 +6,14 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "budget_words.hpp"
+#include "budget_tables.hpp"
 #include "circuit/analyses.hpp"
 #include "circuit/cost/cost_meter.hpp"
 #include "circuit/run_directives.hpp"
 #include "circuit/resolve_probe.hpp"
 #include "circuit/netlist_variants.hpp"
 #include "curve_files.hpp"
-#include "netlist_words.hpp"
+#include "netlist_arguments.hpp"
 #include "printable.hpp"
 #include "study/cost_document.hpp"
 #include "study/json_number.hpp"
@@ -92,11 +92,11 @@ void print(const VariantResult& result) {
     for (const auto& a : result.outcome.analyses) {
         fmt::print("{}.{}: {} point{}\n", &a == &result.outcome.analyses[0] ? "" : "\n", a.directive->name, a.point_count,
                    a.point_count == 1 ? "" : "s");
-        show(a.result.table + a.printed_tables);
+        print_text(a.result.table + a.printed_tables);
     }
     if (!result.outcome.numbers.empty() || !result.outcome.expectations.empty()) fmt::print("\n");
     print_numbers(result.outcome);
-    if (result.cost) show("\n" + budget_text(*result.cost));
+    if (result.cost) print_text("\n" + budget_tables(*result.cost));
 }
 
 /// Prints the measurements of one variant in one line.
@@ -104,7 +104,7 @@ void print_line(const VariantResult& result) {
     fmt::print("{}:", printable(result.variant.label));
     for (const auto& [name, value] : result.outcome.numbers) fmt::print("  {} = {:.6e}", printable(name), value);
     fmt::print("{}\n", result.cost ? budget_line(*result.cost) : "");
-    for (const auto& a : result.outcome.analyses) show(a.printed_tables);
+    for (const auto& a : result.outcome.analyses) print_text(a.printed_tables);
 }
 
 /// Statistics of one measurement over the chips of a .mc.
@@ -123,7 +123,7 @@ struct MeasurementStats {
 
 /// Prints each variant when it is finished, and statistics at the end.
 class VariantPrinter {
-    const Common& common_;
+    const CommonArguments& common_;
     bool has_steps_, is_monte_carlo_;
     std::size_t count_ = 0;
     std::vector<MeasurementStats> stats_;
@@ -132,11 +132,11 @@ public:
     std::vector<Error> failures;  ///< of variants that did not converge
     std::optional<Error> failed_expectation;  ///< the first
 
-    VariantPrinter(const Common& common, bool has_steps, bool is_monte_carlo)
+    VariantPrinter(const CommonArguments& common, bool has_steps, bool is_monte_carlo)
         : common_(common), has_steps_(has_steps), is_monte_carlo_(is_monte_carlo) {}
 
     void add(const VariantResult& result) {
-        for (const auto& r : result.outcome.warnings) tell_warning(r.text());
+        for (const auto& r : result.outcome.warnings) print_warning(r.text());
         for (const auto& e : result.outcome.expectations)
             if (!e.is_met && !failed_expectation)
                 failed_expectation = bad_input(
@@ -157,7 +157,7 @@ public:
         if (common_.json)
             print_document({{"step", label}, {"error", error.message}});
         else if (!common_.quiet)
-            show(fmt::format("{}:  {}\n", printable(label), printable(error.message)));
+            print_text(fmt::format("{}:  {}\n", printable(label), printable(error.message)));
     }
     void finish() {
         if (common_.json) return has_steps_ ? fmt::print("{}]\n", count_ == 0 ? "[" : "\n") : void();
@@ -217,7 +217,7 @@ Result<void> prepare(std::unique_ptr<AnalysisContext>& context, const Variant& v
     return {};
 }
 
-Result<void> run_all(NetlistVariants& variants, const RunWords& w, const Common& common, VariantPrinter& printer, CurveFiles& files) {
+Result<void> run_all(NetlistVariants& variants, const RunArguments& w, const CommonArguments& common, VariantPrinter& printer, CurveFiles& files) {
     const auto count = variants.count();
     Progress progress(common.quiet);
     std::unique_ptr<AnalysisContext> context;
@@ -232,16 +232,16 @@ Result<void> run_all(NetlistVariants& variants, const RunWords& w, const Common&
         RunOptions options;
         options.keep_points = false, options.print_tables = !common.json && !common.quiet;
         if (common.json) options.curve_sink = &collected;
-        if (!w.out.empty()) options.curve_sink = &files, files.next(*variant);
+        if (!w.out.empty()) options.curve_sink = &files, files.begin_variant(*variant);
         options.should_stop = [&](std::string_view analysis, double fraction) {
-            progress.at((static_cast<double>(k) + variant_progress.of(analysis, fraction)) / static_cast<double>(count));
+            progress.update((static_cast<double>(k) + variant_progress.of(analysis, fraction)) / static_cast<double>(count));
             return interrupted();
         };
         CostMeter accountant(*context);
         const auto watched = w.budget ? accountant.attach(options) : Result<void>();
         auto found = watched ? circuit::run_directives(*context, options) : watched.error();
         if (interrupted()) return Error{ErrorCode::interrupted, "interrupted"};
-        progress.at(static_cast<double>(k + 1) / static_cast<double>(count));
+        progress.update(static_cast<double>(k + 1) / static_cast<double>(count));
         if (!found && found.error().code == ErrorCode::not_converged && count > 1) {
             printer.fail(variant->label, found.error());
             continue;
@@ -267,9 +267,9 @@ Result<void> run_all(NetlistVariants& variants, const RunWords& w, const Common&
 void keep_partial_files(CurveFiles& files) {
     const auto note = files.finish_early(interrupted());
     if (!note)
-        fail(note.error());
+        report_error(note.error());
     else if (!note->empty())
-        tell_warning(*note);
+        print_warning(*note);
 }
 
 /// Parses an override of --set: "summer.N3B=8x4".
@@ -281,19 +281,19 @@ Result<NetlistOverride> parse_override(const std::string& text) {
 }
 
 /// The netlist with its overrides and with the probes of --trace in addition to its own.
-Result<Netlist> netlist_of(const RunWords& w) {
-    auto overrides = knobs_of(w.netlists);
+Result<Netlist> netlist_of(const RunArguments& w) {
+    auto overrides = netlist_overrides(w.netlists);
     for (const auto& text : w.settings) {
         auto parsed = parse_override(text);
         if (!parsed) return parsed.error();
         overrides.push_back(std::move(*parsed));
     }
     auto netlist = apply_overrides(w.netlist, overrides);
-    if (!netlist || w.netlists.traces.empty()) return netlist;
+    if (!netlist || w.netlists.probes.empty()) return netlist;
     const auto circuit = netlist->elaborate();
     if (!circuit) return circuit.error();
     auto changes = netlist->overrides();
-    for (const auto& probe : traces_of(w.netlists)) {
+    for (const auto& probe : probe_names(w.netlists)) {
         const auto found = resolve_probe(*circuit, probe);
         if (!found) return found.error();
         if (!*found)
@@ -303,7 +303,7 @@ Result<Netlist> netlist_of(const RunWords& w) {
     return netlist->with_overrides(std::move(changes));
 }
 
-Result<void> run_netlist(const RunWords& w, const Common& common) {
+Result<void> run_netlist(const RunArguments& w, const CommonArguments& common) {
     const auto netlist = netlist_of(w);
     if (!netlist) return netlist.error();
     auto variants = NetlistVariants::create(*netlist);
@@ -327,10 +327,10 @@ Result<void> run_netlist(const RunWords& w, const Common& common) {
 
 }  // namespace
 
-int run(const RunWords& w, const Common& common) {
+int run(const RunArguments& w, const CommonArguments& common) {
     catch_interrupt();
     const auto done = run_netlist(w, common);
-    return done ? 0 : fail(done.error());
+    return done ? 0 : report_error(done.error());
 }
 
 }  // namespace corpuscle

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 
-#include "recording_words.hpp"
+#include "recording_arguments.hpp"
 #include "signal/ascii_text.hpp"
 #include "study/skin_psth_file.hpp"
 #include "study/skin_events_file.hpp"
@@ -11,7 +11,7 @@
 #include "study/skin_spikes_file.hpp"
 #include "study/skin_afferents_file.hpp"
 #include "study/earlier_outputs.hpp"
-#include "written.hpp"
+#include "output_files.hpp"
 
 namespace corpuscle {
 
@@ -28,9 +28,9 @@ Result<void> SkinOutputs::add(const std::string& name, const A&... how) {
     return {};
 }
 
-Result<void> SkinOutputs::open_directory(const RespondWords& w, const SkinSummary& summary, const std::optional<std::string>& page,
+Result<void> SkinOutputs::open_directory(const RespondArguments& w, const SkinSummary& summary, const std::optional<std::string>& page,
                                          OutputCheck& outputs) {
-    const auto bin = quantity(w.bin, "s", "--bin");
+    const auto bin = optional_quantity(w.bin, "s", "--bin");
     if (!bin) return bin.error();
     if (*bin && !(**bin > 0)) return bad_usage(fmt::format("--bin {}: must be greater than 0, such as 10ms", *w.bin));
     const auto formats = event_formats();
@@ -58,12 +58,12 @@ Result<void> SkinOutputs::open_directory(const RespondWords& w, const SkinSummar
     return {};
 }
 
-Result<void> SkinOutputs::open(const RespondWords& w, const SkinSummary& summary, OutputCheck& outputs) {
+Result<void> SkinOutputs::open(const RespondArguments& w, const SkinSummary& summary, OutputCheck& outputs) {
     for (const auto& [option, given] :
          {std::pair{"--bin", w.bin.has_value()}, std::pair{"--events", !w.events.empty()}, std::pair{"--npz", w.npz}})
         if (given && w.out.empty()) return bad_usage(fmt::format("{} needs --out DIR", option));
     directory_ = w.out;
-    const auto page_path = page_of(w);
+    const auto page_path = report_page_path(w);
     if (!w.out.empty())
         if (auto ok = open_directory(w, summary, page_path, outputs); !ok) return ok;
     if (w.out.empty())
@@ -76,7 +76,7 @@ Result<void> SkinOutputs::open(const RespondWords& w, const SkinSummary& summary
     return {};
 }
 
-void SkinOutputs::listen(std::vector<SkinSink*>& listeners) {
+void SkinOutputs::add_listeners(std::vector<SkinSink*>& listeners) {
     for (auto& file : files_) listeners.push_back(&*file);
     if (report_) listeners.push_back(&*report_);
 }
@@ -90,19 +90,19 @@ std::vector<std::string> SkinOutputs::paths() const {
     return all;
 }
 
-std::vector<std::string> SkinOutputs::names() const { return names_in(directory_, paths()); }
+std::vector<std::string> SkinOutputs::file_names() const { return file_names_in(directory_, paths()); }
 
 Result<void> SkinOutputs::commit(const SkinSummary& summary, const SkinRunNotes& run_info, const std::string& document,
                                  const std::string& command) {
     if (report_)
-        if (auto ok = put_whole(*report_file_, skin_page(summary, *report_, run_info, command)); !ok) return ok;
+        if (auto ok = write_and_commit(*report_file_, skin_page(summary, *report_, run_info, command)); !ok) return ok;
     for (auto& file : files_)
         if (auto ok = file->commit(); !ok) return ok;
     if (!summary_file_) return {};
-    removed_ = remove_stale_outputs(directory_, names());
-    return put_whole(*summary_file_, document);
+    removed_ = remove_stale_outputs(directory_, file_names());
+    return write_and_commit(*summary_file_, document);
 }
 
-std::string SkinOutputs::told() const { return run_trial(paths(), removed_); }
+std::string SkinOutputs::written_text() const { return written_files_text(paths(), removed_); }
 
 }  // namespace corpuscle

@@ -22,7 +22,7 @@ class SkinOutputs {
 
     template <class F, class... A>
     Result<void> add(const std::string& name, const A&... how);
-    Result<void> open_directory(const RespondWords&, const SkinSummary&, const std::optional<std::string>& page, OutputCheck&);
+    Result<void> open_directory(const RespondArguments&, const SkinSummary&, const std::optional<std::string>& page, OutputCheck&);
     std::vector<std::string> paths() const;
 
 public:
@@ -31,11 +31,11 @@ public:
     SkinOutputs& operator=(const SkinOutputs&) = delete;
     ~SkinOutputs();
     /// The summary must be called before the files: some of them write what it has counted.
-    Result<void> open(const RespondWords&, const SkinSummary&, OutputCheck&);
-    void listen(std::vector<SkinSink*>&);
-    std::vector<std::string> names() const;
+    Result<void> open(const RespondArguments&, const SkinSummary&, OutputCheck&);
+    void add_listeners(std::vector<SkinSink*>&);
+    std::vector<std::string> file_names() const;
     Result<void> commit(const SkinSummary&, const SkinRunNotes&, const std::string& document, const std::string& command);
-    std::string told() const;
+    std::string written_text() const;
 };
 
 }  // namespace corpuscle

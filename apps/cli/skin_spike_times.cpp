@@ -14,7 +14,7 @@ Result<void> SkinSpikeTimes::begin(const SkinInput& input) {
 
 void SkinSpikeTimes::add(const Clock& clock, std::span<const Spike> spikes) {
     count_ += spikes.size();
-    if (are_too_many()) return times_.clear();
+    if (is_over_limit()) return times_.clear();
     for (const auto& s : spikes) times_[s.afferent_index].push_back(clock.time(s.step, s.offset));
 }
 
@@ -27,7 +27,7 @@ Result<void> SkinSpikeTimes::end(const SkinInput& input, std::int64_t, std::span
 }
 
 nlohmann::ordered_json SkinSpikeTimes::document() const {
-    if (are_too_many()) return nullptr;
+    if (is_over_limit()) return nullptr;
     auto trains = nlohmann::ordered_json::array();
     for (std::size_t u = 0; u < times_.size(); ++u)
         if (!times_[u].empty()) trains.push_back({{"afferent", afferents_[u]}, {"channel", channels_[u]}, {"times_s", times_[u]}});

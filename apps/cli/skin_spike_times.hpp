@@ -16,12 +16,12 @@ class SkinSpikeTimes final : public SkinSink {
     void add(const Clock&, std::span<const Spike>);
 
 public:
-    static constexpr std::size_t most = 10'000'000;  ///< with more, the document has none
+    static constexpr std::size_t max_spikes = 10'000'000;  ///< with more, the document has none
 
     Result<void> begin(const SkinInput&) override;
     Result<void> block(const SkinInput&, const SkinRunBlock&) override;
     Result<void> end(const SkinInput&, std::int64_t samples, std::span<const Spike> last) override;
-    bool are_too_many() const { return count_ > most; }
+    bool is_over_limit() const { return count_ > max_spikes; }
     /// A list with afferent, channel and times_s (s) of each afferent that fired, named as in spikes.csv. null if there are too many
     /// spikes.
     nlohmann::ordered_json document() const;

@@ -17,7 +17,7 @@
 #include "skin/class_overrides.hpp"
 #include "skin/site_map.hpp"
 #include "stream_input.hpp"
-#include "stream_told.hpp"
+#include "stream_report.hpp"
 #include "study/skin_run.hpp"
 #include "terminal.hpp"
 #include "verbs.hpp"
@@ -25,8 +25,8 @@
 namespace corpuscle {
 namespace {
 
-Result<SkinPlan> plan_of(const StreamWords& w, std::span<const Channel> channels, std::span<const ParameterOverride> overrides) {
-    if (channels.empty()) return make_live_plan(w.population, w.count, overrides);
+Result<SkinPlan> plan_of(const StreamArguments& w, std::span<const Channel> channels, std::span<const ParameterOverride> overrides) {
+    if (channels.empty()) return make_live_plan(w.population, w.channel_count, overrides);
     if (is_afferent_list(w.population)) return make_channel_plan(w.population, channels, overrides);
     auto plan = load_skin_plan(w.population, channels);
     if (!plan) return plan;
@@ -36,8 +36,8 @@ Result<SkinPlan> plan_of(const StreamWords& w, std::span<const Channel> channels
 
 /// The components of one stream.
 class LiveRun {
-    const StreamWords& words_;
-    const Common& common_;
+    const StreamArguments& words_;
+    const CommonArguments& common_;
     std::unique_ptr<SkinStream> skin_;
     std::unique_ptr<FrameSource> frames_;
     const ForceSource* source_ = nullptr;  // of recorded frames, which own it; else null
@@ -47,10 +47,10 @@ class LiveRun {
     std::unique_ptr<StreamLoop> loop_;
     bool status_shown_ = false;
 
-    StreamFacts facts() const { return {*skin_, *frames_, *outlet_, *format_, *loop_}; }
+    StreamReportInput facts() const { return {*skin_, *frames_, *outlet_, *format_, *loop_}; }
 
     /// Opens a recording or a stimulus, and the skin that it drives.
-    Result<void> open_recorded(const StreamNumbers& n, std::span<const ParameterOverride> overrides) {
+    Result<void> open_recorded(const StreamQuantities& n, std::span<const ParameterOverride> overrides) {
         auto source = open_stream_source(words_, n, overrides);
         if (!source) return source.error();
         const auto channels = (*source)->channels();
@@ -70,7 +70,7 @@ class LiveRun {
         return [this, sites = std::move(sites)](std::span<const std::string> names) -> Result<std::vector<std::uint32_t>> {
             const auto& all = skin_->innervation().plan.sites;
             auto named = find_sites_if_named(all, names);
-            const auto from = name_of_input(words_.in);
+            const auto from = input_name(words_.in);
             if (!named)
                 return bad_input(
                     fmt::format("{}; use site names in all columns, or in none (columns are then in site order)", named.error().message),
@@ -86,8 +86,8 @@ class LiveRun {
     }
 
     /// Opens a live input, and the skin that it drives.
-    Result<void> open_live(const StreamNumbers& n, std::span<const ParameterOverride> overrides) {
-        const auto clock = wire_clock(words_, n);
+    Result<void> open_live(const StreamQuantities& n, std::span<const ParameterOverride> overrides) {
+        const auto clock = live_clock(words_, n);
         if (!clock) return clock.error();
         const auto plan = plan_of(words_, {}, overrides);
         if (!plan) return plan.error();
@@ -98,13 +98,13 @@ class LiveRun {
             if (!map) return map.error();
             sites = std::move(*map);
         }
-        const auto layout = wire_layout(words_, n, sites.empty() ? skin_->sites() : sites.size(), *clock);
+        const auto layout = live_layout(words_, n, sites.empty() ? skin_->sites() : sites.size(), *clock);
         if (!layout) return layout.error();
-        auto bytes = open_wire(words_, n, *layout);
+        auto bytes = open_live_input(words_, n, *layout);
         if (!bytes) return bytes.error();
         const auto in_frames = [&](double seconds) { return static_cast<std::int64_t>(std::min(seconds * clock->rate(), 2e9)); };
         layout_ = *layout;
-        frames_ = make_frame_source(std::move(*bytes), *layout, in_frames(n.hold), in_frames(n.longest), words_.together, header_reader(sites));
+        frames_ = make_frame_source(std::move(*bytes), *layout, in_frames(n.hold), in_frames(n.max_gap), words_.batch_frames, header_reader(sites));
         if (!sites.empty()) frames_ = assign_sites(std::move(frames_), std::move(sites), skin_->sites());
         return {};
     }
@@ -113,13 +113,13 @@ class LiveRun {
         clock.t0 = 0;  // time 0 is the first frame
         auto placed = innervate(plan);
         if (!placed) return placed.error();
-        auto skin = SkinStream::make(*placed, clock, words_.sampled, words_.together);
+        auto skin = SkinStream::make(*placed, clock, words_.sampled, words_.batch_frames);
         if (!skin) return skin.error();
         skin_ = std::move(*skin);
         return {};
     }
 
-    Result<void> open_outlet(const StreamNumbers& n) {
+    Result<void> open_outlet(const StreamQuantities& n) {
         auto format = make_event_format(words_.format, make_event_afferents(skin_->innervation(), skin_->clock()));
         if (!format) return format.error();
         format_ = std::move(*format);
@@ -146,17 +146,17 @@ class LiveRun {
     }
 
     Result<void> save_state() {
-        if (words_.save.empty()) return {};
+        if (words_.save_state.empty()) return {};
         StreamState state{{loop_->force().begin(), loop_->force().end()}, {}, skin_->save()};
         if (const auto* order = frames_->sequence(); order && order->has_begun()) state.number = order->last();
-        return save_stream(words_.save, state);
+        return save_stream(words_.save_state, state);
     }
 
     void clear_status() {
         if (std::exchange(status_shown_, false)) fmt::print(stderr, "\r\033[K");
     }
-    void print(const std::string& text) { clear_status(), tell(text); }
-    void warn(const std::string& text) { clear_status(), tell_warning(fmt::format("{}: {}", name_of_input(words_.in), text)); }
+    void print(const std::string& text) { clear_status(), print_message(text); }
+    void warn(const std::string& text) { clear_status(), print_warning(fmt::format("{}: {}", input_name(words_.in), text)); }
 
     /// Prints how a recording was read, and warns if the frame rate is too low.
     void print_notes() {
@@ -175,7 +175,7 @@ class LiveRun {
         const auto quality = source_->quality();
         for (const auto& s : common_.quiet ? std::vector<std::string>{} : quality.descriptions)
             print(fmt::format("{}: {}", source_->name(), s));
-        for (const auto& s : quality.warnings) clear_status(), tell_warning(fmt::format("{}: {}", source_->name(), s));
+        for (const auto& s : quality.warnings) clear_status(), print_warning(fmt::format("{}: {}", source_->name(), s));
     }
 
     std::string misfit_text(const FrameError& misfit) const {
@@ -192,7 +192,7 @@ class LiveRun {
     /// A stream without a single frame is an error.
     Result<void> check_frames() const {
         const auto counts = frames_->counts();
-        const auto from = name_of_input(words_.in);
+        const auto from = input_name(words_.in);
         if (counts.frames > 0) return {};
         if (const auto misfit = frames_->first_error())
             return bad_input(fmt::format("no valid frame from {}: {}", from, misfit_text(*misfit)));
@@ -228,8 +228,8 @@ class LiveRun {
         if (!common_.quiet && !common_.json) fmt::print(stderr, "corpuscle: {}", printable_lines(stream_summary(facts())));
     }
 
-    Result<void> open(const StreamNumbers& n, std::span<const ParameterOverride> overrides) {
-        if (auto ok = is_wire(words_.in) ? open_live(n, overrides) : open_recorded(n, overrides); !ok) return ok;
+    Result<void> open(const StreamQuantities& n, std::span<const ParameterOverride> overrides) {
+        if (auto ok = is_live_input(words_.in) ? open_live(n, overrides) : open_recorded(n, overrides); !ok) return ok;
         std::vector<std::string_view> others;
         if (source_) others.push_back(source_->name());
         if (auto ok = check_overrides_used(skin_->innervation().plan, overrides, others); !ok)
@@ -242,8 +242,8 @@ class LiveRun {
     Result<void> check_outputs() const {
         OutputCheck outputs(common_.overwrite);
         remember_input("-");
-        if (!words_.save.empty())
-            if (auto ok = outputs.check_file(words_.save, is_own_state); !ok) return ok;
+        if (!words_.save_state.empty())
+            if (auto ok = outputs.check_file(words_.save_state, is_own_state); !ok) return ok;
         if (!words_.resume.empty()) remember_input(words_.resume);
         return words_.out == "-" ? Result<void>() : outputs.check_growing_file(words_.out, is_own_events);
     }
@@ -251,7 +251,7 @@ class LiveRun {
     const Error stopped{ErrorCode::interrupted, "interrupted"};
 
 public:
-    LiveRun(const StreamWords& words, const Common& common) : words_(words), common_(common) {}
+    LiveRun(const StreamArguments& words, const CommonArguments& common) : words_(words), common_(common) {}
 
     Result<void> run() {
         std::vector<ParameterOverride> overrides;
@@ -260,16 +260,16 @@ public:
             if (!parsed) return parsed.error();
             overrides.push_back(std::move(*parsed));
         }
-        const auto n = stream_numbers(words_);
+        const auto n = stream_quantities(words_);
         if (!n) return n.error();
         if (auto ok = open(*n, overrides); !ok) return interrupted() ? stopped : ok;
         print_notes();
-        StreamLoop::StreamOptions ways{.stop = interrupted, .busy_poll = words_.spin, .keeps_state = !words_.save.empty()};
+        StreamLoop::StreamOptions ways{.stop = interrupted, .busy_poll = words_.busy_poll, .keeps_state = !words_.save_state.empty()};
         ways.on_frame_error = [this](const FrameError& misfit) { warn(misfit_text(misfit)); };
         if (!common_.quiet && !common_.json && ::isatty(STDERR_FILENO) && !::isatty(STDOUT_FILENO)) ways.on_second = [this] { show_status(); };
         loop_ = std::make_unique<StreamLoop>(*skin_, *format_, *frames_, *outlet_, std::move(ways));
         if (auto ok = load_state(); !ok) return ok;
-        if (is_wire(words_.in) && words_.in != "-") print(frames_->description());
+        if (is_live_input(words_.in) && words_.in != "-") print(frames_->description());
         auto ended = loop_->run();
         print_quality();
         print_summary();
@@ -282,17 +282,17 @@ public:
 
 }  // namespace
 
-int stream(const StreamWords& words, const Common& common) {
+int stream(const StreamArguments& words, const CommonArguments& common) {
     catch_interrupt();
-    if (!words.to.empty() && words.out != "-") return fail(bad_usage("--out and --to cannot be used together"));
+    if (!words.to.empty() && words.out != "-") return report_error(bad_usage("--out and --to cannot be used together"));
     if (common.json && words.to.empty() && words.out == "-")
-        return fail(bad_usage("--json prints on standard output; send the spikes elsewhere by --out FILE or --to PORT"));
+        return report_error(bad_usage("--json prints on standard output; send the spikes elsewhere by --out FILE or --to PORT"));
     LiveRun run(words, common);
     const auto done = run.run();
     if (done) return 0;
     // The summary has reported the interruption.
     if (done.error().code == ErrorCode::interrupted) return static_cast<int>(ErrorCode::interrupted);
-    return fail(done.error());
+    return report_error(done.error());
 }
 
 }  // namespace corpuscle

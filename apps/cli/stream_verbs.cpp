@@ -3,7 +3,7 @@
 #include <CLI/CLI.hpp>
 
 #include "sweep_verbs.hpp"
-#include "word_groups.hpp"
+#include "option_groups.hpp"
 
 namespace corpuscle {
 namespace {
@@ -36,7 +36,7 @@ Examples:
 Ctrl-C ends the stream: received frames are processed, files and the state are saved, and a summary
 is printed on standard error.)";
 
-void add_frames(CLI::App& verb, StreamWords& w) {
+void add_frames(CLI::App& verb, StreamArguments& w) {
     verb.add_option("--in,-i", w.in,
                     "source of the frames: - (standard input), tcp:PORT or udp:PORT to listen on (0: any free port), serial:DEVICE, a "
                     "recording, or a stimulus")
@@ -54,7 +54,7 @@ void add_frames(CLI::App& verb, StreamWords& w) {
         ->capture_default_str()
         ->type_name("WHAT")
         ->group(group);
-    verb.add_option("--limit", w.limit, "maximum valid force; beyond it the last force of the site is used")
+    verb.add_option("--limit", w.max_force, "maximum valid force; beyond it the last force of the site is used")
         ->capture_default_str()
         ->type_name("FORCE")
         ->group(group);
@@ -62,7 +62,7 @@ void add_frames(CLI::App& verb, StreamWords& w) {
         ->capture_default_str()
         ->type_name("TIME")
         ->group(group);
-    verb.add_option("--longest-gap", w.longest, "treat a larger jump of the stamp as a restart of the sender")
+    verb.add_option("--longest-gap", w.max_gap, "treat a larger jump of the stamp as a restart of the sender")
         ->capture_default_str()
         ->type_name("TIME")
         ->group(group);
@@ -75,7 +75,7 @@ void add_frames(CLI::App& verb, StreamWords& w) {
         ->capture_default_str()
         ->type_name("N")
         ->group(group);
-    verb.add_option("--idle-limit", w.idle, "disconnect a sender that is silent for TIME if another is waiting (0: never)")
+    verb.add_option("--idle-limit", w.idle_timeout, "disconnect a sender that is silent for TIME if another is waiting (0: never)")
         ->capture_default_str()
         ->type_name("TIME")
         ->group(group);
@@ -87,7 +87,7 @@ void add_frames(CLI::App& verb, StreamWords& w) {
         ->group(group);
 }
 
-void add_events(CLI::App& verb, StreamWords& w) {
+void add_events(CLI::App& verb, StreamArguments& w) {
     const auto group = "Spikes";
     verb.add_option("--out,-o", w.out, "write the spikes to - (standard output) or to a file, named FILE.part until the end")
         ->capture_default_str()
@@ -106,7 +106,7 @@ void add_events(CLI::App& verb, StreamWords& w) {
         ->type_name("BYTES")
         ->group(group);
     verb.add_flag("--allow-drops", w.allow_drops, "exit with status 0 even if spikes were dropped or datagrams lost")->group(group);
-    verb.add_option("--save-state", w.save, "save the state at the end, including spikes that are not yet due")
+    verb.add_option("--save-state", w.save_state, "save the state at the end, including spikes that are not yet due")
         ->type_name("FILE")
         ->group(group);
     verb.add_option("--resume", w.resume, "continue from a saved state, with the same population and rate")
@@ -116,12 +116,12 @@ void add_events(CLI::App& verb, StreamWords& w) {
 
 }  // namespace
 
-void StreamVerb::add_to(CLI::App& app, Common& common) {
+void StreamVerb::add_to(CLI::App& app, CommonArguments& common) {
     auto& verb = *app.add_subcommand("stream", "simulate live: frames of force in, spikes out");
-    auto& w = words_;
+    auto& w = arguments_;
     verb.footer(stream_examples);
     verb.add_option("--population,-p", w.population, "the afferents to simulate")->capture_default_str()->type_name("POPULATION");
-    verb.add_option("--channels,-n", w.count, "forces per frame, if the population is given by names of afferents")
+    verb.add_option("--channels,-n", w.channel_count, "forces per frame, if the population is given by names of afferents")
         ->check(CLI::Range(1, 1 << 22))
         ->capture_default_str()
         ->type_name("N");
@@ -129,14 +129,14 @@ void StreamVerb::add_to(CLI::App& app, Common& common) {
         ->allow_extra_args(false)
         ->type_name("NAME.PARAMETER=VALUE");
     verb.add_flag("--sampled", w.sampled, "put spikes on the sampling times, as in the thesis (default: interpolate within the step)");
-    verb.add_option("--together", w.together,
+    verb.add_option("--together", w.batch_frames,
                     "process N frames at once: less CPU time, but up to N frames more latency; the spikes are the same")
         ->check(CLI::Range(1, 1024))
         ->capture_default_str()
         ->type_name("N");
-    verb.add_flag("--spin", w.spin, "poll for frames without sleeping: lower latency, but occupies one core");
+    verb.add_flag("--spin", w.busy_poll, "poll for frames without sleeping: lower latency, but occupies one core");
     add_frames(verb, w);
-    add_recording_words(verb, w);
+    add_recording_options(verb, w);
     add_events(verb, w);
     add_common(verb, common);
     add_overwrite(verb, common);

@@ -10,11 +10,11 @@ class App;
 namespace corpuscle {
 
 class StreamVerb {
-    StreamWords words_;
+    StreamArguments arguments_;
 
 public:
-    void add_to(CLI::App&, Common&);
-    int run(const Common& common) const { return stream(words_, common); }
+    void add_to(CLI::App&, CommonArguments&);
+    int run(const CommonArguments& common) const { return stream(arguments_, common); }
 };
 
 }  // namespace corpuscle

@@ -15,7 +15,7 @@
 #include "study/study_document.hpp"
 #include "terminal.hpp"
 #include "verbs.hpp"
-#include "written.hpp"
+#include "output_files.hpp"
 
 namespace corpuscle {
 namespace {
@@ -60,7 +60,7 @@ std::string text_of(const Study& study, const StudyResult& outcome) {
     std::vector<std::vector<std::string>> rows = {{"", "computed", "published", "deviation", "allowed", ""}};
     for (const auto& c : outcome.claims)
         rows.push_back({c.label, format_claim_value(c.computed, c), format_published(c), format_deviation(c), format_allowed_range(c), c.verdict()});
-    std::string text = fmt::format("{}: {}\n{}\n\n{}", study.name, study.title, study.question, table(rows));
+    std::string text = fmt::format("{}: {}\n{}\n\n{}", study.name, study.title, study.question, format_table(rows));
     for (const auto& c : outcome.claims)
         if (!c.note.empty()) text += fmt::format("\n{}: {}\n", c.label, c.note);
     for (const auto& n : outcome.notes) text += fmt::format("\n{}\n", n);
@@ -73,7 +73,7 @@ std::string recordings_directory() {
     return set && *set ? set : "../shared/data";
 }
 
-Result<void> run(const StudyWords& words, const Common& common) {
+Result<void> run(const StudyArguments& words, const CommonArguments& common) {
     const auto all = chosen(words.names.empty() ? std::vector<std::string>{"all"} : words.names);
     if (!all) return all.error();
     OutputCheck outputs(common.overwrite);
@@ -84,29 +84,29 @@ Result<void> run(const StudyWords& words, const Common& common) {
             if (auto ok = outputs.check_file(path, ours); !ok) return ok;
     const auto outcomes = [&] {
         Progress progress(common.quiet);
-        return run_studies(*all, {[&](double fraction) { return progress.at(fraction), !interrupted(); }, recordings_directory()});
+        return run_studies(*all, {[&](double fraction) { return progress.update(fraction), !interrupted(); }, recordings_directory()});
     }();
     if (!outcomes) return outcomes.error();
     if (!words.report_file.empty())
-        if (auto ok = write_whole(words.report_file, study_page(*all, *outcomes, common.command)); !ok) return ok;
+        if (auto ok = write_file(words.report_file, study_page(*all, *outcomes, common.command)); !ok) return ok;
     if (!words.markdown_file.empty())
-        if (auto ok = write_whole(words.markdown_file, markdown_of(*all, *outcomes)); !ok) return ok;
+        if (auto ok = write_file(words.markdown_file, markdown_of(*all, *outcomes)); !ok) return ok;
     if (common.json) {
         auto document = nlohmann::ordered_json::array();
         for (std::size_t k = 0; k < all->size(); ++k) document.push_back(document_of(*(*all)[k], (*outcomes)[k]));
         fmt::print("{}\n", document.dump(1));
     } else if (!common.quiet) {
-        for (std::size_t k = 0; k < all->size(); ++k) show((k ? "\n" : "") + text_of(*(*all)[k], (*outcomes)[k]));
+        for (std::size_t k = 0; k < all->size(); ++k) print_text((k ? "\n" : "") + text_of(*(*all)[k], (*outcomes)[k]));
     }
     return {};
 }
 
 }  // namespace
 
-int study(const StudyWords& words, const Common& common) {
+int study(const StudyArguments& words, const CommonArguments& common) {
     catch_interrupt();
     const auto done = run(words, common);
-    return done ? 0 : fail(done.error());
+    return done ? 0 : report_error(done.error());
 }
 
 }  // namespace corpuscle

@@ -10,7 +10,7 @@
 #include "study/sweep/dump.hpp"
 #include "study/sweep/rank_run.hpp"
 #include "study/sweep/writer_lock.hpp"
-#include "sweep_state.hpp"
+#include "sweep_status.hpp"
 #include "terminal.hpp"
 #include "verbs.hpp"
 
@@ -29,17 +29,17 @@ Result<Shard> shard_of(const std::string& text) {
 }
 
 /// The default results file in the current directory: "mc.sqlite" for some/where/mc.toml, "mc-1of4.sqlite" for a shard.
-std::string results_path(const SweepWords& w, const Shard& shard) {
+std::string results_path(const SweepArguments& w, const Shard& shard) {
     if (!w.out.empty()) return w.out;
     const auto stem = fs::path(w.file).stem().string();
     return shard.shard_count == 1 ? stem + ".sqlite" : fmt::format("{}-{}of{}.sqlite", stem, shard.index + 1, shard.shard_count);
 }
 
-void print_state(const Common& common, const SweepState& state) {
+void print_state(const CommonArguments& common, const SweepStatus& state) {
     if (common.json)
         fmt::print("{}\n", json_text(document_of(state)));
     else if (!common.quiet)
-        show(describe_frame_error(state));
+        print_text(describe_frame_error(state));
 }
 
 /// This process among the MPI ranks.
@@ -48,7 +48,7 @@ struct SweepProcess {
     bool is_coordinator() const { return !ranks || ranks->rank() == 0; }
 };
 
-Result<void> run_units(const SweepProcess& self, const Sweep& sweep, SweepResults& results, const SweepRunOptions& run, const Common& common) {
+Result<void> run_units(const SweepProcess& self, const Sweep& sweep, SweepResults& results, const SweepRunOptions& run, const CommonArguments& common) {
     SweepProgress count;
     if (!self.ranks) return run_sweep(sweep, results, run, count);
     if (!self.ranks->survive_death_of_one() && !common.quiet)
@@ -70,7 +70,7 @@ Error with_advice(const Error& error, const SweepResults& results) {
                                     results.finished_count(), results.item_count(), results.path())};
 }
 
-Result<void> coordinate_run(const SweepProcess& self, const Sweep& sweep, const SweepWords& w, const Common& common, const Shard& shard) {
+Result<void> coordinate_run(const SweepProcess& self, const Sweep& sweep, const SweepArguments& w, const CommonArguments& common, const Shard& shard) {
     auto results = SweepResults::open(results_path(w, shard), sweep);
     if (!results) {
         if (self.ranks) shut_down_workers(*self.ranks);
@@ -81,26 +81,26 @@ Result<void> coordinate_run(const SweepProcess& self, const Sweep& sweep, const 
     auto done = [&] {
         Progress progress(common.quiet);
         run.on_progress = [&](const SweepProgress& c) {
-            progress.at(static_cast<double>(c.finished()) / static_cast<double>(std::max<std::int64_t>(1, c.planned)));
+            progress.update(static_cast<double>(c.finished()) / static_cast<double>(std::max<std::int64_t>(1, c.planned)));
         };
         return run_units(self, sweep, *results, run, common);
     }();
     if (const auto folded = results->checkpoint(); !folded && !common.quiet)
-        tell_warning(fmt::format("the results are complete only if {} is kept together with {}-wal: {}", results->path(), results->path(),
+        print_warning(fmt::format("the results are complete only if {} is kept together with {}-wal: {}", results->path(), results->path(),
                                  folded.error().message));
     if (!done) return with_advice(done.error(), *results);
-    const auto state = state_of(*results, shard);
+    const auto state = read_sweep_status(*results, shard);
     if (!state) return state.error();
     auto final_state = *state;
-    final_state.now = results->finished_count() - before, final_state.sweep = w.file;
+    final_state.finished_now = results->finished_count() - before, final_state.sweep = w.file;
     print_state(common, final_state);
-    if (results->finished_count() > 0 && final_state.lost == results->finished_count())
+    if (results->finished_count() > 0 && final_state.diverged == results->finished_count())
         return Error{ErrorCode::not_converged,
-                     fmt::format("none of {} items converged: {}", final_state.lost, final_state.reasons.front().first)};
+                     fmt::format("none of {} items converged: {}", final_state.diverged, final_state.reasons.front().first)};
     return {};
 }
 
-Result<void> run(const SweepWords& w, const Common& common, SweepProcess& self) {
+Result<void> run(const SweepArguments& w, const CommonArguments& common, SweepProcess& self) {
     const auto shard = shard_of(w.shard);
     if (!shard) return shard.error();
     if (Ranks::are_started()) {
@@ -108,7 +108,7 @@ Result<void> run(const SweepWords& w, const Common& common, SweepProcess& self) 
         if (!ranks) return ranks.error();
         if ((*ranks)->size() > 1) self.ranks = std::move(*ranks);
     }
-    auto sweep = read_sweep(w.file, {w.seed, w.units});
+    auto sweep = read_sweep(w.file, {w.seed, w.samples});
     if (sweep) (*sweep)->set_lanes(w.lanes);
     if (!self.is_coordinator()) return run_worker(*self.ranks, sweep, {.threads = w.threads, .should_stop = interrupted});
     if (!sweep) {
@@ -118,33 +118,33 @@ Result<void> run(const SweepWords& w, const Common& common, SweepProcess& self) 
     return coordinate_run(self, **sweep, w, common, *shard);
 }
 
-Result<void> status(const SweepWords& w, const Common& common) {
+Result<void> status(const SweepArguments& w, const CommonArguments& common) {
     const auto shard = shard_of(w.shard);
     if (!shard) return shard.error();
     const auto results = SweepResults::open_read_only(results_path(w, *shard));
     if (!results) return results.error();
-    auto state = state_of(*results, *shard);
+    auto state = read_sweep_status(*results, *shard);
     if (!state) return state.error();
     state->sweep = w.file;
     if (const auto writer = WriterLock::holder(results->path())) {
         const auto now = std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
-        state->writer = *writer, state->written_for = now - writer->since;
+        state->writer = *writer, state->running_for = now - writer->since;
     }
     print_state(common, *state);
     return {};
 }
 
-Result<void> merge_all(SweepResults& out, const std::vector<SweepResults>& in, const Common& common) {
+Result<void> merge_all(SweepResults& out, const std::vector<SweepResults>& in, const CommonArguments& common) {
     for (const auto& from : in) {
         if (interrupted()) return Error{ErrorCode::interrupted, "interrupted; the same command resumes"};
         const auto added = out.merge(from);
         if (!added) return added.error();
-        if (!common.json && !common.quiet) show(fmt::format("{}: {} items, {} of them new\n", from.path(), from.finished_count(), *added));
+        if (!common.json && !common.quiet) print_text(fmt::format("{}: {} items, {} of them new\n", from.path(), from.finished_count(), *added));
     }
     return {};
 }
 
-Result<void> merge(const SweepMergeWords& w, const Common& common) {
+Result<void> merge(const SweepMergeArguments& w, const CommonArguments& common) {
     std::vector<SweepResults> in;
     for (const auto& path : w.in) {
         auto results = SweepResults::open_read_only(path);
@@ -157,7 +157,7 @@ Result<void> merge(const SweepMergeWords& w, const Common& common) {
     auto ok = merge_all(*out, in, common);
     if (auto folded = out->checkpoint(); ok) ok = folded;
     if (!ok) return ok;
-    const auto state = state_of(*out, {});
+    const auto state = read_sweep_status(*out, {});
     if (!state) return state.error();
     print_state(common, *state);
     return {};
@@ -176,18 +176,18 @@ Result<void> dump(const std::string& path) {
     return ok;
 }
 
-int status_of(const Result<void>& done) { return done ? 0 : fail(done.error()); }
+int status_of(const Result<void>& done) { return done ? 0 : report_error(done.error()); }
 
 }  // namespace
 
-int sweep(const SweepWords& w, const Common& common) {
+int sweep(const SweepArguments& w, const CommonArguments& common) {
     catch_interrupt();
     if (w.status) return status_of(status(w, common));
     SweepProcess self;
     const auto done = run(w, common, self);
     // With several ranks the coordinator prints errors. Other ranks have sent theirs to it, unless it has died.
     const bool prints_errors = self.ranks ? self.is_coordinator() || !done : Ranks::reports_errors();
-    const int code = done ? 0 : prints_errors ? fail(done.error()) : static_cast<int>(done.error().code);
+    const int code = done ? 0 : prints_errors ? report_error(done.error()) : static_cast<int>(done.error().code);
     if (self.ranks && !self.ranks->left_together()) {
         std::fflush(nullptr);
         std::_Exit(code);  // MPI_Finalize would wait for dead ranks
@@ -195,12 +195,12 @@ int sweep(const SweepWords& w, const Common& common) {
     return code;
 }
 
-int sweep_merge(const SweepMergeWords& w, const Common& common) {
+int sweep_merge(const SweepMergeArguments& w, const CommonArguments& common) {
     catch_interrupt();
     return status_of(merge(w, common));
 }
 
-int sweep_dump(const std::string& results, const Common&) {
+int sweep_dump(const std::string& results, const CommonArguments&) {
     catch_interrupt();
     return status_of(dump(results));
 }

@@ -45,7 +45,7 @@ Result<Trim> parse_trim(const std::string& text, const ChipCalibration& calibrat
 constexpr double max_first_spike_error = 10e-3;  // s
 
 /// Sets the stimulus, and the limits from the response of the model.
-Result<void> set_target(ChipCalibration& calibration, const std::string& model, const SweepCalibrateWords& words) {
+Result<void> set_target(ChipCalibration& calibration, const std::string& model, const SweepCalibrateArguments& words) {
     const TrialSpec press{model, words.force, {}, 10e3};
     const auto stimulus = trial_force(press);
     if (!stimulus) return stimulus.error();
@@ -65,12 +65,12 @@ Result<void> set_target(ChipCalibration& calibration, const std::string& model, 
 }
 
 Result<std::vector<CalibrationResult>> run_calibrations(ChipCalibration& calibration, const std::vector<Trim>& trims,
-                                                      const SweepCalibrateWords& words) {
-    const circuit::ChipSpec sampler{static_cast<double>(words.units), words.seed};
+                                                      const SweepCalibrateArguments& words) {
+    const circuit::ChipSpec sampler{static_cast<double>(words.samples), words.seed};
     std::vector<circuit::ChipSample> chips;
-    for (std::int64_t k = 0; k < words.units; ++k) chips.push_back(sampler.sample(static_cast<std::uint64_t>(k)));
+    for (std::int64_t k = 0; k < words.samples; ++k) chips.push_back(sampler.sample(static_cast<std::uint64_t>(k)));
     std::vector<std::vector<Trim>> sets = {trims};
-    if (words.apart && trims.size() > 1)
+    if (words.separately && trims.size() > 1)
         for (const auto& t : trims) sets.push_back({t});
     std::vector<CalibrationResult> out;
     for (const auto& set : sets) {
@@ -82,14 +82,14 @@ Result<std::vector<CalibrationResult>> run_calibrations(ChipCalibration& calibra
     return out;
 }
 
-Result<void> calibrate_as(const SweepCalibrateWords& words, const Common& common) {
+Result<void> calibrate_as(const SweepCalibrateArguments& words, const CommonArguments& common) {
     const DefaultTrims* known = nullptr;
     for (const auto& d : default_trims)
         if (words.netlist == d.netlist) known = &d;
     if (!known && (words.trims.empty() || words.like.empty()))
         return bad_usage(
             fmt::format("sweep calibrate {}: --like MODEL and --trim NAME=RANGE are required for this netlist", words.netlist));
-    if (words.units < 1 || words.units > 1'000'000) return bad_usage(fmt::format("--units {}: must be from 1 to 1000000", words.units));
+    if (words.samples < 1 || words.samples > 1'000'000) return bad_usage(fmt::format("--units {}: must be from 1 to 1000000", words.samples));
     ChipCalibration calibration;
     calibration.netlist = words.netlist, calibration.bits = words.bits, calibration.threads = words.threads;
     calibration.overrides = {{"corner", words.corner, "--corner " + words.corner}};
@@ -106,7 +106,7 @@ Result<void> calibrate_as(const SweepCalibrateWords& words, const Common& common
     auto done = [&] {
         Progress progress(common.quiet);
         calibration.on_progress = [&](std::size_t left, std::size_t) {
-            progress.at(1 - static_cast<double>(left) / static_cast<double>(words.units));
+            progress.update(1 - static_cast<double>(left) / static_cast<double>(words.samples));
         };
         return run_calibrations(calibration, trims, words);
     }();
@@ -114,16 +114,16 @@ Result<void> calibrate_as(const SweepCalibrateWords& words, const Common& common
     if (common.json)
         fmt::print("{}\n", document_of(calibration, *done).dump(1));
     else
-        show(describe_frame_error(calibration, *done));
+        print_text(describe_frame_error(calibration, *done));
     return {};
 }
 
 }  // namespace
 
-int sweep_calibrate(const SweepCalibrateWords& words, const Common& common) {
+int sweep_calibrate(const SweepCalibrateArguments& words, const CommonArguments& common) {
     catch_interrupt();
     const auto done = calibrate_as(words, common);
-    return done ? 0 : fail(done.error());
+    return done ? 0 : report_error(done.error());
 }
 
 }  // namespace corpuscle

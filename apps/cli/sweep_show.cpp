@@ -14,12 +14,12 @@
 #include "sweep_tables.hpp"
 #include "terminal.hpp"
 #include "verbs.hpp"
-#include "written.hpp"
+#include "output_files.hpp"
 
 namespace corpuscle {
 namespace {
 
-Result<SweepSummaryOptions> question_of(const SweepShowWords& words) {
+Result<SweepSummaryOptions> question_of(const SweepShowArguments& words) {
     SweepSummaryOptions out;
     out.axes = words.by;
     if (words.quantiles.empty()) return out;
@@ -32,7 +32,7 @@ Result<SweepSummaryOptions> question_of(const SweepShowWords& words) {
     return out;
 }
 
-Result<void> run(const SweepShowWords& words, const Common& common) {
+Result<void> run(const SweepShowArguments& words, const CommonArguments& common) {
     const auto question = question_of(words);
     if (!question) return question.error();
     const auto results = SweepResults::open_read_only(words.results);
@@ -56,20 +56,20 @@ Result<void> run(const SweepShowWords& words, const Common& common) {
     if (!words.report_file.empty()) {
         const auto page = sweep_page(*results, *table, *summary, title, common.command);
         if (!page) return page.error();
-        if (auto ok = write_whole(words.report_file, *page); !ok) return ok;
+        if (auto ok = write_file(words.report_file, *page); !ok) return ok;
     }
     if (common.json)
         fmt::print("{}\n", json_text(document_of(*table, *summary, title)));
     else if (!common.quiet)
-        show(sweep_tables(*table, *summary, title, !words.quantiles.empty()));
+        print_text(sweep_tables(*table, *summary, title, !words.quantiles.empty()));
     return {};
 }
 
 }  // namespace
 
-int sweep_show(const SweepShowWords& words, const Common& common) {
+int sweep_show(const SweepShowArguments& words, const CommonArguments& common) {
     const auto done = run(words, common);
-    return done ? 0 : fail(done.error());
+    return done ? 0 : report_error(done.error());
 }
 
 }  // namespace corpuscle

@@ -85,7 +85,7 @@ std::string yields(const SweepTable& from, const SweepSummary& s) {
     for (std::size_t m = 0; m < from.measures.size(); ++m)
         if (const auto& own = s.all.measures[m].yield)
             line(from.measures[m].name, limits_of(from.measures[m]), std::llround(own->value * static_cast<double>(s.all.items)), *own);
-    return "\n" + table(rows);
+    return "\n" + format_table(rows);
 }
 
 std::string measures_text(const SweepTable& from, const SweepSummary& s) {
@@ -104,7 +104,7 @@ std::string measures_text(const SweepTable& from, const SweepSummary& s) {
                               : one.normality >= one.normality_floor ? fmt::format("{:.4f}, normal", one.normality)
                                                                      : fmt::format("{:.4f}, not normal", one.normality));
     }
-    return "\n" + table(rows);
+    return "\n" + format_table(rows);
 }
 
 std::string points_text(const SweepTable& from, const SweepSummary& s) {
@@ -125,7 +125,7 @@ std::string points_text(const SweepTable& from, const SweepSummary& s) {
                                       : fmt::format("{} +- {}", formats[m](one.mean.value), formats[m](one.sigma.value)));
         }
     }
-    return fmt::format("\nBy grid point, mean and standard deviation:\n{}", table(rows));
+    return fmt::format("\nBy grid point, mean and standard deviation:\n{}", format_table(rows));
 }
 
 /// "4x2 of 2 x 0.5 um".
@@ -168,7 +168,7 @@ std::string dependences_text(const SweepTable& from, const SweepSummary& s) {
         text = fmt::format(
             "\nInfluences, in percent of variance (grid axes: of the total variance; random parameters: of the variance within a grid\n"
             "point, {} chips):\n{}",
-            s.searched_chips, table(rows));
+            s.searched_chips, format_table(rows));
     if (!explained.empty())
         text += fmt::format("A linear model explains (%): {}. The rest is nonlinear, an interaction, or not significant.\n", explained);
     if (!independent.empty() && (s.mismatch || !from.axes.empty()))
@@ -196,7 +196,7 @@ std::string grid_yields(const SweepTable& from, const SweepSummary& s) {
         if (const auto& own = s.all.measures[m].yield)
             line(from.measures[m].name, limits_of(from.measures[m]), std::llround(own->value * static_cast<double>(s.all.items)),
                  own->value);
-    return "\n" + table(rows);
+    return "\n" + format_table(rows);
 }
 
 /// The label of the first row in which a measure has this value.
@@ -216,7 +216,7 @@ std::string grid_measures(const SweepTable& from, const SweepSummary& s) {
                         varies ? point_of(from, m, one.min) : "all", format(one.max),
                         varies ? point_of(from, m, one.max) : "all", format(one.mean.value)});
     }
-    return "\n" + table(rows);
+    return "\n" + format_table(rows);
 }
 
 /// The effect of every axis on each measure.
@@ -245,7 +245,7 @@ std::string effects_text(const SweepTable& from, const SweepSummary& s) {
     return rows.size() == 1
                ? ""
                : "\nEffect of each axis: percent of the variance over the grid that is explained by the means at its values\n" +
-                     table(rows);
+                     format_table(rows);
 }
 
 std::string grid_points(const SweepTable& from, const SweepSummary& s) {
@@ -265,7 +265,7 @@ std::string grid_points(const SweepTable& from, const SweepSummary& s) {
             rows.back().push_back(p.measures[m].count == 0 ? "-" : formats[m](p.measures[m].mean.value));
     }
     const bool means = std::any_of(s.points.begin(), s.points.end(), [](const PointSummary& p) { return p.items > 1; });
-    return fmt::format("\nBy grid point{}:\n{}", means ? ", means" : "", table(rows));
+    return fmt::format("\nBy grid point{}:\n{}", means ? ", means" : "", format_table(rows));
 }
 
 /// The requested quantiles, with confidence intervals unless the sweep is a grid.
@@ -282,7 +282,7 @@ std::string quantiles_text(const SweepTable& from, const SweepSummary& s) {
             if (!from.is_grid) rows[q + 1].push_back(q < all.size() ? format.interval(all[q]) : "-");
         }
     }
-    return "\n" + table(rows);
+    return "\n" + format_table(rows);
 }
 
 }  // namespace

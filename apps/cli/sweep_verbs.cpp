@@ -4,7 +4,7 @@
 #include <CLI/CLI.hpp>
 
 #include "signal/version.hpp"
-#include "word_groups.hpp"
+#include "option_groups.hpp"
 
 namespace corpuscle {
 namespace {
@@ -47,7 +47,7 @@ Examples:
   corpuscle sweep show chips.sqlite --report chips.html
   corpuscle sweep show chips.sqlite --json)";
 
-CLI::App& add_sweep(CLI::App& app, SweepWords& w, SweepMergeWords& m, std::string& dumped, Common& common) {
+CLI::App& add_sweep(CLI::App& app, SweepArguments& w, SweepMergeArguments& m, std::string& dumped, CommonArguments& common) {
     auto& verb = *app.add_subcommand("sweep", "run Monte Carlo, corner and grid sweeps -> one results file");
     verb.footer(sweep_examples);
     verb.require_subcommand(0, 1);
@@ -65,7 +65,7 @@ CLI::App& add_sweep(CLI::App& app, SweepWords& w, SweepMergeWords& m, std::strin
         ->type_name("1|4|8");
     verb.add_option("--shard", w.shard, "run only part K of N, for several machines without MPI")->type_name("K/N");
     verb.add_option("--seed", w.seed, "random seed (replaces the seed of the file)")->type_name("N");
-    verb.add_option("--units", w.units, "number of random samples (replaces the number in the file)")
+    verb.add_option("--units", w.samples, "number of random samples (replaces the number in the file)")
         ->check(CLI::PositiveNumber)
         ->type_name("N");
     verb.add_flag("--status", w.status, "print progress: finished items, missing items, speed");
@@ -91,7 +91,7 @@ CLI::App& add_sweep(CLI::App& app, SweepWords& w, SweepMergeWords& m, std::strin
     return verb;
 }
 
-void add_sweep_show(CLI::App& sweep, SweepShowWords& w, Common& common) {
+void add_sweep_show(CLI::App& sweep, SweepShowArguments& w, CommonArguments& common) {
     auto& verb = *sweep.add_subcommand("show", "analyse a results file: yields, distributions, most influential devices");
     verb.footer(sweep_show_examples);
     verb.add_option("RESULTS", w.results, "a results file; the sweep may still be running")->required();
@@ -106,13 +106,13 @@ void add_sweep_show(CLI::App& sweep, SweepShowWords& w, Common& common) {
         ->type_name("FRACTION");
     verb.add_option("--report", w.report_file, "write a report page")->type_name("FILE.html")->group("Output");
     verb.callback([&w] {
-        if (!w.report_file.empty() && !w.report_file.ends_with(".html")) throw CLI::ValidationError(page_name_needed(w.report_file));
+        if (!w.report_file.empty() && !w.report_file.ends_with(".html")) throw CLI::ValidationError(page_name_error(w.report_file));
     });
     add_common(verb, common);
     add_overwrite(verb, common);
 }
 
-void add_sweep_calibrate(CLI::App& sweep, SweepCalibrateWords& w, Common& common) {
+void add_sweep_calibrate(CLI::App& sweep, SweepCalibrateArguments& w, CommonArguments& common) {
     auto& verb = *sweep.add_subcommand("calibrate", "trim simulated chips to match a model -> yield for each number of trim bits");
     verb.footer(
         "Each chip is simulated with the stimulus. It passes if the spike count of each phase differs from\n"
@@ -131,11 +131,11 @@ void add_sweep_calibrate(CLI::App& sweep, SweepCalibrateWords& w, Common& common
         ->check(CLI::Range(1, 12))
         ->capture_default_str()
         ->type_name("N");
-    verb.add_option("--units", w.units, "number of chips")->check(CLI::PositiveNumber)->capture_default_str()->type_name("N");
+    verb.add_option("--units", w.samples, "number of chips")->check(CLI::PositiveNumber)->capture_default_str()->type_name("N");
     verb.add_option("--seed", w.seed, "random seed of process and mismatch")->capture_default_str()->type_name("N");
     verb.add_option("--corner", w.corner, "process corner; mc includes process variation")->capture_default_str();
     verb.add_option("--force", w.force, "the stimulus")->capture_default_str()->type_name("STIMULUS");
-    verb.add_flag("--apart", w.apart, "also evaluate each trim alone");
+    verb.add_flag("--apart", w.separately, "also evaluate each trim alone");
     verb.add_option("--threads,-j", w.threads, "number of threads (0: one per core); results do not depend on it")
         ->check(CLI::Range(0U, 1024U))
         ->capture_default_str()
@@ -145,26 +145,26 @@ void add_sweep_calibrate(CLI::App& sweep, SweepCalibrateWords& w, Common& common
 
 }  // namespace
 
-void add_common(CLI::App& verb, Common& common) {
+void add_common(CLI::App& verb, CommonArguments& common) {
     verb.set_version_flag("--version", fmt::format("corpuscle {}", version))->group("");
     verb.add_flag("--json", common.json, "print one JSON document on standard output, and nothing else");
     verb.add_flag("--quiet,-q", common.quiet, "do not print tables, progress and notes; warnings are still printed");
 }
 
-void add_overwrite(CLI::App& verb, Common& common) {
+void add_overwrite(CLI::App& verb, CommonArguments& common) {
     verb.add_flag("--overwrite", common.overwrite,
                   "also replace files that were not written by an earlier run; input files are never replaced");
 }
 
-void SweepVerbs::add_to(CLI::App& app, Common& common) {
-    verb_ = &add_sweep(app, sweep_, merge_, dumped_, common);
+void SweepVerbs::add_to(CLI::App& app, CommonArguments& common) {
+    verb_ = &add_sweep(app, sweep_, merge_, dump_path_, common);
     add_sweep_show(*verb_, show_, common);
     add_sweep_calibrate(*verb_, calibrate_, common);
 }
 
-int SweepVerbs::run(const Common& common) const {
+int SweepVerbs::run(const CommonArguments& common) const {
     return verb_->got_subcommand("merge")       ? sweep_merge(merge_, common)
-           : verb_->got_subcommand("dump")      ? sweep_dump(dumped_, common)
+           : verb_->got_subcommand("dump")      ? sweep_dump(dump_path_, common)
            : verb_->got_subcommand("show")      ? sweep_show(show_, common)
            : verb_->got_subcommand("calibrate") ? sweep_calibrate(calibrate_, common)
                                                 : sweep(sweep_, common);

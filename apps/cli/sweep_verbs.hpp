@@ -10,22 +10,22 @@ class App;
 namespace corpuscle {
 
 /// Adds the options that every verb has: --json, --quiet.
-void add_common(CLI::App& verb, Common&);
+void add_common(CLI::App& verb, CommonArguments&);
 /// Adds --overwrite, for verbs that write complete files.
-void add_overwrite(CLI::App& verb, Common&);
+void add_overwrite(CLI::App& verb, CommonArguments&);
 
 class SweepVerbs {
-    SweepWords sweep_;
-    SweepMergeWords merge_;
-    std::string dumped_;
-    SweepShowWords show_;
-    SweepCalibrateWords calibrate_;
+    SweepArguments sweep_;
+    SweepMergeArguments merge_;
+    std::string dump_path_;
+    SweepShowArguments show_;
+    SweepCalibrateArguments calibrate_;
     CLI::App* verb_ = nullptr;
 
 public:
-    void add_to(CLI::App&, Common&);
+    void add_to(CLI::App&, CommonArguments&);
     /// Runs the requested verb; returns its exit status.
-    int run(const Common&) const;
+    int run(const CommonArguments&) const;
 };
 
 }  // namespace corpuscle

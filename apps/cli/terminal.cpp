@@ -136,17 +136,17 @@ std::string without_directories(const std::string& argument) {
 
 }  // namespace
 
-void tell(const std::string& message) { fmt::print(stderr, "corpuscle: {}\n", printable(message)); }
-void tell_warning(const std::string& message) { tell("warning: " + message); }
-void show(const std::string& text) { fmt::print("{}", printable_lines(text)); }
+void print_message(const std::string& message) { fmt::print(stderr, "corpuscle: {}\n", printable(message)); }
+void print_warning(const std::string& message) { print_message("warning: " + message); }
+void print_text(const std::string& text) { fmt::print("{}", printable_lines(text)); }
 
 Result<void> finish_output() {
     if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return {};
     return bad_input(fmt::format("cannot write all of standard output: {}", std::strerror(errno)));
 }
 
-int fail(const Error& error) {
-    tell(error.text());
+int report_error(const Error& error) {
+    print_message(error.text());
     return static_cast<int>(error.code);
 }
 
@@ -174,7 +174,7 @@ std::string time_text(double seconds) {
                       : fmt::format("{}:{:02} h", s / 3600, s / 60 % 60);
 }
 
-std::string table(const std::vector<std::vector<std::string>>& raw_rows) {
+std::string format_table(const std::vector<std::vector<std::string>>& raw_rows) {
     auto rows = raw_rows;
     for (auto& row : rows)
         for (auto& cell : row) cell = printable(cell);
@@ -204,26 +204,26 @@ std::string table(const std::vector<std::vector<std::string>>& raw_rows) {
     return text;
 }
 
-Progress::Progress(bool quiet) : shown_(!quiet && ::isatty(STDERR_FILENO)) {}
+Progress::Progress(bool quiet) : is_enabled_(!quiet && ::isatty(STDERR_FILENO)) {}
 
 Progress::~Progress() {
-    if (drawn_) fmt::print(stderr, "\r\033[K");
+    if (is_visible_) fmt::print(stderr, "\r\033[K");
 }
 
-void Progress::at(double fraction) {
-    if (!shown_) return;
+void Progress::update(double fraction) {
+    if (!is_enabled_) return;
     const auto now = Clock::now();
     const double elapsed = std::chrono::duration<double>(now - start_).count();
-    if (elapsed < 1 || (drawn_ && now - last_ < std::chrono::milliseconds(100))) return;
+    if (elapsed < 1 || (is_visible_ && now - last_ < std::chrono::milliseconds(100))) return;
     last_ = now;
-    drawn_ = true;
+    is_visible_ = true;
     const auto full = static_cast<std::size_t>(std::clamp(fraction, 0.0, 1.0) * 32);
     const auto left = fraction > 0 ? time_text(elapsed / fraction - elapsed) + " left" : std::string("...");
     fmt::print(stderr, "\r\033[K[{}{}] {:3.0f} %  {}", std::string(full, '='), std::string(32 - full, ' '), 100 * fraction, left);
     std::fflush(stderr);
 }
 
-std::string quoted(int argc, const char* const* argv) {
+std::string quote_command(int argc, const char* const* argv) {
     constexpr std::string_view plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./,:%@";
     std::string text = "corpuscle";
     for (int k = 1; k < argc; ++k) {

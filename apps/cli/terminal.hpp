@@ -10,14 +10,14 @@
 namespace corpuscle {
 
 /// Prints the error on standard error and returns its exit status.
-int fail(const Error&);
+int report_error(const Error&);
 
 /// Prints one line on standard error: "corpuscle: ...", "corpuscle: warning: ...". Control characters are escaped.
-void tell(const std::string& message);
-void tell_warning(const std::string& message);
+void print_message(const std::string& message);
+void print_warning(const std::string& message);
 
 /// Prints text of several lines on standard output. Control characters are escaped.
-void show(const std::string& text);
+void print_text(const std::string& text);
 
 /// Flushes standard output. Returns an error if some of the text could not be written.
 Result<void> finish_output();
@@ -30,23 +30,23 @@ bool interrupted();
 std::string time_text(double seconds);
 
 /// Formats rows as a table: columns padded to their widest cell, numbers aligned right, text left.
-std::string table(const std::vector<std::vector<std::string>>& rows);
+std::string format_table(const std::vector<std::vector<std::string>>& rows);
 
 /// A progress bar with the remaining time on standard error. It appears only on a terminal and after one second.
 class Progress {
     using Clock = std::chrono::steady_clock;
-    bool shown_;
+    bool is_enabled_;
     Clock::time_point start_ = Clock::now(), last_ = start_;
-    bool drawn_ = false;
+    bool is_visible_ = false;
 
 public:
     explicit Progress(bool quiet);
     ~Progress();
     /// `fraction`: 0 to 1.
-    void at(double fraction);
+    void update(double fraction);
 };
 
 /// The command line quoted for a shell. Files appear without their directories, so that a published page does not reveal them.
-std::string quoted(int argc, const char* const* argv);
+std::string quote_command(int argc, const char* const* argv);
 
 }  // namespace corpuscle

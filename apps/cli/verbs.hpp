@@ -15,7 +15,7 @@ struct TypedOption {
     std::vector<std::string> values;
 };
 
-struct Common {
+struct CommonArguments {
     bool json = false, quiet = false;
     bool overwrite = false;               ///< replace files that no earlier run wrote
     std::string command;                  ///< as typed, for the report page
@@ -23,13 +23,13 @@ struct Common {
 };
 
 /// Overrides and probes, which apply to every netlist of the run.
-struct NetlistWords {
+struct NetlistArguments {
     std::optional<std::string> supply, temp, corner, mismatch;
-    std::vector<std::string> traces;
+    std::vector<std::string> probes;
 };
 
 /// How to read a recording; recording_options() converts this to options of the reader.
-struct RecordingWords {
+struct RecordingArguments {
     std::vector<std::string> channels, notch;
     std::optional<std::string> rate, dataset, time, time_unit, unit, scale, resample, offset, range, bad_fields, despike, lowpass;
     std::string layout;
@@ -38,105 +38,105 @@ struct RecordingWords {
     bool absolute = false;
 };
 
-struct RespondWords : RecordingWords {
-    NetlistWords netlists;
+struct RespondArguments : RecordingArguments {
+    NetlistArguments netlists;
     std::vector<std::string> forces, afferents = {"sa1", "fa1"}, settings, spreads;
     std::optional<std::string> noise, bin;
     std::string method = "exact";
-    bool sampled = false, traces = false, vectors = false, report = false, npz = false, wav = false;
+    bool sampled = false, probe_files = false, vectors = false, has_report = false, npz = false, wav = false;
     std::string out, report_file;
     std::string population, contact, events, checkpoint;  ///< of a skin; "": not given
     std::uint64_t seed = 0;
     std::uint32_t copies = 0;   ///< 0: not given
     std::uint32_t threads = 0;  ///< 0: one per core
-    bool in_float = false;
+    bool use_float = false;
 };
 
-struct CompareWords {
+struct CompareArguments {
     std::vector<std::string> files, pairs;
-    std::optional<std::string> time, unit;  ///< columns of the spike tables
+    std::optional<std::string> time_column, train_column;  ///< columns of the spike tables
     bool by_order = false;
     std::string window = "5ms", cost = "100Hz", tau = "10ms";
 };
 
-struct StudyWords {
+struct StudyArguments {
     std::vector<std::string> names;
     std::string report_file, markdown_file;
 };
 
-struct RunWords {
-    NetlistWords netlists;
+struct RunArguments {
+    NetlistArguments netlists;
     std::vector<std::string> settings;
     std::string netlist, out;
     bool ascii = false, budget = false;
 };
 
-struct ExportWords {
+struct ExportArguments {
     std::string netlist, target = "ngspice", out;
 };
 
-struct SweepWords {
+struct SweepArguments {
     std::string file, out, shard;
     std::optional<std::uint64_t> seed;
-    std::optional<std::int64_t> units;
+    std::optional<std::int64_t> samples;
     std::size_t lanes = 8;
     std::uint32_t threads = 0;  ///< 0: one per core, or one per MPI rank
     bool status = false;
 };
 
 /// corpuscle sweep merge OUT IN...
-struct SweepMergeWords {
+struct SweepMergeArguments {
     std::string out;
     std::vector<std::string> in;
 };
 
 /// corpuscle sweep show RESULTS
-struct SweepShowWords {
+struct SweepShowArguments {
     std::string results, report_file;
     std::vector<std::string> by, measures;
     std::vector<double> quantiles;
 };
 
 /// corpuscle sweep calibrate NETLIST
-struct SweepCalibrateWords {
+struct SweepCalibrateArguments {
     std::string netlist, like, force = "press", corner = "mc";
     std::vector<std::string> trims;
     int bits = 4;
-    std::int64_t units = 64;
+    std::int64_t samples = 64;
     std::uint64_t seed = 1;
     std::uint32_t threads = 0;
-    bool apart = false;
+    bool separately = false;
 };
 
-struct StreamWords : RecordingWords {
+struct StreamArguments : RecordingArguments {
     std::string population = "sa1,fa1", in = "-", listen = "127.0.0.1", frames = "csv", stamp = "none", pace = "real";
     std::vector<std::string> settings;
-    std::string limit = "1kN", hold = "100ms", longest = "10s", buffer = "1M", idle = "10s";
-    std::string out = "-", to, format = "lines", save, resume;
-    std::size_t count = 1;     ///< channels
-    std::size_t together = 1;  ///< frames per batch
+    std::string max_force = "1kN", hold = "100ms", max_gap = "10s", buffer = "1M", idle_timeout = "10s";
+    std::string out = "-", to, format = "lines", save_state, resume;
+    std::size_t channel_count = 1;     ///< channels
+    std::size_t batch_frames = 1;  ///< frames per batch
     std::int64_t clients = 0;  ///< 0: unlimited
     long baud = 115200;
-    bool sampled = false, spin = false, allow_drops = false;
+    bool sampled = false, busy_poll = false, allow_drops = false;
 };
 
-struct ListWords {
-    std::vector<std::string> what;
-    bool sites = false;  ///< list the sites of a population
+struct ListArguments {
+    std::vector<std::string> names;
+    bool list_sites = false;  ///< list the sites of a population
 };
 
-int respond(const RespondWords&, const Common&);
-int respond_skin(const RespondWords&, const Common&);
-int compare_trains(const CompareWords&, const Common&);
-int study(const StudyWords&, const Common&);
-int run(const RunWords&, const Common&);
-int export_to(const ExportWords&, const Common&);
-int sweep(const SweepWords&, const Common&);
-int sweep_merge(const SweepMergeWords&, const Common&);
-int sweep_calibrate(const SweepCalibrateWords&, const Common&);
-int sweep_dump(const std::string& results, const Common&);
-int sweep_show(const SweepShowWords&, const Common&);
-int stream(const StreamWords&, const Common&);
-int list(const ListWords&, const Common&);
+int respond(const RespondArguments&, const CommonArguments&);
+int respond_skin(const RespondArguments&, const CommonArguments&);
+int compare_trains(const CompareArguments&, const CommonArguments&);
+int study(const StudyArguments&, const CommonArguments&);
+int run(const RunArguments&, const CommonArguments&);
+int export_to(const ExportArguments&, const CommonArguments&);
+int sweep(const SweepArguments&, const CommonArguments&);
+int sweep_merge(const SweepMergeArguments&, const CommonArguments&);
+int sweep_calibrate(const SweepCalibrateArguments&, const CommonArguments&);
+int sweep_dump(const std::string& results, const CommonArguments&);
+int sweep_show(const SweepShowArguments&, const CommonArguments&);
+int stream(const StreamArguments&, const CommonArguments&);
+int list(const ListArguments&, const CommonArguments&);
 
 }  // namespace corpuscle

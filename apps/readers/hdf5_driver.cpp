@@ -21,7 +21,7 @@ struct DescriptorFile : H5FD_t {
 
 H5FD_t* open_descriptor(const char* name, unsigned flags, hid_t, haddr_t) {
     struct stat about{};
-    if (std::strcmp(name, the_file) != 0 || (flags & H5F_ACC_RDWR) || ::fstat(file_descriptor, &about) != 0) return nullptr;
+    if (std::strcmp(name, only_file_name) != 0 || (flags & H5F_ACC_RDWR) || ::fstat(file_descriptor, &about) != 0) return nullptr;
     auto* file = new (std::nothrow) DescriptorFile{};
     if (!file) return nullptr;
     file->descriptor = file_descriptor;
@@ -86,7 +86,7 @@ hid_t driver() {
 
 }  // namespace
 
-hid_t access_to(int descriptor) {
+hid_t descriptor_access(int descriptor) {
     file_descriptor = descriptor;
     const hid_t access = H5Pcreate(H5P_FILE_ACCESS);
     if (access >= 0 && H5Pset_driver(access, driver(), nullptr) < 0) {

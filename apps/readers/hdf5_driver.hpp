@@ -5,9 +5,9 @@
 
 namespace corpuscle::hdf5 {
 
-inline constexpr const char* the_file = "file";  ///< the only name that can be opened
+inline constexpr const char* only_file_name = "file";  ///< the only name that can be opened
 
 /// A property list for H5Fopen that reads the descriptor; negative on failure. The caller closes it.
-hid_t access_to(int descriptor);
+hid_t descriptor_access(int descriptor);
 
 }  // namespace corpuscle::hdf5

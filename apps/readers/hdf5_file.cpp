@@ -14,10 +14,10 @@ namespace {
 constexpr std::size_t max_datasets = 10000;  // further datasets are ignored
 constexpr std::size_t max_text = 1 << 20;    // characters, or strings, of one attribute
 
-Id space_of(hid_t dataset) { return {H5Dget_space(dataset), H5Sclose}; }
+Handle space_of(hid_t dataset) { return {H5Dget_space(dataset), H5Sclose}; }
 
-Id attribute_of(hid_t object, const std::string& name) {
-    return H5Aexists(object, name.c_str()) > 0 ? Id(H5Aopen(object, name.c_str(), H5P_DEFAULT), H5Aclose) : Id();
+Handle attribute_of(hid_t object, const std::string& name) {
+    return H5Aexists(object, name.c_str()) > 0 ? Handle(H5Aopen(object, name.c_str(), H5P_DEFAULT), H5Aclose) : Handle();
 }
 
 /// Text up to its first zero, without trailing blanks.
@@ -62,19 +62,19 @@ herr_t add_dataset_name(hid_t, const char* name, const H5O_info_t* info, void* t
 
 }  // namespace
 
-Result<Id> open_file(int descriptor, const std::string& path) {
+Result<Handle> open_file(int descriptor, const std::string& path) {
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
     H5PLset_loading_state(0);
-    const Id access(access_to(descriptor), H5Pclose);
+    const Handle access(descriptor_access(descriptor), H5Pclose);
     if (!access) return bad_input("cannot set up the HDF5 library", {path});
     if (!has_signature(descriptor)) return bad_input("not an HDF5 file (in MATLAB use save -v7.3)", {path});
-    Id file(H5Fopen(the_file, H5F_ACC_RDONLY, access), H5Fclose);
+    Handle file(H5Fopen(only_file_name, H5F_ACC_RDONLY, access), H5Fclose);
     if (!file) return bad_input("cannot open this HDF5 file; it may be damaged or truncated", {path});
     return file;
 }
 
-Id open_dataset(hid_t file, const std::string& name) {
-    const Id access(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose);
+Handle open_dataset(hid_t file, const std::string& name) {
+    const Handle access(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose);
     H5Pset_chunk_cache(access, 1, 0, 0.75);
     return {H5Dopen2(file, name.c_str(), access), H5Dclose};
 }
@@ -84,12 +84,12 @@ bool is_number(hid_t type) {
     return kind == H5T_INTEGER || kind == H5T_FLOAT;
 }
 
-std::vector<Member> numeric_members(hid_t type) {
-    std::vector<Member> out;
+std::vector<CompoundMember> numeric_members(hid_t type) {
+    std::vector<CompoundMember> out;
     const int count = H5Tget_class(type) == H5T_COMPOUND ? H5Tget_nmembers(type) : 0;
     for (int k = 0; k < count; ++k) {
         const auto index = static_cast<unsigned>(k);
-        const Id member(H5Tget_member_type(type, index), H5Tclose);
+        const Handle member(H5Tget_member_type(type, index), H5Tclose);
         const std::unique_ptr<char, herr_t (*)(void*)> name(H5Tget_member_name(type, index), H5free_memory);
         if (member && name && is_number(member)) out.push_back({name.get(), index});
     }
@@ -97,9 +97,9 @@ std::vector<Member> numeric_members(hid_t type) {
     return out;
 }
 
-ArrayInfo facts_of(hid_t dataset, std::string name) {
+ArrayInfo array_info(hid_t dataset, std::string name) {
     ArrayInfo facts{std::move(name), {}, false};
-    const Id type(H5Dget_type(dataset), H5Tclose), space = space_of(dataset);
+    const Handle type(H5Dget_type(dataset), H5Tclose), space = space_of(dataset);
     const int rank = space ? H5Sget_simple_extent_ndims(space) : -1;
     if (!type || rank < 0 || H5Sget_simple_extent_type(space) == H5S_NULL) return facts;
     std::vector<hsize_t> shape(static_cast<std::size_t>(rank));
@@ -114,35 +114,35 @@ std::vector<ArrayInfo> datasets_in(hid_t file) {
     (void)H5Ovisit2(file, H5_INDEX_NAME, H5_ITER_INC, add_dataset_name, &names, H5O_INFO_BASIC);
     std::vector<ArrayInfo> out;
     for (const auto& name : names)
-        if (const auto dataset = open_dataset(file, name)) out.push_back(facts_of(dataset, name));
+        if (const auto dataset = open_dataset(file, name)) out.push_back(array_info(dataset, name));
     return out;
 }
 
-std::optional<double> number_at(hid_t object, const std::string& name) {
+std::optional<double> number_attribute(hid_t object, const std::string& name) {
     const auto attribute = attribute_of(object, name);
     if (!attribute) return {};
-    const Id type(H5Aget_type(attribute), H5Tclose), space(H5Aget_space(attribute), H5Sclose);
+    const Handle type(H5Aget_type(attribute), H5Tclose), space(H5Aget_space(attribute), H5Sclose);
     double value = 0;
     if (!is_number(type) || H5Sget_simple_extent_npoints(space) != 1 || H5Aread(attribute, H5T_NATIVE_DOUBLE, &value) < 0) return {};
     return value;
 }
 
-std::vector<std::string> words_at(hid_t object, const std::string& name) {
+std::vector<std::string> string_attributes(hid_t object, const std::string& name) {
     const auto attribute = attribute_of(object, name);
     if (!attribute) return {};
-    const Id type(H5Aget_type(attribute), H5Tclose), space(H5Aget_space(attribute), H5Sclose);
+    const Handle type(H5Aget_type(attribute), H5Tclose), space(H5Aget_space(attribute), H5Sclose);
     const auto count = H5Sget_simple_extent_npoints(space);
     if (H5Tget_class(type) != H5T_STRING || count < 1 || static_cast<std::size_t>(count) > max_text) return {};
     return H5Tis_variable_str(type) > 0 ? variable_length_strings(attribute, type, space, static_cast<std::size_t>(count))
                                         : fixed_length_strings(attribute, type, static_cast<std::size_t>(count));
 }
 
-std::optional<std::string> text_at(hid_t object, const std::string& name) {
-    auto words = words_at(object, name);
+std::optional<std::string> text_attribute(hid_t object, const std::string& name) {
+    auto words = string_attributes(object, name);
     return words.size() == 1 ? std::optional(std::move(words[0])) : std::nullopt;
 }
 
-std::vector<std::string> attributes_of(hid_t object) {
+std::vector<std::string> attribute_names(hid_t object) {
     std::vector<std::string> names;
     (void)H5Aiterate2(
         object, H5_INDEX_NAME, H5_ITER_INC, nullptr,
@@ -155,7 +155,7 @@ std::vector<std::string> attributes_of(hid_t object) {
 }
 
 std::optional<double> single_number(hid_t dataset) {
-    const Id type(H5Dget_type(dataset), H5Tclose), space = space_of(dataset);
+    const Handle type(H5Dget_type(dataset), H5Tclose), space = space_of(dataset);
     double value = 0;
     if (!is_number(type) || H5Sget_simple_extent_npoints(space) != 1 ||
         H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, &value) < 0)

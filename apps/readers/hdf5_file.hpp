@@ -13,16 +13,16 @@
 namespace corpuscle::hdf5 {
 
 /// A handle of any kind; negative: none.
-class Id {
+class Handle {
     hid_t id_ = -1;
     herr_t (*close_)(hid_t) = nullptr;
 
 public:
-    Id() = default;
-    Id(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {}
-    Id(Id&& o) noexcept : id_(std::exchange(o.id_, -1)), close_(o.close_) {}
-    Id& operator=(Id&& o) noexcept { return std::swap(id_, o.id_), std::swap(close_, o.close_), *this; }
-    ~Id() {
+    Handle() = default;
+    Handle(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {}
+    Handle(Handle&& o) noexcept : id_(std::exchange(o.id_, -1)), close_(o.close_) {}
+    Handle& operator=(Handle&& o) noexcept { return std::swap(id_, o.id_), std::swap(close_, o.close_), *this; }
+    ~Handle() {
         if (id_ >= 0) close_(id_);
     }
     operator hid_t() const { return id_; }
@@ -30,29 +30,29 @@ public:
 };
 
 /// Opens the file in a descriptor; `path` is for messages.
-Result<Id> open_file(int descriptor, const std::string& path);
+Result<Handle> open_file(int descriptor, const std::string& path);
 
 /// Opens a dataset by its path. The chunk cache of HDF5 is disabled, because hdf5_samples.cpp reads complete chunks.
-Id open_dataset(hid_t file, const std::string& name);
+Handle open_dataset(hid_t file, const std::string& name);
 
-ArrayInfo facts_of(hid_t dataset, std::string name);
+ArrayInfo array_info(hid_t dataset, std::string name);
 
 /// All datasets that are reachable by hard links, ordered by name.
 std::vector<ArrayInfo> datasets_in(hid_t file);
 
 /// A numeric member of a compound type.
-struct Member {
+struct CompoundMember {
     std::string name;
     unsigned index;
 };
-std::vector<Member> numeric_members(hid_t type);
+std::vector<CompoundMember> numeric_members(hid_t type);
 bool is_number(hid_t type);
 
 // Attributes of a dataset or group; empty if there is none of this name and kind.
-std::optional<double> number_at(hid_t object, const std::string& attribute);
-std::optional<std::string> text_at(hid_t object, const std::string& attribute);
-std::vector<std::string> words_at(hid_t object, const std::string& attribute);
-std::vector<std::string> attributes_of(hid_t object);
+std::optional<double> number_attribute(hid_t object, const std::string& attribute);
+std::optional<std::string> text_attribute(hid_t object, const std::string& attribute);
+std::vector<std::string> string_attributes(hid_t object, const std::string& attribute);
+std::vector<std::string> attribute_names(hid_t object);
 
 /// The value of a dataset with a single number.
 std::optional<double> single_number(hid_t dataset);

@@ -12,7 +12,7 @@
 namespace corpuscle {
 namespace {
 
-using hdf5::Id;
+using hdf5::Handle;
 
 constexpr std::size_t default_band = std::size_t{1} << 20, max_band = std::size_t{1} << 26;  // numbers
 constexpr std::size_t max_passes = 16;                                                       // over one chunk
@@ -23,13 +23,13 @@ std::string parent_of(const std::string& name) { return name.substr(0, std::max<
 
 class Hdf5Samples final : public Samples {
     std::string path_, name_;
-    Id dataset_;
+    Handle dataset_;
     ArrayExtent extent_;
     std::size_t rank_ = 1;
     std::vector<std::string> members_;  // the columns of a compound type
     double factor_ = 1, offset_ = 0;    // scaling attributes of NWB
     SamplesInfo facts_;
-    hdf5::Storage storage_;
+    hdf5::StorageInfo storage_;
 
     // The rows in memory: a band of one or several complete chunks, so that each chunk is decompressed only once.
     std::vector<double> band_;
@@ -46,7 +46,7 @@ class Hdf5Samples final : public Samples {
     Result<void> load(hid_t type) {
         std::array<hsize_t, 2> start{first_, low_}, count{band_rows_, members_.empty() ? width_ : 1};
         if (extent_.is_transposed && rank_ == 2) std::swap(start[0], start[1]), std::swap(count[0], count[1]);
-        const Id space(H5Dget_space(dataset_), H5Sclose),
+        const Handle space(H5Dget_space(dataset_), H5Sclose),
             memory(H5Screate_simple(static_cast<int>(rank_), count.data(), nullptr), H5Sclose);
         if (H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr) < 0 ||
             H5Dread(dataset_, type, memory, space, H5P_DEFAULT, band_.data()) < 0)
@@ -66,7 +66,7 @@ class Hdf5Samples final : public Samples {
             for (auto column = low_ / chunk_columns() * chunk_columns(); column < high; column += chunk_columns()) {
                 std::array<hsize_t, 2> offset{row, column};
                 if (extent_.is_transposed && rank_ == 2) std::swap(offset[0], offset[1]);
-                if (hdf5::is_written(dataset_, std::span(offset).first(rank_))) continue;
+                if (hdf5::is_chunk_written(dataset_, std::span(offset).first(rank_))) continue;
                 const auto from = std::max(row, first_) - first_, to = std::min(row + chunk_rows(), first_ + band_rows_) - first_;
                 const auto left = members_.empty() ? std::max(column, low_) - low_ : 0,
                            right = members_.empty() ? std::min(column + chunk_columns(), low_ + width_) - low_ : width_;
@@ -105,8 +105,8 @@ class Hdf5Samples final : public Samples {
         width_ = members_.empty() ? *max - *min + 1 : columns.size();
         if (auto ok = choose_rows(row); !ok) return band_rows_ = 0, ok;
         band_.resize(band_rows_ * width_);
-        Id compound;
-        if (!members_.empty()) compound = Id(H5Tcreate(H5T_COMPOUND, width_ * sizeof(double)), H5Tclose);
+        Handle compound;
+        if (!members_.empty()) compound = Handle(H5Tcreate(H5T_COMPOUND, width_ * sizeof(double)), H5Tclose);
         for (std::size_t i = 0; compound && i < width_; ++i)
             H5Tinsert(compound, members_[columns[i]].c_str(), i * sizeof(double), H5T_NATIVE_DOUBLE);
         if (auto ok = load(members_.empty() ? H5T_NATIVE_DOUBLE : compound); !ok) return band_rows_ = 0, ok;
@@ -121,24 +121,24 @@ class Hdf5Samples final : public Samples {
 
     /// MATLAB stores matrices by columns, so the first dimension in HDF5 is the second of MATLAB.
     Result<void> take_shape(const ArrayInfo& facts, ExtentHints hints) {
-        hints.is_column_major = hdf5::text_at(dataset_, "MATLAB_class").has_value();
+        hints.is_column_major = hdf5::text_attribute(dataset_, "MATLAB_class").has_value();
         for (const auto* attribute : names_of_channels)
-            if (const auto words = hdf5::words_at(dataset_, attribute); words.size() > 1) hints.channel_names = words.size();
+            if (const auto words = hdf5::string_attributes(dataset_, attribute); words.size() > 1) hints.channel_names = words.size();
         const auto extent = extent_of(facts, path_, hints);
         if (!extent) return extent.error();
         extent_ = *extent;
         rank_ = facts.shape.size();
         if (!extent_.note.empty()) facts_.notes.push_back(extent_.note);
         facts_.rows = static_cast<std::int64_t>(extent_.rows);
-        auto storage = hdf5::storage_of(dataset_, facts, path_);
+        auto storage = hdf5::check_storage(dataset_, facts, path_);
         if (!storage) return storage.error();
         storage_ = *std::move(storage);
-        facts_.notes.insert(facts_.notes.end(), storage_.remarks.begin(), storage_.remarks.end());
+        facts_.notes.insert(facts_.notes.end(), storage_.notes.begin(), storage_.notes.end());
         return {};
     }
 
     Result<void> name_columns() {
-        const Id type(H5Dget_type(dataset_), H5Tclose);
+        const Handle type(H5Dget_type(dataset_), H5Tclose);
         for (const auto& m : hdf5::numeric_members(type)) members_.push_back(m.name), facts_.columns.push_back(parse_heading(m.name));
         if (!members_.empty() && extent_.columns > 1)
             return bad_input(fmt::format("{}: compound types must have one dimension", name_), {path_});
@@ -147,7 +147,7 @@ class Hdf5Samples final : public Samples {
         facts_.columns =
             columns_named_after(name == "data" ? last_path_component(parent_of(name_)) : name, static_cast<std::size_t>(extent_.columns));
         for (const auto* attribute : names_of_channels)
-            if (const auto words = hdf5::words_at(dataset_, attribute); words.size() == facts_.columns.size())
+            if (const auto words = hdf5::string_attributes(dataset_, attribute); words.size() == facts_.columns.size())
                 for (std::size_t c = 0; c < words.size(); ++c) {
                     auto heading = parse_heading(words[c]);
                     if (heading.unit.empty()) heading.unit = facts_.columns[c].unit;
@@ -158,16 +158,16 @@ class Hdf5Samples final : public Samples {
 
     void take_unit() {
         for (const auto* attribute : {"unit", "units"})
-            if (const auto unit = hdf5::text_at(dataset_, attribute))
+            if (const auto unit = hdf5::text_attribute(dataset_, attribute))
                 for (auto& column : facts_.columns)
                     if (members_.empty() || (column.unit.empty() && !is_time_name(column.name))) column.unit = *unit;
         if (!members_.empty()) return;
-        factor_ = hdf5::number_at(dataset_, "conversion").value_or(1);
-        offset_ = hdf5::number_at(dataset_, "offset").value_or(0);
+        factor_ = hdf5::number_attribute(dataset_, "conversion").value_or(1);
+        offset_ = hdf5::number_attribute(dataset_, "offset").value_or(0);
     }
 
 public:
-    Hdf5Samples(std::string path, std::string name, Id dataset)
+    Hdf5Samples(std::string path, std::string name, Handle dataset)
         : path_(std::move(path)), name_(std::move(name)), dataset_(std::move(dataset)) {}
 
     Result<void> open(const ArrayInfo& facts, const ExtentHints& hints) {
@@ -199,9 +199,9 @@ public:
 
 /// The sampling rate in the attributes of an object.
 std::optional<double> rate_at(hid_t object) {
-    for (const auto& name : hdf5::attributes_of(object))
+    for (const auto& name : hdf5::attribute_names(object))
         if (is_rate_name(name))
-            if (const auto rate = hdf5::number_at(object, name)) return rate;
+            if (const auto rate = hdf5::number_attribute(object, name)) return rate;
     return {};
 }
 
@@ -216,7 +216,7 @@ std::optional<double> rate_of(hid_t file, const std::string& name, std::span<con
         if (const auto rate = is_rate_name(last_path_component(a.name)) ? hdf5::single_number(dataset) : std::nullopt) return rate;
     }
     for (auto group = parent_of(name);; group = parent_of(group)) {
-        if (const Id object(H5Oopen(file, group.c_str(), H5P_DEFAULT), H5Oclose); object)
+        if (const Handle object(H5Oopen(file, group.c_str(), H5P_DEFAULT), H5Oclose); object)
             if (const auto rate = rate_at(object)) return rate;
         if (group == "/") return {};
     }

@@ -83,8 +83,8 @@ hsize_t bytes_of(std::span<const hsize_t> counts, size_t element) {
     return bytes;
 }
 
-Result<void> check_chunks(hid_t dataset, hid_t properties, const ArrayInfo& facts, const std::string& path, Storage& storage) {
-    const Id space(H5Dget_space(dataset), H5Sclose), type(H5Dget_type(dataset), H5Tclose);
+Result<void> check_chunks(hid_t dataset, hid_t properties, const ArrayInfo& facts, const std::string& path, StorageInfo& storage) {
+    const Handle space(H5Dget_space(dataset), H5Sclose), type(H5Dget_type(dataset), H5Tclose);
     storage.chunk.resize(facts.shape.size());
     if (H5Pget_chunk(properties, static_cast<int>(storage.chunk.size()), storage.chunk.data()) < 0 ||
         std::any_of(storage.chunk.begin(), storage.chunk.end(), [](auto n) { return n == 0; }))
@@ -112,7 +112,7 @@ Result<void> check_chunks(hid_t dataset, hid_t properties, const ArrayInfo& fact
     H5D_fill_value_t fill = H5D_FILL_VALUE_UNDEFINED;
     (void)H5Pfill_value_defined(properties, &fill);
     storage.has_gaps = fill != H5D_FILL_VALUE_USER_DEFINED;
-    storage.remarks.push_back(
+    storage.notes.push_back(
         fmt::format("{}: {} of its {} chunks were never written; {}", facts.name, expected - stored, expected,
                     storage.has_gaps ? "their readings are treated as bad" : "their readings are the fill value of the file"));
     return {};
@@ -120,9 +120,9 @@ Result<void> check_chunks(hid_t dataset, hid_t properties, const ArrayInfo& fact
 
 }  // namespace
 
-Result<Storage> storage_of(hid_t dataset, const ArrayInfo& facts, const std::string& path) {
-    Storage storage;
-    const Id properties(H5Dget_create_plist(dataset), H5Pclose), type(H5Dget_type(dataset), H5Tclose);
+Result<StorageInfo> check_storage(hid_t dataset, const ArrayInfo& facts, const std::string& path) {
+    StorageInfo storage;
+    const Handle properties(H5Dget_create_plist(dataset), H5Pclose), type(H5Dget_type(dataset), H5Tclose);
     const auto layout = H5Pget_layout(properties);
     if (auto files = external_files(properties); !files.empty()) return data_elsewhere(facts, files, path);
     if (layout == H5D_VIRTUAL) return data_elsewhere(facts, virtual_sources(properties), path);
@@ -140,7 +140,7 @@ Result<Storage> storage_of(hid_t dataset, const ArrayInfo& facts, const std::str
     return storage;
 }
 
-bool is_written(hid_t dataset, std::span<const hsize_t> offset) {
+bool is_chunk_written(hid_t dataset, std::span<const hsize_t> offset) {
     hsize_t bytes = 0;
     return H5Dget_chunk_storage_size(dataset, offset.data(), &bytes) >= 0 && bytes > 0;
 }

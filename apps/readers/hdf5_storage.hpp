@@ -6,16 +6,16 @@
 
 namespace corpuscle::hdf5 {
 
-struct Storage {
+struct StorageInfo {
     std::vector<hsize_t> chunk = {};  ///< in each dimension of the dataset; empty: not chunked
     bool has_gaps = false;            ///< some chunks were never written
-    std::vector<std::string> remarks = {};
+    std::vector<std::string> notes = {};
 };
 
 /// Rejects data in other files, data that were never written, and filters that are not available.
-Result<Storage> storage_of(hid_t dataset, const ArrayInfo&, const std::string& path);
+Result<StorageInfo> check_storage(hid_t dataset, const ArrayInfo&, const std::string& path);
 
 /// True if the chunk that begins at this element was written.
-bool is_written(hid_t dataset, std::span<const hsize_t> offset);
+bool is_chunk_written(hid_t dataset, std::span<const hsize_t> offset);
 
 }  // namespace corpuscle::hdf5

@@ -7,20 +7,20 @@ namespace corpuscle {
 void Envelope::add(double value) {
     const auto x = static_cast<float>(value);
     if (bucket_ == 1) {
-        if (values_.size() < most_) return values_.push_back(x);
+        if (values_.size() < max_points_) return values_.push_back(x);
         double_bucket();
     }
-    if (in_last_ == bucket_) {
-        if (values_.size() / 2 >= most_) double_bucket();
-        if (in_last_ == bucket_) in_last_ = 0;
+    if (last_count_ == bucket_) {
+        if (values_.size() / 2 >= max_points_) double_bucket();
+        if (last_count_ == bucket_) last_count_ = 0;
     }
-    if (in_last_ == 0) {
+    if (last_count_ == 0) {
         values_.insert(values_.end(), {x, x});
     } else {
         auto* last = &values_[values_.size() - 2];
         last[0] = std::min(last[0], x), last[1] = std::max(last[1], x);
     }
-    ++in_last_;
+    ++last_count_;
 }
 
 void Envelope::double_bucket() {
@@ -33,7 +33,7 @@ void Envelope::double_bucket() {
         merged.insert(merged.end(), {*min, *max});
     }
     const auto buckets = static_cast<std::int64_t>(values_.size() / width);
-    in_last_ = (buckets % 2 == 1 ? 0 : bucket_) + (bucket_ == 1 ? 1 : in_last_);
+    last_count_ = (buckets % 2 == 1 ? 0 : bucket_) + (bucket_ == 1 ? 1 : last_count_);
     values_ = std::move(merged);
     bucket_ *= 2;
 }

@@ -10,13 +10,13 @@ namespace corpuscle {
 
 class Envelope {
     std::vector<float> values_;  // bucket 1: samples; else min, max, min, max ...
-    std::int64_t bucket_ = 1, in_last_ = 0;
-    std::size_t most_;
+    std::int64_t bucket_ = 1, last_count_ = 0;
+    std::size_t max_points_;
 
     void double_bucket();
 
 public:
-    explicit Envelope(std::size_t max_points = std::size_t{1} << 20) : most_(max_points) {}
+    explicit Envelope(std::size_t max_points = std::size_t{1} << 20) : max_points_(max_points) {}
     void add(double value);
     std::int64_t bucket() const { return bucket_; }
     /// The number of samples, or of pairs.

@@ -4,17 +4,17 @@
 
 namespace corpuscle {
 
-nlohmann::ordered_json frames_document(const Framed<std::uint32_t>& framed, double T) {
+nlohmann::ordered_json frames_document(const BinnedFrames<std::uint32_t>& framed, double T) {
     PackedNumbers bytes;
     const auto frames = framed.frames();
-    for (const auto& f : frames) bytes.frame(f, framed.places(), [](std::uint32_t n) { return std::uint64_t{n}; });
+    for (const auto& f : frames) bytes.append_frame(f, framed.places(), [](std::uint32_t n) { return std::uint64_t{n}; });
     return {{"count", frames.size()},
             {"width", static_cast<double>(framed.width()) * T},
             {"places", framed.places()},
-            {"data", array64(bytes.all)}};
+            {"data", array64(bytes.bytes)}};
 }
 
-nlohmann::ordered_json force_document(const Framed<double>& sites, double T, std::int64_t samples) {
+nlohmann::ordered_json force_document(const BinnedFrames<double>& sites, double T, std::int64_t samples) {
     const auto frames = sites.frames();
     const auto length = [&](std::size_t k) {
         return static_cast<double>(std::clamp<std::int64_t>(samples - static_cast<std::int64_t>(k) * sites.width(), 1, sites.width()));
@@ -24,7 +24,7 @@ nlohmann::ordered_json force_document(const Framed<double>& sites, double T, std
         for (const auto& e : frames[k]) max = std::max(max, e.value / length(k));
     PackedNumbers bytes;
     for (std::size_t k = 0; k < frames.size(); ++k)
-        bytes.frame(frames[k], sites.places(), [&](double sum) {
+        bytes.append_frame(frames[k], sites.places(), [&](double sum) {
             const double fraction = max > 0 ? sum / length(k) / max : 0;
             return fraction > 0 ? static_cast<std::uint64_t>(std::clamp(std::lround(254 * fraction), 1L, 254L)) : std::uint64_t{0};
         });
@@ -32,7 +32,7 @@ nlohmann::ordered_json force_document(const Framed<double>& sites, double T, std
             {"width", static_cast<double>(sites.width()) * T},
             {"places", sites.places()},
             {"greatest", max},
-            {"data", array64(bytes.all)}};
+            {"data", array64(bytes.bytes)}};
 }
 
 }  // namespace corpuscle

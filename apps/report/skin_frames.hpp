@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "report/envelope.hpp"
-#include "report/framed.hpp"
+#include "report/binned_frames.hpp"
 
 namespace corpuscle {
 
@@ -16,33 +16,33 @@ std::string array64(const std::vector<T>& values) {
 /// Variable-length integers (LEB128): seven bits per byte, lowest first; the highest bit marks that more bytes follow.
 class PackedNumbers {
 public:
-    std::vector<unsigned char> all;
-    void number(std::uint64_t n) {
-        for (; n >= 128; n >>= 7) all.push_back(static_cast<unsigned char>(n | 128));
-        all.push_back(static_cast<unsigned char>(n));
+    std::vector<unsigned char> bytes;
+    void append_number(std::uint64_t n) {
+        for (; n >= 128; n >>= 7) bytes.push_back(static_cast<unsigned char>(n | 128));
+        bytes.push_back(static_cast<unsigned char>(n));
     }
     /// Encodes a frame: levels 1 to 254 as one byte, larger ones as 255 and a number, runs of zeros as 0 and their length.
     template <class Frame, class Level>
-    void frame(const Frame& f, std::size_t places, Level level) {
+    void append_frame(const Frame& f, std::size_t places, Level level) {
         std::size_t at = 0;
         const auto zeros_to = [&](std::size_t place) {
-            if (place > at) all.push_back(0), number(place - at);
+            if (place > at) bytes.push_back(0), append_number(place - at);
             at = place + 1;
         };
         for (const auto& [place, value] : f) {
             zeros_to(place);
             const std::uint64_t n = level(value);
-            all.push_back(static_cast<unsigned char>(std::min<std::uint64_t>(n, 255)));
-            if (n >= 255) number(n);
+            bytes.push_back(static_cast<unsigned char>(std::min<std::uint64_t>(n, 255)));
+            if (n >= 255) append_number(n);
         }
         zeros_to(places);
     }
 };
 
 /// Spike counts in frames. T: sampling period, s.
-nlohmann::ordered_json frames_document(const Framed<std::uint32_t>&, double T);
+nlohmann::ordered_json frames_document(const BinnedFrames<std::uint32_t>&, double T);
 
 /// Mean force of each mark in each frame, in steps of 1/254 of the maximum.
-nlohmann::ordered_json force_document(const Framed<double>& sites, double T, std::int64_t samples);
+nlohmann::ordered_json force_document(const BinnedFrames<double>& sites, double T, std::int64_t samples);
 
 }  // namespace corpuscle

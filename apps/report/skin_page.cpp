@@ -4,8 +4,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "report/parts_document.hpp"
-#include "report/template.hpp"
+#include "report/common_documents.hpp"
+#include "report/page_template.hpp"
 #include "signal/version.hpp"
 
 namespace corpuscle {
@@ -89,8 +89,8 @@ std::string skin_page(const SkinSummary& summary, const SkinReport& report, cons
                        {"marks", marks_document(summary, report.marks())},
                        {"classes", classes_document(summary.skin())},
                        {"over", report.document()},
-                       {"versions", {{"corpuscle", version}, {"compiler", compiler()}}}};
-    return filled(asset("skin.html"), escaped(title), safe_json(page));
+                       {"versions", {{"corpuscle", version}, {"compiler", compiler_version()}}}};
+    return fill_template(asset("skin.html"), escape_html(title), script_json(page));
 }
 
 }  // namespace corpuscle

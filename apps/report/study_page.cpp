@@ -5,7 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "report/template.hpp"
+#include "report/page_template.hpp"
 #include "signal/version.hpp"
 #include "study/study_document.hpp"
 
@@ -61,7 +61,7 @@ std::string study_page(std::span<const Study* const> studies, std::span<const St
                            {"command", command},
                            {"tally", verdict_counts(outcomes)},
                            {"studies", all}};
-    return filled(asset("study.html"), escaped(title), safe_json(document));
+    return fill_template(asset("study.html"), escape_html(title), script_json(document));
 }
 
 }  // namespace corpuscle

@@ -6,7 +6,7 @@
 #include <map>
 
 #include "report/sweep_plots.hpp"
-#include "report/template.hpp"
+#include "report/page_template.hpp"
 #include "signal/version.hpp"
 #include "study/sweep/mismatch_samples.hpp"
 #include "study/sweep/sweep_document.hpp"
@@ -35,7 +35,7 @@ public:
         const auto column = [&](const std::vector<double>& all) {
             std::vector<double> selected;
             for (const auto& [row, n] : number_) selected.push_back(all[row]);
-            return shown_numbers(selected);
+            return rounded_numbers(selected);
         };
         for (const auto& [row, n] : number_) {
             out["row"].push_back(row), out["unit"].push_back(table_.items[row]), out["end"].push_back(static_cast<int>(table_.ends[row]));
@@ -46,7 +46,7 @@ public:
         for (const auto& m : table_.measure_values) out["measures"].push_back(column(m));
         for (const auto& g : groupings) {
             out["groups"].push_back(Json::array());
-            for (const auto& [row, n] : number_) out["groups"].back().push_back(g.by.group_of[row]);
+            for (const auto& [row, n] : number_) out["groups"].back().push_back(g.row_groups.group_of[row]);
         }
         return out;
     }
@@ -81,7 +81,7 @@ Json factor_document(const SweepTable& table, const SweepSummary& s, const Named
     auto deviates = deviates_of(device, s.mismatch->seed, chips);
     auto& values = i.quantity == "V_T" ? deviates.V_T : deviates.I_S;
     for (auto& x : values) x *= i.quantity == "V_T" ? device.sigma_VT : 100 * device.sigma_IS;
-    out["unit"] = i.quantity == "V_T" ? "V" : "%", out["values"] = shown_numbers(values);
+    out["unit"] = i.quantity == "V_T" ? "V" : "%", out["values"] = rounded_numbers(values);
     return out;
 }
 
@@ -101,7 +101,7 @@ Json factors_document(const SweepTable& table, const SweepSummary& s, const std:
 
 Json matrix_of(const std::vector<std::vector<double>>& rows) {
     Json out = Json::array();
-    for (const auto& row : rows) out.push_back(shown_numbers(row));
+    for (const auto& row : rows) out.push_back(rounded_numbers(row));
     return out;
 }
 
@@ -114,15 +114,15 @@ Json grids_document(const SweepTable& table) {
         Json one = {{"effects", Json::array()}, {"pairs", Json::array()}};
         for (const auto& e : effects)
             one["effects"].push_back(
-                {{"axis", e.axis}, {"share", e.fraction}, {"values", shown_numbers(table.points[e.axis])}, {"means", shown_numbers(e.means)}});
+                {{"axis", e.axis}, {"share", e.fraction}, {"values", rounded_numbers(table.points[e.axis])}, {"means", rounded_numbers(e.means)}});
         for (std::size_t a = 0; a < std::min(effects.size(), max_axes); ++a)
             for (std::size_t b = a + 1; b < std::min(effects.size(), max_axes); ++b) {
                 const auto x = effects[a].axis, y = effects[b].axis;
                 if (table.points[x].size() * table.points[y].size() > max_cells) continue;
                 one["pairs"].push_back({{"x", x},
                                         {"y", y},
-                                        {"xs", shown_numbers(table.points[x])},
-                                        {"ys", shown_numbers(table.points[y])},
+                                        {"xs", rounded_numbers(table.points[x])},
+                                        {"ys", rounded_numbers(table.points[y])},
                                         {"means", matrix_of(means_over(table, values, x, y))}});
             }
         out.push_back(std::move(one));
@@ -161,7 +161,7 @@ Result<std::string> sweep_page(const SweepResults& results, const SweepTable& ta
     page["groupings"] = Json::array();
     for (const auto& g : groupings) {
         Json labels = Json::array();
-        for (const auto& one : g.by.groups) labels.push_back(one.label.empty() ? "all items" : one.label);
+        for (const auto& one : g.row_groups.groups) labels.push_back(one.label.empty() ? "all items" : one.label);
         page["groupings"].push_back({{"name", g.name}, {"groups", labels}});
     }
     if (const auto samples = parse_mismatch_samples(results.about(mismatch_metadata_name)))
@@ -175,8 +175,8 @@ Result<std::string> sweep_page(const SweepResults& results, const SweepTable& ta
     for (const auto& values : table.measure_values) {
         page["histograms"].push_back(Json::array()), page["normal_plots"].push_back(Json::array());
         for (const auto& g : groupings) {
-            page["histograms"].back().push_back(histograms(values, g.by));
-            page["normal_plots"].back().push_back(normal_plots(values, g.by));
+            page["histograms"].back().push_back(histograms(values, g.row_groups));
+            page["normal_plots"].back().push_back(normal_plots(values, g.row_groups));
         }
         const auto extremes = extremes_of(values);
         page["extremes"].push_back(extremes);
@@ -204,7 +204,7 @@ Result<std::string> sweep_page(const SweepResults& results, const SweepTable& ta
     page["factors"] = factors_document(table, summary, points);
     page["sizes"] = sizes_document(summary);
     page["rows"] = shown.document(groupings);
-    return filled(asset("sweep.html"), escaped(title), safe_json(page));
+    return fill_template(asset("sweep.html"), escape_html(title), script_json(page));
 }
 
 }  // namespace corpuscle

@@ -73,7 +73,7 @@ struct EnvelopeStats {
 
 }  // namespace
 
-PlotJson shown_numbers(const std::vector<double>& values) {
+PlotJson rounded_numbers(const std::vector<double>& values) {
     PlotJson out = PlotJson::array();
     for (const double x : values) out.push_back(std::isfinite(x) ? PlotJson(rounded(x)) : PlotJson(nullptr));
     return out;
@@ -83,7 +83,7 @@ std::vector<Grouping> groupings_of(const SweepTable& table) {
     std::vector<Grouping> out = {{"all together", group_rows_by_axes(table, {})}};
     for (std::size_t a = 0; a < table.axes.size() && out.size() < 12; ++a) {
         auto groups = group_rows_by_axes(table, {a});
-        if (groups.groups.size() > 1 && groups.groups.size() <= most_groups_drawn) out.push_back({table.axes[a].name, std::move(groups)});
+        if (groups.groups.size() > 1 && groups.groups.size() <= max_groups) out.push_back({table.axes[a].name, std::move(groups)});
     }
     return out;
 }
@@ -127,9 +127,9 @@ PlotJson normal_plots(const std::vector<double>& values, const SweepGroups& grou
             scores.push_back(normal_quantile((static_cast<double>(k) + 1 - 0.375) / (n + 0.25)));
             points.push_back(sorted.values()[k]);
         }
-        out.push_back({{"scores", shown_numbers(scores)},
-                       {"values", shown_numbers(points)},
-                       {"correlation", shown_numbers({sorted.normality()})[0]}});
+        out.push_back({{"scores", rounded_numbers(scores)},
+                       {"values", rounded_numbers(points)},
+                       {"correlation", rounded_numbers({sorted.normality()})[0]}});
     }
     return out;
 }
@@ -161,18 +161,18 @@ Result<PlotJson> envelopes(const SweepResults& results, std::size_t trace, const
     PlotJson medians = PlotJson::array();
     for (const auto& g : groupings) {
         medians.push_back(PlotJson::array());
-        for (std::size_t k = 0; k < g.by.groups.size() && g.by.groups.size() > 1; ++k)
-            medians.back().push_back(shown_numbers(stats_over([&](std::size_t r) { return g.by.group_of[r] == k; }).median));
+        for (std::size_t k = 0; k < g.row_groups.groups.size() && g.row_groups.groups.size() > 1; ++k)
+            medians.back().push_back(rounded_numbers(stats_over([&](std::size_t r) { return g.row_groups.group_of[r] == k; }).median));
     }
     return PlotJson{{"name", results.probe_names()[trace]},
-                    {"times", shown_numbers(times)},
+                    {"times", rounded_numbers(times)},
                     {"every", results.probe_times().size() > max_times},
                     {"units", rows.size()},
-                    {"least", shown_numbers(overall.min)},
-                    {"low", shown_numbers(overall.low)},
-                    {"median", shown_numbers(overall.median)},
-                    {"high", shown_numbers(overall.high)},
-                    {"greatest", shown_numbers(overall.max)},
+                    {"least", rounded_numbers(overall.min)},
+                    {"low", rounded_numbers(overall.low)},
+                    {"median", rounded_numbers(overall.median)},
+                    {"high", rounded_numbers(overall.high)},
+                    {"greatest", rounded_numbers(overall.max)},
                     {"medians", medians}};
 }
 

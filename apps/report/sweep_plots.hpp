@@ -13,9 +13,9 @@ using PlotJson = nlohmann::ordered_json;
 /// A grouping of rows on the page: all together, or by the values of one axis.
 struct Grouping {
     std::string name;
-    SweepGroups by;
+    SweepGroups row_groups;
 };
-inline constexpr std::size_t most_groups_drawn = 16;
+inline constexpr std::size_t max_groups = 16;
 std::vector<Grouping> groupings_of(const SweepTable&);
 
 /// At most `max_rows` evenly spaced rows, including the first and the last.
@@ -35,6 +35,6 @@ Result<PlotJson> envelopes(const SweepResults&, std::size_t trace, const SweepTa
 Result<PlotJson> rasters(const SweepResults&, std::size_t train, const SweepTable&, const std::vector<std::size_t>& rows);
 
 /// Numbers with five digits, enough for a plot.
-PlotJson shown_numbers(const std::vector<double>&);
+PlotJson rounded_numbers(const std::vector<double>&);
 
 }  // namespace corpuscle

@@ -42,7 +42,7 @@ std::map<std::string, std::string> contents(const Folder& folder) {
     return all;
 }
 
-TEST(Outputs, NeverReplaceAFileThatTheCommandReads) {
+TEST(RespondOutputs, NeverReplaceAFileThatTheCommandReads) {
     const Folder folder;
     folder.write("a.cir", std::string(small_deck) + ".include part-1.csv\n");
     folder.write("part-1.csv", "* nothing\n");
@@ -82,7 +82,7 @@ TEST(Outputs, NeverReplaceAFileThatTheCommandReads) {
         << "a state is replaced by its successor";
 }
 
-TEST(Outputs, ReplaceAFileThatNoEarlierRunWroteOnlyIfAskedTo) {
+TEST(RespondOutputs, ReplaceAFileThatNoEarlierRunWroteOnlyIfAskedTo) {
     struct Case {
         const char *file, *words;
     };
@@ -108,7 +108,7 @@ TEST(Outputs, ReplaceAFileThatNoEarlierRunWroteOnlyIfAskedTo) {
     }
 }
 
-TEST(Outputs, ThatOnlyLookLikeOursAreNotReplaced) {
+TEST(RespondOutputs, ThatOnlyLookLikeOursAreNotReplaced) {
     const Folder folder;
     folder.write("a.cir", small_deck);
     const std::pair<const char*, const char*> others[] = {
@@ -129,7 +129,7 @@ TEST(Outputs, ThatOnlyLookLikeOursAreNotReplaced) {
     }
 }
 
-TEST(Outputs, NeverReplaceADeviceOrAPipe) {
+TEST(RespondOutputs, NeverReplaceADeviceOrAPipe) {
     const Folder folder;
     folder.write("b.cir", "small\nv1 in 0 1\nr1 in 0 1k\n.tran 10u 1m\n");
     for (const std::string name : {"a.csv", "a.raw"}) {
@@ -151,7 +151,7 @@ TEST(Outputs, NeverReplaceADeviceOrAPipe) {
     for (const auto* name : {"null.raw", "full.raw"}) EXPECT_TRUE(fs::is_character_file(folder / name)) << name;
 }
 
-TEST(Outputs, OfTheSameCommandAgainNeedNoWord) {
+TEST(RespondOutputs, OfTheSameCommandAgainNeedNoWord) {
     const Folder folder;
     folder.write("a.cir", small_deck);
     folder.write("f.csv", numbers());
@@ -173,7 +173,7 @@ TEST(Outputs, OfTheSameCommandAgainNeedNoWord) {
     EXPECT_EQ(test::run(folder, "stream --in press --pace fast -q -o empty.csv").status, 0) << "nothing is lost with it";
 }
 
-TEST(Outputs, TwoOfOneCommandAreTwoFiles) {
+TEST(RespondOutputs, TwoOfOneCommandAreTwoFiles) {
     const Folder folder;
     const auto ran = test::run(folder, "stream --in press --pace fast -o x.csv --save-state ./x.csv");
     EXPECT_EQ(ran.status, 2);
@@ -181,7 +181,7 @@ TEST(Outputs, TwoOfOneCommandAreTwoFiles) {
     EXPECT_TRUE(folder.names().empty());
 }
 
-TEST(Outputs, ASummaryOfOthersRemovesAndReplacesNothing) {
+TEST(RespondOutputs, ASummaryOfOthersRemovesAndReplacesNothing) {
     const Folder folder;
     for (const char* name : {"thesis.tex", "vectors.csv", "traces-x.csv", "notes.html", "target.csv"}) folder.write(name, "mine");
     fs::create_directory(folder / "d");
@@ -197,7 +197,7 @@ TEST(Outputs, ASummaryOfOthersRemovesAndReplacesNothing) {
     EXPECT_TRUE(fs::is_symlink(folder / "d/psth.csv"));
 }
 
-TEST(Outputs, AnInputThatAnEarlierRunWroteStays) {
+TEST(RespondOutputs, AnInputThatAnEarlierRunWroteStays) {
     const Folder folder;
     ASSERT_EQ(test::run(folder, "respond press --traces -o . -q").status, 0);
     const auto ran = test::run(folder, "respond traces.csv --channel 1 -o .");
@@ -206,7 +206,7 @@ TEST(Outputs, AnInputThatAnEarlierRunWroteStays) {
     EXPECT_EQ(ran.out.find("Removed"), std::string::npos) << ran.out;
 }
 
-TEST(Outputs, OfKilledRunsAreClearedByTheNext) {
+TEST(RespondOutputs, OfKilledRunsAreClearedByTheNext) {
     const Folder folder;
     const auto begin = [&](std::vector<std::string> words) {
         const pid_t child = test::fork_child();
@@ -236,7 +236,7 @@ TEST(Outputs, OfKilledRunsAreClearedByTheNext) {
     EXPECT_EQ(folder.names(), (std::vector<std::string>{"a", "mine.csv.part-3", "spikes.csv", "spikes.csv.part-iii", "summary.json"}));
 }
 
-TEST(Outputs, PartsFollowNoLinks) {
+TEST(RespondOutputs, PartsFollowNoLinks) {
     const Folder folder;
     folder.write("victim", "mine");
     const auto part = fmt::format("x.csv.part-{}", ::getpid());
@@ -258,7 +258,7 @@ TEST(Outputs, PartsFollowNoLinks) {
     EXPECT_EQ(read_file(folder / "victim"), "mine");
 }
 
-TEST(Outputs, ThatCostMoreThanASecondOrAreToBeTakenUpAreSyncedBeforeTheyHaveTheirNames) {
+TEST(RespondOutputs, ThatCostMoreThanASecondOrAreToBeTakenUpAreSyncedBeforeTheyHaveTheirNames) {
     const Folder folder;
     auto quick = test::sure(OutputFile::create(folder / "quick.csv")), kept = test::sure(OutputFile::create(folder / "x.state")),
          slow = test::sure(OutputFile::create(folder / "slow.csv"));
@@ -286,7 +286,7 @@ std::optional<bool> waits_for_its_place(const std::string& path) {
     return false;
 }
 
-TEST(Outputs, OfAShortRunAreOnTheirWayToTheDiskWhenTheyHaveTheirNames) {
+TEST(RespondOutputs, OfAShortRunAreOnTheirWayToTheDiskWhenTheyHaveTheirNames) {
     const Folder folder;
     const std::string text(100'000, 'x');
     if (waits_for_its_place(folder.write("plain", text)) != true) GTEST_SKIP() << "the file system does not tell what it has yet to write";
@@ -296,14 +296,14 @@ TEST(Outputs, OfAShortRunAreOnTheirWayToTheDiskWhenTheyHaveTheirNames) {
     EXPECT_EQ(waits_for_its_place(folder / "quick.csv"), false);
 }
 
-TEST(Outputs, ADeviceIsWrittenInPlace) {
+TEST(RespondOutputs, ADeviceIsWrittenInPlace) {
     auto file = test::sure(OutputFile::create("/dev/null"));
     EXPECT_TRUE(file.write("x"));
     EXPECT_TRUE(file.commit());
     EXPECT_TRUE(fs::is_character_file("/dev/null"));
 }
 
-TEST(Outputs, AFullDiskBehindStandardOutputIsAnError) {
+TEST(RespondOutputs, AFullDiskBehindStandardOutputIsAnError) {
     if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
     const Folder folder;
     folder.write("a.cir", small_deck);
@@ -318,7 +318,7 @@ TEST(Outputs, AFullDiskBehindStandardOutputIsAnError) {
     }
 }
 
-TEST(Outputs, AFileThatMayGrowNoFurtherIsAnErrorAndLeavesNothing) {
+TEST(RespondOutputs, AFileThatMayGrowNoFurtherIsAnErrorAndLeavesNothing) {
     const Folder folder;
     const auto status = std::system(
         ("cd '" + folder.path() + "' && (ulimit -f 8; exec '" + test::program() + "' respond press --traces -o big -q) 2>err").c_str());

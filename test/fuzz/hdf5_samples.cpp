@@ -18,7 +18,7 @@
 namespace corpuscle::fuzz {
 namespace {
 
-using hdf5::Id;
+using hdf5::Handle;
 
 void require(bool holds) {
     if (!holds) std::abort();
@@ -40,15 +40,15 @@ double value_at(std::size_t k) { return static_cast<double>(k * 37 % 101); }
 
 class Maker {
     FuzzedDataProvider& given_;
-    Id file_;
+    Handle file_;
 
-    static Id scalar() { return {H5Screate(H5S_SCALAR), H5Sclose}; }
+    static Handle scalar() { return {H5Screate(H5S_SCALAR), H5Sclose}; }
 
     void add_number(hid_t object) {
         const auto* const name = given_.PickValueInArray(numbers_of_attributes);
         const double value = given_.PickValueInArray({1.0, 2.0, 1000.0, -1.0, 0.5, 0.0});
         if (H5Aexists(object, name) > 0) return;
-        const Id space = scalar(), attribute(H5Acreate2(object, name, H5T_IEEE_F64LE, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+        const Handle space = scalar(), attribute(H5Acreate2(object, name, H5T_IEEE_F64LE, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
         H5Awrite(attribute, H5T_NATIVE_DOUBLE, &value);
     }
 
@@ -58,11 +58,11 @@ class Maker {
         for (auto& w : words) w = given_.PickValueInArray(some_words);
         if (H5Aexists(object, name) > 0) return;
         const hsize_t count = words.size();
-        const Id space(count == 1 ? H5Screate(H5S_SCALAR) : H5Screate_simple(1, &count, nullptr), H5Sclose),
+        const Handle space(count == 1 ? H5Screate(H5S_SCALAR) : H5Screate_simple(1, &count, nullptr), H5Sclose),
             type(H5Tcopy(H5T_C_S1), H5Tclose);
         const bool any_length = given_.ConsumeBool();
         H5Tset_size(type, any_length ? H5T_VARIABLE : 8);
-        const Id attribute(H5Acreate2(object, name, type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+        const Handle attribute(H5Acreate2(object, name, type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
         std::vector<const char*> texts;
         std::string fixed;
         for (const auto& w : words) texts.push_back(w.c_str()), fixed += w, fixed.resize(8 * texts.size());
@@ -70,8 +70,8 @@ class Maker {
     }
 
     /// In parts of the file's choosing: contiguous, compact, chunked, packed; some of it never written.
-    Id storage(const std::vector<hsize_t>& shape) {
-        Id how(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+    Handle storage(const std::vector<hsize_t>& shape) {
+        Handle how(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
         const auto kind = given_.ConsumeIntegralInRange(0, 3);
         if (shape.empty() || kind == 0) return how;
         if (kind == 1) return H5Pset_layout(how, H5D_COMPACT), std::move(how);
@@ -89,8 +89,8 @@ class Maker {
         for (std::size_t k = 0; k < count; ++k) values[k] = value_at(k);
         const auto part = given_.ConsumeIntegralInRange(0, 2);  // all, half of the rows, nothing
         if (count == 0 || part == 2) return;
-        const Id space(H5Dget_space(dataset), H5Sclose);
-        Id some(H5Scopy(space), H5Sclose);
+        const Handle space(H5Dget_space(dataset), H5Sclose);
+        Handle some(H5Scopy(space), H5Sclose);
         if (part == 1 && !shape.empty()) {
             std::vector<hsize_t> start(shape.size(), 0), extent = shape;
             extent[0] = (extent[0] + 1) / 2;
@@ -101,10 +101,10 @@ class Maker {
 
 public:
     explicit Maker(FuzzedDataProvider& given) : given_(given) {
-        const Id access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+        const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
         H5Pset_fapl_core(access, std::size_t{1} << 16, false);
         if (given_.ConsumeBool()) H5Pset_libver_bounds(access, H5F_LIBVER_LATEST, H5F_LIBVER_LATEST);
-        file_ = Id(H5Fcreate("made", H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose);
+        file_ = Handle(H5Fcreate("made", H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose);
         require(static_cast<bool>(file_));
     }
 
@@ -114,19 +114,19 @@ public:
         for (auto& n : shape) n = given_.ConsumeIntegralInRange<hsize_t>(0, 20);
         const bool is_compound = given_.ConsumeIntegralInRange(0, 3) == 0;
         const auto kind = given_.ConsumeIntegral<unsigned>();
-        Id type(is_compound ? H5Tcreate(H5T_COMPOUND, 24) : H5Tcopy(number_type(kind)), H5Tclose), memory(H5Tcopy(type), H5Tclose);
+        Handle type(is_compound ? H5Tcreate(H5T_COMPOUND, 24) : H5Tcopy(number_type(kind)), H5Tclose), memory(H5Tcopy(type), H5Tclose);
         if (is_compound) {
             for (std::size_t k = 0; k < 3; ++k)
                 H5Tinsert(type, std::array{"t_s", "frame", "fz_N"}[(k + kind) % 3], 8 * k, k < 2 ? H5T_NATIVE_DOUBLE : H5T_STD_I64LE);
-            memory = Id(H5Tcopy(type), H5Tclose);
+            memory = Handle(H5Tcopy(type), H5Tclose);
         } else {
-            memory = Id(H5Tcopy(H5T_NATIVE_DOUBLE), H5Tclose);
+            memory = Handle(H5Tcopy(H5T_NATIVE_DOUBLE), H5Tclose);
         }
-        const Id links(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
+        const Handle links(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
         H5Pset_create_intermediate_group(links, 1);
-        const Id space(shape.empty() ? H5Screate(H5S_SCALAR) : H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr),
+        const Handle space(shape.empty() ? H5Screate(H5S_SCALAR) : H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr),
                        H5Sclose);
-        const Id how = storage(shape), dataset(H5Dcreate2(file_, name.c_str(), type, space, links, how, H5P_DEFAULT), H5Dclose);
+        const Handle how = storage(shape), dataset(H5Dcreate2(file_, name.c_str(), type, space, links, how, H5P_DEFAULT), H5Dclose);
         if (!dataset) return;  // the name is taken, or the layout cannot have it
         write(dataset, memory, shape, is_compound ? 3 : 1);
         for (auto n = given_.ConsumeIntegralInRange(0, 2); n > 0; --n) add_number(dataset);

@@ -19,7 +19,7 @@
 #include "io/remote_samples.hpp"
 #include "io/samples_message.hpp"
 #include "readers/confinement.hpp"
-#include "readers/serve.hpp"
+#include "readers/helper_main.hpp"
 #include "support/child_process.hpp"
 #include "support/sanitized.hpp"
 #include "support/support.hpp"

@@ -6,7 +6,7 @@
 
 #include "io/recording.hpp"
 #include "report/envelope.hpp"
-#include "report/report.hpp"
+#include "report/respond_report.hpp"
 #include "study/file_sinks.hpp"
 #include "study/run_summary.hpp"
 #include "support/property.hpp"
@@ -128,12 +128,12 @@ TEST(OutputFile, LeavesNothingBehindUnlessItIsWhole) {
     EXPECT_FALSE(OutputFile::create(folder.path()));
 }
 
-TEST(Report, KeepsItsShareHoweverManyInputsAndChannels) {
+TEST(RespondReport, KeepsItsShareHoweverManyInputsAndChannels) {
     const auto points_of = [](int inputs) {
         std::vector<std::unique_ptr<ForceSource>> sources;
         for (int k = 0; k < inputs; ++k) sources.push_back(test::sure(make_stimulus("press", {}, 20e3, 0)));
         const auto plan = test::sure(plan_afferent("sa1", {}));
-        Report report(100'000);
+        RespondReport report(100'000);
         RunSummary summary;
         ResponseSink* listeners[] = {&report, &summary};
         (void)test::sure(respond(sources, std::span(&plan, 1), listeners, {}));

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "report/framed.hpp"
+#include "report/binned_frames.hpp"
 #include "report/skin_page.hpp"
 #include "study/skin_psth_file.hpp"
 #include "study/skin_spikes_file.hpp"
@@ -219,7 +219,7 @@ TEST(SkinPage, CarriesForceMapsAndEverySpike) {
 TEST(SkinPage, KeepsNoSpikesWhenThereAreTooMany) {
     const auto skin = small_skin();
     SkinSummary s;
-    SkinReport all({.spikes = 7}), few({.frames = 2, .marks = 2, .spikes = 6});
+    SkinReport all({.timed_spikes = 7}), few({.frames = 2, .marks = 2, .timed_spikes = 6});
     tell(skin, {&s, &all, &few});
     EXPECT_EQ(all.document()["spikes"]["count"], 7);
     EXPECT_TRUE(few.document()["spikes"].is_null());
@@ -239,15 +239,15 @@ TEST(SkinPage, IsTheSameForBlocksOfAnySize) {
     for (const std::int64_t block : {1, 3, 16}) EXPECT_EQ(told_in(block, block == 3), whole) << block;
 }
 
-TEST(Framed, FramesOfAnyNumberHoldWhatWasAdded) {
+TEST(BinnedFrames, FramesOfAnyNumberHoldWhatWasAdded) {
     EXPECT_TRUE(rc::check([] {
         const auto most = static_cast<std::size_t>(*rc::gen::inRange(2, 9));
         const std::int64_t first_width = *rc::gen::inRange(1, 4);
-        Framed<int> framed(3, most, first_width);
+        BinnedFrames<int> framed(3, most, first_width);
         std::vector<std::pair<std::int64_t, std::uint32_t>> added;
         for (std::int64_t at = 0; const auto gap : *rc::gen::container<std::vector<int>>(rc::gen::inRange(0, 9))) {
             at += gap;
-            RC_ASSERT(framed.open(at) > at);
+            RC_ASSERT(framed.select_frame(at) > at);
             const auto place = static_cast<std::uint32_t>(gap % 3);
             framed.add(place, 1), added.push_back({at, place});
         }

@@ -1,4 +1,4 @@
-#include "stream_told.hpp"
+#include "stream_report.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -19,7 +19,7 @@ std::string quantiles(const LatencyHistogram& d) {
 }
 
 /// True if frames arrived one by one at the pace of a clock. If they arrived in bulk, jitter is meaningless.
-bool is_paced(const StreamFacts& f) {
+bool is_paced(const StreamReportInput& f) {
     const auto& done = f.loop.stats();
     if (!f.frames.is_live() || done.rate() == 0) return false;
     const bool in_bulk = done.received > 2 * static_cast<std::int64_t>(f.skin.batch_frames()) * done.reads;
@@ -27,7 +27,7 @@ bool is_paced(const StreamFacts& f) {
 }
 
 /// Everything that went wrong, one line each.
-std::string problems(const StreamFacts& f) {
+std::string problems(const StreamReportInput& f) {
     const auto counts = f.frames.counts();
     const auto& order = counts.sequence;
     const auto& done = f.loop.stats();
@@ -46,7 +46,7 @@ std::string problems(const StreamFacts& f) {
         {counts.senders.dropped, counted(counts.senders.dropped, "datagram") + " lost: they arrived faster than they were processed"},
         {static_cast<std::int64_t>(done.unread), counted(static_cast<std::int64_t>(done.unread), "byte") + " of input unread at the end"},
         {done.dropped, counted(done.dropped, "spike") + " dropped: the receiver was too slow and the buffer full"},
-        {f.outlet.dropped(), counted(f.outlet.dropped(), "spike") + " lost: the receiver disconnected or stopped reading"},
+        {f.sink.dropped(), counted(f.sink.dropped(), "spike") + " lost: the receiver disconnected or stopped reading"},
         {f.skin.stats().truncated_steps, fmt::format("{} truncated at the spike limit of one step", counted(f.skin.stats().truncated_steps, "step"))},
     };
     std::string text;
@@ -66,7 +66,7 @@ nlohmann::ordered_json in_seconds(const LatencyHistogram& d) {
 
 }  // namespace
 
-std::string stream_summary(const StreamFacts& f) {
+std::string stream_summary(const StreamReportInput& f) {
     const auto& done = f.loop.stats();
     const auto counts = f.frames.counts();
     const double T = f.skin.clock().T();
@@ -74,19 +74,19 @@ std::string stream_summary(const StreamFacts& f) {
                             format_quantity(static_cast<double>(counts.frames + done.filled) * T, "s"), counted(done.spikes, "spike"),
                             counted(static_cast<std::int64_t>(f.skin.innervation().afferents.size()), "afferent"));
     if (counts.sender_count != 1) text += fmt::format("  {}\n", counted(counts.sender_count, "client"));
-    if (f.outlet.connections() != 1) text += fmt::format("  {}\n", counted(f.outlet.connections(), "connection") + " to the receiver");
+    if (f.sink.connections() != 1) text += fmt::format("  {}\n", counted(f.sink.connections(), "connection") + " to the receiver");
     if (done.latency.count() > 0) text += fmt::format("  latency from a frame to its written spikes: {}\n", quantiles(done.latency));
     if (is_paced(f)) text += fmt::format("  input rate {}; jitter: {}\n", format_quantity(done.rate(), "Hz"), quantiles(done.jitter));
     return text + problems(f);
 }
 
-std::string stream_status(const StreamFacts& f) {
+std::string stream_status(const StreamReportInput& f) {
     const auto& done = f.loop.stats();
     return fmt::format("{} frames  {} spikes  {} dropped  latency {} (99.9 %: {})", f.frames.counts().frames, done.spikes,
-                       done.dropped + f.outlet.dropped(), time_of(done.latency.quantile(0.5)), time_of(done.latency.quantile(0.999)));
+                       done.dropped + f.sink.dropped(), time_of(done.latency.quantile(0.5)), time_of(done.latency.quantile(0.999)));
 }
 
-nlohmann::ordered_json stream_document(const StreamFacts& f) {
+nlohmann::ordered_json stream_document(const StreamReportInput& f) {
     const auto& done = f.loop.stats();
     const auto counts = f.frames.counts();
     const auto& plan = f.skin.innervation().plan;
@@ -108,10 +108,10 @@ nlohmann::ordered_json stream_document(const StreamFacts& f) {
                               {"datagrams_lost", counts.senders.dropped},
                               {"bytes_unread", done.unread}};
     doc["events"] = {{"format", f.format.name()},
-                     {"to", f.outlet.description()},
+                     {"to", f.sink.description()},
                      {"dropped", done.dropped},
-                     {"lost", f.outlet.dropped()},
-                     {"readers", f.outlet.connections()}};
+                     {"lost", f.sink.dropped()},
+                     {"readers", f.sink.connections()}};
     doc["work"] = {{"afferent_steps", f.skin.stats().afferent_steps}, {"at_rest", f.skin.stats().skipped_steps}, {"capped", f.skin.stats().truncated_steps}};
     doc["delay_s"] = in_seconds(done.latency);
     const bool paced = is_paced(f);

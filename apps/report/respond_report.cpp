@@ -1,12 +1,12 @@
-#include "report/report.hpp"
+#include "report/respond_report.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
 
-#include "report/parts_document.hpp"
-#include "report/template.hpp"
-#include "report/versions_document.hpp"
+#include "report/common_documents.hpp"
+#include "report/page_template.hpp"
+#include "report/implementations_document.hpp"
 #include "signal/version.hpp"
 
 namespace corpuscle {
@@ -69,44 +69,44 @@ Json quality_document(const RunSummary& summary) {
 
 }  // namespace
 
-Result<void> Report::begin(const Input& input) {
+Result<void> RespondReport::begin(const Input& input) {
     groups_ = copy_group_starts(input.plans);
     const auto channels = input.source.channels().size();
     std::size_t traces = 1;  // per channel: the force and all probes
     for (std::size_t g = 0; g < groups(); ++g) traces += input.probes[groups_[g]].size();
     // A trace beyond this limit is kept as pairs of two points.
-    const std::size_t max_points = std::clamp<std::size_t>(most_points_ / (2 * traces * channels * input.input_count), 16, std::size_t{1} << 20);
+    const std::size_t max_points = std::clamp<std::size_t>(max_points_ / (2 * traces * channels * input.input_count), 16, std::size_t{1} << 20);
     forces_.assign(channels, Envelope(max_points));
     probes_.clear();
     for (std::size_t k = 0; wants_probes() && k < channels * groups(); ++k)
         probes_.emplace_back(input.probes[groups_[k % groups()]].size(), Envelope(max_points));
     trains_.assign(input.afferent_count(), {});
-    if (parts_.empty())
+    if (recordables_.empty())
         for (std::size_t g = 0; g < groups(); ++g) {
             Json parts = Json::array();
             for (const auto& p : input.probes[groups_[g]]) parts.push_back({{"name", p.name}, {"unit", p.unit}});
-            parts_.push_back(std::move(parts));
-            first_.push_back(input.plans[groups_[g]]);
+            recordables_.push_back(std::move(parts));
+            first_copies_.push_back(input.plans[groups_[g]]);
         }
     return {};
 }
 
-Result<void> Report::block(const Input& input, const RunBlock& response) {
+Result<void> RespondReport::block(const Input& input, const RunBlock& response) {
     for (std::size_t c = 0; c < forces_.size(); ++c)
         for (std::size_t k = 0; k < response.force.count; ++k) forces_[c].add(response.force.force[c][k]);
     for (std::size_t u = 0; u < probes_.size(); ++u)
         for (std::size_t p = 0; p < probes_[u].size(); ++p)
             for (std::size_t k = 0; k < response.force.count; ++k)
-                probes_[u][p].add(response.probes[unit(u / groups(), u % groups())][p][k]);
+                probes_[u][p].add(response.probes[afferent_index(u / groups(), u % groups())][p][k]);
     for (const auto& s : response.spikes) trains_[s.afferent_index - input.first_afferent].push_back(input.source.clock().time(s.step, s.offset));
     return {};
 }
 
 /// Adds the trains of an afferent, or of its first copies, on a channel.
-void Report::tell_spikes(const Input& input, std::size_t channel, std::size_t group) {
-    const std::size_t shown = std::min<std::size_t>(groups_[group + 1] - groups_[group], most_copies);
+void RespondReport::add_spikes(const Input& input, std::size_t channel, std::size_t group) {
+    const std::size_t shown = std::min<std::size_t>(groups_[group + 1] - groups_[group], max_copies);
     for (std::size_t k = 0; k < shown; ++k) {
-        const auto& train = trains_[unit(channel, group) + k];
+        const auto& train = trains_[afferent_index(channel, group) + k];
         spikes_.push_back({{"afferent", input.plans[groups_[group] + k].name},
                            {"channel", first_channel_ + channel},
                            {"count", train.size()},
@@ -115,13 +115,13 @@ void Report::tell_spikes(const Input& input, std::size_t channel, std::size_t gr
 }
 
 /// Adds the mean rate over the copies of an afferent in equal bins, spikes per copy and second.
-void Report::tell_rate(const Input& input, std::size_t channel, std::size_t group, std::int64_t samples) {
+void RespondReport::add_rate(const Input& input, std::size_t channel, std::size_t group, std::int64_t samples) {
     auto clock = input.source.clock();
     const double t0 = std::exchange(clock.t0, 0.0), length = clock.time(samples), bin = round_part(length, 100);
     const auto copies = groups_[group + 1] - groups_[group];
     std::vector<double> rates(static_cast<std::size_t>(std::max(std::ceil(length / bin - 1e-9), 1.0)));
     for (std::size_t k = 0; k < copies; ++k)
-        for (const double t : trains_[unit(channel, group) + k])
+        for (const double t : trains_[afferent_index(channel, group) + k])
             ++rates[std::min(static_cast<std::size_t>(std::max(t - t0, 0.0) / bin + 1e-9), rates.size() - 1)];
     for (std::size_t b = 0; b < rates.size(); ++b)
         rates[b] /= static_cast<double>(copies) * std::min(bin, length - static_cast<double>(b) * bin);
@@ -129,21 +129,21 @@ void Report::tell_rate(const Input& input, std::size_t channel, std::size_t grou
         {{"afferent", base_name(input.plans[groups_[group]])}, {"channel", first_channel_ + channel}, {"bin", bin}, {"values", rates}});
 }
 
-Result<void> Report::end(const Input& input, std::int64_t samples) {
+Result<void> RespondReport::end(const Input& input, std::int64_t samples) {
     Json channels = Json::array(), phases = Json::array();
     for (std::size_t c = 0; c < forces_.size(); ++c) {
         channels.push_back({{"id", first_channel_ + c}, {"name", input.channel_name(c)}, {"unit", "N"}});
-        traces_.push_back(trace_document(first_channel_ + static_cast<std::uint32_t>(c), nullptr, "force", "N", forces_[c]));
+        traces_.push_back(curve_document(first_channel_ + static_cast<std::uint32_t>(c), nullptr, "force", "N", forces_[c]));
     }
     for (const auto& p : input.source.phases()) phases.push_back({{"name", p.name}, {"from", p.from}, {"to", p.to}});
     for (std::size_t c = 0; c < forces_.size(); ++c)
         for (std::size_t g = 0; g < groups(); ++g) {
             const auto& probes = input.probes[groups_[g]];
             for (std::size_t p = 0; !probes_.empty() && p < probes.size(); ++p)
-                traces_.push_back(trace_document(first_channel_ + static_cast<std::uint32_t>(c), base_name(input.plans[groups_[g]]),
+                traces_.push_back(curve_document(first_channel_ + static_cast<std::uint32_t>(c), base_name(input.plans[groups_[g]]),
                                                  probes[p].name, probes[p].unit, probes_[c * groups() + g][p]));
-            tell_spikes(input, c, g);
-            if (population_.count > 0) tell_rate(input, c, g, samples);
+            add_spikes(input, c, g);
+            if (copies_.count > 0) add_rate(input, c, g, samples);
         }
     inputs_.push_back({{"name", input.name},
                        {"sentence", input.source.description()},
@@ -156,7 +156,7 @@ Result<void> Report::end(const Input& input, std::int64_t samples) {
     return {};
 }
 
-std::string Report::page(const RunSummary& summary, std::span<const AfferentPlan> plans, const std::string& command,
+std::string RespondReport::page(const RunSummary& summary, std::span<const AfferentPlan> plans, const std::string& command,
                          const std::vector<std::string>& warnings, const Json& costs) const {
     std::string title;
     for (const auto& i : summary.inputs()) title += (title.empty() ? "" : ", ") + i.name;
@@ -168,10 +168,10 @@ std::string Report::page(const RunSummary& summary, std::span<const AfferentPlan
                              {"netlist", plan.factory != nullptr},
                              {"made_of", plan.composition()},
                              {"sentence", plan.description},
-                             {"V_th", level(first_[a], "V_th")},
-                             {"V_reset", level(first_[a], "V_reset")},
-                             {"parameters", parameters_document(plan, population_.distributions)},
-                             {"parts", parts_[a]}});
+                             {"V_th", level(first_copies_[a], "V_th")},
+                             {"V_reset", level(first_copies_[a], "V_reset")},
+                             {"parameters", parameters_document(plan, copies_.distributions)},
+                             {"parts", recordables_[a]}});
     }
     for (const auto& w : warnings) notes.push_back(w);
     for (const auto& i : summary.inputs())
@@ -184,17 +184,17 @@ std::string Report::page(const RunSummary& summary, std::span<const AfferentPlan
                      {"traces", traces_},
                      {"spikes", spikes_},
                      {"table", table_document(summary)},
-                     {"comparisons", versions_document(summary.comparisons())},
+                     {"comparisons", implementations_document(summary.comparisons())},
                      {"quality", quality_document(summary)},
                      {"remarks", notes},
-                     {"versions", {{"corpuscle", version}, {"compiler", compiler()}}}};
+                     {"versions", {{"corpuscle", version}, {"compiler", compiler_version()}}}};
     document["costs"] = costs;
-    if (population_.count > 0)
-        document["copies"] = {{"count", population_.count},
-                              {"shown", std::min(population_.count, most_copies)},
+    if (copies_.count > 0)
+        document["copies"] = {{"count", copies_.count},
+                              {"shown", std::min(copies_.count, max_copies)},
                               {"traced", wants_probes()},
                               {"rates", rates_}};
-    return filled(asset("page.html"), escaped(title), safe_json(document));
+    return fill_template(asset("page.html"), escape_html(title), script_json(document));
 }
 
 }  // namespace corpuscle

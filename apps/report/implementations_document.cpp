@@ -1,4 +1,4 @@
-#include "report/versions_document.hpp"
+#include "report/implementations_document.hpp"
 
 #include <algorithm>
 
@@ -38,7 +38,7 @@ Json row_document(const VersionComparison& c, const std::vector<std::string>& ph
 
 }  // namespace
 
-Json versions_document(const VersionComparisons& comparisons) {
+Json implementations_document(const VersionComparisons& comparisons) {
     const auto phases = phases_of(comparisons);
     Json columns = {"afferent", "channel", "spikes"}, decimals = {nullptr, nullptr, 0}, rows = Json::array();
     for (const auto& p : phases) columns.push_back(p), decimals.push_back(0);

@@ -7,7 +7,7 @@
 
 namespace corpuscle {
 
-std::string budget_text(const circuit::Cost&);
+std::string budget_tables(const circuit::Cost&);
 /// Power and area in one line, for netlists with several steps.
 std::string budget_line(const circuit::Cost&);
 

@@ -1,4 +1,4 @@
-#include "force_words.hpp"
+#include "force_argument.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>

@@ -7,6 +7,6 @@
 namespace corpuscle {
 
 /// The table of implementations: for each receptor and channel a row of the reference, then a row for each other implementation.
-nlohmann::ordered_json versions_document(const VersionComparisons&);
+nlohmann::ordered_json implementations_document(const VersionComparisons&);
 
 }  // namespace corpuscle

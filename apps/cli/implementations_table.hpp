@@ -7,6 +7,6 @@
 namespace corpuscle {
 
 /// A table of the differences between the implementations of one receptor. Empty if no receptor has two.
-std::string versions_table(const VersionComparisons&);
+std::string implementations_table(const VersionComparisons&);
 
 }  // namespace corpuscle

@@ -1,4 +1,4 @@
-#include "word_groups.hpp"
+#include "option_groups.hpp"
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
@@ -8,20 +8,20 @@
 
 namespace corpuscle {
 
-std::string page_name_needed(const std::string& name) {
+std::string page_name_error(const std::string& name) {
     const auto dot = name.rfind('.');
     const auto stem = dot == std::string::npos || dot == 0 || name.find('/', dot) != std::string::npos ? name : name.substr(0, dot);
     return fmt::format("--report {}: the name must end in .html, such as {}.html", name, stem);
 }
 
-std::string force_behind_report(const std::string& name, std::vector<std::string> forces) {
+std::string report_argument_error(const std::string& name, std::vector<std::string> forces) {
     if (std::find(forces.begin(), forces.end(), name) == forces.end()) forces.push_back(name);
     std::string arguments;
     for (const auto& force : forces) arguments += quote_shell_word(force) + " ";
-    return fmt::format("{}; for a report of these forces type: corpuscle respond {}--report", page_name_needed(name), arguments);
+    return fmt::format("{}; for a report of these forces type: corpuscle respond {}--report", page_name_error(name), arguments);
 }
 
-void add_netlist_words(CLI::App& verb, NetlistWords& w) {
+void add_netlist_options(CLI::App& verb, NetlistArguments& w) {
     const auto group = "Netlists";
     verb.add_option("--supply", w.supply, "value of .param supply, such as 0.65V")->type_name("VOLTAGE")->group(group);
     verb.add_option("--temp", w.temp, "temperature in degrees Celsius")->type_name("DEGREES")->group(group);
@@ -33,7 +33,7 @@ void add_netlist_words(CLI::App& verb, NetlistWords& w) {
                     "simulate one mismatched chip: random threshold and current of each transistor (replaces .mc)")
         ->type_name("SEED[/CHIP]")
         ->group(group);
-    verb.add_option("--trace", w.traces,
+    verb.add_option("--trace", w.probes,
                     "record these instead of .save: vf, v(a,b), i(vdd), i(N3B). Device currents flow into the drain or first terminal, "
                     "without displacement currents. A path suffix is enough: rectb.o")
         ->allow_extra_args(false)
@@ -56,7 +56,7 @@ void add_orientation(CLI::App& verb, std::optional<bool>& transpose, const std::
 
 }  // namespace
 
-void add_recording_words(CLI::App& verb, RecordingWords& w) {
+void add_recording_options(CLI::App& verb, RecordingArguments& w) {
     const auto group = "Recordings";
     verb.add_option("--channel,-c", w.channels,
                     "channels of a recording: names, or numbers and ranges (2-5) that count all columns except time")
@@ -103,7 +103,7 @@ void add_recording_words(CLI::App& verb, RecordingWords& w) {
     verb.add_option("--resample", w.resample, "resample a recording to this rate by interpolation")->type_name("FREQUENCY")->group(group);
 }
 
-void add_skin_words(CLI::App& verb, RespondWords& w) {
+void add_skin_options(CLI::App& verb, RespondArguments& w) {
     const auto group = "Skins";
     auto* const population =
         verb.add_option("--population,-p", w.population,

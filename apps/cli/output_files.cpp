@@ -1,4 +1,4 @@
-#include "written.hpp"
+#include "output_files.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -10,18 +10,18 @@
 
 namespace corpuscle {
 
-Result<void> put_whole(OutputFile& file, const std::string& text) {
+Result<void> write_and_commit(OutputFile& file, const std::string& text) {
     if (auto ok = file.write(text); !ok) return ok;
     if (auto ok = file.commit(); !ok) return ok;
     return file.is_synced() ? sync_directory_of(file.path()) : Result<void>();
 }
 
-Result<void> write_whole(const std::string& path, const std::string& text) {
+Result<void> write_file(const std::string& path, const std::string& text) {
     auto file = OutputFile::create(path);
-    return file ? put_whole(*file, text) : file.error();
+    return file ? write_and_commit(*file, text) : file.error();
 }
 
-std::vector<std::string> names_in(const std::string& directory, const std::vector<std::string>& paths) {
+std::vector<std::string> file_names_in(const std::string& directory, const std::vector<std::string>& paths) {
     std::vector<std::string> all;
     for (const auto& path : paths)
         if (!directory.empty() && path.starts_with(directory + "/") && path.find('/', directory.size() + 1) == path.npos)
@@ -29,15 +29,15 @@ std::vector<std::string> names_in(const std::string& directory, const std::vecto
     return all;
 }
 
-std::optional<std::string> page_of(const RespondWords& w) {
-    if (!w.report) return {};
+std::optional<std::string> report_page_path(const RespondArguments& w) {
+    if (!w.has_report) return {};
     return !w.report_file.empty() ? w.report_file : w.out.empty() ? "report.html" : w.out + "/report.html";
 }
 
 Result<void> check_outputs(const std::string& directory, std::vector<std::string> names, const std::optional<std::string>& page,
                            const std::string& checkpoint, OutputCheck& outputs) {
     if (page) {
-        const auto own = names_in(directory, {*page});
+        const auto own = file_names_in(directory, {*page});
         if (own.empty()) {
             if (auto ok = outputs.check_file(*page, is_own_page); !ok) return ok;
         }
@@ -51,7 +51,7 @@ Result<void> check_outputs(const std::string& directory, std::vector<std::string
     return outputs.check_directory(directory, names, is_listed, is_output_name, is_own_page);
 }
 
-std::string run_trial(const std::vector<std::string>& paths, const std::vector<std::string>& removed) {
+std::string written_files_text(const std::vector<std::string>& paths, const std::vector<std::string>& removed) {
     if (paths.empty()) return "Nothing was written: --out DIR writes the spikes, --report writes a report page.\n";
     const auto removed_text =
         removed.empty() ? "" : fmt::format("Removed files of an earlier run: {}\n", printable(fmt::format("{}", fmt::join(removed, ", "))));

@@ -1,32 +1,32 @@
-#include "outputs.hpp"
+#include "respond_outputs.hpp"
 
 #include <fmt/format.h>
 
-#include "recording_words.hpp"
+#include "recording_arguments.hpp"
 #include "study/psth_file.hpp"
 #include "study/spike_sound_file.hpp"
 #include "study/copies_file.hpp"
 #include "study/npz_file.hpp"
 #include "study/earlier_outputs.hpp"
 #include "study/test_vectors_file.hpp"
-#include "written.hpp"
+#include "output_files.hpp"
 
 namespace corpuscle {
 /// Removes unfinished files in reverse order. The first file may have created the directory, which must be empty when it is removed.
-Outputs::~Outputs() {
+RespondOutputs::~RespondOutputs() {
     report_file_.reset(), summary_file_.reset();
     while (!files_.empty()) files_.pop_back();
 }
 
 template <class F, class... A>
-Result<void> Outputs::add(const char* name, A... how) {
+Result<void> RespondOutputs::add(const char* name, A... how) {
     auto file = OutputFile::create(directory_ + "/" + name);
     if (!file) return file.error();
     files_.push_back(std::make_unique<F>(std::move(*file), how...));
     return {};
 }
 
-Result<void> Outputs::open_directory(const RespondWords& w, const CopySpec& copy_spec, std::optional<double> bin) {
+Result<void> RespondOutputs::open_directory(const RespondArguments& w, const CopySpec& copy_spec, std::optional<double> bin) {
     if (auto ok = add<SpikesFile>("spikes.csv"); !ok) return ok;
     if (copy_spec.count > 0)
         if (auto ok = add<CopiesFile>("copies.csv", copy_spec); !ok) return ok;
@@ -35,7 +35,7 @@ Result<void> Outputs::open_directory(const RespondWords& w, const CopySpec& copy
     if (bin)
         if (auto ok = add<PsthFile>("psth.csv", *bin); !ok) return ok;
     if (w.wav) files_.push_back(std::make_unique<SpikeSoundFile>(directory_));
-    if (w.traces) files_.push_back(std::make_unique<ProbesFile>(directory_));
+    if (w.probe_files) files_.push_back(std::make_unique<ProbesFile>(directory_));
     if (w.vectors) files_.push_back(std::make_unique<TestVectorsFile>(directory_));
     auto summary = OutputFile::create(directory_ + "/summary.json");
     if (!summary) return summary.error();
@@ -43,7 +43,7 @@ Result<void> Outputs::open_directory(const RespondWords& w, const CopySpec& copy
     return {};
 }
 
-std::vector<std::string> Outputs::paths() const {
+std::vector<std::string> RespondOutputs::paths() const {
     std::vector<std::string> all;
     for (const auto& file : files_)
         for (auto& path : file->paths()) all.push_back(std::move(path));
@@ -53,7 +53,7 @@ std::vector<std::string> Outputs::paths() const {
 }
 
 /// Checks all output files before the first is created.
-Result<void> Outputs::check(const RespondWords& w, const CopySpec& copy_spec, const std::optional<std::string>& page,
+Result<void> RespondOutputs::check(const RespondArguments& w, const CopySpec& copy_spec, const std::optional<std::string>& page,
                             std::vector<std::string> later, OutputCheck& outputs) {
     const std::pair<const char*, bool> names[] = {{"spikes.csv", true},
                                                   {"copies.csv", copy_spec.count > 0},
@@ -65,21 +65,21 @@ Result<void> Outputs::check(const RespondWords& w, const CopySpec& copy_spec, co
     return check_outputs(w.out, std::move(later), page, w.checkpoint, outputs);
 }
 
-Result<void> Outputs::open(const RespondWords& w, const CopySpec& copy_spec, std::vector<std::string> later, OutputCheck& outputs) {
+Result<void> RespondOutputs::open(const RespondArguments& w, const CopySpec& copy_spec, std::vector<std::string> later, OutputCheck& outputs) {
     const std::pair<const char*, bool> options[] = {
-        {"--traces", w.traces}, {"--vectors", w.vectors}, {"--bin", w.bin.has_value()}, {"--npz", w.npz}, {"--wav", w.wav}};
+        {"--traces", w.probe_files}, {"--vectors", w.vectors}, {"--bin", w.bin.has_value()}, {"--npz", w.npz}, {"--wav", w.wav}};
     for (const auto& [option, given] : options)
         if (given && w.out.empty()) return bad_usage(fmt::format("{} needs --out DIR", option));
-    for (const auto& [option, given] : {std::pair{"--traces", w.traces}, std::pair{"--vectors", w.vectors}})
-        if (given && w.copies > Report::most_copies)
+    for (const auto& [option, given] : {std::pair{"--traces", w.probe_files}, std::pair{"--vectors", w.vectors}})
+        if (given && w.copies > RespondReport::max_copies)
             return bad_usage(
                 fmt::format("{} works with at most {} copies, not {}; use fewer, or --set the values of one copy in copies.csv", option,
-                            Report::most_copies, w.copies));
-    const auto bin = quantity(w.bin, "s", "--bin");
+                            RespondReport::max_copies, w.copies));
+    const auto bin = optional_quantity(w.bin, "s", "--bin");
     if (!bin) return bin.error();
     if (*bin && !(**bin > 0)) return bad_usage(fmt::format("--bin {}: must be greater than 0, such as 10ms", *w.bin));
     directory_ = w.out;
-    const auto page_path = page_of(w);
+    const auto page_path = report_page_path(w);
     if (auto ok = check(w, copy_spec, page_path, std::move(later), outputs); !ok) return ok;
     if (!w.out.empty())
         if (auto ok = open_directory(w, copy_spec, *bin); !ok) return ok;
@@ -87,28 +87,28 @@ Result<void> Outputs::open(const RespondWords& w, const CopySpec& copy_spec, std
     auto page = OutputFile::create(*page_path);
     if (!page) return page.error();
     report_file_ = std::move(*page);
-    report_.emplace(Report::all_points, copy_spec, !w.in_float);
+    report_.emplace(RespondReport::max_total_points, copy_spec, !w.use_float);
     return {};
 }
 
-void Outputs::listen(std::vector<ResponseSink*>& listeners) {
+void RespondOutputs::add_listeners(std::vector<ResponseSink*>& listeners) {
     for (auto& file : files_) listeners.push_back(&*file);
     if (report_) listeners.push_back(&*report_);
 }
 
-std::vector<std::string> Outputs::names() const { return names_in(directory_, paths()); }
+std::vector<std::string> RespondOutputs::file_names() const { return file_names_in(directory_, paths()); }
 
-Result<void> Outputs::commit(const RunSummary& summary, std::span<const AfferentPlan> afferents, const std::vector<std::string>& warnings,
+Result<void> RespondOutputs::commit(const RunSummary& summary, std::span<const AfferentPlan> afferents, const std::vector<std::string>& warnings,
                              const std::string& document, const std::string& command, const nlohmann::ordered_json& costs) {
     if (report_)
-        if (auto ok = put_whole(*report_file_, report_->page(summary, afferents, command, warnings, costs)); !ok) return ok;
+        if (auto ok = write_and_commit(*report_file_, report_->page(summary, afferents, command, warnings, costs)); !ok) return ok;
     for (auto& file : files_)
         if (auto ok = file->commit(); !ok) return ok;
     if (!summary_file_) return {};
-    removed_ = remove_stale_outputs(directory_, names());
-    return put_whole(*summary_file_, document);
+    removed_ = remove_stale_outputs(directory_, file_names());
+    return write_and_commit(*summary_file_, document);
 }
 
-std::string Outputs::told() const { return run_trial(paths(), removed_); }
+std::string RespondOutputs::written_text() const { return written_files_text(paths(), removed_); }
 
 }  // namespace corpuscle

@@ -6,40 +6,40 @@
 #include <vector>
 
 #include "io/output_check.hpp"
-#include "report/report.hpp"
+#include "report/respond_report.hpp"
 #include "study/file_sinks.hpp"
 #include "verbs.hpp"
 
 namespace corpuscle {
 
 /// The output files of one run of respond. They are created before the run and renamed to their final names after it.
-class Outputs {
+class RespondOutputs {
     std::string directory_;
     std::vector<std::unique_ptr<FileSink>> files_;
-    std::optional<Report> report_;
+    std::optional<RespondReport> report_;
     std::optional<OutputFile> summary_file_, report_file_;
     std::vector<std::string> removed_;
 
     template <class F, class... A>
     Result<void> add(const char* name, A... how);
-    Result<void> open_directory(const RespondWords&, const CopySpec&, std::optional<double> bin);
-    Result<void> check(const RespondWords&, const CopySpec&, const std::optional<std::string>& page, std::vector<std::string> later,
+    Result<void> open_directory(const RespondArguments&, const CopySpec&, std::optional<double> bin);
+    Result<void> check(const RespondArguments&, const CopySpec&, const std::optional<std::string>& page, std::vector<std::string> later,
                        OutputCheck&);
     std::vector<std::string> paths() const;
 
 public:
-    Outputs() = default;
-    Outputs(const Outputs&) = delete;
-    Outputs& operator=(const Outputs&) = delete;
-    ~Outputs();
+    RespondOutputs() = default;
+    RespondOutputs(const RespondOutputs&) = delete;
+    RespondOutputs& operator=(const RespondOutputs&) = delete;
+    ~RespondOutputs();
     /// `later`: names of files in the directory that are created only during the run.
-    Result<void> open(const RespondWords&, const CopySpec&, std::vector<std::string> later, OutputCheck&);
-    void listen(std::vector<ResponseSink*>&);
+    Result<void> open(const RespondArguments&, const CopySpec&, std::vector<std::string> later, OutputCheck&);
+    void add_listeners(std::vector<ResponseSink*>&);
     /// The names of the files that are written into the directory.
-    std::vector<std::string> names() const;
+    std::vector<std::string> file_names() const;
     Result<void> commit(const RunSummary&, std::span<const AfferentPlan>, const std::vector<std::string>& warnings,
                         const std::string& document, const std::string& command, const nlohmann::ordered_json& costs);
-    std::string told() const;
+    std::string written_text() const;
 };
 
 }  // namespace corpuscle

@@ -1,4 +1,4 @@
-#include "netlist_words.hpp"
+#include "netlist_arguments.hpp"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 
 namespace corpuscle {
 
-std::vector<circuit::NetlistOverride> knobs_of(const NetlistWords& w) {
+std::vector<circuit::NetlistOverride> netlist_overrides(const NetlistArguments& w) {
     std::vector<circuit::NetlistOverride> out;
     const auto add = [&](const char* name, const std::optional<std::string>& value) {
         if (value) out.push_back({name, *value, fmt::format("--{} {}", name, *value), true});
@@ -15,16 +15,16 @@ std::vector<circuit::NetlistOverride> knobs_of(const NetlistWords& w) {
     return out;
 }
 
-std::vector<std::string> traces_of(const NetlistWords& w) {
+std::vector<std::string> probe_names(const NetlistArguments& w) {
     std::vector<std::string> out;
-    for (const auto& text : w.traces)
+    for (const auto& text : w.probes)
         for (auto& probe : circuit::split_probes(text)) out.push_back(std::move(probe));
     return out;
 }
 
-std::string said_of(const NetlistWords& w) {
-    const auto overrides = knobs_of(w);
-    return !overrides.empty() ? overrides[0].text : !w.traces.empty() ? "--trace " + w.traces[0] : "";
+std::string first_netlist_option(const NetlistArguments& w) {
+    const auto overrides = netlist_overrides(w);
+    return !overrides.empty() ? overrides[0].text : !w.probes.empty() ? "--trace " + w.probes[0] : "";
 }
 
 }  // namespace corpuscle

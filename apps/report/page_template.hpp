@@ -8,18 +8,18 @@
 namespace corpuscle {
 
 /// Name and version of the compiler.
-std::string_view compiler();
+std::string_view compiler_version();
 
 /// An embedded file: of apps/report, or of the chart library.
 std::string_view asset(std::string_view name);
 
 /// JSON for a script element: '<' is escaped, so that the data cannot end the element.
-std::string safe_json(const nlohmann::ordered_json&);
+std::string script_json(const nlohmann::ordered_json&);
 
 /// Text with < and & escaped for HTML.
-std::string escaped(std::string_view text);
+std::string escape_html(std::string_view text);
 
 /// Fills a template with title, data and embedded files.
-std::string filled(std::string_view page_template, std::string_view title, std::string_view data);
+std::string fill_template(std::string_view page_template, std::string_view title, std::string_view data);
 
 }  // namespace corpuscle

@@ -9,17 +9,17 @@
 namespace corpuscle {
 
 /// The parts of a running or finished stream that the reports read.
-struct StreamFacts {
+struct StreamReportInput {
     const SkinStream& skin;
     const FrameSource& frames;
-    const EventSink& outlet;
+    const EventSink& sink;
     const EventFormat& format;
     const StreamLoop& loop;
 };
 
-std::string stream_summary(const StreamFacts&);
+std::string stream_summary(const StreamReportInput&);
 /// One line for a terminal.
-std::string stream_status(const StreamFacts&);
-nlohmann::ordered_json stream_document(const StreamFacts&);
+std::string stream_status(const StreamReportInput&);
+nlohmann::ordered_json stream_document(const StreamReportInput&);
 
 }  // namespace corpuscle

@@ -10,7 +10,7 @@
 namespace corpuscle {
 
 /// A trace in the format of class Trace in page-data.js. `afferent`: its name, or null for the force.
-nlohmann::ordered_json trace_document(std::uint32_t channel, const nlohmann::ordered_json& afferent, std::string_view quantity,
+nlohmann::ordered_json curve_document(std::uint32_t channel, const nlohmann::ordered_json& afferent, std::string_view quantity,
                                       std::string_view unit, const Envelope&);
 
 /// The parameters with defaults, descriptions and sources. Spreads of other afferents are ignored.

@@ -1,4 +1,4 @@
-#include "recording_words.hpp"
+#include "recording_arguments.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -20,7 +20,7 @@ Result<std::pair<double, double>> range_of(const std::string& text) {
 }
 
 /// Reads the options that are not a single quantity.
-Result<void> read_structured_options(const RecordingWords& w, RecordingOptions& options) {
+Result<void> read_structured_options(const RecordingArguments& w, RecordingOptions& options) {
     if (w.range) {
         const auto range = range_of(*w.range);
         if (!range) return range.error();
@@ -47,22 +47,22 @@ Result<void> read_structured_options(const RecordingWords& w, RecordingOptions& 
 
 /// Newtons per unit of the readings: "0.002", "10%", or with a unit, "2mN".
 Result<std::optional<double>> scale_of(const std::optional<std::string>& text) {
-    const auto plain = quantity(text, "", "--scale");
-    const auto force = plain ? plain : quantity(text, "N", "--scale");
+    const auto plain = optional_quantity(text, "", "--scale");
+    const auto force = plain ? plain : optional_quantity(text, "N", "--scale");
     if (force) return force;
     return bad_usage(fmt::format("--scale '{}': write newtons per unit of the readings: 0.002, or 2mN", *text));
 }
 
 }  // namespace
 
-Result<std::optional<double>> quantity(const std::optional<std::string>& text, std::string_view unit, std::string_view option) {
+Result<std::optional<double>> optional_quantity(const std::optional<std::string>& text, std::string_view unit, std::string_view option) {
     if (!text) return std::optional<double>();
     const auto value = parse_quantity(*text, unit);
     if (!value) return bad_usage(fmt::format("{} {}", option, value.error().message));
     return std::optional<double>(*value);
 }
 
-Result<RecordingOptions> recording_options(const RecordingWords& w) {
+Result<RecordingOptions> recording_options(const RecordingArguments& w) {
     RecordingOptions options;
     options.table.dataset = w.dataset;
     options.table.skip_lines = w.skip.value_or(0);
@@ -75,7 +75,7 @@ Result<RecordingOptions> recording_options(const RecordingWords& w) {
                                                  {&w.resample, "Hz", "--resample", &options.resample},
                                                  {&w.offset, "", "--offset", &offset},
                                                  {&w.lowpass, "Hz", "--lowpass", &options.lowpass}}) {
-        const auto value = quantity(*text, unit, option);
+        const auto value = optional_quantity(*text, unit, option);
         if (!value) return value.error();
         *to = *value;
     }
@@ -87,7 +87,7 @@ Result<RecordingOptions> recording_options(const RecordingWords& w) {
     return options;
 }
 
-std::string_view recording_word(const RecordingWords& w) {
+std::string_view first_recording_option(const RecordingArguments& w) {
     const std::pair<std::string_view, bool> options[] = {{"--channel", !w.channels.empty()},
                                                          {"--dataset", w.dataset.has_value()},
                                                          {"--skip", w.skip.has_value()},
@@ -110,9 +110,9 @@ std::string_view recording_word(const RecordingWords& w) {
     return "";
 }
 
-Result<void> check_recording_words(const RespondWords& w) {
+Result<void> check_recording_arguments(const RespondArguments& w) {
     if (!std::all_of(w.forces.begin(), w.forces.end(), [](const auto& f) { return is_stimulus(f); })) return {};
-    const auto option = recording_word(w);
+    const auto option = first_recording_option(w);
     if (option.empty()) return {};
     return bad_usage(
         fmt::format("{} is for recordings, but {} is a stimulus; change it by --set {}.PARAMETER=VALUE", option, w.forces[0], w.forces[0]));

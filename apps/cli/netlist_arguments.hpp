@@ -7,12 +7,12 @@
 namespace corpuscle {
 
 /// --supply, --temp, --corner, --mismatch.
-std::vector<circuit::NetlistOverride> knobs_of(const NetlistWords&);
+std::vector<circuit::NetlistOverride> netlist_overrides(const NetlistArguments&);
 
 /// The probes of all --trace options, one string each.
-std::vector<std::string> traces_of(const NetlistWords&);
+std::vector<std::string> probe_names(const NetlistArguments&);
 
 /// The first of these options that was given, with its value, such as "--temp 85"; "" if none was.
-std::string said_of(const NetlistWords&);
+std::string first_netlist_option(const NetlistArguments&);
 
 }  // namespace corpuscle

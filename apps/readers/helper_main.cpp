@@ -1,4 +1,4 @@
-#include "serve.hpp"
+#include "helper_main.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>

@@ -1,4 +1,4 @@
-#include "sweep_state.hpp"
+#include "sweep_status.hpp"
 
 #include <fmt/format.h>
 #include <filesystem>
@@ -11,24 +11,24 @@ namespace corpuscle {
 namespace {
 
 /// Finished items per second since the writer started; 0 if not yet known.
-double rate_of(const SweepState& s) {
-    if (!s.writer || s.written_for < 1) return 0;
-    return static_cast<double>(s.finished - s.writer->finished) / s.written_for;
+double rate_of(const SweepStatus& s) {
+    if (!s.writer || s.running_for < 1) return 0;
+    return static_cast<double>(s.finished - s.writer->finished) / s.running_for;
 }
 
-double seconds_left(const SweepState& s) {
+double seconds_left(const SweepStatus& s) {
     const double left = static_cast<double>(s.writer->planned - (s.finished - s.writer->finished));
     return left / rate_of(s);
 }
 
-std::string writer_text(const SweepState& s) {
+std::string writer_text(const SweepStatus& s) {
     auto text = fmt::format("Running: process {} on {}", s.writer->process, s.writer->host);
     if (const auto rate = rate_of(s); rate > 0) text += fmt::format(", {:.3g} items per second, {} left", rate, time_text(seconds_left(s)));
     return text + "\n";
 }
 
 /// The command for the next step.
-std::string next_step(const SweepState& s) {
+std::string next_step(const SweepStatus& s) {
     if (s.writer) return "";
     if (s.missing() > 0)
         return s.sweep.empty() ? ""
@@ -43,16 +43,16 @@ std::string next_step(const SweepState& s) {
 
 }  // namespace
 
-Result<SweepState> state_of(const SweepResults& results, const Shard& shard) {
-    SweepState out;
-    out.results = results.path(), out.shard = shard, out.units = shard.count(0, results.item_count());
+Result<SweepStatus> read_sweep_status(const SweepResults& results, const Shard& shard) {
+    SweepStatus out;
+    out.results = results.path(), out.shard = shard, out.items = shard.count(0, results.item_count());
     auto* file = results.handle();
     auto counts = sql::Statement::make(file, results.path(),
                                        "SELECT count(*), total(ended = 'capped'), total(ended = 'lost'), total(iterations) FROM units");
     if (!counts) return counts.error();
     if (const auto row = counts->step(); !row) return row.error();
-    out.finished = counts->integer(0), out.capped = counts->integer(1), out.lost = counts->integer(2), out.iterations = counts->integer(3);
-    if (out.capped + out.lost == 0) return out;
+    out.finished = counts->integer(0), out.truncated = counts->integer(1), out.diverged = counts->integer(2), out.iterations = counts->integer(3);
+    if (out.truncated + out.diverged == 0) return out;
     auto reasons = sql::Statement::make(file, results.path(),
                                         "SELECT why, count(*) FROM units WHERE ended <> 'done' GROUP BY why ORDER BY 2 DESC, 1 LIMIT 3");
     if (!reasons) return reasons.error();
@@ -64,23 +64,23 @@ Result<SweepState> state_of(const SweepResults& results, const Shard& shard) {
     }
 }
 
-std::string describe_frame_error(const SweepState& s) {
-    const auto completed = s.finished - s.capped - s.lost;
+std::string describe_frame_error(const SweepStatus& s) {
+    const auto completed = s.finished - s.truncated - s.diverged;
     std::vector<std::vector<std::string>> rows = {{"items", "ended", "missing", "completed", "truncated", "diverged"}, {}};
-    for (const auto n : {s.units, s.finished, s.missing(), completed, s.capped, s.lost}) rows[1].push_back(fmt::format("{}", n));
-    if (s.now) rows[0].insert(rows[0].begin() + 2, "this run"), rows[1].insert(rows[1].begin() + 2, fmt::format("{}", *s.now));
+    for (const auto n : {s.items, s.finished, s.missing(), completed, s.truncated, s.diverged}) rows[1].push_back(fmt::format("{}", n));
+    if (s.finished_now) rows[0].insert(rows[0].begin() + 2, "this run"), rows[1].insert(rows[1].begin() + 2, fmt::format("{}", *s.finished_now));
     if (s.iterations > 0) rows[0].push_back("iterations"), rows[1].push_back(fmt::format("{}", s.iterations));
-    auto text = table(rows);
+    auto text = format_table(rows);
     for (const auto& [reason, items] : s.reasons) text += fmt::format("  {} of them: {}\n", items, reason);
     if (s.writer) text += writer_text(s);
-    return text + (s.now ? fmt::format("Written: {}\n", s.results) : "") + next_step(s);
+    return text + (s.finished_now ? fmt::format("Written: {}\n", s.results) : "") + next_step(s);
 }
 
-nlohmann::ordered_json document_of(const SweepState& s) {
-    nlohmann::ordered_json out = {{"results", s.results},   {"units", s.units},   {"ended", s.finished},
-                                  {"missing", s.missing()}, {"capped", s.capped}, {"lost", s.lost}};
+nlohmann::ordered_json document_of(const SweepStatus& s) {
+    nlohmann::ordered_json out = {{"results", s.results},   {"units", s.items},   {"ended", s.finished},
+                                  {"missing", s.missing()}, {"capped", s.truncated}, {"lost", s.diverged}};
     out["iterations"] = s.iterations;
-    if (s.now) out["now"] = *s.now;
+    if (s.finished_now) out["now"] = *s.finished_now;
     if (s.shard.shard_count > 1) out["shard"] = {{"part", s.shard.index + 1}, {"of", s.shard.shard_count}};
     auto& reasons = out["reasons"] = nlohmann::ordered_json::array();
     for (const auto& [reason, items] : s.reasons) reasons.push_back({{"why", reason}, {"units", items}});

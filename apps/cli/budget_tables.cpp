@@ -1,4 +1,4 @@
-#include "budget_words.hpp"
+#include "budget_tables.hpp"
 
 #include <fmt/format.h>
 #include <cmath>
@@ -51,7 +51,7 @@ std::string power_table(const Cost& cost) {
     for (std::size_t k = 0; k < cost.blocks.size(); ++k)
         if (is_visible(cost, [k](const PowerBreakdown& p) { return p.blocks[k]; }))
             add_row(rows, cost, "dissipated in " + cost.blocks[k].name, [k](const PowerBreakdown& p) { return p.blocks[k]; });
-    return table(rows);
+    return format_table(rows);
 }
 
 std::string area_table(const Cost& cost) {
@@ -75,7 +75,7 @@ std::string area_table(const Cost& cost) {
                              ? ""
                              : fmt::format("Not counted: {} device{} of unknown area (resistors, inductors, diodes, charge expressions)\n",
                                            cost.unknown_areas, cost.unknown_areas == 1 ? "" : "s");
-    return "\n" + table(rows) + unsized;
+    return "\n" + format_table(rows) + unsized;
 }
 
 std::string leaks_table(const Cost& cost) {
@@ -89,7 +89,7 @@ std::string leaks_table(const Cost& cost) {
                         cost.leaks[k].capacitor_node});
     return fmt::format(
         "\nTransistors that are off but leak more than a tenth of the smallest bias current ({}), with V_GS = 0 and V_DS = {}:\n{}", bias,
-        format_quantity(cost.supply, "V"), table(rows));
+        format_quantity(cost.supply, "V"), format_table(rows));
 }
 
 const PowerBreakdown& typical(const Cost& cost) {
@@ -109,7 +109,7 @@ std::string density(const Cost& cost) {
 
 }  // namespace
 
-std::string budget_text(const Cost& cost) { return power_table(cost) + area_table(cost) + leaks_table(cost) + density(cost); }
+std::string budget_tables(const Cost& cost) { return power_table(cost) + area_table(cost) + leaks_table(cost) + density(cost); }
 
 std::string budget_line(const Cost& cost) {
     const auto& p = typical(cost);

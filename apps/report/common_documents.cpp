@@ -1,4 +1,4 @@
-#include "report/parts_document.hpp"
+#include "report/common_documents.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -6,7 +6,7 @@ namespace corpuscle {
 
 using PartJson = nlohmann::ordered_json;
 
-PartJson trace_document(std::uint32_t channel, const PartJson& afferent, std::string_view quantity, std::string_view unit,
+PartJson curve_document(std::uint32_t channel, const PartJson& afferent, std::string_view quantity, std::string_view unit,
                         const Envelope& e) {
     return {{"channel", channel},
             {"afferent", afferent},

@@ -12,20 +12,20 @@
 namespace corpuscle {
 
 /// Writes a complete file and renames it to its final name.
-Result<void> put_whole(OutputFile&, const std::string& text);
-Result<void> write_whole(const std::string& path, const std::string& text);
+Result<void> write_and_commit(OutputFile&, const std::string& text);
+Result<void> write_file(const std::string& path, const std::string& text);
 
 /// The file names of those paths that are directly in this directory.
-std::vector<std::string> names_in(const std::string& directory, const std::vector<std::string>& paths);
+std::vector<std::string> file_names_in(const std::string& directory, const std::vector<std::string>& paths);
 
 /// The path of the report page of this run, if one was requested.
-std::optional<std::string> page_of(const RespondWords&);
+std::optional<std::string> report_page_path(const RespondArguments&);
 
 /// Checks that each output may be written: files of a directory ("": none), a page, a checkpoint ("": none).
 Result<void> check_outputs(const std::string& directory, std::vector<std::string> names, const std::optional<std::string>& page,
                            const std::string& checkpoint, OutputCheck&);
 
 /// "Written: a, b", and the files of an earlier run that were removed; or that nothing was written.
-std::string run_trial(const std::vector<std::string>& paths, const std::vector<std::string>& removed);
+std::string written_files_text(const std::vector<std::string>& paths, const std::vector<std::string>& removed);
 
 }  // namespace corpuscle

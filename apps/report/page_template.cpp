@@ -1,4 +1,4 @@
-#include "report/template.hpp"
+#include "report/page_template.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -7,7 +7,7 @@
 
 namespace corpuscle {
 
-std::string_view compiler() {
+std::string_view compiler_version() {
 #ifdef __clang__
     return __VERSION__;
 #else
@@ -21,7 +21,7 @@ std::string_view asset(std::string_view name) {
     return {};
 }
 
-std::string safe_json(const nlohmann::ordered_json& document) {
+std::string script_json(const nlohmann::ordered_json& document) {
     const auto text = document.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
     std::string out;
     out.reserve(text.size());
@@ -29,13 +29,13 @@ std::string safe_json(const nlohmann::ordered_json& document) {
     return out;
 }
 
-std::string escaped(std::string_view text) {
+std::string escape_html(std::string_view text) {
     std::string out;
     for (const char c : text) c == '<' ? out += "&lt;" : c == '&' ? out += "&amp;" : out += c;
     return out;
 }
 
-std::string filled(std::string_view page_template, std::string_view title, std::string_view data) {
+std::string fill_template(std::string_view page_template, std::string_view title, std::string_view data) {
     std::string out;
     for (;;) {
         const auto open = page_template.find("{{"), close = page_template.find("}}", open);

@@ -1,6 +1,6 @@
 // The table below the rates of corpuscle respond: implementations of one receptor, compared with the first.
 
-#include "versions_table.hpp"
+#include "implementations_table.hpp"
 
 #include <fmt/format.h>
 
@@ -40,7 +40,7 @@ std::vector<std::string> reference_line(const VersionComparison& c) {
 
 }  // namespace
 
-std::string versions_table(const VersionComparisons& comparisons) {
+std::string implementations_table(const VersionComparisons& comparisons) {
     std::vector<std::vector<std::string>> rows = {
         {"implementation", "channel", "spikes", "by phase", "change (%)", "matched", "shift (ms)", "Victor-Purpura", "van Rossum"}};
     const auto& all = comparisons.rows();
@@ -57,7 +57,7 @@ std::string versions_table(const VersionComparisons& comparisons) {
         last = &c;
     }
     if (rows.size() == 1) return "";
-    auto text = "\n" + table(rows);
+    auto text = "\n" + format_table(rows);
     if (omitted > 0) text += fmt::format("... and {} more rows; --out writes all of them to summary.json\n", omitted);
     if (silent > 0) text += fmt::format("Not shown: {} pairs without spikes.\n", silent);
     return text + fmt::format(
