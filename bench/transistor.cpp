@@ -15,7 +15,7 @@
 #include "circuit/device/uicm.hpp"
 #include "circuit/device/uicm_card.hpp"
 #include "circuit/uicm_lanes.hpp"
-#include "circuit/uicm_numbers.hpp"
+#include "circuit/uicm_values.hpp"
 #include "signal/random.hpp"
 
 namespace {
@@ -32,7 +32,7 @@ double one_by_one(const UicmConstants& constants, const double* const (&v)[4], s
     for (std::size_t round = 0; round < times; ++round)
         for (std::size_t k = 0; k < points; ++k) {
             device.eval({v[0][k], v[1][k], v[2][k], v[3][k]}, answer);
-            sum += test::sum_of(answer);
+            sum += test::sum_of_values(answer);
         }
     return sum;
 }
@@ -43,7 +43,7 @@ double seconds() {
     return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-void measure(std::string_view name, test::UicmRounds run, const UicmConstants& constants, const double* const (&v)[4]) {
+void measure(std::string_view name, test::UicmTimingFunction run, const UicmConstants& constants, const double* const (&v)[4]) {
     std::vector<double> ns;
     volatile double kept = 0;
     for (int repeat = 0; repeat < 16; ++repeat) {
@@ -69,10 +69,10 @@ int main() {
         for (std::size_t k = 0; k < count; ++k) v[n][k] = std::clamp(0.4 + 0.3 * normal(1, n, 0, k), -0.2, 1.0);
     const double* const points[4] = {v[0], v[1], v[2], v[3]};
     measure("one", one_by_one, constants, points);
-    measure("baseline", test::baseline::uicm_rounds, constants, points);
+    measure("baseline", test::baseline::uicm_evaluate_rounds, constants, points);
 #ifdef __x86_64__
-    if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) measure("avx2", test::avx2::uicm_rounds, constants, points);
+    if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) measure("avx2", test::avx2::uicm_evaluate_rounds, constants, points);
     if (__builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl"))
-        measure("avx512", test::avx512::uicm_rounds, constants, points);
+        measure("avx512", test::avx512::uicm_evaluate_rounds, constants, points);
 #endif
 }

@@ -7,33 +7,33 @@
 
 #include "circuit/embedded_netlists.hpp"
 #include "support/child_process.hpp"
-#include "support/places.hpp"
+#include "support/test_paths.hpp"
 #include "support/program.hpp"
 
 namespace corpuscle {
 namespace {
 
-using test::Folder;
+using test::TemporaryFolder;
 using Json = nlohmann::json;
 
-using test::run;
+using test::run_program;
 
 TEST(Program, PressGivesTheTableAndWritesNothingUnasked) {
-    const Folder folder;
-    const auto ran = run(folder, "respond press");
+    const TemporaryFolder folder;
+    const auto ran = run_program(folder, "respond press");
     EXPECT_EQ(ran.status, 0) << ran.err;
     EXPECT_NE(ran.out.find("sa1       press    plateau           9  36.0  49.0   49.0  29.8"), std::string::npos) << ran.out;
     EXPECT_NE(ran.out.find("Nothing was written"), std::string::npos);
     EXPECT_EQ(ran.err, "");
-    EXPECT_TRUE(folder.names().empty());
+    EXPECT_TRUE(folder.file_names().empty());
 }
 
 TEST(Program, VersionsOfOneReceptorAreHeldAgainstTheFirst) {
-    const Folder folder;
+    const TemporaryFolder folder;
     for (const std::string name : {"circuits", "process"})
-        std::filesystem::create_directory_symlink(test::root() + "/" + name, folder / name);
+        std::filesystem::create_directory_symlink(test::project_root() + "/" + name, folder / name);
     const std::string chip = "circuits/sa1.cir";  // not by its full path, of which the width of the table would depend
-    const auto ran = run(folder, "respond press --afferent sa1 --afferent " + chip + " --afferent fa1 --out answer");
+    const auto ran = run_program(folder, "respond press --afferent sa1 --afferent " + chip + " --afferent fa1 --out answer");
     ASSERT_EQ(ran.status, 0) << ran.err;
     const auto table = ran.out.substr(std::min(ran.out.find("implementation "), ran.out.size()));
     EXPECT_NE(table.find("by phase   change  matched  shift  Victor-     van\n"), std::string::npos) << ran.out;
@@ -46,19 +46,19 @@ TEST(Program, VersionsOfOneReceptorAreHeldAgainstTheFirst) {
     ASSERT_EQ(said["pairs"].size(), 1u);
     EXPECT_EQ(said["pairs"][0]["afferent"], chip);
     EXPECT_NEAR(said["pairs"][0]["excess"].get<double>(), 14.0 / 15 - 1, 1e-12);
-    EXPECT_EQ(run(folder, "respond press").out.find("Victor"), std::string::npos) << "nobody has two versions";
+    EXPECT_EQ(run_program(folder, "respond press").out.find("Victor"), std::string::npos) << "nobody has two versions";
 }
 
 TEST(Program, WritesWhatIsAskedForTheSameTwice) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const std::string words = "respond press noise --seed 3 --out answer --traces --report";
-    ASSERT_EQ(run(folder, words).status, 0);
-    EXPECT_EQ(folder.names(),
+    ASSERT_EQ(run_program(folder, words).status, 0);
+    EXPECT_EQ(folder.file_names(),
               (std::vector<std::string>{"answer", "report.html", "spikes.csv", "summary.json", "traces-2.csv", "traces.csv"}));
     std::map<std::string, std::string> first;
-    for (const auto& name : folder.names())
+    for (const auto& name : folder.file_names())
         if (name != "answer") first[name] = test::read_file(folder / ("answer/" + name));
-    ASSERT_EQ(run(folder, words).status, 0);
+    ASSERT_EQ(run_program(folder, words).status, 0);
     for (const auto& [name, bytes] : first) EXPECT_EQ(test::read_file(folder / ("answer/" + name)), bytes) << name;
     const auto summary = Json::parse(first["summary.json"]);
     EXPECT_EQ(summary["work"]["samples"], 20000);
@@ -71,7 +71,7 @@ TEST(Program, WritesWhatIsAskedForTheSameTwice) {
 }
 
 TEST(Program, ThreadsAndInstructionSetsChangeNoByte) {
-    const Folder folder;
+    const TemporaryFolder folder;
     std::string wide = "t";
     for (int c = 0; c < 70; ++c) wide += ",c" + std::to_string(c) + "_N";
     for (int k = 0; k < 400; ++k) {
@@ -81,12 +81,12 @@ TEST(Program, ThreadsAndInstructionSetsChangeNoByte) {
     folder.write("wide.csv", wide + "\n");
     for (const std::string words : {"respond wide.csv --afferent sa1,fa1,sa1b+izhikevich,fsr+sa1 --time t",
                                     "respond press --afferent sa1,fa1 --copies 150 --spread sa1.f_B=20% --spread fa1.V_th=10%"}) {
-        ASSERT_EQ(run(folder, words + " --out right -j 1").status, 0);
+        ASSERT_EQ(run_program(folder, words + " --out right -j 1").status, 0);
         const auto right = test::read_file(folder / "right/spikes.csv"), summary = test::read_file(folder / "right/summary.json");
         EXPECT_GT(right.size(), 2000U);
         for (const std::string set : {"scalar", "baseline", "avx2", "avx512"})
             for (const std::string threads : {"1", "2", "7"}) {
-                const auto ran = std::system(("cd '" + folder.path() + "' && CORPUSCLE_ISA=" + set + " '" + test::program() + "' " + words +
+                const auto ran = std::system(("cd '" + folder.path() + "' && CORPUSCLE_ISA=" + set + " '" + test::program_path() + "' " + words +
                                               " --out again --quiet -j " + threads + " 2>/dev/null")
                                                  .c_str());
                 if (WEXITSTATUS(ran) == 2) continue;  // a set that this machine lacks
@@ -98,10 +98,10 @@ TEST(Program, ThreadsAndInstructionSetsChangeNoByte) {
 }
 
 TEST(Program, FloatAnswersWithinMicrosecondsAndKeepsNoInnerTraces) {
-    const Folder folder;
-    ASSERT_EQ(run(folder, "respond press --out double").status, 0);
-    ASSERT_EQ(run(folder, "respond press --float --out float --report").status, 0);
-    const auto near = run(folder, "compare double/spikes.csv float/spikes.csv --window 50us --json");
+    const TemporaryFolder folder;
+    ASSERT_EQ(run_program(folder, "respond press --out double").status, 0);
+    ASSERT_EQ(run_program(folder, "respond press --float --out float --report").status, 0);
+    const auto near = run_program(folder, "compare double/spikes.csv float/spikes.csv --window 50us --json");
     const auto document = Json::parse(near.out);
     ASSERT_EQ(document["pairs"].size(), 2U) << near.out;
     for (const auto& pair : document["pairs"]) {
@@ -109,40 +109,40 @@ TEST(Program, FloatAnswersWithinMicrosecondsAndKeepsNoInnerTraces) {
         EXPECT_EQ(pair["extra"], 0) << near.out;
     }
     EXPECT_EQ(Json::parse(test::read_file(folder / "float/summary.json"))["options"]["precision"], "float");
-    const auto traces = run(folder, "respond press --float --out float --traces");
+    const auto traces = run_program(folder, "respond press --float --out float --traces");
     EXPECT_EQ(traces.status, 2);
     EXPECT_NE(traces.err.find("in float no probes are recorded: leave out --traces"), std::string::npos) << traces.err;
-    const auto sensor = run(folder, "respond press --float --afferent fsr+sa1");
+    const auto sensor = run_program(folder, "respond press --float --afferent fsr+sa1");
     EXPECT_EQ(sensor.status, 2);
     EXPECT_NE(sensor.err.find("fsr+sa1: sensors, converters and noise cannot run in float"), std::string::npos) << sensor.err;
-    EXPECT_EQ(run(folder, "respond press -j 99999").status, 2);
+    EXPECT_EQ(run_program(folder, "respond press -j 99999").status, 2);
 }
 
 TEST(Program, ASecondRunLeavesNothingOfTheFirst) {
-    const Folder folder;
-    ASSERT_EQ(run(folder, "respond press noise --out answer --traces --npz --wav --bin 10ms").status, 0);
-    EXPECT_EQ(folder.names(), (std::vector<std::string>{"answer", "psth.csv", "spikes-2.wav", "spikes.csv", "spikes.npz", "spikes.wav",
+    const TemporaryFolder folder;
+    ASSERT_EQ(run_program(folder, "respond press noise --out answer --traces --npz --wav --bin 10ms").status, 0);
+    EXPECT_EQ(folder.file_names(), (std::vector<std::string>{"answer", "psth.csv", "spikes-2.wav", "spikes.csv", "spikes.npz", "spikes.wav",
                                                         "summary.json", "traces-2.csv", "traces.csv"}));
     folder.write("answer/notes.txt", "mine");
-    const auto ran = run(folder, "respond press --out answer --npz");
+    const auto ran = run_program(folder, "respond press --out answer --npz");
     EXPECT_NE(ran.out.find("Removed files of an earlier run: psth.csv, spikes.wav, spikes-2.wav, traces.csv, traces-2.csv\n"),
               std::string::npos)
         << ran.out;
-    EXPECT_EQ(folder.names(), (std::vector<std::string>{"answer", "notes.txt", "spikes.csv", "spikes.npz", "summary.json"}));
+    EXPECT_EQ(folder.file_names(), (std::vector<std::string>{"answer", "notes.txt", "spikes.csv", "spikes.npz", "summary.json"}));
 }
 
 TEST(Program, CopiesAreAnsweredSummarisedAndTabledTheSameTwice) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const std::string words =
         "respond press sine --copies 60 --spread sa1.f_B=10% --spread fa1.V_th=20mV --noise 20nA --seed 3 --out answer --report";
-    const auto ran = run(folder, words);
+    const auto ran = run_program(folder, words);
     ASSERT_EQ(ran.status, 0) << ran.err;
     EXPECT_NE(ran.out.find("60 copies of each afferent; mean +- standard deviation over copies that have a value\n"), std::string::npos)
         << ran.out;
     const std::vector<std::string> files = {"copies.csv", "report.html", "spikes.csv", "summary.json"};
     std::map<std::string, std::string> first;
     for (const auto& name : files) first[name] = test::read_file(folder / ("answer/" + name));
-    ASSERT_EQ(run(folder, words).status, 0);
+    ASSERT_EQ(run_program(folder, words).status, 0);
     for (const auto& [name, bytes] : first) EXPECT_EQ(test::read_file(folder / ("answer/" + name)), bytes) << name;
     const auto summary = Json::parse(first["summary.json"]);
     EXPECT_EQ(summary["copies"]["of_each_afferent"], 60);
@@ -154,29 +154,29 @@ TEST(Program, CopiesAreAnsweredSummarisedAndTabledTheSameTwice) {
     EXPECT_EQ(summary["rates"][2]["afferent"], "sa1");
     EXPECT_EQ(summary["rates"][2]["spikes"]["copies"], 60);
     EXPECT_GT(summary["rates"][2]["spikes"]["standard_deviation"], 0.0);
-    const auto compared = Json::parse(run(folder, "compare answer/spikes.csv answer/spikes.csv --json").out);
+    const auto compared = Json::parse(run_program(folder, "compare answer/spikes.csv answer/spikes.csv --json").out);
     EXPECT_EQ(compared["pairs"].size(), 3U * 60) << "fa1 is silent under the sine";
     EXPECT_EQ(compared["total"]["missing"], 0);
-    EXPECT_NE(run(folder, "respond press --out answer").out.find("Removed files of an earlier run: copies.csv, report.html\n"),
+    EXPECT_NE(run_program(folder, "respond press --out answer").out.find("Removed files of an earlier run: copies.csv, report.html\n"),
               std::string::npos);
 }
 
 TEST(Program, OneCopyIsTheAfferentItself) {
-    const Folder folder;
-    ASSERT_EQ(run(folder, "respond press -a sa1,fa1-lee --noise 50nA --out plain").status, 0);
-    ASSERT_EQ(run(folder, "respond press -a sa1,fa1-lee --noise 50nA --copies 1 --out one").status, 0);
+    const TemporaryFolder folder;
+    ASSERT_EQ(run_program(folder, "respond press -a sa1,fa1-lee --noise 50nA --out plain").status, 0);
+    ASSERT_EQ(run_program(folder, "respond press -a sa1,fa1-lee --noise 50nA --copies 1 --out one").status, 0);
     auto spikes = test::read_file(folder / "one/spikes.csv");
     for (std::size_t at; (at = spikes.find("#1")) != spikes.npos;) spikes.erase(at, 2);
     EXPECT_EQ(spikes, test::read_file(folder / "plain/spikes.csv"));
 }
 
 TEST(Program, ACopySetToWhatItsRowSaysAnswersAsItDid) {
-    const Folder folder;
-    ASSERT_EQ(run(folder, "respond press -a sa1 --copies 9 --spread sa1.f_B=20% --spread sa1.V_th=10% --traces --out answer").status, 0);
+    const TemporaryFolder folder;
+    ASSERT_EQ(run_program(folder, "respond press -a sa1 --copies 9 --spread sa1.f_B=20% --spread sa1.V_th=10% --traces --out answer").status, 0);
     const auto table = test::read_file(folder / "answer/copies.csv"), spikes = test::read_file(folder / "answer/spikes.csv");
     const auto row = table.substr(table.find("sa1#7,press,") + 12);
     const auto f_B = row.substr(0, row.find(',')), V_th = row.substr(f_B.size() + 1, row.find(',', f_B.size() + 1) - f_B.size() - 1);
-    ASSERT_EQ(run(folder, "respond press -a sa1 --set sa1.f_B=" + f_B + " --set sa1.V_th=" + V_th + " --out same").status, 0);
+    ASSERT_EQ(run_program(folder, "respond press -a sa1 --set sa1.f_B=" + f_B + " --set sa1.V_th=" + V_th + " --out same").status, 0);
     std::string mine = "afferent,channel,time_s\n";
     std::istringstream lines(spikes);
     for (std::string line; std::getline(lines, line);)
@@ -186,46 +186,46 @@ TEST(Program, ACopySetToWhatItsRowSaysAnswersAsItDid) {
 }
 
 TEST(Program, CompareTellsWhatMatches) {
-    const Folder folder;
-    ASSERT_EQ(run(folder, "respond press --afferent sa1,fa1,sa1-kim --npz --out a").status, 0);
-    ASSERT_EQ(run(folder, "respond press --set sa1.f_B=20.1Hz --out b").status, 0);
-    const auto same = Json::parse(run(folder, "compare a/spikes.npz a/spikes.csv --json").out);
+    const TemporaryFolder folder;
+    ASSERT_EQ(run_program(folder, "respond press --afferent sa1,fa1,sa1-kim --npz --out a").status, 0);
+    ASSERT_EQ(run_program(folder, "respond press --set sa1.f_B=20.1Hz --out b").status, 0);
+    const auto same = Json::parse(run_program(folder, "compare a/spikes.npz a/spikes.csv --json").out);
     EXPECT_EQ(same["total"]["spikes_a"], 39);
     EXPECT_EQ(same["total"]["matched"], 39);
     EXPECT_LE(same["total"]["largest_s"], 0.51e-9) << "CSV is rounded to the nanosecond";
-    const auto text = run(folder, "compare a/spikes.csv b/spikes.csv");
+    const auto text = run_program(folder, "compare a/spikes.csv b/spikes.csv");
     EXPECT_EQ(text.status, 0) << text.err;
     EXPECT_NE(text.out.find("sa1-kim,press  -          16   0        0       16      0      -      -    16.00"), std::string::npos)
         << text.out;
     EXPECT_NE(text.out.find("Matching window 5 ms; Victor-Purpura cost 100 per second; van Rossum time constant 10 ms."),
               std::string::npos);
-    const auto two = Json::parse(run(folder, "compare a/spikes.csv --pair sa1=sa1-kim --window 1s --json").out);
+    const auto two = Json::parse(run_program(folder, "compare a/spikes.csv --pair sa1=sa1-kim --window 1s --json").out);
     EXPECT_EQ(two["pairs"].size(), 1U);
     EXPECT_EQ(two["pairs"][0]["b"], "sa1-kim,press");
     EXPECT_EQ(two["total"]["extra"], 1);
-    const auto other = run(folder, "compare a/spikes.csv b/spikes.csv --pair sa1=sa2");
+    const auto other = run_program(folder, "compare a/spikes.csv b/spikes.csv --pair sa1=sa2");
     EXPECT_EQ(other.status, 2);
     EXPECT_EQ(other.err, "corpuscle: --pair sa1=sa2: the second file has no train 'sa2'; it has fa1,press; sa1,press\n");
 }
 
 TEST(Program, CompareReadsTheSpikesOfTheElectronicSkin) {
-    const auto motor = test::shared("fbg_eskin_press/motor_spikes_S6_T16.csv"), snn = test::shared("fbg_eskin_press/snn_spikes_S6_T16.csv");
+    const auto motor = test::shared_file_path("fbg_eskin_press/motor_spikes_S6_T16.csv"), snn = test::shared_file_path("fbg_eskin_press/snn_spikes_S6_T16.csv");
     CORPUSCLE_NEEDS(motor);
-    const Folder folder;
-    const auto itself = Json::parse(run(folder, "compare '" + motor + "' '" + motor + "' --json").out);
+    const TemporaryFolder folder;
+    const auto itself = Json::parse(run_program(folder, "compare '" + motor + "' '" + motor + "' --json").out);
     EXPECT_EQ(itself["total"]["matched"], 1305);
     EXPECT_EQ(itself["total"]["victor_purpura"], 0.0);
-    const auto other = run(folder, "compare '" + motor + "' '" + snn + "'");
+    const auto other = run_program(folder, "compare '" + motor + "' '" + snn + "'");
     EXPECT_EQ(other.status, 2);
     EXPECT_NE(other.err.find("no train has the same name in both files: 6; 11; 16 | 243; "), std::string::npos) << other.err;
 }
 
 TEST(Program, ReportAloneGoesWhereItIsToldOrHere) {
-    const Folder folder;
-    EXPECT_EQ(run(folder, "respond press --report").status, 0);
-    EXPECT_EQ(run(folder, "respond --report press").status, 0) << "the word after --report is no page, so it is a force";
-    EXPECT_EQ(run(folder, "respond press --report sub/touch.html").status, 0);
-    EXPECT_EQ(folder.names(), (std::vector<std::string>{"report.html", "sub", "touch.html"}));
+    const TemporaryFolder folder;
+    EXPECT_EQ(run_program(folder, "respond press --report").status, 0);
+    EXPECT_EQ(run_program(folder, "respond --report press").status, 0) << "the word after --report is no page, so it is a force";
+    EXPECT_EQ(run_program(folder, "respond press --report sub/touch.html").status, 0);
+    EXPECT_EQ(folder.file_names(), (std::vector<std::string>{"report.html", "sub", "touch.html"}));
     const auto page = test::read_file(folder / "report.html");
     EXPECT_EQ(page.find("{{title}}"), std::string::npos);
     EXPECT_NE(page.find("<title>press</title>"), std::string::npos);
@@ -233,35 +233,35 @@ TEST(Program, ReportAloneGoesWhereItIsToldOrHere) {
 }
 
 TEST(Program, JsonIsOneDocumentAndNothingElse) {
-    const Folder folder;
-    const auto ran = run(folder, "respond press --json --set sa1.f_B=25Hz --set press.F_max=2N");
+    const TemporaryFolder folder;
+    const auto ran = run_program(folder, "respond press --json --set sa1.f_B=25Hz --set press.F_max=2N");
     ASSERT_EQ(ran.status, 0);
     const auto document = Json::parse(ran.out);
     EXPECT_EQ(document["afferents"][0]["parameters"]["f_B"], (Json{{"value", 25.0}, {"unit", "Hz"}, {"of", "sa1b"}, {"set", true}}));
-    const auto listed = Json::parse(run(folder, "list --json").out);
+    const auto listed = Json::parse(run_program(folder, "list --json").out);
     EXPECT_EQ(listed["afferents"].size(), named_afferents().size() + std::size(circuit::embedded_netlists) + 1);  // and any netlist
     for (const auto& card : receptor_entries())
         EXPECT_TRUE(std::any_of(listed["transductions"].begin(), listed["transductions"].end(), [&](const Json& e) {
             return e["name"] == card.name;
         })) << card.name;
-    EXPECT_EQ(run(folder, "respond press --json --quiet").out, run(folder, "respond press --json").out);
+    EXPECT_EQ(run_program(folder, "respond press --json --quiet").out, run_program(folder, "respond press --json").out);
 }
 
 TEST(Program, ListNamesEveryParameterOfEveryModel) {
-    const Folder folder;
-    const auto text = run(folder, "list").out;
+    const TemporaryFolder folder;
+    const auto text = run_program(folder, "list").out;
     for (const auto& cards : {sensor_entries(), transducer_entries(), converter_entries(), receptor_entries(), neuron_entries(), stimulus_catalog()})
         for (const auto& card : cards) {
             EXPECT_NE(text.find("  " + std::string(card.name) + ": "), std::string::npos) << card.name;
             for (const auto& row : card.parameters)
                 EXPECT_NE(text.find(std::string(row.description)), std::string::npos) << card.name << '.' << row.name;
         }
-    EXPECT_EQ(run(folder, "list neuron").err, "corpuscle: list: there is no 'neuron'; did you mean 'neurons'?\n");
-    EXPECT_NE(run(folder, "list sa1 press").out.find("half-cosine"), std::string::npos);
+    EXPECT_EQ(run_program(folder, "list neuron").err, "corpuscle: list: there is no 'neuron'; did you mean 'neurons'?\n");
+    EXPECT_NE(run_program(folder, "list sa1 press").out.find("half-cosine"), std::string::npos);
 }
 
 TEST(Program, BadInputAndBadUsageHaveTheirStatusTheirSentenceAndLeaveNothing) {
-    const Folder folder;
+    const TemporaryFolder folder;
     folder.write("bad.csv", "time_s,fz_N\n0,1\n0.01,2\n0.02,oops\n");
     folder.write("nm.csv", "time_s,a_nm\n0,1\n0.01,2\n");
     const struct {
@@ -316,19 +316,19 @@ TEST(Program, BadInputAndBadUsageHaveTheirStatusTheirSentenceAndLeaveNothing) {
         {"respond press --out bad.csv", 1, "bad.csv: the directory cannot be created: Not a directory"},
     };
     for (const auto& c : cases) {
-        const auto ran = run(folder, c.words);
+        const auto ran = run_program(folder, c.words);
         EXPECT_EQ(ran.status, c.status) << c.words;
         EXPECT_EQ(ran.err, "corpuscle: " + std::string(c.said) + "\n") << c.words;
         EXPECT_EQ(ran.out, "") << c.words;
     }
-    EXPECT_EQ(run(folder, "respond press --sampeld").status, 2);
-    for (const auto* n : {"0", "-1", "1000001", "ten"}) EXPECT_EQ(run(folder, "respond press --copies " + std::string(n)).status, 2) << n;
-    EXPECT_EQ(folder.names(), (std::vector<std::string>{"bad.csv", "nm.csv"}));
+    EXPECT_EQ(run_program(folder, "respond press --sampeld").status, 2);
+    for (const auto* n : {"0", "-1", "1000001", "ten"}) EXPECT_EQ(run_program(folder, "respond press --copies " + std::string(n)).status, 2) << n;
+    EXPECT_EQ(folder.file_names(), (std::vector<std::string>{"bad.csv", "nm.csv"}));
 }
 
 TEST(Program, StudiesAreToldWrittenAndAskedForByAnyOfTheirNumbers) {
-    const Folder folder;
-    const auto ran = run(folder, "study fig4 table17 eq30 --json --report page.html --markdown numbers.md");
+    const TemporaryFolder folder;
+    const auto ran = run_program(folder, "study fig4 table17 eq30 --json --report page.html --markdown numbers.md");
     ASSERT_EQ(ran.status, 0) << ran.err;
     const auto document = Json::parse(ran.out);
     std::vector<std::string> names;
@@ -336,119 +336,119 @@ TEST(Program, StudiesAreToldWrittenAndAskedForByAnyOfTheirNumbers) {
     EXPECT_EQ(names, (std::vector<std::string>{"fig4", "table17-18", "eq21-30"}));
     EXPECT_EQ(document[0]["claims"][0]["printed"], 0.2);
     EXPECT_FALSE(document[0]["plots"][0]["series"][0]["x"].empty());
-    EXPECT_EQ(folder.names(), (std::vector<std::string>{"numbers.md", "page.html"}));
+    EXPECT_EQ(folder.file_names(), (std::vector<std::string>{"numbers.md", "page.html"}));
     EXPECT_NE(test::read_file(folder / "numbers.md").find("## table17-18"), std::string::npos);
-    const auto unknown = run(folder, "study fig7 --report other.html");
+    const auto unknown = run_program(folder, "study fig7 --report other.html");
     EXPECT_EQ(unknown.status, 2);
     EXPECT_NE(unknown.err.find("study: unknown study 'fig7'"), std::string::npos) << unknown.err;
-    EXPECT_EQ(run(folder, "study table19").status, 2);
-    EXPECT_EQ(folder.names().size(), 2u);
-    EXPECT_NE(run(folder, "study fig4 --quiet --report numbers.md/page.html").status, 0) << "in a file there is no other";
+    EXPECT_EQ(run_program(folder, "study table19").status, 2);
+    EXPECT_EQ(folder.file_names().size(), 2u);
+    EXPECT_NE(run_program(folder, "study fig4 --quiet --report numbers.md/page.html").status, 0) << "in a file there is no other";
 }
 
 TEST(Program, NamesMayHoldAnyBytes) {
-    const Folder folder;
+    const TemporaryFolder folder;
     folder.write("l.csv",
                  "t,Gr\xf6\xdf"  // Latin-1
                  "e_N\n0,1\n0.01,2\n0.02,2\n");
-    const auto ran = run(folder, "respond l.csv --out answer --report --json");
+    const auto ran = run_program(folder, "respond l.csv --out answer --report --json");
     EXPECT_EQ(ran.status, 0) << ran.err;
     EXPECT_FALSE(Json::parse(ran.out).is_discarded());
-    EXPECT_EQ(folder.names(), (std::vector<std::string>{"answer", "l.csv", "report.html", "spikes.csv", "summary.json"}));
+    EXPECT_EQ(folder.file_names(), (std::vector<std::string>{"answer", "l.csv", "report.html", "spikes.csv", "summary.json"}));
 }
 
 TEST(Program, AStimulusGoesBeforeADirectoryOfItsName) {
-    const Folder folder;
-    EXPECT_EQ(run(folder, "respond press --out press --quiet").status, 0);
-    EXPECT_EQ(run(folder, "respond press --out press --quiet").status, 0);
+    const TemporaryFolder folder;
+    EXPECT_EQ(run_program(folder, "respond press --out press --quiet").status, 0);
+    EXPECT_EQ(run_program(folder, "respond press --out press --quiet").status, 0);
 }
 
 TEST(Program, WhatCannotBePrintedOrNamedIsAnError) {
-    const Folder folder;
-    const auto full = std::system(("'" + test::program() + "' list >/dev/full 2>'" + (folder / "err") + "'").c_str());
+    const TemporaryFolder folder;
+    const auto full = std::system(("'" + test::program_path() + "' list >/dev/full 2>'" + (folder / "err") + "'").c_str());
     EXPECT_EQ(WEXITSTATUS(full), 1);
-    EXPECT_EQ(run(folder, "respond " + std::string(5000, 'x')).status, 1);
+    EXPECT_EQ(run_program(folder, "respond " + std::string(5000, 'x')).status, 1);
 }
 
 TEST(Program, AStateThatIsNoLongerANumberIsToldNotHidden) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const auto ran =
-        run(folder, "respond press -a sa1b+adex --set sa1b+adex.g_L=1mS --out answer --npz --bin 1ms");  // far too stiff for its substep
+        run_program(folder, "respond press -a sa1b+adex --set sa1b+adex.g_L=1mS --out answer --npz --bin 1ms");  // far too stiff for its substep
     EXPECT_EQ(ran.status, 3);
     EXPECT_NE(ran.err.find("sa1b+adex on press: sa1b+adex: its state became NaN or infinite"), std::string::npos) << ran.err;
-    EXPECT_TRUE(folder.names().empty());
+    EXPECT_TRUE(folder.file_names().empty());
 }
 
 TEST(Program, OtherNamesAreTakenWhereverNamesAre) {
-    const Folder folder;
-    EXPECT_EQ(run(folder, "list RA").out, run(folder, "list fa1").out);
-    const auto by_alias = Json::parse(run(folder, "respond press -a fa1 --set RA.f=3Hz --json").out);
+    const TemporaryFolder folder;
+    EXPECT_EQ(run_program(folder, "list RA").out, run_program(folder, "list fa1").out);
+    const auto by_alias = Json::parse(run_program(folder, "respond press -a fa1 --set RA.f=3Hz --json").out);
     EXPECT_EQ(by_alias["afferents"][0]["parameters"]["f"]["value"], 3.0);
 }
 
 TEST(Program, SummarySaysWhatWasRun) {
-    const Folder folder;
-    const auto ran = Json::parse(run(folder, "respond press --set press.F_max=2N --json").out);
+    const TemporaryFolder folder;
+    const auto ran = Json::parse(run_program(folder, "respond press --set press.F_max=2N --json").out);
     EXPECT_EQ(ran["inputs"][0]["parameters"]["press.F_max"], (Json{{"value", 2.0}, {"unit", "N"}}));
     EXPECT_EQ(ran["inputs"][0]["force_max_N"], 2.0);
     folder.write("x.csv", "t,a,a\n0,1,2\n0.01,3,4\n");
-    const auto read = Json::parse(run(folder, "respond x.csv --scale 0.5 --json").out);
+    const auto read = Json::parse(run_program(folder, "respond x.csv --scale 0.5 --json").out);
     EXPECT_EQ(read["inputs"][0]["parameters"]["a: newtons per unit"]["value"], 0.5);
     EXPECT_EQ(read["inputs"][0]["channels"], (Json{"a", "a (2)"})) << "two columns of one name stay two";
 }
 
 TEST(Program, ProgressWithTimeLeftIsDrawnToATerminalAndNowhereElse) {
-    if (!test::has_terminals()) GTEST_SKIP() << test::no_terminals;
-    const Folder folder;
+    if (!test::has_pseudo_terminals()) GTEST_SKIP() << test::no_pseudo_terminals;
+    const TemporaryFolder folder;
     const std::string job = "respond sine --set sine.duration=400s --afferent sa1b+adex";  // some seconds
     const auto drawn = folder / "drawn";
-    ASSERT_EQ(std::system(("script -qec \"'" + test::program() + "' " + job + "\" /dev/null > '" + drawn + "' 2>&1 < /dev/null").c_str()),
+    ASSERT_EQ(std::system(("script -qec \"'" + test::program_path() + "' " + job + "\" /dev/null > '" + drawn + "' 2>&1 < /dev/null").c_str()),
               0);
     const auto seen = test::read_file(drawn);
     EXPECT_NE(seen.find(" s left"), std::string::npos) << seen.substr(0, 400);
     EXPECT_NE(seen.find(" %  "), std::string::npos);
-    EXPECT_EQ(run(folder, job).err, "") << "not a terminal";
+    EXPECT_EQ(run_program(folder, job).err, "") << "not a terminal";
 }
 
 TEST(Program, WhatWasClippedOrDidNotFitOrWasNotReachedIsTold) {
-    const Folder folder;
-    EXPECT_EQ(run(folder, "respond press -q -a fsr+f2v+sa1 --set press.F_max=8N").err,
+    const TemporaryFolder folder;
+    EXPECT_EQ(run_program(folder, "respond press -q -a fsr+f2v+sa1 --set press.F_max=8N").err,
               "corpuscle: warning: 3335 samples saturated a transducer or a converter, so the afferent received less force than was applied; "
               "lower R_fb or V_FSR, raise V_DD or I_max, or widen F_low to F_high\n");
-    EXPECT_NE(run(folder, "respond press -q -a sa1-kim --set sa1-kim.frac=28 --set sa1-kim.k_s=10e-6")
+    EXPECT_NE(run_program(folder, "respond press -q -a sa1-kim --set sa1-kim.frac=28 --set sa1-kim.k_s=10e-6")
                   .err.find("results overflowed their words"),
               std::string::npos);
-    EXPECT_EQ(run(folder, "respond press -q -a sa1-kim --noise 1nA").err,
+    EXPECT_EQ(run_program(folder, "respond press -q -a sa1-kim --noise 1nA").err,
               "corpuscle: warning: sa1-kim: --noise has no effect; behind a converter the membrane is digital\n");
-    const auto noisy = Json::parse(run(folder, "respond press --noise 200nA --seed 5 --json").out);
+    const auto noisy = Json::parse(run_program(folder, "respond press --noise 200nA --seed 5 --json").out);
     EXPECT_DOUBLE_EQ(noisy["options"]["noise_A"].get<double>(), 200e-9);
     EXPECT_EQ(noisy["work"]["clipped"], 0);
 }
 
 TEST(Program, ReadsFromAPipe) {
-    const Folder folder;
+    const TemporaryFolder folder;
     folder.write("x.csv", "1\n2\n3\n");
-    EXPECT_EQ(std::system(("cat '" + (folder / "x.csv") + "' | '" + test::program() + "' respond - --rate 100Hz --quiet").c_str()), 0);
+    EXPECT_EQ(std::system(("cat '" + (folder / "x.csv") + "' | '" + test::program_path() + "' respond - --rate 100Hz --quiet").c_str()), 0);
 }
 
 TEST(Program, HelpTeachesAndVersionTells) {
-    const Folder folder;
-    EXPECT_NE(run(folder, "--help").out.find("corpuscle respond press"), std::string::npos);
-    const auto help = run(folder, "respond --help");
+    const TemporaryFolder folder;
+    EXPECT_NE(run_program(folder, "--help").out.find("corpuscle respond press"), std::string::npos);
+    const auto help = run_program(folder, "respond --help");
     EXPECT_EQ(help.status, 0);
     for (const auto& card : stimulus_catalog()) EXPECT_NE(help.out.find(std::string(card.name)), std::string::npos) << card.name;
     for (const auto& a : named_afferents()) EXPECT_NE(help.out.find(std::string(a.name)), std::string::npos) << a.name;
-    EXPECT_EQ(run(folder, "--version").out.rfind("corpuscle ", 0), 0U);
+    EXPECT_EQ(run_program(folder, "--version").out.rfind("corpuscle ", 0), 0U);
 }
 
 TEST(Program, CtrlCAndItsKinEndItCleanly) {
     for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
-        const Folder folder;
+        const TemporaryFolder folder;
         const auto answer = folder / "new/deep/answer";
         const pid_t child = test::fork_child();
         if (child == 0) {
             if (!std::freopen("/dev/null", "w", stderr)) std::_Exit(98);
-            ::execl(test::program().c_str(), "corpuscle", "respond", "sine", "--set", "sine.duration=100000s", "--rate", "100kHz", "--out",
+            ::execl(test::program_path().c_str(), "corpuscle", "respond", "sine", "--set", "sine.duration=100000s", "--rate", "100kHz", "--out",
                     answer.c_str(), nullptr);
             std::_Exit(99);
         }
@@ -461,18 +461,18 @@ TEST(Program, CtrlCAndItsKinEndItCleanly) {
         ::waitpid(child, &status, 0);
         EXPECT_TRUE(WIFEXITED(status));
         EXPECT_EQ(WEXITSTATUS(status), 130);
-        EXPECT_TRUE(folder.names().empty()) << "nothing half-written is left";
+        EXPECT_TRUE(folder.file_names().empty()) << "nothing half-written is left";
     }
 }
 
 TEST(Program, ThePressOnTheElectronicSkinByTheReadmesCommand) {
-    const auto path = test::shared("fbg_eskin_press/fbg_press_S6_T16.csv");
+    const auto path = test::shared_file_path("fbg_eskin_press/fbg_press_S6_T16.csv");
     CORPUSCLE_NEEDS(path);
-    const Folder folder;
-    const auto ran = run(folder, "respond '" + path + "' --rate 100Hz --scale 40 --out touch --report");
+    const TemporaryFolder folder;
+    const auto ran = run_program(folder, "respond '" + path + "' --rate 100Hz --scale 40 --out touch --report");
     EXPECT_EQ(ran.status, 0) << ran.err;
     EXPECT_NE(ran.err.find("were replaced by an even clock of 100 Hz"), std::string::npos) << ran.err;
-    EXPECT_EQ(folder.names(), (std::vector<std::string>{"report.html", "spikes.csv", "summary.json", "touch"}));
+    EXPECT_EQ(folder.file_names(), (std::vector<std::string>{"report.html", "spikes.csv", "summary.json", "touch"}));
 }
 
 }  // namespace

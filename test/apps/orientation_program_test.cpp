@@ -3,42 +3,42 @@
 #include <cstring>
 
 #include "support/program.hpp"
-#include "support/writers.hpp"
+#include "support/file_writers.hpp"
 
 namespace corpuscle {
 namespace {
 
-using test::Folder, test::run;
+using test::TemporaryFolder, test::run_program;
 
 TEST(OrientationProgram, TheRemediesThatItNamesWorkAsTyped) {
-    const Folder folder;
-    folder.write("x.npy", test::npy("'|u1'", "(2, 300)", std::string(300, '\1') + std::string(300, '\2')));
+    const TemporaryFolder folder;
+    folder.write("x.npy", test::npy_bytes("'|u1'", "(2, 300)", std::string(300, '\1') + std::string(300, '\2')));
     for (const std::string verb : {"respond x.npy --rate 500Hz", "stream --in x.npy --rate 500Hz --pace fast --channels 2"}) {
-        const auto refused = run(folder, verb);
+        const auto refused = run_program(folder, verb);
         EXPECT_EQ(refused.status, 1);
         EXPECT_NE(refused.err.find(
                       "300 channels of only 2 samples? Use --transpose if each row is a channel, or --no-transpose if each row is a"),
                   std::string::npos)
             << refused.err;
-        EXPECT_EQ(run(folder, verb + " --transpose").status, 0);
+        EXPECT_EQ(run_program(folder, verb + " --transpose").status, 0);
     }
-    const auto turned = run(folder, "respond x.npy --rate 500Hz --transpose");
+    const auto turned = run_program(folder, "respond x.npy --rate 500Hz --transpose");
     EXPECT_NE(turned.out.find("2 channels, 300 samples"), std::string::npos) << turned.out;
-    const auto insisted = run(folder, "respond x.npy --rate 500Hz --no-transpose");
+    const auto insisted = run_program(folder, "respond x.npy --rate 500Hz --no-transpose");
     EXPECT_NE(insisted.out.find("300 channels, 2 samples"), std::string::npos) << insisted.out;
-    EXPECT_EQ(run(folder, "respond x.npy --rate 500Hz --transpose --no-transpose").status, 2);
-    EXPECT_EQ(run(folder, "respond press --transpose").status, 2);
+    EXPECT_EQ(run_program(folder, "respond x.npy --rate 500Hz --transpose --no-transpose").status, 2);
+    EXPECT_EQ(run_program(folder, "respond press --transpose").status, 2);
 }
 
 TEST(OrientationProgram, ADatasetIsNamedByTheEndOfItsPath) {
-    const Folder folder;
+    const TemporaryFolder folder;
     {
         test::Hdf5File file(folder / "x.nwb");
-        file.numbers("/acquisition/FingerForce/data", {3}, {0, 1, 2});
-        file.numbers("/acquisition/other/data", {3}, {0, 1, 2});
+        file.write_numbers("/acquisition/FingerForce/data", {3}, {0, 1, 2});
+        file.write_numbers("/acquisition/other/data", {3}, {0, 1, 2});
     }
-    EXPECT_EQ(run(folder, "respond x.nwb --rate 10Hz --dataset FingerForce").status, 0);
-    EXPECT_EQ(run(folder, "respond x.nwb --rate 10Hz").status, 1);
+    EXPECT_EQ(run_program(folder, "respond x.nwb --rate 10Hz --dataset FingerForce").status, 0);
+    EXPECT_EQ(run_program(folder, "respond x.nwb --rate 10Hz").status, 1);
 }
 
 }  // namespace

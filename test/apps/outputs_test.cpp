@@ -16,14 +16,14 @@
 #include "io/output_file.hpp"
 #include "io/output_check.hpp"
 #include "support/child_process.hpp"
-#include "support/places.hpp"
+#include "support/test_paths.hpp"
 #include "support/program.hpp"
 
 namespace corpuscle {
 namespace {
 
 namespace fs = std::filesystem;
-using test::Folder;
+using test::TemporaryFolder;
 using test::read_file;
 
 const char* const small_deck = "small\nv1 in 0 1\nr1 in out 1k\nr2 out 0 1k\n.op\n.tran 10u 1m\n";
@@ -35,7 +35,7 @@ std::string numbers() {
 }
 
 /// Every file below a folder, with its bytes.
-std::map<std::string, std::string> contents(const Folder& folder) {
+std::map<std::string, std::string> contents(const TemporaryFolder& folder) {
     std::map<std::string, std::string> all;
     for (const auto& entry : fs::recursive_directory_iterator(folder.path()))
         if (entry.is_regular_file()) all[entry.path().string().substr(folder.path().size() + 1)] = read_file(entry.path().string());
@@ -43,7 +43,7 @@ std::map<std::string, std::string> contents(const Folder& folder) {
 }
 
 TEST(RespondOutputs, NeverReplaceAFileThatTheCommandReads) {
-    const Folder folder;
+    const TemporaryFolder folder;
     folder.write("a.cir", std::string(small_deck) + ".include part-1.csv\n");
     folder.write("part-1.csv", "* nothing\n");
     folder.write("f.csv", numbers());
@@ -51,7 +51,7 @@ TEST(RespondOutputs, NeverReplaceAFileThatTheCommandReads) {
     folder.write("layout.html", "channel,name,x_mm,y_mm\n1,a,0,0\n");
     fs::create_symlink("f.csv", folder / "link.csv");
     fs::create_hard_link(folder / "f.csv", folder / "hard.csv");
-    ASSERT_EQ(test::run(folder, "stream --in press --pace fast -o /dev/null --save-state s.state -q").status, 0);
+    ASSERT_EQ(test::run_program(folder, "stream --in press --pace fast -o /dev/null --save-state s.state -q").status, 0);
     const auto before = contents(folder);
     for (const std::string words : {
              "respond psth.csv --bin 10ms -o .",
@@ -73,12 +73,12 @@ TEST(RespondOutputs, NeverReplaceAFileThatTheCommandReads) {
              "stream --in press --pace fast -o s.state --resume s.state --overwrite",
              "stream --rate 1kHz -o f.csv --overwrite < f.csv",
          }) {
-        const auto ran = test::run(folder, words);
+        const auto ran = test::run_program(folder, words);
         EXPECT_EQ(ran.status, 2) << words << '\n' << ran.err;
         EXPECT_NE(ran.err.find("this output would replace an input of the command"), std::string::npos) << words << '\n' << ran.err;
         EXPECT_EQ(contents(folder), before) << words;
     }
-    EXPECT_EQ(test::run(folder, "stream --in press --pace fast -o /dev/null --resume s.state --save-state s.state -q").status, 0)
+    EXPECT_EQ(test::run_program(folder, "stream --in press --pace fast -o /dev/null --resume s.state --save-state s.state -q").status, 0)
         << "a state is replaced by its successor";
 }
 
@@ -94,22 +94,22 @@ TEST(RespondOutputs, ReplaceAFileThatNoEarlierRunWroteOnlyIfAskedTo) {
           Case{"x.csv", "stream --in press --pace fast -o x.csv"}, Case{"x.csv.part", "stream --in press --pace fast -o x.csv"},
           Case{"x.state", "stream --in press --pace fast -o /dev/null --save-state x.state"}, Case{"x.md", "study fig3 --markdown x.md"},
           Case{"x.html", "study fig3 --report x.html"}}) {
-        const Folder folder;
+        const TemporaryFolder folder;
         folder.write("a.cir", small_deck);
         fs::create_directory(folder / "own");
         folder.write(c.file, "time,force\n0,1\n");
-        const auto refused = test::run(folder, c.words);
+        const auto refused = test::run_program(folder, c.words);
         EXPECT_EQ(refused.status, 1) << c.words;
         EXPECT_NE(refused.err.find("this file was not written by corpuscle"), std::string::npos) << c.words << '\n' << refused.err;
         EXPECT_NE(refused.err.find("--overwrite"), std::string::npos) << refused.err;
         EXPECT_EQ(read_file(folder / c.file), "time,force\n0,1\n") << c.words;
-        EXPECT_EQ(test::run(folder, std::string(c.words) + " --overwrite -q").status, 0) << c.words;
+        EXPECT_EQ(test::run_program(folder, std::string(c.words) + " --overwrite -q").status, 0) << c.words;
         EXPECT_NE(fs::exists(folder / c.file) ? read_file(folder / c.file) : "", "time,force\n0,1\n") << c.words;
     }
 }
 
 TEST(RespondOutputs, ThatOnlyLookLikeOursAreNotReplaced) {
-    const Folder folder;
+    const TemporaryFolder folder;
     folder.write("a.cir", small_deck);
     const std::pair<const char*, const char*> others[] = {
         {"run a.cir -o x.csv", "time,Force(N)\n0,1\n"},
@@ -121,7 +121,7 @@ TEST(RespondOutputs, ThatOnlyLookLikeOursAreNotReplaced) {
     };
     for (const auto& [words, text] : others) {
         folder.write("x-1.csv", text), folder.write("x.csv", text);
-        const auto ran = test::run(folder, words);
+        const auto ran = test::run_program(folder, words);
         EXPECT_EQ(ran.status, 1) << words << '\n' << text;
         EXPECT_NE(ran.err.find("this file was not written by corpuscle"), std::string::npos) << ran.err;
         EXPECT_EQ(read_file(folder / "x.csv"), text) << words;
@@ -130,13 +130,13 @@ TEST(RespondOutputs, ThatOnlyLookLikeOursAreNotReplaced) {
 }
 
 TEST(RespondOutputs, NeverReplaceADeviceOrAPipe) {
-    const Folder folder;
+    const TemporaryFolder folder;
     folder.write("b.cir", "small\nv1 in 0 1\nr1 in 0 1k\n.tran 10u 1m\n");
     for (const std::string name : {"a.csv", "a.raw"}) {
         const auto pipe = folder / name;
         ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
         std::thread reader([&] { std::system(("timeout 20 cat '" + pipe + "' >'" + (folder / "got") + "'").c_str()); });
-        const auto ran = test::run(folder, "run b.cir -q -o " + name);
+        const auto ran = test::run_program(folder, "run b.cir -q -o " + name);
         reader.join();
         EXPECT_TRUE(fs::is_fifo(pipe)) << name;
         EXPECT_FALSE(read_file(folder / "got").empty()) << name;
@@ -146,13 +146,13 @@ TEST(RespondOutputs, NeverReplaceADeviceOrAPipe) {
     if (::geteuid() != 0) return;
     ASSERT_EQ(::mknod((folder / "null.raw").c_str(), S_IFCHR | 0600, makedev(1, 3)), 0);
     ASSERT_EQ(::mknod((folder / "full.raw").c_str(), S_IFCHR | 0600, makedev(1, 7)), 0);
-    EXPECT_EQ(test::run(folder, "run b.cir -q -o null.raw").status, 0);
-    EXPECT_EQ(test::run(folder, "run b.cir -q -o full.raw").status, 1) << "the disk is full";
+    EXPECT_EQ(test::run_program(folder, "run b.cir -q -o null.raw").status, 0);
+    EXPECT_EQ(test::run_program(folder, "run b.cir -q -o full.raw").status, 1) << "the disk is full";
     for (const auto* name : {"null.raw", "full.raw"}) EXPECT_TRUE(fs::is_character_file(folder / name)) << name;
 }
 
 TEST(RespondOutputs, OfTheSameCommandAgainNeedNoWord) {
-    const Folder folder;
+    const TemporaryFolder folder;
     folder.write("a.cir", small_deck);
     folder.write("f.csv", numbers());
     for (const std::string words :
@@ -163,33 +163,33 @@ TEST(RespondOutputs, OfTheSameCommandAgainNeedNoWord) {
           "stream --in press --pace fast -o a.csv --save-state a.state", "stream --in press --pace fast -o a.jsonl --format jsonl",
           "stream --in press --pace fast -o a.aer --format aer", "stream --in press --pace fast -o a.aedat --format aedat2"})
         for (int k = 0; k < 2; ++k) {
-            const auto ran = test::run(folder, words + " -q");
+            const auto ran = test::run_program(folder, words + " -q");
             EXPECT_EQ(ran.status, 0) << words << '\n' << ran.err;
         }
     const auto cir = read_file(folder / "a.cir");
     folder.write("a.cir", cir + ".save v(out) i(v1)\n");
-    EXPECT_EQ(test::run(folder, "run a.cir -o x.csv -q").status, 0) << "other columns of the same netlist";
+    EXPECT_EQ(test::run_program(folder, "run a.cir -o x.csv -q").status, 0) << "other columns of the same netlist";
     folder.write("empty.csv", "");
-    EXPECT_EQ(test::run(folder, "stream --in press --pace fast -q -o empty.csv").status, 0) << "nothing is lost with it";
+    EXPECT_EQ(test::run_program(folder, "stream --in press --pace fast -q -o empty.csv").status, 0) << "nothing is lost with it";
 }
 
 TEST(RespondOutputs, TwoOfOneCommandAreTwoFiles) {
-    const Folder folder;
-    const auto ran = test::run(folder, "stream --in press --pace fast -o x.csv --save-state ./x.csv");
+    const TemporaryFolder folder;
+    const auto ran = test::run_program(folder, "stream --in press --pace fast -o x.csv --save-state ./x.csv");
     EXPECT_EQ(ran.status, 2);
     EXPECT_NE(ran.err.find("two outputs of this command have this name"), std::string::npos) << ran.err;
-    EXPECT_TRUE(folder.names().empty());
+    EXPECT_TRUE(folder.file_names().empty());
 }
 
 TEST(RespondOutputs, ASummaryOfOthersRemovesAndReplacesNothing) {
-    const Folder folder;
+    const TemporaryFolder folder;
     for (const char* name : {"thesis.tex", "vectors.csv", "traces-x.csv", "notes.html", "target.csv"}) folder.write(name, "mine");
     fs::create_directory(folder / "d");
     for (const char* name : {"thesis.tex", "notes.html"}) folder.write(std::string("d/") + name, "mine");
     fs::create_symlink("../target.csv", folder / "d/psth.csv");
     folder.write("d/summary.json",
                  R"({"program":"corpuscle","files":["thesis.tex","../thesis.tex","notes.html","psth.csv","../vectors.csv",".",""]})");
-    const auto ran = test::run(folder, "respond press -o d");
+    const auto ran = test::run_program(folder, "respond press -o d");
     EXPECT_EQ(ran.status, 0) << ran.err;
     EXPECT_EQ(ran.out.find("Removed"), std::string::npos) << ran.out;
     for (const char* name : {"thesis.tex", "vectors.csv", "traces-x.csv", "notes.html", "target.csv", "d/thesis.tex", "d/notes.html"})
@@ -198,20 +198,20 @@ TEST(RespondOutputs, ASummaryOfOthersRemovesAndReplacesNothing) {
 }
 
 TEST(RespondOutputs, AnInputThatAnEarlierRunWroteStays) {
-    const Folder folder;
-    ASSERT_EQ(test::run(folder, "respond press --traces -o . -q").status, 0);
-    const auto ran = test::run(folder, "respond traces.csv --channel 1 -o .");
+    const TemporaryFolder folder;
+    ASSERT_EQ(test::run_program(folder, "respond press --traces -o . -q").status, 0);
+    const auto ran = test::run_program(folder, "respond traces.csv --channel 1 -o .");
     EXPECT_EQ(ran.status, 0) << ran.err;
     EXPECT_TRUE(fs::exists(folder / "traces.csv"));
     EXPECT_EQ(ran.out.find("Removed"), std::string::npos) << ran.out;
 }
 
 TEST(RespondOutputs, OfKilledRunsAreClearedByTheNext) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const auto begin = [&](std::vector<std::string> words) {
         const pid_t child = test::fork_child();
         if (child != 0) return child;
-        words.insert(words.begin(), test::program());
+        words.insert(words.begin(), test::program_path());
         std::vector<char*> arguments;
         for (auto& w : words) arguments.push_back(w.data());
         arguments.push_back(nullptr);
@@ -220,28 +220,28 @@ TEST(RespondOutputs, OfKilledRunsAreClearedByTheNext) {
     };
     const auto parts = [&] {
         int count = 0;
-        for (const auto& name : folder.names()) count += name.find(".part-") != name.npos;
+        for (const auto& name : folder.file_names()) count += name.find(".part-") != name.npos;
         return count;
     };
     const auto endless = begin({"respond", "sine", "--set", "sine.duration=100000s", "--rate", "100kHz", "--traces", "-q", "-o", "a"});
     for (int k = 0; k < 500 && parts() < 3; ++k) ::usleep(10000);
     EXPECT_EQ(parts(), 3);
-    EXPECT_EQ(test::run(folder, "respond press -o a -q").status, 0) << "while another is at work there";
+    EXPECT_EQ(test::run_program(folder, "respond press -o a -q").status, 0) << "while another is at work there";
     EXPECT_EQ(parts(), 3) << "what is in use stays";
     test::signal_child(endless, SIGKILL);
     ::waitpid(endless, nullptr, 0);
     folder.write("a/mine.csv.part-3", "mine");
     folder.write("a/spikes.csv.part-iii", "mine");
-    EXPECT_EQ(test::run(folder, "respond press -o a -q").status, 0);
-    EXPECT_EQ(folder.names(), (std::vector<std::string>{"a", "mine.csv.part-3", "spikes.csv", "spikes.csv.part-iii", "summary.json"}));
+    EXPECT_EQ(test::run_program(folder, "respond press -o a -q").status, 0);
+    EXPECT_EQ(folder.file_names(), (std::vector<std::string>{"a", "mine.csv.part-3", "spikes.csv", "spikes.csv.part-iii", "summary.json"}));
 }
 
 TEST(RespondOutputs, PartsFollowNoLinks) {
-    const Folder folder;
+    const TemporaryFolder folder;
     folder.write("victim", "mine");
     const auto part = fmt::format("x.csv.part-{}", ::getpid());
     fs::create_symlink("victim", folder / part);
-    auto file = test::sure(OutputFile::create(folder / "x.csv"));
+    auto file = test::value_or_throw(OutputFile::create(folder / "x.csv"));
     ASSERT_TRUE(file.write("1\n"));
     ASSERT_TRUE(file.commit());
     EXPECT_EQ(read_file(folder / "x.csv"), "1\n");
@@ -252,16 +252,16 @@ TEST(RespondOutputs, PartsFollowNoLinks) {
     EXPECT_EQ(read_file(folder / "victim"), "mine");
     fs::create_symlink("victim", folder / "r.sqlite-writer");
     folder.write("s.toml", "afferent = \"sa1\"\nforce = \"press\"\n[[vary]]\nwhat = \"sa1.f_B\"\nlist = [\"20 Hz\", \"21 Hz\"]\n");
-    const auto sweep = test::run(folder, "sweep s.toml -o r.sqlite -q");
+    const auto sweep = test::run_program(folder, "sweep s.toml -o r.sqlite -q");
     EXPECT_EQ(sweep.status, 1);
     EXPECT_NE(sweep.err.find("is a link"), std::string::npos) << sweep.err;
     EXPECT_EQ(read_file(folder / "victim"), "mine");
 }
 
 TEST(RespondOutputs, ThatCostMoreThanASecondOrAreToBeTakenUpAreSyncedBeforeTheyHaveTheirNames) {
-    const Folder folder;
-    auto quick = test::sure(OutputFile::create(folder / "quick.csv")), kept = test::sure(OutputFile::create(folder / "x.state")),
-         slow = test::sure(OutputFile::create(folder / "slow.csv"));
+    const TemporaryFolder folder;
+    auto quick = test::value_or_throw(OutputFile::create(folder / "quick.csv")), kept = test::value_or_throw(OutputFile::create(folder / "x.state")),
+         slow = test::value_or_throw(OutputFile::create(folder / "slow.csv"));
     ASSERT_TRUE(quick.commit());
     ASSERT_TRUE(kept.commit(SyncPolicy::always));
     ::usleep(1'050'000);
@@ -287,17 +287,17 @@ std::optional<bool> waits_for_its_place(const std::string& path) {
 }
 
 TEST(RespondOutputs, OfAShortRunAreOnTheirWayToTheDiskWhenTheyHaveTheirNames) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const std::string text(100'000, 'x');
     if (waits_for_its_place(folder.write("plain", text)) != true) GTEST_SKIP() << "the file system does not tell what it has yet to write";
-    auto quick = test::sure(OutputFile::create(folder / "quick.csv"));
+    auto quick = test::value_or_throw(OutputFile::create(folder / "quick.csv"));
     ASSERT_TRUE(quick.write(text));
     ASSERT_TRUE(quick.commit());
     EXPECT_EQ(waits_for_its_place(folder / "quick.csv"), false);
 }
 
 TEST(RespondOutputs, ADeviceIsWrittenInPlace) {
-    auto file = test::sure(OutputFile::create("/dev/null"));
+    auto file = test::value_or_throw(OutputFile::create("/dev/null"));
     EXPECT_TRUE(file.write("x"));
     EXPECT_TRUE(file.commit());
     EXPECT_TRUE(fs::is_character_file("/dev/null"));
@@ -305,13 +305,13 @@ TEST(RespondOutputs, ADeviceIsWrittenInPlace) {
 
 TEST(RespondOutputs, AFullDiskBehindStandardOutputIsAnError) {
     if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
-    const Folder folder;
+    const TemporaryFolder folder;
     folder.write("a.cir", small_deck);
-    ASSERT_EQ(test::run(folder, "respond press -o a -q").status, 0);
+    ASSERT_EQ(test::run_program(folder, "respond press -o a -q").status, 0);
     for (const std::string words :
          {"respond press", "respond press --json", "respond press --population 'grid 4x4'", "run a.cir", "run a.cir --json", "study fig3",
           "compare a/spikes.csv a/spikes.csv", "export a.cir", "list", "list --json", "--help", "--version"}) {
-        const auto status = std::system(("cd '" + folder.path() + "' && '" + test::program() + "' " + words + " >/dev/full 2>err").c_str());
+        const auto status = std::system(("cd '" + folder.path() + "' && '" + test::program_path() + "' " + words + " >/dev/full 2>err").c_str());
         EXPECT_EQ(WEXITSTATUS(status), 1) << words;
         EXPECT_NE(read_file(folder / "err").find("cannot write all of standard output: No space left on device"), std::string::npos)
             << words;
@@ -319,12 +319,12 @@ TEST(RespondOutputs, AFullDiskBehindStandardOutputIsAnError) {
 }
 
 TEST(RespondOutputs, AFileThatMayGrowNoFurtherIsAnErrorAndLeavesNothing) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const auto status = std::system(
-        ("cd '" + folder.path() + "' && (ulimit -f 8; exec '" + test::program() + "' respond press --traces -o big -q) 2>err").c_str());
+        ("cd '" + folder.path() + "' && (ulimit -f 8; exec '" + test::program_path() + "' respond press --traces -o big -q) 2>err").c_str());
     EXPECT_EQ(WEXITSTATUS(status), 1);
     EXPECT_EQ(read_file(folder / "err"), "corpuscle: big/traces.csv: could not be written completely: File too large\n");
-    EXPECT_EQ(folder.names(), std::vector<std::string>{"err"});
+    EXPECT_EQ(folder.file_names(), std::vector<std::string>{"err"});
 }
 
 }  // namespace

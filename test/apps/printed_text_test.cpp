@@ -6,13 +6,13 @@
 
 #include "io/spike_files.hpp"
 #include "io/utf8.hpp"
-#include "support/places.hpp"
+#include "support/test_paths.hpp"
 #include "support/program.hpp"
 
 namespace corpuscle {
 namespace {
 
-using test::Folder;
+using test::TemporaryFolder;
 using Json = nlohmann::json;
 
 std::size_t widest_line(const std::string& text) {
@@ -32,72 +32,72 @@ bool is_harmless(const std::string& text) {
 }
 
 TEST(PrintedText, HelpFitsInAHundredColumnsAndShowsExamplesFirst) {
-    const Folder folder;
+    const TemporaryFolder folder;
     for (const std::string verb : {"", "respond", "compare", "study", "run", "export", "sweep", "sweep show", "sweep merge", "sweep dump",
                                    "sweep calibrate", "stream", "list"}) {
-        const auto help = test::run(folder, verb + " --help");
+        const auto help = test::run_program(folder, verb + " --help");
         EXPECT_EQ(help.status, 0) << verb;
         EXPECT_LE(widest_line(help.out), 100U) << verb;
         const auto example = help.out.find("\n  corpuscle "), options = help.out.find("\nOptions:");
         ASSERT_NE(options, help.out.npos) << help.out;
         EXPECT_TRUE(verb == "study" || example < options) << verb;
-        EXPECT_EQ(test::run(folder, "help " + verb).out, help.out) << verb;
+        EXPECT_EQ(test::run_program(folder, "help " + verb).out, help.out) << verb;
     }
 }
 
 TEST(PrintedText, TheProgramAloneHelpsAndAWrongVerbIsToldTheRightOne) {
-    const Folder folder;
-    const auto alone = test::run(folder, "");
+    const TemporaryFolder folder;
+    const auto alone = test::run_program(folder, "");
     EXPECT_EQ(alone.status, 0);
-    EXPECT_EQ(alone.out, test::run(folder, "--help").out);
-    const auto wrong = test::run(folder, "resond press");
+    EXPECT_EQ(alone.out, test::run_program(folder, "--help").out);
+    const auto wrong = test::run_program(folder, "resond press");
     EXPECT_EQ(wrong.status, 2);
     EXPECT_EQ(wrong.err, "corpuscle: unknown verb 'resond'; did you mean 'respond'?\n");
-    const auto far = test::run(folder, "frobnicate");
+    const auto far = test::run_program(folder, "frobnicate");
     EXPECT_EQ(far.status, 2);
     EXPECT_NE(far.err.find("unknown verb 'frobnicate'; the verbs are respond, compare"), std::string::npos) << far.err;
     for (const std::string verb : {"respond", "stream", "sweep show", "list"})
-        EXPECT_EQ(test::run(folder, verb + " --version").out, test::run(folder, "--version").out) << verb;
+        EXPECT_EQ(test::run_program(folder, verb + " --version").out, test::run_program(folder, "--version").out) << verb;
 }
 
 TEST(PrintedText, AsManyChannelsAreOfferedAsAreTaken) {
-    const Folder folder;
-    EXPECT_NE(test::run(folder, "stream --help").out.find("[1 - 4194304]"), std::string::npos);
-    EXPECT_EQ(test::run(folder, "stream --rate 1kHz --channels 4194305 < /dev/null").status, 2);
+    const TemporaryFolder folder;
+    EXPECT_NE(test::run_program(folder, "stream --help").out.find("[1 - 4194304]"), std::string::npos);
+    EXPECT_EQ(test::run_program(folder, "stream --rate 1kHz --channels 4194305 < /dev/null").status, 2);
 }
 
 TEST(PrintedText, AReportIsAPageByItsName) {
-    const Folder folder;
+    const TemporaryFolder folder;
     for (const std::string words : {"respond press --report x.pdf", "respond press --report my_report", "study fig3 --report x",
                                     "sweep show r.sqlite --report r.sqlite"}) {
-        const auto ran = test::run(folder, words);
+        const auto ran = test::run_program(folder, words);
         EXPECT_EQ(ran.status, 2) << words;
         EXPECT_NE(ran.err.find("the name must end in .html, such as "), std::string::npos) << ran.err;
     }
-    EXPECT_TRUE(folder.names().empty());
-    EXPECT_EQ(test::run(folder, "respond --report press -q").status, 0) << "a stimulus behind --report is a force";
-    EXPECT_EQ(folder.names(), std::vector<std::string>{"report.html"});
+    EXPECT_TRUE(folder.file_names().empty());
+    EXPECT_EQ(test::run_program(folder, "respond --report press -q").status, 0) << "a stimulus behind --report is a force";
+    EXPECT_EQ(folder.file_names(), std::vector<std::string>{"report.html"});
 }
 
 TEST(PrintedText, ARecordingBehindReportIsNoSecondForce) {
-    const Folder folder;
+    const TemporaryFolder folder;
     for (const auto* const name : {"a.csv", "b 2.csv"}) folder.write(name, "time_s,fz_N\n0,0\n0.001,1\n0.002,1\n");
     for (const auto& [words, remedy] : {std::pair{"respond a.csv --report a.csv", "respond a.csv --report"},
                                         {"respond a.csv --report 'b 2.csv'", "respond a.csv 'b 2.csv' --report"},
                                         {"respond press --report=sine", "respond press sine --report"}}) {
-        const auto ran = test::run(folder, words);
+        const auto ran = test::run_program(folder, words);
         EXPECT_EQ(ran.status, 2) << words;
         EXPECT_NE(ran.err.find("the name must end in .html, such as "), std::string::npos) << ran.err;
         EXPECT_NE(ran.err.find(std::string("corpuscle ") + remedy + "\n"), std::string::npos) << ran.err;
         EXPECT_FALSE(std::filesystem::exists(folder / "report.html"));
-        EXPECT_EQ(test::run(folder, remedy).status, 0) << remedy;
+        EXPECT_EQ(test::run_program(folder, remedy).status, 0) << remedy;
         EXPECT_TRUE(std::filesystem::remove(folder / "report.html"));
     }
-    EXPECT_EQ(test::run(folder, "respond --report a.csv -q").status, 0) << "the only force";
+    EXPECT_EQ(test::run_program(folder, "respond --report a.csv -q").status, 0) << "the only force";
 }
 
 TEST(PrintedText, NamesFromFilesReachNoTerminalWithControlCharacters) {
-    const Folder folder;
+    const TemporaryFolder folder;
     std::string text =
         "time_s,\"a\x1b]0,title\x07"
         "b_N\",\"c\xc2\x9b"
@@ -111,41 +111,41 @@ TEST(PrintedText, NamesFromFilesReachNoTerminalWithControlCharacters) {
           "respond \"$(printf 'no\\nname\\033')\"", "compare c/spikes.csv c/spikes.csv", "compare c/spikes.csv c/spikes.csv --json",
           "run n.cir", "run n.cir --json", "run \"$(printf 'no\\033.cir')\"", "\"$(printf 'verb\\033')\"",
           "respond \"$(printf -- '--x\\033')\""}) {
-        const auto ran = test::run(folder, words);
+        const auto ran = test::run_program(folder, words);
         EXPECT_TRUE(is_harmless(ran.out)) << words << '\n' << ran.out;
         EXPECT_TRUE(is_harmless(ran.err)) << words << '\n' << ran.err;
     }
-    const auto table = test::run(folder, "respond c.csv").out;
+    const auto table = test::run_program(folder, "respond c.csv").out;
     EXPECT_NE(table.find("a\\x1b]0,title\\x07b"), std::string::npos) << table;
     EXPECT_NE(table.find("e\\u202ef"), std::string::npos) << table;
-    EXPECT_EQ(Json::parse(test::run(folder, "respond c.csv --json").out)["inputs"][0]["channels"][0],
+    EXPECT_EQ(Json::parse(test::run_program(folder, "respond c.csv --json").out)["inputs"][0]["channels"][0],
               "a\x1b]0,title\x07"
               "b")
         << "as data it is what it was";
 }
 
 TEST(PrintedText, SpikesCsvIsUtf8AndNamesComeBackAsTheyWere) {
-    const Folder folder;
+    const TemporaryFolder folder;
     std::string text = "time_s,Kraft f\xfcr_N,\"h \"\"q, r\"\" i_N\",=cmd|x_N\n";
     for (int k = 0; k < 500; ++k) text += fmt::format("{0},{1},{1},{1}\n", 0.001 * k, k % 100 < 50 ? 0 : 2);
     folder.write("c.csv", text);
-    ASSERT_EQ(test::run(folder, "respond c.csv -o c -q").status, 0);
+    ASSERT_EQ(test::run_program(folder, "respond c.csv -o c -q").status, 0);
     EXPECT_TRUE(is_utf8(test::read_file(folder / "c/spikes.csv")));
     std::set<std::string> channels;
-    for (const auto& train : test::sure(read_spikes(folder / "c/spikes.csv"))) channels.insert(train.channel);
+    for (const auto& train : test::value_or_throw(read_spikes(folder / "c/spikes.csv"))) channels.insert(train.channel);
     EXPECT_EQ(channels, (std::set<std::string>{"Kraft f\xc3\xbcr", "h \"q, r\" i", "=cmd|x"}));
     EXPECT_EQ(to_utf8("\x80 \xb5"), "\xe2\x82\xac \xc2\xb5") << "Windows' euro, Latin-1's micro";
 }
 
 TEST(PrintedText, PagesAndSummariesTellNoDirectories) {
-    const Folder folder;
+    const TemporaryFolder folder;
     std::filesystem::create_directories(folder / "secret/deep");
     std::string text = "t_s,fz_N\n";
     for (int k = 0; k < 300; ++k) text += fmt::format("{},{}\n", 0.001 * k, k % 100 < 50 ? 0 : 2);
     folder.write("secret/deep/f.csv", text);
     folder.write("secret/deep/layout.csv", "channel,name,x_mm,y_mm\nfz,thumb,1,2\n");
     const auto at = folder / "secret/deep/";
-    ASSERT_EQ(test::run(folder, "respond '" + at + "f.csv' --layout='" + at + "layout.csv' -o secret/answer --report -q").status, 0);
+    ASSERT_EQ(test::run_program(folder, "respond '" + at + "f.csv' --layout='" + at + "layout.csv' -o secret/answer --report -q").status, 0);
     for (const char* name : {"report.html", "summary.json", "spikes.csv"})
         EXPECT_EQ(test::read_file(folder / ("secret/answer/" + std::string(name))).find("secret"), std::string::npos) << name;
     EXPECT_NE(
@@ -154,23 +154,23 @@ TEST(PrintedText, PagesAndSummariesTellNoDirectories) {
 }
 
 TEST(PrintedText, OneDocumentHoldsTheTimeOfEverySpike) {
-    const Folder folder;
-    const auto document = Json::parse(test::run(folder, "respond press noise -a sa1,fa1 --json -o a").out);
+    const TemporaryFolder folder;
+    const auto document = Json::parse(test::run_program(folder, "respond press noise -a sa1,fa1 --json -o a").out);
     std::size_t count = 0;
     for (const auto& unit : document["spikes"]) count += unit["times_s"].size();
     ASSERT_EQ(document["spikes"].size(), 4U);
     EXPECT_EQ(document["spikes"][1]["afferent"], "fa1");
     std::size_t rows = 0;
-    for (const auto& train : test::sure(read_spikes(folder / "a/spikes.csv"))) rows += train.times.size();
+    for (const auto& train : test::value_or_throw(read_spikes(folder / "a/spikes.csv"))) rows += train.times.size();
     EXPECT_EQ(count, rows);
     EXPECT_NEAR(document["spikes"][0]["times_s"][0].get<double>(), 0.319558712, 1e-9);
     EXPECT_FALSE(Json::parse(test::read_file(folder / "a/summary.json")).contains("spikes")) << "spikes.csv has them";
 }
 
 TEST(PrintedText, OneDocumentHoldsTheSpikesOfAPopulation) {
-    const Folder folder;
-    const auto document = Json::parse(test::run(folder, "respond press --population 'grid 3x3' --json -o a").out);
-    const auto trains = test::sure(read_spikes(folder / "a/spikes.csv"));
+    const TemporaryFolder folder;
+    const auto document = Json::parse(test::run_program(folder, "respond press --population 'grid 3x3' --json -o a").out);
+    const auto trains = test::value_or_throw(read_spikes(folder / "a/spikes.csv"));
     ASSERT_GT(trains.size(), 2U);
     ASSERT_EQ(document["spikes"].size(), trains.size()) << "of units that fired";
     for (const auto& unit : document["spikes"]) {
@@ -185,24 +185,24 @@ TEST(PrintedText, OneDocumentHoldsTheSpikesOfAPopulation) {
 }
 
 TEST(PrintedText, TablesFitInAHundredColumnsAndHaveNoMinusZero) {
-    const Folder folder;
+    const TemporaryFolder folder;
     std::string text = "t_s,fz_N\n";
     for (int k = 0; k < 300; ++k) text += fmt::format("{},{}\n", 0.001 * k, k % 100 < 50 ? 0 : 2);
     folder.write("f.csv", text);
-    ASSERT_EQ(test::run(folder, "respond press -a sa1,sa1-kim -o a -q").status, 0);
+    ASSERT_EQ(test::run_program(folder, "respond press -a sa1,sa1-kim -o a -q").status, 0);
     for (const std::string words : {"compare a/spikes.csv a/spikes.csv", "respond press -a sa1,sa1-kim --copies 9 --spread sa1.f_B=10%"})
-        EXPECT_LE(widest_line(test::run(folder, words).out), 100U) << test::run(folder, words).out;
-    EXPECT_NE(test::run(folder, "respond f.csv --scale=-1").out.find(", -2 to 0 N\n"), std::string::npos)
-        << test::run(folder, "respond f.csv --scale=-1").out;
+        EXPECT_LE(widest_line(test::run_program(folder, words).out), 100U) << test::run_program(folder, words).out;
+    EXPECT_NE(test::run_program(folder, "respond f.csv --scale=-1").out.find(", -2 to 0 N\n"), std::string::npos)
+        << test::run_program(folder, "respond f.csv --scale=-1").out;
 }
 
 TEST(PrintedText, OperatingPointsFitInAHundredColumnsWithEveryReading) {
-    const Folder folder;
+    const TemporaryFolder folder;
     for (const std::string name : {"bias", "sa1", "spiker"}) {
-        const auto ran = test::run(folder, "run '" + test::root() + "/circuits/" + name + ".cir'");
+        const auto ran = test::run_program(folder, "run '" + test::project_root() + "/circuits/" + name + ".cir'");
         EXPECT_LE(widest_line(ran.out), 100U) << ran.out;
     }
-    const auto bias = test::run(folder, "run '" + test::root() + "/circuits/bias.cir'").out;
+    const auto bias = test::run_program(folder, "run '" + test::project_root() + "/circuits/bias.cir'").out;
     const auto count = [&](const std::string& words) {
         std::size_t found = 0;
         for (auto at = bias.find(words); at != bias.npos; at = bias.find(words, at + 1)) ++found;

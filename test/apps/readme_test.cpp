@@ -5,7 +5,7 @@
 namespace corpuscle {
 namespace {
 
-const std::string project_root = test::root();
+const std::string project_root = test::project_root();
 
 /// The lines of a page's shell blocks that call the program, without a comment after '#'.
 std::vector<std::string> commands(const std::string& page) {
@@ -21,14 +21,14 @@ std::vector<std::string> commands(const std::string& page) {
 
 /// Runs the commands of a page in the order in which they are shown.
 void run_commands_of(const std::string& page) {
-    const test::Folder folder;  // the clone, with what a user finds in it and nothing else
+    const test::TemporaryFolder folder;  // the clone, with what a user finds in it and nothing else
     for (const auto* part : {"circuits", "process", "examples"})
         std::filesystem::copy(project_root + "/" + part, folder / part, std::filesystem::copy_options::recursive);
     const auto shown = commands(page);
     ASSERT_GE(shown.size(), 6U);
     for (const auto& command : shown) {
         const auto words = command.substr(std::string("corpuscle").size());
-        const auto ran = test::run(folder, words);
+        const auto ran = test::run_program(folder, words);
         EXPECT_EQ(ran.status, 0) << command << '\n' << ran.err;
     }
 }

@@ -9,16 +9,16 @@
 namespace corpuscle {
 namespace {
 
-using test::Folder;
+using test::TemporaryFolder;
 
-const std::string recordings_root = test::root();
+const std::string recordings_root = test::project_root();
 
-using test::run;
+using test::run_program;
 
 /// `folder` gets the recordings' folders.
-void link_recordings(const Folder& folder) {
+void link_recordings(const TemporaryFolder& folder) {
     for (const char* name : {"grip_force_ati", "gait_insole_vgrf", "fbg_eskin_press", "fabric_slide_cpm"})
-        std::filesystem::create_symlink(std::filesystem::absolute(test::shared(name)), folder / name);
+        std::filesystem::create_symlink(std::filesystem::absolute(test::shared_file_path(name)), folder / name);
     std::filesystem::create_symlink(recordings_root + "/examples", folder / "examples");
 }
 
@@ -33,12 +33,12 @@ std::vector<std::string> documented_commands() {
 }
 
 TEST(RealRecordings, EveryFileOfEverySetHasACommandThatReadsIt) {
-    CORPUSCLE_NEEDS(test::shared("grip_force_ati"));
-    const Folder folder;
+    CORPUSCLE_NEEDS(test::shared_file_path("grip_force_ati"));
+    const TemporaryFolder folder;
     link_recordings(folder);
     std::string all;
     for (const auto& words : documented_commands()) {
-        const auto ran = run(folder, words);
+        const auto ran = run_program(folder, words);
         EXPECT_EQ(ran.status, 0) << words << '\n' << ran.err;
         all += words + " ";
         if (words.find("--report") != std::string::npos) {
@@ -46,7 +46,7 @@ TEST(RealRecordings, EveryFileOfEverySetHasACommandThatReadsIt) {
         }
     }
     for (const char* set : {"grip_force_ati", "gait_insole_vgrf", "fbg_eskin_press", "fabric_slide_cpm"})
-        for (const auto& file : std::filesystem::directory_iterator(test::shared(set))) {
+        for (const auto& file : std::filesystem::directory_iterator(test::shared_file_path(set))) {
             const auto name = file.path().filename().string();
             if (name.ends_with(".csv") || (name.ends_with(".txt") && name != "ATTRIBUTION.txt")) {
                 EXPECT_NE(all.find(name), std::string::npos) << name << " has no command";
@@ -56,12 +56,12 @@ TEST(RealRecordings, EveryFileOfEverySetHasACommandThatReadsIt) {
 
 /// A sensor of each set that can be read in seconds, through both chips transistor by transistor.
 TEST(RealRecordings, GoThroughTheChips) {
-    CORPUSCLE_NEEDS(test::shared("fbg_eskin_press"));
-    const Folder folder;
+    CORPUSCLE_NEEDS(test::shared_file_path("fbg_eskin_press"));
+    const TemporaryFolder folder;
     link_recordings(folder);
     for (const std::string words : {"fbg_eskin_press/fbg_press_S6_T16.csv --rate 100Hz --scale 40 --channel 11",
                                     "fabric_slide_cpm/Board10mm_F150_V-5mmps_0.csv --time-unit ms --channel 3 --scale 0.01"}) {
-        const auto ran = run(folder, "respond " + words + " --afferent sa1,sa1-circuit,fa1-circuit --json");
+        const auto ran = run_program(folder, "respond " + words + " --afferent sa1,sa1-circuit,fa1-circuit --json");
         ASSERT_EQ(ran.status, 0) << words << ran.err;
         const auto answer = nlohmann::json::parse(ran.out);
         EXPECT_EQ(answer["work"]["circuits"]["not_converged"], 0);
@@ -73,8 +73,8 @@ TEST(RealRecordings, GoThroughTheChips) {
 }
 
 TEST(RealRecordings, AWrongFirstCommandIsToldTheRightOne) {
-    CORPUSCLE_NEEDS(test::shared("grip_force_ati"));
-    const Folder folder;
+    CORPUSCLE_NEEDS(test::shared_file_path("grip_force_ati"));
+    const TemporaryFolder folder;
     link_recordings(folder);
     const struct {
         const char *words, *told;
@@ -93,7 +93,7 @@ TEST(RealRecordings, AWrongFirstCommandIsToldTheRightOne) {
         {"fabric_slide_cpm/Linen_F120_V20mmps_0.csv", "'proximity2' is 65535, the full scale of a 16-bit converter"},
     };
     for (const auto& trap : traps) {
-        const auto ran = run(folder, std::string("respond ") + trap.words);
+        const auto ran = run_program(folder, std::string("respond ") + trap.words);
         EXPECT_NE(ran.err.find(trap.told), std::string::npos) << trap.words << '\n' << ran.err;
     }
 }
@@ -108,14 +108,14 @@ std::map<int, int> by_second(const std::string& path) {
 }
 
 TEST(RealRecordings, TornFilesMendedGiveWhatTheCleanedOnesGive) {
-    CORPUSCLE_NEEDS(test::shared("grip_force_ati"));
-    const Folder folder;
+    CORPUSCLE_NEEDS(test::shared_file_path("grip_force_ati"));
+    const TemporaryFolder folder;
     link_recordings(folder);
     for (const auto& [file, rate] : {std::pair{"02", "242.64Hz"}, {"04", "242.94Hz"}, {"12", "242.38Hz"}}) {
         const std::string grip = std::string("respond grip_force_ati/grip_") + file;
         const auto raw =
-            run(folder, grip + "_raw.csv -c Fz --rate " + rate + " --scale 0.002 --range 1..3500 --despike 1000 --notch 50Hz -o raw");
-        const auto clean = run(folder, grip + "_clean.csv -c fz_abs_counts --scale 0.002 --notch 50Hz -o clean");
+            run_program(folder, grip + "_raw.csv -c Fz --rate " + rate + " --scale 0.002 --range 1..3500 --despike 1000 --notch 50Hz -o raw");
+        const auto clean = run_program(folder, grip + "_clean.csv -c fz_abs_counts --scale 0.002 --notch 50Hz -o clean");
         ASSERT_EQ(raw.status + clean.status, 0) << raw.err << clean.err;
         auto ours = by_second(folder / "raw/spikes.csv"), theirs = by_second(folder / "clean/spikes.csv");
         int all = 0, more = 0;

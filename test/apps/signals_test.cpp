@@ -5,27 +5,27 @@
 #include <fstream>
 
 #include "support/child_process.hpp"
-#include "support/places.hpp"
+#include "support/test_paths.hpp"
 #include "support/program.hpp"
 
 namespace corpuscle {
 namespace {
 
 namespace fs = std::filesystem;
-using test::Folder;
+using test::TemporaryFolder;
 
 /// Lines of our sources that signal a process, as file:text.
 std::vector<std::string> lines_that_signal() {
     std::vector<std::string> out;
     for (const char* room : {"src", "apps", "test", "bench", "examples"})
-        for (const auto& entry : fs::recursive_directory_iterator(test::root() + "/" + room)) {
+        for (const auto& entry : fs::recursive_directory_iterator(test::project_root() + "/" + room)) {
             const auto path = entry.path().string();
             if (!entry.is_regular_file() || !(path.ends_with(".cpp") || path.ends_with(".hpp") || path.ends_with(".py"))) continue;
             std::ifstream in(path);
             for (std::string line; std::getline(in, line);)
                 for (const std::string call : {" kill(", "::kill(", "(kill(", "killpg(", "os.kill", "sigqueue("})
                     if (line.find(call) != line.npos && line.find("\"") == line.npos) {
-                        out.push_back(path.substr(test::root().size() + 1) + ":" + line);
+                        out.push_back(path.substr(test::project_root().size() + 1) + ":" + line);
                         break;
                     }
         }
@@ -50,12 +50,12 @@ TEST(Signals, AProcessThatWasNotStartedIsNeverSignalled) {
 }
 
 /// Its standard input is a pipe that stays open and quiet.
-int status_after(int signal, const Folder& folder, std::vector<std::string> words) {
+int status_after(int signal, const TemporaryFolder& folder, std::vector<std::string> words) {
     int quiet[2];
     if (::pipe2(quiet, O_CLOEXEC) != 0) return -1;
     const pid_t child = test::fork_child();
     if (child == 0) {
-        words.insert(words.begin(), test::program());
+        words.insert(words.begin(), test::program_path());
         std::vector<char*> arguments;
         for (auto& w : words) arguments.push_back(w.data());
         arguments.push_back(nullptr);
@@ -74,7 +74,7 @@ int status_after(int signal, const Folder& folder, std::vector<std::string> word
 }
 
 TEST(Signals, OneEndsAReadThatWaits) {
-    const Folder folder;
+    const TemporaryFolder folder;
     for (const auto* const name : {"fifo", "fifo.toml"}) ASSERT_EQ(::mkfifo((folder / name).c_str(), 0600), 0);
     const std::vector<std::vector<std::string>> commands = {
         {"respond", "-", "--rate", "1kHz", "-o", "new"},

@@ -7,18 +7,18 @@
 namespace corpuscle {
 namespace {
 
-using test::Folder, test::run;
+using test::TemporaryFolder, test::run_program;
 
 TEST(SiteLayout, SitesAreListedInTheOrderOfAFrameAndALayoutNamesThoseThatAFrameHas) {
-    const Folder folder;
-    const auto listed = run(folder, "list 'grid 2x2' --sites");
+    const TemporaryFolder folder;
+    const auto listed = run_program(folder, "list 'grid 2x2' --sites");
     EXPECT_EQ(listed.out, "name,x_mm,y_mm,region\nr1c1,0,0,grid\nr1c2,2,0,grid\nr2c1,0,2,grid\nr2c2,2,2,grid\n");
-    EXPECT_EQ(nlohmann::json::parse(run(folder, "list hand --sites --json").out)["sites"].size(), 4793U);
-    EXPECT_EQ(run(folder, "list hand fingertip --sites").status, 2);
-    EXPECT_NE(run(folder, "list hnad --sites").err.find("did you mean 'hand'?"), std::string::npos);
+    EXPECT_EQ(nlohmann::json::parse(run_program(folder, "list hand --sites --json").out)["sites"].size(), 4793U);
+    EXPECT_EQ(run_program(folder, "list hand fingertip --sites").status, 2);
+    EXPECT_NE(run_program(folder, "list hnad --sites").err.find("did you mean 'hand'?"), std::string::npos);
     folder.write("sites.csv", listed.out);
     folder.write("own.toml", "[sites]\nlist = \"sites.csv\"\n[[class]]\nafferent = \"sa1\"\nper_site = 1\n");
-    EXPECT_EQ(run(folder, "list own.toml --sites").out, listed.out) << "what is listed is a population's list of sites";
+    EXPECT_EQ(run_program(folder, "list own.toml --sites").out, listed.out) << "what is listed is a population's list of sites";
 
     std::string one, all;
     for (int k = 0; k < 400; ++k) {
@@ -26,10 +26,10 @@ TEST(SiteLayout, SitesAreListedInTheOrderOfAFrameAndALayoutNamesThoseThatAFrameH
         one += force + "\n", all += "0,0," + force + ",0\n";
     }
     folder.write("one", one), folder.write("all", all), folder.write("layout.csv", "channel,name\n1,r2c1\n");
-    const auto few = run(folder, "stream --population 'grid 2x2' --rate 1kHz --layout layout.csv --quiet <one");
+    const auto few = run_program(folder, "stream --population 'grid 2x2' --rate 1kHz --layout layout.csv --quiet <one");
     EXPECT_EQ(few.status, 0) << few.err;
     EXPECT_GT(few.out.size(), 100U);
-    EXPECT_EQ(few.out, run(folder, "stream --population 'grid 2x2' --rate 1kHz --quiet <all").out);
+    EXPECT_EQ(few.out, run_program(folder, "stream --population 'grid 2x2' --rate 1kHz --quiet <all").out);
 }
 
 }  // namespace

@@ -5,15 +5,15 @@
 #include <thread>
 
 #include "support/child_process.hpp"
-#include "support/places.hpp"
+#include "support/test_paths.hpp"
 #include "support/program.hpp"
 
 namespace corpuscle {
 namespace {
 
-using test::Folder;
+using test::TemporaryFolder;
 using Json = nlohmann::json;
-using test::run;
+using test::run_program;
 
 /// SA-I's model, so many times at each of two forces.
 std::string sweep_of(int units) {
@@ -23,49 +23,49 @@ std::string sweep_of(int units) {
 }
 
 /// Compared with ==: for EXPECT_EQ googletest would look for the fewest edits between two texts of megabytes, in 24 GB of memory.
-std::string dump(const Folder& folder, const std::string& results) {
-    const auto ran = run(folder, "sweep dump " + results);
+std::string dump(const TemporaryFolder& folder, const std::string& results) {
+    const auto ran = run_program(folder, "sweep dump " + results);
     EXPECT_EQ(ran.status, 0) << ran.err;
     return ran.out;
 }
 
 TEST(SweepProgram, SaysWhatItHasDoneAndGoesOnWhereItStopped) {
-    const Folder folder;
+    const TemporaryFolder folder;
     folder.write("a.toml", sweep_of(50));
-    EXPECT_NE(run(folder, "sweep a.toml --status").err.find("a.sqlite: does not exist"), std::string::npos);
-    ASSERT_EQ(run(folder, "sweep a.toml --shard 1/4 -o a.sqlite --quiet").status, 0);
-    const auto status = Json::parse(run(folder, "sweep a.toml --status --json").out);
+    EXPECT_NE(run_program(folder, "sweep a.toml --status").err.find("a.sqlite: does not exist"), std::string::npos);
+    ASSERT_EQ(run_program(folder, "sweep a.toml --shard 1/4 -o a.sqlite --quiet").status, 0);
+    const auto status = Json::parse(run_program(folder, "sweep a.toml --status --json").out);
     EXPECT_EQ(status["ended"], 25);
     EXPECT_EQ(status["missing"], 75);
-    const auto ran = run(folder, "sweep a.toml -j 2");
+    const auto ran = run_program(folder, "sweep a.toml -j 2");
     ASSERT_EQ(ran.status, 0) << ran.err;
     EXPECT_NE(ran.out.find("  100    100        75        0        100          0         0"), std::string::npos) << ran.out;
     EXPECT_NE(ran.out.find("corpuscle sweep show a.sqlite"), std::string::npos);
-    EXPECT_EQ(folder.names(), (std::vector<std::string>{"a.sqlite", "a.toml"}));
-    ASSERT_EQ(run(folder, "sweep a.toml -j 1 --lanes 1 -o b.sqlite").status, 0);
+    EXPECT_EQ(folder.file_names(), (std::vector<std::string>{"a.sqlite", "a.toml"}));
+    ASSERT_EQ(run_program(folder, "sweep a.toml -j 1 --lanes 1 -o b.sqlite").status, 0);
     EXPECT_TRUE(dump(folder, "a.sqlite") == dump(folder, "b.sqlite"));
-    for (const std::string k : {"1", "2", "3"}) ASSERT_EQ(run(folder, "sweep a.toml --shard " + k + "/3").status, 0);
+    for (const std::string k : {"1", "2", "3"}) ASSERT_EQ(run_program(folder, "sweep a.toml --shard " + k + "/3").status, 0);
     EXPECT_NE(
-        run(folder, "sweep merge c.sqlite a-1of3.sqlite a-3of3.sqlite a-2of3.sqlite").out.find("a-3of3.sqlite: 33 items, 33 of them new"),
+        run_program(folder, "sweep merge c.sqlite a-1of3.sqlite a-3of3.sqlite a-2of3.sqlite").out.find("a-3of3.sqlite: 33 items, 33 of them new"),
         std::string::npos);
     EXPECT_TRUE(dump(folder, "a.sqlite") == dump(folder, "c.sqlite"));
-    const auto other = run(folder, "sweep a.toml --seed 7");
+    const auto other = run_program(folder, "sweep a.toml --seed 7");
     EXPECT_EQ(other.status, 1);
     EXPECT_NE(other.err.find("a.sqlite: holds results of another sweep: sweep file"), std::string::npos) << other.err;
-    EXPECT_EQ(run(folder, "sweep a.toml --shard 4/3").status, 2);
-    EXPECT_EQ(run(folder, "sweep").status, 2);
+    EXPECT_EQ(run_program(folder, "sweep a.toml --shard 4/3").status, 2);
+    EXPECT_EQ(run_program(folder, "sweep").status, 2);
 }
 
 TEST(SweepProgram, InterruptedKeepsWhatHadEnded) {
-    const Folder folder;
+    const TemporaryFolder folder;
     folder.write("a.toml", sweep_of(500'000));
     const auto command =
-        "cd '" + folder.path() + "' && timeout -s INT 1 '" + test::program() + "' sweep a.toml --quiet 2>err; echo $? >status";
+        "cd '" + folder.path() + "' && timeout -s INT 1 '" + test::program_path() + "' sweep a.toml --quiet 2>err; echo $? >status";
     ASSERT_EQ(std::system(command.c_str()), 0);
     EXPECT_NE(test::read_file(folder / "err").find("items have ended and are saved in a.sqlite; the same command resumes the sweep"),
               std::string::npos)
         << test::read_file(folder / "err");
-    const auto status = Json::parse(run(folder, "sweep a.toml --status --json").out);
+    const auto status = Json::parse(run_program(folder, "sweep a.toml --status --json").out);
     EXPECT_GT(status["ended"], 0);
     EXPECT_GT(status["missing"], 0);
     EXPECT_FALSE(status.contains("writer"));
@@ -73,11 +73,11 @@ TEST(SweepProgram, InterruptedKeepsWhatHadEnded) {
 }
 
 TEST(SweepProgram, TwoSignalsAtOnceAreOne) {
-    const Folder folder;
+    const TemporaryFolder folder;
     folder.write("a.toml", sweep_of(500'000));
     const auto pid = test::fork_child();
     if (pid == 0) {
-        ::setenv("PROGRAM", test::program().c_str(), 1), ::setenv("FOLDER", folder.path().c_str(), 1);
+        ::setenv("PROGRAM", test::program_path().c_str(), 1), ::setenv("FOLDER", folder.path().c_str(), 1);
         ::execl("/bin/sh", "sh", "-c", "cd \"$FOLDER\" && exec \"$PROGRAM\" sweep a.toml --quiet 2>err", nullptr);
         ::_exit(127);
     }
@@ -98,10 +98,10 @@ struct RanRanks {
 };
 
 /// Under mpirun; rank `victim` (none: -1) is killed when rows are in the file `out`.
-RanRanks run_ranks(const Folder& folder, int ranks, const std::string& out, const std::string& options = "", int victim = -1) {
+RanRanks run_ranks(const TemporaryFolder& folder, int ranks, const std::string& out, const std::string& options = "", int victim = -1) {
     folder.write("rank.sh", "if [ \"$OMPI_COMM_WORLD_RANK\" = " + std::to_string(victim) + " ]; then (until [ \"$(stat -c %s " + out +
                                 "-wal 2>/dev/null || echo 0)\" -gt 50000 ]; do sleep 0.02; done; kill -9 $$) & fi\nexec '" +
-                                test::program() + "' sweep a.toml --quiet -o " + out + "\n");
+                                test::program_path() + "' sweep a.toml --quiet -o " + out + "\n");
     const std::string root = ::geteuid() == 0 ? "--allow-run-as-root " : "";
     const auto command = "cd '" + folder.path() + "' && timeout 60 mpirun " + root + "--oversubscribe " + options + " -n " +
                          std::to_string(ranks) + " sh rank.sh >said 2>&1";
@@ -110,9 +110,9 @@ RanRanks run_ranks(const Folder& folder, int ranks, const std::string& out, cons
 }
 
 TEST(SweepRanks, GiveWhatOneThreadGives) {
-    const Folder folder;
+    const TemporaryFolder folder;
     folder.write("a.toml", sweep_of(300));
-    ASSERT_EQ(run(folder, "sweep a.toml -j 1 -o alone").status, 0);
+    ASSERT_EQ(run_program(folder, "sweep a.toml -j 1 -o alone").status, 0);
     const auto alone = dump(folder, "alone");
     for (const int ranks : {1, 2, 3, 4}) {
         const auto out = "r" + std::to_string(ranks);
@@ -123,9 +123,9 @@ TEST(SweepRanks, GiveWhatOneThreadGives) {
 }
 
 TEST(SweepRanks, OneThatDiesCostsItsBlockOnly) {
-    const Folder folder;
+    const TemporaryFolder folder;
     folder.write("a.toml", sweep_of(30'000));
-    ASSERT_EQ(run(folder, "sweep a.toml -o alone").status, 0);
+    ASSERT_EQ(run_program(folder, "sweep a.toml -o alone").status, 0);
     const auto alone = dump(folder, "alone");
     const auto ran = run_ranks(folder, 3, "r", "--enable-recovery", 1);
     EXPECT_EQ(ran.status, 0) << ran.said;
@@ -134,18 +134,18 @@ TEST(SweepRanks, OneThatDiesCostsItsBlockOnly) {
     // Without rank 0 the others end, and the same command goes on.
     const auto headless = run_ranks(folder, 3, "h", "--enable-recovery", 0);
     EXPECT_NE(headless.said.find("rank 0, which writes the results, has died; results so far are kept"), std::string::npos) << headless.said;
-    ASSERT_EQ(run(folder, "sweep a.toml -o h").status, 0);
+    ASSERT_EQ(run_program(folder, "sweep a.toml -o h").status, 0);
     EXPECT_TRUE(dump(folder, "h") == alone);
 }
 
 TEST(SweepRanks, WithoutRecoveryNothingThatHadEndedIsLost) {
-    const Folder folder;
+    const TemporaryFolder folder;
     folder.write("a.toml", sweep_of(30'000));
     const auto ran = run_ranks(folder, 3, "r", "", 2);
     EXPECT_NE(ran.status, 0) << "mpirun ends them all\n" << ran.said;
-    const auto ended = Json::parse(run(folder, "sweep a.toml -o r --status --json").out)["ended"].get<int>();
+    const auto ended = Json::parse(run_program(folder, "sweep a.toml -o r --status --json").out)["ended"].get<int>();
     EXPECT_GT(ended, 0);
-    const auto rest = Json::parse(run(folder, "sweep a.toml -o r --json").out);
+    const auto rest = Json::parse(run_program(folder, "sweep a.toml -o r --json").out);
     EXPECT_EQ(rest["now"], 60'000 - ended);
     EXPECT_EQ(rest["missing"], 0);
 }

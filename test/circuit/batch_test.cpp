@@ -10,7 +10,7 @@
 #include "circuit/netlist_overrides.hpp"
 #include "signal/instruction_set.hpp"
 #include "signal/stimuli.hpp"
-#include "support/places.hpp"
+#include "support/test_paths.hpp"
 
 namespace corpuscle::circuit {
 namespace {
@@ -69,7 +69,7 @@ void expect_near(const ChipResponse& one, const ChipResponse& other, double allo
 }
 
 TEST(Batch, AnswersDependOnNoNeighbourAndNoInstructionSet) {
-    const auto spiker = design_of(test::root() + "/circuits/spiker.cir");
+    const auto spiker = design_of(test::project_root() + "/circuits/spiker.cir");
     const auto force = pushed(600);
     auto chips = drawn_chips(spiker, force, 11);
     const auto before = std::getenv("CORPUSCLE_ISA");
@@ -86,7 +86,7 @@ TEST(Batch, AnswersDependOnNoNeighbourAndNoInstructionSet) {
 }
 
 TEST(Batch, AChipOnItsLaneDoesAsByItself) {
-    const auto spiker = design_of(test::root() + "/circuits/spiker.cir");
+    const auto spiker = design_of(test::project_root() + "/circuits/spiker.cir");
     const auto force = pushed(600);
     const BatchOptions options{.probe_every = 50};
     const auto chips = drawn_chips(spiker, force, 6);
@@ -106,9 +106,9 @@ TEST(Batch, AChipOnItsLaneDoesAsByItself) {
 }
 
 TEST(Batch, ChipsMayDifferInTheirNumbers) {
-    const auto nominal = design_of(test::root() + "/circuits/spiker.cir");
-    const auto large = design_of(test::root() + "/circuits/spiker.cir", {{"cu", "3.6p", "cu"}});
-    const auto warm = design_of(test::root() + "/circuits/spiker.cir", {{"temp", "60", "temp"}});
+    const auto nominal = design_of(test::project_root() + "/circuits/spiker.cir");
+    const auto large = design_of(test::project_root() + "/circuits/spiker.cir", {{"cu", "3.6p", "cu"}});
+    const auto warm = design_of(test::project_root() + "/circuits/spiker.cir", {{"temp", "60", "temp"}});
     const auto force = pushed(500), soft = std::vector<double>(700, 0.7);
     const std::vector<Chip> chips = {
         {0, nominal, {}, force, batch_T}, {1, large, {}, force, batch_T}, {2, warm, {}, force, batch_T}, {3, large, {}, soft, batch_T}};
@@ -122,8 +122,8 @@ TEST(Batch, ChipsMayDifferInTheirNumbers) {
 }
 
 TEST(Batch, AChipThatNoLaneCanHoldGoesByItself) {
-    const auto nominal = design_of(test::root() + "/circuits/spiker.cir");
-    const auto other = design_of(test::root() + "/circuits/sa1_macro.cir");
+    const auto nominal = design_of(test::project_root() + "/circuits/spiker.cir");
+    const auto other = design_of(test::project_root() + "/circuits/sa1_macro.cir");
     const auto force = pushed(300);
     const std::vector<Chip> chips = {{0, nominal, {}, force, batch_T}, {1, other, {}, force, batch_T}, {2, nominal, {}, force, batch_T}};
     const auto answers = answers_of(chips, nominal);
@@ -134,7 +134,7 @@ TEST(Batch, AChipThatNoLaneCanHoldGoesByItself) {
 }
 
 TEST(Batch, AChipStopsAtItsCap) {
-    const auto spiker = design_of(test::root() + "/circuits/spiker.cir");
+    const auto spiker = design_of(test::project_root() + "/circuits/spiker.cir");
     const auto force = pushed(600);
     const auto chips = drawn_chips(spiker, force, 3);
     const auto whole = answers_of(chips, spiker), cut = answers_of(chips, spiker, {.lanes = 4, .max_iterations = 600});
@@ -150,7 +150,7 @@ TEST(Batch, AChipStopsAtItsCap) {
 }
 
 TEST(Batch, StopsWhenItIsAskedTo) {
-    const auto spiker = design_of(test::root() + "/circuits/spiker.cir");
+    const auto spiker = design_of(test::project_root() + "/circuits/spiker.cir");
     const auto force = pushed(600);
     int told = 0;
     const auto done = run_chips(

@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "circuit/device/source_waveform.hpp"
-#include "circuit/in_time.hpp"
+#include "circuit/transient_runner.hpp"
 
 namespace corpuscle::circuit {
 namespace {
@@ -16,7 +16,7 @@ constexpr double whole_turn = 2 * std::numbers::pi;
 
 /// The largest distance of a curve, straight between its points, from what it should be.
 template <class Exact>
-double furthest_from(const Ran& run, const std::string& curve, const Exact& exact, double from = 0) {
+double furthest_from(const NetlistRun& run, const std::string& curve, const Exact& exact, double from = 0) {
     const auto t = run.curve("time"), v = run.curve(curve);
     double most = 0;
     for (std::size_t k = 1; k < t.size(); ++k)
@@ -32,19 +32,19 @@ const std::string slow_inverter =
     "mn out in 0 0 nch w=1.5u l=0.5u\n";
 
 TEST(BetweenSteps, AnInverterStaysBetweenItsRails) {
-    const auto run = ran(slow_inverter +
+    const auto run = run_netlist(slow_inverter +
                          ".tran 1u 3m\n.meas tran low min v(out)\n.meas tran high max v(out)\n"
                          ".meas tran edge when v(out)=0.35 rise=1\n");
     EXPECT_GT(run.number("low"), -1e-5);
     EXPECT_LT(run.number("high"), 0.7 + 1e-5);
     EXPECT_GT(run.number("high"), 0.7 - 1e-3);
-    const auto fine = ran(slow_inverter + ".options accuracy=finest\n.tran 1u 3m 0 1u\n.meas tran edge when v(out)=0.35 rise=1\n");
+    const auto fine = run_netlist(slow_inverter + ".options accuracy=finest\n.tran 1u 3m 0 1u\n.meas tran edge when v(out)=0.35 rise=1\n");
     EXPECT_NEAR(run.number("edge"), fine.number("edge"), 20e-9);
 }
 
 TEST(BetweenSteps, ASineOverAResistorIsASine) {
     const auto run =
-        ran("sine\nv1 in 0 sin(0 1 1k)\nr1 in out 1k\nr2 out 0 1k\n.tran 1u 3m\n"
+        run_netlist("sine\nv1 in 0 sin(0 1 1k)\nr1 in out 1k\nr2 out 0 1k\n.tran 1u 3m\n"
             ".meas tran top max v(in)\n.meas tran half max v(out)\n.meas tran rms rms v(in)\n.meas tran i max i(v1)\n");
     EXPECT_NEAR(run.number("top"), 1, 2e-5);
     EXPECT_NEAR(run.number("half"), 0.5, 2e-5);
@@ -57,7 +57,7 @@ TEST(BetweenSteps, ASineOverAResistorIsASine) {
 
 TEST(BetweenSteps, ASourceIsAsItIsWritten) {
     const auto run =
-        ran("cap\nv1 in 0 sin(0.2 1 1k)\nv2 top in 2\nc1 top 0 1n\nr1 top 0 1meg\n.tran 100u 3m\n.meas tran top max v(in)\n"
+        run_netlist("cap\nv1 in 0 sin(0.2 1 1k)\nv2 top in 2\nc1 top 0 1n\nr1 top 0 1meg\n.tran 100u 3m\n.meas tran top max v(in)\n"
             ".meas tran sum max v(top)\n.meas tran low min v(in)\n");
     const auto sine = [](double t) { return 0.2 + std::sin(whole_turn * 1e3 * t); };
     EXPECT_NEAR(run.number("top"), 1.2, 3e-5);
@@ -71,7 +71,7 @@ TEST(BetweenSteps, ASourceIsAsItIsWritten) {
 
 TEST(BetweenSteps, ADiodeLetsNothingBack) {
     const auto run =
-        ran("diode\nv1 in 0 sin(0 5 1k)\nd1 in out d\nr1 out 0 1k\n.model d d(is=1e-14)\n.tran 1u 3m\n"
+        run_netlist("diode\nv1 in 0 sin(0 5 1k)\nd1 in out d\nr1 out 0 1k\n.model d d(is=1e-14)\n.tran 1u 3m\n"
             ".meas tran low min v(out)\n.meas tran high max v(out)\n.meas tran i max i(v1)\n");
     EXPECT_GT(run.number("low"), -1e-5);
     EXPECT_LT(run.number("i"), 1e-8);
@@ -83,7 +83,7 @@ TEST(BetweenSteps, ADiodeLetsNothingBack) {
 
 TEST(BetweenSteps, TwoDiodesClampWhatTheyClamp) {
     const auto run =
-        ran("two\nv1 in 0 sin(0 5 1k)\nr1 in out 1k\nd1 out 0 d\nd2 0 out d\nc1 out 0 10f\n.model d d(is=1e-14)\n"
+        run_netlist("two\nv1 in 0 sin(0 5 1k)\nr1 in out 1k\nd1 out 0 d\nd2 0 out d\nc1 out 0 10f\n.model d d(is=1e-14)\n"
             ".tran 1u 3m\n.meas tran low min v(out)\n.meas tran high max v(out)\n");
     double v = 0.7;
     for (int k = 0; k < 50; ++k) v = 0.0258649 * std::log1p((5 - v) / 1e3 / 1e-14);
@@ -94,7 +94,7 @@ TEST(BetweenSteps, TwoDiodesClampWhatTheyClamp) {
 /// A coil's voltage jumps where its source begins to rise, a capacitor's current likewise: a point of their own follows the corner.
 TEST(AfterACorner, AJumpIsNotDrawnAsARamp) {
     const auto run =
-        ran("corner\nv1 a 0 pwl(0 0 1m 0 2m 1 3m 1)\nc1 a 0 1u\ni1 0 b pwl(0 0 1m 0 2m 1m 3m 1m)\nl1 b c 1m\nr1 c 0 1k\n"
+        run_netlist("corner\nv1 a 0 pwl(0 0 1m 0 2m 1 3m 1)\nc1 a 0 1u\ni1 0 b pwl(0 0 1m 0 2m 1m 3m 1m)\nl1 b c 1m\nr1 c 0 1k\n"
             ".tran 10u 3m\n");
     const auto t = run.curve("time"), i = run.curve("i(v1)"), b = run.curve("v(b)"), c = run.curve("v(c)");
     double early = 1;
@@ -106,7 +106,7 @@ TEST(AfterACorner, AJumpIsNotDrawnAsARamp) {
     }
     EXPECT_LT(early, 1e-9);
     const auto ramps =
-        ran("exp\nv1 a 0 exp(0 1 1m 0.1m 2m 0.2m)\nc1 a 0 1n\n.tran 10u 4m\n.meas tran low min i(v1)\n"
+        run_netlist("exp\nv1 a 0 exp(0 1 1m 0.1m 2m 0.2m)\nc1 a 0 1n\n.tran 10u 4m\n.meas tran low min i(v1)\n"
             ".meas tran high max i(v1)\n");
     EXPECT_NEAR(ramps.number("low"), -1e-9 / 0.1e-3, 1e-9);
     EXPECT_NEAR(ramps.number("high"), 1e-9 / 0.2e-3 * (1 - std::exp(-10)), 1e-9);
@@ -126,14 +126,14 @@ TEST(AfterACorner, ASourceHasItsLastDigits) {
 
 /// What Newton's limits looked at instead would be a charge too many, and a current of 15 mA for a step.
 TEST(AfterACorner, JunctionsBeginWithTheChargeOfTheirVoltage) {
-    const auto circuit = InTime::text(
+    const auto circuit = TransientRunner::from_text(
         "two in series\nv1 a 0 exp(-1.98516 1.98516 0.3m 0.44m)\nd1 b a d\nd2 0 b d\nr1 a b 33meg\nc1 a 0 1n\n"
         ".model d d(is=1.68381e-13 n=1.30859 cjo=5.99394e-14)\n.tran 1u 1m\n");
     TransientPlan plan;
     plan.all_reported = true;
     const auto run = circuit.run(plan);
     const auto i = static_cast<std::size_t>(circuit.unknown("i(v1)"));
-    ASSERT_EQ(run.wrong, "");
+    ASSERT_EQ(run.error, "");
     ASSERT_LT(run.t[1], 1e-12);
     EXPECT_GT(std::abs(run.x[0][i]), 0.1);
     for (std::size_t k = 1; run.t[k] < 1e-4; ++k) EXPECT_NEAR(run.x[k][i], run.x[0][i], 1e-6) << run.t[k];
@@ -141,7 +141,7 @@ TEST(AfterACorner, JunctionsBeginWithTheChargeOfTheirVoltage) {
 
 /// A current of a steep edge through a floating capacitor, at tolerances where its last digits are all there is.
 TEST(AfterACorner, RoundingRefusesNoStep) {
-    const auto circuit = InTime::text(
+    const auto circuit = TransientRunner::from_text(
         "floating\nv1 a 0 pulse(-1.785 1.785 0.27m 1.6u 0.9u 0.28m 1.36m)\nr1 a b 43.9k\nr2 b 0 64.4k\nr3 a c 4.5meg\nd1 a c d\n"
         "c1 c b 1.24n\nd2 c e d\nr4 e 0 4.67k\n.model d d(is=1.46257e-12 n=1.20338 cjo=0)\n.tran 1u 3m\n");
     TransientPlan plan;
@@ -150,14 +150,14 @@ TEST(AfterACorner, RoundingRefusesNoStep) {
     for (const double longest : {60e-6, 30e-6, 15e-6}) {
         plan.max_step = longest;
         const auto run = circuit.run(plan);
-        EXPECT_EQ(run.wrong, "") << longest;
-        EXPECT_LT(run.work.steps, 20'000) << longest;
+        EXPECT_EQ(run.error, "") << longest;
+        EXPECT_LT(run.stats.steps, 20'000) << longest;
     }
 }
 
 TEST(BetweenSteps, AFormulasJumpIsWhereItsInputCrosses) {
     const auto run =
-        ran("comparator\nv1 in 0 sin(0 1 1k)\nb1 out 0 v=u(v(in)-0.3)\nr1 out 0 1k\nc1 far 0 1n\nr2 out far 10k\n.tran 1u 3m\n"
+        run_netlist("comparator\nv1 in 0 sin(0 1 1k)\nb1 out 0 v=u(v(in)-0.3)\nr1 out 0 1k\nc1 far 0 1n\nr2 out far 10k\n.tran 1u 3m\n"
             ".meas tran first when v(out)=0.5 rise=1\n.meas tran last when v(out)=0.5 fall=3\n.meas tran high max v(out)\n"
             ".meas tran low min v(out)\n");
     const double up = std::asin(0.3) / whole_turn * 1e-3;
@@ -170,7 +170,7 @@ TEST(BetweenSteps, AFormulasJumpIsWhereItsInputCrosses) {
 /// i(v2) is the formula's current; v(a), all there is to weigh by charge, hardly moves where it jumps.
 TEST(AcceptedPoints, SatisfyTheEquationsWhereAFormulaJumps) {
     const auto run =
-        ran("jump\ni1 0 a pulse(-1u 1u 0 1n 1n 0.3m 0.6m)\nc1 a 0 1n\nr1 a 0 100meg\nv2 b 0 1\nb1 b 0 i=50u*u(v(a)-0.1)\n"
+        run_netlist("jump\ni1 0 a pulse(-1u 1u 0 1n 1n 0.3m 0.6m)\nc1 a 0 1n\nr1 a 0 100meg\nv2 b 0 1\nb1 b 0 i=50u*u(v(a)-0.1)\n"
             ".ic v(a)=0\n.tran 1u 3m\n");
     const auto a = run.curve("v(a)"), i = run.curve("i(v2)"), t = run.curve("time");
     int jumps = 0;
@@ -185,8 +185,8 @@ TEST(AcceptedPoints, SatisfyTheEquationsWhereAFormulaJumps) {
 
 /// With nothing but what a spike is to look at: where the level is crossed within a step is as exact as the steps are.
 TEST(BetweenSteps, ASpikeOfANodeWithoutChargeIsWhereItIs) {
-    const auto run = ran(slow_inverter + ".spike v(out) 0.35\n.tran 50u 5m 0 100u\n");
-    const auto fine = ran(slow_inverter + ".spike v(out) 0.35\n.options accuracy=fine\n.tran 1u 5m 0 1u\n");
+    const auto run = run_netlist(slow_inverter + ".spike v(out) 0.35\n.tran 50u 5m 0 100u\n");
+    const auto fine = run_netlist(slow_inverter + ".spike v(out) 0.35\n.options accuracy=fine\n.tran 1u 5m 0 1u\n");
     ASSERT_EQ(run.number("spikes"), 5);
     ASSERT_EQ(fine.number("spikes"), 5);
     EXPECT_NEAR(run.number("first_spike"), fine.number("first_spike"), 20e-9);

@@ -16,7 +16,7 @@ struct BiasAsked {
 };
 
 std::string text_of(const BiasAsked& asked) {
-    std::ifstream file(test::root() + "/circuits/bias.cir");
+    std::ifstream file(test::project_root() + "/circuits/bias.cir");
     std::string text, line;
     while (std::getline(file, line)) {
         if (line.starts_with(".expect") || line == ".end") continue;
@@ -32,7 +32,7 @@ struct Bias {
     explicit Bias(const BiasAsked& asked) {
         Values shifted;
         if (asked.shift != 0) shifted = {{"vtn_shift", asked.shift}, {"vtp_shift", asked.shift}};
-        const auto found = ran(text_of(asked), shifted);
+        const auto found = run_netlist(text_of(asked), shifted);
         V_Q = found.number("v(q)"), I_part = found.number("i(vis)") / asked.I;
         V_BN = found.number("v(bn)"), V_BP = found.number("v(bp)");
     }
@@ -44,7 +44,7 @@ struct Spread {
     double V = 0, I = 0, V_spread = 0, I_spread = 0, V_spread_to_ref = 0;
     Spread(const std::string& section, const std::string& what) {
         double VV = 0, II = 0, R = 0, RR = 0;
-        const auto all = ran_all(text_of({.section = section, .more = ".mc 1000 seed=17 " + what}));
+        const auto all = run_variants(text_of({.section = section, .more = ".mc 1000 seed=17 " + what}));
         const double count = static_cast<double>(all.size());
         for (const auto& one : all) {
             const double v = one.number("v(q)"), i = one.number("i(vis)"), r = one.number("v(q,ref)");

@@ -21,7 +21,7 @@ struct Kept {
 };
 
 std::unique_ptr<AnalysisContext> bench_of(const std::string& text) {
-    const auto netlist = parsed(text);
+    const auto netlist = parse_netlist_text(text);
     if (!netlist) return ADD_FAILURE() << netlist.error().text(), nullptr;
     auto circuit = netlist->elaborate();
     if (!circuit) return ADD_FAILURE() << circuit.error().text(), nullptr;

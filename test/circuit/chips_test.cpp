@@ -29,7 +29,7 @@ struct Heard {
 
 Heard heard(const std::string& file, const ForceSignal& touch, const Values& parameters = {}, double celsius = 27) {
     Heard out;
-    const auto netlist = Netlist::read(corpuscle::test::root() + "/circuits/" + file);
+    const auto netlist = Netlist::read(corpuscle::test::project_root() + "/circuits/" + file);
     if (!netlist) return ADD_FAILURE() << netlist.error().text(), out;
     auto circuit = netlist->elaborate(parameters);
     if (!circuit) return ADD_FAILURE() << circuit.error().text(), out;
@@ -56,7 +56,7 @@ Heard heard(const std::string& file, const ForceSignal& touch, const Values& par
     return out;
 }
 
-std::vector<double> spikes_of(const Ran& ran) {
+std::vector<double> spikes_of(const NetlistRun& ran) {
     for (const auto& a : ran.analyses())
         if (a.result.spikes) return *a.result.spikes;
     return ADD_FAILURE() << ran.title() << ": no spikes", std::vector<double>();
@@ -107,17 +107,17 @@ TEST(Chips, AsPrintedFireOtherwise) {
 
 /// Without length modulation and velocity saturation the mirrors divide by their ratios: 288 x 64 (eq. 38, 39; errata S7b).
 TEST(Chips, TransconductorsDivideByTheirRatiosInThePlainModel) {
-    const auto netlist = Netlist::read(corpuscle::test::root() + "/circuits/invc.cir");
+    const auto netlist = Netlist::read(corpuscle::test::project_root() + "/circuits/invc.cir");
     ASSERT_TRUE(netlist);
     auto circuit = netlist->elaborate();
     ASSERT_TRUE(circuit);
     for (auto& model : circuit->models) model.values["ve"] = 1e30, model.values["zetal"] = 0;
-    EXPECT_NEAR(ran(std::move(*circuit)).number("attenuation"), 18432, 0.005 * 18432);
+    EXPECT_NEAR(run_netlist(std::move(*circuit)).number("attenuation"), 18432, 0.005 * 18432);
 }
 
 /// The membrane falls from V_H to V_L, a spike fills it again; it goes beyond by what the trigger's delay lets pass (thesis 4.4).
 TEST(Chips, MembranesStayBetweenTheTriggersThresholdsWhileTheyFire) {
-    const auto trigger = ran_file("schmitt.cir");
+    const auto trigger = run_netlist_file("schmitt.cir");
     const double V_L = trigger.number("v_l"), V_H = trigger.number("v_h");
     for (const char* file : {"sa1.cir", "fa1.cir"}) {
         auto touch = stimulus("press", {}, 100e3);
@@ -196,11 +196,11 @@ TEST(Chips, OutliveATornSensor) {
 /// Tolerances a hundred times tighter move no spike by 0.2 ms.
 TEST(Chips, SpikesAreExact) {
     for (const std::string file : {"sa1.cir", "fa1.cir"}) {
-        const auto folder = corpuscle::test::root() + "/circuits/";
+        const auto folder = corpuscle::test::project_root() + "/circuits/";
         auto text = corpuscle::test::read_file(folder + file);
         text.replace(text.rfind(".end"), 4, ".options reltol=1e-7 vntol=1e-8 spikecheck=0\n.end");
         for (auto at = text.find("'parts/"); at != std::string::npos; at = text.find("'parts/", at + 1)) text.insert(at + 1, folder);
-        const auto usual = spikes_of(ran_file(file)), tight = spikes_of(ran(text));
+        const auto usual = spikes_of(run_netlist_file(file)), tight = spikes_of(run_netlist(text));
         ASSERT_EQ(usual.size(), tight.size());
         for (std::size_t k = 0; k < tight.size(); ++k) EXPECT_NEAR(usual[k], tight[k], 0.2e-3) << file << ' ' << k;
     }

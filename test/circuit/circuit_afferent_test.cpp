@@ -17,9 +17,9 @@
 namespace corpuscle::circuit {
 namespace {
 
-using corpuscle::test::Folder;
+using corpuscle::test::TemporaryFolder;
 using corpuscle::test::read_file;
-using corpuscle::test::sure;
+using corpuscle::test::value_or_throw;
 
 /// Force charges a capacitor, a rapid switch at 1 V empties it: quick to run, and it never rests.
 constexpr const char* relaxer =
@@ -27,18 +27,18 @@ constexpr const char* relaxer =
     "b2 t 0 v={0.5*(1+tanh((v(a)-1+0.8*v(s))*20))}\nr2 t s 1k\nc2 s 0 10n\n.tran 1m 1 0 5m uic\n";
 
 std::shared_ptr<const CircuitAfferentFactory> design(const std::string& text) {
-    const auto netlist = sure(parsed(text));
-    return sure(CircuitAfferentFactory::create(std::make_shared<const Circuit>(sure(netlist.elaborate()))));
+    const auto netlist = value_or_throw(parse_netlist_text(text));
+    return value_or_throw(CircuitAfferentFactory::create(std::make_shared<const Circuit>(value_or_throw(netlist.elaborate()))));
 }
 std::string afferent_refusal(const std::string& text) {
-    const auto netlist = parsed(text);
+    const auto netlist = parse_netlist_text(text);
     if (!netlist) return netlist.error().text();
     auto circuit = netlist->elaborate();
     if (!circuit) return circuit.error().text();
     const auto made = CircuitAfferentFactory::create(std::make_shared<const Circuit>(std::move(*circuit)));
     return made ? "" : made.error().text();
 }
-std::string spiker() { return read_file(corpuscle::test::root() + "/circuits/spiker.cir"); }
+std::string spiker() { return read_file(corpuscle::test::project_root() + "/circuits/spiker.cir"); }
 
 /// Hands in force, in blocks of `block`, and what it takes to hear the end.
 std::vector<Spike> answered(const Afferent& afferent, std::vector<double> force, std::size_t block = 4096) {
@@ -132,7 +132,7 @@ std::vector<Spike> resumed(const CircuitAfferentFactory& made, const std::vector
     std::vector<Spike> nobodys;
     ResponseBlock unheard{nobodys};
     if (!second->respond(wave(90, T), other, unheard)) ADD_FAILURE();
-    auto state = sure(unpack(kept));
+    auto state = value_or_throw(unpack(kept));
     auto rest = std::vector<double>(force.begin() + static_cast<std::ptrdiff_t>(at), force.end());
     rest.insert(rest.end(), static_cast<std::size_t>(second->delay()), force.back());
     if (!second->respond(rest, state, answer)) ADD_FAILURE();
@@ -201,7 +201,7 @@ TEST(CircuitAfferent, FallingIsTheOtherFlank) {
 }
 
 TEST(CircuitAfferent, WhatIsMissingOrWrongIsToldByItsPlace) {
-    const std::string t = "t\niin 0 a force 1u\nr1 a 0 1k\n", file = corpuscle::test::root() + "/process/test.cir";
+    const std::string t = "t\niin 0 a force 1u\nr1 a 0 1k\n", file = corpuscle::test::project_root() + "/process/test.cir";
     const auto says = [&](const std::string& text, const std::string& what) {
         EXPECT_NE(afferent_refusal(text).find(what), std::string::npos) << afferent_refusal(text);
     };
@@ -224,11 +224,11 @@ TEST(CircuitAfferent, CopiesAreTheChipsOfItsDraw) {
     text.replace(text.find("tt"), 2, "mc");
     const auto cut = text.find(".expect");
     text.replace(cut, text.find(".end", cut) - cut, "");
-    const auto chips = ran_all(text);
+    const auto chips = run_variants(text);
     ASSERT_EQ(chips.size(), 3U);
     const auto made = design(text);
     const auto press = corpuscle::test::force("press");
-    const auto clock = sure(make_clock(10e3));
+    const auto clock = value_or_throw(make_clock(10e3));
     for (std::uint32_t copy = 1; copy <= 3; ++copy) {
         const auto spikes = spike_times(answered(*made->make(1e-4, false, copy), press), clock);
         EXPECT_EQ(static_cast<double>(spikes.size()), chips[copy - 1].number("spikes")) << copy;
@@ -245,7 +245,7 @@ TEST(CircuitAfferent, AStateOfTheVersionBeforeIsRefusedWithBothVersionsAndARemed
     const auto at = before.format.find("/2, ");
     ASSERT_NE(at, std::string::npos) << before.format;
     before.format[at + 1] = '1';
-    before = sure(unpack(pack(before)));
+    before = value_or_throw(unpack(pack(before)));
     const auto refused = afferent->respond(wave(20, 1e-3), before, answer);
     ASSERT_FALSE(refused);
     const auto& told = refused.error().message;
@@ -263,14 +263,14 @@ TEST(CircuitAfferent, OfTwoNetlistsNeitherTakesTheOthersState) {
 
 TEST(Run, TellsSpikesUnderAForceOfTheNetlistsOwn) {
     const std::string t = "t\niin 0 a dc 0.1 force 1\nr1 a 0 1\nc1 a 0 1m\n.spike v(a) 1.1\n";
-    const auto found = ran(t + ".force press f_min=0 f_max=2 rate=2k\n.tran 1m 1\n");
+    const auto found = run_netlist(t + ".force press f_min=0 f_max=2 rate=2k\n.tran 1m 1\n");
     EXPECT_EQ(found.number("spikes"), 1);
     EXPECT_NEAR(found.number("first_spike"), 0.3135, 1e-3);  // half way up, and 1 ms
     EXPECT_NEAR(found.curve("v(a)").front(), 0.1, 1e-6);
-    EXPECT_EQ(ran(t + ".tran 1m 1\n").number("spikes"), 0);  // no force: 0 N
-    EXPECT_NEAR(ran(t + ".op\n.force press\n").number("v(a)"), 0.1, 1e-9);
+    EXPECT_EQ(run_netlist(t + ".tran 1m 1\n").number("spikes"), 0);  // no force: 0 N
+    EXPECT_NEAR(run_netlist(t + ".op\n.force press\n").number("v(a)"), 0.1, 1e-9);
     const auto refused = [&](const std::string& order) {
-        auto circuit = sure(sure(parsed(t + order + "\n.tran 1m 1\n")).elaborate());
+        auto circuit = value_or_throw(value_or_throw(parse_netlist_text(t + order + "\n.tran 1m 1\n")).elaborate());
         const auto run_ = run_directives(std::make_shared<const Circuit>(std::move(circuit)));
         return run_ ? std::string() : run_.error().text();
     };
@@ -302,16 +302,16 @@ struct Ear final : ResponseSink {
 };
 
 TEST(Respond, NetlistsBesideModelsInBlocksOfAnySize) {
-    const auto path = corpuscle::test::root() + "/circuits/spiker.cir";
+    const auto path = corpuscle::test::project_root() + "/circuits/spiker.cir";
     std::vector<Ear> ears(3);
     for (std::size_t k = 0; k < ears.size(); ++k) {
-        const std::vector<AfferentPlan> plans = {sure(plan_any_afferent(path, {})), sure(plan_any_afferent("fa1", {}))};
+        const std::vector<AfferentPlan> plans = {value_or_throw(plan_any_afferent(path, {})), value_or_throw(plan_any_afferent("fa1", {}))};
         std::vector<std::unique_ptr<ForceSource>> sources;
-        sources.push_back(sure(make_stimulus("press", {}, 1e3, 0)));
+        sources.push_back(value_or_throw(make_stimulus("press", {}, 1e3, 0)));
         ResponseSink* listeners[] = {&ears[k]};
         RespondOptions options;
         options.block = std::vector<std::size_t>{4096, 1, 37}[k];
-        const auto work = sure(respond(sources, plans, listeners, options));
+        const auto work = value_or_throw(respond(sources, plans, listeners, options));
         EXPECT_EQ(work.samples, 1000);
         EXPECT_GT(work.steps, 10000);
         EXPECT_EQ(ears[k].samples, 1000);
@@ -323,7 +323,7 @@ TEST(Respond, NetlistsBesideModelsInBlocksOfAnySize) {
 
 class Responding : public ::testing::Test {
 protected:
-    const Folder folder;
+    const TemporaryFolder folder;
     std::string words(const std::string& afferents, const std::string& more = "") const {
         return "respond press.csv --afferent " + afferents + " --time t " + more;
     }
@@ -335,18 +335,18 @@ protected:
         }
         folder.write("press.csv", text);
         folder.write("relaxer.cir", std::string(relaxer) + ".spike v(s) 0.5\n");
-        std::filesystem::copy(corpuscle::test::root() + "/circuits/spiker.cir", folder / "spiker.cir");
+        std::filesystem::copy(corpuscle::test::project_root() + "/circuits/spiker.cir", folder / "spiker.cir");
         auto cir = spiker();
-        cir.replace(cir.find("../process"), 10, corpuscle::test::root() + "/process");
+        cir.replace(cir.find("../process"), 10, corpuscle::test::project_root() + "/process");
         folder.write("spiker.cir", cir);
     }
 };
 
 TEST_F(Responding, NetlistsAnswerBesideModelsTheSameOnAnyNumberOfThreads) {
     const std::string names = "sa1,./spiker.cir,relaxer.cir";
-    const auto one = corpuscle::test::run(folder, words(names, "--out one --traces -j 1 --report"));
+    const auto one = corpuscle::test::run_program(folder, words(names, "--out one --traces -j 1 --report"));
     ASSERT_EQ(one.status, 0) << one.err;
-    ASSERT_EQ(corpuscle::test::run(folder, words(names, "--out four --traces -j 4")).status, 0);
+    ASSERT_EQ(corpuscle::test::run_program(folder, words(names, "--out four --traces -j 4")).status, 0);
     for (const std::string name : {"/spikes.csv", "/traces.csv"})
         EXPECT_TRUE(read_file(folder / ("one" + name)) == read_file(folder / ("four" + name))) << name;
     const auto summary = nlohmann::json::parse(read_file(folder / "one/summary.json"));
@@ -364,9 +364,9 @@ TEST_F(Responding, NetlistsAnswerBesideModelsTheSameOnAnyNumberOfThreads) {
 }
 
 TEST_F(Responding, AnswersAlikeInSmallBlocks) {
-    ASSERT_EQ(corpuscle::test::run(folder, words("spiker.cir", "--out whole")).status, 0);
-    ASSERT_EQ(corpuscle::test::run(folder, words("spiker.cir", "--out float --float")).status, 2);
-    const auto refused = corpuscle::test::run(folder, words("spiker.cir", "--float"));
+    ASSERT_EQ(corpuscle::test::run_program(folder, words("spiker.cir", "--out whole")).status, 0);
+    ASSERT_EQ(corpuscle::test::run_program(folder, words("spiker.cir", "--out float --float")).status, 2);
+    const auto refused = corpuscle::test::run_program(folder, words("spiker.cir", "--float"));
     EXPECT_NE(refused.err.find("spiker.cir: netlists cannot run in float"), std::string::npos) << refused.err;
 }
 
@@ -374,7 +374,7 @@ TEST_F(Responding, OneThatDoesNotConvergeIsToldAndTheOthersGoOn) {
     // dv/dt = F - 0.5 - v^2: with less than half a newton it falls without end
     folder.write("falls.cir",
                  "falls\niin 0 a force 1\nb1 a 0 i={0.5+v(a)*v(a)*v(a)*v(a)*v(a)*v(a)-0*v(a)+2*v(a)*v(a)}\nca a 0 1m\n.spike v(a) 0.2\n");
-    const auto ran = corpuscle::test::run(folder, words("sa1,falls.cir,spiker.cir", "--out answer"));
+    const auto ran = corpuscle::test::run_program(folder, words("sa1,falls.cir,spiker.cir", "--out answer"));
     EXPECT_EQ(ran.status, 3) << ran.err;
     EXPECT_NE(ran.err.find("did not converge"), std::string::npos) << ran.err;
     const auto summary = nlohmann::json::parse(read_file(folder / "answer/summary.json"));
@@ -384,15 +384,15 @@ TEST_F(Responding, OneThatDoesNotConvergeIsToldAndTheOthersGoOn) {
 }
 
 TEST_F(Responding, ANetlistThatCannotBeReadIsRefused) {
-    const auto none = corpuscle::test::run(folder, words("none.cir"));
+    const auto none = corpuscle::test::run_program(folder, words("none.cir"));
     EXPECT_EQ(none.status, 1);
     EXPECT_NE(none.err.find("none.cir: cannot be read"), std::string::npos) << none.err;
     folder.write("bad.cir", "t\niin 0 a force\nr1 a\n.spike v(a) 1\n");
-    const auto bad = corpuscle::test::run(folder, words("bad.cir"));
+    const auto bad = corpuscle::test::run_program(folder, words("bad.cir"));
     EXPECT_EQ(bad.status, 1);
     EXPECT_NE(bad.err.find("bad.cir:3:"), std::string::npos) << bad.err;
-    EXPECT_EQ(corpuscle::test::run(folder, words("spiker.cir,spiker.cir")).status, 2);
-    const auto unknown = corpuscle::test::run(folder, words("spiker.cir", "--set spiker.cir.vddd=1"));
+    EXPECT_EQ(corpuscle::test::run_program(folder, words("spiker.cir,spiker.cir")).status, 2);
+    const auto unknown = corpuscle::test::run_program(folder, words("spiker.cir", "--set spiker.cir.vddd=1"));
     EXPECT_EQ(unknown.status, 1);
     EXPECT_NE(unknown.err.find("--set spiker.cir.vddd=1: spiker.cir has no parameter or device 'vddd'"), std::string::npos) << unknown.err;
 }

@@ -16,10 +16,10 @@ using Complex = std::complex<double>;
 constexpr double pi = 3.14159265358979323846, v_t = 1.380649e-23 * 300.15 / 1.602176634e-19;
 
 /// A curve of .ac against a formula of j omega, by the formula's magnitude; below `rounding` no digits are asked for.
-void expect_curve(const Ran& ran, const std::string& name, double tolerance, const std::function<Complex(Complex s)>& formula,
+void expect_curve(const NetlistRun& ran, const std::string& name, double tolerance, const std::function<Complex(Complex s)>& formula,
                   double rounding = 0) {
     const auto f = ran.curve("frequency");
-    const auto found = ran.complex(name);
+    const auto found = ran.complex_curve(name);
     ASSERT_EQ(found.size(), f.size());
     for (std::size_t k = 0; k < f.size(); ++k) {
         const Complex wanted = formula({0, 2 * pi * f[k]});
@@ -30,7 +30,7 @@ void expect_curve(const Ran& ran, const std::string& name, double tolerance, con
 
 TEST(ClosedForm, ALowPassFallsOverTwelveDecadesAsOnePole) {
     for (const auto& [R, C] : {std::pair{1e3, 1e-6}, {413e3, 8.8e-12}, {6.6e9, 0.8e-12}}) {
-        const auto found = ran(fmt::format("low-pass\nv1 in 0 ac 1\nr1 in out {}\nc1 out 0 {}\n.ac dec 10 1m 1g\n", R, C));
+        const auto found = run_netlist(fmt::format("low-pass\nv1 in 0 ac 1\nr1 in out {}\nc1 out 0 {}\n.ac dec 10 1m 1g\n", R, C));
         expect_curve(found, "v(out)", 1e-12, [r = R, c = C](Complex s) { return 1.0 / (1.0 + s * r * c); }, 3e-16);
         expect_curve(found, "i(v1)", 1e-12, [r = R, c = C](Complex s) { return -s * c / (1.0 + s * r * c); }, 3e-16 / R);
     }
@@ -38,19 +38,19 @@ TEST(ClosedForm, ALowPassFallsOverTwelveDecadesAsOnePole) {
 
 TEST(ClosedForm, ASeriesOfRLCResonates) {
     const double R = 2, L = 10e-6, C = 100e-12;  // Q is 158, at 5.03 MHz
-    const auto found = ran("series\nv1 in 0 ac 1\nl1 in a 10u\nc1 a out 100p\nr1 out 0 2\n.ac dec 200 100k 100meg\n");
+    const auto found = run_netlist("series\nv1 in 0 ac 1\nl1 in a 10u\nc1 a out 100p\nr1 out 0 2\n.ac dec 200 100k 100meg\n");
     expect_curve(found, "v(out)", 1e-9, [=](Complex s) { return R / (R + s * L + 1.0 / (s * C)); });
     expect_curve(found, "v(a,out)", 1e-9, [=](Complex s) { return 1.0 / (s * C) / (R + s * L + 1.0 / (s * C)); });
     expect_curve(found, "i(l1)", 1e-9, [=](Complex s) { return 1.0 / (R + s * L + 1.0 / (s * C)); });
-    const auto at = ran(fmt::format("at resonance\nv1 in 0 ac 1\nl1 in a 10u\nc1 a out 100p\nr1 out 0 2\n.ac lin 1 {0:.17g} {0:.17g}\n",
+    const auto at = run_netlist(fmt::format("at resonance\nv1 in 0 ac 1\nl1 in a 10u\nc1 a out 100p\nr1 out 0 2\n.ac lin 1 {0:.17g} {0:.17g}\n",
                                     1 / (2 * pi * std::sqrt(L * C))));
-    EXPECT_LE(std::abs(at.complex("v(out)")[0] - 1.0), 1e-9);
-    EXPECT_NEAR(std::abs(at.complex("v(a,out)")[0]), std::sqrt(L / C) / R, 1e-7);
+    EXPECT_LE(std::abs(at.complex_curve("v(out)")[0] - 1.0), 1e-9);
+    EXPECT_NEAR(std::abs(at.complex_curve("v(a,out)")[0]), std::sqrt(L / C) / R, 1e-7);
 }
 
 TEST(ClosedForm, AParallelRLCResonates) {
     const double G = 1 / 50e3, L = 1e-3, C = 1e-9;
-    const auto found = ran("parallel\ni1 0 a ac 1\nr1 a 0 50k\nl1 a 0 1m\nc1 a 0 1n\n.ac dec 200 10 100meg\n");
+    const auto found = run_netlist("parallel\ni1 0 a ac 1\nr1 a 0 50k\nl1 a 0 1m\nc1 a 0 1n\n.ac dec 200 10 100meg\n");
     expect_curve(found, "v(a)", 1e-9, [=](Complex s) { return 1.0 / (G + s * C + 1.0 / (s * L)); });
     expect_curve(found, "i(l1)", 1e-9, [=](Complex s) { return 1.0 / (s * L) / (G + s * C + 1.0 / (s * L)); });
 }
@@ -72,7 +72,7 @@ TEST(ClosedForm, DiodesAndResistorsInSeriesCarryTheScalarEquationsRoot) {
                 text += fmt::format("r{0} n{0} m{0} 1k\nd{0} m{0} {1} dx\n", k, k + 1 < count ? fmt::format("n{}", k + 1) : "0");
             const double I =
                 crossing(0, volt / (1e3 * count), [&](double i) { return count * (i * 1e3 + 1.3 * v_t * std::log1p(i / 1e-14)) - volt; });
-            EXPECT_NEAR(-ran(text + ".op\n").number("i(v1)") / I, 1, 1e-6) << count << " at " << volt << " V";
+            EXPECT_NEAR(-run_netlist(text + ".op\n").number("i(v1)") / I, 1, 1e-6) << count << " at " << volt << " V";
         }
 }
 
@@ -87,7 +87,7 @@ TEST(ClosedForm, ALadderOfDiodesToGroundIsShotFromItsEnd) {
                 return v;
             };
             const double end = crossing(0, volt, [&](double v) { return start(v) - volt; });
-            EXPECT_NEAR(ran(text + ".op\n").number(fmt::format("v(n{})", count)), end, 1e-8 * end) << count << " at " << volt << " V";
+            EXPECT_NEAR(run_netlist(text + ".op\n").number(fmt::format("v(n{})", count)), end, 1e-8 * end) << count << " at " << volt << " V";
         }
 }
 
@@ -99,7 +99,7 @@ TEST(ClosedForm, AnR2RLadderMakesBinaryWeights) {
             text += fmt::format("v{0} b{0} 0 {1}\nrb{0} b{0} n{0} 2k\n", k, (code >> k) & 1);
             if (k > 0) text += fmt::format("rs{0} n{1} n{0} 1k\n", k, k - 1);
         }
-        const auto found = ran(text + fmt::format(".op\n.tf v(n{0}) v{0}\n", bits - 1));
+        const auto found = run_netlist(text + fmt::format(".op\n.tf v(n{0}) v{0}\n", bits - 1));
         EXPECT_NEAR(found.number(fmt::format("v(n{})", bits - 1)), code / 4096.0, 1e-13);
         EXPECT_NEAR(found.number("transfer_function"), 0.5, 1e-12);
         EXPECT_NEAR(found.number(fmt::format("output_impedance_at_v(n{})", bits - 1)), 1e3, 1e-7);
@@ -109,7 +109,7 @@ TEST(ClosedForm, AnR2RLadderMakesBinaryWeights) {
 
 TEST(ClosedForm, AWheatstoneBridgeIsBalancedAndIsNot) {
     const auto bridge = [](double r4) {
-        return ran(fmt::format("bridge\nv1 t 0 10\nr1 t a 1k\nr2 a 0 2k\nr3 t b 3k\nr4 b 0 {:.17g}\nr5 a b 5k\n.op\n", r4))
+        return run_netlist(fmt::format("bridge\nv1 t 0 10\nr1 t a 1k\nr2 a 0 2k\nr3 t b 3k\nr4 b 0 {:.17g}\nr5 a b 5k\n.op\n", r4))
             .number("v(a,b)");
     };
     EXPECT_NEAR(bridge(6e3), 0, 1e-13);
@@ -122,7 +122,7 @@ TEST(ClosedForm, AWheatstoneBridgeIsBalancedAndIsNot) {
 TEST(ClosedForm, AnAmplifierOfControlledSourcesHasItsGainAndResistances) {
     // a transconductance, degenerated: v_in over r_pi drives g_m against r_e
     const double r_s = 600, r_pi = 10e3, g_m = 20e-3, r_e = 100, r_c = 5e3;
-    const auto found = ran("degenerated\nv1 in 0 1\nrs in b 600\nrpi b e 10k\nre e 0 100\ng1 c e b e 20m\nrc c 0 5k\n.tf v(c) v1\n");
+    const auto found = run_netlist("degenerated\nv1 in 0 1\nrs in b 600\nrpi b e 10k\nre e 0 100\ng1 c e b e 20m\nrc c 0 5k\n.tf v(c) v1\n");
     const double in = r_pi + (1 + g_m * r_pi) * r_e;
     EXPECT_NEAR(found.number("transfer_function"), -g_m * r_pi * r_c / (r_s + in), 1e-9);
     EXPECT_NEAR(found.number("v1#input_impedance"), r_s + in, 1e-6);
@@ -130,7 +130,7 @@ TEST(ClosedForm, AnAmplifierOfControlledSourcesHasItsGainAndResistances) {
 
     // an operational amplifier of gain A, by E; feedback makes -R2/R1 of it
     const double A = 1e5, R1 = 1e3, R2 = 10e3, R_o = 75;
-    const auto inverting = ran("inverting\nv1 in 0 1\nr1 in m 1k\nr2 m out 10k\ne1 o 0 0 m 1e5\nro o out 75\n.tf v(out) v1\n");
+    const auto inverting = run_netlist("inverting\nv1 in 0 1\nr1 in m 1k\nr2 m out 10k\ne1 o 0 0 m 1e5\nro o out 75\n.tf v(out) v1\n");
     const double gain = (R_o - A * R2) / (R1 * (1 + A) + R2 + R_o);  // nodes m and out, by hand
     EXPECT_NEAR(inverting.number("transfer_function"), gain, 1e-9);
     EXPECT_NEAR(inverting.number("output_impedance_at_v(out)"), R_o * (R1 + R2) / (R1 + R2 + R_o + A * R1), 1e-9);
@@ -138,7 +138,7 @@ TEST(ClosedForm, AnAmplifierOfControlledSourcesHasItsGainAndResistances) {
 
     // a current taken by F and given back as a voltage by H
     const auto currents =
-        ran("currents\ni1 0 a 1m\nva a b 0\nr1 b 0 50\nf1 0 c va 20\nr2 c 0 1k\nvc c d 0\nr3 d 0 1k\nh1 out 0 vc 300\nr4 out 0 1\n"
+        run_netlist("currents\ni1 0 a 1m\nva a b 0\nr1 b 0 50\nf1 0 c va 20\nr2 c 0 1k\nvc c d 0\nr3 d 0 1k\nh1 out 0 vc 300\nr4 out 0 1\n"
             ".tf v(out) i1\n");
     EXPECT_NEAR(currents.number("transfer_function"), 20 * 0.5 * 300, 1e-9);
     EXPECT_NEAR(currents.number("i1#input_impedance"), 50, 1e-10);
@@ -159,11 +159,11 @@ std::string with_values(const std::string& changed = "", double value = 0) {
 }
 
 TEST(ClosedForm, SensitivitiesAreTheSlopesOfReruns) {
-    const auto found = ran(with_values() + ".sens v(d)\n");
+    const auto found = run_netlist(with_values() + ".sens v(d)\n");
     for (const auto& [name, value] : all_values) {
         const double h = 1e-3 * value;
         const auto d = [&, of = name, at = value](double step) {
-            return ran(with_values(of, at + step) + ".options reltol=1e-10 vntol=1e-13\n.op\n").number("v(d)");
+            return run_netlist(with_values(of, at + step) + ".options reltol=1e-10 vntol=1e-13\n.op\n").number("v(d)");
         };
         const double slope = (8 * (d(h) - d(-h)) - (d(2 * h) - d(-2 * h))) / (12 * h);  // fourth order
         EXPECT_NEAR(found.number(name), slope, 1e-6 * std::abs(slope)) << name;
@@ -179,7 +179,7 @@ TEST(ClosedForm, SensitivitiesAreThoseOfNgspice) {
     const auto theirs = read_raw_file(stem.string() + ".raw");
     for (const char* end : {".raw", ".cir"}) std::filesystem::remove(stem.string() + end);
     ASSERT_EQ(theirs.size(), 1U);
-    const auto mine = ran(text);
+    const auto mine = run_netlist(text);
     for (const auto& [name, value] : all_values) {
         const auto* curve = theirs[0].find_curve(fmt::format("v({}{})", name, name[0] == 'g' || name[0] == 'e' ? "_gain" : ""));
         ASSERT_NE(curve, nullptr) << name;

@@ -12,7 +12,7 @@
 namespace corpuscle::circuit {
 namespace {
 
-using test::Folder;
+using test::TemporaryFolder;
 
 std::unique_ptr<AnalysisContext> cost_bench(std::shared_ptr<const Circuit> circuit) {
     if (!circuit) return nullptr;
@@ -22,7 +22,7 @@ std::unique_ptr<AnalysisContext> cost_bench(std::shared_ptr<const Circuit> circu
 }
 
 std::shared_ptr<const Circuit> file(const std::string& name, const Values& parameters = {}) {
-    const auto netlist = Netlist::read(test::root() + "/circuits/" + name);
+    const auto netlist = Netlist::read(test::project_root() + "/circuits/" + name);
     if (!netlist) return ADD_FAILURE() << netlist.error().text(), nullptr;
     auto circuit = netlist->elaborate(parameters);
     if (!circuit) return ADD_FAILURE() << circuit.error().text(), nullptr;
@@ -103,14 +103,14 @@ TEST(Cost, ABlocksAreaIsCountedByHand) {
     EXPECT_EQ(block(c, "fsr").area.total(), 0);
     EXPECT_EQ(block(c, "ideal currents").area.total(), 0);
     const auto two =
-        cost(circuit_from("t\n.lib 'tsmc180.lib' tt\nv1 v 0 0.7\nx1 v o v 0 pair\n.subckt pair a b c d\n"
+        cost(make_circuit("t\n.lib 'tsmc180.lib' tt\nv1 v 0 0.7\nx1 v o v 0 pair\n.subckt pair a b c d\n"
                           "mp b a c c pch w=6u l=0.5u m=2\nmn b a d d nch w=1.5u l=0.5u m=2\n.ends\n.op\n"));
     EXPECT_NEAR(block(two, "1").area.arrays / um2, 6.5 * 2.5 + 2 * 2.5, 1e-9) << "each in one row: 2 x 0.5 + 0.54 + 0.96 um long";
 }
 
 TEST(Cost, WhatSourcesDeliverIsWhatBlocksLoseInEveryCircuit) {
     int seen = 0, powered = 0;
-    for (const auto& entry : std::filesystem::directory_iterator(test::root() + "/circuits")) {
+    for (const auto& entry : std::filesystem::directory_iterator(test::project_root() + "/circuits")) {
         if (entry.path().extension() != ".cir") continue;
         const auto name = entry.path().filename().string();
         auto bench = cost_bench(file(name));
@@ -133,7 +133,7 @@ TEST(Cost, WhatSourcesDeliverIsWhatBlocksLoseInEveryCircuit) {
 
 TEST(Cost, PowerGoesWhereOhmSaysItDoes) {
     const auto c =
-        cost(circuit_from("t\nvdd vdd 0 2\nvf force 0 0.5 force 1\n"
+        cost(make_circuit("t\nvdd vdd 0 2\nvf force 0 0.5 force 1\n"
                           "xa vdd a one\nxb a 0 one\n.subckt one p q\nr1 p q 1k\n.ends\n"                            // 1 mA: 1 mW each
                           "xs force vdd x sens\n.subckt sens force p q\nb1 p q i={v(force)*1m}\n.ends\nrx x 0 1k\n"  // 0.5 mA
                           "idrain vdd d 1m\nrd d 0 1k\n"                                                             // takes 1 V, 1 mA
@@ -154,7 +154,7 @@ TEST(Cost, PowerGoesWhereOhmSaysItDoes) {
 }
 
 TEST(Cost, ACapacitorFilledAndEmptiedCostsItsChargeTimesTheSupply) {
-    const auto c = cost_in_time(circuit_from("t\nv1 in 0 pulse(0 2 1m 1u 1u 20m 100m)\nr1 in out 1k\nc1 out 0 1u\n.tran 10u 50m\n"));
+    const auto c = cost_in_time(make_circuit("t\nv1 in 0 pulse(0 2 1m 1u 1u 20m 100m)\nr1 in out 1k\nc1 out 0 1u\n.tran 10u 50m\n"));
     const double stored = 1e-6 * 2 * 2;  // C V^2, J: half of it heats on the way up, half on the way down
     EXPECT_NEAR(c.powers("mean")->supplies, stored / 50e-3, 2e-3 * stored / 50e-3);
     EXPECT_NEAR(lost(c, "mean", "top level"), stored / 50e-3, 2e-3 * stored / 50e-3);
@@ -183,7 +183,7 @@ TEST(Cost, OverAPressTheChipLosesWhatIsDelivered) {
 TEST(Cost, ATransistorLeaksAsItsThresholdSays) {
     const double phi_t = thermal_voltage(300.15), closed = 2 * std::exp(1.0) * 100e-9 * 6 * std::exp(-0.45 / (1.3 * phi_t));
     for (const bool pmos : {false, true}) {
-        const auto circuit = circuit_from(std::string("t\nvdd vdd 0 0.7\nm1 ") + (pmos ? "0 vdd vdd vdd x w=1.5u" : "vdd 0 0 0 x w=1.5u") +
+        const auto circuit = make_circuit(std::string("t\nvdd vdd 0 0.7\nm1 ") + (pmos ? "0 vdd vdd vdd x w=1.5u" : "vdd 0 0 0 x w=1.5u") +
                                           " l=0.5u m=2\n.model x " + (pmos ? "pmos" : "nmos") +
                                           " (level=80 isq=100n vto=0.45 n=1.3 ve=1e30)\nib vdd 0 5p\n.op\n");
         const auto c = cost(circuit);
@@ -215,15 +215,15 @@ TEST(Cost, TheChipsSwitchesLeakOntoTheMembraneAndThoseOfHigherThresholdDoNot) {
 }
 
 TEST(Cost, JunctionsLeakToo) {
-    const auto c = cost(circuit_from(
+    const auto c = cost(make_circuit(
         "t\nvdd vdd 0 0.7\nm1 vdd 0 0 0 x w=1u l=1u\n.model x nmos (level=80 isq=1e-15 vto=2 js=5u jssw=1p ldif=0.5u)\n.op\n"));
     EXPECT_NEAR(c.blocks[0].worst_leak.current, 5e-6 * 0.5e-12 + 1e-12 * 3e-6, 1e-6 * 2.5e-18 + 1e-22);
 }
 
 TEST(Cost, TheDocumentHasTheSheetAndTheTableHasItsWords) {
-    const Folder folder;
+    const TemporaryFolder folder;
     folder.write("x.cir", "t\nvdd vdd 0 1\nr1 vdd a 1k\nc1 a 0 2p\ni1 a 0 1u\n.op\n.tran 1n 10n\n");
-    const auto ran = test::run(folder, "run x.cir --budget --json");
+    const auto ran = test::run_program(folder, "run x.cir --budget --json");
     ASSERT_EQ(ran.status, 0) << ran.err;
     const auto budget = nlohmann::json::parse(ran.out)["budget"];
     for (const char* when : {"op", "mean", "peak"}) {
@@ -236,16 +236,16 @@ TEST(Cost, TheDocumentHasTheSheetAndTheTableHasItsWords) {
     EXPECT_EQ(budget["blocks"].size(), 2U);
     EXPECT_EQ(budget["unsized_elements"], 1);
     EXPECT_FALSE(budget.contains("receptors"));
-    EXPECT_FALSE(nlohmann::json::parse(test::run(folder, "run x.cir --json").out).contains("budget"));
-    const auto table = test::run(folder, "run x.cir --budget").out;
+    EXPECT_FALSE(nlohmann::json::parse(test::run_program(folder, "run x.cir --json").out).contains("budget"));
+    const auto table = test::run_program(folder, "run x.cir --budget").out;
     for (const char* word : {"power, nW", "delivered", "dissipated in ideal currents", "area, um2", "1 device of unknown area (resistors"})
         EXPECT_NE(table.find(word), std::string::npos) << word << "\n" << table;
 }
 
 TEST(Cost, RespondTellsTheSheetAtRestAndTheMeanOverWhatWasAnswered) {
-    const Folder folder;
-    const std::string chip = "'" + test::root() + "/circuits/sa1.cir'", words = "respond press --json --afferent sa1," + chip;
-    const auto ran = test::run(folder, words + " -j1");
+    const TemporaryFolder folder;
+    const std::string chip = "'" + test::project_root() + "/circuits/sa1.cir'", words = "respond press --json --afferent sa1," + chip;
+    const auto ran = test::run_program(folder, words + " -j1");
     ASSERT_EQ(ran.status, 0) << ran.err;
     const auto costs = nlohmann::json::parse(ran.out)["costs"];
     ASSERT_EQ(costs.size(), 1U) << "equations cost nothing that is known";
@@ -261,14 +261,14 @@ TEST(Cost, RespondTellsTheSheetAtRestAndTheMeanOverWhatWasAnswered) {
         EXPECT_LT(mean, press + 1e-3 * press) << word;
     }
     EXPECT_NEAR(costs[0]["receptors"]["per_mm2"].get<double>(), c.per_mm2(), 1e-9 * c.per_mm2());
-    EXPECT_EQ(ran.out, test::run(folder, words + " -j2").out);
-    EXPECT_FALSE(nlohmann::json::parse(test::run(folder, "respond press --json").out).contains("costs"));
+    EXPECT_EQ(ran.out, test::run_program(folder, words + " -j2").out);
+    EXPECT_FALSE(nlohmann::json::parse(test::run_program(folder, "respond press --json").out).contains("costs"));
 }
 
 TEST(Cost, OfManyEachHasItsLine) {
-    const Folder folder;
+    const TemporaryFolder folder;
     folder.write("x.cir", "t\n.param r=1k\nvdd vdd 0 1\nr1 vdd 0 {r}\n.op\n.step param r list 1k 2k\n");
-    const auto ran = test::run(folder, "run x.cir --budget");
+    const auto ran = test::run_program(folder, "run x.cir --budget");
     ASSERT_EQ(ran.status, 0) << ran.err;
     EXPECT_NE(ran.out.find("power 1 mW"), std::string::npos) << ran.out;
     EXPECT_NE(ran.out.find("power 500 uW"), std::string::npos) << ran.out;

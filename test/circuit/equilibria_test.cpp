@@ -31,7 +31,7 @@ struct LookedAt {
 };
 LookedAt looked(const std::string& text) {
     LookedAt out;
-    auto bench = AnalysisContext::make(circuit_from(text));
+    auto bench = AnalysisContext::make(make_circuit(text));
     if (!bench) return ADD_FAILURE() << bench.error().text(), LookedAt();
     out.bench = std::move(*bench);
     auto states = find_equilibria(*out.bench);
@@ -90,7 +90,7 @@ TEST(RestStates, ALatchComesToTheSideThatItsHalvesFavour) {
 }
 
 TEST(RestStates, OfASchmittTriggerAreTwoWithinItsHysteresisAndOneBeyond) {
-    auto text = *text_of(test::root() + "/circuits/schmitt.cir");
+    auto text = *read_text_file(test::project_root() + "/circuits/schmitt.cir");
     text.replace(text.find("vin in 0 0"), 10, "vin in 0 {level}");
     text.erase(text.find(".dc"));
     for (const auto& [level, states] : {std::pair{0.1, 1U}, {0.24, 1U}, {0.27, 3U}, {0.35, 3U}, {0.44, 3U}, {0.47, 1U}, {0.6, 1U}}) {
@@ -105,11 +105,11 @@ TEST(RestStates, OfASchmittTriggerAreTwoWithinItsHysteresisAndOneBeyond) {
 }
 
 TEST(RestStates, AreAskedOfOp) {
-    const auto found = ran(latch(0.02) + ".op states 1u\n.mc 1\n");
+    const auto found = run_netlist(latch(0.02) + ".op states 1u\n.mc 1\n");
     EXPECT_EQ(found.number("stable_states"), 2);
     EXPECT_EQ(found.number("unstable_states"), 1);
     for (const char* wrong : {".op state", ".op states 0", ".op states 1m 2m", ".op states fast"}) {
-        const auto refused = run_directives(circuit_from(latch(0) + wrong + "\n"));
+        const auto refused = run_directives(make_circuit(latch(0) + wrong + "\n"));
         ASSERT_FALSE(refused) << wrong;
         EXPECT_GT(refused.error().location.column, 0) << refused.error().text();
     }

@@ -17,7 +17,7 @@ namespace {
 
 std::vector<std::string> netlists_in(const std::string& folder) {
     std::vector<std::string> out;
-    for (const auto& entry : std::filesystem::directory_iterator(root() + folder))
+    for (const auto& entry : std::filesystem::directory_iterator(project_root() + folder))
         if (entry.path().extension() == ".cir") out.push_back(entry.path().string());
     std::sort(out.begin(), out.end());
     return out;
@@ -52,7 +52,7 @@ void hold(const ExportNames& names, bool diodes, const Plot& mine, const Plot& t
     SCOPED_TRACE(mine.name);
     ASSERT_EQ(mine.point_count(), theirs.point_count());
     std::map<std::string, const Curve*> there;
-    for (const auto& c : theirs.curves) there[plain(c.name)] = &c;
+    for (const auto& c : theirs.curves) there[corpuscle_name(c.name)] = &c;
     const bool small = mine.is_complex || mine.name.find("oise") != std::string::npos;
     for (const auto& c : mine.curves) {
         if (c.name.find('#') != std::string::npos && c.name.starts_with("v(")) continue;  // inside a device
@@ -86,9 +86,9 @@ void hold_all(const Circuit& circuit, const std::vector<Plot>& mine, std::vector
 }
 
 /// What the netlist itself gives: for what has transistors by formulas, with our own in their place.
-std::string of_our_transistors(const Folder& folder, const std::string& path) {
+std::string of_our_transistors(const TemporaryFolder& folder, const std::string& path) {
     const auto name = std::filesystem::path(path).stem().string();
-    return name.starts_with("uicm_") ? folder.write("native.cir", native(path)) : path;
+    return name.starts_with("uicm_") ? folder.write("native.cir", with_native_transistors(path)) : path;
 }
 
 /// A sweep as ngspice knows it: one way, and here with some fifty points, for it takes its time.
@@ -116,11 +116,11 @@ std::shared_ptr<const Circuit> of_what_both_know(const std::shared_ptr<const Cir
 class Export : public testing::TestWithParam<std::string> {};
 
 TEST_P(Export, GivesInNgspiceWhatTheNetlistGivesHere) {
-    const Folder folder;
-    const auto read = circuit_of(of_our_transistors(folder, GetParam()));
+    const TemporaryFolder folder;
+    const auto read = elaborate_netlist(of_our_transistors(folder, GetParam()));
     ASSERT_TRUE(read);
     const auto circuit = of_what_both_know(read);
-    const auto log = ngspice(folder.write("deck.cir", exported(circuit)), folder / "deck.raw");
+    const auto log = run_ngspice(folder.write("deck.cir", exported(circuit)), folder / "deck.raw");
     const auto mine = run_directives(circuit);
     ASSERT_TRUE(mine) << mine.error().text();
     const auto theirs = read_raw_file(folder / "deck.raw");
@@ -134,20 +134,20 @@ TEST_P(Export, ReadsBackHereAndMeansTheSame) {
     // does not).
     for (const auto* known : {"/force_to_current.cir", "/rectifier_sa.cir", "/rectifier_fa.cir"})
         if (GetParam().ends_with(known)) GTEST_SKIP() << "known: no operating point is found for the deck read back";
-    const Folder folder;
-    const auto read = circuit_of(of_our_transistors(folder, GetParam()));
+    const TemporaryFolder folder;
+    const auto read = elaborate_netlist(of_our_transistors(folder, GetParam()));
     ASSERT_TRUE(read);
     const auto circuit = of_what_both_know(read);
     const auto mine = run_directives(circuit);
     ASSERT_TRUE(mine) << mine.error().text();
-    const auto deck = circuit_of(folder.write("deck.cir", exported(circuit)));
+    const auto deck = elaborate_netlist(folder.write("deck.cir", exported(circuit)));
     ASSERT_TRUE(deck);
     auto again = std::make_shared<Circuit>(*deck);
     for (const auto* name : {"reltol", "vntol"}) again->options.erase(name);  // ngspice needs them tight; ours are enough for us
     const auto back = run_directives(std::shared_ptr<const Circuit>(again));
     ASSERT_TRUE(back) << back.error().text();
     hold_all(*circuit, mine->plots(), back->plots(), true);
-    const auto second = circuit_of(folder.write("twice.cir", exported(again)));
+    const auto second = elaborate_netlist(folder.write("twice.cir", exported(again)));
     ASSERT_TRUE(second);
     auto twice = std::make_shared<Circuit>(*second);
     for (const auto* name : {"reltol", "vntol"}) twice->options.erase(name);
@@ -163,31 +163,31 @@ INSTANTIATE_TEST_SUITE_P(Netlists, Export, testing::ValuesIn(netlists()), [](con
 
 /// With six digits. The inverter has an .op, too, after which ngspice would measure nothing: that is told.
 TEST(ExportedOrders, AreMeasuredByNgspiceAsHere) {
-    const Folder folder;
-    auto circuit = std::make_shared<Circuit>(*circuit_of(root() + "/circuits/inverter.cir"));
+    const TemporaryFolder folder;
+    auto circuit = std::make_shared<Circuit>(*elaborate_netlist(project_root() + "/circuits/inverter.cir"));
     const auto with_op = ngspice_deck(circuit);
     ASSERT_TRUE(with_op);
     EXPECT_NE(with_op->text.find("* .meas dc: ngspice measures only the analysis that it runs last, here .op"), std::string::npos);
     std::erase_if(circuit->directives, [](const Directive& c) { return c.name == "op"; });
-    const auto log = ngspice(folder.write("deck.cir", exported(circuit)), "");
+    const auto log = run_ngspice(folder.write("deck.cir", exported(circuit)), "");
     const auto mine = run_directives(circuit);
     ASSERT_TRUE(mine);
     ASSERT_EQ(mine->numbers.size(), 2U);
-    for (const auto& [name, value] : mine->numbers) EXPECT_NEAR(number_of(log, name), value, 1e-4 * std::abs(value)) << log;
+    for (const auto& [name, value] : mine->numbers) EXPECT_NEAR(logged_number(log, name), value, 1e-4 * std::abs(value)) << log;
 }
 
 TEST(ExportedOrders, TheForceGoesAlongInItsSources) {
-    const Folder folder;
-    const auto circuit = circuit_of(folder.write("touch.cir",
+    const TemporaryFolder folder;
+    const auto circuit = elaborate_netlist(folder.write("touch.cir",
                                                  "touched\nvf f 0 force 2\nrf f s 1k\ncs s 0 10u\n.force press f_max=3\n.tran 1m 1 0 2m\n"
                                                  ".meas tran rising find v(s) at=0.31\n.meas tran held find v(s) at=0.5\n"
                                                  ".meas tran falling find v(s) at=0.7\n"));
     const auto shared = std::make_shared<Circuit>(*circuit);
-    const auto log = ngspice(folder.write("deck.cir", exported(shared)), "");
+    const auto log = run_ngspice(folder.write("deck.cir", exported(shared)), "");
     const auto mine = run_directives(shared);
     ASSERT_TRUE(mine);
     ASSERT_EQ(mine->numbers.size(), 3U);
-    for (const auto& [name, value] : mine->numbers) EXPECT_NEAR(number_of(log, name), value, 1e-3) << name << log;
+    for (const auto& [name, value] : mine->numbers) EXPECT_NEAR(logged_number(log, name), value, 1e-3) << name << log;
     EXPECT_NEAR(mine->numbers[1].second, 6, 1e-3);
 }
 
@@ -213,8 +213,8 @@ r1 v d 1meg
 )";
 
 TEST(ExportedOrders, ThatNgspiceLacksStayAsCommentsAndAreTold) {
-    const Folder folder;
-    const auto deck = ngspice_deck(circuit_of(folder.write("x.cir", wishes_for_all)));
+    const TemporaryFolder folder;
+    const auto deck = ngspice_deck(elaborate_netlist(folder.write("x.cir", wishes_for_all)));
     ASSERT_TRUE(deck);
     for (const char* line :
          {"* left out: .step param w 1u 2u 0.5u", "* left out: .mc 10", "* left out: .expect half 0.35 1", "* left out: .dc temp 0 50 10",
@@ -300,11 +300,11 @@ TEST(FormulaText, ReadsBackAsTheSameFormula) {
 }
 
 TEST(ExportVerb, WritesAWholeDeckOrNothing) {
-    using corpuscle::test::run;
-    const Folder folder;
+    using corpuscle::test::run_program;
+    const TemporaryFolder folder;
     folder.write("x.cir", "divider\nv1 in 0 3\nr1 in out 1k\nr2 out 0 2k\n.op\n.expect v(out) 2 1%\n");
     folder.write("bad.cir", "t\nv1 a 0 1\nr1 a 0 1k\nr2 a\n.op\n");
-    const auto printed = run(folder, "export x.cir --for ngspice"), written = run(folder, "export x.cir --for ngspice -o y.cir");
+    const auto printed = run_program(folder, "export x.cir --for ngspice"), written = run_program(folder, "export x.cir --for ngspice -o y.cir");
     EXPECT_EQ(printed.status, 0) << printed.err;
     EXPECT_TRUE(printed.out.starts_with("divider\n* ")) << printed.out;
     EXPECT_TRUE(printed.out.ends_with(".end\n")) << printed.out;
@@ -312,11 +312,11 @@ TEST(ExportVerb, WritesAWholeDeckOrNothing) {
     EXPECT_EQ(written.status, 0) << written.err;
     EXPECT_EQ(written.out, "");
     EXPECT_EQ(read_file(folder / "y.cir"), printed.out);
-    EXPECT_EQ(run(folder, "export bad.cir -o z.cir").status, 1);
+    EXPECT_EQ(run_program(folder, "export bad.cir -o z.cir").status, 1);
     EXPECT_FALSE(std::filesystem::exists(folder / "z.cir"));
-    EXPECT_EQ(run(folder, "export x.cir --for hspice").status, 2);
-    EXPECT_EQ(run(folder, "export x.cir -o x.cir").status, 2);
-    EXPECT_EQ(run(folder, "export").status, 2);
+    EXPECT_EQ(run_program(folder, "export x.cir --for hspice").status, 2);
+    EXPECT_EQ(run_program(folder, "export x.cir -o x.cir").status, 2);
+    EXPECT_EQ(run_program(folder, "export").status, 2);
 }
 
 }  // namespace

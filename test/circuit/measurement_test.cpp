@@ -105,7 +105,7 @@ TEST(MeasureInfo, MorePointsOnTheSameLinesChangeNothing) {
 
 TEST(MeasureInfo, SaysWhatIsWrongAndWhere) {
     const auto told = [](const std::string& words) {
-        const auto netlist = parsed("t\nv1 a 0 1\nr1 a 0 1k\n.tran 1m 2m\n.meas tran x " + words + "\n");
+        const auto netlist = parse_netlist_text("t\nv1 a 0 1\nr1 a 0 1k\n.tran 1m 2m\n.meas tran x " + words + "\n");
         const auto outcome = run_directives(std::make_shared<const Circuit>(*netlist->elaborate()));
         const auto text = outcome ? "nothing" : outcome.error().text();
         return text.substr(text.find("test.cir") == std::string::npos ? 0 : text.find("test.cir") + 9);
@@ -127,7 +127,7 @@ TEST(MeasureInfo, SaysWhatIsWrongAndWhere) {
 /// A transient that is a closed form: v(out) of an RC behind a step at 1 ms.
 TEST(MeasureInfo, OfAChargingCapacitorIsWhatIsWrittenOnPaper) {
     const auto found =
-        ran("rc\nv1 in 0 pulse(0 1 1m 1n 1n 1 2)\nr1 in out 1k\nc1 out 0 1u\n.tran 10u 6m 0 2u\n.meas tran half when v(out)=0.5\n"
+        run_netlist("rc\nv1 in 0 pulse(0 1 1m 1n 1n 1 2)\nr1 in out 1k\nc1 out 0 1u\n.tran 10u 6m 0 2u\n.meas tran half when v(out)=0.5\n"
             ".meas tran later trig v(in) val=0.5 rise=1 targ v(out) val=0.9 rise=1\n.meas tran mean avg v(out) from=1.5m to=2.5m\n"
             ".meas tran effective rms v(out) from=1.5m to=2.5m\n.meas tran area integ v(out) from=1.5m to=2.5m\n"
             ".meas tran least min v(out) from=1.5m to=2.5m\n.meas tran most max v(out) from=1.5m to=2.5m\n"
@@ -148,7 +148,7 @@ TEST(MeasureInfo, OfAChargingCapacitorIsWhatIsWrittenOnPaper) {
 
 TEST(MeasureInfo, TakesFormulasOfCurves) {
     const auto found =
-        ran("t\nv1 a 0 pwl(0 0 1 2)\nr1 a 0 2\n.tran 1m 1 0 1m\n.meas tran energy integ par('-v(a)*i(v1)')\n"
+        run_netlist("t\nv1 a 0 pwl(0 0 1 2)\nr1 a 0 2\n.tran 1m 1 0 1m\n.meas tran energy integ par('-v(a)*i(v1)')\n"
             ".meas tran when_half when par('v(a)>=0.5 ? 1 : -1')=0\n.meas tran after trig par('v(a)^2') val=1 rise=1 targ "
             "par('v(a)^2')=par('4*time') rise=1\n.print tran par('v(a)*time')\n");
     EXPECT_NEAR(found.number("energy"), 2.0 / 3, 1e-6);
@@ -157,7 +157,7 @@ TEST(MeasureInfo, TakesFormulasOfCurves) {
 
 /// ngspice ends avg, min, max and pp at points, and has neither deriv nor count: short steps, and what both have.
 TEST(MeasureInfo, OfATransientIsThatOfNgspice) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const std::string deck = folder.write("x.cir", R"(measures in time
 .options reltol=1e-6 abstol=1e-14 vntol=1e-9
 v1 in 0 sin(0.1 1 1k 0.1m)
@@ -186,11 +186,11 @@ c1 out 0 0.2u
 .meas tran across find par('v(in)-v(out)') at=1.23m
 .end
 )");
-    const auto log = ngspice(deck, "");
-    const auto outcome = ours(deck);
+    const auto log = run_ngspice(deck, "");
+    const auto outcome = run_corpuscle(deck);
     EXPECT_EQ(outcome.numbers.size(), 19U);
     for (const auto& [what, value] : outcome.numbers) {
-        const double theirs = number_of(log, what);
+        const double theirs = logged_number(log, what);
         EXPECT_NEAR(value, theirs, what == "when_most" ? 1e-6 : 1e-3 * std::abs(theirs)) << what << "\n" << log;
     }
 }

@@ -10,14 +10,14 @@
 namespace corpuscle {
 namespace {
 
-using test::Folder;
+using test::TemporaryFolder;
 using test::read_file;
-using test::run;
+using test::run_program;
 using Json = nlohmann::json;
 
 bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
-std::size_t spikes_in(const Folder& folder, const std::string& out) {
+std::size_t spikes_in(const TemporaryFolder& folder, const std::string& out) {
     const auto text = read_file(folder / (out + "/spikes.csv"));
     return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')) - 1;
 }
@@ -28,10 +28,10 @@ constexpr const char* divider_text =
     ".subckt half a b\nrtop a b {r_top}\nrlow b 0 1k\nclow b 0 1u\n.ends\n.spike v(mid) 1.2\n.save v(mid)\n";
 
 TEST(KnobsProgram, TheChipAnswersInAnyFolderAndWhatIsSetChangesIt) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const std::string press = "respond press --quiet --afferent ";
-    ASSERT_EQ(run(folder, press + "sa1-circuit -o plain").status, 0);
-    const auto set = run(folder, press +
+    ASSERT_EQ(run_program(folder, press + "sa1-circuit -o plain").status, 0);
+    const auto set = run_program(folder, press +
                                      "SA1-circuit --set sa1-circuit.C_u=9pF --set SA1-circuit.summer.N3B=12x4 --corner tt --temp 27 "
                                      "--trace 'VF,i(N3B),rectb.o' -o set");
     ASSERT_EQ(set.status, 0) << set.err;
@@ -52,13 +52,13 @@ TEST(KnobsProgram, TheChipAnswersInAnyFolderAndWhatIsSetChangesIt) {
 }
 
 TEST(KnobsProgram, OptionsHoldForEveryNetlistAndAWishForOneGoesBefore) {
-    const Folder folder;
+    const TemporaryFolder folder;
     folder.write("a.cir", divider_text), folder.write("b.cir", divider_text);
-    const auto ran = run(folder, "respond step -a a.cir,b.cir,sa1 --supply 0.5V --set b.cir.SUPPLY=2 --trace 'div.a,mid,i(top)' -o out");
+    const auto ran = run_program(folder, "respond step -a a.cir,b.cir,sa1 --supply 0.5V --set b.cir.SUPPLY=2 --trace 'div.a,mid,i(top)' -o out");
     ASSERT_EQ(ran.status, 1) << "vdd is the node, div.a only a port";
     EXPECT_TRUE(has(ran.err, "--trace div.a: no netlist of this run has such a node or device")) << ran.err;
     const auto good =
-        run(folder, "respond step -a a.cir,b.cir,sa1 --supply 0.5V --set b.cir.SUPPLY=2 --trace 'VDD,i(div.top)' -o out --report");
+        run_program(folder, "respond step -a a.cir,b.cir,sa1 --supply 0.5V --set b.cir.SUPPLY=2 --trace 'VDD,i(div.top)' -o out --report");
     ASSERT_EQ(good.status, 0) << good.err;
     const auto traces = read_file(folder / "out/traces.csv");
     EXPECT_TRUE(
@@ -69,13 +69,13 @@ TEST(KnobsProgram, OptionsHoldForEveryNetlistAndAWishForOneGoesBefore) {
 }
 
 TEST(KnobsProgram, WhatCannotBeIsRefusedByItsName) {
-    const Folder folder;
+    const TemporaryFolder folder;
     folder.write("a.cir", divider_text);
     auto other = std::string(divider_text);
     other.replace(other.find("supply=1 r_top=1k"), 17, "r_top=1k v=1"), other.replace(other.find("{supply}"), 8, "{v}");
     folder.write("b.cir", other);
     const auto says = [&](const std::string& words, int status, const std::string& what) {
-        const auto ran = run(folder, "respond step " + words);
+        const auto ran = run_program(folder, "respond step " + words);
         EXPECT_EQ(ran.status, status) << words << ran.err;
         EXPECT_TRUE(has(ran.err, what)) << ran.err;
     };
@@ -92,13 +92,13 @@ TEST(KnobsProgram, WhatCannotBeIsRefusedByItsName) {
     says("--afferent a.cir --set c.cir.div.rtop=2k", 2, "no afferent or stimulus 'c.cir.div' in this run");
     says("--afferent a.cir --mismatch half", 1, "--mismatch half: 'half' is not a seed");
     says("--afferent a.cir --copies 3 --spread a.cir.temp=5%", 1, "unknown parameter 'temp'");
-    EXPECT_TRUE(folder.names().size() == 2) << "nothing is left behind";
+    EXPECT_TRUE(folder.file_names().size() == 2) << "nothing is left behind";
 }
 
 TEST(KnobsProgram, CopiesOfANetlistSpreadItsParametersAndAreTheChipsOfASeed) {
-    const Folder folder;
+    const TemporaryFolder folder;
     folder.write("a.cir", divider_text);
-    const auto ran = run(folder, "respond step -a a.cir --copies 3 --spread a.cir.R_top=5% --trace 'i(rtop)' -o out --quiet");
+    const auto ran = run_program(folder, "respond step -a a.cir --copies 3 --spread a.cir.R_top=5% --trace 'i(rtop)' -o out --quiet");
     ASSERT_EQ(ran.status, 0) << ran.err;
     const auto copies = read_file(folder / "out/copies.csv");
     EXPECT_EQ(copies.substr(0, 22), "afferent,channel,r_top");
@@ -115,10 +115,10 @@ TEST(KnobsProgram, CopiesOfANetlistSpreadItsParametersAndAreTheChipsOfASeed) {
 }
 
 TEST(KnobsProgram, RunTakesTheSameAndSavesTracesBesideItsOwn) {
-    const Folder folder;
+    const TemporaryFolder folder;
     folder.write("a.cir", std::string(divider_text) + ".op\n.expect v(mid) 0.5 1%\n");
-    EXPECT_EQ(run(folder, "run a.cir").status, 0);
-    const auto ran = run(folder, "run a.cir --supply 2V --set DIV.top=3k --trace 'vdd,i(div.rtop),mid' --json");
+    EXPECT_EQ(run_program(folder, "run a.cir").status, 0);
+    const auto ran = run_program(folder, "run a.cir --supply 2V --set DIV.top=3k --trace 'vdd,i(div.rtop),mid' --json");
     ASSERT_EQ(ran.status, 0) << ran.err;
     EXPECT_TRUE(has(ran.err, "values of the netlist are overridden, so .expect is ignored")) << ran.err;
     const auto curves = Json::parse(ran.out)["plots"][0]["curves"];
@@ -126,15 +126,15 @@ TEST(KnobsProgram, RunTakesTheSameAndSavesTracesBesideItsOwn) {
     EXPECT_NEAR(curves["v(mid)"][0].get<double>(), 0.5, 1e-6);
     EXPECT_NEAR(curves["v(vdd)"][0].get<double>(), 2, 1e-9);
     EXPECT_NEAR(curves["i(xdiv.rtop)"][0].get<double>(), 0.5e-3, 1e-9);
-    EXPECT_EQ(run(folder, "run a.cir --trace vdd").status, 0) << "as it is written, it still expects";
-    EXPECT_EQ(run(folder, "run a.cir --set div.top").status, 2);
-    EXPECT_TRUE(has(run(folder, "run a.cir --trace vd").err, "--trace vd: a.cir has no such node or device; did you mean 'vdd'?"));
-    EXPECT_EQ(run(folder, "export sa1-circuit --for ngspice -o deck.cir").status, 0);
+    EXPECT_EQ(run_program(folder, "run a.cir --trace vdd").status, 0) << "as it is written, it still expects";
+    EXPECT_EQ(run_program(folder, "run a.cir --set div.top").status, 2);
+    EXPECT_TRUE(has(run_program(folder, "run a.cir --trace vd").err, "--trace vd: a.cir has no such node or device; did you mean 'vdd'?"));
+    EXPECT_EQ(run_program(folder, "export sa1-circuit --for ngspice -o deck.cir").status, 0);
 }
 
 TEST(KnobsProgram, ListTellsWhatAChipHas) {
-    const Folder folder;
-    const auto listed = Json::parse(run(folder, "list sa1-circuit --json").out)["afferents"][0];
+    const TemporaryFolder folder;
+    const auto listed = Json::parse(run_program(folder, "list sa1-circuit --json").out)["afferents"][0];
     EXPECT_EQ(listed["name"], "sa1-circuit");
     EXPECT_EQ(listed["made_of"], "netlist");
     const auto& all = listed["parameters"];

@@ -15,7 +15,7 @@
 namespace corpuscle::circuit {
 namespace {
 
-using corpuscle::test::sure;
+using corpuscle::test::value_or_throw;
 
 NetlistOverride knob(const std::string& text) {
     const auto equals = text.find('=');
@@ -24,7 +24,7 @@ NetlistOverride knob(const std::string& text) {
 
 /// Files of a test's own, and what is set of the first, which is called own.cir.
 class KnobFiles {
-    corpuscle::test::Folder folder_;
+    corpuscle::test::TemporaryFolder folder_;
 
 public:
     KnobFiles(const std::string& netlist, const std::map<std::string, std::string>& more = {}) {
@@ -85,8 +85,8 @@ TEST(Knobs, ANumberHasTheUnitsOfTheDoor) {
 
 TEST(Knobs, WhatIsSetIsWhatTheCircuitHasAndNothingElseIs) {
     const KnobFiles files(blocks);
-    const auto plain = sure(files.set({}));
-    const auto c = sure(files.set({"C_u=4pF", "GAIN=3", "one.left.N1=8x3", "xtwo.xright.mn1.w=1.2um", "triple.n1.M=5",
+    const auto plain = value_or_throw(files.set({}));
+    const auto c = value_or_throw(files.set({"C_u=4pF", "GAIN=3", "one.left.N1=8x3", "xtwo.xright.mn1.w=1.2um", "triple.n1.M=5",
                                    "two.left.ru=20 kohm", "two.right.cu=7p", "triple.ru.m=4", "p=2 V", "temp=85"}));
     EXPECT_EQ(c.parameters.at("c_u"), 4e-12);
     EXPECT_EQ(element(c, "xone.xleft.cu").value, 4e-12);
@@ -103,7 +103,7 @@ TEST(Knobs, WhatIsSetIsWhatTheCircuitHasAndNothingElseIs) {
     EXPECT_EQ(plain.temperature, 27);
     for (const auto* untouched : {"xone.xright.mn1", "xtwo.xleft.mn1"})
         EXPECT_EQ(element(c, untouched).values, element(plain, untouched).values);
-    EXPECT_EQ(sure(files.set({"c_u=1p", "C_U=2p"})).parameters.at("c_u"), 2e-12) << "the later goes before";
+    EXPECT_EQ(value_or_throw(files.set({"c_u=1p", "C_U=2p"})).parameters.at("c_u"), 2e-12) << "the later goes before";
 }
 
 TEST(Knobs, WhatIsUnknownOrNonsenseIsToldWithWhatThereIs) {
@@ -145,21 +145,21 @@ constexpr const char* cards =
 
 TEST(Knobs, AChipOfASeedIsTheOneThatADrawOfManyHas) {
     const KnobFiles files("t\nm1 a a 0 0 nm\n.model nm nmos (level=80 avt=1n)\nv1 a 0 1\n.op\n", {});
-    const auto chip = chip_sample_of(sure(files.set({"mismatch=7/5"})));
+    const auto chip = chip_sample_of(value_or_throw(files.set({"mismatch=7/5"})));
     ASSERT_TRUE(chip);
     EXPECT_EQ(chip->seed, 7U);
     EXPECT_EQ(chip->chip, 5U);
     EXPECT_TRUE(std::ranges::equal(chip->process, ChipSpec{10, 7}.sample(5).process));
-    EXPECT_EQ(chip_sample_of(sure(files.set({"mismatch=7"})))->chip, 0U);
-    EXPECT_FALSE(chip_sample_of(sure(files.set({}))));
+    EXPECT_EQ(chip_sample_of(value_or_throw(files.set({"mismatch=7"})))->chip, 0U);
+    EXPECT_FALSE(chip_sample_of(value_or_throw(files.set({}))));
 }
 
 TEST(Knobs, ACornerIsReadInPlaceOfTheSectionOfEachLibraryThatHasIt) {
     const std::string netlist = "t\n.lib 'card.lib' tt\nm1 a a 0 0 nm\nv1 a 0 1\n.op\n";
     const KnobFiles files(netlist, {{"card.lib", cards}});
-    EXPECT_NEAR(sure(files.set({})).models[0].values.at("vto"), 0.4, 1e-12);
-    EXPECT_NEAR(sure(files.set({"corner=SS"})).models[0].values.at("vto"), 0.44, 1e-12);
-    EXPECT_NEAR(sure(files.set({"corner=ss", "corner=tt"})).models[0].values.at("vto"), 0.4, 1e-12);
+    EXPECT_NEAR(value_or_throw(files.set({})).models[0].values.at("vto"), 0.4, 1e-12);
+    EXPECT_NEAR(value_or_throw(files.set({"corner=SS"})).models[0].values.at("vto"), 0.44, 1e-12);
+    EXPECT_NEAR(value_or_throw(files.set({"corner=ss", "corner=tt"})).models[0].values.at("vto"), 0.4, 1e-12);
     EXPECT_NE(
         files.refusal({"corner=sz"}).find("--set corner=sz: no corner 'sz': library 'card.lib' has tt, ss, devices; did you mean 'ss'?"),
         std::string::npos)
@@ -167,43 +167,43 @@ TEST(Knobs, ACornerIsReadInPlaceOfTheSectionOfEachLibraryThatHasIt) {
     const KnobFiles two(
         netlist + ".include 'more.inc'\n",
         {{"card.lib", cards}, {"other.lib", ".lib usual\n.param r=1k\n.endl\n"}, {"more.inc", ".lib 'other.lib' usual\nr1 a 0 {r}\n"}});
-    const auto c = sure(two.set({"corner=ss"}));
+    const auto c = value_or_throw(two.set({"corner=ss"}));
     EXPECT_NEAR(c.models[0].values.at("vto"), 0.44, 1e-12);
     EXPECT_EQ(element(c, "r1").value, 1e3) << "a library without that corner keeps its own section";
 }
 
 TEST(EmbeddedNetlist, NetlistsByNameAreTheFilesOfTheProject) {
     for (const auto& c : embedded_netlists) {
-        const auto by_name = sure(CircuitAfferentFactory::create(sure(open_netlist(std::string(c.name)))));
-        const auto by_path = sure(CircuitAfferentFactory::create(sure(Netlist::read(test::root() + "/" + std::string(c.file)))));
+        const auto by_name = value_or_throw(CircuitAfferentFactory::create(value_or_throw(open_netlist(std::string(c.name)))));
+        const auto by_path = value_or_throw(CircuitAfferentFactory::create(value_or_throw(Netlist::read(test::project_root() + "/" + std::string(c.file)))));
         EXPECT_EQ(by_name->fingerprint, by_path->fingerprint) << c.name;
         EXPECT_EQ(by_name->title(), by_path->title());
         EXPECT_EQ(by_name->circuit->file, c.file);
     }
     EXPECT_NE(find_embedded_netlist("SA1-Circuit"), nullptr);
     EXPECT_EQ(find_embedded_netlist("sa1"), nullptr);
-    const auto ss = sure(sure(apply_overrides("sa1-circuit", std::vector<NetlistOverride>{knob("corner=ss"), knob("summer.N3B=8x4")})).elaborate());
+    const auto ss = value_or_throw(value_or_throw(apply_overrides("sa1-circuit", std::vector<NetlistOverride>{knob("corner=ss"), knob("summer.N3B=8x4")})).elaborate());
     EXPECT_EQ(element(ss, "xsummer.mn3b").values.at("m"), 8);
-    EXPECT_NEAR(ss.models[0].values.at("vto") - sure(sure(open_netlist("sa1-circuit")).elaborate()).models[0].values.at("vto"), 0.04,
+    EXPECT_NEAR(ss.models[0].values.at("vto") - value_or_throw(value_or_throw(open_netlist("sa1-circuit")).elaborate()).models[0].values.at("vto"), 0.04,
                 1e-12);
 }
 
 std::string spiker_text(const std::string& section, const std::string& more) {
-    auto text = corpuscle::test::read_file(test::root() + "/circuits/spiker.cir");
+    auto text = corpuscle::test::read_file(test::project_root() + "/circuits/spiker.cir");
     text.replace(text.find("tt"), 2, section);
     text.insert(text.find(".save"), more);
     return text;
 }
 
 std::vector<Spike> spikes_of_copy(const Netlist& netlist, std::uint32_t copy) {
-    const auto afferent = sure(CircuitAfferentFactory::create(netlist))->make(1e-3, false, copy);
+    const auto afferent = value_or_throw(CircuitAfferentFactory::create(netlist))->make(1e-3, false, copy);
     std::vector<double> force(200 + static_cast<std::size_t>(afferent->delay()), 4.0);
     return corpuscle::test::spikes(*afferent, force, 4096);
 }
 
 TEST(Knobs, MismatchIsTheFirstChipOfADraw) {
     for (const std::string section : {"tt", "mc"}) {
-        const auto drawn = sure(parsed(spiker_text(section, ".mc 3 seed=7\n"))), plain = sure(parsed(spiker_text(section, "")));
+        const auto drawn = value_or_throw(parse_netlist_text(spiker_text(section, ".mc 3 seed=7\n"))), plain = value_or_throw(parse_netlist_text(spiker_text(section, "")));
         auto with = [&](const Netlist& netlist) {
             ResolvedOverrides changes;
             changes.mismatch_seed = 7;
@@ -215,10 +215,10 @@ TEST(Knobs, MismatchIsTheFirstChipOfADraw) {
         EXPECT_EQ(spikes_of_copy(with(drawn), 0), chip) << "in place of .mc";
         EXPECT_EQ(spikes_of_copy(with(plain), 2), spikes_of_copy(drawn, 2)) << "its copies are the chips of that seed";
         EXPECT_NE(spikes_of_copy(plain, 0), chip);
-        auto variants = sure(NetlistVariants::create(with(drawn)));
+        auto variants = value_or_throw(NetlistVariants::create(with(drawn)));
         EXPECT_EQ(variants.count(), 1U);
         EXPECT_FALSE(variants.has_chips());
-        ASSERT_TRUE(sure(variants.at(0)).sample);
+        ASSERT_TRUE(value_or_throw(variants.at(0)).sample);
     }
 }
 
@@ -227,7 +227,7 @@ TEST(Knobs, AnotherNumberIsAnotherMarkAlsoInAFormula) {
         "t\n.param g=1 v0=0\niin 0 a force 1u\nr1 a 0 1k\nb1 a 0 i={g*1u*v(a)}\nc1 a 0 1n\n.ic v(a)={v0}\n.spike v(a) 1\n";
     const KnobFiles files(text);
     const auto mark = [&](const std::vector<std::string>& knobs) {
-        return sure(CircuitAfferentFactory::create(std::make_shared<const Circuit>(sure(files.set(knobs)))))->fingerprint;
+        return value_or_throw(CircuitAfferentFactory::create(std::make_shared<const Circuit>(value_or_throw(files.set(knobs)))))->fingerprint;
     };
     EXPECT_EQ(mark({}), mark({"g=1"}));
     EXPECT_NE(mark({}), mark({"g=2"}));
@@ -237,7 +237,7 @@ TEST(Knobs, AnotherNumberIsAnotherMarkAlsoInAFormula) {
 }
 
 TEST(CurveFollower, NodesAndCurrentsAreFoundByWhatIsTypedOfThem) {
-    const auto c = sure(KnobFiles("t\n.model nm nmos (level=80)\n.subckt cell a\nmn1 a o 0 0 nm\nro o 0 1k\nco o 0 1p\n.ends\n"
+    const auto c = value_or_throw(KnobFiles("t\n.model nm nmos (level=80)\n.subckt cell a\nmn1 a o 0 0 nm\nro o 0 1k\nco o 0 1p\n.ends\n"
                                   "xb Vf cell\nxc vf cell\nvdd vf 0 1\nr1 vf u 1\nr2 u 0 1\n.op\n")
                             .set({}));
     const auto is = [&](const std::string& word, const std::string& name) {
@@ -263,7 +263,7 @@ TEST(CurveFollower, NodesAndCurrentsAreFoundByWhatIsTypedOfThem) {
 
 TEST(SavedQuantity, ADevicesOwnCurrentIsWhatItsSupplyGives) {
     const auto found =
-        ran("t\n.lib 'tsmc180.lib' tt\nvd d 0 0.5\nvg g 0 0.45\nm1 d g 0 0 nch w=1.5u l=0.5u m=2\nvr a 0 1\nr1 a 0 4k\n"
+        run_netlist("t\n.lib 'tsmc180.lib' tt\nvd d 0 0.5\nvg g 0 0.45\nm1 d g 0 0 nch w=1.5u l=0.5u m=2\nvr a 0 1\nr1 a 0 4k\n"
             ".save i(m1) i(vd) i(r1) v(d)\n.meas dc most max i(m1)\n.op\n.dc vg 0.3 0.5 0.1\n.tran 1m 2m\n");
     for (const std::string analysis : {"op", "dc", "tran"}) {
         const auto drain = found.curve("i(m1)", analysis), supply = found.curve("i(vd)", analysis);

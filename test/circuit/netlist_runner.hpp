@@ -14,28 +14,28 @@
 #include "circuit/curve_view.hpp"
 #include "circuit/run_directives.hpp"
 #include "circuit/netlist_variants.hpp"
-#include "support/places.hpp"
+#include "support/test_paths.hpp"
 
 namespace corpuscle::circuit {
 
 /// What a netlist found. Asking for what is not there fails the test and gives NaN.
-class Ran {
+class NetlistRun {
     std::shared_ptr<const Circuit> circuit_;  // the outcome points at its commands
     RunOutcome outcome_;
 
 public:
-    Ran() = default;
-    Ran(std::shared_ptr<const Circuit> circuit, RunOutcome outcome) : circuit_(std::move(circuit)), outcome_(std::move(outcome)) {}
+    NetlistRun() = default;
+    NetlistRun(std::shared_ptr<const Circuit> circuit, RunOutcome outcome) : circuit_(std::move(circuit)), outcome_(std::move(outcome)) {}
 
-    bool done() const { return circuit_ != nullptr; }
+    bool is_complete() const { return circuit_ != nullptr; }
     std::string title() const { return circuit_ ? circuit_->title : ""; }
     const std::vector<Expectation>& expectations() const { return outcome_.expectations; }
     const std::vector<std::pair<std::string, double>>& numbers() const { return outcome_.numbers; }
-    const std::vector<Error>& remarks() const { return outcome_.warnings; }
+    const std::vector<Error>& warnings() const { return outcome_.warnings; }
     const std::vector<AnalysisRun>& analyses() const { return outcome_.analyses; }
 
     /// A curve of the first plot that has it, of one analysis ("ac") if named; as .print names them, so v(a,b) and vdb(a) too.
-    std::vector<std::complex<double>> complex(const std::string& name, const std::string& analysis = "") const {
+    std::vector<std::complex<double>> complex_curve(const std::string& name, const std::string& analysis = "") const {
         for (const auto& a : outcome_.analyses)
             if (analysis.empty() || a.directive->name == analysis)
                 for (const auto& plot : a.result.plots)
@@ -45,7 +45,7 @@ public:
     }
     std::vector<double> curve(const std::string& name, const std::string& analysis = "") const {
         std::vector<double> out;
-        for (const auto& value : complex(name, analysis)) out.push_back(value.real());
+        for (const auto& value : complex_curve(name, analysis)) out.push_back(value.real());
         return out;
     }
     /// A measure, a number of an analysis, or a curve's last value.
@@ -56,42 +56,42 @@ public:
     }
 };
 
-inline Result<std::string> text_of(const std::string& path) {
+inline Result<std::string> read_text_file(const std::string& path) {
     std::ifstream file(path);
     if (!file) return bad_input(path + " cannot be opened");
     return std::string(std::istreambuf_iterator<char>(file), {});
 }
 
-inline Result<Netlist> parsed(const std::string& text) { return Netlist::parse(text, test::root() + "/process/test.cir", text_of); }
+inline Result<Netlist> parse_netlist_text(const std::string& text) { return Netlist::parse(text, test::project_root() + "/process/test.cir", read_text_file); }
 
-inline std::shared_ptr<const Circuit> circuit_from(const std::string& text) {
-    const auto netlist = parsed(text);
+inline std::shared_ptr<const Circuit> make_circuit(const std::string& text) {
+    const auto netlist = parse_netlist_text(text);
     if (!netlist) return ADD_FAILURE() << netlist.error().text(), nullptr;
     auto circuit = netlist->elaborate();
     if (!circuit) return ADD_FAILURE() << circuit.error().text(), nullptr;
     return std::make_shared<const Circuit>(std::move(*circuit));
 }
 
-inline Ran ran(Circuit circuit) {
+inline NetlistRun run_netlist(Circuit circuit) {
     const auto kept = std::make_shared<const Circuit>(std::move(circuit));
     auto outcome = run_directives(kept);
-    if (!outcome) return ADD_FAILURE() << outcome.error().text() << "\n" << kept->title, Ran();
+    if (!outcome) return ADD_FAILURE() << outcome.error().text() << "\n" << kept->title, NetlistRun();
     return {kept, std::move(*outcome)};
 }
 
 /// The text begins with its title; it stands in process/, where the cards are. `parameters` overrule its .param.
-inline Ran ran(const std::string& text, const Values& parameters = {}) {
-    const auto netlist = parsed(text);
-    if (!netlist) return ADD_FAILURE() << netlist.error().text() << "\n" << text, Ran();
+inline NetlistRun run_netlist(const std::string& text, const Values& parameters = {}) {
+    const auto netlist = parse_netlist_text(text);
+    if (!netlist) return ADD_FAILURE() << netlist.error().text() << "\n" << text, NetlistRun();
     auto circuit = netlist->elaborate(parameters);
-    if (!circuit) return ADD_FAILURE() << circuit.error().text() << "\n" << text, Ran();
-    return ran(std::move(*circuit));
+    if (!circuit) return ADD_FAILURE() << circuit.error().text() << "\n" << text, NetlistRun();
+    return run_netlist(std::move(*circuit));
 }
 
 /// Every variant that .step and .mc ask for.
-inline std::vector<Ran> ran_all(const std::string& text) {
-    std::vector<Ran> out;
-    const auto netlist = parsed(text);
+inline std::vector<NetlistRun> run_variants(const std::string& text) {
+    std::vector<NetlistRun> out;
+    const auto netlist = parse_netlist_text(text);
     if (!netlist) return ADD_FAILURE() << netlist.error().text() << "\n" << text, out;
     auto variants = NetlistVariants::create(*netlist);
     if (!variants) return ADD_FAILURE() << variants.error().text() << "\n" << text, out;
@@ -113,12 +113,12 @@ inline std::vector<Ran> ran_all(const std::string& text) {
 }
 
 /// A netlist of circuits/, with other values of its .param if any are given.
-inline Ran ran_file(const std::string& name, const Values& parameters = {}) {
-    const auto netlist = Netlist::read(test::root() + "/circuits/" + name);
-    if (!netlist) return ADD_FAILURE() << netlist.error().text(), Ran();
+inline NetlistRun run_netlist_file(const std::string& name, const Values& parameters = {}) {
+    const auto netlist = Netlist::read(test::project_root() + "/circuits/" + name);
+    if (!netlist) return ADD_FAILURE() << netlist.error().text(), NetlistRun();
     auto circuit = netlist->elaborate(parameters);
-    if (!circuit) return ADD_FAILURE() << circuit.error().text(), Ran();
-    return ran(std::move(*circuit));
+    if (!circuit) return ADD_FAILURE() << circuit.error().text(), NetlistRun();
+    return run_netlist(std::move(*circuit));
 }
 
 }  // namespace corpuscle::circuit

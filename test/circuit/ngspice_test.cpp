@@ -15,7 +15,7 @@ void hold_plot(const Plot& mine, const Plot& theirs, double share) {
     ASSERT_EQ(mine.point_count(), theirs.point_count()) << mine.name;
     std::size_t held = 0;
     for (const auto& c : theirs.curves) {
-        const auto* other = mine.find_curve(plain(c.name));
+        const auto* other = mine.find_curve(corpuscle_name(c.name));
         if (other == nullptr) continue;
         ++held;
         if (other->name == "inoise_total") continue;  // theirs is 12 % off where the gain falls: see the closed form below
@@ -38,11 +38,11 @@ class Deck : public testing::TestWithParam<std::string> {};
 TEST_P(Deck, GivesWhatNgspiceGives) {
     const std::string deck = deck_path(GetParam());
     const auto raw = std::filesystem::temp_directory_path() / ("corpuscle-" + GetParam() + "-" + std::to_string(getpid()) + ".raw");
-    const auto log = ngspice(deck, raw);
+    const auto log = run_ngspice(deck, raw);
     const auto theirs = read_raw_file(raw);
     std::filesystem::remove(raw);
     ASSERT_FALSE(theirs.empty()) << log;
-    const auto outcome = ours(deck);
+    const auto outcome = run_corpuscle(deck);
     for (const auto& plot : theirs) {
         bool found = false;
         for (const auto& mine : outcome.plots())
@@ -54,7 +54,7 @@ TEST_P(Deck, GivesWhatNgspiceGives) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Ngspice, Deck, testing::ValuesIn(decks()), [](const auto& one) {
+INSTANTIATE_TEST_SUITE_P(Ngspice, Deck, testing::ValuesIn(deck_names()), [](const auto& one) {
     std::string name = one.param;
     std::replace(name.begin(), name.end(), '-', '_');
     return name;
@@ -62,17 +62,17 @@ INSTANTIATE_TEST_SUITE_P(Ngspice, Deck, testing::ValuesIn(decks()), [](const aut
 
 TEST(Transistor, CarriesInNgspiceByFormulasWhatItCarriesHere) {
     int decks_seen = 0;
-    for (const auto& name : decks()) {
+    for (const auto& name : deck_names()) {
         if (!name.starts_with("uicm_")) continue;
         ++decks_seen;
         SCOPED_TRACE(name);
         const std::string deck = deck_path(name);
-        const Folder folder;
-        folder.write("native.cir", native(deck));
-        (void)ngspice(deck, folder / "theirs.raw");
+        const TemporaryFolder folder;
+        folder.write("native.cir", with_native_transistors(deck));
+        (void)run_ngspice(deck, folder / "theirs.raw");
         const auto theirs = read_raw_file(folder / "theirs.raw");
         ASSERT_EQ(theirs.size(), 1U);
-        const auto mine = ours(folder / "native.cir").plots();
+        const auto mine = run_corpuscle(folder / "native.cir").plots();
         ASSERT_EQ(mine.size(), 1U);
         hold_plot(mine[0], theirs[0], 1e-5);
     }
@@ -80,7 +80,7 @@ TEST(Transistor, CarriesInNgspiceByFormulasWhatItCarriesHere) {
 }
 
 TEST(Noise, IntegratesAsTheClosedFormsSay) {
-    const auto outcome = ours(deck_path("noise_rc"));
+    const auto outcome = run_corpuscle(deck_path("noise_rc"));
     const double white = 4 * 1.380649e-23 * 300.15 * 100e3, corner = 1 / (2 * M_PI * 100e3 * 10e-9);
     ASSERT_EQ(outcome.numbers.size(), 2U);
     EXPECT_NEAR(outcome.numbers[0].second, std::sqrt(white * corner * (std::atan(1e6 / corner) - std::atan(1 / corner))),
@@ -91,11 +91,11 @@ TEST(Noise, IntegratesAsTheClosedFormsSay) {
 TEST(Measures, AreThoseOfNgspice) {
     for (const std::string name : {"measures_dc", "measures_ac"}) {
         const std::string deck = deck_path(name);
-        const auto log = ngspice(deck, "");
-        const auto outcome = ours(deck);
+        const auto log = run_ngspice(deck, "");
+        const auto outcome = run_corpuscle(deck);
         EXPECT_GE(outcome.numbers.size(), 3U);
         for (const auto& [what, value] : outcome.numbers) {
-            const double theirs = number_of(log, what);
+            const double theirs = logged_number(log, what);
             EXPECT_NEAR(value, theirs, std::abs(theirs) * 2e-5) << what << "\n" << log;
         }
     }

@@ -17,16 +17,16 @@ namespace {
 const std::string follower = "follower\nvf f 0 force 1\nrf f s 1k\ncs s 0 1n\n.spike v(s) 2 rise\n.within v(f) -1 1 \"too much force\"\n";
 
 TEST(OperatingRange, ATransientTellsHowLongAndSinceWhen) {
-    const auto ramp = ran("t\nv1 a 0 pwl(0 0 1 1 2 0)\nr1 a 0 1k\n.within v(a) -1 0.2505 \"too high\"\n.within v(a) -1 2\n.tran 1m 2 0 1m\n");
-    ASSERT_EQ(ramp.remarks().size(), 1U) << "one of two was left";
-    const auto& sentence = ramp.remarks()[0].message;
+    const auto ramp = run_netlist("t\nv1 a 0 pwl(0 0 1 1 2 0)\nr1 a 0 1k\n.within v(a) -1 0.2505 \"too high\"\n.within v(a) -1 2\n.tran 1m 2 0 1m\n");
+    ASSERT_EQ(ramp.warnings().size(), 1U) << "one of two was left";
+    const auto& sentence = ramp.warnings()[0].message;
     EXPECT_TRUE(sentence.starts_with("v(a) was outside -1 V to 250.5 mV for 1.499 s of 2 s, first at 251 ms")) << sentence;
     EXPECT_TRUE(sentence.ends_with(": too high")) << sentence;
-    EXPECT_EQ(ramp.remarks()[0].location.line, 4);
+    EXPECT_EQ(ramp.warnings()[0].location.line, 4);
 }
 
 TEST(OperatingRange, AnAfferentCountsTheSamplesOutsideInBlocksOfAnySize) {
-    const auto design = test::sure(CircuitAfferentFactory::create(test::sure(parsed(follower))));
+    const auto design = test::value_or_throw(CircuitAfferentFactory::create(test::value_or_throw(parse_netlist_text(follower))));
     const auto afferent = design->make(1e-3, false);
     ASSERT_EQ(afferent->ranges().size(), 1U);
     std::vector<double> force(400, 0.5);
@@ -46,18 +46,18 @@ TEST(OperatingRange, AnAfferentCountsTheSamplesOutsideInBlocksOfAnySize) {
 }
 
 TEST(OperatingRange, RespondWarnsOnce) {
-    const test::Folder folder;
+    const test::TemporaryFolder folder;
     folder.write("f.cir", follower);
-    const auto ran = test::run(folder, "respond press --afferent f.cir --quiet");
+    const auto ran = test::run_program(folder, "respond press --afferent f.cir --quiet");
     EXPECT_EQ(ran.status, 0);
     EXPECT_NE(ran.err.find("warning: f.cir on press: v(f) was outside -1 V to 1 V for"), std::string::npos) << ran.err;
     EXPECT_NE(ran.err.find(": too much force"), std::string::npos) << ran.err;
-    EXPECT_EQ(test::run(folder, "respond press --afferent f.cir --quiet --set press.F_max=0.9N").err, "");
+    EXPECT_EQ(test::run_program(folder, "respond press --afferent f.cir --quiet --set press.F_max=0.9N").err, "");
 }
 
 TEST(OperatingRange, WhatIsMissingOrWrongIsToldByItsPlace) {
     const auto refusal = [](const std::string& line) {
-        const auto made = CircuitAfferentFactory::create(test::sure(parsed("t\nvf f 0 force 1\nr1 f 0 1\n.spike v(f) 1\n" + line + "\n")));
+        const auto made = CircuitAfferentFactory::create(test::value_or_throw(parse_netlist_text("t\nvf f 0 force 1\nr1 f 0 1\n.spike v(f) 1\n" + line + "\n")));
         return made ? std::string() : made.error().message;
     };
     EXPECT_EQ(refusal(".within v(f) 0 1"), "");

@@ -74,11 +74,11 @@ TEST(InitialConditions, BeginAlikeInNgspice) {
     const std::string measures =
         ".meas tran va find v(a) at=1u\n.meas tran vb find v(b) at=1u\n.meas tran vm find v(m) at=1u\n.meas tran vp find v(p) at=1u\n"
         ".meas tran vq find v(q) at=1u\n.end\n";
-    const Folder folder;
+    const TemporaryFolder folder;
     folder.write("x.cir", deck + measures);
-    const auto ours = nlohmann::json::parse(run(folder, "run x.cir --json").out)["numbers"];
-    ASSERT_EQ(run(folder, "export x.cir --for ngspice -o deck.cir").status, 0);
-    const auto text = ngspice(folder / "deck.cir", "");
+    const auto ours = nlohmann::json::parse(run_program(folder, "run x.cir --json").out)["numbers"];
+    ASSERT_EQ(run_program(folder, "export x.cir --for ngspice -o deck.cir").status, 0);
+    const auto text = run_ngspice(folder / "deck.cir", "");
     for (const auto* name : {"va", "vb", "vm", "vp", "vq"}) {
         const auto at = text.find(std::string("\n") + name + " ");
         ASSERT_NE(at, std::string::npos) << text;
@@ -204,13 +204,13 @@ TEST(Save, OfManyWordsTakesTimeInProportion) {
 
 // dv/dt = 1e39 (v^2 + 1): there is no step short enough.
 TEST(Run, ThatFailsAtItsFirstPointLeavesAnEarlierFileAsItIs) {
-    const Folder folder;
+    const TemporaryFolder folder;
     folder.write("good.cir", "t\nv1 a 0 1\nr1 a b 1k\nc1 b 0 1n\n.tran 1n 1u\n");
     folder.write("bad.cir", "t\nb1 a 0 i=-1e30*(v(a)*v(a)+1)\nc1 a 0 1n\nr1 a 0 1k\n.tran 1u 2m uic\n");
     for (const std::string name : {"x.raw", "x.csv"}) {
-        ASSERT_EQ(run(folder, "run good.cir -o " + name).status, 0);
+        ASSERT_EQ(run_program(folder, "run good.cir -o " + name).status, 0);
         const auto before = read_file(folder / name);
-        const auto ran = run(folder, "run bad.cir -o " + name);
+        const auto ran = run_program(folder, "run bad.cir -o " + name);
         EXPECT_EQ(ran.status, 3) << ran.err;
         EXPECT_EQ(read_file(folder / name), before) << name;
         EXPECT_FALSE(std::filesystem::exists(folder / (name + ".part")));

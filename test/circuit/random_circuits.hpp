@@ -6,34 +6,34 @@
 #include <string_view>
 #include <vector>
 
-#include "circuit/in_time.hpp"
+#include "circuit/transient_runner.hpp"
 
 namespace corpuscle::circuit {
 
 struct RandomCircuit {
     std::string text;               ///< a netlist with .tran; stands in process/
-    double low = -1e9, high = 1e9;  ///< V: no node may leave these
+    double min_voltage = -1e9, max_voltage = 1e9;  ///< V: no node may leave these
     TransientPlan plan{};           ///< the default, but where 10 uV a step are too many
     /// What is wrong with a finished run, in words; empty: nothing.
-    std::function<std::string(const InTime&, const Points&)> judge = [](const InTime&, const Points&) { return std::string(); };
+    std::function<std::string(const TransientRunner&, const TransientPoints&)> find_fault = [](const TransientRunner&, const TransientPoints&) { return std::string(); };
 };
 
 /// Numbers that are the same everywhere.
-class Dice {
+class RandomSource {
     std::uint64_t state_;
 
 public:
-    explicit Dice(std::uint64_t seed) : state_(seed * 0x9E3779B97F4A7C15U + 0x2545F4914F6CDD1DU) {}
-    double part();  ///< in [0, 1)
-    double between(double low, double high) { return low + (high - low) * part(); }
-    double decades(double low, double high);  ///< as many in each decade
-    int one_of(int count) { return static_cast<int>(part() * count); }
+    explicit RandomSource(std::uint64_t seed) : state_(seed * 0x9E3779B97F4A7C15U + 0x2545F4914F6CDD1DU) {}
+    double uniform();  ///< in [0, 1)
+    double uniform_between(double low, double high) { return low + (high - low) * uniform(); }
+    double log_uniform(double low, double high);  ///< as many in each decade
+    int index_below(int count) { return static_cast<int>(uniform() * count); }
 };
 
 struct RandomKind {
     std::string_view name;
-    int many;  ///< of a thousand
-    RandomCircuit (*draw)(Dice&);
+    int count_per_thousand;  ///< of a thousand
+    RandomCircuit (*make)(RandomSource&);
 };
 
 /// All kinds, a thousand circuits between them.

@@ -14,8 +14,8 @@ constexpr double most_off = 5e-3;  // V of a swing of 1 V: fifty steps, 1e-4 eac
 
 /// The largest distance of v(out) from a closed form must stay below `allowed`, V.
 auto follows(std::function<double(double)> exact, double allowed) {
-    return [exact = std::move(exact), allowed](const InTime& c, const Points& p) {
-        const auto v = p.of(c.unknown("v(out)"));
+    return [exact = std::move(exact), allowed](const TransientRunner& c, const TransientPoints& p) {
+        const auto v = p.values(c.unknown("v(out)"));
         double most = 0, when = 0;
         for (std::size_t k = 0; k < v.size(); ++k)
             if (const double off = std::abs(v[k] - exact(p.t[k])); off > most) most = off, when = p.t[k];
@@ -39,19 +39,19 @@ double lagged(const Corners& corners, double tau, double t) {
 }
 
 /// in to out, of this time constant.
-std::string first_order(Dice& dice, double& tau) {
-    if (dice.one_of(3) > 0) {
-        const double R = 1 / dice.decades(1e-15, 1e-3), C = dice.decades(1e-15, 1e-3);
+std::string first_order(RandomSource& dice, double& tau) {
+    if (dice.index_below(3) > 0) {
+        const double R = 1 / dice.log_uniform(1e-15, 1e-3), C = dice.log_uniform(1e-15, 1e-3);
         tau = R * C;
         return fmt::format("r1 in out {:.9g}\nc1 out 0 {:.9g}\n", R, C);
     }
-    const double R = 1 / dice.decades(1e-11, 1e-3);  // no coil carries less
-    tau = dice.decades(1e-9, 1e3);
+    const double R = 1 / dice.log_uniform(1e-11, 1e-3);  // no coil carries less
+    tau = dice.log_uniform(1e-9, 1e3);
     return fmt::format("l1 in out {:.9g}\nr1 out 0 {:.9g}\n", R * tau, R);
 }
 
 /// Amplitude and phase of what is left at frequency f in the last two periods, by least squares with the second harmonic beside it.
-std::complex<double> swing(const Points& p, int unknown, double f) {
+std::complex<double> swing(const TransientPoints& p, int unknown, double f) {
     constexpr int count = 5;
     double A[count][count + 1] = {};
     const double from = p.t.back() - 2 / f;
@@ -74,15 +74,15 @@ std::complex<double> swing(const Points& p, int unknown, double f) {
 
 }  // namespace
 
-RandomCircuit draw_first_order(Dice& dice) {
+RandomCircuit make_first_order(RandomSource& dice) {
     RandomCircuit out;
     double tau = 0;
     const auto parts = first_order(dice, tau);
     Corners corners = {{0, 0}};
     std::string course;
-    if (dice.one_of(2) == 0) {
-        const double delay = dice.between(0.1, 1) * tau, rise = tau * dice.decades(1e-4, 1), width = dice.between(0.5, 3) * tau;
-        const double pause = dice.between(0.5, 3) * tau, period = 2 * rise + width + pause;
+    if (dice.index_below(2) == 0) {
+        const double delay = dice.uniform_between(0.1, 1) * tau, rise = tau * dice.log_uniform(1e-4, 1), width = dice.uniform_between(0.5, 3) * tau;
+        const double pause = dice.uniform_between(0.5, 3) * tau, period = 2 * rise + width + pause;
         course = fmt::format("pulse(0 1 {:.9g} {:.9g} {:.9g} {:.9g} {:.9g})", delay, rise, rise, width, period);
         for (int round = 0; round < 3; ++round) {
             const double at = delay + round * period;
@@ -92,49 +92,49 @@ RandomCircuit draw_first_order(Dice& dice) {
     } else {
         course = "pwl(0 0";
         for (int k = 0; k < 6; ++k) {
-            corners.emplace_back(corners.back().first + tau * dice.decades(1e-3, 3), dice.between(-1, 1));
+            corners.emplace_back(corners.back().first + tau * dice.log_uniform(1e-3, 3), dice.uniform_between(-1, 1));
             course += fmt::format(" {:.12g} {:.9g}", corners.back().first, corners.back().second);
         }
         course += ")";
     }
     const double stop = corners.back().first;
     out.text = fmt::format("first order, tau {:.3g} s\nv1 in 0 {}\n{}.tran {:.6g} {:.9g}\n", tau, course, parts, tau / 1000, stop);
-    out.low = -1.001, out.high = 1.001;
-    out.judge = follows([=](double t) { return lagged(corners, tau, t); }, most_off);
+    out.min_voltage = -1.001, out.max_voltage = 1.001;
+    out.find_fault = follows([=](double t) { return lagged(corners, tau, t); }, most_off);
     return out;
 }
 
-RandomCircuit draw_sine_first_order(Dice& dice) {
+RandomCircuit make_sine_first_order(RandomSource& dice) {
     RandomCircuit out;
     double tau = 0;
     const auto parts = first_order(dice, tau);
-    const double f = dice.decades(0.1, 10) / (turn * tau), w = turn * f, x = w * tau, lag = std::atan(x);
+    const double f = dice.log_uniform(0.1, 10) / (turn * tau), w = turn * f, x = w * tau, lag = std::atan(x);
     out.text = fmt::format("first order under a sine, tau {:.3g} s\nv1 in 0 sin(0 1 {:.12g})\n{}.tran {:.6g} {:.9g}\n", tau, f, parts,
                            0.001 / f, 5 / f);
-    out.low = -1.01, out.high = 1.01;
-    out.judge =
+    out.min_voltage = -1.01, out.max_voltage = 1.01;
+    out.find_fault =
         follows([=](double t) { return (std::sin(w * t - lag) + std::sin(lag) * std::exp(-t / tau)) / std::hypot(1.0, x); }, most_off);
     return out;
 }
 
-RandomCircuit draw_tank(Dice& dice) {
-    const double R = 1 / dice.decades(1e-15, 1e-3), C = dice.decades(1e-15, 1e-3), Q = dice.decades(0.7, 30);
+RandomCircuit make_tank(RandomSource& dice) {
+    const double R = 1 / dice.log_uniform(1e-15, 1e-3), C = dice.log_uniform(1e-15, 1e-3), Q = dice.log_uniform(0.7, 30);
     const double natural = Q / (R * C), alpha = 1 / (2 * R * C), omega = std::sqrt(natural * natural - alpha * alpha);
     RandomCircuit out;
     out.text = fmt::format("tank, {:.3g} F and Q = {:.3g}\nl1 out 0 {:.9g}\nc1 out 0 {:.9g}\nr1 out 0 {:.9g}\n.ic v(out)=1\n", C, Q,
                            1 / (natural * natural * C), C, R) +
                fmt::format(".tran {:.6g} {:.9g} uic\n", 0.01 / omega, 5 * turn / omega);
-    out.low = -1.01, out.high = 1.01;
-    out.judge =
+    out.min_voltage = -1.01, out.max_voltage = 1.01;
+    out.find_fault =
         follows([=](double t) { return std::exp(-alpha * t) * (std::cos(omega * t) - alpha / omega * std::sin(omega * t)); }, 4 * most_off);
     return out;
 }
 
 /// A pair that follows its input as fast as its current allows, 5 mV of sine at it; .ac says what is left of them.
-RandomCircuit draw_gm_c(Dice& dice) {
-    const double I = dice.decades(1e-15, 1e-3), k = std::max(1.0, std::round(I / 100e-9)),
-                 C = dice.decades(std::max(1e-15, k * 1e-15), 1e-3);
-    const double corner = I / (2 * 0.033) / (turn * (C + k * 100e-15)), f = corner * dice.decades(0.1, 3);
+RandomCircuit make_gm_c(RandomSource& dice) {
+    const double I = dice.log_uniform(1e-15, 1e-3), k = std::max(1.0, std::round(I / 100e-9)),
+                 C = dice.log_uniform(std::max(1e-15, k * 1e-15), 1e-3);
+    const double corner = I / (2 * 0.033) / (turn * (C + k * 100e-15)), f = corner * dice.log_uniform(0.1, 3);
     const double stop = std::ceil(f / corner) / f + 4 / f;
     RandomCircuit out;
     const auto p = [&](int stack) { return fmt::format(" pch w=6u l=0.5u m={:.0f} stack={}\n", 2 * k, stack); };
@@ -144,9 +144,9 @@ RandomCircuit draw_gm_c(Dice& dice) {
                "m1 x in t 0" + n(1) + "m2 out out t 0" + n(1) + "m3 x x vdd vdd" + p(1) + "m4 out x vdd vdd" + p(1) +
                fmt::format("co out 0 {:.6g}\n", C) + fmt::format(".ac lin 1 {:.9g} {:.9g}\n.tran {:.6g} {:.9g}\n", f, f, 0.001 / f, stop);
     out.plan.reltol = 1e-5, out.plan.vntol = 1e-7;
-    out.low = -0.1, out.high = 0.8;
-    out.judge = [f](const InTime& c, const Points& run) -> std::string {
-        const auto expected = c.ac("v(out)");
+    out.min_voltage = -0.1, out.max_voltage = 0.8;
+    out.find_fault = [f](const TransientRunner& c, const TransientPoints& run) -> std::string {
+        const auto expected = c.first_ac_value("v(out)");
         const auto s = swing(run, c.unknown("v(out)"), f) / 5e-3;
         if (std::abs(s - expected) < 0.02 * std::abs(expected) + 1e-3) return "";
         return fmt::format("v(out) swings {:.4f} {:+.4f}i of its input, .ac says {:.4f} {:+.4f}i", s.real(), s.imag(), expected.real(),
@@ -155,19 +155,19 @@ RandomCircuit draw_gm_c(Dice& dice) {
     return out;
 }
 
-RandomCircuit draw_rectifier(Dice& dice) {
-    const double I = dice.decades(1e-15, 1e-3), C = dice.decades(1e-15, 1e-3), f = I / C * dice.decades(0.1, 100);
+RandomCircuit make_rectifier(RandomSource& dice) {
+    const double I = dice.log_uniform(1e-15, 1e-3), C = dice.log_uniform(1e-15, 1e-3), f = I / C * dice.log_uniform(0.1, 100);
     RandomCircuit out;
     out.text = fmt::format("rectifier, {:.3g} A and {:.3g} F\n.model d1 d(is={:.3g} n={:.3g} cjo={:.3g})\n", I, C,
-                           I * dice.decades(1e-9, 1e-3), dice.between(1, 2), C * dice.decades(1e-6, 1e-2)) +
+                           I * dice.log_uniform(1e-9, 1e-3), dice.uniform_between(1, 2), C * dice.log_uniform(1e-6, 1e-2)) +
                fmt::format("v1 in 0 sin(0 1 {:.9g})\ndx in out d1\nc1 out 0 {:.9g}\nr1 out 0 {:.9g}\n.tran {:.6g} {:.9g}\n", f, C, 1 / I,
                            0.001 / f, 10 / f);
-    out.low = -1.01, out.high = 1.01;
-    out.judge = [](const InTime& c, const Points& p) -> std::string {
-        IdaQuestion asked;
-        asked.times = p.t, asked.reltol = asked.vntol = 1e-7;
-        const auto truth = c.ida(asked);
-        if (!truth.wrong.empty()) return "IDA: " + truth.wrong;
+    out.min_voltage = -1.01, out.max_voltage = 1.01;
+    out.find_fault = [](const TransientRunner& c, const TransientPoints& p) -> std::string {
+        IdaOptions asked;
+        asked.output_times = p.t, asked.reltol = asked.vntol = 1e-7;
+        const auto truth = c.run_ida(asked);
+        if (!truth.error.empty()) return "IDA: " + truth.error;
         const auto v = static_cast<std::size_t>(c.unknown("v(out)"));
         double most = 0, when = 0;
         for (std::size_t k = 1; k < p.t.size() && k < truth.x.size(); ++k)

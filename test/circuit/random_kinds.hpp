@@ -5,14 +5,14 @@
 
 namespace corpuscle::circuit {
 
-RandomCircuit draw_relaxation(Dice&);        ///< a Schmitt trigger and a mirror, of transistors
-RandomCircuit draw_ideal_relaxation(Dice&);  ///< of formulas: any current, any capacitance
-RandomCircuit draw_ring(Dice&);              ///< inverters of transistors
-RandomCircuit draw_ideal_ring(Dice&);        ///< three saturating transconductors
-RandomCircuit draw_first_order(Dice&);       ///< RC or RL under a pulse or a polygon
-RandomCircuit draw_sine_first_order(Dice&);  ///< RC or RL under a sine
-RandomCircuit draw_tank(Dice&);              ///< RLC left to itself
-RandomCircuit draw_gm_c(Dice&);              ///< a differential pair that drives a capacitor, against .ac
-RandomCircuit draw_rectifier(Dice&);         ///< a diode, a capacitor and a load
+RandomCircuit make_relaxation(RandomSource&);        ///< a Schmitt trigger and a mirror, of transistors
+RandomCircuit make_ideal_relaxation(RandomSource&);  ///< of formulas: any current, any capacitance
+RandomCircuit make_ring(RandomSource&);              ///< inverters of transistors
+RandomCircuit make_ideal_ring(RandomSource&);        ///< three saturating transconductors
+RandomCircuit make_first_order(RandomSource&);       ///< RC or RL under a pulse or a polygon
+RandomCircuit make_sine_first_order(RandomSource&);  ///< RC or RL under a sine
+RandomCircuit make_tank(RandomSource&);              ///< RLC left to itself
+RandomCircuit make_gm_c(RandomSource&);              ///< a differential pair that drives a capacitor, against .ac
+RandomCircuit make_rectifier(RandomSource&);         ///< a diode, a capacitor and a load
 
 }  // namespace corpuscle::circuit

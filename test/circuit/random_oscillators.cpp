@@ -8,8 +8,8 @@ namespace corpuscle::circuit {
 namespace {
 
 /// At least three intervals after the first, all within 0.5 %; fewer only where it need not swing.
-std::string steady(const InTime& circuit, const Points& points, const std::string& node, double level, bool must_swing) {
-    const auto rises = circuit.spikes(points, node, level);
+std::string steady(const TransientRunner& circuit, const TransientPoints& points, const std::string& node, double level, bool must_swing) {
+    const auto rises = circuit.spike_times(points, node, level);
     if (rises.size() < 5) return must_swing ? fmt::format("{} rises {} times, 5 or more were due", node, rises.size()) : "";
     double least = 1e300, most = 0;
     for (std::size_t k = 2; k < rises.size(); ++k) {
@@ -22,10 +22,10 @@ std::string steady(const InTime& circuit, const Points& points, const std::strin
 }  // namespace
 
 /// As oscillator.hpp has it, all its transistors as many times as wide as the current asks for.
-RandomCircuit draw_relaxation(Dice& dice) {
-    const double I = dice.decades(1e-15, 1e-3), k = std::max(1.0, std::round(I / 10e-9));
+RandomCircuit make_relaxation(RandomSource& dice) {
+    const double I = dice.log_uniform(1e-15, 1e-3), k = std::max(1.0, std::round(I / 10e-9));
     const double least = std::max(0.1e-12 * k, 20e-6 * I / 0.27), most = std::min(1e-3, 1e6 * I / 0.27);
-    const double C = dice.decades(std::min(least, 1e-3), std::max(most, least)), T = 0.26 * (C + 0.35e-12 * k) / I;
+    const double C = dice.log_uniform(std::min(least, 1e-3), std::max(most, least)), T = 0.26 * (C + 0.35e-12 * k) / I;
     RandomCircuit out;
     const auto p = [&](int m, int stack) { return fmt::format(" pch w=6u l=0.5u m={:.0f} stack={}\n", m * k, stack); };
     const auto n = [&](int m, int stack) { return fmt::format(" nch w=1.5u l=0.5u m={:.0f} stack={}\n", m * k, stack); };
@@ -35,29 +35,29 @@ RandomCircuit draw_relaxation(Dice& dice) {
                "m6 0 s mp vdd" + p(8, 1) + "m7 mn u 0 0" + n(2, 4) + "m8 s u mn 0" + n(16, 1) + "m9 vdd s mn 0" + n(8, 1) +
                "m10 sb s vdd vdd" + p(2, 1) + "m11 sb s 0 0" + n(2, 1) +
                fmt::format(".ic v(u)=0.6\n.tran {:.6g} {:.6g}\n", T / 1000, 8 * T);
-    out.low = -0.3, out.high = 1.0;
+    out.min_voltage = -0.3, out.max_voltage = 1.0;
     // below some picoamperes what leaks into the membrane holds it up
-    out.judge = [strong = I >= 20e-12](const InTime& c, const Points& run) { return steady(c, run, "v(s)", 0.35, strong); };
+    out.find_fault = [strong = I >= 20e-12](const TransientRunner& c, const TransientPoints& run) { return steady(c, run, "v(s)", 0.35, strong); };
     return out;
 }
 
 /// C du/dt = I (2 s - 1); s follows a step of itself and u, with hysteresis, in a hundredth of the period.
-RandomCircuit draw_ideal_relaxation(Dice& dice) {
-    const double I = dice.decades(1e-15, 1e-3), C = dice.decades(1e-15, 1e-3), T = C / I;
-    const double quick = T * dice.decades(1e-6, 1e-2);
+RandomCircuit make_ideal_relaxation(RandomSource& dice) {
+    const double I = dice.log_uniform(1e-15, 1e-3), C = dice.log_uniform(1e-15, 1e-3), T = C / I;
+    const double quick = T * dice.log_uniform(1e-6, 1e-2);
     RandomCircuit out;
     out.text = fmt::format("ideal relaxation oscillator, {:.3g} A and {:.3g} F\n", I, C) +
                fmt::format("cu u 0 {:.6g}\nru u 0 {:.6g}\nbu 0 u i='{:.6g}*(2*v(s)-1)'\n", C, 1e3 / I, I) +
                "bs s0 0 v='0.5+0.5*tanh(10*(v(s)-0.5-2*(v(u)-0.5)))'\n" +
                fmt::format("rs s0 s {:.6g}\ncs s 0 {:.6g}\n.ic v(u)=0.5 v(s)=1\n.tran {:.6g} {:.6g}\n", 1 / I, quick * I, T / 1000, 10 * T);
-    out.low = -0.3, out.high = 1.3;
-    out.judge = [](const InTime& c, const Points& p) { return steady(c, p, "v(s)", 0.5, true); };
+    out.min_voltage = -0.3, out.max_voltage = 1.3;
+    out.find_fault = [](const TransientRunner& c, const TransientPoints& p) { return steady(c, p, "v(s)", 0.5, true); };
     return out;
 }
 
-RandomCircuit draw_ring(Dice& dice) {
-    const int stages = 3 + 2 * dice.one_of(4);
-    const double m = std::round(dice.decades(1, 1000)), C = dice.decades(1e-15, 1e-3), vdd = dice.between(0.4, 0.9);
+RandomCircuit make_ring(RandomSource& dice) {
+    const int stages = 3 + 2 * dice.index_below(4);
+    const double m = std::round(dice.log_uniform(1, 1000)), C = dice.log_uniform(1e-15, 1e-3), vdd = dice.uniform_between(0.4, 0.9);
     // seen in runs at 0.7 V: 76 ns a stage, of a unit with a picofarad, and by how much that grows at other supplies
     static constexpr double longer[] = {37.8, 5.84, 1.97, 1, 0.62, 0.44};
     const auto at = std::min(4, static_cast<int>((vdd - 0.4) / 0.1));
@@ -69,24 +69,24 @@ RandomCircuit draw_ring(Dice& dice) {
             "mp{0} n{1} n{0} vdd vdd pch w=6u l=0.5u m={2:.0f}\nmn{0} n{1} n{0} 0 0 nch w=1.5u l=0.5u m={2:.0f}\nc{0}x n{1} 0 {3:.6g}\n", k,
             (k + 1) % stages, m, C);
     out.text += fmt::format(".ic v(n0)=0\n.tran {:.6g} {:.6g}\n", T / 1000, 8 * T);
-    out.low = -0.5, out.high = vdd + 0.5;
-    out.judge = [vdd](const InTime& c, const Points& p) { return steady(c, p, "v(n0)", vdd / 2, true); };
+    out.min_voltage = -0.5, out.max_voltage = vdd + 0.5;
+    out.find_fault = [vdd](const TransientRunner& c, const TransientPoints& p) { return steady(c, p, "v(n0)", vdd / 2, true); };
     return out;
 }
 
 /// C dv/dt = -I (tanh(g v_before) + v)
-RandomCircuit draw_ideal_ring(Dice& dice) {
-    const double I = dice.decades(1e-15, 1e-3), C = dice.decades(1e-15, 1e-3), gain = dice.decades(3, 100), T = 3.6 * C / I;
+RandomCircuit make_ideal_ring(RandomSource& dice) {
+    const double I = dice.log_uniform(1e-15, 1e-3), C = dice.log_uniform(1e-15, 1e-3), gain = dice.log_uniform(3, 100), T = 3.6 * C / I;
     RandomCircuit out;
     out.text = fmt::format("ideal ring, {:.3g} A and {:.3g} F\n", I, C);
     for (const auto* pair : {"ca", "ab", "bc"})
         out.text += fmt::format("b{1} {1} 0 i='{2:.6g}*tanh({3:.6g}*v({0}))'\nr{1}r {1} 0 {4:.6g}\nc{1}c {1} 0 {5:.6g}\n", pair[0], pair[1],
                                 I, gain, 1 / I, C);
     out.text += fmt::format(".ic v(a)=0.5 v(b)=-0.5 v(c)=0\n.tran {:.6g} {:.6g}\n", T / 1000, 12 * T);
-    out.low = -1.01, out.high = 1.01;
+    out.min_voltage = -1.01, out.max_voltage = 1.01;
     // it grows or shrinks into its swing first
-    out.judge = [](const InTime& c, const Points& p) {
-        Points late;
+    out.find_fault = [](const TransientRunner& c, const TransientPoints& p) {
+        TransientPoints late;
         for (std::size_t k = 0; k < p.t.size(); ++k)
             if (p.t[k] > 0.5 * p.t.back()) late.t.push_back(p.t[k]), late.x.push_back(p.x[k]);
         return steady(c, late, "v(a)", 0, true);

@@ -20,22 +20,22 @@ bool says_when_and_where(const std::string& sentence) {
 /// What is wrong with a run; empty: nothing. An error must name a time and an unknown.
 std::string complaint(const RandomCircuit& drawn) {
     try {
-        const auto circuit = InTime::text(drawn.text);
+        const auto circuit = TransientRunner::from_text(drawn.text);
         const auto points = circuit.run(drawn.plan);
         // A trigger's edge is a matter of nanoseconds: after days, a double's digits of time are too few for it.
-        if (!points.wrong.empty() && points.t.back() > 1e5 && says_when_and_where(points.wrong)) return "";
-        if (!points.wrong.empty())
-            return (says_when_and_where(points.wrong) ? "gave up: " : "gave up and does not say when and where: ") + points.wrong;
-        if (std::abs(points.t.back() - circuit.stop()) > 1e-9 * circuit.stop()) return fmt::format("ended at {:g} s", points.t.back());
+        if (!points.error.empty() && points.t.back() > 1e5 && says_when_and_where(points.error)) return "";
+        if (!points.error.empty())
+            return (says_when_and_where(points.error) ? "gave up: " : "gave up and does not say when and where: ") + points.error;
+        if (std::abs(points.t.back() - circuit.stop_time()) > 1e-9 * circuit.stop_time()) return fmt::format("ended at {:g} s", points.t.back());
         for (std::size_t k = 0; k < points.t.size(); ++k)
             for (int n = 0; n < circuit.system().size(); ++n) {
                 const double v = points.x[k][static_cast<std::size_t>(n)];
                 const bool node = n < circuit.system().nodes();
-                if (!std::isfinite(v) || (node && (v < drawn.low || v > drawn.high)))
+                if (!std::isfinite(v) || (node && (v < drawn.min_voltage || v > drawn.max_voltage)))
                     return fmt::format("{} is {:g} at {:g} s, outside [{:g}, {:g}]", circuit.system().names()[static_cast<std::size_t>(n)],
-                                       v, points.t[k], drawn.low, drawn.high);
+                                       v, points.t[k], drawn.min_voltage, drawn.max_voltage);
             }
-        return drawn.judge(circuit, points);
+        return drawn.find_fault(circuit, points);
     } catch (const std::exception& e) {
         return std::string("did not begin: ") + e.what();
     }
@@ -53,8 +53,8 @@ TEST_P(RandomInTime, RunsAndIsRight) {
     const auto [kind, count] = GetParam();
     const char* folder = std::getenv("CORPUSCLE_FAILURES");
     for (int k = 0; k < count; ++k) {
-        Dice dice(static_cast<std::uint64_t>(k + 1));
-        const auto drawn = kind->draw(dice);
+        RandomSource dice(static_cast<std::uint64_t>(k + 1));
+        const auto drawn = kind->make(dice);
         const auto wrong = complaint(drawn);
         if (wrong.empty()) continue;
         ADD_FAILURE() << kind->name << " " << k << ": " << wrong << "\n" << (folder ? "" : drawn.text);
@@ -66,7 +66,7 @@ TEST_P(RandomInTime, RunsAndIsRight) {
 
 std::vector<Share> shares(int divisor) {
     std::vector<Share> out;
-    for (const auto& kind : random_kinds()) out.push_back({&kind, (kind.many + divisor - 1) / divisor});
+    for (const auto& kind : random_kinds()) out.push_back({&kind, (kind.count_per_thousand + divisor - 1) / divisor});
     return out;
 }
 

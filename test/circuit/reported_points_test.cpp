@@ -17,7 +17,7 @@ namespace {
 struct DrawnKind {
     const char* name;
     int many;
-    std::string (*draw)(Dice&);
+    std::string (*draw)(RandomSource&);
 };
 
 constexpr double stop_time = 3e-3;  // s
@@ -29,99 +29,99 @@ struct Text {
     explicit Text(std::string_view format, const A&... values) : text(fmt::format(fmt::runtime(format), values...)) {}
 };
 
-std::string course(Dice& dice, double low, double high) {
+std::string course(RandomSource& dice, double low, double high) {
     const double middle = (low + high) / 2, swing = (high - low) / 2;
-    switch (dice.one_of(4)) {
+    switch (dice.index_below(4)) {
         case 0:
-            return Text{"sin({:g} {:g} {:g})", middle, swing, dice.decades(300, 5e3)}.text;
+            return Text{"sin({:g} {:g} {:g})", middle, swing, dice.log_uniform(300, 5e3)}.text;
         case 1:
             return Text{"pulse({:g} {:g} {:g} {:g} {:g} {:g} {:g})",
                         low,
                         high,
-                        dice.between(0, 3e-4),
-                        dice.decades(1e-7, 1e-4),
-                        dice.decades(1e-7, 1e-4),
-                        dice.between(2e-4, 5e-4),
-                        dice.between(8e-4, 2e-3)}
+                        dice.uniform_between(0, 3e-4),
+                        dice.log_uniform(1e-7, 1e-4),
+                        dice.log_uniform(1e-7, 1e-4),
+                        dice.uniform_between(2e-4, 5e-4),
+                        dice.uniform_between(8e-4, 2e-3)}
                 .text;
         case 2:
             return Text{"pwl(0 {:g} {:g} {:g} {:g} {:g} {:g} {:g})",
                         low,
-                        dice.between(1e-4, 5e-4),
+                        dice.uniform_between(1e-4, 5e-4),
                         high,
-                        dice.between(6e-4, 1e-3),
-                        dice.between(low, high),
-                        dice.between(1.2e-3, 2e-3),
+                        dice.uniform_between(6e-4, 1e-3),
+                        dice.uniform_between(low, high),
+                        dice.uniform_between(1.2e-3, 2e-3),
                         low}
                 .text;
         default:
             return Text{"exp({:g} {:g} {:g} {:g} {:g} {:g})",
                         low,
                         high,
-                        dice.between(1e-4, 5e-4),
-                        dice.decades(1e-5, 1e-3),
-                        dice.between(1e-3, 2e-3),
-                        dice.decades(1e-5, 1e-3)}
+                        dice.uniform_between(1e-4, 5e-4),
+                        dice.log_uniform(1e-5, 1e-3),
+                        dice.uniform_between(1e-3, 2e-3),
+                        dice.log_uniform(1e-5, 1e-3)}
                 .text;
     }
 }
 
 /// Each node hangs on an earlier one by a resistor or a diode; clamps, capacitors and loads come and go.
-std::string diodes(Dice& dice) {
-    const int nodes = 3 + dice.one_of(4);
-    const double volts = dice.decades(0.3, 10);
-    std::string out = Text{"drawn diodes\nv1 n1 0 {}\n", course(dice, dice.one_of(2) ? -volts : 0, volts)}.text;
+std::string diodes(RandomSource& dice) {
+    const int nodes = 3 + dice.index_below(4);
+    const double volts = dice.log_uniform(0.3, 10);
+    std::string out = Text{"drawn diodes\nv1 n1 0 {}\n", course(dice, dice.index_below(2) ? -volts : 0, volts)}.text;
     for (int k = 2; k <= nodes; ++k) {
-        const int from = 1 + dice.one_of(k - 1), way = dice.one_of(3);
+        const int from = 1 + dice.index_below(k - 1), way = dice.index_below(3);
         if (way == 0)
-            out += Text{"r{} n{} n{} {:g}\n", k, from, k, dice.decades(1e3, 1e6)}.text;
+            out += Text{"r{} n{} n{} {:g}\n", k, from, k, dice.log_uniform(1e3, 1e6)}.text;
         else
             out +=
-                Text{"d{} n{} n{} d\nr{} n{} n{} {:g}\n", k, way == 1 ? from : k, way == 1 ? k : from, k, from, k, dice.decades(1e6, 1e8)}
+                Text{"d{} n{} n{} d\nr{} n{} n{} {:g}\n", k, way == 1 ? from : k, way == 1 ? k : from, k, from, k, dice.log_uniform(1e6, 1e8)}
                     .text;
-        if (dice.one_of(2)) out += Text{"rl{} n{} 0 {:g}\n", k, k, dice.decades(1e3, 1e7)}.text;
-        if (dice.one_of(2)) out += Text{"c{} n{} 0 {:g}\n", k, k, dice.decades(1e-14, 1e-7)}.text;
-        if (dice.one_of(4) == 0) out += Text{"cx{} n{} n{} {:g}\n", k, k, 1 + dice.one_of(k - 1), dice.decades(1e-13, 1e-8)}.text;
-        if (dice.one_of(4) == 0) out += Text{"dc{} n{} 0 d\n", k, k}.text;
-        if (dice.one_of(4) == 0) out += Text{"dg{} 0 n{} d\n", k, k}.text;
+        if (dice.index_below(2)) out += Text{"rl{} n{} 0 {:g}\n", k, k, dice.log_uniform(1e3, 1e7)}.text;
+        if (dice.index_below(2)) out += Text{"c{} n{} 0 {:g}\n", k, k, dice.log_uniform(1e-14, 1e-7)}.text;
+        if (dice.index_below(4) == 0) out += Text{"cx{} n{} n{} {:g}\n", k, k, 1 + dice.index_below(k - 1), dice.log_uniform(1e-13, 1e-8)}.text;
+        if (dice.index_below(4) == 0) out += Text{"dc{} n{} 0 d\n", k, k}.text;
+        if (dice.index_below(4) == 0) out += Text{"dg{} 0 n{} d\n", k, k}.text;
     }
-    return out + Text{".model d d(is={:g} n={:g} cjo={:g})\n", dice.decades(1e-16, 1e-10), dice.between(1, 2),
-                      dice.one_of(2) ? 0 : dice.decades(1e-14, 1e-11)}
+    return out + Text{".model d d(is={:g} n={:g} cjo={:g})\n", dice.log_uniform(1e-16, 1e-10), dice.uniform_between(1, 2),
+                      dice.index_below(2) ? 0 : dice.log_uniform(1e-14, 1e-11)}
                      .text;
 }
 
 /// Inverters, loaded stages, followers and passes, one behind another under a supply of 0.7 V; most of their charges are their own.
-std::string transistors(Dice& dice) {
-    const int nodes = 3 + dice.one_of(3);
+std::string transistors(RandomSource& dice) {
+    const int nodes = 3 + dice.index_below(3);
     std::string out = Text{"drawn transistors\n.lib 'tsmc180.lib' tt\nvdd vdd 0 0.7\nv1 n1 0 {}\n", course(dice, 0, 0.7)}.text;
-    const auto size = [&] { return Text{"w={:.3g}u l={:.3g}u", dice.between(0.4, 6), dice.between(0.4, 2)}.text; };
+    const auto size = [&] { return Text{"w={:.3g}u l={:.3g}u", dice.uniform_between(0.4, 6), dice.uniform_between(0.4, 2)}.text; };
     for (int k = 2; k <= nodes; ++k) {
-        const int from = 1 + dice.one_of(k - 1), other = 1 + dice.one_of(k - 1);
-        switch (dice.one_of(5)) {
+        const int from = 1 + dice.index_below(k - 1), other = 1 + dice.index_below(k - 1);
+        switch (dice.index_below(5)) {
             case 0:
             case 1:
                 out += Text{"mp{0} n{0} n{1} vdd vdd pch {2}\nmn{0} n{0} n{1} 0 0 nch {3}\n", k, from, size(), size()}.text;
                 break;
             case 2:
-                out += Text{"mn{0} n{0} n{1} 0 0 nch {2}\nr{0} vdd n{0} {3:g}\n", k, from, size(), dice.decades(1e5, 1e8)}.text;
+                out += Text{"mn{0} n{0} n{1} 0 0 nch {2}\nr{0} vdd n{0} {3:g}\n", k, from, size(), dice.log_uniform(1e5, 1e8)}.text;
                 break;
             case 3:
-                out += Text{"mn{0} vdd n{1} n{0} 0 nch {2}\nr{0} n{0} 0 {3:g}\n", k, from, size(), dice.decades(1e5, 1e8)}.text;
+                out += Text{"mn{0} vdd n{1} n{0} 0 nch {2}\nr{0} n{0} 0 {3:g}\n", k, from, size(), dice.log_uniform(1e5, 1e8)}.text;
                 break;
             default:
-                out += Text{"mn{0} n{1} n{2} n{0} 0 nch {3}\nr{0} n{0} 0 {4:g}\n", k, from, other, size(), dice.decades(1e6, 1e9)}.text;
+                out += Text{"mn{0} n{1} n{2} n{0} 0 nch {3}\nr{0} n{0} 0 {4:g}\n", k, from, other, size(), dice.log_uniform(1e6, 1e9)}.text;
         }
-        if (dice.one_of(3) == 0) out += Text{"c{} n{} 0 {:g}\n", k, k, dice.decades(1e-16, 1e-11)}.text;
+        if (dice.index_below(3) == 0) out += Text{"c{} n{} 0 {:g}\n", k, k, dice.log_uniform(1e-16, 1e-11)}.text;
     }
     return out;
 }
 
 /// A run as a polyline, each unknown's smallest and largest value in a stretch of time.
 class Drawn {
-    const Points& points_;
+    const TransientPoints& points_;
 
 public:
-    explicit Drawn(const Points& points) : points_(points) {}
+    explicit Drawn(const TransientPoints& points) : points_(points) {}
     double at(double t, std::size_t n) const {
         const auto& all = points_.t;
         const auto after = static_cast<std::size_t>(std::upper_bound(all.begin(), all.end(), t) - all.begin());
@@ -143,7 +143,7 @@ public:
 };
 
 /// The worst of all points, of 10 x reltol x span + floor; `where` says which.
-double worst_point(const InTime& circuit, const Points& run, const Points& fine, const TransientPlan& plan, std::string& where) {
+double worst_point(const TransientRunner& circuit, const TransientPoints& run, const TransientPoints& fine, const TransientPlan& plan, std::string& where) {
     const double slack =
         plan.reltol * stop_time / 50;  // a jump is drawn as a line of this part of a step, as is what follows a corner at once
     const Drawn truth(fine);
@@ -175,22 +175,22 @@ class ReportedPoints : public testing::TestWithParam<DrawnKind> {};
 TEST_P(ReportedPoints, LieWhereAFinerRunHasThem) {
     const auto kind = GetParam();
     for (int k = 0; k < kind.many; ++k) {
-        Dice dice(static_cast<std::uint64_t>(1000 + k));
+        RandomSource dice(static_cast<std::uint64_t>(1000 + k));
         const auto text = kind.draw(dice) + fmt::format(".tran 1u {:g}\n", stop_time);
-        const auto circuit = InTime::text(text);
+        const auto circuit = TransientRunner::from_text(text);
         TransientPlan plan;
         plan.all_reported = true;
         auto finer = plan;
         for (double* tolerance : {&finer.reltol, &finer.vntol, &finer.abstol}) *tolerance /= 1000;
         const auto run = circuit.run(plan), fine = circuit.run(finer);
-        ASSERT_EQ(run.wrong + fine.wrong, "") << kind.name << " " << k << "\n" << text;
+        ASSERT_EQ(run.error + fine.error, "") << kind.name << " " << k << "\n" << text;
         std::string where;
         const double worst = worst_point(circuit, run, fine, plan, where);
         if (std::getenv("CORPUSCLE_SHOW"))
-            std::printf("%s %d: %.2f, %ld steps, %ld rejected, %ld iterations; finer %ld; %s\n", kind.name, k, worst, run.work.steps,
-                        run.work.rejected, run.work.iterations, fine.work.steps, where.c_str());
+            std::printf("%s %d: %.2f, %ld steps, %ld rejected, %ld iterations; finer %ld; %s\n", kind.name, k, worst, run.stats.steps,
+                        run.stats.rejected, run.stats.iterations, fine.stats.steps, where.c_str());
         EXPECT_LE(worst, 1) << kind.name << " " << k << ": " << where << "\n" << text;
-        EXPECT_LT(fine.work.steps, 100'000) << kind.name << " " << k << ": rounding refuses steps\n" << text;
+        EXPECT_LT(fine.stats.steps, 100'000) << kind.name << " " << k << ": rounding refuses steps\n" << text;
     }
 }
 
@@ -203,7 +203,7 @@ TEST(ReportedOscillation, HasThePeriodOfAFinerRun) {
         std::string text = "ring\n.lib 'tsmc180.lib' tt\nvdd vdd 0 0.7\n.options " + options + "\n.ic v(n0)=0\n";
         for (int k = 0; k < 5; ++k)
             text += fmt::format("mp{0} n{1} n{0} vdd vdd pch w=1.5u l=0.5u\nmn{0} n{1} n{0} 0 0 nch w=0.5u l=0.5u\n", k, (k + 1) % 5);
-        return ran(text +
+        return run_netlist(text +
                    ".tran 1n 0.3u\n.meas tran period trig v(n0)=0.35 rise=3 targ v(n0)=0.35 rise=13\n"
                    ".meas tran high max v(n0)\n.meas tran low min v(n0)\n");
     };

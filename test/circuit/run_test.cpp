@@ -16,9 +16,9 @@ namespace {
 constexpr const char* divider = "divider\nv1 in 0 3\nr1 in out 1k\nr2 out 0 {r}\n.param r=2k\n.op\n";
 
 TEST(Run, PrintsWhatItFindsAndMeasuresAsNamesAndValues) {
-    const Folder folder;
+    const TemporaryFolder folder;
     folder.write("x.cir", "t\nv1 in 0 0\nr1 in out 1k\nr2 out 0 3k\n.dc v1 0 4 1\n.meas dc at2 find v(out) at=2\n.print dc v(out) i(v1)\n");
-    const auto ran = run(folder, "run x.cir");
+    const auto ran = run_program(folder, "run x.cir");
     EXPECT_EQ(ran.status, 0) << ran.err;
     EXPECT_NE(ran.out.find("at2                  = 1.500000e+00"), std::string::npos) << ran.out;
     EXPECT_NE(ran.out.find("v(out)"), std::string::npos);
@@ -26,11 +26,11 @@ TEST(Run, PrintsWhatItFindsAndMeasuresAsNamesAndValues) {
 }
 
 TEST(Run, WritesRawFilesThatReadBackAlikeInBothForms) {
-    const Folder folder;
+    const TemporaryFolder folder;
     folder.write("x.cir", "t\nv1 in 0 ac 1\nr1 in out 1k\nc1 out 0 1u\n.ac dec 5 10 10k\n.op\n");
-    EXPECT_EQ(run(folder, "run x.cir -o a.raw").status, 0);
-    EXPECT_EQ(run(folder, "run x.cir -o b.raw --ascii").status, 0);
-    EXPECT_EQ(run(folder, "run x.cir -o c.csv").status, 0);
+    EXPECT_EQ(run_program(folder, "run x.cir -o a.raw").status, 0);
+    EXPECT_EQ(run_program(folder, "run x.cir -o b.raw --ascii").status, 0);
+    EXPECT_EQ(run_program(folder, "run x.cir -o c.csv").status, 0);
     const auto a = read_raw(read_file(folder / "a.raw")), b = read_raw(read_file(folder / "b.raw"));
     ASSERT_EQ(a.size(), 2U);
     ASSERT_EQ(b.size(), 2U);
@@ -43,53 +43,53 @@ TEST(Run, WritesRawFilesThatReadBackAlikeInBothForms) {
 }
 
 TEST(Run, OneDocumentOnStandardOutputAndTheSameEachTime) {
-    const Folder folder;
+    const TemporaryFolder folder;
     folder.write("x.cir", divider);
-    const auto ran = run(folder, "run x.cir --json");
+    const auto ran = run_program(folder, "run x.cir --json");
     const auto document = nlohmann::json::parse(ran.out);
     EXPECT_DOUBLE_EQ(document["plots"][0]["curves"]["v(out)"][0].get<double>(), 2.0);
-    EXPECT_EQ(ran.out, run(folder, "run x.cir --json").out);
+    EXPECT_EQ(ran.out, run_program(folder, "run x.cir --json").out);
 }
 
 TEST(Run, StepsThroughAParameter) {
-    const Folder folder;
+    const TemporaryFolder folder;
     folder.write("x.cir", std::string(divider) + ".step param r list 1k 2k\n");
-    const auto document = nlohmann::json::parse(run(folder, "run x.cir --json").out);
+    const auto document = nlohmann::json::parse(run_program(folder, "run x.cir --json").out);
     ASSERT_EQ(document.size(), 2U);
     EXPECT_EQ(document[0]["step"], "r=1000");
     EXPECT_DOUBLE_EQ(document[0]["plots"][0]["curves"]["v(out)"][0].get<double>(), 1.5);
 }
 
 TEST(Run, MeasuresAtTheVeryEndOfASweep) {
-    const Folder folder;
+    const TemporaryFolder folder;
     folder.write("x.cir", "t\nif 0 a 0\nr1 a 0 1\n.dc if 0.2u 2.6u 5n\n.meas dc end find v(a) at=2.6u\n.expect end 2.6u 1e-9\n");
     folder.write("y.cir", "t\nif 0 a 0\nr1 a 0 1\n.dc if 3 3 1\n.meas dc end find v(a) at=3\n.expect end 3 1e-9\n");
-    EXPECT_EQ(run(folder, "run x.cir").status, 0);
-    EXPECT_EQ(run(folder, "run y.cir").status, 0);
+    EXPECT_EQ(run_program(folder, "run x.cir").status, 0);
+    EXPECT_EQ(run_program(folder, "run y.cir").status, 0);
 }
 
 TEST(Run, ANodeThatAFormulaReadsDoesNotStandAlone) {
-    const Folder folder;
+    const TemporaryFolder folder;
     folder.write("x.cir", "t\nv1 a 0 1\nb1 c 0 v=2*v(a)\nr1 c 0 1\n.op\n");
-    EXPECT_EQ(run(folder, "run x.cir").err, "");
+    EXPECT_EQ(run_program(folder, "run x.cir").err, "");
 }
 
 TEST(Run, TablesOfManyStepsHaveTheStepInEachRow) {
-    const Folder folder;
+    const TemporaryFolder folder;
     folder.write("x.cir", std::string(divider) + ".dc v1 0 1 1\n.step param r list 1k 3k\n");
-    EXPECT_EQ(run(folder, "run x.cir -o x.csv").status, 0);
+    EXPECT_EQ(run_program(folder, "run x.cir -o x.csv").status, 0);
     EXPECT_EQ(read_file(folder / "x-2.csv"),
               "step,v-sweep,v(in),v(out),i(v1)\nr=1000,0,0,0,0\nr=1000,1,1,0.5,-0.0005\nr=3000,0,0,0,0\nr=3000,1,1,0.75,-0.00025\n");
     EXPECT_TRUE(read_file(folder / "x-1.csv").starts_with("step,v(in),v(out),i(v1)\nr=1000,3,1.5,-0.0015\n"));
 }
 
 TEST(Run, SavesWhatIsAskedFor) {
-    const Folder folder;
+    const TemporaryFolder folder;
     folder.write("x.cir", std::string(divider) + ".save v(in,out) out\n.dc v1 0 1 1\n");
     folder.write("y.cir", std::string(divider) + ".save v(oot)\n");
-    EXPECT_EQ(run(folder, "run x.cir -o x.csv").status, 0);
+    EXPECT_EQ(run_program(folder, "run x.cir -o x.csv").status, 0);
     EXPECT_TRUE(read_file(folder / "x-2.csv").starts_with("v-sweep,\"v(in,out)\",v(out)\n")) << read_file(folder / "x-2.csv");
-    const auto wrong = run(folder, "run y.cir");
+    const auto wrong = run_program(folder, "run y.cir");
     EXPECT_EQ(wrong.status, 1);
     EXPECT_NE(wrong.err.find("y.cir:7:7: .save: unknown output v(oot); did you mean 'v(out)'?"), std::string::npos) << wrong.err;
 }
@@ -99,9 +99,9 @@ constexpr const char* chips =
     "seed=2\n";
 
 TEST(Run, ChipsEndInAMeanAndADeviation) {
-    const Folder folder;
+    const TemporaryFolder folder;
     folder.write("x.cir", chips);
-    const auto ran = run(folder, "run x.cir");
+    const auto ran = run_program(folder, "run x.cir");
     EXPECT_EQ(ran.status, 0) << ran.err;
     EXPECT_NE(ran.out.find("mc=40:"), std::string::npos) << ran.out;
     EXPECT_NE(ran.out.find("va                   mean "), std::string::npos) << ran.out;
@@ -109,9 +109,9 @@ TEST(Run, ChipsEndInAMeanAndADeviation) {
 }
 
 TEST(Run, AStepThatDoesNotConvergeIsToldAndTheRestGoesOn) {
-    const Folder folder;
+    const TemporaryFolder folder;
     folder.write("x.cir", "t\n.param a=1\ni1 0 x 1\nb1 x 0 i={a}*(v(x)*v(x)+0.5)\n.op\n.step param a list 1 4 1\n");
-    const auto ran = run(folder, "run x.cir --json");
+    const auto ran = run_program(folder, "run x.cir --json");
     EXPECT_EQ(ran.status, 3) << ran.out << ran.err;
     const auto document = nlohmann::json::parse(ran.out);
     ASSERT_EQ(document.size(), 3U);
@@ -121,10 +121,10 @@ TEST(Run, AStepThatDoesNotConvergeIsToldAndTheRestGoesOn) {
 }
 
 TEST(Run, LinesOfTenMegabytesAreReadOrRefused) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const auto refused = [&](const std::string& line, const std::string& why) {
         folder.write("x.cir", "t\nv1 a 0 1\n" + line + "\n.op\n");
-        const auto ran = run(folder, "run x.cir");
+        const auto ran = run_program(folder, "run x.cir");
         EXPECT_EQ(ran.status, 1);
         EXPECT_NE(ran.err.find(why), std::string::npos) << ran.err.substr(0, 300);
         EXPECT_LT(ran.err.size(), 1000U);
@@ -140,14 +140,14 @@ TEST(Run, LinesOfTenMegabytesAreReadOrRefused) {
     refused(sum, "the expression has more than");
     refused(nodes + " sub", "unknown subcircuit 'sub'");
     folder.write("x.cir", "t\nv1 a 0 1\nr1 a 0 1\n* " + std::string(many, 'x') + "\n" + wave + ")\nr2 b 0 1\n.op\n");
-    EXPECT_EQ(run(folder, "run x.cir").status, 0);
+    EXPECT_EQ(run_program(folder, "run x.cir").status, 0);
 }
 
 TEST(Run, StatusTellsWhatWentWrong) {
-    const Folder folder;
+    const TemporaryFolder folder;
     folder.write("bad.cir", "t\nv1 a 0 1\nr1 a 0 1k\nr2 a\n.op\n");
     folder.write("wrong.cir", std::string(divider) + ".expect v(out) 1 1%\n");
-    const auto bad = run(folder, "run bad.cir -o x.raw"), wrong = run(folder, "run wrong.cir"), none = run(folder, "run none.cir");
+    const auto bad = run_program(folder, "run bad.cir -o x.raw"), wrong = run_program(folder, "run wrong.cir"), none = run_program(folder, "run none.cir");
     EXPECT_EQ(bad.status, 1);
     EXPECT_NE(bad.err.find("bad.cir:4"), std::string::npos) << bad.err;
     EXPECT_FALSE(std::filesystem::exists(folder / "x.raw"));
@@ -156,15 +156,15 @@ TEST(Run, StatusTellsWhatWentWrong) {
     EXPECT_NE(wrong.out.find("does not hold"), std::string::npos);
     EXPECT_EQ(none.status, 1);
     EXPECT_NE(none.err.find("none.cir"), std::string::npos);
-    EXPECT_EQ(run(folder, "run").status, 2);
+    EXPECT_EQ(run_program(folder, "run").status, 2);
 }
 
 TEST(Circuits, HoldWhatTheyExpect) {
     int count = 0;
-    for (const auto& entry : std::filesystem::directory_iterator(test::root() + "/circuits")) {
+    for (const auto& entry : std::filesystem::directory_iterator(test::project_root() + "/circuits")) {
         if (entry.path().extension() != ".cir") continue;
-        const Folder folder;
-        const auto ran = run(folder, fmt::format("run '{}' --json", entry.path().string()));
+        const TemporaryFolder folder;
+        const auto ran = run_program(folder, fmt::format("run '{}' --json", entry.path().string()));
         EXPECT_EQ(ran.status, 0) << entry.path() << "\n" << ran.err;
         if (ran.status != 0) continue;
         EXPECT_FALSE(nlohmann::json::parse(ran.out)["expectations"].empty()) << entry.path();

@@ -13,13 +13,13 @@
 #include "circuit/run_directives.hpp"
 #include "circuit/netlist_variants.hpp"
 #include "signal/instruction_set.hpp"
-#include "support/places.hpp"
+#include "support/test_paths.hpp"
 
 namespace corpuscle::circuit {
 namespace {
 
 Netlist netlist_of(const std::string& text) {
-    auto netlist = Netlist::parse(text, test::root() + "/process/test.cir", [](const std::string& path) -> Result<std::string> {
+    auto netlist = Netlist::parse(text, test::project_root() + "/process/test.cir", [](const std::string& path) -> Result<std::string> {
         std::FILE* file = std::fopen(path.c_str(), "rb");
         if (file == nullptr) return bad_input("no file " + path);
         std::string out(100000, '\0');

@@ -46,7 +46,7 @@ struct Stepped {
     std::unique_ptr<AnalysisContext> bench;
     TransientPlan plan;
     Stepped(const std::string& netlist, double stop) {
-        auto made = AnalysisContext::make(circuit_from(netlist));
+        auto made = AnalysisContext::make(make_circuit(netlist));
         EXPECT_TRUE(made) << made.error().text();
         bench = std::move(*made);
         plan.stop = stop, plan.max_step = stop / 50;
@@ -134,7 +134,7 @@ TEST(Transient, FindsWhereALevelIsCrossedWithinAStep) {
 
 TEST(Transient, SaysHowFarOffItsSpikesMayBe) {
     const auto spiking = [](const std::string& options) {
-        return ran(oscillator_netlist("0.3") + ".spike v(s) 0.35\n.options " + options + "\n");
+        return run_netlist(oscillator_netlist("0.3") + ".spike v(s) 0.35\n.options " + options + "\n");
     };
     const auto truth = spiking("accuracy=finest spikecheck=0");
     for (const auto* options : {"reltol=3e-4", "reltol=1e-4", "accuracy=normal", "accuracy=fine"}) {
@@ -150,11 +150,11 @@ TEST(Transient, SaysHowFarOffItsSpikesMayBe) {
 TEST(Transient, WithoutAnInitialConditionAnOscillatorIsKickedAndTold) {
     auto free = membrane;
     free.erase(free.find(".ic"), free.find('\n', free.find(".ic")) - free.find(".ic") + 1);
-    const auto found = ran(free);
+    const auto found = run_netlist(free);
     const auto s = found.curve("v(s)");
     EXPECT_GT(std::count_if(s.begin() + 1, s.end(), [](double v) { return v > 0.35; }), 100);
-    ASSERT_FALSE(found.remarks().empty());
-    EXPECT_NE(found.remarks().back().message.find("the operating point is unstable"), std::string::npos);
+    ASSERT_FALSE(found.warnings().empty());
+    EXPECT_NE(found.warnings().back().message.find("the operating point is unstable"), std::string::npos);
 }
 
 TEST(Transient, WhatRestsStaysWhereItRests) {
@@ -162,8 +162,8 @@ TEST(Transient, WhatRestsStaysWhereItRests) {
          {"divider\nv1 a 0 1\nr1 a b 1k\nr2 b 0 1k\nc1 b 0 1u\nd1 b 0 d\n.model d d\n.tran 1m 1\n",
           "inverter\n.lib 'tsmc180.lib' tt\nvdd vdd 0 0.7\nm1 o i vdd vdd pch w=6u l=0.5u\nm2 o i 0 0 nch w=1.5u l=0.5u\n"
           "vi i 0 0.3\n.tran 1m 1\n"}) {
-        const auto found = ran(netlist);
-        EXPECT_TRUE(found.remarks().empty()) << found.remarks()[0].text();
+        const auto found = run_netlist(netlist);
+        EXPECT_TRUE(found.warnings().empty()) << found.warnings()[0].text();
         for (const auto& curve : found.analyses()[0].result.plots[0].curves)
             if (curve.name != "time") {
                 EXPECT_NEAR(std::abs(curve.values.front() - curve.values.back()), 0, 1e-9) << curve.name;
@@ -172,7 +172,7 @@ TEST(Transient, WhatRestsStaysWhereItRests) {
 }
 
 TEST(Transient, WithUicWhatNoChargeHoldsFollows) {
-    const auto found = ran("uic\nv1 a 0 1\nr1 a b 1k\nr2 b c 1k\nc1 c 0 1u\n.ic v(c)=0.4\n.tran 1u 10u uic\n");
+    const auto found = run_netlist("uic\nv1 a 0 1\nr1 a b 1k\nr2 b c 1k\nc1 c 0 1u\n.ic v(c)=0.4\n.tran 1u 10u uic\n");
     EXPECT_NEAR(found.curve("v(a)")[0], 1, 1e-9);
     EXPECT_NEAR(found.curve("v(b)")[0], 0.7, 1e-9);
     EXPECT_NEAR(found.curve("v(c)")[0], 0.4, 1e-6);
@@ -197,7 +197,7 @@ TEST(Transient, TheTrapezoidalRuleDoesNotGoOnRinging) {
 TEST(TransientPlan, RefusesWhatItDoesNotKnow) {
     for (const auto& [options, what] :
          {std::pair{"accuracy=great", "rough, normal, fine, finest"}, {"method=euler", "gear, trap"}, {"maxord=7", "from 1 to 5"}}) {
-        const auto plan = read_transient_plan(*circuit_from(std::string("x\nr1 a 0 1\nv1 a 0 1\n.options ") + options + "\n.tran 1 2\n"));
+        const auto plan = read_transient_plan(*make_circuit(std::string("x\nr1 a 0 1\nv1 a 0 1\n.options ") + options + "\n.tran 1 2\n"));
         ASSERT_FALSE(plan);
         EXPECT_NE(plan.error().message.find(what), std::string::npos) << plan.error().message;
     }

@@ -35,10 +35,10 @@ class Started {
     pid_t id_;
 
 public:
-    Started(const Folder& folder, std::vector<std::string> words) {
+    Started(const TemporaryFolder& folder, std::vector<std::string> words) {
         id_ = fork_child();
         if (id_ != 0) return;
-        words.insert(words.begin(), program());
+        words.insert(words.begin(), program_path());
         std::vector<char*> arguments;
         for (auto& w : words) arguments.push_back(w.data());
         arguments.push_back(nullptr);
@@ -98,7 +98,7 @@ TEST(Stream, AKilledRunLeavesAFileThatReadsToItsLastBlock) {
     std::mt19937 random(7);
     for (int k = 0; k < 20; ++k) {
         SCOPED_TRACE(k);
-        const Folder folder;
+        const TemporaryFolder folder;
         folder.write("x.cir", endless_deck);
         const bool ascii = k % 4 == 3, table = k % 4 == 1;
         const std::string name = table ? "x.csv" : "x.raw";
@@ -128,10 +128,10 @@ TEST(Stream, AKilledRunLeavesAFileThatReadsToItsLastBlock) {
 /// As when a disk is full.
 TEST(Stream, AFileThatCannotGrowEndsEarly) {
     for (const std::string name : {"x.raw", "x.csv"}) {
-        const Folder folder;
+        const TemporaryFolder folder;
         folder.write("x.cir", endless_deck);
         const auto line =
-            fmt::format("cd '{}' && trap '' XFSZ && ulimit -f 1000 && '{}' run x.cir -o {} 2>.err", folder.path(), program(), name);
+            fmt::format("cd '{}' && trap '' XFSZ && ulimit -f 1000 && '{}' run x.cir -o {} 2>.err", folder.path(), program_path(), name);
         EXPECT_EQ(WEXITSTATUS(std::system(line.c_str())), 1);
         const auto err = read_file(folder / ".err");
         EXPECT_NE(err.find(name + ": could not be written completely: File too large"), std::string::npos) << err;
@@ -143,24 +143,24 @@ TEST(Stream, AFileThatCannotGrowEndsEarly) {
 }
 
 TEST(Stream, TheNextRunTakesOverWhatAKilledOneLeft) {
-    const Folder folder;
+    const TemporaryFolder folder;
     folder.write("x.cir", endless_deck);
     folder.write("short.cir", rc(1e-3));
     Started killed(folder, {"run", "x.cir", "-o", "x.raw"});
     ASSERT_TRUE(appears(folder / "x.raw.part", 60'000));
     killed.end(SIGKILL);
-    EXPECT_EQ(run(folder, "run short.cir -o x.raw").status, 0);
-    EXPECT_EQ(folder.names(), (std::vector<std::string>{"short.cir", "x.cir", "x.raw"}));
+    EXPECT_EQ(run_program(folder, "run short.cir -o x.raw").status, 0);
+    EXPECT_EQ(folder.file_names(), (std::vector<std::string>{"short.cir", "x.cir", "x.raw"}));
     EXPECT_NEAR(read_raw_file(folder / "x.raw")[0].curves[0].values.back().real(), 1e-3, 1e-15);
 }
 
 TEST(Stream, TwoAtOnceDoNotWriteOneFile) {
-    const Folder folder;
+    const TemporaryFolder folder;
     folder.write("x.cir", endless_deck);
     folder.write("short.cir", rc(1e-3));
     Started first(folder, {"run", "x.cir", "-o", "x.raw"});
     ASSERT_TRUE(appears(folder / "x.raw.part", 60'000));
-    const auto second = run(folder, "run short.cir -o x.raw");
+    const auto second = run_program(folder, "run short.cir -o x.raw");
     EXPECT_EQ(second.status, 1);
     EXPECT_NE(second.err.find("x.raw: another program is writing this file"), std::string::npos) << second.err;
     first.end(SIGINT);
@@ -169,7 +169,7 @@ TEST(Stream, TwoAtOnceDoNotWriteOneFile) {
 
 TEST(Stream, AnInterruptedRunLeavesItsFileUnderItsNameAndSaysThatItEndsEarly) {
     for (const std::string name : {"x.raw", "x.csv"}) {
-        const Folder folder;
+        const TemporaryFolder folder;
         folder.write("x.cir", endless_deck);
         Started run(folder, {"run", "x.cir", "-o", name});
         ASSERT_TRUE(appears(folder / (name + ".part"), 60'000));
@@ -190,9 +190,9 @@ TEST(Stream, AnInterruptedRunLeavesItsFileUnderItsNameAndSaysThatItEndsEarly) {
 
 /// dv/dt = -1e12 (v^2 + 1 - c): where c falls below 1, after 1 ms, v leaves for minus infinity in no time.
 TEST(Stream, WhatDidNotConvergeIsKeptUpToThere) {
-    const Folder folder;
+    const TemporaryFolder folder;
     folder.write("x.cir", "t\nv1 c 0 pwl(0 2 2m 0)\nr1 c 0 1\nb1 a 0 i=(v(a)*v(a)+1-v(c))*1e3\nc1 a 0 1n\n.nodeset v(a)=1\n.tran 1u 2m\n");
-    const auto ran = run(folder, "run x.cir -o x.raw");
+    const auto ran = run_program(folder, "run x.cir -o x.raw");
     EXPECT_EQ(ran.status, 3) << ran.err;
     EXPECT_NE(ran.err.find("x.raw ends early, at 1"), std::string::npos) << ran.err;
     ASSERT_TRUE(std::filesystem::exists(folder / "x.raw"));
@@ -201,7 +201,7 @@ TEST(Stream, WhatDidNotConvergeIsKeptUpToThere) {
 
 TEST(Stream, MemoryDoesNotGrowWithTime) {
     const auto most = [](double stop, const std::string& out) {
-        const Folder folder;
+        const TemporaryFolder folder;
         folder.write("x.cir", rc(stop) + ".meas tran n count v(out)=0 rise\n.meas tran e rms v(out)\n");
         Started run(folder, out.empty() ? std::vector<std::string>{"run", "x.cir"} : std::vector<std::string>{"run", "x.cir", "-o", out});
         struct rusage used{};
@@ -215,14 +215,14 @@ TEST(Stream, MemoryDoesNotGrowWithTime) {
 }
 
 TEST(Stream, WhatIsStreamedIsWhatIsKept) {
-    const Folder folder;
+    const TemporaryFolder folder;
     folder.write("x.cir", rc(20e-3) + ".op\n.save v(out) i(v1)\n");
-    EXPECT_EQ(run(folder, "run x.cir -o x.raw").status, 0);
-    EXPECT_EQ(run(folder, "run x.cir -o y.raw --ascii").status, 0);
-    EXPECT_EQ(run(folder, "run x.cir -o x.csv").status, 0);
-    const auto document = nlohmann::json::parse(run(folder, "run x.cir --json").out);
+    EXPECT_EQ(run_program(folder, "run x.cir -o x.raw").status, 0);
+    EXPECT_EQ(run_program(folder, "run x.cir -o y.raw --ascii").status, 0);
+    EXPECT_EQ(run_program(folder, "run x.cir -o x.csv").status, 0);
+    const auto document = nlohmann::json::parse(run_program(folder, "run x.cir --json").out);
     const auto binary = read_raw_file(folder / "x.raw"), letters = read_raw_file(folder / "y.raw");
-    const auto kept = ours(folder / "x.cir").plots();
+    const auto kept = run_corpuscle(folder / "x.cir").plots();
     ASSERT_EQ(binary.size(), 2U);
     ASSERT_EQ(letters.size(), 2U);
     ASSERT_EQ(kept.size(), 2U);
@@ -245,10 +245,10 @@ TEST(Stream, WhatIsStreamedIsWhatIsKept) {
 }
 
 TEST(Stream, StepsFollowEachOtherInOneTable) {
-    const Folder folder;
+    const TemporaryFolder folder;
     folder.write("x.cir", rc(1e-4) + ".step param q list 1 2\n.param q=1\n");
-    EXPECT_EQ(run(folder, "run x.cir -o x.csv").status, 0);
-    EXPECT_EQ(run(folder, "run x.cir -o x.raw").status, 0);
+    EXPECT_EQ(run_program(folder, "run x.cir -o x.csv").status, 0);
+    EXPECT_EQ(run_program(folder, "run x.cir -o x.raw").status, 0);
     const auto table = read_file(folder / "x.csv");
     EXPECT_TRUE(table.starts_with("step,time,v(in),v(out),i(v1)\nq=1,0,")) << table.substr(0, 100);
     EXPECT_NE(table.find("\nq=2,0,"), std::string::npos);
@@ -258,7 +258,7 @@ TEST(Stream, StepsFollowEachOtherInOneTable) {
 }
 
 TEST(Stream, NgspiceReadsWhatAKilledRunLeft) {
-    const Folder folder;
+    const TemporaryFolder folder;
     folder.write("x.cir", endless_deck);
     Started killed(folder, {"run", "x.cir", "-o", "x.raw"});
     ASSERT_TRUE(appears(folder / "x.raw.part", 200'000));
@@ -268,15 +268,15 @@ TEST(Stream, NgspiceReadsWhatAKilledRunLeft) {
     std::filesystem::resize_file(folder / "x.raw.part", head + points * 24);  // it may have ended between a block and its count
     const auto deck =
         folder.write("load.cir", "load\n.control\nload " + (folder / "x.raw.part") + "\nprint length(time)\nquit\n.endc\n.end\n");
-    const auto log = ngspice(deck, "");
-    EXPECT_EQ(number_of(log, "length(time)"), static_cast<double>(points)) << log;
+    const auto log = run_ngspice(deck, "");
+    EXPECT_EQ(logged_number(log, "length(time)"), static_cast<double>(points)) << log;
 }
 
 /// Killed between the points of a block and their count.
 TEST(Stream, BytesBehindTheCountedPointsDoNoHarm) {
-    const Folder folder;
+    const TemporaryFolder folder;
     folder.write("x.cir", rc(1e-3));
-    EXPECT_EQ(run(folder, "run x.cir -o x.raw").status, 0);
+    EXPECT_EQ(run_program(folder, "run x.cir -o x.raw").status, 0);
     const auto whole = read_file(folder / "x.raw");
     const auto points = read_raw(whole)[0].point_count();
     folder.write("y.raw", whole + whole.substr(whole.size() - 1003));
@@ -284,11 +284,11 @@ TEST(Stream, BytesBehindTheCountedPointsDoNoHarm) {
 }
 
 TEST(Stream, PrintsAtEveryStep) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const std::string text = "t\nv1 a 0 pwl(0 0 1m 1 3m 0)\nr1 a 0 1\n.print tran v(a)\n.print tran i(v1)\n";
     folder.write("x.cir", text + ".tran 0.5m 2m\n");
     folder.write("z.cir", text + ".tran 0.5m 2m 0.75m\n");
-    const auto out = run(folder, "run x.cir").out, later = run(folder, "run z.cir").out;
+    const auto out = run_program(folder, "run x.cir").out, later = run_program(folder, "run z.cir").out;
     EXPECT_NE(out.find("            time            v(a)\n   0.0000000e+00   0.0000000e+00\n   5.0000000e-04   5.0000000e-01\n"
                        "   1.0000000e-03   1.0000000e+00\n   1.5000000e-03   7.5000000e-01\n   2.0000000e-03   5.0000000e-01\n"
                        "            time           i(v1)\n"),
@@ -298,15 +298,15 @@ TEST(Stream, PrintsAtEveryStep) {
               std::string::npos)
         << later;
     folder.write("y.cir", "t\nv1 a 0 1\nr1 a 0 1\n.tran 1n 1\n.print tran v(a)\n");
-    const auto refused = run(folder, "run y.cir");
+    const auto refused = run_program(folder, "run y.cir");
     EXPECT_EQ(refused.status, 1);
     EXPECT_NE(refused.err.find("y.cir:5:1: .print tran: 1e+09 rows"), std::string::npos) << refused.err;
 }
 
 TEST(Stream, TheDocumentTellsTheWork) {
-    const Folder folder;
+    const TemporaryFolder folder;
     folder.write("x.cir", rc(1e-3) + ".op\n");
-    const auto plain = nlohmann::json::parse(run(folder, "run x.cir --json").out);
+    const auto plain = nlohmann::json::parse(run_program(folder, "run x.cir --json").out);
     ASSERT_EQ(plain["analyses"].size(), 2U);
     const auto& tran = plain["analyses"][0];
     EXPECT_EQ(tran["analysis"], "tran");
@@ -314,21 +314,21 @@ TEST(Stream, TheDocumentTellsTheWork) {
     EXPECT_GE(tran["iterations"].get<long>(), tran["steps"].get<long>());
     EXPECT_GE(tran["rejected"].get<long>(), 0);
     EXPECT_EQ(plain["plots"].size(), 2U);
-    const auto written = nlohmann::json::parse(run(folder, "run x.cir --json -o x.raw").out);
+    const auto written = nlohmann::json::parse(run_program(folder, "run x.cir --json -o x.raw").out);
     EXPECT_EQ(written["analyses"], plain["analyses"]);
     EXPECT_EQ(written["plots"].size(), 1U) << "the curves of the transient are in the file";
 }
 
 /// On a terminal of its own.
 TEST(Stream, ATerminalShowsHowMuchTimeIsLeft) {
-    const Folder folder;
+    const TemporaryFolder folder;
     folder.write("x.cir", std::string(endless_deck) + ".op\n");
     int terminal = -1;
     const pid_t id = forkpty(&terminal, nullptr, nullptr, nullptr);
-    if (id < 0) GTEST_SKIP() << no_terminals;
+    if (id < 0) GTEST_SKIP() << no_pseudo_terminals;
     if (id == 0) {
         if (chdir(folder.path().c_str()) != 0) _exit(99);
-        execl(program().c_str(), "corpuscle", "run", "x.cir", "-o", "x.raw", nullptr);
+        execl(program_path().c_str(), "corpuscle", "run", "x.cir", "-o", "x.raw", nullptr);
         _exit(99);
     }
     std::string shown;

@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "netlist_runner.hpp"
-#include "printed_tables.hpp"
+#include "published_sizes.hpp"
 
 namespace corpuscle::circuit {
 namespace {
@@ -42,13 +42,13 @@ class Circuits {
     std::map<std::string, Circuit> circuits_;
 
     void read(const std::string& name, const Values& parameters, const std::string& part, const std::string& text_of_part) {
-        const auto path = fmt::format("{}/circuits/{}.cir", test::root(), name);
-        const auto text = text_of(path);
+        const auto path = fmt::format("{}/circuits/{}.cir", test::project_root(), name);
+        const auto text = read_text_file(path);
         if (!text) return ADD_FAILURE() << text.error().text(), void();
         if (text->find("'parts/") == std::string::npos && !part.empty()) return;
         const auto netlist = Netlist::parse(*text, path, [&](const std::string& file) -> Result<std::string> {
             if (!part.empty() && file.ends_with("/" + part)) return text_of_part;
-            return circuit::text_of(file);
+            return circuit::read_text_file(file);
         });
         if (!netlist) return ADD_FAILURE() << netlist.error().text(), void();
         auto circuit = netlist->elaborate(name == "sa1" || name == "fa1" ? parameters : Values());
@@ -59,7 +59,7 @@ class Circuits {
 public:
     explicit Circuits(const Values& parameters, const std::string& part = "", const std::string& text_of_part = "") {
         std::set<std::string> names;
-        for (const auto& stand : stands) names.insert(stand.circuit);
+        for (const auto& stand : table_locations) names.insert(stand.circuit);
         for (const auto& name : names) read(name, parameters, part, text_of_part);
     }
     bool have(const std::string& name) const { return circuits_.contains(name); }
@@ -69,16 +69,16 @@ public:
 /// What differs from the tables, each a sentence; `used` gathers the errata that were needed, `sized` the devices found in each circuit.
 struct Compared {
     std::vector<std::string> differences;
-    std::set<const Otherwise*> used;
+    std::set<const SizeDeviation*> used;
     std::map<std::string, std::set<std::string>> sized;
 
     explicit Compared(const Circuits& circuits) {
-        for (const auto& stand : stands)
-            for (const auto& row : rows)
+        for (const auto& stand : table_locations)
+            for (const auto& row : published_sizes)
                 if (std::string_view(row.table) == stand.table && circuits.have(stand.circuit))
                     for (const auto& local : words(row.devices)) device(circuits[stand.circuit], stand, row, local);
     }
-    void device(const Circuit& circuit, const Stand& stand, const Row& row, const std::string& local) {
+    void device(const Circuit& circuit, const TableLocation& stand, const PublishedSize& row, const std::string& local) {
         const auto name = stand.path + local;
         sized[stand.circuit].insert(name);
         const int k = circuit.find_element(name);
@@ -90,13 +90,13 @@ struct Compared {
                 differences.push_back(fmt::format("table {} {}: {} is printed as {}, {}.cir has {} in {}, for which there is no erratum",
                                                   row.table, row.name, size[j].first, printed[j], stand.circuit, size[j].second, name));
     }
-    double wanted_of(const Row& row, const std::string& local, const std::string& what, double printed) {
-        for (const auto& other : built_otherwise) {
-            if (std::string_view(other.table) != row.table || std::string_view(other.name) != row.name || what != other.what) continue;
+    double wanted_of(const PublishedSize& row, const std::string& local, const std::string& what, double printed) {
+        for (const auto& other : size_deviations) {
+            if (std::string_view(other.table) != row.table || std::string_view(other.name) != row.name || what != other.parameter) continue;
             const auto devices = words(other.device);
             if (std::find(devices.begin(), devices.end(), local) == devices.end()) continue;
             used.insert(&other);
-            return other.built;
+            return other.built_value;
         }
         return printed;
     }
@@ -107,17 +107,17 @@ Values as_printed(double yes) { return {{"as_printed", yes}}; }
 TEST(Tables, SizeEveryArrayOfTheCircuitsButForTheErrata) {
     const Compared compared{Circuits(as_printed(1))};
     EXPECT_TRUE(compared.differences.empty()) << fmt::format("{}", fmt::join(compared.differences, "\n"));
-    for (const auto& other : built_otherwise)
+    for (const auto& other : size_deviations)
         EXPECT_TRUE(compared.used.contains(&other))
             << "table " << other.table << " " << other.name << ": nothing is built otherwise by " << other.erratum;
 }
 
 TEST(Tables, HaveADeviceForEveryLetterThatIsPrinted) {
-    for (const auto& row : rows) {
+    for (const auto& row : published_sizes) {
         const auto devices = static_cast<int>(words(row.devices).size());
         int letters = letters_of(row.name);
-        for (const auto& lack : without)
-            if (std::string_view(lack.table) == row.table && std::string_view(lack.name) == row.name) letters -= lack.letters;
+        for (const auto& lack : missing_devices)
+            if (std::string_view(lack.table) == row.table && std::string_view(lack.name) == row.name) letters -= lack.count;
         const bool of_both_sources =
             std::string_view(row.table) == "6" && std::string_view(row.devices).find("xrectc") != std::string_view::npos;
         const bool a_mirror = std::string_view(row.table) == "4" && std::string_view(row.name) == "M3";
@@ -191,7 +191,7 @@ struct Moved {
 };
 
 std::vector<Moved> moved_sizes(const std::string& file) {
-    const auto text = text_of(test::root() + "/circuits/parts/" + file);
+    const auto text = read_text_file(test::project_root() + "/circuits/parts/" + file);
     std::vector<Moved> out;
     for (std::size_t at = 0; text && at < text->size(); at = text->find('\n', at) + 1) {
         const auto end = text->find('\n', at);

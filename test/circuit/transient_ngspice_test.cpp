@@ -95,7 +95,7 @@ std::string transient_deck(const std::string& name) { return deck_path("tran/" +
 
 constexpr std::string_view by_formulas = "formulas.inc", native = "native.inc";
 
-std::vector<std::string> transient_decks() { return decks("tran"); }
+std::vector<std::string> transient_decks() { return deck_names("tran"); }
 std::vector<std::string> transistor_decks() {
     auto out = transient_decks();
     std::erase_if(out, [](const std::string& name) { return read_file(transient_deck(name)).find(by_formulas) == std::string::npos; });
@@ -106,7 +106,7 @@ std::vector<std::string> transistor_decks() {
 RunOutcome native_run(const std::string& path) {
     std::string text = read_file(path);
     if (const auto at = text.find(by_formulas); at != std::string::npos) text.replace(at, by_formulas.size(), native);
-    return ours(Netlist::parse(text, path, [](const std::string& file) -> Result<std::string> { return read_file(file); }));
+    return run_corpuscle(Netlist::parse(text, path, [](const std::string& file) -> Result<std::string> { return read_file(file); }));
 }
 
 double furthest(const Wave& mine, const Wave& theirs, const TransientAsked& asked, double& when) {
@@ -145,7 +145,7 @@ void hold_waves(const Plot& mine, const Plot& theirs, const TransientAsked& aske
     std::printf("%zu points here, %zu there", mine.point_count(), theirs.point_count());
     int held = 0;
     for (const auto& curve : theirs.curves) {
-        const auto* own = mine.find_curve(plain(curve.name));
+        const auto* own = mine.find_curve(corpuscle_name(curve.name));
         if (curve.type != "voltage" || own == nullptr) continue;
         ++held;
         const Wave here(mine.curves[0], *own), there(theirs.curves[0], curve);
@@ -167,8 +167,8 @@ class TransientDeck : public testing::TestWithParam<std::string> {};
 
 TEST_P(TransientDeck, GoesAsInNgspice) {
     const auto path = transient_deck(GetParam());
-    const Folder folder;
-    const auto log = ngspice(path, folder / "theirs.raw");
+    const TemporaryFolder folder;
+    const auto log = run_ngspice(path, folder / "theirs.raw");
     const auto theirs = read_raw_file(folder / "theirs.raw");
     ASSERT_EQ(theirs.size(), 1U) << log;
     const auto mine = native_run(path).plots();
@@ -180,7 +180,7 @@ class TransistorDeck : public testing::TestWithParam<std::string> {};
 
 TEST_P(TransistorDeck, GoesHereByFormulasAsByOurOwnTransistors) {
     const auto path = transient_deck(GetParam());
-    const auto mine = native_run(path).plots(), formulas = ours(path).plots();
+    const auto mine = native_run(path).plots(), formulas = run_corpuscle(path).plots();
     ASSERT_EQ(mine.size(), 1U);
     ASSERT_EQ(formulas.size(), 1U);
     hold_waves(mine[0], formulas[0], asked_of(read_file(path)));

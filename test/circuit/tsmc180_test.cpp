@@ -27,7 +27,7 @@ UicmCard model(const std::string& section, const std::string& name) {
         return std::string(std::istreambuf_iterator<char>(file), {});
     };
     const auto netlist = Netlist::parse("a card\n.lib 'tsmc180.lib' " + section + "\nm1 d g s b " + name + " w=1u l=1u\n.end\n",
-                                        test::root() + "/process/x.cir", open);
+                                        test::project_root() + "/process/x.cir", open);
     if (!netlist) return ADD_FAILURE() << netlist.error().text(), UicmCard{};
     const auto circuit = netlist->elaborate();
     if (!circuit) return ADD_FAILURE() << circuit.error().text(), UicmCard{};
@@ -235,7 +235,7 @@ TEST(Tsmc180, ArraysCarryLessThanTheirAspectRatioAsInTables11And14) {  // eq. 31
 /// Deviation of the drain current in %, every unit drawn for itself.
 double mismatch_of(const std::string& devices) {
     double I = 0, II = 0;
-    const auto all = ran_all("mismatch\n.lib 'tsmc180.lib' tt\nvd d 0 0.5\n" + devices + ".op\n.mc 1000 seed=5 process=0\n");
+    const auto all = run_variants("mismatch\n.lib 'tsmc180.lib' tt\nvd d 0 0.5\n" + devices + ".op\n.mc 1000 seed=5 process=0\n");
     for (const auto& one : all) I += one.number("i(vd)"), II += one.number("i(vd)") * one.number("i(vd)");
     const double count = static_cast<double>(all.size()), mean = I / count;
     return 100 * std::sqrt(II / count - mean * mean) / std::abs(mean);

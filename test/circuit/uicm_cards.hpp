@@ -11,31 +11,31 @@
 
 namespace corpuscle::circuit::test {
 
-inline constexpr double charge = 1.602176634e-19, boltzmann = 1.380649e-23, phi_t = boltzmann * 300.15 / charge;
+inline constexpr double elementary_charge = 1.602176634e-19, boltzmann = 1.380649e-23, phi_t = boltzmann * 300.15 / elementary_charge;
 enum { D, G, S, B };
 
 /// UICM alone: no velocity saturation, no DIBL, no Early voltage to speak of, no junctions, no capacitance but the gate's.
-inline UicmCard plain() {
+inline UicmCard plain_card() {
     UicmCard card;
     card.V_E = 1e30;
     return card;
 }
 
 /// Every part of the model at work.
-inline UicmCard whole() {
+inline UicmCard full_card() {
     UicmCard card;
     card.sigma_L = 5e-9, card.zeta_L = 0.02e-6, card.C_GSO = 3.7e-10, card.C_GDO = 3e-10, card.C_GBO = 1e-11;
     card.C_J = 1e-3, card.C_JSW = 2e-10, card.J_S = 1e-6, card.J_SSW = 1e-13, card.n_dio = 1.05, card.N_ot = 3e11;
     return card;
 }
 
-inline UicmConstants sized(const UicmCard& card, double W, double L, double m = 1, double stack = 1, bool pmos = false, double T = 27) {
+inline UicmConstants constants_of_size(const UicmCard& card, double W, double L, double m = 1, double stack = 1, bool pmos = false, double T = 27) {
     UicmInstance at;
     at.W = W, at.L = L, at.m = m, at.stack = stack;
     return uicm_constants(card, at, T, pmos);
 }
 
-inline UicmEvaluation<double> answer(const UicmConstants& c, double d, double g, double s, double b) {
+inline UicmEvaluation<double> evaluate(const UicmConstants& c, double d, double g, double s, double b) {
     UicmEvaluation<double> out;
     Uicm<double>(c).eval({d, g, s, b}, out);
     return out;
@@ -44,16 +44,16 @@ inline UicmEvaluation<double> answer(const UicmConstants& c, double d, double g,
 inline double current(const UicmConstants& c, double d, double g, double s, double b = 0) { return Uicm<double>(c).internals({d, g, s, b}).I; }
 
 /// Number k of a course of random devices and voltages: weak to strong inversion, forward bulks, V_DS of 0 in every fourth.
-struct Random {
+struct RandomDevice {
     UicmConstants c;
     double v[4];
-    explicit Random(std::uint32_t k) {
+    explicit RandomDevice(std::uint32_t k) {
         const auto z = [k](std::uint32_t what) { return normal(7, k, what, 0); };
-        UicmCard card = whole();
+        UicmCard card = full_card();
         if (k % 3 == 0) card.sigma_L = 0;
         if (k % 5 == 0) card.zeta_L = 0;
         if (k % 7 == 0) card.zeta_L *= 20;
-        c = sized(card, 1.5e-6, 0.5e-6, 1 + k % 4, 1 + k % 8, k % 2 == 1, -55 + 180 * (0.5 + 0.5 * std::tanh(z(4))));
+        c = constants_of_size(card, 1.5e-6, 0.5e-6, 1 + k % 4, 1 + k % 8, k % 2 == 1, -55 + 180 * (0.5 + 0.5 * std::tanh(z(4))));
         for (std::uint32_t n = 0; n < 4; ++n) v[n] = (k % 2 == 1 ? -1 : 1) * (0.3 + 0.45 * z(n));
         if (k % 16 < 4) v[G] *= 3;
         if (k % 4 == 0) v[S] = v[D] + (k % 8 == 0 ? 0 : 1e-7 * z(5));

@@ -8,7 +8,7 @@
 
 #include "circuit/uicm_cards.hpp"
 #include "circuit/uicm_lanes.hpp"
-#include "circuit/uicm_numbers.hpp"
+#include "circuit/uicm_values.hpp"
 #include "model/lanes/aligned_buffer.hpp"
 #include "signal/instruction_set.hpp"
 
@@ -19,7 +19,7 @@ using namespace test;
 
 /// A transistor in duals with the slope of v[by] at 1.
 template <class Read>
-double dual_slope(const Random& r, int by, const Read& read) {
+double dual_slope(const RandomDevice& r, int by, const Read& read) {
     num::Dual v[4] = {r.v[0], r.v[1], r.v[2], r.v[3]};
     v[by].d = 1;
     UicmEvaluation<num::Dual> out;
@@ -35,7 +35,7 @@ void near(double found, double right, double scale, std::uint32_t k, const char*
 
 TEST(UicmContract, ItsSlopesAreThoseOfDualsAtAHundredThousandPoints) {
     for (std::uint32_t k = 0; k < 100000 && !testing::Test::HasFailure(); ++k) {
-        const Random r(k);
+        const RandomDevice r(k);
         UicmEvaluation<double> out;
         Uicm<double>(r.c).eval(r.v, out);
         double most_i = 0, most_q = 0;
@@ -52,7 +52,7 @@ TEST(UicmContract, ItsSlopesAreThoseOfDualsAtAHundredThousandPoints) {
 TEST(UicmContract, ItsSlopesAreThoseOfFiniteDifferences) {
     for (std::uint32_t k = 1; k < 4000; ++k) {
         if (k % 4 == 0) continue;  // V_DS = 0, where a second slope may jump
-        Random r(k);
+        RandomDevice r(k);
         for (int b = 0; b < 4; ++b) {
             const double h = 1e-5;
             UicmEvaluation<double> at, up, down;
@@ -70,7 +70,7 @@ TEST(UicmContract, ItsSlopesAreThoseOfFiniteDifferences) {
 
 TEST(UicmContract, SwappingDrainAndSourceNegatesTheCurrentToTheLastBit) {
     for (std::uint32_t k = 0; k < 10000; ++k) {
-        const Random r(k);
+        const RandomDevice r(k);
         const Uicm<double> device(r.c);
         const double there = device.internals({r.v[0], r.v[1], r.v[2], r.v[3]}).I, back = device.internals({r.v[2], r.v[1], r.v[0], r.v[3]}).I;
         ASSERT_EQ(there, -back) << k;
@@ -82,10 +82,10 @@ TEST(UicmContract, SwappingDrainAndSourceNegatesTheCurrentToTheLastBit) {
 
 TEST(UicmContract, APmosIsTheMirrorImageToTheLastBit) {
     for (std::uint32_t k = 0; k < 1000; ++k) {
-        Random r(k);
-        const auto one = answer(r.c, r.v[0], r.v[1], r.v[2], r.v[3]);
+        RandomDevice r(k);
+        const auto one = evaluate(r.c, r.v[0], r.v[1], r.v[2], r.v[3]);
         r.c.polarity = -r.c.polarity;
-        const auto other = answer(r.c, -r.v[0], -r.v[1], -r.v[2], -r.v[3]);
+        const auto other = evaluate(r.c, -r.v[0], -r.v[1], -r.v[2], -r.v[3]);
         for (int a = 0; a < 4; ++a) {
             ASSERT_EQ(one.i[a], -other.i[a]);
             ASSERT_EQ(one.q[a], -other.q[a]);
@@ -99,8 +99,8 @@ TEST(UicmContract, APmosIsTheMirrorImageToTheLastBit) {
 
 TEST(UicmContract, CurrentsAndChargesSumToNothingAndOnlyDifferencesOfVoltageCount) {
     for (std::uint32_t k = 0; k < 10000; ++k) {
-        const Random r(k);
-        const auto out = answer(r.c, r.v[0], r.v[1], r.v[2], r.v[3]);
+        const RandomDevice r(k);
+        const auto out = evaluate(r.c, r.v[0], r.v[1], r.v[2], r.v[3]);
         const auto sum = [](const double(&x)[4]) { return std::abs(x[0] + x[1] + x[2] + x[3]); };
         const auto size = [](const double(&x)[4]) { return std::abs(x[0]) + std::abs(x[1]) + std::abs(x[2]) + std::abs(x[3]); };
         ASSERT_LE(sum(out.i), 4e-16 * size(out.i)) << k;
@@ -117,22 +117,22 @@ TEST(UicmContract, CurrentsAndChargesSumToNothingAndOnlyDifferencesOfVoltageCoun
 }
 
 TEST(UicmContract, CurrentNeverFallsAsTheDrainRises) {
-    UicmCard card = whole();
+    UicmCard card = full_card();
     for (const double zeta : {0.0, 0.01, 0.1, 1.0, 10.0}) {
         card.zeta_L = zeta * 0.5e-6;
-        const auto c = sized(card, 1.5e-6, 0.5e-6);
+        const auto c = constants_of_size(card, 1.5e-6, 0.5e-6);
         for (double g = -0.5; g < 3; g += 0.25)
-            for (double d = -0.5; d < 3; d += 0.01) ASSERT_GE(answer(c, d, g, 0, -0.6).di[D][D], 0) << zeta << ' ' << g << ' ' << d;
+            for (double d = -0.5; d < 3; d += 0.01) ASSERT_GE(evaluate(c, d, g, 0, -0.6).di[D][D], 0) << zeta << ' ' << g << ' ' << d;
     }
 }
 
 TEST(UicmContract, SlopesDoNotJumpAcrossZeroDrainVoltageNorWhereAFormulaEnds) {
-    const auto c = sized(whole(), 1.5e-6, 0.5e-6);
+    const auto c = constants_of_size(full_card(), 1.5e-6, 0.5e-6);
     const double top = c.exp_limit_s / c.per_n_phi_t, corner = c.v_limit;
     for (const double g : {-0.2, 0.3, 0.5, 1.0, 1.8})
         for (const double b : {0.0, corner, top})  // of the bulk above source and drain
             for (const double step : {1e-9, 1e-8}) {
-                const auto below = answer(c, -step, g, 0, b - step), above = answer(c, step, g, 0, b + step);
+                const auto below = evaluate(c, -step, g, 0, b - step), above = evaluate(c, step, g, 0, b + step);
                 for (int k = 0; k < 16; ++k) {
                     const auto far = [&](const double(&x)[4][4], const double(&y)[4][4]) {
                         return std::abs(x[k / 4][k % 4] - y[k / 4][k % 4]);
@@ -144,9 +144,9 @@ TEST(UicmContract, SlopesDoNotJumpAcrossZeroDrainVoltageNorWhereAFormulaEnds) {
 }
 
 TEST(UicmContract, PlainIsSmoothToThirdOrderAcrossZeroDrainVoltage) {
-    const auto c = sized(plain(), 1.5e-6, 0.5e-6);
+    const auto c = constants_of_size(plain_card(), 1.5e-6, 0.5e-6);
     for (const double g : {0.2, 0.5, 0.9}) {
-        const double h = 2e-3, scale = answer(c, 0, g, 0, 0).di[D][D] / (phi_t * phi_t);
+        const double h = 2e-3, scale = evaluate(c, 0, g, 0, 0).di[D][D] / (phi_t * phi_t);
         const auto third = [&](double at) {  // of I_D, by V_DS
             return (current(c, at + 2 * h, g, 0) - 2 * current(c, at + h, g, 0) + 2 * current(c, at - h, g, 0) -
                     current(c, at - 2 * h, g, 0)) /
@@ -163,23 +163,23 @@ TEST(UicmContract, LanesGiveTheBitsOfOne) {
     lanes::AlignedBuffer<double> v[4] = {lanes::AlignedBuffer<double>(count), lanes::AlignedBuffer<double>(count), lanes::AlignedBuffer<double>(count),
                                   lanes::AlignedBuffer<double>(count)};
     for (std::uint32_t k = 0; k < count; ++k) {
-        const Random r(k);
+        const RandomDevice r(k);
         constants.push_back(r.c);
         for (std::size_t n = 0; n < 4; ++n) v[n].data()[k] = r.v[n] * (k < 16 ? 1e3 : 1);
     }
     const double* const points[4] = {v[0].data(), v[1].data(), v[2].data(), v[3].data()};
     for (const auto set : instruction_sets().subspan(1)) {
-        test::UicmMany many = test::baseline::uicm_many;
+        test::UicmBatchFunction many = test::baseline::uicm_evaluate_batch;
 #ifdef __x86_64__
-        if (set == InstructionSet::avx2) many = test::avx2::uicm_many;
-        if (set == InstructionSet::avx512) many = test::avx512::uicm_many;
+        if (set == InstructionSet::avx2) many = test::avx2::uicm_evaluate_batch;
+        if (set == InstructionSet::avx512) many = test::avx512::uicm_evaluate_batch;
 #endif
         std::vector<lanes::AlignedBuffer<double>> out;
-        double* at[test::uicm_numbers];
+        double* at[test::uicm_value_count];
         for (auto& p : at) p = out.emplace_back(count).data();
         many(constants.data(), points, count, at);
         for (std::size_t k = 0; k < count; ++k)
-            test::each_number(Uicm<double>(constants[k]), {points[0][k], points[1][k], points[2][k], points[3][k]},
+            test::for_each_value(Uicm<double>(constants[k]), {points[0][k], points[1][k], points[2][k], points[3][k]},
                               [&](std::size_t f, double right) {
                                   EXPECT_EQ(std::memcmp(&at[f][k], &right, sizeof right), 0)
                                       << name_of(set) << " number " << f << " of device " << k << ": " << at[f][k] << ", not " << right;

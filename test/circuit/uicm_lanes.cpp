@@ -3,13 +3,13 @@
 #include "circuit/uicm_lanes.hpp"
 
 #include "circuit/device/uicm.hpp"
-#include "circuit/uicm_numbers.hpp"
+#include "circuit/uicm_values.hpp"
 
 namespace corpuscle::circuit::test::CORPUSCLE_ISA {
 
 using T = num::Lanes<double>;
 
-void uicm_many(const UicmConstants* constants, const double* const (&v)[4], std::size_t count, double* const (&out)[uicm_numbers]) {
+void uicm_evaluate_batch(const UicmConstants* constants, const double* const (&v)[4], std::size_t count, double* const (&out)[uicm_value_count]) {
     for (std::size_t k = 0; k < count; k += T::size) {
         const Uicm<T> device([&](double UicmConstants::* at) {
             alignas(64) double lanes[T::size];
@@ -17,11 +17,11 @@ void uicm_many(const UicmConstants* constants, const double* const (&v)[4], std:
             return T::load_aligned(lanes);
         });
         const T at[4] = {T::load_aligned(v[0] + k), T::load_aligned(v[1] + k), T::load_aligned(v[2] + k), T::load_aligned(v[3] + k)};
-        each_number(device, at, [&](std::size_t f, T y) { y.store_aligned(out[f] + k); });
+        for_each_value(device, at, [&](std::size_t f, T y) { y.store_aligned(out[f] + k); });
     }
 }
 
-double uicm_rounds(const UicmConstants& constants, const double* const (&v)[4], std::size_t count, std::size_t rounds) {
+double uicm_evaluate_rounds(const UicmConstants& constants, const double* const (&v)[4], std::size_t count, std::size_t rounds) {
     const Uicm<T> device(constants);
     UicmEvaluation<T> answer;
     T sum(0.0);
@@ -29,7 +29,7 @@ double uicm_rounds(const UicmConstants& constants, const double* const (&v)[4], 
         for (std::size_t k = 0; k < count; k += T::size) {
             const T at[4] = {T::load_aligned(v[0] + k), T::load_aligned(v[1] + k), T::load_aligned(v[2] + k), T::load_aligned(v[3] + k)};
             device.eval(at, answer);
-            sum = sum + sum_of(answer);
+            sum = sum + sum_of_values(answer);
         }
     alignas(64) double lanes[T::size];
     sum.store_aligned(lanes);

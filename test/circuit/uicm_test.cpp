@@ -13,10 +13,10 @@ namespace {
 using namespace test;
 
 TEST(Uicm, PlainIsTheThesissModelWithItsDerivedSlopes) {  // eq. 21 to 30
-    const auto c = sized(plain(), 1.5e-6, 0.5e-6);
+    const auto c = constants_of_size(plain_card(), 1.5e-6, 0.5e-6);
     for (double g = 0; g < 1.5; g += 0.07)
         for (double d = 0; d < 1; d += 0.11) {
-            const auto out = answer(c, d, g, 0.05, 0);
+            const auto out = evaluate(c, d, g, 0.05, 0);
             const double V_P = (g - 0.461) / 1.27, q_S = inversion_charge((V_P - 0.05) / phi_t + 1), q_D = inversion_charge((V_P - d) / phi_t + 1);
             const double I = c.I_S * ((q_S * q_S + 2 * q_S) - (q_D * q_D + 2 * q_D)), scale = c.I_S * (q_S + q_D) * (q_S + q_D + 2);
             ASSERT_NEAR(out.i[D], I, 3e-12 * scale);
@@ -28,12 +28,12 @@ TEST(Uicm, PlainIsTheThesissModelWithItsDerivedSlopes) {  // eq. 21 to 30
 }
 
 TEST(Uicm, ForwardInversionIsThreeWhereThePinchOffVoltageIsTheSource) {
-    const auto inside = Uicm<double>(sized(plain(), 1e-6, 1e-6)).internals({0.5, 0.461, 0, 0});
+    const auto inside = Uicm<double>(constants_of_size(plain_card(), 1e-6, 1e-6)).internals({0.5, 0.461, 0, 0});
     EXPECT_NEAR(inside.q_S * (inside.q_S + 2), 3, 3e-15);
 }
 
 TEST(Uicm, InWeakInversionIsTheExponentialOfItsGateBulkAndSource) {  // eq. 42
-    const auto c = sized(plain(), 1.5e-6, 0.5e-6);
+    const auto c = constants_of_size(plain_card(), 1.5e-6, 0.5e-6);
     for (double g = -0.3; g < 0.12; g += 0.05)
         for (const double b : {-0.1, 0.0, 0.1}) {
             const double I = 2 * std::numbers::e * c.I_S * std::exp((g + 0.27 * b - 0.461) / (1.27 * phi_t));
@@ -42,9 +42,9 @@ TEST(Uicm, InWeakInversionIsTheExponentialOfItsGateBulkAndSource) {  // eq. 42
 }
 
 TEST(Uicm, VelocitySaturationTakesItsShareInWeakInversionAndItsChargeInSaturation) {
-    UicmCard card = plain();
+    UicmCard card = plain_card();
     card.zeta_L = 0.05e-6;  // zeta 0.1
-    const auto c = sized(card, 1.5e-6, 0.5e-6), without = sized(plain(), 1.5e-6, 0.5e-6);
+    const auto c = constants_of_size(card, 1.5e-6, 0.5e-6), without = constants_of_size(plain_card(), 1.5e-6, 0.5e-6);
     EXPECT_NEAR(current(c, 0.9, -0.1, 0) / current(without, 0.9, -0.1, 0), 1 / 1.1, 1e-7);
     EXPECT_NEAR(current(c, 1e-6, -0.1, 0) / current(without, 1e-6, -0.1, 0), 1, 1e-5);
     for (double g = 0.2; g < 1.8; g += 0.2) {
@@ -76,19 +76,19 @@ double in_series(const std::vector<UicmConstants>& units, double to, double g, d
 }
 
 TEST(Uicm, AStackIsTheSeriesOfItsUnitsInThePlainModel) {  // eq. 31, 32
-    const auto unit = sized(plain(), 1.5e-6, 0.5e-6), wide = sized(plain(), 1.5e-6, 0.5e-6, 4);
+    const auto unit = constants_of_size(plain_card(), 1.5e-6, 0.5e-6), wide = constants_of_size(plain_card(), 1.5e-6, 0.5e-6, 4);
     for (const double g : {0.2, 0.45, 0.8, 1.8})
         for (const double d : {0.02, 0.06}) {
-            const double four = current(sized(plain(), 1.5e-6, 0.5e-6, 1, 4), d, g, 0);
+            const double four = current(constants_of_size(plain_card(), 1.5e-6, 0.5e-6, 1, 4), d, g, 0);
             EXPECT_NEAR(in_series({unit, unit, unit, unit}, d, g, 0) / four, 1, 1e-9) << g << ' ' << d;
-            const double both = current(sized(plain(), 1.5e-6 * 4 / 5, 0.5e-6), d, g, 0);  // S_D S_S / (S_D + S_S) with 1 and 4
+            const double both = current(constants_of_size(plain_card(), 1.5e-6 * 4 / 5, 0.5e-6), d, g, 0);  // S_D S_S / (S_D + S_S) with 1 and 4
             EXPECT_NEAR(in_series({unit, wide}, d, g, 0) / both, 1, 1e-9) << g << ' ' << d;
         }
 }
 
 TEST(Uicm, TheSplitMirrorDividesAsItsAspectRatiosSay) {  // eq. 38, 39
     for (const double N : {4.0, 8.0}) {
-        const auto parallel = sized(plain(), 1.5e-6, 0.5e-6, N), series = sized(plain(), 1.5e-6, 0.5e-6, 1, N);
+        const auto parallel = constants_of_size(plain_card(), 1.5e-6, 0.5e-6, N), series = constants_of_size(plain_card(), 1.5e-6, 0.5e-6, 1, N);
         const double g = 0.35, I_in = current(parallel, g, g, 0);
         double low = 0, high = 0.35;
         for (int k = 0; k < 100; ++k) {  // the middle node, where M_B's current is M_C's and M_D's
@@ -100,36 +100,36 @@ TEST(Uicm, TheSplitMirrorDividesAsItsAspectRatiosSay) {  // eq. 38, 39
 }
 
 TEST(Uicm, ThermalNoiseIsNyquistsAtZeroDrainVoltageAndShotInSaturatedWeakInversion) {
-    UicmCard card = plain();
+    UicmCard card = plain_card();
     for (const double zeta_L : {0.0, 0.05e-6}) {
         card.zeta_L = zeta_L;
-        const auto c = sized(card, 1.5e-6, 0.5e-6);
+        const auto c = constants_of_size(card, 1.5e-6, 0.5e-6);
         for (double g = -0.2; g < 1.8; g += 0.2) {
-            const double conductance = answer(c, 0.1, g, 0.1, 0).di[D][D];
+            const double conductance = evaluate(c, 0.1, g, 0.1, 0).di[D][D];
             EXPECT_NEAR(Uicm<double>(c).noise({0.1, g, 0.1, 0}).thermal / (4 * boltzmann * 300.15 * conductance), 1, 1e-9) << g;
         }
     }
-    const auto c = sized(plain(), 1.5e-6, 0.5e-6);
+    const auto c = constants_of_size(plain_card(), 1.5e-6, 0.5e-6);
     for (double g = -0.4; g < 0.11; g += 0.1)
-        EXPECT_NEAR(Uicm<double>(c).noise({0.7, g, 0, 0}).thermal / (2 * charge * current(c, 0.7, g, 0)), 1, 1e-3) << g;
-    const double strong = Uicm<double>(c).noise({3, 3, 0, 0}).thermal / (4 * boltzmann * 300.15 * -answer(c, 3, 3, 0, 0).di[D][S]);
+        EXPECT_NEAR(Uicm<double>(c).noise({0.7, g, 0, 0}).thermal / (2 * elementary_charge * current(c, 0.7, g, 0)), 1, 1e-3) << g;
+    const double strong = Uicm<double>(c).noise({3, 3, 0, 0}).thermal / (4 * boltzmann * 300.15 * -evaluate(c, 3, 3, 0, 0).di[D][S]);
     EXPECT_NEAR(strong, 2.0 / 3, 0.02);  // of g_ms, in saturated strong inversion
 }
 
 TEST(Uicm, FlickerNoiseIsFoundAtTheGateByAreaAlone) {
-    UicmCard card = plain();
+    UicmCard card = plain_card();
     card.N_ot = 3e11;
     for (const double m : {1.0, 4.0})
         for (const double stack : {1.0, 8.0}) {
-            const auto c = sized(card, 1.5e-6, 0.5e-6, m, stack);
-            const double g_m = answer(c, 0.7, 0.1, 0, 0).di[D][G], at_gate = Uicm<double>(c).noise({0.7, 0.1, 0, 0}).flicker / (g_m * g_m);
-            const double right = charge * charge * 3e11 / (card.C_ox * card.C_ox * 0.75e-12 * m * stack);
+            const auto c = constants_of_size(card, 1.5e-6, 0.5e-6, m, stack);
+            const double g_m = evaluate(c, 0.7, 0.1, 0, 0).di[D][G], at_gate = Uicm<double>(c).noise({0.7, 0.1, 0, 0}).flicker / (g_m * g_m);
+            const double right = elementary_charge * elementary_charge * 3e11 / (card.C_ox * card.C_ox * 0.75e-12 * m * stack);
             EXPECT_NEAR(at_gate / right, 1, 1e-3);
         }
 }
 
 TEST(Uicm, JunctionsAreShockleysUpToTheirTangentAndNoisyAsTwoShotCurrents) {  // eq. 43
-    const auto c = sized(whole(), 1.5e-6, 0.5e-6);
+    const auto c = constants_of_size(full_card(), 1.5e-6, 0.5e-6);
     EXPECT_GT(c.I_sat_s, 0);
     for (double v = -0.5; v < 0.85; v += 0.05) {
         const auto inside = Uicm<double>(c).internals({0, -5, 0, v});
@@ -137,17 +137,17 @@ TEST(Uicm, JunctionsAreShockleysUpToTheirTangentAndNoisyAsTwoShotCurrents) {  //
     }
     EXPECT_NEAR(Uicm<double>(c).internals({0, -5, 0, c.exp_limit_s / c.per_n_phi_t}).I_s, junction_current_limit, 1e-14);
     EXPECT_LT(Uicm<double>(c).internals({0, -5, 0, 5}).I_s, 2);
-    EXPECT_TRUE(std::isfinite(answer(c, 1e3, -1e3, 1e3, -1e3).i[D]) && std::isfinite(answer(c, -1e3, 1e3, -1e3, 1e3).q[B]));
+    EXPECT_TRUE(std::isfinite(evaluate(c, 1e3, -1e3, 1e3, -1e3).i[D]) && std::isfinite(evaluate(c, -1e3, 1e3, -1e3, 1e3).q[B]));
     const auto noise = Uicm<double>(c).noise({0, 0, 0, 0});
-    EXPECT_NEAR(noise.shot_s, 4 * charge * c.I_sat_s, 1e-12 * noise.shot_s);
+    EXPECT_NEAR(noise.shot_s, 4 * elementary_charge * c.I_sat_s, 1e-12 * noise.shot_s);
 }
 
 TEST(Uicm, CapacitancesAreAcm2sForALongChannel) {
-    const auto c = sized(plain(), 1.5e-6, 0.5e-6);
+    const auto c = constants_of_size(plain_card(), 1.5e-6, 0.5e-6);
     const double gate = 8.42e-3 * 0.75e-12;
     for (const double g : {-0.2, 0.4, 0.8, 1.5})
         for (const double d : {0.0, 0.1, 0.9}) {
-            const auto out = answer(c, d, g, 0, 0);
+            const auto out = evaluate(c, d, g, 0, 0);
             const auto inside = Uicm<double>(c).internals({d, g, 0, 0});
             const double q = inside.q_S, r = inside.q_D, a = (r + 1) / (q + 1), per = 1 / ((1 + a) * (1 + a));
             const double C_gs = 2.0 / 3 * gate * (1 + 2 * a) * per * q / (1 + q),
@@ -162,18 +162,18 @@ TEST(Uicm, CapacitancesAreAcm2sForALongChannel) {
 }
 
 TEST(Uicm, FollowsTemperatureByItsLaws) {
-    const auto cold = sized(whole(), 1e-6, 1e-6, 1, 1, false, -55), warm = sized(whole(), 1e-6, 1e-6, 1, 1, false, 125);
+    const auto cold = constants_of_size(full_card(), 1e-6, 1e-6, 1, 1, false, -55), warm = constants_of_size(full_card(), 1e-6, 1e-6, 1, 1, false, 125);
     EXPECT_NEAR(cold.V_T, 0.461 + 0.4e-3 * 82, 1e-12);
     EXPECT_NEAR(warm.V_T, 0.461 - 0.4e-3 * 98, 1e-12);
     EXPECT_NEAR(warm.I_S / cold.I_S, std::sqrt(398.15 / 218.15), 1e-12);
-    EXPECT_NEAR(1 / warm.per_phi_t, boltzmann * 398.15 / charge, 1e-15);
+    EXPECT_NEAR(1 / warm.per_phi_t, boltzmann * 398.15 / elementary_charge, 1e-15);
     const double right =
-        std::pow(398.15 / 300.15, 3 / 1.05) * std::exp((398.15 / 300.15 - 1) * 1.11 / (1.05 * boltzmann * 398.15 / charge));
-    EXPECT_NEAR(warm.I_sat_s / sized(whole(), 1e-6, 1e-6).I_sat_s / right, 1, 1e-12);
+        std::pow(398.15 / 300.15, 3 / 1.05) * std::exp((398.15 / 300.15 - 1) * 1.11 / (1.05 * boltzmann * 398.15 / elementary_charge));
+    EXPECT_NEAR(warm.I_sat_s / constants_of_size(full_card(), 1e-6, 1e-6).I_sat_s / right, 1, 1e-12);
 }
 
 TEST(Uicm, MismatchFallsWithTheRootOfTheWholeArraysAreaAndDependsOnWhatItIsForAlone) {
-    UicmCard card = plain();
+    UicmCard card = plain_card();
     card.A_VT = 2.8e-9, card.A_IS = 1e-8;
     UicmInstance at;
     at.W = 1.5e-6, at.L = 0.5e-6, at.m = 2, at.stack = 8;
@@ -197,7 +197,7 @@ TEST(Uicm, MismatchFallsWithTheRootOfTheWholeArraysAreaAndDependsOnWhatItIsForAl
 }
 
 TEST(Uicm, ItsPointSaysTheRegionAndConductancesThatSumUp) {
-    const auto n = sized(whole(), 1.5e-6, 0.5e-6), p = sized(whole(), 1.5e-6, 0.5e-6, 1, 1, true);
+    const auto n = constants_of_size(full_card(), 1.5e-6, 0.5e-6), p = constants_of_size(full_card(), 1.5e-6, 0.5e-6, 1, 1, true);
     const struct {
         double d, g;
         const char *inversion, *region;

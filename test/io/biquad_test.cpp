@@ -23,8 +23,8 @@ double passed(Biquad filter, double f, double rate) {
 }
 
 TEST(Biquad, NotchTakesOutItsFrequencyAndIsThreeDecibelsDownTwoHertzAway) {
-    const auto clock = test::sure(make_clock(1000));
-    const auto notch = test::sure(Biquad::notch(50, clock));
+    const auto clock = test::value_or_throw(make_clock(1000));
+    const auto notch = test::value_or_throw(Biquad::notch(50, clock));
     EXPECT_LT(passed(notch, 50, 1000), 1e-6);
     for (const double f : {48.0, 52.0}) EXPECT_NEAR(passed(notch, f, 1000), std::sqrt(0.5), 0.02);
     for (const double f : {1.0, 20.0, 200.0, 400.0}) EXPECT_NEAR(passed(notch, f, 1000), 1, 0.01);
@@ -32,8 +32,8 @@ TEST(Biquad, NotchTakesOutItsFrequencyAndIsThreeDecibelsDownTwoHertzAway) {
 
 TEST(Biquad, LowpassIsButterworthOfSecondOrder) {
     const double rate = 1000, corner = 30;
-    const auto clock = test::sure(make_clock(rate));
-    const auto filter = test::sure(Biquad::lowpass(corner, clock));
+    const auto clock = test::value_or_throw(make_clock(rate));
+    const auto filter = test::value_or_throw(Biquad::lowpass(corner, clock));
     for (const double f : {3.0, 30.0, 100.0, 300.0}) {  // the bilinear transform's own frequency axis
         const double ratio = std::tan(tau / 2 * f / rate) / std::tan(tau / 2 * corner / rate);
         EXPECT_NEAR(passed(filter, f, rate), 1 / std::sqrt(1 + std::pow(ratio, 4)), 1e-6);
@@ -41,13 +41,13 @@ TEST(Biquad, LowpassIsButterworthOfSecondOrder) {
 }
 
 TEST(Biquad, BeginsAtRestAndKeepsAConstantAsItIs) {
-    const auto clock = test::sure(make_clock(242.6));
-    for (auto filter : {test::sure(Biquad::notch(50, clock)), test::sure(Biquad::lowpass(20, clock))})
+    const auto clock = test::value_or_throw(make_clock(242.6));
+    for (auto filter : {test::value_or_throw(Biquad::notch(50, clock)), test::value_or_throw(Biquad::lowpass(20, clock))})
         for (int k = 0; k < 1000; ++k) EXPECT_NEAR(filter.next(3.5), 3.5, 1e-12);
 }
 
 TEST(Biquad, RefusesFrequenciesThatTheRateCannotShow) {
-    const auto clock = test::sure(make_clock(100));
+    const auto clock = test::value_or_throw(make_clock(100));
     EXPECT_EQ(Biquad::notch(50, clock).error().message, "--notch 50Hz: at a sample rate of 100 Hz it must be between 0 and 50 Hz");
     EXPECT_FALSE(Biquad::lowpass(0, clock));
     EXPECT_TRUE(static_cast<bool>(Biquad::notch(49, clock)));

@@ -96,7 +96,7 @@ TEST(SaturationDetector, AsksForThreeVisitsToTheHighestValue) {
 
 TEST(HumDetector, MeasuresTheShareOfALine) {
     for (const double rate : {242.6, 1000.0, 10e3}) {
-        const auto clock = test::sure(make_clock(rate));
+        const auto clock = test::value_or_throw(make_clock(rate));
         const HumTable table(clock);
         HumDetector with(table), without(table), noisy(table);
         const int n = static_cast<int>(20 * rate);
@@ -114,7 +114,7 @@ TEST(HumDetector, MeasuresTheShareOfALine) {
 }
 
 TEST(HumDetector, DoesNotLookWhereTheRateCannotShow) {
-    const auto clock = test::sure(make_clock(100));
+    const auto clock = test::value_or_throw(make_clock(100));
     const HumTable table(clock);
     HumDetector check(table);
     check.add(grip(2000, 100, 1, 0));

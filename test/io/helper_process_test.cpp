@@ -27,18 +27,18 @@
 namespace corpuscle {
 namespace {
 
-using test::Folder;
+using test::TemporaryFolder;
 
 /// A program of these lines of shell.
-std::string script(const Folder& folder, const std::string& lines) {
+std::string script(const TemporaryFolder& folder, const std::string& lines) {
     const auto path = folder.write("script", "#!/bin/sh\n" + lines + "\n");
     std::filesystem::permissions(path, std::filesystem::perms::owner_all);
     return path;
 }
 
 std::string death_by(const std::string& lines) {
-    const Folder folder;
-    auto helper = test::sure(HelperProcess::start(script(folder, lines), STDIN_FILENO));
+    const TemporaryFolder folder;
+    auto helper = test::value_or_throw(HelperProcess::start(script(folder, lines), STDIN_FILENO));
     const auto answer = helper.receive("x.h5", "the library");
     return answer ? "answered" : answer.error().text();
 }
@@ -66,7 +66,7 @@ TEST(HelperProcess, OneThatCannotBeStartedIsNamed) {
     const auto none = HelperProcess::start("/nowhere/corpuscle-hdf5", STDIN_FILENO);
     ASSERT_FALSE(none);
     EXPECT_EQ(none.error().text(), "/nowhere/corpuscle-hdf5 cannot be started: No such file or directory");
-    const Folder folder;
+    const TemporaryFolder folder;
     ::setenv("CORPUSCLE_LIBEXEC", folder.path().c_str(), 1);
     const auto missing = find_helper_program("corpuscle-hdf5");
     const auto found = find_helper_program("script");
@@ -77,11 +77,11 @@ TEST(HelperProcess, OneThatCannotBeStartedIsNamed) {
     EXPECT_EQ(missing.error().text(), "the program 'corpuscle-hdf5', which reads this format, was not found in " + folder.path() +
                                           "; set CORPUSCLE_LIBEXEC to its directory");
     EXPECT_FALSE(found);
-    EXPECT_EQ(test::sure(there), made);
+    EXPECT_EQ(test::value_or_throw(there), made);
 }
 
 TEST(HelperProcess, HoldsNothingOfOursAndLeavesNothingBehind) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const auto leaked = ::open("/dev/null", O_RDONLY);  // without O_CLOEXEC, as some libraries open files
     ::setenv("CORPUSCLE_SECRET", "x", 1);
     const auto program = script(folder, "ls /proc/$$/fd >listed; env >environment; mv listed listed.whole; exec sleep 30");
@@ -89,7 +89,7 @@ TEST(HelperProcess, HoldsNothingOfOursAndLeavesNothingBehind) {
     std::filesystem::current_path(folder.path());
     const auto before = descriptors_open();
     {
-        auto first = test::sure(HelperProcess::start(program, leaked));
+        auto first = test::value_or_throw(HelperProcess::start(program, leaked));
         while (!std::filesystem::exists("listed.whole")) ::usleep(1000);
         std::istringstream listed(test::read_file("listed.whole"));
         std::vector<int> held{std::istream_iterator<int>(listed), {}};
@@ -113,11 +113,11 @@ std::string framed(const Message& m) {
 }
 
 TEST(HelperProcess, ADeathWhileRowsAreReadIsAnErrorThenAndEverAfter) {
-    const Folder folder;
+    const TemporaryFolder folder;
     folder.write("answers", framed(encode(SamplesInfo{{{"fz", "N"}}, 10, 100.0, {}, {"a remark"}})) +
                                 framed(encode(std::vector<std::vector<double>>{{7.0}})));
     const auto program = script(folder, "cat '" + folder / "answers" + "' >&3; kill -BUS $$");
-    auto samples = test::sure(open_remote_samples_with(program, folder.write("x.h5", ""), {"", "it"}));
+    auto samples = test::value_or_throw(open_remote_samples_with(program, folder.write("x.h5", ""), {"", "it"}));
     EXPECT_EQ(samples->info().columns.at(0).unit, "N");
     EXPECT_EQ(samples->info().rate, 100);
     EXPECT_EQ(samples->info().notes, std::vector<std::string>{"a remark"});
@@ -131,7 +131,7 @@ TEST(HelperProcess, ADeathWhileRowsAreReadIsAnErrorThenAndEverAfter) {
 }
 
 TEST(HelperProcess, ABrokenAnswerIsAnError) {
-    const Folder folder;
+    const TemporaryFolder folder;
     SamplesInfo facts{{{"fz", "N"}}, 10, 100.0, 5, {}};
     std::vector<std::string> answers = {framed(encode(facts)), framed(Message("xx")), framed(Message(std::string(8, '\x7f')))};
     facts.time_column.reset();

@@ -7,23 +7,23 @@
 
 #include "io/dialect.hpp"
 #include "support/property.hpp"
-#include "support/recordings.hpp"
+#include "support/loaded_recording.hpp"
 
 namespace corpuscle {
 namespace {
 
-using test::Folder;
+using test::TemporaryFolder;
 using LabRows = std::vector<std::vector<double>>;
 
-using LabRead = test::WholeRecording;
-using test::try_recording;
+using LabRead = test::LoadedRecording;
+using test::try_load_recording;
 
 LabRead read_lab(const std::string& path, const RecordingOptions& options, std::size_t block = 5) {
-    return test::recording(path, options, block);
+    return test::load_recording(path, options, block);
 }
 
-std::string lab_said(const Folder& folder, const std::string& text, const RecordingOptions& options) {
-    return test::refusal(folder.write("x.csv", text), options);
+std::string lab_said(const TemporaryFolder& folder, const std::string& text, const RecordingOptions& options) {
+    return test::load_error(folder.write("x.csv", text), options);
 }
 
 bool mentions(const std::vector<std::string>& sentences, const std::string& words) {
@@ -37,7 +37,7 @@ double finding(const LabRead& r, std::string_view name, std::uint32_t channel = 
 }
 
 TEST(BadFields, AreErrorsUnlessSaidOtherwise) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const std::string text = "F_N\n1\n2\nNaN\n4\n";
     EXPECT_EQ(lab_said(folder, text, {.rate = 10}),
               "x.csv:4:1: column 'F': 'NaN' where a number is expected; use --bad-fields interpolate to fill it in, or --bad-fields "
@@ -47,14 +47,14 @@ TEST(BadFields, AreErrorsUnlessSaidOtherwise) {
 }
 
 TEST(BadFields, OneBadFieldDropsItsRowInEveryChannel) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const auto path = folder.write("x.csv", "a_N,b_N\n1,2\n3,x\n5,6\n7\n9,10\n");
     EXPECT_EQ(read_lab(path, {.rate = 10, .bad_fields = BadFields::drop}).force, (LabRows{{1, 5, 9}, {2, 6, 10}}));
     EXPECT_EQ(read_lab(path, {.rate = 10, .bad_fields = BadFields::interpolate}).force, (LabRows{{1, 3, 5, 7, 9}, {2, 4, 6, 8, 10}}));
 }
 
 TEST(BadFields, DroppedRowsLeaveTheTimesOfTheOthersAlone) {
-    const Folder folder;
+    const TemporaryFolder folder;
     std::string text = "t_s,F_N\n";
     std::vector<double> right;
     for (int k = 0; k < 40; ++k) {
@@ -62,14 +62,14 @@ TEST(BadFields, DroppedRowsLeaveTheTimesOfTheOthersAlone) {
         right.push_back(k);
     }
     const auto path = folder.write("x.csv", text);
-    const auto refused = try_recording(path, {.bad_fields = BadFields::drop});
+    const auto refused = try_load_recording(path, {.bad_fields = BadFields::drop});
     ASSERT_FALSE(refused);
     EXPECT_NE(refused.error().message.find("not evenly spaced"), std::string::npos);
     EXPECT_EQ(read_lab(path, {.resample = 1, .bad_fields = BadFields::drop}).force, (LabRows{right}));
 }
 
 TEST(BadFields, ARowWhoseTimeIsBadIsDroppedAndTold) {
-    const Folder folder;
+    const TemporaryFolder folder;
     std::string text = "t_s,F_N\n";
     for (int k = 0; k < 40; ++k) text += k == 30 ? "xx,99\n" : fmt::format("{},1\n", k);
     EXPECT_NE(
@@ -85,7 +85,7 @@ TEST(BadFields, ARowWhoseTimeIsBadIsDroppedAndTold) {
 }
 
 TEST(BadFields, AMissingTimeIsFilledInWhereTimesAreEven) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const auto path = folder.write("x.csv", "t_s,F_N\n0,0\n1,1\n?,2\n3,3\n4,4\n");
     const auto r = read_lab(path, {.bad_fields = BadFields::interpolate});
     EXPECT_EQ(r.force, (LabRows{{0, 1, 2, 3, 4}}));
@@ -93,7 +93,7 @@ TEST(BadFields, AMissingTimeIsFilledInWhereTimesAreEven) {
 }
 
 TEST(Range, ReadingsOutsideAreBadAndFilledInUnlessSaidOtherwise) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const auto path = folder.write("x.csv", "F_N\n1\n999\n3\n4\n");
     EXPECT_EQ(read_lab(path, {.rate = 10, .range = std::pair{0.0, 10.0}}).force, (LabRows{{1, 2, 3, 4}}));
     EXPECT_EQ(read_lab(path, {.rate = 10, .range = std::pair{0.0, 10.0}, .bad_fields = BadFields::drop}).force, (LabRows{{1, 3, 4}}));
@@ -102,7 +102,7 @@ TEST(Range, ReadingsOutsideAreBadAndFilledInUnlessSaidOtherwise) {
 }
 
 TEST(Offset, IsTakenOffBeforeTheScaleAndTheSignBeforeBoth) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const auto path = folder.write("x.csv", "F\n-512\n-612\n512\n");
     RecordingOptions options{.rate = 10, .scale = 0.01, .absolute = true};
     options.offset = 512;
@@ -110,7 +110,7 @@ TEST(Offset, IsTakenOffBeforeTheScaleAndTheSignBeforeBoth) {
 }
 
 TEST(Conditioning, GivesTheSameWhateverTheBlocks) {
-    const Folder folder;
+    const TemporaryFolder folder;
     std::string text = "t_s,F_N\n";
     for (int k = 0; k < 3000; ++k)
         text +=
@@ -132,7 +132,7 @@ TEST(Conditioning, GivesTheSameWhateverTheBlocks) {
 }
 
 TEST(Conditioning, RefusesAReadingThatTheFiltersCannotHold) {
-    const Folder folder;
+    const TemporaryFolder folder;
     RecordingOptions options{.rate = 100};
     options.notch = {12};
     EXPECT_EQ(lab_said(folder, "F_N\n0\n-1.7e308\n1.7e308\n-1.7e308\n1.7e308\n", options),
@@ -140,7 +140,7 @@ TEST(Conditioning, RefusesAReadingThatTheFiltersCannotHold) {
 }
 
 TEST(Layout, NamesSensorsPlacesThemAndLeavesTheRestOut) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const auto path = folder.write("x.csv", "time_s,a_N,b_N,total_N\n0,1,2,3\n1,1,2,3\n");
     const auto layout = folder.write("layout.csv", "# where they sit\nchannel,name,x_mm,y_mm\n2,heel,10,-20\na,toe,0.5,1\n");
     const auto r = read_lab(path, {.layout = layout});
@@ -154,11 +154,11 @@ TEST(Layout, NamesSensorsPlacesThemAndLeavesTheRestOut) {
 }
 
 TEST(Layout, ErrorsNameLineColumnAndWhatWouldBeRight) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const auto path = folder.write("x.csv", "time_s,a_N,b_N\n0,1,2\n1,1,2\n");
     const auto wrong = [&](const std::string& text) {
         const auto layout = folder.write("l.csv", text);
-        auto sentence = try_recording(path, {.layout = layout}).error().text();
+        auto sentence = try_load_recording(path, {.layout = layout}).error().text();
         return sentence.substr(sentence.find("l.csv"));
     };
     EXPECT_EQ(wrong("sensor,x,y\nc,1,2\n"), "l.csv:2:1: no channel 'c'; did you mean 'a'?; there are 2: a, b");
@@ -171,7 +171,7 @@ TEST(Layout, ErrorsNameLineColumnAndWhatWouldBeRight) {
 }
 
 TEST(IterationStatus, SpeaksOfWhatWouldMisleadAndOfNothingElse) {
-    const Folder folder;
+    const TemporaryFolder folder;
     std::string good = "t_s,F_N\n", heavy = good, negative = good, weak = good, full = "t_s,F\n";
     for (int k = 0; k < 2000; ++k) {
         const double F = 1 + std::sin(0.01 * k), t = k * 0.01;

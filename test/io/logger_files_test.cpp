@@ -7,31 +7,31 @@
 #include <ctime>
 
 #include "io/archive.hpp"
-#include "support/recordings.hpp"
-#include "support/writers.hpp"
+#include "support/loaded_recording.hpp"
+#include "support/file_writers.hpp"
 
 namespace corpuscle {
 namespace {
 
-using test::Folder;
-using test::recording;
-using test::try_recording;
+using test::TemporaryFolder;
+using test::load_recording;
+using test::try_load_recording;
 
-std::string logger_file(const std::string& name) { return test::root() + "/examples/data/loggers/" + name; }
+std::string logger_file(const std::string& name) { return test::project_root() + "/examples/data/loggers/" + name; }
 
 /// What is read of a text.
-test::WholeRecording read_logged(const Folder& folder, const std::string& text, const RecordingOptions& options = {},
+test::LoadedRecording read_logged(const TemporaryFolder& folder, const std::string& text, const RecordingOptions& options = {},
                                  const std::string& name = "x.csv") {
-    return recording(folder.write(name, text), options);
+    return load_recording(folder.write(name, text), options);
 }
 
-std::string refused_logged(const Folder& folder, const std::string& text, const RecordingOptions& options = {},
+std::string refused_logged(const TemporaryFolder& folder, const std::string& text, const RecordingOptions& options = {},
                            const std::string& name = "x.csv") {
-    return test::refusal(folder.write(name, text), options);
+    return test::load_error(folder.write(name, text), options);
 }
 
-bool some_remark(const test::WholeRecording& r, const std::string& words) {
-    return std::any_of(r.remarks.begin(), r.remarks.end(), [&](const auto& s) { return s.find(words) != s.npos; });
+bool some_remark(const test::LoadedRecording& r, const std::string& words) {
+    return std::any_of(r.notes.begin(), r.notes.end(), [&](const auto& s) { return s.find(words) != s.npos; });
 }
 
 /// Rows of a ramp, each made by `row` of the time and the force.
@@ -43,11 +43,11 @@ std::string rows_of(int count, const Row& row) {
 }
 
 TEST(LoggerFiles, SevenKindsAreReadAlikeWithoutAnyOption) {
-    const auto press = recording(logger_file("preamble.csv"));
+    const auto press = load_recording(logger_file("preamble.csv"));
     ASSERT_EQ(press.force[0].size(), 200U);
     EXPECT_NEAR(*std::max_element(press.force[0].begin(), press.force[0].end()), 2.4, 0.15);
     for (const auto* name : {"excel.csv", "iso-time.csv", "unix-time.csv", "slash-units.csv", "unit-row.csv", "labview.lvm"}) {
-        const auto same = recording(logger_file(name));
+        const auto same = load_recording(logger_file(name));
         ASSERT_EQ(same.force.size(), 1U) << name;
         EXPECT_NEAR(same.clock.rate(), 100, 1e-9) << name;
         EXPECT_NEAR(same.clock.t0, 0, 1e-12) << name;
@@ -57,34 +57,34 @@ TEST(LoggerFiles, SevenKindsAreReadAlikeWithoutAnyOption) {
 }
 
 TEST(LoggerFiles, TrialsInOneFileAreRefusedWithACommandThatTakesOneOut) {
-    const Folder folder;
+    const TemporaryFolder folder;
     std::filesystem::copy(logger_file("trials.csv"), folder / "trials.csv");
-    const auto said = try_recording(folder / "trials.csv").error().text();
+    const auto said = try_load_recording(folder / "trials.csv").error().text();
     const auto at = said.find("awk ");
     ASSERT_NE(at, said.npos) << said;
     EXPECT_NE(said.find("identified by 'trial'"), said.npos) << said;
     ASSERT_EQ(std::system(("cd '" + folder.path() + "' && " + said.substr(at)).c_str()), 0) << said;
-    const auto one = recording(folder / "trials-trial1.csv");
+    const auto one = load_recording(folder / "trials-trial1.csv");
     EXPECT_EQ(one.names, std::vector<std::string>{"fz"});
     EXPECT_EQ(one.force[0].size(), 100U);
     EXPECT_TRUE(some_remark(one, "'trial' was ignored: it identifies trials"));
-    EXPECT_TRUE(some_remark(recording(folder / "trials.csv", {.rate = 100}),
+    EXPECT_TRUE(some_remark(load_recording(folder / "trials.csv", {.rate = 100}),
                             "the times in 'time' decrease (by up to 990 ms), as in a file with several"));
 }
 
 TEST(LoggerFiles, TrialsAreTakenOutWhateverSeparatesTheFields) {
     for (const std::string separator : {";", "\t", " ", " , "}) {
-        const Folder folder;
+        const TemporaryFolder folder;
         std::string text = "# of a study\nn" + separator + "subject" + separator + "t_s" + separator + "F_N\n";
         for (const std::string subject : {"S01", "S02"})
             text += rows_of(30, [&](int, double t, double F) {
                 return "7" + separator + subject + separator + fmt::format("{}{}{}\n", t, separator, F);
             });
-        const auto said = try_recording(folder.write("all.txt", text)).error().text();
+        const auto said = try_load_recording(folder.write("all.txt", text)).error().text();
         const auto at = said.find("awk ");
         ASSERT_NE(at, said.npos) << said;
         ASSERT_EQ(std::system(("cd '" + folder.path() + "' && " + said.substr(at)).c_str()), 0) << said;
-        EXPECT_EQ(recording(folder / "all-trial1.txt").force[0].size(), 30U) << said;
+        EXPECT_EQ(load_recording(folder / "all-trial1.txt").force[0].size(), 30U) << said;
     }
 }
 
@@ -95,8 +95,8 @@ std::string command_in(const std::string& said, const std::string& word) {
 }
 
 /// Runs the command that a refusal ends with; the file that it writes.
-std::string run_remedy(const Folder& folder, const std::string& file, const std::string& word) {
-    const auto command = command_in(try_recording(folder / file).error().text(), word);
+std::string run_remedy(const TemporaryFolder& folder, const std::string& file, const std::string& word) {
+    const auto command = command_in(try_load_recording(folder / file).error().text(), word);
     EXPECT_EQ(std::system(("cd '" + folder.path() + "' && " + command).c_str()), 0) << command;
     const auto at = command.rfind("> ");
     return at == command.npos ? "" : folder / command.substr(at + 2);
@@ -111,21 +111,21 @@ std::string two_trials(const std::string& end_of_line, const std::string& quote)
 }
 
 TEST(LoggerFiles, ACommandInAMessageNeverWritesOntoAFileThatIsThere) {
-    const Folder folder;
+    const TemporaryFolder folder;
     for (const std::string name : {"trial.csv", "x-trial1.csv", "x.csv"}) {
         folder.write(name, two_trials("\n", ""));
         const auto written = run_remedy(folder, name, "awk ");
         EXPECT_EQ(test::read_file(folder / name), two_trials("\n", "")) << name;
-        EXPECT_EQ(recording(written).force[0].size(), 10U) << name;
+        EXPECT_EQ(load_recording(written).force[0].size(), 10U) << name;
     }
-    EXPECT_EQ(folder.names().size(), 6U) << "three files and one of each";
+    EXPECT_EQ(folder.file_names().size(), 6U) << "three files and one of each";
     folder.write("lines.csv", "time_s,F_N\r0,1\r1,2\r");
-    EXPECT_EQ(recording(run_remedy(folder, "lines.csv", "tr ")).force[0], (std::vector<double>{1, 2}));
+    EXPECT_EQ(load_recording(run_remedy(folder, "lines.csv", "tr ")).force[0], (std::vector<double>{1, 2}));
     EXPECT_EQ(test::read_file(folder / "lines.csv").size(), 19U);
 }
 
 TEST(LoggerFiles, TheCommandForOneTrialReadsWindowsLinesQuotesUtf16AndGzip) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const auto sixteen = [](const std::string& text) {
         std::string out = "\xff\xfe";
         for (const char c : text) out += c, out += '\0';
@@ -133,29 +133,29 @@ TEST(LoggerFiles, TheCommandForOneTrialReadsWindowsLinesQuotesUtf16AndGzip) {
     };
     for (const auto& text : {two_trials("\r\n", ""), two_trials("\n", "\""), sixteen(two_trials("\r\n", ""))}) {
         folder.write("x.csv", text);
-        EXPECT_EQ(recording(run_remedy(folder, "x.csv", text.starts_with("\xff") ? "iconv " : "awk ")).force[0].size(), 10U);
+        EXPECT_EQ(load_recording(run_remedy(folder, "x.csv", text.starts_with("\xff") ? "iconv " : "awk ")).force[0].size(), 10U);
     }
     ASSERT_EQ(std::system(("gzip '" + (folder / "x.csv") + "'").c_str()), 0);
-    EXPECT_EQ(recording(run_remedy(folder, "x.csv.gz", "zcat ")).force[0].size(), 10U);
+    EXPECT_EQ(load_recording(run_remedy(folder, "x.csv.gz", "zcat ")).force[0].size(), 10U);
     EXPECT_EQ(command_in(refused_logged(folder, "note,t_s,F_N,trial\n\"a,b\",0,1,1\n\"a,b\",1,1,1\n\"a,b\",0,1,2\n"), "make a"),
               "make a file of each")
         << "awk would split the note";
 }
 
 TEST(LoggerFiles, TrialsAreToldApartByAColumnThatChangesWhereTimeGoesBack) {
-    const Folder folder;
+    const TemporaryFolder folder;
     std::string text = "subject,trial,t_s,F_N\n";
     for (const std::string rows : {"S1,1", "S1,2", "S2,1"})
         text += rows_of(10, [&](int, double t, double F) { return fmt::format("{},{:.2f},{}\n", rows, t, F); });
     folder.write("x.csv", text);
-    EXPECT_NE(try_recording(folder / "x.csv").error().text().find("identified by 'trial'"), std::string::npos);
-    EXPECT_EQ(recording(run_remedy(folder, "x.csv", "awk ")).force[0].size(), 10U);
+    EXPECT_NE(try_load_recording(folder / "x.csv").error().text().find("identified by 'trial'"), std::string::npos);
+    EXPECT_EQ(load_recording(run_remedy(folder, "x.csv", "awk ")).force[0].size(), 10U);
     EXPECT_EQ(refused_logged(folder, "t_s,phase,F_N\n0,rest,1\n1,rest,1\n0.5,rest,1\n2,press,1\n"),
               "x.csv:4: the time decreases from 1 s to 0.5 s; use --rate to take the rows as evenly spaced");
 }
 
 TEST(LoggerFiles, AColumnNamedAfterAUnitOfTimeIsInThatUnitAndNoForce) {
-    const Folder folder;
+    const TemporaryFolder folder;
     for (const auto& [name, step] : {std::pair{"millis", 10}, {"ms", 10}, {"micros", 10'000}, {"Nanoseconds", 10'000'000}}) {
         const auto r = read_logged(folder, name + std::string(",F1\n") +
                                                rows_of(20, [&](int k, double, double F) { return fmt::format("{},{}\n", k * step, F); }));
@@ -168,7 +168,7 @@ TEST(LoggerFiles, AColumnNamedAfterAUnitOfTimeIsInThatUnitAndNoForce) {
 }
 
 TEST(LoggerFiles, CountersAnywhereInATableAreNoForce) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const auto r = read_logged(folder, "Status (hex),RDTSequence,FTSequence,k,Fz,Time\n" + rows_of(30, [](int k, double t, double F) {
                                            return fmt::format("0x0,{},{},{},{},{:.2f}\n", 100 + k, 35 * k + k % 3, 7 + k, F, t);
                                        }));
@@ -179,7 +179,7 @@ TEST(LoggerFiles, CountersAnywhereInATableAreNoForce) {
 }
 
 TEST(LoggerFiles, SerialDaysOfSpreadsheetsAndMatlabAreTimes) {
-    const Folder folder;
+    const TemporaryFolder folder;
     for (const auto& [first, said] : {std::pair{45'650.5, "serial days of a spreadsheet; 0 s is 2024-12-24 12:00:00.000"},
                                       {739'000.25, "serial days of MATLAB; 0 s is 2023-04-24 06:00:00.000"}}) {
         std::string text = "Time,F_N\n";
@@ -194,11 +194,11 @@ TEST(LoggerFiles, SerialDaysOfSpreadsheetsAndMatlabAreTimes) {
 }
 
 TEST(LoggerFiles, TimeGrowsWithTheSizeOfAFileAndNotWithItsSquare) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const auto seconds = [&](const std::string& text) {
         folder.write("x.json", text);
         const auto begin = std::clock();
-        static_cast<void>(try_recording(folder / "x.json", {}, 4096));
+        static_cast<void>(try_load_recording(folder / "x.json", {}, 4096));
         return static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
     };
     std::string times, forces;  // as pandas writes a table by default
@@ -211,41 +211,41 @@ TEST(LoggerFiles, TimeGrowsWithTheSizeOfAFileAndNotWithItsSquare) {
 }
 
 TEST(LoggerFiles, OpeningALargeJsonDocumentCanBeStopped) {
-    const Folder folder;
+    const TemporaryFolder folder;
     std::string text = "[";
     for (int k = 0; k < 20'000; ++k) text += fmt::format("{}{{\"t\":{},\"F_N\":1}}", k > 0 ? "," : "", k);
     int asked = 0;
-    const auto made = try_recording(folder.write("x.json", text + "]"), {.should_continue = [&](double) { return ++asked < 3; }});
+    const auto made = try_load_recording(folder.write("x.json", text + "]"), {.should_continue = [&](double) { return ++asked < 3; }});
     ASSERT_FALSE(made);
     EXPECT_EQ(made.error().code, ErrorCode::interrupted);
     EXPECT_EQ(asked, 3);
 }
 
 TEST(LoggerFiles, OfJsonTrueAndFalseAreNoForce) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const auto r = read_logged(folder, R"([{"t":0,"F_N":1,"contact":true},{"t":1,"F_N":2,"contact":false}])", {}, "x.json");
     EXPECT_EQ(r.names, std::vector<std::string>{"F"});
     EXPECT_TRUE(some_remark(r, "'contact' was ignored: it holds words, not numbers"));
 }
 
 TEST(LoggerFiles, ASecondSegmentOfALabviewFileEndsWithACommandThatKeepsTheFirst) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const std::string segment = "Channels\t1\nSamples\t3\n***End_of_Header***\nX_Value\tFz\tComment\n0\t1\n0.01\t2\n0.02\t3\n\n";
     folder.write("first.lvm", "LabVIEW Measurement\t\nSeparator\tTab\nX_Columns\tOne\n***End_of_Header***\n\n" + segment + segment);
     for (const auto& options : {RecordingOptions{}, RecordingOptions{.bad_fields = BadFields::drop}, RecordingOptions{.rate = 100}})
-        EXPECT_NE(test::refusal(folder / "first.lvm", options).find("another segment of the measurement begins here"), std::string::npos);
-    EXPECT_EQ(recording(run_remedy(folder, "first.lvm", "head ")).force[0], (std::vector<double>{1, 2, 3}));
+        EXPECT_NE(test::load_error(folder / "first.lvm", options).find("another segment of the measurement begins here"), std::string::npos);
+    EXPECT_EQ(load_recording(run_remedy(folder, "first.lvm", "head ")).force[0], (std::vector<double>{1, 2, 3}));
 }
 
 TEST(LoggerFiles, BesideAForceColumnsInOtherUnitsAreLeftOutAndAllAreCounted) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const auto r = read_logged(folder, "time_s,Load (N),Extension (mm),bridge_V\n0,1,5,2\n1,2,6,2\n");
     EXPECT_EQ(r.names, std::vector<std::string>{"Load"});
     EXPECT_TRUE(some_remark(r, "'Extension' was ignored: mm is not a unit of force"));
     EXPECT_NE(refused_logged(folder, "time_s,load_%\n0,1\n1,2\n").find("'load' is in %, which is not a force"), std::string::npos);
     EXPECT_NE(refused_logged(folder, "time_s,Load (g)\n0,1\n1,2\n").find("'Load' is in g, which is a mass; use --unit gf"),
               std::string::npos);
-    EXPECT_NEAR(recording(folder / "x.csv", {.unit = "gf"}).force[0][1], 2 * 9.80665e-3, 1e-9) << "the remedy";
+    EXPECT_NEAR(load_recording(folder / "x.csv", {.unit = "gf"}).force[0][1], 2 * 9.80665e-3, 1e-9) << "the remedy";
     std::string heading = "time_s,F_N", first = "0,1", second = "1,2";
     for (int k = 0; k < 31; ++k) heading += fmt::format(",T{}_degC", k), first += ",20", second += ",20";
     EXPECT_TRUE(some_remark(read_logged(folder, heading + "\n" + first + "\n" + second + "\n"),
@@ -253,7 +253,7 @@ TEST(LoggerFiles, BesideAForceColumnsInOtherUnitsAreLeftOutAndAllAreCounted) {
 }
 
 TEST(LoggerFiles, NumbersWrittenInAnotherWayAreNamedWithACommandThatRewritesThem) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const std::tuple<std::string, std::string, std::string> cases[] = {
         {"time_s,fz\n0,\u22121.5\n1,\u22122.5\n", "line 2 has '\u22121.5', which contains a typographic minus sign (U+2212)", "sed "},
         {"time_s,fz\n0,-1.5D+00\n1,-0.25D+01\n", "'-1.5D+00', which contains a Fortran exponent", "sed "},
@@ -267,7 +267,7 @@ TEST(LoggerFiles, NumbersWrittenInAnotherWayAreNamedWithACommandThatRewritesThem
         const auto refused = refused_logged(folder, text);
         EXPECT_NE(refused.find(said), std::string::npos) << refused;
         if (word.empty()) continue;
-        const auto mended = recording(run_remedy(folder, "x.csv", word)).force[0];
+        const auto mended = load_recording(run_remedy(folder, "x.csv", word)).force[0];
         EXPECT_EQ(std::vector<double>(mended.end() - 2, mended.end()), (std::vector<double>{-1.5, -2.5})) << refused;
     }
     EXPECT_NE(refused_logged(folder, "time_s,fz\n0,5 mN\n1,6 mN\n").find("the unit mN after the number (use --unit mN for the new file)"),
@@ -275,30 +275,30 @@ TEST(LoggerFiles, NumbersWrittenInAnotherWayAreNamedWithACommandThatRewritesThem
 }
 
 TEST(LoggerFiles, ThousandsInGroupsAreNamedAndManyFilledReadingsWarnedOf) {
-    const Folder folder;
+    const TemporaryFolder folder;
     for (const std::string text : {"Zeit (s);Kraft (mN)\n0,0;999,21\n0,1;1.016,21\n0,2;998,50\n",
                                    "t_s,F_mN\n0,999.21\n0.1,\"1,016.21\"\n0.2,998.5\n", "t_s,F_mN\n0,999\n0.1,\"1,016\"\n0.2,998\n"}) {
         const auto said = refused_logged(folder, text);
         EXPECT_NE(said.find("it contains a thousands separator; save the table without it"), std::string::npos) << said;
         EXPECT_EQ(said.find("--bad-fields"), std::string::npos) << said;
-        const auto filled = recording(folder / "x.csv", {.bad_fields = BadFields::interpolate});
+        const auto filled = load_recording(folder / "x.csv", {.bad_fields = BadFields::interpolate});
         EXPECT_TRUE(std::any_of(filled.quality.warnings.begin(), filled.quality.warnings.end(),
                                 [](const auto& s) { return s.starts_with("1 of 3 samples were interpolated"); }));
     }
 }
 
 TEST(LoggerFiles, AHeaderOfColumnNumbersIsAHeader) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const auto r = read_logged(folder, ",0,1\n" + rows_of(20, [](int k, double t, double F) { return fmt::format("{},{},{}\n", k, t, F); }),
                                {.time = "0"});
     EXPECT_EQ(r.names, std::vector<std::string>{"1"});
     EXPECT_NEAR(r.clock.rate(), 100, 1e-6);
     EXPECT_TRUE(some_remark(r, "'ch1' was ignored: it counts the rows (use --channel ch1 to include it)"));
-    EXPECT_EQ(recording(folder / "x.csv", {.channels = {"ch1"}, .time = "0"}).force[0][7], 7) << "the remedy";
+    EXPECT_EQ(load_recording(folder / "x.csv", {.channels = {"ch1"}, .time = "0"}).force[0][7], 7) << "the remedy";
 }
 
 TEST(LoggerFiles, APreamblePaddedWithSeparatorsIsPassedOverAboveARowOfUnits) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const auto r = read_logged(folder, "Test report;;\nOperator;Max;\nDate;24.12.2024;\n\nTime;Force\n(s);(mN)\n" +
                                            rows_of(20, [](int, double t, double F) { return fmt::format("{:.2f};{:.2f}\n", t, F); }));
     EXPECT_EQ(r.names, std::vector<std::string>{"Force"});
@@ -307,27 +307,27 @@ TEST(LoggerFiles, APreamblePaddedWithSeparatorsIsPassedOverAboveARowOfUnits) {
 }
 
 TEST(LoggerFiles, RowsTakenAsChannelsMayBeginWithANameAndTheirGapsHaveAPlace) {
-    const Folder folder;
+    const TemporaryFolder folder;
     RecordingOptions rows;
     rows.table.transpose = true;
     const auto named = read_logged(folder, "time_s,0,0.01,0.02\nfx_mN,1,2,3\nfz_N,4,5,6\n", rows);
     EXPECT_EQ(named.names, (std::vector<std::string>{"fx", "fz"}));
     EXPECT_EQ(named.force[1], (std::vector<double>{4, 5, 6}));
     EXPECT_NEAR(named.clock.rate(), 100, 1e-6);
-    EXPECT_EQ(test::refusal(folder / "x.csv"),
+    EXPECT_EQ(test::load_error(folder / "x.csv"),
               "x.csv: every row begins with a name, and the first row is the time; use --transpose to take each row as a channel");
     EXPECT_EQ(refused_logged(folder, "time_s,0,0.01,0.02\nfz_N,4,,6\n", rows),
               "x.csv:2: field 3 is not a number; use --bad-fields interpolate to fill it in, or --bad-fields drop to skip this sample in "
               "all channels");
     rows.bad_fields = BadFields::interpolate;
-    EXPECT_EQ(recording(folder / "x.csv", rows).force[0], (std::vector<double>{4, 5, 6})) << "the remedy";
+    EXPECT_EQ(load_recording(folder / "x.csv", rows).force[0], (std::vector<double>{4, 5, 6})) << "the remedy";
     rows.bad_fields.reset();
     rows.rate = 100;
     EXPECT_EQ(refused_logged(folder, "0,1,2,,4\n1,2,3,4,5\n", rows).substr(0, 29), "x.csv:1: field 4 is no number");
 }
 
 TEST(LoggerFiles, AJsonDocumentsRateAndUnitAreUsedAndListsBesideTheTableLeftOut) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const auto r = read_logged(folder, R"({"fs":200,"unit":"mN","force":[500,1000,1500]})", {}, "x.json");
     EXPECT_EQ(r.clock.rate(), 200);
     EXPECT_NEAR(r.force[0][1], 1, 1e-12);
@@ -338,7 +338,7 @@ TEST(LoggerFiles, AJsonDocumentsRateAndUnitAreUsedAndListsBesideTheTableLeftOut)
 }
 
 TEST(LoggerFiles, AColumnInSecondsOrMillisecondsIsTheTime) {
-    const Folder folder;
+    const TemporaryFolder folder;
     for (const std::string heading :
          {"Zeit [s]", "unix_time_s", "t_s", "Elapsed Time (sec)", "Time/s", "duration [s]", "time in s", "stamp_s"}) {
         const auto r =
@@ -348,20 +348,20 @@ TEST(LoggerFiles, AColumnInSecondsOrMillisecondsIsTheTime) {
     }
     const auto path = folder.write(
         "x.csv", "Zeit [ms];Kraft [N]\n" + rows_of(20, [](int k, double, double F) { return fmt::format("{};{}\n", 10 * k, F); }));
-    EXPECT_NEAR(recording(path).clock.rate(), 100, 1e-6);
+    EXPECT_NEAR(load_recording(path).clock.rate(), 100, 1e-6);
     for (const std::string asked : {"Zeit [ms]", "Zeit", "Zeit_ms", "1"})
-        EXPECT_NEAR(recording(path, {.time = asked}).clock.rate(), 100, 1e-6) << asked;
-    EXPECT_TRUE(some_remark(recording(path), "'Zeit' is taken as the time"));
-    EXPECT_FALSE(some_remark(recording(path, {.time = "none", .rate = 10}), "is taken as the time"));
+        EXPECT_NEAR(load_recording(path, {.time = asked}).clock.rate(), 100, 1e-6) << asked;
+    EXPECT_TRUE(some_remark(load_recording(path), "'Zeit' is taken as the time"));
+    EXPECT_FALSE(some_remark(load_recording(path, {.time = "none", .rate = 10}), "is taken as the time"));
 }
 
 TEST(LoggerFiles, AColumnWithATimeLikeNameThatDoesNotRiseIsNoTime) {
-    const Folder folder;
+    const TemporaryFolder folder;
     EXPECT_NE(refused_logged(folder, "response_time,F_N\n0.3,1\n0.2,2\n0.4,3\n").find("no time column found"), std::string::npos);
 }
 
 TEST(LoggerFiles, DatesAndTimesOfDayAreRead) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const auto clock = [&](const std::string& first, const std::string& second, const std::string& third) {
         return read_logged(folder, "when;F_N\n" + first + ";1\n" + second + ";2\n" + third + ";3\n").clock.rate();
     };
@@ -383,18 +383,18 @@ TEST(LoggerFiles, DatesAndTimesOfDayAreRead) {
 }
 
 TEST(LoggerFiles, TimesThatCannotBeReadNameTheRemedyThatWorks) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const std::string text = "time,F_N\n03/01/2026 12:00,1\n03/01/2026 12:01,2\n";
     EXPECT_NE(refused_logged(folder, text)
                   .find("'03/01/2026 12:00' where a number is expected; use --rate, such as --rate 1kHz, to take the rows"),
               std::string::npos);
-    EXPECT_EQ(recording(folder / "x.csv", {.rate = 1000}).force[0].size(), 2U);
+    EXPECT_EQ(load_recording(folder / "x.csv", {.rate = 1000}).force[0].size(), 2U);
     EXPECT_NE(refused_logged(folder, "time,F_N\n12:00:00.0,1\n12:00:00.1,2\n", {.time_unit = "ms"}).find("have no unit; omit the option"),
               std::string::npos);
 }
 
 TEST(LoggerFiles, TimesSince1970AreRecognisedByTheirSize) {
-    const Folder folder;
+    const TemporaryFolder folder;
     for (const auto& [start, step, unit] :
          {std::tuple{1772366400.0, 0.01, "s"}, {1772366400e3, 10.0, "ms"}, {1772366400e6, 1e4, "us"}, {1772366400e9, 1e7, "ns"}}) {
         std::string text = "timestamp,F_N\n";
@@ -407,7 +407,7 @@ TEST(LoggerFiles, TimesSince1970AreRecognisedByTheirSize) {
 }
 
 TEST(LoggerFiles, UnitsBehindASlashAndInARowOfTheirOwnAreSeen) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const auto slash = read_logged(folder, "Time/s,Fz/mN,v/(m/s)\n0,500,1\n1,1000,1\n");
     EXPECT_EQ(slash.names, std::vector<std::string>{"Fz"});
     EXPECT_NEAR(slash.force[0][1], 1, 1e-12);
@@ -420,7 +420,7 @@ TEST(LoggerFiles, UnitsBehindASlashAndInARowOfTheirOwnAreSeen) {
 }
 
 TEST(LoggerFiles, LinesBeforeTheTableArePassedOverAndToldOrSkipped) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const std::string table =
         "time_s,fx_N,fz_N\n" + rows_of(20, [](int, double t, double F) { return fmt::format("{:.2f},1,{}\n", t, F); });
     for (const std::string before :
@@ -439,20 +439,20 @@ TEST(LoggerFiles, LinesBeforeTheTableArePassedOverAndToldOrSkipped) {
               std::string::npos);
     skip.table.skip_lines = 100;
     EXPECT_EQ(refused_logged(folder, "x,y\n1,2\n", skip), "x.csv: no data in this file");
-    EXPECT_NE(test::refusal(folder.write("x.npy", "?"), skip).find("--skip 100: only text files have lines to skip"), std::string::npos);
+    EXPECT_NE(test::load_error(folder.write("x.npy", "?"), skip).find("--skip 100: only text files have lines to skip"), std::string::npos);
 }
 
 TEST(LoggerFiles, LineEndsOfOldMacsAreNamedWithTheirRemedy) {
-    const Folder folder;
-    const auto said = try_recording(folder.write("x.csv", "time_s,F_N\r0,1\r1,2\r")).error().text();
+    const TemporaryFolder folder;
+    const auto said = try_load_recording(folder.write("x.csv", "time_s,F_N\r0,1\r1,2\r")).error().text();
     const auto at = said.find("tr '");
     ASSERT_NE(at, said.npos) << said;
     ASSERT_EQ(std::system(("cd '" + folder.path() + "' && " + said.substr(at)).c_str()), 0);
-    EXPECT_EQ(recording(folder / "x-lines.csv").force[0], (std::vector<double>{1, 2}));
+    EXPECT_EQ(load_recording(folder / "x-lines.csv").force[0], (std::vector<double>{1, 2}));
 }
 
 TEST(LoggerFiles, ATableCutShortOrTornIsNotTakenForAPreamble) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const std::string table = rows_of(20, [](int, double t, double F) { return fmt::format("{:.2f},{}\n", t, F); });
     EXPECT_NE(refused_logged(folder, "t,F\n" + table + "0.2").find("x.csv:22: 1 columns where 2 are expected"), std::string::npos);
     EXPECT_NE(refused_logged(folder, "t,F\n0,1\n\n0.1,2,3\n0.2,3,4\n0.3,4,5\n").find("x.csv:4: 3 columns where 2 are expected"),
@@ -462,7 +462,7 @@ TEST(LoggerFiles, ATableCutShortOrTornIsNotTakenForAPreamble) {
 }
 
 TEST(LoggerFiles, LabviewsTablesAreReadWithTheirClockUnitsAndRemarks) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const auto lvm = [&](const std::string& x, const std::string& rows) {
         return read_logged(
             folder,
@@ -486,13 +486,13 @@ TEST(LoggerFiles, LabviewsTablesAreReadWithTheirClockUnitsAndRemarks) {
 }
 
 TEST(LoggerFiles, AnIndexColumnIsLeftOutAndTold) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const auto line = [](int k, double t, double F) { return fmt::format("{},{:.2f},{:.3f}\n", k, t, F); };
     const auto pandas = read_logged(folder, ",time_s,fz_N\n" + rows_of(30, line));
     EXPECT_EQ(pandas.names, std::vector<std::string>{"fz"});
     EXPECT_TRUE(some_remark(pandas, "'ch1' was ignored: it counts the rows (use --channel 1 to include it)"));
-    EXPECT_EQ(recording(folder / "x.csv", {.channels = {"1"}}).force[0][7], 7) << "the remedy";
-    EXPECT_EQ(recording(folder / "x.csv", {.channels = {"1-2"}}).names, std::vector<std::string>{"fz"});
+    EXPECT_EQ(load_recording(folder / "x.csv", {.channels = {"1"}}).force[0][7], 7) << "the remedy";
+    EXPECT_EQ(load_recording(folder / "x.csv", {.channels = {"1-2"}}).names, std::vector<std::string>{"fz"});
     EXPECT_EQ(read_logged(folder, "sample,time_s,fz_N\n" + rows_of(3, line)).names, std::vector<std::string>{"fz"});
     EXPECT_EQ(read_logged(folder, "sample,fz_N\n0,1\n1,1\n0,2\n1,2\n", {.rate = 10}).names, std::vector<std::string>{"fz"})
         << "anew each trial";
@@ -511,12 +511,12 @@ TEST(LoggerFiles, AnIndexColumnIsLeftOutAndTold) {
 }
 
 TEST(LoggerFiles, AColumnInAUnitThatIsNoForceNeverPassesAsNewtons) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const auto r = read_logged(folder, "time_s,fz,temp_C,Tx [Nm],angle_deg\n0,1,31,2,3\n1,2,31,2,3\n");
     EXPECT_EQ(r.names, std::vector<std::string>{"fz"});
     EXPECT_TRUE(some_remark(r, "'temp' was ignored: C is not a unit of force (if the header is wrong, use --channel 2 --unit N)"));
-    EXPECT_EQ(recording(folder / "x.csv", {.channels = {"2"}, .unit = "N"}).force[0][0], 31) << "the remedy";
-    EXPECT_EQ(recording(folder / "x.csv", {.scale = 2}).names, std::vector<std::string>{"fz"}) << "nor does a scale make it one";
+    EXPECT_EQ(load_recording(folder / "x.csv", {.channels = {"2"}, .unit = "N"}).force[0][0], 31) << "the remedy";
+    EXPECT_EQ(load_recording(folder / "x.csv", {.scale = 2}).names, std::vector<std::string>{"fz"}) << "nor does a scale make it one";
     EXPECT_TRUE(
         some_remark(read_logged(folder, "time_s,fz_N,humidity [%]\n0,1,2\n1,1,2\n"), "'humidity' was ignored: % is not a unit of force"));
     EXPECT_NE(refused_logged(folder, "time_s,temp_C\n0,1\n1,1\n").find("'temp' is in C"), std::string::npos);
@@ -528,7 +528,7 @@ TEST(LoggerFiles, AColumnInAUnitThatIsNoForceNeverPassesAsNewtons) {
 }
 
 TEST(LoggerFiles, ACommentWithAsManyFieldsAsTheDataIsTheHeader) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const auto ros = read_logged(folder, "%time,field.header.seq,field.header.stamp,field.header.frame_id,field.wrench.force.z\n" +
                                              rows_of(30, [](int k, double, double F) {
                                                  const auto t = 1772366400000000000 + 10'000'000LL * k;
@@ -542,7 +542,7 @@ TEST(LoggerFiles, ACommentWithAsManyFieldsAsTheDataIsTheHeader) {
 }
 
 TEST(LoggerFiles, WordsAndEmptyColumnsAreLeftOutAndEmptyFieldsNameTheirRemedy) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const auto r = read_logged(folder, "time_s,fz_N,phase,notes\n0,1,rest,\n1,2,press,\n2,3,press,\n");
     EXPECT_EQ(r.names, std::vector<std::string>{"fz"});
     EXPECT_TRUE(some_remark(r, "'phase' was ignored: it holds words, not numbers"));
@@ -551,23 +551,23 @@ TEST(LoggerFiles, WordsAndEmptyColumnsAreLeftOutAndEmptyFieldsNameTheirRemedy) {
         refused_logged(folder, "time_s,fz_N\n0,1\n1,\n2,3\n"),
         "x.csv:3:3: column 'fz': an empty field where a number is expected; use --bad-fields interpolate to fill it in, or --bad-fields "
         "drop to skip the row");
-    EXPECT_EQ(recording(folder / "x.csv", {.bad_fields = BadFields::interpolate}).force[0], (std::vector<double>{1, 2, 3}));
+    EXPECT_EQ(load_recording(folder / "x.csv", {.bad_fields = BadFields::interpolate}).force[0], (std::vector<double>{1, 2, 3}));
     EXPECT_EQ(refused_logged(folder, "time_s,phase\n0,rest\n1,press\n"),
               "x.csv: no column holds force values: 'phase' holds words, not numbers; line 2 has 'rest'");
 }
 
 TEST(LoggerFiles, ChannelsAreChosenByRangesOfNamesAndCountedOnesAreCalledByName) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const auto path = folder.write("x.csv", "time_s,Channel 0_N,Channel 1_N,Channel 2_N,\"a,b_N\"\n0,1,2,3,4\n1,1,2,3,4\n");
-    const auto counted = recording(path, {.channels = {"2-3"}});
+    const auto counted = load_recording(path, {.channels = {"2-3"}});
     EXPECT_TRUE(some_remark(counted, "--channel 2-3 is 'Channel 1' to 'Channel 2'"));
     for (const auto* range : {"'Channel 1'-'Channel 2'", "Channel 1-Channel 2", "Channel 1_N-Channel 2"})
-        EXPECT_EQ(recording(path, {.channels = {range}}).names, counted.names) << range;
-    EXPECT_EQ(recording(path, {.channels = {"a,b"}}).names, std::vector<std::string>{"a,b"});
+        EXPECT_EQ(load_recording(path, {.channels = {range}}).names, counted.names) << range;
+    EXPECT_EQ(load_recording(path, {.channels = {"a,b"}}).names, std::vector<std::string>{"a,b"});
 }
 
 TEST(LoggerFiles, ATimeUnitAgainstTheHeaderIsTold) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const auto r = read_logged(folder, "time_s,F_N\n0,1\n1,2\n2,3\n", {.time_unit = "ms"});
     EXPECT_NEAR(r.clock.rate(), 1000, 1e-9);
     EXPECT_TRUE(some_remark(r, "--time-unit ms overrides the unit of 'time' in the header, s"));
@@ -586,7 +586,7 @@ std::string packed(const std::string& text) {
 }
 
 TEST(LoggerFiles, GzipIsUnpackedInPiecesAndItsDamageNamed) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const auto text = "time_s,F_N\n" + rows_of(60'000, [](int, double t, double F) { return fmt::format("{:.2f},{:.2f}\n", t, F); });
     const auto plain = read_logged(folder, text);
     EXPECT_EQ(read_logged(folder, packed(text), {}, "x.csv.gz").force, plain.force);
@@ -604,7 +604,7 @@ TEST(LoggerFiles, GzipIsUnpackedInPiecesAndItsDamageNamed) {
 }
 
 TEST(LoggerFiles, AGzipBombTakesNoMoreMemoryThanALineMay) {
-    const Folder folder;
+    const TemporaryFolder folder;
     EXPECT_NE(refused_logged(folder, packed(std::string(80'000'000, '1')), {}, "x.gz").find("the line is longer than 64 MB"),
               std::string::npos);
 }
@@ -616,7 +616,7 @@ std::string utf16(const std::string& ascii, bool big, bool mark) {
 }
 
 TEST(LoggerFiles, Utf16IsReadWithAndWithoutItsMark) {
-    const Folder folder;
+    const TemporaryFolder folder;
     for (const bool big : {false, true})
         for (const bool mark : {false, true}) {
             const auto r = read_logged(folder, utf16("time_s\tF_N\r\n0\t1\r\n1\t2\r\n", big, mark));
@@ -630,7 +630,7 @@ TEST(LoggerFiles, Utf16IsReadWithAndWithoutItsMark) {
 }
 
 TEST(LoggerFiles, JsonIsReadALineARecordAsAListAndAsColumns) {
-    const Folder folder;
+    const TemporaryFolder folder;
     for (const std::string text :
          {R"({"t":0,"fz_N":1.5,"name":"x"}
 {"t":0.5,"fz_N":2.5,"name":"y"}
@@ -656,15 +656,15 @@ TEST(LoggerFiles, JsonIsReadALineARecordAsAListAndAsColumns) {
 }
 
 TEST(LoggerFiles, AnErrorInAJsonDocumentNamesItsRecordAndNoLine) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const auto path = folder.write(
         "x.json", R"([{"t":"2026-03-01T12:00:00Z","f":1},{"t":"2026-03-01T12:00:01Z","f":2},{"t":"2025-03-01T12:00:02Z","f":1}])");
-    EXPECT_EQ(test::refusal(path, {.unit = "N"}).find("x.json: record 3: the time decreases from 1 s to "), 0U)
-        << test::refusal(path, {.unit = "N"});
+    EXPECT_EQ(test::load_error(path, {.unit = "N"}).find("x.json: record 3: the time decreases from 1 s to "), 0U)
+        << test::load_error(path, {.unit = "N"});
 }
 
 TEST(LoggerFiles, JsonThatIsNoTableIsRefusedWithItsPlace) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const std::pair<std::string, std::string> cases[] = {
         {"{\"t\":0,\"F\":1}\n{\"t\":1,\"F\":}\n", "x.json:2:12: this JSON is not valid"},
         {"{\"t\":0,\"F\":1}\n{\"t\":1,\"F\":null}\n{\"t\":2,\"F\":1}\n",
@@ -679,11 +679,11 @@ TEST(LoggerFiles, JsonThatIsNoTableIsRefusedWithItsPlace) {
     for (const auto& [text, said] : cases)
         EXPECT_NE(refused_logged(folder, text, {}, "x.json").find(said), std::string::npos) << refused_logged(folder, text, {}, "x.json");
     folder.write("x.json", "{\"t\":0,\"F\":1}\n{\"t\":1,\"F\":null}\n{\"t\":2,\"F\":3}\n");
-    EXPECT_EQ(recording(folder / "x.json", {.bad_fields = BadFields::interpolate}).force[0], (std::vector<double>{1, 2, 3}));
+    EXPECT_EQ(load_recording(folder / "x.json", {.bad_fields = BadFields::interpolate}).force[0], (std::vector<double>{1, 2, 3}));
 }
 
 TEST(LoggerFiles, OtherProgramsFilesAreNamedWithACommandThatConvertsThem) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const std::tuple<std::string, std::string, std::string> cases[] = {
         {"x.xlsx", std::string("PK\x03\x04 [Content_Types].xml\0", 24), "pandas.read_excel('"},
         {"x.parquet", "PAR1....", "pandas.read_parquet('"},
@@ -707,20 +707,20 @@ std::string command_in(const std::string& said) {
     return at == std::string::npos ? "" : said.substr(at + 22);
 }
 
-int typed(const Folder& folder, const std::string& command) {
+int typed(const TemporaryFolder& folder, const std::string& command) {
     return std::system(("cd '" + folder.path() + "' && { " + command + "; } >/dev/null 2>&1").c_str());
 }
 
 TEST(LoggerFiles, PackedFilesAreUnpackedByTheCommandThatIsNamed) {
     const std::string table = "time_s,fz_N\n0,1\n0.01,2\n0.02,3\n";
     for (const auto& [program, extension] : {std::pair{"bzip2", ".bz2"}, {"xz", ".xz"}, {"zstd", ".zst"}}) {
-        const Folder folder;
+        const TemporaryFolder folder;
         if (typed(folder, fmt::format("command -v {}", program)) != 0) continue;
         folder.write("plain", table);
         for (const auto& [name, made] :
              {std::pair{"x.csv" + std::string(extension), "x.csv"}, {"data", "data-unpacked"}, {"a b.csv", "a b-unpacked"}}) {
             ASSERT_EQ(typed(folder, fmt::format("{} -c < plain > '{}'", program, name)), 0);
-            const auto refused = try_recording(folder / name);
+            const auto refused = try_load_recording(folder / name);
             ASSERT_FALSE(refused);
             const auto command = command_in(refused.error().text());
             ASSERT_EQ(typed(folder, command), 0) << command;
@@ -730,7 +730,7 @@ TEST(LoggerFiles, PackedFilesAreUnpackedByTheCommandThatIsNamed) {
 }
 
 TEST(LoggerFiles, CommandsOfPythonAreWhole) {
-    const Folder folder;
+    const TemporaryFolder folder;
     if (typed(folder, "command -v python3") != 0) GTEST_SKIP() << "no python3 here";
     for (const auto& [name, bytes] : {std::pair{"x.xlsx", std::string("PK\x03\x04 [Content_Types].xml")},
                                       {"x y.parquet", std::string("PAR1")},
@@ -746,7 +746,7 @@ TEST(LoggerFiles, CommandsOfPythonAreWhole) {
 }
 
 TEST(LoggerFiles, AMatlabVectorOfTimesBesideTheForceIsItsClock) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const auto doubles = [](std::size_t count, double step) {
         std::string bytes;
         for (std::size_t k = 0; k < count; ++k) {
@@ -756,8 +756,8 @@ TEST(LoggerFiles, AMatlabVectorOfTimesBesideTheForceIsItsClock) {
         return bytes;
     };
     const auto made = make_archive(
-        {{"t_s.npy", test::npy("'<f8'", "(1, 50)", doubles(50, 0.01))}, {"force_N.npy", test::npy("'<f8'", "(1, 50)", doubles(50, 0.1))}});
-    const auto read = recording(folder.write("m.npz", test::sure(made)));
+        {{"t_s.npy", test::npy_bytes("'<f8'", "(1, 50)", doubles(50, 0.01))}, {"force_N.npy", test::npy_bytes("'<f8'", "(1, 50)", doubles(50, 0.1))}});
+    const auto read = load_recording(folder.write("m.npz", test::value_or_throw(made)));
     EXPECT_NEAR(read.clock.rate(), 100, 1e-6);
     EXPECT_EQ(read.force[0][10], 1);
 }

@@ -9,13 +9,13 @@
 #include "io/archive.hpp"
 #include "io/npy.hpp"
 #include "support/property.hpp"
-#include "support/recordings.hpp"
-#include "support/writers.hpp"
+#include "support/loaded_recording.hpp"
+#include "support/file_writers.hpp"
 
 namespace corpuscle {
 namespace {
 
-using test::Folder, test::npy, test::recording, test::refusal;
+using test::TemporaryFolder, test::npy_bytes, test::load_recording, test::load_error;
 
 template <class T>
 std::string bytes_of(T x, bool big) {
@@ -66,8 +66,8 @@ TEST(Npy, EveryKindOfNumberInBothOrdersAndBothEndsIsReadAsItWasWritten) {
         for (const auto& cell : cells) data += cell;
         const auto type = fmt::format("'{}{}'", big ? '>' : '<', kind.letters);
         const auto path = (std::filesystem::temp_directory_path() / fmt::format("corpuscle-npy-{}.npy", ::getpid())).string();
-        std::ofstream(path, std::ios::binary) << npy(type, fmt::format("({}, {})", rows, columns), data, by_columns, version);
-        const auto made = test::try_recording(path, {.table = {{}, false}, .rate = 100});
+        std::ofstream(path, std::ios::binary) << npy_bytes(type, fmt::format("({}, {})", rows, columns), data, by_columns, version);
+        const auto made = test::try_load_recording(path, {.table = {{}, false}, .rate = 100});
         std::filesystem::remove(path);
         RC_ASSERT(static_cast<bool>(made));
         RC_ASSERT(made->force == force);
@@ -88,11 +88,11 @@ TEST(Npy, HalvesAreReadToTheLastBit) {
 }
 
 TEST(Npy, AStructuresNumbersAreColumnsWithNameAndUnit) {
-    const Folder folder;
+    const TemporaryFolder folder;
     std::string data;
     for (int k = 0; k < 5000; ++k) data += bytes_of(std::uint32_t(k), false) + "ab" + bytes_of(static_cast<float>(k) * 30, true);
-    const auto path = folder.write("x.npy", npy("[('t_ms', '<u4'), ('note', '|S2'), ('fz_mN', '>f4')]", "(5000,)", data));
-    const auto made = recording(path);
+    const auto path = folder.write("x.npy", npy_bytes("[('t_ms', '<u4'), ('note', '|S2'), ('fz_mN', '>f4')]", "(5000,)", data));
+    const auto made = load_recording(path);
     EXPECT_EQ(made.names, std::vector<std::string>{"fz"});
     EXPECT_EQ(made.clock.rate(), 1000);
     ASSERT_EQ(made.force[0].size(), 5000U);
@@ -104,67 +104,67 @@ std::string records(const std::string& index, std::size_t rows = 500) {
     std::string data;
     for (std::size_t k = 0; k < rows; ++k)
         data += bytes_of(static_cast<std::int64_t>(k), false) + bytes_of(std::sin(static_cast<double>(k)), false);
-    return npy(fmt::format("[('{}', '<i8'), ('fz_N', '<f8')]", index), fmt::format("({},)", rows), data);
+    return npy_bytes(fmt::format("[('{}', '<i8'), ('fz_N', '<f8')]", index), fmt::format("({},)", rows), data);
 }
 
 TEST(Npy, AColumnThatCountsTheRowsIsNoForce) {
-    const Folder folder;
+    const TemporaryFolder folder;
     for (const std::string index : {"index", "sample", "frame", "level_0"}) {  // the last by its numbers alone
-        const auto made = recording(folder.write("x.npy", records(index)), {.rate = 100});
+        const auto made = load_recording(folder.write("x.npy", records(index)), {.rate = 100});
         EXPECT_EQ(made.names, std::vector<std::string>{"fz"}) << index;
         EXPECT_EQ(made.force[0][7], std::sin(7.0));
-        ASSERT_FALSE(made.remarks.empty());
-        EXPECT_EQ(made.remarks[0], fmt::format("'{}' was ignored: it counts the rows (use --channel 1 to include it)", index));
-        EXPECT_EQ(recording(folder / "x.npy", {.channels = {index}, .rate = 100}).force[0][7], 7);
+        ASSERT_FALSE(made.notes.empty());
+        EXPECT_EQ(made.notes[0], fmt::format("'{}' was ignored: it counts the rows (use --channel 1 to include it)", index));
+        EXPECT_EQ(load_recording(folder / "x.npy", {.channels = {index}, .rate = 100}).force[0][7], 7);
         const auto packed = make_archive({{"log.npy", records(index)}});
-        EXPECT_EQ(recording(folder.write("x.npz", test::sure(packed)), {.rate = 100}).names, std::vector<std::string>{"fz"}) << index;
+        EXPECT_EQ(load_recording(folder.write("x.npz", test::value_or_throw(packed)), {.rate = 100}).names, std::vector<std::string>{"fz"}) << index;
     }
 }
 
 TEST(Npy, AColumnInSecondsIsTheTimeWhateverItsName) {
-    const Folder folder;
+    const TemporaryFolder folder;
     std::string data;
     for (int k = 0; k < 500; ++k) data += bytes_of(0.01 * k, false) + bytes_of(2.0, false);
-    const auto made = recording(folder.write("x.npy", npy("[('Zeit_s', '<f8'), ('fz_N', '<f8')]", "(500,)", data)));
+    const auto made = load_recording(folder.write("x.npy", npy_bytes("[('Zeit_s', '<f8'), ('fz_N', '<f8')]", "(500,)", data)));
     EXPECT_EQ(made.names, std::vector<std::string>{"fz"});
     EXPECT_NEAR(made.clock.rate(), 100, 1e-6);
 }
 
 TEST(Npy, ARowLyingDownIsOneChannel) {
-    const Folder folder;
-    const auto made = recording(folder.write("x.npy", npy("'|u1'", "(1, 3)", "\1\2\3")), {.rate = 10});
+    const TemporaryFolder folder;
+    const auto made = load_recording(folder.write("x.npy", npy_bytes("'|u1'", "(1, 3)", "\1\2\3")), {.rate = 10});
     EXPECT_EQ(made.force, (std::vector<std::vector<double>>{{1, 2, 3}}));
 }
 
 TEST(Npy, WhatCannotBeReadIsSaid) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const auto said = [&](const std::string& bytes, const RecordingOptions& options = {.rate = 10}) {
-        return refusal(folder.write("x.npy", bytes), options);
+        return load_error(folder.write("x.npy", bytes), options);
     };
     const auto nan = bytes_of(std::nan(""), false), one = bytes_of(1.0, false);
-    EXPECT_EQ(said(npy("'<f8'", "(2, 2)", one + one + one + nan)), "x.npy: row 2: column 'ch2': nan where a number is expected");
-    EXPECT_EQ(said(npy("'<f8'", "(2, 2)", one + one + one)), "x.npy: the array needs 32 bytes, but the file has 24; it may be incomplete");
-    EXPECT_EQ(said(npy("'<f8'", "(99999999999, 99999999999)", one)),
+    EXPECT_EQ(said(npy_bytes("'<f8'", "(2, 2)", one + one + one + nan)), "x.npy: row 2: column 'ch2': nan where a number is expected");
+    EXPECT_EQ(said(npy_bytes("'<f8'", "(2, 2)", one + one + one)), "x.npy: the array needs 32 bytes, but the file has 24; it may be incomplete");
+    EXPECT_EQ(said(npy_bytes("'<f8'", "(99999999999, 99999999999)", one)),
               "x.npy: the array needs more than 2^64 bytes, but the file has 8; it may be incomplete");
-    EXPECT_EQ(said(npy("'<c16'", "(2,)", std::string(32, '\0'))),
+    EXPECT_EQ(said(npy_bytes("'<c16'", "(2,)", std::string(32, '\0'))),
               "x.npy: the array holds '<c16' (complex numbers); save the real part or the magnitude instead");
-    EXPECT_EQ(said(npy("'|O'", "(2,)", "\x80\x04")),
+    EXPECT_EQ(said(npy_bytes("'|O'", "(2,)", "\x80\x04")),
               "x.npy: the array holds '|O' (Python objects), which are not supported because loading them can run any code; save numbers "
               "instead");
-    EXPECT_EQ(said(npy("'<U3'", "(1,)", std::string(12, 'a'))),
+    EXPECT_EQ(said(npy_bytes("'<U3'", "(1,)", std::string(12, 'a'))),
               "x.npy: the array holds '<U3' (not a supported number type); supported are floats up to 64 bits, integers and booleans");
-    EXPECT_EQ(said(npy("'<f8'", "(0, 3)", "")), "x.npy: the array (0 x 3): it has no samples");
-    EXPECT_EQ(said(npy("'<f8'", "()", one)), "x.npy: the array (scalar): a recording must have one dimension, or two (rows and channels)");
-    EXPECT_EQ(said(npy("'<f8'", "(1, 1, 1)", one)),
+    EXPECT_EQ(said(npy_bytes("'<f8'", "(0, 3)", "")), "x.npy: the array (0 x 3): it has no samples");
+    EXPECT_EQ(said(npy_bytes("'<f8'", "()", one)), "x.npy: the array (scalar): a recording must have one dimension, or two (rows and channels)");
+    EXPECT_EQ(said(npy_bytes("'<f8'", "(1, 1, 1)", one)),
               "x.npy: the array (1 x 1 x 1): a recording must have one dimension, or two (rows and channels)");
-    EXPECT_EQ(said(npy("'<f8'", "(-1,)", one)), "x.npy: the shape in the header is not a list of non-negative integers");
-    EXPECT_EQ(said(npy("'<q8'", "(1,)", one)), "x.npy: unknown NumPy type '<q8' in the header");
-    EXPECT_EQ(said(npy("'<f8'", "(1,", one)), "x.npy: the header does not contain descr, fortran_order and shape");
+    EXPECT_EQ(said(npy_bytes("'<f8'", "(-1,)", one)), "x.npy: the shape in the header is not a list of non-negative integers");
+    EXPECT_EQ(said(npy_bytes("'<q8'", "(1,)", one)), "x.npy: unknown NumPy type '<q8' in the header");
+    EXPECT_EQ(said(npy_bytes("'<f8'", "(1,", one)), "x.npy: the header does not contain descr, fortran_order and shape");
     EXPECT_EQ(said("\x93NUMPY\x04\x01 and so on"), "x.npy: NPY version 4 is not supported (only 1, 2, 3)");
     EXPECT_EQ(said("a,b\n1,2\n3,4\n"), "x.npy: not an NPY file");
     EXPECT_EQ(said(""), "x.npy: not an NPY file");
-    EXPECT_EQ(said(npy("'<f8'", "(1,)", one), {.table = {"a"}, .rate = 10}), "--dataset a: an NPY file has only one array");
-    EXPECT_EQ(said(npy("'<f8'", "(1,)", one), {}),
+    EXPECT_EQ(said(npy_bytes("'<f8'", "(1,)", one), {.table = {"a"}, .rate = 10}), "--dataset a: an NPY file has only one array");
+    EXPECT_EQ(said(npy_bytes("'<f8'", "(1,)", one), {}),
               "x.npy: no time column found (columns: ch1); name one with --time, or give a rate, such as --rate 1kHz");
 }
 
@@ -183,32 +183,32 @@ std::string ramp_of(std::size_t count, double step = 1) {
 }
 
 TEST(Npz, TheArrayIsChosenByNameAndRateOrTimesStandBesideIt) {
-    const Folder folder;
-    const ArchiveEntry force{"force_mN.npy", npy("'<f8'", "(9000, 2)", ramp_of(18000))},
-        turned{"turned.npy", npy("'<f8'", "(9000, 2)", ramp_of(18000), true)},
-        rate{"fs.npy", npy("'<i8'", "()", bytes_of(std::int64_t(250), false))},
-        times{"t.npy", npy("'<f8'", "(9000,)", ramp_of(9000, 0.01))}, words{"who.npy", npy("'<U1'", "(1,)", std::string(4, 'a'))};
+    const TemporaryFolder folder;
+    const ArchiveEntry force{"force_mN.npy", npy_bytes("'<f8'", "(9000, 2)", ramp_of(18000))},
+        turned{"turned.npy", npy_bytes("'<f8'", "(9000, 2)", ramp_of(18000), true)},
+        rate{"fs.npy", npy_bytes("'<i8'", "()", bytes_of(std::int64_t(250), false))},
+        times{"t.npy", npy_bytes("'<f8'", "(9000,)", ramp_of(9000, 0.01))}, words{"who.npy", npy_bytes("'<U1'", "(1,)", std::string(4, 'a'))};
     const auto path = folder / "x.npz";
     for (const bool deflated : {false, true}) {
         const auto write = [&](const std::vector<ArchiveEntry>& members) {
-            deflated ? write_deflated(path, members) : void(folder.write("x.npz", test::sure(make_archive(members))));
+            deflated ? write_deflated(path, members) : void(folder.write("x.npz", test::value_or_throw(make_archive(members))));
         };
         write({force, rate, words});
-        const auto made = recording(path);
+        const auto made = load_recording(path);
         EXPECT_EQ(made.clock.rate(), 250);
         EXPECT_EQ(made.names, (std::vector<std::string>{"ch1", "ch2"}));
         EXPECT_EQ(made.force[1][8999], 17999 * 1e-3);
         write({times, force});
-        EXPECT_EQ(recording(path).clock.rate(), 100);
-        EXPECT_EQ(recording(path, {.channels = {"2"}}).force[0][8999], 17999 * 1e-3);
+        EXPECT_EQ(load_recording(path).clock.rate(), 100);
+        EXPECT_EQ(load_recording(path, {.channels = {"2"}}).force[0][8999], 17999 * 1e-3);
         write({force, rate, turned});
-        EXPECT_EQ(refusal(path),
+        EXPECT_EQ(load_error(path),
                   "x.npz: several arrays could be the recording; select one with --dataset NAME: force_mN (9000 x 2), turned (9000 x 2)");
-        EXPECT_EQ(recording(path, {.table = {"turned"}}).force[1][10], 9010);
-        EXPECT_EQ(refusal(path, {.table = {"forces_mN"}}),
+        EXPECT_EQ(load_recording(path, {.table = {"turned"}}).force[1][10], 9010);
+        EXPECT_EQ(load_error(path, {.table = {"forces_mN"}}),
                   "x.npz: no array 'forces_mN'; did you mean 'force_mN'?; arrays: force_mN (9000 x 2), fs (scalar), turned (9000 x 2)");
         write({words});
-        EXPECT_EQ(refusal(path),
+        EXPECT_EQ(load_error(path),
                   "x.npz: no array can be the recording, which must be numeric with one or two dimensions; arrays: who (1, not numeric)");
     }
 }

@@ -13,7 +13,7 @@
 namespace corpuscle {
 namespace {
 
-using test::Folder;
+using test::TemporaryFolder;
 
 const std::vector<std::int64_t> extreme_integers = {0, -1, std::numeric_limits<std::int64_t>::max(), std::numeric_limits<std::int64_t>::min()};
 const std::vector<double> numbers = {0.1, -0.0, 1e308, INFINITY};
@@ -24,17 +24,17 @@ std::string written() {
     npz.add("whole", extreme_integers);
     npz.add("numbers", numbers);
     npz.add("words", words);
-    return test::sure(npz.bytes());
+    return test::value_or_throw(npz.bytes());
 }
 
 TEST(Npz, ListsComeBackAsTheyWere) {
-    const Folder folder;
-    const auto npz = test::sure(NpzReader::open(folder.write("x.npz", written())));
+    const TemporaryFolder folder;
+    const auto npz = test::value_or_throw(NpzReader::open(folder.write("x.npz", written())));
     EXPECT_EQ(npz.names(), (std::vector<std::string>{"whole", "numbers", "words"}));
-    EXPECT_EQ(test::sure(npz.integers("whole")), extreme_integers);
-    EXPECT_EQ(test::sure(npz.numbers("numbers")), numbers);
-    EXPECT_TRUE(std::signbit(test::sure(npz.numbers("numbers"))[1]));
-    EXPECT_EQ(test::sure(npz.strings("words")), words);
+    EXPECT_EQ(test::value_or_throw(npz.integers("whole")), extreme_integers);
+    EXPECT_EQ(test::value_or_throw(npz.numbers("numbers")), numbers);
+    EXPECT_TRUE(std::signbit(test::value_or_throw(npz.numbers("numbers"))[1]));
+    EXPECT_EQ(test::value_or_throw(npz.strings("words")), words);
 }
 
 TEST(Npz, AnyListsComeBackAsTheyWere) {
@@ -49,12 +49,12 @@ TEST(Npz, AnyListsComeBackAsTheyWere) {
         npz.add("r", reals);
         npz.add("t", plain);
         const auto path = (std::filesystem::temp_directory_path() / ("corpuscle-npz-" + std::to_string(::getpid()) + ".npz")).string();
-        std::ofstream(path, std::ios::binary) << test::sure(npz.bytes());
-        const auto back = test::sure(NpzReader::open(path));
+        std::ofstream(path, std::ios::binary) << test::value_or_throw(npz.bytes());
+        const auto back = test::value_or_throw(NpzReader::open(path));
         std::filesystem::remove(path);
-        RC_ASSERT(test::sure(back.integers("i")) == integers);
-        RC_ASSERT(test::sure(back.numbers("r")) == reals);
-        RC_ASSERT(test::sure(back.strings("t")) == plain);
+        RC_ASSERT(test::value_or_throw(back.integers("i")) == integers);
+        RC_ASSERT(test::value_or_throw(back.numbers("r")) == reals);
+        RC_ASSERT(test::value_or_throw(back.strings("t")) == plain);
     }));
 }
 
@@ -71,22 +71,22 @@ TEST(Npz, TheBytesDoNotDependOnTheClockOrItsZone) {
 }
 
 TEST(Npz, WhatIsNotThereOrOfAnotherKindIsSaid) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const auto path = folder.write("x.npz", written());
-    const auto npz = test::sure(NpzReader::open(path));
+    const auto npz = test::value_or_throw(NpzReader::open(path));
     EXPECT_TRUE(npz.has("words"));
     EXPECT_FALSE(npz.has("word"));
     EXPECT_EQ(npz.strings("word").error().text(), path + ": no array 'word'; did you mean 'words'?");
     EXPECT_EQ(npz.strings("whole").error().text(), path + "/whole: the type is '<i8', expected strings");
     EXPECT_EQ(npz.integers("numbers").error().text(), path + "/numbers: the type is '<f8', expected integers");
-    EXPECT_EQ(test::sure(npz.numbers("whole"))[1], -1) << "whole numbers are numbers";
+    EXPECT_EQ(test::value_or_throw(npz.numbers("whole"))[1], -1) << "whole numbers are numbers";
     const auto text = folder.write("y.npz", "a,b\n1,2\n");
     EXPECT_EQ(NpzReader::open(text).error().text(), text + ": cannot be read as a zip archive: Not a zip archive");
     const auto cut = folder.write("z.npz", written().substr(0, 300));
     EXPECT_FALSE(NpzReader::open(cut));
     auto damaged = written();
     damaged[damaged.find("NUMPY", 200) + 127] ^= 1;  // one bit of the numbers: the archive's checksum tells
-    EXPECT_EQ(test::sure(NpzReader::open(folder.write("d.npz", damaged))).numbers("numbers").error().message,
+    EXPECT_EQ(test::value_or_throw(NpzReader::open(folder.write("d.npz", damaged))).numbers("numbers").error().message,
               "cannot be decompressed: CRC error");
 }
 
@@ -104,9 +104,9 @@ std::string with_size(std::string bytes, int more, bool damaged) {
 }
 
 TEST(Npz, AWrongSizeInTheDirectoryHidesNoDamage) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const auto numbers_of = [&](int more, bool damaged) {
-        const auto npz = test::sure(NpzReader::open(folder.write("x.npz", with_size(written(), more, damaged))));
+        const auto npz = test::value_or_throw(NpzReader::open(folder.write("x.npz", with_size(written(), more, damaged))));
         return npz.numbers("numbers");
     };
     EXPECT_TRUE(numbers_of(0, false));

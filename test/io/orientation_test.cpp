@@ -3,13 +3,13 @@
 #include <cstring>
 
 #include "io/archive.hpp"
-#include "support/recordings.hpp"
-#include "support/writers.hpp"
+#include "support/loaded_recording.hpp"
+#include "support/file_writers.hpp"
 
 namespace corpuscle {
 namespace {
 
-using test::Folder, test::npy, test::recording, test::refusal;
+using test::TemporaryFolder, test::npy_bytes, test::load_recording, test::load_error;
 
 /// Two channels of 3000 samples, as rows; or of so many more.
 std::string lying_down(std::size_t rows = 2, bool by_columns = false) {
@@ -19,46 +19,46 @@ std::string lying_down(std::size_t rows = 2, bool by_columns = false) {
             const double x = static_cast<double>(r * 3000 + k) * 1e-4;
             std::memcpy(&data[(by_columns ? k * rows + r : r * 3000 + k) * sizeof x], &x, sizeof x);
         }
-    return npy("'<f8'", fmt::format("({}, 3000)", rows), data, by_columns);
+    return npy_bytes("'<f8'", fmt::format("({}, 3000)", rows), data, by_columns);
 }
 
 TEST(Orientation, AnArrayOfMoreChannelsThanSamplesIsRefusedUntilOneSaysWhichIsWhich) {
-    const Folder folder;
+    const TemporaryFolder folder;
     for (const bool by_columns : {false, true}) {
         const auto path = folder.write("x.npy", lying_down(2, by_columns));
-        EXPECT_EQ(refusal(path, {.rate = 500}),
+        EXPECT_EQ(load_error(path, {.rate = 500}),
                   "x.npy: the array (2 x 3000): 3000 channels of only 2 samples? Use --transpose if each row is a channel, or "
                   "--no-transpose if each row is a sample");
-        const auto turned = recording(path, {.table = {{}, true}, .rate = 500}, 1000);
+        const auto turned = load_recording(path, {.table = {{}, true}, .rate = 500}, 1000);
         EXPECT_EQ(turned.names, (std::vector<std::string>{"ch1", "ch2"}));
         EXPECT_EQ(turned.force[1][2999], 5999 * 1e-4);
-        EXPECT_EQ(recording(path, {.table = {{}, true}, .channels = {"2"}, .rate = 500}).force[0][7], 3007 * 1e-4);
-        const auto upright = recording(path, {.table = {{}, false}, .rate = 500});
+        EXPECT_EQ(load_recording(path, {.table = {{}, true}, .channels = {"2"}, .rate = 500}).force[0][7], 3007 * 1e-4);
+        const auto upright = load_recording(path, {.table = {{}, false}, .rate = 500});
         EXPECT_EQ(upright.names.size(), 3000U);
         EXPECT_EQ(upright.force[7][1], 3007 * 1e-4);
     }
     const auto row = folder.write("row.npy", lying_down(1));
-    EXPECT_EQ(recording(row, {.rate = 500}).force[0].size(), 3000U);
-    EXPECT_EQ(recording(row, {.table = {{}, false}, .rate = 500}).names.size(), 3000U) << "one sample of many electrodes, if one insists";
+    EXPECT_EQ(load_recording(row, {.rate = 500}).force[0].size(), 3000U);
+    EXPECT_EQ(load_recording(row, {.table = {{}, false}, .rate = 500}).names.size(), 3000U) << "one sample of many electrodes, if one insists";
 }
 
 TEST(Orientation, TimesInTheSameArchiveSayWhichDimensionIsTheirs) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const auto times = [](std::size_t count) {
         std::string data;
         for (std::size_t k = 0; k < count; ++k) {
             const double t = static_cast<double>(k) * 0.01;
             data.append(reinterpret_cast<const char*>(&t), sizeof t);
         }
-        return ArchiveEntry{"t.npy", npy("'<f8'", fmt::format("({},)", count), data)};
+        return ArchiveEntry{"t.npy", npy_bytes("'<f8'", fmt::format("({},)", count), data)};
     };
     for (const bool by_columns : {false, true}) {
         const ArchiveEntry force{"force.npy", lying_down(2, by_columns)};
-        const auto turned = recording(folder.write("x.npz", test::sure(make_archive({force, times(3000)}))));
+        const auto turned = load_recording(folder.write("x.npz", test::value_or_throw(make_archive({force, times(3000)}))));
         EXPECT_EQ(turned.force.size(), 2U);
         EXPECT_EQ(turned.force[1][5], 3005 * 1e-4);
-        EXPECT_NE(turned.remarks.at(0).find("2 channels of 3000 samples, to match the times"), std::string::npos);
-        EXPECT_EQ(recording(folder.write("y.npz", test::sure(make_archive({force, times(2)})))).force.size(), 3000U);
+        EXPECT_NE(turned.notes.at(0).find("2 channels of 3000 samples, to match the times"), std::string::npos);
+        EXPECT_EQ(load_recording(folder.write("y.npz", test::value_or_throw(make_archive({force, times(2)})))).force.size(), 3000U);
     }
 }
 
@@ -70,36 +70,36 @@ std::string wide_text(const std::string& header = "") {
 }
 
 TEST(Orientation, WideTextIsDoubtedAndTurned) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const auto path = folder.write("x.csv", wide_text());
-    const auto upright = recording(path, {.time = "none", .rate = 100});
+    const auto upright = load_recording(path, {.time = "none", .rate = 100});
     EXPECT_EQ(upright.names.size(), 40U);
     ASSERT_FALSE(upright.quality.warnings.empty());
     EXPECT_EQ(upright.quality.warnings.back(),
               "40 columns, but only 3 rows. Use --transpose if each row is a channel, or --no-transpose if each row is a sample");
-    const auto insisted = recording(path, {.table = {{}, false}, .time = "none", .rate = 100});
+    const auto insisted = load_recording(path, {.table = {{}, false}, .time = "none", .rate = 100});
     for (const auto& w : insisted.quality.warnings) EXPECT_EQ(w.find("--transpose"), std::string::npos);
-    const auto turned = recording(path, {.table = {{}, true}, .rate = 100});
+    const auto turned = load_recording(path, {.table = {{}, true}, .rate = 100});
     EXPECT_EQ(turned.names, (std::vector<std::string>{"ch1", "ch2", "ch3"}));
     EXPECT_NEAR(turned.force[2][39], 1.19, 1e-12);
     std::string names;
     for (int k = 0; k < 40; ++k) names += fmt::format("taxel{}_N{}", k, k == 39 ? "\n" : ",");
-    const auto named = recording(folder.write("y.csv", wide_text(names)), {.time = "none", .rate = 100});
+    const auto named = load_recording(folder.write("y.csv", wide_text(names)), {.time = "none", .rate = 100});
     for (const auto& w : named.quality.warnings) EXPECT_EQ(w.find("--transpose"), std::string::npos) << "its columns have names";
 }
 
 TEST(Orientation, ASoundFileCannotBeTurned) {
-    const Folder folder;
-    test::write_sound(folder / "x.wav", SF_FORMAT_WAV | SF_FORMAT_PCM_16, 1000, {{0, 0.5, 0.25}});
-    EXPECT_EQ(refusal(folder / "x.wav", {.table = {{}, true}, .scale = 1}),
+    const TemporaryFolder folder;
+    test::write_audio(folder / "x.wav", SF_FORMAT_WAV | SF_FORMAT_PCM_16, 1000, {{0, 0.5, 0.25}});
+    EXPECT_EQ(load_error(folder / "x.wav", {.table = {{}, true}, .scale = 1}),
               "--transpose: a sound file defines its channels, so it cannot be transposed");
 }
 
 TEST(Orientation, OneChannelThatNeverChangesIsDoubted) {
-    const Folder folder;
+    const TemporaryFolder folder;
     std::string text = "fz_N\n";
     for (int k = 0; k < 100; ++k) text += "0\n";
-    const auto made = recording(folder.write("x.csv", text), {.rate = 100});
+    const auto made = load_recording(folder.write("x.csv", text), {.rate = 100});
     ASSERT_EQ(made.quality.warnings.size(), 1U);
     EXPECT_EQ(made.quality.warnings[0], "the force is constant, 0 N; check the file and the channel");
 }

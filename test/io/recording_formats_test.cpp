@@ -5,13 +5,13 @@
 #include <cmath>
 
 #include "io/archive.hpp"
-#include "support/recordings.hpp"
-#include "support/writers.hpp"
+#include "support/loaded_recording.hpp"
+#include "support/file_writers.hpp"
 
 namespace corpuscle {
 namespace {
 
-using test::Folder;
+using test::TemporaryFolder;
 
 constexpr double sample_rate = 500;
 const std::vector<std::vector<double>> two_channels = [] {
@@ -35,32 +35,32 @@ std::string text() {
 }
 
 /// How each format of the list is written. A new one wants a row here.
-const std::pair<std::string_view, void (*)(const Folder&, const std::string& name)> writers[] = {
-    {"text", [](const Folder& f, const std::string& name) { f.write(name, text()); }},
-    {"npy", [](const Folder& f, const std::string& name) { f.write(name, test::npy("'<f8'", "(5000, 2)", interleaved())); }},
+const std::pair<std::string_view, void (*)(const TemporaryFolder&, const std::string& name)> writers[] = {
+    {"text", [](const TemporaryFolder& f, const std::string& name) { f.write(name, text()); }},
+    {"npy", [](const TemporaryFolder& f, const std::string& name) { f.write(name, test::npy_bytes("'<f8'", "(5000, 2)", interleaved())); }},
     {"npz",
-     [](const Folder& f, const std::string& name) {
-         f.write(name, test::sure(make_archive({{"force_N.npy", test::npy("'<f8'", "(5000, 2)", interleaved())}})));
+     [](const TemporaryFolder& f, const std::string& name) {
+         f.write(name, test::value_or_throw(make_archive({{"force_N.npy", test::npy_bytes("'<f8'", "(5000, 2)", interleaved())}})));
      }},
     {"sound",
-     [](const Folder& f, const std::string& name) {
+     [](const TemporaryFolder& f, const std::string& name) {
          const auto kind = name.substr(name.find('.'));
          const int outer = kind == ".wav"    ? SF_FORMAT_WAV
                            : kind == ".w64"  ? SF_FORMAT_W64
                            : kind == ".flac" ? SF_FORMAT_FLAC
                            : kind == ".au"   ? SF_FORMAT_AU
                                              : SF_FORMAT_AIFF;
-         test::write_sound(f / name, outer | (outer == SF_FORMAT_FLAC ? SF_FORMAT_PCM_16 : SF_FORMAT_FLOAT), 500, two_channels);
+         test::write_audio(f / name, outer | (outer == SF_FORMAT_FLAC ? SF_FORMAT_PCM_16 : SF_FORMAT_FLOAT), 500, two_channels);
      }},
     {"hdf5",
-     [](const Folder& f, const std::string& name) {
+     [](const TemporaryFolder& f, const std::string& name) {
          const auto data = interleaved();
-         test::Hdf5File(f / name).raw("/force", H5T_NATIVE_DOUBLE, H5T_NATIVE_DOUBLE, {5000, 2}, data.data());
+         test::Hdf5File(f / name).write_raw("/force", H5T_NATIVE_DOUBLE, H5T_NATIVE_DOUBLE, {5000, 2}, data.data());
      }},
 };
 
 TEST(EveryFormat, GivesTheSameForce) {
-    const Folder folder;
+    const TemporaryFolder folder;
     for (const auto& format : recording_formats) {
         const auto writer = std::find_if(std::begin(writers), std::end(writers), [&](const auto& w) { return w.first == format.name; });
         ASSERT_NE(writer, std::end(writers)) << "nobody writes " << format.name;
@@ -69,7 +69,7 @@ TEST(EveryFormat, GivesTheSameForce) {
             const std::string name = "x" + extension;
             if (format.name == "text" && extension != ".csv") continue;  // recording_test reads them in every style
             writer->second(folder, name);
-            const auto made = test::recording(folder / name, {.rate = sample_rate, .scale = 1});
+            const auto made = test::load_recording(folder / name, {.rate = sample_rate, .scale = 1});
             EXPECT_EQ(made.force, two_channels) << name;
             EXPECT_EQ(made.names, (std::vector<std::string>{"ch1", "ch2"})) << name;
             EXPECT_EQ(made.clock.rate(), sample_rate) << name;
@@ -78,14 +78,14 @@ TEST(EveryFormat, GivesTheSameForce) {
 }
 
 TEST(EveryFormat, SaysSoIfTheFileIsMissingOrEmpty) {
-    const Folder folder;
+    const TemporaryFolder folder;
     for (const auto& format : recording_formats) {
         const auto name = "x" + std::string(format.extensions.substr(0, format.extensions.find(' ')));
-        EXPECT_EQ(test::refusal(folder / name), name + ": cannot be opened: No such file or directory");
-        EXPECT_NE(test::refusal(folder.write(name, "")), "read") << format.name;
+        EXPECT_EQ(test::load_error(folder / name), name + ": cannot be opened: No such file or directory");
+        EXPECT_NE(test::load_error(folder.write(name, "")), "read") << format.name;
         std::filesystem::remove(folder / name);
         std::filesystem::create_directory(folder / name);
-        EXPECT_EQ(test::refusal(folder / name), name + ": this is a directory, not a recording");
+        EXPECT_EQ(test::load_error(folder / name), name + ": this is a directory, not a recording");
     }
 }
 

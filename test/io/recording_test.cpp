@@ -9,20 +9,20 @@
 #include "io/clock_analysis.hpp"
 #include "io/recording_formats.hpp"
 #include "support/property.hpp"
-#include "support/recordings.hpp"
+#include "support/loaded_recording.hpp"
 
 namespace corpuscle {
 namespace {
 
-using test::Folder;
+using test::TemporaryFolder;
 
-using Read = test::WholeRecording;
-using test::try_recording;
+using Read = test::LoadedRecording;
+using test::try_load_recording;
 
-Read read(const std::string& path, const RecordingOptions& options = {}) { return test::recording(path, options); }
+Read read(const std::string& path, const RecordingOptions& options = {}) { return test::load_recording(path, options); }
 
-std::string said(const Folder& folder, const std::string& text, const RecordingOptions& options = {}) {
-    return test::refusal(folder.write("x.csv", text), options);
+std::string said(const TemporaryFolder& folder, const std::string& text, const RecordingOptions& options = {}) {
+    return test::load_error(folder.write("x.csv", text), options);
 }
 
 using Rows = std::vector<std::vector<double>>;
@@ -79,8 +79,8 @@ TEST(Recording, IsReadInEveryStyle) {
         {"signs and exponents", "t,F_N\n0,+1e0\n1,-2.5E-1\n2,.5\n", {}, {"F"}, 1, {{1, -0.25, 0.5}}},
     };
     for (const auto& c : cases) {
-        const Folder folder;
-        const auto made = try_recording(folder.write("x.csv", c.text), c.options);
+        const TemporaryFolder folder;
+        const auto made = try_load_recording(folder.write("x.csv", c.text), c.options);
         ASSERT_TRUE(made) << c.style << ": " << made.error().text();
         EXPECT_EQ(made->names, c.names) << c.style;
         EXPECT_NEAR(made->clock.rate(), c.rate, 1e-9) << c.style;
@@ -93,7 +93,7 @@ TEST(Recording, IsReadInEveryStyle) {
 }
 
 TEST(Recording, ChannelsAreChosenByNameNumberAndRange) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const auto path = folder.write("x.csv", "time_s,a_N,b_N,c_N,d_N\n0,1,2,3,4\n1,5,6,7,8\n");
     const auto names = [&](std::vector<std::string> channels) { return read(path, {.channels = channels}).names; };
     using Names = std::vector<std::string>;
@@ -106,7 +106,7 @@ TEST(Recording, ChannelsAreChosenByNameNumberAndRange) {
 }
 
 TEST(Recording, ErrorsNameFileLineColumnAndWhatWouldBeRight) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const std::string bad_field = "; use --bad-fields interpolate to fill it in, or --bad-fields drop to skip the row";
     EXPECT_EQ(said(folder, ""), "x.csv: no data in this file");
     EXPECT_EQ(said(folder, "# only this\n"), "x.csv: no data in this file");
@@ -132,12 +132,12 @@ TEST(Recording, ErrorsNameFileLineColumnAndWhatWouldBeRight) {
               "x.csv: no time column 'z'; did you mean 't'?; give a name, a number or 'none' (columns: t, F)");
     EXPECT_EQ(said(folder, "t,F\n0,1\n", {.unit = "N", .scale = 2}),
               "--unit and --scale exclude each other: both convert the values to newtons");
-    EXPECT_EQ(try_recording(folder.path()).error().text(), folder.path() + ": this is a directory, not a recording");
-    EXPECT_EQ(try_recording(folder / "none.csv").error().text(), (folder / "none.csv") + ": cannot be opened: No such file or directory");
+    EXPECT_EQ(try_load_recording(folder.path()).error().text(), folder.path() + ": this is a directory, not a recording");
+    EXPECT_EQ(try_load_recording(folder / "none.csv").error().text(), (folder / "none.csv") + ": cannot be opened: No such file or directory");
 }
 
 TEST(Recording, HeadingsAreReadAsPeopleWriteThem) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const auto one = [&](const std::string& text, const RecordingOptions& options = {}) {
         return read(folder.write("x.csv", text), options);
     };
@@ -162,37 +162,37 @@ TEST(Recording, HeadingsAreReadAsPeopleWriteThem) {
 }
 
 TEST(Recording, WhatTheUserSaysAgainstTheHeaderIsTold) {
-    const Folder folder;
-    EXPECT_EQ(read(folder.write("x.csv", "t,F_N\n0,1\n0.1,2\n"), {.unit = "mN"}).remarks.at(0),
+    const TemporaryFolder folder;
+    EXPECT_EQ(read(folder.write("x.csv", "t,F_N\n0,1\n0.1,2\n"), {.unit = "mN"}).notes.at(0),
               "--unit mN overrides the unit of 'F' in the header, N");
 }
 
 TEST(Recording, MillisecondsWithoutAUnitAreDoubtedAndTheirUnitCanBeSaid) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const auto path = folder.write("x.csv", "timestamp,F_N\n421419,1\n421447,2\n421475,3\n");
-    EXPECT_EQ(read(path).remarks.at(0),
+    EXPECT_EQ(read(path).notes.at(0),
               "no unit for 'timestamp': assuming seconds, which gives a rate of 0.035714 Hz; use --time-unit ms if they are milliseconds");
     const auto said_so = read(path, {.time_unit = "ms"});
     EXPECT_NEAR(said_so.clock.rate(), 1000.0 / 28, 1e-9);
     EXPECT_NEAR(said_so.clock.t0, 421.419, 1e-12);
-    EXPECT_TRUE(said_so.remarks.empty());
+    EXPECT_TRUE(said_so.notes.empty());
 }
 
 TEST(Recording, TimesThatCannotBeReadDoNotMatterBesideARate) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const auto made = read(folder.write("x.csv", "time,F_N\n01/02/2026 0:00,1\n01/02/2026 0:01,2\n"), {.rate = 1});
     EXPECT_EQ(made.force, (Rows{{1, 2}}));
-    EXPECT_EQ(made.remarks.at(0),
+    EXPECT_EQ(made.notes.at(0),
               "the times were ignored (column 'time': '01/02/2026 0:00' where a number is expected); the recording starts at 0 s");
 }
 
 TEST(Recording, ARateCloseToAWholeNumberIsThatNumber) {
-    EXPECT_EQ(test::sure(make_clock(999.9128, 0, 1e-3)).rate(), 1000);
-    EXPECT_EQ(test::sure(make_clock(199.81, 0, 1e-3)).rate(), 200);
+    EXPECT_EQ(test::value_or_throw(make_clock(999.9128, 0, 1e-3)).rate(), 1000);
+    EXPECT_EQ(test::value_or_throw(make_clock(199.81, 0, 1e-3)).rate(), 200);
 }
 
 TEST(Recording, AnUnevenClockIsRefusedReplacedOrInterpolatedButKnowingly) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const std::string bursts = "time_s,F_N\n0,0\n0.001,1\n0.002,2\n0.003,3\n0.1,4\n0.101,5\n0.102,6\n0.2,7\n";
     EXPECT_EQ(said(folder, bursts).substr(0, 150),
               "x.csv: the times in 'time' are not evenly spaced: mean rate 35 Hz, steps from 1 ms to 98 ms, jitter up to 82.71 ms. "
@@ -200,18 +200,18 @@ TEST(Recording, AnUnevenClockIsRefusedReplacedOrInterpolatedButKnowingly) {
     const auto path = folder / "x.csv";
     const auto even = read(path, {.rate = 35});
     EXPECT_EQ(even.force[0], (std::vector<double>{0, 1, 2, 3, 4, 5, 6, 7}));
-    EXPECT_EQ(even.remarks.at(0), "the uneven times in 'time' (steps from 1 ms to 98 ms) were replaced by an even clock of 35 Hz");
+    EXPECT_EQ(even.notes.at(0), "the uneven times in 'time' (steps from 1 ms to 98 ms) were replaced by an even clock of 35 Hz");
     const auto between = read(path, {.resample = 20});
     ASSERT_EQ(between.force[0].size(), 5U);
     const double right[] = {0, 3 + 47.0 / 97, 4, 6 + 48.0 / 98, 7};
     for (int k = 0; k < 5; ++k) EXPECT_NEAR(between.force[0][static_cast<std::size_t>(k)], right[k], 1e-9);
-    EXPECT_EQ(between.remarks.at(0), "the uneven times in 'time' (steps from 1 ms to 98 ms) were interpolated at 20 Hz");
+    EXPECT_EQ(between.notes.at(0), "the uneven times in 'time' (steps from 1 ms to 98 ms) were interpolated at 20 Hz");
     EXPECT_EQ(said(folder, "t,F\n0,1\n0,2\n1,3\n4,4\n", {.resample = 2}),
               "x.csv:3: the time 0 s occurs twice; use --rate to take the rows as evenly spaced");
 }
 
 TEST(Recording, RoundedTimesAreEvenAndTheirRateIsTheSimplest) {
-    const Folder folder;
+    const TemporaryFolder folder;
     std::string text = "time_s,F_N\n";
     for (int k = 0; k < 2000; ++k) text += fmt::format("{:.3f},{}\n", k / 242.6, k);  // to the millisecond
     const auto made = read(folder.write("x.csv", text));
@@ -224,20 +224,20 @@ TEST(Recording, RoundedTimesAreEvenAndTheirRateIsTheSimplest) {
 }
 
 TEST(Recording, WhatTheClockSaysAgainstTheRateIsTold) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const auto path = folder.write("x.csv", "time_s,F\n0,1\n0.01,2\n0.02,3\n");
-    EXPECT_EQ(read(path).remarks.at(0), "no unit for 'F': assuming newtons");
-    EXPECT_EQ(read(path, {.rate = 50}).remarks.at(0), "--rate is 50 Hz, but the mean rate of the times in 'time' is 100 Hz");
+    EXPECT_EQ(read(path).notes.at(0), "no unit for 'F': assuming newtons");
+    EXPECT_EQ(read(path, {.rate = 50}).notes.at(0), "--rate is 50 Hz, but the mean rate of the times in 'time' is 100 Hz");
 }
 
 TEST(Recording, AHeaderAloneIsNoSampleResampledOrNot) {  // found by fuzzing
-    const Folder folder;
+    const TemporaryFolder folder;
     EXPECT_TRUE(read(folder.write("x.csv", "F_N\n"), {.rate = 30, .resample = 30}).force[0].empty());
     EXPECT_TRUE(read(folder / "x.csv", {.rate = 30}).force[0].empty());
 }
 
 TEST(Recording, ResampledAtItsOwnRateIsItself) {
-    const Folder folder;
+    const TemporaryFolder folder;
     std::string text = "F_N\n";
     for (int k = 0; k < 100; ++k) text += fmt::format("{}\n", k * k);
     const auto path = folder.write("x.csv", text);
@@ -276,7 +276,7 @@ TEST(Recording, EveryFormatReadsBackWhatWasWritten) {
             }
         const auto path = (std::filesystem::temp_directory_path() / fmt::format("corpuscle-round-trip-{}.csv", ::getpid())).string();
         std::ofstream(path, std::ios::binary) << text;
-        const auto made = try_recording(path, {.time = "none", .rate = 100});
+        const auto made = try_load_recording(path, {.time = "none", .rate = 100});
         std::filesystem::remove(path);
         RC_ASSERT(static_cast<bool>(made));
         RC_ASSERT(made->force == values);
@@ -316,16 +316,16 @@ TEST(ClockAnalysis, CountsGapsAgainstTheUsualStep) {
 }
 
 TEST(Recording, TheFirstPassThroughTheTimesCanBeStopped) {
-    const Folder folder;
+    const TemporaryFolder folder;
     RecordingOptions options;
     options.should_continue = [](double) { return false; };
-    const auto made = try_recording(folder.write("x.csv", "t_s,F_N\n0,1\n1,2\n2,3\n"), options);
+    const auto made = try_load_recording(folder.write("x.csv", "t_s,F_N\n0,1\n1,2\n2,3\n"), options);
     ASSERT_FALSE(made);
     EXPECT_EQ(made.error().code, ErrorCode::interrupted);
 }
 
 TEST(Recording, MoreChannelsThanCanBeAnsweredAtOnceAreRefused) {
-    const Folder folder;
+    const TemporaryFolder folder;
     std::string text;
     for (int c = 0; c < 140'000; ++c) text += c ? ",1" : "1";
     EXPECT_EQ(said(folder, text + "\n", {.rate = 10}),
@@ -333,10 +333,10 @@ TEST(Recording, MoreChannelsThanCanBeAnsweredAtOnceAreRefused) {
 }
 
 TEST(Recording, APersonsPressOnTheElectronicSkinIsFelt) {
-    const auto path = test::shared("fbg_eskin_press/fbg_press_S6_T16.csv");
+    const auto path = test::shared_file_path("fbg_eskin_press/fbg_press_S6_T16.csv");
     CORPUSCLE_NEEDS(path);
-    EXPECT_NE(try_recording(path).error().text().find("is in nm, which is not a force"), std::string::npos);
-    const auto refused = try_recording(path, {.scale = 40});
+    EXPECT_NE(try_load_recording(path).error().text().find("is in nm, which is not a force"), std::string::npos);
+    const auto refused = try_load_recording(path, {.scale = 40});
     ASSERT_FALSE(refused) << "its clock comes in bursts";
     EXPECT_NE(refused.error().text().find("not evenly spaced: mean rate 100.0"), std::string::npos) << refused.error().text();
     const auto press = read(path, {.rate = 100, .scale = 40});
@@ -361,11 +361,11 @@ TEST(Recording, APersonsPressOnTheElectronicSkinIsFelt) {
 }
 
 TEST(Recording, TheInsolesTimesAreTakenAsTheyAre) {
-    const auto path = test::shared("gait_insole_vgrf/GaCo01_01.txt");
+    const auto path = test::shared_file_path("gait_insole_vgrf/GaCo01_01.txt");
     CORPUSCLE_NEEDS(path);
     const auto walk = read(path, {.channels = {"1-16"}, .scale = 0.008});
     EXPECT_NEAR(walk.clock.rate(), 100.007, 1e-3) << "12119 rows from 0 to 121.172 s, rounded to 0.1 ms";
-    EXPECT_EQ(walk.remarks.at(0),
+    EXPECT_EQ(walk.notes.at(0),
               "no header: the first column increases evenly and is taken as the time (use --time none if it is a channel)");
     EXPECT_EQ(walk.names.size(), 16U);
     EXPECT_EQ(walk.force[0].size(), 12119U);

@@ -11,11 +11,11 @@
 namespace corpuscle {
 namespace {
 
-using test::Folder;
-using test::sure;
+using test::TemporaryFolder;
+using test::value_or_throw;
 
-std::vector<NamedTrain> read_trains(const Folder& folder, const std::string& text) {
-    return sure(read_spikes(folder.write("x.csv", text)));
+std::vector<NamedTrain> read_trains(const TemporaryFolder& folder, const std::string& text) {
+    return value_or_throw(read_spikes(folder.write("x.csv", text)));
 }
 
 std::string refused(const std::string& path) {
@@ -26,7 +26,7 @@ std::string refused(const std::string& path) {
 }
 
 TEST(SpikeFiles, OursAreReadByAfferentAndChannel) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const auto trains =
         read_trains(folder, "afferent,channel,time_s\nsa1,fz,0.5\nfa1,fz,0.25\nsa1,fz,0.125\nsa1,\"a \"\"b\"\", c\",1e-3\n");
     ASSERT_EQ(trains.size(), 3U);
@@ -36,7 +36,7 @@ TEST(SpikeFiles, OursAreReadByAfferentAndChannel) {
 }
 
 TEST(SpikeFiles, OthersAreReadByUnitAndSecondsByTheirHeading) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const auto trains = read_trains(folder, "# made elsewhere\ntime_s,unit\n1.5,10\n1.25,9\n");
     ASSERT_EQ(trains.size(), 2U);
     EXPECT_EQ(trains[0].name(), "9") << "numbers by value: 9 before 10";
@@ -46,7 +46,7 @@ TEST(SpikeFiles, OthersAreReadByUnitAndSecondsByTheirHeading) {
 }
 
 TEST(SpikeFiles, WhatIsWrongIsNamedWithItsPlace) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const std::pair<const char*, const char*> cases[] = {
         {"afferent,channel,time_s\nsa1,fz,0.5\nsa1,fz,oops\n", "x.csv:3:8: 'oops' where a time is expected"},
         {"afferent,channel,time_s\nsa1,fz,inf\n", "x.csv:2:8: 'inf' where a time is expected"},
@@ -66,21 +66,21 @@ TEST(SpikeFiles, WhatIsWrongIsNamedWithItsPlace) {
 }
 
 TEST(SpikeFiles, ALoneColumnOfTimesNeedsNoHeader) {
-    const Folder folder;
+    const TemporaryFolder folder;
     EXPECT_EQ(read_trains(folder, "1.5e-01\n2.5e-01\n")[0].times, (std::vector<double>{0.15, 0.25})) << "as numpy.savetxt writes it";
     EXPECT_EQ(read_trains(folder, "# times of one unit\n0.5\n")[0].times, std::vector<double>{0.5});
     EXPECT_EQ(read_trains(folder, "[0.5, 0.25]")[0].times, (std::vector<double>{0.25, 0.5})) << "as JSON";
 }
 
 TEST(SpikeFiles, ColumnsOfOtherProgramsAreKnownOrNamed) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const auto phy = read_trains(folder, "times,cluster\n0.5,7\n0.25,3\n");
     ASSERT_EQ(phy.size(), 2U);
     EXPECT_EQ(phy[1].name(), "7");
     const auto commented = read_trains(folder, "# time_s unit\n0.5 7\n");
     EXPECT_EQ(commented[0].name(), "7");
     const auto asked = [&](const std::string& text, const SpikeColumns& columns) {
-        return sure(read_spikes(folder.write("x.csv", text), columns));
+        return value_or_throw(read_spikes(folder.write("x.csv", text), columns));
     };
     EXPECT_EQ(asked("when,who\n0.5,a\n", {"when", "who"})[0].name(), "a");
     EXPECT_EQ(asked("0.5 7\n0.25 7\n", {"1", "2"})[0].times, (std::vector<double>{0.25, 0.5}));
@@ -90,7 +90,7 @@ TEST(SpikeFiles, ColumnsOfOtherProgramsAreKnownOrNamed) {
 }
 
 TEST(SpikeFiles, JsonLinesAreReadAsTheStreamWritesThem) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const auto trains = read_trains(
         folder, "{\"time_s\":0.25,\"afferent\":\"sa1#1\",\"address\":0}\n{\"time_s\":0.5,\"afferent\":\"sa1#2\",\"address\":1}\n");
     ASSERT_EQ(trains.size(), 2U);
@@ -106,20 +106,20 @@ std::string npy_of(const std::string& kind, const std::string& shape, const std:
 }
 
 TEST(SpikeFiles, NumpysTimesAreReadAndNumbersOfSamplesAreNot) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const double times[] = {0.5, 0.25};
     const std::string bytes(reinterpret_cast<const char*>(times), sizeof times);
-    EXPECT_EQ(sure(read_spikes(folder.write("x.npy", npy_of("<f8", "(2,)", bytes))))[0].times, (std::vector<double>{0.25, 0.5}));
+    EXPECT_EQ(value_or_throw(read_spikes(folder.write("x.npy", npy_of("<f8", "(2,)", bytes))))[0].times, (std::vector<double>{0.25, 0.5}));
     const std::int64_t samples[] = {3000, 4000};
     const auto said = refused(folder.write("x.npy", npy_of("<i8", "(2,)", {reinterpret_cast<const char*>(samples), sizeof samples})));
     EXPECT_NE(said.find("the times are integers, as sample numbers are"), std::string::npos) << said;
     EXPECT_EQ(refused(folder.write("y.npy", npy_of("<f8", "(2, 2)", bytes + bytes))),
               "y.npy: the array has 2 columns; select the columns of times and trains, such as --time 1 --unit 2");
-    EXPECT_EQ(sure(read_spikes(folder / "y.npy", {"1", "2"}))[0].times.size(), 2U);
+    EXPECT_EQ(value_or_throw(read_spikes(folder / "y.npy", {"1", "2"}))[0].times.size(), 2U);
 }
 
 TEST(SpikeFiles, OtherBinaryFilesAreNamedWithoutTheirBytes) {
-    const Folder folder;
+    const TemporaryFolder folder;
     EXPECT_EQ(refused(folder.write("x.h5", "\x89HDF\r\n")),
               "x.h5: this is an HDF5 file, not a spike file; supported are CSV, JSON lines, .npy, .npz and address events");
     EXPECT_EQ(refused(folder.write("x.bin", std::string("\x01\0\x02", 3))),
@@ -130,15 +130,15 @@ std::string npz_of(const std::map<std::string, std::vector<std::int64_t>>& integ
     NpzWriter npz;
     for (const auto& [name, list] : integers) npz.add(name, list);
     npz.add("sampling_frequency", rate);
-    return sure(npz.bytes());
+    return value_or_throw(npz.bytes());
 }
 
 TEST(SpikeFiles, AnotherProgramsNpzIsReadAsSpikeInterfaceReadsIt) {
-    const Folder folder;
+    const TemporaryFolder folder;
     std::map<std::string, std::vector<std::int64_t>> lists = {{"unit_ids", {7, 3}},           {"num_segment", {2}},
                                                               {"spike_indexes_seg0", {1, 5}}, {"spike_labels_seg0", {7, 3}},
                                                               {"spike_indexes_seg1", {250}},  {"spike_labels_seg1", {7}}};
-    const auto trains = sure(read_spikes(folder.write("x.npz", npz_of(lists))));
+    const auto trains = value_or_throw(read_spikes(folder.write("x.npz", npz_of(lists))));
     ASSERT_EQ(trains.size(), 4U);
     EXPECT_EQ(trains[0].name(), "3");
     EXPECT_EQ(trains[1].times, std::vector<double>{1e-3});
@@ -157,7 +157,7 @@ TEST(SpikeFiles, AnotherProgramsNpzIsReadAsSpikeInterfaceReadsIt) {
 }
 
 TEST(SpikeFiles, AnyNameWithoutALineBreakComesBackFromItsField) {
-    const Folder folder;
+    const TemporaryFolder folder;
     EXPECT_TRUE(rc::check("written and read", [&] {
         const auto letters = rc::gen::container<std::vector<std::string>>(
             rc::gen::elementOf(std::vector<std::string>{"a", ",", "\"", " ", ";", "#", "\t", "=", "\u00f6"}));

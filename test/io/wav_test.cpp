@@ -2,13 +2,13 @@
 
 #include "io/recording_formats.hpp"
 #include "support/property.hpp"
-#include "support/recordings.hpp"
-#include "support/writers.hpp"
+#include "support/loaded_recording.hpp"
+#include "support/file_writers.hpp"
 
 namespace corpuscle {
 namespace {
 
-using test::Folder, test::recording, test::refusal, test::write_sound;
+using test::TemporaryFolder, test::load_recording, test::load_error, test::write_audio;
 
 struct Depth {
     const char* name;
@@ -29,8 +29,8 @@ TEST(Wav, EveryDepthIsReadAsItWasWritten) {
             c = *rc::gen::container<std::vector<double>>(rows,
                                                          rc::gen::map(rc::gen::inRange(-1024, 1024), [](int x) { return x / 1024.0; }));
         const auto path = (std::filesystem::temp_directory_path() / fmt::format("corpuscle-{}-{}", ::getpid(), depth.name)).string();
-        write_sound(path, depth.format, rate, values);
-        const auto made = test::try_recording(path, {.scale = 2});
+        write_audio(path, depth.format, rate, values);
+        const auto made = test::try_load_recording(path, {.scale = 2});
         std::filesystem::remove(path);
         RC_ASSERT(static_cast<bool>(made));
         RC_ASSERT(made->clock.rate() == rate);
@@ -41,50 +41,50 @@ TEST(Wav, EveryDepthIsReadAsItWasWritten) {
 }
 
 TEST(Wav, WholeNumbersNeedAScaleAndFloatsAreNewtons) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const std::vector<std::vector<double>> force = {std::vector<double>(9000, 0.25), std::vector<double>(9000, 0.5)};
-    write_sound(folder / "x.wav", SF_FORMAT_WAV | SF_FORMAT_PCM_16, 8000, force);
+    write_audio(folder / "x.wav", SF_FORMAT_WAV | SF_FORMAT_PCM_16, 8000, force);
     EXPECT_EQ(
-        refusal(folder / "x.wav"),
+        load_error(folder / "x.wav"),
         "x.wav: 'ch1' is in parts of full scale, which is not a known unit of force (N, mN, gf, kgf, lbf ...); use --scale S for S newtons "
         "per parts of full scale, --unit N if the header is wrong, or --channel to select another column");
-    EXPECT_EQ(recording(folder / "x.wav", {.channels = {"ch2"}, .scale = 8}).force[0][8999], 4);
-    write_sound(folder / "y.wav", SF_FORMAT_WAV | SF_FORMAT_FLOAT, 8000, force);
-    EXPECT_EQ(recording(folder / "y.wav").force[1][8999], 0.5);
-    EXPECT_EQ(recording(folder / "y.wav").remarks.at(0), "no unit for 'ch1', 'ch2': assuming newtons");
+    EXPECT_EQ(load_recording(folder / "x.wav", {.channels = {"ch2"}, .scale = 8}).force[0][8999], 4);
+    write_audio(folder / "y.wav", SF_FORMAT_WAV | SF_FORMAT_FLOAT, 8000, force);
+    EXPECT_EQ(load_recording(folder / "y.wav").force[1][8999], 0.5);
+    EXPECT_EQ(load_recording(folder / "y.wav").notes.at(0), "no unit for 'ch1', 'ch2': assuming newtons");
 }
 
 TEST(Wav, WhatCannotBeReadIsSaid) {
-    const Folder folder;
-    EXPECT_EQ(refusal(folder.write("x.wav", "t,F\n0,1\n")), "x.wav: not a readable sound file: Format not recognised.");
-    EXPECT_EQ(refusal(folder / "none.wav"), "none.wav: cannot be opened: No such file or directory");
-    EXPECT_EQ(refusal(folder.write("x.wav", ""), {.table = {"a"}}), "--dataset a: a sound file has only one array");
-    write_sound(folder / "y.wav", SF_FORMAT_WAV | SF_FORMAT_FLOAT, 100, {{1, std::nan("")}});
-    EXPECT_EQ(refusal(folder / "y.wav"), "y.wav: row 2: column 'ch1': nan where a number is expected");
-    write_sound(folder / "z.wav", SF_FORMAT_WAV | SF_FORMAT_PCM_16, 100, {{}});
-    EXPECT_EQ(refusal(folder / "z.wav"), "z.wav: this sound file has no samples");
+    const TemporaryFolder folder;
+    EXPECT_EQ(load_error(folder.write("x.wav", "t,F\n0,1\n")), "x.wav: not a readable sound file: Format not recognised.");
+    EXPECT_EQ(load_error(folder / "none.wav"), "none.wav: cannot be opened: No such file or directory");
+    EXPECT_EQ(load_error(folder.write("x.wav", ""), {.table = {"a"}}), "--dataset a: a sound file has only one array");
+    write_audio(folder / "y.wav", SF_FORMAT_WAV | SF_FORMAT_FLOAT, 100, {{1, std::nan("")}});
+    EXPECT_EQ(load_error(folder / "y.wav"), "y.wav: row 2: column 'ch1': nan where a number is expected");
+    write_audio(folder / "z.wav", SF_FORMAT_WAV | SF_FORMAT_PCM_16, 100, {{}});
+    EXPECT_EQ(load_error(folder / "z.wav"), "z.wav: this sound file has no samples");
 }
 
 TEST(Wav, OfAFileCutShortTheBeginningIsRead) {
-    const Folder folder;
-    write_sound(folder / "x.wav", SF_FORMAT_WAV | SF_FORMAT_DOUBLE, 100, {std::vector<double>(1000, 1.5)});
+    const TemporaryFolder folder;
+    write_audio(folder / "x.wav", SF_FORMAT_WAV | SF_FORMAT_DOUBLE, 100, {std::vector<double>(1000, 1.5)});
     const auto whole = test::read_file(folder / "x.wav");
-    const auto made = recording(folder.write("cut.wav", whole.substr(0, whole.size() - 4000)));
+    const auto made = load_recording(folder.write("cut.wav", whole.substr(0, whole.size() - 4000)));
     EXPECT_EQ(made.force[0], std::vector<double>(500, 1.5));
-    EXPECT_EQ(made.remarks.at(0),
+    EXPECT_EQ(made.notes.at(0),
               "the samples need 8000 bytes, but the file has 4000; it may be incomplete, and only this part of the recording is read");
     for (const auto& [name, format] : {std::pair{"x.aiff", SF_FORMAT_AIFF | SF_FORMAT_PCM_16}, {"x.au", SF_FORMAT_AU | SF_FORMAT_PCM_16}}) {
-        write_sound(folder / name, format, 100, {std::vector<double>(1000, 0.5)});
-        EXPECT_TRUE(recording(folder / name, {.scale = 1}).remarks.empty()) << name;
+        write_audio(folder / name, format, 100, {std::vector<double>(1000, 0.5)});
+        EXPECT_TRUE(load_recording(folder / name, {.scale = 1}).notes.empty()) << name;
         const auto bytes = test::read_file(folder / name);
-        const auto cut = recording(folder.write(name, bytes.substr(0, bytes.size() - 1000)), {.scale = 1});
+        const auto cut = load_recording(folder.write(name, bytes.substr(0, bytes.size() - 1000)), {.scale = 1});
         EXPECT_EQ(cut.force[0].size(), 500U) << name;
-        ASSERT_FALSE(cut.remarks.empty()) << name;
-        EXPECT_NE(cut.remarks[0].find("it may be incomplete"), std::string::npos) << cut.remarks[0];
+        ASSERT_FALSE(cut.notes.empty()) << name;
+        EXPECT_NE(cut.notes[0].find("it may be incomplete"), std::string::npos) << cut.notes[0];
     }
-    write_sound(folder / "x.flac", SF_FORMAT_FLAC | SF_FORMAT_PCM_16, 100, {test::force("noise", {.rate = 20000})});
+    write_audio(folder / "x.flac", SF_FORMAT_FLAC | SF_FORMAT_PCM_16, 100, {test::force("noise", {.rate = 20000})});
     const auto packed = test::read_file(folder / "x.flac");
-    EXPECT_NE(refusal(folder.write("cut.flac", packed.substr(0, packed.size() / 2)), {.scale = 1}).find("may be truncated"),
+    EXPECT_NE(load_error(folder.write("cut.flac", packed.substr(0, packed.size() / 2)), {.scale = 1}).find("may be truncated"),
               std::string::npos);
 }
 

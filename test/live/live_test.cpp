@@ -29,8 +29,8 @@
 namespace corpuscle {
 namespace {
 
-using test::Folder;
-using test::sure;
+using test::TemporaryFolder;
+using test::value_or_throw;
 
 std::string bytes_of(const EventFormat& format, std::span<const Spike> spikes) {
     std::string out;
@@ -42,7 +42,7 @@ std::string bytes_of(const EventFormat& format, std::span<const Spike> spikes) {
 // --- spikes as bytes
 
 TEST(Events, AreReadBackAsTheyWereWhateverTheFormat) {
-    const Folder folder;
+    const TemporaryFolder folder;
     EXPECT_TRUE(rc::check([&] {
         const auto clock = *rc::gen::element(Clock{1000, 1}, Clock{5200, 1}, Clock{1213, 5}, Clock{3, 7});
         const auto units = *rc::gen::inRange<std::uint32_t>(1, 40);
@@ -58,7 +58,7 @@ TEST(Events, AreReadBackAsTheyWereWhateverTheFormat) {
         std::sort(spikes.begin(), spikes.end());
         for (const auto& [name, error] : {std::pair{"lines", 0.51e-9}, {"aer", 1e-12}, {"jsonl", 0.51e-9}, {"aedat2", 0.51e-6}}) {
             if (name == std::string_view("aedat2") && clock.rate_numerator < 10) continue;  // silent for more than 71 minutes: nobody can tell
-            const auto format = sure(make_event_format(name, named));
+            const auto format = value_or_throw(make_event_format(name, named));
             const auto path = folder.write("events", format->header() + bytes_of(*format, spikes));
             std::map<std::string, std::vector<double>> wanted;
             for (const auto& s : spikes)
@@ -76,7 +76,7 @@ TEST(Events, AreReadBackAsTheyWereWhateverTheFormat) {
                 RC_ASSERT(k == spikes.size());
                 continue;
             }
-            const auto trains = sure(read_spikes(path));
+            const auto trains = value_or_throw(read_spikes(path));
             RC_ASSERT(trains.size() == wanted.size());
             for (const auto& t : trains) {
                 auto& times = wanted[t.afferent];
@@ -89,17 +89,17 @@ TEST(Events, AreReadBackAsTheyWereWhateverTheFormat) {
 }
 
 TEST(Events, MicrosecondsOfAedatGoRoundAfterSeventyOneMinutesAndAreReadOn) {
-    const Folder folder;
-    const auto format = sure(make_event_format("aedat2", {Clock{1000, 1}, {"a"}, {}}));
+    const TemporaryFolder folder;
+    const auto format = value_or_throw(make_event_format("aedat2", {Clock{1000, 1}, {"a"}, {}}));
     std::vector<Spike> spikes;
     for (std::int64_t s = 0; s < 10; ++s) spikes.push_back({1 + s * 1000 * 1000, 1, 0});  // 1000 s apart
-    const auto trains = sure(read_spikes(folder.write("x.aedat", format->header() + bytes_of(*format, spikes))));
+    const auto trains = value_or_throw(read_spikes(folder.write("x.aedat", format->header() + bytes_of(*format, spikes))));
     ASSERT_EQ(trains.at(0).times.size(), spikes.size());
     EXPECT_NEAR(trains[0].times.back(), 9000.001, 1e-6);
 }
 
 TEST(Events, AddressesOnAGridAreTaxelTimesClassesPlusClass) {
-    const auto skin = sure(innervate(sure(make_channel_plan("sa1,fa1", 3))));
+    const auto skin = value_or_throw(innervate(value_or_throw(make_channel_plan("sa1,fa1", 3))));
     const auto units = make_event_afferents(*skin, {1000, 1});
     EXPECT_EQ(units.names, (std::vector<std::string>{"sa1#1", "sa1#2", "sa1#3", "fa1#1", "fa1#2", "fa1#3"}));
     EXPECT_EQ(units.addresses, (std::vector<std::uint32_t>{0, 2, 4, 1, 3, 5}));
@@ -107,27 +107,27 @@ TEST(Events, AddressesOnAGridAreTaxelTimesClassesPlusClass) {
 
 TEST(Events, LinesNameAfferentAndChannelAsRespondDoes) {
     const std::vector<Channel> channels = {{0, "fz"}, {1, "thumb, tip"}};
-    const auto on_channels = sure(innervate(sure(make_channel_plan("sa1,fa1", channels))));
+    const auto on_channels = value_or_throw(innervate(value_or_throw(make_channel_plan("sa1,fa1", channels))));
     const auto lines = [](const std::shared_ptr<const Innervation>& skin, std::uint32_t unit, const char* format) {
         const Spike spike{5, 1, unit};
-        return bytes_of(*sure(make_event_format(format, make_event_afferents(*skin, {1000, 1}))), {&spike, 1});
+        return bytes_of(*value_or_throw(make_event_format(format, make_event_afferents(*skin, {1000, 1}))), {&spike, 1});
     };
-    EXPECT_EQ(sure(make_event_format("lines", make_event_afferents(*on_channels, {1000, 1})))->header(), "afferent,channel,time_s\n");
+    EXPECT_EQ(value_or_throw(make_event_format("lines", make_event_afferents(*on_channels, {1000, 1})))->header(), "afferent,channel,time_s\n");
     EXPECT_EQ(lines(on_channels, 0, "lines"), "sa1,fz,0.005000000\n");
     EXPECT_EQ(lines(on_channels, 3, "lines"), "fa1,\"thumb, tip\",0.005000000\n");
     EXPECT_EQ(lines(on_channels, 3, "jsonl"), R"({"time_s":0.005000000,"afferent":"fa1","channel":"thumb, tip","address":3})"
                                               "\n");
-    const auto hand = sure(innervate(sure(load_skin_plan("fingertip"))));
+    const auto hand = value_or_throw(innervate(value_or_throw(load_skin_plan("fingertip"))));
     EXPECT_TRUE(lines(hand, 16, "lines").starts_with("sa1#17," + hand->plan.sites.regions[hand->afferents[16].region] + ","));
 }
 
 TEST(Events, BinaryFormatsSayInTheirHeadersWhichChannelAnAddressStandsOn) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const std::vector<Channel> channels = {{0, "fz"}, {1, "thumb\n#x"}, {2, "ch3"}};
-    const auto units = make_event_afferents(*sure(innervate(sure(make_channel_plan("sa1,fa1", channels)))), {1000, 1});
-    const auto aer = sure(make_event_format("aer", units)), aedat = sure(make_event_format("aedat2", units));
+    const auto units = make_event_afferents(*value_or_throw(innervate(value_or_throw(make_channel_plan("sa1,fa1", channels)))), {1000, 1});
+    const auto aer = value_or_throw(make_event_format("aer", units)), aedat = value_or_throw(make_event_format("aedat2", units));
     const std::vector<Spike> spikes = {{5, 1, 0}, {6, 1, 4}, {7, 1, 5}};  // units: class after class
-    const auto trains = sure(read_spikes(folder.write("x.aer", aer->header() + bytes_of(*aer, spikes))));
+    const auto trains = value_or_throw(read_spikes(folder.write("x.aer", aer->header() + bytes_of(*aer, spikes))));
     ASSERT_EQ(trains.size(), 3U);
     std::vector<std::string> names;
     for (const auto& t : trains) names.push_back(t.afferent + " on " + t.channel);
@@ -137,21 +137,21 @@ TEST(Events, BinaryFormatsSayInTheirHeadersWhichChannelAnAddressStandsOn) {
               "#!AER-DAT2.0\r\n# spikes of afferents: address, microseconds modulo 2^32\r\n"
               "# addresses 0, 2 ... 4: sa1#1 ... sa1#3\r\n# addresses 1, 3 ... 5: fa1#1 ... fa1#3\r\n"
               "# addresses 0, 1: channel fz\r\n# addresses 2, 3: channel thumb #x\r\n# addresses 4, 5: channel ch3\r\n");
-    EXPECT_EQ(sure(read_spikes(folder.write("x.aedat", aedat->header() + bytes_of(*aedat, spikes)))).size(), 3U);
-    const auto counted = make_event_afferents(*sure(innervate(sure(make_channel_plan("sa1,fa1", 3, {})))), {1000, 1});
-    EXPECT_LT(sure(make_event_format("aer", counted))->header().size(), aer->header().size()) << "ch1, ch2 ... need no table";
+    EXPECT_EQ(value_or_throw(read_spikes(folder.write("x.aedat", aedat->header() + bytes_of(*aedat, spikes)))).size(), 3U);
+    const auto counted = make_event_afferents(*value_or_throw(innervate(value_or_throw(make_channel_plan("sa1,fa1", 3, {})))), {1000, 1});
+    EXPECT_LT(value_or_throw(make_event_format("aer", counted))->header().size(), aer->header().size()) << "ch1, ch2 ... need no table";
     std::vector<Channel> many(4000);
     for (std::uint32_t c = 0; c < many.size(); ++c) many[c] = {c, fmt::format("a long name {}", c)};
-    const auto long_one = sure(make_event_format("aedat2", make_event_afferents(*sure(innervate(sure(make_channel_plan("sa1", many)))), {1000, 1})));
-    EXPECT_EQ(sure(read_spikes(folder.write("y.aedat", long_one->header() + bytes_of(*long_one, {spikes.data(), 1})))).size(), 1U);
+    const auto long_one = value_or_throw(make_event_format("aedat2", make_event_afferents(*value_or_throw(innervate(value_or_throw(make_channel_plan("sa1", many)))), {1000, 1})));
+    EXPECT_EQ(value_or_throw(read_spikes(folder.write("y.aedat", long_one->header() + bytes_of(*long_one, {spikes.data(), 1})))).size(), 1U);
 }
 
 TEST(Events, FilesThatAreDamagedAreRefused) {
-    const Folder folder;
-    const auto format = sure(make_event_format("aer", {Clock{1000, 1}, {"sa1#1", "sa1#2"}, {}}));
+    const TemporaryFolder folder;
+    const auto format = value_or_throw(make_event_format("aer", {Clock{1000, 1}, {"sa1#1", "sa1#2"}, {}}));
     const Spike spike{5, 0.5, 1};
     const auto whole = format->header() + bytes_of(*format, {&spike, 1});
-    EXPECT_EQ(sure(read_spikes(folder.write("x.aer", whole))).at(0).name(), "sa1#2");
+    EXPECT_EQ(value_or_throw(read_spikes(folder.write("x.aer", whole))).at(0).name(), "sa1#2");
     for (std::size_t cut = 8; cut < whole.size(); ++cut)
         if (cut != format->header().size()) {
             EXPECT_FALSE(read_spikes(folder.write("x.aer", whole.substr(0, cut)))) << cut;
@@ -240,7 +240,7 @@ TEST(Frames, NumbersSayWhatIsMissingTwiceOrLate) {
 // --- a skin, frame by frame
 
 SkinPlan conducting_grid(std::size_t rows, std::size_t columns) {
-    auto plan = sure(load_skin_plan("grid " + std::to_string(rows) + "x" + std::to_string(columns)));
+    auto plan = value_or_throw(load_skin_plan("grid " + std::to_string(rows) + "x" + std::to_string(columns)));
     for (auto& c : plan.classes) c.velocity = 2, c.velocity_spread = 0.2;
     plan.nerve = Position{0, -0.02, 0};
     return plan;
@@ -258,7 +258,7 @@ std::vector<std::vector<double>> some_frames(std::size_t count, std::size_t site
 }
 
 std::vector<Spike> offline(const std::shared_ptr<const Innervation>& skin, const std::vector<std::vector<double>>& frames) {
-    auto made = sure(Skin::make(skin, {.dt = 1e-3}, *instruction_set()));
+    auto made = value_or_throw(Skin::make(skin, {.dt = 1e-3}, *instruction_set()));
     std::vector<double> force(skin->plan.sites.size() * frames.size());
     for (std::size_t k = 0; k < frames.size(); ++k)
         for (std::size_t s = 0; s < frames[k].size(); ++s) force[s * frames.size() + k] = frames[k][s];
@@ -271,35 +271,35 @@ std::vector<Spike> offline(const std::shared_ptr<const Innervation>& skin, const
 
 TEST(SkinStream, LiveEqualsOfflineAndResumedEqualsUninterruptedByteForByte) {
     EXPECT_TRUE(rc::check([] {
-        const auto skin = sure(innervate(conducting_grid(*rc::gen::inRange<std::size_t>(1, 12), *rc::gen::inRange<std::size_t>(1, 12))));
+        const auto skin = value_or_throw(innervate(conducting_grid(*rc::gen::inRange<std::size_t>(1, 12), *rc::gen::inRange<std::size_t>(1, 12))));
         const Clock clock{1000, 1};
         const auto frames =
             some_frames(*rc::gen::inRange<std::size_t>(1, 700), skin->plan.sites.size(), *rc::gen::arbitrary<std::uint64_t>());
         const auto cut = *rc::gen::inRange<std::size_t>(0, frames.size());
         const auto format =
-            sure(make_event_format(*rc::gen::element<std::string>("lines", "jsonl", "aer", "aedat2"), make_event_afferents(*skin, clock)));
+            value_or_throw(make_event_format(*rc::gen::element<std::string>("lines", "jsonl", "aer", "aedat2"), make_event_afferents(*skin, clock)));
         const auto together = *rc::gen::inRange<std::size_t>(1, 40);
-        auto stream = sure(SkinStream::make(skin, clock)), grouped = sure(SkinStream::make(skin, clock, false, together));
+        auto stream = value_or_throw(SkinStream::make(skin, clock)), grouped = value_or_throw(SkinStream::make(skin, clock, false, together));
         std::string live, in_groups;
         for (std::size_t k = 0; k < frames.size(); ++k) {
             if (k == cut) {
-                const auto kept = sure(unpack_stream(pack_stream({frames[k], 7, stream->save()}), "x"));
+                const auto kept = value_or_throw(unpack_stream(pack_stream({frames[k], 7, stream->save()}), "x"));
                 RC_ASSERT(kept.force == frames[k]);
-                stream = sure(SkinStream::make(skin, clock));
+                stream = value_or_throw(SkinStream::make(skin, clock));
                 RC_ASSERT(bool(stream->resume(kept.skin)));
             }
-            live += bytes_of(*format, sure(stream->push(frames[k])));
-            if (grouped->add_to_batch(frames[k])) in_groups += bytes_of(*format, sure(grouped->run_batch()));
+            live += bytes_of(*format, value_or_throw(stream->push(frames[k])));
+            if (grouped->add_to_batch(frames[k])) in_groups += bytes_of(*format, value_or_throw(grouped->run_batch()));
         }
         live += bytes_of(*format, stream->finish());
-        in_groups += bytes_of(*format, sure(grouped->run_batch()));
+        in_groups += bytes_of(*format, value_or_throw(grouped->run_batch()));
         RC_ASSERT(in_groups + bytes_of(*format, grouped->finish()) == live);
         RC_ASSERT(live == bytes_of(*format, offline(skin, frames)));
     }));
 }
 
 TEST(SkinStream, AStateThatIsDamagedIsRefused) {
-    auto stream = sure(SkinStream::make(sure(innervate(sure(make_channel_plan("sa1", 2)))), {1000, 1}));
+    auto stream = value_or_throw(SkinStream::make(value_or_throw(innervate(value_or_throw(make_channel_plan("sa1", 2)))), {1000, 1}));
     const auto bytes = pack_stream({{0.5, 0.25}, {}, stream->save()});
     EXPECT_TRUE(unpack_stream(bytes, "x"));
     for (std::size_t size = 0; size < bytes.size(); ++size) EXPECT_FALSE(unpack_stream(std::span(bytes).first(size), "x")) << size;
@@ -311,7 +311,7 @@ TEST(SkinStream, AStateThatIsDamagedIsRefused) {
 }
 
 TEST(SkinStream, AStateOfTheVersionBeforeIsReadAndOneOfALaterVersionIsRefused) {
-    auto stream = sure(SkinStream::make(sure(innervate(sure(make_channel_plan("sa1", 2)))), {1000, 1}));
+    auto stream = value_or_throw(SkinStream::make(value_or_throw(innervate(value_or_throw(make_channel_plan("sa1", 2)))), {1000, 1}));
     auto bytes = pack_stream({{0.5, 0.25}, 7, stream->save()});
     bytes[8] = std::byte{3};
     const auto later = unpack_stream(bytes, "now.state");
@@ -319,7 +319,7 @@ TEST(SkinStream, AStateOfTheVersionBeforeIsReadAndOneOfALaterVersionIsRefused) {
     EXPECT_NE(later.error().message.find("a saved state of version 3"), std::string::npos) << later.error().message;
     bytes[8] = std::byte{1};
     bytes.resize(bytes.size() - 8);  // version 1 has no checksum
-    const auto before = sure(unpack_stream(bytes, "now.state"));
+    const auto before = value_or_throw(unpack_stream(bytes, "now.state"));
     EXPECT_EQ(before.force, (std::vector<double>{0.5, 0.25}));
     EXPECT_EQ(before.number, 7U);
     EXPECT_EQ(before.skin, stream->save());
@@ -354,16 +354,16 @@ TEST(ByteRing, GivesWholeEventsInOrderFromOneThreadToAnother) {
 
 TEST(EventSink, AReaderThatComesBackIsFoundThoughTheNameServiceIsGone) {
     Endpoint at;
-    auto door = sure(open_listening_socket(at));
+    auto door = value_or_throw(open_listening_socket(at));
     const auto accepted = [&] {
         pollfd there = {door.get(), POLLIN, 0};
         EXPECT_EQ(::poll(&there, 1, 10000), 1);
         return Descriptor(::accept(door.get(), nullptr, nullptr));
     };
-    auto to = sure(resolve(at));
+    auto to = value_or_throw(resolve(at));
     to.at.address = "robot.invalid";  // no name service knows it
-    const auto format = sure(make_event_format("lines", {Clock{1000, 1}, {"a"}, {}}));
-    const auto outlet = sure(connect_event_client(to, *format, 1024));
+    const auto format = value_or_throw(make_event_format("lines", {Clock{1000, 1}, {"a"}, {}}));
+    const auto outlet = value_or_throw(connect_event_client(to, *format, 1024));
     accepted().close();
     const auto begun = steady_now();
     std::int64_t longest = 0;
@@ -436,11 +436,11 @@ TEST(PlacedFrames, OfAllSitesInOrderAreTheFramesThemselves) {
 }
 
 TEST(SiteMap, ReadsWhichSiteEachNumberOfAFrameIs) {
-    const Folder folder;
-    const auto sites = sure(grid_sites(2, 3, 2e-3));
+    const TemporaryFolder folder;
+    const auto sites = value_or_throw(grid_sites(2, 3, 2e-3));
     const auto map = [&](const std::string& text) { return read_site_map(folder.write("palm.csv", text), sites); };
-    EXPECT_EQ(sure(map("# of a palm\nchannel,name,gain\n2,r1c2,1\n1,r2c2,1\n")), (std::vector<std::uint32_t>{4, 1}));
-    EXPECT_EQ(sure(map("sensor;name\n1;r1c1\n")), (std::vector<std::uint32_t>{0}));
+    EXPECT_EQ(value_or_throw(map("# of a palm\nchannel,name,gain\n2,r1c2,1\n1,r2c2,1\n")), (std::vector<std::uint32_t>{4, 1}));
+    EXPECT_EQ(value_or_throw(map("sensor;name\n1;r1c1\n")), (std::vector<std::uint32_t>{0}));
     for (const auto& [text, said] : std::vector<std::pair<std::string, std::string>>{
              {"channel,name\n1,r3c1\n", "palm.csv:2:3: there is no site 'r3c1'; did you mean"},
              {"channel,name\n1,r1c1\n3,r1c2\n", "channel 2 has no row, although channel 3 has one"},
@@ -457,12 +457,12 @@ TEST(SiteMap, ReadsWhichSiteEachNumberOfAFrameIs) {
 }
 
 TEST(SiteMap, NamesAreAllOfSitesOrNotOne) {
-    const auto sites = sure(grid_sites(2, 2, 2e-3));
+    const auto sites = value_or_throw(grid_sites(2, 2, 2e-3));
     using Names = std::vector<std::string>;
     const auto found = [&](const Names& names) { return find_sites_if_named(sites, names); };
-    EXPECT_EQ(*sure(found({"r2c2", "r1c1", "r1c2_N", "r2c1 [mN]"})), (std::vector<std::uint32_t>{3, 0, 1, 2}));
-    EXPECT_EQ(*sure(found({"r2c1"})), std::vector<std::uint32_t>{2});
-    EXPECT_FALSE(sure(found({"fx", "fy", "fz", "r3c3"})));
+    EXPECT_EQ(*value_or_throw(found({"r2c2", "r1c1", "r1c2_N", "r2c1 [mN]"})), (std::vector<std::uint32_t>{3, 0, 1, 2}));
+    EXPECT_EQ(*value_or_throw(found({"r2c1"})), std::vector<std::uint32_t>{2});
+    EXPECT_FALSE(value_or_throw(found({"fx", "fy", "fz", "r3c3"})));
     for (const auto& [names, said] :
          std::vector<std::pair<Names, std::string>>{{{"r1c1", "r2cl"}, "there is no site 'r2cl'; did you mean"},
                                                     {{"R1C1", "R1C2"}, "there is no site 'R1C1'; did you mean 'r1c1'"},

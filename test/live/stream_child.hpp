@@ -18,7 +18,7 @@
 namespace corpuscle {
 namespace {
 
-using test::Folder;
+using test::TemporaryFolder;
 
 /// The program at work, its three streams in our hands; standard error in a file.
 class Child {
@@ -28,10 +28,10 @@ class Child {
 public:
     int in = -1, out = -1;
 
-    Child(const Folder& folder, std::vector<std::string> words) : err_(folder / "err") {
+    Child(const TemporaryFolder& folder, std::vector<std::string> words) : err_(folder / "err") {
         int to[2], from[2];
         if (::pipe2(to, O_CLOEXEC) != 0 || ::pipe2(from, O_CLOEXEC) != 0) throw std::runtime_error("no pipe");
-        words.insert(words.begin(), {test::program(), "stream"});
+        words.insert(words.begin(), {test::program_path(), "stream"});
         std::vector<char*> arguments;
         for (auto& w : words) arguments.push_back(w.data());
         arguments.push_back(nullptr);

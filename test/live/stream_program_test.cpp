@@ -17,11 +17,11 @@
 namespace corpuscle {
 namespace {
 
-using test::sure;
+using test::value_or_throw;
 
 TEST(StreamProgram, AnswersInPiecesAsInOneAndEachFrameWithoutWaitingForTheNext) {
     before();
-    const Folder folder;
+    const TemporaryFolder folder;
     Child whole(folder, with_settings({"--quiet"}));
     whole.send(some_lines(1000)), whole.close_in();
     const auto wanted = whole.read_out();
@@ -40,7 +40,7 @@ TEST(StreamProgram, AnswersInPiecesAsInOneAndEachFrameWithoutWaitingForTheNext) 
 
 TEST(StreamProgram, AStateKeptByCtrlCIsGoneOnFromAsIfNothingHadBeen) {
     before();
-    const Folder folder;
+    const TemporaryFolder folder;
     Child whole(folder, with_settings({"--format", "aer", "-o", folder / "whole.aer", "--quiet"}));
     whole.send(some_lines(1200)), whole.close_in();
     EXPECT_EQ(whole.wait(), 0) << whole.told();
@@ -68,7 +68,7 @@ TEST(StreamProgram, AStateKeptByCtrlCIsGoneOnFromAsIfNothingHadBeen) {
 
 TEST(StreamProgram, GarbageWrongWidthsAndHalfAFrameAreCountedAndTold) {
     before();
-    const Folder folder;
+    const TemporaryFolder folder;
     Child text(folder, with_settings({"--channels", "2", "--out", "/dev/null"}));
     text.send("a,b\n1,2\nrubbish\n1\n1,2,3\nnan,1\n1e300,1\n\x01\xff\n1,");
     text.close_in();
@@ -88,7 +88,7 @@ TEST(StreamProgram, GarbageWrongWidthsAndHalfAFrameAreCountedAndTold) {
 
 TEST(StreamProgram, AThousandClientsOneAfterAnotherSendTheirFrames) {
     before();
-    const Folder folder;
+    const TemporaryFolder folder;
     Child child(folder, with_settings({"--in", "tcp:0", "--clients", "1000", "--out", folder / "s.csv", "--json"}));
     const int port = child.port();
     for (int k = 0; k < 1000; ++k) {
@@ -106,7 +106,7 @@ TEST(StreamProgram, AThousandClientsOneAfterAnotherSendTheirFrames) {
 
 TEST(StreamProgram, FramesAnsweredTogetherGiveTheSpikesOfFramesOneByOne) {
     before();
-    const Folder folder;
+    const TemporaryFolder folder;
     std::vector<float> frames;  // 0.6 s of 1000 forces, of which the last are too few to go together
     for (int k = 0; k < 600; ++k)
         for (int s = 0; s < 1000; ++s) frames.push_back(k % 200 < 50 ? 0.0F : 0.002F * static_cast<float>(s));
@@ -136,7 +136,7 @@ TEST(StreamProgram, FramesAnsweredTogetherGiveTheSpikesOfFramesOneByOne) {
 
 TEST(StreamProgram, FramesTooFewToGoTogetherAreAnsweredWhenItIsInterrupted) {
     before();
-    const Folder folder;
+    const TemporaryFolder folder;
     Child child(folder, with_settings({"--channels", "4", "--frames", "f64", "--together", "16", "--in", "tcp:0", "-o", folder / "s.csv"}));
     const int fd = connected(child.port());
     const std::array<double, 5 * 4> frames = {};
@@ -155,10 +155,10 @@ TEST(StreamProgram, FramesTooFewToGoTogetherAreAnsweredWhenItIsInterrupted) {
 
 TEST(StreamProgram, ASerialLineIsReadAsRawBytesUntilItHangsUp) {
     before();
-    const Folder folder;
+    const TemporaryFolder folder;
     int far = -1, near = -1;
     char name[128];
-    if (::openpty(&far, &near, name, nullptr, nullptr) != 0) GTEST_SKIP() << test::no_terminals;
+    if (::openpty(&far, &near, name, nullptr, nullptr) != 0) GTEST_SKIP() << test::no_pseudo_terminals;
     ::fcntl(far, F_SETFD, FD_CLOEXEC), ::fcntl(near, F_SETFD, FD_CLOEXEC);
     Child whole(folder, with_settings({"--quiet"}));
     whole.send(some_lines(500)), whole.close_in();
@@ -187,7 +187,7 @@ TEST(StreamProgram, ASerialLineIsReadAsRawBytesUntilItHangsUp) {
 
 TEST(StreamProgram, ASlowReaderLosesWholeEventsAndNeverHoldsUpTheForce) {
     before();
-    const Folder folder;
+    const TemporaryFolder folder;
     Child child(folder, {"--rate", "1kHz", "--channels", "64", "--frames", "f64", "--format", "aer", "--buffer", "2k"});
     std::vector<double> frame(64);
     for (int k = 0; k < 20000; ++k) {  // nobody reads; every write here returns, or this would hang
@@ -200,13 +200,13 @@ TEST(StreamProgram, ASlowReaderLosesWholeEventsAndNeverHoldsUpTheForce) {
     EXPECT_NE(child.told().find("--allow-drops"), std::string::npos) << child.told();
     EXPECT_NE(child.told().find("20000 frames (20 s of force)"), std::string::npos) << child.told();
     EXPECT_NE(child.told().find("dropped: the receiver was too slow"), std::string::npos) << child.told();
-    const auto read = sure(read_spikes(folder.write("s.aer", bytes)));
+    const auto read = value_or_throw(read_spikes(folder.write("s.aer", bytes)));
     EXPECT_EQ(read.size(), 128U) << "every event that came is a whole one";
 }
 
 TEST(StreamProgram, AReaderThatGoesIsToldAndEndsIt) {
     before();
-    const Folder folder;
+    const TemporaryFolder folder;
     Child child(folder, with_settings({}));
     child.send(some_lines(150));
     pollfd spikes = {child.out, POLLIN, 0};
@@ -219,7 +219,7 @@ TEST(StreamProgram, AReaderThatGoesIsToldAndEndsIt) {
 
 TEST(StreamProgram, WhoListensMayGoAndComeBack) {
     before();
-    const Folder folder;
+    const TemporaryFolder folder;
     const auto [door, port] = listening();
     Child child(folder, with_settings({"--to", std::to_string(port), "--allow-drops"}));
     int reader = ::accept(door, nullptr, nullptr);
@@ -244,7 +244,7 @@ TEST(StreamProgram, WhoListensMayGoAndComeBack) {
 
 TEST(StreamProgram, GapsDuplicatesAndLateFramesKeepTheSamplesTime) {
     before();
-    const Folder folder;
+    const TemporaryFolder folder;
     const auto run = [&](const std::string& text, const std::string& hold) {
         Child child(folder, with_settings({"--stamp", "count", "--hold", hold}));
         child.send(text), child.close_in();
@@ -285,11 +285,11 @@ std::string noisy_recording(int samples, int channels) {
 
 TEST(StreamProgram, ARecordingToAFileDropsNoSpikeHoweverSmallTheBuffer) {
     before();
-    const Folder folder;
+    const TemporaryFolder folder;
     const auto recording = folder.write("touch.csv", noisy_recording(3000, 8));
     const auto spikes = [&](const std::string& file, const std::string& buffer) {
         const auto ran =
-            test::run(folder, "stream --in " + recording + " --rate 1kHz --scale 20 --pace fast --format aer --json --buffer " + buffer +
+            test::run_program(folder, "stream --in " + recording + " --rate 1kHz --scale 20 --pace fast --format aer --json --buffer " + buffer +
                                   " -o " + folder / file);
         EXPECT_EQ(ran.status, 0) << ran.err;
         const auto doc = nlohmann::json::parse(ran.out);
@@ -306,7 +306,7 @@ TEST(StreamProgram, ARecordingToAFileDropsNoSpikeHoweverSmallTheBuffer) {
 
 TEST(StreamProgram, ARecordingWaitsForAReaderThatIsSlow) {
     before();
-    const Folder folder;
+    const TemporaryFolder folder;
     const auto recording = folder.write("touch.csv", noisy_recording(3000, 8));
     const std::vector<std::string> words = {"--in",   recording, "--rate",   "1kHz", "--scale",  "20",
                                             "--pace", "fast",    "--buffer", "1k",   "--format", "aer"};
@@ -328,11 +328,11 @@ TEST(StreamProgram, ARecordingWaitsForAReaderThatIsSlow) {
 }
 
 TEST(StreamProgram, AFileOnStandardInputIsWaitedForAsARecordingIs) {
-    const Folder folder;
+    const TemporaryFolder folder;
     std::string frames;
     for (int k = 0; k < 20000; ++k) frames += std::to_string((k * 7) % 5) + "\n";
     const auto ran =
-        test::run(folder, "stream --rate 1kHz --buffer 1k -o " + (folder / "spikes.csv") + " < " + folder.write("frames", frames));
+        test::run_program(folder, "stream --rate 1kHz --buffer 1k -o " + (folder / "spikes.csv") + " < " + folder.write("frames", frames));
     EXPECT_EQ(ran.status, 0) << ran.err;
     EXPECT_EQ(ran.err.find("dropped"), std::string::npos) << ran.err;
     EXPECT_EQ(ran.err.find("ignored"), std::string::npos) << ran.err;
@@ -341,7 +341,7 @@ TEST(StreamProgram, AFileOnStandardInputIsWaitedForAsARecordingIs) {
 
 TEST(StreamProgram, FramesInBulkHaveNoPaceAndFramesByAClockHaveOne) {
     before();
-    const Folder folder;
+    const TemporaryFolder folder;
     Child bulk(folder, with_settings({"--json", "-o", folder / "a.csv"}));
     bulk.send(some_lines(100'000)), bulk.close_in();
     const auto in_bulk = nlohmann::json::parse(bulk.read_out());
@@ -359,16 +359,16 @@ TEST(StreamProgram, FramesInBulkHaveNoPaceAndFramesByAClockHaveOne) {
 // --- recordings
 
 TEST(StreamProgram, ARecordingIsReadWithTheOptionsAndTheDoubtsOfRespond) {
-    const Folder folder;
+    const TemporaryFolder folder;
     std::string text = "time,fz_N\n";
     for (int k = 0; k < 3000; ++k) text += std::to_string(k) + "," + (k % 1000 < 200 ? "0" : k == 1500 ? "900" : "2") + "\n";
     const auto recording = folder.write("touch.csv", text);
     const std::string words = " --channel fz --despike 100 --range 0..500 --scale 0.5";
-    const auto offline = test::run(folder, "respond " + recording + words + " --time-unit ms -o " + (folder / "answer"));
+    const auto offline = test::run_program(folder, "respond " + recording + words + " --time-unit ms -o " + (folder / "answer"));
     ASSERT_EQ(offline.status, 0) << offline.err;
-    const auto live = test::run(folder, "stream --in " + recording + words + " --time-unit ms --pace fast -o " + (folder / "live.csv"));
+    const auto live = test::run_program(folder, "stream --in " + recording + words + " --time-unit ms --pace fast -o " + (folder / "live.csv"));
     ASSERT_EQ(live.status, 0) << live.err;
-    const auto compared = test::run(folder, "compare answer/spikes.csv live.csv --json");
+    const auto compared = test::run_program(folder, "compare answer/spikes.csv live.csv --json");
     ASSERT_EQ(compared.status, 0) << "trains are called the same: " << compared.err;
     const auto doc = nlohmann::json::parse(compared.out);
     EXPECT_GT(doc["total"]["matched"], 10);
@@ -376,7 +376,7 @@ TEST(StreamProgram, ARecordingIsReadWithTheOptionsAndTheDoubtsOfRespond) {
     EXPECT_EQ(doc["total"]["extra"], 0);
     const auto lines = [&](const std::string& command) {
         std::vector<std::string> out;
-        std::istringstream err(test::run(folder, command).err);
+        std::istringstream err(test::run_program(folder, command).err);
         for (std::string line; std::getline(err, line);)
             if (line.find("touch: ") != std::string::npos) out.push_back(line);
         return out;
@@ -390,7 +390,7 @@ TEST(StreamProgram, ARecordingIsReadWithTheOptionsAndTheDoubtsOfRespond) {
 
 TEST(StreamProgram, TheFirstFrameOfAnotherWidthSaysWhatWasWanted) {
     before();
-    const Folder folder;
+    const TemporaryFolder folder;
     Child child(folder, {"--population", "fingertip", "--rate", "1kHz"});
     child.send("1,2,3,4\n");
     EXPECT_TRUE(child.said("frame 1 has 4 numbers; 'fingertip' has ")) << "at once: " << child.told();
@@ -427,7 +427,7 @@ const std::vector<std::string> small_grid = {"--population", "grid 2x2", "--rate
 
 TEST(StreamProgram, NamesInTheHeaderSayWhichSiteEachColumnIs) {
     before();
-    const Folder folder;
+    const TemporaryFolder folder;
     const auto answered = [&](const std::string& text, std::vector<std::string> more = {}) {
         auto words = small_grid;
         words.insert(words.end(), more.begin(), more.end());
@@ -449,7 +449,7 @@ TEST(StreamProgram, NamesInTheHeaderSayWhichSiteEachColumnIs) {
 
 TEST(StreamProgram, AHeaderThatNamesNoSiteOrOneTwiceOrAnotherThanTheLayoutIsRefused) {
     before();
-    const Folder folder;
+    const TemporaryFolder folder;
     folder.write("turned.csv", "channel,name\n1,r2c1\n2,r1c1\n3,r1c2\n4,r2c2\n");
     const auto refused = [&](const std::string& header, const std::string& said, std::vector<std::string> more = {}) {
         auto words = small_grid;
@@ -467,7 +467,7 @@ TEST(StreamProgram, AHeaderThatNamesNoSiteOrOneTwiceOrAnotherThanTheLayoutIsRefu
 
 TEST(StreamProgram, OneSenderOfSeveralWithAWrongHeaderEndsNothing) {
     before();
-    const Folder folder;
+    const TemporaryFolder folder;
     auto words = small_grid;
     words.insert(words.end(), {"--in", "tcp:0", "--clients", "2", "--json", "-o", folder / "x.csv"});
     Child child(folder, words);
@@ -488,12 +488,12 @@ TEST(StreamProgram, OneSenderOfSeveralWithAWrongHeaderEndsNothing) {
 
 TEST(StreamProgram, ChannelsOfARecordingGoToTheSitesOfTheirNamesOrAreRefused) {
     before();
-    const Folder folder;
+    const TemporaryFolder folder;
     const auto recorded = [&](const std::string& header) {
         std::string text = "time_s," + header + "\n";
         for (int k = 0; k < 500; ++k) text += fmt::format("{:.3f},{},0,0,0\n", 0.001 * k, k > 50 ? 3 : 0);
         folder.write("x.csv", text);
-        return test::run(folder, "stream --in x.csv --population 'grid 2x2' --pace fast");
+        return test::run_program(folder, "stream --in x.csv --population 'grid 2x2' --pace fast");
     };
     const auto in_order = recorded("r1c1,r1c2,r2c1,r2c2"), turned = recorded("r2c2,r2c1,r1c1,r1c2"), free = recorded("a,b,c,d");
     EXPECT_NE(in_order.out.find("sa1#1,"), std::string::npos) << in_order.err;
@@ -505,27 +505,27 @@ TEST(StreamProgram, ChannelsOfARecordingGoToTheSitesOfTheirNamesOrAreRefused) {
         const auto refused = recorded(header);
         EXPECT_EQ(refused.status, 1);
         EXPECT_NE(refused.err.find(said), std::string::npos) << refused.err;
-        const auto at_once = test::run(folder, "respond x.csv --population 'grid 2x2'");
+        const auto at_once = test::run_program(folder, "respond x.csv --population 'grid 2x2'");
         EXPECT_EQ(at_once.status, 1);
         EXPECT_NE(at_once.err.find(said), std::string::npos) << at_once.err;
     }
     folder.write("x.csv", "time_s,fz_N,fz_N\n0,0,0\n0.001,1,2\n0.002,1,2\n");
-    EXPECT_EQ(test::run(folder, "stream --in x.csv --population sa1 --pace fast -q").status, 0) << "they are fz and fz (2)";
+    EXPECT_EQ(test::run_program(folder, "stream --in x.csv --population sa1 --pace fast -q").status, 0) << "they are fz and fz (2)";
 }
 
 // --- settings
 
 TEST(StreamProgram, ClassesOfAPopulationCanBeSet) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const auto recording = folder.write("touch.csv", noisy_recording(2000, 4));
     const auto spikes = [&](const std::string& settings) {
-        const auto ran = test::run(folder, "stream --population 'grid 2x2' --in " + recording + " --rate 1kHz --pace fast" + settings +
+        const auto ran = test::run_program(folder, "stream --population 'grid 2x2' --in " + recording + " --rate 1kHz --pace fast" + settings +
                                                " --json -o " + (folder / "spikes.csv"));
         EXPECT_EQ(ran.status, 0) << ran.err;
         return nlohmann::json::parse(ran.out)["spikes"].get<long>();
     };
     EXPECT_GT(spikes(" --set sa1.V_th=300mV"), spikes(" --set sa1.V_th=1V"));
-    const auto wrong = test::run(folder, "stream --population 'grid 2x2' --rate 1kHz --set sa1.nothing=1 </dev/null");
+    const auto wrong = test::run_program(folder, "stream --population 'grid 2x2' --rate 1kHz --set sa1.nothing=1 </dev/null");
     EXPECT_NE(wrong.status, 0);
     EXPECT_NE(wrong.err.find("unknown parameter 'nothing'"), std::string::npos) << wrong.err;
 }
@@ -534,7 +534,7 @@ TEST(StreamProgram, ClassesOfAPopulationCanBeSet) {
 
 TEST(StreamProgram, FramesSentBeforeAnInterruptAreAnsweredAlsoThoseInTheSocket) {
     before();
-    const Folder folder;
+    const TemporaryFolder folder;
     Child child(folder, with_settings({"--in", "tcp:0", "--json", "-o", folder / "s.csv"}));
     const int fd = connected(child.port());
     std::string frames;
@@ -554,7 +554,7 @@ TEST(StreamProgram, FramesSentBeforeAnInterruptAreAnsweredAlsoThoseInTheSocket) 
 
 TEST(StreamProgram, AnIdleSenderMakesWayForTheNextAndStaysIfThereIsNone) {
     before();
-    const Folder folder;
+    const TemporaryFolder folder;
     Child child(folder, with_settings({"--in", "tcp:0", "--idle-limit", "300ms", "--clients", "2", "--json", "-o", folder / "s.csv"}));
     const int port = child.port(), silent = connected(port);
     EXPECT_EQ(::send(silent, "1\n", 2, MSG_NOSIGNAL), 2);
@@ -596,7 +596,7 @@ void send_datagram(int fd, std::string_view text) { EXPECT_EQ(::send(fd, text.da
 
 TEST(StreamProgram, FramesInDatagramsGiveTheSpikesOfFramesInAPipe) {
     before();
-    const Folder folder;
+    const TemporaryFolder folder;
     Child whole(folder, with_settings({"--quiet"}));
     whole.send(some_lines(600)), whole.close_in();
     const auto wanted = whole.read_out();
@@ -618,7 +618,7 @@ TEST(StreamProgram, FramesInDatagramsGiveTheSpikesOfFramesInAPipe) {
 
 TEST(StreamProgram, NumberedDatagramsKeepTheirTimeAndOnlyOneSenderIsHeard) {
     before();
-    const Folder folder;
+    const TemporaryFolder folder;
     Child child(folder, with_settings({"--in", "udp:0", "--clients", "1", "--stamp", "count", "--frames", "f64", "--json", "-o", folder / "s.csv"}));
     const int port = child.port(), fd = datagrams_to(port), stranger = datagrams_to(port);
     const auto frame = [](std::uint32_t number, double force) {
@@ -651,7 +651,7 @@ TEST(StreamProgram, NumberedDatagramsKeepTheirTimeAndOnlyOneSenderIsHeard) {
 
 TEST(StreamProgram, OneSignalEndsItWhileItWaitsForARecordingThatDoesNotCome) {
     before();
-    const Folder folder;
+    const TemporaryFolder folder;
     const auto fifo = folder / "fifo.csv";
     ASSERT_EQ(::mkfifo(fifo.c_str(), 0600), 0);
     Child opening(folder, {"--in", fifo, "--rate", "1kHz"});
@@ -673,7 +673,7 @@ TEST(StreamProgram, OneSignalEndsItWhileItWaitsForARecordingThatDoesNotCome) {
 }
 
 TEST(StreamProgram, WordsThatCannotBeMeantAreRefused) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const std::pair<const char*, const char*> cases[] = {
         {"", "--rate is required"},
         {"--rate 1kHz --format aerr", "unknown event format 'aerr'; did you mean 'aer'?"},
@@ -694,7 +694,7 @@ TEST(StreamProgram, WordsThatCannotBeMeantAreRefused) {
         {"--in tcp:0 --rate 1kHz --listen 203.0.113.1", "cannot listen on 203.0.113.1:0"},
     };
     for (const auto& [words, said] : cases) {
-        const auto ran = test::run(folder, std::string("stream ") + words + " </dev/null");
+        const auto ran = test::run_program(folder, std::string("stream ") + words + " </dev/null");
         EXPECT_NE(ran.status, 0) << words;
         EXPECT_NE(ran.err.find(said), std::string::npos) << words << ": " << ran.err;
     }

@@ -12,9 +12,9 @@ namespace corpuscle {
 namespace {
 
 using Train = std::vector<double>;
-using test::sure;
+using test::value_or_throw;
 
-double distance(const Train& a, const Train& b, double q) { return sure(victor_purpura(a, b, q)); }
+double distance(const Train& a, const Train& b, double q) { return value_or_throw(victor_purpura(a, b, q)); }
 
 /// The table of Victor and Purpura, every cell.
 double whole_table(const Train& a, const Train& b, double q) {
@@ -84,7 +84,7 @@ TEST(VictorPurpura, MovesAreInOrderWorthTheirCostAndAddUpToIt) {
     EXPECT_TRUE(rc::check("the moves of an alignment", [] {
         const auto a = any_train(), b = any_train();
         const double q = any_cost();
-        const auto aligned = sure(align_trains(a, b, q));
+        const auto aligned = value_or_throw(align_trains(a, b, q));
         double cost = static_cast<double>(a.size() + b.size() - 2 * aligned.moved.size());
         for (std::size_t k = 0; k < aligned.moved.size(); ++k) {
             const auto [i, j] = aligned.moved[k];
@@ -111,7 +111,7 @@ Train poisson(std::size_t spikes, std::uint32_t who) {
 TEST(VictorPurpura, TrainsOfAHundredThousandTakeWellUnderASecondAndImpossibleOnesAreRefused) {
     const auto a = poisson(100'000, 1), b = poisson(100'000, 2);
     const auto start = std::chrono::steady_clock::now();
-    const auto aligned = sure(align_trains(a, b, 100));
+    const auto aligned = value_or_throw(align_trains(a, b, 100));
     EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 1) << "ten times that, in a sanitized build";
     EXPECT_GT(aligned.moved.size(), 50'000U);
     const auto refused = victor_purpura(a, b, 1e-4);

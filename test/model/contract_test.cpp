@@ -12,10 +12,10 @@
 namespace corpuscle {
 namespace {
 
-using test::afferent, test::every_afferent, test::force, test::spikes;
+using test::afferent, test::all_afferent_names, test::force, test::spikes;
 
 TEST(Contract, NoForceGivesNoSpikes) {
-    for (const auto& name : every_afferent())
+    for (const auto& name : all_afferent_names())
         for (const auto method : {Method::exact, Method::backward_euler})
             for (const double rate : {1e3, 10e3})
                 EXPECT_TRUE(spikes(*afferent(name, {.rate = rate, .method = method}), std::vector<double>(20000)).empty())
@@ -23,7 +23,7 @@ TEST(Contract, NoForceGivesNoSpikes) {
 }
 
 TEST(Contract, EachAnswersToATouchOfItsKind) {
-    for (const auto& name : every_afferent()) {
+    for (const auto& name : all_afferent_names()) {
         const bool feels_vibration_only = name == "fa2" || name.starts_with("vibration");
         const auto touch = feels_vibration_only ? force("sine", {.settings = {"sine.f=250Hz", "sine.F_amp=0.3N"}}) : force("press");
         EXPECT_FALSE(spikes(*afferent(name), touch).empty()) << name;
@@ -55,8 +55,8 @@ TEST(Contract, EveryRowHasASentenceAReadableUnitAndItsDefaultInRange) {
 }
 
 TEST(Contract, ValuesOutsideARowsRangeAreRefusedByName) {
-    for (const auto& name : every_afferent()) {
-        const auto plan = test::sure(plan_afferent(name, {}));
+    for (const auto& name : all_afferent_names()) {
+        const auto plan = test::value_or_throw(plan_afferent(name, {}));
         for (const auto& p : *plan.parameters) {
             for (const double value : {p.info.high * 2 + 1, p.info.low - std::abs(p.info.low) - 1}) {
                 const ParameterOverride wish{name, std::string(p.info.name), fmt::format("{}", value)};
@@ -70,12 +70,12 @@ TEST(Contract, ValuesOutsideARowsRangeAreRefusedByName) {
 
 TEST(Contract, BlocksOfAnySizeGiveTheSameSpikesAndTraces) {
     EXPECT_TRUE(rc::check("chunked equals whole, byte for byte", [] {
-        const auto names = every_afferent();
+        const auto names = all_afferent_names();
         const auto name = names[*rc::gen::inRange<std::size_t>(0, names.size())];
         const auto method = *rc::gen::element(Method::exact, Method::backward_euler);
         const auto f = force(*rc::gen::element<std::string>("press+noise", "ramp-hold", "grating", "step+sine"),
                              {.settings = {"noise.F_mean=0"}, .rate = 2e3, .seed = 5});
-        const auto plan = test::sure(plan_afferent(name, {}));
+        const auto plan = test::value_or_throw(plan_afferent(name, {}));
         std::vector<std::string> settings;
         if (plan.value("t_ref")) settings.push_back(fmt::format("{}.t_ref={}us", name, *rc::gen::inRange(0, 20000)));
         const auto a = afferent(name, {.settings = settings, .rate = 2e3, .method = method});
@@ -88,7 +88,7 @@ TEST(Contract, BlocksOfAnySizeGiveTheSameSpikesAndTraces) {
                 std::vector<double*> here;
                 for (auto& p : probes) here.push_back(p.data() + k);
                 ResponseBlock answer{out, 3, here};
-                state = test::sure(unpack(pack(state)));  // and saved and resumed between blocks
+                state = test::value_or_throw(unpack(pack(state)));  // and saved and resumed between blocks
                 RC_ASSERT(static_cast<bool>(a->respond(std::span(f).subspan(k, size), state, answer)));
                 k += size;
             }
@@ -107,7 +107,7 @@ TEST(Contract, BlocksOfAnySizeGiveTheSameSpikesAndTraces) {
 }
 
 TEST(Contract, AForceThatIsNoNumberIsRefused) {
-    for (const auto& name : every_afferent())
+    for (const auto& name : all_afferent_names())
         for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity()}) {
             std::vector<Spike> out;
             ResponseBlock answer{out};
@@ -122,7 +122,7 @@ TEST(Contract, AForceThatIsNoNumberIsRefused) {
 }
 
 TEST(Contract, ForcesFarTooLargeGiveSpikesOrAnErrorNeverSilence) {
-    for (const auto& name : every_afferent())
+    for (const auto& name : all_afferent_names())
         for (const double newtons : {100.0, 3e4, 1e9}) {
             std::vector<Spike> out;
             ResponseBlock answer{out};
@@ -141,7 +141,7 @@ TEST(Contract, ForcesFarTooLargeGiveSpikesOrAnErrorNeverSilence) {
 }
 
 TEST(Contract, NoSpikeComesBeforeTheFirstSample) {
-    for (const auto& name : every_afferent()) {
+    for (const auto& name : all_afferent_names()) {
         const auto train = spikes(*afferent(name, {.rate = 1e3, .method = Method::backward_euler}), std::vector<double>(1000, 300.0));
         if (train.empty()) continue;
         EXPECT_GE((Clock{1000, 1}.time(train[0].step, train[0].offset)), 0) << name;
@@ -172,7 +172,7 @@ TEST(Contract, EveryMachineAndCompilerGivesTheSameBits) {
 }
 
 TEST(Contract, SpikesComeInOrderInsideTheirSteps) {
-    for (const auto& name : every_afferent())
+    for (const auto& name : all_afferent_names())
         for (const auto method : {Method::exact, Method::backward_euler}) {
             const auto train = spikes(*afferent(name, {.rate = 500, .method = method}),
                                       force("press+noise", {.settings = {"noise.F_sd=2N"}, .rate = 500}));
@@ -191,7 +191,7 @@ TEST(Contract, AStateOfAnotherAfferentIsRefused) {
 }
 
 TEST(Contract, EachConvergesToItsOwnFineStepAnswer) {
-    for (const auto& name : every_afferent()) {
+    for (const auto& name : all_afferent_names()) {
         const bool vibration = name == "fa2" || name.starts_with("vibration"),
                    substeps = name.ends_with("izhikevich") || name.ends_with("adex");
         const auto at = [&](double rate) {
@@ -216,7 +216,7 @@ TEST(Contract, EachConvergesToItsOwnFineStepAnswer) {
 }
 
 TEST(Contract, FirstSampleSetsTheForceThatWentBeforeIt) {
-    for (const auto& name : every_afferent()) {
+    for (const auto& name : all_afferent_names()) {
         if (name.find("sa") != std::string::npos) {  // they answer to force that stands still; but not as to a step
             const auto at_once = spikes(*afferent(name), std::vector<double>(2, 3.0)),
                        later = spikes(*afferent(name), std::vector<double>(2000, 3.0));

@@ -11,7 +11,7 @@
 namespace corpuscle {
 namespace {
 
-using test::sure;
+using test::value_or_throw;
 
 struct Drawn {
     std::vector<std::string> settings, spreads;
@@ -20,8 +20,8 @@ struct Drawn {
 };
 
 std::vector<AfferentPlan> draw(const std::string& name, const Drawn& d) {
-    const auto plan = sure(plan_afferent(name, test::wishes(d.settings)));
-    return sure(make_copies(plan, d.copies, sure(distributions_for(plan, name, test::wishes(d.spreads))), d.seed));
+    const auto plan = value_or_throw(plan_afferent(name, test::parse_settings(d.settings)));
+    return value_or_throw(make_copies(plan, d.copies, value_or_throw(distributions_for(plan, name, test::parse_settings(d.spreads))), d.seed));
 }
 
 std::vector<double> values(const std::vector<AfferentPlan>& copies, std::string_view parameter) {
@@ -128,22 +128,22 @@ TEST(Spread, GivesCopiesWithNamesAndNumbersThatShareWhatTheyAreMadeOf) {
     const auto other = draw("fa1", {{}, {}, 2});
     all.insert(all.end(), other.begin(), other.end());
     EXPECT_EQ(copy_group_starts(all), (std::vector<std::size_t>{0, 3, 5}));
-    const std::vector plain = {sure(plan_afferent("sa1", {})), sure(plan_afferent("fa1", {}))};
+    const std::vector plain = {value_or_throw(plan_afferent("sa1", {})), value_or_throw(plan_afferent("fa1", {}))};
     EXPECT_EQ(copy_group_starts(plain), (std::vector<std::size_t>{0, 1, 2}));
     EXPECT_EQ(base_name(all[4]), "fa1");
     EXPECT_EQ(base_name(plain[1]), "fa1");
 }
 
 TEST(Contract, EveryParameterThatCopiesDoNotShareCanDifferInEveryAfferent) {
-    for (const auto& name : test::every_afferent()) {
-        const auto plan = sure(plan_afferent(name, {}));
+    for (const auto& name : test::all_afferent_names()) {
+        const auto plan = value_or_throw(plan_afferent(name, {}));
         std::vector<ParameterOverride> wishes;
         for (std::size_t k = 0; k < plan.values.size(); ++k) {
             const auto& row = (*plan.parameters)[k].info;
             if (!row.is_shared_by_copies && plan.values[k] != 0) wishes.push_back({name, std::string(row.name), "2%"});
         }
-        const auto spreads = sure(distributions_for(plan, name, wishes));
-        const auto copies = sure(make_copies(plan, 4, spreads, 3));
+        const auto spreads = value_or_throw(distributions_for(plan, name, wishes));
+        const auto copies = value_or_throw(make_copies(plan, 4, spreads, 3));
         for (const auto& copy : copies) {
             EXPECT_FALSE(check_plan(copy)) << copy.name;
             for (const auto& s : spreads) EXPECT_NE(copy.value(s.parameter), plan.value(s.parameter)) << copy.name << '.' << s.parameter;
@@ -190,15 +190,15 @@ TEST(Spread, OfWhatCannotDifferIsRefusedByName) {
         {"sa1", {"sa1.f_B=1Hz", "SA-I.f_B=10%"}, "--spread SA-I.f_B=10%: sa1.f_B is given twice"},
     };
     for (const auto& c : cases) {
-        const auto spreads = distributions_for(sure(plan_afferent(c.name, {})), c.name, test::wishes(c.spreads));
+        const auto spreads = distributions_for(value_or_throw(plan_afferent(c.name, {})), c.name, test::parse_settings(c.spreads));
         ASSERT_FALSE(spreads) << c.said;
         EXPECT_EQ(spreads.error().text(), c.said);
     }
 }
 
 TEST(Spread, ThatNothingCanStandUnderIsAnErrorAfterAThousandDraws) {
-    const auto plan = sure(plan_afferent("sa1", {}));
-    const auto wide = make_copies(plan, 2, sure(distributions_for(plan, "sa1", test::wishes({"sa1.V_th=1GV"}))), 1);
+    const auto plan = value_or_throw(plan_afferent("sa1", {}));
+    const auto wide = make_copies(plan, 2, value_or_throw(distributions_for(plan, "sa1", test::parse_settings({"sa1.V_th=1GV"}))), 1);
     ASSERT_FALSE(wide);
     EXPECT_EQ(wide.error().text(),
               "sa1#1: none of 1000 samples of V_th about 500 mV with a standard deviation of 1 GV is valid; lower its --spread");
@@ -208,7 +208,7 @@ TEST(Spread, ThatNothingCanStandUnderIsAnErrorAfterAThousandDraws) {
 }
 
 TEST(Spread, OfNothingLeavesEveryCopyAsItIs) {
-    const auto plan = sure(plan_afferent("sa1", {}));
+    const auto plan = value_or_throw(plan_afferent("sa1", {}));
     for (const auto& copy : draw("sa1", {{}, {"sa1.E_L=0%", "sa1.f_B=0Hz"}, 5})) EXPECT_EQ(copy.values, plan.values);
 }
 

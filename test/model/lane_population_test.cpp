@@ -14,7 +14,7 @@
 namespace corpuscle {
 namespace {
 
-using test::force, test::sure;
+using test::force, test::value_or_throw;
 
 std::span<const InstructionSet> lane_sets() { return instruction_sets().subspan(1); }
 
@@ -49,7 +49,7 @@ struct How {
 std::unique_ptr<LanePopulation> population(const Case& c, const How& how) {
     std::vector<const AfferentPlan*> plans;
     for (const auto& p : c.plans) plans.push_back(&p);
-    return sure(make_lane_population({plans, c.units(), {}, how.precision}, c.run, how.set));
+    return value_or_throw(make_lane_population({plans, c.units(), {}, how.precision}, c.run, how.set));
 }
 
 /// Answers in blocks; feed(first, count, answer) hands each one in.
@@ -112,8 +112,8 @@ AfferentPlan scattered(AfferentPlan plan, std::uint64_t seed, std::uint32_t unit
 
 /// With coarse substeps, where there are any: they take the time and are all alike.
 AfferentPlan plan_of(const std::string& name) {
-    auto plan = sure(plan_afferent(name, {}));
-    if (plan.value("substep")) plan = sure(plan_afferent(name, test::wishes({name + ".substep=200us"})));
+    auto plan = value_or_throw(plan_afferent(name, {}));
+    if (plan.value("substep")) plan = value_or_throw(plan_afferent(name, test::parse_settings({name + ".substep=200us"})));
     return plan;
 }
 
@@ -158,7 +158,7 @@ TEST(LanePopulation, AnyChunksAnyThreadsAnyLanesGiveTheSameSpikes) {
 
 TEST(LanePopulation, AHundredThousandRandomAfferentsAnswerAsOneByOne) {
     const corpuscle::SimulationOptions run{1e-3, Method::exact};
-    const auto plan = sure(plan_afferent("sa1", {}));
+    const auto plan = value_or_throw(plan_afferent("sa1", {}));
     const auto press = force("press", {.rate = 1e3});
     std::vector<AfferentPlan> plans;
     for (std::uint32_t u = 0; u < 100'000; ++u) plans.push_back(scattered(plan, 5, u));
@@ -176,7 +176,7 @@ TEST(LanePopulation, AHundredThousandRandomAfferentsAnswerAsOneByOne) {
     for (const auto set : lane_sets())
         for (const unsigned threads : {1U, 2U, 5U}) {
             ThreadPool pool(threads);
-            const auto p = sure(make_lane_population({pointers, plans.size()}, run, set));
+            const auto p = value_or_throw(make_lane_population({pointers, plans.size()}, run, set));
             std::vector<Spike> out;
             PopulationResponse answer{&out};
             ASSERT_TRUE(static_cast<bool>(p->respond(ForceProfile{press}, press.size(), answer, pool)));
@@ -197,7 +197,7 @@ lanes::AlignedBuffer<E> tiles(const Case& c, std::size_t first, std::size_t coun
 TEST(LanePopulation, TilesAndWordsAreReadAsColumnsAre) {
     constexpr double newtons = 1.0 / 4096;
     const corpuscle::SimulationOptions run{5e-4};
-    Case c{{sure(plan_afferent("sa1", {}))}, forces(150, 2e3, 0.4), run};
+    Case c{{value_or_throw(plan_afferent("sa1", {}))}, forces(150, 2e3, 0.4), run};
     for (auto& f : c.force)
         for (auto& x : f) x = std::nearbyint(std::clamp(x, -7.9, 7.9) / newtons) * newtons;  // what a word can say
     const auto right = one_by_one(c);
@@ -236,7 +236,7 @@ TEST(LanePopulation, AGainTimesAProfileIsThatForceToRoundingWhetherTransducedOnc
     for (const auto& receptor : receptor_entries()) {
         const std::string name = fmt::format("{}+lif-b", receptor.name);
         for (const auto method : {Method::exact, Method::backward_euler}) {
-            Case c{{sure(plan_afferent(name, {}))}, forces(64, 2e3, 0.5), {5e-4, method}};
+            Case c{{value_or_throw(plan_afferent(name, {}))}, forces(64, 2e3, 0.5), {5e-4, method}};
             std::vector<double> gain;
             for (std::size_t u = 0; u < c.units(); ++u) gain.push_back(static_cast<double>(u) / 20);
             const auto profile = c.force[3];
@@ -261,7 +261,7 @@ TEST(LanePopulation, AGainTimesAProfileIsThatForceToRoundingWhetherTransducedOnc
 
 TEST(LanePopulation, MarksAreTheSampledSpikes) {
     const corpuscle::SimulationOptions run{5e-4, Method::exact, true};
-    const Case c{{sure(plan_afferent("sa1", {}))}, forces(100, 2e3, 0.4), run};
+    const Case c{{value_or_throw(plan_afferent("sa1", {}))}, forces(100, 2e3, 0.4), run};
     std::vector<const double*> columns;
     for (const auto& f : c.force) columns.push_back(f.data());
     const std::size_t steps = c.force[0].size();
@@ -313,7 +313,7 @@ TEST(LanePopulation, WhatCannotStandSideBySideIsRefused) {
         return made ? std::string() : made.error().message;
     };
     const auto plan = [](const std::string& name, const std::vector<std::string>& settings = {}) {
-        return sure(plan_afferent(name, test::wishes(settings)));
+        return value_or_throw(plan_afferent(name, test::parse_settings(settings)));
     };
     EXPECT_EQ(refused({plan("sa1"), plan("sa1", {"sa1.f_B=30"})}), "");
     EXPECT_NE(refused({plan("sa1"), plan("fa1")}).find("cannot contain"), std::string::npos);
@@ -325,7 +325,7 @@ TEST(LanePopulation, WhatCannotStandSideBySideIsRefused) {
 }
 
 TEST(LanePopulation, ItsForceKeepsToOneWay) {
-    const Case c{{sure(plan_afferent("sa1", {}))}, forces(3, 1e3, 0.1), {1e-3}};
+    const Case c{{value_or_throw(plan_afferent("sa1", {}))}, forces(3, 1e3, 0.1), {1e-3}};
     const auto p = population(c, {});
     ThreadPool pool(1);
     PopulationResponse answer;
@@ -342,7 +342,7 @@ TEST(LanePopulation, ItsForceKeepsToOneWay) {
     EXPECT_FALSE(population(c, {})->respond(ForceColumns{std::span(columns).first(2)}, 10, answer, pool));
 
     // sa1a's current does not scale with force: without gains it is transduced once, with gains by each unit.
-    const Case mixed{{sure(plan_afferent("sa1a+lif-b", {}))}, c.force, c.run};
+    const Case mixed{{value_or_throw(plan_afferent("sa1a+lif-b", {}))}, c.force, c.run};
     const std::vector<double> ones = {1, 1, 1};
     const auto m = population(mixed, {});
     ASSERT_TRUE(static_cast<bool>(m->respond(ForceProfile{c.force[0]}, 10, answer, pool)));
@@ -367,7 +367,7 @@ TEST(LanePopulation, FloatGivesThePressTheSameSpikesWithinFiftyMicroseconds) {
     for (const auto* name : {"sa1", "fa1", "sa2"})
         for (const auto set : lane_sets())
             for (const auto method : {Method::exact, Method::backward_euler}) {
-                const Case c{{sure(plan_afferent(name, {}))}, {force("press")}, {1e-4, method}};
+                const Case c{{value_or_throw(plan_afferent(name, {}))}, {force("press")}, {1e-4, method}};
                 expect_near(c, set, 50e-6);
             }
 }

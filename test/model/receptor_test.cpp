@@ -126,9 +126,9 @@ TEST(Afferent, Fa2IsBestAt200To300HzAndDeafToThePress) {
 
 TEST(Afferent, TouchSimsNamesAndOtherSpellingsAreAccepted) {
     for (const auto& [other, name] : {std::pair{"SA1", "sa1"}, {"RA", "fa1"}, {"PC", "fa2"}, {"SA-I", "sa1"}, {"FA-II", "fa2"}})
-        EXPECT_EQ(test::sure(plan_afferent(other, {})).name, name);
-    const auto mine = test::wishes({"RA.f=3Hz"});
-    EXPECT_EQ(test::sure(plan_afferent("RA", mine)).value("f"), 3);
+        EXPECT_EQ(test::value_or_throw(plan_afferent(other, {})).name, name);
+    const auto mine = test::parse_settings({"RA.f=3Hz"});
+    EXPECT_EQ(test::value_or_throw(plan_afferent("RA", mine)).value("f"), 3);
 }
 
 TEST(Afferent, WrongNamesAreRefusedWithWhatIsNear) {
@@ -137,8 +137,8 @@ TEST(Afferent, WrongNamesAreRefusedWithWhatIsNear) {
               "'sa1b+lif-b')");
     EXPECT_EQ(plan_afferent("sa1b+lifb", {}).error().message,
               "sa1b+lifb: unknown neuron 'lifb'; did you mean 'lif-b'? (there are lif-a, lif-b, adaptive, izhikevich, adex)");
-    EXPECT_EQ(plan_afferent("sa1", test::wishes({"sa1.V_reset=600mV"})).error().message, "sa1: V_reset = 0.6 must be below V_th = 0.5");
-    EXPECT_EQ(plan_afferent("sa1", test::wishes({"sa1.f_B=25ms"})).error().message,
+    EXPECT_EQ(plan_afferent("sa1", test::parse_settings({"sa1.V_reset=600mV"})).error().message, "sa1: V_reset = 0.6 must be below V_th = 0.5");
+    EXPECT_EQ(plan_afferent("sa1", test::parse_settings({"sa1.f_B=25ms"})).error().message,
               "sa1.f_B: '25ms' is a time; expected a value in Hz, such as '2 Hz'");
 }
 

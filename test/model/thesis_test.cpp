@@ -4,13 +4,13 @@
 #include <nlohmann/json.hpp>
 
 #include "measure/measures.hpp"
-#include "support/closed_form.hpp"
+#include "support/closed_form_press.hpp"
 #include "support/support.hpp"
 
 namespace corpuscle {
 namespace {
 
-using test::Asked, test::train;
+using test::RunSettings, test::train;
 
 struct ThesisCase {
     std::string afferent;
@@ -109,7 +109,7 @@ TEST(Thesis, SampledBackwardEulerIsTheAlgorithmToTheSample) {
 }
 
 TEST(Thesis, GoldenCasesAreMet) {
-    const auto path = test::shared("../golden/behaviour.json");
+    const auto path = test::shared_file_path("../golden/behaviour.json");
     CORPUSCLE_NEEDS(path);
     const auto golden = nlohmann::json::parse(test::read_file(path));
     for (const auto& g : golden["cases"]) {
@@ -147,7 +147,7 @@ TEST(Thesis, GoldenCasesAreMet) {
 }
 
 TEST(Thesis, Figure16sNeuronsMeetTheGoldenValues) {
-    const auto path = test::shared("../golden/behaviour.json");
+    const auto path = test::shared_file_path("../golden/behaviour.json");
     CORPUSCLE_NEEDS(path);
     const auto golden = nlohmann::json::parse(test::read_file(path))["fig16"];
     const auto run = [](const std::string& neuron, double amplitude, Method method, bool sampled, double T) {
@@ -160,7 +160,7 @@ TEST(Thesis, Figure16sNeuronsMeetTheGoldenValues) {
         return spike_times(test::spikes(*a, test::force("step", {.settings = {"step.F_max=" + std::to_string(amplitude) + "N", "step.t_rest=0.5s",
                                                                         "step.t_hold=3.5s", "step.t_post=2s"},
                                                            .rate = 1 / T})),
-                     test::sure(make_clock(1 / T)));
+                     test::value_or_throw(make_clock(1 / T)));
     };
     for (const auto& g : golden["cases"]) {
         const double amplitude = g["I_amp"].get<double>() * 1e6;

@@ -14,7 +14,7 @@ TEST(Headers, NoTwoDefineATypeOfOneName) {
         type("^(?:struct|class|enum class|enum) (\\w+)(?= |:|\\{)(?!::)", std::regex::multiline);
     std::map<std::string, std::string> first;
     int count = 0;
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(test::root() + "/src")) {
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(test::project_root() + "/src")) {
         if (entry.path().extension() != ".hpp") continue;
         const auto text = test::read_file(entry.path().string());
         std::smatch in;

@@ -5,7 +5,7 @@
 namespace corpuscle {
 namespace {
 
-using test::Asked, test::force;
+using test::RunSettings, test::force;
 
 TEST(Stimulus, EachIsFiniteNeverPullsAndComesAgainTheSame) {
     for (const auto& card : stimulus_catalog()) {
@@ -29,7 +29,7 @@ TEST(Stimulus, EachIsTheSameAtEveryRate) {
 
 TEST(Stimulus, PhasesFollowEachOtherToTheEnd) {
     for (const auto& card : stimulus_catalog()) {
-        const auto source = test::sure(make_stimulus(card.name, {}, 1e3, 0));
+        const auto source = test::value_or_throw(make_stimulus(card.name, {}, 1e3, 0));
         double at = 0;
         for (const auto& p : source->phases()) {
             EXPECT_EQ(p.from, at) << card.name;
@@ -37,7 +37,7 @@ TEST(Stimulus, PhasesFollowEachOtherToTheEnd) {
             at = p.to;
         }
         if (at > 0) {
-            EXPECT_NEAR(at * 1e3, static_cast<double>(test::force_of(*source).size()), 0.5) << card.name;
+            EXPECT_NEAR(at * 1e3, static_cast<double>(test::read_first_channel(*source).size()), 0.5) << card.name;
         }
     }
 }
@@ -65,7 +65,7 @@ TEST(Stimulus, AShorterMemberOfASumHoldsItsLastValue) {
     for (std::size_t k = 0; k < sum.size(); ++k)
         ASSERT_LE(std::abs(sum[k] - press[k]), 0.2) << "a sweep that went on would leave all bounds";
     for (std::size_t k = 1001; k < sum.size(); ++k) ASSERT_NEAR(sum[k] - press[k], sum[1001] - press[1001], 1e-12);
-    const auto source = test::sure(make_stimulus("press+sine", test::wishes({"sine.duration=3s"}), 1e3, 0));
+    const auto source = test::value_or_throw(make_stimulus("press+sine", test::parse_settings({"sine.duration=3s"}), 1e3, 0));
     EXPECT_EQ(source->phases().back().name, "after");
     EXPECT_EQ(source->phases().back().to, 3);
 }
@@ -84,7 +84,7 @@ TEST(Stimulus, AStepsEdgesFallOnTheirSamples) {
 }
 
 TEST(Stimulus, NoiseFollowsItsSeedAndHasItsSpread) {
-    const Asked a{.settings = {"noise.duration=100s"}, .rate = 1e3, .seed = 1},
+    const RunSettings a{.settings = {"noise.duration=100s"}, .rate = 1e3, .seed = 1},
         b{.settings = {"noise.duration=100s"}, .rate = 1e3, .seed = 2};
     const auto x = force("noise", a);
     EXPECT_NE(x, force("noise", b));
@@ -110,7 +110,7 @@ TEST(Stimulus, ChirpAndGratingHaveTheFrequenciesTheySay) {
 
 TEST(Stimulus, WrongNamesAndValuesAreRefusedWithWhatIsRight) {
     const auto said = [](const std::string& text, std::vector<std::string> settings = {}, double rate = 1e3) {
-        const auto mine = test::wishes(settings);
+        const auto mine = test::parse_settings(settings);
         const auto made = make_stimulus(text, mine, rate, 0);
         return made ? std::string("accepted") : made.error().text();
     };

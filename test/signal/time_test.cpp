@@ -12,17 +12,17 @@ namespace {
 
 TEST(Clock, IsAnExactFractionOfASecond) {
     const auto fraction = [](double rate) {
-        const auto c = test::sure(make_clock(rate));
+        const auto c = test::value_or_throw(make_clock(rate));
         return std::pair(c.rate_numerator, c.rate_denominator);
     };
     EXPECT_EQ(fraction(1000), std::pair(std::int64_t{1000}, std::int64_t{1}));
     EXPECT_EQ(fraction(242.6), std::pair(std::int64_t{1213}, std::int64_t{5}));
     EXPECT_EQ(fraction(0.1), std::pair(std::int64_t{1}, std::int64_t{10}));
-    for (const double rate : {M_PI, 1 / 3.0, 1e9 + 0.5, 44100 / 1.001}) EXPECT_NEAR(test::sure(make_clock(rate)).rate(), rate, 1e-12 * rate);
+    for (const double rate : {M_PI, 1 / 3.0, 1e9 + 0.5, 44100 / 1.001}) EXPECT_NEAR(test::value_or_throw(make_clock(rate)).rate(), rate, 1e-12 * rate);
 }
 
 TEST(Clock, TimesOfALongRunAreNotAccumulated) {
-    const auto c = test::sure(make_clock(10e3, 2.5));
+    const auto c = test::value_or_throw(make_clock(10e3, 2.5));
     EXPECT_EQ(c.time(0), 2.5);
     EXPECT_EQ(c.time(36'000'000'000), 2.5 + 3.6e6);  // a thousand hours
     EXPECT_EQ(c.time(11, 0.5), 2.5 + 10.5 / 10e3);
@@ -82,14 +82,14 @@ TEST(State, OneOfTheVersionBeforeIsReadAndOneOfALaterVersionIsRefused) {
     EXPECT_EQ(before->values, (std::vector<double>{1, 2, 3}));
 }
 
-TEST(Random, PhiloxGivesThePublishedWords) {  // known answers of Random123, kat_vectors
+TEST(RandomDevice, PhiloxGivesThePublishedWords) {  // known answers of Random123, kat_vectors
     EXPECT_EQ(philox({0, 0, 0, 0}, 0), (PhiloxCounter{0x6627e8d5, 0xe169c58d, 0xbc57ac4c, 0x9b00dbd8}));
     EXPECT_EQ(philox({~0U, ~0U, ~0U, ~0U}, ~0ULL), (PhiloxCounter{0x408f276d, 0x41c83b0e, 0xa20bc7c6, 0x6d5451fd}));
     EXPECT_EQ(philox({0x243f6a88, 0x85a308d3, 0x13198a2e, 0x03707344}, 0x299f31d0a4093822),
               (PhiloxCounter{0xd16cfe09, 0x94fdcceb, 0x5001e420, 0x24126ea1}));
 }
 
-TEST(Random, NormalDeviatesHaveTheMomentsOfANormal) {
+TEST(RandomDevice, NormalDeviatesHaveTheMomentsOfANormal) {
     constexpr int n = 200000;
     double sum = 0, square = 0, fourth = 0;
     for (std::uint64_t k = 0; k < n; ++k) {

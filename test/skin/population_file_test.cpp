@@ -6,7 +6,7 @@
 
 #include "skin/innervation.hpp"
 #include "skin/site_grid.hpp"
-#include "support/places.hpp"
+#include "support/test_paths.hpp"
 #include "support/property.hpp"
 
 namespace corpuscle {
@@ -238,7 +238,7 @@ TEST(PopulationFile, SensorsStandInAListATableOrWhereARecordingHasThem) {
 }
 
 TEST(PopulationFile, TheOneInTheManualIsRead) {
-    std::ifstream page(test::root() + "/doc/skin.md");
+    std::ifstream page(test::project_root() + "/doc/skin.md");
     std::stringstream all;
     all << page.rdbuf();
     const auto text = all.str();

@@ -15,25 +15,25 @@
 namespace corpuscle {
 namespace {
 
-using test::Folder;
+using test::TemporaryFolder;
 
 struct Ran {
     std::string spikes, traces, document;
     RunStats work;
 };
 
-Ran run(const Folder& folder, const std::vector<std::string>& stimuli, const std::vector<std::string>& names, std::size_t block) {
+Ran run(const TemporaryFolder& folder, const std::vector<std::string>& stimuli, const std::vector<std::string>& names, std::size_t block) {
     std::vector<std::unique_ptr<ForceSource>> sources;
     std::vector<AfferentPlan> plans;
-    for (const auto& s : stimuli) sources.push_back(test::sure(make_stimulus(s, {}, 2e3, 9)));
-    for (const auto& n : names) plans.push_back(test::sure(plan_afferent(n, {})));
-    SpikesFile spikes(test::sure(OutputFile::create(folder / "spikes.csv")));
+    for (const auto& s : stimuli) sources.push_back(test::value_or_throw(make_stimulus(s, {}, 2e3, 9)));
+    for (const auto& n : names) plans.push_back(test::value_or_throw(plan_afferent(n, {})));
+    SpikesFile spikes(test::value_or_throw(OutputFile::create(folder / "spikes.csv")));
     ProbesFile traces(folder.path());
     RunSummary summary;
     ResponseSink* listeners[] = {&spikes, &traces, &summary};
     RespondOptions options;
     options.block = block;
-    const auto work = test::sure(respond(sources, plans, listeners, options));
+    const auto work = test::value_or_throw(respond(sources, plans, listeners, options));
     EXPECT_TRUE(spikes.commit());
     EXPECT_TRUE(traces.commit());
     return {test::read_file(folder / "spikes.csv"), test::read_file(folder / "traces.csv"),
@@ -42,10 +42,10 @@ Ran run(const Folder& folder, const std::vector<std::string>& stimuli, const std
 
 TEST(Respond, FilesDoNotDependOnTheBlock) {
     const std::vector<std::string> stimuli = {"press", "press+noise"}, names = {"sa1", "fa1-lee", "sa1b+izhikevich"};
-    const Folder one;
+    const TemporaryFolder one;
     const auto whole = run(one, stimuli, names, 1 << 20);
     for (const std::size_t block : {1, 2, 7, 64, 333, 1999, 2000}) {
-        const Folder other;
+        const TemporaryFolder other;
         const auto parts = run(other, stimuli, names, block);
         EXPECT_EQ(whole.spikes, parts.spikes) << block;
         EXPECT_EQ(whole.traces, parts.traces) << block;
@@ -54,7 +54,7 @@ TEST(Respond, FilesDoNotDependOnTheBlock) {
 }
 
 TEST(Respond, SpikesFileIsInOrderOfTimeInputAfterInput) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const auto ran = run(folder, {"press", "press"}, {"sa1", "fa1"}, 64);
     std::istringstream lines(ran.spikes);
     std::string line, channel;
@@ -77,23 +77,23 @@ TEST(Respond, SpikesFileIsInOrderOfTimeInputAfterInput) {
 }
 
 TEST(Respond, TracesReadBackAsTheRecordingTheyAre) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const auto ran = run(folder, {"press"}, {"sa1"}, 64);
     EXPECT_TRUE(
         ran.traces.starts_with("time_s,press_N,sa1.press.I_A [A],sa1.press.I_B [A],sa1.press.I_C [A],sa1.press.I [A],sa1.press.u [V]\n"));
     RecordingOptions options;
     options.channels = {"press"};
-    const auto back = test::sure(open_recording(folder / "traces.csv", options));
+    const auto back = test::value_or_throw(open_recording(folder / "traces.csv", options));
     EXPECT_EQ(back->clock().rate(), 2000);
-    const auto read = test::force_of(*back), right = test::force("press", {.rate = 2e3});
+    const auto read = test::read_first_channel(*back), right = test::force("press", {.rate = 2e3});
     ASSERT_EQ(read.size(), right.size());
     for (std::size_t k = 0; k < right.size(); ++k) EXPECT_NEAR(read[k], right[k], 1e-8);
 }
 
 TEST(Respond, StopsWhenToldToAndSaysSo) {
     std::vector<std::unique_ptr<ForceSource>> sources;
-    sources.push_back(test::sure(make_stimulus("press", {}, 10e3, 0)));
-    const auto plan = test::sure(plan_afferent("sa1", {}));
+    sources.push_back(test::value_or_throw(make_stimulus("press", {}, 10e3, 0)));
+    const auto plan = test::value_or_throw(plan_afferent("sa1", {}));
     RespondOptions options;
     int blocks = 0;
     options.block = 100;
@@ -106,24 +106,24 @@ TEST(Respond, StopsWhenToldToAndSaysSo) {
 
 TEST(Respond, ARateTooLowForAnAfferentIsTold) {
     std::vector<std::unique_ptr<ForceSource>> sources;
-    sources.push_back(test::sure(make_stimulus("press", {}, 500, 0)));
-    const auto fa2 = test::sure(plan_afferent("fa2", {})), sa1 = test::sure(plan_afferent("sa1", {}));
+    sources.push_back(test::value_or_throw(make_stimulus("press", {}, 500, 0)));
+    const auto fa2 = test::value_or_throw(plan_afferent("fa2", {})), sa1 = test::value_or_throw(plan_afferent("sa1", {}));
     EXPECT_EQ(rate_warnings(sources, std::span(&fa2, 1)).at(0),
               "fa2 on press: the sample rate is 500 Hz, but this afferent needs 1000 Hz or more; do not trust its spikes");
     EXPECT_TRUE(rate_warnings(sources, std::span(&sa1, 1)).empty());
 }
 
 TEST(OutputFile, LeavesNothingBehindUnlessItIsWhole) {
-    const Folder folder;
+    const TemporaryFolder folder;
     {
-        auto f = test::sure(OutputFile::create(folder / "new/half.txt"));
+        auto f = test::value_or_throw(OutputFile::create(folder / "new/half.txt"));
         (void)f.write("half");
     }
-    EXPECT_TRUE(folder.names().empty()) << "neither the part nor the directory made for it";
-    auto f = test::sure(OutputFile::create(folder / "whole.txt"));
+    EXPECT_TRUE(folder.file_names().empty()) << "neither the part nor the directory made for it";
+    auto f = test::value_or_throw(OutputFile::create(folder / "whole.txt"));
     EXPECT_TRUE(f.write("whole"));
     EXPECT_TRUE(f.commit());
-    EXPECT_EQ(folder.names(), std::vector<std::string>{"whole.txt"});
+    EXPECT_EQ(folder.file_names(), std::vector<std::string>{"whole.txt"});
     EXPECT_EQ(test::read_file(folder / "whole.txt"), "whole");
     EXPECT_FALSE(OutputFile::create(folder.path()));
 }
@@ -131,12 +131,12 @@ TEST(OutputFile, LeavesNothingBehindUnlessItIsWhole) {
 TEST(RespondReport, KeepsItsShareHoweverManyInputsAndChannels) {
     const auto points_of = [](int inputs) {
         std::vector<std::unique_ptr<ForceSource>> sources;
-        for (int k = 0; k < inputs; ++k) sources.push_back(test::sure(make_stimulus("press", {}, 20e3, 0)));
-        const auto plan = test::sure(plan_afferent("sa1", {}));
+        for (int k = 0; k < inputs; ++k) sources.push_back(test::value_or_throw(make_stimulus("press", {}, 20e3, 0)));
+        const auto plan = test::value_or_throw(plan_afferent("sa1", {}));
         RespondReport report(100'000);
         RunSummary summary;
         ResponseSink* listeners[] = {&report, &summary};
-        (void)test::sure(respond(sources, std::span(&plan, 1), listeners, {}));
+        (void)test::value_or_throw(respond(sources, std::span(&plan, 1), listeners, {}));
         const auto page = report.page(summary, std::span(&plan, 1), "", {}, nlohmann::ordered_json::array());
         EXPECT_EQ(page.find("{{page"), std::string::npos);
         EXPECT_EQ(page.find("{{dygraphs"), std::string::npos) << "every part of the template was filled";

@@ -14,7 +14,7 @@ namespace corpuscle {
 namespace {
 
 /// Under 2 N/s the node passes its level at 0.5 s * 1 mA / g, in however many steps.
-ChipCalibration ramp(const test::Folder& folder, double meant, double off) {
+ChipCalibration ramp(const test::TemporaryFolder& folder, double meant, double off) {
     const auto path = std::filesystem::path(folder / "ramp.cir");
     std::ofstream(path) << "a ramp\n.param g=1m\niin 0 a force {g}\nra a 0 1k\nca a 0 1p\n.spike v(a) 1\n.end\n";
     ChipCalibration out;
@@ -29,7 +29,7 @@ ChipCalibration ramp(const test::Folder& folder, double meant, double off) {
 TEST(Calibrate, FindsTheCodeThatIsKnown) {
     for (const auto& [meant, off, bits, share] :
          {std::tuple{0.4, 4e-3, 3, 0.25}, {0.5, 4e-3, 0, 0.0}, {0.25, 4e-3, 1, 1.0}, {0.8, 2e-3, 4, -0.375}}) {
-        const test::Folder folder;
+        const test::TemporaryFolder folder;
         auto asked = ramp(folder, meant, off);
         asked.bits = 6;
         const auto trim = trim_of(asked.netlist, {}, {"g"}, 1, false);
@@ -48,7 +48,7 @@ TEST(Calibrate, FindsTheCodeThatIsKnown) {
 }
 
 TEST(Calibrate, TellsWhatCannotBeReached) {
-    const test::Folder folder;
+    const test::TemporaryFolder folder;
     auto asked = ramp(folder, 0.15, 4e-3);  // twice as much is 0.25 s
     asked.bits = 4;
     asked.trims = {*trim_of(asked.netlist, {}, {"g"}, 1, false)};
@@ -63,7 +63,7 @@ TEST(Calibrate, TellsWhatCannotBeReached) {
 }
 
 TEST(Calibrate, RefusesTrimsThatAreNoNumbers) {
-    const test::Folder folder;
+    const test::TemporaryFolder folder;
     auto asked = ramp(folder, 0.4, 1e-3);
     for (const char* wrong : {"h", "ra.w", "zz.m", ""}) {
         const auto trim = trim_of(asked.netlist, {}, {wrong}, 1, false);

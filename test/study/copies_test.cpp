@@ -14,7 +14,7 @@
 namespace corpuscle {
 namespace {
 
-using test::Folder, test::sure;
+using test::TemporaryFolder, test::value_or_throw;
 using Json = nlohmann::ordered_json;
 
 struct Populated {
@@ -26,9 +26,9 @@ Populated populate(const std::vector<std::string>& names, std::uint32_t n, const
     Populated out;
     out.population.count = n;
     for (const auto& name : names) {
-        out.base.push_back(sure(plan_afferent(name, {})));
-        const auto mine = sure(distributions_for(out.base.back(), name, test::wishes(spreads)));
-        for (auto& c : sure(make_copies(out.base.back(), n, mine, 4))) out.copies.push_back(c);
+        out.base.push_back(value_or_throw(plan_afferent(name, {})));
+        const auto mine = value_or_throw(distributions_for(out.base.back(), name, test::parse_settings(spreads)));
+        for (auto& c : value_or_throw(make_copies(out.base.back(), n, mine, 4))) out.copies.push_back(c);
         out.population.distributions.insert(out.population.distributions.end(), mine.begin(), mine.end());
     }
     return out;
@@ -36,9 +36,9 @@ Populated populate(const std::vector<std::string>& names, std::uint32_t n, const
 
 void answer(std::span<const AfferentPlan> plans, std::initializer_list<ResponseSink*> listeners) {
     std::vector<std::unique_ptr<ForceSource>> sources;
-    sources.push_back(sure(make_stimulus("press", {}, 2e3, 0)));
-    sources.push_back(sure(make_stimulus("sine", {}, 2e3, 0)));
-    (void)sure(respond(sources, plans, std::vector<ResponseSink*>(listeners), {}));
+    sources.push_back(value_or_throw(make_stimulus("press", {}, 2e3, 0)));
+    sources.push_back(value_or_throw(make_stimulus("sine", {}, 2e3, 0)));
+    (void)value_or_throw(respond(sources, plans, std::vector<ResponseSink*>(listeners), {}));
 }
 
 struct Statistics {
@@ -141,10 +141,10 @@ std::vector<std::vector<std::string>> table_of(const std::string& text) {
 }
 
 TEST(CopiesFile, HasWhatEachCopyIsAndEveryMeasureOfItsWholeTrain) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const auto p = populate({"sa1", "fa1"}, 4, {"sa1.f_B=20%", "sa1.V_th=10%", "fa1.V_th=10%", "fa1.k_A=10%"});
-    CopiesFile file(sure(OutputFile::create(folder / "copies.csv")), p.population);
-    SpikesFile spikes(sure(OutputFile::create(folder / "spikes.csv")));
+    CopiesFile file(value_or_throw(OutputFile::create(folder / "copies.csv")), p.population);
+    SpikesFile spikes(value_or_throw(OutputFile::create(folder / "spikes.csv")));
     answer(p.copies, {&file, &spikes});
     ASSERT_TRUE(bool(file.commit()) && bool(spikes.commit()));
     const auto rows = table_of(test::read_file(folder / "copies.csv"));
@@ -155,7 +155,7 @@ TEST(CopiesFile, HasWhatEachCopyIsAndEveryMeasureOfItsWholeTrain) {
     EXPECT_EQ((std::vector(rows[0].begin(), rows[0].begin() + 6)),
               (std::vector<std::string>{"afferent", "channel", "f_B_Hz", "V_th_V", "k_A_A/N", "spikes"}));
     EXPECT_EQ(rows[0].size(), 5 + std::size(measures));
-    const auto trains = sure(read_spikes(folder / "spikes.csv"));
+    const auto trains = value_or_throw(read_spikes(folder / "spikes.csv"));
     EXPECT_EQ(trains.size(), 12U);
     for (std::size_t k = 1; k < rows.size(); ++k) {
         ASSERT_EQ(rows[k].size(), rows[0].size());

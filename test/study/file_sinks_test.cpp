@@ -22,8 +22,8 @@
 namespace corpuscle {
 namespace {
 
-using test::Folder;
-using test::sure;
+using test::TemporaryFolder;
+using test::value_or_throw;
 
 /// Force of one sample and more, that nobody looks at, on a clock.
 class Still final : public ForceSource {
@@ -67,7 +67,7 @@ void hand(const ForceSource& source, std::span<const AfferentPlan> plans, std::v
 
 std::vector<AfferentPlan> plans(const std::vector<std::string>& names) {
     std::vector<AfferentPlan> all;
-    for (const auto& n : names) all.push_back(sure(plan_afferent(n, {})));
+    for (const auto& n : names) all.push_back(value_or_throw(plan_afferent(n, {})));
     return all;
 }
 
@@ -80,19 +80,19 @@ std::vector<Spike> any_spikes(std::int64_t samples, std::uint32_t units) {
 }
 
 TEST(SpikesOut, AreTheSameSpikesReadBackFromCsvToTheNanosecondAndFromNpzExactly) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const auto afferents = plans({"sa1", "fa1"});
     EXPECT_TRUE(rc::check("written and read", [&] {
         const Still source(Clock{3000, 1, *rc::gen::element(0.0, 12.3456, 1.7e6)}, {"a", "b c"});
         const auto spikes = any_spikes(500, 4);
-        SpikesFile csv(sure(OutputFile::create(folder / "spikes.csv")));
-        NpzFile npz(sure(OutputFile::create(folder / "spikes.npz")));
+        SpikesFile csv(value_or_throw(OutputFile::create(folder / "spikes.csv")));
+        NpzFile npz(value_or_throw(OutputFile::create(folder / "spikes.npz")));
         hand(source, afferents, spikes, 500, *rc::gen::element(1, 7, 500), {&csv, &npz});
         RC_ASSERT(bool(csv.commit()) && bool(npz.commit()));
         std::vector<std::vector<double>> right(4);
         for (const auto& s : spikes) right[s.afferent_index].push_back(source.clock().time(s.step, s.offset));
         for (auto& r : right) std::sort(r.begin(), r.end());
-        const auto exact = sure(read_spikes(folder / "spikes.npz")), rounded = sure(read_spikes(folder / "spikes.csv"));
+        const auto exact = value_or_throw(read_spikes(folder / "spikes.npz")), rounded = value_or_throw(read_spikes(folder / "spikes.csv"));
         RC_ASSERT(exact.size() == 4U);  // silent ones, too
         std::size_t heard = 0;
         for (const auto& train : exact) {
@@ -110,9 +110,9 @@ TEST(SpikesOut, AreTheSameSpikesReadBackFromCsvToTheNanosecondAndFromNpzExactly)
 }
 
 TEST(SpikesOut, NpzHasTheListsThatSpikeInterfaceReads) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const Still source(Clock{1000, 1, 5.0}, {"a"});
-    NpzFile npz(sure(OutputFile::create(folder / "spikes.npz")));
+    NpzFile npz(value_or_throw(OutputFile::create(folder / "spikes.npz")));
     hand(source, plans({"sa1", "fa1"}), {{2, 0.5, 1}, {1, 0.25, 0}}, 10, 4, {&npz});
     ASSERT_TRUE(npz.commit());
     const auto checked = std::system(("/usr/bin/python3 -c \"\nimport numpy as np\nz = np.load('" + folder / "spikes.npz" + R"(')
@@ -130,13 +130,13 @@ assert list(z['unit_afferent']) == ['sa1', 'fa1'] and list(z['unit_channel']) ==
 
 /// Bins by counting, with the words of the file.
 TEST(PsthFile, CountsEverySpikeOnceInEvenBinsFromTheStartWhateverTheBlock) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const auto afferents = plans({"sa1"});
     EXPECT_TRUE(rc::check("against counting", [&] {
         const Still source(Clock{1000, 1, *rc::gen::element(0.0, 100.0)}, {"a", "b"});
         const auto spikes = any_spikes(250, 2);
         const int per_bin = *rc::gen::element(1, 7, 10, 250, 1000);  // samples
-        PsthFile bins(sure(OutputFile::create(folder / "psth.csv")), per_bin * 1e-3);
+        PsthFile bins(value_or_throw(OutputFile::create(folder / "psth.csv")), per_bin * 1e-3);
         hand(source, afferents, spikes, 250, *rc::gen::element(1, 9, 250), {&bins});
         RC_ASSERT(bool(bins.commit()));
         std::vector<std::string> right = {"afferent,channel,from_s,to_s,spikes,rate_Hz"};
@@ -172,7 +172,7 @@ Heard listen_to(const std::string& path) {
 }
 
 TEST(SpikeSoundFile, HasAClickForEachSpikeAtItsSampleWhateverTheBlock) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const Still source(Clock{10000, 1, 77.0}, {"a"});
     std::vector<Spike> spikes;
     for (std::int64_t k = 0; k < 40; ++k) spikes.push_back({50 + 37 * k, static_cast<double>(1 + k % 7) / 7, 0});
@@ -195,7 +195,7 @@ TEST(SpikeSoundFile, HasAClickForEachSpikeAtItsSampleWhateverTheBlock) {
 }
 
 TEST(SpikeSoundFile, SetsAfferentsFromLeftToRightAndNeverClips) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const Still source(Clock{10000, 1, 0.0}, {"a", "b"});
     std::vector<Spike> all;  // everybody at once, again and again, some within each other's clicks
     for (const std::int64_t step : {10, 11, 12, 100, 101, 300})
@@ -219,11 +219,11 @@ TEST(SpikeSoundFile, SetsAfferentsFromLeftToRightAndNeverClips) {
 }
 
 TEST(SpikeSoundFile, LetsCopiesSoundFromThePlaceOfWhatTheyAreCopiesOf) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const Still source(Clock{10000, 1, 0.0}, {"a"});
     std::vector<AfferentPlan> copies;
     for (const auto& plan : plans({"sa1", "fa1"}))
-        for (auto& copy : sure(make_copies(plan, 3, {}, 0))) copies.push_back(std::move(copy));
+        for (auto& copy : value_or_throw(make_copies(plan, 3, {}, 0))) copies.push_back(std::move(copy));
     for (std::uint32_t unit = 0; unit < 6; ++unit) {
         SpikeSoundFile clicks(folder.path());
         hand(source, copies, {{100, 1, unit}}, 400, 50, {&clicks});
@@ -238,7 +238,7 @@ TEST(SpikeSoundFile, LetsCopiesSoundFromThePlaceOfWhatTheyAreCopiesOf) {
 }
 
 TEST(SpikeSoundFile, RefusesMoreThanAWavFileHoldsAndLeavesNothing) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const Still source(Clock{1, 1000, 0.0}, {"a"});  // a sample every 1000 s
     {
         SpikeSoundFile clicks(folder.path());
@@ -251,16 +251,16 @@ TEST(SpikeSoundFile, RefusesMoreThanAWavFileHoldsAndLeavesNothing) {
                 << e.what();
         }
     }
-    EXPECT_TRUE(folder.names().empty());
+    EXPECT_TRUE(folder.file_names().empty());
 }
 
 TEST(RemoveStale, TakesOnlyWhatAnEarlierSummaryNamesInThatDirectory) {
-    const Folder folder;
+    const TemporaryFolder folder;
     folder.write("summary.json", R"({"program": "corpuscle", "files": ["psth.csv", "spikes.csv", "../outside", "sub", "gone.csv", 3]})");
     for (const char* name : {"psth.csv", "spikes.csv", "mine.csv"}) folder.write(name, "");
     std::filesystem::create_directory(folder / "sub");
     EXPECT_EQ(remove_stale_outputs(folder.path(), {"spikes.csv", "summary.json"}), std::vector<std::string>{"psth.csv"});
-    EXPECT_EQ(folder.names(), (std::vector<std::string>{"mine.csv", "spikes.csv", "sub", "summary.json"}));
+    EXPECT_EQ(folder.file_names(), (std::vector<std::string>{"mine.csv", "spikes.csv", "sub", "summary.json"}));
     for (const char* other : {"", "{", "[]", R"({"program": "another", "files": ["mine.csv"]})", R"({"program": "corpuscle", "files": 7})",
                               R"({"files": ["mine.csv"]})"}) {
         folder.write("summary.json", other);
@@ -273,11 +273,11 @@ TEST(RemoveStale, TakesOnlyWhatAnEarlierSummaryNamesInThatDirectory) {
 TEST(Summary, KnowsTheCycleOfAStimulusAndLeavesOutColumnsWithoutValues) {
     const auto columns = [](const std::string& stimulus) {
         std::vector<std::unique_ptr<ForceSource>> sources;
-        sources.push_back(sure(make_stimulus(stimulus, {}, 10e3, 0)));
+        sources.push_back(value_or_throw(make_stimulus(stimulus, {}, 10e3, 0)));
         const auto afferents = plans({"sa1"});
         RunSummary summary;
         ResponseSink* listeners[] = {&summary};
-        (void)sure(respond(sources, afferents, listeners, {}));
+        (void)value_or_throw(respond(sources, afferents, listeners, {}));
         std::vector<std::string_view> names;
         for (const auto c : summary.columns()) names.push_back(measures[c].name);
         return names;

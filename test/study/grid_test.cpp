@@ -16,9 +16,9 @@
 namespace corpuscle {
 namespace {
 
-using test::Folder;
-using test::run;
-using test::sure;
+using test::TemporaryFolder;
+using test::run_program;
+using test::value_or_throw;
 
 constexpr const char* grid_file = R"(afferent = "sa1"
 force = "press"
@@ -70,17 +70,17 @@ TEST(PlainGrid, WithoutAUnitIsToldFromThoseThatAreThere) {
 }
 
 TEST(PlainGrid, TellsEveryAxisAndNoChance) {
-    const Folder folder;
+    const TemporaryFolder folder;
     folder.write("grid.toml", grid_file);
-    ASSERT_EQ(run(folder, "sweep grid.toml --out r.sqlite --quiet").status, 0);
-    const auto told = run(folder, "sweep show r.sqlite");
+    ASSERT_EQ(run_program(folder, "sweep grid.toml --out r.sqlite --quiet").status, 0);
+    const auto told = run_program(folder, "sweep show r.sqlite");
     ASSERT_EQ(told.status, 0) << told.err;
     for (const auto* there : {"Grid of press.F_max (4 values) by sa1.f_B (3 values)", "Effect of each axis", "press.F_max", "sa1.f_B",
                               "20 Hz", "80 Hz", "press.F_max = 4 N, sa1.f_B = 20 Hz"})
         EXPECT_NE(told.out.find(there), std::string::npos) << there << "\n" << told.out;
     for (const auto* chance : {"95 %", "normal", "+-", "±", "chips", "sigma", "chance for"})
         EXPECT_EQ(told.out.find(chance), std::string::npos) << chance << "\n" << told.out;
-    const auto document = nlohmann::json::parse(run(folder, "sweep show r.sqlite --json").out);
+    const auto document = nlohmann::json::parse(run_program(folder, "sweep show r.sqlite --json").out);
     EXPECT_TRUE(document["grid"].get<bool>());
     ASSERT_EQ(document["depends_on"].size(), 3U);
     for (const auto& d : document["depends_on"]) EXPECT_EQ(d["effects"].size(), 2U) << d;
@@ -89,16 +89,16 @@ TEST(PlainGrid, TellsEveryAxisAndNoChance) {
 }
 
 TEST(PlainGrid, IsNoneWhereAnythingIsDrawn) {
-    const Folder folder;
+    const TemporaryFolder folder;
     folder.write("drawn.toml", std::string(grid_file) + "[[vary]]\nwhat = \"sa1.f_C\"\nhow = \"uniform\"\nfrom = \"5Hz\"\nto = \"10Hz\"\n");
-    ASSERT_EQ(run(folder, "sweep drawn.toml --units 2 --out r.sqlite --quiet").status, 0);
-    EXPECT_FALSE(is_deterministic(sure(SweepResults::open_read_only(folder / "r.sqlite"))));
+    ASSERT_EQ(run_program(folder, "sweep drawn.toml --units 2 --out r.sqlite --quiet").status, 0);
+    EXPECT_FALSE(is_deterministic(value_or_throw(SweepResults::open_read_only(folder / "r.sqlite"))));
     folder.write("plain.toml", grid_file);
-    ASSERT_EQ(run(folder, "sweep plain.toml --seed 3 --out p.sqlite --quiet").status, 0);
-    EXPECT_TRUE(is_deterministic(sure(SweepResults::open_read_only(folder / "p.sqlite"))));
+    ASSERT_EQ(run_program(folder, "sweep plain.toml --seed 3 --out p.sqlite --quiet").status, 0);
+    EXPECT_TRUE(is_deterministic(value_or_throw(SweepResults::open_read_only(folder / "p.sqlite"))));
     folder.write("step.cir", "t\nv1 a 0 1\nr1 a 0 {r}\n.param r=1k\n.step param r list 1k 2k 3k\n.op\n.meas op i find i(v1)\n");
-    ASSERT_EQ(run(folder, "sweep step.cir --out s.sqlite --quiet").status, 0);
-    EXPECT_TRUE(is_deterministic(sure(SweepResults::open_read_only(folder / "s.sqlite"))));
+    ASSERT_EQ(run_program(folder, "sweep step.cir --out s.sqlite --quiet").status, 0);
+    EXPECT_TRUE(is_deterministic(value_or_throw(SweepResults::open_read_only(folder / "s.sqlite"))));
 }
 
 }  // namespace

@@ -17,16 +17,16 @@
 namespace corpuscle {
 namespace {
 
-using test::Folder;
+using test::TemporaryFolder;
 using test::PlainSweep;
-using test::sure;
+using test::value_or_throw;
 
 /// Results of 100 units, then changed as by another program.
-std::string changed_results(const Folder& folder, const std::string& statements) {
+std::string changed_results(const TemporaryFolder& folder, const std::string& statements) {
     const auto path = folder / "r.sqlite";
     const PlainSweep sweep(100);
     {
-        auto results = sure(SweepResults::open(path, sweep));
+        auto results = value_or_throw(SweepResults::open(path, sweep));
         std::vector<ItemOutcome> all;
         for (std::int64_t unit = 0; unit < 100; ++unit) all.push_back(sweep.outcome(unit));
         EXPECT_TRUE(results.add(sweep, std::move(all)) && results.checkpoint());
@@ -60,7 +60,7 @@ INSERT INTO spikes VALUES(0, 0, X'000000000000F03F');
 PRAGMA application_id = 1400333680;
 )tables";
 
-std::string written(const Folder& folder, const std::string& statements) {
+std::string written(const TemporaryFolder& folder, const std::string& statements) {
     const auto path = folder / "old.sqlite";
     sqlite3* file = nullptr;
     EXPECT_EQ(sqlite3_open(path.c_str(), &file), SQLITE_OK);
@@ -70,13 +70,13 @@ std::string written(const Folder& folder, const std::string& statements) {
 }
 
 TEST(SweepResults, OfTheFirstFormatAreReadAndOfALaterOneRefused) {
-    const Folder folder;
-    const auto results = sure(SweepResults::open_read_only(written(folder, std::string(first_format) + "PRAGMA user_version = 1;")));
+    const TemporaryFolder folder;
+    const auto results = value_or_throw(SweepResults::open_read_only(written(folder, std::string(first_format) + "PRAGMA user_version = 1;")));
     EXPECT_EQ(results.finished_count(), 2);
     std::string text;
     ASSERT_TRUE(dump_results(results, [&](const std::string& more) { return text += more, true; }));
     EXPECT_EQ(text, "unit,ended,steps,iterations,alone,why,temp,v(q),spikes of out\n0,done,1,2,0,,27,0.35,1\n1,lost,1,2,0,no rest,85,,\n");
-    const Folder later;
+    const TemporaryFolder later;
     const auto refused = SweepResults::open_read_only(written(later, std::string(first_format) + "PRAGMA user_version = 2;"));
     ASSERT_FALSE(refused);
     EXPECT_NE(refused.error().text().find("was written by a later corpuscle (its format is 2, this one reads up to 1): use the later version"),
@@ -96,7 +96,7 @@ TEST(HostileResults, WithoutAColumnAreRefusedByItsName) {
                  {"UPDATE about SET value = '-5' WHERE key = 'units'", "its number of units is -5"},
                  {"UPDATE about SET value = '[[' WHERE key = 'trains'", "its tables about and columns cannot be read"}};
     for (const auto& c : cases) {
-        const Folder folder;
+        const TemporaryFolder folder;
         const auto said = refusal_of(changed_results(folder, c.statements));
         EXPECT_NE(said.find(c.said), std::string::npos) << c.statements << ": " << said;
         EXPECT_NE(said.find("another file"), std::string::npos) << said;
@@ -105,7 +105,7 @@ TEST(HostileResults, WithoutAColumnAreRefusedByItsName) {
 
 TEST(HostileResults, OfUnitsThatTheSweepDoesNotHaveAreRefused) {
     for (const auto* unit : {"-1", "100", "4611686018427387904"}) {
-        const Folder folder;
+        const TemporaryFolder folder;
         const auto path = changed_results(folder, fmt::format("UPDATE units SET unit = {} WHERE unit = 7", unit));
         EXPECT_NE(refusal_of(path).find(fmt::format("it holds unit {}, of a sweep of 100 units (0 to 99)", unit)), std::string::npos)
             << refusal_of(path);
@@ -114,12 +114,12 @@ TEST(HostileResults, OfUnitsThatTheSweepDoesNotHaveAreRefused) {
 }
 
 TEST(HostileResults, RunNothingThatTheirSchemaHolds) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const auto path = changed_results(folder,
                                       "DELETE FROM units WHERE unit > 50; DELETE FROM spikes; DELETE FROM traces;"
                                       "CREATE TRIGGER t AFTER INSERT ON units BEGIN UPDATE units SET ended = 'lost'; END");
     const PlainSweep sweep(100);
-    auto results = sure(SweepResults::open(path, sweep));
+    auto results = value_or_throw(SweepResults::open(path, sweep));
     std::vector<ItemOutcome> one;
     one.push_back(sweep.outcome(60));
     ASSERT_TRUE(results.add(sweep, std::move(one)));
@@ -132,7 +132,7 @@ TEST(HostileResults, RunNothingThatTheirSchemaHolds) {
 }
 
 TEST(HostileResults, WithAViewForATableAreRefused) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const auto path = changed_results(folder,
                                       "ALTER TABLE units RENAME TO old;"
                                       "CREATE VIEW units AS WITH RECURSIVE n(unit) AS (SELECT 1 UNION ALL SELECT unit + 1 FROM n) "
@@ -142,23 +142,23 @@ TEST(HostileResults, WithAViewForATableAreRefused) {
 }
 
 TEST(HostileResults, WithAVeryLargeTextAreRefusedBeforeItIsTakenIn) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const auto path = changed_results(folder, "UPDATE columns SET words = '[\"' || hex(zeroblob(5000000)) || '\"]' WHERE position = 0");
     EXPECT_NE(refusal_of(path).find("its table columns holds more than 4 MB of labels"), std::string::npos) << refusal_of(path);
-    const Folder other;
+    const TemporaryFolder other;
     const auto big = changed_results(other, "UPDATE about SET value = zeroblob(100000000) WHERE key = 'trace_times'");
     EXPECT_NE(refusal_of(big).find("a text or a blob is larger than 64 MB"), std::string::npos) << refusal_of(big);
 }
 
 TEST(HostileResults, InAnotherOrderOfColumnsAreMergedColumnByColumn) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const PlainSweep sweep(100);
     const auto path = changed_results(folder,
                                       "DELETE FROM units WHERE unit < 50; DELETE FROM spikes WHERE unit < 50; DELETE FROM traces WHERE "
                                       "unit < 50; ALTER TABLE units ADD COLUMN extra; ALTER TABLE units RENAME COLUMN why TO w;"
                                       "ALTER TABLE units ADD COLUMN why TEXT NOT NULL DEFAULT ''; UPDATE units SET why = w");
-    auto into = sure(SweepResults::open(folder / "all.sqlite", sweep));
-    const auto taken = into.merge(sure(SweepResults::open_read_only(path)));
+    auto into = value_or_throw(SweepResults::open(folder / "all.sqlite", sweep));
+    const auto taken = into.merge(value_or_throw(SweepResults::open_read_only(path)));
     ASSERT_TRUE(taken) << taken.error().text();
     EXPECT_EQ(*taken, 50);
     ASSERT_TRUE(into.for_each_row([&](const SweepResults::Row& row) {
@@ -170,7 +170,7 @@ TEST(HostileResults, InAnotherOrderOfColumnsAreMergedColumnByColumn) {
 }
 
 TEST(HostileResults, NeverMakeALinkOrSomebodysFileEmpty) {
-    const Folder folder;
+    const TemporaryFolder folder;
     folder.write("thesis.tex", "years of work\n");
     std::filesystem::create_symlink("thesis.tex", folder / "r.sqlite-writer");
     const auto refused = SweepResults::open(folder / "r.sqlite", PlainSweep(10));

@@ -70,7 +70,7 @@ public:
 
 /// All of its units in a file.
 inline SweepResults made_results(const std::string& path, const MadeSweep& sweep) {
-    auto results = sure(SweepResults::open(path, sweep));
+    auto results = value_or_throw(SweepResults::open(path, sweep));
     std::vector<ItemOutcome> all;
     for (std::int64_t unit = 0; unit < sweep.item_count(); ++unit) all.push_back(sweep.outcome(unit));
     EXPECT_TRUE(results.add(sweep, std::move(all)) && results.checkpoint());

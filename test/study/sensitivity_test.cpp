@@ -17,7 +17,7 @@
 namespace corpuscle {
 namespace {
 
-using test::Folder, test::MadeSweep, test::sure;
+using test::TemporaryFolder, test::MadeSweep, test::value_or_throw;
 
 std::vector<SweepFactor> noise_factors(std::uint64_t seed, std::size_t units, std::size_t factors) {
     std::vector<SweepFactor> out(factors);
@@ -87,13 +87,13 @@ TEST(Sensitivity, FourTimesTheAreaHalvesWhatADeviceBrings) {
 }
 
 TEST(Drawn, DevicesAreToldInTheOrderInWhichTheyDrawAndTheirDeviatesAreThoseOfTheChip) {
-    const auto netlist = sure(circuit::Netlist::parse(
+    const auto netlist = value_or_throw(circuit::Netlist::parse(
         "t\n.model nch nmos (level=80 avt=3e-9 ais=1e-8)\n.model pch pmos (level=80)\nv1 d 0 1\nm1 d d 0 0 nch w=2u l=0.5u m=3 stack=2\n"
         ".subckt s a\nm2 a a 0 0 pch w=1u l=1u\n.ends\nx1 d s\nr1 d 0 1k\nm3 d d 0 0 nch\n.end\n",
         "t.cir", [](const std::string&) -> Result<std::string> { return bad_input("none"); }));
-    const auto circuit = sure(netlist.elaborate());
+    const auto circuit = value_or_throw(netlist.elaborate());
     MismatchSamples drawn{9, 0, {{"t", mismatch_devices(circuit)}}};
-    drawn = sure(parse_mismatch_samples(describe_frame_error(drawn)));
+    drawn = value_or_throw(parse_mismatch_samples(describe_frame_error(drawn)));
     const auto& devices = drawn.subjects[0].devices;
     ASSERT_EQ(devices.size(), 3U);
     EXPECT_EQ(devices[0].name, "m1");
@@ -118,11 +118,11 @@ protected:
     static inline std::unique_ptr<MadeSweep> sweep;
     void SetUp() override {
         if (sweep) return;
-        const Folder folder;
+        const TemporaryFolder folder;
         sweep = std::make_unique<MadeSweep>(1000);
         const auto results = test::made_results(folder / "made.sqlite", *sweep);
-        table = sure(read_table(results, {}));
-        summary = sure(summary_of(table, sure(parse_mismatch_samples(results.about(mismatch_metadata_name))), {}));
+        table = value_or_throw(read_table(results, {}));
+        summary = value_or_throw(summary_of(table, value_or_throw(parse_mismatch_samples(results.about(mismatch_metadata_name))), {}));
     }
     static void TearDownTestSuite() { sweep.reset(), table = {}, summary = {}; }
 };
@@ -189,7 +189,7 @@ TEST_F(Summed, TheDocumentSaysTheSameAsTheSummary) {
 }
 
 TEST_F(Summed, AnAxisOfManyValuesIsCutIntoBandsAndAWrongNameIsMended) {
-    const auto bands = sure(group_rows(table, {"process.vt_n"}));
+    const auto bands = value_or_throw(group_rows(table, {"process.vt_n"}));
     ASSERT_EQ(bands.groups.size(), SweepGroups::bands);
     for (const auto& g : bands.groups) EXPECT_NEAR(static_cast<double>(g.rows.size()), 600, 10);
     const auto wrong = group_rows(table, {"tmep"});

@@ -11,7 +11,7 @@
 namespace corpuscle {
 namespace {
 
-using test::Folder, test::read_file, test::run;
+using test::TemporaryFolder, test::read_file, test::run_program;
 
 constexpr const char* patch = R"(
 unit = "mm"
@@ -32,7 +32,7 @@ std::string found(const std::string& text, const std::string& expression) {
     return std::regex_search(text, match, std::regex(expression)) ? match[1].str() : "";
 }
 
-std::int64_t spikes_of(const test::Ran& ran) { return nlohmann::json::parse(ran.out)["work"]["spikes"].get<std::int64_t>(); }
+std::int64_t spikes_of(const test::ProgramResult& ran) { return nlohmann::json::parse(ran.out)["work"]["spikes"].get<std::int64_t>(); }
 
 TEST(SilenceDetector, TheFactorIsTheLeastThatMakesAnAfferentFire) {
     const auto press = test::force("press", {.settings = {"press.F_max=300mN"}, .rate = 1e3});
@@ -56,21 +56,21 @@ TEST(SilenceDetector, NumbersOfARemedyAreRoundedUpToTwoDigits) {
 }
 
 TEST(SilenceDetector, AnAfferentThatNeverFiresSaysByHowMuchMoreForceItWould) {
-    const Folder folder;
-    const auto ran = run(folder, "respond ramp-hold --rate 1kHz --json");
+    const TemporaryFolder folder;
+    const auto ran = run_program(folder, "respond ramp-hold --rate 1kHz --json");
     const auto said = found(ran.err, "fa1 never fired: the largest force was 1 N; it would fire at about ([0-9.]+) times this force");
     ASSERT_FALSE(said.empty()) << ran.err;
     const auto document = nlohmann::json::parse(ran.out);
     ASSERT_EQ(document["silent"].size(), 1U);
     EXPECT_EQ(document["silent"][0]["afferent"], "fa1");
-    const auto more = run(folder, "respond ramp-hold --rate 1kHz --afferent fa1 --json --set ramp-hold.F_max=" + said + "N");
+    const auto more = run_program(folder, "respond ramp-hold --rate 1kHz --afferent fa1 --json --set ramp-hold.F_max=" + said + "N");
     EXPECT_GT(spikes_of(more), 0) << more.err;
     EXPECT_EQ(more.err.find("never fired"), std::string::npos);
 }
 
 TEST(SilenceDetector, AGridUnderAnIndenterIsTakenForSkinAndSaysSo) {
-    const Folder folder;
-    const auto ran = run(folder, "respond press --population 'grid 8x8' --json");
+    const TemporaryFolder folder;
+    const auto ran = run_program(folder, "respond press --population 'grid 8x8' --json");
     EXPECT_EQ(ran.status, 0);
     EXPECT_GT(spikes_of(ran), 200) << ran.err;
     EXPECT_NE(
@@ -81,9 +81,9 @@ TEST(SilenceDetector, AGridUnderAnIndenterIsTakenForSkinAndSaysSo) {
 }
 
 TEST(SilenceDetector, APopulationWithoutFeltAreaNamesItAndTheAreaMakesItFire) {
-    const Folder folder;
+    const TemporaryFolder folder;
     folder.write("own.toml", patch);
-    const auto silent = run(folder, "respond press --population own.toml --json");
+    const auto silent = run_program(folder, "respond press --population own.toml --json");
     EXPECT_EQ(spikes_of(silent), 0);
     const auto area = found(silent.err,
                             "warning: no afferent fired: sa1 received at most 0.0[0-9]+ N, and needs about 0.[0-9]+ N .*; set "
@@ -91,58 +91,58 @@ TEST(SilenceDetector, APopulationWithoutFeltAreaNamesItAndTheAreaMakesItFire) {
     ASSERT_FALSE(area.empty()) << silent.err;
     EXPECT_NE(nlohmann::json::parse(silent.out)["warnings"][0].get<std::string>().find("no afferent fired"), std::string::npos);
     folder.write("own.toml", "felt_area = \"" + area + "\"\n" + patch);
-    EXPECT_GT(spikes_of(run(folder, "respond press --population own.toml --json")), 0);
+    EXPECT_GT(spikes_of(run_program(folder, "respond press --population own.toml --json")), 0);
 }
 
 TEST(SilenceDetector, ATouchThatIsTooWeakNamesTheSettingThatWouldDo) {
-    const Folder folder;
+    const TemporaryFolder folder;
     folder.write("own.toml", std::string("felt_area = \"1 cm2\"\n") + patch);
-    const auto weak = run(folder, "respond press --population own.toml --set press.F_max=300mN --json");
+    const auto weak = run_program(folder, "respond press --population own.toml --set press.F_max=300mN --json");
     EXPECT_EQ(spikes_of(weak), 0);
     const auto setting = found(weak.err, "try (--set press.F_max=[0-9.]+N)");
     ASSERT_FALSE(setting.empty()) << weak.err;
-    EXPECT_GT(spikes_of(run(folder, "respond press --population own.toml --json " + setting)), 0);
+    EXPECT_GT(spikes_of(run_program(folder, "respond press --population own.toml --json " + setting)), 0);
 
     std::string recording = "time_s,f_mN\n";
     for (int k = 0; k < 1000; ++k) recording += fmt::format("{:.3f},{}\n", k / 1000.0, k > 300 && k < 700 ? 200 : 0);
     folder.write("touch.csv", recording);
-    const auto recorded = run(folder, "respond touch.csv --population own.toml --json");
+    const auto recorded = run_program(folder, "respond touch.csv --population own.toml --json");
     EXPECT_EQ(spikes_of(recorded), 0);
     const auto scale = found(recorded.err, "try (--scale [0-9.]+)");
     ASSERT_FALSE(scale.empty()) << recorded.err;
-    EXPECT_GT(spikes_of(run(folder, "respond touch.csv --population own.toml --json " + scale)), 0);
+    EXPECT_GT(spikes_of(run_program(folder, "respond touch.csv --population own.toml --json " + scale)), 0);
 }
 
 TEST(SilenceDetector, AnIndenterBesideTheSkinIsToldToBeMoved) {
-    const Folder folder;
-    const auto ran = run(folder, "respond press --population fingertip --set contact.x=1m --set contact.y=1m --quiet");
+    const TemporaryFolder folder;
+    const auto ran = run_program(folder, "respond press --population fingertip --set contact.x=1m --set contact.y=1m --quiet");
     EXPECT_NE(ran.err.find("received no force"), std::string::npos) << ran.err;
     EXPECT_NE(ran.err.find("--set contact.x="), std::string::npos) << ran.err;
 }
 
 TEST(NerveLimit, RatesAboveAKilohertzAreAWarningAndTheRemedyEndsIt) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const std::string buzz = "respond sine --afferent fa2 --set sine.f=250Hz --set sine.F_amp=500mN --rate 20kHz --quiet";
-    const auto fast = run(folder, buzz);
+    const auto fast = run_program(folder, buzz);
     EXPECT_NE(fast.err.find("fa2: on sine spikes come at up to 3.1"), std::string::npos) << fast.err;
     EXPECT_NE(fast.err.find("--set fa2.t_ref=1ms"), std::string::npos) << fast.err;
-    EXPECT_EQ(run(folder, buzz + " --set fa2.t_ref=1ms").err.find("spikes come at up to"), std::string::npos);
-    EXPECT_EQ(run(folder, "respond press --quiet").err, "") << "the thesis's press is no such case";
-    const auto skin = run(folder, "respond press --population fingertip --set press.F_max=900N --quiet");
+    EXPECT_EQ(run_program(folder, buzz + " --set fa2.t_ref=1ms").err.find("spikes come at up to"), std::string::npos);
+    EXPECT_EQ(run_program(folder, "respond press --quiet").err, "") << "the thesis's press is no such case";
+    const auto skin = run_program(folder, "respond press --population fingertip --set press.F_max=900N --quiet");
     EXPECT_NE(skin.err.find("of 290 sa1 afferents: spikes come at up to "), std::string::npos) << skin.err;
 }
 
 TEST(Rates, OfASingleSpikeAreBlank) {
-    const Folder folder;
-    const auto rates = nlohmann::json::parse(run(folder, "respond press --afferent sa1 --json").out)["rates"];
+    const TemporaryFolder folder;
+    const auto rates = nlohmann::json::parse(run_program(folder, "respond press --afferent sa1 --json").out)["rates"];
     const auto& retraction = rates[3];
     ASSERT_EQ(retraction["spikes"], 1);
     EXPECT_TRUE(retraction["mean_rate_Hz"].is_null());
     EXPECT_TRUE(retraction["peak_rate_Hz"].is_null());
     EXPECT_EQ(rates[0]["mean_rate_Hz"], 0.0) << "no spike in the rest";
-    const auto table = run(folder, "respond press --afferent sa1").out;
+    const auto table = run_program(folder, "respond press --afferent sa1").out;
     EXPECT_TRUE(std::regex_search(table, std::regex("retraction +1 +- +- +- +-"))) << table;
-    const auto skin = nlohmann::json::parse(run(folder, "respond press --population 'grid 3x3' --contact sphere --set press.F_max=900mN --json").out);
+    const auto skin = nlohmann::json::parse(run_program(folder, "respond press --population 'grid 3x3' --contact sphere --set press.F_max=900mN --json").out);
     int single = 0;
     for (const auto& row : skin["rates"])
         if (row["spikes"] == 1) {
@@ -153,16 +153,16 @@ TEST(Rates, OfASingleSpikeAreBlank) {
 }
 
 TEST(Bins, ShorterThanAHundredthOfASampleAreRefusedWithTheShortestThatGoes) {
-    const Folder folder;
+    const TemporaryFolder folder;
     for (const char* population : {"", "--population fingertip"}) {
-        const auto refused = run(folder, fmt::format("respond press --rate 1kHz {} --bin 1ns -o out", population));
+        const auto refused = run_program(folder, fmt::format("respond press --rate 1kHz {} --bin 1ns -o out", population));
         EXPECT_EQ(refused.status, 2);
         EXPECT_NE(refused.err.find("--bin 1 ns: shorter than a hundredth of the 1 ms between samples; write 10 us or more"),
                   std::string::npos)
             << refused.err;
         EXPECT_FALSE(std::filesystem::exists(folder / "out"));
         EXPECT_EQ(
-            run(folder, fmt::format("respond press --rate 1kHz --set press.t_hold=10ms {} --bin 10us -o out --quiet", population)).status,
+            run_program(folder, fmt::format("respond press --rate 1kHz --set press.t_hold=10ms {} --bin 10us -o out --quiet", population)).status,
             0);
         std::filesystem::remove_all(folder / "out");
     }
@@ -170,9 +170,9 @@ TEST(Bins, ShorterThanAHundredthOfASampleAreRefusedWithTheShortestThatGoes) {
 
 TEST(SkinMemory, AGridThatDoesNotFitIsRefusedWithTheMemoryItNeeds) {
     if (test::is_sanitized) GTEST_SKIP() << "sanitizers need more addresses than the limit set here";
-    const Folder folder;
+    const TemporaryFolder folder;
     const auto said = folder / "said";
-    const auto command = "ulimit -v 3000000; cd '" + folder.path() + "'; '" + test::program() +
+    const auto command = "ulimit -v 3000000; cd '" + folder.path() + "'; '" + test::program_path() +
                          "' respond press --population 'grid 2048x2048' 2>'" + said + "'";
     EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 1);
     EXPECT_NE(read_file(said).find("grid 2048x2048: 4194304 sites and 8388608 afferents need about 2"), std::string::npos)

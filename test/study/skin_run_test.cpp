@@ -15,16 +15,16 @@
 namespace corpuscle {
 namespace {
 
-using test::Folder, test::read_file, test::sure;
+using test::TemporaryFolder, test::read_file, test::value_or_throw;
 
 /// One run of a press on a fingertip into `out`; stopped after so many blocks (none: -1).
-Result<SkinStats> press_fingertip(const Folder& folder, const std::string& out, int blocks, bool keeps,
+Result<SkinStats> press_fingertip(const TemporaryFolder& folder, const std::string& out, int blocks, bool keeps,
                                  const RunFingerprint& fingerprint = {{"FORCE", "press"}}, double scale = 1) {
-    static const auto skin = sure(innervate(sure(load_skin_plan("fingertip"))));
-    const auto source = sure(make_stimulus("press", test::wishes({"press.F_max=" + std::to_string(4 * scale)}), 1e3, 0));
-    const auto contact = sure(make_contact("sphere", {}, skin->plan.sites, source->clock()));
+    static const auto skin = value_or_throw(innervate(value_or_throw(load_skin_plan("fingertip"))));
+    const auto source = value_or_throw(make_stimulus("press", test::parse_settings({"press.F_max=" + std::to_string(4 * scale)}), 1e3, 0));
+    const auto contact = value_or_throw(make_contact("sphere", {}, skin->plan.sites, source->clock()));
     const auto force = make_pressed_force(*source, *contact);
-    const auto at_work = sure(Skin::make(skin, {1e-3}, *instruction_set()));
+    const auto at_work = value_or_throw(Skin::make(skin, {1e-3}, *instruction_set()));
     std::unique_ptr<SkinCheckpoint> spool;
     if (keeps) {
         auto opened = SkinCheckpoint::open(folder / "state", *at_work, fingerprint);
@@ -33,7 +33,7 @@ Result<SkinStats> press_fingertip(const Folder& folder, const std::string& out, 
     }
     ThreadPool pool(1);
     const auto answerer = local_skin_simulator(*at_work, pool);
-    SkinEventsFile file(sure(OutputFile::create(folder / out)), "aer");
+    SkinEventsFile file(value_or_throw(OutputFile::create(folder / out)), "aer");
     SkinSink* const listeners[] = {&file};
     const SkinInput input{"press", "", source->clock(), {}, *skin};
     auto done = run_skin(*force, input, *answerer, listeners, {[&](double) { return blocks-- != 0; }, spool.get()});
@@ -42,8 +42,8 @@ Result<SkinStats> press_fingertip(const Folder& folder, const std::string& out, 
 }
 
 TEST(SkinRun, StoppedAgainAndAgainItGoesOnToTheSameBytes) {
-    const Folder folder;
-    const auto whole = sure(press_fingertip(folder, "whole", -1, false));
+    const TemporaryFolder folder;
+    const auto whole = value_or_throw(press_fingertip(folder, "whole", -1, false));
     ASSERT_GT(whole.spikes, 500);
     for (int stops = 0; stops < 20; ++stops) {
         const auto done = press_fingertip(folder, "parts", 2 + 2 * stops, true);  // blocks; those told again among them
@@ -62,7 +62,7 @@ TEST(SkinRun, StoppedAgainAndAgainItGoesOnToTheSameBytes) {
 }
 
 TEST(SkinRun, ACheckpointOfAnotherRunIsRefusedNamesWhatDiffersAndStays) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const RunFingerprint then = {{"FORCE", "touch.csv"}, {"--scale", "1"}, {"--abs", "true"}, {"contents of the recording", "a"}},
                          now = {{"FORCE", "touch.csv"}, {"--scale", "3"}, {"--despike", "auto"}, {"contents of the recording", "b"}};
     ASSERT_FALSE(press_fingertip(folder, "a", 5, true, then));
@@ -79,7 +79,7 @@ TEST(SkinRun, ACheckpointOfAnotherRunIsRefusedNamesWhatDiffersAndStays) {
 }
 
 TEST(SkinRun, ACheckpointOfAnotherForceIsRefusedWhateverWasTyped) {
-    const Folder folder;
+    const TemporaryFolder folder;
     ASSERT_FALSE(press_fingertip(folder, "a", 5, true));
     const auto other = press_fingertip(folder, "a", -1, true, {{"FORCE", "press"}}, 1.5);
     ASSERT_FALSE(other);
@@ -89,7 +89,7 @@ TEST(SkinRun, ACheckpointOfAnotherForceIsRefusedWhateverWasTyped) {
 }
 
 TEST(SkinRun, ACheckpointThatIsCutShortOrHasAFlippedBitIsRefused) {
-    const Folder folder;
+    const TemporaryFolder folder;
     ASSERT_FALSE(press_fingertip(folder, "a", 5, true));
     const auto kept = read_file(folder / "state"), spikes = read_file(folder / "state.spikes");
     ASSERT_GT(spikes.size(), 100U * 24);
@@ -129,7 +129,7 @@ TEST(SkinRun, ACheckpointThatIsCutShortOrHasAFlippedBitIsRefused) {
 constexpr std::size_t count_at = 23 + 8 + (8 + 5) + (8 + 5) + 8;
 
 TEST(SkinRun, ACheckpointThatCountsMoreSpikesThanThereAreIsRefusedAndNothingIsCutOff) {
-    const Folder folder;
+    const TemporaryFolder folder;
     ASSERT_FALSE(press_fingertip(folder, "a", 5, true));
     const auto kept = read_file(folder / "state"), spikes = read_file(folder / "state.spikes");
     std::uint64_t count = 0;
@@ -149,7 +149,7 @@ TEST(SkinRun, ACheckpointThatCountsMoreSpikesThanThereAreIsRefusedAndNothingIsCu
 }
 
 TEST(SkinRun, ACheckpointOfAnEarlierVersionIsRefusedWithItsVersionAndARemedy) {
-    const Folder folder;
+    const TemporaryFolder folder;
     folder.write("state", std::string("corpuscle checkpoint 1\n") + std::string(200, '\0')), folder.write("state.spikes", "");
     const auto done = press_fingertip(folder, "a", 5, true);
     ASSERT_FALSE(done);
@@ -158,10 +158,10 @@ TEST(SkinRun, ACheckpointOfAnEarlierVersionIsRefusedWithItsVersionAndARemedy) {
 }
 
 TEST(SkinRun, TwoRunsCannotShareACheckpoint) {
-    const Folder folder;
-    const auto map = sure(innervate(sure(load_skin_plan("grid 2x2"))));
-    const auto one = sure(Skin::make(map, {1e-3}, *instruction_set())), two = sure(Skin::make(map, {1e-3}, *instruction_set()));
-    auto first = sure(SkinCheckpoint::open(folder / "state", *one, {}));
+    const TemporaryFolder folder;
+    const auto map = value_or_throw(innervate(value_or_throw(load_skin_plan("grid 2x2"))));
+    const auto one = value_or_throw(Skin::make(map, {1e-3}, *instruction_set())), two = value_or_throw(Skin::make(map, {1e-3}, *instruction_set()));
+    auto first = value_or_throw(SkinCheckpoint::open(folder / "state", *one, {}));
     const auto second = SkinCheckpoint::open(folder / "state", *two, {});
     ASSERT_FALSE(second);
     EXPECT_NE(second.error().message.find("another run is using this checkpoint"), std::string::npos) << second.error().message;
@@ -170,37 +170,37 @@ TEST(SkinRun, TwoRunsCannotShareACheckpoint) {
 }
 
 TEST(SkinRun, FilesThatNoCheckpointWroteAreNeitherEmptiedNorRemoved) {
-    const Folder folder;
+    const TemporaryFolder folder;
     for (const std::string mine : {"1.5 sorted by hand\n", ""}) {
         folder.write("mine.spikes", mine);
-        const auto ran = test::run(folder, "respond press --population fingertip --checkpoint mine");
+        const auto ran = test::run_program(folder, "respond press --population fingertip --checkpoint mine");
         EXPECT_EQ(ran.status, 1);
         EXPECT_NE(ran.err.find("mine.spikes: this file was not written by a checkpoint"), std::string::npos) << ran.err;
         EXPECT_EQ(read_file(folder / "mine.spikes"), mine);
-        EXPECT_EQ(folder.names(), (std::vector<std::string>{"mine.spikes"}));
+        EXPECT_EQ(folder.file_names(), (std::vector<std::string>{"mine.spikes"}));
     }
     folder.write("own", "a text\n");
     for (const char* overwrite : {"", "--overwrite"}) {
-        const auto ran = test::run(folder, std::string("respond press --population fingertip --checkpoint own ") + overwrite);
+        const auto ran = test::run_program(folder, std::string("respond press --population fingertip --checkpoint own ") + overwrite);
         EXPECT_EQ(ran.status, 1);
         EXPECT_NE(ran.err.find("own"), std::string::npos) << ran.err;
         EXPECT_EQ(read_file(folder / "own"), "a text\n");
-        EXPECT_EQ(folder.names(), (std::vector<std::string>{"mine.spikes", "own"}));
+        EXPECT_EQ(folder.file_names(), (std::vector<std::string>{"mine.spikes", "own"}));
     }
-    if (test::run(folder, "respond press --population fingertip --checkpoint spikes.csv --out . --quiet").status == 0) {
+    if (test::run_program(folder, "respond press --population fingertip --checkpoint spikes.csv --out . --quiet").status == 0) {
         EXPECT_TRUE(std::filesystem::exists(folder / "spikes.csv")) << "an output of the checkpoint's name stays";
     }
 }
 
 TEST(SkinRun, ARunThatFailsBeforeItsFirstCheckpointLeavesNothingBehind) {
-    const Folder folder;
+    const TemporaryFolder folder;
     folder.write("touch.csv", "time_s,f_N\n0,1\n0.001,1\n0.002,1\n0.003,here\n");
-    EXPECT_EQ(test::run(folder, "respond touch.csv --population fingertip --rate 1kHz --checkpoint kept --out out").status, 1);
-    EXPECT_EQ(folder.names(), (std::vector<std::string>{"touch.csv"}));
+    EXPECT_EQ(test::run_program(folder, "respond touch.csv --population fingertip --rate 1kHz --checkpoint kept --out out").status, 1);
+    EXPECT_EQ(folder.file_names(), (std::vector<std::string>{"touch.csv"}));
 }
 
 TEST(SkinRun, InterruptedAndRepeatedWithAnotherScaleOrOtherContentsItIsRefused) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const auto recording = [&](double force) {
         std::string text = "time_s,f_N\n";
         for (int k = 0; k < 60'000; ++k) text += fmt::format("{:.3f},{}\n", k / 1000.0, k / 500 % 2 * force);
@@ -210,24 +210,24 @@ TEST(SkinRun, InterruptedAndRepeatedWithAnotherScaleOrOtherContentsItIsRefused) 
     const std::string words = "respond touch.csv --population fingertip --scale 2 --checkpoint kept --out out";
     for (const char* seconds : {"0.4", "1", "3", "8", "20"}) {  // on a busy machine it may not have begun
         const auto command =
-            "cd '" + folder.path() + "' && timeout -s INT " + seconds + " '" + test::program() + "' " + words + " -j 1 2>said >&2";
+            "cd '" + folder.path() + "' && timeout -s INT " + seconds + " '" + test::program_path() + "' " + words + " -j 1 2>said >&2";
         const int status = WEXITSTATUS(std::system(command.c_str()));
         if (status == 0) GTEST_SKIP() << "it was over before it could be interrupted";
         if (std::filesystem::exists(folder / "kept")) break;
     }
     ASSERT_TRUE(std::filesystem::exists(folder / "kept")) << read_file(folder / "said");
-    const auto scaled = test::run(folder, "respond touch.csv --population fingertip --scale 3 --checkpoint kept --out out");
+    const auto scaled = test::run_program(folder, "respond touch.csv --population fingertip --scale 3 --checkpoint kept --out out");
     EXPECT_EQ(scaled.status, 1);
     EXPECT_NE(scaled.err.find("--scale was 2 and now is 3"), std::string::npos) << scaled.err;
     folder.write("touch.csv", recording(1.001));
-    const auto other = test::run(folder, words);
+    const auto other = test::run_program(folder, words);
     EXPECT_EQ(other.status, 1);
     EXPECT_NE(other.err.find("the contents of the recording have changed"), std::string::npos) << other.err;
     EXPECT_FALSE(std::filesystem::exists(folder / "out"));
 }
 
 TEST(SkinRun, ARecordingsChannelsAreItsSitesByNameOrInOrder) {
-    const Folder folder;
+    const TemporaryFolder folder;
     std::string named = "time_s,r2c1_N,r1c1_N\n", in_order = "time_s,a_N,b_N,c_N,d_N\n";
     for (int k = 0; k < 600; ++k) {
         const auto force = std::to_string(std::min(4.0, 0.05 * k)), time = std::to_string(k / 1000.0);
@@ -235,23 +235,23 @@ TEST(SkinRun, ARecordingsChannelsAreItsSitesByNameOrInOrder) {
         in_order += time + ",0,0," + force + ",0\n";
     }
     folder.write("named.csv", named), folder.write("ordered.csv", in_order);
-    ASSERT_EQ(test::run(folder, "respond named.csv --population 'grid 2x2' --out named --quiet").status, 0);
-    ASSERT_EQ(test::run(folder, "respond ordered.csv --population 'grid 2x2' --out ordered --quiet").status, 0);
+    ASSERT_EQ(test::run_program(folder, "respond named.csv --population 'grid 2x2' --out named --quiet").status, 0);
+    ASSERT_EQ(test::run_program(folder, "respond ordered.csv --population 'grid 2x2' --out ordered --quiet").status, 0);
     EXPECT_EQ(read_file(folder / "named/spikes.csv"), read_file(folder / "ordered/spikes.csv"));
     EXPECT_NE(read_file(folder / "named/units.csv").find("sa1#3"), std::string::npos);
-    const auto wrong = test::run(folder, "respond ordered.csv --population 'grid 3x2' --out wrong");
+    const auto wrong = test::run_program(folder, "respond ordered.csv --population 'grid 3x2' --out wrong");
     EXPECT_EQ(wrong.status, 1);
     EXPECT_NE(wrong.err.find("ordered has 4 channels, and grid 3x2 has 6 sites"), std::string::npos) << wrong.err;
     EXPECT_FALSE(std::filesystem::exists(folder / "wrong"));
 }
 
 TEST(SkinRun, SpikesOfASkinAreNumPysArraysToo) {
-    const Folder folder;
-    ASSERT_EQ(test::run(folder, "respond press --population fingertip --npz --out a --quiet").status, 0);
-    const auto npz = sure(NpzReader::open(folder / "a/spikes.npz"));
-    const auto labels = sure(npz.integers("spike_labels_seg0")), indexes = sure(npz.integers("spike_indexes_seg0"));
-    const auto times = sure(npz.numbers("spike_times_seg0"));
-    const auto names = sure(npz.strings("unit_afferent")), regions = sure(npz.strings("unit_channel"));
+    const TemporaryFolder folder;
+    ASSERT_EQ(test::run_program(folder, "respond press --population fingertip --npz --out a --quiet").status, 0);
+    const auto npz = value_or_throw(NpzReader::open(folder / "a/spikes.npz"));
+    const auto labels = value_or_throw(npz.integers("spike_labels_seg0")), indexes = value_or_throw(npz.integers("spike_indexes_seg0"));
+    const auto times = value_or_throw(npz.numbers("spike_times_seg0"));
+    const auto names = value_or_throw(npz.strings("unit_afferent")), regions = value_or_throw(npz.strings("unit_channel"));
     std::string text = "afferent,channel,time_s\n";
     for (std::size_t k = 0; k < times.size(); ++k) {
         const auto unit = static_cast<std::size_t>(labels[k]);
@@ -259,29 +259,29 @@ TEST(SkinRun, SpikesOfASkinAreNumPysArraysToo) {
         EXPECT_NEAR(static_cast<double>(indexes[k]) * 1e-6, times[k], 0.5000001e-6);
     }
     EXPECT_EQ(text, read_file(folder / "a/spikes.csv"));
-    EXPECT_EQ(sure(npz.numbers("unit_x_m")).size(), names.size());
-    EXPECT_EQ(test::run(folder, "compare a/spikes.csv a/spikes.npz").status, 0);
-    EXPECT_NE(test::run(folder, "respond press --population fingertip --npz").err.find("--npz needs --out DIR"), std::string::npos);
+    EXPECT_EQ(value_or_throw(npz.numbers("unit_x_m")).size(), names.size());
+    EXPECT_EQ(test::run_program(folder, "compare a/spikes.csv a/spikes.npz").status, 0);
+    EXPECT_NE(test::run_program(folder, "respond press --population fingertip --npz").err.find("--npz needs --out DIR"), std::string::npos);
 }
 
 TEST(SkinRun, WhatIsMeantForAfferentsOnChannelsIsRefused) {
-    const Folder folder;
+    const TemporaryFolder folder;
     for (const char* words : {"--afferent fa2", "--copies 3", "--noise 10nA", "--traces --out x", "--corner ss"}) {
-        const auto ran = test::run(folder, std::string("respond press --population fingertip ") + words);
+        const auto ran = test::run_program(folder, std::string("respond press --population fingertip ") + words);
         EXPECT_EQ(ran.status, 2) << words << ran.err;
         EXPECT_NE(ran.err.find("cannot be used with --population"), std::string::npos) << ran.err;
     }
-    EXPECT_EQ(test::run(folder, "respond press --population fingertip --set sa1.f_X=2Hz").status, 1);
-    EXPECT_EQ(test::run(folder, "respond press --population fingertip --set sa9.f_B=2Hz").status, 2);
+    EXPECT_EQ(test::run_program(folder, "respond press --population fingertip --set sa1.f_X=2Hz").status, 1);
+    EXPECT_EQ(test::run_program(folder, "respond press --population fingertip --set sa9.f_B=2Hz").status, 2);
 }
 
 TEST(SkinRanks, GiveWhatOneProcessGives) {
-    const Folder folder;
-    ASSERT_EQ(test::run(folder, "respond press --population fingertip --events aer --out alone --quiet").status, 0);
+    const TemporaryFolder folder;
+    ASSERT_EQ(test::run_program(folder, "respond press --population fingertip --events aer --out alone --quiet").status, 0);
     const std::string root = ::geteuid() == 0 ? "--allow-run-as-root " : "";
     const auto ranks = [&](int count, const std::string& words) {
         const auto command = "cd '" + folder.path() + "' && timeout 60 mpirun " + root + "--oversubscribe -n " + std::to_string(count) +
-                             " '" + test::program() + "' respond " + words + " --quiet >said 2>&1";
+                             " '" + test::program_path() + "' respond " + words + " --quiet >said 2>&1";
         return WEXITSTATUS(std::system(command.c_str()));
     };
     for (const int count : {2, 3}) {

@@ -16,7 +16,7 @@
 namespace corpuscle {
 namespace {
 
-using test::Folder, test::sure;
+using test::TemporaryFolder, test::value_or_throw;
 using SkinJson = nlohmann::ordered_json;
 
 /// Three sites, the third on the palm; sa1 has three units, fa1 two. Unit 1 feels two sites.
@@ -27,7 +27,7 @@ Innervation small_skin() {
         .positions = {{0, 0}, {2e-3, 0}, {4e-3, 1e-3}}, .names = {"a", "b", "c"}, .region = {0, 0, 1}, .regions = {"tip", "palm"}, .area = 4e-6};
     for (const auto* name : {"sa1", "fa1"})
         skin.plan.classes.push_back(
-            {.name = name, .afferent = sure(plan_afferent(name, {})), .density = {1e6, 5e5}, .sources = {{"density", "made up"}}});
+            {.name = name, .afferent = value_or_throw(plan_afferent(name, {})), .density = {1e6, 5e5}, .sources = {{"density", "made up"}}});
     skin.afferents = {{0, 1, 0, {0, 0}}, {0, 2, 0, {2e-3, 0}}, {0, 3, 1, {4e-3, 1e-3}, 2e-3}, {1, 1, 0, {2e-3, 1e-3}}, {1, 2, 1, {4e-3, 0}}};
     skin.class_begin = {0, 3, 5};
     skin.fields = {{.begin = {0, 2, 3, 4}, .afferent = {0, 1, 1, 2}, .weight = {1, 0.4, 0.6, 1}},
@@ -171,11 +171,11 @@ TEST(SkinSummary, FirstSpikesComeInOrderOfTimeThenUnit) {
 
 TEST(SkinSummary, FilesHoldWhatWasTold) {
     const auto skin = small_skin();
-    const Folder folder;
+    const TemporaryFolder folder;
     SkinSummary s;
-    SkinSpikesFile spikes(sure(OutputFile::create(folder / "spikes.csv")));
-    SkinAfferentsFile units(sure(OutputFile::create(folder / "units.csv")), s);
-    SkinPsthFile bins(sure(OutputFile::create(folder / "psth.csv")), 10e-3);
+    SkinSpikesFile spikes(value_or_throw(OutputFile::create(folder / "spikes.csv")));
+    SkinAfferentsFile units(value_or_throw(OutputFile::create(folder / "units.csv")), s);
+    SkinPsthFile bins(value_or_throw(OutputFile::create(folder / "psth.csv")), 10e-3);
     tell(skin, {&s, &spikes, &units, &bins}, 7);
     for (SkinFileSink* file :
          {static_cast<SkinFileSink*>(&spikes), static_cast<SkinFileSink*>(&units), static_cast<SkinFileSink*>(&bins)})

@@ -12,7 +12,7 @@ namespace {
 
 StudyResult run(std::string_view name) {
     const auto study = std::find_if(std::begin(all_studies), std::end(all_studies), [&](const Study* s) { return s->name == name; });
-    return test::sure((*study)->run({}));
+    return test::value_or_throw((*study)->run({}));
 }
 
 const Claim& claim(const StudyResult& outcome, const std::string& what) {
@@ -51,16 +51,16 @@ TEST(Studies, AreAllToldAsTheirPageSays) {
         EXPECT_TRUE(names.insert(all_studies[k]->name).second) << all_studies[k]->name;
         check(*all_studies[k], (*outcomes)[k]);
     }
-    const auto text = markdown_of(all_studies, *outcomes), page = test::read_file(test::root() + "/reproduction/reproduction.md");
+    const auto text = markdown_of(all_studies, *outcomes), page = test::read_file(test::project_root() + "/reproduction/reproduction.md");
     EXPECT_EQ(text, page) << "reproduction/reproduction.md is stale: make reproduction";
 }
 
 TEST(Studies, OfARecordingTellWhatTheirPageSays) {
-    CORPUSCLE_NEEDS(test::shared("fbg_eskin_press"));
-    const auto outcomes = run_studies(recorded_studies, {.recordings_folder = test::shared("")});
+    CORPUSCLE_NEEDS(test::shared_file_path("fbg_eskin_press"));
+    const auto outcomes = run_studies(recorded_studies, {.recordings_folder = test::shared_file_path("")});
     ASSERT_TRUE(static_cast<bool>(outcomes)) << outcomes.error().text();
     for (std::size_t k = 0; k < std::size(recorded_studies); ++k) check(*recorded_studies[k], (*outcomes)[k]);
-    EXPECT_EQ(markdown_of(recorded_studies, *outcomes), test::read_file(test::root() + "/reproduction/recorded.md")) << "stale: make reproduction";
+    EXPECT_EQ(markdown_of(recorded_studies, *outcomes), test::read_file(test::project_root() + "/reproduction/recorded.md")) << "stale: make reproduction";
 }
 
 TEST(Studies, OfARecordingThatIsAbsentSayWhereItWasSought) {

@@ -10,10 +10,10 @@ namespace corpuscle {
 namespace {
 
 TEST(Deck, RunsANetlistUnderItsOwnOrdersOrOthers) {
-    const auto own = test::sure(run_study_netlist({"inverter"}));
+    const auto own = test::value_or_throw(run_study_netlist({"inverter"}));
     EXPECT_NEAR(own.number("v_q"), 355e-3, 1e-3);
     EXPECT_FALSE(own.curve("dc", "v(out)").empty());
-    const auto other = test::sure(run_study_netlist({"inverter", {}, ".dc vin 0 0.2\n+ 0.1\n.meas dc low find v(out) at=0.1"}));
+    const auto other = test::value_or_throw(run_study_netlist({"inverter", {}, ".dc vin 0 0.2\n+ 0.1\n.meas dc low find v(out) at=0.1"}));
     EXPECT_TRUE(std::isnan(other.number("v_q")));
     EXPECT_EQ(other.curve("dc", "v(out)").x, (std::vector<double>{0, 0.1, 0.2}));
     EXPECT_EQ(other.number("low"), other.curve("dc", "v(out)").y[1]);
@@ -22,7 +22,7 @@ TEST(Deck, RunsANetlistUnderItsOwnOrdersOrOthers) {
 }
 
 TEST(Deck, SetsWhatIsSet) {
-    const auto half = test::sure(run_study_netlist({"bias", {"i_bias=100n", "corner=ss"}, ".op"}));
+    const auto half = test::value_or_throw(run_study_netlist({"bias", {"i_bias=100n", "corner=ss"}, ".op"}));
     EXPECT_NEAR(half.operating_point("i(vis)"), 100e-9, 2e-9);
     EXPECT_TRUE(std::isnan(half.operating_point("v(nowhere)")));
     const auto refused = run_study_netlist({"bias", {"i_bia=100n"}, ".op"});
@@ -33,17 +33,17 @@ TEST(Deck, SetsWhatIsSet) {
 }
 
 TEST(Deck, TakesATextOfItsOwnWithThePartsOfOthers) {
-    const auto found = test::sure(run_study_netlist({"A divider\n.lib '../process/tsmc180.lib' tt\nv1 a 0 2\nr1 a b 1k\nr2 b 0 3k\n.op\n.end\n"}));
+    const auto found = test::value_or_throw(run_study_netlist({"A divider\n.lib '../process/tsmc180.lib' tt\nv1 a 0 2\nr1 a b 1k\nr2 b 0 3k\n.op\n.end\n"}));
     EXPECT_NEAR(found.operating_point("v(b)"), 1.5, 1e-9);
-    const auto bias = test::sure(elaborate_study_netlist({"bias"}));
+    const auto bias = test::value_or_throw(elaborate_study_netlist({"bias"}));
     EXPECT_EQ(std::count_if(bias->elements.begin(), bias->elements.end(), [](const auto& e) { return e.letter == 'm'; }), 11);
 }
 
 TEST(Deck, GivesEveryVariant) {
-    const auto all = test::sure(run_study_variants({"divider", {}, ".step temp list 0 27 85\n.op"}));
+    const auto all = test::value_or_throw(run_study_variants({"divider", {}, ".step temp list 0 27 85\n.op"}));
     ASSERT_EQ(all.size(), 3u);
     EXPECT_EQ(all[2].label, "temp=85");
-    const auto chips = test::sure(run_study_variants({"quiescent", {}, ".op\n.mc 50 process=0"}));
+    const auto chips = test::value_or_throw(run_study_variants({"quiescent", {}, ".op\n.mc 50 process=0"}));
     const auto spread = sample_statistics(chips, "v(qa)");
     EXPECT_EQ(spread.values.size(), 50u);
     EXPECT_NEAR(spread.mean, 355e-3, 1e-3);

@@ -20,9 +20,9 @@
 namespace corpuscle {
 namespace {
 
-using test::Folder;
+using test::TemporaryFolder;
 using test::PlainSweep;
-using test::sure;
+using test::value_or_throw;
 
 /// All that a file says, in order.
 std::string all_of(const SweepResults& results) {
@@ -31,10 +31,10 @@ std::string all_of(const SweepResults& results) {
     return ok ? out : throw std::runtime_error(ok.error().text());
 }
 
-std::string all_of(const std::string& path) { return all_of(sure(SweepResults::open_read_only(path))); }
+std::string all_of(const std::string& path) { return all_of(value_or_throw(SweepResults::open_read_only(path))); }
 
 void run_sweep_of(const Sweep& sweep, const std::string& path, const SweepRunOptions& how) {
-    auto results = sure(SweepResults::open(path, sweep));
+    auto results = value_or_throw(SweepResults::open(path, sweep));
     SweepProgress count;
     const auto ok = run_sweep(sweep, results, how, count);
     if (!ok) throw std::runtime_error(ok.error().text());
@@ -42,11 +42,11 @@ void run_sweep_of(const Sweep& sweep, const std::string& path, const SweepRunOpt
 }
 
 TEST(SweepResults, GiveBackWhatWasPutInAndAreOneFileInTheEnd) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const PlainSweep sweep(1000);
     run_sweep_of(sweep, folder / "r.sqlite", {.threads = 3});
-    EXPECT_EQ(folder.names(), std::vector<std::string>{"r.sqlite"});
-    const auto results = sure(SweepResults::open_read_only(folder / "r.sqlite"));
+    EXPECT_EQ(folder.file_names(), std::vector<std::string>{"r.sqlite"});
+    const auto results = value_or_throw(SweepResults::open_read_only(folder / "r.sqlite"));
     EXPECT_EQ(results.item_count(), 1000);
     EXPECT_EQ(results.finished_count(), 1000);
     EXPECT_EQ(results.about("netlist circuits/sa1.cir"), "a\nb\nc\n");
@@ -66,13 +66,13 @@ TEST(SweepResults, GiveBackWhatWasPutInAndAreOneFileInTheEnd) {
         for (std::size_t k = 0; k < row.measures.size(); ++k)
             EXPECT_TRUE(o.measures.empty() || std::isnan(o.measures[k]) ? std::isnan(row.measures[k]) : row.measures[k] == o.measures[k]);
         for (std::size_t t = 0; t < 2; ++t)
-            EXPECT_EQ(sure(results.spikes(unit, t)), o.spikes.empty() ? std::vector<double>{} : o.spikes[t]);
-        EXPECT_EQ(sure(results.probe_samples(unit, 0)), o.probes.empty() ? std::vector<float>{} : o.probes[0]);
+            EXPECT_EQ(value_or_throw(results.spikes(unit, t)), o.spikes.empty() ? std::vector<double>{} : o.spikes[t]);
+        EXPECT_EQ(value_or_throw(results.probe_samples(unit, 0)), o.probes.empty() ? std::vector<float>{} : o.probes[0]);
         return ++unit < 400;
     });
     EXPECT_TRUE(ok);
     EXPECT_EQ(unit, 400) << "stopped where it was told to";
-    EXPECT_EQ(sure(results.count_ended(ItemEnd::diverged)), 11);
+    EXPECT_EQ(value_or_throw(results.count_ended(ItemEnd::diverged)), 11);
 }
 
 namespace fs = std::filesystem;
@@ -105,7 +105,7 @@ void copy(const std::string& from, const std::string& to) {
 
 /// So many rows, of the first units, and each as it must be; of a sweep of one thread.
 std::int64_t prefix_of(const std::string& path, const std::string& whole) {
-    const auto results = sure(SweepResults::open_read_only(path));
+    const auto results = value_or_throw(SweepResults::open_read_only(path));
     const auto text = all_of(results);
     EXPECT_EQ(text, whole.substr(0, text.size()));
     EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), results.finished_count() + 1);
@@ -113,7 +113,7 @@ std::int64_t prefix_of(const std::string& path, const std::string& whole) {
 }
 
 TEST(SweepResults, KilledAtAnyMomentKeepWhatHadEndedAndAreFinishedByTheSameCommand) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const PlainSweep sweep(300, "x", pause);
     const SweepRunOptions how{.threads = 2, .write_interval = soon};
     const auto begun = std::chrono::steady_clock::now();
@@ -132,7 +132,7 @@ TEST(SweepResults, KilledAtAnyMomentKeepWhatHadEndedAndAreFinishedByTheSameComma
         if (!fs::exists(path)) continue;
         std::int64_t rows = 0;
         {
-            const auto results = sure(SweepResults::open_read_only(path));
+            const auto results = value_or_throw(SweepResults::open_read_only(path));
             rows = results.finished_count();
             std::int64_t before = -1;
             const auto ok = results.for_each_row([&](const SweepResults::Row& row) {
@@ -141,7 +141,7 @@ TEST(SweepResults, KilledAtAnyMomentKeepWhatHadEndedAndAreFinishedByTheSameComma
                 const auto o = sweep.outcome(row.item);
                 EXPECT_EQ(row.steps, o.steps);
                 EXPECT_EQ(row.end, o.end);
-                EXPECT_EQ(sure(results.spikes(row.item, 0)), o.spikes.empty() ? std::vector<double>{} : o.spikes[0]);
+                EXPECT_EQ(value_or_throw(results.spikes(row.item, 0)), o.spikes.empty() ? std::vector<double>{} : o.spikes[0]);
                 return true;
             });
             EXPECT_TRUE(ok);
@@ -157,7 +157,7 @@ TEST(SweepResults, KilledAtAnyMomentKeepWhatHadEndedAndAreFinishedByTheSameComma
 }
 
 TEST(SweepResults, CopiesTakenAtAnyMomentAreWhole) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const PlainSweep sweep(800, "x", pause);
     run_sweep_of(PlainSweep(800, "x"), folder / "whole.sqlite", {.threads = 1});
     const auto whole = all_of(folder / "whole.sqlite");
@@ -180,10 +180,10 @@ TEST(SweepResults, CopiesTakenAtAnyMomentAreWhole) {
 }
 
 TEST(SweepResults, AReplacedFileBesideTheRowsOfTheOldOneIsTheSame) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const PlainSweep sweep(300);
     const auto path = folder / "r.sqlite";
-    auto results = sure(SweepResults::open(path, sweep));
+    auto results = value_or_throw(SweepResults::open(path, sweep));
     SweepProgress count;
     ASSERT_TRUE(run_sweep(sweep, results, {.shard = {0, 2}}, count));
     ASSERT_TRUE(results.checkpoint());
@@ -197,18 +197,18 @@ TEST(SweepResults, AReplacedFileBesideTheRowsOfTheOldOneIsTheSame) {
     copy(path, folder / "new.sqlite");
     EXPECT_EQ(all_of(folder / "old.sqlite"), half) << "without its rows";
     EXPECT_EQ(all_of(folder / "new.sqlite"), all_of(path)) << "as if killed between the two steps";
-    EXPECT_EQ(sure(SweepResults::open_read_only(folder / "new.sqlite")).finished_count(), 300);
+    EXPECT_EQ(value_or_throw(SweepResults::open_read_only(folder / "new.sqlite")).finished_count(), 300);
 }
 
 TEST(SweepResults, ThatMayNotGrowKeepWhatWasWrittenAndSayWhatToDo) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const PlainSweep sweep(20'000);
     const auto path = folder / "r.sqlite";
     const auto id = child([&] {
         std::signal(SIGXFSZ, SIG_IGN);
         const rlimit limit{400'000, 400'000};
         ::setrlimit(RLIMIT_FSIZE, &limit);
-        auto results = sure(SweepResults::open(path, sweep));
+        auto results = value_or_throw(SweepResults::open(path, sweep));
         Result<void> ok;
         for (std::int64_t unit = 0; ok && unit < sweep.item_count(); unit += 100) {
             std::vector<ItemOutcome> some;
@@ -223,7 +223,7 @@ TEST(SweepResults, ThatMayNotGrowKeepWhatWasWrittenAndSayWhatToDo) {
         if (results.checkpoint()) throw std::runtime_error("a file larger than the limit was made");
     });
     ASSERT_EQ(end_of(id), 0);
-    EXPECT_GT(sure(SweepResults::open_read_only(path)).finished_count(), 0);
+    EXPECT_GT(value_or_throw(SweepResults::open_read_only(path)).finished_count(), 0);
     EXPECT_FALSE(fs::exists(path + "-fold"));
     run_sweep_of(sweep, path, {});
     run_sweep_of(sweep, folder / "whole.sqlite", {.threads = 1});
@@ -231,13 +231,13 @@ TEST(SweepResults, ThatMayNotGrowKeepWhatWasWrittenAndSayWhatToDo) {
 }
 
 TEST(SweepResults, InAFolderThatCannotBeWrittenAreReadAndNotBegun) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const PlainSweep sweep(50);
     run_sweep_of(sweep, folder / "r.sqlite", {});
     fs::permissions(folder.path(), fs::perms(0555));
     const auto id = child([&] {
         if (::geteuid() == 0 && ::seteuid(65534) != 0) throw std::runtime_error("root writes everywhere");
-        if (sure(SweepResults::open_read_only(folder / "r.sqlite")).finished_count() != 50) throw std::runtime_error("rows are missing");
+        if (value_or_throw(SweepResults::open_read_only(folder / "r.sqlite")).finished_count() != 50) throw std::runtime_error("rows are missing");
         for (const char* name : {"r.sqlite", "new.sqlite"}) {
             const auto results = SweepResults::open(folder / name, sweep);
             if (results || results.error().text().find("give a writable path with --out") == std::string::npos)
@@ -254,7 +254,7 @@ std::string refusal(const std::string& path, const Sweep& sweep) {
 }
 
 TEST(SweepResults, RefuseTheFileOfAnotherSweepAndSayWhatHasChanged) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const auto path = folder / "r.sqlite";
     run_sweep_of(PlainSweep(20), path, {});
     EXPECT_EQ(refusal(path, PlainSweep(20)), "");
@@ -264,12 +264,12 @@ TEST(SweepResults, RefuseTheFileOfAnotherSweepAndSayWhatHasChanged) {
                   "undo the change, or remove this file");
     EXPECT_NE(refusal(path, PlainSweep(30)).find("the number of units was 20 and is 30 now"), std::string::npos);
     PlainSweep more(20);
-    more.facts_.insert(more.facts_.begin(), {"card process/x.lib", "y"});
+    more.metadata_.insert(more.metadata_.begin(), {"card process/x.lib", "y"});
     EXPECT_NE(refusal(path, more).find("it has no entry 'card process/x.lib'"), std::string::npos);
 }
 
 TEST(SweepResults, RefuseWhatIsNoSuchFile) {
-    const Folder folder;
+    const TemporaryFolder folder;
     EXPECT_NE(refusal(folder.write("text", std::string(5000, 'x')), PlainSweep(2)).find("is not an SQLite file"), std::string::npos);
     EXPECT_NE(refusal(folder.write("empty", ""), PlainSweep(2)).find("holds no results of a sweep"), std::string::npos);
     EXPECT_NE(SweepResults::open_read_only(folder / "none").error().text().find("does not exist"), std::string::npos);
@@ -281,15 +281,15 @@ TEST(SweepResults, RefuseWhatIsNoSuchFile) {
 }
 
 TEST(SweepResults, AreWrittenByOneAtATimeAndReadMeanwhile) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const PlainSweep sweep(20);
     const auto path = folder / "r.sqlite";
     {
-        auto first = sure(SweepResults::open(path, sweep));
+        auto first = value_or_throw(SweepResults::open(path, sweep));
         ASSERT_TRUE(first.add(sweep, {sweep.outcome(3)}));
         EXPECT_NE(refusal(path, sweep).find(fmt::format("is being written by process {} on ", ::getpid())), std::string::npos);
         ASSERT_TRUE(first.add(sweep, {sweep.outcome(4), sweep.outcome(3)}));
-        EXPECT_EQ(sure(SweepResults::open_read_only(path)).finished_count(), 2) << "a row a unit";
+        EXPECT_EQ(value_or_throw(SweepResults::open_read_only(path)).finished_count(), 2) << "a row a unit";
         EXPECT_EQ(first.finished_count(), 2);
     }
     EXPECT_EQ(refusal(path, sweep), "") << "the lock is gone with its owner";
@@ -307,27 +307,27 @@ struct Changed : PlainSweep {
 };
 
 TEST(SweepResults, ShardsMergeIntoTheWholeAndNothingIsCountedTwice) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const PlainSweep sweep(1001);
     run_sweep_of(sweep, folder / "whole.sqlite", {.threads = 1});
     for (std::int64_t k = 0; k < 3; ++k) run_sweep_of(sweep, folder / fmt::format("{}", k), {.threads = 2, .shard = {k, 3}});
-    auto all = sure(SweepResults::open(folder / "all.sqlite", sweep));
+    auto all = value_or_throw(SweepResults::open(folder / "all.sqlite", sweep));
     for (const auto& [shard, rows] : {std::pair{"2", 333}, {"0", 334}, {"2", 0}, {"1", 334}})
-        EXPECT_EQ(sure(all.merge(sure(SweepResults::open_read_only(folder / shard)))), rows);
+        EXPECT_EQ(value_or_throw(all.merge(value_or_throw(SweepResults::open_read_only(folder / shard)))), rows);
     EXPECT_EQ(all_of(all), all_of(folder / "whole.sqlite"));
     run_sweep_of(Changed(1001), folder / "changed", {.shard = {1, 3}});
-    const auto taken = all.merge(sure(SweepResults::open_read_only(folder / "changed")));
+    const auto taken = all.merge(value_or_throw(SweepResults::open_read_only(folder / "changed")));
     ASSERT_FALSE(taken);
     EXPECT_NE(taken.error().text().find("changed: unit 7 has other results than"), std::string::npos) << taken.error().text();
     run_sweep_of(PlainSweep(1001, "other"), folder / "other", {});
-    EXPECT_NE(all.merge(sure(SweepResults::open_read_only(folder / "other"))).error().text().find("belongs to another sweep than"), std::string::npos);
+    EXPECT_NE(all.merge(value_or_throw(SweepResults::open_read_only(folder / "other"))).error().text().find("belongs to another sweep than"), std::string::npos);
     EXPECT_EQ(all_of(all), all_of(folder / "whole.sqlite"));
 }
 
 TEST(SweepResults, ThreadsThatAreStoppedLeaveWhatHadEnded) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const PlainSweep sweep(100'000, "x", pause);
-    auto results = sure(SweepResults::open(folder / "r.sqlite", sweep));
+    auto results = value_or_throw(SweepResults::open(folder / "r.sqlite", sweep));
     SweepProgress count;
     const auto ok =
         run_sweep(sweep, results, {.threads = 2, .write_interval = 0.01, .should_stop = [&] { return results.finished_count() > 100; }}, count);

@@ -7,22 +7,22 @@
 namespace corpuscle {
 namespace {
 
-const std::string kept = test::root() + "/test/study/vectors/",
-                  python = "/usr/bin/python3 " + test::root() + "/test/model/fixed_reference.py";
+const std::string kept = test::project_root() + "/test/study/vectors/",
+                  python = "/usr/bin/python3 " + test::project_root() + "/test/model/fixed_reference.py";
 
 /// Writes the vectors of some afferents under some stimuli at 2 kHz.
-std::vector<std::string> write(const test::Folder& folder, const std::vector<std::string>& stimuli, const std::vector<std::string>& names,
+std::vector<std::string> write(const test::TemporaryFolder& folder, const std::vector<std::string>& stimuli, const std::vector<std::string>& names,
                                const std::vector<std::string>& settings, std::size_t block = 4096) {
-    const auto mine = test::wishes(settings);
+    const auto mine = test::parse_settings(settings);
     std::vector<std::unique_ptr<ForceSource>> sources;
     std::vector<AfferentPlan> plans;
-    for (const auto& s : stimuli) sources.push_back(test::sure(make_stimulus(s, mine, 2e3, 9)));
-    for (const auto& n : names) plans.push_back(test::sure(plan_afferent(n, mine)));
+    for (const auto& s : stimuli) sources.push_back(test::value_or_throw(make_stimulus(s, mine, 2e3, 9)));
+    for (const auto& n : names) plans.push_back(test::value_or_throw(plan_afferent(n, mine)));
     TestVectorsFile vectors(folder.path());
     ResponseSink* listeners[] = {&vectors};
     RespondOptions options;
     options.block = block;
-    (void)test::sure(respond(sources, plans, listeners, options));
+    (void)test::value_or_throw(respond(sources, plans, listeners, options));
     EXPECT_TRUE(vectors.commit());
     return vectors.paths();
 }
@@ -36,7 +36,7 @@ bool reference_agrees(const std::string& vectors, const std::string& rom) {
 
 TEST(Vectors, ThePressGivesTheFilesKeptHereByteForByte) {
     for (const std::string name : {"sa1-kim", "fa1-lee"}) {
-        const test::Folder folder;
+        const test::TemporaryFolder folder;
         write(folder, {"press"}, {name}, small(name));
         for (const auto& file : {"vectors-" + name + ".csv", "rom-" + name + ".csv"})
             EXPECT_EQ(test::read_file(folder / file), test::read_file(kept + file)) << file;
@@ -48,7 +48,7 @@ TEST(Vectors, ASecondBuildingFromThePageAgreesOnEveryAlgorithmAndOddWords) {
     for (const std::string receptor : {"sa1a", "sa1b", "fa1a", "fa1b"})
         for (const std::string neuron : {"lif-a", "lif-b", "adaptive"})
             for (const auto& [word, frac] : {std::pair{"32", "24"}, {"24", "20"}, {"17", "9"}, {"12", "5"}}) {
-                const test::Folder folder;
+                const test::TemporaryFolder folder;
                 const auto name = "fsr+adc+" + receptor + "+" + neuron;
                 write(folder, {"press+noise"}, {name},
                       {"noise.F_mean=0", name + ".word=" + word, name + ".frac=" + frac, name + ".f_s=700Hz", name + ".t_ref=3ms",
@@ -58,7 +58,7 @@ TEST(Vectors, ASecondBuildingFromThePageAgreesOnEveryAlgorithmAndOddWords) {
 }
 
 TEST(Vectors, TheReferenceSeesASingleWrongBit) {
-    const test::Folder folder;
+    const test::TemporaryFolder folder;
     auto text = test::read_file(kept + "vectors-sa1-kim.csv");
     const auto at = text.rfind(",0\n");
     text[at + 1] = '1';
@@ -66,12 +66,12 @@ TEST(Vectors, TheReferenceSeesASingleWrongBit) {
 }
 
 TEST(Vectors, DoNotDependOnTheBlockAndEachInputHasItsOwn) {
-    const test::Folder whole, parts;
+    const test::TemporaryFolder whole, parts;
     const auto paths = write(whole, {"press", "ramp-hold"}, {"sa1", "sa1-kim"}, {});
     write(parts, {"press", "ramp-hold"}, {"sa1", "sa1-kim"}, {}, 7);
-    EXPECT_EQ(whole.names(), (std::vector<std::string>{"rom-sa1-kim.csv", "vectors-sa1-kim-2.csv", "vectors-sa1-kim.csv"}));
+    EXPECT_EQ(whole.file_names(), (std::vector<std::string>{"rom-sa1-kim.csv", "vectors-sa1-kim-2.csv", "vectors-sa1-kim.csv"}));
     EXPECT_EQ(paths.size(), 3U);
-    for (const auto& name : whole.names()) EXPECT_EQ(test::read_file(whole / name), test::read_file(parts / name)) << name;
+    for (const auto& name : whole.file_names()) EXPECT_EQ(test::read_file(whole / name), test::read_file(parts / name)) << name;
 }
 
 }  // namespace

@@ -9,7 +9,7 @@
 namespace corpuscle {
 namespace {
 
-using test::sure;
+using test::value_or_throw;
 using Names = std::vector<std::pair<std::string, std::string>>;
 
 std::vector<NamedTrain> trains(const Names& names) {
@@ -89,7 +89,7 @@ TEST(PairTrains, OfAHundredThousandTakesWellUnderASecond) {
 
 TEST(Compare, CountsWhatMatchesAndWhatDoesNot) {
     const std::vector<double> a = {0.1, 0.2, 0.3, 0.4}, b = {0.101, 0.198, 0.35, 0.4, 0.6};
-    const auto d = sure(compare_trains({"a", "b", &a, &b}, {}));
+    const auto d = value_or_throw(compare_trains({"a", "b", &a, &b}, {}));
     EXPECT_EQ(d.matched, 3U);
     EXPECT_EQ(d.missing(), 1U);
     EXPECT_EQ(d.extra(), 2U);
@@ -97,7 +97,7 @@ TEST(Compare, CountsWhatMatchesAndWhatDoesNot) {
     EXPECT_NEAR(d.rms(), std::sqrt((1e-6 + 4e-6) / 3), 1e-12);
     EXPECT_NEAR(d.victor_purpura, 3 + 0.3, 1e-9);
     EXPECT_NEAR(d.victor_purpura_per_spike(), 3.3 / 9, 1e-9);
-    const auto silence = sure(compare_trains({"a", "", &a, nullptr}, {}));
+    const auto silence = value_or_throw(compare_trains({"a", "", &a, nullptr}, {}));
     EXPECT_EQ(silence.missing(), 4U);
     EXPECT_EQ(silence.victor_purpura_per_spike(), 1);
     EXPECT_TRUE(std::isnan(silence.rms()));

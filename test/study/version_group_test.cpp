@@ -12,7 +12,7 @@
 namespace corpuscle {
 namespace {
 
-using test::sure;
+using test::value_or_throw;
 
 AfferentPlan named(const std::string& name) {
     AfferentPlan plan;
@@ -32,7 +32,7 @@ TEST(VersionGroup, AreOfTheReceptorThatTheirNameBeginsWith) {
 }
 
 TEST(VersionGroup, TheReceptorItselfComesFirstThenModelsThenNetlists) {
-    const auto chip = sure(plan_any_afferent(test::root() + "/circuits/sa1.cir", {}));
+    const auto chip = value_or_throw(plan_any_afferent(test::project_root() + "/circuits/sa1.cir", {}));
     const AfferentPlan plans[] = {chip, named("sa1-kim"), named("fa1"), named("sa1")};
     const auto all = version_groups(plans);
     ASSERT_EQ(all.size(), 2u);
@@ -50,16 +50,16 @@ VersionsRan run_versions(const std::vector<std::string>& stimuli, const std::vec
                          std::uint32_t copies = 0) {
     std::vector<std::unique_ptr<ForceSource>> sources;
     std::vector<AfferentPlan> plans;
-    for (const auto& s : stimuli) sources.push_back(sure(make_stimulus(s, {}, 2e3, 9)));
-    for (const auto& n : names) plans.push_back(sure(plan_any_afferent(n, {})));
+    for (const auto& s : stimuli) sources.push_back(value_or_throw(make_stimulus(s, {}, 2e3, 9)));
+    for (const auto& n : names) plans.push_back(value_or_throw(plan_any_afferent(n, {})));
     std::vector<AfferentPlan> standing;
     for (const auto& p : plans)
-        for (auto& copy : copies ? sure(make_copies(p, copies, {}, 1)) : std::vector{p}) standing.push_back(std::move(copy));
+        for (auto& copy : copies ? value_or_throw(make_copies(p, copies, {}, 1)) : std::vector{p}) standing.push_back(std::move(copy));
     VersionsRan ran;
     ResponseSink* listeners[] = {&ran.summary};
     RespondOptions options;
     options.block = block;
-    const auto work = sure(respond(sources, standing, listeners, options));
+    const auto work = value_or_throw(respond(sources, standing, listeners, options));
     ran.document = ran.summary.document(plans, work, options, 9, {}).dump();
     return ran;
 }
@@ -73,7 +73,7 @@ TEST(VersionComparisons, CountByPhaseAndMeasureAsCompareDoes) {
     EXPECT_EQ(row.total.spikes, kim.size());
     EXPECT_EQ(row.total.reference_spikes, model.size());
     EXPECT_NEAR(row.total.excess(), static_cast<double>(kim.size()) / static_cast<double>(model.size()) - 1, 1e-15);
-    const auto difference = sure(compare_trains({"a", "b", &model, &kim}, {.window = 20e-3}));
+    const auto difference = value_or_throw(compare_trains({"a", "b", &model, &kim}, {.window = 20e-3}));
     EXPECT_NEAR(row.victor_purpura, difference.victor_purpura, 1e-9);
     EXPECT_NEAR(row.van_rossum, difference.van_rossum(), 1e-9);
     EXPECT_EQ(row.matched, difference.matched);
@@ -127,7 +127,7 @@ TEST(VersionComparisons, LeaveOutCopiesAndWhoIsAlone) {
 
 /// The chips of the thesis under its press: counts within a quarter of the models'.
 TEST(VersionComparisons, ChipsFireAsTheirModelsDo) {
-    const auto ran = run_versions({"press"}, {"sa1", "fa1", test::root() + "/circuits/sa1.cir", test::root() + "/circuits/fa1.cir"}, 4096);
+    const auto ran = run_versions({"press"}, {"sa1", "fa1", test::project_root() + "/circuits/sa1.cir", test::project_root() + "/circuits/fa1.cir"}, 4096);
     ASSERT_EQ(ran.summary.comparisons().rows().size(), 2u);
     for (const auto& row : ran.summary.comparisons().rows()) {
         EXPECT_LE(std::abs(row.total.excess()), 0.25) << row.afferent;

@@ -25,13 +25,13 @@ inline pid_t fork_child() {
 inline bool signal_child(pid_t id, int signal) { return id > 0 && ::kill(id, signal) == 0; }
 
 /// Whether a pseudo-terminal can be had: a chroot or a container may have no /dev/ptmx or no /dev/pts.
-inline bool has_terminals() {
+inline bool has_pseudo_terminals() {
     int far = -1, near = -1;
     if (::openpty(&far, &near, nullptr, nullptr, nullptr) != 0) return false;
     ::close(far), ::close(near);
     return true;
 }
 
-constexpr const char* no_terminals = "no pseudo-terminal can be had here (/dev/ptmx, /dev/pts)";
+constexpr const char* no_pseudo_terminals = "no pseudo-terminal can be had here (/dev/ptmx, /dev/pts)";
 
 }  // namespace corpuscle::test

@@ -17,19 +17,19 @@ namespace corpuscle::circuit::test {
 
 using namespace corpuscle::test;
 
-inline std::string deck_path(const std::string& name) { return root() + "/test/circuit/decks/" + name + ".cir"; }
+inline std::string deck_path(const std::string& name) { return project_root() + "/test/circuit/decks/" + name + ".cir"; }
 
 /// Those of a folder there; "": what is in none.
-inline std::vector<std::string> decks(const std::string& folder = "") {
+inline std::vector<std::string> deck_names(const std::string& folder = "") {
     std::vector<std::string> out;
-    for (const auto& entry : std::filesystem::directory_iterator(root() + "/test/circuit/decks/" + folder))
+    for (const auto& entry : std::filesystem::directory_iterator(project_root() + "/test/circuit/decks/" + folder))
         if (entry.path().extension() == ".cir") out.push_back(entry.path().stem());
     std::sort(out.begin(), out.end());
     return out;
 }
 
 /// What ngspice writes on standard output for a deck, and its .raw file if one is named.
-inline std::string ngspice(const std::string& deck, const std::string& raw) {
+inline std::string run_ngspice(const std::string& deck, const std::string& raw) {
     const auto command = "ngspice -b " + (raw.empty() ? "" : "-r " + raw + " ") + deck + " 2>&1";
     std::FILE* pipe = popen(command.c_str(), "r");
     std::string out;
@@ -39,7 +39,7 @@ inline std::string ngspice(const std::string& deck, const std::string& raw) {
     return out;
 }
 
-inline std::shared_ptr<const Circuit> circuit_of(const Result<Netlist>& netlist) {
+inline std::shared_ptr<const Circuit> elaborate_netlist(const Result<Netlist>& netlist) {
     EXPECT_TRUE(netlist) << (netlist ? "" : netlist.error().text());
     if (!netlist) return {};
     auto circuit = netlist->elaborate();
@@ -47,20 +47,20 @@ inline std::shared_ptr<const Circuit> circuit_of(const Result<Netlist>& netlist)
     return circuit ? std::make_shared<const Circuit>(std::move(*circuit)) : nullptr;
 }
 
-inline std::shared_ptr<const Circuit> circuit_of(const std::string& deck) { return circuit_of(Netlist::read(deck)); }
+inline std::shared_ptr<const Circuit> elaborate_netlist(const std::string& deck) { return elaborate_netlist(Netlist::read(deck)); }
 
-inline RunOutcome ours(const Result<Netlist>& netlist) {
+inline RunOutcome run_corpuscle(const Result<Netlist>& netlist) {
     static std::vector<std::shared_ptr<const Circuit>> kept;  // an outcome points at its circuit's commands
-    kept.push_back(circuit_of(netlist));
+    kept.push_back(elaborate_netlist(netlist));
     if (!kept.back()) return {};
     auto outcome = run_directives(kept.back());
     EXPECT_TRUE(outcome) << (outcome ? "" : outcome.error().text());
     return outcome ? *outcome : RunOutcome{};
 }
-inline RunOutcome ours(const std::string& deck) { return ours(Netlist::read(deck)); }
+inline RunOutcome run_corpuscle(const std::string& deck) { return run_corpuscle(Netlist::read(deck)); }
 
 /// A name as we give it: ngspice's files wrap what is no voltage in v(), and keep capitals.
-inline std::string plain(std::string name) {
+inline std::string corpuscle_name(std::string name) {
     std::transform(name.begin(), name.end(), name.begin(), [](char c) { return lower(c); });
     for (const std::string_view word : {"transfer_function", "impedance", "noise_"})
         if (name.starts_with("v(") && name.find(word) != std::string::npos) return name.substr(2, name.size() - 3);
@@ -68,7 +68,7 @@ inline std::string plain(std::string name) {
 }
 
 /// A deck of transistors by formulas, with our own transistors in their place: its line "* native: .model ..." says which.
-inline std::string native(const std::string& deck) {
+inline std::string with_native_transistors(const std::string& deck) {
     std::istringstream lines(read_file(deck));
     std::string out, line;
     for (bool inside = false; std::getline(lines, line);) {
@@ -84,7 +84,7 @@ inline std::string native(const std::string& deck) {
 }
 
 /// "name = value" in what a simulator prints; NaN: there is none.
-inline double number_of(const std::string& log, const std::string& name) {
+inline double logged_number(const std::string& log, const std::string& name) {
     for (std::size_t at = log.find("\n" + name); at != std::string::npos; at = log.find("\n" + name, at + 1)) {
         const auto equals = log.find('=', at + 1);
         const auto between = log.substr(at + 1 + name.size(), equals - at - 1 - name.size());

@@ -10,27 +10,27 @@
 namespace corpuscle::test {
 
 class PlainSweep : public Sweep {
-    std::int64_t units_;
-    double seconds_;  // a unit
+    std::int64_t item_count_;
+    double seconds_per_item_;  // a unit
     std::vector<SweepColumn> axes_ = {{"gain", "", "times the force"}, {"kind", "", "of unit", {"even", "odd"}}};
     std::vector<SweepColumn> measures_ = {
         {"rate", "Hz", "of spikes"}, {"Rate", "Hz", "by another name"}, {"why", "", "like a column of every sweep", {}, 0.25, 0.75}};
-    std::vector<std::string> trains_ = {"sa1", "fa1"}, traces_ = {"v(u)"};
-    std::vector<double> times_ = {0, 0.1, 0.2, 0.3};
+    std::vector<std::string> train_names_ = {"sa1", "fa1"}, probe_names_ = {"v(u)"};
+    std::vector<double> probe_times_ = {0, 0.1, 0.2, 0.3};
 
 public:
-    std::vector<MetadataText> facts_;
+    std::vector<MetadataText> metadata_;
 
     explicit PlainSweep(std::int64_t units, std::string netlist = "a\nb\nc\n", double seconds = 0)
-        : units_(units), seconds_(seconds), facts_({{"title", "plain"}, {"netlist circuits/sa1.cir", std::move(netlist)}}) {}
+        : item_count_(units), seconds_per_item_(seconds), metadata_({{"title", "plain"}, {"netlist circuits/sa1.cir", std::move(netlist)}}) {}
 
-    std::int64_t item_count() const override { return units_; }
+    std::int64_t item_count() const override { return item_count_; }
     const std::vector<SweepColumn>& axes() const override { return axes_; }
     const std::vector<SweepColumn>& measures() const override { return measures_; }
-    const std::vector<std::string>& train_names() const override { return trains_; }
-    const std::vector<std::string>& probe_names() const override { return traces_; }
-    const std::vector<double>& probe_times() const override { return times_; }
-    const std::vector<MetadataText>& metadata() const override { return facts_; }
+    const std::vector<std::string>& train_names() const override { return train_names_; }
+    const std::vector<std::string>& probe_names() const override { return probe_names_; }
+    const std::vector<double>& probe_times() const override { return probe_times_; }
+    const std::vector<MetadataText>& metadata() const override { return metadata_; }
     std::vector<double> values(std::int64_t unit) const override {
         return {0.5 + static_cast<double>(unit) / 7, static_cast<double>(unit % 2)};
     }
@@ -52,7 +52,7 @@ public:
     Result<void> run_items(const NextItem& next, const OutcomeHandler& told, const std::function<bool()>& stop) const override {
         for (auto unit = next(); unit; unit = next()) {
             if (stop()) return {};
-            if (seconds_ > 0) std::this_thread::sleep_for(std::chrono::duration<double>(seconds_));
+            if (seconds_per_item_ > 0) std::this_thread::sleep_for(std::chrono::duration<double>(seconds_per_item_));
             told(outcome(*unit));
         }
         return {};

@@ -7,16 +7,16 @@
 
 namespace corpuscle::test {
 
-struct Ran {
+struct ProgramResult {
     int status;
     std::string out, err;
 };
 
-inline Ran run(const Folder& folder, const std::string& words) {
+inline ProgramResult run_program(const TemporaryFolder& folder, const std::string& words) {
     const auto out = folder / ".out", err = folder / ".err";
     const int status =
-        std::system(("cd '" + folder.path() + "' && '" + test::program() + "' " + words + " >'" + out + "' 2>'" + err + "'").c_str());
-    Ran ran{WEXITSTATUS(status), read_file(out), read_file(err)};
+        std::system(("cd '" + folder.path() + "' && '" + test::program_path() + "' " + words + " >'" + out + "' 2>'" + err + "'").c_str());
+    ProgramResult ran{WEXITSTATUS(status), read_file(out), read_file(err)};
     std::filesystem::remove(out);
     std::filesystem::remove(err);
     return ran;

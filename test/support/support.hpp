@@ -10,11 +10,11 @@
 
 #include "model/catalog.hpp"
 #include "signal/stimuli.hpp"
-#include "support/places.hpp"
+#include "support/test_paths.hpp"
 
 namespace corpuscle::test {
 
-struct Asked {
+struct RunSettings {
     std::vector<std::string> settings = {};
     double rate = 10e3;
     Method method = Method::exact;
@@ -24,23 +24,23 @@ struct Asked {
 };
 
 template <class T>
-T sure(Result<T> result) {
+T value_or_throw(Result<T> result) {
     if (!result) throw std::runtime_error(result.error().text());
     return std::move(*result);
 }
 
-inline std::vector<ParameterOverride> wishes(const std::vector<std::string>& settings) {
+inline std::vector<ParameterOverride> parse_settings(const std::vector<std::string>& settings) {
     std::vector<ParameterOverride> out;
-    for (const auto& s : settings) out.push_back(sure(parse_override(s)));
+    for (const auto& s : settings) out.push_back(value_or_throw(parse_override(s)));
     return out;
 }
 
-inline std::unique_ptr<Afferent> afferent(const std::string& name, const Asked& asked = {}) {
-    return make_afferent(sure(plan_afferent(name, wishes(asked.settings))), {1 / asked.rate, asked.method, asked.sampled});
+inline std::unique_ptr<Afferent> afferent(const std::string& name, const RunSettings& asked = {}) {
+    return make_afferent(value_or_throw(plan_afferent(name, parse_settings(asked.settings))), {1 / asked.rate, asked.method, asked.sampled});
 }
 
 /// All of a source's first channel.
-inline std::vector<double> force_of(ForceSource& source) {
+inline std::vector<double> read_first_channel(ForceSource& source) {
     std::vector<double> all;
     for (Frames block(source.channels().size(), 1000);;) {
         if (auto ok = source.read(block); !ok) throw std::runtime_error(ok.error().text());
@@ -49,9 +49,9 @@ inline std::vector<double> force_of(ForceSource& source) {
     }
 }
 
-inline std::vector<double> force(const std::string& stimulus, const Asked& asked = {}) {
-    const auto mine = wishes(asked.settings);
-    return force_of(*sure(make_stimulus(stimulus, mine, asked.rate, asked.seed)));
+inline std::vector<double> force(const std::string& stimulus, const RunSettings& asked = {}) {
+    const auto mine = parse_settings(asked.settings);
+    return read_first_channel(*value_or_throw(make_stimulus(stimulus, mine, asked.rate, asked.seed)));
 }
 
 inline std::vector<Spike> spikes(const Afferent& a, const std::vector<double>& f, std::size_t block = 4096) {
@@ -65,12 +65,12 @@ inline std::vector<Spike> spikes(const Afferent& a, const std::vector<double>& f
 }
 
 /// Spike times (s) of an afferent under a stimulus; settings are for both.
-inline std::vector<double> train(const std::string& name, const std::string& stimulus = "press", const Asked& asked = {}) {
-    return spike_times(spikes(*afferent(name, asked), force(stimulus, asked), asked.block), sure(make_clock(asked.rate)));
+inline std::vector<double> train(const std::string& name, const std::string& stimulus = "press", const RunSettings& asked = {}) {
+    return spike_times(spikes(*afferent(name, asked), force(stimulus, asked), asked.block), value_or_throw(make_clock(asked.rate)));
 }
 
 /// The afferents of every name, every transduction with every neuron, and some of them behind each kind of front.
-inline std::vector<std::string> every_afferent() {
+inline std::vector<std::string> all_afferent_names() {
     std::vector<std::string> all;
     for (const auto& a : named_afferents()) all.emplace_back(a.name);
     for (const auto& r : receptor_entries())
@@ -89,24 +89,24 @@ inline std::string read_file(const std::string& path) {
 }
 
 /// A directory of the test's own, removed with it.
-class Folder {
+class TemporaryFolder {
     std::filesystem::path path_;
 
 public:
-    Folder() {
+    TemporaryFolder() {
         const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
         path_ = std::filesystem::temp_directory_path() / ("corpuscle-test-" + std::to_string(::getpid()) + "-" + info->name());
         std::filesystem::remove_all(path_);
         std::filesystem::create_directories(path_);
     }
-    ~Folder() { std::filesystem::remove_all(path_); }
+    ~TemporaryFolder() { std::filesystem::remove_all(path_); }
     std::string operator/(const std::string& name) const { return (path_ / name).string(); }
     std::string path() const { return path_.string(); }
     std::string write(const std::string& name, const std::string& text) const {
         std::ofstream(*this / name, std::ios::binary) << text;
         return *this / name;
     }
-    std::vector<std::string> names() const {
+    std::vector<std::string> file_names() const {
         std::vector<std::string> all;
         for (const auto& e : std::filesystem::recursive_directory_iterator(path_)) all.push_back(e.path().filename().string());
         std::sort(all.begin(), all.end());
@@ -115,9 +115,9 @@ public:
 };
 
 /// Recordings made by others lie beside the project, not in it: CORPUSCLE_DATA, else ../shared/data.
-inline std::string shared(const std::string& name) {
+inline std::string shared_file_path(const std::string& name) {
     const char* set = std::getenv("CORPUSCLE_DATA");
-    return (std::filesystem::path(set ? set : root() + "/../shared/data") / name).lexically_normal().string();
+    return (std::filesystem::path(set ? set : project_root() + "/../shared/data") / name).lexically_normal().string();
 }
 
 }  // namespace corpuscle::test

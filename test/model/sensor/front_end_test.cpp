@@ -11,12 +11,12 @@
 namespace corpuscle {
 namespace {
 
-using test::Asked;
+using test::RunSettings;
 
 double F2v_at(double G) { return F2v::stage({}).curve(G); }
 
 TEST(Sensor, FsrAndTransducersGiveTheGoldenCurve) {
-    const auto path = test::shared("../golden/behaviour.json");
+    const auto path = test::shared_file_path("../golden/behaviour.json");
     CORPUSCLE_NEEDS(path);
     const auto golden = nlohmann::json::parse(test::read_file(path))["fsr"];
     const auto near = [&](const char* name, std::size_t k, double made) {
@@ -137,15 +137,15 @@ TEST(Parts, WrongOrUnknownPartsAreRefusedWithWhatIsRight) {
 }
 
 TEST(Parts, NamesOfAnyCaseMeanTheSameAndSettingsFindThem) {
-    EXPECT_EQ(test::sure(plan_afferent("FSR+f2i+RA", {})).name, "fsr+f2i+fa1");
+    EXPECT_EQ(test::value_or_throw(plan_afferent("FSR+f2i+RA", {})).name, "fsr+f2i+fa1");
     for (const auto* of : {"fsr+f2i+fa1", "FSR+f2i+RA"}) {
-        const auto mine = test::wishes({std::string(of) + ".f=3Hz", std::string(of) + ".F_cal=2N"});
-        const auto plan = test::sure(plan_afferent("FSR+f2i+RA", mine));
+        const auto mine = test::parse_settings({std::string(of) + ".f=3Hz", std::string(of) + ".F_cal=2N"});
+        const auto plan = test::value_or_throw(plan_afferent("FSR+f2i+RA", mine));
         EXPECT_EQ(plan.value("f"), 3);
         EXPECT_EQ(plan.value("F_cal"), 2);
         EXPECT_EQ(plan.value("I_leak0"), 1e-6) << "fa1's own";
     }
-    EXPECT_EQ(test::sure(plan_afferent("sa1-kim", {})).composition(), "fsr+f2v+adc+sa1a+lif-a");
+    EXPECT_EQ(test::value_or_throw(plan_afferent("sa1-kim", {})).composition(), "fsr+f2v+adc+sa1a+lif-a");
 }
 
 TEST(Parts, AFrontThatCannotMeasureItsOwnRangeIsRefused) {
@@ -161,10 +161,10 @@ TEST(Parts, AFrontThatCannotMeasureItsOwnRangeIsRefused) {
          "lower frac"},
     };
     for (const auto& [setting, said] : cases) {
-        const auto mine = test::wishes({setting});
+        const auto mine = test::parse_settings({setting});
         EXPECT_EQ(plan_afferent(mine[0].target, mine).error().message, said);
     }
-    const auto unfelt = test::wishes({"fsr+sa1.F_cal=1uN", "fsr+sa1.m=2", "fsr+sa1.R_1gf=1e12", "fsr+sa1.R_0=1"});
+    const auto unfelt = test::parse_settings({"fsr+sa1.F_cal=1uN", "fsr+sa1.m=2", "fsr+sa1.R_1gf=1e12", "fsr+sa1.R_0=1"});
     EXPECT_EQ(plan_afferent("fsr+sa1", unfelt).error().message,
               "fsr+sa1: F_cal = 1e-06 N gives the same reading as 0 N with this sensor; raise F_cal");
 }

@@ -11,8 +11,8 @@
 namespace corpuscle {
 namespace {
 
-using test::Folder;
-using test::run;
+using test::TemporaryFolder;
+using test::run_program;
 
 std::string repeated(std::string_view text, int times) {
     std::string out;
@@ -42,17 +42,17 @@ TEST(HostileSweep, DotsAndBracketsInTextsNumbersAndCommentsAreNoNesting) {
 }
 
 TEST(HostileSweep, ProgramsDoNotDieOfSuchFiles) {
-    const Folder folder;
+    const TemporaryFolder folder;
     folder.write("s.toml", "set" + repeated(".a", 100'000) + " = 1\n");
-    EXPECT_EQ(run(folder, "sweep s.toml --out r.sqlite").status, 1);
-    EXPECT_EQ(run(folder, "respond press --population s.toml").status, 1);
+    EXPECT_EQ(run_program(folder, "sweep s.toml --out r.sqlite").status, 1);
+    EXPECT_EQ(run_program(folder, "respond press --population s.toml").status, 1);
 }
 
 TEST(HostileSweep, ARateThatMakesTooManySamplesIsRefusedWithTheLimit) {
-    const Folder folder;
+    const TemporaryFolder folder;
     folder.write("s.toml",
                  "afferent = \"sa1\"\nforce = \"press\"\nrate = \"1e9Hz\"\n[[vary]]\nwhat = \"sa1.f_B\"\nlist = [\"20Hz\", \"40Hz\"]\n");
-    const auto ran = run(folder, "sweep s.toml --out r.sqlite");
+    const auto ran = run_program(folder, "sweep s.toml --out r.sqlite");
     EXPECT_EQ(ran.status, 1);
     EXPECT_NE(ran.err.find("more than 5e+07 samples at 1e+09 Hz"), std::string::npos) << ran.err;
     EXPECT_NE(ran.err.find("rate = \"10kHz\""), std::string::npos) << ran.err;

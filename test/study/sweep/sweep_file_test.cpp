@@ -23,7 +23,7 @@ using sweeps::UniformNumbers;
 
 /// What is said of a sweep in a folder of the test's own.
 class Written {
-    test::Folder folder_;
+    test::TemporaryFolder folder_;
 
 public:
     std::string path(const std::string& name) const { return folder_ / name; }
@@ -32,7 +32,7 @@ public:
         return path(name);
     }
     std::unique_ptr<Sweep> sweep(const std::string& text, const std::string& name = "x.toml") const {
-        return test::sure(read_sweep(put(name, text)));
+        return test::value_or_throw(read_sweep(put(name, text)));
     }
     /// "3:8: what is wrong"
     std::string refusal(const std::string& text) const {
@@ -175,14 +175,14 @@ constexpr const char* stepped =
 
 /// What `corpuscle run` finds, variant by variant.
 std::vector<double> ran(const std::string& path) {
-    auto variants = test::sure(circuit::NetlistVariants::create(test::sure(circuit::Netlist::read(path))));
+    auto variants = test::value_or_throw(circuit::NetlistVariants::create(test::value_or_throw(circuit::Netlist::read(path))));
     std::vector<double> out;
     std::unique_ptr<circuit::AnalysisContext> bench;
     for (std::size_t k = 0; k < variants.count(); ++k) {
-        const auto variant = test::sure(variants.at(k));
-        if (!bench || bench->circuit != variant.circuit) bench = test::sure(circuit::AnalysisContext::make(variant.circuit));
+        const auto variant = test::value_or_throw(variants.at(k));
+        if (!bench || bench->circuit != variant.circuit) bench = test::value_or_throw(circuit::AnalysisContext::make(variant.circuit));
         if (variant.sample) bench->apply_variation(*variant.sample);
-        out.push_back(*test::sure(circuit::run_directives(*bench)).find_number("out"));
+        out.push_back(*test::value_or_throw(circuit::run_directives(*bench)).find_number("out"));
     }
     return out;
 }
@@ -196,12 +196,12 @@ std::vector<double> first_measures(const Sweep& sweep) {
 TEST(SweepFile, AStepAndMcOfANetlistMeanTheSameChipsAsTheFileDoes) {
     const Written w;
     std::filesystem::create_directories(w.path("process")), std::filesystem::create_directories(w.path("mine"));
-    w.put("process/tsmc180.lib", test::read_file(test::root() + "/process/tsmc180.lib"));
+    w.put("process/tsmc180.lib", test::read_file(test::project_root() + "/process/tsmc180.lib"));
     const auto path = w.put("mine/x.cir", stepped);
     const auto expected = ran(path);
     ASSERT_EQ(expected.size(), 18u);
     EXPECT_EQ(std::set<double>(expected.begin(), expected.end()).size(), 18u);
-    const auto of_netlist = test::sure(read_sweep(path));
+    const auto of_netlist = test::value_or_throw(read_sweep(path));
     expect_same_bytes(first_measures(*of_netlist), expected);
     EXPECT_EQ(of_netlist->values(17)[0], 1.5e3);
     EXPECT_EQ(of_netlist->values(17)[1], 85);
@@ -254,7 +254,7 @@ TEST(SweepFile, ChipsOfANetlistDrawAlikeWithinAndWithoutADesignOfTheirOwn) {
         "b1 a 0 i={1m*v(a)*0.5*(1+tanh((v(s)-0.5)*20))}\nb2 t 0 v={0.5*(1+tanh((v(a)-1+0.8*v(s))*20))}\nr2 t s 1k\n"
         "c2 s 0 10n\nm1 a 0 0 0 nch w=50u l=1u\n.spike v(s) 0.5\n.tran 1m 1 0 5m uic\n.end\n";
     std::filesystem::create_directories(w.path("process")), std::filesystem::create_directories(w.path("mine"));
-    w.put("process/tsmc180.lib", test::read_file(test::root() + "/process/tsmc180.lib"));
+    w.put("process/tsmc180.lib", test::read_file(test::project_root() + "/process/tsmc180.lib"));
     w.put("mine/x.cir", chip);
     const std::string head =
         "afferent = 'mine/x.cir'\nforce = 'step'\nrate = '1kHz'\nunits = 3\ntraces = ['a']\n"
@@ -352,9 +352,9 @@ TEST(SweepFile, WhatIsLaidOutOtherwiseIsTheSameSweep) {
 TEST(SweepFile, TheExamplesRun) {
     const Written w;
     int count = 0;
-    for (const auto& file : std::filesystem::directory_iterator(test::root() + "/examples/sweeps")) {
+    for (const auto& file : std::filesystem::directory_iterator(test::project_root() + "/examples/sweeps")) {
         const auto whole = test::read_file(file.path().string());
-        EXPECT_GT(test::sure(read_sweep(file.path().string()))->item_count(), 50);
+        EXPECT_GT(test::value_or_throw(read_sweep(file.path().string()))->item_count(), 50);
         const auto s = w.sweep(std::regex_replace(whole, std::regex("units( *)= [0-9]+"), "units = 2"));
         const auto all = worked(*s, {0, s->item_count() - 1});
         for (const auto& [unit, o] : all) {

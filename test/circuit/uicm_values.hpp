@@ -6,7 +6,7 @@
 namespace corpuscle::circuit::test {
 
 template <class T, class Put>
-void each_number(const Uicm<T>& device, const T (&v)[4], const Put& put) {
+void for_each_value(const Uicm<T>& device, const T (&v)[4], const Put& put) {
     UicmEvaluation<T> answer;
     device.eval(v, answer);
     std::size_t f = 0;
@@ -21,7 +21,7 @@ void each_number(const Uicm<T>& device, const T (&v)[4], const Put& put) {
 }
 
 template <class T>
-T sum_of(const UicmEvaluation<T>& answer) {
+T sum_of_values(const UicmEvaluation<T>& answer) {
     T sum(0.0);
     for (int a = 0; a < 4; ++a) {
         sum = sum + answer.i[a] + answer.q[a];

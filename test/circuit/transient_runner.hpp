@@ -13,20 +13,20 @@
 #include "circuit/analyses.hpp"
 #include "circuit/analysis/initial_condition.hpp"
 #include "circuit/analysis/analysis_context.hpp"
-#include "circuit/ida.hpp"
+#include "circuit/ida_integrator.hpp"
 #include "circuit/netlist_runner.hpp"
 #include "circuit/solve/transient.hpp"
 
 namespace corpuscle::circuit {
 
 /// What a run left: all points.
-struct Points {
+struct TransientPoints {
     std::vector<double> t;
     std::vector<std::vector<double>> x;
-    TransientStats work;
-    std::string wrong;  ///< why it ended early; empty: it did not
+    TransientStats stats;
+    std::string error;  ///< why it ended early; empty: it did not
 
-    std::vector<double> of(int unknown) const {
+    std::vector<double> values(int unknown) const {
         std::vector<double> out;
         for (const auto& at : x) out.push_back(at[static_cast<std::size_t>(unknown)]);
         return out;
@@ -34,7 +34,7 @@ struct Points {
 };
 
 /// Where the cubic through four points crosses a level upward; near the ends of the points a straight line.
-inline std::vector<double> crossings(const std::vector<double>& t, const std::vector<double>& v, double level) {
+inline std::vector<double> upward_crossings(const std::vector<double>& t, const std::vector<double>& v, double level) {
     std::vector<double> out;
     for (std::size_t k = 1; k < t.size(); ++k) {
         if (!(v[k - 1] < level && v[k] >= level)) continue;
@@ -60,34 +60,34 @@ inline std::vector<double> crossings(const std::vector<double>& t, const std::ve
     return out;
 }
 
-class InTime {
-    std::unique_ptr<AnalysisContext> bench_;
+class TransientRunner {
+    std::unique_ptr<AnalysisContext> context_;
     std::vector<double> start_;
-    bool settled_ = true;
+    bool is_settled_ = true;
     double step_ = 0, stop_ = 0;
 
 public:
     /// Its .tran says how long; it begins where .tran begins.
-    explicit InTime(Result<Netlist> netlist) {
+    explicit TransientRunner(Result<Netlist> netlist) {
         if (!netlist) throw std::runtime_error(netlist.error().text());
         auto circuit = netlist->elaborate({});
         if (!circuit) throw std::runtime_error(circuit.error().text());
         auto made = AnalysisContext::make(std::make_shared<const Circuit>(std::move(*circuit)));
         if (!made) throw std::runtime_error(made.error().text());
-        bench_ = std::move(*made);
+        context_ = std::move(*made);
         bool uic = false;
-        for (const auto& c : bench_->circuit->directives)
+        for (const auto& c : context_->circuit->directives)
             if (c.name == "tran") step_ = *read_number(c, 0, "step"), stop_ = *read_number(c, 1, "stop"), uic = c.words.back() == "uic";
         system().start_transient(step_, stop_);
-        const auto from = find_initial_condition(*bench_, uic);
+        const auto from = find_initial_condition(*context_, uic);
         system().start_transient(0, 0);
         if (!from) throw std::runtime_error(from.error().text());
-        start_ = from->x, settled_ = from->is_consistent;
+        start_ = from->x, is_settled_ = from->is_consistent;
     }
-    static InTime file(const std::string& path) { return InTime(Netlist::read(path)); }
+    static TransientRunner from_file(const std::string& path) { return TransientRunner(Netlist::read(path)); }
     /// Lines that begin so read otherwise; .meas and .expect are left out.
-    static InTime file(const std::string& path, const std::vector<std::pair<std::string, std::string>>& changed) {
-        const auto all = text_of(path);
+    static TransientRunner from_file(const std::string& path, const std::vector<std::pair<std::string, std::string>>& changed) {
+        const auto all = read_text_file(path);
         std::istringstream in(all ? *all : "");
         std::string text;
         for (std::string line; std::getline(in, line);) {
@@ -95,44 +95,44 @@ public:
                 if (line.starts_with(beginning)) line = other;
             if (!line.starts_with(".meas") && !line.starts_with(".expect")) text += line + "\n";
         }
-        return InTime(Netlist::parse(text, path, text_of));
+        return TransientRunner(Netlist::parse(text, path, read_text_file));
     }
-    static InTime text(const std::string& text) { return InTime(parsed(text)); }
+    static TransientRunner from_text(const std::string& text) { return TransientRunner(parse_netlist_text(text)); }
 
-    System& system() const { return bench_->system; }
-    double stop() const { return stop_; }
-    void stop_at(double t) { stop_ = t; }
+    System& system() const { return context_->system; }
+    double stop_time() const { return stop_; }
+    void set_stop_time(double t) { stop_ = t; }
     int unknown(const std::string& name) const { return system().unknown(name); }
 
-    Points run(TransientPlan plan) const {
+    TransientPoints run(TransientPlan plan) const {
         plan.stop = stop_;
         if (plan.max_step == 0) plan.max_step = stop_ / 50;
         system().start_transient(step_, stop_);
-        Transient transient(bench_->system, bench_->newton, plan);
-        Points out;
-        const auto done = transient.run(start_, settled_, [&](double t, std::span<const double> x) {
+        Transient transient(context_->system, context_->newton, plan);
+        TransientPoints out;
+        const auto done = transient.run(start_, is_settled_, [&](double t, std::span<const double> x) {
             out.t.push_back(t), out.x.emplace_back(x.begin(), x.end());
             return true;
         });
         system().start_transient(0, 0);
-        if (!done) out.wrong = done.error().text();
-        out.work = transient.stats();
+        if (!done) out.error = done.error().text();
+        out.stats = transient.stats();
         return out;
     }
     /// What its .ac gives first.
-    std::complex<double> ac(const std::string& name) const {
-        for (const auto& c : bench_->circuit->directives)
+    std::complex<double> first_ac_value(const std::string& name) const {
+        for (const auto& c : context_->circuit->directives)
             if (c.name == "ac")
-                if (const auto found = analyse_ac(*bench_, c))
+                if (const auto found = analyse_ac(*context_, c))
                     if (const auto* curve = found->plots[0].find_curve(name)) return curve->values[0];
         return std::nan("");
     }
-    IdaAnswer ida(IdaQuestion q) const {
+    IdaResult run_ida(IdaOptions q) const {
         q.step = step_, q.stop = stop_;
-        return ask_ida(bench_->system, bench_->newton.context.gmin, start_, q);
+        return integrate_with_ida(context_->system, context_->newton.context.gmin, start_, q);
     }
-    std::vector<double> spikes(const Points& p, const std::string& name, double level) const {
-        return crossings(p.t, p.of(unknown(name)), level);
+    std::vector<double> spike_times(const TransientPoints& p, const std::string& name, double level) const {
+        return upward_crossings(p.t, p.values(unknown(name)), level);
     }
 };
 

@@ -5,7 +5,7 @@
 namespace corpuscle::circuit {
 
 /// A row as printed: m columns of n units of W by L (um), and the devices that it sizes, below the places where its table stands.
-struct Row {
+struct PublishedSize {
     const char* table;
     const char* name;
     int m, n;
@@ -15,7 +15,7 @@ struct Row {
 
 // Readings that a size alone does not show: table 1's second M1 is M3 (F9), table 2's M4A-E and M5A-E are A and B (F10), table 9's M3B and
 // M3C are table 6's C and B, table 4's M3 is both sides of a mirror.
-inline constexpr Row rows[] = {
+inline constexpr PublishedSize published_sizes[] = {
     {"1", "M1", 4, 4, 1.5, 0.5, "mn1"},
     {"1", "M1 (second)", 8, 1, 1.5, 0.5, "mn3"},
     {"1", "M2", 16, 1, 1.5, 0.5, "mn2"},
@@ -139,11 +139,11 @@ inline constexpr Row rows[] = {
 };
 
 /// Where a table's devices stand: a circuit and a path in it.
-struct Stand {
+struct TableLocation {
     const char *table, *circuit, *path;
 };
 
-inline constexpr Stand stands[] = {
+inline constexpr TableLocation table_locations[] = {
     {"1", "sa1", "xtransducer."},
     {"2", "sa1", "xtransducer.xamp."},
     {"3", "sa1", "xccvs."},
@@ -171,13 +171,13 @@ inline constexpr Stand stands[] = {
 };
 
 /// What is built otherwise than printed: the device, what of it (m, n, W in um), as built, and the erratum that says why.
-struct Otherwise {
-    const char *table, *name, *device, *what;
-    double built;
+struct SizeDeviation {
+    const char *table, *name, *device, *parameter;
+    double built_value;
     const char* erratum;
 };
 
-inline constexpr Otherwise built_otherwise[] = {
+inline constexpr SizeDeviation size_deviations[] = {
     {"2", "M3A-B", "mp3a mp3b", "W", 6.0, "F10a: a P pair, as the common mode is 0.1 V"},
     {"3", "M4A,B", "mn4a mn4b", "W", 1.5, "S11: N, as its current is subtracted"},
     {"5", "M6A", "mn6a", "m", 16, "S7: 1/64 as M5"},
@@ -193,13 +193,13 @@ inline constexpr Otherwise built_otherwise[] = {
 };
 
 /// Printed letters without a device: how many, and why.
-struct Without {
+struct MissingDevices {
     const char *table, *name;
-    int letters;
-    const char* why;
+    int count;
+    const char* reason;
 };
 
-inline constexpr Without without[] = {
+inline constexpr MissingDevices missing_devices[] = {
     {"2", "M4A-E", 3, "F10: A and B; C has its own row"},
     {"2", "M5A-E", 3, "F10"},
     {"4", "M5A-C", 1, "M5B: fig. 52 has no third P device beside diode and replica"},

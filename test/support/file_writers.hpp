@@ -12,7 +12,7 @@
 namespace corpuscle::test {
 
 /// NPY of any type, as NumPy writes it.
-inline std::string npy(const std::string& type, const std::string& shape, const std::string& data, bool by_columns = false,
+inline std::string npy_bytes(const std::string& type, const std::string& shape, const std::string& data, bool by_columns = false,
                        int version = 1) {
     auto header = fmt::format("{{'descr': {}, 'fortran_order': {}, 'shape': {}, }}", type, by_columns ? "True" : "False", shape);
     header.resize((header.size() + 11 + 63) / 64 * 64 - 11, ' ');
@@ -23,7 +23,7 @@ inline std::string npy(const std::string& type, const std::string& shape, const 
 }
 
 /// Values of whole numbers are parts of full scale, in steps of 2^-31 or what the format keeps of them.
-inline void write_sound(const std::string& path, int format, int rate, const std::vector<std::vector<double>>& channels) {
+inline void write_audio(const std::string& path, int format, int rate, const std::vector<std::vector<double>>& channels) {
     SF_INFO info{};
     info.channels = static_cast<int>(channels.size()), info.samplerate = rate, info.format = format;
     SNDFILE* file = sf_open(path.c_str(), SFM_WRITE, &info);
@@ -46,9 +46,9 @@ inline void write_sound(const std::string& path, int format, int rate, const std
 class Hdf5File {
     hid_t file_, links_;
 
-    hid_t object(const std::string& name) const { return H5Oopen(file_, name.c_str(), H5P_DEFAULT); }
-    void attribute(const std::string& of, const std::string& name, hid_t type, hid_t space, const void* value) {
-        const hid_t where = object(of), a = H5Acreate2(where, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT);
+    hid_t open_object(const std::string& name) const { return H5Oopen(file_, name.c_str(), H5P_DEFAULT); }
+    void write_attribute(const std::string& of, const std::string& name, hid_t type, hid_t space, const void* value) {
+        const hid_t where = open_object(of), a = H5Acreate2(where, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT);
         H5Awrite(a, type, value);
         H5Aclose(a), H5Oclose(where), H5Sclose(space);
     }
@@ -62,7 +62,7 @@ public:
     Hdf5File& operator=(const Hdf5File&) = delete;
     ~Hdf5File() { H5Pclose(links_), H5Fclose(file_); }
 
-    void raw(const std::string& name, hid_t type, hid_t memory, const std::vector<hsize_t>& shape, const void* values,
+    void write_raw(const std::string& name, hid_t type, hid_t memory, const std::vector<hsize_t>& shape, const void* values,
              const std::vector<hsize_t>& chunk = {}) {
         const hid_t space = shape.empty() ? H5Screate(H5S_SCALAR) : H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr);
         const hid_t how = H5Pcreate(H5P_DATASET_CREATE);
@@ -71,24 +71,24 @@ public:
         if (values) H5Dwrite(d, memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, values);
         H5Dclose(d), H5Pclose(how), H5Sclose(space);
     }
-    void numbers(const std::string& name, const std::vector<hsize_t>& shape, const std::vector<double>& values,
+    void write_numbers(const std::string& name, const std::vector<hsize_t>& shape, const std::vector<double>& values,
                  hid_t type = H5T_NATIVE_DOUBLE, const std::vector<hsize_t>& chunk = {}) {
-        raw(name, type, H5T_NATIVE_DOUBLE, shape, values.data(), chunk);
+        write_raw(name, type, H5T_NATIVE_DOUBLE, shape, values.data(), chunk);
     }
-    void attribute(const std::string& of, const std::string& name, double value) {
-        attribute(of, name, H5T_NATIVE_DOUBLE, H5Screate(H5S_SCALAR), &value);
+    void write_attribute(const std::string& of, const std::string& name, double value) {
+        write_attribute(of, name, H5T_NATIVE_DOUBLE, H5Screate(H5S_SCALAR), &value);
     }
-    void attribute(const std::string& of, const std::string& name, const std::string& value) {
+    void write_attribute(const std::string& of, const std::string& name, const std::string& value) {
         const hid_t type = H5Tcopy(H5T_C_S1);
         H5Tset_size(type, value.size() + 1);
-        attribute(of, name, type, H5Screate(H5S_SCALAR), value.c_str());
+        write_attribute(of, name, type, H5Screate(H5S_SCALAR), value.c_str());
         H5Tclose(type);
     }
-    void words(const std::string& of, const std::string& name, const std::vector<const char*>& words) {
+    void write_strings(const std::string& of, const std::string& name, const std::vector<const char*>& words) {
         const hid_t type = H5Tcopy(H5T_C_S1);
         H5Tset_size(type, H5T_VARIABLE), H5Tset_cset(type, H5T_CSET_UTF8);
         const hsize_t count = words.size();
-        attribute(of, name, type, H5Screate_simple(1, &count, nullptr), words.data());
+        write_attribute(of, name, type, H5Screate_simple(1, &count, nullptr), words.data());
         H5Tclose(type);
     }
 };

@@ -6,18 +6,18 @@
 
 namespace corpuscle::test {
 
-struct WholeRecording {
-    std::vector<std::string> names, remarks;
+struct LoadedRecording {
+    std::vector<std::string> names, notes;
     std::vector<std::vector<double>> force;
     Clock clock;
     std::vector<Channel> channels;
     RecordingQuality quality = {};
 };
 
-inline Result<WholeRecording> try_recording(const std::string& path, const RecordingOptions& options = {}, std::size_t block = 7) {
+inline Result<LoadedRecording> try_load_recording(const std::string& path, const RecordingOptions& options = {}, std::size_t block = 7) {
     auto source = open_recording(path, options);
     if (!source) return source.error();
-    WholeRecording out{{}, {}, {}, (*source)->clock(), (*source)->channels()};
+    LoadedRecording out{{}, {}, {}, (*source)->clock(), (*source)->channels()};
     for (const auto& c : out.channels) out.names.push_back(c.name);
     out.force.resize(out.names.size());
     for (Frames frames(out.names.size(), block);;) {
@@ -27,18 +27,18 @@ inline Result<WholeRecording> try_recording(const std::string& path, const Recor
             out.force[c].insert(out.force[c].end(), frames.force[c].begin(),
                                 frames.force[c].begin() + static_cast<std::ptrdiff_t>(frames.count));
     }
-    out.remarks = (*source)->notes();
+    out.notes = (*source)->notes();
     out.quality = (*source)->quality();
     return out;
 }
 
-inline WholeRecording recording(const std::string& path, const RecordingOptions& options = {}, std::size_t block = 7) {
-    return sure(try_recording(path, options, block));
+inline LoadedRecording load_recording(const std::string& path, const RecordingOptions& options = {}, std::size_t block = 7) {
+    return value_or_throw(try_load_recording(path, options, block));
 }
 
 /// What is said of a file that cannot be read, without the folder.
-inline std::string refusal(const std::string& path, const RecordingOptions& options = {}) {
-    const auto made = try_recording(path, options);
+inline std::string load_error(const std::string& path, const RecordingOptions& options = {}) {
+    const auto made = try_load_recording(path, options);
     if (made) return "read";
     auto sentence = made.error().text();
     if (const auto at = sentence.find(path); at != std::string::npos)

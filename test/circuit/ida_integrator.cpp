@@ -1,4 +1,4 @@
-#include "circuit/ida.hpp"
+#include "circuit/ida_integrator.hpp"
 
 #include <fmt/format.h>
 #include <ida/ida.h>
@@ -107,7 +107,7 @@ SUNContext made_context() {
 
 class Run {
     Looked looked_;
-    const IdaQuestion& asked_;
+    const IdaOptions& asked_;
     std::size_t n_;
     Context context_;
     Vector y_, slope_, floor_;
@@ -116,11 +116,11 @@ class Run {
     Ida ida_;
     double t_ = 0;
     std::size_t next_ = 0;  // of the times asked for
-    IdaAnswer out_;
+    IdaResult out_;
 
     bool done(int flag, const char* what) {
         if (flag < 0)
-            out_.wrong =
+            out_.error =
                 fmt::format("{} at {:.9g} s: {}", what, t_, std::unique_ptr<char, Freed<void, free>>(IDAGetReturnFlagName(flag)).get());
         return flag >= 0;
     }
@@ -130,18 +130,18 @@ class Run {
     bool go_to(double corner);
 
 public:
-    Run(System&, double gmin, const std::vector<double>& start, const IdaQuestion&);
-    IdaAnswer whole();
+    Run(System&, double gmin, const std::vector<double>& start, const IdaOptions&);
+    IdaResult whole();
 };
 
-Run::Run(System& system, double gmin, const std::vector<double>& start, const IdaQuestion& asked)
+Run::Run(System& system, double gmin, const std::vector<double>& start, const IdaOptions& asked)
     : looked_(system, gmin), asked_(asked), n_(looked_.size()), context_(made_context()) {
     const auto count = static_cast<sunindextype>(2 * n_), entries = static_cast<sunindextype>(2 * system.pattern().entries() + 2 * n_);
     for (auto* v : {&y_, &slope_, &floor_}) v->reset(N_VNew_Serial(count, context_.get())), N_VConst(0, v->get());
     std::copy(start.begin(), start.end(), of(y_));
     matrix_.reset(SUNSparseMatrix(count, count, entries, CSC_MAT, context_.get()));
     linear_.reset(SUNLinSol_KLU(y_.get(), matrix_.get(), context_.get()));
-    if (asked.watched >= 0) looked_.watched = static_cast<std::size_t>(asked.watched), looked_.level = asked.level;
+    if (asked.crossing_unknown >= 0) looked_.watched = static_cast<std::size_t>(asked.crossing_unknown), looked_.level = asked.crossing_level;
 }
 
 /// What is small: vntol, and a node's capacitance times it. Currents are let go.
@@ -192,21 +192,21 @@ bool Run::begin() {
     return done(IDAInit(m, residual, t_, y_.get(), slope_.get()), "init") &&
            done(IDASVtolerances(m, asked_.reltol, floor_.get()), "tolerances") && done(IDASetUserData(m, &looked_), "data") &&
            done(IDASetLinearSolver(m, linear_.get(), matrix_.get()), "linear solver") && done(IDASetJacFn(m, jacobian), "slopes") &&
-           done(IDASetMaxNumSteps(m, asked_.most), "steps") && done(IDASetMaxErrTestFails(m, 50), "fails") &&
-           done(IDASetMaxConvFails(m, 50), "fails") && (asked_.watched < 0 || done(IDARootInit(m, 1, above_level), "watching"));
+           done(IDASetMaxNumSteps(m, asked_.max_steps), "steps") && done(IDASetMaxErrTestFails(m, 50), "fails") &&
+           done(IDASetMaxConvFails(m, 50), "fails") && (asked_.crossing_unknown < 0 || done(IDARootInit(m, 1, above_level), "watching"));
 }
 
 bool Run::go_to(double corner) {
     void* m = ida_.get();
     if (!done(IDASetStopTime(m, corner), "stop")) return false;
     int upward = 1;
-    if (asked_.watched >= 0 && !done(IDASetRootDirection(m, &upward), "watching")) return false;
+    if (asked_.crossing_unknown >= 0 && !done(IDASetRootDirection(m, &upward), "watching")) return false;
     while (t_ < corner) {
-        const bool wanted = next_ < asked_.times.size() && asked_.times[next_] <= corner;
-        const int flag = IDASolve(m, wanted ? asked_.times[next_] : corner, &t_, y_.get(), slope_.get(), IDA_NORMAL);
+        const bool wanted = next_ < asked_.output_times.size() && asked_.output_times[next_] <= corner;
+        const int flag = IDASolve(m, wanted ? asked_.output_times[next_] : corner, &t_, y_.get(), slope_.get(), IDA_NORMAL);
         if (!done(flag, "a step")) return false;
         if (flag == IDA_ROOT_RETURN) out_.crossings.push_back(t_);
-        for (; flag != IDA_ROOT_RETURN && next_ < asked_.times.size() && asked_.times[next_] <= t_; ++next_)
+        for (; flag != IDA_ROOT_RETURN && next_ < asked_.output_times.size() && asked_.output_times[next_] <= t_; ++next_)
             out_.x.emplace_back(of(y_), of(y_) + n_);
     }
     long steps = 0;
@@ -215,13 +215,13 @@ bool Run::go_to(double corner) {
     return true;
 }
 
-IdaAnswer Run::whole() {
-    for (; next_ < asked_.times.size() && asked_.times[next_] <= 0; ++next_) out_.x.emplace_back(of(y_), of(y_) + n_);
+IdaResult Run::whole() {
+    for (; next_ < asked_.output_times.size() && asked_.output_times[next_] <= 0; ++next_) out_.x.emplace_back(of(y_), of(y_) + n_);
     while (t_ < asked_.stop) {
         double corner = looked_.system().next_breakpoint(t_ + 1e-12 * asked_.stop);  // the same corner, rounded otherwise, is none
         if (corner > asked_.stop * (1 - 1e-12)) corner = asked_.stop;
         if (!settle(std::min(1e-12 * asked_.stop, 1e-6 * (corner - t_)))) {
-            out_.wrong = fmt::format("nothing settles at {:.9g} s", t_);
+            out_.error = fmt::format("nothing settles at {:.9g} s", t_);
             break;
         }
         if (!begin() || !go_to(corner)) break;
@@ -232,7 +232,7 @@ IdaAnswer Run::whole() {
 
 }  // namespace
 
-IdaAnswer ask_ida(System& system, double gmin, const std::vector<double>& start, const IdaQuestion& asked) {
+IdaResult integrate_with_ida(System& system, double gmin, const std::vector<double>& start, const IdaOptions& asked) {
     system.start_transient(asked.step, asked.stop);
     auto answer = Run(system, gmin, start, asked).whole();
     system.start_transient(0, 0);

@@ -9,25 +9,25 @@
 
 namespace corpuscle::test {
 
-inline constexpr double rest = 0.25, up = 0.125, hold = 0.25, down = 0.125, whole = 1.0, F_min = 0.2, F_max = 4;
+inline constexpr double initial_time = 0.25, rise_time = 0.125, hold_time = 0.25, fall_time = 0.125, total_time = 1.0, F_min = 0.2, F_max = 4;
 
 inline double press_force(double t) {
-    const double s = t < rest + up ? (t - rest) / up : 1 - (t - rest - up - hold) / down;
-    return t < rest || t >= rest + up + hold + down ? F_min
-           : t >= rest + up && t < rest + up + hold ? F_max
+    const double s = t < initial_time + rise_time ? (t - initial_time) / rise_time : 1 - (t - initial_time - rise_time - hold_time) / fall_time;
+    return t < initial_time || t >= initial_time + rise_time + hold_time + fall_time ? F_min
+           : t >= initial_time + rise_time && t < initial_time + rise_time + hold_time ? F_max
                                                     : F_min + (F_max - F_min) * (1 - std::cos(M_PI * s)) / 2;
 }
 
 /// x' + 2 pi f x = F', x(0) = 0, in newtons.
 inline double high_passed_press(double t, double f) {
-    const double w = 2 * M_PI * f, omega = M_PI / up, swing = (F_max - F_min) / 2 * omega / (w * w + omega * omega);
+    const double w = 2 * M_PI * f, omega = M_PI / rise_time, swing = (F_max - F_min) / 2 * omega / (w * w + omega * omega);
     const auto ramp = [&](double s) { return swing * (w * std::sin(omega * s) - omega * std::cos(omega * s) + omega * std::exp(-w * s)); };
     double x = 0;
-    if (t > rest) x = ramp(std::min(t - rest, up));
-    if (t > rest + up) x *= std::exp(-w * std::min(t - rest - up, hold));
-    const double s = std::min(t - rest - up - hold, down);
+    if (t > initial_time) x = ramp(std::min(t - initial_time, rise_time));
+    if (t > initial_time + rise_time) x *= std::exp(-w * std::min(t - initial_time - rise_time, hold_time));
+    const double s = std::min(t - initial_time - rise_time - hold_time, fall_time);
     if (s > 0) x = x * std::exp(-w * s) - ramp(s);
-    if (t > rest + up + hold + down) x *= std::exp(-w * (t - rest - up - hold - down));
+    if (t > initial_time + rise_time + hold_time + fall_time) x *= std::exp(-w * (t - initial_time - rise_time - hold_time - fall_time));
     return x;
 }
 
@@ -45,7 +45,7 @@ inline std::vector<double> lif_b_train(const std::function<double(double)>& curr
     constexpr double h = 1e-6;
     std::vector<double> train;
     double u = 0, at_start = current(0) - leak;
-    for (long k = 0; k < std::lround(whole / h); ++k) {
+    for (long k = 0; k < std::lround(total_time / h); ++k) {
         const double t = static_cast<double>(k) * h, at_end = current(t + h) - leak;
         const double end = std::max(u + h / 6 * (at_start + 4 * (current(t + h / 2) - leak) + at_end) / C_m, 0.0);
         if (end > V_th) train.push_back(t + h * (V_th - u) / (end - u));

@@ -1,0 +1,8 @@
+#include "support/test_paths.hpp"
+
+namespace corpuscle::test {
+
+std::string project_root() { return CORPUSCLE_ROOT; }
+std::string program_path() { return CORPUSCLE_PROGRAM; }
+
+}  // namespace corpuscle::test
