@@ -20,7 +20,7 @@ namespace {
 
 using WriteFunction = std::function<Result<void>(std::string_view)>;
 
-class FileSink final : public EventSink {
+class FileEventSink final : public EventSink {
     std::string name_;
     WriteFunction write_;
     std::function<Result<void>()> commit_;
@@ -64,12 +64,12 @@ class FileSink final : public EventSink {
     }
 
 public:
-    FileSink(const EventFormat& format, std::size_t ring, std::string name, WriteFunction write, std::function<Result<void>()> commit)
+    FileEventSink(const EventFormat& format, std::size_t ring, std::string name, WriteFunction write, std::function<Result<void>()> commit)
         : EventSink(format, ring), name_(std::move(name)), write_(std::move(write)), commit_(std::move(commit)) {
         put_header();
         thread_ = std::thread([this] { write_loop(); });
     }
-    ~FileSink() override { join(); }
+    ~FileEventSink() override { join(); }
     std::string description() const override { return name_; }
     Result<void> flush() override { return state(); }
     bool is_file() const override { return true; }
@@ -104,7 +104,7 @@ Result<void> write_all(int fd, const std::string& name, std::string_view text) {
 }  // namespace
 
 Result<std::unique_ptr<EventSink>> make_file_sink(int fd, const std::string& name, const EventFormat& format, std::size_t ring) {
-    return std::unique_ptr<EventSink>(std::make_unique<FileSink>(
+    return std::unique_ptr<EventSink>(std::make_unique<FileEventSink>(
         format, ring, name, [fd, name](std::string_view text) { return write_all(fd, name, text); }, [] { return Result<void>(); }));
 }
 
@@ -119,7 +119,7 @@ Result<std::unique_ptr<EventSink>> create_event_file(const std::string& path, co
     auto opened = OutputFile::create_growing(path);
     if (!opened) return opened.error();
     const auto file = std::make_shared<OutputFile>(std::move(*opened));
-    return std::unique_ptr<EventSink>(std::make_unique<FileSink>(
+    return std::unique_ptr<EventSink>(std::make_unique<FileEventSink>(
         format, ring, path, [file](std::string_view text) { return file->write(text); },
         [file] {
             const auto done = file->commit();
