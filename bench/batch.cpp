@@ -1,11 +1,11 @@
-// What does a chip cost among many, on lanes, and does it do there as it would by itself?
+// How long does one chip of a batched simulation take, and does it give the same result as a scalar run?
 //
 //     bench-batch NETLIST|NAME [CHIPS] [LANES] [alone]
 //
-// Method: the netlist's afferent is pressed for 1.0 s (10 kHz); each chip draws process and mismatch. All chips go through run_chips on one
-// thread: time a chip, steps, iterations and their time, chips that left their lane, the counts of spikes. With `alone` each goes by
-// itself, too, with pivots of its own (KLU's) and every transistor looked at in every iteration: chips whose counts differ, the largest
-// distance of two spikes of the same number, and how many steps and rejections differ.
+// Method: the netlist's afferent responds to a press of 1.0 s (10 kHz); each chip has its own sample of process and mismatch. run_chips
+// simulates all chips on one thread. Printed are time per chip, steps, iterations and their time, chips that left their lane, and spike
+// counts. With `alone` each chip also runs scalar, with its own pivots (KLU) and every transistor evaluated in every iteration. Then the
+// output adds the chips whose spike counts differ, the largest difference of two spikes of the same index, and the differences in steps.
 
 #include <algorithm>
 #include <chrono>
@@ -30,20 +30,20 @@ double seconds() { return std::chrono::duration<double>(std::chrono::steady_cloc
 
 using Answers = std::map<std::int64_t, ChipResponse>;
 
-
-void tell(const Answers& answers, double took) {
-    long steps = 0, rejected = 0, iterations = 0, most = 0, left = 0, lost = 0;
+void print_answers(const Answers& answers, double seconds) {
+    long steps = 0, rejected = 0, iterations = 0, max_iterations = 0, left = 0, lost = 0;
     std::map<std::size_t, int> counts;
     for (const auto& [number, a] : answers) {
-        steps += a.stats.steps, rejected += a.stats.rejected, iterations += a.stats.iterations, most = std::max(most, a.stats.iterations);
+        steps += a.stats.steps, rejected += a.stats.rejected, iterations += a.stats.iterations;
+        max_iterations = std::max(max_iterations, a.stats.iterations);
         left += a.is_scalar, lost += a.error.has_value(), ++counts[a.spikes.size()];
     }
     const auto chips = static_cast<double>(answers.size());
     std::printf(
         "%.0f chips: %.2f s, %.1f ms a chip; %.0f steps, %.0f rejected, %.0f iterations a chip (at most %ld), %.2f us an iteration; "
         "%ld left their lane, %ld did not converge\nspikes:",
-        chips, took, took / chips * 1e3, static_cast<double>(steps) / chips, static_cast<double>(rejected) / chips,
-        static_cast<double>(iterations) / chips, most, took / static_cast<double>(iterations) * 1e6, left, lost);
+        chips, seconds, seconds / chips * 1e3, static_cast<double>(steps) / chips, static_cast<double>(rejected) / chips,
+        static_cast<double>(iterations) / chips, max_iterations, seconds / static_cast<double>(iterations) * 1e6, left, lost);
     for (const auto& [count, of] : counts) std::printf(" %zu (%d)", count, of);
     std::printf("\n");
 }
@@ -60,13 +60,13 @@ void compare(const Answers& lanes, const Answers& alone) {
             ++other_counts;
             continue;
         }
-        double most = 0;
-        for (std::size_t k = 0; k < a.spikes.size(); ++k) most = std::max(most, std::abs(a.spikes[k] - b.spikes[k]));
-        apart.push_back(most);
+        double largest = 0;
+        for (std::size_t k = 0; k < a.spikes.size(); ++k) largest = std::max(largest, std::abs(a.spikes[k] - b.spikes[k]));
+        apart.push_back(largest);
     }
     std::sort(apart.begin(), apart.end());
-    const auto at = [&](double share) {
-        return apart.empty() ? 0 : apart[static_cast<std::size_t>(share * static_cast<double>(apart.size() - 1))];
+    const auto at = [&](double fraction) {
+        return apart.empty() ? 0 : apart[static_cast<std::size_t>(fraction * static_cast<double>(apart.size() - 1))];
     };
     std::printf(
         "other counts of spikes: %d; furthest two spikes: median %.1f us, 99 %% %.1f us, all %.1f us; chips with other steps: %d, by %ld "
@@ -100,11 +100,11 @@ int main(int argc, char** argv) {
         [&](const Chip& c, ChipResponse&& a) { lanes.emplace(c.id, std::move(a)); }, options);
     if (!done) return std::fprintf(stderr, "%s\n", done.error().text().c_str()), 1;
     std::printf("on lanes, ");
-    tell(lanes, seconds() - began);
+    print_answers(lanes, seconds() - began);
     if (argc < 5) return 0;
     began = seconds();
     for (std::int64_t k = 0; k < count; ++k) alone.emplace(k, run_chip_scalar(chip(k), options));
     std::printf("alone, ");
-    tell(alone, seconds() - began);
+    print_answers(alone, seconds() - began);
     compare(lanes, alone);
 }

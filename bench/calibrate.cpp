@@ -1,9 +1,10 @@
-// What are trims worth? Chips with mismatch and process, each pressed, its spikes counted and its trims set until it fires as the model.
+// How well do trims correct chips? Each chip has mismatch and process variation and responds to a press. Its trims are set until it fires
+// like the model.
 //
-//     bench-calibrate sa1|fa1 [CHIPS] [BITS] [SEED] [TRIM ...]      TRIM: i_leak i_biasb gain; without: all, then each alone
+//     bench-calibrate sa1|fa1 [CHIPS] [BITS] [SEED] [TRIM ...]      TRIM: i_leak i_biasb gain; default: all, then each alone
 //
-// Method: study/sweep/calibrate.hpp. Limits are about the model's spikes (FiringLimits::about). Told are the limits, then for each set of
-// trims how many chips keep to them as they were made and with 1, 2 ... bits, and how many presses it took.
+// Method: study/sweep/calibrate.hpp. The limits enclose the model's spikes (FiringLimits::around). Printed are the limits, then for each
+// set of trims the number of chips within the limits without trims and with 1, 2 ... bits, and the number of presses.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -37,20 +38,20 @@ int main(int argc, char** argv) {
         if (argc > 1 && std::strcmp(argv[1], k.model) == 0) kind = &k;
     if (kind == nullptr) return std::fputs("bench-calibrate sa1|fa1 [CHIPS] [BITS] [SEED] [TRIM ...]\n", stderr), 2;
     const int count = argc > 2 ? std::atoi(argv[2]) : 64, bits = argc > 3 ? std::atoi(argv[3]) : 4;
-    const circuit::ChipSpec drawn{static_cast<double>(count), argc > 4 ? std::strtoull(argv[4], nullptr, 10) : 1};
+    const circuit::ChipSpec sampled{static_cast<double>(count), argc > 4 ? std::strtoull(argv[4], nullptr, 10) : 1};
     std::vector<circuit::ChipSample> chips;
-    for (int k = 0; k < count; ++k) chips.push_back(drawn.sample(static_cast<std::uint64_t>(k)));
+    for (int k = 0; k < count; ++k) chips.push_back(sampled.sample(static_cast<std::uint64_t>(k)));
 
-    ChipCalibration asked;
-    asked.netlist = std::string(kind->model) + "-circuit", asked.bits = bits;
-    asked.overrides = {{"corner", "mc", "corner=mc"}};
-    asked.batch.max_iterations = 60'000;
+    ChipCalibration calibration;
+    calibration.netlist = std::string(kind->model) + "-circuit", calibration.bits = bits;
+    calibration.overrides = {{"corner", "mc", "corner=mc"}};
+    calibration.batch.max_iterations = 60'000;
     const auto press = stimulus("press");
-    asked.force = press.force, asked.T = 1 / press.rate;
+    calibration.force = press.force, calibration.T = 1 / press.rate;
     const TimeWindow phases[] = {{0, 0.25}, {0.25, 0.375}, {0.375, 0.625}, {0.625, 0.75}, {0.75, 1}};
-    asked.limits = FiringLimits::around(respond(kind->model, press).spikes, phases, 10e-3);
-    asked.on_progress = [](std::size_t left, std::size_t presses) { std::fprintf(stderr, "%zu chips left, %zu presses\n", left, presses); };
-    fmt::print("{}, {} chips: {}\n", asked.netlist, count, asked.limits.text());
+    calibration.limits = FiringLimits::around(respond(kind->model, press).spikes, phases, 10e-3);
+    calibration.on_progress = [](std::size_t left, std::size_t presses) { std::fprintf(stderr, "%zu chips left, %zu presses\n", left, presses); };
+    fmt::print("{}, {} chips: {}\n", calibration.netlist, count, calibration.limits.text());
 
     const std::vector<std::string> trims[] = {{"i_leak"}, {"i_biasb"}, kind->gain};
     std::vector<std::vector<int>> sets = {{0, 1, 2}, {0}, {1}, {2}};
@@ -60,26 +61,26 @@ int main(int argc, char** argv) {
             sets[0].push_back(std::strcmp(argv[a], "gain") == 0 ? 2 : std::strcmp(argv[a], "i_biasb") == 0 ? 1 : 0);
     }
     for (const auto& set : sets) {
-        asked.trims.clear();
+        calibration.trims.clear();
         std::string names;
         for (const int k : set) {
             const auto& name = trims[k];
-            auto trim = trim_of(asked.netlist, asked.overrides, name, k == 0 ? 1.0 : k == 1 ? 0.25 : 0.5, k == 2);
+            auto trim = trim_of(calibration.netlist, calibration.overrides, name, k == 0 ? 1.0 : k == 1 ? 0.25 : 0.5, k == 2);
             if (!trim) return fail(trim.error());
             names += (names.empty() ? "" : ", ") + name[0];
-            asked.trims.push_back(*trim);
+            calibration.trims.push_back(*trim);
         }
-        const auto all = calibrate(asked, chips);
+        const auto all = calibrate(calibration, chips);
         if (!all) return fail(all.error());
-        std::vector<int> kept(static_cast<std::size_t>(bits) + 1), presses(kept.size());
-        int total = 0, most = 0, lost = 0;
+        std::vector<int> within(static_cast<std::size_t>(bits) + 1), presses(within.size());
+        int total = 0, max_presses = 0, lost = 0;
         for (const auto& c : *all) {
-            total += c.presses, most = std::max(most, c.presses), lost += c.diverged;
-            for (int b = 0; b <= bits; ++b) kept[static_cast<std::size_t>(b)] += c.bits >= 0 && c.bits <= b;
+            total += c.presses, max_presses = std::max(max_presses, c.presses), lost += c.diverged;
+            for (int b = 0; b <= bits; ++b) within[static_cast<std::size_t>(b)] += c.bits >= 0 && c.bits <= b;
         }
-        fmt::print("{}: kept to them as made {}", names, kept[0]);
-        for (int b = 1; b <= bits; ++b) fmt::print(", {} bits {}", b, kept[static_cast<std::size_t>(b)]);
-        fmt::print("; {} presses, {} of one chip at the most, {} lost\n", total, most, lost);
+        fmt::print("{}: within limits untrimmed {}", names, within[0]);
+        for (int b = 1; b <= bits; ++b) fmt::print(", {} bits {}", b, within[static_cast<std::size_t>(b)]);
+        fmt::print("; {} presses, at most {} per chip, {} failed\n", total, max_presses, lost);
         std::fflush(stdout);
         if (set.size() == 3)
             for (std::size_t k = 0; k < all->size(); ++k) {

@@ -1,11 +1,10 @@
-// What does one chip of a Monte Carlo cost: the operating point of a circuit whose transistors each have their own mismatch?
+// How long does one chip of a Monte Carlo take: the operating point of a circuit with mismatch in each transistor?
 //
 //     bench-chips NETLIST [CHIPS]
 //
-// Method: the netlist is read once; each chip draws its mismatch and its process and is solved from the rest of the circuit as
-// designed, to the tolerances of its .options. Of 9 rounds over the same chips the median, least and greatest are printed, and what was
-// done: Newton's steps, chips whose answer took another way than Newton's or was not found, and mean and deviation of each node.
-// `bench/peers/chips.py` runs it beside ngspice.
+// Method: the netlist is read once. Each chip has its own sample of mismatch and process, and is solved from the nominal operating point to
+// the tolerances of its .options. Printed are median, minimum and maximum of 9 rounds over the same chips, Newton steps, chips that needed
+// another method than Newton's or failed, and mean and deviation of each node. `bench/peers/chips.py` compares it with ngspice.
 
 #include <algorithm>
 #include <chrono>
@@ -65,7 +64,7 @@ int main(int argc, char** argv) {
     }
     std::sort(us.begin(), us.end());
     std::printf(
-        "%llu chips: %.2f us each (%.2f ... %.2f), %.2f Newton steps each, %ld by another way, %ld lost, %ld matrices beside the list\n",
+        "%llu chips: %.2f us each (%.2f ... %.2f), %.2f Newton steps each, %ld by another method, %ld failed, %ld matrices off the list\n",
         static_cast<unsigned long long>(chips), us[us.size() / 2], us.front(), us.back(),
         static_cast<double>(work.steps) / static_cast<double>(chips), work.detours, work.lost, (*bench)->newton.linear_solver.fallback_count());
     const double count = static_cast<double>(chips) - static_cast<double>(work.lost);

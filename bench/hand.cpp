@@ -1,15 +1,14 @@
-// How much faster than skin does a whole hand answer, and in how much memory?
+// How much faster than real time does a complete hand respond, and how much memory does it use?
 //
 //     bench-hand [SECONDS] [RUNS]
 //
-// Method: the built-in hand (17,144 afferents, 4,793 sites), one thread, spikes stored as binary address events, time of this process's
-// processor. Built and run separately; middle of RUNS (7) with the least and the most. Beside each: the work that was done (steps of
-// afferents worked out, and passed over because no force came and nothing in them could change), spikes, bytes written. Three forces of
-// SECONDS (10) at 1 kHz: `stroke`, a fingertip moved over the hand with 1 N (what `corpuscle respond stroke --population hand` runs); a
-// flat disk of 40 mm standing on the palm under a sine; and noise on every site, so that no afferent ever rests: the worst there can be.
-// The peak of memory is the whole process's, after all.
+// Method: the built-in hand (17,144 afferents, 4,793 sites), one thread, spikes stored as binary address events, processor time of this
+// process. Construction and runs are timed separately. Printed are median, minimum and maximum of RUNS (7), then the work: steps computed,
+// steps skipped because no force came and no state could change, spikes, bytes written. Three forces of SECONDS (10) at 1 kHz are used.
+// `stroke` moves a fingertip over the hand with 1 N (as in `corpuscle respond stroke --population hand`). A flat disk of 40 mm presses the
+// palm with a sine. Noise on every site keeps every afferent active, which is the worst case. Peak memory is that of the complete process.
 //
-// Beside TouchSim: peers/touchsim_hand.py; doc/skin.md says what that pays for that this does not.
+// Compared with TouchSim: peers/touchsim_hand.py; doc/skin.md lists the work that TouchSim does and this does not.
 
 #include <fmt/format.h>
 #include <sys/resource.h>
@@ -29,13 +28,13 @@ using namespace corpuscle;
 double processor() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 template <class T>
-T good(Result<T> result) {
+T value_or_exit(Result<T> result) {
     if (result) return std::move(*result);
     fmt::print(stderr, "{}\n", result.error().text());
     std::exit(1);
 }
 
-/// The same noise at every site, of 64 different kinds, again and again.
+/// Noise for every site: 64 different signals, repeated.
 class NoiseForce final : public SkinForce {
     static constexpr std::size_t block = 64;
     std::vector<double> force_, total_ = std::vector<double>(block, 1.0);
@@ -53,21 +52,21 @@ public:
     double progress() const override { return 1 - static_cast<double>(left_) / static_cast<double>(all_); }
 };
 
-/// What is pressed: a stimulus and an indenter.
-struct Pressed {
+/// A stimulus and its indenter.
+struct PressCase {
     std::unique_ptr<ForceSource> source;
     std::unique_ptr<Contact> contact;
     std::unique_ptr<SkinForce> force;
 };
 
-Pressed press(const Innervation& skin, std::string_view stimulus, std::string_view indenter, std::vector<ParameterOverride> wishes) {
-    Pressed p{good(make_stimulus(stimulus, wishes, 1e3, 0)), {}, {}};
-    p.contact = good(make_contact(indenter, wishes, skin.plan.sites, p.source->clock()));
+PressCase press(const Innervation& skin, std::string_view stimulus, std::string_view indenter, std::vector<ParameterOverride> wishes) {
+    PressCase p{value_or_exit(make_stimulus(stimulus, wishes, 1e3, 0)), {}, {}};
+    p.contact = value_or_exit(make_contact(indenter, wishes, skin.plan.sites, p.source->clock()));
     p.force = make_pressed_force(*p.source, *p.contact);
     return p;
 }
 
-void tell(const char* what, std::vector<double> seconds, double of) {
+void print_times(const char* what, std::vector<double> seconds, double of) {
     std::sort(seconds.begin(), seconds.end());
     const double middle = seconds[seconds.size() / 2];
     fmt::print("  {:<34} {:6.1f} ms ({:.1f} to {:.1f})", what, 1e3 * middle, 1e3 * seconds.front(), 1e3 * seconds.back());
@@ -82,32 +81,34 @@ int main(int argc, char** argv) {
     const int runs = argc > 2 ? std::atoi(argv[2]) : 7;
     const auto file = (std::filesystem::temp_directory_path() / fmt::format("bench-hand-{}.aer", ::getpid())).string();
     ThreadPool alone(1);
-    const auto set = good(instruction_set());
+    const auto set = value_or_exit(instruction_set());
     std::vector<double> built;
     std::shared_ptr<const Innervation> skin;
     for (int k = 0; k < runs; ++k) {
         const double from = processor();
-        skin = good(innervate(good(load_skin_plan("hand"))));
-        (void)good(Skin::make(skin, {1e-3}, set));
+        skin = value_or_exit(innervate(value_or_exit(load_skin_plan("hand"))));
+        (void)value_or_exit(Skin::make(skin, {1e-3}, set));
         built.push_back(processor() - from);
     }
     fmt::print("hand: {} afferents, {} sites, {}\n", skin->afferents.size(), skin->plan.sites.size(), name_of(set));
-    tell("built from its file", built, 0);
+    print_times("built from its file", built, 0);
 
     const NamedTouch& stroke = named_touches()[0];
     std::vector<ParameterOverride> stroked, palm = {{"sine", "duration", fmt::format("{}", length)},
-                                       {"sine", "f", "2"}, {"sine", "F_mean", "20"}, {"sine", "F_amp", "10"},
+                                       {"sine", "f", "2"},
+                                       {"sine", "F_mean", "20"},
+                                       {"sine", "F_amp", "10"},
                                        {"contact", "radius", "0.04"},
                                        {"contact", "x", "0"},
                                        {"contact", "y", "0.06"}};
     for (const auto& s : stroke.settings) stroked.push_back({"contact", std::string(s.name), fmt::format("{}", s.value)});
     for (const auto& s : stroke.force_settings)
         stroked.push_back({std::string(stroke.force), std::string(s.name), fmt::format("{}", s.value)});
-    const std::pair<const char*, std::function<Pressed()>> forces[] = {
+    const std::pair<const char*, std::function<PressCase()>> forces[] = {
         {"stroke", [&] { return press(*skin, stroke.force, stroke.indenter, stroked); }},
         {"sine on the palm", [&] { return press(*skin, "sine", "flat", palm); }},
         {"noise everywhere", [&] {
-             Pressed p;
+             PressCase p;
              p.force = std::make_unique<NoiseForce>(skin->plan.sites.size(), static_cast<std::int64_t>(1e3 * length));
              return p;
          }}};
@@ -117,23 +118,23 @@ int main(int argc, char** argv) {
         std::uintmax_t bytes = 0;
         for (int k = 0; k < runs; ++k) {
             auto force = make();
-            auto at_work = good(Skin::make(skin, {1e-3}, set));
-            auto out = SkinEventsFile(good(OutputFile::create(file)), "aer");
+            auto at_work = value_or_exit(Skin::make(skin, {1e-3}, set));
+            auto out = SkinEventsFile(value_or_exit(OutputFile::create(file)), "aer");
             SkinSink* const listeners[] = {&out};
             const SkinInput input{name, "", *make_clock(1e3), {}, *skin};
             const auto answerer = local_skin_simulator(*at_work, alone);
             const double from = processor();
-            work = good(run_skin(*force.force, input, *answerer, listeners, {}));
+            work = value_or_exit(run_skin(*force.force, input, *answerer, listeners, {}));
             if (!out.commit()) return 1;
             ran.push_back(processor() - from);
             bytes = std::filesystem::file_size(file);
             std::filesystem::remove(file);
         }
-        tell(name, ran, static_cast<double>(work.steps) * 1e-3);
-        fmt::print("  {:<34} {:.3g} afferent-steps worked out, {:.3g} passed over; {} spikes, {} bytes\n", "",
+        print_times(name, ran, static_cast<double>(work.steps) * 1e-3);
+        fmt::print("  {:<34} {:.3g} afferent-steps computed, {:.3g} skipped; {} spikes, {} bytes\n", "",
                    static_cast<double>(work.afferent_steps), static_cast<double>(work.skipped_steps), work.spikes, bytes);
     }
     rusage used{};
     getrusage(RUSAGE_SELF, &used);
-    fmt::print("peak of memory: {} MB\n", used.ru_maxrss / 1000);
+    fmt::print("peak memory: {} MB\n", used.ru_maxrss / 1000);
 }

@@ -1,11 +1,12 @@
 #!/bin/sh
-# Two minutes of walking on 16 sensors (gaitpdb GaCo01_01, 1.1 MB of text) through sa1 and fa1, spikes written: how long, start included?
-# 20 whole processes, one after another; the mean wall time. The recording is not part of the project: CORPUSCLE_DATA, else ../shared/data.
+# How long do two minutes of walking on 16 sensors (gaitpdb GaCo01_01, 1.1 MB of text) take through sa1 and fa1, with start and output?
+# Mean wall time of 20 complete processes in sequence. The recording is not part of the project: it is in $CORPUSCLE_DATA, by default
+# ../shared/data.
 set -eu
 program=$1
 here=$(dirname "$0")
 file=${CORPUSCLE_DATA:-$here/../../shared/data}/gait_insole_vgrf/GaCo01_01.txt
-[ -f "$file" ] || { echo "insole: $file is not here; nothing was measured"; exit 0; }
+[ -f "$file" ] || { echo "insole: $file not found; nothing was measured"; exit 0; }
 out=$(mktemp -d)
 trap 'rm -rf "$out"' EXIT
 start=$(date +%s%N)

@@ -1,22 +1,22 @@
-// How long after a frame of forces are its spikes there, how much of a core does that take, and does it last?
-//   bench-live delay [SECONDS [PROGRAM]]   "grid 64x64" (8192 afferents) at 5.2 kHz, the densest published skin: 2.1e7 samples a second
-//   bench-live sleep [SECONDS [PROGRAM]]   the same without --spin: the program sleeps until a frame comes, and so do sender and reader
-//   bench-live share [SECONDS [PROGRAM]]   "hand" (17,000 afferents) at 1 kHz under a stroke: what part of a core
-//   bench-live together [SECONDS [PROGRAM]] the same with --together 16, over loopback: the program sleeps until 16 frames are there
-//   bench-live noise [SECONDS [PROGRAM]]   the same, where no afferent is ever at rest
+// How long is the delay from a frame of forces to its spikes, how much of a core does this take, and is it stable over time?
+//   bench-live delay [SECONDS [PROGRAM]]   "grid 64x64" (8192 afferents) at 5.2 kHz, the densest published skin: 2.1e7 samples per second
+//   bench-live sleep [SECONDS [PROGRAM]]   the same without --spin: the program, the sender and the reader sleep until a frame comes
+//   bench-live share [SECONDS [PROGRAM]]   "hand" (17,000 afferents) at 1 kHz under a stroke: the fraction of a core
+//   bench-live together [SECONDS [PROGRAM]] the same with --together 16, over loopback: the program sleeps until 16 frames have arrived
+//   bench-live noise [SECONDS [PROGRAM]]   the same with noise that keeps every afferent active
 //   bench-live soak [SECONDS [PROGRAM]]    "grid 16x16" at 1 kHz over loopback, frames numbered: memory, drift, lost events
-// 60 s if nothing is said (the soak is meant for 3600), of ./corpuscle. `corpuscle stream` is started as anybody would start it, bound to
-// the last core; what sends and what reads are threads of this program on the others, so that it has one core and no more.
+// Defaults: 60 s (3600 s are recommended for soak) and ./corpuscle. `corpuscle stream` runs with its usual options on the last core only.
+// The sender and the reader are threads of this program on the other cores.
 //
-// With delay, program and sender wait without sleeping (--spin), so that what a machine takes to wake a thread is not in it.
-// delay, sleep, share, together, noise: frames are binary float32 through a pipe (together: TCP), each written when it is due by the clock
+// With delay, program and sender busy-wait (--spin), which excludes the time to wake a thread.
+// delay, sleep, share, together, noise: frames are binary float32 through a pipe (together: TCP), each written at its scheduled time
 // (clock_nanosleep to absolute times); events are binary through another pipe. The delay of a frame is from just before its write to the
-// read that brought its first spike; a frame without a spike has none, but is counted by the program, which tells at the end how many it
-// answered and what it measured itself, of every frame. Beside it stands an idle loop: for as long, before, a thread sleeps to the same
-// ticks and notes how late it wakes: what the machine does to anybody. Every site feels something at every frame (noise of some mN, so that
-// no afferent can be passed over), and a round contact moves over the skin; but with share and together a fingertip rubs the palm in
-// circles of 1 cm, and nothing else touches. Told is the program's time, user and system, after the seconds in which its skin is built.
-// soak holds every byte that comes against what the same frames give in this process.
+// read of its first spike. A frame without a spike has no delay here, but the program counts it; at its end the program reports the number
+// of frames and its own measurement of every frame. For comparison an idle loop runs first for the same time: a thread sleeps to the same
+// ticks and records how late it wakes, which is the machine's own delay. Every site has noise of some mN at every frame, so that no
+// afferent can be skipped, and a round contact moves over the skin. With share and together there is no noise; a fingertip rubs the palm in
+// circles of 1 cm. Printed is the program's user and system time after the seconds in which it builds its skin.
+// soak compares every received byte with the result of the same frames in this process.
 
 #include <sys/prctl.h>
 #include <sys/socket.h>
@@ -42,7 +42,7 @@ std::string row(const char* name, const LatencyHistogram& d) {
                        100 * static_cast<double>(within) / static_cast<double>(std::max<std::uint64_t>(1, d.count())));
 }
 
-/// Both as shares of an octave each.
+/// Both histograms, as percentages per octave.
 void print_histograms(const LatencyHistogram& idle, const LatencyHistogram& delay) {
     fmt::print("\n  up to us     idle %    delay %\n");
     std::uint64_t a = 0, b = 0;
@@ -91,11 +91,11 @@ int through_pipes(const std::string& program, const std::string& population, int
     if (spin) words.push_back("--spin");
     if (together > 1) words.insert(words.end(), {"--together", std::to_string(together), "--in", "tcp:0", "--clients", "1"});
     Program child(program, words, cores - 1);
-    if (together > 1) child.in = connected_to(child);
-    double begun = 0;  // s of processor
+    if (together > 1) child.in = connect_to(child);
+    double begun = 0;  // processor time, s
     std::thread watch([&] {
         std::this_thread::sleep_for(std::chrono::seconds(start_up));
-        begun = child.so_far();
+        begun = child.processor_seconds();
     });
     Sender sender(second, sites, rate, count, false);
     LatencyHistogram delay;
@@ -122,7 +122,7 @@ int through_pipes(const std::string& program, const std::string& population, int
         }
         sending.join();
     }
-    const auto told = child.told(child.err.get());
+    const auto summary = child.read_output(child.err.get());
     const int status = child.wait();
     watch.join();
     fmt::print("{}: {} sites, {} afferents, {} frames of {} Hz sent, {} spikes read\n\n{:28} {:>9} {:>8} {:>8} {:>8} {:>9}   within 1 ms\n",
@@ -130,9 +130,9 @@ int through_pipes(const std::string& program, const std::string& population, int
     fmt::print("{}{}", row("idle loop, late", idle), row("frame written to spike read", delay));
     print_histograms(idle, delay);
     fmt::print(
-        "\nIts own summary (status {}):\n{}\nOf one core it took {:.2f} % of the time after the first {} s, and {:.2f} s in all of {} s; "
-        "{} MB at the most.\n",
-        status, told, 100 * (child.seconds() - begun) / std::max(1, seconds - start_up), start_up, child.seconds(), seconds,
+        "\nIts own summary (status {}):\n{}\nIt used {:.2f} % of one core after the first {} s, and {:.2f} s in total of {} s; "
+        "{} MB at peak.\n",
+        status, summary, 100 * (child.seconds() - begun) / std::max(1, seconds - start_up), start_up, child.seconds(), seconds,
         child.used.ru_maxrss / 1024);
     return status;
 }
@@ -159,11 +159,11 @@ int soak(const std::string& program, int seconds) {
     pollfd wait = {door->get(), POLLIN, 0};
     ::poll(&wait, 1, 10000);
     Descriptor events(::accept(door->get(), nullptr, nullptr));
-    auto to = connected_to(child);
+    auto to = connect_to(child);
     const std::int64_t count = std::int64_t{rate} * seconds;
     Sender sender(second, sites, rate, count, true);
     std::thread sending([&] { sender.send_all(to.get()), to.close(); });
-    // The same frames here, as far as events have come.
+    // Simulates the same frames in this process, as far as events have been received.
     auto ours = SkinStream::make(skin, {rate, 1});
     std::vector<double> frame(sites);
     std::vector<address_events::EncodedSpike> wanted;
@@ -182,7 +182,7 @@ int soak(const std::string& program, int seconds) {
         }
     };
     std::vector<LatencyHistogram> minutes(static_cast<std::size_t>(seconds) / 60 + 1);
-    std::int64_t spikes = 0, wrong = 0, told_at = 0, last = -1;
+    std::int64_t spikes = 0, wrong = 0, next_report = 0, last = -1;
     HelperProgram reader(events.get(), (*format)->header().size(), [&](const address_events::EncodedSpike& spike, std::int64_t now) {
         next(spike.step);
         wrong += at == wanted.size() || std::memcmp(&wanted[at], &spike, sizeof spike) != 0;
@@ -190,22 +190,21 @@ int soak(const std::string& program, int seconds) {
         if (spike.step != last && spike.step < count)
             minutes[static_cast<std::size_t>(spike.step / rate / 60)].add(now - sender.sent(spike.step));
         last = spike.step;
-        if (spike.step < told_at) return;
+        if (spike.step < next_report) return;
         fmt::print("{:6} s  {:9} events  {:6} kB resident\n", spike.step / rate, spikes, resident_kB(child.pid));
         std::fflush(stdout);
-        told_at += std::max(10, seconds / 12) * rate;
+        next_report += std::max(10, seconds / 12) * rate;
     });
     while (reader.read()) {
     }
     sending.join();
     next(count);
-    const auto told = child.told(child.err.get());
+    const auto summary = child.read_output(child.err.get());
     const int status = child.wait();
     fmt::print("\n{:28} {:>9} {:>8} {:>8} {:>8} {:>9}   within 1 ms\n", "us", "number", "50 %", "99 %", "99.9 %", "longest");
     fmt::print("{}{}", row("first minute", minutes.front()),
-               row("last whole minute", minutes[minutes.size() > 1 ? minutes.size() - 2 : 0]));
-    fmt::print("\n{} events, {} not as they should be, {} missing at the end; status {}\n{}", spikes, wrong, wanted.size() - at, status,
-               told);
+               row("last complete minute", minutes[minutes.size() > 1 ? minutes.size() - 2 : 0]));
+    fmt::print("\n{} events, {} wrong, {} missing at the end; status {}\n{}", spikes, wrong, wanted.size() - at, status, summary);
     return wrong != 0 || at != wanted.size() ? 1 : status;
 }
 
@@ -213,7 +212,7 @@ int soak(const std::string& program, int seconds) {
 
 int main(int argc, char** argv) {
     std::signal(SIGPIPE, SIG_IGN);
-    ::prctl(PR_SET_TIMERSLACK, 1);  // ns; threads begin with their maker's
+    ::prctl(PR_SET_TIMERSLACK, 1);  // ns; new threads inherit it
     const std::string what = argc > 1 ? argv[1] : "";
     const int seconds = argc > 2 ? std::atoi(argv[2]) : 60;
     const std::string program = argc > 3 ? argv[3] : "./corpuscle";

@@ -1,5 +1,5 @@
 #pragma once
-// The program under measurement, what sends to it, and what reads from it. Included by live.cpp alone.
+// The program under test, the sender of its frames, and the reader of its events. Included only by live.cpp.
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -35,30 +35,31 @@ inline void sleep_until(std::int64_t ns) {
     }
 }
 
-/// Frames of one second, over and over: a contact that goes round, of `turn_radius` (0: over much of the skin), and noise.
+/// Frames of one second, to be repeated: noise and a contact that moves in a circle of `turn_radius` (m; 0: over most of the skin).
 inline std::vector<float> frames_of_a_second(const SkinPlan& plan, int rate, double radius, bool noise, double turn_radius = 0) {
     const auto& sites = plan.sites;
-    const double felt = plan.felt_area > 0 && sites.area > 0 ? sites.area / plan.felt_area : 1;  // N at a site that a unit feels as 1 N
+    // force at a site (N) that acts on an afferent like 1 N
+    const double scale = plan.felt_area > 0 && sites.area > 0 ? sites.area / plan.felt_area : 1;
     std::vector<float> out(sites.size() * static_cast<std::size_t>(rate));
     Position low = sites.positions[0], high = low;
     for (const auto& p : sites.positions)
         low = {std::min(low.x, p.x), std::min(low.y, p.y)}, high = {std::max(high.x, p.x), std::max(high.y, p.y)};
     for (int k = 0; k < rate; ++k) {
-        const double turn = 6.283185307179586 * k / rate;
-        const double x = (low.x + high.x) / 2 + (turn_radius > 0 ? turn_radius : (high.x - low.x) / 4) * std::cos(turn),
-                     y = (low.y + high.y) / 2 + (turn_radius > 0 ? turn_radius : (high.y - low.y) / 4) * std::sin(turn);
+        const double angle = 6.283185307179586 * k / rate;
+        const double x = (low.x + high.x) / 2 + (turn_radius > 0 ? turn_radius : (high.x - low.x) / 4) * std::cos(angle),
+                     y = (low.y + high.y) / 2 + (turn_radius > 0 ? turn_radius : (high.y - low.y) / 4) * std::sin(angle);
         for (std::size_t s = 0; s < sites.size(); ++s) {
             const double d2 = (sites.positions[s].x - x) * (sites.positions[s].x - x) + (sites.positions[s].y - y) * (sites.positions[s].y - y);
             const auto w = philox({static_cast<std::uint32_t>(k), static_cast<std::uint32_t>(s), 0, 0}, 1);
             out[static_cast<std::size_t>(k) * sites.size() + s] =
-                static_cast<float>(felt * ((d2 < 6 * radius * radius ? 2 * std::exp(-d2 / (radius * radius)) : 0) +
-                                           (noise ? 1e-3 + 4e-3 * unit_interval(w[0], w[1]) : 0)));
+                static_cast<float>(scale * ((d2 < 6 * radius * radius ? 2 * std::exp(-d2 / (radius * radius)) : 0) +
+                                            (noise ? 1e-3 + 4e-3 * unit_interval(w[0], w[1]) : 0)));
         }
     }
     return out;
 }
 
-/// The program at work.
+/// The running program.
 struct Program {
     pid_t pid = 0;
     Descriptor in, out, err;
@@ -73,7 +74,7 @@ struct Program {
         std::vector<char*> arguments;
         for (auto& w : words) arguments.push_back(w.data());
         arguments.push_back(nullptr);
-        if ((pid = ::fork()) < 0) fmt::print(stderr, "no process can be started\n"), std::exit(1);
+        if ((pid = ::fork()) < 0) fmt::print(stderr, "fork failed\n"), std::exit(1);
         if (pid == 0) {
             bind_to(core, core);
             ::dup2(pipes[0][0], 0), ::dup2(pipes[1][1], 1), ::dup2(pipes[2][1], 2);
@@ -88,14 +89,14 @@ struct Program {
         ::wait4(pid, &status, 0, &used);
         return WEXITSTATUS(status);
     }
-    std::string told(int fd) const {
+    std::string read_output(int fd) const {
         std::string all;
         char piece[4096];
         for (ssize_t n = 0; (n = ::read(fd, piece, sizeof piece)) > 0;) all.append(piece, static_cast<std::size_t>(n));
         return all;
     }
-    /// s of processor until now, its own and the system's for it.
-    double so_far() const {
+    /// Processor time so far, user and system, s.
+    double processor_seconds() const {
         std::ifstream in(fmt::format("/proc/{}/stat", pid));
         std::string word;
         double user = 0, system = 0;
@@ -109,21 +110,21 @@ struct Program {
     }
 };
 
-/// To where a program says that it listens.
-inline Descriptor connected_to(const Program& child) {
+/// Connects to the address on which the program reports to listen.
+inline Descriptor connect_to(const Program& child) {
     pollfd wait = {child.err.get(), POLLIN, 0};
     ::poll(&wait, 1, 10000);
-    std::string said(200, '\0');
-    said.resize(static_cast<std::size_t>(std::max<ssize_t>(0, ::read(child.err.get(), said.data(), said.size()))));
-    const auto at = said.find("127.");
-    auto to = at < said.size() ? connect_socket(*parse_endpoint(said.substr(at, said.find('\n') - at)), 5000)
-                               : Result<Descriptor>(bad_input("it does not listen: " + said));
+    std::string message(200, '\0');
+    message.resize(static_cast<std::size_t>(std::max<ssize_t>(0, ::read(child.err.get(), message.data(), message.size()))));
+    const auto at = message.find("127.");
+    auto to = at < message.size() ? connect_socket(*parse_endpoint(message.substr(at, message.find('\n') - at)), 5000)
+                                  : Result<Descriptor>(bad_input("the program does not listen: " + message));
     if (!to) fmt::print("{}\n", to.error().text()), std::exit(1);
     ::fcntl(to->get(), F_SETFL, 0);
     return std::move(*to);
 }
 
-/// Frames, each when it is due; when each began to be written.
+/// Sends each frame at its scheduled time, and records when its write starts.
 class Sender {
     const std::vector<float>& second_;
     std::size_t sites_;
@@ -158,7 +159,7 @@ public:
     }
 };
 
-/// Events as they come; each() is called with every one and when it was read.
+/// Reads events as they arrive; calls each() with every event and the time of its read.
 template <class Each>
 class HelperProgram {
     int fd_;
@@ -168,7 +169,7 @@ class HelperProgram {
 
 public:
     HelperProgram(int fd, std::size_t header, Each each) : fd_(fd), header_(header), each_(std::move(each)) {}
-    /// What one read gives; false at the end, or if there is nothing yet where reading does not wait.
+    /// Processes the result of one read. Returns false at the end, or if a non-blocking read finds nothing.
     bool read() {
         const auto n = ::read(fd_, buffer_.data() + filled_, buffer_.size() - filled_);
         if (n <= 0) return false;

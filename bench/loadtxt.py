@@ -1,4 +1,4 @@
-"""The peer in reading text: NumPy's loadtxt on a file of the same kind, 20 MB. MB/s of the file; it keeps all in memory."""
+"""Peer for reading text: NumPy's loadtxt on a similar file of 20 MB. Prints MB/s of the file; loadtxt keeps everything in memory."""
 
 import math
 import tempfile

@@ -1,14 +1,14 @@
-// What does a second of the 108-array loop cost, and of what is one of its iterations made?
+// How long does one second of the 108-array loop take, and how is the time of an iteration divided?
 //
 //     bench-loop [NETLIST] [ROUNDS]
 //
-// Method: one core, seconds of the processor, at the accuracy that nobody asked for (`.options accuracy=normal`). The netlist
-// (bench/decks/loop.cir) starts from its operating point with .ic held, and goes one second as it is, and one with its force at 60 nA
-// throughout, where nothing fires: the difference is what spikes cost; the search for the operating point is not counted. Then the parts of
-// an iteration alone: the transistors with their charges on lanes at 256 points of the run in turn, and each matrix of them (slopes, and
-// capacitances over a step of 10 us) factored and solved along the list, and by KLU along its last pivots beside it. What is left of an
-// iteration is bookkeeping: voltages out to the lanes and slopes back into the matrix, predictions, errors, history, convergence,
-// crossings. Each line: median of the rounds, least and greatest.
+// Method: one core, processor seconds, default accuracy (`.options accuracy=normal`). The netlist (bench/decks/loop.cir) starts from its
+// operating point with .ic held. It runs one second as it is, and one second with a constant force of 60 nA, at which nothing fires; the
+// difference is the cost of spikes. The operating-point search is not counted. Then the parts of an iteration are timed separately, at 256
+// points of the run: the transistors with their charges on lanes, and each matrix (conductances, plus capacitances over a step of 10 us),
+// factored and solved along the list, and by KLU with its last pivots. The rest of an iteration is bookkeeping: moving voltages to the
+// lanes and derivatives to the matrix, prediction, errors, history, convergence, crossings. Each line has median, minimum and maximum of
+// the rounds.
 
 #include <algorithm>
 #include <cstdio>
@@ -25,16 +25,16 @@ using namespace corpuscle;
 using namespace corpuscle::circuit;
 
 constexpr double seconds = 1, level = 0.35, quiet_force = 60e-9, step = 10e-6;
-constexpr std::size_t points_kept = 256;
+constexpr std::size_t max_points = 256;
 
-/// Of the processor, s: a busy machine disturbs it less than the clock on the wall.
-double now() {
+/// Processor time, s; other load on the machine affects it less than wall time.
+double processor_time() {
     timespec t{};
     clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
     return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
-void say(const char* what, std::vector<double> times, double scale, const char* unit) {
+void print_times(const char* what, std::vector<double> times, double scale, const char* unit) {
     std::sort(times.begin(), times.end());
     std::printf("  %-34s %9.3f %s (%.3f ... %.3f)\n", what, times[times.size() / 2] * scale, unit, times.front() * scale,
                 times.back() * scale);
@@ -45,7 +45,7 @@ double median(std::vector<double> times) {
 }
 
 struct Second {
-    std::vector<double> times;  // of each round
+    std::vector<double> times;  // processor time of each round, s
     TransientStats work;
     double reltol = 0;
     std::vector<double> spikes;  // s
@@ -53,7 +53,7 @@ struct Second {
     std::vector<double> at;
 };
 
-/// One second, `rounds` times from the same start.
+/// Runs one second `rounds` times from the same start.
 Result<Second> second_of(AnalysisContext& bench, int rounds, bool quiet) {
     Second out;
     const int spiking = bench.system.unknown("v(s)");
@@ -67,8 +67,8 @@ Result<Second> second_of(AnalysisContext& bench, int rounds, bool quiet) {
         if (!from) return from.error();
         out.spikes.clear(), out.points.clear(), out.at.clear();
         Transient transient(bench.system, bench.newton, plan);
-        const long apart = std::max(1L, out.work.steps / static_cast<long>(points_kept));
-        const double start = now();
+        const long apart = std::max(1L, out.work.steps / static_cast<long>(max_points));
+        const double start = processor_time();
         if (auto ok = transient.begin(from->x, from->is_consistent); !ok) return ok.error();
         while (transient.time() < seconds) {
             if (const auto ok = transient.step(seconds); !ok) return ok.error();
@@ -78,7 +78,7 @@ Result<Second> second_of(AnalysisContext& bench, int rounds, bool quiet) {
                 out.at.push_back(transient.time());
             }
         }
-        out.times.push_back(now() - start);
+        out.times.push_back(processor_time() - start);
         bench.newton.context.with_charges = false;
         bench.system.start_transient(0, 0);
         out.work = transient.stats();
@@ -86,24 +86,24 @@ Result<Second> second_of(AnalysisContext& bench, int rounds, bool quiet) {
     return out;
 }
 
-/// Seconds of one of many, as often as there are rounds.
-std::vector<double> each(int rounds, std::size_t count, const std::function<void(std::size_t)>& one) {
+/// Mean time (s) of one call for each round of `count` calls.
+std::vector<double> time_each(int rounds, std::size_t count, const std::function<void(std::size_t)>& one) {
     std::vector<double> out;
     for (int round = 0; round < rounds; ++round) {
-        const double start = now();
+        const double start = processor_time();
         for (std::size_t k = 0; k < count; ++k) one(k);
-        out.push_back((now() - start) / static_cast<double>(count));
+        out.push_back((processor_time() - start) / static_cast<double>(count));
     }
     return out;
 }
 
-struct Parts {
+struct IterationParts {
     std::vector<double> devices, factor, solve, factor_listed, solve_listed;
-    long strayed = 0;
+    long off_list = 0;
 };
 
-Parts parts_of(const AnalysisContext& bench, const Second& run, int rounds) {
-    Parts out;
+IterationParts parts_of(const AnalysisContext& bench, const Second& run, int rounds) {
+    IterationParts out;
     EvalContext at;
     at.gmin = bench.tolerances.gmin;
     auto memory = bench.system.initial_limiting_state();
@@ -116,7 +116,7 @@ Parts parts_of(const AnalysisContext& bench, const Second& run, int rounds) {
     };
     std::vector<Line> lines((3 * n + 2 * n * n) * room / 8);
     double *const v = lines[0].of, *const f = v + n * room, *const q = f + n * room, *const df = q + n * room;
-    out.devices = each(rounds, count, [&](std::size_t k) {
+    out.devices = time_each(rounds, count, [&](std::size_t k) {
         for (std::size_t m = 0; m < transistors.members.size(); ++m)
             for (std::size_t j = 0; j < n; ++j) {
                 const int u = transistors.unknowns[m * n + j];
@@ -135,35 +135,35 @@ Parts parts_of(const AnalysisContext& bench, const Second& run, int rounds) {
     std::vector<double> b(static_cast<std::size_t>(bench.system.size()), 1e-9);
     const auto factors = [&](std::size_t k) { (void)solver.factor(matrices[k]); };
     const auto solves = [&](std::size_t) { solver.solve(b), b.assign(b.size(), 1e-9); };
-    out.factor = each(rounds, count, factors), out.solve = each(rounds, count, solves);
+    out.factor = time_each(rounds, count, factors), out.solve = time_each(rounds, count, solves);
     solver.fix_pivot_order(matrices[count / 2]);
-    out.factor_listed = each(rounds, count, factors), out.solve_listed = each(rounds, count, solves);
-    out.strayed = solver.fallback_count() / rounds;
+    out.factor_listed = time_each(rounds, count, factors), out.solve_listed = time_each(rounds, count, solves);
+    out.off_list = solver.fallback_count() / rounds;
     return out;
 }
 
-void report(const AnalysisContext& bench, const Second& whole, const Second& quiet, const Parts& parts) {
+void report(const AnalysisContext& bench, const Second& whole, const Second& quiet, const IterationParts& parts) {
     const auto row = [](const char* what, const Second& s) {
         std::printf("%s, to %g a step: %ld steps, %ld rejected, %ld Newton iterations, %zu spikes", what, s.reltol, s.work.steps,
                     s.work.rejected, s.work.iterations, s.spikes.size());
         if (!s.spikes.empty()) std::printf(", from %.6f to %.6f s", s.spikes.front(), s.spikes.back());
         std::printf("\n");
-        say("whole", s.times, 1, "s");
-        say("an iteration", s.times, 1e6 / static_cast<double>(s.work.iterations), "us");
+        print_times("whole", s.times, 1, "s");
+        print_times("an iteration", s.times, 1e6 / static_cast<double>(s.work.iterations), "us");
     };
     row("a second of touch", whole);
     const double spikes = static_cast<double>(whole.spikes.size()), beyond = spikes - static_cast<double>(quiet.spikes.size());
-    if (spikes > 0) say("a spike, all in all", whole.times, 1e3 / spikes, "ms");
+    if (spikes > 0) print_times("per spike, in total", whole.times, 1e3 / spikes, "ms");
     row("a quiet second", quiet);
     if (beyond > 0) std::printf("  a spike beyond it %27.3f ms\n", (median(whole.times) - median(quiet.times)) * 1e3 / beyond);
     std::printf("an iteration: %d unknowns, %zu devices, %zu entries\n", bench.system.size(), bench.system.devices().size(),
                 bench.system.pattern().entries());
-    say("transistors", parts.devices, 1e6, "us");
-    say("elimination, KLU: factor", parts.factor, 1e6, "us");
-    say("elimination, KLU: solve", parts.solve, 1e6, "us");
-    say("elimination, listed: factor", parts.factor_listed, 1e6, "us");
-    say("elimination, listed: solve", parts.solve_listed, 1e6, "us");
-    std::printf("  %ld of %zu matrices did not go along the list\n", parts.strayed, whole.points.size());
+    print_times("transistors", parts.devices, 1e6, "us");
+    print_times("elimination, KLU: factor", parts.factor, 1e6, "us");
+    print_times("elimination, KLU: solve", parts.solve, 1e6, "us");
+    print_times("elimination, listed: factor", parts.factor_listed, 1e6, "us");
+    print_times("elimination, listed: solve", parts.solve_listed, 1e6, "us");
+    std::printf("  %ld of %zu matrices were not eliminated along the list\n", parts.off_list, whole.points.size());
     const double all = median(whole.times) * 1e6 / static_cast<double>(whole.work.iterations), devices = median(parts.devices) * 1e6;
     const double elimination = (median(parts.factor_listed) + median(parts.solve_listed)) * 1e6;
     std::printf("  devices %.0f %%, elimination %.0f %%, bookkeeping %.0f %% of %.2f us\n", 100 * devices / all, 100 * elimination / all,

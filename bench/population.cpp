@@ -1,17 +1,17 @@
-// How many afferent-steps a second does a population of `sa1` do on one core, and how far is that from what the machine could?
+// How many afferent-steps per second does a population of `sa1` compute on one core, and how close is this to the machine's limit?
 //
-// Method: in one process, in turn, 25 times (--runs): the streamed force added up (the most that memory allows), additions in
-// registers (the most that arithmetic allows), and the population in each way of feeding it; the medians are told. N = 100,000 at
-// 10 kHz, spikes emitted in memory, in order (or as marks, one bit a unit and step). Streamed: each afferent has its own force, in
-// tiles, 1,000 steps from the press's rise, 800 MB in double: more than the caches hold. Profile: one press of 10,000 steps, each
-// afferent with a gain from 0.5 to 1, transduced once. Own parameters: every afferent has its own f_B, and its own transduction.
-// The peers' works are those of bench/peers/, in backward Euler: to be held against what NumPy and Brian2 print.
-// --only WORDS: only those whose name has them.
+// Method: one process runs these in turn, 25 times (--runs): the sum of the streamed force (the memory limit), additions in registers (the
+// arithmetic limit), and the population with each kind of input. Printed are medians. N = 100,000 at 10 kHz; spikes are stored in memory in
+// order, or as marks (one bit per afferent and step). Streamed: each afferent has its own force, in tiles, 1,000 steps from the press's
+// rise, 800 MB in double, which exceeds the caches. Profile: one press of 10,000 steps; each afferent has a gain from 0.5 to 1, and the
+// receptor is computed once. Own parameters: every afferent has its own f_B and its own receptor.
+// The peers' tasks are those of bench/peers/, in backward Euler, for comparison with the output of NumPy and Brian2.
+// --only WORDS: only the cases whose name contains WORDS.
 //
-// Counted for `sa1`, exact, an afferent-step without a spike: transduction 12 operations (1 difference, 2 high-passes of 3, 2
-// rectifiers, 3 for the sum), LIF-B 8 (2 for what flows in, 1 added, 1 floor, 1 threshold, 3 for a turn up through the leak), so 20
-// and 8, 4 or 2 bytes (double, float, 16-bit words); of a profile that does not rise 5 and none. The limit is the lower of memory
-// and arithmetic; an operation in float is half of one in double.
+// Operations for `sa1`, method exact, per afferent-step without a spike. Receptor 12: 1 difference, 2 high-passes of 3, 2 rectifiers, 3 for
+// the sum. LIF-B 8: 2 for the input current, 1 addition, 1 floor, 1 threshold, 3 for a rise through the leak. Together 20 operations and 8,
+// 4 or 2 bytes (double, float, 16-bit integers). A profile that does not rise needs 5 operations and no bytes. The limit is the lower of
+// memory and arithmetic; an operation in float counts half of one in double.
 
 #include <fmt/format.h>
 
@@ -29,7 +29,7 @@ namespace {
 
 using namespace corpuscle;
 
-constexpr std::size_t most = 100'000, stream_steps = 1000;
+constexpr std::size_t max_count = 100'000, stream_steps = 1000;
 constexpr long rounds = 20'000'000;
 volatile double added_up;
 
@@ -40,7 +40,7 @@ double now() { return std::chrono::duration<double>(std::chrono::steady_clock::n
     std::exit(1);
 }
 
-// The limits are compiled for each instruction set by the compiler itself: lanes are what is measured.
+// The compiler itself compiles the limits for each instruction set, because the lanes are the code under test.
 #ifdef __x86_64__
 #define EACH_SET __attribute__((target_clones("default", "arch=x86-64-v3", "arch=x86-64-v4"), optimize("O3,unroll-loops")))
 #else
@@ -58,7 +58,7 @@ EACH_SET double sum(const double* p, std::size_t count) {
     return all[0] + all[1] + all[2] + all[3] + all[4] + all[5] + all[6] + all[7];
 }
 
-/// Additions in registers: eight chains, to hide how long one takes. 64 a round.
+/// Additions in registers: eight independent chains hide the latency. 64 additions per round.
 template <class V>
 [[gnu::always_inline]] inline double additions(long count) {
     V a{}, b{}, c{}, d{}, e{}, f{}, g{}, h{};
@@ -89,12 +89,12 @@ std::vector<double> press() {
     return block.force[0];
 }
 
-double gain(std::size_t unit) { return 0.5 + 0.5 * static_cast<double>(unit) / (most - 1); }
+double gain(std::size_t unit) { return 0.5 + 0.5 * static_cast<double>(unit) / (max_count - 1); }
 
-/// The press times each afferent's gain, in tiles.
+/// The press multiplied by each afferent's gain, in tiles.
 template <class E>
 lanes::AlignedBuffer<E> tiles(const std::vector<double>& f, double scale) {
-    const std::size_t count = (most + tile_width - 1) / tile_width;
+    const std::size_t count = (max_count + tile_width - 1) / tile_width;
     lanes::AlignedBuffer<E> rows(count * tile_width * stream_steps);
     E* out = rows.data();
     for (std::size_t tile = 0; tile < count; ++tile)
@@ -103,12 +103,12 @@ lanes::AlignedBuffer<E> tiles(const std::vector<double>& f, double scale) {
     return rows;
 }
 
-/// One thing that is timed.
-struct Timed {
+/// One timed case.
+struct TimedCase {
     std::string name;
     double work;                       // a run
-    std::function<double()> once;      // seconds of one
-    double operations = 0, bytes = 0;  // of an afferent-step, operations in double
+    std::function<double()> once;      // runs once; returns seconds
+    double operations = 0, bytes = 0;  // per afferent-step; operations in double
     std::vector<double> seconds = {};
     std::int64_t spikes = 0;  // a run
 
@@ -119,9 +119,9 @@ struct Timed {
     }
 };
 
-/// A population over all of its force, in blocks.
+/// A population and its complete force, in blocks.
 struct Case {
-    std::size_t units = most, steps = 0, block = 0;
+    std::size_t units = max_count, steps = 0, block = 0;
     Method method = Method::exact;
     bool own = false, sampled = true, marks = false;
     Precision precision = Precision::double_precision;
@@ -133,7 +133,7 @@ struct Case {
         std::vector<AfferentPlan> plans(own ? units : 1, *plan);
         for (std::size_t u = 0; own && u < units; ++u)
             for (std::size_t k = 0; k < plans[u].values.size(); ++k)
-                if ((*plans[u].parameters)[k].info.name == "f_B") plans[u].values[k] = 15 + 10 * static_cast<double>(u) / (most - 1);
+                if ((*plans[u].parameters)[k].info.name == "f_B") plans[u].values[k] = 15 + 10 * static_cast<double>(u) / (max_count - 1);
         std::vector<const AfferentPlan*> pointers;
         for (const auto& p : plans) pointers.push_back(&p);
         auto result = make_lane_population({pointers, units, {}, precision}, {1e-4, method, sampled}, set);
@@ -170,11 +170,11 @@ class Bench {
     lanes::AlignedBuffer<double> doubles_ = tiles<double>(press_, 1);
     lanes::AlignedBuffer<float> floats_ = tiles<float>(press_, 1);
     lanes::AlignedBuffer<std::int16_t> words_ = tiles<std::int16_t>(press_, 8000);
-    std::vector<std::unique_ptr<Timed>> all_;
+    std::vector<std::unique_ptr<TimedCase>> all_;
 
     void add(const std::string& name, const Case& c, double operations, double bytes) {
         if (name.find(only_) == std::string::npos) return;
-        all_.push_back(std::make_unique<Timed>(Timed{name, static_cast<double>(c.units * c.steps), {}, operations, bytes}));
+        all_.push_back(std::make_unique<TimedCase>(TimedCase{name, static_cast<double>(c.units * c.steps), {}, operations, bytes}));
         all_.back()->once = [c, t = all_.back().get()] { return c.once(t->spikes); };
     }
 
@@ -198,7 +198,7 @@ class Bench {
         stream.force = [this, precision](std::size_t, std::size_t) { return streamed(precision); };
         add(tag + "streamed", stream, 20 * one, bytes);
         add(tag + "streamed, interpolated", changed(stream, [](Case& c) { c.sampled = false; }), 20 * one, bytes);
-        if (set != instruction_sets().back()) {  // of lesser sets, the main ones
+        if (set != instruction_sets().back()) {  // for smaller instruction sets, only the main cases
             add(tag + "profile", profile_case(set, precision), 5 * one, 0);
             return;
         }
@@ -249,24 +249,24 @@ class Bench {
 
 public:
     explicit Bench(std::string only) : only_(std::move(only)) {
-        for (std::size_t u = 0; u < most; ++u) gains_.push_back(gain(u));
-        all_.push_back(std::make_unique<Timed>(Timed{"read", static_cast<double>(doubles_.size() * sizeof(double)), [this] {
-                                                         const double begun = now();
-                                                         added_up = sum(doubles_.data(), doubles_.size());
-                                                         return now() - begun;
-                                                     }}));
-        all_.push_back(std::make_unique<Timed>(Timed{"additions", 64.0 * rounds, [] {
-                                                         const double begun = now();
-                                                         added_up = additions(rounds);
-                                                         return now() - begun;
-                                                     }}));
+        for (std::size_t u = 0; u < max_count; ++u) gains_.push_back(gain(u));
+        all_.push_back(std::make_unique<TimedCase>(TimedCase{"read", static_cast<double>(doubles_.size() * sizeof(double)), [this] {
+                                                                 const double begun = now();
+                                                                 added_up = sum(doubles_.data(), doubles_.size());
+                                                                 return now() - begun;
+                                                             }}));
+        all_.push_back(std::make_unique<TimedCase>(TimedCase{"additions", 64.0 * rounds, [] {
+                                                                 const double begun = now();
+                                                                 added_up = additions(rounds);
+                                                                 return now() - begun;
+                                                             }}));
         const auto sets = instruction_sets();
-        for (std::size_t k = sets.size() - 1; k > 0; --k)  // without the scalar one
+        for (std::size_t k = sets.size() - 1; k > 0; --k)  // without the scalar set
             for (const auto precision : {Precision::double_precision, Precision::single_precision}) add_set(sets[k], precision);
     }
 
     void run(int runs) {
-        for (auto& t : all_) (void)t->once();  // pages and caches
+        for (auto& t : all_) (void)t->once();  // warm-up of pages and caches
         for (int k = 0; k < runs; ++k)
             for (auto& t : all_) t->seconds.push_back(t->once());
     }
@@ -274,7 +274,7 @@ public:
     void print() const {
         const double read = all_[0]->rate(), additions = all_[1]->rate();
         fmt::print("read {:.1f} GB/s; {:.1f}e9 additions/s in double, with the best set\n", read / 1e9, additions / 1e9);
-        fmt::print("{:50} {:>10} {:>10} {:>10} {:>9}\n", "", "steps/s", "limit", "share", "spikes");
+        fmt::print("{:50} {:>10} {:>10} {:>10} {:>9}\n", "", "steps/s", "limit", "fraction", "spikes");
         for (std::size_t k = 2; k < all_.size(); ++k) {
             const auto& t = *all_[k];
             const double limit = std::min(t.bytes > 0 ? read / t.bytes : 1e99, additions / t.operations);

@@ -1,9 +1,8 @@
-// How fast is a recording as text read, and in how much memory? bench-read MEGABYTES FOLDER
+// How fast is a text recording read, and how much memory does it use? bench-read MEGABYTES FOLDER
 //
-// Method: a CSV of a time and 16 channels of steps of a foot, two decimals, is written to FOLDER, then read to its end, once each way:
-// its bytes alone (the limit: what fread gives), its numbers (every column into blocks), and as a recording of force with everything
-// that is looked at on the way, on a rate that is given (one pass) and on its own clock (two). Bytes of the file over wall seconds;
-// the peak of memory is the process's so far.
+// Method: a CSV file with a time and 16 channels of footsteps, two decimals, is written to FOLDER, then read completely in several ways:
+// only its bytes (the limit, given by fread); its numbers (every column into blocks); and as a force recording with all checks, at a given
+// rate (one pass) and on its own clock (two passes). Printed are bytes per wall second, and the peak memory of the process so far.
 
 #include <fmt/format.h>
 #include <sys/resource.h>
@@ -45,7 +44,7 @@ void report(const char* what, double bytes, const std::function<std::int64_t()>&
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     rusage used{};
     ::getrusage(RUSAGE_SELF, &used);
-    fmt::print("{:44} {:6.0f} MB/s {:6.2f} s {:12} rows, {:4} MB at the peak\n", what, bytes / seconds / 1e6, seconds, rows,
+    fmt::print("{:44} {:6.0f} MB/s {:6.2f} s {:12} rows, {:4} MB peak\n", what, bytes / seconds / 1e6, seconds, rows,
                used.ru_maxrss / 1024);
 }
 
@@ -84,7 +83,7 @@ int main(int argc, char** argv) {
     const std::string path = std::string(argc > 2 ? argv[2] : ".") + "/bench-read.csv";
     write_steps(path, megabytes);
     const auto bytes = static_cast<double>(std::filesystem::file_size(path));
-    bytes_alone(path);  // once before, so that the file is in memory for all alike if it fits
+    bytes_alone(path);  // warm-up: a file that fits into memory is cached for all measurements
     report("bytes alone (blocks of 1 MB)", bytes, [&] { return bytes_alone(path); });
     report("numbers", bytes, [&] { return numbers(path); });
     RecordingOptions by_rate, by_clock;

@@ -1,10 +1,10 @@
-// How do chips with mismatch come to rest: which way is it that finds where, and what does it cost?
+// Which method finds the operating points of chips with mismatch, and how long does it take?
 //
 //     bench-rests NETLIST [CHIPS] [SEED]
 //
-// Method: the netlist is read once; each chip draws its mismatch and its process (of the card's section that the netlist names) and is
-// solved, at first as .op has it, then as a transient begins, with the nodes of .ic held. Told are the chips that each way found, Newton's
-// steps (mean, median, most), and microseconds of processor a chip.
+// Method: the netlist is read once. Each chip has its own sample of mismatch and process (of the card's section in the netlist). It is
+// solved first like .op, then like the start of a transient, with the nodes of .ic held. Printed are the chips that each method solved,
+// Newton steps (mean, median, maximum), and microseconds of processor time per chip.
 
 #include <algorithm>
 #include <cstdio>
@@ -22,23 +22,23 @@ namespace {
 using namespace corpuscle;
 using namespace corpuscle::circuit;
 
-/// Of the processor: the machine may have others at work.
+/// Processor time, s; other load on the machine affects it less than wall time.
 double now() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
-struct Way {
+struct Method {
     std::vector<int> steps;
     double seconds = 0;
 };
 
-void tell(const char* what, std::map<std::string, Way>& ways) {
+void print_methods(const char* what, std::map<std::string, Method>& methods) {
     std::printf("%s\n", what);
-    for (auto& [name, way] : ways) {
+    for (auto& [name, way] : methods) {
         auto& s = way.steps;
         std::sort(s.begin(), s.end());
         double sum = 0;
         for (const int n : s) sum += n;
         const double count = static_cast<double>(s.size());
-        std::printf("  %-18s %6zu chips  steps mean %.1f median %d most %d  %.0f us each\n", name.c_str(), s.size(), sum / count,
+        std::printf("  %-18s %6zu chips  steps mean %.1f median %d max %d  %.0f us each\n", name.c_str(), s.size(), sum / count,
                     s[s.size() / 2], s.back(), 1e6 * way.seconds / count);
     }
 }
@@ -54,17 +54,17 @@ int main(int argc, char** argv) {
     if (!circuit) return std::fprintf(stderr, "%s\n", circuit.error().text().c_str()), 1;
     auto bench = AnalysisContext::make(std::make_shared<const Circuit>(std::move(*circuit)));
     if (!bench) return std::fprintf(stderr, "%s\n", bench.error().text().c_str()), 1;
-    const ChipSpec drawn{chips, argc > 3 ? std::strtoull(argv[3], nullptr, 10) : 1};
+    const ChipSpec sampled{chips, argc > 3 ? std::strtoull(argv[3], nullptr, 10) : 1};
     for (const bool held : {false, true}) {
-        std::map<std::string, Way> ways;
+        std::map<std::string, Method> methods;
         for (std::uint64_t k = 0; static_cast<double>(k) < chips; ++k) {
-            (*bench)->apply_variation(drawn.sample(k));
+            (*bench)->apply_variation(sampled.sample(k));
             const double start = now();
             const auto found = held ? (*bench)->initial_operating_point() : (*bench)->operating_point();
-            auto& way = ways[found ? std::string(found->method) : "lost"];
+            auto& way = methods[found ? std::string(found->method) : "lost"];
             way.seconds += now() - start;
             way.steps.push_back((*bench)->newton.iterations);
         }
-        tell(held ? "with .ic held" : "as .op", ways);
+        print_methods(held ? "with .ic held" : "as .op", methods);
     }
 }

@@ -1,6 +1,6 @@
 #!/bin/sh
-# How long until `corpuscle list` has printed all it knows, and until `corpuscle run` has solved 10 transistors? 200 whole processes, one
-# after another; the mean wall time.
+# How long does `corpuscle list` take to print everything, and `corpuscle run` to solve 10 transistors? Mean wall time of 200 complete
+# processes in sequence.
 set -eu
 program=$1
 n=200
@@ -12,7 +12,7 @@ time_of() {
     i=$((i + 1))
   done
   end=$(date +%s%N)
-  echo "corpuscle $1: $(((end - start) / n / 1000)) us a start, mean of $n processes (the shell's fork included)"
+  echo "corpuscle $1: $(((end - start) / n / 1000)) us per start, mean of $n processes (the shell's fork included)"
 }
 time_of list
 time_of run "$(dirname "$0")/../circuits/bias.cir"

@@ -1,8 +1,8 @@
-// How many samples a second does one afferent answer on one core, without lanes?
+// How many samples per second does one afferent process on one core, without SIMD lanes?
 //
-// Method: one second of the press, or of a 30 Hz sine about 1 N, at 10 kHz in a block of 10,000 samples, over and over with
-// the state carried on; spikes go to memory. The time is the process's own; the median of 9 runs is the number. Counters say
-// the work done: samples a second, and spikes a sample (the press is rest for half its length; the sine keeps it busy).
+// Method: one second of the press, or of a 30 Hz sine about 1 N, at 10 kHz in a block of 10,000 samples, repeated with the
+// state carried over; spikes are kept in memory. Processor time; the median of 9 runs is the result. Counters give the work:
+// samples per second, and spikes per sample (the press is at rest for half its length; the sine keeps the afferent active).
 
 #include <benchmark/benchmark.h>
 

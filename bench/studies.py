@@ -1,8 +1,8 @@
 #!/usr/bin/python3
-"""How long does it take to make every figure and table again?   studies.py CORPUSCLE
+"""How long does it take to reproduce every figure and table?   studies.py CORPUSCLE
 
-`corpuscle study all`, a whole process, three times; then without the studies that draw chips by the thousand. Wall time
-and processor time, the middle of three. Asked: 60 s on two cores without the draws, 90 s with them.
+Runs `corpuscle study all` as a complete process three times, then without the studies that sample thousands of chips.
+Prints wall time and processor time, medians of three. Targets: 60 s on two cores without these studies, 90 s with them.
 """
 import json
 import resource

@@ -1,9 +1,10 @@
-// What do rank 0's parts of a sweep cost: a row written, an outcome in a message, a message, a block? And what is a file of 1e6 rows like?
-//   bench-sweep [UNITS [FOLDER]]        rows: 1e6 units, 6 axes, 10 measures, a train of 15 spikes; random numbers
-//   mpirun -n 2 bench-sweep             messages between two ranks (what -n 2 binds to different cores)
-// Rows go through SweepResults::add in batches of 8192, each a transaction on disk; then the file is folded, and asked. One run; times of
-// the wall, and of the processor, which is what rank 0 has to give: others at work on the machine change it less. Messages: the mean of
-// 20,000, one after another; of rank 0 the processor's time in the calls that send one and that find one.
+// How long do rank 0's operations of a sweep take: write a row, pack an outcome, exchange a message? How large and fast is a file of 1e6
+// rows?
+//   bench-sweep [ITEMS [FOLDER]]        rows: 1e6 work items, 6 axes, 10 measures, a train of 15 spikes; random numbers
+//   mpirun -n 2 bench-sweep             messages between two ranks (-n 2 binds them to different cores)
+// Rows are written by SweepResults::add in batches of 8192, each a transaction on disk; then the file is checkpointed and queried. One run.
+// Printed are wall time and processor time; processor time is rank 0's limit and depends less on other load. Messages: the mean of 20,000
+// in sequence, and rank 0's processor time in the calls that send and receive one.
 
 #include <fmt/format.h>
 #include <sys/resource.h>
@@ -70,7 +71,7 @@ public:
     }
 };
 
-void ask(const SweepResults& results, const char* query) {
+void run_query(const SweepResults& results, const char* query) {
     const auto begun = Clock::now();
     const auto answer = sql::query_integer(results.handle(), results.path(), query);
     fmt::print("  {:.3f} s  {}  ({})\n", since(begun), query, answer ? *answer : -1);
@@ -101,16 +102,16 @@ int rows(std::int64_t units, const std::string& folder) {
     const auto begun = Clock::now();
     const auto folded = results->checkpoint();
     const auto n = static_cast<double>(units);
-    fmt::print("{} rows: {:.2f} us of the processor a row, {:.2f} us of the wall ({:.0f} a second)\n", units, writing / n * 1e6,
+    fmt::print("{} rows: {:.2f} us of processor time per row, {:.2f} us of wall time ({:.0f} rows/s)\n", units, writing / n * 1e6,
                writing_wall / n * 1e6, n / writing_wall);
-    fmt::print("to pack an outcome {:.2f} us, to unpack it {:.2f} us of the processor\n", packing / n * 1e6, unpacking / n * 1e6);
-    fmt::print("folded in {:.2f} s{}: {:.0f} MB, {:.0f} bytes a row; memory {:.0f} MB after a tenth, {:.0f} MB in the end\n", since(begun),
-               folded ? "" : " (failed)", static_cast<double>(std::filesystem::file_size(path)) / 1e6,
+    fmt::print("packing an outcome {:.2f} us, unpacking it {:.2f} us of processor time\n", packing / n * 1e6, unpacking / n * 1e6);
+    fmt::print("checkpoint in {:.2f} s{}: {:.0f} MB, {:.0f} bytes per row; memory {:.0f} MB after a tenth, {:.0f} MB at the end\n",
+               since(begun), folded ? "" : " (failed)", static_cast<double>(std::filesystem::file_size(path)) / 1e6,
                static_cast<double>(std::filesystem::file_size(path)) / n, at_tenth, memory_MB());
-    ask(*results, "SELECT count(*) FROM units");
-    ask(*results, "SELECT avg(measure3) * 1e6 FROM units");
-    ask(*results, "SELECT count(*) FROM units WHERE measure0 < 0.5 AND measure9 > 0.1 AND ended = 'done'");
-    ask(*results, "SELECT length(times) FROM spikes WHERE unit = 77777 AND train = 0");
+    run_query(*results, "SELECT count(*) FROM units");
+    run_query(*results, "SELECT avg(measure3) * 1e6 FROM units");
+    run_query(*results, "SELECT count(*) FROM units WHERE measure0 < 0.5 AND measure9 > 0.1 AND ended = 'done'");
+    run_query(*results, "SELECT length(times) FROM spikes WHERE unit = 77777 AND train = 0");
     std::filesystem::remove(path);
     return 0;
 }
@@ -143,7 +144,7 @@ int messages() {
         while (ranks.unsent() > 0) {
         }
         if (first)
-            fmt::print("a message of {} bytes: {:.2f} us there; {:.2f} us of rank 0's processor to receive one and send one\n", size,
+            fmt::print("a message of {} bytes: {:.2f} us one way; {:.2f} us of rank 0's processor to receive one and send one\n", size,
                        since(begun) / count / 2 * 1e6, at_work / count * 1e6);
     }
     ranks.leave(true);

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""How long does a thousand chips of SA-I take under the press, and how does that go with cores and lanes?
+"""How long do a thousand chips of SA-I take under the press, and how does the time depend on cores and lanes?
 
     bench/thousand.py CORPUSCLE [CHIPS]
 
-Method: examples/sweeps/sa1-chips.toml as it stands (process and mismatch, 1.0 s of press, spikes and ten measures stored), into a file on
-disk, wall time of the whole command. On two threads with all its chips; a tenth of them on one thread, and on one thread with 4 lanes and
-with 1, whose results must be the same. bench-batch has the same by iteration, and beside chips alone; peers/chip.py a chip in ngspice.
+Method: examples/sweeps/sa1-chips.toml unchanged (process and mismatch, 1.0 s of press, spikes and ten measures stored), into a file on
+disk; wall time of the complete command. All chips run on two threads. A tenth of them runs on one thread, with the default lanes, with 4
+lanes and with 1; their results must be equal. bench-batch times single iterations and scalar chips; peers/chip.py times a chip in ngspice.
 """
 import os
 import subprocess

@@ -1,10 +1,9 @@
-// What does one transistor cost: currents, charges, their 32 slopes, both junctions?
+// How long does one transistor evaluation take: currents, charges, their 32 derivatives, both junctions?
 //
-// Method: one NMOS of 1.5/0.5 um with every part of the model switched on (velocity saturation, DIBL, Early voltage, junctions,
-// overlaps), at 512 points of voltages drawn once between -0.2 and 1 V, so that the work fits the first cache and no branch could be
-// learned. All that comes out is summed. A lane is one transistor at one point. The time is the process's own; of 15 rounds of
-// about 20 ms the median, least and greatest are printed, for one number at a time and for the lanes of each instruction set this
-// machine has.
+// Method: one NMOS of 1.5/0.5 um with every effect of the model enabled (velocity saturation, DIBL, Early voltage, junctions, overlaps), at
+// 512 random voltage points between -0.2 and 1 V. The data fit the first-level cache, and no branch is predictable. All results are summed.
+// A lane is one transistor at one point. Processor time; printed are median, minimum and maximum of 15 rounds of about 20 ms, for scalar
+// code and for the SIMD lanes of each instruction set of this machine.
 
 #include <algorithm>
 #include <cstdio>
@@ -25,7 +24,7 @@ using namespace corpuscle::circuit;
 
 constexpr std::size_t count = 512, rounds = 64;
 
-double one_by_one(const UicmConstants& constants, const double* const (&v)[4], std::size_t points, std::size_t times) {
+double scalar_rounds(const UicmConstants& constants, const double* const (&v)[4], std::size_t points, std::size_t times) {
     const Uicm<double> device(constants);
     UicmEvaluation<double> answer;
     double sum = 0;
@@ -45,15 +44,15 @@ double seconds() {
 
 void measure(std::string_view name, test::UicmTimingFunction run, const UicmConstants& constants, const double* const (&v)[4]) {
     std::vector<double> ns;
-    volatile double kept = 0;
+    volatile double result = 0;
     for (int repeat = 0; repeat < 16; ++repeat) {
         const double start = seconds();
-        kept = run(constants, v, count, rounds);
+        result = run(constants, v, count, rounds);
         if (repeat > 0) ns.push_back((seconds() - start) / static_cast<double>(count * rounds) * 1e9);
     }
     std::sort(ns.begin(), ns.end());
     std::printf("%-9.*s %6.1f ns a lane (%.1f ... %.1f), sum %.6g\n", static_cast<int>(name.size()), name.data(), ns[ns.size() / 2],
-                ns.front(), ns.back(), static_cast<double>(kept));
+                ns.front(), ns.back(), static_cast<double>(result));
 }
 
 }  // namespace
@@ -68,7 +67,7 @@ int main() {
     for (std::uint32_t n = 0; n < 4; ++n)
         for (std::size_t k = 0; k < count; ++k) v[n][k] = std::clamp(0.4 + 0.3 * normal(1, n, 0, k), -0.2, 1.0);
     const double* const points[4] = {v[0], v[1], v[2], v[3]};
-    measure("one", one_by_one, constants, points);
+    measure("one", scalar_rounds, constants, points);
     measure("baseline", test::baseline::uicm_evaluate_rounds, constants, points);
 #ifdef __x86_64__
     if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) measure("avx2", test::avx2::uicm_evaluate_rounds, constants, points);

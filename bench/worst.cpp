@@ -1,12 +1,12 @@
-// Which transistors' mismatch decides how often a chip fires, and is it so?
+// Which transistors' mismatch determines the spike count of a chip? Checks the result by enlarging them.
 //
 //     bench-worst sa1|fa1 [CHIPS] [SEED]
 //
-// Method: chips with mismatch alone, each under the press; the spikes' ranks over the chips are correlated with each transistor's two
-// deviates (threshold, current), drawn again as the chip drew them. A transistor's share is the sum of both squares. The three with the
-// greatest shares are made four times as large (W and L doubled), and the same chips are pressed again. Told are mean and deviation of the
-// number of spikes, before and after, of each of the three enlarged alone and of all together; and how many chips keep to the limits of
-// FiringLimits::about the model.
+// Method: chips with only mismatch, each under the press. The ranks of their spike counts are correlated with the two deviates of each
+// transistor (threshold, current), sampled again as in the chip. A transistor's contribution is the sum of both squares. The three with
+// the largest contributions get four times the area (W and L doubled), and the same chips run again. Printed are mean and deviation of the
+// spike count before and after, for each of the three alone and for all together; and the number of chips within FiringLimits::around the
+// model.
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -65,7 +65,7 @@ Trains pressed(const std::shared_ptr<const CircuitAfferentFactory>& design, cons
     return out;
 }
 
-/// Ranks of these numbers, equal ones in the middle of theirs, as deviations from their mean.
+/// Ranks of the numbers (equal numbers share their mean rank), relative to the mean rank.
 std::vector<double> ranks(const std::vector<double>& x) {
     std::vector<double> out;
     for (const double v : x) {
@@ -81,16 +81,16 @@ double correlation(const std::vector<double>& a, const std::vector<double>& b) {
     return product(a, b) / std::sqrt(product(a, a) * product(b, b));
 }
 
-void tell(const char* what, const Trains& trains, const FiringLimits& limits) {
+void print_statistics(const char* what, const Trains& trains, const FiringLimits& limits) {
     double sum = 0, squares = 0;
-    long kept = 0;
+    long within = 0;
     for (const auto& t : trains) {
         const auto n = static_cast<double>(t.size());
-        sum += n, squares += n * n, kept += limits.are_met(t);
+        sum += n, squares += n * n, within += limits.are_met(t);
     }
     const auto count = static_cast<double>(trains.size());
-    fmt::print("{:40} {:6.2f} spikes, deviation {:6.3f}; {} of {} chips keep to the limits\n", what, sum / count,
-               std::sqrt(squares / count - sum * sum / count / count), kept, trains.size());
+    fmt::print("{:40} {:6.2f} spikes, deviation {:6.3f}; {} of {} chips are within the limits\n", what, sum / count,
+               std::sqrt(squares / count - sum * sum / count / count), within, trains.size());
     std::fflush(stdout);
 }
 
@@ -108,17 +108,17 @@ int main(int argc, char** argv) {
 
     const auto designed = design_of(netlist, {});
     const auto before = pressed(designed, chips, press);
-    tell("as designed", before, limits);
+    print_statistics("as designed", before, limits);
     std::vector<double> counts;
     for (const auto& t : before) counts.push_back(static_cast<double>(t.size()));
     const auto order = ranks(counts);
 
-    struct Share {
+    struct Contribution {
         const Element* device;
         double by_threshold, by_current;
         double all() const { return by_threshold * by_threshold + by_current * by_current; }
     };
-    std::vector<Share> shares;
+    std::vector<Contribution> contributions;
     UicmCard card;
     card.A_VT = card.A_IS = 1;
     UicmInstance square;
@@ -131,23 +131,24 @@ int main(int argc, char** argv) {
             const auto own = sample_mismatch(card, square, chips.seed, number, k);
             threshold.push_back(own.V_T), current.push_back(std::log(own.factor));
         }
-        shares.push_back({&e, correlation(order, threshold), correlation(order, current)});
+        contributions.push_back({&e, correlation(order, threshold), correlation(order, current)});
         ++number;
     }
-    std::sort(shares.begin(), shares.end(),
-              [](const Share& a, const Share& b) { return std::pair(-a.all(), a.device) < std::pair(-b.all(), b.device); });
+    std::sort(contributions.begin(), contributions.end(),
+              [](const Contribution& a, const Contribution& b) { return std::pair(-a.all(), a.device) < std::pair(-b.all(), b.device); });
     std::vector<NetlistOverride> all;
     for (std::size_t k = 0; k < 8; ++k)
-        fmt::print("  {:20} threshold {:+.2f}, current {:+.2f}\n", shares[k].device->name, shares[k].by_threshold, shares[k].by_current);
+        fmt::print("  {:20} threshold {:+.2f}, current {:+.2f}\n", contributions[k].device->name, contributions[k].by_threshold,
+                   contributions[k].by_current);
     for (std::size_t k = 0; k < 3; ++k) {
-        const auto& e = *shares[k].device;
+        const auto& e = *contributions[k].device;
         std::vector<NetlistOverride> own;
         for (const char* side : {"w", "l"}) own.push_back({e.name + "." + side, fmt::format("{:.17g}", 2 * e.values.at(side)), e.name});
         all.insert(all.end(), own.begin(), own.end());
-        tell(fmt::format("{} four times as large", e.name).c_str(), pressed(design_of(netlist, own), chips, press), limits);
+        print_statistics(fmt::format("{} four times as large", e.name).c_str(), pressed(design_of(netlist, own), chips, press), limits);
     }
     const auto larger = design_of(netlist, all);
-    tell("all three", pressed(larger, chips, press), limits);
+    print_statistics("all three", pressed(larger, chips, press), limits);
     const auto plain = [&](const std::shared_ptr<const CircuitAfferentFactory>& design) {
         return run_chip_scalar({0, design, {}, press.force, 1 / press.rate}, {}).spikes.size();
     };

@@ -1,4 +1,4 @@
-// Block by block, as force arrives: the state is carried by the caller, and may be copied, saved and resumed.
+// Block by block, as force arrives. The caller holds the state, and may copy, save and resume it.
 
 #include <cstdio>
 
@@ -17,7 +17,7 @@ int main() {
     for (int block = 0; block < 20; ++block) {
         std::vector<double> force(50, block < 10 ? 0.2 : 3.0);  // N: a step after half a second
         if (auto ok = afferent->respond(force, state, answer); !ok) return std::puts(ok.error().text().c_str()), 1;
-        state = *unpack(pack(state));  // to disk and back, if you like
+        state = *unpack(pack(state));  // optional: save the state to disk and read it back
     }
     for (const auto& s : spikes) std::printf("%.4f s\n", Clock{1000, 1}.time(s.step, s.offset));
     return spikes.empty();

@@ -1,4 +1,4 @@
-// Ten thousand slowly adapting afferents under one press, each feeling its own share of the force: how many fire in each 50 ms.
+// Ten thousand slowly adapting afferents under one press, each with its own gain on the force. Prints the number of spikes in each 50 ms.
 
 #include <cstdio>
 

@@ -1,4 +1,4 @@
-// A robot's loop at 1 kHz: forces of 64 taxels in, spikes out within the same millisecond.
+// The loop of a robot at 1 kHz: the forces of 64 taxels in, spikes out within the same millisecond.
 
 #include <chrono>
 #include <corpuscle.hpp>
@@ -11,7 +11,7 @@ int main() {
     long spikes = 0;
     auto next = std::chrono::steady_clock::now();
     for (int k = 0; k < 500; ++k) {
-        for (std::size_t s = 0; s < frame.size(); ++s) frame[s] = k < 100 ? 0 : s % 8 < 4 ? 1.5 : 0;  // here a robot reads its sensors
+        for (std::size_t s = 0; s < frame.size(); ++s) frame[s] = k < 100 ? 0 : s % 8 < 4 ? 1.5 : 0;  // a real robot reads its sensors here
         skin.push(frame, [&](const corpuscle::LiveSkin::Event& e) {
             if (spikes++ < 10) std::printf("%.4f s  %s\n", e.time, skin.afferent_name(e.afferent_index).c_str());
         });

@@ -14,7 +14,7 @@ constexpr std::size_t max_rows = 30;
 constexpr std::size_t max_rows_with_silent = 8;  // longer tables omit pairs without spikes
 
 /// The counts of all phases: "0 5 8 1 0".
-std::string by_phase(const VersionComparison& c, std::size_t Comparison::PhaseCount::*count) {
+std::string by_phase(const VersionComparison& c, std::size_t VersionComparison::PhaseCount::*count) {
     std::string text;
     for (const auto& p : c.phases) text += fmt::format("{}{}", text.empty() ? "" : " ", p.*count);
     return text.empty() ? "-" : text;

@@ -1,12 +1,12 @@
-"""How many afferents does Brian2 step a second, on one core, doing the works of work.py?
+"""How many afferent-steps per second does Brian2 compute on one core, for the tasks of work.py?
 
-Method: C++ standalone, no OpenMP. One group; a step is one `run_regularly`, then threshold, monitor and reset. What all afferents
-share is a TimedArray in time, so the transduction of `shared` costs nothing; the forces of `streamed` are a TimedArray in time and
-afferent, fetched in a `run_regularly` of its own, for in one with the rest the compiler finds no lanes. Time is Brian2's own, of
-the loop over steps alone (processor time): not the making and compiling of code, not reading the forces, not writing the spikes.
-The same program runs again and again; the median of the runs is the number. Spikes are kept as time and afferent (monitor: spikes);
-`count` only counts them for each afferent, `rate` for each step, `none` lets the reset count them. Flags: `default` are Brian2's
-own, `strict` keeps the order of sums, `unrolled` is the fastest: the search for spikes has no lanes and gains by it.
+Method: C++ standalone, no OpenMP. One group; a step is one `run_regularly`, then threshold, monitor and reset. Inputs common to all
+afferents are a TimedArray in time, so the receptor of `shared` costs nothing. The forces of `streamed` are a TimedArray in time and
+afferent, fetched in a separate `run_regularly`, because the compiler does not vectorize a combined one. The time is Brian2's own processor
+time of the loop over steps. It excludes generating and compiling code, reading the forces, and writing the spikes. The same program runs
+several times; the median is the result. Spikes are stored as time and afferent (monitor: spikes). `count` only counts them per afferent,
+`rate` per step, and with `none` the reset counts them. Flags: `default` are Brian2's own, `strict` keeps the order of sums, `unrolled` is
+the fastest, because the search for spikes is not vectorized and benefits from unrolling.
 
     brian2_standalone.py [--work shared ...] [--dtype float32 ...] [--form folded ...] [--n 100000] [--runs 5]
                          [--flags unrolled | default | strict | =FLAGS] [--monitor spikes | count | rate | none] [--rectify clip | int | abs]
@@ -20,7 +20,7 @@ from pathlib import Path
 import numpy as np
 import work
 
-warnings.simplefilter("ignore")  # of the libraries, about each other
+warnings.simplefilter("ignore")  # warnings of the libraries about each other
 import brian2 as b2  # noqa: E402
 
 FLAGS = {
@@ -28,7 +28,7 @@ FLAGS = {
     "default": "-w -O3 -ffast-math -fno-finite-math-only -march=native -std=c++11",  # Brian2's own
     "strict": "-w -O3 -march=native -ffp-contract=off -std=c++11",
 }
-# max{x, 0}, three ways to say it
+# three expressions for max{x, 0}
 RECTIFY = {"clip": "clip({0}, 0, inf)", "int": "int(({0}) > 0)*({0})", "abs": "0.5*(({0}) + abs({0}))"}
 
 
@@ -36,7 +36,7 @@ FETCH = "F_before = F\nF = frames(t, i)"
 
 
 def step_of(name, folded, rectify):
-    """What happens in a step of the work: the transduction, then the rise of u, held at E_L = 0. Before that of `streamed`, FETCH."""
+    """Code of one step of the task: the receptor, then the increase of u, limited below to E_L = 0. For `streamed`, FETCH comes first."""
     positive = RECTIFY[rectify].format
     if name == "shared":
         lines = ["du = g*current_k(t) - leak_k" if folded else "du = (g*current(t) - I_leak0)*k"]
@@ -53,7 +53,7 @@ def step_of(name, folded, rectify):
 
 
 def constants(name, n):
-    """By their names in the steps. Variables of the group, most of one value: as literals they would be doubles among floats."""
+    """Parameters by their names in the step code, as variables of the group. Literals would be doubles among floats."""
     k = work.K
     return {"k": k, "k_A": work.K_A, "K_B": work.K_B, "K_C": work.K_C, "I_leak0": work.I_LEAK0, "keep_C": work.keep(work.F_C),
             "k_A_k": work.K_A * k, "K_B_k": work.K_B * k, "K_C_k": work.K_C * k, "leak_k": work.I_LEAK0 * k,
@@ -61,7 +61,7 @@ def constants(name, n):
 
 
 def forces(name, n, dtype):
-    """What is felt, as functions of time."""
+    """Inputs of the afferents, as functions of time."""
     press = np.array(work.press(work.SAMPLES[name]))
     current = np.array(work.currents(list(press)))
     felt = {"press": press, "change": np.diff(press, prepend=press[0]), "current": current, "current_k": current * work.K}
@@ -90,7 +90,7 @@ def afferents(name, dtype, folded, n, rectify):
 
 
 def monitor_of(kind, group, n):
-    """What watches for spikes, if anything, and a function that gives their number after a run."""
+    """The monitor for spikes, if any, and a function that returns their number after a run."""
     if kind == "rate":
         rate = b2.PopulationRateMonitor(group)
         return [rate], lambda: round(float(np.sum(rate.rate / b2.Hz)) * work.DT * n)
@@ -102,7 +102,7 @@ def monitor_of(kind, group, n):
 
 
 def build(name, dtype, form, words, directory):
-    """Makes the program in the directory and runs it once. Returns the number of spikes."""
+    """Builds the program in the directory and runs it once. Returns the number of spikes."""
     b2.device.reinit()
     b2.set_device("cpp_standalone", build_on_run=False)
     b2.prefs.core.default_float_dtype = np.dtype(dtype).type
@@ -117,7 +117,7 @@ def build(name, dtype, form, words, directory):
 
 
 def run(directory):
-    """Runs the program again. Returns the seconds of its loop over steps, by its own clock."""
+    """Runs the program again. Returns the time (s) of its loop over steps, by its own measurement."""
     subprocess.run(["./main"], cwd=directory, check=True, stdout=subprocess.DEVNULL)
     return float(Path(directory, "results", "last_run_info.txt").read_text(encoding="utf-8").split()[0])
 

@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
-"""The SA-I chip under the thesis's press: how long one second of touch takes, how exact its spikes are, and what ngspice takes.
+"""The SA-I chip under the thesis's press: time for one second of touch, accuracy of its spikes, and time of ngspice.
 
     chip.py CORPUSCLE CHIP_CIR [--until SECONDS] [--rounds N] [--keep DIR]
 
-Method: `corpuscle run` on the netlist with its default accuracy, N times (the quickest and the middle one are told; whole processes,
-processor's seconds), and once with tolerances a hundred times tighter, whose spikes are the measure of the others'. Then ngspice on the
-netlist as `corpuscle export` writes it (the same transistors by formulas, the force as straight lines), with our tolerances instead of
-the far tighter ones of the deck, up to SECONDS of the press, once; and ours again up to there. A spike is where v(s) rises through half
-the supply, on the straight line between two points. One core each, one after the other.
+Method: `corpuscle run` on the netlist with its default accuracy, N times (printed are the fastest and the median; processor seconds of
+complete processes), and once with tolerances a hundred times tighter as the reference for the spikes. Then ngspice runs once on the netlist
+as exported by `corpuscle export` (the same transistors as expressions, the force as a piecewise linear source), up to SECONDS of the press.
+It uses Corpuscle's tolerances instead of the much tighter ones of the deck. Corpuscle runs again up to the same time. A spike is an upward
+crossing of half the supply by v(s), interpolated linearly between two points. One core each, in sequence.
 """
 import argparse
 import re
@@ -18,7 +18,7 @@ import subprocess
 import tempfile
 from pathlib import Path
 
-OPTIONS = "reltol=1e-5 abstol=1e-16 vntol=1e-9"  # with looser floors picoamperes are lost, and no spike comes
+OPTIONS = "reltol=1e-5 abstol=1e-16 vntol=1e-9"  # looser values lose picoamperes, and the chip does not fire
 
 
 def timed(command):
@@ -31,7 +31,7 @@ def timed(command):
 
 
 def spikes(raw):
-    """Where v(s) rises through 0.35 V, of a binary .raw file's last plot."""
+    """Times (s) at which v(s) crosses 0.35 V upward, in the last plot of a binary .raw file."""
     head, _, body = Path(raw).read_bytes().rpartition(b"Binary:\n")
     head = head.decode(errors="replace")[-100000:]
     head = head[head.rindex("No. Variables"):]
@@ -50,7 +50,7 @@ class Chip:
             self.text = re.sub(rf"(?m)^\.{kind} '([^']*)'", lambda m: f".{kind} '{(netlist.parent / m[1]).resolve()}'", self.text)
 
     def netlist(self, name, until, options):
-        """The chip with these options, stopped there."""
+        """Text of the chip's netlist with these options and stop time."""
         text = re.sub(r"(?m)^\.tran (\S+) \S+", rf".tran \1 {until}", self.text).replace("\n.end", f"\n.options {options}\n.end")
         path = self.folder / f"{name}.cir"
         path.write_text(text)
@@ -100,12 +100,12 @@ def main():
         rounds = sorted((chip.ours("default", 1) for _ in range(given.rounds)), key=lambda run: run[0])
         middle = statistics.median(run[0] for run in rounds)
         row("corpuscle, 1 s of touch", rounds[0])
-        print(f"{'':<26}{middle:9.3f} s is the middle of {given.rounds} rounds")
+        print(f"{'':<26}{middle:9.3f} s is the median of {given.rounds} rounds")
         tight = chip.ours("tight", 1, "reltol=1e-7 vntol=1e-8")
         row("a hundredth of reltol", tight)
         worst = max((abs(a - b) for a, b in zip(rounds[0][2], tight[2])), default=float("nan"))
         same = "as many" if len(rounds[0][2]) == len(tight[2]) else "NOT as many"
-        print(f"{'':<26}{same} spikes, the furthest {1e6 * worst:.0f} us off")
+        print(f"{'':<26}{same} spikes, largest difference {1e6 * worst:.0f} us")
         mine, peer = chip.ours("part", given.until), chip.theirs(given.until)
         row(f"corpuscle, {given.until:g} s of it", mine)
         row(f"ngspice, {given.until:g} s of it", peer)

@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
-"""A Monte Carlo of the bias generator beside ngspice: operating points of chips whose transistors each have a mismatch.
+"""A Monte Carlo of the bias generator compared with ngspice: operating points of chips with mismatch in each transistor.
 
     chips.py CORPUSCLE BENCH_CHIPS NETLIST [CHIPS] [CHIPS_OF_NGSPICE]
 
-Method: `bench-chips` solves its chips; then ngspice runs the same circuit, as `corpuscle export` writes it, with normal deviates of the
-same sizes added to each transistor's threshold and current (agauss), chip after chip in one process (reset, op), as people do it there.
-Its deviates are its own, so that means and deviations of v(q), not single chips, are compared. ngspice's time is that of its whole
-process less that of a process that does one chip. A chip is lost where ngspice says that the operating point failed, and wrong where
-v(q) lies further than 20 deviations of ours from our mean.
+Method: `bench-chips` solves its chips. Then ngspice runs the same circuit as exported by `corpuscle export`, with normal deviates of the
+same sizes added to each transistor's threshold and current (agauss), chip after chip in one process (reset, op), as is usual there. Its
+deviates differ from Corpuscle's, so only means and deviations of v(q) are compared, not single chips. ngspice's time is the time of its
+complete process less the time of a process with one chip. A chip has failed if ngspice reports a failed operating point. It is wrong if
+v(q) differs from Corpuscle's mean by more than 20 of its standard deviations.
 """
 import math
 import re
@@ -25,7 +25,7 @@ of_card = {name: float(value) * {"": 1, "m": 1e-3, "u": 1e-6, "n": 1e-9, "p": 1e
 
 
 def with_chance(deck):
-    """The deck with deviates on each transistor's vt and is, after the size of its gate."""
+    """The deck with deviates on each transistor's vt and is, according to its gate area."""
     def size(match):
         area = float(match["cox"]) / of_card["cox"]
         return (f"{match['name']}vt={{{match['vt']}+agauss(0,{of_card['avt'] / math.sqrt(area)},1)}}{match['between']}"
@@ -59,7 +59,7 @@ one = min(ngspice(1)[0] for _ in range(3))
 seconds, values, lost = ngspice(of_ngspice + 1)
 peer = (seconds - one) / of_ngspice * 1e6
 good = [v for v in values if abs(v - mean) < 20 * deviation]
-print(f"ngspice:   {of_ngspice} chips: {peer:.0f} us each, {lost} lost, {len(values) - len(good)} wrong")
+print(f"ngspice:   {of_ngspice} chips: {peer:.0f} us each, {lost} failed, {len(values) - len(good)} wrong")
 print(f"v(q): ours {mean * 1e3:.3f} mV, deviation {deviation * 1e3:.3f} mV; ngspice {statistics.mean(good) * 1e3:.3f} mV, "
       f"{statistics.stdev(good) * 1e3:.3f} mV")
 print(f"ngspice's time over ours: {peer / us:.0f}")

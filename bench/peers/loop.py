@@ -1,14 +1,15 @@
 #!/usr/bin/env python3
-"""The loop of 108 arrays of transistors in time, beside ngspice: one second of touch.
+"""Transient of the loop of 108 transistor arrays compared with ngspice: one second of touch.
 
     loop.py CORPUSCLE LOOP_CIR [SECONDS_AT_THE_MOST] [--keep DIR]
 
-Method: `bench/decks/loop.cir` runs here as it is, and in ngspice twice: its transistors by formulas of the same numbers (two inner nodes
-y = ln q each, as people write such a model there), and by BSIM3, of the same sizes, with a membrane of 10 pF for its leakage: a measure of
-time, not of spikes. All else is the same text: topology, sources, tolerances (`.options`, which ngspice needs as tight as they are: at
-its own it stops or invents spikes), longest step. Each runs once, one after the other, on one core; seconds are of whole processes.
-A spike is where v(s) rises through 0.35 V, on the straight line between two points. Seconds of wall and of processor stand beside each
-other; what is told per iteration and per spike, and the ratios, are of the processor's, which a busy machine disturbs less.
+Method: `bench/decks/loop.cir` runs here unchanged, and in ngspice twice. The first run has its transistors as expressions with the same
+parameters (two inner nodes y = ln q each, the usual form of such a model there). The second has BSIM3 transistors of the same sizes and,
+because of their leakage, a membrane of 10 pF; it compares only time, not spikes. Everything else is the same text: topology, sources,
+tolerances, maximum step. ngspice needs the tight tolerances of `.options`; with its defaults it stops or produces false spikes. Each runs
+once, in sequence, on one core; times are of complete processes. A spike is an upward crossing of 0.35 V by v(s), interpolated linearly
+between two points. Wall and processor seconds are printed side by side. Times per iteration and per spike, and the ratios, use processor
+time, because other load on the machine affects it less.
 """
 import re
 import resource
@@ -84,7 +85,7 @@ def ngspice_deck(text, model, raw):
 
 
 def spikes(raw):
-    """Where v(s) rises through 0.35 V, of a binary .raw file."""
+    """Times (s) at which v(s) crosses 0.35 V upward, from a binary .raw file."""
     head, _, body = Path(raw).read_bytes().partition(b"Binary:\n")
     head = head.decode()
     variables, points = (int(re.search(rf"No. {what}: *(\d+)", head)[1]) for what in ("Variables", "Points"))
@@ -95,7 +96,7 @@ def spikes(raw):
 
 
 def timed(command):
-    """Seconds of wall and processor, and what it printed; None: it was stopped."""
+    """Wall and processor seconds, and the output; None if it was stopped."""
     def processor():
         used = resource.getrusage(resource.RUSAGE_CHILDREN)
         return used.ru_utime + used.ru_stime
@@ -109,7 +110,7 @@ def timed(command):
 
 def row(name, seconds, numbers, raw):
     if seconds is None:
-        print(f"{name:<18} not done in {at_most:g} s")
+        print(f"{name:<18} not finished in {at_most:g} s")
         return None
     steps, rejected, iterations = numbers
     found = spikes(raw)

@@ -1,8 +1,8 @@
-"""How many afferents does NumPy step a second, on one core, doing the works of work.py?
+"""How many afferent-steps per second does NumPy compute on one core, for the tasks of work.py?
 
-Method: as a careful user of NumPy would write it. Every operation writes in place, into arrays made before the clock starts, and
-afferents are taken in blocks that stay in cache (256 kB an array), all steps of one block before the next. Each spike is kept as
-its step and afferent. A first run, not timed, sees that nobody fires twice in a step; then the median wall time of the runs.
+Method: carefully optimized NumPy. Every operation writes in place, into arrays allocated before the timing starts. Afferents are
+processed in blocks that stay in cache (256 kB per array), all steps of one block before the next. Each spike is stored as its step and
+afferent. A first run, not timed, checks that no afferent fires twice in a step; the result is the median wall time of the runs.
 
     numpy_in_place.py [--work shared ...] [--dtype float32 ...] [--form folded ...] [--n 100000] [--runs 5] [--block AFFERENTS]
 """
@@ -25,7 +25,7 @@ def constants(dtype):
 
 
 class Task:
-    """What is known before the clock starts."""
+    """Everything that is computed before the timing starts."""
 
     def __init__(self, name, dtype, form, n):
         self.name, self.dtype, self.folded, self.n, self.c = name, dtype, form == "folded", n, constants(dtype)
@@ -37,7 +37,7 @@ class Task:
 
 
 def shared(task, rows):
-    """A function that gives what u rises by in a step (before E_L), afferents `rows`, in an array that is used again."""
+    """Returns a function that computes the increase of u in a step (before E_L) for the afferents `rows`, in a reused array."""
     c, g = task.c, task.g[rows]
     du = np.empty_like(g)
     I = [task.dtype(I * work.K if task.folded else I) for I in work.currents(task.press)]
@@ -55,7 +55,7 @@ def shared(task, rows):
 
 
 def transduction(task, rows, du):
-    """A function that adds to du, which holds k_A F, what the changing force dF gives, and makes a rise of u of it."""
+    """Returns a function that adds the current of the force change dF to du, which contains k_A F, and converts it to an increase of u."""
     c, keep_C, keep_B = task.c, task.c.keep_C, task.keep_B[rows]
     if task.name == "streamed":
         keep_B = keep_B[0]
@@ -119,7 +119,7 @@ def streamed(task, rows):
 
 
 def fire(task, rows, rise, watched):
-    """All steps of afferents `rows`; their spikes as (step, first of rows, those of rows that fired)."""
+    """Computes all steps of the afferents `rows`; returns their spikes as (step, first row, rows that fired)."""
     c, spikes = task.c, []
     u, over = np.full(rows.stop - rows.start, c.E_L), np.empty(rows.stop - rows.start, bool)
     for step in range(len(task.press)):
@@ -135,7 +135,7 @@ def fire(task, rows, rise, watched):
 
 
 def run(task, block, watched=False):
-    """The whole work once: its seconds and its spikes."""
+    """Runs the complete task once; returns its time (s) and its spikes."""
     make = {"shared": shared, "own": own, "streamed": streamed}[task.name]
     blocks = [slice(low, min(low + block, task.n)) for low in range(0, task.n, block)]
     ready = [(rows, make(task, rows)) for rows in blocks]

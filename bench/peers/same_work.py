@@ -1,8 +1,8 @@
-"""Is the peers' work ours? The spikes of numpy_in_place.py in float64 against those of the program, afferent by afferent.
+"""Do the peers compute the same as Corpuscle? Compares the spikes of numpy_in_place.py in float64 with the program's, for each afferent.
 
-Method: 50 afferents. Their forces go to the program as a recording, sample for sample the same doubles, and it answers by
-`--method backward-euler --sampled`, one afferent a run where each has its own f_B. `shared` scales the current and the program the
-force, so their last digits differ; the others do the same operations. Ends with status 1 if a spike is elsewhere.
+Method: 50 afferents. The program reads their forces as a recording with exactly the same doubles, and runs with
+`--method backward-euler --sampled`, one afferent per run if each has its own f_B. `shared` scales the current but the program scales the
+force, so their last digits differ; the other tasks do the same operations. Ends with status 1 if any spike differs.
 
     same_work.py build/release/corpuscle
 """
@@ -21,7 +21,7 @@ N = 50
 
 
 def trains(spikes):
-    """Steps with a spike of each afferent."""
+    """For each afferent, the steps with a spike."""
     out = [[] for _ in range(N)]
     for step, first, fired in spikes:
         for i in fired:
@@ -30,7 +30,7 @@ def trains(spikes):
 
 
 def answer(program, recording, out, options):
-    """The program's trains, one a channel of the recording."""
+    """The program's spike trains, one per channel of the recording."""
     subprocess.run([program, "respond", recording, "--unit", "N", "--rate", "10kHz", "--afferent", "sa1", "--method", "backward-euler",
                     "--sampled", "--quiet", "--out", out, *options], check=True)
     found = [[] for _ in range(N)]

@@ -1,9 +1,9 @@
-"""How many times faster than NumPy and Brian2 is a population, on the works of work.py?
+"""How many times faster than NumPy and Brian2 is a population, for the tasks of work.py?
 
-Method: everything is built first. Then in each round, one after another: ours once, NumPy once and Brian2 once, each of these two in
-both of its forms; so a machine whose speed drifts drifts for all. In each round ours is divided by the fastest of the others; told are
-the medians of the rates and of that ratio, with its least and most. Spike totals in double must be equal, or this ends with status 1.
-What each does is said in numpy_in_place.py, brian2_standalone.py and ../population.cpp.
+Method: everything is built first. Each round then runs in sequence: Corpuscle once, NumPy once and Brian2 once, the latter two in both of
+their forms. A drift of the machine's speed therefore affects all alike. In each round Corpuscle's rate is divided by the fastest of the
+others. Printed are the medians of the rates and of that ratio, with its minimum and maximum. Spike totals in double must be equal, or the
+status is 1. The methods are described in numpy_in_place.py, brian2_standalone.py and ../population.cpp.
 
     side_by_side.py build/release/bench-population [--work shared ...] [--dtype float32 ...] [--runs 5]
 """
@@ -23,7 +23,7 @@ FORMS = ["as-written", "folded"]
 
 
 def ours(program, name, dtype, n):
-    """Seconds of one run and its spikes, of the best instruction set; the program tells it first."""
+    """Time (s) and spikes of one run with the best instruction set, which the program prints first."""
     precision = {"float64": "double", "float32": "float"}[dtype]
     told = subprocess.run([program, "--runs", "1", "--only", f"{precision} the peers' {name}"], check=True, capture_output=True, text=True)
     line = next(line for line in told.stdout.splitlines() if "the peers'" in line)
@@ -32,7 +32,7 @@ def ours(program, name, dtype, n):
 
 
 def of_numpy(name, dtype, form, n):
-    """A function that runs it once, for its seconds; and its spikes."""
+    """A function that runs it once and returns its time (s); and its spikes."""
     task = numpy_in_place.Task(name, np.dtype(dtype).type, form, n)
     block = 2**18 // task.g.itemsize
     return lambda: numpy_in_place.run(task, block)[0], numpy_in_place.count(numpy_in_place.run(task, block)[1])
@@ -44,7 +44,7 @@ def of_brian2(name, dtype, form, words, directory):
 
 
 def compare(program, name, dtype, words):
-    """Prints a line. Returns whether all found as many spikes, in double."""
+    """Prints a line. Returns True if all spike counts are equal, in double."""
     with tempfile.TemporaryDirectory() as top:
         peers = {("numpy", form): of_numpy(name, dtype, form, words.n) for form in FORMS}
         peers |= {("brian2", form): of_brian2(name, dtype, form, words, f"{top}/{form}") for form in FORMS}

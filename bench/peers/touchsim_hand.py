@@ -1,20 +1,22 @@
 #!/usr/bin/env python3
-"""A fingertip strokes the hand: how much processor and memory does a second of touch take, ours and TouchSim's (Saal et al., PNAS 2017)?
+"""A fingertip strokes the hand: processor time and memory per second of touch in Corpuscle and in TouchSim (Saal et al., PNAS 2017).
 
     touchsim_hand.py CORPUSCLE [--rounds N] [--seconds S] [--rate HZ] [--pitch MM] [--part UNITS] [--noise]
 
-Method: in each round, one after another, each in a process of its own on one core: `corpuscle respond stroke --population hand` for its
-10 s, and TouchSim for the first S of them, all units at once (as one calls it) and UNITS at a time (smaller arrays: kinder to caches and
-memory). Middles are told, and of ratios the least and most. Ours is the whole command: it builds the hand, answers, writes its files.
-TouchSim's is Stimulus() and response() alone; its import (numba compiles then), its afferents and a first small run are told apart. Peaks
-of memory are whole processes'; what TouchSim's had taken before it began is told.
+Method: each round runs in sequence, each part in its own process on one core: `corpuscle respond stroke --population hand` for its 10 s,
+and TouchSim for the first S seconds, with all afferents at once (its usual call) and with UNITS at a time (smaller arrays need less cache
+and memory). Printed are medians, and minimum and maximum of the ratios. Corpuscle's time is that of the complete command, which builds the
+hand, simulates and writes its files. TouchSim's time is only that of Stimulus() and response(); its import (with numba's compilation), its
+afferents and a first small run are listed separately. Peak memory is that of complete processes; TouchSim's memory before its start is
+listed, too.
 
-The same: places and classes (our sa1 is its SA1, fa1 RA, fa2 PC), the sphere, its path and speed, and how many samples a second go in.
-Not the same: TouchSim has no SA-II, so ours has more units. It takes millimetres: pins on a lattice as fine as our sites, only where this
-contact comes, each sunk by max(0, d - r^2/2R), where d is how deep our Hertz contact is under the stroke's force; its own mechanics let go
-of pins that would pull, which leaves Hertz's circle, and its newtons follow from its own skin. That skin is an endless plane here: finding
-the waves' ways round its hand's outline, or its usual ten pins a millimetre, would cost more. Whatever goes in, its neurons step at 5 kHz;
-ours step as the samples do. Its noise is off unless --noise.
+Equal in both: positions and classes of the afferents (Corpuscle's sa1 is SA1, fa1 is RA, fa2 is PC), the sphere, its path and speed, and
+the input sampling rate. Different: TouchSim has no SA-II, so Corpuscle has more afferents. TouchSim's input is in millimetres: pins on a
+lattice as fine as Corpuscle's sites, only in the region of this contact. Each pin is indented by max(0, d - r^2/2R), where d is the depth
+of Corpuscle's Hertz contact under the stroke's force. TouchSim's own mechanics release pins that would pull, which leaves Hertz's circle;
+its forces follow from its own skin model. That skin is an infinite plane here. Wave paths around the outline of its hand, or its usual ten
+pins per millimetre, would cost more. TouchSim's neurons always step at 5 kHz; Corpuscle's step at the sampling rate. TouchSim's noise is
+off unless --noise is given.
 """
 import argparse
 import csv
@@ -36,7 +38,7 @@ ONE_CORE = {f"{who}_NUM_THREADS": "1" for who in ("NUMBA", "OPENBLAS", "OMP", "M
 
 
 def ran(command):
-    """Processor's and real seconds, peak MB and output of a process."""
+    """Processor and wall seconds, peak memory (MB) and output of a process."""
     began = time.perf_counter()
     with tempfile.TemporaryFile("w+") as said:
         process = subprocess.Popen([str(word) for word in command], stdout=said, env=os.environ | ONE_CORE)
@@ -49,7 +51,7 @@ def ran(command):
 
 
 def touchsim(folder, given):
-    """TouchSim under the stroke that this folder of ours tells; in a process of its own, which prints what it took as JSON."""
+    """Runs TouchSim with the stroke recorded in Corpuscle's output folder, in its own process, which prints its resource use as JSON."""
     warnings.simplefilter("ignore")
     import numpy as np
     import touchsim as ts
@@ -63,7 +65,7 @@ def touchsim(folder, given):
     pins = given.pitch * (np.stack(lattice, -1).reshape(-1, 2) + 0.5)
     sunk = np.maximum(0, depth - ((pins[:, None] - path) ** 2).sum(-1) / (2 * R))
     pins, sunk = pins[sunk.any(1)], sunk[sunk.any(1)]
-    random.seed(0)  # each afferent is one of the few that were fitted
+    random.seed(0)  # TouchSim chooses each afferent at random from its few fitted ones
     units = [(u["afferent"].split("#")[0], float(u["x_mm"]), float(u["y_mm"])) for u in csv.DictReader((folder / "units.csv").open())]
     skin = ts.AfferentPopulation(*[ts.Afferent(CLASSES[c], location=[x, y], noisy=given.noise) for c, x, y in units if c in CLASSES])
 
@@ -133,14 +135,14 @@ def main():
         first = [u["afferent"].split("#")[0] for u in heard if float(u["time_s"]) < given.seconds]
     print("one core, of a second of touch         cpu s   real s  peak MB   units     steps   spikes")
     row("corpuscle, a stroke over the hand", ours)
-    print(f"    {ours[0]['worked']:.2g} steps worked out, the others passed over; in the first {given.seconds:g} s "
+    print(f"    {ours[0]['worked']:.2g} steps computed, the others skipped; in the first {given.seconds:g} s "
           + ", ".join(f"{name} {first.count(name)}" for name in sorted(set(first))) + " spikes")
     if not there:
-        print("TouchSim is not here: pip install git+https://github.com/hsaal/touchsim, or put a checkout of it into PYTHONPATH.")
+        print("TouchSim is not installed: pip install git+https://github.com/hsaal/touchsim, or add a checkout to PYTHONPATH.")
     for part, runs in theirs.items() if there else ():
         row("TouchSim, " + (f"{part} units at a time" if part else "all units at once"), runs)
         m, ratios = middle(runs), [run["cpu"] / mine["cpu"] for run, mine in zip(runs, ours)]
-        print(f"    {m['kernel']:.1f} s of it in the kernel; before it began {m['apart']:.1f} s and {m['before']:.0f} MB")
+        print(f"    {m['kernel']:.1f} s of it in the kernel; before its start {m['apart']:.1f} s and {m['before']:.0f} MB")
         print(f"    over ours: processor {statistics.median(ratios):.0f} ({min(ratios):.0f} to {max(ratios):.0f}, {given.rounds} rounds), "
               f"memory {m['peak'] / middle(ours)['peak']:.1f}")
     if there:

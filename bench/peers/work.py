@@ -1,14 +1,14 @@
-"""The works that peers and the population are compared on, said once.
+"""The tasks on which peers and the population are compared.
 
-N afferents sa1 (SA-IB and LIF-B at their defaults), 10 kHz, backward Euler, spikes on the samples. Afferent i feels g_i times the
-press, g_i = 0.5 + 0.5 i / (N - 1); before the first sample the force was that of the first, and membranes are at rest.
+N afferents sa1 (SA-IB and LIF-B at their defaults), 10 kHz, backward Euler, spikes on the samples. The force of afferent i is g_i times the
+press, g_i = 0.5 + 0.5 i / (N - 1). Before the first sample the force equals the first, and membranes are at rest.
 
-    shared     one transduction: the current of afferent i is g_i times the press's
-    own        a transduction each: f_B of afferent i is 15 Hz + 10 Hz i / (N - 1)
-    streamed   a transduction each, at the defaults; forces lie in memory, [step][afferent], and are read there
+    shared     one receptor: the current of afferent i is g_i times the press's
+    own        one receptor per afferent: f_B of afferent i is 15 Hz + 10 Hz i / (N - 1)
+    streamed   one receptor per afferent, at the defaults; forces are read from memory, [step][afferent]
 
 In each step   x = keep x + keep (F - F_before) of B and C;   I = k_A F + max{K_B x_B, 0} + max{K_C x_C, 0};
-u = max{u + (I - I_leak0) k, E_L};   u > V_th: a spike, kept as step and afferent, and u falls by V_th - V_reset.
+u = max{u + (I - I_leak0) k, E_L};   u > V_th: a spike, stored as step and afferent, and u decreases by V_th - V_reset.
 
 `as written` computes this in this order; `folded` is the same algebra with fewer operations, so its last digits differ.
 """
@@ -27,12 +27,12 @@ C_M, I_LEAK0, E_L, V_TH, V_RESET = 500e-9, 500e-9, 0.0, 0.5, 0.25  # F, A, V, V,
 K = DT / C_M  # V/A, one step
 DROP = V_TH - V_RESET  # V, one spike
 
-# Which samples of the press: all, those that rise, those that rise and reach the plateau.
+# Samples of the press: all, those of the rise, those of the rise and the start of the plateau.
 SAMPLES = {"shared": range(0, 10000), "own": range(2400, 4400), "streamed": range(2400, 3400)}
 
 
 def cos_half_turn(x):
-    """cos(pi x) for 0 <= x <= 1, by the operations of src/signal/elementary.hpp: the same last digit."""
+    """cos(pi x) for 0 <= x <= 1, with the operations of src/signal/elementary.hpp, for bitwise equal results."""
     turns = 0.5 * x
     big = 6755399441055744.0
     quarter = (turns * 4.0 + big) - big
@@ -61,7 +61,7 @@ def press(samples):
 
 
 def keep(f):
-    """Both constants of a high-pass with corner f (Hz) in backward Euler."""
+    """Both constants of a high-pass with cutoff f (Hz) in backward Euler."""
     return 1.0 / (1.0 + f * (6.283185307179586 * DT))
 
 
@@ -98,7 +98,7 @@ def currents(force):
 
 
 def arguments(form, **more):
-    """The command line: which works in which numbers and forms, all unless said; how many afferents and runs; and `more`."""
+    """Parses the command line: tasks, number types and forms (default: all), numbers of afferents and runs; and `more`."""
     parser = argparse.ArgumentParser()
     parser.add_argument("--work", nargs="+", choices=list(SAMPLES), default=list(SAMPLES))
     parser.add_argument("--dtype", nargs="+", choices=["float64", "float32"], default=["float64", "float32"])
@@ -113,7 +113,7 @@ def arguments(form, **more):
 
 
 def tell(peer, work, dtype, form, n, seconds, spikes):
-    """Two lines of one measurement: for a reader, and as JSON. seconds: of each run."""
+    """Prints one measurement as text and as JSON. `seconds` has the time of each run."""
     steps, median = len(SAMPLES[work]), statistics.median(seconds)
     rate, spread = n * steps / median, (max(seconds) - min(seconds)) / median
     print(f"{peer} {work:9}{dtype:8} {rate / 1e6:8.0f} M afferent-steps/s  {n} x {steps}: {median:6.3f} s, {len(seconds)} runs, "
@@ -123,7 +123,7 @@ def tell(peer, work, dtype, form, n, seconds, spikes):
 
 
 def machine():
-    """What this runs on, in a line."""
+    """Describes the machine in one line."""
     with open("/proc/cpuinfo", encoding="utf-8") as file:
         model = next((line.split(":", 1)[1].strip() for line in file if line.startswith("model name")), platform.machine())
     return f"{model}; Python {platform.python_version()}, NumPy {numpy.__version__}"

@@ -17,7 +17,7 @@ namespace corpuscle {
 template <class... M>
 struct MeasureList {
     using Tuple = std::tuple<M...>;
-    static constexpr MeasureInfo infos[] = {M::row...};
+    static constexpr MeasureInfo infos[] = {M::info...};
 };
 using Measures = MeasureList<SpikeCount, MeanRate, PeakRate, FirstRate, LastRate, Latency, AdaptationRatio, IntervalVariation,
                              VectorStrength, Entrainment>;
@@ -28,7 +28,7 @@ inline constexpr auto& measures = Measures::infos;
 template <class M>
 inline constexpr std::size_t measure_index = [] {
     std::size_t k = 0;
-    while (measures[k].name != M::row.name) ++k;
+    while (measures[k].name != M::info.name) ++k;
     return k;
 }();
 

@@ -32,12 +32,12 @@ class Chain final : public Afferent {
     using Currents = Current<double>[outputs];
 
     static constexpr std::size_t receptor_recordables = [] {
-        if constexpr (requires { Receptor::parts; })
-            return std::size(Receptor::parts);
+        if constexpr (requires { Receptor::recordables; })
+            return std::size(Receptor::recordables);
         else
             return std::size_t{0};
     }();
-    static constexpr std::size_t neuron_recordables = std::size(Neuron::parts);
+    static constexpr std::size_t neuron_recordables = std::size(Neuron::recordables);
     static constexpr std::size_t all_recordables = receptor_recordables + outputs * (1 + neuron_recordables);
 
     struct Values {

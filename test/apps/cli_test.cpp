@@ -1,4 +1,4 @@
-// The program as people use it: what it prints, writes and returns.
+// The program as a user runs it: what it prints, writes and returns.
 
 #include <csignal>
 #include <cstdio>
@@ -18,7 +18,7 @@ using Json = nlohmann::json;
 
 using test::run_program;
 
-TEST(Program, PressGivesTheTableAndWritesNothingUnasked) {
+TEST(Program, PressPrintsTheTableAndWritesNoUnrequestedFile) {
     const TemporaryFolder folder;
     const auto ran = run_program(folder, "respond press");
     EXPECT_EQ(ran.status, 0) << ran.err;
@@ -28,37 +28,37 @@ TEST(Program, PressGivesTheTableAndWritesNothingUnasked) {
     EXPECT_TRUE(folder.file_names().empty());
 }
 
-TEST(Program, VersionsOfOneReceptorAreHeldAgainstTheFirst) {
+TEST(Program, VersionsOfOneReceptorAreComparedWithTheFirst) {
     const TemporaryFolder folder;
     for (const std::string name : {"circuits", "process"})
-        std::filesystem::create_directory_symlink(test::project_root() + "/" + name, folder / name);
-    const std::string chip = "circuits/sa1.cir";  // not by its full path, of which the width of the table would depend
+        std::filesystem::create_directory_symlink(test::source_root() + "/" + name, folder / name);
+    const std::string chip = "circuits/sa1.cir";  // a relative path, because the width of the table depends on it
     const auto ran = run_program(folder, "respond press --afferent sa1 --afferent " + chip + " --afferent fa1 --out answer");
     ASSERT_EQ(ran.status, 0) << ran.err;
     const auto table = ran.out.substr(std::min(ran.out.find("implementation "), ran.out.size()));
     EXPECT_NE(table.find("by phase   change  matched  shift  Victor-     van\n"), std::string::npos) << ran.out;
-    EXPECT_NE(table.find(" 15  0 5 9 1 0\n"), std::string::npos) << "what it is held against\n" << table;
+    EXPECT_NE(table.find(" 15  0 5 9 1 0\n"), std::string::npos) << "the reference of the comparison\n" << table;
     EXPECT_NE(table.find(" 14  0 5 8 1 0      -7       14 "), std::string::npos) << table;
     EXPECT_NE(table.find("Compared with the first implementation of each receptor. Spikes within 20 ms match"), std::string::npos) << table;
     EXPECT_EQ(table.find("fa1"), std::string::npos) << "has one version\n" << table;
-    const auto said = Json::parse(test::read_file(folder / "answer/summary.json"))["comparisons"];
-    EXPECT_EQ(said["cost_Hz"], 100.0);
-    ASSERT_EQ(said["pairs"].size(), 1u);
-    EXPECT_EQ(said["pairs"][0]["afferent"], chip);
-    EXPECT_NEAR(said["pairs"][0]["excess"].get<double>(), 14.0 / 15 - 1, 1e-12);
-    EXPECT_EQ(run_program(folder, "respond press").out.find("Victor"), std::string::npos) << "nobody has two versions";
+    const auto message = Json::parse(test::read_file(folder / "answer/summary.json"))["comparisons"];
+    EXPECT_EQ(message["cost_Hz"], 100.0);
+    ASSERT_EQ(message["pairs"].size(), 1u);
+    EXPECT_EQ(message["pairs"][0]["afferent"], chip);
+    EXPECT_NEAR(message["pairs"][0]["excess"].get<double>(), 14.0 / 15 - 1, 1e-12);
+    EXPECT_EQ(run_program(folder, "respond press").out.find("Victor"), std::string::npos) << "no receptor has two versions";
 }
 
-TEST(Program, WritesWhatIsAskedForTheSameTwice) {
+TEST(Program, WritesTheRequestedFilesWithTheSameBytesTwice) {
     const TemporaryFolder folder;
-    const std::string words = "respond press noise --seed 3 --out answer --traces --report";
-    ASSERT_EQ(run_program(folder, words).status, 0);
+    const std::string arguments = "respond press noise --seed 3 --out answer --traces --report";
+    ASSERT_EQ(run_program(folder, arguments).status, 0);
     EXPECT_EQ(folder.file_names(),
               (std::vector<std::string>{"answer", "report.html", "spikes.csv", "summary.json", "traces-2.csv", "traces.csv"}));
     std::map<std::string, std::string> first;
     for (const auto& name : folder.file_names())
         if (name != "answer") first[name] = test::read_file(folder / ("answer/" + name));
-    ASSERT_EQ(run_program(folder, words).status, 0);
+    ASSERT_EQ(run_program(folder, arguments).status, 0);
     for (const auto& [name, bytes] : first) EXPECT_EQ(test::read_file(folder / ("answer/" + name)), bytes) << name;
     const auto summary = Json::parse(first["summary.json"]);
     EXPECT_EQ(summary["work"]["samples"], 20000);
@@ -79,25 +79,25 @@ TEST(Program, ThreadsAndInstructionSetsChangeNoByte) {
         for (int c = 0; c < 70; ++c) wide += "," + std::to_string((k * (c + 3) % 97) / 24.0);
     }
     folder.write("wide.csv", wide + "\n");
-    for (const std::string words : {"respond wide.csv --afferent sa1,fa1,sa1b+izhikevich,fsr+sa1 --time t",
-                                    "respond press --afferent sa1,fa1 --copies 150 --spread sa1.f_B=20% --spread fa1.V_th=10%"}) {
-        ASSERT_EQ(run_program(folder, words + " --out right -j 1").status, 0);
-        const auto right = test::read_file(folder / "right/spikes.csv"), summary = test::read_file(folder / "right/summary.json");
-        EXPECT_GT(right.size(), 2000U);
+    for (const std::string arguments : {"respond wide.csv --afferent sa1,fa1,sa1b+izhikevich,fsr+sa1 --time t",
+                                        "respond press --afferent sa1,fa1 --copies 150 --spread sa1.f_B=20% --spread fa1.V_th=10%"}) {
+        ASSERT_EQ(run_program(folder, arguments + " --out right -j 1").status, 0);
+        const auto expected = test::read_file(folder / "right/spikes.csv"), summary = test::read_file(folder / "right/summary.json");
+        EXPECT_GT(expected.size(), 2000U);
         for (const std::string set : {"scalar", "baseline", "avx2", "avx512"})
             for (const std::string threads : {"1", "2", "7"}) {
-                const auto ran = std::system(("cd '" + folder.path() + "' && CORPUSCLE_ISA=" + set + " '" + test::program_path() + "' " + words +
-                                              " --out again --quiet -j " + threads + " 2>/dev/null")
+                const auto ran = std::system(("cd '" + folder.path() + "' && CORPUSCLE_ISA=" + set + " '" + test::program_path() + "' " +
+                                              arguments + " --out again --quiet -j " + threads + " 2>/dev/null")
                                                  .c_str());
-                if (WEXITSTATUS(ran) == 2) continue;  // a set that this machine lacks
+                if (WEXITSTATUS(ran) == 2) continue;  // this machine lacks the instruction set
                 ASSERT_EQ(ran, 0);
-                EXPECT_EQ(test::read_file(folder / "again/spikes.csv"), right) << set << ' ' << threads;
+                EXPECT_EQ(test::read_file(folder / "again/spikes.csv"), expected) << set << ' ' << threads;
                 EXPECT_EQ(test::read_file(folder / "again/summary.json"), summary) << set << ' ' << threads;
             }
     }
 }
 
-TEST(Program, FloatAnswersWithinMicrosecondsAndKeepsNoInnerTraces) {
+TEST(Program, FloatSpikesAreWithinMicrosecondsAndHaveNoProbes) {
     const TemporaryFolder folder;
     ASSERT_EQ(run_program(folder, "respond press --out double").status, 0);
     ASSERT_EQ(run_program(folder, "respond press --float --out float --report").status, 0);
@@ -131,18 +131,18 @@ TEST(Program, ASecondRunLeavesNothingOfTheFirst) {
     EXPECT_EQ(folder.file_names(), (std::vector<std::string>{"answer", "notes.txt", "spikes.csv", "spikes.npz", "summary.json"}));
 }
 
-TEST(Program, CopiesAreAnsweredSummarisedAndTabledTheSameTwice) {
+TEST(Program, CopiesGiveTheSameSpikesSummaryAndTableTwice) {
     const TemporaryFolder folder;
-    const std::string words =
+    const std::string arguments =
         "respond press sine --copies 60 --spread sa1.f_B=10% --spread fa1.V_th=20mV --noise 20nA --seed 3 --out answer --report";
-    const auto ran = run_program(folder, words);
+    const auto ran = run_program(folder, arguments);
     ASSERT_EQ(ran.status, 0) << ran.err;
     EXPECT_NE(ran.out.find("60 copies of each afferent; mean +- standard deviation over copies that have a value\n"), std::string::npos)
         << ran.out;
     const std::vector<std::string> files = {"copies.csv", "report.html", "spikes.csv", "summary.json"};
     std::map<std::string, std::string> first;
     for (const auto& name : files) first[name] = test::read_file(folder / ("answer/" + name));
-    ASSERT_EQ(run_program(folder, words).status, 0);
+    ASSERT_EQ(run_program(folder, arguments).status, 0);
     for (const auto& [name, bytes] : first) EXPECT_EQ(test::read_file(folder / ("answer/" + name)), bytes) << name;
     const auto summary = Json::parse(first["summary.json"]);
     EXPECT_EQ(summary["copies"]["of_each_afferent"], 60);
@@ -170,22 +170,22 @@ TEST(Program, OneCopyIsTheAfferentItself) {
     EXPECT_EQ(spikes, test::read_file(folder / "plain/spikes.csv"));
 }
 
-TEST(Program, ACopySetToWhatItsRowSaysAnswersAsItDid) {
+TEST(Program, ACopyIsReproducedByTheParametersInItsRow) {
     const TemporaryFolder folder;
     ASSERT_EQ(run_program(folder, "respond press -a sa1 --copies 9 --spread sa1.f_B=20% --spread sa1.V_th=10% --traces --out answer").status, 0);
     const auto table = test::read_file(folder / "answer/copies.csv"), spikes = test::read_file(folder / "answer/spikes.csv");
     const auto row = table.substr(table.find("sa1#7,press,") + 12);
     const auto f_B = row.substr(0, row.find(',')), V_th = row.substr(f_B.size() + 1, row.find(',', f_B.size() + 1) - f_B.size() - 1);
     ASSERT_EQ(run_program(folder, "respond press -a sa1 --set sa1.f_B=" + f_B + " --set sa1.V_th=" + V_th + " --out same").status, 0);
-    std::string mine = "afferent,channel,time_s\n";
+    std::string expected = "afferent,channel,time_s\n";
     std::istringstream lines(spikes);
     for (std::string line; std::getline(lines, line);)
-        if (line.starts_with("sa1#7,")) mine += "sa1" + line.substr(5) + "\n";
-    EXPECT_EQ(mine, test::read_file(folder / "same/spikes.csv"));
+        if (line.starts_with("sa1#7,")) expected += "sa1" + line.substr(5) + "\n";
+    EXPECT_EQ(expected, test::read_file(folder / "same/spikes.csv"));
     EXPECT_NE(test::read_file(folder / "answer/traces.csv").find(",sa1#9.press.u [V]\n"), std::string::npos);
 }
 
-TEST(Program, CompareTellsWhatMatches) {
+TEST(Program, CompareReportsTheMatchingSpikes) {
     const TemporaryFolder folder;
     ASSERT_EQ(run_program(folder, "respond press --afferent sa1,fa1,sa1-kim --npz --out a").status, 0);
     ASSERT_EQ(run_program(folder, "respond press --set sa1.f_B=20.1Hz --out b").status, 0);
@@ -220,10 +220,10 @@ TEST(Program, CompareReadsTheSpikesOfTheElectronicSkin) {
     EXPECT_NE(other.err.find("no train has the same name in both files: 6; 11; 16 | 243; "), std::string::npos) << other.err;
 }
 
-TEST(Program, ReportAloneGoesWhereItIsToldOrHere) {
+TEST(Program, ReportAloneIsWrittenToTheGivenOrCurrentFolder) {
     const TemporaryFolder folder;
     EXPECT_EQ(run_program(folder, "respond press --report").status, 0);
-    EXPECT_EQ(run_program(folder, "respond --report press").status, 0) << "the word after --report is no page, so it is a force";
+    EXPECT_EQ(run_program(folder, "respond --report press").status, 0) << "the argument after --report is not a page, so it is a force";
     EXPECT_EQ(run_program(folder, "respond press --report sub/touch.html").status, 0);
     EXPECT_EQ(folder.file_names(), (std::vector<std::string>{"report.html", "sub", "touch.html"}));
     const auto page = test::read_file(folder / "report.html");
@@ -260,14 +260,14 @@ TEST(Program, ListNamesEveryParameterOfEveryModel) {
     EXPECT_NE(run_program(folder, "list sa1 press").out.find("half-cosine"), std::string::npos);
 }
 
-TEST(Program, BadInputAndBadUsageHaveTheirStatusTheirSentenceAndLeaveNothing) {
+TEST(Program, BadInputAndBadUsageHaveTheirStatusAndMessageAndLeaveNoFiles) {
     const TemporaryFolder folder;
     folder.write("bad.csv", "time_s,fz_N\n0,1\n0.01,2\n0.02,oops\n");
     folder.write("nm.csv", "time_s,a_nm\n0,1\n0.01,2\n");
     const struct {
-        const char* words;
+        const char* arguments;
         int status;
-        const char* said;
+        const char* message;
     } cases[] = {
         {"respond bad.csv --out answer", 1,
          "bad.csv:4:6: column 'fz': 'oops' where a number is expected; use --bad-fields interpolate to fill it in, or --bad-fields "
@@ -316,17 +316,17 @@ TEST(Program, BadInputAndBadUsageHaveTheirStatusTheirSentenceAndLeaveNothing) {
         {"respond press --out bad.csv", 1, "bad.csv: the directory cannot be created: Not a directory"},
     };
     for (const auto& c : cases) {
-        const auto ran = run_program(folder, c.words);
-        EXPECT_EQ(ran.status, c.status) << c.words;
-        EXPECT_EQ(ran.err, "corpuscle: " + std::string(c.said) + "\n") << c.words;
-        EXPECT_EQ(ran.out, "") << c.words;
+        const auto ran = run_program(folder, c.arguments);
+        EXPECT_EQ(ran.status, c.status) << c.arguments;
+        EXPECT_EQ(ran.err, "corpuscle: " + std::string(c.message) + "\n") << c.arguments;
+        EXPECT_EQ(ran.out, "") << c.arguments;
     }
     EXPECT_EQ(run_program(folder, "respond press --sampeld").status, 2);
     for (const auto* n : {"0", "-1", "1000001", "ten"}) EXPECT_EQ(run_program(folder, "respond press --copies " + std::string(n)).status, 2) << n;
     EXPECT_EQ(folder.file_names(), (std::vector<std::string>{"bad.csv", "nm.csv"}));
 }
 
-TEST(Program, StudiesAreToldWrittenAndAskedForByAnyOfTheirNumbers) {
+TEST(Program, StudiesAreListedWrittenAndSelectedByAnyOfTheirNumbers) {
     const TemporaryFolder folder;
     const auto ran = run_program(folder, "study fig4 table17 eq30 --json --report page.html --markdown numbers.md");
     ASSERT_EQ(ran.status, 0) << ran.err;
@@ -357,7 +357,7 @@ TEST(Program, NamesMayHoldAnyBytes) {
     EXPECT_EQ(folder.file_names(), (std::vector<std::string>{"answer", "l.csv", "report.html", "spikes.csv", "summary.json"}));
 }
 
-TEST(Program, AStimulusGoesBeforeADirectoryOfItsName) {
+TEST(Program, AStimulusTakesPrecedenceOverADirectoryOfItsName) {
     const TemporaryFolder folder;
     EXPECT_EQ(run_program(folder, "respond press --out press --quiet").status, 0);
     EXPECT_EQ(run_program(folder, "respond press --out press --quiet").status, 0);
@@ -370,7 +370,7 @@ TEST(Program, WhatCannotBePrintedOrNamedIsAnError) {
     EXPECT_EQ(run_program(folder, "respond " + std::string(5000, 'x')).status, 1);
 }
 
-TEST(Program, AStateThatIsNoLongerANumberIsToldNotHidden) {
+TEST(Program, ANonFiniteStateIsReported) {
     const TemporaryFolder folder;
     const auto ran =
         run_program(folder, "respond press -a sa1b+adex --set sa1b+adex.g_L=1mS --out answer --npz --bin 1ms");  // far too stiff for its substep
@@ -379,14 +379,14 @@ TEST(Program, AStateThatIsNoLongerANumberIsToldNotHidden) {
     EXPECT_TRUE(folder.file_names().empty());
 }
 
-TEST(Program, OtherNamesAreTakenWhereverNamesAre) {
+TEST(Program, AliasesAreAcceptedWhereverNamesAre) {
     const TemporaryFolder folder;
     EXPECT_EQ(run_program(folder, "list RA").out, run_program(folder, "list fa1").out);
     const auto by_alias = Json::parse(run_program(folder, "respond press -a fa1 --set RA.f=3Hz --json").out);
     EXPECT_EQ(by_alias["afferents"][0]["parameters"]["f"]["value"], 3.0);
 }
 
-TEST(Program, SummarySaysWhatWasRun) {
+TEST(Program, SummaryDescribesTheRun) {
     const TemporaryFolder folder;
     const auto ran = Json::parse(run_program(folder, "respond press --set press.F_max=2N --json").out);
     EXPECT_EQ(ran["inputs"][0]["parameters"]["press.F_max"], (Json{{"value", 2.0}, {"unit", "N"}}));
@@ -397,20 +397,21 @@ TEST(Program, SummarySaysWhatWasRun) {
     EXPECT_EQ(read["inputs"][0]["channels"], (Json{"a", "a (2)"})) << "two columns of one name stay two";
 }
 
-TEST(Program, ProgressWithTimeLeftIsDrawnToATerminalAndNowhereElse) {
+TEST(Program, ProgressWithTimeLeftIsPrintedToTerminalsOnly) {
     if (!test::has_pseudo_terminals()) GTEST_SKIP() << test::no_pseudo_terminals;
     const TemporaryFolder folder;
-    const std::string job = "respond sine --set sine.duration=400s --afferent sa1b+adex";  // some seconds
-    const auto drawn = folder / "drawn";
-    ASSERT_EQ(std::system(("script -qec \"'" + test::program_path() + "' " + job + "\" /dev/null > '" + drawn + "' 2>&1 < /dev/null").c_str()),
+    const std::string job = "respond sine --set sine.duration=400s --afferent sa1b+adex";  // takes some seconds
+    const auto terminal_output = folder / "drawn";
+    ASSERT_EQ(std::system(
+                  ("script -qec \"'" + test::program_path() + "' " + job + "\" /dev/null > '" + terminal_output + "' 2>&1 < /dev/null").c_str()),
               0);
-    const auto seen = test::read_file(drawn);
+    const auto seen = test::read_file(terminal_output);
     EXPECT_NE(seen.find(" s left"), std::string::npos) << seen.substr(0, 400);
     EXPECT_NE(seen.find(" %  "), std::string::npos);
     EXPECT_EQ(run_program(folder, job).err, "") << "not a terminal";
 }
 
-TEST(Program, WhatWasClippedOrDidNotFitOrWasNotReachedIsTold) {
+TEST(Program, SaturationOverflowAndUnreachedForcesAreReported) {
     const TemporaryFolder folder;
     EXPECT_EQ(run_program(folder, "respond press -q -a fsr+f2v+sa1 --set press.F_max=8N").err,
               "corpuscle: warning: 3335 samples saturated a transducer or a converter, so the afferent received less force than was applied; "
@@ -431,7 +432,7 @@ TEST(Program, ReadsFromAPipe) {
     EXPECT_EQ(std::system(("cat '" + (folder / "x.csv") + "' | '" + test::program_path() + "' respond - --rate 100Hz --quiet").c_str()), 0);
 }
 
-TEST(Program, HelpTeachesAndVersionTells) {
+TEST(Program, HelpAndVersionAreComplete) {
     const TemporaryFolder folder;
     EXPECT_NE(run_program(folder, "--help").out.find("corpuscle respond press"), std::string::npos);
     const auto help = run_program(folder, "respond --help");
@@ -441,7 +442,7 @@ TEST(Program, HelpTeachesAndVersionTells) {
     EXPECT_EQ(run_program(folder, "--version").out.rfind("corpuscle ", 0), 0U);
 }
 
-TEST(Program, CtrlCAndItsKinEndItCleanly) {
+TEST(Program, CtrlCAndOtherSignalsEndItCleanly) {
     for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
         const TemporaryFolder folder;
         const auto answer = folder / "new/deep/answer";

@@ -1,4 +1,4 @@
-// Recordings and spikes of other programs, as they are typed.
+// Recordings and spikes of other programs, in commands as a user types them.
 
 #include "support/program.hpp"
 
@@ -8,11 +8,11 @@ namespace {
 using test::TemporaryFolder;
 using test::run_program;
 
-bool found_in(const std::string& text, const std::string& words) { return text.find(words) != text.npos; }
+bool found_in(const std::string& text, const std::string& part) { return text.find(part) != text.npos; }
 
-TEST(ImportProgram, EveryLoggersFileOfTheExamplesAnswersAlike) {
+TEST(ImportProgram, EveryLoggersFileOfTheExamplesGivesTheSameSpikes) {
     const TemporaryFolder folder;
-    std::filesystem::create_directory_symlink(test::project_root() + "/examples/data/loggers", folder / "loggers");
+    std::filesystem::create_directory_symlink(test::source_root() + "/examples/data/loggers", folder / "loggers");
     const auto spikes_of = [&](const std::string& file) {
         const auto ran = run_program(folder, "respond loggers/" + file + " -o out");
         EXPECT_EQ(ran.status, 0) << file << '\n' << ran.err;
@@ -65,7 +65,7 @@ TEST(ImportProgram, TwoLoneTrainsAreComparedWhateverTheyAreCalled) {
     EXPECT_EQ(run_program(folder, "compare phy.csv ours.csv --time times --unit cluster").status, 0);
 }
 
-TEST(ImportProgram, AWindowOfSecondsIsDoubtedAloud) {
+TEST(ImportProgram, AMatchingWindowOfSecondsCausesAWarning) {
     const TemporaryFolder folder;
     folder.write("a.csv", "0.25\n");
     EXPECT_TRUE(found_in(run_program(folder, "compare a.csv a.csv --window 5").err,

@@ -1,4 +1,4 @@
-// The remedies that the program names for an array that lies on its side, typed.
+// The remedies that the program names for an array with exchanged dimensions work when typed.
 
 #include <cstring>
 
@@ -22,8 +22,8 @@ TEST(OrientationProgram, TheRemediesThatItNamesWorkAsTyped) {
             << refused.err;
         EXPECT_EQ(run_program(folder, verb + " --transpose").status, 0);
     }
-    const auto turned = run_program(folder, "respond x.npy --rate 500Hz --transpose");
-    EXPECT_NE(turned.out.find("2 channels, 300 samples"), std::string::npos) << turned.out;
+    const auto transposed = run_program(folder, "respond x.npy --rate 500Hz --transpose");
+    EXPECT_NE(transposed.out.find("2 channels, 300 samples"), std::string::npos) << transposed.out;
     const auto insisted = run_program(folder, "respond x.npy --rate 500Hz --no-transpose");
     EXPECT_NE(insisted.out.find("300 channels, 2 samples"), std::string::npos) << insisted.out;
     EXPECT_EQ(run_program(folder, "respond x.npy --rate 500Hz --transpose --no-transpose").status, 2);

@@ -1,4 +1,4 @@
-// What the program may replace: nothing that it reads, nothing that it did not write.
+// Which files the program may replace: none that it reads, and none that it did not write.
 
 #include <fcntl.h>
 #include <linux/fiemap.h>
@@ -42,7 +42,7 @@ std::map<std::string, std::string> contents(const TemporaryFolder& folder) {
     return all;
 }
 
-TEST(RespondOutputs, NeverReplaceAFileThatTheCommandReads) {
+TEST(Outputs, NeverReplaceAFileThatTheCommandReads) {
     const TemporaryFolder folder;
     folder.write("a.cir", std::string(small_deck) + ".include part-1.csv\n");
     folder.write("part-1.csv", "* nothing\n");
@@ -53,7 +53,7 @@ TEST(RespondOutputs, NeverReplaceAFileThatTheCommandReads) {
     fs::create_hard_link(folder / "f.csv", folder / "hard.csv");
     ASSERT_EQ(test::run_program(folder, "stream --in press --pace fast -o /dev/null --save-state s.state -q").status, 0);
     const auto before = contents(folder);
-    for (const std::string words : {
+    for (const std::string arguments : {
              "respond psth.csv --bin 10ms -o .",
              "respond spikes.csv -o .",
              "respond traces.csv --traces -o .",
@@ -73,18 +73,18 @@ TEST(RespondOutputs, NeverReplaceAFileThatTheCommandReads) {
              "stream --in press --pace fast -o s.state --resume s.state --overwrite",
              "stream --rate 1kHz -o f.csv --overwrite < f.csv",
          }) {
-        const auto ran = test::run_program(folder, words);
-        EXPECT_EQ(ran.status, 2) << words << '\n' << ran.err;
-        EXPECT_NE(ran.err.find("this output would replace an input of the command"), std::string::npos) << words << '\n' << ran.err;
-        EXPECT_EQ(contents(folder), before) << words;
+        const auto ran = test::run_program(folder, arguments);
+        EXPECT_EQ(ran.status, 2) << arguments << '\n' << ran.err;
+        EXPECT_NE(ran.err.find("this output would replace an input of the command"), std::string::npos) << arguments << '\n' << ran.err;
+        EXPECT_EQ(contents(folder), before) << arguments;
     }
     EXPECT_EQ(test::run_program(folder, "stream --in press --pace fast -o /dev/null --resume s.state --save-state s.state -q").status, 0)
         << "a state is replaced by its successor";
 }
 
-TEST(RespondOutputs, ReplaceAFileThatNoEarlierRunWroteOnlyIfAskedTo) {
+TEST(Outputs, ReplaceAFileThatNoEarlierRunWroteOnlyWithForce) {
     struct Case {
-        const char *file, *words;
+        const char *file, *arguments;
     };
     for (const auto& c :
          {Case{"own/spikes.csv", "respond press -o own"}, Case{"own/summary.json", "respond press -o own"},
@@ -98,17 +98,17 @@ TEST(RespondOutputs, ReplaceAFileThatNoEarlierRunWroteOnlyIfAskedTo) {
         folder.write("a.cir", small_deck);
         fs::create_directory(folder / "own");
         folder.write(c.file, "time,force\n0,1\n");
-        const auto refused = test::run_program(folder, c.words);
-        EXPECT_EQ(refused.status, 1) << c.words;
-        EXPECT_NE(refused.err.find("this file was not written by corpuscle"), std::string::npos) << c.words << '\n' << refused.err;
+        const auto refused = test::run_program(folder, c.arguments);
+        EXPECT_EQ(refused.status, 1) << c.arguments;
+        EXPECT_NE(refused.err.find("this file was not written by corpuscle"), std::string::npos) << c.arguments << '\n' << refused.err;
         EXPECT_NE(refused.err.find("--overwrite"), std::string::npos) << refused.err;
-        EXPECT_EQ(read_file(folder / c.file), "time,force\n0,1\n") << c.words;
-        EXPECT_EQ(test::run_program(folder, std::string(c.words) + " --overwrite -q").status, 0) << c.words;
-        EXPECT_NE(fs::exists(folder / c.file) ? read_file(folder / c.file) : "", "time,force\n0,1\n") << c.words;
+        EXPECT_EQ(read_file(folder / c.file), "time,force\n0,1\n") << c.arguments;
+        EXPECT_EQ(test::run_program(folder, std::string(c.arguments) + " --overwrite -q").status, 0) << c.arguments;
+        EXPECT_NE(fs::exists(folder / c.file) ? read_file(folder / c.file) : "", "time,force\n0,1\n") << c.arguments;
     }
 }
 
-TEST(RespondOutputs, ThatOnlyLookLikeOursAreNotReplaced) {
+TEST(Outputs, ThatOnlyLookLikeOursAreNotReplaced) {
     const TemporaryFolder folder;
     folder.write("a.cir", small_deck);
     const std::pair<const char*, const char*> others[] = {
@@ -119,17 +119,17 @@ TEST(RespondOutputs, ThatOnlyLookLikeOursAreNotReplaced) {
         {"stream --in press --pace fast -o x.csv --format jsonl", "{\"time_s\":0.123456789,\"fz_N\":0}\n"},
         {"stream --in press --pace fast -o x.csv", "afferent,channel,time_s\nsa1,thumb,0.25\n"},
     };
-    for (const auto& [words, text] : others) {
+    for (const auto& [arguments, text] : others) {
         folder.write("x-1.csv", text), folder.write("x.csv", text);
-        const auto ran = test::run_program(folder, words);
-        EXPECT_EQ(ran.status, 1) << words << '\n' << text;
+        const auto ran = test::run_program(folder, arguments);
+        EXPECT_EQ(ran.status, 1) << arguments << '\n' << text;
         EXPECT_NE(ran.err.find("this file was not written by corpuscle"), std::string::npos) << ran.err;
-        EXPECT_EQ(read_file(folder / "x.csv"), text) << words;
-        EXPECT_EQ(read_file(folder / "x-1.csv"), text) << words;
+        EXPECT_EQ(read_file(folder / "x.csv"), text) << arguments;
+        EXPECT_EQ(read_file(folder / "x-1.csv"), text) << arguments;
     }
 }
 
-TEST(RespondOutputs, NeverReplaceADeviceOrAPipe) {
+TEST(Outputs, NeverReplaceADeviceOrAPipe) {
     const TemporaryFolder folder;
     folder.write("b.cir", "small\nv1 in 0 1\nr1 in 0 1k\n.tran 10u 1m\n");
     for (const std::string name : {"a.csv", "a.raw"}) {
@@ -151,11 +151,11 @@ TEST(RespondOutputs, NeverReplaceADeviceOrAPipe) {
     for (const auto* name : {"null.raw", "full.raw"}) EXPECT_TRUE(fs::is_character_file(folder / name)) << name;
 }
 
-TEST(RespondOutputs, OfTheSameCommandAgainNeedNoWord) {
+TEST(Outputs, OfTheSameCommandAreReplacedWithoutAnOption) {
     const TemporaryFolder folder;
     folder.write("a.cir", small_deck);
     folder.write("f.csv", numbers());
-    for (const std::string words :
+    for (const std::string arguments :
          {"respond press -o answer --traces --npz --bin 10ms --wav --report", "respond press -o answer --vectors -a sa1-kim",
           "respond f.csv -o answer", "respond press --population 'grid 4x4' -o answer --report --events aer",
           "respond press --report page.html", "respond press --report", "run a.cir -o x.csv", "run a.cir -o x.raw",
@@ -163,8 +163,8 @@ TEST(RespondOutputs, OfTheSameCommandAgainNeedNoWord) {
           "stream --in press --pace fast -o a.csv --save-state a.state", "stream --in press --pace fast -o a.jsonl --format jsonl",
           "stream --in press --pace fast -o a.aer --format aer", "stream --in press --pace fast -o a.aedat --format aedat2"})
         for (int k = 0; k < 2; ++k) {
-            const auto ran = test::run_program(folder, words + " -q");
-            EXPECT_EQ(ran.status, 0) << words << '\n' << ran.err;
+            const auto ran = test::run_program(folder, arguments + " -q");
+            EXPECT_EQ(ran.status, 0) << arguments << '\n' << ran.err;
         }
     const auto cir = read_file(folder / "a.cir");
     folder.write("a.cir", cir + ".save v(out) i(v1)\n");
@@ -173,7 +173,7 @@ TEST(RespondOutputs, OfTheSameCommandAgainNeedNoWord) {
     EXPECT_EQ(test::run_program(folder, "stream --in press --pace fast -q -o empty.csv").status, 0) << "nothing is lost with it";
 }
 
-TEST(RespondOutputs, TwoOfOneCommandAreTwoFiles) {
+TEST(Outputs, TwoOfOneCommandAreTwoFiles) {
     const TemporaryFolder folder;
     const auto ran = test::run_program(folder, "stream --in press --pace fast -o x.csv --save-state ./x.csv");
     EXPECT_EQ(ran.status, 2);
@@ -181,7 +181,7 @@ TEST(RespondOutputs, TwoOfOneCommandAreTwoFiles) {
     EXPECT_TRUE(folder.file_names().empty());
 }
 
-TEST(RespondOutputs, ASummaryOfOthersRemovesAndReplacesNothing) {
+TEST(Outputs, ASummaryOfOthersRemovesAndReplacesNothing) {
     const TemporaryFolder folder;
     for (const char* name : {"thesis.tex", "vectors.csv", "traces-x.csv", "notes.html", "target.csv"}) folder.write(name, "mine");
     fs::create_directory(folder / "d");
@@ -197,7 +197,7 @@ TEST(RespondOutputs, ASummaryOfOthersRemovesAndReplacesNothing) {
     EXPECT_TRUE(fs::is_symlink(folder / "d/psth.csv"));
 }
 
-TEST(RespondOutputs, AnInputThatAnEarlierRunWroteStays) {
+TEST(Outputs, AnInputThatAnEarlierRunWroteStays) {
     const TemporaryFolder folder;
     ASSERT_EQ(test::run_program(folder, "respond press --traces -o . -q").status, 0);
     const auto ran = test::run_program(folder, "respond traces.csv --channel 1 -o .");
@@ -206,14 +206,14 @@ TEST(RespondOutputs, AnInputThatAnEarlierRunWroteStays) {
     EXPECT_EQ(ran.out.find("Removed"), std::string::npos) << ran.out;
 }
 
-TEST(RespondOutputs, OfKilledRunsAreClearedByTheNext) {
+TEST(Outputs, OfKilledRunsAreClearedByTheNext) {
     const TemporaryFolder folder;
-    const auto begin = [&](std::vector<std::string> words) {
+    const auto begin = [&](std::vector<std::string> options) {
         const pid_t child = test::fork_child();
         if (child != 0) return child;
-        words.insert(words.begin(), test::program_path());
+        options.insert(options.begin(), test::program_path());
         std::vector<char*> arguments;
-        for (auto& w : words) arguments.push_back(w.data());
+        for (auto& w : options) arguments.push_back(w.data());
         arguments.push_back(nullptr);
         if (::chdir(folder.path().c_str()) == 0) ::execv(arguments[0], arguments.data());
         std::_Exit(99);
@@ -226,8 +226,8 @@ TEST(RespondOutputs, OfKilledRunsAreClearedByTheNext) {
     const auto endless = begin({"respond", "sine", "--set", "sine.duration=100000s", "--rate", "100kHz", "--traces", "-q", "-o", "a"});
     for (int k = 0; k < 500 && parts() < 3; ++k) ::usleep(10000);
     EXPECT_EQ(parts(), 3);
-    EXPECT_EQ(test::run_program(folder, "respond press -o a -q").status, 0) << "while another is at work there";
-    EXPECT_EQ(parts(), 3) << "what is in use stays";
+    EXPECT_EQ(test::run_program(folder, "respond press -o a -q").status, 0) << "while another run writes there";
+    EXPECT_EQ(parts(), 3) << "files in use are kept";
     test::signal_child(endless, SIGKILL);
     ::waitpid(endless, nullptr, 0);
     folder.write("a/mine.csv.part-3", "mine");
@@ -236,7 +236,7 @@ TEST(RespondOutputs, OfKilledRunsAreClearedByTheNext) {
     EXPECT_EQ(folder.file_names(), (std::vector<std::string>{"a", "mine.csv.part-3", "spikes.csv", "spikes.csv.part-iii", "summary.json"}));
 }
 
-TEST(RespondOutputs, PartsFollowNoLinks) {
+TEST(Outputs, PartsFollowNoLinks) {
     const TemporaryFolder folder;
     folder.write("victim", "mine");
     const auto part = fmt::format("x.csv.part-{}", ::getpid());
@@ -258,24 +258,24 @@ TEST(RespondOutputs, PartsFollowNoLinks) {
     EXPECT_EQ(read_file(folder / "victim"), "mine");
 }
 
-TEST(RespondOutputs, ThatCostMoreThanASecondOrAreToBeTakenUpAreSyncedBeforeTheyHaveTheirNames) {
+TEST(Outputs, ThatTookMoreThanASecondOrAreForResumingAreSyncedBeforeTheyAreRenamed) {
     const TemporaryFolder folder;
-    auto quick = test::value_or_throw(OutputFile::create(folder / "quick.csv")), kept = test::value_or_throw(OutputFile::create(folder / "x.state")),
+    auto quick = test::value_or_throw(OutputFile::create(folder / "quick.csv")), for_resuming = test::value_or_throw(OutputFile::create(folder / "x.state")),
          slow = test::value_or_throw(OutputFile::create(folder / "slow.csv"));
     ASSERT_TRUE(quick.commit());
-    ASSERT_TRUE(kept.commit(SyncPolicy::always));
+    ASSERT_TRUE(for_resuming.commit(SyncPolicy::always));
     ::usleep(1'050'000);
     ASSERT_TRUE(slow.commit());
     EXPECT_FALSE(quick.is_synced());
-    EXPECT_TRUE(kept.is_synced());
+    EXPECT_TRUE(for_resuming.is_synced());
     EXPECT_TRUE(slow.is_synced());
     EXPECT_TRUE(sync_directory_of(folder / "slow.csv"));
 }
 
-/// Whether the file system has not yet decided where bytes of the file go; none: it does not tell.
-std::optional<bool> waits_for_its_place(const std::string& path) {
-    alignas(::fiemap) char room[sizeof(::fiemap) + 8 * sizeof(::fiemap_extent)] = {};
-    auto* const map = reinterpret_cast<::fiemap*>(room);
+/// True if the file system has not yet allocated blocks for the file; empty if it does not report that.
+std::optional<bool> is_allocation_delayed(const std::string& path) {
+    alignas(::fiemap) char buffer[sizeof(::fiemap) + 8 * sizeof(::fiemap_extent)] = {};
+    auto* const map = reinterpret_cast<::fiemap*>(buffer);
     map->fm_length = FIEMAP_MAX_OFFSET, map->fm_extent_count = 8;
     const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
     const bool done = file >= 0 && ::ioctl(file, FS_IOC_FIEMAP, map) == 0;
@@ -286,39 +286,40 @@ std::optional<bool> waits_for_its_place(const std::string& path) {
     return false;
 }
 
-TEST(RespondOutputs, OfAShortRunAreOnTheirWayToTheDiskWhenTheyHaveTheirNames) {
+TEST(Outputs, OfAShortRunAreBeingWrittenToDiskWhenTheyAreRenamed) {
     const TemporaryFolder folder;
     const std::string text(100'000, 'x');
-    if (waits_for_its_place(folder.write("plain", text)) != true) GTEST_SKIP() << "the file system does not tell what it has yet to write";
+    if (is_allocation_delayed(folder.write("plain", text)) != true) GTEST_SKIP() << "the file system does not report delayed allocation";
     auto quick = test::value_or_throw(OutputFile::create(folder / "quick.csv"));
     ASSERT_TRUE(quick.write(text));
     ASSERT_TRUE(quick.commit());
-    EXPECT_EQ(waits_for_its_place(folder / "quick.csv"), false);
+    EXPECT_EQ(is_allocation_delayed(folder / "quick.csv"), false);
 }
 
-TEST(RespondOutputs, ADeviceIsWrittenInPlace) {
+TEST(Outputs, ADeviceIsWrittenInPlace) {
     auto file = test::value_or_throw(OutputFile::create("/dev/null"));
     EXPECT_TRUE(file.write("x"));
     EXPECT_TRUE(file.commit());
     EXPECT_TRUE(fs::is_character_file("/dev/null"));
 }
 
-TEST(RespondOutputs, AFullDiskBehindStandardOutputIsAnError) {
+TEST(Outputs, AFullDiskBehindStandardOutputIsAnError) {
     if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
     const TemporaryFolder folder;
     folder.write("a.cir", small_deck);
     ASSERT_EQ(test::run_program(folder, "respond press -o a -q").status, 0);
-    for (const std::string words :
+    for (const std::string arguments :
          {"respond press", "respond press --json", "respond press --population 'grid 4x4'", "run a.cir", "run a.cir --json", "study fig3",
           "compare a/spikes.csv a/spikes.csv", "export a.cir", "list", "list --json", "--help", "--version"}) {
-        const auto status = std::system(("cd '" + folder.path() + "' && '" + test::program_path() + "' " + words + " >/dev/full 2>err").c_str());
-        EXPECT_EQ(WEXITSTATUS(status), 1) << words;
+        const auto status =
+            std::system(("cd '" + folder.path() + "' && '" + test::program_path() + "' " + arguments + " >/dev/full 2>err").c_str());
+        EXPECT_EQ(WEXITSTATUS(status), 1) << arguments;
         EXPECT_NE(read_file(folder / "err").find("cannot write all of standard output: No space left on device"), std::string::npos)
-            << words;
+            << arguments;
     }
 }
 
-TEST(RespondOutputs, AFileThatMayGrowNoFurtherIsAnErrorAndLeavesNothing) {
+TEST(Outputs, AFileThatMayGrowNoFurtherIsAnErrorAndLeavesNothing) {
     const TemporaryFolder folder;
     const auto status = std::system(
         ("cd '" + folder.path() + "' && (ulimit -f 8; exec '" + test::program_path() + "' respond press --traces -o big -q) 2>err").c_str());

@@ -1,4 +1,4 @@
-// What is printed: help that fits, names that cannot harm, commands that tell no directories.
+// Printed text: help that fits the width, names without control characters, commands without the names of directories.
 
 #include <filesystem>
 #include <fstream>
@@ -24,7 +24,7 @@ std::size_t widest_line(const std::string& text) {
     return widest;
 }
 
-/// No control character but the end of a line, no mark of direction, nothing but UTF-8.
+/// True for valid UTF-8 without control characters (except line feeds) and without marks of text direction.
 bool is_harmless(const std::string& text) {
     for (const std::string mark : {"\xe2\x80\xae", "\xe2\x80\x8f", "\xe2\x81\xa6", "\xc2\x9b", "\x7f"})
         if (text.find(mark) != text.npos) return false;
@@ -45,11 +45,11 @@ TEST(PrintedText, HelpFitsInAHundredColumnsAndShowsExamplesFirst) {
     }
 }
 
-TEST(PrintedText, TheProgramAloneHelpsAndAWrongVerbIsToldTheRightOne) {
+TEST(PrintedText, TheProgramAlonePrintsHelpAndAWrongVerbGetsASuggestion) {
     const TemporaryFolder folder;
-    const auto alone = test::run_program(folder, "");
-    EXPECT_EQ(alone.status, 0);
-    EXPECT_EQ(alone.out, test::run_program(folder, "--help").out);
+    const auto without_arguments = test::run_program(folder, "");
+    EXPECT_EQ(without_arguments.status, 0);
+    EXPECT_EQ(without_arguments.out, test::run_program(folder, "--help").out);
     const auto wrong = test::run_program(folder, "resond press");
     EXPECT_EQ(wrong.status, 2);
     EXPECT_EQ(wrong.err, "corpuscle: unknown verb 'resond'; did you mean 'respond'?\n");
@@ -60,7 +60,7 @@ TEST(PrintedText, TheProgramAloneHelpsAndAWrongVerbIsToldTheRightOne) {
         EXPECT_EQ(test::run_program(folder, verb + " --version").out, test::run_program(folder, "--version").out) << verb;
 }
 
-TEST(PrintedText, AsManyChannelsAreOfferedAsAreTaken) {
+TEST(PrintedText, AsManyChannelsAreSuggestedAsAreAccepted) {
     const TemporaryFolder folder;
     EXPECT_NE(test::run_program(folder, "stream --help").out.find("[1 - 4194304]"), std::string::npos);
     EXPECT_EQ(test::run_program(folder, "stream --rate 1kHz --channels 4194305 < /dev/null").status, 2);
@@ -68,25 +68,25 @@ TEST(PrintedText, AsManyChannelsAreOfferedAsAreTaken) {
 
 TEST(PrintedText, AReportIsAPageByItsName) {
     const TemporaryFolder folder;
-    for (const std::string words : {"respond press --report x.pdf", "respond press --report my_report", "study fig3 --report x",
-                                    "sweep show r.sqlite --report r.sqlite"}) {
-        const auto ran = test::run_program(folder, words);
-        EXPECT_EQ(ran.status, 2) << words;
+    for (const std::string arguments : {"respond press --report x.pdf", "respond press --report my_report", "study fig3 --report x",
+                                        "sweep show r.sqlite --report r.sqlite"}) {
+        const auto ran = test::run_program(folder, arguments);
+        EXPECT_EQ(ran.status, 2) << arguments;
         EXPECT_NE(ran.err.find("the name must end in .html, such as "), std::string::npos) << ran.err;
     }
     EXPECT_TRUE(folder.file_names().empty());
-    EXPECT_EQ(test::run_program(folder, "respond --report press -q").status, 0) << "a stimulus behind --report is a force";
+    EXPECT_EQ(test::run_program(folder, "respond --report press -q").status, 0) << "a stimulus after --report is a force";
     EXPECT_EQ(folder.file_names(), std::vector<std::string>{"report.html"});
 }
 
-TEST(PrintedText, ARecordingBehindReportIsNoSecondForce) {
+TEST(PrintedText, ARecordingAfterReportIsNotASecondForce) {
     const TemporaryFolder folder;
     for (const auto* const name : {"a.csv", "b 2.csv"}) folder.write(name, "time_s,fz_N\n0,0\n0.001,1\n0.002,1\n");
-    for (const auto& [words, remedy] : {std::pair{"respond a.csv --report a.csv", "respond a.csv --report"},
-                                        {"respond a.csv --report 'b 2.csv'", "respond a.csv 'b 2.csv' --report"},
-                                        {"respond press --report=sine", "respond press sine --report"}}) {
-        const auto ran = test::run_program(folder, words);
-        EXPECT_EQ(ran.status, 2) << words;
+    for (const auto& [arguments, remedy] : {std::pair{"respond a.csv --report a.csv", "respond a.csv --report"},
+                                            {"respond a.csv --report 'b 2.csv'", "respond a.csv 'b 2.csv' --report"},
+                                            {"respond press --report=sine", "respond press sine --report"}}) {
+        const auto ran = test::run_program(folder, arguments);
+        EXPECT_EQ(ran.status, 2) << arguments;
         EXPECT_NE(ran.err.find("the name must end in .html, such as "), std::string::npos) << ran.err;
         EXPECT_NE(ran.err.find(std::string("corpuscle ") + remedy + "\n"), std::string::npos) << ran.err;
         EXPECT_FALSE(std::filesystem::exists(folder / "report.html"));
@@ -106,14 +106,14 @@ TEST(PrintedText, NamesFromFilesReachNoTerminalWithControlCharacters) {
     for (int k = 0; k < 300; ++k) text += fmt::format("{},{},2,3,1\n", 0.001 * k, k % 100 < 50 ? 0 : 2);
     folder.write("c.csv", text);
     folder.write("n.cir", "a \x1b[31m title\nv1 in 0 1\nr1 in 0 1k\n.op\n.expect v(in) 2 1e-9\n");
-    for (const std::string words :
+    for (const std::string arguments :
          {"respond c.csv -o c", "respond c.csv --json", "respond c.csv --channel \"$(printf 'x\\033[31mz')\"",
           "respond \"$(printf 'no\\nname\\033')\"", "compare c/spikes.csv c/spikes.csv", "compare c/spikes.csv c/spikes.csv --json",
           "run n.cir", "run n.cir --json", "run \"$(printf 'no\\033.cir')\"", "\"$(printf 'verb\\033')\"",
           "respond \"$(printf -- '--x\\033')\""}) {
-        const auto ran = test::run_program(folder, words);
-        EXPECT_TRUE(is_harmless(ran.out)) << words << '\n' << ran.out;
-        EXPECT_TRUE(is_harmless(ran.err)) << words << '\n' << ran.err;
+        const auto ran = test::run_program(folder, arguments);
+        EXPECT_TRUE(is_harmless(ran.out)) << arguments << '\n' << ran.out;
+        EXPECT_TRUE(is_harmless(ran.err)) << arguments << '\n' << ran.err;
     }
     const auto table = test::run_program(folder, "respond c.csv").out;
     EXPECT_NE(table.find("a\\x1b]0,title\\x07b"), std::string::npos) << table;
@@ -121,7 +121,7 @@ TEST(PrintedText, NamesFromFilesReachNoTerminalWithControlCharacters) {
     EXPECT_EQ(Json::parse(test::run_program(folder, "respond c.csv --json").out)["inputs"][0]["channels"][0],
               "a\x1b]0,title\x07"
               "b")
-        << "as data it is what it was";
+        << "data are not changed";
 }
 
 TEST(PrintedText, SpikesCsvIsUtf8AndNamesComeBackAsTheyWere) {
@@ -137,7 +137,7 @@ TEST(PrintedText, SpikesCsvIsUtf8AndNamesComeBackAsTheyWere) {
     EXPECT_EQ(to_utf8("\x80 \xb5"), "\xe2\x82\xac \xc2\xb5") << "Windows' euro, Latin-1's micro";
 }
 
-TEST(PrintedText, PagesAndSummariesTellNoDirectories) {
+TEST(PrintedText, PagesAndSummariesNameNoDirectories) {
     const TemporaryFolder folder;
     std::filesystem::create_directories(folder / "secret/deep");
     std::string text = "t_s,fz_N\n";
@@ -172,7 +172,7 @@ TEST(PrintedText, OneDocumentHoldsTheSpikesOfAPopulation) {
     const auto document = Json::parse(test::run_program(folder, "respond press --population 'grid 3x3' --json -o a").out);
     const auto trains = test::value_or_throw(read_spikes(folder / "a/spikes.csv"));
     ASSERT_GT(trains.size(), 2U);
-    ASSERT_EQ(document["spikes"].size(), trains.size()) << "of units that fired";
+    ASSERT_EQ(document["spikes"].size(), trains.size()) << "afferents that fired";
     for (const auto& unit : document["spikes"]) {
         const auto name = unit["afferent"].get<std::string>();
         const auto same = std::find_if(trains.begin(), trains.end(), [&](const auto& t) { return t.afferent == name; });
@@ -190,8 +190,9 @@ TEST(PrintedText, TablesFitInAHundredColumnsAndHaveNoMinusZero) {
     for (int k = 0; k < 300; ++k) text += fmt::format("{},{}\n", 0.001 * k, k % 100 < 50 ? 0 : 2);
     folder.write("f.csv", text);
     ASSERT_EQ(test::run_program(folder, "respond press -a sa1,sa1-kim -o a -q").status, 0);
-    for (const std::string words : {"compare a/spikes.csv a/spikes.csv", "respond press -a sa1,sa1-kim --copies 9 --spread sa1.f_B=10%"})
-        EXPECT_LE(widest_line(test::run_program(folder, words).out), 100U) << test::run_program(folder, words).out;
+    for (const std::string arguments :
+         {"compare a/spikes.csv a/spikes.csv", "respond press -a sa1,sa1-kim --copies 9 --spread sa1.f_B=10%"})
+        EXPECT_LE(widest_line(test::run_program(folder, arguments).out), 100U) << test::run_program(folder, arguments).out;
     EXPECT_NE(test::run_program(folder, "respond f.csv --scale=-1").out.find(", -2 to 0 N\n"), std::string::npos)
         << test::run_program(folder, "respond f.csv --scale=-1").out;
 }
@@ -199,13 +200,13 @@ TEST(PrintedText, TablesFitInAHundredColumnsAndHaveNoMinusZero) {
 TEST(PrintedText, OperatingPointsFitInAHundredColumnsWithEveryReading) {
     const TemporaryFolder folder;
     for (const std::string name : {"bias", "sa1", "spiker"}) {
-        const auto ran = test::run_program(folder, "run '" + test::project_root() + "/circuits/" + name + ".cir'");
+        const auto ran = test::run_program(folder, "run '" + test::source_root() + "/circuits/" + name + ".cir'");
         EXPECT_LE(widest_line(ran.out), 100U) << ran.out;
     }
-    const auto bias = test::run_program(folder, "run '" + test::project_root() + "/circuits/bias.cir'").out;
-    const auto count = [&](const std::string& words) {
+    const auto bias = test::run_program(folder, "run '" + test::source_root() + "/circuits/bias.cir'").out;
+    const auto count = [&](const std::string& arguments) {
         std::size_t found = 0;
-        for (auto at = bias.find(words); at != bias.npos; at = bias.find(words, at + 1)) ++found;
+        for (auto at = bias.find(arguments); at != bias.npos; at = bias.find(arguments, at + 1)) ++found;
         return found;
     };
     for (const std::string reading : {" i_d", " g_mb", " c_gs", " c_bd\n"}) EXPECT_EQ(count(reading), 1U) << reading << bias;

@@ -1,6 +1,6 @@
 #!/bin/sh
-# A program as it is shipped: code anywhere in memory, addresses of libraries settled at its start and read-only from then on, no code on the
-# stack, no path of its own to libraries, and checks of the stack and of copies compiled in (cmake/hardening.cmake).
+# A program as it is shipped: position-independent code, addresses of libraries resolved at start and read-only afterwards, no executable
+# stack, no search path for libraries, and checks of the stack and of copies compiled in (cmake/hardening.cmake).
 # Usage: programs_are_hardened.sh PROGRAM...
 set -eu
 status=0

@@ -5,7 +5,7 @@
 namespace corpuscle {
 namespace {
 
-const std::string project_root = test::project_root();
+const std::string project_root = test::source_root();
 
 /// The lines of a page's shell blocks that call the program, without a comment after '#'.
 std::vector<std::string> commands(const std::string& page) {
@@ -21,14 +21,14 @@ std::vector<std::string> commands(const std::string& page) {
 
 /// Runs the commands of a page in the order in which they are shown.
 void run_commands_of(const std::string& page) {
-    const test::TemporaryFolder folder;  // the clone, with what a user finds in it and nothing else
+    const test::TemporaryFolder folder;  // stands for the clone, with the files that a user finds in it and no others
     for (const auto* part : {"circuits", "process", "examples"})
         std::filesystem::copy(project_root + "/" + part, folder / part, std::filesystem::copy_options::recursive);
     const auto shown = commands(page);
     ASSERT_GE(shown.size(), 6U);
     for (const auto& command : shown) {
-        const auto words = command.substr(std::string("corpuscle").size());
-        const auto ran = test::run_program(folder, words);
+        const auto arguments = command.substr(std::string("corpuscle").size());
+        const auto ran = test::run_program(folder, arguments);
         EXPECT_EQ(ran.status, 0) << command << '\n' << ran.err;
     }
 }
@@ -42,7 +42,7 @@ TEST(Readme, ItsProgramIsTheExampleThatRuns) {
     EXPECT_NE(readme.find("```cpp\n" + example + "```\n"), std::string::npos);
 }
 
-TEST(Readme, EveryPageItPointsToIsThere) {
+TEST(Readme, EveryPageItLinksToExists) {
     for (const auto* page : {"README.md", "HACKING.md", "doc/concepts.md", "doc/afferents.md", "doc/recordings.md", "doc/fixed-point.md",
                              "doc/measures.md", "doc/circuits.md", "doc/chips.md", "doc/lanes.md", "doc/populations.md",
                              "doc/real-recordings.md", "doc/live.md", "doc/events.md", "doc/skin.md", "doc/sweeps.md", "doc/README.md",
@@ -51,7 +51,7 @@ TEST(Readme, EveryPageItPointsToIsThere) {
         ASSERT_FALSE(text.empty()) << page;
         for (std::size_t at = text.find("]("); at != std::string::npos; at = text.find("](", at + 1)) {
             const auto link = text.substr(at + 2, text.find(')', at) - at - 2), target = link.substr(0, link.find('#'));
-            if (link.starts_with("http") || target.empty()) continue;  // elsewhere, or within the page
+            if (link.starts_with("http") || target.empty()) continue;  // another site, or within the page
             EXPECT_TRUE(std::filesystem::exists(std::filesystem::path(project_root) / std::filesystem::path(page).parent_path() / target))
                 << page << " points to " << target;
         }

@@ -1,4 +1,4 @@
-// Real recordings: every command of doc/real-recordings.md, what a first wrong command is told, and raw against cleaned files.
+// Real recordings: every command of doc/real-recordings.md, the errors for a wrong first command, and raw against cleaned files.
 
 #include <cmath>
 #include <map>
@@ -11,11 +11,11 @@ namespace {
 
 using test::TemporaryFolder;
 
-const std::string recordings_root = test::project_root();
+const std::string recordings_root = test::source_root();
 
 using test::run_program;
 
-/// `folder` gets the recordings' folders.
+/// Links the folders of the recordings into `folder`.
 void link_recordings(const TemporaryFolder& folder) {
     for (const char* name : {"grip_force_ati", "gait_insole_vgrf", "fbg_eskin_press", "fabric_slide_cpm"})
         std::filesystem::create_symlink(std::filesystem::absolute(test::shared_file_path(name)), folder / name);
@@ -37,12 +37,12 @@ TEST(RealRecordings, EveryFileOfEverySetHasACommandThatReadsIt) {
     const TemporaryFolder folder;
     link_recordings(folder);
     std::string all;
-    for (const auto& words : documented_commands()) {
-        const auto ran = run_program(folder, words);
-        EXPECT_EQ(ran.status, 0) << words << '\n' << ran.err;
-        all += words + " ";
-        if (words.find("--report") != std::string::npos) {
-            EXPECT_TRUE(std::filesystem::exists(folder / "answer/report.html")) << words;
+    for (const auto& arguments : documented_commands()) {
+        const auto ran = run_program(folder, arguments);
+        EXPECT_EQ(ran.status, 0) << arguments << '\n' << ran.err;
+        all += arguments + " ";
+        if (arguments.find("--report") != std::string::npos) {
+            EXPECT_TRUE(std::filesystem::exists(folder / "answer/report.html")) << arguments;
         }
     }
     for (const char* set : {"grip_force_ati", "gait_insole_vgrf", "fbg_eskin_press", "fabric_slide_cpm"})
@@ -54,30 +54,30 @@ TEST(RealRecordings, EveryFileOfEverySetHasACommandThatReadsIt) {
         }
 }
 
-/// A sensor of each set that can be read in seconds, through both chips transistor by transistor.
-TEST(RealRecordings, GoThroughTheChips) {
+/// A sensor of each set that can be read in seconds, through both circuits at transistor level.
+TEST(RealRecordings, AreSimulatedByTheChips) {
     CORPUSCLE_NEEDS(test::shared_file_path("fbg_eskin_press"));
     const TemporaryFolder folder;
     link_recordings(folder);
-    for (const std::string words : {"fbg_eskin_press/fbg_press_S6_T16.csv --rate 100Hz --scale 40 --channel 11",
-                                    "fabric_slide_cpm/Board10mm_F150_V-5mmps_0.csv --time-unit ms --channel 3 --scale 0.01"}) {
-        const auto ran = run_program(folder, "respond " + words + " --afferent sa1,sa1-circuit,fa1-circuit --json");
-        ASSERT_EQ(ran.status, 0) << words << ran.err;
-        const auto answer = nlohmann::json::parse(ran.out);
-        EXPECT_EQ(answer["work"]["circuits"]["not_converged"], 0);
+    for (const std::string arguments : {"fbg_eskin_press/fbg_press_S6_T16.csv --rate 100Hz --scale 40 --channel 11",
+                                        "fabric_slide_cpm/Board10mm_F150_V-5mmps_0.csv --time-unit ms --channel 3 --scale 0.01"}) {
+        const auto ran = run_program(folder, "respond " + arguments + " --afferent sa1,sa1-circuit,fa1-circuit --json");
+        ASSERT_EQ(ran.status, 0) << arguments << ran.err;
+        const auto summary = nlohmann::json::parse(ran.out);
+        EXPECT_EQ(summary["work"]["circuits"]["not_converged"], 0);
         std::map<std::string, double> spikes;
-        for (const auto& r : answer["rates"]) spikes[r["afferent"]] += r["spikes"].get<double>();
-        EXPECT_GT(spikes["sa1-circuit"], 50) << words;
-        EXPECT_NEAR(spikes["sa1-circuit"], spikes["sa1"], 0.6 * spikes["sa1"]) << words;
+        for (const auto& r : summary["rates"]) spikes[r["afferent"]] += r["spikes"].get<double>();
+        EXPECT_GT(spikes["sa1-circuit"], 50) << arguments;
+        EXPECT_NEAR(spikes["sa1-circuit"], spikes["sa1"], 0.6 * spikes["sa1"]) << arguments;
     }
 }
 
-TEST(RealRecordings, AWrongFirstCommandIsToldTheRightOne) {
+TEST(RealRecordings, AWrongFirstCommandGetsTheRemedy) {
     CORPUSCLE_NEEDS(test::shared_file_path("grip_force_ati"));
     const TemporaryFolder folder;
     link_recordings(folder);
     const struct {
-        const char *words, *told;
+        const char *arguments, *message;
     } traps[] = {
         {"fbg_eskin_press/fbg_press_S6_T16.csv", "'fbg01' is in nm, which is not a force; use --scale S"},
         {"fbg_eskin_press/fbg_press_S6_T16.csv --scale 40",
@@ -93,12 +93,12 @@ TEST(RealRecordings, AWrongFirstCommandIsToldTheRightOne) {
         {"fabric_slide_cpm/Linen_F120_V20mmps_0.csv", "'proximity2' is 65535, the full scale of a 16-bit converter"},
     };
     for (const auto& trap : traps) {
-        const auto ran = run_program(folder, std::string("respond ") + trap.words);
-        EXPECT_NE(ran.err.find(trap.told), std::string::npos) << trap.words << '\n' << ran.err;
+        const auto ran = run_program(folder, std::string("respond ") + trap.arguments);
+        EXPECT_NE(ran.err.find(trap.message), std::string::npos) << trap.arguments << '\n' << ran.err;
     }
 }
 
-/// Spikes of sa1 in each second.
+/// The number of spikes of sa1 in each second.
 std::map<int, int> by_second(const std::string& path) {
     std::istringstream text(test::read_file(path));
     std::map<int, int> counts;
@@ -107,7 +107,7 @@ std::map<int, int> by_second(const std::string& path) {
     return counts;
 }
 
-TEST(RealRecordings, TornFilesMendedGiveWhatTheCleanedOnesGive) {
+TEST(RealRecordings, RepairedFilesGiveTheSpikesOfTheCleanedOnes) {
     CORPUSCLE_NEEDS(test::shared_file_path("grip_force_ati"));
     const TemporaryFolder folder;
     link_recordings(folder);

@@ -45,8 +45,8 @@ def data_of(path):
     return json.loads(DATA.search(path.read_text())[2])
 
 
-def doctored(path, name, change):
-    """The same page with other data: for what `respond press` has none of, such as several channels."""
+def with_changed_data(path, name, change):
+    """The same page with changed data, e.g. several channels, which `respond press` does not have."""
     data = data_of(path)
     change(data)
     text = json.dumps(data).replace("<", "\\u003c")
@@ -66,7 +66,7 @@ def coded(kind, values):
 
 
 def trace(data, part, afferent=None, channel=None):
-    """Least and greatest of each bucket of a trace; both the same where every sample is kept."""
+    """Minimum and maximum of each bucket of a curve; both are equal where every sample is kept."""
     channel = data["inputs"][0]["channels"][0]["id"] if channel is None else channel
     record = next(r for r in data["traces"] if (r["part"], r["afferent"], r["channel"]) == (part, afferent, channel))
     values = numbers("f", record["data"])
@@ -78,7 +78,7 @@ def spike_times(data, afferent):
 
 
 def plateau(data):
-    """A time amid the longest stretch of greatest force, and that force."""
+    """A time in the middle of the longest interval of maximum force, and that force."""
     low, _, bucket = trace(data, "force")
     top, best, run = max(low), (0, 0), 0
     for k, value in enumerate(low):
@@ -95,7 +95,7 @@ def si(text):
 
 
 def frames(record):
-    """Of maps: by frame, what each place has that is not 0."""
+    """The nonzero values of a map: for each frame, {place: value}."""
     source, found = iter(base64.b64decode(record["data"])), []
 
     def number():
@@ -119,7 +119,7 @@ def frames(record):
 
 
 class Page(unittest.TestCase):
-    """A browser with one report open; whatever a test does, the console stays silent."""
+    """A browser with one report open. No test may cause a message in the console."""
 
     @classmethod
     def setUpClass(cls):
@@ -144,18 +144,19 @@ class Page(unittest.TestCase):
         self.end = self.input["t0"] + self.input["samples"] * self.input["T"]
 
     def tearDown(self):
-        said = [e["message"] for e in self.browser.get_log("browser") if e["level"] != "INFO"]
-        self.assertEqual([text for text in said if "willReadFrequently" not in text], [])  # that advice is for this test, which reads pixels back
+        console_messages = [e["message"] for e in self.browser.get_log("browser") if e["level"] != "INFO"]
+        # the advice concerns this test, which reads pixels back
+        self.assertEqual([text for text in console_messages if "willReadFrequently" not in text], [])
 
     def js(self, script, *arguments):
         return self.browser.execute_script(script, *arguments)
 
     def windows(self):
-        """What each dygraph itself says it shows."""
+        """The time window of each dygraph."""
         return self.js("return Object.values(corpuscle.charts).map((chart) => chart.xAxisRange())")
 
     def settle(self, moved):
-        """Waits for the frame that draws all panels; `moved` tells from (a, b) that it has come."""
+        """Waits until all panels are drawn with a window (a, b) for which `moved(a, b)` is true."""
         WebDriverWait(self.browser, 20).until(lambda _: all(moved(*window) for window in self.windows()))
 
     def plot(self, panel):
@@ -164,7 +165,7 @@ class Page(unittest.TestCase):
         return found
 
     def at_time(self, panel, t):
-        """Where time t stands in a panel, from the middle of its plot, as the mouse counts."""
+        """The position of time t in a panel, in pixels from the middle of its plot."""
         plot = self.plot(panel)
         x = self.js("return corpuscle.charts[arguments[0]].toDomXCoord(arguments[1])", panel, t)
         return plot, round(x - plot.size["width"] / 2)
@@ -189,8 +190,8 @@ class Page(unittest.TestCase):
     def panels(self):
         return self.js("return Object.keys(corpuscle.charts)")
 
-    def inked(self):
-        """By panel, how many pixels of the plot are darker than bands and grid."""
+    def dark_pixels(self):
+        """For each panel, the number of pixels of the plot that are darker than bands and grid."""
         return self.js("""
             return Object.fromEntries(Object.entries(corpuscle.charts).map(([name, chart]) => {
                 const canvas = document.querySelector(`[data-panel="${name}"] canvas`), ratio = canvas.width / canvas.clientWidth;
@@ -204,7 +205,7 @@ class Page(unittest.TestCase):
 
     @contextlib.contextmanager
     def screen(self, width, height, pixel_ratio):
-        """The page anew on a screen of this size."""
+        """Loads the page again on a screen of this size."""
         self.browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride",
                                      {"width": width, "height": height, "deviceScaleFactor": pixel_ratio, "mobile": width < 600})
         try:
@@ -217,7 +218,7 @@ class Page(unittest.TestCase):
     def screenshot(self, name):
         self.browser.set_window_size(1200, 900)
         height = self.js("scrollTo(0, 0); return document.documentElement.scrollHeight")
-        self.browser.set_window_size(1200, height + 160)  # what the browser keeps for itself, and a little
+        self.browser.set_window_size(1200, height + 160)  # the height of the browser's own controls, with some margin
         self.js("return new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")
         self.browser.save_screenshot(str(OUT / name))
         self.browser.set_window_size(1200, 900)
@@ -228,27 +229,27 @@ class Press(Page):
     def report(cls):
         return respond("press.html", "--afferent", "sa1", "--afferent", "fa1")
 
-    def test_the_page_asks_for_nothing_but_itself(self):
+    def test_the_page_requests_nothing_but_itself(self):
         events = [json.loads(entry["message"])["message"] for entry in self.browser.get_log("performance")]
-        asked = {e["params"]["request"]["url"] for e in events
+        requested_urls = {e["params"]["request"]["url"] for e in events
                  if e["method"] == "Network.requestWillBeSent" and e["params"]["documentURL"] == self.path.as_uri()}
-        self.assertIn(self.path.as_uri(), asked)
-        self.assertEqual([url for url in asked if url != self.path.as_uri() and not url.startswith("data:")], [])
+        self.assertIn(self.path.as_uri(), requested_urls)
+        self.assertEqual([url for url in requested_urls if url != self.path.as_uri() and not url.startswith("data:")], [])
 
     def test_the_file_refers_to_nothing_outside(self):
-        text = re.sub(r"<!--.*?-->|/\*.*?\*/", "", DATA.sub("", self.path.read_text()), flags=re.S)  # licences may name their homes
+        text = re.sub(r"<!--.*?-->|/\*.*?\*/", "", DATA.sub("", self.path.read_text()), flags=re.S)  # licences may name web addresses
         self.assertEqual(re.findall(r"https?://[^\s\"')]*", text), [])
         self.assertEqual(re.findall(r"""(?:src|href)\s*=\s*["']?(?!data:)[\w./]|url\(\s*["']?(?!data:)|@import""", text.split("<script", 1)[0]), [])
         self.assertEqual(re.findall(r"<script[^>]*\bsrc\b|<link[^>]*stylesheet", text), [])
         self.assertNotIn("{{page", text)
 
     def test_every_panel_is_there_and_drawn(self):
-        inked = self.inked()
+        dark_pixels = self.dark_pixels()
         self.assertEqual(self.panels(), ["force", "raster", "frequency", "sa1 current", "sa1 membrane", "fa1 current", "fa1 membrane"])
-        self.assertEqual({name: count for name, count in inked.items() if count < 80}, {})
+        self.assertEqual({name: count for name, count in dark_pixels.items() if count < 80}, {})
         self.screenshot("press.png")
 
-    def test_each_panel_says_what_it_shows_to_those_who_do_not_see_it(self):
+    def test_each_panel_has_a_description_for_screen_readers(self):
         for plot in self.browser.find_elements(By.CSS_SELECTOR, ".plot"):
             self.assertEqual(plot.get_attribute("role"), "img")
             self.assertRegex(plot.get_attribute("aria-label"), r"\w+.* from .*\ss to .*\ss")
@@ -267,7 +268,7 @@ class Press(Page):
         self.hover("force", begin + 0.1 * length)
         self.screenshot("press-zoomed.png")
 
-    def test_shift_drag_pans_and_double_click_shows_the_whole(self):
+    def test_shift_drag_pans_and_double_click_shows_everything(self):
         length = self.end - self.input["t0"]
         middle = self.input["t0"] + 0.5 * length
         self.js("corpuscle.setWindow(arguments[0], arguments[1])", middle, middle + 0.2 * length)
@@ -292,7 +293,7 @@ class Press(Page):
 
     def test_the_force_read_on_the_plateau_is_the_force_of_the_data(self):
         t, force = plateau(self.data)
-        self.hover("fa1 current", t)  # the cursor is shared: read in one panel, pointed at in another
+        self.hover("fa1 current", t)  # the cursor is shared: the pointer is in one panel, the values are read in another
         self.assertAlmostEqual(si(self.readout("force", "force")), force, delta=1e-3 * force)
         self.assertAlmostEqual(self.js("return corpuscle.valueAt('force', arguments[0])", t), force, delta=1e-6 * force)
         lines = self.browser.find_elements(By.CSS_SELECTOR, ".hairline")
@@ -309,8 +310,8 @@ class Press(Page):
             self.hover("sa1 current", t0 + (k + beside) * T)
             for part in parts:
                 low, high, bucket = trace(self.data, part, "sa1")
-                said = self.readout("sa1 current", part).split("…")
-                for value, text in zip((low[k // bucket], high[k // bucket]), said * (3 - len(said))):
+                shown_values = self.readout("sa1 current", part).split("…")
+                for value, text in zip((low[k // bucket], high[k // bucket]), shown_values * (3 - len(shown_values))):
                     self.assertAlmostEqual(si(text), value, delta=6e-4 * abs(value) + 1e-18, msg=part)
 
     def test_the_raster_has_as_many_spikes_as_the_table(self):
@@ -318,12 +319,12 @@ class Press(Page):
         rows = [[cell.text for cell in row.find_elements(By.TAG_NAME, "td")] for row in self.browser.find_elements(By.CSS_SELECTOR, "#rates tbody tr")]
         at = {name: columns.index(name) for name in ("afferent", "phase", "spikes")}
         for afferent in ("sa1", "fa1"):
-            said = self.readout("raster", afferent)
+            shown_count = self.readout("raster", afferent)
             mine = [row for row in rows if row[at["afferent"]] == afferent]
             whole = [row for row in mine if row[at["phase"]] in ("", "–", "all", "whole")] or mine
-            self.assertEqual(int(said), sum(int(row[at["spikes"]]) for row in whole))
-            self.assertEqual(int(said), len(spike_times(self.data, afferent)))
-            self.assertGreater(int(said), 0)
+            self.assertEqual(int(shown_count), sum(int(row[at["spikes"]]) for row in whole))
+            self.assertEqual(int(shown_count), len(spike_times(self.data, afferent)))
+            self.assertGreater(int(shown_count), 0)
 
     def test_each_spike_is_one_tick(self):
         for lane, afferent in enumerate(("sa1", "fa1")):
@@ -343,7 +344,7 @@ class Press(Page):
                 return runs""", lane)
             self.assertEqual(ticks, sum(a <= t < b for t in times), afferent)
 
-    def test_the_frequency_of_a_spike_stands_at_that_spike(self):
+    def test_the_frequency_of_a_spike_is_at_that_spike(self):
         times = spike_times(self.data, "fa1")
         drawn = self.js("""
             const chart = corpuscle.charts.frequency, points = [];
@@ -353,7 +354,7 @@ class Press(Page):
         for (t, f), following in zip(drawn, times[1:]):
             self.assertAlmostEqual(f * (following - t), 1, places=9)
 
-    def test_the_vertical_axis_follows_the_view_when_asked(self):
+    def test_the_vertical_axis_follows_the_view_if_chosen(self):
         t, _ = plateau(self.data)
         self.browser.find_element(By.ID, "autoscale").click()
         self.js("corpuscle.setWindow(arguments[0], arguments[1])", t - 20 * self.input["T"], t + 20 * self.input["T"])
@@ -380,7 +381,7 @@ class Press(Page):
             self.assertGreater(min(drawn["width"] for drawn in self.js("return corpuscle.pointsDrawn()").values()), 0.7 * 390)
 
     def test_curves_are_drawn_to_the_screens_own_pixels(self):
-        """Two points for each pixel of the screen, not for each pixel of the layout: else slopes are stairs."""
+        """Two points for each pixel of the screen, not of the layout; otherwise slopes look like stairs."""
         rows = []
         for ratio in (1, 2):
             with self.screen(390, 844, ratio):
@@ -390,7 +391,7 @@ class Press(Page):
 
 
 class Versions(Page):
-    """Both receptors as a model and as a chip."""
+    """Both receptors, as a model and as a chip."""
     CHIP = "circuits/sa1.cir"
 
     @classmethod
@@ -398,7 +399,7 @@ class Versions(Page):
         return respond("versions.html", "--afferent", "sa1", "--afferent", "fa1,circuits/sa1.cir", "--afferent", "circuits/fa1.cir")
 
     def right_axis(self, panel):
-        """Two points of the axis at the right: what they say in SI, and where they stand on the left one."""
+        """Two labels of the right axis: their values in SI, and their positions on the left axis."""
         labels = self.js("""
             const chart = corpuscle.charts[arguments[0]], axis = document.querySelector(`[data-panel="${arguments[0]}"] .right-axis`);
             return [...axis.children].map((one) => [one.textContent, chart.toDataYCoord(parseFloat(one.style.top) + chart.getArea().y),
@@ -416,14 +417,14 @@ class Versions(Page):
     def test_each_quantity_has_a_panel_for_both(self):
         self.assertEqual(self.panels(), ["force", "raster", "sa1 frequency", "fa1 frequency", "sa1 I", "sa1 I_A", "sa1 I_B", "sa1 I_C", "sa1 u",
                                          "circuits/sa1.cir nodes", "fa1 I", "fa1 I_A", "fa1 I_B", "fa1 u", "circuits/fa1.cir nodes"])
-        self.assertEqual({name: count for name, count in self.inked().items() if count < 80}, {})
+        self.assertEqual({name: count for name, count in self.dark_pixels().items() if count < 80}, {})
         self.screenshot("versions.png")
 
-    def test_one_instant_stands_at_one_place_in_all_panels(self):
+    def test_one_instant_is_at_one_position_in_all_panels(self):
         areas = self.js("return Object.values(corpuscle.charts).map((chart) => [chart.getArea().x, chart.getArea().w])")
         self.assertEqual(areas, [areas[0]] * len(areas))
 
-    def test_the_right_axis_says_what_is_drawn(self):
+    def test_the_right_axis_has_the_values_of_the_curves(self):
         for panel, part in (("sa1 I", "i(vi)"), ("sa1 I_B", "i(vib)"), ("sa1 u", "v(u)")):
             (low, at_low), (high, at_high) = self.right_axis(panel)
             T = self.input["T"]
@@ -444,7 +445,7 @@ class Versions(Page):
         self.assertAlmostEqual(at_low + (fires - low) * (at_high - at_low) / (high - low), self.data["afferents"][0]["V_th"], delta=0.02)
         self.assertLess(fires, 0.27)
 
-    def test_the_mean_of_what_drives_is_the_same_and_said(self):
+    def test_the_mean_input_current_is_the_same_and_stated(self):
         mean = lambda values: sum(max(v, 0) for v in values) / len(values)
         model, chip = mean(trace(self.data, "I", "sa1")[0]), mean(trace(self.data, "i(vi)", self.CHIP)[0])
         (low, at_low), (high, at_high) = self.right_axis("sa1 I_A")
@@ -452,7 +453,7 @@ class Versions(Page):
         note = self.browser.find_element(By.CSS_SELECTOR, "#figures .note").text.replace("\u00a0", " ")
         self.assertIn(f"{1e12 * chip / model * 1e-6:.4g} pA corresponds to 1 µA in sa1", note)
 
-    def test_the_glitches_at_the_chips_spikes_are_seen(self):
+    def test_the_glitches_at_the_chips_spikes_are_visible(self):
         times, T = spike_times(self.data, self.CHIP), self.input["T"]
         for t in times[3:8]:
             rows = [v for s, v in self.drawn("sa1 I", 2) if v is not None and t <= s < t + 4e-3]
@@ -471,7 +472,7 @@ class Versions(Page):
         self.assertEqual([len(one) for one in mine], [1] * 4)
         self.assertEqual(len({one[0] for one in mine}), 4)
 
-    def test_rows_of_one_receptor_stand_together(self):
+    def test_rows_of_one_receptor_are_adjacent(self):
         labels = [label.text for label in self.browser.find_elements(By.CSS_SELECTOR, '[data-panel="raster"] .dygraph-axis-label-y')]
         self.assertEqual(labels, ["sa1", self.CHIP, "fa1", "circuits/fa1.cir"])
 
@@ -485,15 +486,15 @@ class Versions(Page):
             self.assertEqual(int(row["spikes"]), len(times))
             for phase in self.input["phases"]:
                 self.assertEqual(int(row[phase["name"]]), sum(phase["from"] <= t < phase["to"] for t in times))
-        share = 100 * (len(spike_times(self.data, self.CHIP)) / len(spike_times(self.data, "sa1")) - 1)
-        self.assertEqual(rows[1]["change (%)"], f"{share:.1f}".replace("-", "−"))
+        change = 100 * (len(spike_times(self.data, self.CHIP)) / len(spike_times(self.data, "sa1")) - 1)
+        self.assertEqual(rows[1]["change (%)"], f"{change:.1f}".replace("-", "−"))
         self.assertEqual((rows[0]["matched"], rows[0]["change (%)"]), ("–", "–"))
 
 
 class NetlistsAlone(Page):
     @classmethod
     def report(cls):
-        """A chip, and another of half the current and the same membrane; no model."""
+        """A chip, and another with half the current and the same membrane; no model."""
         def change(data):
             chip = next(one for one in data["afferents"] if one["netlist"])
             data["afferents"] = [chip, {**chip, "name": "sa1-macro"}]
@@ -503,9 +504,9 @@ class NetlistsAlone(Page):
                 data["traces"].append({**record, "afferent": "sa1-macro", "data": coded("f", [v * half for v in numbers("f", record["data"])])})
             data["spikes"] = [r for r in data["spikes"] if r["afferent"] != "sa1"]
             data["spikes"] += [{**r, "afferent": "sa1-macro"} for r in data["spikes"]]
-        return doctored(respond("chip.html", "--afferent", "sa1,circuits/sa1.cir"), "netlists-alone.html", change)
+        return with_changed_data(respond("chip.html", "--afferent", "sa1,circuits/sa1.cir"), "netlists-alone.html", change)
 
-    def test_what_is_of_one_size_shares_an_axis(self):
+    def test_curves_of_similar_size_share_an_axis(self):
         self.assertEqual(self.panels(), ["force", "raster", "frequency", "sa1 i(vi)", "sa1 i(via)", "sa1 i(vib)", "sa1 i(vic)", "sa1 v(u)", "circuits/sa1.cir nodes",
                                          "sa1-macro nodes"])
         self.assertEqual(self.browser.find_elements(By.CLASS_NAME, "right-axis"), [])
@@ -519,16 +520,16 @@ class NetlistByItself(Page):
     def report(cls):
         return respond("spiker.html", "--afferent", "circuits/spiker.cir")
 
-    def test_its_membrane_stands_apart_from_its_other_nodes(self):
+    def test_its_membrane_has_a_panel_apart_from_its_other_nodes(self):
         self.assertEqual(self.panels(), ["force", "raster", "frequency", "circuits/spiker.cir membrane", "circuits/spiker.cir nodes"])
-        self.assertGreater(min(self.inked().values()), 80)
+        self.assertGreater(min(self.dark_pixels().values()), 80)
         self.assertFalse(self.browser.find_element(By.ID, "comparisons").is_displayed())
 
 
 class TwoChannels(Page):
     @classmethod
     def report(cls):
-        """A second channel: half the force, one spike of sa1, and no traces of the afferents."""
+        """A second channel: half the force, one spike of sa1, and no curves of the afferents."""
         def add(data):
             first = data["inputs"][0]["channels"][0]
             data["inputs"][0]["channels"].append({"id": 77, "name": "second <b>", "unit": first["unit"]})
@@ -541,7 +542,7 @@ class TwoChannels(Page):
             row = list(data["table"]["rows"][0])
             row[at["afferent"]], row[at["channel"]], row[at["spikes"]] = "sa1", "second <b>", 1
             data["table"]["rows"].append(row)
-        return doctored(respond("press.html", "--afferent", "sa1", "--afferent", "fa1"), "two-channels.html", add)
+        return with_changed_data(respond("press.html", "--afferent", "sa1", "--afferent", "fa1"), "two-channels.html", add)
 
     def shown(self):
         return Select(self.browser.find_element(By.ID, "channel")).first_selected_option.text
@@ -564,7 +565,7 @@ class TwoChannels(Page):
         ActionChains(self.browser).move_to_element_with_offset(plot, 0, round(row - plot.size["height"] / 2)).click().perform()
         WebDriverWait(self.browser, 20).until(lambda _: self.shown() == "second <b>")
 
-    def test_the_table_shows_all_channels_when_asked(self):
+    def test_the_table_shows_all_channels_if_chosen(self):
         self.browser.find_element(By.ID, "all-rows").click()
         self.assertEqual(len(self.browser.find_elements(By.CSS_SELECTOR, "#rates tbody tr")), len(self.data["table"]["rows"]))
 
@@ -572,19 +573,19 @@ class TwoChannels(Page):
 class SpikesOnly(Page):
     @classmethod
     def report(cls):
-        """No traces, and a million spikes of sa1."""
+        """No curves, and a million spikes of sa1."""
         def strip(data):
             clock = data["inputs"][0]
             data["traces"] = []
             step = clock["samples"] * clock["T"] / 1_000_000
             record = next(r for r in data["spikes"] if r["afferent"] == "sa1")
             record.update(count=1_000_000, times=coded("d", (clock["t0"] + (k + 0.5) * step for k in range(1_000_000))))
-        return doctored(respond("press.html", "--afferent", "sa1", "--afferent", "fa1"), "spikes-only.html", strip)
+        return with_changed_data(respond("press.html", "--afferent", "sa1", "--afferent", "fa1"), "spikes-only.html", strip)
 
-    def test_raster_and_frequency_still_show(self):
-        inked = self.inked()
+    def test_raster_and_frequency_are_still_shown(self):
+        dark_pixels = self.dark_pixels()
         self.assertEqual(self.panels(), ["raster", "frequency"])
-        self.assertGreater(min(inked.values()), 80)
+        self.assertGreater(min(dark_pixels.values()), 80)
         self.assertEqual(self.readout("raster", "sa1"), "1000000")
         self.assertLess(self.js("return corpuscle.pointsDrawn().frequency.rows / corpuscle.pointsDrawn().frequency.width"), 3)
 
@@ -594,15 +595,15 @@ class FewCopies(Page):
     def report(cls):
         return respond("few-copies.html", "--afferent", "sa1,fa1", "--copies", "20", "--spread", "sa1.V_th=10%", "--spread", "fa1.k_A=10%")
 
-    def test_every_copy_has_a_row_and_the_first_its_traces(self):
+    def test_every_copy_has_a_row_and_the_first_one_has_curves(self):
         self.assertEqual(self.panels(), ["force", "raster", "population", "frequency", "sa1 current", "sa1 membrane", "fa1 current", "fa1 membrane"])
-        self.assertGreater(min(self.inked().values()), 80)
+        self.assertGreater(min(self.dark_pixels().values()), 80)
         labels = [label.text for label in self.browser.find_elements(By.CSS_SELECTOR, '[data-panel="raster"] .dygraph-axis-label-y')]
         self.assertEqual(labels, [f"{name}#{k}" for name in ("sa1", "fa1") for k in range(1, 21)])
         first = max(spike_times(self.data, "sa1#1"))
         u, V_th = self.js("return corpuscle.valueAt('u', arguments[0], 'sa1')", first - self.input["T"]), self.data["afferents"][0]["V_th"]
         self.assertNotEqual(V_th, 0.5)
-        self.assertLess(abs(u - V_th), 0.01, "just before its spike the membrane shown is at that copy's threshold")
+        self.assertLess(abs(u - V_th), 0.01, "just before its spike the membrane is at the threshold of that copy")
 
     def test_the_rate_is_of_all_copies(self):
         for rate in self.data["copies"]["rates"]:
@@ -629,9 +630,9 @@ class ManyCopies(Page):
     def report(cls):
         return respond("many-copies.html", "--afferent", "sa1,fa1", "--copies", "300", "--spread", "sa1.V_th=10%")
 
-    def test_the_first_fifty_are_shown_and_it_says_so(self):
+    def test_the_first_fifty_are_shown_with_a_note(self):
         self.assertEqual(self.panels(), ["force", "raster", "population", "frequency"])
-        self.assertGreater(min(self.inked().values()), 80)
+        self.assertGreater(min(self.dark_pixels().values()), 80)
         self.assertEqual(len(self.data["spikes"]), 2 * 50)
         text = self.browser.find_element(By.ID, "figures").text
         self.assertIn("The first 50 of 300 copies of each afferent, one row per copy. The rate below is the mean over all 300.", text)
@@ -644,13 +645,13 @@ class Million(Page):
     def report(cls):
         return respond("million.html", "--rate", "1MHz")
 
-    def test_what_is_drawn_is_bounded_by_the_width_not_by_the_samples(self):
+    def test_the_drawn_points_are_bounded_by_the_width_not_by_the_samples(self):
         self.assertGreaterEqual(self.input["samples"], 1_000_000)
         length = self.end - self.input["t0"]
         self.bounded()
-        for share in (0.5, 0.1, 0.02):
+        for fraction in (0.5, 0.1, 0.02):
             a, b = self.js("return corpuscle.window()")
-            self.drag("force", a + 0.3 * (b - a), a + (0.3 + share) * (b - a))
+            self.drag("force", a + 0.3 * (b - a), a + (0.3 + fraction) * (b - a))
             self.settle(lambda c, d: d - c < 0.9 * (b - a))
             self.bounded()
         self.assertLess(self.js("return corpuscle.window()[1] - corpuscle.window()[0]"), 0.01 * length)
@@ -683,7 +684,7 @@ class Million(Page):
 class Recorded(Page):
     @classmethod
     def report(cls):
-        """A recording with hum, and a reading in fifty torn."""
+        """A recording with hum, and an outlier in every fifty readings."""
         rows = "\n".join(str(9000 if k % 50 == 7 else round(1000 + 500 * math.sin(k / 90) + 100 * math.sin(math.tau * 50 * k / 242.6))) for k in range(3000))
         recording = OUT / "recorded.csv"
         recording.write_text("fz\n" + rows + "\n")
@@ -692,7 +693,7 @@ class Recorded(Page):
                        stderr=subprocess.DEVNULL)
         return path
 
-    def test_the_page_says_how_well_it_was_recorded(self):
+    def test_the_page_reports_the_quality_of_the_recording(self):
         section = self.browser.find_element(By.ID, "quality")
         self.assertIn("are isolated outliers, probably transmission errors", section.find_element(By.TAG_NAME, "ul").text)
         cells = dict(zip((th.text for th in section.find_elements(By.TAG_NAME, "th")), (td.text for td in section.find_elements(By.TAG_NAME, "td"))))
@@ -719,7 +720,7 @@ class Costs(Page):
 
 
 class OnASkin(Page):
-    """A press on a fingertip: maps that play, and the plots beneath them."""
+    """A press on a fingertip: animated maps, and the plots below them."""
 
     @classmethod
     def report(cls):
@@ -731,11 +732,11 @@ class OnASkin(Page):
         self.frames = frames(self.over["marks"])
 
     def active(self, frame):
-        """By class, how many units fired in a frame."""
+        """For each class, the number of afferents that fired in a frame."""
         return {one["name"]: sum(one["first"] <= unit < one["first"] + one["units"] for unit in self.frames[frame]) for one in self.classes}
 
-    def inked_map(self, name):
-        """How many pixels of a map are far from grey."""
+    def coloured_pixels(self, name):
+        """The number of coloured pixels of a map."""
         return self.js("""
             const canvas = document.querySelector(`[data-map="${arguments[0]}"] canvas`);
             const pixels = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data;
@@ -749,16 +750,16 @@ class OnASkin(Page):
         WebDriverWait(self.browser, 20).until(lambda _: self.js("return corpuscle.frame") == frame)
         self.js("return new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")
 
-    def test_maps_show_the_units_that_fired(self):
+    def test_maps_show_the_afferents_that_fired(self):
         Select(self.browser.find_element(By.ID, "mode")).select_by_index(0)  # one frame
         busiest = max(range(len(self.frames)), key=lambda k: len(self.frames[k]))
-        inked = {}
+        dark_pixels = {}
         for frame in (0, busiest):
             self.to_frame(frame)
             self.assertEqual(self.js("return corpuscle.active()"), self.active(frame))
-            inked[frame] = self.inked_map("sa1")
+            dark_pixels[frame] = self.coloured_pixels("sa1")
         self.assertGreater(self.active(busiest)["sa1"], 3)
-        self.assertGreater(inked[busiest], inked[0] + 50)
+        self.assertGreater(dark_pixels[busiest], dark_pixels[0] + 50)
         Select(self.browser.find_element(By.ID, "mode")).select_by_value("all")
         ever = {unit for frame in self.frames for unit in frame}
         sa1 = self.classes[0]
@@ -778,11 +779,11 @@ class OnASkin(Page):
         self.browser.find_element(By.ID, "time").send_keys(Keys.ARROW_RIGHT)
         WebDriverWait(self.browser, 20).until(lambda _: self.js("return corpuscle.frame") == stopped + 1)
 
-    def test_it_begins_at_the_start(self):
+    def test_it_starts_at_the_beginning(self):
         self.assertEqual(self.js("return corpuscle.frame"), 0)
         self.assertEqual(self.browser.find_element(By.ID, "time").get_attribute("value"), "0")
 
-    def test_rates_are_of_the_units_that_fire_and_in_hertz(self):
+    def test_rates_are_of_the_afferents_that_fire_and_in_hertz(self):
         active = {row["afferent"]: row["active"] for row in self.data["summary"]["rates"] if row["region"] == "all" and row["phase"] == "all"}
         self.assertEqual(self.js("return corpuscle.skin.classes.map((one) => one.active)"), [active[one["name"]] for one in self.classes])
         title = self.browser.find_element(By.CSS_SELECTOR, "[data-panel=population] .panel-title").text
@@ -791,15 +792,15 @@ class OnASkin(Page):
     def test_rasters_hold_every_spike(self):
         spikes = {one["name"]: sum(n for frame in self.frames for unit, n in frame.items() if one["first"] <= unit < one["first"] + one["units"]) for one in self.classes}
         self.assertEqual(sum(spikes.values()), self.over["spikes"]["count"])
-        inked = self.inked()
+        dark_pixels = self.dark_pixels()
         for name, count in spikes.items():
             self.assertEqual(self.readout(f"raster {name}", name), str(count))
-            self.assertEqual(inked[f"raster {name}"] > 0, count > 0)
+            self.assertEqual(dark_pixels[f"raster {name}"] > 0, count > 0)
         end = self.js("return corpuscle.view.end")
         self.js("corpuscle.view.set(0, arguments[0] / 4); corpuscle.view.draw()", end)
         self.assertRegex(self.readout("raster sa1", "sa1"), rf"^\d+ of {spikes['sa1']}$")
 
-    def test_who_is_pointed_at_is_named(self):
+    def test_the_afferent_under_the_pointer_is_named(self):
         first = self.data["summary"]["first_spikes"][0]
         x, y = self.js("const map = corpuscle.scene.maps[0]; return map.place(arguments[0])", first["unit"])
         canvas = self.browser.find_element(By.CSS_SELECTOR, '[data-map="sa1"] canvas')
@@ -808,7 +809,7 @@ class OnASkin(Page):
         WebDriverWait(self.browser, 20).until(lambda _: self.browser.find_element(By.ID, "unit").text.startswith(first["afferent"] + ","))
         self.assertIn(f"{first['time_s']:.4f}", self.browser.find_element(By.ID, "unit").text)
 
-    def test_it_fits_a_narrow_window_and_says_what_it_knows(self):
+    def test_it_fits_a_narrow_window_and_states_its_contents(self):
         rows = self.browser.find_elements(By.CSS_SELECTOR, "#rates tbody tr")
         self.assertEqual(len(rows), len(self.classes) * (1 + len(self.data["summary"]["input"]["phases"])))
         self.assertEqual(len(self.browser.find_elements(By.CSS_SELECTOR, "#firsts tbody tr")), len(self.data["summary"]["first_spikes"]))
@@ -823,7 +824,7 @@ class OnASkin(Page):
         self.browser.set_window_size(1200, 900)
 
 
-del Page  # not a test by itself
+del Page  # a base class, not a test
 
 
 class Studies(unittest.TestCase):
@@ -856,7 +857,7 @@ class Studies(unittest.TestCase):
             self.on_a_telephone(browser)
 
     def on_a_telephone(self, browser):
-        """A claim is as wide as the screen and a few lines high."""
+        """A claim fits the width of the screen and is a few lines high."""
         browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {"width": 390, "height": 844, "deviceScaleFactor": 2, "mobile": True})
         browser.refresh()
         self.assertEqual(browser.execute_script("return document.documentElement.scrollWidth"), 390)
@@ -867,18 +868,18 @@ class Studies(unittest.TestCase):
 
 
 class Sweeps(unittest.TestCase):
-    """The page of a sweep's results: 60 chips of the bias generator at two temperatures."""
+    """The page of a sweep: 60 chips of the bias generator at two temperatures."""
 
-    def test_yields_pictures_and_devices_are_there_and_follow_the_choosers(self):
+    def test_yields_plots_and_devices_are_shown_and_follow_the_selectors(self):
         sweep, results, path = OUT / "chips.toml", OUT / "chips.sqlite", OUT / "chips.html"
         sweep.write_text(SWEEP)
         results.unlink(missing_ok=True)
         subprocess.run([CORPUSCLE, "sweep", str(sweep), "--out", str(results), "--quiet"], check=True, cwd=ROOT)
         subprocess.run([CORPUSCLE, "sweep", "show", str(results), "--report", str(path), "--quiet"], check=True)
         data = data_of(path)
-        told = subprocess.run([CORPUSCLE, "sweep", "show", str(results), "--by", "temp"], check=True, capture_output=True, text=True).stdout
-        self.assertLess(told.index("all limits"), told.index("v(q) (mV)"))
-        self.assertIn("temp = 85 degC", told)
+        printed_table = subprocess.run([CORPUSCLE, "sweep", "show", str(results), "--by", "temp"], check=True, capture_output=True, text=True).stdout
+        self.assertLess(printed_table.index("all limits"), printed_table.index("v(q) (mV)"))
+        self.assertIn("temp = 85 degC", printed_table)
         wrong = subprocess.run([CORPUSCLE, "sweep", "show", str(results), "--by", "tmp"], capture_output=True, text=True)
         self.assertEqual((wrong.returncode, wrong.stderr.strip()), (2, "corpuscle: --by tmp: unknown axis; did you mean 'temp'?; known: temp"))
         with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as profile:
@@ -922,7 +923,7 @@ class Sweeps(unittest.TestCase):
         return browser
 
     def page_of(self, name, sweep, change=None):
-        """The page of a sweep, its results changed before it is made."""
+        """The page of a sweep with results that were changed before."""
         file, results, path = OUT / f"{name}.toml", OUT / f"{name}.sqlite", OUT / f"{name}.html"
         file.write_text(sweep)
         results.unlink(missing_ok=True)
@@ -933,7 +934,7 @@ class Sweeps(unittest.TestCase):
         subprocess.run([CORPUSCLE, "sweep", "show", str(results), "--report", str(path), "--quiet"], check=True)
         return path
 
-    def test_a_plain_grid_shows_every_axis_as_lines_and_a_heat_map_and_nothing_of_chance(self):
+    def test_a_plain_grid_shows_every_axis_as_lines_and_a_heat_map_and_no_statistics_of_chance(self):
         path = self.page_of("grid", GRID)
         browser = self.browse(path)
         self.assertEqual(browser.get_log("browser"), [])
@@ -973,7 +974,7 @@ class Sweeps(unittest.TestCase):
             self.assertEqual(browser.find_elements(By.CSS_SELECTOR, "img"), [])
             self.assertEqual(browser.execute_script("return [...document.querySelectorAll('body script')].every((one) => one.id || !one.textContent.includes('document.title=1'))"), True)
 
-    def test_it_fits_a_narrow_window_and_its_subscripts_are_whole(self):
+    def test_it_fits_a_narrow_window_and_its_subscripts_are_complete(self):
         for name, sweep in (("narrow_grid", GRID), ("narrow_chips", SWEEP)):
             browser = self.browse(self.page_of(name, sweep), 390)
             self.assertLessEqual(browser.execute_script("return document.documentElement.scrollWidth"), 390)

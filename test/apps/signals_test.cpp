@@ -1,4 +1,4 @@
-// Signals: who gets them, and what they end.
+// Signals: which processes receive them, and what they end.
 
 #include <sys/stat.h>
 #include <filesystem>
@@ -17,23 +17,23 @@ using test::TemporaryFolder;
 /// Lines of our sources that signal a process, as file:text.
 std::vector<std::string> lines_that_signal() {
     std::vector<std::string> out;
-    for (const char* room : {"src", "apps", "test", "bench", "examples"})
-        for (const auto& entry : fs::recursive_directory_iterator(test::project_root() + "/" + room)) {
+    for (const char* folder_name : {"src", "apps", "test", "bench", "examples"})
+        for (const auto& entry : fs::recursive_directory_iterator(test::source_root() + "/" + folder_name)) {
             const auto path = entry.path().string();
             if (!entry.is_regular_file() || !(path.ends_with(".cpp") || path.ends_with(".hpp") || path.ends_with(".py"))) continue;
             std::ifstream in(path);
             for (std::string line; std::getline(in, line);)
                 for (const std::string call : {" kill(", "::kill(", "(kill(", "killpg(", "os.kill", "sigqueue("})
                     if (line.find(call) != line.npos && line.find("\"") == line.npos) {
-                        out.push_back(path.substr(test::project_root().size() + 1) + ":" + line);
+                        out.push_back(path.substr(test::source_root().size() + 1) + ":" + line);
                         break;
                     }
         }
     return out;
 }
 
-/// Where fork() or forkpty() fails, -1 is no process: a signal to it reaches every process of the machine.
-TEST(Signals, AreSentOnlyBehindACheckThatTheProcessWasStarted) {
+/// If fork() or forkpty() fails, its result -1 must not be signalled: kill(-1) reaches every process of the machine.
+TEST(Signals, AreSentOnlyAfterACheckThatTheProcessWasStarted) {
     const std::map<std::string, std::string> checked = {
         {"src/io/helper_process.cpp", "behind child > 0"},
         {"src/study/sweep/rank_messages.cpp", "signal 0, which asks; behind a check of the id"},
@@ -49,15 +49,15 @@ TEST(Signals, AProcessThatWasNotStartedIsNeverSignalled) {
     EXPECT_TRUE(test::signal_child(::getpid(), 0));
 }
 
-/// Its standard input is a pipe that stays open and quiet.
-int status_after(int signal, const TemporaryFolder& folder, std::vector<std::string> words) {
+/// Its standard input is a pipe that stays open and silent.
+int status_after(int signal, const TemporaryFolder& folder, std::vector<std::string> command) {
     int quiet[2];
     if (::pipe2(quiet, O_CLOEXEC) != 0) return -1;
     const pid_t child = test::fork_child();
     if (child == 0) {
-        words.insert(words.begin(), test::program_path());
+        command.insert(command.begin(), test::program_path());
         std::vector<char*> arguments;
-        for (auto& w : words) arguments.push_back(w.data());
+        for (auto& w : command) arguments.push_back(w.data());
         arguments.push_back(nullptr);
         ::dup2(quiet[0], 0);
         if (::chdir(folder.path().c_str()) == 0 && std::freopen(".err", "w", stderr)) ::execv(arguments[0], arguments.data());
@@ -78,16 +78,16 @@ TEST(Signals, OneEndsAReadThatWaits) {
     for (const auto* const name : {"fifo", "fifo.toml"}) ASSERT_EQ(::mkfifo((folder / name).c_str(), 0600), 0);
     const std::vector<std::vector<std::string>> commands = {
         {"respond", "-", "--rate", "1kHz", "-o", "new"},
-        {"respond", "fifo", "--rate", "1kHz", "-o", "new"},  // nobody writes it
+        {"respond", "fifo", "--rate", "1kHz", "-o", "new"},  // no process writes to it
         {"run", "fifo"},
         {"respond", "press", "--population", "fifo.toml", "-o", "new"},
         {"compare", "fifo", "fifo"},
         {"sweep", "fifo.toml", "-o", "new"},
     };
-    for (const auto& words : commands)
+    for (const auto& command : commands)
         for (const int signal : {SIGINT, SIGTERM}) {
-            const int status = status_after(signal, folder, words);
-            ASSERT_TRUE(WIFEXITED(status)) << words[0] << ' ' << words[1] << ", signal " << signal << ", status " << status;
+            const int status = status_after(signal, folder, command);
+            ASSERT_TRUE(WIFEXITED(status)) << command[0] << ' ' << command[1] << ", signal " << signal << ", status " << status;
             EXPECT_EQ(WEXITSTATUS(status), 130) << test::read_file(folder / ".err");
             EXPECT_FALSE(fs::exists(folder / "new"));
         }

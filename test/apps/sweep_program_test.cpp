@@ -1,4 +1,4 @@
-// corpuscle sweep as people use it: alone, in shards, interrupted, and on ranks that die.
+// corpuscle sweep as users run it: in one process, in shards, interrupted, and on MPI ranks that are killed.
 
 #include <chrono>
 #include <nlohmann/json.hpp>
@@ -15,21 +15,21 @@ using test::TemporaryFolder;
 using Json = nlohmann::json;
 using test::run_program;
 
-/// SA-I's model, so many times at each of two forces.
-std::string sweep_of(int units) {
-    return "afferent = \"sa1\"\nunits = " + std::to_string(units) +
+/// A sweep of the SA-I model, with `items` items at each of two forces.
+std::string sweep_of(int items) {
+    return "afferent = \"sa1\"\nunits = " + std::to_string(items) +
            "\nmeasures = [\"spikes\", \"first_spike\"]\n[[vary]]\nwhat = \"press.F_max\"\nlist = [\"1N\", \"2N\"]\n"
            "[[vary]]\nwhat = \"f_B\"\nsigma = \"5%\"\n";
 }
 
-/// Compared with ==: for EXPECT_EQ googletest would look for the fewest edits between two texts of megabytes, in 24 GB of memory.
+/// Compare with ==. EXPECT_EQ would look for the shortest edit between two texts of megabytes, which takes 24 GB of memory.
 std::string dump(const TemporaryFolder& folder, const std::string& results) {
     const auto ran = run_program(folder, "sweep dump " + results);
     EXPECT_EQ(ran.status, 0) << ran.err;
     return ran.out;
 }
 
-TEST(SweepProgram, SaysWhatItHasDoneAndGoesOnWhereItStopped) {
+TEST(SweepProgram, ReportsItsProgressAndResumesWhereItStopped) {
     const TemporaryFolder folder;
     folder.write("a.toml", sweep_of(50));
     EXPECT_NE(run_program(folder, "sweep a.toml --status").err.find("a.sqlite: does not exist"), std::string::npos);
@@ -56,7 +56,7 @@ TEST(SweepProgram, SaysWhatItHasDoneAndGoesOnWhereItStopped) {
     EXPECT_EQ(run_program(folder, "sweep").status, 2);
 }
 
-TEST(SweepProgram, InterruptedKeepsWhatHadEnded) {
+TEST(SweepProgram, InterruptedKeepsTheFinishedItems) {
     const TemporaryFolder folder;
     folder.write("a.toml", sweep_of(500'000));
     const auto command =
@@ -84,7 +84,7 @@ TEST(SweepProgram, TwoSignalsAtOnceAreOne) {
     const auto pause = [](int ms) { std::this_thread::sleep_for(std::chrono::milliseconds(ms)); };
     for (int k = 0; k < 2000 && !std::filesystem::exists(folder / "a.sqlite-wal"); ++k) pause(5);
     pause(300);
-    for (int k = 0; k < 5; ++k) test::signal_child(pid, SIGINT), pause(5);  // more than one at a time would be heard as one
+    for (int k = 0; k < 5; ++k) test::signal_child(pid, SIGINT), pause(5);  // signals closer together would be delivered as one
     int status = 0;
     ASSERT_EQ(::waitpid(pid, &status, 0), pid);
     EXPECT_EQ(WEXITSTATUS(status), 130);
@@ -94,10 +94,10 @@ TEST(SweepProgram, TwoSignalsAtOnceAreOne) {
 
 struct RanRanks {
     int status;
-    std::string said;
+    std::string output;
 };
 
-/// Under mpirun; rank `victim` (none: -1) is killed when rows are in the file `out`.
+/// Runs the sweep under mpirun. Rank `victim` (-1: none) is killed once the file `out` has rows.
 RanRanks run_ranks(const TemporaryFolder& folder, int ranks, const std::string& out, const std::string& options = "", int victim = -1) {
     folder.write("rank.sh", "if [ \"$OMPI_COMM_WORLD_RANK\" = " + std::to_string(victim) + " ]; then (until [ \"$(stat -c %s " + out +
                                 "-wal 2>/dev/null || echo 0)\" -gt 50000 ]; do sleep 0.02; done; kill -9 $$) & fi\nexec '" +
@@ -109,40 +109,41 @@ RanRanks run_ranks(const TemporaryFolder& folder, int ranks, const std::string& 
     return {WEXITSTATUS(status), test::read_file(folder / "said")};
 }
 
-TEST(SweepRanks, GiveWhatOneThreadGives) {
+TEST(SweepRanks, GiveTheResultsOfOneThread) {
     const TemporaryFolder folder;
     folder.write("a.toml", sweep_of(300));
     ASSERT_EQ(run_program(folder, "sweep a.toml -j 1 -o alone").status, 0);
-    const auto alone = dump(folder, "alone");
+    const auto one_thread = dump(folder, "alone");
     for (const int ranks : {1, 2, 3, 4}) {
         const auto out = "r" + std::to_string(ranks);
         const auto ran = run_ranks(folder, ranks, out);
-        ASSERT_EQ(ran.status, 0) << ran.said;
-        EXPECT_TRUE(dump(folder, out) == alone) << ranks;
+        ASSERT_EQ(ran.status, 0) << ran.output;
+        EXPECT_TRUE(dump(folder, out) == one_thread) << ranks;
     }
 }
 
-TEST(SweepRanks, OneThatDiesCostsItsBlockOnly) {
+TEST(SweepRanks, AKilledRankLosesOnlyItsBlock) {
     const TemporaryFolder folder;
     folder.write("a.toml", sweep_of(30'000));
     ASSERT_EQ(run_program(folder, "sweep a.toml -o alone").status, 0);
-    const auto alone = dump(folder, "alone");
+    const auto one_thread = dump(folder, "alone");
     const auto ran = run_ranks(folder, 3, "r", "--enable-recovery", 1);
-    EXPECT_EQ(ran.status, 0) << ran.said;
-    EXPECT_NE(ran.said.find("1 rank died or stopped responding; "), std::string::npos) << ran.said;
-    EXPECT_TRUE(dump(folder, "r") == alone) << "all of it, in one run";
-    // Without rank 0 the others end, and the same command goes on.
+    EXPECT_EQ(ran.status, 0) << ran.output;
+    EXPECT_NE(ran.output.find("1 rank died or stopped responding; "), std::string::npos) << ran.output;
+    EXPECT_TRUE(dump(folder, "r") == one_thread) << "all of it, in one run";
+    // Without rank 0 the other ranks end, and the same command resumes the sweep.
     const auto headless = run_ranks(folder, 3, "h", "--enable-recovery", 0);
-    EXPECT_NE(headless.said.find("rank 0, which writes the results, has died; results so far are kept"), std::string::npos) << headless.said;
+    EXPECT_NE(headless.output.find("rank 0, which writes the results, has died; results so far are kept"), std::string::npos)
+        << headless.output;
     ASSERT_EQ(run_program(folder, "sweep a.toml -o h").status, 0);
-    EXPECT_TRUE(dump(folder, "h") == alone);
+    EXPECT_TRUE(dump(folder, "h") == one_thread);
 }
 
-TEST(SweepRanks, WithoutRecoveryNothingThatHadEndedIsLost) {
+TEST(SweepRanks, WithoutRecoveryNoFinishedItemIsLost) {
     const TemporaryFolder folder;
     folder.write("a.toml", sweep_of(30'000));
     const auto ran = run_ranks(folder, 3, "r", "", 2);
-    EXPECT_NE(ran.status, 0) << "mpirun ends them all\n" << ran.said;
+    EXPECT_NE(ran.status, 0) << "mpirun ends all ranks\n" << ran.output;
     const auto ended = Json::parse(run_program(folder, "sweep a.toml -o r --status --json").out)["ended"].get<int>();
     EXPECT_GT(ended, 0);
     const auto rest = Json::parse(run_program(folder, "sweep a.toml -o r --json").out);

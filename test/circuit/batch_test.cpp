@@ -1,4 +1,4 @@
-// Many chips at once: each answers as it would beside others, on other lanes, and by itself.
+// Batched simulation of chips: each response is independent of the other chips and the lane, and equals that of a scalar run.
 
 #include <gtest/gtest.h>
 
@@ -17,8 +17,8 @@ namespace {
 
 constexpr double batch_T = 1e-4;
 
-std::shared_ptr<const CircuitAfferentFactory> design_of(const std::string& file, std::vector<NetlistOverride> knobs = {}) {
-    const auto netlist = apply_overrides(file, knobs);
+std::shared_ptr<const CircuitAfferentFactory> design_of(const std::string& file, std::vector<NetlistOverride> overrides = {}) {
+    const auto netlist = apply_overrides(file, overrides);
     if (!netlist) throw std::runtime_error(netlist.error().text());
     const auto design = CircuitAfferentFactory::create(*netlist);
     if (!design) throw std::runtime_error(design.error().text());
@@ -33,17 +33,18 @@ std::vector<double> pushed(std::size_t samples) {
 
 using Answers = std::map<std::int64_t, ChipResponse>;
 
-Answers answers_of(const std::vector<Chip>& chips, const std::shared_ptr<const CircuitAfferentFactory>& nominal, const BatchOptions& options = {}) {
+Answers responses_of(const std::vector<Chip>& chips, const std::shared_ptr<const CircuitAfferentFactory>& nominal,
+                     const BatchOptions& options = {}) {
     Answers out;
     std::size_t next = 0;
     const auto done = run_chips(
         nominal, [&]() -> std::optional<Chip> { return next < chips.size() ? std::optional(chips[next++]) : std::nullopt; },
-        [&](const Chip& chip, ChipResponse&& answer) { EXPECT_TRUE(out.emplace(chip.id, std::move(answer)).second); }, options);
+        [&](const Chip& chip, ChipResponse&& response) { EXPECT_TRUE(out.emplace(chip.id, std::move(response)).second); }, options);
     EXPECT_TRUE(done);
     return out;
 }
 
-std::vector<Chip> drawn_chips(const std::shared_ptr<const CircuitAfferentFactory>& design, std::span<const double> force, int count) {
+std::vector<Chip> sampled_chips(const std::shared_ptr<const CircuitAfferentFactory>& design, std::span<const double> force, int count) {
     const ChipSpec chips{static_cast<double>(count), 3};
     std::vector<Chip> out;
     for (int k = 0; k < count; ++k) out.push_back({k, design, chips.sample(static_cast<std::uint64_t>(k)), force, batch_T});
@@ -62,118 +63,121 @@ void expect_same_bytes(const Answers& a, const Answers& b) {
     }
 }
 
-/// As many spikes, at times no further apart than `allowed`.
+/// Expects equal numbers of spikes, and spike times that differ by at most `allowed` (s).
 void expect_near(const ChipResponse& one, const ChipResponse& other, double allowed) {
     ASSERT_EQ(one.spikes.size(), other.spikes.size());
     for (std::size_t k = 0; k < one.spikes.size(); ++k) EXPECT_NEAR(one.spikes[k], other.spikes[k], allowed);
 }
 
-TEST(Batch, AnswersDependOnNoNeighbourAndNoInstructionSet) {
-    const auto spiker = design_of(test::project_root() + "/circuits/spiker.cir");
+TEST(Batch, ResponsesDoNotDependOnOtherChipsOrTheInstructionSet) {
+    const auto spiker = design_of(test::source_root() + "/circuits/spiker.cir");
     const auto force = pushed(600);
-    auto chips = drawn_chips(spiker, force, 11);
+    auto chips = sampled_chips(spiker, force, 11);
     const auto before = std::getenv("CORPUSCLE_ISA");
-    const std::string kept = before ? before : "";
-    const auto first = answers_of(chips, spiker, {.lanes = 8, .probe_every = 50});
-    for (const auto& [number, answer] : first) EXPECT_GT(answer.spikes.size(), 1u) << number;
+    const std::string previous = before ? before : "";
+    const auto first = responses_of(chips, spiker, {.lanes = 8, .probe_every = 50});
+    for (const auto& [number, response] : first) EXPECT_GT(response.spikes.size(), 1u) << number;
     std::reverse(chips.begin(), chips.end());
     for (const std::size_t lanes : {1, 4, 8})
         for (const auto set : instruction_sets()) {
             ::setenv("CORPUSCLE_ISA", std::string(name_of(set)).c_str(), 1);
-            expect_same_bytes(first, answers_of(chips, spiker, {.lanes = lanes, .probe_every = 50}));
+            expect_same_bytes(first, responses_of(chips, spiker, {.lanes = lanes, .probe_every = 50}));
         }
-    before ? ::setenv("CORPUSCLE_ISA", kept.c_str(), 1) : ::unsetenv("CORPUSCLE_ISA");
+    before ? ::setenv("CORPUSCLE_ISA", previous.c_str(), 1) : ::unsetenv("CORPUSCLE_ISA");
 }
 
-TEST(Batch, AChipOnItsLaneDoesAsByItself) {
-    const auto spiker = design_of(test::project_root() + "/circuits/spiker.cir");
+TEST(Batch, ABatchedChipRespondsLikeAScalarOne) {
+    const auto spiker = design_of(test::source_root() + "/circuits/spiker.cir");
     const auto force = pushed(600);
     const BatchOptions options{.probe_every = 50};
-    const auto chips = drawn_chips(spiker, force, 6);
-    for (const auto& [number, answer] : answers_of(chips, spiker, options)) {
-        const auto alone = run_chip_scalar(chips[static_cast<std::size_t>(number)], options);
-        EXPECT_FALSE(answer.is_scalar);
-        expect_near(answer, alone, 1e-5);
-        ASSERT_EQ(answer.probes.size(), alone.probes.size());
-        for (std::size_t p = 0; p < alone.probes.size(); ++p) {
-            ASSERT_EQ(answer.probes[p].size(), alone.probes[p].size());
-            for (std::size_t k = 0; k < 2; ++k) EXPECT_NEAR(answer.probes[p][k], alone.probes[p][k], 1e-4);  // before it first spikes
+    const auto chips = sampled_chips(spiker, force, 6);
+    for (const auto& [number, response] : responses_of(chips, spiker, options)) {
+        const auto scalar = run_chip_scalar(chips[static_cast<std::size_t>(number)], options);
+        EXPECT_FALSE(response.is_scalar);
+        expect_near(response, scalar, 1e-5);
+        ASSERT_EQ(response.probes.size(), scalar.probes.size());
+        for (std::size_t p = 0; p < scalar.probes.size(); ++p) {
+            ASSERT_EQ(response.probes[p].size(), scalar.probes[p].size());
+            for (std::size_t k = 0; k < 2; ++k) EXPECT_NEAR(response.probes[p][k], scalar.probes[p][k], 1e-4);  // before the first spike
         }
-        EXPECT_NEAR(answer.energy_use.seconds, alone.energy_use.seconds, 6e-3);  // each to the end of its last step
-        EXPECT_NEAR(answer.energy_use.supplies / answer.energy_use.seconds, alone.energy_use.supplies / alone.energy_use.seconds,
-                    0.02 * alone.energy_use.supplies / alone.energy_use.seconds);
+        EXPECT_NEAR(response.energy_use.seconds, scalar.energy_use.seconds, 6e-3);  // each run ends with its last step
+        EXPECT_NEAR(response.energy_use.supplies / response.energy_use.seconds, scalar.energy_use.supplies / scalar.energy_use.seconds,
+                    0.02 * scalar.energy_use.supplies / scalar.energy_use.seconds);
     }
 }
 
-TEST(Batch, ChipsMayDifferInTheirNumbers) {
-    const auto nominal = design_of(test::project_root() + "/circuits/spiker.cir");
-    const auto large = design_of(test::project_root() + "/circuits/spiker.cir", {{"cu", "3.6p", "cu"}});
-    const auto warm = design_of(test::project_root() + "/circuits/spiker.cir", {{"temp", "60", "temp"}});
+TEST(Batch, ChipsMayDifferInTheirParameters) {
+    const auto nominal = design_of(test::source_root() + "/circuits/spiker.cir");
+    const auto large = design_of(test::source_root() + "/circuits/spiker.cir", {{"cu", "3.6p", "cu"}});
+    const auto warm = design_of(test::source_root() + "/circuits/spiker.cir", {{"temp", "60", "temp"}});
     const auto force = pushed(500), soft = std::vector<double>(700, 0.7);
     const std::vector<Chip> chips = {
         {0, nominal, {}, force, batch_T}, {1, large, {}, force, batch_T}, {2, warm, {}, force, batch_T}, {3, large, {}, soft, batch_T}};
-    const auto answers = answers_of(chips, nominal);
+    const auto responses = responses_of(chips, nominal);
     for (const auto& chip : chips) {
-        const auto& answer = answers.at(chip.id);
-        EXPECT_FALSE(answer.is_scalar) << chip.id;
-        expect_near(answer, run_chip_scalar(chip, {}), 3e-5);
+        const auto& response = responses.at(chip.id);
+        EXPECT_FALSE(response.is_scalar) << chip.id;
+        expect_near(response, run_chip_scalar(chip, {}), 3e-5);
     }
-    EXPECT_LT(answers.at(1).spikes.size(), answers.at(0).spikes.size());
+    EXPECT_LT(responses.at(1).spikes.size(), responses.at(0).spikes.size());
 }
 
-TEST(Batch, AChipThatNoLaneCanHoldGoesByItself) {
-    const auto nominal = design_of(test::project_root() + "/circuits/spiker.cir");
-    const auto other = design_of(test::project_root() + "/circuits/sa1_macro.cir");
+TEST(Batch, AChipThatCannotBeBatchedRunsScalar) {
+    const auto nominal = design_of(test::source_root() + "/circuits/spiker.cir");
+    const auto other = design_of(test::source_root() + "/circuits/sa1_macro.cir");
     const auto force = pushed(300);
     const std::vector<Chip> chips = {{0, nominal, {}, force, batch_T}, {1, other, {}, force, batch_T}, {2, nominal, {}, force, batch_T}};
-    const auto answers = answers_of(chips, nominal);
-    EXPECT_FALSE(answers.at(0).is_scalar);
-    EXPECT_TRUE(answers.at(1).is_scalar);
-    EXPECT_EQ(answers.at(1).spikes, run_chip_scalar(chips[1], {}).spikes);
-    EXPECT_EQ(answers.at(0).spikes, answers.at(2).spikes);
+    const auto responses = responses_of(chips, nominal);
+    EXPECT_FALSE(responses.at(0).is_scalar);
+    EXPECT_TRUE(responses.at(1).is_scalar);
+    EXPECT_EQ(responses.at(1).spikes, run_chip_scalar(chips[1], {}).spikes);
+    EXPECT_EQ(responses.at(0).spikes, responses.at(2).spikes);
 }
 
-TEST(Batch, AChipStopsAtItsCap) {
-    const auto spiker = design_of(test::project_root() + "/circuits/spiker.cir");
+TEST(Batch, AChipStopsAtItsIterationLimit) {
+    const auto spiker = design_of(test::source_root() + "/circuits/spiker.cir");
     const auto force = pushed(600);
-    const auto chips = drawn_chips(spiker, force, 3);
-    const auto whole = answers_of(chips, spiker), cut = answers_of(chips, spiker, {.lanes = 4, .max_iterations = 600});
-    for (const auto& [number, answer] : cut) {
-        EXPECT_GT(whole.at(number).stats.iterations, 700);
-        EXPECT_TRUE(answer.hit_iteration_limit);
-        EXPECT_GT(answer.stats.iterations, 600);
-        EXPECT_LT(answer.stats.iterations, 620);
-        const auto& all = whole.at(number).spikes;
-        ASSERT_LT(answer.spikes.size(), all.size());
-        EXPECT_TRUE(std::equal(answer.spikes.begin(), answer.spikes.end(), all.begin()));
+    const auto chips = sampled_chips(spiker, force, 3);
+    const auto complete = responses_of(chips, spiker), cut = responses_of(chips, spiker, {.lanes = 4, .max_iterations = 600});
+    for (const auto& [number, response] : cut) {
+        EXPECT_GT(complete.at(number).stats.iterations, 700);
+        EXPECT_TRUE(response.hit_iteration_limit);
+        EXPECT_GT(response.stats.iterations, 600);
+        EXPECT_LT(response.stats.iterations, 620);
+        const auto& all = complete.at(number).spikes;
+        ASSERT_LT(response.spikes.size(), all.size());
+        EXPECT_TRUE(std::equal(response.spikes.begin(), response.spikes.end(), all.begin()));
     }
 }
 
-TEST(Batch, StopsWhenItIsAskedTo) {
-    const auto spiker = design_of(test::project_root() + "/circuits/spiker.cir");
+TEST(Batch, StopsOnRequest) {
+    const auto spiker = design_of(test::source_root() + "/circuits/spiker.cir");
     const auto force = pushed(600);
-    int told = 0;
+    int count = 0;
     const auto done = run_chips(
-        spiker, [&]() -> std::optional<Chip> { return Chip{0, spiker, {}, force, batch_T}; }, [&](const Chip&, ChipResponse&&) { ++told; },
-        {.should_stop = [&] { return true; }});
+        spiker,
+        [&]() -> std::optional<Chip> {
+            return Chip{0, spiker, {}, force, batch_T};
+        },
+        [&](const Chip&, ChipResponse&&) { ++count; }, {.should_stop = [&] { return true; }});
     ASSERT_FALSE(done);
     EXPECT_EQ(done.error().code, ErrorCode::interrupted);
-    EXPECT_EQ(told, 0);
+    EXPECT_EQ(count, 0);
 }
 
-/// The chips of the thesis under the first 0.4 s of a press: as many spikes by either way, and at the same times.
-TEST(Chips, OnLanesAndAlone) {
+/// The chips of the thesis under the first 0.4 s of a press: the same spikes in batched and in scalar runs.
+TEST(ChipSpec, RespondTheSameBatchedAndScalar) {
     for (const char* name : {"sa1-circuit", "fa1-circuit"}) {
         const auto design = design_of(name);
         const auto press = make_stimulus("press", {}, 1 / batch_T, 0);
         ASSERT_TRUE(press);
         Frames frames(1, 4000);
         ASSERT_TRUE((*press)->read(frames));
-        const auto chips = drawn_chips(design, frames.force[0], 5);
-        for (const auto& [number, answer] : answers_of(chips, design)) {
-            EXPECT_FALSE(answer.is_scalar);
-            expect_near(answer, run_chip_scalar(chips[static_cast<std::size_t>(number)], {}), 2e-4);
-            EXPECT_GT(answer.spikes.size(), 0u) << name << " " << number;
+        const auto chips = sampled_chips(design, frames.force[0], 5);
+        for (const auto& [number, response] : responses_of(chips, design)) {
+            EXPECT_FALSE(response.is_scalar);
+            expect_near(response, run_chip_scalar(chips[static_cast<std::size_t>(number)], {}), 2e-4);
+            EXPECT_GT(response.spikes.size(), 0u) << name << " " << number;
         }
     }
 }

@@ -1,4 +1,4 @@
-// What a transient reports between its steps, and right after a corner: circuits whose answers are known.
+// Points that a transient reports between its steps and right after a breakpoint, for circuits with closed-form solutions.
 
 #include <gtest/gtest.h>
 
@@ -12,19 +12,19 @@
 namespace corpuscle::circuit {
 namespace {
 
-constexpr double whole_turn = 2 * std::numbers::pi;
+constexpr double one_turn = 2 * std::numbers::pi;
 
-/// The largest distance of a curve, straight between its points, from what it should be.
+/// Largest difference between a curve, linear between its points, and its exact value.
 template <class Exact>
-double furthest_from(const NetlistRun& run, const std::string& curve, const Exact& exact, double from = 0) {
+double max_deviation(const NetlistRun& run, const std::string& curve, const Exact& exact, double from = 0) {
     const auto t = run.curve("time"), v = run.curve(curve);
-    double most = 0;
+    double worst = 0;
     for (std::size_t k = 1; k < t.size(); ++k)
         for (const double part : {0.0, 0.5, 1.0}) {
             const double at = t[k - 1] + part * (t[k] - t[k - 1]);
-            if (at >= from) most = std::max(most, std::abs(v[k - 1] + part * (v[k] - v[k - 1]) - exact(at)));
+            if (at >= from) worst = std::max(worst, std::abs(v[k - 1] + part * (v[k] - v[k - 1]) - exact(at)));
         }
-    return most;
+    return worst;
 }
 
 const std::string slow_inverter =
@@ -50,26 +50,26 @@ TEST(BetweenSteps, ASineOverAResistorIsASine) {
     EXPECT_NEAR(run.number("half"), 0.5, 2e-5);
     EXPECT_NEAR(run.number("rms"), std::sqrt(0.5), 5e-5);
     EXPECT_NEAR(run.number("i"), 0.5e-3, 2e-8);
-    const auto sine = [](double t) { return std::sin(whole_turn * 1e3 * t); };
-    EXPECT_LT(furthest_from(run, "v(in)", sine), 1e-4);
-    EXPECT_LT(furthest_from(run, "v(out)", [&](double t) { return sine(t) / 2; }), 1e-4);
+    const auto sine = [](double t) { return std::sin(one_turn * 1e3 * t); };
+    EXPECT_LT(max_deviation(run, "v(in)", sine), 1e-4);
+    EXPECT_LT(max_deviation(run, "v(out)", [&](double t) { return sine(t) / 2; }), 1e-4);
 }
 
 TEST(BetweenSteps, ASourceIsAsItIsWritten) {
     const auto run =
         run_netlist("cap\nv1 in 0 sin(0.2 1 1k)\nv2 top in 2\nc1 top 0 1n\nr1 top 0 1meg\n.tran 100u 3m\n.meas tran top max v(in)\n"
             ".meas tran sum max v(top)\n.meas tran low min v(in)\n");
-    const auto sine = [](double t) { return 0.2 + std::sin(whole_turn * 1e3 * t); };
+    const auto sine = [](double t) { return 0.2 + std::sin(one_turn * 1e3 * t); };
     EXPECT_NEAR(run.number("top"), 1.2, 3e-5);
     EXPECT_NEAR(run.number("low"), -0.8, 3e-5);
     EXPECT_NEAR(run.number("sum"), 3.2, 1e-4);
-    EXPECT_LT(furthest_from(run, "v(in)", sine), 1e-4);
-    EXPECT_LT(furthest_from(run, "v(top)", [&](double t) { return sine(t) + 2; }), 1e-4);
-    const auto current = [&](double t) { return -(1e-9 * whole_turn * 1e3 * std::cos(whole_turn * 1e3 * t) + (sine(t) + 2) / 1e6); };
-    EXPECT_LT(furthest_from(run, "i(v1)", current, 1e-5), 1e-4 * 1e-5);
+    EXPECT_LT(max_deviation(run, "v(in)", sine), 1e-4);
+    EXPECT_LT(max_deviation(run, "v(top)", [&](double t) { return sine(t) + 2; }), 1e-4);
+    const auto current = [&](double t) { return -(1e-9 * one_turn * 1e3 * std::cos(one_turn * 1e3 * t) + (sine(t) + 2) / 1e6); };
+    EXPECT_LT(max_deviation(run, "i(v1)", current, 1e-5), 1e-4 * 1e-5);
 }
 
-TEST(BetweenSteps, ADiodeLetsNothingBack) {
+TEST(BetweenSteps, ADiodeBlocksReverseCurrent) {
     const auto run =
         run_netlist("diode\nv1 in 0 sin(0 5 1k)\nd1 in out d\nr1 out 0 1k\n.model d d(is=1e-14)\n.tran 1u 3m\n"
             ".meas tran low min v(out)\n.meas tran high max v(out)\n.meas tran i max i(v1)\n");
@@ -81,7 +81,7 @@ TEST(BetweenSteps, ADiodeLetsNothingBack) {
     EXPECT_NEAR(run.number("high"), v, 1e-4);
 }
 
-TEST(BetweenSteps, TwoDiodesClampWhatTheyClamp) {
+TEST(BetweenSteps, TwoDiodesClampTheirNode) {
     const auto run =
         run_netlist("two\nv1 in 0 sin(0 5 1k)\nr1 in out 1k\nd1 out 0 d\nd2 0 out d\nc1 out 0 10f\n.model d d(is=1e-14)\n"
             ".tran 1u 3m\n.meas tran low min v(out)\n.meas tran high max v(out)\n");
@@ -91,8 +91,8 @@ TEST(BetweenSteps, TwoDiodesClampWhatTheyClamp) {
     EXPECT_NEAR(run.number("low"), -v, 1e-4);
 }
 
-/// A coil's voltage jumps where its source begins to rise, a capacitor's current likewise: a point of their own follows the corner.
-TEST(AfterACorner, AJumpIsNotDrawnAsARamp) {
+/// An inductor's voltage and a capacitor's current jump where the source starts to rise. An extra point follows the breakpoint.
+TEST(AfterABreakpoint, AJumpIsNotReportedAsARamp) {
     const auto run =
         run_netlist("corner\nv1 a 0 pwl(0 0 1m 0 2m 1 3m 1)\nc1 a 0 1u\ni1 0 b pwl(0 0 1m 0 2m 1m 3m 1m)\nl1 b c 1m\nr1 c 0 1k\n"
             ".tran 10u 3m\n");
@@ -112,8 +112,8 @@ TEST(AfterACorner, AJumpIsNotDrawnAsARamp) {
     EXPECT_NEAR(ramps.number("high"), 1e-9 / 0.2e-3 * (1 - std::exp(-10)), 1e-9);
 }
 
-/// A comparator has no charge and no corner that a source would name; its edge is where its input crosses.
-TEST(AfterACorner, ASourceHasItsLastDigits) {
+/// A comparator has no charge and sets no breakpoint; its edge is where its input crosses the threshold.
+TEST(AfterABreakpoint, ASourceHasItsLastDigits) {
     const double since = 1e-12, slope = 4e3;  // s, V/s: 4 nV of 4 V
     const SourceWaveform charges({Waveform::Shape::exponential, 0, false, 0, 0, {0, 4, 2e-4, 1e-3, 1, 1}}, 1e-6, 3e-3);
     const double late = 2e-4 + since;
@@ -124,8 +124,8 @@ TEST(AfterACorner, ASourceHasItsLastDigits) {
     EXPECT_NEAR(returns.at(then), slope * (then - corner), 1e-9 * slope * since);
 }
 
-/// What Newton's limits looked at instead would be a charge too many, and a current of 15 mA for a step.
-TEST(AfterACorner, JunctionsBeginWithTheChargeOfTheirVoltage) {
+/// A charge at the voltage limited by Newton would be too large and cause a current of 15 mA for one step.
+TEST(AfterABreakpoint, JunctionsBeginWithTheChargeOfTheirVoltage) {
     const auto circuit = TransientRunner::from_text(
         "two in series\nv1 a 0 exp(-1.98516 1.98516 0.3m 0.44m)\nd1 b a d\nd2 0 b d\nr1 a b 33meg\nc1 a 0 1n\n"
         ".model d d(is=1.68381e-13 n=1.30859 cjo=5.99394e-14)\n.tran 1u 1m\n");
@@ -139,8 +139,8 @@ TEST(AfterACorner, JunctionsBeginWithTheChargeOfTheirVoltage) {
     for (std::size_t k = 1; run.t[k] < 1e-4; ++k) EXPECT_NEAR(run.x[k][i], run.x[0][i], 1e-6) << run.t[k];
 }
 
-/// A current of a steep edge through a floating capacitor, at tolerances where its last digits are all there is.
-TEST(AfterACorner, RoundingRefusesNoStep) {
+/// Current of a steep edge through a floating capacitor, at tolerances near the rounding error.
+TEST(AfterABreakpoint, RoundingRejectsNoStep) {
     const auto circuit = TransientRunner::from_text(
         "floating\nv1 a 0 pulse(-1.785 1.785 0.27m 1.6u 0.9u 0.28m 1.36m)\nr1 a b 43.9k\nr2 b 0 64.4k\nr3 a c 4.5meg\nd1 a c d\n"
         "c1 c b 1.24n\nd2 c e d\nr4 e 0 4.67k\n.model d d(is=1.46257e-12 n=1.20338 cjo=0)\n.tran 1u 3m\n");
@@ -155,20 +155,20 @@ TEST(AfterACorner, RoundingRefusesNoStep) {
     }
 }
 
-TEST(BetweenSteps, AFormulasJumpIsWhereItsInputCrosses) {
+TEST(BetweenSteps, AnExpressionsJumpIsWhereItsInputCrosses) {
     const auto run =
         run_netlist("comparator\nv1 in 0 sin(0 1 1k)\nb1 out 0 v=u(v(in)-0.3)\nr1 out 0 1k\nc1 far 0 1n\nr2 out far 10k\n.tran 1u 3m\n"
             ".meas tran first when v(out)=0.5 rise=1\n.meas tran last when v(out)=0.5 fall=3\n.meas tran high max v(out)\n"
             ".meas tran low min v(out)\n");
-    const double up = std::asin(0.3) / whole_turn * 1e-3;
+    const double up = std::asin(0.3) / one_turn * 1e-3;
     EXPECT_NEAR(run.number("first"), up, 1e-8);
     EXPECT_NEAR(run.number("last"), 2e-3 + 0.5e-3 - up, 1e-8);
     EXPECT_NEAR(run.number("low"), 0, 1e-6);
     EXPECT_NEAR(run.number("high"), 1, 1e-6);
 }
 
-/// i(v2) is the formula's current; v(a), all there is to weigh by charge, hardly moves where it jumps.
-TEST(AcceptedPoints, SatisfyTheEquationsWhereAFormulaJumps) {
+/// i(v2) is the current of the expression. Only v(a) has charge and an error estimate, and it hardly changes at the jump.
+TEST(AcceptedPoints, SatisfyTheEquationsWhereAnExpressionJumps) {
     const auto run =
         run_netlist("jump\ni1 0 a pulse(-1u 1u 0 1n 1n 0.3m 0.6m)\nc1 a 0 1n\nr1 a 0 100meg\nv2 b 0 1\nb1 b 0 i=50u*u(v(a)-0.1)\n"
             ".ic v(a)=0\n.tran 1u 3m\n");
@@ -183,7 +183,7 @@ TEST(AcceptedPoints, SatisfyTheEquationsWhereAFormulaJumps) {
     EXPECT_EQ(jumps, 10);
 }
 
-/// With nothing but what a spike is to look at: where the level is crossed within a step is as exact as the steps are.
+/// The node has no charge. The time of the crossing within a step is as accurate as the steps are.
 TEST(BetweenSteps, ASpikeOfANodeWithoutChargeIsWhereItIs) {
     const auto run = run_netlist(slow_inverter + ".spike v(out) 0.35\n.tran 50u 5m 0 100u\n");
     const auto fine = run_netlist(slow_inverter + ".spike v(out) 0.35\n.options accuracy=fine\n.tran 1u 5m 0 1u\n");

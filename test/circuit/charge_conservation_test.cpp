@@ -1,7 +1,7 @@
-// Charge that nothing leads away stays: nets joined to the rest by capacitances alone, over ten thousand cycles.
+// Charge conservation on nets that only capacitances connect to the rest of the circuit, over ten thousand cycles.
 //
-// What lies on such a net is the sum of its nodes' charges, of capacitors, junctions and transistors. A rule of integration that works
-// with charges keeps it but for what Newton's steps leave over, whatever its own error; one that works with capacitances does not.
+// The charge of such a net is the sum over its nodes of the charges of capacitors, junctions and transistors. An integration rule based on
+// charges conserves it up to Newton's residual, independent of the integration error. A rule based on capacitances does not.
 
 #include <gtest/gtest.h>
 
@@ -14,9 +14,9 @@
 namespace corpuscle::circuit {
 namespace {
 
-struct Kept {
-    double drift = 0;  ///< C: how far the net's charge was from what it began with, at most
-    double swing = 0;  ///< C: between the least and the most on any one of its nodes
+struct ChargeDrift {
+    double drift = 0;  ///< C; largest difference of the net's charge from its initial value
+    double swing = 0;  ///< C; largest range of the charge of any single node
     long steps = 0;
 };
 
@@ -30,10 +30,10 @@ std::unique_ptr<AnalysisContext> bench_of(const std::string& text) {
     return std::move(*bench);
 }
 
-/// From 0 V everywhere but where .ic says otherwise.
-Kept kept(const std::string& text, double cycle, const std::vector<std::string>& net) {
+/// Starts from 0 V at all nodes without .ic.
+ChargeDrift measure_drift(const std::string& text, double cycle, const std::vector<std::string>& net) {
     const double stop = 1e4 * cycle;
-    Kept out;
+    ChargeDrift out;
     const auto bench = bench_of(text);
     if (!bench) return out;
     std::vector<double> start(static_cast<std::size_t>(bench->system.size()));
@@ -63,8 +63,8 @@ Kept kept(const std::string& text, double cycle, const std::vector<std::string>&
     };
     bench->system.start_transient(cycle / 100, stop);
     TransientPlan plan;
-    plan.stop = stop, plan.max_step = cycle / 8;  // long steps could meet a sine where it is zero
-    plan.reltol = 1e-3;                          // charge is not a matter of accuracy
+    plan.stop = stop, plan.max_step = cycle / 8;  // long steps could coincide with the zeros of a sine
+    plan.reltol = 1e-3;                          // charge conservation does not depend on accuracy
     Transient transient(bench->system, bench->newton, plan);
     auto stepped = Result<bool>(true);
     EXPECT_TRUE(transient.begin(start));
@@ -76,11 +76,11 @@ Kept kept(const std::string& text, double cycle, const std::vector<std::string>&
     return out;
 }
 
-/// Of the swing, over ten thousand cycles: one part in 1e8 a cycle.
+/// Limit relative to the swing, over ten thousand cycles: 1e-8 per cycle.
 constexpr double bound = 1e-4;
 
-TEST(ChargeConservation, NonlinearCapacitorsInARowKeepWhatIsBetweenThem) {
-    const auto found = kept(
+TEST(ChargeConservation, NonlinearCapacitorsInSeriesConserveTheChargeBetweenThem) {
+    const auto found = measure_drift(
         "divider of charge\nv1 in 0 sin(0 1 1k)\nc1 in a q='1u*v(in,a)+0.5u*tanh(3*v(in,a))'\nr1 a b 100\n"
         "c2 b 0 q='0.5u*v(b)+2u*v(b)*v(b)*v(b)'\nr2 a 0 1e17\n.end\n",
         1e-3, {"a", "b"});
@@ -89,7 +89,7 @@ TEST(ChargeConservation, NonlinearCapacitorsInARowKeepWhatIsBetweenThem) {
 }
 
 TEST(ChargeConservation, ARingOfDiodesPassesItsChargeAround) {
-    const auto found = kept(
+    const auto found = measure_drift(
         "three phases push charge around\nva ka 0 sin(0 1 1meg 0 0 0)\nvb kb 0 sin(0 1 1meg 0 0 120)\nvc kc 0 sin(0 1 1meg 0 0 240)\n"
         "ca ka a 10p\ncb kb b 10p\ncc kc c 10p\nd1 a b d\nd2 b c d\nd3 c a d\n.model d d(is=1e-12 n=1.05 cjo=2p vj=0.6 m=0.45 tt=5n)\n"
         "r1 a 0 1e18\n.ic v(kb)=0.8660254 v(kc)=-0.8660254\n.end\n",
@@ -98,13 +98,14 @@ TEST(ChargeConservation, ARingOfDiodesPassesItsChargeAround) {
     EXPECT_LE(found.drift, bound * found.swing);
 }
 
-TEST(ChargeConservation, TransistorsHandChargeOnAndKeepIt) {
-    // the card's transistors, but for what their junctions carry
+TEST(ChargeConservation, TransistorsTransferChargeAndConserveIt) {
+    // the card's transistors without junction currents
     const std::string card = "level=80 isq=112n vto=0.46 n=1.27 zetal=15n cox=8.42m cgso=0.37n cgdo=0.37n cj=1m cjsw=0.23n pb=0.75 mj=0.38";
-    const auto found = kept("a gate opens between two nets, and pushes both\n.options gmin=1e-20\n.model n nmos(" + card +
-                                ")\nva k 0 pulse(0 1.5 1u 0.2u 0.2u 2.8u 8u)\nm1 a k b 0 n w=6u l=0.5u\nm2 b b a 0 n w=1.5u l=0.5u\n"
-                                "ca a 0 0.1p\ncb b k 50f\nr1 a 0 1e20\n.ic v(a)=0.5 v(b)=0.3\n.end\n",
-                            8e-6, {"a", "b"});
+    const auto found =
+        measure_drift("a gate opens between two nets, and pushes both\n.options gmin=1e-20\n.model n nmos(" + card +
+                          ")\nva k 0 pulse(0 1.5 1u 0.2u 0.2u 2.8u 8u)\nm1 a k b 0 n w=6u l=0.5u\nm2 b b a 0 n w=1.5u l=0.5u\n"
+                          "ca a 0 0.1p\ncb b k 50f\nr1 a 0 1e20\n.ic v(a)=0.5 v(b)=0.3\n.end\n",
+                      8e-6, {"a", "b"});
     ASSERT_GT(found.swing, 1e-15);
     EXPECT_LE(found.drift, bound * found.swing);
 }

@@ -1,4 +1,4 @@
-// The thesis's chips, transistor by transistor: what they answer to force, as the thesis tells and beside its models.
+// The thesis's chips, transistor by transistor: their responses to force, compared with the thesis's description and its models.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -15,10 +15,10 @@
 namespace corpuscle::circuit {
 namespace {
 
-/// What one chip did under one touch.
-struct Heard {
+/// Response of one chip to one force.
+struct ChipRun {
     std::vector<double> spikes;                        // s
-    std::map<std::string, std::vector<double>> shown;  // what .save names, a value a sample
+    std::map<std::string, std::vector<double>> shown;  // the curves of .save, one value per sample
     std::vector<RangeViolation> outside;
     std::optional<Error> error;
 
@@ -27,9 +27,9 @@ struct Heard {
     }
 };
 
-Heard heard(const std::string& file, const ForceSignal& touch, const Values& parameters = {}, double celsius = 27) {
-    Heard out;
-    const auto netlist = Netlist::read(corpuscle::test::project_root() + "/circuits/" + file);
+ChipRun run_chip(const std::string& file, const ForceSignal& touch, const Values& parameters = {}, double celsius = 27) {
+    ChipRun out;
+    const auto netlist = Netlist::read(corpuscle::test::source_root() + "/circuits/" + file);
     if (!netlist) return ADD_FAILURE() << netlist.error().text(), out;
     auto circuit = netlist->elaborate(parameters);
     if (!circuit) return ADD_FAILURE() << circuit.error().text(), out;
@@ -46,8 +46,8 @@ Heard heard(const std::string& file, const ForceSignal& touch, const Values& par
     std::vector<Spike> spikes;
     out.outside.resize(afferent->ranges().size());
     auto state = afferent->start();
-    ResponseBlock answer{spikes, 0, probes, out.outside};
-    if (auto ok = afferent->respond(force, state, answer); !ok) out.error = ok.error();
+    ResponseBlock response{spikes, 0, probes, out.outside};
+    if (auto ok = afferent->respond(force, state, response); !ok) out.error = ok.error();
     for (const auto& s : spikes) out.spikes.push_back((static_cast<double>(s.step) - 1 + s.offset) / touch.rate);
     for (std::size_t p = 0; p < curves.size(); ++p) {
         curves[p].erase(curves[p].begin(), curves[p].begin() + static_cast<std::ptrdiff_t>(delay));
@@ -62,20 +62,20 @@ std::vector<double> spikes_of(const NetlistRun& ran) {
     return ADD_FAILURE() << ran.title() << ": no spikes", std::vector<double>();
 }
 
-constexpr double up = 0.25, held = 0.375, down = 0.625, let_go = 0.75;  // s, of the press
+constexpr double rise_start = 0.25, hold_start = 0.375, fall_start = 0.625, fall_end = 0.75;  // s, of the press
 
 TEST(SaChip, FiresUnderThePressAsItsModelDoes) {
     const auto press = stimulus("press");
     const auto model = respond("sa1", press);
     for (const char* file : {"sa1.cir", "sa1_biased.cir"}) {
-        const auto chip = heard(file, press);
-        EXPECT_EQ(chip.between(0, up), 0U) << "silent at rest";
-        ASSERT_GT(chip.between(up, held), 2U);
-        const auto first = std::find_if(chip.spikes.begin(), chip.spikes.end(), [](double t) { return t >= held; });
-        for (auto t = first + 1; t + 1 < chip.spikes.end() && t[1] < down; ++t)
+        const auto chip = run_chip(file, press);
+        EXPECT_EQ(chip.between(0, rise_start), 0U) << "silent at rest";
+        ASSERT_GT(chip.between(rise_start, hold_start), 2U);
+        const auto first = std::find_if(chip.spikes.begin(), chip.spikes.end(), [](double t) { return t >= hold_start; });
+        for (auto t = first + 1; t + 1 < chip.spikes.end() && t[1] < fall_start; ++t)
             EXPECT_GT(t[1] - t[0], t[0] - t[-1]) << "slows on the plateau, at " << *t;
-        EXPECT_GT(chip.between(down - 0.05, down), 0U) << "goes on to the plateau's end";
-        EXPECT_LE(chip.between(down, 1), 1U) << "and after it fires once at the most";
+        EXPECT_GT(chip.between(fall_start - 0.05, fall_start), 0U) << "fires until the end of the plateau";
+        EXPECT_LE(chip.between(fall_start, 1), 1U) << "at most one spike after the plateau";
         EXPECT_NEAR(static_cast<double>(chip.spikes.size()), static_cast<double>(model.spikes.size()),
                     0.25 * static_cast<double>(model.spikes.size()));
     }
@@ -85,29 +85,29 @@ TEST(FaChip, FiresInBothRampsAndNotAtTheEndOfThePlateau) {
     const auto press = stimulus("press");
     const auto model = respond("fa1", press);
     for (const char* file : {"fa1.cir", "fa1_biased.cir"}) {
-        const auto chip = heard(file, press);
-        EXPECT_EQ(chip.between(0, up), 0U);
-        EXPECT_GT(chip.between(up, held), 0U);
-        EXPECT_EQ(chip.between(down - 0.1, down), 0U);
-        EXPECT_GT(chip.between(down, let_go), 0U);
+        const auto chip = run_chip(file, press);
+        EXPECT_EQ(chip.between(0, rise_start), 0U);
+        EXPECT_GT(chip.between(rise_start, hold_start), 0U);
+        EXPECT_EQ(chip.between(fall_start - 0.1, fall_start), 0U);
+        EXPECT_GT(chip.between(fall_start, fall_end), 0U);
         EXPECT_NEAR(static_cast<double>(chip.spikes.size()), static_cast<double>(model.spikes.size()),
                     0.25 * static_cast<double>(model.spikes.size()));
     }
 }
 
-/// As printed, I_A is too small to hold the plateau above the leak (errata S10a), and FA-I's ramps are 8 to 3 (S15).
-TEST(Chips, AsPrintedFireOtherwise) {
+/// As printed, I_A is too small to exceed the leak in the plateau (errata S10a), and FA-I's ramps are 8 to 3 (S15).
+TEST(ChipSpec, AsPrintedFireDifferently) {
     const auto press = stimulus("press");
-    const auto sa1 = heard("sa1.cir", press, {{"as_printed", 1}}), fa1 = heard("fa1.cir", press, {{"as_printed", 1}});
-    EXPECT_GE(sa1.between(up, held), 3U);
-    EXPECT_EQ(sa1.between(held + 0.05, 1), 0U);
-    EXPECT_GT(fa1.between(up, held), 2 * fa1.between(down, let_go));
+    const auto sa1 = run_chip("sa1.cir", press, {{"as_printed", 1}}), fa1 = run_chip("fa1.cir", press, {{"as_printed", 1}});
+    EXPECT_GE(sa1.between(rise_start, hold_start), 3U);
+    EXPECT_EQ(sa1.between(hold_start + 0.05, 1), 0U);
+    EXPECT_GT(fa1.between(rise_start, hold_start), 2 * fa1.between(fall_start, fall_end));
     EXPECT_GT(fa1.spikes.size(), 12U);
 }
 
 /// Without length modulation and velocity saturation the mirrors divide by their ratios: 288 x 64 (eq. 38, 39; errata S7b).
-TEST(Chips, TransconductorsDivideByTheirRatiosInThePlainModel) {
-    const auto netlist = Netlist::read(corpuscle::test::project_root() + "/circuits/invc.cir");
+TEST(ChipSpec, TransconductorsDivideByTheirRatiosInThePlainModel) {
+    const auto netlist = Netlist::read(corpuscle::test::source_root() + "/circuits/invc.cir");
     ASSERT_TRUE(netlist);
     auto circuit = netlist->elaborate();
     ASSERT_TRUE(circuit);
@@ -115,88 +115,89 @@ TEST(Chips, TransconductorsDivideByTheirRatiosInThePlainModel) {
     EXPECT_NEAR(run_netlist(std::move(*circuit)).number("attenuation"), 18432, 0.005 * 18432);
 }
 
-/// The membrane falls from V_H to V_L, a spike fills it again; it goes beyond by what the trigger's delay lets pass (thesis 4.4).
-TEST(Chips, MembranesStayBetweenTheTriggersThresholdsWhileTheyFire) {
+/// The membrane falls from V_H to V_L, and a spike charges it again. It overshoots because of the trigger's delay (thesis 4.4).
+TEST(ChipSpec, MembranesStayBetweenTheTriggersThresholdsWhileTheyFire) {
     const auto trigger = run_netlist_file("schmitt.cir");
     const double V_L = trigger.number("v_l"), V_H = trigger.number("v_h");
     for (const char* file : {"sa1.cir", "fa1.cir"}) {
         auto touch = stimulus("press", {}, 100e3);
-        const auto chip = heard(file, touch);
+        const auto chip = run_chip(file, touch);
         const auto& u = chip.shown.at("v(u)");
         const auto sample = [&](double t) { return u.begin() + static_cast<std::ptrdiff_t>(std::lround(t * touch.rate)); };
-        const auto [least, most] = std::minmax_element(sample(chip.spikes[0]), sample(chip.spikes[chip.between(0, down) - 1]));
-        EXPECT_GT(*least, V_L - 2e-3) << file;
-        EXPECT_LT(*least, V_L + 2e-3) << file;
-        EXPECT_GT(*most, V_H) << file << ": while it is filled the trigger is late";
-        EXPECT_LT(*most, V_H + 15e-3) << file;
+        const auto [lowest, highest] = std::minmax_element(sample(chip.spikes[0]), sample(chip.spikes[chip.between(0, fall_start) - 1]));
+        EXPECT_GT(*lowest, V_L - 2e-3) << file;
+        EXPECT_LT(*lowest, V_L + 2e-3) << file;
+        EXPECT_GT(*highest, V_H) << file << ": the trigger lags while the membrane is charged";
+        EXPECT_LT(*highest, V_H + 15e-3) << file;
     }
 }
 
 /// "At each firing event the membrane potential u charges very fast, causing glitches in the input signal I" (thesis 4.4).
-TEST(Chips, ChargingMakesGlitchesInTheCurrent) {
+TEST(ChipSpec, ChargingMakesGlitchesInTheCurrent) {
     const auto press = stimulus("press", {}, 100e3);
-    const auto chip = heard("sa1.cir", press);
+    const auto chip = run_chip("sa1.cir", press);
     const auto& current = chip.shown.at("i(vi)");
     const auto largest = [&](double from, double to) {
         const auto at = [&](double t) { return current.begin() + static_cast<std::ptrdiff_t>(t * press.rate); };
         return *std::max_element(at(from), at(to));
     };
-    for (std::size_t k = 1; k + 1 < chip.between(0, down); ++k) {
+    for (std::size_t k = 1; k + 1 < chip.between(0, fall_start); ++k) {
         const double t = chip.spikes[k];
         EXPECT_GT(largest(t, t + 2e-3), 1.3 * largest(t - 3e-3, t - 1e-3)) << t;
     }
 }
 
-/// 0.05 to 40 N, quick and slow: the search always ends, and a chip that is pressed beyond its range says so.
-TEST(Chips, ConvergeUnderAnyForceAndTellThatTheyAreSaturated) {
+/// 0.05 to 40 N, fast and slow: the solver always converges, and a chip outside its range reports saturation.
+TEST(ChipSpec, ConvergeUnderAnyForceAndReportSaturation) {
     for (const char* file : {"sa1.cir", "fa1.cir"}) {
         for (const double force : {0.05, 0.5, 10.0, 40.0}) {
-            const auto press = heard(file, stimulus("press", {fmt::format("press.F_max={}", force)}));
-            const auto step = heard(file, stimulus("step", {fmt::format("step.F_max={}", force), "step.t_hold=0.2", "step.t_rest=0.1"}));
+            const auto press = run_chip(file, stimulus("press", {fmt::format("press.F_max={}", force)}));
+            const auto step = run_chip(file, stimulus("step", {fmt::format("step.F_max={}", force), "step.t_hold=0.2", "step.t_rest=0.1"}));
             EXPECT_FALSE(press.error || step.error) << file << ' ' << force;
             EXPECT_EQ(press.outside[0].samples > 0, force > 6) << file << ' ' << force;
         }
         for (const double f : {1.0, 60.0, 500.0}) {
-            const auto sine = heard(file, stimulus("sine", {fmt::format("sine.f={}", f), "sine.duration=0.1", "sine.F_mean=2"}, 20e3));
+            const auto sine = run_chip(file, stimulus("sine", {fmt::format("sine.f={}", f), "sine.duration=0.1", "sine.F_mean=2"}, 20e3));
             EXPECT_FALSE(sine.error) << file << ' ' << f;
         }
     }
 }
 
-/// A force that is there from the first sample: under 1 N and more there is no rest, for SA-I fires on.
-TEST(Chips, BeginUnderAnyForce) {
+/// A force from the first sample on. Under 1 N and more SA-I keeps firing, so it has no stable operating point.
+TEST(ChipSpec, StartUnderAnyForce) {
     for (const char* file : {"sa1.cir", "fa1.cir"})
         for (const double celsius : {27.0, 85.0})
             for (const double force : {0.05, 0.3, 1.09, 2.5, 8.0, 40.0}) {
-                const auto begun = heard(file, {1e3, std::vector<double>(30, force)}, {}, celsius);
+                const auto begun = run_chip(file, {1e3, std::vector<double>(30, force)}, {}, celsius);
                 EXPECT_FALSE(begun.error) << file << ' ' << force << " N, " << celsius << " C";
             }
-    EXPECT_GT(heard("sa1.cir", {1e3, std::vector<double>(300, 4.0)}).spikes.size(), 4U);
+    EXPECT_GT(run_chip("sa1.cir", {1e3, std::vector<double>(300, 4.0)}).spikes.size(), 4U);
 }
 
-TEST(Chips, RestSilentlyForHours) {
+TEST(ChipSpec, RestSilentlyForHours) {
     for (const char* file : {"sa1.cir", "fa1.cir"}) {
-        const auto quiet = heard(file, stimulus("step", {"step.t_rest=600", "step.t_hold=0.3", "step.F_max=4"}, 100));
+        const auto quiet = run_chip(file, stimulus("step", {"step.t_rest=600", "step.t_hold=0.3", "step.F_max=4"}, 100));
         EXPECT_FALSE(quiet.error);
         EXPECT_EQ(quiet.between(0, 600), 0U);
         EXPECT_GT(quiet.between(600, 600.3), 3U) << "and then feel";
     }
 }
 
-TEST(Chips, OutliveATornSensor) {
+TEST(ChipSpec, WorkWithADamagedSensor) {
     const auto press = stimulus("press");
     for (const char* file : {"sa1.cir", "fa1.cir"}) {
-        const auto open = heard(file, press, {{"r_0", 1e15}, {"r_1gf", 1e15}}), shorted = heard(file, press, {{"r_0", 1}, {"r_1gf", 1}});
+        const auto open = run_chip(file, press, {{"r_0", 1e15}, {"r_1gf", 1e15}});
+        const auto shorted = run_chip(file, press, {{"r_0", 1}, {"r_1gf", 1}});
         EXPECT_FALSE(open.error || shorted.error);
-        EXPECT_TRUE(open.spikes.empty()) << "nothing is felt";
-        EXPECT_GT(shorted.outside[1].samples, 9000) << "the amplifier cannot hold the sensor's voltage, and this is told";
+        EXPECT_TRUE(open.spikes.empty()) << "no sensor current";
+        EXPECT_GT(shorted.outside[1].samples, 9000) << "the amplifier cannot hold the sensor's voltage, and this is reported";
     }
 }
 
 /// Tolerances a hundred times tighter move no spike by 0.2 ms.
-TEST(Chips, SpikesAreExact) {
+TEST(ChipSpec, SpikesAreExact) {
     for (const std::string file : {"sa1.cir", "fa1.cir"}) {
-        const auto folder = corpuscle::test::project_root() + "/circuits/";
+        const auto folder = corpuscle::test::source_root() + "/circuits/";
         auto text = corpuscle::test::read_file(folder + file);
         text.replace(text.rfind(".end"), 4, ".options reltol=1e-7 vntol=1e-8 spikecheck=0\n.end");
         for (auto at = text.find("'parts/"); at != std::string::npos; at = text.find("'parts/", at + 1)) text.insert(at + 1, folder);

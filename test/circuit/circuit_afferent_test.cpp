@@ -1,4 +1,4 @@
-// Netlists as afferents: their spikes, whole and in pieces, kept and resumed, and what is refused.
+// Netlists as afferents: spikes of complete and divided forces, saved and resumed states, error messages.
 
 #include "circuit/circuit_afferent.hpp"
 
@@ -21,7 +21,7 @@ using corpuscle::test::TemporaryFolder;
 using corpuscle::test::read_file;
 using corpuscle::test::value_or_throw;
 
-/// Force charges a capacitor, a rapid switch at 1 V empties it: quick to run, and it never rests.
+/// Force charges a capacitor, and a fast switch discharges it at 1 V. Fast to simulate; it has no stable operating point.
 constexpr const char* relaxer =
     "relaxer\niin 0 a dc 0.1u force 1u\nca a 0 10n\nb1 a 0 i={1m*v(a)*0.5*(1+tanh((v(s)-0.5)*20))}\n"
     "b2 t 0 v={0.5*(1+tanh((v(a)-1+0.8*v(s))*20))}\nr2 t s 1k\nc2 s 0 10n\n.tran 1m 1 0 5m uic\n";
@@ -30,7 +30,7 @@ std::shared_ptr<const CircuitAfferentFactory> design(const std::string& text) {
     const auto netlist = value_or_throw(parse_netlist_text(text));
     return value_or_throw(CircuitAfferentFactory::create(std::make_shared<const Circuit>(value_or_throw(netlist.elaborate()))));
 }
-std::string afferent_refusal(const std::string& text) {
+std::string afferent_error(const std::string& text) {
     const auto netlist = parse_netlist_text(text);
     if (!netlist) return netlist.error().text();
     auto circuit = netlist->elaborate();
@@ -38,10 +38,10 @@ std::string afferent_refusal(const std::string& text) {
     const auto made = CircuitAfferentFactory::create(std::make_shared<const Circuit>(std::move(*circuit)));
     return made ? "" : made.error().text();
 }
-std::string spiker() { return read_file(corpuscle::test::project_root() + "/circuits/spiker.cir"); }
+std::string spiker() { return read_file(corpuscle::test::source_root() + "/circuits/spiker.cir"); }
 
-/// Hands in force, in blocks of `block`, and what it takes to hear the end.
-std::vector<Spike> answered(const Afferent& afferent, std::vector<double> force, std::size_t block = 4096) {
+/// Spikes for a force given in blocks of `block` samples, with delay() samples appended to get the complete response.
+std::vector<Spike> complete_response(const Afferent& afferent, std::vector<double> force, std::size_t block = 4096) {
     force.insert(force.end(), static_cast<std::size_t>(afferent.delay()), force.back());
     return corpuscle::test::spikes(afferent, force, block);
 }
@@ -55,20 +55,21 @@ std::vector<double> wave(std::size_t count, double T) {
     return out;
 }
 
-TEST(CircuitAfferent, FiresFasterThePressedHarder) {
+TEST(CircuitAfferent, FiresFasterUnderMoreForce) {
     const auto afferent = design(spiker())->make(1e-3, false);
     std::size_t before = 0;
     for (const double force : {0.5, 1.0, 2.0, 4.0, 8.0}) {
-        const auto spikes = answered(*afferent, std::vector<double>(300, force));
+        const auto spikes = complete_response(*afferent, std::vector<double>(300, force));
         EXPECT_GT(spikes.size(), before) << force;
         before = spikes.size();
     }
-    EXPECT_EQ(answered(*afferent, std::vector<double>(300, 0.0)).size(), 0U);
+    EXPECT_EQ(complete_response(*afferent, std::vector<double>(300, 0.0)).size(), 0U);
 }
 
-TEST(CircuitAfferent, SpikesComeInOrderWithinTheForceAndOnSamplesIfAsked) {
+TEST(CircuitAfferent, SpikesAreInOrderWithinTheForceAndOnSamplesIfRequested) {
     const auto made = design(spiker());
-    const auto exact = answered(*made->make(1e-3, false), wave(400, 1e-3)), sampled = answered(*made->make(1e-3, true), wave(400, 1e-3));
+    const auto exact = complete_response(*made->make(1e-3, false), wave(400, 1e-3)),
+               sampled = complete_response(*made->make(1e-3, true), wave(400, 1e-3));
     ASSERT_GT(exact.size(), 10U);
     ASSERT_EQ(sampled.size(), exact.size());
     for (std::size_t k = 0; k < exact.size(); ++k) {
@@ -84,11 +85,11 @@ TEST(CircuitAfferent, ForceInBlocksOfAnySizeGivesTheSameSpikes) {
     for (const auto& text : {spiker(), std::string(relaxer) + ".spike v(s) 0.5\n.save v(a) v(a,s)\n"}) {
         const auto afferent = design(text)->make(1e-3, false);
         const auto force = wave(300, 1e-3);
-        const auto whole = answered(*afferent, force);
-        ASSERT_GT(whole.size(), 10U);
-        EXPECT_EQ(answered(*afferent, force, 1), whole);
-        EXPECT_EQ(answered(*afferent, force, 7), whole);
-        EXPECT_EQ(answered(*afferent, force, 100), whole);
+        const auto undivided = complete_response(*afferent, force);
+        ASSERT_GT(undivided.size(), 10U);
+        EXPECT_EQ(complete_response(*afferent, force, 1), undivided);
+        EXPECT_EQ(complete_response(*afferent, force, 7), undivided);
+        EXPECT_EQ(complete_response(*afferent, force, 100), undivided);
     }
 }
 
@@ -104,78 +105,78 @@ TEST(CircuitAfferent, ProbesAreTheSameInBlocksOfAnySize) {
         auto state = afferent->start();
         for (std::size_t k = 0; k < force.size(); k += block) {
             double* to[] = {u.data() + k, s.data() + k};
-            ResponseBlock answer{spikes, 0, to};
-            if (!afferent->respond(std::span(force).subspan(k, std::min(block, force.size() - k)), state, answer)) ADD_FAILURE();
+            ResponseBlock response{spikes, 0, to};
+            if (!afferent->respond(std::span(force).subspan(k, std::min(block, force.size() - k)), state, response)) ADD_FAILURE();
         }
         u.insert(u.end(), s.begin(), s.end());
         return u;
     };
-    const auto whole = shown(300), parts = shown(13);
-    EXPECT_EQ(whole, parts);
-    for (const double v : whole) EXPECT_TRUE(v > -0.01 && v < 0.71) << v;
-    EXPECT_NEAR(whole[0], 0.6, 1e-3);  // .ic
+    const auto undivided = shown(300), parts = shown(13);
+    EXPECT_EQ(undivided, parts);
+    for (const double v : undivided) EXPECT_TRUE(v > -0.01 && v < 0.71) << v;
+    EXPECT_NEAR(undivided[0], 0.6, 1e-3);  // .ic
 }
 
-/// Runs to a sample, keeps the state as bytes, and goes on with it elsewhere.
+/// Runs up to a sample, saves the state as bytes, and continues with another afferent.
 std::vector<Spike> resumed(const CircuitAfferentFactory& made, const std::vector<double>& force, std::size_t at, double T) {
     std::vector<Spike> spikes;
-    ResponseBlock answer{spikes};
-    std::vector<std::byte> kept;
+    ResponseBlock response{spikes};
+    std::vector<std::byte> saved;
     {
         const auto first = made.make(T, false);
         auto state = first->start();
-        if (!first->respond(std::span(force).first(at), state, answer)) ADD_FAILURE();
-        kept = pack(state);
+        if (!first->respond(std::span(force).first(at), state, response)) ADD_FAILURE();
+        saved = pack(state);
     }
     const auto second = made.make(T, false);
-    auto other = second->start();  // it has done something else before
+    auto other = second->start();  // it has responded to another force before
     std::vector<Spike> nobodys;
     ResponseBlock unheard{nobodys};
     if (!second->respond(wave(90, T), other, unheard)) ADD_FAILURE();
-    auto state = value_or_throw(unpack(kept));
+    auto state = value_or_throw(unpack(saved));
     auto rest = std::vector<double>(force.begin() + static_cast<std::ptrdiff_t>(at), force.end());
     rest.insert(rest.end(), static_cast<std::size_t>(second->delay()), force.back());
-    if (!second->respond(rest, state, answer)) ADD_FAILURE();
+    if (!second->respond(rest, state, response)) ADD_FAILURE();
     return spikes;
 }
 
-TEST(CircuitAfferent, AResumedOneGoesOnToTheLastBit) {
+TEST(CircuitAfferent, AResumedOneContinuesBitForBit) {
     const auto made = design(spiker());
     const auto force = wave(250, 1e-3);
-    const auto whole = answered(*made->make(1e-3, false), force);
+    const auto undivided = complete_response(*made->make(1e-3, false), force);
     EXPECT_TRUE(rc::check([&] {
         const auto at = *rc::gen::inRange<std::size_t>(1, force.size());
-        RC_ASSERT(resumed(*made, force, at, 1e-3) == whole);
+        RC_ASSERT(resumed(*made, force, at, 1e-3) == undivided);
     }));
 }
 
-TEST(CircuitAfferent, GoesOnForHoursWithTheDigitsOfItsFirstSecond) {
+TEST(CircuitAfferent, KeepsItsPrecisionForHours) {
     const auto made = design("slow\niin 0 a force 1\nr1 a 0 1\nc1 a 0 0.1\n.spike v(a) 0.5\n.tran 1 1 0 0.2\n");
     std::vector<double> force;
     for (int k = 0; k < 40000; ++k) force.push_back(k % 200 < 100 ? 1 : 0);  // 4000 s: a touch each 20 s
-    const auto spikes = answered(*made->make(0.1, false), force);
-    ASSERT_EQ(spikes.size(), 199U);  // the first touch has always been
+    const auto spikes = complete_response(*made->make(0.1, false), force);
+    ASSERT_EQ(spikes.size(), 199U);  // the force of the first touch starts before t = 0
     for (std::size_t k = 1; k < spikes.size(); ++k) {
         EXPECT_EQ(spikes[k].step - spikes[k - 1].step, 200) << k;
         EXPECT_NEAR(spikes[k].offset, spikes[0].offset, 1e-3) << k;
     }
-    EXPECT_EQ(answered(*made->make(0.1, false), force, 333), spikes);
+    EXPECT_EQ(complete_response(*made->make(0.1, false), force, 333), spikes);
     EXPECT_EQ(resumed(*made, force, 12345, 0.1), spikes);
 }
 
-TEST(CircuitAfferent, ADamagedStateIsRefusedOrHarmless) {
+TEST(CircuitAfferent, ADamagedStateIsRejectedOrHarmless) {
     const auto afferent = design(spiker())->make(1e-3, false);
     std::vector<Spike> spikes;
-    ResponseBlock answer{spikes};
+    ResponseBlock response{spikes};
     auto good = afferent->start();
     const auto force = wave(100, 1e-3);
-    ASSERT_TRUE(afferent->respond(force, good, answer));
+    ASSERT_TRUE(afferent->respond(force, good, response));
     auto other = good;
     other.format += "x";
-    EXPECT_FALSE(afferent->respond(force, other, answer));
+    EXPECT_FALSE(afferent->respond(force, other, response));
     auto cut = good;
     cut.values.resize(cut.values.size() / 2);
-    const auto refused = afferent->respond(force, cut, answer);
+    const auto refused = afferent->respond(force, cut, response);
     ASSERT_FALSE(refused);
     EXPECT_NE(refused.error().message.find("the saved state is damaged"), std::string::npos) << refused.error().message;
     EXPECT_TRUE(rc::check([&] {
@@ -185,25 +186,25 @@ TEST(CircuitAfferent, ADamagedStateIsRefusedOrHarmless) {
         ResponseBlock any{some};
         (void)afferent->respond(std::span(force).first(20), bad, any);
     }));
-    EXPECT_EQ(answered(*afferent, force), answered(*design(spiker())->make(1e-3, false), force));
+    EXPECT_EQ(complete_response(*afferent, force), complete_response(*design(spiker())->make(1e-3, false), force));
 }
 
 TEST(CircuitAfferent, ALevelThatIsNeverReachedGivesNoSpike) {
-    EXPECT_EQ(answered(*design(std::string(relaxer) + ".spike v(s) 5\n")->make(1e-3, false), wave(300, 1e-3)).size(), 0U);
+    EXPECT_EQ(complete_response(*design(std::string(relaxer) + ".spike v(s) 5\n")->make(1e-3, false), wave(300, 1e-3)).size(), 0U);
 }
 
-TEST(CircuitAfferent, FallingIsTheOtherFlank) {
-    const auto rise = answered(*design(std::string(relaxer) + ".spike v(s) 0.5 rise\n")->make(1e-3, false), wave(300, 1e-3)),
-               fall = answered(*design(std::string(relaxer) + ".spike v(s) 0.5 fall\n")->make(1e-3, false), wave(300, 1e-3));
+TEST(CircuitAfferent, FallingSelectsTheOtherEdge) {
+    const auto rise = complete_response(*design(std::string(relaxer) + ".spike v(s) 0.5 rise\n")->make(1e-3, false), wave(300, 1e-3)),
+               fall = complete_response(*design(std::string(relaxer) + ".spike v(s) 0.5 fall\n")->make(1e-3, false), wave(300, 1e-3));
     ASSERT_GT(rise.size(), 10U);
     ASSERT_NEAR(static_cast<double>(rise.size()), static_cast<double>(fall.size()), 1);
     for (std::size_t k = 0; k < fall.size(); ++k) EXPECT_LT(rise[k], fall[k]);
 }
 
-TEST(CircuitAfferent, WhatIsMissingOrWrongIsToldByItsPlace) {
-    const std::string t = "t\niin 0 a force 1u\nr1 a 0 1k\n", file = corpuscle::test::project_root() + "/process/test.cir";
+TEST(CircuitAfferent, ErrorsNameTheirLocation) {
+    const std::string t = "t\niin 0 a force 1u\nr1 a 0 1k\n", file = corpuscle::test::source_root() + "/process/test.cir";
     const auto says = [&](const std::string& text, const std::string& what) {
-        EXPECT_NE(afferent_refusal(text).find(what), std::string::npos) << afferent_refusal(text);
+        EXPECT_NE(afferent_error(text).find(what), std::string::npos) << afferent_error(text);
     };
     says("t\niin 0 a 1u\nr1 a 0 1k\n.spike v(a) 1\n", file + ": no source carries a force; add one, such as 'iin 0 fin force 60n'");
     says(t, file + ": no .spike directive defines the spike output; add '.spike v(NODE) LEVEL [rise|fall]'");
@@ -215,10 +216,10 @@ TEST(CircuitAfferent, WhatIsMissingOrWrongIsToldByItsPlace) {
     says(t + ".spike v(a) 1 up\n", file + ":4:15: .spike: 'up' must be rise or fall");
     says(t + ".spike v(a) 1 rise now\n", file + ":4:20: .spike: unexpected 'now'");
     says("t\niin 0 a force 1u 2u\nr1 a 0 1k\n.spike v(a) 1\n", file + ":2:9: iin: force has 2 numbers; expected force [scale]");
-    EXPECT_EQ(afferent_refusal(t + ".spike v(a) 1\n"), "");
+    EXPECT_EQ(afferent_error(t + ".spike v(a) 1\n"), "");
 }
 
-TEST(CircuitAfferent, CopiesAreTheChipsOfItsDraw) {
+TEST(CircuitAfferent, CopiesAreTheChipsOfItsMismatchSample) {
     auto text = spiker();
     text.insert(text.find(".save"), ".mc 3 seed=5\n.meas tran u max v(u)\n");
     text.replace(text.find("tt"), 2, "mc");
@@ -230,42 +231,42 @@ TEST(CircuitAfferent, CopiesAreTheChipsOfItsDraw) {
     const auto press = corpuscle::test::force("press");
     const auto clock = value_or_throw(make_clock(10e3));
     for (std::uint32_t copy = 1; copy <= 3; ++copy) {
-        const auto spikes = spike_times(answered(*made->make(1e-4, false, copy), press), clock);
+        const auto spikes = spike_times(complete_response(*made->make(1e-4, false, copy), press), clock);
         EXPECT_EQ(static_cast<double>(spikes.size()), chips[copy - 1].number("spikes")) << copy;
         EXPECT_NEAR(spikes[0], chips[copy - 1].number("first_spike"), 1e-6) << copy;
-        EXPECT_NE(spikes[0], spike_times(answered(*made->make(1e-4, false), press), clock)[0]);
+        EXPECT_NE(spikes[0], spike_times(complete_response(*made->make(1e-4, false), press), clock)[0]);
     }
 }
 
-TEST(CircuitAfferent, AStateOfTheVersionBeforeIsRefusedWithBothVersionsAndARemedy) {
+TEST(CircuitAfferent, AStateOfThePreviousVersionIsRejectedWithBothVersionsAndARemedy) {
     const auto afferent = design(spiker())->make(1e-3, false);
     std::vector<Spike> spikes;
-    ResponseBlock answer{spikes};
+    ResponseBlock response{spikes};
     auto before = afferent->start();
     const auto at = before.format.find("/2, ");
     ASSERT_NE(at, std::string::npos) << before.format;
     before.format[at + 1] = '1';
     before = value_or_throw(unpack(pack(before)));
-    const auto refused = afferent->respond(wave(20, 1e-3), before, answer);
+    const auto refused = afferent->respond(wave(20, 1e-3), before, response);
     ASSERT_FALSE(refused);
-    const auto& told = refused.error().message;
-    EXPECT_NE(told.find("the saved state has version 1, but this program reads version 2; start again with start()"), std::string::npos)
-        << told;
+    const auto& message = refused.error().message;
+    EXPECT_NE(message.find("the saved state has version 1, but this program reads version 2; start again with start()"), std::string::npos)
+        << message;
     before = afferent->start();  // the remedy
-    EXPECT_TRUE(afferent->respond(wave(20, 1e-3), before, answer));
+    EXPECT_TRUE(afferent->respond(wave(20, 1e-3), before, response));
 }
 
-TEST(CircuitAfferent, OfTwoNetlistsNeitherTakesTheOthersState) {
+TEST(CircuitAfferent, AStateOfAnotherNetlistIsRejected) {
     const auto a = design(std::string(relaxer) + ".spike v(s) 0.5\n"), b = design(std::string(relaxer) + ".spike v(s) 0.6\n");
     EXPECT_NE(a->make(1e-3, false)->start().format, b->make(1e-3, false)->start().format);
     EXPECT_NE(a->make(1e-3, false)->start().format, a->make(2e-3, false)->start().format);
 }
 
-TEST(Run, TellsSpikesUnderAForceOfTheNetlistsOwn) {
+TEST(Run, ReportsSpikesUnderTheNetlistsOwnForce) {
     const std::string t = "t\niin 0 a dc 0.1 force 1\nr1 a 0 1\nc1 a 0 1m\n.spike v(a) 1.1\n";
     const auto found = run_netlist(t + ".force press f_min=0 f_max=2 rate=2k\n.tran 1m 1\n");
     EXPECT_EQ(found.number("spikes"), 1);
-    EXPECT_NEAR(found.number("first_spike"), 0.3135, 1e-3);  // half way up, and 1 ms
+    EXPECT_NEAR(found.number("first_spike"), 0.3135, 1e-3);  // the middle of the ramp plus 1 ms
     EXPECT_NEAR(found.curve("v(a)").front(), 0.1, 1e-6);
     EXPECT_EQ(run_netlist(t + ".tran 1m 1\n").number("spikes"), 0);  // no force: 0 N
     EXPECT_NEAR(run_netlist(t + ".op\n.force press\n").number("v(a)"), 0.1, 1e-9);
@@ -281,8 +282,8 @@ TEST(Run, TellsSpikesUnderAForceOfTheNetlistsOwn) {
     EXPECT_NE(refused(".force").find("a stimulus is missing"), std::string::npos) << refused(".force");
 }
 
-/// Keeps what it hears.
-struct Ear final : ResponseSink {
+/// Stores everything it receives.
+struct RecordingListener final : ResponseSink {
     std::vector<Spike> spikes;
     std::vector<double> shown;
     std::int64_t samples = 0;
@@ -301,9 +302,9 @@ struct Ear final : ResponseSink {
     }
 };
 
-TEST(Respond, NetlistsBesideModelsInBlocksOfAnySize) {
-    const auto path = corpuscle::test::project_root() + "/circuits/spiker.cir";
-    std::vector<Ear> ears(3);
+TEST(Respond, NetlistsAndModelsInBlocksOfAnySize) {
+    const auto path = corpuscle::test::source_root() + "/circuits/spiker.cir";
+    std::vector<RecordingListener> ears(3);
     for (std::size_t k = 0; k < ears.size(); ++k) {
         const std::vector<AfferentPlan> plans = {value_or_throw(plan_any_afferent(path, {})), value_or_throw(plan_any_afferent("fa1", {}))};
         std::vector<std::unique_ptr<ForceSource>> sources;
@@ -335,14 +336,14 @@ protected:
         }
         folder.write("press.csv", text);
         folder.write("relaxer.cir", std::string(relaxer) + ".spike v(s) 0.5\n");
-        std::filesystem::copy(corpuscle::test::project_root() + "/circuits/spiker.cir", folder / "spiker.cir");
+        std::filesystem::copy(corpuscle::test::source_root() + "/circuits/spiker.cir", folder / "spiker.cir");
         auto cir = spiker();
-        cir.replace(cir.find("../process"), 10, corpuscle::test::project_root() + "/process");
+        cir.replace(cir.find("../process"), 10, corpuscle::test::source_root() + "/process");
         folder.write("spiker.cir", cir);
     }
 };
 
-TEST_F(Responding, NetlistsAnswerBesideModelsTheSameOnAnyNumberOfThreads) {
+TEST_F(Responding, NetlistsAndModelsRespondTheSameOnAnyNumberOfThreads) {
     const std::string names = "sa1,./spiker.cir,relaxer.cir";
     const auto one = corpuscle::test::run_program(folder, words(names, "--out one --traces -j 1 --report"));
     ASSERT_EQ(one.status, 0) << one.err;
@@ -363,15 +364,15 @@ TEST_F(Responding, NetlistsAnswerBesideModelsTheSameOnAnyNumberOfThreads) {
     EXPECT_EQ(traces.find("nan"), std::string::npos);
 }
 
-TEST_F(Responding, AnswersAlikeInSmallBlocks) {
+TEST_F(Responding, RespondsTheSameInSmallBlocks) {
     ASSERT_EQ(corpuscle::test::run_program(folder, words("spiker.cir", "--out whole")).status, 0);
     ASSERT_EQ(corpuscle::test::run_program(folder, words("spiker.cir", "--out float --float")).status, 2);
     const auto refused = corpuscle::test::run_program(folder, words("spiker.cir", "--float"));
     EXPECT_NE(refused.err.find("spiker.cir: netlists cannot run in float"), std::string::npos) << refused.err;
 }
 
-TEST_F(Responding, OneThatDoesNotConvergeIsToldAndTheOthersGoOn) {
-    // dv/dt = F - 0.5 - v^2: with less than half a newton it falls without end
+TEST_F(Responding, OneThatDoesNotConvergeIsReportedAndTheOthersContinue) {
+    // dv/dt = F - 0.5 - v^2: below 0.5 N, v falls without limit
     folder.write("falls.cir",
                  "falls\niin 0 a force 1\nb1 a 0 i={0.5+v(a)*v(a)*v(a)*v(a)*v(a)*v(a)-0*v(a)+2*v(a)*v(a)}\nca a 0 1m\n.spike v(a) 0.2\n");
     const auto ran = corpuscle::test::run_program(folder, words("sa1,falls.cir,spiker.cir", "--out answer"));
@@ -383,7 +384,7 @@ TEST_F(Responding, OneThatDoesNotConvergeIsToldAndTheOthersGoOn) {
     EXPECT_NE(read_file(folder / "answer/spikes.csv").find("\nsa1,a,"), std::string::npos);
 }
 
-TEST_F(Responding, ANetlistThatCannotBeReadIsRefused) {
+TEST_F(Responding, ANetlistThatCannotBeReadIsRejected) {
     const auto none = corpuscle::test::run_program(folder, words("none.cir"));
     EXPECT_EQ(none.status, 1);
     EXPECT_NE(none.err.find("none.cir: cannot be read"), std::string::npos) << none.err;

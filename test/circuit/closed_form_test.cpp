@@ -1,4 +1,4 @@
-// Netlists whose answers are known in closed form, or follow from one scalar equation that the test solves itself.
+// Netlists with closed-form solutions, or solutions of one scalar equation that the test solves itself.
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -15,7 +15,7 @@ namespace {
 using Complex = std::complex<double>;
 constexpr double pi = 3.14159265358979323846, v_t = 1.380649e-23 * 300.15 / 1.602176634e-19;
 
-/// A curve of .ac against a formula of j omega, by the formula's magnitude; below `rounding` no digits are asked for.
+/// Compares a curve of .ac with a function of j omega, relative to its magnitude; differences below `rounding` are ignored.
 void expect_curve(const NetlistRun& ran, const std::string& name, double tolerance, const std::function<Complex(Complex s)>& formula,
                   double rounding = 0) {
     const auto f = ran.curve("frequency");
@@ -31,8 +31,10 @@ void expect_curve(const NetlistRun& ran, const std::string& name, double toleran
 TEST(ClosedForm, ALowPassFallsOverTwelveDecadesAsOnePole) {
     for (const auto& [R, C] : {std::pair{1e3, 1e-6}, {413e3, 8.8e-12}, {6.6e9, 0.8e-12}}) {
         const auto found = run_netlist(fmt::format("low-pass\nv1 in 0 ac 1\nr1 in out {}\nc1 out 0 {}\n.ac dec 10 1m 1g\n", R, C));
-        expect_curve(found, "v(out)", 1e-12, [r = R, c = C](Complex s) { return 1.0 / (1.0 + s * r * c); }, 3e-16);
-        expect_curve(found, "i(v1)", 1e-12, [r = R, c = C](Complex s) { return -s * c / (1.0 + s * r * c); }, 3e-16 / R);
+        expect_curve(
+            found, "v(out)", 1e-12, [r = R, c = C](Complex s) { return 1.0 / (1.0 + s * r * c); }, 3e-16);
+        expect_curve(
+            found, "i(v1)", 1e-12, [r = R, c = C](Complex s) { return -s * c / (1.0 + s * r * c); }, 3e-16 / R);
     }
 }
 
@@ -81,7 +83,7 @@ TEST(ClosedForm, ALadderOfDiodesToGroundIsShotFromItsEnd) {
         for (const double volt : {0.5, 5.0}) {
             std::string text = fmt::format("ladder\nv1 n0 0 {}\n.model dx d(is=1e-14)\n.options gmin=0\n", volt);
             for (int k = 0; k < count; ++k) text += fmt::format("r{0} n{0} n{1} 100\nd{0} n{1} 0 dx\n", k, k + 1);
-            const auto start = [&](double end) {  // the first node's voltage if the last has this one
+            const auto start = [&](double end) {  // the first node's voltage for a given voltage of the last
                 double v = end, i = 0;
                 for (int k = 0; k < count && v < 2 * volt; ++k) i += 1e-14 * std::expm1(v / v_t), v += 100 * i;
                 return v;
@@ -120,7 +122,7 @@ TEST(ClosedForm, AWheatstoneBridgeIsBalancedAndIsNot) {
 }
 
 TEST(ClosedForm, AnAmplifierOfControlledSourcesHasItsGainAndResistances) {
-    // a transconductance, degenerated: v_in over r_pi drives g_m against r_e
+    // a degenerated transconductance: v_in across r_pi drives g_m into r_e
     const double r_s = 600, r_pi = 10e3, g_m = 20e-3, r_e = 100, r_c = 5e3;
     const auto found = run_netlist("degenerated\nv1 in 0 1\nrs in b 600\nrpi b e 10k\nre e 0 100\ng1 c e b e 20m\nrc c 0 5k\n.tf v(c) v1\n");
     const double in = r_pi + (1 + g_m * r_pi) * r_e;
@@ -128,15 +130,15 @@ TEST(ClosedForm, AnAmplifierOfControlledSourcesHasItsGainAndResistances) {
     EXPECT_NEAR(found.number("v1#input_impedance"), r_s + in, 1e-6);
     EXPECT_NEAR(found.number("output_impedance_at_v(c)"), r_c, 1e-9);
 
-    // an operational amplifier of gain A, by E; feedback makes -R2/R1 of it
+    // an operational amplifier with gain A, made of E; feedback gives about -R2/R1
     const double A = 1e5, R1 = 1e3, R2 = 10e3, R_o = 75;
     const auto inverting = run_netlist("inverting\nv1 in 0 1\nr1 in m 1k\nr2 m out 10k\ne1 o 0 0 m 1e5\nro o out 75\n.tf v(out) v1\n");
-    const double gain = (R_o - A * R2) / (R1 * (1 + A) + R2 + R_o);  // nodes m and out, by hand
+    const double gain = (R_o - A * R2) / (R1 * (1 + A) + R2 + R_o);  // from the equations of nodes m and out
     EXPECT_NEAR(inverting.number("transfer_function"), gain, 1e-9);
     EXPECT_NEAR(inverting.number("output_impedance_at_v(out)"), R_o * (R1 + R2) / (R1 + R2 + R_o + A * R1), 1e-9);
     EXPECT_NEAR(inverting.number("v1#input_impedance"), R1 + (R2 + R_o) / (1 + A), 1e-8);
 
-    // a current taken by F and given back as a voltage by H
+    // a current copied by F and converted to a voltage by H
     const auto currents =
         run_netlist("currents\ni1 0 a 1m\nva a b 0\nr1 b 0 50\nf1 0 c va 20\nr2 c 0 1k\nvc c d 0\nr3 d 0 1k\nh1 out 0 vc 300\nr4 out 0 1\n"
             ".tf v(out) i1\n");
@@ -144,7 +146,7 @@ TEST(ClosedForm, AnAmplifierOfControlledSourcesHasItsGainAndResistances) {
     EXPECT_NEAR(currents.number("i1#input_impedance"), 50, 1e-10);
 }
 
-/// Every kind of element that has a value, about a diode.
+/// Every kind of device that has a value, connected to a diode.
 constexpr const char* everything =
     "v1 in 0 {v1}\nr1 in a {r1}\nd1 a 0 dx\nr2 a b {r2}\ng1 b 0 a 0 {g1}\nr3 b 0 {r3}\ni1 0 b {i1}\ne1 c 0 b 0 {e1}\nr4 c d {r4}\nr5 d 0 "
     "1k\n"

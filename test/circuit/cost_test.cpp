@@ -1,4 +1,4 @@
-// What a circuit costs, against sums by hand, closed forms and the thesis's tables.
+// Area and power of circuits, compared with manual sums, closed forms and the thesis's tables.
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -22,7 +22,7 @@ std::unique_ptr<AnalysisContext> cost_bench(std::shared_ptr<const Circuit> circu
 }
 
 std::shared_ptr<const Circuit> file(const std::string& name, const Values& parameters = {}) {
-    const auto netlist = Netlist::read(test::project_root() + "/circuits/" + name);
+    const auto netlist = Netlist::read(test::source_root() + "/circuits/" + name);
     if (!netlist) return ADD_FAILURE() << netlist.error().text(), nullptr;
     auto circuit = netlist->elaborate(parameters);
     if (!circuit) return ADD_FAILURE() << circuit.error().text(), nullptr;
@@ -36,7 +36,7 @@ Cost cost(std::shared_ptr<const Circuit> circuit) {
     return std::move(*found);
 }
 
-/// With its transients.
+/// Including the netlist's transients.
 Cost cost_in_time(std::shared_ptr<const Circuit> circuit) {
     auto bench = cost_bench(std::move(circuit));
     CostMeter accountant(*bench);
@@ -55,7 +55,7 @@ const BlockCost& block(const Cost& c, std::string_view name) {
     return c.blocks.at(0);
 }
 
-double lost(const Cost& c, std::string_view when, std::string_view name) {
+double dissipated(const Cost& c, std::string_view when, std::string_view name) {
     const auto* p = c.powers(when);
     return p ? p->blocks[static_cast<std::size_t>(&block(c, name) - c.blocks.data())] : std::nan("");
 }
@@ -77,21 +77,21 @@ TEST(Cost, TheAreaOfArraysIsThatOfTheThesissTables) {
                           {"D1", 2, 1.12, 0.18, 3.0132, 1e-9},
                           {"D2", 4, 0.42, 0.18, 3.0132, 1e-9},
                           {"E", 1, 0.42, 5.22, 5.6856, 1e-9},
-                          {"G1", 8, 0.42, 0.18, 5.6856, 0.061}})  // drawn as one row, not the least rectangle
+                          {"G1", 8, 0.42, 0.18, 5.6856, 0.061}})  // laid out as one row, not as the smallest rectangle
         EXPECT_NEAR(array_area(a.W * um, a.L * um, a.units) / um2, a.A_T, a.off * a.A_T) << a.name;
     EXPECT_NEAR(rectangle_area(0.42 * um, 0.18 * um, 1, 8) / um2, 5.6856, 1e-9) << "G1 to G3";
 }
 
-TEST(Cost, AnArrayTakesLessThanItsUnitsApartAndMoreThanItsGates) {
-    for (const double units : {2.0, 3.0, 7.0, 16.0, 1000.0, 1e5}) {
-        const double together = array_area(6 * um, 0.5 * um, units);
-        EXPECT_LT(together, units * rectangle_area(6 * um, 0.5 * um, 1, 1)) << units;
-        EXPECT_GT(together, units * 3 * um2) << units;
+TEST(Cost, AnArrayTakesLessThanItsSeparateElementsAndMoreThanItsGates) {
+    for (const double count : {2.0, 3.0, 7.0, 16.0, 1000.0, 1e5}) {
+        const double together = array_area(6 * um, 0.5 * um, count);
+        EXPECT_LT(together, count * rectangle_area(6 * um, 0.5 * um, 1, 1)) << count;
+        EXPECT_GT(together, count * 3 * um2) << count;
     }
-    EXPECT_NEAR(array_area(6 * um, 0.5 * um, 1e5), 1e5 * 6.28 * 1.04 * um2, 1e-3 * 1e5 * 6.53 * um2);  // its borders no longer count
+    EXPECT_NEAR(array_area(6 * um, 0.5 * um, 1e5), 1e5 * 6.28 * 1.04 * um2, 1e-3 * 1e5 * 6.53 * um2);  // the borders are negligible
 }
 
-TEST(Cost, ABlocksAreaIsCountedByHand) {
+TEST(Cost, ABlocksAreaEqualsTheManualSum) {
     const auto c = cost(file("sa1.cir"));
     const auto& cco = block(c, "cco");  // 4 mirrors of 8 P; a trigger of 32 P and 32 N; switches
     EXPECT_EQ(cco.transistors, 14U);
@@ -108,9 +108,9 @@ TEST(Cost, ABlocksAreaIsCountedByHand) {
     EXPECT_NEAR(block(two, "1").area.arrays / um2, 6.5 * 2.5 + 2 * 2.5, 1e-9) << "each in one row: 2 x 0.5 + 0.54 + 0.96 um long";
 }
 
-TEST(Cost, WhatSourcesDeliverIsWhatBlocksLoseInEveryCircuit) {
+TEST(Cost, SourcesDeliverThePowerThatBlocksDissipateInEveryCircuit) {
     int seen = 0, powered = 0;
-    for (const auto& entry : std::filesystem::directory_iterator(test::project_root() + "/circuits")) {
+    for (const auto& entry : std::filesystem::directory_iterator(test::source_root() + "/circuits")) {
         if (entry.path().extension() != ".cir") continue;
         const auto name = entry.path().filename().string();
         auto bench = cost_bench(file(name));
@@ -120,7 +120,7 @@ TEST(Cost, WhatSourcesDeliverIsWhatBlocksLoseInEveryCircuit) {
         EXPECT_NEAR(p.supplies, sum(p.blocks), 1e-6 * p.supplies + 1e-15) << name;
         powered += p.supplies > 0;
         const auto x = bench->operating_point()->x;
-        for (std::size_t k = 0; k < found->sources.size(); ++k) {  // and each source by the branch current that was solved for
+        for (std::size_t k = 0; k < found->sources.size(); ++k) {  // also compare each source with its solved branch current
             if (found->sources[k][0] != 'v') continue;
             const auto v = bench->system.terminal_values(*bench->system.device(found->sources[k]), x);
             EXPECT_NEAR(p.sources[k], -(v[0] - v[1]) * v[2], 1e-12 * std::abs(p.sources[k])) << name << ", " << found->sources[k];
@@ -128,45 +128,45 @@ TEST(Cost, WhatSourcesDeliverIsWhatBlocksLoseInEveryCircuit) {
         ++seen;
     }
     EXPECT_GE(seen, 40);
-    EXPECT_GE(powered, 30) << "ideal ones need none";
+    EXPECT_GE(powered, 30) << "ideal circuits need no supply";
 }
 
-TEST(Cost, PowerGoesWhereOhmSaysItDoes) {
+TEST(Cost, PowerFollowsOhmsLaw) {
     const auto c =
         cost(make_circuit("t\nvdd vdd 0 2\nvf force 0 0.5 force 1\n"
                           "xa vdd a one\nxb a 0 one\n.subckt one p q\nr1 p q 1k\n.ends\n"                            // 1 mA: 1 mW each
                           "xs force vdd x sens\n.subckt sens force p q\nb1 p q i={v(force)*1m}\n.ends\nrx x 0 1k\n"  // 0.5 mA
                           "idrain vdd d 1m\nrd d 0 1k\n"                                                             // takes 1 V, 1 mA
-                          "iup 0 u 3m\nru u 0 1k\n.op\n"));                                                          // brings 3 mA to 3 V
+                          "iup 0 u 3m\nru u 0 1k\n.op\n"));                                                          // delivers 3 mA at 3 V
     const auto& p = *c.powers("op");
     EXPECT_DOUBLE_EQ(c.supply, 2);
     EXPECT_EQ(c.sources, (std::vector<std::string>{"vdd", "vf", "iup"}));
     EXPECT_NEAR(p.sources[0], 2 * (1e-3 + 0.5e-3 + 1e-3), 1e-12);
     EXPECT_NEAR(p.sources[2], 9e-3, 1e-12);
-    EXPECT_NEAR(p.sensor, 2 * 0.5e-3, 1e-12) << "all that the supply gives for it, in the sensor and beside it";
+    EXPECT_NEAR(p.sensor, 2 * 0.5e-3, 1e-12) << "power that the supply delivers to the sensor and its other terminals";
     EXPECT_NEAR(p.without_sensor, 13e-3, 1e-12);
-    EXPECT_NEAR(lost(c, "op", "a"), 1e-3, 1e-12);
-    EXPECT_NEAR(lost(c, "op", "b"), 1e-3, 1e-12);
-    EXPECT_NEAR(lost(c, "op", "s"), 1.5 * 0.5e-3, 1e-12);
-    EXPECT_NEAR(lost(c, "op", "ideal currents"), 1e-3, 1e-12);
-    EXPECT_NEAR(lost(c, "op", "top level"), 0.25e-3 + 1e-3 + 9e-3, 1e-12);
+    EXPECT_NEAR(dissipated(c, "op", "a"), 1e-3, 1e-12);
+    EXPECT_NEAR(dissipated(c, "op", "b"), 1e-3, 1e-12);
+    EXPECT_NEAR(dissipated(c, "op", "s"), 1.5 * 0.5e-3, 1e-12);
+    EXPECT_NEAR(dissipated(c, "op", "ideal currents"), 1e-3, 1e-12);
+    EXPECT_NEAR(dissipated(c, "op", "top level"), 0.25e-3 + 1e-3 + 9e-3, 1e-12);
     EXPECT_EQ(c.unknown_areas, 5U);
 }
 
 TEST(Cost, ACapacitorFilledAndEmptiedCostsItsChargeTimesTheSupply) {
     const auto c = cost_in_time(make_circuit("t\nv1 in 0 pulse(0 2 1m 1u 1u 20m 100m)\nr1 in out 1k\nc1 out 0 1u\n.tran 10u 50m\n"));
-    const double stored = 1e-6 * 2 * 2;  // C V^2, J: half of it heats on the way up, half on the way down
+    const double stored = 1e-6 * 2 * 2;  // C V^2, J: half is dissipated while charging, half while discharging
     EXPECT_NEAR(c.powers("mean")->supplies, stored / 50e-3, 2e-3 * stored / 50e-3);
-    EXPECT_NEAR(lost(c, "mean", "top level"), stored / 50e-3, 2e-3 * stored / 50e-3);
+    EXPECT_NEAR(dissipated(c, "mean", "top level"), stored / 50e-3, 2e-3 * stored / 50e-3);
     EXPECT_NEAR(c.powers("peak")->supplies, 2 * 2 / 1e3, 0.01 * 4e-3);
 }
 
-TEST(Cost, OverAPressTheChipLosesWhatIsDelivered) {
+TEST(Cost, OverAPressTheChipDissipatesTheDeliveredPower) {
     const auto c = cost_in_time(file("sa1.cir"));
     ASSERT_NE(c.powers("plateau"), nullptr);
     const auto &mean = *c.powers("mean"), &rest = *c.powers("rest"), &hold = *c.powers("plateau");
     EXPECT_NEAR(mean.supplies, sum(mean.blocks), 1e-3 * mean.supplies);
-    for (const auto& [powers, force] : {std::pair{&rest, 0.2}, {&hold, 4.0}}) {  // eq. 13 at 0.1 V, which the amplifier holds to 0.3 %
+    for (const auto& [powers, force] : {std::pair{&rest, 0.2}, {&hold, 4.0}}) {  // eq. 13 at 0.1 V, held to 0.3 %
         const double current = 0.1 * (std::pow(force / 9.80665e-3, 0.72) / 170e3 + 1 / 10e6);
         EXPECT_NEAR(powers->sensor, 0.7 * current, 4e-3 * powers->sensor) << force;
     }
@@ -180,7 +180,7 @@ TEST(Cost, OverAPressTheChipLosesWhatIsDelivered) {
     EXPECT_TRUE(c.has_sensor);
 }
 
-TEST(Cost, ATransistorLeaksAsItsThresholdSays) {
+TEST(Cost, ATransistorLeaksByItsThreshold) {
     const double phi_t = thermal_voltage(300.15), closed = 2 * std::exp(1.0) * 100e-9 * 6 * std::exp(-0.45 / (1.3 * phi_t));
     for (const bool pmos : {false, true}) {
         const auto circuit = make_circuit(std::string("t\nvdd vdd 0 0.7\nm1 ") + (pmos ? "0 vdd vdd vdd x w=1.5u" : "vdd 0 0 0 x w=1.5u") +
@@ -204,10 +204,11 @@ TEST(Cost, TheChipsSwitchesLeakOntoTheMembraneAndThoseOfHigherThresholdDoNot) {
     };
     const auto leaks = onto_u(cost(file("sa1.cir")));
     const double phi_t = thermal_voltage(300.15);
-    const double n_switch = 2 * std::exp(1.0) * 112e-9 * 6 * std::exp(-0.461 / (1.27 * phi_t));  // M6: 2 units of 1.5/0.5 um
+    const double n_switch = 2 * std::exp(1.0) * 112e-9 * 6 * std::exp(-0.461 / (1.27 * phi_t));  // M6: 2 elements of 1.5/0.5 um
     for (const char* name : {"xrectb.mn6a", "xrectc.mn6a", "xcco.mn6b"}) {
         ASSERT_TRUE(leaks.contains(name)) << name;
-        EXPECT_NEAR(leaks.at(name), n_switch * (1 + 0.7 / 4) / 1.03, 0.04 * n_switch) << "with what its 4 V of Early and zeta make of it";
+        EXPECT_NEAR(leaks.at(name), n_switch * (1 + 0.7 / 4) / 1.03, 0.04 * n_switch)
+            << "including the effect of its Early voltage of 4 V and of zeta";
     }
     EXPECT_TRUE(leaks.contains("xcco.mp5b"));
     EXPECT_EQ(leaks.size(), 4U);
@@ -220,7 +221,7 @@ TEST(Cost, JunctionsLeakToo) {
     EXPECT_NEAR(c.blocks[0].worst_leak.current, 5e-6 * 0.5e-12 + 1e-12 * 3e-6, 1e-6 * 2.5e-18 + 1e-22);
 }
 
-TEST(Cost, TheDocumentHasTheSheetAndTheTableHasItsWords) {
+TEST(Cost, TheDocumentHasTheBudgetAndTheTableHasItsHeadings) {
     const TemporaryFolder folder;
     folder.write("x.cir", "t\nvdd vdd 0 1\nr1 vdd a 1k\nc1 a 0 2p\ni1 a 0 1u\n.op\n.tran 1n 10n\n");
     const auto ran = test::run_program(folder, "run x.cir --budget --json");
@@ -242,19 +243,19 @@ TEST(Cost, TheDocumentHasTheSheetAndTheTableHasItsWords) {
         EXPECT_NE(table.find(word), std::string::npos) << word << "\n" << table;
 }
 
-TEST(Cost, RespondTellsTheSheetAtRestAndTheMeanOverWhatWasAnswered) {
+TEST(Cost, RespondReportsThePowerAtRestAndTheMeanOverTheResponse) {
     const TemporaryFolder folder;
-    const std::string chip = "'" + test::project_root() + "/circuits/sa1.cir'", words = "respond press --json --afferent sa1," + chip;
+    const std::string chip = "'" + test::source_root() + "/circuits/sa1.cir'", words = "respond press --json --afferent sa1," + chip;
     const auto ran = test::run_program(folder, words + " -j1");
     ASSERT_EQ(ran.status, 0) << ran.err;
     const auto costs = nlohmann::json::parse(ran.out)["costs"];
-    ASSERT_EQ(costs.size(), 1U) << "equations cost nothing that is known";
+    ASSERT_EQ(costs.size(), 1U) << "equations have no known cost";
     EXPECT_TRUE(costs[0]["afferent"].get<std::string>().ends_with("sa1.cir"));
     EXPECT_EQ(costs[0]["rest_N"], 0.2);
     const auto c = cost_in_time(file("sa1.cir"));
     for (const auto& [word, of] : {std::pair{"delivered_W", &PowerBreakdown::supplies}, {"sensor_W", &PowerBreakdown::sensor}, {"own_W", &PowerBreakdown::without_sensor}}) {
         EXPECT_NEAR(costs[0]["power"]["op"][word].get<double>(), c.powers("rest")->*of, 1e-4 * c.powers("rest")->*of) << word;
-        // it goes on at rest for a step of 20 ms at the most after the press of 1 s, which brings the mean nearer to that
+        // after the press of 1 s the run continues at rest for a step of at most 20 ms, which moves the mean towards the rest value
         const double press = c.powers("mean")->*of, rest = c.powers("rest")->*of, farthest = (press + 20e-3 * rest) / (1 + 20e-3);
         const double mean = costs[0]["power"]["mean"][word].get<double>();
         EXPECT_GT(mean, farthest - 1e-3 * press) << word;
@@ -265,7 +266,7 @@ TEST(Cost, RespondTellsTheSheetAtRestAndTheMeanOverWhatWasAnswered) {
     EXPECT_FALSE(nlohmann::json::parse(test::run_program(folder, "respond press --json").out).contains("costs"));
 }
 
-TEST(Cost, OfManyEachHasItsLine) {
+TEST(Cost, EachOfSeveralHasItsLine) {
     const TemporaryFolder folder;
     folder.write("x.cir", "t\n.param r=1k\nvdd vdd 0 1\nr1 vdd 0 {r}\n.op\n.step param r list 1k 2k\n");
     const auto ran = test::run_program(folder, "run x.cir --budget");

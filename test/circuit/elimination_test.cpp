@@ -1,4 +1,4 @@
-// The flat list of an elimination: it solves what it was made for and what is like it, and what it does not serve goes another way.
+// The flat list of an elimination solves its matrix and similar matrices; for other matrices the solver falls back to a new factorization.
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@ struct SparseMatrix {
     SparsityPattern pattern;
     std::vector<double> values;
 
-    /// A row times x.
+    /// Product of a row and x.
     double times(int row, const std::vector<double>& x) const {
         double sum = 0;
         for (int column = 0; column < pattern.size(); ++column)
@@ -26,7 +26,7 @@ struct SparseMatrix {
     }
 };
 
-/// Conductances over seven decades between random nodes, and some rows of a voltage source: 1 beside the diagonal, 0 on it.
+/// Conductances over seven decades between random nodes, and rows of voltage sources with 0 on the diagonal and 1 off it.
 SparseMatrix random_circuit(std::mt19937& chance, int nodes, int sources) {
     std::vector<std::tuple<int, int, double>> all;
     std::uniform_real_distribution<double> decade(-12, -5);
@@ -66,7 +66,7 @@ void solves(LinearSolver<double>& solver, const SparseMatrix& m, std::mt19937& c
     }
 }
 
-TEST(Elimination, SolvesWhatItWasMadeForAndWhatIsLikeIt) {
+TEST(Elimination, SolvesItsMatrixAndSimilarOnes) {
     std::mt19937 chance(1);
     for (int round = 0; round < 100; ++round) {
         const int nodes = 1 + static_cast<int>(chance() % 40), sources = static_cast<int>(chance() % static_cast<unsigned>(nodes)) / 4;
@@ -99,7 +99,7 @@ TEST(Elimination, AMatrixThatItsPivotsDoNotServeIsFactoredAnew) {
 }
 
 TEST(Elimination, DoesNoMoreThanItsFillAsksFor) {
-    // an arrow: with the dense row and column last there is no fill
+    // an arrow matrix: no fill-in if the dense row and column are last
     std::vector<std::pair<int, int>> entries;
     for (int k = 0; k < 10; ++k) entries.insert(entries.end(), {{k, k}, {k, 9}, {9, k}});
     const SparsityPattern pattern(10, entries);
@@ -111,11 +111,11 @@ TEST(Elimination, DoesNoMoreThanItsFillAsksFor) {
     EXPECT_EQ(list.multiplications(), 9U);
 }
 
-TEST(Elimination, TellsHowItGrewAndLeavesAMatrixToPivotsOfItsOwn) {
+TEST(Elimination, ReportsElementGrowthAndRejectsAMatrixThatNeedsOtherPivots) {
     const SparsityPattern pattern(2, {{0, 0}, {0, 1}, {1, 0}, {1, 1}});
     LinearSolver<double> solver(pattern);
     solver.fix_pivot_order(std::vector<double>{1, 0.5, 0.5, 1});
-    const std::vector<double> grown = {1e-6, 0.5, 0.5, 1e-6};  // either diagonal pivot is small now
+    const std::vector<double> grown = {1e-6, 0.5, 0.5, 1e-6};  // now both diagonal pivots are small
     ASSERT_TRUE(solver.factor(grown));
     EXPECT_GT(solver.growth(), 1e5);
     EXPECT_EQ(solver.fallback_count(), 0);

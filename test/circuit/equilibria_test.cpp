@@ -1,4 +1,4 @@
-// In how many states a circuit may rest, and to which of them it comes when it is switched on.
+// Number of stable operating points of a circuit, and the one it reaches when it is switched on.
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -9,7 +9,7 @@
 namespace corpuscle::circuit {
 namespace {
 
-/// Two stages, v_a = V_DD tanh(2 (d - v_b) / V) and the other way round, each behind 1 kohm and 1 nF.
+/// Two stages, v_a = V_DD tanh(2 (d - v_b) / V) and vice versa, each with 1 kohm and 1 nF at its output.
 std::string latch(double d) {
     return fmt::format(
         "latch\nvdd vdd 0 1\nb1 0 a i={{1m*v(vdd)*tanh(2*({}-v(b)))}}\nb2 0 b i={{-1m*v(vdd)*tanh(2*v(a))}}\n"
@@ -17,7 +17,7 @@ std::string latch(double d) {
         d);
 }
 
-struct LookedAt {
+struct RestStateResult {
     std::unique_ptr<AnalysisContext> bench = {};
     std::vector<Equilibrium> states = {};
     long count(bool stable) const {
@@ -29,18 +29,18 @@ struct LookedAt {
         return at == states.end() ? nullptr : &*at;
     }
 };
-LookedAt looked(const std::string& text) {
-    LookedAt out;
+RestStateResult looked(const std::string& text) {
+    RestStateResult out;
     auto bench = AnalysisContext::make(make_circuit(text));
-    if (!bench) return ADD_FAILURE() << bench.error().text(), LookedAt();
+    if (!bench) return ADD_FAILURE() << bench.error().text(), RestStateResult();
     out.bench = std::move(*bench);
     auto states = find_equilibria(*out.bench);
-    if (!states) return ADD_FAILURE() << states.error().text(), LookedAt();
+    if (!states) return ADD_FAILURE() << states.error().text(), RestStateResult();
     out.states = std::move(*states);
     return out;
 }
 
-/// The roots of a = tanh(2 (d + tanh(2 a))), by halving where the sign changes.
+/// The roots of a = tanh(2 (d + tanh(2 a))), by bisection at sign changes.
 std::vector<double> roots(double d) {
     const auto f = [&](double a) { return std::tanh(2 * (d + std::tanh(2 * a))) - a; };
     std::vector<double> out;
@@ -57,7 +57,7 @@ std::vector<double> roots(double d) {
     return out;
 }
 
-TEST(RestStates, OfALatchAreTwoAndOneBetweenThatDoesNotLast) {
+TEST(RestStates, OfALatchAreTwoStableAndOneUnstable) {
     for (const double d : {0.0, 0.02, -0.1}) {
         const auto found = looked(latch(d));
         const auto known = roots(d);
@@ -79,8 +79,8 @@ TEST(RestStates, OfALatchOfUnequalHalvesIsOne) {
     EXPECT_TRUE(found.states[0].is_stable && found.states[0].is_default && found.states[0].is_power_on);
 }
 
-/// Slowly switched on it leaves 0 V to the side that its halves' difference favours, and stays there.
-TEST(RestStates, ALatchComesToTheSideThatItsHalvesFavour) {
+/// Switched on slowly, it leaves 0 V towards the side that its asymmetry favours, and stays there.
+TEST(RestStates, ALatchReachesTheSideThatItsAsymmetryFavours) {
     for (const double d : {0.02, -0.02}) {
         const auto found = looked(latch(d));
         ASSERT_NE(found.power_on(), nullptr) << d;
@@ -90,7 +90,7 @@ TEST(RestStates, ALatchComesToTheSideThatItsHalvesFavour) {
 }
 
 TEST(RestStates, OfASchmittTriggerAreTwoWithinItsHysteresisAndOneBeyond) {
-    auto text = *read_text_file(test::project_root() + "/circuits/schmitt.cir");
+    auto text = *read_text_file(test::source_root() + "/circuits/schmitt.cir");
     text.replace(text.find("vin in 0 0"), 10, "vin in 0 {level}");
     text.erase(text.find(".dc"));
     for (const auto& [level, states] : {std::pair{0.1, 1U}, {0.24, 1U}, {0.27, 3U}, {0.35, 3U}, {0.44, 3U}, {0.47, 1U}, {0.6, 1U}}) {
@@ -104,7 +104,7 @@ TEST(RestStates, OfASchmittTriggerAreTwoWithinItsHysteresisAndOneBeyond) {
     }
 }
 
-TEST(RestStates, AreAskedOfOp) {
+TEST(RestStates, AreRequestedFromOp) {
     const auto found = run_netlist(latch(0.02) + ".op states 1u\n.mc 1\n");
     EXPECT_EQ(found.number("stable_states"), 2);
     EXPECT_EQ(found.number("unstable_states"), 1);

@@ -1,4 +1,4 @@
-// Exported decks, run by ngspice and read back by ourselves, give what the netlists give.
+// Exported decks give the same results as their netlists, both in ngspice and when read back here.
 
 #include <fmt/format.h>
 #include <cmath>
@@ -17,13 +17,13 @@ namespace {
 
 std::vector<std::string> netlists_in(const std::string& folder) {
     std::vector<std::string> out;
-    for (const auto& entry : std::filesystem::directory_iterator(project_root() + folder))
+    for (const auto& entry : std::filesystem::directory_iterator(source_root() + folder))
         if (entry.path().extension() == ".cir") out.push_back(entry.path().string());
     std::sort(out.begin(), out.end());
     return out;
 }
 
-/// Every netlist of the project that ngspice could be asked to run.
+/// All netlists of the project that can be exported to ngspice.
 std::vector<std::string> netlists() {
     std::vector<std::string> out;
     for (const char* folder : {"/circuits", "/test/circuit/decks", "/test/circuit/export"})
@@ -37,41 +37,41 @@ std::string exported(const std::shared_ptr<const Circuit>& circuit) {
     return deck ? deck->text : "";
 }
 
-/// What a curve of ours is called in the exported deck's plots: "i(x1.v1)" is "i(v_x1_v1)".
-std::string name_there(const ExportNames& names, const std::string& curve) {
+/// Name of a curve in the exported deck's plots: "i(x1.v1)" becomes "i(v_x1_v1)".
+std::string exported_name(const ExportNames& names, const std::string& curve) {
     if (!curve.starts_with("v(") && !curve.starts_with("i(")) return curve;
     const auto inside = curve.substr(2, curve.size() - 3);
     const auto known = curve[0] == 'v' ? names.node(inside) : names.element(inside);
     return known.empty() ? curve : fmt::format("{}({})", curve[0], known);
 }
 
-/// How far one plot's curves are from another's, in what is allowed: 1e-5 of each value, small signals and noise 1e-3; besides, what the
-/// simulators' own floors leave: 2 nV and 1e-16 A, and of small signals 1e-9 of the largest. Where there are ngspice's own diodes, 1e-7 of
-/// the largest current: its kT/q differs from the SI's in the seventh digit.
-void hold(const ExportNames& names, bool diodes, const Plot& mine, const Plot& theirs) {
+/// Expects the curves of two plots to agree. The relative tolerance is 1e-5, for small signals and noise 1e-3. The absolute tolerance
+/// covers the simulators' own floors: 2 nV and 1e-16 A, and for small signals 1e-9 of the largest value. With ngspice's own diodes it is
+/// also 1e-7 of the largest current, because ngspice's kT/q differs from the SI value in the seventh digit.
+void compare_with_export(const ExportNames& names, bool diodes, const Plot& mine, const Plot& theirs) {
     SCOPED_TRACE(mine.name);
     ASSERT_EQ(mine.point_count(), theirs.point_count());
     std::map<std::string, const Curve*> there;
     for (const auto& c : theirs.curves) there[corpuscle_name(c.name)] = &c;
     const bool small = mine.is_complex || mine.name.find("oise") != std::string::npos;
     for (const auto& c : mine.curves) {
-        if (c.name.find('#') != std::string::npos && c.name.starts_with("v(")) continue;  // inside a device
+        if (c.name.find('#') != std::string::npos && c.name.starts_with("v(")) continue;  // an internal node of a device
         if (c.name.ends_with("-sweep") || c.name == "frequency" || c.name == "inoise_total" || c.name == "onoise_total") continue;
-        const auto found = there.find(name_there(names, c.name));
-        ASSERT_NE(found, there.end()) << c.name << " as " << name_there(names, c.name);
-        double most = 0;
-        for (const auto& x : c.values) most = std::max(most, std::abs(x));
-        const double floor = small                 ? 1e-9 * most + 1e-30
-                             : c.type == "current" ? 1e-16 + (diodes ? 1e-7 * most : 0)
+        const auto found = there.find(exported_name(names, c.name));
+        ASSERT_NE(found, there.end()) << c.name << " as " << exported_name(names, c.name);
+        double largest = 0;
+        for (const auto& x : c.values) largest = std::max(largest, std::abs(x));
+        const double floor = small                 ? 1e-9 * largest + 1e-30
+                             : c.type == "current" ? 1e-16 + (diodes ? 1e-7 * largest : 0)
                                                    : 2e-9,
-                     share = small ? 1e-3 : 1e-5;
+                     tolerance = small ? 1e-3 : 1e-5;
         for (std::size_t k = 0; k < c.values.size(); ++k)
-            ASSERT_LE(std::abs(c.values[k] - found->second->values[k]), share * std::abs(c.values[k]) + floor)
+            ASSERT_LE(std::abs(c.values[k] - found->second->values[k]), tolerance * std::abs(c.values[k]) + floor)
                 << c.name << " at point " << k << ": ours " << c.values[k] << ", theirs " << found->second->values[k];
     }
 }
 
-/// Plots of the same name in the order in which they were asked for; read back here the deck's lines run the other way round.
+/// Pairs plots of the same name in the order of their directives. Read back here, the deck's directives run in reverse order.
 void hold_all(const Circuit& circuit, const std::vector<Plot>& mine, std::vector<Plot> theirs, bool backwards) {
     if (backwards) std::reverse(theirs.begin(), theirs.end());
     const ExportNames names(circuit);
@@ -81,17 +81,17 @@ void hold_all(const Circuit& circuit, const std::vector<Plot>& mine, std::vector
         std::size_t skip = seen[plot.name]++;
         const auto found = std::find_if(theirs.begin(), theirs.end(), [&](const Plot& p) { return p.name == plot.name && skip-- == 0; });
         ASSERT_NE(found, theirs.end()) << "no plot '" << plot.name << "'";
-        hold(names, diodes, plot, *found);
+        compare_with_export(names, diodes, plot, *found);
     }
 }
 
-/// What the netlist itself gives: for what has transistors by formulas, with our own in their place.
+/// Results of the netlist itself, with built-in transistors in place of expressions.
 std::string of_our_transistors(const TemporaryFolder& folder, const std::string& path) {
     const auto name = std::filesystem::path(path).stem().string();
     return name.starts_with("uicm_") ? folder.write("native.cir", with_native_transistors(path)) : path;
 }
 
-/// A sweep as ngspice knows it: one way, and here with some fifty points, for it takes its time.
+/// A sweep as ngspice supports it: in one direction, and reduced to about fifty points, because ngspice is slow here.
 void simplify(Directive& dc) {
     if (dc.words.back() == "updown") dc.words.pop_back();
     for (std::size_t k = 0; k + 3 < dc.words.size(); k += 4) {
@@ -101,8 +101,7 @@ void simplify(Directive& dc) {
     }
 }
 
-/// Without commands that ngspice cannot be asked, and others that would be asked there alone; without .tran, whose points are each one's
-/// own.
+/// Removes directives that ngspice does not support, those that only ngspice would run, and .tran, whose points differ between simulators.
 std::shared_ptr<const Circuit> of_what_both_know(const std::shared_ptr<const Circuit>& circuit) {
     auto out = std::make_shared<Circuit>(*circuit);
     std::erase_if(out->directives, [](const Directive& c) {
@@ -115,7 +114,7 @@ std::shared_ptr<const Circuit> of_what_both_know(const std::shared_ptr<const Cir
 
 class Export : public testing::TestWithParam<std::string> {};
 
-TEST_P(Export, GivesInNgspiceWhatTheNetlistGivesHere) {
+TEST_P(Export, GivesTheSameInNgspice) {
     const TemporaryFolder folder;
     const auto read = elaborate_netlist(of_our_transistors(folder, GetParam()));
     ASSERT_TRUE(read);
@@ -130,8 +129,8 @@ TEST_P(Export, GivesInNgspiceWhatTheNetlistGivesHere) {
 }
 
 TEST_P(Export, ReadsBackHereAndMeansTheSame) {
-    // Transistors by formulas in a loop of high gain, an amplifier's or a trigger's: our search for its operating point gives up (ngspice's
-    // does not).
+    // With transistors as expressions in a loop of high gain (amplifier, trigger), the operating-point search here fails;
+    // ngspice's does not.
     for (const auto* known : {"/force_to_current.cir", "/rectifier_sa.cir", "/rectifier_fa.cir"})
         if (GetParam().ends_with(known)) GTEST_SKIP() << "known: no operating point is found for the deck read back";
     const TemporaryFolder folder;
@@ -143,7 +142,7 @@ TEST_P(Export, ReadsBackHereAndMeansTheSame) {
     const auto deck = elaborate_netlist(folder.write("deck.cir", exported(circuit)));
     ASSERT_TRUE(deck);
     auto again = std::make_shared<Circuit>(*deck);
-    for (const auto* name : {"reltol", "vntol"}) again->options.erase(name);  // ngspice needs them tight; ours are enough for us
+    for (const auto* name : {"reltol", "vntol"}) again->options.erase(name);  // ngspice needs tight tolerances; the defaults suffice here
     const auto back = run_directives(std::shared_ptr<const Circuit>(again));
     ASSERT_TRUE(back) << back.error().text();
     hold_all(*circuit, mine->plots(), back->plots(), true);
@@ -161,10 +160,10 @@ INSTANTIATE_TEST_SUITE_P(Netlists, Export, testing::ValuesIn(netlists()), [](con
     return path.parent_path().filename().string() + "_" + path.stem().string();
 });
 
-/// With six digits. The inverter has an .op, too, after which ngspice would measure nothing: that is told.
-TEST(ExportedOrders, AreMeasuredByNgspiceAsHere) {
+/// Compares six digits. The inverter also has an .op; after it ngspice would measure nothing, so the export reports this.
+TEST(ExportedDirectives, AreMeasuredByNgspiceAsHere) {
     const TemporaryFolder folder;
-    auto circuit = std::make_shared<Circuit>(*elaborate_netlist(project_root() + "/circuits/inverter.cir"));
+    auto circuit = std::make_shared<Circuit>(*elaborate_netlist(source_root() + "/circuits/inverter.cir"));
     const auto with_op = ngspice_deck(circuit);
     ASSERT_TRUE(with_op);
     EXPECT_NE(with_op->text.find("* .meas dc: ngspice measures only the analysis that it runs last, here .op"), std::string::npos);
@@ -176,7 +175,7 @@ TEST(ExportedOrders, AreMeasuredByNgspiceAsHere) {
     for (const auto& [name, value] : mine->numbers) EXPECT_NEAR(logged_number(log, name), value, 1e-4 * std::abs(value)) << log;
 }
 
-TEST(ExportedOrders, TheForceGoesAlongInItsSources) {
+TEST(ExportedDirectives, TheForceIsExportedInItsSources) {
     const TemporaryFolder folder;
     const auto circuit = elaborate_netlist(folder.write("touch.cir",
                                                  "touched\nvf f 0 force 2\nrf f s 1k\ncs s 0 10u\n.force press f_max=3\n.tran 1m 1 0 2m\n"
@@ -212,7 +211,7 @@ r1 v d 1meg
 .end
 )";
 
-TEST(ExportedOrders, ThatNgspiceLacksStayAsCommentsAndAreTold) {
+TEST(ExportedDirectives, UnsupportedByNgspiceStayAsCommentsAndAreReported) {
     const TemporaryFolder folder;
     const auto deck = ngspice_deck(elaborate_netlist(folder.write("x.cir", wishes_for_all)));
     ASSERT_TRUE(deck);
@@ -245,8 +244,7 @@ TEST(ExportedNames, AreLegalAndOneToOne) {
     }));
 }
 
-/// A random formula of v(a), v(b) and i(v1) as text, without what leads beyond all numbers,
-/// or asks for the sign of zero.
+/// Text of a random expression of v(a), v(b) and i(v1) that never overflows and does not depend on the sign of zero.
 rc::Gen<std::string> formulas(int depth) {
     const auto leaf = rc::gen::element<std::string>("v(a)", "v(b)", "v(a,b)", "i(v1)", "2.5", "1m", "(-3)", "temper", "0");
     if (depth == 0) return leaf;
@@ -265,7 +263,7 @@ rc::Gen<std::string> formulas(int depth) {
         by("u({0})*u2({1})"), by("uramp({0})"), by("pwr(tanh({0}),3)"), by("sqrt(abs({0}))"), by("sin({0})*cos({1})"));
 }
 
-TEST(FormulaText, ReadsBackAsTheSameFormula) {
+TEST(ExpressionText, ReadsBackAsTheSameExpression) {
     EXPECT_TRUE(rc::check([] {
         const auto text = *formulas(*rc::gen::inRange(0, 5));
         ExpressionScope scope;
@@ -299,7 +297,7 @@ TEST(FormulaText, ReadsBackAsTheSameFormula) {
     }));
 }
 
-TEST(ExportVerb, WritesAWholeDeckOrNothing) {
+TEST(ExportVerb, WritesACompleteDeckOrNothing) {
     using corpuscle::test::run_program;
     const TemporaryFolder folder;
     folder.write("x.cir", "divider\nv1 in 0 3\nr1 in out 1k\nr2 out 0 2k\n.op\n.expect v(out) 2 1%\n");

@@ -39,16 +39,16 @@ TEST(SpiceNumber, ReadsEveryScaleAndIgnoresTheUnit) {
         ASSERT_TRUE(n) << c.text;
         EXPECT_DOUBLE_EQ(n->value, c.value) << c.text;
     }
-    EXPECT_EQ(parse_number("10u")->value, 1e-5) << "to the last bit, as if it were written so";
+    EXPECT_EQ(parse_number("10u")->value, 1e-5) << "exact to the last bit";
     EXPECT_TRUE(std::isinf(parse_number("1e999")->value));
 }
 
-TEST(SpiceNumber, RefusesWhatIsNone) {
+TEST(SpiceNumber, RejectsTextsThatAreNotNumbers) {
     for (const auto* text : {"", "k", "1k5", "1.2.3", "-", "--1", ".", "1 k", "e5", "2n3904", "0x10"})
         EXPECT_FALSE(parse_number(text)) << text;
 }
 
-TEST(Expression, WorksOutOperationsInTheOrderOfNgspice) {
+TEST(Expression, EvaluatesOperationsInTheOrderOfNgspice) {
     const struct {
         const char* text;
         double value;
@@ -115,13 +115,13 @@ TEST(Expression, HasTheFunctionsAndConstantsOfNgspice) {
         {"planck", 6.62607004e-34},
     };
     for (const auto& c : cases) EXPECT_NEAR(value(c.text), c.value, 4e-16 * std::abs(c.value)) << c.text;
-    EXPECT_EQ(value("exp(1000)"), value("exp(700)")) << "the exponent goes no further";
+    EXPECT_EQ(value("exp(1000)"), value("exp(700)")) << "the exponent is limited to 700";
     EXPECT_TRUE(std::isinf(value("ln(0)")));
     EXPECT_TRUE(std::isnan(value("ln(-1)")));
     EXPECT_NEAR(value("ln(1e-320)"), std::log(1e-320), 1e-12);
 }
 
-TEST(Expression, PowAndPwrMeanWhatNgspiceMakesOfThemInEachPlace) {
+TEST(Expression, PowAndPwrMeanTheSameAsInNgspiceInEachContext) {
     const ExpressionScope parameter;
     EXPECT_EQ(value("pow(-2,3)"), 8);
     EXPECT_EQ(value("pow(-2,3)", parameter), -8);
@@ -144,7 +144,7 @@ TEST(Expression, NamesItsInputsOnceAndInOrder) {
     EXPECT_FALSE(f->is_constant());
 }
 
-TEST(Expression, DropsInputsThatDoNotCountAndKnowsConstants) {
+TEST(Expression, DropsUnusedInputsAndRecognizesConstants) {
     EXPECT_TRUE(read("v(a,a) + v(0) + v(gnd,0)")->is_constant());
     ExpressionScope s = among_voltages();
     const ExpressionScope::Function first{{"x", "y"}, "x"};
@@ -152,13 +152,13 @@ TEST(Expression, DropsInputsThatDoNotCountAndKnowsConstants) {
     EXPECT_EQ(read("first(v(a), v(b))", s)->inputs().size(), 1U);
 }
 
-TEST(Expression, SaysWhereAndWhatIsWrong) {
+TEST(Expression, ReportsLocationAndCauseOfErrors) {
     ExpressionScope s = among_voltages();
     s.suggestions = {"vdd", "width"};
     const ExpressionScope::Function f{{"x"}, "x*vddd"}, g{{"x"}, "h(x)"}, h{{"x"}, "g(x)+1"};
     s.function = [&](std::string_view name) { return name == "f" ? &f : name == "g" ? &g : name == "h" ? &h : nullptr; };
     const struct {
-        const char *text, *said;
+        const char *text, *message;
     } cases[] = {
         {"2*vddd", "f.cir:3:7: unknown name 'vddd'; did you mean 'vdd'?"},
         {"1 + sinn(2)", "f.cir:3:9: unknown function 'sinn'; did you mean 'sin'?"},
@@ -188,14 +188,14 @@ TEST(Expression, SaysWhereAndWhatIsWrong) {
     for (const auto& c : cases) {
         const auto read_it = read(c.text, s);
         ASSERT_FALSE(read_it) << c.text;
-        EXPECT_EQ(read_it.error().text(), c.said);
+        EXPECT_EQ(read_it.error().text(), c.message);
     }
     const auto in_parameter = read("1+v(a)", ExpressionScope{});
     ASSERT_FALSE(in_parameter);
     EXPECT_EQ(in_parameter.error().text(), "f.cir:3:7: v(...) is not available in a parameter, only in an expression of the circuit");
 }
 
-TEST(Expression, RefusesWhatIsNestedTooDeepInsteadOfCrashing) {
+TEST(Expression, RejectsTooDeepNesting) {
     constexpr std::size_t n = 100000;
     std::string ternary, calls, powers = "1";
     for (std::size_t k = 0; k < n; ++k) ternary += "1?1:", calls += "sin(", powers += "^1";
@@ -207,11 +207,11 @@ TEST(Expression, RefusesWhatIsNestedTooDeepInsteadOfCrashing) {
     }
     EXPECT_EQ(value(std::string(n, '-') + "1"), 1) << "signs are not nested";
     EXPECT_EQ(value(powers), 1);
-    std::string most(190, '(');
-    EXPECT_EQ(value(most + "7" + std::string(190, ')')), 7);
+    std::string deepest(190, '(');
+    EXPECT_EQ(value(deepest + "7" + std::string(190, ')')), 7);
 }
 
-TEST(Expression, RefusesFunctionsThatMultiplyWithoutEnd) {
+TEST(Expression, RejectsFunctionsThatExpandExponentially) {
     std::map<std::string, ExpressionScope::Function, std::less<>> functions{{"f0", {{"x"}, "x"}}};
     for (int k = 1; k < 60; ++k) functions[fmt::format("f{}", k)] = {{"x"}, fmt::format("f{0}(f{0}(x))", k - 1)};
     ExpressionScope s;
@@ -274,7 +274,7 @@ TEST(Expression, HasTheSlopesOfFiniteDifferences) {
     }
 }
 
-TEST(Expression, HandsNoInfiniteSlopeOnThroughTheBranchNotTaken) {
+TEST(Expression, PassesNoInfiniteSlopeThroughTheBranchNotTaken) {
     const auto f = read("v(a) > 0 ? sqrt(v(a)) : 0*v(b)");
     const double x[] = {0, 2};
     double slopes[2];
@@ -283,13 +283,13 @@ TEST(Expression, HandsNoInfiniteSlopeOnThroughTheBranchNotTaken) {
     EXPECT_EQ(slopes[1], 0);
 }
 
-// A formula drawn at random, with its value worked out beside it.
-struct Drawn {
+// A random expression and its separately computed value.
+struct RandomExpression {
     std::string text;
     double value;
 };
 
-Drawn draw(int depth, std::span<const double> inputs) {
+RandomExpression make_random_expression(int depth, std::span<const double> inputs) {
     const int kind = depth == 0 ? *rc::gen::inRange(0, 2) : *rc::gen::inRange(0, 12);
     if (kind == 0) {
         const double x = *rc::gen::inRange(0, 1000) / 64.0;
@@ -299,31 +299,31 @@ Drawn draw(int depth, std::span<const double> inputs) {
         const auto k = static_cast<std::size_t>(*rc::gen::inRange(0, static_cast<int>(inputs.size())));
         return {fmt::format("v(n{})", k), inputs[k]};
     }
-    const Drawn a = draw(depth - 1, inputs);
+    const RandomExpression a = make_random_expression(depth - 1, inputs);
     if (kind == 2) return {fmt::format("(-{})", a.text), -a.value};
     if (kind == 3) return {fmt::format("abs({})", a.text), std::abs(a.value)};
     if (kind == 4) return {fmt::format("floor( {} )", a.text), std::floor(a.value)};
-    const Drawn b = draw(depth - 1, inputs);
+    const RandomExpression b = make_random_expression(depth - 1, inputs);
     if (kind == 5) return {fmt::format("({} + {})", a.text, b.text), a.value + b.value};
     if (kind == 6) return {fmt::format("({}-{})", a.text, b.text), a.value - b.value};
     if (kind == 7) return {fmt::format("({}*{})", a.text, b.text), a.value * b.value};
     if (kind == 8) return {fmt::format("max({},{})", a.text, b.text), a.value < b.value ? b.value : a.value};
     if (kind == 9) return {fmt::format("({}<{})", a.text, b.text), a.value < b.value ? 1.0 : 0.0};
     if (kind == 10) return {fmt::format("({}/{})", a.text, b.text), a.value / b.value};
-    const Drawn c = draw(depth - 1, inputs);
+    const RandomExpression c = make_random_expression(depth - 1, inputs);
     return {fmt::format("({} ? {} : {})", a.text, b.text, c.text), a.value != 0 ? b.value : c.value};
 }
 
-TEST(Expression, DrawnAtRandomComesToWhatItWasDrawnAs) {
+TEST(Expression, RandomExpressionsEvaluateToTheirValues) {
     EXPECT_TRUE(rc::check([] {
         const double nodes[] = {1.5, -2.25, 0};
-        const Drawn drawn = draw(*rc::gen::inRange(0, 6), nodes);
-        const auto f = read(drawn.text);
+        const RandomExpression random = make_random_expression(*rc::gen::inRange(0, 6), nodes);
+        const auto f = read(random.text);
         RC_ASSERT(static_cast<bool>(f));
         std::vector<double> x;
         for (const auto& input : f->inputs()) x.push_back(nodes[input.name[1] - '0']);
         const double got = f->value(x);
-        RC_ASSERT(got == drawn.value || (std::isnan(got) && std::isnan(drawn.value)));
+        RC_ASSERT(got == random.value || (std::isnan(got) && std::isnan(random.value)));
     }));
 }
 

@@ -1,4 +1,4 @@
-// Force as a circuit hears it: values, and which samples are corners.
+// The force waveform of a circuit: its values, and the samples that become breakpoints.
 
 #include "circuit/force_waveform.hpp"
 
@@ -27,8 +27,8 @@ ForceWaveform trace_of(std::span<const double> force) {
     return out;
 }
 
-/// By their samples' numbers.
-std::vector<long> corners(const ForceWaveform& trace) {
+/// Sample indices of the breakpoints.
+std::vector<long> breakpoints(const ForceWaveform& trace) {
     std::vector<long> out;
     for (double t = trace.next_breakpoint(-1); std::isfinite(t); t = trace.next_breakpoint(t)) out.push_back(std::lround(t / T));
     return out;
@@ -41,29 +41,29 @@ TEST(ForceWaveform, IsStraightBetweenSamplesAndStillBeforeAndAfterThem) {
     EXPECT_EQ(ForceWaveform(T).at(0.5), 0);
 }
 
-TEST(ForceWaveform, AStillForceAndAStraightOneHaveNoCorner) {
-    EXPECT_EQ(corners(trace_of(sampled(1000, [](double) { return 2.5; }))), std::vector<long>{});
-    EXPECT_EQ(corners(trace_of(sampled(1000, [](double t) { return 1 + 3 * t; }))), std::vector<long>{});
+TEST(ForceWaveform, AConstantForceAndARampHaveNoBreakpoint) {
+    EXPECT_EQ(breakpoints(trace_of(sampled(1000, [](double) { return 2.5; }))), std::vector<long>{});
+    EXPECT_EQ(breakpoints(trace_of(sampled(1000, [](double t) { return 1 + 3 * t; }))), std::vector<long>{});
 }
 
-TEST(ForceWaveform, WhereForceJumpsOrRampsBeginThereIsACorner) {
-    EXPECT_EQ(corners(trace_of(sampled(300, [](double t) { return t < 0.0995 ? 0.0 : 1.0; }))), (std::vector<long>{99, 100}));
-    EXPECT_EQ(corners(trace_of(sampled(300, [](double t) { return t < 0.1    ? 0.0
-                                                                  : t < 0.15 ? (t - 0.1) / 0.05
-                                                                             : 1.0; }))),
+TEST(ForceWaveform, JumpsAndStartsOfRampsAreBreakpoints) {
+    EXPECT_EQ(breakpoints(trace_of(sampled(300, [](double t) { return t < 0.0995 ? 0.0 : 1.0; }))), (std::vector<long>{99, 100}));
+    EXPECT_EQ(breakpoints(trace_of(sampled(300, [](double t) { return t < 0.1    ? 0.0
+                                                                      : t < 0.15 ? (t - 0.1) / 0.05
+                                                                                 : 1.0; }))),
               (std::vector<long>{100, 150}));
-    EXPECT_EQ(corners(trace_of(sampled(300, [](double t) { return std::abs(t - 0.1) < 0.0005 ? 1.0 : 0.0; }))),
+    EXPECT_EQ(breakpoints(trace_of(sampled(300, [](double t) { return std::abs(t - 0.1) < 0.0005 ? 1.0 : 0.0; }))),
               (std::vector<long>{99, 100, 101}));
 }
 
-TEST(ForceWaveform, ACurveHasFarFewerCornersThanSamplesAndIsNeverLeftForLong) {
+TEST(ForceWaveform, ACurveHasFarFewerBreakpointsThanSamplesAndIsFollowedClosely) {
     constexpr double pi = 3.141592653589793;
     const auto sine = trace_of(sampled(1000, [](double t) { return 1 - std::cos(2 * pi * 20 * t); }));
-    const auto at = corners(sine);
-    EXPECT_GT(at.size(), 20 * 4U);   // each cycle is seen ...
+    const auto at = breakpoints(sine);
+    EXPECT_GT(at.size(), 20 * 4U);   // each cycle is resolved ...
     EXPECT_LT(at.size(), 20 * 30U);  // ... in fewer than its 50 samples
     const auto bump = trace_of(sampled(1000, [](double t) { return std::exp(-std::pow((t - 0.5) / 0.01, 2)); }));
-    EXPECT_LT(bump.next_breakpoint(0.45), 0.49);  // its foot is seen
+    EXPECT_LT(bump.next_breakpoint(0.45), 0.49);  // its start is detected
 }
 
 TEST(ForceWaveform, DoesNotDependOnHowItComes) {
@@ -71,7 +71,7 @@ TEST(ForceWaveform, DoesNotDependOnHowItComes) {
         const auto steps = *rc::gen::container<std::vector<int>>(rc::gen::inRange(-3, 4));
         std::vector<double> force = {1};
         for (const int s : steps) force.push_back(s == 3 ? force.back() * 2 - 1 : force.back() + 0.01 * s);
-        const auto whole = trace_of(force);
+        const auto complete = trace_of(force);
         ForceWaveform parts(T);
         std::vector<double> numbers;
         for (std::size_t from = 0; from < force.size();) {
@@ -84,11 +84,11 @@ TEST(ForceWaveform, DoesNotDependOnHowItComes) {
             parts = ForceWaveform(T);
             RC_ASSERT(parts.restore(numbers));
         }
-        RC_ASSERT(corners(parts) == corners(whole));
+        RC_ASSERT(breakpoints(parts) == breakpoints(complete));
         parts.discard_before(parts.known_until() / 2);
         for (double t = parts.known_until() / 2; t < parts.known_until(); t += 0.3 * T) {
-            RC_ASSERT(parts.at(t) == whole.at(t));
-            RC_ASSERT(parts.next_breakpoint(t) == whole.next_breakpoint(t));
+            RC_ASSERT(parts.at(t) == complete.at(t));
+            RC_ASSERT(parts.next_breakpoint(t) == complete.next_breakpoint(t));
         }
     }));
 }

@@ -17,20 +17,20 @@ namespace corpuscle::circuit {
 namespace {
 
 template <class T, auto free>
-struct Freed {
+struct Deleter {
     void operator()(T* p) const { free(p); }
 };
 using Context = std::unique_ptr<std::remove_pointer_t<SUNContext>, decltype([](SUNContext c) { SUNContext_Free(&c); })>;
-using Vector = std::unique_ptr<_generic_N_Vector, Freed<_generic_N_Vector, N_VDestroy>>;
-using Matrix = std::unique_ptr<_generic_SUNMatrix, Freed<_generic_SUNMatrix, SUNMatDestroy>>;
+using Vector = std::unique_ptr<_generic_N_Vector, Deleter<_generic_N_Vector, N_VDestroy>>;
+using Matrix = std::unique_ptr<_generic_SUNMatrix, Deleter<_generic_SUNMatrix, SUNMatDestroy>>;
 using Linear = std::unique_ptr<_generic_SUNLinearSolver, decltype([](SUNLinearSolver s) { SUNLinSolFree(s); })>;
 using Ida = std::unique_ptr<void, decltype([](void* m) { IDAFree(&m); })>;
 
-double* of(N_Vector v) { return N_VGetArrayPointer(v); }
-double* of(const Vector& v) { return of(v.get()); }
+double* data_of(N_Vector v) { return N_VGetArrayPointer(v); }
+double* data_of(const Vector& v) { return data_of(v.get()); }
 
-/// The circuit's sums at x, looked at there and nowhere else: a device that shortens its steps is asked until it does not.
-class Looked {
+/// Evaluates the circuit's sums exactly at x: repeats the evaluation until no device limits its voltages.
+class EquationEvaluator {
     System& system_;
     std::vector<double> memory_;
     EvalContext at_;
@@ -41,7 +41,7 @@ public:
     std::size_t watched = 0;
     double level = 0;
 
-    Looked(System& system, double gmin) : system_(system), memory_(system.initial_limiting_state()) { at_.gmin = gmin; }
+    EquationEvaluator(System& system, double gmin) : system_(system), memory_(system.initial_limiting_state()) { at_.gmin = gmin; }
     std::size_t size() const { return static_cast<std::size_t>(system_.size()); }
     const System& system() const { return system_; }
     bool at(const double* x, double t) {
@@ -56,23 +56,23 @@ public:
 };
 
 int residual(double t, N_Vector y, N_Vector yp, N_Vector r, void* data) {
-    auto& looked = *static_cast<Looked*>(data);
-    const auto n = looked.size();
-    if (!looked.at(of(y), t)) return 1;
+    auto& equations = *static_cast<EquationEvaluator*>(data);
+    const auto n = equations.size();
+    if (!equations.at(data_of(y), t)) return 1;
     for (std::size_t k = 0; k < n; ++k) {
-        of(r)[k] = looked.sums.f[k] + of(yp)[n + k];
-        of(r)[n + k] = of(y)[n + k] - looked.sums.q[k];
-        if (!std::isfinite(of(r)[k]) || !std::isfinite(of(r)[n + k])) return 1;
+        data_of(r)[k] = equations.sums.f[k] + data_of(yp)[n + k];
+        data_of(r)[n + k] = data_of(y)[n + k] - equations.sums.q[k];
+        if (!std::isfinite(data_of(r)[k]) || !std::isfinite(data_of(r)[n + k])) return 1;
     }
     return 0;
 }
 
 /// [G  cj; -C  1], column by column
 int jacobian(double t, double cj, N_Vector y, N_Vector, N_Vector, SUNMatrix J, void* data, N_Vector, N_Vector, N_Vector) {
-    auto& looked = *static_cast<Looked*>(data);
-    if (!looked.at(of(y), t)) return 1;
-    const auto& pattern = looked.system().pattern();
-    const auto n = static_cast<sunindextype>(looked.size());
+    auto& equations = *static_cast<EquationEvaluator*>(data);
+    if (!equations.at(data_of(y), t)) return 1;
+    const auto& pattern = equations.system().pattern();
+    const auto n = static_cast<sunindextype>(equations.size());
     auto *begin = SUNSparseMatrix_IndexPointers(J), *rows = SUNSparseMatrix_IndexValues(J);
     double* values = SUNSparseMatrix_Data(J);
     sunindextype at = 0;
@@ -81,8 +81,8 @@ int jacobian(double t, double cj, N_Vector y, N_Vector, N_Vector, SUNMatrix J, v
         const auto first = static_cast<std::size_t>(pattern.column_begin()[static_cast<std::size_t>(c)]),
                    last = static_cast<std::size_t>(pattern.column_begin()[static_cast<std::size_t>(c) + 1]);
         begin[c] = at;
-        for (auto k = first; k < last; ++k) put(pattern.rows()[k], looked.sums.G[k]);
-        for (auto k = first; k < last; ++k) put(n + pattern.rows()[k], -looked.sums.C[k]);
+        for (auto k = first; k < last; ++k) put(pattern.rows()[k], equations.sums.G[k]);
+        for (auto k = first; k < last; ++k) put(n + pattern.rows()[k], -equations.sums.C[k]);
     }
     for (sunindextype c = 0; c < n; ++c) begin[n + c] = at, put(c, cj), put(n + c, 1);
     begin[2 * n] = at;
@@ -90,12 +90,12 @@ int jacobian(double t, double cj, N_Vector y, N_Vector, N_Vector, SUNMatrix J, v
 }
 
 int above_level(double, N_Vector y, N_Vector, double* out, void* data) {
-    const auto& looked = *static_cast<Looked*>(data);
-    out[0] = of(y)[looked.watched] - looked.level;
+    const auto& equations = *static_cast<EquationEvaluator*>(data);
+    out[0] = data_of(y)[equations.watched] - equations.level;
     return 0;
 }
 
-SUNContext made_context() {
+SUNContext make_context() {
     SUNContext c = nullptr;
 #ifdef SUN_COMM_NULL
     SUNContext_Create(SUN_COMM_NULL, &c);
@@ -106,8 +106,8 @@ SUNContext made_context() {
 }
 
 class Run {
-    Looked looked_;
-    const IdaOptions& asked_;
+    EquationEvaluator equations_;
+    const IdaOptions& options_;
     std::size_t n_;
     Context context_;
     Vector y_, slope_, floor_;
@@ -115,99 +115,99 @@ class Run {
     Linear linear_;
     Ida ida_;
     double t_ = 0;
-    std::size_t next_ = 0;  // of the times asked for
+    std::size_t next_ = 0;  // index into the output times
     IdaResult out_;
 
     bool done(int flag, const char* what) {
         if (flag < 0)
             out_.error =
-                fmt::format("{} at {:.9g} s: {}", what, t_, std::unique_ptr<char, Freed<void, free>>(IDAGetReturnFlagName(flag)).get());
+                fmt::format("{} at {:.9g} s: {}", what, t_, std::unique_ptr<char, Deleter<void, free>>(IDAGetReturnFlagName(flag)).get());
         return flag >= 0;
     }
-    void floors();
-    bool settle(double h);
-    bool begin();
-    bool go_to(double corner);
+    void set_tolerances();
+    bool make_consistent(double h);
+    bool start();
+    bool advance_to(double breakpoint);
 
 public:
     Run(System&, double gmin, const std::vector<double>& start, const IdaOptions&);
-    IdaResult whole();
+    IdaResult integrate();
 };
 
-Run::Run(System& system, double gmin, const std::vector<double>& start, const IdaOptions& asked)
-    : looked_(system, gmin), asked_(asked), n_(looked_.size()), context_(made_context()) {
+Run::Run(System& system, double gmin, const std::vector<double>& start, const IdaOptions& options)
+    : equations_(system, gmin), options_(options), n_(equations_.size()), context_(make_context()) {
     const auto count = static_cast<sunindextype>(2 * n_), entries = static_cast<sunindextype>(2 * system.pattern().entries() + 2 * n_);
     for (auto* v : {&y_, &slope_, &floor_}) v->reset(N_VNew_Serial(count, context_.get())), N_VConst(0, v->get());
-    std::copy(start.begin(), start.end(), of(y_));
+    std::copy(start.begin(), start.end(), data_of(y_));
     matrix_.reset(SUNSparseMatrix(count, count, entries, CSC_MAT, context_.get()));
     linear_.reset(SUNLinSol_KLU(y_.get(), matrix_.get(), context_.get()));
-    if (asked.crossing_unknown >= 0) looked_.watched = static_cast<std::size_t>(asked.crossing_unknown), looked_.level = asked.crossing_level;
+    if (options.crossing_unknown >= 0) equations_.watched = static_cast<std::size_t>(options.crossing_unknown), equations_.level = options.crossing_level;
 }
 
-/// What is small: vntol, and a node's capacitance times it. Currents are let go.
-void Run::floors() {
-    const auto& system = looked_.system();
+/// Absolute tolerances: vntol for voltages, a node's capacitance times vntol for charges. Currents are not checked.
+void Run::set_tolerances() {
+    const auto& system = equations_.system();
     for (std::size_t k = 0; k < n_; ++k) {
-        const double c = std::abs(looked_.sums.C[system.pattern().entry_index(static_cast<int>(k), static_cast<int>(k))]);
-        of(floor_)[k] = system.is_voltage(static_cast<int>(k)) ? asked_.vntol : 1;
-        of(floor_)[n_ + k] = c > 0 ? c * asked_.vntol : 1;
+        const double c = std::abs(equations_.sums.C[system.pattern().entry_index(static_cast<int>(k), static_cast<int>(k))]);
+        data_of(floor_)[k] = system.is_voltage(static_cast<int>(k)) ? options_.vntol : 1;
+        data_of(floor_)[n_ + k] = c > 0 ? c * options_.vntol : 1;
     }
 }
 
-/// One step of backward Euler, so short that nothing charged moves: all else finds its place. Then dq/dt = -f.
-bool Run::settle(double h) {
-    const auto& pattern = looked_.system().pattern();
+/// One step of backward Euler, too short to change charges: it makes all other unknowns consistent. Then dq/dt = -f.
+bool Run::make_consistent(double h) {
+    const auto& pattern = equations_.system().pattern();
     LinearSolver<double> solver(pattern);
-    double* x = of(y_);
-    if (!looked_.at(x, t_)) return false;
-    const auto before = looked_.sums.q;
-    auto& s = looked_.sums;
+    double* x = data_of(y_);
+    if (!equations_.at(x, t_)) return false;
+    const auto before = equations_.sums.q;
+    auto& s = equations_.sums;
     std::vector<double> step(n_);
-    double most = 1;
-    for (int k = 0; k < 100 && most > 1e-11; ++k) {
-        if (!looked_.at(x, t_ + h)) return false;
+    double largest = 1;
+    for (int k = 0; k < 100 && largest > 1e-11; ++k) {
+        if (!equations_.at(x, t_ + h)) return false;
         for (std::size_t j = 0; j < n_; ++j) step[j] = -(s.f[j] + (s.q[j] - before[j]) / h);
         auto values = s.G;
         for (std::size_t j = 0; j < values.size(); ++j) values[j] += s.C[j] / h;
         if (!solver.factor(std::span<const double>(values).first(pattern.entries()))) return false;
         solver.solve(step);
-        most = 0;
+        largest = 0;
         for (std::size_t j = 0; j < n_; ++j) {
-            const bool voltage = looked_.system().is_voltage(static_cast<int>(j));
-            if (voltage) most = std::max(most, std::abs(step[j]));
+            const bool voltage = equations_.system().is_voltage(static_cast<int>(j));
+            if (voltage) largest = std::max(largest, std::abs(step[j]));
             x[j] += voltage ? std::clamp(step[j], -0.3, 0.3) : step[j];
         }
     }
     t_ += h;
-    if (most > 1e-11 || !looked_.at(x, t_)) return false;
-    for (std::size_t j = 0; j < n_; ++j) of(slope_)[j] = 0, of(slope_)[n_ + j] = -s.f[j], of(y_)[n_ + j] = s.q[j];
+    if (largest > 1e-11 || !equations_.at(x, t_)) return false;
+    for (std::size_t j = 0; j < n_; ++j) data_of(slope_)[j] = 0, data_of(slope_)[n_ + j] = -s.f[j], data_of(y_)[n_ + j] = s.q[j];
     return true;
 }
 
-bool Run::begin() {
-    floors();
-    if (ida_) return done(IDAReInit(ida_.get(), t_, y_.get(), slope_.get()), "beginning anew");
+bool Run::start() {
+    set_tolerances();
+    if (ida_) return done(IDAReInit(ida_.get(), t_, y_.get(), slope_.get()), "reinit");
     ida_.reset(IDACreate(context_.get()));
     void* m = ida_.get();
     return done(IDAInit(m, residual, t_, y_.get(), slope_.get()), "init") &&
-           done(IDASVtolerances(m, asked_.reltol, floor_.get()), "tolerances") && done(IDASetUserData(m, &looked_), "data") &&
-           done(IDASetLinearSolver(m, linear_.get(), matrix_.get()), "linear solver") && done(IDASetJacFn(m, jacobian), "slopes") &&
-           done(IDASetMaxNumSteps(m, asked_.max_steps), "steps") && done(IDASetMaxErrTestFails(m, 50), "fails") &&
-           done(IDASetMaxConvFails(m, 50), "fails") && (asked_.crossing_unknown < 0 || done(IDARootInit(m, 1, above_level), "watching"));
+           done(IDASVtolerances(m, options_.reltol, floor_.get()), "tolerances") && done(IDASetUserData(m, &equations_), "data") &&
+           done(IDASetLinearSolver(m, linear_.get(), matrix_.get()), "linear solver") && done(IDASetJacFn(m, jacobian), "Jacobian") &&
+           done(IDASetMaxNumSteps(m, options_.max_steps), "steps") && done(IDASetMaxErrTestFails(m, 50), "fails") &&
+           done(IDASetMaxConvFails(m, 50), "fails") && (options_.crossing_unknown < 0 || done(IDARootInit(m, 1, above_level), "root"));
 }
 
-bool Run::go_to(double corner) {
+bool Run::advance_to(double breakpoint) {
     void* m = ida_.get();
-    if (!done(IDASetStopTime(m, corner), "stop")) return false;
+    if (!done(IDASetStopTime(m, breakpoint), "stop")) return false;
     int upward = 1;
-    if (asked_.crossing_unknown >= 0 && !done(IDASetRootDirection(m, &upward), "watching")) return false;
-    while (t_ < corner) {
-        const bool wanted = next_ < asked_.output_times.size() && asked_.output_times[next_] <= corner;
-        const int flag = IDASolve(m, wanted ? asked_.output_times[next_] : corner, &t_, y_.get(), slope_.get(), IDA_NORMAL);
+    if (options_.crossing_unknown >= 0 && !done(IDASetRootDirection(m, &upward), "root")) return false;
+    while (t_ < breakpoint) {
+        const bool wanted = next_ < options_.output_times.size() && options_.output_times[next_] <= breakpoint;
+        const int flag = IDASolve(m, wanted ? options_.output_times[next_] : breakpoint, &t_, y_.get(), slope_.get(), IDA_NORMAL);
         if (!done(flag, "a step")) return false;
         if (flag == IDA_ROOT_RETURN) out_.crossings.push_back(t_);
-        for (; flag != IDA_ROOT_RETURN && next_ < asked_.output_times.size() && asked_.output_times[next_] <= t_; ++next_)
-            out_.x.emplace_back(of(y_), of(y_) + n_);
+        for (; flag != IDA_ROOT_RETURN && next_ < options_.output_times.size() && options_.output_times[next_] <= t_; ++next_)
+            out_.x.emplace_back(data_of(y_), data_of(y_) + n_);
     }
     long steps = 0;
     IDAGetNumSteps(m, &steps);
@@ -215,28 +215,28 @@ bool Run::go_to(double corner) {
     return true;
 }
 
-IdaResult Run::whole() {
-    for (; next_ < asked_.output_times.size() && asked_.output_times[next_] <= 0; ++next_) out_.x.emplace_back(of(y_), of(y_) + n_);
-    while (t_ < asked_.stop) {
-        double corner = looked_.system().next_breakpoint(t_ + 1e-12 * asked_.stop);  // the same corner, rounded otherwise, is none
-        if (corner > asked_.stop * (1 - 1e-12)) corner = asked_.stop;
-        if (!settle(std::min(1e-12 * asked_.stop, 1e-6 * (corner - t_)))) {
-            out_.error = fmt::format("nothing settles at {:.9g} s", t_);
+IdaResult Run::integrate() {
+    for (; next_ < options_.output_times.size() && options_.output_times[next_] <= 0; ++next_) out_.x.emplace_back(data_of(y_), data_of(y_) + n_);
+    while (t_ < options_.stop) {
+        double breakpoint = equations_.system().next_breakpoint(t_ + 1e-12 * options_.stop);  // skips the current one
+        if (breakpoint > options_.stop * (1 - 1e-12)) breakpoint = options_.stop;
+        if (!make_consistent(std::min(1e-12 * options_.stop, 1e-6 * (breakpoint - t_)))) {
+            out_.error = fmt::format("no consistent state at {:.9g} s", t_);
             break;
         }
-        if (!begin() || !go_to(corner)) break;
+        if (!start() || !advance_to(breakpoint)) break;
     }
-    out_.evaluations = looked_.evaluations;
+    out_.evaluations = equations_.evaluations;
     return std::move(out_);
 }
 
 }  // namespace
 
-IdaResult integrate_with_ida(System& system, double gmin, const std::vector<double>& start, const IdaOptions& asked) {
-    system.start_transient(asked.step, asked.stop);
-    auto answer = Run(system, gmin, start, asked).whole();
+IdaResult integrate_with_ida(System& system, double gmin, const std::vector<double>& start, const IdaOptions& options) {
+    system.start_transient(options.step, options.stop);
+    auto result = Run(system, gmin, start, options).integrate();
     system.start_transient(0, 0);
-    return answer;
+    return result;
 }
 
 }  // namespace corpuscle::circuit

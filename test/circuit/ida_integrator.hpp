@@ -1,5 +1,5 @@
 #pragma once
-// A circuit's equations in time, integrated by somebody else: IDA of SUNDIALS, at tolerances far tighter than ours.
+// Reference transients: integrates a circuit's equations with IDA of SUNDIALS, at much tighter tolerances than Corpuscle's own transient.
 
 #include <span>
 #include <string>
@@ -9,26 +9,26 @@
 
 namespace corpuscle::circuit {
 
-/// What is asked of IDA. Crossings: when this unknown rises through this level.
+/// Options of one integration. Optionally records the times when one unknown rises through a level.
 struct IdaOptions {
-    double step = 0, stop = 0;           ///< s: of the analysis, as sources take them
-    std::vector<double> output_times{};         ///< s, in order: where x is wanted
-    int crossing_unknown = -1;                    ///< an unknown; -1: none
+    double step = 0, stop = 0;           ///< s; step and end of the analysis, as passed to the sources
+    std::vector<double> output_times{};         ///< s, ascending; the times at which x is stored
+    int crossing_unknown = -1;                    ///< index of the unknown whose crossings are recorded; -1 for none
     double crossing_level = 0;                    ///< V
-    double reltol = 1e-9, vntol = 1e-9;  ///< V; charges alike, as their node's capacitance times this
+    double reltol = 1e-9, vntol = 1e-9;  ///< vntol in V; the tolerance of a charge is vntol times the capacitance of its node
     long max_steps = 20'000'000;              ///< steps
 };
 
 struct IdaResult {
-    std::vector<std::vector<double>> x;  ///< at the times asked for
+    std::vector<std::vector<double>> x;  ///< solution at each output time
     std::vector<double> crossings;       ///< s
     long steps = 0, evaluations = 0;
-    std::string error;  ///< why it did not get to the end; empty: it did
+    std::string error;  ///< why the run stopped before the end; empty if it did not
 };
 
-/// From x at t = 0 on.
-///     f(x, t) + dq/dt = 0,   q - q(x) = 0   in the unknowns (x, q): charge is kept where nodes jump.
-/// It stops at each corner of a source and begins anew there. A current through a source is a slope of a charge, so it is not judged.
+/// Integrates from `start` (x at t = 0):
+///     f(x, t) + dq/dt = 0,   q - q(x) = 0   in the unknowns (x, q), so that charge is conserved where node voltages jump.
+/// Stops at each breakpoint of a source and restarts there. A current through a source is the derivative of a charge and is not checked.
 IdaResult integrate_with_ida(System&, double gmin, const std::vector<double>& start, const IdaOptions&);
 
 }  // namespace corpuscle::circuit

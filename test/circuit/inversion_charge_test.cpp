@@ -1,4 +1,4 @@
-// The channel's charge against arithmetic of 50 digits and more (MPFR, 200 bits).
+// The channel's charge compared with arithmetic of more than 50 digits (MPFR, 200 bits).
 
 #include "circuit/device/inversion_charge.hpp"
 
@@ -22,7 +22,7 @@ public:
     Exact(const Exact&) = delete;
     Exact& operator=(const Exact&) = delete;
 
-    /// How far `found` is from the root, as a part of the root.
+    /// Relative error of `found`.
     double error(double x, double found) {
         mpfr_set_d(q_, found, MPFR_RNDN);
         for (int step = 0; step < 6; ++step) {  // Newton in ln q: q <- q (1 + (x - q - ln q) / (1 + q))

@@ -1,4 +1,4 @@
-// .meas of transients: against closed forms, against ngspice on the same netlists, and what is refused.
+// .meas of transients: compared with closed forms and with ngspice on the same netlists; error messages.
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@
 namespace corpuscle::circuit::test {
 namespace {
 
-/// What a .meas line, without ".meas tran x ", finds along v(a) = y (and v(b) = 0) at the times given.
+/// Result of a .meas line (given without ".meas tran x ") for v(a) = y and v(b) = 0 at the given times.
 double measured(const std::string& words, const std::vector<double>& t, const std::vector<double>& y) {
     const Plot head{"Transient Analysis", false, true, {{"time", "time", {}}, {"v(a)", "voltage", {}}, {"v(b)", "voltage", {}}}};
     Directive c{"meas", {"tran", "x"}, {}, {}};
@@ -33,7 +33,7 @@ const std::vector<double> times{0, 1, 3, 4, 8}, values{0, 2, -2, -1, 3};  // 0 a
 TEST(MeasureInfo, FindsValuesBetweenPoints) {
     EXPECT_DOUBLE_EQ(measured("find v(a) at=0.5", times, values), 1);
     EXPECT_DOUBLE_EQ(measured("find v(a) at=3", times, values), -2);
-    EXPECT_DOUBLE_EQ(measured("find v(a) at=8.000000001", times, values), 3) << "rounding may put a place beyond the end";
+    EXPECT_DOUBLE_EQ(measured("find v(a) at=8.000000001", times, values), 3) << "rounding may put a time beyond the end";
     EXPECT_TRUE(std::isnan(measured("find v(a) at=8.1", times, values)));
     EXPECT_TRUE(std::isnan(measured("find v(a) at=-0.1", times, values)));
     EXPECT_DOUBLE_EQ(measured("find v(a,b) when v(a)=1 fall=1", times, values), 1);
@@ -41,7 +41,7 @@ TEST(MeasureInfo, FindsValuesBetweenPoints) {
     EXPECT_DOUBLE_EQ(measured("deriv v(a) when v(a)=0 rise=last", times, values), 1);
 }
 
-TEST(MeasureInfo, TellsCrossingsApart) {
+TEST(MeasureInfo, DistinguishesCrossings) {
     EXPECT_DOUBLE_EQ(measured("when v(a)=1", times, values), 0.5);
     EXPECT_DOUBLE_EQ(measured("when v(a)=1 cross=2", times, values), 1.5);
     EXPECT_DOUBLE_EQ(measured("when v(a)=1 rise=2", times, values), 6);
@@ -59,7 +59,7 @@ TEST(MeasureInfo, TellsCrossingsApart) {
 TEST(MeasureInfo, TakesTheTimeBetweenTwoEdges) {
     EXPECT_DOUBLE_EQ(measured("trig v(a) val=1 rise=1 targ v(a) val=1 rise=2", times, values), 5.5);
     EXPECT_DOUBLE_EQ(measured("trig at=1 targ v(a) td=2.5 val=0 cross=1", times, values), 4);
-    EXPECT_DOUBLE_EQ(measured("trig v(a)=1 fall=1 targ at=1", times, values), -0.5) << "what comes before is negative";
+    EXPECT_DOUBLE_EQ(measured("trig v(a)=1 fall=1 targ at=1", times, values), -0.5) << "an earlier target gives a negative delay";
     EXPECT_TRUE(std::isnan(measured("trig v(a) val=1 rise=1 targ v(a) val=9 rise=2", times, values)));
 }
 
@@ -103,29 +103,29 @@ TEST(MeasureInfo, MorePointsOnTheSameLinesChangeNothing) {
     }));
 }
 
-TEST(MeasureInfo, SaysWhatIsWrongAndWhere) {
-    const auto told = [](const std::string& words) {
+TEST(MeasureInfo, ReportsErrorsWithTheirLocation) {
+    const auto warning = [](const std::string& words) {
         const auto netlist = parse_netlist_text("t\nv1 a 0 1\nr1 a 0 1k\n.tran 1m 2m\n.meas tran x " + words + "\n");
         const auto outcome = run_directives(std::make_shared<const Circuit>(*netlist->elaborate()));
         const auto text = outcome ? "nothing" : outcome.error().text();
         return text.substr(text.find("test.cir") == std::string::npos ? 0 : text.find("test.cir") + 9);
     };
-    EXPECT_EQ(told("find v(b) at=1m"), "5:19: .meas: there is no curve 'v(b)' in 'Transient Analysis'");
-    EXPECT_EQ(told("find v(a) at=soon"), "5:24: .meas: 'at=soon': expected a number after 'at='");
-    EXPECT_EQ(told("find v(a)"), "5:1: .meas: '': expected at=VALUE or when CURVE=VALUE");
-    EXPECT_EQ(told("when v(a)"), "5:19: .meas: 'v(a)' must be CURVE=VALUE");
-    EXPECT_EQ(told("when v(a)=1 rise=0"), "5:26: .meas: 'rise=0' must be 1, 2 ... or last");
-    EXPECT_EQ(told("trig v(a) val=1 rise=1"), "5:1: .meas: expected targ after trig");
-    EXPECT_EQ(told("max v(a) at=1"), "5:23: .meas: unexpected 'at=1'");
-    EXPECT_EQ(told("err v(a) v(a)"),
+    EXPECT_EQ(warning("find v(b) at=1m"), "5:19: .meas: there is no curve 'v(b)' in 'Transient Analysis'");
+    EXPECT_EQ(warning("find v(a) at=soon"), "5:24: .meas: 'at=soon': expected a number after 'at='");
+    EXPECT_EQ(warning("find v(a)"), "5:1: .meas: '': expected at=VALUE or when CURVE=VALUE");
+    EXPECT_EQ(warning("when v(a)"), "5:19: .meas: 'v(a)' must be CURVE=VALUE");
+    EXPECT_EQ(warning("when v(a)=1 rise=0"), "5:26: .meas: 'rise=0' must be 1, 2 ... or last");
+    EXPECT_EQ(warning("trig v(a) val=1 rise=1"), "5:1: .meas: expected targ after trig");
+    EXPECT_EQ(warning("max v(a) at=1"), "5:23: .meas: unexpected 'at=1'");
+    EXPECT_EQ(warning("err v(a) v(a)"),
               "5:14: .meas: unknown measurement 'err'; expected one of find, when, deriv, min, max, pp, avg, rms, integ, min_at, "
               "max_at, trig, count, param=");
-    EXPECT_EQ(told("find par('v(a)+q') at=1"), "5:19: .meas: unknown name 'q'");
-    EXPECT_EQ(told("find par('v(q)') at=1"), "5:19: .meas: there is no curve 'par('v(q)')' in 'Transient Analysis'");
+    EXPECT_EQ(warning("find par('v(a)+q') at=1"), "5:19: .meas: unknown name 'q'");
+    EXPECT_EQ(warning("find par('v(q)') at=1"), "5:19: .meas: there is no curve 'par('v(q)')' in 'Transient Analysis'");
 }
 
-/// A transient that is a closed form: v(out) of an RC behind a step at 1 ms.
-TEST(MeasureInfo, OfAChargingCapacitorIsWhatIsWrittenOnPaper) {
+/// A transient with a closed form: v(out) of an RC with a step at 1 ms.
+TEST(MeasureInfo, OfAChargingCapacitorAgreesWithTheClosedForm) {
     const auto found =
         run_netlist("rc\nv1 in 0 pulse(0 1 1m 1n 1n 1 2)\nr1 in out 1k\nc1 out 0 1u\n.tran 10u 6m 0 2u\n.meas tran half when v(out)=0.5\n"
             ".meas tran later trig v(in) val=0.5 rise=1 targ v(out) val=0.9 rise=1\n.meas tran mean avg v(out) from=1.5m to=2.5m\n"
@@ -146,7 +146,7 @@ TEST(MeasureInfo, OfAChargingCapacitorIsWhatIsWrittenOnPaper) {
     EXPECT_DOUBLE_EQ(found.number("sum"), found.number("half") + found.number("later"));
 }
 
-TEST(MeasureInfo, TakesFormulasOfCurves) {
+TEST(MeasureInfo, TakesExpressionsOfCurves) {
     const auto found =
         run_netlist("t\nv1 a 0 pwl(0 0 1 2)\nr1 a 0 2\n.tran 1m 1 0 1m\n.meas tran energy integ par('-v(a)*i(v1)')\n"
             ".meas tran when_half when par('v(a)>=0.5 ? 1 : -1')=0\n.meas tran after trig par('v(a)^2') val=1 rise=1 targ "
@@ -155,7 +155,7 @@ TEST(MeasureInfo, TakesFormulasOfCurves) {
     EXPECT_NEAR(found.number("when_half"), 0.25, 1e-3);
 }
 
-/// ngspice ends avg, min, max and pp at points, and has neither deriv nor count: short steps, and what both have.
+/// ngspice ends avg, min, max and pp at points, and lacks deriv and count. The test uses short steps and only common measurements.
 TEST(MeasureInfo, OfATransientIsThatOfNgspice) {
     const TemporaryFolder folder;
     const std::string deck = folder.write("x.cir", R"(measures in time

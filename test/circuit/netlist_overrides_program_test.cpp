@@ -1,4 +1,4 @@
-// The program with netlists of which something is set or shown: respond, run, list, from any folder.
+// The program's verbs respond, run and list with overrides and probes of netlists, from any folder.
 
 #include <gtest/gtest.h>
 
@@ -22,12 +22,12 @@ std::size_t spikes_in(const TemporaryFolder& folder, const std::string& out) {
     return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')) - 1;
 }
 
-/// A divider_text of the supply, charged by the force.
+/// A divider of the supply, charged by the force.
 constexpr const char* divider_text =
     "divider\n.param supply=1 r_top=1k\nvdd vdd 0 {supply}\nxdiv vdd mid half\niin 0 mid force 1m\n"
     ".subckt half a b\nrtop a b {r_top}\nrlow b 0 1k\nclow b 0 1u\n.ends\n.spike v(mid) 1.2\n.save v(mid)\n";
 
-TEST(KnobsProgram, TheChipAnswersInAnyFolderAndWhatIsSetChangesIt) {
+TEST(NetlistOverridesProgram, TheChipRespondsInAnyFolderAndOverridesChangeIt) {
     const TemporaryFolder folder;
     const std::string press = "respond press --quiet --afferent ";
     ASSERT_EQ(run_program(folder, press + "sa1-circuit -o plain").status, 0);
@@ -51,7 +51,7 @@ TEST(KnobsProgram, TheChipAnswersInAnyFolderAndWhatIsSetChangesIt) {
     EXPECT_FALSE(one["parameters"].contains("vtn_shift")) << "the card's own";
 }
 
-TEST(KnobsProgram, OptionsHoldForEveryNetlistAndAWishForOneGoesBefore) {
+TEST(NetlistOverridesProgram, OptionsApplyToEveryNetlistAndAnOverrideForOneTakesPrecedence) {
     const TemporaryFolder folder;
     folder.write("a.cir", divider_text), folder.write("b.cir", divider_text);
     const auto ran = run_program(folder, "respond step -a a.cir,b.cir,sa1 --supply 0.5V --set b.cir.SUPPLY=2 --trace 'div.a,mid,i(top)' -o out");
@@ -68,7 +68,7 @@ TEST(KnobsProgram, OptionsHoldForEveryNetlistAndAWishForOneGoesBefore) {
     EXPECT_TRUE(has(page, "i(xdiv.rtop)"));
 }
 
-TEST(KnobsProgram, WhatCannotBeIsRefusedByItsName) {
+TEST(NetlistOverridesProgram, ImpossibleOverridesAreRejectedByName) {
     const TemporaryFolder folder;
     folder.write("a.cir", divider_text);
     auto other = std::string(divider_text);
@@ -92,10 +92,10 @@ TEST(KnobsProgram, WhatCannotBeIsRefusedByItsName) {
     says("--afferent a.cir --set c.cir.div.rtop=2k", 2, "no afferent or stimulus 'c.cir.div' in this run");
     says("--afferent a.cir --mismatch half", 1, "--mismatch half: 'half' is not a seed");
     says("--afferent a.cir --copies 3 --spread a.cir.temp=5%", 1, "unknown parameter 'temp'");
-    EXPECT_TRUE(folder.file_names().size() == 2) << "nothing is left behind";
+    EXPECT_TRUE(folder.file_names().size() == 2) << "no other file is left";
 }
 
-TEST(KnobsProgram, CopiesOfANetlistSpreadItsParametersAndAreTheChipsOfASeed) {
+TEST(NetlistOverridesProgram, CopiesOfANetlistVaryItsParametersAndAreTheChipsOfASeed) {
     const TemporaryFolder folder;
     folder.write("a.cir", divider_text);
     const auto ran = run_program(folder, "respond step -a a.cir --copies 3 --spread a.cir.R_top=5% --trace 'i(rtop)' -o out --quiet");
@@ -109,12 +109,12 @@ TEST(KnobsProgram, CopiesOfANetlistSpreadItsParametersAndAreTheChipsOfASeed) {
     const auto row = traces.substr(traces.find('\n') + 1);
     double time = 0, force = 0, i1 = 0, i2 = 0;
     ASSERT_EQ(std::sscanf(row.c_str(), "%lf,%lf,%lf,%lf", &time, &force, &i1, &i2), 4);
-    const auto expected = [&](double r) { return (1 - force) / (r + 1e3); };  // the force, 1 mA a newton, on 1 kohm
+    const auto expected = [&](double r) { return (1 - force) / (r + 1e3); };  // the force, 1 mA/N, into 1 kohm
     EXPECT_NEAR(i1, expected(r1), 1e-8);
     EXPECT_NEAR(i2, expected(r2), 1e-8);
 }
 
-TEST(KnobsProgram, RunTakesTheSameAndSavesTracesBesideItsOwn) {
+TEST(NetlistOverridesProgram, RunTakesTheSameOptionsAndSavesProbesInAddition) {
     const TemporaryFolder folder;
     folder.write("a.cir", std::string(divider_text) + ".op\n.expect v(mid) 0.5 1%\n");
     EXPECT_EQ(run_program(folder, "run a.cir").status, 0);
@@ -126,13 +126,13 @@ TEST(KnobsProgram, RunTakesTheSameAndSavesTracesBesideItsOwn) {
     EXPECT_NEAR(curves["v(mid)"][0].get<double>(), 0.5, 1e-6);
     EXPECT_NEAR(curves["v(vdd)"][0].get<double>(), 2, 1e-9);
     EXPECT_NEAR(curves["i(xdiv.rtop)"][0].get<double>(), 0.5e-3, 1e-9);
-    EXPECT_EQ(run_program(folder, "run a.cir --trace vdd").status, 0) << "as it is written, it still expects";
+    EXPECT_EQ(run_program(folder, "run a.cir --trace vdd").status, 0) << "without overrides its .expect lines still apply";
     EXPECT_EQ(run_program(folder, "run a.cir --set div.top").status, 2);
     EXPECT_TRUE(has(run_program(folder, "run a.cir --trace vd").err, "--trace vd: a.cir has no such node or device; did you mean 'vdd'?"));
     EXPECT_EQ(run_program(folder, "export sa1-circuit --for ngspice -o deck.cir").status, 0);
 }
 
-TEST(KnobsProgram, ListTellsWhatAChipHas) {
+TEST(NetlistOverridesProgram, ListShowsTheContentsOfAChip) {
     const TemporaryFolder folder;
     const auto listed = Json::parse(run_program(folder, "list sa1-circuit --json").out)["afferents"][0];
     EXPECT_EQ(listed["name"], "sa1-circuit");

@@ -1,4 +1,4 @@
-// What is set of netlists by name, and what is shown of them.
+// Overrides of netlist values by name, and selection of probes by name.
 
 #include "circuit/netlist_overrides.hpp"
 
@@ -17,27 +17,27 @@ namespace {
 
 using corpuscle::test::value_or_throw;
 
-NetlistOverride knob(const std::string& text) {
+NetlistOverride make_override(const std::string& text) {
     const auto equals = text.find('=');
     return {text.substr(0, equals), text.substr(equals + 1), "--set " + text};
 }
 
-/// Files of a test's own, and what is set of the first, which is called own.cir.
-class KnobFiles {
+/// Temporary netlist files, and overrides of the first one, own.cir.
+class OverrideFiles {
     corpuscle::test::TemporaryFolder folder_;
 
 public:
-    KnobFiles(const std::string& netlist, const std::map<std::string, std::string>& more = {}) {
+    OverrideFiles(const std::string& netlist, const std::map<std::string, std::string>& more = {}) {
         folder_.write("own.cir", netlist);
         for (const auto& [name, text] : more) folder_.write(name, text);
     }
     Result<Circuit> set(const std::vector<std::string>& texts) const {
-        std::vector<NetlistOverride> knobs;
-        for (const auto& t : texts) knobs.push_back(knob(t));
-        const auto netlist = apply_overrides(folder_ / "own.cir", knobs);
+        std::vector<NetlistOverride> overrides;
+        for (const auto& t : texts) overrides.push_back(make_override(t));
+        const auto netlist = apply_overrides(folder_ / "own.cir", overrides);
         return netlist ? netlist->elaborate() : netlist.error();
     }
-    std::string refusal(const std::vector<std::string>& texts) const {
+    std::string error_of(const std::vector<std::string>& texts) const {
         const auto done = set(texts);
         return done ? "" : done.error().message;
     }
@@ -54,16 +54,16 @@ constexpr const char* blocks =
 
 std::vector<std::string_view> some_names() { return {"xone.xleft.mn1", "xone.xright.mn1", "xtwo.xleft.mn1", "mn1", "m1", "xone.x", "mm1"}; }
 
-TEST(PathNames, ATailIsEnoughAndAWholeNameGoesBefore) {
+TEST(PathNames, ATailIsEnoughAndACompleteNameTakesPrecedence) {
     const auto names = some_names();
-    using Places = std::vector<std::size_t>;
-    EXPECT_EQ(find_matching_names(names, "xone.xleft.mn1", LastPiece::element), Places{0});
-    EXPECT_EQ(find_matching_names(names, "ONE.Left.N1", LastPiece::element), Places{0});
-    EXPECT_EQ(find_matching_names(names, "right.n1", LastPiece::element), Places{1});
-    EXPECT_EQ(find_matching_names(names, "left.n1", LastPiece::element), (Places{0, 2}));
-    EXPECT_EQ(find_matching_names(names, "mn1", LastPiece::element), Places{3});
-    EXPECT_EQ(find_matching_names(names, "m1", LastPiece::element), Places{4}) << "mm1 without its letter comes behind";
-    EXPECT_EQ(find_matching_names(names, "x", LastPiece::node), Places{5});
+    using Indices = std::vector<std::size_t>;
+    EXPECT_EQ(find_matching_names(names, "xone.xleft.mn1", LastPiece::element), Indices{0});
+    EXPECT_EQ(find_matching_names(names, "ONE.Left.N1", LastPiece::element), Indices{0});
+    EXPECT_EQ(find_matching_names(names, "right.n1", LastPiece::element), Indices{1});
+    EXPECT_EQ(find_matching_names(names, "left.n1", LastPiece::element), (Indices{0, 2}));
+    EXPECT_EQ(find_matching_names(names, "mn1", LastPiece::element), Indices{3});
+    EXPECT_EQ(find_matching_names(names, "m1", LastPiece::element), Indices{4}) << "mm1 without its letter has lower precedence";
+    EXPECT_EQ(find_matching_names(names, "x", LastPiece::node), Indices{5});
     EXPECT_TRUE(find_matching_names(names, "n1", LastPiece::node).empty()) << "a node's own name has no letter to leave out";
     EXPECT_TRUE(find_matching_names(names, "ft.n1", LastPiece::element).empty());
     EXPECT_TRUE(find_matching_names(names, "", LastPiece::element).empty());
@@ -71,7 +71,7 @@ TEST(PathNames, ATailIsEnoughAndAWholeNameGoesBefore) {
     EXPECT_EQ(short_name("xone.xleft.mn1", 9, LastPiece::node), "one.left.mn1");
 }
 
-TEST(Knobs, ANumberHasTheUnitsOfTheDoor) {
+TEST(NetlistOverrides, ANumberHasTheUnitsOfTheProgramsOptions) {
     const auto is = [](const std::string& text, double value, std::string_view unit) {
         const auto read = parse_number_with_unit(text);
         ASSERT_TRUE(read) << text;
@@ -83,8 +83,8 @@ TEST(Knobs, ANumberHasTheUnitsOfTheDoor) {
     for (const auto* wrong : {"10meg", "", "four", "4pF5", "1e999"}) EXPECT_FALSE(parse_number_with_unit(wrong)) << wrong;
 }
 
-TEST(Knobs, WhatIsSetIsWhatTheCircuitHasAndNothingElseIs) {
-    const KnobFiles files(blocks);
+TEST(NetlistOverrides, AnOverrideChangesItsValueAndNothingElse) {
+    const OverrideFiles files(blocks);
     const auto plain = value_or_throw(files.set({}));
     const auto c = value_or_throw(files.set({"C_u=4pF", "GAIN=3", "one.left.N1=8x3", "xtwo.xright.mn1.w=1.2um", "triple.n1.M=5",
                                    "two.left.ru=20 kohm", "two.right.cu=7p", "triple.ru.m=4", "p=2 V", "temp=85"}));
@@ -103,48 +103,48 @@ TEST(Knobs, WhatIsSetIsWhatTheCircuitHasAndNothingElseIs) {
     EXPECT_EQ(plain.temperature, 27);
     for (const auto* untouched : {"xone.xright.mn1", "xtwo.xleft.mn1"})
         EXPECT_EQ(element(c, untouched).values, element(plain, untouched).values);
-    EXPECT_EQ(value_or_throw(files.set({"c_u=1p", "C_U=2p"})).parameters.at("c_u"), 2e-12) << "the later goes before";
+    EXPECT_EQ(value_or_throw(files.set({"c_u=1p", "C_U=2p"})).parameters.at("c_u"), 2e-12) << "the later override takes precedence";
 }
 
-TEST(Knobs, WhatIsUnknownOrNonsenseIsToldWithWhatThereIs) {
-    const KnobFiles files(blocks);
-    const auto says = [&](const std::string& knob_text, const std::string& what) {
-        const auto said = files.refusal({knob_text});
-        EXPECT_NE(said.find("--set " + knob_text + ": "), std::string::npos) << said;
-        EXPECT_NE(said.find(what), std::string::npos) << said;
+TEST(NetlistOverrides, UnknownNamesAndWrongValuesAreRejectedWithSuggestions) {
+    const OverrideFiles files(blocks);
+    const auto expect_error = [&](const std::string& knob_text, const std::string& what) {
+        const auto message = files.error_of({knob_text});
+        EXPECT_NE(message.find("--set " + knob_text + ": "), std::string::npos) << message;
+        EXPECT_NE(message.find(what), std::string::npos) << message;
     };
-    says("c_v=4pF", "has no parameter or device 'c_v'; did you mean 'c_u'?");
-    says("one.left.n2=8x4", "did you mean 'one.left.n1'?");
-    says("one.lft.n1.w=1u", "did you mean 'one.left.n1.w'?");
-    says("left.n1=8x4", "'left.n1' is ambiguous: xone.xleft.mn1, xtwo.xleft.mn1; write more of its path");
-    says("left.n1.w=1u", "'left.n1' is ambiguous: xone.xleft.mn1, xtwo.xleft.mn1; write more of its path");
-    says("one.left.n1.ww=1u", "xone.xleft.mn1 has no 'ww'; did you mean 'w'? (it has w, l, m, stack, delvto");
-    says("one.left.n1=0x4", "0 columns; at least 1 is required");
-    says("one.left.n1=8x0", "0 units in series; at least 1 is required");
-    says("one.left.n1=2.5x4", "'2.5x4' is not an array; write COLUMNSxSERIES, such as 8x4");
-    says("one.left.n1=4pF", "'4pF' is not an array");
-    says("one.left.n1.w=-1u", "-1 um is outside [1 nm, 1 m]");
-    says("one.left.n1.w=1V", "'1V' is a voltage; expected a value in m");
-    says("one.left.n1.m=0", "0 is outside [1e-06, 1e+09]");
-    says("one.left.ru=0", "a resistor must not be 0 ohm");
-    says("one.left.cu=-1p", "-1 pF must not be below 0");
-    says("one.left.ru.m=0", "0 must be above 0");
-    says("vs=2V", "vs is a source with a time waveform");
-    says("b1=2", "b1 has an expression; its value is not a single number");
-    says("c_u=4q", "'4q' is not a number; write a number and a unit of V, A, F, ohm, s, Hz, m, S, N or none");
-    says("temp=hot", "'hot' is not a temperature");
-    says("temp=-300", "-300 C is outside");
-    says("mismatch=-1", "'-1' is not a seed");
-    says("mismatch=7/half", "'7/half' is not a seed; write an integer from 0 to 2^53, or SEED/CHIP");
-    says("corner=ss", "there is no corner 'ss': the netlist has no line .lib 'file' section");
+    expect_error("c_v=4pF", "has no parameter or device 'c_v'; did you mean 'c_u'?");
+    expect_error("one.left.n2=8x4", "did you mean 'one.left.n1'?");
+    expect_error("one.lft.n1.w=1u", "did you mean 'one.left.n1.w'?");
+    expect_error("left.n1=8x4", "'left.n1' is ambiguous: xone.xleft.mn1, xtwo.xleft.mn1; write more of its path");
+    expect_error("left.n1.w=1u", "'left.n1' is ambiguous: xone.xleft.mn1, xtwo.xleft.mn1; write more of its path");
+    expect_error("one.left.n1.ww=1u", "xone.xleft.mn1 has no 'ww'; did you mean 'w'? (it has w, l, m, stack, delvto");
+    expect_error("one.left.n1=0x4", "0 columns; at least 1 is required");
+    expect_error("one.left.n1=8x0", "0 units in series; at least 1 is required");
+    expect_error("one.left.n1=2.5x4", "'2.5x4' is not an array; write COLUMNSxSERIES, such as 8x4");
+    expect_error("one.left.n1=4pF", "'4pF' is not an array");
+    expect_error("one.left.n1.w=-1u", "-1 um is outside [1 nm, 1 m]");
+    expect_error("one.left.n1.w=1V", "'1V' is a voltage; expected a value in m");
+    expect_error("one.left.n1.m=0", "0 is outside [1e-06, 1e+09]");
+    expect_error("one.left.ru=0", "a resistor must not be 0 ohm");
+    expect_error("one.left.cu=-1p", "-1 pF must not be below 0");
+    expect_error("one.left.ru.m=0", "0 must be above 0");
+    expect_error("vs=2V", "vs is a source with a time waveform");
+    expect_error("b1=2", "b1 has an expression; its value is not a single number");
+    expect_error("c_u=4q", "'4q' is not a number; write a number and a unit of V, A, F, ohm, s, Hz, m, S, N or none");
+    expect_error("temp=hot", "'hot' is not a temperature");
+    expect_error("temp=-300", "-300 C is outside");
+    expect_error("mismatch=-1", "'-1' is not a seed");
+    expect_error("mismatch=7/half", "'7/half' is not a seed; write an integer from 0 to 2^53, or SEED/CHIP");
+    expect_error("corner=ss", "there is no corner 'ss': the netlist has no line .lib 'file' section");
 }
 
 constexpr const char* cards =
     ".lib tt\n.param shift=0\n.lib 'card.lib' devices\n.endl\n.lib ss\n.param shift=40m\n.lib 'card.lib' devices\n.endl\n"
     ".lib devices\n.model nm nmos (level=80 vto='0.4+shift')\n.endl\n";
 
-TEST(Knobs, AChipOfASeedIsTheOneThatADrawOfManyHas) {
-    const KnobFiles files("t\nm1 a a 0 0 nm\n.model nm nmos (level=80 avt=1n)\nv1 a 0 1\n.op\n", {});
+TEST(NetlistOverrides, AChipOfASeedIsTheSameInASampleOfMany) {
+    const OverrideFiles files("t\nm1 a a 0 0 nm\n.model nm nmos (level=80 avt=1n)\nv1 a 0 1\n.op\n", {});
     const auto chip = chip_sample_of(value_or_throw(files.set({"mismatch=7/5"})));
     ASSERT_TRUE(chip);
     EXPECT_EQ(chip->seed, 7U);
@@ -154,17 +154,17 @@ TEST(Knobs, AChipOfASeedIsTheOneThatADrawOfManyHas) {
     EXPECT_FALSE(chip_sample_of(value_or_throw(files.set({}))));
 }
 
-TEST(Knobs, ACornerIsReadInPlaceOfTheSectionOfEachLibraryThatHasIt) {
+TEST(NetlistOverrides, ACornerReplacesTheSectionOfEachLibraryThatHasIt) {
     const std::string netlist = "t\n.lib 'card.lib' tt\nm1 a a 0 0 nm\nv1 a 0 1\n.op\n";
-    const KnobFiles files(netlist, {{"card.lib", cards}});
+    const OverrideFiles files(netlist, {{"card.lib", cards}});
     EXPECT_NEAR(value_or_throw(files.set({})).models[0].values.at("vto"), 0.4, 1e-12);
     EXPECT_NEAR(value_or_throw(files.set({"corner=SS"})).models[0].values.at("vto"), 0.44, 1e-12);
     EXPECT_NEAR(value_or_throw(files.set({"corner=ss", "corner=tt"})).models[0].values.at("vto"), 0.4, 1e-12);
     EXPECT_NE(
-        files.refusal({"corner=sz"}).find("--set corner=sz: no corner 'sz': library 'card.lib' has tt, ss, devices; did you mean 'ss'?"),
+        files.error_of({"corner=sz"}).find("--set corner=sz: no corner 'sz': library 'card.lib' has tt, ss, devices; did you mean 'ss'?"),
         std::string::npos)
-        << files.refusal({"corner=sz"});
-    const KnobFiles two(
+        << files.error_of({"corner=sz"});
+    const OverrideFiles two(
         netlist + ".include 'more.inc'\n",
         {{"card.lib", cards}, {"other.lib", ".lib usual\n.param r=1k\n.endl\n"}, {"more.inc", ".lib 'other.lib' usual\nr1 a 0 {r}\n"}});
     const auto c = value_or_throw(two.set({"corner=ss"}));
@@ -172,24 +172,25 @@ TEST(Knobs, ACornerIsReadInPlaceOfTheSectionOfEachLibraryThatHasIt) {
     EXPECT_EQ(element(c, "r1").value, 1e3) << "a library without that corner keeps its own section";
 }
 
-TEST(EmbeddedNetlist, NetlistsByNameAreTheFilesOfTheProject) {
+TEST(EmbeddedNetlists, AreTheFilesOfTheProject) {
     for (const auto& c : embedded_netlists) {
         const auto by_name = value_or_throw(CircuitAfferentFactory::create(value_or_throw(open_netlist(std::string(c.name)))));
-        const auto by_path = value_or_throw(CircuitAfferentFactory::create(value_or_throw(Netlist::read(test::project_root() + "/" + std::string(c.file)))));
+        const auto by_path = value_or_throw(CircuitAfferentFactory::create(value_or_throw(Netlist::read(test::source_root() + "/" + std::string(c.file)))));
         EXPECT_EQ(by_name->fingerprint, by_path->fingerprint) << c.name;
         EXPECT_EQ(by_name->title(), by_path->title());
         EXPECT_EQ(by_name->circuit->file, c.file);
     }
     EXPECT_NE(find_embedded_netlist("SA1-Circuit"), nullptr);
     EXPECT_EQ(find_embedded_netlist("sa1"), nullptr);
-    const auto ss = value_or_throw(value_or_throw(apply_overrides("sa1-circuit", std::vector<NetlistOverride>{knob("corner=ss"), knob("summer.N3B=8x4")})).elaborate());
+    const auto overrides = std::vector<NetlistOverride>{make_override("corner=ss"), make_override("summer.N3B=8x4")};
+    const auto ss = value_or_throw(value_or_throw(apply_overrides("sa1-circuit", overrides)).elaborate());
     EXPECT_EQ(element(ss, "xsummer.mn3b").values.at("m"), 8);
     EXPECT_NEAR(ss.models[0].values.at("vto") - value_or_throw(value_or_throw(open_netlist("sa1-circuit")).elaborate()).models[0].values.at("vto"), 0.04,
                 1e-12);
 }
 
 std::string spiker_text(const std::string& section, const std::string& more) {
-    auto text = corpuscle::test::read_file(test::project_root() + "/circuits/spiker.cir");
+    auto text = corpuscle::test::read_file(test::source_root() + "/circuits/spiker.cir");
     text.replace(text.find("tt"), 2, section);
     text.insert(text.find(".save"), more);
     return text;
@@ -201,44 +202,44 @@ std::vector<Spike> spikes_of_copy(const Netlist& netlist, std::uint32_t copy) {
     return corpuscle::test::spikes(*afferent, force, 4096);
 }
 
-TEST(Knobs, MismatchIsTheFirstChipOfADraw) {
+TEST(NetlistOverrides, MismatchIsTheFirstChipOfASample) {
     for (const std::string section : {"tt", "mc"}) {
-        const auto drawn = value_or_throw(parse_netlist_text(spiker_text(section, ".mc 3 seed=7\n"))), plain = value_or_throw(parse_netlist_text(spiker_text(section, "")));
+        const auto sampled = value_or_throw(parse_netlist_text(spiker_text(section, ".mc 3 seed=7\n"))), plain = value_or_throw(parse_netlist_text(spiker_text(section, "")));
         auto with = [&](const Netlist& netlist) {
             ResolvedOverrides changes;
             changes.mismatch_seed = 7;
             return netlist.with_overrides(changes);
         };
-        const auto chip = spikes_of_copy(drawn, 1);
+        const auto chip = spikes_of_copy(sampled, 1);
         ASSERT_GT(chip.size(), 3U);
         EXPECT_EQ(spikes_of_copy(with(plain), 0), chip);
-        EXPECT_EQ(spikes_of_copy(with(drawn), 0), chip) << "in place of .mc";
-        EXPECT_EQ(spikes_of_copy(with(plain), 2), spikes_of_copy(drawn, 2)) << "its copies are the chips of that seed";
+        EXPECT_EQ(spikes_of_copy(with(sampled), 0), chip) << "in place of .mc";
+        EXPECT_EQ(spikes_of_copy(with(plain), 2), spikes_of_copy(sampled, 2)) << "its copies are the chips of that seed";
         EXPECT_NE(spikes_of_copy(plain, 0), chip);
-        auto variants = value_or_throw(NetlistVariants::create(with(drawn)));
+        auto variants = value_or_throw(NetlistVariants::create(with(sampled)));
         EXPECT_EQ(variants.count(), 1U);
         EXPECT_FALSE(variants.has_chips());
         ASSERT_TRUE(value_or_throw(variants.at(0)).sample);
     }
 }
 
-TEST(Knobs, AnotherNumberIsAnotherMarkAlsoInAFormula) {
+TEST(NetlistOverrides, AnotherNumberGivesAnotherFingerprintAlsoInAnExpression) {
     const std::string text =
         "t\n.param g=1 v0=0\niin 0 a force 1u\nr1 a 0 1k\nb1 a 0 i={g*1u*v(a)}\nc1 a 0 1n\n.ic v(a)={v0}\n.spike v(a) 1\n";
-    const KnobFiles files(text);
-    const auto mark = [&](const std::vector<std::string>& knobs) {
-        return value_or_throw(CircuitAfferentFactory::create(std::make_shared<const Circuit>(value_or_throw(files.set(knobs)))))->fingerprint;
+    const OverrideFiles files(text);
+    const auto fingerprint = [&](const std::vector<std::string>& overrides) {
+        return value_or_throw(CircuitAfferentFactory::create(std::make_shared<const Circuit>(value_or_throw(files.set(overrides)))))->fingerprint;
     };
-    EXPECT_EQ(mark({}), mark({"g=1"}));
-    EXPECT_NE(mark({}), mark({"g=2"}));
-    EXPECT_NE(mark({}), mark({"v0=1"}));
-    EXPECT_NE(mark({}), mark({"r1=2k"}));
-    EXPECT_NE(mark({}), mark({"temp=28"}));
+    EXPECT_EQ(fingerprint({}), fingerprint({"g=1"}));
+    EXPECT_NE(fingerprint({}), fingerprint({"g=2"}));
+    EXPECT_NE(fingerprint({}), fingerprint({"v0=1"}));
+    EXPECT_NE(fingerprint({}), fingerprint({"r1=2k"}));
+    EXPECT_NE(fingerprint({}), fingerprint({"temp=28"}));
 }
 
-TEST(CurveFollower, NodesAndCurrentsAreFoundByWhatIsTypedOfThem) {
-    const auto c = value_or_throw(KnobFiles("t\n.model nm nmos (level=80)\n.subckt cell a\nmn1 a o 0 0 nm\nro o 0 1k\nco o 0 1p\n.ends\n"
-                                  "xb Vf cell\nxc vf cell\nvdd vf 0 1\nr1 vf u 1\nr2 u 0 1\n.op\n")
+TEST(ProbeNames, NodesAndCurrentsAreFoundByPartialNames) {
+    const auto c = value_or_throw(OverrideFiles("t\n.model nm nmos (level=80)\n.subckt cell a\nmn1 a o 0 0 nm\nro o 0 1k\nco o 0 1p\n.ends\n"
+                                      "xb Vf cell\nxc vf cell\nvdd vf 0 1\nr1 vf u 1\nr2 u 0 1\n.op\n")
                             .set({}));
     const auto is = [&](const std::string& word, const std::string& name) {
         const auto found = resolve_probe(c, word);
@@ -261,7 +262,7 @@ TEST(CurveFollower, NodesAndCurrentsAreFoundByWhatIsTypedOfThem) {
     EXPECT_EQ(split_probes("vf,v(a,b),i(N3B)"), (std::vector<std::string>{"vf", "v(a,b)", "i(N3B)"}));
 }
 
-TEST(SavedQuantity, ADevicesOwnCurrentIsWhatItsSupplyGives) {
+TEST(SavedQuantity, ADevicesOwnCurrentEqualsItsSupplyCurrent) {
     const auto found =
         run_netlist("t\n.lib 'tsmc180.lib' tt\nvd d 0 0.5\nvg g 0 0.45\nm1 d g 0 0 nch w=1.5u l=0.5u m=2\nvr a 0 1\nr1 a 0 4k\n"
             ".save i(m1) i(vd) i(r1) v(d)\n.meas dc most max i(m1)\n.op\n.dc vg 0.3 0.5 0.1\n.tran 1m 2m\n");

@@ -1,5 +1,5 @@
 #pragma once
-// A netlist's text, run: its numbers and its curves.
+// Runs a netlist given as text or file, and returns its numbers and curves.
 
 #include <gtest/gtest.h>
 
@@ -18,9 +18,9 @@
 
 namespace corpuscle::circuit {
 
-/// What a netlist found. Asking for what is not there fails the test and gives NaN.
+/// Results of a netlist. A request for a missing curve or number fails the test and returns NaN.
 class NetlistRun {
-    std::shared_ptr<const Circuit> circuit_;  // the outcome points at its commands
+    std::shared_ptr<const Circuit> circuit_;  // the outcome points to its commands
     RunOutcome outcome_;
 
 public:
@@ -34,7 +34,7 @@ public:
     const std::vector<Error>& warnings() const { return outcome_.warnings; }
     const std::vector<AnalysisRun>& analyses() const { return outcome_.analyses; }
 
-    /// A curve of the first plot that has it, of one analysis ("ac") if named; as .print names them, so v(a,b) and vdb(a) too.
+    /// A curve of the first plot that contains it, optionally of one analysis only ("ac"). Names as in .print, also v(a,b) and vdb(a).
     std::vector<std::complex<double>> complex_curve(const std::string& name, const std::string& analysis = "") const {
         for (const auto& a : outcome_.analyses)
             if (analysis.empty() || a.directive->name == analysis)
@@ -48,7 +48,7 @@ public:
         for (const auto& value : complex_curve(name, analysis)) out.push_back(value.real());
         return out;
     }
-    /// A measure, a number of an analysis, or a curve's last value.
+    /// Value of a measurement, a number of an analysis, or the last value of a curve.
     double number(const std::string& name) const {
         for (const auto& [known, value] : outcome_.numbers)
             if (known == name) return value;
@@ -62,7 +62,7 @@ inline Result<std::string> read_text_file(const std::string& path) {
     return std::string(std::istreambuf_iterator<char>(file), {});
 }
 
-inline Result<Netlist> parse_netlist_text(const std::string& text) { return Netlist::parse(text, test::project_root() + "/process/test.cir", read_text_file); }
+inline Result<Netlist> parse_netlist_text(const std::string& text) { return Netlist::parse(text, test::source_root() + "/process/test.cir", read_text_file); }
 
 inline std::shared_ptr<const Circuit> make_circuit(const std::string& text) {
     const auto netlist = parse_netlist_text(text);
@@ -73,13 +73,14 @@ inline std::shared_ptr<const Circuit> make_circuit(const std::string& text) {
 }
 
 inline NetlistRun run_netlist(Circuit circuit) {
-    const auto kept = std::make_shared<const Circuit>(std::move(circuit));
-    auto outcome = run_directives(kept);
-    if (!outcome) return ADD_FAILURE() << outcome.error().text() << "\n" << kept->title, NetlistRun();
-    return {kept, std::move(*outcome)};
+    const auto shared = std::make_shared<const Circuit>(std::move(circuit));
+    auto outcome = run_directives(shared);
+    if (!outcome) return ADD_FAILURE() << outcome.error().text() << "\n" << shared->title, NetlistRun();
+    return {shared, std::move(*outcome)};
 }
 
-/// The text begins with its title; it stands in process/, where the cards are. `parameters` overrule its .param.
+/// Runs a netlist's text, which begins with its title. Its .lib and .include paths are relative to process/, where the process cards are.
+/// `parameters` override its .param.
 inline NetlistRun run_netlist(const std::string& text, const Values& parameters = {}) {
     const auto netlist = parse_netlist_text(text);
     if (!netlist) return ADD_FAILURE() << netlist.error().text() << "\n" << text, NetlistRun();
@@ -88,7 +89,7 @@ inline NetlistRun run_netlist(const std::string& text, const Values& parameters 
     return run_netlist(std::move(*circuit));
 }
 
-/// Every variant that .step and .mc ask for.
+/// Runs every variant of .step and .mc.
 inline std::vector<NetlistRun> run_variants(const std::string& text) {
     std::vector<NetlistRun> out;
     const auto netlist = parse_netlist_text(text);
@@ -97,24 +98,24 @@ inline std::vector<NetlistRun> run_variants(const std::string& text) {
     if (!variants) return ADD_FAILURE() << variants.error().text() << "\n" << text, out;
     std::unique_ptr<AnalysisContext> bench;
     for (std::size_t k = 0; k < variants->count(); ++k) {
-        auto one = variants->at(k);
-        if (!one) return ADD_FAILURE() << one.error().text() << "\n" << text, out;
-        if (!bench || bench->circuit != one->circuit) {
-            auto made = AnalysisContext::make(one->circuit);
-            if (!made) return ADD_FAILURE() << made.error().text() << "\n" << text, out;
-            bench = std::move(*made);
+        auto variant = variants->at(k);
+        if (!variant) return ADD_FAILURE() << variant.error().text() << "\n" << text, out;
+        if (!bench || bench->circuit != variant->circuit) {
+            auto context = AnalysisContext::make(variant->circuit);
+            if (!context) return ADD_FAILURE() << context.error().text() << "\n" << text, out;
+            bench = std::move(*context);
         }
-        if (one->sample) bench->apply_variation(*one->sample);
+        if (variant->sample) bench->apply_variation(*variant->sample);
         auto outcome = run_directives(*bench);
         if (!outcome) return ADD_FAILURE() << outcome.error().text() << "\n" << text, out;
-        out.emplace_back(one->circuit, std::move(*outcome));
+        out.emplace_back(variant->circuit, std::move(*outcome));
     }
     return out;
 }
 
-/// A netlist of circuits/, with other values of its .param if any are given.
+/// Runs a netlist of circuits/. `parameters` override its .param.
 inline NetlistRun run_netlist_file(const std::string& name, const Values& parameters = {}) {
-    const auto netlist = Netlist::read(test::project_root() + "/circuits/" + name);
+    const auto netlist = Netlist::read(test::source_root() + "/circuits/" + name);
     if (!netlist) return ADD_FAILURE() << netlist.error().text(), NetlistRun();
     auto circuit = netlist->elaborate(parameters);
     if (!circuit) return ADD_FAILURE() << circuit.error().text(), NetlistRun();

@@ -30,7 +30,7 @@ Circuit circuit(const std::string& body, const Files& files = {}, const Values& 
     return c ? std::move(*c) : Circuit{};
 }
 
-std::string refusal(const std::string& body, const Files& files = {}) {
+std::string error_of(const std::string& body, const Files& files = {}) {
     const auto c = read(body, files);
     return c ? "accepted" : c.error().text();
 }
@@ -71,10 +71,10 @@ TEST(NetlistLines, TakeAnyLettersInCommentsAndTitlesOnly) {
     const auto netlist = Netlist::parse("caf\xe9\n* 10 k\xb5\nR1 a 0 1k ; \xb5\xff\n", "t.cir", {});
     ASSERT_TRUE(netlist) << netlist.error().text();
     EXPECT_EQ(netlist->elaborate()->title, "caf\xc3\xa9");
-    EXPECT_EQ(refusal("C1 a 0 1\xb5"), "dir/t.cir:2:9: byte 0xB5: write u for micro");
-    EXPECT_EQ(refusal("C1 a 0 1\xc2\xb5"), "dir/t.cir:2:9: byte 0xC2: write u for micro");
-    EXPECT_EQ(refusal("R\xe9 a 0 1"), "dir/t.cir:2:2: byte 0xE9: a netlist must be plain ASCII outside comments");
-    EXPECT_EQ(refusal(std::string("R1 a 0\0 1", 9)), "dir/t.cir:2:7: byte 0x00: a netlist is text; is this UTF-16? Save it as UTF-8");
+    EXPECT_EQ(error_of("C1 a 0 1\xb5"), "dir/t.cir:2:9: byte 0xB5: write u for micro");
+    EXPECT_EQ(error_of("C1 a 0 1\xc2\xb5"), "dir/t.cir:2:9: byte 0xC2: write u for micro");
+    EXPECT_EQ(error_of("R\xe9 a 0 1"), "dir/t.cir:2:2: byte 0xE9: a netlist must be plain ASCII outside comments");
+    EXPECT_EQ(error_of(std::string("R1 a 0\0 1", 9)), "dir/t.cir:2:7: byte 0x00: a netlist is text; is this UTF-16? Save it as UTF-8");
     const auto utf16 = Netlist::parse(std::string("\xff\xfet\0i\0", 6), "t.cir", {});
     ASSERT_FALSE(utf16);
     EXPECT_EQ(utf16.error().text(), "t.cir:1:4: byte 0x00: a netlist is text; is this UTF-16? Save it as UTF-8");
@@ -92,13 +92,13 @@ TEST(NetlistLines, OfTenMegabytesTakeTheirLengthInTime) {
     EXPECT_LT(long_one, 40 * short_one + 0.5);
 }
 
-TEST(NetlistLines, KnowTheirPlacesAcrossContinuations) {
-    EXPECT_EQ(refusal("R1 a 0\n* c\n+   {2*\n+ xyz}"), "dir/t.cir:5:3: unknown name 'xyz'");
-    EXPECT_EQ(refusal("+ R1 a 0 1"), "dir/t.cir:2:1: '+' continues the previous line, but there is none");
-    EXPECT_EQ(refusal(".param a='2*3"), "dir/t.cir:2:10: this ' is not closed");
-    EXPECT_EQ(refusal(".param a={2*3"), "dir/t.cir:2:10: this '{' is not closed");
-    EXPECT_EQ(refusal("V1 a 0 PULSE(0 1"), "dir/t.cir:2:13: this '(' is not closed");
-    EXPECT_EQ(refusal("V1 a 0 PULSE 0 1)"), "dir/t.cir:2:17: unmatched ')'");
+TEST(NetlistLines, KnowTheirLocationsAcrossContinuations) {
+    EXPECT_EQ(error_of("R1 a 0\n* c\n+   {2*\n+ xyz}"), "dir/t.cir:5:3: unknown name 'xyz'");
+    EXPECT_EQ(error_of("+ R1 a 0 1"), "dir/t.cir:2:1: '+' continues the previous line, but there is none");
+    EXPECT_EQ(error_of(".param a='2*3"), "dir/t.cir:2:10: this ' is not closed");
+    EXPECT_EQ(error_of(".param a={2*3"), "dir/t.cir:2:10: this '{' is not closed");
+    EXPECT_EQ(error_of("V1 a 0 PULSE(0 1"), "dir/t.cir:2:13: this '(' is not closed");
+    EXPECT_EQ(error_of("V1 a 0 PULSE 0 1)"), "dir/t.cir:2:17: unmatched ')'");
 }
 
 // ---- elements ----
@@ -128,7 +128,7 @@ TEST(NetlistElements, RCLTakeTheirValuesInEveryWay) {
     EXPECT_EQ(c.models[0].type, "r");
 }
 
-TEST(NetlistElements, SourcesHaveTheirCourses) {
+TEST(NetlistElements, SourcesHaveTheirWaveforms) {
     using Shape = Waveform::Shape;
     const auto c = circuit(
         ".param vdd=1.8\nV1 a 0 5\nV2 b 0 DC {vdd} AC 1 90\nV3 c 0 PULSE(0, {vdd}, 1n 1n 1n 5n 10n)\nI1 d 0 SIN 0 1 1k\nV5 e 0 EXP(0 1 1n "
@@ -155,7 +155,7 @@ TEST(NetlistElements, SourcesHaveTheirCourses) {
     EXPECT_EQ(element_in(c, "v11").waveform.ac_magnitude, 3);
 }
 
-TEST(NetlistElements, ControlledOnesKnowWhatControlsThem) {
+TEST(NetlistElements, ControlledSourcesKnowTheirControls) {
     const auto c = circuit(
         "V1 a 0 1\nE1 b 0 a 0 10\nE2 c 0 value={v(a)*2}\nE3 d 0 vol='v(a,b)'\nG1 e 0 (a, b) 1m\nG2 f 0 cur='v(a)' m=2\nF1 g 0 V1 2\nH1 h 0 "
         "V1 {2*3}\n"
@@ -190,9 +190,9 @@ TEST(NetlistElements, DiodesAndTransistorsHaveModelsAndGeometry) {
     EXPECT_EQ(c.models[0].values.at("n"), 1);
 }
 
-TEST(NetlistElements, AreRefusedWithPlaceAndSuggestion) {
+TEST(NetlistElements, AreRejectedWithLocationAndSuggestion) {
     const struct {
-        const char *body, *said;
+        const char *body, *message;
     } cases[] = {
         {"R1 a 0", "2:7: r1: its value is missing"},
         {"R1 a", "2:5: r1: 1 node, but expected 2: plus, minus, then a value or a model"},
@@ -240,7 +240,7 @@ TEST(NetlistElements, AreRefusedWithPlaceAndSuggestion) {
         {".model nm nmos 5", "2:16: expected name=value, not '5'"},
         {".model nm nmos\n.model nm pmos", "3:8: model 'nm' is already defined at dir/t.cir:2"},
     };
-    for (const auto& c : cases) EXPECT_EQ(refusal(c.body), std::string("dir/t.cir:") + c.said) << c.body;
+    for (const auto& c : cases) EXPECT_EQ(error_of(c.body), std::string("dir/t.cir:") + c.message) << c.body;
 }
 
 // ---- subcircuits ----
@@ -300,9 +300,9 @@ TEST(NetlistSubcircuits, InParallelMultiplyCurrentsAndNothingElse) {
     EXPECT_EQ(element_in(c, "x1.f1").control_source, "x1.v1");
 }
 
-TEST(NetlistSubcircuits, AreRefusedWithPlaceAndSuggestion) {
+TEST(NetlistSubcircuits, AreRejectedWithLocationAndSuggestion) {
     const struct {
-        const char *body, *said;
+        const char *body, *message;
     } cases[] = {
         {".subckt inv a b\n.ends\nX1 a b inw", "4:8: x1: unknown subcircuit 'inw'; did you mean 'inv'?"},
         {".subckt inv in out vdd\n.ends\nX1 a b inv", "4:1: x1: 2 nodes, but subcircuit 'inv' has 3: in out vdd"},
@@ -321,26 +321,26 @@ TEST(NetlistSubcircuits, AreRefusedWithPlaceAndSuggestion) {
         {".subckt a x\nV1 x 0 1\nB1 x 0 i=i(v1)\n.ends\nX1 n a m=2",
          "4:1: b1: an expression with a current is not supported in a subcircuit with m="},
     };
-    for (const auto& c : cases) EXPECT_EQ(refusal(c.body), std::string("dir/t.cir:") + c.said) << c.body;
+    for (const auto& c : cases) EXPECT_EQ(error_of(c.body), std::string("dir/t.cir:") + c.message) << c.body;
 }
 
 TEST(NetlistSubcircuits, ThatDoubleEachTimeStopAtALimit) {
     std::string body;
     for (int k = 0; k < 60; ++k) body += fmt::format(".subckt s{0} a\nX1 a s{1}\nX2 a s{1}\n.ends\n", k, k + 1);
-    const auto said = refusal(body + ".subckt s60 a\n.ends\nX1 a s0\n");
-    EXPECT_NE(said.find("the limit of"), std::string::npos) << said;
+    const auto message = error_of(body + ".subckt s60 a\n.ends\nX1 a s0\n");
+    EXPECT_NE(message.find("the limit of"), std::string::npos) << message;
     std::string deep;
     for (int k = 0; k < 300; ++k) deep += fmt::format(".subckt s{} a\nX1 a s{}\n.ends\n", k, k + 1);
-    EXPECT_NE(refusal(deep + ".subckt s300 a\n.ends\nX1 a s0\n").find("subcircuits are nested deeper than the limit of 200"),
+    EXPECT_NE(error_of(deep + ".subckt s300 a\n.ends\nX1 a s0\n").find("subcircuits are nested deeper than the limit of 200"),
               std::string::npos);
     std::string inside;
     for (int k = 0; k < 300; ++k) inside += fmt::format(".subckt s{} a\n", k);
-    EXPECT_NE(refusal(inside).find("definitions of subcircuits are nested deeper than the limit of 200"), std::string::npos);
+    EXPECT_NE(error_of(inside).find("definitions of subcircuits are nested deeper than the limit of 200"), std::string::npos);
 }
 
 // ---- parameters ----
 
-TEST(NetlistParameters, StandInAnyOrderAndAreOverruledFromOutside) {
+TEST(NetlistParameters, AreAllowedInAnyOrderAndCanBeOverridden) {
     const std::string body = ".param a={b*2} b = c + 1, c=3\n.param g(x,y)='x*y+a'\n.func h(z) {z+g(1,z)}\nR1 n 0 {h(2)}\nR2 n 0 a\n";
     const auto c = circuit(body);
     EXPECT_EQ(element_in(c, "r2").value, 8);
@@ -353,14 +353,14 @@ TEST(NetlistParameters, StandInAnyOrderAndAreOverruledFromOutside) {
 }
 
 TEST(NetlistParameters, ThatGoRoundInACircleAreRefusedWithTheChain) {
-    EXPECT_EQ(refusal(".param a={b} b={c}\n+ c={f(1)}\n.func f(x) {a+x}"),
+    EXPECT_EQ(error_of(".param a={b} b={c}\n+ c={f(1)}\n.func f(x) {a+x}"),
               "dir/t.cir:2:11: parameter a depends on itself: a -> b -> c -> a");
-    EXPECT_EQ(refusal(".param a={a}"), "dir/t.cir:2:11: parameter a depends on itself: a -> a");
-    EXPECT_EQ(refusal(".func f(x) {g(x)}\n.func g(x) {f(x)}\n.param a={f(1)}"), "dir/t.cir:4:11: in g(): f() calls itself");
-    EXPECT_EQ(refusal(".param a={1+bb} b=2"), "dir/t.cir:2:13: unknown name 'bb'; did you mean 'b'?");
-    EXPECT_EQ(refusal(".param a"), "dir/t.cir:2:8: expected name=value here");
-    EXPECT_EQ(refusal(".param a=ln(-1)"), "dir/t.cir:2:10: 'ln(-1)' is not a number");
-    EXPECT_EQ(refusal(".param a=1\n.param b={v(a)}"),
+    EXPECT_EQ(error_of(".param a={a}"), "dir/t.cir:2:11: parameter a depends on itself: a -> a");
+    EXPECT_EQ(error_of(".func f(x) {g(x)}\n.func g(x) {f(x)}\n.param a={f(1)}"), "dir/t.cir:4:11: in g(): f() calls itself");
+    EXPECT_EQ(error_of(".param a={1+bb} b=2"), "dir/t.cir:2:13: unknown name 'bb'; did you mean 'b'?");
+    EXPECT_EQ(error_of(".param a"), "dir/t.cir:2:8: expected name=value here");
+    EXPECT_EQ(error_of(".param a=ln(-1)"), "dir/t.cir:2:10: 'ln(-1)' is not a number");
+    EXPECT_EQ(error_of(".param a=1\n.param b={v(a)}"),
               "dir/t.cir:3:11: v(...) is not available in a parameter, only in an expression of the circuit");
 }
 
@@ -389,29 +389,29 @@ TEST(NetlistFiles, OfLibrariesGiveTheirSections) {
                        ".lib base\n.model nm nmos vto={v}\n.endl\nthis is outside\n"}};
     const auto c = circuit(".lib 'p.lib' SS\nM1 a b c 0 nm\n", files);
     EXPECT_EQ(c.models[0].values.at("vto"), 2);
-    EXPECT_EQ(refusal(".lib 'p.lib' sf", files), "dir/t.cir:2:6: library 'dir/p.lib' has no section 'sf'; did you mean 'ss'?");
-    EXPECT_EQ(refusal(".lib 'p.lib'", files), "dir/t.cir:2:6: .lib: expected a file and a section; to read a complete file, use .include");
-    EXPECT_EQ(refusal(".lib tt\nR1 a 0 1"),
+    EXPECT_EQ(error_of(".lib 'p.lib' sf", files), "dir/t.cir:2:6: library 'dir/p.lib' has no section 'sf'; did you mean 'ss'?");
+    EXPECT_EQ(error_of(".lib 'p.lib'", files), "dir/t.cir:2:6: .lib: expected a file and a section; to read a complete file, use .include");
+    EXPECT_EQ(error_of(".lib tt\nR1 a 0 1"),
               "dir/t.cir:2:1: .lib with one word begins a section, but .endl is missing; to read a file, use .include");
-    EXPECT_EQ(refusal(".endl"), "dir/t.cir:2:1: .endl without .lib");
+    EXPECT_EQ(error_of(".endl"), "dir/t.cir:2:1: .endl without .lib");
 }
 
-TEST(NetlistFiles, ThatCannotBeReadAreRefused) {
+TEST(NetlistFiles, ThatCannotBeReadAreRejected) {
     const Files files{{"dir/a.inc", ".include b.inc\n"},
                       {"dir/b.inc", "R1 a 0 1k\n.include 'a.inc'"},
                       {"dir/open.inc", ".subckt s a\n"},
                       {"dir/bad.inc", "R1 a 0 {x}\n"},
                       {"dir/ends.inc", ".ends\n"}};
-    EXPECT_EQ(refusal(".include 'none.inc'", files), "dir/t.cir:2:10: 'none.inc': no such file");
-    EXPECT_EQ(refusal(".include a.inc", files), "dir/b.inc:2:10: 'a.inc' includes itself");
-    EXPECT_EQ(refusal(".include t.cir", {{"dir/t.cir", ""}}), "dir/t.cir:2:10: 't.cir' includes itself");
-    EXPECT_EQ(refusal(".include open.inc\n.ends", files), "dir/open.inc:1:1: .subckt s is not closed by .ends");
-    EXPECT_EQ(refusal(".subckt s a\n.include ends.inc\n", files), "dir/ends.inc:1:1: .ends without .subckt");
-    EXPECT_EQ(refusal(".include bad.inc", files), "dir/bad.inc:1:9: unknown name 'x'");
-    EXPECT_EQ(refusal(".include", files), "dir/t.cir:2:9: .include: expected one file; put a name with blanks in quotes");
+    EXPECT_EQ(error_of(".include 'none.inc'", files), "dir/t.cir:2:10: 'none.inc': no such file");
+    EXPECT_EQ(error_of(".include a.inc", files), "dir/b.inc:2:10: 'a.inc' includes itself");
+    EXPECT_EQ(error_of(".include t.cir", {{"dir/t.cir", ""}}), "dir/t.cir:2:10: 't.cir' includes itself");
+    EXPECT_EQ(error_of(".include open.inc\n.ends", files), "dir/open.inc:1:1: .subckt s is not closed by .ends");
+    EXPECT_EQ(error_of(".subckt s a\n.include ends.inc\n", files), "dir/ends.inc:1:1: .ends without .subckt");
+    EXPECT_EQ(error_of(".include bad.inc", files), "dir/bad.inc:1:9: unknown name 'x'");
+    EXPECT_EQ(error_of(".include", files), "dir/t.cir:2:9: .include: expected one file; put a name with blanks in quotes");
     Files chain;
     for (int k = 0; k < 60; ++k) chain[fmt::format("dir/{}.inc", k)] = fmt::format(".include {}.inc\n", k + 1);
-    EXPECT_EQ(refusal(".include 0.inc", chain), "dir/49.inc:1:10: included files are nested deeper than the limit of 50");
+    EXPECT_EQ(error_of(".include 0.inc", chain), "dir/49.inc:1:10: included files are nested deeper than the limit of 50");
     const auto missing = Netlist::read("/nowhere/at/all.cir");
     ASSERT_FALSE(missing);
     EXPECT_EQ(missing.error().text(), "/nowhere/at/all.cir: cannot be read: there is no such file");
@@ -419,7 +419,7 @@ TEST(NetlistFiles, ThatCannotBeReadAreRefused) {
 
 // ---- dot lines ----
 
-TEST(NetlistCommands, AreWordsWithTheirPlacesAndValues) {
+TEST(NetlistCommands, AreWordsWithTheirLocationsAndValues) {
     const auto c = circuit(
         ".param vdd=1.8\nR1 a 0 1\n.TRAN 1n  10u\n.meas tran tt trig v( a , 0 ) val = {vdd/2} rise=1 targ v(a) val='vdd*0.9' fall = "
         "LAST\n.expect rate >= "
@@ -449,9 +449,9 @@ TEST(NetlistCommands, SetOptionsTemperatureAndStarts) {
     EXPECT_EQ(c.nodesets, (std::vector<std::pair<int, double>>{{a, 0.6}}));
 }
 
-TEST(NetlistCommands, AreRefusedWithPlaceAndSuggestion) {
+TEST(NetlistCommands, AreRejectedWithLocationAndSuggestion) {
     const struct {
-        const char *body, *said;
+        const char *body, *message;
     } cases[] = {
         {".trann 1n 1u", "2:1: unknown statement '.trann'; did you mean '.tran'?"},
         {".if (1)", "2:1: .if: conditional parts of a netlist are not supported"},
@@ -466,11 +466,11 @@ TEST(NetlistCommands, AreRefusedWithPlaceAndSuggestion) {
         {".func f {2}", "2:7: .func: expected a function such as f(x) {2*x}"},
         {".func f(x)", "2:10: .func: the expression is missing; write one such as f(x) {2*x}"},
     };
-    for (const auto& c : cases) EXPECT_EQ(refusal(c.body), std::string("dir/t.cir:") + c.said) << c.body;
+    for (const auto& c : cases) EXPECT_EQ(error_of(c.body), std::string("dir/t.cir:") + c.message) << c.body;
 }
 
-TEST(NetlistRemarks, PointAtWhatLooksLikeSomethingElse) {
-    const auto remarks = [](const std::string& text) {
+TEST(NetlistWarnings, PointAtMisleadingNumbers) {
+    const auto warnings = [](const std::string& text) {
         const auto c = Netlist::parse(text, "t.cir", {});
         EXPECT_TRUE(c) << c.error().text();
         std::vector<std::string> out;
@@ -478,19 +478,19 @@ TEST(NetlistRemarks, PointAtWhatLooksLikeSomethingElse) {
         for (const auto& r : flat->warnings) out.push_back(r.text());
         return out;
     };
-    using Said = std::vector<std::string>;
-    EXPECT_EQ(remarks("t\nC1 a 0 1F\nC2 a 0 10f\nC3 a 0 1uF\nC4 a 0 c=2F\n"),
-              (Said{"t.cir:2:8: c1: 1F is 1 femtofarad; for a farad write 1", "t.cir:5:10: c4: 2F is 2 femtofarad; for a farad write 2"}));
+    using Messages = std::vector<std::string>;
+    EXPECT_EQ(warnings("t\nC1 a 0 1F\nC2 a 0 10f\nC3 a 0 1uF\nC4 a 0 c=2F\n"),
+              (Messages{"t.cir:2:8: c1: 1F is 1 femtofarad; for a farad write 1", "t.cir:5:10: c4: 2F is 2 femtofarad; for a farad write 2"}));
     EXPECT_EQ(
-        remarks("t\nR1 a 0 5M\nR2 a 0 5m\nR3 a 0 5Meg\nR4 a 0 5MEG\nR5 a 0 1Mohm\n"),
-        (Said{"t.cir:2:8: r1: 5M is 5 milliohm; for a megohm write 5Meg", "t.cir:6:8: r5: 1M is 1 milliohm; for a megohm write 1Meg"}));
-    EXPECT_EQ(remarks("t\nV1 a 0 SIN(0 1 1MHz)\n"), (Said{"t.cir:2:16: v1: 1MHz is 1 millihertz; for a megahertz write 1Meg"}));
-    EXPECT_EQ(remarks("R1 a b 1k\n"), (Said{"t.cir:1:1: the first line is the title, so 'R1 a b 1k' is not read as a statement"}));
-    EXPECT_EQ(remarks(".param a=1\n"), (Said{"t.cir:1:1: the first line is the title, so '.param a=1' is not read as a statement"}));
+        warnings("t\nR1 a 0 5M\nR2 a 0 5m\nR3 a 0 5Meg\nR4 a 0 5MEG\nR5 a 0 1Mohm\n"),
+        (Messages{"t.cir:2:8: r1: 5M is 5 milliohm; for a megohm write 5Meg", "t.cir:6:8: r5: 1M is 1 milliohm; for a megohm write 1Meg"}));
+    EXPECT_EQ(warnings("t\nV1 a 0 SIN(0 1 1MHz)\n"), (Messages{"t.cir:2:16: v1: 1MHz is 1 millihertz; for a megahertz write 1Meg"}));
+    EXPECT_EQ(warnings("R1 a b 1k\n"), (Messages{"t.cir:1:1: the first line is the title, so 'R1 a b 1k' is not read as a statement"}));
+    EXPECT_EQ(warnings(".param a=1\n"), (Messages{"t.cir:1:1: the first line is the title, so '.param a=1' is not read as a statement"}));
     for (const auto* title : {"Low pass", "* R1 a b 1k", "", "rectifier with a load", "V1 of the chip"})
-        EXPECT_TRUE(remarks(std::string(title) + "\n").empty()) << title;
-    EXPECT_EQ(remarks("t\n.control\nfoo 'bar \xff\n.endc\n.param a=1\n.param a=2\n"),
-              (Said{"t.cir:2:1: .control ... .endc is an ngspice script and is ignored",
+        EXPECT_TRUE(warnings(std::string(title) + "\n").empty()) << title;
+    EXPECT_EQ(warnings("t\n.control\nfoo 'bar \xff\n.endc\n.param a=1\n.param a=2\n"),
+              (Messages{"t.cir:2:1: .control ... .endc is an ngspice script and is ignored",
                     "t.cir:6:8: .param a is given twice; this value is used"}));
 }
 

@@ -1,4 +1,4 @@
-// The same netlists through Debian's ngspice and through us: every curve that both give, at every point.
+// Runs the same netlists in Debian's ngspice and in Corpuscle and compares every common curve at every point.
 
 #include <gtest/gtest.h>
 
@@ -10,32 +10,32 @@
 namespace corpuscle::circuit::test {
 namespace {
 
-/// ngspice leaves 1e-7 of the largest value of a curve, and currents below what its own tolerances mean.
-void hold_plot(const Plot& mine, const Plot& theirs, double share) {
+/// Compares two plots. Absolute tolerances cover ngspice's own errors: 1e-7 of a curve's largest value, and its current tolerance.
+void compare_plots(const Plot& mine, const Plot& theirs, double tolerance) {
     ASSERT_EQ(mine.point_count(), theirs.point_count()) << mine.name;
-    std::size_t held = 0;
+    std::size_t compared = 0;
     for (const auto& c : theirs.curves) {
         const auto* other = mine.find_curve(corpuscle_name(c.name));
         if (other == nullptr) continue;
-        ++held;
-        if (other->name == "inoise_total") continue;  // theirs is 12 % off where the gain falls: see the closed form below
-        double most = 0;
-        if (c.type != "frequency")  // its imaginary part is left as memory was
-            for (const auto& x : c.values) most = std::max(most, std::abs(x));
-        const double floor = (c.type == "current" ? 2e-15 : 1e-9) + 1e-7 * most;
+        ++compared;
+        if (other->name == "inoise_total") continue;  // ngspice's is 12 % off where the gain falls: see the closed form below
+        double largest = 0;
+        if (c.type != "frequency")  // ngspice leaves its imaginary part uninitialized
+            for (const auto& x : c.values) largest = std::max(largest, std::abs(x));
+        const double floor = (c.type == "current" ? 2e-15 : 1e-9) + 1e-7 * largest;
         for (std::size_t k = 0; k < c.values.size(); ++k)
             EXPECT_LE(std::abs(other->values[k] - (c.type == "frequency" ? c.values[k].real() : c.values[k])),
-                      share * std::abs(c.type == "frequency" ? c.values[k].real() : c.values[k]) + floor)
+                      tolerance * std::abs(c.type == "frequency" ? c.values[k].real() : c.values[k]) + floor)
                 << c.name << " at point " << k << ": ours " << other->values[k] << ", theirs " << c.values[k];
     }
     const auto inner =
         std::count_if(mine.curves.begin(), mine.curves.end(), [](const Curve& c) { return c.name.find('#') != std::string::npos; });
-    EXPECT_GE(held + 1 + static_cast<std::size_t>(inner), mine.curves.size()) << "curves that both have";
+    EXPECT_GE(compared + 1 + static_cast<std::size_t>(inner), mine.curves.size()) << "curves that both have";
 }
 
 class Deck : public testing::TestWithParam<std::string> {};
 
-TEST_P(Deck, GivesWhatNgspiceGives) {
+TEST_P(Deck, AgreesWithNgspice) {
     const std::string deck = deck_path(GetParam());
     const auto raw = std::filesystem::temp_directory_path() / ("corpuscle-" + GetParam() + "-" + std::to_string(getpid()) + ".raw");
     const auto log = run_ngspice(deck, raw);
@@ -48,7 +48,7 @@ TEST_P(Deck, GivesWhatNgspiceGives) {
         for (const auto& mine : outcome.plots())
             if (mine.name == plot.name || (plot.name == "Operating Point" && mine.name == plot.name)) {
                 found = true;
-                hold_plot(mine, plot, mine.is_complex ? 1e-3 : 1e-5);
+                compare_plots(mine, plot, mine.is_complex ? 1e-3 : 1e-5);
             }
         if (!found) ADD_FAILURE() << "no plot of ours is called '" << plot.name << "'";
     }
@@ -60,7 +60,7 @@ INSTANTIATE_TEST_SUITE_P(Ngspice, Deck, testing::ValuesIn(deck_names()), [](cons
     return name;
 });
 
-TEST(Transistor, CarriesInNgspiceByFormulasWhatItCarriesHere) {
+TEST(Transistor, HasTheSameCurrentAsExpressionsInNgspice) {
     int decks_seen = 0;
     for (const auto& name : deck_names()) {
         if (!name.starts_with("uicm_")) continue;
@@ -74,12 +74,12 @@ TEST(Transistor, CarriesInNgspiceByFormulasWhatItCarriesHere) {
         ASSERT_EQ(theirs.size(), 1U);
         const auto mine = run_corpuscle(folder / "native.cir").plots();
         ASSERT_EQ(mine.size(), 1U);
-        hold_plot(mine[0], theirs[0], 1e-5);
+        compare_plots(mine[0], theirs[0], 1e-5);
     }
     EXPECT_EQ(decks_seen, 4);
 }
 
-TEST(Noise, IntegratesAsTheClosedFormsSay) {
+TEST(Noise, IntegratesToTheClosedForms) {
     const auto outcome = run_corpuscle(deck_path("noise_rc"));
     const double white = 4 * 1.380649e-23 * 300.15 * 100e3, corner = 1 / (2 * M_PI * 100e3 * 10e-9);
     ASSERT_EQ(outcome.numbers.size(), 2U);

@@ -1,4 +1,4 @@
-// .within: what leaves the range it was designed for is told, in a netlist's own transient and of a netlist afferent.
+// .within: a quantity outside its design range is reported, in a netlist's own transient and for a netlist afferent.
 
 #include "circuit/operating_range.hpp"
 
@@ -13,11 +13,12 @@
 namespace corpuscle::circuit {
 namespace {
 
-/// A force in volts, and a comparator of it; outside above 1 V.
+/// The force as a voltage, and a comparator; out of range above 1 V.
 const std::string follower = "follower\nvf f 0 force 1\nrf f s 1k\ncs s 0 1n\n.spike v(s) 2 rise\n.within v(f) -1 1 \"too much force\"\n";
 
-TEST(OperatingRange, ATransientTellsHowLongAndSinceWhen) {
-    const auto ramp = run_netlist("t\nv1 a 0 pwl(0 0 1 1 2 0)\nr1 a 0 1k\n.within v(a) -1 0.2505 \"too high\"\n.within v(a) -1 2\n.tran 1m 2 0 1m\n");
+TEST(OperatingRange, ATransientReportsDurationAndStart) {
+    const auto ramp =
+        run_netlist("t\nv1 a 0 pwl(0 0 1 1 2 0)\nr1 a 0 1k\n.within v(a) -1 0.2505 \"too high\"\n.within v(a) -1 2\n.tran 1m 2 0 1m\n");
     ASSERT_EQ(ramp.warnings().size(), 1U) << "one of two was left";
     const auto& sentence = ramp.warnings()[0].message;
     EXPECT_TRUE(sentence.starts_with("v(a) was outside -1 V to 250.5 mV for 1.499 s of 2 s, first at 251 ms")) << sentence;
@@ -55,7 +56,7 @@ TEST(OperatingRange, RespondWarnsOnce) {
     EXPECT_EQ(test::run_program(folder, "respond press --afferent f.cir --quiet --set press.F_max=0.9N").err, "");
 }
 
-TEST(OperatingRange, WhatIsMissingOrWrongIsToldByItsPlace) {
+TEST(OperatingRange, ErrorsNameTheirLocation) {
     const auto refusal = [](const std::string& line) {
         const auto made = CircuitAfferentFactory::create(test::value_or_throw(parse_netlist_text("t\nvf f 0 force 1\nr1 f 0 1\n.spike v(f) 1\n" + line + "\n")));
         return made ? std::string() : made.error().message;

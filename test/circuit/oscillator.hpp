@@ -1,17 +1,18 @@
 #pragma once
-// A membrane that a current empties and a mirror fills while a Schmitt trigger says so: some 37 spikes a second at v(s).
+// A relaxation oscillator: a current discharges the membrane, and a mirror charges it while the output of a Schmitt trigger is high.
+// It fires about 37 spikes per second at v(s).
 
 #include <string>
 
 namespace corpuscle::circuit {
 
-inline std::string oscillator_netlist(const std::string& seconds) {
+inline std::string oscillator_netlist(const std::string& duration) {
     const std::string p = " vdd pch w=6u l=0.5u m=2 stack=4\n", n = " 0 nch w=1.5u l=0.5u ";
     return "oscillator\n.lib 'tsmc180.lib' tt\nvdd vdd 0 0.7\ncu u 0 1.8p\niin u 0 20p\nic gc 0 1n\nm1 gc gc vdd" + p + "m2 y gc vdd" + p +
            "m3 u sb y vdd pch w=6u l=0.5u m=2\nm4 mp u vdd" + p +
            "m5 s u mp vdd pch w=6u l=0.5u m=16\nm6 0 s mp vdd pch w=6u l=0.5u m=8\nm7 mn u 0" + n + "m=2 stack=4\nm8 s u mn" + n +
            "m=16\nm9 vdd s mn" + n + "m=8\nm10 sb s vdd vdd pch w=6u l=0.5u m=2\nm11 sb s 0" + n + "m=2\n.ic v(u)=0.6\n.tran 10u " +
-           seconds + "\n";
+           duration + "\n";
 }
 
 }  // namespace corpuscle::circuit

@@ -1,4 +1,4 @@
-// What a netlist asks for and says beside its circuit: initial conditions, options, printed and saved curves. A wrong name is never silent.
+// Directives of a netlist: initial conditions, options, printed and saved curves. A wrong name always gives an error or a warning.
 
 #include <gtest/gtest.h>
 
@@ -29,7 +29,7 @@ double number(const std::string& text, std::string_view name) {
     return found ? found->find_number(name).value_or(NAN) : NAN;
 }
 
-std::string refusal_of(const std::string& text) {
+std::string error_of(const std::string& text) {
     const auto found = outcome_of(text);
     EXPECT_FALSE(found) << text;
     return found ? "" : found.error().text();
@@ -49,11 +49,11 @@ TEST(InitialConditions, OfCapacitorsAndInductorsAreWhereATransientWithUicBegins)
     EXPECT_NEAR(number("c1 a 0 1n ic=2\nr1 a 0 1k\n.tran 10n 3u uic\n.meas tran v find v(a) at=0\n", "v"), 2, 1e-6);
     EXPECT_NEAR(number("l1 b 0 1m ic=1m\nr1 b 0 1k\n.tran 10n 3u uic\n.meas tran i find i(l1) at=1u\n", "i"), 1e-3 * std::exp(-1.0), 1e-6);
     EXPECT_NEAR(number("c1 a 0 1n ic=2\n.ic v(a)=5\nr1 a 0 1k\n.tran 10n 3u uic\n.meas tran v find v(a) at=0\n", "v"), 2, 1e-6)
-        << "what an element says goes before what its node says";
+        << "the value of a device takes precedence over that of its node";
 }
 
-// Between two capacitors in series the charge is kept: m = (c2 (1 - 0.3) + c3 0) / (c2 + c3).
-TEST(InitialConditions, OfACapacitorBetweenTwoNodesAreAChargeThatIsKept) {
+// The charge between two capacitors in series is conserved: m = (c2 (1 - 0.3) + c3 0) / (c2 + c3).
+TEST(InitialConditions, OfACapacitorBetweenTwoNodesSetAConservedCharge) {
     EXPECT_NEAR(number("v1 in 0 1\nc2 in m 1n ic=0.3\nc3 m 0 1n\nr3 m 0 1g\n.tran 1u 5u uic\n.meas tran m find v(m) at=0\n", "m"), 0.35,
                 1e-6);
     EXPECT_NEAR(number("c1 a 0 q='1n*v(a)' ic=0.7\nr1 a 0 1k\n.tran 10n 3u uic\n.meas tran v find v(a) at=0\n", "v"), 0.7, 1e-6);
@@ -91,21 +91,21 @@ TEST(Amperes, AreAUnitAndNoScale) {
     EXPECT_DOUBLE_EQ(number("i1 0 a 1A\nr1 a 0 1\n.op\n", "v(a)"), 1);
     EXPECT_DOUBLE_EQ(number("i1 0 a 5a\nr1 a 0 1\n.op\n", "v(a)"), 5);
     EXPECT_DOUBLE_EQ(number("i1 0 a {2*2amp}\nr1 a 0 1\n.op\n", "v(a)"), 4);
-    EXPECT_NE(refusal_of("c1 a 0 5aF\nr1 a 0 1\n.op\n").find("t.cir:2:8: '5af': some simulators read 'a' as 1e-18"), std::string::npos);
-    EXPECT_NE(refusal_of("c1 a 0 {2*5aF}\nr1 a 0 1\n.op\n").find("write 5e-18"), std::string::npos);
+    EXPECT_NE(error_of("c1 a 0 5aF\nr1 a 0 1\n.op\n").find("t.cir:2:8: '5af': some simulators read 'a' as 1e-18"), std::string::npos);
+    EXPECT_NE(error_of("c1 a 0 {2*5aF}\nr1 a 0 1\n.op\n").find("write 5e-18"), std::string::npos);
     EXPECT_NE(
         warnings_in("i1 0 a 1\nc1 a 0 5a\nr1 a 0 1\n.op\n").find("c1: 5a is 5, since 'a' is not a scale; for 1e-18 of it write 5e-18"),
         std::string::npos);
 }
 
-TEST(Options, ThatNobodyKnowsAreRefused) {
+TEST(Options, ThatAreUnknownAreRejected) {
     const std::string r = "v1 a 0 1\nr1 a 0 1\n.op\n";
-    EXPECT_EQ(refusal_of(r + ".options retol=1e-6\n"), "t.cir:5:10: unknown option 'retol'; did you mean 'reltol'?");
-    EXPECT_EQ(refusal_of(r + ".options reltol\n"), "t.cir:5:10: .options reltol: expected a number, such as reltol=1e-6");
-    EXPECT_EQ(refusal_of(r + ".options reltol=tight\n"), "t.cir:5:10: .options reltol: expected a number, such as reltol=1e-6");
-    EXPECT_EQ(refusal_of(r + ".options reltol=-1\n"), "t.cir:5:10: .options reltol=-1 is outside [1e-15, 0.5]");
-    EXPECT_EQ(refusal_of(r + ".options method=2\n"), "t.cir:5:10: .options method: expected a word, such as method=gear");
-    EXPECT_NE(refusal_of(r + ".options scale=1u\n").find("not supported, because it changes the circuit"), std::string::npos);
+    EXPECT_EQ(error_of(r + ".options retol=1e-6\n"), "t.cir:5:10: unknown option 'retol'; did you mean 'reltol'?");
+    EXPECT_EQ(error_of(r + ".options reltol\n"), "t.cir:5:10: .options reltol: expected a number, such as reltol=1e-6");
+    EXPECT_EQ(error_of(r + ".options reltol=tight\n"), "t.cir:5:10: .options reltol: expected a number, such as reltol=1e-6");
+    EXPECT_EQ(error_of(r + ".options reltol=-1\n"), "t.cir:5:10: .options reltol=-1 is outside [1e-15, 0.5]");
+    EXPECT_EQ(error_of(r + ".options method=2\n"), "t.cir:5:10: .options method: expected a word, such as method=gear");
+    EXPECT_NE(error_of(r + ".options scale=1u\n").find("not supported, because it changes the circuit"), std::string::npos);
     EXPECT_TRUE(outcome_of(r + ".options noacct savecurrents trtol=7 post=2 itl4=100 numdgt=8 plotwinsize=0\n"));
 }
 
@@ -120,27 +120,27 @@ TEST(Options, SetTheTemperatureAtWhichValuesHold) {
 TEST(Elements, AreAsManyTimesTheirValueAsTheirScale) {
     EXPECT_DOUBLE_EQ(number("i1 0 a 1\nr1 a 0 100 scale=3\n.op\n", "v(a)"), 300);
     EXPECT_NEAR(number("c1 a 0 1n scale=2 ic=1\nr1 a 0 1k\n.tran 10n 3u uic\n.meas tran v find v(a) at=2u\n", "v"), std::exp(-1.0), 1e-3);
-    EXPECT_EQ(refusal_of("i1 0 a 1\nr1 a 0 100 scale=0\n.op\n"), "t.cir:3:1: r1: scale must not be 0");
+    EXPECT_EQ(error_of("i1 0 a 1\nr1 a 0 100 scale=0\n.op\n"), "t.cir:3:1: r1: scale must not be 0");
 }
 
 TEST(Elements, SayNothingThatIsPassedOver) {
-    EXPECT_EQ(refusal_of("i1 0 a 1m\nd1 a 0 dx\n.model dx d(level=200)\n.op\n"),
+    EXPECT_EQ(error_of("i1 0 a 1m\nd1 a 0 dx\n.model dx d(level=200)\n.op\n"),
               "t.cir:4:1: dx: diode level 200 is not supported; use level=1");
     EXPECT_TRUE(outcome_of("i1 0 a 1m\nd1 a 0 dx\n.model dx d(level=1)\n.op\n"));
-    EXPECT_EQ(refusal_of("i1 0 a 1m\nr1 a 0 1k rx\n.model rx r(rsh=200)\n.op\n"), "t.cir:4:1: rx: unknown parameter 'rsh'");
-    EXPECT_NE(refusal_of("i1 0 a sin(0 1 1k) td=1m\nr1 a 0 1k\n.op\n").find("td= is allowed only with pwl"), std::string::npos);
-    EXPECT_NE(refusal_of("i1 0 b 1m\nr1 b 0 1\nb1 a 0 v={v(b)} tc1=1m\nr2 a 0 1\n.op\n").find("unknown parameter 'tc1'"),
+    EXPECT_EQ(error_of("i1 0 a 1m\nr1 a 0 1k rx\n.model rx r(rsh=200)\n.op\n"), "t.cir:4:1: rx: unknown parameter 'rsh'");
+    EXPECT_NE(error_of("i1 0 a sin(0 1 1k) td=1m\nr1 a 0 1k\n.op\n").find("td= is allowed only with pwl"), std::string::npos);
+    EXPECT_NE(error_of("i1 0 b 1m\nr1 b 0 1\nb1 a 0 v={v(b)} tc1=1m\nr2 a 0 1\n.op\n").find("unknown parameter 'tc1'"),
               std::string::npos);
 }
 
-TEST(Curves, ThatAreNotThereAreRefusedBeforeAnyAnalysis) {
+TEST(Curves, ThatDoNotExistAreRejectedBeforeAnyAnalysis) {
     const std::string c = "v1 a 0 sin(0 1 1k)\nr1 a b 1k\nc1 b 0 1u\n.tran 1u 1m\n";
-    EXPECT_EQ(refusal_of(c + ".print tran v(b) v(zz)\n"), "t.cir:6:18: .print: there is no curve 'v(zz)'; did you mean 'v(a)'?");
-    EXPECT_EQ(refusal_of(c + ".plot tran v(zz)\n"), "t.cir:6:12: .plot: there is no curve 'v(zz)'; did you mean 'v(a)'?");
-    EXPECT_EQ(refusal_of(c + ".probe v(zz)\n"), "t.cir:6:8: .probe: unknown output v(zz); did you mean 'v(a)'?");
-    EXPECT_NE(refusal_of(c + ".print tran i(r1)\n").find("'.save i(r1)' records the current"), std::string::npos);
-    EXPECT_NE(refusal_of(c + ".print ac vdb(b)\n.print v(b) vdb(q)\n").find("there is no curve 'vdb(q)'"), std::string::npos);
-    EXPECT_NE(refusal_of(c + ".four 1k v(b)\n").find("t.cir:6:1: .four: spectra of a transient are not supported"), std::string::npos);
+    EXPECT_EQ(error_of(c + ".print tran v(b) v(zz)\n"), "t.cir:6:18: .print: there is no curve 'v(zz)'; did you mean 'v(a)'?");
+    EXPECT_EQ(error_of(c + ".plot tran v(zz)\n"), "t.cir:6:12: .plot: there is no curve 'v(zz)'; did you mean 'v(a)'?");
+    EXPECT_EQ(error_of(c + ".probe v(zz)\n"), "t.cir:6:8: .probe: unknown output v(zz); did you mean 'v(a)'?");
+    EXPECT_NE(error_of(c + ".print tran i(r1)\n").find("'.save i(r1)' records the current"), std::string::npos);
+    EXPECT_NE(error_of(c + ".print ac vdb(b)\n.print v(b) vdb(q)\n").find("there is no curve 'vdb(q)'"), std::string::npos);
+    EXPECT_NE(error_of(c + ".four 1k v(b)\n").find("t.cir:6:1: .four: spectra of a transient are not supported"), std::string::npos);
     EXPECT_TRUE(outcome_of(c + ".save i(r1)\n.print tran i(r1) v(a,b) v(a) par('v(a)*2')\n.op\n.print op v(b)\n"));
     EXPECT_NE(warnings_in(c + ".plot tran v(b)\n").find("t.cir:6:1: .plot has no effect here"), std::string::npos);
     EXPECT_NE(warnings_in(c + ".print ac v(b)\n").find(".print: the netlist has no .ac, so nothing is printed"), std::string::npos);
@@ -154,7 +154,7 @@ TEST(Curves, AreAllPrintedForAllAndProbedAsNgspiceWritesIt) {
     EXPECT_EQ(outcome_of(c + ".probe v(b) i(r1)\n")->saved_curves, (std::vector<std::string>{"v(b)", "i(r1)"}));
     EXPECT_TRUE(outcome_of(c + ".probe alli\n")->saved_curves.empty());
     EXPECT_NE(warnings_in(c + ".probe vd(r1) i(c1) v(b)\n").find(".probe: 'vd(r1)' is not supported"), std::string::npos);
-    EXPECT_NE(refusal_of(c + ".probe i(c9)\n").find(".probe: unknown output i(c9)"), std::string::npos);
+    EXPECT_NE(error_of(c + ".probe i(c9)\n").find(".probe: unknown output i(c9)"), std::string::npos);
 }
 
 TEST(Curves, OfEveryAnalysisArePrinted) {
@@ -168,18 +168,18 @@ TEST(Curves, OfEveryAnalysisArePrinted) {
     }
 }
 
-// The transient would take far longer than the test may.
-TEST(Measures, ThatAreWrongAreRefusedBeforeTheAnalysesRun) {
+// The transient would take much longer than the test's time limit.
+TEST(Measures, ThatAreWrongAreRejectedBeforeTheAnalysesRun) {
     const std::string c = "v1 a 0 sin(0 1 1meg)\nr1 a b 1k\nc1 b 0 1n\n.tran 1n 1000\n";
     for (const auto* line : {".meas tran x max v(zz)", ".meas tran x maxx v(b)", ".meas tran", ".meas ac x max v(b)",
                              ".meas tran x param='y*2'", ".meas tran x find v(b) at=1as", ".expect v(zz) 1 1%"})
-        EXPECT_TRUE(refusal_of(c + line + "\n").starts_with("t.cir:6:")) << refusal_of(c + line + "\n");
+        EXPECT_TRUE(error_of(c + line + "\n").starts_with("t.cir:6:")) << error_of(c + line + "\n");
     EXPECT_TRUE(
         outcome_of("v1 a 0 1\nr1 a 0 1k\n.op\n.meas op x find v(a)\n.meas op y param='x*2'\n.noise v(a) v1 dec 1 1 10\n.meas noise z "
                    "param='onoise_total*y'\n"));
 }
 
-TEST(Warnings, TellOfSlipsThatCanBeSolved) {
+TEST(Warnings, ReportMistakesThatCanBeSolved) {
     const std::string card = ".model nch nmos(level=80)\n";
     EXPECT_NE(warnings_in("v1 a 0 1\nm1 a a 0 0 nch w=1 l=0.5\n" + card + ".op\n")
                   .find("m1: w = 1 m (sizes are in metres; 1 um is written w=1u)"),
@@ -199,10 +199,10 @@ TEST(Save, OfManyWordsTakesTimeInProportion) {
     for (int k = 0; k < 20'000; ++k) text += fmt::format("r{0} n{0} n{1} 1\n", k, k + 1), words += fmt::format(" v(n{},n{})", k + 1, k);
     const auto begun = std::chrono::steady_clock::now();
     EXPECT_TRUE(outcome_of(text + "rl n20000 0 1\n.save" + words + "\n.op\n"));
-    EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count(), 10) << "some 0.2 s; it was 100 times that";
+    EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count(), 10) << "normally about 0.2 s";
 }
 
-// dv/dt = 1e39 (v^2 + 1): there is no step short enough.
+// dv/dt = 1e39 (v^2 + 1): no step is short enough.
 TEST(Run, ThatFailsAtItsFirstPointLeavesAnEarlierFileAsItIs) {
     const TemporaryFolder folder;
     folder.write("good.cir", "t\nv1 a 0 1\nr1 a b 1k\nc1 b 0 1n\n.tran 1n 1u\n");

@@ -1,10 +1,11 @@
 #pragma once
-// The sizes of arrays that the thesis prints (tables 1 to 9, 16, 19, 20), slips included; where they stand in circuits/; what is built
-// otherwise, and by which erratum.
+// The array sizes published in the thesis (tables 1 to 9, 16, 19, 20), including its misprints; the location of each table's devices in
+// circuits/; the sizes that differ from the published ones, and the erratum for each.
 
 namespace corpuscle::circuit {
 
-/// A row as printed: m columns of n units of W by L (um), and the devices that it sizes, below the places where its table stands.
+/// A published row: m columns of n elements of W by L (um), and the devices of this size. Device paths are relative to each location of the
+/// table.
 struct PublishedSize {
     const char* table;
     const char* name;
@@ -13,8 +14,8 @@ struct PublishedSize {
     const char* devices;
 };
 
-// Readings that a size alone does not show: table 1's second M1 is M3 (F9), table 2's M4A-E and M5A-E are A and B (F10), table 9's M3B and
-// M3C are table 6's C and B, table 4's M3 is both sides of a mirror.
+// Interpretations that a size alone does not show. Table 1's second M1 is M3 (F9). Table 2's M4A-E and M5A-E are A and B (F10). Table 9's
+// M3B and M3C are table 6's C and B. Table 4's M3 is both sides of a mirror.
 inline constexpr PublishedSize published_sizes[] = {
     {"1", "M1", 4, 4, 1.5, 0.5, "mn1"},
     {"1", "M1 (second)", 8, 1, 1.5, 0.5, "mn3"},
@@ -109,7 +110,7 @@ inline constexpr PublishedSize published_sizes[] = {
     {"9", "M5A,B", 2, 1, 6.0, 0.5, "mp5a mp5b"},
     {"9", "M6A,B", 2, 1, 1.5, 0.5, "mn6a mn6b"},
 
-    // the part has no replica inverter, M4C and M5B
+    // the subcircuit lacks the replica inverter, M4C and M5B
     {"16", "M1A-B", 2, 8, 6.0, 0.5, "mp1a mp1b"},
     {"16", "M2A-B", 2, 8, 1.5, 0.5, "mn2a mn2b"},
     {"16", "M3A,B", 2, 8, 6.0, 0.5, "mp3a mp3b"},
@@ -138,7 +139,7 @@ inline constexpr PublishedSize published_sizes[] = {
     {"20", "M6B", 2, 4, 1.5, 0.5, "mn6b"},
 };
 
-/// Where a table's devices stand: a circuit and a path in it.
+/// Location of a table's devices: a circuit and a path in it.
 struct TableLocation {
     const char *table, *circuit, *path;
 };
@@ -170,7 +171,8 @@ inline constexpr TableLocation table_locations[] = {
     {"2", "amplifier", "xg."},
 };
 
-/// What is built otherwise than printed: the device, what of it (m, n, W in um), as built, and the erratum that says why.
+/// A size that differs from the published one: the device, the parameter (m, n, or W in um), its value in circuits/, and the erratum that
+/// gives the reason.
 struct SizeDeviation {
     const char *table, *name, *device, *parameter;
     double built_value;
@@ -178,12 +180,12 @@ struct SizeDeviation {
 };
 
 inline constexpr SizeDeviation size_deviations[] = {
-    {"2", "M3A-B", "mp3a mp3b", "W", 6.0, "F10a: a P pair, as the common mode is 0.1 V"},
-    {"3", "M4A,B", "mn4a mn4b", "W", 1.5, "S11: N, as its current is subtracted"},
-    {"5", "M6A", "mn6a", "m", 16, "S7: 1/64 as M5"},
+    {"2", "M3A-B", "mp3a mp3b", "W", 6.0, "F10a: a P pair, because the common mode is 0.1 V"},
+    {"3", "M4A,B", "mn4a mn4b", "W", 1.5, "S11: N, because its current is subtracted"},
+    {"5", "M6A", "mn6a", "m", 16, "S7: 1/64 like M5"},
     {"5", "M6A", "mn6a", "n", 1, "S7"},
     {"5", "M6B", "mn6b", "n", 8, "S7"},
-    {"6", "M1A", "xrectc.mp1a", "m", 2, "S9a: the P array of I_C as its N array, so that a gain is one gain"},
+    {"6", "M1A", "xrectc.mp1a", "m", 2, "S9a: the P array of I_C equals its N array, so that both paths have the same gain"},
     {"6", "M1A", "xrectc.mp1a", "n", 8, "S9a"},
     {"6", "M1B", "xrectc.mp1b", "m", 2, "S9a"},
     {"6", "M1B", "xrectc.mp1b", "n", 8, "S9a"},
@@ -192,7 +194,7 @@ inline constexpr SizeDeviation size_deviations[] = {
     {"20", "M6B", "mn6b", "n", 8, "S7"},
 };
 
-/// Printed letters without a device: how many, and why.
+/// Published devices that are missing in circuits/: their number and the reason.
 struct MissingDevices {
     const char *table, *name;
     int count;
@@ -202,9 +204,9 @@ struct MissingDevices {
 inline constexpr MissingDevices missing_devices[] = {
     {"2", "M4A-E", 3, "F10: A and B; C has its own row"},
     {"2", "M5A-E", 3, "F10"},
-    {"4", "M5A-C", 1, "M5B: fig. 52 has no third P device beside diode and replica"},
-    {"8", "M7A,B", 2, "S15: no place in this reading"},
-    {"16", "M4A-C", 1, "the replica is in circuits/bias.cir alone"},
+    {"4", "M5A-C", 1, "M5B: fig. 52 has no third P device besides the diode and the replica"},
+    {"8", "M7A,B", 2, "S15: not used in this interpretation"},
+    {"16", "M4A-C", 1, "the replica is in circuits/bias.cir only"},
     {"16", "M5A,B", 1, "the replica"},
 };
 

@@ -1,4 +1,4 @@
-// Drawn filters: they must follow their closed forms, or their own spectrum.
+// Random filters: they must agree with their closed forms or with .ac.
 
 #include <fmt/format.h>
 
@@ -9,55 +9,55 @@
 namespace corpuscle::circuit {
 namespace {
 
-constexpr double turn = 2 * std::numbers::pi;
-constexpr double most_off = 5e-3;  // V of a swing of 1 V: fifty steps, 1e-4 each, all to one side
+constexpr double full_turn = 2 * std::numbers::pi;
+constexpr double max_error = 5e-3;  // V, for a swing of 1 V: fifty steps with errors of 1e-4 of the same sign
 
-/// The largest distance of v(out) from a closed form must stay below `allowed`, V.
-auto follows(std::function<double(double)> exact, double allowed) {
+/// A check that v(out) differs by at most `allowed` (V) from a closed form.
+auto agrees_with(std::function<double(double)> exact, double allowed) {
     return [exact = std::move(exact), allowed](const TransientRunner& c, const TransientPoints& p) {
         const auto v = p.values(c.unknown("v(out)"));
-        double most = 0, when = 0;
+        double worst = 0, when = 0;
         for (std::size_t k = 0; k < v.size(); ++k)
-            if (const double off = std::abs(v[k] - exact(p.t[k])); off > most) most = off, when = p.t[k];
-        return most > allowed ? fmt::format("{:.3g} V off its closed form at {:.6g} s, {:.3g} V are allowed", most, when, allowed) : "";
+            if (const double off = std::abs(v[k] - exact(p.t[k])); off > worst) worst = off, when = p.t[k];
+        return worst > allowed ? fmt::format("{:.3g} V off its closed form at {:.6g} s, {:.3g} V are allowed", worst, when, allowed) : "";
     };
 }
 
-using Corners = std::vector<std::pair<double, double>>;
+using Breakpoints = std::vector<std::pair<double, double>>;
 
-/// tau dv/dt = u - v, u a polygon from (0, u0) on, v = u0 at first.
-double lagged(const Corners& corners, double tau, double t) {
-    double v = corners.front().second;
-    for (std::size_t k = 0; k < corners.size() && corners[k].first < t; ++k) {
-        const auto [t0, u0] = corners[k];
-        const bool last = k + 1 == corners.size();
-        const double slope = last ? 0 : (corners[k + 1].second - u0) / (corners[k + 1].first - t0);
-        const double in = std::min(t, last ? t : corners[k + 1].first) - t0;
+/// Solution v(t) of tau dv/dt = u - v for a piecewise linear u that starts at (0, u0), with v(0) = u0.
+double low_passed(const Breakpoints& breakpoints, double tau, double t) {
+    double v = breakpoints.front().second;
+    for (std::size_t k = 0; k < breakpoints.size() && breakpoints[k].first < t; ++k) {
+        const auto [t0, u0] = breakpoints[k];
+        const bool last = k + 1 == breakpoints.size();
+        const double slope = last ? 0 : (breakpoints[k + 1].second - u0) / (breakpoints[k + 1].first - t0);
+        const double in = std::min(t, last ? t : breakpoints[k + 1].first) - t0;
         v = u0 + slope * (in - tau) + (v - u0 + slope * tau) * std::exp(-in / tau);
     }
     return v;
 }
 
-/// in to out, of this time constant.
+/// A first-order filter from `in` to `out`; sets tau to its time constant (s).
 std::string first_order(RandomSource& dice, double& tau) {
     if (dice.index_below(3) > 0) {
         const double R = 1 / dice.log_uniform(1e-15, 1e-3), C = dice.log_uniform(1e-15, 1e-3);
         tau = R * C;
         return fmt::format("r1 in out {:.9g}\nc1 out 0 {:.9g}\n", R, C);
     }
-    const double R = 1 / dice.log_uniform(1e-11, 1e-3);  // no coil carries less
+    const double R = 1 / dice.log_uniform(1e-11, 1e-3);  // lower limit of an inductor's current
     tau = dice.log_uniform(1e-9, 1e3);
     return fmt::format("l1 in out {:.9g}\nr1 out 0 {:.9g}\n", R * tau, R);
 }
 
-/// Amplitude and phase of what is left at frequency f in the last two periods, by least squares with the second harmonic beside it.
+/// Complex amplitude at frequency f (Hz) in the last two periods, by least squares together with the second harmonic.
 std::complex<double> swing(const TransientPoints& p, int unknown, double f) {
     constexpr int count = 5;
     double A[count][count + 1] = {};
     const double from = p.t.back() - 2 / f;
     for (std::size_t k = 1; k < p.t.size(); ++k) {
         if (p.t[k] < from) continue;
-        const double a = turn * f * p.t[k], w = p.t[k] - p.t[k - 1];
+        const double a = full_turn * f * p.t[k], w = p.t[k] - p.t[k - 1];
         const double row[count + 1] = {
             1, std::sin(a), std::cos(a), std::sin(2 * a), std::cos(2 * a), p.x[k][static_cast<std::size_t>(unknown)]};
         for (int i = 0; i < count; ++i)
@@ -78,29 +78,29 @@ RandomCircuit make_first_order(RandomSource& dice) {
     RandomCircuit out;
     double tau = 0;
     const auto parts = first_order(dice, tau);
-    Corners corners = {{0, 0}};
-    std::string course;
+    Breakpoints breakpoints = {{0, 0}};
+    std::string waveform;
     if (dice.index_below(2) == 0) {
         const double delay = dice.uniform_between(0.1, 1) * tau, rise = tau * dice.log_uniform(1e-4, 1), width = dice.uniform_between(0.5, 3) * tau;
         const double pause = dice.uniform_between(0.5, 3) * tau, period = 2 * rise + width + pause;
-        course = fmt::format("pulse(0 1 {:.9g} {:.9g} {:.9g} {:.9g} {:.9g})", delay, rise, rise, width, period);
+        waveform = fmt::format("pulse(0 1 {:.9g} {:.9g} {:.9g} {:.9g} {:.9g})", delay, rise, rise, width, period);
         for (int round = 0; round < 3; ++round) {
             const double at = delay + round * period;
-            corners.insert(corners.end(), {{at, 0}, {at + rise, 1}, {at + rise + width, 1}, {at + 2 * rise + width, 0}});
+            breakpoints.insert(breakpoints.end(), {{at, 0}, {at + rise, 1}, {at + rise + width, 1}, {at + 2 * rise + width, 0}});
         }
-        corners.emplace_back(delay + 3 * period, 0);
+        breakpoints.emplace_back(delay + 3 * period, 0);
     } else {
-        course = "pwl(0 0";
+        waveform = "pwl(0 0";
         for (int k = 0; k < 6; ++k) {
-            corners.emplace_back(corners.back().first + tau * dice.log_uniform(1e-3, 3), dice.uniform_between(-1, 1));
-            course += fmt::format(" {:.12g} {:.9g}", corners.back().first, corners.back().second);
+            breakpoints.emplace_back(breakpoints.back().first + tau * dice.log_uniform(1e-3, 3), dice.uniform_between(-1, 1));
+            waveform += fmt::format(" {:.12g} {:.9g}", breakpoints.back().first, breakpoints.back().second);
         }
-        course += ")";
+        waveform += ")";
     }
-    const double stop = corners.back().first;
-    out.text = fmt::format("first order, tau {:.3g} s\nv1 in 0 {}\n{}.tran {:.6g} {:.9g}\n", tau, course, parts, tau / 1000, stop);
+    const double stop = breakpoints.back().first;
+    out.text = fmt::format("first order, tau {:.3g} s\nv1 in 0 {}\n{}.tran {:.6g} {:.9g}\n", tau, waveform, parts, tau / 1000, stop);
     out.min_voltage = -1.001, out.max_voltage = 1.001;
-    out.find_fault = follows([=](double t) { return lagged(corners, tau, t); }, most_off);
+    out.find_fault = agrees_with([=](double t) { return low_passed(breakpoints, tau, t); }, max_error);
     return out;
 }
 
@@ -108,12 +108,12 @@ RandomCircuit make_sine_first_order(RandomSource& dice) {
     RandomCircuit out;
     double tau = 0;
     const auto parts = first_order(dice, tau);
-    const double f = dice.log_uniform(0.1, 10) / (turn * tau), w = turn * f, x = w * tau, lag = std::atan(x);
+    const double f = dice.log_uniform(0.1, 10) / (full_turn * tau), w = full_turn * f, x = w * tau, lag = std::atan(x);
     out.text = fmt::format("first order under a sine, tau {:.3g} s\nv1 in 0 sin(0 1 {:.12g})\n{}.tran {:.6g} {:.9g}\n", tau, f, parts,
                            0.001 / f, 5 / f);
     out.min_voltage = -1.01, out.max_voltage = 1.01;
     out.find_fault =
-        follows([=](double t) { return (std::sin(w * t - lag) + std::sin(lag) * std::exp(-t / tau)) / std::hypot(1.0, x); }, most_off);
+        agrees_with([=](double t) { return (std::sin(w * t - lag) + std::sin(lag) * std::exp(-t / tau)) / std::hypot(1.0, x); }, max_error);
     return out;
 }
 
@@ -123,18 +123,18 @@ RandomCircuit make_tank(RandomSource& dice) {
     RandomCircuit out;
     out.text = fmt::format("tank, {:.3g} F and Q = {:.3g}\nl1 out 0 {:.9g}\nc1 out 0 {:.9g}\nr1 out 0 {:.9g}\n.ic v(out)=1\n", C, Q,
                            1 / (natural * natural * C), C, R) +
-               fmt::format(".tran {:.6g} {:.9g} uic\n", 0.01 / omega, 5 * turn / omega);
+               fmt::format(".tran {:.6g} {:.9g} uic\n", 0.01 / omega, 5 * full_turn / omega);
     out.min_voltage = -1.01, out.max_voltage = 1.01;
-    out.find_fault =
-        follows([=](double t) { return std::exp(-alpha * t) * (std::cos(omega * t) - alpha / omega * std::sin(omega * t)); }, 4 * most_off);
+    out.find_fault = agrees_with([=](double t) { return std::exp(-alpha * t) * (std::cos(omega * t) - alpha / omega * std::sin(omega * t)); },
+                            4 * max_error);
     return out;
 }
 
-/// A pair that follows its input as fast as its current allows, 5 mV of sine at it; .ac says what is left of them.
+/// A differential pair as follower, whose current limits its speed, driven by a sine of 5 mV and compared with .ac.
 RandomCircuit make_gm_c(RandomSource& dice) {
     const double I = dice.log_uniform(1e-15, 1e-3), k = std::max(1.0, std::round(I / 100e-9)),
                  C = dice.log_uniform(std::max(1e-15, k * 1e-15), 1e-3);
-    const double corner = I / (2 * 0.033) / (turn * (C + k * 100e-15)), f = corner * dice.log_uniform(0.1, 3);
+    const double corner = I / (2 * 0.033) / (full_turn * (C + k * 100e-15)), f = corner * dice.log_uniform(0.1, 3);
     const double stop = std::ceil(f / corner) / f + 4 / f;
     RandomCircuit out;
     const auto p = [&](int stack) { return fmt::format(" pch w=6u l=0.5u m={:.0f} stack={}\n", 2 * k, stack); };
@@ -149,7 +149,7 @@ RandomCircuit make_gm_c(RandomSource& dice) {
         const auto expected = c.first_ac_value("v(out)");
         const auto s = swing(run, c.unknown("v(out)"), f) / 5e-3;
         if (std::abs(s - expected) < 0.02 * std::abs(expected) + 1e-3) return "";
-        return fmt::format("v(out) swings {:.4f} {:+.4f}i of its input, .ac says {:.4f} {:+.4f}i", s.real(), s.imag(), expected.real(),
+        return fmt::format("v(out) swings {:.4f} {:+.4f}i of its input, .ac gives {:.4f} {:+.4f}i", s.real(), s.imag(), expected.real(),
                            expected.imag());
     };
     return out;
@@ -164,15 +164,15 @@ RandomCircuit make_rectifier(RandomSource& dice) {
                            0.001 / f, 10 / f);
     out.min_voltage = -1.01, out.max_voltage = 1.01;
     out.find_fault = [](const TransientRunner& c, const TransientPoints& p) -> std::string {
-        IdaOptions asked;
-        asked.output_times = p.t, asked.reltol = asked.vntol = 1e-7;
-        const auto truth = c.run_ida(asked);
-        if (!truth.error.empty()) return "IDA: " + truth.error;
+        IdaOptions options;
+        options.output_times = p.t, options.reltol = options.vntol = 1e-7;
+        const auto reference = c.run_ida(options);
+        if (!reference.error.empty()) return "IDA: " + reference.error;
         const auto v = static_cast<std::size_t>(c.unknown("v(out)"));
-        double most = 0, when = 0;
-        for (std::size_t k = 1; k < p.t.size() && k < truth.x.size(); ++k)
-            if (const double off = std::abs(p.x[k][v] - truth.x[k][v]); off > most) most = off, when = p.t[k];
-        return most > most_off ? fmt::format("{:.3g} V off IDA's at {:.6g} s, {:.3g} V are allowed", most, when, most_off) : "";
+        double worst = 0, when = 0;
+        for (std::size_t k = 1; k < p.t.size() && k < reference.x.size(); ++k)
+            if (const double off = std::abs(p.x[k][v] - reference.x[k][v]); off > worst) worst = off, when = p.t[k];
+        return worst > max_error ? fmt::format("{:.3g} V off IDA's at {:.6g} s, {:.3g} V are allowed", worst, when, max_error) : "";
     };
     return out;
 }

@@ -1,4 +1,4 @@
-// Drawn oscillators: they must swing, and always as fast.
+// Random oscillators: they must oscillate with a constant period.
 
 #include <fmt/format.h>
 
@@ -7,25 +7,25 @@
 namespace corpuscle::circuit {
 namespace {
 
-/// At least three intervals after the first, all within 0.5 %; fewer only where it need not swing.
-std::string steady(const TransientRunner& circuit, const TransientPoints& points, const std::string& node, double level, bool must_swing) {
+/// Fault of an oscillation: at least three intervals after the first are required, all within 0.5 %. Fewer are allowed unless must_swing.
+std::string period_fault(const TransientRunner& circuit, const TransientPoints& points, const std::string& node, double level, bool must_swing) {
     const auto rises = circuit.spike_times(points, node, level);
-    if (rises.size() < 5) return must_swing ? fmt::format("{} rises {} times, 5 or more were due", node, rises.size()) : "";
-    double least = 1e300, most = 0;
+    if (rises.size() < 5) return must_swing ? fmt::format("{} rises {} times, 5 or more were expected", node, rises.size()) : "";
+    double shortest = 1e300, longest = 0;
     for (std::size_t k = 2; k < rises.size(); ++k) {
-        least = std::min(least, rises[k] - rises[k - 1]);
-        most = std::max(most, rises[k] - rises[k - 1]);
+        shortest = std::min(shortest, rises[k] - rises[k - 1]);
+        longest = std::max(longest, rises[k] - rises[k - 1]);
     }
-    return most > 1.005 * least ? fmt::format("intervals from {:.6g} to {:.6g} s", least, most) : "";
+    return longest > 1.005 * shortest ? fmt::format("intervals from {:.6g} to {:.6g} s", shortest, longest) : "";
 }
 
 }  // namespace
 
-/// As oscillator.hpp has it, all its transistors as many times as wide as the current asks for.
+/// The circuit of oscillator.hpp with all transistors widened in proportion to the current.
 RandomCircuit make_relaxation(RandomSource& dice) {
     const double I = dice.log_uniform(1e-15, 1e-3), k = std::max(1.0, std::round(I / 10e-9));
-    const double least = std::max(0.1e-12 * k, 20e-6 * I / 0.27), most = std::min(1e-3, 1e6 * I / 0.27);
-    const double C = dice.log_uniform(std::min(least, 1e-3), std::max(most, least)), T = 0.26 * (C + 0.35e-12 * k) / I;
+    const double low = std::max(0.1e-12 * k, 20e-6 * I / 0.27), high = std::min(1e-3, 1e6 * I / 0.27);
+    const double C = dice.log_uniform(std::min(low, 1e-3), std::max(high, low)), T = 0.26 * (C + 0.35e-12 * k) / I;
     RandomCircuit out;
     const auto p = [&](int m, int stack) { return fmt::format(" pch w=6u l=0.5u m={:.0f} stack={}\n", m * k, stack); };
     const auto n = [&](int m, int stack) { return fmt::format(" nch w=1.5u l=0.5u m={:.0f} stack={}\n", m * k, stack); };
@@ -36,12 +36,12 @@ RandomCircuit make_relaxation(RandomSource& dice) {
                "m10 sb s vdd vdd" + p(2, 1) + "m11 sb s 0 0" + n(2, 1) +
                fmt::format(".ic v(u)=0.6\n.tran {:.6g} {:.6g}\n", T / 1000, 8 * T);
     out.min_voltage = -0.3, out.max_voltage = 1.0;
-    // below some picoamperes what leaks into the membrane holds it up
-    out.find_fault = [strong = I >= 20e-12](const TransientRunner& c, const TransientPoints& run) { return steady(c, run, "v(s)", 0.35, strong); };
+    // at a few picoamperes, leakage into the membrane can prevent the oscillation
+    out.find_fault = [strong = I >= 20e-12](const TransientRunner& c, const TransientPoints& run) { return period_fault(c, run, "v(s)", 0.35, strong); };
     return out;
 }
 
-/// C du/dt = I (2 s - 1); s follows a step of itself and u, with hysteresis, in a hundredth of the period.
+/// C du/dt = I (2 s - 1). s follows a function of itself and u with hysteresis, within at most a hundredth of the period.
 RandomCircuit make_ideal_relaxation(RandomSource& dice) {
     const double I = dice.log_uniform(1e-15, 1e-3), C = dice.log_uniform(1e-15, 1e-3), T = C / I;
     const double quick = T * dice.log_uniform(1e-6, 1e-2);
@@ -51,14 +51,14 @@ RandomCircuit make_ideal_relaxation(RandomSource& dice) {
                "bs s0 0 v='0.5+0.5*tanh(10*(v(s)-0.5-2*(v(u)-0.5)))'\n" +
                fmt::format("rs s0 s {:.6g}\ncs s 0 {:.6g}\n.ic v(u)=0.5 v(s)=1\n.tran {:.6g} {:.6g}\n", 1 / I, quick * I, T / 1000, 10 * T);
     out.min_voltage = -0.3, out.max_voltage = 1.3;
-    out.find_fault = [](const TransientRunner& c, const TransientPoints& p) { return steady(c, p, "v(s)", 0.5, true); };
+    out.find_fault = [](const TransientRunner& c, const TransientPoints& p) { return period_fault(c, p, "v(s)", 0.5, true); };
     return out;
 }
 
 RandomCircuit make_ring(RandomSource& dice) {
     const int stages = 3 + 2 * dice.index_below(4);
     const double m = std::round(dice.log_uniform(1, 1000)), C = dice.log_uniform(1e-15, 1e-3), vdd = dice.uniform_between(0.4, 0.9);
-    // seen in runs at 0.7 V: 76 ns a stage, of a unit with a picofarad, and by how much that grows at other supplies
+    // measured: 76 ns per stage at 0.7 V for one element with a picofarad, and its factor at other supplies
     static constexpr double longer[] = {37.8, 5.84, 1.97, 1, 0.62, 0.44};
     const auto at = std::min(4, static_cast<int>((vdd - 0.4) / 0.1));
     const double T = stages * 76e3 * (C / m + 35e-15) * longer[at] * std::pow(longer[at + 1] / longer[at], (vdd - 0.4) / 0.1 - at);
@@ -70,7 +70,7 @@ RandomCircuit make_ring(RandomSource& dice) {
             (k + 1) % stages, m, C);
     out.text += fmt::format(".ic v(n0)=0\n.tran {:.6g} {:.6g}\n", T / 1000, 8 * T);
     out.min_voltage = -0.5, out.max_voltage = vdd + 0.5;
-    out.find_fault = [vdd](const TransientRunner& c, const TransientPoints& p) { return steady(c, p, "v(n0)", vdd / 2, true); };
+    out.find_fault = [vdd](const TransientRunner& c, const TransientPoints& p) { return period_fault(c, p, "v(n0)", vdd / 2, true); };
     return out;
 }
 
@@ -84,12 +84,12 @@ RandomCircuit make_ideal_ring(RandomSource& dice) {
                                 I, gain, 1 / I, C);
     out.text += fmt::format(".ic v(a)=0.5 v(b)=-0.5 v(c)=0\n.tran {:.6g} {:.6g}\n", T / 1000, 12 * T);
     out.min_voltage = -1.01, out.max_voltage = 1.01;
-    // it grows or shrinks into its swing first
+    // skips the initial growth or decay of the amplitude
     out.find_fault = [](const TransientRunner& c, const TransientPoints& p) {
         TransientPoints late;
         for (std::size_t k = 0; k < p.t.size(); ++k)
             if (p.t[k] > 0.5 * p.t.back()) late.t.push_back(p.t[k]), late.x.push_back(p.x[k]);
-        return steady(c, late, "v(a)", 0, true);
+        return period_fault(c, late, "v(a)", 0, true);
     };
     return out;
 }

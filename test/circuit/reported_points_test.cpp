@@ -1,5 +1,5 @@
-// Drawn circuits in time: every point that is reported, and the straight line to the next, lies where a run at a thousandth of the
-// tolerances has it.
+// Transients of random circuits: every reported point, and the straight line to the next one, agrees with a run at a thousandth of the
+// tolerances.
 
 #include <gtest/gtest.h>
 
@@ -14,22 +14,22 @@
 namespace corpuscle::circuit {
 namespace {
 
-struct DrawnKind {
+struct NetlistKind {
     const char* name;
-    int many;
-    std::string (*draw)(RandomSource&);
+    int count;
+    std::string (*make)(RandomSource&);
 };
 
 constexpr double stop_time = 3e-3;  // s
 
-/// fmt::format() that draws its numbers from left to right with every compiler, as an initializer list does: the circuits are the same.
+/// fmt::format() with arguments evaluated from left to right by every compiler, like an initializer list. This keeps the circuits the same.
 struct Text {
     std::string text;
     template <class... A>
     explicit Text(std::string_view format, const A&... values) : text(fmt::format(fmt::runtime(format), values...)) {}
 };
 
-std::string course(RandomSource& dice, double low, double high) {
+std::string waveform(RandomSource& dice, double low, double high) {
     const double middle = (low + high) / 2, swing = (high - low) / 2;
     switch (dice.index_below(4)) {
         case 0:
@@ -66,19 +66,25 @@ std::string course(RandomSource& dice, double low, double high) {
     }
 }
 
-/// Each node hangs on an earlier one by a resistor or a diode; clamps, capacitors and loads come and go.
+/// A resistor or a diode connects each node to an earlier one; clamps, capacitors and loads are optional.
 std::string diodes(RandomSource& dice) {
     const int nodes = 3 + dice.index_below(4);
     const double volts = dice.log_uniform(0.3, 10);
-    std::string out = Text{"drawn diodes\nv1 n1 0 {}\n", course(dice, dice.index_below(2) ? -volts : 0, volts)}.text;
+    std::string out = Text{"drawn diodes\nv1 n1 0 {}\n", waveform(dice, dice.index_below(2) ? -volts : 0, volts)}.text;
     for (int k = 2; k <= nodes; ++k) {
-        const int from = 1 + dice.index_below(k - 1), way = dice.index_below(3);
-        if (way == 0)
+        const int from = 1 + dice.index_below(k - 1), direction = dice.index_below(3);
+        if (direction == 0)
             out += Text{"r{} n{} n{} {:g}\n", k, from, k, dice.log_uniform(1e3, 1e6)}.text;
         else
-            out +=
-                Text{"d{} n{} n{} d\nr{} n{} n{} {:g}\n", k, way == 1 ? from : k, way == 1 ? k : from, k, from, k, dice.log_uniform(1e6, 1e8)}
-                    .text;
+            out += Text{"d{} n{} n{} d\nr{} n{} n{} {:g}\n",
+                        k,
+                        direction == 1 ? from : k,
+                        direction == 1 ? k : from,
+                        k,
+                        from,
+                        k,
+                        dice.log_uniform(1e6, 1e8)}
+                       .text;
         if (dice.index_below(2)) out += Text{"rl{} n{} 0 {:g}\n", k, k, dice.log_uniform(1e3, 1e7)}.text;
         if (dice.index_below(2)) out += Text{"c{} n{} 0 {:g}\n", k, k, dice.log_uniform(1e-14, 1e-7)}.text;
         if (dice.index_below(4) == 0) out += Text{"cx{} n{} n{} {:g}\n", k, k, 1 + dice.index_below(k - 1), dice.log_uniform(1e-13, 1e-8)}.text;
@@ -90,10 +96,10 @@ std::string diodes(RandomSource& dice) {
                      .text;
 }
 
-/// Inverters, loaded stages, followers and passes, one behind another under a supply of 0.7 V; most of their charges are their own.
+/// A chain of inverters, loaded stages, followers and pass transistors at a supply of 0.7 V. Most charges are the transistors' own.
 std::string transistors(RandomSource& dice) {
     const int nodes = 3 + dice.index_below(3);
-    std::string out = Text{"drawn transistors\n.lib 'tsmc180.lib' tt\nvdd vdd 0 0.7\nv1 n1 0 {}\n", course(dice, 0, 0.7)}.text;
+    std::string out = Text{"drawn transistors\n.lib 'tsmc180.lib' tt\nvdd vdd 0 0.7\nv1 n1 0 {}\n", waveform(dice, 0, 0.7)}.text;
     const auto size = [&] { return Text{"w={:.3g}u l={:.3g}u", dice.uniform_between(0.4, 6), dice.uniform_between(0.4, 2)}.text; };
     for (int k = 2; k <= nodes; ++k) {
         const int from = 1 + dice.index_below(k - 1), other = 1 + dice.index_below(k - 1);
@@ -116,12 +122,12 @@ std::string transistors(RandomSource& dice) {
     return out;
 }
 
-/// A run as a polyline, each unknown's smallest and largest value in a stretch of time.
-class Drawn {
+/// A run as a polyline, with the range of each unknown in a time window.
+class Polyline {
     const TransientPoints& points_;
 
 public:
-    explicit Drawn(const TransientPoints& points) : points_(points) {}
+    explicit Polyline(const TransientPoints& points) : points_(points) {}
     double at(double t, std::size_t n) const {
         const auto& all = points_.t;
         const auto after = static_cast<std::size_t>(std::upper_bound(all.begin(), all.end(), t) - all.begin());
@@ -130,23 +136,22 @@ public:
         const double part = (t - all[after - 1]) / (all[after] - all[after - 1]);
         return points_.x[after - 1][n] + part * (points_.x[after][n] - points_.x[after - 1][n]);
     }
-    /// How far x is from all that unknown n is within `slack` of t.
+    /// Distance of x from the range of unknown n within +-slack (s) of t.
     double distance(double t, std::size_t n, double x, double slack) const {
         double low = at(t - slack, n), high = low;
-        const auto take = [&](double y) { low = std::min(low, y), high = std::max(high, y); };
-        take(at(t + slack, n)), take(at(t, n));
+        const auto extend = [&](double y) { low = std::min(low, y), high = std::max(high, y); };
+        extend(at(t + slack, n)), extend(at(t, n));
         const auto& all = points_.t;
         for (auto k = std::lower_bound(all.begin(), all.end(), t - slack); k != all.end() && *k <= t + slack; ++k)
-            take(points_.x[static_cast<std::size_t>(k - all.begin())][n]);
+            extend(points_.x[static_cast<std::size_t>(k - all.begin())][n]);
         return std::max({low - x, x - high, 0.0});
     }
 };
 
-/// The worst of all points, of 10 x reltol x span + floor; `where` says which.
+/// Largest error of all points, relative to 10 x reltol x span + floor; `where` describes that point.
 double worst_point(const TransientRunner& circuit, const TransientPoints& run, const TransientPoints& fine, const TransientPlan& plan, std::string& where) {
-    const double slack =
-        plan.reltol * stop_time / 50;  // a jump is drawn as a line of this part of a step, as is what follows a corner at once
-    const Drawn truth(fine);
+    const double slack = plan.reltol * stop_time / 50;  // a jump, or an immediate change after a breakpoint, is a line of this length (s)
+    const Polyline reference(fine);
     const auto count = static_cast<std::size_t>(circuit.system().size());
     std::vector<double> low = fine.x[0], high = fine.x[0];
     for (const auto& x : fine.x)
@@ -162,21 +167,21 @@ double worst_point(const TransientRunner& circuit, const TransientPoints& run, c
                 const double x = run.x[k - 1][n] + part * (run.x[k][n] - run.x[k - 1][n]);
                 const bool voltage = circuit.system().is_voltage(static_cast<int>(n));
                 const double floor = 10 * (voltage ? plan.vntol : plan.abstol + 1e-9 * largest);
-                const double off = truth.distance(t, n, x, slack) / (10 * plan.reltol * (high[n] - low[n]) + floor);
+                const double off = reference.distance(t, n, x, slack) / (10 * plan.reltol * (high[n] - low[n]) + floor);
                 if (off > worst)
                     worst = off, where = fmt::format("{} is {:.9g} at {:.9g} s{}, and {:.9g} by the finer run", circuit.system().names()[n],
-                                                     x, t, part < 1 ? " (between points)" : "", truth.at(t, n));
+                                                     x, t, part < 1 ? " (between points)" : "", reference.at(t, n));
             }
     return worst;
 }
 
-class ReportedPoints : public testing::TestWithParam<DrawnKind> {};
+class ReportedPoints : public testing::TestWithParam<NetlistKind> {};
 
 TEST_P(ReportedPoints, LieWhereAFinerRunHasThem) {
     const auto kind = GetParam();
-    for (int k = 0; k < kind.many; ++k) {
+    for (int k = 0; k < kind.count; ++k) {
         RandomSource dice(static_cast<std::uint64_t>(1000 + k));
-        const auto text = kind.draw(dice) + fmt::format(".tran 1u {:g}\n", stop_time);
+        const auto text = kind.make(dice) + fmt::format(".tran 1u {:g}\n", stop_time);
         const auto circuit = TransientRunner::from_text(text);
         TransientPlan plan;
         plan.all_reported = true;
@@ -194,10 +199,11 @@ TEST_P(ReportedPoints, LieWhereAFinerRunHasThem) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Drawn, ReportedPoints, testing::Values(DrawnKind{"Diodes", 60, diodes}, DrawnKind{"Transistors", 60, transistors}),
+INSTANTIATE_TEST_SUITE_P(RandomDevice, ReportedPoints,
+                         testing::Values(NetlistKind{"Diodes", 60, diodes}, NetlistKind{"Transistors", 60, transistors}),
                          [](const auto& one) { return std::string(one.param.name); });
 
-/// What swings by itself is compared by its period.
+/// Oscillators are compared by their period.
 TEST(ReportedOscillation, HasThePeriodOfAFinerRun) {
     const auto ring = [](const std::string& options) {
         std::string text = "ring\n.lib 'tsmc180.lib' tt\nvdd vdd 0 0.7\n.options " + options + "\n.ic v(n0)=0\n";

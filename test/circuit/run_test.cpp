@@ -1,4 +1,4 @@
-// corpuscle run, as people use it; and every netlist of circuits/, which says itself what it expects.
+// The verb `corpuscle run`, and every netlist of circuits/ against its own .expect lines.
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@ namespace {
 
 constexpr const char* divider = "divider\nv1 in 0 3\nr1 in out 1k\nr2 out 0 {r}\n.param r=2k\n.op\n";
 
-TEST(Run, PrintsWhatItFindsAndMeasuresAsNamesAndValues) {
+TEST(Run, PrintsResultsAndMeasurementsAsNamesAndValues) {
     const TemporaryFolder folder;
     folder.write("x.cir", "t\nv1 in 0 0\nr1 in out 1k\nr2 out 0 3k\n.dc v1 0 4 1\n.meas dc at2 find v(out) at=2\n.print dc v(out) i(v1)\n");
     const auto ran = run_program(folder, "run x.cir");
@@ -42,7 +42,7 @@ TEST(Run, WritesRawFilesThatReadBackAlikeInBothForms) {
     EXPECT_TRUE(read_file(folder / "c-2.csv").starts_with("v(in),v(out),i(v1)"));
 }
 
-TEST(Run, OneDocumentOnStandardOutputAndTheSameEachTime) {
+TEST(Run, OneDocumentOnStandardOutputTheSameEachTime) {
     const TemporaryFolder folder;
     folder.write("x.cir", divider);
     const auto ran = run_program(folder, "run x.cir --json");
@@ -68,7 +68,7 @@ TEST(Run, MeasuresAtTheVeryEndOfASweep) {
     EXPECT_EQ(run_program(folder, "run y.cir").status, 0);
 }
 
-TEST(Run, ANodeThatAFormulaReadsDoesNotStandAlone) {
+TEST(Run, ANodeThatAnExpressionReadsIsNotDangling) {
     const TemporaryFolder folder;
     folder.write("x.cir", "t\nv1 a 0 1\nb1 c 0 v=2*v(a)\nr1 c 0 1\n.op\n");
     EXPECT_EQ(run_program(folder, "run x.cir").err, "");
@@ -83,7 +83,7 @@ TEST(Run, TablesOfManyStepsHaveTheStepInEachRow) {
     EXPECT_TRUE(read_file(folder / "x-1.csv").starts_with("step,v(in),v(out),i(v1)\nr=1000,3,1.5,-0.0015\n"));
 }
 
-TEST(Run, SavesWhatIsAskedFor) {
+TEST(Run, SavesTheRequestedCurves) {
     const TemporaryFolder folder;
     folder.write("x.cir", std::string(divider) + ".save v(in,out) out\n.dc v1 0 1 1\n");
     folder.write("y.cir", std::string(divider) + ".save v(oot)\n");
@@ -108,7 +108,7 @@ TEST(Run, ChipsEndInAMeanAndADeviation) {
     EXPECT_NE(ran.out.find("n = 40\n"), std::string::npos) << ran.out;
 }
 
-TEST(Run, AStepThatDoesNotConvergeIsToldAndTheRestGoesOn) {
+TEST(Run, AStepThatDoesNotConvergeIsReportedAndTheOthersContinue) {
     const TemporaryFolder folder;
     folder.write("x.cir", "t\n.param a=1\ni1 0 x 1\nb1 x 0 i={a}*(v(x)*v(x)+0.5)\n.op\n.step param a list 1 4 1\n");
     const auto ran = run_program(folder, "run x.cir --json");
@@ -120,7 +120,7 @@ TEST(Run, AStepThatDoesNotConvergeIsToldAndTheRestGoesOn) {
     EXPECT_NE(ran.err.find("1 of 3 did not converge"), std::string::npos) << ran.err;
 }
 
-TEST(Run, LinesOfTenMegabytesAreReadOrRefused) {
+TEST(Run, LinesOfTenMegabytesAreReadOrRejected) {
     const TemporaryFolder folder;
     const auto refused = [&](const std::string& line, const std::string& why) {
         folder.write("x.cir", "t\nv1 a 0 1\n" + line + "\n.op\n");
@@ -143,7 +143,7 @@ TEST(Run, LinesOfTenMegabytesAreReadOrRefused) {
     EXPECT_EQ(run_program(folder, "run x.cir").status, 0);
 }
 
-TEST(Run, StatusTellsWhatWentWrong) {
+TEST(Run, TheStatusReportsTheFailure) {
     const TemporaryFolder folder;
     folder.write("bad.cir", "t\nv1 a 0 1\nr1 a 0 1k\nr2 a\n.op\n");
     folder.write("wrong.cir", std::string(divider) + ".expect v(out) 1 1%\n");
@@ -159,9 +159,9 @@ TEST(Run, StatusTellsWhatWentWrong) {
     EXPECT_EQ(run_program(folder, "run").status, 2);
 }
 
-TEST(Circuits, HoldWhatTheyExpect) {
+TEST(Circuits, MeetTheirExpectations) {
     int count = 0;
-    for (const auto& entry : std::filesystem::directory_iterator(test::project_root() + "/circuits")) {
+    for (const auto& entry : std::filesystem::directory_iterator(test::source_root() + "/circuits")) {
         if (entry.path().extension() != ".cir") continue;
         const TemporaryFolder folder;
         const auto ran = run_program(folder, fmt::format("run '{}' --json", entry.path().string()));

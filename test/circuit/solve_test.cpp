@@ -1,4 +1,4 @@
-// Operating points: found wherever there is one, and where there is none the reason why.
+// Operating points: every existing one is found; if there is none, the error gives the reason.
 
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@ namespace corpuscle::circuit {
 namespace {
 
 Netlist netlist_of(const std::string& text) {
-    auto netlist = Netlist::parse(text, test::project_root() + "/process/test.cir", [](const std::string& path) -> Result<std::string> {
+    auto netlist = Netlist::parse(text, test::source_root() + "/process/test.cir", [](const std::string& path) -> Result<std::string> {
         std::FILE* file = std::fopen(path.c_str(), "rb");
         if (file == nullptr) return bad_input("no file " + path);
         std::string out(100000, '\0');
@@ -39,12 +39,12 @@ std::unique_ptr<AnalysisContext> solve_bench(const std::string& text) {
     return std::move(*bench);
 }
 
-Result<RunOutcome> run_text(const std::string& text, std::shared_ptr<const Circuit>* kept = nullptr) {
+Result<RunOutcome> run_text(const std::string& text, std::shared_ptr<const Circuit>* circuit_out = nullptr) {
     auto circuit = netlist_of(text).elaborate();
     if (!circuit) return circuit.error();
-    static std::vector<std::shared_ptr<const Circuit>> all;  // an outcome points at its circuit's commands
+    static std::vector<std::shared_ptr<const Circuit>> all;  // an outcome points to the commands of its circuit
     all.push_back(std::make_shared<const Circuit>(std::move(*circuit)));
-    if (kept != nullptr) *kept = all.back();
+    if (circuit_out != nullptr) *circuit_out = all.back();
     return run_directives(all.back());
 }
 
@@ -52,30 +52,30 @@ double found(const RunOutcome& outcome, const std::string& name) {
     return outcome.analyses[0].result.plots[0].find_curve(name)->values[0].real();
 }
 
-std::string solve_refusal(const std::string& text) {
+std::string solve_error(const std::string& text) {
     const auto outcome = run_text(text);
     EXPECT_FALSE(outcome) << text;
     return outcome ? "" : outcome.error().text();
 }
 
-TEST(Topology, WhatHasNoAnswerIsRefusedWithItsLineAndWhy) {
-    const auto has = [](const std::string& said, std::initializer_list<const char*> words) {
-        for (const char* w : words) EXPECT_NE(said.find(w), std::string::npos) << said << "\nlacks: " << w;
+TEST(Topology, UnsolvableNetlistsAreRejectedWithLineAndReason) {
+    const auto has = [](const std::string& message, std::initializer_list<const char*> words) {
+        for (const char* w : words) EXPECT_NE(message.find(w), std::string::npos) << message << "\nlacks: " << w;
     };
-    has(solve_refusal("t\nv1 a 0 1\nr1 a 0 1k\nc1 a b 1n\nc2 b 0 1n\n.op\n"), {"test.cir:4", "'b'", "no path to ground", "c1, c2"});
-    has(solve_refusal("t\nv1 a 0 1\nr1 a 0 1k\ni1 0 b 1m\ni2 b 0 1m\n.op\n"), {"test.cir:4", "'b'", "current sources"});
-    has(solve_refusal("t\nv1 a 0 1\nv2 a 0 2\nr1 a 0 1k\n.op\n"), {"test.cir:3", "v2", "v1", "loop"});
-    has(solve_refusal("t\nv1 a 0 1\nl1 a 0 1m\nr1 a 0 1k\n.op\n"), {"test.cir:3", "l1", "loop"});
-    has(solve_refusal("t\nr1 a b 1k\nr2 b a 1k\nv1 a b 1\n.op\n"), {"ground"});
-    has(solve_refusal("t\nv1 a 0 1\nr1 a b 1k\nm1 b g 0 0 n\n.model n nmos(level=80)\n.op\n"), {"'g'", "no path to ground"});
-    has(solve_refusal("t\nv1 a 0 1\nr1 a 0 1k\nm1 a a 0 0 n\n.model n nmos(level=1)\n.op\n"), {"test.cir:5", "level=80"});
-    has(solve_refusal("t\nv1 a 0 1\nr1 a 0 1k\n"), {"no analysis", ".op"});
-    has(solve_refusal("t\nv1 a 0 1\nr1 a 0 1k\n.dc vx 0 1 0.1\n"), {"test.cir:4", "vx"});
-    has(solve_refusal("t\nv1 a 0 1\nr1 a 0 1k\n.dc v1 0 1 -0.1\n"), {"test.cir:4", "step"});
-    has(solve_refusal("t\nv1 a 0 1\nd1 a 0 dx\n.model dx d(isx=1)\n.op\n"), {"test.cir:4", "isx"});
+    has(solve_error("t\nv1 a 0 1\nr1 a 0 1k\nc1 a b 1n\nc2 b 0 1n\n.op\n"), {"test.cir:4", "'b'", "no path to ground", "c1, c2"});
+    has(solve_error("t\nv1 a 0 1\nr1 a 0 1k\ni1 0 b 1m\ni2 b 0 1m\n.op\n"), {"test.cir:4", "'b'", "current sources"});
+    has(solve_error("t\nv1 a 0 1\nv2 a 0 2\nr1 a 0 1k\n.op\n"), {"test.cir:3", "v2", "v1", "loop"});
+    has(solve_error("t\nv1 a 0 1\nl1 a 0 1m\nr1 a 0 1k\n.op\n"), {"test.cir:3", "l1", "loop"});
+    has(solve_error("t\nr1 a b 1k\nr2 b a 1k\nv1 a b 1\n.op\n"), {"ground"});
+    has(solve_error("t\nv1 a 0 1\nr1 a b 1k\nm1 b g 0 0 n\n.model n nmos(level=80)\n.op\n"), {"'g'", "no path to ground"});
+    has(solve_error("t\nv1 a 0 1\nr1 a 0 1k\nm1 a a 0 0 n\n.model n nmos(level=1)\n.op\n"), {"test.cir:5", "level=80"});
+    has(solve_error("t\nv1 a 0 1\nr1 a 0 1k\n"), {"no analysis", ".op"});
+    has(solve_error("t\nv1 a 0 1\nr1 a 0 1k\n.dc vx 0 1 0.1\n"), {"test.cir:4", "vx"});
+    has(solve_error("t\nv1 a 0 1\nr1 a 0 1k\n.dc v1 0 1 -0.1\n"), {"test.cir:4", "step"});
+    has(solve_error("t\nv1 a 0 1\nd1 a 0 dx\n.model dx d(isx=1)\n.op\n"), {"test.cir:4", "isx"});
 }
 
-TEST(Topology, AMistypedNodeIsTold) {
+TEST(Topology, AMistypedNodeIsReported) {
     const auto outcome = run_text("t\nv1 in 0 1\nr1 in out 1k\nr2 out 0 1k\nr3 ouy 0 1k\n.op\n");
     ASSERT_TRUE(outcome);
     ASSERT_EQ(outcome->warnings.size(), 1U);
@@ -83,24 +83,24 @@ TEST(Topology, AMistypedNodeIsTold) {
         << outcome->warnings[0].text();
 }
 
-TEST(OperatingPoint, ADiodeCarriesWhatItsEquationSays) {
+TEST(OperatingPoint, ADiodeFollowsItsEquation) {
     const auto outcome = run_text("t\ni1 0 a 1m\nd1 a 0 dx\n.model dx d(is=1e-15 n=1.5)\n.options gmin=0\n.op\n");
     ASSERT_TRUE(outcome);
     const double v_t = 1.380649e-23 * 300.15 / 1.602176634e-19;
     EXPECT_NEAR(found(*outcome, "v(a)"), 1.5 * v_t * std::log(1e-3 / 1e-15 + 1), 1e-9);
 }
 
-TEST(OperatingPoint, PicoamperesAreNotLost) {
+TEST(OperatingPoint, PicoamperesAreResolved) {
     const auto outcome =
         run_text("t\ni1 0 a 3p\nm1 a a 0 0 n w=1.5u l=0.5u stack=8\n.model n nmos(level=80 isq=112n vto=0.46 n=1.27)\n.op\n");
     ASSERT_TRUE(outcome);
     const auto ten = run_text("t\ni1 0 a 30p\nm1 a a 0 0 n w=1.5u l=0.5u stack=8\n.model n nmos(level=80 isq=112n vto=0.46 n=1.27)\n.op\n");
     ASSERT_TRUE(ten);
     const double v_t = 1.380649e-23 * 300.15 / 1.602176634e-19;
-    EXPECT_NEAR(found(*ten, "v(a)") - found(*outcome, "v(a)"), 1.27 * v_t * std::log(10.0), 2e-3);  // weak inversion: n phi_t a factor e
+    EXPECT_NEAR(found(*ten, "v(a)") - found(*outcome, "v(a)"), 1.27 * v_t * std::log(10.0), 2e-3);  // weak inversion: n phi_t per factor e
 }
 
-TEST(OperatingPoint, ALatchHasMoreThanOneAndSaysSo) {
+TEST(OperatingPoint, ALatchReportsSeveral) {
     const std::string latch =
         "t\n.lib 'tsmc180.lib' tt\nvdd v 0 0.7\nmp1 a b v v pch w=6u l=0.5u\nmn1 a b 0 0 nch w=1.5u l=0.5u\nmp2 b a v v pch w=6u "
         "l=0.5u\nmn2 b a 0 0 "
@@ -113,8 +113,8 @@ TEST(OperatingPoint, ALatchHasMoreThanOneAndSaysSo) {
     }
 }
 
-/// A random netlist that has an answer: a ladder of resistors and diodes, mirrors, chains of inverters, rings of two.
-std::string drawn(unsigned seed) {
+/// A random solvable netlist: a ladder of resistors and diodes, mirrors, a chain of inverters, or an even ring of inverters.
+std::string random_netlist(unsigned seed) {
     std::mt19937 draw(seed);
     const auto up_to = [&](unsigned n) { return static_cast<unsigned>(draw() % n); };
     const auto log_between = [&](double a, double b) { return a * std::pow(b / a, static_cast<double>(draw()) / 4294967295.0); };
@@ -142,7 +142,7 @@ std::string drawn(unsigned seed) {
         }
         text += fmt::format("ml g{0} g{0} {1} {1} {2} w=1.5u l=0.5u\n", length, length % 2 ? "v" : "0", length % 2 ? "pch" : "nch");
     }
-    if (kind >= 2) {  // 3: the last drives the first
+    if (kind >= 2) {  // 3: the last inverter drives the first
         if (kind == 2) text += fmt::format("vin n0 0 {:.3f}\n", log_between(0.01, 0.7));
         const unsigned count = kind == 3 ? length + length % 2 : length;  // an even ring latches
         for (unsigned k = 0; k < count; ++k) {
@@ -157,7 +157,7 @@ std::string drawn(unsigned seed) {
 TEST(OperatingPoint, OfAThousandRandomNetlistsAllAreFoundAndHold) {
     int by_newton = 0;
     for (unsigned seed = 0; seed < 1000; ++seed) {
-        const auto text = drawn(seed);
+        const auto text = random_netlist(seed);
         std::shared_ptr<const Circuit> circuit;
         const auto outcome = run_text(text, &circuit);
         ASSERT_TRUE(outcome) << outcome.error().text() << "\n" << text;
@@ -178,7 +178,7 @@ TEST(OperatingPoint, OfAThousandRandomNetlistsAllAreFoundAndHold) {
     EXPECT_GT(by_newton, 500);
 }
 
-TEST(NetlistVariants, DrawKIsTheSameWhateverElseIsDrawn) {
+TEST(NetlistVariants, SampleKDoesNotDependOnOtherSamples) {
     const auto netlist = [](int count) {
         return netlist_of(
             fmt::format("t\ni1 0 a 1n\nm1 a a 0 0 n w=1u l=1u\n.model n nmos(level=80 avt=3e-9 svt0=10m)\n.mc {} seed=4\n.op\n", count));
@@ -195,7 +195,7 @@ TEST(NetlistVariants, DrawKIsTheSameWhateverElseIsDrawn) {
     }
 }
 
-/// A mirror and an inverter between mismatched transistors; `more` on the lines of its four.
+/// A mirror and an inverter of four mismatched transistors; `more` is appended to their lines.
 std::string four_transistors(const std::array<std::string, 4>& more) {
     return fmt::format(
         "t\nv1 v 0 0.7\ni1 v a 20n\nm1 a a 0 0 n w=2u l=1u{}\nm2 b a 0 0 n w=2u l=1u{}\nm3 b b v v p w=6u l=1u{}\nm4 c b v v p w=6u "
@@ -205,13 +205,13 @@ std::string four_transistors(const std::array<std::string, 4>& more) {
         more[0], more[1], more[2], more[3]);
 }
 
-TEST(Chips, RestWhereTheSameMismatchWrittenOutDoes) {
-    auto drawn = solve_bench(four_transistors({}));
-    const auto& circuit = *drawn->circuit;
+TEST(ChipSpec, RestWhereTheSameMismatchWrittenOutDoes) {
+    auto sampled = solve_bench(four_transistors({}));
+    const auto& circuit = *sampled->circuit;
     for (std::uint64_t chip = 0; chip < 50; ++chip) {
         ChipSample draw{9, chip, true, {}};
         std::copy_n(sample_process(9, chip).values, 4, draw.process);
-        drawn->apply_variation(draw);
+        sampled->apply_variation(draw);
         std::array<std::string, 4> more;
         std::uint32_t device = 0;
         for (const auto& e : circuit.elements) {
@@ -224,15 +224,15 @@ TEST(Chips, RestWhereTheSameMismatchWrittenOutDoes) {
             more[device++] = fmt::format(" delvto={:.17g} mulu0={:.17g}", own.V_T + all.V_T, own.factor);
         }
         const auto written = solve_bench(four_transistors(more));
-        const auto a = drawn->operating_point(), b = written->operating_point();
+        const auto a = sampled->operating_point(), b = written->operating_point();
         ASSERT_TRUE(a && b);
         for (std::size_t n = 0; n < a->x.size(); ++n) EXPECT_NEAR(a->x[n], b->x[n], 1e-5 * std::abs(b->x[n])) << n;
     }
 }
 
-TEST(Chips, RestAtTheSameBitsOnEveryInstructionSet) {
+TEST(ChipSpec, RestAtTheSameBitsOnEveryInstructionSet) {
     const char* const before = std::getenv("CORPUSCLE_ISA");
-    const std::string kept = before ? before : "";
+    const std::string previous = before ? before : "";
     std::vector<std::vector<double>> first;
     for (const auto set : instruction_sets()) {
         ::setenv("CORPUSCLE_ISA", std::string(name_of(set)).c_str(), 1);
@@ -245,10 +245,10 @@ TEST(Chips, RestAtTheSameBitsOnEveryInstructionSet) {
             EXPECT_EQ(rest->x, first[chip]) << name_of(set) << ", chip " << chip;
         }
     }
-    before ? ::setenv("CORPUSCLE_ISA", kept.c_str(), 1) : ::unsetenv("CORPUSCLE_ISA");
+    before ? ::setenv("CORPUSCLE_ISA", previous.c_str(), 1) : ::unsetenv("CORPUSCLE_ISA");
 }
 
-TEST(NetlistVariants, ABillionStepsAreRefusedAtOnce) {
+TEST(NetlistVariants, ABillionStepsAreRejectedImmediately) {
     const auto netlist = Netlist::parse("t\n.param r=1\nv1 a 0 1\nr1 a 0 {r}\n.step param r 1 1g 1\n.op\n", "t.cir",
                                         [](const std::string&) -> Result<std::string> { return bad_input("none"); });
     ASSERT_TRUE(netlist);

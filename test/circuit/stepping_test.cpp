@@ -1,4 +1,4 @@
-// The steps of a transient: their polynomials, their order, what stops and resumes them, where they begin.
+// The steps of a transient: interpolation polynomials, order, stop and resume, initial conditions.
 
 #include <gtest/gtest.h>
 
@@ -41,11 +41,11 @@ TEST(History, KeepsTheNewestPoints) {
     for (int k = 0; k < past.count(); ++k) EXPECT_EQ(past[k].t, 29 - k);
 }
 
-/// One circuit, with all that a transient of it needs.
-struct Stepped {
+/// One circuit with everything that a transient needs.
+struct TransientFixture {
     std::unique_ptr<AnalysisContext> bench;
     TransientPlan plan;
-    Stepped(const std::string& netlist, double stop) {
+    TransientFixture(const std::string& netlist, double stop) {
         auto made = AnalysisContext::make(make_circuit(netlist));
         EXPECT_TRUE(made) << made.error().text();
         bench = std::move(*made);
@@ -63,27 +63,27 @@ struct Stepped {
 
 const std::string membrane = oscillator_netlist("0.2");
 
-TEST(Transient, GoesOnFromAKeptStateAsIfItHadNeverStopped) {
-    Stepped one(membrane, 0.2), other(membrane, 0.2);
-    auto whole = one.begun();
-    std::optional<TransientState> kept;
+TEST(Transient, ResumesFromASavedStateWithTheSameResult) {
+    TransientFixture one(membrane, 0.2), other(membrane, 0.2);
+    auto continuous = one.begun();
+    std::optional<TransientState> saved;
     for (int k = 0; k < 2000; ++k) {
-        ASSERT_TRUE(whole->step(0.2));
-        if (k == 700) kept = whole->save();
+        ASSERT_TRUE(continuous->step(0.2));
+        if (k == 700) saved = continuous->save();
     }
     auto resumed = other.begun();
-    resumed->restore(*kept);
+    resumed->restore(*saved);
     for (int k = 701; k < 2000; ++k) ASSERT_TRUE(resumed->step(0.2));
-    EXPECT_EQ(resumed->time(), whole->time());
-    for (std::size_t n = 0; n < whole->x().size(); ++n) EXPECT_EQ(resumed->x()[n], whole->x()[n]) << n;
-    EXPECT_EQ(resumed->stats().iterations, whole->stats().iterations);
+    EXPECT_EQ(resumed->time(), continuous->time());
+    for (std::size_t n = 0; n < continuous->x().size(); ++n) EXPECT_EQ(resumed->x()[n], continuous->x()[n]) << n;
+    EXPECT_EQ(resumed->stats().iterations, continuous->stats().iterations);
 }
 
 TEST(Transient, GivesTheSameBitsOnLanesOfAnyWidth) {
     std::vector<std::vector<double>> ends;
     for (const auto set : instruction_sets()) {
         setenv("CORPUSCLE_ISA", std::string(name_of(set)).c_str(), 1);
-        Stepped one(membrane, 0.1);
+        TransientFixture one(membrane, 0.1);
         auto t = one.begun();
         while (t->time() < 0.1) ASSERT_TRUE(t->step(0.1));
         ends.emplace_back(t->x().begin(), t->x().end());
@@ -94,13 +94,13 @@ TEST(Transient, GivesTheSameBitsOnLanesOfAnyWidth) {
     EXPECT_GT(ends.size(), 1U);
 }
 
-TEST(Transient, TakesTheSameStepsHoweverFarItMayGoAtATime) {
-    Stepped one(membrane, 0.1), other(membrane, 0.1);
-    auto whole = one.begun(), pieces = other.begun();
+TEST(Transient, TakesTheSameStepsForAnyBlockLength) {
+    TransientFixture one(membrane, 0.1), other(membrane, 0.1);
+    auto continuous = one.begun(), pieces = other.begun();
     std::vector<double> there, here;
-    while (whole->time() < 0.1) {
-        ASSERT_TRUE(whole->step(0.1));
-        there.push_back(whole->time());
+    while (continuous->time() < 0.1) {
+        ASSERT_TRUE(continuous->step(0.1));
+        there.push_back(continuous->time());
     }
     for (double until = 0; pieces->time() < 0.1; until += 0.00037)
         for (bool more = true; more && pieces->time() < 0.1;) {
@@ -114,7 +114,7 @@ TEST(Transient, TakesTheSameStepsHoweverFarItMayGoAtATime) {
 }
 
 TEST(Transient, FindsWhereALevelIsCrossedWithinAStep) {
-    Stepped sine("sine\nv1 a 0 sin(0 1 50)\nr1 a b 1k\nc1 b 0 1n\n.tran 1u 0.1\n", 0.1);
+    TransientFixture sine("sine\nv1 a 0 sin(0 1 50)\nr1 a b 1k\nc1 b 0 1n\n.tran 1u 0.1\n", 0.1);
     sine.plan.max_step = 1e-3;
     auto t = sine.begun();
     const int node = sine.bench->system.unknown("v(a)");
@@ -132,7 +132,7 @@ TEST(Transient, FindsWhereALevelIsCrossedWithinAStep) {
     }
 }
 
-TEST(Transient, SaysHowFarOffItsSpikesMayBe) {
+TEST(Transient, ReportsTheErrorOfItsSpikeTimes) {
     const auto spiking = [](const std::string& options) {
         return run_netlist(oscillator_netlist("0.3") + ".spike v(s) 0.35\n.options " + options + "\n");
     };
@@ -147,7 +147,7 @@ TEST(Transient, SaysHowFarOffItsSpikesMayBe) {
     for (const auto& [name, value] : truth.numbers()) EXPECT_NE(name, "spike_error") << value;
 }
 
-TEST(Transient, WithoutAnInitialConditionAnOscillatorIsKickedAndTold) {
+TEST(Transient, WithoutAnInitialConditionAnOscillatorIsPerturbedAndReported) {
     auto free = membrane;
     free.erase(free.find(".ic"), free.find('\n', free.find(".ic")) - free.find(".ic") + 1);
     const auto found = run_netlist(free);
@@ -157,7 +157,7 @@ TEST(Transient, WithoutAnInitialConditionAnOscillatorIsKickedAndTold) {
     EXPECT_NE(found.warnings().back().message.find("the operating point is unstable"), std::string::npos);
 }
 
-TEST(Transient, WhatRestsStaysWhereItRests) {
+TEST(Transient, ARestingCircuitStaysAtRest) {
     for (const char* netlist :
          {"divider\nv1 a 0 1\nr1 a b 1k\nr2 b 0 1k\nc1 b 0 1u\nd1 b 0 d\n.model d d\n.tran 1m 1\n",
           "inverter\n.lib 'tsmc180.lib' tt\nvdd vdd 0 0.7\nm1 o i vdd vdd pch w=6u l=0.5u\nm2 o i 0 0 nch w=1.5u l=0.5u\n"
@@ -171,18 +171,18 @@ TEST(Transient, WhatRestsStaysWhereItRests) {
     }
 }
 
-TEST(Transient, WithUicWhatNoChargeHoldsFollows) {
+TEST(Transient, WithUicNodesWithoutChargeFollow) {
     const auto found = run_netlist("uic\nv1 a 0 1\nr1 a b 1k\nr2 b c 1k\nc1 c 0 1u\n.ic v(c)=0.4\n.tran 1u 10u uic\n");
     EXPECT_NEAR(found.curve("v(a)")[0], 1, 1e-9);
     EXPECT_NEAR(found.curve("v(b)")[0], 0.7, 1e-9);
     EXPECT_NEAR(found.curve("v(c)")[0], 0.4, 1e-6);
 }
 
-/// A formula's ramp begins where no source has a corner: the current of the capacitor on it would go to and fro for ever.
-TEST(Transient, TheTrapezoidalRuleDoesNotGoOnRinging) {
+/// An expression's ramp starts without a breakpoint. With the trapezoidal rule, the current of a capacitor on it would ring forever.
+TEST(Transient, TheTrapezoidalRuleDoesNotKeepRinging) {
     for (const auto method : {Integration::trapezoidal, Integration::bdf}) {
-        Stepped ramp("ramp\nb1 a 0 v=uramp(time-10.0303m)\nc1 a 0 1n\n.end\n", 0.02);
-        ramp.plan.max_step = 1e-4, ramp.plan.reltol = 1, ramp.plan.vntol = 1;  // steps as long as they may be
+        TransientFixture ramp("ramp\nb1 a 0 v=uramp(time-10.0303m)\nc1 a 0 1n\n.end\n", 0.02);
+        ramp.plan.max_step = 1e-4, ramp.plan.reltol = 1, ramp.plan.vntol = 1;  // steps of the maximum length
         ramp.plan.method = method;
         auto t = ramp.begun();
         double off = 0;
@@ -194,7 +194,7 @@ TEST(Transient, TheTrapezoidalRuleDoesNotGoOnRinging) {
     }
 }
 
-TEST(TransientPlan, RefusesWhatItDoesNotKnow) {
+TEST(TransientPlan, RejectsUnknownValues) {
     for (const auto& [options, what] :
          {std::pair{"accuracy=great", "rough, normal, fine, finest"}, {"method=euler", "gear, trap"}, {"maxord=7", "from 1 to 5"}}) {
         const auto plan = read_transient_plan(*make_circuit(std::string("x\nr1 a 0 1\nv1 a 0 1\n.options ") + options + "\n.tran 1 2\n"));

@@ -1,4 +1,4 @@
-// What a transient leaves behind: files that read at any moment, whatever ends the program; memory that does not grow.
+// Output of long transients: files that can be read at any time, however the program ends; constant memory.
 
 #include <gtest/gtest.h>
 
@@ -24,18 +24,18 @@ namespace corpuscle::circuit::test {
 using namespace corpuscle::test;
 namespace {
 
-/// Takes minutes unless it is ended.
+/// Runs for minutes unless it is stopped.
 constexpr const char* endless_deck =
     "long\nv1 in 0 sin(0 1 1k)\nr1 in out 1k\nc1 out 0 1u\n.save v(out) v(in,out)\n.tran 10u 10000 0 10u\n";
 
 std::string rc(double stop) { return fmt::format("rc\nv1 in 0 sin(0 1 1k)\nr1 in out 1k\nc1 out 0 1u\n.tran 10u {:g} 0 10u\n", stop); }
 
-/// The program at work, in a folder.
-class Started {
+/// A running instance of the program in a folder.
+class Running {
     pid_t id_;
 
 public:
-    Started(const TemporaryFolder& folder, std::vector<std::string> words) {
+    Running(const TemporaryFolder& folder, std::vector<std::string> words) {
         id_ = fork_child();
         if (id_ != 0) return;
         words.insert(words.begin(), program_path());
@@ -47,18 +47,18 @@ public:
         execv(arguments[0], arguments.data());
         _exit(99);
     }
-    /// Its wait status; and what it took.
+    /// Sends a signal (0: none), waits, and returns the wait status and the resources used.
     int end(int signal, struct rusage* used = nullptr) {
         if (signal != 0) signal_child(id_, signal);
         int status = 0;
-        struct rusage unused{};
+        struct rusage unused {};
         wait4(id_, &status, 0, used ? used : &unused);
         return status;
     }
 };
 
-/// Until there are bytes in a file.
-bool appears(const std::string& path, std::uintmax_t bytes = 1) {
+/// Waits until a file has at least this many bytes; false after 5 s.
+bool wait_for_file(const std::string& path, std::uintmax_t bytes = 1) {
     for (int k = 0; k < 1000; ++k, std::this_thread::sleep_for(std::chrono::milliseconds(5))) {
         std::error_code none;
         if (const auto size = std::filesystem::file_size(path, none); !none && size >= bytes) return true;
@@ -66,8 +66,8 @@ bool appears(const std::string& path, std::uintmax_t bytes = 1) {
     return false;
 }
 
-/// Points in order, of the circuit above.
-void expect_whole(const Plot& plot, std::size_t at_least) {
+/// Expects points of the circuit above in order.
+void expect_valid(const Plot& plot, std::size_t at_least) {
     ASSERT_EQ(plot.curves.size(), 3U);
     EXPECT_EQ(plot.curves[2].name, "v(in,out)");
     ASSERT_GE(plot.point_count(), at_least);
@@ -81,7 +81,7 @@ void expect_whole(const Plot& plot, std::size_t at_least) {
     }
 }
 
-/// A table of the same, whose last line may be broken.
+/// Expects a table of the same circuit, whose last line may be incomplete.
 void expect_rows(const std::string& text) {
     std::istringstream lines(text.substr(0, text.rfind('\n') + 1));
     std::string line;
@@ -94,7 +94,7 @@ void expect_rows(const std::string& text) {
     }
 }
 
-TEST(Stream, AKilledRunLeavesAFileThatReadsToItsLastBlock) {
+TEST(Stream, AKilledRunLeavesAFileThatIsReadableToItsLastBlock) {
     std::mt19937 random(7);
     for (int k = 0; k < 20; ++k) {
         SCOPED_TRACE(k);
@@ -104,8 +104,8 @@ TEST(Stream, AKilledRunLeavesAFileThatReadsToItsLastBlock) {
         const std::string name = table ? "x.csv" : "x.raw";
         std::vector<std::string> words{"run", "x.cir", "-o", name};
         if (ascii) words.emplace_back("--ascii");
-        Started run(folder, words);
-        ASSERT_TRUE(appears(folder / (name + ".part"), 60'000)) << read_file(folder / ".err");
+        Running run(folder, words);
+        ASSERT_TRUE(wait_for_file(folder / (name + ".part"), 60'000)) << read_file(folder / ".err");
         std::this_thread::sleep_for(std::chrono::microseconds(random() % 100'000));
         run.end(SIGKILL);
         EXPECT_FALSE(std::filesystem::exists(folder / name));
@@ -116,16 +116,16 @@ TEST(Stream, AKilledRunLeavesAFileThatReadsToItsLastBlock) {
         }
         const auto plots = read_raw(text);
         ASSERT_EQ(plots.size(), 1U);
-        expect_whole(plots[0], 0);
+        expect_valid(plots[0], 0);
         const auto values = text.find(ascii ? "Values:\n" : "Binary:\n");
         ASSERT_NE(values, text.npos);
         const auto lines = std::count(text.begin() + static_cast<std::ptrdiff_t>(values) + 8, text.end(), '\n');
         const auto written = ascii ? static_cast<std::size_t>(lines) / 3 : (text.size() - values) / 24;  // points of three numbers
-        EXPECT_GE(plots[0].point_count() + 100'000 / (ascii ? 75 : 24), written) << "at most a block is left out";
+        EXPECT_GE(plots[0].point_count() + 100'000 / (ascii ? 75 : 24), written) << "at most one block is missing";
     }
 }
 
-/// As when a disk is full.
+/// Like a full disk.
 TEST(Stream, AFileThatCannotGrowEndsEarly) {
     for (const std::string name : {"x.raw", "x.csv"}) {
         const TemporaryFolder folder;
@@ -138,48 +138,48 @@ TEST(Stream, AFileThatCannotGrowEndsEarly) {
         EXPECT_NE(err.find(name + " ends early, at "), std::string::npos) << err;
         const auto text = read_file(folder / name);
         EXPECT_GT(text.size(), 400'000U);
-        name == "x.csv" ? expect_rows(text) : expect_whole(read_raw(text)[0], 10'000);
+        name == "x.csv" ? expect_rows(text) : expect_valid(read_raw(text)[0], 10'000);
     }
 }
 
-TEST(Stream, TheNextRunTakesOverWhatAKilledOneLeft) {
+TEST(Stream, TheNextRunReplacesTheFileOfAKilledOne) {
     const TemporaryFolder folder;
     folder.write("x.cir", endless_deck);
     folder.write("short.cir", rc(1e-3));
-    Started killed(folder, {"run", "x.cir", "-o", "x.raw"});
-    ASSERT_TRUE(appears(folder / "x.raw.part", 60'000));
+    Running killed(folder, {"run", "x.cir", "-o", "x.raw"});
+    ASSERT_TRUE(wait_for_file(folder / "x.raw.part", 60'000));
     killed.end(SIGKILL);
     EXPECT_EQ(run_program(folder, "run short.cir -o x.raw").status, 0);
     EXPECT_EQ(folder.file_names(), (std::vector<std::string>{"short.cir", "x.cir", "x.raw"}));
     EXPECT_NEAR(read_raw_file(folder / "x.raw")[0].curves[0].values.back().real(), 1e-3, 1e-15);
 }
 
-TEST(Stream, TwoAtOnceDoNotWriteOneFile) {
+TEST(Stream, TwoRunsDoNotWriteOneFile) {
     const TemporaryFolder folder;
     folder.write("x.cir", endless_deck);
     folder.write("short.cir", rc(1e-3));
-    Started first(folder, {"run", "x.cir", "-o", "x.raw"});
-    ASSERT_TRUE(appears(folder / "x.raw.part", 60'000));
+    Running first(folder, {"run", "x.cir", "-o", "x.raw"});
+    ASSERT_TRUE(wait_for_file(folder / "x.raw.part", 60'000));
     const auto second = run_program(folder, "run short.cir -o x.raw");
     EXPECT_EQ(second.status, 1);
     EXPECT_NE(second.err.find("x.raw: another program is writing this file"), std::string::npos) << second.err;
     first.end(SIGINT);
-    expect_whole(read_raw_file(folder / "x.raw")[0], 1000);
+    expect_valid(read_raw_file(folder / "x.raw")[0], 1000);
 }
 
-TEST(Stream, AnInterruptedRunLeavesItsFileUnderItsNameAndSaysThatItEndsEarly) {
+TEST(Stream, AnInterruptedRunLeavesItsFileUnderItsNameAndReportsTheEarlyEnd) {
     for (const std::string name : {"x.raw", "x.csv"}) {
         const TemporaryFolder folder;
         folder.write("x.cir", endless_deck);
-        Started run(folder, {"run", "x.cir", "-o", name});
-        ASSERT_TRUE(appears(folder / (name + ".part"), 60'000));
+        Running run(folder, {"run", "x.cir", "-o", name});
+        ASSERT_TRUE(wait_for_file(folder / (name + ".part"), 60'000));
         const int status = run.end(SIGINT);
         ASSERT_TRUE(WIFEXITED(status));
         EXPECT_EQ(WEXITSTATUS(status), 130);
         EXPECT_NE(read_file(folder / ".err").find("warning: " + name + " ends early, at "), std::string::npos)
             << read_file(folder / ".err");
         EXPECT_FALSE(std::filesystem::exists(folder / (name + ".part")));
-        if (name == "x.raw") expect_whole(read_raw_file(folder / name)[0], 1000);
+        if (name == "x.raw") expect_valid(read_raw_file(folder / name)[0], 1000);
         const auto text = read_file(folder / name);
         if (name == "x.csv") {
             EXPECT_TRUE(text.starts_with("time,v(out),\"v(in,out)\"\n0,"));
@@ -188,8 +188,8 @@ TEST(Stream, AnInterruptedRunLeavesItsFileUnderItsNameAndSaysThatItEndsEarly) {
     }
 }
 
-/// dv/dt = -1e12 (v^2 + 1 - c): where c falls below 1, after 1 ms, v leaves for minus infinity in no time.
-TEST(Stream, WhatDidNotConvergeIsKeptUpToThere) {
+/// dv/dt = -1e12 (v^2 + 1 - c): c falls below 1 after 1 ms, and v then goes to minus infinity immediately.
+TEST(Stream, ARunThatDoesNotConvergeKeepsItsPoints) {
     const TemporaryFolder folder;
     folder.write("x.cir", "t\nv1 c 0 pwl(0 2 2m 0)\nr1 c 0 1\nb1 a 0 i=(v(a)*v(a)+1-v(c))*1e3\nc1 a 0 1n\n.nodeset v(a)=1\n.tran 1u 2m\n");
     const auto ran = run_program(folder, "run x.cir -o x.raw");
@@ -200,21 +200,21 @@ TEST(Stream, WhatDidNotConvergeIsKeptUpToThere) {
 }
 
 TEST(Stream, MemoryDoesNotGrowWithTime) {
-    const auto most = [](double stop, const std::string& out) {
+    const auto max_memory = [](double stop, const std::string& out) {
         const TemporaryFolder folder;
         folder.write("x.cir", rc(stop) + ".meas tran n count v(out)=0 rise\n.meas tran e rms v(out)\n");
-        Started run(folder, out.empty() ? std::vector<std::string>{"run", "x.cir"} : std::vector<std::string>{"run", "x.cir", "-o", out});
-        struct rusage used{};
+        Running run(folder, out.empty() ? std::vector<std::string>{"run", "x.cir"} : std::vector<std::string>{"run", "x.cir", "-o", out});
+        struct rusage used {};
         EXPECT_EQ(run.end(0, &used), 0);
         return used.ru_maxrss;  // kB
     };
     for (const std::string out : {"", "x.raw", "x.csv"}) {
-        const auto few = most(0.1, out), many = most(4, out);  // 400,000 points, of 5 curves: 32 MB as complex numbers
+        const auto few = max_memory(0.1, out), many = max_memory(4, out);  // 400,000 points, of 5 curves: 32 MB as complex numbers
         EXPECT_LT(many, few + 2000) << out;
     }
 }
 
-TEST(Stream, WhatIsStreamedIsWhatIsKept) {
+TEST(Stream, StreamedPointsEqualThoseInMemory) {
     const TemporaryFolder folder;
     folder.write("x.cir", rc(20e-3) + ".op\n.save v(out) i(v1)\n");
     EXPECT_EQ(run_program(folder, "run x.cir -o x.raw").status, 0);
@@ -222,17 +222,17 @@ TEST(Stream, WhatIsStreamedIsWhatIsKept) {
     EXPECT_EQ(run_program(folder, "run x.cir -o x.csv").status, 0);
     const auto document = nlohmann::json::parse(run_program(folder, "run x.cir --json").out);
     const auto binary = read_raw_file(folder / "x.raw"), letters = read_raw_file(folder / "y.raw");
-    const auto kept = run_corpuscle(folder / "x.cir").plots();
+    const auto reference = run_corpuscle(folder / "x.cir").plots();
     ASSERT_EQ(binary.size(), 2U);
     ASSERT_EQ(letters.size(), 2U);
-    ASSERT_EQ(kept.size(), 2U);
+    ASSERT_EQ(reference.size(), 2U);
     for (std::size_t p = 0; p < 2; ++p) {
-        EXPECT_EQ(binary[p].name, kept[p].name);
-        ASSERT_EQ(binary[p].point_count(), kept[p].point_count());
-        for (std::size_t c = 0; c < kept[p].curves.size(); ++c) {
-            const auto& curve = kept[p].curves[c];
+        EXPECT_EQ(binary[p].name, reference[p].name);
+        ASSERT_EQ(binary[p].point_count(), reference[p].point_count());
+        for (std::size_t c = 0; c < reference[p].curves.size(); ++c) {
+            const auto& curve = reference[p].curves[c];
             EXPECT_EQ(binary[p].curves[c].name, curve.name);
-            for (std::size_t k = 0; k < kept[p].point_count(); ++k) {
+            for (std::size_t k = 0; k < reference[p].point_count(); ++k) {
                 EXPECT_EQ(binary[p].curves[c].values[k], curve.values[k]);
                 EXPECT_NEAR(letters[p].curves[c].values[k].real(), curve.values[k].real(), 1e-15 * std::abs(curve.values[k].real()));
                 EXPECT_EQ(document["plots"][p]["curves"][curve.name][k].get<double>(), curve.values[k].real());
@@ -241,7 +241,7 @@ TEST(Stream, WhatIsStreamedIsWhatIsKept) {
     }
     const auto table = read_file(folder / "x-1.csv");
     EXPECT_TRUE(table.starts_with("time,v(out),i(v1)\n0,0,"));
-    EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), static_cast<long>(kept[0].point_count()) + 1);
+    EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), static_cast<long>(reference[0].point_count()) + 1);
 }
 
 TEST(Stream, StepsFollowEachOtherInOneTable) {
@@ -257,15 +257,15 @@ TEST(Stream, StepsFollowEachOtherInOneTable) {
     EXPECT_EQ(plots[1].name, "Transient Analysis (q=2)");
 }
 
-TEST(Stream, NgspiceReadsWhatAKilledRunLeft) {
+TEST(Stream, NgspiceReadsTheFileOfAKilledRun) {
     const TemporaryFolder folder;
     folder.write("x.cir", endless_deck);
-    Started killed(folder, {"run", "x.cir", "-o", "x.raw"});
-    ASSERT_TRUE(appears(folder / "x.raw.part", 200'000));
+    Running killed(folder, {"run", "x.cir", "-o", "x.raw"});
+    ASSERT_TRUE(wait_for_file(folder / "x.raw.part", 200'000));
     killed.end(SIGKILL);
     const auto points = read_raw_file(folder / "x.raw.part")[0].point_count();
     const auto head = read_file(folder / "x.raw.part").find("Binary:\n") + 8;
-    std::filesystem::resize_file(folder / "x.raw.part", head + points * 24);  // it may have ended between a block and its count
+    std::filesystem::resize_file(folder / "x.raw.part", head + points * 24);  // as if it ended between a block and its count
     const auto deck =
         folder.write("load.cir", "load\n.control\nload " + (folder / "x.raw.part") + "\nprint length(time)\nquit\n.endc\n.end\n");
     const auto log = run_ngspice(deck, "");
@@ -277,9 +277,9 @@ TEST(Stream, BytesBehindTheCountedPointsDoNoHarm) {
     const TemporaryFolder folder;
     folder.write("x.cir", rc(1e-3));
     EXPECT_EQ(run_program(folder, "run x.cir -o x.raw").status, 0);
-    const auto whole = read_file(folder / "x.raw");
-    const auto points = read_raw(whole)[0].point_count();
-    folder.write("y.raw", whole + whole.substr(whole.size() - 1003));
+    const auto complete = read_file(folder / "x.raw");
+    const auto points = read_raw(complete)[0].point_count();
+    folder.write("y.raw", complete + complete.substr(complete.size() - 1003));
     EXPECT_EQ(read_raw_file(folder / "y.raw")[0].point_count(), points);
 }
 
@@ -303,7 +303,7 @@ TEST(Stream, PrintsAtEveryStep) {
     EXPECT_NE(refused.err.find("y.cir:5:1: .print tran: 1e+09 rows"), std::string::npos) << refused.err;
 }
 
-TEST(Stream, TheDocumentTellsTheWork) {
+TEST(Stream, TheDocumentReportsTheRunStatistics) {
     const TemporaryFolder folder;
     folder.write("x.cir", rc(1e-3) + ".op\n");
     const auto plain = nlohmann::json::parse(run_program(folder, "run x.cir --json").out);
@@ -319,7 +319,7 @@ TEST(Stream, TheDocumentTellsTheWork) {
     EXPECT_EQ(written["plots"].size(), 1U) << "the curves of the transient are in the file";
 }
 
-/// On a terminal of its own.
+/// On a pseudo-terminal.
 TEST(Stream, ATerminalShowsHowMuchTimeIsLeft) {
     const TemporaryFolder folder;
     folder.write("x.cir", std::string(endless_deck) + ".op\n");

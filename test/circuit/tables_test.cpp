@@ -1,4 +1,4 @@
-// Every array of the chips' netlists against the sizes that the thesis prints, tables 1 to 9, 16, 19 and 20, slips included.
+// Compares every array of the chips' netlists with the sizes published in the thesis: tables 1 to 9, 16, 19 and 20, including misprints.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -18,15 +18,15 @@ std::vector<std::string> words(const std::string& text) {
     return out;
 }
 
-/// "M1A-E" names five, "M3A,C" two.
-int letters_of(const std::string& name) {
+/// Number of devices of a name: five for "M1A-E", two for "M3A,C".
+int device_count(const std::string& name) {
     if (const auto to = name.find('-'); to != std::string::npos) return name[to + 1] - name[to - 1] + 1;
     return name.find(',') != std::string::npos ? 2 : 1;
 }
 
-double named_value(const Element& e, const char* name, double otherwise) {
+double named_value(const Element& e, const char* name, double fallback) {
     const auto found = e.values.find(name);
-    return found == e.values.end() ? otherwise : found->second;
+    return found == e.values.end() ? fallback : found->second;
 }
 
 /// m, n, W, L of an array, lengths in um.
@@ -37,12 +37,12 @@ std::vector<std::pair<std::string, double>> size_of(const Element& e) {
             {"L", 1e6 * named_value(e, "l", 0)}};
 }
 
-/// Circuits as the tables size them; with a part's name only those that include it, its text as given.
+/// Circuits with the sizes of the tables. If `part` names a subcircuit file, only circuits that include it, with the text `text_of_part`.
 class Circuits {
     std::map<std::string, Circuit> circuits_;
 
     void read(const std::string& name, const Values& parameters, const std::string& part, const std::string& text_of_part) {
-        const auto path = fmt::format("{}/circuits/{}.cir", test::project_root(), name);
+        const auto path = fmt::format("{}/circuits/{}.cir", test::source_root(), name);
         const auto text = read_text_file(path);
         if (!text) return ADD_FAILURE() << text.error().text(), void();
         if (text->find("'parts/") == std::string::npos && !part.empty()) return;
@@ -66,13 +66,13 @@ public:
     const Circuit& operator[](const std::string& name) const { return circuits_.at(name); }
 };
 
-/// What differs from the tables, each a sentence; `used` gathers the errata that were needed, `sized` the devices found in each circuit.
-struct Compared {
+/// Differences from the tables, one text each. `used` collects the errata that apply, `sized` the devices found in each circuit.
+struct TableComparison {
     std::vector<std::string> differences;
     std::set<const SizeDeviation*> used;
     std::map<std::string, std::set<std::string>> sized;
 
-    explicit Compared(const Circuits& circuits) {
+    explicit TableComparison(const Circuits& circuits) {
         for (const auto& stand : table_locations)
             for (const auto& row : published_sizes)
                 if (std::string_view(row.table) == stand.table && circuits.have(stand.circuit))
@@ -105,17 +105,17 @@ struct Compared {
 Values as_printed(double yes) { return {{"as_printed", yes}}; }
 
 TEST(Tables, SizeEveryArrayOfTheCircuitsButForTheErrata) {
-    const Compared compared{Circuits(as_printed(1))};
+    const TableComparison compared{Circuits(as_printed(1))};
     EXPECT_TRUE(compared.differences.empty()) << fmt::format("{}", fmt::join(compared.differences, "\n"));
     for (const auto& other : size_deviations)
         EXPECT_TRUE(compared.used.contains(&other))
             << "table " << other.table << " " << other.name << ": nothing is built otherwise by " << other.erratum;
 }
 
-TEST(Tables, HaveADeviceForEveryLetterThatIsPrinted) {
+TEST(Tables, HaveADeviceForEveryPublishedLetter) {
     for (const auto& row : published_sizes) {
         const auto devices = static_cast<int>(words(row.devices).size());
-        int letters = letters_of(row.name);
+        int letters = device_count(row.name);
         for (const auto& lack : missing_devices)
             if (std::string_view(lack.table) == row.table && std::string_view(lack.name) == row.name) letters -= lack.count;
         const bool of_both_sources =
@@ -129,7 +129,7 @@ TEST(Tables, HaveADeviceForEveryLetterThatIsPrinted) {
 
 TEST(Tables, KnowEveryTransistorOfTheChips) {
     const Circuits circuits(as_printed(1));
-    const Compared compared(circuits);
+    const TableComparison compared(circuits);
     for (const auto* chip : {"sa1", "fa1"})
         for (const auto& e : circuits[chip].elements)
             if (e.letter == 'm') {
@@ -137,7 +137,7 @@ TEST(Tables, KnowEveryTransistorOfTheChips) {
             }
 }
 
-TEST(Tables, WidthsTellPFromN) {
+TEST(Tables, WidthsDistinguishPFromN) {
     const Circuits circuits(as_printed(0));
     for (const auto* chip : {"sa1", "fa1"})
         for (const auto& e : circuits[chip].elements)
@@ -147,7 +147,7 @@ TEST(Tables, WidthsTellPFromN) {
             }
 }
 
-/// What differs between two elements of one name: "m 2 -> 12".
+/// Differences between two devices of the same name, e.g. "m 2 -> 12".
 std::vector<std::string> changes(const Element& a, const Element& b) {
     std::vector<std::string> out;
     for (const auto& [name, value] : a.values)
@@ -172,27 +172,27 @@ std::vector<std::string> as_intended(const char* chip) {
     return out;
 }
 
-// S9a: I_C's gain 2; S10a: I_A six times; the leak and the membrane with them.
-TEST(Tables, OfSa1AsIntendedOtherSizesAreThoseOfTheStaticAndTheSlowPath) {
+// S9a: I_C's gain 2; S10a: I_A six times; leak and membrane change accordingly.
+TEST(Tables, Sa1AsIntendedDiffersInTheStaticAndTheSlowPath) {
     EXPECT_EQ(as_intended("sa1"),
               (std::vector<std::string>{"xrectc.mp1a m 2 -> 4", "xrectc.mn2a m 2 -> 4", "xrectc.mp1b m 2 -> 4", "xrectc.mn2b m 2 -> 4",
                                         "xsummer.mn3b m 2 -> 12", "xcco.cu 1.8e-12 -> 4.5e-12", "ilk dc 5e-12 -> 7e-12"}));
 }
 
-// S15: the falling force's gain 6.
-TEST(Tables, OfFa1AsIntendedOtherSizesAreThoseOfTheFallingForce) {
+// S15: the gain for falling force is 6.
+TEST(Tables, Fa1AsIntendedDiffersInTheFallingForcePath) {
     EXPECT_EQ(as_intended("fa1"), (std::vector<std::string>{"xrect.mp1b m 3 -> 6", "xrect.mn2b m 3 -> 6", "xcco.cu 5.4e-12 -> 1.44e-11",
                                                             "ilk dc 5e-12 -> 1e-11"}));
 }
 
-/// A part's text, and another one of it: line by line each number of an array's size moved by a unit of its.
-struct Moved {
+/// A subcircuit file with one number of an array's size changed by one step.
+struct ChangedSize {
     std::string file, was, line, text;
 };
 
-std::vector<Moved> moved_sizes(const std::string& file) {
-    const auto text = read_text_file(test::project_root() + "/circuits/parts/" + file);
-    std::vector<Moved> out;
+std::vector<ChangedSize> changed_sizes(const std::string& file) {
+    const auto text = read_text_file(test::source_root() + "/circuits/parts/" + file);
+    std::vector<ChangedSize> out;
     for (std::size_t at = 0; text && at < text->size(); at = text->find('\n', at) + 1) {
         const auto end = text->find('\n', at);
         const auto line = text->substr(at, end - at);
@@ -201,11 +201,11 @@ std::vector<Moved> moved_sizes(const std::string& file) {
             const auto place = line.find(what);
             if (place == std::string::npos) continue;
             const auto digit = place + std::string_view(what).size();
-            if (line[digit] == '{') continue;  // whoever calls the part says it
+            if (line[digit] == '{') continue;  // a parameter of the subcircuit
             auto other = line;
             other.insert(digit, "1");
-            auto whole = *text;
-            out.push_back({file, line, other, whole.replace(at, line.size(), other)});
+            auto changed_text = *text;
+            out.push_back({file, line, other, changed_text.replace(at, line.size(), other)});
         }
     }
     return out;
@@ -214,9 +214,10 @@ std::vector<Moved> moved_sizes(const std::string& file) {
 TEST(Tables, NoSizeInThePartsChangesUnnoticed) {
     int count = 0;
     for (const auto* file : {"transducer.inc", "transconductor.inc", "trigger.inc", "signal.inc", "oscillator.inc"})
-        for (const auto& moved : moved_sizes(file)) {
+        for (const auto& moved : changed_sizes(file)) {
             const Circuits circuits(as_printed(1), moved.file, moved.text);
-            EXPECT_FALSE(Compared(circuits).differences.empty()) << moved.file << ": '" << moved.was << "' as '" << moved.line << "'";
+            EXPECT_FALSE(TableComparison(circuits).differences.empty())
+                << moved.file << ": '" << moved.was << "' as '" << moved.line << "'";
             ++count;
         }
     EXPECT_GT(count, 300);

@@ -1,4 +1,4 @@
-// Noise that thermodynamics knows before any netlist is solved: kT/C, 4kTg, 2qI.
+// Noise against the laws of thermodynamics: kT/C, 4kTg, 2qI.
 
 #include <fmt/format.h>
 #include <numbers>
@@ -11,7 +11,7 @@ namespace {
 constexpr double boltzmann = 1.380649e-23, charge = 1.602176634e-19;
 double kelvin(double celsius) { return celsius + 273.15; }
 
-// 200 points a decade are integrated as powers of f between them, to 2e-5; five decades to either side of the corner leave out 1.3e-5.
+// 200 points per decade are integrated as powers of f, with an error of 2e-5. Five decades on each side of the corner leave out 1.3e-5.
 TEST(ThermalNoise, AResistorLeavesKTByCOnACapacitor) {
     for (const auto& [R, C] : {std::pair{1e3, 1e-9}, {413e3, 8.8e-12}, {6.6e9, 0.8e-12}})
         for (const double celsius : {-55.0, 27.0, 125.0}) {
@@ -28,8 +28,8 @@ TEST(ThermalNoise, ManyResistorsLeaveKTByCTogether) {
     EXPECT_NEAR(std::pow(found.number("onoise_total"), 2) / (boltzmann * kelvin(27) / 1e-9), 1, 5e-5);
 }
 
-/// A transistor of the card whose drain hangs on a capacitor only: at rest V_DS = 0. Driven in .ac by a current, so that v(d) is what
-/// its drain and the capacitor present.
+/// A transistor of the card whose drain is connected only to a capacitor: at rest V_DS = 0. A current drives it in .ac, so v(d) is the
+/// impedance of the drain and the capacitor.
 std::string open_drain(const char* type, double gate, double bulk, double celsius, const std::string& words, double from, double to) {
     return fmt::format(
         "open drain\n.lib 'tsmc180.lib' tt\nvg g 0 {}\nvb b 0 {}\ni1 0 d ac 1\nm1 d g 0 b {} w=1.5u l=0.5u m=2 stack=8\n.temp {}\n"
@@ -37,8 +37,8 @@ std::string open_drain(const char* type, double gate, double bulk, double celsiu
         gate, bulk, type, celsius, words, from, to, from, to);
 }
 
-// C counts the drain's own capacitances, 1.5 to 12 fF here, as .ac sees them. The junction's shot noise, 2q times twice its saturation
-// current, is more than 4kT times its slope by n_dio = 1.05: it shows only where the channel conducts no better than the junction.
+// C includes the drain's own capacitances from .ac, 1.5 to 12 fF here. The junction's shot noise, 2q times twice its saturation current,
+// exceeds 4kT times its conductance by n_dio = 1.05. This matters only where the channel conducts no better than the junction.
 TEST(ThermalNoise, ATransistorLeavesKTByCWithItsOwnCapacitances) {
     for (const char* type : {"nch", "pch", "nch_hv"})
         for (const double gate : {0.3, 0.5, 0.9, 1.8})
@@ -54,7 +54,7 @@ TEST(ThermalNoise, ATransistorLeavesKTByCWithItsOwnCapacitances) {
                 }
 }
 
-/// The density of a transistor's drain current (A^2/Hz) at 1 Hz without flicker, and its current and conductance.
+/// Noise density of a transistor's drain current (A^2/Hz) at 1 Hz without flicker noise, and its current and conductance.
 struct Drain {
     double S, I, g;
     Drain(const std::string& model, double d, double g, double b, double celsius = 27) {
@@ -75,7 +75,7 @@ TEST(ThermalNoise, WeakInversionIsShotNoiseOfBothDirections) {
         for (const double celsius : {-55.0, 27.0, 95.0}) {
             const Drain at(plain, V_DS, 0, 0, celsius);
             const double v_t = boltzmann * kelvin(celsius) / charge;
-            EXPECT_NEAR(at.S / (2 * charge * at.I / std::tanh(V_DS / (2 * v_t))), 1, 1e-4) << V_DS;  // i_f is 1e-4 at the most
+            EXPECT_NEAR(at.S / (2 * charge * at.I / std::tanh(V_DS / (2 * v_t))), 1, 1e-4) << V_DS;  // i_f is at most 1e-4
         }
 }
 
@@ -84,7 +84,7 @@ TEST(ThermalNoise, SaturatedWeakInversionIs2qIAndRisesToTwoThirdsOf4kTgms) {
     EXPECT_NEAR(weak.S / (2 * charge * weak.I), 1, 1e-4);
     const double v_t = boltzmann * kelvin(27) / charge, I_S = 112e-9 * 3;
     const double g_ms = 2 * I_S / v_t * (std::sqrt(1 + strong.I / I_S) - 1);     // thesis eq. 28
-    EXPECT_NEAR(strong.S / (4 * boltzmann * kelvin(27) * g_ms), 2.0 / 3, 0.01);  // the limit, left by 1 / (1 + i_f)^(1/2)
+    EXPECT_NEAR(strong.S / (4 * boltzmann * kelvin(27) * g_ms), 2.0 / 3, 0.01);  // the limit; the difference is 1 / (1 + i_f)^(1/2)
 }
 
 TEST(ThermalNoise, WithNoVoltageAcrossItIs4kTg) {

@@ -1,9 +1,9 @@
-// The same decks in time through Debian's ngspice and through us, in one run: waves on one grid of times, and when an edge comes.
+// Transients of the same decks in Debian's ngspice and in Corpuscle: compares waveforms on a common time grid, and spike times.
 //
-// A deck says how near it must be held in its comments: `* within: 1m` is volts of every curve that is saved; `* within: 1m 2u` also
-// lets a wave be so many seconds early or late, as an edge is that something else sets off. `* spikes: v(s) 0.35` names a level that
-// v(s) rises through: as many times in both, after the same time and at the same distances, to 0.1 %.
-// Transistors are formulas in the one and our own device in the other: formulas.inc and native.inc say the same.
+// Comments of a deck give its tolerances. `* within: 1m` is the tolerance in volts of every saved curve. `* within: 1m 2u` also allows
+// a curve to be that many seconds early or late, for edges triggered by other edges. `* spikes: v(s) 0.35` names a level that v(s)
+// crosses upward. The number of crossings must be equal; the last crossing and all intervals must agree to 0.1 %.
+// Transistors are expressions in ngspice and built-in devices in Corpuscle: formulas.inc and native.inc describe the same transistors.
 
 #include <gtest/gtest.h>
 
@@ -16,12 +16,12 @@
 namespace corpuscle::circuit::test {
 namespace {
 
-constexpr double share_of_interval = 1e-3;
+constexpr double spike_tolerance = 1e-3;
 
-/// A curve between its points: of the two parabolas through three of them, the one that bends less, so that corners stay corners;
-/// straight in the first step and the last.
+/// Interpolates a curve. Uses the less curved of the two parabolas through three neighbouring points, which keeps corners sharp.
+/// Linear in the first and the last step.
 class Wave {
-    std::vector<double> t_, v_, bend_;  // bend_: of the three points around one, the second divided difference
+    std::vector<double> t_, v_, bend_;  // bend_: second divided difference at each point and its two neighbours
 
 public:
     Wave(const Curve& time, const Curve& curve) {
@@ -36,7 +36,7 @@ public:
         for (std::size_t k = 1; k + 1 < t_.size(); ++k) bend_[k] = (secant(k) - secant(k - 1)) / (t_[k + 1] - t_[k - 1]);
     }
     const std::vector<double>& times() const { return t_; }
-    bool drawn() const { return !bend_.empty(); }
+    bool is_valid() const { return !bend_.empty(); }
 
     double at(double t) const {
         t = std::clamp(t, t_.front(), t_.back());
@@ -45,14 +45,14 @@ public:
         const double bend = std::abs(bend_[k]) < std::abs(bend_[k + 1]) ? bend_[k] : bend_[k + 1], from = t - t_[k];
         return v_[k] + (v_[k + 1] - v_[k]) * from / (t_[k + 1] - t_[k]) + bend * from * (t - t_[k + 1]);
     }
-    /// How far v is from all that the wave is within `early_or_late` of t.
-    double distance(double t, double v, double early_or_late) const {
+    /// Distance (V) of v from the range of the curve within +-max_shift (s) of t.
+    double distance(double t, double v, double max_shift) const {
         double low = at(t), high = low;
-        const auto take = [&](double x) { low = std::min(low, x), high = std::max(high, x); };
-        if (early_or_late > 0) {
-            take(at(t - early_or_late)), take(at(t + early_or_late));
-            for (auto k = std::lower_bound(t_.begin(), t_.end(), t - early_or_late); k != t_.end() && *k < t + early_or_late; ++k)
-                take(v_[static_cast<std::size_t>(k - t_.begin())]);
+        const auto extend = [&](double x) { low = std::min(low, x), high = std::max(high, x); };
+        if (max_shift > 0) {
+            extend(at(t - max_shift)), extend(at(t + max_shift));
+            for (auto k = std::lower_bound(t_.begin(), t_.end(), t - max_shift); k != t_.end() && *k < t + max_shift; ++k)
+                extend(v_[static_cast<std::size_t>(k - t_.begin())]);
         }
         return std::max({low - v, v - high, 0.0});
     }
@@ -68,13 +68,13 @@ public:
     }
 };
 
-/// What a deck's comments ask.
-struct TransientAsked {
+/// Tolerances from a deck's comments.
+struct DeckTolerances {
     double volts = 0, seconds = 0, level = 0;
     std::string spikes;
 };
-TransientAsked asked_of(const std::string& deck) {
-    TransientAsked out;
+DeckTolerances tolerances_of(const std::string& deck) {
+    DeckTolerances out;
     std::istringstream lines(deck);
     const auto number = [](std::istream& from) {
         std::string word;
@@ -82,11 +82,11 @@ TransientAsked asked_of(const std::string& deck) {
         const auto found = parse_number(word);
         return found ? found->value : 0;
     };
-    for (std::string line, star, what; std::getline(lines, line);) {
+    for (std::string line, star, key; std::getline(lines, line);) {
         std::istringstream words(line);
-        if (!(words >> star >> what) || star != "*") continue;
-        if (what == "within:") out.volts = number(words), out.seconds = number(words);
-        if (what == "spikes:") words >> out.spikes, out.level = number(words);
+        if (!(words >> star >> key) || star != "*") continue;
+        if (key == "within:") out.volts = number(words), out.seconds = number(words);
+        if (key == "spikes:") words >> out.spikes, out.level = number(words);
     }
     return out;
 }
@@ -102,88 +102,88 @@ std::vector<std::string> transistor_decks() {
     return out;
 }
 
-/// A deck with our transistors in place of the formulas.
-RunOutcome native_run(const std::string& path) {
+/// Runs a deck with built-in transistors in place of the expressions.
+RunOutcome run_with_native_transistors(const std::string& path) {
     std::string text = read_file(path);
     if (const auto at = text.find(by_formulas); at != std::string::npos) text.replace(at, by_formulas.size(), native);
     return run_corpuscle(Netlist::parse(text, path, [](const std::string& file) -> Result<std::string> { return read_file(file); }));
 }
 
-double furthest(const Wave& mine, const Wave& theirs, const TransientAsked& asked, double& when) {
+double max_distance(const Wave& mine, const Wave& theirs, const DeckTolerances& tolerances, double& when) {
     double worst = 0;
     for (const auto* grid : {&mine.times(), &theirs.times()})
         for (const double t : *grid)
-            if (const double off = theirs.distance(t, mine.at(t), asked.seconds); off > worst) worst = off, when = t;
+            if (const double off = theirs.distance(t, mine.at(t), tolerances.seconds); off > worst) worst = off, when = t;
     return worst;
 }
 
-/// The largest difference of what lies between two rises, and of the last, as parts of what they are.
-struct Lateness {
+/// Largest relative difference of the intervals between upward crossings, and relative difference of the last crossing.
+struct SpikeDifference {
     double interval = 0, last = 0;
 };
-Lateness lateness(const std::vector<double>& mine, const std::vector<double>& theirs) {
-    Lateness out;
+SpikeDifference spike_difference(const std::vector<double>& mine, const std::vector<double>& theirs) {
+    SpikeDifference out;
     for (std::size_t k = 1; k < mine.size(); ++k)
         out.interval = std::max(out.interval, std::abs((mine[k] - mine[k - 1]) / (theirs[k] - theirs[k - 1]) - 1));
     if (!mine.empty()) out.last = std::abs(mine.back() / theirs.back() - 1);
     return out;
 }
 
-void hold_spikes(const std::string& name, const Wave& mine, const Wave& theirs, double level) {
+void compare_spikes(const std::string& name, const Wave& mine, const Wave& theirs, double level) {
     const auto here = mine.rises(level), there = theirs.rises(level);
     EXPECT_EQ(here.size(), there.size()) << name;
     EXPECT_GE(there.size(), 2U) << name;
     if (here.size() != there.size() || here.empty()) return;
-    const auto late = lateness(here, there);
-    std::printf("; %zu spikes, intervals to %.2g, the last to %.2g", here.size(), late.interval, late.last);
-    EXPECT_LE(late.interval, share_of_interval) << name;
-    EXPECT_LE(late.last, share_of_interval) << name << ": the last at " << here.back() << " here, " << there.back() << " there";
+    const auto difference = spike_difference(here, there);
+    std::printf("; %zu spikes, intervals to %.2g, the last to %.2g", here.size(), difference.interval, difference.last);
+    EXPECT_LE(difference.interval, spike_tolerance) << name;
+    EXPECT_LE(difference.last, spike_tolerance) << name << ": the last at " << here.back() << " here, " << there.back() << " there";
 }
 
-/// Every voltage that both give.
-void hold_waves(const Plot& mine, const Plot& theirs, const TransientAsked& asked) {
+/// Compares every voltage that both results contain.
+void compare_waves(const Plot& mine, const Plot& theirs, const DeckTolerances& tolerances) {
     std::printf("%zu points here, %zu there", mine.point_count(), theirs.point_count());
-    int held = 0;
+    int compared = 0;
     for (const auto& curve : theirs.curves) {
         const auto* own = mine.find_curve(corpuscle_name(curve.name));
         if (curve.type != "voltage" || own == nullptr) continue;
-        ++held;
+        ++compared;
         const Wave here(mine.curves[0], *own), there(theirs.curves[0], curve);
-        ASSERT_TRUE(here.drawn() && there.drawn());
-        if (asked.volts > 0) {
+        ASSERT_TRUE(here.is_valid() && there.is_valid());
+        if (tolerances.volts > 0) {
             double when = 0;
-            const double off = furthest(here, there, asked, when);
+            const double off = max_distance(here, there, tolerances, when);
             std::printf("; %s %.2g V", own->name.c_str(), off);
-            EXPECT_LE(off, asked.volts) << own->name << " at " << when << " s: " << here.at(when) << " here, " << there.at(when)
-                                        << " there";
+            EXPECT_LE(off, tolerances.volts) << own->name << " at " << when << " s: " << here.at(when) << " here, " << there.at(when)
+                                             << " there";
         }
-        if (own->name == asked.spikes) hold_spikes(own->name, here, there, asked.level);
+        if (own->name == tolerances.spikes) compare_spikes(own->name, here, there, tolerances.level);
     }
     std::printf("\n");
-    EXPECT_GE(held, 1);
+    EXPECT_GE(compared, 1);
 }
 
 class TransientDeck : public testing::TestWithParam<std::string> {};
 
-TEST_P(TransientDeck, GoesAsInNgspice) {
+TEST_P(TransientDeck, AgreesWithNgspice) {
     const auto path = transient_deck(GetParam());
     const TemporaryFolder folder;
     const auto log = run_ngspice(path, folder / "theirs.raw");
     const auto theirs = read_raw_file(folder / "theirs.raw");
     ASSERT_EQ(theirs.size(), 1U) << log;
-    const auto mine = native_run(path).plots();
+    const auto mine = run_with_native_transistors(path).plots();
     ASSERT_EQ(mine.size(), 1U);
-    hold_waves(mine[0], theirs[0], asked_of(read_file(path)));
+    compare_waves(mine[0], theirs[0], tolerances_of(read_file(path)));
 }
 
 class TransistorDeck : public testing::TestWithParam<std::string> {};
 
-TEST_P(TransistorDeck, GoesHereByFormulasAsByOurOwnTransistors) {
+TEST_P(TransistorDeck, AgreesBetweenExpressionsAndNativeTransistors) {
     const auto path = transient_deck(GetParam());
-    const auto mine = native_run(path).plots(), formulas = run_corpuscle(path).plots();
+    const auto mine = run_with_native_transistors(path).plots(), formulas = run_corpuscle(path).plots();
     ASSERT_EQ(mine.size(), 1U);
     ASSERT_EQ(formulas.size(), 1U);
-    hold_waves(mine[0], formulas[0], asked_of(read_file(path)));
+    compare_waves(mine[0], formulas[0], tolerances_of(read_file(path)));
 }
 
 INSTANTIATE_TEST_SUITE_P(Ngspice, TransientDeck, testing::ValuesIn(transient_decks()), [](const auto& one) { return one.param; });

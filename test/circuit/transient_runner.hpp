@@ -1,5 +1,5 @@
 #pragma once
-// A netlist for runs in time under several plans, all from the same start, and the same once more by IDA.
+// Runs a netlist's transient under several plans, all from the same initial condition, and once more with IDA as reference.
 
 #include <gtest/gtest.h>
 
@@ -19,12 +19,12 @@
 
 namespace corpuscle::circuit {
 
-/// What a run left: all points.
+/// All points of a transient run.
 struct TransientPoints {
     std::vector<double> t;
     std::vector<std::vector<double>> x;
     TransientStats stats;
-    std::string error;  ///< why it ended early; empty: it did not
+    std::string error;  ///< why the run ended early; empty if it did not
 
     std::vector<double> values(int unknown) const {
         std::vector<double> out;
@@ -33,7 +33,7 @@ struct TransientPoints {
     }
 };
 
-/// Where the cubic through four points crosses a level upward; near the ends of the points a straight line.
+/// Times (s) at which the curve crosses a level upward, from the cubic through four points; linear near both ends.
 inline std::vector<double> upward_crossings(const std::vector<double>& t, const std::vector<double>& v, double level) {
     std::vector<double> out;
     for (std::size_t k = 1; k < t.size(); ++k) {
@@ -67,32 +67,32 @@ class TransientRunner {
     double step_ = 0, stop_ = 0;
 
 public:
-    /// Its .tran says how long; it begins where .tran begins.
+    /// Takes the duration and the initial condition from the netlist's .tran.
     explicit TransientRunner(Result<Netlist> netlist) {
         if (!netlist) throw std::runtime_error(netlist.error().text());
         auto circuit = netlist->elaborate({});
         if (!circuit) throw std::runtime_error(circuit.error().text());
-        auto made = AnalysisContext::make(std::make_shared<const Circuit>(std::move(*circuit)));
-        if (!made) throw std::runtime_error(made.error().text());
-        context_ = std::move(*made);
+        auto context = AnalysisContext::make(std::make_shared<const Circuit>(std::move(*circuit)));
+        if (!context) throw std::runtime_error(context.error().text());
+        context_ = std::move(*context);
         bool uic = false;
         for (const auto& c : context_->circuit->directives)
             if (c.name == "tran") step_ = *read_number(c, 0, "step"), stop_ = *read_number(c, 1, "stop"), uic = c.words.back() == "uic";
         system().start_transient(step_, stop_);
-        const auto from = find_initial_condition(*context_, uic);
+        const auto initial = find_initial_condition(*context_, uic);
         system().start_transient(0, 0);
-        if (!from) throw std::runtime_error(from.error().text());
-        start_ = from->x, is_settled_ = from->is_consistent;
+        if (!initial) throw std::runtime_error(initial.error().text());
+        start_ = initial->x, is_settled_ = initial->is_consistent;
     }
     static TransientRunner from_file(const std::string& path) { return TransientRunner(Netlist::read(path)); }
-    /// Lines that begin so read otherwise; .meas and .expect are left out.
+    /// Replaces each line that begins with the first text of a pair by the second text. Drops .meas and .expect.
     static TransientRunner from_file(const std::string& path, const std::vector<std::pair<std::string, std::string>>& changed) {
         const auto all = read_text_file(path);
         std::istringstream in(all ? *all : "");
         std::string text;
         for (std::string line; std::getline(in, line);) {
-            for (const auto& [beginning, other] : changed)
-                if (line.starts_with(beginning)) line = other;
+            for (const auto& [prefix, replacement] : changed)
+                if (line.starts_with(prefix)) line = replacement;
             if (!line.starts_with(".meas") && !line.starts_with(".expect")) text += line + "\n";
         }
         return TransientRunner(Netlist::parse(text, path, read_text_file));
@@ -119,7 +119,7 @@ public:
         out.stats = transient.stats();
         return out;
     }
-    /// What its .ac gives first.
+    /// First value of a curve in the netlist's .ac; NaN if there is none.
     std::complex<double> first_ac_value(const std::string& name) const {
         for (const auto& c : context_->circuit->directives)
             if (c.name == "ac")
@@ -127,9 +127,9 @@ public:
                     if (const auto* curve = found->plots[0].find_curve(name)) return curve->values[0];
         return std::nan("");
     }
-    IdaResult run_ida(IdaOptions q) const {
-        q.step = step_, q.stop = stop_;
-        return integrate_with_ida(context_->system, context_->newton.context.gmin, start_, q);
+    IdaResult run_ida(IdaOptions options) const {
+        options.step = step_, options.stop = stop_;
+        return integrate_with_ida(context_->system, context_->newton.context.gmin, start_, options);
     }
     std::vector<double> spike_times(const TransientPoints& p, const std::string& name, double level) const {
         return upward_crossings(p.t, p.values(unknown(name)), level);

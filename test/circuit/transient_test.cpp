@@ -1,4 +1,4 @@
-// Circuits in time, against closed forms, and an oscillator against itself.
+// Transients compared with closed forms, and the period of an oscillator compared between settings.
 
 #include <gtest/gtest.h>
 
@@ -12,14 +12,14 @@
 namespace corpuscle::circuit {
 namespace {
 
-TEST(Transient, ACapacitorChargesAsItsTimeConstantSays) {
+TEST(Transient, ACapacitorChargesWithItsTimeConstant) {
     const auto found = run_netlist("rc\nv1 in 0 pulse(0 1 1m 1u 1u 5m 20m)\nr1 in out 1k\nc1 out 0 1u\n.tran 10u 6m 0 100u\n");
     const auto t = found.curve("time"), v = found.curve("v(out)");
     ASSERT_GT(t.size(), 50U);
     for (std::size_t k = 0; k < t.size(); ++k) {
         if (t[k] < 1.001e-3) continue;
         const double exact = 1 - 1e3 * (std::exp(1e-3) - 1) * std::exp(-(t[k] - 1e-3) / 1e-3);
-        // a step may err by 1e-4 of a volt and 10 uV; ten steps a time constant are remembered
+        // the error per step may be 1e-4 of a volt plus 10 uV; errors of about ten steps per time constant accumulate
         EXPECT_NEAR(v[k], exact, 10 * 1.1e-4) << t[k];
     }
 }
@@ -33,7 +33,7 @@ TEST(Transient, ATankRingsAtItsFrequency) {
     EXPECT_NEAR(found.number("tenth"), exact, 1e-3 * exact);
 }
 
-TEST(Transient, CornersOfASourceAreAmongThePoints) {
+TEST(Transient, BreakpointsOfASourceAreAmongThePoints) {
     const auto found = run_netlist("corners\nv1 a 0 pwl(0 0 1m 0 1.5m 1 3m -1)\nr1 a 0 1k\nc1 a 0 1n\n.tran 10u 4m\n");
     const auto t = found.curve("time"), v = found.curve("v(a)");
     for (const auto& [at, is] : {std::pair{1e-3, 0.0}, {1.5e-3, 1.0}, {3e-3, -1.0}, {4e-3, -1.0}}) {
@@ -43,7 +43,7 @@ TEST(Transient, CornersOfASourceAreAmongThePoints) {
     }
 }
 
-TEST(SourceWaveform, GoesAsSpiceSays) {
+TEST(SourceWaveform, FollowsSpice) {
     Waveform pulse;
     pulse.shape = Waveform::Shape::pulse, pulse.numbers = {1, 3, 1e-3, 1e-4, 2e-4, 5e-4, 2e-3, 2};
     const SourceWaveform p(pulse, 1e-5, 1);
@@ -64,7 +64,7 @@ TEST(SourceWaveform, GoesAsSpiceSays) {
     EXPECT_NEAR(e.at(6e-3), (1 - std::exp(-2.5)) - (1 - std::exp(-1)), 1e-12);
 }
 
-TEST(Transient, AnOscillatorKeepsItsTime) {
+TEST(Transient, AnOscillatorKeepsItsPeriod) {
     const auto found = run_netlist(oscillator_netlist("0.4"));
     const auto t = found.curve("time"), s = found.curve("v(s)");
     std::vector<double> spikes;

@@ -1,4 +1,4 @@
-// The card process/tsmc180.lib against what the thesis prints of its transistors.
+// The card process/tsmc180.lib compared with the published properties of the thesis's transistors.
 
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@
 namespace corpuscle::circuit {
 namespace {
 
-/// A model of one section of the card, as a netlist gets it.
+/// A model from one section of the card, as a netlist sees it.
 UicmCard model(const std::string& section, const std::string& name) {
     const auto open = [](const std::string& path) -> Result<std::string> {
         std::ifstream file(path);
@@ -27,7 +27,7 @@ UicmCard model(const std::string& section, const std::string& name) {
         return std::string(std::istreambuf_iterator<char>(file), {});
     };
     const auto netlist = Netlist::parse("a card\n.lib 'tsmc180.lib' " + section + "\nm1 d g s b " + name + " w=1u l=1u\n.end\n",
-                                        test::project_root() + "/process/x.cir", open);
+                                        test::source_root() + "/process/x.cir", open);
     if (!netlist) return ADD_FAILURE() << netlist.error().text(), UicmCard{};
     const auto circuit = netlist->elaborate();
     if (!circuit) return ADD_FAILURE() << circuit.error().text(), UicmCard{};
@@ -37,10 +37,10 @@ UicmCard model(const std::string& section, const std::string& name) {
         EXPECT_EQ(m.values.at("level"), UicmCard::level);
         EXPECT_EQ(m.values.size(), std::size(UicmCard::fields) + 1) << name << " leaves a parameter to its default, or names one twice";
         for (const auto& field : UicmCard::fields) {
-            const auto said = m.values.find(field.name);
-            if (said == m.values.end()) return ADD_FAILURE() << name << " does not say " << field.name, card;
-            card.*field.member = said->second;
-            EXPECT_FALSE(check_range(name, {field.name, field.unit, 0, field.low, field.high, {}, {}}, said->second).has_value()) << field.name;
+            const auto set = m.values.find(field.name);
+            if (set == m.values.end()) return ADD_FAILURE() << name << " lacks " << field.name, card;
+            card.*field.member = set->second;
+            EXPECT_FALSE(check_range(name, {field.name, field.unit, 0, field.low, field.high, {}, {}}, set->second).has_value()) << field.name;
         }
         return card;
     }
@@ -56,9 +56,9 @@ UicmConstants array(const UicmCard& card, double W, double L, double m, double s
 double drain_current(const UicmConstants& c, double d, double g, double s, double b) { return uicm_operating_point(c, {d, g, s, b}).I_D; }
 
 /// The unbiased inverter with output tied to input (fig. 51a, arrays 2x8 of table 16): V_Q and I_Q.
-struct Quiet {
+struct TiedInverter {
     double V = 0, I = 0;
-    Quiet(const UicmCard& n, const UicmCard& p) {
+    TiedInverter(const UicmCard& n, const UicmCard& p) {
         const auto N = array(n, 1.5e-6, 0.5e-6, 2, 8), P = array(p, 6e-6, 0.5e-6, 2, 8, true);
         double low = 0, high = 0.7;
         for (int k = 0; k < 60; ++k) {
@@ -68,16 +68,16 @@ struct Quiet {
     }
 };
 
-TEST(Tsmc180, TheUnbiasedInverterStandsWhereTable18Says) {
-    const Quiet q(model("tt", "nch"), model("tt", "pch"));
+TEST(Tsmc180, TheUnbiasedInverterRestsAsInTable18) {
+    const TiedInverter q(model("tt", "nch"), model("tt", "pch"));
     EXPECT_NEAR(q.V, 0.355, 0.5e-3);
     EXPECT_NEAR(q.I, 17.5e-9, 0.2e-9);
 }
 
 TEST(Tsmc180, CornersMoveTheInverter) {
-    const Quiet tt(model("tt", "nch"), model("tt", "pch"));
+    const TiedInverter tt(model("tt", "nch"), model("tt", "pch"));
     for (const auto* section : {"ss", "ff", "sf", "fs"}) {
-        const Quiet q(model(section, "nch"), model(section, "pch"));
+        const TiedInverter q(model(section, "nch"), model(section, "pch"));
         const std::string name = section;
         if (name == "ss") {
             EXPECT_LT(q.I, tt.I / 2);
@@ -91,13 +91,13 @@ TEST(Tsmc180, CornersMoveTheInverter) {
     }
 }
 
-/// Deviations of V_Q and I_Q, as parts of their means, over chips that `draw` makes of the inverter.
+/// Coefficients of variation of V_Q and I_Q over chips; `draw` makes the inverter of each chip.
 template <class Draw>
 std::pair<double, double> spread_of(const Draw& draw) {
     double V = 0, VV = 0, I = 0, II = 0;
     constexpr int chips = 2000;
     for (int k = 0; k < chips; ++k) {
-        const Quiet q = draw(static_cast<std::uint64_t>(k));
+        const TiedInverter q = draw(static_cast<std::uint64_t>(k));
         V += q.V / chips, VV += q.V * q.V / chips, I += q.I / chips, II += q.I * q.I / chips;
     }
     return {std::sqrt(VV - V * V) / V, std::sqrt(II - I * I) / I};
@@ -105,7 +105,7 @@ std::pair<double, double> spread_of(const Draw& draw) {
 
 TEST(Tsmc180, TheSpreadOfTheProcessIsThatOfTables17And18) {
     const UicmCard n = model("mc", "nch"), p = model("mc", "pch");
-    const auto [V, I] = spread_of([&](std::uint64_t k) { return Quiet(with_process(n, false, 1, k), with_process(p, true, 1, k)); });
+    const auto [V, I] = spread_of([&](std::uint64_t k) { return TiedInverter(with_process(n, false, 1, k), with_process(p, true, 1, k)); });
     EXPECT_NEAR(V, 0.0264, 0.002);
     EXPECT_NEAR(I, 0.284, 0.02);
 }
@@ -113,14 +113,14 @@ TEST(Tsmc180, TheSpreadOfTheProcessIsThatOfTables17And18) {
 TEST(Tsmc180, TheMismatchOfDevicesIsThatOfTables17And18) {
     const UicmCard n = model("tt", "nch"), p = model("tt", "pch");
     const auto [V, I] = spread_of([&](std::uint64_t k) {
-        const auto drawn = [k](UicmCard card, double W, std::uint32_t device) {
+        const auto sampled = [k](UicmCard card, double W, std::uint32_t device) {
             UicmInstance at;
             at.W = W, at.L = 0.5e-6, at.m = 2, at.stack = 8;
             const UicmInstance other = with_mismatch(at, card, 1, device, k);
             card.V_T0 += other.delvto, card.I_SQ *= other.mulu0;
             return card;
         };
-        return Quiet(drawn(n, 1.5e-6, 0), drawn(p, 6e-6, 1));
+        return TiedInverter(sampled(n, 1.5e-6, 0), sampled(p, 6e-6, 1));
     });
     EXPECT_NEAR(V, 0.0013, 0.0001);
     EXPECT_NEAR(I, 0.0119, 0.003);  // 1.4 %
@@ -131,11 +131,11 @@ TEST(Tsmc180, HigherThresholdsAreHigher) {
     EXPECT_NEAR(model("tt", "pch_hv").V_T0 - model("tt", "pch").V_T0, 0.15, 1e-12);
 }
 
-/// The current of an array at 0.5 V, its parts solved one above the other; each is `m` units of 0.42/0.18 in parallel.
+/// The current of an array at 0.5 V, solved part by part; each part is `m` elements of 0.42/0.18 in parallel.
 double stacked(const UicmCard& card, const std::vector<double>& from_source_up, double d, double g, double b) {
     std::vector<UicmConstants> parts;
     for (const double m : from_source_up) parts.push_back(array(card, 0.42e-6, 0.18e-6, m, 1));
-    const auto reached = [&](double I) {  // the voltage that the last drain needs for this current; above d: too much
+    const auto reached = [&](double I) {  // the voltage that the last drain needs for this current; above d the current is too large
         double v = 0;
         for (const auto& part : parts) {
             if (drain_current(part, d + 0.1, g, v, b) < I) return d + 0.1;
@@ -157,12 +157,12 @@ double stacked(const UicmCard& card, const std::vector<double>& from_source_up, 
     return 0.5 * (low + high);
 }
 
-TEST(Tsmc180, TheShortUnitMakesTheArraysOfTables11And14) {
+TEST(Tsmc180, TheShortElementMakesTheArraysOfTables11And14) {
     const UicmCard card = model("tt", "nch018");
     const struct {
         const char* name;
         std::vector<double> parts;
-        double I_D, g_mg, g_mb, g_md;  // uA, uS; g_md as errata U7 and U8 read it
+        double I_D, g_mg, g_mb, g_md;  // uA, uS; g_md as in errata U7 and U8
     } arrays[] = {
         {"A", {1}, 2.141, 31.83, 8.430, 1.021},
         {"B2", {1, 1, 1, 1}, 0.510, 7.691, 2.051, 0.067},
@@ -183,7 +183,7 @@ TEST(Tsmc180, TheShortUnitMakesTheArraysOfTables11And14) {
     }
 }
 
-/// The arrays of the 0.42/0.18 um unit in tables 12 and 15 (units of g_mg/A as errata U9 reads them); parts from the source up.
+/// The arrays of the 0.42/0.18 um element in tables 12 and 15 (units of g_mg/A as in errata U9); parts from the source up.
 constexpr struct {
     const char* name;
     int parts[8], count;
@@ -204,7 +204,7 @@ constexpr struct {
     {"G3", {1, 7}, 2, 15.36, 22.15, 50.6, 0.269, 38.89, 14.9},
 };
 
-TEST(Tsmc180, TheShortUnitHasTheRatiosOfTables12And15) {
+TEST(Tsmc180, TheShortElementHasTheRatiosOfTables12And15) {
     const UicmCard card = model("tt", "nch018");
     for (const auto& a : table12_and_15) {
         const double h = 1e-3, I = stacked(card, a.stack(), 0.5, 0.5, 0);
@@ -215,7 +215,7 @@ TEST(Tsmc180, TheShortUnitHasTheRatiosOfTables12And15) {
         EXPECT_NEAR(g_mg / I / a.g_mg_by_I, 1, 0.035) << a.name;
         EXPECT_NEAR(slope(0, 0, h) / g_mg, a.n_1, 0.003) << a.name;
         EXPECT_NEAR(1e6 * g_mg / area / a.g_mg_by_area, 1, 0.02) << a.name;
-        EXPECT_NEAR(I / g_md / a.V_A, 1, 0.25) << a.name;  // one Early voltage a length is too simple: 18 % low to 25 % high
+        EXPECT_NEAR(I / g_md / a.V_A, 1, 0.25) << a.name;  // a single Early voltage per length is too simple: 18 % low to 25 % high
         EXPECT_NEAR(20 * std::log10(g_mg / g_md), a.dB, 2.2) << a.name;
     }
 }
@@ -232,7 +232,7 @@ TEST(Tsmc180, ArraysCarryLessThanTheirAspectRatioAsInTables11And14) {  // eq. 31
     }
 }
 
-/// Deviation of the drain current in %, every unit drawn for itself.
+/// Deviation of the drain current in %, with each element sampled separately.
 double mismatch_of(const std::string& devices) {
     double I = 0, II = 0;
     const auto all = run_variants("mismatch\n.lib 'tsmc180.lib' tt\nvd d 0 0.5\n" + devices + ".op\n.mc 1000 seed=5 process=0\n");
@@ -241,9 +241,10 @@ double mismatch_of(const std::string& devices) {
     return 100 * std::sqrt(II / count - mean * mean) / std::abs(mean);
 }
 
-// Of 1000 draws a deviation is known to 2.2 %, here as in the thesis. G3 (one unit under seven) is 13.0 % where 14.9 % is printed, nearly
-// a lone unit's: in UICM the unit at the source is not quite saturated, i_r being an eighth of i_f, and the seven share in the deviation.
-TEST(Tsmc180, UnitsDrawnEachForItselfMakeTheMismatchOfTables12And15) {
+// The deviation of 1000 samples has an error of 2.2 %, here as in the thesis. G3 (one element under seven) is 13.0 %; published is 14.9 %,
+// almost that of a single element. In UICM the element at the source is not quite saturated (i_r is an eighth of i_f), so the seven others
+// contribute to the deviation.
+TEST(Tsmc180, ElementsSampledSeparatelyMakeTheMismatchOfTables12And15) {
     for (const auto& a : table12_and_15) {
         std::string devices;
         for (int k = 0; k < a.count; ++k)
@@ -255,15 +256,15 @@ TEST(Tsmc180, UnitsDrawnEachForItselfMakeTheMismatchOfTables12And15) {
     }
 }
 
-TEST(Tsmc180, ArraysDrawnAsOneDeviceAreAsUnlikeAsTheirUnits) {
+TEST(Tsmc180, ArraysSampledAsOneDeviceVaryLikeTheirElements) {
     for (const auto& [name, m, stack, sigma] :
          {std::tuple{"A", 1, 1, 15.6}, {"B2", 1, 4, 8.00}, {"C2", 2, 2, 7.73}, {"D2", 4, 1, 7.41}, {"G1", 1, 8, 5.77}})
         EXPECT_NEAR(mismatch_of(fmt::format("m1 d d 0 0 nch018 w=0.42u l=0.18u m={} stack={}\n", m, stack)) / sigma, 1, 0.08) << name;
 }
 
-// B1, C1, D1, E and F are other geometries, each with a threshold of its own, for which there is no card: their mismatch is held against
-// the law that the card draws by, at the g_mg/I_D that is printed.
-TEST(Tsmc180, OtherGeometriesAreMismatchedByTheSameLaw) {
+// B1, C1, D1, E and F are other geometries with other thresholds; no card exists for them. Their mismatch is compared with the card's
+// sampling law at the published g_mg/I_D.
+TEST(Tsmc180, OtherGeometriesFollowTheSameMismatchLaw) {
     const UicmCard card = model("tt", "nch018");
     for (const auto& [name, g_mg_by_I, area, sigma] : {std::tuple{"B1", 13.63, 0.756, 4.41},
                                                        {"C1", 16.38, 1.008, 4.39},

@@ -1,5 +1,5 @@
 #pragma once
-// Transistors for tests: one plain, one with every part of the model at work, and many at random.
+// Model cards for tests: one with the plain UICM, one with every effect of the model enabled, and random devices.
 
 #include <cmath>
 #include <cstdint>
@@ -14,14 +14,14 @@ namespace corpuscle::circuit::test {
 inline constexpr double elementary_charge = 1.602176634e-19, boltzmann = 1.380649e-23, phi_t = boltzmann * 300.15 / elementary_charge;
 enum { D, G, S, B };
 
-/// UICM alone: no velocity saturation, no DIBL, no Early voltage to speak of, no junctions, no capacitance but the gate's.
+/// UICM alone: no velocity saturation, no DIBL, a practically infinite Early voltage, no junctions, only the gate capacitance.
 inline UicmCard plain_card() {
     UicmCard card;
     card.V_E = 1e30;
     return card;
 }
 
-/// Every part of the model at work.
+/// Every effect of the model enabled.
 inline UicmCard full_card() {
     UicmCard card;
     card.sigma_L = 5e-9, card.zeta_L = 0.02e-6, card.C_GSO = 3.7e-10, card.C_GDO = 3e-10, card.C_GBO = 1e-11;
@@ -30,9 +30,9 @@ inline UicmCard full_card() {
 }
 
 inline UicmConstants constants_of_size(const UicmCard& card, double W, double L, double m = 1, double stack = 1, bool pmos = false, double T = 27) {
-    UicmInstance at;
-    at.W = W, at.L = L, at.m = m, at.stack = stack;
-    return uicm_constants(card, at, T, pmos);
+    UicmInstance instance;
+    instance.W = W, instance.L = L, instance.m = m, instance.stack = stack;
+    return uicm_constants(card, instance, T, pmos);
 }
 
 inline UicmEvaluation<double> evaluate(const UicmConstants& c, double d, double g, double s, double b) {
@@ -43,12 +43,12 @@ inline UicmEvaluation<double> evaluate(const UicmConstants& c, double d, double 
 
 inline double current(const UicmConstants& c, double d, double g, double s, double b = 0) { return Uicm<double>(c).internals({d, g, s, b}).I; }
 
-/// Number k of a course of random devices and voltages: weak to strong inversion, forward bulks, V_DS of 0 in every fourth.
+/// Number k of a series of random devices and voltages: weak to strong inversion, forward-biased bulks, V_DS about 0 in every fourth.
 struct RandomDevice {
     UicmConstants c;
     double v[4];
     explicit RandomDevice(std::uint32_t k) {
-        const auto z = [k](std::uint32_t what) { return normal(7, k, what, 0); };
+        const auto z = [k](std::uint32_t quantity) { return normal(7, k, quantity, 0); };
         UicmCard card = full_card();
         if (k % 3 == 0) card.sigma_L = 0;
         if (k % 5 == 0) card.zeta_L = 0;

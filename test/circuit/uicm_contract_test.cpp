@@ -1,4 +1,4 @@
-// What must hold of the transistor whatever its card says: slopes, symmetry, conservation, smoothness, lanes.
+// Properties of the transistor that must hold for any card: derivatives, symmetry, conservation, smoothness, SIMD lanes.
 
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@ namespace {
 
 using namespace test;
 
-/// A transistor in duals with the slope of v[by] at 1.
+/// A value of a transistor evaluated with dual numbers; the derivative is by v[by].
 template <class Read>
 double dual_slope(const RandomDevice& r, int by, const Read& read) {
     num::Dual v[4] = {r.v[0], r.v[1], r.v[2], r.v[3]};
@@ -27,7 +27,7 @@ double dual_slope(const RandomDevice& r, int by, const Read& read) {
     return read(out).d;
 }
 
-/// As near as the largest slope of the same kind allows.
+/// Compares two derivatives, relative to the largest one of the same kind.
 void near(double found, double right, double scale, std::uint32_t k, const char* what, int a, int b) {
     EXPECT_LE(std::abs(found - right), 2e-11 * scale)
         << what << '[' << a << "][" << b << "] of device " << k << ": " << found << ", not " << right;
@@ -38,20 +38,20 @@ TEST(UicmContract, ItsSlopesAreThoseOfDualsAtAHundredThousandPoints) {
         const RandomDevice r(k);
         UicmEvaluation<double> out;
         Uicm<double>(r.c).eval(r.v, out);
-        double most_i = 0, most_q = 0;
+        double max_i = 0, max_q = 0;
         for (int a = 0; a < 16; ++a)
-            most_i = std::max(most_i, std::abs(out.di[a / 4][a % 4])), most_q = std::max(most_q, std::abs(out.dq[a / 4][a % 4]));
-        const int b = static_cast<int>(k / 2 % 4);  // one direction a point
+            max_i = std::max(max_i, std::abs(out.di[a / 4][a % 4])), max_q = std::max(max_q, std::abs(out.dq[a / 4][a % 4]));
+        const int b = static_cast<int>(k / 2 % 4);  // one direction per point
         for (int a = 0; a < 4; ++a) {
-            near(out.di[a][b], dual_slope(r, b, [a](const auto& o) { return o.i[a]; }), most_i, k, "di", a, b);
-            near(out.dq[a][b], dual_slope(r, b, [a](const auto& o) { return o.q[a]; }), most_q, k, "dq", a, b);
+            near(out.di[a][b], dual_slope(r, b, [a](const auto& o) { return o.i[a]; }), max_i, k, "di", a, b);
+            near(out.dq[a][b], dual_slope(r, b, [a](const auto& o) { return o.q[a]; }), max_q, k, "dq", a, b);
         }
     }
 }
 
 TEST(UicmContract, ItsSlopesAreThoseOfFiniteDifferences) {
     for (std::uint32_t k = 1; k < 4000; ++k) {
-        if (k % 4 == 0) continue;  // V_DS = 0, where a second slope may jump
+        if (k % 4 == 0) continue;  // V_DS = 0, where a second derivative may jump
         RandomDevice r(k);
         for (int b = 0; b < 4; ++b) {
             const double h = 1e-5;
@@ -97,7 +97,7 @@ TEST(UicmContract, APmosIsTheMirrorImageToTheLastBit) {
     }
 }
 
-TEST(UicmContract, CurrentsAndChargesSumToNothingAndOnlyDifferencesOfVoltageCount) {
+TEST(UicmContract, CurrentsAndChargesSumToZeroAndOnlyVoltageDifferencesMatter) {
     for (std::uint32_t k = 0; k < 10000; ++k) {
         const RandomDevice r(k);
         const auto out = evaluate(r.c, r.v[0], r.v[1], r.v[2], r.v[3]);
@@ -126,11 +126,11 @@ TEST(UicmContract, CurrentNeverFallsAsTheDrainRises) {
     }
 }
 
-TEST(UicmContract, SlopesDoNotJumpAcrossZeroDrainVoltageNorWhereAFormulaEnds) {
+TEST(UicmContract, SlopesDoNotJumpAtZeroDrainVoltageOrWhereAnEquationEnds) {
     const auto c = constants_of_size(full_card(), 1.5e-6, 0.5e-6);
     const double top = c.exp_limit_s / c.per_n_phi_t, corner = c.v_limit;
     for (const double g : {-0.2, 0.3, 0.5, 1.0, 1.8})
-        for (const double b : {0.0, corner, top})  // of the bulk above source and drain
+        for (const double b : {0.0, corner, top})  // bulk voltage relative to source and drain
             for (const double step : {1e-9, 1e-8}) {
                 const auto below = evaluate(c, -step, g, 0, b - step), above = evaluate(c, step, g, 0, b + step);
                 for (int k = 0; k < 16; ++k) {
@@ -147,7 +147,7 @@ TEST(UicmContract, PlainIsSmoothToThirdOrderAcrossZeroDrainVoltage) {
     const auto c = constants_of_size(plain_card(), 1.5e-6, 0.5e-6);
     for (const double g : {0.2, 0.5, 0.9}) {
         const double h = 2e-3, scale = evaluate(c, 0, g, 0, 0).di[D][D] / (phi_t * phi_t);
-        const auto third = [&](double at) {  // of I_D, by V_DS
+        const auto third = [&](double at) {  // third difference of I_D by V_DS
             return (current(c, at + 2 * h, g, 0) - 2 * current(c, at + h, g, 0) + 2 * current(c, at - h, g, 0) -
                     current(c, at - 2 * h, g, 0)) /
                    (2 * h * h * h);
@@ -157,7 +157,7 @@ TEST(UicmContract, PlainIsSmoothToThirdOrderAcrossZeroDrainVoltage) {
     }
 }
 
-TEST(UicmContract, LanesGiveTheBitsOfOne) {
+TEST(UicmContract, LanesGiveTheSameBitsAsScalars) {
     constexpr std::size_t count = 2048;
     std::vector<UicmConstants> constants;
     lanes::AlignedBuffer<double> v[4] = {lanes::AlignedBuffer<double>(count), lanes::AlignedBuffer<double>(count), lanes::AlignedBuffer<double>(count),

@@ -1,5 +1,5 @@
 #pragma once
-// Many transistors on the lanes of one instruction set: arrays in, arrays out.
+// Evaluates many transistors at once on the SIMD lanes of one instruction set; inputs and outputs are arrays.
 
 #include <cstddef>
 
@@ -7,12 +7,12 @@
 
 namespace corpuscle::circuit::test {
 
-inline constexpr std::size_t uicm_value_count = 44;  ///< i, q, di, dq of an answer, then the four noises
+inline constexpr std::size_t uicm_value_count = 44;  ///< i, q, di, dq of an evaluation, then the four noise densities
 
-/// out[f][k] = number f of transistor k at v[0...3][k]; count is a multiple of 8, all v and out on 64 bytes.
+/// out[f][k] = value f of transistor k at the voltages v[0...3][k]. `count` must be a multiple of 8, arrays aligned to 64 bytes.
 using UicmBatchFunction = void (*)(const UicmConstants*, const double* const (&v)[4], std::size_t count, double* const (&out)[uicm_value_count]);
 
-/// The time of it: `rounds` times the same transistor at all points; the sum of all that came out, so that nothing can be left out.
+/// For timing: evaluates one transistor at all points, `rounds` times. Returns the sum of all results, so that none is optimized away.
 using UicmTimingFunction = double (*)(const UicmConstants&, const double* const (&v)[4], std::size_t count, std::size_t rounds);
 
 namespace baseline {

@@ -1,4 +1,4 @@
-// The transistor against the equations it claims: the thesis's, ACM2's, Shockley's, Nyquist's.
+// The transistor compared with its published equations: the thesis's, ACM2's, Shockley's, Nyquist's.
 
 #include <gtest/gtest.h>
 
@@ -41,7 +41,7 @@ TEST(Uicm, InWeakInversionIsTheExponentialOfItsGateBulkAndSource) {  // eq. 42
         }
 }
 
-TEST(Uicm, VelocitySaturationTakesItsShareInWeakInversionAndItsChargeInSaturation) {
+TEST(Uicm, VelocitySaturationReducesTheCurrentInWeakInversionAndTheChargeInSaturation) {
     UicmCard card = plain_card();
     card.zeta_L = 0.05e-6;  // zeta 0.1
     const auto c = constants_of_size(card, 1.5e-6, 0.5e-6), without = constants_of_size(plain_card(), 1.5e-6, 0.5e-6);
@@ -49,13 +49,13 @@ TEST(Uicm, VelocitySaturationTakesItsShareInWeakInversionAndItsChargeInSaturatio
     EXPECT_NEAR(current(c, 1e-6, -0.1, 0) / current(without, 1e-6, -0.1, 0), 1, 1e-5);
     for (double g = 0.2; g < 1.8; g += 0.2) {
         const double q = inversion_charge((g - 0.461) / 1.27 / phi_t + 1), i = current(c, 5, g, 0) / c.I_S;
-        EXPECT_NEAR(2 * (q + 1 - std::sqrt(1 + i)) / i, 0.1, 1e-9) << g;  // how zeta is extracted
+        EXPECT_NEAR(2 * (q + 1 - std::sqrt(1 + i)) / i, 0.1, 1e-9) << g;  // the extraction formula of zeta
     }
 }
 
-/// The current through units in series under one gate, from `from` to `to`, found node by node.
+/// The current through elements in series with a common gate, from `from` to `to`, solved node by node.
 double in_series(const std::vector<UicmConstants>& units, double to, double g, double from) {
-    const auto end = [&](double I) {  // where the last drain comes to lie under current I
+    const auto end = [&](double I) {  // voltage of the last drain at current I
         double v = from;
         for (const auto& unit : units) {
             double low = v, high = to + 1e-9;
@@ -75,7 +75,7 @@ double in_series(const std::vector<UicmConstants>& units, double to, double g, d
     return 0.5 * (low + high);
 }
 
-TEST(Uicm, AStackIsTheSeriesOfItsUnitsInThePlainModel) {  // eq. 31, 32
+TEST(Uicm, AStackIsTheSeriesOfItsElementsInThePlainModel) {  // eq. 31, 32
     const auto unit = constants_of_size(plain_card(), 1.5e-6, 0.5e-6), wide = constants_of_size(plain_card(), 1.5e-6, 0.5e-6, 4);
     for (const double g : {0.2, 0.45, 0.8, 1.8})
         for (const double d : {0.02, 0.06}) {
@@ -86,12 +86,12 @@ TEST(Uicm, AStackIsTheSeriesOfItsUnitsInThePlainModel) {  // eq. 31, 32
         }
 }
 
-TEST(Uicm, TheSplitMirrorDividesAsItsAspectRatiosSay) {  // eq. 38, 39
+TEST(Uicm, TheSplitMirrorDividesByItsAspectRatios) {  // eq. 38, 39
     for (const double N : {4.0, 8.0}) {
         const auto parallel = constants_of_size(plain_card(), 1.5e-6, 0.5e-6, N), series = constants_of_size(plain_card(), 1.5e-6, 0.5e-6, 1, N);
         const double g = 0.35, I_in = current(parallel, g, g, 0);
         double low = 0, high = 0.35;
-        for (int k = 0; k < 100; ++k) {  // the middle node, where M_B's current is M_C's and M_D's
+        for (int k = 0; k < 100; ++k) {  // the middle node, at which M_B's current equals the sum of M_C's and M_D's
             const double x = 0.5 * (low + high);
             (current(series, x, g, 0) < current(parallel, 0.7, g, x) + current(series, 0.35, g, x) ? low : high) = x;
         }
@@ -113,10 +113,10 @@ TEST(Uicm, ThermalNoiseIsNyquistsAtZeroDrainVoltageAndShotInSaturatedWeakInversi
     for (double g = -0.4; g < 0.11; g += 0.1)
         EXPECT_NEAR(Uicm<double>(c).noise({0.7, g, 0, 0}).thermal / (2 * elementary_charge * current(c, 0.7, g, 0)), 1, 1e-3) << g;
     const double strong = Uicm<double>(c).noise({3, 3, 0, 0}).thermal / (4 * boltzmann * 300.15 * -evaluate(c, 3, 3, 0, 0).di[D][S]);
-    EXPECT_NEAR(strong, 2.0 / 3, 0.02);  // of g_ms, in saturated strong inversion
+    EXPECT_NEAR(strong, 2.0 / 3, 0.02);  // relative to g_ms, in saturated strong inversion
 }
 
-TEST(Uicm, FlickerNoiseIsFoundAtTheGateByAreaAlone) {
+TEST(Uicm, FlickerNoiseAtTheGateDependsOnlyOnTheArea) {
     UicmCard card = plain_card();
     card.N_ot = 3e11;
     for (const double m : {1.0, 4.0})
@@ -172,7 +172,7 @@ TEST(Uicm, FollowsTemperatureByItsLaws) {
     EXPECT_NEAR(warm.I_sat_s / constants_of_size(full_card(), 1e-6, 1e-6).I_sat_s / right, 1, 1e-12);
 }
 
-TEST(Uicm, MismatchFallsWithTheRootOfTheWholeArraysAreaAndDependsOnWhatItIsForAlone) {
+TEST(Uicm, MismatchFallsWithTheRootOfTheTotalAreaAndDependsOnlyOnItsDevice) {
     UicmCard card = plain_card();
     card.A_VT = 2.8e-9, card.A_IS = 1e-8;
     UicmInstance at;
@@ -180,9 +180,9 @@ TEST(Uicm, MismatchFallsWithTheRootOfTheWholeArraysAreaAndDependsOnWhatItIsForAl
     double sum = 0, squares = 0, logs = 0, together = 0;
     constexpr int chips = 20000;
     for (int k = 0; k < chips; ++k) {
-        const auto drawn = with_mismatch(at, card, 1, 5, static_cast<std::uint64_t>(k));
-        sum += drawn.delvto, squares += drawn.delvto * drawn.delvto, logs += std::pow(std::log(drawn.mulu0), 2);
-        together += drawn.delvto * with_mismatch(at, card, 1, 6, static_cast<std::uint64_t>(k)).delvto;
+        const auto sampled = with_mismatch(at, card, 1, 5, static_cast<std::uint64_t>(k));
+        sum += sampled.delvto, squares += sampled.delvto * sampled.delvto, logs += std::pow(std::log(sampled.mulu0), 2);
+        together += sampled.delvto * with_mismatch(at, card, 1, 6, static_cast<std::uint64_t>(k)).delvto;
     }
     const double sigma = 2.8e-9 / std::sqrt(12e-12);
     EXPECT_NEAR(sum / chips / sigma, 0, 0.03);
@@ -196,7 +196,7 @@ TEST(Uicm, MismatchFallsWithTheRootOfTheWholeArraysAreaAndDependsOnWhatItIsForAl
     EXPECT_EQ(with_process(card, false, 1, 1).V_T0, with_process(card, false, 1, 1).V_T0);
 }
 
-TEST(Uicm, ItsPointSaysTheRegionAndConductancesThatSumUp) {
+TEST(Uicm, ItsOperatingPointHasTheRegionAndConsistentConductances) {
     const auto n = constants_of_size(full_card(), 1.5e-6, 0.5e-6), p = constants_of_size(full_card(), 1.5e-6, 0.5e-6, 1, 1, true);
     const struct {
         double d, g;

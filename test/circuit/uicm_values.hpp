@@ -1,5 +1,5 @@
 #pragma once
-// All that a transistor says, in one order, for any kind of number; include uicm.hpp before.
+// All values of a transistor evaluation in a fixed order, for any number type. Include uicm.hpp first.
 
 #include <cstddef>
 
@@ -7,14 +7,14 @@ namespace corpuscle::circuit::test {
 
 template <class T, class Put>
 void for_each_value(const Uicm<T>& device, const T (&v)[4], const Put& put) {
-    UicmEvaluation<T> answer;
-    device.eval(v, answer);
+    UicmEvaluation<T> result;
+    device.eval(v, result);
     std::size_t f = 0;
-    for (const T& y : answer.i) put(f++, y);
-    for (const T& y : answer.q) put(f++, y);
-    for (const auto& row : answer.di)
+    for (const T& y : result.i) put(f++, y);
+    for (const T& y : result.q) put(f++, y);
+    for (const auto& row : result.di)
         for (const T& y : row) put(f++, y);
-    for (const auto& row : answer.dq)
+    for (const auto& row : result.dq)
         for (const T& y : row) put(f++, y);
     const auto noise = device.noise(v);
     for (const T& y : {noise.thermal, noise.flicker, noise.shot_s, noise.shot_d}) put(f++, y);

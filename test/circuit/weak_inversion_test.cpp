@@ -1,5 +1,5 @@
-// What the thesis derives for weak inversion (app. D and E; eq. 45a, 46d and 47b with their slips mended): limits, each left by as much
-// as its approximation says.
+// The thesis's equations for weak inversion (app. D and E; eq. 45a, 46d and 47b as corrected). They are limits; each test checks the
+// difference against the error of the approximation.
 
 #include <fmt/format.h>
 
@@ -11,7 +11,7 @@ namespace {
 constexpr double v_t = 1.380649e-23 * 300.15 / 1.602176634e-19, n = 1.27, euler = 2.71828182845904523536;
 constexpr const char* exact = ".options gmin=0 reltol=1e-12 vntol=1e-14\n";
 
-TEST(WeakInversion, TheCurrentIsEquation42LeftByAQuarterOfTheInversionLevel) {
+TEST(WeakInversion, TheCurrentDiffersFromEquation42ByAQuarterOfTheInversionLevel) {
     const double I_S = 112e-9 * 3, V_T = 0.46;
     for (const double V_G : {0.0, 0.1, 0.2, 0.3})
         for (const double V_B : {-0.2, 0.0, 0.2}) {
@@ -26,7 +26,7 @@ TEST(WeakInversion, TheCurrentIsEquation42LeftByAQuarterOfTheInversionLevel) {
         }
 }
 
-/// A diode of gate, drain and bulk (fig. 48b, M_Y), its drain and bulk currents apart.
+/// A diode of gate, drain and bulk (fig. 48b, M_Y), with separate drain and bulk currents.
 struct BodyBiased {
     double I_D, I_B;
     explicit BodyBiased(double V) {
@@ -41,7 +41,7 @@ struct BodyBiased {
 
 TEST(WeakInversion, TheBulksCurrentIsEquation43) {
     const double I_Sdio = 5e-6 * 0.75e-12 + 1e-12 * 4e-6;
-    for (const double V : {0.1, 0.2, 0.35, 0.5, 0.6}) {  // the drain's junction is at 0 V; what is left is Shockley's -1
+    for (const double V : {0.1, 0.2, 0.35, 0.5, 0.6}) {  // the drain's junction is at 0 V; the difference is Shockley's -1
         const double equation = I_Sdio * std::exp(V / (1.05 * v_t));
         EXPECT_NEAR(BodyBiased(V).I_B / equation, 1 - std::exp(-V / (1.05 * v_t)), 1e-9) << V;
     }
@@ -59,8 +59,8 @@ TEST(WeakInversion, ADiodeWithItsBulkAtItsSourceNeedsNTimesTheVoltage) {  // eq.
     }
 }
 
-/// An inverter whose output drives its input (q), and a copy of it driven by q (out): what both show. Thresholds are 0.35 V above the
-/// thesis's so that 0.7 to 0.9 V is weak inversion; lengths are of 8 units.
+/// Results of an inverter with its output tied to its input (q), and of a copy driven by q (out). Thresholds are 0.35 V above the thesis's,
+/// so that 0.7 to 0.9 V is weak inversion; lengths are 8 elements.
 struct Inverter {
     double V_Q, I_Q, gain, G_m, G_o;
     struct Sizes {
@@ -94,13 +94,13 @@ TEST(WeakInversion, AnInvertersCurrentIsEquation45) {
 TEST(WeakInversion, AnInvertersGainIsEquation46) {
     for (const double vdd : {0.7, 0.9}) {
         const Inverter at({.vdd = vdd, .V_TN = 0.96, .V_TP = 0.95, .V_E = 8e6});
-        const double V_A = 8e6 * 4e-6;  // 32 V, of 8 units of 0.5 um
+        const double V_A = 8e6 * 4e-6;  // 32 V, for 8 elements of 0.5 um
         EXPECT_LT(at.gain, 0);
-        EXPECT_NEAR(at.G_m / (2 * at.I_Q / (n * v_t)), 1, 1e-3);  // 46b: left by i_f/4
+        EXPECT_NEAR(at.G_m / (2 * at.I_Q / (n * v_t)), 1, 1e-3);  // 46b: the difference is i_f/4
         // 46c: I_D (1 + (sqrt(V^2 + k^2) - k)/V_A), k = 4 phi_t, has a slope of V/sqrt(V^2 + k^2) I_D/V_A, and I_Q is I_D times that factor
         const double V = 0.5 * vdd, k = 4 * v_t, root = std::sqrt(V * V + k * k);
         EXPECT_NEAR(at.G_o / (2 * at.I_Q / V_A), V / root / (1 + (root - k) / V_A), 4e-3);  // V_Q is not V_DD/2, and i_r/i_f is 1e-6
-        EXPECT_NEAR(-at.gain / (2 / (n * v_t * 2 / V_A)), 1, 0.06);                         // 46d; the knee makes it 2 to 4 % more
+        EXPECT_NEAR(-at.gain / (2 / (n * v_t * 2 / V_A)), 1, 0.06);                         // 46d; the Early factor's knee adds 2 to 4 %
     }
 }
 
@@ -110,7 +110,7 @@ TEST(WeakInversion, AnInvertersQuietVoltageIsEquation47) {
         const auto resting = [&](const std::string& bp, const std::string& bn) {
             return Inverter({.I_SQP = I_SQP, .V_TN = V_TN, .V_TP = -V_TP, .bp = bp, .bn = bn}).V_Q;
         };
-        const double at_q = resting("q", "q"), V_Q0 = 0.35 + (V_TP + V_TN) / (2 * n) + 0.5 * v_t * std::log(ratio);  // 47b, its sign mended
+        const double at_q = resting("q", "q"), V_Q0 = 0.35 + (V_TP + V_TN) / (2 * n) + 0.5 * v_t * std::log(ratio);  // 47b, sign corrected
         EXPECT_NEAR(at_q, V_Q0, 1e-5) << ratio;
         const double far = resting("vdd", "0"), halves = resting("q", "0");
         EXPECT_NEAR(far, V_Q0 + (n - 1) * (V_Q0 - 0.35), 1e-5) << ratio;  // 47a: both bulks at their rails

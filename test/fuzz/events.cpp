@@ -1,5 +1,5 @@
-// Any bytes behind the first words of a file of address events, and any bytes as a stream's saved state: trains in order at finite times,
-// or an error with a sentence.
+// Arbitrary bytes after the header of an address-event file, and as a stream's saved state. Expected: sorted trains with finite times, or
+// an error with a message.
 
 #include <unistd.h>
 

@@ -1,4 +1,4 @@
-// Any text as a formula: a value with slopes, the same value with and without them, or an error with a sentence and a place.
+// Arbitrary text as an expression. Expected: the same value with and without slopes, or an error with a message and a location.
 
 #include <bit>
 #include <cmath>
@@ -13,7 +13,7 @@ using namespace corpuscle::circuit;
 
 namespace {
 
-void work_out(const Expression& f) {
+void evaluate(const Expression& f) {
     std::vector<double> x(f.inputs().size()), slopes(x.size());
     for (std::size_t k = 0; k < x.size(); ++k) x[k] = 0.25 * static_cast<double>(k % 9) - 1;
     const double plain = f.value(x), sloped = f.value(x, slopes);
@@ -37,7 +37,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         scope.allows_inputs = inputs;
         const auto f = Expression::parse(text, {"f", 1, 1}, scope);
         if (f)
-            work_out(*f);
+            evaluate(*f);
         else if (f.error().message.empty() || f.error().location.column < 1 || f.error().location.column > static_cast<long>(size) + 1)
             std::abort();
         if (f && !inputs && !f->is_constant()) std::abort();

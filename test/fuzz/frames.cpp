@@ -1,4 +1,4 @@
-// Any bytes off a wire, in any pieces: frames of finite forces within the limit, the same as in one piece.
+// Arbitrary bytes from a connection, in chunks of any size. Expected: frames of finite forces within the limit, independent of the chunks.
 
 #include <algorithm>
 #include <cmath>
@@ -15,22 +15,22 @@ void require(bool holds) {
     if (!holds) std::abort();
 }
 
-/// Columns from the last to the first; names that begin with x are refused.
+/// Maps the columns in reverse order; rejects names that begin with x.
 Result<std::vector<std::uint32_t>> backwards(std::span<const std::string> names) {
-    std::vector<std::uint32_t> places;
-    for (std::size_t k = names.size(); k-- > 0;) places.push_back(static_cast<std::uint32_t>(k));
+    std::vector<std::uint32_t> columns;
+    for (std::size_t k = names.size(); k-- > 0;) columns.push_back(static_cast<std::uint32_t>(k));
     if (names[0].starts_with('x')) return bad_input("no site is called so");
-    return places;
+    return columns;
 }
 
-std::vector<double> all_of(const FrameLayout& layout, std::span<const std::uint8_t> bytes, std::size_t piece) {
+std::vector<double> all_of(const FrameLayout& layout, std::span<const std::uint8_t> bytes, std::size_t chunk) {
     FrameDecoder decoder(layout, 1, backwards);
     std::vector<double> all, force(layout.sites);
     while (!bytes.empty()) {
-        const auto room = decoder.buffer();
-        require(!room.empty());
-        const auto count = std::min({room.size(), bytes.size(), piece});
-        std::copy_n(bytes.begin(), count, room.begin());
+        const auto space = decoder.buffer();
+        require(!space.empty());
+        const auto count = std::min({space.size(), bytes.size(), chunk});
+        std::copy_n(bytes.begin(), count, space.begin());
         decoder.add_bytes(count), bytes = bytes.subspan(count);
         for (auto found = decoder.next(); found != FrameDecoder::Status::nothing; found = decoder.next()) {
             if (found == FrameDecoder::Status::frame) require(decoder.read_forces(force) <= force.size());
@@ -42,16 +42,16 @@ std::vector<double> all_of(const FrameLayout& layout, std::span<const std::uint8
     return all;
 }
 
-/// The same bytes as datagrams: each holds whole frames or none, and leaves nothing behind.
-void take_datagrams(const FrameLayout& layout, std::span<const std::uint8_t> bytes, std::size_t piece) {
+/// The same bytes as datagrams: each contains complete frames or none, and leaves no partial frame.
+void take_datagrams(const FrameLayout& layout, std::span<const std::uint8_t> bytes, std::size_t chunk) {
     FrameDecoder decoder(layout, 1, backwards);
     std::vector<double> force(layout.sites);
     while (!bytes.empty()) {
-        const auto room = decoder.buffer();
-        const auto count = std::min({room.size() - 1, bytes.size(), piece});
-        std::copy_n(bytes.begin(), count, room.begin());
-        const bool is_whole = decoder.add_datagram(count);
-        require(is_whole == (layout.kind == FrameKind::csv || count % layout.bytes() == 0));
+        const auto space = decoder.buffer();
+        const auto count = std::min({space.size() - 1, bytes.size(), chunk});
+        std::copy_n(bytes.begin(), count, space.begin());
+        const bool is_complete = decoder.add_datagram(count);
+        require(is_complete == (layout.kind == FrameKind::csv || count % layout.bytes() == 0));
         bytes = bytes.subspan(count);
         for (auto found = decoder.next(); found != FrameDecoder::Status::nothing; found = decoder.next())
             if (found == FrameDecoder::Status::frame) require(decoder.read_forces(force) <= force.size());

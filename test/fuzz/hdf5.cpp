@@ -1,4 +1,4 @@
-// Any bytes as a file of HDF5; the library may die of it, in its own process.
+// Arbitrary bytes as an HDF5 file. The library may crash, but only in its own process.
 
 #include <limits>
 

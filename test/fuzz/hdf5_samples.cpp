@@ -1,5 +1,5 @@
-// HDF5 files of any shape, type, storage and attributes, made by the library itself and read by our code in this process, where its
-// branches are seen. Damaged files are fuzz-hdf5's, through the helper process: the library may die of them.
+// Valid HDF5 files of any shape, type, storage and attributes, written by the library and read in this process, so that the fuzzer sees the
+// reader's branches. fuzz-hdf5 tests damaged files through the helper process, because they may crash the library.
 
 #include <fuzzer/FuzzedDataProvider.h>
 #include <sys/mman.h>
@@ -25,9 +25,9 @@ void require(bool holds) {
 }
 
 constexpr const char* dataset_names[] = {"/force", "/a/force", "/a/b/data", "/t", "/a/time_s", "/fs", "/a/starting_time", "/frame"};
-constexpr const char* numbers_of_attributes[] = {"rate", "Sampling_Rate", "conversion", "offset"};
-constexpr const char* words_of_attributes[] = {"unit", "units", "MATLAB_class", "columns", "channels", "names"};
-constexpr const char* some_words[] = {"N", "mN", "fz_N", "frame", "t_s", "", "x y", "double", "\xff"};
+constexpr const char* numeric_attributes[] = {"rate", "Sampling_Rate", "conversion", "offset"};
+constexpr const char* text_attributes[] = {"unit", "units", "MATLAB_class", "columns", "channels", "names"};
+constexpr const char* text_values[] = {"N", "mN", "fz_N", "frame", "t_s", "", "x y", "double", "\xff"};
 
 hid_t number_type(unsigned k) {
     const hid_t types[] = {H5T_IEEE_F64LE, H5T_IEEE_F64BE, H5T_IEEE_F32LE, H5T_STD_I8LE,
@@ -35,17 +35,17 @@ hid_t number_type(unsigned k) {
     return types[k % std::size(types)];
 }
 
-/// Exact in every type.
+/// A value that is exact in every type.
 double value_at(std::size_t k) { return static_cast<double>(k * 37 % 101); }
 
-class Maker {
+class FileMaker {
     FuzzedDataProvider& given_;
     Handle file_;
 
     static Handle scalar() { return {H5Screate(H5S_SCALAR), H5Sclose}; }
 
     void add_number(hid_t object) {
-        const auto* const name = given_.PickValueInArray(numbers_of_attributes);
+        const auto* const name = given_.PickValueInArray(numeric_attributes);
         const double value = given_.PickValueInArray({1.0, 2.0, 1000.0, -1.0, 0.5, 0.0});
         if (H5Aexists(object, name) > 0) return;
         const Handle space = scalar(), attribute(H5Acreate2(object, name, H5T_IEEE_F64LE, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
@@ -53,9 +53,9 @@ class Maker {
     }
 
     void add_words(hid_t object) {
-        const auto* const name = given_.PickValueInArray(words_of_attributes);
+        const auto* const name = given_.PickValueInArray(text_attributes);
         std::vector<std::string> words(given_.ConsumeIntegralInRange<std::size_t>(1, 4));
-        for (auto& w : words) w = given_.PickValueInArray(some_words);
+        for (auto& w : words) w = given_.PickValueInArray(text_values);
         if (H5Aexists(object, name) > 0) return;
         const hsize_t count = words.size();
         const Handle space(count == 1 ? H5Screate(H5S_SCALAR) : H5Screate_simple(1, &count, nullptr), H5Sclose),
@@ -69,7 +69,7 @@ class Maker {
         H5Awrite(attribute, type, any_length ? static_cast<const void*>(texts.data()) : fixed.data());
     }
 
-    /// In parts of the file's choosing: contiguous, compact, chunked, packed; some of it never written.
+    /// Creation properties chosen by the input: contiguous, compact, chunked or compressed storage.
     Handle storage(const std::vector<hsize_t>& shape) {
         Handle how(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
         const auto kind = given_.ConsumeIntegralInRange(0, 3);
@@ -100,7 +100,7 @@ class Maker {
     }
 
 public:
-    explicit Maker(FuzzedDataProvider& given) : given_(given) {
+    explicit FileMaker(FuzzedDataProvider& given) : given_(given) {
         const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
         H5Pset_fapl_core(access, std::size_t{1} << 16, false);
         if (given_.ConsumeBool()) H5Pset_libver_bounds(access, H5F_LIBVER_LATEST, H5F_LIBVER_LATEST);
@@ -127,14 +127,14 @@ public:
         const Handle space(shape.empty() ? H5Screate(H5S_SCALAR) : H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr),
                        H5Sclose);
         const Handle how = storage(shape), dataset(H5Dcreate2(file_, name.c_str(), type, space, links, how, H5P_DEFAULT), H5Dclose);
-        if (!dataset) return;  // the name is taken, or the layout cannot have it
+        if (!dataset) return;  // the name exists, or the layout does not allow the shape
         write(dataset, memory, shape, is_compound ? 3 : 1);
         for (auto n = given_.ConsumeIntegralInRange(0, 2); n > 0; --n) add_number(dataset);
         for (auto n = given_.ConsumeIntegralInRange(0, 2); n > 0; --n) add_words(dataset);
     }
 
-    /// The file, in memory under a descriptor.
-    int finished() {
+    /// Returns a descriptor of the file in memory.
+    int finish() {
         H5Fflush(file_, H5F_SCOPE_GLOBAL);
         const auto size = H5Fget_file_image(file_, nullptr, 0);
         require(size > 0);
@@ -146,7 +146,7 @@ public:
     }
 };
 
-/// Blocks from anywhere, of any columns, hold what a reading of everything at once does.
+/// Blocks at any position and of any columns must equal the same part of a complete read.
 void check_samples(Samples& samples, FuzzedDataProvider& given) {
     const auto& facts = samples.info();
     require(facts.rows > 0 && !facts.columns.empty() && (!facts.time_column || *facts.time_column < facts.columns.size()));
@@ -160,7 +160,7 @@ void check_samples(Samples& samples, FuzzedDataProvider& given) {
     };
     std::vector<std::size_t> all(columns);
     for (std::size_t c = 0; c < columns; ++c) all[c] = c;
-    const auto whole = fetched(0, rows, all);
+    const auto complete = fetched(0, rows, all);
     for (int k = 0; k < 4; ++k) {
         std::vector<std::size_t> wanted;
         for (std::size_t c = 0; c < columns; ++c)
@@ -168,11 +168,11 @@ void check_samples(Samples& samples, FuzzedDataProvider& given) {
         const auto from = given.ConsumeIntegralInRange<std::size_t>(0, rows - 1),
                    count = given.ConsumeIntegralInRange<std::size_t>(0, rows - from);
         const auto some = fetched(from, count, wanted);
-        if (!whole || wanted.empty()) continue;
+        if (!complete || wanted.empty()) continue;
         require(some.has_value());
         for (std::size_t i = 0; i < wanted.size(); ++i)
             for (std::size_t n = 0; n < count; ++n) {
-                const double a = (*some)[i][n], b = (*whole)[wanted[i]][from + n];
+                const double a = (*some)[i][n], b = (*complete)[wanted[i]][from + n];
                 require(a == b || (std::isnan(a) && std::isnan(b)));
             }
     }
@@ -187,9 +187,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     FuzzedDataProvider given(data, size);
     int file = -1;
     {
-        fuzz::Maker maker(given);
+        fuzz::FileMaker maker(given);
         for (auto n = given.ConsumeIntegralInRange(1, 4); n > 0; --n) maker.add_dataset();
-        file = maker.finished();
+        file = maker.finish();
     }
     TableOptions options;
     if (given.ConsumeBool()) options.transpose = given.ConsumeBool();

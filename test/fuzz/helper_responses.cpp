@@ -1,4 +1,4 @@
-// Any bytes as the answers of a helper program: facts and rows, or an error. The program may have been taken over by a file.
+// Arbitrary bytes as the responses of a helper program: table info and rows, or an error. A malicious file may control the helper.
 
 #include <cstdint>
 #include <cstdlib>

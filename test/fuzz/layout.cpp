@@ -1,4 +1,4 @@
-// Any bytes as the layout of a recording of three channels: some of these, or an error that names a line that exists.
+// Arbitrary bytes as the layout of a recording with three channels. Expected: some of them, or an error that names an existing line.
 
 #include <algorithm>
 

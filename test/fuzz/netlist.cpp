@@ -1,5 +1,5 @@
-// Any bytes as a netlist and the files it includes (parted by a line "=== name"): a circuit that hangs together, or an error with a
-// sentence and a place.
+// Arbitrary bytes as a netlist and its included files (separated by lines "=== name"). Expected: a consistent circuit, or an error with a
+// message and a location.
 
 #include <cmath>
 #include <cstdint>
@@ -15,8 +15,8 @@ namespace {
 
 using Files = std::map<std::string, std::string>;
 
-/// The text before the first "=== name", and each file behind its name.
-std::string main_of(std::string_view text, Files& files) {
+/// Returns the text before the first "=== name"; `files` receives the file after each name.
+std::string split_files(std::string_view text, Files& files) {
     constexpr std::string_view mark = "\n=== ";
     const auto first = std::min(text.find(mark), text.size());
     for (std::size_t at = first; at < text.size() && files.size() < 8;) {
@@ -57,7 +57,7 @@ void check(const Circuit& c) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     Files files;
-    const std::string text = main_of({reinterpret_cast<const char*>(data), size}, files);
+    const std::string text = split_files({reinterpret_cast<const char*>(data), size}, files);
     const auto open = [&](const std::string& path) -> Result<std::string> {
         const auto at = files.find(path);
         return at == files.end() ? Result<std::string>(bad_input("no such file")) : Result<std::string>(at->second);

@@ -1,4 +1,4 @@
-// Any bytes as a file of one NumPy array.
+// Arbitrary bytes as a file of one NumPy array.
 
 #include <limits>
 

@@ -1,4 +1,4 @@
-// Any bytes as a file of several NumPy arrays.
+// Arbitrary bytes as a file of several NumPy arrays.
 
 #include <limits>
 

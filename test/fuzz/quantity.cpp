@@ -1,4 +1,4 @@
-// Any text as a quantity: a finite number, or an error with a sentence; what is written is read back.
+// Arbitrary text as a quantity. Expected: a finite number that survives formatting and parsing, or an error with a message.
 
 #include <cmath>
 #include <cstdint>

@@ -1,5 +1,5 @@
 #pragma once
-// Any bytes as a recording of some format: numbers that are finite, or an error with a sentence.
+// Arbitrary bytes as a recording of one format. Expected: finite numbers, or an error with a message.
 
 #include <pthread.h>
 #include <sanitizer/common_interface_defs.h>
@@ -19,7 +19,7 @@ inline void require(bool holds) {
     if (!holds) std::abort();
 }
 
-/// A helper process may die of its library, by a signal or by a sanitizer; it may not give a broken answer.
+/// A helper process may crash in its library, by a signal or a sanitizer; it must not send an invalid response.
 inline void check(const Error& error, long lines) {
     require(!error.message.empty() && error.location.line <= lines);
     require(!error.message.starts_with("invalid response of the helper"));
@@ -31,7 +31,7 @@ inline void read_all(const std::string& path, const RecordingOptions& options, l
     require(!(*source)->channels().empty());
     require((*source)->clock().T() > 0);
     Frames block((*source)->channels().size(), 64);
-    for (int k = 0; k < 50; ++k) {  // resampled, a short file may hold a great many samples
+    for (int k = 0; k < 50; ++k) {  // a short file can have many samples after resampling
         if (auto ok = (*source)->read(block); !ok) return check(ok.error(), lines);
         if (block.count == 0) return;
         for (const auto& channel : block.force)
@@ -39,12 +39,12 @@ inline void read_all(const std::string& path, const RecordingOptions& options, l
     }
 }
 
-/// The first byte says how it is read, the others are the file; `lines` is how many it may name.
+/// The first byte selects the options, the others are the file. An error may name a line up to `lines`.
 inline int recording(const std::uint8_t* data, std::size_t size, const std::string& extension, long lines) {
     if (size < 1) return 0;
     static const std::string path = "/tmp/corpuscle-fuzz-" + std::to_string(::getpid()) + extension;
     static const bool once = [] {
-        ::pthread_atfork(nullptr, nullptr, [] { __sanitizer_set_death_callback(nullptr); });  // a child's death is no finding
+        ::pthread_atfork(nullptr, nullptr, [] { __sanitizer_set_death_callback(nullptr); });  // a child's crash is not a failure
         return std::atexit([] { std::remove(path.c_str()); }), true;
     }();
     (void)once;

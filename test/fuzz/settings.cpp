@@ -1,5 +1,5 @@
-// Any text as names, settings and spreads: an afferent or stimulus that runs and stays finite, copies that can stand, or an error with
-// a sentence.
+// Arbitrary text as names, settings and parameter distributions. Expected: an afferent or stimulus that runs and stays finite, valid
+// copies, or an error with a message.
 
 #include <cmath>
 #include <cstdint>
@@ -13,7 +13,7 @@ using namespace corpuscle;
 
 namespace {
 
-/// The text's lines: the afferent, the stimulus, then settings.
+/// Lines of the text: the afferent, the stimulus, then settings.
 std::vector<std::string> lines_of(std::string_view text) {
     std::vector<std::string> lines;
     for (std::size_t at = 0; at <= text.size() && lines.size() < 12;) {
@@ -25,7 +25,7 @@ std::vector<std::string> lines_of(std::string_view text) {
 }
 
 void run(const AfferentPlan& plan, ForceSource& source, Method method) {
-    if (source.clock().T() / plan.value("substep").value_or(1) > 1e3) return;  // slow, not wrong
+    if (source.clock().T() / plan.value("substep").value_or(1) > 1e3) return;  // valid but slow
     const auto afferent = make_afferent(plan, {source.clock().T(), method, false});
     auto state = afferent->start();
     std::vector<Spike> spikes;
@@ -35,7 +35,7 @@ void run(const AfferentPlan& plan, ForceSource& source, Method method) {
         if (auto ok = source.read(block); !ok) return;
         if (const auto ok = afferent->respond({block.force[0].data(), block.count}, state, answer); !ok) {
             if (ok.error().message.empty()) std::abort();
-            return;  // an error is an answer, silence is not
+            return;  // the error must have a message
         }
     }
     for (const auto& s : spikes)
@@ -44,7 +44,7 @@ void run(const AfferentPlan& plan, ForceSource& source, Method method) {
         if (std::isnan(x)) std::abort();
 }
 
-/// The same settings as spreads: copies that can stand, or an error with a sentence.
+/// The same settings as parameter distributions. Expected: valid copies, or an error with a message.
 void draw(std::string_view text, std::span<const ParameterOverride> wishes) {
     const auto plan = plan_afferent(text, {});
     if (!plan) return;

@@ -1,4 +1,5 @@
-// Any bytes as a population file: a skin whose afferents each feel what adds up, or an error with a sentence and a place.
+// Arbitrary bytes as a population file. Expected: a skin whose receptive-field weights are consistent, or an error with a message and a
+// location.
 
 #include <cmath>
 #include <cstdint>
@@ -45,7 +46,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     for (std::uint32_t c = 0; c < plan->classes.size(); ++c)
         for (const auto n : afferents_by_region(*plan, c))
             work += static_cast<double>(n) * plan->classes[c].hot_spots * static_cast<double>(plan->sites.size());
-    if (work > 1e7) return 0;  // a large skin is no other than a small one, but slow
+    if (work > 1e7) return 0;  // a large skin tests nothing more than a small one, but is slow
     const auto skin = innervate(*plan);
     skin ? check(**skin) : must(!skin.error().message.empty());
     return 0;

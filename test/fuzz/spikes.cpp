@@ -1,4 +1,5 @@
-// Any bytes as a file of spikes: trains in order with finite times, or an error that names a line that exists; names are read back.
+// Arbitrary bytes as a spike file. Expected: sorted trains with finite times and names that are read back, or an error that names an
+// existing line.
 
 #include <unistd.h>
 
@@ -36,7 +37,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const auto trains = read_spikes(path);
     if (!trains) {
         require(!trains.error().message.empty());
-        const bool packed = size > 1 && data[0] == 0x1f && data[1] == 0x8b;  // how many lines come out is not known
+        const bool packed = size > 1 && data[0] == 0x1f && data[1] == 0x8b;  // the number of lines is unknown
         require(packed || trains.error().location.line <= 1 + std::count(data, data + size, '\n'));
         return 0;
     }

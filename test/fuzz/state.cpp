@@ -1,5 +1,5 @@
-// Any bytes as a saved state, as they are and with the checksum that they lack: refused, or packed again to the same bytes and refused or
-// taken by an afferent.
+// Arbitrary bytes as a saved state, as they are and with a valid checksum added. Expected: rejected, or packed to the same bytes again and
+// then accepted or rejected by an afferent.
 
 #include <cstdint>
 #include <cstdlib>

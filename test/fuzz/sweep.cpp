@@ -1,5 +1,5 @@
-// Any bytes as a sweep file: a sweep whose units have finite values and whose facts say what it is, or an error with a sentence and a
-// place.
+// Arbitrary bytes as a sweep file. Expected: a sweep with finite values for its work items and with metadata, or an error with a message
+// and a location.
 
 #include <cmath>
 #include <cstdint>
@@ -40,7 +40,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         must(said.error().location.file == "fuzz.toml");
         return check(said.error()), 0;
     }
-    // The words of the file are what is looked at; netlists and recordings have fuzzers of their own, and forces may be long.
+    // This fuzzer tests the keys and values of the file. Netlists and recordings have other fuzzers, and forces may be long.
     const bool known = said->afferent ? said->afferent->text == "sa1" || said->afferent->text == "sa1-macro"
                                       : said->netlist && said->netlist->text == "circuits/bias.cir";
     if (!known || said->force || said->rate || (said->afferent && said->netlist)) return 0;

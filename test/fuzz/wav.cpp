@@ -1,4 +1,4 @@
-// Any bytes as a file of sound; libsndfile may die of it, in its own process.
+// Arbitrary bytes as an audio file. libsndfile may crash, but only in its own process.
 
 #include <limits>
 

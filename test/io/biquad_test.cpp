@@ -11,10 +11,10 @@ namespace {
 
 constexpr double tau = 2 * std::numbers::pi;
 
-/// Amplitude of what comes out for a sine of amplitude 1 at f, after it has settled.
+/// Steady-state amplitude of the output for a sine of amplitude 1 at f.
 double passed(Biquad filter, double f, double rate) {
     std::complex<double> sum = 0;
-    const int settle = static_cast<int>(4 * rate), n = static_cast<int>(10 * rate);  // whole periods of whole frequencies
+    const int settle = static_cast<int>(4 * rate), n = static_cast<int>(10 * rate);  // whole periods of integer frequencies
     for (int k = 0; k < settle + n; ++k) {
         const double y = filter.next(std::sin(tau * f * k / rate));
         if (k >= settle) sum += y * std::polar(1.0, -tau * f * k / rate);
@@ -22,7 +22,7 @@ double passed(Biquad filter, double f, double rate) {
     return 2 * std::abs(sum) / n;
 }
 
-TEST(Biquad, NotchTakesOutItsFrequencyAndIsThreeDecibelsDownTwoHertzAway) {
+TEST(Biquad, NotchRemovesItsFrequencyAndIsThreeDecibelsDownTwoHertzAway) {
     const auto clock = test::value_or_throw(make_clock(1000));
     const auto notch = test::value_or_throw(Biquad::notch(50, clock));
     EXPECT_LT(passed(notch, 50, 1000), 1e-6);
@@ -34,19 +34,19 @@ TEST(Biquad, LowpassIsButterworthOfSecondOrder) {
     const double rate = 1000, corner = 30;
     const auto clock = test::value_or_throw(make_clock(rate));
     const auto filter = test::value_or_throw(Biquad::lowpass(corner, clock));
-    for (const double f : {3.0, 30.0, 100.0, 300.0}) {  // the bilinear transform's own frequency axis
+    for (const double f : {3.0, 30.0, 100.0, 300.0}) {  // the frequency axis of the bilinear transform
         const double ratio = std::tan(tau / 2 * f / rate) / std::tan(tau / 2 * corner / rate);
         EXPECT_NEAR(passed(filter, f, rate), 1 / std::sqrt(1 + std::pow(ratio, 4)), 1e-6);
     }
 }
 
-TEST(Biquad, BeginsAtRestAndKeepsAConstantAsItIs) {
+TEST(Biquad, StartsInSteadyStateAndKeepsAConstant) {
     const auto clock = test::value_or_throw(make_clock(242.6));
     for (auto filter : {test::value_or_throw(Biquad::notch(50, clock)), test::value_or_throw(Biquad::lowpass(20, clock))})
         for (int k = 0; k < 1000; ++k) EXPECT_NEAR(filter.next(3.5), 3.5, 1e-12);
 }
 
-TEST(Biquad, RefusesFrequenciesThatTheRateCannotShow) {
+TEST(Biquad, RefusesFrequenciesAboveTheNyquistFrequency) {
     const auto clock = test::value_or_throw(make_clock(100));
     EXPECT_EQ(Biquad::notch(50, clock).error().message, "--notch 50Hz: at a sample rate of 100 Hz it must be between 0 and 50 Hz");
     EXPECT_FALSE(Biquad::lowpass(0, clock));

@@ -11,40 +11,40 @@
 namespace corpuscle {
 namespace {
 
-constexpr double turns = 2 * std::numbers::pi;
+constexpr double two_pi = 2 * std::numbers::pi;
 
 std::vector<double> grip(int n, double rate, double hum, double noise) {
     std::vector<double> x;
     for (int k = 0; k < n; ++k)
-        x.push_back(2 + 1.5 * std::sin(turns * 0.8 * k / rate) + hum * std::sin(turns * 50 * k / rate + 1) +
+        x.push_back(2 + 1.5 * std::sin(two_pi * 0.8 * k / rate) + hum * std::sin(two_pi * 50 * k / rate + 1) +
                     noise * normal(1, 0, 0, static_cast<std::uint64_t>(k)));
     return x;
 }
 
-TEST(OutlierDetector, CountsReadingsThatStandAlone) {
+TEST(OutlierDetector, CountsIsolatedReadings) {
     auto x = grip(10'000, 250, 0.1, 0.02);
-    OutlierDetector clean, torn;
+    OutlierDetector clean, with_outliers;
     clean.add(x);
     EXPECT_EQ(clean.count(), 0);
-    std::int64_t alone = 0;
-    for (std::size_t k = 10; k + 10 < x.size(); k += 37) x[k] = k % 2 ? -40.0 : 4e3, ++alone;
-    torn.add(x);
-    EXPECT_NEAR(static_cast<double>(torn.count()), static_cast<double>(alone), 1);
-    EXPECT_NEAR(static_cast<double>(torn.examined()), 10'000, 6 * 3);
+    std::int64_t isolation = 0;
+    for (std::size_t k = 10; k + 10 < x.size(); k += 37) x[k] = k % 2 ? -40.0 : 4e3, ++isolation;
+    with_outliers.add(x);
+    EXPECT_NEAR(static_cast<double>(with_outliers.count()), static_cast<double>(isolation), 1);
+    EXPECT_NEAR(static_cast<double>(with_outliers.examined()), 10'000, 6 * 3);
 }
 
 TEST(OutlierDetector, DoesNotDependOnTheBlocks) {
     auto x = grip(9'000, 250, 0.1, 0.3);
     for (std::size_t k = 5; k < x.size(); k += 41) x[k] = 40;
-    OutlierDetector whole, pieces;
-    whole.add(x);
-    for (std::size_t k = 0, n = 1; k < x.size(); k += n, n = n % 1000 + 77) pieces.add(std::span(x).subspan(k, std::min(n, x.size() - k)));
-    EXPECT_EQ(whole.count(), pieces.count());
-    EXPECT_EQ(whole.examined(), pieces.examined());
-    EXPECT_GT(whole.count(), 100);
+    OutlierDetector undivided, chunked;
+    undivided.add(x);
+    for (std::size_t k = 0, n = 1; k < x.size(); k += n, n = n % 1000 + 77) chunked.add(std::span(x).subspan(k, std::min(n, x.size() - k)));
+    EXPECT_EQ(undivided.count(), chunked.count());
+    EXPECT_EQ(undivided.examined(), chunked.examined());
+    EXPECT_GT(undivided.count(), 100);
 }
 
-TEST(OutlierDetector, TakesTheLastDigitOfAQuietSensorForWhatItIs) {
+TEST(OutlierDetector, IgnoresChangesOfTheLastDigit) {
     std::vector<double> x;
     for (std::uint64_t k = 0; k < 5'000; ++k) x.push_back(512 + std::round(0.4 * normal(2, 0, 0, k)));
     OutlierDetector check;
@@ -52,37 +52,40 @@ TEST(OutlierDetector, TakesTheLastDigitOfAQuietSensorForWhatItIs) {
     EXPECT_EQ(check.count(), 0);
 }
 
-TEST(OutlierDetector, CountsAsThePlainRuleDoes) {
+TEST(OutlierDetector, AgreesWithTheDefinition) {
     EXPECT_TRUE(rc::check("medians by sorting, every distance kept", [] {
         const auto x = *rc::gen::container<std::vector<double>>(
             400, rc::gen::map(rc::gen::inRange(-4096, 4096), [](int v) {
-                return v % 16 == 0 ? v * 32.0 : v % 16 * 1.0;  // powers of two and small ones: clear of the histogram's edges
+                // powers of two and small numbers, which are not close to the edges of the histogram
+                return v % 16 == 0 ? v * 32.0 : v % 16 * 1.0;
             }));
-        std::vector<double> off, alone, sorted;
-        double least = 0;
+        std::vector<double> distance, isolation, sorted;
+        double smallest = 0;
         for (std::size_t k = 3; k + 3 < x.size(); ++k) {
             sorted.assign(x.begin() + static_cast<std::ptrdiff_t>(k) - 3, x.begin() + static_cast<std::ptrdiff_t>(k) + 4);
             std::sort(sorted.begin(), sorted.end());
             const double left = x[k] - x[k - 1], right = x[k] - x[k + 1];
-            off.push_back(std::abs(x[k] - sorted[3]));
-            alone.push_back(left * right > 0 ? std::min({off.back(), std::abs(left), std::abs(right)}) : 0);
-            if (alone.back() > 0) least = least == 0 ? alone.back() : std::min(least, alone.back());
+            distance.push_back(std::abs(x[k] - sorted[3]));
+            isolation.push_back(left * right > 0 ? std::min({distance.back(), std::abs(left), std::abs(right)}) : 0);
+            if (isolation.back() > 0) smallest = smallest == 0 ? isolation.back() : std::min(smallest, isolation.back());
         }
         OutlierDetector check;
         check.add(x);
         // the limit lies between the two that the bins' edges allow, a fifth apart
-        std::sort(off.begin(), off.end());
-        const double middle = off[(off.size() - 1) / 2];
-        const auto above = [&](double limit) { return std::count_if(alone.begin(), alone.end(), [&](double a) { return a > limit; }); };
+        std::sort(distance.begin(), distance.end());
+        const double median = distance[(distance.size() - 1) / 2];
+        const auto above = [&](double limit) {
+            return std::count_if(isolation.begin(), isolation.end(), [&](double a) { return a > limit; });
+        };
         sorted = x;
         std::sort(sorted.begin(), sorted.end());
         const double spread = sorted.back() - sorted.front();
-        RC_ASSERT(check.count() <= above(std::max(8 * middle / 1.25, 4 * least)));
-        RC_ASSERT(check.count() >= above(1.25 * std::max({8 * middle, spread / 10, 4 * least})));
+        RC_ASSERT(check.count() <= above(std::max(8 * median / 1.25, 4 * smallest)));
+        RC_ASSERT(check.count() >= above(1.25 * std::max({8 * median, spread / 10, 4 * smallest})));
     }));
 }
 
-TEST(SaturationDetector, AsksForThreeVisitsToTheHighestValue) {
+TEST(SaturationDetector, RequiresThreeVisitsToTheHighestValue) {
     SaturationDetector once, often;
     std::vector<double> x(100, 1.0);
     std::fill(x.begin() + 40, x.begin() + 60, 5.0);
@@ -94,7 +97,7 @@ TEST(SaturationDetector, AsksForThreeVisitsToTheHighestValue) {
     EXPECT_NEAR(often.fraction(), 0.2, 1e-12);
 }
 
-TEST(HumDetector, MeasuresTheShareOfALine) {
+TEST(HumDetector, MeasuresTheFractionOfASpectralLine) {
     for (const double rate : {242.6, 1000.0, 10e3}) {
         const auto clock = test::value_or_throw(make_clock(rate));
         const HumTable table(clock);
@@ -103,17 +106,17 @@ TEST(HumDetector, MeasuresTheShareOfALine) {
         with.add(grip(n, rate, 0.2, 0.01));
         without.add(grip(n, rate, 0, 0.01));
         noisy.add(grip(n, rate, 0, 1));
-        // what varies within a second: the slow sine, most of its 1.5^2 / 2, and the line's 0.2^2 / 2
-        const double share = 0.02 / (1.125 + 0.02);
+        // the variance within a second: most of the slow sine's 1.5^2 / 2, and the line's 0.2^2 / 2
+        const double fraction = 0.02 / (1.125 + 0.02);
         EXPECT_EQ(with.result().frequency, 50);
-        EXPECT_GT(with.result().fraction, 0.7 * share) << rate;
-        EXPECT_LT(with.result().fraction, 2 * share) << rate;
+        EXPECT_GT(with.result().fraction, 0.7 * fraction) << rate;
+        EXPECT_LT(with.result().fraction, 2 * fraction) << rate;
         EXPECT_EQ(without.result().fraction, 0) << rate;
         EXPECT_EQ(noisy.result().fraction, 0) << rate;
     }
 }
 
-TEST(HumDetector, DoesNotLookWhereTheRateCannotShow) {
+TEST(HumDetector, IgnoresFrequenciesAboveNyquist) {
     const auto clock = test::value_or_throw(make_clock(100));
     const HumTable table(clock);
     HumDetector check(table);
@@ -121,7 +124,7 @@ TEST(HumDetector, DoesNotLookWhereTheRateCannotShow) {
     EXPECT_EQ(check.result().frequency, 0);
 }
 
-TEST(SumDetector, OneLikeAnotherBesideSilentOnesIsNoTotal) {
+TEST(SumDetector, ACopyOfAChannelBesideSilentOnesIsNotATotal) {
     SumDetector check;
     check.add({{0, 0, 0}, {1, 2, 3}, {1, 2, 3}, {0, 0, 0}, {0, 0, 0}});
     EXPECT_TRUE(check.find_sums().empty());

@@ -1,4 +1,4 @@
-// HDF5 as recordings: plain, packed, compound, NWB's, MATLAB's; and what a damaged file costs.
+// HDF5 as recordings: plain, compressed, compound, of NWB and MATLAB. A damaged file is an error or is read; it is never a crash.
 
 #include <sys/wait.h>
 
@@ -109,7 +109,7 @@ TEST(Hdf5, MembersOfACompoundAreColumns) {
     EXPECT_EQ(made.force[0][4999], 2499.5);
 }
 
-TEST(Hdf5, MembersOfACompoundThatLiesOnItsSideAreColumns) {
+TEST(Hdf5, MembersOfACompoundInARowAreColumns) {
     const TemporaryFolder folder;
     struct Row {
         double fx, fz;
@@ -128,7 +128,7 @@ TEST(Hdf5, MembersOfACompoundThatLiesOnItsSideAreColumns) {
     }
 }
 
-TEST(Hdf5, AColumnThatCountsTheRowsIsNoForce) {
+TEST(Hdf5, AColumnThatCountsTheRowsIsNotAForce) {
     const TemporaryFolder folder;
     std::vector<double> rows;
     for (int k = 0; k < 500; ++k) rows.insert(rows.end(), {static_cast<double>(k), std::sin(k), 2.0});
@@ -144,7 +144,7 @@ TEST(Hdf5, AColumnThatCountsTheRowsIsNoForce) {
     EXPECT_EQ(made.notes[0], "'frame' was ignored: it counts the rows (use --channel 1 to include it)");
 }
 
-TEST(Hdf5, MatlabsMatricesAreTurned) {
+TEST(Hdf5, MatlabsMatricesAreTransposed) {
     const TemporaryFolder folder;
     {
         Hdf5File file(folder / "x.mat");
@@ -156,13 +156,13 @@ TEST(Hdf5, MatlabsMatricesAreTurned) {
     }
     const auto made = load_recording(folder / "x.mat");
     EXPECT_EQ(made.force, (std::vector<std::vector<double>>{{1, 2, 3}, {4, 5, 6}}));
-    EXPECT_EQ(made.clock.rate(), 2) << "times go before a rate";
+    EXPECT_EQ(made.clock.rate(), 2) << "times take precedence over a rate";
     EXPECT_EQ(load_recording(folder / "x.mat", {.channels = {"2"}, .time = "none"}).clock.rate(), 10);
 }
 
-TEST(Hdf5, WhatCannotBeReadIsSaid) {
+TEST(Hdf5, UnreadableFilesGiveAnError) {
     const TemporaryFolder folder;
-    const auto said = [&](const auto& fill, const RecordingOptions& options = {.rate = 10}) {
+    const auto error_text = [&](const auto& fill, const RecordingOptions& options = {.rate = 10}) {
         {
             Hdf5File file(folder / "x.h5");
             fill(file);
@@ -170,41 +170,41 @@ TEST(Hdf5, WhatCannotBeReadIsSaid) {
         return load_error(folder / "x.h5", options);
     };
     EXPECT_EQ(load_error(folder.write("y.mat", "MATLAB")), "y.mat: not an HDF5 file (in MATLAB use save -v7.3)");
-    EXPECT_EQ(said([](auto&) {}), "x.h5: there is no array in this file");
-    EXPECT_EQ(said([](auto& f) { f.write_numbers("/a", {2, 2, 2}, ramp(8)); }),
+    EXPECT_EQ(error_text([](auto&) {}), "x.h5: there is no array in this file");
+    EXPECT_EQ(error_text([](auto& f) { f.write_numbers("/a", {2, 2, 2}, ramp(8)); }),
               "x.h5: no array can be the recording, which must be numeric with one or two dimensions; arrays: /a (2 x 2 x 2)");
-    EXPECT_EQ(said([](auto& f) { f.write_numbers("/a", {2, 2, 2}, ramp(8)); }, {.table = {"a"}, .rate = 10}),
+    EXPECT_EQ(error_text([](auto& f) { f.write_numbers("/a", {2, 2, 2}, ramp(8)); }, {.table = {"a"}, .rate = 10}),
               "x.h5: /a (2 x 2 x 2): a recording must be numeric with one dimension, or two (rows and channels)");
-    EXPECT_EQ(said([](auto& f) { f.write_numbers("/force", {2}, ramp(2)); }, {.table = {"/farce"}, .rate = 10}),
+    EXPECT_EQ(error_text([](auto& f) { f.write_numbers("/force", {2}, ramp(2)); }, {.table = {"/farce"}, .rate = 10}),
               "x.h5: no array '/farce'; did you mean '/force'?; arrays: /force (2)");
-    EXPECT_EQ(said([](auto& f) { f.write_numbers("/a", {0, 3}, {}); }), "x.h5: /a (0 x 3): it has no samples");
-    EXPECT_EQ(said([](auto& f) { f.write_numbers("/a", {2, 2}, {0, 1, 2, INFINITY}); }),
+    EXPECT_EQ(error_text([](auto& f) { f.write_numbers("/a", {0, 3}, {}); }), "x.h5: /a (0 x 3): it has no samples");
+    EXPECT_EQ(error_text([](auto& f) { f.write_numbers("/a", {2, 2}, {0, 1, 2, INFINITY}); }),
               "x.h5: row 2: column 'ch2': inf where a number is expected");
-    const auto whole = test::read_file(folder / "x.h5");
-    EXPECT_EQ(load_error(folder.write("cut.h5", whole.substr(0, whole.size() - 100)), {.rate = 10}),
+    const auto complete = test::read_file(folder / "x.h5");
+    EXPECT_EQ(load_error(folder.write("cut.h5", complete.substr(0, complete.size() - 100)), {.rate = 10}),
               "cut.h5: cannot open this HDF5 file; it may be damaged or truncated");
     const std::complex<double> z[2] = {};
     const hid_t complex = H5Tcreate(H5T_COMPOUND, 16);
     H5Tinsert(complex, "r", 0, H5T_NATIVE_DOUBLE), H5Tinsert(complex, "i", 8, H5T_NATIVE_DOUBLE);
-    EXPECT_EQ(said([&](auto& f) { f.write_raw("/z", complex, complex, {2}, z); }),
+    EXPECT_EQ(error_text([&](auto& f) { f.write_raw("/z", complex, complex, {2}, z); }),
               "x.h5: no array can be the recording, which must be numeric with one or two dimensions; arrays: /z (2, not numeric)");
     H5Tclose(complex);
 }
 
-/// A file with one dataset made by `fill` with a list of properties of its own.
+/// A file with one dataset. `fill` receives a property list of the dataset's own.
 template <class Fill>
-std::string made_with(const TemporaryFolder& folder, const std::string& name, const Fill& fill) {
+std::string write_file_with(const TemporaryFolder& folder, const std::string& name, const Fill& fill) {
     const auto path = folder / name;
-    const hid_t file = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), how = H5Pcreate(H5P_DATASET_CREATE);
-    fill(file, how);
-    H5Pclose(how), H5Fclose(file);
+    const hid_t file = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), properties = H5Pcreate(H5P_DATASET_CREATE);
+    fill(file, properties);
+    H5Pclose(properties), H5Fclose(file);
     return path;
 }
 
-void make_dataset(hid_t file, hid_t how, const std::vector<hsize_t>& shape, const std::vector<double>* values = nullptr,
+void make_dataset(hid_t file, hid_t properties, const std::vector<hsize_t>& shape, const std::vector<double>* values = nullptr,
                   const char* name = "force") {
     const hid_t space = H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr);
-    const hid_t d = H5Dcreate2(file, name, H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, how, H5P_DEFAULT);
+    const hid_t d = H5Dcreate2(file, name, H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, properties, H5P_DEFAULT);
     if (values) {
         const hsize_t count = values->size();
         const hid_t memory = H5Screate_simple(1, &count, nullptr);
@@ -219,58 +219,64 @@ void make_dataset(hid_t file, hid_t how, const std::vector<hsize_t>& shape, cons
 TEST(Hdf5, NoOtherFileIsReadForItsData) {
     const TemporaryFolder folder;
     const auto secret = folder.write("secret", std::string(800, 'x'));
-    const auto external = made_with(folder, "x.h5", [&](hid_t file, hid_t how) {
-        H5Pset_external(how, secret.c_str(), 0, 800);
-        make_dataset(file, how, {100});
+    const auto external = write_file_with(folder, "x.h5", [&](hid_t file, hid_t properties) {
+        H5Pset_external(properties, secret.c_str(), 0, 800);
+        make_dataset(file, properties, {100});
     });
     EXPECT_NE(load_error(external, {.rate = 10})
                   .find("x.h5: /force (100): its data are in '" + secret + "', and other files are not read; copy the data"),
               std::string::npos);
     Hdf5File(folder / "source.h5").write_numbers("/data", {100}, ramp(100));
     for (const auto* source : {"source.h5", "not-copied-along.h5"}) {
-        const auto assembled = made_with(folder, "v.h5", [&](hid_t file, hid_t how) {
+        const auto assembled = write_file_with(folder, "v.h5", [&](hid_t file, hid_t properties) {
             const hsize_t count = 100;
             const hid_t all = H5Screate_simple(1, &count, nullptr);
-            H5Pset_virtual(how, all, source, "/data", all);
-            make_dataset(file, how, {100});
+            H5Pset_virtual(properties, all, source, "/data", all);
+            make_dataset(file, properties, {100});
             H5Sclose(all);
         });
         EXPECT_NE(load_error(assembled, {.rate = 10}).find(fmt::format("v.h5: /force (100): its data are in '{}', and other files", source)),
                   std::string::npos);
     }
-    const auto linked = made_with(folder, "l.h5", [&](hid_t file, hid_t how) {
-        make_dataset(file, how, {100}, nullptr, "own");
+    const auto linked = write_file_with(folder, "l.h5", [&](hid_t file, hid_t properties) {
+        make_dataset(file, properties, {100}, nullptr, "own");
         H5Lcreate_external("source.h5", "/data", file, "elsewhere", H5P_DEFAULT, H5P_DEFAULT);
     });
     EXPECT_EQ(load_error(linked, {.table = {"elsewhere"}, .rate = 10}),
               "l.h5: 'elsewhere' is a link to another file, which is not followed; open that file instead");
 }
 
-TEST(Hdf5, DataThatWereNeverWrittenAreNoForce) {
+TEST(Hdf5, DataThatWereNeverWrittenAreNotAForce) {
     const TemporaryFolder folder;
-    const auto chunked = [](hid_t how, hsize_t rows) { H5Pset_chunk(how, 1, &rows); };
-    EXPECT_EQ(load_error(made_with(folder, "x.h5", [&](hid_t f, hid_t how) { make_dataset(f, how, {1000}); }), {.rate = 10}),
-              "x.h5: /force (1000): no data were written into it");
+    const auto chunked = [](hid_t properties, hsize_t rows) { H5Pset_chunk(properties, 1, &rows); };
+    EXPECT_EQ(
+        load_error(write_file_with(folder, "x.h5", [&](hid_t f, hid_t properties) { make_dataset(f, properties, {1000}); }), {.rate = 10}),
+        "x.h5: /force (1000): no data were written into it");
     for (const hsize_t rows : {hsize_t{1000}, hsize_t{1'000'000'000'000'000}})
         EXPECT_EQ(
-            load_error(made_with(folder, "x.h5", [&](hid_t f, hid_t how) { chunked(how, 100), make_dataset(f, how, {rows}); }), {.rate = 10}),
+            load_error(write_file_with(folder, "x.h5",
+                                    [&](hid_t f, hid_t properties) { chunked(properties, 100), make_dataset(f, properties, {rows}); }),
+                    {.rate = 10}),
             fmt::format("x.h5: /force ({}): no data were written into it", rows));
-    const auto begun = ramp(150);
-    EXPECT_EQ(load_error(made_with(folder, "x.h5",
-                                [&](hid_t f, hid_t how) { chunked(how, 100), make_dataset(f, how, {1'000'000'000'000'000}, &begun); }),
+    const auto partial = ramp(150);
+    EXPECT_EQ(load_error(write_file_with(folder, "x.h5",
+                                      [&](hid_t f, hid_t properties) {
+                                          chunked(properties, 100), make_dataset(f, properties, {1'000'000'000'000'000}, &partial);
+                                      }),
                       {.rate = 10})
                   .substr(0, 82),
               "x.h5: /force (1000000000000000): only 2 of its 10000000000000 chunks were written;");
-    const auto most = ramp(600);
-    const auto path = made_with(folder, "x.h5", [&](hid_t f, hid_t how) { chunked(how, 100), make_dataset(f, how, {1000}, &most); });
+    const auto first_part = ramp(600);
+    const auto path = write_file_with(
+        folder, "x.h5", [&](hid_t f, hid_t properties) { chunked(properties, 100), make_dataset(f, properties, {1000}, &first_part); });
     EXPECT_EQ(load_error(path, {.rate = 10}).substr(0, 18), "x.h5: row 601: col");
     const auto kept = load_recording(path, {.rate = 10, .bad_fields = BadFields::drop});
     EXPECT_EQ(kept.force[0], ramp(600));
     EXPECT_EQ(kept.notes.at(0), "/force: 4 of its 10 chunks were never written; their readings are treated as bad");
-    const auto filled = made_with(folder, "y.h5", [&](hid_t f, hid_t how) {
+    const auto filled = write_file_with(folder, "y.h5", [&](hid_t f, hid_t properties) {
         const double nothing = 0.5;
-        H5Pset_fill_value(how, H5T_NATIVE_DOUBLE, &nothing);
-        chunked(how, 100), make_dataset(f, how, {1000}, &most);
+        H5Pset_fill_value(properties, H5T_NATIVE_DOUBLE, &nothing);
+        chunked(properties, 100), make_dataset(f, properties, {1000}, &first_part);
     });
     const auto read = load_recording(filled, {.rate = 10});
     EXPECT_EQ(read.force[0][999], 0.5) << "as the file says";
@@ -290,38 +296,38 @@ TEST(Hdf5, ChunksOfAnyShapeGiveTheSameRows) {
         }
         Hdf5File(folder / "y.h5")
             .write_numbers("/force", {6, 4000}, values, H5T_NATIVE_DOUBLE, chunk.empty() ? chunk : std::vector{chunk[1], chunk[0]});
-        const auto turned = load_recording(folder / "y.h5", {.table = {{}, true}, .channels = {"2", "5"}, .rate = 100}, 100);
-        for (std::size_t r = 0; r < 4000; ++r) ASSERT_EQ(turned.force[1][r], values[4 * 4000 + r]);
+        const auto transposed = load_recording(folder / "y.h5", {.table = {{}, true}, .channels = {"2", "5"}, .rate = 100}, 100);
+        for (std::size_t r = 0; r < 4000; ++r) ASSERT_EQ(transposed.force[1][r], values[4 * 4000 + r]);
     }
 }
 
-TEST(Hdf5, AnArrayThatLiesOnItsSideIsRefusedOrTurned) {
+TEST(Hdf5, AnArrayWithExchangedDimensionsIsRefusedOrTransposed) {
     const TemporaryFolder folder;
-    const auto lying = [&](const auto& more) {
+    const auto row_array = [&](const auto& more) {
         Hdf5File file(folder / "x.h5");
         file.write_numbers("/force", {2, 3000}, ramp(6000));
         more(file);
     };
-    lying([](auto&) {});
+    row_array([](auto&) {});
     EXPECT_EQ(
         load_error(folder / "x.h5", {.rate = 500}),
         "x.h5: /force (2 x 3000): 3000 channels of only 2 samples? Use --transpose if each row is a channel, or "
               "--no-transpose if each row is a sample");
-    const auto turned = load_recording(folder / "x.h5", {.table = {{}, true}, .rate = 500});
-    EXPECT_EQ(turned.names, (std::vector<std::string>{"ch1", "ch2"}));
-    EXPECT_EQ(turned.force[1][2999], 5999);
+    const auto transposed = load_recording(folder / "x.h5", {.table = {{}, true}, .rate = 500});
+    EXPECT_EQ(transposed.names, (std::vector<std::string>{"ch1", "ch2"}));
+    EXPECT_EQ(transposed.force[1][2999], 5999);
     EXPECT_EQ(load_recording(folder / "x.h5", {.table = {{}, false}, .rate = 500}).names.size(), 3000U);
-    lying([](auto& f) { f.write_numbers("/timestamps", {3000}, ramp(3000, 0.002)); });
+    row_array([](auto& f) { f.write_numbers("/timestamps", {3000}, ramp(3000, 0.002)); });
     const auto timed = load_recording(folder / "x.h5");
-    EXPECT_EQ(timed.force.size(), 2U) << "the times say which dimension is theirs";
+    EXPECT_EQ(timed.force.size(), 2U) << "the times determine their dimension";
     EXPECT_EQ(
         timed.notes.at(0),
         "/force (2 x 3000): taken as 2 channels of 3000 samples, to match the times; use --no-transpose if each row is a sample");
-    lying([](auto& f) { f.write_strings("/force", "channels", {"fx_N", "fz_N"}); });
+    row_array([](auto& f) { f.write_strings("/force", "channels", {"fx_N", "fz_N"}); });
     EXPECT_EQ(load_recording(folder / "x.h5", {.rate = 500}).names, (std::vector<std::string>{"fx", "fz"}));
-    lying([](auto& f) { f.write_numbers("/timestamps", {2}, ramp(2, 0.002)); });
+    row_array([](auto& f) { f.write_numbers("/timestamps", {2}, ramp(2, 0.002)); });
     EXPECT_EQ(load_recording(folder / "x.h5").force.size(), 3000U) << "few samples of many electrodes";
-    lying([](auto& f) { f.write_attribute("/force", "MATLAB_class", "double"); });
+    row_array([](auto& f) { f.write_attribute("/force", "MATLAB_class", "double"); });
     EXPECT_EQ(load_recording(folder / "x.h5", {.rate = 500}).force.size(), 2U);
     EXPECT_NE(load_error(folder / "x.h5", {.table = {{}, true}, .rate = 500}), "");
 }
@@ -342,16 +348,16 @@ TEST(Hdf5, TheEndOfAPathNamesADatasetIfThereIsOnlyOneSuch) {
     EXPECT_NE(load_error(folder / "x.nwb", {.table = {"Force"}, .rate = 10}).find("no array 'Force'"), std::string::npos);
 }
 
-TEST(Hdf5, AFilterThatIsNotHereIsNamed) {
+TEST(Hdf5, AMissingFilterIsNamed) {
     const TemporaryFolder folder;
-    const auto path = made_with(folder, "x.h5", [&](hid_t file, hid_t how) {
+    const auto path = write_file_with(folder, "x.h5", [&](hid_t file, hid_t properties) {
         const hsize_t rows = 100;
-        H5Pset_chunk(how, 1, &rows), H5Pset_deflate(how, 1);
+        H5Pset_chunk(properties, 1, &rows), H5Pset_deflate(properties, 1);
         const auto values = ramp(1000);
-        make_dataset(file, how, {1000}, &values);
+        make_dataset(file, properties, {1000}, &values);
     });
     auto bytes = test::read_file(path);
-    const auto message = bytes.find("deflate");  // the name behind the filter's number, flags and count of values
+    const auto message = bytes.find("deflate");  // the name follows the filter's number, flags and count of values
     ASSERT_NE(message, std::string::npos);
     bytes[message - 8] = '\x0f', bytes[message - 7] = '\x7d', bytes[message - 4] = '\0';  // 32015: zstd; not optional
     EXPECT_NE(load_error(folder.write("z.h5", bytes), {.rate = 10})
@@ -359,7 +365,7 @@ TEST(Hdf5, AFilterThatIsNotHereIsNamed) {
               std::string::npos);
 }
 
-std::string seed(const char* name) { return test::read_file(test::project_root() + "/test/fuzz/seeds/hdf5/" + name).substr(1); }
+std::string seed(const char* name) { return test::read_file(test::source_root() + "/test/fuzz/seeds/hdf5/" + name).substr(1); }
 
 TEST(Hdf5, AnyDamageIsAnErrorOrIsRead) {
     const TemporaryFolder folder;
@@ -370,7 +376,7 @@ TEST(Hdf5, AnyDamageIsAnErrorOrIsRead) {
     const auto sound = seed("latest");
     ASSERT_EQ(load_error(folder.write("x.h5", sound), {.rate = 10}), "read");
     for (std::size_t at = 0; at < sound.size(); at += 23) survived(sound, at, ~sound[at]);
-    // Found by changing bytes at random: 1.10.8 reads beyond its memory, and often dies of it, on opening and on reading.
+    // Found by changing bytes at random. HDF5 1.10.8 reads beyond its memory when it opens and reads such files, and often crashes.
     auto on_opening = seed("plain"), on_reading = seed("packed");
     on_opening.at(1485) = '\xff', on_reading.at(3744) = '\xff';
     for (int k = 0; k < 10; ++k) survived(on_opening, 2175, 97), survived(on_reading, 968, 98);
@@ -383,7 +389,7 @@ TEST(Hdf5, SeveralFilesAreOpenAtOnceAndLeaveNoChildren) {
         std::vector<std::unique_ptr<Table>> tables;
         for (int k = 0; k < 4; ++k) tables.push_back(test::value_or_throw(open_hdf5_table(folder / fmt::format("{}.h5", k))));
         std::vector<std::vector<double>> out(1);
-        tables[1].reset();  // its socket must not be held by its brothers
+        tables[1].reset();  // the other helpers must not hold its socket open
         for (const std::size_t k : {0U, 2U, 3U})
             for (const std::size_t rows : {4096U, 904U}) {
                 EXPECT_EQ(test::value_or_throw(tables[k]->read({0}, 4096, out)), rows);

@@ -1,4 +1,4 @@
-// A helper program that dies, hangs up or is stopped costs an error; it never costs us.
+// A helper program that crashes, disconnects or is stopped causes an error and no other harm.
 
 #include "io/helper_process.hpp"
 
@@ -29,18 +29,18 @@ namespace {
 
 using test::TemporaryFolder;
 
-/// A program of these lines of shell.
+/// An executable script of these lines of shell.
 std::string script(const TemporaryFolder& folder, const std::string& lines) {
     const auto path = folder.write("script", "#!/bin/sh\n" + lines + "\n");
     std::filesystem::permissions(path, std::filesystem::perms::owner_all);
     return path;
 }
 
-std::string death_by(const std::string& lines) {
+std::string error_after(const std::string& lines) {
     const TemporaryFolder folder;
     auto helper = test::value_or_throw(HelperProcess::start(script(folder, lines), STDIN_FILENO));
-    const auto answer = helper.receive("x.h5", "the library");
-    return answer ? "answered" : answer.error().text();
+    const auto message = helper.receive("x.h5", "the library");
+    return message ? "answered" : message.error().text();
 }
 
 std::size_t descriptors_open() {
@@ -51,13 +51,13 @@ std::size_t descriptors_open() {
     return count;
 }
 
-TEST(HelperProcess, WhatKillsItIsSaid) {
-    EXPECT_EQ(death_by("kill -SEGV $$"), "x.h5: the library could not read this file (signal 11); it may be damaged");
-    EXPECT_EQ(death_by("kill -ABRT $$"), "x.h5: the library could not read this file (signal 6); it may be damaged");
-    EXPECT_EQ(death_by("exit 3"), "x.h5: the library could not read this file (status 3); it may be damaged");
-    EXPECT_EQ(death_by("kill -ALRM $$"), "x.h5: the library did not read this file within 60 s; it may be damaged");
-    EXPECT_EQ(death_by("kill -INT $$"), "x.h5: interrupted");
-    EXPECT_NE(death_by("[ \"$1\" = reader-0 ] || exit 2")
+TEST(HelperProcess, TheCauseOfItsEndIsReported) {
+    EXPECT_EQ(error_after("kill -SEGV $$"), "x.h5: the library could not read this file (signal 11); it may be damaged");
+    EXPECT_EQ(error_after("kill -ABRT $$"), "x.h5: the library could not read this file (signal 6); it may be damaged");
+    EXPECT_EQ(error_after("exit 3"), "x.h5: the library could not read this file (status 3); it may be damaged");
+    EXPECT_EQ(error_after("kill -ALRM $$"), "x.h5: the library did not read this file within 60 s; it may be damaged");
+    EXPECT_EQ(error_after("kill -INT $$"), "x.h5: interrupted");
+    EXPECT_NE(error_after("[ \"$1\" = reader-0 ] || exit 2")
                   .find("script belongs to another version of Corpuscle; install both from the same version"),
               std::string::npos);
 }
@@ -80,7 +80,7 @@ TEST(HelperProcess, OneThatCannotBeStartedIsNamed) {
     EXPECT_EQ(test::value_or_throw(there), made);
 }
 
-TEST(HelperProcess, HoldsNothingOfOursAndLeavesNothingBehind) {
+TEST(HelperProcess, InheritsNoDescriptorsAndLeavesNothingBehind) {
     const TemporaryFolder folder;
     const auto leaked = ::open("/dev/null", O_RDONLY);  // without O_CLOEXEC, as some libraries open files
     ::setenv("CORPUSCLE_SECRET", "x", 1);
@@ -92,10 +92,10 @@ TEST(HelperProcess, HoldsNothingOfOursAndLeavesNothingBehind) {
         auto first = test::value_or_throw(HelperProcess::start(program, leaked));
         while (!std::filesystem::exists("listed.whole")) ::usleep(1000);
         std::istringstream listed(test::read_file("listed.whole"));
-        std::vector<int> held{std::istream_iterator<int>(listed), {}};
-        std::erase_if(held, [](int number) { return number >= 10; });  // the shell's own: its script
-        std::sort(held.begin(), held.end());
-        EXPECT_EQ(held, (std::vector<int>{0, 1, 2, 3, 4}));
+        std::vector<int> descriptors{std::istream_iterator<int>(listed), {}};
+        std::erase_if(descriptors, [](int number) { return number >= 10; });  // the shell's own descriptor of its script
+        std::sort(descriptors.begin(), descriptors.end());
+        EXPECT_EQ(descriptors, (std::vector<int>{0, 1, 2, 3, 4}));
         EXPECT_EQ(test::read_file("environment").find("CORPUSCLE_SECRET"), std::string::npos);
         auto second = std::move(first);
         EXPECT_TRUE(test::signal_child(second.pid(), 0));
@@ -112,7 +112,7 @@ std::string framed(const Message& m) {
     return std::string(reinterpret_cast<const char*>(&size), sizeof size) + m.bytes();
 }
 
-TEST(HelperProcess, ADeathWhileRowsAreReadIsAnErrorThenAndEverAfter) {
+TEST(HelperProcess, ACrashWhileRowsAreReadIsAnErrorFromThenOn) {
     const TemporaryFolder folder;
     folder.write("answers", framed(encode(SamplesInfo{{{"fz", "N"}}, 10, 100.0, {}, {"a remark"}})) +
                                 framed(encode(std::vector<std::vector<double>>{{7.0}})));
@@ -130,15 +130,15 @@ TEST(HelperProcess, ADeathWhileRowsAreReadIsAnErrorThenAndEverAfter) {
     EXPECT_FALSE(samples->fetch(1, 1, wanted, out));
 }
 
-TEST(HelperProcess, ABrokenAnswerIsAnError) {
+TEST(HelperProcess, ADamagedMessageIsAnError) {
     const TemporaryFolder folder;
     SamplesInfo facts{{{"fz", "N"}}, 10, 100.0, 5, {}};
-    std::vector<std::string> answers = {framed(encode(facts)), framed(Message("xx")), framed(Message(std::string(8, '\x7f')))};
+    std::vector<std::string> messages = {framed(encode(facts)), framed(Message("xx")), framed(Message(std::string(8, '\x7f')))};
     facts.time_column.reset();
-    const auto whole = encode(facts).bytes();
-    for (const std::size_t size : {9U, 20U, 33U, 50U}) answers.push_back(framed(Message(whole.substr(0, size))));
-    for (const auto& answer : answers) {
-        folder.write("answer", answer);
+    const auto complete = encode(facts).bytes();
+    for (const std::size_t size : {9U, 20U, 33U, 50U}) messages.push_back(framed(Message(complete.substr(0, size))));
+    for (const auto& message : messages) {
+        folder.write("answer", message);
         const auto program = script(folder, "cat '" + folder / "answer" + "' >&3; exec sleep 30");
         const auto made = open_remote_samples_with(program, folder.write("x.h5", ""), {"", "it"});
         ASSERT_FALSE(made);
@@ -146,34 +146,34 @@ TEST(HelperProcess, ABrokenAnswerIsAnError) {
     }
 }
 
-/// The first answer of a program whose library throws this.
+/// The first response of a helper in which the library throws this exception.
 template <class Thrown>
-std::string answer_to_throw(const Thrown& thrown) {
+std::string error_after_throw(const Thrown& thrown) {
     int ends[2];
     if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) return "no socket";
     std::thread program([&] { serve(ends[1], -1, [&](int, const std::string&, const TableOptions&) -> SamplesResult { throw thrown; }); });
-    Message answer;
-    const bool talked = encode(OpenRequest{"x.h5", {}}).send(ends[0]) && answer.receive(ends[0]);
+    Message message;
+    const bool has_message = encode(OpenRequest{"x.h5", {}}).send(ends[0]) && message.receive(ends[0]);
     program.join();
     ::close(ends[0]), ::close(ends[1]);
-    const auto facts = decode_info(answer, "x.h5");
-    return talked && !facts ? facts.error().text() : "no error";
+    const auto facts = decode_info(message, "x.h5");
+    return has_message && !facts ? facts.error().text() : "no error";
 }
 
 TEST(HelperProcess, EveryExceptionInItIsAnError) {
-    EXPECT_EQ(answer_to_throw(std::bad_alloc()), "x.h5: not enough memory for this file");
-    EXPECT_EQ(answer_to_throw(std::runtime_error("no end")), "x.h5: cannot be read: no end");
-    EXPECT_EQ(answer_to_throw(3), "x.h5: cannot be read");
+    EXPECT_EQ(error_after_throw(std::bad_alloc()), "x.h5: not enough memory for this file");
+    EXPECT_EQ(error_after_throw(std::runtime_error("no end")), "x.h5: cannot be read: no end");
+    EXPECT_EQ(error_after_throw(3), "x.h5: cannot be read");
 }
 
-/// What a confined process could still do: a bit each.
-unsigned freedoms() {
+/// The operations that a confined process can still do, one bit each.
+unsigned allowed_operations() {
     unsigned bits = 0;
     if (::open("/etc/passwd", O_RDONLY) >= 0) bits |= 1;
     if (::open(".", O_RDONLY | O_DIRECTORY) >= 0) bits |= 2;
     if (::socket(AF_INET, SOCK_STREAM, 0) >= 0) bits |= 4;
     if (::dup(0) >= 0) bits |= 8;
-    if (::rename("/nowhere/a", "/nowhere/b") != 0 && errno == ENOENT) bits |= 16;  // the call itself is refused where the kernel can
+    if (::rename("/nowhere/a", "/nowhere/b") != 0 && errno == ENOENT) bits |= 16;  // where the kernel can, it refuses the call itself
     const pid_t child = ::fork();
     if (child == 0) ::_exit(0);
     if (child > 0) bits |= 32;
@@ -183,24 +183,24 @@ unsigned freedoms() {
 bool kernel_filters_calls() { return ::prctl(PR_GET_SECCOMP) >= 0; }
 
 TEST(HelperProcess, GivesUpWhatItDoesNotNeedAndRaisesNoLimit) {
-    if (test::is_sanitized) GTEST_SKIP() << "sanitizers need more addresses than the limit set here";
-    int told[2], wait[2];
-    ASSERT_EQ(::pipe(told), 0);
-    ASSERT_EQ(::pipe(wait), 0);
+    if (test::is_sanitized) GTEST_SKIP() << "sanitizers need more address space than this limit";
+    int report_pipe[2], wait_pipe[2];
+    ASSERT_EQ(::pipe(report_pipe), 0);
+    ASSERT_EQ(::pipe(wait_pipe), 0);
     const pid_t child = ::fork();
     ASSERT_GE(child, 0);
     if (child == 0) {
-        ::close(wait[1]);  // so that the read below ends with the parent
+        ::close(wait_pipe[1]);  // so that the read below ends when the parent does
         const rlimit lower{std::uint64_t{3} << 30, std::uint64_t{3} << 30};
         ::setrlimit(RLIMIT_AS, &lower);
         confine(HelperProcess::file_descriptor, HelperProcess::memory_limit);
-        const unsigned bits = freedoms();
+        const unsigned bits = allowed_operations();
         char end;
-        if (::write(told[1], &bits, sizeof bits) == sizeof bits) (void)!::read(wait[0], &end, 1);
+        if (::write(report_pipe[1], &bits, sizeof bits) == sizeof bits) (void)!::read(wait_pipe[0], &end, 1);
         ::_exit(0);
     }
     unsigned bits = ~0U;
-    EXPECT_EQ(::read(told[0], &bits, sizeof bits), static_cast<ssize_t>(sizeof bits));
+    EXPECT_EQ(::read(report_pipe[0], &bits, sizeof bits), static_cast<ssize_t>(sizeof bits));
     EXPECT_EQ(bits & 15U, 0U);
     if (kernel_filters_calls()) {
         EXPECT_EQ(bits, 0U);
@@ -208,7 +208,7 @@ TEST(HelperProcess, GivesUpWhatItDoesNotNeedAndRaisesNoLimit) {
     const auto limits = test::read_file(fmt::format("/proc/{}/limits", child));
     EXPECT_NE(limits.find("Max address space         3221225472           3221225472"), std::string::npos) << limits;
     EXPECT_NE(limits.find("Max core file size        0                    0"), std::string::npos);
-    for (const int end : {told[0], told[1], wait[0], wait[1]}) ::close(end);
+    for (const int end : {report_pipe[0], report_pipe[1], wait_pipe[0], wait_pipe[1]}) ::close(end);
     EXPECT_EQ(::waitpid(child, nullptr, 0), child);
 }
 

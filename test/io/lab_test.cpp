@@ -1,4 +1,4 @@
-// Recordings as laboratories log them: bad fields, torn readings, hum, offsets, layouts; and what is said of them.
+// Recordings of laboratories: bad fields, outliers, hum, offsets, layouts, and the notes on them.
 
 #include <fmt/format.h>
 
@@ -15,31 +15,31 @@ namespace {
 using test::TemporaryFolder;
 using LabRows = std::vector<std::vector<double>>;
 
-using LabRead = test::LoadedRecording;
+using LabRecording = test::LoadedRecording;
 using test::try_load_recording;
 
-LabRead read_lab(const std::string& path, const RecordingOptions& options, std::size_t block = 5) {
+LabRecording read_lab(const std::string& path, const RecordingOptions& options, std::size_t block = 5) {
     return test::load_recording(path, options, block);
 }
 
-std::string lab_said(const TemporaryFolder& folder, const std::string& text, const RecordingOptions& options) {
+std::string lab_error(const TemporaryFolder& folder, const std::string& text, const RecordingOptions& options) {
     return test::load_error(folder.write("x.csv", text), options);
 }
 
-bool mentions(const std::vector<std::string>& sentences, const std::string& words) {
-    return std::any_of(sentences.begin(), sentences.end(), [&](const auto& s) { return s.find(words) != std::string::npos; });
+bool mentions(const std::vector<std::string>& messages, const std::string& part) {
+    return std::any_of(messages.begin(), messages.end(), [&](const auto& s) { return s.find(part) != std::string::npos; });
 }
 
-double finding(const LabRead& r, std::string_view name, std::uint32_t channel = 0) {
+double quality_metric(const LabRecording& r, std::string_view name, std::uint32_t channel = 0) {
     for (const auto& f : r.quality.metrics)
         if (f.name == name && f.channel == channel) return f.value;
     return -1;
 }
 
-TEST(BadFields, AreErrorsUnlessSaidOtherwise) {
+TEST(BadFields, AreErrorsByDefault) {
     const TemporaryFolder folder;
     const std::string text = "F_N\n1\n2\nNaN\n4\n";
-    EXPECT_EQ(lab_said(folder, text, {.rate = 10}),
+    EXPECT_EQ(lab_error(folder, text, {.rate = 10}),
               "x.csv:4:1: column 'F': 'NaN' where a number is expected; use --bad-fields interpolate to fill it in, or --bad-fields "
               "drop to skip the row");
     EXPECT_EQ(read_lab(folder / "x.csv", {.rate = 10, .bad_fields = BadFields::interpolate}).force, (LabRows{{1, 2, 3, 4}}));
@@ -68,12 +68,12 @@ TEST(BadFields, DroppedRowsLeaveTheTimesOfTheOthersAlone) {
     EXPECT_EQ(read_lab(path, {.resample = 1, .bad_fields = BadFields::drop}).force, (LabRows{right}));
 }
 
-TEST(BadFields, ARowWhoseTimeIsBadIsDroppedAndTold) {
+TEST(BadFields, ARowWhoseTimeIsBadIsDroppedAndReported) {
     const TemporaryFolder folder;
     std::string text = "t_s,F_N\n";
     for (int k = 0; k < 40; ++k) text += k == 30 ? "xx,99\n" : fmt::format("{},1\n", k);
     EXPECT_NE(
-        lab_said(folder, text, {}).find("x.csv:32:1: column 't': 'xx' where a number is expected; use --bad-fields drop to skip the row"),
+        lab_error(folder, text, {}).find("x.csv:32:1: column 't': 'xx' where a number is expected; use --bad-fields drop to skip the row"),
         std::string::npos);
     for (const auto rate : {std::optional<double>(), std::optional<double>(1)}) {
         const auto r = read_lab(folder / "x.csv", {.rate = rate, .bad_fields = BadFields::drop});
@@ -81,7 +81,8 @@ TEST(BadFields, ARowWhoseTimeIsBadIsDroppedAndTold) {
         EXPECT_TRUE(mentions(r.quality.descriptions, "1 rows with a bad field were dropped"));
     }
     const auto untimed = folder.write("y.csv", "time,F_N\nmorning,1\nnoon,2\n");
-    EXPECT_EQ(read_lab(untimed, {.rate = 1, .bad_fields = BadFields::drop}).force, (LabRows{{1, 2}})) << "no time at all is no bad row";
+    EXPECT_EQ(read_lab(untimed, {.rate = 1, .bad_fields = BadFields::drop}).force, (LabRows{{1, 2}}))
+        << "a recording without times has no bad rows";
 }
 
 TEST(BadFields, AMissingTimeIsFilledInWhereTimesAreEven) {
@@ -92,16 +93,16 @@ TEST(BadFields, AMissingTimeIsFilledInWhereTimesAreEven) {
     EXPECT_EQ(r.clock.rate(), 1);
 }
 
-TEST(Range, ReadingsOutsideAreBadAndFilledInUnlessSaidOtherwise) {
+TEST(Range, ReadingsOutsideAreBadAndInterpolatedByDefault) {
     const TemporaryFolder folder;
     const auto path = folder.write("x.csv", "F_N\n1\n999\n3\n4\n");
     EXPECT_EQ(read_lab(path, {.rate = 10, .range = std::pair{0.0, 10.0}}).force, (LabRows{{1, 2, 3, 4}}));
     EXPECT_EQ(read_lab(path, {.rate = 10, .range = std::pair{0.0, 10.0}, .bad_fields = BadFields::drop}).force, (LabRows{{1, 3, 4}}));
-    EXPECT_EQ(lab_said(folder, "F_N\n1\n999\n3\n", {.rate = 10, .range = std::pair{0.0, 10.0}, .bad_fields = BadFields::error}),
+    EXPECT_EQ(lab_error(folder, "F_N\n1\n999\n3\n", {.rate = 10, .range = std::pair{0.0, 10.0}, .bad_fields = BadFields::error}),
               "x.csv:3: 'F': 999 is outside --range 0..10");
 }
 
-TEST(Offset, IsTakenOffBeforeTheScaleAndTheSignBeforeBoth) {
+TEST(Offset, IsSubtractedBeforeTheScaleAndAfterTheSign) {
     const TemporaryFolder folder;
     const auto path = folder.write("x.csv", "F\n-512\n-612\n512\n");
     RecordingOptions options{.rate = 10, .scale = 0.01, .absolute = true};
@@ -121,25 +122,25 @@ TEST(Conditioning, GivesTheSameWhateverTheBlocks) {
     options.despike = {{5.0}};
     options.notch = {50};
     options.lowpass = 30;
-    const auto whole = read_lab(path, options, 100'000);
-    ASSERT_EQ(whole.force[0].size(), 3000U);
-    for (const std::size_t block : {1, 7, 4096}) EXPECT_EQ(read_lab(path, options, block).force, whole.force);
-    for (std::size_t k = 200; k < 3000; ++k) EXPECT_NEAR(whole.force[0][k], 2 + std::sin(0.05 * static_cast<double>(k)), 0.25);
+    const auto undivided = read_lab(path, options, 100'000);
+    ASSERT_EQ(undivided.force[0].size(), 3000U);
+    for (const std::size_t block : {1, 7, 4096}) EXPECT_EQ(read_lab(path, options, block).force, undivided.force);
+    for (std::size_t k = 200; k < 3000; ++k) EXPECT_NEAR(undivided.force[0][k], 2 + std::sin(0.05 * static_cast<double>(k)), 0.25);
     options.resample = 100;
     const auto slower = read_lab(path, options, 4096);
     EXPECT_EQ(read_lab(path, options, 3).force, slower.force);
-    EXPECT_NEAR(slower.force[0][100], whole.force[0][250], 1e-9);
+    EXPECT_NEAR(slower.force[0][100], undivided.force[0][250], 1e-9);
 }
 
 TEST(Conditioning, RefusesAReadingThatTheFiltersCannotHold) {
     const TemporaryFolder folder;
     RecordingOptions options{.rate = 100};
     options.notch = {12};
-    EXPECT_EQ(lab_said(folder, "F_N\n0\n-1.7e308\n1.7e308\n-1.7e308\n1.7e308\n", options),
+    EXPECT_EQ(lab_error(folder, "F_N\n0\n-1.7e308\n1.7e308\n-1.7e308\n1.7e308\n", options),
               "x.csv: 'F': sample 2 is not finite after processing: a value in the file is too large for --scale or the filters");
 }
 
-TEST(Layout, NamesSensorsPlacesThemAndLeavesTheRestOut) {
+TEST(FloatLayout, NamesAndLocatesSensorsAndLeavesTheRestOut) {
     const TemporaryFolder folder;
     const auto path = folder.write("x.csv", "time_s,a_N,b_N,total_N\n0,1,2,3\n1,1,2,3\n");
     const auto layout = folder.write("layout.csv", "# where they sit\nchannel,name,x_mm,y_mm\n2,heel,10,-20\na,toe,0.5,1\n");
@@ -153,13 +154,13 @@ TEST(Layout, NamesSensorsPlacesThemAndLeavesTheRestOut) {
     EXPECT_EQ(one.channels[0].name, "heel");
 }
 
-TEST(Layout, ErrorsNameLineColumnAndWhatWouldBeRight) {
+TEST(FloatLayout, ErrorsNameLineColumnAndWhatWouldBeRight) {
     const TemporaryFolder folder;
     const auto path = folder.write("x.csv", "time_s,a_N,b_N\n0,1,2\n1,1,2\n");
     const auto wrong = [&](const std::string& text) {
         const auto layout = folder.write("l.csv", text);
-        auto sentence = try_load_recording(path, {.layout = layout}).error().text();
-        return sentence.substr(sentence.find("l.csv"));
+        auto message = try_load_recording(path, {.layout = layout}).error().text();
+        return message.substr(message.find("l.csv"));
     };
     EXPECT_EQ(wrong("sensor,x,y\nc,1,2\n"), "l.csv:2:1: no channel 'c'; did you mean 'a'?; there are 2: a, b");
     EXPECT_EQ(wrong("sensor,x,y\na,1,2\n1,3,4\n"), "l.csv:3:1: channel '1' occurs twice");
@@ -170,7 +171,7 @@ TEST(Layout, ErrorsNameLineColumnAndWhatWouldBeRight) {
     EXPECT_EQ(wrong("sensor,x\n"), "l.csv: the layout names no sensor");
 }
 
-TEST(IterationStatus, SpeaksOfWhatWouldMisleadAndOfNothingElse) {
+TEST(QualityReport, WarnsOfMisleadingDataAndOfNothingElse) {
     const TemporaryFolder folder;
     std::string good = "t_s,F_N\n", heavy = good, negative = good, weak = good, full = "t_s,F\n";
     for (int k = 0; k < 2000; ++k) {
@@ -189,7 +190,8 @@ TEST(IterationStatus, SpeaksOfWhatWouldMisleadAndOfNothingElse) {
     EXPECT_TRUE(mentions(quality(heavy).warnings, "up to 200 N, but the models are fitted to 0.2 to 4 N"));
     EXPECT_TRUE(mentions(quality(negative).warnings, "but a press must be positive"));
     EXPECT_TRUE(mentions(quality(weak).descriptions, "all forces are below 0.2 N"));
-    EXPECT_NEAR(finding(read_lab(folder.write("x.csv", good), {}), "below_0.2N"), 0.205, 0.02);  // (pi - 2 asin 0.8) / 2 pi of each period
+    EXPECT_NEAR(quality_metric(read_lab(folder.write("x.csv", good), {}), "below_0.2N"), 0.205,
+                0.02);  // (pi - 2 asin 0.8) / 2 pi of each period
     EXPECT_TRUE(mentions(quality(full, {.scale = 1e-3}).warnings, "is 4095, the full scale of a 12-bit converter"));
 }
 

@@ -1,4 +1,4 @@
-// Recordings as loggers, spreadsheets and scripts write them: clocks, units, preambles, packing; and what is no force.
+// Recordings as loggers, spreadsheets and scripts write them: clocks, units, preambles, compression, and columns that are not forces.
 
 #include <fmt/format.h>
 #include <zlib.h>
@@ -17,9 +17,9 @@ using test::TemporaryFolder;
 using test::load_recording;
 using test::try_load_recording;
 
-std::string logger_file(const std::string& name) { return test::project_root() + "/examples/data/loggers/" + name; }
+std::string logger_file(const std::string& name) { return test::source_root() + "/examples/data/loggers/" + name; }
 
-/// What is read of a text.
+/// Reads a text as a recording.
 test::LoadedRecording read_logged(const TemporaryFolder& folder, const std::string& text, const RecordingOptions& options = {},
                                  const std::string& name = "x.csv") {
     return load_recording(folder.write(name, text), options);
@@ -30,11 +30,11 @@ std::string refused_logged(const TemporaryFolder& folder, const std::string& tex
     return test::load_error(folder.write(name, text), options);
 }
 
-bool some_remark(const test::LoadedRecording& r, const std::string& words) {
-    return std::any_of(r.notes.begin(), r.notes.end(), [&](const auto& s) { return s.find(words) != s.npos; });
+bool has_note(const test::LoadedRecording& r, const std::string& part) {
+    return std::any_of(r.notes.begin(), r.notes.end(), [&](const auto& s) { return s.find(part) != s.npos; });
 }
 
-/// Rows of a ramp, each made by `row` of the time and the force.
+/// Rows of a ramp; `row` makes each from the time and the force.
 template <class Row>
 std::string rows_of(int count, const Row& row) {
     std::string text;
@@ -56,23 +56,23 @@ TEST(LoggerFiles, SevenKindsAreReadAlikeWithoutAnyOption) {
     }
 }
 
-TEST(LoggerFiles, TrialsInOneFileAreRefusedWithACommandThatTakesOneOut) {
+TEST(LoggerFiles, TrialsInOneFileAreRefusedWithACommandThatExtractsOne) {
     const TemporaryFolder folder;
     std::filesystem::copy(logger_file("trials.csv"), folder / "trials.csv");
-    const auto said = try_load_recording(folder / "trials.csv").error().text();
-    const auto at = said.find("awk ");
-    ASSERT_NE(at, said.npos) << said;
-    EXPECT_NE(said.find("identified by 'trial'"), said.npos) << said;
-    ASSERT_EQ(std::system(("cd '" + folder.path() + "' && " + said.substr(at)).c_str()), 0) << said;
+    const auto message = try_load_recording(folder / "trials.csv").error().text();
+    const auto at = message.find("awk ");
+    ASSERT_NE(at, message.npos) << message;
+    EXPECT_NE(message.find("identified by 'trial'"), message.npos) << message;
+    ASSERT_EQ(std::system(("cd '" + folder.path() + "' && " + message.substr(at)).c_str()), 0) << message;
     const auto one = load_recording(folder / "trials-trial1.csv");
     EXPECT_EQ(one.names, std::vector<std::string>{"fz"});
     EXPECT_EQ(one.force[0].size(), 100U);
-    EXPECT_TRUE(some_remark(one, "'trial' was ignored: it identifies trials"));
-    EXPECT_TRUE(some_remark(load_recording(folder / "trials.csv", {.rate = 100}),
-                            "the times in 'time' decrease (by up to 990 ms), as in a file with several"));
+    EXPECT_TRUE(has_note(one, "'trial' was ignored: it identifies trials"));
+    EXPECT_TRUE(has_note(load_recording(folder / "trials.csv", {.rate = 100}),
+                         "the times in 'time' decrease (by up to 990 ms), as in a file with several"));
 }
 
-TEST(LoggerFiles, TrialsAreTakenOutWhateverSeparatesTheFields) {
+TEST(LoggerFiles, TrialsAreExtractedWhateverSeparatesTheFields) {
     for (const std::string separator : {";", "\t", " ", " , "}) {
         const TemporaryFolder folder;
         std::string text = "# of a study\nn" + separator + "subject" + separator + "t_s" + separator + "F_N\n";
@@ -80,23 +80,23 @@ TEST(LoggerFiles, TrialsAreTakenOutWhateverSeparatesTheFields) {
             text += rows_of(30, [&](int, double t, double F) {
                 return "7" + separator + subject + separator + fmt::format("{}{}{}\n", t, separator, F);
             });
-        const auto said = try_load_recording(folder.write("all.txt", text)).error().text();
-        const auto at = said.find("awk ");
-        ASSERT_NE(at, said.npos) << said;
-        ASSERT_EQ(std::system(("cd '" + folder.path() + "' && " + said.substr(at)).c_str()), 0) << said;
-        EXPECT_EQ(load_recording(folder / "all-trial1.txt").force[0].size(), 30U) << said;
+        const auto message = try_load_recording(folder.write("all.txt", text)).error().text();
+        const auto at = message.find("awk ");
+        ASSERT_NE(at, message.npos) << message;
+        ASSERT_EQ(std::system(("cd '" + folder.path() + "' && " + message.substr(at)).c_str()), 0) << message;
+        EXPECT_EQ(load_recording(folder / "all-trial1.txt").force[0].size(), 30U) << message;
     }
 }
 
-/// The command at the end of a refusal, which begins with this word.
-std::string command_in(const std::string& said, const std::string& word) {
-    const auto at = said.find(word);
-    return at == said.npos ? "" : said.substr(at);
+/// The command at the end of an error, which begins with this word.
+std::string command_in(const std::string& message, const std::string& first_word) {
+    const auto at = message.find(first_word);
+    return at == message.npos ? "" : message.substr(at);
 }
 
-/// Runs the command that a refusal ends with; the file that it writes.
-std::string run_remedy(const TemporaryFolder& folder, const std::string& file, const std::string& word) {
-    const auto command = command_in(try_load_recording(folder / file).error().text(), word);
+/// Runs the command that an error ends with, and returns the file that it writes.
+std::string run_remedy(const TemporaryFolder& folder, const std::string& file, const std::string& first_word) {
+    const auto command = command_in(try_load_recording(folder / file).error().text(), first_word);
     EXPECT_EQ(std::system(("cd '" + folder.path() + "' && " + command).c_str()), 0) << command;
     const auto at = command.rfind("> ");
     return at == command.npos ? "" : folder / command.substr(at + 2);
@@ -142,7 +142,7 @@ TEST(LoggerFiles, TheCommandForOneTrialReadsWindowsLinesQuotesUtf16AndGzip) {
         << "awk would split the note";
 }
 
-TEST(LoggerFiles, TrialsAreToldApartByAColumnThatChangesWhereTimeGoesBack) {
+TEST(LoggerFiles, TrialsAreDistinguishedByAColumnThatChangesWhereTimeDecreases) {
     const TemporaryFolder folder;
     std::string text = "subject,trial,t_s,F_N\n";
     for (const std::string rows : {"S1,1", "S1,2", "S2,1"})
@@ -154,7 +154,7 @@ TEST(LoggerFiles, TrialsAreToldApartByAColumnThatChangesWhereTimeGoesBack) {
               "x.csv:4: the time decreases from 1 s to 0.5 s; use --rate to take the rows as evenly spaced");
 }
 
-TEST(LoggerFiles, AColumnNamedAfterAUnitOfTimeIsInThatUnitAndNoForce) {
+TEST(LoggerFiles, AColumnNamedAfterAUnitOfTimeIsInThatUnitAndNotAForce) {
     const TemporaryFolder folder;
     for (const auto& [name, step] : {std::pair{"millis", 10}, {"ms", 10}, {"micros", 10'000}, {"Nanoseconds", 10'000'000}}) {
         const auto r = read_logged(folder, name + std::string(",F1\n") +
@@ -164,33 +164,33 @@ TEST(LoggerFiles, AColumnNamedAfterAUnitOfTimeIsInThatUnitAndNoForce) {
     }
     const auto stamps = read_logged(folder, "stamp.sec,stamp.nanosec,fz\n5,0,1\n5,500000000,2\n6,0,3\n", {.rate = 2});
     EXPECT_EQ(stamps.names, std::vector<std::string>{"fz"});
-    EXPECT_TRUE(some_remark(stamps, "'stamp.nanosec' was ignored: ns is not a unit of force"));
+    EXPECT_TRUE(has_note(stamps, "'stamp.nanosec' was ignored: ns is not a unit of force"));
 }
 
-TEST(LoggerFiles, CountersAnywhereInATableAreNoForce) {
+TEST(LoggerFiles, CountersAnywhereInATableAreNotForces) {
     const TemporaryFolder folder;
     const auto r = read_logged(folder, "Status (hex),RDTSequence,FTSequence,k,Fz,Time\n" + rows_of(30, [](int k, double t, double F) {
                                            return fmt::format("0x0,{},{},{},{},{:.2f}\n", 100 + k, 35 * k + k % 3, 7 + k, F, t);
                                        }));
     EXPECT_EQ(r.names, std::vector<std::string>{"Fz"});
     for (const std::string name : {"RDTSequence", "FTSequence", "k"})
-        EXPECT_TRUE(some_remark(r, "'" + name + "' was ignored: it counts the rows")) << name;
+        EXPECT_TRUE(has_note(r, "'" + name + "' was ignored: it counts the rows")) << name;
     EXPECT_EQ(read_logged(folder, "Status (hex),Fz,Time\n00000000,1,0\n00000000,2,1\n").names, std::vector<std::string>{"Fz"});
 }
 
 TEST(LoggerFiles, SerialDaysOfSpreadsheetsAndMatlabAreTimes) {
     const TemporaryFolder folder;
-    for (const auto& [first, said] : {std::pair{45'650.5, "serial days of a spreadsheet; 0 s is 2024-12-24 12:00:00.000"},
-                                      {739'000.25, "serial days of MATLAB; 0 s is 2023-04-24 06:00:00.000"}}) {
+    for (const auto& [first, message] : {std::pair{45'650.5, "serial days of a spreadsheet; 0 s is 2024-12-24 12:00:00.000"},
+                                         {739'000.25, "serial days of MATLAB; 0 s is 2023-04-24 06:00:00.000"}}) {
         std::string text = "Time,F_N\n";
         for (int k = 0; k < 50; ++k) text += fmt::format("{:.11f},{}\n", first + k * 0.01 / 86'400, 0.1 * k);
         const auto r = read_logged(folder, text);
-        EXPECT_NEAR(r.clock.rate(), 100, 0.01) << said;
-        EXPECT_TRUE(some_remark(r, said));
+        EXPECT_NEAR(r.clock.rate(), 100, 0.01) << message;
+        EXPECT_TRUE(has_note(r, message));
     }
     const auto fast = read_logged(folder, "Time,F_N\n0,1\n1e-7,1\n2e-7,1\n");
-    EXPECT_TRUE(some_remark(fast, "assuming seconds, which gives a rate of 1e+07 Hz; use --time-unit min if they are minutes"));
-    EXPECT_TRUE(some_remark(read_logged(folder, "Time,F_N\n0,1\n5000,1\n10000,1\n"), "use --time-unit us if they are microseconds"));
+    EXPECT_TRUE(has_note(fast, "assuming seconds, which gives a rate of 1e+07 Hz; use --time-unit min if they are minutes"));
+    EXPECT_TRUE(has_note(read_logged(folder, "Time,F_N\n0,1\n5000,1\n10000,1\n"), "use --time-unit us if they are microseconds"));
 }
 
 TEST(LoggerFiles, TimeGrowsWithTheSizeOfAFileAndNotWithItsSquare) {
@@ -201,7 +201,7 @@ TEST(LoggerFiles, TimeGrowsWithTheSizeOfAFileAndNotWithItsSquare) {
         static_cast<void>(try_load_recording(folder / "x.json", {}, 4096));
         return static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
     };
-    std::string times, forces;  // as pandas writes a table by default
+    std::string times, forces;  // the default table of pandas
     for (int k = 0; k < 100'000; ++k) {
         times += fmt::format("{}\"{}\":{}", k > 0 ? "," : "", k, 0.01 * k);
         forces += fmt::format("{}\"{}\":1", k > 0 ? "," : "", k);
@@ -214,18 +214,18 @@ TEST(LoggerFiles, OpeningALargeJsonDocumentCanBeStopped) {
     const TemporaryFolder folder;
     std::string text = "[";
     for (int k = 0; k < 20'000; ++k) text += fmt::format("{}{{\"t\":{},\"F_N\":1}}", k > 0 ? "," : "", k);
-    int asked = 0;
-    const auto made = try_load_recording(folder.write("x.json", text + "]"), {.should_continue = [&](double) { return ++asked < 3; }});
+    int call_count = 0;
+    const auto made = try_load_recording(folder.write("x.json", text + "]"), {.should_continue = [&](double) { return ++call_count < 3; }});
     ASSERT_FALSE(made);
     EXPECT_EQ(made.error().code, ErrorCode::interrupted);
-    EXPECT_EQ(asked, 3);
+    EXPECT_EQ(call_count, 3);
 }
 
-TEST(LoggerFiles, OfJsonTrueAndFalseAreNoForce) {
+TEST(LoggerFiles, JsonTrueAndFalseAreNotForces) {
     const TemporaryFolder folder;
     const auto r = read_logged(folder, R"([{"t":0,"F_N":1,"contact":true},{"t":1,"F_N":2,"contact":false}])", {}, "x.json");
     EXPECT_EQ(r.names, std::vector<std::string>{"F"});
-    EXPECT_TRUE(some_remark(r, "'contact' was ignored: it holds words, not numbers"));
+    EXPECT_TRUE(has_note(r, "'contact' was ignored: it holds words, not numbers"));
 }
 
 TEST(LoggerFiles, ASecondSegmentOfALabviewFileEndsWithACommandThatKeepsTheFirst) {
@@ -241,15 +241,15 @@ TEST(LoggerFiles, BesideAForceColumnsInOtherUnitsAreLeftOutAndAllAreCounted) {
     const TemporaryFolder folder;
     const auto r = read_logged(folder, "time_s,Load (N),Extension (mm),bridge_V\n0,1,5,2\n1,2,6,2\n");
     EXPECT_EQ(r.names, std::vector<std::string>{"Load"});
-    EXPECT_TRUE(some_remark(r, "'Extension' was ignored: mm is not a unit of force"));
+    EXPECT_TRUE(has_note(r, "'Extension' was ignored: mm is not a unit of force"));
     EXPECT_NE(refused_logged(folder, "time_s,load_%\n0,1\n1,2\n").find("'load' is in %, which is not a force"), std::string::npos);
     EXPECT_NE(refused_logged(folder, "time_s,Load (g)\n0,1\n1,2\n").find("'Load' is in g, which is a mass; use --unit gf"),
               std::string::npos);
     EXPECT_NEAR(load_recording(folder / "x.csv", {.unit = "gf"}).force[0][1], 2 * 9.80665e-3, 1e-9) << "the remedy";
     std::string heading = "time_s,F_N", first = "0,1", second = "1,2";
     for (int k = 0; k < 31; ++k) heading += fmt::format(",T{}_degC", k), first += ",20", second += ",20";
-    EXPECT_TRUE(some_remark(read_logged(folder, heading + "\n" + first + "\n" + second + "\n"),
-                            "15 more columns were ignored because they hold no force"));
+    EXPECT_TRUE(has_note(read_logged(folder, heading + "\n" + first + "\n" + second + "\n"),
+                         "15 more columns were ignored because they hold no force"));
 }
 
 TEST(LoggerFiles, NumbersWrittenInAnotherWayAreNamedWithACommandThatRewritesThem) {
@@ -263,12 +263,12 @@ TEST(LoggerFiles, NumbersWrittenInAnotherWayAreNamedWithACommandThatRewritesThem
         {"time_s,fz\n0,0x0A\n1,0x0B\n", "'0x0A', which contains hexadecimal digits; save the table with decimal numbers", ""},
         {"time_s,fz\n0,n/a\n1,n/a\n", "'fz' holds words, not numbers; line 2 has 'n/a'", ""},
     };
-    for (const auto& [text, said, word] : cases) {
+    for (const auto& [text, message, first_word] : cases) {
         const auto refused = refused_logged(folder, text);
-        EXPECT_NE(refused.find(said), std::string::npos) << refused;
-        if (word.empty()) continue;
-        const auto mended = load_recording(run_remedy(folder, "x.csv", word)).force[0];
-        EXPECT_EQ(std::vector<double>(mended.end() - 2, mended.end()), (std::vector<double>{-1.5, -2.5})) << refused;
+        EXPECT_NE(refused.find(message), std::string::npos) << refused;
+        if (first_word.empty()) continue;
+        const auto repaired = load_recording(run_remedy(folder, "x.csv", first_word)).force[0];
+        EXPECT_EQ(std::vector<double>(repaired.end() - 2, repaired.end()), (std::vector<double>{-1.5, -2.5})) << refused;
     }
     EXPECT_NE(refused_logged(folder, "time_s,fz\n0,5 mN\n1,6 mN\n").find("the unit mN after the number (use --unit mN for the new file)"),
               std::string::npos);
@@ -278,9 +278,9 @@ TEST(LoggerFiles, ThousandsInGroupsAreNamedAndManyFilledReadingsWarnedOf) {
     const TemporaryFolder folder;
     for (const std::string text : {"Zeit (s);Kraft (mN)\n0,0;999,21\n0,1;1.016,21\n0,2;998,50\n",
                                    "t_s,F_mN\n0,999.21\n0.1,\"1,016.21\"\n0.2,998.5\n", "t_s,F_mN\n0,999\n0.1,\"1,016\"\n0.2,998\n"}) {
-        const auto said = refused_logged(folder, text);
-        EXPECT_NE(said.find("it contains a thousands separator; save the table without it"), std::string::npos) << said;
-        EXPECT_EQ(said.find("--bad-fields"), std::string::npos) << said;
+        const auto message = refused_logged(folder, text);
+        EXPECT_NE(message.find("it contains a thousands separator; save the table without it"), std::string::npos) << message;
+        EXPECT_EQ(message.find("--bad-fields"), std::string::npos) << message;
         const auto filled = load_recording(folder / "x.csv", {.bad_fields = BadFields::interpolate});
         EXPECT_TRUE(std::any_of(filled.quality.warnings.begin(), filled.quality.warnings.end(),
                                 [](const auto& s) { return s.starts_with("1 of 3 samples were interpolated"); }));
@@ -293,7 +293,7 @@ TEST(LoggerFiles, AHeaderOfColumnNumbersIsAHeader) {
                                {.time = "0"});
     EXPECT_EQ(r.names, std::vector<std::string>{"1"});
     EXPECT_NEAR(r.clock.rate(), 100, 1e-6);
-    EXPECT_TRUE(some_remark(r, "'ch1' was ignored: it counts the rows (use --channel ch1 to include it)"));
+    EXPECT_TRUE(has_note(r, "'ch1' was ignored: it counts the rows (use --channel ch1 to include it)"));
     EXPECT_EQ(load_recording(folder / "x.csv", {.channels = {"ch1"}, .time = "0"}).force[0][7], 7) << "the remedy";
 }
 
@@ -306,7 +306,7 @@ TEST(LoggerFiles, APreamblePaddedWithSeparatorsIsPassedOverAboveARowOfUnits) {
     EXPECT_NEAR(r.force[0][10], 0.5e-3, 1e-12);
 }
 
-TEST(LoggerFiles, RowsTakenAsChannelsMayBeginWithANameAndTheirGapsHaveAPlace) {
+TEST(LoggerFiles, RowsTakenAsChannelsMayBeginWithANameAndTheirGapsHaveALocation) {
     const TemporaryFolder folder;
     RecordingOptions rows;
     rows.table.transpose = true;
@@ -333,7 +333,7 @@ TEST(LoggerFiles, AJsonDocumentsRateAndUnitAreUsedAndListsBesideTheTableLeftOut)
     EXPECT_NEAR(r.force[0][1], 1, 1e-12);
     const auto tagged = read_logged(folder, R"({"tags":["a","b"],"time_s":[0,1,2],"fz_N":[1,2,3]})", {}, "x.json");
     EXPECT_EQ(tagged.force, (std::vector<std::vector<double>>{{1, 2, 3}}));
-    EXPECT_TRUE(some_remark(tagged, "'tags' was ignored: it has 2 strings, but the table has 3 rows"));
+    EXPECT_TRUE(has_note(tagged, "'tags' was ignored: it has 2 strings, but the table has 3 rows"));
     EXPECT_EQ(refused_logged(folder, "[{\"t\":NaN,\"F\":-Infinity},\n{\"t\":NaN,\"F\":}]", {}, "x.json").substr(0, 11), "x.json:2:14");
 }
 
@@ -349,13 +349,13 @@ TEST(LoggerFiles, AColumnInSecondsOrMillisecondsIsTheTime) {
     const auto path = folder.write(
         "x.csv", "Zeit [ms];Kraft [N]\n" + rows_of(20, [](int k, double, double F) { return fmt::format("{};{}\n", 10 * k, F); }));
     EXPECT_NEAR(load_recording(path).clock.rate(), 100, 1e-6);
-    for (const std::string asked : {"Zeit [ms]", "Zeit", "Zeit_ms", "1"})
-        EXPECT_NEAR(load_recording(path, {.time = asked}).clock.rate(), 100, 1e-6) << asked;
-    EXPECT_TRUE(some_remark(load_recording(path), "'Zeit' is taken as the time"));
-    EXPECT_FALSE(some_remark(load_recording(path, {.time = "none", .rate = 10}), "is taken as the time"));
+    for (const std::string call_count : {"Zeit [ms]", "Zeit", "Zeit_ms", "1"})
+        EXPECT_NEAR(load_recording(path, {.time = call_count}).clock.rate(), 100, 1e-6) << call_count;
+    EXPECT_TRUE(has_note(load_recording(path), "'Zeit' is taken as the time"));
+    EXPECT_FALSE(has_note(load_recording(path, {.time = "none", .rate = 10}), "is taken as the time"));
 }
 
-TEST(LoggerFiles, AColumnWithATimeLikeNameThatDoesNotRiseIsNoTime) {
+TEST(LoggerFiles, AColumnWithATimeLikeNameThatDoesNotIncreaseIsNotATime) {
     const TemporaryFolder folder;
     EXPECT_NE(refused_logged(folder, "response_time,F_N\n0.3,1\n0.2,2\n0.4,3\n").find("no time column found"), std::string::npos);
 }
@@ -374,7 +374,7 @@ TEST(LoggerFiles, DatesAndTimesOfDayAreRead) {
     EXPECT_NEAR(clock("2026-02-28 23:59:59.995", "2026-03-01 00:00:00.000", "2026-03-01 00:00:00.005"), 200, 1e-6);
     const auto r = read_logged(folder, "time,F_N\n2026-03-01T12:00:00,1\n2026-03-01T12:00:01,2\n2026-03-01T12:00:02,3\n");
     EXPECT_EQ(r.clock.t0, 0);
-    EXPECT_TRUE(some_remark(r, "0 s is 2026-03-01 12:00:00.000, the first time in 'time'"));
+    EXPECT_TRUE(has_note(r, "0 s is 2026-03-01 12:00:00.000, the first time in 'time'"));
     const auto bare = read_logged(folder, "2026-03-01T12:00:00.000,1\n2026-03-01T12:00:00.010,2\n2026-03-01T12:00:00.020,3\n");
     EXPECT_EQ(bare.force[0].size(), 3U) << "without a header the first row is a row";
     const auto two = read_logged(folder, "Date,Time,F_N\n2026-03-01,12:00:00.00,1\n2026-03-01,12:00:00.01,2\n2026-03-01,12:00:00.02,3\n");
@@ -402,7 +402,7 @@ TEST(LoggerFiles, TimesSince1970AreRecognisedByTheirSize) {
         const auto r = read_logged(folder, text);
         EXPECT_NEAR(r.clock.rate(), 100, 1e-3) << unit;
         EXPECT_EQ(r.clock.t0, 0) << unit;
-        EXPECT_TRUE(some_remark(r, fmt::format("are {} since 1970; 0 s is 2026-03-01 12:00:00.000 (UTC)", unit))) << unit;
+        EXPECT_TRUE(has_note(r, fmt::format("are {} since 1970; 0 s is 2026-03-01 12:00:00.000 (UTC)", unit))) << unit;
     }
 }
 
@@ -411,7 +411,7 @@ TEST(LoggerFiles, UnitsBehindASlashAndInARowOfTheirOwnAreSeen) {
     const auto slash = read_logged(folder, "Time/s,Fz/mN,v/(m/s)\n0,500,1\n1,1000,1\n");
     EXPECT_EQ(slash.names, std::vector<std::string>{"Fz"});
     EXPECT_NEAR(slash.force[0][1], 1, 1e-12);
-    EXPECT_TRUE(some_remark(slash, "'v' was ignored: m/s is not a unit of force"));
+    EXPECT_TRUE(has_note(slash, "'v' was ignored: m/s is not a unit of force"));
     const auto topics = read_logged(folder, "time,/ft/wrench/force/z,imu/x\n0,1,2\n1,1,2\n");
     EXPECT_EQ(topics.names, (std::vector<std::string>{"/ft/wrench/force/z", "imu/x"})) << "paths are names";
     const auto row = read_logged(folder, "Time;Fz;note\n[s];[mN];-\n0;500;a\n1;1000;b\n");
@@ -419,7 +419,7 @@ TEST(LoggerFiles, UnitsBehindASlashAndInARowOfTheirOwnAreSeen) {
     EXPECT_NEAR(row.force[0][1], 1, 1e-12);
 }
 
-TEST(LoggerFiles, LinesBeforeTheTableArePassedOverAndToldOrSkipped) {
+TEST(LoggerFiles, LinesBeforeTheTableAreSkippedAndReported) {
     const TemporaryFolder folder;
     const std::string table =
         "time_s,fx_N,fz_N\n" + rows_of(20, [](int, double t, double F) { return fmt::format("{:.2f},1,{}\n", t, F); });
@@ -428,7 +428,7 @@ TEST(LoggerFiles, LinesBeforeTheTableArePassedOverAndToldOrSkipped) {
         const auto r = read_logged(folder, before + table);
         EXPECT_EQ(r.names, (std::vector<std::string>{"fx", "fz"})) << before;
         EXPECT_EQ(r.force[0].size(), 20U) << before;
-        EXPECT_TRUE(some_remark(r, "before the table")) << before;
+        EXPECT_TRUE(has_note(r, "before the table")) << before;
     }
     const auto alike = read_logged(folder, "Subject,S07\nRate,100\ntime_s,F_N\n0,1\n1,2\n");
     EXPECT_EQ(alike.names, std::vector<std::string>{"F"});
@@ -444,14 +444,14 @@ TEST(LoggerFiles, LinesBeforeTheTableArePassedOverAndToldOrSkipped) {
 
 TEST(LoggerFiles, LineEndsOfOldMacsAreNamedWithTheirRemedy) {
     const TemporaryFolder folder;
-    const auto said = try_load_recording(folder.write("x.csv", "time_s,F_N\r0,1\r1,2\r")).error().text();
-    const auto at = said.find("tr '");
-    ASSERT_NE(at, said.npos) << said;
-    ASSERT_EQ(std::system(("cd '" + folder.path() + "' && " + said.substr(at)).c_str()), 0);
+    const auto message = try_load_recording(folder.write("x.csv", "time_s,F_N\r0,1\r1,2\r")).error().text();
+    const auto at = message.find("tr '");
+    ASSERT_NE(at, message.npos) << message;
+    ASSERT_EQ(std::system(("cd '" + folder.path() + "' && " + message.substr(at)).c_str()), 0);
     EXPECT_EQ(load_recording(folder / "x-lines.csv").force[0], (std::vector<double>{1, 2}));
 }
 
-TEST(LoggerFiles, ATableCutShortOrTornIsNotTakenForAPreamble) {
+TEST(LoggerFiles, ATruncatedOrDamagedTableIsNotTakenForAPreamble) {
     const TemporaryFolder folder;
     const std::string table = rows_of(20, [](int, double t, double F) { return fmt::format("{:.2f},{}\n", t, F); });
     EXPECT_NE(refused_logged(folder, "t,F\n" + table + "0.2").find("x.csv:22: 1 columns where 2 are expected"), std::string::npos);
@@ -461,7 +461,7 @@ TEST(LoggerFiles, ATableCutShortOrTornIsNotTakenForAPreamble) {
               std::string::npos);
 }
 
-TEST(LoggerFiles, LabviewsTablesAreReadWithTheirClockUnitsAndRemarks) {
+TEST(LoggerFiles, LabviewsTablesAreReadWithTheirClockUnitsAndComments) {
     const TemporaryFolder folder;
     const auto lvm = [&](const std::string& x, const std::string& rows) {
         return read_logged(
@@ -485,40 +485,41 @@ TEST(LoggerFiles, LabviewsTablesAreReadWithTheirClockUnitsAndRemarks) {
               std::string::npos);
 }
 
-TEST(LoggerFiles, AnIndexColumnIsLeftOutAndTold) {
+TEST(LoggerFiles, AnIndexColumnIsLeftOutAndReported) {
     const TemporaryFolder folder;
     const auto line = [](int k, double t, double F) { return fmt::format("{},{:.2f},{:.3f}\n", k, t, F); };
     const auto pandas = read_logged(folder, ",time_s,fz_N\n" + rows_of(30, line));
     EXPECT_EQ(pandas.names, std::vector<std::string>{"fz"});
-    EXPECT_TRUE(some_remark(pandas, "'ch1' was ignored: it counts the rows (use --channel 1 to include it)"));
+    EXPECT_TRUE(has_note(pandas, "'ch1' was ignored: it counts the rows (use --channel 1 to include it)"));
     EXPECT_EQ(load_recording(folder / "x.csv", {.channels = {"1"}}).force[0][7], 7) << "the remedy";
     EXPECT_EQ(load_recording(folder / "x.csv", {.channels = {"1-2"}}).names, std::vector<std::string>{"fz"});
     EXPECT_EQ(read_logged(folder, "sample,time_s,fz_N\n" + rows_of(3, line)).names, std::vector<std::string>{"fz"});
     EXPECT_EQ(read_logged(folder, "sample,fz_N\n0,1\n1,1\n0,2\n1,2\n", {.rate = 10}).names, std::vector<std::string>{"fz"})
-        << "anew each trial";
+        << "restarts in each trial";
     EXPECT_EQ(read_logged(folder, "k,time_s,fz_N\n" + rows_of(30, line)).names, std::vector<std::string>{"fz"});
-    EXPECT_EQ(read_logged(folder, "k,time_s,fz_N\n" + rows_of(3, line)).names, (std::vector<std::string>{"k", "fz"})) << "too few to tell";
+    EXPECT_EQ(read_logged(folder, "k,time_s,fz_N\n" + rows_of(3, line)).names, (std::vector<std::string>{"k", "fz"}))
+        << "too few rows to decide";
     EXPECT_EQ(read_logged(folder, "F_N\n1\n2\n3\n4\n5\n6\n7\n8\n9\n", {.rate = 10}).names, std::vector<std::string>{"F"}) << "all there is";
     EXPECT_EQ(
         read_logged(folder, "a_N,b_N\n" + rows_of(30, [](int k, double, double F) { return fmt::format("{},{}\n", k, F); }), {.rate = 10})
             .names,
         (std::vector<std::string>{"a", "b"}))
-        << "a column in newtons is a force however it runs";
+        << "a column in newtons is a force whether or not it increases";
     const auto timed =
         read_logged(folder, ",fz_N\n" + rows_of(30, [](int, double t, double F) { return fmt::format("{:.2f},{}\n", t, F); }));
     EXPECT_EQ(timed.names, std::vector<std::string>{"fz"});
     EXPECT_NEAR(timed.clock.rate(), 100, 1e-6) << "an unnamed index of times";
 }
 
-TEST(LoggerFiles, AColumnInAUnitThatIsNoForceNeverPassesAsNewtons) {
+TEST(LoggerFiles, AColumnInAUnitOtherThanForceIsNeverTakenAsNewtons) {
     const TemporaryFolder folder;
     const auto r = read_logged(folder, "time_s,fz,temp_C,Tx [Nm],angle_deg\n0,1,31,2,3\n1,2,31,2,3\n");
     EXPECT_EQ(r.names, std::vector<std::string>{"fz"});
-    EXPECT_TRUE(some_remark(r, "'temp' was ignored: C is not a unit of force (if the header is wrong, use --channel 2 --unit N)"));
+    EXPECT_TRUE(has_note(r, "'temp' was ignored: C is not a unit of force (if the header is wrong, use --channel 2 --unit N)"));
     EXPECT_EQ(load_recording(folder / "x.csv", {.channels = {"2"}, .unit = "N"}).force[0][0], 31) << "the remedy";
     EXPECT_EQ(load_recording(folder / "x.csv", {.scale = 2}).names, std::vector<std::string>{"fz"}) << "nor does a scale make it one";
     EXPECT_TRUE(
-        some_remark(read_logged(folder, "time_s,fz_N,humidity [%]\n0,1,2\n1,1,2\n"), "'humidity' was ignored: % is not a unit of force"));
+        has_note(read_logged(folder, "time_s,fz_N,humidity [%]\n0,1,2\n1,1,2\n"), "'humidity' was ignored: % is not a unit of force"));
     EXPECT_NE(refused_logged(folder, "time_s,temp_C\n0,1\n1,1\n").find("'temp' is in C"), std::string::npos);
     EXPECT_EQ(read_logged(folder, "time_s,left_A,left_C,left_F\n0,1,2,3\n1,1,2,3\n").names,
               (std::vector<std::string>{"left_A", "left_C", "left_F"}))
@@ -545,8 +546,8 @@ TEST(LoggerFiles, WordsAndEmptyColumnsAreLeftOutAndEmptyFieldsNameTheirRemedy) {
     const TemporaryFolder folder;
     const auto r = read_logged(folder, "time_s,fz_N,phase,notes\n0,1,rest,\n1,2,press,\n2,3,press,\n");
     EXPECT_EQ(r.names, std::vector<std::string>{"fz"});
-    EXPECT_TRUE(some_remark(r, "'phase' was ignored: it holds words, not numbers"));
-    EXPECT_TRUE(some_remark(r, "'notes' was ignored: it is empty"));
+    EXPECT_TRUE(has_note(r, "'phase' was ignored: it holds words, not numbers"));
+    EXPECT_TRUE(has_note(r, "'notes' was ignored: it is empty"));
     EXPECT_EQ(
         refused_logged(folder, "time_s,fz_N\n0,1\n1,\n2,3\n"),
         "x.csv:3:3: column 'fz': an empty field where a number is expected; use --bad-fields interpolate to fill it in, or --bad-fields "
@@ -560,17 +561,17 @@ TEST(LoggerFiles, ChannelsAreChosenByRangesOfNamesAndCountedOnesAreCalledByName)
     const TemporaryFolder folder;
     const auto path = folder.write("x.csv", "time_s,Channel 0_N,Channel 1_N,Channel 2_N,\"a,b_N\"\n0,1,2,3,4\n1,1,2,3,4\n");
     const auto counted = load_recording(path, {.channels = {"2-3"}});
-    EXPECT_TRUE(some_remark(counted, "--channel 2-3 is 'Channel 1' to 'Channel 2'"));
+    EXPECT_TRUE(has_note(counted, "--channel 2-3 is 'Channel 1' to 'Channel 2'"));
     for (const auto* range : {"'Channel 1'-'Channel 2'", "Channel 1-Channel 2", "Channel 1_N-Channel 2"})
         EXPECT_EQ(load_recording(path, {.channels = {range}}).names, counted.names) << range;
     EXPECT_EQ(load_recording(path, {.channels = {"a,b"}}).names, std::vector<std::string>{"a,b"});
 }
 
-TEST(LoggerFiles, ATimeUnitAgainstTheHeaderIsTold) {
+TEST(LoggerFiles, ATimeUnitThatContradictsTheHeaderIsReported) {
     const TemporaryFolder folder;
     const auto r = read_logged(folder, "time_s,F_N\n0,1\n1,2\n2,3\n", {.time_unit = "ms"});
     EXPECT_NEAR(r.clock.rate(), 1000, 1e-9);
-    EXPECT_TRUE(some_remark(r, "--time-unit ms overrides the unit of 'time' in the header, s"));
+    EXPECT_TRUE(has_note(r, "--time-unit ms overrides the unit of 'time' in the header, s"));
 }
 
 std::string packed(const std::string& text) {
@@ -585,20 +586,20 @@ std::string packed(const std::string& text) {
     return out;
 }
 
-TEST(LoggerFiles, GzipIsUnpackedInPiecesAndItsDamageNamed) {
+TEST(LoggerFiles, GzipIsUnpackedInChunksAndItsDamageNamed) {
     const TemporaryFolder folder;
     const auto text = "time_s,F_N\n" + rows_of(60'000, [](int, double t, double F) { return fmt::format("{:.2f},{:.2f}\n", t, F); });
-    const auto plain = read_logged(folder, text);
-    EXPECT_EQ(read_logged(folder, packed(text), {}, "x.csv.gz").force, plain.force);
+    const auto uncompressed = read_logged(folder, text);
+    EXPECT_EQ(read_logged(folder, packed(text), {}, "x.csv.gz").force, uncompressed.force);
     const auto half = text.find("300.00,");
-    EXPECT_EQ(read_logged(folder, packed(text.substr(0, half)) + packed(text.substr(half)), {}, "x.csv.gz").force, plain.force)
+    EXPECT_EQ(read_logged(folder, packed(text.substr(0, half)) + packed(text.substr(half)), {}, "x.csv.gz").force, uncompressed.force)
         << "two members";
-    EXPECT_EQ(read_logged(folder, packed(text) + std::string(512, '\0'), {}, "x.csv.gz").force, plain.force) << "padded";
-    auto whole = packed(text);
-    EXPECT_NE(refused_logged(folder, whole.substr(0, whole.size() / 2), {}, "x.gz").find("this gzip file is incomplete"),
+    EXPECT_EQ(read_logged(folder, packed(text) + std::string(512, '\0'), {}, "x.csv.gz").force, uncompressed.force) << "padded";
+    auto complete = packed(text);
+    EXPECT_NE(refused_logged(folder, complete.substr(0, complete.size() / 2), {}, "x.gz").find("this gzip file is incomplete"),
               std::string::npos);
-    whole[whole.size() / 2] ^= 0x55;
-    EXPECT_NE(refused_logged(folder, whole, {}, "x.gz").find("this gzip file is damaged"), std::string::npos);
+    complete[complete.size() / 2] ^= 0x55;
+    EXPECT_NE(refused_logged(folder, complete, {}, "x.gz").find("this gzip file is damaged"), std::string::npos);
     EXPECT_NE(refused_logged(folder, packed(text) + "more", {}, "x.gz").find("this gzip file is damaged"), std::string::npos);
     EXPECT_NE(refused_logged(folder, packed("\x93NUMPY..."), {}, "x.npy.gz").find("unpack it first: gzip -dk "), std::string::npos);
 }
@@ -629,7 +630,7 @@ TEST(LoggerFiles, Utf16IsReadWithAndWithoutItsMark) {
     EXPECT_NE(refused_logged(folder, utf16("t,F\n0,1\n", false, true) + "x").find("ends within a character"), std::string::npos);
 }
 
-TEST(LoggerFiles, JsonIsReadALineARecordAsAListAndAsColumns) {
+TEST(LoggerFiles, JsonIsReadAsLinesAsAListAndAsColumns) {
     const TemporaryFolder folder;
     for (const std::string text :
          {R"({"t":0,"fz_N":1.5,"name":"x"}
@@ -663,7 +664,7 @@ TEST(LoggerFiles, AnErrorInAJsonDocumentNamesItsRecordAndNoLine) {
         << test::load_error(path, {.unit = "N"});
 }
 
-TEST(LoggerFiles, JsonThatIsNoTableIsRefusedWithItsPlace) {
+TEST(LoggerFiles, JsonThatIsNotATableIsRefusedWithItsLocation) {
     const TemporaryFolder folder;
     const std::pair<std::string, std::string> cases[] = {
         {"{\"t\":0,\"F\":1}\n{\"t\":1,\"F\":}\n", "x.json:2:12: this JSON is not valid"},
@@ -676,8 +677,9 @@ TEST(LoggerFiles, JsonThatIsNoTableIsRefusedWithItsPlace) {
         {"{\"t\":0,\"F\":1e999}\n{\"t\":1,\"F\":1}\n", "a number that is too large"},
         {"[{\"t\":0,\"F\":1},{\"t\":1,", "this JSON is not valid"},
     };
-    for (const auto& [text, said] : cases)
-        EXPECT_NE(refused_logged(folder, text, {}, "x.json").find(said), std::string::npos) << refused_logged(folder, text, {}, "x.json");
+    for (const auto& [text, message] : cases)
+        EXPECT_NE(refused_logged(folder, text, {}, "x.json").find(message), std::string::npos)
+            << refused_logged(folder, text, {}, "x.json");
     folder.write("x.json", "{\"t\":0,\"F\":1}\n{\"t\":1,\"F\":null}\n{\"t\":2,\"F\":3}\n");
     EXPECT_EQ(load_recording(folder / "x.json", {.bad_fields = BadFields::interpolate}).force[0], (std::vector<double>{1, 2, 3}));
 }
@@ -697,17 +699,17 @@ TEST(LoggerFiles, OtherProgramsFilesAreNamedWithACommandThatConvertsThem) {
         {"x.dat", "\x89HDF\r\n", "x.h5"},
         {"x.bin", std::string("ab\0cd", 5), "not a text file: it contains NUL bytes"},
     };
-    for (const auto& [name, bytes, said] : cases)
-        EXPECT_NE(refused_logged(folder, bytes, {}, name).find(said), std::string::npos) << refused_logged(folder, bytes, {}, name);
+    for (const auto& [name, bytes, message] : cases)
+        EXPECT_NE(refused_logged(folder, bytes, {}, name).find(message), std::string::npos) << refused_logged(folder, bytes, {}, name);
 }
 
-/// The command at the end of what is said of a file.
-std::string command_in(const std::string& said) {
-    const auto at = said.find("convert it like this: ");
-    return at == std::string::npos ? "" : said.substr(at + 22);
+/// The command at the end of a message about a file.
+std::string command_in(const std::string& message) {
+    const auto at = message.find("convert it like this: ");
+    return at == std::string::npos ? "" : message.substr(at + 22);
 }
 
-int typed(const TemporaryFolder& folder, const std::string& command) {
+int run_command(const TemporaryFolder& folder, const std::string& command) {
     return std::system(("cd '" + folder.path() + "' && { " + command + "; } >/dev/null 2>&1").c_str());
 }
 
@@ -715,23 +717,23 @@ TEST(LoggerFiles, PackedFilesAreUnpackedByTheCommandThatIsNamed) {
     const std::string table = "time_s,fz_N\n0,1\n0.01,2\n0.02,3\n";
     for (const auto& [program, extension] : {std::pair{"bzip2", ".bz2"}, {"xz", ".xz"}, {"zstd", ".zst"}}) {
         const TemporaryFolder folder;
-        if (typed(folder, fmt::format("command -v {}", program)) != 0) continue;
+        if (run_command(folder, fmt::format("command -v {}", program)) != 0) continue;
         folder.write("plain", table);
         for (const auto& [name, made] :
              {std::pair{"x.csv" + std::string(extension), "x.csv"}, {"data", "data-unpacked"}, {"a b.csv", "a b-unpacked"}}) {
-            ASSERT_EQ(typed(folder, fmt::format("{} -c < plain > '{}'", program, name)), 0);
+            ASSERT_EQ(run_command(folder, fmt::format("{} -c < plain > '{}'", program, name)), 0);
             const auto refused = try_load_recording(folder / name);
             ASSERT_FALSE(refused);
             const auto command = command_in(refused.error().text());
-            ASSERT_EQ(typed(folder, command), 0) << command;
+            ASSERT_EQ(run_command(folder, command), 0) << command;
             EXPECT_EQ(test::read_file(folder / made), table) << command;
         }
     }
 }
 
-TEST(LoggerFiles, CommandsOfPythonAreWhole) {
+TEST(LoggerFiles, PythonCommandsAreComplete) {
     const TemporaryFolder folder;
-    if (typed(folder, "command -v python3") != 0) GTEST_SKIP() << "no python3 here";
+    if (run_command(folder, "command -v python3") != 0) GTEST_SKIP() << "no python3 here";
     for (const auto& [name, bytes] : {std::pair{"x.xlsx", std::string("PK\x03\x04 [Content_Types].xml")},
                                       {"x y.parquet", std::string("PAR1")},
                                       {"x.feather", std::string("ARROW1")},
@@ -741,7 +743,7 @@ TEST(LoggerFiles, CommandsOfPythonAreWhole) {
         const auto command = command_in(refused_logged(folder, bytes, {}, name));
         ASSERT_TRUE(command.starts_with("python3 -c \"")) << command;
         const auto code = "compile(\\\"\\\"\\\"" + command.substr(12, command.size() - 13) + "\\\"\\\"\\\", 'x', 'exec')";
-        EXPECT_EQ(typed(folder, "python3 -c \"" + code + "\""), 0) << command;
+        EXPECT_EQ(run_command(folder, "python3 -c \"" + code + "\""), 0) << command;
     }
 }
 

@@ -1,4 +1,4 @@
-// NumPy's arrays as recordings: every kind of number, both orders, both ends, structures; alone and in an archive.
+// NumPy arrays as recordings: every number type, both memory orders, both byte orders, structures; alone and in an archive.
 
 #include <zip.h>
 
@@ -24,33 +24,33 @@ std::string bytes_of(T x, bool big) {
     return s;
 }
 
-/// A kind of number: its letters, the range that every whole number in it is exact in, and its bytes.
-struct Kind {
+/// A number type: its letters, the range in which it holds every integer exactly, and its encoder.
+struct NumberType {
     const char* letters;
     int low, high;
     std::string (*bytes)(int, bool);
 };
 
 template <class T>
-std::string of(int x, bool big) {
+std::string encode_number(int x, bool big) {
     return bytes_of(static_cast<T>(x), big);
 }
 
-const Kind kinds[] = {{"f8", -1000000, 1000000, of<double>},
-                      {"f4", -1000000, 1000000, of<float>},
-                      {"i1", -128, 128, of<std::int8_t>},
-                      {"i2", -32768, 32768, of<std::int16_t>},
-                      {"i4", -1000000, 1000000, of<std::int32_t>},
-                      {"i8", -1000000, 1000000, of<std::int64_t>},
-                      {"u1", 0, 256, of<std::uint8_t>},
-                      {"u2", 0, 65536, of<std::uint16_t>},
-                      {"u4", 0, 1000000, of<std::uint32_t>},
-                      {"u8", 0, 1000000, of<std::uint64_t>},
-                      {"b1", 0, 2, of<std::uint8_t>}};
+const NumberType number_types[] = {{"f8", -1000000, 1000000, encode_number<double>},
+                                   {"f4", -1000000, 1000000, encode_number<float>},
+                                   {"i1", -128, 128, encode_number<std::int8_t>},
+                                   {"i2", -32768, 32768, encode_number<std::int16_t>},
+                                   {"i4", -1000000, 1000000, encode_number<std::int32_t>},
+                                   {"i8", -1000000, 1000000, encode_number<std::int64_t>},
+                                   {"u1", 0, 256, encode_number<std::uint8_t>},
+                                   {"u2", 0, 65536, encode_number<std::uint16_t>},
+                                   {"u4", 0, 1000000, encode_number<std::uint32_t>},
+                                   {"u8", 0, 1000000, encode_number<std::uint64_t>},
+                                   {"b1", 0, 2, encode_number<std::uint8_t>}};
 
 TEST(Npy, EveryKindOfNumberInBothOrdersAndBothEndsIsReadAsItWasWritten) {
     EXPECT_TRUE(rc::check("round trip", [] {
-        const auto& kind = *rc::gen::elementOf(std::vector<Kind>(std::begin(kinds), std::end(kinds)));
+        const auto& kind = *rc::gen::elementOf(std::vector<NumberType>(std::begin(number_types), std::end(number_types)));
         const auto rows = *rc::gen::inRange<std::size_t>(2, 300), columns = *rc::gen::inRange<std::size_t>(1, 5);
         const bool big = *rc::gen::arbitrary<bool>(), by_columns = *rc::gen::arbitrary<bool>();
         const int version = *rc::gen::inRange(1, 4);
@@ -80,8 +80,8 @@ TEST(Npy, HalvesAreReadToTheLastBit) {
     EXPECT_EQ(value(0x3c00), 1);
     EXPECT_EQ(value(0xc000), -2);
     EXPECT_EQ(value(0x7bff), 65504);
-    EXPECT_EQ(value(0x0400), std::ldexp(1, -14)) << "the least normal number";
-    EXPECT_EQ(value(0x0001), std::ldexp(1, -24)) << "the least of all";
+    EXPECT_EQ(value(0x0400), std::ldexp(1, -14)) << "the smallest normal number";
+    EXPECT_EQ(value(0x0001), std::ldexp(1, -24)) << "the smallest subnormal number";
     EXPECT_EQ(value(0x3555), 1365.0 / 4096) << "a third";
     EXPECT_TRUE(std::isinf(value(0xfc00)) && value(0xfc00) < 0);
     EXPECT_TRUE(std::isnan(value(0x7e00)));
@@ -99,7 +99,7 @@ TEST(Npy, AStructuresNumbersAreColumnsWithNameAndUnit) {
     EXPECT_EQ(made.force[0][4321], 4321 * 30.0 * 1e-3);
 }
 
-/// What pandas' to_records() and a logger's frame counter make: the first column is the number of the row.
+/// A table as pandas' to_records() or a logger's frame counter makes it: the first column is the row number.
 std::string records(const std::string& index, std::size_t rows = 500) {
     std::string data;
     for (std::size_t k = 0; k < rows; ++k)
@@ -107,9 +107,9 @@ std::string records(const std::string& index, std::size_t rows = 500) {
     return npy_bytes(fmt::format("[('{}', '<i8'), ('fz_N', '<f8')]", index), fmt::format("({},)", rows), data);
 }
 
-TEST(Npy, AColumnThatCountsTheRowsIsNoForce) {
+TEST(Npy, AColumnThatCountsTheRowsIsNotAForce) {
     const TemporaryFolder folder;
-    for (const std::string index : {"index", "sample", "frame", "level_0"}) {  // the last by its numbers alone
+    for (const std::string index : {"index", "sample", "frame", "level_0"}) {  // the last is recognised by its numbers alone
         const auto made = load_recording(folder.write("x.npy", records(index)), {.rate = 100});
         EXPECT_EQ(made.names, std::vector<std::string>{"fz"}) << index;
         EXPECT_EQ(made.force[0][7], std::sin(7.0));
@@ -130,41 +130,43 @@ TEST(Npy, AColumnInSecondsIsTheTimeWhateverItsName) {
     EXPECT_NEAR(made.clock.rate(), 100, 1e-6);
 }
 
-TEST(Npy, ARowLyingDownIsOneChannel) {
+TEST(Npy, AnArrayOfOneRowIsOneChannel) {
     const TemporaryFolder folder;
     const auto made = load_recording(folder.write("x.npy", npy_bytes("'|u1'", "(1, 3)", "\1\2\3")), {.rate = 10});
     EXPECT_EQ(made.force, (std::vector<std::vector<double>>{{1, 2, 3}}));
 }
 
-TEST(Npy, WhatCannotBeReadIsSaid) {
+TEST(Npy, UnreadableArraysGiveAnError) {
     const TemporaryFolder folder;
-    const auto said = [&](const std::string& bytes, const RecordingOptions& options = {.rate = 10}) {
+    const auto error_text = [&](const std::string& bytes, const RecordingOptions& options = {.rate = 10}) {
         return load_error(folder.write("x.npy", bytes), options);
     };
     const auto nan = bytes_of(std::nan(""), false), one = bytes_of(1.0, false);
-    EXPECT_EQ(said(npy_bytes("'<f8'", "(2, 2)", one + one + one + nan)), "x.npy: row 2: column 'ch2': nan where a number is expected");
-    EXPECT_EQ(said(npy_bytes("'<f8'", "(2, 2)", one + one + one)), "x.npy: the array needs 32 bytes, but the file has 24; it may be incomplete");
-    EXPECT_EQ(said(npy_bytes("'<f8'", "(99999999999, 99999999999)", one)),
+    EXPECT_EQ(error_text(npy_bytes("'<f8'", "(2, 2)", one + one + one + nan)), "x.npy: row 2: column 'ch2': nan where a number is expected");
+    EXPECT_EQ(error_text(npy_bytes("'<f8'", "(2, 2)", one + one + one)),
+              "x.npy: the array needs 32 bytes, but the file has 24; it may be incomplete");
+    EXPECT_EQ(error_text(npy_bytes("'<f8'", "(99999999999, 99999999999)", one)),
               "x.npy: the array needs more than 2^64 bytes, but the file has 8; it may be incomplete");
-    EXPECT_EQ(said(npy_bytes("'<c16'", "(2,)", std::string(32, '\0'))),
+    EXPECT_EQ(error_text(npy_bytes("'<c16'", "(2,)", std::string(32, '\0'))),
               "x.npy: the array holds '<c16' (complex numbers); save the real part or the magnitude instead");
-    EXPECT_EQ(said(npy_bytes("'|O'", "(2,)", "\x80\x04")),
+    EXPECT_EQ(error_text(npy_bytes("'|O'", "(2,)", "\x80\x04")),
               "x.npy: the array holds '|O' (Python objects), which are not supported because loading them can run any code; save numbers "
               "instead");
-    EXPECT_EQ(said(npy_bytes("'<U3'", "(1,)", std::string(12, 'a'))),
+    EXPECT_EQ(error_text(npy_bytes("'<U3'", "(1,)", std::string(12, 'a'))),
               "x.npy: the array holds '<U3' (not a supported number type); supported are floats up to 64 bits, integers and booleans");
-    EXPECT_EQ(said(npy_bytes("'<f8'", "(0, 3)", "")), "x.npy: the array (0 x 3): it has no samples");
-    EXPECT_EQ(said(npy_bytes("'<f8'", "()", one)), "x.npy: the array (scalar): a recording must have one dimension, or two (rows and channels)");
-    EXPECT_EQ(said(npy_bytes("'<f8'", "(1, 1, 1)", one)),
+    EXPECT_EQ(error_text(npy_bytes("'<f8'", "(0, 3)", "")), "x.npy: the array (0 x 3): it has no samples");
+    EXPECT_EQ(error_text(npy_bytes("'<f8'", "()", one)),
+              "x.npy: the array (scalar): a recording must have one dimension, or two (rows and channels)");
+    EXPECT_EQ(error_text(npy_bytes("'<f8'", "(1, 1, 1)", one)),
               "x.npy: the array (1 x 1 x 1): a recording must have one dimension, or two (rows and channels)");
-    EXPECT_EQ(said(npy_bytes("'<f8'", "(-1,)", one)), "x.npy: the shape in the header is not a list of non-negative integers");
-    EXPECT_EQ(said(npy_bytes("'<q8'", "(1,)", one)), "x.npy: unknown NumPy type '<q8' in the header");
-    EXPECT_EQ(said(npy_bytes("'<f8'", "(1,", one)), "x.npy: the header does not contain descr, fortran_order and shape");
-    EXPECT_EQ(said("\x93NUMPY\x04\x01 and so on"), "x.npy: NPY version 4 is not supported (only 1, 2, 3)");
-    EXPECT_EQ(said("a,b\n1,2\n3,4\n"), "x.npy: not an NPY file");
-    EXPECT_EQ(said(""), "x.npy: not an NPY file");
-    EXPECT_EQ(said(npy_bytes("'<f8'", "(1,)", one), {.table = {"a"}, .rate = 10}), "--dataset a: an NPY file has only one array");
-    EXPECT_EQ(said(npy_bytes("'<f8'", "(1,)", one), {}),
+    EXPECT_EQ(error_text(npy_bytes("'<f8'", "(-1,)", one)), "x.npy: the shape in the header is not a list of non-negative integers");
+    EXPECT_EQ(error_text(npy_bytes("'<q8'", "(1,)", one)), "x.npy: unknown NumPy type '<q8' in the header");
+    EXPECT_EQ(error_text(npy_bytes("'<f8'", "(1,", one)), "x.npy: the header does not contain descr, fortran_order and shape");
+    EXPECT_EQ(error_text("\x93NUMPY\x04\x01 and so on"), "x.npy: NPY version 4 is not supported (only 1, 2, 3)");
+    EXPECT_EQ(error_text("a,b\n1,2\n3,4\n"), "x.npy: not an NPY file");
+    EXPECT_EQ(error_text(""), "x.npy: not an NPY file");
+    EXPECT_EQ(error_text(npy_bytes("'<f8'", "(1,)", one), {.table = {"a"}, .rate = 10}), "--dataset a: an NPY file has only one array");
+    EXPECT_EQ(error_text(npy_bytes("'<f8'", "(1,)", one), {}),
               "x.npy: no time column found (columns: ch1); name one with --time, or give a rate, such as --rate 1kHz");
 }
 
@@ -182,18 +184,18 @@ std::string ramp_of(std::size_t count, double step = 1) {
     return data;
 }
 
-TEST(Npz, TheArrayIsChosenByNameAndRateOrTimesStandBesideIt) {
+TEST(Npz, TheArrayIsChosenByNameAndMayHaveARateOrTimesBesideIt) {
     const TemporaryFolder folder;
     const ArchiveEntry force{"force_mN.npy", npy_bytes("'<f8'", "(9000, 2)", ramp_of(18000))},
-        turned{"turned.npy", npy_bytes("'<f8'", "(9000, 2)", ramp_of(18000), true)},
+        transposed{"turned.npy", npy_bytes("'<f8'", "(9000, 2)", ramp_of(18000), true)},
         rate{"fs.npy", npy_bytes("'<i8'", "()", bytes_of(std::int64_t(250), false))},
-        times{"t.npy", npy_bytes("'<f8'", "(9000,)", ramp_of(9000, 0.01))}, words{"who.npy", npy_bytes("'<U1'", "(1,)", std::string(4, 'a'))};
+        times{"t.npy", npy_bytes("'<f8'", "(9000,)", ramp_of(9000, 0.01))}, text_array{"who.npy", npy_bytes("'<U1'", "(1,)", std::string(4, 'a'))};
     const auto path = folder / "x.npz";
     for (const bool deflated : {false, true}) {
         const auto write = [&](const std::vector<ArchiveEntry>& members) {
             deflated ? write_deflated(path, members) : void(folder.write("x.npz", test::value_or_throw(make_archive(members))));
         };
-        write({force, rate, words});
+        write({force, rate, text_array});
         const auto made = load_recording(path);
         EXPECT_EQ(made.clock.rate(), 250);
         EXPECT_EQ(made.names, (std::vector<std::string>{"ch1", "ch2"}));
@@ -201,13 +203,13 @@ TEST(Npz, TheArrayIsChosenByNameAndRateOrTimesStandBesideIt) {
         write({times, force});
         EXPECT_EQ(load_recording(path).clock.rate(), 100);
         EXPECT_EQ(load_recording(path, {.channels = {"2"}}).force[0][8999], 17999 * 1e-3);
-        write({force, rate, turned});
+        write({force, rate, transposed});
         EXPECT_EQ(load_error(path),
                   "x.npz: several arrays could be the recording; select one with --dataset NAME: force_mN (9000 x 2), turned (9000 x 2)");
         EXPECT_EQ(load_recording(path, {.table = {"turned"}}).force[1][10], 9010);
         EXPECT_EQ(load_error(path, {.table = {"forces_mN"}}),
                   "x.npz: no array 'forces_mN'; did you mean 'force_mN'?; arrays: force_mN (9000 x 2), fs (scalar), turned (9000 x 2)");
-        write({words});
+        write({text_array});
         EXPECT_EQ(load_error(path),
                   "x.npz: no array can be the recording, which must be numeric with one or two dimensions; arrays: who (1, not numeric)");
     }

@@ -1,4 +1,4 @@
-// What holds for every format of the list: the same samples give the same force.
+// Holds for every format of the list: the same samples give the same force.
 
 #include "io/recording_formats.hpp"
 
@@ -34,7 +34,7 @@ std::string text() {
     return out;
 }
 
-/// How each format of the list is written. A new one wants a row here.
+/// Writers for each format of the list. A new format needs an entry here.
 const std::pair<std::string_view, void (*)(const TemporaryFolder&, const std::string& name)> writers[] = {
     {"text", [](const TemporaryFolder& f, const std::string& name) { f.write(name, text()); }},
     {"npy", [](const TemporaryFolder& f, const std::string& name) { f.write(name, test::npy_bytes("'<f8'", "(5000, 2)", interleaved())); }},
@@ -63,11 +63,11 @@ TEST(EveryFormat, GivesTheSameForce) {
     const TemporaryFolder folder;
     for (const auto& format : recording_formats) {
         const auto writer = std::find_if(std::begin(writers), std::end(writers), [&](const auto& w) { return w.first == format.name; });
-        ASSERT_NE(writer, std::end(writers)) << "nobody writes " << format.name;
+        ASSERT_NE(writer, std::end(writers)) << "no writer for " << format.name;
         std::istringstream extensions{std::string(format.extensions)};
         for (std::string extension; extensions >> extension;) {
             const std::string name = "x" + extension;
-            if (format.name == "text" && extension != ".csv") continue;  // recording_test reads them in every style
+            if (format.name == "text" && extension != ".csv") continue;  // recording_test covers every style of them
             writer->second(folder, name);
             const auto made = test::load_recording(folder / name, {.rate = sample_rate, .scale = 1});
             EXPECT_EQ(made.force, two_channels) << name;
@@ -77,7 +77,7 @@ TEST(EveryFormat, GivesTheSameForce) {
     }
 }
 
-TEST(EveryFormat, SaysSoIfTheFileIsMissingOrEmpty) {
+TEST(EveryFormat, ReportsAMissingOrEmptyFile) {
     const TemporaryFolder folder;
     for (const auto& format : recording_formats) {
         const auto name = "x" + std::string(format.extensions.substr(0, format.extensions.find(' ')));

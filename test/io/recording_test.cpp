@@ -1,4 +1,4 @@
-// Recordings in every style people have them, and the sentences for those that cannot be read.
+// Recordings in every common style, and the errors for those that cannot be read.
 
 #include "io/recording.hpp"
 
@@ -21,7 +21,7 @@ using test::try_load_recording;
 
 Read read(const std::string& path, const RecordingOptions& options = {}) { return test::load_recording(path, options); }
 
-std::string said(const TemporaryFolder& folder, const std::string& text, const RecordingOptions& options = {}) {
+std::string error_text(const TemporaryFolder& folder, const std::string& text, const RecordingOptions& options = {}) {
     return test::load_error(folder.write("x.csv", text), options);
 }
 
@@ -101,36 +101,37 @@ TEST(Recording, ChannelsAreChosenByNameNumberAndRange) {
     EXPECT_EQ(names({"c", "a_N"}), (Names{"c", "a"}));
     EXPECT_EQ(names({"2-3,1"}), (Names{"b", "c", "a"}));
     EXPECT_EQ(names({"b", "2"}), (Names{"b"}));
-    EXPECT_EQ(said(folder, "time_s,fz_N\n0,1\n1,2\n", {.channels = {"fx"}}), "x.csv: no channel 'fx'; did you mean 'fz'?; there are 1: fz");
-    EXPECT_EQ(said(folder, "time_s,fz_N\n0,1\n1,2\n", {.channels = {"1-3"}}), "x.csv: no channel '1-3'; there are 1: fz");
+    EXPECT_EQ(error_text(folder, "time_s,fz_N\n0,1\n1,2\n", {.channels = {"fx"}}),
+              "x.csv: no channel 'fx'; did you mean 'fz'?; there are 1: fz");
+    EXPECT_EQ(error_text(folder, "time_s,fz_N\n0,1\n1,2\n", {.channels = {"1-3"}}), "x.csv: no channel '1-3'; there are 1: fz");
 }
 
 TEST(Recording, ErrorsNameFileLineColumnAndWhatWouldBeRight) {
     const TemporaryFolder folder;
     const std::string bad_field = "; use --bad-fields interpolate to fill it in, or --bad-fields drop to skip the row";
-    EXPECT_EQ(said(folder, ""), "x.csv: no data in this file");
-    EXPECT_EQ(said(folder, "# only this\n"), "x.csv: no data in this file");
-    EXPECT_EQ(said(folder, "t,F\n0,1\n1,x\n"), "x.csv:3:3: column 'F': 'x' where a number is expected" + bad_field);
-    EXPECT_EQ(said(folder, "t,F\n0,1\n1,nan\n"), "x.csv:3:3: column 'F': 'nan' where a number is expected" + bad_field);
-    EXPECT_EQ(said(folder, "t,F\n0,1\n1,\n"), "x.csv:3:3: column 'F': an empty field where a number is expected" + bad_field);
-    EXPECT_EQ(said(folder, "t,F\n0,1\n1\n"), "x.csv:3: 1 columns where 2 are expected; use --bad-fields drop to skip such rows");
-    EXPECT_EQ(said(folder, "1,2\n3,4\n", {.rate = 10, .unit = "mV"}),
+    EXPECT_EQ(error_text(folder, ""), "x.csv: no data in this file");
+    EXPECT_EQ(error_text(folder, "# only this\n"), "x.csv: no data in this file");
+    EXPECT_EQ(error_text(folder, "t,F\n0,1\n1,x\n"), "x.csv:3:3: column 'F': 'x' where a number is expected" + bad_field);
+    EXPECT_EQ(error_text(folder, "t,F\n0,1\n1,nan\n"), "x.csv:3:3: column 'F': 'nan' where a number is expected" + bad_field);
+    EXPECT_EQ(error_text(folder, "t,F\n0,1\n1,\n"), "x.csv:3:3: column 'F': an empty field where a number is expected" + bad_field);
+    EXPECT_EQ(error_text(folder, "t,F\n0,1\n1\n"), "x.csv:3: 1 columns where 2 are expected; use --bad-fields drop to skip such rows");
+    EXPECT_EQ(error_text(folder, "1,2\n3,4\n", {.rate = 10, .unit = "mV"}),
               "x.csv: 'ch1' is read as mV, which is not a force; use --scale S for S newtons per mV");
-    EXPECT_EQ(said(folder, "F_nm\n1\n", {.rate = 10}),
+    EXPECT_EQ(error_text(folder, "F_nm\n1\n", {.rate = 10}),
               "x.csv: 'F' is in nm, which is not a force; use --scale S for S newtons per nm, --unit N if the header is wrong, "
               "or --channel to select another column");
-    EXPECT_EQ(said(folder, "F\n1\n2\n"),
+    EXPECT_EQ(error_text(folder, "F\n1\n2\n"),
               "x.csv: no time column found (columns: F); name one with --time, or give a rate, such as --rate 1kHz");
-    EXPECT_EQ(said(folder, "t,F\n0,1\n2,1\n1,1\n"),
+    EXPECT_EQ(error_text(folder, "t,F\n0,1\n2,1\n1,1\n"),
               "x.csv:4: the time decreases from 2 s to 1 s; use --rate to take the rows as evenly spaced");
-    EXPECT_EQ(said(folder, "t,F\n0,1\n"), "x.csv: a single sample has no rate; give one, such as --rate 1kHz");
-    EXPECT_EQ(said(folder, "t,F\n0,1\n0,2\n"), "x.csv: the times in 't' do not increase; give a rate, such as --rate 1kHz");
-    EXPECT_EQ(said(folder, "t_N,F\n0,1\n1,1\n"),
+    EXPECT_EQ(error_text(folder, "t,F\n0,1\n"), "x.csv: a single sample has no rate; give one, such as --rate 1kHz");
+    EXPECT_EQ(error_text(folder, "t,F\n0,1\n0,2\n"), "x.csv: the times in 't' do not increase; give a rate, such as --rate 1kHz");
+    EXPECT_EQ(error_text(folder, "t_N,F\n0,1\n1,1\n"),
               "x.csv: the time column 't' is in 'N', which is not a unit of time; give its unit with --time-unit, or another column or "
               "'none' with --time");
-    EXPECT_EQ(said(folder, "t,F\n0,1\n1,1\n", {.time = "z"}),
+    EXPECT_EQ(error_text(folder, "t,F\n0,1\n1,1\n", {.time = "z"}),
               "x.csv: no time column 'z'; did you mean 't'?; give a name, a number or 'none' (columns: t, F)");
-    EXPECT_EQ(said(folder, "t,F\n0,1\n", {.unit = "N", .scale = 2}),
+    EXPECT_EQ(error_text(folder, "t,F\n0,1\n", {.unit = "N", .scale = 2}),
               "--unit and --scale exclude each other: both convert the values to newtons");
     EXPECT_EQ(try_load_recording(folder.path()).error().text(), folder.path() + ": this is a directory, not a recording");
     EXPECT_EQ(try_load_recording(folder / "none.csv").error().text(), (folder / "none.csv") + ": cannot be opened: No such file or directory");
@@ -145,37 +146,37 @@ TEST(Recording, HeadingsAreReadAsPeopleWriteThem) {
     EXPECT_EQ(seconds.clock.rate(), 2);
     EXPECT_EQ(seconds.force[0][1], 2);
     EXPECT_EQ(one("time_sec,Force_N\n0,1\n0.5,2\n").clock.rate(), 2);
-    const auto commented = one("# t_s fz_mN\n0 1000\n0.1 2000\n");  // numpy.savetxt
+    const auto commented = one("# t_s fz_mN\n0 1000\n0.1 2000\n");  // as numpy.savetxt writes it
     EXPECT_EQ(commented.names, std::vector<std::string>{"fz"});
     EXPECT_NEAR(commented.force[0][1], 2, 1e-12);
     EXPECT_EQ(one("t,left_F,right_F\n0,1,2\n1,3,4\n").names, (std::vector<std::string>{"left_F", "right_F"})) << "no farads";
     EXPECT_EQ(one("t,F_N,\n0,1,\n1,2,\n").names, std::vector<std::string>{"F"}) << "a separator at the end makes no column";
     EXPECT_EQ(one("t,F_lbf\n0,1\n1,2\n").force[0][0], 4.4482216152605);
-    EXPECT_EQ(said(folder, "nan,1\n2,3\n4,5\n", {.rate = 100}),
+    EXPECT_EQ(error_text(folder, "nan,1\n2,3\n4,5\n", {.rate = 100}),
               "x.csv:1:1: column 1: 'nan' where a number is expected; use --bad-fields interpolate to fill it in, or --bad-fields drop to "
               "skip the "
               "row, or --skip LINES to skip lines before the table")
-        << "nan is no heading";
-    EXPECT_EQ(said(folder, std::string("t,F\n\0\0", 6)), "x.csv: not a text file: it contains NUL bytes, as binary files do");
-    EXPECT_EQ(said(folder, "t,F_furlong\n0,1\n1,2\n", {.unit = "mn"}).substr(0, 91),
+        << "nan is not a heading";
+    EXPECT_EQ(error_text(folder, std::string("t,F\n\0\0", 6)), "x.csv: not a text file: it contains NUL bytes, as binary files do");
+    EXPECT_EQ(error_text(folder, "t,F_furlong\n0,1\n1,2\n", {.unit = "mn"}).substr(0, 91),
               "x.csv: 'F_furlong' is read as mn, which is not a known unit of force (N, mN, gf, kgf, lbf");
 }
 
-TEST(Recording, WhatTheUserSaysAgainstTheHeaderIsTold) {
+TEST(Recording, OptionsThatContradictTheHeaderAreReported) {
     const TemporaryFolder folder;
     EXPECT_EQ(read(folder.write("x.csv", "t,F_N\n0,1\n0.1,2\n"), {.unit = "mN"}).notes.at(0),
               "--unit mN overrides the unit of 'F' in the header, N");
 }
 
-TEST(Recording, MillisecondsWithoutAUnitAreDoubtedAndTheirUnitCanBeSaid) {
+TEST(Recording, MillisecondsWithoutAUnitCauseAWarningUnlessTheUnitIsGiven) {
     const TemporaryFolder folder;
     const auto path = folder.write("x.csv", "timestamp,F_N\n421419,1\n421447,2\n421475,3\n");
     EXPECT_EQ(read(path).notes.at(0),
               "no unit for 'timestamp': assuming seconds, which gives a rate of 0.035714 Hz; use --time-unit ms if they are milliseconds");
-    const auto said_so = read(path, {.time_unit = "ms"});
-    EXPECT_NEAR(said_so.clock.rate(), 1000.0 / 28, 1e-9);
-    EXPECT_NEAR(said_so.clock.t0, 421.419, 1e-12);
-    EXPECT_TRUE(said_so.notes.empty());
+    const auto with_unit = read(path, {.time_unit = "ms"});
+    EXPECT_NEAR(with_unit.clock.rate(), 1000.0 / 28, 1e-9);
+    EXPECT_NEAR(with_unit.clock.t0, 421.419, 1e-12);
+    EXPECT_TRUE(with_unit.notes.empty());
 }
 
 TEST(Recording, TimesThatCannotBeReadDoNotMatterBesideARate) {
@@ -186,15 +187,15 @@ TEST(Recording, TimesThatCannotBeReadDoNotMatterBesideARate) {
               "the times were ignored (column 'time': '01/02/2026 0:00' where a number is expected); the recording starts at 0 s");
 }
 
-TEST(Recording, ARateCloseToAWholeNumberIsThatNumber) {
+TEST(Recording, ARateCloseToAnIntegerIsThatInteger) {
     EXPECT_EQ(test::value_or_throw(make_clock(999.9128, 0, 1e-3)).rate(), 1000);
     EXPECT_EQ(test::value_or_throw(make_clock(199.81, 0, 1e-3)).rate(), 200);
 }
 
-TEST(Recording, AnUnevenClockIsRefusedReplacedOrInterpolatedButKnowingly) {
+TEST(Recording, AnUnevenClockIsRefusedUnlessAnOptionReplacesOrInterpolatesIt) {
     const TemporaryFolder folder;
     const std::string bursts = "time_s,F_N\n0,0\n0.001,1\n0.002,2\n0.003,3\n0.1,4\n0.101,5\n0.102,6\n0.2,7\n";
-    EXPECT_EQ(said(folder, bursts).substr(0, 150),
+    EXPECT_EQ(error_text(folder, bursts).substr(0, 150),
               "x.csv: the times in 'time' are not evenly spaced: mean rate 35 Hz, steps from 1 ms to 98 ms, jitter up to 82.71 ms. "
               "Use --rate 35H");
     const auto path = folder / "x.csv";
@@ -203,17 +204,17 @@ TEST(Recording, AnUnevenClockIsRefusedReplacedOrInterpolatedButKnowingly) {
     EXPECT_EQ(even.notes.at(0), "the uneven times in 'time' (steps from 1 ms to 98 ms) were replaced by an even clock of 35 Hz");
     const auto between = read(path, {.resample = 20});
     ASSERT_EQ(between.force[0].size(), 5U);
-    const double right[] = {0, 3 + 47.0 / 97, 4, 6 + 48.0 / 98, 7};
-    for (int k = 0; k < 5; ++k) EXPECT_NEAR(between.force[0][static_cast<std::size_t>(k)], right[k], 1e-9);
+    const double expected[] = {0, 3 + 47.0 / 97, 4, 6 + 48.0 / 98, 7};
+    for (int k = 0; k < 5; ++k) EXPECT_NEAR(between.force[0][static_cast<std::size_t>(k)], expected[k], 1e-9);
     EXPECT_EQ(between.notes.at(0), "the uneven times in 'time' (steps from 1 ms to 98 ms) were interpolated at 20 Hz");
-    EXPECT_EQ(said(folder, "t,F\n0,1\n0,2\n1,3\n4,4\n", {.resample = 2}),
+    EXPECT_EQ(error_text(folder, "t,F\n0,1\n0,2\n1,3\n4,4\n", {.resample = 2}),
               "x.csv:3: the time 0 s occurs twice; use --rate to take the rows as evenly spaced");
 }
 
 TEST(Recording, RoundedTimesAreEvenAndTheirRateIsTheSimplest) {
     const TemporaryFolder folder;
     std::string text = "time_s,F_N\n";
-    for (int k = 0; k < 2000; ++k) text += fmt::format("{:.3f},{}\n", k / 242.6, k);  // to the millisecond
+    for (int k = 0; k < 2000; ++k) text += fmt::format("{:.3f},{}\n", k / 242.6, k);  // rounded to the millisecond
     const auto made = read(folder.write("x.csv", text));
     EXPECT_NEAR(made.clock.rate(), 242.6, 0.03);
     EXPECT_EQ(made.force[0].size(), 2000U);
@@ -223,14 +224,14 @@ TEST(Recording, RoundedTimesAreEvenAndTheirRateIsTheSimplest) {
     EXPECT_EQ(read(folder / "y.csv").clock.t0, 5);
 }
 
-TEST(Recording, WhatTheClockSaysAgainstTheRateIsTold) {
+TEST(Recording, AClockThatContradictsTheRateIsReported) {
     const TemporaryFolder folder;
     const auto path = folder.write("x.csv", "time_s,F\n0,1\n0.01,2\n0.02,3\n");
     EXPECT_EQ(read(path).notes.at(0), "no unit for 'F': assuming newtons");
     EXPECT_EQ(read(path, {.rate = 50}).notes.at(0), "--rate is 50 Hz, but the mean rate of the times in 'time' is 100 Hz");
 }
 
-TEST(Recording, AHeaderAloneIsNoSampleResampledOrNot) {  // found by fuzzing
+TEST(Recording, AHeaderAloneHasNoSamplesResampledOrNot) {  // found by fuzzing
     const TemporaryFolder folder;
     EXPECT_TRUE(read(folder.write("x.csv", "F_N\n"), {.rate = 30, .resample = 30}).force[0].empty());
     EXPECT_TRUE(read(folder / "x.csv", {.rate = 30}).force[0].empty());
@@ -259,7 +260,7 @@ TEST(Recording, EveryFormatReadsBackWhatWasWritten) {
         const auto separator = *rc::gen::element<std::string>(",", "\t", ";", " ");
         const auto end = *rc::gen::element<std::string>("\n", "\r\n");
         const bool header = *rc::gen::arbitrary<bool>();
-        // one column without a header: 1,5 is two numbers
+        // one column without a header: 1,5 would be two numbers
         const bool comma = *rc::gen::arbitrary<bool>() && (columns == 1 ? header : separator == "\t" || separator == ";");
         std::vector<std::vector<double>> values(columns);
         for (auto& c : values)
@@ -284,7 +285,7 @@ TEST(Recording, EveryFormatReadsBackWhatWasWritten) {
 }
 
 TEST(ClockAnalysis, FindsTheFarthestSampleInOnePass) {
-    EXPECT_TRUE(rc::check("against the plain two-pass answer", [] {
+    EXPECT_TRUE(rc::check("against the simple two-pass result", [] {
         const auto jitter = *rc::gen::container<std::vector<int>>(*rc::gen::inRange<std::size_t>(2, 200), rc::gen::inRange(0, 1000));
         ClockAnalysis check;
         std::vector<double> t;
@@ -298,7 +299,7 @@ TEST(ClockAnalysis, FindsTheFarthestSampleInOnePass) {
     }));
 }
 
-TEST(ClockAnalysis, AClockThatSlowsSteadilyIsJudgedInLittleMemory) {  // every sample lies on the hull, which is thinned
+TEST(ClockAnalysis, AClockThatSlowsSteadilyIsAnalysedInLittleMemory) {  // every sample is on the hull, which is thinned
     ClockAnalysis check;
     std::vector<double> t;
     for (int k = 0; k < 300'000; ++k) t.push_back(1e-3 * k + 1e-11 * k * static_cast<double>(k)), check.add(t.back());
@@ -308,7 +309,7 @@ TEST(ClockAnalysis, AClockThatSlowsSteadilyIsJudgedInLittleMemory) {  // every s
     EXPECT_NEAR(check.peak_to_peak_jitter(), -early, 1e-6 * -early);
 }
 
-TEST(ClockAnalysis, CountsGapsAgainstTheUsualStep) {
+TEST(ClockAnalysis, CountsGapsRelativeToTheUsualStep) {
     ClockAnalysis check;
     double t = 0;
     for (int k = 0; k < 1000; ++k) check.add(t), t += k % 100 == 50 ? 0.03 : 0.01;
@@ -324,27 +325,27 @@ TEST(Recording, TheFirstPassThroughTheTimesCanBeStopped) {
     EXPECT_EQ(made.error().code, ErrorCode::interrupted);
 }
 
-TEST(Recording, MoreChannelsThanCanBeAnsweredAtOnceAreRefused) {
+TEST(Recording, MoreChannelsThanCanBeSimulatedAtOnceAreRefused) {
     const TemporaryFolder folder;
     std::string text;
     for (int c = 0; c < 140'000; ++c) text += c ? ",1" : "1";
-    EXPECT_EQ(said(folder, text + "\n", {.rate = 10}),
+    EXPECT_EQ(error_text(folder, text + "\n", {.rate = 10}),
               "x.csv: 140000 channels are more than the limit of 131072; select some, such as --channel 1-1000");
 }
 
-TEST(Recording, APersonsPressOnTheElectronicSkinIsFelt) {
+TEST(Recording, APersonsPressOnTheElectronicSkinIsRead) {
     const auto path = test::shared_file_path("fbg_eskin_press/fbg_press_S6_T16.csv");
     CORPUSCLE_NEEDS(path);
     EXPECT_NE(try_load_recording(path).error().text().find("is in nm, which is not a force"), std::string::npos);
     const auto refused = try_load_recording(path, {.scale = 40});
-    ASSERT_FALSE(refused) << "its clock comes in bursts";
+    ASSERT_FALSE(refused) << "its samples arrive in bursts";
     EXPECT_NE(refused.error().text().find("not evenly spaced: mean rate 100.0"), std::string::npos) << refused.error().text();
     const auto press = read(path, {.rate = 100, .scale = 40});
     ASSERT_EQ(press.names.size(), 21U);
     EXPECT_EQ(press.names[10], "fbg11");
     ASSERT_EQ(press.force[0].size(), 2125U);
-    const auto train = [&](const std::string& who, std::size_t channel) {
-        return spike_times(test::spikes(*test::afferent(who, {.rate = 100}), press.force[channel]), press.clock);
+    const auto train = [&](const std::string& samples_at_once, std::size_t channel) {
+        return spike_times(test::spikes(*test::afferent(samples_at_once, {.rate = 100}), press.force[channel]), press.clock);
     };
     // Contact lasts from 17.2 to 21.2 s; the strongest sensor carries it.
     const auto sa1 = train("sa1", 10), fa1 = train("fa1", 10);
@@ -355,12 +356,12 @@ TEST(Recording, APersonsPressOnTheElectronicSkinIsFelt) {
     EXPECT_GT(fa1.size(), 2U) << "FA-I fires at the faster edges";
     EXPECT_LT(fa1.size(), sa1.size() / 4);
     for (std::size_t c = 0; c < 21; ++c)
-        for (const auto* who : {"sa1", "fa1"})
-            for (const double t : train(who, c))
-                EXPECT_TRUE(t > 17.0 && t < 21.5) << who << " on fbg" << c + 1 << " is not silent at rest: " << t;
+        for (const auto* samples_at_once : {"sa1", "fa1"})
+            for (const double t : train(samples_at_once, c))
+                EXPECT_TRUE(t > 17.0 && t < 21.5) << samples_at_once << " on fbg" << c + 1 << " is not silent at rest: " << t;
 }
 
-TEST(Recording, TheInsolesTimesAreTakenAsTheyAre) {
+TEST(Recording, TheInsolesTimesAreReadUnchanged) {
     const auto path = test::shared_file_path("gait_insole_vgrf/GaCo01_01.txt");
     CORPUSCLE_NEEDS(path);
     const auto walk = read(path, {.channels = {"1-16"}, .scale = 0.008});

@@ -32,7 +32,7 @@ TEST(SpikeFiles, OursAreReadByAfferentAndChannel) {
     ASSERT_EQ(trains.size(), 3U);
     EXPECT_EQ(trains[0].name(), "sa1,a \"b\", c");
     EXPECT_EQ(trains[1].name(), "fa1,fz");
-    EXPECT_EQ(trains[2].times, (std::vector<double>{0.125, 0.5})) << "in order of time, whatever the file's";
+    EXPECT_EQ(trains[2].times, (std::vector<double>{0.125, 0.5})) << "in order of time, for any order in the file";
 }
 
 TEST(SpikeFiles, OthersAreReadByUnitAndSecondsByTheirHeading) {
@@ -45,7 +45,7 @@ TEST(SpikeFiles, OthersAreReadByUnitAndSecondsByTheirHeading) {
     EXPECT_TRUE(read_trains(folder, "afferent,channel,time_s\n").empty()) << "all were silent";
 }
 
-TEST(SpikeFiles, WhatIsWrongIsNamedWithItsPlace) {
+TEST(SpikeFiles, ErrorsNameTheFaultAndItsLocation) {
     const TemporaryFolder folder;
     const std::pair<const char*, const char*> cases[] = {
         {"afferent,channel,time_s\nsa1,fz,0.5\nsa1,fz,oops\n", "x.csv:3:8: 'oops' where a time is expected"},
@@ -61,7 +61,7 @@ TEST(SpikeFiles, WhatIsWrongIsNamedWithItsPlace) {
         {"unit,time_N\n1,1\n", "x.csv:1:6: 'N' is not a unit of time; use s, ms, us or min"},
         {"", "x.csv: the file has no header and no spikes"},
     };
-    for (const auto& [text, said] : cases) EXPECT_EQ(refused(folder.write("x.csv", text)), said);
+    for (const auto& [text, message] : cases) EXPECT_EQ(refused(folder.write("x.csv", text)), message);
     EXPECT_EQ(refused(folder / "none.csv"), "none.csv: cannot be opened: No such file or directory");
 }
 
@@ -79,12 +79,12 @@ TEST(SpikeFiles, ColumnsOfOtherProgramsAreKnownOrNamed) {
     EXPECT_EQ(phy[1].name(), "7");
     const auto commented = read_trains(folder, "# time_s unit\n0.5 7\n");
     EXPECT_EQ(commented[0].name(), "7");
-    const auto asked = [&](const std::string& text, const SpikeColumns& columns) {
+    const auto read_with = [&](const std::string& text, const SpikeColumns& columns) {
         return value_or_throw(read_spikes(folder.write("x.csv", text), columns));
     };
-    EXPECT_EQ(asked("when,who\n0.5,a\n", {"when", "who"})[0].name(), "a");
-    EXPECT_EQ(asked("0.5 7\n0.25 7\n", {"1", "2"})[0].times, (std::vector<double>{0.25, 0.5}));
-    EXPECT_EQ(asked("when [ms],afferent,who\n500,x,a\n", {"when", "who"})[0].name(), "a") << "over what a column is called";
+    EXPECT_EQ(read_with("when,who\n0.5,a\n", {"when", "who"})[0].name(), "a");
+    EXPECT_EQ(read_with("0.5 7\n0.25 7\n", {"1", "2"})[0].times, (std::vector<double>{0.25, 0.5}));
+    EXPECT_EQ(read_with("when [ms],afferent,who\n500,x,a\n", {"when", "who"})[0].name(), "a") << "takes precedence over column names";
     const auto wrong = read_spikes(folder.write("x.csv", "time,unit\n0.5,1\n"), {"when", {}});
     EXPECT_NE(wrong.error().message.find("--time when: there is no such column; columns: 'time', 'unit'"), std::string::npos);
 }
@@ -111,8 +111,8 @@ TEST(SpikeFiles, NumpysTimesAreReadAndNumbersOfSamplesAreNot) {
     const std::string bytes(reinterpret_cast<const char*>(times), sizeof times);
     EXPECT_EQ(value_or_throw(read_spikes(folder.write("x.npy", npy_of("<f8", "(2,)", bytes))))[0].times, (std::vector<double>{0.25, 0.5}));
     const std::int64_t samples[] = {3000, 4000};
-    const auto said = refused(folder.write("x.npy", npy_of("<i8", "(2,)", {reinterpret_cast<const char*>(samples), sizeof samples})));
-    EXPECT_NE(said.find("the times are integers, as sample numbers are"), std::string::npos) << said;
+    const auto message = refused(folder.write("x.npy", npy_of("<i8", "(2,)", {reinterpret_cast<const char*>(samples), sizeof samples})));
+    EXPECT_NE(message.find("the times are integers, as sample numbers are"), std::string::npos) << message;
     EXPECT_EQ(refused(folder.write("y.npy", npy_of("<f8", "(2, 2)", bytes + bytes))),
               "y.npy: the array has 2 columns; select the columns of times and trains, such as --time 1 --unit 2");
     EXPECT_EQ(value_or_throw(read_spikes(folder / "y.npy", {"1", "2"}))[0].times.size(), 2U);

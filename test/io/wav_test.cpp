@@ -1,4 +1,4 @@
-// Sound files as recordings: whole numbers are parts of full scale, floats are newtons, and the rate is the file's.
+// Audio files as recordings: integers are fractions of full scale, floats are newtons, and the rate comes from the file.
 
 #include "io/recording_formats.hpp"
 #include "support/property.hpp"
@@ -23,7 +23,7 @@ TEST(Wav, EveryDepthIsReadAsItWasWritten) {
     EXPECT_TRUE(rc::check("round trip", [&] {
         const auto& depth = *rc::gen::elementOf(std::vector(std::begin(depths), std::end(depths)));
         const auto rows = *rc::gen::inRange<std::size_t>(2, 200), columns = *rc::gen::inRange<std::size_t>(1, 4);
-        const int rate = *rc::gen::inRange(1, 65536);  // more is no plain FLAC
+        const int rate = *rc::gen::inRange(1, 65536);  // the limit of plain FLAC
         std::vector<std::vector<double>> values(columns);
         for (auto& c : values)
             c = *rc::gen::container<std::vector<double>>(rows,
@@ -40,7 +40,7 @@ TEST(Wav, EveryDepthIsReadAsItWasWritten) {
     }));
 }
 
-TEST(Wav, WholeNumbersNeedAScaleAndFloatsAreNewtons) {
+TEST(Wav, IntegersNeedAScaleAndFloatsAreNewtons) {
     const TemporaryFolder folder;
     const std::vector<std::vector<double>> force = {std::vector<double>(9000, 0.25), std::vector<double>(9000, 0.5)};
     write_audio(folder / "x.wav", SF_FORMAT_WAV | SF_FORMAT_PCM_16, 8000, force);
@@ -54,7 +54,7 @@ TEST(Wav, WholeNumbersNeedAScaleAndFloatsAreNewtons) {
     EXPECT_EQ(load_recording(folder / "y.wav").notes.at(0), "no unit for 'ch1', 'ch2': assuming newtons");
 }
 
-TEST(Wav, WhatCannotBeReadIsSaid) {
+TEST(Wav, UnreadableFilesGiveAnError) {
     const TemporaryFolder folder;
     EXPECT_EQ(load_error(folder.write("x.wav", "t,F\n0,1\n")), "x.wav: not a readable sound file: Format not recognised.");
     EXPECT_EQ(load_error(folder / "none.wav"), "none.wav: cannot be opened: No such file or directory");
@@ -65,11 +65,11 @@ TEST(Wav, WhatCannotBeReadIsSaid) {
     EXPECT_EQ(load_error(folder / "z.wav"), "z.wav: this sound file has no samples");
 }
 
-TEST(Wav, OfAFileCutShortTheBeginningIsRead) {
+TEST(Wav, TheBeginningOfATruncatedFileIsRead) {
     const TemporaryFolder folder;
     write_audio(folder / "x.wav", SF_FORMAT_WAV | SF_FORMAT_DOUBLE, 100, {std::vector<double>(1000, 1.5)});
-    const auto whole = test::read_file(folder / "x.wav");
-    const auto made = load_recording(folder.write("cut.wav", whole.substr(0, whole.size() - 4000)));
+    const auto complete = test::read_file(folder / "x.wav");
+    const auto made = load_recording(folder.write("cut.wav", complete.substr(0, complete.size() - 4000)));
     EXPECT_EQ(made.force[0], std::vector<double>(500, 1.5));
     EXPECT_EQ(made.notes.at(0),
               "the samples need 8000 bytes, but the file has 4000; it may be incomplete, and only this part of the recording is read");

@@ -1,5 +1,5 @@
-// Once a live skin is made, it asks for no memory: whatever comes, nothing is allocated while frames are pushed. A program of its own, for
-// it counts in the place of operator new.
+// A live skin allocates no memory while frames are pushed, for any forces. This is a program of its own, because it replaces
+// operator new to count allocations.
 
 #include <atomic>
 #include <cstdio>
@@ -12,10 +12,10 @@
 #include "live/skin_stream.hpp"
 
 namespace {
-std::atomic<long> asked = 0;
+std::atomic<long> allocations = 0;
 
 void* counted(std::size_t size, std::size_t alignment) {
-    ++asked;
+    ++allocations;
     void* at = std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
     if (!at) throw std::bad_alloc();
     return at;
@@ -32,32 +32,32 @@ void operator delete(void* at, std::size_t, std::align_val_t) noexcept { std::fr
 int main() {
     using namespace corpuscle;
     const Clock clock{1000, 1};
-    long all = 0;
+    long total = 0;
     for (const char* population : {"grid 16x16", "sa1,fa1", "fingertip"}) {
         auto plan = make_live_plan(population, 16);
         if (!plan) return std::puts(plan.error().text().c_str()), 1;
         const auto skin = innervate(std::move(*plan));
         auto stream = SkinStream::make(*skin, clock);
-        const double felt =
-            (*skin)->plan.felt_area > 0 ? (*skin)->plan.sites.area / (*skin)->plan.felt_area : 1;  // N at a site that feel as 1 N
+        const double full_force =
+            (*skin)->plan.felt_area > 0 ? (*skin)->plan.sites.area / (*skin)->plan.felt_area : 1;  // N at a site with the effect of 1 N
         const auto format = make_event_format("lines", make_event_afferents(**skin, clock));
         if (!stream || !format) return std::puts("refused"), 1;
         FrameDecoder decoder({FrameKind::f64, FrameStamp::none, (*stream)->sites()});
         std::vector<double> sent((*stream)->sites()), force((*stream)->sites());
         std::vector<char> event((*format)->max_bytes());
         long spikes = 0, bytes = 0;
-        const long before = asked;
+        const long before = allocations;
         for (int k = 0; k < 3000; ++k) {
             for (std::size_t s = 0; s < sent.size(); ++s) {
                 const auto varied = static_cast<double>((s * 31 + 17 * static_cast<std::size_t>(k / 50)) % 300) * 0.01;
-                sent[s] = felt * (k % 500 < 100 ? 0 : k % 7 == 0 ? 5 : varied);
+                sent[s] = full_force * (k % 500 < 100 ? 0 : k % 7 == 0 ? 5 : varied);
             }
             const auto* const from = reinterpret_cast<const char*>(sent.data());
             const auto size = sent.size() * sizeof(double);
             for (std::size_t at = 0; at < size;) {
-                const auto room = decoder.buffer();
-                const auto count = std::min(room.size(), size - at);
-                std::copy_n(from + at, count, room.data());
+                const auto buffer = decoder.buffer();
+                const auto count = std::min(buffer.size(), size - at);
+                std::copy_n(from + at, count, buffer.data());
                 decoder.add_bytes(count), at += count;
                 for (; decoder.next() == FrameDecoder::Status::frame;) {
                     decoder.read_forces(force);
@@ -67,10 +67,10 @@ int main() {
                 }
             }
         }
-        const long times = asked - before;
+        const long times = allocations - before;
         std::printf("%s: %ld spikes, %ld bytes, memory asked for %ld times\n", population, spikes, bytes, times);
         if (spikes == 0) return 1;
-        all += times;
+        total += times;
     }
-    return all != 0;
+    return total != 0;
 }

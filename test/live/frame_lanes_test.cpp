@@ -1,4 +1,4 @@
-// The forces of a frame are the same bits on every instruction set: as read, scaled, and held where there is no number.
+// The forces of a frame are the same bits on every instruction set: as read, as scaled, and as held where a reading is NaN.
 
 #include <gtest/gtest.h>
 
@@ -28,7 +28,7 @@ std::vector<V> readings(std::size_t count) {
     return out;
 }
 
-/// The kernel's statement (see FrameForce), a number at a time.
+/// The specification of the kernel (see ForceScaling), one number at a time.
 template <class V>
 std::size_t take_scalar(const std::vector<V>& from, const ForceScaling& f, std::vector<double>& force) {
     std::size_t bad = 0;

@@ -1,4 +1,4 @@
-// Frames out of bytes, their order, a skin frame by frame, spikes as bytes: whatever the pieces they come in.
+// Bytes to frames, frame order, a skin frame by frame, spikes to bytes: the same however the bytes are cut into chunks.
 
 #include <bit>
 #include <cstring>
@@ -39,25 +39,26 @@ std::string bytes_of(const EventFormat& format, std::span<const Spike> spikes) {
     return out;
 }
 
-// --- spikes as bytes
+// --- spikes to bytes
 
 TEST(Events, AreReadBackAsTheyWereWhateverTheFormat) {
     const TemporaryFolder folder;
     EXPECT_TRUE(rc::check([&] {
         const auto clock = *rc::gen::element(Clock{1000, 1}, Clock{5200, 1}, Clock{1213, 5}, Clock{3, 7});
-        const auto units = *rc::gen::inRange<std::uint32_t>(1, 40);
+        const auto afferents = *rc::gen::inRange<std::uint32_t>(1, 40);
         const auto classes = *rc::gen::inRange<std::uint32_t>(1, 4);
         EventAddressing named{clock, {}, {}};
-        for (std::uint32_t u = 0; u < units; ++u)
+        for (std::uint32_t u = 0; u < afferents; ++u)
             named.names.push_back("k" + std::to_string(u % classes) + "#" + std::to_string(u / classes + 1)),
                 named.addresses.push_back(3 * u);
         std::vector<Spike> spikes;
         const auto steps = *rc::gen::container<std::vector<int>>(rc::gen::inRange(1, 100000));
         for (const int step : steps)
-            spikes.push_back({step, (*rc::gen::inRange(1, 4097)) / 4096.0, static_cast<std::uint32_t>(step) % units});
+            spikes.push_back({step, (*rc::gen::inRange(1, 4097)) / 4096.0, static_cast<std::uint32_t>(step) % afferents});
         std::sort(spikes.begin(), spikes.end());
         for (const auto& [name, error] : {std::pair{"lines", 0.51e-9}, {"aer", 1e-12}, {"jsonl", 0.51e-9}, {"aedat2", 0.51e-6}}) {
-            if (name == std::string_view("aedat2") && clock.rate_numerator < 10) continue;  // silent for more than 71 minutes: nobody can tell
+            // Silent for more than 71 minutes: the wrap of the time stamp cannot be detected.
+            if (name == std::string_view("aedat2") && clock.rate_numerator < 10) continue;
             const auto format = value_or_throw(make_event_format(name, named));
             const auto path = folder.write("events", format->header() + bytes_of(*format, spikes));
             std::map<std::string, std::vector<double>> wanted;
@@ -88,7 +89,7 @@ TEST(Events, AreReadBackAsTheyWereWhateverTheFormat) {
     }));
 }
 
-TEST(Events, MicrosecondsOfAedatGoRoundAfterSeventyOneMinutesAndAreReadOn) {
+TEST(Events, MicrosecondsOfAedatWrapAfterSeventyOneMinutesAndAreUnwrapped) {
     const TemporaryFolder folder;
     const auto format = value_or_throw(make_event_format("aedat2", {Clock{1000, 1}, {"a"}, {}}));
     std::vector<Spike> spikes;
@@ -100,16 +101,16 @@ TEST(Events, MicrosecondsOfAedatGoRoundAfterSeventyOneMinutesAndAreReadOn) {
 
 TEST(Events, AddressesOnAGridAreTaxelTimesClassesPlusClass) {
     const auto skin = value_or_throw(innervate(value_or_throw(make_channel_plan("sa1,fa1", 3))));
-    const auto units = make_event_afferents(*skin, {1000, 1});
-    EXPECT_EQ(units.names, (std::vector<std::string>{"sa1#1", "sa1#2", "sa1#3", "fa1#1", "fa1#2", "fa1#3"}));
-    EXPECT_EQ(units.addresses, (std::vector<std::uint32_t>{0, 2, 4, 1, 3, 5}));
+    const auto afferents = make_event_afferents(*skin, {1000, 1});
+    EXPECT_EQ(afferents.names, (std::vector<std::string>{"sa1#1", "sa1#2", "sa1#3", "fa1#1", "fa1#2", "fa1#3"}));
+    EXPECT_EQ(afferents.addresses, (std::vector<std::uint32_t>{0, 2, 4, 1, 3, 5}));
 }
 
 TEST(Events, LinesNameAfferentAndChannelAsRespondDoes) {
     const std::vector<Channel> channels = {{0, "fz"}, {1, "thumb, tip"}};
     const auto on_channels = value_or_throw(innervate(value_or_throw(make_channel_plan("sa1,fa1", channels))));
-    const auto lines = [](const std::shared_ptr<const Innervation>& skin, std::uint32_t unit, const char* format) {
-        const Spike spike{5, 1, unit};
+    const auto lines = [](const std::shared_ptr<const Innervation>& skin, std::uint32_t afferent, const char* format) {
+        const Spike spike{5, 1, afferent};
         return bytes_of(*value_or_throw(make_event_format(format, make_event_afferents(*skin, {1000, 1}))), {&spike, 1});
     };
     EXPECT_EQ(value_or_throw(make_event_format("lines", make_event_afferents(*on_channels, {1000, 1})))->header(), "afferent,channel,time_s\n");
@@ -121,12 +122,12 @@ TEST(Events, LinesNameAfferentAndChannelAsRespondDoes) {
     EXPECT_TRUE(lines(hand, 16, "lines").starts_with("sa1#17," + hand->plan.sites.regions[hand->afferents[16].region] + ","));
 }
 
-TEST(Events, BinaryFormatsSayInTheirHeadersWhichChannelAnAddressStandsOn) {
+TEST(Events, HeadersOfBinaryFormatsNameTheChannelOfEachAddress) {
     const TemporaryFolder folder;
     const std::vector<Channel> channels = {{0, "fz"}, {1, "thumb\n#x"}, {2, "ch3"}};
-    const auto units = make_event_afferents(*value_or_throw(innervate(value_or_throw(make_channel_plan("sa1,fa1", channels)))), {1000, 1});
-    const auto aer = value_or_throw(make_event_format("aer", units)), aedat = value_or_throw(make_event_format("aedat2", units));
-    const std::vector<Spike> spikes = {{5, 1, 0}, {6, 1, 4}, {7, 1, 5}};  // units: class after class
+    const auto afferents = make_event_afferents(*value_or_throw(innervate(value_or_throw(make_channel_plan("sa1,fa1", channels)))), {1000, 1});
+    const auto aer = value_or_throw(make_event_format("aer", afferents)), aedat = value_or_throw(make_event_format("aedat2", afferents));
+    const std::vector<Spike> spikes = {{5, 1, 0}, {6, 1, 4}, {7, 1, 5}};  // afferents are numbered class after class
     const auto trains = value_or_throw(read_spikes(folder.write("x.aer", aer->header() + bytes_of(*aer, spikes))));
     ASSERT_EQ(trains.size(), 3U);
     std::vector<std::string> names;
@@ -138,8 +139,8 @@ TEST(Events, BinaryFormatsSayInTheirHeadersWhichChannelAnAddressStandsOn) {
               "# addresses 0, 2 ... 4: sa1#1 ... sa1#3\r\n# addresses 1, 3 ... 5: fa1#1 ... fa1#3\r\n"
               "# addresses 0, 1: channel fz\r\n# addresses 2, 3: channel thumb #x\r\n# addresses 4, 5: channel ch3\r\n");
     EXPECT_EQ(value_or_throw(read_spikes(folder.write("x.aedat", aedat->header() + bytes_of(*aedat, spikes)))).size(), 3U);
-    const auto counted = make_event_afferents(*value_or_throw(innervate(value_or_throw(make_channel_plan("sa1,fa1", 3, {})))), {1000, 1});
-    EXPECT_LT(value_or_throw(make_event_format("aer", counted))->header().size(), aer->header().size()) << "ch1, ch2 ... need no table";
+    const auto numbered = make_event_afferents(*value_or_throw(innervate(value_or_throw(make_channel_plan("sa1,fa1", 3, {})))), {1000, 1});
+    EXPECT_LT(value_or_throw(make_event_format("aer", numbered))->header().size(), aer->header().size()) << "ch1, ch2 ... need no table";
     std::vector<Channel> many(4000);
     for (std::uint32_t c = 0; c < many.size(); ++c) many[c] = {c, fmt::format("a long name {}", c)};
     const auto long_one = value_or_throw(make_event_format("aedat2", make_event_afferents(*value_or_throw(innervate(value_or_throw(make_channel_plan("sa1", many)))), {1000, 1})));
@@ -150,16 +151,16 @@ TEST(Events, FilesThatAreDamagedAreRefused) {
     const TemporaryFolder folder;
     const auto format = value_or_throw(make_event_format("aer", {Clock{1000, 1}, {"sa1#1", "sa1#2"}, {}}));
     const Spike spike{5, 0.5, 1};
-    const auto whole = format->header() + bytes_of(*format, {&spike, 1});
-    EXPECT_EQ(value_or_throw(read_spikes(folder.write("x.aer", whole))).at(0).name(), "sa1#2");
-    for (std::size_t cut = 8; cut < whole.size(); ++cut)
+    const auto complete = format->header() + bytes_of(*format, {&spike, 1});
+    EXPECT_EQ(value_or_throw(read_spikes(folder.write("x.aer", complete))).at(0).name(), "sa1#2");
+    for (std::size_t cut = 8; cut < complete.size(); ++cut)
         if (cut != format->header().size()) {
-            EXPECT_FALSE(read_spikes(folder.write("x.aer", whole.substr(0, cut)))) << cut;
+            EXPECT_FALSE(read_spikes(folder.write("x.aer", complete.substr(0, cut)))) << cut;
         }
     EXPECT_FALSE(make_event_format("aedat", {}));
 }
 
-// --- frames out of bytes
+// --- bytes to frames
 
 struct Decoded {
     std::vector<std::vector<double>> frames;
@@ -168,15 +169,15 @@ struct Decoded {
     bool operator==(const Decoded&) const = default;
 };
 
-Decoded decoded(const FrameLayout& layout, std::string_view bytes, const std::vector<int>& pieces) {
+Decoded decoded(const FrameLayout& layout, std::string_view bytes, const std::vector<int>& sizes) {
     FrameDecoder decoder(layout);
     Decoded out;
     std::vector<double> force(layout.sites);
     for (std::size_t k = 0; !bytes.empty(); ++k) {
-        const auto room = decoder.buffer();
-        const auto piece = pieces.empty() ? bytes.size() : static_cast<std::size_t>(pieces[k % pieces.size()]);
-        const auto count = std::min({room.size(), piece, bytes.size()});
-        std::memcpy(room.data(), bytes.data(), count);
+        const auto buffer = decoder.buffer();
+        const auto size = sizes.empty() ? bytes.size() : static_cast<std::size_t>(sizes[k % sizes.size()]);
+        const auto count = std::min({buffer.size(), size, bytes.size()});
+        std::memcpy(buffer.data(), bytes.data(), count);
         decoder.add_bytes(count), bytes.remove_prefix(count);
         for (auto found = decoder.next(); found != FrameDecoder::Status::nothing; found = decoder.next()) {
             if (found == FrameDecoder::Status::unreadable) {
@@ -190,7 +191,7 @@ Decoded decoded(const FrameLayout& layout, std::string_view bytes, const std::ve
     return out;
 }
 
-TEST(Frames, AreTheSameHoweverTheirBytesArePutInPieces) {
+TEST(Frames, AreTheSameHoweverTheirBytesAreCutIntoChunks) {
     EXPECT_TRUE(rc::check([] {
         FrameLayout layout;
         layout.kind = *rc::gen::element(FrameKind::csv, FrameKind::f32, FrameKind::f64, FrameKind::i16);
@@ -199,12 +200,12 @@ TEST(Frames, AreTheSameHoweverTheirBytesArePutInPieces) {
         const auto bytes = layout.kind == FrameKind::csv
                                ? *rc::gen::container<std::string>(rc::gen::element('1', '2', '.', ',', '\n', '-', 'x', ' '))
                                : *rc::gen::container<std::string>(rc::gen::arbitrary<char>());
-        const auto pieces = *rc::gen::nonEmpty(rc::gen::container<std::vector<int>>(rc::gen::inRange(1, 9)));
-        RC_ASSERT(decoded(layout, bytes, pieces) == decoded(layout, bytes, {}));
+        const auto sizes = *rc::gen::nonEmpty(rc::gen::container<std::vector<int>>(rc::gen::inRange(1, 9)));
+        RC_ASSERT(decoded(layout, bytes, sizes) == decoded(layout, bytes, {}));
     }));
 }
 
-TEST(Frames, ALineWithTooFewOrTooManyForcesIsNoneAndWhatIsNoNumberIsHeld) {
+TEST(Frames, ALineWithTooFewOrTooManyForcesIsSkippedAndABadForceIsHeld) {
     FrameLayout layout;
     layout.sites = 2;
     const auto d = decoded(layout, "a,b\n1,2\r\n3\n1,2,3\nx,4\n# said\n\n5 ; 1e9\n nan, -.5 \n", {});
@@ -212,27 +213,27 @@ TEST(Frames, ALineWithTooFewOrTooManyForcesIsNoneAndWhatIsNoNumberIsHeld) {
     EXPECT_EQ(d.unreadable, 2);
     EXPECT_EQ(d.bad, 3U) << "x, 1e9 (beyond the limit), nan";
     const std::string endless(10'000'000, '7');
-    EXPECT_EQ(decoded(layout, "1,2\n" + endless + "\n3,4\n", {}).frames.size(), 2U) << "a line without an end takes no memory";
+    EXPECT_EQ(decoded(layout, "1,2\n" + endless + "\n3,4\n", {}).frames.size(), 2U) << "an endless line takes no memory";
 }
 
-TEST(Frames, AFirstLineThatIsNoNumberButNanIsAFrame) {
+TEST(Frames, AFirstLineOfNansIsAFrame) {
     FrameLayout layout;
     layout.sites = 2;
     EXPECT_EQ(decoded(layout, "nan,nan\n1,2\n", {}).frames, (std::vector<std::vector<double>>{{0, 0}, {1, 2}}));
 }
 
-TEST(Frames, NumbersSayWhatIsMissingTwiceOrLate) {
+TEST(Frames, NumbersRevealMissingDuplicateAndLateFrames) {
     FrameSequence order(2, 10);
-    const auto turn = [&](std::uint32_t n) { return order.decide(n); };
-    EXPECT_TRUE(turn(4294967295U).take) << "the first begins the count";
-    EXPECT_EQ(turn(0).hold, 0) << "it goes round at 2^32";
-    EXPECT_FALSE(turn(0).take);
-    const auto gap = turn(5);
+    const auto decide = [&](std::uint32_t n) { return order.decide(n); };
+    EXPECT_TRUE(decide(4294967295U).take) << "the first number starts the sequence";
+    EXPECT_EQ(decide(0).hold, 0) << "it wraps at 2^32";
+    EXPECT_FALSE(decide(0).take);
+    const auto gap = decide(5);
     EXPECT_EQ(gap.hold, 2);
     EXPECT_EQ(gap.release, 2);
-    EXPECT_FALSE(turn(3).take);
-    EXPECT_TRUE(turn(1000).take) << "too far for a gap";
-    EXPECT_TRUE(turn(7).take) << "and back";
+    EXPECT_FALSE(decide(3).take);
+    EXPECT_TRUE(decide(1000).take) << "too far for a gap";
+    EXPECT_TRUE(decide(7).take) << "and back";
     const auto& c = order.counts();
     EXPECT_EQ((std::vector{c.gaps, c.held, c.released, c.duplicates, c.late, c.restarts}), (std::vector<std::int64_t>{1, 2, 2, 1, 1, 2}));
 }
@@ -246,7 +247,7 @@ SkinPlan conducting_grid(std::size_t rows, std::size_t columns) {
     return plan;
 }
 
-/// [frame][site]; presses here and there, and long rests.
+/// [frame][site]; presses on some sites, and long silences.
 std::vector<std::vector<double>> some_frames(std::size_t count, std::size_t sites, std::uint64_t seed) {
     std::vector<std::vector<double>> frames(count, std::vector<double>(sites));
     for (std::size_t k = 0; k < count; ++k)
@@ -278,15 +279,15 @@ TEST(SkinStream, LiveEqualsOfflineAndResumedEqualsUninterruptedByteForByte) {
         const auto cut = *rc::gen::inRange<std::size_t>(0, frames.size());
         const auto format =
             value_or_throw(make_event_format(*rc::gen::element<std::string>("lines", "jsonl", "aer", "aedat2"), make_event_afferents(*skin, clock)));
-        const auto together = *rc::gen::inRange<std::size_t>(1, 40);
-        auto stream = value_or_throw(SkinStream::make(skin, clock)), grouped = value_or_throw(SkinStream::make(skin, clock, false, together));
+        const auto batch_frames = *rc::gen::inRange<std::size_t>(1, 40);
+        auto stream = value_or_throw(SkinStream::make(skin, clock)), grouped = value_or_throw(SkinStream::make(skin, clock, false, batch_frames));
         std::string live, in_groups;
         for (std::size_t k = 0; k < frames.size(); ++k) {
             if (k == cut) {
-                const auto kept = value_or_throw(unpack_stream(pack_stream({frames[k], 7, stream->save()}), "x"));
-                RC_ASSERT(kept.force == frames[k]);
+                const auto restored = value_or_throw(unpack_stream(pack_stream({frames[k], 7, stream->save()}), "x"));
+                RC_ASSERT(restored.force == frames[k]);
                 stream = value_or_throw(SkinStream::make(skin, clock));
-                RC_ASSERT(bool(stream->resume(kept.skin)));
+                RC_ASSERT(bool(stream->resume(restored.skin)));
             }
             live += bytes_of(*format, value_or_throw(stream->push(frames[k])));
             if (grouped->add_to_batch(frames[k])) in_groups += bytes_of(*format, value_or_throw(grouped->run_batch()));
@@ -310,7 +311,7 @@ TEST(SkinStream, AStateThatIsDamagedIsRefused) {
     }
 }
 
-TEST(SkinStream, AStateOfTheVersionBeforeIsReadAndOneOfALaterVersionIsRefused) {
+TEST(SkinStream, AStateOfThePreviousVersionIsReadAndALaterOneRefused) {
     auto stream = value_or_throw(SkinStream::make(value_or_throw(innervate(value_or_throw(make_channel_plan("sa1", 2)))), {1000, 1}));
     auto bytes = pack_stream({{0.5, 0.25}, 7, stream->save()});
     bytes[8] = std::byte{3};
@@ -325,21 +326,21 @@ TEST(SkinStream, AStateOfTheVersionBeforeIsReadAndOneOfALaterVersionIsRefused) {
     EXPECT_EQ(before.skin, stream->save());
 }
 
-// --- what stands between
+// --- buffers and clients
 
-TEST(ByteRing, GivesWholeEventsInOrderFromOneThreadToAnother) {
+TEST(ByteRing, PassesCompleteEventsInOrderBetweenThreads) {
     ByteRing ring(64);
     std::uint32_t next = 0, dropped = 0;
     std::thread reader([&] {
-        std::string got;
+        std::string received;
         std::uint32_t last = 0;
         while (last != 1'000'000) {
-            const auto piece = ring.readable();
-            got.append(piece), ring.consume(piece.size());
-            for (; got.size() >= sizeof last; got.erase(0, sizeof last)) {
+            const auto size = ring.readable();
+            received.append(size), ring.consume(size.size());
+            for (; received.size() >= sizeof last; received.erase(0, sizeof last)) {
                 std::uint32_t number = 0;
-                std::memcpy(&number, got.data(), sizeof number);
-                if (number <= last) return;  // out of order: the test waits in vain for `done`
+                std::memcpy(&number, received.data(), sizeof number);
+                if (number <= last) return;  // out of order: the test never sees `done`
                 last = number;
             }
         }
@@ -352,30 +353,30 @@ TEST(ByteRing, GivesWholeEventsInOrderFromOneThreadToAnother) {
     EXPECT_EQ(next, 1'000'000U);
 }
 
-TEST(EventSink, AReaderThatComesBackIsFoundThoughTheNameServiceIsGone) {
+TEST(EventSink, AReaderIsReconnectedThoughTheNameServiceIsGone) {
     Endpoint at;
-    auto door = value_or_throw(open_listening_socket(at));
+    auto listener = value_or_throw(open_listening_socket(at));
     const auto accepted = [&] {
-        pollfd there = {door.get(), POLLIN, 0};
-        EXPECT_EQ(::poll(&there, 1, 10000), 1);
-        return Descriptor(::accept(door.get(), nullptr, nullptr));
+        pollfd waiting = {listener.get(), POLLIN, 0};
+        EXPECT_EQ(::poll(&waiting, 1, 10000), 1);
+        return Descriptor(::accept(listener.get(), nullptr, nullptr));
     };
     auto to = value_or_throw(resolve(at));
     to.at.address = "robot.invalid";  // no name service knows it
     const auto format = value_or_throw(make_event_format("lines", {Clock{1000, 1}, {"a"}, {}}));
     const auto outlet = value_or_throw(connect_event_client(to, *format, 1024));
     accepted().close();
-    const auto begun = steady_now();
-    std::int64_t longest = 0;
-    while (outlet->connections() < 2 && steady_now() - begun < 10'000'000'000) {
+    const auto start = steady_now();
+    std::int64_t longest_call = 0;
+    while (outlet->connections() < 2 && steady_now() - start < 10'000'000'000) {
         const auto before = steady_now();
         EXPECT_TRUE(outlet->put("a,,0.1\n"));
         EXPECT_TRUE(outlet->flush());
-        longest = std::max(longest, steady_now() - before);
+        longest_call = std::max(longest_call, steady_now() - before);
         std::this_thread::sleep_for(std::chrono::milliseconds(5));
     }
     EXPECT_EQ(outlet->connections(), 2);
-    EXPECT_LT(longest, 1'000'000'000) << "no call waits";
+    EXPECT_LT(longest_call, 1'000'000'000) << "no call waits";
     EXPECT_GT(outlet->dropped(), 0);
     accepted().close();
 }
@@ -383,12 +384,12 @@ TEST(EventSink, AReaderThatComesBackIsFoundThoughTheNameServiceIsGone) {
 TEST(LatencyHistogram, QuantilesAreWithinThreePercent) {
     LatencyHistogram d;
     for (std::int64_t ns = 1; ns <= 1'000'000; ++ns) d.add(ns);
-    for (const double share : {0.01, 0.5, 0.99, 0.999})
-        EXPECT_NEAR(static_cast<double>(d.quantile(share)), share * 1e6, 0.032 * share * 1e6);
+    for (const double fraction : {0.01, 0.5, 0.99, 0.999})
+        EXPECT_NEAR(static_cast<double>(d.quantile(fraction)), fraction * 1e6, 0.032 * fraction * 1e6);
     EXPECT_EQ(d.max(), 1'000'000);
 }
 
-TEST(CHeader, SaysWhereEachSiteIs) {
+TEST(CHeader, GivesThePositionOfEachSite) {
     auto* const skin = corpuscle_create("grid 2x3", 1000, 1, nullptr, 0);
     ASSERT_TRUE(skin);
     double x = 0, y = 0;
@@ -402,24 +403,24 @@ TEST(CHeader, SaysWhereEachSiteIs) {
     corpuscle_destroy(skin);
 }
 
-// --- frames of fewer numbers than sites
+// --- frames with fewer forces than sites
 
 /// Frames 1, 2, 3 ... of two forces each: {1, 10}, {2, 20} ...
 class CountedFrames final : public FrameSource {
-    int given_ = 0;
+    int frame_count_ = 0;
 
 public:
     Result<bool> receive() override { return true; }
-    FrameCounts counts() const override { return {.frames = given_}; }
+    FrameCounts counts() const override { return {.frames = frame_count_}; }
     std::string description() const override { return "counted"; }
     Next next(std::span<double> force) override {
-        if (++given_ == 3) return Next::filled;  // holds the last one
-        force[0] = given_, force[1] = 10.0 * given_;
+        if (++frame_count_ == 3) return Next::filled;  // holds the last frame
+        force[0] = frame_count_, force[1] = 10.0 * frame_count_;
         return Next::frame;
     }
 };
 
-TEST(PlacedFrames, GiveEachForceToItsSiteAndNoneToTheOthers) {
+TEST(SiteFrames, GiveEachForceToItsSiteAndNoneToTheOthers) {
     const auto frames = assign_sites(std::make_unique<CountedFrames>(), {4, 1}, 6);
     std::vector<double> force(6);
     EXPECT_EQ(frames->next(force), FrameSource::Next::frame);
@@ -429,10 +430,10 @@ TEST(PlacedFrames, GiveEachForceToItsSiteAndNoneToTheOthers) {
     EXPECT_EQ(force, (std::vector<double>{0, 20, 0, 0, 2, 0}));
 }
 
-TEST(PlacedFrames, OfAllSitesInOrderAreTheFramesThemselves) {
-    auto counted = std::make_unique<CountedFrames>();
-    const auto* const same = counted.get();
-    EXPECT_EQ(assign_sites(std::move(counted), {0, 1}, 2).get(), same);
+TEST(SiteFrames, OfAllSitesInOrderAreTheFramesThemselves) {
+    auto numbered = std::make_unique<CountedFrames>();
+    const auto* const same = numbered.get();
+    EXPECT_EQ(assign_sites(std::move(numbered), {0, 1}, 2).get(), same);
 }
 
 TEST(SiteMap, ReadsWhichSiteEachNumberOfAFrameIs) {
@@ -441,7 +442,7 @@ TEST(SiteMap, ReadsWhichSiteEachNumberOfAFrameIs) {
     const auto map = [&](const std::string& text) { return read_site_map(folder.write("palm.csv", text), sites); };
     EXPECT_EQ(value_or_throw(map("# of a palm\nchannel,name,gain\n2,r1c2,1\n1,r2c2,1\n")), (std::vector<std::uint32_t>{4, 1}));
     EXPECT_EQ(value_or_throw(map("sensor;name\n1;r1c1\n")), (std::vector<std::uint32_t>{0}));
-    for (const auto& [text, said] : std::vector<std::pair<std::string, std::string>>{
+    for (const auto& [text, message] : std::vector<std::pair<std::string, std::string>>{
              {"channel,name\n1,r3c1\n", "palm.csv:2:3: there is no site 'r3c1'; did you mean"},
              {"channel,name\n1,r1c1\n3,r1c2\n", "channel 2 has no row, although channel 3 has one"},
              {"channel,name\n1,r1c1\n1,r1c2\n", "palm.csv:3:1: channel 1 has two rows"},
@@ -452,29 +453,29 @@ TEST(SiteMap, ReadsWhichSiteEachNumberOfAFrameIs) {
              {"", "needs the columns channel and name"}}) {
         const auto refused = map(text);
         ASSERT_FALSE(refused) << text;
-        EXPECT_NE(refused.error().text().find(said), std::string::npos) << refused.error().text();
+        EXPECT_NE(refused.error().text().find(message), std::string::npos) << refused.error().text();
     }
 }
 
-TEST(SiteMap, NamesAreAllOfSitesOrNotOne) {
+TEST(SiteMap, EitherAllNamesOrNoneAreSites) {
     const auto sites = value_or_throw(grid_sites(2, 2, 2e-3));
     using Names = std::vector<std::string>;
     const auto found = [&](const Names& names) { return find_sites_if_named(sites, names); };
     EXPECT_EQ(*value_or_throw(found({"r2c2", "r1c1", "r1c2_N", "r2c1 [mN]"})), (std::vector<std::uint32_t>{3, 0, 1, 2}));
     EXPECT_EQ(*value_or_throw(found({"r2c1"})), std::vector<std::uint32_t>{2});
     EXPECT_FALSE(value_or_throw(found({"fx", "fy", "fz", "r3c3"})));
-    for (const auto& [names, said] :
+    for (const auto& [names, message] :
          std::vector<std::pair<Names, std::string>>{{{"r1c1", "r2cl"}, "there is no site 'r2cl'; did you mean"},
                                                     {{"R1C1", "R1C2"}, "there is no site 'R1C1'; did you mean 'r1c1'"},
                                                     {{"r1c1", "r1c1"}, "two channels have the name 'r1c1', which is one site"},
                                                     {{"r1c1", "r1c1 (2)"}, "two channels have the name 'r1c1', which is one site"}}) {
         const auto refused = found(names);
         ASSERT_FALSE(refused) << names[1];
-        EXPECT_NE(refused.error().message.find(said), std::string::npos) << refused.error().message;
+        EXPECT_NE(refused.error().message.find(message), std::string::npos) << refused.error().message;
     }
 }
 
-TEST(CHeader, TellsWhatIsWrongAndGoesOnFromWhatWasSaved) {
+TEST(CHeader, ReportsErrorsAndResumesASavedState) {
     char error[200];
     EXPECT_EQ(corpuscle_create("nobody", 1000, 1, error, sizeof error), nullptr);
     EXPECT_NE(std::string(error).find("nobody"), std::string::npos) << error;
@@ -526,11 +527,11 @@ TEST(CHeader, TakesSettingsOfAPopulationsClasses) {
         return count;
     };
     EXPECT_GT(spikes({"sa1.V_th=300mV"}), spikes({}));
-    for (const auto& [setting, said] : {std::pair{"sa9.V_th=1V", "there is no 'sa9' here; did you mean 'sa1'?"},
-                                        {"sa1.V=1V", "unknown parameter 'V'"},
-                                        {"sa1", "write NAME.PARAMETER=VALUE"}}) {
+    for (const auto& [setting, message] : {std::pair{"sa9.V_th=1V", "there is no 'sa9' here; did you mean 'sa1'?"},
+                                           {"sa1.V=1V", "unknown parameter 'V'"},
+                                           {"sa1", "write NAME.PARAMETER=VALUE"}}) {
         EXPECT_EQ(corpuscle_create_with("grid 2x2", 1000, 1, &setting, 1, error, sizeof error), nullptr);
-        EXPECT_NE(std::string(error).find(said), std::string::npos) << error;
+        EXPECT_NE(std::string(error).find(message), std::string::npos) << error;
     }
     const char* none = nullptr;
     EXPECT_EQ(corpuscle_create_with("grid 2x2", 1000, 1, &none, 1, error, sizeof error), nullptr);

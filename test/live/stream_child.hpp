@@ -1,5 +1,5 @@
 #pragma once
-// corpuscle stream at work, its pipes and sockets in our hands. Included by stream_program_test.cpp alone.
+// Runs corpuscle stream as a child process, with its pipes and sockets held by the test. Included by stream_program_test.cpp alone.
 
 #include <arpa/inet.h>
 #include <fcntl.h>
@@ -20,7 +20,7 @@ namespace {
 
 using test::TemporaryFolder;
 
-/// The program at work, its three streams in our hands; standard error in a file.
+/// The running program. The test holds its standard input and output; standard error goes to a file.
 class Child {
     pid_t pid_ = -1;
     std::string err_;
@@ -28,12 +28,12 @@ class Child {
 public:
     int in = -1, out = -1;
 
-    Child(const TemporaryFolder& folder, std::vector<std::string> words) : err_(folder / "err") {
+    Child(const TemporaryFolder& folder, std::vector<std::string> options) : err_(folder / "err") {
         int to[2], from[2];
         if (::pipe2(to, O_CLOEXEC) != 0 || ::pipe2(from, O_CLOEXEC) != 0) throw std::runtime_error("no pipe");
-        words.insert(words.begin(), {test::program_path(), "stream"});
+        options.insert(options.begin(), {test::program_path(), "stream"});
         std::vector<char*> arguments;
-        for (auto& w : words) arguments.push_back(w.data());
+        for (auto& w : options) arguments.push_back(w.data());
         arguments.push_back(nullptr);
         std::ofstream(err_).close();
         pid_ = test::fork_child();
@@ -60,15 +60,15 @@ public:
         }
     }
     void interrupt() const { test::signal_child(pid_, SIGINT); }
-    std::string told() const { return test::read_file(err_); }
-    /// All that it writes, until it closes.
+    std::string error_text() const { return test::read_file(err_); }
+    /// All of its output until it closes the pipe.
     std::string read_out() const {
         std::string all;
-        char piece[65536];
-        for (ssize_t count = 0; (count = ::read(out, piece, sizeof piece)) > 0;) all.append(piece, static_cast<std::size_t>(count));
+        char chunk[65536];
+        for (ssize_t count = 0; (count = ::read(out, chunk, sizeof chunk)) > 0;) all.append(chunk, static_cast<std::size_t>(count));
         return all;
     }
-    /// Its exit status; -1 if it hangs, 128 and more if a signal ended it.
+    /// The exit status; -1 if it hangs, 128 + signal if a signal ended it.
     int wait() {
         for (int k = 0; k < 2000; ++k) {
             int status = 0;
@@ -80,41 +80,41 @@ public:
         }
         return -1;
     }
-    /// Until it has said this; false if it never does.
-    bool said(const std::string& text) const {
+    /// Waits until standard error contains this text. Returns false if it does not within 4 s.
+    bool wait_for_text(const std::string& text) const {
         for (int k = 0; k < 2000; ++k) {
-            if (told().find(text) != std::string::npos) return true;
+            if (error_text().find(text) != std::string::npos) return true;
             std::this_thread::sleep_for(std::chrono::milliseconds(2));
         }
         return false;
     }
     int port() const {
-        EXPECT_TRUE(said("listening on 127.0.0.1:")) << told();
-        return std::stoi(told().substr(told().find("127.0.0.1:") + 10));
+        EXPECT_TRUE(wait_for_text("listening on 127.0.0.1:")) << error_text();
+        return std::stoi(error_text().substr(error_text().find("127.0.0.1:") + 10));
     }
 };
 
-void before() { std::signal(SIGPIPE, SIG_IGN); }
+void ignore_broken_pipes() { std::signal(SIGPIPE, SIG_IGN); }
 
-sockaddr_in here(int port) {
+sockaddr_in loopback_address(int port) {
     sockaddr_in at = {};
     at.sin_family = AF_INET, at.sin_port = htons(static_cast<std::uint16_t>(port)), at.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
     return at;
 }
 
-int connected(int port) {
+int connect_to(int port) {
     const int fd = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
-    const auto at = here(port);
+    const auto at = loopback_address(port);
     EXPECT_EQ(::connect(fd, reinterpret_cast<const sockaddr*>(&at), sizeof at), 0);
     return fd;
 }
 
-/// A door of our own, and its port.
-std::pair<int, int> listening(int port = 0) {
+/// A listening socket and its port.
+std::pair<int, int> listen_on(int port = 0) {
     const int fd = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
     const int yes = 1;
     ::setsockopt(fd, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
-    auto at = here(port);
+    auto at = loopback_address(port);
     socklen_t size = sizeof at;
     EXPECT_EQ(::bind(fd, reinterpret_cast<const sockaddr*>(&at), sizeof at), 0);
     EXPECT_EQ(::listen(fd, 8), 0);
@@ -122,16 +122,16 @@ std::pair<int, int> listening(int port = 0) {
     return {fd, ntohs(at.sin_port)};
 }
 
-std::string some_lines(int count, int first = 0) {
+std::string force_lines(int count, int first = 0) {
     std::string text;
     for (int k = first; k < first + count; ++k) text += std::to_string(k % 400 < 100 ? 0 : 2) + "\n";
     return text;
 }
 
-const std::vector<std::string> plain = {"--rate", "1kHz"};
+const std::vector<std::string> base_options = {"--rate", "1kHz"};
 
-std::vector<std::string> with_settings(std::vector<std::string> more) {
-    more.insert(more.begin(), plain.begin(), plain.end());
+std::vector<std::string> with_base_options(std::vector<std::string> more) {
+    more.insert(more.begin(), base_options.begin(), base_options.end());
     return more;
 }
 

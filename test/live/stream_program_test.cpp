@@ -1,4 +1,4 @@
-// corpuscle stream with real pipes and sockets, and what goes wrong with them: nothing crashes, nothing hangs, all is counted and told.
+// corpuscle stream with real pipes and sockets and their failures: it never crashes or hangs, and counts and reports all losses.
 
 #include <netinet/tcp.h>
 #include <poll.h>
@@ -19,64 +19,65 @@ namespace {
 
 using test::value_or_throw;
 
-TEST(StreamProgram, AnswersInPiecesAsInOneAndEachFrameWithoutWaitingForTheNext) {
-    before();
+TEST(StreamProgram, GivesTheSameSpikesForChunksAndRespondsToEachFrameAtOnce) {
+    ignore_broken_pipes();
     const TemporaryFolder folder;
-    Child whole(folder, with_settings({"--quiet"}));
-    whole.send(some_lines(1000)), whole.close_in();
-    const auto wanted = whole.read_out();
-    EXPECT_EQ(whole.wait(), 0);
+    Child undivided(folder, with_base_options({"--quiet"}));
+    undivided.send(force_lines(1000)), undivided.close_in();
+    const auto wanted = undivided.read_out();
+    EXPECT_EQ(undivided.wait(), 0);
     EXPECT_GT(wanted.size(), 300U);
-    Child pieces(folder, with_settings({"--quiet"}));
-    const auto lines = some_lines(1000);
-    pieces.send(lines.substr(0, 401)), pieces.send(lines.substr(401, 2));
-    pollfd spikes = {pieces.out, POLLIN, 0};
-    EXPECT_EQ(::poll(&spikes, 1, 10000), 1) << "spikes come while frames are still to come";
-    for (std::size_t at = 403; at < lines.size(); at += 7) pieces.send(lines.substr(at, 7));
-    pieces.close_in();
-    EXPECT_EQ(pieces.read_out(), wanted);
-    EXPECT_EQ(pieces.wait(), 0);
+    Child chunked(folder, with_base_options({"--quiet"}));
+    const auto lines = force_lines(1000);
+    chunked.send(lines.substr(0, 401)), chunked.send(lines.substr(401, 2));
+    pollfd spikes = {chunked.out, POLLIN, 0};
+    EXPECT_EQ(::poll(&spikes, 1, 10000), 1) << "spikes arrive before the last frames are sent";
+    for (std::size_t at = 403; at < lines.size(); at += 7) chunked.send(lines.substr(at, 7));
+    chunked.close_in();
+    EXPECT_EQ(chunked.read_out(), wanted);
+    EXPECT_EQ(chunked.wait(), 0);
 }
 
-TEST(StreamProgram, AStateKeptByCtrlCIsGoneOnFromAsIfNothingHadBeen) {
-    before();
+TEST(StreamProgram, AStateSavedOnCtrlCIsResumedExactly) {
+    ignore_broken_pipes();
     const TemporaryFolder folder;
-    Child whole(folder, with_settings({"--format", "aer", "-o", folder / "whole.aer", "--quiet"}));
-    whole.send(some_lines(1200)), whole.close_in();
-    EXPECT_EQ(whole.wait(), 0) << whole.told();
-    Child first(folder, with_settings({"--format", "aer", "-o", folder / "first.aer", "--save-state", folder / "now.state"}));
-    first.send(some_lines(700));
+    Child undivided(folder, with_base_options({"--format", "aer", "-o", folder / "whole.aer", "--quiet"}));
+    undivided.send(force_lines(1200)), undivided.close_in();
+    EXPECT_EQ(undivided.wait(), 0) << undivided.error_text();
+    Child first(folder, with_base_options({"--format", "aer", "-o", folder / "first.aer", "--save-state", folder / "now.state"}));
+    first.send(force_lines(700));
     int unread = 1;
     for (int k = 0; k < 2000 && unread > 0; ++k) {
         ::ioctl(first.in, FIONREAD, &unread);
         std::this_thread::sleep_for(std::chrono::milliseconds(5));
     }
-    std::this_thread::sleep_for(std::chrono::milliseconds(100));  // ... and answered
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));  // ... and its frame processed
     first.interrupt();
-    EXPECT_EQ(first.wait(), 130) << first.told();
-    EXPECT_NE(first.told().find("700 frames (700 ms of force)"), std::string::npos) << first.told();
-    Child second(folder, with_settings({"--format", "aer", "-o", folder / "second.aer", "--resume", folder / "now.state", "--quiet"}));
-    second.send(some_lines(500, 700)), second.close_in();
-    EXPECT_EQ(second.wait(), 0) << second.told();
+    EXPECT_EQ(first.wait(), 130) << first.error_text();
+    EXPECT_NE(first.error_text().find("700 frames (700 ms of force)"), std::string::npos) << first.error_text();
+    Child second(folder, with_base_options({"--format", "aer", "-o", folder / "second.aer", "--resume", folder / "now.state", "--quiet"}));
+    second.send(force_lines(500, 700)), second.close_in();
+    EXPECT_EQ(second.wait(), 0) << second.error_text();
     const auto header = test::read_file(folder / "whole.aer").find("fa1") + 4;
     EXPECT_EQ(test::read_file(folder / "first.aer") + test::read_file(folder / "second.aer").substr(header),
               test::read_file(folder / "whole.aer"));
     Child other(folder, {"--rate", "2kHz", "--resume", folder / "now.state"});
     EXPECT_EQ(other.wait(), 1) << "another rate";
-    EXPECT_NE(other.told().find("now.state: "), std::string::npos) << other.told();
+    EXPECT_NE(other.error_text().find("now.state: "), std::string::npos) << other.error_text();
 }
 
-TEST(StreamProgram, GarbageWrongWidthsAndHalfAFrameAreCountedAndTold) {
-    before();
+TEST(StreamProgram, GarbageWrongWidthsAndHalfAFrameAreCountedAndReported) {
+    ignore_broken_pipes();
     const TemporaryFolder folder;
-    Child text(folder, with_settings({"--channels", "2", "--out", "/dev/null"}));
+    Child text(folder, with_base_options({"--channels", "2", "--out", "/dev/null"}));
     text.send("a,b\n1,2\nrubbish\n1\n1,2,3\nnan,1\n1e300,1\n\x01\xff\n1,");
     text.close_in();
     EXPECT_EQ(text.wait(), 0);
-    for (const auto* said : {"3 frames (7 ms of force)", "4 frames unreadable", "2 readings invalid", "1 incomplete frame"})
-        EXPECT_NE(text.told().find(said), std::string::npos) << said << "\n" << text.told();
-    Child binary(folder, with_settings({"--channels", "3", "--frames", "f64", "--stamp", "count", "--out", folder / "s.csv", "--json"}));
-    std::string bytes(100 * 28 + 5, '\xff');  // NaN everywhere, always the same number
+    for (const auto* message : {"3 frames (7 ms of force)", "4 frames unreadable", "2 readings invalid", "1 incomplete frame"})
+        EXPECT_NE(text.error_text().find(message), std::string::npos) << message << "\n" << text.error_text();
+    Child binary(folder,
+                 with_base_options({"--channels", "3", "--frames", "f64", "--stamp", "count", "--out", folder / "s.csv", "--json"}));
+    std::string bytes(100 * 28 + 5, '\xff');  // NaN everywhere, and the frame number is always the same
     binary.send(bytes), binary.close_in();
     const auto doc = nlohmann::json::parse(binary.read_out());
     EXPECT_EQ(binary.wait(), 0);
@@ -87,13 +88,13 @@ TEST(StreamProgram, GarbageWrongWidthsAndHalfAFrameAreCountedAndTold) {
 }
 
 TEST(StreamProgram, AThousandClientsOneAfterAnotherSendTheirFrames) {
-    before();
+    ignore_broken_pipes();
     const TemporaryFolder folder;
-    Child child(folder, with_settings({"--in", "tcp:0", "--clients", "1000", "--out", folder / "s.csv", "--json"}));
+    Child child(folder, with_base_options({"--in", "tcp:0", "--clients", "1000", "--out", folder / "s.csv", "--json"}));
     const int port = child.port();
     for (int k = 0; k < 1000; ++k) {
-        const int fd = connected(port);
-        const std::string_view text = k % 3 == 0 ? "2\n2" : k % 3 == 1 ? "2\n2\n" : "";  // some die within a frame, some at once
+        const int fd = connect_to(port);
+        const std::string_view text = k % 3 == 0 ? "2\n2" : k % 3 == 1 ? "2\n2\n" : "";  // some disconnect within a frame, some at once
         EXPECT_EQ(::send(fd, text.data(), text.size(), MSG_NOSIGNAL), static_cast<ssize_t>(text.size()));
         ::close(fd);
     }
@@ -104,41 +105,42 @@ TEST(StreamProgram, AThousandClientsOneAfterAnotherSendTheirFrames) {
     EXPECT_EQ(doc["frames"], 334 + 2 * 333);
 }
 
-TEST(StreamProgram, FramesAnsweredTogetherGiveTheSpikesOfFramesOneByOne) {
-    before();
+TEST(StreamProgram, FramesInBatchesGiveTheSpikesOfSingleFrames) {
+    ignore_broken_pipes();
     const TemporaryFolder folder;
-    std::vector<float> frames;  // 0.6 s of 1000 forces, of which the last are too few to go together
+    std::vector<float> frames;  // 0.6 s of 1000 forces; the last are too few for a batch
     for (int k = 0; k < 600; ++k)
         for (int s = 0; s < 1000; ++s) frames.push_back(k % 200 < 50 ? 0.0F : 0.002F * static_cast<float>(s));
     const std::string_view bytes(reinterpret_cast<const char*>(frames.data()), frames.size() * sizeof(float));
-    const std::vector<std::string> words = {"--channels", "1000", "--frames", "f32", "--format", "aer", "--quiet"};
-    Child alone(folder, with_settings(words));
-    std::thread feeding([&] { alone.send(bytes), alone.close_in(); });
-    const auto wanted = alone.read_out();
+    const std::vector<std::string> options = {"--channels", "1000", "--frames", "f32", "--format", "aer", "--quiet"};
+    Child unbatched(folder, with_base_options(options));
+    std::thread feeding([&] { unbatched.send(bytes), unbatched.close_in(); });
+    const auto wanted = unbatched.read_out();
     feeding.join();
-    EXPECT_EQ(alone.wait(), 0) << alone.told();
+    EXPECT_EQ(unbatched.wait(), 0) << unbatched.error_text();
     EXPECT_GT(wanted.size(), 50000U);
-    auto together = words;
-    together.insert(together.end(), {"--together", "16", "--clients", "1", "--in", "tcp:0"});
-    together.erase(std::find(together.begin(), together.end(), "--quiet"));
-    Child child(folder, with_settings(together));
-    const int fd = connected(child.port());
+    auto batch_options = options;
+    batch_options.insert(batch_options.end(), {"--together", "16", "--clients", "1", "--in", "tcp:0"});
+    batch_options.erase(std::find(batch_options.begin(), batch_options.end(), "--quiet"));
+    Child child(folder, with_base_options(batch_options));
+    const int fd = connect_to(child.port());
     std::thread sending([&] {
-        for (std::size_t at = 0; at < bytes.size(); at += 333'333)  // neither whole frames nor whole groups
+        for (std::size_t at = 0; at < bytes.size(); at += 333'333)  // neither complete frames nor complete batches
             EXPECT_GT(::send(fd, bytes.data() + at, std::min<std::size_t>(333'333, bytes.size() - at), 0), 0);
         ::close(fd);
     });
     EXPECT_EQ(child.read_out(), wanted);
     sending.join();
-    EXPECT_EQ(child.wait(), 0) << child.told();
-    EXPECT_NE(child.told().find("600 frames (600 ms of force)"), std::string::npos) << child.told();
+    EXPECT_EQ(child.wait(), 0) << child.error_text();
+    EXPECT_NE(child.error_text().find("600 frames (600 ms of force)"), std::string::npos) << child.error_text();
 }
 
-TEST(StreamProgram, FramesTooFewToGoTogetherAreAnsweredWhenItIsInterrupted) {
-    before();
+TEST(StreamProgram, FramesTooFewForABatchAreProcessedWhenItIsInterrupted) {
+    ignore_broken_pipes();
     const TemporaryFolder folder;
-    Child child(folder, with_settings({"--channels", "4", "--frames", "f64", "--together", "16", "--in", "tcp:0", "-o", folder / "s.csv"}));
-    const int fd = connected(child.port());
+    Child child(folder,
+                with_base_options({"--channels", "4", "--frames", "f64", "--together", "16", "--in", "tcp:0", "-o", folder / "s.csv"}));
+    const int fd = connect_to(child.port());
     const std::array<double, 5 * 4> frames = {};
     EXPECT_EQ(::send(fd, frames.data(), sizeof frames, 0), static_cast<ssize_t>(sizeof frames));
     int unacknowledged = 1;
@@ -148,130 +150,130 @@ TEST(StreamProgram, FramesTooFewToGoTogetherAreAnsweredWhenItIsInterrupted) {
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(100));  // ... and its sender accepted
     child.interrupt();
-    EXPECT_EQ(child.wait(), 130) << child.told();
-    EXPECT_NE(child.told().find("5 frames (5 ms of force)"), std::string::npos) << child.told();
+    EXPECT_EQ(child.wait(), 130) << child.error_text();
+    EXPECT_NE(child.error_text().find("5 frames (5 ms of force)"), std::string::npos) << child.error_text();
     ::close(fd);
 }
 
 TEST(StreamProgram, ASerialLineIsReadAsRawBytesUntilItHangsUp) {
-    before();
+    ignore_broken_pipes();
     const TemporaryFolder folder;
     int far = -1, near = -1;
     char name[128];
     if (::openpty(&far, &near, name, nullptr, nullptr) != 0) GTEST_SKIP() << test::no_pseudo_terminals;
     ::fcntl(far, F_SETFD, FD_CLOEXEC), ::fcntl(near, F_SETFD, FD_CLOEXEC);
-    Child whole(folder, with_settings({"--quiet"}));
-    whole.send(some_lines(500)), whole.close_in();
-    const auto wanted = whole.read_out();
-    EXPECT_EQ(whole.wait(), 0);
-    Child child(folder, with_settings({"--in", std::string("serial:") + name, "--baud", "115200"}));
-    ASSERT_TRUE(child.said("serial line")) << child.told();
-    const auto lines = some_lines(500);
+    Child undivided(folder, with_base_options({"--quiet"}));
+    undivided.send(force_lines(500)), undivided.close_in();
+    const auto wanted = undivided.read_out();
+    EXPECT_EQ(undivided.wait(), 0);
+    Child child(folder, with_base_options({"--in", std::string("serial:") + name, "--baud", "115200"}));
+    ASSERT_TRUE(child.wait_for_text("serial line")) << child.error_text();
+    const auto lines = force_lines(500);
     for (std::size_t at = 0; at < lines.size(); at += 100) {
-        const auto piece = lines.substr(at, 100);
-        EXPECT_EQ(::write(far, piece.data(), piece.size()), static_cast<ssize_t>(piece.size()));
+        const auto chunk = lines.substr(at, 100);
+        EXPECT_EQ(::write(far, chunk.data(), chunk.size()), static_cast<ssize_t>(chunk.size()));
     }
-    std::string got;
+    std::string received;
     char some[4096];
-    for (pollfd there = {child.out, POLLIN, 0}; got.size() < wanted.size() && ::poll(&there, 1, 10000) == 1;)
-        got.append(some, static_cast<std::size_t>(::read(child.out, some, sizeof some)));
-    EXPECT_EQ(got, wanted);
+    for (pollfd there = {child.out, POLLIN, 0}; received.size() < wanted.size() && ::poll(&there, 1, 10000) == 1;)
+        received.append(some, static_cast<std::size_t>(::read(child.out, some, sizeof some)));
+    EXPECT_EQ(received, wanted);
     termios ways = {};
     EXPECT_EQ(::tcgetattr(near, &ways), 0);
     EXPECT_EQ(::cfgetispeed(&ways), static_cast<speed_t>(B115200));
-    EXPECT_EQ(ways.c_lflag & static_cast<tcflag_t>(ICANON | ECHO), 0U) << "no byte of a frame means anything to the line";
-    ::close(near), ::close(far);  // the device is pulled out
-    EXPECT_EQ(child.wait(), 0) << child.told();
-    EXPECT_NE(child.told().find("500 frames (500 ms of force)"), std::string::npos) << child.told();
+    EXPECT_EQ(ways.c_lflag & static_cast<tcflag_t>(ICANON | ECHO), 0U) << "the terminal interprets no byte of a frame";
+    ::close(near), ::close(far);  // the device is unplugged
+    EXPECT_EQ(child.wait(), 0) << child.error_text();
+    EXPECT_NE(child.error_text().find("500 frames (500 ms of force)"), std::string::npos) << child.error_text();
 }
 
-TEST(StreamProgram, ASlowReaderLosesWholeEventsAndNeverHoldsUpTheForce) {
-    before();
+TEST(StreamProgram, ASlowReaderLosesCompleteEventsAndNeverDelaysTheForce) {
+    ignore_broken_pipes();
     const TemporaryFolder folder;
     Child child(folder, {"--rate", "1kHz", "--channels", "64", "--frames", "f64", "--format", "aer", "--buffer", "2k"});
     std::vector<double> frame(64);
-    for (int k = 0; k < 20000; ++k) {  // nobody reads; every write here returns, or this would hang
+    for (int k = 0; k < 20000; ++k) {  // no process reads the spikes; every write here must return, or the test would hang
         std::fill(frame.begin(), frame.end(), k / 100 % 2 == 0 ? 0.0 : 3.0);
         child.send({reinterpret_cast<const char*>(frame.data()), frame.size() * sizeof(double)});
     }
     child.close_in();
     const auto bytes = child.read_out();
     EXPECT_EQ(child.wait(), 1) << "spikes that were left out are an error";
-    EXPECT_NE(child.told().find("--allow-drops"), std::string::npos) << child.told();
-    EXPECT_NE(child.told().find("20000 frames (20 s of force)"), std::string::npos) << child.told();
-    EXPECT_NE(child.told().find("dropped: the receiver was too slow"), std::string::npos) << child.told();
+    EXPECT_NE(child.error_text().find("--allow-drops"), std::string::npos) << child.error_text();
+    EXPECT_NE(child.error_text().find("20000 frames (20 s of force)"), std::string::npos) << child.error_text();
+    EXPECT_NE(child.error_text().find("dropped: the receiver was too slow"), std::string::npos) << child.error_text();
     const auto read = value_or_throw(read_spikes(folder.write("s.aer", bytes)));
-    EXPECT_EQ(read.size(), 128U) << "every event that came is a whole one";
+    EXPECT_EQ(read.size(), 128U) << "every received event is complete";
 }
 
-TEST(StreamProgram, AReaderThatGoesIsToldAndEndsIt) {
-    before();
+TEST(StreamProgram, AReaderThatDisconnectsIsReportedAndEndsIt) {
+    ignore_broken_pipes();
     const TemporaryFolder folder;
-    Child child(folder, with_settings({}));
-    child.send(some_lines(150));
+    Child child(folder, with_base_options({}));
+    child.send(force_lines(150));
     pollfd spikes = {child.out, POLLIN, 0};
     EXPECT_EQ(::poll(&spikes, 1, 10000), 1);
     child.close_out();
-    child.send(some_lines(1000));
-    EXPECT_EQ(child.wait(), 1) << child.told();
-    EXPECT_NE(child.told().find("the reader of standard output has closed it"), std::string::npos) << child.told();
+    child.send(force_lines(1000));
+    EXPECT_EQ(child.wait(), 1) << child.error_text();
+    EXPECT_NE(child.error_text().find("the reader of standard output has closed it"), std::string::npos) << child.error_text();
 }
 
-TEST(StreamProgram, WhoListensMayGoAndComeBack) {
-    before();
+TEST(StreamProgram, AReaderMayDisconnectAndReconnect) {
+    ignore_broken_pipes();
     const TemporaryFolder folder;
-    const auto [door, port] = listening();
-    Child child(folder, with_settings({"--to", std::to_string(port), "--allow-drops"}));
-    int reader = ::accept(door, nullptr, nullptr);
-    child.send(some_lines(400));
+    const auto [listener, port] = listen_on();
+    Child child(folder, with_base_options({"--to", std::to_string(port), "--allow-drops"}));
+    int reader = ::accept(listener, nullptr, nullptr);
+    child.send(force_lines(400));
     char first = 0;
     EXPECT_EQ(::recv(reader, &first, 1, 0), 1);
     ::close(reader);
-    for (int k = 0; k < 60 && ::poll(std::array<pollfd, 1>{{{door, POLLIN, 0}}}.data(), 1, 50) == 0; ++k) child.send(some_lines(400));
-    reader = ::accept(door, nullptr, nullptr);
+    for (int k = 0; k < 60 && ::poll(std::array<pollfd, 1>{{{listener, POLLIN, 0}}}.data(), 1, 50) == 0; ++k) child.send(force_lines(400));
+    reader = ::accept(listener, nullptr, nullptr);
     char head[24] = {};
-    child.send(some_lines(400));
+    child.send(force_lines(400));
     EXPECT_EQ(::recv(reader, head, sizeof head, MSG_WAITALL), 24);
     EXPECT_EQ(std::string_view(head, 24), "afferent,channel,time_s\n") << "the header, again";
     child.close_in();
-    EXPECT_EQ(child.wait(), 0) << child.told();
-    EXPECT_NE(child.told().find("2 connections"), std::string::npos) << child.told();
-    ::close(reader), ::close(door);
-    Child alone(folder, with_settings({"--to", std::to_string(port)}));
-    EXPECT_EQ(alone.wait(), 1);
-    EXPECT_NE(alone.told().find("cannot connect to 127.0.0.1:"), std::string::npos) << alone.told();
+    EXPECT_EQ(child.wait(), 0) << child.error_text();
+    EXPECT_NE(child.error_text().find("2 connections"), std::string::npos) << child.error_text();
+    ::close(reader), ::close(listener);
+    Child unbatched(folder, with_base_options({"--to", std::to_string(port)}));
+    EXPECT_EQ(unbatched.wait(), 1);
+    EXPECT_NE(unbatched.error_text().find("cannot connect to 127.0.0.1:"), std::string::npos) << unbatched.error_text();
 }
 
 TEST(StreamProgram, GapsDuplicatesAndLateFramesKeepTheSamplesTime) {
-    before();
+    ignore_broken_pipes();
     const TemporaryFolder folder;
     const auto run = [&](const std::string& text, const std::string& hold) {
-        Child child(folder, with_settings({"--stamp", "count", "--hold", hold}));
+        Child child(folder, with_base_options({"--stamp", "count", "--hold", hold}));
         child.send(text), child.close_in();
         auto out = child.read_out();
         EXPECT_EQ(child.wait(), 0);
-        return std::pair(out, child.told());
+        return std::pair(out, child.error_text());
     };
-    std::string whole, torn;
+    std::string undivided, torn;
     for (int k = 0; k < 600; ++k) {
         const auto line = std::to_string(k) + "," + std::to_string(k / 100) + "\n";
-        whole += line;
+        undivided += line;
         if (k % 100 < 20 || k % 100 > 60) torn += line;
         if (k % 100 == 80) torn += line + std::to_string(k - 5) + ",7\n";
     }
-    const auto [wanted, quiet] = run(whole, "1s");
-    const auto [got, told] = run(torn, "1s");
-    EXPECT_EQ(got, wanted) << "a force that does not change is held";
-    EXPECT_GT(got.size(), 300U);
-    for (const auto* said :
+    const auto [wanted, quiet] = run(undivided, "1s");
+    const auto [received, errors] = run(torn, "1s");
+    EXPECT_EQ(received, wanted) << "a force that does not change is held";
+    EXPECT_GT(received.size(), 300U);
+    for (const auto* message :
          {"6 gaps: 246 frames filled by the last force, 0 by zero force", "6 duplicate frames ignored", "6 late frames ignored"})
-        EXPECT_NE(told.find(said), std::string::npos) << told;
+        EXPECT_NE(errors.find(message), std::string::npos) << errors;
     EXPECT_NE(run(torn, "10ms").second.find("60 frames filled by the last force, 186 by zero force"), std::string::npos);
 }
 
-// --- nothing is dropped where frames can wait
+// --- no event is dropped where frames can wait
 
-/// Every site feels noise: many spikes from few frames.
+/// Noise at every site gives many spikes from few frames.
 std::string noisy_recording(int samples, int channels) {
     std::string text;
     for (int c = 0; c < channels; ++c) text += (c > 0 ? ",f" : "f") + std::to_string(c) + "_N";
@@ -284,7 +286,7 @@ std::string noisy_recording(int samples, int channels) {
 }
 
 TEST(StreamProgram, ARecordingToAFileDropsNoSpikeHoweverSmallTheBuffer) {
-    before();
+    ignore_broken_pipes();
     const TemporaryFolder folder;
     const auto recording = folder.write("touch.csv", noisy_recording(3000, 8));
     const auto spikes = [&](const std::string& file, const std::string& buffer) {
@@ -305,26 +307,26 @@ TEST(StreamProgram, ARecordingToAFileDropsNoSpikeHoweverSmallTheBuffer) {
 }
 
 TEST(StreamProgram, ARecordingWaitsForAReaderThatIsSlow) {
-    before();
+    ignore_broken_pipes();
     const TemporaryFolder folder;
     const auto recording = folder.write("touch.csv", noisy_recording(3000, 8));
-    const std::vector<std::string> words = {"--in",   recording, "--rate",   "1kHz", "--scale",  "20",
-                                            "--pace", "fast",    "--buffer", "1k",   "--format", "aer"};
-    Child child(folder, words);
-    std::this_thread::sleep_for(std::chrono::milliseconds(1200));  // longer than a reader of live spikes is waited for at the end
+    const std::vector<std::string> options = {"--in",   recording, "--rate",   "1kHz", "--scale",  "20",
+                                              "--pace", "fast",    "--buffer", "1k",   "--format", "aer"};
+    Child child(folder, options);
+    std::this_thread::sleep_for(std::chrono::milliseconds(1200));  // longer than the stream waits for a live reader at the end
     const auto bytes = child.read_out();
-    EXPECT_EQ(child.wait(), 0) << child.told();
-    EXPECT_EQ(child.told().find("dropped"), std::string::npos) << child.told();
-    EXPECT_EQ(child.told().find("ignored"), std::string::npos) << child.told();
-    EXPECT_EQ(child.told().find("input rate"), std::string::npos) << child.told();
-    EXPECT_NE(child.told().find("3000 frames (3 s of force)"), std::string::npos) << child.told();
-    Child again(folder, words);
+    EXPECT_EQ(child.wait(), 0) << child.error_text();
+    EXPECT_EQ(child.error_text().find("dropped"), std::string::npos) << child.error_text();
+    EXPECT_EQ(child.error_text().find("ignored"), std::string::npos) << child.error_text();
+    EXPECT_EQ(child.error_text().find("input rate"), std::string::npos) << child.error_text();
+    EXPECT_NE(child.error_text().find("3000 frames (3 s of force)"), std::string::npos) << child.error_text();
+    Child again(folder, options);
     EXPECT_EQ(again.read_out(), bytes);
     EXPECT_EQ(again.wait(), 0);
-    Child stopped(folder, words);
-    std::this_thread::sleep_for(std::chrono::milliseconds(200));  // it waits for us
+    Child stopped(folder, options);
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));  // it waits for this test
     stopped.interrupt();
-    EXPECT_EQ(stopped.wait(), 130) << "a reader that takes nothing does not hold up Ctrl-C: " << stopped.told();
+    EXPECT_EQ(stopped.wait(), 130) << "a reader that reads nothing does not delay Ctrl-C: " << stopped.error_text();
 }
 
 TEST(StreamProgram, AFileOnStandardInputIsWaitedForAsARecordingIs) {
@@ -340,14 +342,14 @@ TEST(StreamProgram, AFileOnStandardInputIsWaitedForAsARecordingIs) {
 }
 
 TEST(StreamProgram, FramesInBulkHaveNoPaceAndFramesByAClockHaveOne) {
-    before();
+    ignore_broken_pipes();
     const TemporaryFolder folder;
-    Child bulk(folder, with_settings({"--json", "-o", folder / "a.csv"}));
-    bulk.send(some_lines(100'000)), bulk.close_in();
+    Child bulk(folder, with_base_options({"--json", "-o", folder / "a.csv"}));
+    bulk.send(force_lines(100'000)), bulk.close_in();
     const auto in_bulk = nlohmann::json::parse(bulk.read_out());
     EXPECT_EQ(bulk.wait(), 0);
     EXPECT_TRUE(in_bulk["came_at_Hz"].is_null() && in_bulk["jitter_s"].is_null()) << in_bulk;
-    Child clocked(folder, with_settings({"--json", "-o", folder / "b.csv"}));
+    Child clocked(folder, with_base_options({"--json", "-o", folder / "b.csv"}));
     while (!std::filesystem::exists(folder / "b.csv.part")) std::this_thread::sleep_for(std::chrono::milliseconds(1));
     for (int k = 0; k < 50; ++k) clocked.send("1\n"), std::this_thread::sleep_for(std::chrono::milliseconds(5));
     clocked.close_in();
@@ -358,18 +360,18 @@ TEST(StreamProgram, FramesInBulkHaveNoPaceAndFramesByAClockHaveOne) {
 
 // --- recordings
 
-TEST(StreamProgram, ARecordingIsReadWithTheOptionsAndTheDoubtsOfRespond) {
+TEST(StreamProgram, ARecordingIsReadWithTheOptionsAndWarningsOfRespond) {
     const TemporaryFolder folder;
     std::string text = "time,fz_N\n";
     for (int k = 0; k < 3000; ++k) text += std::to_string(k) + "," + (k % 1000 < 200 ? "0" : k == 1500 ? "900" : "2") + "\n";
     const auto recording = folder.write("touch.csv", text);
-    const std::string words = " --channel fz --despike 100 --range 0..500 --scale 0.5";
-    const auto offline = test::run_program(folder, "respond " + recording + words + " --time-unit ms -o " + (folder / "answer"));
+    const std::string options = " --channel fz --despike 100 --range 0..500 --scale 0.5";
+    const auto offline = test::run_program(folder, "respond " + recording + options + " --time-unit ms -o " + (folder / "answer"));
     ASSERT_EQ(offline.status, 0) << offline.err;
-    const auto live = test::run_program(folder, "stream --in " + recording + words + " --time-unit ms --pace fast -o " + (folder / "live.csv"));
+    const auto live = test::run_program(folder, "stream --in " + recording + options + " --time-unit ms --pace fast -o " + (folder / "live.csv"));
     ASSERT_EQ(live.status, 0) << live.err;
     const auto compared = test::run_program(folder, "compare answer/spikes.csv live.csv --json");
-    ASSERT_EQ(compared.status, 0) << "trains are called the same: " << compared.err;
+    ASSERT_EQ(compared.status, 0) << "trains have the same names: " << compared.err;
     const auto doc = nlohmann::json::parse(compared.out);
     EXPECT_GT(doc["total"]["matched"], 10);
     EXPECT_EQ(doc["total"]["missing"], 0);
@@ -381,41 +383,41 @@ TEST(StreamProgram, ARecordingIsReadWithTheOptionsAndTheDoubtsOfRespond) {
             if (line.find("touch: ") != std::string::npos) out.push_back(line);
         return out;
     };
-    const auto doubts = lines("respond " + recording + " --time-unit ms");
-    EXPECT_FALSE(doubts.empty());
-    EXPECT_EQ(lines("stream --in " + recording + " --time-unit ms --pace fast -o " + (folder / "x.csv")), doubts);
+    const auto warnings = lines("respond " + recording + " --time-unit ms");
+    EXPECT_FALSE(warnings.empty());
+    EXPECT_EQ(lines("stream --in " + recording + " --time-unit ms --pace fast -o " + (folder / "x.csv")), warnings);
 }
 
 // --- frames of another width
 
-TEST(StreamProgram, TheFirstFrameOfAnotherWidthSaysWhatWasWanted) {
-    before();
+TEST(StreamProgram, TheFirstFrameOfAnotherWidthGivesTheExpectedWidth) {
+    ignore_broken_pipes();
     const TemporaryFolder folder;
     Child child(folder, {"--population", "fingertip", "--rate", "1kHz"});
     child.send("1,2,3,4\n");
-    EXPECT_TRUE(child.said("frame 1 has 4 numbers; 'fingertip' has ")) << "at once: " << child.told();
-    EXPECT_TRUE(child.said("use --layout FILE to map")) << child.told();
+    EXPECT_TRUE(child.wait_for_text("frame 1 has 4 numbers; 'fingertip' has ")) << "at once: " << child.error_text();
+    EXPECT_TRUE(child.wait_for_text("use --layout FILE to map")) << child.error_text();
     child.close_in();
     EXPECT_EQ(child.wait(), 1);
-    EXPECT_TRUE(child.said("no valid frame from standard input: frame 1 has 4 numbers")) << child.told();
-    Child binary(folder, with_settings({"--channels", "16", "--frames", "f32"}));
+    EXPECT_TRUE(child.wait_for_text("no valid frame from standard input: frame 1 has 4 numbers")) << child.error_text();
+    Child binary(folder, with_base_options({"--channels", "16", "--frames", "f32"}));
     binary.send("abcdefgh"), binary.close_in();
     EXPECT_EQ(binary.wait(), 1);
-    EXPECT_TRUE(binary.said("no complete frame from standard input: received 8 bytes, but a frame of 'sa1,fa1' (16 sites) has 64"))
-        << binary.told();
-    Child nothing(folder, plain);
+    EXPECT_TRUE(binary.wait_for_text("no complete frame from standard input: received 8 bytes, but a frame of 'sa1,fa1' (16 sites) has 64"))
+        << binary.error_text();
+    Child nothing(folder, base_options);
     nothing.close_in();
     EXPECT_EQ(nothing.wait(), 1);
-    EXPECT_TRUE(nothing.said("no frame from standard input")) << nothing.told();
-    Child stamped(folder, with_settings({"--channels", "2", "--stamp", "count"}));
+    EXPECT_TRUE(nothing.wait_for_text("no frame from standard input")) << nothing.error_text();
+    Child stamped(folder, with_base_options({"--channels", "2", "--stamp", "count"}));
     stamped.send("1,1,1\n2.5,1,1\n"), stamped.close_in();
     EXPECT_EQ(stamped.wait(), 0);
-    EXPECT_TRUE(stamped.said("frame 2 does not begin with its sequence number, an integer")) << stamped.told();
+    EXPECT_TRUE(stamped.wait_for_text("frame 2 does not begin with its sequence number, an integer")) << stamped.error_text();
 }
 
 // --- names in the header
 
-/// Half a second of 3 N at one site of a grid of four, whose columns are in this order.
+/// Half a second of 3 N at one site of a grid of four, with columns in this order.
 std::string pressed(const std::string& header, std::size_t column) {
     std::string text = header + "\n";
     for (int k = 0; k < 500; ++k)
@@ -425,40 +427,40 @@ std::string pressed(const std::string& header, std::size_t column) {
 
 const std::vector<std::string> small_grid = {"--population", "grid 2x2", "--rate", "1kHz"};
 
-TEST(StreamProgram, NamesInTheHeaderSayWhichSiteEachColumnIs) {
-    before();
+TEST(StreamProgram, NamesInTheHeaderDetermineTheSiteOfEachColumn) {
+    ignore_broken_pipes();
     const TemporaryFolder folder;
-    const auto answered = [&](const std::string& text, std::vector<std::string> more = {}) {
-        auto words = small_grid;
-        words.insert(words.end(), more.begin(), more.end());
-        Child child(folder, words);
+    const auto spikes_of = [&](const std::string& text, std::vector<std::string> more = {}) {
+        auto options = small_grid;
+        options.insert(options.end(), more.begin(), more.end());
+        Child child(folder, options);
         child.send(text), child.close_in();
         auto out = child.read_out();
-        EXPECT_EQ(child.wait(), 0) << child.told();
+        EXPECT_EQ(child.wait(), 0) << child.error_text();
         return out;
     };
-    const auto in_order = answered(pressed("r1c1,r1c2,r2c1,r2c2", 2));
+    const auto in_order = spikes_of(pressed("r1c1,r1c2,r2c1,r2c2", 2));
     EXPECT_NE(in_order.find("sa1#3,"), std::string::npos) << in_order;
-    EXPECT_EQ(answered(pressed("r2c2_N,r2c1_N,r1c1_N,r1c2_N", 1)), in_order);
-    EXPECT_EQ(answered(pressed("\"r2c1\";r2c2;r1c1;r1c2", 0)), in_order);
-    EXPECT_EQ(answered(pressed("north,east,south,west", 2)), in_order) << "no names of sites: in order";
+    EXPECT_EQ(spikes_of(pressed("r2c2_N,r2c1_N,r1c1_N,r1c2_N", 1)), in_order);
+    EXPECT_EQ(spikes_of(pressed("\"r2c1\";r2c2;r1c1;r1c2", 0)), in_order);
+    EXPECT_EQ(spikes_of(pressed("north,east,south,west", 2)), in_order) << "no names of sites: in order";
     folder.write("turned.csv", "channel,name\n1,r2c1\n2,r1c1\n3,r1c2\n4,r2c2\n");
-    EXPECT_EQ(answered(pressed("a,b,c,d", 0), {"--layout", folder / "turned.csv"}), in_order);
-    EXPECT_EQ(answered(pressed("r2c1,r1c1,r1c2,r2c2", 0), {"--layout", folder / "turned.csv"}), in_order);
+    EXPECT_EQ(spikes_of(pressed("a,b,c,d", 0), {"--layout", folder / "turned.csv"}), in_order);
+    EXPECT_EQ(spikes_of(pressed("r2c1,r1c1,r1c2,r2c2", 0), {"--layout", folder / "turned.csv"}), in_order);
 }
 
 TEST(StreamProgram, AHeaderThatNamesNoSiteOrOneTwiceOrAnotherThanTheLayoutIsRefused) {
-    before();
+    ignore_broken_pipes();
     const TemporaryFolder folder;
     folder.write("turned.csv", "channel,name\n1,r2c1\n2,r1c1\n3,r1c2\n4,r2c2\n");
-    const auto refused = [&](const std::string& header, const std::string& said, std::vector<std::string> more = {}) {
-        auto words = small_grid;
-        words.insert(words.end(), more.begin(), more.end());
-        Child child(folder, words);
-        child.send(pressed(header, 0));  // the sender stays: that is no reason to wait
-        EXPECT_EQ(child.wait(), 1) << child.told();
-        EXPECT_TRUE(child.said(said)) << child.told();
-        EXPECT_EQ(child.told().find("unreadable"), std::string::npos) << child.told();
+    const auto refused = [&](const std::string& header, const std::string& message, std::vector<std::string> more = {}) {
+        auto options = small_grid;
+        options.insert(options.end(), more.begin(), more.end());
+        Child child(folder, options);
+        child.send(pressed(header, 0));  // the sender stays connected, which must not delay the end
+        EXPECT_EQ(child.wait(), 1) << child.error_text();
+        EXPECT_TRUE(child.wait_for_text(message)) << child.error_text();
+        EXPECT_EQ(child.error_text().find("unreadable"), std::string::npos) << child.error_text();
     };
     refused("r1c1,r1c2,r2cl,r2c2", "header: there is no site 'r2cl'; did you mean 'r2c1'");
     refused("r1c1,r1c2,r1c1,r2c2", "header: two channels have the name 'r1c1', which is one site");
@@ -466,28 +468,28 @@ TEST(StreamProgram, AHeaderThatNamesNoSiteOrOneTwiceOrAnotherThanTheLayoutIsRefu
 }
 
 TEST(StreamProgram, OneSenderOfSeveralWithAWrongHeaderEndsNothing) {
-    before();
+    ignore_broken_pipes();
     const TemporaryFolder folder;
-    auto words = small_grid;
-    words.insert(words.end(), {"--in", "tcp:0", "--clients", "2", "--json", "-o", folder / "x.csv"});
-    Child child(folder, words);
+    auto options = small_grid;
+    options.insert(options.end(), {"--in", "tcp:0", "--clients", "2", "--json", "-o", folder / "x.csv"});
+    Child child(folder, options);
     const int port = child.port();
     const auto send = [&](const std::string& text) {
-        const int client = connected(port);
+        const int client = connect_to(port);
         EXPECT_EQ(::write(client, text.data(), text.size()), static_cast<ssize_t>(text.size()));
         ::close(client);
     };
     send(pressed("r1c1,r1c2,r2cl,r2c2", 0));
     send(pressed("r2c2,r2c1,r1c1,r1c2", 1));
-    EXPECT_EQ(child.wait(), 0) << child.told();
-    EXPECT_TRUE(child.said("there is no site 'r2cl'; did you mean 'r2c1'")) << child.told();
+    EXPECT_EQ(child.wait(), 0) << child.error_text();
+    EXPECT_TRUE(child.wait_for_text("there is no site 'r2cl'; did you mean 'r2c1'")) << child.error_text();
     const auto spikes = test::read_file(folder / "x.csv");
     EXPECT_NE(spikes.find("sa1#3,"), std::string::npos) << spikes;
     EXPECT_EQ(spikes.find("sa1#1,"), std::string::npos) << spikes;
 }
 
 TEST(StreamProgram, ChannelsOfARecordingGoToTheSitesOfTheirNamesOrAreRefused) {
-    before();
+    ignore_broken_pipes();
     const TemporaryFolder folder;
     const auto recorded = [&](const std::string& header) {
         std::string text = "time_s," + header + "\n";
@@ -495,19 +497,19 @@ TEST(StreamProgram, ChannelsOfARecordingGoToTheSitesOfTheirNamesOrAreRefused) {
         folder.write("x.csv", text);
         return test::run_program(folder, "stream --in x.csv --population 'grid 2x2' --pace fast");
     };
-    const auto in_order = recorded("r1c1,r1c2,r2c1,r2c2"), turned = recorded("r2c2,r2c1,r1c1,r1c2"), free = recorded("a,b,c,d");
+    const auto in_order = recorded("r1c1,r1c2,r2c1,r2c2"), reversed = recorded("r2c2,r2c1,r1c1,r1c2"), free = recorded("a,b,c,d");
     EXPECT_NE(in_order.out.find("sa1#1,"), std::string::npos) << in_order.err;
-    EXPECT_NE(turned.out.find("sa1#4,"), std::string::npos) << turned.err;
+    EXPECT_NE(reversed.out.find("sa1#4,"), std::string::npos) << reversed.err;
     EXPECT_EQ(free.out, in_order.out);
-    for (const auto& [header, said] :
+    for (const auto& [header, message] :
          {std::pair{"r2c2,r2c1,r2c2,r1c2", "x: two channels have the name 'r2c2', which is one site; --layout FILE"},
           {"r2c2,r2cl,r1c1,r1c2", "x: there is no site 'r2cl'; did you mean 'r2c1'"}}) {
         const auto refused = recorded(header);
         EXPECT_EQ(refused.status, 1);
-        EXPECT_NE(refused.err.find(said), std::string::npos) << refused.err;
+        EXPECT_NE(refused.err.find(message), std::string::npos) << refused.err;
         const auto at_once = test::run_program(folder, "respond x.csv --population 'grid 2x2'");
         EXPECT_EQ(at_once.status, 1);
-        EXPECT_NE(at_once.err.find(said), std::string::npos) << at_once.err;
+        EXPECT_NE(at_once.err.find(message), std::string::npos) << at_once.err;
     }
     folder.write("x.csv", "time_s,fz_N,fz_N\n0,0,0\n0.001,1,2\n0.002,1,2\n");
     EXPECT_EQ(test::run_program(folder, "stream --in x.csv --population sa1 --pace fast -q").status, 0) << "they are fz and fz (2)";
@@ -532,11 +534,11 @@ TEST(StreamProgram, ClassesOfAPopulationCanBeSet) {
 
 // --- senders on a network
 
-TEST(StreamProgram, FramesSentBeforeAnInterruptAreAnsweredAlsoThoseInTheSocket) {
-    before();
+TEST(StreamProgram, FramesSentBeforeAnInterruptAreProcessedAlsoThoseInTheSocket) {
+    ignore_broken_pipes();
     const TemporaryFolder folder;
-    Child child(folder, with_settings({"--in", "tcp:0", "--json", "-o", folder / "s.csv"}));
-    const int fd = connected(child.port());
+    Child child(folder, with_base_options({"--in", "tcp:0", "--json", "-o", folder / "s.csv"}));
+    const int fd = connect_to(child.port());
     std::string frames;
     for (int k = 0; k < 300'000; ++k) frames += "2\n";
     for (std::string_view rest = frames; !rest.empty();) {
@@ -547,31 +549,31 @@ TEST(StreamProgram, FramesSentBeforeAnInterruptAreAnsweredAlsoThoseInTheSocket) 
     ::close(fd);
     child.interrupt();
     const auto doc = nlohmann::json::parse(child.read_out());
-    EXPECT_EQ(child.wait(), 130) << child.told();
+    EXPECT_EQ(child.wait(), 130) << child.error_text();
     EXPECT_EQ(doc["frames"], 300'000);
     EXPECT_EQ(doc["frames_as_bytes"]["bytes_unread"], 0);
 }
 
-TEST(StreamProgram, AnIdleSenderMakesWayForTheNextAndStaysIfThereIsNone) {
-    before();
+TEST(StreamProgram, AnIdleSenderIsReplacedByTheNextIfThereIsOne) {
+    ignore_broken_pipes();
     const TemporaryFolder folder;
-    Child child(folder, with_settings({"--in", "tcp:0", "--idle-limit", "300ms", "--clients", "2", "--json", "-o", folder / "s.csv"}));
-    const int port = child.port(), silent = connected(port);
+    Child child(folder, with_base_options({"--in", "tcp:0", "--idle-limit", "300ms", "--clients", "2", "--json", "-o", folder / "s.csv"}));
+    const int port = child.port(), silent = connect_to(port);
     EXPECT_EQ(::send(silent, "1\n", 2, MSG_NOSIGNAL), 2);
     std::this_thread::sleep_for(std::chrono::milliseconds(700));
-    EXPECT_EQ(::send(silent, "1\n", 2, MSG_NOSIGNAL), 2) << "nobody waits behind it";
-    const int next = connected(port);
+    EXPECT_EQ(::send(silent, "1\n", 2, MSG_NOSIGNAL), 2) << "no other sender waits";
+    const int next = connect_to(port);
     EXPECT_EQ(::send(next, "1\n1\n", 4, MSG_NOSIGNAL), 4);
     ::close(next);
     const auto doc = nlohmann::json::parse(child.read_out());
-    EXPECT_EQ(child.wait(), 0) << child.told();
+    EXPECT_EQ(child.wait(), 0) << child.error_text();
     EXPECT_EQ(doc["frames"], 4);
     EXPECT_EQ(doc["frames_as_bytes"]["idle_senders"], 1);
     ::close(silent);
 }
 
-/// The seconds of silence after which the system asks whether the other side of a connection still lives, as the child set them.
-TEST(Network, ADeadPeerIsNoticedWithinSecondsNotHours) {
+/// The seconds of silence after which the system probes a connection, as the child process set them.
+TEST(Network, ALostPeerIsDetectedWithinSecondsNotHours) {
     const int fd = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
     enable_keepalive(fd);
     const auto option = [fd](int level, int name) {
@@ -587,7 +589,7 @@ TEST(Network, ADeadPeerIsNoticedWithinSecondsNotHours) {
 
 int datagrams_to(int port) {
     const int fd = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
-    const auto at = here(port);
+    const auto at = loopback_address(port);
     EXPECT_EQ(::connect(fd, reinterpret_cast<const sockaddr*>(&at), sizeof at), 0);
     return fd;
 }
@@ -595,31 +597,32 @@ int datagrams_to(int port) {
 void send_datagram(int fd, std::string_view text) { EXPECT_EQ(::send(fd, text.data(), text.size(), 0), static_cast<ssize_t>(text.size())); }
 
 TEST(StreamProgram, FramesInDatagramsGiveTheSpikesOfFramesInAPipe) {
-    before();
+    ignore_broken_pipes();
     const TemporaryFolder folder;
-    Child whole(folder, with_settings({"--quiet"}));
-    whole.send(some_lines(600)), whole.close_in();
-    const auto wanted = whole.read_out();
-    EXPECT_EQ(whole.wait(), 0);
+    Child undivided(folder, with_base_options({"--quiet"}));
+    undivided.send(force_lines(600)), undivided.close_in();
+    const auto wanted = undivided.read_out();
+    EXPECT_EQ(undivided.wait(), 0);
     EXPECT_GT(wanted.size(), 200U);
-    Child child(folder, with_settings({"--in", "udp:0", "--clients", "1"}));
+    Child child(folder, with_base_options({"--in", "udp:0", "--clients", "1"}));
     const int fd = datagrams_to(child.port());
     for (int k = 0; k < 600; k += 3) {
-        const auto lines = some_lines(3, k);
-        send_datagram(fd, k % 2 == 0 ? lines : lines.substr(0, lines.size() - 1));  // the last line of a datagram needs no end
+        const auto lines = force_lines(3, k);
+        send_datagram(fd, k % 2 == 0 ? lines : lines.substr(0, lines.size() - 1));  // the last line of a datagram needs no line feed
         if (k % 60 == 0) std::this_thread::sleep_for(std::chrono::milliseconds(2));
     }
-    send_datagram(fd, "");  // its end
+    send_datagram(fd, "");  // marks the end
     EXPECT_EQ(child.read_out(), wanted);
-    EXPECT_EQ(child.wait(), 0) << child.told();
-    EXPECT_NE(child.told().find("600 frames (600 ms of force)"), std::string::npos) << child.told();
+    EXPECT_EQ(child.wait(), 0) << child.error_text();
+    EXPECT_NE(child.error_text().find("600 frames (600 ms of force)"), std::string::npos) << child.error_text();
     ::close(fd);
 }
 
-TEST(StreamProgram, NumberedDatagramsKeepTheirTimeAndOnlyOneSenderIsHeard) {
-    before();
+TEST(StreamProgram, NumberedDatagramsKeepTheirTimeAndOnlyOneSenderIsAccepted) {
+    ignore_broken_pipes();
     const TemporaryFolder folder;
-    Child child(folder, with_settings({"--in", "udp:0", "--clients", "1", "--stamp", "count", "--frames", "f64", "--json", "-o", folder / "s.csv"}));
+    Child child(folder, with_base_options(
+                            {"--in", "udp:0", "--clients", "1", "--stamp", "count", "--frames", "f64", "--json", "-o", folder / "s.csv"}));
     const int port = child.port(), fd = datagrams_to(port), stranger = datagrams_to(port);
     const auto frame = [](std::uint32_t number, double force) {
         std::string bytes(12, '\0');
@@ -632,10 +635,10 @@ TEST(StreamProgram, NumberedDatagramsKeepTheirTimeAndOnlyOneSenderIsHeard) {
     send_datagram(fd, frame(3, 1));                        // late
     send_datagram(fd, frame(5, 1));                        // twice
     send_datagram(fd, frame(6, 1).substr(0, 11));          // cut short
-    send_datagram(fd, frame(7, 1) + std::string(3, 'x'));  // not whole
+    send_datagram(fd, frame(7, 1) + std::string(3, 'x'));  // not complete
     send_datagram(fd, "");
     const auto doc = nlohmann::json::parse(child.read_out());
-    EXPECT_EQ(child.wait(), 0) << child.told();
+    EXPECT_EQ(child.wait(), 0) << child.error_text();
     EXPECT_EQ(doc["frames"], 3);
     EXPECT_EQ(doc["frames_filled"], 3);
     EXPECT_EQ(doc["frames_in_order"]["gaps"], 1);
@@ -643,21 +646,21 @@ TEST(StreamProgram, NumberedDatagramsKeepTheirTimeAndOnlyOneSenderIsHeard) {
     EXPECT_EQ(doc["frames_in_order"]["duplicates"], 1);
     EXPECT_EQ(doc["frames_as_bytes"]["unreadable"], 2);
     EXPECT_EQ(doc["frames_as_bytes"]["datagrams_of_others"], 1);
-    EXPECT_NE(child.told().find("a datagram has 11 bytes"), std::string::npos) << child.told();
+    EXPECT_NE(child.error_text().find("a datagram has 11 bytes"), std::string::npos) << child.error_text();
     ::close(fd), ::close(stranger);
 }
 
 // --- where the system waits
 
 TEST(StreamProgram, OneSignalEndsItWhileItWaitsForARecordingThatDoesNotCome) {
-    before();
+    ignore_broken_pipes();
     const TemporaryFolder folder;
     const auto fifo = folder / "fifo.csv";
     ASSERT_EQ(::mkfifo(fifo.c_str(), 0600), 0);
     Child opening(folder, {"--in", fifo, "--rate", "1kHz"});
     std::this_thread::sleep_for(std::chrono::milliseconds(300));
     opening.interrupt();
-    EXPECT_EQ(opening.wait(), 130) << opening.told();
+    EXPECT_EQ(opening.wait(), 130) << opening.error_text();
     Child reading(folder, {"--in", fifo, "--rate", "1kHz"});
     const int writer = ::open(fifo.c_str(), O_WRONLY | O_CLOEXEC);
     EXPECT_EQ(::write(writer, "f_N\n1\n", 6), 6);
@@ -666,13 +669,13 @@ TEST(StreamProgram, OneSignalEndsItWhileItWaitsForARecordingThatDoesNotCome) {
         ::ioctl(writer, FIONREAD, &unread);
         std::this_thread::sleep_for(std::chrono::milliseconds(5));
     }
-    EXPECT_EQ(unread, 0) << "it reads what there is";
+    EXPECT_EQ(unread, 0) << "it reads the available samples";
     reading.interrupt();
-    EXPECT_EQ(reading.wait(), 130) << reading.told();
+    EXPECT_EQ(reading.wait(), 130) << reading.error_text();
     ::close(writer);
 }
 
-TEST(StreamProgram, WordsThatCannotBeMeantAreRefused) {
+TEST(StreamProgram, ContradictoryOptionsAreRefused) {
     const TemporaryFolder folder;
     const std::pair<const char*, const char*> cases[] = {
         {"", "--rate is required"},
@@ -693,10 +696,10 @@ TEST(StreamProgram, WordsThatCannotBeMeantAreRefused) {
         {"--rate 1kHz --population 'grid 0x3'", "grid"},
         {"--in tcp:0 --rate 1kHz --listen 203.0.113.1", "cannot listen on 203.0.113.1:0"},
     };
-    for (const auto& [words, said] : cases) {
-        const auto ran = test::run_program(folder, std::string("stream ") + words + " </dev/null");
-        EXPECT_NE(ran.status, 0) << words;
-        EXPECT_NE(ran.err.find(said), std::string::npos) << words << ": " << ran.err;
+    for (const auto& [options, message] : cases) {
+        const auto ran = test::run_program(folder, std::string("stream ") + options + " </dev/null");
+        EXPECT_NE(ran.status, 0) << options;
+        EXPECT_NE(ran.err.find(message), std::string::npos) << options << ": " << ran.err;
     }
 }
 

@@ -10,16 +10,16 @@ namespace {
 
 const std::vector<double> train = {0.1, 0.2, 0.25, 0.45, 0.95};
 
-/// One measure of a train in one stretch, fed through the tally.
-double measured(std::string_view name, const std::vector<double>& spikes, const TimeWindow& stretch) {
-    MeasureAccumulator tally({stretch}, 1);
+/// One measure of a train in one time window, computed by the accumulator.
+double measured(std::string_view name, const std::vector<double>& spikes, const TimeWindow& window) {
+    MeasureAccumulator tally({window}, 1);
     for (const double t : spikes) tally.spike(0, t);
     for (std::size_t m = 0; m < std::size(measures); ++m)
         if (measures[m].name == name) return tally.values(0, 0)[m];
     throw std::invalid_argument(std::string(name));
 }
 
-TEST(Measures, TakeThePhasesSpikesAndTheForwardFrequency) {
+TEST(Measures, UseThePhasesSpikesAndTheForwardFrequency) {
     const TimeWindow hold{0.2, 0.5};
     EXPECT_EQ(measured("spikes", train, hold), 3);
     EXPECT_NEAR(measured("mean_rate", train, hold), 10, 1e-9);
@@ -28,7 +28,7 @@ TEST(Measures, TakeThePhasesSpikesAndTheForwardFrequency) {
     EXPECT_NEAR(measured("last_rate", train, hold), 5, 1e-9) << "between the last two inside, not to the one beyond";
 }
 
-TEST(Measures, APhaseOwnsItsStartNotItsEnd) {
+TEST(Measures, APhaseIncludesItsStartAndNotItsEnd) {
     EXPECT_EQ(measured("spikes", train, {0.1, 0.2}), 1);
     EXPECT_EQ(measured("spikes", train, {0.2, 0.25}), 1);
 }
@@ -52,7 +52,7 @@ TEST(Measures, HaveNoValueWhereThereIsNone) {
     EXPECT_TRUE(std::isnan(measured("mean_rate", train, {0.5, 0.5})));
 }
 
-/// Presses of half a second that fire every 20 ms, slowing down to 40 ms, and nothing for so long between them.
+/// Presses of half a second with spikes every 20 ms, slowing to 40 ms, and so long a pause between them.
 std::vector<double> presses(int count, double pause) {
     std::vector<double> spikes;
     double t = 1;
@@ -69,10 +69,10 @@ TEST(Measures, HaveNoAdaptationAndNoVariationWherePausesAreLongerThanPresses) {
         EXPECT_FALSE(std::isnan(measured(name, presses(13, 0.03), all))) << name << ": no pause";
         auto late = presses(1, 0);
         late.insert(late.begin(), {0.1, 0.6});
-        EXPECT_FALSE(std::isnan(measured(name, late, all))) << name << ": an irregular beginning is no pause";
-        auto alone = presses(2, 5);
-        alone.insert(alone.begin(), -8);
-        EXPECT_TRUE(std::isnan(measured(name, alone, {-10, 1000}))) << name << ": a spike alone, then presses";
+        EXPECT_FALSE(std::isnan(measured(name, late, all))) << name << ": an irregular beginning is not a pause";
+        auto isolated = presses(2, 5);
+        isolated.insert(isolated.begin(), -8);
+        EXPECT_TRUE(std::isnan(measured(name, isolated, {-10, 1000}))) << name << ": a spike alone, then presses";
     }
     EXPECT_NEAR(measured("peak_rate", presses(13, 9), all), measured("peak_rate", presses(1, 0), all), 1e-6) << "within a press";
     auto after = presses(1, 0);
@@ -102,7 +102,7 @@ TEST(Measures, InstantaneousRatesAreOneFewerThanSpikes) {
     EXPECT_NEAR(instantaneous_rates(train)[0], 10, 1e-9);
 }
 
-TEST(Measures, EachHasANameATitleAndASentenceOfItsOwn) {
+TEST(Measures, EachHasANameATitleAndADescriptionOfItsOwn) {
     for (const auto& m : measures) {
         EXPECT_FALSE(m.title.empty() || m.description.empty()) << m.name;
         EXPECT_EQ(std::count_if(std::begin(measures), std::end(measures), [&](const MeasureInfo& o) { return o.name == m.name; }), 1) << m.name;
@@ -124,7 +124,7 @@ TEST(Measures, AdaptationIsTheFirstIntervalOverTheLast) {
 TEST(Measures, VariationIsThatOfAllIntervalsInside) {
     EXPECT_NEAR(measured("isi_cv", {1, 2, 3, 4}, {0, 9}), 0, 1e-12) << "a clock";
     EXPECT_NEAR(measured("isi_cv", {0, 1, 4, 99}, {0, 9}), 0.5, 1e-12) << "1 s and 3 s: a deviation of 1 s about 2 s";
-    EXPECT_TRUE(rc::check("against two passes", [] {  // intervals that are no pauses
+    EXPECT_TRUE(rc::check("against two passes", [] {  // intervals that are not pauses
         const auto steps = *rc::gen::container<std::vector<int>>(*rc::gen::inRange<std::size_t>(2, 50), rc::gen::inRange(1, 500));
         std::vector<double> spikes = {1e3};
         for (const int x : steps) spikes.push_back(spikes.back() + x * 1e-3);
@@ -153,17 +153,17 @@ TEST(Measures, VectorStrengthIsOneForALockAndNoneForAnEvenSpread) {
     EXPECT_TRUE(std::isnan(measured("entrainment", locked, {0, 4}))) << "nothing repeats itself";
 }
 
-TEST(Measures, WhatIsBehindTheLastWholeCycleDoesNotCount) {
-    const std::vector<double> spikes = {1.25, 2.25, 3.75};  // at 1 Hz from 1 s; the third in a cycle cut off
+TEST(Measures, SpikesAfterTheLastCompleteCycleDoNotCount) {
+    const std::vector<double> spikes = {1.25, 2.25, 3.75};  // at 1 Hz from 1 s; the third spike is in an incomplete cycle
     EXPECT_NEAR(measured("vector_strength", spikes, {1, 3.9, 1}), 1, 1e-9);
     EXPECT_EQ(measured("entrainment", spikes, {1, 3.9, 1}), 1);
     EXPECT_NEAR(measured("vector_strength", spikes, {1, 4, 1}), 1.0 / 3, 1e-9);
     EXPECT_NEAR(measured("entrainment", {1.25, 3.25}, {1, 4, 1}), 2.0 / 3, 1e-9);
 }
 
-/// The plain meaning of spikes, first, peak, last: over the whole train at once.
-TEST(MeasureAccumulator, GivesWhatTheWholeTrainWouldHoweverItIsCutIntoPhases) {
-    EXPECT_TRUE(rc::check("against the train kept whole", [] {
+/// The definitions of spikes, first, peak and last, computed over the entire train at once.
+TEST(MeasureAccumulator, GivesTheValueOfTheEntireTrainHoweverItIsCutIntoPhases) {
+    EXPECT_TRUE(rc::check("against the entire train", [] {
         const auto steps = *rc::gen::container<std::vector<int>>(rc::gen::inRange(0, 40));
         const auto edges = *rc::gen::container<std::vector<int>>(*rc::gen::inRange<std::size_t>(1, 6), rc::gen::inRange(0, 100));
         std::vector<double> spikes;

@@ -16,8 +16,8 @@ using test::value_or_throw;
 
 double distance(const Train& a, const Train& b, double q) { return value_or_throw(victor_purpura(a, b, q)); }
 
-/// The table of Victor and Purpura, every cell.
-double whole_table(const Train& a, const Train& b, double q) {
+/// The dynamic program of Victor and Purpura, with every cell computed.
+double full_table(const Train& a, const Train& b, double q) {
     std::vector<std::vector<double>> g(a.size() + 1, Train(b.size() + 1));
     for (std::size_t i = 0; i <= a.size(); ++i)
         for (std::size_t j = 0; j <= b.size(); ++j) {
@@ -41,7 +41,7 @@ double all_pairs(const Train& a, const Train& b, double tau) {
 }
 
 /// A train on a grid of milliseconds, so that spikes coincide often.
-Train any_train() {
+Train random_train() {
     auto at = *rc::gen::container<std::vector<int>>(rc::gen::inRange(0, 300));
     std::sort(at.begin(), at.end());
     Train train;
@@ -49,20 +49,20 @@ Train any_train() {
     return train;
 }
 
-double any_cost() { return *rc::gen::element(0.0, 0.5, 10.0, 37.0, 200.0, 2000.0, 1e9); }
+double random_cost() { return *rc::gen::element(0.0, 0.5, 10.0, 37.0, 200.0, 2000.0, 1e9); }
 
-TEST(VictorPurpura, IsTheWholeTablesWhateverTheCost) {
+TEST(VictorPurpura, EqualsTheFullDynamicProgramAtAnyCost) {
     EXPECT_TRUE(rc::check("against every cell", [] {
-        const auto a = any_train(), b = any_train();
-        const double q = any_cost();
-        RC_ASSERT(std::abs(distance(a, b, q) - whole_table(a, b, q)) < 1e-9 * static_cast<double>(a.size() + b.size() + 1));
+        const auto a = random_train(), b = random_train();
+        const double q = random_cost();
+        RC_ASSERT(std::abs(distance(a, b, q) - full_table(a, b, q)) < 1e-9 * static_cast<double>(a.size() + b.size() + 1));
     }));
 }
 
 TEST(VictorPurpura, IsADistance) {
     EXPECT_TRUE(rc::check("symmetry, identity, triangle", [] {
-        const auto a = any_train(), b = any_train(), c = any_train();
-        const double q = any_cost();
+        const auto a = random_train(), b = random_train(), c = random_train();
+        const double q = random_cost();
         RC_ASSERT(distance(a, a, q) == 0);
         RC_ASSERT(std::abs(distance(a, b, q) - distance(b, a, q)) < 1e-9);
         RC_ASSERT(distance(a, c, q) <= distance(a, b, q) + distance(b, c, q) + 1e-9);
@@ -82,8 +82,8 @@ TEST(VictorPurpura, CountsAtNoCostAndComparesNothingButCoincidencesAtAnyOther) {
 
 TEST(VictorPurpura, MovesAreInOrderWorthTheirCostAndAddUpToIt) {
     EXPECT_TRUE(rc::check("the moves of an alignment", [] {
-        const auto a = any_train(), b = any_train();
-        const double q = any_cost();
+        const auto a = random_train(), b = random_train();
+        const double q = random_cost();
         const auto aligned = value_or_throw(align_trains(a, b, q));
         double cost = static_cast<double>(a.size() + b.size() - 2 * aligned.moved.size());
         for (std::size_t k = 0; k < aligned.moved.size(); ++k) {
@@ -98,17 +98,17 @@ TEST(VictorPurpura, MovesAreInOrderWorthTheirCostAndAddUpToIt) {
 }
 
 /// A Poisson train of 100 Hz.
-Train poisson(std::size_t spikes, std::uint32_t who) {
+Train poisson(std::size_t spikes, std::uint32_t index) {
     Train train;
     double t = 0;
     for (std::uint64_t k = 0; k < spikes; ++k) {
-        const double x = normal(1, who, 0, 2 * k), y = normal(1, who, 0, 2 * k + 1);
+        const double x = normal(1, index, 0, 2 * k), y = normal(1, index, 0, 2 * k + 1);
         train.push_back(t += 5e-3 * (x * x + y * y));
     }
     return train;
 }
 
-TEST(VictorPurpura, TrainsOfAHundredThousandTakeWellUnderASecondAndImpossibleOnesAreRefused) {
+TEST(VictorPurpura, TrainsOfAHundredThousandTakeWellUnderASecondAndInvalidOnesAreRefused) {
     const auto a = poisson(100'000, 1), b = poisson(100'000, 2);
     const auto start = std::chrono::steady_clock::now();
     const auto aligned = value_or_throw(align_trains(a, b, 100));
@@ -120,7 +120,7 @@ TEST(VictorPurpura, TrainsOfAHundredThousandTakeWellUnderASecondAndImpossibleOne
               "at a cost of 0.0001 per second, 100000 and 100000 spikes have 10000000000 pairs within");
 }
 
-// 25 million pairs, of which choices are kept of 4 million at once.
+// 25 million pairs; the decisions of 4 million are kept at once.
 TEST(VictorPurpura, MovesOfManyCoincidencesAreFoundPartByPart) {
     std::vector<double> a, b;
     for (int k = 0; k < 5000; ++k) a.push_back(1e-6 * k), b.push_back(1e-6 * (k + (k * 7919) % 13));
@@ -145,7 +145,7 @@ TEST(VictorPurpura, MovesOfManyCoincidencesAreFoundPartByPart) {
 
 TEST(VanRossum, IsTheSumOverAllPairs) {
     EXPECT_TRUE(rc::check("against the double sum", [] {
-        const auto a = any_train(), b = any_train();
+        const auto a = random_train(), b = random_train();
         const double tau = *rc::gen::element(1e-4, 1e-3, 1e-2, 1.0, 100.0);
         const auto n = static_cast<double>(a.size() + b.size() + 1);
         RC_ASSERT(std::abs(van_rossum_squared(a, b, tau) - all_pairs(a, b, tau)) < 1e-11 * n * n);
@@ -154,7 +154,7 @@ TEST(VanRossum, IsTheSumOverAllPairs) {
 
 TEST(VanRossum, IsADistance) {
     EXPECT_TRUE(rc::check("symmetry, identity, triangle", [] {
-        const auto a = any_train(), b = any_train(), c = any_train();
+        const auto a = random_train(), b = random_train(), c = random_train();
         const double tau = *rc::gen::element(1e-3, 1e-2, 1.0);
         const auto d = [tau](const Train& x, const Train& y) { return std::sqrt(van_rossum_squared(x, y, tau)); };
         RC_ASSERT(d(a, a) == 0);

@@ -1,4 +1,4 @@
-// What every entry of the catalogue must keep to. One that is excused carries its reason.
+// Contract that every entry of the catalogue must keep. An excused entry carries its reason.
 
 #include <fmt/format.h>
 
@@ -22,7 +22,7 @@ TEST(Contract, NoForceGivesNoSpikes) {
                     << name << ' ' << rate;
 }
 
-TEST(Contract, EachAnswersToATouchOfItsKind) {
+TEST(Contract, EachRespondsToATouchOfItsKind) {
     for (const auto& name : all_afferent_names()) {
         const bool feels_vibration_only = name == "fa2" || name.starts_with("vibration");
         const auto touch = feels_vibration_only ? force("sine", {.settings = {"sine.f=250Hz", "sine.F_amp=0.3N"}}) : force("press");
@@ -30,11 +30,11 @@ TEST(Contract, EachAnswersToATouchOfItsKind) {
     }
 }
 
-TEST(Contract, ParametersOfPartsThatJoinNeverShareAName) {
+TEST(Contract, ParametersOfCombinedComponentsNeverShareAName) {
     const std::vector<std::vector<CatalogEntry>> kinds = {sensor_entries(), transducer_entries(), converter_entries(), receptor_entries(), neuron_entries()};
     for (const auto& first : kinds)
         for (const auto& second : kinds) {
-            if (&first == &second) continue;  // two of a kind do not join
+            if (&first == &second) continue;  // two of the same kind are never combined
             for (const auto& a : first)
                 for (const auto& b : second)
                     for (const auto& x : a.parameters)
@@ -42,7 +42,7 @@ TEST(Contract, ParametersOfPartsThatJoinNeverShareAName) {
         }
 }
 
-TEST(Contract, EveryRowHasASentenceAReadableUnitAndItsDefaultInRange) {
+TEST(Contract, EveryParameterHasADescriptionAReadableUnitAndItsDefaultInRange) {
     for (const auto& cards : {sensor_entries(), transducer_entries(), converter_entries(), receptor_entries(), neuron_entries(), stimulus_catalog()})
         for (const auto& card : cards) {
             EXPECT_FALSE(card.description.empty() || card.source.empty()) << card.name;
@@ -54,21 +54,21 @@ TEST(Contract, EveryRowHasASentenceAReadableUnitAndItsDefaultInRange) {
         }
 }
 
-TEST(Contract, ValuesOutsideARowsRangeAreRefusedByName) {
+TEST(Contract, ValuesOutsideAParametersRangeAreRefusedByName) {
     for (const auto& name : all_afferent_names()) {
         const auto plan = test::value_or_throw(plan_afferent(name, {}));
         for (const auto& p : *plan.parameters) {
             for (const double value : {p.info.high * 2 + 1, p.info.low - std::abs(p.info.low) - 1}) {
-                const ParameterOverride wish{name, std::string(p.info.name), fmt::format("{}", value)};
-                const auto refused = plan_afferent(name, std::span(&wish, 1));
-                ASSERT_FALSE(refused) << wish.text();
+                const ParameterOverride parameter_override{name, std::string(p.info.name), fmt::format("{}", value)};
+                const auto refused = plan_afferent(name, std::span(&parameter_override, 1));
+                ASSERT_FALSE(refused) << parameter_override.text();
                 EXPECT_NE(refused.error().text().find(std::string(p.info.name) + " = "), std::string::npos) << refused.error().text();
             }
         }
     }
 }
 
-TEST(Contract, BlocksOfAnySizeGiveTheSameSpikesAndTraces) {
+TEST(Contract, BlocksOfAnySizeGiveTheSameSpikesAndProbes) {
     EXPECT_TRUE(rc::check("chunked equals whole, byte for byte", [] {
         const auto names = all_afferent_names();
         const auto name = names[*rc::gen::inRange<std::size_t>(0, names.size())];
@@ -79,7 +79,7 @@ TEST(Contract, BlocksOfAnySizeGiveTheSameSpikesAndTraces) {
         std::vector<std::string> settings;
         if (plan.value("t_ref")) settings.push_back(fmt::format("{}.t_ref={}us", name, *rc::gen::inRange(0, 20000)));
         const auto a = afferent(name, {.settings = settings, .rate = 2e3, .method = method});
-        const auto shown = [&](const std::vector<std::size_t>& sizes) {
+        const auto simulate = [&](const std::vector<std::size_t>& sizes) {
             std::vector<Spike> out;
             std::vector<std::vector<double>> probes(a->probes().size(), std::vector<double>(f.size()));
             auto state = a->start();
@@ -87,35 +87,35 @@ TEST(Contract, BlocksOfAnySizeGiveTheSameSpikesAndTraces) {
                 const auto size = std::min(sizes[n % sizes.size()], f.size() - k);
                 std::vector<double*> here;
                 for (auto& p : probes) here.push_back(p.data() + k);
-                ResponseBlock answer{out, 3, here};
-                state = test::value_or_throw(unpack(pack(state)));  // and saved and resumed between blocks
-                RC_ASSERT(static_cast<bool>(a->respond(std::span(f).subspan(k, size), state, answer)));
+                ResponseBlock response{out, 3, here};
+                state = test::value_or_throw(unpack(pack(state)));  // saved and resumed between blocks
+                RC_ASSERT(static_cast<bool>(a->respond(std::span(f).subspan(k, size), state, response)));
                 k += size;
             }
             return std::pair(out, probes);
         };
         const auto sizes = *rc::gen::nonEmpty(rc::gen::container<std::vector<std::size_t>>(rc::gen::inRange<std::size_t>(1, 700)));
-        const auto whole = shown({f.size()}), parts = shown(sizes);
-        RC_ASSERT(whole.first == parts.first);
-        RC_ASSERT(whole.second == parts.second);
+        const auto undivided = simulate({f.size()}), parts = simulate(sizes);
+        RC_ASSERT(undivided.first == parts.first);
+        RC_ASSERT(undivided.second == parts.second);
         RC_ASSERT(spikes(*a, f) == [&] {
-            auto s = whole.first;
+            auto s = undivided.first;
             for (auto& x : s) x.afferent_index = 0;
             return s;
-        }());  // watching changes nothing
+        }());  // probes change nothing
     }));
 }
 
-TEST(Contract, AForceThatIsNoNumberIsRefused) {
+TEST(Contract, ANonFiniteForceIsRefused) {
     for (const auto& name : all_afferent_names())
         for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity()}) {
             std::vector<Spike> out;
-            ResponseBlock answer{out};
+            ResponseBlock response{out};
             const auto a = afferent(name);
             auto state = a->start();
             std::vector<double> f(100, 1.0);
             f[17] = bad;
-            const auto done = a->respond(f, state, answer);
+            const auto done = a->respond(f, state, response);
             ASSERT_FALSE(done) << name;
             EXPECT_NE(done.error().message.find("the force of sample 17 is"), std::string::npos) << done.error().message;
         }
@@ -125,13 +125,13 @@ TEST(Contract, ForcesFarTooLargeGiveSpikesOrAnErrorNeverSilence) {
     for (const auto& name : all_afferent_names())
         for (const double newtons : {100.0, 3e4, 1e9}) {
             std::vector<Spike> out;
-            ResponseBlock answer{out};
+            ResponseBlock response{out};
             const auto a = afferent(name);
             auto state = a->start();
             const auto f = force("step", {.settings = {"step.F_max=1000N"}});
             std::vector<double> big;
             for (const double x : f) big.push_back(x * newtons / 1000);
-            const auto done = a->respond(big, state, answer);
+            const auto done = a->respond(big, state, response);
             if (done) {
                 EXPECT_FALSE(out.empty()) << name << ' ' << newtons;
             } else {
@@ -183,14 +183,14 @@ TEST(Contract, SpikesComeInOrderInsideTheirSteps) {
 
 TEST(Contract, AStateOfAnotherAfferentIsRefused) {
     std::vector<Spike> out;
-    ResponseBlock answer{out};
+    ResponseBlock response{out};
     auto state = afferent("sa1")->start();
     const std::vector<double> f(10);
-    EXPECT_EQ(afferent("fa1")->respond(f, state, answer).error().message,
+    EXPECT_EQ(afferent("fa1")->respond(f, state, response).error().message,
               "a state of 'sa1b+lif-b/2, T = 0.0001 s' was given to 'fa1b+lif-b/2, T = 0.0001 s'");
 }
 
-TEST(Contract, EachConvergesToItsOwnFineStepAnswer) {
+TEST(Contract, EachConvergesToItsOwnFineStepResponse) {
     for (const auto& name : all_afferent_names()) {
         const bool vibration = name == "fa2" || name.starts_with("vibration"),
                    substeps = name.ends_with("izhikevich") || name.ends_with("adex");
@@ -198,7 +198,7 @@ TEST(Contract, EachConvergesToItsOwnFineStepAnswer) {
             std::vector<std::string> settings = {"sine.f=200Hz", "sine.F_amp=0.3N", "sine.duration=100ms"};
             if (substeps) settings.push_back(fmt::format("{}.substep={}us", name, std::min(1e6 / rate, 1000.0)));
             auto t = test::train(name, vibration ? "sine" : "press", {.settings = settings, .rate = rate});
-            while (vibration && !t.empty() && t.back() > 0.095) t.pop_back();  // one that the end may or may not cut off
+            while (vibration && !t.empty() && t.back() > 0.095) t.pop_back();  // the end of the run decides about the last spike
             return t;
         };
         const auto fine = at(2.048e6);
@@ -215,9 +215,9 @@ TEST(Contract, EachConvergesToItsOwnFineStepAnswer) {
     }
 }
 
-TEST(Contract, FirstSampleSetsTheForceThatWentBeforeIt) {
+TEST(Contract, FirstSampleSetsTheForceBeforeIt) {
     for (const auto& name : all_afferent_names()) {
-        if (name.find("sa") != std::string::npos) {  // they answer to force that stands still; but not as to a step
+        if (name.find("sa") != std::string::npos) {  // they respond to constant force, but not as to a step
             const auto at_once = spikes(*afferent(name), std::vector<double>(2, 3.0)),
                        later = spikes(*afferent(name), std::vector<double>(2000, 3.0));
             EXPECT_TRUE(at_once.empty()) << name;

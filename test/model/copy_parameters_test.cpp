@@ -1,4 +1,4 @@
-// Copies of an afferent: what is drawn, from what, and what it does not depend on.
+// Copies of an afferent: which parameters are sampled, from which distribution, and what the samples depend on.
 
 #include "model/copies.hpp"
 
@@ -13,13 +13,13 @@ namespace {
 
 using test::value_or_throw;
 
-struct Drawn {
+struct SampleOptions {
     std::vector<std::string> settings, spreads;
     std::uint32_t copies = 100'000;
     std::uint64_t seed = 1;
 };
 
-std::vector<AfferentPlan> draw(const std::string& name, const Drawn& d) {
+std::vector<AfferentPlan> sample_copies(const std::string& name, const SampleOptions& d) {
     const auto plan = value_or_throw(plan_afferent(name, test::parse_settings(d.settings)));
     return value_or_throw(make_copies(plan, d.copies, value_or_throw(distributions_for(plan, name, test::parse_settings(d.spreads))), d.seed));
 }
@@ -48,32 +48,32 @@ double above(double z) { return 0.5 * std::erfc(z / std::sqrt(2.0)); }
 double mean_above(double z) { return density(z) / above(z); }
 double deviation_above(double z) { return std::sqrt(1 + z * mean_above(z) - mean_above(z) * mean_above(z)); }
 
-TEST(Spread, IsNormalAboutTheValueByAShareOrByAnAmount) {
-    for (const auto* said : {"sa1.f_B=10%", "sa1.f_B=2.5Hz"}) {
-        const auto x = values(draw("sa1", {{"sa1.f_B=25Hz"}, {said}}), "f_B");
+TEST(ParameterDistribution, IsNormalAboutTheValueByAFractionOrByAnAmount) {
+    for (const auto* setting : {"sa1.f_B=10%", "sa1.f_B=2.5Hz"}) {
+        const auto x = values(sample_copies("sa1", {{"sa1.f_B=25Hz"}, {setting}}), "f_B");
         const double n = static_cast<double>(x.size());
-        EXPECT_NEAR(mean_of(x), 25, 4 * 2.5 / std::sqrt(n)) << said;
-        EXPECT_NEAR(deviation(x), 2.5, 4 * 2.5 / std::sqrt(2 * n)) << said;
+        EXPECT_NEAR(mean_of(x), 25, 4 * 2.5 / std::sqrt(n)) << setting;
+        EXPECT_NEAR(deviation(x), 2.5, 4 * 2.5 / std::sqrt(2 * n)) << setting;
         for (const double z : {-2.0, -1.0, 0.0, 1.0, 2.0}) {
             const auto more = static_cast<double>(std::count_if(x.begin(), x.end(), [&](double v) { return v > 25 + 2.5 * z; }));
-            EXPECT_NEAR(more / n, above(z), 4 * std::sqrt(above(z) * (1 - above(z)) / n)) << said << " beyond " << z;
+            EXPECT_NEAR(more / n, above(z), 4 * std::sqrt(above(z) * (1 - above(z)) / n)) << setting << " beyond " << z;
         }
     }
 }
 
-TEST(Spread, IsANormalCutOffWhereTheRowOrAnOrderEndsIt) {
-    // Below V_reset = 0.45 V no threshold can stand; below 0 A no leak.
-    const auto V_th = values(draw("sa1", {{"sa1.V_reset=0.45V"}, {"sa1.V_th=100mV"}}), "V_th");
+TEST(ParameterDistribution, IsANormalTruncatedAtTheRangeOrByAnOrderConstraint) {
+    // V_reset = 0.45 V is the lower limit of thresholds, 0 A of leaks.
+    const auto V_th = values(sample_copies("sa1", {{"sa1.V_reset=0.45V"}, {"sa1.V_th=100mV"}}), "V_th");
     EXPECT_NEAR(mean_of(V_th), 0.5 + 0.1 * mean_above(-0.5), 4 * 0.1 * deviation_above(-0.5) / std::sqrt(1e5));
     EXPECT_GT(*std::min_element(V_th.begin(), V_th.end()), 0.45);
-    const auto leak = values(draw("sa1", {{}, {"sa1.I_leak0=1uA"}}), "I_leak0");
+    const auto leak = values(sample_copies("sa1", {{}, {"sa1.I_leak0=1uA"}}), "I_leak0");
     EXPECT_NEAR(mean_of(leak), 0.5e-6 + 1e-6 * mean_above(-0.5), 4e-6 * deviation_above(-0.5) / std::sqrt(1e5));
     EXPECT_GE(*std::min_element(leak.begin(), leak.end()), 0);
 }
 
-TEST(Spread, OfTwoParametersInAnOrderIsDrawnForBothTogether) {
-    // Their difference is a normal deviate cut off at 0; their sum, being independent of it, is a whole one.
-    const auto copies = draw("sa1", {{"sa1.E_L=-9V", "sa1.V_reset=0.25V"}, {"sa1.V_th=250mV", "sa1.V_reset=250mV"}});
+TEST(ParameterDistribution, OfTwoOrderedParametersIsSampledJointly) {
+    // Their difference is a normal deviate truncated at 0; their sum is independent of it, so it is a complete one.
+    const auto copies = sample_copies("sa1", {{"sa1.E_L=-9V", "sa1.V_reset=0.25V"}, {"sa1.V_th=250mV", "sa1.V_reset=250mV"}});
     const auto V_th = values(copies, "V_th"), V_reset = values(copies, "V_reset");
     std::vector<double> apart, sum;
     for (std::size_t k = 0; k < V_th.size(); ++k) apart.push_back(V_th[k] - V_reset[k]), sum.push_back(V_th[k] + V_reset[k]);
@@ -84,8 +84,8 @@ TEST(Spread, OfTwoParametersInAnOrderIsDrawnForBothTogether) {
     EXPECT_NEAR(deviation(sum), sd, 4 * sd / root / std::sqrt(2.0));
 }
 
-TEST(Spread, DependsOnSeedNamesAndNumberAndNothingElse) {
-    EXPECT_TRUE(rc::check("more copies, other words in other orders, another way to say it", [] {
+TEST(ParameterDistribution, DependsOnSeedNamesAndNumberAndNothingElse) {
+    EXPECT_TRUE(rc::check("more copies, other settings in other orders, an alias of the name", [] {
         const auto seed = *rc::gen::inRange<std::uint64_t>(0, 1000);
         const auto few = *rc::gen::inRange<std::uint32_t>(1, 20), many = few + *rc::gen::inRange<std::uint32_t>(0, 100);
         std::vector<std::string> others = {"sa1.k_A=10%", "sa1.V_th=40%", "sa1.V_reset=60%", "sa1.t_ref=1ms", "sa1.K_B=300%"};
@@ -93,18 +93,18 @@ TEST(Spread, DependsOnSeedNamesAndNumberAndNothingElse) {
         others.resize(*rc::gen::inRange<std::size_t>(0, others.size() + 1));
         others.insert(others.begin() + *rc::gen::inRange<std::ptrdiff_t>(0, static_cast<std::ptrdiff_t>(others.size()) + 1),
                       "SA-I.f_B=2Hz");
-        const auto alone = values(draw("sa1", {{}, {"sa1.f_B=10%"}, few, seed}), "f_B");
-        auto among = values(draw("SA1", {{}, others, many, seed}), "f_B");
+        const auto alone = values(sample_copies("sa1", {{}, {"sa1.f_B=10%"}, few, seed}), "f_B");
+        auto among = values(sample_copies("SA1", {{}, others, many, seed}), "f_B");
         among.resize(few);
         RC_ASSERT(alone == among);
     }));
 }
 
-TEST(Spread, IsAnotherOneForEverySeedNumberAndName) {
-    const auto copies = draw("sa1", {{}, {"sa1.f_B=10%", "sa1.f_C=10%"}});
+TEST(ParameterDistribution, IsAnotherOneForEverySeedNumberAndName) {
+    const auto copies = sample_copies("sa1", {{}, {"sa1.f_B=10%", "sa1.f_C=10%"}});
     const auto f_B = values(copies, "f_B"), f_C = values(copies, "f_C");
-    const auto other_seed = values(draw("sa1", {{}, {"sa1.f_B=10%"}, 100'000, 2}), "f_B");
-    const auto other_name = values(draw("sa1b+lif-b", {{}, {"sa1b+lif-b.f_B=10%"}}), "f_B");
+    const auto other_seed = values(sample_copies("sa1", {{}, {"sa1.f_B=10%"}, 100'000, 2}), "f_B");
+    const auto other_name = values(sample_copies("sa1b+lif-b", {{}, {"sa1b+lif-b.f_B=10%"}}), "f_B");
     const auto next = [&] {
         auto x = f_B;
         std::rotate(x.begin(), x.begin() + 1, x.end());
@@ -114,18 +114,18 @@ TEST(Spread, IsAnotherOneForEverySeedNumberAndName) {
         EXPECT_NEAR(covariance_of(f_B, *other) / deviation(f_B) / deviation(*other), 0, 4 / std::sqrt(1e5));
 }
 
-TEST(Spread, GivesCopiesWithNamesAndNumbersThatShareWhatTheyAreMadeOf) {
-    const auto copies = draw("SA1", {{}, {"SA1.f_B=10%"}, 3});
+TEST(ParameterDistribution, GivesCopiesWithNamesAndNumbersThatShareTheirParameterInfo) {
+    const auto copies = sample_copies("SA1", {{}, {"SA1.f_B=10%"}, 3});
     ASSERT_EQ(copies.size(), 3U);
     for (std::uint32_t k = 0; k < 3; ++k) {
         EXPECT_EQ(copies[k].name, "sa1#" + std::to_string(k + 1));
         EXPECT_EQ(copies[k].original_name, "sa1");
         EXPECT_EQ(copies[k].copy_number, k + 1);
-        EXPECT_EQ(copies[k].parameters, copies[0].parameters) << "one list of rows for all";
+        EXPECT_EQ(copies[k].parameters, copies[0].parameters) << "all copies share one list of parameters";
         EXPECT_EQ(*copies[k].value("V_th"), 0.5);
     }
     auto all = copies;
-    const auto other = draw("fa1", {{}, {}, 2});
+    const auto other = sample_copies("fa1", {{}, {}, 2});
     all.insert(all.end(), other.begin(), other.end());
     EXPECT_EQ(copy_group_starts(all), (std::vector<std::size_t>{0, 3, 5}));
     const std::vector plain = {value_or_throw(plan_afferent("sa1", {})), value_or_throw(plan_afferent("fa1", {}))};
@@ -137,12 +137,12 @@ TEST(Spread, GivesCopiesWithNamesAndNumbersThatShareWhatTheyAreMadeOf) {
 TEST(Contract, EveryParameterThatCopiesDoNotShareCanDifferInEveryAfferent) {
     for (const auto& name : test::all_afferent_names()) {
         const auto plan = value_or_throw(plan_afferent(name, {}));
-        std::vector<ParameterOverride> wishes;
+        std::vector<ParameterOverride> overrides;
         for (std::size_t k = 0; k < plan.values.size(); ++k) {
             const auto& row = (*plan.parameters)[k].info;
-            if (!row.is_shared_by_copies && plan.values[k] != 0) wishes.push_back({name, std::string(row.name), "2%"});
+            if (!row.is_shared_by_copies && plan.values[k] != 0) overrides.push_back({name, std::string(row.name), "2%"});
         }
-        const auto spreads = value_or_throw(distributions_for(plan, name, wishes));
+        const auto spreads = value_or_throw(distributions_for(plan, name, overrides));
         const auto copies = value_or_throw(make_copies(plan, 4, spreads, 3));
         for (const auto& copy : copies) {
             EXPECT_FALSE(check_plan(copy)) << copy.name;
@@ -154,7 +154,7 @@ TEST(Contract, EveryParameterThatCopiesDoNotShareCanDifferInEveryAfferent) {
     }
 }
 
-TEST(Contract, CopiesShareWhatMustBeWholeAndEverySubstep) {
+TEST(Contract, CopiesShareIntegerParametersAndEverySubstep) {
     for (const auto at : Adc::integers)
         for (const auto& f : Adc::fields) EXPECT_TRUE(f.member != at || f.is_shared_by_copies) << f.name;
     int substeps = 0;
@@ -167,11 +167,11 @@ TEST(Contract, CopiesShareWhatMustBeWholeAndEverySubstep) {
     EXPECT_GE(substeps, 2);
 }
 
-TEST(Spread, OfWhatCannotDifferIsRefusedByName) {
+TEST(ParameterDistribution, OfASharedParameterIsRefusedByName) {
     const struct {
         std::string name;
         std::vector<std::string> spreads;
-        std::string said;
+        std::string message;
     } cases[] = {
         {"sa1b+adex",
          {"sa1b+adex.substep=10%"},
@@ -191,25 +191,25 @@ TEST(Spread, OfWhatCannotDifferIsRefusedByName) {
     };
     for (const auto& c : cases) {
         const auto spreads = distributions_for(value_or_throw(plan_afferent(c.name, {})), c.name, test::parse_settings(c.spreads));
-        ASSERT_FALSE(spreads) << c.said;
-        EXPECT_EQ(spreads.error().text(), c.said);
+        ASSERT_FALSE(spreads) << c.message;
+        EXPECT_EQ(spreads.error().text(), c.message);
     }
 }
 
-TEST(Spread, ThatNothingCanStandUnderIsAnErrorAfterAThousandDraws) {
+TEST(ParameterDistribution, WithoutAcceptableSamplesIsAnErrorAfterAThousandTries) {
     const auto plan = value_or_throw(plan_afferent("sa1", {}));
     const auto wide = make_copies(plan, 2, value_or_throw(distributions_for(plan, "sa1", test::parse_settings({"sa1.V_th=1GV"}))), 1);
     ASSERT_FALSE(wide);
     EXPECT_EQ(wide.error().text(),
               "sa1#1: none of 1000 samples of V_th about 500 mV with a standard deviation of 1 GV is valid; lower its --spread");
-    // Half of R_fb's draws leave V_Z above V_DD at F_cal, where the sensor could not be calibrated: those are drawn again.
-    const auto edge = draw("fsr+f2v+sa1", {{"fsr+f2v+sa1.R_fb=13.3kohm"}, {"fsr+f2v+sa1.R_fb=10%"}, 1000});
+    // Half of the samples of R_fb leave V_Z above V_DD at F_cal, where the sensor could not be calibrated. Those are sampled again.
+    const auto edge = sample_copies("fsr+f2v+sa1", {{"fsr+f2v+sa1.R_fb=13.3kohm"}, {"fsr+f2v+sa1.R_fb=10%"}, 1000});
     for (const auto& copy : edge) EXPECT_FALSE(check_plan(copy));
 }
 
-TEST(Spread, OfNothingLeavesEveryCopyAsItIs) {
+TEST(ParameterDistribution, OfZeroWidthLeavesEveryCopyUnchanged) {
     const auto plan = value_or_throw(plan_afferent("sa1", {}));
-    for (const auto& copy : draw("sa1", {{}, {"sa1.E_L=0%", "sa1.f_B=0Hz"}, 5})) EXPECT_EQ(copy.values, plan.values);
+    for (const auto& copy : sample_copies("sa1", {{}, {"sa1.E_L=0%", "sa1.f_B=0Hz"}, 5})) EXPECT_EQ(copy.values, plan.values);
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 #!/bin/sh
-# What is compiled for one instruction set must not be taken by the linker for what every machine can run. Of each object no weak
-# symbol may leave that does not name its lanes (xsimd's type says which), and nothing global but its tables.
+# Code compiled for one instruction set must not be linked instead of code for every machine. No object may export a weak symbol that
+# does not name its lanes (by xsimd's type), nor a global symbol except its tables.
 # Usage: lanes_stay_inside.sh OBJECT...
 set -eu
 test $# -ge 3 || { echo "objects for three instruction sets were to come, not $#"; exit 1; }

@@ -1,4 +1,4 @@
-// Every neuron, alone, under currents with known answers.
+// Every neuron alone, under currents with known responses.
 
 #include <cmath>
 
@@ -7,18 +7,18 @@
 namespace corpuscle {
 namespace {
 
-struct Shown {
+struct NeuronRun {
     std::vector<double> times;     // s
     std::vector<double> membrane;  // first probe, a value a sample
     std::int64_t capped = 0;
 };
 
 template <template <class> class N>
-Shown run(typename N<double>::Params p, const std::function<double(double)>& current, double seconds, double dt,
-          Method method = Method::exact) {
+NeuronRun run(typename N<double>::Params p, const std::function<double(double)>& current, double seconds, double dt,
+              Method method = Method::exact) {
     const N<double> neuron(UniformParams<typename N<double>::Params>{p}, dt, method);
     auto state = neuron.start();
-    Shown out;
+    NeuronRun out;
     for (long k = 1; k <= std::lround(seconds / dt); ++k) {
         const double end = current(static_cast<double>(k) * dt),
                      from = method == Method::exact ? current(static_cast<double>(k - 1) * dt) : end;
@@ -31,26 +31,26 @@ Shown run(typename N<double>::Params p, const std::function<double(double)>& cur
     return out;
 }
 
-/// A current that makes any of them fire at tens of hertz.
+/// A current under which the neuron fires at tens of hertz.
 template <template <class> class N>
-double brisk() {
+double strong_current() {
     return 5e-6;
 }
 
 template <template <class> class N>
 constexpr bool has_refractory_time = requires(typename N<double>::Params p) { p.t_ref; };
 
-TEST(Neuron, EachIsSilentAndStillAtRest) {
+TEST(Neuron, EachIsSilentAndConstantAtRest) {
     for_each_type(Neurons{}, []<template <class> class N>(ModelTag<N>) {
         for (const auto method : {Method::exact, Method::backward_euler}) {
-            const auto shown = run<N>({}, [](double) { return 0.0; }, 2, 1e-4, method);
-            EXPECT_TRUE(shown.times.empty()) << N<double>::name;
-            for (const double v : shown.membrane) ASSERT_NEAR(v, shown.membrane[0], 1e-9) << N<double>::name << " drifts at rest";
+            const auto result = run<N>({}, [](double) { return 0.0; }, 2, 1e-4, method);
+            EXPECT_TRUE(result.times.empty()) << N<double>::name;
+            for (const double v : result.membrane) ASSERT_NEAR(v, result.membrane[0], 1e-9) << N<double>::name << " drifts at rest";
         }
     });
 }
 
-TEST(Neuron, EachFiresAsItIsDriven) {
+TEST(Neuron, EachFiresFasterWithMoreCurrent) {
     for_each_type(Neurons{}, []<template <class> class N>(ModelTag<N>) {
         const auto slow = run<N>({}, [](double) { return 2.5e-6; }, 2, 1e-4), fast = run<N>({}, [](double) { return 10e-6; }, 2, 1e-4);
         EXPECT_GT(slow.times.size(), 2U) << N<double>::name;
@@ -58,7 +58,7 @@ TEST(Neuron, EachFiresAsItIsDriven) {
     });
 }
 
-TEST(Neuron, EachWithARefractoryTimeKeepsItAndIsHeldThrough) {
+TEST(Neuron, EachKeepsItsRefractoryTimeAtTheResetVoltage) {
     for_each_type(Neurons{}, []<template <class> class N>(ModelTag<N>) {
         if constexpr (!has_refractory_time<N>) {
             EXPECT_TRUE(N<double>::name == "izhikevich" || N<double>::name == "adex") << "their recovery variable is their refractoriness";
@@ -67,31 +67,32 @@ TEST(Neuron, EachWithARefractoryTimeKeepsItAndIsHeldThrough) {
                 for (const auto method : {Method::exact, Method::backward_euler}) {
                     typename N<double>::Params p;
                     p.t_ref = t_ref;
-                    const auto shown = run<N>(p, [](double) { return 1e-3; }, 0.5, 1e-3, method);  // far above any threshold
-                    ASSERT_GT(shown.times.size(), 5U) << N<double>::name;
-                    for (std::size_t k = 1; k < shown.times.size(); ++k)
-                        ASSERT_GE(shown.times[k] - shown.times[k - 1], t_ref - 1e-12) << N<double>::name;
+                    const auto result = run<N>(p, [](double) { return 1e-3; }, 0.5, 1e-3, method);  // far above any threshold
+                    ASSERT_GT(result.times.size(), 5U) << N<double>::name;
+                    for (std::size_t k = 1; k < result.times.size(); ++k)
+                        ASSERT_GE(result.times[k] - result.times[k - 1], t_ref - 1e-12) << N<double>::name;
                     if (t_ref < 5e-3) continue;
-                    const auto sample = static_cast<std::size_t>(shown.times[0] / 1e-3);  // the sample after the first spike: still held
-                    EXPECT_NEAR(shown.membrane[sample], p.V_reset, 1e-12) << N<double>::name;
+                    const auto sample = static_cast<std::size_t>(result.times[0] / 1e-3);  // after the first spike: still refractory
+                    EXPECT_NEAR(result.membrane[sample], p.V_reset, 1e-12) << N<double>::name;
                 }
         }
     });
 }
 
 TEST(Neuron, LifBsIntervalsAreTheChargeOverTheNetCurrent) {
-    const auto shown = run<LifB>({}, [](double) { return brisk<LifB>(); }, 1, 1e-3);
-    ASSERT_GT(shown.times.size(), 10U);
-    EXPECT_NEAR(shown.times[0], 500e-9 * 0.5 / 4.5e-6, 1e-12);
-    for (std::size_t k = 1; k < shown.times.size(); ++k) EXPECT_NEAR(shown.times[k] - shown.times[k - 1], 500e-9 * 0.25 / 4.5e-6, 1e-12);
+    const auto result = run<LifB>({}, [](double) { return strong_current<LifB>(); }, 1, 1e-3);
+    ASSERT_GT(result.times.size(), 10U);
+    EXPECT_NEAR(result.times[0], 500e-9 * 0.5 / 4.5e-6, 1e-12);
+    for (std::size_t k = 1; k < result.times.size(); ++k) EXPECT_NEAR(result.times[k] - result.times[k - 1], 500e-9 * 0.25 / 4.5e-6, 1e-12);
 }
 
 TEST(Neuron, LifAsIntervalsAreTheLogarithmOfTheDecay) {  // errata B5b
     const LifA<double>::Params p{.C_m = 1e-6, .R_m = 1e6, .E_L = 0, .V_th = 1, .V_reset = 0.5};
-    for (const double dt : {1e-4, 1e-2, 1.0}) {  // whatever the step: the current is a straight line
-        const auto shown = run<LifA>(p, [](double) { return 2e-6; }, 10, dt);
-        ASSERT_GT(shown.times.size(), 10U);
-        for (std::size_t k = 1; k < shown.times.size(); ++k) EXPECT_NEAR(1 / (shown.times[k] - shown.times[k - 1]), 2.466303, 1e-6) << dt;
+    for (const double dt : {1e-4, 1e-2, 1.0}) {  // exact for any step, because the current is a straight line
+        const auto result = run<LifA>(p, [](double) { return 2e-6; }, 10, dt);
+        ASSERT_GT(result.times.size(), 10U);
+        for (std::size_t k = 1; k < result.times.size(); ++k)
+            EXPECT_NEAR(1 / (result.times[k] - result.times[k - 1]), 2.466303, 1e-6) << dt;
     }
 }
 
@@ -108,7 +109,7 @@ TEST(Neuron, LifsFollowARampOfCurrentExactlyWhateverTheStep) {
     for (std::size_t k = 0; k < fine.times.size(); ++k) EXPECT_NEAR(fine.times[k], coarse.times[k], 1e-8) << k;
 }
 
-TEST(Neuron, SeveralSpikesInAStepAreAllGivenUpToTheCapWhichIsTold) {
+TEST(Neuron, SeveralSpikesInAStepAreAllGivenUpToTheReportedLimit) {
     const auto many = run<LifB>({}, [](double) { return 50e-6; }, 0.5, 0.05);  // 396 Hz: some twenty a step
     EXPECT_NEAR(static_cast<double>(many.times.size()), (49.5e-6 * 0.5 / 500e-9 - 0.5) / 0.25 + 1, 1);
     EXPECT_EQ(many.capped, 0);
@@ -120,15 +121,15 @@ TEST(Neuron, SeveralSpikesInAStepAreAllGivenUpToTheCapWhichIsTold) {
 }
 
 TEST(Neuron, LifBIsHeldAtRestAndLeavesItWhenTheCurrentPassesTheLeak) {
-    const auto shown = run<LifB>({}, [](double t) { return 1e-6 * t; }, 2, 0.2);  // passes 0.5 uA in the middle of a step
+    const auto result = run<LifB>({}, [](double t) { return 1e-6 * t; }, 2, 0.2);  // passes 0.5 uA in the middle of a step
     const double charge_to_fire = 500e-9 * 0.5;                                   // 1e-6 (t - 0.5)^2 / 2
-    ASSERT_EQ(shown.times.size(), 8U);
+    ASSERT_EQ(result.times.size(), 8U);
     for (std::size_t k = 0; k < 8; ++k)
-        EXPECT_NEAR(shown.times[k], 0.5 + std::sqrt(2 * charge_to_fire * (1 + 0.5 * static_cast<double>(k)) / 1e-6), 1e-9);
+        EXPECT_NEAR(result.times[k], 0.5 + std::sqrt(2 * charge_to_fire * (1 + 0.5 * static_cast<double>(k)) / 1e-6), 1e-9);
 }
 
 TEST(Neuron, AdaptiveFiresForAllTheTimeItIsDrivenInAStep) {
-    // 50 ms from 100 uA down to 0, and on below: all spikes belong to the driven part, where u = 100e-6 (x - x^2 / 2) T / C_m.
+    // 50 ms from 100 uA down to 0, and then below 0: all spikes are in the driven part, where u = 100e-6 (x - x^2 / 2) T / C_m.
     for (const double end : {0.0, -50e-6}) {
         const auto coarse = run<Adaptive>({}, [=](double t) { return 100e-6 + (end - 100e-6) * t / 0.05; }, 0.05, 0.05);
         const auto fine = run<Adaptive>({}, [=](double t) { return 100e-6 + (end - 100e-6) * t / 0.05; }, 0.05, 1e-6);
@@ -138,7 +139,7 @@ TEST(Neuron, AdaptiveFiresForAllTheTimeItIsDrivenInAStep) {
     }
 }
 
-TEST(Neuron, AdexWithoutARestStartsWhereItSays) {
+TEST(Neuron, AdexWithoutAFixedPointStartsAtItsDefinedState) {
     const Adex<double>::Params p{.Delta_T = 0.1};
     const Adex<double> neuron(UniformParams<Adex<double>::Params>{p}, 1e-4, Method::exact);
     EXPECT_EQ(neuron.start().v, p.E_L);
@@ -152,9 +153,9 @@ TEST(Neuron, IzhikevichFiresAsPublished) {
         v += 1e-3 * dv, w += 1e-3 * dw;
         if (v > 30) v = -65, w += 8, interval = t - last, last = t;
     }
-    const auto shown = run<Izhikevich>({}, [](double) { return 10 / 2.5e6; }, 1, 1e-4);
-    ASSERT_GT(shown.times.size(), 5U);
-    EXPECT_NEAR(shown.times.back() - shown.times[shown.times.size() - 2], interval * 1e-3, 0.02e-3);
+    const auto result = run<Izhikevich>({}, [](double) { return 10 / 2.5e6; }, 1, 1e-4);
+    ASSERT_GT(result.times.size(), 5U);
+    EXPECT_NEAR(result.times.back() - result.times[result.times.size() - 2], interval * 1e-3, 0.02e-3);
 }
 
 TEST(Neuron, AdexFiresAsItsEquationsDo) {
@@ -167,9 +168,9 @@ TEST(Neuron, AdexFiresAsItsEquationsDo) {
         v += h * dv, w += h * dw;
         if (v > -40.4e-3) v = -70.6e-3, w += 80.5e-12, right.push_back(t);
     }
-    const auto shown = run<Adex>({}, [](double) { return 1.5e-9 / 3e-4; }, 0.3, 1e-4);
-    ASSERT_EQ(shown.times.size(), right.size());
-    for (std::size_t k = 0; k < right.size(); ++k) EXPECT_NEAR(shown.times[k], right[k], 0.1e-3) << k;
+    const auto result = run<Adex>({}, [](double) { return 1.5e-9 / 3e-4; }, 0.3, 1e-4);
+    ASSERT_EQ(result.times.size(), right.size());
+    for (std::size_t k = 0; k < right.size(); ++k) EXPECT_NEAR(result.times[k], right[k], 0.1e-3) << k;
     EXPECT_GT(right[right.size() - 1] - right[right.size() - 2], 1.5 * (right[1] - right[0])) << "it adapts";
 }
 
@@ -179,8 +180,8 @@ TEST(Neuron, SlopesByDualsMatchFiniteDifferencesForEveryParameter) {
         constexpr double dt = 1e-4;
         constexpr int steps = 400;
         for (const auto& field : N<double>::fields) {
-            if (field.name == "substep") continue;                  // it chooses a count, not a value
-            const auto last_time = [&](auto neuron, auto number) {  // of the last spike before the end, and the membrane there
+            if (field.name == "substep") continue;                  // it sets a count, not a value
+            const auto last_time = [&](auto neuron, auto number) {  // time of the last spike before the end, and the membrane there
                 using T = decltype(number);
                 auto state = neuron.start();
                 T last{};
@@ -193,7 +194,7 @@ TEST(Neuron, SlopesByDualsMatchFiniteDifferencesForEveryParameter) {
                 return std::pair(last, parts[0]);
             };
             Params p;
-            if constexpr (has_refractory_time<N>) p.t_ref = 1.3e-3;  // at 0 it would have a slope to one side only
+            if constexpr (has_refractory_time<N>) p.t_ref = 1.3e-3;  // at 0 it has a one-sided derivative only
             const auto dual = last_time(N<num::Dual>(DualParams<Params>{p, field.member}, dt, Method::exact), num::Dual{});
             const double scale = p.*field.member != 0 ? std::abs(p.*field.member) : field.unit == "V" ? 1e-2 : field.unit == "s" ? 1e-3 : 1e-6;
             const auto moved = [&](double by) {

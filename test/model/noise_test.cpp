@@ -1,4 +1,4 @@
-// Membrane noise: its size at any rate, and that it depends on what it is for alone.
+// Membrane noise: its amplitude at any sampling rate, and that it depends on nothing but its indices.
 
 #include <cmath>
 
@@ -7,21 +7,21 @@
 namespace corpuscle {
 namespace {
 
-struct Noisy {
+struct NoisyRun {
     std::vector<std::vector<double>> probes;
     std::vector<Spike> spikes;
 };
 
-Noisy run(const std::string& name, const std::vector<std::string>& settings, const std::vector<double>& f, double rate, double noise,
-          std::uint32_t unit = 0, std::uint64_t seed = 7, std::size_t block = 1 << 20) {
+NoisyRun run(const std::string& name, const std::vector<std::string>& settings, const std::vector<double>& f, double rate, double noise,
+             std::uint32_t afferent_index = 0, std::uint64_t seed = 7, std::size_t block = 1 << 20) {
     const auto a = make_afferent(test::value_or_throw(plan_afferent(name, test::parse_settings(settings))), {1 / rate, Method::exact, false, noise, seed});
-    Noisy out{std::vector(a->probes().size(), std::vector<double>(f.size())), {}};
+    NoisyRun out{std::vector(a->probes().size(), std::vector<double>(f.size())), {}};
     auto state = a->start();
     for (std::size_t k = 0; k < f.size(); k += block) {
         std::vector<double*> here;
         for (auto& p : out.probes) here.push_back(p.data() + k);
-        ResponseBlock answer{out.spikes, unit, here};
-        EXPECT_TRUE(a->respond(std::span(f).subspan(k, std::min(block, f.size() - k)), state, answer));
+        ResponseBlock response{out.spikes, afferent_index, here};
+        EXPECT_TRUE(a->respond(std::span(f).subspan(k, std::min(block, f.size() - k)), state, response));
     }
     return out;
 }
@@ -37,7 +37,7 @@ double covariance(const std::vector<double>& x, const std::vector<double>& y, st
     return sum / static_cast<double>(x.size());
 }
 
-TEST(Noise, OfAStepIsWhiteAndAsLargeAsItsBandSays) {
+TEST(Noise, OfAStepIsWhiteAndAsLargeAsItsBandwidthGives) {
     for (const double rate : {500.0, 2e3, 50e3}) {
         std::vector<double> f(4000, 0.0);
         const auto i = run("sa1a+lif-b", {}, f, rate, 100e-9).probes[2];
@@ -51,34 +51,34 @@ TEST(Noise, OfAStepIsWhiteAndAsLargeAsItsBandSays) {
 
 TEST(Noise, MovesAMembraneAlikeAtEveryRate) {
     // R C u' = -u + R n, n white with S = SD^2 / 1 kHz (one-sided): the variance of u is R^2 S / (4 R C).
-    const double right = std::sqrt(1e12 * 1e-14 / 1e3 / (4 * 10e-3));
+    const double expected = std::sqrt(1e12 * 1e-14 / 1e3 / (4 * 10e-3));
     for (const double rate : {1e3, 4e3, 16e3}) {
         const std::vector<double> f(static_cast<std::size_t>(100 * rate), 0.0);
         const auto u = run("sa1a+lif-a", {"sa1a+lif-a.C_m=10nF"}, f, rate, 100e-9).probes[3];
         double squares = 0;
         for (const double x : u) squares += x * x;
-        EXPECT_NEAR(std::sqrt(squares / static_cast<double>(u.size())) / right, 1, 0.03) << rate;
+        EXPECT_NEAR(std::sqrt(squares / static_cast<double>(u.size())) / expected, 1, 0.03) << rate;
     }
 }
 
-TEST(Noise, DependsOnSeedUnitNeuronAndStepAndNothingElse) {
+TEST(Noise, DependsOnSeedAfferentNeuronAndStepAndNothingElse) {
     const auto f = test::force("press", {.rate = 2e3});
-    const auto whole = run("fa1a+lif-b", {}, f, 2e3, 1e-6);
+    const auto undivided = run("fa1a+lif-b", {}, f, 2e3, 1e-6);
     for (const std::size_t block : {1U, 7U, 333U}) {
         const auto parts = run("fa1a+lif-b", {}, f, 2e3, 1e-6, 0, 7, block);
-        EXPECT_EQ(parts.spikes, whole.spikes) << block;
-        EXPECT_EQ(parts.probes, whole.probes) << block;
+        EXPECT_EQ(parts.spikes, undivided.spikes) << block;
+        EXPECT_EQ(parts.probes, undivided.probes) << block;
     }
-    const auto other_unit = run("fa1a+lif-b", {}, f, 2e3, 1e-6, 1), other_seed = run("fa1a+lif-b", {}, f, 2e3, 1e-6, 0, 8);
-    const auto &up = whole.probes[0], &down = whole.probes[1];
+    const auto other_afferent = run("fa1a+lif-b", {}, f, 2e3, 1e-6, 1), other_seed = run("fa1a+lif-b", {}, f, 2e3, 1e-6, 0, 8);
+    const auto &up = undivided.probes[0], &down = undivided.probes[1];
     const double one = covariance(std::vector(up.begin() + 1, up.begin() + 400), std::vector(up.begin() + 1, up.begin() + 400));
     EXPECT_NEAR(covariance(std::vector(up.begin() + 1, up.begin() + 400), std::vector(down.begin() + 1, down.begin() + 400)) / one, 0, 0.2)
         << "each neuron has its own";
-    EXPECT_NE(other_unit.probes[0], up);
+    EXPECT_NE(other_afferent.probes[0], up);
     EXPECT_NE(other_seed.probes[0], up);
 }
 
-TEST(Noise, PassesASensorAndLeavesWordsAlone) {
+TEST(Noise, ReachesAfferentsBehindASensorAndLeavesFixedPointAlone) {
     const auto f = test::force("press", {.rate = 2e3});
     const auto plain = run("fsr+f2v+sa1", {}, f, 2e3, 0), noisy = run("fsr+f2v+sa1", {}, f, 2e3, 1e-6);
     EXPECT_EQ(plain.probes[0], noisy.probes[0]);

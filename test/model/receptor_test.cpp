@@ -1,4 +1,4 @@
-// Every transduction, alone.
+// Every receptor alone.
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 namespace corpuscle {
 namespace {
 
-TEST(Receptor, HighPassUnderARampIsExactWhateverTheStep) {
+TEST(Receptor, HighPassUnderARampIsExactAtAnyStep) {
     const double f = 20, w = 2 * M_PI * f, slope = 3;
     for (const double dt : {1e-6, 1e-4, 1e-2, 0.3}) {
         const HighPass<double> filter(f, dt, Method::exact);
@@ -21,7 +21,7 @@ TEST(Receptor, HighPassUnderARampIsExactWhateverTheStep) {
     }
 }
 
-TEST(Receptor, CurrentsOfAStepJoinOnToTheNextOrHoldASlope) {
+TEST(Receptor, CurrentsAreContinuousBetweenStepsOrHoldASlope) {
     for_each_type(Receptors{}, []<template <class> class R>(ModelTag<R>) {
         const std::string name(R<double>::name);
         const R<double> receptor(UniformParams<typename R<double>::Params>{{}}, 1e-3, Method::exact);
@@ -33,7 +33,7 @@ TEST(Receptor, CurrentsOfAStepJoinOnToTheNextOrHoldASlope) {
             for (int o = 0; o < R<double>::outputs; ++o) {
                 ASSERT_TRUE(std::isfinite(i[o].from) && std::isfinite(i[o].to)) << name;
                 ASSERT_GE(i[o].to, 0) << name << " excites or is still";
-                if (k > 1 && name != "sa1a" && name != "fa1a") {  // those two hold a slope
+                if (k > 1 && name != "sa1a" && name != "fa1a") {  // these two hold a slope
                     ASSERT_EQ(i[o].from, before[o].to) << name;
                 }
                 before[o] = i[o];
@@ -69,17 +69,17 @@ TEST(Receptor, SlopesByDualsMatchFiniteDifferencesForEveryParameter) {
     });
 }
 
-TEST(Receptor, StaticPartsAreProportionalToForce) {
+TEST(Receptor, StaticCurrentsAreProportionalToForce) {
     for (const auto& [name, gain] : {std::pair{"sa1b+lif-b", 1e-6}, {"sa1a+lif-b", 1e-6}}) {
         const auto a = test::afferent(name);
         const std::vector<double> f(1000, 3.0);
         std::vector<std::vector<double>> probes(a->probes().size(), std::vector<double>(f.size()));
-        std::vector<double*> shown;
-        for (auto& p : probes) shown.push_back(p.data());
+        std::vector<double*> probe_pointers;
+        for (auto& p : probes) probe_pointers.push_back(p.data());
         std::vector<Spike> out;
-        ResponseBlock answer{out, 0, shown};
+        ResponseBlock response{out, 0, probe_pointers};
         auto state = a->start();
-        ASSERT_TRUE(a->respond(f, state, answer));
+        ASSERT_TRUE(a->respond(f, state, response));
         for (std::size_t p = 0; p < probes.size(); ++p)
             if (a->probes()[p].name == "I") {
                 EXPECT_NEAR(probes[p].back(), 3 * gain, 1e-18) << name;
@@ -87,7 +87,7 @@ TEST(Receptor, StaticPartsAreProportionalToForce) {
     }
 }
 
-TEST(Afferent, Sa2HoldsWithoutAdaptingAndFeelsReleaseAsTouch) {
+TEST(Afferent, Sa2FiresWithoutAdaptingAndRespondsToReleaseAsToTouch) {
     const auto t = test::train("sa2", "ramp-hold", {.settings = {"ramp-hold.t_hold=2s"}});
     std::vector<double> hold;
     for (const double x : t)
@@ -96,7 +96,7 @@ TEST(Afferent, Sa2HoldsWithoutAdaptingAndFeelsReleaseAsTouch) {
     for (std::size_t k = 2; k < hold.size(); ++k) EXPECT_NEAR(hold[k] - hold[k - 1], hold[1] - hold[0], 1e-6);
 }
 
-TEST(Afferent, Fa2IsBestAt200To300HzAndDeafToThePress) {
+TEST(Afferent, Fa2IsMostSensitiveAt200To300HzAndSilentUnderThePress) {
     EXPECT_TRUE(test::train("fa2").empty());
     const auto rate = [](double f, double amplitude) {
         return test::train("fa2", "sine",
@@ -104,34 +104,34 @@ TEST(Afferent, Fa2IsBestAt200To300HzAndDeafToThePress) {
                             .rate = 20e3})
             .size();
     };
-    const auto threshold = [&](double f) {  // the least amplitude that makes it fire in two seconds
+    const auto threshold = [&](double f) {  // the smallest amplitude at which it fires within two seconds
         double low = 1e-4, high = 10;
         for (int k = 0; k < 20; ++k) (rate(f, std::sqrt(low * high)) > 0 ? high : low) = std::sqrt(low * high);
         return high;
     };
-    double best = 0, least = INFINITY;
+    double best = 0, lowest_threshold = INFINITY;
     for (const double f : {20.0, 40.0, 80.0, 120.0, 160.0, 200.0, 250.0, 300.0, 350.0, 400.0, 500.0, 800.0})
-        if (const double at = threshold(f); at < least) least = at, best = f;
+        if (const double at = threshold(f); at < lowest_threshold) lowest_threshold = at, best = f;
     EXPECT_GE(best, 200);
     EXPECT_LE(best, 300);
-    EXPECT_GT(threshold(20), 30 * least);
-    EXPECT_GT(threshold(800), 1.5 * least);
-    std::size_t most = 0;
-    double brisk = 0;
+    EXPECT_GT(threshold(20), 30 * lowest_threshold);
+    EXPECT_GT(threshold(800), 1.5 * lowest_threshold);
+    std::size_t max_rate = 0;
+    double fastest = 0;
     for (const double f : {100.0, 150.0, 200.0, 250.0, 300.0, 350.0, 400.0, 600.0})
-        if (rate(f, 0.1) > most) most = rate(f, 0.1), brisk = f;
-    EXPECT_GE(brisk, 200);
-    EXPECT_LE(brisk, 300);
+        if (rate(f, 0.1) > max_rate) max_rate = rate(f, 0.1), fastest = f;
+    EXPECT_GE(fastest, 200);
+    EXPECT_LE(fastest, 300);
 }
 
 TEST(Afferent, TouchSimsNamesAndOtherSpellingsAreAccepted) {
-    for (const auto& [other, name] : {std::pair{"SA1", "sa1"}, {"RA", "fa1"}, {"PC", "fa2"}, {"SA-I", "sa1"}, {"FA-II", "fa2"}})
-        EXPECT_EQ(test::value_or_throw(plan_afferent(other, {})).name, name);
-    const auto mine = test::parse_settings({"RA.f=3Hz"});
-    EXPECT_EQ(test::value_or_throw(plan_afferent("RA", mine)).value("f"), 3);
+    for (const auto& [alias, name] : {std::pair{"SA1", "sa1"}, {"RA", "fa1"}, {"PC", "fa2"}, {"SA-I", "sa1"}, {"FA-II", "fa2"}})
+        EXPECT_EQ(test::value_or_throw(plan_afferent(alias, {})).name, name);
+    const auto overrides = test::parse_settings({"RA.f=3Hz"});
+    EXPECT_EQ(test::value_or_throw(plan_afferent("RA", overrides)).value("f"), 3);
 }
 
-TEST(Afferent, WrongNamesAreRefusedWithWhatIsNear) {
+TEST(Afferent, WrongNamesAreRefusedWithASuggestion) {
     EXPECT_EQ(plan_afferent("sa", {}).error().message,
               "unknown afferent 'sa'; did you mean 'sa1'? ('corpuscle list' shows them all; a receptor and a neuron are combined as "
               "'sa1b+lif-b')");

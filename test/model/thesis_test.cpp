@@ -1,4 +1,4 @@
-// The thesis's afferents against closed forms, the golden values and the pattern it describes.
+// The thesis's afferents against closed forms, the golden values and the firing pattern that it describes.
 
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -25,27 +25,27 @@ struct ThesisCase {
 
 const ThesisCase cases[] = {{"sa1", 0.5, 0.25}, {"fa1", 0.5, 0.25}, {"sa1", 1, 0.5}, {"fa1", 1, 0.5}, {"sa1", 0.2, 0}, {"fa1", 0.2, 0}};
 
-/// The largest distance between spikes of the same number; infinite if there are not equally many.
-double worst(const std::vector<double>& a, const std::vector<double>& b) {
+/// The largest distance between spikes of the same index; infinite if the counts differ.
+double max_difference(const std::vector<double>& a, const std::vector<double>& b) {
     if (a.size() != b.size()) return INFINITY;
-    double most = 0;
-    for (std::size_t k = 0; k < a.size(); ++k) most = std::max(most, std::abs(a[k] - b[k]));
-    return most;
+    double largest = 0;
+    for (std::size_t k = 0; k < a.size(); ++k) largest = std::max(largest, std::abs(a[k] - b[k]));
+    return largest;
 }
 
 TEST(Thesis, ExactIsWithinAMicrosecondOfTheClosedFormAt10kHz) {
     for (const auto& c : cases)
-        EXPECT_LT(worst(train(c.afferent, "press", {.settings = c.settings(), .rate = 10e3}), c.exact()), 1e-6)
+        EXPECT_LT(max_difference(train(c.afferent, "press", {.settings = c.settings(), .rate = 10e3}), c.exact()), 1e-6)
             << c.afferent << ' ' << c.V_th;
 }
 
 TEST(Thesis, ExactIsWithinATenthOfAMillisecondAt1kHz) {
     for (const auto& c : cases)
-        EXPECT_LT(worst(train(c.afferent, "press", {.settings = c.settings(), .rate = 1e3}), c.exact()), 1e-4)
+        EXPECT_LT(max_difference(train(c.afferent, "press", {.settings = c.settings(), .rate = 1e3}), c.exact()), 1e-4)
             << c.afferent << ' ' << c.V_th;
 }
 
-TEST(Thesis, PrintedClosedFormTimesAreMet) {
+TEST(Thesis, PublishedClosedFormTimesAreMet) {
     const auto near = [](const std::vector<double>& made, const std::vector<double>& ms) {
         ASSERT_EQ(made.size(), ms.size());
         for (std::size_t k = 0; k < ms.size(); ++k) EXPECT_NEAR(made[k] * 1e3, ms[k], 1e-3);
@@ -55,12 +55,13 @@ TEST(Thesis, PrintedClosedFormTimesAreMet) {
 }
 
 double slope(const ThesisCase& c, Method method) {
-    const auto right = c.exact();
+    const auto expected = c.exact();
     double sum_x = 0, sum_y = 0, sum_xx = 0, sum_xy = 0;
     int n = 0;
     for (double rate = 1e3; rate <= 32e3; rate *= 2, ++n) {  // five halvings of T
         const double x = std::log(1 / rate),
-                     y = std::log(worst(train(c.afferent, "press", {.settings = c.settings(), .rate = rate, .method = method}), right));
+                     y = std::log(
+                         max_difference(train(c.afferent, "press", {.settings = c.settings(), .rate = rate, .method = method}), expected));
         sum_x += x, sum_y += y, sum_xx += x * x, sum_xy += x * y;
     }
     return (n * sum_xy - sum_x * sum_y) / (n * sum_xx - sum_x * sum_x);
@@ -74,7 +75,7 @@ TEST(Thesis, BackwardEulerConvergesWithTheStep) {
     for (const auto& c : cases) EXPECT_NEAR(slope(c, Method::backward_euler), 1.0, 0.2) << c.afferent << ' ' << c.V_th;
 }
 
-/// Algorithms 4 to 6, as the errata correct them, straight from the page.
+/// Algorithms 4 to 6 with the corrections of the errata, written as printed.
 std::vector<double> algorithm(const ThesisCase& c, double T) {
     const auto F = test::force("press", {.rate = 1 / T});
     const bool sa1 = c.afferent == "sa1";
@@ -101,9 +102,9 @@ std::vector<double> algorithm(const ThesisCase& c, double T) {
 TEST(Thesis, SampledBackwardEulerIsTheAlgorithmToTheSample) {
     for (const auto& c : cases)
         for (const double T : {1e-3, 5e-4, 1e-4})
-            EXPECT_LT(worst(train(c.afferent, "press",
-                                  {.settings = c.settings(), .rate = 1 / T, .method = Method::backward_euler, .sampled = true}),
-                            algorithm(c, T)),
+            EXPECT_LT(max_difference(train(c.afferent, "press",
+                                           {.settings = c.settings(), .rate = 1 / T, .method = Method::backward_euler, .sampled = true}),
+                                     algorithm(c, T)),
                       1e-12)
                 << c.afferent << ' ' << c.V_th << ' ' << T;
 }
@@ -114,25 +115,25 @@ TEST(Thesis, GoldenCasesAreMet) {
     const auto golden = nlohmann::json::parse(test::read_file(path));
     for (const auto& g : golden["cases"]) {
         const ThesisCase c{g["model"] == "SA-I" ? "sa1" : "fa1", g["lif"]["theta"], g["lif"]["u_rst"]};
-        const auto right = g["spike_times"].get<std::vector<double>>();
+        const auto expected = g["spike_times"].get<std::vector<double>>();
         if (g["variant"] == "exact") {
-            EXPECT_LT(worst(train(c.afferent, "press", {.settings = c.settings(), .rate = 10e3}), right), 1e-6)
+            EXPECT_LT(max_difference(train(c.afferent, "press", {.settings = c.settings(), .rate = 10e3}), expected), 1e-6)
                 << g["model"] << g["neuron_set"];
-            EXPECT_LT(worst(train(c.afferent, "press", {.settings = c.settings(), .rate = 1e3}), right), 1e-4)
+            EXPECT_LT(max_difference(train(c.afferent, "press", {.settings = c.settings(), .rate = 1e3}), expected), 1e-4)
                 << g["model"] << g["neuron_set"];
         } else {
             EXPECT_LT(
-                worst(
+                max_difference(
                     train(c.afferent, "press",
                           {.settings = c.settings(), .rate = 1 / g["T"].get<double>(), .method = Method::backward_euler, .sampled = true}),
-                    right),
+                    expected),
                 1e-12)
                 << g["model"] << g["neuron_set"];
         }
         for (const auto& [name, facts] : g["stats"]["phases"].items()) {
             const auto& ends = golden["conventions"]["phases_s"][name];
             const TimeWindow s{ends[0], ends[1]};
-            EXPECT_EQ(measure<SpikeCount>(right, s), facts["count"].get<double>());
+            EXPECT_EQ(measure<SpikeCount>(expected, s), facts["count"].get<double>());
             const auto same = [](double made, const nlohmann::json& value) {
                 if (value.is_null()) {
                     EXPECT_TRUE(std::isnan(made));
@@ -140,8 +141,9 @@ TEST(Thesis, GoldenCasesAreMet) {
                     EXPECT_NEAR(made, value.get<double>(), 1e-9);
                 }
             };
-            same(measure<MeanRate>(right, s), facts["mean_rate_Hz"]), same(measure<PeakRate>(right, s), facts["peak_inst_Hz"]);
-            same(measure<FirstRate>(right, s), facts["first_inst_Hz"]), same(measure<LastRate>(right, s), facts["last_inst_inside_Hz"]);
+            same(measure<MeanRate>(expected, s), facts["mean_rate_Hz"]), same(measure<PeakRate>(expected, s), facts["peak_inst_Hz"]);
+            same(measure<FirstRate>(expected, s), facts["first_inst_Hz"]),
+                same(measure<LastRate>(expected, s), facts["last_inst_inside_Hz"]);
         }
     }
 }
@@ -152,11 +154,11 @@ TEST(Thesis, Figure16sNeuronsMeetTheGoldenValues) {
     const auto golden = nlohmann::json::parse(test::read_file(path))["fig16"];
     const auto run = [](const std::string& neuron, double amplitude, Method method, bool sampled, double T) {
         // A step of force through SA-IA with k_s = 1 uA/N and no dynamic part is a step of current.
-        const std::string who = "sa1a+" + neuron;
-        const auto a = test::afferent(who, {.settings = {who + ".k_d=0", who + ".C_m=1uF", who + ".V_th=1V", who + ".V_reset=0.5V"},
-                                            .rate = 1 / T,
-                                            .method = method,
-                                            .sampled = sampled});
+        const std::string name = "sa1a+" + neuron;
+        const auto a = test::afferent(name, {.settings = {name + ".k_d=0", name + ".C_m=1uF", name + ".V_th=1V", name + ".V_reset=0.5V"},
+                                             .rate = 1 / T,
+                                             .method = method,
+                                             .sampled = sampled});
         return spike_times(test::spikes(*a, test::force("step", {.settings = {"step.F_max=" + std::to_string(amplitude) + "N", "step.t_rest=0.5s",
                                                                         "step.t_hold=3.5s", "step.t_post=2s"},
                                                            .rate = 1 / T})),
@@ -165,12 +167,14 @@ TEST(Thesis, Figure16sNeuronsMeetTheGoldenValues) {
     for (const auto& g : golden["cases"]) {
         const double amplitude = g["I_amp"].get<double>() * 1e6;
         for (const auto& [neuron, key] : {std::pair{"lif-a", "spike_times_A"}, {"lif-b", "spike_times_B"}}) {
-            // The step stands between two samples, half a step early for first-order hold.
-            EXPECT_LT(worst(run(neuron, amplitude, Method::exact, false, 1e-4), g["exact"][key].get<std::vector<double>>()), 6e-5)
+            // The step is between two samples, half a step early for first-order hold.
+            EXPECT_LT(max_difference(run(neuron, amplitude, Method::exact, false, 1e-4), g["exact"][key].get<std::vector<double>>()), 6e-5)
                 << neuron;
-            if (g["rounding_ties_in_sampled_LIF_B"].get<bool>() && std::string(neuron) == "lif-b") continue;  // one rounding decides there
+            // One rounding decides the result there.
+            if (g["rounding_ties_in_sampled_LIF_B"].get<bool>() && std::string(neuron) == "lif-b") continue;
             for (const auto& s : g["sampled"])
-                EXPECT_LT(worst(run(neuron, amplitude, Method::backward_euler, true, s["T"]), s[key].get<std::vector<double>>()), 1e-9)
+                EXPECT_LT(max_difference(run(neuron, amplitude, Method::backward_euler, true, s["T"]), s[key].get<std::vector<double>>()),
+                          1e-9)
                     << neuron << ' ' << s["T"];
         }
     }

@@ -1,4 +1,4 @@
-// What must hold of all headers at once.
+// Checks over all headers at once.
 
 #include <map>
 #include <regex>
@@ -8,13 +8,13 @@
 namespace corpuscle {
 namespace {
 
-/// Two types of one name in one namespace are taken for each other where they meet in one program, and neither compiler tells.
-TEST(Headers, NoTwoDefineATypeOfOneName) {
+/// Two types of one name in one namespace are taken for each other if one program has both, and no compiler reports it.
+TEST(Headers, NoTwoDefineATypeOfTheSameName) {
     const std::regex space("^namespace ([\\w:]+)", std::regex::multiline),
         type("^(?:struct|class|enum class|enum) (\\w+)(?= |:|\\{)(?!::)", std::regex::multiline);
     std::map<std::string, std::string> first;
     int count = 0;
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(test::project_root() + "/src")) {
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(test::source_root() + "/src")) {
         if (entry.path().extension() != ".hpp") continue;
         const auto text = test::read_file(entry.path().string());
         std::smatch in;

@@ -1,4 +1,4 @@
-// Numbers on lanes are the numbers of one: to the bit in double; in float the same on every instruction set, and near.
+// Functions on lanes equal the scalar ones: to the bit in double. In float they are the same on every instruction set, and close.
 
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@
 namespace corpuscle {
 namespace {
 
-using test::functions;
+using test::function_count;
 
 constexpr std::size_t points = 4096;
 
@@ -31,13 +31,13 @@ test::NumberFunctions<V> on(InstructionSet set) {
             return (void)in_double, in_float;
     };
 #ifdef __x86_64__
-    if (set == InstructionSet::avx512) return pick(test::avx512::in_double, test::avx512::in_float);
-    if (set == InstructionSet::avx2) return pick(test::avx2::in_double, test::avx2::in_float);
+    if (set == InstructionSet::avx512) return pick(test::avx512::evaluate_double, test::avx512::evaluate_float);
+    if (set == InstructionSet::avx2) return pick(test::avx2::evaluate_double, test::avx2::evaluate_float);
 #endif
-    return pick(test::baseline::in_double, test::baseline::in_float);
+    return pick(test::baseline::evaluate_double, test::baseline::evaluate_float);
 }
 
-/// Numbers of all sizes, and those at the edges.
+/// Numbers of all sizes, and limiting cases.
 template <class V>
 struct Arguments {
     lanes::AlignedBuffer<V> a{points}, b{points};
@@ -64,46 +64,46 @@ struct Arguments {
 template <class V>
 std::vector<lanes::AlignedBuffer<V>> values(InstructionSet set, const Arguments<V>& x) {
     std::vector<lanes::AlignedBuffer<V>> out;
-    V* at[functions];
+    V* at[function_count];
     for (auto& p : at) p = out.emplace_back(points).data();
     on<V>(set)(x.a.data(), x.b.data(), points, at);
     return out;
 }
 
-/// The same bits, or both no number.
+/// True for the same bits, and for two NaNs.
 template <class V>
 bool same(V x, V y) {
     return std::memcmp(&x, &y, sizeof x) == 0 || (std::isnan(x) && std::isnan(y));
 }
 
-TEST(Lanes, EveryFunctionInDoubleGivesTheBitsOfOneNumber) {
+TEST(Lanes, EveryFunctionInDoubleGivesTheBitsOfTheScalarOne) {
     const Arguments<double> x;
     for (const auto set : instruction_sets().subspan(1)) {
         const auto found = values(set, x);
         for (std::size_t k = 0; k < points; ++k)
-            test::each_function(x.a.data()[k], x.b.data()[k], [&](std::size_t f, double right) {
-                EXPECT_TRUE(same(found[f].data()[k], right)) << name_of(set) << " function " << f << " of " << x.a.data()[k] << ", "
-                                                             << x.b.data()[k] << ": " << found[f].data()[k] << ", not " << right;
+            test::for_each_function(x.a.data()[k], x.b.data()[k], [&](std::size_t f, double expected) {
+                EXPECT_TRUE(same(found[f].data()[k], expected)) << name_of(set) << " function " << f << " of " << x.a.data()[k] << ", "
+                                                                << x.b.data()[k] << ": " << found[f].data()[k] << ", not " << expected;
             });
     }
 }
 
 TEST(Lanes, EveryFunctionInFloatIsTheSameOnAllSetsAndNearDouble) {
     const Arguments<float> x;
-    const auto right = values(InstructionSet::baseline, x);
+    const auto expected = values(InstructionSet::baseline, x);
     for (const auto set : instruction_sets().subspan(1)) {
         const auto found = values(set, x);
-        for (std::size_t f = 0; f < functions; ++f)
+        for (std::size_t f = 0; f < function_count; ++f)
             for (std::size_t k = 0; k < points; ++k)
-                EXPECT_TRUE(same(found[f].data()[k], right[f].data()[k]))
+                EXPECT_TRUE(same(found[f].data()[k], expected[f].data()[k]))
                     << name_of(set) << " function " << f << " of " << x.a.data()[k] << ", " << x.b.data()[k] << ": " << found[f].data()[k]
-                    << ", not " << right[f].data()[k];
+                    << ", not " << expected[f].data()[k];
     }
-    for (std::size_t k = 144; k < points; ++k)  // exp's error grows with its argument, log's with how near 1 it is
-        test::each_function<double>(x.a.data()[k], x.b.data()[k], [&](std::size_t f, double y) {
+    for (std::size_t k = 144; k < points; ++k)  // exp's error grows with its argument, log's as its argument comes near 1
+        test::for_each_function<double>(x.a.data()[k], x.b.data()[k], [&](std::size_t f, double y) {
             if (std::abs(x.a.data()[k]) > 80 && f == 0) return;
             const double scale = f == 0 ? std::abs(y) * (1 + std::abs(x.a.data()[k])) : std::abs(y) + 1;
-            EXPECT_NEAR(right[f].data()[k], y, 4e-7 * scale) << "function " << f << " of " << x.a.data()[k] << ", " << x.b.data()[k];
+            EXPECT_NEAR(expected[f].data()[k], y, 4e-7 * scale) << "function " << f << " of " << x.a.data()[k] << ", " << x.b.data()[k];
         });
 }
 

@@ -1,10 +1,10 @@
 #pragma once
-// The functions of number_lanes.hpp, for any kind of number; include elementary.hpp before.
+// The functions of number_lanes.hpp, for any number type. Include elementary.hpp first.
 
 namespace corpuscle::test {
 
 template <class T, class Put>
-void each_function(T a, T b, const Put& put) {
+void for_each_function(T a, T b, const Put& put) {
     std::size_t f = 0;
     for (const T y : {num::exp(a), num::log(num::abs(a) + T(1e-3)), num::sin_turns(b), num::cos_turns(b), num::sqrt(num::abs(a)),
                       num::exprel(b), num::max(a, b), num::min(a, b), num::max(b, a), num::min(b, a), num::positive_part(b), num::nearest(a),

@@ -7,10 +7,10 @@
 namespace corpuscle {
 namespace {
 
-double ulps(double made, long double right) {
-    const double r = static_cast<double>(right);
+double ulps(double actual, long double expected) {
+    const double r = static_cast<double>(expected);
     const double ulp = std::nextafter(std::abs(r), INFINITY) - std::abs(r);
-    return static_cast<double>(std::abs(static_cast<long double>(made) - right)) / ulp;
+    return static_cast<double>(std::abs(static_cast<long double>(actual) - expected)) / ulp;
 }
 
 TEST(Elementary, ExpIsWithinTwoUnitsInTheLastPlace) {

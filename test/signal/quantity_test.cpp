@@ -46,9 +46,9 @@ TEST(Quantity, ReadsNumbersWithUnitsInAllTheirSpellings) {
     }
 }
 
-TEST(Quantity, RefusesWhatIsNoneAndSaysWhatWouldBeRight) {
+TEST(Quantity, RefusesOtherTextsAndGivesAnExample) {
     const struct {
-        const char *text, *unit, *said;
+        const char *text, *unit, *message;
     } cases[] = {
         {"25 ms", "Hz", "'25 ms' is a time; expected a value in Hz, such as '2 Hz'"},
         {"", "s", "'' is not a quantity; write a number and a unit, such as '2 s'"},
@@ -63,11 +63,11 @@ TEST(Quantity, RefusesWhatIsNoneAndSaysWhatWouldBeRight) {
     for (const auto& c : cases) {
         const auto value = parse_quantity(c.text, c.unit);
         ASSERT_FALSE(value) << c.text << " gave " << *value;
-        EXPECT_EQ(value.error().message, c.said);
+        EXPECT_EQ(value.error().message, c.message);
     }
 }
 
-TEST(Quantity, OfEveryRowReadsItsOwnDefaultBack) {
+TEST(Quantity, OfEveryParameterReadsItsOwnDefaultBack) {
     for (const auto& cards : {receptor_entries(), neuron_entries(), stimulus_catalog()})
         for (const auto& card : cards)
             for (const auto& row : card.parameters) {
@@ -95,11 +95,11 @@ TEST(Quantity, HasPowersOfLengthsAndPressures) {
     EXPECT_DOUBLE_EQ(*parse_quantity("50 kPa", "Pa"), 50e3);
     EXPECT_DOUBLE_EQ(*parse_quantity("0.05 N/mm2", "Pa"), 50e3);
     EXPECT_DOUBLE_EQ(*parse_quantity("3 cm", "m"), 0.03);
-    EXPECT_EQ(format_quantity(4e-6, "m2"), "4e-06 m2");  // 4 um2 would be something else
+    EXPECT_EQ(format_quantity(4e-6, "m2"), "4e-06 m2");  // "4 um2" would be another value
     for (const auto* wrong : {"4 mm", "4 /", "4 2", "4 ccm2", "4 cm22"}) EXPECT_FALSE(parse_quantity(wrong, "m2")) << wrong;
 }
 
-RC_GTEST_PROP(Quantity, NeverTakesTwoUnitsOfDifferentKindForEachOther, ()) {
+RC_GTEST_PROP(Quantity, NeverMistakesUnitsOfDifferentDimensions, ()) {
     const auto a = *rc::gen::element<std::string>("s", "N", "V", "A", "m"), b = *rc::gen::element<std::string>("s", "N", "V", "A", "m");
     RC_ASSERT(static_cast<bool>(parse_quantity("2 k" + a, b)) == (a == b));
 }

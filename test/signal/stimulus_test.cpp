@@ -7,14 +7,14 @@ namespace {
 
 using test::RunSettings, test::force;
 
-TEST(Stimulus, EachIsFiniteNeverPullsAndComesAgainTheSame) {
+TEST(Stimulus, EachIsFiniteNotNegativeAndReproducible) {
     for (const auto& card : stimulus_catalog()) {
         const std::string name(card.name);
         const auto once = force(name), again = force(name);
         ASSERT_FALSE(once.empty()) << name;
         EXPECT_EQ(once, again) << name;
         for (const double f : once) ASSERT_TRUE(std::isfinite(f)) << name;
-        if (name == "noise") continue;  // which may, now and then
+        if (name == "noise") continue;  // noise may be negative now and then
         for (const double f : once) ASSERT_GE(f, 0) << name;
     }
 }
@@ -63,7 +63,7 @@ TEST(Stimulus, ASumAddsAndLastsAsLongAsItsLongest) {
 TEST(Stimulus, AShorterMemberOfASumHoldsItsLastValue) {
     const auto sum = force("press+chirp", {.settings = {"chirp.duration=100ms", "chirp.F_mean=0"}}), press = force("press");
     for (std::size_t k = 0; k < sum.size(); ++k)
-        ASSERT_LE(std::abs(sum[k] - press[k]), 0.2) << "a sweep that went on would leave all bounds";
+        ASSERT_LE(std::abs(sum[k] - press[k]), 0.2) << "a sweep that continued would exceed all bounds";
     for (std::size_t k = 1001; k < sum.size(); ++k) ASSERT_NEAR(sum[k] - press[k], sum[1001] - press[1001], 1e-12);
     const auto source = test::value_or_throw(make_stimulus("press+sine", test::parse_settings({"sine.duration=3s"}), 1e3, 0));
     EXPECT_EQ(source->phases().back().name, "after");
@@ -72,7 +72,7 @@ TEST(Stimulus, AShorterMemberOfASumHoldsItsLastValue) {
 
 TEST(Stimulus, ANearlyFlatChirpKeepsItsDigits) {
     const auto flat = force("chirp", {.settings = {"chirp.f_from=1000Hz", "chirp.f_to=1000.000002Hz", "chirp.duration=100s"}, .rate = 1e3});
-    for (std::size_t k = 0; k < flat.size(); k += 97) ASSERT_NEAR(flat[k], 1, 1e-3) << "whole turns, but for less than a thousandth";
+    for (std::size_t k = 0; k < flat.size(); k += 97) ASSERT_NEAR(flat[k], 1, 1e-3) << "complete cycles, to a thousandth";
 }
 
 TEST(Stimulus, AStepsEdgesFallOnTheirSamples) {
@@ -89,13 +89,14 @@ TEST(Stimulus, NoiseFollowsItsSeedAndHasItsSpread) {
     const auto x = force("noise", a);
     EXPECT_NE(x, force("noise", b));
     double sum = 0, square = 0;
-    for (std::size_t k = 0; k < x.size(); k += 5) sum += x[k], square += (x[k] - 1) * (x[k] - 1);  // every fifth sample is a deviate itself
+    // Every fifth sample is a deviate, not an interpolated value.
+    for (std::size_t k = 0; k < x.size(); k += 5) sum += x[k], square += (x[k] - 1) * (x[k] - 1);
     const auto n = static_cast<double>(x.size() / 5);
     EXPECT_NEAR(sum / n, 1, 5 * 0.2 / std::sqrt(n));
     EXPECT_NEAR(std::sqrt(square / n), 0.2, 5 * 0.2 / std::sqrt(2 * n));
 }
 
-TEST(Stimulus, ChirpAndGratingHaveTheFrequenciesTheySay) {
+TEST(Stimulus, ChirpAndGratingHaveTheirStatedFrequencies) {
     const auto rises = [](const std::vector<double>& f, std::size_t from, std::size_t to, double through) {
         int n = 0;
         for (std::size_t k = from + 1; k < to; ++k) n += f[k - 1] < through && f[k] >= through;
@@ -103,23 +104,23 @@ TEST(Stimulus, ChirpAndGratingHaveTheFrequenciesTheySay) {
     };
     const auto chirp = force("chirp", {.rate = 20e3});
     EXPECT_NEAR(rises(chirp, 80000, 100000, 1.0), 500 * (1 - std::pow(500.0, -0.2)) / std::log(500.0) * 5,
-                1.0);  // turns in the last second
+                1.0);  // cycles in the last second
     const auto grating = force("grating");
     EXPECT_NEAR(rises(grating, 0, grating.size(), 1.0), 20, 1);  // 40 mm/s over 2 mm
 }
 
-TEST(Stimulus, WrongNamesAndValuesAreRefusedWithWhatIsRight) {
-    const auto said = [](const std::string& text, std::vector<std::string> settings = {}, double rate = 1e3) {
-        const auto mine = test::parse_settings(settings);
-        const auto made = make_stimulus(text, mine, rate, 0);
+TEST(Stimulus, WrongNamesAndValuesAreRefusedWithASuggestion) {
+    const auto error_text = [](const std::string& text, std::vector<std::string> settings = {}, double rate = 1e3) {
+        const auto overrides = test::parse_settings(settings);
+        const auto made = make_stimulus(text, overrides, rate, 0);
         return made ? std::string("accepted") : made.error().text();
     };
-    EXPECT_EQ(said("pres"), "unknown stimulus 'pres'; did you mean 'press'?");
-    EXPECT_EQ(said("press", {"press.F_mx=2N"}),
+    EXPECT_EQ(error_text("pres"), "unknown stimulus 'pres'; did you mean 'press'?");
+    EXPECT_EQ(error_text("press", {"press.F_mx=2N"}),
               "press: unknown parameter 'F_mx'; did you mean 'F_max'? (it has F_min, F_max, t_rest, t_up, t_hold, t_down, t_post)");
-    EXPECT_EQ(said("press", {"press.F_max=2s"}), "press.F_max: '2s' is a time; expected a value in N, such as '2 N'");
-    EXPECT_EQ(said("press", {"press.t_up=-1s"}), "press: t_up = -1 s is outside [0, 100000]");
-    EXPECT_EQ(said("sine", {"sine.duration=0"}), "sine: 0 s at 1000 Hz is less than one sample");
+    EXPECT_EQ(error_text("press", {"press.F_max=2s"}), "press.F_max: '2s' is a time; expected a value in N, such as '2 N'");
+    EXPECT_EQ(error_text("press", {"press.t_up=-1s"}), "press: t_up = -1 s is outside [0, 100000]");
+    EXPECT_EQ(error_text("sine", {"sine.duration=0"}), "sine: 0 s at 1000 Hz is less than one sample");
 }
 
 }  // namespace

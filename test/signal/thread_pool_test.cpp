@@ -1,4 +1,4 @@
-// Pieces of work on several threads.
+// Tasks on several threads.
 
 #include "signal/thread_pool.hpp"
 
@@ -10,7 +10,7 @@
 namespace corpuscle {
 namespace {
 
-TEST(ThreadPool, EveryPieceIsDoneOnceWhateverTheThreads) {
+TEST(ThreadPool, EveryTaskIsRunOnceWhateverTheThreads) {
     for (const unsigned threads : {1U, 2U, 7U}) {
         ThreadPool pool(threads);
         EXPECT_EQ(pool.threads(), threads);
@@ -28,7 +28,7 @@ TEST(ThreadPool, EveryPieceIsDoneOnceWhateverTheThreads) {
     EXPECT_GE(ThreadPool().threads(), 1U);
 }
 
-TEST(ThreadPool, AnExceptionComesToTheCallerAndThePoolGoesOn) {
+TEST(ThreadPool, AnExceptionReachesTheCallerAndThePoolContinues) {
     ThreadPool pool(3);
     EXPECT_THROW(pool.for_each(100,
                            [](std::size_t k, unsigned) {

@@ -1,4 +1,4 @@
-// Touch without a sensor: what an indenter presses adds up, has the pressures of the textbooks, and is where its path says.
+// Contact mechanics: the forces of an indenter sum to its force, have the textbook pressures, and follow its path.
 
 #include <cmath>
 #include <cstring>
@@ -10,7 +10,7 @@
 namespace corpuscle {
 namespace {
 
-/// Skin from (-half, -half) to (half, half), m, without gaps; one site has its middle at (0, 0).
+/// Skin from (-half, -half) to (half, half), m, without gaps. One site has its centre at (0, 0).
 Sites sheet(double half, double pitch) {
     const auto n = 2 * static_cast<std::size_t>(std::lround(half / pitch)) + 1;
     auto sites = *grid_sites(n, n, pitch);
@@ -19,11 +19,11 @@ Sites sheet(double half, double pitch) {
     return sites;
 }
 
-std::unique_ptr<Contact> pressing(std::string_view indenter, std::initializer_list<const char*> measures, const Sites& sites,
+std::unique_ptr<Contact> pressing(std::string_view indenter, std::initializer_list<const char*> settings, const Sites& sites,
                                   double rate = 1000) {
-    std::vector<ParameterOverride> wishes;
-    for (const std::string text : measures) wishes.push_back(*parse_override("contact." + text));
-    auto made = make_contact(indenter, wishes, sites, *make_clock(rate));
+    std::vector<ParameterOverride> overrides;
+    for (const std::string text : settings) overrides.push_back(*parse_override("contact." + text));
+    auto made = make_contact(indenter, overrides, sites, *make_clock(rate));
     EXPECT_TRUE(made) << made.error().text();
     return std::move(*made);
 }
@@ -39,7 +39,7 @@ std::vector<double> map_at(Contact& contact, const Sites& sites, double force, s
 
 double sum(const std::vector<double>& all) { return std::accumulate(all.begin(), all.end(), 0.0); }
 
-/// Force within a distance of the middle.
+/// Force within a distance of the centre.
 double within(const std::vector<double>& map, const Sites& sites, double reach) {
     double out = 0;
     for (std::size_t s = 0; s < map.size(); ++s) out += std::hypot(sites.positions[s].x, sites.positions[s].y) < reach ? map[s] : 0;
@@ -55,25 +55,26 @@ Position centroid(const std::vector<double>& map, const Sites& sites) {
 RC_GTEST_PROP(Contacts, HaveAllOfTheForce, ()) {
     const auto sites = sheet(20e-3, 1e-3);
     const auto indenter = *rc::gen::element<std::string>("flat", "sphere", "edge", "grating");
-    std::vector<ParameterOverride> wishes;
-    const auto wish = [&](const char* name, int low, int high, double unit) {
-        wishes.push_back({"contact", name, std::to_string(*rc::gen::inRange(low, high) * unit)});
+    std::vector<ParameterOverride> overrides;
+    const auto add_override = [&](const char* name, int low, int high, double scale) {
+        overrides.push_back({"contact", name, std::to_string(*rc::gen::inRange(low, high) * scale)});
     };
-    wish("x", -500, 500, 1e-5), wish("y", -500, 500, 1e-5);
-    if (indenter == "edge" || indenter == "grating") wish("angle", -180, 180, 1);
-    if (indenter != "edge") wish("radius", 1, 80, 1e-4);
-    if (indenter == "edge") wish("length", 1, 150, 1e-4);
+    add_override("x", -500, 500, 1e-5), add_override("y", -500, 500, 1e-5);
+    if (indenter == "edge" || indenter == "grating") add_override("angle", -180, 180, 1);
+    if (indenter != "edge") add_override("radius", 1, 80, 1e-4);
+    if (indenter == "edge") add_override("length", 1, 150, 1e-4);
     const double force = *rc::gen::inRange(1, 4000) * 1e-3;
-    auto contact = make_contact(indenter, wishes, sites, *make_clock(1000));
+    auto contact = make_contact(indenter, overrides, sites, *make_clock(1000));
     RC_ASSERT(bool(contact));
-    const double felt = sum(map_at(**contact, sites, force));
-    RC_ASSERT(std::abs(felt - force) < 1e-12 || (indenter == "grating" && felt == 0));  // a patch in a groove touches nothing
+    const double total_force = sum(map_at(**contact, sites, force));
+    RC_ASSERT(std::abs(total_force - force) < 1e-12 ||
+              (indenter == "grating" && total_force == 0));  // a patch over a groove is not touched
 }
 
-TEST(Contacts, LoseWhatLiesOffTheSkinAndSaySo) {
+TEST(Contacts, LoseTheForceOffTheSkinAndReportIt) {
     const auto sites = sheet(10e-3, 1e-3);
     for (const auto* indenter : {"flat", "sphere", "edge", "grating"}) {
-        const auto contact = pressing(indenter, {"x=10.5mm", "y=0mm"}, sites);  // the skin's very edge
+        const auto contact = pressing(indenter, {"x=10.5mm", "y=0mm"}, sites);  // exactly at the edge of the skin
         EXPECT_NEAR(sum(map_at(*contact, sites, 2)), 1, std::string(indenter) == "grating" ? 0.2 : 1e-9) << indenter;
         const auto remarks = contact->notes();
         EXPECT_TRUE(std::any_of(remarks.begin(), remarks.end(), [](const auto& r) {
@@ -84,7 +85,7 @@ TEST(Contacts, LoseWhatLiesOffTheSkinAndSaySo) {
     EXPECT_EQ(sum(map_at(*pressing("sphere", {}, sites), sites, -1)), 0);
 }
 
-TEST(Contacts, OfSitesOnNoLatticeHaveAllOfTheForce) {
+TEST(Contacts, OfIrregularSitesHaveAllOfTheForce) {
     auto sites = *grid_sites(4, 5, 3e-3);
     for (std::size_t s = 0; s < sites.size(); ++s) sites.positions[s].x += 0.3e-3 * static_cast<double>(s % 3);
     const auto contact = pressing("flat", {"radius=4mm", "x=6mm", "y=4mm"}, sites);
@@ -92,7 +93,7 @@ TEST(Contacts, OfSitesOnNoLatticeHaveAllOfTheForce) {
     EXPECT_NE(contact->notes()[1].find("not on a lattice"), std::string::npos);
 }
 
-TEST(Contacts, AreAsEvenAsTheirIndenters) {
+TEST(Contacts, AreAsSymmetricAsTheirIndenters) {
     const auto sites = sheet(8e-3, 0.5e-3);
     const std::size_t n = 33;
     for (const auto* indenter : {"flat", "sphere", "edge"}) {
@@ -106,7 +107,7 @@ TEST(Contacts, AreAsEvenAsTheirIndenters) {
     }
 }
 
-// Johnson, Contact Mechanics: radius, pressure in the middle, and the force within r.
+// Johnson, Contact Mechanics: radius, pressure at the centre, and the force within r.
 TEST(Sphere, HasHertzsRadiusAndPressureAsThePitchFalls) {
     const double F = 1, R = 8e-3, E = 60e3, a = std::cbrt(3 * F * R / (4 * E)), p0 = 3 * F / (2 * M_PI * a * a);
     double before = 1;
@@ -114,9 +115,9 @@ TEST(Sphere, HasHertzsRadiusAndPressureAsThePitchFalls) {
         const auto sites = sheet(8e-3, pitch);
         const auto map = map_at(*pressing("sphere", {"radius=8mm", "E_star=60kPa", "x=0", "y=0"}, sites), sites, F);
         const double middle = *std::max_element(map.begin(), map.end()) / (pitch * pitch);
-        const double off = std::abs(middle / p0 - 1);
-        EXPECT_LT(off, 0.4 * before);  // by the square of the pitch, less Gauss's own
-        before = off;
+        const double error = std::abs(middle / p0 - 1);
+        EXPECT_LT(error, 0.4 * before);  // the error falls with the square of the pitch; the rest is the quadrature's own
+        before = error;
         double far = 0;
         for (std::size_t s = 0; s < map.size(); ++s) far = map[s] > 0 ? std::max(far, sites.positions[s].x) : far;
         EXPECT_NEAR(far, a, pitch);
@@ -125,7 +126,7 @@ TEST(Sphere, HasHertzsRadiusAndPressureAsThePitchFalls) {
     EXPECT_LT(before, 0.005);
 }
 
-TEST(CircuitBuilder, HasItsEdgeAndNoInfinity) {
+TEST(Flat, HasAFiniteMaximumAtItsEdge) {
     const double F = 2, a = 4e-3;
     for (const double pitch : {0.5e-3, 0.1e-3}) {
         const auto sites = sheet(5e-3, pitch);
@@ -138,7 +139,7 @@ TEST(CircuitBuilder, HasItsEdgeAndNoInfinity) {
     }
 }
 
-TEST(Edge, IsAsWideAsHertzsCylinderAndTurns) {
+TEST(Edge, IsAsWideAsHertzsCylinderAndCanBeRotated) {
     const double F = 1, R = 2e-3, L = 10e-3, E = 100e3, b = std::sqrt(4 * F * R / (M_PI * L * E)), p0 = 2 * F / (M_PI * b * L);
     const auto sites = sheet(8e-3, 0.1e-3);
     const auto flat = map_at(*pressing("edge", {"edge_radius=2mm", "x=0", "y=0"}, sites), sites, F);
@@ -152,7 +153,7 @@ TEST(Edge, IsAsWideAsHertzsCylinderAndTurns) {
             const double u = sites.positions[s].x * c + sites.positions[s].y * n, v = sites.positions[s].y * c - sites.positions[s].x * n;
             along += map[s] * u * u, across += map[s] * v * v;
         }
-        EXPECT_NEAR(along, L * L / 12, 0.01 * L * L / 12) << angle;  // second moments of an even line, and of half an ellipse
+        EXPECT_NEAR(along, L * L / 12, 0.01 * L * L / 12) << angle;  // second moments of a uniform line, and of half an ellipse
         EXPECT_NEAR(across, b * b / 4, 0.02 * b * b / 4) << angle;
     }
 }
@@ -160,16 +161,16 @@ TEST(Edge, IsAsWideAsHertzsCylinderAndTurns) {
 TEST(Grating, RepeatsAfterAPeriodAndPasses) {
     const auto sites = sheet(8e-3, 0.25e-3);
     const auto contact = pressing("grating", {"radius=6mm", "period=3mm", "ridge=1.5mm", "speed=30mm/s", "x=0", "y=0"}, sites);
-    const auto first = map_at(*contact, sites, 1, 0), half = map_at(*contact, sites, 1, 50), whole = map_at(*contact, sites, 1, 100);
-    const auto near = map_at(*contact, sites, 1, 10);  // 0.3 mm on
+    const auto first = map_at(*contact, sites, 1, 0), half = map_at(*contact, sites, 1, 50), undivided = map_at(*contact, sites, 1, 100);
+    const auto near = map_at(*contact, sites, 1, 10);  // 0.3 mm further
     double same = 0, opposite = 0;
     for (std::size_t s = 0; s < first.size(); ++s) {
-        EXPECT_NEAR(first[s], whole[s], 1e-12);
+        EXPECT_NEAR(first[s], undivided[s], 1e-12);
         if (std::hypot(sites.positions[s].x, sites.positions[s].y) > 5e-3) continue;
         same += first[s] * near[s], opposite += first[s] * half[s];
     }
     EXPECT_LT(opposite, 0.3 * same);
-    const std::size_t n = 65, row = 32 * n;  // along the middle: a period is 12 sites
+    const std::size_t n = 65, row = 32 * n;  // along the centre line: a period is 12 sites
     for (std::size_t c = 20; c < 32; ++c) EXPECT_NEAR(first[row + c], first[row + c + 12], 1e-12);
 }
 
@@ -205,27 +206,29 @@ RC_GTEST_PROP(Contacts, AreTheSameInAnyBlocks, ()) {
         }
         return out;
     };
-    const auto whole = run([] { return 60; }), cut = run([] { return *rc::gen::inRange(1, 30); });
-    RC_ASSERT(std::memcmp(whole.data(), cut.data(), whole.size() * sizeof(double)) == 0);
+    const auto undivided = run([] { return 60; }), cut = run([] { return *rc::gen::inRange(1, 30); });
+    RC_ASSERT(std::memcmp(undivided.data(), cut.data(), undivided.size() * sizeof(double)) == 0);
 }
 
-TEST(ContactWords, AreRefusedWithWhatWouldBeRight) {
+TEST(ContactOptions, AreRefusedWithTheRemedy) {
     const auto sites = sheet(10e-3, 1e-3);
-    const auto wrong = [&](std::string_view indenter, std::initializer_list<const char*> measures) {
-        std::vector<ParameterOverride> wishes;
-        for (const std::string text : measures) wishes.push_back(*parse_override("contact." + text));
-        const auto made = make_contact(indenter, wishes, sites, *make_clock(1000));
+    const auto error_text = [&](std::string_view indenter, std::initializer_list<const char*> settings) {
+        std::vector<ParameterOverride> overrides;
+        for (const std::string text : settings) overrides.push_back(*parse_override("contact." + text));
+        const auto made = make_contact(indenter, overrides, sites, *make_clock(1000));
         return made ? "nothing is wrong" : made.error().text();
     };
-    EXPECT_EQ(wrong("spere", {}), "there is no indenter 'spere'; did you mean 'sphere'? (there are flat, sphere, edge, grating)");
+    EXPECT_EQ(error_text("spere", {}), "there is no indenter 'spere'; did you mean 'sphere'? (there are flat, sphere, edge, grating)");
     EXPECT_EQ(
-        wrong("sphere", {"period=2mm"}),
+        error_text("sphere", {"period=2mm"}),
         "contact.period: sphere has no such parameter (it has radius, E_star, and for its path x, y, x1, y1, t_start, t_move, speed)");
-    EXPECT_EQ(wrong("sphere", {"x1=2mm"}), "contact: the speed of the movement to x1, y1 is missing; give contact.t_move or contact.speed");
-    EXPECT_EQ(wrong("flat", {"t_move=2s"}), "contact: the end of the movement is missing; give contact.x1 or contact.y1");
-    EXPECT_EQ(wrong("flat", {"x1=3mm", "t_move=2s", "speed=1m/s"}), "contact: t_move and speed are alternatives; give only one of them");
-    EXPECT_EQ(wrong("grating", {"ridge=3mm"}), "contact: ridge = 0.003 m must not be wider than period = 0.002 m");
-    EXPECT_EQ(wrong("flat", {"radius=5s"}), "contact.radius: '5s' is a time; expected a value in m, such as '2 m'");
+    EXPECT_EQ(error_text("sphere", {"x1=2mm"}),
+              "contact: the speed of the movement to x1, y1 is missing; give contact.t_move or contact.speed");
+    EXPECT_EQ(error_text("flat", {"t_move=2s"}), "contact: the end of the movement is missing; give contact.x1 or contact.y1");
+    EXPECT_EQ(error_text("flat", {"x1=3mm", "t_move=2s", "speed=1m/s"}),
+              "contact: t_move and speed are alternatives; give only one of them");
+    EXPECT_EQ(error_text("grating", {"ridge=3mm"}), "contact: ridge = 0.003 m must not be wider than period = 0.002 m");
+    EXPECT_EQ(error_text("flat", {"radius=5s"}), "contact.radius: '5s' is a time; expected a value in m, such as '2 m'");
     EXPECT_EQ(make_contact("flat", std::vector<ParameterOverride>{*parse_override("contact.radius=1m")}, sheet(1e-3, 1e-5), *make_clock(1000)).operator bool(),
               true);
     double force = 1;

@@ -1,4 +1,4 @@
-// Populations: files of them, where their afferents stand, what these feel.
+// Populations: their files, the locations of their afferents, and their receptive fields.
 
 #include <cmath>
 #include <fstream>
@@ -17,8 +17,8 @@ const Innervation& hand() {
     return **placed;
 }
 
-/// [unit]: what it feels, site by site.
-std::vector<std::vector<std::pair<std::uint32_t, double>>> felt_by(const Innervation& skin, std::size_t of) {
+/// [afferent]: its receptive field as pairs of site and weight.
+std::vector<std::vector<std::pair<std::uint32_t, double>>> fields_of_class(const Innervation& skin, std::size_t of) {
     std::vector<std::vector<std::pair<std::uint32_t, double>>> out(skin.class_begin[of + 1] - skin.class_begin[of]);
     const auto& f = skin.fields[of];
     for (std::uint32_t s = 0; s + 1 < f.begin.size(); ++s)
@@ -26,13 +26,13 @@ std::vector<std::vector<std::pair<std::uint32_t, double>>> felt_by(const Innerva
     return out;
 }
 
-TEST(HandPopulation, HasTheUnitsAndTheSharesThatWereCounted) {
+TEST(HandPopulation, HasThePublishedNumbersAndFractionsOfAfferents) {
     const auto& h = hand();
     EXPECT_NEAR(static_cast<double>(h.afferents.size()), 17000, 300);
-    const std::pair<std::string, double> shares[] = {{"sa1", 0.25}, {"fa1", 0.43}, {"sa2", 0.19}, {"fa2", 0.13}};
+    const std::pair<std::string, double> fractions[] = {{"sa1", 0.25}, {"fa1", 0.43}, {"sa2", 0.19}, {"fa2", 0.13}};
     for (std::size_t c = 0; c < 4; ++c) {
-        EXPECT_EQ(h.plan.classes[c].name, shares[c].first);
-        EXPECT_NEAR(static_cast<double>(h.class_begin[c + 1] - h.class_begin[c]) / static_cast<double>(h.afferents.size()), shares[c].second, 0.02);
+        EXPECT_EQ(h.plan.classes[c].name, fractions[c].first);
+        EXPECT_NEAR(static_cast<double>(h.class_begin[c + 1] - h.class_begin[c]) / static_cast<double>(h.afferents.size()), fractions[c].second, 0.02);
         EXPECT_FALSE(h.plan.classes[c].sources.empty());
     }
     for (const auto& [region, total] : {std::pair("index.tip", 241.0), {"middle.base", 93.0}, {"palm", 58.0}}) {
@@ -44,7 +44,7 @@ TEST(HandPopulation, HasTheUnitsAndTheSharesThatWereCounted) {
     }
 }
 
-TEST(HandPopulation, EachUnitStandsInACellOfItsOwnRegion) {
+TEST(HandPopulation, EachAfferentIsInACellOfItsOwnRegion) {
     const auto& h = hand();
     const SiteGrid near(h.plan.sites.positions);
     for (const auto& u : h.afferents) {
@@ -55,17 +55,17 @@ TEST(HandPopulation, EachUnitStandsInACellOfItsOwnRegion) {
     }
 }
 
-TEST(HandPopulation, WhatAUnitFeelsAddsUpToItsNewtonsAndStaysOnItsFinger) {
+TEST(HandPopulation, AReceptiveFieldSumsToItsGainAndIsOnOneFinger) {
     const auto& h = hand();
     const double per_cell = h.plan.felt_area / h.plan.sites.area;
     const auto finger = [&](std::uint32_t region) {
         return h.plan.sites.regions[region].substr(0, h.plan.sites.regions[region].find('.'));
     };
     for (std::size_t c = 0; c < h.fields.size(); ++c) {
-        const auto felt = felt_by(h, c);
-        for (std::size_t u = 0; u < felt.size(); ++u) {
+        const auto receptive_fields = fields_of_class(h, c);
+        for (std::size_t u = 0; u < receptive_fields.size(); ++u) {
             double sum = 0;
-            for (const auto& [site, weight] : felt[u]) {
+            for (const auto& [site, weight] : receptive_fields[u]) {
                 ASSERT_GT(weight, 0);
                 sum += weight;
                 const auto from = finger(h.afferents[h.class_begin[c] + u].region), to = finger(h.plan.sites.region[site]);
@@ -76,15 +76,16 @@ TEST(HandPopulation, WhatAUnitFeelsAddsUpToItsNewtonsAndStaysOnItsFinger) {
     }
 }
 
-TEST(HandPopulation, UnitsOfNeighbouringNumbersStandTogether) {
+TEST(HandPopulation, AfferentsWithNeighbouringNumbersAreClose) {
     const auto& h = hand();
     double far = 0, tiles = 0;
     for (std::size_t c = 0; c < h.fields.size(); ++c)
         for (auto k = h.class_begin[c]; k + 64 <= h.class_begin[c + 1]; k += 64) {
-            double worst = 0;
+            double max_distance = 0;
             for (std::size_t i = 1; i < 64; ++i)
-                worst = std::max(worst, std::hypot(h.afferents[k + i].position.x - h.afferents[k].position.x, h.afferents[k + i].position.y - h.afferents[k].position.y));
-            far += worst, tiles += 1;
+                max_distance =
+                    std::max(max_distance, std::hypot(h.afferents[k + i].position.x - h.afferents[k].position.x, h.afferents[k + i].position.y - h.afferents[k].position.y));
+            far += max_distance, tiles += 1;
         }
     EXPECT_LT(far / tiles, 30e-3);  // of a hand of 110 by 190 mm
 }
@@ -96,11 +97,11 @@ TEST(HandPopulation, IsTheSameEachTimeAndItsSeedMatters) {
     plan.seed = 2;
     EXPECT_NE((*innervate(plan))->fields[1].weight, hand().fields[1].weight);
     plan.seed = 1;
-    plan.classes.erase(plan.classes.begin());  // the others' places are their own
+    plan.classes.erase(plan.classes.begin());  // the locations in the other classes must not change
     EXPECT_EQ((*innervate(plan))->fields[0].weight, hand().fields[1].weight);
 }
 
-RC_GTEST_PROP(Innervate, FeelsWhatTheGaussiansSay, ()) {
+RC_GTEST_PROP(Innervate, WeightsFollowTheGaussians, ()) {
     SkinPlan plan{"any", "", *grid_sites(*rc::gen::inRange<std::size_t>(1, 9), *rc::gen::inRange<std::size_t>(1, 9), 2e-3), {}};
     for (auto& p : plan.sites.positions) p.x += *rc::gen::inRange(-9, 9) * 1e-4;
     SkinClass c{"sa1", *plan_afferent("sa1", {})};
@@ -108,8 +109,8 @@ RC_GTEST_PROP(Innervate, FeelsWhatTheGaussiansSay, ()) {
     c.velocity = 50;
     plan.classes = {c}, plan.nerve = Position{0.01, -0.1, 0};
     const auto skin = *innervate(plan);
-    const auto felt = felt_by(*skin, 0);
-    for (std::size_t u = 0; u < felt.size(); ++u) {
+    const auto receptive_fields = fields_of_class(*skin, 0);
+    for (std::size_t u = 0; u < receptive_fields.size(); ++u) {
         const auto& at = skin->afferents[u].position;
         RC_ASSERT(std::abs(skin->afferents[u].delay - std::hypot(at.x - 0.01, at.y + 0.1) / 50) < 1e-15);
         std::vector<double> expected(plan.sites.size());
@@ -118,12 +119,12 @@ RC_GTEST_PROP(Innervate, FeelsWhatTheGaussiansSay, ()) {
             const double d = std::hypot(plan.sites.positions[s].x - at.x, plan.sites.positions[s].y - at.y);
             if (d <= 3 * c.sigma) sum += expected[s] = std::exp(-d * d / (2 * c.sigma * c.sigma));
         }
-        for (const auto& [site, weight] : felt[u]) RC_ASSERT(std::abs(weight - std::exchange(expected[site], 0) / sum) < 1e-12);
-        for (const double missed : expected) RC_ASSERT(missed / sum < 0.02);  // only what the last bit puts on the rim
+        for (const auto& [site, weight] : receptive_fields[u]) RC_ASSERT(std::abs(weight - std::exchange(expected[site], 0) / sum) < 1e-12);
+        for (const double missed : expected) RC_ASSERT(missed / sum < 0.02);  // only sites that rounding puts beyond the edge
     }
 }
 
-TEST(Grid, GoesRowAfterRowUpwardsWithTwoUnitsASite) {
+TEST(Grid, IsNumberedByRowsUpwardsWithTwoAfferentsASite) {
     const auto skin = *innervate(*load_skin_plan("grid 3x2"));
     EXPECT_EQ(skin->plan.sites.names, (std::vector<std::string>{"r1c1", "r1c2", "r2c1", "r2c2", "r3c1", "r3c2"}));
     EXPECT_EQ(skin->plan.sites.positions[3].x, 2e-3);
@@ -134,7 +135,7 @@ TEST(Grid, GoesRowAfterRowUpwardsWithTwoUnitsASite) {
     EXPECT_EQ(load_skin_plan("grid:3x2")->name, "grid 3x2");
 }
 
-TEST(PopulationNames, AreKnownOrMeantOrRefused) {
+TEST(PopulationNames, AreKnownSuggestedOrRefused) {
     EXPECT_EQ(load_skin_plan("hnad").error().text(),
               "there is no population 'hnad'; did you mean 'hand'? (there are fingertip, hand, grid ROWSxCOLUMNS, and files: own.toml)");
     EXPECT_EQ(load_skin_plan("grid 3").error().text(), "'grid 3' is not a grid; write rows and columns, such as 'grid 8x8'");
@@ -154,7 +155,7 @@ afferent = "sa1"
 density = "70 /cm2"
 )";
 
-std::string wrong_in(std::string text, std::string_view part, std::string_view by) {
+std::string error_in(std::string text, std::string_view part, std::string_view by) {
     const auto at = text.find(part);
     EXPECT_NE(at, std::string::npos) << part;
     const auto plan = parse_skin_plan(text.replace(at, part.size(), by), "pad.toml");
@@ -175,38 +176,38 @@ TEST(PopulationFile, OutlinesHoldTheAreaThatTheirShapesHave) {
     EXPECT_NEAR(area("{polygon = [[0, 0], [10, 0], [10, 10], [5, 2]]}"), 35, 1);
 }
 
-TEST(PopulationFile, SaysWhereItIsWrongAndWhatWouldBeRight) {
+TEST(PopulationFile, ErrorsGiveTheLocationAndTheRemedy) {
     const std::string text(pad);
-    EXPECT_EQ(wrong_in(text, "density =", "densty ="),
+    EXPECT_EQ(error_in(text, "density =", "densty ="),
               "pad.toml:9:1: [[class]]: there is no 'densty'; did you mean 'density'? (there are name, afferent, set, spread, density, "
               "per_site, sigma, hot_spots, hot_spot_spread, velocity, velocity_spread, source)");
-    EXPECT_EQ(wrong_in(text, "\"sa1\"", "\"sa9\"").substr(0, 14), "pad.toml:8:12:");
-    EXPECT_EQ(wrong_in(text, "\"70 /cm2\"", "70"), "pad.toml:9:11: density = 70: the unit is missing; write density = \"70 /cm2\"");
-    EXPECT_EQ(wrong_in(text, "\"70 /cm2\"", "{paed = \"1 /cm2\"}"),
+    EXPECT_EQ(error_in(text, "\"sa1\"", "\"sa9\"").substr(0, 14), "pad.toml:8:12:");
+    EXPECT_EQ(error_in(text, "\"70 /cm2\"", "70"), "pad.toml:9:11: density = 70: the unit is missing; write density = \"70 /cm2\"");
+    EXPECT_EQ(error_in(text, "\"70 /cm2\"", "{paed = \"1 /cm2\"}"),
               "pad.toml:9:19: density: there is no region 'paed'; did you mean 'pad'? (there are pad)");
-    EXPECT_EQ(wrong_in(text, "\"70 /cm2\"", "\"70 cm\""),
+    EXPECT_EQ(error_in(text, "\"70 /cm2\"", "\"70 cm\""),
               "pad.toml:9:11: density: '70 cm' is a length; expected a value in 1/m2, such as '2 1/m2'");
-    EXPECT_EQ(wrong_in(text, "unit = \"mm\"", ""),
+    EXPECT_EQ(error_in(text, "unit = \"mm\"", ""),
               "pad.toml:3:9: pitch = 1: the unit is missing; write pitch = \"1 mm\", or unit = \"mm\" at the top for all lengths");
-    EXPECT_EQ(wrong_in(text, "pitch = 1", "pitch = \"2 m\""), "pad.toml:3:9: pitch = 2 m is outside [10 um, 100 mm]");
-    EXPECT_EQ(wrong_in(text, "pitch = 1", "pitch = 50"),
+    EXPECT_EQ(error_in(text, "pitch = 1", "pitch = \"2 m\""), "pad.toml:3:9: pitch = 2 m is outside [10 um, 100 mm]");
+    EXPECT_EQ(error_in(text, "pitch = 1", "pitch = 50"),
               "pad.toml:2:1: region 'pad' has no site: it is smaller than the pitch, or earlier regions cover all of it");
-    EXPECT_EQ(wrong_in(text, "pitch = 1", "rows = 2"),
+    EXPECT_EQ(error_in(text, "pitch = 1", "rows = 2"),
               "pad.toml:2:1: [sites] needs exactly one of these: rows and columns; a list; pitch and regions ([[region]])");
-    EXPECT_EQ(wrong_in(text, "width = [10, 8]", "height = 3"), "pad.toml:6:11: a capsule has neither height nor angle");
-    EXPECT_EQ(wrong_in(text, "[0, 20]]", "[0, 20, 1]]"), "pad.toml:6:31: capsule: a position needs two numbers, [x, y]");
-    EXPECT_EQ(wrong_in(text, "density = \"70 /cm2\"", "density = \"70 /cm2\"\nspread = {f_B = \"5%\", f_X = \"5%\"}").substr(0, 65),
+    EXPECT_EQ(error_in(text, "width = [10, 8]", "height = 3"), "pad.toml:6:11: a capsule has neither height nor angle");
+    EXPECT_EQ(error_in(text, "[0, 20]]", "[0, 20, 1]]"), "pad.toml:6:31: capsule: a position needs two numbers, [x, y]");
+    EXPECT_EQ(error_in(text, "density = \"70 /cm2\"", "density = \"70 /cm2\"\nspread = {f_B = \"5%\", f_X = \"5%\"}").substr(0, 65),
               "pad.toml:10:29: sa1: unknown parameter 'f_X'; did you mean 'f_B'?");
-    EXPECT_EQ(wrong_in(text, "density = \"70 /cm2\"", "per_site = 1.5"),
+    EXPECT_EQ(error_in(text, "density = \"70 /cm2\"", "per_site = 1.5"),
               "pad.toml:9:12: per_site = 1.5: must be an integer from 1 to 1000");
-    EXPECT_EQ(wrong_in(text, "[[class]]", "[[clas]]").substr(0, 55), "pad.toml:7:3: there is no 'clas'; did you mean 'class'?");
-    EXPECT_EQ(wrong_in(text, "[sites]\npitch = 1", "sites = \"chanels\""),
+    EXPECT_EQ(error_in(text, "[[class]]", "[[clas]]").substr(0, 55), "pad.toml:7:3: there is no 'clas'; did you mean 'class'?");
+    EXPECT_EQ(error_in(text, "[sites]\npitch = 1", "sites = \"chanels\""),
               "pad.toml:2:9: sites = 'chanels': the only word allowed is \"channels\"");
-    EXPECT_EQ(wrong_in(text, "/cm2\"", "/cm2\"\nhot_spots = 3"), "pad.toml:10:13: several hot spots need a sigma and a hot_spot_spread");
-    EXPECT_EQ(wrong_in(text, "\"70 /cm2\"", "\"1 /um2\"").substr(0, 20), "pad.toml:9:11: densi");
+    EXPECT_EQ(error_in(text, "/cm2\"", "/cm2\"\nhot_spots = 3"), "pad.toml:10:13: several hot spots need a sigma and a hot_spot_spread");
+    EXPECT_EQ(error_in(text, "\"70 /cm2\"", "\"1 /um2\"").substr(0, 20), "pad.toml:9:11: densi");
 }
 
-TEST(PopulationFile, SensorsStandInAListATableOrWhereARecordingHasThem) {
+TEST(PopulationFile, SensorsComeFromAListATableOrARecording) {
     const std::string classes = "[[class]]\nafferent = \"fa1\"\nname = \"quick\"\nper_site = 2\nset = {f = \"3 Hz\"}\nsigma = \"1 mm\"\n";
     const auto listed = parse_skin_plan(
         "[sites]\nlist = [{name = \"a\", x = \"1 mm\", y = \"2 mm\"}, {name = \"b\", x = \"3 mm\", y = \"4 mm\", region = \"top\"}]\n" +
@@ -238,7 +239,7 @@ TEST(PopulationFile, SensorsStandInAListATableOrWhereARecordingHasThem) {
 }
 
 TEST(PopulationFile, TheOneInTheManualIsRead) {
-    std::ifstream page(test::project_root() + "/doc/skin.md");
+    std::ifstream page(test::source_root() + "/doc/skin.md");
     std::stringstream all;
     all << page.rdbuf();
     const auto text = all.str();

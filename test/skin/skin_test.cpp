@@ -1,4 +1,4 @@
-// A skin answers as its afferents would one by one, whatever the blocks, threads and instruction sets, and whether it was saved on the way.
+// A skin responds as its afferents would one at a time, for any blocks, threads and instruction sets, and after a save and resume.
 
 #include "skin/skin.hpp"
 #include "model/catalog.hpp"
@@ -10,7 +10,7 @@ namespace {
 
 constexpr double skin_T = 1e-3;
 
-/// Two classes on a grid, spread, with delays; or as few as they come.
+/// Three classes on a grid, optionally with parameter spread and with delays.
 std::shared_ptr<const Innervation> small_skin(std::size_t rows, std::size_t columns, bool spread, double velocity) {
     SkinPlan plan{"small", "", *grid_sites(rows, columns, 2e-3), {}, 7};
     for (const char* name : {"sa1", "fa1", "sa2"}) {
@@ -26,11 +26,11 @@ std::shared_ptr<const Innervation> small_skin(std::size_t rows, std::size_t colu
     return *skin;
 }
 
-/// [site][step]: presses that come and go, on some sites, far enough apart for afferents to come to rest.
-struct Touch {
+/// [site][step]: presses on some sites, far enough apart for the state of afferents to decay to zero.
+struct PressPattern {
     std::size_t sites, steps;
     std::vector<double> force;
-    Touch(std::size_t sites, std::size_t steps, std::uint64_t seed) : sites(sites), steps(steps), force(sites * steps) {
+    PressPattern(std::size_t sites, std::size_t steps, std::uint64_t seed) : sites(sites), steps(steps), force(sites * steps) {
         for (std::size_t s = 0; s < sites; ++s) {
             const auto w = philox({static_cast<std::uint32_t>(s), 0, 0, 0}, seed);
             if (w[0] % 3 == 0) continue;
@@ -42,54 +42,54 @@ struct Touch {
 };
 
 std::unique_ptr<Skin> make_skin(const std::shared_ptr<const Innervation>& skin, InstructionSet set = *instruction_set(),
-                                SkinPart share = {}) {
-    auto made = Skin::make(skin, SimulationOptions{skin_T}, set == InstructionSet::scalar ? InstructionSet::baseline : set, share);
+                                SkinPart shard = {}) {
+    auto made = Skin::make(skin, SimulationOptions{skin_T}, set == InstructionSet::scalar ? InstructionSet::baseline : set, shard);
     EXPECT_TRUE(made) << made.error().text();
     return std::move(*made);
 }
 
-std::vector<Spike> whole(Skin& skin, const Touch& touch, ThreadPool& pool) {
+std::vector<Spike> simulate_all(Skin& skin, const PressPattern& touch, ThreadPool& pool) {
     std::vector<Spike> spikes;
     EXPECT_TRUE(skin.respond(touch.at(0), touch.steps, spikes, pool));
     skin.finish(spikes);
     return spikes;
 }
 
-TEST(Skin, AnswersAsItsAfferentsWouldOneByOne) {
+TEST(Skin, RespondsAsItsAfferentsWouldSeparately) {
     ThreadPool pool(1);
     const auto map = small_skin(5, 6, true, 40);
-    const Touch touch(30, 9000, 3);  // long enough to come to rest, and to be woken
+    const PressPattern touch(30, 9000, 3);  // long enough for states to decay and to become active again
     auto skin = make_skin(map);
-    const auto spikes = whole(*skin, touch, pool);
+    const auto spikes = simulate_all(*skin, touch, pool);
     EXPECT_GT(skin->stats().skipped_steps, 0);
-    std::vector<Spike> alone;
+    std::vector<Spike> separate;
     for (std::size_t c = 0; c < map->plan.classes.size(); ++c) {
         const auto& f = map->fields[c];
         const std::size_t first = map->class_begin[c], count = map->class_begin[c + 1] - first;
         const auto plans =
             make_copies(map->plan.classes[c].afferent, static_cast<std::uint32_t>(count), map->plan.classes[c].distributions, map->plan.seed);
-        std::vector<double> felt(count * touch.steps);
+        std::vector<double> forces(count * touch.steps);
         for (std::size_t s = 0; s < touch.sites; ++s)
             for (std::size_t k = f.begin[s]; k < f.begin[s + 1]; ++k)
                 for (std::size_t t = 0; t < touch.steps; ++t)
-                    felt[f.afferent[k] * touch.steps + t] += f.weight[k] * touch.force[s * touch.steps + t];
+                    forces[f.afferent[k] * touch.steps + t] += f.weight[k] * touch.force[s * touch.steps + t];
         for (std::size_t u = 0; u < count; ++u) {
             const auto afferent = make_afferent((*plans)[u], corpuscle::SimulationOptions{skin_T});
             auto state = afferent->start();
             std::vector<Spike> own;
-            ResponseBlock answer{own, static_cast<std::uint32_t>(first + u)};
-            ASSERT_TRUE(afferent->respond({felt.data() + u * touch.steps, touch.steps}, state, answer));
+            ResponseBlock response{own, static_cast<std::uint32_t>(first + u)};
+            ASSERT_TRUE(afferent->respond({forces.data() + u * touch.steps, touch.steps}, state, response));
             const double delay = map->afferents[first + u].delay / skin_T, steps = std::floor(delay);
             for (auto s : own) {
                 s.offset += delay - steps, s.step += static_cast<std::int64_t>(steps);
                 if (s.offset > 1) s.offset -= 1, ++s.step;
-                alone.push_back(s);
+                separate.push_back(s);
             }
         }
     }
-    std::sort(alone.begin(), alone.end());
-    ASSERT_GT(alone.size(), 1000U);
-    EXPECT_EQ(spikes, alone);
+    std::sort(separate.begin(), separate.end());
+    ASSERT_GT(separate.size(), 1000U);
+    EXPECT_EQ(spikes, separate);
 }
 
 TEST(Skin, GivesTheSameWhateverTheBlocksAndAfterItWasSaved) {
@@ -97,8 +97,8 @@ TEST(Skin, GivesTheSameWhateverTheBlocksAndAfterItWasSaved) {
         ThreadPool pool(1);
         const bool spread = *rc::gen::arbitrary<bool>();
         const auto map = small_skin(3, 4, spread, *rc::gen::element(0.0, 30.0));
-        const Touch touch(12, 6000, *rc::gen::arbitrary<std::uint32_t>());
-        const auto expected = whole(*make_skin(map), touch, pool);
+        const PressPattern touch(12, 6000, *rc::gen::arbitrary<std::uint32_t>());
+        const auto expected = simulate_all(*make_skin(map), touch, pool);
         auto skin = make_skin(map);
         std::vector<Spike> spikes;
         for (std::size_t at = 0; at < touch.steps;) {
@@ -115,27 +115,27 @@ TEST(Skin, GivesTheSameWhateverTheBlocksAndAfterItWasSaved) {
     }));
 }
 
-TEST(Skin, GivesTheSameOnThreadsInSharesAndOnEveryInstructionSet) {
+TEST(Skin, GivesTheSameOnThreadsInShardsAndOnEveryInstructionSet) {
     ThreadPool one(1), three(3);
     const auto map = small_skin(16, 24, true, 30);
-    const Touch touch(16 * 24, 3000, 11);
-    const auto expected = whole(*make_skin(map), touch, one);
+    const PressPattern touch(16 * 24, 3000, 11);
+    const auto expected = simulate_all(*make_skin(map), touch, one);
     ASSERT_GT(expected.size(), 1000U);
-    EXPECT_EQ(whole(*make_skin(map), touch, three), expected);
-    for (const auto set : instruction_sets()) EXPECT_EQ(whole(*make_skin(map, set), touch, one), expected) << name_of(set);
-    std::vector<Spike> together;
+    EXPECT_EQ(simulate_all(*make_skin(map), touch, three), expected);
+    for (const auto set : instruction_sets()) EXPECT_EQ(simulate_all(*make_skin(map, set), touch, one), expected) << name_of(set);
+    std::vector<Spike> merged;
     for (std::uint32_t part = 0; part < 3; ++part) {
-        const auto own = whole(*make_skin(map, *instruction_set(), {part, 3}), touch, one);
-        together.insert(together.end(), own.begin(), own.end());
+        const auto own = simulate_all(*make_skin(map, *instruction_set(), {part, 3}), touch, one);
+        merged.insert(merged.end(), own.begin(), own.end());
     }
-    std::sort(together.begin(), together.end());
-    EXPECT_EQ(together, expected);
+    std::sort(merged.begin(), merged.end());
+    EXPECT_EQ(merged, expected);
 }
 
-TEST(Skin, AForceThatIsNoNumberIsToldBySiteAndSample) {
+TEST(Skin, ANonFiniteForceIsReportedBySiteAndSample) {
     ThreadPool pool(1);
     auto skin = make_skin(small_skin(2, 2, false, 0));
-    Touch touch(4, 100, 1);
+    PressPattern touch(4, 100, 1);
     touch.force[2 * 100 + 40] = std::nan("");
     std::vector<Spike> spikes;
     const auto ok = skin->respond(touch.at(0), 100, spikes, pool);
@@ -147,8 +147,8 @@ TEST(Skin, RefusesAStateThatIsNotItsOwnOrIsCutShort) {
     ThreadPool pool(1);
     const auto map = small_skin(3, 3, true, 20);
     auto skin = make_skin(map);
-    const Touch touch(9, 500, 5);
-    (void)whole(*skin, touch, pool);
+    const PressPattern touch(9, 500, 5);
+    (void)simulate_all(*skin, touch, pool);
     auto saved = skin->save();
     EXPECT_FALSE(make_skin(small_skin(3, 3, false, 20))->resume(saved));
     for (std::size_t size = 0; size < saved.size(); size += 97) EXPECT_FALSE(make_skin(map)->resume(std::span(saved).first(size)));
@@ -162,12 +162,12 @@ TEST(Skin, RefusesAStateThatIsNotItsOwnOrIsCutShort) {
     EXPECT_FALSE(make_skin(map)->resume(saved));
 }
 
-TEST(Skin, AStateOfTheVersionBeforeIsReadAndOneOfALaterVersionIsRefused) {
+TEST(Skin, AStateOfThePreviousVersionIsReadAndALaterOneRefused) {
     ThreadPool pool(1);
     const auto map = small_skin(3, 3, true, 20);
-    const Touch touch(9, 500, 5);
+    const PressPattern touch(9, 500, 5);
     auto skin = make_skin(map);
-    (void)whole(*skin, touch, pool);
+    (void)simulate_all(*skin, touch, pool);
     auto saved = skin->save();
     saved[6] = std::byte{'3'};
     const auto later = make_skin(map)->resume(saved);

@@ -17,12 +17,12 @@ namespace {
 
 using test::TemporaryFolder;
 
-struct Ran {
+struct RunFiles {
     std::string spikes, traces, document;
     RunStats work;
 };
 
-Ran run(const TemporaryFolder& folder, const std::vector<std::string>& stimuli, const std::vector<std::string>& names, std::size_t block) {
+RunFiles run(const TemporaryFolder& folder, const std::vector<std::string>& stimuli, const std::vector<std::string>& names, std::size_t block) {
     std::vector<std::unique_ptr<ForceSource>> sources;
     std::vector<AfferentPlan> plans;
     for (const auto& s : stimuli) sources.push_back(test::value_or_throw(make_stimulus(s, {}, 2e3, 9)));
@@ -43,13 +43,13 @@ Ran run(const TemporaryFolder& folder, const std::vector<std::string>& stimuli, 
 TEST(Respond, FilesDoNotDependOnTheBlock) {
     const std::vector<std::string> stimuli = {"press", "press+noise"}, names = {"sa1", "fa1-lee", "sa1b+izhikevich"};
     const TemporaryFolder one;
-    const auto whole = run(one, stimuli, names, 1 << 20);
+    const auto undivided = run(one, stimuli, names, 1 << 20);
     for (const std::size_t block : {1, 2, 7, 64, 333, 1999, 2000}) {
         const TemporaryFolder other;
         const auto parts = run(other, stimuli, names, block);
-        EXPECT_EQ(whole.spikes, parts.spikes) << block;
-        EXPECT_EQ(whole.traces, parts.traces) << block;
-        EXPECT_EQ(whole.document, parts.document) << block;
+        EXPECT_EQ(undivided.spikes, parts.spikes) << block;
+        EXPECT_EQ(undivided.traces, parts.traces) << block;
+        EXPECT_EQ(undivided.document, parts.document) << block;
     }
 }
 
@@ -76,7 +76,7 @@ TEST(Respond, SpikesFileIsInOrderOfTimeInputAfterInput) {
     EXPECT_EQ(ran.work.afferent_steps, 8000);
 }
 
-TEST(Respond, TracesReadBackAsTheRecordingTheyAre) {
+TEST(Respond, ProbeFilesAreReadBackAsRecordings) {
     const TemporaryFolder folder;
     const auto ran = run(folder, {"press"}, {"sa1"}, 64);
     EXPECT_TRUE(
@@ -85,12 +85,12 @@ TEST(Respond, TracesReadBackAsTheRecordingTheyAre) {
     options.channels = {"press"};
     const auto back = test::value_or_throw(open_recording(folder / "traces.csv", options));
     EXPECT_EQ(back->clock().rate(), 2000);
-    const auto read = test::read_first_channel(*back), right = test::force("press", {.rate = 2e3});
-    ASSERT_EQ(read.size(), right.size());
-    for (std::size_t k = 0; k < right.size(); ++k) EXPECT_NEAR(read[k], right[k], 1e-8);
+    const auto read = test::read_first_channel(*back), expected = test::force("press", {.rate = 2e3});
+    ASSERT_EQ(read.size(), expected.size());
+    for (std::size_t k = 0; k < expected.size(); ++k) EXPECT_NEAR(read[k], expected[k], 1e-8);
 }
 
-TEST(Respond, StopsWhenToldToAndSaysSo) {
+TEST(Respond, StopsOnRequestAndReportsIt) {
     std::vector<std::unique_ptr<ForceSource>> sources;
     sources.push_back(test::value_or_throw(make_stimulus("press", {}, 10e3, 0)));
     const auto plan = test::value_or_throw(plan_afferent("sa1", {}));
@@ -104,7 +104,7 @@ TEST(Respond, StopsWhenToldToAndSaysSo) {
     EXPECT_EQ(blocks, 3);
 }
 
-TEST(Respond, ARateTooLowForAnAfferentIsTold) {
+TEST(Respond, ARateTooLowForAnAfferentIsReported) {
     std::vector<std::unique_ptr<ForceSource>> sources;
     sources.push_back(test::value_or_throw(make_stimulus("press", {}, 500, 0)));
     const auto fa2 = test::value_or_throw(plan_afferent("fa2", {})), sa1 = test::value_or_throw(plan_afferent("sa1", {}));
@@ -113,7 +113,7 @@ TEST(Respond, ARateTooLowForAnAfferentIsTold) {
     EXPECT_TRUE(rate_warnings(sources, std::span(&sa1, 1)).empty());
 }
 
-TEST(OutputFile, LeavesNothingBehindUnlessItIsWhole) {
+TEST(OutputFile, LeavesNothingBehindUnlessItIsComplete) {
     const TemporaryFolder folder;
     {
         auto f = test::value_or_throw(OutputFile::create(folder / "new/half.txt"));
@@ -128,7 +128,7 @@ TEST(OutputFile, LeavesNothingBehindUnlessItIsWhole) {
     EXPECT_FALSE(OutputFile::create(folder.path()));
 }
 
-TEST(RespondReport, KeepsItsShareHoweverManyInputsAndChannels) {
+TEST(RespondReport, KeepsItsSizeLimitForAnyInputsAndChannels) {
     const auto points_of = [](int inputs) {
         std::vector<std::unique_ptr<ForceSource>> sources;
         for (int k = 0; k < inputs; ++k) sources.push_back(test::value_or_throw(make_stimulus("press", {}, 20e3, 0)));
@@ -151,8 +151,8 @@ TEST(RespondReport, KeepsItsShareHoweverManyInputsAndChannels) {
     EXPECT_GE(points_of(5), 25'000U);
 }
 
-TEST(Envelope, KeepsLeastAndGreatestOfEveryBucketWhateverTheLength) {
-    EXPECT_TRUE(rc::check("against the plain answer", [] {
+TEST(Envelope, KeepsMinAndMaxOfEveryBucketWhateverTheLength) {
+    EXPECT_TRUE(rc::check("against the simple computation", [] {
         const auto x = *rc::gen::container<std::vector<int>>(*rc::gen::inRange<std::size_t>(1, 400), rc::gen::inRange(-1000, 1000));
         Envelope e(16);
         for (const int v : x) e.add(v);
@@ -162,10 +162,10 @@ TEST(Envelope, KeepsLeastAndGreatestOfEveryBucketWhateverTheLength) {
         for (std::size_t b = 0; b < e.count(); ++b) {
             const auto from = x.begin() + static_cast<std::ptrdiff_t>(b * bucket),
                        to = x.begin() + static_cast<std::ptrdiff_t>(std::min(x.size(), (b + 1) * bucket));
-            const auto [least, greatest] = std::minmax_element(from, to);
-            const auto* kept = &e.values()[bucket == 1 ? b : 2 * b];
-            RC_ASSERT(kept[0] == static_cast<float>(*least));
-            if (bucket > 1) RC_ASSERT(kept[1] == static_cast<float>(*greatest));
+            const auto [min_value, max_value] = std::minmax_element(from, to);
+            const auto* bucket_values = &e.values()[bucket == 1 ? b : 2 * b];
+            RC_ASSERT(bucket_values[0] == static_cast<float>(*min_value));
+            if (bucket > 1) RC_ASSERT(bucket_values[1] == static_cast<float>(*max_value));
         }
     }));
 }

@@ -1,4 +1,4 @@
-// Trims: what a chip's limits are, and whether the search finds codes that are known.
+// Calibration of trims: the limits of a chip, and whether the search finds the known codes.
 
 #include "study/sweep/calibration_report.hpp"
 
@@ -13,66 +13,66 @@
 namespace corpuscle {
 namespace {
 
-/// Under 2 N/s the node passes its level at 0.5 s * 1 mA / g, in however many steps.
-ChipCalibration ramp(const test::TemporaryFolder& folder, double meant, double off) {
+/// Under 2 N/s the node reaches its level at 0.5 s * 1 mA / g, in however many steps.
+ChipCalibration ramp(const test::TemporaryFolder& folder, double target_time, double tolerance) {
     const auto path = std::filesystem::path(folder / "ramp.cir");
     std::ofstream(path) << "a ramp\n.param g=1m\niin 0 a force {g}\nra a 0 1k\nca a 0 1p\n.spike v(a) 1\n.end\n";
     ChipCalibration out;
     out.netlist = path.string(), out.T = 1e-2, out.threads = 1;
     for (int k = 0; k <= 100; ++k) out.force.push_back(2 * 1e-2 * k);
-    const TimeWindow whole[] = {{0, 1}};
-    const double spike[] = {meant};
-    out.limits = FiringLimits::around(spike, whole, off);
+    const TimeWindow window[] = {{0, 1}};
+    const double spike[] = {target_time};
+    out.limits = FiringLimits::around(spike, window, tolerance);
     return out;
 }
 
 TEST(Calibrate, FindsTheCodeThatIsKnown) {
-    for (const auto& [meant, off, bits, share] :
+    for (const auto& [target_time, tolerance, bits, trim_change] :
          {std::tuple{0.4, 4e-3, 3, 0.25}, {0.5, 4e-3, 0, 0.0}, {0.25, 4e-3, 1, 1.0}, {0.8, 2e-3, 4, -0.375}}) {
         const test::TemporaryFolder folder;
-        auto asked = ramp(folder, meant, off);
-        asked.bits = 6;
-        const auto trim = trim_of(asked.netlist, {}, {"g"}, 1, false);
+        auto calibration = ramp(folder, target_time, tolerance);
+        calibration.bits = 6;
+        const auto trim = trim_of(calibration.netlist, {}, {"g"}, 1, false);
         ASSERT_TRUE(trim) << trim.error().text();
         EXPECT_DOUBLE_EQ(trim->designed, 1e-3);
-        asked.trims = {*trim};
-        const auto done = calibrate(asked, {circuit::ChipSample{1, 0}});
+        calibration.trims = {*trim};
+        const auto done = calibrate(calibration, {circuit::ChipSample{1, 0}});
         ASSERT_TRUE(done) << done.error().text();
         const auto& chip = done->at(0);
-        EXPECT_EQ(chip.bits, bits) << meant;
-        EXPECT_EQ(chip.codes.back().at(0), share * 32) << meant;
+        EXPECT_EQ(chip.bits, bits) << target_time;
+        EXPECT_EQ(chip.codes.back().at(0), trim_change * 32) << target_time;
         ASSERT_EQ(chip.spikes.size(), 1U);
-        EXPECT_NEAR(chip.spikes[0], 0.5 / (1 + share), 1e-4);
+        EXPECT_NEAR(chip.spikes[0], 0.5 / (1 + trim_change), 1e-4);
         EXPECT_LE(chip.presses, 1 + 3 * bits) << "two neighbours at each width, and once more where it moved";
     }
 }
 
-TEST(Calibrate, TellsWhatCannotBeReached) {
+TEST(Calibrate, ReportsTargetsOutOfRange) {
     const test::TemporaryFolder folder;
-    auto asked = ramp(folder, 0.15, 4e-3);  // twice as much is 0.25 s
-    asked.bits = 4;
-    asked.trims = {*trim_of(asked.netlist, {}, {"g"}, 1, false)};
-    const auto done = calibrate(asked, {circuit::ChipSample{1, 0}, circuit::ChipSample{1, 1}});
+    auto calibration = ramp(folder, 0.15, 4e-3);  // twice as much gives 0.25 s
+    calibration.bits = 4;
+    calibration.trims = {*trim_of(calibration.netlist, {}, {"g"}, 1, false)};
+    const auto done = calibrate(calibration, {circuit::ChipSample{1, 0}, circuit::ChipSample{1, 1}});
     ASSERT_TRUE(done);
-    const CalibrationResult told{asked.trims, *done};
-    EXPECT_EQ(told.count_within_limits(4), 0U);
+    const CalibrationResult report{calibration.trims, *done};
+    EXPECT_EQ(report.count_within_limits(4), 0U);
     EXPECT_EQ(done->at(1).bits, -1);
-    EXPECT_EQ(done->at(1).codes.back().at(0), 8) << "as near as it gets";
+    EXPECT_EQ(done->at(1).codes.back().at(0), 8) << "as close as possible";
     EXPECT_LT(done->at(1).distance.back(), done->at(1).distance.front());
-    EXPECT_NE(describe_frame_error(asked, {told}).find("0.0 %"), std::string::npos);
+    EXPECT_NE(describe_frame_error(calibration, {report}).find("0.0 %"), std::string::npos);
 }
 
-TEST(Calibrate, RefusesTrimsThatAreNoNumbers) {
+TEST(Calibrate, RefusesTrimsThatAreNotNumbers) {
     const test::TemporaryFolder folder;
-    auto asked = ramp(folder, 0.4, 1e-3);
+    auto calibration = ramp(folder, 0.4, 1e-3);
     for (const char* wrong : {"h", "ra.w", "zz.m", ""}) {
-        const auto trim = trim_of(asked.netlist, {}, {wrong}, 1, false);
+        const auto trim = trim_of(calibration.netlist, {}, {wrong}, 1, false);
         ASSERT_FALSE(trim) << wrong;
         EXPECT_NE(trim.error().message.find(wrong), std::string::npos);
     }
 }
 
-TEST(Calibrate, CodesGoAroundWhatWasDesignedAndColumnsAreWhole) {
+TEST(Calibrate, CodesAreCentredOnTheDesignValueAndColumnsAreIntegers) {
     const Trim current{{"i"}, 8, 0.5, false}, columns{{"x.m"}, 12, 0.5, true};
     EXPECT_DOUBLE_EQ(current.value(0, 4), 8);
     EXPECT_DOUBLE_EQ(current.value(8, 4), 12);

@@ -1,4 +1,4 @@
-// What is told of a population: the summary over its copies, and the table of what each is.
+// Output for copies: the summary over them, and the table of each copy's parameters and measures.
 
 #include "study/copies_file.hpp"
 
@@ -17,24 +17,24 @@ namespace {
 using test::TemporaryFolder, test::value_or_throw;
 using Json = nlohmann::ordered_json;
 
-struct Populated {
+struct CopiesOfAfferents {
     std::vector<AfferentPlan> base, copies;
     CopySpec population;
 };
 
-Populated populate(const std::vector<std::string>& names, std::uint32_t n, const std::vector<std::string>& spreads) {
-    Populated out;
+CopiesOfAfferents make_test_copies(const std::vector<std::string>& names, std::uint32_t n, const std::vector<std::string>& spreads) {
+    CopiesOfAfferents out;
     out.population.count = n;
     for (const auto& name : names) {
         out.base.push_back(value_or_throw(plan_afferent(name, {})));
-        const auto mine = value_or_throw(distributions_for(out.base.back(), name, test::parse_settings(spreads)));
-        for (auto& c : value_or_throw(make_copies(out.base.back(), n, mine, 4))) out.copies.push_back(c);
-        out.population.distributions.insert(out.population.distributions.end(), mine.begin(), mine.end());
+        const auto distributions = value_or_throw(distributions_for(out.base.back(), name, test::parse_settings(spreads)));
+        for (auto& c : value_or_throw(make_copies(out.base.back(), n, distributions, 4))) out.copies.push_back(c);
+        out.population.distributions.insert(out.population.distributions.end(), distributions.begin(), distributions.end());
     }
     return out;
 }
 
-void answer(std::span<const AfferentPlan> plans, std::initializer_list<ResponseSink*> listeners) {
+void simulate_copies(std::span<const AfferentPlan> plans, std::initializer_list<ResponseSink*> listeners) {
     std::vector<std::unique_ptr<ForceSource>> sources;
     sources.push_back(value_or_throw(make_stimulus("press", {}, 2e3, 0)));
     sources.push_back(value_or_throw(make_stimulus("sine", {}, 2e3, 0)));
@@ -42,11 +42,11 @@ void answer(std::span<const AfferentPlan> plans, std::initializer_list<ResponseS
 }
 
 struct Statistics {
-    double mean = no_value, deviation = no_value, least = no_value, greatest = no_value;
+    double mean = no_value, deviation = no_value, min = no_value, max = no_value;
     std::int64_t n = 0;
 };
 
-/// From the definitions.
+/// Computed from the definitions.
 Statistics statistics(std::vector<double> x) {
     std::erase_if(x, [](double v) { return std::isnan(v); });
     Statistics s;
@@ -58,27 +58,27 @@ Statistics statistics(std::vector<double> x) {
     for (const double v : x) squares += (v - s.mean) * (v - s.mean);
     if (x.size() > 1) s.deviation = std::sqrt(squares / static_cast<double>(x.size() - 1));
     std::sort(x.begin(), x.end());
-    s.least = x.front(), s.greatest = x.back();
+    s.min = x.front(), s.max = x.back();
     return s;
 }
 
 bool alike(double a, double b) { return (std::isnan(a) && std::isnan(b)) || std::abs(a - b) <= 1e-9 * (1 + std::abs(b)); }
 
-TEST(CopyStatistics, AreTheMeanDeviationLeastAndGreatestOfThoseThatHaveAValue) {
+TEST(CopyStatistics, AreTheMeanDeviationMinAndMaxOfTheCopiesWithAValue) {
     EXPECT_TRUE(rc::check("against the definitions", [] {
         std::vector<double> x;
         for (const int k : *rc::gen::container<std::vector<int>>(rc::gen::inRange(-1000, 1001)))
             x.push_back(k % 7 == 0 ? no_value : k / 8.0);
-        CopyStatistics over;
-        for (const double v : x) over.add(v);
-        const auto right = statistics(x);
-        RC_ASSERT(over.copies == right.n);
-        RC_ASSERT(alike(over.mean(), right.mean) && alike(over.standard_deviation(), right.deviation));
-        RC_ASSERT(alike(over.min, right.least) && alike(over.max, right.greatest));
+        CopyStatistics statistics_over;
+        for (const double v : x) statistics_over.add(v);
+        const auto expected = statistics(x);
+        RC_ASSERT(statistics_over.copies == expected.n);
+        RC_ASSERT(alike(statistics_over.mean(), expected.mean) && alike(statistics_over.standard_deviation(), expected.deviation));
+        RC_ASSERT(alike(statistics_over.min, expected.min) && alike(statistics_over.max, expected.max));
     }));
 }
 
-/// Of a row's phase, or of its whole input, s.
+/// The length of the phase of a row, or of its entire input, s.
 double length_of(const RunSummary& summary, const MeasureRow& row) {
     for (const auto& input : summary.inputs()) {
         if (std::find(input.channels.begin(), input.channels.end(), row.channel) == input.channels.end()) continue;
@@ -89,37 +89,39 @@ double length_of(const RunSummary& summary, const MeasureRow& row) {
     return no_value;
 }
 
-/// A row of one afferent leaves out the mean rate of a single spike, which a mean over copies has.
-TEST(Summary, OfCopiesIsThatOfTheirOwnRowsTakenTogether) {
-    const auto p = populate({"sa1", "fa1"}, 25, {"sa1.f_B=20%", "sa1.V_th=40%", "fa1.k_A=40%"});
-    auto alone = p.copies;  // the same plans as if each had been asked for
-    for (auto& plan : alone) plan.copy_number = 0;
-    RunSummary together, each;
-    answer(p.copies, {&together});
-    answer(alone, {&each});
-    ASSERT_EQ(together.rows().size(), 2U * 5 + 2);
-    ASSERT_EQ(each.rows().size(), 25 * together.rows().size());
-    for (const auto& row : together.rows())
+/// The row of one afferent leaves out the mean rate of a single spike, but a mean over copies includes it.
+TEST(Summary, OfCopiesSummarisesTheirOwnRows) {
+    const auto p = make_test_copies({"sa1", "fa1"}, 25, {"sa1.f_B=20%", "sa1.V_th=40%", "fa1.k_A=40%"});
+    auto separate_plans = p.copies;  // the same plans, as if each had been requested separately
+    for (auto& plan : separate_plans) plan.copy_number = 0;
+    RunSummary combined, separate;
+    simulate_copies(p.copies, {&combined});
+    simulate_copies(separate_plans, {&separate});
+    ASSERT_EQ(combined.rows().size(), 2U * 5 + 2);
+    ASSERT_EQ(separate.rows().size(), 25 * combined.rows().size());
+    for (const auto& row : combined.rows())
         for (std::size_t m = 0; m < std::size(measures); ++m) {
             std::vector<double> values;
-            for (const auto& r : each.rows())
+            for (const auto& r : separate.rows())
                 if (r.afferent.starts_with(row.afferent + "#") && r.channel == row.channel && r.phase == row.phase)
-                    values.push_back(m == measure_index<MeanRate> ? r.values[measure_index<SpikeCount>] / length_of(each, r)
+                    values.push_back(m == measure_index<MeanRate> ? r.values[measure_index<SpikeCount>] / length_of(separate, r)
                                                                      : r.values[m]);
             ASSERT_EQ(values.size(), 25U);
-            const auto right = statistics(values);
-            const auto& over = row.copy_statistics[m];
-            EXPECT_EQ(over.copies, right.n) << row.phase << ' ' << measures[m].name;
-            EXPECT_TRUE(alike(over.mean(), right.mean) && alike(over.standard_deviation(), right.deviation)) << row.phase << ' ' << measures[m].name;
-            EXPECT_TRUE(alike(over.min, right.least) && alike(over.max, right.greatest)) << row.phase << ' ' << measures[m].name;
+            const auto expected = statistics(values);
+            const auto& statistics_over = row.copy_statistics[m];
+            EXPECT_EQ(statistics_over.copies, expected.n) << row.phase << ' ' << measures[m].name;
+            EXPECT_TRUE(alike(statistics_over.mean(), expected.mean) && alike(statistics_over.standard_deviation(), expected.deviation))
+                << row.phase << ' ' << measures[m].name;
+            EXPECT_TRUE(alike(statistics_over.min, expected.min) && alike(statistics_over.max, expected.max))
+                << row.phase << ' ' << measures[m].name;
         }
 }
 
 TEST(Summary, OfAHundredTimesTheCopiesIsNoLonger) {
     const auto size = [](std::uint32_t n) {
-        const auto p = populate({"sa1"}, n, {"sa1.f_B=10%"});
+        const auto p = make_test_copies({"sa1"}, n, {"sa1.f_B=10%"});
         RunSummary summary;
-        answer(p.copies, {&summary});
+        simulate_copies(p.copies, {&summary});
         const auto document = summary.document(p.base, {}, {}, 0, {});
         EXPECT_EQ(document["afferents"].size(), 1U);
         EXPECT_EQ(document["rates"].size(), 6U);
@@ -140,12 +142,12 @@ std::vector<std::vector<std::string>> table_of(const std::string& text) {
     return rows;
 }
 
-TEST(CopiesFile, HasWhatEachCopyIsAndEveryMeasureOfItsWholeTrain) {
+TEST(CopiesFile, HasTheParametersOfEachCopyAndTheMeasuresOfItsTrain) {
     const TemporaryFolder folder;
-    const auto p = populate({"sa1", "fa1"}, 4, {"sa1.f_B=20%", "sa1.V_th=10%", "fa1.V_th=10%", "fa1.k_A=10%"});
+    const auto p = make_test_copies({"sa1", "fa1"}, 4, {"sa1.f_B=20%", "sa1.V_th=10%", "fa1.V_th=10%", "fa1.k_A=10%"});
     CopiesFile file(value_or_throw(OutputFile::create(folder / "copies.csv")), p.population);
     SpikesFile spikes(value_or_throw(OutputFile::create(folder / "spikes.csv")));
-    answer(p.copies, {&file, &spikes});
+    simulate_copies(p.copies, {&file, &spikes});
     ASSERT_TRUE(bool(file.commit()) && bool(spikes.commit()));
     const auto rows = table_of(test::read_file(folder / "copies.csv"));
     ASSERT_EQ(rows.size(), 1U + 2 * 8);

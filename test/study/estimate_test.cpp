@@ -1,4 +1,4 @@
-// Intervals against numbers of another program (SciPy 1.10, with the call that gave them), and against what they promise.
+// Confidence intervals against numbers of SciPy 1.10 (with the call that returned them), and against their definition.
 
 #include "study/sweep/estimate.hpp"
 
@@ -11,7 +11,7 @@
 namespace corpuscle {
 namespace {
 
-TEST(Probability, DistributionsAreThoseOfScipy) {
+TEST(Probability, DistributionsEqualThoseOfScipy) {
     const struct {
         double ours, theirs;
     } rows[] = {{normal_quantile(0.975), 1.959963984540054},             // stats.norm.ppf(.975)
@@ -44,10 +44,10 @@ TEST(Estimate, AYieldHasTheIntervalOfClopperAndPearson) {
                 {874, 1000, 0.8518262835291261, 0.893943167737706},
                 {999000, 1000000, 0.9989360818926863, 0.9990609987920546}};
     for (const auto& r : rows) {
-        const auto share = estimate_proportion(r.some, r.all);
-        EXPECT_DOUBLE_EQ(share.value, static_cast<double>(r.some) / static_cast<double>(r.all));
-        EXPECT_NEAR(share.low, r.low, 1e-12);
-        EXPECT_NEAR(share.high, r.high, 1e-12);
+        const auto fraction = estimate_proportion(r.some, r.all);
+        EXPECT_DOUBLE_EQ(fraction.value, static_cast<double>(r.some) / static_cast<double>(r.all));
+        EXPECT_NEAR(fraction.low, r.low, 1e-12);
+        EXPECT_NEAR(fraction.high, r.high, 1e-12);
     }
     EXPECT_TRUE(std::isnan(estimate_proportion(0, 0).value));
 }
@@ -61,7 +61,7 @@ TEST(Estimate, ASampleOfTenHasTheMeanDeviationAndQuantilesOfScipyAndNumpy) {
     EXPECT_NEAR(sample.mean().low, 2.9915512862913634, 1e-9);  // stats.t.interval(.95, 9, mean, stats.sem(x))
     EXPECT_NEAR(sample.mean().high, 6.208448713708636, 1e-9);
     EXPECT_NEAR(sample.sigma().value, 2.2484562605386738, 1e-12);
-    EXPECT_NEAR(sample.sigma().low, 0.99777219, 1e-7);  // Bonett's formula with stats.trim_mean, worked out in numpy
+    EXPECT_NEAR(sample.sigma().low, 0.99777219, 1e-7);  // Bonett's formula with stats.trim_mean, computed in numpy
     EXPECT_NEAR(sample.sigma().high, 6.30201597, 1e-7);
     EXPECT_NEAR(sample.quantile(0.05).value, 2.58, 1e-12);  // np.quantile
     EXPECT_NEAR(sample.quantile(0.9).value, 6.84, 1e-12);
@@ -89,7 +89,7 @@ TEST(Estimate, AQuantileLiesBetweenTheOrderStatisticsThatTheBinomialDistribution
     }
 }
 
-TEST(Estimate, NoSampleAndOneNumberSayWhatTheyCan) {
+TEST(Estimate, OfNoValueOrOneValueIsDefinedWherePossible) {
     const SortedSample none(std::vector<double>{}), one({3}), same({2, 2, 2, 2, 2, 2});
     EXPECT_TRUE(std::isnan(none.mean().value) && std::isnan(none.sigma().value) && std::isnan(none.quantile(0.5).value));
     EXPECT_EQ(one.mean().value, 3);
@@ -99,39 +99,40 @@ TEST(Estimate, NoSampleAndOneNumberSayWhatTheyCan) {
     EXPECT_TRUE(std::isnan(same.normality()));
 }
 
-/// How often the truth lies in the interval of a deviation, over 2000 samples of n.
-template <class Draw>
-double held(int n, double truth, Draw&& draw) {
+/// The fraction of 2000 samples of size n for which the interval of the deviation contains the true value.
+template <class Sampler>
+double coverage(int n, double truth, Sampler&& sampler) {
     int inside = 0;
     for (std::uint32_t sample = 0; sample < 2000; ++sample) {
         std::vector<double> values;
-        for (std::uint32_t k = 0; k < static_cast<std::uint32_t>(n); ++k) values.push_back(draw(normal_pair(11, sample, 1, k)));
+        for (std::uint32_t k = 0; k < static_cast<std::uint32_t>(n); ++k) values.push_back(sampler(normal_pair(11, sample, 1, k)));
         const auto sigma = SortedSample(std::move(values)).sigma();
         inside += sigma.low <= truth && truth <= sigma.high;
     }
     return inside / 2000.0;
 }
 
-TEST(Estimate, TheIntervalOfADeviationHoldsItAsOftenAsItSaysAlsoWhereNothingIsNormal) {
-    EXPECT_NEAR(held(50, 1, [](NormalPair x) { return x.first; }), 0.95, 0.02);
-    EXPECT_NEAR(held(50, 1 / std::sqrt(12.0), [](NormalPair x) { return 0.5 * std::erfc(x.first / std::sqrt(2.0)); }), 0.95, 0.03);  // uniform
-    // Exponential: chi-squared's interval would hold it in 7 of 10.
-    EXPECT_NEAR(held(200, 2, [](NormalPair x) { return x.first * x.first + x.second * x.second; }), 0.95, 0.04);
+TEST(Estimate, TheIntervalOfADeviationHasItsCoverageAlsoForOtherDistributions) {
+    EXPECT_NEAR(coverage(50, 1, [](NormalPair x) { return x.first; }), 0.95, 0.02);
+    EXPECT_NEAR(coverage(50, 1 / std::sqrt(12.0), [](NormalPair x) { return 0.5 * std::erfc(x.first / std::sqrt(2.0)); }), 0.95,
+                0.03);  // uniform
+    // Exponential: the interval from chi-squared would contain it in 7 of 10.
+    EXPECT_NEAR(coverage(200, 2, [](NormalPair x) { return x.first * x.first + x.second * x.second; }), 0.95, 0.04);
 }
 
-TEST(Estimate, ANormalPlotTellsNormalSamplesFromOthers) {
+TEST(Estimate, ANormalPlotDistinguishesNormalSamplesFromOthers) {
     for (const int n : {20, 1000, 5000}) {
         int normal = 0, others = 0;
         for (std::uint32_t sample = 0; sample < 60; ++sample) {
             std::vector<double> x, y;
             for (std::uint32_t k = 0; k < static_cast<std::uint32_t>(n); ++k) {
-                const auto drawn = normal_pair(12, sample, 1, k);
-                x.push_back(drawn.first), y.push_back(drawn.first * drawn.first + drawn.second * drawn.second);
+                const auto deviates = normal_pair(12, sample, 1, k);
+                x.push_back(deviates.first), y.push_back(deviates.first * deviates.first + deviates.second * deviates.second);
             }
             const SortedSample a(std::move(x)), b(std::move(y));
             normal += a.normality() >= a.normality_floor(), others += b.normality() >= b.normality_floor();
         }
-        EXPECT_GE(normal, 51) << n;  // 57 of 60 are awaited; fewer than 51, once in 200 times
+        EXPECT_GE(normal, 51) << n;  // 57 of 60 are expected; fewer than 51 occur once in 200 times
         EXPECT_LE(others, n == 20 ? 30 : 0) << n;
     }
 }

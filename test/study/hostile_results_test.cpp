@@ -1,4 +1,4 @@
-// A sweep's file of results that another program has changed: it is refused with what is wrong and what to do, and nothing in it is run.
+// A results file that another program has changed is refused, with the fault and the remedy. No SQL in it is executed.
 
 #include <gtest/gtest.h>
 
@@ -21,14 +21,14 @@ using test::TemporaryFolder;
 using test::PlainSweep;
 using test::value_or_throw;
 
-/// Results of 100 units, then changed as by another program.
+/// A results file of 100 items, changed afterwards as another program would.
 std::string changed_results(const TemporaryFolder& folder, const std::string& statements) {
     const auto path = folder / "r.sqlite";
     const PlainSweep sweep(100);
     {
         auto results = value_or_throw(SweepResults::open(path, sweep));
         std::vector<ItemOutcome> all;
-        for (std::int64_t unit = 0; unit < 100; ++unit) all.push_back(sweep.outcome(unit));
+        for (std::int64_t item = 0; item < 100; ++item) all.push_back(sweep.outcome(item));
         EXPECT_TRUE(results.add(sweep, std::move(all)) && results.checkpoint());
     }
     sqlite3* file = nullptr;
@@ -43,7 +43,7 @@ std::string refusal_of(const std::string& path) {
     return results ? "" : results.error().text();
 }
 
-/// What the first version that wrote such files put there.
+/// The schema of the first version of such files.
 constexpr const char* first_format = R"tables(
 CREATE TABLE about(key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;
 CREATE TABLE columns(position INTEGER PRIMARY KEY, kind TEXT NOT NULL, name TEXT NOT NULL, unit TEXT NOT NULL, sentence TEXT NOT NULL,
@@ -60,7 +60,7 @@ INSERT INTO spikes VALUES(0, 0, X'000000000000F03F');
 PRAGMA application_id = 1400333680;
 )tables";
 
-std::string written(const TemporaryFolder& folder, const std::string& statements) {
+std::string old_results(const TemporaryFolder& folder, const std::string& statements) {
     const auto path = folder / "old.sqlite";
     sqlite3* file = nullptr;
     EXPECT_EQ(sqlite3_open(path.c_str(), &file), SQLITE_OK);
@@ -71,13 +71,13 @@ std::string written(const TemporaryFolder& folder, const std::string& statements
 
 TEST(SweepResults, OfTheFirstFormatAreReadAndOfALaterOneRefused) {
     const TemporaryFolder folder;
-    const auto results = value_or_throw(SweepResults::open_read_only(written(folder, std::string(first_format) + "PRAGMA user_version = 1;")));
+    const auto results = value_or_throw(SweepResults::open_read_only(old_results(folder, std::string(first_format) + "PRAGMA user_version = 1;")));
     EXPECT_EQ(results.finished_count(), 2);
     std::string text;
     ASSERT_TRUE(dump_results(results, [&](const std::string& more) { return text += more, true; }));
     EXPECT_EQ(text, "unit,ended,steps,iterations,alone,why,temp,v(q),spikes of out\n0,done,1,2,0,,27,0.35,1\n1,lost,1,2,0,no rest,85,,\n");
     const TemporaryFolder later;
-    const auto refused = SweepResults::open_read_only(written(later, std::string(first_format) + "PRAGMA user_version = 2;"));
+    const auto refused = SweepResults::open_read_only(old_results(later, std::string(first_format) + "PRAGMA user_version = 2;"));
     ASSERT_FALSE(refused);
     EXPECT_NE(refused.error().text().find("was written by a later corpuscle (its format is 2, this one reads up to 1): use the later version"),
               std::string::npos)
@@ -86,7 +86,7 @@ TEST(SweepResults, OfTheFirstFormatAreReadAndOfALaterOneRefused) {
 
 TEST(HostileResults, WithoutAColumnAreRefusedByItsName) {
     const struct {
-        const char *statements, *said;
+        const char *statements, *message;
     } cases[] = {{"ALTER TABLE units RENAME COLUMN gain TO gian", "its table 'units' has no column 'gain'"},
                  {"ALTER TABLE units RENAME COLUMN ended TO over", "its table 'units' has no column 'ended'"},
                  {"ALTER TABLE spikes RENAME COLUMN times TO t", "its table 'spikes' has no column 'times'"},
@@ -97,23 +97,23 @@ TEST(HostileResults, WithoutAColumnAreRefusedByItsName) {
                  {"UPDATE about SET value = '[[' WHERE key = 'trains'", "its tables about and columns cannot be read"}};
     for (const auto& c : cases) {
         const TemporaryFolder folder;
-        const auto said = refusal_of(changed_results(folder, c.statements));
-        EXPECT_NE(said.find(c.said), std::string::npos) << c.statements << ": " << said;
-        EXPECT_NE(said.find("another file"), std::string::npos) << said;
+        const auto message = refusal_of(changed_results(folder, c.statements));
+        EXPECT_NE(message.find(c.message), std::string::npos) << c.statements << ": " << message;
+        EXPECT_NE(message.find("another file"), std::string::npos) << message;
     }
 }
 
-TEST(HostileResults, OfUnitsThatTheSweepDoesNotHaveAreRefused) {
-    for (const auto* unit : {"-1", "100", "4611686018427387904"}) {
+TEST(HostileResults, OfItemsThatTheSweepDoesNotHaveAreRefused) {
+    for (const auto* item : {"-1", "100", "4611686018427387904"}) {
         const TemporaryFolder folder;
-        const auto path = changed_results(folder, fmt::format("UPDATE units SET unit = {} WHERE unit = 7", unit));
-        EXPECT_NE(refusal_of(path).find(fmt::format("it holds unit {}, of a sweep of 100 units (0 to 99)", unit)), std::string::npos)
+        const auto path = changed_results(folder, fmt::format("UPDATE units SET unit = {} WHERE unit = 7", item));
+        EXPECT_NE(refusal_of(path).find(fmt::format("it holds unit {}, of a sweep of 100 units (0 to 99)", item)), std::string::npos)
             << refusal_of(path);
         EXPECT_FALSE(SweepResults::open(path, PlainSweep(100)));
     }
 }
 
-TEST(HostileResults, RunNothingThatTheirSchemaHolds) {
+TEST(HostileResults, ExecuteNothingThatTheirSchemaContains) {
     const TemporaryFolder folder;
     const auto path = changed_results(folder,
                                       "DELETE FROM units WHERE unit > 50; DELETE FROM spikes; DELETE FROM traces;"
@@ -137,11 +137,11 @@ TEST(HostileResults, WithAViewForATableAreRefused) {
                                       "ALTER TABLE units RENAME TO old;"
                                       "CREATE VIEW units AS WITH RECURSIVE n(unit) AS (SELECT 1 UNION ALL SELECT unit + 1 FROM n) "
                                       "SELECT unit, 'done' AS ended, 1 AS steps, 1 AS iterations, 0 AS alone, '' AS why FROM n");
-    const auto said = refusal_of(path);
-    EXPECT_NE(said.find("changed by another program"), std::string::npos) << said;
+    const auto message = refusal_of(path);
+    EXPECT_NE(message.find("changed by another program"), std::string::npos) << message;
 }
 
-TEST(HostileResults, WithAVeryLargeTextAreRefusedBeforeItIsTakenIn) {
+TEST(HostileResults, WithAVeryLargeTextAreRefusedBeforeItIsLoaded) {
     const TemporaryFolder folder;
     const auto path = changed_results(folder, "UPDATE columns SET words = '[\"' || hex(zeroblob(5000000)) || '\"]' WHERE position = 0");
     EXPECT_NE(refusal_of(path).find("its table columns holds more than 4 MB of labels"), std::string::npos) << refusal_of(path);
@@ -158,9 +158,9 @@ TEST(HostileResults, InAnotherOrderOfColumnsAreMergedColumnByColumn) {
                                       "unit < 50; ALTER TABLE units ADD COLUMN extra; ALTER TABLE units RENAME COLUMN why TO w;"
                                       "ALTER TABLE units ADD COLUMN why TEXT NOT NULL DEFAULT ''; UPDATE units SET why = w");
     auto into = value_or_throw(SweepResults::open(folder / "all.sqlite", sweep));
-    const auto taken = into.merge(value_or_throw(SweepResults::open_read_only(path)));
-    ASSERT_TRUE(taken) << taken.error().text();
-    EXPECT_EQ(*taken, 50);
+    const auto merged = into.merge(value_or_throw(SweepResults::open_read_only(path)));
+    ASSERT_TRUE(merged) << merged.error().text();
+    EXPECT_EQ(*merged, 50);
     ASSERT_TRUE(into.for_each_row([&](const SweepResults::Row& row) {
         const auto o = sweep.outcome(row.item);
         EXPECT_EQ(row.steps, o.steps);
@@ -169,7 +169,7 @@ TEST(HostileResults, InAnotherOrderOfColumnsAreMergedColumnByColumn) {
     }));
 }
 
-TEST(HostileResults, NeverMakeALinkOrSomebodysFileEmpty) {
+TEST(HostileResults, NeverEmptyALinkOrAForeignFile) {
     const TemporaryFolder folder;
     folder.write("thesis.tex", "years of work\n");
     std::filesystem::create_symlink("thesis.tex", folder / "r.sqlite-writer");

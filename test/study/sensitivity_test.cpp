@@ -1,4 +1,4 @@
-// Which device matters: what is known to matter is found, with its share, and noise is not.
+// Which device matters: devices with a known influence are found with their fraction of the variance, and noise is not.
 
 #include "study/sweep/sensitivity.hpp"
 
@@ -9,7 +9,7 @@
 
 #include "circuit/device/uicm_card.hpp"
 #include "circuit/netlist/netlist.hpp"
-#include "made_sweep.hpp"
+#include "synthetic_sweep.hpp"
 #include "signal/random.hpp"
 #include "study/sweep/sweep_document.hpp"
 #include "study/sweep/sweep_summary.hpp"
@@ -17,16 +17,16 @@
 namespace corpuscle {
 namespace {
 
-using test::TemporaryFolder, test::MadeSweep, test::value_or_throw;
+using test::TemporaryFolder, test::SyntheticSweep, test::value_or_throw;
 
-std::vector<SweepFactor> noise_factors(std::uint64_t seed, std::size_t units, std::size_t factors) {
+std::vector<SweepFactor> noise_factors(std::uint64_t seed, std::size_t items, std::size_t factors) {
     std::vector<SweepFactor> out(factors);
     for (std::size_t f = 0; f < factors; ++f)
-        for (std::size_t k = 0; k < units; ++k) out[f].push_back(normal(seed, static_cast<std::uint32_t>(f), 1, k));
+        for (std::size_t k = 0; k < items; ++k) out[f].push_back(normal(seed, static_cast<std::uint32_t>(f), 1, k));
     return out;
 }
 
-TEST(Sensitivity, NoiseIsNotSoldAsSignal) {
+TEST(Sensitivity, NoiseIsNotReportedAsInfluence) {
     int found = 0;
     for (std::uint64_t seed = 0; seed < 30; ++seed) {
         const auto factors = noise_factors(seed, 200, 100);
@@ -34,10 +34,10 @@ TEST(Sensitivity, NoiseIsNotSoldAsSignal) {
         for (std::uint64_t k = 0; k < 200; ++k) measure.push_back(std::exp(2 * normal(1000 + seed, 0, 2, k)));  // with long tails
         found += !sensitivity_of(measure, factors).influences.empty();
     }
-    EXPECT_LE(found, 2);  // 0.3 are awaited; more than 2, once in 300 times
+    EXPECT_LE(found, 2);  // 0.3 are expected; more than 2 occur once in 300 times
 }
 
-TEST(Sensitivity, SharesAreTheSquaresOfTheSlopesAndTheirIntervalsHoldThem) {
+TEST(Sensitivity, FractionsAreTheSquaresOfTheSlopesAndLieInTheirIntervals) {
     const double slopes[] = {0.6, -0.3, 0.1};
     double variance = 0.25;
     for (const double s : slopes) variance += s * s;
@@ -64,7 +64,7 @@ TEST(Sensitivity, SharesAreTheSquaresOfTheSlopesAndTheirIntervalsHoldThem) {
     EXPECT_GE(inside, all_found * 9 / 10 - 2);
 }
 
-TEST(Sensitivity, AFactorThatIsMadeOfOthersOrNeverChangesDoesNoHarm) {
+TEST(Sensitivity, ADependentOrConstantFactorDoesNoHarm) {
     auto factors = noise_factors(1, 200, 3);
     factors.push_back(factors[0]);
     factors.emplace_back(200, 4.0);
@@ -80,21 +80,21 @@ TEST(Sensitivity, AFactorThatIsMadeOfOthersOrNeverChangesDoesNoHarm) {
     EXPECT_TRUE(sensitivity_of(std::vector<double>{1, 2}, std::vector<SweepFactor>{{1, 2}}).influences.empty());
 }
 
-TEST(Sensitivity, FourTimesTheAreaHalvesWhatADeviceBrings) {
+TEST(Sensitivity, FourTimesTheAreaHalvesTheContributionOfADevice) {
     EXPECT_DOUBLE_EQ(relative_sigma_at_four_times_area(1), 0.5);
     EXPECT_DOUBLE_EQ(relative_sigma_at_four_times_area(0), 1);
     EXPECT_DOUBLE_EQ(relative_sigma_at_four_times_area(0.64), std::sqrt(0.36 + 0.16));
 }
 
-TEST(Drawn, DevicesAreToldInTheOrderInWhichTheyDrawAndTheirDeviatesAreThoseOfTheChip) {
+TEST(MismatchSamples, DevicesAreListedInSamplingOrderWithTheDeviatesOfTheChip) {
     const auto netlist = value_or_throw(circuit::Netlist::parse(
         "t\n.model nch nmos (level=80 avt=3e-9 ais=1e-8)\n.model pch pmos (level=80)\nv1 d 0 1\nm1 d d 0 0 nch w=2u l=0.5u m=3 stack=2\n"
         ".subckt s a\nm2 a a 0 0 pch w=1u l=1u\n.ends\nx1 d s\nr1 d 0 1k\nm3 d d 0 0 nch\n.end\n",
         "t.cir", [](const std::string&) -> Result<std::string> { return bad_input("none"); }));
     const auto circuit = value_or_throw(netlist.elaborate());
-    MismatchSamples drawn{9, 0, {{"t", mismatch_devices(circuit)}}};
-    drawn = value_or_throw(parse_mismatch_samples(describe_frame_error(drawn)));
-    const auto& devices = drawn.subjects[0].devices;
+    MismatchSamples mismatch_samples{9, 0, {{"t", mismatch_devices(circuit)}}};
+    mismatch_samples = value_or_throw(parse_mismatch_samples(describe_frame_error(mismatch_samples)));
+    const auto& devices = mismatch_samples.subjects[0].devices;
     ASSERT_EQ(devices.size(), 3U);
     EXPECT_EQ(devices[0].name, "m1");
     EXPECT_EQ(devices[1].name, "x1.m2");
@@ -103,7 +103,7 @@ TEST(Drawn, DevicesAreToldInTheOrderInWhichTheyDrawAndTheirDeviatesAreThoseOfThe
     EXPECT_NEAR(devices[0].area(), 6e-12, 1e-24);
     const circuit::UicmCard card{.A_VT = 3e-9, .A_IS = 1e-8};
     const circuit::UicmInstance size{.W = 2e-6, .L = 0.5e-6, .m = 3, .stack = 2};
-    const auto own = deviates_of(devices[0], drawn.seed, {0, 41});
+    const auto own = deviates_of(devices[0], mismatch_samples.seed, {0, 41});
     const auto shift = circuit::sample_mismatch(card, size, 9, 0, 41);
     EXPECT_NEAR(own.V_T[1] * devices[0].sigma_VT, shift.V_T, 1e-12);
     EXPECT_NEAR(own.I_S[1] * devices[0].sigma_IS, std::log(shift.factor), 1e-12);
@@ -111,31 +111,31 @@ TEST(Drawn, DevicesAreToldInTheOrderInWhichTheyDrawAndTheirDeviatesAreThoseOfThe
     EXPECT_FALSE(parse_mismatch_samples("{\"seed\":1,\"chips\":0,\"subjects\":[{\"name\":\"a\",\"devices\":[[1]]}]}"));
 }
 
-class Summed : public testing::Test {
+class SyntheticSweepSummary : public testing::Test {
 protected:
     static inline SweepSummary summary;
     static inline SweepTable table;
-    static inline std::unique_ptr<MadeSweep> sweep;
+    static inline std::unique_ptr<SyntheticSweep> sweep;
     void SetUp() override {
         if (sweep) return;
         const TemporaryFolder folder;
-        sweep = std::make_unique<MadeSweep>(1000);
-        const auto results = test::made_results(folder / "made.sqlite", *sweep);
+        sweep = std::make_unique<SyntheticSweep>(1000);
+        const auto results = test::write_synthetic_results(folder / "made.sqlite", *sweep);
         table = value_or_throw(read_table(results, {}));
         summary = value_or_throw(summary_of(table, value_or_throw(parse_mismatch_samples(results.about(mismatch_metadata_name))), {}));
     }
     static void TearDownTestSuite() { sweep.reset(), table = {}, summary = {}; }
 };
 
-TEST_F(Summed, PointsAreTheTemperaturesAndEndsAndYieldsAreCounted) {
+TEST_F(SyntheticSweepSummary, PointsAreTheTemperaturesAndEndsAndYieldsAreCounted) {
     ASSERT_EQ(summary.points.size(), 3U);  // the corner has one value, the process 1000
     EXPECT_EQ(summary.points[2].label, "temp = 85 C");
     EXPECT_EQ(summary.all.items, 3000);
     EXPECT_EQ(summary.all.iteration_limit, 60);
     EXPECT_EQ(summary.all.diverged, 6);
     std::int64_t passed = 0, line = 0, count = 0;
-    for (std::int64_t unit = 0; unit < sweep->item_count(); ++unit) {
-        const auto o = sweep->outcome(unit);
+    for (std::int64_t item = 0; item < sweep->item_count(); ++item) {
+        const auto o = sweep->outcome(item);
         const bool done = o.end == ItemEnd::done, in_line = done && std::abs(o.measures[0]) <= 0.5, counts = done && o.measures[2] >= 3;
         passed += in_line && counts, line += in_line, count += counts;
     }
@@ -148,7 +148,7 @@ TEST_F(Summed, PointsAreTheTemperaturesAndEndsAndYieldsAreCounted) {
     EXPECT_EQ(summary.all.measures.back().min, 300);
 }
 
-TEST_F(Summed, DevicesOfKnownWeightAreFoundAndRankedAndNoOthers) {
+TEST_F(SyntheticSweepSummary, DevicesOfKnownInfluenceAreFoundAndRankedAndNoOthers) {
     const auto& line = summary.dependences[0];
     ASSERT_EQ(line.devices.size(), 3U);
     EXPECT_EQ(line.devices[0].device, 7);
@@ -156,7 +156,7 @@ TEST_F(Summed, DevicesOfKnownWeightAreFoundAndRankedAndNoOthers) {
     EXPECT_EQ(line.devices[2].device, 3);
     EXPECT_EQ(line.devices[0].I_S, 0);
     EXPECT_EQ(line.devices[1].V_T, 0);
-    // The noise is of a unit, the rest of a chip: over three temperatures a third of its variance is left.
+    // The noise belongs to an item, the rest to a chip: the mean over three temperatures keeps a third of its variance.
     const double variance = 0.09 + 0.04 + 0.01 + 0.01 + 0.0225 / 3;
     EXPECT_NEAR(line.devices[0].fraction(), 0.09 / variance, 0.05);
     EXPECT_NEAR(line.devices[1].fraction(), 0.04 / variance, 0.04);
@@ -176,7 +176,7 @@ TEST_F(Summed, DevicesOfKnownWeightAreFoundAndRankedAndNoOthers) {
     EXPECT_EQ(yield.devices[0].device, 7);
 }
 
-TEST_F(Summed, TheDocumentSaysTheSameAsTheSummary) {
+TEST_F(SyntheticSweepSummary, TheDocumentHasTheContentsOfTheSummary) {
     const auto document = document_of(table, summary, "made");
     EXPECT_EQ(document["finished"], 3000);
     EXPECT_EQ(document["all"]["passed"], summary.all.passed);
@@ -184,11 +184,11 @@ TEST_F(Summed, TheDocumentSaysTheSameAsTheSummary) {
     const auto& device = document["depends_on"][0]["devices"][0];
     EXPECT_EQ(device["device"], "x1.m7");
     EXPECT_NEAR(device["area_m2"].get<double>(), 8e-12, 1e-20);
-    const double share = device["share"], left = device["sigma_with_four_times_the_area"];
-    EXPECT_NEAR(left * left, 1 - 0.75 * share, 1e-12);
+    const double fraction = device["share"], left = device["sigma_with_four_times_the_area"];
+    EXPECT_NEAR(left * left, 1 - 0.75 * fraction, 1e-12);
 }
 
-TEST_F(Summed, AnAxisOfManyValuesIsCutIntoBandsAndAWrongNameIsMended) {
+TEST_F(SyntheticSweepSummary, AnAxisOfManyValuesIsCutIntoBandsAndAWrongNameGetsASuggestion) {
     const auto bands = value_or_throw(group_rows(table, {"process.vt_n"}));
     ASSERT_EQ(bands.groups.size(), SweepGroups::bands);
     for (const auto& g : bands.groups) EXPECT_NEAR(static_cast<double>(g.rows.size()), 600, 10);

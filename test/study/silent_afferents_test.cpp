@@ -1,4 +1,4 @@
-// What is said when nothing fires, or more than a nerve can: the numbers are computed, and the remedies work as typed.
+// Warnings for afferents that never fire, or faster than a nerve can: their numbers are computed, and the remedies work when typed.
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -26,7 +26,7 @@ density = "70 /cm2"
 sigma = "0.8 mm"
 )";
 
-/// The first group of an expression in a text.
+/// The first group of a regular expression in a text.
 std::string found(const std::string& text, const std::string& expression) {
     std::smatch match;
     return std::regex_search(text, match, std::regex(expression)) ? match[1].str() : "";
@@ -34,7 +34,7 @@ std::string found(const std::string& text, const std::string& expression) {
 
 std::int64_t spikes_of(const test::ProgramResult& ran) { return nlohmann::json::parse(ran.out)["work"]["spikes"].get<std::int64_t>(); }
 
-TEST(SilenceDetector, TheFactorIsTheLeastThatMakesAnAfferentFire) {
+TEST(SilenceDetector, TheFactorIsTheSmallestThatMakesAnAfferentFire) {
     const auto press = test::force("press", {.settings = {"press.F_max=300mN"}, .rate = 1e3});
     const auto factor = factor_to_fire(*plan_afferent("sa1", {}), {1e-3}, press);
     ASSERT_TRUE(factor);
@@ -55,20 +55,20 @@ TEST(SilenceDetector, NumbersOfARemedyAreRoundedUpToTwoDigits) {
     EXPECT_EQ(format_rounded_up(99.5), "100");
 }
 
-TEST(SilenceDetector, AnAfferentThatNeverFiresSaysByHowMuchMoreForceItWould) {
+TEST(SilenceDetector, AWarningGivesTheForceAtWhichAnAfferentFires) {
     const TemporaryFolder folder;
     const auto ran = run_program(folder, "respond ramp-hold --rate 1kHz --json");
-    const auto said = found(ran.err, "fa1 never fired: the largest force was 1 N; it would fire at about ([0-9.]+) times this force");
-    ASSERT_FALSE(said.empty()) << ran.err;
+    const auto message = found(ran.err, "fa1 never fired: the largest force was 1 N; it would fire at about ([0-9.]+) times this force");
+    ASSERT_FALSE(message.empty()) << ran.err;
     const auto document = nlohmann::json::parse(ran.out);
     ASSERT_EQ(document["silent"].size(), 1U);
     EXPECT_EQ(document["silent"][0]["afferent"], "fa1");
-    const auto more = run_program(folder, "respond ramp-hold --rate 1kHz --afferent fa1 --json --set ramp-hold.F_max=" + said + "N");
+    const auto more = run_program(folder, "respond ramp-hold --rate 1kHz --afferent fa1 --json --set ramp-hold.F_max=" + message + "N");
     EXPECT_GT(spikes_of(more), 0) << more.err;
     EXPECT_EQ(more.err.find("never fired"), std::string::npos);
 }
 
-TEST(SilenceDetector, AGridUnderAnIndenterIsTakenForSkinAndSaysSo) {
+TEST(SilenceDetector, AGridUnderAnIndenterIsTakenForSkinWithAWarning) {
     const TemporaryFolder folder;
     const auto ran = run_program(folder, "respond press --population 'grid 8x8' --json");
     EXPECT_EQ(ran.status, 0);
@@ -80,7 +80,7 @@ TEST(SilenceDetector, AGridUnderAnIndenterIsTakenForSkinAndSaysSo) {
         << ran.err;
 }
 
-TEST(SilenceDetector, APopulationWithoutFeltAreaNamesItAndTheAreaMakesItFire) {
+TEST(SilenceDetector, APopulationWithoutFeltAreaGetsTheAreaThatMakesItFire) {
     const TemporaryFolder folder;
     folder.write("own.toml", patch);
     const auto silent = run_program(folder, "respond press --population own.toml --json");
@@ -94,7 +94,7 @@ TEST(SilenceDetector, APopulationWithoutFeltAreaNamesItAndTheAreaMakesItFire) {
     EXPECT_GT(spikes_of(run_program(folder, "respond press --population own.toml --json")), 0);
 }
 
-TEST(SilenceDetector, ATouchThatIsTooWeakNamesTheSettingThatWouldDo) {
+TEST(SilenceDetector, ATouchThatIsTooWeakGetsTheSettingThatSuffices) {
     const TemporaryFolder folder;
     folder.write("own.toml", std::string("felt_area = \"1 cm2\"\n") + patch);
     const auto weak = run_program(folder, "respond press --population own.toml --set press.F_max=300mN --json");
@@ -113,7 +113,7 @@ TEST(SilenceDetector, ATouchThatIsTooWeakNamesTheSettingThatWouldDo) {
     EXPECT_GT(spikes_of(run_program(folder, "respond touch.csv --population own.toml --json " + scale)), 0);
 }
 
-TEST(SilenceDetector, AnIndenterBesideTheSkinIsToldToBeMoved) {
+TEST(SilenceDetector, AnIndenterBesideTheSkinGetsTheRemedyToMoveIt) {
     const TemporaryFolder folder;
     const auto ran = run_program(folder, "respond press --population fingertip --set contact.x=1m --set contact.y=1m --quiet");
     EXPECT_NE(ran.err.find("received no force"), std::string::npos) << ran.err;
@@ -127,7 +127,7 @@ TEST(NerveLimit, RatesAboveAKilohertzAreAWarningAndTheRemedyEndsIt) {
     EXPECT_NE(fast.err.find("fa2: on sine spikes come at up to 3.1"), std::string::npos) << fast.err;
     EXPECT_NE(fast.err.find("--set fa2.t_ref=1ms"), std::string::npos) << fast.err;
     EXPECT_EQ(run_program(folder, buzz + " --set fa2.t_ref=1ms").err.find("spikes come at up to"), std::string::npos);
-    EXPECT_EQ(run_program(folder, "respond press --quiet").err, "") << "the thesis's press is no such case";
+    EXPECT_EQ(run_program(folder, "respond press --quiet").err, "") << "the thesis's press needs no warning";
     const auto skin = run_program(folder, "respond press --population fingertip --set press.F_max=900N --quiet");
     EXPECT_NE(skin.err.find("of 290 sa1 afferents: spikes come at up to "), std::string::npos) << skin.err;
 }
@@ -152,7 +152,7 @@ TEST(Rates, OfASingleSpikeAreBlank) {
     EXPECT_GT(single, 0) << skin["rates"];
 }
 
-TEST(Bins, ShorterThanAHundredthOfASampleAreRefusedWithTheShortestThatGoes) {
+TEST(Bins, ShorterThanAHundredthOfASampleAreRefusedWithTheSmallestThatWorks) {
     const TemporaryFolder folder;
     for (const char* population : {"", "--population fingertip"}) {
         const auto refused = run_program(folder, fmt::format("respond press --rate 1kHz {} --bin 1ns -o out", population));
@@ -169,15 +169,15 @@ TEST(Bins, ShorterThanAHundredthOfASampleAreRefusedWithTheShortestThatGoes) {
 }
 
 TEST(SkinMemory, AGridThatDoesNotFitIsRefusedWithTheMemoryItNeeds) {
-    if (test::is_sanitized) GTEST_SKIP() << "sanitizers need more addresses than the limit set here";
+    if (test::is_sanitized) GTEST_SKIP() << "sanitizers need more address space than this limit";
     const TemporaryFolder folder;
-    const auto said = folder / "said";
+    const auto message = folder / "said";
     const auto command = "ulimit -v 3000000; cd '" + folder.path() + "'; '" + test::program_path() +
-                         "' respond press --population 'grid 2048x2048' 2>'" + said + "'";
+                         "' respond press --population 'grid 2048x2048' 2>'" + message + "'";
     EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 1);
-    EXPECT_NE(read_file(said).find("grid 2048x2048: 4194304 sites and 8388608 afferents need about 2"), std::string::npos)
-        << read_file(said);
-    EXPECT_NE(read_file(said).find("GB of memory, but only 3.07 GB are available"), std::string::npos) << read_file(said);
+    EXPECT_NE(read_file(message).find("grid 2048x2048: 4194304 sites and 8388608 afferents need about 2"), std::string::npos)
+        << read_file(message);
+    EXPECT_NE(read_file(message).find("GB of memory, but only 3.07 GB are available"), std::string::npos) << read_file(message);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// A force through a skin as people run it: stopped and gone on with, on ranks, of a recording's channels; each time the same bytes.
+// A force through a skin as users run it: stopped and resumed, on MPI ranks, from a recording's channels. The bytes are always the same.
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -17,40 +17,40 @@ namespace {
 
 using test::TemporaryFolder, test::read_file, test::value_or_throw;
 
-/// One run of a press on a fingertip into `out`; stopped after so many blocks (none: -1).
-Result<SkinStats> press_fingertip(const TemporaryFolder& folder, const std::string& out, int blocks, bool keeps,
+/// One run of a press on a fingertip into `out`, stopped after `blocks` blocks (-1: not stopped).
+Result<SkinStats> press_fingertip(const TemporaryFolder& folder, const std::string& out, int blocks, bool with_checkpoint,
                                  const RunFingerprint& fingerprint = {{"FORCE", "press"}}, double scale = 1) {
     static const auto skin = value_or_throw(innervate(value_or_throw(load_skin_plan("fingertip"))));
     const auto source = value_or_throw(make_stimulus("press", test::parse_settings({"press.F_max=" + std::to_string(4 * scale)}), 1e3, 0));
     const auto contact = value_or_throw(make_contact("sphere", {}, skin->plan.sites, source->clock()));
     const auto force = make_pressed_force(*source, *contact);
-    const auto at_work = value_or_throw(Skin::make(skin, {1e-3}, *instruction_set()));
-    std::unique_ptr<SkinCheckpoint> spool;
-    if (keeps) {
-        auto opened = SkinCheckpoint::open(folder / "state", *at_work, fingerprint);
+    const auto running = value_or_throw(Skin::make(skin, {1e-3}, *instruction_set()));
+    std::unique_ptr<SkinCheckpoint> checkpoint;
+    if (with_checkpoint) {
+        auto opened = SkinCheckpoint::open(folder / "state", *running, fingerprint);
         if (!opened) return opened.error();
-        spool = std::move(*opened);
+        checkpoint = std::move(*opened);
     }
     ThreadPool pool(1);
-    const auto answerer = local_skin_simulator(*at_work, pool);
+    const auto simulator = local_skin_simulator(*running, pool);
     SkinEventsFile file(value_or_throw(OutputFile::create(folder / out)), "aer");
     SkinSink* const listeners[] = {&file};
     const SkinInput input{"press", "", source->clock(), {}, *skin};
-    auto done = run_skin(*force, input, *answerer, listeners, {[&](double) { return blocks-- != 0; }, spool.get()});
-    if (done && file.commit() && spool) spool->remove_files();
+    auto done = run_skin(*force, input, *simulator, listeners, {[&](double) { return blocks-- != 0; }, checkpoint.get()});
+    if (done && file.commit() && checkpoint) checkpoint->remove_files();
     return done;
 }
 
-TEST(SkinRun, StoppedAgainAndAgainItGoesOnToTheSameBytes) {
+TEST(SkinRun, StoppedRepeatedlyItResumesToTheSameBytes) {
     const TemporaryFolder folder;
-    const auto whole = value_or_throw(press_fingertip(folder, "whole", -1, false));
-    ASSERT_GT(whole.spikes, 500);
+    const auto uninterrupted = value_or_throw(press_fingertip(folder, "whole", -1, false));
+    ASSERT_GT(uninterrupted.spikes, 500);
     for (int stops = 0; stops < 20; ++stops) {
-        const auto done = press_fingertip(folder, "parts", 2 + 2 * stops, true);  // blocks; those told again among them
+        const auto done = press_fingertip(folder, "parts", 2 + 2 * stops, true);  // blocks, including those that are run again
         if (done) {
             EXPECT_GT(stops, 3);
-            EXPECT_EQ(done->spikes, whole.spikes);
-            EXPECT_EQ(done->skipped_steps, whole.skipped_steps);
+            EXPECT_EQ(done->spikes, uninterrupted.spikes);
+            EXPECT_EQ(done->skipped_steps, uninterrupted.skipped_steps);
             break;
         }
         ASSERT_EQ(done.error().code, ErrorCode::interrupted);
@@ -66,7 +66,7 @@ TEST(SkinRun, ACheckpointOfAnotherRunIsRefusedNamesWhatDiffersAndStays) {
     const RunFingerprint then = {{"FORCE", "touch.csv"}, {"--scale", "1"}, {"--abs", "true"}, {"contents of the recording", "a"}},
                          now = {{"FORCE", "touch.csv"}, {"--scale", "3"}, {"--despike", "auto"}, {"contents of the recording", "b"}};
     ASSERT_FALSE(press_fingertip(folder, "a", 5, true, then));
-    const auto kept = read_file(folder / "state"), spikes = read_file(folder / "state.spikes");
+    const auto stored = read_file(folder / "state"), spikes = read_file(folder / "state.spikes");
     const auto other = press_fingertip(folder, "a", 5, true, now);
     ASSERT_FALSE(other);
     EXPECT_EQ(other.error().code, ErrorCode::bad_input);
@@ -74,7 +74,7 @@ TEST(SkinRun, ACheckpointOfAnotherRunIsRefusedNamesWhatDiffersAndStays) {
                                           "have changed; --despike was not given and now is auto. Repeat the run with its original options, remove "),
               std::string::npos)
         << other.error().message;
-    EXPECT_EQ(read_file(folder / "state"), kept);
+    EXPECT_EQ(read_file(folder / "state"), stored);
     EXPECT_EQ(read_file(folder / "state.spikes"), spikes);
 }
 
@@ -91,7 +91,7 @@ TEST(SkinRun, ACheckpointOfAnotherForceIsRefusedWhateverWasTyped) {
 TEST(SkinRun, ACheckpointThatIsCutShortOrHasAFlippedBitIsRefused) {
     const TemporaryFolder folder;
     ASSERT_FALSE(press_fingertip(folder, "a", 5, true));
-    const auto kept = read_file(folder / "state"), spikes = read_file(folder / "state.spikes");
+    const auto stored = read_file(folder / "state"), spikes = read_file(folder / "state.spikes");
     ASSERT_GT(spikes.size(), 100U * 24);
     const auto refused = [&](const std::string& what) {
         const auto done = press_fingertip(folder, "a", 0, true);
@@ -99,44 +99,44 @@ TEST(SkinRun, ACheckpointThatIsCutShortOrHasAFlippedBitIsRefused) {
         EXPECT_EQ(done.error().code, ErrorCode::bad_input) << what << done.error().message;
         EXPECT_NE(done.error().message.find("--checkpoint"), std::string::npos) << done.error().message;
     };
-    for (const std::size_t size : {std::size_t{0}, std::size_t{3}, std::size_t{30}, kept.size() / 2, kept.size() - 1}) {
-        folder.write("state", kept.substr(0, size));
+    for (const std::size_t size : {std::size_t{0}, std::size_t{3}, std::size_t{30}, stored.size() / 2, stored.size() - 1}) {
+        folder.write("state", stored.substr(0, size));
         refused("FILE cut to " + std::to_string(size));
     }
-    for (std::size_t at = 0; at < kept.size(); at += 1 + kept.size() / 60) {
-        auto damaged = kept;
+    for (std::size_t at = 0; at < stored.size(); at += 1 + stored.size() / 60) {
+        auto damaged = stored;
         damaged[at] = static_cast<char>(damaged[at] ^ (1 << at % 8));
         folder.write("state", damaged);
         refused("FILE, byte " + std::to_string(at));
     }
-    folder.write("state", kept);
+    folder.write("state", stored);
     for (std::size_t at = 0; at < spikes.size(); at += 1 + spikes.size() / 60) {
         auto damaged = spikes;
         damaged[at] = static_cast<char>(damaged[at] ^ (1 << at % 8));
         folder.write("state.spikes", damaged);
         refused("FILE.spikes, byte " + std::to_string(at));
-        EXPECT_EQ(read_file(folder / "state.spikes"), damaged) << "a refused file stays as it is";
+        EXPECT_EQ(read_file(folder / "state.spikes"), damaged) << "a refused file is not changed";
     }
     folder.write("state.spikes", spikes.substr(0, spikes.size() / 2));
     refused("FILE.spikes cut to a half");
     std::filesystem::remove(folder / "state.spikes");
     refused("FILE.spikes removed");
     folder.write("state.spikes", spikes);
-    EXPECT_EQ(press_fingertip(folder, "a", 0, true).error().code, ErrorCode::interrupted) << "whole, it goes on";
+    EXPECT_EQ(press_fingertip(folder, "a", 0, true).error().code, ErrorCode::interrupted) << "complete, it is resumed";
 }
 
-/// Where FILE holds the number of spikes: behind the magic, one pair of texts, and the checksum of the force.
+/// Where FILE has the number of spikes: after the magic number, one pair of texts, and the checksum of the force.
 constexpr std::size_t count_at = 23 + 8 + (8 + 5) + (8 + 5) + 8;
 
 TEST(SkinRun, ACheckpointThatCountsMoreSpikesThanThereAreIsRefusedAndNothingIsCutOff) {
     const TemporaryFolder folder;
     ASSERT_FALSE(press_fingertip(folder, "a", 5, true));
-    const auto kept = read_file(folder / "state"), spikes = read_file(folder / "state.spikes");
+    const auto stored = read_file(folder / "state"), spikes = read_file(folder / "state.spikes");
     std::uint64_t count = 0;
-    std::memcpy(&count, kept.data() + count_at, sizeof count);
+    std::memcpy(&count, stored.data() + count_at, sizeof count);
     ASSERT_EQ(24 + 24 * count, spikes.size());
     for (const auto claimed : {count + 1, std::uint64_t{1} << 61, (std::uint64_t{1} << 61) + count, ~std::uint64_t{0}}) {
-        auto more = kept.substr(0, kept.size() - sizeof count);
+        auto more = stored.substr(0, stored.size() - sizeof count);
         std::memcpy(more.data() + count_at, &claimed, sizeof claimed);
         const auto sum = checksum_of(std::as_bytes(std::span(more)));
         more.append(reinterpret_cast<const char*>(&sum), sizeof sum);
@@ -171,12 +171,12 @@ TEST(SkinRun, TwoRunsCannotShareACheckpoint) {
 
 TEST(SkinRun, FilesThatNoCheckpointWroteAreNeitherEmptiedNorRemoved) {
     const TemporaryFolder folder;
-    for (const std::string mine : {"1.5 sorted by hand\n", ""}) {
-        folder.write("mine.spikes", mine);
+    for (const std::string options : {"1.5 sorted by hand\n", ""}) {
+        folder.write("mine.spikes", options);
         const auto ran = test::run_program(folder, "respond press --population fingertip --checkpoint mine");
         EXPECT_EQ(ran.status, 1);
         EXPECT_NE(ran.err.find("mine.spikes: this file was not written by a checkpoint"), std::string::npos) << ran.err;
-        EXPECT_EQ(read_file(folder / "mine.spikes"), mine);
+        EXPECT_EQ(read_file(folder / "mine.spikes"), options);
         EXPECT_EQ(folder.file_names(), (std::vector<std::string>{"mine.spikes"}));
     }
     folder.write("own", "a text\n");
@@ -188,7 +188,7 @@ TEST(SkinRun, FilesThatNoCheckpointWroteAreNeitherEmptiedNorRemoved) {
         EXPECT_EQ(folder.file_names(), (std::vector<std::string>{"mine.spikes", "own"}));
     }
     if (test::run_program(folder, "respond press --population fingertip --checkpoint spikes.csv --out . --quiet").status == 0) {
-        EXPECT_TRUE(std::filesystem::exists(folder / "spikes.csv")) << "an output of the checkpoint's name stays";
+        EXPECT_TRUE(std::filesystem::exists(folder / "spikes.csv")) << "an output with the checkpoint's name is kept";
     }
 }
 
@@ -207,12 +207,12 @@ TEST(SkinRun, InterruptedAndRepeatedWithAnotherScaleOrOtherContentsItIsRefused) 
         return text;
     };
     folder.write("touch.csv", recording(1));
-    const std::string words = "respond touch.csv --population fingertip --scale 2 --checkpoint kept --out out";
-    for (const char* seconds : {"0.4", "1", "3", "8", "20"}) {  // on a busy machine it may not have begun
+    const std::string arguments = "respond touch.csv --population fingertip --scale 2 --checkpoint kept --out out";
+    for (const char* seconds : {"0.4", "1", "3", "8", "20"}) {  // on a busy machine it may not have started yet
         const auto command =
-            "cd '" + folder.path() + "' && timeout -s INT " + seconds + " '" + test::program_path() + "' " + words + " -j 1 2>said >&2";
+            "cd '" + folder.path() + "' && timeout -s INT " + seconds + " '" + test::program_path() + "' " + arguments + " -j 1 2>said >&2";
         const int status = WEXITSTATUS(std::system(command.c_str()));
-        if (status == 0) GTEST_SKIP() << "it was over before it could be interrupted";
+        if (status == 0) GTEST_SKIP() << "it ended before it could be interrupted";
         if (std::filesystem::exists(folder / "kept")) break;
     }
     ASSERT_TRUE(std::filesystem::exists(folder / "kept")) << read_file(folder / "said");
@@ -220,7 +220,7 @@ TEST(SkinRun, InterruptedAndRepeatedWithAnotherScaleOrOtherContentsItIsRefused) 
     EXPECT_EQ(scaled.status, 1);
     EXPECT_NE(scaled.err.find("--scale was 2 and now is 3"), std::string::npos) << scaled.err;
     folder.write("touch.csv", recording(1.001));
-    const auto other = test::run_program(folder, words);
+    const auto other = test::run_program(folder, arguments);
     EXPECT_EQ(other.status, 1);
     EXPECT_NE(other.err.find("the contents of the recording have changed"), std::string::npos) << other.err;
     EXPECT_FALSE(std::filesystem::exists(folder / "out"));
@@ -254,8 +254,8 @@ TEST(SkinRun, SpikesOfASkinAreNumPysArraysToo) {
     const auto names = value_or_throw(npz.strings("unit_afferent")), regions = value_or_throw(npz.strings("unit_channel"));
     std::string text = "afferent,channel,time_s\n";
     for (std::size_t k = 0; k < times.size(); ++k) {
-        const auto unit = static_cast<std::size_t>(labels[k]);
-        text += fmt::format("{},{},{:.9f}\n", names[unit], regions[unit], times[k]);
+        const auto afferent = static_cast<std::size_t>(labels[k]);
+        text += fmt::format("{},{},{:.9f}\n", names[afferent], regions[afferent], times[k]);
         EXPECT_NEAR(static_cast<double>(indexes[k]) * 1e-6, times[k], 0.5000001e-6);
     }
     EXPECT_EQ(text, read_file(folder / "a/spikes.csv"));
@@ -264,24 +264,24 @@ TEST(SkinRun, SpikesOfASkinAreNumPysArraysToo) {
     EXPECT_NE(test::run_program(folder, "respond press --population fingertip --npz").err.find("--npz needs --out DIR"), std::string::npos);
 }
 
-TEST(SkinRun, WhatIsMeantForAfferentsOnChannelsIsRefused) {
+TEST(SkinRun, OptionsForAfferentsOnChannelsAreRefused) {
     const TemporaryFolder folder;
-    for (const char* words : {"--afferent fa2", "--copies 3", "--noise 10nA", "--traces --out x", "--corner ss"}) {
-        const auto ran = test::run_program(folder, std::string("respond press --population fingertip ") + words);
-        EXPECT_EQ(ran.status, 2) << words << ran.err;
+    for (const char* arguments : {"--afferent fa2", "--copies 3", "--noise 10nA", "--traces --out x", "--corner ss"}) {
+        const auto ran = test::run_program(folder, std::string("respond press --population fingertip ") + arguments);
+        EXPECT_EQ(ran.status, 2) << arguments << ran.err;
         EXPECT_NE(ran.err.find("cannot be used with --population"), std::string::npos) << ran.err;
     }
     EXPECT_EQ(test::run_program(folder, "respond press --population fingertip --set sa1.f_X=2Hz").status, 1);
     EXPECT_EQ(test::run_program(folder, "respond press --population fingertip --set sa9.f_B=2Hz").status, 2);
 }
 
-TEST(SkinRanks, GiveWhatOneProcessGives) {
+TEST(SkinRanks, GiveTheSpikesOfOneProcess) {
     const TemporaryFolder folder;
     ASSERT_EQ(test::run_program(folder, "respond press --population fingertip --events aer --out alone --quiet").status, 0);
     const std::string root = ::geteuid() == 0 ? "--allow-run-as-root " : "";
-    const auto ranks = [&](int count, const std::string& words) {
+    const auto ranks = [&](int count, const std::string& arguments) {
         const auto command = "cd '" + folder.path() + "' && timeout 60 mpirun " + root + "--oversubscribe -n " + std::to_string(count) +
-                             " '" + test::program_path() + "' respond " + words + " --quiet >said 2>&1";
+                             " '" + test::program_path() + "' respond " + arguments + " --quiet >said 2>&1";
         return WEXITSTATUS(std::system(command.c_str()));
     };
     for (const int count : {2, 3}) {

@@ -1,4 +1,4 @@
-// What is told of a skin: a skin of five units with spikes made by hand, so that every number can be counted on fingers.
+// Output for a skin of five afferents, with spikes made by hand so that every number can be counted.
 
 #include "study/skin_summary.hpp"
 
@@ -19,7 +19,7 @@ namespace {
 using test::TemporaryFolder, test::value_or_throw;
 using SkinJson = nlohmann::ordered_json;
 
-/// Three sites, the third on the palm; sa1 has three units, fa1 two. Unit 1 feels two sites.
+/// Three sites, the third on the palm. sa1 has three afferents, fa1 two. The receptive field of afferent 1 has two sites.
 Innervation small_skin() {
     Innervation skin;
     skin.plan.name = "small";
@@ -36,14 +36,14 @@ Innervation small_skin() {
 }
 
 constexpr std::int64_t samples = 20;  // of 1 ms
-const std::vector<Spike> told = {{3, 0.5, 0}, {6, 1, 1}, {6, 1, 3}, {11, 0.25, 0}, {15, 1, 1}, {15, 1, 3}};
-const std::vector<Spike> late = {{21, 0.5, 3}};
+const std::vector<Spike> spikes_in_time = {{3, 0.5, 0}, {6, 1, 1}, {6, 1, 3}, {11, 0.25, 0}, {15, 1, 1}, {15, 1, 3}};
+const std::vector<Spike> late_spikes = {{21, 0.5, 3}};
 
-/// 1 N on the first site from sample 2 to 11, 2 N on the second from 5 to 9.
+/// 1 N at the first site from sample 2 to 11, 2 N at the second from 5 to 9.
 double force_at(std::size_t site, std::int64_t k) { return site == 0 && k >= 2 && k <= 11 ? 1 : site == 1 && k >= 5 && k <= 9 ? 2 : 0; }
 
-/// Tells it all in blocks; `listed`: says which sites are touched.
-void tell(const Innervation& skin, std::vector<SkinSink*> listeners, std::int64_t block = samples, bool listed = false) {
+/// Passes the entire run to the listeners in blocks. `listed`: with the list of touched sites.
+void run_listeners(const Innervation& skin, std::vector<SkinSink*> listeners, std::int64_t block = samples, bool listed = false) {
     const SkinInput input{"poke", "by hand", {1000, 1, 0}, {{"on", 0, 0.01}, {"off", 0.01, 0.02}}, skin};
     for (auto* l : listeners) ASSERT_TRUE(l->begin(input));
     for (std::int64_t first = 0; first < samples; first += block) {
@@ -55,13 +55,13 @@ void tell(const Innervation& skin, std::vector<SkinSink*> listeners, std::int64_
                 force.push_back(listed && s == 2 ? 99 : f), total[static_cast<std::size_t>(k)] += f;
             }
         std::vector<Spike> spikes;
-        for (const auto& s : told)
+        for (const auto& s : spikes_in_time)
             if (s.step >= first && s.step < first + steps) spikes.push_back(s);
         const std::vector<std::uint32_t> touched = {0, 1};
         const SiteForce at{force.data(), static_cast<std::size_t>(steps), touched, !listed};
         for (auto* l : listeners) ASSERT_TRUE(l->block(input, {first, static_cast<std::size_t>(steps), at, total, spikes}));
     }
-    for (auto* l : listeners) ASSERT_TRUE(l->end(input, samples, late));
+    for (auto* l : listeners) ASSERT_TRUE(l->end(input, samples, late_spikes));
 }
 
 const SkinSummaryRow& row_of(const SkinSummary& s, std::size_t of, std::size_t region, std::size_t phase) {
@@ -88,9 +88,9 @@ std::vector<unsigned> decoded(const std::string& text) {
 }
 
 /// Dense rows of a page's frames: [frame][place].
-std::vector<std::vector<unsigned>> frames_of(const SkinJson& told_frames) {
-    const auto bytes = decoded(told_frames["data"]);
-    const auto places = told_frames["places"].get<std::size_t>();
+std::vector<std::vector<unsigned>> frames_of(const SkinJson& frames) {
+    const auto bytes = decoded(frames["data"]);
+    const auto place_count = frames["places"].get<std::size_t>();
     std::vector<std::vector<unsigned>> out;
     std::size_t at = 0;
     const auto number = [&] {
@@ -100,9 +100,9 @@ std::vector<std::vector<unsigned>> frames_of(const SkinJson& told_frames) {
             if (bytes[at++] < 128) return n;
         }
     };
-    for (std::size_t f = 0; f < told_frames["count"]; ++f) {
+    for (std::size_t f = 0; f < frames["count"]; ++f) {
         std::vector<unsigned> dense;
-        while (dense.size() < places) {
+        while (dense.size() < place_count) {
             const unsigned byte = bytes.at(at++);
             if (byte == 0)
                 dense.resize(dense.size() + number());
@@ -118,7 +118,7 @@ std::vector<std::vector<unsigned>> frames_of(const SkinJson& told_frames) {
 TEST(SkinSummary, CountsClassesByRegionAndPhase) {
     const auto skin = small_skin();
     SkinSummary s;
-    tell(skin, {&s});
+    run_listeners(skin, {&s});
     const auto& sa1 = row_of(s, 0, SkinSummaryRow::all, SkinSummaryRow::all);
     EXPECT_EQ(sa1.afferents, 3);
     EXPECT_EQ(sa1.active, 2);
@@ -133,7 +133,7 @@ TEST(SkinSummary, CountsClassesByRegionAndPhase) {
     EXPECT_EQ(row_of(s, 0, 1, SkinSummaryRow::all).afferents, 1);
     EXPECT_EQ(row_of(s, 0, 1, SkinSummaryRow::all).active, 0);
     const auto& fa1 = row_of(s, 1, SkinSummaryRow::all, SkinSummaryRow::all);
-    EXPECT_EQ(fa1.spikes, 3) << "the one that was still on its way, too";
+    EXPECT_EQ(fa1.spikes, 3) << "including the spike that was delayed beyond the end";
     EXPECT_EQ(row_of(s, 1, SkinSummaryRow::all, 1).spikes, 1) << "which is in no phase";
     EXPECT_EQ(s.rows().size(), 2 * 3 * 3);
     EXPECT_DOUBLE_EQ(s.max_force(), 3);
@@ -141,13 +141,13 @@ TEST(SkinSummary, CountsClassesByRegionAndPhase) {
     EXPECT_DOUBLE_EQ(s.touch_start(), 2e-3);
 }
 
-TEST(SkinSummary, ARateWhileTouchedIsOfTheSiteThatAUnitFeelsMost) {
+TEST(SkinSummary, ARateWhileTouchedUsesTheSiteOfLargestWeight) {
     const auto skin = small_skin();
     SkinSummary s;
-    tell(skin, {&s}, samples, true);
+    run_listeners(skin, {&s}, samples, true);
     EXPECT_DOUBLE_EQ(s.touched_times()[0], 10e-3);
-    EXPECT_DOUBLE_EQ(s.touched_times()[1], 5e-3) << "of its two sites the second";
-    EXPECT_DOUBLE_EQ(s.touched_times()[2], 0) << "a site that is not listed is not looked at";
+    EXPECT_DOUBLE_EQ(s.touched_times()[1], 5e-3) << "the second of its two sites";
+    EXPECT_DOUBLE_EQ(s.touched_times()[2], 0) << "a site that is not listed is ignored";
     EXPECT_DOUBLE_EQ(row_of(s, 0, SkinSummaryRow::all, SkinSummaryRow::all).touched_rate, 3 / 15e-3);
     EXPECT_DOUBLE_EQ(row_of(s, 0, SkinSummaryRow::all, 0).touched_rate, 2 / 13e-3);
     EXPECT_DOUBLE_EQ(row_of(s, 0, SkinSummaryRow::all, 1).touched_rate, 1 / 2e-3);
@@ -155,10 +155,10 @@ TEST(SkinSummary, ARateWhileTouchedIsOfTheSiteThatAUnitFeelsMost) {
     EXPECT_TRUE(std::isnan(row_of(s, 0, 1, SkinSummaryRow::all).touched_rate));
 }
 
-TEST(SkinSummary, FirstSpikesComeInOrderOfTimeThenUnit) {
+TEST(SkinSummary, FirstSpikesAreOrderedByTimeThenAfferent) {
     const auto skin = small_skin();
     SkinSummary s;
-    tell(skin, {&s});
+    run_listeners(skin, {&s});
     const auto all = s.first_spikes(10);
     ASSERT_EQ(all.size(), 3U);
     EXPECT_EQ(all[0].afferent_index, 0U);
@@ -169,16 +169,16 @@ TEST(SkinSummary, FirstSpikesComeInOrderOfTimeThenUnit) {
     EXPECT_TRUE(std::isnan(s.first_times()[2]));
 }
 
-TEST(SkinSummary, FilesHoldWhatWasTold) {
+TEST(SkinSummary, FilesHoldTheListedSpikes) {
     const auto skin = small_skin();
     const TemporaryFolder folder;
     SkinSummary s;
     SkinSpikesFile spikes(value_or_throw(OutputFile::create(folder / "spikes.csv")));
-    SkinAfferentsFile units(value_or_throw(OutputFile::create(folder / "units.csv")), s);
+    SkinAfferentsFile afferents_file(value_or_throw(OutputFile::create(folder / "units.csv")), s);
     SkinPsthFile bins(value_or_throw(OutputFile::create(folder / "psth.csv")), 10e-3);
-    tell(skin, {&s, &spikes, &units, &bins}, 7);
+    run_listeners(skin, {&s, &spikes, &afferents_file, &bins}, 7);
     for (SkinFileSink* file :
-         {static_cast<SkinFileSink*>(&spikes), static_cast<SkinFileSink*>(&units), static_cast<SkinFileSink*>(&bins)})
+         {static_cast<SkinFileSink*>(&spikes), static_cast<SkinFileSink*>(&afferents_file), static_cast<SkinFileSink*>(&bins)})
         ASSERT_TRUE(file->commit());
     EXPECT_EQ(test::read_file(folder / "spikes.csv"),
               "afferent,channel,time_s\nsa1#1,tip,0.002500000\nsa1#2,tip,0.006000000\nfa1#1,tip,0.006000000\nsa1#1,tip,0.010250000\n"
@@ -191,14 +191,14 @@ TEST(SkinSummary, FilesHoldWhatWasTold) {
     const auto psth = test::read_file(folder / "psth.csv");
     EXPECT_TRUE(psth.starts_with("afferent,channel,units,from_s,to_s,spikes,rate_Hz\nsa1,tip,2,0.000000000,0.010000000,2,100\nsa1,palm,1,"))
         << psth;
-    EXPECT_NE(psth.find("fa1,tip,1,0.020000000,0.022000000,1,500\n"), psth.npos) << "the last bin ends behind the last spike\n" << psth;
+    EXPECT_NE(psth.find("fa1,tip,1,0.020000000,0.022000000,1,500\n"), psth.npos) << "the last bin ends after the last spike\n" << psth;
 }
 
-TEST(SkinPage, CarriesForceMapsAndEverySpike) {
+TEST(SkinPage, ContainsForceMapsAndEverySpike) {
     const auto skin = small_skin();
     SkinSummary s;
     SkinReport report;
-    tell(skin, {&s, &report});
+    run_listeners(skin, {&s, &report});
     const auto data = page_data(skin_page(s, report, {.notes = {"</script> left out"}}, "corpuscle respond poke"));
     EXPECT_EQ(data["remarks"], (SkinJson{"</script> left out"}));
     const auto& over = data["over"];
@@ -211,8 +211,8 @@ TEST(SkinPage, CarriesForceMapsAndEverySpike) {
     EXPECT_EQ(frames_of(over["sites"])[0], (std::vector<unsigned>{203, 254, 0})) << "eight samples of 1 N";
     EXPECT_EQ(frames_of(over["sites"])[1], (std::vector<unsigned>{51, 0, 0}));
     EXPECT_EQ(frames_of(over["classes"])[5], (std::vector<unsigned>{0, 0}));
-    EXPECT_EQ(frames_of(over["classes"])[6], (std::vector<unsigned>{1, 1})) << "a bin owns its start";
-    // Units 0, 1 and 3: how many to pass over, how many spikes, tenths of a sample between them.
+    EXPECT_EQ(frames_of(over["classes"])[6], (std::vector<unsigned>{1, 1})) << "a bin includes its start";
+    // Afferents 0, 1 and 3: how many afferents were skipped, how many spikes, tenths of a sample between spikes.
     EXPECT_EQ(decoded(over["spikes"]["data"]), (std::vector<unsigned>{0, 2, 25, 78, 0, 2, 60, 90, 1, 3, 60, 90, 55}));
 }
 
@@ -220,7 +220,7 @@ TEST(SkinPage, KeepsNoSpikesWhenThereAreTooMany) {
     const auto skin = small_skin();
     SkinSummary s;
     SkinReport all({.timed_spikes = 7}), few({.frames = 2, .marks = 2, .timed_spikes = 6});
-    tell(skin, {&s, &all, &few});
+    run_listeners(skin, {&s, &all, &few});
     EXPECT_EQ(all.document()["spikes"]["count"], 7);
     EXPECT_TRUE(few.document()["spikes"].is_null());
     EXPECT_EQ(few.document()["units_a_mark"], 3);
@@ -229,21 +229,21 @@ TEST(SkinPage, KeepsNoSpikesWhenThereAreTooMany) {
 
 TEST(SkinPage, IsTheSameForBlocksOfAnySize) {
     const auto skin = small_skin();
-    const auto told_in = [&](std::int64_t block, bool listed) {
+    const auto listed_in = [&](std::int64_t block, bool listed) {
         SkinSummary s;
         SkinReport report({.frames = 4, .bins = 4});
-        tell(skin, {&s, &report}, block, listed);
+        run_listeners(skin, {&s, &report}, block, listed);
         return skin_page(s, report, {}, "") + s.document({}).dump();
     };
-    const auto whole = told_in(samples, false);
-    for (const std::int64_t block : {1, 3, 16}) EXPECT_EQ(told_in(block, block == 3), whole) << block;
+    const auto in_one_block = listed_in(samples, false);
+    for (const std::int64_t block : {1, 3, 16}) EXPECT_EQ(listed_in(block, block == 3), in_one_block) << block;
 }
 
-TEST(BinnedFrames, FramesOfAnyNumberHoldWhatWasAdded) {
+TEST(BinnedFrames, OfAnyNumberHoldTheAddedValues) {
     EXPECT_TRUE(rc::check([] {
-        const auto most = static_cast<std::size_t>(*rc::gen::inRange(2, 9));
+        const auto max_frames = static_cast<std::size_t>(*rc::gen::inRange(2, 9));
         const std::int64_t first_width = *rc::gen::inRange(1, 4);
-        BinnedFrames<int> framed(3, most, first_width);
+        BinnedFrames<int> framed(3, max_frames, first_width);
         std::vector<std::pair<std::int64_t, std::uint32_t>> added;
         for (std::int64_t at = 0; const auto gap : *rc::gen::container<std::vector<int>>(rc::gen::inRange(0, 9))) {
             at += gap;
@@ -252,7 +252,7 @@ TEST(BinnedFrames, FramesOfAnyNumberHoldWhatWasAdded) {
             framed.add(place, 1), added.push_back({at, place});
         }
         const auto frames = framed.frames();
-        RC_ASSERT(frames.size() <= most);
+        RC_ASSERT(frames.size() <= max_frames);
         RC_ASSERT(framed.width() % first_width == 0);
         for (std::size_t f = 0; f < frames.size(); ++f) {
             int found[3] = {};

@@ -36,12 +36,12 @@ void check(const Study& study, const StudyResult& outcome) {
     }
 }
 
-TEST(Studies, AreAllToldAsTheirPageSays) {
+TEST(Studies, AreAllPrintedAsTheirPageSays) {
     double last = 0;
-    const auto outcomes = run_studies(all_studies, {[&](double share) {
-                                          EXPECT_GE(share, last);
-                                          EXPECT_LE(share, 1 + 1e-9);
-                                          last = share;
+    const auto outcomes = run_studies(all_studies, {[&](double fraction) {
+                                          EXPECT_GE(fraction, last);
+                                          EXPECT_LE(fraction, 1 + 1e-9);
+                                          last = fraction;
                                           return true;
                                       }});
     ASSERT_TRUE(static_cast<bool>(outcomes)) << outcomes.error().text();
@@ -51,19 +51,19 @@ TEST(Studies, AreAllToldAsTheirPageSays) {
         EXPECT_TRUE(names.insert(all_studies[k]->name).second) << all_studies[k]->name;
         check(*all_studies[k], (*outcomes)[k]);
     }
-    const auto text = markdown_of(all_studies, *outcomes), page = test::read_file(test::project_root() + "/reproduction/reproduction.md");
+    const auto text = markdown_of(all_studies, *outcomes), page = test::read_file(test::source_root() + "/reproduction/reproduction.md");
     EXPECT_EQ(text, page) << "reproduction/reproduction.md is stale: make reproduction";
 }
 
-TEST(Studies, OfARecordingTellWhatTheirPageSays) {
+TEST(Studies, OfARecordingPrintTheClaimsOfTheirPage) {
     CORPUSCLE_NEEDS(test::shared_file_path("fbg_eskin_press"));
     const auto outcomes = run_studies(recorded_studies, {.recordings_folder = test::shared_file_path("")});
     ASSERT_TRUE(static_cast<bool>(outcomes)) << outcomes.error().text();
     for (std::size_t k = 0; k < std::size(recorded_studies); ++k) check(*recorded_studies[k], (*outcomes)[k]);
-    EXPECT_EQ(markdown_of(recorded_studies, *outcomes), test::read_file(test::project_root() + "/reproduction/recorded.md")) << "stale: make reproduction";
+    EXPECT_EQ(markdown_of(recorded_studies, *outcomes), test::read_file(test::source_root() + "/reproduction/recorded.md")) << "stale: make reproduction";
 }
 
-TEST(Studies, OfARecordingThatIsAbsentSayWhereItWasSought) {
+TEST(Studies, OfAMissingRecordingNameTheSearchedPlace) {
     for (const auto* s : recorded_studies) {
         const auto outcome = s->run({.recordings_folder = "/nowhere"});
         ASSERT_FALSE(outcome);
@@ -72,7 +72,7 @@ TEST(Studies, OfARecordingThatIsAbsentSayWhereItWasSought) {
     }
 }
 
-TEST(Studies, StopWhenTheyAreTold) {
+TEST(Studies, StopOnRequest) {
     for (const auto* s : all_studies) {
         const auto outcome = s->run({[](double) { return false; }});
         ASSERT_FALSE(outcome) << s->name;
@@ -100,7 +100,7 @@ TEST(Studies, MoreBitsAndSamplesMakeSmallerErrors) {
     }
 }
 
-TEST(Studies, AClaimIsJudgedByWhatIsAllowedAndByNothingElse) {
+TEST(Studies, AClaimIsDecidedByItsToleranceAlone) {
     Claim c{.label = "x", .computed = 2};
     EXPECT_FALSE(c.has_allowed_range());
     c.allowed_max = 1;
@@ -110,7 +110,7 @@ TEST(Studies, AClaimIsJudgedByWhatIsAllowedAndByNothingElse) {
     EXPECT_TRUE(c.is_in_allowed_range());
 }
 
-TEST(Studies, AClaimTellsHowFarItIsFromWhatWasPrinted) {
+TEST(Studies, AClaimReportsItsDistanceFromThePublishedValue) {
     StudyResult out;
     const auto claim = [&](double made, double printed) { return out.claim("x", made, "V").published_as(printed, "there"); };
     EXPECT_STREQ(claim(1.09, 1).verdict(), "agrees");
@@ -134,7 +134,7 @@ TEST(Studies, AClaimIsWrittenInItsUnit) {
     EXPECT_EQ(format_allowed_range(out.claim("d", 1, "V").allow_range(0.5, 2, "there")), "500 mV to 2 V");
     EXPECT_EQ(format_allowed_range(out.claim("e", 1, "V").allow_min(0.5, "there")), "at least 500 mV");
     EXPECT_EQ(format_allowed_range(out.claim("f", 1)), "-");
-    EXPECT_EQ(format_claim_value(3e-14, out.claim("g", 3e-14, "%")), "0 %") << "what rounding leaves differs from machine to machine";
+    EXPECT_EQ(format_claim_value(3e-14, out.claim("g", 3e-14, "%")), "0 %") << "rounding errors differ between machines";
     EXPECT_EQ(format_claim_value(3e-15, out.claim("h", 3e-15, "V").allow_max(1e-9, "there")), "0 V");
     EXPECT_EQ(format_claim_value(3e-12, out.claim("i", 3e-12, "V").allow_max(1e-9, "there")), "3 pV");
 }
@@ -142,7 +142,7 @@ TEST(Studies, AClaimIsWrittenInItsUnit) {
 Result<StudyResult> fails(const StudyOptions&) { return bad_input("no such thing"); }
 Result<StudyResult> succeeds(const StudyOptions&) { return StudyResult{}; }
 
-TEST(Studies, TheFirstErrorEndsThemAllAndNamesItsStudy) {
+TEST(Studies, TheFirstErrorEndsAllAndNamesItsStudy) {
     const Study good{"good", "", "", succeeds}, bad{"bad", "", "", fails};
     const Study* all[] = {&good, &bad, &good};
     const auto outcomes = run_studies(all, {});

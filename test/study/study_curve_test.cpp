@@ -9,7 +9,7 @@ namespace {
 
 const StudyCurve parabola{{0, 1, 3, 4, 7}, {0, 1, 9, 16, 49}};
 
-TEST(Line, IsReadBetweenItsPairsAndNowhereElse) {
+TEST(StudyCurve, IsInterpolatedBetweenItsPointsAndNowhereElse) {
     EXPECT_EQ(parabola.at(3), 9);
     EXPECT_EQ(parabola.at(2), 5);
     EXPECT_TRUE(std::isnan(parabola.at(-0.1)));
@@ -17,7 +17,7 @@ TEST(Line, IsReadBetweenItsPairsAndNowhereElse) {
     EXPECT_TRUE(std::isnan(StudyCurve().at(0)));
 }
 
-TEST(Line, FindsWhereItPassesALevel) {
+TEST(StudyCurve, FindsWhereItCrossesALevel) {
     const StudyCurve saw{{0, 1, 2, 3}, {0, 2, 0, 2}};
     EXPECT_EQ(saw.crossing(1), 0.5);
     EXPECT_EQ(saw.crossing(1, 0.6), 1.5);
@@ -26,14 +26,14 @@ TEST(Line, FindsWhereItPassesALevel) {
     EXPECT_TRUE(std::isnan(StudyCurve().crossing(0)));
 }
 
-TEST(Line, HasTheExactSlopeOfAParabolaAtUnevenPairs) {
+TEST(StudyCurve, HasTheExactSlopeOfAParabolaAtUnevenPoints) {
     const auto slope = parabola.slope();
     ASSERT_EQ(slope.x, (std::vector<double>{1, 3, 4}));
     for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(slope.y[k], 2 * slope.x[k], 1e-12);
     EXPECT_TRUE(StudyCurve({{0, 1}, {0, 1}}).slope().empty());
 }
 
-TEST(Line, ComesNearestToAStraightOne) {
+TEST(StudyCurve, FitsAStraightLine) {
     const auto exact = StudyCurve{{1, 2, 5}, {5, 7, 13}}.fit_line();
     EXPECT_NEAR(exact.intercept, 3, 1e-12);
     EXPECT_NEAR(exact.slope, 2, 1e-12);
@@ -41,7 +41,7 @@ TEST(Line, ComesNearestToAStraightOne) {
     EXPECT_NEAR((StudyCurve{{0, 1, 2, 3}, {0, 1, 1, 0}}.fit_line().max_deviation), 0.5, 1e-12);
 }
 
-TEST(Line, GivesItsExtremes) {
+TEST(StudyCurve, GivesItsExtremes) {
     const StudyCurve hill{{0, 1, 2}, {-3, 5, 1}};
     EXPECT_EQ(hill.min(), -3);
     EXPECT_EQ(hill.max(), 5);
@@ -52,7 +52,7 @@ TEST(Line, GivesItsExtremes) {
     EXPECT_TRUE(std::isnan(StudyCurve().max()) && std::isnan(StudyCurve().min()) && std::isnan(StudyCurve().x_of_max()));
 }
 
-RC_GTEST_PROP(Line, PassesALevelWhereItIsReadAsThatLevel, (const std::vector<int>& steps)) {
+RC_GTEST_PROP(StudyCurve, HasTheLevelWhereItCrossesIt, (const std::vector<int>& steps)) {
     StudyCurve line;
     for (const int s : steps) line.x.push_back(static_cast<double>(line.x.size())), line.y.push_back(s % 100);
     RC_PRE(!line.empty());

@@ -9,7 +9,7 @@
 namespace corpuscle {
 namespace {
 
-TEST(Deck, RunsANetlistUnderItsOwnOrdersOrOthers) {
+TEST(StudyNetlist, RunsWithItsOwnDirectivesOrOthers) {
     const auto own = test::value_or_throw(run_study_netlist({"inverter"}));
     EXPECT_NEAR(own.number("v_q"), 355e-3, 1e-3);
     EXPECT_FALSE(own.curve("dc", "v(out)").empty());
@@ -21,7 +21,7 @@ TEST(Deck, RunsANetlistUnderItsOwnOrdersOrOthers) {
     EXPECT_TRUE(other.curve("dc", "v(nowhere)").empty());
 }
 
-TEST(Deck, SetsWhatIsSet) {
+TEST(StudyNetlist, AppliesSettings) {
     const auto half = test::value_or_throw(run_study_netlist({"bias", {"i_bias=100n", "corner=ss"}, ".op"}));
     EXPECT_NEAR(half.operating_point("i(vis)"), 100e-9, 2e-9);
     EXPECT_TRUE(std::isnan(half.operating_point("v(nowhere)")));
@@ -32,14 +32,14 @@ TEST(Deck, SetsWhatIsSet) {
     EXPECT_FALSE(run_study_netlist({"bias", {"i_bias"}, ".op"}));
 }
 
-TEST(Deck, TakesATextOfItsOwnWithThePartsOfOthers) {
+TEST(StudyNetlist, IncludesSubcircuitsOfOtherNetlists) {
     const auto found = test::value_or_throw(run_study_netlist({"A divider\n.lib '../process/tsmc180.lib' tt\nv1 a 0 2\nr1 a b 1k\nr2 b 0 3k\n.op\n.end\n"}));
     EXPECT_NEAR(found.operating_point("v(b)"), 1.5, 1e-9);
     const auto bias = test::value_or_throw(elaborate_study_netlist({"bias"}));
     EXPECT_EQ(std::count_if(bias->elements.begin(), bias->elements.end(), [](const auto& e) { return e.letter == 'm'; }), 11);
 }
 
-TEST(Deck, GivesEveryVariant) {
+TEST(StudyNetlist, GivesEveryVariant) {
     const auto all = test::value_or_throw(run_study_variants({"divider", {}, ".step temp list 0 27 85\n.op"}));
     ASSERT_EQ(all.size(), 3u);
     EXPECT_EQ(all[2].label, "temp=85");
@@ -51,7 +51,7 @@ TEST(Deck, GivesEveryVariant) {
     EXPECT_LT(spread.standard_deviation, 1e-3);
 }
 
-TEST(Deck, SpreadsAsASampleDoes) {
+TEST(StudyNetlist, DeviationsAreThoseOfASample) {
     const auto s = sample_statistics({1, 2, 3, 4});
     EXPECT_EQ(s.mean, 2.5);
     EXPECT_NEAR(s.standard_deviation, std::sqrt(5.0 / 3), 1e-15);

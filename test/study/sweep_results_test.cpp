@@ -1,4 +1,4 @@
-// A sweep's file of results: rows come back as they went in, whoever wrote them, and nothing is lost.
+// A results file of a sweep: rows are read back as written, by any process, and no row is lost.
 
 #include "study/sweep/sweep_results.hpp"
 
@@ -24,7 +24,7 @@ using test::TemporaryFolder;
 using test::PlainSweep;
 using test::value_or_throw;
 
-/// All that a file says, in order.
+/// All contents of a file, in order.
 std::string all_of(const SweepResults& results) {
     std::string out;
     const auto ok = dump_results(results, [&](const std::string& text) { return out += text, true; });
@@ -33,15 +33,15 @@ std::string all_of(const SweepResults& results) {
 
 std::string all_of(const std::string& path) { return all_of(value_or_throw(SweepResults::open_read_only(path))); }
 
-void run_sweep_of(const Sweep& sweep, const std::string& path, const SweepRunOptions& how) {
+void run_sweep_of(const Sweep& sweep, const std::string& path, const SweepRunOptions& options) {
     auto results = value_or_throw(SweepResults::open(path, sweep));
     SweepProgress count;
-    const auto ok = run_sweep(sweep, results, how, count);
+    const auto ok = run_sweep(sweep, results, options, count);
     if (!ok) throw std::runtime_error(ok.error().text());
     if (const auto folded = results.checkpoint(); !folded) throw std::runtime_error(folded.error().text());
 }
 
-TEST(SweepResults, GiveBackWhatWasPutInAndAreOneFileInTheEnd) {
+TEST(SweepResults, AreReadBackAsWrittenAndEndAsOneFile) {
     const TemporaryFolder folder;
     const PlainSweep sweep(1000);
     run_sweep_of(sweep, folder / "r.sqlite", {.threads = 3});
@@ -54,32 +54,32 @@ TEST(SweepResults, GiveBackWhatWasPutInAndAreOneFileInTheEnd) {
     EXPECT_EQ(results.measures()[2].max, 0.75);
     EXPECT_EQ(results.stored_column_names(), (std::vector<std::string>{"gain", "kind", "rate", "Rate_2", "why_2"}));
     EXPECT_EQ(results.probe_times(), sweep.probe_times());
-    std::int64_t unit = 0;
+    std::int64_t item = 0;
     const auto ok = results.for_each_row([&](const SweepResults::Row& row) {
-        const auto o = sweep.outcome(unit);
-        EXPECT_EQ(row.item, unit);
+        const auto o = sweep.outcome(item);
+        EXPECT_EQ(row.item, item);
         EXPECT_EQ(row.end, o.end);
         EXPECT_EQ(row.reason, o.reason);
         EXPECT_EQ(row.steps, o.steps);
         EXPECT_EQ(row.ran_alone, o.ran_alone);
-        EXPECT_EQ(row.axes, sweep.values(unit));
+        EXPECT_EQ(row.axes, sweep.values(item));
         for (std::size_t k = 0; k < row.measures.size(); ++k)
             EXPECT_TRUE(o.measures.empty() || std::isnan(o.measures[k]) ? std::isnan(row.measures[k]) : row.measures[k] == o.measures[k]);
         for (std::size_t t = 0; t < 2; ++t)
-            EXPECT_EQ(value_or_throw(results.spikes(unit, t)), o.spikes.empty() ? std::vector<double>{} : o.spikes[t]);
-        EXPECT_EQ(value_or_throw(results.probe_samples(unit, 0)), o.probes.empty() ? std::vector<float>{} : o.probes[0]);
-        return ++unit < 400;
+            EXPECT_EQ(value_or_throw(results.spikes(item, t)), o.spikes.empty() ? std::vector<double>{} : o.spikes[t]);
+        EXPECT_EQ(value_or_throw(results.probe_samples(item, 0)), o.probes.empty() ? std::vector<float>{} : o.probes[0]);
+        return ++item < 400;
     });
     EXPECT_TRUE(ok);
-    EXPECT_EQ(unit, 400) << "stopped where it was told to";
+    EXPECT_EQ(item, 400) << "stopped where requested";
     EXPECT_EQ(value_or_throw(results.count_ended(ItemEnd::diverged)), 11);
 }
 
 namespace fs = std::filesystem;
 
-constexpr double soon = 1e-4, pause = 1e-4;  // s
+constexpr double write_interval = 1e-4, item_time = 1e-4;  // s
 
-/// What happens to this is a child process, which does `work` and leaves.
+/// Starts a child process that calls `work` and exits.
 pid_t child(const std::function<void()>& work) {
     const auto id = test::fork_child();
     if (id > 0) return id;
@@ -99,33 +99,33 @@ int end_of(pid_t id) {
 }
 
 void copy(const std::string& from, const std::string& to) {
-    std::error_code none;  // it may be gone by now, or be replaced while it is copied
+    std::error_code none;  // the file may have been removed, or be replaced while it is copied
     fs::copy_file(from, to, fs::copy_options::overwrite_existing, none);
 }
 
-/// So many rows, of the first units, and each as it must be; of a sweep of one thread.
-std::int64_t prefix_of(const std::string& path, const std::string& whole) {
+/// The number of rows, which must be those of the first items, each as it must be; for a sweep on one thread.
+std::int64_t check_prefix(const std::string& path, const std::string& complete) {
     const auto results = value_or_throw(SweepResults::open_read_only(path));
     const auto text = all_of(results);
-    EXPECT_EQ(text, whole.substr(0, text.size()));
+    EXPECT_EQ(text, complete.substr(0, text.size()));
     EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), results.finished_count() + 1);
     return results.finished_count();
 }
 
-TEST(SweepResults, KilledAtAnyMomentKeepWhatHadEndedAndAreFinishedByTheSameCommand) {
+TEST(SweepResults, KilledAtAnyMomentKeepFinishedItemsAndAreCompletedByTheSameCommand) {
     const TemporaryFolder folder;
-    const PlainSweep sweep(300, "x", pause);
-    const SweepRunOptions how{.threads = 2, .write_interval = soon};
-    const auto begun = std::chrono::steady_clock::now();
-    run_sweep_of(sweep, folder / "whole.sqlite", how);
-    const std::chrono::duration<double> length = std::chrono::steady_clock::now() - begun;
-    const auto whole = all_of(folder / "whole.sqlite");
+    const PlainSweep sweep(300, "x", item_time);
+    const SweepRunOptions options{.threads = 2, .write_interval = write_interval};
+    const auto start = std::chrono::steady_clock::now();
+    run_sweep_of(sweep, folder / "whole.sqlite", options);
+    const std::chrono::duration<double> length = std::chrono::steady_clock::now() - start;
+    const auto complete = all_of(folder / "whole.sqlite");
     std::mt19937 random(1);
     std::uniform_real_distribution<> moment(0, 1.2);
     const auto path = folder / "r.sqlite";
     int between = 0;
     for (int k = 0; k < 50; ++k) {
-        const auto id = child([&] { run_sweep_of(sweep, path, how); });
+        const auto id = child([&] { run_sweep_of(sweep, path, options); });
         std::this_thread::sleep_for(moment(random) * length);
         test::signal_child(id, SIGKILL);
         end_of(id);
@@ -147,22 +147,22 @@ TEST(SweepResults, KilledAtAnyMomentKeepWhatHadEndedAndAreFinishedByTheSameComma
             EXPECT_TRUE(ok);
         }
         between += rows > 0 && rows < 300;
-        if (k % 3 == 0) continue;  // the next one goes on
+        if (k % 3 == 0) continue;  // the next one resumes the sweep
         run_sweep_of(sweep, path, {.threads = 2});
-        EXPECT_EQ(all_of(path), whole) << "killed after " << rows << " rows";
+        EXPECT_EQ(all_of(path), complete) << "killed after " << rows << " rows";
         EXPECT_FALSE(fs::exists(path + "-wal"));
         fs::remove(path);
     }
-    EXPECT_GT(between, 5) << "some were killed on the way";
+    EXPECT_GT(between, 5) << "some were killed before the end";
 }
 
-TEST(SweepResults, CopiesTakenAtAnyMomentAreWhole) {
+TEST(SweepResults, CopiesTakenAtAnyMomentAreComplete) {
     const TemporaryFolder folder;
-    const PlainSweep sweep(800, "x", pause);
+    const PlainSweep sweep(800, "x", item_time);
     run_sweep_of(PlainSweep(800, "x"), folder / "whole.sqlite", {.threads = 1});
-    const auto whole = all_of(folder / "whole.sqlite");
+    const auto complete = all_of(folder / "whole.sqlite");
     const auto path = folder / "r.sqlite";
-    const auto id = child([&] { run_sweep_of(sweep, path, {.threads = 1, .write_interval = soon}); });
+    const auto id = child([&] { run_sweep_of(sweep, path, {.threads = 1, .write_interval = write_interval}); });
     while (!fs::exists(path)) std::this_thread::sleep_for(std::chrono::milliseconds(1));
     std::mt19937 random(2);
     std::vector<std::pair<std::string, bool>> copies;
@@ -173,10 +173,10 @@ TEST(SweepResults, CopiesTakenAtAnyMomentAreWhole) {
         std::this_thread::sleep_for(std::chrono::microseconds(random() % 8000));
     }
     ASSERT_GT(copies.size(), 10u);
-    std::int64_t most = 0;
-    for (const auto& [copied, with_wal] : copies) most = std::max(most, prefix_of(copied, whole));
-    EXPECT_GT(most, 200);
-    EXPECT_EQ(all_of(path), whole);
+    std::int64_t max_size = 0;
+    for (const auto& [copied, with_wal] : copies) max_size = std::max(max_size, check_prefix(copied, complete));
+    EXPECT_GT(max_size, 200);
+    EXPECT_EQ(all_of(path), complete);
 }
 
 TEST(SweepResults, AReplacedFileBesideTheRowsOfTheOldOneIsTheSame) {
@@ -200,7 +200,7 @@ TEST(SweepResults, AReplacedFileBesideTheRowsOfTheOldOneIsTheSame) {
     EXPECT_EQ(value_or_throw(SweepResults::open_read_only(folder / "new.sqlite")).finished_count(), 300);
 }
 
-TEST(SweepResults, ThatMayNotGrowKeepWhatWasWrittenAndSayWhatToDo) {
+TEST(SweepResults, ThatMayNotGrowKeepTheirRowsAndGiveTheRemedy) {
     const TemporaryFolder folder;
     const PlainSweep sweep(20'000);
     const auto path = folder / "r.sqlite";
@@ -210,9 +210,9 @@ TEST(SweepResults, ThatMayNotGrowKeepWhatWasWrittenAndSayWhatToDo) {
         ::setrlimit(RLIMIT_FSIZE, &limit);
         auto results = value_or_throw(SweepResults::open(path, sweep));
         Result<void> ok;
-        for (std::int64_t unit = 0; ok && unit < sweep.item_count(); unit += 100) {
+        for (std::int64_t item = 0; ok && item < sweep.item_count(); item += 100) {
             std::vector<ItemOutcome> some;
-            for (std::int64_t k = unit; k < unit + 100; ++k) some.push_back(sweep.outcome(k));
+            for (std::int64_t k = item; k < item + 100; ++k) some.push_back(sweep.outcome(k));
             ok = results.add(sweep, std::move(some));
         }
         if (ok || ok.error().text().find("has reached the limit on file sizes ('ulimit -f'); everything written before is kept") ==
@@ -230,7 +230,7 @@ TEST(SweepResults, ThatMayNotGrowKeepWhatWasWrittenAndSayWhatToDo) {
     EXPECT_EQ(all_of(path), all_of(folder / "whole.sqlite"));
 }
 
-TEST(SweepResults, InAFolderThatCannotBeWrittenAreReadAndNotBegun) {
+TEST(SweepResults, InAReadOnlyFolderAreReadButNotStarted) {
     const TemporaryFolder folder;
     const PlainSweep sweep(50);
     run_sweep_of(sweep, folder / "r.sqlite", {});
@@ -253,7 +253,7 @@ std::string refusal(const std::string& path, const Sweep& sweep) {
     return results ? "" : results.error().text();
 }
 
-TEST(SweepResults, RefuseTheFileOfAnotherSweepAndSayWhatHasChanged) {
+TEST(SweepResults, RefuseTheFileOfAnotherSweepAndNameTheDifference) {
     const TemporaryFolder folder;
     const auto path = folder / "r.sqlite";
     run_sweep_of(PlainSweep(20), path, {});
@@ -268,7 +268,7 @@ TEST(SweepResults, RefuseTheFileOfAnotherSweepAndSayWhatHasChanged) {
     EXPECT_NE(refusal(path, more).find("it has no entry 'card process/x.lib'"), std::string::npos);
 }
 
-TEST(SweepResults, RefuseWhatIsNoSuchFile) {
+TEST(SweepResults, RefuseOtherFiles) {
     const TemporaryFolder folder;
     EXPECT_NE(refusal(folder.write("text", std::string(5000, 'x')), PlainSweep(2)).find("is not an SQLite file"), std::string::npos);
     EXPECT_NE(refusal(folder.write("empty", ""), PlainSweep(2)).find("holds no results of a sweep"), std::string::npos);
@@ -292,21 +292,21 @@ TEST(SweepResults, AreWrittenByOneAtATimeAndReadMeanwhile) {
         EXPECT_EQ(value_or_throw(SweepResults::open_read_only(path)).finished_count(), 2) << "a row a unit";
         EXPECT_EQ(first.finished_count(), 2);
     }
-    EXPECT_EQ(refusal(path, sweep), "") << "the lock is gone with its owner";
+    EXPECT_EQ(refusal(path, sweep), "") << "the lock is released with its owner";
     EXPECT_FALSE(fs::exists(path + "-writer"));
 }
 
-/// One unit that somebody has changed.
+/// A sweep that differs in one item.
 struct Changed : PlainSweep {
     using PlainSweep::PlainSweep;
-    ItemOutcome outcome(std::int64_t unit) const override {
-        auto o = PlainSweep::outcome(unit);
-        if (unit == 7) o.spikes[0].back() += 1e-9;
+    ItemOutcome outcome(std::int64_t item) const override {
+        auto o = PlainSweep::outcome(item);
+        if (item == 7) o.spikes[0].back() += 1e-9;
         return o;
     }
 };
 
-TEST(SweepResults, ShardsMergeIntoTheWholeAndNothingIsCountedTwice) {
+TEST(SweepResults, ShardsMergeIntoAllItemsAndNothingIsCountedTwice) {
     const TemporaryFolder folder;
     const PlainSweep sweep(1001);
     run_sweep_of(sweep, folder / "whole.sqlite", {.threads = 1});
@@ -316,17 +316,17 @@ TEST(SweepResults, ShardsMergeIntoTheWholeAndNothingIsCountedTwice) {
         EXPECT_EQ(value_or_throw(all.merge(value_or_throw(SweepResults::open_read_only(folder / shard)))), rows);
     EXPECT_EQ(all_of(all), all_of(folder / "whole.sqlite"));
     run_sweep_of(Changed(1001), folder / "changed", {.shard = {1, 3}});
-    const auto taken = all.merge(value_or_throw(SweepResults::open_read_only(folder / "changed")));
-    ASSERT_FALSE(taken);
-    EXPECT_NE(taken.error().text().find("changed: unit 7 has other results than"), std::string::npos) << taken.error().text();
+    const auto merged = all.merge(value_or_throw(SweepResults::open_read_only(folder / "changed")));
+    ASSERT_FALSE(merged);
+    EXPECT_NE(merged.error().text().find("changed: unit 7 has other results than"), std::string::npos) << merged.error().text();
     run_sweep_of(PlainSweep(1001, "other"), folder / "other", {});
     EXPECT_NE(all.merge(value_or_throw(SweepResults::open_read_only(folder / "other"))).error().text().find("belongs to another sweep than"), std::string::npos);
     EXPECT_EQ(all_of(all), all_of(folder / "whole.sqlite"));
 }
 
-TEST(SweepResults, ThreadsThatAreStoppedLeaveWhatHadEnded) {
+TEST(SweepResults, ThreadsThatAreStoppedLeaveTheFinishedItems) {
     const TemporaryFolder folder;
-    const PlainSweep sweep(100'000, "x", pause);
+    const PlainSweep sweep(100'000, "x", item_time);
     auto results = value_or_throw(SweepResults::open(folder / "r.sqlite", sweep));
     SweepProgress count;
     const auto ok =

@@ -1,4 +1,4 @@
-// The files that hardware is checked with: the program writes those kept here, and a second building from the page agrees.
+// Test vectors for hardware: the program writes the files stored here, and a second implementation, made from the documentation, agrees.
 
 #include "study/test_vectors_file.hpp"
 
@@ -7,17 +7,17 @@
 namespace corpuscle {
 namespace {
 
-const std::string kept = test::project_root() + "/test/study/vectors/",
-                  python = "/usr/bin/python3 " + test::project_root() + "/test/model/fixed_reference.py";
+const std::string stored_folder = test::source_root() + "/test/study/vectors/",
+                  python = "/usr/bin/python3 " + test::source_root() + "/test/model/fixed_reference.py";
 
 /// Writes the vectors of some afferents under some stimuli at 2 kHz.
 std::vector<std::string> write(const test::TemporaryFolder& folder, const std::vector<std::string>& stimuli, const std::vector<std::string>& names,
                                const std::vector<std::string>& settings, std::size_t block = 4096) {
-    const auto mine = test::parse_settings(settings);
+    const auto overrides = test::parse_settings(settings);
     std::vector<std::unique_ptr<ForceSource>> sources;
     std::vector<AfferentPlan> plans;
-    for (const auto& s : stimuli) sources.push_back(test::value_or_throw(make_stimulus(s, mine, 2e3, 9)));
-    for (const auto& n : names) plans.push_back(test::value_or_throw(plan_afferent(n, mine)));
+    for (const auto& s : stimuli) sources.push_back(test::value_or_throw(make_stimulus(s, overrides, 2e3, 9)));
+    for (const auto& n : names) plans.push_back(test::value_or_throw(plan_afferent(n, overrides)));
     TestVectorsFile vectors(folder.path());
     ResponseSink* listeners[] = {&vectors};
     RespondOptions options;
@@ -27,24 +27,24 @@ std::vector<std::string> write(const test::TemporaryFolder& folder, const std::v
     return vectors.paths();
 }
 
-/// What a small converter of 8 bits at 250 Hz makes of the press: short enough to keep.
-std::vector<std::string> small(const std::string& name) { return {name + ".bits=8", name + ".f_s=250Hz"}; }
+/// Settings of a small converter of 8 bits at 250 Hz, for files that are short enough to store.
+std::vector<std::string> small_converter(const std::string& name) { return {name + ".bits=8", name + ".f_s=250Hz"}; }
 
 bool reference_agrees(const std::string& vectors, const std::string& rom) {
     return std::system((python + " '" + vectors + "' '" + rom + "' > /dev/null").c_str()) == 0;
 }
 
-TEST(Vectors, ThePressGivesTheFilesKeptHereByteForByte) {
+TEST(Vectors, ThePressGivesTheStoredFilesByteForByte) {
     for (const std::string name : {"sa1-kim", "fa1-lee"}) {
         const test::TemporaryFolder folder;
-        write(folder, {"press"}, {name}, small(name));
+        write(folder, {"press"}, {name}, small_converter(name));
         for (const auto& file : {"vectors-" + name + ".csv", "rom-" + name + ".csv"})
-            EXPECT_EQ(test::read_file(folder / file), test::read_file(kept + file)) << file;
-        EXPECT_TRUE(reference_agrees(kept + "vectors-" + name + ".csv", kept + "rom-" + name + ".csv")) << name;
+            EXPECT_EQ(test::read_file(folder / file), test::read_file(stored_folder + file)) << file;
+        EXPECT_TRUE(reference_agrees(stored_folder + "vectors-" + name + ".csv", stored_folder + "rom-" + name + ".csv")) << name;
     }
 }
 
-TEST(Vectors, ASecondBuildingFromThePageAgreesOnEveryAlgorithmAndOddWords) {
+TEST(Vectors, ASecondImplementationAgreesOnEveryAlgorithmAndUnusualWords) {
     for (const std::string receptor : {"sa1a", "sa1b", "fa1a", "fa1b"})
         for (const std::string neuron : {"lif-a", "lif-b", "adaptive"})
             for (const auto& [word, frac] : {std::pair{"32", "24"}, {"24", "20"}, {"17", "9"}, {"12", "5"}}) {
@@ -59,19 +59,19 @@ TEST(Vectors, ASecondBuildingFromThePageAgreesOnEveryAlgorithmAndOddWords) {
 
 TEST(Vectors, TheReferenceSeesASingleWrongBit) {
     const test::TemporaryFolder folder;
-    auto text = test::read_file(kept + "vectors-sa1-kim.csv");
+    auto text = test::read_file(stored_folder + "vectors-sa1-kim.csv");
     const auto at = text.rfind(",0\n");
     text[at + 1] = '1';
-    EXPECT_FALSE(reference_agrees(folder.write("wrong.csv", text), kept + "rom-sa1-kim.csv"));
+    EXPECT_FALSE(reference_agrees(folder.write("wrong.csv", text), stored_folder + "rom-sa1-kim.csv"));
 }
 
 TEST(Vectors, DoNotDependOnTheBlockAndEachInputHasItsOwn) {
-    const test::TemporaryFolder whole, parts;
-    const auto paths = write(whole, {"press", "ramp-hold"}, {"sa1", "sa1-kim"}, {});
+    const test::TemporaryFolder undivided, parts;
+    const auto paths = write(undivided, {"press", "ramp-hold"}, {"sa1", "sa1-kim"}, {});
     write(parts, {"press", "ramp-hold"}, {"sa1", "sa1-kim"}, {}, 7);
-    EXPECT_EQ(whole.file_names(), (std::vector<std::string>{"rom-sa1-kim.csv", "vectors-sa1-kim-2.csv", "vectors-sa1-kim.csv"}));
+    EXPECT_EQ(undivided.file_names(), (std::vector<std::string>{"rom-sa1-kim.csv", "vectors-sa1-kim-2.csv", "vectors-sa1-kim.csv"}));
     EXPECT_EQ(paths.size(), 3U);
-    for (const auto& name : whole.file_names()) EXPECT_EQ(test::read_file(whole / name), test::read_file(parts / name)) << name;
+    for (const auto& name : undivided.file_names()) EXPECT_EQ(test::read_file(undivided / name), test::read_file(parts / name)) << name;
 }
 
 }  // namespace

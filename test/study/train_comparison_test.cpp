@@ -18,7 +18,7 @@ std::vector<NamedTrain> trains(const Names& names) {
     return all;
 }
 
-/// Who is compared with whom, or what is said.
+/// The names of the trains that are paired, or the error.
 std::string pairs(const Names& a, const Names& b, const CompareOptions& options = {}) {
     const auto in_a = trains(a), in_b = trains(b);
     const auto found = pair_trains(in_a, in_b, options);
@@ -28,13 +28,13 @@ std::string pairs(const Names& a, const Names& b, const CompareOptions& options 
     return text;
 }
 
-TEST(PairTrains, TakesThoseOfOneNameAndSilenceForTheOthers) {
+TEST(PairTrains, PairsEqualNamesAndTheOthersWithSilence) {
     EXPECT_EQ(pairs({{"fa1", "x"}, {"sa1", "x"}}, {{"sa1", "x"}, {"sa2", "x"}}), "fa1,x= sa1,x=sa1,x =sa2,x");
     EXPECT_EQ(pairs({{"sa1", "x"}}, {}), "sa1,x=") << "B was silent";
     EXPECT_EQ(pairs({{"7", ""}}, {{"sa1", "x"}}), "7=sa1,x") << "the only two there are";
 }
 
-TEST(PairTrains, AFileWithoutChannelsMeetsOneThatHasThemIfOnlyOneTrainCanBeMeant) {
+TEST(PairTrains, AFileWithoutChannelsMatchesOneWithChannelsIfThePairIsUnique) {
     EXPECT_EQ(pairs({{"sa1#1", ""}, {"sa1#2", ""}}, {{"sa1#2", "palm"}, {"sa1#1", "thumb"}}), "sa1#1=sa1#1,thumb sa1#2=sa1#2,palm");
     EXPECT_EQ(pairs({{"fa1#1", "palm"}, {"sa1#1", "palm"}}, {{"sa1#1", ""}}), "fa1#1,palm= sa1#1,palm=sa1#1");
     EXPECT_EQ(pairs({{"fa1#1", ""}, {"sa1#1", ""}}, {{"fa1", "press"}, {"sa1", "press"}}), "fa1#1=fa1,press sa1#1=sa1,press")
@@ -55,7 +55,7 @@ TEST(PairTrains, ANameChangesOnEveryChannelOrForEveryAfferent) {
     EXPECT_EQ(pairs({{"1", ""}, {"2", ""}}, two, {.by_order = true}), "1=sa1,x 2=sa1,y");
 }
 
-TEST(PairTrains, WrongUseGetsTheWordsThatWork) {
+TEST(PairTrains, WrongUseGetsTheOptionsThatWork) {
     const Names fz = {{"fa1", "fz"}, {"sa1", "fz"}}, abs = {{"fa1", "fz_abs"}, {"sa1", "fz_abs"}};
     EXPECT_EQ(pairs(fz, abs),
               "no train has the same name in both files: fa1,fz; sa1,fz | fa1,fz_abs; sa1,fz_abs; --pair fz=fz_abs would compare these, "
@@ -75,19 +75,19 @@ TEST(PairTrains, WrongUseGetsTheWordsThatWork) {
               "--by-order and --pair are alternatives: give one");
 }
 
-// Each name is looked up, not searched for among all.
+// Each name is looked up in an index, not searched for among all.
 TEST(PairTrains, OfAHundredThousandTakesWellUnderASecond) {
     std::vector<NamedTrain> a, b;
     for (int k = 0; k < 100'000; ++k)
         a.push_back({"sa1#" + std::to_string(k), "press", {}}), b.push_back({"sa1#" + std::to_string(100'000 - k), "press", {}});
-    const auto begun = std::chrono::steady_clock::now();
+    const auto start = std::chrono::steady_clock::now();
     const auto pairs = pair_trains(a, b, {});
-    EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count(), 5);
+    EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 5);
     ASSERT_TRUE(pairs);
     EXPECT_EQ(pairs->size(), 100'001U) << "all but one of each have a partner";
 }
 
-TEST(Compare, CountsWhatMatchesAndWhatDoesNot) {
+TEST(Compare, CountsMatchedMissingAndExtraSpikes) {
     const std::vector<double> a = {0.1, 0.2, 0.3, 0.4}, b = {0.101, 0.198, 0.35, 0.4, 0.6};
     const auto d = value_or_throw(compare_trains({"a", "b", &a, &b}, {}));
     EXPECT_EQ(d.matched, 3U);

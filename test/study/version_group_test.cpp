@@ -1,4 +1,4 @@
-// Versions of one receptor: who they are, and how they are held against each other.
+// Versions of one receptor: how they are selected, and how they are compared.
 
 #include "study/version_group.hpp"
 
@@ -14,26 +14,27 @@ namespace {
 
 using test::value_or_throw;
 
-AfferentPlan named(const std::string& name) {
+AfferentPlan make_named(const std::string& name) {
     AfferentPlan plan;
     plan.name = name;
     return plan;
 }
 
-TEST(VersionGroup, AreOfTheReceptorThatTheirNameBeginsWith) {
+TEST(VersionGroup, HasTheReceptorThatTheirNameBeginsWith) {
     for (const auto* name :
          {"sa1", "SA1", "SA-I", "sa1-kim", "sa1-circuit", "sa1-macro", "circuits/sa1.cir", "./sa1_biased.cir", "/x.y/SA1-b.cir"})
-        EXPECT_EQ(receptor_of(named(name)), "sa1") << name;
-    EXPECT_EQ(receptor_of(named("RA")), "fa1") << "another of its names";
-    EXPECT_EQ(receptor_of(named("fa1-lee")), "fa1");
-    for (const auto* name : {"sa1b+izhikevich", "fsr+f2i+sa1", "own-thing"}) EXPECT_EQ(receptor_of(named(name)), name) << "nobody else's";
-    EXPECT_EQ(receptor_of(named("circuits/spiker.cir")), "spiker");
-    EXPECT_EQ(receptor_of(named("my_sa1.cir")), "my_sa1") << "begins with no afferent's name";
+        EXPECT_EQ(receptor_of(make_named(name)), "sa1") << name;
+    EXPECT_EQ(receptor_of(make_named("RA")), "fa1") << "another of its names";
+    EXPECT_EQ(receptor_of(make_named("fa1-lee")), "fa1");
+    for (const auto* name : {"sa1b+izhikevich", "fsr+f2i+sa1", "own-thing"})
+        EXPECT_EQ(receptor_of(make_named(name)), name) << "nobody else's";
+    EXPECT_EQ(receptor_of(make_named("circuits/spiker.cir")), "spiker");
+    EXPECT_EQ(receptor_of(make_named("my_sa1.cir")), "my_sa1") << "does not begin with the name of an afferent";
 }
 
 TEST(VersionGroup, TheReceptorItselfComesFirstThenModelsThenNetlists) {
-    const auto chip = value_or_throw(plan_any_afferent(test::project_root() + "/circuits/sa1.cir", {}));
-    const AfferentPlan plans[] = {chip, named("sa1-kim"), named("fa1"), named("sa1")};
+    const auto chip = value_or_throw(plan_any_afferent(test::source_root() + "/circuits/sa1.cir", {}));
+    const AfferentPlan plans[] = {chip, make_named("sa1-kim"), make_named("fa1"), make_named("sa1")};
     const auto all = version_groups(plans);
     ASSERT_EQ(all.size(), 2u);
     EXPECT_EQ(all[0].receptor, "sa1");
@@ -90,7 +91,7 @@ TEST(VersionComparisons, CountByPhaseAndMeasureAsCompareDoes) {
             if (r.phase != p.phase || r.afferent == "fa1") continue;
             EXPECT_EQ(r.values[0], static_cast<double>(r.afferent == "sa1" ? p.reference_spikes : p.spikes)) << r.afferent << " " << p.phase;
         }
-    EXPECT_TRUE(std::isnan(row.phases[0].excess())) << "no share of nothing";
+    EXPECT_TRUE(std::isnan(row.phases[0].excess())) << "no fraction of zero spikes";
 }
 
 TEST(VersionComparisons, AShiftIsPositiveWhereTheVersionIsLater) {
@@ -104,11 +105,11 @@ TEST(VersionComparisons, AShiftIsPositiveWhereTheVersionIsLater) {
     EXPECT_LT(kim.median_shift, 0);
 }
 
-TEST(VersionComparisons, DoNotDependOnTheBlockAndGoInputByInput) {
+TEST(VersionComparisons, DoNotDependOnTheBlockAndAreMadeInputByInput) {
     const std::vector<std::string> stimuli = {"press", "noise"}, names = {"sa1", "sa1-kim", "fa1-lee", "fa1"};
-    const auto whole = run_versions(stimuli, names, 1 << 20);
-    EXPECT_EQ(whole.document, run_versions(stimuli, names, 77).document);
-    const auto pairs = nlohmann::json::parse(whole.document)["comparisons"]["pairs"];
+    const auto undivided = run_versions(stimuli, names, 1 << 20);
+    EXPECT_EQ(undivided.document, run_versions(stimuli, names, 77).document);
+    const auto pairs = nlohmann::json::parse(undivided.document)["comparisons"]["pairs"];
     ASSERT_EQ(pairs.size(), 4u);
     EXPECT_EQ(pairs[1]["afferent"], "fa1-lee");
     EXPECT_EQ(pairs[1]["reference"], "fa1");
@@ -118,7 +119,7 @@ TEST(VersionComparisons, DoNotDependOnTheBlockAndGoInputByInput) {
     EXPECT_EQ(pairs[0]["phases"][0]["excess"], nullptr);
 }
 
-TEST(VersionComparisons, LeaveOutCopiesAndWhoIsAlone) {
+TEST(VersionComparisons, LeaveOutCopiesAndSingleVersions) {
     EXPECT_TRUE(run_versions({"press"}, {"sa1", "fa1"}, 4096).summary.comparisons().rows().empty());
     const auto copies = run_versions({"press"}, {"sa1", "sa1-kim"}, 4096, 3);
     EXPECT_TRUE(copies.summary.comparisons().rows().empty());
@@ -127,7 +128,7 @@ TEST(VersionComparisons, LeaveOutCopiesAndWhoIsAlone) {
 
 /// The chips of the thesis under its press: counts within a quarter of the models'.
 TEST(VersionComparisons, ChipsFireAsTheirModelsDo) {
-    const auto ran = run_versions({"press"}, {"sa1", "fa1", test::project_root() + "/circuits/sa1.cir", test::project_root() + "/circuits/fa1.cir"}, 4096);
+    const auto ran = run_versions({"press"}, {"sa1", "fa1", test::source_root() + "/circuits/sa1.cir", test::source_root() + "/circuits/fa1.cir"}, 4096);
     ASSERT_EQ(ran.summary.comparisons().rows().size(), 2u);
     for (const auto& row : ran.summary.comparisons().rows()) {
         EXPECT_LE(std::abs(row.total.excess()), 0.25) << row.afferent;

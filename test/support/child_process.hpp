@@ -1,5 +1,5 @@
 #pragma once
-// Child processes of tests. A signal goes only to a process that was started: kill(-1, ...) would reach every process of the machine.
+// Child processes of tests. Signals are sent only to a process that the test started. kill(-1, ...) would reach all processes.
 
 #include <fcntl.h>
 #include <pty.h>
@@ -14,24 +14,24 @@
 
 namespace corpuscle::test {
 
-/// fork(), or an exception.
+/// Calls fork(); throws if it fails.
 inline pid_t fork_child() {
     const pid_t id = ::fork();
-    if (id < 0) throw std::runtime_error(std::string("no process can be started: ") + std::strerror(errno));
+    if (id < 0) throw std::runtime_error(std::string("fork failed: ") + std::strerror(errno));
     return id;
 }
 
-/// Whether the signal was sent. Ids below 1 stand for groups of processes, or for all: they are never signalled.
+/// Returns true if the signal was sent. Ids below 1 mean process groups or all processes; they are never signalled.
 inline bool signal_child(pid_t id, int signal) { return id > 0 && ::kill(id, signal) == 0; }
 
-/// Whether a pseudo-terminal can be had: a chroot or a container may have no /dev/ptmx or no /dev/pts.
+/// True if a pseudo-terminal can be opened. A chroot or a container may lack /dev/ptmx or /dev/pts.
 inline bool has_pseudo_terminals() {
-    int far = -1, near = -1;
-    if (::openpty(&far, &near, nullptr, nullptr, nullptr) != 0) return false;
-    ::close(far), ::close(near);
+    int controller = -1, terminal = -1;
+    if (::openpty(&controller, &terminal, nullptr, nullptr, nullptr) != 0) return false;
+    ::close(controller), ::close(terminal);
     return true;
 }
 
-constexpr const char* no_pseudo_terminals = "no pseudo-terminal can be had here (/dev/ptmx, /dev/pts)";
+constexpr const char* no_pseudo_terminals = "no pseudo-terminal is available (/dev/ptmx, /dev/pts)";
 
 }  // namespace corpuscle::test

@@ -1,6 +1,6 @@
 #pragma once
-// The thesis's two afferents under its press, without sampling: the high-passed half-cosine in closed form, its current
-// integrated by Simpson's rule in steps of a microsecond (what is left is below a nanosecond).
+// Reference spike times of the thesis's two afferents under its press, independent of any sampling rate. The high-passed half-cosine is in
+// closed form. Its current is integrated by Simpson's rule in steps of 1 us; the error of a spike time is below 1 ns.
 
 #include <algorithm>
 #include <cmath>
@@ -18,7 +18,7 @@ inline double press_force(double t) {
                                                     : F_min + (F_max - F_min) * (1 - std::cos(M_PI * s)) / 2;
 }
 
-/// x' + 2 pi f x = F', x(0) = 0, in newtons.
+/// Solution x (N) of x' + 2 pi f x = F', x(0) = 0, for a cutoff frequency f (Hz).
 inline double high_passed_press(double t, double f) {
     const double w = 2 * M_PI * f, omega = M_PI / rise_time, swing = (F_max - F_min) / 2 * omega / (w * w + omega * omega);
     const auto ramp = [&](double s) { return swing * (w * std::sin(omega * s) - omega * std::cos(omega * s) + omega * std::exp(-w * s)); };
@@ -39,7 +39,7 @@ inline double fa1_current(double t) {
     return x > 0 ? 3.5e-6 * x : -2.75e-6 * x;
 }
 
-/// Spike times of LIF-B under a current, u_rest = 0.
+/// Spike times (s) of LIF-B driven by a current (A), with u_rest = 0.
 inline std::vector<double> lif_b_train(const std::function<double(double)>& current, double leak, double V_th, double V_reset,
                                        double C_m = 500e-9) {
     constexpr double h = 1e-6;

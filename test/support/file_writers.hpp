@@ -1,8 +1,8 @@
 #pragma once
-// Files of samples, made by the libraries that others write them with.
+// Writes files of samples with the libraries that other programs use for them.
 
-#include <cmath>
 #include <fmt/format.h>
+#include <cmath>
 
 #include <hdf5.h>
 #include <sndfile.h>
@@ -11,7 +11,7 @@
 
 namespace corpuscle::test {
 
-/// NPY of any type, as NumPy writes it.
+/// Bytes of an NPY file of any type, as NumPy writes it.
 inline std::string npy_bytes(const std::string& type, const std::string& shape, const std::string& data, bool by_columns = false,
                        int version = 1) {
     auto header = fmt::format("{{'descr': {}, 'fortran_order': {}, 'shape': {}, }}", type, by_columns ? "True" : "False", shape);
@@ -22,7 +22,7 @@ inline std::string npy_bytes(const std::string& type, const std::string& shape, 
     return out + (version > 1 ? std::string(2, '\0') : "") + header + data;
 }
 
-/// Values of whole numbers are parts of full scale, in steps of 2^-31 or what the format keeps of them.
+/// Writes samples (fractions of full scale). Integer formats round to steps of 2^-31, or coarser if the format has fewer bits.
 inline void write_audio(const std::string& path, int format, int rate, const std::vector<std::vector<double>>& channels) {
     SF_INFO info{};
     info.channels = static_cast<int>(channels.size()), info.samplerate = rate, info.format = format;
@@ -31,18 +31,18 @@ inline void write_audio(const std::string& path, int format, int rate, const std
     const int kind = format & SF_FORMAT_SUBMASK;
     for (std::size_t k = 0; k < channels[0].size(); ++k) {
         std::vector<double> frame;
-        std::vector<int> whole;
+        std::vector<int> integers;
         for (const auto& c : channels) {
             frame.push_back(c[k]);
-            whole.push_back(std::isnan(c[k]) ? 0 : static_cast<int>(std::clamp(c[k] * 0x1p31, -0x1p31, 0x1p31 - 1)));
+            integers.push_back(std::isnan(c[k]) ? 0 : static_cast<int>(std::clamp(c[k] * 0x1p31, -0x1p31, 0x1p31 - 1)));
         }
-        const bool real = kind == SF_FORMAT_FLOAT || kind == SF_FORMAT_DOUBLE;
-        real ? sf_writef_double(file, frame.data(), 1) : sf_writef_int(file, whole.data(), 1);
+        const bool is_float = kind == SF_FORMAT_FLOAT || kind == SF_FORMAT_DOUBLE;
+        is_float ? sf_writef_double(file, frame.data(), 1) : sf_writef_int(file, integers.data(), 1);
     }
     sf_close(file);
 }
 
-/// An HDF5 file being written; names are paths, groups are made on the way.
+/// An HDF5 file to write. Names are paths; missing groups are created.
 class Hdf5File {
     hid_t file_, links_;
 

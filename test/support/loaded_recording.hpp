@@ -1,5 +1,5 @@
 #pragma once
-// Recordings read whole, and what is said of those that cannot be read.
+// Loads complete recordings, and returns the error messages of files that cannot be read.
 
 #include "io/recording.hpp"
 #include "support/support.hpp"
@@ -36,14 +36,14 @@ inline LoadedRecording load_recording(const std::string& path, const RecordingOp
     return value_or_throw(try_load_recording(path, options, block));
 }
 
-/// What is said of a file that cannot be read, without the folder.
+/// Error message for a file that cannot be read, without the folder name; "read" if it can be read.
 inline std::string load_error(const std::string& path, const RecordingOptions& options = {}) {
-    const auto made = try_load_recording(path, options);
-    if (made) return "read";
-    auto sentence = made.error().text();
-    if (const auto at = sentence.find(path); at != std::string::npos)
-        sentence.replace(at, path.size(), std::filesystem::path(path).filename().string());
-    return sentence;
+    const auto result = try_load_recording(path, options);
+    if (result) return "read";
+    auto message = result.error().text();
+    if (const auto at = message.find(path); at != std::string::npos)
+        message.replace(at, path.size(), std::filesystem::path(path).filename().string());
+    return message;
 }
 
 }  // namespace corpuscle::test

@@ -1,5 +1,6 @@
 #pragma once
-// Debian's ngspice beside us: the decks that both run, how each is run, and our transistors in the place of formulas.
+// Runs the decks of test/circuit/decks in Debian's ngspice and in Corpuscle. In Corpuscle, transistors written as expressions can be
+// replaced by the built-in device.
 
 #include <gtest/gtest.h>
 
@@ -17,18 +18,18 @@ namespace corpuscle::circuit::test {
 
 using namespace corpuscle::test;
 
-inline std::string deck_path(const std::string& name) { return project_root() + "/test/circuit/decks/" + name + ".cir"; }
+inline std::string deck_path(const std::string& name) { return source_root() + "/test/circuit/decks/" + name + ".cir"; }
 
-/// Those of a folder there; "": what is in none.
+/// Names of the decks in a subfolder of test/circuit/decks; "" means the folder itself.
 inline std::vector<std::string> deck_names(const std::string& folder = "") {
     std::vector<std::string> out;
-    for (const auto& entry : std::filesystem::directory_iterator(project_root() + "/test/circuit/decks/" + folder))
+    for (const auto& entry : std::filesystem::directory_iterator(source_root() + "/test/circuit/decks/" + folder))
         if (entry.path().extension() == ".cir") out.push_back(entry.path().stem());
     std::sort(out.begin(), out.end());
     return out;
 }
 
-/// What ngspice writes on standard output for a deck, and its .raw file if one is named.
+/// Runs ngspice on a deck and returns its standard output and error. Writes the results to the file `raw` unless `raw` is empty.
 inline std::string run_ngspice(const std::string& deck, const std::string& raw) {
     const auto command = "ngspice -b " + (raw.empty() ? "" : "-r " + raw + " ") + deck + " 2>&1";
     std::FILE* pipe = popen(command.c_str(), "r");
@@ -50,7 +51,7 @@ inline std::shared_ptr<const Circuit> elaborate_netlist(const Result<Netlist>& n
 inline std::shared_ptr<const Circuit> elaborate_netlist(const std::string& deck) { return elaborate_netlist(Netlist::read(deck)); }
 
 inline RunOutcome run_corpuscle(const Result<Netlist>& netlist) {
-    static std::vector<std::shared_ptr<const Circuit>> kept;  // an outcome points at its circuit's commands
+    static std::vector<std::shared_ptr<const Circuit>> kept;  // an outcome points to the commands of its circuit
     kept.push_back(elaborate_netlist(netlist));
     if (!kept.back()) return {};
     auto outcome = run_directives(kept.back());
@@ -59,7 +60,7 @@ inline RunOutcome run_corpuscle(const Result<Netlist>& netlist) {
 }
 inline RunOutcome run_corpuscle(const std::string& deck) { return run_corpuscle(Netlist::read(deck)); }
 
-/// A name as we give it: ngspice's files wrap what is no voltage in v(), and keep capitals.
+/// Converts a curve name of ngspice to Corpuscle's. ngspice's files wrap some non-voltages in v() and keep capitals.
 inline std::string corpuscle_name(std::string name) {
     std::transform(name.begin(), name.end(), name.begin(), [](char c) { return lower(c); });
     for (const std::string_view word : {"transfer_function", "impedance", "noise_"})
@@ -67,15 +68,16 @@ inline std::string corpuscle_name(std::string name) {
     return name;
 }
 
-/// A deck of transistors by formulas, with our own transistors in their place: its line "* native: .model ..." says which.
+/// Text of a deck in which transistors written as expressions are replaced by the built-in device. The deck's lines
+/// "* native: .model ..." define the models to use.
 inline std::string with_native_transistors(const std::string& deck) {
     std::istringstream lines(read_file(deck));
     std::string out, line;
     for (bool inside = false; std::getline(lines, line);) {
         if (line.starts_with(".subckt")) inside = true;
-        const bool left_out = inside;
+        const bool is_omitted = inside;
         if (line.starts_with(".ends")) inside = false;
-        if (left_out) continue;
+        if (is_omitted) continue;
         if (line.starts_with("* native: ")) line = line.substr(10);
         if (line.starts_with("xm")) line = line.substr(1);
         out += line + '\n';
@@ -83,7 +85,7 @@ inline std::string with_native_transistors(const std::string& deck) {
     return out;
 }
 
-/// "name = value" in what a simulator prints; NaN: there is none.
+/// Value of the line "name = value" in a simulator's output; NaN if there is no such line.
 inline double logged_number(const std::string& log, const std::string& name) {
     for (std::size_t at = log.find("\n" + name); at != std::string::npos; at = log.find("\n" + name, at + 1)) {
         const auto equals = log.find('=', at + 1);

@@ -1,5 +1,5 @@
 #pragma once
-// A sweep whose units are cheap and known: for tests of what stores and runs them.
+// A sweep with cheap work items and known results, for tests of the results database and the runners.
 
 #include <chrono>
 #include <cmath>
@@ -11,10 +11,11 @@ namespace corpuscle::test {
 
 class PlainSweep : public Sweep {
     std::int64_t item_count_;
-    double seconds_per_item_;  // a unit
-    std::vector<SweepColumn> axes_ = {{"gain", "", "times the force"}, {"kind", "", "of unit", {"even", "odd"}}};
-    std::vector<SweepColumn> measures_ = {
-        {"rate", "Hz", "of spikes"}, {"Rate", "Hz", "by another name"}, {"why", "", "like a column of every sweep", {}, 0.25, 0.75}};
+    double seconds_per_item_;  // run time of a work item, s
+    std::vector<SweepColumn> axes_ = {{"gain", "", "factor of the force"}, {"kind", "", "parity of the item", {"even", "odd"}}};
+    std::vector<SweepColumn> measures_ = {{"rate", "Hz", "rate of spikes"},
+                                          {"Rate", "Hz", "a name that differs only in case"},
+                                          {"why", "", "named like a column of every sweep", {}, 0.25, 0.75}};
     std::vector<std::string> train_names_ = {"sa1", "fa1"}, probe_names_ = {"v(u)"};
     std::vector<double> probe_times_ = {0, 0.1, 0.2, 0.3};
 

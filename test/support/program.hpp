@@ -1,5 +1,5 @@
 #pragma once
-// The program as people use it, run in a folder of the test's own.
+// Runs the program `corpuscle` through the shell in a temporary folder.
 
 #include <sys/wait.h>
 
@@ -12,10 +12,10 @@ struct ProgramResult {
     std::string out, err;
 };
 
-inline ProgramResult run_program(const TemporaryFolder& folder, const std::string& words) {
+inline ProgramResult run_program(const TemporaryFolder& folder, const std::string& arguments) {
     const auto out = folder / ".out", err = folder / ".err";
     const int status =
-        std::system(("cd '" + folder.path() + "' && '" + test::program_path() + "' " + words + " >'" + out + "' 2>'" + err + "'").c_str());
+        std::system(("cd '" + folder.path() + "' && '" + test::program_path() + "' " + arguments + " >'" + out + "' 2>'" + err + "'").c_str());
     ProgramResult ran{WEXITSTATUS(status), read_file(out), read_file(err)};
     std::filesystem::remove(out);
     std::filesystem::remove(err);

@@ -1,5 +1,5 @@
 #pragma once
-// Property tests: rapidcheck's bridge wants GoogleTest before it. rc::check only returns whether the property held: EXPECT_TRUE it.
+// Property tests. GoogleTest must be included before rapidcheck's bridge. rc::check only returns true or false; wrap it in EXPECT_TRUE.
 
 #include <gtest/gtest.h>
 

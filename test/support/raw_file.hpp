@@ -1,5 +1,5 @@
 #pragma once
-// Reads .raw files, binary or ASCII, so that tests can hold our results against another simulator's.
+// Reads .raw files (binary or ASCII), so that tests can compare Corpuscle's results with another simulator's.
 
 #include <charconv>
 #include <complex>
@@ -50,7 +50,7 @@ inline std::vector<Plot> read_raw(const std::string& text) {
             for (std::size_t k = 0; k < variables; ++k) {
                 double re = 0, im = 0;
                 if (binary) {
-                    if (at + (plot.is_complex ? 16 : 8) > text.size()) throw std::runtime_error("a .raw file ends too soon");
+                    if (at + (plot.is_complex ? 16 : 8) > text.size()) throw std::runtime_error("truncated .raw file");
                     re = number();
                     if (plot.is_complex) im = number();
                 } else {

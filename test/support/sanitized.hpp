@@ -2,7 +2,7 @@
 
 namespace corpuscle::test {
 
-/// Is this build one with a sanitizer, which needs far more addresses than the program itself?
+/// True in builds with a sanitizer, which needs far more address space than the program itself.
 #ifdef __has_feature
 inline constexpr bool is_sanitized = __has_feature(address_sanitizer) || __has_feature(thread_sanitizer);
 #elif defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)

@@ -1,5 +1,5 @@
 #pragma once
-// What several tests need: a run of one afferent under one force, files to read, the shared recordings.
+// Helpers that many tests need: run one afferent under one force, read files, locate the shared recordings.
 
 #include <gtest/gtest.h>
 
@@ -35,11 +35,11 @@ inline std::vector<ParameterOverride> parse_settings(const std::vector<std::stri
     return out;
 }
 
-inline std::unique_ptr<Afferent> afferent(const std::string& name, const RunSettings& asked = {}) {
-    return make_afferent(value_or_throw(plan_afferent(name, parse_settings(asked.settings))), {1 / asked.rate, asked.method, asked.sampled});
+inline std::unique_ptr<Afferent> afferent(const std::string& name, const RunSettings& run = {}) {
+    return make_afferent(value_or_throw(plan_afferent(name, parse_settings(run.settings))), {1 / run.rate, run.method, run.sampled});
 }
 
-/// All of a source's first channel.
+/// All samples of a source's first channel.
 inline std::vector<double> read_first_channel(ForceSource& source) {
     std::vector<double> all;
     for (Frames block(source.channels().size(), 1000);;) {
@@ -49,35 +49,35 @@ inline std::vector<double> read_first_channel(ForceSource& source) {
     }
 }
 
-inline std::vector<double> force(const std::string& stimulus, const RunSettings& asked = {}) {
-    const auto mine = parse_settings(asked.settings);
-    return read_first_channel(*value_or_throw(make_stimulus(stimulus, mine, asked.rate, asked.seed)));
+inline std::vector<double> force(const std::string& stimulus, const RunSettings& run = {}) {
+    const auto overrides = parse_settings(run.settings);
+    return read_first_channel(*value_or_throw(make_stimulus(stimulus, overrides, run.rate, run.seed)));
 }
 
 inline std::vector<Spike> spikes(const Afferent& a, const std::vector<double>& f, std::size_t block = 4096) {
     std::vector<Spike> out;
-    ResponseBlock answer{out};
+    ResponseBlock response{out};
     auto state = a.start();
     for (std::size_t k = 0; k < f.size(); k += block)
-        if (auto ok = a.respond(std::span(f).subspan(k, std::min(block, f.size() - k)), state, answer); !ok)
+        if (auto ok = a.respond(std::span(f).subspan(k, std::min(block, f.size() - k)), state, response); !ok)
             throw std::runtime_error(ok.error().text());
     return out;
 }
 
-/// Spike times (s) of an afferent under a stimulus; settings are for both.
-inline std::vector<double> train(const std::string& name, const std::string& stimulus = "press", const RunSettings& asked = {}) {
-    return spike_times(spikes(*afferent(name, asked), force(stimulus, asked), asked.block), value_or_throw(make_clock(asked.rate)));
+/// Spike times (s) of an afferent under a stimulus. The settings apply to both.
+inline std::vector<double> train(const std::string& name, const std::string& stimulus = "press", const RunSettings& run = {}) {
+    return spike_times(spikes(*afferent(name, run), force(stimulus, run), run.block), value_or_throw(make_clock(run.rate)));
 }
 
-/// The afferents of every name, every transduction with every neuron, and some of them behind each kind of front.
+/// All named afferents, every receptor with every neuron, and some of these behind each kind of sensor front end.
 inline std::vector<std::string> all_afferent_names() {
     std::vector<std::string> all;
     for (const auto& a : named_afferents()) all.emplace_back(a.name);
     for (const auto& r : receptor_entries())
         for (const auto& n : neuron_entries()) all.push_back(std::string(r.name) + "+" + std::string(n.name));
-    for (const auto* fronted : {"fsr+sa1", "fsr+f2v+sa1", "fsr+f2i+fa1", "fsr+f2i+sa1b+izhikevich", "adc+sa1", "adc+sa1a+adaptive",
-                                "fsr+adc+fa1b+lif-a", "fsr+f2i+adc+fa1"})
-        all.emplace_back(fronted);
+    for (const auto* with_front_end : {"fsr+sa1", "fsr+f2v+sa1", "fsr+f2i+fa1", "fsr+f2i+sa1b+izhikevich", "adc+sa1", "adc+sa1a+adaptive",
+                                       "fsr+adc+fa1b+lif-a", "fsr+f2i+adc+fa1"})
+        all.emplace_back(with_front_end);
     return all;
 }
 
@@ -88,7 +88,7 @@ inline std::string read_file(const std::string& path) {
     return text.str();
 }
 
-/// A directory of the test's own, removed with it.
+/// A temporary directory of the running test; the destructor removes it.
 class TemporaryFolder {
     std::filesystem::path path_;
 
@@ -114,16 +114,16 @@ public:
     }
 };
 
-/// Recordings made by others lie beside the project, not in it: CORPUSCLE_DATA, else ../shared/data.
+/// Path of a third-party recording. These are not part of the source tree: they are in $CORPUSCLE_DATA, by default ../shared/data.
 inline std::string shared_file_path(const std::string& name) {
     const char* set = std::getenv("CORPUSCLE_DATA");
-    return (std::filesystem::path(set ? set : project_root() + "/../shared/data") / name).lexically_normal().string();
+    return (std::filesystem::path(set ? set : source_root() + "/../shared/data") / name).lexically_normal().string();
 }
 
 }  // namespace corpuscle::test
 
-/// Leaves the test, loudly, if a shared file is not on this machine.
-#define CORPUSCLE_NEEDS(path)                                                                                                  \
-    if (!std::filesystem::exists(path)) {                                                                                      \
-        GTEST_SKIP() << "ABSENT: " << (path) << "\nNothing was checked here; set CORPUSCLE_DATA to the folder of recordings."; \
+/// Skips the test with a message if a shared file is not on this machine.
+#define CORPUSCLE_NEEDS(path)                                                                                      \
+    if (!std::filesystem::exists(path)) {                                                                          \
+        GTEST_SKIP() << "ABSENT: " << (path) << "\nTest skipped; set CORPUSCLE_DATA to the folder of recordings."; \
     }

@@ -2,7 +2,7 @@
 
 namespace corpuscle::test {
 
-std::string project_root() { return CORPUSCLE_ROOT; }
+std::string source_root() { return CORPUSCLE_ROOT; }
 std::string program_path() { return CORPUSCLE_PROGRAM; }
 
 }  // namespace corpuscle::test

@@ -4,7 +4,7 @@
 
 namespace corpuscle::test {
 
-std::string project_root();     ///< the project's folder
-std::string program_path();  ///< the path of `corpuscle`
+std::string source_root();     ///< path of the source tree
+std::string program_path();  ///< path of the program `corpuscle`
 
 }  // namespace corpuscle::test

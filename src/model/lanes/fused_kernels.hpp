@@ -11,10 +11,10 @@ namespace {
 /// neuron has a quick test for steps without events.
 template <class R, class N>
 inline constexpr bool can_fuse = continuous<R> && R::outputs == 1 && requires(const R& r, const typename R::State& s, const N& n) {
-    R::keeps_strays;
+    R::propagates_nan;
     r.current(s);
     n.may_be_refractory();
-    N::values_of_waiting;
+    N::refractory_values;
 };
 
 /// The state values that are stored: the last current is recomputed, and no afferent is refractory. A single step is limited by memory
@@ -22,7 +22,7 @@ inline constexpr bool can_fuse = continuous<R> && R::outputs == 1 && requires(co
 template <class V, class R>
 inline constexpr std::size_t stored_receptor_values = value_count<typename R::State, V> - 1;
 template <class V, class N>
-inline constexpr std::size_t stored_neuron_values = value_count<typename N::State, V> - N::values_of_waiting;
+inline constexpr std::size_t stored_neuron_values = value_count<typename N::State, V> - N::refractory_values;
 
 /// J vectors of a tile at once, from `first` on. `once`: a single step.
 template <class V, class R, class N, ForceInput feed, Method method, int J, bool once>

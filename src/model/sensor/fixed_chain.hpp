@@ -44,7 +44,7 @@ class FixedModelChain final : public FixedChain {
         typename N::State neuron[outputs_];
     };
     static constexpr std::size_t words_ = sizeof(State) / sizeof(Word);
-    static_assert(std::is_trivially_copyable_v<State> && words_ <= max_words && outputs_ * (1 + std::size(N::parts)) <= max_recordables);
+    static_assert(std::is_trivially_copyable_v<State> && words_ <= max_words && outputs_ * (1 + std::size(N::recordables)) <= max_recordables);
 
     R receptor_;
     N neuron_;

@@ -13,8 +13,8 @@ namespace corpuscle::studies::errata_models {
 using algorithms::k2, algorithms::lif_b, algorithms::MembraneParams;
 
 constexpr double T = 1e-3;                                  // s: thesis 3.3
-constexpr Membrane fig16_membrane{500e-9, 500e-9, 1, 0.5};  // SA-I with fig. 16's theta
-constexpr Membrane fa1_membrane{500e-9, 1e-6, 0.5, 0.25};
+constexpr MembraneParams fig16_membrane{500e-9, 500e-9, 1, 0.5};  // SA-I with fig. 16's theta
+constexpr MembraneParams fa1_membrane{500e-9, 1e-6, 0.5, 0.25};
 
 template <class Next>  // called with F[n], F[n-1]
 StudyCurve apply(const StudyCurve& force, Next&& next) {

@@ -184,7 +184,7 @@ void Ranks::leave(bool together) {
 
 #else
 
-struct Ranks::Held {};
+struct Ranks::Impl {};
 
 Result<std::unique_ptr<Ranks>> Ranks::join() {
     return bad_input(
@@ -193,11 +193,11 @@ Result<std::unique_ptr<Ranks>> Ranks::join() {
 }
 int Ranks::rank() const { return 0; }
 int Ranks::size() const { return 1; }
-bool Ranks::outlive_one() const { return true; }
+bool Ranks::survive_death_of_one() const { return true; }
 void Ranks::send(int, std::string) {}
 std::size_t Ranks::unsent() const { return 0; }
 std::optional<Ranks::Received> Ranks::receive() { return {}; }
-void Ranks::forget(int) {}
+void Ranks::drop_messages_to(int) {}
 void Ranks::leave(bool) {}
 
 #endif

@@ -1,4 +1,4 @@
-// The converter: codes, the table back to force, and the instants at which it looks.
+// The analog-to-digital converter: codes, the table from codes to force, and the conversion times.
 
 #include <cmath>
 
@@ -35,77 +35,77 @@ TEST(Converter, TheTableUndoesTheCurveToHalfALevel) {
     EXPECT_EQ(adc.force(adc.max_code()), 5);
 }
 
-TEST(Converter, WithoutTheTableItBelievesTheCalibrationsLine) {
+TEST(Converter, WithoutTheTableItUsesTheCalibrationLine) {
     const FrontEnd front({Fsr::stage({}), F2v::stage({})}, 4);
     const Converter line(front, {.bits = 16, .linearise = 0});
     for (const double F : {0.0, 0.5, 1.0, 3.0, 4.0, 4.5})
         EXPECT_NEAR(line.force(line.convert(F).code), front.calibrated_force(front.read(F).value), 1e-4) << F;
 }
 
-TEST(ConversionTimes, StandWhereExactFractionsPutThem) {
-    EXPECT_TRUE(rc::check("any two rates, any turn", [] {
+TEST(ConversionTimes, AreExactFractions) {
+    EXPECT_TRUE(rc::check("any two rates, any channel slot", [] {
         const auto source = *rc::gen::inRange<std::int64_t>(1, 50000), adc = *rc::gen::inRange<std::int64_t>(1, 50000);
-        const auto turns = *rc::gen::inRange<std::uint32_t>(1, 100), channel = *rc::gen::inRange<std::uint32_t>(0, turns);
-        const ConversionTimes instants(static_cast<double>(source), static_cast<double>(adc), turns);
+        const auto slots = *rc::gen::inRange<std::uint32_t>(1, 100), channel = *rc::gen::inRange<std::uint32_t>(0, slots);
+        const ConversionTimes instants(static_cast<double>(source), static_cast<double>(adc), slots);
         auto at = instants.first(channel);
         for (std::int64_t j = 0; j < 200; ++j, instants.advance(at)) {
-            const std::int64_t above = (j * turns + channel) * source, below = adc * turns;  // place = above / below, exactly
+            const std::int64_t above = (j * slots + channel) * source, below = adc * slots;  // position = above / below, exactly
             RC_ASSERT(at.step == above / below);
             RC_ASSERT(at.remainder * below == (above % below) * instants.parts_per_sample());
         }
     }));
 }
 
-TEST(DigitalAfferent, SpikesComeAtConversionsWhateverTheSourcesRate) {
+TEST(DigitalAfferent, SpikesAreAtConversionsWhateverTheSourcesRate) {
     const auto fine = test::train("adc+sa1", "press", {.rate = 10e3}), coarse = test::train("adc+sa1", "press", {.rate = 4e3});
-    EXPECT_EQ(fine, coarse) << "both rates have samples where the converter looks";
+    EXPECT_EQ(fine, coarse) << "both rates have samples at the conversion times";
     for (const double t : fine) EXPECT_NEAR(t * 1e3, std::round(t * 1e3), 1e-9);
     for (const double t : test::train("adc+sa1", "press", {.settings = {"adc+sa1.f_s=700Hz"}, .rate = 3e3}))
         EXPECT_NEAR(t * 700, std::round(t * 700), 1e-9) << "between samples";
 }
 
-TEST(DigitalAfferent, OneConverterForAllChannelsTakesThemInTurn) {
+TEST(DigitalAfferent, OneConverterForAllChannelsMultiplexesThem) {
     std::vector<double> ramp;
     for (int k = 0; k < 4000; ++k) ramp.push_back(1e-3 * k);
-    const auto trained = [&](const char* shared, ChannelSlot turn) {
+    const auto ramp_spikes = [&](const char* shared, ChannelSlot slot) {
         const auto a = test::afferent("adc+sa1", {.settings = {std::string("adc+sa1.shared=") + shared}, .rate = 1e3});
         std::vector<Spike> out;
-        ResponseBlock answer{out};
-        auto state = a->start(turn);
-        EXPECT_TRUE(a->respond(ramp, state, answer));
+        ResponseBlock response{out};
+        auto state = a->start(slot);
+        EXPECT_TRUE(a->respond(ramp, state, response));
         return out;
     };
-    const auto own = trained("0", {3, 4}), first = trained("1", {0, 4}), last = trained("1", {3, 4});
+    const auto own = ramp_spikes("0", {3, 4}), first = ramp_spikes("1", {0, 4}), last = ramp_spikes("1", {3, 4});
     ASSERT_FALSE(own.empty());
     EXPECT_EQ(own, first) << "a converter a channel: no skew";
     for (const auto& s : own) EXPECT_EQ(s.offset, 1);
     for (const auto& s : last) EXPECT_EQ(s.offset, 0.75) << "channel 3 of 4 waits three quarters of a conversion";
 }
 
-TEST(DigitalAfferent, ClippedConversionsAreCounted) {
+TEST(DigitalAfferent, SaturatedConversionsAreCounted) {
     std::vector<Spike> out;
-    ResponseBlock answer{out};
+    ResponseBlock response{out};
     const auto a = test::afferent("adc+sa1", {.rate = 10e3});
     auto state = a->start();
     std::vector<double> f(10000, 1.0);
     std::fill(f.begin() + 1001, f.begin() + 2001, 6.0);
-    EXPECT_TRUE(a->respond(f, state, answer));
-    EXPECT_EQ(answer.saturated, 100) << "at 1 kHz, a tenth of the samples";
+    EXPECT_TRUE(a->respond(f, state, response));
+    EXPECT_EQ(response.saturated, 100) << "at 1 kHz, a tenth of the samples";
 }
 
-TEST(DigitalAfferent, DamagedStatesAreRefusedNotRun) {
+TEST(DigitalAfferent, DamagedStatesAreRefused) {
     const auto a = test::afferent("fa1-lee");
     const std::vector<double> f(10, 1.0);
     const auto fresh = a->start();
     for (std::size_t v = 0; v < fresh.values.size(); ++v)
         for (const double bad : {0.5, -3.0, 1e300, std::nan("")}) {
-            if (v == 4 || v == 5) continue;  // forces: any number will do
+            if (v == 4 || v == 5) continue;  // forces: any number is valid
             auto state = fresh;
             state.values[v] = bad;
             if (v >= 7 && bad == -3) continue;  // a word like others
             std::vector<Spike> out;
-            ResponseBlock answer{out};
-            EXPECT_FALSE(a->respond(f, state, answer)) << v << ' ' << bad;
+            ResponseBlock response{out};
+            EXPECT_FALSE(a->respond(f, state, response)) << v << ' ' << bad;
         }
 }
 

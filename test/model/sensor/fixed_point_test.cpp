@@ -1,4 +1,4 @@
-// The algorithms in words: against wide arithmetic, against double precision, against the files that hardware is checked with.
+// The algorithms in fixed-point words, checked against wide arithmetic, double precision and the test vectors for hardware.
 
 #include <cmath>
 #include <random>
@@ -10,20 +10,20 @@ namespace corpuscle {
 namespace {
 
 __extension__ using Wide = __int128;
-std::mt19937_64 draw(1);
+std::mt19937_64 random_bits(1);
 
 std::int64_t between(std::int64_t low, std::int64_t high) {
-    return low + static_cast<std::int64_t>(draw() % (static_cast<std::uint64_t>(high - low) + 1));
+    return low + static_cast<std::int64_t>(random_bits() % (static_cast<std::uint64_t>(high - low) + 1));
 }
 
-/// doc/fixed-point.md's operations in 128 bits, where nothing here can overflow.
+/// The operations of doc/fixed-point.md in 128 bits, where nothing can overflow here.
 struct Reference {
     WordFormat format;
     std::int64_t overflows = 0;
     Wide sat(Wide x) {
-        const Wide kept = std::min<Wide>(std::max<Wide>(x, format.min()), format.max());
-        overflows += kept != x;
-        return kept;
+        const Wide saturated = std::min<Wide>(std::max<Wide>(x, format.min()), format.max());
+        overflows += saturated != x;
+        return saturated;
     }
     Wide times(Factor c, Wide n) {
         const Wide power = Wide{1} << c.shift, sum = n * c.mantissa + power / 2;
@@ -60,27 +60,27 @@ R any_receptor(WordFormat f) {
     return r;
 }
 
-using Two = std::array<Wide, 2>;
-Two wide_step(const FixedSa1a& r, FixedSa1a::State& s, Word F, Reference& w) {
+using TwoCurrents = std::array<Wide, 2>;
+TwoCurrents wide_step(const FixedSa1a& r, FixedSa1a::State& s, Word F, Reference& w) {
     return {w.sat(r.beta + w.times(r.k_s, F) + w.times(r.k_d, w.abs(w.sat(Wide{F} - s.F)))), 0};
 }
-Two wide_step(const FixedFa1a& r, FixedFa1a::State& s, Word F, Reference& w) {
+TwoCurrents wide_step(const FixedFa1a& r, FixedFa1a::State& s, Word F, Reference& w) {
     const Wide d = w.sat(Wide{F} - s.F), x = w.times(r.k, w.abs(d));
-    return d > 0 ? Two{x, 0} : Two{0, x};
+    return d > 0 ? TwoCurrents{x, 0} : TwoCurrents{0, x};
 }
-Two wide_step(const FixedSa1b& r, FixedSa1b::State& s, Word F, Reference& w) {
+TwoCurrents wide_step(const FixedSa1b& r, FixedSa1b::State& s, Word F, Reference& w) {
     const Wide d = w.sat(Wide{F} - s.F), B = w.sat(w.times(r.k_B1, d) + w.times(r.k_B2, s.I_B)),
                C = w.sat(w.times(r.k_C1, d) + w.times(r.k_C2, s.I_C));
     return {w.sat(w.times(r.k_A, F) + std::max<Wide>(B, 0) + std::max<Wide>(C, 0)), 0};
 }
-Two wide_step(const FixedFa1b& r, FixedFa1b::State& s, Word F, Reference& w) {
+TwoCurrents wide_step(const FixedFa1b& r, FixedFa1b::State& s, Word F, Reference& w) {
     const Wide x = w.times(r.k, w.sat(w.sat(Wide{F} - s.F) + s.I_0));
     return {x > 0 ? w.times(r.k_A, x) : w.times(r.k_B, w.abs(x)), 0};
 }
 
-/// Settings and states of any size: the words are those of wide arithmetic, and every result that did not fit was counted.
+/// For any settings and states, the words equal those of wide arithmetic, and every result that did not fit was counted.
 template <class R>
-void a_quarter_of_a_million() {
+void check_receptor_steps() {
     for (int n = 0; n < 250'000; ++n) {
         const int word = static_cast<int>(between(8, 32));
         const WordFormat f{word, static_cast<int>(between(0, word - 1))};
@@ -93,18 +93,18 @@ void a_quarter_of_a_million() {
         Arithmetic a{f};
         Reference w{f};
         const Word F = any_word(f);
-        const auto right = wide_step(r, s, F, w);
+        const auto expected = wide_step(r, s, F, w);
         r.step(s, F, reinterpret_cast<Word(&)[R::Traits::outputs]>(I), a);
-        ASSERT_TRUE(I[0] == right[0] && I[1] == right[1]) << R::Traits::name << ' ' << n;
+        ASSERT_TRUE(I[0] == expected[0] && I[1] == expected[1]) << R::Traits::name << ' ' << n;
         ASSERT_EQ(a.overflowed, w.overflows) << R::Traits::name << ' ' << n;
     }
 }
 
-TEST(Fixed, AMillionRandomTransductionsGiveTheWordsOfWideArithmeticAndTellEveryOverflow) {
-    a_quarter_of_a_million<FixedSa1a>();
-    a_quarter_of_a_million<FixedFa1a>();
-    a_quarter_of_a_million<FixedSa1b>();
-    a_quarter_of_a_million<FixedFa1b>();
+TEST(FixedPoint, AMillionRandomReceptorStepsGiveTheWordsOfWideArithmeticAndCountEveryOverflow) {
+    check_receptor_steps<FixedSa1a>();
+    check_receptor_steps<FixedFa1a>();
+    check_receptor_steps<FixedSa1b>();
+    check_receptor_steps<FixedFa1b>();
 }
 
 template <class N>
@@ -129,20 +129,20 @@ struct WideNeuron {
         u = n.reset.ref > 0 ? Wide{n.reset.V_reset} : w.sat(u - theta + n.reset.V_reset);
         wait = n.reset.ref, spike = true;
     }
-    bool held() { return wait > 0 ? --wait, true : false; }
+    bool is_refractory() { return wait > 0 ? --wait, true : false; }
     void step(const FixedLifA& n, Word I, Reference& w) {
-        if (held()) return;
+        if (is_refractory()) return;
         u = w.sat(w.times(n.k_a, I) + w.times(n.k_b, u) + n.k_c);
         if (u > n.V_th) fire(n, n.V_th, w);
     }
     void step(const FixedLifB& n, Word I, Reference& w) {
-        if (held()) return;
+        if (is_refractory()) return;
         u = w.sat(u + w.times(n.k, w.sat(Wide{I} - n.I_leak0)));
         u > n.V_th ? fire(n, n.V_th, w) : void(u = std::max<Wide>(u, n.E_L));
     }
     void step(const FixedAdaptive& n, Word I, Reference& w) {
         a = w.times(n.k_th, a);
-        if (held()) return;
+        if (is_refractory()) return;
         u = std::max<Wide>(w.sat(u + w.times(n.k, I)), n.E_L);
         const Wide theta = w.sat(n.V_th + a);
         if (I > 0 && u > theta) fire(n, theta, w), a = w.sat(a + n.dV_th);
@@ -150,35 +150,35 @@ struct WideNeuron {
 };
 
 template <class N>
-void a_third_of_a_million() {
+void check_neuron_steps() {
     for (int m = 0; m < 333'334; ++m) {
         const int word = static_cast<int>(between(8, 32));
         const WordFormat f{word, static_cast<int>(between(0, word - 1))};
         const auto n = any_neuron<N>(f);
         typename N::State s{};
         s.u = any_word(f), s.wait = between(0, 4) / 4;
-        WideNeuron right{s.u, 0, s.wait};
-        if constexpr (requires { s.a; }) right.a = s.a = any_word(f);
+        WideNeuron expected{s.u, 0, s.wait};
+        if constexpr (requires { s.a; }) expected.a = s.a = any_word(f);
         Arithmetic a{f};
         Reference w{f};
         const Word I = any_word(f);
-        right.step(n, I, w);
+        expected.step(n, I, w);
         const auto fired = n.step(s, I, a);
-        ASSERT_TRUE(s.u == right.u && s.wait == right.wait && fired.spike == right.spike) << N::Traits::name << ' ' << m;
+        ASSERT_TRUE(s.u == expected.u && s.wait == expected.wait && fired.spike == expected.spike) << N::Traits::name << ' ' << m;
         if constexpr (requires { s.a; }) {
-            ASSERT_TRUE(s.a == right.a) << N::Traits::name << ' ' << m;
+            ASSERT_TRUE(s.a == expected.a) << N::Traits::name << ' ' << m;
         }
         ASSERT_EQ(a.overflowed, w.overflows) << N::Traits::name << ' ' << m;
     }
 }
 
-TEST(Fixed, AMillionRandomNeuronsGiveTheWordsOfWideArithmeticAndTellEveryOverflow) {
-    a_third_of_a_million<FixedLifA>();
-    a_third_of_a_million<FixedLifB>();
-    a_third_of_a_million<FixedAdaptive>();
+TEST(FixedPoint, AMillionRandomNeuronStepsGiveTheWordsOfWideArithmeticAndCountEveryOverflow) {
+    check_neuron_steps<FixedLifA>();
+    check_neuron_steps<FixedLifB>();
+    check_neuron_steps<FixedAdaptive>();
 }
 
-TEST(Fixed, AFactorKeepsItsRelativePrecisionWhateverItsSize) {
+TEST(FixedPoint, AFactorKeepsItsRelativePrecisionWhateverItsSize) {
     for (const int word : {8, 13, 24, 32})
         for (double c = 1e-9; c < std::ldexp(1, word - 1) - 1; c *= 1.37) {
             Constants constants({word, 4});
@@ -194,20 +194,20 @@ TEST(Fixed, AFactorKeepsItsRelativePrecisionWhateverItsSize) {
     EXPECT_EQ(tiny.factor("c", 1e-300).shift, 62);
 }
 
-/// What a digital afferent believed, and its membrane; at the converter's rate.
-struct Told {
+/// The force that a digital afferent measured, and its membrane, at the rate of the converter.
+struct DigitalRun {
     std::vector<double> F, u, spikes;
 };
-Told told(const Afferent& a, const std::vector<double>& f, std::string_view membrane) {
+DigitalRun run_digital(const Afferent& a, const std::vector<double>& f, std::string_view membrane) {
     std::vector<std::vector<double>> values(a.probes().size(), std::vector<double>(f.size()));
     std::vector<double*> rows;
     for (auto& v : values) rows.push_back(v.data());
     std::vector<Spike> spikes;
-    ResponseBlock answer{spikes, 0, rows};
+    ResponseBlock response{spikes, 0, rows};
     auto state = a.start();
-    EXPECT_TRUE(a.respond(f, state, answer));
-    EXPECT_EQ(answer.overflowed, 0);
-    Told out;
+    EXPECT_TRUE(a.respond(f, state, response));
+    EXPECT_EQ(response.overflowed, 0);
+    DigitalRun out;
     for (std::size_t p = 0; p < values.size(); ++p) {
         if (a.probes()[p].name == "F_read") out.F = values[p];
         if (a.probes()[p].name == membrane) out.u = values[p];
@@ -216,21 +216,22 @@ Told told(const Afferent& a, const std::vector<double>& f, std::string_view memb
     return out;
 }
 
-TEST(Fixed, WithLongWordsItIsTheSampledChainInDoublePrecision) {
-    for (const std::string inner : {"sa1a+lif-a", "sa1a+lif-b", "sa1b+lif-a", "sa1b+lif-b", "fa1b+lif-a", "fa1b+lif-b", "fa1a+lif-b"}) {
-        const auto name = "adc+" + inner;
-        const auto membrane = inner.starts_with("fa1a") ? "u_+" : "u";
+TEST(FixedPoint, WithLongWordsItIsTheSampledModelInDoublePrecision) {
+    for (const std::string model : {"sa1a+lif-a", "sa1a+lif-b", "sa1b+lif-a", "sa1b+lif-b", "fa1b+lif-a", "fa1b+lif-b", "fa1a+lif-b"}) {
+        const auto name = "adc+" + model;
+        const auto membrane = model.starts_with("fa1a") ? "u_+" : "u";
         const auto f = test::force("press", {.rate = 1e3});
-        const auto words = told(*test::afferent(name, {.settings = {name + ".frac=24", name + ".bits=16"}, .rate = 1e3}), f, membrane);
+        const auto words =
+            run_digital(*test::afferent(name, {.settings = {name + ".frac=24", name + ".bits=16"}, .rate = 1e3}), f, membrane);
         const auto doubles =
-            told(*test::afferent(inner, {.rate = 1e3, .method = Method::backward_euler, .sampled = true}), words.F, membrane);
-        EXPECT_EQ(words.spikes, doubles.spikes) << inner;
-        EXPECT_FALSE(words.spikes.empty()) << inner;
-        for (std::size_t k = 0; k < f.size(); ++k) ASSERT_NEAR(words.u[k], doubles.u[k], 3e-5) << inner << ' ' << k;
+            run_digital(*test::afferent(model, {.rate = 1e3, .method = Method::backward_euler, .sampled = true}), words.F, membrane);
+        EXPECT_EQ(words.spikes, doubles.spikes) << model;
+        EXPECT_FALSE(words.spikes.empty()) << model;
+        for (std::size_t k = 0; k < f.size(); ++k) ASSERT_NEAR(words.u[k], doubles.u[k], 3e-5) << model << ' ' << k;
     }
 }
 
-TEST(Fixed, TheAdaptiveThresholdComesToTheExactOneAsConversionsComeFaster) {
+TEST(FixedPoint, TheAdaptiveThresholdConvergesToTheExactOneAtFasterConversions) {
     const std::string name = "adc+fa1a+adaptive", gain = ".k=200e-9";
     const auto exact = test::train("fa1a+adaptive", "press", {.settings = {"fa1a+adaptive" + gain}, .rate = 100e3});
     double before = INFINITY;
@@ -238,11 +239,11 @@ TEST(Fixed, TheAdaptiveThresholdComesToTheExactOneAsConversionsComeFaster) {
         const auto made =
             test::train(name, "press", {.settings = {name + gain, name + ".bits=16", name + ".f_s=" + std::to_string(f_s)}, .rate = 100e3});
         ASSERT_EQ(made.size(), exact.size()) << f_s;
-        double worst = 0;
-        for (std::size_t k = 0; k < made.size(); ++k) worst = std::max(worst, std::abs(made[k] - exact[k]));
-        EXPECT_LT(worst, 4 / f_s);
-        EXPECT_LT(worst, before / 3);
-        before = worst;
+        double max_error = 0;
+        for (std::size_t k = 0; k < made.size(); ++k) max_error = std::max(max_error, std::abs(made[k] - exact[k]));
+        EXPECT_LT(max_error, 4 / f_s);
+        EXPECT_LT(max_error, before / 3);
+        before = max_error;
     }
 }
 

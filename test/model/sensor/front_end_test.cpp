@@ -1,4 +1,4 @@
-// Sensor and transducers against the golden curve; what an analog front makes of a touch.
+// Sensor and transducers against the golden curve, and the analog front end's measurement of a touch.
 
 #include "model/sensor/front_end.hpp"
 
@@ -33,32 +33,32 @@ TEST(Sensor, FsrAndTransducersGiveTheGoldenCurve) {
     }
 }
 
-TEST(Sensor, WithoutForceOrPulledItShowsOnlyItsRestingConductance) {
+TEST(Sensor, WithoutForceOrPulledItHasItsRestingConductance) {
     for (const double F : {0.0, -1.0, -1e300, 1e-320}) EXPECT_EQ(Fsr::stage({}).curve(F), 1e-7) << F;
     EXPECT_TRUE(std::isfinite(Fsr::stage({.m = 2}).curve(1e300)));
 }
 
-TEST(Sensor, HysteresisReadsFallingForceHighByItsShareAndRisingForceAsItIs) {
+TEST(Sensor, HysteresisReadsFallingForceHighByItsFractionAndRisingForceExactly) {
     const FrontEnd front({Fsr::stage({.hysteresis = 0.1})}, 4);
-    double held = 0;
-    const auto felt = [&](double F) { return held = front.apply_hysteresis(held, F); };
-    EXPECT_EQ(felt(2), 2);
-    EXPECT_EQ(felt(1.9), 2) << "inside the play it stays";
-    EXPECT_DOUBLE_EQ(felt(1), 1.1) << "then it follows, a tenth too high";
-    EXPECT_DOUBLE_EQ(felt(1.05), 1.1);
-    EXPECT_EQ(felt(1.5), 1.5);
-    EXPECT_EQ(felt(0), 0) << "nothing is nothing";
+    double largest_force = 0;
+    const auto apply_hysteresis = [&](double F) { return largest_force = front.apply_hysteresis(largest_force, F); };
+    EXPECT_EQ(apply_hysteresis(2), 2);
+    EXPECT_EQ(apply_hysteresis(1.9), 2) << "inside the play it does not change";
+    EXPECT_DOUBLE_EQ(apply_hysteresis(1), 1.1) << "then it follows, a tenth too high";
+    EXPECT_DOUBLE_EQ(apply_hysteresis(1.05), 1.1);
+    EXPECT_EQ(apply_hysteresis(1.5), 1.5);
+    EXPECT_EQ(apply_hysteresis(0), 0) << "0 N is exact";
     EXPECT_EQ(FrontEnd({Fsr::stage({})}, 4).apply_hysteresis(2, 1.9), 1.9) << "none by default";
 }
 
-TEST(Sensor, HysteresisDoesNotDependOnHowOftenItIsLookedAt) {
+TEST(Sensor, HysteresisDoesNotDependOnTheSamplingRate) {
     EXPECT_TRUE(rc::check("a monotone ramp, at its end alone or all along", [] {
-        const double h = *rc::gen::inRange(0, 100) / 100.0, held = *rc::gen::inRange(0, 1000) / 100.0,
-                     from = held / (1 + *rc::gen::inRange(0, 100) / 100.0 * h), to = *rc::gen::inRange(0, 1000) / 100.0;
+        const double h = *rc::gen::inRange(0, 100) / 100.0, largest_force = *rc::gen::inRange(0, 1000) / 100.0,
+                     from = largest_force / (1 + *rc::gen::inRange(0, 100) / 100.0 * h), to = *rc::gen::inRange(0, 1000) / 100.0;
         const FrontEnd front({Fsr::stage({.hysteresis = h})}, 4);
-        double all_along = held;
+        double all_along = largest_force;
         for (int k = 1; k <= 10; ++k) all_along = front.apply_hysteresis(all_along, k == 10 ? to : from + (to - from) * k / 10);
-        RC_ASSERT(std::abs(all_along - front.apply_hysteresis(held, to)) < 1e-12);
+        RC_ASSERT(std::abs(all_along - front.apply_hysteresis(largest_force, to)) < 1e-12);
     }));
 }
 
@@ -72,26 +72,26 @@ TEST(FrontEnd, CalibrationIsExactAtNoForceAndAtItsOwn) {
     }
 }
 
-/// What each probe shows over a stimulus.
-std::map<std::string, std::vector<double>> shown(const Afferent& a, const std::vector<double>& f, ResponseBlock& answer) {
+/// The values of each probe over a stimulus.
+std::map<std::string, std::vector<double>> probe_values(const Afferent& a, const std::vector<double>& f, ResponseBlock& response) {
     std::vector<std::vector<double>> values(a.probes().size(), std::vector<double>(f.size()));
     std::vector<double*> rows;
     for (auto& v : values) rows.push_back(v.data());
-    ResponseBlock mine{answer.spikes, 0, rows};
+    ResponseBlock overrides{response.spikes, 0, rows};
     auto state = a.start();
-    if (auto ok = a.respond(f, state, mine); !ok) throw std::runtime_error(ok.error().text());
-    answer.truncated_steps = mine.truncated_steps, answer.saturated = mine.saturated, answer.overflowed = mine.overflowed;
+    if (auto ok = a.respond(f, state, overrides); !ok) throw std::runtime_error(ok.error().text());
+    response.truncated_steps = overrides.truncated_steps, response.saturated = overrides.saturated, response.overflowed = overrides.overflowed;
     std::map<std::string, std::vector<double>> out;
     for (std::size_t p = 0; p < values.size(); ++p) out[std::string(a.probes()[p].name)] = values[p];
     return out;
 }
 
-TEST(FrontEndAfferent, AnswersTheForceItsCalibrationBelievesAndShowsTheWayThere) {
+TEST(FrontEndAfferent, RespondsToTheCalibratedForceAndRecordsTheStagesBefore) {
     std::vector<Spike> fronted, plain;
-    ResponseBlock answer{fronted}, direct{plain};
+    ResponseBlock response{fronted}, direct{plain};
     const auto f = test::force("press");
-    const auto inside = shown(*test::afferent("fsr+f2v+sa1"), f, answer);
-    const auto bare = shown(*test::afferent("sa1"), inside.at("F_read"), direct);
+    const auto inside = probe_values(*test::afferent("fsr+f2v+sa1"), f, response);
+    const auto bare = probe_values(*test::afferent("sa1"), inside.at("F_read"), direct);
     EXPECT_EQ(fronted, plain);
     EXPECT_EQ(inside.at("u"), bare.at("u"));
     const Fsr::Params fsr;
@@ -100,23 +100,23 @@ TEST(FrontEndAfferent, AnswersTheForceItsCalibrationBelievesAndShowsTheWayThere)
         EXPECT_EQ(inside.at("V_Z")[k], F2v_at(inside.at("G_FSR")[k]));
     }
     EXPECT_EQ(inside.at("F_read")[5000], 4) << "the plateau is where it was calibrated";
-    EXPECT_EQ(answer.saturated, 0);
+    EXPECT_EQ(response.saturated, 0);
 }
 
-TEST(FrontEndAfferent, EverySampleBeyondTheSupplyIsClippedAndCounted) {
+TEST(FrontEndAfferent, EverySampleBeyondTheSupplySaturatesAndIsCounted) {
     std::vector<Spike> spikes;
-    ResponseBlock answer{spikes};
+    ResponseBlock response{spikes};
     std::vector<double> f(1000, 1.0);
     std::fill(f.begin() + 100, f.begin() + 137, 9.0);
-    const auto inside = shown(*test::afferent("fsr+f2v+sa1"), f, answer);
-    EXPECT_EQ(answer.saturated, 37);
+    const auto inside = probe_values(*test::afferent("fsr+f2v+sa1"), f, response);
+    EXPECT_EQ(response.saturated, 37);
     EXPECT_EQ(inside.at("V_Z")[120], 0.7);
-    const auto current = shown(*test::afferent("fsr+f2i+sa1", {.settings = {"fsr+f2i+sa1.I_max=3uA"}}), f, answer);
-    EXPECT_EQ(answer.saturated, 37);
+    const auto current = probe_values(*test::afferent("fsr+f2i+sa1", {.settings = {"fsr+f2i+sa1.I_max=3uA"}}), f, response);
+    EXPECT_EQ(response.saturated, 37);
     EXPECT_EQ(current.at("I_F")[120], 3e-6);
 }
 
-TEST(Parts, WrongOrUnknownPartsAreRefusedWithWhatIsRight) {
+TEST(AfferentComponents, WrongOrUnknownComponentsAreRefusedWithASuggestion) {
     const std::pair<const char*, const char*> cases[] = {
         {"adc+fsr+sa1",
          "adc+fsr+sa1: 'fsr' is in the wrong place; the signal goes through a sensor (fsr), a transducer (f2v, f2i), a converter (adc), "
@@ -133,14 +133,14 @@ TEST(Parts, WrongOrUnknownPartsAreRefusedWithWhatIsRight) {
         {"adc+fa2",
          "adc+fa2: vibration+lif-b has no fixed-point version; adc can be followed by sa1a, sa1b, fa1a, fa1b with lif-a, lif-b, adaptive"},
     };
-    for (const auto& [text, said] : cases) EXPECT_EQ(plan_afferent(text, {}).error().message, said);
+    for (const auto& [text, message] : cases) EXPECT_EQ(plan_afferent(text, {}).error().message, message);
 }
 
-TEST(Parts, NamesOfAnyCaseMeanTheSameAndSettingsFindThem) {
+TEST(AfferentComponents, NamesOfAnyCaseMeanTheSameAndSettingsFindThem) {
     EXPECT_EQ(test::value_or_throw(plan_afferent("FSR+f2i+RA", {})).name, "fsr+f2i+fa1");
     for (const auto* of : {"fsr+f2i+fa1", "FSR+f2i+RA"}) {
-        const auto mine = test::parse_settings({std::string(of) + ".f=3Hz", std::string(of) + ".F_cal=2N"});
-        const auto plan = test::value_or_throw(plan_afferent("FSR+f2i+RA", mine));
+        const auto overrides = test::parse_settings({std::string(of) + ".f=3Hz", std::string(of) + ".F_cal=2N"});
+        const auto plan = test::value_or_throw(plan_afferent("FSR+f2i+RA", overrides));
         EXPECT_EQ(plan.value("f"), 3);
         EXPECT_EQ(plan.value("F_cal"), 2);
         EXPECT_EQ(plan.value("I_leak0"), 1e-6) << "fa1's own";
@@ -148,7 +148,7 @@ TEST(Parts, NamesOfAnyCaseMeanTheSameAndSettingsFindThem) {
     EXPECT_EQ(test::value_or_throw(plan_afferent("sa1-kim", {})).composition(), "fsr+f2v+adc+sa1a+lif-a");
 }
 
-TEST(Parts, AFrontThatCannotMeasureItsOwnRangeIsRefused) {
+TEST(AfferentComponents, AFrontEndThatCannotMeasureItsOwnRangeIsRefused) {
     const std::pair<std::string, std::string> cases[] = {
         {"fsr+f2v+sa1.F_cal=8N", "fsr+f2v+sa1: at F_cal = 8 N V_Z would be 0.8344 V, above V_DD = 0.7 V; lower R_fb or F_cal"},
         {"sa1-kim.F_high=7N", "sa1-kim: at F_high = 7 N V_Z would be 0.7671 V, above V_DD = 0.7 V; lower R_fb or F_high"},
@@ -160,12 +160,12 @@ TEST(Parts, AFrontThatCannotMeasureItsOwnRangeIsRefused) {
          "word, or "
          "lower frac"},
     };
-    for (const auto& [setting, said] : cases) {
-        const auto mine = test::parse_settings({setting});
-        EXPECT_EQ(plan_afferent(mine[0].target, mine).error().message, said);
+    for (const auto& [setting, message] : cases) {
+        const auto overrides = test::parse_settings({setting});
+        EXPECT_EQ(plan_afferent(overrides[0].target, overrides).error().message, message);
     }
-    const auto unfelt = test::parse_settings({"fsr+sa1.F_cal=1uN", "fsr+sa1.m=2", "fsr+sa1.R_1gf=1e12", "fsr+sa1.R_0=1"});
-    EXPECT_EQ(plan_afferent("fsr+sa1", unfelt).error().message,
+    const auto undetectable = test::parse_settings({"fsr+sa1.F_cal=1uN", "fsr+sa1.m=2", "fsr+sa1.R_1gf=1e12", "fsr+sa1.R_0=1"});
+    EXPECT_EQ(plan_afferent("fsr+sa1", undetectable).error().message,
               "fsr+sa1: F_cal = 1e-06 N gives the same reading as 0 N with this sensor; raise F_cal");
 }
 

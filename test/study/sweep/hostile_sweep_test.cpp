@@ -1,4 +1,4 @@
-// Sweep and population files that ask for too much: each is refused with the place, the limit and what would be right.
+// Sweep and population files that request too much are refused, with the location, the limit and the remedy.
 
 #include <gtest/gtest.h>
 
@@ -32,7 +32,7 @@ TEST(HostileSweep, KeysAndValuesNestedTooDeepAreRefusedBeforeTheyAreParsed) {
     EXPECT_EQ(refusal_of_text("set = " + repeated("{a=", 100'000)), "s.toml:1:199: lists and tables are nested more than 64 deep");
 }
 
-TEST(HostileSweep, DotsAndBracketsInTextsNumbersAndCommentsAreNoNesting) {
+TEST(HostileSweep, DotsAndBracketsInTextsNumbersAndCommentsAreNotNesting) {
     const auto many = repeated(".", 200) + repeated("[", 200);
     std::string numbers = "traces = [";
     for (int k = 0; k < 500; ++k) numbers += fmt::format("{}{}.5", k ? ", " : "", k);
@@ -41,7 +41,7 @@ TEST(HostileSweep, DotsAndBracketsInTextsNumbersAndCommentsAreNoNesting) {
               "");
 }
 
-TEST(HostileSweep, ProgramsDoNotDieOfSuchFiles) {
+TEST(HostileSweep, ProgramsDoNotCrashOnSuchFiles) {
     const TemporaryFolder folder;
     folder.write("s.toml", "set" + repeated(".a", 100'000) + " = 1\n");
     EXPECT_EQ(run_program(folder, "sweep s.toml --out r.sqlite").status, 1);

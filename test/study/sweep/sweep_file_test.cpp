@@ -1,4 +1,4 @@
-// Sweep files: what is drawn, that a unit is the same whoever runs it and however it is asked for, and what is refused, and where.
+// Sweep files: sampled values, errors with their location, and results that do not depend on threads, processes or order.
 
 #include <gtest/gtest.h>
 
@@ -21,8 +21,8 @@ namespace {
 using sweeps::Sampling;
 using sweeps::UniformNumbers;
 
-/// What is said of a sweep in a folder of the test's own.
-class Written {
+/// A sweep file in a temporary folder, with the files beside it.
+class SweepFolder {
     test::TemporaryFolder folder_;
 
 public:
@@ -34,31 +34,31 @@ public:
     std::unique_ptr<Sweep> sweep(const std::string& text, const std::string& name = "x.toml") const {
         return test::value_or_throw(read_sweep(put(name, text)));
     }
-    /// "3:8: what is wrong"
+    /// "3:8: message"
     std::string refusal(const std::string& text) const {
         const auto read = read_sweep(put("x.toml", text));
         if (read) return "";
-        auto said = read.error().text();
-        if (const auto at = said.find("x.toml:"); at != std::string::npos) said = said.substr(at + 7);
-        return said;
+        auto message = read.error().text();
+        if (const auto at = message.find("x.toml:"); at != std::string::npos) message = message.substr(at + 7);
+        return message;
     }
 };
 
 using Outcomes = std::map<std::int64_t, ItemOutcome>;
 
-/// These units, one call.
-Outcomes worked(const Sweep& sweep, std::vector<std::int64_t> units) {
+/// The outcomes of these items, in one call.
+Outcomes run_items(const Sweep& sweep, std::vector<std::int64_t> items) {
     Outcomes out;
     std::size_t at = 0;
-    const auto next = [&]() -> std::optional<std::int64_t> { return at < units.size() ? std::optional(units[at++]) : std::nullopt; };
+    const auto next = [&]() -> std::optional<std::int64_t> { return at < items.size() ? std::optional(items[at++]) : std::nullopt; };
     const auto done = sweep.run_items(next, [&](ItemOutcome&& o) { out[o.item] = std::move(o); }, [] { return false; });
     EXPECT_TRUE(done) << done.error().text();
     return out;
 }
-Outcomes worked(const Sweep& sweep) {
+Outcomes run_items(const Sweep& sweep) {
     std::vector<std::int64_t> all(static_cast<std::size_t>(sweep.item_count()));
     std::iota(all.begin(), all.end(), 0);
-    return worked(sweep, all);
+    return run_items(sweep, all);
 }
 
 template <class T>
@@ -67,20 +67,20 @@ void expect_same_bytes(const std::vector<T>& a, const std::vector<T>& b) {
     EXPECT_TRUE(a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
 }
 
-/// In order, and backwards in several calls.
-void expect_the_same_whoever_runs(const Sweep& sweep) {
-    const auto forth = worked(sweep);
-    ASSERT_EQ(forth.size(), static_cast<std::size_t>(sweep.item_count()));
+/// In order, and in reverse order in several calls.
+void expect_the_same_in_any_order(const Sweep& sweep) {
+    const auto forward = run_items(sweep);
+    ASSERT_EQ(forward.size(), static_cast<std::size_t>(sweep.item_count()));
     Outcomes back;
     for (auto to = sweep.item_count(); to > 0;) {
         const auto from = std::max<std::int64_t>(to - 3, 0);
         std::vector<std::int64_t> few;
         for (auto u = to; u-- > from;) few.push_back(u);
-        back.merge(worked(sweep, few));
+        back.merge(run_items(sweep, few));
         to = from;
     }
-    for (const auto& [unit, one] : forth) {
-        const auto& other = back.at(unit);
+    for (const auto& [item, one] : forward) {
+        const auto& other = back.at(item);
         EXPECT_EQ(one.end, other.end);
         expect_same_bytes(one.measures, other.measures);
         ASSERT_EQ(one.spikes.size(), other.spikes.size());
@@ -89,7 +89,7 @@ void expect_the_same_whoever_runs(const Sweep& sweep) {
     }
 }
 
-TEST(Sampling, ALatinHypercubeHasOneDrawInEachStratum) {
+TEST(Sampling, ALatinHypercubeHasOneSampleInEachStratum) {
     for (const std::uint64_t n : {1, 2, 7, 64, 1000}) {
         const UniformNumbers one(Sampling::latin, 5, "a", 0, n), other(Sampling::latin, 5, "b", 0, n);
         std::set<std::uint64_t> strata;
@@ -102,7 +102,7 @@ TEST(Sampling, ALatinHypercubeHasOneDrawInEachStratum) {
             alike = alike && static_cast<int>(u * 7) == static_cast<int>(other.at(k) * 7);
         }
         EXPECT_EQ(strata.size(), n);
-        EXPECT_TRUE(n <= 2 || !alike) << "two axes go hand in hand";
+        EXPECT_TRUE(n <= 2 || !alike) << "two axes are correlated";
     }
 }
 
@@ -120,7 +120,8 @@ TEST(Sampling, SobolsPointsAreThoseOfJoeAndKuo) {
         for (std::uint32_t k = 0; k < 8; ++k) EXPECT_EQ(sweeps::sobol_point(v, k) * 0x1p-32, printed[k][d]) << k << " " << d;
     }
     std::set<std::vector<std::uint32_t>> kinds;
-    for (std::size_t d = 0; d < sweeps::sobol_dimensions; ++d) {  // each 256 points hit each 256th once, and no two dimensions are alike
+    // Every 256 points have one in each 256th part, and no two dimensions are alike.
+    for (std::size_t d = 0; d < sweeps::sobol_dimensions; ++d) {
         const auto v = sweeps::sobol_directions(d);
         std::set<std::uint32_t> strata;
         std::vector<std::uint32_t> points;
@@ -134,22 +135,23 @@ TEST(Sampling, NormalDeviatesHaveTheirMomentsAndTheirTails) {
     EXPECT_NEAR(sweeps::normal_quantile(0.975), 1.959963984540054, 1e-14);
     EXPECT_NEAR(sweeps::normal_quantile(1e-10), -6.361340902404056, 1e-13);
     EXPECT_NEAR(sweeps::normal_probability(-1), 0.15865525393145707, 1e-15);
-    for (const auto how : {Sampling::random, Sampling::latin, Sampling::sobol}) {
-        const UniformNumbers u(how, 3, "f_B", 4, 20000);
+    for (const auto sampling : {Sampling::random, Sampling::latin, Sampling::sobol}) {
+        const UniformNumbers u(sampling, 3, "f_B", 4, 20000);
         double sum = 0, squares = 0, fourth = 0;
         for (std::uint64_t k = 0; k < 20000; ++k) {
             const double x = sweeps::normal_quantile(u.at(k));
             sum += x / 20000, squares += x * x / 20000, fourth += x * x * x * x / 20000;
         }
-        const double most = how == Sampling::random ? 4 : 0.2;  // of 20000 draws' own deviation, 0.007; the others are more even
-        EXPECT_NEAR(sum, 0, most * 0.0071);
-        EXPECT_NEAR(squares, 1, most * 0.01);
-        EXPECT_NEAR(fourth, 3, most * 0.07 + 0.02);
+        // A multiple of 0.007, the deviation over 20000 random samples; the other sequences are more even.
+        const double limit = sampling == Sampling::random ? 4 : 0.2;
+        EXPECT_NEAR(sum, 0, limit * 0.0071);
+        EXPECT_NEAR(squares, 1, limit * 0.01);
+        EXPECT_NEAR(fourth, 3, limit * 0.07 + 0.02);
     }
 }
 
-TEST(SweepFile, ANormalAxisKeepsToItsLimitsAndTheSameDrawIsTheSameAtEachPoint) {
-    const Written w;
+TEST(SweepFile, ANormalAxisKeepsItsLimitsAndHasTheSameSamplesAtEachPoint) {
+    const SweepFolder w;
     const auto s = w.sweep(
         "afferent = 'sa1'\nunits = 200\nseed = 9\n[[vary]]\nwhat = 'press.F_max'\nlist = ['1N', 2]\n[[vary]]\nwhat = 'f_B'\nmean = "
         "'20Hz'\nsigma = '50%'\nat_least = '15Hz'\nat_most = '26Hz'\n");
@@ -173,8 +175,8 @@ constexpr const char* stepped =
     "m1 g g d d pch w=6u l=0.5u m=2 stack=8\nm2 o g d d pch w=6u l=0.5u m=2 stack=8\nr1 o 0 {r*1k}\n.op\n.meas op out find v(o)\n"
     ".step param r list 1k 1.5k\n.step temp -40 85 62.5\n.mc 3 seed=11\n.end\n";
 
-/// What `corpuscle run` finds, variant by variant.
-std::vector<double> ran(const std::string& path) {
+/// The measurements of `corpuscle run`, variant by variant.
+std::vector<double> measured_values(const std::string& path) {
     auto variants = test::value_or_throw(circuit::NetlistVariants::create(test::value_or_throw(circuit::Netlist::read(path))));
     std::vector<double> out;
     std::unique_ptr<circuit::AnalysisContext> bench;
@@ -189,16 +191,16 @@ std::vector<double> ran(const std::string& path) {
 
 std::vector<double> first_measures(const Sweep& sweep) {
     std::vector<double> out;
-    for (const auto& [unit, o] : worked(sweep)) out.push_back(o.measures.at(0));
+    for (const auto& [item, o] : run_items(sweep)) out.push_back(o.measures.at(0));
     return out;
 }
 
 TEST(SweepFile, AStepAndMcOfANetlistMeanTheSameChipsAsTheFileDoes) {
-    const Written w;
+    const SweepFolder w;
     std::filesystem::create_directories(w.path("process")), std::filesystem::create_directories(w.path("mine"));
-    w.put("process/tsmc180.lib", test::read_file(test::project_root() + "/process/tsmc180.lib"));
+    w.put("process/tsmc180.lib", test::read_file(test::source_root() + "/process/tsmc180.lib"));
     const auto path = w.put("mine/x.cir", stepped);
-    const auto expected = ran(path);
+    const auto expected = measured_values(path);
     ASSERT_EQ(expected.size(), 18u);
     EXPECT_EQ(std::set<double>(expected.begin(), expected.end()).size(), 18u);
     const auto of_netlist = test::value_or_throw(read_sweep(path));
@@ -212,7 +214,7 @@ TEST(SweepFile, AStepAndMcOfANetlistMeanTheSameChipsAsTheFileDoes) {
                                 "[[vary]]\nwhat = 'temp'\nfrom = -40\nto = '85C'\ncount = 3\n[[vary]]\nwhat = 'process'\n"
                                 "[[vary]]\nwhat = 'mismatch'\n")),
         expected);
-    // What the file says goes before what the netlist says, word by word.
+    // Settings of the sweep file override the netlist's, parameter by parameter.
     const auto fewer = w.sweep("netlist = 'mine/x.cir'\nunits = 2\n[[vary]]\nwhat = 'temp'\nlist = [85]\n");
     expect_same_bytes(first_measures(*fewer), std::vector<double>{expected[6], expected[7], expected[15], expected[16]});
     for (const auto& f : fewer->metadata()) {
@@ -221,62 +223,62 @@ TEST(SweepFile, AStepAndMcOfANetlistMeanTheSameChipsAsTheFileDoes) {
     }
 }
 
-TEST(SweepFile, AUnitIsTheSameWhoeverRunsItAndWhateverRanBefore) {
-    const Written w;
-    expect_the_same_whoever_runs(
+TEST(SweepFile, AnItemDoesNotDependOnItsProcessOrTheItemsBefore) {
+    const SweepFolder w;
+    expect_the_same_in_any_order(
         *w.sweep("netlist = 'circuits/quiescent.cir'\nunits = 40\nmeasures = ['v(qa)', 'i(visa)']\nset.corner = 'mc'\n"
                  "[[vary]]\nwhat = 'process'\n[[vary]]\nwhat = 'mismatch'\n"));
-    expect_the_same_whoever_runs(
+    expect_the_same_in_any_order(
         *w.sweep("afferent = 'sa1'\nunits = 100\n[[vary]]\nwhat = 'f_B'\nsigma = '5%'\nhow = 'latin'\n[[vary]]\n"
                  "what = 'press.t_hold'\nhow = 'uniform'\nfrom = '0.1s'\nto = '0.3s'\n"));
-    expect_the_same_whoever_runs(
+    expect_the_same_in_any_order(
         *w.sweep("afferent = 'fsr+sa1'\nunits = 4\ntraces = ['u']\nevery = '10ms'\n[[vary]]\nwhat = 'f_B'\nsigma = '5%'\n"));
 }
 
-TEST(SweepFile, UnitsOnLanesAnswerAsOneAfferentAloneDoes) {
-    const Written w;
+TEST(SweepFile, ItemsOnLanesRespondAsScalarAfferentsDo) {
+    const SweepFolder w;
     const auto s =
         w.sweep("afferent = 'sa1'\nunits = 70\n[[vary]]\nwhat = 'sa1.f_B'\nsigma = '10%'\n[[vary]]\nwhat = 'press.F_max'\nlist = [1, 3]\n");
-    const auto all = worked(*s);
-    for (const std::int64_t unit : {0, 69, 70, 139}) {
-        const auto values = s->values(unit);
+    const auto all = run_items(*s);
+    for (const std::int64_t item : {0, 69, 70, 139}) {
+        const auto values = s->values(item);
         const auto expected =
             test::train("sa1", "press", {{fmt::format("sa1.f_B={}", values[0]), fmt::format("press.F_max={}", values[1])}});
-        expect_same_bytes(all.at(unit).spikes.at(0), expected);
-        EXPECT_EQ(all.at(unit).measures.at(0), static_cast<double>(expected.size()));
+        expect_same_bytes(all.at(item).spikes.at(0), expected);
+        EXPECT_EQ(all.at(item).measures.at(0), static_cast<double>(expected.size()));
     }
 }
 
-TEST(SweepFile, ChipsOfANetlistDrawAlikeWithinAndWithoutADesignOfTheirOwn) {
-    const Written w;
+TEST(SweepFile, ChipsOfANetlistHaveTheSameSamplesInEveryDesign) {
+    const SweepFolder w;
     const std::string chip =
         "A relaxer\n.lib '../process/tsmc180.lib' tt\n.param c=10n\niin 0 a dc 0.1u force 1u\nca a 0 {c}\n"
         "b1 a 0 i={1m*v(a)*0.5*(1+tanh((v(s)-0.5)*20))}\nb2 t 0 v={0.5*(1+tanh((v(a)-1+0.8*v(s))*20))}\nr2 t s 1k\n"
         "c2 s 0 10n\nm1 a 0 0 0 nch w=50u l=1u\n.spike v(s) 0.5\n.tran 1m 1 0 5m uic\n.end\n";
     std::filesystem::create_directories(w.path("process")), std::filesystem::create_directories(w.path("mine"));
-    w.put("process/tsmc180.lib", test::read_file(test::project_root() + "/process/tsmc180.lib"));
+    w.put("process/tsmc180.lib", test::read_file(test::source_root() + "/process/tsmc180.lib"));
     w.put("mine/x.cir", chip);
     const std::string head =
         "afferent = 'mine/x.cir'\nforce = 'step'\nrate = '1kHz'\nunits = 3\ntraces = ['a']\n"
         "measures = ['spikes', 'spikes.hold', 'first_spike', 'power']\n[set]\nstep.t_rest = '10ms'\nstep.t_hold = '50ms'\n"
         "step.t_post = '10ms'\n[[vary]]\nwhat = 'mismatch'\n";
     const auto plain = w.sweep(head), wider = w.sweep(head + "[[vary]]\nwhat = 'c'\nlist = ['10nF', '20nF']\n");
-    const auto one = worked(*plain), more = worked(*wider);
-    for (std::int64_t unit = 0; unit < 3; ++unit) {
-        ASSERT_GT(one.at(unit).spikes.at(0).size(), 3u) << one.at(unit).reason;
-        expect_same_bytes(one.at(unit).spikes[0], more.at(unit).spikes.at(0));
-        expect_same_bytes(one.at(unit).measures, more.at(unit).measures);
-        EXPECT_LT(more.at(3 + unit).spikes.at(0).size(), one.at(unit).spikes[0].size());
-        EXPECT_EQ(one.at(unit).probes.at(0).size(), plain->probe_times().size());
+    const auto one = run_items(*plain), more = run_items(*wider);
+    for (std::int64_t item = 0; item < 3; ++item) {
+        ASSERT_GT(one.at(item).spikes.at(0).size(), 3u) << one.at(item).reason;
+        expect_same_bytes(one.at(item).spikes[0], more.at(item).spikes.at(0));
+        expect_same_bytes(one.at(item).measures, more.at(item).measures);
+        EXPECT_LT(more.at(3 + item).spikes.at(0).size(), one.at(item).spikes[0].size());
+        EXPECT_EQ(one.at(item).probes.at(0).size(), plain->probe_times().size());
     }
     EXPECT_NE(one.at(0).spikes[0], one.at(1).spikes[0]);
-    EXPECT_EQ(worked(*w.sweep("iterations = 20\n" + head)).at(2).end, ItemEnd::iteration_limit);
+    EXPECT_EQ(run_items(*w.sweep("iterations = 20\n" + head)).at(2).end, ItemEnd::iteration_limit);
     EXPECT_EQ(plain->metadata().back().name, "drawn");
-    expect_the_same_whoever_runs(*wider);
+    expect_the_same_in_any_order(*wider);
 }
 
-TEST(SweepFile, ALimitIsTwoNumbersOrWhatAModelSaysUnderTheSameForce) {
-    const Written w;
+TEST(SweepFile, ALimitIsTwoNumbersOrTheModelsMeasureUnderTheSameForce) {
+    const SweepFolder w;
     const auto s = w.sweep(
         "afferent = 'sa1b+lif-b'\nmeasures = ['first_spike']\n[limits]\nspikes = {like = 'sa1', within = 3}\nfirst_spike = "
         "{at_most = '320ms'}\npeak_rate.plateau = ['1Hz', '1kHz']\nlast_spike = {like = 'sa1', within = '10%'}\n");
@@ -292,8 +294,8 @@ TEST(SweepFile, ALimitIsTwoNumbersOrWhatAModelSaysUnderTheSameForce) {
     EXPECT_DOUBLE_EQ(*columns.at("last_spike").min, 0.9 * model.back());
 }
 
-TEST(SweepFile, ErrorsSayWhereAndWhatWouldBeRight) {
-    const Written w;
+TEST(SweepFile, ErrorsGiveTheLocationAndTheRemedy) {
+    const SweepFolder w;
     const std::pair<const char*, const char*> wrong[] = {
         {"afferent = 'sa1'\nunit = 3\n[[vari]]\n", "3:3: there is no 'vari'; did you mean 'vary'?"},
         {"afferent = sa1\n", "1:12: "},
@@ -332,13 +334,13 @@ TEST(SweepFile, ErrorsSayWhereAndWhatWouldBeRight) {
         {"netlist = 'circuits/bias.cir'\nunits = 2\nset.mismatch = 7\n[[vary]]\nwhat = 'mismatch'\n", "[set] selects one chip"},
     };
     for (const auto& [text, expected] : wrong) {
-        const auto said = w.refusal(text);
-        EXPECT_NE(said.find(expected), std::string::npos) << text << "\n  says  " << said << "\n  not   " << expected;
+        const auto message = w.refusal(text);
+        EXPECT_NE(message.find(expected), std::string::npos) << text << "\n  says  " << message << "\n  not   " << expected;
     }
 }
 
-TEST(SweepFile, WhatIsLaidOutOtherwiseIsTheSameSweep) {
-    const Written w;
+TEST(SweepFile, TheLayoutOfTheTextDoesNotMatter) {
+    const SweepFolder w;
     const auto a = w.sweep("# one\nunits = 3\nafferent = 'sa1'\n[set]\n'press.F_max' = 2\n[[vary]]\nwhat = 'f_B'\nsigma = '5%'\n");
     const auto b =
         w.sweep("afferent   = \"sa1\"  # two\nunits = 3\nset = {'press.F_max' = 2}\n\n[[vary]]\nsigma = '5%'\nwhat = 'f_B'\n", "y.toml");
@@ -348,16 +350,16 @@ TEST(SweepFile, WhatIsLaidOutOtherwiseIsTheSameSweep) {
     EXPECT_NE(a->metadata().at(2).text, c->metadata().at(2).text);
 }
 
-/// The examples, with few units.
+/// The examples, with few items.
 TEST(SweepFile, TheExamplesRun) {
-    const Written w;
+    const SweepFolder w;
     int count = 0;
-    for (const auto& file : std::filesystem::directory_iterator(test::project_root() + "/examples/sweeps")) {
-        const auto whole = test::read_file(file.path().string());
+    for (const auto& file : std::filesystem::directory_iterator(test::source_root() + "/examples/sweeps")) {
+        const auto complete = test::read_file(file.path().string());
         EXPECT_GT(test::value_or_throw(read_sweep(file.path().string()))->item_count(), 50);
-        const auto s = w.sweep(std::regex_replace(whole, std::regex("units( *)= [0-9]+"), "units = 2"));
-        const auto all = worked(*s, {0, s->item_count() - 1});
-        for (const auto& [unit, o] : all) {
+        const auto s = w.sweep(std::regex_replace(complete, std::regex("units( *)= [0-9]+"), "units = 2"));
+        const auto all = run_items(*s, {0, s->item_count() - 1});
+        for (const auto& [item, o] : all) {
             EXPECT_EQ(o.end, ItemEnd::done) << file.path() << o.reason;
             EXPECT_TRUE(std::isfinite(o.measures.at(0))) << file.path();
         }

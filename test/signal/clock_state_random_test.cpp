@@ -1,4 +1,4 @@
-// Clocks, spikes, saved states, random numbers: the nouns that others rest on.
+// Clocks, spikes, saved states, random numbers: the basic types of the library.
 
 #include "support/property.hpp"
 
@@ -28,11 +28,11 @@ TEST(Clock, TimesOfALongRunAreNotAccumulated) {
     EXPECT_EQ(c.time(11, 0.5), 2.5 + 10.5 / 10e3);
 }
 
-TEST(Clock, RefusesRatesThatAreNone) {
+TEST(Clock, RefusesInvalidRates) {
     for (const double rate : {0.0, -1.0, 1e13, std::nan("")}) EXPECT_FALSE(make_clock(rate)) << rate;
 }
 
-TEST(Spike, IsOrderedByTimeThenUnit) {
+TEST(Spike, IsOrderedByTimeThenAfferent) {
     EXPECT_LT((Spike{3, 0.9, 7}), (Spike{4, 0.1, 0}));
     EXPECT_LT((Spike{4, 0.1, 7}), (Spike{4, 0.2, 0}));
     EXPECT_LT((Spike{4, 0.1, 0}), (Spike{4, 0.1, 1}));
@@ -69,7 +69,7 @@ TEST(State, AFlippedBitIsFound) {
     }
 }
 
-TEST(State, OneOfTheVersionBeforeIsReadAndOneOfALaterVersionIsRefused) {
+TEST(State, ThePreviousVersionIsReadAndALaterOneRefused) {
     auto bytes = pack({"sa1b+lif-b/1", 5, {1, 2, 3}});
     bytes[6] = std::byte{'3'};
     const auto later = unpack(bytes);
@@ -82,7 +82,7 @@ TEST(State, OneOfTheVersionBeforeIsReadAndOneOfALaterVersionIsRefused) {
     EXPECT_EQ(before->values, (std::vector<double>{1, 2, 3}));
 }
 
-TEST(RandomDevice, PhiloxGivesThePublishedWords) {  // known answers of Random123, kat_vectors
+TEST(RandomDevice, PhiloxGivesThePublishedNumbers) {  // test vectors of Random123, kat_vectors
     EXPECT_EQ(philox({0, 0, 0, 0}, 0), (PhiloxCounter{0x6627e8d5, 0xe169c58d, 0xbc57ac4c, 0x9b00dbd8}));
     EXPECT_EQ(philox({~0U, ~0U, ~0U, ~0U}, ~0ULL), (PhiloxCounter{0x408f276d, 0x41c83b0e, 0xa20bc7c6, 0x6d5451fd}));
     EXPECT_EQ(philox({0x243f6a88, 0x85a308d3, 0x13198a2e, 0x03707344}, 0x299f31d0a4093822),

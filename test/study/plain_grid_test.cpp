@@ -1,4 +1,4 @@
-// A sweep over a plain grid tells what every axis does, and nothing that only chance would need.
+// A sweep over a plain grid reports the effect of every axis, and no statistics that only make sense for random samples.
 
 #include "study/sweep/grid.hpp"
 
@@ -31,22 +31,22 @@ what = "sa1.f_B"
 list = ["20Hz", "40Hz", "80Hz"]
 )";
 
-/// z = 10 x + y over x in 0 ... 3, y in 0 ... 2; the last unit has none.
+/// z = 10 x + y over x in 0 ... 3, y in 0 ... 2; the last item has no value.
 SweepTable made_grid() {
     SweepTable out;
     out.item_count = 12, out.is_grid = true;
     out.axes = {{"x", "V"}, {"kind", "", "", {"a", "b", "c"}}}, out.measures = {{"z", ""}};
     out.axis_values.resize(2), out.measure_values.resize(1);
-    for (int unit = 0; unit < 12; ++unit) {
-        out.items.push_back(unit), out.ends.push_back(unit == 11 ? ItemEnd::diverged : ItemEnd::done);
-        out.axis_values[0].push_back(unit / 3), out.axis_values[1].push_back(unit % 3);
-        out.measure_values[0].push_back(unit == 11 ? std::nan("") : 10.0 * (unit / 3) + unit % 3);
+    for (int item = 0; item < 12; ++item) {
+        out.items.push_back(item), out.ends.push_back(item == 11 ? ItemEnd::diverged : ItemEnd::done);
+        out.axis_values[0].push_back(item / 3), out.axis_values[1].push_back(item % 3);
+        out.measure_values[0].push_back(item == 11 ? std::nan("") : 10.0 * (item / 3) + item % 3);
     }
     out.points = {{0, 1, 2, 3}, {0, 1, 2}};
     return out;
 }
 
-TEST(PlainGrid, EffectsAreTheMeansAtEachValueAndTheirShareOfTheVariance) {
+TEST(PlainGrid, EffectsAreTheMeansAtEachValueAndTheirFractionOfTheVariance) {
     auto table = made_grid();
     table.measure_values[0][11] = 32, table.ends[11] = ItemEnd::done;
     const auto effects = axis_effects(table, table.measure_values[0]);
@@ -60,7 +60,7 @@ TEST(PlainGrid, EffectsAreTheMeansAtEachValueAndTheirShareOfTheVariance) {
     EXPECT_EQ(point_label(table, 11), "x = 3 V, kind = c");
 }
 
-TEST(PlainGrid, WithoutAUnitIsToldFromThoseThatAreThere) {
+TEST(PlainGrid, WithAMissingItemHasTheEffectsOfTheOthers) {
     const auto table = made_grid();
     const auto effects = axis_effects(table, table.measure_values[0]);
     ASSERT_EQ(effects.size(), 2U);
@@ -69,17 +69,17 @@ TEST(PlainGrid, WithoutAUnitIsToldFromThoseThatAreThere) {
     EXPECT_TRUE(axis_effects(table, std::vector<double>(12, 5)).empty());
 }
 
-TEST(PlainGrid, TellsEveryAxisAndNoChance) {
+TEST(PlainGrid, ReportsEveryAxisAndNoStatisticsOfChance) {
     const TemporaryFolder folder;
     folder.write("grid.toml", grid_file);
     ASSERT_EQ(run_program(folder, "sweep grid.toml --out r.sqlite --quiet").status, 0);
-    const auto told = run_program(folder, "sweep show r.sqlite");
-    ASSERT_EQ(told.status, 0) << told.err;
-    for (const auto* there : {"Grid of press.F_max (4 values) by sa1.f_B (3 values)", "Effect of each axis", "press.F_max", "sa1.f_B",
-                              "20 Hz", "80 Hz", "press.F_max = 4 N, sa1.f_B = 20 Hz"})
-        EXPECT_NE(told.out.find(there), std::string::npos) << there << "\n" << told.out;
+    const auto shown = run_program(folder, "sweep show r.sqlite");
+    ASSERT_EQ(shown.status, 0) << shown.err;
+    for (const auto* expected_text : {"Grid of press.F_max (4 values) by sa1.f_B (3 values)", "Effect of each axis", "press.F_max",
+                                      "sa1.f_B", "20 Hz", "80 Hz", "press.F_max = 4 N, sa1.f_B = 20 Hz"})
+        EXPECT_NE(shown.out.find(expected_text), std::string::npos) << expected_text << "\n" << shown.out;
     for (const auto* chance : {"95 %", "normal", "+-", "±", "chips", "sigma", "chance for"})
-        EXPECT_EQ(told.out.find(chance), std::string::npos) << chance << "\n" << told.out;
+        EXPECT_EQ(shown.out.find(chance), std::string::npos) << chance << "\n" << shown.out;
     const auto document = nlohmann::json::parse(run_program(folder, "sweep show r.sqlite --json").out);
     EXPECT_TRUE(document["grid"].get<bool>());
     ASSERT_EQ(document["depends_on"].size(), 3U);
@@ -88,7 +88,7 @@ TEST(PlainGrid, TellsEveryAxisAndNoChance) {
     EXPECT_TRUE(document["points"][0]["measures"][0]["sigma"]["value"].is_null());
 }
 
-TEST(PlainGrid, IsNoneWhereAnythingIsDrawn) {
+TEST(PlainGrid, IsNotPlainIfAnAxisIsSampled) {
     const TemporaryFolder folder;
     folder.write("drawn.toml", std::string(grid_file) + "[[vary]]\nwhat = \"sa1.f_C\"\nhow = \"uniform\"\nfrom = \"5Hz\"\nto = \"10Hz\"\n");
     ASSERT_EQ(run_program(folder, "sweep drawn.toml --units 2 --out r.sqlite --quiet").status, 0);

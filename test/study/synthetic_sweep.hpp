@@ -1,6 +1,6 @@
 #pragma once
-// Results of which all is known: a measure that depends on two devices and the process in a straight line, one that is noise, one by
-// chance none; three temperatures, the same chips at each.
+// A made-up sweep with known results. One measure is linear in two devices and the process, one is noise, and one is
+// sometimes missing. It has three temperatures, with the same chips at each.
 
 #include <cmath>
 
@@ -11,49 +11,49 @@
 
 namespace corpuscle::test {
 
-class MadeSweep final : public Sweep {
+class SyntheticSweep final : public Sweep {
     std::int64_t chips_;
-    MismatchSamples drawn_;
+    MismatchSamples mismatch_;
     std::vector<SweepColumn> axes_{{"temp", "C", "temperature"}, {"corner", "", "", {"tt", "ss"}}, {"process.vt_n", "", "drawn"}};
     std::vector<SweepColumn> measures_{
         {"line", "V", "a straight line of what is drawn", {}, -0.5, 0.5}, {"noise", "s", ""}, {"count", "", "", {}, 3.0, {}}};
-    std::vector<std::string> trains_{"out"}, traces_{"vf"};
-    std::vector<double> times_;
-    std::vector<MetadataText> facts_;
+    std::vector<std::string> train_names_{"out"}, probe_names_{"vf"};
+    std::vector<double> probe_times_;
+    std::vector<MetadataText> metadata_;
 
 public:
     static constexpr double temps[] = {0, 27, 85};
     static constexpr int devices = 40;
     /// line = 0.3 V_T(m7) + 0.2 I_S(m20) - 0.1 V_T(m3) + 0.1 process + 0.15 noise, deviates all; + 1 V at 85 C.
-    static constexpr double of_m7 = 0.3, of_m20 = 0.2, of_m3 = -0.1, of_process = 0.1, of_noise = 0.15, at_85 = 1;
+    static constexpr double weight_m7 = 0.3, weight_m20 = 0.2, weight_m3 = -0.1, weight_process = 0.1, weight_noise = 0.15, offset_at_85 = 1;
 
-    explicit MadeSweep(std::int64_t chips) : chips_(chips) {
-        drawn_.seed = 5, drawn_.chips = chips;
-        drawn_.subjects.push_back({"made", {}});
+    explicit SyntheticSweep(std::int64_t chips) : chips_(chips) {
+        mismatch_.seed = 5, mismatch_.chips = chips;
+        mismatch_.subjects.push_back({"made", {}});
         for (std::uint32_t d = 0; d < devices; ++d)
-            drawn_.subjects[0].devices.push_back({"x1.m" + std::to_string(d), d, d % 2 == 1, 2e-6, 0.5e-6, 4, 2, 5e-3, 0.02});
-        for (int k = 0; k < 50; ++k) times_.push_back(0.02 * k);
-        facts_ = {{"title", "A made-up sweep"}, {"sweep", "[vary]\n"}, {mismatch_metadata_name, describe_frame_error(drawn_)}};
+            mismatch_.subjects[0].devices.push_back({"x1.m" + std::to_string(d), d, d % 2 == 1, 2e-6, 0.5e-6, 4, 2, 5e-3, 0.02});
+        for (int k = 0; k < 50; ++k) probe_times_.push_back(0.02 * k);
+        metadata_ = {{"title", "A made-up sweep"}, {"sweep", "[vary]\n"}, {mismatch_metadata_name, describe_frame_error(mismatch_)}};
     }
-    const MismatchSamples& drawn() const { return drawn_; }
+    const MismatchSamples& mismatch() const { return mismatch_; }
     std::int64_t item_count() const override { return 3 * chips_; }
     const std::vector<SweepColumn>& axes() const override { return axes_; }
     const std::vector<SweepColumn>& measures() const override { return measures_; }
-    const std::vector<std::string>& train_names() const override { return trains_; }
-    const std::vector<std::string>& probe_names() const override { return traces_; }
-    const std::vector<double>& probe_times() const override { return times_; }
-    const std::vector<MetadataText>& metadata() const override { return facts_; }
+    const std::vector<std::string>& train_names() const override { return train_names_; }
+    const std::vector<std::string>& probe_names() const override { return probe_names_; }
+    const std::vector<double>& probe_times() const override { return probe_times_; }
+    const std::vector<MetadataText>& metadata() const override { return metadata_; }
     std::vector<double> values(std::int64_t unit) const override {
         return {temps[unit / chips_], 0, normal(99, static_cast<std::uint32_t>(unit % chips_), 1, 0)};
     }
     Result<void> run_items(const NextItem&, const OutcomeHandler&, const std::function<bool()>&) const override { return {}; }
 
     ItemOutcome outcome(std::int64_t unit) const {
-        const auto chip = drawn_.chip(unit);
-        const auto own = [&](std::size_t d) { return deviates_of(drawn_.subjects[0].devices[d], drawn_.seed, {chip}); };
+        const auto chip = mismatch_.chip(unit);
+        const auto own = [&](std::size_t d) { return deviates_of(mismatch_.subjects[0].devices[d], mismatch_.seed, {chip}); };
         const double at = values(unit)[0], noise = normal(7, static_cast<std::uint32_t>(unit), 2, 0);
-        const double line = of_m7 * own(7).V_T[0] + of_m20 * own(20).I_S[0] + of_m3 * own(3).V_T[0] + of_process * values(unit)[2] +
-                            of_noise * noise + (at == 85 ? at_85 : 0);
+        const double line = weight_m7 * own(7).V_T[0] + weight_m20 * own(20).I_S[0] + weight_m3 * own(3).V_T[0] + weight_process * values(unit)[2] +
+                            weight_noise * noise + (at == 85 ? offset_at_85 : 0);
         ItemOutcome out;
         out.item = unit, out.steps = 100 + unit % 7, out.iterations = 300 + unit % 11;
         out.measures = {line, std::exp(normal(8, static_cast<std::uint32_t>(unit), 3, 0)), 4 + static_cast<double>(unit % 3)};
@@ -63,13 +63,13 @@ public:
         out.spikes.emplace_back();
         for (int k = 0; k < 5 + unit % 3; ++k) out.spikes[0].push_back(0.1 * k + 0.02 + 0.004 * line);
         out.probes.emplace_back();
-        for (const double t : times_) out.probes[0].push_back(static_cast<float>(std::sin(6 * t) + 0.1 * line));
+        for (const double t : probe_times_) out.probes[0].push_back(static_cast<float>(std::sin(6 * t) + 0.1 * line));
         return out;
     }
 };
 
-/// All of its units in a file.
-inline SweepResults made_results(const std::string& path, const MadeSweep& sweep) {
+/// All of its items in a file.
+inline SweepResults write_synthetic_results(const std::string& path, const SyntheticSweep& sweep) {
     auto results = value_or_throw(SweepResults::open(path, sweep));
     std::vector<ItemOutcome> all;
     for (std::int64_t unit = 0; unit < sweep.item_count(); ++unit) all.push_back(sweep.outcome(unit));

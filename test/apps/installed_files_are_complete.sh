@@ -1,5 +1,5 @@
 #!/bin/sh
-# The installed tree: examples, documents, licences; and the archive, which must go into a shared library.
+# The installed tree is complete: examples, documents, licences, and an archive that can be linked into a shared library.
 # Usage: installed_files_are_whole.sh PREFIX COMPILER
 set -eu
 prefix=$1

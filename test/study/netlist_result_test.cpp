@@ -1,4 +1,4 @@
-// What a study reads off a circuit that was solved.
+// Values that a study reads from a solved circuit.
 
 #include <cmath>
 
@@ -8,7 +8,7 @@
 namespace corpuscle {
 namespace {
 
-TEST(Found, ADevicesReadingsAreTheSlopesOfTheCircuitAboutIt) {
+TEST(NetlistResult, ADevicesConductancesAreTheSlopesOfTheCircuit) {
     const auto found = test::value_or_throw(run_study_netlist({"one\n.lib '../process/tsmc180.lib' tt\nvd d 0 0.5\nvg g 0 0.4\nm1 d g 0 0 nch w=1.5u l=0.5u\n",
                                             {},
                                             ".op\n.tf i(vd) vg\n.tf i(vd) vd"}));
@@ -17,7 +17,7 @@ TEST(Found, ADevicesReadingsAreTheSlopesOfTheCircuitAboutIt) {
     EXPECT_NEAR(found.operating_info("m1", "g_md") / -found.derivative("i(vd)", "vd"), 1, 1e-6);
 }
 
-TEST(Found, WhatWasNotAskedIsNaN) {
+TEST(NetlistResult, UnrequestedValuesAreNaN) {
     const auto found = test::value_or_throw(run_study_netlist({"one\nv1 a 0 1\nr1 a 0 1k\n", {}, ".op\n.tf i(v1) v1"}));
     EXPECT_TRUE(std::isnan(found.derivative("v(a)", "v1")));
     EXPECT_TRUE(std::isnan(found.operating_info("m1", "i_d")));
