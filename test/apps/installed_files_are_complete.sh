@@ -1,6 +1,6 @@
 #!/bin/sh
 # The installed tree is complete: examples, documents, licences, and an archive that can be linked into a shared library.
-# Usage: installed_files_are_whole.sh PREFIX COMPILER
+# Usage: installed_files_are_complete.sh PREFIX COMPILER
 set -eu
 prefix=$1
 compiler=$2
