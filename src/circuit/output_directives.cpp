@@ -93,7 +93,7 @@ public:
         if (auto ok = measures.check(known); !ok) return ok;
         for (const auto& c : circuit_.directives)
             if (c.name == "expect")
-                if (auto wrong = unknown_expectation(c, known)) return *wrong;
+                if (auto ok = check_expectation(c, known); !ok) return ok.error();
         return {};
     }
 
@@ -115,11 +115,11 @@ private:
                 warnings_.push_back(error_at(c, k, fmt::format(".{}: '{}' has no effect here", c.name, c.words[k])));
             else if (c.words[k] == "all")
                 continue;
-            else if (auto wrong = check_curve(c, k, named))
-                return *wrong;
+            else if (auto ok = check_curve(c, k, named); !ok)
+                return ok;
         return {};
     }
-    std::optional<Error> check_curve(const Directive& c, std::size_t k, bool named) const {
+    Result<void> check_curve(const Directive& c, std::size_t k, bool named) const {
         const auto& word = c.words[k];
         for (std::size_t h = 0; h < heads_.size(); ++h)
             if ((!named || heads_[h].command->name == c.words[0]) && CurveView::find(heads_[h].plot, word, &names_[h])) return {};
@@ -141,7 +141,7 @@ private:
     }
 
     /// An error if the name of an .expect is neither a measurement, a number of an analysis nor a curve.
-    std::optional<Error> unknown_expectation(const Directive& c, const std::vector<std::string>& given) const {
+    Result<void> check_expectation(const Directive& c, const std::vector<std::string>& given) const {
         if (c.words.empty()) return {};  // run_directives() reports the syntax
         const auto name = c.words[0].substr(0, c.words.size() == 2 ? c.words[0].find('=') : std::string::npos);
         std::vector<std::string_view> known(given.begin(), given.end());

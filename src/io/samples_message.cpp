@@ -8,7 +8,7 @@ namespace {
 Error broken_response(const std::string& path) { return bad_input("invalid response of the helper process that reads this file", {path}); }
 
 /// The error in a response, if it is one.
-std::optional<Error> error_in(Message& m, const std::string& path) {
+Result<void> read_status(Message& m, const std::string& path) {
     std::uint64_t code = 1;
     if (!m.get(code)) return broken_response(path);
     if (code == 0) return {};
@@ -107,7 +107,7 @@ Message encode(const std::vector<std::vector<double>>& columns) {
 
 Result<SamplesInfo> decode_info(Message& m, const std::string& path) {
     SamplesInfo info;
-    if (auto error = error_in(m, path)) return *std::move(error);
+    if (auto ok = read_status(m, path); !ok) return ok.error();
     std::uint64_t rows = 0, columns = 0;
     double rate = 0;
     bool is_complete = m.get(rows) && m.get(&rate, sizeof rate) && get_optional(m, info.time_column) && m.get(columns);
@@ -123,7 +123,7 @@ Result<SamplesInfo> decode_info(Message& m, const std::string& path) {
 }
 
 Result<void> decode_rows(Message& m, std::size_t at, std::size_t rows, std::vector<std::vector<double>>& out, const std::string& path) {
-    if (auto error = error_in(m, path)) return *std::move(error);
+    if (auto ok = read_status(m, path); !ok) return ok.error();
     for (auto& column : out)
         if (!m.get(column.data() + at, rows * sizeof(double))) return broken_response(path);
     return {};

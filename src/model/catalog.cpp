@@ -40,14 +40,14 @@ std::vector<CatalogEntry> entries_of(const AfferentComponents& parts) {
 }
 
 template <class M>
-std::optional<Error> out_of_order(const AfferentPlan& plan) {
+Result<void> check_model_order(const AfferentPlan& plan) {
     if constexpr (requires { M::order_constraints; })
-        return out_of_order<typename M::Params>(plan.name, M::order_constraints, with_settings<typename M::Params>(M::fields, settings_of(plan)));
+        return check_order<typename M::Params>(plan.name, M::order_constraints, with_settings<typename M::Params>(M::fields, settings_of(plan)));
     return {};
 }
 
 template <class M>
-std::optional<Error> not_integer(const AfferentPlan& plan) {
+Result<void> check_integers(const AfferentPlan& plan) {
     if constexpr (requires { M::integers; })
         for (const auto at : M::integers)
             for (const auto& f : M::fields)
@@ -72,24 +72,24 @@ std::vector<ParameterOrder> order_constraints_of(const AfferentPlan& plan) {
     return all;
 }
 
-std::optional<Error> check_plan(const AfferentPlan& plan) {
-    std::optional<Error> error;
+Result<void> check_plan(const AfferentPlan& plan) {
+    Result<void> ok;
     const auto model = [&]<template <class> class M>(ModelTag<M>) {
-        if (!error) error = out_of_order<M<double>>(plan);
+        if (ok) ok = check_model_order<M<double>>(plan);
     };
     const auto part = [&]<class M>(ComponentTag<M>) {
-        if (!error) error = out_of_order<M>(plan);
-        if (!error) error = not_integer<M>(plan);
+        if (ok) ok = check_model_order<M>(plan);
+        if (ok) ok = check_integers<M>(plan);
     };
     visit_component(Sensors{}, plan.sensor, part), visit_component(Transducers{}, plan.transducer, part),
         visit_component(Converters{}, plan.converter, part);
     visit_named(Receptors{}, plan.receptor, model), visit_named(Neurons{}, plan.neuron, model);
     const auto front = make_front_end(plan);
-    if (!error && !plan.sensor.empty()) error = front.check_range(plan.name, 0, "F_cal", *plan.value("F_cal"));
-    if (!error && !plan.converter.empty()) error = front.check_range(plan.name, *plan.value("F_low"), "F_high", *plan.value("F_high"));
-    if (!error && !plan.converter.empty())
-        if (const auto chain = make_fixed_chain(plan); !chain) error = chain.error();
-    return error;
+    if (ok && !plan.sensor.empty()) ok = front.check_range(plan.name, 0, "F_cal", *plan.value("F_cal"));
+    if (ok && !plan.converter.empty()) ok = front.check_range(plan.name, *plan.value("F_low"), "F_high", *plan.value("F_high"));
+    if (ok && !plan.converter.empty())
+        if (const auto chain = make_fixed_chain(plan); !chain) ok = chain.error();
+    return ok;
 }
 
 std::vector<CatalogEntry> sensor_entries() {
@@ -175,7 +175,7 @@ Result<AfferentPlan> plan_afferent(std::string_view text, std::span<const Parame
         apply(*settings, true);
     }
     plan.parameters = std::make_shared<const std::vector<AfferentParameter>>(std::move(parameters));
-    if (const auto error = check_plan(plan)) return *error;
+    if (const auto ok = check_plan(plan); !ok) return ok.error();
     visit_named(Receptors{}, plan.receptor, [&]<template <class> class R>(ModelTag<R>) {
         if constexpr (requires { R<double>::min_rate; }) plan.min_rate = R<double>::min_rate;
     });

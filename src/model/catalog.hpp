@@ -86,7 +86,7 @@ std::vector<ParameterOrder> order_constraints_of(const AfferentPlan&);
 
 /// Checks what single rows cannot: order constraints, integers, a front end that cannot measure its own range, fixed-point words that are
 /// too short.
-std::optional<Error> check_plan(const AfferentPlan&);
+Result<void> check_plan(const AfferentPlan&);
 
 /// The values of a plan's parameters, in the form that `with` takes.
 std::vector<Setting> settings_of(const AfferentPlan&);

@@ -100,14 +100,14 @@ class CopySampler {
         return true;
     }
 
-    Error exhausted(const AfferentPlan& copy, const std::optional<Error>& last) const {
+    Error exhausted(const AfferentPlan& copy, const Result<void>& last) const {
         const auto& worst = *std::max_element(sampled_.begin(), sampled_.end(),
                                               [](const SampledParameter& a, const SampledParameter& b) { return a.count < b.count; });
         return bad_input(
             fmt::format("{}: none of {} samples of {} about {} with a standard deviation of {} is valid{}; lower its "
                         "--spread",
                         copy.name, max_samples, worst.row.name, format_quantity(worst.value, worst.row.unit),
-                        format_quantity(worst.deviation, worst.row.unit), last ? fmt::format(" (the last: {})", last->message) : ""));
+                        format_quantity(worst.deviation, worst.row.unit), last ? "" : fmt::format(" (the last: {})", last.error().message)));
     }
 
 public:
@@ -131,10 +131,10 @@ public:
         copy.original_name = plan_.name, copy.copy_number = number, copy.name = fmt::format("{}#{}", plan_.name, number);
         if (sampled_.empty()) return copy;
         for (auto& d : sampled_) d.count = 0;
-        std::optional<Error> error;
+        Result<void> valid;
         do
-            if (!sample_all(copy)) return exhausted(copy, error ? error : check_plan(copy));
-        while ((error = check_plan(copy)));
+            if (!sample_all(copy)) return exhausted(copy, valid ? check_plan(copy) : valid);
+        while (!(valid = check_plan(copy)));
         return copy;
     }
 };

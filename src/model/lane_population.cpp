@@ -42,7 +42,7 @@ bool same_for_all(std::span<const AfferentPlan* const> plans, std::string_view p
 }
 
 /// Returns an error for plans that cannot share lanes.
-std::optional<Error> check_alike(std::span<const AfferentPlan* const> plans) {
+Result<void> check_alike(std::span<const AfferentPlan* const> plans) {
     const auto& first = *plans[0];
     for (const auto* plan : plans) {
         if (plan->receptor != first.receptor || plan->neuron != first.neuron)
@@ -114,7 +114,7 @@ Result<std::unique_ptr<LanePopulation>> make_lane_population(const PopulationPla
             fmt::format("a population of {} afferents with {} plans: give one plan, or one for each", p.size, p.plans.size()));
     if (!p.afferent_numbers.empty() && p.afferent_numbers.size() != p.size)
         return bad_input(fmt::format("{} afferent numbers for {} afferents", p.afferent_numbers.size(), p.size));
-    if (auto error = check_alike(p.plans)) return *error;
+    if (auto ok = check_alike(p.plans); !ok) return ok.error();
     for (const auto* plan : p.plans)
         if (!can_use_lanes(*plan, run))
             return bad_input(fmt::format("{}: netlists, sensors, converters and noise cannot run on SIMD lanes", plan->name));

@@ -24,13 +24,13 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 
 }  // namespace
 
-std::optional<Error> check_range(std::string_view owner, const ParameterInfo& row, double value) {
+Result<void> check_range(std::string_view owner, const ParameterInfo& row, double value) {
     if (value >= row.low && value <= row.high) return {};
     return bad_input(fmt::format("{}: {} = {:g}{}{} is outside [{:g}, {:g}]", owner, row.name, value, row.unit.empty() ? "" : " ", row.unit,
                                  row.low, row.high));
 }
 
-std::optional<Error> check_order(std::string_view owner, std::string_view lower_name, double lower, std::string_view upper_name,
+Result<void> check_order(std::string_view owner, std::string_view lower_name, double lower, std::string_view upper_name,
                                   double upper, bool or_equal) {
     if (or_equal ? lower <= upper : lower < upper) return {};
     return bad_input(fmt::format("{}: {} = {:g} must {} {} = {:g}", owner, lower_name, lower, or_equal ? "not be above" : "be below",

@@ -69,16 +69,16 @@ CatalogEntry catalog_entry_of() {
 }
 
 /// Returns an error if the value is outside the parameter's range: "lif-b: C_m = -1 F is outside [1e-15, 1]".
-std::optional<Error> check_range(std::string_view owner, const ParameterInfo&, double value);
+Result<void> check_range(std::string_view owner, const ParameterInfo&, double value);
 
 /// Returns an error if two parameters are in the wrong order: "lif-b: V_reset = 0.6 must be below V_th = 0.5".
-std::optional<Error> check_order(std::string_view owner, std::string_view lower_name, double lower, std::string_view upper_name,
+Result<void> check_order(std::string_view owner, std::string_view lower_name, double lower, std::string_view upper_name,
                                   double upper, bool or_equal);
 
 template <class P>
-std::optional<Error> check_order(std::string_view owner, std::span<const OrderConstraint<P>> constraints, const P& p) {
+Result<void> check_order(std::string_view owner, std::span<const OrderConstraint<P>> constraints, const P& p) {
     for (const auto& c : constraints)
-        if (auto error = check_order(owner, c.lower_name, p.*c.lower_member, c.upper_name, p.*c.upper_member, c.or_equal)) return error;
+        if (auto ok = check_order(owner, c.lower_name, p.*c.lower_member, c.upper_name, p.*c.upper_member, c.or_equal); !ok) return ok;
     return {};
 }
 

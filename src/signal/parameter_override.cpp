@@ -47,7 +47,7 @@ Result<std::vector<Setting>> settings_for(std::string_view name, std::span<const
         if (!parameter) return parameter.error();
         const auto value = parse_quantity(w.value, (*parameter)->unit);
         if (!value) return bad_input(fmt::format("{}.{}: {}", w.target, w.parameter, value.error().message));
-        if (const auto wrong = check_range(name, **parameter, *value)) return *wrong;
+        if (const auto ok = check_range(name, **parameter, *value); !ok) return ok.error();
         settings.push_back({(*parameter)->name, *value});
     }
     return settings;

@@ -15,7 +15,7 @@ namespace corpuscle {
 
 /// Returns an error if keys or values are nested so deep that toml++, which is recursive, would overflow the stack. Counts the dots of
 /// a key and the open brackets.
-inline std::optional<Error> check_nesting(std::string_view text, const std::string& file) {
+inline Result<void> check_nesting(std::string_view text, const std::string& file) {
     constexpr std::size_t max_dots = 32, max_open = 64;
     std::size_t dots = 0, open = 0, line = 1, line_at = 0;
     const auto error_at = [&](std::size_t k, std::string_view items, std::size_t limit) {
@@ -57,7 +57,7 @@ inline std::optional<Error> check_nesting(std::string_view text, const std::stri
 
 /// Parses TOML, for sweeps and populations.
 inline Result<toml::table> parse_toml(std::string_view text, const std::string& file) {
-    if (auto wrong = check_nesting(text, file)) return *wrong;
+    if (auto ok = check_nesting(text, file); !ok) return ok.error();
     try {
         return toml::parse(text);
     } catch (const toml::parse_error& error) {

@@ -13,7 +13,7 @@ Result<void> apply_class_overrides(SkinPlan& plan, std::span<const ParameterOver
         for (const auto& s : *settings)
             for (std::size_t k = 0; k < rows.size(); ++k)
                 if (rows[k].name == s.name) c.afferent.values[k] = s.value;
-        if (auto error = check_plan(c.afferent)) return *error;
+        if (auto ok = check_plan(c.afferent); !ok) return ok.error();
     }
     return {};
 }

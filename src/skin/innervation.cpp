@@ -11,7 +11,7 @@ namespace corpuscle {
 namespace {
 
 /// Checks a plan that was not read from a file.
-std::optional<Error> check_sites(const SkinPlan& plan) {
+Result<void> check_sites(const SkinPlan& plan) {
     const auto& s = plan.sites;
     if (s.positions.empty() || s.names.size() != s.size() || s.region.size() != s.size() || s.regions.empty() || s.size() > max_sites)
         return bad_input(fmt::format("{}: a skin needs sites, each with a name and a region ({} sites)", plan.name, s.size()));
@@ -57,7 +57,7 @@ std::string Innervation::afferent_name(std::size_t index) const {
 }
 
 Result<std::shared_ptr<const Innervation>> innervate(SkinPlan plan) {
-    if (auto error = check_sites(plan)) return *error;
+    if (auto ok = check_sites(plan); !ok) return ok.error();
     if (auto ok = check_skin_memory(plan); !ok) return ok.error();
     auto out = std::make_shared<Innervation>();
     out->plan = std::move(plan);

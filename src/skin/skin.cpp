@@ -65,7 +65,7 @@ bool all_finite(const SiteForce& force, std::span<const std::uint32_t> touched) 
 }
 
 /// An error for the first site with a force that is not finite, and its sample.
-std::optional<Error> check_finite(const Skin::Impl& held, const SiteForce& force, std::span<const std::uint32_t> touched,
+Result<void> check_finite(const Skin::Impl& held, const SiteForce& force, std::span<const std::uint32_t> touched,
                                   std::size_t steps) {
     if (steps == 1 && all_finite(force, touched)) return {};
     for (const auto s : touched)
@@ -92,7 +92,7 @@ std::span<const std::uint32_t> Skin::Impl::find_touched(const SiteForce& force, 
 /// Simulates some steps at once, at most skin_steps.
 Result<void> Skin::Impl::run_steps(const SiteForce& force, std::size_t at, std::size_t steps, std::vector<Spike>& spikes, ThreadPool& pool) {
     const auto sites = find_touched(force, at, steps);
-    if (auto error = check_finite(*this, {force.data + at, force.stride}, sites, steps)) return *error;
+    if (auto ok = check_finite(*this, {force.data + at, force.stride}, sites, steps); !ok) return ok.error();
     fired.clear();
     for (auto& c : classes) {
         if (!c.shares_force) c.field_force->compute(force, sites, at, steps, pool);

@@ -53,9 +53,9 @@ void draw(std::string_view text, std::span<const ParameterOverride> wishes) {
     const auto copies = make_copies(*plan, 3, *spreads, 1);
     if (!copies) return copies.error().message.empty() ? std::abort() : void();
     for (const auto& copy : *copies) {
-        if (check_plan(copy)) std::abort();
+        if (!check_plan(copy)) std::abort();
         for (std::size_t k = 0; k < copy.values.size(); ++k)
-            if (check_range(copy.name, (*copy.parameters)[k].info, copy.values[k])) std::abort();
+            if (!check_range(copy.name, (*copy.parameters)[k].info, copy.values[k])) std::abort();
     }
 }
 

@@ -145,10 +145,10 @@ TEST(Contract, EveryParameterThatCopiesDoNotShareCanDifferInEveryAfferent) {
         const auto spreads = value_or_throw(distributions_for(plan, name, overrides));
         const auto copies = value_or_throw(make_copies(plan, 4, spreads, 3));
         for (const auto& copy : copies) {
-            EXPECT_FALSE(check_plan(copy)) << copy.name;
+            EXPECT_TRUE(check_plan(copy)) << copy.name;
             for (const auto& s : spreads) EXPECT_NE(copy.value(s.parameter), plan.value(s.parameter)) << copy.name << '.' << s.parameter;
             for (std::size_t k = 0; k < copy.values.size(); ++k)
-                EXPECT_FALSE(check_range(copy.name, (*copy.parameters)[k].info, copy.values[k])) << copy.name;
+                EXPECT_TRUE(check_range(copy.name, (*copy.parameters)[k].info, copy.values[k])) << copy.name;
             EXPECT_TRUE(make_afferent(copy, {1e-3})) << copy.name;
         }
     }
@@ -204,7 +204,7 @@ TEST(ParameterDistribution, WithoutAcceptableSamplesIsAnErrorAfterAThousandTries
               "sa1#1: none of 1000 samples of V_th about 500 mV with a standard deviation of 1 GV is valid; lower its --spread");
     // Half of the samples of R_fb leave V_Z above V_DD at F_cal, where the sensor could not be calibrated. Those are sampled again.
     const auto edge = sample_copies("fsr+f2v+sa1", {{"fsr+f2v+sa1.R_fb=13.3kohm"}, {"fsr+f2v+sa1.R_fb=10%"}, 1000});
-    for (const auto& copy : edge) EXPECT_FALSE(check_plan(copy));
+    for (const auto& copy : edge) EXPECT_TRUE(check_plan(copy));
 }
 
 TEST(ParameterDistribution, OfZeroWidthLeavesEveryCopyUnchanged) {

@@ -157,7 +157,7 @@ bool limit_junction(double& v, double v_before, double n_vt, double v_crit) {
 
 Result<std::unique_ptr<Device>> make_diode(const Element& e, DeviceSetup& setup) {
     static constexpr std::string_view known[] = {"area", "m", "pj", "temp", "dtemp", "ic", "off", "level"};
-    if (auto wrong = check_value_names(e.name, e.values, known, e.location)) return *wrong;
+    if (auto ok = check_value_names(e.name, e.values, known, e.location); !ok) return ok.error();
     const auto& model = setup.circuit().models[static_cast<std::size_t>(e.model)];
     if (value_or(e.values, "pj", 0) != 0)
         return bad_input(fmt::format("{}: pj is not supported (this level 1 diode has no sidewalls); remove it", e.name), e.location);

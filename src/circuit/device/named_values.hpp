@@ -16,7 +16,7 @@ inline double value_or(const Values& values, std::string_view name, double fallb
 }
 
 /// Rejects a parameter name that is not in `known`. `owner`: name of the element or model.
-inline std::optional<Error> check_value_names(std::string_view owner, const Values& values, std::span<const std::string_view> known,
+inline Result<void> check_value_names(std::string_view owner, const Values& values, std::span<const std::string_view> known,
                                           const SourceLocation& place) {
     for (const auto& [name, value] : values)
         if (std::find(known.begin(), known.end(), name) == known.end())
@@ -32,12 +32,12 @@ Result<P> read_model_card(const ParameterDef<P> (&fields)[N], const Model& model
     std::vector<std::string> names;
     for (const auto& f : fields) names.push_back(lower(f.name));
     known.insert(known.end(), names.begin(), names.end());
-    if (auto wrong = check_value_names(model.name, model.values, known, model.location)) return *wrong;
+    if (auto ok = check_value_names(model.name, model.values, known, model.location); !ok) return ok.error();
     for (std::size_t k = 0; k < N; ++k) {
         const auto given = model.values.find(names[k]);
         if (given == model.values.end()) continue;
         const ParameterInfo row{fields[k].name, fields[k].unit, card.*fields[k].member, fields[k].low, fields[k].high, fields[k].description, {}};
-        if (auto wrong = check_range(model.name, row, given->second)) return bad_input(wrong->message, model.location);
+        if (auto ok = check_range(model.name, row, given->second); !ok) return bad_input(ok.error().message, model.location);
         card.*fields[k].member = given->second;
     }
     return card;

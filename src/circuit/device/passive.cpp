@@ -23,8 +23,8 @@ constexpr std::string_view passive_values[] = {"m", "tc1", "tc2", "temp", "dtemp
 constexpr std::string_view model_values[] = {"tc1", "tc2", "tnom"};
 
 /// Rejects parameters of the element or its model that these devices do not have.
-std::optional<Error> check_parameters(const Element& e, const DeviceSetup& setup) {
-    if (auto wrong = check_value_names(e.name, e.values, passive_values, e.location)) return wrong;
+Result<void> check_parameters(const Element& e, const DeviceSetup& setup) {
+    if (auto ok = check_value_names(e.name, e.values, passive_values, e.location); !ok) return ok;
     if (value_or(e.values, "scale", 1) == 0) return bad_input(fmt::format("{}: scale must not be 0", e.name), e.location);
     if (e.model < 0) return {};
     const Model& model = setup.circuit().models[static_cast<std::size_t>(e.model)];
@@ -104,7 +104,7 @@ public:
 }  // namespace
 
 Result<std::unique_ptr<Device>> make_resistor(const Element& e, DeviceSetup& setup) {
-    if (auto wrong = check_parameters(e, setup)) return *wrong;
+    if (auto ok = check_parameters(e, setup); !ok) return ok.error();
     const double r = at_temperature(e.value, e, setup), m = value_or(e.values, "m", 1);
     if (r == 0) return bad_input(fmt::format("{}: 0 ohm is not allowed; use a voltage source of 0 V as a wire", e.name), e.location);
     auto device = std::make_unique<Resistor>(r, m, setup.temperature(e));
@@ -113,7 +113,7 @@ Result<std::unique_ptr<Device>> make_resistor(const Element& e, DeviceSetup& set
 }
 
 Result<std::unique_ptr<Device>> make_capacitor(const Element& e, DeviceSetup& setup) {
-    if (auto wrong = check_parameters(e, setup)) return *wrong;
+    if (auto ok = check_parameters(e, setup); !ok) return ok.error();
     const double m = value_or(e.values, "m", 1);
     for (const std::string_view name : {"scale", "tc1", "tc2"})
         if (e.expression && e.values.contains(name))
@@ -133,7 +133,7 @@ Result<std::unique_ptr<Device>> make_capacitor(const Element& e, DeviceSetup& se
 }
 
 Result<std::unique_ptr<Device>> make_inductor(const Element& e, DeviceSetup& setup) {
-    if (auto wrong = check_parameters(e, setup)) return *wrong;
+    if (auto ok = check_parameters(e, setup); !ok) return ok.error();
     auto device = std::make_unique<Inductor>(at_temperature(e.value, e, setup) / value_or(e.values, "m", 1));
     device->unknowns = {setup.node_unknown(e.nodes[0]), setup.node_unknown(e.nodes[1]), setup.branch_unknown(setup.circuit().find_element(e.name))};
     return std::unique_ptr<Device>(std::move(device));

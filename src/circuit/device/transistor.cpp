@@ -123,12 +123,12 @@ Result<UicmInstance> read_instance(const Element& e) {
     UicmInstance instance;
     std::vector<std::string_view> known = {"temp", "dtemp", "ic", "off"};
     for (const auto& f : UicmInstance::fields) known.push_back(f.name);
-    if (auto wrong = check_value_names(e.name, e.values, known, e.location)) return *wrong;
+    if (auto ok = check_value_names(e.name, e.values, known, e.location); !ok) return ok.error();
     for (const auto& f : UicmInstance::fields) {
         const auto given = e.values.find(f.name);
         if (given == e.values.end()) continue;
         const ParameterInfo row{f.name, f.unit, instance.*f.member, f.low, f.high, f.description, {}};
-        if (auto wrong = check_range(e.name, row, given->second)) return bad_input(wrong->message, e.location);
+        if (auto ok = check_range(e.name, row, given->second); !ok) return bad_input(ok.error().message, e.location);
         instance.*f.member = given->second;
     }
     return instance;

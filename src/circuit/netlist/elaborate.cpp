@@ -214,7 +214,7 @@ private:
     Result<void> read_options(const Statement& s) {
         Circuit& c = builder_.circuit;
         for (std::size_t k = 1; k < s.words.size(); ++k) {
-            if (auto error = check_option(s.text(k), {}, {}, s.location(k))) return *error;
+            if (auto ok = check_option(s.text(k), {}, {}, s.location(k)); !ok) return ok.error();
             c.options.insert_or_assign(std::string(s.text(k)), 1.0);
         }
         for (const auto& pair : s.pairs) {
@@ -223,13 +223,13 @@ private:
             const bool is_word = pair.value.kind == Word::Kind::quoted ||
                                  (pair.value.kind == Word::Kind::plain && text[0] >= 'a' && text[0] <= 'z' && !top_.parameter(text));
             if (is_word) {
-                if (auto error = check_option(name, {}, text, s.location(pair.name))) return *error;
+                if (auto ok = check_option(name, {}, text, s.location(pair.name)); !ok) return ok.error();
                 c.option_words.insert_or_assign(name, std::string(text));
                 continue;
             }
             const auto value = top_.evaluate({&s, pair.value});
             if (!value) return value.error();
-            if (auto error = check_option(name, *value, {}, s.location(pair.name))) return *error;
+            if (auto ok = check_option(name, *value, {}, s.location(pair.name)); !ok) return ok.error();
             c.options.insert_or_assign(name, *value);
         }
         return {};

@@ -39,7 +39,7 @@ public:
 };
 
 Result<System> System::make(std::shared_ptr<const Circuit> circuit) {
-    if (auto wrong = check_solvable(*circuit)) return *wrong;
+    if (auto ok = check_solvable(*circuit); !ok) return ok.error();
     System system;
     system.circuit_ = std::move(circuit);
     Builder maker(system);

@@ -59,7 +59,7 @@ std::string elements_at(const Circuit& c, int node) {
     return fmt::format("{}{}", fmt::join(names, ", "), more > 0 ? fmt::format(" and {} more", more) : "");
 }
 
-std::optional<Error> check_floating_nodes(const Circuit& c) {
+Result<void> check_floating_nodes(const Circuit& c) {
     NodeSets sets(c.nodes.size());
     for (const auto& e : c.elements)
         if (conducts(e))
@@ -89,7 +89,7 @@ std::optional<Error> check_floating_nodes(const Circuit& c) {
                      first_element != nullptr ? first_element->location : SourceLocation{c.file});
 }
 
-std::optional<Error> check_voltage_loops(const Circuit& c) {
+Result<void> check_voltage_loops(const Circuit& c) {
     NodeSets sets(c.nodes.size());
     std::vector<const Element*> joined;
     for (const auto& e : c.elements) {
@@ -116,12 +116,12 @@ std::optional<Error> check_voltage_loops(const Circuit& c) {
 
 }  // namespace
 
-std::optional<Error> check_solvable(const Circuit& c) {
+Result<void> check_solvable(const Circuit& c) {
     if (c.elements.empty()) return bad_input("the circuit has no elements", SourceLocation{c.file});
     if (std::none_of(c.elements.begin(), c.elements.end(),
                      [](const Element& e) { return std::find(e.nodes.begin(), e.nodes.end(), 0) != e.nodes.end(); }))
         return bad_input("no element is connected to ground (node 0)", c.elements[0].location);
-    if (auto wrong = check_voltage_loops(c)) return wrong;
+    if (auto ok = check_voltage_loops(c); !ok) return ok;
     return check_floating_nodes(c);
 }
 

@@ -8,7 +8,7 @@
 namespace corpuscle::circuit {
 
 /// Rejects nodes without a DC path to ground (floating, or connected by current sources only) and loops of elements that fix voltages.
-std::optional<Error> check_solvable(const Circuit&);
+Result<void> check_solvable(const Circuit&);
 
 /// Warnings for nodes that only one terminal of one element is connected to. The circuit can be solved, but this is often a typing error.
 std::vector<Error> find_dangling_nodes(const Circuit&);

@@ -15,7 +15,7 @@ namespace corpuscle::lanes {
 
 /// Returns an error if a block of force does not fit `size` afferents of precision V. `name` is the population's name for messages.
 template <class V>
-std::optional<Error> check_force(const PopulationForce& force, std::size_t steps, std::size_t size, std::string_view name) {
+Result<void> check_force(const PopulationForce& force, std::size_t steps, std::size_t size, std::string_view name) {
     if (const auto* columns = std::get_if<ForceColumns>(&force); columns && columns->columns.size() != size)
         return bad_input(fmt::format("{}: {} columns of force for {} afferents", name, columns->columns.size(), size));
     if (!std::is_same_v<V, double> && std::holds_alternative<ForceTiles<double>>(force))

@@ -239,7 +239,7 @@ class TiledPopulation final : public LanePopulation {
         return 0;  // integers are always finite
     }
 
-    std::optional<Error> non_finite_force(const Block& b, PopulationResponse& response) const {
+    Result<void> check_finite_force(const Block& b, PopulationResponse& response) const {
         for (std::size_t afferent = 0; afferent < layout_.size; ++afferent)
             for (std::size_t step = 0; step < b.steps; ++step)
                 if (const double f = force_of(b, afferent, step); !std::isfinite(f)) {
@@ -266,11 +266,12 @@ class TiledPopulation final : public LanePopulation {
     }
 
     /// The error of the jobs, if there is one.
-    std::optional<Error> find_error(const Block& b, PopulationResponse& response) const {
+    Result<void> check_jobs(const Block& b, PopulationResponse& response) const {
         if (std::none_of(jobs_.begin(), jobs_.end(), [](const JobResult& job) { return job.non_finite; })) return {};
-        if (auto error = non_finite_force(b, response)) return error;
+        if (auto ok = check_finite_force(b, response); !ok) return ok;
         const auto afferent = first_non_finite_state();
-        return afferent ? std::optional(non_finite_state(*afferent, b, response)) : std::nullopt;
+        if (afferent) return non_finite_state(*afferent, b, response);
+        return {};
     }
 
     /// True if the currents of a profile are computed once for all afferents.
@@ -284,8 +285,7 @@ class TiledPopulation final : public LanePopulation {
         if (force_layout_ && *force_layout_ != kind)
             return bad_input(fmt::format("{}: the layout of its force must not change between blocks", layout_.name));
         force_layout_ = kind;
-        if (auto error = check_force<V>(force, steps, layout_.size, layout_.name)) return *error;
-        return {};
+        return check_force<V>(force, steps, layout_.size, layout_.name);
     }
 
 public:
@@ -326,7 +326,7 @@ public:
         if (steps == 0) return {};
         Block block{force, steps, shares_currents(force), nullptr};
         if (const auto* profile = std::get_if<ForceProfile>(&force)) {
-            if (const auto at = first_non_finite(profile->force.first(steps)); at < steps) return *non_finite_force(block, response);
+            if (const auto at = first_non_finite(profile->force.first(steps)); at < steps) return check_finite_force(block, response);
             const auto now = profile->force.first(steps);
             block.shared_currents ? profile_.compute_currents(*layout_.shared_receptor, now, step_ == 0, layout_.receptor->outputs) : profile_.set_force(now);
         }
@@ -334,7 +334,7 @@ public:
         while (scratch_.size() < pool.threads()) scratch_.emplace_back();
         pool.for_each(jobs_.size(), [&](std::size_t job, unsigned thread) { run_job(block, job, scratch_[thread]); });
         for (const auto& job : jobs_) response.truncated_steps += job.truncated_steps, response.extra_spikes += job.extra_spikes, response.skipped_steps += job.skipped_steps;
-        if (auto error = find_error(block, response)) return *error;
+        if (auto ok = check_jobs(block, response); !ok) return ok.error();
         if (response.spikes) merge_spikes(jobs_, steps, step_, layout_.afferent_numbers, *response.spikes, begin_, at_);
         step_ += static_cast<std::int64_t>(steps);
         return {};

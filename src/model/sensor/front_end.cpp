@@ -33,7 +33,7 @@ double FrontEnd::inverse(double value, double low, double high) const {
     return 0.5 * (low + high);
 }
 
-std::optional<Error> FrontEnd::check_range(std::string_view name, double low, std::string_view parameter, double high) const {
+Result<void> FrontEnd::check_range(std::string_view name, double low, std::string_view parameter, double high) const {
     double x = high;
     for (const auto& s : stages_) {
         x = s.curve(x);

@@ -42,7 +42,7 @@ public:
     /// The force in [low, high] with this measured value; N.
     double inverse(double value, double low, double high) const;
     /// Returns an error for a range of force that the chain cannot measure: its upper end saturates, or both ends give the same value.
-    std::optional<Error> check_range(std::string_view name, double low, std::string_view parameter, double high) const;
+    Result<void> check_range(std::string_view name, double low, std::string_view parameter, double high) const;
 };
 
 }  // namespace corpuscle

@@ -27,7 +27,7 @@ Position middle_of_first(const Sites& sites) {
 }
 
 /// Checks combinations of parameters.
-std::optional<Error> check_contact(const Indenter& i, const ContactParams& p) {
+Result<void> check_contact(const Indenter& i, const ContactParams& p) {
     if (i.name == "grating" && p.ridge > p.period)
         return bad_input(fmt::format("contact: ridge = {:g} m must not be wider than period = {:g} m", p.ridge, p.period));
     if (p.t_move > 0 && p.speed > 0) return bad_input("contact: t_move and speed are alternatives; give only one of them");
@@ -75,7 +75,7 @@ Result<ContactParams> read_contact_params(const Indenter& indenter, std::span<co
     }
     if (!is_set("x1")) p.x1 = p.x;
     if (!is_set("y1")) p.y1 = p.y;
-    if (auto error = check_contact(indenter, p)) return *error;
+    if (auto ok = check_contact(indenter, p); !ok) return ok.error();
     return p;
 }
 

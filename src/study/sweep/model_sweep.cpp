@@ -177,7 +177,7 @@ Result<ModelItem> ModelSweep::make_item(std::int64_t number) const {
     ModelItem out{number, nominal_, std::move(*force)};
     for (const auto& v : varied_) out.plan.values[v.parameter] = values[v.axis];
     if (!varied_.empty())
-        if (const auto wrong = check_plan(out.plan)) out.failure = wrong->message;
+        if (const auto ok = check_plan(out.plan); !ok) out.failure = ok.error().message;
     return out;
 }
 
