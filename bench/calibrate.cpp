@@ -50,7 +50,9 @@ int main(int argc, char** argv) {
     calibration.force = press.force, calibration.T = 1 / press.rate;
     const TimeWindow phases[] = {{0, 0.25}, {0.25, 0.375}, {0.375, 0.625}, {0.625, 0.75}, {0.75, 1}};
     calibration.limits = FiringLimits::around(respond(kind->model, press).spikes, phases, 10e-3);
-    calibration.on_progress = [](std::size_t left, std::size_t presses) { std::fprintf(stderr, "%zu chips left, %zu presses\n", left, presses); };
+    calibration.on_progress = [](std::size_t left, std::size_t presses) {
+        std::fprintf(stderr, "%zu chips left, %zu presses\n", left, presses);
+    };
     fmt::print("{}, {} chips: {}\n", calibration.netlist, count, calibration.limits.text());
 
     const std::vector<std::string> trims[] = {{"i_leak"}, {"i_biasb"}, kind->gain};

@@ -66,7 +66,8 @@ int main(int argc, char** argv) {
     std::printf(
         "%llu chips: %.2f us each (%.2f ... %.2f), %.2f Newton steps each, %ld by another method, %ld failed, %ld matrices off the list\n",
         static_cast<unsigned long long>(chips), us[us.size() / 2], us.front(), us.back(),
-        static_cast<double>(work.steps) / static_cast<double>(chips), work.detours, work.lost, (*bench)->newton.linear_solver.fallback_count());
+        static_cast<double>(work.steps) / static_cast<double>(chips), work.detours, work.lost,
+        (*bench)->newton.linear_solver.fallback_count());
     const double count = static_cast<double>(chips) - static_cast<double>(work.lost);
     for (std::size_t n = 0; n < work.sum.size(); ++n) {
         const double mean = work.sum[n] / count;

@@ -95,12 +95,12 @@ int main(int argc, char** argv) {
 
     const NamedTouch& stroke = named_touches()[0];
     std::vector<ParameterOverride> stroked, palm = {{"sine", "duration", fmt::format("{}", length)},
-                                       {"sine", "f", "2"},
-                                       {"sine", "F_mean", "20"},
-                                       {"sine", "F_amp", "10"},
-                                       {"contact", "radius", "0.04"},
-                                       {"contact", "x", "0"},
-                                       {"contact", "y", "0.06"}};
+                                                    {"sine", "f", "2"},
+                                                    {"sine", "F_mean", "20"},
+                                                    {"sine", "F_amp", "10"},
+                                                    {"contact", "radius", "0.04"},
+                                                    {"contact", "x", "0"},
+                                                    {"contact", "y", "0.06"}};
     for (const auto& s : stroke.settings) stroked.push_back({"contact", std::string(s.name), fmt::format("{}", s.value)});
     for (const auto& s : stroke.force_settings)
         stroked.push_back({std::string(stroke.force), std::string(s.name), fmt::format("{}", s.value)});

@@ -49,7 +49,8 @@ inline std::vector<float> frames_of_a_second(const SkinPlan& plan, int rate, dou
         const double x = (low.x + high.x) / 2 + (turn_radius > 0 ? turn_radius : (high.x - low.x) / 4) * std::cos(angle),
                      y = (low.y + high.y) / 2 + (turn_radius > 0 ? turn_radius : (high.y - low.y) / 4) * std::sin(angle);
         for (std::size_t s = 0; s < sites.size(); ++s) {
-            const double d2 = (sites.positions[s].x - x) * (sites.positions[s].x - x) + (sites.positions[s].y - y) * (sites.positions[s].y - y);
+            const double d2 =
+                (sites.positions[s].x - x) * (sites.positions[s].x - x) + (sites.positions[s].y - y) * (sites.positions[s].y - y);
             const auto w = philox({static_cast<std::uint32_t>(k), static_cast<std::uint32_t>(s), 0, 0}, 1);
             out[static_cast<std::size_t>(k) * sites.size() + s] =
                 static_cast<float>(scale * ((d2 < 6 * radius * radius ? 2 * std::exp(-d2 / (radius * radius)) : 0) +

@@ -62,7 +62,8 @@ Result<Second> second_of(AnalysisContext& bench, int rounds, bool quiet) {
     out.reltol = plan.reltol;
     for (int round = 0; round < rounds; ++round) {
         bench.system.start_transient(1e-3, seconds);
-        if (auto* force = bench.system.device("if"); quiet && force != nullptr) force->start_transient(0, 0), force->set_principal_value(quiet_force);
+        if (auto* force = bench.system.device("if"); quiet && force != nullptr)
+            force->start_transient(0, 0), force->set_principal_value(quiet_force);
         const auto from = find_initial_condition(bench, false);
         if (!from) return from.error();
         out.spikes.clear(), out.points.clear(), out.at.clear();

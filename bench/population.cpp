@@ -21,8 +21,8 @@
 #include <functional>
 #include <string>
 
-#include "model/lanes/aligned_buffer.hpp"
 #include "model/lane_population.hpp"
+#include "model/lanes/aligned_buffer.hpp"
 #include "signal/stimuli.hpp"
 
 namespace {

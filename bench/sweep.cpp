@@ -15,8 +15,8 @@
 
 #include "study/sweep/rank_messages.hpp"
 #include "study/sweep/ranks.hpp"
-#include "study/sweep/sweep_results.hpp"
 #include "study/sweep/sqlite.hpp"
+#include "study/sweep/sweep_results.hpp"
 
 namespace {
 

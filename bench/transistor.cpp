@@ -70,7 +70,8 @@ int main() {
     measure("one", scalar_rounds, constants, points);
     measure("baseline", test::baseline::uicm_evaluate_rounds, constants, points);
 #ifdef __x86_64__
-    if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) measure("avx2", test::avx2::uicm_evaluate_rounds, constants, points);
+    if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
+        measure("avx2", test::avx2::uicm_evaluate_rounds, constants, points);
     if (__builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl"))
         measure("avx512", test::avx512::uicm_evaluate_rounds, constants, points);
 #endif

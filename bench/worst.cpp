@@ -55,8 +55,7 @@ Trains pressed(const std::shared_ptr<const CircuitAfferentFactory>& design, cons
                 return Chip{static_cast<std::int64_t>(k), design, chips.sample(k), press.force, 1 / press.rate};
             },
             [&](const Chip& chip, ChipResponse&& answer) {
-                if (answer.error)
-                    std::fprintf(stderr, "chip %lld: %s\n", static_cast<long long>(chip.id), answer.error->text().c_str());
+                if (answer.error) std::fprintf(stderr, "chip %lld: %s\n", static_cast<long long>(chip.id), answer.error->text().c_str());
                 out[static_cast<std::size_t>(chip.id)] = std::move(answer.spikes);
             },
             options);

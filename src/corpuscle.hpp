@@ -27,7 +27,7 @@ ForceSignal stimulus(const std::string& name, const std::vector<std::string>& se
 
 /// Response of one afferent.
 struct Response {
-    std::vector<double> spikes;         ///< s, in order; sample 0 is at 0 s
+    std::vector<double> spikes;                       ///< s, in order; sample 0 is at 0 s
     std::vector<double> instantaneous_rates() const;  ///< Hz, 1 / (t[k+1] - t[k]) at spike k (thesis 3.3); one value fewer than spikes
 };
 
@@ -40,9 +40,9 @@ Response respond(const std::string& afferent, const ForceSignal&, const std::vec
 class LiveSkin {
 public:
     struct Event {
-        double time = 0;            ///< s; the first frame is at time 0
-        std::uint32_t afferent_index = 0;     ///< index of the afferent; afferent_name() gives its name
-        std::uint32_t address = 0;  ///< the afferent's address in event files (doc/events.md)
+        double time = 0;                   ///< s; the first frame is at time 0
+        std::uint32_t afferent_index = 0;  ///< index of the afferent; afferent_name() gives its name
+        std::uint32_t address = 0;         ///< the afferent's address in event files (doc/events.md)
     };
 
     /// The point of the skin to which one force of a frame applies. Coordinates in m, x to the right and y away from the wrist.
@@ -60,10 +60,10 @@ public:
     LiveSkin& operator=(LiveSkin&&) noexcept;
     ~LiveSkin();
 
-    std::size_t sites() const;                   ///< number of forces in a frame
-    Site site(std::size_t number) const;         ///< site of force `number` of a frame, from 0
-    std::size_t afferents() const;                   ///< number of afferents
-    std::int64_t frames() const;                 ///< frames simulated so far
+    std::size_t sites() const;                            ///< number of forces in a frame
+    Site site(std::size_t number) const;                  ///< site of force `number` of a frame, from 0
+    std::size_t afferents() const;                        ///< number of afferents
+    std::int64_t frames() const;                          ///< frames simulated so far
     std::string afferent_name(std::uint32_t unit) const;  ///< "sa1#17"
 
     /// Simulates one frame: one force (N) for each site. Calls sink(event), in order, for each spike that arrives during this frame.

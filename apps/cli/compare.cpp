@@ -89,7 +89,7 @@ std::string text(const CompareOptions& options, const std::vector<TrainDifferenc
     for (const auto& d : all) rows.push_back(line_of(d, shown(d.a), shown(d.b)));
     if (all.size() > 1) rows.push_back(line_of(total, "total", ""));
     return format_table(rows) + fmt::format("Matching window {}; Victor-Purpura cost {:g} per second; van Rossum time constant {}.\n",
-                                     format_quantity(options.window, "s"), options.cost, format_quantity(options.tau, "s"));
+                                            format_quantity(options.window, "s"), options.cost, format_quantity(options.tau, "s"));
 }
 
 Result<void> run(const CompareArguments& w, const CommonArguments& common) {

@@ -21,7 +21,7 @@ void CurveFiles::begin_variant(const Variant& variant) {
     title_ = variant.circuit->title, label_ = variant.label;
     plot_count_ = 0, file_ = nullptr;
     analysis_count_ = static_cast<std::size_t>(std::count_if(variant.circuit->directives.begin(), variant.circuit->directives.end(),
-                                                       [](const Directive& c) { return find_analysis(c.name) != nullptr; }));
+                                                             [](const Directive& c) { return find_analysis(c.name) != nullptr; }));
 }
 
 Result<void> CurveFiles::add_plots(std::span<const Plot> plots) {
@@ -91,8 +91,9 @@ Result<std::string> CurveFiles::finish_early(bool interrupted) {
     if (!has_streamed_ && !(interrupted && has_complete_plots_)) files_.clear();  // keeps the earlier files at these paths
     if (files_.empty()) return std::string();
     const bool in_transient = file_ != nullptr;
-    const auto note = fmt::format("{} ends early{}{}", in_transient ? file_->path() : arguments_.out, label_.empty() ? "" : ", in " + label_,
-                                  in_transient ? ", at " + format_quantity(written_time_, "s") : "");
+    const auto note =
+        fmt::format("{} ends early{}{}", in_transient ? file_->path() : arguments_.out, label_.empty() ? "" : ", in " + label_,
+                    in_transient ? ", at " + format_quantity(written_time_, "s") : "");
     if (auto ok = finish(); !ok) return ok.error();
     return note;
 }

@@ -3,11 +3,11 @@
 #include <chrono>
 #include <deque>
 
+#include "circuit/netlist_variants.hpp"
 #include "circuit/plot_formats.hpp"
 #include "circuit/run_directives.hpp"
-#include "circuit/netlist_variants.hpp"
-#include "io/output_file.hpp"
 #include "io/output_check.hpp"
+#include "io/output_file.hpp"
 #include "verbs.hpp"
 
 namespace corpuscle {
@@ -28,7 +28,7 @@ class CurveFiles final : public circuit::CurveSink {
     std::size_t point_count_ = 0, count_offset_ = 0;
     double newest_time_ = 0, written_time_ = 0;  // s: newest point; last point written to the file
     Clock::time_point last_write_;
-    bool has_streamed_ = false;   // a transient has delivered more than its first point
+    bool has_streamed_ = false;        // a transient has delivered more than its first point
     bool has_complete_plots_ = false;  // an analysis has delivered complete plots
 
     Result<void> write_pending();

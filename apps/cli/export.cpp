@@ -6,11 +6,11 @@
 #include "circuit/embedded_netlists.hpp"
 #include "circuit/export/ngspice_deck.hpp"
 #include "io/output_check.hpp"
+#include "output_files.hpp"
 #include "own_files.hpp"
 #include "printable.hpp"
 #include "terminal.hpp"
 #include "verbs.hpp"
-#include "output_files.hpp"
 
 namespace corpuscle {
 namespace {

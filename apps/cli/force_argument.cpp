@@ -16,8 +16,8 @@ bool is_force(const std::string& argument) {
            std::any_of(touches.begin(), touches.end(), [&](const NamedTouch& t) { return t.name == argument; });
 }
 
-Result<std::unique_ptr<ForceSource>> open_force(const std::string& force, const RecordingOptions& options, std::span<const ParameterOverride> overrides,
-                                           double rate, std::uint64_t seed) {
+Result<std::unique_ptr<ForceSource>> open_force(const std::string& force, const RecordingOptions& options,
+                                                std::span<const ParameterOverride> overrides, double rate, std::uint64_t seed) {
     if (is_stimulus(force)) return make_stimulus(force, overrides, options.rate.value_or(rate), seed);
     std::error_code status;
     if (!std::filesystem::exists(force, status) && force.find_first_of("./") == std::string::npos && force != "-") {

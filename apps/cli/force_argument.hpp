@@ -6,8 +6,8 @@
 #include <string>
 
 #include "io/recording.hpp"
-#include "signal/parameter_override.hpp"
 #include "signal/force_source.hpp"
+#include "signal/parameter_override.hpp"
 
 namespace corpuscle {
 
@@ -16,7 +16,7 @@ bool is_force(const std::string& argument);
 
 /// A stimulus takes precedence over a file of the same name: write ./press for the file. "-" is standard input.
 /// `rate`: the default sampling rate of stimuli, Hz.
-Result<std::unique_ptr<ForceSource>> open_force(const std::string& force, const RecordingOptions&, std::span<const ParameterOverride> overrides, double rate,
-                                           std::uint64_t seed);
+Result<std::unique_ptr<ForceSource>> open_force(const std::string& force, const RecordingOptions&,
+                                                std::span<const ParameterOverride> overrides, double rate, std::uint64_t seed);
 
 }  // namespace corpuscle

@@ -14,7 +14,7 @@ constexpr std::size_t max_rows = 30;
 constexpr std::size_t max_rows_with_silent = 8;  // longer tables omit pairs without spikes
 
 /// The counts of all phases: "0 5 8 1 0".
-std::string by_phase(const VersionComparison& c, std::size_t VersionComparison::PhaseCount::*count) {
+std::string by_phase(const VersionComparison& c, std::size_t VersionComparison::PhaseCount::* count) {
     std::string text;
     for (const auto& p : c.phases) text += fmt::format("{}{}", text.empty() ? "" : " ", p.*count);
     return text.empty() ? "-" : text;
@@ -35,7 +35,8 @@ std::vector<std::string> line_of(const VersionComparison& c) {
 
 /// The reference that the following lines are compared with.
 std::vector<std::string> reference_line(const VersionComparison& c) {
-    return {c.reference, c.channel, fmt::format("{}", c.total.reference_spikes), by_phase(c, &VersionComparison::PhaseCount::reference_spikes)};
+    return {c.reference, c.channel, fmt::format("{}", c.total.reference_spikes),
+            by_phase(c, &VersionComparison::PhaseCount::reference_spikes)};
 }
 
 }  // namespace
@@ -63,7 +64,8 @@ std::string implementations_table(const VersionComparisons& comparisons) {
     return text + fmt::format(
                       "Compared with the first implementation of each receptor. Spikes within {} match; shift: median of matched spikes.\n"
                       "Victor-Purpura cost {:g} per second; van Rossum time constant {}.\n",
-                      format_quantity(2 / VersionComparisons::cost, "s"), VersionComparisons::cost, format_quantity(VersionComparisons::tau, "s"));
+                      format_quantity(2 / VersionComparisons::cost, "s"), VersionComparisons::cost,
+                      format_quantity(VersionComparisons::tau, "s"));
 }
 
 }  // namespace corpuscle

@@ -77,7 +77,7 @@ std::vector<ListSection> circuit_sections() {
     using namespace circuit;
     const CatalogEntry card{UicmCard::name, UicmCard::description, UicmCard::source, parameters_of<UicmCard>(UicmCard::fields)};
     const CatalogEntry size{"m", "transistor size: the parameters of an M line", "choice: 1 um / 1 um",
-                    parameters_of<UicmInstance>(UicmInstance::fields)};
+                            parameters_of<UicmInstance>(UicmInstance::fields)};
     std::vector<ListEntry> elements, analysis_entries;
     for (const auto& d : circuit::devices) elements.push_back({std::string(1, d.letter), "", std::string(d.description), "", {}, {}});
     for (const auto& a : circuit::analyses)
@@ -92,14 +92,14 @@ std::vector<ListSection> catalogue() {
     for (const auto& f : recording_formats)
         format_entries.push_back({std::string(f.name), std::string(f.extensions), std::string(f.description), "", {}, {}, "extensions"});
     std::vector<ListSection> all = {{"afferents", afferent_entries()},
-                                {"sensors", entries_of(sensor_entries())},
-                                {"transducers", entries_of(transducer_entries())},
-                                {"converters", entries_of(converter_entries())},
-                                {"transductions", entries_of(receptor_entries())},
-                                {"neurons", entries_of(neuron_entries())},
-                                {"stimuli", entries_of(stimulus_catalog())},
-                                {"measures", measure_entries},
-                                {"formats", format_entries}};
+                                    {"sensors", entries_of(sensor_entries())},
+                                    {"transducers", entries_of(transducer_entries())},
+                                    {"converters", entries_of(converter_entries())},
+                                    {"transductions", entries_of(receptor_entries())},
+                                    {"neurons", entries_of(neuron_entries())},
+                                    {"stimuli", entries_of(stimulus_catalog())},
+                                    {"measures", measure_entries},
+                                    {"formats", format_entries}};
     for (auto& s : skin_sections()) all.push_back(std::move(s));
     for (auto& s : circuit_sections()) all.push_back(std::move(s));
     return all;
@@ -134,7 +134,9 @@ Result<std::vector<ListSection>> select_sections(const std::vector<std::string>&
     return out;
 }
 
-bool has_range(const ParameterInfo& r) { return r.low > -std::numeric_limits<double>::max() || r.high < std::numeric_limits<double>::max(); }
+bool has_range(const ParameterInfo& r) {
+    return r.low > -std::numeric_limits<double>::max() || r.high < std::numeric_limits<double>::max();
+}
 
 std::string range(const ParameterInfo& r) {
     if (!has_range(r)) return "";

@@ -46,8 +46,8 @@ void add_class_notes(const SkinPlan& plan, std::uint32_t k, std::vector<CatalogN
     const auto& c = plan.classes[k];
     const auto by_region = afferents_by_region(plan, k);
     const auto count = std::accumulate(by_region.begin(), by_region.end(), std::uint64_t{0});
-    out.push_back(
-        {c.name, fmt::format("{} afferents, {}: {}", count, c.afferent.composition(), densities(plan, c)), source_for(c.sources, "density")});
+    out.push_back({c.name, fmt::format("{} afferents, {}: {}", count, c.afferent.composition(), densities(plan, c)),
+                   source_for(c.sources, "density")});
     const auto length = [](double m) { return format_quantity(m, "m"); };
     out.push_back({"", fmt::format("receptive field: Gaussian, sigma {}", length(c.sigma)), source_for(c.sources, "sigma")});
     if (c.hot_spots > 1)
@@ -71,7 +71,7 @@ ListEntry entry_of_skin(const NamedSkin& named) {
     if (!plan) return e;  // a test makes sure that it exists
     const auto& sites = plan->sites;
     e.notes.push_back({"sites", fmt::format("{}, {:.3g} mm2 each, in {} regions", sites.size(), sites.area * 1e6, sites.regions.size()),
-                      source_for(plan->sources, "sites")});
+                       source_for(plan->sources, "sites")});
     e.notes.push_back({"felt_area", fmt::format("{:.3g} cm2", plan->felt_area * 1e4), source_for(plan->sources, "felt_area")});
     for (std::uint32_t k = 0; k < plan->classes.size(); ++k) add_class_notes(*plan, k, e.notes);
     return e;
@@ -83,7 +83,8 @@ std::vector<ListEntry> contact_entries() {
     for (const auto& i : indenters) {
         ListEntry e{std::string(i.name), "", std::string(i.description), std::string(i.source), {}, {}};
         for (const auto& row : rows)
-            if (std::find(i.parameters.begin(), i.parameters.end(), row.name) != i.parameters.end()) e.parameters.push_back({row, "contact"});
+            if (std::find(i.parameters.begin(), i.parameters.end(), row.name) != i.parameters.end())
+                e.parameters.push_back({row, "contact"});
         out.push_back(std::move(e));
     }
     ListEntry path{"path", "", "position and movement of any indenter", "", {}, {}};
@@ -115,14 +116,16 @@ Result<std::string> sites_listing(const std::vector<std::string>& populations, b
     if (json) {
         nlohmann::ordered_json out = {{"population", plan->name}, {"site_area_m2", sites.area}, {"sites", nlohmann::ordered_json::array()}};
         for (std::size_t s = 0; s < sites.size(); ++s)
-            out["sites"].push_back(
-                {{"name", sites.names[s]}, {"x_m", sites.positions[s].x}, {"y_m", sites.positions[s].y}, {"region", sites.regions[sites.region[s]]}});
+            out["sites"].push_back({{"name", sites.names[s]},
+                                    {"x_m", sites.positions[s].x},
+                                    {"y_m", sites.positions[s].y},
+                                    {"region", sites.regions[sites.region[s]]}});
         return out.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
     }
     std::string out = "name,x_mm,y_mm,region\n";
     for (std::size_t s = 0; s < sites.size(); ++s)
-        out += fmt::format("{},{:.10g},{:.10g},{}\n", quote_csv_field(sites.names[s]), 1e3 * sites.positions[s].x, 1e3 * sites.positions[s].y,
-                           quote_csv_field(sites.regions[sites.region[s]]));
+        out += fmt::format("{},{:.10g},{:.10g},{}\n", quote_csv_field(sites.names[s]), 1e3 * sites.positions[s].x,
+                           1e3 * sites.positions[s].y, quote_csv_field(sites.regions[sites.region[s]]));
     return out;
 }
 

@@ -12,13 +12,13 @@
 #include "force_argument.hpp"
 #include "help.hpp"
 #include "model/copies.hpp"
+#include "option_groups.hpp"
 #include "signal/version.hpp"
 #include "stream_verbs.hpp"
 #include "study/studies.hpp"
 #include "sweep_verbs.hpp"
 #include "terminal.hpp"
 #include "verbs.hpp"
-#include "option_groups.hpp"
 
 namespace {
 

@@ -45,8 +45,7 @@ namespace {
 
 /// Adds --transpose and --no-transpose, which set the same value.
 void add_orientation(CLI::App& verb, std::optional<bool>& transpose, const std::string& group) {
-    auto* transposed = verb.add_flag_callback(
-        "--transpose", [&transpose] { transpose = true; }, "rows of a recording are channels");
+    auto* transposed = verb.add_flag_callback("--transpose", [&transpose] { transpose = true; }, "rows of a recording are channels");
     auto* not_transposed = verb.add_flag_callback(
         "--no-transpose", [&transpose] { transpose = false; },
         "rows of a recording are samples, even if there are fewer rows than channels");

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "io/output_file.hpp"
 #include "io/output_check.hpp"
+#include "io/output_file.hpp"
 #include "verbs.hpp"
 
 namespace corpuscle {

@@ -10,25 +10,25 @@
 #include <nlohmann/json.hpp>
 
 #include "force_argument.hpp"
+#include "implementations_table.hpp"
 #include "netlist_arguments.hpp"
-#include "respond_outputs.hpp"
 #include "printable.hpp"
 #include "recording_arguments.hpp"
-#include "signal/quantity.hpp"
+#include "respond_outputs.hpp"
 #include "signal/ascii_text.hpp"
+#include "signal/quantity.hpp"
 #include "study/afferent_plan.hpp"
 #include "study/nerve_limit.hpp"
-#include "study/silent_afferents.hpp"
 #include "study/run_summary.hpp"
+#include "study/silent_afferents.hpp"
 #include "terminal.hpp"
 #include "verbs.hpp"
-#include "implementations_table.hpp"
 
 namespace corpuscle {
 namespace {
 
-constexpr double default_rate = 10e3;          // Hz, of stimuli
-constexpr std::size_t max_rows = 60;           // of the printed table
+constexpr double default_rate = 10e3;             // Hz, of stimuli
+constexpr std::size_t max_rows = 60;              // of the printed table
 constexpr std::size_t max_rows_with_silent = 24;  // longer tables omit silent afferents
 
 struct Job {
@@ -81,8 +81,8 @@ Result<void> populate(Job& job, const RespondArguments& w) {
     for (const auto& a : job.afferents) names.push_back(a.name);
     for (const auto& entry : *overrides)
         if (!entry.is_used)
-            return bad_usage(
-                fmt::format("--spread {}: there is no afferent '{}' in this run{}", entry.text(), entry.target, did_you_mean(entry.target, names)));
+            return bad_usage(fmt::format("--spread {}: there is no afferent '{}' in this run{}", entry.text(), entry.target,
+                                         did_you_mean(entry.target, names)));
     return {};
 }
 
@@ -102,8 +102,8 @@ Result<void> check_overrides(const Job& job) {
     for (const auto& s : job.sources) names.push_back(s->name());
     for (const auto& w : job.overrides)
         if (!w.is_used)
-            return bad_usage(
-                fmt::format("--set {}: there is no afferent or stimulus '{}' in this run{}", w.text(), w.target, did_you_mean(w.target, names)));
+            return bad_usage(fmt::format("--set {}: there is no afferent or stimulus '{}' in this run{}", w.text(), w.target,
+                                         did_you_mean(w.target, names)));
     return {};
 }
 
@@ -249,7 +249,8 @@ void warn_of_rates(Job& job, const RunSummary& summary) {
         const MeasureRow* fastest = nullptr;
         double rate = max_nerve_rate;
         for (const auto& row : summary.rows())
-            if (const double r = row.copy_statistics.empty() ? row.values[peak] : row.copy_statistics[peak].max; row.afferent == plan.name && r > rate)
+            if (const double r = row.copy_statistics.empty() ? row.values[peak] : row.copy_statistics[peak].max;
+                row.afferent == plan.name && r > rate)
                 fastest = &row, rate = r;
         if (fastest) warn(job, fmt::format("{}: on {} {}", plan.name, fastest->channel, excessive_rate_warning(rate, plan, plan.name)));
     }
@@ -345,8 +346,8 @@ Result<void> run(const RespondArguments& w, const CommonArguments& common) {
     if (common.json)
         fmt::print("{}\n", json_text(result));
     else if (!common.quiet)
-        print_text(inputs_table(summary) + copies_line(job->copy_spec) + rate_table(summary) + implementations_table(summary.comparisons()) +
-             outputs.written_text());
+        print_text(inputs_table(summary) + copies_line(job->copy_spec) + rate_table(summary) +
+                   implementations_table(summary.comparisons()) + outputs.written_text());
     if (!work->diverged.empty()) {
         auto error = work->diverged[0];
         error.message =
@@ -364,7 +365,8 @@ int respond(const RespondArguments& typed, const CommonArguments& common) {
     auto w = typed;
     if (!w.netlists.probes.empty()) {
         if (w.out.empty() && !w.has_report)
-            return report_error(bad_usage(fmt::format("{} needs --out DIR or --report", first_netlist_option({{}, {}, {}, {}, w.netlists.probes}))));
+            return report_error(
+                bad_usage(fmt::format("{} needs --out DIR or --report", first_netlist_option({{}, {}, {}, {}, w.netlists.probes}))));
         w.probe_files |= !w.out.empty();
     }
     const auto done = run(w, common);

@@ -2,14 +2,14 @@
 
 #include <fmt/format.h>
 
+#include "output_files.hpp"
 #include "recording_arguments.hpp"
+#include "study/copies_file.hpp"
+#include "study/earlier_outputs.hpp"
+#include "study/npz_file.hpp"
 #include "study/psth_file.hpp"
 #include "study/spike_sound_file.hpp"
-#include "study/copies_file.hpp"
-#include "study/npz_file.hpp"
-#include "study/earlier_outputs.hpp"
 #include "study/test_vectors_file.hpp"
-#include "output_files.hpp"
 
 namespace corpuscle {
 /// Removes unfinished files in reverse order. The first file may have created the directory, which must be empty when it is removed.
@@ -54,7 +54,7 @@ std::vector<std::string> RespondOutputs::paths() const {
 
 /// Checks all output files before the first is created.
 Result<void> RespondOutputs::check(const RespondArguments& w, const CopySpec& copy_spec, const std::optional<std::string>& page,
-                            std::vector<std::string> later, OutputCheck& outputs) {
+                                   std::vector<std::string> later, OutputCheck& outputs) {
     const std::pair<const char*, bool> names[] = {{"spikes.csv", true},
                                                   {"copies.csv", copy_spec.count > 0},
                                                   {"spikes.npz", w.npz},
@@ -65,7 +65,8 @@ Result<void> RespondOutputs::check(const RespondArguments& w, const CopySpec& co
     return check_outputs(w.out, std::move(later), page, w.checkpoint, outputs);
 }
 
-Result<void> RespondOutputs::open(const RespondArguments& w, const CopySpec& copy_spec, std::vector<std::string> later, OutputCheck& outputs) {
+Result<void> RespondOutputs::open(const RespondArguments& w, const CopySpec& copy_spec, std::vector<std::string> later,
+                                  OutputCheck& outputs) {
     const std::pair<const char*, bool> options[] = {
         {"--traces", w.probe_files}, {"--vectors", w.vectors}, {"--bin", w.bin.has_value()}, {"--npz", w.npz}, {"--wav", w.wav}};
     for (const auto& [option, given] : options)
@@ -98,8 +99,9 @@ void RespondOutputs::add_listeners(std::vector<ResponseSink*>& listeners) {
 
 std::vector<std::string> RespondOutputs::file_names() const { return file_names_in(directory_, paths()); }
 
-Result<void> RespondOutputs::commit(const RunSummary& summary, std::span<const AfferentPlan> afferents, const std::vector<std::string>& warnings,
-                             const std::string& document, const std::string& command, const nlohmann::ordered_json& costs) {
+Result<void> RespondOutputs::commit(const RunSummary& summary, std::span<const AfferentPlan> afferents,
+                                    const std::vector<std::string>& warnings, const std::string& document, const std::string& command,
+                                    const nlohmann::ordered_json& costs) {
     if (report_)
         if (auto ok = write_and_commit(*report_file_, report_->page(summary, afferents, command, warnings, costs)); !ok) return ok;
     for (auto& file : files_)

@@ -10,8 +10,8 @@
 #include "io/foreign_format.hpp"
 #include "printable.hpp"
 #include "recording_arguments.hpp"
-#include "signal/stimuli.hpp"
 #include "signal/ascii_text.hpp"
+#include "signal/stimuli.hpp"
 #include "signal/version.hpp"
 #include "skin/class_overrides.hpp"
 #include "skin/indented_array.hpp"
@@ -104,7 +104,8 @@ Result<void> check_skin_overrides(const SkinJob& job) {
     std::vector<std::string_view> names = {"contact", job.source->name()};
     for (const auto& c : job.skin->plan.classes) names.push_back(c.name);
     for (const auto& w : job.overrides)
-        if (!w.is_used) return bad_usage(fmt::format("--set {}: there is no '{}' in this run{}", w.text(), w.target, did_you_mean(w.target, names)));
+        if (!w.is_used)
+            return bad_usage(fmt::format("--set {}: there is no '{}' in this run{}", w.text(), w.target, did_you_mean(w.target, names)));
     return {};
 }
 
@@ -178,7 +179,7 @@ void add_force_notes(SkinJob& job) {
     for (const auto& c : job.skin->plan.classes)
         if (job.source->clock().rate() < c.afferent.min_rate * (1 - 1e-9))
             run_info.warnings.push_back(fmt::format("{}: the sampling rate of the force is {:g} Hz; {:g} Hz or more is needed", c.name,
-                                                job.source->clock().rate(), c.afferent.min_rate));
+                                                    job.source->clock().rate(), c.afferent.min_rate));
     if (run_info.stats.truncated_steps > 0)
         run_info.warnings.push_back(
             fmt::format("{} time steps reached the spike limit of one step and were truncated; increase the sampling rate or the "
@@ -197,7 +198,8 @@ std::string stronger_stimulus_advice(const SkinJob& job, const RespondArguments&
     const auto facts = job.source->metadata();
     if (!is_stimulus(job.source->name())) {
         const bool has_gain = !facts.empty() && facts[0].name.ends_with("newtons per unit");
-        return has_gain ? fmt::format("try --scale {}{}", format_rounded_up(factor * facts[0].value), w.unit ? " in place of --unit" : "") : "";
+        return has_gain ? fmt::format("try --scale {}{}", format_rounded_up(factor * facts[0].value), w.unit ? " in place of --unit" : "")
+                        : "";
     }
     const MetadataEntry* largest = nullptr;
     for (const auto& f : facts)
@@ -217,8 +219,8 @@ void add_silence_notes(SkinJob& job, const RespondArguments& w, const std::vecto
         else if (!s.factor)
             text += fmt::format(" received at most {:.2g} N, and would not fire even at a million times this force", s.max_force);
         else
-            text += fmt::format(" received at most {:.2g} N, and needs about {} N of the same stimulus to fire ({} times as much)", s.max_force,
-                                format_rounded_up(*s.factor * s.max_force), format_rounded_up(*s.factor));
+            text += fmt::format(" received at most {:.2g} N, and needs about {} N of the same stimulus to fire ({} times as much)",
+                                s.max_force, format_rounded_up(*s.factor * s.max_force), format_rounded_up(*s.factor));
         messages.push_back(std::move(text));
         if (s.factor) min_factor = std::min(*s.factor, min_factor.value_or(*s.factor));
     }
@@ -242,9 +244,9 @@ void add_rate_warnings(SkinJob& job, const SkinSummary& summary) {
         const auto& plan = job.skin->plan.classes[c].afferent;
         const auto [units, rate] = summary.count_faster_than(c, max_nerve_rate);
         if (units > 0)
-            job.run_info.warnings.push_back(fmt::format("{} of {} {} afferents: {}", units, job.skin->class_begin[c + 1] - job.skin->class_begin[c],
-                                                    job.skin->plan.classes[c].name,
-                                                    excessive_rate_warning(rate, plan, job.skin->plan.classes[c].name)));
+            job.run_info.warnings.push_back(
+                fmt::format("{} of {} {} afferents: {}", units, job.skin->class_begin[c + 1] - job.skin->class_begin[c],
+                            job.skin->plan.classes[c].name, excessive_rate_warning(rate, plan, job.skin->plan.classes[c].name)));
     }
 }
 
@@ -320,8 +322,8 @@ Result<void> coordinate_skin(SkinJob& job, const RespondArguments& w, const Comm
         if (!opened) return opened.error();
         checkpoint = std::move(*opened);
         if (checkpoint->resumed_samples() > 0 && !common.quiet)
-            print_message(fmt::format("resuming after {:.3f} s, from {}", job.source->clock().T() * static_cast<double>(checkpoint->resumed_samples()),
-                             w.checkpoint));
+            print_message(fmt::format("resuming after {:.3f} s, from {}",
+                                      job.source->clock().T() * static_cast<double>(checkpoint->resumed_samples()), w.checkpoint));
     }
     SkinSpikeTimes times;
     std::vector<SkinSink*> listeners = {&summary, &silence};
@@ -351,7 +353,7 @@ Result<void> coordinate_skin(SkinJob& job, const RespondArguments& w, const Comm
     if (common.json) result["spikes"] = times.document();
     if (common.json && times.is_over_limit())
         print_warning(fmt::format("{}: more than {} million spikes, which are too many for --json; --out DIR writes them to spikes.csv",
-                                 job.name, SkinSpikeTimes::max_spikes / 1'000'000));
+                                  job.name, SkinSpikeTimes::max_spikes / 1'000'000));
     if (common.json)
         fmt::print("{}\n", json_text(result));
     else if (!common.quiet)

@@ -9,9 +9,9 @@
 #include "budget_tables.hpp"
 #include "circuit/analyses.hpp"
 #include "circuit/cost/cost_meter.hpp"
-#include "circuit/run_directives.hpp"
-#include "circuit/resolve_probe.hpp"
 #include "circuit/netlist_variants.hpp"
+#include "circuit/resolve_probe.hpp"
+#include "circuit/run_directives.hpp"
 #include "curve_files.hpp"
 #include "netlist_arguments.hpp"
 #include "printable.hpp"
@@ -40,7 +40,9 @@ class CollectedPlots final : public CurveSink {
 
 public:
     std::vector<Plot> plots;
-    Result<void> add_plots(std::span<const Plot> more) override { return plots.insert(plots.end(), more.begin(), more.end()), Result<void>(); }
+    Result<void> add_plots(std::span<const Plot> more) override {
+        return plots.insert(plots.end(), more.begin(), more.end()), Result<void>();
+    }
     Result<void> begin(const Plot& head) override { return kept_.begin(head); }
     Result<void> add_point(std::span<const double> row) override { return kept_.add_point(row); }
     Result<void> end() override { return plots.push_back(std::move(kept_.plot)), Result<void>(); }
@@ -69,8 +71,11 @@ Json document_of(const VariantResult& result) {
     }
     for (const auto& [name, value] : outcome.numbers) numbers[name] = json_number(value);
     for (const auto& e : outcome.expectations)
-        expectations.push_back(
-            {{"what", e.name}, {"found", json_number(e.actual)}, {"expected", e.expected}, {"tolerance", e.tolerance}, {"holds", e.is_met}});
+        expectations.push_back({{"what", e.name},
+                                {"found", json_number(e.actual)},
+                                {"expected", e.expected},
+                                {"tolerance", e.tolerance},
+                                {"holds", e.is_met}});
     for (const auto& r : outcome.warnings) remarks.push_back(r.text());
     Json out = {{"title", result.variant.circuit->title}, {"plots", plots},     {"analyses", analyses}, {"numbers", numbers},
                 {"expectations", expectations},           {"warnings", remarks}};
@@ -129,7 +134,7 @@ class VariantPrinter {
     std::vector<MeasurementStats> stats_;
 
 public:
-    std::vector<Error> failures;  ///< of variants that did not converge
+    std::vector<Error> failures;              ///< of variants that did not converge
     std::optional<Error> failed_expectation;  ///< the first
 
     VariantPrinter(const CommonArguments& common, bool has_steps, bool is_monte_carlo)
@@ -201,8 +206,8 @@ public:
 };
 
 std::size_t analyses_of(const Circuit& circuit) {
-    return static_cast<std::size_t>(
-        std::count_if(circuit.directives.begin(), circuit.directives.end(), [](const Directive& c) { return find_analysis(c.name) != nullptr; }));
+    return static_cast<std::size_t>(std::count_if(circuit.directives.begin(), circuit.directives.end(),
+                                                  [](const Directive& c) { return find_analysis(c.name) != nullptr; }));
 }
 
 /// Creates the analysis context of a variant, or reuses the last one if the circuit is the same.
@@ -217,7 +222,8 @@ Result<void> prepare(std::unique_ptr<AnalysisContext>& context, const Variant& v
     return {};
 }
 
-Result<void> run_all(NetlistVariants& variants, const RunArguments& w, const CommonArguments& common, VariantPrinter& printer, CurveFiles& files) {
+Result<void> run_all(NetlistVariants& variants, const RunArguments& w, const CommonArguments& common, VariantPrinter& printer,
+                     CurveFiles& files) {
     const auto count = variants.count();
     Progress progress(common.quiet);
     std::unique_ptr<AnalysisContext> context;
@@ -317,8 +323,7 @@ Result<void> run_netlist(const RunArguments& w, const CommonArguments& common) {
     if (auto ok = files.finish(); !ok) return ok;
     if (!printer.failures.empty()) {
         auto error = printer.failures[0];
-        error.message =
-            fmt::format("{} of {} did not converge; the first: {}", printer.failures.size(), variants->count(), error.message);
+        error.message = fmt::format("{} of {} did not converge; the first: {}", printer.failures.size(), variants->count(), error.message);
         return error;
     }
     if (printer.failed_expectation) return *printer.failed_expectation;

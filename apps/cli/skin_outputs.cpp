@@ -3,15 +3,15 @@
 #include <fmt/format.h>
 #include <algorithm>
 
+#include "output_files.hpp"
 #include "recording_arguments.hpp"
 #include "signal/ascii_text.hpp"
-#include "study/skin_psth_file.hpp"
+#include "study/earlier_outputs.hpp"
+#include "study/skin_afferents_file.hpp"
 #include "study/skin_events_file.hpp"
 #include "study/skin_npz_file.hpp"
+#include "study/skin_psth_file.hpp"
 #include "study/skin_spikes_file.hpp"
-#include "study/skin_afferents_file.hpp"
-#include "study/earlier_outputs.hpp"
-#include "output_files.hpp"
 
 namespace corpuscle {
 

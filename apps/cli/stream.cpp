@@ -41,7 +41,7 @@ class LiveRun {
     std::unique_ptr<SkinStream> skin_;
     std::unique_ptr<FrameSource> frames_;
     const ForceSource* source_ = nullptr;  // of recorded frames, which own it; else null
-    FrameLayout layout_;              // of live frames
+    FrameLayout layout_;                   // of live frames
     std::unique_ptr<EventFormat> format_;
     std::unique_ptr<EventSink> outlet_;
     std::unique_ptr<StreamLoop> loop_;
@@ -104,7 +104,8 @@ class LiveRun {
         if (!bytes) return bytes.error();
         const auto in_frames = [&](double seconds) { return static_cast<std::int64_t>(std::min(seconds * clock->rate(), 2e9)); };
         layout_ = *layout;
-        frames_ = make_frame_source(std::move(*bytes), *layout, in_frames(n.hold), in_frames(n.max_gap), words_.batch_frames, header_reader(sites));
+        frames_ = make_frame_source(std::move(*bytes), *layout, in_frames(n.hold), in_frames(n.max_gap), words_.batch_frames,
+                                    header_reader(sites));
         if (!sites.empty()) frames_ = assign_sites(std::move(frames_), std::move(sites), skin_->sites());
         return {};
     }
@@ -200,7 +201,7 @@ class LiveRun {
             return bad_input(fmt::format("no complete frame from {}: received {} bytes, but a frame of '{}' ({} sites) has {}", from,
                                          counts.partial_bytes, words_.population, layout_.sites, layout_.bytes()));
         return bad_input(counts.partial_frames > 0 ? fmt::format("no complete frame from {}: the line does not end with a line break", from)
-                                           : fmt::format("no frame from {}", from));
+                                                   : fmt::format("no frame from {}", from));
     }
 
     Result<void> check_drops() const {
@@ -266,7 +267,8 @@ public:
         print_notes();
         StreamLoop::StreamOptions ways{.stop = interrupted, .busy_poll = words_.busy_poll, .keeps_state = !words_.save_state.empty()};
         ways.on_frame_error = [this](const FrameError& misfit) { warn(misfit_text(misfit)); };
-        if (!common_.quiet && !common_.json && ::isatty(STDERR_FILENO) && !::isatty(STDOUT_FILENO)) ways.on_second = [this] { show_status(); };
+        if (!common_.quiet && !common_.json && ::isatty(STDERR_FILENO) && !::isatty(STDOUT_FILENO))
+            ways.on_second = [this] { show_status(); };
         loop_ = std::make_unique<StreamLoop>(*skin_, *format_, *frames_, *outlet_, std::move(ways));
         if (auto ok = load_state(); !ok) return ok;
         if (is_live_input(words_.in) && words_.in != "-") print(frames_->description());

@@ -50,7 +50,9 @@ Result<int> port_of(const StreamArguments& w) {
 
 }  // namespace
 
-bool is_live_input(const std::string& in) { return in == "-" || in.starts_with("tcp:") || in.starts_with("udp:") || in.starts_with("serial:"); }
+bool is_live_input(const std::string& in) {
+    return in == "-" || in.starts_with("tcp:") || in.starts_with("udp:") || in.starts_with("serial:");
+}
 
 std::string input_name(const std::string& in) { return in == "-" ? "standard input" : in; }
 
@@ -73,7 +75,8 @@ Result<StreamQuantities> stream_quantities(const StreamArguments& w) {
     return n;
 }
 
-Result<std::unique_ptr<ForceSource>> open_stream_source(const StreamArguments& w, const StreamQuantities& n, std::span<const ParameterOverride> overrides) {
+Result<std::unique_ptr<ForceSource>> open_stream_source(const StreamArguments& w, const StreamQuantities& n,
+                                                        std::span<const ParameterOverride> overrides) {
     if (const auto option = first_recording_option(w); !option.empty() && is_stimulus(w.in))
         return bad_usage(
             fmt::format("{} is for recordings, but {} is a stimulus; change it by --set {}.PARAMETER=VALUE", option, w.in, w.in));

@@ -26,7 +26,8 @@ struct StreamQuantities {
 Result<StreamQuantities> stream_quantities(const StreamArguments&);
 
 /// Opens a recording, read as by respond, or a stimulus.
-Result<std::unique_ptr<ForceSource>> open_stream_source(const StreamArguments&, const StreamQuantities&, std::span<const ParameterOverride>);
+Result<std::unique_ptr<ForceSource>> open_stream_source(const StreamArguments&, const StreamQuantities&,
+                                                        std::span<const ParameterOverride>);
 
 /// The clock of live frames, and their layout in the bytes.
 Result<Clock> live_clock(const StreamArguments&, const StreamQuantities&);

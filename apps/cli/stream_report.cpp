@@ -39,7 +39,8 @@ std::string problems(const StreamReportInput& f) {
         {order.restarts,
          fmt::format("the sender's frame numbers restarted {}", order.restarts == 1 ? "once" : counted(order.restarts, "time"))},
         {counts.unreadable, counted(counts.unreadable, "frame") + " unreadable: replaced by the last force"},
-        {counts.invalid_values, counted(counts.invalid_values, "reading") + " invalid or beyond the limit: replaced by the last force of the site"},
+        {counts.invalid_values,
+         counted(counts.invalid_values, "reading") + " invalid or beyond the limit: replaced by the last force of the site"},
         {counts.partial_frames, counted(counts.partial_frames, "incomplete frame") + " at a disconnect"},
         {counts.senders.idle, counted(counts.senders.idle, "sender") + " disconnected: idle while another was waiting"},
         {counts.senders.ignored, counted(counts.senders.ignored, "datagram") + " from other senders ignored"},
@@ -47,7 +48,8 @@ std::string problems(const StreamReportInput& f) {
         {static_cast<std::int64_t>(done.unread), counted(static_cast<std::int64_t>(done.unread), "byte") + " of input unread at the end"},
         {done.dropped, counted(done.dropped, "spike") + " dropped: the receiver was too slow and the buffer full"},
         {f.sink.dropped(), counted(f.sink.dropped(), "spike") + " lost: the receiver disconnected or stopped reading"},
-        {f.skin.stats().truncated_steps, fmt::format("{} truncated at the spike limit of one step", counted(f.skin.stats().truncated_steps, "step"))},
+        {f.skin.stats().truncated_steps,
+         fmt::format("{} truncated at the spike limit of one step", counted(f.skin.stats().truncated_steps, "step"))},
     };
     std::string text;
     for (const auto& [count, message] : all)
@@ -112,7 +114,9 @@ nlohmann::ordered_json stream_document(const StreamReportInput& f) {
                      {"dropped", done.dropped},
                      {"lost", f.sink.dropped()},
                      {"readers", f.sink.connections()}};
-    doc["work"] = {{"afferent_steps", f.skin.stats().afferent_steps}, {"at_rest", f.skin.stats().skipped_steps}, {"capped", f.skin.stats().truncated_steps}};
+    doc["work"] = {{"afferent_steps", f.skin.stats().afferent_steps},
+                   {"at_rest", f.skin.stats().skipped_steps},
+                   {"capped", f.skin.stats().truncated_steps}};
     doc["delay_s"] = in_seconds(done.latency);
     const bool paced = is_paced(f);
     doc["jitter_s"] = paced ? in_seconds(done.jitter) : nullptr;

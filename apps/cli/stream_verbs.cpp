@@ -2,8 +2,8 @@
 
 #include <CLI/CLI.hpp>
 
-#include "sweep_verbs.hpp"
 #include "option_groups.hpp"
+#include "sweep_verbs.hpp"
 
 namespace corpuscle {
 namespace {

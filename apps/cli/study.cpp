@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "io/output_check.hpp"
+#include "output_files.hpp"
 #include "own_files.hpp"
 #include "report/study_page.hpp"
 #include "signal/parameter.hpp"
@@ -15,7 +16,6 @@
 #include "study/study_document.hpp"
 #include "terminal.hpp"
 #include "verbs.hpp"
-#include "output_files.hpp"
 
 namespace corpuscle {
 namespace {
@@ -59,7 +59,8 @@ Result<std::vector<const Study*>> chosen(const std::vector<std::string>& names) 
 std::string text_of(const Study& study, const StudyResult& outcome) {
     std::vector<std::vector<std::string>> rows = {{"", "computed", "published", "deviation", "allowed", ""}};
     for (const auto& c : outcome.claims)
-        rows.push_back({c.label, format_claim_value(c.computed, c), format_published(c), format_deviation(c), format_allowed_range(c), c.verdict()});
+        rows.push_back(
+            {c.label, format_claim_value(c.computed, c), format_published(c), format_deviation(c), format_allowed_range(c), c.verdict()});
     std::string text = fmt::format("{}: {}\n{}\n\n{}", study.name, study.title, study.question, format_table(rows));
     for (const auto& c : outcome.claims)
         if (!c.note.empty()) text += fmt::format("\n{}: {}\n", c.label, c.note);

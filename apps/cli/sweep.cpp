@@ -48,7 +48,8 @@ struct SweepProcess {
     bool is_coordinator() const { return !ranks || ranks->rank() == 0; }
 };
 
-Result<void> run_units(const SweepProcess& self, const Sweep& sweep, SweepResults& results, const SweepRunOptions& run, const CommonArguments& common) {
+Result<void> run_units(const SweepProcess& self, const Sweep& sweep, SweepResults& results, const SweepRunOptions& run,
+                       const CommonArguments& common) {
     SweepProgress count;
     if (!self.ranks) return run_sweep(sweep, results, run, count);
     if (!self.ranks->survive_death_of_one() && !common.quiet)
@@ -70,7 +71,8 @@ Error with_advice(const Error& error, const SweepResults& results) {
                                     results.finished_count(), results.item_count(), results.path())};
 }
 
-Result<void> coordinate_run(const SweepProcess& self, const Sweep& sweep, const SweepArguments& w, const CommonArguments& common, const Shard& shard) {
+Result<void> coordinate_run(const SweepProcess& self, const Sweep& sweep, const SweepArguments& w, const CommonArguments& common,
+                            const Shard& shard) {
     auto results = SweepResults::open(results_path(w, shard), sweep);
     if (!results) {
         if (self.ranks) shut_down_workers(*self.ranks);
@@ -87,7 +89,7 @@ Result<void> coordinate_run(const SweepProcess& self, const Sweep& sweep, const 
     }();
     if (const auto folded = results->checkpoint(); !folded && !common.quiet)
         print_warning(fmt::format("the results are complete only if {} is kept together with {}-wal: {}", results->path(), results->path(),
-                                 folded.error().message));
+                                  folded.error().message));
     if (!done) return with_advice(done.error(), *results);
     const auto state = read_sweep_status(*results, shard);
     if (!state) return state.error();
@@ -139,7 +141,8 @@ Result<void> merge_all(SweepResults& out, const std::vector<SweepResults>& in, c
         if (interrupted()) return Error{ErrorCode::interrupted, "interrupted; the same command resumes"};
         const auto added = out.merge(from);
         if (!added) return added.error();
-        if (!common.json && !common.quiet) print_text(fmt::format("{}: {} items, {} of them new\n", from.path(), from.finished_count(), *added));
+        if (!common.json && !common.quiet)
+            print_text(fmt::format("{}: {} items, {} of them new\n", from.path(), from.finished_count(), *added));
     }
     return {};
 }

@@ -65,7 +65,7 @@ Result<void> set_target(ChipCalibration& calibration, const std::string& model, 
 }
 
 Result<std::vector<CalibrationResult>> run_calibrations(ChipCalibration& calibration, const std::vector<Trim>& trims,
-                                                      const SweepCalibrateArguments& words) {
+                                                        const SweepCalibrateArguments& words) {
     const circuit::ChipSpec sampler{static_cast<double>(words.samples), words.seed};
     std::vector<circuit::ChipSample> chips;
     for (std::int64_t k = 0; k < words.samples; ++k) chips.push_back(sampler.sample(static_cast<std::uint64_t>(k)));
@@ -89,7 +89,8 @@ Result<void> calibrate_as(const SweepCalibrateArguments& words, const CommonArgu
     if (!known && (words.trims.empty() || words.like.empty()))
         return bad_usage(
             fmt::format("sweep calibrate {}: --like MODEL and --trim NAME=RANGE are required for this netlist", words.netlist));
-    if (words.samples < 1 || words.samples > 1'000'000) return bad_usage(fmt::format("--units {}: must be from 1 to 1000000", words.samples));
+    if (words.samples < 1 || words.samples > 1'000'000)
+        return bad_usage(fmt::format("--units {}: must be from 1 to 1000000", words.samples));
     ChipCalibration calibration;
     calibration.netlist = words.netlist, calibration.bits = words.bits, calibration.threads = words.threads;
     calibration.overrides = {{"corner", words.corner, "--corner " + words.corner}};

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "io/output_check.hpp"
+#include "output_files.hpp"
 #include "printable.hpp"
 #include "report/sweep_page.hpp"
 #include "signal/input_files.hpp"
@@ -14,7 +15,6 @@
 #include "sweep_tables.hpp"
 #include "terminal.hpp"
 #include "verbs.hpp"
-#include "output_files.hpp"
 
 namespace corpuscle {
 namespace {

@@ -51,7 +51,8 @@ Result<SweepStatus> read_sweep_status(const SweepResults& results, const Shard& 
                                        "SELECT count(*), total(ended = 'capped'), total(ended = 'lost'), total(iterations) FROM units");
     if (!counts) return counts.error();
     if (const auto row = counts->step(); !row) return row.error();
-    out.finished = counts->integer(0), out.truncated = counts->integer(1), out.diverged = counts->integer(2), out.iterations = counts->integer(3);
+    out.finished = counts->integer(0), out.truncated = counts->integer(1), out.diverged = counts->integer(2),
+    out.iterations = counts->integer(3);
     if (out.truncated + out.diverged == 0) return out;
     auto reasons = sql::Statement::make(file, results.path(),
                                         "SELECT why, count(*) FROM units WHERE ended <> 'done' GROUP BY why ORDER BY 2 DESC, 1 LIMIT 3");
@@ -68,7 +69,8 @@ std::string describe_frame_error(const SweepStatus& s) {
     const auto completed = s.finished - s.truncated - s.diverged;
     std::vector<std::vector<std::string>> rows = {{"items", "ended", "missing", "completed", "truncated", "diverged"}, {}};
     for (const auto n : {s.items, s.finished, s.missing(), completed, s.truncated, s.diverged}) rows[1].push_back(fmt::format("{}", n));
-    if (s.finished_now) rows[0].insert(rows[0].begin() + 2, "this run"), rows[1].insert(rows[1].begin() + 2, fmt::format("{}", *s.finished_now));
+    if (s.finished_now)
+        rows[0].insert(rows[0].begin() + 2, "this run"), rows[1].insert(rows[1].begin() + 2, fmt::format("{}", *s.finished_now));
     if (s.iterations > 0) rows[0].push_back("iterations"), rows[1].push_back(fmt::format("{}", s.iterations));
     auto text = format_table(rows);
     for (const auto& [reason, items] : s.reasons) text += fmt::format("  {} of them: {}\n", items, reason);
@@ -77,7 +79,7 @@ std::string describe_frame_error(const SweepStatus& s) {
 }
 
 nlohmann::ordered_json document_of(const SweepStatus& s) {
-    nlohmann::ordered_json out = {{"results", s.results},   {"units", s.items},   {"ended", s.finished},
+    nlohmann::ordered_json out = {{"results", s.results},   {"units", s.items},      {"ended", s.finished},
                                   {"missing", s.missing()}, {"capped", s.truncated}, {"lost", s.diverged}};
     out["iterations"] = s.iterations;
     if (s.finished_now) out["now"] = *s.finished_now;

@@ -61,8 +61,8 @@ std::string heading_of(const SweepColumn& c, const std::string& unit) {
 std::string limits_of(const SweepColumn& c) {
     const auto formatted = [&](double x) { return format_quantity(x, c.unit); };
     return c.min && c.max ? fmt::format("{} ... {}", formatted(*c.min), formatted(*c.max))
-           : c.min            ? "min " + formatted(*c.min)
-                                   : "max " + formatted(*c.max);
+           : c.min        ? "min " + formatted(*c.min)
+                          : "max " + formatted(*c.max);
 }
 
 std::string opening(const SweepTable& from, const SweepSummary& s, const std::string& title) {
@@ -142,7 +142,8 @@ void put_dependence(Rows& rows, const SweepTable& from, const SweepSummary& s, c
     };
     for (const auto& [axis, between] : d.points) line({from.axes[axis].name, "grid axis", "", percent(between.fraction), "", "", ""});
     for (const auto& i : d.influences)
-        if (i.device < 0 && i.influence.fraction.value >= min_fraction) line({i.name, "random", "", percent(i.influence.fraction.value), "", "", ""});
+        if (i.device < 0 && i.influence.fraction.value >= min_fraction)
+            line({i.name, "random", "", percent(i.influence.fraction.value), "", "", ""});
     for (std::size_t k = 0; k < std::min(d.devices.size(), max_devices); ++k) {
         const auto& share = d.devices[k];
         const auto& device = s.mismatch->subjects[static_cast<std::size_t>(share.subject)].devices[static_cast<std::size_t>(share.device)];
@@ -161,7 +162,8 @@ std::string dependences_text(const SweepTable& from, const SweepSummary& s) {
         const auto before = rows.size();
         put_dependence(rows, from, s, d);
         if (rows.size() == before) independent.push_back(d.measure);
-        if (!d.influences.empty()) explained += fmt::format("{}{} {}", explained.empty() ? "" : ", ", d.measure, percent(d.sensitivity.explained));
+        if (!d.influences.empty())
+            explained += fmt::format("{}{} {}", explained.empty() ? "" : ", ", d.measure, percent(d.sensitivity.explained));
     }
     std::string text;
     if (rows.size() > 1)
@@ -213,8 +215,8 @@ std::string grid_measures(const SweepTable& from, const SweepSummary& s) {
         const NumberFormat format(from.measures[m].unit, one, true);
         const bool varies = one.min < one.max;
         rows.push_back({heading_of(from.measures[m], format.unit()), fmt::format("{}", one.count), format(one.min),
-                        varies ? point_of(from, m, one.min) : "all", format(one.max),
-                        varies ? point_of(from, m, one.max) : "all", format(one.mean.value)});
+                        varies ? point_of(from, m, one.min) : "all", format(one.max), varies ? point_of(from, m, one.max) : "all",
+                        format(one.mean.value)});
     }
     return "\n" + format_table(rows);
 }
@@ -233,7 +235,7 @@ std::string effects_text(const SweepTable& from, const SweepSummary& s) {
             const auto& axis = from.axes[e.axis];
             const auto value = [&](double x) {
                 return axis.labels.empty() ? format_quantity(x, axis.unit)
-                                          : axis.labels[std::min(static_cast<std::size_t>(x), axis.labels.size() - 1)];
+                                           : axis.labels[std::min(static_cast<std::size_t>(x), axis.labels.size() - 1)];
             };
             rows.push_back({&e == &one.effects[0] ? name : "", axis.name, percent(e.fraction), value(from.points[e.axis].front()),
                             mean(e.means.front()), value(from.points[e.axis].back()), mean(e.means.back())});

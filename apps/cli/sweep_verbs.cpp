@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
-#include "signal/version.hpp"
 #include "option_groups.hpp"
+#include "signal/version.hpp"
 
 namespace corpuscle {
 namespace {

@@ -90,12 +90,13 @@ Result<void> check_chunks(hid_t dataset, hid_t properties, const ArrayInfo& fact
         std::any_of(storage.chunk.begin(), storage.chunk.end(), [](auto n) { return n == 0; }))
         return bad_input(fmt::format("cannot read {}; the file may be damaged", facts.name), {path});
     if (bytes_of(storage.chunk, H5Tget_size(type)) > max_chunk)
-        return bad_input(fmt::format("{}: chunks of {} need more than 1 GB of memory each; repack the file: h5repack -l {} {} "
-                                     "repacked.h5",
-                                     describe(facts), fmt::join(storage.chunk, " x "),
-                                     quote_shell_word(fmt::format("{}:CHUNK={}", facts.name, facts.shape.size() == 1 ? "65536" : "4096x64")),
-                                     quote_shell_word(path)),
-                         {path});
+        return bad_input(
+            fmt::format("{}: chunks of {} need more than 1 GB of memory each; repack the file: h5repack -l {} {} "
+                        "repacked.h5",
+                        describe(facts), fmt::join(storage.chunk, " x "),
+                        quote_shell_word(fmt::format("{}:CHUNK={}", facts.name, facts.shape.size() == 1 ? "65536" : "4096x64")),
+                        quote_shell_word(path)),
+            {path});
     std::vector<hsize_t> chunk_counts;
     for (std::size_t d = 0; d < storage.chunk.size(); ++d) chunk_counts.push_back((facts.shape[d] - 1) / storage.chunk[d] + 1);
     const auto expected = bytes_of(chunk_counts, 1);

@@ -56,7 +56,7 @@ private:
     std::size_t max_frames_ = 2;
     std::int64_t width_ = 1, end_ = 0;  // samples
     std::vector<Frame> completed_;
-    std::vector<V> current_values_;               // values of the current frame
+    std::vector<V> current_values_;              // values of the current frame
     std::vector<std::uint32_t> nonzero_places_;  // nonzero places of the current frame; may contain duplicates and places that are 0 again
 
     Frame current_frame() const {

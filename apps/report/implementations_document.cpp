@@ -18,7 +18,8 @@ std::vector<std::string> phases_of(const VersionComparisons& comparisons) {
 }
 
 /// Afferent, channel, and spike counts in total and in each phase.
-Json counts_row(const VersionComparison& c, const std::string& afferent, const std::vector<std::string>& phases, std::size_t Count::*count) {
+Json counts_row(const VersionComparison& c, const std::string& afferent, const std::vector<std::string>& phases,
+                std::size_t Count::* count) {
     Json row = {afferent, c.channel, c.total.*count};
     for (const auto& phase : phases) {
         const auto p = std::find_if(c.phases.begin(), c.phases.end(), [&](const Count& one) { return one.phase == phase; });
@@ -58,7 +59,8 @@ Json implementations_document(const VersionComparisons& comparisons) {
         rows.push_back(row_document(c, phases));
         last = &c;
     }
-    return {{"columns", columns}, {"decimals", decimals}, {"rows", rows}, {"cost", VersionComparisons::cost}, {"tau", VersionComparisons::tau}};
+    return {
+        {"columns", columns}, {"decimals", decimals}, {"rows", rows}, {"cost", VersionComparisons::cost}, {"tau", VersionComparisons::tau}};
 }
 
 }  // namespace corpuscle

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "report/common_documents.hpp"
-#include "report/page_template.hpp"
 #include "report/implementations_document.hpp"
+#include "report/page_template.hpp"
 #include "signal/version.hpp"
 
 namespace corpuscle {
@@ -39,7 +39,8 @@ Json table_document(const RunSummary& summary) {
     Json columns = {"afferent", "channel", "phase"}, decimals = {nullptr, nullptr, nullptr}, rows = Json::array();
     const auto shown = summary.columns();
     const bool means = !summary.rows().empty() && !summary.rows()[0].copy_statistics.empty();  // counts then need a decimal, too
-    for (const auto m : shown) columns.push_back(column_heading(measures[m])), decimals.push_back(std::max(measures[m].decimals, means ? 1 : 0));
+    for (const auto m : shown)
+        columns.push_back(column_heading(measures[m])), decimals.push_back(std::max(measures[m].decimals, means ? 1 : 0));
     for (const auto& r : summary.rows()) {
         Json row = {r.afferent, r.channel, r.phase};
         for (const auto m : shown) row.push_back(cell_document(r, m));
@@ -75,7 +76,8 @@ Result<void> RespondReport::begin(const Input& input) {
     std::size_t traces = 1;  // per channel: the force and all probes
     for (std::size_t g = 0; g < groups(); ++g) traces += input.probes[groups_[g]].size();
     // A trace beyond this limit is kept as pairs of two points.
-    const std::size_t max_points = std::clamp<std::size_t>(max_points_ / (2 * traces * channels * input.input_count), 16, std::size_t{1} << 20);
+    const std::size_t max_points =
+        std::clamp<std::size_t>(max_points_ / (2 * traces * channels * input.input_count), 16, std::size_t{1} << 20);
     forces_.assign(channels, Envelope(max_points));
     probes_.clear();
     for (std::size_t k = 0; wants_probes() && k < channels * groups(); ++k)
@@ -98,7 +100,8 @@ Result<void> RespondReport::block(const Input& input, const RunBlock& response) 
         for (std::size_t p = 0; p < probes_[u].size(); ++p)
             for (std::size_t k = 0; k < response.force.count; ++k)
                 probes_[u][p].add(response.probes[afferent_index(u / groups(), u % groups())][p][k]);
-    for (const auto& s : response.spikes) trains_[s.afferent_index - input.first_afferent].push_back(input.source.clock().time(s.step, s.offset));
+    for (const auto& s : response.spikes)
+        trains_[s.afferent_index - input.first_afferent].push_back(input.source.clock().time(s.step, s.offset));
     return {};
 }
 
@@ -157,7 +160,7 @@ Result<void> RespondReport::end(const Input& input, std::int64_t samples) {
 }
 
 std::string RespondReport::page(const RunSummary& summary, std::span<const AfferentPlan> plans, const std::string& command,
-                         const std::vector<std::string>& warnings, const Json& costs) const {
+                                const std::vector<std::string>& warnings, const Json& costs) const {
     std::string title;
     for (const auto& i : summary.inputs()) title += (title.empty() ? "" : ", ") + i.name;
     Json afferents = Json::array(), notes = Json::array();
@@ -190,10 +193,8 @@ std::string RespondReport::page(const RunSummary& summary, std::span<const Affer
                      {"versions", {{"corpuscle", version}, {"compiler", compiler_version()}}}};
     document["costs"] = costs;
     if (copies_.count > 0)
-        document["copies"] = {{"count", copies_.count},
-                              {"shown", std::min(copies_.count, max_copies)},
-                              {"traced", wants_probes()},
-                              {"rates", rates_}};
+        document["copies"] = {
+            {"count", copies_.count}, {"shown", std::min(copies_.count, max_copies)}, {"traced", wants_probes()}, {"rates", rates_}};
     return fill_template(asset("page.html"), escape_html(title), script_json(document));
 }
 

@@ -48,7 +48,7 @@ private:
     void add_spikes(const Input&, std::size_t channel, std::size_t group);
     void add_rate(const Input&, std::size_t channel, std::size_t group, std::int64_t samples);
     std::vector<AfferentPlan> first_copies_;  // each afferent, or its first copy
-    Json recordables_ = Json::array();       // the probes of each
+    Json recordables_ = Json::array();        // the probes of each
     Json inputs_ = Json::array(), traces_ = Json::array(), spikes_ = Json::array(), rates_ = Json::array();
 };
 

@@ -3,8 +3,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "report/envelope.hpp"
 #include "report/binned_frames.hpp"
+#include "report/envelope.hpp"
 
 namespace corpuscle {
 

@@ -60,8 +60,9 @@ void SkinReport::add(const Spike& s) {
 void SkinReport::add_force(const SkinRunBlock& response) {
     const auto& force = response.force;
     for (std::size_t from = 0, to = 0; from < response.steps; from = to) {
-        to = std::min(static_cast<std::size_t>(sites_.select_frame(response.first_sample + static_cast<std::int64_t>(from)) - response.first_sample),
-                      response.steps);
+        to = std::min(
+            static_cast<std::size_t>(sites_.select_frame(response.first_sample + static_cast<std::int64_t>(from)) - response.first_sample),
+            response.steps);
         const auto add = [&](std::size_t s) {
             const double* site_force = force.data + s * force.stride;
             for (auto t = from; t < to; ++t) sites_.add(static_cast<std::uint32_t>(s / sites_per_mark_), site_force[t]);
@@ -102,7 +103,8 @@ Json SkinReport::spikes_document() const {
         if (begin[u] == begin[u + 1]) continue;
         bytes.append_number(u - next), bytes.append_number(begin[u + 1] - begin[u]);
         std::int64_t before = 0;
-        for (auto k = begin[u]; k < begin[u + 1]; ++k) bytes.append_number(static_cast<std::uint64_t>(ticks[k] - std::exchange(before, ticks[k])));
+        for (auto k = begin[u]; k < begin[u + 1]; ++k)
+            bytes.append_number(static_cast<std::uint64_t>(ticks[k] - std::exchange(before, ticks[k])));
         next = u + 1, ++trains;
     }
     return {{"count", spikes_}, {"trains", trains}, {"tick", clock_.T() / ticks_per_sample}, {"data", array64(bytes.bytes)}};

@@ -4,8 +4,8 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "report/envelope.hpp"
 #include "report/binned_frames.hpp"
+#include "report/envelope.hpp"
 #include "study/skin_run.hpp"
 
 namespace corpuscle {
@@ -14,7 +14,7 @@ namespace corpuscle {
 struct SkinReportLimits {
     std::size_t frames = 200, bins = 4096;  ///< of the maps; of the counts. Both double in length as the recording grows
     std::size_t marks = 20000;              ///< on a map; with more afferents, neighbours of a class share a mark
-    std::size_t timed_spikes = 2'000'000;         ///< with times; with more spikes only counts per frame are kept
+    std::size_t timed_spikes = 2'000'000;   ///< with times; with more spikes only counts per frame are kept
 };
 
 class SkinReport final : public SkinSink {
@@ -36,13 +36,13 @@ private:
     std::int64_t samples_ = 0, samples_with_delays_ = 0, spikes_ = 0;  // shown: including spikes after the end of the force
     std::size_t site_count_ = 0;
     Envelope forces_;                                // total over all sites, N
-    BinnedFrames<std::uint32_t> classes_, marks_;          // spikes: of each class in bins, of each mark in frames
-    BinnedFrames<double> sites_;                           // force of each mark of sites, summed over the samples of a frame, N
+    BinnedFrames<std::uint32_t> classes_, marks_;    // spikes: of each class in bins, of each mark in frames
+    BinnedFrames<double> sites_;                     // force of each mark of sites, summed over the samples of a frame, N
     std::vector<std::uint32_t> class_of_, mark_of_;  // of each afferent
     std::vector<std::uint32_t> mark_first_;          // the first afferent of each mark, then the end
     std::uint32_t afferents_per_mark_ = 1, sites_per_mark_ = 1;
     std::vector<std::uint32_t> spike_afferents_;  // in order of time
-    std::vector<std::int64_t> spike_ticks_;   // tenths of a sample
+    std::vector<std::int64_t> spike_ticks_;       // tenths of a sample
 
     void add(const Spike&);
     void add_force(const SkinRunBlock&);

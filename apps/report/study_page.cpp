@@ -45,7 +45,8 @@ Json page_document(const Study& study, StudyResult outcome) {
     for (std::size_t k = 0; k < outcome.claims.size(); ++k) {
         const auto& c = outcome.claims[k];
         document["claims"][k]["on_top"] = is_headline(c);
-        document["claims"][k]["texts"] = {format_claim_value(c.computed, c), format_published(c), format_deviation(c), format_allowed_range(c)};
+        document["claims"][k]["texts"] = {format_claim_value(c.computed, c), format_published(c), format_deviation(c),
+                                          format_allowed_range(c)};
     }
     return document;
 }

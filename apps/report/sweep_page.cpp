@@ -5,8 +5,8 @@
 #include <cmath>
 #include <map>
 
-#include "report/sweep_plots.hpp"
 #include "report/page_template.hpp"
+#include "report/sweep_plots.hpp"
 #include "signal/version.hpp"
 #include "study/sweep/mismatch_samples.hpp"
 #include "study/sweep/sweep_document.hpp"
@@ -91,10 +91,14 @@ Json factors_document(const SweepTable& table, const SweepSummary& s, const std:
         if (d.measure == "yield") break;
         out.push_back(Json::array());
         for (const auto& [axis, between] : d.points)
-            out.back().push_back(
-                {{"name", table.axes[axis].name}, {"part", ""}, {"share", between.fraction}, {"axis", axis}, {"unit", table.axes[axis].unit}});
+            out.back().push_back({{"name", table.axes[axis].name},
+                                  {"part", ""},
+                                  {"share", between.fraction},
+                                  {"axis", axis},
+                                  {"unit", table.axes[axis].unit}});
         for (const auto& i : d.influences)
-            if (out.back().size() < max_scatters && i.influence.fraction.value > 0) out.back().push_back(factor_document(table, s, i, points));
+            if (out.back().size() < max_scatters && i.influence.fraction.value > 0)
+                out.back().push_back(factor_document(table, s, i, points));
     }
     return out;
 }
@@ -113,8 +117,10 @@ Json grids_document(const SweepTable& table) {
         const auto effects = axis_effects(table, values);
         Json one = {{"effects", Json::array()}, {"pairs", Json::array()}};
         for (const auto& e : effects)
-            one["effects"].push_back(
-                {{"axis", e.axis}, {"share", e.fraction}, {"values", rounded_numbers(table.points[e.axis])}, {"means", rounded_numbers(e.means)}});
+            one["effects"].push_back({{"axis", e.axis},
+                                      {"share", e.fraction},
+                                      {"values", rounded_numbers(table.points[e.axis])},
+                                      {"means", rounded_numbers(e.means)}});
         for (std::size_t a = 0; a < std::min(effects.size(), max_axes); ++a)
             for (std::size_t b = a + 1; b < std::min(effects.size(), max_axes); ++b) {
                 const auto x = effects[a].axis, y = effects[b].axis;
@@ -143,7 +149,8 @@ Json sizes_document(const SweepSummary& s) {
     if (!s.mismatch) return out;
     for (const auto& d : s.dependences)
         for (const auto& share : d.devices) {
-            const auto& device = s.mismatch->subjects[static_cast<std::size_t>(share.subject)].devices[static_cast<std::size_t>(share.device)];
+            const auto& device =
+                s.mismatch->subjects[static_cast<std::size_t>(share.subject)].devices[static_cast<std::size_t>(share.device)];
             out[device.name] = fmt::format("{:g}x{:g} of {:.4g} x {:.4g} um", device.m, device.stack, 1e6 * device.W, 1e6 * device.L);
         }
     return out;

@@ -48,7 +48,8 @@ std::uint64_t fingerprint_of(const Circuit& c) {
 /// The unknowns that are interpolated between time points: those of spikes, probes and operating ranges.
 std::vector<int> interpolated_unknowns(const CircuitAfferentFactory& design) {
     std::vector<int> out = {design.spike_output.unknowns.plus, design.spike_output.unknowns.minus};
-    for (const auto& range : design.operating_ranges) out.push_back(range.quantity.unknowns.plus), out.push_back(range.quantity.unknowns.minus);
+    for (const auto& range : design.operating_ranges)
+        out.push_back(range.quantity.unknowns.plus), out.push_back(range.quantity.unknowns.minus);
     for (const auto& probe : design.probes) out.push_back(probe.unknowns.plus), out.push_back(probe.unknowns.minus);
     return out;
 }
@@ -111,7 +112,8 @@ public:
     }
 };
 
-Result<void> CircuitAfferent::respond_with(StreamingTransient& transient, std::span<const double> force, State& state, ResponseBlock& response) const {
+Result<void> CircuitAfferent::respond_with(StreamingTransient& transient, std::span<const double> force, State& state,
+                                           ResponseBlock& response) const {
     if (state.step == 0) {
         if (auto ok = transient.begin(force); !ok) return ok;
     } else {
@@ -135,7 +137,8 @@ Result<void> CircuitAfferent::respond_with(StreamingTransient& transient, std::s
 }
 
 /// Simulates until samples from ... to - 1 are complete.
-Result<void> CircuitAfferent::simulate_samples(StreamingTransient& transient, std::int64_t from, std::int64_t to, ResponseBlock& response) const {
+Result<void> CircuitAfferent::simulate_samples(StreamingTransient& transient, std::int64_t from, std::int64_t to,
+                                               ResponseBlock& response) const {
     const auto report_spike = [&] {
         auto& spike = transient.pending_spike();
         if (!spike || spike->step >= to) return;
@@ -148,7 +151,8 @@ Result<void> CircuitAfferent::simulate_samples(StreamingTransient& transient, st
             for (std::size_t p = 0; p < response.probes.size(); ++p)
                 response.probes[p][static_cast<std::size_t>(sample - from)] = transient.probe_value(design_->probes[p], sample);
             for (std::size_t k = 0; sample >= 0 && k < response.range_violations.size(); ++k)
-                if (auto& o = response.range_violations[k]; !design_->operating_ranges[k].contains(transient.probe_value(design_->operating_ranges[k].quantity, sample)))
+                if (auto& o = response.range_violations[k];
+                    !design_->operating_ranges[k].contains(transient.probe_value(design_->operating_ranges[k].quantity, sample)))
                     o = {o.samples + 1, o.first_sample < 0 ? sample : o.first_sample};
         }
         if (sample == to) return {};

@@ -2,10 +2,10 @@
 // A netlist with a force input and a spike output, as an afferent.
 
 #include "circuit/analysis/transient_plan.hpp"
-#include "circuit/saved_quantities.hpp"
-#include "circuit/spike_output.hpp"
 #include "circuit/netlist_variants.hpp"
 #include "circuit/operating_range.hpp"
+#include "circuit/saved_quantities.hpp"
+#include "circuit/spike_output.hpp"
 #include "signal/afferent.hpp"
 
 namespace corpuscle::circuit {

@@ -66,7 +66,7 @@ std::optional<CurveView> CurveView::find_expression(const Plot& plot, std::strin
                            : input.kind == ExpressionInput::Kind::voltage
                                ? find(plot, "v(" + input.name + "," + (input.minus.empty() ? "0" : input.minus) + ")")
                            : input.kind == ExpressionInput::Kind::current ? find(plot, "i(" + input.name + ")")
-                                                                       : std::nullopt;
+                                                                          : std::nullopt;
         if (!found) return {};
         out.inputs_.push_back(*found);
     }

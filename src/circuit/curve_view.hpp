@@ -27,7 +27,7 @@ class CurveView {
     static constexpr int ground = -1;
     int plus_ = ground, minus_ = ground;  // in the plot's curves
     std::string_view view_{};             // "" or one of view_names
-    bool has_no_view_ = true;                   // v(a), i(x), v(a,b)
+    bool has_no_view_ = true;             // v(a), i(x), v(a,b)
     std::shared_ptr<const Expression> expression_{};
     std::vector<CurveView> inputs_{};  // of the expression
 

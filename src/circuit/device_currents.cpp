@@ -36,8 +36,8 @@ bool DeviceCurrents::extend_plot(Plot& plot) const {
     for (const auto& s : currents_) {
         Curve curve{s.name, "current", {}};
         for (std::size_t p = 0; p < points; ++p)
-            curve.values.emplace_back(
-                s.value(system_, [&](int u) { return u < 0 ? 0 : plot.curves[static_cast<std::size_t>(u) + plot.has_sweep].values[p].real(); }));
+            curve.values.emplace_back(s.value(
+                system_, [&](int u) { return u < 0 ? 0 : plot.curves[static_cast<std::size_t>(u) + plot.has_sweep].values[p].real(); }));
         more.push_back(std::move(curve));
     }
     plot.curves.insert(plot.curves.end(), more.begin(), more.end());

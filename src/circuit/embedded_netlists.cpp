@@ -1,7 +1,7 @@
 #include "circuit/embedded_netlists.hpp"
 
-#include "signal/embedded_files.hpp"
 #include "signal/ascii_text.hpp"
+#include "signal/embedded_files.hpp"
 
 namespace corpuscle::circuit {
 const EmbeddedNetlist* find_embedded_netlist(std::string_view name) {

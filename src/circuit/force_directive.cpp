@@ -4,8 +4,8 @@
 
 #include "circuit/analysis/analysis_context.hpp"
 #include "circuit/netlist/spice_number.hpp"
-#include "signal/stimuli.hpp"
 #include "signal/ascii_text.hpp"
+#include "signal/stimuli.hpp"
 
 namespace corpuscle::circuit {
 namespace {
@@ -69,7 +69,8 @@ Result<std::unique_ptr<ForceSource>> source_of(const Directive& c) {
     auto source = make_stimulus(c.words[0], spec->overrides, spec->rate, 0);
     if (!source) return error_in(c, 0, source.error().message);
     for (const auto& parameter : spec->overrides)
-        if (!parameter.is_used) return error_in(c, 0, fmt::format("{}: '{}' is not a stimulus of this line", parameter.text(), parameter.target));
+        if (!parameter.is_used)
+            return error_in(c, 0, fmt::format("{}: '{}' is not a stimulus of this line", parameter.text(), parameter.target));
     return source;
 }
 

@@ -3,8 +3,8 @@
 
 #include <optional>
 
-#include "circuit/netlist/netlist.hpp"
 #include "circuit/force_waveform.hpp"
+#include "circuit/netlist/netlist.hpp"
 #include "signal/force_source.hpp"
 
 namespace corpuscle::circuit {

@@ -28,7 +28,9 @@ Result<Expression> parse_expression(const Directive& c, const KnownNumbers& numb
     return Expression::parse(inside, c.location, scope);
 }
 
-Error without_analysis(const Directive& c) { return bad_input(fmt::format(".meas: the netlist has no .{} to measure", c.words[0]), c.location); }
+Error without_analysis(const Directive& c) {
+    return bad_input(fmt::format(".meas: the netlist has no .{} to measure", c.words[0]), c.location);
+}
 Error incomplete_measure(const Directive& c) { return bad_input(".meas: expected .meas op|dc|ac|noise|tran NAME WHAT ...", c.location); }
 
 }  // namespace

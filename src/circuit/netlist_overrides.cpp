@@ -7,8 +7,8 @@
 
 #include "circuit/device/uicm_card.hpp"
 #include "circuit/hierarchical_names.hpp"
-#include "signal/quantity.hpp"
 #include "signal/ascii_text.hpp"
+#include "signal/quantity.hpp"
 
 namespace corpuscle::circuit {
 namespace {
@@ -118,11 +118,11 @@ private:
         }
         const std::vector<std::string_view> views(known.begin(), known.end());
         const std::vector<std::string_view> params(parameters_.begin(), parameters_.end());
-        return error_of(
-            setting,
-            fmt::format("{} has no parameter or device '{}'{} (it has {}corner, temp, mismatch, and {} devices, such as {})", circuit_.file,
-                        setting.name, did_you_mean(typed, views), params.empty() ? "" : fmt::format("{}, ", fmt::join(params, ", ")),
-                        names_.size(), names_.empty() ? "none" : short_name(names_.back(), piece_count(names_.back()), LastPiece::element)));
+        return error_of(setting,
+                        fmt::format("{} has no parameter or device '{}'{} (it has {}corner, temp, mismatch, and {} devices, such as {})",
+                                    circuit_.file, setting.name, did_you_mean(typed, views),
+                                    params.empty() ? "" : fmt::format("{}, ", fmt::join(params, ", ")), names_.size(),
+                                    names_.empty() ? "none" : short_name(names_.back(), piece_count(names_.back()), LastPiece::element)));
     }
 
     Result<void> device(const NetlistOverride& setting, const Element& e, std::string_view number) {
@@ -138,7 +138,8 @@ private:
         return put(setting, e, *at, *value);
     }
 
-    Error no_such(const NetlistOverride& setting, const Element& e, std::string_view number, const std::vector<ElementParameter>& known) const {
+    Error no_such(const NetlistOverride& setting, const Element& e, std::string_view number,
+                  const std::vector<ElementParameter>& known) const {
         std::vector<std::string_view> names;
         for (const auto& n : known)
             if (!n.name.empty()) names.push_back(n.name);

@@ -15,7 +15,7 @@ namespace corpuscle::circuit {
 /// Letters may be of either case. The end of a device's path is enough, and SPICE's letters may be left out.
 struct NetlistOverride {
     std::string name, value;
-    std::string text;              ///< as the user wrote it: "--set sa1-circuit.C_u=4pF"
+    std::string text;                ///< as the user wrote it: "--set sa1-circuit.C_u=4pF"
     bool is_parameter_only = false;  ///< the name is never a device; for --supply
 };
 

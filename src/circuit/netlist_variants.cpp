@@ -23,7 +23,8 @@ Result<std::vector<double>> linear_values(const Directive& c, std::size_t word) 
     for (const auto* number : {&from, &to, &step})
         if (!*number) return number->error();
     const double count = std::floor((*to - *from) / *step + 1e-9);
-    if (!(count >= 0)) return bad_input(fmt::format(".step: a step of {:g} does not lead from {:g} to {:g}", *step, *from, *to), c.location);
+    if (!(count >= 0))
+        return bad_input(fmt::format(".step: a step of {:g} does not lead from {:g} to {:g}", *step, *from, *to), c.location);
     if (!(count < max_variants)) return too_many(c, count);
     std::vector<double> out;
     for (double k = 0; k <= count; ++k) out.push_back(*from + k * *step);

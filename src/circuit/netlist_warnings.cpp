@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 #include <algorithm>
 
-#include "circuit/device/uicm_card.hpp"
 #include "circuit/device/named_values.hpp"
+#include "circuit/device/uicm_card.hpp"
 #include "circuit/netlist/spice_number.hpp"
 #include "signal/quantity.hpp"
 
@@ -74,8 +74,8 @@ void warn_about_missing_ac(std::vector<Error>& out, const Circuit& c) {
     if (std::any_of(c.elements.begin(), c.elements.end(), [](const Element& e) { return e.waveform.ac_magnitude != 0; })) return;
     for (const auto& directive : c.directives)
         if (directive.name == "ac") {
-            out.push_back(
-                bad_input(".ac: no source has an AC value, so every response is 0; add one, such as 'v1 in 0 dc 0 ac 1'", directive.location));
+            out.push_back(bad_input(".ac: no source has an AC value, so every response is 0; add one, such as 'v1 in 0 dc 0 ac 1'",
+                                    directive.location));
             return;
         }
 }

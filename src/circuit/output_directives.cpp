@@ -53,11 +53,11 @@ Plot expected_curves(const System& system, const DeviceCurrents& currents, const
     const std::string what = c.words.empty() ? "v" : c.words[0];
     const bool temperature = what == "temp";
     auto plot = make_plot(system, "DC transfer characteristic",
-                        temperature      ? "temp-sweep"
-                        : what[0] == 'i' ? "i-sweep"
-                        : what[0] == 'v' ? "v-sweep"
-                                         : "res-sweep",
-                        "");
+                          temperature      ? "temp-sweep"
+                          : what[0] == 'i' ? "i-sweep"
+                          : what[0] == 'v' ? "v-sweep"
+                                           : "res-sweep",
+                          "");
     if (!temperature) currents.extend_head(plot);
     return plot;
 }
@@ -107,7 +107,8 @@ private:
         if (c.words.size() == (named ? 1U : 0U))
             return bad_input(fmt::format(".{}: expected .{} tran v(NODE) ...", c.name, c.name), c.location);
         if (named && std::none_of(heads_.begin(), heads_.end(), [&](const Head& h) { return h.command->name == c.words[0]; })) {
-            warnings_.push_back(bad_input(fmt::format(".{}: the netlist has no .{}, so nothing is printed", c.name, c.words[0]), c.location));
+            warnings_.push_back(
+                bad_input(fmt::format(".{}: the netlist has no .{}, so nothing is printed", c.name, c.words[0]), c.location));
             return {};
         }
         for (std::size_t k = named ? 1 : 0; k < c.words.size(); ++k)
@@ -128,7 +129,8 @@ private:
             if (!named || head.command->name == c.words[0])
                 for (const auto& curve : head.plot.curves) known.push_back(curve.name);
         if (word.starts_with("par("))
-            if (const auto expression = parse_par_expression(word, c.location); !expression) return error_at(c, k, expression.error().message);
+            if (const auto expression = parse_par_expression(word, c.location); !expression)
+                return error_at(c, k, expression.error().message);
         const bool is_axis_limit = c.name == "plot" && word.starts_with("(");
         if (is_axis_limit) return {};
         const bool is_device_current =
@@ -150,7 +152,8 @@ private:
         if (std::find(known.begin(), known.end(), name) != known.end()) return {};
         for (std::size_t h = 0; h < heads_.size(); ++h)
             if (CurveView::find(heads_[h].plot, name, &names_[h])) return {};
-        return bad_input(fmt::format(".expect: there is no measurement, number or curve '{}'{}", name, did_you_mean(name, known)), c.location);
+        return bad_input(fmt::format(".expect: there is no measurement, number or curve '{}'{}", name, did_you_mean(name, known)),
+                         c.location);
     }
 
     /// Names of the numbers that the analyses may give.

@@ -12,9 +12,9 @@ namespace corpuscle::circuit {
 class PointSink {
 public:
     virtual ~PointSink() = default;
-    virtual Result<void> begin(const Plot& head) = 0;             ///< names and types of the curves, no values yet
+    virtual Result<void> begin(const Plot& head) = 0;                 ///< names and types of the curves, no values yet
     virtual Result<void> add_point(std::span<const double> row) = 0;  ///< a value for each curve, the swept one first
-    virtual Result<void> end() = 0;                               ///< also called if the analysis was interrupted
+    virtual Result<void> end() = 0;                                   ///< also called if the analysis was interrupted
 };
 
 /// Stores all points in a plot.

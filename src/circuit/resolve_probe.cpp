@@ -5,8 +5,8 @@
 #include "circuit/devices.hpp"
 #include "circuit/hierarchical_names.hpp"
 #include "circuit/saved_quantities.hpp"
-#include "signal/parameter.hpp"
 #include "signal/ascii_text.hpp"
+#include "signal/parameter.hpp"
 
 namespace corpuscle::circuit {
 namespace {

@@ -6,16 +6,16 @@
 #include <utility>
 
 #include "circuit/analyses.hpp"
-#include "circuit/curve_view.hpp"
-#include "circuit/measurement_set.hpp"
 #include "circuit/curve_selector.hpp"
-#include "circuit/netlist/spice_number.hpp"
+#include "circuit/curve_view.hpp"
 #include "circuit/device_currents.hpp"
-#include "circuit/print_directive.hpp"
+#include "circuit/measurement_set.hpp"
+#include "circuit/netlist/spice_number.hpp"
+#include "circuit/netlist_warnings.hpp"
 #include "circuit/output_directives.hpp"
+#include "circuit/print_directive.hpp"
 #include "circuit/saved_quantities.hpp"
 #include "circuit/solve/topology.hpp"
-#include "circuit/netlist_warnings.hpp"
 #include "signal/parameter.hpp"
 
 namespace corpuscle::circuit {
@@ -58,7 +58,9 @@ Result<void> check_expectations(const Circuit& circuit, RunOutcome& out) {
 }
 
 /// A number of .tran STEP STOP [START ...]; 0 if it is missing.
-double tran_number(const Directive& c, std::size_t word) { return read_number(c, word, "a number") ? *read_number(c, word, "a number") : 0; }
+double tran_number(const Directive& c, std::size_t word) {
+    return read_number(c, word, "a number") ? *read_number(c, word, "a number") : 0;
+}
 
 /// Passes each point of a transient to the measurements, to .print, to the sinks of the options and, if requested, to memory. Only the
 /// last of these grows with the length of the run.
@@ -125,8 +127,8 @@ public:
 };
 
 /// Runs one analysis; measures, prints and passes on its plots.
-Result<void> analyse(AnalysisContext& context, const Analysis& analysis, const Directive& c, const RunOptions& options, MeasurementSet& measures,
-                     const DeviceCurrents& currents, RunOutcome& out) {
+Result<void> analyse(AnalysisContext& context, const Analysis& analysis, const Directive& c, const RunOptions& options,
+                     MeasurementSet& measures, const DeviceCurrents& currents, RunOutcome& out) {
     AnalysisRun done{&c, {}, 0, {}, {}};
     PointDispatcher dispatcher(*context.circuit, options, out, measures, done, currents);
     if (options.should_stop) context.should_stop = [&](double progress) { return options.should_stop(c.name, progress); };
@@ -180,7 +182,8 @@ Result<RunOutcome> run_directives(AnalysisContext& context, const RunOptions& op
         if (analysis == nullptr) continue;
         if (auto ok = analyse(context, *analysis, c, options, measures, currents, out); !ok) {
             auto error = ok.error();
-            if (error.location.line == 0 && (error.location.file.empty() || error.location.file == circuit->file)) error.location = c.location;
+            if (error.location.line == 0 && (error.location.file.empty() || error.location.file == circuit->file))
+                error.location = c.location;
             return error;
         }
     }

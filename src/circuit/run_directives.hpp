@@ -13,8 +13,8 @@ struct AnalysisRun {
     const Directive* directive;  ///< of the circuit
     AnalysisResult result;
     std::size_t point_count = 0;  ///< in the first plot
-    std::string printed_tables;     ///< the tables of .print
-    Plot last_point;               ///< the last point of a transient, whose points may not have been kept
+    std::string printed_tables;   ///< the tables of .print
+    Plot last_point;              ///< the last point of a transient, whose points may not have been kept
 };
 
 /// One .expect and whether it is met.
@@ -38,7 +38,7 @@ struct RunOutcome {
     /// the last point of the first plot that has it.
     std::optional<double> find_number(std::string_view name) const;
     std::vector<Plot> plots(const AnalysisRun&) const;  ///< the swept quantity and the saved curves
-    std::vector<Plot> plots() const;                 ///< of all analyses
+    std::vector<Plot> plots() const;                    ///< of all analyses
 };
 
 /// Receives the saved curves during the run: a transient point by point, other analyses as complete plots.
@@ -53,8 +53,8 @@ struct RunOptions {
         should_stop{};  ///< called now and then with the analysis and its progress (0 to 1); true stops the run
     CurveSink* curve_sink = nullptr;
     PointSink* unknowns_sink = nullptr;  ///< receives all unknowns at each time point of a transient
-    bool keep_points = true;               ///< keep the points of a transient in memory, as a plot of its result
-    bool print_tables = true;              ///< make the tables of .print
+    bool keep_points = true;             ///< keep the points of a transient in memory, as a plot of its result
+    bool print_tables = true;            ///< make the tables of .print
 };
 /// Runs all directives. A directive that is wrong, or an analysis that fails, is an error. An .expect that is not met is not an error.
 Result<RunOutcome> run_directives(AnalysisContext&, const RunOptions& = {});

@@ -14,7 +14,8 @@ Result<SpikeOutput> parse_spike(const System& system, const Directive& c) {
     if (!level) return level.error();
     SpikeOutput out{c.words[0], *of, *level, true, c.location};
     if (c.words.size() > 2) {
-        if (c.words[2] != "rise" && c.words[2] != "fall") return error_at(c, 2, fmt::format(".spike: '{}' must be rise or fall", c.words[2]));
+        if (c.words[2] != "rise" && c.words[2] != "fall")
+            return error_at(c, 2, fmt::format(".spike: '{}' must be rise or fall", c.words[2]));
         out.is_rising = c.words[2] == "rise";
     }
     if (c.words.size() > 3)

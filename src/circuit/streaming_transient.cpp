@@ -16,7 +16,8 @@ void append_values(std::vector<double>& out, std::span<const double> x) { out.in
 
 }  // namespace
 
-Result<std::unique_ptr<StreamingTransient>> StreamingTransient::make(const CircuitAfferentFactory& design, double T, const std::optional<ChipSample>& chip) {
+Result<std::unique_ptr<StreamingTransient>> StreamingTransient::make(const CircuitAfferentFactory& design, double T,
+                                                                     const std::optional<ChipSample>& chip) {
     auto bench = AnalysisContext::make(design.circuit);
     if (!bench) return bench.error();
     std::unique_ptr<StreamingTransient> out(new StreamingTransient(design, T));
@@ -156,14 +157,16 @@ public:
 void StreamingTransient::save(std::vector<double>& out) {
     const auto s = transient_->save();
     force_.discard_before(transient_->time());
-    append_values(out, std::vector<double>{static_cast<double>(origin_sample_), static_cast<double>(pending_spike_.has_value()),
-                                           static_cast<double>(pending_spike_.value_or(Spike{}).step), pending_spike_.value_or(Spike{}).offset});
+    append_values(out,
+                  std::vector<double>{static_cast<double>(origin_sample_), static_cast<double>(pending_spike_.has_value()),
+                                      static_cast<double>(pending_spike_.value_or(Spike{}).step), pending_spike_.value_or(Spike{}).offset});
     append_values(out, start_);
     append_values(out, std::vector<double>{static_cast<double>(s.history.size()), static_cast<double>(s.order),
                                            static_cast<double>(s.steps_since_order_change), static_cast<double>(s.failures),
-                                           static_cast<double>(s.damping_steps), static_cast<double>(s.is_starting), static_cast<double>(s.restart_pending),
-                                           static_cast<double>(s.count), static_cast<double>(s.curve_points), static_cast<double>(s.start_phase), s.h,
-                                           s.quadratic_factor, s.recent_max_step, static_cast<double>(s.stats.steps), static_cast<double>(s.stats.rejected),
+                                           static_cast<double>(s.damping_steps), static_cast<double>(s.is_starting),
+                                           static_cast<double>(s.restart_pending), static_cast<double>(s.count),
+                                           static_cast<double>(s.curve_points), static_cast<double>(s.start_phase), s.h, s.quadratic_factor,
+                                           s.recent_max_step, static_cast<double>(s.stats.steps), static_cast<double>(s.stats.rejected),
                                            static_cast<double>(s.stats.diverged), static_cast<double>(s.stats.iterations)});
     for (const auto& point : s.history) out.push_back(point.t), append_values(out, point.x), append_values(out, point.q);
     append_values(out, s.scale), append_values(out, s.rate), append_values(out, s.rate_change), append_values(out, s.max_rate),

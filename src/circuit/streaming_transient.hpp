@@ -1,8 +1,8 @@
 #pragma once
 // A transient simulation that is driven by a force given block by block.
 
-#include "circuit/circuit_afferent.hpp"
 #include "circuit/analysis/initial_condition.hpp"
+#include "circuit/circuit_afferent.hpp"
 #include "circuit/cost/power.hpp"
 #include "circuit/force_waveform.hpp"
 
@@ -20,11 +20,11 @@ class StreamingTransient {
     std::optional<PowerMeter> meter_;
     std::optional<PowerMeter::DeliveredPower> power_now_;  // power at the end of the last step, once evaluated
     EnergyUse energy_use_;
-    bool is_time_dependent_ = false;  // a source other than the force depends on absolute time
-    std::vector<double> rest_;        // operating point at 0 N
-    std::vector<double> start_;       // operating point at the first force
-    std::int64_t origin_sample_ = 0;         // the sample at which the time of the transient is 0
-    std::optional<Spike> pending_spike_;     // found, but not yet reported
+    bool is_time_dependent_ = false;      // a source other than the force depends on absolute time
+    std::vector<double> rest_;            // operating point at 0 N
+    std::vector<double> start_;           // operating point at the first force
+    std::int64_t origin_sample_ = 0;      // the sample at which the time of the transient is 0
+    std::optional<Spike> pending_spike_;  // found, but not yet reported
 
     StreamingTransient(const CircuitAfferentFactory& design, double T) : design_(design), force_(T) {}
     void shift_origin();

@@ -25,7 +25,9 @@ aer::NameRun run_of(const std::string& name, std::uint32_t address) {
 
 /// Extends the run by the next afferent if that continues it. Returns false if it does not.
 bool extend(aer::NameRun& run, const aer::NameRun& next) {
-    if (run.first_number == 0 || next.first_number != run.first_number + run.count || next.name != run.name || next.first_address <= run.first_address) return false;
+    if (run.first_number == 0 || next.first_number != run.first_number + run.count || next.name != run.name ||
+        next.first_address <= run.first_address)
+        return false;
     if (run.count == 1) run.stride = next.first_address - run.first_address;
     if (next.first_address != run.first_address + static_cast<std::uint64_t>(run.stride) * run.count) return false;
     ++run.count;
@@ -88,10 +90,10 @@ std::string comments_of(const EventAddressing& addressing) {
     };
     bool all = true;
     for (const auto& r : runs_of(addressing))
-        all = all && add(r.first_number == 0  ? fmt::format("{}: {}", addresses_of(r), r.name)
-                         : r.count == 1 ? fmt::format("{}: {}#{}", addresses_of(r), r.name, r.first_number)
-                                        : fmt::format("{}: {}#{} ... {}#{}", addresses_of(r), r.name, r.first_number, r.name,
-                                                      std::uint64_t{r.first_number} + r.count - 1));
+        all = all && add(r.first_number == 0 ? fmt::format("{}: {}", addresses_of(r), r.name)
+                         : r.count == 1      ? fmt::format("{}: {}#{}", addresses_of(r), r.name, r.first_number)
+                                             : fmt::format("{}: {}#{} ... {}#{}", addresses_of(r), r.name, r.first_number, r.name,
+                                                           std::uint64_t{r.first_number} + r.count - 1));
     for (const auto& r : channel_runs_of(addressing)) all = all && add(fmt::format("{}: channel {}", addresses_of(r), r.name));
     return all ? text : text + "# and others\r\n";
 }

@@ -23,7 +23,7 @@ ChannelPipeline::ChannelPipeline(const RecordingOptions& options, double gain, b
 }
 
 Result<ChannelPipeline> ChannelPipeline::make(const RecordingOptions& options, double gain, const Clock& filters, bool filter_early,
-                                      const HumTable& table) {
+                                              const HumTable& table) {
     ChannelPipeline path(options, gain, filter_early, table);
     for (const double f : options.notch) {
         const auto filter = Biquad::notch(f, filters);

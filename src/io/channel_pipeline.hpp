@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "io/biquad.hpp"
-#include "io/repair.hpp"
 #include "io/fault_detectors.hpp"
 #include "io/recording.hpp"
+#include "io/repair.hpp"
 
 namespace corpuscle {
 
@@ -27,7 +27,7 @@ class ChannelPipeline {
     GapFiller gaps_;
     double offset_, gain_;
     std::vector<Biquad> filters_;
-    bool filters_rows_;                    // true: filter the evenly spaced rows; false: filter after resampling
+    bool filters_rows_;                        // true: filter the evenly spaced rows; false: filter after resampling
     std::vector<double> despiked_, repaired_;  // scratch memory
 
     Result<void> repair(std::span<const double> read);

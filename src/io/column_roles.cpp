@@ -73,13 +73,16 @@ struct Roles {
         const auto likely = [&](std::size_t c) {
             return columns[c].holds_time_stamps || (holds_numbers(c) && (first[c].numbers.size() < 2 || rises(c)));
         };
-        const auto in_seconds = [&](std::size_t c) { return columns[c].holds_time_stamps || seconds_per_time_unit(columns[c].unit).has_value(); };
+        const auto in_seconds = [&](std::size_t c) {
+            return columns[c].holds_time_stamps || seconds_per_time_unit(columns[c].unit).has_value();
+        };
         if (take_time([&](std::size_t c) { return is_time_name(columns[c].name); })) return;
-        const bool found =
-            take_time([&](std::size_t c) { return may_be_time_name(columns[c].name) && in_seconds(c) && likely(c); }) ||
-            take_time([&](std::size_t c) { return columns[c].unit.empty() && may_be_time_name(columns[c].name) && likely(c) && rises(c); }) ||
-            take_time([&](std::size_t c) { return columns[c].holds_time_stamps; }) ||
-            take_time([&](std::size_t c) { return in_seconds(c) && holds_numbers(c) && rises(c); });
+        const bool found = take_time([&](std::size_t c) { return may_be_time_name(columns[c].name) && in_seconds(c) && likely(c); }) ||
+                           take_time([&](std::size_t c) {
+                               return columns[c].unit.empty() && may_be_time_name(columns[c].name) && likely(c) && rises(c);
+                           }) ||
+                           take_time([&](std::size_t c) { return columns[c].holds_time_stamps; }) ||
+                           take_time([&](std::size_t c) { return in_seconds(c) && holds_numbers(c) && rises(c); });
         if (found) {
             const auto& name = columns[*out.time_column].name;
             out.notes.push_back(

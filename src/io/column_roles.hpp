@@ -22,7 +22,7 @@ struct FirstFields {
 
 struct ColumnRoles {
     std::optional<std::size_t> time_column = {};
-    bool is_time_guessed = false;           ///< recognised by its values, not by its name
+    bool is_time_guessed = false;         ///< recognised by its values, not by its name
     std::vector<std::string> notes = {};  ///< about the time column
 };
 

@@ -6,9 +6,9 @@
 #include <span>
 
 #include "io/heading.hpp"
+#include "signal/ascii_text.hpp"
 #include "signal/parameter.hpp"
 #include "signal/quantity.hpp"
-#include "signal/ascii_text.hpp"
 
 namespace corpuscle {
 namespace {
@@ -114,7 +114,9 @@ struct ChannelSelector {
     /// The default selection: all columns that may be forces. If a column has a unit of force, columns with other known units are
     /// excluded.
     Result<std::vector<std::size_t>> default_selection(std::vector<std::string>* notes) const {
-        const auto in_force = [&](std::size_t c) { return table.columns()[c].exclusion_reason.empty() && is_force(table.columns()[c].unit); };
+        const auto in_force = [&](std::size_t c) {
+            return table.columns()[c].exclusion_reason.empty() && is_force(table.columns()[c].unit);
+        };
         const bool some_in_force = std::any_of(data.begin(), data.end(), in_force);
         const auto is_other = [&](const Column& c) {
             return is_never_force(c.unit) || (some_in_force && !c.unit.empty() && is_unit(c.unit) && !is_force(c.unit));
@@ -123,7 +125,8 @@ struct ChannelSelector {
         for (const auto c : data)
             if (table.columns()[c].exclusion_reason.empty()) (is_other(table.columns()[c]) ? other : chosen).push_back(c);
         if (chosen.empty() && other.empty()) {
-            const auto known = std::find_if(data.begin(), data.end(), [&](std::size_t c) { return !table.columns()[c].exclusion_evidence.empty(); });
+            const auto known =
+                std::find_if(data.begin(), data.end(), [&](std::size_t c) { return !table.columns()[c].exclusion_evidence.empty(); });
             const auto& column = table.columns()[known == data.end() ? data[0] : *known];
             return bad_input(fmt::format("no column holds force values: '{}' {}{}{}", column.name, column.exclusion_reason,
                                          column.exclusion_evidence.empty() ? "" : "; ", column.exclusion_evidence),
@@ -182,7 +185,8 @@ Result<std::vector<std::size_t>> select_columns(const Table& table, std::optiona
     return ChannelSelector(table, time, path).choose(wanted, notes);
 }
 
-Result<std::optional<std::size_t>> select_time_column(const Table& table, const std::optional<std::string>& wanted, const std::string& path) {
+Result<std::optional<std::size_t>> select_time_column(const Table& table, const std::optional<std::string>& wanted,
+                                                      const std::string& path) {
     if (!wanted) return table.time_column();
     if (*wanted == "none") return std::optional<std::size_t>();
     const auto& columns = table.columns();

@@ -76,8 +76,8 @@ class AerFile {
         clock_ = {number_at<std::int64_t>(head, 8), number_at<std::int64_t>(head, 16)};
         runs = number_at<std::uint32_t>(head, 24), bytes = number_at<std::uint32_t>(head, 28);
         if (clock_.rate_numerator < 1 || clock_.rate_denominator < 1)
-            return format_error(
-                fmt::format("invalid clock of {} samples in {} s: both numbers must be positive", clock_.rate_numerator, clock_.rate_denominator));
+            return format_error(fmt::format("invalid clock of {} samples in {} s: both numbers must be positive", clock_.rate_numerator,
+                                            clock_.rate_denominator));
         if (file_->size() - sizeof head < bytes) return format_error("the names of the afferents are incomplete");
         begin_ = sizeof head + bytes;
         return {};
@@ -112,7 +112,9 @@ class AerFile {
 
     static const aer::NameRun* run_at(const std::vector<aer::NameRun>& runs, std::uint32_t address) {
         for (const auto& r : runs)
-            if (address >= r.first_address && (address - r.first_address) % r.stride == 0 && (address - r.first_address) / r.stride < r.count) return &r;
+            if (address >= r.first_address && (address - r.first_address) % r.stride == 0 &&
+                (address - r.first_address) / r.stride < r.count)
+                return &r;
         return nullptr;
     }
 

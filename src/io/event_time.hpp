@@ -11,18 +11,20 @@ namespace corpuscle {
 /// than one cycle is a double. So a spike after a year is as precise as the first one.
 class EventTime {
     std::int64_t samples_per_cycle_, cycle_ns_, start_ns_;  // samples; ns; ns
-    double sample_ns_;                       // ns
+    double sample_ns_;                                      // ns
 
 public:
     explicit EventTime(const Clock& clock)
-        : samples_per_cycle_(clock.rate_numerator), cycle_ns_(clock.rate_denominator * 1'000'000'000), start_ns_(std::llround(clock.t0 * 1e9)),
+        : samples_per_cycle_(clock.rate_numerator), cycle_ns_(clock.rate_denominator * 1'000'000'000),
+          start_ns_(std::llround(clock.t0 * 1e9)),
           sample_ns_(static_cast<double>(clock.rate_denominator) * 1e9 / static_cast<double>(clock.rate_numerator)) {}
 
     /// The time of the spike, rounded to the nearest nanosecond.
     std::int64_t nanoseconds(const Spike& s) const {
         std::int64_t cycles = (s.step - 1) / samples_per_cycle_, rest = (s.step - 1) % samples_per_cycle_;
         if (rest < 0) rest += samples_per_cycle_, --cycles;
-        return start_ns_ + cycles * cycle_ns_ + static_cast<std::int64_t>(std::floor((static_cast<double>(rest) + s.offset) * sample_ns_ + 0.5));
+        return start_ns_ + cycles * cycle_ns_ +
+               static_cast<std::int64_t>(std::floor((static_cast<double>(rest) + s.offset) * sample_ns_ + 0.5));
     }
 };
 

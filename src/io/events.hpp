@@ -26,10 +26,10 @@ struct EventAddressing {
 class EventFormat {
 public:
     virtual ~EventFormat() = default;
-    virtual std::string_view name() const = 0;        ///< "lines"
-    virtual std::size_t max_bytes() const = 0;       ///< upper bound on the size of one spike
+    virtual std::string_view name() const = 0;             ///< "lines"
+    virtual std::size_t max_bytes() const = 0;             ///< upper bound on the size of one spike
     virtual bool has_fixed_size() const { return false; }  ///< true: every spike takes max_bytes(); false: every spike is a line
-    virtual std::string header() const = 0;           ///< bytes before the first spike; may be ""
+    virtual std::string header() const = 0;                ///< bytes before the first spike; may be ""
     /// Writes one spike at `at`, where max_bytes() must be free. Returns the number of bytes written. Does not allocate.
     virtual std::size_t write(const Spike&, char* at) const = 0;
 };

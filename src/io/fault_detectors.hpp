@@ -15,11 +15,11 @@ namespace corpuscle {
 /// Detects isolated outliers: samples that are far above or far below both neighbours and the median of seven samples. Causes are
 /// transmission errors (two in a row are not detected) or taps too short for the sample rate.
 class OutlierDetector {
-    std::vector<double> chunk_;  // the last samples of the current chunk, at most six
-    LogHistogram deviations_;           // distances from the median of seven
-    LogHistogram isolations_;         // the smallest of the three distances
-    double min_isolation_ = 0;     // the smallest distance above 0: the resolution of the sensor
-    std::vector<double> retained_;   // samples at increasing intervals, for the quartiles
+    std::vector<double> chunk_;     // the last samples of the current chunk, at most six
+    LogHistogram deviations_;       // distances from the median of seven
+    LogHistogram isolations_;       // the smallest of the three distances
+    double min_isolation_ = 0;      // the smallest distance above 0: the resolution of the sensor
+    std::vector<double> retained_;  // samples at increasing intervals, for the quartiles
     std::int64_t seen_ = 0, examined_ = 0, stride_ = 1, next_retained_ = 0;
 
     void examine(std::span<const double>);

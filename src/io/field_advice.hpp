@@ -7,9 +7,9 @@
 namespace corpuscle {
 
 struct FieldAdvice {
-    std::string feature = {};    ///< the unusual feature, such as "a thousands separator"; "": not recognised
-    std::string filter = {};  ///< a shell command that converts such a text; "": there is no safe one
-    std::string remedy = {};  ///< the remedy if there is no command
+    std::string feature = {};  ///< the unusual feature, such as "a thousands separator"; "": not recognised
+    std::string filter = {};   ///< a shell command that converts such a text; "": there is no safe one
+    std::string remedy = {};   ///< the remedy if there is no command
 };
 
 FieldAdvice advise_on_field(std::string_view field);

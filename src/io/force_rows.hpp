@@ -20,7 +20,7 @@ class ForceRows {
     SumDetector sums_;
     std::vector<std::vector<double>> block_;  // as read
     std::vector<std::vector<double>> ready_;  // for each channel, in newtons; then the times
-    std::size_t consumed_ = 0;                   // rows of ready_ that have been consumed
+    std::size_t consumed_ = 0;                // rows of ready_ that have been consumed
     bool ended_ = false;
 
     Error channel_error(std::size_t c, Error) const;

@@ -129,8 +129,8 @@ std::string describe_misnamed_format(std::string_view first, const std::string& 
     for (const auto& m : binary_formats)
         if (first.starts_with(m.first)) {
             const auto to = stem_of(path).empty() ? "FILE" : stem_of(path);
-            return fmt::format("this is {}, but its file extension is wrong; give it the right name: ln -s {} {}", m.what, quote_shell_word(path),
-                               quote_shell_word(to + std::string(m.extension)));
+            return fmt::format("this is {}, but its file extension is wrong; give it the right name: ln -s {} {}", m.what,
+                               quote_shell_word(path), quote_shell_word(to + std::string(m.extension)));
         }
     return "";
 }

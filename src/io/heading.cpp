@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "io/utf8.hpp"
-#include "signal/quantity.hpp"
 #include "signal/ascii_text.hpp"
+#include "signal/quantity.hpp"
 
 namespace corpuscle {
 namespace {

@@ -21,9 +21,9 @@ class HelperProcess {
 public:
     static constexpr unsigned response_timeout_s = 60;
     static constexpr std::uint64_t memory_limit = std::uint64_t{4} << 30;  ///< bytes, in addition to the memory needed to start
-    static constexpr int socket_descriptor = 3, file_descriptor = 4;         ///< descriptors in the child
-    static constexpr int exit_unknown_protocol = 2;                          ///< exit status of a child that does not know `protocol`
-    static constexpr const char* protocol = "reader-1";              ///< the only argument of the child
+    static constexpr int socket_descriptor = 3, file_descriptor = 4;       ///< descriptors in the child
+    static constexpr int exit_unknown_protocol = 2;                        ///< exit status of a child that does not know `protocol`
+    static constexpr const char* protocol = "reader-1";                    ///< the only argument of the child
 
     HelperProcess() = default;
     HelperProcess(HelperProcess&& other) noexcept;

@@ -280,7 +280,8 @@ class JsonReader {
             if (trimmed(line).empty()) continue;
             const auto record = parse(line, lines_.line_number());
             if (!record) return record.error();
-            if (!record->is_structured()) return error_at("expected a record here, such as {\"time_s\": 0, \"fz_N\": 1}", lines_.line_number());
+            if (!record->is_structured())
+                return error_at("expected a record here, such as {\"time_s\": 0, \"fz_N\": 1}", lines_.line_number());
             if (auto ok = give(*record, lines_.line_number()); !ok) return ok;
         }
     }

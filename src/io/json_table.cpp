@@ -101,12 +101,13 @@ public:
         }
         roles_ = assign_roles(columns_, first, have_own_names(columns_));
         for (std::size_t c = 0; c < columns_.size(); ++c)
-            if (columns_[c].unit.empty() && columns_[c].exclusion_reason.empty() && c != roles_.time_column) columns_[c].unit = metadata_.unit;
+            if (columns_[c].unit.empty() && columns_[c].exclusion_reason.empty() && c != roles_.time_column)
+                columns_[c].unit = metadata_.unit;
         if (roles_.time_column && columns_[*roles_.time_column].holds_time_stamps) {
             const auto& s = *values_[*roles_.time_column].stamp;
             const auto instant = format_instant(static_cast<double>(s.day) * 86'400 + static_cast<double>(s.nanoseconds) * 1e-9);
-            roles_.notes.push_back(
-                fmt::format("0 s is {}, the first time in '{}'", s.has_date ? instant : instant.substr(11), columns_[*roles_.time_column].name));
+            roles_.notes.push_back(fmt::format("0 s is {}, the first time in '{}'", s.has_date ? instant : instant.substr(11),
+                                               columns_[*roles_.time_column].name));
         }
         return {};
     }
@@ -141,8 +142,7 @@ public:
                                 "skip the record",
                                 next_ + row + 1, columns_[wanted[i]].name),
                     lines_.empty() ? SourceLocation{path_} : location(row));
-            std::replace_if(
-                out[i].begin(), out[i].end(), [](double x) { return std::isinf(x); }, none);
+            std::replace_if(out[i].begin(), out[i].end(), [](double x) { return std::isinf(x); }, none);
         }
         next_ += count;
         return count;

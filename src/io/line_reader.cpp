@@ -26,7 +26,8 @@ Result<bool> LineReader::fill() {
     is_start_discarded_ = is_start_discarded_ || position_ > 0;
     std::memmove(buffer_.data(), buffer_.data() + position_, filled_ - position_);
     filled_ -= std::exchange(position_, 0);
-    if (filled_ > max_line_bytes) return bad_input(fmt::format("the line is longer than {} MB", max_line_bytes >> 20), {path_, line_number_ + 1});
+    if (filled_ > max_line_bytes)
+        return bad_input(fmt::format("the line is longer than {} MB", max_line_bytes >> 20), {path_, line_number_ + 1});
     if (buffer_.size() < filled_ + block + padding) buffer_.resize(filled_ + block + padding);
     const auto got = input_->read(buffer_.data() + filled_, block);
     if (!got) return Error{got.error().code, got.error().message, {path_, line_number_ + 1}};
@@ -63,7 +64,8 @@ Result<bool> LineReader::next(std::string_view& line) {
 }
 
 Result<void> LineReader::rewind() {
-    if (!is_start_discarded_) return position_ = 0, line_number_ = 0, Result<void>{};  // the buffer still holds the beginning, so this works for a pipe too
+    if (!is_start_discarded_)
+        return position_ = 0, line_number_ = 0, Result<void>{};  // the buffer still holds the beginning, so this works for a pipe too
     if (auto ok = input_->rewind(); !ok) return ok;
     filled_ = 0, position_ = 0, line_number_ = 0, bytes_read_ = 0, ended_ = false, is_start_discarded_ = false;
     return {};

@@ -13,11 +13,11 @@ namespace corpuscle {
 class LineReader {
     std::string path_;
     std::unique_ptr<TextInput> input_;
-    std::string buffer_;                 // the bytes read, followed by `padding` more bytes
-    std::size_t filled_ = 0;             // bytes of the buffer that hold text
-    std::size_t position_ = 0;                 // position of the next line in the buffer
-    long line_number_ = 0;                    // number of the last line returned
-    double bytes_read_ = 0;                    // bytes read so far
+    std::string buffer_;                               // the bytes read, followed by `padding` more bytes
+    std::size_t filled_ = 0;                           // bytes of the buffer that hold text
+    std::size_t position_ = 0;                         // position of the next line in the buffer
+    long line_number_ = 0;                             // number of the last line returned
+    double bytes_read_ = 0;                            // bytes read so far
     bool ended_ = false, is_start_discarded_ = false;  // lost_: the beginning of the file is no longer in the buffer
 
     Result<bool> fill();
@@ -35,7 +35,10 @@ public:
     /// A shell command that applies a filter, such as "head -n 9", to this file and writes a new file named after this one and `mark`:
     /// "head -n 9 < press.csv > press-first.csv". "" if the input is not a regular file.
     std::string copy_command(const std::string& filter, const std::string& mark) const;
-    double progress() const { return bytes_read_ > 0 ? input_->progress() * (bytes_read_ - static_cast<double>(filled_ - position_)) / bytes_read_ : input_->progress(); }
+    double progress() const {
+        return bytes_read_ > 0 ? input_->progress() * (bytes_read_ - static_cast<double>(filled_ - position_)) / bytes_read_
+                               : input_->progress();
+    }
 };
 
 }  // namespace corpuscle

@@ -11,7 +11,9 @@
 namespace corpuscle {
 namespace {
 
-bool is_column_major(const NpyHeader& header, const ArrayExtent& extent) { return extent.columns > 1 && header.is_column_major != extent.is_transposed; }
+bool is_column_major(const NpyHeader& header, const ArrayExtent& extent) {
+    return extent.columns > 1 && header.is_column_major != extent.is_transposed;
+}
 
 class NpySamples final : public Samples {
     std::unique_ptr<SeekableBytes> bytes_;
@@ -112,8 +114,8 @@ Result<std::unique_ptr<NpySamples>> samples_of(std::unique_ptr<SeekableBytes> by
         bytes = *std::move(copy);
     }
     if (!header.fields[0].name.empty() && extent->columns > 1)
-        return bad_input(
-            fmt::format("{}: a structured array must have one dimension, because its fields are the columns", describe(array)), {name});
+        return bad_input(fmt::format("{}: a structured array must have one dimension, because its fields are the columns", describe(array)),
+                         {name});
     auto samples = std::make_unique<NpySamples>(std::move(bytes), std::move(header), *extent);
     samples->name_columns(array.name);
     return samples;

@@ -116,8 +116,8 @@ Result<void> OutputCheck::check_growing_file(const std::string& path, Signature 
 }
 
 Result<void> OutputCheck::check_directory(const std::string& path, std::span<const std::string> names,
-                                    const std::function<bool(const std::string&)>& is_listed, bool (*is_output)(std::string_view),
-                                    Signature page) {
+                                          const std::function<bool(const std::string&)>& is_listed, bool (*is_output)(std::string_view),
+                                          Signature page) {
     for (const auto& name : names) {
         if (auto ok = add_output(path + "/" + name); !ok) return ok;
         if (const auto kind = check_not_input(path + "/" + name); !kind) return kind.error();

@@ -30,8 +30,8 @@ public:
     Result<void> check_growing_file(const std::string& path, Signature);
     /// Outputs in a directory, whose summary.json lists the files of an earlier run. Removes temporary files of runs that were killed.
     Result<void> check_directory(const std::string& path, std::span<const std::string> names,
-                           const std::function<bool(const std::string& name)>& is_listed, bool (*is_output)(std::string_view name),
-                           Signature page);
+                                 const std::function<bool(const std::string& name)>& is_listed, bool (*is_output)(std::string_view name),
+                                 Signature page);
 };
 
 /// The first bytes of a regular file, following links. "" if it cannot be read.

@@ -13,14 +13,16 @@
 namespace corpuscle {
 
 OutputFile::OutputFile(OutputFile&& o) noexcept
-    : path_(std::move(o.path_)), temporary_path_(std::move(o.temporary_path_)), created_directories_(std::move(o.created_directories_)), file_(std::exchange(o.file_, nullptr)),
-      size_(o.size_), is_growing_(o.is_growing_), is_synced_(o.is_synced_), start_time_(o.start_time_) {
+    : path_(std::move(o.path_)), temporary_path_(std::move(o.temporary_path_)), created_directories_(std::move(o.created_directories_)),
+      file_(std::exchange(o.file_, nullptr)), size_(o.size_), is_growing_(o.is_growing_), is_synced_(o.is_synced_),
+      start_time_(o.start_time_) {
     o.temporary_path_.clear();
 }
 
 OutputFile& OutputFile::operator=(OutputFile&& o) noexcept {
-    std::swap(path_, o.path_), std::swap(temporary_path_, o.temporary_path_), std::swap(created_directories_, o.created_directories_), std::swap(file_, o.file_), std::swap(size_, o.size_),
-        std::swap(is_growing_, o.is_growing_), std::swap(is_synced_, o.is_synced_), std::swap(start_time_, o.start_time_);
+    std::swap(path_, o.path_), std::swap(temporary_path_, o.temporary_path_), std::swap(created_directories_, o.created_directories_),
+        std::swap(file_, o.file_), std::swap(size_, o.size_), std::swap(is_growing_, o.is_growing_), std::swap(is_synced_, o.is_synced_),
+        std::swap(start_time_, o.start_time_);
     return *this;
 }
 
@@ -47,7 +49,9 @@ Result<OutputFile> OutputFile::prepare(const std::string& path) {
     return out;
 }
 
-Error OutputFile::write_error() const { return bad_input(fmt::format("could not be written completely: {}", std::strerror(errno)), {path_}); }
+Error OutputFile::write_error() const {
+    return bad_input(fmt::format("could not be written completely: {}", std::strerror(errno)), {path_});
+}
 
 namespace {
 
@@ -80,8 +84,7 @@ int open_exclusively(const char* name) {
     while (true) {
         const int file = ::open(name, O_RDWR | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0666);
         if (file < 0) return file;
-        struct ::stat opened {
-        }, named{};
+        struct ::stat opened{}, named{};
         const bool regular = ::fstat(file, &opened) == 0 && S_ISREG(opened.st_mode);
         const bool locked = regular && ::flock(file, LOCK_EX | LOCK_NB) == 0;
         const bool same = locked && ::fstat(file, &opened) == 0 && ::lstat(name, &named) == 0 && opened.st_ino == named.st_ino &&

@@ -14,7 +14,7 @@ struct PythonLiteral {
     std::string characters = {};
     std::int64_t number = 0;
     std::vector<PythonLiteral> items = {};  ///< for a dictionary: key, value, key, value
-    std::string source = {};         ///< the literal as written
+    std::string source = {};                ///< the literal as written
 
     const PythonLiteral* find(std::string_view key) const {
         for (std::size_t k = 0; kind == dictionary && k + 1 < items.size(); k += 2)

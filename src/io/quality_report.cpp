@@ -65,7 +65,8 @@ class ReportWriter {
     }
 
     void hum() {
-        const auto c = affected_channels([](const auto& p) { return p.hum.result().fraction > min_hum_note ? p.hum.result().fraction : 0; });
+        const auto c =
+            affected_channels([](const auto& p) { return p.hum.result().fraction > min_hum_note ? p.hum.result().fraction : 0; });
         if (c.channels.empty()) return;
         const auto found = paths_[c.worst].hum.result();
         add(found.fraction > min_hum_warning,
@@ -112,13 +113,12 @@ class ReportWriter {
             add(true, fmt::format("{}: up to {:.4g} N, but the models are fitted to 0.2 to 4 N; use --scale S to convert to the force on "
                                   "one receptor",
                                   high.names, paths_[high.worst].levels.max));
-        const auto low =
-            affected_channels([](const auto& p) { return p.levels.max < 0.2 && p.levels.max > p.levels.min ? 1 : 0; });
+        const auto low = affected_channels([](const auto& p) { return p.levels.max < 0.2 && p.levels.max > p.levels.min ? 1 : 0; });
         if (!low.channels.empty() && low.channels.size() == paths_.size())
             add(false, fmt::format("all forces are below 0.2 N, the lower end of the models' range (maximum {:.3g} N); check the unit",
                                    paths_[low.worst].levels.max));
-        const auto negative = affected_channels(
-            [](const auto& p) { return p.levels.min < -0.2 && -p.levels.min > p.levels.max ? -p.levels.min : 0; });
+        const auto negative =
+            affected_channels([](const auto& p) { return p.levels.min < -0.2 && -p.levels.min > p.levels.max ? -p.levels.min : 0; });
         if (!negative.channels.empty())
             add(true, fmt::format("{}: mostly negative, down to {:.4g} N, but a press must be positive; use --abs or a negative --scale",
                                   negative.names, paths_[negative.worst].levels.min));
@@ -186,8 +186,8 @@ public:
 
 }  // namespace
 
-RecordingQuality assess_quality(const std::vector<Channel>& channels, const std::vector<ChannelPipeline>& paths, const RowClock& rows, const RowCounts& counts,
-                const SumDetector& sums) {
+RecordingQuality assess_quality(const std::vector<Channel>& channels, const std::vector<ChannelPipeline>& paths, const RowClock& rows,
+                                const RowCounts& counts, const SumDetector& sums) {
     return ReportWriter(channels, paths).write(rows, counts, sums);
 }
 

@@ -13,6 +13,7 @@ struct RowCounts {
     std::int64_t dropped = 0, out_of_range = 0;
 };
 
-RecordingQuality assess_quality(const std::vector<Channel>&, const std::vector<ChannelPipeline>&, const RowClock&, const RowCounts&, const SumDetector&);
+RecordingQuality assess_quality(const std::vector<Channel>&, const std::vector<ChannelPipeline>&, const RowClock&, const RowCounts&,
+                                const SumDetector&);
 
 }  // namespace corpuscle

@@ -9,14 +9,14 @@
 #include "io/column_selection.hpp"
 #include "io/force_rows.hpp"
 #include "io/foreign_format.hpp"
-#include "io/recording_formats.hpp"
-#include "io/sensor_layout.hpp"
-#include "io/row_clock.hpp"
-#include "io/transposed_table.hpp"
 #include "io/quality_report.hpp"
+#include "io/recording_formats.hpp"
+#include "io/row_clock.hpp"
+#include "io/sensor_layout.hpp"
+#include "io/transposed_table.hpp"
 #include "signal/afferent.hpp"
-#include "signal/input_files.hpp"
 #include "signal/ascii_text.hpp"
+#include "signal/input_files.hpp"
 
 namespace corpuscle {
 namespace {
@@ -153,8 +153,8 @@ class Recording final : public ForceSource {
         before_ = at_, t_before_ = t_at_;
         at_.resize(channels_.size());
         for (std::size_t c = 0; c < channels_.size(); ++c) at_[c] = rows_->force(c);
-        t_at_ =
-            row_clock_.uses_row_times ? row_clock_.seconds(rows_->time()) : clock_.t0 + static_cast<double>(row_number_) * row_clock_.clock.T();
+        t_at_ = row_clock_.uses_row_times ? row_clock_.seconds(rows_->time())
+                                          : clock_.t0 + static_cast<double>(row_number_) * row_clock_.clock.T();
         rows_->advance();
         ++row_number_;
         return true;
@@ -249,7 +249,8 @@ public:
     }
     std::vector<std::string> notes() const override { return notes_; }
     RecordingQuality quality() const override {
-        auto found = assess_quality(channels_, rows_->paths(), row_clock_, {rows_->rows().dropped, rows_->rows().out_of_range}, rows_->sums());
+        auto found =
+            assess_quality(channels_, rows_->paths(), row_clock_, {rows_->rows().dropped, rows_->rows().out_of_range}, rows_->sums());
         doubt_orientation(found);
         return found;
     }
@@ -287,7 +288,8 @@ Result<std::unique_ptr<ForceSource>> open_recording(const std::string& path, con
         return bad_usage("--unit and --scale exclude each other: both convert the values to newtons");
     const auto& format = format_of_recording(path);
     if (options.table.skip_lines > 0 && format.name != "text")
-        return bad_usage(fmt::format("--skip {}: only text files have lines to skip, and {} is {}", options.table.skip_lines, path, format.name));
+        return bad_usage(
+            fmt::format("--skip {}: only text files have lines to skip, and {} is {}", options.table.skip_lines, path, format.name));
     if (format.name != "text") {  // older MATLAB files have the same extension as its HDF5 files
         const auto first = peek_input(path, 512);
         if (auto refusal = describe_foreign_format(first, path); !refusal.empty()) return bad_input(std::move(refusal), {path});

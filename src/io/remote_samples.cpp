@@ -8,9 +8,9 @@
 #include <cerrno>
 #include <cstring>
 
-#include "io/seekable_bytes.hpp"
 #include "io/helper_process.hpp"
 #include "io/samples_message.hpp"
+#include "io/seekable_bytes.hpp"
 
 namespace corpuscle {
 namespace {
@@ -74,7 +74,8 @@ public:
 
 }  // namespace
 
-SamplesResult open_remote_samples_with(const std::string& program, const std::string& path, const HelperProgram& reader, const TableOptions& options) {
+SamplesResult open_remote_samples_with(const std::string& program, const std::string& path, const HelperProgram& reader,
+                                       const TableOptions& options) {
     const OpenedFile file(path);
     if (file.number() < 0) return bad_input(fmt::format("cannot be opened: {}", std::strerror(errno)), {path});
     auto helper = HelperProcess::start(program, file.number());

@@ -37,7 +37,8 @@ void HampelFilter::push(double x, std::vector<double>& out) {
 }
 
 void HampelFilter::finish(std::vector<double>& out) {
-    for (center_ = last_.size() > half_window ? last_.size() - half_window : 0; center_ < last_.size(); ++center_) out.push_back(filtered());
+    for (center_ = last_.size() > half_window ? last_.size() - half_window : 0; center_ < last_.size(); ++center_)
+        out.push_back(filtered());
 }
 
 Result<void> GapFiller::push(double x, std::vector<double>& out) {

@@ -44,8 +44,8 @@ Result<TimeCheck> check_times(Table& table, RowReader rows, const RowClock& cloc
                                  rows.location(k));
             }
             if (check.count() > 0 && t == last && !check.duplicate)
-                check.duplicate =
-                    bad_input(fmt::format("the time {:g} s occurs twice; use --rate to take the rows as evenly spaced", t), rows.location(k));
+                check.duplicate = bad_input(fmt::format("the time {:g} s occurs twice; use --rate to take the rows as evenly spaced", t),
+                                            rows.location(k));
             check.add(last = t);
         }
         if (!options.should_continue(table.progress())) return Error{ErrorCode::interrupted, "interrupted"};
@@ -60,8 +60,7 @@ std::string uneven_message(const std::string& name, const ClockAnalysis& c) {
         "the times in '{}' are not evenly spaced: mean rate {}, {}, jitter up to {}. Use --rate {:.5g}Hz to take the samples as evenly "
         "spaced{}",
         name, hertz(mean), steps(c), format_quantity(c.peak_to_peak_jitter(), "s"), mean,
-        c.min_step() > 0 ? fmt::format(", or --resample {:g}Hz to interpolate between their times", std::max(1.0, std::round(mean)))
-                           : "");
+        c.min_step() > 0 ? fmt::format(", or --resample {:g}Hz to interpolate between their times", std::max(1.0, std::round(mean))) : "");
 }
 
 /// The clock of the given rate. Adds a note if the times contradict it.
@@ -88,8 +87,7 @@ Result<Clock> clock_by_times(const std::string& name, const TimeCheck& times, co
     if (!options.resample) return bad_input(uneven_message(name, times));
     if (times.duplicate) return *times.duplicate;
     out.uses_row_times = true;
-    out.notes.push_back(
-        fmt::format("the uneven times in '{}' ({}) were interpolated at {}", name, steps(times), hertz(*options.resample)));
+    out.notes.push_back(fmt::format("the uneven times in '{}' ({}) were interpolated at {}", name, steps(times), hertz(*options.resample)));
     return make_clock(*options.resample, times.first());
 }
 
@@ -97,8 +95,8 @@ Result<Clock> clock_by_times(const std::string& name, const TimeCheck& times, co
 Result<RowClock> without_times(Table& table, double rate, const Error& problem, RowClock& out) {
     if (auto ok = table.rewind(); !ok) return ok.error();
     out.notes.push_back(fmt::format("the times were ignored ({}); the recording starts at 0 s",
-                                      problem.message.substr(0, std::min({problem.message.find("; --"), problem.message.find("; use "),
-                                                                           problem.message.find("; give ")}))));
+                                    problem.message.substr(0, std::min({problem.message.find("; --"), problem.message.find("; use "),
+                                                                        problem.message.find("; give ")}))));
     const auto clock = make_clock(rate);
     if (!clock) return clock.error();
     out.clock = *clock;
@@ -127,8 +125,8 @@ bool find_serial_days(const std::vector<double>& times, double step, const std::
     constexpr double day = 86'400;
     out.seconds_per_unit = day, out.origin = first;
     out.notes.push_back(fmt::format("the times in '{}' are serial days of {}; 0 s is {}, the first time", name,
-                                      spreadsheet ? "a spreadsheet" : "MATLAB",
-                                      format_instant((first - (spreadsheet ? 25'569 : 719'529)) * day)));
+                                    spreadsheet ? "a spreadsheet" : "MATLAB",
+                                    format_instant((first - (spreadsheet ? 25'569 : 719'529)) * day)));
     return true;
 }
 
@@ -150,7 +148,7 @@ Result<void> find_epoch(Table& table, std::size_t column, double unit, bool unit
         if (!(since >= 1e9 && since < 3e9 && step >= 0 && step * factor <= 10)) continue;
         out.seconds_per_unit = factor, out.origin = times[0];
         out.notes.push_back(fmt::format("the times in '{}' are {} since 1970; 0 s is {} (UTC), the first time",
-                                          table.columns()[column].name, unit_is_known ? "counted" : name, format_instant(since)));
+                                        table.columns()[column].name, unit_is_known ? "counted" : name, format_instant(since)));
         return {};
     }
     return {};
@@ -191,8 +189,9 @@ Result<RowClock> find_row_clock(Table& table, const RecordingOptions& options, c
         if (!heading.holds_time_stamps)
             if (auto ok = find_epoch(table, *column, *unit, options.time_unit || !heading.unit.empty(), out); !ok) return ok.error();
     }
-    const auto times = unit ? check_times(table, RowReader(table, options, drop ? channels : std::vector<std::size_t>(), column), out, options)
-                            : Result<TimeCheck>(unit.error());
+    const auto times =
+        unit ? check_times(table, RowReader(table, options, drop ? channels : std::vector<std::size_t>(), column), out, options)
+             : Result<TimeCheck>(unit.error());
     if (!times && times.error().code == ErrorCode::interrupted) return times.error();
     if (!times && options.rate) return without_times(table, *options.rate, times.error(), out);
     if (!times) return times.error();
@@ -203,7 +202,8 @@ Result<RowClock> find_row_clock(Table& table, const RecordingOptions& options, c
     if (times->count() < 1) return bad_input("no data in this file", {path});
     const auto& name = table.columns()[*out.time_column].name;
     auto clock = options.rate ? clock_by_rate(*options.rate, name, *times, out.notes) : clock_by_times(name, *times, options, out);
-    if (!clock) return bad_input(clock.error().message, clock.error().location.file.empty() ? SourceLocation{path} : clock.error().location);
+    if (!clock)
+        return bad_input(clock.error().message, clock.error().location.file.empty() ? SourceLocation{path} : clock.error().location);
     out.clock = *clock;
     doubt_seconds(table.columns()[*out.time_column], options, out.clock, out.origin != 0, out.notes);
     return out;

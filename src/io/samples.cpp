@@ -7,8 +7,8 @@
 #include <numeric>
 
 #include "io/column_roles.hpp"
-#include "signal/parameter.hpp"
 #include "signal/ascii_text.hpp"
+#include "signal/parameter.hpp"
 
 namespace corpuscle {
 namespace {
@@ -149,12 +149,14 @@ Result<void> orient(ArrayExtent& e, const ArrayInfo& a, const std::string& path,
     if (hints.is_column_major && e.columns > 1) flip();
     if (hints.transpose) return *hints.transpose ? flip() : void(), Result<void>{};
     if (e.columns <= e.rows || e.rows == 1) return {};
-    const auto is_length = [&](std::uint64_t n) { return std::find(hints.time_lengths.begin(), hints.time_lengths.end(), n) != hints.time_lengths.end(); };
+    const auto is_length = [&](std::uint64_t n) {
+        return std::find(hints.time_lengths.begin(), hints.time_lengths.end(), n) != hints.time_lengths.end();
+    };
     if (is_length(e.rows) || (hints.channel_names == e.columns && !is_length(e.columns))) return {};
     if (is_length(e.columns) || hints.channel_names == e.rows) {
         flip();
-        e.note = fmt::format("{}: taken as {} channels of {} samples, to match {}; use --no-transpose if each row is a sample",
-                               describe(a), e.columns, e.rows, is_length(e.rows) ? "the times" : "the channel names");
+        e.note = fmt::format("{}: taken as {} channels of {} samples, to match {}; use --no-transpose if each row is a sample", describe(a),
+                             e.columns, e.rows, is_length(e.rows) ? "the times" : "the channel names");
         return {};
     }
     return bad_input(

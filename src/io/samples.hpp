@@ -13,7 +13,7 @@ namespace corpuscle {
 struct SamplesInfo {
     std::vector<Column> columns = {};
     std::int64_t rows = 0;
-    std::optional<double> rate = {};       ///< Hz
+    std::optional<double> rate = {};              ///< Hz
     std::optional<std::size_t> time_column = {};  ///< the time column, if it is known otherwise than by its name
     std::vector<std::string> notes = {};
 };
@@ -67,13 +67,13 @@ std::string_view last_path_component(std::string_view path);
 /// The orientation of an array. One dimension is one channel, two are rows and channels, a single row is one channel.
 struct ArrayExtent {
     std::uint64_t rows = 0, columns = 1;
-    bool is_transposed = false;       ///< samples run along the second dimension
-    std::string note = {};  ///< the reason for a transposition
+    bool is_transposed = false;  ///< samples run along the second dimension
+    std::string note = {};       ///< the reason for a transposition
 };
 
 /// Hints that distinguish samples from channels in an array with more columns than rows.
 struct ExtentHints {
-    std::optional<bool> transpose = {};          ///< as requested by the user
+    std::optional<bool> transpose = {};               ///< as requested by the user
     bool is_column_major = false;                     ///< column-major, as MATLAB writes arrays
     std::vector<std::uint64_t> time_lengths = {};     ///< lengths of time lists that may belong to the array
     std::optional<std::uint64_t> channel_names = {};  ///< number of channel names

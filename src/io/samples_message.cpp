@@ -118,7 +118,8 @@ Result<SamplesInfo> decode_info(Message& m, const std::string& path) {
         is_complete = m.get(c.name) && m.get(c.unit);
         info.columns.push_back(std::move(c));
     }
-    if (!is_complete || !get_texts(m, info.notes) || (info.time_column && *info.time_column >= info.columns.size())) return broken_response(path);
+    if (!is_complete || !get_texts(m, info.notes) || (info.time_column && *info.time_column >= info.columns.size()))
+        return broken_response(path);
     return info;
 }
 

@@ -7,8 +7,8 @@
 #include "io/dialect.hpp"
 #include "io/line_reader.hpp"
 #include "io/text_table.hpp"
-#include "signal/quantity.hpp"
 #include "signal/ascii_text.hpp"
+#include "signal/quantity.hpp"
 
 namespace corpuscle {
 namespace {
@@ -108,7 +108,8 @@ class LayoutReader {
     }
 
 public:
-    LayoutReader(LineReader lines, const Table& table, std::optional<std::size_t> time) : lines_(std::move(lines)), table_(table), time_(time) {}
+    LayoutReader(LineReader lines, const Table& table, std::optional<std::size_t> time)
+        : lines_(std::move(lines)), table_(table), time_(time) {}
 
     Result<SensorLayout> read() {
         if (auto ok = read_headings(); !ok) return ok.error();

@@ -6,8 +6,8 @@
 #include "io/address_events.hpp"
 #include "io/train_collector.hpp"
 #include "io/utf8.hpp"
-#include "signal/input_files.hpp"
 #include "signal/ascii_text.hpp"
+#include "signal/input_files.hpp"
 
 namespace corpuscle {
 namespace {

@@ -17,7 +17,7 @@ struct Column {
     std::string unit;  ///< as written in the file; "" if there is none
     /// The reason why the column is not a channel unless it is requested by name, as a predicate ("holds words"). "": it may be one.
     std::string exclusion_reason = {};
-    bool holds_time_stamps = false;        ///< holds dates or times of day, which are read as seconds from the first
+    bool holds_time_stamps = false;       ///< holds dates or times of day, which are read as seconds from the first
     std::string exclusion_evidence = {};  ///< if the column holds words: the first word, its line, and a remedy if one is known
 };
 
@@ -27,7 +27,7 @@ inline constexpr std::size_t rows_per_block = 4096;
 struct TableOptions {
     std::optional<std::string> dataset = {};  ///< the array to read: "/force/data" in HDF5, "force" in NPZ
     std::optional<bool> transpose = {};       ///< true: rows are channels; false: rows are samples, even if there are fewer rows
-    std::size_t skip_lines = 0;                     ///< number of lines before the table in a text file
+    std::size_t skip_lines = 0;               ///< number of lines before the table in a text file
     /// Called while a file is opened that must be read completely. Returning false stops it.
     std::function<bool()> should_continue = [] { return true; };
 };

@@ -68,7 +68,9 @@ class LayoutDetector {
     TextLayout layout_;
     std::size_t row_ = 0, skipped_ = 0;  // indices into head_: the first row of the table, and the first line of its header
 
-    Dialect dialect_of(std::string_view line) const { return separator_ ? Dialect{*separator_, *separator_ != ','} : Dialect::detect(line); }
+    Dialect dialect_of(std::string_view line) const {
+        return separator_ ? Dialect{*separator_, *separator_ != ','} : Dialect::detect(line);
+    }
 
     bool is_number(std::string_view field, const Dialect& d) const {
         double value;
@@ -315,7 +317,8 @@ class LayoutDetector {
                 if (c != layout_.roles.time_column && matches(layout_.columns[c])) layout_.trial_columns.push_back(c);
         };
         add([](const Column& c) { return is_trial_name(c.name); });
-        if (layout_.has_header) add([](const Column& c) { return !is_trial_name(c.name) && c.exclusion_reason.starts_with("holds words"); });
+        if (layout_.has_header)
+            add([](const Column& c) { return !is_trial_name(c.name) && c.exclusion_reason.starts_with("holds words"); });
     }
 
     void find_first_stamp() {
@@ -332,7 +335,7 @@ class LayoutDetector {
         if (skipped_ == 0) return;
         const auto first = head_[0].number, last = head_[skipped_ - 1].number;
         layout_.notes.push_back(first == last ? fmt::format("skipped line {} before the table", first)
-                                                : fmt::format("skipped lines {} to {} before the table", first, last));
+                                              : fmt::format("skipped lines {} to {} before the table", first, last));
     }
 
 public:

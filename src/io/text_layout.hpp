@@ -16,11 +16,11 @@ struct TextLayout {
     std::optional<TimeStamp> first_stamp = {};  ///< of the time column, or of the first column with time stamps
     std::optional<double> rate = {};            ///< Hz, if the file contains it
     std::vector<std::string> notes = {};
-    long first_row_line = 1;                    ///< line number of the first row
-    bool has_header = false;                    ///< the columns are named by a header
-    bool is_last_field_optional = false;      ///< the last field of a row and its separator may be missing
-    bool has_row_names = false;          ///< the first field of each row is its name
-    std::vector<std::string> first_fields = {};  ///< fields of the first row
+    long first_row_line = 1;                      ///< line number of the first row
+    bool has_header = false;                      ///< the columns are named by a header
+    bool is_last_field_optional = false;          ///< the last field of a row and its separator may be missing
+    bool has_row_names = false;                   ///< the first field of each row is its name
+    std::vector<std::string> first_fields = {};   ///< fields of the first row
     std::vector<std::size_t> trial_columns = {};  ///< columns that may identify trials, the most likely first
 };
 

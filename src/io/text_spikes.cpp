@@ -57,7 +57,9 @@ bool split(std::string_view line, char separator, std::vector<CsvField>& out) {
     }
 }
 
-bool is_time(std::string_view text, char separator, double& value) { return Dialect{separator, separator != ','}.parse_number(text, value); }
+bool is_time(std::string_view text, char separator, double& value) {
+    return Dialect{separator, separator != ','}.parse_number(text, value);
+}
 
 /// Reads a text table with one row for each spike.
 class TextSpikes {

@@ -6,10 +6,10 @@
 #include <cstring>
 #include <limits>
 
+#include "io/field_advice.hpp"
 #include "io/json_records.hpp"
 #include "io/json_table.hpp"
 #include "io/text_layout.hpp"
-#include "io/field_advice.hpp"
 #include "signal/ascii_text.hpp"
 
 namespace corpuscle {
@@ -24,17 +24,19 @@ class TextTable final : public Table {
     std::size_t skip_;
     bool rows_are_channels_;
     Fields fields_;
-    std::vector<long> numbers_;         // line numbers of the last block's rows
-    std::vector<double*> to_;           // for each column: the destination of its numbers, or null
-    std::size_t wanted_end_ = 0;        // one past the last requested column
-    double last_stamp_ = 0, days_ = 0;  // s: the last time of day, and the days that have passed
+    std::vector<long> numbers_;                             // line numbers of the last block's rows
+    std::vector<double*> to_;                               // for each column: the destination of its numbers, or null
+    std::size_t wanted_end_ = 0;                            // one past the last requested column
+    double last_stamp_ = 0, days_ = 0;                      // s: the last time of day, and the days that have passed
     bool quoted_rows_ = false, quoted_separators_ = false;  // found by find_trials()
 
     Error error_at(std::string message, long column = 0) const {
         return bad_input(std::move(message), {lines_.path(), lines_.line_number(), column});
     }
 
-    std::string column_label(std::size_t c) const { return form_.has_header ? fmt::format("'{}'", columns_[c].name) : fmt::format("{}", c + 1); }
+    std::string column_label(std::size_t c) const {
+        return form_.has_header ? fmt::format("'{}'", columns_[c].name) : fmt::format("{}", c + 1);
+    }
 
     /// Reads the next line that holds data.
     Result<bool> next_row(std::string_view& line) {
@@ -77,9 +79,10 @@ class TextTable final : public Table {
         const auto column = fields_[c].data() ? fields_[c].data() - line.data() + 1 : 0;
         const auto found = fields_[c].empty() ? std::string("an empty field") : fmt::format("'{}'", fields_[c].substr(0, 40));
         const auto advice = columns_[c].holds_time_stamps ? "" : advice_for(fields_[c]);
-        return error_at(fmt::format("column {}: {} where a {} is expected{}", column_label(c), found,
-                                    columns_[c].holds_time_stamps ? "time" : "number", advice.empty() ? remedy(c) : "; it contains " + advice),
-                        column);
+        return error_at(
+            fmt::format("column {}: {} where a {} is expected{}", column_label(c), found, columns_[c].holds_time_stamps ? "time" : "number",
+                        advice.empty() ? remedy(c) : "; it contains " + advice),
+            column);
     }
 
     /// The unusual feature of a field that should be a number, and how to convert the file. "" if it is not recognised.
@@ -100,7 +103,7 @@ class TextTable final : public Table {
             ++count;
             const auto advice = advice_for(word);
             columns_[c].exclusion_evidence = fmt::format("line {} has '{}'{}{}", form_.first_row_line, word.substr(0, 40),
-                                               advice.empty() ? "" : ", which contains ", advice);
+                                                         advice.empty() ? "" : ", which contains ", advice);
         }
     }
 
@@ -166,14 +169,13 @@ class TextTable final : public Table {
         if (form_.is_last_field_optional && line.starts_with("Channels")) {
             const auto command = lines_.copy_command(fmt::format("head -n {}", lines_.line_number() - 1), "-first");
             return error_at(fmt::format("another segment of the measurement begins here, but only one can be read; keep the first{}{}",
-                                  command.empty() ? "" : ": ", command));
+                                        command.empty() ? "" : ": ", command));
         }
         split(line);
         if (fields_.size() != columns_.size()) {
             if (!allows_gaps_)
-                return error_at(
-                    fmt::format("{} columns where {} are expected; use --bad-fields drop to skip such rows", fields_.size(),
-                                columns_.size()));
+                return error_at(fmt::format("{} columns where {} are expected; use --bad-fields drop to skip such rows", fields_.size(),
+                                            columns_.size()));
             for (auto& column : out) column[row] = std::numeric_limits<double>::quiet_NaN();  // fields cannot be assigned to columns
             return {};
         }
@@ -290,7 +292,8 @@ public:
         if (time_ && columns_[*time_].holds_time_stamps && form_.first_stamp) {
             const auto& s = *form_.first_stamp;
             const auto instant = format_instant(static_cast<double>(s.day) * 86'400 + static_cast<double>(s.nanoseconds) * 1e-9);
-            all.push_back(fmt::format("0 s is {}, the first time in '{}'", s.has_date ? instant : instant.substr(11), columns_[*time_].name));
+            all.push_back(
+                fmt::format("0 s is {}, the first time in '{}'", s.has_date ? instant : instant.substr(11), columns_[*time_].name));
         }
         return all;
     }
@@ -301,9 +304,8 @@ public:
         const auto telling = std::find_if(trials->begin(), trials->end(), [](const TrialColumn& t) { return t.changes; });
         const auto filter = trial_filter(*trials);
         const auto command = filter.empty() ? filter : lines_.copy_command(filter, "-trial1");
-        return fmt::format(
-            "the file has several trials, identified by '{}', but only one can be read at a time; make a file of {}{}",
-            columns_[telling->column].name, command.empty() ? "each" : "one: ", command);
+        return fmt::format("the file has several trials, identified by '{}', but only one can be read at a time; make a file of {}{}",
+                           columns_[telling->column].name, command.empty() ? "each" : "one: ", command);
     }
 
     Result<std::vector<std::string>> row_names() override {

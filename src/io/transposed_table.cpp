@@ -16,7 +16,7 @@ class MemorySamples final : public Samples {
     SamplesInfo info_;
     std::vector<std::vector<double>> channels_;
     std::vector<SourceLocation> locations_;  // locations of the rows, which are the channels
-    std::size_t names_;             // number of fields before the samples
+    std::size_t names_;                      // number of fields before the samples
 
 public:
     MemorySamples(SamplesInfo info, std::vector<std::vector<double>> channels, std::vector<SourceLocation> locations, std::size_t names)

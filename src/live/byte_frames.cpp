@@ -29,7 +29,8 @@ class ByteFrames final : public FrameSource {
     }
 
     void end_sender() {
-        if (decoder_.has_partial_frame()) ++counts_.partial_frames, counts_.partial_bytes = static_cast<std::int64_t>(decoder_.partial_bytes());
+        if (decoder_.has_partial_frame())
+            ++counts_.partial_frames, counts_.partial_bytes = static_cast<std::int64_t>(decoder_.partial_bytes());
         decoder_.reset();
         order_.restart();
     }
@@ -109,7 +110,7 @@ public:
 }  // namespace
 
 std::unique_ptr<FrameSource> make_frame_source(std::unique_ptr<ByteSource> source, const FrameLayout& layout, std::int64_t hold,
-                                       std::int64_t max_gap, std::size_t batch_frames, HeaderReader read_header) {
+                                               std::int64_t max_gap, std::size_t batch_frames, HeaderReader read_header) {
     return std::make_unique<ByteFrames>(std::move(source), layout, hold, max_gap, batch_frames, std::move(read_header));
 }
 

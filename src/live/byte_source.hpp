@@ -24,15 +24,15 @@ struct ReadResult {
 
 /// Statistics of senders on a network.
 struct SenderCounts {
-    std::int64_t idle = 0;       ///< senders that were idle for the time limit while another wanted to send
+    std::int64_t idle = 0;     ///< senders that were idle for the time limit while another wanted to send
     std::int64_t ignored = 0;  ///< datagrams of senders other than the current one; ignored
-    std::int64_t dropped = 0;       ///< datagrams dropped by the system because they were not read fast enough
+    std::int64_t dropped = 0;  ///< datagrams dropped by the system because they were not read fast enough
 };
 
 class ByteSource {
 public:
     virtual ~ByteSource() = default;
-    virtual int poll_fd() const = 0;                          ///< file descriptor to poll for reading
+    virtual int poll_fd() const = 0;                                ///< file descriptor to poll for reading
     virtual std::int64_t due_time() const { return steady_never; }  ///< time at which it must be read even if nothing has arrived
     virtual Result<ReadResult> read(std::span<char>) = 0;
     virtual std::string description() const = 0;  ///< "127.0.0.1, port 7000"
@@ -43,7 +43,7 @@ public:
     virtual bool has_one_sender() const { return true; }  ///< false: others may connect, so an error of one sender does not end the stream
     virtual bool is_live() const { return true; }         ///< false: a file, which can wait
     virtual bool has_datagrams() const { return false; }  ///< each read returns one datagram, which contains whole frames
-    virtual std::size_t unread_bytes() const;                   ///< bytes that have arrived but have not been read
+    virtual std::size_t unread_bytes() const;             ///< bytes that have arrived but have not been read
 };
 
 Result<std::unique_ptr<ByteSource>> open_standard_input();

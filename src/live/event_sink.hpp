@@ -48,7 +48,7 @@ public:
     /// Writes everything that is left, as long as the reader accepts it.
     virtual Result<void> finish(const FinishPolicy&) = 0;
     virtual std::string description() const = 0;
-    std::int64_t dropped() const { return dropped_; }        ///< events that were in the ring when their reader disconnected
+    std::int64_t dropped() const { return dropped_; }          ///< events that were in the ring when their reader disconnected
     std::int64_t connections() const { return connections_; }  ///< connections, one after another
 };
 

@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include "live/frame_layout.hpp"
 #include "live/frame_error.hpp"
+#include "live/frame_layout.hpp"
 #include "live/header_reader.hpp"
 #include "live/lanes/kernel.hpp"
 
@@ -23,7 +23,7 @@ private:
     const lanes::FrameKernels& lanes_;
     std::vector<char> bytes_;
     std::size_t begin_ = 0, end_ = 0;  // bytes that have arrived and are not decoded yet
-    std::size_t scanned_ = 0;           // no line end before this position
+    std::size_t scanned_ = 0;          // no line end before this position
     bool skipping_ = false;            // skipping a line that is longer than any frame
     bool first_ = true;                // nothing has been read yet: a header may come
     const char* found_ = nullptr;      // forces of a binary frame
@@ -47,21 +47,21 @@ public:
     explicit FrameDecoder(const FrameLayout&, std::size_t frames = 1, HeaderReader = {});
     const FrameLayout& layout() const { return layout_; }
 
-    std::span<char> buffer();                                    ///< destination of the next bytes; never empty
-    void add_bytes(std::size_t bytes) { end_ += bytes; }            ///< `bytes` have been written there
+    std::span<char> buffer();                                              ///< destination of the next bytes; never empty
+    void add_bytes(std::size_t bytes) { end_ += bytes; }                   ///< `bytes` have been written there
     bool has_partial_frame() const { return end_ > begin_ || skipping_; }  ///< part of a frame has arrived
     /// `bytes` have been written there as one datagram. It must contain whole frames; its last line needs no line end. Returns false, and
     /// ignores it, if it does not.
     bool add_datagram(std::size_t bytes);
     std::size_t partial_bytes() const { return end_ - begin_; }  ///< size of the partial frame
-    void reset();                                             ///< discards everything, because the sender has disconnected
+    void reset();                                                ///< discards everything, because the sender has disconnected
 
     /// Finds the next complete frame and consumes its bytes.
     Status next();
     /// number of the found frame, modulo 2^32, if frames are stamped
     std::uint32_t number() const { return number_; }
     const std::optional<Error>& header_error() const { return header_error_; }     ///< if set, the frames after it cannot be read
-    std::int64_t headers() const { return headers_; }                           ///< first lines that were names, not numbers
+    std::int64_t headers() const { return headers_; }                              ///< first lines that were names, not numbers
     const std::optional<FrameError>& first_error() const { return first_error_; }  ///< the first frame that could not be read
     /// Writes the forces of the found frame over the last ones. A value that is NaN or beyond the limit is not written; returns the number
     /// of such values.

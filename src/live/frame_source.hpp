@@ -6,8 +6,8 @@
 #include <span>
 
 #include "live/byte_source.hpp"
-#include "live/frame_layout.hpp"
 #include "live/frame_error.hpp"
+#include "live/frame_layout.hpp"
 #include "live/frame_sequence.hpp"
 #include "live/header_reader.hpp"
 #include "live/steady_clock.hpp"
@@ -16,15 +16,15 @@
 namespace corpuscle {
 
 struct FrameCounts {
-    std::int64_t frames = 0;      ///< received and simulated
-    std::int64_t unreadable = 0;  ///< unreadable frames: the last force was repeated (for numbered frames: a gap)
-    std::int64_t invalid_values = 0;      ///< values that are NaN or beyond the limit: the site kept its last force
-    std::int64_t partial_frames = 0;      ///< frames that were incomplete when their sender disconnected
-    std::int64_t partial_bytes = 0;  ///< bytes of the last of these
-    std::int64_t headers = 0;     ///< first lines that were names
-    std::int64_t sender_count = 0;   ///< senders so far
-    SenderCounts senders = {};    ///< senders on a network
-    SequenceCounts sequence = {};       ///< numbered frames
+    std::int64_t frames = 0;          ///< received and simulated
+    std::int64_t unreadable = 0;      ///< unreadable frames: the last force was repeated (for numbered frames: a gap)
+    std::int64_t invalid_values = 0;  ///< values that are NaN or beyond the limit: the site kept its last force
+    std::int64_t partial_frames = 0;  ///< frames that were incomplete when their sender disconnected
+    std::int64_t partial_bytes = 0;   ///< bytes of the last of these
+    std::int64_t headers = 0;         ///< first lines that were names
+    std::int64_t sender_count = 0;    ///< senders so far
+    SenderCounts senders = {};        ///< senders on a network
+    SequenceCounts sequence = {};     ///< numbered frames
 };
 
 class FrameSource {
@@ -37,24 +37,24 @@ public:
     };
 
     virtual ~FrameSource() = default;
-    virtual int poll_fd() const { return -1; }         ///< descriptor to poll for reading; -1: driven by the clock
+    virtual int poll_fd() const { return -1; }               ///< descriptor to poll for reading; -1: driven by the clock
     virtual std::int64_t due_time() const { return never; }  ///< time of the next frame that needs no poll; steady_now()
-    virtual Result<bool> receive() = 0;                 ///< reads what has arrived; false: no more data
-    virtual void disable_batching() {}                             ///< makes reads return immediately, however little has arrived
-    virtual Next next(std::span<double> force) = 0;     ///< writes the next frame over the last one
+    virtual Result<bool> receive() = 0;                      ///< reads what has arrived; false: no more data
+    virtual void disable_batching() {}                       ///< makes reads return immediately, however little has arrived
+    virtual Next next(std::span<double> force) = 0;          ///< writes the next frame over the last one
     virtual FrameCounts counts() const = 0;
     virtual std::string description() const = 0;
     /// True if frames arrive at their own pace. Otherwise they can wait for a slow reader of the spikes.
     virtual bool is_live() const { return true; }
-    virtual std::size_t unread_bytes() const { return 0; }                  ///< bytes that have arrived but have not been read
+    virtual std::size_t unread_bytes() const { return 0; }                ///< bytes that have arrived but have not been read
     virtual std::optional<FrameError> first_error() const { return {}; }  ///< the first frame that could not be read
-    virtual FrameSequence* sequence() { return nullptr; }                         ///< of numbered frames
+    virtual FrameSequence* sequence() { return nullptr; }                 ///< of numbered frames
 };
 
-/// `hold` and `max_gap` in frames (see FrameSequence). `batch_frames`: frames that are simulated at once. If the header of the only sender is
-/// refused, this is an error. If there can be other senders, only the frames of this one are ignored.
+/// `hold` and `max_gap` in frames (see FrameSequence). `batch_frames`: frames that are simulated at once. If the header of the only sender
+/// is refused, this is an error. If there can be other senders, only the frames of this one are ignored.
 std::unique_ptr<FrameSource> make_frame_source(std::unique_ptr<ByteSource>, const FrameLayout&, std::int64_t hold, std::int64_t max_gap,
-                                       std::size_t batch_frames = 1, HeaderReader = {});
+                                               std::size_t batch_frames = 1, HeaderReader = {});
 
 /// A recording, each frame at its time, or as fast as they can be simulated.
 std::unique_ptr<FrameSource> make_frame_source(std::unique_ptr<ForceSource>, bool real_time);

@@ -53,7 +53,8 @@ Result<SkinPlan> make_channel_plan(std::string_view afferents, std::size_t chann
     return plan;
 }
 
-Result<SkinPlan> make_channel_plan(std::string_view afferents, std::span<const Channel> channels, std::span<const ParameterOverride> overrides) {
+Result<SkinPlan> make_channel_plan(std::string_view afferents, std::span<const Channel> channels,
+                                   std::span<const ParameterOverride> overrides) {
     auto plan = make_channel_plan(afferents, channels.size(), overrides);
     if (plan)
         for (std::size_t c = 0; c < channels.size(); ++c) plan->sites.names[c] = channels[c].name;

@@ -12,7 +12,8 @@ bool is_afferent_list(std::string_view list);
 
 /// Named afferents ("sa1,fa1"), each on every one of `channels`. Overrides that name one of them are marked as used.
 Result<SkinPlan> make_channel_plan(std::string_view afferents, std::size_t channels, std::span<const ParameterOverride> overrides = {});
-Result<SkinPlan> make_channel_plan(std::string_view afferents, std::span<const Channel> channels, std::span<const ParameterOverride> overrides = {});
+Result<SkinPlan> make_channel_plan(std::string_view afferents, std::span<const Channel> channels,
+                                   std::span<const ParameterOverride> overrides = {});
 
 /// "hand", "grid 8x8", a population file, or named afferents on channels. Overrides that name one of its classes are marked as used.
 Result<SkinPlan> make_live_plan(std::string_view population, std::size_t channels, std::span<const ParameterOverride> overrides = {});

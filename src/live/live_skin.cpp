@@ -14,7 +14,8 @@ struct LiveSkin::Impl {
 
     std::span<const Event> to_events(std::span<const Spike> spikes) {
         events.clear();
-        for (const auto& s : spikes) events.push_back({afferents.clock.time(s.step, s.offset), s.afferent_index, afferents.addresses[s.afferent_index]});
+        for (const auto& s : spikes)
+            events.push_back({afferents.clock.time(s.step, s.offset), s.afferent_index, afferents.addresses[s.afferent_index]});
         return events;
     }
 };
@@ -53,7 +54,8 @@ LiveSkin::Site LiveSkin::site(std::size_t number) const {
 std::size_t LiveSkin::afferents() const { return impl_->afferents.names.size(); }
 std::int64_t LiveSkin::frames() const { return impl_->stream->frames(); }
 std::string LiveSkin::afferent_name(std::uint32_t index) const {
-    if (index >= afferents()) throw InputError("there is no afferent " + std::to_string(index) + "; the last is " + std::to_string(afferents() - 1));
+    if (index >= afferents())
+        throw InputError("there is no afferent " + std::to_string(index) + "; the last is " + std::to_string(afferents() - 1));
     return impl_->afferents.names[index];
 }
 

@@ -116,7 +116,7 @@ size_t corpuscle_save(corpuscle_skin* skin, void* bytes, size_t size) {
         const auto state = skin->skin.save();
         if (bytes && size < state.size())
             throw corpuscle::InputError("a state of " + std::to_string(state.size()) + " bytes does not fit into a buffer of " +
-                                     std::to_string(size));
+                                        std::to_string(size));
         if (bytes) std::memcpy(bytes, state.data(), state.size());
         return state.size();
     });

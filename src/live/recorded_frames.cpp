@@ -19,7 +19,8 @@ class RecordedFrames final : public FrameSource {
     std::int64_t due_of(std::int64_t frame) const {
         const auto& clock = source_->clock();
         const auto cycles = frame / clock.rate_numerator, rest = frame % clock.rate_numerator;
-        return begun_ + cycles * clock.rate_denominator * 1'000'000'000 + static_cast<std::int64_t>(static_cast<double>(rest) * clock.T() * 1e9);
+        return begun_ + cycles * clock.rate_denominator * 1'000'000'000 +
+               static_cast<std::int64_t>(static_cast<double>(rest) * clock.T() * 1e9);
     }
 
 public:

@@ -4,36 +4,39 @@
 
 #include <functional>
 
-#include "live/latency_histogram.hpp"
 #include "live/event_sink.hpp"
 #include "live/frame_source.hpp"
+#include "live/latency_histogram.hpp"
 #include "live/skin_stream.hpp"
 
 namespace corpuscle {
 
 /// Statistics of a stream.
 struct StreamStats {
-    std::int64_t filled = 0;                     ///< frames inserted for missing or unreadable ones
-    std::int64_t spikes = 0;                     ///< of the skin
-    std::int64_t dropped = 0;                    ///< of these, dropped because the ring was full
+    std::int64_t filled = 0;                             ///< frames inserted for missing or unreadable ones
+    std::int64_t spikes = 0;                             ///< of the skin
+    std::int64_t dropped = 0;                            ///< of these, dropped because the ring was full
     std::int64_t first_received = 0, last_received = 0;  ///< frames; steady_now()
-    std::int64_t received = 0;                       ///< frames received
-    std::int64_t reads = 0;                      ///< reads that returned whole frames
-    std::size_t unread = 0;                      ///< bytes that had arrived when it was stopped, but were not read
-    LatencyHistogram latency;                                ///< from reading the last byte of a frame to writing its spikes
-    LatencyHistogram jitter;                               ///< difference between the interval of two frames and the sampling interval
-    double rate() const {                        ///< rate of received frames, Hz; 0 if unknown
-        return received > 1 && last_received > first_received ? static_cast<double>(received - 1) * 1e9 / static_cast<double>(last_received - first_received) : 0;
+    std::int64_t received = 0;                           ///< frames received
+    std::int64_t reads = 0;                              ///< reads that returned whole frames
+    std::size_t unread = 0;                              ///< bytes that had arrived when it was stopped, but were not read
+    LatencyHistogram latency;                            ///< from reading the last byte of a frame to writing its spikes
+    LatencyHistogram jitter;                             ///< difference between the interval of two frames and the sampling interval
+    double rate() const {                                ///< rate of received frames, Hz; 0 if unknown
+        return received > 1 && last_received > first_received
+                   ? static_cast<double>(received - 1) * 1e9 / static_cast<double>(last_received - first_received)
+                   : 0;
     }
 };
 
 class StreamLoop {
 public:
     struct StreamOptions {
-        std::function<bool()> stop = [] { return false; };                           ///< called at least five times a second
-        std::function<void()> on_second = [] {};                                          ///< called once a second
-        bool busy_poll = false;                                                           ///< busy polling: no wake-up delay, but it uses a core
-        std::function<void(const FrameError&)> on_frame_error = [](const FrameError&) {};  ///< called for the first frame that could not be read
+        std::function<bool()> stop = [] { return false; };  ///< called at least five times a second
+        std::function<void()> on_second = [] {};            ///< called once a second
+        bool busy_poll = false;                             ///< busy polling: no wake-up delay, but it uses a core
+        std::function<void(const FrameError&)> on_frame_error = [](const FrameError&) {
+        };                         ///< called for the first frame that could not be read
         bool keeps_state = false;  ///< the state is saved: spikes in transit at the end belong to the next stream
     };
 

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 #include <cstring>
 
-#include "io/seekable_bytes.hpp"
 #include "io/output_file.hpp"
+#include "io/seekable_bytes.hpp"
 #include "signal/checksum.hpp"
 
 namespace corpuscle {

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "measure/pauses.hpp"
 #include "measure/measure_base.hpp"
+#include "measure/pauses.hpp"
 
 namespace corpuscle {
 
@@ -12,7 +12,7 @@ namespace corpuscle {
 /// pauses are longer in total than its firing. Sums after Welford (1962).
 struct IntervalVariation : MeasureBase {
     static constexpr MeasureInfo info{"isi_cv", "ISI CV", "", 2,
-                                 "standard deviation of the interspike intervals of the phase divided by their mean"};
+                                      "standard deviation of the interspike intervals of the phase divided by their mean"};
     double count = 0, mean = 0, squares = 0;  // squares: of the deviations from the mean
     PauseDetector pauses;
     void interval(double from, double to, bool inside) {

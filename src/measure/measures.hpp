@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "measure/adaptation.hpp"
+#include "measure/interval_variation.hpp"
 #include "measure/latency.hpp"
 #include "measure/phase_locking.hpp"
 #include "measure/rates.hpp"
-#include "measure/interval_variation.hpp"
 
 namespace corpuscle {
 
@@ -36,8 +36,8 @@ inline constexpr std::size_t measure_index = [] {
 class MeasureAccumulator {
     struct Train {
         std::vector<Measures::Tuple> measures;  // one for each window
-        std::size_t window = 0;              // the window of the last spike, or the next one
-        double last = no_value;          // s; NaN if that spike was in no window
+        std::size_t window = 0;                 // the window of the last spike, or the next one
+        double last = no_value;                 // s; NaN if that spike was in no window
     };
     std::vector<TimeWindow> windows_;
     std::vector<Train> trains_;

@@ -38,7 +38,7 @@ struct PhaseSum {
 /// 1, so at least two are required.
 struct VectorStrength : CycleMeasure<PhaseSum> {
     static constexpr MeasureInfo info{"vector_strength", "vector strength", "", 3,
-                                 "phase locking of the spikes to the stimulus cycle: 1 all at one phase, 0 uniformly distributed"};
+                                      "phase locking of the spikes to the stimulus cycle: 1 all at one phase, 0 uniformly distributed"};
     double value(const TimeWindow& s) const {
         const auto all = complete(s);
         return all.count >= 2 ? std::sqrt(all.x * all.x + all.y * all.y) / all.count : no_value;
@@ -53,8 +53,11 @@ struct SingleSpikeSum {
 
 /// One spike per cycle is called tuned by Talbot et al. 1968 (J Neurophysiol 31:301), and entrained one to one by others.
 struct Entrainment : CycleMeasure<SingleSpikeSum> {
-    static constexpr MeasureInfo info{"entrainment", "entrainment", "", 3, "fraction of the complete stimulus cycles with exactly one spike"};
-    double value(const TimeWindow& s) const { return s.stimulus_frequency > 0 && cycles(s) >= 1 ? complete(s).singles / cycles(s) : no_value; }
+    static constexpr MeasureInfo info{"entrainment", "entrainment", "", 3,
+                                      "fraction of the complete stimulus cycles with exactly one spike"};
+    double value(const TimeWindow& s) const {
+        return s.stimulus_frequency > 0 && cycles(s) >= 1 ? complete(s).singles / cycles(s) : no_value;
+    }
 };
 
 }  // namespace corpuscle

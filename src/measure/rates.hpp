@@ -3,15 +3,17 @@
 
 #include <cmath>
 
-#include "measure/pauses.hpp"
 #include "measure/measure_base.hpp"
+#include "measure/pauses.hpp"
 
 namespace corpuscle {
 
 /// The thesis's instantaneous frequency, 1 / (t[k+1] - t[k]), plotted at t[k] (3.3). Two spikes on one sample have none.
 inline double rate_between(double from, double to) { return to > from ? 1 / (to - from) : no_value; }
 /// The same, but NaN over a pause.
-inline double firing_rate_between(double from, double to) { return to - from > PauseDetector::max_interval ? no_value : rate_between(from, to); }
+inline double firing_rate_between(double from, double to) {
+    return to - from > PauseDetector::max_interval ? no_value : rate_between(from, to);
+}
 
 struct SpikeCount : MeasureBase {
     static constexpr MeasureInfo info{"spikes", "spikes", "", 0, "spikes in the phase"};

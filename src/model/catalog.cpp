@@ -42,7 +42,8 @@ std::vector<CatalogEntry> entries_of(const AfferentComponents& parts) {
 template <class M>
 Result<void> check_model_order(const AfferentPlan& plan) {
     if constexpr (requires { M::order_constraints; })
-        return check_order<typename M::Params>(plan.name, M::order_constraints, with_settings<typename M::Params>(M::fields, settings_of(plan)));
+        return check_order<typename M::Params>(plan.name, M::order_constraints,
+                                               with_settings<typename M::Params>(M::fields, settings_of(plan)));
     return {};
 }
 
@@ -148,7 +149,8 @@ Result<AfferentPlan> plan_afferent(std::string_view text, std::span<const Parame
                       parts->transducer,
                       parts->converter};
     if (named)
-        plan.name = named->front_end.empty() && !parts->front_end().empty() ? fmt::format("{}+{}", parts->front_end(), named->name) : named->name;
+        plan.name =
+            named->front_end.empty() && !parts->front_end().empty() ? fmt::format("{}+{}", parts->front_end(), named->name) : named->name;
     std::vector<ParameterInfo> rows;
     std::vector<AfferentParameter> parameters;
     for (const auto& entry : entries)

@@ -53,7 +53,7 @@ std::vector<CatalogEntry> neuron_entries();
 struct AfferentParameter {
     ParameterInfo info;
     std::string_view component;  ///< the component that it belongs to
-    bool set_by_user = false;     ///< true if the user set it
+    bool set_by_user = false;    ///< true if the user set it
 };
 
 /// The first of two parameters of an afferent must be below the second.
@@ -66,12 +66,12 @@ struct ParameterOrder {
 struct AfferentPlan {
     std::string name;  ///< as requested: "sa1", "sa1b+izhikevich"
     std::string_view receptor, neuron, description, source;
-    std::shared_ptr<const std::vector<AfferentParameter>> parameters;       ///< their descriptions, shared by all copies
-    std::vector<double> values;                                     ///< of each parameter, SI
-    double min_rate = 0;                                          ///< Hz; below this sampling rate the response is not reliable
-    std::string_view sensor = {}, transducer = {}, converter = {};  ///< "": none
-    std::uint32_t copy_number = 0;                                         ///< number among its copies, from 1; 0: not a copy
-    std::string original_name = {};                                            ///< of a copy: the name of the original
+    std::shared_ptr<const std::vector<AfferentParameter>> parameters;  ///< their descriptions, shared by all copies
+    std::vector<double> values;                                        ///< of each parameter, SI
+    double min_rate = 0;                                               ///< Hz; below this sampling rate the response is not reliable
+    std::string_view sensor = {}, transducer = {}, converter = {};     ///< "": none
+    std::uint32_t copy_number = 0;                                     ///< number among its copies, from 1; 0: not a copy
+    std::string original_name = {};                                    ///< of a copy: the name of the original
     /// set if the afferent is not made of model equations; then there is no neuron either
     std::shared_ptr<const AfferentFactory> factory = {};
     std::optional<double> value(std::string_view parameter) const;

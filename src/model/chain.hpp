@@ -147,7 +147,8 @@ class Chain final : public Afferent {
 
     /// Samples [from, to). Without probes and noise the state stays in registers.
     template <bool observed>
-    void run(std::span<const double> force, std::size_t from, std::size_t to, std::int64_t first, Values& state, ResponseBlock& response) const {
+    void run(std::span<const double> force, std::size_t from, std::size_t to, std::int64_t first, Values& state,
+             ResponseBlock& response) const {
         Values s = state;
         SpikeSink into{response, spikes_on_samples_, 0};
         for (std::size_t k = from; k < to; ++k) {
@@ -171,8 +172,8 @@ class Chain final : public Afferent {
 public:
     template <class RP, class NP>
     Chain(const RP& r, const NP& n, const SimulationOptions& run)
-        : receptor_(UniformParams<RP>{r}, run.dt, run.method), neuron_(UniformParams<NP>{n}, run.dt, run.method), method_(run.method), spikes_on_samples_(run.spikes_on_samples),
-          noise_(run.noise * std::sqrt(0.5 / run.dt / noise_band)), seed_(run.seed),
+        : receptor_(UniformParams<RP>{r}, run.dt, run.method), neuron_(UniformParams<NP>{n}, run.dt, run.method), method_(run.method),
+          spikes_on_samples_(run.spikes_on_samples), noise_(run.noise * std::sqrt(0.5 / run.dt / noise_band)), seed_(run.seed),
           name_(fmt::format("{}+{}", Receptor::name, Neuron::name)), format_(fmt::format("{}/2, T = {} s", name_, run.dt)) {
         name_probes();
     }
@@ -196,9 +197,10 @@ public:
         }
         std::memcpy(state.values.data(), &s, sizeof s);
         if (first_non_finite(state.values) < state.values.size())
-            return Error{ErrorCode::not_converged, fmt::format("{}: its state became NaN or infinite between samples {} and {}; the force or a "
-                                                          "gain is far too large, or the substep too long",
-                                                          name_, state.step, state.step + static_cast<std::int64_t>(force.size()))};
+            return Error{ErrorCode::not_converged,
+                         fmt::format("{}: its state became NaN or infinite between samples {} and {}; the force or a "
+                                     "gain is far too large, or the substep too long",
+                                     name_, state.step, state.step + static_cast<std::int64_t>(force.size()))};
         state.step += static_cast<std::int64_t>(force.size());
         return {};
     }

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <numeric>
 
+#include "signal/ascii_text.hpp"
 #include "signal/quantity.hpp"
 #include "signal/random.hpp"
-#include "signal/ascii_text.hpp"
 
 namespace corpuscle {
 namespace {
@@ -16,8 +16,8 @@ constexpr std::uint64_t max_samples = 1000;  // for one parameter of one copy
 
 std::size_t index_of(const AfferentPlan& plan, std::string_view parameter) {
     const auto& all = *plan.parameters;
-    return static_cast<std::size_t>(std::find_if(all.begin(), all.end(), [&](const AfferentParameter& p) { return p.info.name == parameter; }) -
-                                    all.begin());
+    return static_cast<std::size_t>(
+        std::find_if(all.begin(), all.end(), [&](const AfferentParameter& p) { return p.info.name == parameter; }) - all.begin());
 }
 
 /// Parses a standard deviation: a fraction of the value ("10%"), or a number in the parameter's own unit.
@@ -103,11 +103,11 @@ class CopySampler {
     Error exhausted(const AfferentPlan& copy, const Result<void>& last) const {
         const auto& worst = *std::max_element(sampled_.begin(), sampled_.end(),
                                               [](const SampledParameter& a, const SampledParameter& b) { return a.count < b.count; });
-        return bad_input(
-            fmt::format("{}: none of {} samples of {} about {} with a standard deviation of {} is valid{}; lower its "
-                        "--spread",
-                        copy.name, max_samples, worst.row.name, format_quantity(worst.value, worst.row.unit),
-                        format_quantity(worst.deviation, worst.row.unit), last ? "" : fmt::format(" (the last: {})", last.error().message)));
+        return bad_input(fmt::format(
+            "{}: none of {} samples of {} about {} with a standard deviation of {} is valid{}; lower its "
+            "--spread",
+            copy.name, max_samples, worst.row.name, format_quantity(worst.value, worst.row.unit),
+            format_quantity(worst.deviation, worst.row.unit), last ? "" : fmt::format(" (the last: {})", last.error().message)));
     }
 
 public:
@@ -117,8 +117,8 @@ public:
         for (const auto& s : spreads) {
             if (s.afferent != plan.name) continue;
             const auto at = index_of(plan, s.parameter);
-            sampled_.push_back(
-                {at, plan.values[at], s.deviation, (*plan.parameters)[at].info, stream_id(fmt::format("{}.{}", plan.name, s.parameter)), 0});
+            sampled_.push_back({at, plan.values[at], s.deviation, (*plan.parameters)[at].info,
+                                stream_id(fmt::format("{}.{}", plan.name, s.parameter)), 0});
         }
         for (const auto& o : order_constraints_of(plan)) bounds_.push_back({index_of(plan, o.lower), index_of(plan, o.upper), o.or_equal});
         for (const auto& b : bounds_)
@@ -141,7 +141,8 @@ public:
 
 }  // namespace
 
-Result<std::vector<ParameterDistribution>> distributions_for(const AfferentPlan& plan, std::string_view requested, std::span<const ParameterOverride> overrides) {
+Result<std::vector<ParameterDistribution>> distributions_for(const AfferentPlan& plan, std::string_view requested,
+                                                             std::span<const ParameterOverride> overrides) {
     std::vector<ParameterInfo> rows;
     for (const auto& p : *plan.parameters) rows.push_back(p.info);
     std::vector<ParameterDistribution> spreads;
@@ -163,7 +164,7 @@ Result<std::vector<ParameterDistribution>> distributions_for(const AfferentPlan&
 }
 
 Result<std::vector<AfferentPlan>> make_copies(const AfferentPlan& plan, std::uint32_t n, std::span<const ParameterDistribution> spreads,
-                                            std::uint64_t seed) {
+                                              std::uint64_t seed) {
     std::vector<AfferentPlan> copies;
     copies.reserve(n);
     CopySampler sampler(plan, spreads, seed);

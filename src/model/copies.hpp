@@ -9,7 +9,7 @@ namespace corpuscle {
 struct ParameterDistribution {
     std::string afferent;  ///< the afferent's own name
     std::string_view parameter, unit;
-    double deviation = 0;              ///< standard deviation, SI
+    double deviation = 0;                 ///< standard deviation, SI
     std::optional<double> fraction = {};  ///< of the value, if it was given as a percentage: 0.1 for "10%"
     bool operator==(const ParameterDistribution&) const = default;
 };
@@ -24,11 +24,13 @@ inline constexpr std::uint32_t max_copies = 1'000'000;
 
 /// Selects the overrides of --spread that belong to this plan ("sa1.f_B=10%", "sa1.f_B=2Hz"), which was requested as `requested`, and marks
 /// them used. Refuses a parameter that all copies share, an integer, a percentage of 0, and the same parameter twice.
-Result<std::vector<ParameterDistribution>> distributions_for(const AfferentPlan&, std::string_view requested, std::span<const ParameterOverride> overrides);
+Result<std::vector<ParameterDistribution>> distributions_for(const AfferentPlan&, std::string_view requested,
+                                                             std::span<const ParameterOverride> overrides);
 
 /// Copies 1 to n of a plan, each with its own values. A value depends only on the seed, the names of afferent and parameter, and the number
 /// of the copy. A value outside the parameter's range is sampled again. So are the parameters of an order constraint that is violated.
-Result<std::vector<AfferentPlan>> make_copies(const AfferentPlan&, std::uint32_t n, std::span<const ParameterDistribution>, std::uint64_t seed);
+Result<std::vector<AfferentPlan>> make_copies(const AfferentPlan&, std::uint32_t n, std::span<const ParameterDistribution>,
+                                              std::uint64_t seed);
 
 /// Index of the first copy of each afferent, then the total. An afferent without copies counts as one.
 std::vector<std::size_t> copy_group_starts(std::span<const AfferentPlan>);

@@ -58,7 +58,7 @@ Result<void> check_alike(std::span<const AfferentPlan* const> plans) {
 /// The models of one component, for all tiles.
 template <class V, class L, class List>
 AlignedBuffer<std::byte> models_of(List list, const L& lanes, int width, std::span<const AfferentPlan* const> plans, std::size_t size,
-                            const SimulationOptions& run) {
+                                   const SimulationOptions& run) {
     AlignedBuffer<std::byte> models;
     visit_named(list, lanes.name, [&]<template <class> class M>(ModelTag<M>) {
         using P = typename M<double>::Params;
@@ -84,16 +84,16 @@ std::unique_ptr<LanePopulation> make_tiled(const PopulationPlan& p, const Simula
     const auto& table = table_of<V>(set);
     const auto& plan = *p.plans[0];
     PopulationLayout<V> layout{named(table.receptors, plan.receptor),
-                   named(table.neurons, plan.neuron),
-                   nullptr,
-                   table.lanes,
-                   p.size,
-                   {},
-                   {},
-                   nullptr,
-                   scales_with_force(plan),
-                   {p.afferent_numbers.begin(), p.afferent_numbers.end()},
-                   fmt::format("{}+{}", plan.receptor, plan.neuron)};
+                               named(table.neurons, plan.neuron),
+                               nullptr,
+                               table.lanes,
+                               p.size,
+                               {},
+                               {},
+                               nullptr,
+                               scales_with_force(plan),
+                               {p.afferent_numbers.begin(), p.afferent_numbers.end()},
+                               fmt::format("{}+{}", plan.receptor, plan.neuron)};
     layout.receptors = models_of<V>(Receptors{}, *layout.receptor, table.lanes, p.plans, p.size, run);
     layout.neurons = models_of<V>(Neurons{}, *layout.neuron, table.lanes, p.plans, p.size, run);
     const auto& joined = layout.receptor->fused[static_cast<std::size_t>(layout.neuron - table.neurons.data())];
@@ -110,8 +110,7 @@ bool can_use_lanes(const AfferentPlan& plan, const SimulationOptions& run) {
 
 Result<std::unique_ptr<LanePopulation>> make_lane_population(const PopulationPlan& p, const SimulationOptions& run, InstructionSet set) {
     if (p.size == 0 || p.plans.empty() || (p.plans.size() != 1 && p.plans.size() != p.size))
-        return bad_input(
-            fmt::format("a population of {} afferents with {} plans: give one plan, or one for each", p.size, p.plans.size()));
+        return bad_input(fmt::format("a population of {} afferents with {} plans: give one plan, or one for each", p.size, p.plans.size()));
     if (!p.afferent_numbers.empty() && p.afferent_numbers.size() != p.size)
         return bad_input(fmt::format("{} afferent numbers for {} afferents", p.afferent_numbers.size(), p.size));
     if (auto ok = check_alike(p.plans); !ok) return ok.error();

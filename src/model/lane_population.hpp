@@ -55,7 +55,7 @@ struct PopulationResponse {
     std::vector<std::uint64_t>* spike_bits = nullptr;
     std::int64_t extra_spikes = 0;
     std::int64_t truncated_steps = 0;  ///< steps that reached the limit of spikes per step
-    std::int64_t skipped_steps = 0;  ///< steps of afferents that were skipped, because no state could change
+    std::int64_t skipped_steps = 0;    ///< steps of afferents that were skipped, because no state could change
     std::size_t failed_afferent = 0;   ///< the first afferent that an error is about
 };
 
@@ -76,7 +76,7 @@ public:
 
 /// Specification of a population.
 struct PopulationPlan {
-    std::span<const AfferentPlan* const> plans;   ///< one for all afferents, or one for each; with the same receptor and neuron models
+    std::span<const AfferentPlan* const> plans;  ///< one for all afferents, or one for each; with the same receptor and neuron models
     std::size_t size = 0;                        ///< at least 1
     std::span<const std::uint32_t> afferent_numbers = {};  ///< the afferent numbers in spikes, rising; empty: 0, 1, 2 ...
     Precision precision = Precision::double_precision;

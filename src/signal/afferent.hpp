@@ -63,10 +63,10 @@ struct ResponseBlock {
     std::uint32_t afferent_index = 0;
     /// If not empty: one array for each probe, as long as the block of force, to be filled.
     std::span<double* const> probes = {};
-    std::span<RangeViolation> range_violations = {};                       ///< if not empty: one counter for each range
-    std::int64_t truncated_steps = 0;                               ///< steps that reached the limit of spikes per step
-    std::int64_t saturated = 0;                              ///< samples beyond the range of a sensor's electronics or converter
-    std::int64_t overflowed = 0;                           ///< fixed-point results of a digital afferent that were saturated
+    std::span<RangeViolation> range_violations = {};                    ///< if not empty: one counter for each range
+    std::int64_t truncated_steps = 0;                                   ///< steps that reached the limit of spikes per step
+    std::int64_t saturated = 0;                                         ///< samples beyond the range of a sensor's electronics or converter
+    std::int64_t overflowed = 0;                                        ///< fixed-point results of a digital afferent that were saturated
     std::int64_t steps = 0, rejected_steps = 0, newton_iterations = 0;  ///< of a circuit: time steps, rejected steps, Newton iterations
     EnergyUse energy_use = {};
 };

@@ -9,15 +9,16 @@
 namespace corpuscle {
 
 struct Clock {
-    std::int64_t rate_numerator = 1;      ///< number of samples in `rate_denominator` seconds
+    std::int64_t rate_numerator = 1;    ///< number of samples in `rate_denominator` seconds
     std::int64_t rate_denominator = 1;  ///< s; T = rate_denominator / rate_numerator
-    double t0 = 0;             ///< s, time of sample 0
+    double t0 = 0;                      ///< s, time of sample 0
 
     double T() const { return static_cast<double>(rate_denominator) / static_cast<double>(rate_numerator); }
     double rate() const { return static_cast<double>(rate_numerator) / static_cast<double>(rate_denominator); }
     /// The time in s of the point at fraction `offset`, in (0, 1], of the interval that ends at sample `step`.
     double time(std::int64_t step, double offset = 1) const {
-        return t0 + ((static_cast<double>(step) - 1) + offset) * static_cast<double>(rate_denominator) / static_cast<double>(rate_numerator);
+        return t0 +
+               ((static_cast<double>(step) - 1) + offset) * static_cast<double>(rate_denominator) / static_cast<double>(rate_numerator);
     }
 };
 

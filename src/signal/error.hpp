@@ -26,7 +26,9 @@ struct Error {
     std::string text() const;
 };
 
-inline Error bad_input(std::string message, SourceLocation location = {}) { return {ErrorCode::bad_input, std::move(message), std::move(location)}; }
+inline Error bad_input(std::string message, SourceLocation location = {}) {
+    return {ErrorCode::bad_input, std::move(message), std::move(location)};
+}
 inline Error bad_usage(std::string message) { return {ErrorCode::bad_usage, std::move(message)}; }
 
 /// A value, or the error that prevented it.

@@ -30,8 +30,8 @@ Result<void> check_range(std::string_view owner, const ParameterInfo& row, doubl
                                  row.low, row.high));
 }
 
-Result<void> check_order(std::string_view owner, std::string_view lower_name, double lower, std::string_view upper_name,
-                                  double upper, bool or_equal) {
+Result<void> check_order(std::string_view owner, std::string_view lower_name, double lower, std::string_view upper_name, double upper,
+                         bool or_equal) {
     if (or_equal ? lower <= upper : lower < upper) return {};
     return bad_input(fmt::format("{}: {} = {:g} must {} {} = {:g}", owner, lower_name, lower, or_equal ? "not be above" : "be below",
                                  upper_name, upper));

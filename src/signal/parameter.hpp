@@ -19,8 +19,8 @@ struct ParameterDef {
     std::string_view unit;  ///< SI, "" for a plain number
     double low, high;       ///< the allowed range, ends included
     std::string_view description;
-    std::string_view source = {};  ///< source of the default, if it is not the model's source
-    bool is_shared_by_copies = false;      ///< true if all copies of an afferent share the value, as for numerical or measurement options
+    std::string_view source = {};      ///< source of the default, if it is not the model's source
+    bool is_shared_by_copies = false;  ///< true if all copies of an afferent share the value, as for numerical or measurement options
 };
 
 /// Requires that one parameter is below another.
@@ -39,7 +39,7 @@ struct ParameterInfo {
     double default_value;  ///< the default
     double low, high;
     std::string_view description;
-    std::string_view source;   ///< source of the default; "": that of the catalogue entry
+    std::string_view source;           ///< source of the default; "": that of the catalogue entry
     bool is_shared_by_copies = false;  ///< true if all copies of an afferent share the value
 };
 
@@ -59,7 +59,8 @@ template <class P>
 std::vector<ParameterInfo> parameters_of(std::span<const ParameterDef<P>> fields) {
     const P initial;
     std::vector<ParameterInfo> rows;
-    for (const auto& f : fields) rows.push_back({f.name, f.unit, initial.*f.member, f.low, f.high, f.description, f.source, f.is_shared_by_copies});
+    for (const auto& f : fields)
+        rows.push_back({f.name, f.unit, initial.*f.member, f.low, f.high, f.description, f.source, f.is_shared_by_copies});
     return rows;
 }
 
@@ -72,8 +73,8 @@ CatalogEntry catalog_entry_of() {
 Result<void> check_range(std::string_view owner, const ParameterInfo&, double value);
 
 /// Returns an error if two parameters are in the wrong order: "lif-b: V_reset = 0.6 must be below V_th = 0.5".
-Result<void> check_order(std::string_view owner, std::string_view lower_name, double lower, std::string_view upper_name,
-                                  double upper, bool or_equal);
+Result<void> check_order(std::string_view owner, std::string_view lower_name, double lower, std::string_view upper_name, double upper,
+                         bool or_equal);
 
 template <class P>
 Result<void> check_order(std::string_view owner, std::span<const OrderConstraint<P>> constraints, const P& p) {

@@ -29,16 +29,18 @@ Result<ParameterOverride> parse_override(std::string_view text) {
     if (equals == std::string_view::npos || dot == std::string_view::npos || dot == 0 || dot + 1 == equals || equals + 1 == text.size())
         return bad_usage(fmt::format("'{}' is not a setting; write NAME.PARAMETER=VALUE, such as 'sa1.f_B=25Hz'", text));
     return ParameterOverride{std::string(text.substr(0, dot)), std::string(text.substr(dot + 1, equals - dot - 1)),
-                std::string(text.substr(equals + 1))};
+                             std::string(text.substr(equals + 1))};
 }
 
 Result<const ParameterInfo*> find_parameter(const ParameterOverride& w, std::span<const ParameterInfo> parameters) {
-    const auto parameter = std::find_if(parameters.begin(), parameters.end(), [&](const ParameterInfo& r) { return r.name == w.parameter; });
+    const auto parameter =
+        std::find_if(parameters.begin(), parameters.end(), [&](const ParameterInfo& r) { return r.name == w.parameter; });
     if (parameter == parameters.end()) return bad_input(unknown_parameter(w, parameters));
     return &*parameter;
 }
 
-Result<std::vector<Setting>> settings_for(std::string_view name, std::span<const ParameterInfo> parameters, std::span<const ParameterOverride> overrides) {
+Result<std::vector<Setting>> settings_for(std::string_view name, std::span<const ParameterInfo> parameters,
+                                          std::span<const ParameterOverride> overrides) {
     std::vector<Setting> settings;
     for (const auto& w : overrides) {
         if (w.target != name) continue;

@@ -12,7 +12,7 @@ namespace corpuscle {
 
 /// A parsed "target.parameter=value".
 struct ParameterOverride {
-    std::string target;         ///< "sa1", "press"
+    std::string target;     ///< "sa1", "press"
     std::string parameter;  ///< "f_B"
     std::string value;      ///< "25Hz"
     mutable bool is_used = false;
@@ -27,6 +27,7 @@ Result<ParameterOverride> parse_override(std::string_view text);
 Result<const ParameterInfo*> find_parameter(const ParameterOverride&, std::span<const ParameterInfo> parameters);
 
 /// The overrides with target `name`, as settings in SI, checked against the parameters. Marks them used.
-Result<std::vector<Setting>> settings_for(std::string_view name, std::span<const ParameterInfo> parameters, std::span<const ParameterOverride> overrides);
+Result<std::vector<Setting>> settings_for(std::string_view name, std::span<const ParameterInfo> parameters,
+                                          std::span<const ParameterOverride> overrides);
 
 }  // namespace corpuscle

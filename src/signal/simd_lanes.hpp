@@ -189,7 +189,8 @@ Lanes<V> times_power_of_two(Lanes<V> x, Lanes<V> k) {
 template <class V>
 Lanes<V> mantissa(Lanes<V> x) {
     using Bits = typename FloatLayout<V>::Bits;
-    const xsimd::batch<Bits> below((Bits{1} << FloatLayout<V>::mantissa_bits) - 1), one(Bits{FloatLayout<V>::bias} << FloatLayout<V>::mantissa_bits);
+    const xsimd::batch<Bits> below((Bits{1} << FloatLayout<V>::mantissa_bits) - 1),
+        one(Bits{FloatLayout<V>::bias} << FloatLayout<V>::mantissa_bits);
     return bits_as<V>((bits_as<Bits>(x) & below) | one);
 }
 template <class V>

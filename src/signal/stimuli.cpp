@@ -55,7 +55,8 @@ class StimulusSum final : public ForceSource {
     std::int64_t samples_, next_ = 0;
 
 public:
-    StimulusSum(std::string name, Clock clock, std::vector<ErasedStimulus> members, std::vector<MetadataEntry> metadata, std::int64_t samples)
+    StimulusSum(std::string name, Clock clock, std::vector<ErasedStimulus> members, std::vector<MetadataEntry> metadata,
+                std::int64_t samples)
         : name_(std::move(name)), clock_(clock), members_(std::move(members)), metadata_(std::move(metadata)), channels_{{0, name_}},
           samples_(samples) {}
     const std::string& name() const override { return name_; }
@@ -116,7 +117,8 @@ bool is_stimulus(std::string_view text) {
     return std::all_of(names.begin(), names.end(), [](auto n) { return find_stimulus(n).has_value(); });
 }
 
-Result<std::unique_ptr<ForceSource>> make_stimulus(std::string_view text, std::span<const ParameterOverride> overrides, double rate, std::uint64_t seed) {
+Result<std::unique_ptr<ForceSource>> make_stimulus(std::string_view text, std::span<const ParameterOverride> overrides, double rate,
+                                                   std::uint64_t seed) {
     const auto clock = make_clock(rate);
     if (!clock) return clock.error();
     std::vector<ErasedStimulus> members;
@@ -143,7 +145,7 @@ Result<std::unique_ptr<ForceSource>> make_stimulus(std::string_view text, std::s
     if (!(samples >= 1)) return bad_input(fmt::format("{}: {:g} s at {:g} Hz is less than one sample", text, duration, rate));
     if (samples > 1e15) return bad_input(fmt::format("{}: {:g} s at {:g} Hz is more than 1e15 samples", text, duration, rate));
     return std::unique_ptr<ForceSource>(std::make_unique<StimulusSum>(std::string(text), *clock, std::move(members), std::move(metadata),
-                                                                 static_cast<std::int64_t>(samples)));
+                                                                      static_cast<std::int64_t>(samples)));
 }
 
 }  // namespace corpuscle

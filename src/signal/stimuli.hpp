@@ -6,9 +6,9 @@
 #include <string_view>
 #include <vector>
 
+#include "signal/force_source.hpp"
 #include "signal/parameter.hpp"
 #include "signal/parameter_override.hpp"
-#include "signal/force_source.hpp"
 #include "signal/stimulus/touch.hpp"
 #include "signal/stimulus/vibration.hpp"
 
@@ -30,6 +30,7 @@ bool is_stimulus(std::string_view text);
 /// A stimulus or a sum of stimuli, sampled at `rate` (Hz). A sum is as long as its longest member, and a shorter member holds its last
 /// value. The phases are those of the first member that has phases, followed by one phase "after" if the sum is longer. An override
 /// names a member: "noise.F_sd=50mN".
-Result<std::unique_ptr<ForceSource>> make_stimulus(std::string_view text, std::span<const ParameterOverride> overrides, double rate, std::uint64_t seed);
+Result<std::unique_ptr<ForceSource>> make_stimulus(std::string_view text, std::span<const ParameterOverride> overrides, double rate,
+                                                   std::uint64_t seed);
 
 }  // namespace corpuscle

@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
-#include "signal/parameter.hpp"
 #include "signal/located_text.hpp"
+#include "signal/parameter.hpp"
 
 namespace corpuscle {
 
@@ -111,7 +111,8 @@ public:
         else if (const auto* boolean = node.as_boolean(); boolean && allow_boolean)
             out.text = boolean->get() ? "true" : "false";
         else
-            return reject(node.source(), fmt::format("{} is {}; expected a text or a number", name, type_name(node))), OptionalLocatedText{};
+            return reject(node.source(), fmt::format("{} is {}; expected a text or a number", name, type_name(node))),
+                   OptionalLocatedText{};
         return out;
     }
     OptionalLocatedText scalar(const toml::table& table, std::string_view name, bool allow_boolean = false) {

@@ -18,7 +18,8 @@ Result<void> apply_class_overrides(SkinPlan& plan, std::span<const ParameterOver
     return {};
 }
 
-Result<void> check_overrides_used(const SkinPlan& plan, std::span<const ParameterOverride> overrides, std::span<const std::string_view> others) {
+Result<void> check_overrides_used(const SkinPlan& plan, std::span<const ParameterOverride> overrides,
+                                  std::span<const std::string_view> others) {
     std::vector<std::string_view> names(others.begin(), others.end());
     for (const auto& c : plan.classes) names.push_back(c.name);
     for (const auto& o : overrides)

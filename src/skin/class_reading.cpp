@@ -49,12 +49,14 @@ Result<std::vector<ParameterDistribution>> spreads_of(const ClassSpec& spec, con
     const auto overrides = overrides_for(text, spec.spread);
     auto spreads = distributions_for(plan, text, overrides);
     if (!spreads) {
-        auto error = in_file(spec.spread, spreads.error(), [&](auto some) { return !distributions_for(plan, text, overrides_for(text, some)); });
+        auto error =
+            in_file(spec.spread, spreads.error(), [&](auto some) { return !distributions_for(plan, text, overrides_for(text, some)); });
         if (error.message.starts_with("--spread ")) error.message.erase(0, 9);  // a file does not use this option
         return error;
     }
     for (std::size_t k = 0; k < overrides.size(); ++k)
-        if (!overrides[k].is_used) return spec.spread[k].value.error_here(fmt::format("{} has no parameter '{}'", text, spec.spread[k].name));
+        if (!overrides[k].is_used)
+            return spec.spread[k].value.error_here(fmt::format("{} has no parameter '{}'", text, spec.spread[k].name));
     return spreads;
 }
 

@@ -1,8 +1,8 @@
 #pragma once
 // The classes of afferents in a population file.
 
-#include "skin/skin_plan.hpp"
 #include "skin/number_reader.hpp"
+#include "skin/skin_plan.hpp"
 
 namespace corpuscle::skins {
 

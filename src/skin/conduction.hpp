@@ -20,8 +20,8 @@ public:
     std::vector<Spike> in_transit() const;
     /// True if a saved spike can be one of them.
     bool can_be_in_transit(const Spike& s, std::int64_t now) const {
-        return s.afferent_index < delays_.size() && s.step > now && s.step < now + static_cast<std::int64_t>(arriving_.size()) && s.offset > 0 &&
-               s.offset <= 1;
+        return s.afferent_index < delays_.size() && s.step > now && s.step < now + static_cast<std::int64_t>(arriving_.size()) &&
+               s.offset > 0 && s.offset <= 1;
     }
     void restore(std::span<const Spike>, std::int64_t now);  ///< restores what in_transit() returned after sample `now`
 
@@ -32,7 +32,7 @@ private:
     };
     std::vector<Delay> delays_;                 // of each afferent; empty: no delays
     std::vector<std::vector<Spike>> arriving_;  // a ring of steps
-    std::int64_t delivered_ = -1;                    // the last sample whose spikes have been delivered
+    std::int64_t delivered_ = -1;               // the last sample whose spikes have been delivered
 
     std::vector<Spike>& at(std::int64_t step) { return arriving_[static_cast<std::size_t>(step) % arriving_.size()]; }
 };

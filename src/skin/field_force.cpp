@@ -38,7 +38,8 @@ FieldForce::FieldForce(const ReceptiveFields& fields, std::size_t first, std::si
     }
 }
 
-void FieldForce::compute(const SiteForce& force, std::span<const std::uint32_t> touched, std::size_t at, std::size_t steps, ThreadPool& pool) {
+void FieldForce::compute(const SiteForce& force, std::span<const std::uint32_t> touched, std::size_t at, std::size_t steps,
+                         ThreadPool& pool) {
     const Call call{force, touched, at, steps};
     if (steps == 1) return compute_one_step(call);
     if (touched.size() * dense > pieces_[0].begin.size()) return compute_by_afferent(call, pool);
@@ -82,7 +83,8 @@ void FieldForce::compute_piece(std::size_t piece, const Call& call, double* sums
         for (std::size_t k = begin; k < end; ++k)
             if (const auto tile = p.afferent[k] / tile_width; without[tile])
                 std::fill_n(sums + tile * tile_width * stride, tile_width * stride, 0.0), without[tile] = 0;
-        lanes_.add_site(p.afferent.data() + begin, p.weight.data() + begin, end - begin, force.data + s * force.stride + at, steps, sums, stride);
+        lanes_.add_site(p.afferent.data() + begin, p.weight.data() + begin, end - begin, force.data + s * force.stride + at, steps, sums,
+                        stride);
     }
     for (std::size_t tile = 0; tile < tiles; ++tile)
         if (!without[tile]) transpose(sums + tile * tile_width * stride, stride, steps, rows + tile * steps * tile_width);

@@ -3,8 +3,8 @@
 
 #include <optional>
 
-#include "model/lanes/aligned_buffer.hpp"
 #include "model/lane_population.hpp"
+#include "model/lanes/aligned_buffer.hpp"
 #include "skin/fields_by_afferent.hpp"
 #include "skin/lanes/kernel.hpp"
 #include "skin/skin.hpp"
@@ -49,14 +49,14 @@ private:
     const lanes::FieldKernels& lanes_;
     std::size_t size_, tiles_;
     std::vector<Piece> pieces_;
-    lanes::AlignedBuffer<double> weights_;         // the distinct groups of eight weights
-    std::vector<OneStep> one_step_;         // of each tile; built at the first single step
-    std::vector<std::uint8_t> has_rows_;     // of each piece, built with it: 1 if all its tiles are so arranged
+    lanes::AlignedBuffer<double> weights_;       // the distinct groups of eight weights
+    std::vector<OneStep> one_step_;              // of each tile; built at the first single step
+    std::vector<std::uint8_t> has_rows_;         // of each piece, built with it: 1 if all its tiles are so arranged
     std::vector<std::size_t> responding_begin_;  // built with it: the tiles that respond to each site
     std::vector<std::uint32_t> responding_tiles_;
-    std::vector<double> padded_force_;               // force of all sites at that step, between zeros
-    std::optional<FieldsByAfferent> by_afferent_;   // built when a large part of the skin is touched
-    std::vector<const double*> site_rows_;  // of all sites over some steps
+    std::vector<double> padded_force_;             // force of all sites at that step, between zeros
+    std::optional<FieldsByAfferent> by_afferent_;  // built when a large part of the skin is touched
+    std::vector<const double*> site_rows_;         // of all sites over some steps
     lanes::AlignedBuffer<double> rows_;
     std::vector<std::uint8_t> zero_force_;
     std::vector<lanes::AlignedBuffer<double>> sums_;  // of each thread: [afferent of a piece][step]

@@ -9,11 +9,11 @@ namespace corpuscle {
 
 /// One afferent of a skin.
 struct SkinAfferent {
-    std::uint32_t class_index = 0;    ///< index of its class
-    std::uint32_t number = 0;  ///< number within its class, from 1: "sa1#17"
+    std::uint32_t class_index = 0;  ///< index of its class
+    std::uint32_t number = 0;       ///< number within its class, from 1: "sa1#17"
     std::uint32_t region = 0;
     Position position = {};  ///< m
-    double delay = 0;  ///< conduction delay to the recording point, s
+    double delay = 0;        ///< conduction delay to the recording point, s
 };
 
 /// The receptive fields of a class, site by site. Entries [begin[s], begin[s + 1]) are the afferents that respond to site s, and the weight
@@ -27,9 +27,9 @@ struct ReceptiveFields {
 
 struct Innervation {
     SkinPlan plan;
-    std::vector<SkinAfferent> afferents;                     ///< class after class; neighbours within a class are close together
-    std::vector<std::size_t> class_begin;                  ///< index of the first afferent of each class, then the total
-    std::vector<ReceptiveFields> fields;             ///< of each class
+    std::vector<SkinAfferent> afferents;                 ///< class after class; neighbours within a class are close together
+    std::vector<std::size_t> class_begin;                ///< index of the first afferent of each class, then the total
+    std::vector<ReceptiveFields> fields;                 ///< of each class
     std::string afferent_name(std::size_t index) const;  ///< "sa1#17"
 };
 

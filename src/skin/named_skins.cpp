@@ -5,9 +5,9 @@
 #include <fmt/format.h>
 #include <filesystem>
 
+#include "signal/ascii_text.hpp"
 #include "signal/embedded_files.hpp"
 #include "signal/input_files.hpp"
-#include "signal/ascii_text.hpp"
 #include "skin/grid_plan.hpp"
 #include "skin/skin_spec.hpp"
 

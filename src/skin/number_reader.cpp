@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 #include <charconv>
 
-#include "signal/quantity.hpp"
 #include "signal/ascii_text.hpp"
+#include "signal/quantity.hpp"
 
 namespace corpuscle::skins {
 namespace {
@@ -22,27 +22,28 @@ bool is_bare(std::string_view text) {
 Result<double> NumberReader::number(const LocatedText& item, std::string_view name, std::string_view unit, double low, double high) const {
     const bool bare = is_bare(item.text), length = unit == "m";
     if (bare && !unit.empty() && (!length || !metres_))
-        return item.error_here(fmt::format("{} = {}: the unit is missing; write {} = \"{} {}\"{}", name, item.text, name, trimmed(item.text),
-                                      length           ? "mm"
-                                      : unit == "1/m2" ? "/cm2"
-                                                       : unit,
-                                      length ? ", or unit = \"mm\" at the top for all lengths" : ""));
+        return item.error_here(fmt::format("{} = {}: the unit is missing; write {} = \"{} {}\"{}", name, item.text, name,
+                                           trimmed(item.text),
+                                           length           ? "mm"
+                                           : unit == "1/m2" ? "/cm2"
+                                                            : unit,
+                                           length ? ", or unit = \"mm\" at the top for all lengths" : ""));
     const auto value = parse_quantity(item.text, unit);
     if (!value) return item.error_here(fmt::format("{}: {}", name, value.error().message));
     const double si = bare && length ? *value * *metres_ : *value;
     if (!(si >= low && si <= high))
         return item.error_here(fmt::format("{} = {} is outside [{}, {}]", name, format_quantity(si, unit), format_quantity(low, unit),
-                                      format_quantity(high, unit)));
+                                           format_quantity(high, unit)));
     return si;
 }
 
 Result<double> NumberReader::number(const OptionalLocatedText& item, std::string_view name, std::string_view unit, double low, double high,
-                                   double fallback) const {
+                                    double fallback) const {
     return item ? number(*item, name, unit, low, high) : Result<double>(fallback);
 }
 
 Result<std::uint64_t> NumberReader::integer(const OptionalLocatedText& item, std::string_view name, std::uint64_t low, std::uint64_t high,
-                                         std::uint64_t fallback) const {
+                                            std::uint64_t fallback) const {
     if (!item) return fallback;
     const auto text = trimmed(item->text);
     std::uint64_t value = 0;

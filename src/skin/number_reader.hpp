@@ -17,9 +17,10 @@ public:
     explicit NumberReader(double metres) : metres_(metres) {}
     /// Converted to SI, within [low, high].
     Result<double> number(const LocatedText&, std::string_view name, std::string_view unit, double low, double high) const;
-    Result<double> number(const OptionalLocatedText&, std::string_view name, std::string_view unit, double low, double high, double fallback) const;
+    Result<double> number(const OptionalLocatedText&, std::string_view name, std::string_view unit, double low, double high,
+                          double fallback) const;
     Result<std::uint64_t> integer(const OptionalLocatedText&, std::string_view name, std::uint64_t low, std::uint64_t high,
-                                std::uint64_t fallback) const;
+                                  std::uint64_t fallback) const;
 };
 
 }  // namespace corpuscle::skins

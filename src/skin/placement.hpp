@@ -16,7 +16,7 @@ std::vector<char> touching_regions(const Sites&, const SiteGrid&);
 
 /// The receptive fields of the afferents of one class.
 Result<ReceptiveFields> receptive_fields_of(const SkinPlan&, std::uint32_t class_index, std::span<const SkinAfferent>, const SiteGrid&,
-                                  const std::vector<char>& touching);
+                                            const std::vector<char>& touching);
 
 /// The random stream of a class for one quantity.
 std::uint32_t class_stream(const SkinClass&, std::string_view what);

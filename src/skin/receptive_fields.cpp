@@ -55,7 +55,8 @@ class FieldsOfClass {
         if (class_.hot_spots <= 1) return add_spot(afferent, afferent.position.x, afferent.position.y);
         for (std::uint32_t h = 0; h < class_.hot_spots; ++h) {
             const auto by = normal_pair(plan_.seed, afferent.number, stream_, h);
-            add_spot(afferent, afferent.position.x + class_.hot_spot_spread * by.first, afferent.position.y + class_.hot_spot_spread * by.second);
+            add_spot(afferent, afferent.position.x + class_.hot_spot_spread * by.first,
+                     afferent.position.y + class_.hot_spot_spread * by.second);
         }
     }
 
@@ -105,12 +106,12 @@ std::vector<char> touching_regions(const Sites& sites, const SiteGrid& near) {
     const double reach = 1.5 * num::sqrt(sites.area);  // includes diagonal neighbours
     for (std::size_t s = 0; s < sites.size(); ++s)
         near.for_each_within(sites.positions[s].x, sites.positions[s].y, reach,
-                    [&](std::uint32_t other, double) { out[sites.region[s] * n + sites.region[other]] = 1; });
+                             [&](std::uint32_t other, double) { out[sites.region[s] * n + sites.region[other]] = 1; });
     return out;
 }
 
 Result<ReceptiveFields> receptive_fields_of(const SkinPlan& plan, std::uint32_t class_index, std::span<const SkinAfferent> afferents,
-                                  const SiteGrid& near, const std::vector<char>& touching) {
+                                            const SiteGrid& near, const std::vector<char>& touching) {
     const auto& c = plan.classes[class_index];
     FieldsOfClass fields(plan, c, near, touching);
     FieldTable felt;

@@ -12,8 +12,8 @@
 #include "io/dialect.hpp"
 #include "io/heading.hpp"
 #include "io/line_reader.hpp"
-#include "signal/parameter.hpp"
 #include "signal/ascii_text.hpp"
+#include "signal/parameter.hpp"
 
 namespace corpuscle {
 namespace {

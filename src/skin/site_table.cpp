@@ -9,8 +9,8 @@
 #include "io/dialect.hpp"
 #include "io/line_reader.hpp"
 #include "io/text_table.hpp"
-#include "signal/quantity.hpp"
 #include "signal/ascii_text.hpp"
+#include "signal/quantity.hpp"
 
 namespace corpuscle {
 namespace {

@@ -14,7 +14,7 @@ inline constexpr std::size_t max_sites = std::size_t{1} << 22;
 
 /// Sites of one skin. x points to the right, y away from the wrist. A hand is a right hand in palm view.
 struct Sites {
-    std::vector<Position> positions;           ///< m
+    std::vector<Position> positions;    ///< m
     std::vector<std::string> names;     ///< one for each site
     std::vector<std::uint32_t> region;  ///< of each site: index into `regions`
     std::vector<std::string> regions;   ///< at least one

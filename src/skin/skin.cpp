@@ -25,11 +25,11 @@ std::size_t part_begin(std::size_t size, std::uint32_t part, std::uint32_t of) {
 }
 
 /// The part of one class that this process simulates; nothing if it has no afferents.
-Result<std::optional<ClassSimulation>> make_class(const Innervation& skin, std::size_t class_index, const SimulationOptions& run, InstructionSet set,
-                                            SkinPart share, std::vector<std::shared_ptr<FieldForce>>& felt) {
+Result<std::optional<ClassSimulation>> make_class(const Innervation& skin, std::size_t class_index, const SimulationOptions& run,
+                                                  InstructionSet set, SkinPart share, std::vector<std::shared_ptr<FieldForce>>& felt) {
     const auto& c = skin.plan.classes[class_index];
-    const std::size_t all = skin.class_begin[class_index + 1] - skin.class_begin[class_index], first = part_begin(all, share.part, share.parts),
-                      count = part_begin(all, share.part + 1, share.parts) - first;
+    const std::size_t all = skin.class_begin[class_index + 1] - skin.class_begin[class_index],
+                      first = part_begin(all, share.part, share.parts), count = part_begin(all, share.part + 1, share.parts) - first;
     if (count == 0) return std::optional<ClassSimulation>{};
     if (!can_use_lanes(c.afferent, run))
         return bad_input(fmt::format("{}: a skin needs model equations without sensor, converter and noise; {} is not of this kind", c.name,
@@ -65,8 +65,7 @@ bool all_finite(const SiteForce& force, std::span<const std::uint32_t> touched) 
 }
 
 /// An error for the first site with a force that is not finite, and its sample.
-Result<void> check_finite(const Skin::Impl& held, const SiteForce& force, std::span<const std::uint32_t> touched,
-                                  std::size_t steps) {
+Result<void> check_finite(const Skin::Impl& held, const SiteForce& force, std::span<const std::uint32_t> touched, std::size_t steps) {
     if (steps == 1 && all_finite(force, touched)) return {};
     for (const auto s : touched)
         if (const auto t = first_non_finite({force.data + s * force.stride, steps}); t < steps)
@@ -90,7 +89,8 @@ std::span<const std::uint32_t> Skin::Impl::find_touched(const SiteForce& force, 
 }
 
 /// Simulates some steps at once, at most skin_steps.
-Result<void> Skin::Impl::run_steps(const SiteForce& force, std::size_t at, std::size_t steps, std::vector<Spike>& spikes, ThreadPool& pool) {
+Result<void> Skin::Impl::run_steps(const SiteForce& force, std::size_t at, std::size_t steps, std::vector<Spike>& spikes,
+                                   ThreadPool& pool) {
     const auto sites = find_touched(force, at, steps);
     if (auto ok = check_finite(*this, {force.data + at, force.stride}, sites, steps); !ok) return ok.error();
     fired.clear();
@@ -99,7 +99,8 @@ Result<void> Skin::Impl::run_steps(const SiteForce& force, std::size_t at, std::
         PopulationResponse response{&fired};
         if (auto ok = c.population->respond(c.field_force->tiles(), steps, response, pool); !ok) return ok;
         const auto all = static_cast<std::int64_t>(steps * c.population->size());
-        stats.afferent_steps += all - response.skipped_steps, stats.skipped_steps += response.skipped_steps, stats.truncated_steps += response.truncated_steps;
+        stats.afferent_steps += all - response.skipped_steps, stats.skipped_steps += response.skipped_steps,
+            stats.truncated_steps += response.truncated_steps;
     }
     step += static_cast<std::int64_t>(steps), stats.steps += static_cast<std::int64_t>(steps);
     const std::size_t before = spikes.size();

@@ -30,17 +30,18 @@ struct SkinPart {
 
 /// Statistics of a run.
 struct SkinStats {
-    std::int64_t steps = 0;           ///< samples of each site
-    std::int64_t afferent_steps = 0;  ///< simulated
-    std::int64_t skipped_steps = 0;         ///< steps of afferents that were skipped: no force, and no state could change
-    std::int64_t spikes = 0;          ///< spikes that arrived
-    std::int64_t truncated_steps = 0;          ///< steps that reached the limit of spikes per step
+    std::int64_t steps = 0;            ///< samples of each site
+    std::int64_t afferent_steps = 0;   ///< simulated
+    std::int64_t skipped_steps = 0;    ///< steps of afferents that were skipped: no force, and no state could change
+    std::int64_t spikes = 0;           ///< spikes that arrived
+    std::int64_t truncated_steps = 0;  ///< steps that reached the limit of spikes per step
 };
 
 class Skin {
 public:
     /// Sensors, converters and noise are not supported: see can_use_lanes().
-    static Result<std::unique_ptr<Skin>> make(const std::shared_ptr<const Innervation>&, const SimulationOptions&, InstructionSet, SkinPart = {});
+    static Result<std::unique_ptr<Skin>> make(const std::shared_ptr<const Innervation>&, const SimulationOptions&, InstructionSet,
+                                              SkinPart = {});
     ~Skin();
 
     const Innervation& innervation() const;

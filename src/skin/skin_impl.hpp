@@ -26,7 +26,7 @@ struct Skin::Impl {
     SkinPart part;
     std::vector<ClassSimulation> classes;
     Conduction conduction;
-    std::vector<Spike> fired;             // spikes fired in the current steps
+    std::vector<Spike> fired;            // spikes fired in the current steps
     std::vector<std::uint32_t> touched;  // sites touched in them
     std::int64_t step = 0;
     SkinStats stats;

@@ -24,7 +24,7 @@ struct SkinClass {
     std::uint32_t hot_spots = 1;               ///< of one receptive field
     double hot_spot_spread = 0;                ///< standard deviation of their positions about the afferent's, in x and in y; m
     double velocity = 0, velocity_spread = 0;  ///< conduction, m/s: mean and standard deviation; 0: no delay
-    std::vector<ParameterDistribution> distributions = {};          ///< how the parameters of its afferents vary
+    std::vector<ParameterDistribution> distributions = {};  ///< how the parameters of its afferents vary
     std::vector<SourceNote> sources = {};
 };
 

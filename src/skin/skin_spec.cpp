@@ -64,7 +64,8 @@ public:
                 s.points = places(*points, kind);
         }
         if (s.kind.text.empty()) return reject(node.source(), fmt::format("a shape must be one of {}", fmt::join(shape_kinds, ", ")));
-        if (const auto* width = table->get("width")) s.width = width->is_array() ? list(*width->as_array(), "width") : std::vector<LocatedText>{};
+        if (const auto* width = table->get("width"))
+            s.width = width->is_array() ? list(*width->as_array(), "width") : std::vector<LocatedText>{};
         if (const auto* width = table->get("width"); width && !width->is_array())
             if (auto value = scalar(*width, "width")) s.width.push_back(*value);
         s.height = scalar(*table, "height"), s.angle = scalar(*table, "angle");

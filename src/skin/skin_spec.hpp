@@ -43,7 +43,7 @@ struct SitesSpec {
 struct ClassSpec {
     SourceLocation location;
     OptionalLocatedText name, afferent, per_site, sigma, hot_spots, hot_spot_spread, velocity, velocity_spread;
-    OptionalLocatedText uniform_density;            ///< one for all regions
+    OptionalLocatedText uniform_density;  ///< one for all regions
     std::vector<LocatedSetting> density;  ///< by region
     std::vector<LocatedSetting> set, spread, source;
 };

@@ -156,7 +156,8 @@ Result<void> Skin::resume(std::span<const std::byte> saved) {
             fmt::format("a saved state belongs to another skin than {}: population, parameters, seed, rate and method must be those "
                         "it was saved with",
                         h.skin->plan.name));
-    if (!from.take(work.afferent_steps) || !from.take(work.skipped_steps) || !from.take(work.spikes) || !from.take(work.truncated_steps) || step < 0)
+    if (!from.take(work.afferent_steps) || !from.take(work.skipped_steps) || !from.take(work.spikes) || !from.take(work.truncated_steps) ||
+        step < 0)
         return damaged;
     work.steps = step;
     std::vector<std::vector<double>> states(h.classes.size());

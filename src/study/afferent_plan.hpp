@@ -14,9 +14,9 @@ inline bool names_netlist(std::string_view text) {
 /// Options for every netlist of a run.
 struct NetlistOptions {
     std::vector<circuit::NetlistOverride> overrides = {};
-    std::vector<std::string> probes = {};   ///< recorded instead of what .save names, by each netlist that has such a quantity
+    std::vector<std::string> probes = {};        ///< recorded instead of what .save names, by each netlist that has such a quantity
     mutable std::vector<bool> probe_found = {};  ///< for each entry of the line above: true if some netlist has it
-    mutable std::string probe_hint = {};          ///< suggestion for an entry that no netlist has
+    mutable std::string probe_hint = {};         ///< suggestion for an entry that no netlist has
     mutable bool is_used = false;
 };
 

@@ -22,7 +22,7 @@ std::string Input::channel_name(std::size_t channel) const {
 }
 
 Result<RunStats> respond(std::span<const std::unique_ptr<ForceSource>> sources, std::span<const AfferentPlan> afferents,
-                     std::span<ResponseSink* const> sinks, const RespondOptions& options) {
+                         std::span<ResponseSink* const> sinks, const RespondOptions& options) {
     const bool wants_probes = std::any_of(sinks.begin(), sinks.end(), [](const ResponseSink* l) { return l->wants_probes(); });
     RunStats stats;
     ThreadPool single_thread(1);
@@ -30,8 +30,8 @@ Result<RunStats> respond(std::span<const std::unique_ptr<ForceSource>> sources, 
     std::uint32_t first_afferent = 0;
     for (std::size_t n = 0; n < sources.size(); ++n) {
         auto& source = *sources[n];
-        auto simulator =
-            InputSimulator::make({source, unique_name(sources, n), afferents, {}, first_afferent, n, sources.size()}, options, wants_probes);
+        auto simulator = InputSimulator::make({source, unique_name(sources, n), afferents, {}, first_afferent, n, sources.size()}, options,
+                                              wants_probes);
         if (!simulator) return simulator.error();
         InputSimulator& units = *simulator;
         for (auto* sink : sinks)

@@ -48,13 +48,13 @@ struct RunStats {
     std::int64_t samples = 0;         ///< of force, over all channels
     std::int64_t afferent_steps = 0;  ///< samples times afferents
     std::int64_t spikes = 0;
-    std::int64_t truncated_steps = 0;                         ///< steps that reached the limit on spikes in one step
-    std::int64_t saturated = 0;                              ///< samples beyond the range of a sensor's electronics or converter
+    std::int64_t truncated_steps = 0;                      ///< steps that reached the limit on spikes in one step
+    std::int64_t saturated = 0;                            ///< samples beyond the range of a sensor's electronics or converter
     std::int64_t overflowed = 0;                           ///< results that overflowed the word length of a digital afferent
     std::int64_t steps = 0, rejected = 0, iterations = 0;  ///< of circuits: time steps, rejected time steps, and Newton iterations
-    std::vector<std::string> range_warnings;                      ///< quantities that left the range in which an afferent works as designed
+    std::vector<std::string> range_warnings;               ///< quantities that left the range in which an afferent works as designed
     std::vector<EnergyUse> energy_use;  ///< of each circuit afferent, over its channels; empty if none is simulated alone
-    std::vector<Error> diverged;   ///< netlists that did not converge, and when; their channels have no later spikes
+    std::vector<Error> diverged;        ///< netlists that did not converge, and when; their channels have no later spikes
 };
 
 struct RespondOptions {
@@ -63,15 +63,15 @@ struct RespondOptions {
     double noise = 0;        ///< of every membrane, see Run
     std::uint64_t seed = 0;  ///< of the noise
     Precision precision = Precision::double_precision;
-    ThreadPool* pool = nullptr;      ///< threads; the response does not depend on it; null: only the calling thread
-    std::size_t block = 4096;  ///< samples; the response does not depend on it
+    ThreadPool* pool = nullptr;  ///< threads; the response does not depend on it; null: only the calling thread
+    std::size_t block = 4096;    ///< samples; the response does not depend on it
     /// Called once a block with the completed fraction, 0 to 1; false stops the run.
     std::function<bool(double)> should_continue = [](double) { return true; };
 };
 
 /// Runs all sources through all afferents. A run that is stopped by this callback returns an error of code `interrupted`.
 Result<RunStats> respond(std::span<const std::unique_ptr<ForceSource>> sources, std::span<const AfferentPlan> afferents,
-                     std::span<ResponseSink* const> sinks, const RespondOptions&);
+                         std::span<ResponseSink* const> sinks, const RespondOptions&);
 
 /// Warnings about noise: the afferents that it does not affect.
 std::vector<std::string> noise_warnings(std::span<const AfferentPlan> afferents, double noise);

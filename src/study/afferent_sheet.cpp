@@ -60,7 +60,8 @@ struct CentroidSums {
 
 }  // namespace
 
-Result<std::vector<SheetSpike>> simulate_sheet(const AfferentSheet& sheet, const std::string& afferent, const SheetForce& force, double sigma) {
+Result<std::vector<SheetSpike>> simulate_sheet(const AfferentSheet& sheet, const std::string& afferent, const SheetForce& force,
+                                               double sigma) {
     const auto plan = plan_afferent(afferent, {});
     if (!plan) return plan.error();
     const auto set = instruction_set();

@@ -43,7 +43,9 @@ std::string format_allowed_range(const Claim& c) {
     if (c.is_boolean) return format_claim_value(c.allowed_min, c);
     if (std::isnan(c.allowed_min)) return "at most " + format_claim_value(c.allowed_max, c);
     if (std::isnan(c.allowed_max)) return "at least " + format_claim_value(c.allowed_min, c);
-    return c.allowed_min == c.allowed_max ? format_claim_value(c.allowed_min, c) : fmt::format("{} to {}", format_claim_value(c.allowed_min, c), format_claim_value(c.allowed_max, c));
+    return c.allowed_min == c.allowed_max
+               ? format_claim_value(c.allowed_min, c)
+               : fmt::format("{} to {}", format_claim_value(c.allowed_min, c), format_claim_value(c.allowed_max, c));
 }
 
 std::string format_deviation(const Claim& c) {

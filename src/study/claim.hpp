@@ -17,14 +17,16 @@ struct Claim {
     /// `published` is not stated in the source but derived from it: from an equation, a sentence or the model
     bool is_derived = false;
     double allowed_min = none, allowed_max = none;  ///< allowed range; NaN if there is no limit
-    std::string source = {};         ///< of the published value
-    std::string note = {};           ///< explains a deviation
-    bool is_boolean = false;           ///< `computed` is 1 (true) or 0 (false)
+    std::string source = {};                        ///< of the published value
+    std::string note = {};                          ///< explains a deviation
+    bool is_boolean = false;                        ///< `computed` is 1 (true) or 0 (false)
 
     Claim& published_as(double value, std::string where) { return published = value, source = std::move(where), *this; }
     /// A value that is not published itself but derived from what is: from an equation, a sentence or the model.
     Claim& derived_as(double value, std::string from) { return is_derived = true, published_as(value, std::move(from)); }
-    Claim& allow_range(double min, double max, std::string where) { return allowed_min = min, allowed_max = max, source = std::move(where), *this; }
+    Claim& allow_range(double min, double max, std::string where) {
+        return allowed_min = min, allowed_max = max, source = std::move(where), *this;
+    }
     Claim& allow_min(double min, std::string where) { return allow_range(min, none, std::move(where)); }
     Claim& allow_max(double max, std::string where) { return allow_range(none, max, std::move(where)); }
     Claim& explain(std::string why) { return note = std::move(why), *this; }
@@ -34,7 +36,9 @@ struct Claim {
     /// Relative deviation from the published value; NaN if there is none.
     double deviation() const { return published == 0 ? none : (computed - published) / (published < 0 ? -published : published); }
     /// True if the value is outside the allowed range, or deviates from the published value by more than the tolerance.
-    bool needs_explanation() const { return has_allowed_range() ? !is_in_allowed_range() : deviation() > tolerance || deviation() < -tolerance; }
+    bool needs_explanation() const {
+        return has_allowed_range() ? !is_in_allowed_range() : deviation() > tolerance || deviation() < -tolerance;
+    }
     /// Adds the explanation only if the claim needs one.
     Claim& explain_if_needed(std::string why) { return needs_explanation() ? explain(std::move(why)) : *this; }
     /// "holds" or "does not hold" if there is an allowed range; "agrees" (within a tenth) or "differs" if there is a published number;

@@ -17,8 +17,8 @@ class CopiesFile final : public FileSink {
     };
     OutputFile file_;
     std::vector<Column> columns_;
-    Clock since_start_;  // of the current input, with its first sample at 0 s
-    MeasureAccumulator tally_;        // on that clock
+    Clock since_start_;         // of the current input, with its first sample at 0 s
+    MeasureAccumulator tally_;  // on that clock
     fmt::memory_buffer text_;
 
     void put_row(const Input&, std::size_t afferent_index);

@@ -40,7 +40,7 @@ Result<void> ProbesFile::begin(const Input& input) {
     for (std::size_t u = 0; u < input.afferent_count(); ++u)
         for (const auto& p : input.probes[u % input.plans.size()])
             header += "," + quote_csv_field(fmt::format("{}.{}.{} [{}]", input.plan_of(u).name, input.channel_name(input.channel_of(u)),
-                                                  p.name, p.unit));
+                                                        p.name, p.unit));
     if (auto ok = file->write(header + "\n"); !ok) return ok;
     files_.push_back(std::move(*file));
     return {};

@@ -15,8 +15,8 @@ struct Punch {
 
 /// One afferent's spikes, s, without conduction delay.
 struct FingertipTrain {
-    std::string afferent;   ///< afferent type: "sa1"
-    double distance = 0;  ///< from the punch's centre to the afferent, m
+    std::string afferent;  ///< afferent type: "sa1"
+    double distance = 0;   ///< from the punch's centre to the afferent, m
     std::vector<double> spikes;
 };
 Result<std::vector<FingertipTrain>> simulate_fingertip(const Punch&);

@@ -72,8 +72,8 @@ Result<void> InputSimulator::place_afferents(const RespondOptions& options, Inst
     auto kinds = kinds_of(plans, run);
     if (in_float && (wants_probes_ || !kinds.scalar.empty()))
         return bad_usage(wants_probes_ ? "in float no probes are recorded: leave out --traces"
-                                 : fmt::format("{}: {} cannot run in float", plans[kinds.scalar[0]].name,
-                                               plans[kinds.scalar[0]].factory ? "netlists" : "sensors, converters and noise"));
+                                       : fmt::format("{}: {} cannot run in float", plans[kinds.scalar[0]].name,
+                                                     plans[kinds.scalar[0]].factory ? "netlists" : "sensors, converters and noise"));
     std::vector<bool> is_scalar(plans.size());
     for (const auto k : kinds.scalar) is_scalar[k] = true;
     for (const auto& kind : kinds.on_lanes) {
@@ -104,7 +104,8 @@ Result<void> InputSimulator::place_afferents(const RespondOptions& options, Inst
 }
 
 /// Packs all channels into one population, or one population for each channel if most of its afferents have the same force.
-Result<void> InputSimulator::place_on_lanes(std::span<const std::size_t> plans, const SimulationOptions& run, const RespondOptions& options, InstructionSet set) {
+Result<void> InputSimulator::place_on_lanes(std::span<const std::size_t> plans, const SimulationOptions& run, const RespondOptions& options,
+                                            InstructionSet set) {
     const std::size_t channels = input_.source.channels().size(), all = input_.plans.size();
     const bool by_channel = plans.size() >= channels;
     LaneGroup group{{}, {}, by_channel};
@@ -128,8 +129,8 @@ Result<void> InputSimulator::place_on_lanes(std::span<const std::size_t> plans, 
 }
 
 Error InputSimulator::with_afferent_name(Error error, std::size_t afferent_index) const {
-    error.message = fmt::format("{} on {}: {}", input_.plan_of(afferent_index).name,
-                                 input_.channel_name(input_.channel_of(afferent_index)), error.message);
+    error.message = fmt::format("{} on {}: {}", input_.plan_of(afferent_index).name, input_.channel_name(input_.channel_of(afferent_index)),
+                                error.message);
     return error;
 }
 
@@ -199,7 +200,7 @@ std::vector<std::string> InputSimulator::range_warnings() const {
             if (!single) continue;
             const auto& o = single->range_violations[r];
             const auto violation = range_violation_message(ranges[r], static_cast<double>(o.samples) * T, static_cast<double>(samples_) * T,
-                                                    static_cast<double>(o.first_sample) * T);
+                                                           static_cast<double>(o.first_sample) * T);
             warnings.push_back(fmt::format("{} on {}: {}{}", input_.plans[plan].name,
                                            input_.channel_name(input_.channel_of(single->afferent_index)), violation,
                                            count > 1 ? fmt::format(" (also on {} more channels, for less time)", count - 1) : ""));

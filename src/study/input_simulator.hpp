@@ -2,8 +2,8 @@
 // Simulates the afferents of one input on all threads: on SIMD lanes if possible, otherwise one by one.
 
 #include "model/lane_population.hpp"
-#include "study/lookahead_buffer.hpp"
 #include "study/afferent_run.hpp"
+#include "study/lookahead_buffer.hpp"
 
 namespace corpuscle {
 
@@ -25,7 +25,7 @@ private:
     struct LaneGroup {
         std::unique_ptr<LanePopulation> population;
         std::vector<std::uint32_t> afferents;  // indexes within the input, ascending
-        bool shares_force;                  // all have the same force
+        bool shares_force;                     // all have the same force
     };
     /// An afferent that is simulated alone.
     struct ScalarAfferent {
@@ -41,7 +41,8 @@ private:
 
     InputSimulator(Input input, std::size_t block, bool probed);
     Result<void> place_afferents(const RespondOptions& options, InstructionSet set);
-    Result<void> place_on_lanes(std::span<const std::size_t> plans, const SimulationOptions& run, const RespondOptions& options, InstructionSet set);
+    Result<void> place_on_lanes(std::span<const std::size_t> plans, const SimulationOptions& run, const RespondOptions& options,
+                                InstructionSet set);
     Result<void> simulate_lane_group(LaneGroup& group, ThreadPool& pool, RunStats& stats);
     void simulate_scalar(ScalarAfferent& single);
     Result<void> respond_to_force(ScalarAfferent& single, ResponseBlock& response, std::span<double* const> probe_values);

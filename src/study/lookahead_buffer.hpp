@@ -10,9 +10,9 @@ namespace corpuscle {
 
 /// Reads blocks of a source and, for each channel, `more` further samples. After the end of the source its last force is repeated.
 class LookaheadBuffer {
-    std::size_t lookahead_;                       // samples to look ahead
+    std::size_t lookahead_;                    // samples to look ahead
     std::vector<std::vector<double>> buffer_;  // force of each channel from the block's first sample on; empty without look-ahead
-    std::size_t block_ = 0, available_ = 0;       // samples of the last block; samples of the source in the buffer
+    std::size_t block_ = 0, available_ = 0;    // samples of the last block; samples of the source in the buffer
     bool ended_ = false;
 
     Result<void> fill(ForceSource&, Frames&);

@@ -1,8 +1,8 @@
 #pragma once
 // Counts spikes in time bins of equal width and writes each bin as it completes.
 
-#include "study/time_bins.hpp"
 #include "study/file_sinks.hpp"
+#include "study/time_bins.hpp"
 
 namespace corpuscle {
 

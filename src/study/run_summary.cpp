@@ -69,9 +69,9 @@ Json copies_document(const CopyStatistics& o) {
 Json row_document(const MeasureRow& row) {
     Json out = {{"afferent", row.afferent}, {"channel", row.channel}, {"phase", row.phase}};
     for (std::size_t m = 0; m < std::size(measures); ++m)
-        out[measure_key(measures[m])] = !row.copy_statistics.empty()           ? copies_document(row.copy_statistics[m])
-                                   : measures[m].decimals == 0 ? Json(static_cast<std::int64_t>(row.values[m]))
-                                                               : json_number(row.values[m]);
+        out[measure_key(measures[m])] = !row.copy_statistics.empty() ? copies_document(row.copy_statistics[m])
+                                        : measures[m].decimals == 0  ? Json(static_cast<std::int64_t>(row.values[m]))
+                                                                     : json_number(row.values[m]);
     return out;
 }
 
@@ -93,7 +93,8 @@ Json document_of(const AfferentPlan& plan) {
     Json parameters = Json::object();
     for (std::size_t k = 0; k < plan.values.size(); ++k) {
         const auto& p = (*plan.parameters)[k];
-        parameters[std::string(p.info.name)] = {{"value", plan.values[k]}, {"unit", p.info.unit}, {"of", p.component}, {"set", p.set_by_user}};
+        parameters[std::string(p.info.name)] = {
+            {"value", plan.values[k]}, {"unit", p.info.unit}, {"of", p.component}, {"set", p.set_by_user}};
     }
     if (plan.factory) {
         Json out = {{"name", plan.name}, {"made_of", plan.composition()}, {"title", plan.description}};
@@ -125,7 +126,7 @@ std::string column_heading(const MeasureInfo& m) { return std::string(m.title) +
 
 Result<void> RunSummary::begin(const Input& input) {
     InputSummary facts{input.name, input.source.clock(), 0, {}, input.source.notes(), input.source.metadata(), INFINITY,
-                     -INFINITY,  input.source.phases()};
+                       -INFINITY,  input.source.phases()};
     for (std::size_t c = 0; c < input.source.channels().size(); ++c) facts.channels.push_back(input.channel_name(c));
     facts.sensors = input.source.channels();
     inputs_.push_back(std::move(facts));
@@ -165,7 +166,7 @@ MeasureRow RunSummary::row(const Input& input, std::size_t channel, std::size_t 
     const auto& facts = inputs_.back();
     const std::size_t first = channel * input.plans.size();
     MeasureRow row{base_name(input.plans[from]), facts.channels[channel], facts.phases.empty() ? "all" : facts.phases[phase].name,
-                tally_.values(first + from, phase)};
+                   tally_.values(first + from, phase)};
     if (input.plans[from].copy_number == 0) {
         if (row.values[measure_index<SpikeCount>] == 1) row.values[measure_index<MeanRate>] = no_value;  // one spike has no rate
         return row;
@@ -187,7 +188,7 @@ std::vector<std::size_t> RunSummary::columns() const {
 }
 
 Json RunSummary::document(std::span<const AfferentPlan> afferents, const RunStats& stats, const RespondOptions& options, std::uint64_t seed,
-                       const std::vector<std::string>& warnings) const {
+                          const std::vector<std::string>& warnings) const {
     Json out = {{"program", "corpuscle"}, {"version", version}};
     out["options"] = {{"method", options.method == Method::exact ? "exact" : "backward-euler"},
                       {"sampled", options.sampled},
@@ -201,12 +202,14 @@ Json RunSummary::document(std::span<const AfferentPlan> afferents, const RunStat
     out["rates"] = Json::array();
     for (const auto& r : rows_) out["rates"].push_back(row_document(r));
     if (!comparisons_.rows().empty()) out["comparisons"] = comparisons_.document();
-    out["work"] = {{"samples", stats.samples}, {"afferent_steps", stats.afferent_steps},
-                   {"spikes", stats.spikes},   {"capped_steps", stats.truncated_steps},
+    out["work"] = {{"samples", stats.samples},   {"afferent_steps", stats.afferent_steps},
+                   {"spikes", stats.spikes},     {"capped_steps", stats.truncated_steps},
                    {"clipped", stats.saturated}, {"overflowed", stats.overflowed}};
     if (stats.steps > 0 || !stats.diverged.empty())
-        out["work"]["circuits"] = {
-            {"steps", stats.steps}, {"rejected", stats.rejected}, {"iterations", stats.iterations}, {"not_converged", stats.diverged.size()}};
+        out["work"]["circuits"] = {{"steps", stats.steps},
+                                   {"rejected", stats.rejected},
+                                   {"iterations", stats.iterations},
+                                   {"not_converged", stats.diverged.size()}};
     double least = INFINITY;
     for (const auto& i : inputs_) least = std::min(least, i.min_force);
     if (auto costs = cost_documents_of(afferents, stats, least); !costs.empty()) out["costs"] = std::move(costs);

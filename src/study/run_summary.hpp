@@ -8,8 +8,8 @@
 
 #include "measure/measures.hpp"
 #include "model/copies.hpp"
-#include "study/version_comparison.hpp"
 #include "study/afferent_run.hpp"
+#include "study/version_comparison.hpp"
 
 namespace corpuscle {
 
@@ -55,8 +55,8 @@ public:
         std::vector<std::string> channels, notes;
         std::vector<MetadataEntry> metadata;
         double min_force = 0, max_force = 0;  ///< force, N
-        std::vector<Phase> phases;       ///< phases of the stimulus; empty if it has none
-        RecordingQuality quality = {};            ///< of a recording
+        std::vector<Phase> phases;            ///< phases of the stimulus; empty if it has none
+        RecordingQuality quality = {};        ///< of a recording
         std::vector<Channel> sensors = {};
     };
 
@@ -76,8 +76,8 @@ public:
 
 private:
     std::vector<InputSummary> inputs_;
-    Clock since_start_;  // of the current input, with its first sample at 0 s
-    MeasureAccumulator tally_;        // on that clock
+    Clock since_start_;         // of the current input, with its first sample at 0 s
+    MeasureAccumulator tally_;  // on that clock
     std::vector<MeasureRow> rows_;
     VersionComparisons comparisons_;
 

@@ -72,7 +72,8 @@ Result<void> SilenceDetector::end(const Input& input, std::int64_t) {
     return {};
 }
 
-std::vector<SilentAfferent> SilenceDetector::silent_afferents(std::span<const AfferentPlan> afferents, const RespondOptions& options) const {
+std::vector<SilentAfferent> SilenceDetector::silent_afferents(std::span<const AfferentPlan> afferents,
+                                                              const RespondOptions& options) const {
     std::vector<SilentAfferent> out;
     const auto groups = copy_group_starts(afferents);
     for (std::size_t g = 0; g + 1 < groups.size(); ++g) {

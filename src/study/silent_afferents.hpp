@@ -27,8 +27,8 @@ struct SilentAfferent {
 /// Finds silent afferents. Netlists are left out, because the search would take longer than the run.
 class SilenceDetector final : public ResponseSink {
     std::vector<std::vector<double>> force_samples_;  // force of each channel of the current input
-    std::vector<double> max_force_;            // of each channel, N
-    std::vector<char> has_fired_;                // of each afferent
+    std::vector<double> max_force_;                   // of each channel, N
+    std::vector<char> has_fired_;                     // of each afferent
     std::vector<double> strongest_force_;             // force of the channel with the largest force so far
     double force_ = 0, dt_ = 0;
 

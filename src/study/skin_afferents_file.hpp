@@ -1,8 +1,8 @@
 #pragma once
 // Position and response of every afferent of a skin, one row each.
 
-#include "study/skin_summary.hpp"
 #include "study/skin_file_sink.hpp"
+#include "study/skin_summary.hpp"
 
 namespace corpuscle {
 

@@ -12,8 +12,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include "io/seekable_bytes.hpp"
 #include "io/output_file.hpp"
+#include "io/seekable_bytes.hpp"
 
 namespace corpuscle {
 namespace {
@@ -121,7 +121,8 @@ Result<std::unique_ptr<SkinCheckpoint>> SkinCheckpoint::open(const std::string& 
     if (fs::exists(file, status))
         if (auto ok = checkpoint->resume(); !ok) return ok.error();
     const auto end = spikes_header.size() + checkpoint->spike_count_ * sizeof(StoredSpike);
-    if (::ftruncate(::fileno(checkpoint->spikes_), static_cast<off_t>(end)) != 0) return checkpoint->damaged_file_error(checkpoint->spikes_file_);
+    if (::ftruncate(::fileno(checkpoint->spikes_), static_cast<off_t>(end)) != 0)
+        return checkpoint->damaged_file_error(checkpoint->spikes_file_);
     return checkpoint;
 }
 
@@ -215,8 +216,8 @@ Result<void> SkinCheckpoint::resume() {
             fmt::format("this checkpoint belongs to another run: {}. Repeat the run with its original options, {}", differing, remedy()),
             {file_});
     std::string state;
-    if (!take_front(left, force_to_resumed_) || !take_front(left, spike_count_) || !take_front(left, spikes_sum) || !take_text(left, state) ||
-        !left.empty())
+    if (!take_front(left, force_to_resumed_) || !take_front(left, spike_count_) || !take_front(left, spikes_sum) ||
+        !take_text(left, state) || !left.empty())
         return damaged;
     if (auto ok = skin_.resume(std::as_bytes(std::span(state))); !ok)
         return bad_input(fmt::format("{}; {}", ok.error().message, remedy()), {file_});
@@ -229,7 +230,8 @@ Result<void> SkinCheckpoint::check_spikes(std::uint64_t checksum) {
     std::error_code status;
     const auto size = fs::file_size(spikes_file_, status), have = (size - std::min(size, spikes_header.size())) / sizeof(StoredSpike);
     if (status || spike_count_ > have)
-        return bad_input(fmt::format("it has {} spikes, but {} was written after {}; {}", have, file_, spike_count_, remedy()), {spikes_file_});
+        return bad_input(fmt::format("it has {} spikes, but {} was written after {}; {}", have, file_, spike_count_, remedy()),
+                         {spikes_file_});
     std::fseek(spikes_, static_cast<long>(spikes_header.size()), SEEK_SET);
     std::array<StoredSpike, 1024> buffer;
     Spike last;
@@ -241,8 +243,8 @@ Result<void> SkinCheckpoint::check_spikes(std::uint64_t checksum) {
         for (std::size_t k = 0; k < count; ++k) {
             const auto& s = buffer[k];
             const Spike spike{s.step, s.offset, static_cast<std::uint32_t>(s.unit)};
-            is_valid &= s.unit < skin_.innervation().afferents.size() && s.step >= 0 && s.step < resumed_samples_ && s.offset > 0 && s.offset <= 1 &&
-                        ((at == 0 && k == 0) || last <= spike);
+            is_valid &= s.unit < skin_.innervation().afferents.size() && s.step >= 0 && s.step < resumed_samples_ && s.offset > 0 &&
+                        s.offset <= 1 && ((at == 0 && k == 0) || last <= spike);
             last = spike;
         }
         at += count;
@@ -263,7 +265,9 @@ Result<void> SkinCheckpoint::add_force(const SkinForce::Block& block, std::int64
     return resumed_samples_ == end && force_sum_.value() == force_to_resumed_ ? Result<void>() : changed_force_error();
 }
 
-Result<void> SkinCheckpoint::finish(std::int64_t samples) { return samples < resumed_samples_ ? Result<void>(changed_force_error()) : Result<void>(); }
+Result<void> SkinCheckpoint::finish(std::int64_t samples) {
+    return samples < resumed_samples_ ? Result<void>(changed_force_error()) : Result<void>();
+}
 
 Result<void> SkinCheckpoint::replay(std::int64_t end, std::vector<Spike>& spikes) {
     // A block includes the spikes that arrive up to its last sample.

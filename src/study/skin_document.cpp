@@ -6,8 +6,8 @@
 
 #include "signal/version.hpp"
 #include "study/json_number.hpp"
-#include "study/skin_summary.hpp"
 #include "study/run_summary.hpp"
+#include "study/skin_summary.hpp"
 
 namespace corpuscle {
 namespace {
@@ -55,8 +55,11 @@ Json skin_document(const Innervation& skin) {
     Json regions = Json::object();
     for (std::size_t r = 0; r < sites.size(); ++r)
         regions[plan.sites.regions[r]] = {{"sites", sites[r]}, {"area_cm2", 1e4 * static_cast<double>(sites[r]) * plan.sites.area}};
-    Json out = {
-        {"name", plan.name}, {"sentence", plan.description}, {"seed", plan.seed}, {"units", skin.afferents.size()}, {"sites", plan.sites.size()}};
+    Json out = {{"name", plan.name},
+                {"sentence", plan.description},
+                {"seed", plan.seed},
+                {"units", skin.afferents.size()},
+                {"sites", plan.sites.size()}};
     out["site_area_m2"] = plan.sites.area, out["felt_area_m2"] = plan.felt_area;
     out["nerve_m"] = plan.nerve ? Json{plan.nerve->x, plan.nerve->y} : Json(nullptr);
     out["regions"] = regions;
@@ -68,19 +71,27 @@ Json skin_input_document(const SkinSummary& s, const SkinRunNotes& notes) {
     Json phases = Json::array(), facts = Json::object();
     for (const auto& p : s.phases()) phases.push_back({{"name", p.name}, {"from_s", p.from}, {"to_s", p.to}});
     for (const auto& f : notes.metadata) facts[f.name] = {{"value", f.value}, {"unit", f.unit}};
-    return {{"name", s.name()},         {"sentence", s.description()},
-            {"contact", notes.contact}, {"parameters", facts},
-            {"force_min_N", s.min_force()}, {"force_max_N", s.max_force()},
-            {"samples", s.samples()},   {"rate_Hz", s.clock().rate()},
-            {"t0_s", s.clock().t0},     {"touched_from_s", json_number(s.touch_start())},
-            {"phases", phases},         {"remarks", notes.notes}};
+    return {{"name", s.name()},
+            {"sentence", s.description()},
+            {"contact", notes.contact},
+            {"parameters", facts},
+            {"force_min_N", s.min_force()},
+            {"force_max_N", s.max_force()},
+            {"samples", s.samples()},
+            {"rate_Hz", s.clock().rate()},
+            {"t0_s", s.clock().t0},
+            {"touched_from_s", json_number(s.touch_start())},
+            {"phases", phases},
+            {"remarks", notes.notes}};
 }
 
 std::string region_name(const SkinSummary& s, const SkinSummaryRow& r) {
     return r.region == SkinSummaryRow::all ? "all" : s.skin().plan.sites.regions[r.region];
 }
 
-std::string phase_name(const SkinSummary& s, const SkinSummaryRow& r) { return r.phase == SkinSummaryRow::all ? "all" : s.phases()[r.phase].name; }
+std::string phase_name(const SkinSummary& s, const SkinSummaryRow& r) {
+    return r.phase == SkinSummaryRow::all ? "all" : s.phases()[r.phase].name;
+}
 
 Json skin_row_document(const SkinSummary& s, const SkinSummaryRow& r) {
     return {{"afferent", s.skin().plan.classes[r.class_index].name},
@@ -116,8 +127,11 @@ Json SkinSummary::document(const SkinRunNotes& notes) const {
                                        {"region", skin_->plan.sites.regions[skin_->afferents[f.afferent_index].region]},
                                        {"time_s", f.time}});
     const auto& w = notes.stats;
-    out["work"] = {
-        {"steps", w.steps}, {"afferent_steps", w.afferent_steps}, {"at_rest", w.skipped_steps}, {"spikes", w.spikes}, {"capped_steps", w.truncated_steps}};
+    out["work"] = {{"steps", w.steps},
+                   {"afferent_steps", w.afferent_steps},
+                   {"at_rest", w.skipped_steps},
+                   {"spikes", w.spikes},
+                   {"capped_steps", w.truncated_steps}};
     out["warnings"] = notes.warnings;
     return out;
 }

@@ -61,7 +61,9 @@ public:
 
 }  // namespace
 
-std::unique_ptr<SkinForce> make_pressed_force(ForceSource& source, Contact& contact) { return std::make_unique<PressedForce>(source, contact); }
+std::unique_ptr<SkinForce> make_pressed_force(ForceSource& source, Contact& contact) {
+    return std::make_unique<PressedForce>(source, contact);
+}
 std::unique_ptr<SkinForce> make_site_force(ForceSource& source, std::vector<std::uint32_t> sites, std::size_t all_sites) {
     return std::make_unique<SitesForce>(source, std::move(sites), all_sites);
 }
@@ -74,8 +76,7 @@ Result<std::vector<std::uint32_t>> match_sites(const SkinPlan& plan, const Force
     if (names == plan.sites.names) return in_order;
     auto named = find_sites_if_named(plan.sites, names);
     if (!named)
-        return bad_input(fmt::format("{}; --layout FILE renames channels, --channel selects some", named.error().message),
-                         {source.name()});
+        return bad_input(fmt::format("{}; --layout FILE renames channels, --channel selects some", named.error().message), {source.name()});
     if (*named) return **std::move(named);
     if (source.channels().size() != plan.sites.size())
         return bad_input(

@@ -1,8 +1,8 @@
 #pragma once
 // Counts spikes of a skin's classes in time bins of equal width and writes each bin as it completes.
 
-#include "study/time_bins.hpp"
 #include "study/skin_file_sink.hpp"
+#include "study/time_bins.hpp"
 
 namespace corpuscle {
 

@@ -98,14 +98,16 @@ public:
             if (!text) return text.error();
             SkinStats work;
             std::memcpy(&work, text->data() + 1, std::min(sizeof work, text->size() - 1));
-            others_stats_.afferent_steps += work.afferent_steps, others_stats_.skipped_steps += work.skipped_steps, others_stats_.spikes += work.spikes;
+            others_stats_.afferent_steps += work.afferent_steps, others_stats_.skipped_steps += work.skipped_steps,
+                others_stats_.spikes += work.spikes;
             others_stats_.truncated_steps += work.truncated_steps;
         }
         return {};
     }
     SkinStats stats() const override {
         auto all = own_.stats();
-        all.afferent_steps += others_stats_.afferent_steps, all.skipped_steps += others_stats_.skipped_steps, all.spikes += others_stats_.spikes;
+        all.afferent_steps += others_stats_.afferent_steps, all.skipped_steps += others_stats_.skipped_steps,
+            all.spikes += others_stats_.spikes;
         all.truncated_steps += others_stats_.truncated_steps;
         return all;
     }

@@ -47,7 +47,7 @@ Result<void> run_block(const SkinForce::Block& block, std::int64_t first, SkinSi
 std::unique_ptr<SkinSimulator> local_skin_simulator(Skin& skin, ThreadPool& pool) { return std::make_unique<LocalSimulator>(skin, pool); }
 
 Result<SkinStats> run_skin(SkinForce& force, const SkinInput& input, SkinSimulator& skin, std::span<SkinSink* const> sinks,
-                          const SkinRunOptions& options) {
+                           const SkinRunOptions& options) {
     for (auto* l : sinks)
         if (auto ok = l->begin(input); !ok) return ok.error();
     std::vector<Spike> spikes;

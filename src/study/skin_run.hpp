@@ -12,7 +12,7 @@ namespace corpuscle {
 
 /// The input of a run.
 struct SkinInput {
-    std::string name;      ///< of the force: "press"
+    std::string name;         ///< of the force: "press"
     std::string description;  ///< "a sphere of 5 mm, pressed with ..."
     Clock clock;
     std::vector<Phase> phases;
@@ -25,7 +25,7 @@ struct SkinRunBlock {
     std::size_t steps = 0;
     const SiteForce& force;
     std::span<const double> total_force;  ///< total force of all sites at each step, N
-    std::span<const Spike> spikes;  ///< in order of time, then afferent index
+    std::span<const Spike> spikes;        ///< in order of time, then afferent index
 };
 
 class SkinSink {

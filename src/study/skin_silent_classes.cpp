@@ -42,7 +42,8 @@ Result<void> SkinSilenceDetector::block(const SkinInput&, const SkinRunBlock& bl
     for (const auto& s : block.spikes) has_fired_[skin_->afferents[s.afferent_index].class_index] = 1;
     if (std::find(has_fired_.begin(), has_fired_.end(), 0) == has_fired_.end() || block.steps == 0) return {};
     const auto remaining = max_silence_samples - std::min(max_silence_samples, total_force_.size());
-    total_force_.insert(total_force_.end(), block.total_force.begin(), block.total_force.begin() + static_cast<std::ptrdiff_t>(std::min(remaining, block.steps)));
+    total_force_.insert(total_force_.end(), block.total_force.begin(),
+                        block.total_force.begin() + static_cast<std::ptrdiff_t>(std::min(remaining, block.steps)));
     max_total_force_ = std::max(max_total_force_, *std::max_element(block.total_force.begin(), block.total_force.end()));
     find_peaks(block);
     for (std::size_t c = 0; c < has_fired_.size(); ++c)

@@ -9,8 +9,8 @@
 namespace corpuscle {
 
 struct SilentClass {
-    std::size_t class_index = 0;            ///< index of the class
-    double max_force = 0;               ///< N: largest force on an afferent of the class
+    std::size_t class_index = 0;   ///< index of the class
+    double max_force = 0;          ///< N: largest force on an afferent of the class
     std::optional<double> factor;  ///< by which the stimulus must be stronger for one of them to fire
 };
 
@@ -19,7 +19,7 @@ struct SilentClass {
 class SkinSilenceDetector final : public SkinSink {
     const Innervation* skin_ = nullptr;
     double dt_ = 0, max_total_force_ = 0;
-    std::vector<char> has_fired_;   // for each class
+    std::vector<char> has_fired_;    // for each class
     std::vector<double> max_force_;  // largest force for each class, N
     std::vector<double> site_peak_;  // of each site that the block touches, N
     std::vector<double> force_on_afferent_;

@@ -66,9 +66,11 @@ void SkinSummary::add(std::span<const Spike> spikes, const SkinRunBlock* block) 
         const double t = since_start_.time(s.step, s.offset);
         const auto phase = phase_of(t);
         if (counts_[s.afferent_index]++ == 0) first_times_[s.afferent_index] = t;
-        shortest_intervals_[s.afferent_index] = std::min(shortest_intervals_[s.afferent_index], t - std::exchange(last_times_[s.afferent_index], t));
+        shortest_intervals_[s.afferent_index] =
+            std::min(shortest_intervals_[s.afferent_index], t - std::exchange(last_times_[s.afferent_index], t));
         if (phase < phases_.size()) ++phase_counts_[phase * counts_.size() + s.afferent_index];
-        if (block && is_touched(*block, s.afferent_index, s.step)) ++spikes_while_touched_[group_index(skin_->afferents[s.afferent_index], phase)];
+        if (block && is_touched(*block, s.afferent_index, s.step))
+            ++spikes_while_touched_[group_index(skin_->afferents[s.afferent_index], phase)];
     }
     all_spikes_ += static_cast<std::int64_t>(spikes.size());
 }
@@ -114,7 +116,8 @@ std::int64_t SkinSummary::count_spikes_while_touched(const SkinSummaryRow& r) co
     for (std::uint32_t region = 0; region < skin_->plan.sites.regions.size(); ++region)
         for (std::size_t phase = 0; phase <= phases_.size(); ++phase)
             if ((r.region == SkinSummaryRow::all || r.region == region) && (r.phase == SkinSummaryRow::all || r.phase == phase))
-                sum += spikes_while_touched_[group_index({.class_index = static_cast<std::uint32_t>(r.class_index), .region = region}, phase)];
+                sum +=
+                    spikes_while_touched_[group_index({.class_index = static_cast<std::uint32_t>(r.class_index), .region = region}, phase)];
     return sum;
 }
 
@@ -127,7 +130,8 @@ std::int64_t SkinSummary::touched_samples(std::size_t afferent_index, std::size_
     return sum;
 }
 
-SkinSummaryRow SkinSummary::row(std::size_t class_index, std::size_t region, std::size_t phase, std::span<const std::uint32_t> units) const {
+SkinSummaryRow SkinSummary::row(std::size_t class_index, std::size_t region, std::size_t phase,
+                                std::span<const std::uint32_t> units) const {
     SkinSummaryRow r{.class_index = class_index, .region = region, .phase = phase, .afferents = static_cast<std::int64_t>(units.size())};
     r.seconds = phase == SkinSummaryRow::all ? seconds() : std::max(std::min(phases_[phase].to, seconds()) - phases_[phase].from, 0.0);
     std::int64_t max_spikes = 0, touched = 0;
@@ -185,8 +189,9 @@ std::vector<SkinSummary::FirstSpike> SkinSummary::first_spikes(std::size_t count
     for (std::size_t u = 0; u < first_times_.size(); ++u)
         if (!std::isnan(first_times_[u])) all.push_back({u, first_times_[u]});
     const auto end_of_first = all.begin() + static_cast<std::ptrdiff_t>(std::min(count, all.size()));
-    std::partial_sort(all.begin(), end_of_first, all.end(),
-                      [](const FirstSpike& a, const FirstSpike& b) { return std::pair(a.time, a.afferent_index) < std::pair(b.time, b.afferent_index); });
+    std::partial_sort(all.begin(), end_of_first, all.end(), [](const FirstSpike& a, const FirstSpike& b) {
+        return std::pair(a.time, a.afferent_index) < std::pair(b.time, b.afferent_index);
+    });
     all.erase(end_of_first, all.end());
     for (auto& f : all) f.time += clock_.t0;
     return all;

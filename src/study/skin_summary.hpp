@@ -16,10 +16,10 @@ namespace corpuscle {
 struct SkinRunNotes {
     Method method = Method::exact;
     bool sampled = false;
-    std::string contact = {};                ///< its description; "": force at the sites, from a recording
-    std::vector<MetadataEntry> metadata = {};            ///< of the force and of the contact
-    std::vector<std::string> notes = {};   ///< of the source and of the contact: their simplifications
-    std::vector<std::string> warnings = {};  ///< why the response may be wrong
+    std::string contact = {};                  ///< its description; "": force at the sites, from a recording
+    std::vector<MetadataEntry> metadata = {};  ///< of the force and of the contact
+    std::vector<std::string> notes = {};       ///< of the source and of the contact: their simplifications
+    std::vector<std::string> warnings = {};    ///< why the response may be wrong
     SkinStats stats = {};
 };
 
@@ -28,12 +28,12 @@ struct SkinSummaryRow {
     static constexpr std::size_t all = static_cast<std::size_t>(-1);
     std::size_t class_index = 0, region = all, phase = all;
     std::int64_t afferents = 0, active = 0;  ///< active: with at least one spike
-    std::int64_t touched = 0;            ///< afferents whose site of largest weight had force
+    std::int64_t touched = 0;                ///< afferents whose site of largest weight had force
     std::int64_t spikes = 0;
     double seconds = 0;  ///< duration of the phase
     /// Hz: spikes that arrived while their afferent was touched, divided by the time that afferents were touched
     double touched_rate = no_value;
-    double max_rate = 0;              ///< Hz: highest rate of an afferent over the phase; none if it has one spike
+    double max_rate = 0;                   ///< Hz: highest rate of an afferent over the phase; none if it has one spike
     double first_spike = no_value;         ///< s since the start: the earliest spike; for rows over all phases
     double median_first_spike = no_value;  ///< s since the start: median of the afferents' first spikes
     /// Hz, of one active afferent; a single spike has no rate.
@@ -100,8 +100,8 @@ private:
     std::vector<std::uint32_t> phase_counts_;  // [phase][unit]
     std::vector<double> first_times_, touched_times_;
     std::vector<double> last_times_, shortest_intervals_;  // of each afferent: its last spike, and its shortest interval; s
-    std::vector<std::uint32_t> main_site_;       // site of each afferent's largest weight
-    std::vector<std::int64_t> site_touched_samples_;     // [phase; after the last: no phase][site], samples
+    std::vector<std::uint32_t> main_site_;                 // site of each afferent's largest weight
+    std::vector<std::int64_t> site_touched_samples_;       // [phase; after the last: no phase][site], samples
     std::vector<SkinSummaryRow> rows_;
 
     std::vector<std::int64_t> spikes_while_touched_;  // [phase; after the last: no phase][class][region], spikes

@@ -45,7 +45,8 @@ Result<void> SpikeSoundFile::shape_clicks(const Input& input) {
     for (std::size_t p = 0; p < places; ++p)
         for (std::int64_t k = 0; k < click_frames; ++k)
             for (std::size_t ear = 0; ear < sound_channels_; ++ear)
-                click_shape_[p].push_back(static_cast<int>(loudest * gain(p, places, ear) * num::exp(static_cast<double>(-4 * k) / click_frames)));
+                click_shape_[p].push_back(
+                    static_cast<int>(loudest * gain(p, places, ear) * num::exp(static_cast<double>(-4 * k) / click_frames)));
     return {};
 }
 
@@ -92,9 +93,9 @@ Result<void> SpikeSoundFile::write_up_to(std::int64_t frame) {
 Result<void> SpikeSoundFile::block(const Input& input, const RunBlock& block) {
     const double elapsed = since_start(input, block.first_sample + static_cast<std::int64_t>(block.force.count) - 1);
     if (elapsed > max_duration)
-        return bad_input(
-            fmt::format("'{}' is longer than the {:g} hours that a WAV file can hold; run it without --wav", input.name, max_duration / 3600),
-            {sounds_.back().file.path()});
+        return bad_input(fmt::format("'{}' is longer than the {:g} hours that a WAV file can hold; run it without --wav", input.name,
+                                     max_duration / 3600),
+                         {sounds_.back().file.path()});
     for (const auto& s : block.spikes) {
         const std::size_t afferent_index = s.afferent_index - input.first_afferent;
         add_click(afferent_index, position_of_[afferent_index % input.plans.size()], frame_of(since_start(input, s.step, s.offset)));

@@ -24,11 +24,11 @@ class SpikeSoundFile final : public FileSink {
     std::string directory_;
     std::vector<Sound> sounds_;
     std::size_t sound_channels_ = 1;
-    std::vector<std::size_t> position_of_;    // stereo position of each afferent; copies share one
+    std::vector<std::size_t> position_of_;       // stereo position of each afferent; copies share one
     std::vector<std::vector<int>> click_shape_;  // [position][frame and ear]
     std::vector<std::int64_t> last_click_;       // frame of each afferent's last click
-    std::int64_t written_ = 0;             // frames
-    std::vector<int> pending_;               // frames not yet written, both ears interleaved
+    std::int64_t written_ = 0;                   // frames
+    std::vector<int> pending_;                   // frames not yet written, both ears interleaved
     std::vector<short> out_;
 
     Result<void> shape_clicks(const Input&);
@@ -36,8 +36,8 @@ class SpikeSoundFile final : public FileSink {
     Result<void> write_up_to(std::int64_t frame);
 
 public:
-    static constexpr int sample_rate = 44100;             // Hz
-    static constexpr std::int64_t click_frames = 44;     // length of a click
+    static constexpr int sample_rate = 44100;           // Hz
+    static constexpr std::int64_t click_frames = 44;    // length of a click
     static constexpr double max_duration = 6 * 3600.0;  // s: a longer stereo file exceeds the 4 GB limit of WAV
 
     explicit SpikeSoundFile(std::string directory) : directory_(std::move(directory)) {}

@@ -9,8 +9,8 @@ namespace corpuscle {
 
 struct SpikeTimingError {
     double max = 0, rms = 0;  ///< s, over matched spikes
-    double median = 0;          ///< s, over matched spikes; positive if the second train is later
-    double unmatched = 0;       ///< spikes of either train without a partner
+    double median = 0;        ///< s, over matched spikes; positive if the second train is later
+    double unmatched = 0;     ///< spikes of either train without a partner
 };
 
 /// Spikes within 50 ms of each other can be matched.

@@ -23,8 +23,8 @@ public:
     bool update(std::size_t which, double fraction) {
         const std::lock_guard lock(guard_);
         fractions_[which] = fraction;
-        return !error_ &&
-               options_.should_continue(std::accumulate(fractions_.begin(), fractions_.end(), 0.0) / static_cast<double>(fractions_.size()));
+        return !error_ && options_.should_continue(std::accumulate(fractions_.begin(), fractions_.end(), 0.0) /
+                                                   static_cast<double>(fractions_.size()));
     }
     void fail(std::string_view name, Error error) {
         const std::lock_guard lock(guard_);

@@ -24,8 +24,8 @@ struct StudyResult {
     }
     /// A statement that is true or false.
     Claim& claim_true(std::string label, bool is_true, std::string source) {
-        return claims.emplace_back(
-            Claim{.label = std::move(label), .computed = is_true ? 1.0 : 0.0, .allowed_min = 1, .source = std::move(source), .is_boolean = true});
+        return claims.emplace_back(Claim{
+            .label = std::move(label), .computed = is_true ? 1.0 : 0.0, .allowed_min = 1, .source = std::move(source), .is_boolean = true});
     }
     StudyPlot& plot(std::string title, std::string x_label, std::string y_label, bool log_x = false, bool log_y = false) {
         return plots.emplace_back(StudyPlot{std::move(title), std::move(x_label), std::move(y_label), {}, log_x, log_y});
@@ -39,7 +39,9 @@ struct StudyOptions {
     std::string recordings_folder = {};  ///< the folder of published recordings, for studies of them
 
     /// The same, as an error that a study returns.
-    Result<void> report_progress(double fraction) const { return should_continue(fraction) ? Result<void>() : Error{ErrorCode::interrupted, "interrupted"}; }
+    Result<void> report_progress(double fraction) const {
+        return should_continue(fraction) ? Result<void>() : Error{ErrorCode::interrupted, "interrupted"};
+    }
 };
 
 struct Study {

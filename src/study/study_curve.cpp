@@ -77,7 +77,9 @@ StudyCurve StudyCurve::resampled(double step) const {
 double StudyCurve::min() const { return empty() ? none : *std::min_element(y.begin(), y.end()); }
 double StudyCurve::max() const { return empty() ? none : *std::max_element(y.begin(), y.end()); }
 
-double StudyCurve::x_of_max() const { return empty() ? none : x[static_cast<std::size_t>(std::max_element(y.begin(), y.end()) - y.begin())]; }
+double StudyCurve::x_of_max() const {
+    return empty() ? none : x[static_cast<std::size_t>(std::max_element(y.begin(), y.end()) - y.begin())];
+}
 
 StudyCurve::LineFit StudyCurve::fit_line() const {
     const auto n = static_cast<double>(x.size());
@@ -85,7 +87,8 @@ StudyCurve::LineFit StudyCurve::fit_line() const {
     for (std::size_t k = 0; k < x.size(); ++k) mean_x += x[k] / n, mean_y += y[k] / n;
     for (std::size_t k = 0; k < x.size(); ++k) product += (x[k] - mean_x) * (y[k] - mean_y), square += (x[k] - mean_x) * (x[k] - mean_x);
     LineFit out{mean_y - product / square * mean_x, product / square, 0};
-    for (std::size_t k = 0; k < x.size(); ++k) out.max_deviation = std::max(out.max_deviation, std::abs(y[k] - out.intercept - out.slope * x[k]));
+    for (std::size_t k = 0; k < x.size(); ++k)
+        out.max_deviation = std::max(out.max_deviation, std::abs(y[k] - out.intercept - out.slope * x[k]));
     return out;
 }
 

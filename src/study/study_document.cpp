@@ -36,8 +36,8 @@ Json document_of(const StudyPlot& p) {
     constexpr const char* styles[] = {"line", "points", "raster", "path"};
     for (const auto& s : p.series)
         series.push_back({{"name", s.name}, {"style", styles[static_cast<int>(s.style)]}, {"x", numbers(s.x)}, {"y", numbers(s.y)}});
-    return {{"title", p.title}, {"printed", p.published_shape}, {"x", p.x_label},  {"y", p.y_label},
-            {"log_x", p.log_x}, {"log_y", p.log_y},     {"series", series}};
+    return {{"title", p.title}, {"printed", p.published_shape}, {"x", p.x_label}, {"y", p.y_label}, {"log_x", p.log_x}, {"log_y", p.log_y},
+            {"series", series}};
 }
 
 /// A cell of a Markdown table.
@@ -60,8 +60,9 @@ void put_table(std::string& text, const StudyResult& outcome) {
     if (outcome.claims.empty()) return;
     text += "| | computed | published | deviation | allowed | | source, reason |\n|---|---|---|---|---|---|---|\n";
     for (const auto& c : outcome.claims)
-        text += fmt::format("| {} | {} | {} | {} | {} | {} | {} |\n", cell(c.label), format_claim_value(c.computed, c), format_published(c), format_deviation(c),
-                            format_allowed_range(c), c.verdict(), cell(c.source + (c.source.empty() || c.note.empty() ? "" : "; ") + c.note));
+        text += fmt::format("| {} | {} | {} | {} | {} | {} | {} |\n", cell(c.label), format_claim_value(c.computed, c), format_published(c),
+                            format_deviation(c), format_allowed_range(c), c.verdict(),
+                            cell(c.source + (c.source.empty() || c.note.empty() ? "" : "; ") + c.note));
     text += '\n';
 }
 
@@ -104,13 +105,15 @@ std::string markdown_of(std::span<const Study* const> studies, std::span<const S
         "# {}, reproduced\n\nWritten by `corpuscle study {}` (`make reproduction` writes this page{}); its only typed numbers are the "
         "published ones. {} Deviations have a reason if one is known.\n\n## Published numbers, and deviations\n\n",
         from_recording ? "A published recording" : "Every figure and table", from_recording ? studies.front()->name : "all",
-        from_recording ? " if the recording is in CORPUSCLE_DATA" : ", and `out/reproduction.html` with the pictures", verdict_counts(outcomes));
+        from_recording ? " if the recording is in CORPUSCLE_DATA" : ", and `out/reproduction.html` with the pictures",
+        verdict_counts(outcomes));
     put_deviations(text, studies, outcomes);
     for (std::size_t k = 0; k < studies.size(); ++k) {
         text += fmt::format("\n## {}\n\n**{}.** {}\n\n", studies[k]->name, studies[k]->title, studies[k]->question);
         put_table(text, outcomes[k]);
         for (const auto& p : outcomes[k].plots)
-            text += fmt::format("- Picture: {}.{}\n", p.title, p.published_shape.empty() ? "" : fmt::format(" Published: {}", p.published_shape));
+            text += fmt::format("- Picture: {}.{}\n", p.title,
+                                p.published_shape.empty() ? "" : fmt::format(" Published: {}", p.published_shape));
         for (const auto& n : outcomes[k].notes) text += fmt::format("- {}\n", n);
     }
     return text;

@@ -14,17 +14,17 @@
 namespace corpuscle {
 namespace {
 
-using circuit::find_analysis;
-using circuit::Circuit;
-using circuit::NetlistOverride;
-using circuit::Netlist;
-using circuit::parse_embedded;
-using circuit::RunOptions;
 using circuit::AnalysisContext;
 using circuit::apply_overrides;
-using circuit::Values;
+using circuit::Circuit;
+using circuit::find_analysis;
 using circuit::find_curve_values;
+using circuit::Netlist;
+using circuit::NetlistOverride;
 using circuit::NetlistVariants;
+using circuit::parse_embedded;
+using circuit::RunOptions;
+using circuit::Values;
 
 Result<Netlist> netlist_of(const StudyNetlist& deck) {
     const bool own = deck.circuit.find('\n') != std::string::npos;
@@ -89,7 +89,8 @@ double NetlistResult::operating_point(const std::string& name) const {
 
 double NetlistResult::derivative(std::string_view output, std::string_view source) const {
     for (const auto& a : outcome.analyses)
-        if (const auto& words = a.directive->words; a.directive->name == "tf" && words.size() == 2 && words[0] == output && words[1] == source)
+        if (const auto& words = a.directive->words;
+            a.directive->name == "tf" && words.size() == 2 && words[0] == output && words[1] == source)
             return a.result.numbers.front().second;
     return std::numeric_limits<double>::quiet_NaN();
 }

@@ -92,7 +92,8 @@ Result<void> TestVectorsFile::block(const Input& input, const RunBlock& block) {
         std::vector<Spike> spikes;
         ResponseBlock response{spikes};
         const std::span force(block.force.force[input.channel_of(u)].data(), block.force.count);
-        if (auto ok = digital_[afferent_files_[u]->plan_index]->respond_and_report(force, afferent_files_[u]->state, response, row); !ok) return ok;
+        if (auto ok = digital_[afferent_files_[u]->plan_index]->respond_and_report(force, afferent_files_[u]->state, response, row); !ok)
+            return ok;
         if (auto ok = afferent_files_[u]->file.write({text.data(), text.size()}); !ok) return ok;
     }
     return {};

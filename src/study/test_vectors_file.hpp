@@ -18,8 +18,8 @@ class TestVectorsFile final : public FileSink {
         State state;
     };
     std::string directory_;
-    std::vector<std::unique_ptr<DigitalAfferent>> digital_;  // of the current input, for each plan; null if it is not digital
-    std::vector<std::optional<AfferentFile>> afferent_files_;         // of the current input
+    std::vector<std::unique_ptr<DigitalAfferent>> digital_;    // of the current input, for each plan; null if it is not digital
+    std::vector<std::optional<AfferentFile>> afferent_files_;  // of the current input
     std::vector<OutputFile> complete_files_;
     std::vector<int> file_counts_;  // number of files for each plan
     std::vector<std::string> paths_;

@@ -37,8 +37,8 @@ public:
 private:
     std::vector<Group> groups_;
     Clock since_start_;
-    double bin_width_ = 1, t0_ = 0;        // s; t0: start of the input on the clock of the spike file
-    std::int64_t current_bin_ = 0;            // index of the current bin
+    double bin_width_ = 1, t0_ = 0;     // s; t0: start of the input on the clock of the spike file
+    std::int64_t current_bin_ = 0;      // index of the current bin
     std::vector<std::int64_t> counts_;  // spikes in the current bin, for each row
     fmt::memory_buffer text_;
     bool lines_taken_ = false;

@@ -135,7 +135,9 @@ double TrainDifference::rms() const { return std::sqrt(sum_of_squares / static_c
 
 double TrainDifference::van_rossum() const { return std::sqrt(van_rossum_squared); }
 
-double TrainDifference::victor_purpura_per_spike() const { return spikes_a + spikes_b == 0 ? 0 : victor_purpura / static_cast<double>(spikes_a + spikes_b); }
+double TrainDifference::victor_purpura_per_spike() const {
+    return spikes_a + spikes_b == 0 ? 0 : victor_purpura / static_cast<double>(spikes_a + spikes_b);
+}
 
 void TrainDifference::add(const TrainDifference& o) {
     spikes_a += o.spikes_a, spikes_b += o.spikes_b, matched += o.matched;

@@ -25,7 +25,7 @@ struct TrainPair {
 struct TrainDifference {
     std::string a = {}, b = {};
     std::size_t spikes_a = 0, spikes_b = 0, matched = 0;
-    double max_shift = 0;  ///< s, of |b - a| over matched spikes
+    double max_shift = 0;       ///< s, of |b - a| over matched spikes
     double sum_of_squares = 0;  ///< s^2, sum over matched spikes
     double victor_purpura = 0;
     double van_rossum_squared = 0;  ///< of all pairs together: the sum, with each afferent as a separate dimension (Houghton & Sen 2008)

@@ -92,14 +92,15 @@ Result<void> VersionComparisons::end(const Input& input, std::int64_t) {
     return {};
 }
 
-VersionComparison VersionComparisons::compare_version(const Input& input, std::size_t channel, const VersionGroup& v, std::size_t member) const {
+VersionComparison VersionComparisons::compare_version(const Input& input, std::size_t channel, const VersionGroup& v,
+                                                      std::size_t member) const {
     const std::size_t first = channel * input.plans.size();
     const auto &reference = trains_[first + v.members[0]], &train = trains_[first + v.members[member]];
     VersionComparison out{v.receptor,
-                   input.plans[v.members[member]].name,
-                   input.plans[v.members[0]].name,
-                   input.channel_name(channel),
-                   {"", train.size(), reference.size()}};
+                          input.plans[v.members[member]].name,
+                          input.plans[v.members[0]].name,
+                          input.channel_name(channel),
+                          {"", train.size(), reference.size()}};
     for (const auto& p : input.source.phases()) out.phases.push_back({p.name, count(train, p.from, p.to), count(reference, p.from, p.to)});
     measure_distance(reference, train, out);
     return out;

@@ -17,8 +17,8 @@ struct VersionComparison {
         double excess() const;  ///< fraction of the reference's count; NaN if that is zero
     };
     std::string receptor, afferent, reference, channel;
-    PhaseCount total;                                    ///< over the whole input; its phase name is empty
-    std::vector<PhaseCount> phases = {};               ///< phases of the stimulus; empty if it has none
+    PhaseCount total;                             ///< over the whole input; its phase name is empty
+    std::vector<PhaseCount> phases = {};          ///< phases of the stimulus; empty if it has none
     std::size_t matched = 0;                      ///< spikes matched with one of the reference, see victor_purpura
     double mean_shift = NAN, median_shift = NAN;  ///< s, of matched spikes; positive: later than the reference; NaN: none matched
     double victor_purpura = NAN;                  ///< NaN: too many spikes close to each other to compute it
@@ -39,8 +39,8 @@ public:
     nlohmann::ordered_json document() const;
 
 private:
-    std::vector<VersionGroup> groups_;           // groups with several versions
-    std::vector<bool> is_kept_;                   // for each afferent plan
+    std::vector<VersionGroup> groups_;         // groups with several versions
+    std::vector<bool> is_kept_;                // for each afferent plan
     std::vector<std::vector<double>> trains_;  // of each afferent of the current input, s from its start
     Clock since_start_;
     std::vector<VersionComparison> rows_;

@@ -7,8 +7,8 @@
 
 #include "circuit/embedded_netlists.hpp"
 #include "support/child_process.hpp"
-#include "support/test_paths.hpp"
 #include "support/program.hpp"
+#include "support/test_paths.hpp"
 
 namespace corpuscle {
 namespace {
@@ -122,7 +122,7 @@ TEST(Program, ASecondRunLeavesNothingOfTheFirst) {
     const TemporaryFolder folder;
     ASSERT_EQ(run_program(folder, "respond press noise --out answer --traces --npz --wav --bin 10ms").status, 0);
     EXPECT_EQ(folder.file_names(), (std::vector<std::string>{"answer", "psth.csv", "spikes-2.wav", "spikes.csv", "spikes.npz", "spikes.wav",
-                                                        "summary.json", "traces-2.csv", "traces.csv"}));
+                                                             "summary.json", "traces-2.csv", "traces.csv"}));
     folder.write("answer/notes.txt", "mine");
     const auto ran = run_program(folder, "respond press --out answer --npz");
     EXPECT_NE(ran.out.find("Removed files of an earlier run: psth.csv, spikes.wav, spikes-2.wav, traces.csv, traces-2.csv\n"),
@@ -172,7 +172,8 @@ TEST(Program, OneCopyIsTheAfferentItself) {
 
 TEST(Program, ACopyIsReproducedByTheParametersInItsRow) {
     const TemporaryFolder folder;
-    ASSERT_EQ(run_program(folder, "respond press -a sa1 --copies 9 --spread sa1.f_B=20% --spread sa1.V_th=10% --traces --out answer").status, 0);
+    ASSERT_EQ(
+        run_program(folder, "respond press -a sa1 --copies 9 --spread sa1.f_B=20% --spread sa1.V_th=10% --traces --out answer").status, 0);
     const auto table = test::read_file(folder / "answer/copies.csv"), spikes = test::read_file(folder / "answer/spikes.csv");
     const auto row = table.substr(table.find("sa1#7,press,") + 12);
     const auto f_B = row.substr(0, row.find(',')), V_th = row.substr(f_B.size() + 1, row.find(',', f_B.size() + 1) - f_B.size() - 1);
@@ -209,7 +210,8 @@ TEST(Program, CompareReportsTheMatchingSpikes) {
 }
 
 TEST(Program, CompareReadsTheSpikesOfTheElectronicSkin) {
-    const auto motor = test::shared_file_path("fbg_eskin_press/motor_spikes_S6_T16.csv"), snn = test::shared_file_path("fbg_eskin_press/snn_spikes_S6_T16.csv");
+    const auto motor = test::shared_file_path("fbg_eskin_press/motor_spikes_S6_T16.csv"),
+               snn = test::shared_file_path("fbg_eskin_press/snn_spikes_S6_T16.csv");
     CORPUSCLE_NEEDS(motor);
     const TemporaryFolder folder;
     const auto itself = Json::parse(run_program(folder, "compare '" + motor + "' '" + motor + "' --json").out);
@@ -250,7 +252,8 @@ TEST(Program, JsonIsOneDocumentAndNothingElse) {
 TEST(Program, ListNamesEveryParameterOfEveryModel) {
     const TemporaryFolder folder;
     const auto text = run_program(folder, "list").out;
-    for (const auto& cards : {sensor_entries(), transducer_entries(), converter_entries(), receptor_entries(), neuron_entries(), stimulus_catalog()})
+    for (const auto& cards :
+         {sensor_entries(), transducer_entries(), converter_entries(), receptor_entries(), neuron_entries(), stimulus_catalog()})
         for (const auto& card : cards) {
             EXPECT_NE(text.find("  " + std::string(card.name) + ": "), std::string::npos) << card.name;
             for (const auto& row : card.parameters)
@@ -322,7 +325,8 @@ TEST(Program, BadInputAndBadUsageHaveTheirStatusAndMessageAndLeaveNoFiles) {
         EXPECT_EQ(ran.out, "") << c.arguments;
     }
     EXPECT_EQ(run_program(folder, "respond press --sampeld").status, 2);
-    for (const auto* n : {"0", "-1", "1000001", "ten"}) EXPECT_EQ(run_program(folder, "respond press --copies " + std::string(n)).status, 2) << n;
+    for (const auto* n : {"0", "-1", "1000001", "ten"})
+        EXPECT_EQ(run_program(folder, "respond press --copies " + std::string(n)).status, 2) << n;
     EXPECT_EQ(folder.file_names(), (std::vector<std::string>{"bad.csv", "nm.csv"}));
 }
 
@@ -372,8 +376,8 @@ TEST(Program, WhatCannotBePrintedOrNamedIsAnError) {
 
 TEST(Program, ANonFiniteStateIsReported) {
     const TemporaryFolder folder;
-    const auto ran =
-        run_program(folder, "respond press -a sa1b+adex --set sa1b+adex.g_L=1mS --out answer --npz --bin 1ms");  // far too stiff for its substep
+    const auto ran = run_program(
+        folder, "respond press -a sa1b+adex --set sa1b+adex.g_L=1mS --out answer --npz --bin 1ms");  // far too stiff for its substep
     EXPECT_EQ(ran.status, 3);
     EXPECT_NE(ran.err.find("sa1b+adex on press: sa1b+adex: its state became NaN or infinite"), std::string::npos) << ran.err;
     EXPECT_TRUE(folder.file_names().empty());
@@ -402,9 +406,10 @@ TEST(Program, ProgressWithTimeLeftIsPrintedToTerminalsOnly) {
     const TemporaryFolder folder;
     const std::string job = "respond sine --set sine.duration=400s --afferent sa1b+adex";  // takes some seconds
     const auto terminal_output = folder / "drawn";
-    ASSERT_EQ(std::system(
-                  ("script -qec \"'" + test::program_path() + "' " + job + "\" /dev/null > '" + terminal_output + "' 2>&1 < /dev/null").c_str()),
-              0);
+    ASSERT_EQ(
+        std::system(
+            ("script -qec \"'" + test::program_path() + "' " + job + "\" /dev/null > '" + terminal_output + "' 2>&1 < /dev/null").c_str()),
+        0);
     const auto seen = test::read_file(terminal_output);
     EXPECT_NE(seen.find(" s left"), std::string::npos) << seen.substr(0, 400);
     EXPECT_NE(seen.find(" %  "), std::string::npos);
@@ -413,9 +418,10 @@ TEST(Program, ProgressWithTimeLeftIsPrintedToTerminalsOnly) {
 
 TEST(Program, SaturationOverflowAndUnreachedForcesAreReported) {
     const TemporaryFolder folder;
-    EXPECT_EQ(run_program(folder, "respond press -q -a fsr+f2v+sa1 --set press.F_max=8N").err,
-              "corpuscle: warning: 3335 samples saturated a transducer or a converter, so the afferent received less force than was applied; "
-              "lower R_fb or V_FSR, raise V_DD or I_max, or widen F_low to F_high\n");
+    EXPECT_EQ(
+        run_program(folder, "respond press -q -a fsr+f2v+sa1 --set press.F_max=8N").err,
+        "corpuscle: warning: 3335 samples saturated a transducer or a converter, so the afferent received less force than was applied; "
+        "lower R_fb or V_FSR, raise V_DD or I_max, or widen F_low to F_high\n");
     EXPECT_NE(run_program(folder, "respond press -q -a sa1-kim --set sa1-kim.frac=28 --set sa1-kim.k_s=10e-6")
                   .err.find("results overflowed their words"),
               std::string::npos);
@@ -449,8 +455,8 @@ TEST(Program, CtrlCAndOtherSignalsEndItCleanly) {
         const pid_t child = test::fork_child();
         if (child == 0) {
             if (!std::freopen("/dev/null", "w", stderr)) std::_Exit(98);
-            ::execl(test::program_path().c_str(), "corpuscle", "respond", "sine", "--set", "sine.duration=100000s", "--rate", "100kHz", "--out",
-                    answer.c_str(), nullptr);
+            ::execl(test::program_path().c_str(), "corpuscle", "respond", "sine", "--set", "sine.duration=100000s", "--rate", "100kHz",
+                    "--out", answer.c_str(), nullptr);
             std::_Exit(99);
         }
         for (int k = 0; k < 200 && !std::filesystem::exists(answer + "/summary.json.part-" + std::to_string(child)); ++k)

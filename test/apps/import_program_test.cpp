@@ -5,8 +5,8 @@
 namespace corpuscle {
 namespace {
 
-using test::TemporaryFolder;
 using test::run_program;
+using test::TemporaryFolder;
 
 bool found_in(const std::string& text, const std::string& part) { return text.find(part) != text.npos; }
 

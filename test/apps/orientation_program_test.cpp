@@ -2,8 +2,8 @@
 
 #include <cstring>
 
-#include "support/program.hpp"
 #include "support/file_writers.hpp"
+#include "support/program.hpp"
 
 namespace corpuscle {
 namespace {

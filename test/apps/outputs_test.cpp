@@ -13,18 +13,18 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "io/output_file.hpp"
 #include "io/output_check.hpp"
+#include "io/output_file.hpp"
 #include "support/child_process.hpp"
-#include "support/test_paths.hpp"
 #include "support/program.hpp"
+#include "support/test_paths.hpp"
 
 namespace corpuscle {
 namespace {
 
 namespace fs = std::filesystem;
-using test::TemporaryFolder;
 using test::read_file;
+using test::TemporaryFolder;
 
 const char* const small_deck = "small\nv1 in 0 1\nr1 in out 1k\nr2 out 0 1k\n.op\n.tran 10u 1m\n";
 
@@ -260,7 +260,8 @@ TEST(Outputs, PartsFollowNoLinks) {
 
 TEST(Outputs, ThatTookMoreThanASecondOrAreForResumingAreSyncedBeforeTheyAreRenamed) {
     const TemporaryFolder folder;
-    auto quick = test::value_or_throw(OutputFile::create(folder / "quick.csv")), for_resuming = test::value_or_throw(OutputFile::create(folder / "x.state")),
+    auto quick = test::value_or_throw(OutputFile::create(folder / "quick.csv")),
+         for_resuming = test::value_or_throw(OutputFile::create(folder / "x.state")),
          slow = test::value_or_throw(OutputFile::create(folder / "slow.csv"));
     ASSERT_TRUE(quick.commit());
     ASSERT_TRUE(for_resuming.commit(SyncPolicy::always));
@@ -322,7 +323,8 @@ TEST(Outputs, AFullDiskBehindStandardOutputIsAnError) {
 TEST(Outputs, AFileThatMayGrowNoFurtherIsAnErrorAndLeavesNothing) {
     const TemporaryFolder folder;
     const auto status = std::system(
-        ("cd '" + folder.path() + "' && (ulimit -f 8; exec '" + test::program_path() + "' respond press --traces -o big -q) 2>err").c_str());
+        ("cd '" + folder.path() + "' && (ulimit -f 8; exec '" + test::program_path() + "' respond press --traces -o big -q) 2>err")
+            .c_str());
     EXPECT_EQ(WEXITSTATUS(status), 1);
     EXPECT_EQ(read_file(folder / "err"), "corpuscle: big/traces.csv: could not be written completely: File too large\n");
     EXPECT_EQ(folder.file_names(), std::vector<std::string>{"err"});

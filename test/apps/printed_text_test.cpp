@@ -6,8 +6,8 @@
 
 #include "io/spike_files.hpp"
 #include "io/utf8.hpp"
-#include "support/test_paths.hpp"
 #include "support/program.hpp"
+#include "support/test_paths.hpp"
 
 namespace corpuscle {
 namespace {
@@ -145,7 +145,8 @@ TEST(PrintedText, PagesAndSummariesNameNoDirectories) {
     folder.write("secret/deep/f.csv", text);
     folder.write("secret/deep/layout.csv", "channel,name,x_mm,y_mm\nfz,thumb,1,2\n");
     const auto at = folder / "secret/deep/";
-    ASSERT_EQ(test::run_program(folder, "respond '" + at + "f.csv' --layout='" + at + "layout.csv' -o secret/answer --report -q").status, 0);
+    ASSERT_EQ(test::run_program(folder, "respond '" + at + "f.csv' --layout='" + at + "layout.csv' -o secret/answer --report -q").status,
+              0);
     for (const char* name : {"report.html", "summary.json", "spikes.csv"})
         EXPECT_EQ(test::read_file(folder / ("secret/answer/" + std::string(name))).find("secret"), std::string::npos) << name;
     EXPECT_NE(

@@ -43,10 +43,12 @@ TEST(Readme, ItsProgramIsTheExampleThatRuns) {
 }
 
 TEST(Readme, EveryPageItLinksToExists) {
-    for (const auto* page : {"README.md", "HACKING.md", "doc/concepts.md", "doc/afferents.md", "doc/recordings.md", "doc/fixed-point.md",
-                             "doc/measures.md", "doc/circuits.md", "doc/chips.md", "doc/lanes.md", "doc/populations.md",
-                             "doc/real-recordings.md", "doc/live.md", "doc/events.md", "doc/skin.md", "doc/sweeps.md", "doc/README.md",
-                             "doc/tutorial.md", "doc/glossary.md", "doc/troubleshooting.md", "doc/benchmarks.md"}) {
+    for (const auto* page : {"README.md",         "HACKING.md",         "doc/concepts.md",    "doc/afferents.md",
+                             "doc/recordings.md", "doc/fixed-point.md", "doc/measures.md",    "doc/circuits.md",
+                             "doc/chips.md",      "doc/lanes.md",       "doc/populations.md", "doc/real-recordings.md",
+                             "doc/live.md",       "doc/events.md",      "doc/skin.md",        "doc/sweeps.md",
+                             "doc/README.md",     "doc/tutorial.md",    "doc/glossary.md",    "doc/troubleshooting.md",
+                             "doc/benchmarks.md"}) {
         const auto text = test::read_file(project_root + "/" + page);
         ASSERT_FALSE(text.empty()) << page;
         for (std::size_t at = text.find("]("); at != std::string::npos; at = text.find("](", at + 1)) {

@@ -113,8 +113,8 @@ TEST(RealRecordings, RepairedFilesGiveTheSpikesOfTheCleanedOnes) {
     link_recordings(folder);
     for (const auto& [file, rate] : {std::pair{"02", "242.64Hz"}, {"04", "242.94Hz"}, {"12", "242.38Hz"}}) {
         const std::string grip = std::string("respond grip_force_ati/grip_") + file;
-        const auto raw =
-            run_program(folder, grip + "_raw.csv -c Fz --rate " + rate + " --scale 0.002 --range 1..3500 --despike 1000 --notch 50Hz -o raw");
+        const auto raw = run_program(
+            folder, grip + "_raw.csv -c Fz --rate " + rate + " --scale 0.002 --range 1..3500 --despike 1000 --notch 50Hz -o raw");
         const auto clean = run_program(folder, grip + "_clean.csv -c fz_abs_counts --scale 0.002 --notch 50Hz -o clean");
         ASSERT_EQ(raw.status + clean.status, 0) << raw.err << clean.err;
         auto ours = by_second(folder / "raw/spikes.csv"), theirs = by_second(folder / "clean/spikes.csv");

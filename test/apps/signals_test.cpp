@@ -5,8 +5,8 @@
 #include <fstream>
 
 #include "support/child_process.hpp"
-#include "support/test_paths.hpp"
 #include "support/program.hpp"
+#include "support/test_paths.hpp"
 
 namespace corpuscle {
 namespace {

@@ -18,7 +18,8 @@ TEST(SiteLayout, SitesAreListedInTheOrderOfAFrameAndALayoutNamesThoseThatAFrameH
     EXPECT_NE(run_program(folder, "list hnad --sites").err.find("did you mean 'hand'?"), std::string::npos);
     folder.write("sites.csv", listed.out);
     folder.write("own.toml", "[sites]\nlist = \"sites.csv\"\n[[class]]\nafferent = \"sa1\"\nper_site = 1\n");
-    EXPECT_EQ(run_program(folder, "list own.toml --sites").out, listed.out) << "the output can be read as the list of sites of a population";
+    EXPECT_EQ(run_program(folder, "list own.toml --sites").out, listed.out)
+        << "the output can be read as the list of sites of a population";
 
     std::string one, all;
     for (int k = 0; k < 400; ++k) {

@@ -5,8 +5,8 @@
 #include <thread>
 
 #include "support/child_process.hpp"
-#include "support/test_paths.hpp"
 #include "support/program.hpp"
+#include "support/test_paths.hpp"
 
 namespace corpuscle {
 namespace {
@@ -45,9 +45,9 @@ TEST(SweepProgram, ReportsItsProgressAndResumesWhereItStopped) {
     ASSERT_EQ(run_program(folder, "sweep a.toml -j 1 --lanes 1 -o b.sqlite").status, 0);
     EXPECT_TRUE(dump(folder, "a.sqlite") == dump(folder, "b.sqlite"));
     for (const std::string k : {"1", "2", "3"}) ASSERT_EQ(run_program(folder, "sweep a.toml --shard " + k + "/3").status, 0);
-    EXPECT_NE(
-        run_program(folder, "sweep merge c.sqlite a-1of3.sqlite a-3of3.sqlite a-2of3.sqlite").out.find("a-3of3.sqlite: 33 items, 33 of them new"),
-        std::string::npos);
+    EXPECT_NE(run_program(folder, "sweep merge c.sqlite a-1of3.sqlite a-3of3.sqlite a-2of3.sqlite")
+                  .out.find("a-3of3.sqlite: 33 items, 33 of them new"),
+              std::string::npos);
     EXPECT_TRUE(dump(folder, "a.sqlite") == dump(folder, "c.sqlite"));
     const auto other = run_program(folder, "sweep a.toml --seed 7");
     EXPECT_EQ(other.status, 1);

@@ -41,7 +41,7 @@ void expect_same(const std::string& what, const std::string& array, const std::s
             const auto common = fmt::format("vg g 0 {}\nvb b 0 {}\nvs s 0 {}\n", sign * at.g, sign * at.b, sign * at.s);
             const auto current = [&](const std::string& device) {
                 return run_netlist(what + "\n" + common + fmt::format("vd d 0 {}\n", sign * at.d) + device +
-                           fmt::format(fmt::runtime(plain_model), type) + exactly + ".op\n")
+                                   fmt::format(fmt::runtime(plain_model), type) + exactly + ".op\n")
                     .number("i(vd)");
             };
             const double a = current(array), b = current(one);
@@ -90,8 +90,8 @@ TEST(Arrays, SmallSignalsOfAStackAreThoseOfItsElements) {
         const auto slopes = [&](const std::string& device) {
             std::vector<double> out;
             for (const char* source : {"vd", "vg", "vs", "vb"})
-                out.push_back(run_netlist(fmt::format("slopes\nvd d 0 {}\nvg g 0 {}\nvs s 0 {}\nvb b 0 {}\n", at.d, at.g, at.s, at.b) + device +
-                                  fmt::format(fmt::runtime(plain_model), 'n') + exactly + ".tf i(vd) " + source + "\n")
+                out.push_back(run_netlist(fmt::format("slopes\nvd d 0 {}\nvg g 0 {}\nvs s 0 {}\nvb b 0 {}\n", at.d, at.g, at.s, at.b) +
+                                          device + fmt::format(fmt::runtime(plain_model), 'n') + exactly + ".tf i(vd) " + source + "\n")
                                   .number("transfer_function"));
             return out;
         };
@@ -106,9 +106,10 @@ TEST(Arrays, SmallSignalsOfAStackAreThoseOfItsElements) {
 /// A splitting mirror (fig. 47): M_A and M_C are n elements in parallel, M_B and M_D n in series; gate at 0.35 V, V_DD 0.7 V.
 double split_gain(int n, const std::string& model, const std::string& size) {
     const auto unit = "g {} 0 x " + size;
-    const auto found = run_netlist("split\nvdd vdd 0 0.7\nvg g 0 0.35\nvin in 0 0.35\nvout out 0 0.35\n" + elements("a", "in", "0", n, 1, unit) +
-                           elements("b", "y", "0", 1, n, unit) + elements("c", "vdd", "y", n, 1, unit) +
-                           elements("d", "out", "y", 1, n, unit) + model + exactly + ".op\n");
+    const auto found =
+        run_netlist("split\nvdd vdd 0 0.7\nvg g 0 0.35\nvin in 0 0.35\nvout out 0 0.35\n" + elements("a", "in", "0", n, 1, unit) +
+                    elements("b", "y", "0", 1, n, unit) + elements("c", "vdd", "y", n, 1, unit) + elements("d", "out", "y", 1, n, unit) +
+                    model + exactly + ".op\n");
     return found.number("i(vout)") / found.number("i(vin)");
 }
 
@@ -140,9 +141,9 @@ TEST(Arrays, TheThesissStageOfM3AndM4Divides288) {  // tables 5, 7, 20: 8x1 and 
     const auto stage = [](const std::string& model) {
         const auto found =
             run_netlist("stage\nvdd vdd 0 0.7\nvg g 0 0.35\nvin in 0 0.35\nvout out 0 0.35\n" +
-                elements("a", "in", "0", 8, 1, "g {} 0 x w=1.5u l=0.5u") + elements("b", "y", "0", 2, 4, "g {} 0 x w=1.5u l=0.5u") +
-                elements("c", "vdd", "y", 8, 1, "g {} 0 x w=1.5u l=0.5u") + elements("d", "out", "y", 2, 4, "g {} 0 x w=1.5u l=0.5u") +
-                model + exactly + ".op\n");
+                        elements("a", "in", "0", 8, 1, "g {} 0 x w=1.5u l=0.5u") + elements("b", "y", "0", 2, 4, "g {} 0 x w=1.5u l=0.5u") +
+                        elements("c", "vdd", "y", 8, 1, "g {} 0 x w=1.5u l=0.5u") +
+                        elements("d", "out", "y", 2, 4, "g {} 0 x w=1.5u l=0.5u") + model + exactly + ".op\n");
         return found.number("i(vin)") / found.number("i(vout)");
     };
     EXPECT_NEAR(stage(fmt::format(fmt::runtime(plain_model), 'n')), 288, 0.05);

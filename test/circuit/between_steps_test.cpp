@@ -33,8 +33,8 @@ const std::string slow_inverter =
 
 TEST(BetweenSteps, AnInverterStaysBetweenItsRails) {
     const auto run = run_netlist(slow_inverter +
-                         ".tran 1u 3m\n.meas tran low min v(out)\n.meas tran high max v(out)\n"
-                         ".meas tran edge when v(out)=0.35 rise=1\n");
+                                 ".tran 1u 3m\n.meas tran low min v(out)\n.meas tran high max v(out)\n"
+                                 ".meas tran edge when v(out)=0.35 rise=1\n");
     EXPECT_GT(run.number("low"), -1e-5);
     EXPECT_LT(run.number("high"), 0.7 + 1e-5);
     EXPECT_GT(run.number("high"), 0.7 - 1e-3);
@@ -43,9 +43,9 @@ TEST(BetweenSteps, AnInverterStaysBetweenItsRails) {
 }
 
 TEST(BetweenSteps, ASineOverAResistorIsASine) {
-    const auto run =
-        run_netlist("sine\nv1 in 0 sin(0 1 1k)\nr1 in out 1k\nr2 out 0 1k\n.tran 1u 3m\n"
-            ".meas tran top max v(in)\n.meas tran half max v(out)\n.meas tran rms rms v(in)\n.meas tran i max i(v1)\n");
+    const auto run = run_netlist(
+        "sine\nv1 in 0 sin(0 1 1k)\nr1 in out 1k\nr2 out 0 1k\n.tran 1u 3m\n"
+        ".meas tran top max v(in)\n.meas tran half max v(out)\n.meas tran rms rms v(in)\n.meas tran i max i(v1)\n");
     EXPECT_NEAR(run.number("top"), 1, 2e-5);
     EXPECT_NEAR(run.number("half"), 0.5, 2e-5);
     EXPECT_NEAR(run.number("rms"), std::sqrt(0.5), 5e-5);
@@ -56,9 +56,9 @@ TEST(BetweenSteps, ASineOverAResistorIsASine) {
 }
 
 TEST(BetweenSteps, ASourceIsAsItIsWritten) {
-    const auto run =
-        run_netlist("cap\nv1 in 0 sin(0.2 1 1k)\nv2 top in 2\nc1 top 0 1n\nr1 top 0 1meg\n.tran 100u 3m\n.meas tran top max v(in)\n"
-            ".meas tran sum max v(top)\n.meas tran low min v(in)\n");
+    const auto run = run_netlist(
+        "cap\nv1 in 0 sin(0.2 1 1k)\nv2 top in 2\nc1 top 0 1n\nr1 top 0 1meg\n.tran 100u 3m\n.meas tran top max v(in)\n"
+        ".meas tran sum max v(top)\n.meas tran low min v(in)\n");
     const auto sine = [](double t) { return 0.2 + std::sin(one_turn * 1e3 * t); };
     EXPECT_NEAR(run.number("top"), 1.2, 3e-5);
     EXPECT_NEAR(run.number("low"), -0.8, 3e-5);
@@ -70,9 +70,9 @@ TEST(BetweenSteps, ASourceIsAsItIsWritten) {
 }
 
 TEST(BetweenSteps, ADiodeBlocksReverseCurrent) {
-    const auto run =
-        run_netlist("diode\nv1 in 0 sin(0 5 1k)\nd1 in out d\nr1 out 0 1k\n.model d d(is=1e-14)\n.tran 1u 3m\n"
-            ".meas tran low min v(out)\n.meas tran high max v(out)\n.meas tran i max i(v1)\n");
+    const auto run = run_netlist(
+        "diode\nv1 in 0 sin(0 5 1k)\nd1 in out d\nr1 out 0 1k\n.model d d(is=1e-14)\n.tran 1u 3m\n"
+        ".meas tran low min v(out)\n.meas tran high max v(out)\n.meas tran i max i(v1)\n");
     EXPECT_GT(run.number("low"), -1e-5);
     EXPECT_LT(run.number("i"), 1e-8);
     // 5 V = v + V_T ln(1 + v / 1k / 10 fA)
@@ -82,9 +82,9 @@ TEST(BetweenSteps, ADiodeBlocksReverseCurrent) {
 }
 
 TEST(BetweenSteps, TwoDiodesClampTheirNode) {
-    const auto run =
-        run_netlist("two\nv1 in 0 sin(0 5 1k)\nr1 in out 1k\nd1 out 0 d\nd2 0 out d\nc1 out 0 10f\n.model d d(is=1e-14)\n"
-            ".tran 1u 3m\n.meas tran low min v(out)\n.meas tran high max v(out)\n");
+    const auto run = run_netlist(
+        "two\nv1 in 0 sin(0 5 1k)\nr1 in out 1k\nd1 out 0 d\nd2 0 out d\nc1 out 0 10f\n.model d d(is=1e-14)\n"
+        ".tran 1u 3m\n.meas tran low min v(out)\n.meas tran high max v(out)\n");
     double v = 0.7;
     for (int k = 0; k < 50; ++k) v = 0.0258649 * std::log1p((5 - v) / 1e3 / 1e-14);
     EXPECT_NEAR(run.number("high"), v, 1e-4);
@@ -93,9 +93,9 @@ TEST(BetweenSteps, TwoDiodesClampTheirNode) {
 
 /// An inductor's voltage and a capacitor's current jump where the source starts to rise. An extra point follows the breakpoint.
 TEST(AfterABreakpoint, AJumpIsNotReportedAsARamp) {
-    const auto run =
-        run_netlist("corner\nv1 a 0 pwl(0 0 1m 0 2m 1 3m 1)\nc1 a 0 1u\ni1 0 b pwl(0 0 1m 0 2m 1m 3m 1m)\nl1 b c 1m\nr1 c 0 1k\n"
-            ".tran 10u 3m\n");
+    const auto run = run_netlist(
+        "corner\nv1 a 0 pwl(0 0 1m 0 2m 1 3m 1)\nc1 a 0 1u\ni1 0 b pwl(0 0 1m 0 2m 1m 3m 1m)\nl1 b c 1m\nr1 c 0 1k\n"
+        ".tran 10u 3m\n");
     const auto t = run.curve("time"), i = run.curve("i(v1)"), b = run.curve("v(b)"), c = run.curve("v(c)");
     double early = 1;
     for (std::size_t k = 0; k < t.size(); ++k) {
@@ -105,9 +105,9 @@ TEST(AfterABreakpoint, AJumpIsNotReportedAsARamp) {
         if (t[k] > 1e-3) early = std::min(early, t[k] - 1e-3);
     }
     EXPECT_LT(early, 1e-9);
-    const auto ramps =
-        run_netlist("exp\nv1 a 0 exp(0 1 1m 0.1m 2m 0.2m)\nc1 a 0 1n\n.tran 10u 4m\n.meas tran low min i(v1)\n"
-            ".meas tran high max i(v1)\n");
+    const auto ramps = run_netlist(
+        "exp\nv1 a 0 exp(0 1 1m 0.1m 2m 0.2m)\nc1 a 0 1n\n.tran 10u 4m\n.meas tran low min i(v1)\n"
+        ".meas tran high max i(v1)\n");
     EXPECT_NEAR(ramps.number("low"), -1e-9 / 0.1e-3, 1e-9);
     EXPECT_NEAR(ramps.number("high"), 1e-9 / 0.2e-3 * (1 - std::exp(-10)), 1e-9);
 }
@@ -156,10 +156,10 @@ TEST(AfterABreakpoint, RoundingRejectsNoStep) {
 }
 
 TEST(BetweenSteps, AnExpressionsJumpIsWhereItsInputCrosses) {
-    const auto run =
-        run_netlist("comparator\nv1 in 0 sin(0 1 1k)\nb1 out 0 v=u(v(in)-0.3)\nr1 out 0 1k\nc1 far 0 1n\nr2 out far 10k\n.tran 1u 3m\n"
-            ".meas tran first when v(out)=0.5 rise=1\n.meas tran last when v(out)=0.5 fall=3\n.meas tran high max v(out)\n"
-            ".meas tran low min v(out)\n");
+    const auto run = run_netlist(
+        "comparator\nv1 in 0 sin(0 1 1k)\nb1 out 0 v=u(v(in)-0.3)\nr1 out 0 1k\nc1 far 0 1n\nr2 out far 10k\n.tran 1u 3m\n"
+        ".meas tran first when v(out)=0.5 rise=1\n.meas tran last when v(out)=0.5 fall=3\n.meas tran high max v(out)\n"
+        ".meas tran low min v(out)\n");
     const double up = std::asin(0.3) / one_turn * 1e-3;
     EXPECT_NEAR(run.number("first"), up, 1e-8);
     EXPECT_NEAR(run.number("last"), 2e-3 + 0.5e-3 - up, 1e-8);
@@ -169,9 +169,9 @@ TEST(BetweenSteps, AnExpressionsJumpIsWhereItsInputCrosses) {
 
 /// i(v2) is the current of the expression. Only v(a) has charge and an error estimate, and it hardly changes at the jump.
 TEST(AcceptedPoints, SatisfyTheEquationsWhereAnExpressionJumps) {
-    const auto run =
-        run_netlist("jump\ni1 0 a pulse(-1u 1u 0 1n 1n 0.3m 0.6m)\nc1 a 0 1n\nr1 a 0 100meg\nv2 b 0 1\nb1 b 0 i=50u*u(v(a)-0.1)\n"
-            ".ic v(a)=0\n.tran 1u 3m\n");
+    const auto run = run_netlist(
+        "jump\ni1 0 a pulse(-1u 1u 0 1n 1n 0.3m 0.6m)\nc1 a 0 1n\nr1 a 0 100meg\nv2 b 0 1\nb1 b 0 i=50u*u(v(a)-0.1)\n"
+        ".ic v(a)=0\n.tran 1u 3m\n");
     const auto a = run.curve("v(a)"), i = run.curve("i(v2)"), t = run.curve("time");
     int jumps = 0;
     for (std::size_t k = 1; k < a.size(); ++k) {

@@ -88,7 +88,7 @@ struct Ranges {
             I[side] = end_of({.section = section, .shift = shift}, &BiasSettings::I, side == 0 ? 5e-9 : 5e-6);
         }
     }
-    static double end_of(BiasSettings settings, double BiasSettings::*setting, double edge) {
+    static double end_of(BiasSettings settings, double BiasSettings::* setting, double edge) {
         const auto works = [&](double value) { return settings.*setting = value, Bias(settings).works(); };
         double inside = settings.*setting, outside = edge;
         if (works(edge)) return edge;

@@ -64,7 +64,7 @@ ChargeDrift measure_drift(const std::string& text, double cycle, const std::vect
     bench->system.start_transient(cycle / 100, stop);
     TransientPlan plan;
     plan.stop = stop, plan.max_step = cycle / 8;  // long steps could coincide with the zeros of a sine
-    plan.reltol = 1e-3;                          // charge conservation does not depend on accuracy
+    plan.reltol = 1e-3;                           // charge conservation does not depend on accuracy
     Transient transient(bench->system, bench->newton, plan);
     auto stepped = Result<bool>(true);
     EXPECT_TRUE(transient.begin(start));

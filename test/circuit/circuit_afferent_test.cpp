@@ -17,8 +17,8 @@
 namespace corpuscle::circuit {
 namespace {
 
-using corpuscle::test::TemporaryFolder;
 using corpuscle::test::read_file;
+using corpuscle::test::TemporaryFolder;
 using corpuscle::test::value_or_throw;
 
 /// Force charges a capacitor, and a fast switch discharges it at 1 V. Fast to simulate; it has no stable operating point.

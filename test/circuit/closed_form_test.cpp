@@ -31,10 +31,8 @@ void expect_curve(const NetlistRun& ran, const std::string& name, double toleran
 TEST(ClosedForm, ALowPassFallsOverTwelveDecadesAsOnePole) {
     for (const auto& [R, C] : {std::pair{1e3, 1e-6}, {413e3, 8.8e-12}, {6.6e9, 0.8e-12}}) {
         const auto found = run_netlist(fmt::format("low-pass\nv1 in 0 ac 1\nr1 in out {}\nc1 out 0 {}\n.ac dec 10 1m 1g\n", R, C));
-        expect_curve(
-            found, "v(out)", 1e-12, [r = R, c = C](Complex s) { return 1.0 / (1.0 + s * r * c); }, 3e-16);
-        expect_curve(
-            found, "i(v1)", 1e-12, [r = R, c = C](Complex s) { return -s * c / (1.0 + s * r * c); }, 3e-16 / R);
+        expect_curve(found, "v(out)", 1e-12, [r = R, c = C](Complex s) { return 1.0 / (1.0 + s * r * c); }, 3e-16);
+        expect_curve(found, "i(v1)", 1e-12, [r = R, c = C](Complex s) { return -s * c / (1.0 + s * r * c); }, 3e-16 / R);
     }
 }
 
@@ -44,8 +42,9 @@ TEST(ClosedForm, ASeriesOfRLCResonates) {
     expect_curve(found, "v(out)", 1e-9, [=](Complex s) { return R / (R + s * L + 1.0 / (s * C)); });
     expect_curve(found, "v(a,out)", 1e-9, [=](Complex s) { return 1.0 / (s * C) / (R + s * L + 1.0 / (s * C)); });
     expect_curve(found, "i(l1)", 1e-9, [=](Complex s) { return 1.0 / (R + s * L + 1.0 / (s * C)); });
-    const auto at = run_netlist(fmt::format("at resonance\nv1 in 0 ac 1\nl1 in a 10u\nc1 a out 100p\nr1 out 0 2\n.ac lin 1 {0:.17g} {0:.17g}\n",
-                                    1 / (2 * pi * std::sqrt(L * C))));
+    const auto at =
+        run_netlist(fmt::format("at resonance\nv1 in 0 ac 1\nl1 in a 10u\nc1 a out 100p\nr1 out 0 2\n.ac lin 1 {0:.17g} {0:.17g}\n",
+                                1 / (2 * pi * std::sqrt(L * C))));
     EXPECT_LE(std::abs(at.complex_curve("v(out)")[0] - 1.0), 1e-9);
     EXPECT_NEAR(std::abs(at.complex_curve("v(a,out)")[0]), std::sqrt(L / C) / R, 1e-7);
 }
@@ -89,7 +88,8 @@ TEST(ClosedForm, ALadderOfDiodesToGroundIsShotFromItsEnd) {
                 return v;
             };
             const double end = crossing(0, volt, [&](double v) { return start(v) - volt; });
-            EXPECT_NEAR(run_netlist(text + ".op\n").number(fmt::format("v(n{})", count)), end, 1e-8 * end) << count << " at " << volt << " V";
+            EXPECT_NEAR(run_netlist(text + ".op\n").number(fmt::format("v(n{})", count)), end, 1e-8 * end)
+                << count << " at " << volt << " V";
         }
 }
 
@@ -124,7 +124,8 @@ TEST(ClosedForm, AWheatstoneBridgeIsBalancedAndIsNot) {
 TEST(ClosedForm, AnAmplifierOfControlledSourcesHasItsGainAndResistances) {
     // a degenerated transconductance: v_in across r_pi drives g_m into r_e
     const double r_s = 600, r_pi = 10e3, g_m = 20e-3, r_e = 100, r_c = 5e3;
-    const auto found = run_netlist("degenerated\nv1 in 0 1\nrs in b 600\nrpi b e 10k\nre e 0 100\ng1 c e b e 20m\nrc c 0 5k\n.tf v(c) v1\n");
+    const auto found =
+        run_netlist("degenerated\nv1 in 0 1\nrs in b 600\nrpi b e 10k\nre e 0 100\ng1 c e b e 20m\nrc c 0 5k\n.tf v(c) v1\n");
     const double in = r_pi + (1 + g_m * r_pi) * r_e;
     EXPECT_NEAR(found.number("transfer_function"), -g_m * r_pi * r_c / (r_s + in), 1e-9);
     EXPECT_NEAR(found.number("v1#input_impedance"), r_s + in, 1e-6);
@@ -139,9 +140,9 @@ TEST(ClosedForm, AnAmplifierOfControlledSourcesHasItsGainAndResistances) {
     EXPECT_NEAR(inverting.number("v1#input_impedance"), R1 + (R2 + R_o) / (1 + A), 1e-8);
 
     // a current copied by F and converted to a voltage by H
-    const auto currents =
-        run_netlist("currents\ni1 0 a 1m\nva a b 0\nr1 b 0 50\nf1 0 c va 20\nr2 c 0 1k\nvc c d 0\nr3 d 0 1k\nh1 out 0 vc 300\nr4 out 0 1\n"
-            ".tf v(out) i1\n");
+    const auto currents = run_netlist(
+        "currents\ni1 0 a 1m\nva a b 0\nr1 b 0 50\nf1 0 c va 20\nr2 c 0 1k\nvc c d 0\nr3 d 0 1k\nh1 out 0 vc 300\nr4 out 0 1\n"
+        ".tf v(out) i1\n");
     EXPECT_NEAR(currents.number("transfer_function"), 20 * 0.5 * 300, 1e-9);
     EXPECT_NEAR(currents.number("i1#input_impedance"), 50, 1e-10);
 }

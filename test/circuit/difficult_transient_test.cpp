@@ -17,8 +17,8 @@ constexpr double two_pi = 2 * std::numbers::pi;
 TEST(DifficultTransient, AJumpPassesThroughACapacitorCompletely) {
     for (const double rise : {1e-9, 1e-12}) {
         const double from = 1e-3, to = from + rise;
-        const auto circuit =
-            TransientRunner::from_text(fmt::format("jump\nv1 in 0 pwl(0 0 {:.17g} 0 {:.17g} 1)\nc1 in out 1u\nr1 out 0 1k\n.tran 10u 6m\n", from, to));
+        const auto circuit = TransientRunner::from_text(
+            fmt::format("jump\nv1 in 0 pwl(0 0 {:.17g} 0 {:.17g} 1)\nc1 in out 1u\nr1 out 0 1k\n.tran 10u 6m\n", from, to));
         const auto run = circuit.run({});
         ASSERT_EQ(run.error, "") << rise;
         const auto v = run.values(circuit.unknown("v(out)"));
@@ -51,8 +51,9 @@ TEST(DifficultTransient, AJumpOfNoDurationIsTakenAsOne) {
 
 /// The thesis's filter B at 500 Hz: amplitude and phase at its output agree with .ac.
 TEST(DifficultTransient, AFastSinePassesTheFilterByItsSpectrum) {
-    const auto filter = TransientRunner::from_file(test::source_root() + "/circuits/high_pass.cir",
-                                     {{"vf ", "vf vf 0 dc 0.35 ac 1 sin(0.35 0.02 500)"}, {".ac", ".ac lin 1 500 500\n.tran 1u 0.2"}});
+    const auto filter =
+        TransientRunner::from_file(test::source_root() + "/circuits/high_pass.cir",
+                                   {{"vf ", "vf vf 0 dc 0.35 ac 1 sin(0.35 0.02 500)"}, {".ac", ".ac lin 1 500 500\n.tran 1u 0.2"}});
     const auto run = filter.run({});
     ASSERT_EQ(run.error, "");
     EXPECT_GT(run.stats.steps, 100 * 8);  // over a hundred periods; steps of two periods would miss the sine

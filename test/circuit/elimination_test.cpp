@@ -19,7 +19,8 @@ struct SparseMatrix {
     double times(int row, const std::vector<double>& x) const {
         double sum = 0;
         for (int column = 0; column < pattern.size(); ++column)
-            for (int e = pattern.column_begin()[static_cast<std::size_t>(column)]; e < pattern.column_begin()[static_cast<std::size_t>(column) + 1]; ++e)
+            for (int e = pattern.column_begin()[static_cast<std::size_t>(column)];
+                 e < pattern.column_begin()[static_cast<std::size_t>(column) + 1]; ++e)
                 if (pattern.rows()[static_cast<std::size_t>(e)] == row)
                     sum += values[static_cast<std::size_t>(e)] * x[static_cast<std::size_t>(column)];
         return sum;

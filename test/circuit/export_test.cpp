@@ -177,10 +177,11 @@ TEST(ExportedDirectives, AreMeasuredByNgspiceAsHere) {
 
 TEST(ExportedDirectives, TheForceIsExportedInItsSources) {
     const TemporaryFolder folder;
-    const auto circuit = elaborate_netlist(folder.write("touch.cir",
-                                                 "touched\nvf f 0 force 2\nrf f s 1k\ncs s 0 10u\n.force press f_max=3\n.tran 1m 1 0 2m\n"
-                                                 ".meas tran rising find v(s) at=0.31\n.meas tran held find v(s) at=0.5\n"
-                                                 ".meas tran falling find v(s) at=0.7\n"));
+    const auto circuit =
+        elaborate_netlist(folder.write("touch.cir",
+                                       "touched\nvf f 0 force 2\nrf f s 1k\ncs s 0 10u\n.force press f_max=3\n.tran 1m 1 0 2m\n"
+                                       ".meas tran rising find v(s) at=0.31\n.meas tran held find v(s) at=0.5\n"
+                                       ".meas tran falling find v(s) at=0.7\n"));
     const auto shared = std::make_shared<Circuit>(*circuit);
     const auto log = run_ngspice(folder.write("deck.cir", exported(shared)), "");
     const auto mine = run_directives(shared);
@@ -287,7 +288,7 @@ TEST(ExpressionText, ReadsBackAsTheSameExpression) {
                 for (const auto& in : f.inputs())
                     out.push_back(in.kind == ExpressionInput::Kind::voltage   ? (in.minus.empty() ? (in.name == "a" ? x : 0.7) : x - 0.7)
                                   : in.kind == ExpressionInput::Kind::current ? 0.3 * x
-                                                                           : 27);
+                                                                              : 27);
                 return out;
             };
             const double a = first->value(values(*first)), b = again->value(values(*again));
@@ -302,7 +303,8 @@ TEST(ExportVerb, WritesACompleteDeckOrNothing) {
     const TemporaryFolder folder;
     folder.write("x.cir", "divider\nv1 in 0 3\nr1 in out 1k\nr2 out 0 2k\n.op\n.expect v(out) 2 1%\n");
     folder.write("bad.cir", "t\nv1 a 0 1\nr1 a 0 1k\nr2 a\n.op\n");
-    const auto printed = run_program(folder, "export x.cir --for ngspice"), written = run_program(folder, "export x.cir --for ngspice -o y.cir");
+    const auto printed = run_program(folder, "export x.cir --for ngspice"),
+               written = run_program(folder, "export x.cir --for ngspice -o y.cir");
     EXPECT_EQ(printed.status, 0) << printed.err;
     EXPECT_TRUE(printed.out.starts_with("divider\n* ")) << printed.out;
     EXPECT_TRUE(printed.out.ends_with(".end\n")) << printed.out;

@@ -136,8 +136,8 @@ TEST(Expression, NamesItsInputsOnceAndInOrder) {
     ASSERT_TRUE(f) << f.error().text();
     using Kind = ExpressionInput::Kind;
     const std::vector<ExpressionInput> wanted{{Kind::voltage, "a", ""}, {Kind::current, "vx", ""},   {Kind::voltage, "b", "a"},
-                                           {Kind::time, "", ""},     {Kind::temperature, "", ""}, {Kind::voltage, "c", ""},
-                                           {Kind::voltage, "d", ""}};
+                                              {Kind::time, "", ""},     {Kind::temperature, "", ""}, {Kind::voltage, "c", ""},
+                                              {Kind::voltage, "d", ""}};
     EXPECT_EQ(std::vector<ExpressionInput>(f->inputs().begin(), f->inputs().end()), wanted);
     const double x[] = {1, -1, 10, 100, 27, 5, 3};
     EXPECT_EQ(f->value(x), 2 + 0 + 10 + 100 + 27 + 5 + 3);

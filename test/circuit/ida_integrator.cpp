@@ -141,7 +141,8 @@ Run::Run(System& system, double gmin, const std::vector<double>& start, const Id
     std::copy(start.begin(), start.end(), data_of(y_));
     matrix_.reset(SUNSparseMatrix(count, count, entries, CSC_MAT, context_.get()));
     linear_.reset(SUNLinSol_KLU(y_.get(), matrix_.get(), context_.get()));
-    if (options.crossing_unknown >= 0) equations_.watched = static_cast<std::size_t>(options.crossing_unknown), equations_.level = options.crossing_level;
+    if (options.crossing_unknown >= 0)
+        equations_.watched = static_cast<std::size_t>(options.crossing_unknown), equations_.level = options.crossing_level;
 }
 
 /// Absolute tolerances: vntol for voltages, a node's capacitance times vntol for charges. Currents are not checked.
@@ -216,7 +217,8 @@ bool Run::advance_to(double breakpoint) {
 }
 
 IdaResult Run::integrate() {
-    for (; next_ < options_.output_times.size() && options_.output_times[next_] <= 0; ++next_) out_.x.emplace_back(data_of(y_), data_of(y_) + n_);
+    for (; next_ < options_.output_times.size() && options_.output_times[next_] <= 0; ++next_)
+        out_.x.emplace_back(data_of(y_), data_of(y_) + n_);
     while (t_ < options_.stop) {
         double breakpoint = equations_.system().next_breakpoint(t_ + 1e-12 * options_.stop);  // skips the current one
         if (breakpoint > options_.stop * (1 - 1e-12)) breakpoint = options_.stop;

@@ -12,11 +12,11 @@ namespace corpuscle::circuit {
 /// Options of one integration. Optionally records the times when one unknown rises through a level.
 struct IdaOptions {
     double step = 0, stop = 0;           ///< s; step and end of the analysis, as passed to the sources
-    std::vector<double> output_times{};         ///< s, ascending; the times at which x is stored
-    int crossing_unknown = -1;                    ///< index of the unknown whose crossings are recorded; -1 for none
-    double crossing_level = 0;                    ///< V
+    std::vector<double> output_times{};  ///< s, ascending; the times at which x is stored
+    int crossing_unknown = -1;           ///< index of the unknown whose crossings are recorded; -1 for none
+    double crossing_level = 0;           ///< V
     double reltol = 1e-9, vntol = 1e-9;  ///< vntol in V; the tolerance of a charge is vntol times the capacitance of its node
-    long max_steps = 20'000'000;              ///< steps
+    long max_steps = 20'000'000;         ///< steps
 };
 
 struct IdaResult {

@@ -5,8 +5,8 @@
 #include <numbers>
 #include <numeric>
 
-#include "circuit/transient_runner.hpp"
 #include "circuit/oscillator.hpp"
+#include "circuit/transient_runner.hpp"
 
 namespace corpuscle::circuit {
 namespace {
@@ -15,11 +15,13 @@ const std::string loops = test::source_root() + "/test/circuit/loops/";
 
 /// The thesis's high-pass filters with another input waveform and duration.
 TransientRunner high_pass(const std::string& waveform, const std::string& stop) {
-    return TransientRunner::from_file(test::source_root() + "/circuits/high_pass.cir", {{"vf ", "vf vf 0 " + waveform}, {".ac", ".tran 1u " + stop}});
+    return TransientRunner::from_file(test::source_root() + "/circuits/high_pass.cir",
+                                      {{"vf ", "vf vf 0 " + waveform}, {".ac", ".tran 1u " + stop}});
 }
 
 /// For each run, the largest difference (V) of an unknown from IDA's result, at the run's own points after `from` (s).
-std::vector<double> distances(const TransientRunner& circuit, const std::vector<TransientPoints>& runs, const std::string& name, double from = 0) {
+std::vector<double> distances(const TransientRunner& circuit, const std::vector<TransientPoints>& runs, const std::string& name,
+                              double from = 0) {
     IdaOptions options;
     for (const auto& run : runs) options.output_times.insert(options.output_times.end(), run.t.begin(), run.t.end());
     std::sort(options.output_times.begin(), options.output_times.end());
@@ -33,7 +35,8 @@ std::vector<double> distances(const TransientRunner& circuit, const std::vector<
         EXPECT_EQ(run.error, "");
         double worst = 0;
         for (std::size_t k = 0; k < run.t.size(); ++k) {
-            const auto at = std::lower_bound(options.output_times.begin(), options.output_times.end(), run.t[k]) - options.output_times.begin();
+            const auto at =
+                std::lower_bound(options.output_times.begin(), options.output_times.end(), run.t[k]) - options.output_times.begin();
             if (run.t[k] > from && static_cast<std::size_t>(at) < reference.x.size())
                 worst = std::max(worst, std::abs(run.x[k][u] - reference.x[static_cast<std::size_t>(at)][u]));
         }
@@ -105,7 +108,8 @@ TEST(Ida, AgreesWithTheClosedFormOfAChargingCapacitor) {
     ASSERT_EQ(found.x.size(), 4U);
     const auto exact = [](double t) { return 1 - 1e3 * std::expm1(1e-3) * std::exp(-(t - 1e-3) / 1e-3); };
     for (std::size_t k = 1; k < 4; ++k)
-        EXPECT_NEAR(found.x[k][static_cast<std::size_t>(options.crossing_unknown)], exact(options.output_times[k]), 1e-7) << options.output_times[k];
+        EXPECT_NEAR(found.x[k][static_cast<std::size_t>(options.crossing_unknown)], exact(options.output_times[k]), 1e-7)
+            << options.output_times[k];
     ASSERT_EQ(found.crossings.size(), 1U);
     EXPECT_NEAR(exact(found.crossings[0]), 0.5, 1e-7);
 }

@@ -126,12 +126,12 @@ TEST(MeasureInfo, ReportsErrorsWithTheirLocation) {
 
 /// A transient with a closed form: v(out) of an RC with a step at 1 ms.
 TEST(MeasureInfo, OfAChargingCapacitorAgreesWithTheClosedForm) {
-    const auto found =
-        run_netlist("rc\nv1 in 0 pulse(0 1 1m 1n 1n 1 2)\nr1 in out 1k\nc1 out 0 1u\n.tran 10u 6m 0 2u\n.meas tran half when v(out)=0.5\n"
-            ".meas tran later trig v(in) val=0.5 rise=1 targ v(out) val=0.9 rise=1\n.meas tran mean avg v(out) from=1.5m to=2.5m\n"
-            ".meas tran effective rms v(out) from=1.5m to=2.5m\n.meas tran area integ v(out) from=1.5m to=2.5m\n"
-            ".meas tran least min v(out) from=1.5m to=2.5m\n.meas tran most max v(out) from=1.5m to=2.5m\n"
-            ".meas tran slope deriv v(out) when v(out)=0.5\n.meas tran times count v(out)=0.5\n.meas tran sum param='half+later'\n");
+    const auto found = run_netlist(
+        "rc\nv1 in 0 pulse(0 1 1m 1n 1n 1 2)\nr1 in out 1k\nc1 out 0 1u\n.tran 10u 6m 0 2u\n.meas tran half when v(out)=0.5\n"
+        ".meas tran later trig v(in) val=0.5 rise=1 targ v(out) val=0.9 rise=1\n.meas tran mean avg v(out) from=1.5m to=2.5m\n"
+        ".meas tran effective rms v(out) from=1.5m to=2.5m\n.meas tran area integ v(out) from=1.5m to=2.5m\n"
+        ".meas tran least min v(out) from=1.5m to=2.5m\n.meas tran most max v(out) from=1.5m to=2.5m\n"
+        ".meas tran slope deriv v(out) when v(out)=0.5\n.meas tran times count v(out)=0.5\n.meas tran sum param='half+later'\n");
     const auto e = [](double x) { return std::exp(-x); };
     const double mean = 1 - (e(0.5) - e(1.5)), square = 1 - 2 * (e(0.5) - e(1.5)) + 0.5 * (e(1) - e(3));
     EXPECT_NEAR(found.number("half"), 1e-3 + 1e-3 * std::log(2), 1e-6);
@@ -147,10 +147,10 @@ TEST(MeasureInfo, OfAChargingCapacitorAgreesWithTheClosedForm) {
 }
 
 TEST(MeasureInfo, TakesExpressionsOfCurves) {
-    const auto found =
-        run_netlist("t\nv1 a 0 pwl(0 0 1 2)\nr1 a 0 2\n.tran 1m 1 0 1m\n.meas tran energy integ par('-v(a)*i(v1)')\n"
-            ".meas tran when_half when par('v(a)>=0.5 ? 1 : -1')=0\n.meas tran after trig par('v(a)^2') val=1 rise=1 targ "
-            "par('v(a)^2')=par('4*time') rise=1\n.print tran par('v(a)*time')\n");
+    const auto found = run_netlist(
+        "t\nv1 a 0 pwl(0 0 1 2)\nr1 a 0 2\n.tran 1m 1 0 1m\n.meas tran energy integ par('-v(a)*i(v1)')\n"
+        ".meas tran when_half when par('v(a)>=0.5 ? 1 : -1')=0\n.meas tran after trig par('v(a)^2') val=1 rise=1 targ "
+        "par('v(a)^2')=par('4*time') rise=1\n.print tran par('v(a)*time')\n");
     EXPECT_NEAR(found.number("energy"), 2.0 / 3, 1e-6);
     EXPECT_NEAR(found.number("when_half"), 0.25, 1e-3);
 }

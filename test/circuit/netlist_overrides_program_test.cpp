@@ -10,9 +10,9 @@
 namespace corpuscle {
 namespace {
 
-using test::TemporaryFolder;
 using test::read_file;
 using test::run_program;
+using test::TemporaryFolder;
 using Json = nlohmann::json;
 
 bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
@@ -31,9 +31,10 @@ TEST(NetlistOverridesProgram, TheChipRespondsInAnyFolderAndOverridesChangeIt) {
     const TemporaryFolder folder;
     const std::string press = "respond press --quiet --afferent ";
     ASSERT_EQ(run_program(folder, press + "sa1-circuit -o plain").status, 0);
-    const auto set = run_program(folder, press +
-                                     "SA1-circuit --set sa1-circuit.C_u=9pF --set SA1-circuit.summer.N3B=12x4 --corner tt --temp 27 "
-                                     "--trace 'VF,i(N3B),rectb.o' -o set");
+    const auto set =
+        run_program(folder, press +
+                                "SA1-circuit --set sa1-circuit.C_u=9pF --set SA1-circuit.summer.N3B=12x4 --corner tt --temp 27 "
+                                "--trace 'VF,i(N3B),rectb.o' -o set");
     ASSERT_EQ(set.status, 0) << set.err;
     EXPECT_EQ(spikes_in(folder, "plain"), 14U);
     EXPECT_LT(spikes_in(folder, "set"), 10U) << "a membrane of twice the capacitance";
@@ -54,7 +55,8 @@ TEST(NetlistOverridesProgram, TheChipRespondsInAnyFolderAndOverridesChangeIt) {
 TEST(NetlistOverridesProgram, OptionsApplyToEveryNetlistAndAnOverrideForOneTakesPrecedence) {
     const TemporaryFolder folder;
     folder.write("a.cir", divider_text), folder.write("b.cir", divider_text);
-    const auto ran = run_program(folder, "respond step -a a.cir,b.cir,sa1 --supply 0.5V --set b.cir.SUPPLY=2 --trace 'div.a,mid,i(top)' -o out");
+    const auto ran =
+        run_program(folder, "respond step -a a.cir,b.cir,sa1 --supply 0.5V --set b.cir.SUPPLY=2 --trace 'div.a,mid,i(top)' -o out");
     ASSERT_EQ(ran.status, 1) << "vdd is the node, div.a only a port";
     EXPECT_TRUE(has(ran.err, "--trace div.a: no netlist of this run has such a node or device")) << ran.err;
     const auto good =

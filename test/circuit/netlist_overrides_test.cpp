@@ -7,8 +7,8 @@
 #include <map>
 
 #include "circuit/circuit_afferent.hpp"
-#include "circuit/netlist_runner.hpp"
 #include "circuit/hierarchical_names.hpp"
+#include "circuit/netlist_runner.hpp"
 #include "circuit/resolve_probe.hpp"
 #include "support/support.hpp"
 
@@ -87,7 +87,7 @@ TEST(NetlistOverrides, AnOverrideChangesItsValueAndNothingElse) {
     const OverrideFiles files(blocks);
     const auto plain = value_or_throw(files.set({}));
     const auto c = value_or_throw(files.set({"C_u=4pF", "GAIN=3", "one.left.N1=8x3", "xtwo.xright.mn1.w=1.2um", "triple.n1.M=5",
-                                   "two.left.ru=20 kohm", "two.right.cu=7p", "triple.ru.m=4", "p=2 V", "temp=85"}));
+                                             "two.left.ru=20 kohm", "two.right.cu=7p", "triple.ru.m=4", "p=2 V", "temp=85"}));
     EXPECT_EQ(c.parameters.at("c_u"), 4e-12);
     EXPECT_EQ(element(c, "xone.xleft.cu").value, 4e-12);
     EXPECT_EQ(element(c, "xtwo.xright.cu").value, 7e-12);
@@ -175,7 +175,8 @@ TEST(NetlistOverrides, ACornerReplacesTheSectionOfEachLibraryThatHasIt) {
 TEST(EmbeddedNetlists, AreTheFilesOfTheProject) {
     for (const auto& c : embedded_netlists) {
         const auto by_name = value_or_throw(CircuitAfferentFactory::create(value_or_throw(open_netlist(std::string(c.name)))));
-        const auto by_path = value_or_throw(CircuitAfferentFactory::create(value_or_throw(Netlist::read(test::source_root() + "/" + std::string(c.file)))));
+        const auto by_path =
+            value_or_throw(CircuitAfferentFactory::create(value_or_throw(Netlist::read(test::source_root() + "/" + std::string(c.file)))));
         EXPECT_EQ(by_name->fingerprint, by_path->fingerprint) << c.name;
         EXPECT_EQ(by_name->title(), by_path->title());
         EXPECT_EQ(by_name->circuit->file, c.file);
@@ -185,8 +186,9 @@ TEST(EmbeddedNetlists, AreTheFilesOfTheProject) {
     const auto overrides = std::vector<NetlistOverride>{make_override("corner=ss"), make_override("summer.N3B=8x4")};
     const auto ss = value_or_throw(value_or_throw(apply_overrides("sa1-circuit", overrides)).elaborate());
     EXPECT_EQ(element(ss, "xsummer.mn3b").values.at("m"), 8);
-    EXPECT_NEAR(ss.models[0].values.at("vto") - value_or_throw(value_or_throw(open_netlist("sa1-circuit")).elaborate()).models[0].values.at("vto"), 0.04,
-                1e-12);
+    EXPECT_NEAR(
+        ss.models[0].values.at("vto") - value_or_throw(value_or_throw(open_netlist("sa1-circuit")).elaborate()).models[0].values.at("vto"),
+        0.04, 1e-12);
 }
 
 std::string spiker_text(const std::string& section, const std::string& more) {
@@ -204,7 +206,8 @@ std::vector<Spike> spikes_of_copy(const Netlist& netlist, std::uint32_t copy) {
 
 TEST(NetlistOverrides, MismatchIsTheFirstChipOfASample) {
     for (const std::string section : {"tt", "mc"}) {
-        const auto sampled = value_or_throw(parse_netlist_text(spiker_text(section, ".mc 3 seed=7\n"))), plain = value_or_throw(parse_netlist_text(spiker_text(section, "")));
+        const auto sampled = value_or_throw(parse_netlist_text(spiker_text(section, ".mc 3 seed=7\n"))),
+                   plain = value_or_throw(parse_netlist_text(spiker_text(section, "")));
         auto with = [&](const Netlist& netlist) {
             ResolvedOverrides changes;
             changes.mismatch_seed = 7;
@@ -228,7 +231,8 @@ TEST(NetlistOverrides, AnotherNumberGivesAnotherFingerprintAlsoInAnExpression) {
         "t\n.param g=1 v0=0\niin 0 a force 1u\nr1 a 0 1k\nb1 a 0 i={g*1u*v(a)}\nc1 a 0 1n\n.ic v(a)={v0}\n.spike v(a) 1\n";
     const OverrideFiles files(text);
     const auto fingerprint = [&](const std::vector<std::string>& overrides) {
-        return value_or_throw(CircuitAfferentFactory::create(std::make_shared<const Circuit>(value_or_throw(files.set(overrides)))))->fingerprint;
+        return value_or_throw(CircuitAfferentFactory::create(std::make_shared<const Circuit>(value_or_throw(files.set(overrides)))))
+            ->fingerprint;
     };
     EXPECT_EQ(fingerprint({}), fingerprint({"g=1"}));
     EXPECT_NE(fingerprint({}), fingerprint({"g=2"}));
@@ -238,9 +242,10 @@ TEST(NetlistOverrides, AnotherNumberGivesAnotherFingerprintAlsoInAnExpression) {
 }
 
 TEST(ProbeNames, NodesAndCurrentsAreFoundByPartialNames) {
-    const auto c = value_or_throw(OverrideFiles("t\n.model nm nmos (level=80)\n.subckt cell a\nmn1 a o 0 0 nm\nro o 0 1k\nco o 0 1p\n.ends\n"
-                                      "xb Vf cell\nxc vf cell\nvdd vf 0 1\nr1 vf u 1\nr2 u 0 1\n.op\n")
-                            .set({}));
+    const auto c =
+        value_or_throw(OverrideFiles("t\n.model nm nmos (level=80)\n.subckt cell a\nmn1 a o 0 0 nm\nro o 0 1k\nco o 0 1p\n.ends\n"
+                                     "xb Vf cell\nxc vf cell\nvdd vf 0 1\nr1 vf u 1\nr2 u 0 1\n.op\n")
+                           .set({}));
     const auto is = [&](const std::string& word, const std::string& name) {
         const auto found = resolve_probe(c, word);
         ASSERT_TRUE(found) << found.error().message;
@@ -263,9 +268,9 @@ TEST(ProbeNames, NodesAndCurrentsAreFoundByPartialNames) {
 }
 
 TEST(SavedQuantity, ADevicesOwnCurrentEqualsItsSupplyCurrent) {
-    const auto found =
-        run_netlist("t\n.lib 'tsmc180.lib' tt\nvd d 0 0.5\nvg g 0 0.45\nm1 d g 0 0 nch w=1.5u l=0.5u m=2\nvr a 0 1\nr1 a 0 4k\n"
-            ".save i(m1) i(vd) i(r1) v(d)\n.meas dc most max i(m1)\n.op\n.dc vg 0.3 0.5 0.1\n.tran 1m 2m\n");
+    const auto found = run_netlist(
+        "t\n.lib 'tsmc180.lib' tt\nvd d 0 0.5\nvg g 0 0.45\nm1 d g 0 0 nch w=1.5u l=0.5u m=2\nvr a 0 1\nr1 a 0 4k\n"
+        ".save i(m1) i(vd) i(r1) v(d)\n.meas dc most max i(m1)\n.op\n.dc vg 0.3 0.5 0.1\n.tran 1m 2m\n");
     for (const std::string analysis : {"op", "dc", "tran"}) {
         const auto drain = found.curve("i(m1)", analysis), supply = found.curve("i(vd)", analysis);
         ASSERT_EQ(drain.size(), supply.size()) << analysis;

@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "circuit/curve_view.hpp"
-#include "circuit/run_directives.hpp"
 #include "circuit/netlist_variants.hpp"
+#include "circuit/run_directives.hpp"
 #include "support/test_paths.hpp"
 
 namespace corpuscle::circuit {
@@ -62,7 +62,9 @@ inline Result<std::string> read_text_file(const std::string& path) {
     return std::string(std::istreambuf_iterator<char>(file), {});
 }
 
-inline Result<Netlist> parse_netlist_text(const std::string& text) { return Netlist::parse(text, test::source_root() + "/process/test.cir", read_text_file); }
+inline Result<Netlist> parse_netlist_text(const std::string& text) {
+    return Netlist::parse(text, test::source_root() + "/process/test.cir", read_text_file);
+}
 
 inline std::shared_ptr<const Circuit> make_circuit(const std::string& text) {
     const auto netlist = parse_netlist_text(text);

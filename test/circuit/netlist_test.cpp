@@ -430,7 +430,7 @@ TEST(NetlistCommands, AreWordsWithTheirLocationsAndValues) {
     EXPECT_EQ(c.directives[0].columns, (std::vector<int>{7, 11}));
     EXPECT_EQ(c.directives[0].location.line, 4);
     EXPECT_EQ(c.directives[1].words, (std::vector<std::string>{"tran", "tt", "trig", "v(a,0)", "val=0.90000000000000002", "rise=1", "targ",
-                                                             "v(a)", "val=1.6200000000000001", "fall=last"}));
+                                                               "v(a)", "val=1.6200000000000001", "fall=last"}));
     EXPECT_EQ(c.directives[2].words, (std::vector<std::string>{"rate", ">=", "20", "tol={unknown}"}));
     EXPECT_EQ(c.directives[3].words, (std::vector<std::string>{"\"Keep Case\"", "v(a,b)", "i(v1)"}));
     EXPECT_EQ(c.directives[4].words[2], "1.8");
@@ -479,8 +479,9 @@ TEST(NetlistWarnings, PointAtMisleadingNumbers) {
         return out;
     };
     using Messages = std::vector<std::string>;
-    EXPECT_EQ(warnings("t\nC1 a 0 1F\nC2 a 0 10f\nC3 a 0 1uF\nC4 a 0 c=2F\n"),
-              (Messages{"t.cir:2:8: c1: 1F is 1 femtofarad; for a farad write 1", "t.cir:5:10: c4: 2F is 2 femtofarad; for a farad write 2"}));
+    EXPECT_EQ(
+        warnings("t\nC1 a 0 1F\nC2 a 0 10f\nC3 a 0 1uF\nC4 a 0 c=2F\n"),
+        (Messages{"t.cir:2:8: c1: 1F is 1 femtofarad; for a farad write 1", "t.cir:5:10: c4: 2F is 2 femtofarad; for a farad write 2"}));
     EXPECT_EQ(
         warnings("t\nR1 a 0 5M\nR2 a 0 5m\nR3 a 0 5Meg\nR4 a 0 5MEG\nR5 a 0 1Mohm\n"),
         (Messages{"t.cir:2:8: r1: 5M is 5 milliohm; for a megohm write 5Meg", "t.cir:6:8: r5: 1M is 1 milliohm; for a megohm write 1Meg"}));
@@ -491,7 +492,7 @@ TEST(NetlistWarnings, PointAtMisleadingNumbers) {
         EXPECT_TRUE(warnings(std::string(title) + "\n").empty()) << title;
     EXPECT_EQ(warnings("t\n.control\nfoo 'bar \xff\n.endc\n.param a=1\n.param a=2\n"),
               (Messages{"t.cir:2:1: .control ... .endc is an ngspice script and is ignored",
-                    "t.cir:6:8: .param a is given twice; this value is used"}));
+                        "t.cir:6:8: .param a is given twice; this value is used"}));
 }
 
 RC_GTEST_PROP(Netlist, TakesAnyTextWithoutHarm, (const std::vector<std::string>& lines)) {

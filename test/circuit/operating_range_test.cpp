@@ -58,7 +58,8 @@ TEST(OperatingRange, RespondWarnsOnce) {
 
 TEST(OperatingRange, ErrorsNameTheirLocation) {
     const auto refusal = [](const std::string& line) {
-        const auto made = CircuitAfferentFactory::create(test::value_or_throw(parse_netlist_text("t\nvf f 0 force 1\nr1 f 0 1\n.spike v(f) 1\n" + line + "\n")));
+        const auto made = CircuitAfferentFactory::create(
+            test::value_or_throw(parse_netlist_text("t\nvf f 0 force 1\nr1 f 0 1\n.spike v(f) 1\n" + line + "\n")));
         return made ? std::string() : made.error().message;
     };
     EXPECT_EQ(refusal(".within v(f) 0 1"), "");

@@ -11,11 +11,12 @@
 namespace corpuscle::circuit {
 
 struct RandomCircuit {
-    std::string text;               ///< a netlist with .tran; file names are relative to process/
+    std::string text;                              ///< a netlist with .tran; file names are relative to process/
     double min_voltage = -1e9, max_voltage = 1e9;  ///< V; range that no node voltage may leave
-    TransientPlan plan{};           ///< the default, except where an error of 10 uV per step is too large
+    TransientPlan plan{};                          ///< the default, except where an error of 10 uV per step is too large
     /// Describes what is wrong with a finished run; empty if nothing is.
-    std::function<std::string(const TransientRunner&, const TransientPoints&)> find_fault = [](const TransientRunner&, const TransientPoints&) { return std::string(); };
+    std::function<std::string(const TransientRunner&, const TransientPoints&)> find_fault =
+        [](const TransientRunner&, const TransientPoints&) { return std::string(); };
 };
 
 /// Random numbers that are the same on every platform.

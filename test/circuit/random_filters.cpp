@@ -81,7 +81,8 @@ RandomCircuit make_first_order(RandomSource& dice) {
     Breakpoints breakpoints = {{0, 0}};
     std::string waveform;
     if (dice.index_below(2) == 0) {
-        const double delay = dice.uniform_between(0.1, 1) * tau, rise = tau * dice.log_uniform(1e-4, 1), width = dice.uniform_between(0.5, 3) * tau;
+        const double delay = dice.uniform_between(0.1, 1) * tau, rise = tau * dice.log_uniform(1e-4, 1),
+                     width = dice.uniform_between(0.5, 3) * tau;
         const double pause = dice.uniform_between(0.5, 3) * tau, period = 2 * rise + width + pause;
         waveform = fmt::format("pulse(0 1 {:.9g} {:.9g} {:.9g} {:.9g} {:.9g})", delay, rise, rise, width, period);
         for (int round = 0; round < 3; ++round) {
@@ -125,8 +126,8 @@ RandomCircuit make_tank(RandomSource& dice) {
                            1 / (natural * natural * C), C, R) +
                fmt::format(".tran {:.6g} {:.9g} uic\n", 0.01 / omega, 5 * full_turn / omega);
     out.min_voltage = -1.01, out.max_voltage = 1.01;
-    out.find_fault = agrees_with([=](double t) { return std::exp(-alpha * t) * (std::cos(omega * t) - alpha / omega * std::sin(omega * t)); },
-                            4 * max_error);
+    out.find_fault = agrees_with(
+        [=](double t) { return std::exp(-alpha * t) * (std::cos(omega * t) - alpha / omega * std::sin(omega * t)); }, 4 * max_error);
     return out;
 }
 

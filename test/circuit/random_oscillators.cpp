@@ -8,7 +8,8 @@ namespace corpuscle::circuit {
 namespace {
 
 /// Fault of an oscillation: at least three intervals after the first are required, all within 0.5 %. Fewer are allowed unless must_swing.
-std::string period_fault(const TransientRunner& circuit, const TransientPoints& points, const std::string& node, double level, bool must_swing) {
+std::string period_fault(const TransientRunner& circuit, const TransientPoints& points, const std::string& node, double level,
+                         bool must_swing) {
     const auto rises = circuit.spike_times(points, node, level);
     if (rises.size() < 5) return must_swing ? fmt::format("{} rises {} times, 5 or more were expected", node, rises.size()) : "";
     double shortest = 1e300, longest = 0;
@@ -37,7 +38,9 @@ RandomCircuit make_relaxation(RandomSource& dice) {
                fmt::format(".ic v(u)=0.6\n.tran {:.6g} {:.6g}\n", T / 1000, 8 * T);
     out.min_voltage = -0.3, out.max_voltage = 1.0;
     // at a few picoamperes, leakage into the membrane can prevent the oscillation
-    out.find_fault = [strong = I >= 20e-12](const TransientRunner& c, const TransientPoints& run) { return period_fault(c, run, "v(s)", 0.35, strong); };
+    out.find_fault = [strong = I >= 20e-12](const TransientRunner& c, const TransientPoints& run) {
+        return period_fault(c, run, "v(s)", 0.35, strong);
+    };
     return out;
 }
 

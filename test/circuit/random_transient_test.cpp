@@ -26,7 +26,8 @@ std::string fault_of(const RandomCircuit& random) {
         if (!points.error.empty() && points.t.back() > 1e5 && has_time_and_unknown(points.error)) return "";
         if (!points.error.empty())
             return (has_time_and_unknown(points.error) ? "gave up: " : "gave up without naming a time and an unknown: ") + points.error;
-        if (std::abs(points.t.back() - circuit.stop_time()) > 1e-9 * circuit.stop_time()) return fmt::format("ended at {:g} s", points.t.back());
+        if (std::abs(points.t.back() - circuit.stop_time()) > 1e-9 * circuit.stop_time())
+            return fmt::format("ended at {:g} s", points.t.back());
         for (std::size_t k = 0; k < points.t.size(); ++k)
             for (int n = 0; n < circuit.system().size(); ++n) {
                 const double v = points.x[k][static_cast<std::size_t>(n)];

@@ -76,18 +76,13 @@ std::string diodes(RandomSource& dice) {
         if (direction == 0)
             out += Text{"r{} n{} n{} {:g}\n", k, from, k, dice.log_uniform(1e3, 1e6)}.text;
         else
-            out += Text{"d{} n{} n{} d\nr{} n{} n{} {:g}\n",
-                        k,
-                        direction == 1 ? from : k,
-                        direction == 1 ? k : from,
-                        k,
-                        from,
-                        k,
+            out += Text{"d{} n{} n{} d\nr{} n{} n{} {:g}\n", k, direction == 1 ? from : k, direction == 1 ? k : from, k, from, k,
                         dice.log_uniform(1e6, 1e8)}
                        .text;
         if (dice.index_below(2)) out += Text{"rl{} n{} 0 {:g}\n", k, k, dice.log_uniform(1e3, 1e7)}.text;
         if (dice.index_below(2)) out += Text{"c{} n{} 0 {:g}\n", k, k, dice.log_uniform(1e-14, 1e-7)}.text;
-        if (dice.index_below(4) == 0) out += Text{"cx{} n{} n{} {:g}\n", k, k, 1 + dice.index_below(k - 1), dice.log_uniform(1e-13, 1e-8)}.text;
+        if (dice.index_below(4) == 0)
+            out += Text{"cx{} n{} n{} {:g}\n", k, k, 1 + dice.index_below(k - 1), dice.log_uniform(1e-13, 1e-8)}.text;
         if (dice.index_below(4) == 0) out += Text{"dc{} n{} 0 d\n", k, k}.text;
         if (dice.index_below(4) == 0) out += Text{"dg{} 0 n{} d\n", k, k}.text;
     }
@@ -149,7 +144,8 @@ public:
 };
 
 /// Largest error of all points, relative to 10 x reltol x span + floor; `where` describes that point.
-double worst_point(const TransientRunner& circuit, const TransientPoints& run, const TransientPoints& fine, const TransientPlan& plan, std::string& where) {
+double worst_point(const TransientRunner& circuit, const TransientPoints& run, const TransientPoints& fine, const TransientPlan& plan,
+                   std::string& where) {
     const double slack = plan.reltol * stop_time / 50;  // a jump, or an immediate change after a breakpoint, is a line of this length (s)
     const Polyline reference(fine);
     const auto count = static_cast<std::size_t>(circuit.system().size());
@@ -210,8 +206,8 @@ TEST(ReportedOscillation, HasThePeriodOfAFinerRun) {
         for (int k = 0; k < 5; ++k)
             text += fmt::format("mp{0} n{1} n{0} vdd vdd pch w=1.5u l=0.5u\nmn{0} n{1} n{0} 0 0 nch w=0.5u l=0.5u\n", k, (k + 1) % 5);
         return run_netlist(text +
-                   ".tran 1n 0.3u\n.meas tran period trig v(n0)=0.35 rise=3 targ v(n0)=0.35 rise=13\n"
-                   ".meas tran high max v(n0)\n.meas tran low min v(n0)\n");
+                           ".tran 1n 0.3u\n.meas tran period trig v(n0)=0.35 rise=3 targ v(n0)=0.35 rise=13\n"
+                           ".meas tran high max v(n0)\n.meas tran low min v(n0)\n");
     };
     const auto usual = ring("accuracy=normal"), fine = ring("reltol=1e-8 vntol=1e-9");
     EXPECT_NEAR(usual.number("period"), fine.number("period"), 1e-3 * fine.number("period"));

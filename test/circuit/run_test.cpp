@@ -147,7 +147,8 @@ TEST(Run, TheStatusReportsTheFailure) {
     const TemporaryFolder folder;
     folder.write("bad.cir", "t\nv1 a 0 1\nr1 a 0 1k\nr2 a\n.op\n");
     folder.write("wrong.cir", std::string(divider) + ".expect v(out) 1 1%\n");
-    const auto bad = run_program(folder, "run bad.cir -o x.raw"), wrong = run_program(folder, "run wrong.cir"), none = run_program(folder, "run none.cir");
+    const auto bad = run_program(folder, "run bad.cir -o x.raw"), wrong = run_program(folder, "run wrong.cir"),
+               none = run_program(folder, "run none.cir");
     EXPECT_EQ(bad.status, 1);
     EXPECT_NE(bad.err.find("bad.cir:4"), std::string::npos) << bad.err;
     EXPECT_FALSE(std::filesystem::exists(folder / "x.raw"));

@@ -8,10 +8,10 @@
 #include <cstdlib>
 #include <random>
 
-#include "circuit/device/uicm_card.hpp"
 #include "circuit/device/named_values.hpp"
-#include "circuit/run_directives.hpp"
+#include "circuit/device/uicm_card.hpp"
 #include "circuit/netlist_variants.hpp"
+#include "circuit/run_directives.hpp"
 #include "signal/instruction_set.hpp"
 #include "support/test_paths.hpp"
 

@@ -51,7 +51,7 @@ public:
     int end(int signal, struct rusage* used = nullptr) {
         if (signal != 0) signal_child(id_, signal);
         int status = 0;
-        struct rusage unused {};
+        struct rusage unused{};
         wait4(id_, &status, 0, used ? used : &unused);
         return status;
     }
@@ -204,7 +204,7 @@ TEST(Stream, MemoryDoesNotGrowWithTime) {
         const TemporaryFolder folder;
         folder.write("x.cir", rc(stop) + ".meas tran n count v(out)=0 rise\n.meas tran e rms v(out)\n");
         Running run(folder, out.empty() ? std::vector<std::string>{"run", "x.cir"} : std::vector<std::string>{"run", "x.cir", "-o", out});
-        struct rusage used {};
+        struct rusage used{};
         EXPECT_EQ(run.end(0, &used), 0);
         return used.ru_maxrss;  // kB
     };

@@ -16,15 +16,16 @@ TEST(ThermalNoise, AResistorLeavesKTByCOnACapacitor) {
     for (const auto& [R, C] : {std::pair{1e3, 1e-9}, {413e3, 8.8e-12}, {6.6e9, 0.8e-12}})
         for (const double celsius : {-55.0, 27.0, 125.0}) {
             const double corner = 1 / (2 * std::numbers::pi * R * C);
-            const auto found = run_netlist(fmt::format("kT/C\nv1 in 0 0\nr1 in out {}\nc1 out 0 {}\n.temp {}\n.noise v(out) v1 dec 200 {} {}\n", R,
-                                               C, celsius, corner * 1e-5, corner * 1e5));
+            const auto found =
+                run_netlist(fmt::format("kT/C\nv1 in 0 0\nr1 in out {}\nc1 out 0 {}\n.temp {}\n.noise v(out) v1 dec 200 {} {}\n", R, C,
+                                        celsius, corner * 1e-5, corner * 1e5));
             EXPECT_NEAR(std::pow(found.number("onoise_total"), 2) / (boltzmann * kelvin(celsius) / C), 1, 5e-5) << R << " ohm";
         }
 }
 
 TEST(ThermalNoise, ManyResistorsLeaveKTByCTogether) {
-    const auto found =
-        run_netlist("kT/C\ni1 0 a 0\nr1 a b 1k\nr2 b 0 10k\nr3 b c 100k\nr4 c a 3k\nr5 a 0 1meg\nc1 a 0 1n\n.noise v(a) i1 dec 200 100m 1g\n");
+    const auto found = run_netlist(
+        "kT/C\ni1 0 a 0\nr1 a b 1k\nr2 b 0 10k\nr3 b c 100k\nr4 c a 3k\nr5 a 0 1meg\nc1 a 0 1n\n.noise v(a) i1 dec 200 100m 1g\n");
     EXPECT_NEAR(std::pow(found.number("onoise_total"), 2) / (boltzmann * kelvin(27) / 1e-9), 1, 5e-5);
 }
 
@@ -60,8 +61,8 @@ struct Drain {
     Drain(const std::string& model, double d, double g, double b, double celsius = 27) {
         const auto found =
             run_netlist(fmt::format("drain\n{}\nvg g 0 {}\nvb b 0 {}\nvd d 0 {} ac 1\nm1 d g 0 b x w=1.5u l=0.5u\nh1 out 0 vd 1\nr1 out 0 "
-                            "1\n.temp {}\n.options gmin=0\n.op\n.ac lin 1 1 1\n.noise v(out) vd lin 1 1 1\n",
-                            model, g, b, d, celsius));
+                                    "1\n.temp {}\n.options gmin=0\n.op\n.ac lin 1 1 1\n.noise v(out) vd lin 1 1 1\n",
+                                    model, g, b, d, celsius));
         S = std::pow(found.number("onoise_spectrum"), 2);
         I = -found.number("i(vd)");
         this->g = -found.complex_curve("i(vd)", "ac").back().real();

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "circuit/analyses.hpp"
-#include "circuit/analysis/initial_condition.hpp"
 #include "circuit/analysis/analysis_context.hpp"
+#include "circuit/analysis/initial_condition.hpp"
 #include "circuit/ida_integrator.hpp"
 #include "circuit/netlist_runner.hpp"
 #include "circuit/solve/transient.hpp"

@@ -29,7 +29,8 @@ inline UicmCard full_card() {
     return card;
 }
 
-inline UicmConstants constants_of_size(const UicmCard& card, double W, double L, double m = 1, double stack = 1, bool pmos = false, double T = 27) {
+inline UicmConstants constants_of_size(const UicmCard& card, double W, double L, double m = 1, double stack = 1, bool pmos = false,
+                                       double T = 27) {
     UicmInstance instance;
     instance.W = W, instance.L = L, instance.m = m, instance.stack = stack;
     return uicm_constants(card, instance, T, pmos);
@@ -41,7 +42,9 @@ inline UicmEvaluation<double> evaluate(const UicmConstants& c, double d, double 
     return out;
 }
 
-inline double current(const UicmConstants& c, double d, double g, double s, double b = 0) { return Uicm<double>(c).internals({d, g, s, b}).I; }
+inline double current(const UicmConstants& c, double d, double g, double s, double b = 0) {
+    return Uicm<double>(c).internals({d, g, s, b}).I;
+}
 
 /// Number k of a series of random devices and voltages: weak to strong inversion, forward-biased bulks, V_DS about 0 in every fourth.
 struct RandomDevice {

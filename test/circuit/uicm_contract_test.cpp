@@ -72,7 +72,8 @@ TEST(UicmContract, SwappingDrainAndSourceNegatesTheCurrentToTheLastBit) {
     for (std::uint32_t k = 0; k < 10000; ++k) {
         const RandomDevice r(k);
         const Uicm<double> device(r.c);
-        const double there = device.internals({r.v[0], r.v[1], r.v[2], r.v[3]}).I, back = device.internals({r.v[2], r.v[1], r.v[0], r.v[3]}).I;
+        const double there = device.internals({r.v[0], r.v[1], r.v[2], r.v[3]}).I,
+                     back = device.internals({r.v[2], r.v[1], r.v[0], r.v[3]}).I;
         ASSERT_EQ(there, -back) << k;
         if (r.v[D] == r.v[S]) {
             ASSERT_EQ(there, 0) << k;
@@ -160,8 +161,8 @@ TEST(UicmContract, PlainIsSmoothToThirdOrderAcrossZeroDrainVoltage) {
 TEST(UicmContract, LanesGiveTheSameBitsAsScalars) {
     constexpr std::size_t count = 2048;
     std::vector<UicmConstants> constants;
-    lanes::AlignedBuffer<double> v[4] = {lanes::AlignedBuffer<double>(count), lanes::AlignedBuffer<double>(count), lanes::AlignedBuffer<double>(count),
-                                  lanes::AlignedBuffer<double>(count)};
+    lanes::AlignedBuffer<double> v[4] = {lanes::AlignedBuffer<double>(count), lanes::AlignedBuffer<double>(count),
+                                         lanes::AlignedBuffer<double>(count), lanes::AlignedBuffer<double>(count)};
     for (std::uint32_t k = 0; k < count; ++k) {
         const RandomDevice r(k);
         constants.push_back(r.c);
@@ -180,10 +181,10 @@ TEST(UicmContract, LanesGiveTheSameBitsAsScalars) {
         many(constants.data(), points, count, at);
         for (std::size_t k = 0; k < count; ++k)
             test::for_each_value(Uicm<double>(constants[k]), {points[0][k], points[1][k], points[2][k], points[3][k]},
-                              [&](std::size_t f, double right) {
-                                  EXPECT_EQ(std::memcmp(&at[f][k], &right, sizeof right), 0)
-                                      << name_of(set) << " number " << f << " of device " << k << ": " << at[f][k] << ", not " << right;
-                              });
+                                 [&](std::size_t f, double right) {
+                                     EXPECT_EQ(std::memcmp(&at[f][k], &right, sizeof right), 0)
+                                         << name_of(set) << " number " << f << " of device " << k << ": " << at[f][k] << ", not " << right;
+                                 });
     }
 }
 

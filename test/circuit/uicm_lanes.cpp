@@ -9,9 +9,10 @@ namespace corpuscle::circuit::test::CORPUSCLE_ISA {
 
 using T = num::Lanes<double>;
 
-void uicm_evaluate_batch(const UicmConstants* constants, const double* const (&v)[4], std::size_t count, double* const (&out)[uicm_value_count]) {
+void uicm_evaluate_batch(const UicmConstants* constants, const double* const (&v)[4], std::size_t count,
+                         double* const (&out)[uicm_value_count]) {
     for (std::size_t k = 0; k < count; k += T::size) {
-        const Uicm<T> device([&](double UicmConstants::*at) {
+        const Uicm<T> device([&](double UicmConstants::* at) {
             alignas(64) double lanes[T::size];
             for (std::size_t l = 0; l < T::size; ++l) lanes[l] = constants[k + l].*at;
             return T::load_aligned(lanes);

@@ -10,7 +10,8 @@ namespace corpuscle::circuit::test {
 inline constexpr std::size_t uicm_value_count = 44;  ///< i, q, di, dq of an evaluation, then the four noise densities
 
 /// out[f][k] = value f of transistor k at the voltages v[0...3][k]. `count` must be a multiple of 8, arrays aligned to 64 bytes.
-using UicmBatchFunction = void (*)(const UicmConstants*, const double* const (&v)[4], std::size_t count, double* const (&out)[uicm_value_count]);
+using UicmBatchFunction = void (*)(const UicmConstants*, const double* const (&v)[4], std::size_t count,
+                                   double* const (&out)[uicm_value_count]);
 
 /// For timing: evaluates one transistor at all points, `rounds` times. Returns the sum of all results, so that none is optimized away.
 using UicmTimingFunction = double (*)(const UicmConstants&, const double* const (&v)[4], std::size_t count, std::size_t rounds);

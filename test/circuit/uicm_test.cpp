@@ -17,7 +17,8 @@ TEST(Uicm, PlainIsTheThesissModelWithItsDerivedSlopes) {  // eq. 21 to 30
     for (double g = 0; g < 1.5; g += 0.07)
         for (double d = 0; d < 1; d += 0.11) {
             const auto out = evaluate(c, d, g, 0.05, 0);
-            const double V_P = (g - 0.461) / 1.27, q_S = inversion_charge((V_P - 0.05) / phi_t + 1), q_D = inversion_charge((V_P - d) / phi_t + 1);
+            const double V_P = (g - 0.461) / 1.27, q_S = inversion_charge((V_P - 0.05) / phi_t + 1),
+                         q_D = inversion_charge((V_P - d) / phi_t + 1);
             const double I = c.I_S * ((q_S * q_S + 2 * q_S) - (q_D * q_D + 2 * q_D)), scale = c.I_S * (q_S + q_D) * (q_S + q_D + 2);
             ASSERT_NEAR(out.i[D], I, 3e-12 * scale);
             ASSERT_NEAR(-out.di[D][S], 2 * c.I_S * q_S / phi_t, 3e-12 * scale / phi_t);
@@ -81,14 +82,16 @@ TEST(Uicm, AStackIsTheSeriesOfItsElementsInThePlainModel) {  // eq. 31, 32
         for (const double d : {0.02, 0.06}) {
             const double four = current(constants_of_size(plain_card(), 1.5e-6, 0.5e-6, 1, 4), d, g, 0);
             EXPECT_NEAR(in_series({unit, unit, unit, unit}, d, g, 0) / four, 1, 1e-9) << g << ' ' << d;
-            const double both = current(constants_of_size(plain_card(), 1.5e-6 * 4 / 5, 0.5e-6), d, g, 0);  // S_D S_S / (S_D + S_S) with 1 and 4
+            const double both =
+                current(constants_of_size(plain_card(), 1.5e-6 * 4 / 5, 0.5e-6), d, g, 0);  // S_D S_S / (S_D + S_S) with 1 and 4
             EXPECT_NEAR(in_series({unit, wide}, d, g, 0) / both, 1, 1e-9) << g << ' ' << d;
         }
 }
 
 TEST(Uicm, TheSplitMirrorDividesByItsAspectRatios) {  // eq. 38, 39
     for (const double N : {4.0, 8.0}) {
-        const auto parallel = constants_of_size(plain_card(), 1.5e-6, 0.5e-6, N), series = constants_of_size(plain_card(), 1.5e-6, 0.5e-6, 1, N);
+        const auto parallel = constants_of_size(plain_card(), 1.5e-6, 0.5e-6, N),
+                   series = constants_of_size(plain_card(), 1.5e-6, 0.5e-6, 1, N);
         const double g = 0.35, I_in = current(parallel, g, g, 0);
         double low = 0, high = 0.35;
         for (int k = 0; k < 100; ++k) {  // the middle node, at which M_B's current equals the sum of M_C's and M_D's
@@ -122,7 +125,8 @@ TEST(Uicm, FlickerNoiseAtTheGateDependsOnlyOnTheArea) {
     for (const double m : {1.0, 4.0})
         for (const double stack : {1.0, 8.0}) {
             const auto c = constants_of_size(card, 1.5e-6, 0.5e-6, m, stack);
-            const double g_m = evaluate(c, 0.7, 0.1, 0, 0).di[D][G], at_gate = Uicm<double>(c).noise({0.7, 0.1, 0, 0}).flicker / (g_m * g_m);
+            const double g_m = evaluate(c, 0.7, 0.1, 0, 0).di[D][G],
+                         at_gate = Uicm<double>(c).noise({0.7, 0.1, 0, 0}).flicker / (g_m * g_m);
             const double right = elementary_charge * elementary_charge * 3e11 / (card.C_ox * card.C_ox * 0.75e-12 * m * stack);
             EXPECT_NEAR(at_gate / right, 1, 1e-3);
         }
@@ -162,7 +166,8 @@ TEST(Uicm, CapacitancesAreAcm2sForALongChannel) {
 }
 
 TEST(Uicm, FollowsTemperatureByItsLaws) {
-    const auto cold = constants_of_size(full_card(), 1e-6, 1e-6, 1, 1, false, -55), warm = constants_of_size(full_card(), 1e-6, 1e-6, 1, 1, false, 125);
+    const auto cold = constants_of_size(full_card(), 1e-6, 1e-6, 1, 1, false, -55),
+               warm = constants_of_size(full_card(), 1e-6, 1e-6, 1, 1, false, 125);
     EXPECT_NEAR(cold.V_T, 0.461 + 0.4e-3 * 82, 1e-12);
     EXPECT_NEAR(warm.V_T, 0.461 - 0.4e-3 * 98, 1e-12);
     EXPECT_NEAR(warm.I_S / cold.I_S, std::sqrt(398.15 / 218.15), 1e-12);

@@ -16,7 +16,8 @@ TEST(WeakInversion, TheCurrentDiffersFromEquation42ByAQuarterOfTheInversionLevel
     for (const double V_G : {0.0, 0.1, 0.2, 0.3})
         for (const double V_B : {-0.2, 0.0, 0.2}) {
             const double I =
-                -run_netlist(fmt::format("42\nvd d 0 0.7\nvg g 0 {}\nvb b 0 {}\nm1 d g 0 b x w=1.5u l=0.5u\n.model x nmos(level=80 isq=112n "
+                -run_netlist(
+                     fmt::format("42\nvd d 0 0.7\nvg g 0 {}\nvb b 0 {}\nm1 d g 0 b x w=1.5u l=0.5u\n.model x nmos(level=80 isq=112n "
                                  "vto=0.46 n=1.27 ve=1e30)\n",
                                  V_G, V_B) +
                      exact + ".op\n")
@@ -30,11 +31,11 @@ TEST(WeakInversion, TheCurrentDiffersFromEquation42ByAQuarterOfTheInversionLevel
 struct BodyBiased {
     double I_D, I_B;
     explicit BodyBiased(double V) {
-        const auto found =
-            run_netlist(fmt::format("48b\nvd d 0 {0}\nvg g 0 {0}\nvb b 0 {0}\nm1 d g 0 b x w=1.5u l=0.5u as=0.75p ps=4u\n.model x nmos(level=80 "
-                            "isq=112n vto=0.46 n=1.27 ve=1e30 js=5u jssw=1p nj=1.05)\n",
-                            V) +
-                exact + ".op\n");
+        const auto found = run_netlist(
+            fmt::format("48b\nvd d 0 {0}\nvg g 0 {0}\nvb b 0 {0}\nm1 d g 0 b x w=1.5u l=0.5u as=0.75p ps=4u\n.model x nmos(level=80 "
+                        "isq=112n vto=0.46 n=1.27 ve=1e30 js=5u jssw=1p nj=1.05)\n",
+                        V) +
+            exact + ".op\n");
         I_D = -found.number("i(vd)"), I_B = -found.number("i(vb)");
     }
 };
@@ -52,8 +53,9 @@ TEST(WeakInversion, TheBulksCurrentIsEquation43) {
 TEST(WeakInversion, ADiodeWithItsBulkAtItsSourceNeedsNTimesTheVoltage) {  // eq. 44, for the same current
     const char* model = ".model x nmos(level=80 isq=112n vto=0.46 n=1.27 ve=1e30 js=0)\n";
     for (const double I : {10e-12, 1e-9, 100e-9, 1e-6}) {
-        const auto found = run_netlist(fmt::format("44\nix 0 x {0}\niy 0 y {0}\nmx x x 0 0 x w=1.5u l=0.5u\nmy y y 0 y x w=1.5u l=0.5u\n", I) +
-                               model + exact + ".op\n");
+        const auto found =
+            run_netlist(fmt::format("44\nix 0 x {0}\niy 0 y {0}\nmx x x 0 0 x w=1.5u l=0.5u\nmy y y 0 y x w=1.5u l=0.5u\n", I) + model +
+                        exact + ".op\n");
         const double X = found.number("v(x)"), Y = found.number("v(y)");
         EXPECT_NEAR(X, n * Y, 4 * n * v_t * std::exp(-Y / v_t)) << I;  // the drain end: exp(-V_X/phi_t) against exp(-V_Y/phi_t)
     }

@@ -125,7 +125,7 @@ public:
         const Handle links(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
         H5Pset_create_intermediate_group(links, 1);
         const Handle space(shape.empty() ? H5Screate(H5S_SCALAR) : H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr),
-                       H5Sclose);
+                           H5Sclose);
         const Handle how = storage(shape), dataset(H5Dcreate2(file_, name.c_str(), type, space, links, how, H5P_DEFAULT), H5Dclose);
         if (!dataset) return;  // the name exists, or the layout does not allow the shape
         write(dataset, memory, shape, is_compound ? 3 : 1);

@@ -17,7 +17,8 @@ void must(bool ok) {
 
 void check(const Innervation& skin) {
     must(skin.afferents.size() == skin.class_begin.back() && skin.fields.size() == skin.plan.classes.size());
-    for (const auto& u : skin.afferents) must(std::isfinite(u.position.x) && std::isfinite(u.position.y) && std::isfinite(u.delay) && u.delay >= 0);
+    for (const auto& u : skin.afferents)
+        must(std::isfinite(u.position.x) && std::isfinite(u.position.y) && std::isfinite(u.delay) && u.delay >= 0);
     for (std::size_t c = 0; c < skin.fields.size(); ++c) {
         const auto& f = skin.fields[c];
         const auto units = skin.class_begin[c + 1] - skin.class_begin[c];

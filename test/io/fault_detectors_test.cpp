@@ -54,11 +54,11 @@ TEST(OutlierDetector, IgnoresChangesOfTheLastDigit) {
 
 TEST(OutlierDetector, AgreesWithTheDefinition) {
     EXPECT_TRUE(rc::check("medians by sorting, every distance kept", [] {
-        const auto x = *rc::gen::container<std::vector<double>>(
-            400, rc::gen::map(rc::gen::inRange(-4096, 4096), [](int v) {
-                // powers of two and small numbers, which are not close to the edges of the histogram
-                return v % 16 == 0 ? v * 32.0 : v % 16 * 1.0;
-            }));
+        const auto x = *rc::gen::container<std::vector<double>>(400, rc::gen::map(rc::gen::inRange(-4096, 4096), [](int v) {
+                                                                    // powers of two and small numbers, which are not close to the edges of
+                                                                    // the histogram
+                                                                    return v % 16 == 0 ? v * 32.0 : v % 16 * 1.0;
+                                                                }));
         std::vector<double> distance, isolation, sorted;
         double smallest = 0;
         for (std::size_t k = 3; k + 3 < x.size(); ++k) {

@@ -5,9 +5,9 @@
 #include <complex>
 
 #include "io/hdf5_table.hpp"
-#include "support/property.hpp"
-#include "support/loaded_recording.hpp"
 #include "support/file_writers.hpp"
+#include "support/loaded_recording.hpp"
+#include "support/property.hpp"
 
 namespace corpuscle {
 namespace {
@@ -30,7 +30,7 @@ TEST(Hdf5, EveryShapeAndTypeIsReadAsItWasWritten) {
             rows * columns, rc::gen::map(rc::gen::inRange(0, 30000), [](int x) { return double(x); }));
         const auto path = (std::filesystem::temp_directory_path() / fmt::format("corpuscle-{}.h5", ::getpid())).string();
         Hdf5File(path).write_numbers("/force", {rows, columns}, values, type,
-                               packed ? std::vector<hsize_t>{rows / 2, columns} : std::vector<hsize_t>{});
+                                     packed ? std::vector<hsize_t>{rows / 2, columns} : std::vector<hsize_t>{});
         const auto made = test::try_load_recording(path, {.table = {{}, false}, .rate = 100});
         std::filesystem::remove(path);
         RC_ASSERT(static_cast<bool>(made));
@@ -235,8 +235,9 @@ TEST(Hdf5, NoOtherFileIsReadForItsData) {
             make_dataset(file, properties, {100});
             H5Sclose(all);
         });
-        EXPECT_NE(load_error(assembled, {.rate = 10}).find(fmt::format("v.h5: /force (100): its data are in '{}', and other files", source)),
-                  std::string::npos);
+        EXPECT_NE(
+            load_error(assembled, {.rate = 10}).find(fmt::format("v.h5: /force (100): its data are in '{}', and other files", source)),
+            std::string::npos);
     }
     const auto linked = write_file_with(folder, "l.h5", [&](hid_t file, hid_t properties) {
         make_dataset(file, properties, {100}, nullptr, "own");
@@ -255,15 +256,15 @@ TEST(Hdf5, DataThatWereNeverWrittenAreNotAForce) {
     for (const hsize_t rows : {hsize_t{1000}, hsize_t{1'000'000'000'000'000}})
         EXPECT_EQ(
             load_error(write_file_with(folder, "x.h5",
-                                    [&](hid_t f, hid_t properties) { chunked(properties, 100), make_dataset(f, properties, {rows}); }),
-                    {.rate = 10}),
+                                       [&](hid_t f, hid_t properties) { chunked(properties, 100), make_dataset(f, properties, {rows}); }),
+                       {.rate = 10}),
             fmt::format("x.h5: /force ({}): no data were written into it", rows));
     const auto partial = ramp(150);
     EXPECT_EQ(load_error(write_file_with(folder, "x.h5",
-                                      [&](hid_t f, hid_t properties) {
-                                          chunked(properties, 100), make_dataset(f, properties, {1'000'000'000'000'000}, &partial);
-                                      }),
-                      {.rate = 10})
+                                         [&](hid_t f, hid_t properties) {
+                                             chunked(properties, 100), make_dataset(f, properties, {1'000'000'000'000'000}, &partial);
+                                         }),
+                         {.rate = 10})
                   .substr(0, 82),
               "x.h5: /force (1000000000000000): only 2 of its 10000000000000 chunks were written;");
     const auto first_part = ramp(600);
@@ -309,9 +310,8 @@ TEST(Hdf5, AnArrayWithExchangedDimensionsIsRefusedOrTransposed) {
         more(file);
     };
     row_array([](auto&) {});
-    EXPECT_EQ(
-        load_error(folder / "x.h5", {.rate = 500}),
-        "x.h5: /force (2 x 3000): 3000 channels of only 2 samples? Use --transpose if each row is a channel, or "
+    EXPECT_EQ(load_error(folder / "x.h5", {.rate = 500}),
+              "x.h5: /force (2 x 3000): 3000 channels of only 2 samples? Use --transpose if each row is a channel, or "
               "--no-transpose if each row is a sample");
     const auto transposed = load_recording(folder / "x.h5", {.table = {{}, true}, .rate = 500});
     EXPECT_EQ(transposed.names, (std::vector<std::string>{"ch1", "ch2"}));
@@ -320,9 +320,8 @@ TEST(Hdf5, AnArrayWithExchangedDimensionsIsRefusedOrTransposed) {
     row_array([](auto& f) { f.write_numbers("/timestamps", {3000}, ramp(3000, 0.002)); });
     const auto timed = load_recording(folder / "x.h5");
     EXPECT_EQ(timed.force.size(), 2U) << "the times determine their dimension";
-    EXPECT_EQ(
-        timed.notes.at(0),
-        "/force (2 x 3000): taken as 2 channels of 3000 samples, to match the times; use --no-transpose if each row is a sample");
+    EXPECT_EQ(timed.notes.at(0),
+              "/force (2 x 3000): taken as 2 channels of 3000 samples, to match the times; use --no-transpose if each row is a sample");
     row_array([](auto& f) { f.write_strings("/force", "channels", {"fx_N", "fz_N"}); });
     EXPECT_EQ(load_recording(folder / "x.h5", {.rate = 500}).names, (std::vector<std::string>{"fx", "fz"}));
     row_array([](auto& f) { f.write_numbers("/timestamps", {2}, ramp(2, 0.002)); });

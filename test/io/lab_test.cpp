@@ -6,8 +6,8 @@
 #include <numbers>
 
 #include "io/dialect.hpp"
-#include "support/property.hpp"
 #include "support/loaded_recording.hpp"
+#include "support/property.hpp"
 
 namespace corpuscle {
 namespace {

@@ -7,21 +7,21 @@
 #include <ctime>
 
 #include "io/archive.hpp"
-#include "support/loaded_recording.hpp"
 #include "support/file_writers.hpp"
+#include "support/loaded_recording.hpp"
 
 namespace corpuscle {
 namespace {
 
-using test::TemporaryFolder;
 using test::load_recording;
+using test::TemporaryFolder;
 using test::try_load_recording;
 
 std::string logger_file(const std::string& name) { return test::source_root() + "/examples/data/loggers/" + name; }
 
 /// Reads a text as a recording.
 test::LoadedRecording read_logged(const TemporaryFolder& folder, const std::string& text, const RecordingOptions& options = {},
-                                 const std::string& name = "x.csv") {
+                                  const std::string& name = "x.csv") {
     return load_recording(folder.write(name, text), options);
 }
 
@@ -233,7 +233,8 @@ TEST(LoggerFiles, ASecondSegmentOfALabviewFileEndsWithACommandThatKeepsTheFirst)
     const std::string segment = "Channels\t1\nSamples\t3\n***End_of_Header***\nX_Value\tFz\tComment\n0\t1\n0.01\t2\n0.02\t3\n\n";
     folder.write("first.lvm", "LabVIEW Measurement\t\nSeparator\tTab\nX_Columns\tOne\n***End_of_Header***\n\n" + segment + segment);
     for (const auto& options : {RecordingOptions{}, RecordingOptions{.bad_fields = BadFields::drop}, RecordingOptions{.rate = 100}})
-        EXPECT_NE(test::load_error(folder / "first.lvm", options).find("another segment of the measurement begins here"), std::string::npos);
+        EXPECT_NE(test::load_error(folder / "first.lvm", options).find("another segment of the measurement begins here"),
+                  std::string::npos);
     EXPECT_EQ(load_recording(run_remedy(folder, "first.lvm", "head ")).force[0], (std::vector<double>{1, 2, 3}));
 }
 
@@ -757,8 +758,8 @@ TEST(LoggerFiles, AMatlabVectorOfTimesBesideTheForceIsItsClock) {
         }
         return bytes;
     };
-    const auto made = make_archive(
-        {{"t_s.npy", test::npy_bytes("'<f8'", "(1, 50)", doubles(50, 0.01))}, {"force_N.npy", test::npy_bytes("'<f8'", "(1, 50)", doubles(50, 0.1))}});
+    const auto made = make_archive({{"t_s.npy", test::npy_bytes("'<f8'", "(1, 50)", doubles(50, 0.01))},
+                                    {"force_N.npy", test::npy_bytes("'<f8'", "(1, 50)", doubles(50, 0.1))}});
     const auto read = load_recording(folder.write("m.npz", test::value_or_throw(made)));
     EXPECT_NEAR(read.clock.rate(), 100, 1e-6);
     EXPECT_EQ(read.force[0][10], 1);

@@ -8,9 +8,9 @@
 
 #include "io/archive.hpp"
 #include "io/npy.hpp"
-#include "support/property.hpp"
-#include "support/loaded_recording.hpp"
 #include "support/file_writers.hpp"
+#include "support/loaded_recording.hpp"
+#include "support/property.hpp"
 
 namespace corpuscle {
 namespace {
@@ -117,7 +117,8 @@ TEST(Npy, AColumnThatCountsTheRowsIsNotAForce) {
         EXPECT_EQ(made.notes[0], fmt::format("'{}' was ignored: it counts the rows (use --channel 1 to include it)", index));
         EXPECT_EQ(load_recording(folder / "x.npy", {.channels = {index}, .rate = 100}).force[0][7], 7);
         const auto packed = make_archive({{"log.npy", records(index)}});
-        EXPECT_EQ(load_recording(folder.write("x.npz", test::value_or_throw(packed)), {.rate = 100}).names, std::vector<std::string>{"fz"}) << index;
+        EXPECT_EQ(load_recording(folder.write("x.npz", test::value_or_throw(packed)), {.rate = 100}).names, std::vector<std::string>{"fz"})
+            << index;
     }
 }
 
@@ -142,7 +143,8 @@ TEST(Npy, UnreadableArraysGiveAnError) {
         return load_error(folder.write("x.npy", bytes), options);
     };
     const auto nan = bytes_of(std::nan(""), false), one = bytes_of(1.0, false);
-    EXPECT_EQ(error_text(npy_bytes("'<f8'", "(2, 2)", one + one + one + nan)), "x.npy: row 2: column 'ch2': nan where a number is expected");
+    EXPECT_EQ(error_text(npy_bytes("'<f8'", "(2, 2)", one + one + one + nan)),
+              "x.npy: row 2: column 'ch2': nan where a number is expected");
     EXPECT_EQ(error_text(npy_bytes("'<f8'", "(2, 2)", one + one + one)),
               "x.npy: the array needs 32 bytes, but the file has 24; it may be incomplete");
     EXPECT_EQ(error_text(npy_bytes("'<f8'", "(99999999999, 99999999999)", one)),
@@ -189,7 +191,8 @@ TEST(Npz, TheArrayIsChosenByNameAndMayHaveARateOrTimesBesideIt) {
     const ArchiveEntry force{"force_mN.npy", npy_bytes("'<f8'", "(9000, 2)", ramp_of(18000))},
         transposed{"turned.npy", npy_bytes("'<f8'", "(9000, 2)", ramp_of(18000), true)},
         rate{"fs.npy", npy_bytes("'<i8'", "()", bytes_of(std::int64_t(250), false))},
-        times{"t.npy", npy_bytes("'<f8'", "(9000,)", ramp_of(9000, 0.01))}, text_array{"who.npy", npy_bytes("'<U1'", "(1,)", std::string(4, 'a'))};
+        times{"t.npy", npy_bytes("'<f8'", "(9000,)", ramp_of(9000, 0.01))},
+        text_array{"who.npy", npy_bytes("'<U1'", "(1,)", std::string(4, 'a'))};
     const auto path = folder / "x.npz";
     for (const bool deflated : {false, true}) {
         const auto write = [&](const std::vector<ArchiveEntry>& members) {

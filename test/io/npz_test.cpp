@@ -15,7 +15,8 @@ namespace {
 
 using test::TemporaryFolder;
 
-const std::vector<std::int64_t> extreme_integers = {0, -1, std::numeric_limits<std::int64_t>::max(), std::numeric_limits<std::int64_t>::min()};
+const std::vector<std::int64_t> extreme_integers = {0, -1, std::numeric_limits<std::int64_t>::max(),
+                                                    std::numeric_limits<std::int64_t>::min()};
 const std::vector<double> example_numbers = {0.1, -0.0, 1e308, INFINITY};
 const std::vector<std::string> example_texts = {"", "fz", "Kraft in \xc2\xb5N", "\xf0\x9f\xa4\x9a"};
 

@@ -3,8 +3,8 @@
 #include <cstring>
 
 #include "io/archive.hpp"
-#include "support/loaded_recording.hpp"
 #include "support/file_writers.hpp"
+#include "support/loaded_recording.hpp"
 
 namespace corpuscle {
 namespace {

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "io/archive.hpp"
-#include "support/loaded_recording.hpp"
 #include "support/file_writers.hpp"
+#include "support/loaded_recording.hpp"
 
 namespace corpuscle {
 namespace {

@@ -8,8 +8,8 @@
 
 #include "io/clock_analysis.hpp"
 #include "io/recording_formats.hpp"
-#include "support/property.hpp"
 #include "support/loaded_recording.hpp"
+#include "support/property.hpp"
 
 namespace corpuscle {
 namespace {
@@ -134,7 +134,8 @@ TEST(Recording, ErrorsNameFileLineColumnAndWhatWouldBeRight) {
     EXPECT_EQ(error_text(folder, "t,F\n0,1\n", {.unit = "N", .scale = 2}),
               "--unit and --scale exclude each other: both convert the values to newtons");
     EXPECT_EQ(try_load_recording(folder.path()).error().text(), folder.path() + ": this is a directory, not a recording");
-    EXPECT_EQ(try_load_recording(folder / "none.csv").error().text(), (folder / "none.csv") + ": cannot be opened: No such file or directory");
+    EXPECT_EQ(try_load_recording(folder / "none.csv").error().text(),
+              (folder / "none.csv") + ": cannot be opened: No such file or directory");
 }
 
 TEST(Recording, HeadingsAreReadAsPeopleWriteThem) {

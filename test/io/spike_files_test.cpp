@@ -162,7 +162,8 @@ TEST(SpikeFiles, AnyNameWithoutALineBreakComesBackFromItsField) {
         const auto letters = rc::gen::container<std::vector<std::string>>(
             rc::gen::elementOf(std::vector<std::string>{"a", ",", "\"", " ", ";", "#", "\t", "=", "\u00f6"}));
         const auto afferent = fmt::format("{}", fmt::join(*letters, "")), channel = fmt::format("{}", fmt::join(*letters, ""));
-        const auto back = read_trains(folder, "afferent,channel,time_s\n" + quote_csv_field(afferent) + "," + quote_csv_field(channel) + ",0.5\n");
+        const auto back =
+            read_trains(folder, "afferent,channel,time_s\n" + quote_csv_field(afferent) + "," + quote_csv_field(channel) + ",0.5\n");
         RC_ASSERT(back.size() == 1U);
         RC_ASSERT(back[0].afferent == afferent);
         RC_ASSERT(back[0].channel == channel);

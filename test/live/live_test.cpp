@@ -13,10 +13,10 @@
 #include "io/events.hpp"
 #include "io/spike_files.hpp"
 #include "live/byte_ring.hpp"
-#include "live/latency_histogram.hpp"
 #include "live/event_sink.hpp"
 #include "live/frame_decoder.hpp"
 #include "live/frame_sequence.hpp"
+#include "live/latency_histogram.hpp"
 #include "live/live_population.hpp"
 #include "live/site_frames.hpp"
 #include "live/steady_clock.hpp"
@@ -113,7 +113,8 @@ TEST(Events, LinesNameAfferentAndChannelAsRespondDoes) {
         const Spike spike{5, 1, afferent};
         return bytes_of(*value_or_throw(make_event_format(format, make_event_afferents(*skin, {1000, 1}))), {&spike, 1});
     };
-    EXPECT_EQ(value_or_throw(make_event_format("lines", make_event_afferents(*on_channels, {1000, 1})))->header(), "afferent,channel,time_s\n");
+    EXPECT_EQ(value_or_throw(make_event_format("lines", make_event_afferents(*on_channels, {1000, 1})))->header(),
+              "afferent,channel,time_s\n");
     EXPECT_EQ(lines(on_channels, 0, "lines"), "sa1,fz,0.005000000\n");
     EXPECT_EQ(lines(on_channels, 3, "lines"), "fa1,\"thumb, tip\",0.005000000\n");
     EXPECT_EQ(lines(on_channels, 3, "jsonl"), R"({"time_s":0.005000000,"afferent":"fa1","channel":"thumb, tip","address":3})"
@@ -125,7 +126,8 @@ TEST(Events, LinesNameAfferentAndChannelAsRespondDoes) {
 TEST(Events, HeadersOfBinaryFormatsNameTheChannelOfEachAddress) {
     const TemporaryFolder folder;
     const std::vector<Channel> channels = {{0, "fz"}, {1, "thumb\n#x"}, {2, "ch3"}};
-    const auto afferents = make_event_afferents(*value_or_throw(innervate(value_or_throw(make_channel_plan("sa1,fa1", channels)))), {1000, 1});
+    const auto afferents =
+        make_event_afferents(*value_or_throw(innervate(value_or_throw(make_channel_plan("sa1,fa1", channels)))), {1000, 1});
     const auto aer = value_or_throw(make_event_format("aer", afferents)), aedat = value_or_throw(make_event_format("aedat2", afferents));
     const std::vector<Spike> spikes = {{5, 1, 0}, {6, 1, 4}, {7, 1, 5}};  // afferents are numbered class after class
     const auto trains = value_or_throw(read_spikes(folder.write("x.aer", aer->header() + bytes_of(*aer, spikes))));
@@ -143,8 +145,10 @@ TEST(Events, HeadersOfBinaryFormatsNameTheChannelOfEachAddress) {
     EXPECT_LT(value_or_throw(make_event_format("aer", numbered))->header().size(), aer->header().size()) << "ch1, ch2 ... need no table";
     std::vector<Channel> many(4000);
     for (std::uint32_t c = 0; c < many.size(); ++c) many[c] = {c, fmt::format("a long name {}", c)};
-    const auto long_one = value_or_throw(make_event_format("aedat2", make_event_afferents(*value_or_throw(innervate(value_or_throw(make_channel_plan("sa1", many)))), {1000, 1})));
-    EXPECT_EQ(value_or_throw(read_spikes(folder.write("y.aedat", long_one->header() + bytes_of(*long_one, {spikes.data(), 1})))).size(), 1U);
+    const auto long_one = value_or_throw(make_event_format(
+        "aedat2", make_event_afferents(*value_or_throw(innervate(value_or_throw(make_channel_plan("sa1", many)))), {1000, 1})));
+    EXPECT_EQ(value_or_throw(read_spikes(folder.write("y.aedat", long_one->header() + bytes_of(*long_one, {spikes.data(), 1})))).size(),
+              1U);
 }
 
 TEST(Events, FilesThatAreDamagedAreRefused) {
@@ -272,15 +276,17 @@ std::vector<Spike> offline(const std::shared_ptr<const Innervation>& skin, const
 
 TEST(SkinStream, LiveEqualsOfflineAndResumedEqualsUninterruptedByteForByte) {
     EXPECT_TRUE(rc::check([] {
-        const auto skin = value_or_throw(innervate(conducting_grid(*rc::gen::inRange<std::size_t>(1, 12), *rc::gen::inRange<std::size_t>(1, 12))));
+        const auto skin =
+            value_or_throw(innervate(conducting_grid(*rc::gen::inRange<std::size_t>(1, 12), *rc::gen::inRange<std::size_t>(1, 12))));
         const Clock clock{1000, 1};
         const auto frames =
             some_frames(*rc::gen::inRange<std::size_t>(1, 700), skin->plan.sites.size(), *rc::gen::arbitrary<std::uint64_t>());
         const auto cut = *rc::gen::inRange<std::size_t>(0, frames.size());
-        const auto format =
-            value_or_throw(make_event_format(*rc::gen::element<std::string>("lines", "jsonl", "aer", "aedat2"), make_event_afferents(*skin, clock)));
+        const auto format = value_or_throw(
+            make_event_format(*rc::gen::element<std::string>("lines", "jsonl", "aer", "aedat2"), make_event_afferents(*skin, clock)));
         const auto batch_frames = *rc::gen::inRange<std::size_t>(1, 40);
-        auto stream = value_or_throw(SkinStream::make(skin, clock)), grouped = value_or_throw(SkinStream::make(skin, clock, false, batch_frames));
+        auto stream = value_or_throw(SkinStream::make(skin, clock)),
+             grouped = value_or_throw(SkinStream::make(skin, clock, false, batch_frames));
         std::string live, in_groups;
         for (std::size_t k = 0; k < frames.size(); ++k) {
             if (k == cut) {

@@ -291,8 +291,8 @@ TEST(StreamProgram, ARecordingToAFileDropsNoSpikeHoweverSmallTheBuffer) {
     const auto recording = folder.write("touch.csv", noisy_recording(3000, 8));
     const auto spikes = [&](const std::string& file, const std::string& buffer) {
         const auto ran =
-            test::run_program(folder, "stream --in " + recording + " --rate 1kHz --scale 20 --pace fast --format aer --json --buffer " + buffer +
-                                  " -o " + folder / file);
+            test::run_program(folder, "stream --in " + recording + " --rate 1kHz --scale 20 --pace fast --format aer --json --buffer " +
+                                          buffer + " -o " + folder / file);
         EXPECT_EQ(ran.status, 0) << ran.err;
         const auto doc = nlohmann::json::parse(ran.out);
         EXPECT_EQ(doc["events"]["dropped"], 0);
@@ -368,7 +368,8 @@ TEST(StreamProgram, ARecordingIsReadWithTheOptionsAndWarningsOfRespond) {
     const std::string options = " --channel fz --despike 100 --range 0..500 --scale 0.5";
     const auto offline = test::run_program(folder, "respond " + recording + options + " --time-unit ms -o " + (folder / "answer"));
     ASSERT_EQ(offline.status, 0) << offline.err;
-    const auto live = test::run_program(folder, "stream --in " + recording + options + " --time-unit ms --pace fast -o " + (folder / "live.csv"));
+    const auto live =
+        test::run_program(folder, "stream --in " + recording + options + " --time-unit ms --pace fast -o " + (folder / "live.csv"));
     ASSERT_EQ(live.status, 0) << live.err;
     const auto compared = test::run_program(folder, "compare answer/spikes.csv live.csv --json");
     ASSERT_EQ(compared.status, 0) << "trains have the same names: " << compared.err;
@@ -521,8 +522,8 @@ TEST(StreamProgram, ClassesOfAPopulationCanBeSet) {
     const TemporaryFolder folder;
     const auto recording = folder.write("touch.csv", noisy_recording(2000, 4));
     const auto spikes = [&](const std::string& settings) {
-        const auto ran = test::run_program(folder, "stream --population 'grid 2x2' --in " + recording + " --rate 1kHz --pace fast" + settings +
-                                               " --json -o " + (folder / "spikes.csv"));
+        const auto ran = test::run_program(folder, "stream --population 'grid 2x2' --in " + recording + " --rate 1kHz --pace fast" +
+                                                       settings + " --json -o " + (folder / "spikes.csv"));
         EXPECT_EQ(ran.status, 0) << ran.err;
         return nlohmann::json::parse(ran.out)["spikes"].get<long>();
     };

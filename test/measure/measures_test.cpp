@@ -105,7 +105,8 @@ TEST(Measures, InstantaneousRatesAreOneFewerThanSpikes) {
 TEST(Measures, EachHasANameATitleAndADescriptionOfItsOwn) {
     for (const auto& m : measures) {
         EXPECT_FALSE(m.title.empty() || m.description.empty()) << m.name;
-        EXPECT_EQ(std::count_if(std::begin(measures), std::end(measures), [&](const MeasureInfo& o) { return o.name == m.name; }), 1) << m.name;
+        EXPECT_EQ(std::count_if(std::begin(measures), std::end(measures), [&](const MeasureInfo& o) { return o.name == m.name; }), 1)
+            << m.name;
     }
 }
 

@@ -31,7 +31,8 @@ TEST(Contract, EachRespondsToATouchOfItsKind) {
 }
 
 TEST(Contract, ParametersOfCombinedComponentsNeverShareAName) {
-    const std::vector<std::vector<CatalogEntry>> kinds = {sensor_entries(), transducer_entries(), converter_entries(), receptor_entries(), neuron_entries()};
+    const std::vector<std::vector<CatalogEntry>> kinds = {sensor_entries(), transducer_entries(), converter_entries(), receptor_entries(),
+                                                          neuron_entries()};
     for (const auto& first : kinds)
         for (const auto& second : kinds) {
             if (&first == &second) continue;  // two of the same kind are never combined
@@ -43,7 +44,8 @@ TEST(Contract, ParametersOfCombinedComponentsNeverShareAName) {
 }
 
 TEST(Contract, EveryParameterHasADescriptionAReadableUnitAndItsDefaultInRange) {
-    for (const auto& cards : {sensor_entries(), transducer_entries(), converter_entries(), receptor_entries(), neuron_entries(), stimulus_catalog()})
+    for (const auto& cards :
+         {sensor_entries(), transducer_entries(), converter_entries(), receptor_entries(), neuron_entries(), stimulus_catalog()})
         for (const auto& card : cards) {
             EXPECT_FALSE(card.description.empty() || card.source.empty()) << card.name;
             for (const auto& row : card.parameters) {

@@ -21,7 +21,8 @@ struct SampleOptions {
 
 std::vector<AfferentPlan> sample_copies(const std::string& name, const SampleOptions& d) {
     const auto plan = value_or_throw(plan_afferent(name, test::parse_settings(d.settings)));
-    return value_or_throw(make_copies(plan, d.copies, value_or_throw(distributions_for(plan, name, test::parse_settings(d.spreads))), d.seed));
+    return value_or_throw(
+        make_copies(plan, d.copies, value_or_throw(distributions_for(plan, name, test::parse_settings(d.spreads))), d.seed));
 }
 
 std::vector<double> values(const std::vector<AfferentPlan>& copies, std::string_view parameter) {

@@ -69,11 +69,12 @@ std::vector<Spike> in_blocks(const Case& c, const LaneOptions& options, const Fe
 }
 
 std::vector<Spike> lane_spikes(const Case& c, const LaneOptions& options) {
-    return in_blocks(c, options, [&](LanePopulation& p, std::size_t first, std::size_t count, PopulationResponse& response, ThreadPool& pool) {
-        std::vector<const double*> columns;
-        for (const auto& f : c.force) columns.push_back(f.data() + first);
-        return p.respond(ForceColumns{columns}, count, response, pool);
-    });
+    return in_blocks(c, options,
+                     [&](LanePopulation& p, std::size_t first, std::size_t count, PopulationResponse& response, ThreadPool& pool) {
+                         std::vector<const double*> columns;
+                         for (const auto& f : c.force) columns.push_back(f.data() + first);
+                         return p.respond(ForceColumns{columns}, count, response, pool);
+                     });
 }
 
 std::vector<std::string> all_models() {
@@ -152,7 +153,8 @@ TEST(LanePopulation, AnyChunksAnyThreadsAnyLanesGiveTheSameSpikes) {
         const auto sets = lane_sets();
         const auto set = sets[*rc::gen::inRange<std::size_t>(0, sets.size())];
         const auto blocks = *rc::gen::nonEmpty(rc::gen::container<std::vector<std::size_t>>(rc::gen::inRange<std::size_t>(1, 80)));
-        RC_ASSERT(lane_spikes(c, {set, Precision::double_precision, blocks, *rc::gen::arbitrary<bool>() ? &three : nullptr}) == scalar_spikes(c));
+        RC_ASSERT(lane_spikes(c, {set, Precision::double_precision, blocks, *rc::gen::arbitrary<bool>() ? &three : nullptr}) ==
+                  scalar_spikes(c));
     }));
 }
 
@@ -222,10 +224,12 @@ TEST(LanePopulation, OneProfileIsEveryAfferentsOwnForce) {
     for (const auto& name : all_models()) {
         Case c = own_parameters(name, 70, {5e-4}, 0.3, 4);
         for (auto& f : c.force) f = c.force[0];
-        const auto by_profile = [&](LanePopulation& p, std::size_t first, std::size_t count, PopulationResponse& response, ThreadPool& pool) {
+        const auto by_profile = [&](LanePopulation& p, std::size_t first, std::size_t count, PopulationResponse& response,
+                                    ThreadPool& pool) {
             return p.respond(ForceProfile{std::span(c.force[0]).subspan(first, count)}, count, response, pool);
         };
-        for (const auto set : lane_sets()) EXPECT_EQ(in_blocks(c, {set, Precision::double_precision, {77}}, by_profile), scalar_spikes(c)) << name;
+        for (const auto set : lane_sets())
+            EXPECT_EQ(in_blocks(c, {set, Precision::double_precision, {77}}, by_profile), scalar_spikes(c)) << name;
         Case same{{c.plans[0]}, c.force, c.run};  // the receptor is computed once for all
         for (const auto set : lane_sets())
             EXPECT_EQ(in_blocks(same, {set, Precision::double_precision, {77}}, by_profile), scalar_spikes(same)) << name;
@@ -376,7 +380,8 @@ TEST(LanePopulation, FloatIsTheSameOnEveryInstructionSet) {
     for (const auto& name : all_models()) {
         const auto c = own_parameters(name, 70, {5e-4}, 0.3, 2);
         const auto expected = lane_spikes(c, {InstructionSet::baseline, Precision::single_precision});
-        for (const auto set : lane_sets()) EXPECT_EQ(lane_spikes(c, {set, Precision::single_precision}), expected) << name << ' ' << name_of(set);
+        for (const auto set : lane_sets())
+            EXPECT_EQ(lane_spikes(c, {set, Precision::single_precision}), expected) << name << ' ' << name_of(set);
     }
 }
 

@@ -122,7 +122,7 @@ TEST(Neuron, SeveralSpikesInAStepAreAllGivenUpToTheReportedLimit) {
 
 TEST(Neuron, LifBIsHeldAtRestAndLeavesItWhenTheCurrentPassesTheLeak) {
     const auto result = run<LifB>({}, [](double t) { return 1e-6 * t; }, 2, 0.2);  // passes 0.5 uA in the middle of a step
-    const double charge_to_fire = 500e-9 * 0.5;                                   // 1e-6 (t - 0.5)^2 / 2
+    const double charge_to_fire = 500e-9 * 0.5;                                    // 1e-6 (t - 0.5)^2 / 2
     ASSERT_EQ(result.times.size(), 8U);
     for (std::size_t k = 0; k < 8; ++k)
         EXPECT_NEAR(result.times[k], 0.5 + std::sqrt(2 * charge_to_fire * (1 + 0.5 * static_cast<double>(k)) / 1e-6), 1e-9);
@@ -196,7 +196,10 @@ TEST(Neuron, SlopesByDualsMatchFiniteDifferencesForEveryParameter) {
             Params p;
             if constexpr (has_refractory_time<N>) p.t_ref = 1.3e-3;  // at 0 it has a one-sided derivative only
             const auto dual = last_time(N<num::Dual>(DualParams<Params>{p, field.member}, dt, Method::exact), num::Dual{});
-            const double scale = p.*field.member != 0 ? std::abs(p.*field.member) : field.unit == "V" ? 1e-2 : field.unit == "s" ? 1e-3 : 1e-6;
+            const double scale = p.*field.member != 0 ? std::abs(p.*field.member)
+                                 : field.unit == "V"  ? 1e-2
+                                 : field.unit == "s"  ? 1e-3
+                                                      : 1e-6;
             const auto moved = [&](double by) {
                 Params q = p;
                 q.*field.member += by;

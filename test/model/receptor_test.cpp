@@ -137,7 +137,8 @@ TEST(Afferent, WrongNamesAreRefusedWithASuggestion) {
               "'sa1b+lif-b')");
     EXPECT_EQ(plan_afferent("sa1b+lifb", {}).error().message,
               "sa1b+lifb: unknown neuron 'lifb'; did you mean 'lif-b'? (there are lif-a, lif-b, adaptive, izhikevich, adex)");
-    EXPECT_EQ(plan_afferent("sa1", test::parse_settings({"sa1.V_reset=600mV"})).error().message, "sa1: V_reset = 0.6 must be below V_th = 0.5");
+    EXPECT_EQ(plan_afferent("sa1", test::parse_settings({"sa1.V_reset=600mV"})).error().message,
+              "sa1: V_reset = 0.6 must be below V_th = 0.5");
     EXPECT_EQ(plan_afferent("sa1", test::parse_settings({"sa1.f_B=25ms"})).error().message,
               "sa1.f_B: '25ms' is a time; expected a value in Hz, such as '2 Hz'");
 }

@@ -159,10 +159,10 @@ TEST(Thesis, Figure16sNeuronsMeetTheGoldenValues) {
                                              .rate = 1 / T,
                                              .method = method,
                                              .sampled = sampled});
-        return spike_times(test::spikes(*a, test::force("step", {.settings = {"step.F_max=" + std::to_string(amplitude) + "N", "step.t_rest=0.5s",
-                                                                        "step.t_hold=3.5s", "step.t_post=2s"},
-                                                           .rate = 1 / T})),
-                     test::value_or_throw(make_clock(1 / T)));
+        return spike_times(test::spikes(*a, test::force("step", {.settings = {"step.F_max=" + std::to_string(amplitude) + "N",
+                                                                              "step.t_rest=0.5s", "step.t_hold=3.5s", "step.t_post=2s"},
+                                                                 .rate = 1 / T})),
+                           test::value_or_throw(make_clock(1 / T)));
     };
     for (const auto& g : golden["cases"]) {
         const double amplitude = g["I_amp"].get<double>() * 1e6;

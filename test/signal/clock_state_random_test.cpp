@@ -18,7 +18,8 @@ TEST(Clock, IsAnExactFractionOfASecond) {
     EXPECT_EQ(fraction(1000), std::pair(std::int64_t{1000}, std::int64_t{1}));
     EXPECT_EQ(fraction(242.6), std::pair(std::int64_t{1213}, std::int64_t{5}));
     EXPECT_EQ(fraction(0.1), std::pair(std::int64_t{1}, std::int64_t{10}));
-    for (const double rate : {M_PI, 1 / 3.0, 1e9 + 0.5, 44100 / 1.001}) EXPECT_NEAR(test::value_or_throw(make_clock(rate)).rate(), rate, 1e-12 * rate);
+    for (const double rate : {M_PI, 1 / 3.0, 1e9 + 0.5, 44100 / 1.001})
+        EXPECT_NEAR(test::value_or_throw(make_clock(rate)).rate(), rate, 1e-12 * rate);
 }
 
 TEST(Clock, TimesOfALongRunAreNotAccumulated) {

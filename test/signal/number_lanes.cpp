@@ -14,7 +14,9 @@ static void evaluate(const V* a, const V* b, std::size_t count, V* const (&out)[
         for_each_function(T::load_aligned(a + k), T::load_aligned(b + k), [&](std::size_t f, T y) { y.store_aligned(out[f] + k); });
 }
 
-void evaluate_double(const double* a, const double* b, std::size_t count, double* const (&out)[function_count]) { evaluate(a, b, count, out); }
+void evaluate_double(const double* a, const double* b, std::size_t count, double* const (&out)[function_count]) {
+    evaluate(a, b, count, out);
+}
 void evaluate_float(const float* a, const float* b, std::size_t count, float* const (&out)[function_count]) { evaluate(a, b, count, out); }
 
 }  // namespace corpuscle::test::CORPUSCLE_ISA

@@ -31,9 +31,9 @@ TEST(ThreadPool, EveryTaskIsRunOnceWhateverTheThreads) {
 TEST(ThreadPool, AnExceptionReachesTheCallerAndThePoolContinues) {
     ThreadPool pool(3);
     EXPECT_THROW(pool.for_each(100,
-                           [](std::size_t k, unsigned) {
-                               if (k == 40) throw std::runtime_error("40");
-                           }),
+                               [](std::size_t k, unsigned) {
+                                   if (k == 40) throw std::runtime_error("40");
+                               }),
                  std::runtime_error);
     std::atomic<int> done = 0;
     pool.for_each(100, [&](std::size_t, unsigned) { ++done; });

@@ -48,7 +48,8 @@ double within(const std::vector<double>& map, const Sites& sites, double reach) 
 
 Position centroid(const std::vector<double>& map, const Sites& sites) {
     Position out;
-    for (std::size_t s = 0; s < map.size(); ++s) out.x += map[s] * sites.positions[s].x / sum(map), out.y += map[s] * sites.positions[s].y / sum(map);
+    for (std::size_t s = 0; s < map.size(); ++s)
+        out.x += map[s] * sites.positions[s].x / sum(map), out.y += map[s] * sites.positions[s].y / sum(map);
     return out;
 }
 
@@ -229,8 +230,10 @@ TEST(ContactOptions, AreRefusedWithTheRemedy) {
               "contact: t_move and speed are alternatives; give only one of them");
     EXPECT_EQ(error_text("grating", {"ridge=3mm"}), "contact: ridge = 0.003 m must not be wider than period = 0.002 m");
     EXPECT_EQ(error_text("flat", {"radius=5s"}), "contact.radius: '5s' is a time; expected a value in m, such as '2 m'");
-    EXPECT_EQ(make_contact("flat", std::vector<ParameterOverride>{*parse_override("contact.radius=1m")}, sheet(1e-3, 1e-5), *make_clock(1000)).operator bool(),
-              true);
+    EXPECT_EQ(
+        make_contact("flat", std::vector<ParameterOverride>{*parse_override("contact.radius=1m")}, sheet(1e-3, 1e-5), *make_clock(1000))
+            .operator bool(),
+        true);
     double force = 1;
     const auto wide = pressing("flat", {"radius=1m"}, sites);
     EXPECT_EQ(wide->press({&force, 1}, 0).error().text(),

@@ -6,8 +6,8 @@
 
 #include "skin/innervation.hpp"
 #include "skin/site_grid.hpp"
-#include "support/test_paths.hpp"
 #include "support/property.hpp"
+#include "support/test_paths.hpp"
 
 namespace corpuscle {
 namespace {
@@ -32,7 +32,8 @@ TEST(HandPopulation, HasThePublishedNumbersAndFractionsOfAfferents) {
     const std::pair<std::string, double> fractions[] = {{"sa1", 0.25}, {"fa1", 0.43}, {"sa2", 0.19}, {"fa2", 0.13}};
     for (std::size_t c = 0; c < 4; ++c) {
         EXPECT_EQ(h.plan.classes[c].name, fractions[c].first);
-        EXPECT_NEAR(static_cast<double>(h.class_begin[c + 1] - h.class_begin[c]) / static_cast<double>(h.afferents.size()), fractions[c].second, 0.02);
+        EXPECT_NEAR(static_cast<double>(h.class_begin[c + 1] - h.class_begin[c]) / static_cast<double>(h.afferents.size()),
+                    fractions[c].second, 0.02);
         EXPECT_FALSE(h.plan.classes[c].sources.empty());
     }
     for (const auto& [region, total] : {std::pair("index.tip", 241.0), {"middle.base", 93.0}, {"palm", 58.0}}) {
@@ -83,8 +84,8 @@ TEST(HandPopulation, AfferentsWithNeighbouringNumbersAreClose) {
         for (auto k = h.class_begin[c]; k + 64 <= h.class_begin[c + 1]; k += 64) {
             double max_distance = 0;
             for (std::size_t i = 1; i < 64; ++i)
-                max_distance =
-                    std::max(max_distance, std::hypot(h.afferents[k + i].position.x - h.afferents[k].position.x, h.afferents[k + i].position.y - h.afferents[k].position.y));
+                max_distance = std::max(max_distance, std::hypot(h.afferents[k + i].position.x - h.afferents[k].position.x,
+                                                                 h.afferents[k + i].position.y - h.afferents[k].position.y));
             far += max_distance, tiles += 1;
         }
     EXPECT_LT(far / tiles, 30e-3);  // of a hand of 110 by 190 mm

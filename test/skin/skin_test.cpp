@@ -66,8 +66,8 @@ TEST(Skin, RespondsAsItsAfferentsWouldSeparately) {
     for (std::size_t c = 0; c < map->plan.classes.size(); ++c) {
         const auto& f = map->fields[c];
         const std::size_t first = map->class_begin[c], count = map->class_begin[c + 1] - first;
-        const auto plans =
-            make_copies(map->plan.classes[c].afferent, static_cast<std::uint32_t>(count), map->plan.classes[c].distributions, map->plan.seed);
+        const auto plans = make_copies(map->plan.classes[c].afferent, static_cast<std::uint32_t>(count), map->plan.classes[c].distributions,
+                                       map->plan.seed);
         std::vector<double> forces(count * touch.steps);
         for (std::size_t s = 0; s < touch.sites; ++s)
             for (std::size_t k = f.begin[s]; k < f.begin[s + 1]; ++k)

@@ -22,7 +22,8 @@ struct RunFiles {
     RunStats work;
 };
 
-RunFiles run(const TemporaryFolder& folder, const std::vector<std::string>& stimuli, const std::vector<std::string>& names, std::size_t block) {
+RunFiles run(const TemporaryFolder& folder, const std::vector<std::string>& stimuli, const std::vector<std::string>& names,
+             std::size_t block) {
     std::vector<std::unique_ptr<ForceSource>> sources;
     std::vector<AfferentPlan> plans;
     for (const auto& s : stimuli) sources.push_back(test::value_or_throw(make_stimulus(s, {}, 2e3, 9)));

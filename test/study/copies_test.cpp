@@ -105,7 +105,7 @@ TEST(Summary, OfCopiesSummarisesTheirOwnRows) {
             for (const auto& r : separate.rows())
                 if (r.afferent.starts_with(row.afferent + "#") && r.channel == row.channel && r.phase == row.phase)
                     values.push_back(m == measure_index<MeanRate> ? r.values[measure_index<SpikeCount>] / length_of(separate, r)
-                                                                     : r.values[m]);
+                                                                  : r.values[m]);
             ASSERT_EQ(values.size(), 25U);
             const auto expected = statistics(values);
             const auto& statistics_over = row.copy_statistics[m];

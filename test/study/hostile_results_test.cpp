@@ -17,8 +17,8 @@
 namespace corpuscle {
 namespace {
 
-using test::TemporaryFolder;
 using test::PlainSweep;
+using test::TemporaryFolder;
 using test::value_or_throw;
 
 /// A results file of 100 items, changed afterwards as another program would.
@@ -71,7 +71,8 @@ std::string old_results(const TemporaryFolder& folder, const std::string& statem
 
 TEST(SweepResults, OfTheFirstFormatAreReadAndOfALaterOneRefused) {
     const TemporaryFolder folder;
-    const auto results = value_or_throw(SweepResults::open_read_only(old_results(folder, std::string(first_format) + "PRAGMA user_version = 1;")));
+    const auto results =
+        value_or_throw(SweepResults::open_read_only(old_results(folder, std::string(first_format) + "PRAGMA user_version = 1;")));
     EXPECT_EQ(results.finished_count(), 2);
     std::string text;
     ASSERT_TRUE(dump_results(results, [&](const std::string& more) { return text += more, true; }));
@@ -79,8 +80,9 @@ TEST(SweepResults, OfTheFirstFormatAreReadAndOfALaterOneRefused) {
     const TemporaryFolder later;
     const auto refused = SweepResults::open_read_only(old_results(later, std::string(first_format) + "PRAGMA user_version = 2;"));
     ASSERT_FALSE(refused);
-    EXPECT_NE(refused.error().text().find("was written by a later corpuscle (its format is 2, this one reads up to 1): use the later version"),
-              std::string::npos)
+    EXPECT_NE(
+        refused.error().text().find("was written by a later corpuscle (its format is 2, this one reads up to 1): use the later version"),
+        std::string::npos)
         << refused.error().text();
 }
 
@@ -175,7 +177,8 @@ TEST(HostileResults, NeverEmptyALinkOrAForeignFile) {
     std::filesystem::create_symlink("thesis.tex", folder / "r.sqlite-writer");
     const auto refused = SweepResults::open(folder / "r.sqlite", PlainSweep(10));
     ASSERT_FALSE(refused);
-    EXPECT_NE(refused.error().text().find("r.sqlite-writer: is at the path of the results' lock file"), std::string::npos) << refused.error().text();
+    EXPECT_NE(refused.error().text().find("r.sqlite-writer: is at the path of the results' lock file"), std::string::npos)
+        << refused.error().text();
     std::filesystem::remove(folder / "r.sqlite-writer");
     folder.write("r.sqlite-writer", "years of work\n");
     EXPECT_FALSE(SweepResults::open(folder / "r.sqlite", PlainSweep(10)));

@@ -16,8 +16,8 @@
 namespace corpuscle {
 namespace {
 
-using test::TemporaryFolder;
 using test::run_program;
+using test::TemporaryFolder;
 using test::value_or_throw;
 
 constexpr const char* grid_file = R"(afferent = "sa1"

@@ -9,10 +9,10 @@
 
 #include "circuit/device/uicm_card.hpp"
 #include "circuit/netlist/netlist.hpp"
-#include "synthetic_sweep.hpp"
 #include "signal/random.hpp"
 #include "study/sweep/sweep_document.hpp"
 #include "study/sweep/sweep_summary.hpp"
+#include "synthetic_sweep.hpp"
 
 namespace corpuscle {
 namespace {

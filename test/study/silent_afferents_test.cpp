@@ -142,7 +142,8 @@ TEST(Rates, OfASingleSpikeAreBlank) {
     EXPECT_EQ(rates[0]["mean_rate_Hz"], 0.0) << "no spike in the rest";
     const auto table = run_program(folder, "respond press --afferent sa1").out;
     EXPECT_TRUE(std::regex_search(table, std::regex("retraction +1 +- +- +- +-"))) << table;
-    const auto skin = nlohmann::json::parse(run_program(folder, "respond press --population 'grid 3x3' --contact sphere --set press.F_max=900mN --json").out);
+    const auto skin = nlohmann::json::parse(
+        run_program(folder, "respond press --population 'grid 3x3' --contact sphere --set press.F_max=900mN --json").out);
     int single = 0;
     for (const auto& row : skin["rates"])
         if (row["spikes"] == 1) {
@@ -162,7 +163,8 @@ TEST(Bins, ShorterThanAHundredthOfASampleAreRefusedWithTheSmallestThatWorks) {
             << refused.err;
         EXPECT_FALSE(std::filesystem::exists(folder / "out"));
         EXPECT_EQ(
-            run_program(folder, fmt::format("respond press --rate 1kHz --set press.t_hold=10ms {} --bin 10us -o out --quiet", population)).status,
+            run_program(folder, fmt::format("respond press --rate 1kHz --set press.t_hold=10ms {} --bin 10us -o out --quiet", population))
+                .status,
             0);
         std::filesystem::remove_all(folder / "out");
     }

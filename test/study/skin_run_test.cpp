@@ -19,7 +19,7 @@ using test::TemporaryFolder, test::read_file, test::value_or_throw;
 
 /// One run of a press on a fingertip into `out`, stopped after `blocks` blocks (-1: not stopped).
 Result<SkinStats> press_fingertip(const TemporaryFolder& folder, const std::string& out, int blocks, bool with_checkpoint,
-                                 const RunFingerprint& fingerprint = {{"FORCE", "press"}}, double scale = 1) {
+                                  const RunFingerprint& fingerprint = {{"FORCE", "press"}}, double scale = 1) {
     static const auto skin = value_or_throw(innervate(value_or_throw(load_skin_plan("fingertip"))));
     const auto source = value_or_throw(make_stimulus("press", test::parse_settings({"press.F_max=" + std::to_string(4 * scale)}), 1e3, 0));
     const auto contact = value_or_throw(make_contact("sphere", {}, skin->plan.sites, source->clock()));
@@ -70,8 +70,9 @@ TEST(SkinRun, ACheckpointOfAnotherRunIsRefusedNamesWhatDiffersAndStays) {
     const auto other = press_fingertip(folder, "a", 5, true, now);
     ASSERT_FALSE(other);
     EXPECT_EQ(other.error().code, ErrorCode::bad_input);
-    EXPECT_NE(other.error().message.find("--scale was 1 and now is 3; --abs was true and now is not given; the contents of the recording "
-                                          "have changed; --despike was not given and now is auto. Repeat the run with its original options, remove "),
+    EXPECT_NE(other.error().message.find(
+                  "--scale was 1 and now is 3; --abs was true and now is not given; the contents of the recording "
+                  "have changed; --despike was not given and now is auto. Repeat the run with its original options, remove "),
               std::string::npos)
         << other.error().message;
     EXPECT_EQ(read_file(folder / "state"), stored);
@@ -160,7 +161,8 @@ TEST(SkinRun, ACheckpointOfAnEarlierVersionIsRefusedWithItsVersionAndARemedy) {
 TEST(SkinRun, TwoRunsCannotShareACheckpoint) {
     const TemporaryFolder folder;
     const auto map = value_or_throw(innervate(value_or_throw(load_skin_plan("grid 2x2"))));
-    const auto one = value_or_throw(Skin::make(map, {1e-3}, *instruction_set())), two = value_or_throw(Skin::make(map, {1e-3}, *instruction_set()));
+    const auto one = value_or_throw(Skin::make(map, {1e-3}, *instruction_set())),
+               two = value_or_throw(Skin::make(map, {1e-3}, *instruction_set()));
     auto first = value_or_throw(SkinCheckpoint::open(folder / "state", *one, {}));
     const auto second = SkinCheckpoint::open(folder / "state", *two, {});
     ASSERT_FALSE(second);

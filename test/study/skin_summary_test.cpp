@@ -7,9 +7,9 @@
 
 #include "report/binned_frames.hpp"
 #include "report/skin_page.hpp"
+#include "study/skin_afferents_file.hpp"
 #include "study/skin_psth_file.hpp"
 #include "study/skin_spikes_file.hpp"
-#include "study/skin_afferents_file.hpp"
 #include "support/property.hpp"
 #include "support/support.hpp"
 
@@ -23,12 +23,18 @@ using SkinJson = nlohmann::ordered_json;
 Innervation small_skin() {
     Innervation skin;
     skin.plan.name = "small";
-    skin.plan.sites = {
-        .positions = {{0, 0}, {2e-3, 0}, {4e-3, 1e-3}}, .names = {"a", "b", "c"}, .region = {0, 0, 1}, .regions = {"tip", "palm"}, .area = 4e-6};
+    skin.plan.sites = {.positions = {{0, 0}, {2e-3, 0}, {4e-3, 1e-3}},
+                       .names = {"a", "b", "c"},
+                       .region = {0, 0, 1},
+                       .regions = {"tip", "palm"},
+                       .area = 4e-6};
     for (const auto* name : {"sa1", "fa1"})
-        skin.plan.classes.push_back(
-            {.name = name, .afferent = value_or_throw(plan_afferent(name, {})), .density = {1e6, 5e5}, .sources = {{"density", "made up"}}});
-    skin.afferents = {{0, 1, 0, {0, 0}}, {0, 2, 0, {2e-3, 0}}, {0, 3, 1, {4e-3, 1e-3}, 2e-3}, {1, 1, 0, {2e-3, 1e-3}}, {1, 2, 1, {4e-3, 0}}};
+        skin.plan.classes.push_back({.name = name,
+                                     .afferent = value_or_throw(plan_afferent(name, {})),
+                                     .density = {1e6, 5e5},
+                                     .sources = {{"density", "made up"}}});
+    skin.afferents = {
+        {0, 1, 0, {0, 0}}, {0, 2, 0, {2e-3, 0}}, {0, 3, 1, {4e-3, 1e-3}, 2e-3}, {1, 1, 0, {2e-3, 1e-3}}, {1, 2, 1, {4e-3, 0}}};
     skin.class_begin = {0, 3, 5};
     skin.fields = {{.begin = {0, 2, 3, 4}, .afferent = {0, 1, 1, 2}, .weight = {1, 0.4, 0.6, 1}},
                    {.begin = {0, 0, 1, 2}, .afferent = {0, 1}, .weight = {1, 1}}};

@@ -25,7 +25,8 @@ void check(const Study& study, const StudyResult& outcome) {
     EXPECT_FALSE(outcome.claims.empty()) << study.name;
     for (const auto& c : outcome.claims) {
         EXPECT_TRUE(std::isfinite(c.computed) || !c.note.empty()) << study.name << ": " << c.label;
-        EXPECT_TRUE((!c.has_allowed_range() && std::isnan(c.published)) || !c.source.empty()) << study.name << ": " << c.label << " is printed nowhere";
+        EXPECT_TRUE((!c.has_allowed_range() && std::isnan(c.published)) || !c.source.empty())
+            << study.name << ": " << c.label << " is printed nowhere";
         EXPECT_TRUE(!c.needs_explanation() || !c.note.empty()) << study.name << ": " << c.label << " says nothing of why it differs";
     }
     for (const auto& p : outcome.plots) {
@@ -60,7 +61,8 @@ TEST(Studies, OfARecordingPrintTheClaimsOfTheirPage) {
     const auto outcomes = run_studies(recorded_studies, {.recordings_folder = test::shared_file_path("")});
     ASSERT_TRUE(static_cast<bool>(outcomes)) << outcomes.error().text();
     for (std::size_t k = 0; k < std::size(recorded_studies); ++k) check(*recorded_studies[k], (*outcomes)[k]);
-    EXPECT_EQ(markdown_of(recorded_studies, *outcomes), test::read_file(test::source_root() + "/reproduction/recorded.md")) << "stale: make reproduction";
+    EXPECT_EQ(markdown_of(recorded_studies, *outcomes), test::read_file(test::source_root() + "/reproduction/recorded.md"))
+        << "stale: make reproduction";
 }
 
 TEST(Studies, OfAMissingRecordingNameTheSearchedPlace) {
@@ -81,7 +83,8 @@ TEST(Studies, StopOnRequest) {
 }
 
 TEST(Studies, TheFourClassesFireWhereTheFigureShowsThem) {
-    for (const auto& c : run("fig3").claims) EXPECT_TRUE(!c.has_allowed_range() || c.is_in_allowed_range()) << c.label << ": " << c.computed;
+    for (const auto& c : run("fig3").claims)
+        EXPECT_TRUE(!c.has_allowed_range() || c.is_in_allowed_range()) << c.label << ": " << c.computed;
 }
 
 TEST(Studies, KimsHoldIsWithinHisSpread) {
@@ -157,7 +160,8 @@ TEST(Studies, TheirTextKeepsItsTableWhateverIsInIt) {
     out.claim("|a| over b", 1, "V").published_as(2, "table 1").explain("x | y");
     const auto text = markdown_of(all, std::span(&out, 1));
     EXPECT_NE(text.find("| \\|a\\| over b | 1 V | 2 V | -50.0 % | - | differs | table 1; x \\| y |\n"), std::string::npos) << text;
-    EXPECT_NE(text.find("0 published numbers agree within a tenth, 1 differ by more. 0 numbers agree with values derived"), std::string::npos)
+    EXPECT_NE(text.find("0 published numbers agree within a tenth, 1 differ by more. 0 numbers agree with values derived"),
+              std::string::npos)
         << text;
 }
 

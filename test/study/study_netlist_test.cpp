@@ -33,7 +33,8 @@ TEST(StudyNetlist, AppliesSettings) {
 }
 
 TEST(StudyNetlist, IncludesSubcircuitsOfOtherNetlists) {
-    const auto found = test::value_or_throw(run_study_netlist({"A divider\n.lib '../process/tsmc180.lib' tt\nv1 a 0 2\nr1 a b 1k\nr2 b 0 3k\n.op\n.end\n"}));
+    const auto found = test::value_or_throw(
+        run_study_netlist({"A divider\n.lib '../process/tsmc180.lib' tt\nv1 a 0 2\nr1 a b 1k\nr2 b 0 3k\n.op\n.end\n"}));
     EXPECT_NEAR(found.operating_point("v(b)"), 1.5, 1e-9);
     const auto bias = test::value_or_throw(elaborate_study_netlist({"bias"}));
     EXPECT_EQ(std::count_if(bias->elements.begin(), bias->elements.end(), [](const auto& e) { return e.letter == 'm'; }), 11);

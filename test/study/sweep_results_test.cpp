@@ -20,8 +20,8 @@
 namespace corpuscle {
 namespace {
 
-using test::TemporaryFolder;
 using test::PlainSweep;
+using test::TemporaryFolder;
 using test::value_or_throw;
 
 /// All contents of a file, in order.
@@ -237,7 +237,8 @@ TEST(SweepResults, InAReadOnlyFolderAreReadButNotStarted) {
     fs::permissions(folder.path(), fs::perms(0555));
     const auto id = child([&] {
         if (::geteuid() == 0 && ::seteuid(65534) != 0) throw std::runtime_error("root writes everywhere");
-        if (value_or_throw(SweepResults::open_read_only(folder / "r.sqlite")).finished_count() != 50) throw std::runtime_error("rows are missing");
+        if (value_or_throw(SweepResults::open_read_only(folder / "r.sqlite")).finished_count() != 50)
+            throw std::runtime_error("rows are missing");
         for (const char* name : {"r.sqlite", "new.sqlite"}) {
             const auto results = SweepResults::open(folder / name, sweep);
             if (results || results.error().text().find("give a writable path with --out") == std::string::npos)
@@ -320,7 +321,9 @@ TEST(SweepResults, ShardsMergeIntoAllItemsAndNothingIsCountedTwice) {
     ASSERT_FALSE(merged);
     EXPECT_NE(merged.error().text().find("changed: unit 7 has other results than"), std::string::npos) << merged.error().text();
     run_sweep_of(PlainSweep(1001, "other"), folder / "other", {});
-    EXPECT_NE(all.merge(value_or_throw(SweepResults::open_read_only(folder / "other"))).error().text().find("belongs to another sweep than"), std::string::npos);
+    EXPECT_NE(
+        all.merge(value_or_throw(SweepResults::open_read_only(folder / "other"))).error().text().find("belongs to another sweep than"),
+        std::string::npos);
     EXPECT_EQ(all_of(all), all_of(folder / "whole.sqlite"));
 }
 
@@ -329,8 +332,8 @@ TEST(SweepResults, ThreadsThatAreStoppedLeaveTheFinishedItems) {
     const PlainSweep sweep(100'000, "x", item_time);
     auto results = value_or_throw(SweepResults::open(folder / "r.sqlite", sweep));
     SweepProgress count;
-    const auto ok =
-        run_sweep(sweep, results, {.threads = 2, .write_interval = 0.01, .should_stop = [&] { return results.finished_count() > 100; }}, count);
+    const auto ok = run_sweep(sweep, results,
+                              {.threads = 2, .write_interval = 0.01, .should_stop = [&] { return results.finished_count() > 100; }}, count);
     ASSERT_FALSE(ok);
     EXPECT_EQ(ok.error().code, ErrorCode::interrupted);
     EXPECT_EQ(count.finished(), results.finished_count());

@@ -25,7 +25,8 @@ public:
     static constexpr double temps[] = {0, 27, 85};
     static constexpr int devices = 40;
     /// line = 0.3 V_T(m7) + 0.2 I_S(m20) - 0.1 V_T(m3) + 0.1 process + 0.15 noise, deviates all; + 1 V at 85 C.
-    static constexpr double weight_m7 = 0.3, weight_m20 = 0.2, weight_m3 = -0.1, weight_process = 0.1, weight_noise = 0.15, offset_at_85 = 1;
+    static constexpr double weight_m7 = 0.3, weight_m20 = 0.2, weight_m3 = -0.1, weight_process = 0.1, weight_noise = 0.15,
+                            offset_at_85 = 1;
 
     explicit SyntheticSweep(std::int64_t chips) : chips_(chips) {
         mismatch_.seed = 5, mismatch_.chips = chips;
@@ -52,14 +53,16 @@ public:
         const auto chip = mismatch_.chip(unit);
         const auto own = [&](std::size_t d) { return deviates_of(mismatch_.subjects[0].devices[d], mismatch_.seed, {chip}); };
         const double at = values(unit)[0], noise = normal(7, static_cast<std::uint32_t>(unit), 2, 0);
-        const double line = weight_m7 * own(7).V_T[0] + weight_m20 * own(20).I_S[0] + weight_m3 * own(3).V_T[0] + weight_process * values(unit)[2] +
-                            weight_noise * noise + (at == 85 ? offset_at_85 : 0);
+        const double line = weight_m7 * own(7).V_T[0] + weight_m20 * own(20).I_S[0] + weight_m3 * own(3).V_T[0] +
+                            weight_process * values(unit)[2] + weight_noise * noise + (at == 85 ? offset_at_85 : 0);
         ItemOutcome out;
         out.item = unit, out.steps = 100 + unit % 7, out.iterations = 300 + unit % 11;
         out.measures = {line, std::exp(normal(8, static_cast<std::uint32_t>(unit), 3, 0)), 4 + static_cast<double>(unit % 3)};
-        if (unit % 50 == 9) out.end = ItemEnd::iteration_limit, out.reason = "more than 1000 iterations by 0.4 s", out.measures[2] = std::nan("");
+        if (unit % 50 == 9)
+            out.end = ItemEnd::iteration_limit, out.reason = "more than 1000 iterations by 0.4 s", out.measures[2] = std::nan("");
         if (unit % 500 == 11)
-            out.end = ItemEnd::diverged, out.reason = "did not converge at 0.3 s", out.measures = {std::nan(""), std::nan(""), std::nan("")};
+            out.end = ItemEnd::diverged, out.reason = "did not converge at 0.3 s",
+            out.measures = {std::nan(""), std::nan(""), std::nan("")};
         out.spikes.emplace_back();
         for (int k = 0; k < 5 + unit % 3; ++k) out.spikes[0].push_back(0.1 * k + 0.02 + 0.004 * line);
         out.probes.emplace_back();

@@ -11,8 +11,8 @@ const std::string stored_folder = test::source_root() + "/test/study/vectors/",
                   python = "/usr/bin/python3 " + test::source_root() + "/test/model/fixed_reference.py";
 
 /// Writes the vectors of some afferents under some stimuli at 2 kHz.
-std::vector<std::string> write(const test::TemporaryFolder& folder, const std::vector<std::string>& stimuli, const std::vector<std::string>& names,
-                               const std::vector<std::string>& settings, std::size_t block = 4096) {
+std::vector<std::string> write(const test::TemporaryFolder& folder, const std::vector<std::string>& stimuli,
+                               const std::vector<std::string>& names, const std::vector<std::string>& settings, std::size_t block = 4096) {
     const auto overrides = test::parse_settings(settings);
     std::vector<std::unique_ptr<ForceSource>> sources;
     std::vector<AfferentPlan> plans;

@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "study/afferent_plan.hpp"
-#include "study/train_comparison.hpp"
 #include "study/run_summary.hpp"
+#include "study/train_comparison.hpp"
 #include "support/support.hpp"
 
 namespace corpuscle {
@@ -89,7 +89,8 @@ TEST(VersionComparisons, CountByPhaseAndMeasureAsCompareDoes) {
     for (const auto& r : ran.summary.rows())
         for (const auto& p : row.phases) {
             if (r.phase != p.phase || r.afferent == "fa1") continue;
-            EXPECT_EQ(r.values[0], static_cast<double>(r.afferent == "sa1" ? p.reference_spikes : p.spikes)) << r.afferent << " " << p.phase;
+            EXPECT_EQ(r.values[0], static_cast<double>(r.afferent == "sa1" ? p.reference_spikes : p.spikes))
+                << r.afferent << " " << p.phase;
         }
     EXPECT_TRUE(std::isnan(row.phases[0].excess())) << "no fraction of zero spikes";
 }
@@ -128,7 +129,8 @@ TEST(VersionComparisons, LeaveOutCopiesAndSingleVersions) {
 
 /// The chips of the thesis under its press: counts within a quarter of the models'.
 TEST(VersionComparisons, ChipsFireAsTheirModelsDo) {
-    const auto ran = run_versions({"press"}, {"sa1", "fa1", test::source_root() + "/circuits/sa1.cir", test::source_root() + "/circuits/fa1.cir"}, 4096);
+    const auto ran =
+        run_versions({"press"}, {"sa1", "fa1", test::source_root() + "/circuits/sa1.cir", test::source_root() + "/circuits/fa1.cir"}, 4096);
     ASSERT_EQ(ran.summary.comparisons().rows().size(), 2u);
     for (const auto& row : ran.summary.comparisons().rows()) {
         EXPECT_LE(std::abs(row.total.excess()), 0.25) << row.afferent;

@@ -9,13 +9,16 @@
 
 namespace corpuscle::test {
 
-inline constexpr double initial_time = 0.25, rise_time = 0.125, hold_time = 0.25, fall_time = 0.125, total_time = 1.0, F_min = 0.2, F_max = 4;
+inline constexpr double initial_time = 0.25, rise_time = 0.125, hold_time = 0.25, fall_time = 0.125, total_time = 1.0, F_min = 0.2,
+                        F_max = 4;
 
 inline double press_force(double t) {
-    const double s = t < initial_time + rise_time ? (t - initial_time) / rise_time : 1 - (t - initial_time - rise_time - hold_time) / fall_time;
+    const double s =
+        t < initial_time + rise_time ? (t - initial_time) / rise_time : 1 - (t - initial_time - rise_time - hold_time) / fall_time;
     return t < initial_time || t >= initial_time + rise_time + hold_time + fall_time ? F_min
-           : t >= initial_time + rise_time && t < initial_time + rise_time + hold_time ? F_max
-                                                    : F_min + (F_max - F_min) * (1 - std::cos(M_PI * s)) / 2;
+           : t >= initial_time + rise_time && t < initial_time + rise_time + hold_time
+               ? F_max
+               : F_min + (F_max - F_min) * (1 - std::cos(M_PI * s)) / 2;
 }
 
 /// Solution x (N) of x' + 2 pi f x = F', x(0) = 0, for a cutoff frequency f (Hz).

@@ -13,7 +13,7 @@ namespace corpuscle::test {
 
 /// Bytes of an NPY file of any type, as NumPy writes it.
 inline std::string npy_bytes(const std::string& type, const std::string& shape, const std::string& data, bool by_columns = false,
-                       int version = 1) {
+                             int version = 1) {
     auto header = fmt::format("{{'descr': {}, 'fortran_order': {}, 'shape': {}, }}", type, by_columns ? "True" : "False", shape);
     header.resize((header.size() + 11 + 63) / 64 * 64 - 11, ' ');
     header += '\n';
@@ -63,7 +63,7 @@ public:
     ~Hdf5File() { H5Pclose(links_), H5Fclose(file_); }
 
     void write_raw(const std::string& name, hid_t type, hid_t memory, const std::vector<hsize_t>& shape, const void* values,
-             const std::vector<hsize_t>& chunk = {}) {
+                   const std::vector<hsize_t>& chunk = {}) {
         const hid_t space = shape.empty() ? H5Screate(H5S_SCALAR) : H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr);
         const hid_t how = H5Pcreate(H5P_DATASET_CREATE);
         if (!chunk.empty()) H5Pset_chunk(how, static_cast<int>(chunk.size()), chunk.data()), H5Pset_deflate(how, 4);
@@ -72,7 +72,7 @@ public:
         H5Dclose(d), H5Pclose(how), H5Sclose(space);
     }
     void write_numbers(const std::string& name, const std::vector<hsize_t>& shape, const std::vector<double>& values,
-                 hid_t type = H5T_NATIVE_DOUBLE, const std::vector<hsize_t>& chunk = {}) {
+                       hid_t type = H5T_NATIVE_DOUBLE, const std::vector<hsize_t>& chunk = {}) {
         write_raw(name, type, H5T_NATIVE_DOUBLE, shape, values.data(), chunk);
     }
     void write_attribute(const std::string& of, const std::string& name, double value) {

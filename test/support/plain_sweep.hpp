@@ -23,7 +23,8 @@ public:
     std::vector<MetadataText> metadata_;
 
     explicit PlainSweep(std::int64_t units, std::string netlist = "a\nb\nc\n", double seconds = 0)
-        : item_count_(units), seconds_per_item_(seconds), metadata_({{"title", "plain"}, {"netlist circuits/sa1.cir", std::move(netlist)}}) {}
+        : item_count_(units), seconds_per_item_(seconds),
+          metadata_({{"title", "plain"}, {"netlist circuits/sa1.cir", std::move(netlist)}}) {}
 
     std::int64_t item_count() const override { return item_count_; }
     const std::vector<SweepColumn>& axes() const override { return axes_; }

@@ -14,8 +14,8 @@ struct ProgramResult {
 
 inline ProgramResult run_program(const TemporaryFolder& folder, const std::string& arguments) {
     const auto out = folder / ".out", err = folder / ".err";
-    const int status =
-        std::system(("cd '" + folder.path() + "' && '" + test::program_path() + "' " + arguments + " >'" + out + "' 2>'" + err + "'").c_str());
+    const int status = std::system(
+        ("cd '" + folder.path() + "' && '" + test::program_path() + "' " + arguments + " >'" + out + "' 2>'" + err + "'").c_str());
     ProgramResult ran{WEXITSTATUS(status), read_file(out), read_file(err)};
     std::filesystem::remove(out);
     std::filesystem::remove(err);

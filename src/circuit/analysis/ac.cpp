@@ -25,7 +25,8 @@ Result<AnalysisResult> analyse_ac(AnalysisContext& context, const Directive& c) 
     plot.is_complex = true;
     LinearSolver<std::complex<double>> solver(system.pattern());
     for (const double f : *frequencies) {
-        if (context.is_stopped(static_cast<double>(plot.point_count()) / static_cast<double>(frequencies->size()))) return interrupted_error();
+        if (context.is_stopped(static_cast<double>(plot.point_count()) / static_cast<double>(frequencies->size())))
+            return interrupted_error();
         const auto values = admittances(evaluation, system.pattern().entries(), 6.283185307179586 * f);
         if (!solver.factor(values)) {
             const int at = solver.singularity().column;

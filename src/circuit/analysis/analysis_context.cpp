@@ -22,7 +22,7 @@ Result<std::unique_ptr<AnalysisContext>> AnalysisContext::make(std::shared_ptr<c
 NodeClamps AnalysisContext::initial_clamps() const {
     if (circuit->ic.empty()) return {};
     NodeClamps out{std::vector<double>(static_cast<std::size_t>(system.nodes())),
-                std::vector<double>(static_cast<std::size_t>(system.size()))};
+                   std::vector<double>(static_cast<std::size_t>(system.size()))};
     for (const auto& [node, v] : circuit->ic)
         out.conductance[static_cast<std::size_t>(node) - 1] = 1e3, out.voltage[static_cast<std::size_t>(node) - 1] = v;
     return out;
@@ -35,7 +35,9 @@ Result<OperatingPoint> AnalysisContext::operating_point() {
     return found;
 }
 
-Result<OperatingPoint> AnalysisContext::initial_operating_point() { return find_operating_point(newton, circuit->ic.empty() ? nominal_x_ : nominal_initial_x_, initial_clamps()); }
+Result<OperatingPoint> AnalysisContext::initial_operating_point() {
+    return find_operating_point(newton, circuit->ic.empty() ? nominal_x_ : nominal_initial_x_, initial_clamps());
+}
 
 /// Solves the nominal circuit. Chips are solved from its operating point, with the pivot order of its matrix there.
 void AnalysisContext::solve_nominal() {
@@ -110,7 +112,9 @@ int UnknownNames::index_of(std::string_view name) const {
     return at == at_.end() ? -1 : at->second;
 }
 
-Result<OutputVariable> read_output_variable(const System& system, const Directive& c, std::size_t word) { return read_output_variable(UnknownNames(system), c, word); }
+Result<OutputVariable> read_output_variable(const System& system, const Directive& c, std::size_t word) {
+    return read_output_variable(UnknownNames(system), c, word);
+}
 
 Result<OutputVariable> read_output_variable(const UnknownNames& names, const Directive& c, std::size_t word) {
     if (word >= c.words.size())

@@ -17,7 +17,7 @@ namespace corpuscle::circuit {
 struct AnalysisResult {
     std::vector<Plot> plots;
     std::vector<std::pair<std::string, double>> numbers;  ///< printed as "name = value"
-    std::vector<std::pair<std::string, double>> stats;     ///< counters: steps, iterations ...
+    std::vector<std::pair<std::string, double>> stats;    ///< counters: steps, iterations ...
     std::string table;                                    ///< a printed table
     std::vector<Error> warnings;
     std::optional<std::vector<double>> spikes;  ///< s, if the netlist has .spike
@@ -37,12 +37,13 @@ public:
     System system;
     Tolerances tolerances;
     NewtonSolver newton;
-    std::function<bool(double fraction)> should_stop{};  ///< called repeatedly with the completed fraction; returns true to stop the analysis
-    PointSink* points = nullptr;                  ///< receives the points of a transient; null: they are kept in the result
-    long max_iterations = 0;                     ///< limit for a transient; 0: no limit
-    bool hit_iteration_limit = false;                          ///< the last transient was stopped by this limit
-    bool requests_checked = false;                ///< .print, .plot and .meas were checked against the circuit
-    bool is_brief = false;                           ///< one of many analyses: no printed tables, no warnings
+    std::function<bool(double fraction)>
+        should_stop{};                 ///< called repeatedly with the completed fraction; returns true to stop the analysis
+    PointSink* points = nullptr;       ///< receives the points of a transient; null: they are kept in the result
+    long max_iterations = 0;           ///< limit for a transient; 0: no limit
+    bool hit_iteration_limit = false;  ///< the last transient was stopped by this limit
+    bool requests_checked = false;     ///< .print, .plot and .meas were checked against the circuit
+    bool is_brief = false;             ///< one of many analyses: no printed tables, no warnings
 
     static Result<std::unique_ptr<AnalysisContext>> make(std::shared_ptr<const Circuit>);
     AnalysisContext(const AnalysisContext&) = delete;

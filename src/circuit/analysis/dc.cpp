@@ -88,7 +88,8 @@ private:
     }
     Result<void> set_source(const std::string& name, double value) {
         auto source = std::find_if(sources_.begin(), sources_.end(), [&](const Source& s) { return s.name == name; });
-        if (source == sources_.end()) source = sources_.insert(source, {name, given_.system.device(name)->principal_value().value_or(0), value});
+        if (source == sources_.end())
+            source = sources_.insert(source, {name, given_.system.device(name)->principal_value().value_or(0), value});
         source->current = value;
         if (!context().system.device(name)->set_principal_value(value))
             return bad_input(fmt::format(".dc: {:g} is not an allowed value of {}", value, name), SourceLocation{given_.circuit->file});
@@ -103,7 +104,8 @@ Result<AnalysisResult> analyse_dc(AnalysisContext& given, const Directive& c) {
     const bool up_down = !words.words.empty() && words.words.back() == "updown";
     if (up_down) words.words.pop_back();
     if (words.words.size() != 4 && words.words.size() != 8)
-        return bad_input(fmt::format(".dc: {} words; expected .dc SOURCE FROM TO STEP, or these four twice", words.words.size()), c.location);
+        return bad_input(fmt::format(".dc: {} words; expected .dc SOURCE FROM TO STEP, or these four twice", words.words.size()),
+                         c.location);
     const auto inner = read_sweep(given, words, 0);
     if (!inner) return inner.error();
     std::optional<Sweep> outer;
@@ -134,7 +136,7 @@ Result<AnalysisResult> analyse_dc(AnalysisContext& given, const Directive& c) {
             if (!found) {
                 auto error = found.error();
                 error.message = fmt::format(".dc at {} = {:g}{}: {}", inner->variable, values[j],
-                                             outer ? fmt::format(", {} = {:g}", outer->variable, outer_values[k]) : "", error.message);
+                                            outer ? fmt::format(", {} = {:g}", outer->variable, outer_values[k]) : "", error.message);
                 return error;
             }
             x = found->x;

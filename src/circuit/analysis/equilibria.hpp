@@ -8,7 +8,7 @@ namespace corpuscle::circuit {
 struct Equilibrium {
     std::vector<double> x;
     bool is_stable = true;     ///< small disturbances decay (find_unstable_mode)
-    bool is_default = false;     ///< the one that AnalysisContext::operating_point() returns
+    bool is_default = false;   ///< the one that AnalysisContext::operating_point() returns
     bool is_power_on = false;  ///< the one that the circuit reaches at power-on
 };
 

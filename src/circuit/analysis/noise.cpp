@@ -61,7 +61,8 @@ Result<AnalysisResult> analyse_noise(AnalysisContext& context, const Directive& 
     LinearSolver<std::complex<double>> solver(system.pattern());
     double f_last = 0;
     for (const double f : *frequencies) {
-        if (context.is_stopped(static_cast<double>(plot.point_count()) / static_cast<double>(frequencies->size()))) return interrupted_error();
+        if (context.is_stopped(static_cast<double>(plot.point_count()) / static_cast<double>(frequencies->size())))
+            return interrupted_error();
         if (!solver.factor(admittances(evaluation, system.pattern().entries(), 6.283185307179586 * f)))
             return bad_input(fmt::format(".noise at {:g} Hz: the matrix is singular", f), c.location);
         std::vector<std::complex<double>> lambda(operating_point->x.size());

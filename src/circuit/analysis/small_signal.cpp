@@ -19,7 +19,8 @@ struct LinearCircuit {
 Result<LinearCircuit> linearize(AnalysisContext& context, const Directive& c) {
     const auto operating_point = context.operating_point();
     if (!operating_point) return operating_point.error();
-    LinearCircuit linear{operating_point->x, evaluate_operating_point(context, operating_point->x), LinearSolver<double>(context.system.pattern())};
+    LinearCircuit linear{operating_point->x, evaluate_operating_point(context, operating_point->x),
+                         LinearSolver<double>(context.system.pattern())};
     if (!linear.solver.factor(std::span<const double>(linear.evaluation.G).first(context.system.pattern().entries())))
         return bad_input(fmt::format(".{}: the matrix is singular at the operating point", c.name), c.location);
     return linear;

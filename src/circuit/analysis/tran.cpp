@@ -10,8 +10,8 @@
 #include "circuit/analysis/transient_plan.hpp"
 #include "circuit/device/named_values.hpp"
 #include "circuit/force_directive.hpp"
-#include "circuit/spike_output.hpp"
 #include "circuit/operating_range.hpp"
+#include "circuit/spike_output.hpp"
 #include "signal/quantity.hpp"
 
 namespace corpuscle::circuit {
@@ -61,7 +61,8 @@ double max_step_of(const TransientTimes& t) {
 }
 
 /// Runs a transient, passes its points to each(), and returns its spikes (s).
-Result<std::vector<double>> run_transient(AnalysisContext& context, const TranSetup& setup, Transient& t, const Transient::PointCallback& each) {
+Result<std::vector<double>> run_transient(AnalysisContext& context, const TranSetup& setup, Transient& t,
+                                          const Transient::PointCallback& each) {
     std::vector<double> out;
     bool stopped = false;
     const auto done = t.run(
@@ -173,8 +174,8 @@ Result<AnalysisResult> analyse_tran(AnalysisContext& context, const Directive& c
     const auto& work = transient.stats();
     out.table = fmt::format("{} steps, {} rejected, {} Newton iterations\n", work.steps, work.rejected, work.iterations);
     out.stats = {{"steps", static_cast<double>(work.steps)},
-                {"rejected", static_cast<double>(work.rejected)},
-                {"iterations", static_cast<double>(work.iterations)}};
+                 {"rejected", static_cast<double>(work.rejected)},
+                 {"iterations", static_cast<double>(work.iterations)}};
     if (!context.points) out.plots.push_back(std::move(kept.plot));
     return out;
 }

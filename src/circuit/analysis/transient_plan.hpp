@@ -12,7 +12,7 @@ Result<TransientPlan> read_transient_plan(const Circuit&);
 /// .tran STEP STOP [START [LONGEST]] [uic]
 struct TransientTimes {
     double step = 0, stop = 0, start = 0;  ///< s
-    std::optional<double> max_step;         ///< s, if given
+    std::optional<double> max_step;        ///< s, if given
     bool uic = false;
 };
 Result<TransientTimes> read_transient_times(const Directive&);

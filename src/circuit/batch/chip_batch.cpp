@@ -196,8 +196,8 @@ double linearization_radius(const TransientPlan& plan) {
     return std::sqrt(2 * phi_t * fraction * (plan.reltol * 0.5 + plan.vntol));
 }
 
-Result<void> run_all_scalar(const std::function<std::optional<Chip>()>& next, const std::function<void(const Chip&, ChipResponse&&)>& on_done,
-                            const BatchOptions& options) {
+Result<void> run_all_scalar(const std::function<std::optional<Chip>()>& next,
+                            const std::function<void(const Chip&, ChipResponse&&)>& on_done, const BatchOptions& options) {
     while (const auto chip = next()) {
         auto response = run_chip_scalar(*chip, options);
         if (response.error && response.error->code == ErrorCode::interrupted) return *response.error;
@@ -220,8 +220,8 @@ Result<void> run_chips(const std::shared_ptr<const CircuitAfferentFactory>& nomi
     if (list == nullptr || system.groups().empty() || nominal->plan.method != Integration::bdf)
         return run_all_scalar(next, on_done, options);
     return Batch(**kernels, system, *list, linearization_radius(nominal->plan),
-                 static_cast<std::size_t>(std::max(nominal->plan.max_order + 1, StepControl::max_curve_points)), (*rig)->context().tolerances.gmin,
-                 next, on_done, options)
+                 static_cast<std::size_t>(std::max(nominal->plan.max_order + 1, StepControl::max_curve_points)),
+                 (*rig)->context().tolerances.gmin, next, on_done, options)
         .run();
 }
 

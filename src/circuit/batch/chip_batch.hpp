@@ -13,7 +13,7 @@ namespace corpuscle::circuit {
 
 /// A chip to simulate.
 struct Chip {
-    std::int64_t id = 0;                      ///< chosen by the caller
+    std::int64_t id = 0;                                   ///< chosen by the caller
     std::shared_ptr<const CircuitAfferentFactory> design;  ///< all of one batch have the same devices at the same nodes
     std::optional<ChipSample> sample;
     std::span<const double> force;  ///< N, sampled at interval T; must stay valid until the chip is done
@@ -25,16 +25,16 @@ struct ChipResponse {
     std::vector<double> spikes;  ///< s
     TransientStats stats;
     EnergyUse energy_use;
-    std::vector<RangeViolation> range_violations;           ///< by range of the design
-    std::vector<std::vector<float>> probes;  ///< [probe of the design][recorded sample]
-    std::optional<Error> error;             ///< it did not converge: time and unknown
-    bool hit_iteration_limit = false;                    ///< stopped at the iteration limit
-    bool is_scalar = false;                     ///< simulated by the scalar code after its lane failed
+    std::vector<RangeViolation> range_violations;  ///< by range of the design
+    std::vector<std::vector<float>> probes;        ///< [probe of the design][recorded sample]
+    std::optional<Error> error;                    ///< it did not converge: time and unknown
+    bool hit_iteration_limit = false;              ///< stopped at the iteration limit
+    bool is_scalar = false;                        ///< simulated by the scalar code after its lane failed
 };
 
 struct BatchOptions {
-    std::size_t lanes = 8;       ///< 1, 4 or 8; results do not depend on it
-    long max_iterations = 0;    ///< limit for one chip; 0: no limit
+    std::size_t lanes = 8;        ///< 1, 4 or 8; results do not depend on it
+    long max_iterations = 0;      ///< limit for one chip; 0: no limit
     std::size_t probe_every = 0;  ///< records the probes at every n-th sample; 0: never
     std::function<bool()> should_stop = {};
 };

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "circuit/solve/interpolant.hpp"
 #include "circuit/solve/crossing.hpp"
+#include "circuit/solve/interpolant.hpp"
 
 namespace corpuscle::circuit {
 namespace {
@@ -42,7 +42,8 @@ Result<bool> ChipLane::start(const Chip& chip, const BatchOptions& options) {
     context.newton.limiting_state = start.limiting_state;
     auto& b = memory_.block;
     for (std::size_t n = 0; n < b.unknowns; ++n) {
-        for (std::size_t s = 0; s < b.points; ++s) b.past_x[s * b.unknowns + n].value[lane_] = b.past_q[s * b.unknowns + n].value[lane_] = 0;
+        for (std::size_t s = 0; s < b.points; ++s)
+            b.past_x[s * b.unknowns + n].value[lane_] = b.past_q[s * b.unknowns + n].value[lane_] = 0;
         b.past_x[n].value[lane_] = b.x[n].value[lane_] = start.history[0].x[n], b.past_q[n].value[lane_] = start.history[0].q[n];
         b.rate[n].value[lane_] = start.rate[n], b.scale[n].value[lane_] = start.scale[n];
         const bool charged = simulation_->transient().has_charge(n), voltage = b.is_voltage[n] != 0;
@@ -107,8 +108,8 @@ void ChipLane::start_step() {
     is_new_step_ = true;
 }
 
-ChipLane::NextTask ChipLane::prepare(lanes::PredictCall& call, std::span<lanes::LaneRow> value, std::span<lanes::LaneRow> slope, lanes::SolveCall& solve,
-                         lanes::StepCall& step) {
+ChipLane::NextTask ChipLane::prepare(lanes::PredictCall& call, std::span<lanes::LaneRow> value, std::span<lanes::LaneRow> slope,
+                                     lanes::SolveCall& solve, lanes::StepCall& step) {
     is_new_step_ = false;
     if (!is_occupied()) return next_task_ = NextTask::nothing;
     if (next_task_ == NextTask::restart) {  // at the last point, without history
@@ -121,8 +122,10 @@ ChipLane::NextTask ChipLane::prepare(lanes::PredictCall& call, std::span<lanes::
         set_sources(t_);
         const auto weights = weights_of_slope(times(control_.order), t_, a_);
         for (int k = 0; k < points_; ++k)
-            value[history_slot(k)].value[lane_] = predictor_weights_[static_cast<std::size_t>(k)], slope[history_slot(k)].value[lane_] = weights[static_cast<std::size_t>(k)];
-        for (int k = points_; k < static_cast<int>(memory_.block.points); ++k) value[history_slot(k)].value[lane_] = slope[history_slot(k)].value[lane_] = 0;
+            value[history_slot(k)].value[lane_] = predictor_weights_[static_cast<std::size_t>(k)],
+            slope[history_slot(k)].value[lane_] = weights[static_cast<std::size_t>(k)];
+        for (int k = points_; k < static_cast<int>(memory_.block.points); ++k)
+            value[history_slot(k)].value[lane_] = slope[history_slot(k)].value[lane_] = 0;
         next_task_ = NextTask::iterate;
     }
     call.is_new_step.value[lane_] = is_new_step_;
@@ -134,8 +137,9 @@ ChipLane::NextTask ChipLane::prepare(lanes::PredictCall& call, std::span<lanes::
 void ChipLane::relinearize_nonlinear_devices() {
     if (++rounds_ % rounds_between_sums == 0) memory_.sum_again(lane_);
     auto& context = simulation_->context();
-    is_limited_ = memory_.relinearize_nonlinear_devices(lane_, context.system, {next_task_ == NextTask::restart ? times_[0] : t_, 1, context.tolerances.gmin, true},
-                                      context.newton.limiting_state);
+    is_limited_ = memory_.relinearize_nonlinear_devices(
+        lane_, context.system, {next_task_ == NextTask::restart ? times_[0] : t_, 1, context.tolerances.gmin, true},
+        context.newton.limiting_state);
 }
 
 ChipLane::IterationStatus ChipLane::finish_iteration(double size, bool clamped, bool finite) {
@@ -156,7 +160,7 @@ ChipLane::IterationStatus ChipLane::finish_iteration(double size, bool clamped, 
     if (status == NewtonControl::Status::converged && !may_jump_) {
         auto& context = simulation_->context();
         if (!memory_.expressions_match(lane_, context.system, {t_, 1, context.tolerances.gmin, true},
-                                   {plan_.reltol, plan_.vntol, plan_.abstol}))
+                                       {plan_.reltol, plan_.vntol, plan_.abstol}))
             status = newton_.continue_iterating();
     }
     if (status == NewtonControl::Status::diverged) return IterationStatus::failed;
@@ -220,7 +224,8 @@ ChipLane::StepStatus ChipLane::decide_step(double error) {
 void ChipLane::choose_step(double error, double lower, double higher) {
     const double now = times_[0], planned = control_.h;
     const int order = control_.order;
-    control_.choose(t_ - now, error, points_, std::min(plan_.max_order, points_ - 1), [&](int other) { return other < order ? lower : higher; });
+    control_.choose(t_ - now, error, points_, std::min(plan_.max_order, points_ - 1),
+                    [&](int other) { return other < order ? lower : higher; });
     if (!may_jump_) control_.limit_by_curve(t_ - now, interpolation_error_, curve_points_);
     if (jumped_) curve_points_ = 2;
     if (ends_at_breakpoint_ && t_ - now < planned) control_.h = std::max(control_.h, std::min(planned, plan_.max_step));
@@ -231,7 +236,8 @@ void ChipLane::advance() {
     auto& b = memory_.block;
     const int capacity = static_cast<int>(b.points);
     control_.record_step(t_ - times_[0]);
-    newest_slot_ = (newest_slot_ + capacity - 1) % capacity, points_ = std::min(points_ + 1, capacity), smooth_count_ = std::min(smooth_count_ + 1, capacity);
+    newest_slot_ = (newest_slot_ + capacity - 1) % capacity, points_ = std::min(points_ + 1, capacity),
+    smooth_count_ = std::min(smooth_count_ + 1, capacity);
     std::copy_backward(times_.begin(), times_.end() - 1, times_.end());
     times_[0] = t_;
     const auto first = static_cast<std::size_t>(newest_slot_) * b.unknowns;
@@ -248,7 +254,8 @@ bool ChipLane::accept_step() {
     const double from = times_[0];
     advance();
     add_energy(from);
-    if (const auto at = spike(); at && std::ceil(*at / chip_->T) < static_cast<double>(chip_->force.size())) response_.spikes.push_back(*at);
+    if (const auto at = spike(); at && std::ceil(*at / chip_->T) < static_cast<double>(chip_->force.size()))
+        response_.spikes.push_back(*at);
     record_samples();
     response_.hit_iteration_limit = options_->max_iterations > 0 && response_.stats.iterations > options_->max_iterations;
     return !response_.hit_iteration_limit && times_[0] < end_time_;
@@ -271,7 +278,7 @@ std::optional<double> ChipLane::spike() const {
     const double sign = o.is_rising ? 1 : -1;
     const auto beyond = [&](int k) { return sign * (u(k, o.unknowns.plus) - u(k, o.unknowns.minus) - o.level); };
     return find_crossing(times_[1], times_[0], beyond(1), beyond(0),
-                           [&](double t) { return sign * (interpolate(t, o.unknowns.plus) - interpolate(t, o.unknowns.minus) - o.level); });
+                         [&](double t) { return sign * (interpolate(t, o.unknowns.plus) - interpolate(t, o.unknowns.minus) - o.level); });
 }
 
 /// For all samples up to the current time: records the probes and checks the operating ranges.
@@ -286,7 +293,8 @@ void ChipLane::record_samples() {
             return next_sample_ > 0 ? interpolate(t, u) : u < 0 ? 0 : past(memory_.block.past_x, 0, static_cast<std::size_t>(u));
         };
         for (std::size_t k = 0; k < design.operating_ranges.size(); ++k)
-            if (auto& o = response_.range_violations[k]; !design.operating_ranges[k].contains(design.operating_ranges[k].quantity.value(system, value)))
+            if (auto& o = response_.range_violations[k];
+                !design.operating_ranges[k].contains(design.operating_ranges[k].quantity.value(system, value)))
                 o = {o.samples + 1, o.first_sample < 0 ? next_sample_ : o.first_sample};
         for (std::size_t p = 0; every > 0 && next_sample_ % every == 0 && p < design.probes.size(); ++p)
             response_.probes[p].push_back(static_cast<float>(design.probes[p].value(system, value)));

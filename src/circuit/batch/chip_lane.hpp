@@ -3,8 +3,8 @@
 
 #include <array>
 
-#include "circuit/batch/chip_memory.hpp"
 #include "circuit/batch/chip_batch.hpp"
+#include "circuit/batch/chip_memory.hpp"
 #include "circuit/streaming_transient.hpp"
 
 namespace corpuscle::circuit {
@@ -28,16 +28,17 @@ private:
     TransientPlan plan_;
     StepControl control_;
     NewtonControl newton_;
-    std::array<double, 8> times_{};  // of the history, newest first
-    int points_ = 0, newest_slot_ = 0;    // length of the history; slot of the newest point in the ring buffer
-    int smooth_count_ = 0, curve_points_ = 0;       // points on one smooth curve; points of the last interpolation
-    double breakpoint_ = 0;              // next breakpoint of the sources; outdated if not after the last time
+    std::array<double, 8> times_{};            // of the history, newest first
+    int points_ = 0, newest_slot_ = 0;         // length of the history; slot of the newest point in the ring buffer
+    int smooth_count_ = 0, curve_points_ = 0;  // points on one smooth curve; points of the last interpolation
+    double breakpoint_ = 0;                    // next breakpoint of the sources; outdated if not after the last time
     bool restart_pending_ = false, ends_at_breakpoint_ = false, may_jump_ = false, jumped_ = false;
     double end_time_ = 0;  // s: end of the force
 
     // the current step
     NextTask next_task_ = NextTask::nothing;
-    bool is_new_step_ = false, is_limited_ = false, is_iterating_ = false;  // is_iterating_: not converged yet, but the error is estimated early
+    bool is_new_step_ = false, is_limited_ = false,
+         is_iterating_ = false;  // is_iterating_: not converged yet, but the error is estimated early
     double t_ = 0, a_ = 0, interpolation_error_ = 0;
     HistoryWeights predictor_weights_{};
     std::vector<std::size_t> sources_;  // time-dependent sources
@@ -70,7 +71,8 @@ public:
     ChipResponse finish();
 
     /// Chooses the task of the next round and writes its arguments and weights.
-    NextTask prepare(lanes::PredictCall&, std::span<lanes::LaneRow> value, std::span<lanes::LaneRow> slope, lanes::SolveCall&, lanes::StepCall&);
+    NextTask prepare(lanes::PredictCall&, std::span<lanes::LaneRow> value, std::span<lanes::LaneRow> slope, lanes::SolveCall&,
+                     lanes::StepCall&);
     /// Call after x has been set.
     void relinearize_nonlinear_devices();
     bool is_restarting() const { return next_task_ == NextTask::restart; }

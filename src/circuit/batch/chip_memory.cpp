@@ -64,8 +64,8 @@ ChipMemory::ChipMemory(const System& system, const Elimination& elimination, std
     b.unknowns = n, b.entries = entries, b.points = points, b.devices = transistors_, b.list = list;
     b.row = row_.data(), b.column = column_.data(), b.slot = slot_.data(), b.is_voltage = voltage_.data(), b.terminals = terminals_.data();
     RowAllocator rows;
-    for (auto* array : {&b.q, &b.source_currents, &b.history, &b.rate, &b.r, &b.step, &b.error, &b.inverse_pivot, &b.work, &b.scale, &b.inverse_allowed,
-                        &b.relative, &b.floor})
+    for (auto* array : {&b.q, &b.source_currents, &b.history, &b.rate, &b.r, &b.step, &b.error, &b.inverse_pivot, &b.work, &b.scale,
+                        &b.inverse_allowed, &b.relative, &b.floor})
         rows.request(*array, n);
     for (auto* array : {&b.x, &b.I, &b.Q}) rows.request(*array, n + 1);
     for (auto* array : {&b.G, &b.C}) rows.request(*array, entries + 1);
@@ -196,7 +196,8 @@ void ChipMemory::relinearize(const lanes::ChipKernels& kernels, std::uint8_t chi
     }
 }
 
-bool ChipMemory::relinearize_nonlinear_devices(std::size_t chip, const System& system, const EvalContext& context, std::vector<double>& limiting_state) {
+bool ChipMemory::relinearize_nonlinear_devices(std::size_t chip, const System& system, const EvalContext& context,
+                                               std::vector<double>& limiting_state) {
     bool limited = false;
     for (auto& o : nonlinear_devices_[chip]) {
         const Device& d = *system.devices()[o.index];
@@ -225,7 +226,8 @@ bool ChipMemory::relinearize_nonlinear_devices(std::size_t chip, const System& s
     return limited;
 }
 
-bool ChipMemory::expressions_match(std::size_t chip, const System& system, const EvalContext& context, const ExpressionTolerance& tolerance) {
+bool ChipMemory::expressions_match(std::size_t chip, const System& system, const EvalContext& context,
+                                   const ExpressionTolerance& tolerance) {
     for (auto& o : nonlinear_devices_[chip]) {
         const Device& d = *system.devices()[o.index];
         if (!d.has_jumps()) continue;

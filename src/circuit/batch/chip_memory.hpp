@@ -17,7 +17,7 @@ using lanes::Linearization;
 struct NonlinearDevice {
     std::size_t index;  ///< in the system
     std::vector<int> unknowns;
-    std::vector<std::size_t> entries;              ///< matrix entry of each derivative; the last entry is ground
+    std::vector<std::size_t> entries;                                     ///< matrix entry of each derivative; the last entry is ground
     std::vector<double> v, limited_v, linearization, last_linearization;  ///< linearization: i, q, g, c, as in Linearization
 };
 
@@ -27,10 +27,10 @@ class ChipMemory {
     std::size_t transistors_;
     std::vector<std::vector<int>> scalar_unknowns_;  // unknowns of each device that is not a transistor
     std::vector<char> voltage_;
-    std::vector<std::size_t> entry_;        // by index in the sparsity pattern, and of ground
-    std::vector<std::size_t> entries_;       // entry of each derivative of the transistors
-    std::vector<Linearization> linearizations_;       // [chip][transistor]
-    std::vector<lanes::LaneRow> linear_sums_;         // I, G, C of linear devices
+    std::vector<std::size_t> entry_;               // by index in the sparsity pattern, and of ground
+    std::vector<std::size_t> entries_;             // entry of each derivative of the transistors
+    std::vector<Linearization> linearizations_;    // [chip][transistor]
+    std::vector<lanes::LaneRow> linear_sums_;      // I, G, C of linear devices
     std::vector<const UicmConstants*> constants_;  // [chip][transistor]
     std::vector<std::uint8_t> moved_;
     struct DeviceOnChip {
@@ -38,7 +38,7 @@ class ChipMemory {
     };
     std::vector<DeviceOnChip> moved_devices_;
     std::vector<const UicmConstants*> moved_constants_;
-    std::vector<lanes::LaneRow> moved_v_;       // voltages of the moved transistors: drains, gates, sources, bulks
+    std::vector<lanes::LaneRow> moved_v_;            // voltages of the moved transistors: drains, gates, sources, bulks
     std::vector<Linearization> new_linearizations_;  // new linearizations of the moved transistors
     std::vector<NonlinearDevice> nonlinear_devices_[lanes::chips_per_block];
 

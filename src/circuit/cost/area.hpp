@@ -9,7 +9,7 @@ namespace corpuscle::circuit {
 struct Area {
     double gates = 0;       ///< channel area: m stack W L
     double arrays = 0;      ///< of transistors, with each array in its smallest rectangle
-    double islands = 0;       ///< of the same transistors, with each unit transistor on its own island
+    double islands = 0;     ///< of the same transistors, with each unit transistor on its own island
     double capacitors = 0;  ///< of plates; they are metal above the transistors, so they may overlap the arrays
     double total() const { return arrays + capacitors; }
     Area& operator+=(const Area&);

@@ -39,7 +39,8 @@ void add_leakage(const AnalysisContext& context, std::span<const double> x, cons
         auto& block = out.blocks[blocks.block_of_element[leak.element]];
         if (block.worst_name.empty() || leak.current > block.worst_leak.current)
             block.worst_leak = leak, block.worst_name = circuit.elements[leak.element].name;
-        if (leak.is_off && out.smallest_bias > 0 && leak.current > min_reported_leak * out.smallest_bias) out.leaks.push_back(std::move(leak));
+        if (leak.is_off && out.smallest_bias > 0 && leak.current > min_reported_leak * out.smallest_bias)
+            out.leaks.push_back(std::move(leak));
     }
     std::sort(out.leaks.begin(), out.leaks.end(), [](const Leakage& a, const Leakage& b) {
         return std::tuple(a.capacitor_node.empty(), -a.current, a.element) < std::tuple(b.capacitor_node.empty(), -b.current, b.element);

@@ -13,20 +13,20 @@ struct BlockCost {
     std::string name;
     std::size_t transistors = 0, unit_transistors = 0;  ///< arrays, and the unit transistors that they consist of
     Area area;
-    Leakage worst_leak;              ///< of the transistor with the largest leakage current
+    Leakage worst_leak;      ///< of the transistor with the largest leakage current
     std::string worst_name;  ///< "" if the block has no transistor
 };
 
 /// The cost of a complete circuit.
 struct Cost {
-    double supply = 0;                                  ///< V, of the source that delivers the most power at the operating point
-    std::vector<std::string> sources;                   ///< the sources that deliver power
-    std::vector<BlockCost> blocks;                      ///< in netlist order
+    double supply = 0;                                          ///< V, of the source that delivers the most power at the operating point
+    std::vector<std::string> sources;                           ///< the sources that deliver power
+    std::vector<BlockCost> blocks;                              ///< in netlist order
     std::vector<std::pair<std::string, PowerBreakdown>> power;  ///< "op"; for a transient also "mean", "peak" and the phases of its force
-    bool has_sensor = false;                            ///< if false, none of the power is the sensor's
-    bool is_afferent = false;                           ///< it has a force input and a spike output
-    std::size_t unknown_areas = 0;   ///< elements of unknown area: resistors, inductors, diodes, capacitors with an expression
-    double smallest_bias = 0;  ///< A; 0 if the circuit has no ideal bias source
+    bool has_sensor = false;                                    ///< if false, none of the power is the sensor's
+    bool is_afferent = false;                                   ///< it has a force input and a spike output
+    std::size_t unknown_areas = 0;  ///< elements of unknown area: resistors, inductors, diodes, capacitors with an expression
+    double smallest_bias = 0;       ///< A; 0 if the circuit has no ideal bias source
     std::vector<Leakage>
         leaks;  ///< devices that are off and leak more than a tenth of smallest_bias; those at capacitor nodes first, then by current
     std::vector<std::string> leaking_names;  ///< names of the devices of `leaks`

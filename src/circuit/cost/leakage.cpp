@@ -5,8 +5,8 @@
 #include <map>
 #include <numeric>
 
-#include "circuit/device/physical_constants.hpp"
 #include "circuit/device/named_values.hpp"
+#include "circuit/device/physical_constants.hpp"
 
 namespace corpuscle::circuit {
 namespace {

@@ -13,7 +13,7 @@ namespace corpuscle::circuit {
 struct Leakage {
     std::size_t element = 0;  ///< in Circuit::elements
     double current = 0;       ///< A
-    double V_GS = 0;   ///< V at the operating point, positive towards conduction; the source is the terminal that acts as source there
+    double V_GS = 0;      ///< V at the operating point, positive towards conduction; the source is the terminal that acts as source there
     bool is_off = false;  ///< V_GS is below phi_t: the transistor carries less than e times its leakage
     std::string capacitor_node;  ///< the node at source or drain whose voltage a capacitor holds, such as "u"; "" if there is none
 };

@@ -23,7 +23,7 @@ struct Blocks {
 struct PowerBreakdown {
     double supplies = 0;                  ///< delivered by all sources
     double sensor = 0;                    ///< of that, the power for the current through the sensor; see PowerMeter
-    double without_sensor = 0;                       ///< the rest
+    double without_sensor = 0;            ///< the rest
     std::vector<double> sources, blocks;  ///< of each source and block, in the order of the meter
 };
 

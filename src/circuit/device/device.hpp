@@ -20,9 +20,9 @@ class ForceWaveform;
 
 /// The conditions under which a device is evaluated.
 struct EvalContext {
-    double time = 0;      ///< s
+    double time = 0;           ///< s
     double source_scale = 1;   ///< factor of all sources: below 1 during source stepping
-    double gmin = 0;      ///< S, in parallel with every junction
+    double gmin = 0;           ///< S, in parallel with every junction
     bool with_charges = true;  ///< false: q and dq need not be evaluated
 };
 
@@ -38,7 +38,7 @@ struct Stamp {
 /// A noise current between two unknowns of a device: its spectral density, A^2/Hz, is white + flicker / f.
 struct NoiseSource {
     std::string_view mechanism;  ///< "thermal", "shot", "flicker" ...
-    std::size_t from, to;   ///< indices into the device's unknowns
+    std::size_t from, to;        ///< indices into the device's unknowns
     double white = 0, flicker = 0;
 };
 
@@ -51,8 +51,8 @@ struct OperatingValue {
 /// The random process and mismatch sample of one chip, a function of (seed, chip).
 struct ChipSample {
     std::uint64_t seed = 0, chip = 0;
-    bool has_mismatch = true;    ///< each device has its own deviation
-    double process[4] = {};  ///< normal deviates common to all devices: V_T0 of NMOS and PMOS, then I_SQ of NMOS and PMOS
+    bool has_mismatch = true;  ///< each device has its own deviation
+    double process[4] = {};    ///< normal deviates common to all devices: V_T0 of NMOS and PMOS, then I_SQ of NMOS and PMOS
 };
 
 class Device {
@@ -105,9 +105,9 @@ struct BatchStamp {
     std::size_t stride;
     const double* v;
     double *f, *df;
-    double* max_term;     ///< largest term of each f, the scale of its rounding error; null: not needed
-    double *q, *dq;   ///< null: not needed
-    double rate = 0;  ///< 1/s: f and df are returned with rate times q and dq added
+    double* max_term;  ///< largest term of each f, the scale of its rounding error; null: not needed
+    double *q, *dq;    ///< null: not needed
+    double rate = 0;   ///< 1/s: f and df are returned with rate times q and dq added
 };
 
 /// Devices of one kind, evaluated together on SIMD lanes. The stride is a multiple of 8; copies of the last device fill the rest.
@@ -124,9 +124,9 @@ public:
 class DeviceSetup {
 public:
     virtual ~DeviceSetup() = default;
-    virtual int node_unknown(int number) const = 0;                ///< unknown of a node's voltage
-    virtual int branch_unknown(int element) const = 0;             ///< unknown of the current through an element; -1: none
-    virtual int add_unknown(std::string_view name) = 0;            ///< adds an unknown, e.g. "x1.d1#anode"
+    virtual int node_unknown(int number) const = 0;        ///< unknown of a node's voltage
+    virtual int branch_unknown(int element) const = 0;     ///< unknown of the current through an element; -1: none
+    virtual int add_unknown(std::string_view name) = 0;    ///< adds an unknown, e.g. "x1.d1#anode"
     virtual double temperature(const Element&) const = 0;  ///< K
     virtual const Circuit& circuit() const = 0;
 };

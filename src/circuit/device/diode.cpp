@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "circuit/device/physical_constants.hpp"
 #include "circuit/device/named_values.hpp"
+#include "circuit/device/physical_constants.hpp"
 #include "signal/elementary.hpp"
 
 namespace corpuscle::circuit {

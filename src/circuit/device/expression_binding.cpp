@@ -23,7 +23,8 @@ int ExpressionBinding::local_index(int unknown) {
     return static_cast<int>(std::find(unknowns_.begin(), unknowns_.end(), unknown) - unknowns_.begin());
 }
 
-Result<ExpressionBinding> ExpressionBinding::make(const Expression& expression, const Element& e, const DeviceSetup& setup, std::vector<int> first) {
+Result<ExpressionBinding> ExpressionBinding::make(const Expression& expression, const Element& e, const DeviceSetup& setup,
+                                                  std::vector<int> first) {
     ExpressionBinding out;
     out.unknowns_ = std::move(first);
     const Circuit& circuit = setup.circuit();

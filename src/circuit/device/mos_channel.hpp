@@ -14,7 +14,7 @@ struct ValueWithSlopes {
 /// caller applies the sign of the carriers.
 template <class T>
 struct MosChannel {
-    T q_S, q_D;             ///< inversion charge densities at the source and drain voltages
+    T q_S, q_D;                      ///< inversion charge densities at the source and drain voltages
     ValueWithSlopes<T> i, Q_S, Q_D;  ///< current from drain to source; channel charge assigned to the source and to the drain
     T Q() const { return Q_S.value + Q_D.value; }
 };

@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "circuit/netlist/netlist.hpp"
-#include "signal/parameter.hpp"
 #include "signal/ascii_text.hpp"
+#include "signal/parameter.hpp"
 
 namespace corpuscle::circuit {
 
@@ -17,7 +17,7 @@ inline double value_or(const Values& values, std::string_view name, double fallb
 
 /// Rejects a parameter name that is not in `known`. `owner`: name of the element or model.
 inline Result<void> check_value_names(std::string_view owner, const Values& values, std::span<const std::string_view> known,
-                                          const SourceLocation& place) {
+                                      const SourceLocation& place) {
     for (const auto& [name, value] : values)
         if (std::find(known.begin(), known.end(), name) == known.end())
             return bad_input(fmt::format("{}: unknown parameter '{}'{}", owner, name, did_you_mean(name, known)), place);
@@ -36,7 +36,8 @@ Result<P> read_model_card(const ParameterDef<P> (&fields)[N], const Model& model
     for (std::size_t k = 0; k < N; ++k) {
         const auto given = model.values.find(names[k]);
         if (given == model.values.end()) continue;
-        const ParameterInfo row{fields[k].name, fields[k].unit, card.*fields[k].member, fields[k].low, fields[k].high, fields[k].description, {}};
+        const ParameterInfo row{
+            fields[k].name, fields[k].unit, card.*fields[k].member, fields[k].low, fields[k].high, fields[k].description, {}};
         if (auto ok = check_range(model.name, row, given->second); !ok) return bad_input(ok.error().message, model.location);
         card.*fields[k].member = given->second;
     }

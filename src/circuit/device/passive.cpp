@@ -2,9 +2,9 @@
 
 #include <array>
 
-#include "circuit/device/physical_constants.hpp"
 #include "circuit/device/expression_binding.hpp"
 #include "circuit/device/named_values.hpp"
+#include "circuit/device/physical_constants.hpp"
 
 namespace corpuscle::circuit {
 namespace {
@@ -135,7 +135,8 @@ Result<std::unique_ptr<Device>> make_capacitor(const Element& e, DeviceSetup& se
 Result<std::unique_ptr<Device>> make_inductor(const Element& e, DeviceSetup& setup) {
     if (auto ok = check_parameters(e, setup); !ok) return ok.error();
     auto device = std::make_unique<Inductor>(at_temperature(e.value, e, setup) / value_or(e.values, "m", 1));
-    device->unknowns = {setup.node_unknown(e.nodes[0]), setup.node_unknown(e.nodes[1]), setup.branch_unknown(setup.circuit().find_element(e.name))};
+    device->unknowns = {setup.node_unknown(e.nodes[0]), setup.node_unknown(e.nodes[1]),
+                        setup.branch_unknown(setup.circuit().find_element(e.name))};
     return std::unique_ptr<Device>(std::move(device));
 }
 

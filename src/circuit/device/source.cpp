@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <iterator>
 
-#include "circuit/device/source_waveform.hpp"
 #include "circuit/device/expression_binding.hpp"
 #include "circuit/device/named_values.hpp"
+#include "circuit/device/source_waveform.hpp"
 #include "circuit/force_waveform.hpp"
 #include "signal/elementary.hpp"
 
@@ -160,7 +160,8 @@ class ExpressionVoltageSource final : public Device {
     bool jumps_ = contains_jumps(expression_);
 
 public:
-    ExpressionVoltageSource(Expression expression, ExpressionBinding binding) : expression_(std::move(expression)), binding_(std::move(binding)) {}
+    ExpressionVoltageSource(Expression expression, ExpressionBinding binding)
+        : expression_(std::move(expression)), binding_(std::move(binding)) {}
     bool is_linear() const override { return false; }
     bool has_jumps() const override { return jumps_; }
     void eval(std::span<const double> v, const EvalContext& context, const Stamp& out) const override {
@@ -186,8 +187,8 @@ std::unique_ptr<Device> with_unknowns(std::unique_ptr<D> device, std::vector<int
 
 Result<std::unique_ptr<Device>> make_voltage_source(const Element& e, DeviceSetup& setup) {
     if (auto ok = check_value_names(e.name, e.values, source_values, e.location); !ok) return ok.error();
-    return with_unknowns(std::make_unique<VoltageSource>(e.waveform),
-                         {setup.node_unknown(e.nodes[0]), setup.node_unknown(e.nodes[1]), setup.branch_unknown(setup.circuit().find_element(e.name))});
+    return with_unknowns(std::make_unique<VoltageSource>(e.waveform), {setup.node_unknown(e.nodes[0]), setup.node_unknown(e.nodes[1]),
+                                                                       setup.branch_unknown(setup.circuit().find_element(e.name))});
 }
 
 Result<std::unique_ptr<Device>> make_current_source(const Element& e, DeviceSetup& setup) {
@@ -205,7 +206,8 @@ Result<std::unique_ptr<Device>> make_controlled_source(const Element& e, DeviceS
     if (by_current) {
         const int control = setup.circuit().find_element(e.control_source);
         if (control < 0 || setup.branch_unknown(control) < 0)
-            return bad_input(fmt::format("{}: unknown voltage source '{}'; its current is the control", e.name, e.control_source), e.location);
+            return bad_input(fmt::format("{}: unknown voltage source '{}'; its current is the control", e.name, e.control_source),
+                             e.location);
         unknowns.push_back(setup.branch_unknown(control));
     } else {
         unknowns.push_back(setup.node_unknown(e.nodes[2]));

@@ -2,10 +2,10 @@
 
 #include <cmath>
 
+#include "circuit/device/named_values.hpp"
 #include "circuit/device/physical_constants.hpp"
 #include "circuit/device/uicm_card.hpp"
 #include "circuit/device/uicm_operating_point.hpp"
-#include "circuit/device/named_values.hpp"
 #include "circuit/lanes/chip_kernels_impl.hpp"
 #include "signal/instruction_set.hpp"
 
@@ -38,15 +38,16 @@ public:
     void eval(std::span<const double> v, const EvalContext& context, const Stamp& out) const override {
         const Uicm<double> model(constants_);
         double max_term[4];
-        lanes::scalar_transistor_kernels.eval({reinterpret_cast<const std::byte*>(&model), 1, 1, v.data(), context.gmin, out.f.data(), out.df.data(),
-                                max_term, context.with_charges ? out.q.data() : nullptr, out.dq.data(), 0});
+        lanes::scalar_transistor_kernels.eval({reinterpret_cast<const std::byte*>(&model), 1, 1, v.data(), context.gmin, out.f.data(),
+                                               out.df.data(), max_term, context.with_charges ? out.q.data() : nullptr, out.dq.data(), 0});
     }
 
     bool apply_variation(const ChipSample* chip, std::uint32_t index) override {
-        constants_ = chip == nullptr
-                         ? nominal_
-                         : with_shifts(nominal_, chip->has_mismatch ? sample_mismatch(card_, instance_, chip->seed, index, chip->chip) : UicmShift{},
-                                   process_shift(card_, pmos_, chip->process));
+        constants_ =
+            chip == nullptr
+                ? nominal_
+                : with_shifts(nominal_, chip->has_mismatch ? sample_mismatch(card_, instance_, chip->seed, index, chip->chip) : UicmShift{},
+                              process_shift(card_, pmos_, chip->process));
         return true;
     }
 
@@ -115,7 +116,9 @@ public:
     void eval(const EvalContext& context, const BatchStamp& s) const override {
         kernels_.eval({models_.data()->bytes, count_, s.stride, s.v, context.gmin, s.f, s.df, s.max_term, s.q, s.dq, s.rate});
     }
-    void extrapolate(std::size_t stride, const double* dv, const double* dq, double* q) const override { kernels_.extrapolate(stride, dv, dq, q); }
+    void extrapolate(std::size_t stride, const double* dv, const double* dq, double* q) const override {
+        kernels_.extrapolate(stride, dv, dq, q);
+    }
 };
 
 /// The instance parameters of an M line.

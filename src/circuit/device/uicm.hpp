@@ -1,7 +1,7 @@
 #pragma once
 
-#include "circuit/device/mos_channel.hpp"
 #include "circuit/device/junction.hpp"
+#include "circuit/device/mos_channel.hpp"
 #include "circuit/device/uicm_constants.hpp"
 
 namespace corpuscle::circuit {
@@ -58,15 +58,18 @@ public:
           I_S(value(&UicmConstants::I_S)), lambda(value(&UicmConstants::lambda)), knee(value(&UicmConstants::knee)),
           Q_0(value(&UicmConstants::Q_0)), C_dep(value(&UicmConstants::C_dep)), C_gs(value(&UicmConstants::C_gs)),
           C_gd(value(&UicmConstants::C_gd)), C_gb(value(&UicmConstants::C_gb)), I_sat_s(value(&UicmConstants::I_sat_s)),
-          I_sat_d(value(&UicmConstants::I_sat_d)), exp_limit_s(value(&UicmConstants::exp_limit_s)), exp_limit_d(value(&UicmConstants::exp_limit_d)),
-          C_js(value(&UicmConstants::C_js)), C_jd(value(&UicmConstants::C_jd)), thermal(value(&UicmConstants::thermal)),
-          flicker(value(&UicmConstants::flicker)), junction_constants{
-                                                       value(&UicmConstants::per_n_phi_t),  value(&UicmConstants::per_P_B),
-                                                       value(&UicmConstants::v_limit),        value(&UicmConstants::charge_exponent),
-                                                       value(&UicmConstants::P_B_per_charge_exponent), value(&UicmConstants::per_P_B_M_J)} {}
+          I_sat_d(value(&UicmConstants::I_sat_d)), exp_limit_s(value(&UicmConstants::exp_limit_s)),
+          exp_limit_d(value(&UicmConstants::exp_limit_d)), C_js(value(&UicmConstants::C_js)), C_jd(value(&UicmConstants::C_jd)),
+          thermal(value(&UicmConstants::thermal)), flicker(value(&UicmConstants::flicker)),
+          junction_constants{value(&UicmConstants::per_n_phi_t),
+                             value(&UicmConstants::per_P_B),
+                             value(&UicmConstants::v_limit),
+                             value(&UicmConstants::charge_exponent),
+                             value(&UicmConstants::P_B_per_charge_exponent),
+                             value(&UicmConstants::per_P_B_M_J)} {}
 
     /// One transistor, or the same in all lanes.
-    explicit Uicm(const UicmConstants& c) : Uicm([&c](double UicmConstants::*member) { return T(c.*member); }) {}
+    explicit Uicm(const UicmConstants& c) : Uicm([&c](double UicmConstants::* member) { return T(c.*member); }) {}
 
     /// Evaluates currents, charges and derivatives at the voltages of drain, gate, source and bulk. Inlined so that the compiler removes
     /// derivatives that are not used.
@@ -136,8 +139,8 @@ private:
         put(out.di[B], -b_d.g, zero, -b_s.g, b_s.g + b_d.g);
     }
 
-    [[gnu::always_inline]] void charges(const Voltages& at, const MosChannel<T>& c, const JunctionEvaluation<T>& b_s, const JunctionEvaluation<T>& b_d,
-                                        UicmEvaluation<T>& out) const {
+    [[gnu::always_inline]] void charges(const Voltages& at, const MosChannel<T>& c, const JunctionEvaluation<T>& b_s,
+                                        const JunctionEvaluation<T>& b_d, UicmEvaluation<T>& out) const {
         const T gd = at.gb - at.db, gs = at.gb - at.sb, o_d = C_gd * gd, o_s = C_gs * gs, o_b = (C_gb + C_dep) * at.gb;
         const T Q_S = -(Q_0 * c.Q_S.value), Q_D = -(Q_0 * c.Q_D.value), Q_B = -((T(1.0) - per_n) * (Q_S + Q_D));
         const T d = Q_D - o_d - b_d.q, s = Q_S - o_s - b_s.q, b = Q_B - o_b + b_s.q + b_d.q;

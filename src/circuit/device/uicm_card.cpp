@@ -61,7 +61,8 @@ UicmConstants uicm_constants(const UicmCard& card, const UicmInstance& instance,
     return c;
 }
 
-UicmShift sample_mismatch(const UicmCard& card, const UicmInstance& instance, std::uint64_t seed, std::uint32_t device, std::uint64_t chip) {
+UicmShift sample_mismatch(const UicmCard& card, const UicmInstance& instance, std::uint64_t seed, std::uint32_t device,
+                          std::uint64_t chip) {
     const double per_side = 1 / num::sqrt(instance.area());
     const auto deviates = normal_pair(seed, device, mismatch_purpose, chip);
     return {card.A_VT * per_side * deviates.first, num::exp(card.A_IS * per_side * deviates.second)};

@@ -11,7 +11,7 @@ struct UicmConstants {
     double Q_0, C_dep, C_gs, C_gd, C_gb;          // n phi_t C_ox W L; (n - 1)/n C_ox W L; overlaps
     double I_sat_s, I_sat_d, exp_limit_s, exp_limit_d, C_js, C_jd;
     double per_n_phi_t, per_P_B, v_limit, charge_exponent, P_B_per_charge_exponent, per_P_B_M_J;  // junctions: see JunctionConstants
-    double thermal, flicker;                                              // noise power densities: see uicm.hpp
+    double thermal, flicker;                                                                      // noise power densities: see uicm.hpp
 };
 
 }  // namespace corpuscle::circuit

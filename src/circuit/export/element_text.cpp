@@ -37,7 +37,8 @@ public:
                 return fmt::format("{} {}\n", head_, e_.value * (e_.letter == 'g' ? value("m", 1) : 1));
             case 'f':
             case 'h':
-                return fmt::format("{} {} {}\n", head_, names_.element(e_.control_source), e_.value * (e_.letter == 'f' ? value("m", 1) : 1));
+                return fmt::format("{} {} {}\n", head_, names_.element(e_.control_source),
+                                   e_.value * (e_.letter == 'f' ? value("m", 1) : 1));
             case 'd':
                 return fmt::format("{} {} area={}{}\n", head_, names_.model(e_.model), value("area", 1) * value("m", 1), temperature());
             case 'm':

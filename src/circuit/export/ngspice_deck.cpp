@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "circuit/analysis/analysis_context.hpp"
-#include "circuit/export/element_text.hpp"
 #include "circuit/export/directives_text.hpp"
+#include "circuit/export/element_text.hpp"
 #include "circuit/export/transistor_text.hpp"
 
 namespace corpuscle::circuit {

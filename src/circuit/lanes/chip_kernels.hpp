@@ -34,24 +34,24 @@ struct ChipBlock {
     std::size_t unknowns, entries, points, devices;
     EliminationList list;
     const int *row, *column, *slot;  // of each matrix entry; entries are in the order of their slots
-    const char* is_voltage;             // [unknowns]: not 0 if the unknown is a voltage
+    const char* is_voltage;          // [unknowns]: not 0 if the unknown is a voltage
     const int* fill;                 // slots of the list without an entry (fill-in)
     std::size_t fill_count;
-    const int* terminals;        // [devices][4]: unknowns; ground is the last index of x
-    LaneRow *I, *Q, *G, *C;          // [unknowns + 1], [entries + 1]; the last is for ground
-    LaneRow *x, *q;                  // unknowns [unknowns + 1] and charges at the end of the current step; ground is 0
+    const int* terminals;                       // [devices][4]: unknowns; ground is the last index of x
+    LaneRow *I, *Q, *G, *C;                     // [unknowns + 1], [entries + 1]; the last is for ground
+    LaneRow *x, *q;                             // unknowns [unknowns + 1] and charges at the end of the current step; ground is 0
     LaneRow *source_currents, *history, *rate;  // source currents at the end of the step; dq/dt - a q; dq/dt at the last point
-    LaneRow *r, *step, *error;       // residual, Newton step, error of the time step
+    LaneRow *r, *step, *error;                  // residual, Newton step, error of the time step
     LaneRow *slots, *inverse_pivot, *work;
     LaneRow *scale, *inverse_allowed;  // of each unknown: largest magnitude so far; 1 / allowed error, 0 if it has no charge
-    LaneRow *relative, *floor;     // allowed error = relative * scale + floor
-    LaneRow *past_x, *past_q;      // [points][unknowns]
-    LaneRow* linearized_at;               // [devices][4]: voltages at which each device was last evaluated
+    LaneRow *relative, *floor;         // allowed error = relative * scale + floor
+    LaneRow *past_x, *past_q;          // [points][unknowns]
+    LaneRow* linearized_at;            // [devices][4]: voltages at which each device was last evaluated
 };
 
 // Arguments of the kernels. A flag is 1 or 0 for each chip.
 struct PredictCall {
-    LaneRow is_new_step;                // flag
+    LaneRow is_new_step;                           // flag
     const LaneRow *value_weights, *slope_weights;  // [points]: weights
 };
 struct SolveCall {
@@ -59,13 +59,13 @@ struct SolveCall {
     LaneRow growth;  // out: the largest multiplier of the elimination
 };
 struct StepCall {
-    LaneRow updates_x;               // flag: add the step to x
+    LaneRow updates_x;                  // flag: add the step to x
     LaneRow size, clamped, non_finite;  // out: largest component / allowed error; > 0 if limited to 0.5 V; not 0 if NaN or infinite
 };
 struct ErrorCall {
     LaneRow charge_weight, rate_weight;
     const LaneRow* past_weights;  // [points]
-    LaneRow worst;           // out: largest error / allowed error
+    LaneRow worst;                // out: largest error / allowed error
 };
 struct AcceptCall {
     LaneRow is_accepted, a;  // flag; dq/dt = a q + history
@@ -81,8 +81,8 @@ struct Linearization {
 struct LinearizeCall {
     const UicmConstants* const* constants;
     std::size_t count, stride;
-    const double* v;    // [4][stride], V
-    double gmin;        // S
+    const double* v;     // [4][stride], V
+    double gmin;         // S
     Linearization* out;  // [stride]
 };
 

@@ -234,7 +234,7 @@ void accept(const ChipBlock& block, const AcceptCall& call) {
 }
 
 template <class T, std::size_t... l>
-[[gnu::always_inline]] inline T gather(const UicmConstants* const* constants, double UicmConstants::*field, std::index_sequence<l...>) {
+[[gnu::always_inline]] inline T gather(const UicmConstants* const* constants, double UicmConstants::* field, std::index_sequence<l...>) {
     return T{constants[l]->*field...};
 }
 
@@ -266,7 +266,7 @@ void linearize(const LinearizeCall& call) {
     for (std::size_t k = 0; k < call.count; k += width<T>()) {
         const UicmConstants* const* constants = call.constants + k;
         const Uicm<T> model(
-            [constants](double UicmConstants::*field) { return gather<T>(constants, field, std::make_index_sequence<width<T>()>()); });
+            [constants](double UicmConstants::* field) { return gather<T>(constants, field, std::make_index_sequence<width<T>()>()); });
         const T v[4] = {load<T>(call.v + k), load<T>(call.v + stride + k), load<T>(call.v + 2 * stride + k),
                         load<T>(call.v + 3 * stride + k)};
         UicmEvaluation<T> a;
@@ -285,7 +285,7 @@ void linearize(const LinearizeCall& call) {
 
 template <class T>
 constexpr ChipKernels chip_kernels_for{width<T>(),    predict<T>,          find_moved<T>,     solve<T>,  residual<T>,
-                                     apply_step<T>, evaluate_charges<T>, estimate_error<T>, accept<T>, linearize<T>};
+                                       apply_step<T>, evaluate_charges<T>, estimate_error<T>, accept<T>, linearize<T>};
 
 }  // namespace
 }  // namespace corpuscle::circuit::lanes

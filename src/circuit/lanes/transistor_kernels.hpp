@@ -15,12 +15,12 @@ inline constexpr std::size_t max_lanes = 8;  ///< a multiple of the number of la
 struct TransistorCall {
     const std::byte* models;
     std::size_t count, stride;  ///< the stride is at least `count` rounded up to the number of lanes
-    const double* v;          ///< [4][stride], V
-    double gmin;              ///< S, in parallel with every junction
-    double *f, *df;           ///< [4][stride], A; [4 * 4][stride], S
-    double* max_term;             ///< [4][stride], A: largest derivative of each row times max(voltage, phi_t); null: not needed
-    double *q, *dq;           ///< charges and capacitances, same shapes; null: not needed
-    double rate;              ///< 1/s: f and df are returned with rate times q and dq added
+    const double* v;            ///< [4][stride], V
+    double gmin;                ///< S, in parallel with every junction
+    double *f, *df;             ///< [4][stride], A; [4 * 4][stride], S
+    double* max_term;           ///< [4][stride], A: largest derivative of each row times max(voltage, phi_t); null: not needed
+    double *q, *dq;             ///< charges and capacitances, same shapes; null: not needed
+    double rate;                ///< 1/s: f and df are returned with rate times q and dq added
 };
 
 /// The transistor kernels of one instruction set.

@@ -34,7 +34,7 @@ template <class T>
 
 template <class T>
 void build(std::byte* to, const UicmConstants* constants) {
-    new (to) Uicm<T>([constants](double UicmConstants::*field) {
+    new (to) Uicm<T>([constants](double UicmConstants::* field) {
         alignas(64) double lanes[width<T>()];
         for (std::size_t l = 0; l < width<T>(); ++l) lanes[l] = constants[l].*field;
         return load<T>(lanes);

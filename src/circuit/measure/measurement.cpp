@@ -5,7 +5,8 @@ namespace corpuscle::circuit {
 bool CrossingCounter::add_point(double x, const PlotRow& row) {
     if (!follower_.add_point(x, row)) return false;
     const auto& segment = *follower_.segment();
-    if (!((segment.rises() && edges_.kind != EdgeSelection::Kind::fall) || (segment.falls() && edges_.kind != EdgeSelection::Kind::rise))) return false;
+    if (!((segment.rises() && edges_.kind != EdgeSelection::Kind::fall) || (segment.falls() && edges_.kind != EdgeSelection::Kind::rise)))
+        return false;
     const double position = segment.zero();
     if (!edges_.interval.contains(position)) return false;
     ++count_;

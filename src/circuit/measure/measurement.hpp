@@ -53,7 +53,7 @@ public:
 struct EdgeSelection {
     enum class Kind { rise, fall, cross } kind = Kind::cross;
     double number = 1;  ///< 1 is the first crossing; 0 is the last
-    Interval interval;    ///< only crossings in this interval count
+    Interval interval;  ///< only crossings in this interval count
 };
 
 /// Counts the zero crossings of a curve and keeps the position of the selected one.
@@ -120,7 +120,8 @@ class ValueMeasurement final : public Measurement {
     double value_in(const LineSegment& piece, double x) const { return is_slope_ ? piece.slope() : piece.at(x); }
 
 public:
-    ValueMeasurement(CurveFollower curve, bool slope, EventPoint spot) : curve_(std::move(curve)), is_slope_(slope), event_(std::move(spot)) {}
+    ValueMeasurement(CurveFollower curve, bool slope, EventPoint spot)
+        : curve_(std::move(curve)), is_slope_(slope), event_(std::move(spot)) {}
     void add_point(double x, const PlotRow&) override;
     double value() const override;
 };
@@ -141,7 +142,8 @@ private:
     void update_extremes(double x, double y);
 
 public:
-    SummaryMeasurement(Statistic of, CurveFollower curve, Interval stretch) : statistic_(of), curve_(std::move(curve)), interval_(stretch) {}
+    SummaryMeasurement(Statistic of, CurveFollower curve, Interval stretch)
+        : statistic_(of), curve_(std::move(curve)), interval_(stretch) {}
     void add_point(double x, const PlotRow&) override;
     double value() const override;
 };

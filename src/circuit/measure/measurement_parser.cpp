@@ -11,15 +11,18 @@ struct SummaryWord {
     std::string_view word;
     SummaryMeasurement::Statistic of;
 };
-constexpr SummaryWord summaries[] = {{"min", SummaryMeasurement::Statistic::min},       {"max", SummaryMeasurement::Statistic::max},       {"pp", SummaryMeasurement::Statistic::pp},
-                                     {"min_at", SummaryMeasurement::Statistic::min_at}, {"max_at", SummaryMeasurement::Statistic::max_at}, {"avg", SummaryMeasurement::Statistic::avg},
-                                     {"rms", SummaryMeasurement::Statistic::rms},       {"integ", SummaryMeasurement::Statistic::integ},   {"integral", SummaryMeasurement::Statistic::integ}};
+constexpr SummaryWord summaries[] = {{"min", SummaryMeasurement::Statistic::min},       {"max", SummaryMeasurement::Statistic::max},
+                                     {"pp", SummaryMeasurement::Statistic::pp},         {"min_at", SummaryMeasurement::Statistic::min_at},
+                                     {"max_at", SummaryMeasurement::Statistic::max_at}, {"avg", SummaryMeasurement::Statistic::avg},
+                                     {"rms", SummaryMeasurement::Statistic::rms},       {"integ", SummaryMeasurement::Statistic::integ},
+                                     {"integral", SummaryMeasurement::Statistic::integ}};
 
 struct EdgeWord {
     std::string_view word;
     EdgeSelection::Kind kind;
 };
-constexpr EdgeWord edge_words[] = {{"rise", EdgeSelection::Kind::rise}, {"fall", EdgeSelection::Kind::fall}, {"cross", EdgeSelection::Kind::cross}};
+constexpr EdgeWord edge_words[] = {
+    {"rise", EdgeSelection::Kind::rise}, {"fall", EdgeSelection::Kind::fall}, {"cross", EdgeSelection::Kind::cross}};
 
 /// The position of '=' in CURVE=VALUE, ignoring those inside par('...').
 std::size_t equals_in(const std::string& word) {
@@ -87,7 +90,8 @@ private:
         if (name.starts_with("par(") && head_.is_complex)
             return error_here("par() does not work on the complex curves of .ac; use param= instead");
         if (name.starts_with("par("))
-            if (const auto expression = parse_par_expression(name, command_.location); !expression) return error_here(expression.error().message);
+            if (const auto expression = parse_par_expression(name, command_.location); !expression)
+                return error_here(expression.error().message);
         return error_here(fmt::format("there is no curve '{}' in '{}'", name, head_.name));
     }
 

@@ -61,7 +61,8 @@ bool CircuitBuilder::has_model(const Scope& scope, std::string_view name) const 
     return false;
 }
 
-Result<int> CircuitBuilder::find_or_add_model(Scope& scope, const WordRef& name, std::string_view user, std::span<const std::string_view> types) {
+Result<int> CircuitBuilder::find_or_add_model(Scope& scope, const WordRef& name, std::string_view user,
+                                              std::span<const std::string_view> types) {
     Scope* f = &scope;
     while (f && !f->definition->models.contains(name.view())) f = f->enclosing;
     if (!f) return unknown_model(scope, name, user);

@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "circuit/netlist/statement.hpp"
-#include "signal/parameter.hpp"
 #include "signal/ascii_text.hpp"
+#include "signal/parameter.hpp"
 
 namespace corpuscle::circuit {
 namespace {

@@ -4,11 +4,11 @@
 #include <algorithm>
 
 #include "circuit/netlist/circuit_builder.hpp"
-#include "circuit/netlist/spice_number.hpp"
-#include "circuit/netlist/netlist_options.hpp"
 #include "circuit/netlist/netlist_impl.hpp"
-#include "signal/parameter.hpp"
+#include "circuit/netlist/netlist_options.hpp"
+#include "circuit/netlist/spice_number.hpp"
 #include "signal/ascii_text.hpp"
+#include "signal/parameter.hpp"
 
 namespace corpuscle::circuit {
 namespace {
@@ -173,11 +173,12 @@ private:
                 return bad_input(fmt::format("{}: unknown node '{}'{}", p.user, p.name, did_you_mean(p.name, known)), p.location);
             }
             const int k = c.find_element(p.name);
-            if (k < 0) return bad_input(fmt::format("{}: unknown element '{}'{}", p.user, p.name, did_you_mean(p.name, sources())), p.location);
+            if (k < 0)
+                return bad_input(fmt::format("{}: unknown element '{}'{}", p.user, p.name, did_you_mean(p.name, sources())), p.location);
             const Element& e = c.elements[static_cast<std::size_t>(k)];
             const bool has_current =
-                e.letter == 'v' || (p.target == ForwardRef::Target::current &&
-                                    (e.letter == 'l' || e.letter == 'e' || e.letter == 'h' || (e.letter == 'b' && e.expression_is_voltage)));
+                e.letter == 'v' || (p.target == ForwardRef::Target::current && (e.letter == 'l' || e.letter == 'e' || e.letter == 'h' ||
+                                                                                (e.letter == 'b' && e.expression_is_voltage)));
             if (!has_current)
                 return bad_input(
                     fmt::format("{}: '{}' is not a voltage source; put a 0 V source in series to measure its current", p.user, p.name),

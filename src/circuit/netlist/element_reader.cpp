@@ -276,7 +276,8 @@ private:
         for (const auto& pair : s_.pairs) {
             const auto name = s_.text(pair.name);
             if (std::find(known.begin(), known.end(), name) == known.end())
-                return bad_input(fmt::format("{}: unknown parameter '{}'{}", name_, name, did_you_mean(name, known)), s_.location(pair.name));
+                return bad_input(fmt::format("{}: unknown parameter '{}'{}", name_, name, did_you_mean(name, known)),
+                                 s_.location(pair.name));
             if (std::find(read_names_.begin(), read_names_.end(), name) != read_names_.end()) continue;
             const auto value = scope_.evaluate({&s_, pair.value});
             if (!value) return value.error();

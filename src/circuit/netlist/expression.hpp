@@ -30,8 +30,8 @@ struct ExpressionScope {
         std::string text;
     };
     std::function<const Function*(std::string_view)> function{};  ///< returns null if there is none of this name
-    bool allows_inputs = false;                                          ///< true if voltages, currents and time are allowed; false in .param
-    std::vector<std::string> suggestions{};                             ///< candidates for the suggestion in an error about an unknown name
+    bool allows_inputs = false;                                   ///< true if voltages, currents and time are allowed; false in .param
+    std::vector<std::string> suggestions{};                       ///< candidates for the suggestion in an error about an unknown name
     /// Translate the name of a node or an element to its name in the circuit ("n3" is "x1.n3" inside x1). Null keeps the name.
     std::function<std::string(std::string_view)> node{}, element{};
 };
@@ -70,7 +70,7 @@ private:
     template <class Values>
     double evaluate(std::span<const double> inputs, Values& values) const;
     struct Step {
-        std::int16_t operation;                 // the number of an Operation
+        std::int16_t operation;            // the number of an Operation
         std::int32_t a = 0, b = 0, c = 0;  // indices of earlier steps
         double number = 0;
     };

@@ -17,7 +17,7 @@ constexpr FunctionInfo functions[] = {
     {"atanh", 1, 1, atanh},    {"aunif", 2, 2, nominal},    {"arccos", 1, 1, acos},   {"arcsin", 1, 1, asin},
     {"arctan", 1, 1, atan},    {"ceil", 1, 1, ceil},        {"cos", 1, 1, cos},       {"cosh", 1, 1, cosh},
     {"exp", 1, 1, exp},        {"floor", 1, 1, floor},      {"gauss", 3, 3, nominal}, {"hypot", 2, 2, hypot},
-    {"if", 3, 3, conditional},      {"int", 1, 1, integer},      {"limit", 2, 3, limit},   {"ln", 1, 1, log},
+    {"if", 3, 3, conditional}, {"int", 1, 1, integer},      {"limit", 2, 3, limit},   {"ln", 1, 1, log},
     {"log", 1, 1, log},        {"log10", 1, 1, log10},      {"max", 2, 2, max},       {"min", 2, 2, min},
     {"nint", 1, 1, nearest},   {"sgn", 1, 1, sign},         {"sin", 1, 1, sin},       {"sinh", 1, 1, sinh},
     {"sqrt", 1, 1, sqrt},      {"tan", 1, 1, tan},          {"tanh", 1, 1, tanh},     {"ternary_fcn", 3, 3, conditional},

@@ -6,8 +6,8 @@
 #include "circuit/netlist/expression.hpp"
 #include "circuit/netlist/expression_operations.hpp"
 #include "circuit/netlist/spice_number.hpp"
-#include "signal/parameter.hpp"
 #include "signal/ascii_text.hpp"
+#include "signal/parameter.hpp"
 
 namespace corpuscle::circuit {
 namespace {
@@ -26,22 +26,14 @@ struct BinaryOperator {
     int level;
 };
 constexpr BinaryOperator binary_operators[] = {
-    {"||", Operation::logical_or, 1},
-    {"&&", Operation::logical_and, 2},
-    {"==", Operation::equal, 3},
-    {"!=", Operation::unequal, 3},
-    {"<>", Operation::unequal, 3},
-    {"<=", Operation::less_equal, 4},
-    {">=", Operation::greater_equal, 4},
-    {"<", Operation::less, 4},
-    {">", Operation::greater, 4},
-    {"|", Operation::logical_or, 1},
-    {"&", Operation::logical_and, 2},
-    {"+", Operation::add, 5},
-    {"-", Operation::subtract, 5},
-    {"**", Operation::magnitude_power, 7},
-    {"*", Operation::multiply, 6},
-    {"/", Operation::divide, 6},
+    {"||", Operation::logical_or, 1},     {"&&", Operation::logical_and, 2},
+    {"==", Operation::equal, 3},          {"!=", Operation::unequal, 3},
+    {"<>", Operation::unequal, 3},        {"<=", Operation::less_equal, 4},
+    {">=", Operation::greater_equal, 4},  {"<", Operation::less, 4},
+    {">", Operation::greater, 4},         {"|", Operation::logical_or, 1},
+    {"&", Operation::logical_and, 2},     {"+", Operation::add, 5},
+    {"-", Operation::subtract, 5},        {"**", Operation::magnitude_power, 7},
+    {"*", Operation::multiply, 6},        {"/", Operation::divide, 6},
     {"^", Operation::magnitude_power, 7},
 };
 constexpr int power_level = 7;
@@ -345,7 +337,8 @@ private:
     }
 
     static std::string argument_count_message(const FunctionInfo& row, int given) {
-        const auto expected = row.min_arguments == row.max_arguments ? fmt::format("{}", row.max_arguments) : fmt::format("{} or {}", row.min_arguments, row.max_arguments);
+        const auto expected = row.min_arguments == row.max_arguments ? fmt::format("{}", row.max_arguments)
+                                                                     : fmt::format("{} or {}", row.min_arguments, row.max_arguments);
         return fmt::format("{}() takes {} argument{}, not {}", row.name, expected, row.max_arguments == 1 ? "" : "s", given);
     }
 
@@ -365,7 +358,8 @@ private:
     }
 
     /// Expands a user's function: parses its text with its argument names bound to the values.
-    Index expand_function(const std::string& name, const ExpressionScope::Function& own, const std::vector<Index>& values, std::size_t from) {
+    Index expand_function(const std::string& name, const ExpressionScope::Function& own, const std::vector<Index>& values,
+                          std::size_t from) {
         if (values.size() != own.arguments.size())
             return fail(fmt::format("{}() takes {} argument{}, not {}", name, own.arguments.size(), own.arguments.size() == 1 ? "" : "s",
                                     values.size()),

@@ -32,7 +32,7 @@ class LogicalLineReader {
     std::shared_ptr<const std::string> file_;
     std::string_view rest_, last_;  // last_: rest_ before the physical line last taken
     std::uint32_t number_ = 0;      // of the physical line last taken
-    LogicalLine next_;                     // the line being read; following lines may continue it
+    LogicalLine next_;              // the line being read; following lines may continue it
     char quote_ = 0;                // the quote that is open at the end of next_; 0 if none
     std::uint32_t quote_at_ = 0;
     bool has_next_ = false;

@@ -34,13 +34,13 @@ struct Element {
     char letter = 0;         ///< r c l v i e f g h b d m
     std::vector<int> nodes;  ///< indices in Circuit::nodes, in netlist order; of E and G also the controlling nodes
     SourceLocation location;
-    int model = -1;                   ///< index in Circuit::models; -1 if none
-    double value = 0;                 ///< of R C L in ohm, farad, henry; of E F G H the gain
-    Values values;                    ///< all values given by name: w, l, m, stack, delvto, ic, tc1 ...
-    Waveform waveform;                ///< of V and I
-    std::optional<Expression> expression;   ///< of B (v= or i=), C (q=), E and G (value=)
-    bool expression_is_voltage = false;  ///< of B: true for v=, false for i=
-    std::string control_source;              ///< of F and H: the voltage source whose current controls, with its path
+    int model = -1;                        ///< index in Circuit::models; -1 if none
+    double value = 0;                      ///< of R C L in ohm, farad, henry; of E F G H the gain
+    Values values;                         ///< all values given by name: w, l, m, stack, delvto, ic, tc1 ...
+    Waveform waveform;                     ///< of V and I
+    std::optional<Expression> expression;  ///< of B (v= or i=), C (q=), E and G (value=)
+    bool expression_is_voltage = false;    ///< of B: true for v=, false for i=
+    std::string control_source;            ///< of F and H: the voltage source whose current controls, with its path
 };
 
 struct Model {
@@ -70,9 +70,9 @@ struct Circuit {
     std::map<std::string, std::string, std::less<>> option_words;  ///< options whose value is a word: method=gear
     double temperature = 27;                                       ///< C
     std::vector<std::pair<int, double>> ic, nodesets;              ///< node, V
-    std::vector<Error> warnings;                                    ///< warnings, such as "1F is 1 femtofarad"
+    std::vector<Error> warnings;                                   ///< warnings, such as "1F is 1 femtofarad"
     Values parameters;                                             ///< .param of the top level
-    std::optional<std::uint64_t> mismatch_seed;                         ///< seed of the mismatch sample; nothing for the nominal circuit
+    std::optional<std::uint64_t> mismatch_seed;                    ///< seed of the mismatch sample; nothing for the nominal circuit
     std::uint64_t chip = 0;                                        ///< number of the chip for this seed; copies are the following chips
 
     std::unordered_map<std::string, int> node_numbers, element_numbers;  ///< indices by name, filled by elaborate()
@@ -87,7 +87,7 @@ struct ResolvedOverrides {
     Values parameters;                                   ///< .param of the top level
     std::map<std::string, Values, std::less<>> numbers;  ///< of elements, by full path; the name "" is the value of R C L V I ...
     std::optional<double> temperature;                   ///< C
-    std::optional<std::uint64_t> mismatch_seed;               ///< seed of the mismatch sample; if set, .mc is ignored
+    std::optional<std::uint64_t> mismatch_seed;          ///< seed of the mismatch sample; if set, .mc is ignored
     std::uint64_t chip = 0;                              ///< number of the chip for this seed
     std::vector<std::string> saved;                      ///< additional names for .save
     bool changes_values() const { return !corner.empty() || !parameters.empty() || !numbers.empty() || temperature || mismatch_seed; }
@@ -114,7 +114,7 @@ public:
     /// .param of the top level.
     struct Parameter {
         std::string text;  ///< as written in the netlist: "2*c_u"
-        bool is_own;          ///< defined in the netlist or an included file, not in a library section
+        bool is_own;       ///< defined in the netlist or an included file, not in a library section
     };
     std::map<std::string, Parameter, std::less<>> parameters() const;
 

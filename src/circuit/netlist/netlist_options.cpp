@@ -56,7 +56,7 @@ bool contains_name(const Names& names, std::string_view name) {
 }  // namespace
 
 Result<void> check_option(std::string_view name, std::optional<double> number, std::optional<std::string_view> word,
-                                  const SourceLocation& location) {
+                          const SourceLocation& location) {
     const auto* row = std::find_if(std::begin(option_rows), std::end(option_rows), [&](const OptionRow& r) { return r.name == name; });
     if (row == std::end(option_rows)) {
         if (contains_name(without_effect, name)) return {};

@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "circuit/netlist/parsed_netlist.hpp"
 #include "circuit/netlist/corner_selector.hpp"
+#include "circuit/netlist/parsed_netlist.hpp"
 #include "circuit/netlist/spice_number.hpp"
-#include "signal/parameter.hpp"
 #include "signal/ascii_text.hpp"
+#include "signal/parameter.hpp"
 
 namespace corpuscle::circuit {
 namespace {
@@ -216,7 +216,8 @@ private:
             }
             const auto [at, is_new] = body_->parameters.insert_or_assign(name, WordRef{&s, pair.value});
             if (!is_new)
-                out_.warnings.push_back(bad_input(fmt::format(".param {} is given twice; this value is used", name), s.location(pair.name)));
+                out_.warnings.push_back(
+                    bad_input(fmt::format(".param {} is given twice; this value is used", name), s.location(pair.name)));
         }
         return {};
     }
@@ -340,7 +341,8 @@ private:
         auto read = split_directive(std::move(line));
         if (!read) return read.error();
         if (read->words.size() != 2)
-            return bad_input(".include: expected one file; put a name with blanks in quotes", read->location(read->words.size() < 2 ? 1 : 2));
+            return bad_input(".include: expected one file; put a name with blanks in quotes",
+                             read->location(read->words.size() < 2 ? 1 : 2));
         return open(unquoted(read->text(1)), "", read->location(std::size_t{1}));
     }
 

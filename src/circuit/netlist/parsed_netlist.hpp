@@ -15,7 +15,7 @@
 
 namespace corpuscle::circuit {
 
-inline constexpr std::size_t max_elements = 2000000;  // and statements
+inline constexpr std::size_t max_elements = 2000000;                   // and statements
 inline constexpr std::size_t max_text_bytes = std::size_t{256} << 20;  // bytes
 
 /// A word of a statement whose value is not yet evaluated.
@@ -33,7 +33,7 @@ using ByName = std::map<std::string, T, std::less<>>;
 struct SubcktDef {
     std::string name;
     const Statement* head = nullptr;  ///< its .subckt line; null for the top level
-    SubcktDef* outer = nullptr;            ///< the definition that contains this one
+    SubcktDef* outer = nullptr;       ///< the definition that contains this one
     std::vector<std::string> ports;
     ByName<WordRef> defaults;  ///< of the .subckt line
     ByName<WordRef> parameters;

@@ -8,8 +8,8 @@
 namespace corpuscle::circuit {
 
 struct SpiceNumber {
-    double value = 0;          ///< the double nearest to the written value; 1e999 is infinite
-    std::size_t length = 0;    ///< length of the number in the text, letters included
+    double value = 0;         ///< the double nearest to the written value; 1e999 is infinite
+    std::size_t length = 0;   ///< length of the number in the text, letters included
     std::string_view suffix;  ///< the letters after the digits: "pF", "Meg", ""
 };
 

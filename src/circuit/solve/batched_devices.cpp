@@ -75,7 +75,8 @@ BatchedDevices::BatchedDevices(const System& system) {
     slopes_ = make_scatter(std::move(slopes)), currents_ = make_scatter(std::move(currents)), charges_ = make_scatter(std::move(charges));
 }
 
-void BatchedDevices::evaluate(const EvalContext& context, double rate, const std::vector<double>& x, std::vector<double>& J, std::vector<double>& r) {
+void BatchedDevices::evaluate(const EvalContext& context, double rate, const std::vector<double>& x, std::vector<double>& J,
+                              std::vector<double>& r) {
     const int* terminal = terminals_.data();
     for (const auto& buffer : buffers_) {
         const auto n = buffer.group.terminals, stride = buffer.group.stride;

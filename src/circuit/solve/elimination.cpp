@@ -18,7 +18,8 @@ std::vector<int> inverse_permutation(std::span<const int> permutation) {
 }
 
 /// The columns in each row of the factored matrix, including fill-in. Rows and columns are numbered by elimination step.
-std::vector<std::vector<int>> pattern_with_fill(const SparsityPattern& p, std::span<const int> step_of_row, std::span<const int> step_of_column) {
+std::vector<std::vector<int>> pattern_with_fill(const SparsityPattern& p, std::span<const int> step_of_row,
+                                                std::span<const int> step_of_column) {
     const auto n = static_cast<std::size_t>(p.size());
     std::vector<std::vector<char>> occupied(n, std::vector<char>(n));
     for (std::size_t column = 0; column < n; ++column)
@@ -74,7 +75,8 @@ Elimination::Elimination(const SparsityPattern& p, std::span<const int> rows, st
     for (auto& pivot : pivots_) {
         for (int l = pivot.l_begin; l < pivot.l_end; ++l)
             for (int u = pivot.u_begin; u < pivot.u_end; ++u)
-                updates_.push_back(slot.at({l_rows_[static_cast<std::size_t>(l - l_first_slot_)], u_columns_[static_cast<std::size_t>(u)]}));
+                updates_.push_back(
+                    slot.at({l_rows_[static_cast<std::size_t>(l - l_first_slot_)], u_columns_[static_cast<std::size_t>(u)]}));
     }
     scale_.assign(n, 0);
     for (std::size_t column = 0; column < n; ++column)

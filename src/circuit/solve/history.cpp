@@ -63,7 +63,7 @@ History::Weights History::slope_weights(double t, int order, double& leading) co
     return weights_of_slope(std::span(all).first(static_cast<std::size_t>(order)), t, leading);
 }
 
-void History::combine(const Weights& w, int points, std::vector<double> TimePoint::*member, std::span<double> out) const {
+void History::combine(const Weights& w, int points, std::vector<double> TimePoint::* member, std::span<double> out) const {
     const auto count = out.size();
     for (int j = 0; j < points; ++j) {
         const double* const from = ((*this)[j].*member).data();

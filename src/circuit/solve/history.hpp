@@ -31,8 +31,8 @@ public:
     void clear() { count_ = smooth_count_ = 0; }
     /// Integration continues from the newest point only. `forget`: the earlier points are not on its smooth curve, either.
     void restart(bool forget) { count_ = std::min(count_, 1), smooth_count_ = forget ? count_ : smooth_count_; }
-    int count() const { return count_; }  ///< points that the integration formula may use
-    int smooth_count() const { return smooth_count_; }    ///< points that lie on one smooth curve, at least count()
+    int count() const { return count_; }                ///< points that the integration formula may use
+    int smooth_count() const { return smooth_count_; }  ///< points that lie on one smooth curve, at least count()
     /// Sets the number of points that the integration formula may use.
     void set_count(int count) { count_ = std::clamp(count, std::min(smooth_count_, 1), smooth_count_); }
     const TimePoint& operator[](int k) const { return ring_[static_cast<std::size_t>((first_ + k) % capacity)]; }
@@ -49,7 +49,7 @@ public:
     Weights slope_weights(double t, int order, double& leading) const;
 
     /// Writes the weighted sum of a member (&TimePoint::x or &TimePoint::q) of the newest points to `out`.
-    void combine(const Weights&, int points, std::vector<double> TimePoint::*member, std::span<double> out) const;
+    void combine(const Weights&, int points, std::vector<double> TimePoint::* member, std::span<double> out) const;
 
 private:
     static constexpr int capacity = max_points + 1;

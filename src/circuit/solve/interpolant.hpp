@@ -25,7 +25,8 @@ Interpolant best_interpolant(std::span<const double> times, int smooth_count, co
     bool found = false;
     for (const int points : {4, 3, 2, StepControl::max_curve_points}) {
         if (points > smooth_count) continue;
-        const double error = worst_of(weights_of_interpolation_error(times.first(static_cast<std::size_t>(points) + 1)), points) / StepControl::curve_tolerance;
+        const double error = worst_of(weights_of_interpolation_error(times.first(static_cast<std::size_t>(points) + 1)), points) /
+                             StepControl::curve_tolerance;
         if (!found || error < best.error) best = {points, error}, found = true;
         if (best.error < good_enough) break;
     }

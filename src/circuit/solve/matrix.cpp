@@ -10,7 +10,8 @@
 
 namespace corpuscle::circuit {
 
-SparsityPattern::SparsityPattern(int size, std::vector<std::pair<int, int>> entries) : size_(size), begin_(static_cast<std::size_t>(size) + 1) {
+SparsityPattern::SparsityPattern(int size, std::vector<std::pair<int, int>> entries)
+    : size_(size), begin_(static_cast<std::size_t>(size) + 1) {
     std::sort(entries.begin(), entries.end(), [](auto a, auto b) { return std::pair(a.second, a.first) < std::pair(b.second, b.first); });
     entries.erase(std::unique(entries.begin(), entries.end()), entries.end());
     for (const auto& [row, column] : entries) rows_.push_back(row), ++begin_[static_cast<std::size_t>(column) + 1];

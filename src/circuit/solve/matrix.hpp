@@ -55,9 +55,9 @@ public:
     /// The largest multiplier of the last factorization by the list. If it is large, the solution should be checked. 0: the list was not
     /// used.
     double growth() const;
-    bool factor_with_new_pivots(std::span<const T> values);           ///< chooses new pivots even if there is a list; increases fallback_count()
-    void solve(std::span<T> right_side) const;             ///< A x = b, in place
-    void solve_transposed(std::span<T> right_side) const;  ///< A^T x = b (no conjugate)
+    bool factor_with_new_pivots(std::span<const T> values);  ///< chooses new pivots even if there is a list; increases fallback_count()
+    void solve(std::span<T> right_side) const;               ///< A x = b, in place
+    void solve_transposed(std::span<T> right_side) const;    ///< A^T x = b (no conjugate)
 };
 
 extern template class LinearSolver<double>;

@@ -19,7 +19,8 @@ double max_voltage_step(const System& system) {
 
 }  // namespace
 
-NewtonSolver::NewtonSolver(const System& s, const Tolerances& t) : system(s), tolerances(t), linear_solver(s.pattern()), limiting_state(s.initial_limiting_state()) {
+NewtonSolver::NewtonSolver(const System& s, const Tolerances& t)
+    : system(s), tolerances(t), linear_solver(s.pattern()), limiting_state(s.initial_limiting_state()) {
     context.gmin = t.gmin, context.with_charges = false;
     step.resize(static_cast<std::size_t>(s.size()));
 }
@@ -75,7 +76,9 @@ std::string NewtonSolver::describe_residual(std::span<const double> x) {
     double largest = -1;
     for (std::size_t n = 0; n < evaluation.f.size(); ++n) {
         const double off =
-            std::isfinite(evaluation.f[n]) ? std::abs(evaluation.f[n]) / (tolerances.reltol * evaluation.scale[n] + evaluation.roundoff[n] + tolerances.abstol) : 1e300;
+            std::isfinite(evaluation.f[n])
+                ? std::abs(evaluation.f[n]) / (tolerances.reltol * evaluation.scale[n] + evaluation.roundoff[n] + tolerances.abstol)
+                : 1e300;
         if (off > largest) largest = off, worst = n;
     }
     const Device* device = nullptr;
@@ -92,7 +95,8 @@ std::string NewtonSolver::describe_residual(std::span<const double> x) {
         if (!(f <= contribution)) contribution = f, device = d.get();
     }
     const bool is_current = worst < static_cast<std::size_t>(system.nodes());
-    return fmt::format("largest residual: {1} at {0}{2}", system.names()[worst], format_quantity(evaluation.f[worst], is_current ? "A" : "V"),
+    return fmt::format("largest residual: {1} at {0}{2}", system.names()[worst],
+                       format_quantity(evaluation.f[worst], is_current ? "A" : "V"),
                        device ? fmt::format(", mostly from {}", device->name) : "");
 }
 

@@ -210,14 +210,15 @@ private:
                     fmt::format("the equations have no unique solution: the matrix is singular at {}",
                                 system_.names()[static_cast<std::size_t>(newton_.singular_unknown)]),
                     SourceLocation{c.file}};
-        return {
-            ErrorCode::not_converged,
-            fmt::format(
-                "no operating point found: Newton's method, gmin stepping, source stepping and pseudo-transient did not converge ({} "
-                "iterations); {}{}",
-                newton_.iterations, newton_.describe_residual(last_),
-                newton_.singular_unknown >= 0 ? fmt::format("; singular at {}", system_.names()[static_cast<std::size_t>(newton_.singular_unknown)]) : ""),
-            SourceLocation{c.file}};
+        return {ErrorCode::not_converged,
+                fmt::format(
+                    "no operating point found: Newton's method, gmin stepping, source stepping and pseudo-transient did not converge ({} "
+                    "iterations); {}{}",
+                    newton_.iterations, newton_.describe_residual(last_),
+                    newton_.singular_unknown >= 0
+                        ? fmt::format("; singular at {}", system_.names()[static_cast<std::size_t>(newton_.singular_unknown)])
+                        : ""),
+                SourceLocation{c.file}};
     }
 };
 
@@ -233,7 +234,8 @@ Result<Tolerances> Tolerances::from_options(const Circuit& c) {
     for (const auto& [name, value] : {std::pair<std::string_view, double>{"reltol", t.reltol}, {"vntol", t.vntol}, {"abstol", t.abstol}})
         if (!(value > 0 && value < 1))
             return bad_input(fmt::format(".options {} = {:g} must be above 0 and below 1", name, value), SourceLocation{c.file});
-    if (!(t.gmin >= 0 && t.gmin < 1)) return bad_input(fmt::format(".options gmin = {:g} must be in [0, 1)", t.gmin), SourceLocation{c.file});
+    if (!(t.gmin >= 0 && t.gmin < 1))
+        return bad_input(fmt::format(".options gmin = {:g} must be in [0, 1)", t.gmin), SourceLocation{c.file});
     if (t.itl1 < 1 || t.itl1 > 1'000'000)
         return bad_input(fmt::format(".options itl1 = {} must be in [1, 1000000]", t.itl1), SourceLocation{c.file});
     return t;

@@ -23,7 +23,7 @@ struct Tolerances {
 struct OperatingPoint {
     std::vector<double> x;
     std::string_view method;  ///< "newton", "gmin", "source", "pseudo-transient"
-    int iterations = 0;    ///< Newton iterations of all attempts
+    int iterations = 0;       ///< Newton iterations of all attempts
 };
 
 /// Conductances that pull nodes to given voltages: conductance (x - voltage) is added to the equation of each node. Empty: no clamps.

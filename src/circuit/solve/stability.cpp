@@ -26,7 +26,8 @@ class Disturbance {
         const auto& p = system_.pattern();
         std::fill(next_.begin(), next_.end(), 0.0);
         for (int column = 0; column < p.size(); ++column)
-            for (int e = p.column_begin()[static_cast<std::size_t>(column)]; e < p.column_begin()[static_cast<std::size_t>(column) + 1]; ++e) {
+            for (int e = p.column_begin()[static_cast<std::size_t>(column)]; e < p.column_begin()[static_cast<std::size_t>(column) + 1];
+                 ++e) {
                 const auto k = static_cast<std::size_t>(e);
                 next_[static_cast<std::size_t>(p.rows()[k])] += (c * C_[k] - g * G_[k]) * v_[static_cast<std::size_t>(column)];
             }

@@ -11,14 +11,14 @@ namespace corpuscle::circuit {
 /// Chooses the length and the order of the next BDF step.
 struct StepControl {
     int order = 1, steps_since_order_change = 0, failures = 0;
-    bool starting = true;  ///< since the start, every step has used the highest order that its points allow
-    double h = 0;          ///< s
-    double recent_max_step = 0;       ///< s: longest of the recent steps, with exponential decay
+    bool starting = true;        ///< since the start, every step has used the highest order that its points allow
+    double h = 0;                ///< s
+    double recent_max_step = 0;  ///< s: longest of the recent steps, with exponential decay
 
-    static constexpr double safety = 0.65;  ///< below 1, since a rejected step costs more than several shorter ones
-    static constexpr double max_growth = 2;     ///< largest ratio of successive step lengths
-    static constexpr double curve_tolerance = 2;     ///< allowed interpolation error between two points, relative to the allowed error
-    static constexpr int max_curve_points = 5;  ///< maximum number of points of the interpolating polynomial
+    static constexpr double safety = 0.65;        ///< below 1, since a rejected step costs more than several shorter ones
+    static constexpr double max_growth = 2;       ///< largest ratio of successive step lengths
+    static constexpr double curve_tolerance = 2;  ///< allowed interpolation error between two points, relative to the allowed error
+    static constexpr int max_curve_points = 5;    ///< maximum number of points of the interpolating polynomial
 
     /// Factor of the step length for which a method of this order would have exactly the allowed error.
     static double growth_factor(double error, int order) {
@@ -52,7 +52,9 @@ struct StepControl {
     }
     /// After choose(): limits the step so that the interpolation error stays allowed. error: that of the last step, relative to the allowed
     /// error; points: of the interpolating polynomial.
-    void limit_by_curve(double taken, double error, int points) { h = std::min(h, taken * std::clamp(growth_factor(error, points - 1), 0.3, max_growth)); }
+    void limit_by_curve(double taken, double error, int points) {
+        h = std::min(h, taken * std::clamp(growth_factor(error, points - 1), 0.3, max_growth));
+    }
     void record_step(double step) { recent_max_step = std::max(step, 0.7 * recent_max_step); }
     /// Steps up to this length may contain a jump. Unknowns without charge are then checked at the ends only, and interpolation is linear.
     double jump_step_limit(double reltol, double max_step) const { return std::max(reltol * recent_max_step, 1e-9 * max_step); }
@@ -75,8 +77,8 @@ struct NewtonControl {
     static constexpr double convergence_limit = 0.03;  ///< error that the iteration may leave, relative to the allowed error
 
     int iterations = 0;
-    double last_size = 0;  ///< size of the last Newton step, relative to the allowed error; 0: it was limited
-    double quadratic_factor = 1;    ///< constant of the quadratic convergence: error after a step / (size of the step)^2
+    double last_size = 0;         ///< size of the last Newton step, relative to the allowed error; 0: it was limited
+    double quadratic_factor = 1;  ///< constant of the quadratic convergence: error after a step / (size of the step)^2
 
     void begin() { iterations = 0, last_size = 0; }
     /// The iteration has not converged although the last Newton step was small.

@@ -68,7 +68,8 @@ void StepEquations::linearize_device(ScalarDevice& scalar) {
     const auto n = scalar.terminals;
     for (std::size_t j = 0; j < n; ++j) scalar.v[j] = x_[static_cast<std::size_t>(scalar.unknowns[j])];
     scalar.linearized_at = scalar.v;
-    scalar.limited = d.limiting_state_size() > 0 && d.limit(scalar.linearized_at, system_.limiting_state_of(scalar.device, newton_.limiting_state));
+    scalar.limited =
+        d.limiting_state_size() > 0 && d.limit(scalar.linearized_at, system_.limiting_state_of(scalar.device, newton_.limiting_state));
     limited_ |= scalar.limited;
     std::fill(scalar.stamp.begin(), scalar.stamp.end(), 0.0);
     const std::span<double> all(scalar.stamp);

@@ -1,8 +1,8 @@
 #pragma once
 // The equations of one time step, f(x, t) + a q(x) + history = 0, and their solution by Newton's method.
 
-#include "circuit/solve/operating_point.hpp"
 #include "circuit/solve/batched_devices.hpp"
+#include "circuit/solve/operating_point.hpp"
 #include "circuit/solve/step_control.hpp"
 
 namespace corpuscle::circuit {
@@ -28,9 +28,9 @@ class StepEquations {
         double g, c;
     };
     std::vector<LinearEntry> linear_;
-    std::vector<double> constant_currents_;         // currents of time-independent linear devices at x = 0
+    std::vector<double> constant_currents_;    // currents of time-independent linear devices at x = 0
     std::vector<std::size_t> time_dependent_;  // time-dependent sources
-    struct ScalarDevice {                        // a nonlinear device that is not in a group
+    struct ScalarDevice {                      // a nonlinear device that is not in a group
         std::size_t device, terminals;
         std::vector<int> unknowns;
         std::vector<double> v, linearized_at, stamp;

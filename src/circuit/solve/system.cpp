@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "circuit/device/physical_constants.hpp"
 #include "circuit/device/named_values.hpp"
+#include "circuit/device/physical_constants.hpp"
 #include "circuit/devices.hpp"
 #include "circuit/solve/topology.hpp"
 
@@ -139,7 +139,8 @@ std::vector<double> System::terminal_values(const Device& d, std::span<const dou
     return v;
 }
 
-void System::eval(std::span<const double> x, const EvalContext& context, std::vector<double>& limiting_state, SystemEvaluation& sums) const {
+void System::eval(std::span<const double> x, const EvalContext& context, std::vector<double>& limiting_state,
+                  SystemEvaluation& sums) const {
     const auto count = static_cast<std::size_t>(size());
     sums.f.assign(count, 0), sums.q.assign(count, 0), sums.scale.assign(count, 0), sums.roundoff.assign(count, 0);
     sums.G.assign(pattern_->entries() + 1, 0), sums.C.assign(pattern_->entries() + 1, 0);  // the last: ground

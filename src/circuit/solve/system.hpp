@@ -12,9 +12,9 @@ namespace corpuscle::circuit {
 
 /// The sum of all devices' contributions at one x.
 struct SystemEvaluation {
-    std::vector<double> f, q;   ///< by equation
-    std::vector<double> G, C;   ///< derivatives of f and q, by entry of the sparsity pattern
-    std::vector<double> scale;   ///< largest single contribution to each equation, the scale for a relative tolerance
+    std::vector<double> f, q;      ///< by equation
+    std::vector<double> G, C;      ///< derivatives of f and q, by entry of the sparsity pattern
+    std::vector<double> scale;     ///< largest single contribution to each equation, the scale for a relative tolerance
     std::vector<double> roundoff;  ///< rounding error of each equation, from the rounding of x and of the devices' sums
     bool is_limited = false;       ///< a device was evaluated at limited voltages; its part of f is extrapolated linearly to x
 
@@ -32,7 +32,7 @@ struct DeviceGroup {
     std::unique_ptr<DeviceBatch> batch;
     std::vector<const Device*> members;
     std::size_t terminals, stride;
-    std::vector<int> unknowns;        ///< [member][terminal]
+    std::vector<int> unknowns;         ///< [member][terminal]
     std::vector<std::size_t> entries;  ///< [member][terminal^2]: matrix entry of each derivative; past the end of the pattern: ground
 };
 
@@ -51,7 +51,8 @@ class System {
 
     class Builder;
     Result<void> make_groups();
-    void add_device(std::size_t k, std::span<const double> x, const EvalContext&, std::vector<double>& limiting_state, SystemEvaluation&) const;
+    void add_device(std::size_t k, std::span<const double> x, const EvalContext&, std::vector<double>& limiting_state,
+                    SystemEvaluation&) const;
     void add_group(const DeviceGroup&, std::span<const double> x, const EvalContext&, SystemEvaluation&) const;
 
 public:

@@ -133,7 +133,8 @@ std::vector<Error> find_dangling_nodes(const Circuit& c) {
         if (!e.expression) continue;
         for (const auto& in : e.expression->inputs())
             for (const auto& name : {in.name, in.minus})
-                if (const int n = c.find_node(name); in.kind == ExpressionInput::Kind::voltage && n > 0) ++terminals[static_cast<std::size_t>(n)];
+                if (const int n = c.find_node(name); in.kind == ExpressionInput::Kind::voltage && n > 0)
+                    ++terminals[static_cast<std::size_t>(n)];
     }
     std::vector<std::string_view> shared;
     for (std::size_t n = 1; n < c.nodes.size(); ++n)

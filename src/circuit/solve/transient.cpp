@@ -22,7 +22,8 @@ constexpr double large_newton_step = 20, hopeless_error = 2;
 Result<void> Transient::begin(std::vector<double> x, bool settled, std::span<const double> charge) {
     plan_.max_step = std::min(plan_.max_step, system_.max_step());
     const auto count = x.size();
-    for (auto* v : {&scale_, &allowed_error_, &tolerance_, &rounding_, &history_, &rate_, &error_, &rate_change_, &max_rate_}) v->assign(count, 0);
+    for (auto* v : {&scale_, &allowed_error_, &tolerance_, &rounding_, &history_, &rate_, &error_, &rate_change_, &max_rate_})
+        v->assign(count, 0);
     newton_.limiting_state = system_.initial_limiting_state();
     newton_.context.with_charges = true, newton_.context.time = 0;
     system_.eval(x, newton_.context, newton_.limiting_state, newton_.evaluation);
@@ -160,7 +161,8 @@ double Transient::worst_error() {
     if (!plan_.all_reported || plan_.method != Integration::bdf) return worst;
     for (std::size_t n = 0; n < error_.size(); ++n)
         if (!has_charge_[n] && tolerance_[n] > 0)
-            uncharged_error_ = std::max(uncharged_error_, std::abs(error_[n]) / (uncharged_factor * (tolerance_[n] + rounding_error(static_cast<int>(n)))));
+            uncharged_error_ = std::max(uncharged_error_,
+                                        std::abs(error_[n]) / (uncharged_factor * (tolerance_[n] + rounding_error(static_cast<int>(n)))));
     return may_jump_ ? worst : std::max(worst, uncharged_error_);
 }
 
@@ -250,7 +252,8 @@ Result<void> Transient::reject_step(double h, double error) {
     constexpr int max_failures = 3;  // before a restart with order 1, which gives inaccurate currents
     ++stats_.rejected;
     if (error == 0) ++stats_.diverged;
-    if (control_.shorten(h, error, history_points_.count() > 1 ? history_points_[0].t - history_points_[1].t : 0, plan_.all_reported ? max_failures : 1))
+    if (control_.shorten(h, error, history_points_.count() > 1 ? history_points_[0].t - history_points_[1].t : 0,
+                         plan_.all_reported ? max_failures : 1))
         restart(false, plan_.all_reported);
     if (control_.h >= min_relative_step * plan_.stop) return {};
     return step_too_short(control_.h);
@@ -333,8 +336,9 @@ Result<bool> Transient::step(double until) {
         double curve_error = found ? interpolation_error() : 0;
         if (found) measure_rounding(error, curve_error);
         const double worst = may_jump_ ? error : std::max(error, curve_error);
-        alike =
-            found && converged_ && plan_.all_reported && history_points_.count() == 1 && worst > no_better * rejected && rejected > 0 ? alike + 1 : 0;
+        alike = found && converged_ && plan_.all_reported && history_points_.count() == 1 && worst > no_better * rejected && rejected > 0
+                    ? alike + 1
+                    : 0;
         rejected = found ? worst : 0;
         if (!found || (!(worst <= 1) && alike < max_alike)) {
             if (auto ok = reject_step(t - t0, found ? worst : 0); !ok) return ok.error();
@@ -356,23 +360,27 @@ Result<bool> Transient::step(double until) {
 TransientState Transient::save() const {
     TransientState s;
     for (int k = 0; k < history_points_.smooth_count(); ++k) s.history.push_back(history_points_[k]);
-    s.order = control_.order, s.steps_since_order_change = control_.steps_since_order_change, s.failures = control_.failures, s.damping_steps = damping_steps_,
-    s.is_starting = control_.starting, s.restart_pending = restart_pending_;
-    s.count = history_points_.count(), s.curve_points = curve_points_, s.start_phase = static_cast<int>(start_phase_), s.recent_max_step = control_.recent_max_step;
+    s.order = control_.order, s.steps_since_order_change = control_.steps_since_order_change, s.failures = control_.failures,
+    s.damping_steps = damping_steps_, s.is_starting = control_.starting, s.restart_pending = restart_pending_;
+    s.count = history_points_.count(), s.curve_points = curve_points_, s.start_phase = static_cast<int>(start_phase_),
+    s.recent_max_step = control_.recent_max_step;
     s.h = control_.h, s.quadratic_factor = equations_.quadratic_factor(), s.stats = stats_;
-    s.scale = scale_, s.rate = rate_, s.rate_change = rate_change_, s.max_rate = max_rate_, s.alternations = alternations_, s.limiting_state = newton_.limiting_state;
+    s.scale = scale_, s.rate = rate_, s.rate_change = rate_change_, s.max_rate = max_rate_, s.alternations = alternations_,
+    s.limiting_state = newton_.limiting_state;
     return s;
 }
 
 void Transient::restore(const TransientState& s) {
     history_points_.clear();
-    for (auto point = s.history.rbegin(); point != s.history.rend(); ++point) history_points_.next_point() = *point, history_points_.accept();
+    for (auto point = s.history.rbegin(); point != s.history.rend(); ++point)
+        history_points_.next_point() = *point, history_points_.accept();
     history_points_.set_count(s.count);
     curve_points_ = s.curve_points, start_phase_ = static_cast<StartPhase>(s.start_phase), control_.recent_max_step = s.recent_max_step;
-    control_.order = s.order, control_.steps_since_order_change = s.steps_since_order_change, control_.failures = s.failures, damping_steps_ = s.damping_steps,
-    control_.starting = s.is_starting, restart_pending_ = s.restart_pending;
+    control_.order = s.order, control_.steps_since_order_change = s.steps_since_order_change, control_.failures = s.failures,
+    damping_steps_ = s.damping_steps, control_.starting = s.is_starting, restart_pending_ = s.restart_pending;
     control_.h = s.h, equations_.set_quadratic_factor(s.quadratic_factor), stats_ = s.stats, equations_.iterations = s.stats.iterations;
-    scale_ = s.scale, rate_ = s.rate, rate_change_ = s.rate_change, max_rate_ = s.max_rate, alternations_ = s.alternations, newton_.limiting_state = s.limiting_state;
+    scale_ = s.scale, rate_ = s.rate, rate_change_ = s.rate_change, max_rate_ = s.max_rate, alternations_ = s.alternations,
+    newton_.limiting_state = s.limiting_state;
     update_tolerances();
 }
 

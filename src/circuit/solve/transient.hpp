@@ -15,7 +15,7 @@ enum class Integration { bdf, trapezoidal };
 struct TransientPlan {
     double stop = 0, max_step = 0;  ///< s: end time; maximum step
     Integration method = Integration::bdf;
-    int max_order = 4;          ///< maximum order of BDF
+    int max_order = 4;      ///< maximum order of BDF
     double reltol = 1e-5;   ///< allowed error of a step, relative to the largest value so far
     double vntol = 1e-6;    ///< V, added for voltages
     double abstol = 1e-16;  ///< A, added for currents
@@ -65,18 +65,22 @@ private:
     StepControl control_;
     double leading_ = 0;
     bool pivot_order_fixed_ = false;  // the pivot order of the matrix
-    bool restart_pending_ = false;     // the last point is a breakpoint of a source or the end of a jump: integration restarts there
-    bool may_jump_ = false;     // the current step is so short that it may contain a jump
-    enum class StartPhase { none, first_step, breakpoint } start_phase_ = StartPhase::none;  // after a breakpoint: a point immediately, then a first step
-    int curve_points_ = 0;                                               // points of the interpolation in the last step; 0: as in the formula
-    double uncharged_error_ = 0;                                           // error of unknowns without charge in the last step / allowed error
-    double voltage_scale_ = 0, largest_charge_ = 0, largest_current_ = 0;  // V, C, A: scales of the rounding error
-    bool converged_ = false, rounding_measured_ = false;            // of the current step
-    std::vector<double> capacitance_, rounding_;                     // F, by node; by unknown, see rounding_error()
+    bool restart_pending_ = false;    // the last point is a breakpoint of a source or the end of a jump: integration restarts there
+    bool may_jump_ = false;           // the current step is so short that it may contain a jump
+    enum class StartPhase {
+        none,
+        first_step,
+        breakpoint
+    } start_phase_ = StartPhase::none;  // after a breakpoint: a point immediately, then a first step
+    int curve_points_ = 0;              // points of the interpolation in the last step; 0: as in the formula
+    double uncharged_error_ = 0;        // error of unknowns without charge in the last step / allowed error
+    double voltage_scale_ = 0, largest_charge_ = 0, largest_current_ = 0;             // V, C, A: scales of the rounding error
+    bool converged_ = false, rounding_measured_ = false;                              // of the current step
+    std::vector<double> capacitance_, rounding_;                                      // F, by node; by unknown, see rounding_error()
     std::vector<double> scale_, allowed_error_, tolerance_, history_, rate_, error_;  // allowed_: of a step; tolerance_: of reported values
     std::vector<char> has_charge_;
     std::vector<int> curves_;  // reported unknowns that are interpolated
-    struct SourceNode {              // a node whose voltage is that of node `base` plus that of a source
+    struct SourceNode {        // a node whose voltage is that of node `base` plus that of a source
         int unknown, base;
         const Device* source;
         double sign;
@@ -84,14 +88,16 @@ private:
     std::vector<SourceNode> source_nodes_;
     std::vector<int> source_node_index_;
     std::vector<double> rate_change_, max_rate_;  // trapezoidal rule: last change of dq/dt, largest dq/dt
-    std::vector<int> alternations_;       // number of successive sign changes
-    int damping_steps_ = 0;                     // remaining BDF steps that damp ringing
+    std::vector<int> alternations_;               // number of successive sign changes
+    int damping_steps_ = 0;                       // remaining BDF steps that damp ringing
 
     TransientStats stats_;
 
     bool uses_trapezoidal() const { return plan_.method == Integration::trapezoidal && damping_steps_ == 0; }
     void detect_ringing();
-    int interpolation_points() const { return curve_points_ > 0 ? curve_points_ : std::min(std::max(control_.order + 1, 4), history_points_.count()); }
+    int interpolation_points() const {
+        return curve_points_ > 0 ? curve_points_ : std::min(std::max(control_.order + 1, 4), history_points_.count());
+    }
     void find_source_nodes();
     double source_node_voltage(const SourceNode&, double t) const;
     double rounding_error(int unknown) const;

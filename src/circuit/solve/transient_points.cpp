@@ -31,7 +31,8 @@ void Transient::find_source_nodes() {
             source_nodes_.push_back({u, base, &d, plus ? -1.0 : 1.0});
         }
     const auto add = [&](int u) {
-        if (u < 0 || source_node_index_[static_cast<std::size_t>(u)] >= 0 || std::find(curves_.begin(), curves_.end(), u) != curves_.end()) return;
+        if (u < 0 || source_node_index_[static_cast<std::size_t>(u)] >= 0 || std::find(curves_.begin(), curves_.end(), u) != curves_.end())
+            return;
         if (plan_.method == Integration::bdf || system_.is_voltage(u)) curves_.push_back(u);  // currents ring with the trapezoidal rule
     };
     for (const int u : plan_.reported) add(u);

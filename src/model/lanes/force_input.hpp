@@ -7,9 +7,9 @@
 #include <cmath>
 #include <optional>
 
+#include "model/lane_population.hpp"
 #include "model/lanes/aligned_buffer.hpp"
 #include "model/lanes/shared_receptor.hpp"
-#include "model/lane_population.hpp"
 
 namespace corpuscle::lanes {
 

@@ -38,7 +38,13 @@ constexpr ReceptorKernel<V> receptor_lanes() {
 }
 template <class V, class N>
 constexpr NeuronKernel<V> neuron_lanes() {
-    return {N::name, sizeof(N), sizeof(typename N::State) / sizeof(Batch<V>), build<V, N>, start_states<V, N>, flush_decayed<V, N>, run_neuron_tile<V, N>};
+    return {N::name,
+            sizeof(N),
+            sizeof(typename N::State) / sizeof(Batch<V>),
+            build<V, N>,
+            start_states<V, N>,
+            flush_decayed<V, N>,
+            run_neuron_tile<V, N>};
 }
 
 template <class V>

@@ -12,8 +12,8 @@
 
 namespace corpuscle::lanes {
 
-inline constexpr int tile_size = 64;    ///< afferents of a tile; the same for every instruction set, so that results do not depend on it
-inline constexpr int max_outputs = 2;   ///< neurons of one afferent
+inline constexpr int tile_size = 64;   ///< afferents of a tile; the same for every instruction set, so that results do not depend on it
+inline constexpr int max_outputs = 2;  ///< neurons of one afferent
 inline constexpr int firing_list_capacity = 256;  ///< capacity of a list of firing masks
 
 /// Steps of a chunk. Its rows of force, and the currents computed from them, stay in the first-level cache.
@@ -53,12 +53,12 @@ struct PrefetchRange {
 template <class V>
 struct ReceptorCall {
     const std::byte* models;
-    std::size_t stride;  ///< bytes from a vector's model to the next; 0: one model for all
-    V* state;            ///< [value][tile_size]
-    int afferents, steps;    ///< afferents of the tile without padding; steps of the chunk
+    std::size_t stride;    ///< bytes from a vector's model to the next; 0: one model for all
+    V* state;              ///< [value][tile_size]
+    int afferents, steps;  ///< afferents of the tile without padding; steps of the chunk
     Method method;
     ForceInput input;
-    const V* rows;              ///< ForceInput::rows: force [step][tile_size], N
+    const V* rows;                   ///< ForceInput::rows: force [step][tile_size], N
     const std::int16_t* int16_rows;  ///< ForceInput::int16: the same as integers that are N when multiplied by `scale`
     V scale;
     const V* profile;  ///< ForceInput::profile: one force for each step, N, multiplied for each afferent by its ...
@@ -87,9 +87,9 @@ struct NeuronCall {
 /// A receptor and a neuron in one loop. The pointers are null if this pair cannot be fused.
 template <class V>
 struct FusedKernel {
-    bool (*is_usable)(const std::byte* neurons, std::size_t count);     ///< true if it can be used with these models
-    void (*flush_decayed)(const ReceptorCall<V>&);                     ///< for the receptors
-    void (*run)(const ReceptorCall<V>&, const NeuronCall<V>&);  ///< ignores the current arrays of the calls
+    bool (*is_usable)(const std::byte* neurons, std::size_t count);  ///< true if it can be used with these models
+    void (*flush_decayed)(const ReceptorCall<V>&);                   ///< for the receptors
+    void (*run)(const ReceptorCall<V>&, const NeuronCall<V>&);       ///< ignores the current arrays of the calls
 };
 
 template <class V>
@@ -100,7 +100,7 @@ struct ReceptorKernel {
     std::size_t model_bytes, state_values;
     /// Builds the models of `count` afferents (one tile), or one for all if `count` is 1, from an array of the receptor's Params.
     void (*build)(std::byte* at, const void* params, int count, double dt, Method);
-    void (*start)(const ReceptorCall<V>&);   ///< sets the state before the first row of force
+    void (*start)(const ReceptorCall<V>&);          ///< sets the state before the first row of force
     void (*flush_decayed)(const ReceptorCall<V>&);  ///< sets decayed state to zero; reads only models and state
     void (*run)(ReceptorCall<V>&);
     std::span<const FusedKernel<V>> fused;  ///< with each neuron of the table

@@ -20,13 +20,14 @@ struct FiringRecorder {
         if (list->offsets) offset.store_aligned(list->offsets + list->count * width<V>);
         list->firings[list->count++] = {list->step, first, bits};
     }
-    [[gnu::noinline, gnu::cold]] void truncated(num::Mask<Batch<V>> mask) const { list->truncated_steps += __builtin_popcountll(valid(mask)); }
+    [[gnu::noinline, gnu::cold]] void truncated(num::Mask<Batch<V>> mask) const {
+        list->truncated_steps += __builtin_popcountll(valid(mask));
+    }
 };
 
 template <class V, class N>
 void start_states(const NeuronCall<V>& c) {
-    for (int first = 0; first < tile_size; first += width<V>)
-        write(model<N>(c.models, c.stride, first / width<V>).start(), c.state, first);
+    for (int first = 0; first < tile_size; first += width<V>) write(model<N>(c.models, c.stride, first / width<V>).start(), c.state, first);
 }
 
 /// One step of a vector under its current, with all events.
@@ -64,7 +65,8 @@ template <bool waits, int J, class N, class S, class F, class I>
     if constexpr (requires(S next) { n[0]->template try_quiet_step<waits>(s[0], current(0), next); }) {
         S next[J];
         decltype(n[0]->template try_quiet_step<waits>(s[0], current(0), next[0])) something[J];
-        unrolled<J>([&](auto j) __attribute__((always_inline)) { something[j] = n[j]->template try_quiet_step<waits>(s[j], current(j), next[j]); });
+        unrolled<J>([&](auto j)
+                        __attribute__((always_inline)) { something[j] = n[j]->template try_quiet_step<waits>(s[j], current(j), next[j]); });
         if (num::any_of(something)) [[unlikely]] {
             S before[J], after[J];
             const auto again = current.copy();
@@ -109,8 +111,9 @@ void run_neurons(const NeuronCall<V>& c, int first, Prefetcher& prefetch) {
         if constexpr (scaled) {
             const T both(both_ends[t]);
             const auto current = [&]<bool rising>(std::bool_constant<rising>) __attribute__((always_inline)) {
-                return ComputedCurrents{[&](int j)
-                                __attribute__((always_inline)) { return ScaledCurrent<T, V, rising>{load(gain + j * w), both, from[t], to[t]}; }};
+                return ComputedCurrents{[&](int j) __attribute__((always_inline)) {
+                    return ScaledCurrent<T, V, rising>{load(gain + j * w), both, from[t], to[t]};
+                }};
             };
             if (to[t] > from[t])
                 step_all<waits, J>(n, s, fired, current(std::true_type{}));
@@ -142,7 +145,8 @@ void run_neuron_tile(const NeuronCall<V>& c) {
         if constexpr (requires(const N& n) { n.may_be_refractory(); })
             if (!any_refractory<V, N, J>(c, first)) {
                 if (c.gain)
-                    c.stride == 0 ? run_neurons<V, N, true, false, true, J>(c, first, local) : run_neurons<V, N, true, false, false, J>(c, first, local);
+                    c.stride == 0 ? run_neurons<V, N, true, false, true, J>(c, first, local)
+                                  : run_neurons<V, N, true, false, false, J>(c, first, local);
                 else
                     run_neurons<V, N, false, false, false, J>(c, first, local);
                 continue;

@@ -19,7 +19,7 @@ struct PopulationLayout {
     const FusedKernel<V>* fused;  ///< both in one loop; null: not available
     int lanes;
     std::size_t size;
-    AlignedBuffer<std::byte> receptors, neurons;       ///< models: one for all, or those of each tile in turn
+    AlignedBuffer<std::byte> receptors, neurons;      ///< models: one for all, or those of each tile in turn
     std::unique_ptr<SharedReceptor> shared_receptor;  ///< set if all afferents share one receptor
     bool scales_with_force;
     std::vector<std::uint32_t> afferent_numbers;

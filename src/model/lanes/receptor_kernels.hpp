@@ -38,7 +38,7 @@ void start_states(const ReceptorCall<V>& c) {
         const auto at = [&](ForceInput f) {
             return f == ForceInput::profile ? ForceReader<ForceInput::profile, V>(c, first).at(0, 0)
                    : f == ForceInput::int16 ? ForceReader<ForceInput::int16, V>(c, first).at(0, 0)
-                                      : ForceReader<ForceInput::rows, V>(c, first).at(0, 0);
+                                            : ForceReader<ForceInput::rows, V>(c, first).at(0, 0);
         };
         write(r.start(at(c.input)), c.state, first);
     }

@@ -50,7 +50,8 @@ std::unique_ptr<SharedReceptor> make_shared_receptor(const AfferentPlan& plan, c
     std::unique_ptr<SharedReceptor> receptor;
     visit_named(Receptors{}, plan.receptor, [&]<template <class> class R>(ModelTag<R>) {
         const auto params = with_settings<typename R<double>::Params>(R<double>::fields, settings_of(plan));
-        receptor = std::make_unique<Transduction<R<double>>>(R<double>(UniformParams<typename R<double>::Params>{params}, run.dt, run.method));
+        receptor =
+            std::make_unique<Transduction<R<double>>>(R<double>(UniformParams<typename R<double>::Params>{params}, run.dt, run.method));
     });
     return receptor;
 }

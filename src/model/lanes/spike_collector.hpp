@@ -23,14 +23,14 @@ struct JobResult {
     std::vector<LaneSpike> events;
     std::int64_t truncated_steps = 0, extra_spikes = 0, skipped_steps = 0;
     std::int64_t firings = 0;  ///< number of firing masks
-    bool non_finite = false;       ///< some force or state is NaN or infinite
+    bool non_finite = false;   ///< some force or state is NaN or infinite
 };
 
 /// A list of firing masks that flushes itself into a job or into spike bits.
 template <class V>
 struct SpikeCollector : FiringList<V> {
     JobResult& job;
-    std::uint64_t* spike_bits;      ///< of this tile, from the chunk's first step on; null: spikes are listed
+    std::uint64_t* spike_bits;                 ///< of this tile, from the chunk's first step on; null: spikes are listed
     std::uint32_t first_afferent, first_step;  ///< the tile's first afferent, the chunk's first step
     int lanes;
 
@@ -51,7 +51,8 @@ private:
     void append_spikes(const Firing& f, const V* offsets) {
         for (auto bits = f.bits; bits != 0; bits &= bits - 1) {
             const int lane = std::countr_zero(bits);
-            job.events.push_back({first_step + static_cast<std::uint32_t>(f.step), first_afferent + static_cast<std::uint32_t>(f.first + lane),
+            job.events.push_back({first_step + static_cast<std::uint32_t>(f.step),
+                                  first_afferent + static_cast<std::uint32_t>(f.first + lane),
                                   offsets ? static_cast<double>(offsets[lane]) : 1.0});
         }
     }
@@ -61,7 +62,7 @@ private:
 /// `numbers` are the afferent numbers in spikes, rising; empty: 0, 1, 2 ...
 /// `begin` and `at` are scratch arrays.
 inline void merge_spikes(std::span<const JobResult> jobs, std::size_t steps, std::int64_t first, std::span<const std::uint32_t> numbers,
-                   std::vector<Spike>& spikes, std::vector<std::size_t>& begin, std::vector<std::size_t>& at) {
+                         std::vector<Spike>& spikes, std::vector<std::size_t>& begin, std::vector<std::size_t>& at) {
     begin.assign(steps + 1, 0);
     for (const auto& job : jobs)
         for (const auto& e : job.events) ++begin[e.step + 1];

@@ -34,7 +34,8 @@ class TileStates {
 
 public:
     TileStates(std::size_t tiles, std::size_t felt, std::size_t own)
-        : receptor_values_(felt * tile_size), neuron_values_(own * tile_size), receptors_(tiles * receptor_values_), neurons_(tiles * neuron_values_), at_rest_(tiles) {}
+        : receptor_values_(felt * tile_size), neuron_values_(own * tile_size), receptors_(tiles * receptor_values_),
+          neurons_(tiles * neuron_values_), at_rest_(tiles) {}
 
     V* receptor(std::size_t tile) const { return receptors_.data() + tile * receptor_values_; }
     V* neuron(std::size_t tile) const { return neurons_.data() + tile * neuron_values_; }
@@ -58,7 +59,9 @@ public:
                std::memcmp(neuron(tile), as.data() + receptor_values_, neuron_values_ * sizeof(V)) == 0;
     }
 
-    bool all_finite(std::size_t tile) const { return all_finite_in(receptor(tile), receptor_values_) && all_finite_in(neuron(tile), neuron_values_); }
+    bool all_finite(std::size_t tile) const {
+        return all_finite_in(receptor(tile), receptor_values_) && all_finite_in(neuron(tile), neuron_values_);
+    }
     /// True if the state of one afferent contains NaN or infinity.
     bool has_non_finite(std::size_t afferent) const {
         const std::size_t tile = afferent / tile_size, lane = afferent % tile_size;

@@ -6,20 +6,20 @@
 #include <optional>
 #include <tuple>
 
-#include "model/lanes/population_layout.hpp"
-#include "model/lanes/spike_collector.hpp"
+#include "model/lane_population.hpp"
 #include "model/lanes/force_input.hpp"
 #include "model/lanes/kernel.hpp"
+#include "model/lanes/population_layout.hpp"
 #include "model/lanes/shared_receptor.hpp"
+#include "model/lanes/spike_collector.hpp"
 #include "model/lanes/tile_states.hpp"
-#include "model/lane_population.hpp"
 
 namespace corpuscle::lanes {
 
 template <class V>
 class TiledPopulation final : public LanePopulation {
     static constexpr int chunk = chunk_steps<V>, long_chunk = 2 * chunk;  // long: used where no separate currents share the cache
-    static constexpr std::size_t tiles_per_job = 16;                        // 1,024 afferents: the work of one thread
+    static constexpr std::size_t tiles_per_job = 16;                      // 1,024 afferents: the work of one thread
 
     /// Scratch memory of one thread.
     struct Scratch {
@@ -102,15 +102,16 @@ class TiledPopulation final : public LanePopulation {
             else
                 c.rows = tiles->rows + row, c.prefetch = next_chunk(c.rows, steps);
         } else if (const auto* words = std::get_if<ForceInt16>(&b.force)) {
-            c.input = ForceInput::int16, c.int16_rows = words->rows + row, c.scale = static_cast<V>(words->scale), c.prefetch = next_chunk(c.int16_rows, steps);
+            c.input = ForceInput::int16, c.int16_rows = words->rows + row, c.scale = static_cast<V>(words->scale),
+            c.prefetch = next_chunk(c.int16_rows, steps);
         } else {
             c.input = ForceInput::profile, c.profile = profile_.force() + step;
         }
         return c;
     }
 
-    NeuronCall<V> neuron_call(const Block& b, std::size_t tile, int output, std::size_t step, int steps, Scratch& s, SpikeCollector<V>& fired,
-                         PrefetchRange ahead) const {
+    NeuronCall<V> neuron_call(const Block& b, std::size_t tile, int output, std::size_t step, int steps, Scratch& s,
+                              SpikeCollector<V>& fired, PrefetchRange ahead) const {
         const auto [models, stride] = this->models_of(layout_.neurons, *layout_.neuron, tile);
         NeuronCall<V> c{};
         c.models = models, c.stride = stride, c.afferents = tile_size_of(tile), c.steps = steps, c.fired = &fired, c.prefetch = ahead;
@@ -130,12 +131,12 @@ class TiledPopulation final : public LanePopulation {
     void run_chunk(const Block& b, std::size_t tile, std::size_t step, int steps, Scratch& s, JobResult& job) const {
         const bool first = step_ == 0 && step == 0, silent = first && method_ == Method::exact;
         SpikeCollector<V> fired{{s.firings.data(), spikes_on_samples_ || first ? nullptr : s.offsets.data(), 0, 0, valid_bits(tile), 0,
-                            [](FiringList<V>& list) { static_cast<SpikeCollector<V>&>(list).flush(); }},
-                           job,
-                           b.spike_bits ? b.spike_bits + tile * b.steps + step : nullptr,
-                           static_cast<std::uint32_t>(tile * tile_size),
-                           static_cast<std::uint32_t>(step),
-                           layout_.lanes};
+                                 [](FiringList<V>& list) { static_cast<SpikeCollector<V>&>(list).flush(); }},
+                                job,
+                                b.spike_bits ? b.spike_bits + tile * b.steps + step : nullptr,
+                                static_cast<std::uint32_t>(tile * tile_size),
+                                static_cast<std::uint32_t>(step),
+                                layout_.lanes};
         if (layout_.fused && !b.shared_currents && !first) {
             layout_.fused->run(receptor_call(b, tile, step, steps, s), neuron_call(b, tile, 0, step, steps, s, fired, {}));
         } else {
@@ -215,7 +216,9 @@ class TiledPopulation final : public LanePopulation {
 
     /// A state that becomes NaN stays NaN. For blocks of one or two steps it is therefore checked only every few steps.
     static constexpr std::int64_t check_interval = 64;
-    bool is_check_due(const Block& b) const { return step_ / check_interval != (step_ + static_cast<std::int64_t>(b.steps)) / check_interval; }
+    bool is_check_due(const Block& b) const {
+        return step_ / check_interval != (step_ + static_cast<std::int64_t>(b.steps)) / check_interval;
+    }
 
     void run_job(const Block& b, std::size_t number, Scratch& s) {
         auto& job = jobs_[number];
@@ -290,15 +293,18 @@ class TiledPopulation final : public LanePopulation {
 
 public:
     TiledPopulation(PopulationLayout<V> layout, const SimulationOptions& run)
-        : layout_(std::move(layout)), method_(run.method), spikes_on_samples_(run.spikes_on_samples), tiles_((layout_.size + tile_size - 1) / tile_size),
-          states_(tiles_, layout_.receptor->state_values, layout_.neuron->state_values * static_cast<std::size_t>(layout_.receptor->outputs)),
+        : layout_(std::move(layout)), method_(run.method), spikes_on_samples_(run.spikes_on_samples),
+          tiles_((layout_.size + tile_size - 1) / tile_size),
+          states_(tiles_, layout_.receptor->state_values,
+                  layout_.neuron->state_values * static_cast<std::size_t>(layout_.receptor->outputs)),
           jobs_((tiles_ + tiles_per_job - 1) / tiles_per_job) {}
 
     std::size_t size() const override { return layout_.size; }
     std::int64_t step() const override { return step_; }
 
     std::vector<double> save() const override {
-        std::vector<double> all = {static_cast<double>(step_), force_layout_ ? static_cast<double>(1 + 2 * force_layout_->first + force_layout_->second) : 0.0};
+        std::vector<double> all = {static_cast<double>(step_),
+                                   force_layout_ ? static_cast<double>(1 + 2 * force_layout_->first + force_layout_->second) : 0.0};
         states_.save(all);
         if (layout_.shared_receptor) {
             const auto profile = layout_.shared_receptor->save();
@@ -314,7 +320,8 @@ public:
         const bool fits = all.size() >= own && is_integer(all[0], last_step) && is_integer(all[1], kinds) &&
                           (layout_.shared_receptor ? layout_.shared_receptor->resume(all.subspan(own)) : all.size() == own) &&
                           states_.resume(all.subspan(2, states_.size()));
-        if (!fits) return bad_input(fmt::format("{}: a saved state with {} values is not one of this population", layout_.name, all.size()));
+        if (!fits)
+            return bad_input(fmt::format("{}: a saved state with {} values is not one of this population", layout_.name, all.size()));
         step_ = static_cast<std::int64_t>(all[0]);
         const auto kind = static_cast<std::size_t>(all[1]);
         force_layout_ = kind == 0 ? std::nullopt : std::optional(std::pair((kind - 1) / 2, (kind - 1) % 2 == 1));
@@ -328,12 +335,15 @@ public:
         if (const auto* profile = std::get_if<ForceProfile>(&force)) {
             if (const auto at = first_non_finite(profile->force.first(steps)); at < steps) return check_finite_force(block, response);
             const auto now = profile->force.first(steps);
-            block.shared_currents ? profile_.compute_currents(*layout_.shared_receptor, now, step_ == 0, layout_.receptor->outputs) : profile_.set_force(now);
+            block.shared_currents ? profile_.compute_currents(*layout_.shared_receptor, now, step_ == 0, layout_.receptor->outputs)
+                                  : profile_.set_force(now);
         }
         if (response.spike_bits) response.spike_bits->assign(tiles_ * steps, 0), block.spike_bits = response.spike_bits->data();
         while (scratch_.size() < pool.threads()) scratch_.emplace_back();
         pool.for_each(jobs_.size(), [&](std::size_t job, unsigned thread) { run_job(block, job, scratch_[thread]); });
-        for (const auto& job : jobs_) response.truncated_steps += job.truncated_steps, response.extra_spikes += job.extra_spikes, response.skipped_steps += job.skipped_steps;
+        for (const auto& job : jobs_)
+            response.truncated_steps += job.truncated_steps, response.extra_spikes += job.extra_spikes,
+                response.skipped_steps += job.skipped_steps;
         if (auto ok = check_jobs(block, response); !ok) return ok.error();
         if (response.spikes) merge_spikes(jobs_, steps, step_, layout_.afferent_numbers, *response.spikes, begin_, at_);
         step_ += static_cast<std::int64_t>(steps);

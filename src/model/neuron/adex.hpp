@@ -74,7 +74,8 @@ struct Adex : AdexTraits {
             const T upstroke = g_L * Delta_T * num::exp((num::min(at.v, V_peak) - V_T) / Delta_T);
             return MembraneRecovery<T>{(g_L * (E_L - at.v) + upstroke - at.w + gain * current) / C_m, (a * (at.v - E_L) - at.w) / tau_w};
         };
-        advance_substeps(y, i, dt, count, V_peak, slopes, [this](MembraneRecovery<T> at) { return MembraneRecovery<T>{V_reset, at.w + b}; }, fired);
+        advance_substeps(
+            y, i, dt, count, V_peak, slopes, [this](MembraneRecovery<T> at) { return MembraneRecovery<T>{V_reset, at.w + b}; }, fired);
         s = {y.v, y.w};
         return num::empty_mask<T>();
     }

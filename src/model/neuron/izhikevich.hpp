@@ -59,7 +59,8 @@ struct Izhikevich : IzhikevichTraits {
             const T v = num::min(at.v, V_peak);  // the parabola is limited to its value at V_peak
             return MembraneRecovery<T>{v * (T(4e4) * v + T(5e3)) + T(140.0) - at.w + gain * current, a * (b * v - at.w)};
         };
-        advance_substeps(y, i, dt, count, V_peak, slopes, [this](MembraneRecovery<T> at) { return MembraneRecovery<T>{c, at.w + d}; }, fired);
+        advance_substeps(
+            y, i, dt, count, V_peak, slopes, [this](MembraneRecovery<T> at) { return MembraneRecovery<T>{c, at.w + d}; }, fired);
         s = {y.v, y.w};
         return num::empty_mask<T>();
     }

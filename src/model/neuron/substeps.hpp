@@ -31,7 +31,8 @@ inline int substep_count(double dt, double longest) {
 
 /// One step in `count` substeps; jump(y) returns the state after a spike.
 template <class T, class Slopes, class Jump, class Fired>
-void advance_substeps(MembraneRecovery<T>& y, Current<T> i, double dt, int count, T V_peak, const Slopes& slopes, const Jump& jump, Fired& fired) {
+void advance_substeps(MembraneRecovery<T>& y, Current<T> i, double dt, int count, T V_peak, const Slopes& slopes, const Jump& jump,
+                      Fired& fired) {
     const T h = T(dt / count), g = (i.to - i.from) * T(1.0 / count);
     for (int k = 0; k < count; ++k) {
         const T at = i.from + g * T(static_cast<double>(k));

@@ -23,8 +23,8 @@ struct Fa1bTraits {
     /// Exact method: the current at the beginning of a step equals that at the end of the step before. Without this it is constant in a
     /// step.
     static constexpr bool continuous = true;
-    static constexpr bool propagates_nan = true;  ///< a NaN force makes the state NaN for good, so one check per block is enough
-    static constexpr bool scales_with_force = true;        ///< twice the force gives twice the current
+    static constexpr bool propagates_nan = true;     ///< a NaN force makes the state NaN for good, so one check per block is enough
+    static constexpr bool scales_with_force = true;  ///< twice the force gives twice the current
     static constexpr Probe recordables[] = {{"I_A", "A"}, {"I_B", "A"}};
 };
 
@@ -36,7 +36,8 @@ struct Fa1b : Fa1bTraits {
 
     template <class Values>
     Fa1b(const Values& value, double dt, Method method)
-        : k_A(value(&Params::k_A)), k_B(value(&Params::k_B)), filter(value(&Params::f), dt, method), first_order_hold(method == Method::exact) {}
+        : k_A(value(&Params::k_A)), k_B(value(&Params::k_B)), filter(value(&Params::f), dt, method),
+          first_order_hold(method == Method::exact) {}
 
     State start(T F) const { return {F, T(0.0), T(0.0)}; }
     void step(State& s, T F, Current<T> (&i)[outputs]) const {

@@ -27,8 +27,8 @@ struct VibrationTraits {
     /// Exact method: the current at the beginning of a step equals that at the end of the step before. Without this it is constant in a
     /// step.
     static constexpr bool continuous = true;
-    static constexpr bool propagates_nan = true;  ///< a NaN force makes the state NaN for good, so one check per block is enough
-    static constexpr bool scales_with_force = true;        ///< twice the force gives twice the current
+    static constexpr bool propagates_nan = true;     ///< a NaN force makes the state NaN for good, so one check per block is enough
+    static constexpr bool scales_with_force = true;  ///< twice the force gives twice the current
 };
 
 template <class T>
@@ -50,7 +50,8 @@ struct Vibration : VibrationTraits {
     }
     T current(const State& s) const { return k * num::positive_part(s.x_2 - s.x_3); }  // a low-pass is its input minus a high-pass
     void flush_decayed(State& s) const {
-        s.x_1 = snap_to_level(s.x_1, negligible_force), s.x_2 = snap_to_level(s.x_2, negligible_force), s.x_3 = snap_to_level(s.x_3, negligible_force);
+        s.x_1 = snap_to_level(s.x_1, negligible_force), s.x_2 = snap_to_level(s.x_2, negligible_force),
+        s.x_3 = snap_to_level(s.x_3, negligible_force);
         s.I = current(s);
     }
 

@@ -16,7 +16,8 @@ struct Adc {
     struct Params {
         double bits = 12, f_s = 1e3, F_low = 0, F_high = 5, shared = 0, linearise = 1, word = 32, frac = 20;
     };
-    static constexpr std::string_view name = "adc", description = "analog-to-digital converter; the algorithms behind it run in fixed point";
+    static constexpr std::string_view name = "adc",
+                                      description = "analog-to-digital converter; the algorithms behind it run in fixed point";
     static constexpr std::string_view source = "thesis 1.3, fig. 6a; all values are a choice";
     static constexpr ParameterDef<Params> fields[] = {
         {"bits", &Params::bits, "", 1, 16, "bits of a code", {}, true},

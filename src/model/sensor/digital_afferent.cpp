@@ -13,14 +13,15 @@ constexpr double max_count = 0x1p53;            // the largest count that a doub
 struct DigitalAfferent::TypedState {
     ChannelSlot slot;
     ConversionTimes instants;
-    ConversionTimes::SamplePosition next;           ///< the next conversion
-    double before = 0, sensed = 0;  ///< force of the last sample, and after the sensor's hysteresis; N
-    std::int64_t code = -1;         ///< of the last conversion; -1: none yet
+    ConversionTimes::SamplePosition next;  ///< the next conversion
+    double before = 0, sensed = 0;         ///< force of the last sample, and after the sensor's hysteresis; N
+    std::int64_t code = -1;                ///< of the last conversion; -1: none yet
     std::array<Word, FixedChain::max_words> state = {};
     std::array<Word, FixedChain::max_recordables> shown = {};
 };
 
-DigitalAfferent::DigitalAfferent(std::string name, Converter converter, std::unique_ptr<const FixedChain> chain, double f_s, bool shared, double dt)
+DigitalAfferent::DigitalAfferent(std::string name, Converter converter, std::unique_ptr<const FixedChain> chain, double f_s, bool shared,
+                                 double dt)
     : name_(std::move(name)), converter_(std::move(converter)), chain_(std::move(chain)), source_rate_(1 / dt), f_s_(f_s), shared_(shared) {
     const auto format = chain_->constants().format();
     for (std::int64_t code = 0; code <= converter_.max_code(); ++code) rom_.push_back(format.nearest(converter_.force(code)));
@@ -63,8 +64,8 @@ std::optional<DigitalAfferent::TypedState> DigitalAfferent::unpack_state(const S
         return {};
     if (!std::isfinite(v[4]) || !std::isfinite(v[5]) || !is_count(v[6], -1, static_cast<double>(converter_.max_code()))) return {};
     const ChannelSlot slot{static_cast<std::uint32_t>(v[0]), static_cast<std::uint32_t>(v[1])};
-    TypedState h{slot, conversion_times(slot.channel_count),           {static_cast<std::int64_t>(v[2]), static_cast<std::int64_t>(v[3])}, v[4],
-           v[5], static_cast<std::int64_t>(v[6])};
+    TypedState h{slot, conversion_times(slot.channel_count), {static_cast<std::int64_t>(v[2]), static_cast<std::int64_t>(v[3])}, v[4],
+                 v[5], static_cast<std::int64_t>(v[6])};
     if (h.next.remainder >= h.instants.parts_per_sample()) return {};
     const auto max_word = static_cast<double>(chain_->constants().format().max());
     for (std::size_t w = 0; w < v.size() - values_before_words; ++w) {
@@ -79,7 +80,8 @@ Result<void> DigitalAfferent::respond(std::span<const double> force, State& stat
     return respond_and_report(force, state, response, [](const Conversion&) {});
 }
 
-Result<void> DigitalAfferent::respond_and_report(std::span<const double> force, State& state, ResponseBlock& response, const ConversionCallback& seen) const {
+Result<void> DigitalAfferent::respond_and_report(std::span<const double> force, State& state, ResponseBlock& response,
+                                                 const ConversionCallback& seen) const {
     const auto size = values_before_words + chain_->words() + chain_->recordables().size();
     if (auto ok = check_block(name_, format_, size, state, force); !ok) return ok;
     auto unpacked = unpack_state(state);

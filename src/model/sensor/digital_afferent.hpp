@@ -2,8 +2,8 @@
 // An afferent behind a converter. Everything after the converter is computed in words, at the converter's own rate.
 
 #include "model/sensor/adc.hpp"
-#include "model/sensor/fixed_chain.hpp"
 #include "model/sensor/conversion_times.hpp"
+#include "model/sensor/fixed_chain.hpp"
 
 namespace corpuscle {
 
@@ -15,7 +15,7 @@ public:
         std::int64_t code;
         Word force;
         std::span<const Word> recorded;  ///< in the order of chain().recordables()
-        std::span<const bool> fired;  ///< a bit for each neuron: true if it fired
+        std::span<const bool> fired;     ///< a bit for each neuron: true if it fired
     };
     using ConversionCallback = std::function<void(const Conversion&)>;
 

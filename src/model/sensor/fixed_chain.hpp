@@ -44,7 +44,8 @@ class FixedModelChain final : public FixedChain {
         typename N::State neuron[outputs_];
     };
     static constexpr std::size_t words_ = sizeof(State) / sizeof(Word);
-    static_assert(std::is_trivially_copyable_v<State> && words_ <= max_words && outputs_ * (1 + std::size(N::recordables)) <= max_recordables);
+    static_assert(std::is_trivially_copyable_v<State> && words_ <= max_words &&
+                  outputs_ * (1 + std::size(N::recordables)) <= max_recordables);
 
     R receptor_;
     N neuron_;
@@ -82,7 +83,8 @@ public:
             out.fired[static_cast<std::size_t>(k)] = fired.spike;
             out.truncated_neurons += fired.truncated;
             shown[static_cast<std::size_t>(k)] = I[k];
-            neuron_.record(s.neuron[k], &shown[static_cast<std::size_t>(outputs_) + static_cast<std::size_t>(k) * std::size(N::recordables)]);
+            neuron_.record(s.neuron[k],
+                           &shown[static_cast<std::size_t>(outputs_) + static_cast<std::size_t>(k) * std::size(N::recordables)]);
         }
         std::memcpy(state.data(), &s, sizeof s);
         return out;

@@ -39,7 +39,8 @@ Result<void> FrontEnd::check_range(std::string_view name, double low, std::strin
         x = s.curve(x);
         if (x > s.limit)
             return bad_input(fmt::format("{}: at {} = {:g} N {} would be {:.4g} {}, above {} = {:g} {}; lower {} or {}", name, parameter,
-                                         high, s.output.name, x, s.output.unit, s.limit_name, s.limit, s.output.unit, s.gain_name, parameter));
+                                         high, s.output.name, x, s.output.unit, s.limit_name, s.limit, s.output.unit, s.gain_name,
+                                         parameter));
     }
     if (read(high).value > read(low).value) return {};
     return bad_input(

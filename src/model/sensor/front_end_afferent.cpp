@@ -7,7 +7,8 @@ constexpr std::size_t own_values = 1;  // the last force after hysteresis, N; th
 
 }  // namespace
 
-FrontEndAfferent::FrontEndAfferent(FrontEnd front, std::unique_ptr<Afferent> inner) : front_end_(std::move(front)), inner_(std::move(inner)) {
+FrontEndAfferent::FrontEndAfferent(FrontEnd front, std::unique_ptr<Afferent> inner)
+    : front_end_(std::move(front)), inner_(std::move(inner)) {
     const auto rest = inner_->start({});
     inner_format_ = rest.format;
     inner_values_ = rest.values.size();
@@ -53,7 +54,8 @@ Result<void> FrontEndAfferent::respond(std::span<const double> force, State& sta
     ResponseBlock inner_response{response.spikes, response.afferent_index};
     if (!response.probes.empty()) inner_response.probes = response.probes.subspan(front_end_.stages().size() + 1);
     const auto done = inner_->respond(calibrated, inside, inner_response);
-    response.truncated_steps += inner_response.truncated_steps, response.saturated += inner_response.saturated, response.overflowed += inner_response.overflowed;
+    response.truncated_steps += inner_response.truncated_steps, response.saturated += inner_response.saturated,
+        response.overflowed += inner_response.overflowed;
     std::copy(inside.values.begin(), inside.values.end(), state.values.begin() + own_values);
     state.step = inside.step;
     return done;

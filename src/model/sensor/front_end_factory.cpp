@@ -60,8 +60,8 @@ Result<std::unique_ptr<const FixedChain>> make_fixed_chain(const AfferentPlan& p
 
 std::unique_ptr<DigitalAfferent> make_digital(const AfferentPlan& plan, const SimulationOptions& run) {
     const auto adc = adc_of(plan);
-    return std::make_unique<DigitalAfferent>(plan.composition(), Converter(make_front_end(plan), adc), std::move(*make_fixed_chain(plan)), adc.f_s,
-                                     adc.shared != 0, run.dt);
+    return std::make_unique<DigitalAfferent>(plan.composition(), Converter(make_front_end(plan), adc), std::move(*make_fixed_chain(plan)),
+                                             adc.f_s, adc.shared != 0, run.dt);
 }
 
 }  // namespace corpuscle

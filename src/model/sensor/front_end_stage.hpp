@@ -9,8 +9,8 @@
 namespace corpuscle {
 
 struct FrontEndStage {
-    std::string_view component;                                   ///< "f2v"
-    Probe output;                                             ///< its output
+    std::string_view component;                              ///< "f2v"
+    Probe output;                                            ///< its output
     std::function<double(double)> curve;                     ///< never decreasing; finite for every finite input
     double limit = std::numeric_limits<double>::infinity();  ///< upper limit of the output
     std::string_view limit_name = {};                        ///< the parameter that sets the limit

@@ -26,7 +26,8 @@ struct Fsr {
     };
 
     static FrontEndStage stage(const Params& p) {
-        return {.component = name, .output = {"G_FSR", "S"}, .curve = [p](double F) { return conductance(p, F); }, .hysteresis = p.hysteresis};
+        return {
+            .component = name, .output = {"G_FSR", "S"}, .curve = [p](double F) { return conductance(p, F); }, .hysteresis = p.hysteresis};
     }
 
     static double conductance(const Params& p, double F) {

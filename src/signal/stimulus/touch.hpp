@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "signal/elementary.hpp"
-#include "signal/parameter.hpp"
 #include "signal/force_source.hpp"
+#include "signal/parameter.hpp"
 
 namespace corpuscle {
 
@@ -68,7 +68,8 @@ struct RampHold {
     double duration() const { return p.t_rest + p.t_up + p.t_hold + p.t_down + p.t_post; }
     std::vector<Phase> phases() const { return five_phases(p.t_rest, p.t_up, p.t_hold, p.t_down, p.t_post); }
     double at(double t) const {
-        return p.F_min + (p.F_max - p.F_min) * (ramp_fraction(t, p.t_rest, p.t_up) - ramp_fraction(t, p.t_rest + p.t_up + p.t_hold, p.t_down));
+        return p.F_min +
+               (p.F_max - p.F_min) * (ramp_fraction(t, p.t_rest, p.t_up) - ramp_fraction(t, p.t_rest + p.t_up + p.t_hold, p.t_down));
     }
 };
 

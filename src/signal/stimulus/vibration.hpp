@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "signal/elementary.hpp"
+#include "signal/force_source.hpp"
 #include "signal/parameter.hpp"
 #include "signal/random.hpp"
-#include "signal/force_source.hpp"
 
 namespace corpuscle {
 

@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "signal/quantity.hpp"
-#include "skin/contact/skin_cells.hpp"
 #include "skin/contact/contact_path.hpp"
 #include "skin/contact/pressure_distribution.hpp"
+#include "skin/contact/skin_cells.hpp"
 
 namespace corpuscle {
 namespace {
@@ -54,17 +54,17 @@ class IndenterContact final : public Contact {
         double all = 0, on = 0;
         const auto half = pressure_->box(size);
         cells_.for_each_column(at.x, at.y, half.width, half.height,
-                       [&](double x0, std::span<const double> edges, std::span<const std::uint32_t> sites) {
-                           if (column_.size() < edges.size() * 2) column_.resize(edges.size() * 2);
-                           double* y = column_.data() + edges.size();
-                           for (std::size_t k = 0; k < edges.size(); ++k) y[k] = edges[k] - at.y;
-                           pressure_->column(size, shift, x0 - at.x, cells_.side(), {y, edges.size()}, column_.data());
-                           for (std::size_t k = 0; k < sites.size(); ++k) {
-                               all += column_[k];
-                               if (!(column_[k] > 0) || sites[k] == SkinCells::no_site) continue;
-                               on += column_[k], fractions_.push_back({sites[k], column_[k]});
-                           }
-                       });
+                               [&](double x0, std::span<const double> edges, std::span<const std::uint32_t> sites) {
+                                   if (column_.size() < edges.size() * 2) column_.resize(edges.size() * 2);
+                                   double* y = column_.data() + edges.size();
+                                   for (std::size_t k = 0; k < edges.size(); ++k) y[k] = edges[k] - at.y;
+                                   pressure_->column(size, shift, x0 - at.x, cells_.side(), {y, edges.size()}, column_.data());
+                                   for (std::size_t k = 0; k < sites.size(); ++k) {
+                                       all += column_[k];
+                                       if (!(column_[k] > 0) || sites[k] == SkinCells::no_site) continue;
+                                       on += column_[k], fractions_.push_back({sites[k], column_[k]});
+                                   }
+                               });
         on_skin_ = all > 0 ? on / all : 0;
         for (auto& s : fractions_) s.fraction /= all;
     }

@@ -14,15 +14,16 @@ class Contact {
 public:
     virtual ~Contact() = default;
     virtual std::string description() const = 0;              ///< "a sphere of 5 mm pressed at (12, 160) mm"
-    virtual std::vector<MetadataEntry> metadata() const = 0;           ///< its parameters as used
-    virtual std::vector<std::string> notes() const = 0;  ///< limitations of the model, and how much of the force was off the skin
+    virtual std::vector<MetadataEntry> metadata() const = 0;  ///< its parameters as used
+    virtual std::vector<std::string> notes() const = 0;       ///< limitations of the model, and how much of the force was off the skin
     /// Force at the sites for `force.size()` samples of normal force (N); the first has number `first`. Valid until the next call. The sum
     /// over all sites is the force, except for the part off the skin.
     virtual Result<SiteForce> press(std::span<const double> force, std::int64_t first) = 0;
 };
 
 /// "flat", "sphere", "edge" or "grating" on this skin, for samples of this clock. Overrides set "contact.PARAMETER".
-Result<std::unique_ptr<Contact>> make_contact(std::string_view indenter, std::span<const ParameterOverride> overrides, const Sites&, const Clock&);
+Result<std::unique_ptr<Contact>> make_contact(std::string_view indenter, std::span<const ParameterOverride> overrides, const Sites&,
+                                              const Clock&);
 
 /// The parameters of all contacts, for listings.
 std::vector<ParameterInfo> contact_parameters();

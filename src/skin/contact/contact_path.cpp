@@ -6,7 +6,8 @@
 namespace corpuscle {
 
 ContactPath::ContactPath(const ContactParams& p)
-    : from_{p.x, p.y, 0}, to_{p.x1, p.y1, 0}, start_(p.t_start), length_(p.t_move), speed_(p.speed), pattern_moves_(!is_moving(p) && p.speed > 0) {
+    : from_{p.x, p.y, 0}, to_{p.x1, p.y1, 0}, start_(p.t_start), length_(p.t_move), speed_(p.speed),
+      pattern_moves_(!is_moving(p) && p.speed > 0) {
     const double dx = p.x1 - p.x, dy = p.y1 - p.y;
     if (is_moving(p) && p.speed > 0) length_ = num::sqrt(dx * dx + dy * dy) / p.speed;
 }

@@ -9,7 +9,7 @@ namespace corpuscle {
 class ContactPath {
     Position from_, to_;
     double start_, length_, speed_;  // length_: duration of the movement, s
-    bool pattern_moves_;                    // the contact rests while a pattern passes under it
+    bool pattern_moves_;             // the contact rests while a pattern passes under it
 
 public:
     explicit ContactPath(const ContactParams&);

@@ -64,10 +64,10 @@ Result<ContactParams> read_contact_params(const Indenter& indenter, std::span<co
     };
     for (const auto& s : *settings)
         if (!has_measure(indenter, s.name))
-            return bad_input(
-                fmt::format("contact.{}: {} has no such parameter (it has {}, and for its path {})", s.name, indenter.name,
-                            fmt::join(indenter.parameters.begin(), std::find(indenter.parameters.begin(), indenter.parameters.end(), ""), ", "),
-                            fmt::join(path_measures, ", ")));
+            return bad_input(fmt::format(
+                "contact.{}: {} has no such parameter (it has {}, and for its path {})", s.name, indenter.name,
+                fmt::join(indenter.parameters.begin(), std::find(indenter.parameters.begin(), indenter.parameters.end(), ""), ", "),
+                fmt::join(path_measures, ", ")));
     auto p = with_settings<ContactParams>(contact_fields, *settings);
     if (!is_set("x") && !is_set("y")) {
         const auto middle = middle_of_first(sites);

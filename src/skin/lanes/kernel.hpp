@@ -22,7 +22,7 @@ struct FieldKernels {
                      double* sums, std::size_t stride);
     /// One afferent over some steps: column[t * stride] = sum over k of weight[k] * rows[site[k]][t].
     void (*sum_afferent)(const std::uint32_t* site, const double* weight, std::size_t count, const double* const* rows, std::size_t steps,
-                     double* column, std::size_t stride);
+                         double* column, std::size_t stride);
 };
 
 namespace baseline {

@@ -51,7 +51,8 @@ Result<void> claim_contributions(StudyResult& out, const circuit::Circuit& c) {
         total.V += group.variance.V, total.I += group.variance.I;
     }
     out.claim("biasing, mismatch to first order: standard deviation of V_Q", 100 * std::sqrt(total.V) / rest->operating_point("v(q)"), "%");
-    out.claim("biasing, mismatch to first order: standard deviation of I_Q", 100 * std::sqrt(total.I) / rest->operating_point("i(vis)"), "%");
+    out.claim("biasing, mismatch to first order: standard deviation of I_Q", 100 * std::sqrt(total.I) / rest->operating_point("i(vis)"),
+              "%");
     for (const auto& group : groups) {
         out.claim(fmt::format("contribution to the variance of V_Q, {}", group.name), 100 * group.variance.V / total.V, "%");
         out.claim(fmt::format("contribution to the variance of I_Q, {}", group.name), 100 * group.variance.I / total.I, "%");
@@ -62,9 +63,9 @@ Result<void> claim_contributions(StudyResult& out, const circuit::Circuit& c) {
 /// The generator with other connections of the divider's bulks, which fig. 52 does not show.
 Result<void> claim_bulk_connections(StudyResult& out, const Chips& nominal) {
     const auto add_claim = [&](const std::string& connection, const Chips& chips) {
-        auto& c =
-            out.claim(fmt::format("biasing, mismatch, {}: standard deviation of V_Q", connection), sample_statistics(chips, "v(q)").cv_percent(), "%")
-                .published_as(inverter_cases[1].V[1].percent, "table 17");
+        auto& c = out.claim(fmt::format("biasing, mismatch, {}: standard deviation of V_Q", connection),
+                            sample_statistics(chips, "v(q)").cv_percent(), "%")
+                      .published_as(inverter_cases[1].V[1].percent, "table 17");
         if (c.needs_explanation())
             c.explain(
                 "closer than as built; the divider adds spread for every bulk connection that fig. 52 allows, and fig. 52 does not show "
@@ -75,12 +76,12 @@ Result<void> claim_bulk_connections(StudyResult& out, const Chips& nominal) {
               100 * sample_statistics(nominal, "v(q,ref)").standard_deviation / mean, "%")
         .published_as(inverter_cases[1].V[1].percent, "table 17, if it is relative to V_REF");
     out.claim("standard deviation of V_REF", sample_statistics(nominal, "v(ref)").cv_percent(), "%");
-    const auto at_rails =
-        substitute_in_embedded_text("circuits/bias.cir", {{"m2a top top ref ref", "m2a top top ref 0"}, {"m1b low low ref ref", "m1b low low ref vdd"}});
+    const auto at_rails = substitute_in_embedded_text(
+        "circuits/bias.cir", {{"m2a top top ref ref", "m2a top top ref 0"}, {"m1b low low ref ref", "m1b low low ref vdd"}});
     const auto lifted = substitute_in_embedded_text("circuits/bias.cir", {{"m1a top top vdd vdd", "m1a top top vdd bp"},
-                                                           {"m2a top top ref ref", "m2a top top ref bn"},
-                                                           {"m1b low low ref ref", "m1b low low ref bp"},
-                                                           {"m2b low low 0   0  ", "m2b low low 0   bn "}});
+                                                                          {"m2a top top ref ref", "m2a top top ref bn"},
+                                                                          {"m1b low low ref ref", "m1b low low ref bp"},
+                                                                          {"m2b low low 0   0  ", "m2b low low 0   bn "}});
     for (const auto& [connection, text] :
          {std::pair{"divider's bulks at the rails", &at_rails}, {"divider's bulks at BP and BN", &lifted}}) {
         if (!*text) return text->error();
@@ -94,12 +95,14 @@ Result<void> claim_bulk_connections(StudyResult& out, const Chips& nominal) {
 /// Relation of I_Q and V_BN from chip to chip, with process variation only.
 void claim_early(StudyResult& out, const Chips& chips) {
     StudyCurve points;
-    for (const auto& chip : chips) points.x.push_back(chip.operating_point("v(bn)")), points.y.push_back(std::log(chip.operating_point("i(vis)")));
+    for (const auto& chip : chips)
+        points.x.push_back(chip.operating_point("v(bn)")), points.y.push_back(std::log(chip.operating_point("i(vis)")));
     const auto fit = points.fit_line();
     const auto V_BN = sample_statistics(points.x), I_Q = sample_statistics(points.y);
     out.claim("biasing, process: standard deviation of V_BN", V_BN.standard_deviation, "V");
     out.claim("I_Q falls as V_BN rises, by an Early voltage of", -1 / fit.slope, "V");
-    out.claim("contribution of that to the variance of I_Q", 100 * std::pow(fit.slope * V_BN.standard_deviation / I_Q.standard_deviation, 2), "%");
+    out.claim("contribution of that to the variance of I_Q",
+              100 * std::pow(fit.slope * V_BN.standard_deviation / I_Q.standard_deviation, 2), "%");
 }
 
 Result<StudyResult> work(const StudyOptions& options) {

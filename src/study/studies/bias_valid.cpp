@@ -76,7 +76,7 @@ Result<void> claim_axis(StudyResult& out, const PublishedRange& p) {
     if (!std::isnan(p.corners[0]))
         return claim_coverage(out, "all corners", p, all, sweeps[limiting_corner(true)], sweeps[limiting_corner(false)], p.corners);
     out.claim_true("FF is the first corner to leave the published temperature range", limiting_corner(false) == 2,
-              "thesis E.2: in special for the FF corner");
+                   "thesis E.2: in special for the FF corner");
     return claim_coverage(out, "FF", p, works[2], sweeps[2], sweeps[2], p.typical);
 }
 
@@ -85,18 +85,20 @@ Result<void> claim_causes(StudyResult& out) {
     const auto s = sweep(published_ranges[0], {});
     if (!s) return s.error();
     const auto r = s->working_range();
-    const auto low = simulate_bias_state({bias_setting(BiasAxis::current, r.from)}), high = simulate_bias_state({bias_setting(BiasAxis::current, r.to)}),
-               state_at_2_uA = simulate_bias_state({"i_bias=2u"});
+    const auto low = simulate_bias_state({bias_setting(BiasAxis::current, r.from)}),
+               high = simulate_bias_state({bias_setting(BiasAxis::current, r.to)}), state_at_2_uA = simulate_bias_state({"i_bias=2u"});
     for (const auto* state : {&low, &high, &state_at_2_uA})
         if (!*state) return state->error();
     out.claim_true("at the lower end M4A is in the linear region and the bulk current is below a thousandth of I_BIAS",
-              low->V_M4A < low->V_sat_M4A && low->bulk_current < 1e-3 * low->I_BIAS,
-              "thesis E.2: below, these transistors operate in the linear region");
+                   low->V_M4A < low->V_sat_M4A && low->bulk_current < 1e-3 * low->I_BIAS,
+                   "thesis E.2: below, these transistors operate in the linear region");
     out.claim_true("at the upper end M3B is in the linear region", high->V_M3B < high->V_sat_M3B, "thesis E.2: as above");
     out.claim("at the upper end: bulk junction current over I_BIAS", 100 * high->bulk_current / high->I_BIAS, "%");
     out.claim("at 2 uA: bulk junction current over I_BIAS", 100 * state_at_2_uA->bulk_current / state_at_2_uA->I_BIAS, "%");
     out.claim("V_BN at 2 uA", state_at_2_uA->V_BN, "V").published_as(0.6, "thesis E.2: up to 600 mV");
-    out.claim("I_Q at 2 uA", state_at_2_uA->I_Q, "A").derived_as(2e-6, "thesis E.2: I_Q = I_BIAS up to there").explain(state_at_2_uA->description());
+    out.claim("I_Q at 2 uA", state_at_2_uA->I_Q, "A")
+        .derived_as(2e-6, "thesis E.2: I_Q = I_BIAS up to there")
+        .explain(state_at_2_uA->description());
     return {};
 }
 

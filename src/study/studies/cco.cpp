@@ -30,8 +30,10 @@ Result<void> report_delay(const Hysteresis& t, StudyResult& out) {
     out.claim("at 20 pA: overshoot of the charged membrane beyond V_H", overshoot, "V");
     out.claim("at 20 pA: overshoot over the window", 100 * overshoot / (t.V_H - t.V_L), "%");
     out.claim("at 20 pA: delay of the trigger from this overshoot", delay, "s");
-    out.claim_true("switching takes time, so the swing is not exactly the window: at 20 pA more than 1 mV beyond V_H", overshoot > 1e-3, source);
-    out.claim_true("the faster the membrane falls, the larger the undershoot below V_L", std::is_sorted(below.y.begin(), below.y.end()), source);
+    out.claim_true("switching takes time, so the swing is not exactly the window: at 20 pA more than 1 mV beyond V_H", overshoot > 1e-3,
+                   source);
+    out.claim_true("the faster the membrane falls, the larger the undershoot below V_L", std::is_sorted(below.y.begin(), below.y.end()),
+                   source);
     out.claim("at 850 pA: undershoot below V_L", 1e-3 * below.y.back(), "V");
     out.plot("Overshoot beyond the window", "I (pA)", "mV").points("below V_L", below).points("above V_H", above).log_x = true;
     return {};
@@ -69,7 +71,7 @@ voff off 0 0.35
         out.claim(fmt::format("remainder of the leak {:.0f} mV below the supply", 1e3 * below), remainder(leak, below), "%");
     const double g = leak.at(0.7 - 10e-3) / 10e-3;
     out.claim_true("100 mV below the supply it equals the value at 350 mV within a tenth, 25 mV below it does not",
-              std::abs(remainder(leak, 100e-3) - 100) < 10 && std::abs(remainder(leak, 25e-3) - 100) > 10, source);
+                   std::abs(remainder(leak, 100e-3) - 100) < 10 && std::abs(remainder(leak, 25e-3) - 100) > 10, source);
     out.claim("resistance of the leak close to the supply", 1 / g, "ohm");
     const double linearity = leak.at(0.7 - 5e-3) / 5e-3 / g;
     out.claim("change of its conductance between 5 and 10 mV below the supply", 100 * std::abs(linearity - 1), "%")

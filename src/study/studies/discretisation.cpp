@@ -32,7 +32,7 @@ double largest_time_difference(const std::vector<double>& a, const std::vector<d
 }
 
 Result<TrialResult> simulate_at_step(const char* afferent, double T, bool exact, const std::pair<double, double>& thresholds,
-                              std::vector<std::string> traces = {}) {
+                                     std::vector<std::string> traces = {}) {
     return run_trial(
         {.afferent = afferent,
          .settings = {fmt::format("{}.V_th={}", afferent, thresholds.first), fmt::format("{}.V_reset={}", afferent, thresholds.second)},

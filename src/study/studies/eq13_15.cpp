@@ -40,7 +40,8 @@ Result<StudyResult> work(const StudyOptions&) {
     const std::string bound = "; the bound is our choice", range = ", largest difference from 20 to 400 gf";
 
     out.claim("eq. 13: parallel resistances against the sum of conductances" + range,
-              percent_off(sensor.conductance_curve(1, 500), [](double gf) { return 1 / sensor.R_0 + 1 / (sensor.a * std::pow(gf, -sensor.m)); }),
+              percent_off(sensor.conductance_curve(1, 500),
+                          [](double gf) { return 1 / sensor.R_0 + 1 / (sensor.a * std::pow(gf, -sensor.m)); }),
               "%")
         .allow_max(1e-9, "thesis eq. 13: printed as approximate, but exact (errata F1a)");
     out.claim("eq. 13 with a = 170 ohm: G over that with 170 kohm, at 400 gf", ForceSensor{.a = 170}.conductance(400) / G(400), "times")
@@ -69,7 +70,7 @@ Result<StudyResult> work(const StudyOptions&) {
     out.claim("V_X against V_Y, fig. 22" + range, percent_off(*sensor_i, [](double) { return 0.1; }), "%")
         .allow_max(5, "V_X follows V_Y" + bound);
     out.claim_true("the largest current is at the largest conductance", I_F->x_of_max() == 500 && G(500) > G(1),
-              "printed: at the smallest conductance (errata F4)");
+                   "printed: at the smallest conductance (errata F4)");
     const auto percents = [](const StudyCurve& line, auto formula) {
         StudyCurve p = line.between(min_gf, max_gf);
         for (std::size_t k = 0; k < p.x.size(); ++k) p.y[k] = 100 * (p.y[k] / formula(p.x[k]) - 1);

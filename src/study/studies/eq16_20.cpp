@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "study/study_netlist.hpp"
 #include "study/studies.hpp"
+#include "study/study_netlist.hpp"
 #include "study/thesis/active_load.hpp"
 
 namespace corpuscle::studies::eq16_20 {
@@ -35,7 +35,8 @@ struct SplitMirrorGain {
 };
 
 Result<void> eq_16_18(StudyResult& out) {
-    const auto found = run_study_netlist({"current_to_voltage", {}, ".dc if 0.2u 2.6u 10n"}), cell = run_study_netlist({"invb", {}, ".dc vin 0.3 0.4 1m"});
+    const auto found = run_study_netlist({"current_to_voltage", {}, ".dc if 0.2u 2.6u 10n"}),
+               cell = run_study_netlist({"invb", {}, ".dc vin 0.3 0.4 1m"});
     if (!found) return found.error();
     if (!cell) return cell.error();
     const auto V_F = found->curve("dc", "v(vf)"), I_A0 = found->curve("dc", "i(va0)");

@@ -124,10 +124,10 @@ Result<void> equations_8_to_10(StudyResult& out) {
 /// Response of I_B to a sine of force: amplitude and phase relative to the force.
 Result<Complex> response(double f) {
     const auto response = run_trial({.afferent = "sa1",
-                                   .stimulus = "sine",
-                                   .settings = {fmt::format("sine.f={}", f), "sine.F_amp=1", "sine.F_mean=2", "sine.duration=2"},
-                                   .rate = 10e3,
-                                   .probes = {"I_B"}});
+                                     .stimulus = "sine",
+                                     .settings = {fmt::format("sine.f={}", f), "sine.F_amp=1", "sine.F_mean=2", "sine.duration=2"},
+                                     .rate = 10e3,
+                                     .probes = {"I_B"}});
     if (!response) return response.error();
     const auto force = trial_force({{}, "sine", {fmt::format("sine.f={}", f), "sine.F_amp=1", "sine.F_mean=2", "sine.duration=2"}, 10e3});
     if (!force) return force.error();
@@ -151,7 +151,8 @@ Result<void> equation_12(StudyResult& out, const StudyOptions& options) {
         computed.x.push_back(f), computed.y.push_back(1e6 * std::abs(*H));
         exact.x.push_back(f), exact.y.push_back(1e6 * std::abs(expected));
         if (f == f_B)
-            out.claim("(12): phase of I_B at its corner frequency", std::arg(*H) * 180 / M_PI, "degrees").derived_as(45, "thesis 3.3, eq. 12");
+            out.claim("(12): phase of I_B at its corner frequency", std::arg(*H) * 180 / M_PI, "degrees")
+                .derived_as(45, "thesis 3.3, eq. 12");
         if (auto ok = options.report_progress(0.5 + f / 1100); !ok) return ok.error();
     }
     out.claim("(12): I_B / F under sines of 1 to 500 Hz against K s / (s + 2 pi f), largest difference over K", 100 * worst, "%")

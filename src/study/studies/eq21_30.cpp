@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "circuit/device/physical_constants.hpp"
-#include "study/study_netlist.hpp"
 #include "study/studies.hpp"
+#include "study/study_netlist.hpp"
 #include "study/thesis/array_text.hpp"
 
 namespace corpuscle::studies::eq21_30 {
@@ -33,8 +33,9 @@ Result<std::vector<BiasPoint>> solve_bias_points(std::string_view card, const st
         const auto slope = [&](const char* source, const char* reading) {
             return channel_only ? f.operating_info("m1", reading) : -f.derivative("i(vd)", source);
         };
-        out.push_back({f.operating_point("v(g)"), f.operating_point("v(d)"), -f.operating_point("i(vd)"), f.operating_info("m1", "i_f"), f.operating_info("m1", "i_r"),
-                       slope("vg", "g_mg"), slope("vd", "g_md"), slope("vs", "g_ms") * (channel_only ? -1 : 1), slope("vb", "g_mb")});
+        out.push_back({f.operating_point("v(g)"), f.operating_point("v(d)"), -f.operating_point("i(vd)"), f.operating_info("m1", "i_f"),
+                       f.operating_info("m1", "i_r"), slope("vg", "g_mg"), slope("vd", "g_md"),
+                       slope("vs", "g_ms") * (channel_only ? -1 : 1), slope("vb", "g_mb")});
     }
     return out;
 }
@@ -75,10 +76,11 @@ constexpr Equation equations[] = {
 
 void add_errata(StudyResult& out, const std::vector<BiasPoint>& all) {
     out.claim_true("(26): dI_D/dV_S is negative at all points; g_ms > 0 of (27) and (28) is its opposite",
-              std::all_of(all.begin(), all.end(), [](const BiasPoint& a) { return a.by_S < 0; }), "errata U2");
+                   std::all_of(all.begin(), all.end(), [](const BiasPoint& a) { return a.by_S < 0; }), "errata U2");
     const auto& a = all.back();
     out.claim("g_mb/g_mg", a.by_B / a.by_G).derived_as(simple_n - 1, "thesis eq. 29, inverted: errata U5");
-    out.claim_true("g_mg/g_mb, as (29) prints it, is 1/(n - 1), not n - 1", std::abs(a.by_G / a.by_B * (simple_n - 1) - 1) < 1e-9, "errata U5");
+    out.claim_true("g_mg/g_mb, as (29) prints it, is 1/(n - 1), not n - 1", std::abs(a.by_G / a.by_B * (simple_n - 1) - 1) < 1e-9,
+                   "errata U5");
 }
 
 /// f(i) and its asymptotes.
@@ -101,8 +103,8 @@ Result<StudyResult> work(const StudyOptions&) {
     StudyResult out;
     for (const auto& e : equations) out.claim(e.what, largest_error(*simple, e.error), "%").allow_max(solver_accuracy, e.source);
     add_errata(out, *simple);
-    const auto pinched_off =
-        run_study_netlist({fmt::format("pinch-off\n{}vd d 0 1\nvg g 0 {}\nm1 d g 0 0 plain w=1u l=1u\n", simple_card, simple_V_T0), {}, ".op"});
+    const auto pinched_off = run_study_netlist(
+        {fmt::format("pinch-off\n{}vd d 0 1\nvg g 0 {}\nm1 d g 0 0 plain w=1u l=1u\n", simple_card, simple_V_T0), {}, ".op"});
     if (!pinched_off) return pinched_off.error();
     out.claim("(23): i_f where V_P = V_S", pinched_off->operating_info("m1", "i_f")).derived_as(3, "thesis eq. 23; errata U4");
     const auto card = elaborate_study_netlist({fmt::format("card\n{}m1 0 0 0 0 nch w=1u l=1u\n", process_card), {}, ".op"});

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "study/study_netlist.hpp"
 #include "study/studies.hpp"
+#include "study/study_netlist.hpp"
 #include "study/thesis/array_text.hpp"
 #include "study/thesis/arrays.hpp"
 
@@ -69,11 +69,11 @@ std::vector<Array> arrays() {
 /// (33): a mirror of two widths.
 Result<void> add_mirror(StudyResult& out) {
     for (const double ratio : {0.25, 4.0}) {
-        const auto found =
-            run_study_netlist({fmt::format("mirror\n{}iin 0 a 100n\nma a a 0 0 plain w=1.5u l=0.5u\nmb b a 0 0 plain w={}u l=0.5u\nvo b 0 0.35\n",
-                                  simple_card, 1.5 * ratio),
-                      {},
-                      ".op"});
+        const auto found = run_study_netlist(
+            {fmt::format("mirror\n{}iin 0 a 100n\nma a a 0 0 plain w=1.5u l=0.5u\nmb b a 0 0 plain w={}u l=0.5u\nvo b 0 0.35\n",
+                         simple_card, 1.5 * ratio),
+             {},
+             ".op"});
         if (!found) return found.error();
         out.claim(fmt::format("mirror of S_B/S_A = {}: I_out/I_in", ratio), -found->operating_point("i(vo)") / 100e-9)
             .derived_as(ratio, "thesis eq. 33");
@@ -96,7 +96,7 @@ Result<StudyResult> work(const StudyOptions&) {
                               a.S),
                   with_process_card->front())
             .derived_as(std::isnan(published_value) ? 1 : published_value,
-                     fmt::format("thesis {}{}", a.equation, std::isnan(published_value) ? "" : "; value from tables 11 and 14"));
+                        fmt::format("thesis {}{}", a.equation, std::isnan(published_value) ? "" : "; value from tables 11 and 14"));
     }
     out.claim("equations only: largest error of all arrays, V_G 0.2 to 1.8 V, V_D 20 to 500 mV", 100 * worst, "%")
         .allow_max(1e-6, "thesis eq. 31 and 32, exact in eq. 21 to 25");

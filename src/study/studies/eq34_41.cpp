@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 #include <cmath>
 
-#include "study/study_netlist.hpp"
 #include "study/studies.hpp"
+#include "study/study_netlist.hpp"
 #include "study/thesis/array_text.hpp"
 
 namespace corpuscle::studies::eq34_41 {
@@ -41,11 +41,12 @@ struct SplitCurrents {
 };
 Result<SplitCurrents> simulate_split(std::string_view card, const std::string& model, int n) {
     const auto unit = unit_transistor(model);
-    const auto found = run_study_netlist({common_lines(card, I_in) + "vb yb y 0\n" + array_lines("a", "in", "in", "0", n, 1, unit) +
-                                     array_lines("b", "y", "in", "0", 1, n, unit) + array_lines("c", "vdd", "in", "yb", n, 1, unit) +
-                                     array_lines("d", "out", "in", "yb", 1, n, unit),
-                                 {},
-                                 ".op"});
+    const auto found =
+        run_study_netlist({common_lines(card, I_in) + "vb yb y 0\n" + array_lines("a", "in", "in", "0", n, 1, unit) +
+                               array_lines("b", "y", "in", "0", 1, n, unit) + array_lines("c", "vdd", "in", "yb", n, 1, unit) +
+                               array_lines("d", "out", "in", "yb", 1, n, unit),
+                           {},
+                           ".op"});
     if (!found) return found.error();
     return SplitCurrents{found->operating_point("i(vb)"), -found->operating_point("i(vdd)"), -found->operating_point("i(vout)")};
 }
@@ -60,13 +61,13 @@ Result<void> add_parallel_series(StudyResult& out) {
         if (!simple || !with_process_card) return simple ? with_process_card.error() : simple.error();
         const auto prefix = fmt::format("parallel-series, N = {}: I_in/I_out, ", n);
         out.claim(prefix + "equations only", I_in / -simple->operating_point("i(vout)")).derived_as(n * n, "thesis eq. 34; errata C1");
-        auto& c =
-            out.claim(prefix + "with the process card", I_in / -with_process_card->operating_point("i(vout)")).derived_as(n * n, "thesis eq. 34");
+        auto& c = out.claim(prefix + "with the process card", I_in / -with_process_card->operating_point("i(vout)"))
+                      .derived_as(n * n, "thesis eq. 34");
         if (c.needs_explanation()) c.explain(length_modulation);
         const double I = -with_process_card->operating_point("i(vout)"), G_o = -with_process_card->derivative("i(vout)", "vout");
         auto& early_claim = out.claim(fmt::format("N = {}: V_A = I_out/G_o - V_out, with the process card", n), I / G_o - V_out, "V");
         early_claim.derived_as(V_E_of(*with_process_card->circuit) * unit_length * n,
-                            "thesis eq. 36 with V_E of the process card and L of N unit transistors");
+                               "thesis eq. 36 with V_E of the process card and L of N unit transistors");
         if (early_claim.needs_explanation())
             early_claim.explain(
                 "only the unit transistor at the drain has length modulation, which reduces it to less than its fraction of the stack's "
@@ -89,12 +90,13 @@ Result<void> add_split(StudyResult& out) {
             .derived_as(n * (1.0 / n + n + 1.0 / n) / ((n + 1.0 / n) / n), "thesis eq. 38");
         out.claim(prefix + "I_DC/I_out, equations only", simple->I_C / simple->I_out)
             .derived_as(N2, "thesis eq. 39; errata C5: exact in saturation");
-        out.claim(prefix + "I_in/I_out, equations only", I_in / simple->I_out).derived_as(by_38_39, "eq. 38 and 39: N^2 (N^2 + 2); errata C6");
+        out.claim(prefix + "I_in/I_out, equations only", I_in / simple->I_out)
+            .derived_as(by_38_39, "eq. 38 and 39: N^2 (N^2 + 2); errata C6");
         auto& error_claim =
             out.claim(prefix + "excess of eq. 40", 100 * (simple->I_out > 0 ? I_in / simple->I_out / (N2 * N2) - 1 : Claim::none), "%");
         error_claim.derived_as(200 / N2, "errata C6: 2/N^2, because S_C >> S_B + S_D is only approximate");
-        auto& against_41 =
-            out.claim(prefix + "I_in/I_out, equations only, against eq. 41", I_in / simple->I_out).derived_as(N2 * N2, "thesis eq. 41: N^4");
+        auto& against_41 = out.claim(prefix + "I_in/I_out, equations only, against eq. 41", I_in / simple->I_out)
+                               .derived_as(N2 * N2, "thesis eq. 41: N^4");
         if (against_41.needs_explanation()) against_41.explain("eq. 40 assumes S_C >> S_B + S_D: errata C6");
         auto& c =
             out.claim(prefix + "I_in/I_out, with the process card", I_in / with_process_card->I_out).derived_as(by_38_39, "eq. 38 and 39");
@@ -120,11 +122,11 @@ Result<void> add_split(StudyResult& out) {
 
 /// (35) as corrected: at V_out = V_in the mirror is exact, so the difference of the voltages counts.
 Result<void> add_output(StudyResult& out) {
-    const auto found =
-        run_study_netlist({fmt::format("mirror\n{}iin 0 in {:g}\nma in in 0 0 nch w=1.5u l=0.5u\nmb out in 0 0 nch w=1.5u l=0.5u\nvout out 0 0.35\n",
-                              process_card, I_in),
-                  {},
-                  ".op\n.dc vout 0.2 0.7 10m"});
+    const auto found = run_study_netlist(
+        {fmt::format("mirror\n{}iin 0 in {:g}\nma in in 0 0 nch w=1.5u l=0.5u\nmb out in 0 0 nch w=1.5u l=0.5u\nvout out 0 0.35\n",
+                     process_card, I_in),
+         {},
+         ".op\n.dc vout 0.2 0.7 10m"});
     if (!found) return found.error();
     const auto I = found->curve("dc", "i(vout)").scaled(1, -1);
     const double V_in = found->operating_point("v(in)"), G_o = I.slope_at(0.35), at = 0.65;
@@ -133,8 +135,8 @@ Result<void> add_output(StudyResult& out) {
               (I_in + G_o * (at - V_in)) / I.at(at))
         .derived_as(1, "eq. 35 as corrected by errata C2");
     out.claim("1 to 1: the same from A_I I_in + G_o V_out", (I_in + G_o * at) / I.at(at)).derived_as(1, "thesis eq. 35");
-    out.claim_true("eq. 35 as corrected is closer", std::abs((I_in + G_o * (at - V_in)) - I.at(at)) < std::abs((I_in + G_o * at) - I.at(at)),
-              "errata C2");
+    out.claim_true("eq. 35 as corrected is closer",
+                   std::abs((I_in + G_o * (at - V_in)) - I.at(at)) < std::abs((I_in + G_o * at) - I.at(at)), "errata C2");
     return {};
 }
 

@@ -5,8 +5,8 @@
 #include <numbers>
 
 #include "circuit/device/physical_constants.hpp"
-#include "study/study_netlist.hpp"
 #include "study/studies.hpp"
+#include "study/study_netlist.hpp"
 #include "study/thesis/array_text.hpp"
 
 namespace corpuscle::studies::eq42_44 {
@@ -25,7 +25,8 @@ Result<void> add_42(StudyResult& out) {
     StudyCurve weak, complete;
     double worst = 0, worst_without_2 = 0;
     for (const auto& f : *found) {
-        const double V_G = f.operating_point("v(g)"), V_B = f.operating_point("v(b)"), I = -f.operating_point("i(vd)"), i_f = f.operating_info("m1", "i_f");
+        const double V_G = f.operating_point("v(g)"), V_B = f.operating_point("v(b)"), I = -f.operating_point("i(vd)"),
+                     i_f = f.operating_info("m1", "i_f");
         const double by_42 =
             2 * std::numbers::e * simple_I_SQ * W_by_L * std::exp((V_G + (simple_n - 1) * V_B - simple_V_T0) / (simple_n * phi_t));
         if (i_f < 0.01)
@@ -44,8 +45,8 @@ Result<void> add_42(StudyResult& out) {
 Result<void> add_43(StudyResult& out) {
     const auto found =
         run_study_netlist({fmt::format("junction\n{}vd d 0 0.9\nvb b 0 0\nm1 d 0 0 b nch w=1.5u l=0.5u\n.options gmin=0\n", process_card),
-                  {},
-                  ".dc vb 0.2 0.7 5m"});
+                           {},
+                           ".dc vb 0.2 0.7 5m"});
     if (!found) return found.error();
     StudyCurve logarithm;
     const auto I = found->curve("dc", "i(vb)").scaled(1, -1);
@@ -54,7 +55,8 @@ Result<void> add_43(StudyResult& out) {
     double n_dio = 0;
     for (const auto& m : found->circuit->models)
         if (m.name == "nch") n_dio = m.values.at("nj");
-    out.claim("(43): n_dio of I_B from 0.2 to 0.7 V", 1 / (fit.slope * phi_t)).derived_as(n_dio, "thesis eq. 43; value of the process card");
+    out.claim("(43): n_dio of I_B from 0.2 to 0.7 V", 1 / (fit.slope * phi_t))
+        .derived_as(n_dio, "thesis eq. 43; value of the process card");
     out.claim("(43): largest difference of ln I_B from a straight line", 100 * fit.max_deviation, "%")
         .allow_max(2, "thesis eq. 43: an exponential");
     out.claim("(43): I_Sdio of one unit transistor of 1.5/0.5 um", std::exp(fit.intercept), "A");

@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 #include <cmath>
 
-#include "study/study_netlist.hpp"
 #include "study/studies.hpp"
+#include "study/study_netlist.hpp"
 #include "study/thesis/inverters.hpp"
 
 namespace corpuscle::studies::eq45_47 {
@@ -63,9 +63,11 @@ struct Array {
     double weak(double V_GS, double V_BS) const { return I_S * e * std::exp((V_GS + (n - 1) * V_BS - V_T) / (n * phi_t)); }
 };
 
-void claim_both(StudyResult& out, const std::string& what, double by_corrected, double by_printed, const char* equation, const char* erratum) {
+void claim_both(StudyResult& out, const std::string& what, double by_corrected, double by_printed, const char* equation,
+                const char* erratum) {
     out.claim(fmt::format("{}, over eq. {} as corrected", what, equation), by_corrected).derived_as(1, fmt::format("errata {}", erratum));
-    auto& c = out.claim(fmt::format("{}, over eq. {} as printed", what, equation), by_printed).derived_as(1, fmt::format("eq. {}", equation));
+    auto& c =
+        out.claim(fmt::format("{}, over eq. {} as printed", what, equation), by_printed).derived_as(1, fmt::format("eq. {}", equation));
     if (c.needs_explanation()) c.explain(fmt::format("misprinted: errata {}", erratum));
 }
 

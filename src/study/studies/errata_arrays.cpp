@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "circuit/cost/area.hpp"
-#include "study/study_netlist.hpp"
 #include "study/studies.hpp"
+#include "study/study_netlist.hpp"
 #include "study/thesis/array_text.hpp"
 #include "study/thesis/arrays.hpp"
 
@@ -42,8 +42,8 @@ void add_mismatch_by_area(StudyResult& out) {
 /// (U14) Mismatch falls with inversion; (U13) V_T does not depend on the drain.
 Result<void> add_mismatch_by_inversion(StudyResult& out) {
     const auto sigma = [&](double V_G) -> Result<double> {
-        const auto found =
-            run_study_netlist({fmt::format("slope\n{}vd d 0 1\nvg g 0 {}\nm1 d g 0 0 nch018 w=0.42u l=0.18u\n", process_card, V_G), {}, ".op"});
+        const auto found = run_study_netlist(
+            {fmt::format("slope\n{}vd d 0 1\nvg g 0 {}\nm1 d g 0 0 nch018 w=0.42u l=0.18u\n", process_card, V_G), {}, ".op"});
         if (!found) return found.error();
         double A_VT = 0;
         for (const auto& m : found->circuit->models)
@@ -58,10 +58,10 @@ Result<void> add_mismatch_by_inversion(StudyResult& out) {
 }
 
 Result<void> add_threshold(StudyResult& out) {
-    const auto found =
-        run_study_variants({fmt::format("drain\n{}vd d 0 {{vd}}\nvg g 0 0.3\nm1 d g 0 0 nch018 w=0.42u l=0.18u\n.param vd=0\n", process_card),
-                      {},
-                      ".op\n.step param vd list 0 0.5"});
+    const auto found = run_study_variants(
+        {fmt::format("drain\n{}vd d 0 {{vd}}\nvg g 0 0.3\nm1 d g 0 0 nch018 w=0.42u l=0.18u\n.param vd=0\n", process_card),
+         {},
+         ".op\n.step param vd list 0 0.5"});
     if (!found) return found.error();
     const double at_0 = found->front().operating_info("m1", "v_t"), at_half = found->back().operating_info("m1", "v_t");
     out.claim("short unit transistor: V_T at V_D = 0.5 V minus that at 0", at_half - at_0, "V")
@@ -77,7 +77,8 @@ Result<void> add_threshold(StudyResult& out) {
 /// (C9) A bulk above the source needs a well; (C7) with the bulk at the drain the plain diode would be the body-biased one.
 Result<void> add_bulk(StudyResult& out) {
     const auto found = run_study_netlist(
-        {fmt::format("diodes\n{}va a 0 0.3\nvs s a 0\nvd e a 0\nm1 s s 0 0 nch w=1.5u l=0.5u\nm2 e e 0 e nch w=1.5u l=0.5u\n", process_card),
+        {fmt::format("diodes\n{}va a 0 0.3\nvs s a 0\nvd e a 0\nm1 s s 0 0 nch w=1.5u l=0.5u\nm2 e e 0 e nch w=1.5u l=0.5u\n",
+                     process_card),
          {},
          ".op"});
     if (!found) return found.error();

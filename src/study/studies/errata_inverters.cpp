@@ -19,12 +19,14 @@ Result<void> add_sign_claims(StudyResult& out) {
     if (!circuit) return circuit.error();
     const auto vto = [&](const char* name) {
         const auto& c = **circuit;
-        return c.models[static_cast<std::size_t>(c.elements[static_cast<std::size_t>(c.find_element(name))].model)].values.find("vto")->second;
+        return c.models[static_cast<std::size_t>(c.elements[static_cast<std::size_t>(c.find_element(name))].model)]
+            .values.find("vto")
+            ->second;
     };
-    const auto found =
-        run_study_netlist({"quiescent",
-                  {fmt::format("mn2b.delvto={}", V_TN - vto("mn2b")), fmt::format("mp1b.delvto={}", V_TP - vto("mp1b")), "mp1b.mulu0=2"},
-                  ".op"});
+    const auto found = run_study_netlist(
+        {"quiescent",
+         {fmt::format("mn2b.delvto={}", V_TN - vto("mn2b")), fmt::format("mp1b.delvto={}", V_TP - vto("mp1b")), "mp1b.mulu0=2"},
+         ".op"});
     if (!found) return found.error();
     const double V_Q0 = found->operating_point("v(qb)");
     out.claim("I5: V_Q0 of transistors with these parameters", V_Q0, "V").derived_as(370.775e-3, "eq. 47b with +: errata I5");
@@ -50,7 +52,8 @@ Result<void> add_generator_claims(StudyResult& out) {
         "region. Table 4 sizes a different circuit from table 16 (errata I18)";
     for (const auto& [name, V_BN, I_Q] :
          {std::tuple{"table 4 as printed", &V_BN6, &I_Q6}, {"table 4 with NMOS arrays of 1.5 um", &V_BN1, &I_Q1}}) {
-        auto& voltage = out.claim(fmt::format("I18: {}: V_BN at 200 nA", name), V_BN->at(0.2), "V").allow_range(min_V_BN, 0.6, "E.2, fig. 53a");
+        auto& voltage =
+            out.claim(fmt::format("I18: {}: V_BN at 200 nA", name), V_BN->at(0.2), "V").allow_range(min_V_BN, 0.6, "E.2, fig. 53a");
         if (voltage.needs_explanation()) voltage.explain(why);
         auto& current =
             out.claim(fmt::format("I18: {}: I_Q at 200 nA", name), I_Q->at(0.2), "A").derived_as(I_BIAS, "4.3.1: I_BIASB is 200 nA");
@@ -73,7 +76,7 @@ Result<StudyResult> work(const StudyOptions& options) {
     const auto generator = elaborate_study_netlist({"bias"});
     if (!generator) return generator.error();
     out.claim_true("I6: the replica is M5B over M4C", (*generator)->find_element("m5c") < 0 && (*generator)->find_element("m4c") >= 0,
-              "errata I6; the text names M4A and M5C, which table 16 does not list");
+                   "errata I6; the text names M4A and M5C, which table 16 does not list");
     const auto state = simulate_bias_state({});
     if (!state) return state.error();
     out.claim("I9: table 17's 350.1 as V_Q", state->V_Q, "V").published_as(350.1e-3, "errata I9; the table's head says I_D in nA");
@@ -83,15 +86,16 @@ Result<StudyResult> work(const StudyOptions& options) {
     if (!inverters) return inverters.error();
     const double G_B = inverters->transconductance_at_zero('b'), G_C = inverters->transconductance_at_zero('c'), C = G_B / (2 * pi * 2);
     out.claim("I13: capacitor of a 2 Hz filter with INVB", C, "F").derived_as(0.2e-6, "errata I13: from 2.5 uS");
-    out.claim("I13: over one microfarad", C / 1e-6).allow_max(1, "E.4: would need micro Farad capacitors; a fifth of a microfarad is enough");
+    out.claim("I13: over one microfarad", C / 1e-6)
+        .allow_max(1, "E.4: would need micro Farad capacitors; a fifth of a microfarad is enough");
     out.claim_true("I14: INVC, not INVB, has the very small transconductance", G_C < 1e-3 * G_B, "errata I14");
     const auto fine_sweep = InverterSweep::run_with_directives(".dc vin 0.345 0.355 20u");
     if (!fine_sweep) return fine_sweep.error();
     auto rest = fine_sweep->transfer_curve('c');
     for (std::size_t k = 0; k < rest.x.size(); ++k) rest.y[k] -= rest.x[k];
     const double V_Q = rest.crossing(0);
-    auto& offset_claim =
-        out.claim("I16: INVC's V_Q relative to half the supply, as in fig. 57", V_Q, "V").derived_as(-3e-3, "347 mV of fig. 61 minus 350 mV");
+    auto& offset_claim = out.claim("I16: INVC's V_Q relative to half the supply, as in fig. 57", V_Q, "V")
+                             .derived_as(-3e-3, "347 mV of fig. 61 minus 350 mV");
     if (offset_claim.needs_explanation()) offset_claim.explain("the simulated curve is displaced by less and upwards: fig61");
     if (auto ok = add_generator_claims(out); !ok) return ok.error();
     out.note(

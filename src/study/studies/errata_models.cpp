@@ -12,7 +12,7 @@ namespace corpuscle::studies::errata_models {
 
 using algorithms::k2, algorithms::lif_b, algorithms::MembraneParams;
 
-constexpr double T = 1e-3;                                  // s: thesis 3.3
+constexpr double T = 1e-3;                                        // s: thesis 3.3
 constexpr MembraneParams fig16_membrane{500e-9, 500e-9, 1, 0.5};  // SA-I with fig. 16's theta
 constexpr MembraneParams fa1_membrane{500e-9, 1e-6, 0.5, 0.25};
 
@@ -99,19 +99,22 @@ Result<void> algorithm_5(StudyResult& out, const StudyCurve& force, StudyPlot& r
     const auto static_spikes = lif_b(static_part, fig16_membrane).spikes;
     const auto catalogue_spikes = simulate_train(press::thesis_algorithm("sa1", {"sa1.V_th=1", "sa1.V_reset=0.5"}));
     if (!catalogue_spikes) return catalogue_spikes.error();
-    const auto largest_I_B = apply_filter(force, 8e-6, 20, FilterForm::difference).between(0, press::protraction.from + 50e-3).absolute().max();
+    const auto largest_I_B =
+        apply_filter(force, 8e-6, 20, FilterForm::difference).between(0, press::protraction.from + 50e-3).absolute().max();
     out.claim("Alg. 5: largest I_B in the first 50 ms of the ramp if I' is a difference, as printed", largest_I_B, "A")
         .allow_max(8e-6 * (press::max_force - press::min_force), "eq. 12: a high-pass of gain K_B cannot give more than K_B times the step")
         .explain("it is unstable (B8)");
     out.claim("Alg. 5: spikes if I' is I[n-1], as printed", static_cast<double>(value.size()), "spikes")
         .allow_range(static_cast<double>(catalogue_spikes->size()), static_cast<double>(catalogue_spikes->size()),
-                 "sa1 of the catalogue with fig. 16's theta")
+                     "sa1 of the catalogue with fig. 16's theta")
         .explain("a pole at -k_2 makes it a filter for frequencies near half the sample rate, which passes almost nothing (B8)");
     out.claim("spikes with I_A only", static_cast<double>(static_spikes.size()), "spikes");
     out.claim("Alg. 5: spikes, as corrected", static_cast<double>(corrected.size()), "spikes")
         .allow_range(static_cast<double>(catalogue_spikes->size()), static_cast<double>(catalogue_spikes->size()),
-                 "sa1 of the catalogue with fig. 16's theta");
-    rows.raster_row("Alg. 5 as printed, I' = I[n-1]", value).raster_row("Alg. 5 as corrected", corrected).raster_row("sa1", *catalogue_spikes);
+                     "sa1 of the catalogue with fig. 16's theta");
+    rows.raster_row("Alg. 5 as printed, I' = I[n-1]", value)
+        .raster_row("Alg. 5 as corrected", corrected)
+        .raster_row("sa1", *catalogue_spikes);
     return {};
 }
 

@@ -6,8 +6,8 @@
 
 #include "measure/train_distance.hpp"
 #include "study/studies.hpp"
-#include "study/thesis/chip_vs_model.hpp"
 #include "study/thesis/active_load.hpp"
+#include "study/thesis/chip_vs_model.hpp"
 #include "study/thesis/isolated_oscillator.hpp"
 
 namespace corpuscle::studies::errata_signal {
@@ -21,7 +21,8 @@ Result<void> report_M6(StudyResult& out) {
     const auto as_printed = run_study_netlist({"invc", {"xl.mn6a=8x2", "xl.mn6b=2x4", "xh.mn6a=8x2", "xh.mn6b=2x4"}, ".dc vin 0 0.7 0.5m"});
     if (!corrected) return corrected.error();
     if (!as_printed) return as_printed.error();
-    const auto corrected_load = analyse_load(corrected->curve("dc", "i(vl)")), printed_load = analyse_load(as_printed->curve("dc", "i(vl)"));
+    const auto corrected_load = analyse_load(corrected->curve("dc", "i(vl)")),
+               printed_load = analyse_load(as_printed->curve("dc", "i(vl)"));
     out.claim("S7: rest voltage of the filter's output, M6 corrected", corrected_load.zero_current_voltage, "V")
         .published_as(350e-3, "thesis 4.3.1, fig. 30a");
     out.claim("S7: rest voltage of the filter's output, M6 as printed", printed_load.zero_current_voltage, "V")
@@ -98,9 +99,10 @@ Result<void> report_charging(StudyResult& out) {
 void report_chip(const std::string& name, const std::vector<double>& chip, const std::vector<double>& model, const std::string& why,
                  StudyResult& out) {
     const std::string source = "the model's, computed here; thesis 4.4: similar";
-    for (const auto& [phase, window] : {std::pair{"rising", P::protraction}, {"holding", P::plateau}, {"falling", P::retraction}, {"after", P::after}}) {
-        auto& c =
-            out.claim(fmt::format("{}: spikes, {}", name, phase), press::spike_count(chip, window)).derived_as(press::spike_count(model, window), source);
+    for (const auto& [phase, window] :
+         {std::pair{"rising", P::protraction}, {"holding", P::plateau}, {"falling", P::retraction}, {"after", P::after}}) {
+        auto& c = out.claim(fmt::format("{}: spikes, {}", name, phase), press::spike_count(chip, window))
+                      .derived_as(press::spike_count(model, window), source);
         if (c.needs_explanation()) c.explain(why);
     }
 }
@@ -112,7 +114,8 @@ Result<void> report_chips(const StudyOptions& options, StudyResult& out) {
     const auto& M6_everywhere = {"hpb.res.mn6a=8x2", "hpb.res.mn6b=2x4", "hpc.res.mn6a=8x2", "hpc.res.mn6b=2x4"};
     TrialSpec printed_M6{.afferent = "sa1-circuit", .probes = {"v(hpb)", "v(hpc)"}};
     for (const char* setting : M6_everywhere) printed_M6.settings.push_back(fmt::format("sa1-circuit.{}", setting));
-    const auto as_intended = simulate_train({"sa1-circuit"}), as_printed = simulate_train({"sa1-circuit", "press", {"sa1-circuit.as_printed=1"}});
+    const auto as_intended = simulate_train({"sa1-circuit"}),
+               as_printed = simulate_train({"sa1-circuit", "press", {"sa1-circuit.as_printed=1"}});
     const auto fa_printed = simulate_train({"fa1-circuit", "press", {"fa1-circuit.as_printed=1"}});
     const auto with_M6 = run_trial(printed_M6);
     for (const auto* train : {&as_intended, &as_printed, &fa_printed})
@@ -134,7 +137,7 @@ Result<void> report_chips(const StudyOptions& options, StudyResult& out) {
         .explain(M6);
     const auto distance = [&](const std::vector<double>& model) { return std::sqrt(van_rossum_squared(*as_intended, model, 20e-3)); };
     out.claim_true("S17: SA-I's chip is closer to the model of fig. 17c than to that of 18c (van Rossum, 20 ms)",
-              distance(*sa1) < distance(*fa1), "errata S17; thesis 4.4 says 18c");
+                   distance(*sa1) < distance(*fa1), "errata S17; thesis 4.4 says 18c");
     out.plot("The chips as printed and as intended, under the press stimulus", "time (s)", "")
         .raster_row("model sa1", *sa1)
         .raster_row("SA-I as intended", *as_intended)

@@ -31,7 +31,7 @@ void report_sensor(StudyResult& out) {
         .published_as(sensor.m, "thesis 4.1")
         .explain_if_needed("12 and 4 are round numbers from a figure");
     out.claim_true("F4: the largest force gives the smallest conductance", sensor.conductance(press) < sensor.conductance(0.2 / gram_force),
-              "thesis 4.2, as printed")
+                   "thesis 4.2, as printed")
         .explain_if_needed("it gives the largest conductance: resistance falls with force");
     out.claim("F5: G_0, which eq. 14's last line omits, over G at 20 gf", 100 / sensor.R_0 / sensor.conductance(20), "%")
         .allow_max(1, "printed as approximate; the bound is our choice");
@@ -42,7 +42,8 @@ Result<void> report_transistors(StudyResult& out) {
     const std::string swapped =
         "mn1 if vz vx tb nch w=1.5u l=0.5u m=16\nmn2 vdd vz vx tb nch w=1.5u l=0.5u m=4 stack=4\nmn3 vz vdd tb tb nch w=1.5u l=0.5u m=8\n";
     const std::string drain_at_vss = improved_cell_at("0");
-    const TransducerCell cells[] = {{"built", improved_cell()}, {"swapped", swapped}, {"without", drain_at_vss}, {"plain", single_transistor_cell(16)}};
+    const TransducerCell cells[] = {
+        {"built", improved_cell()}, {"swapped", swapped}, {"without", drain_at_vss}, {"plain", single_transistor_cell(16)}};
     const auto found = run_study_netlist({transducer_netlist(cells, "4"), {}, ".op"});
     if (!found) return found.error();
     const auto current = [&](const char* name) {
@@ -79,17 +80,20 @@ mna da g 0 0 nch w=1.5u l=0.5u m=16
 vc d db 0
 mnb db g 0 b nch w=1.5u l=0.5u m=16
 )",
-                                 {},
-                                 ".op"});
+                                          {},
+                                          ".op"});
     if (!found) return found.error();
     const std::string needs = "half of the tail's 200 nA (table 2, I_BIASA 100 nA)",
                       reason = "not possible: the gate is far below the threshold even with the source at vss";
     out.claim("F10a: current of an N transistor 16x1 at V_G = 0.1 V, its source at vss", found->operating_point("i(va)"), "A")
         .allow_min(100e-9, needs)
         .explain_if_needed(reason);
-    out.claim("F10a: the same with its bulk at 0.4 V", found->operating_point("i(vc)"), "A").allow_min(100e-9, needs).explain_if_needed(reason);
-    const auto narrow = substitute_in_embedded_text("circuits/parts/transducer.inc", {{"mp3a f1 plus  t b3 pch w=6u", "mp3a f1 plus  t b3 pch w=1.5u"},
-                                                                       {"mp3b f2 minus t b4 pch w=6u", "mp3b f2 minus t b4 pch w=1.5u"}});
+    out.claim("F10a: the same with its bulk at 0.4 V", found->operating_point("i(vc)"), "A")
+        .allow_min(100e-9, needs)
+        .explain_if_needed(reason);
+    const auto narrow =
+        substitute_in_embedded_text("circuits/parts/transducer.inc", {{"mp3a f1 plus  t b3 pch w=6u", "mp3a f1 plus  t b3 pch w=1.5u"},
+                                                                      {"mp3b f2 minus t b4 pch w=6u", "mp3b f2 minus t b4 pch w=1.5u"}});
     const auto usual = substitute_in_embedded_text("circuits/parts/transducer.inc", {});
     for (const auto& [description, parts] : {std::pair{"a P pair of 6 um", &usual}, {"a P pair of 1.5 um", &narrow}}) {
         if (!*parts) return parts->error();

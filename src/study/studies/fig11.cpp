@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 #include <cmath>
 
-#include "study/study_netlist.hpp"
 #include "study/studies.hpp"
+#include "study/study_netlist.hpp"
 
 namespace corpuscle::studies::fig11 {
 
@@ -58,7 +58,8 @@ void add_ideal_claims(StudyResult& out, const NetlistResult& ideal) {
     for (const auto& [node, C, printed] : {std::tuple{"b", 0.8e-12, 30.0}, {"c", 8.8e-12, 2.7}}) {
         const double f = ideal.curve("ac", fmt::format("vp({})", node)).crossing(M_PI / 4);
         out.claim(fmt::format("ideal, 6.6 Gohm and {:.2g} pF: corner", C * 1e12), f, "Hz").published_as(printed, "thesis 4.3.1");
-        out.claim(fmt::format("ideal, {:.2g} pF: tau over C / G_m", C * 1e12), 1 / (2 * M_PI * f) / (C * 6.6e9)).derived_as(1, "thesis 2.3");
+        out.claim(fmt::format("ideal, {:.2g} pF: tau over C / G_m", C * 1e12), 1 / (2 * M_PI * f) / (C * 6.6e9))
+            .derived_as(1, "thesis 2.3");
     }
     out.plot("Gain", "frequency (Hz)", "gain", true, true)
         .add("passive: C and R", a)

@@ -66,13 +66,15 @@ m2 d2 g2 0 s nch w=1.5u l=0.5u m=2 stack=8
 v3 d3 s 0.35
 m3 d3 g2 0 0 nch w=1.5u l=0.5u m=2 stack=8
 )",
-                                 {},
-                                 ".dc vs -2m 2m 1m"});
+                                          {},
+                                          ".dc vs -2m 2m 1m"});
     if (!found) return found.error();
     const auto slope = [&](const char* current) { return -found->curve("dc", current).slope_at(0); };
     const std::string source = "thesis 2.3: bulk and drain transconductances \"are a fraction of the gate transconductance\"";
-    out.claim("N 2x8 at 0.35 V: bulk transconductance over gate transconductance", slope("i(v2)") / slope("i(v1)")).allow_range(0, 1, source);
-    out.claim("N 2x8 at 0.35 V: drain transconductance over gate transconductance", slope("i(v3)") / slope("i(v1)")).allow_range(0, 1, source);
+    out.claim("N 2x8 at 0.35 V: bulk transconductance over gate transconductance", slope("i(v2)") / slope("i(v1)"))
+        .allow_range(0, 1, source);
+    out.claim("N 2x8 at 0.35 V: drain transconductance over gate transconductance", slope("i(v3)") / slope("i(v1)"))
+        .allow_range(0, 1, source);
     return {};
 }
 
@@ -102,7 +104,7 @@ Result<StudyResult> work(const StudyOptions& options) {
     out.claim("linear range (slope within 5 %) up to", all->linear_range, "V");
     out.claim("the same of the pair without either", bare->linear_range, "V");
     out.claim_true("with both the pair keeps its linear range to a tenth", std::abs(all->linear_range / bare->linear_range - 1) < 0.1,
-              "thesis 2.3: they balance linearity and transconductance; the bound is our choice");
+                   "thesis 2.3: they balance linearity and transconductance; the bound is our choice");
     out.claim("power", all->power, "W");
     StudyPlot& plot = out.plot("Output current over its largest positive value, over the input voltage", "V_+ - V_- (V)", "I / largest");
     for (const auto& [name, t] : {std::pair{"complete", &*all}, {"without M_N", &*no_n}, {"pair only", &*bare}})

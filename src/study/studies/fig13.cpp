@@ -10,9 +10,9 @@
 namespace corpuscle::studies::fig13 {
 
 Result<TransconductorCurve> simulate_mirrors(int N, double i_b) {
-    const auto text =
-        substitute_in_embedded_text("circuits/ota_series_parallel.cir", {{"nch_hv w=1.5u l=0.5u m=8\n", fmt::format("nch_hv w=1.5u l=0.5u m={}\n", N)},
-                                                          {"l=0.5u stack=8\n", fmt::format("l=0.5u stack={}\n", N)}});
+    const auto text = substitute_in_embedded_text("circuits/ota_series_parallel.cir",
+                                                  {{"nch_hv w=1.5u l=0.5u m=8\n", fmt::format("nch_hv w=1.5u l=0.5u m={}\n", N)},
+                                                   {"l=0.5u stack=8\n", fmt::format("l=0.5u stack={}\n", N)}});
     if (!text) return text.error();
     return simulate_transconductor({*text, {fmt::format("i_b={}", i_b)}});
 }
@@ -44,15 +44,18 @@ Result<StudyResult> work(const StudyOptions& options) {
             .explain_if_needed(why);
     const auto pair_only = simulate_isolated_pair(i_b, 2, 8);
     if (!pair_only) return pair_only.error();
-    out.claim("N = 8: tail current over the largest output current", i_b / with_8.max_current, "times").derived_as(64, source + ": N^2").explain_if_needed(why);
+    out.claim("N = 8: tail current over the largest output current", i_b / with_8.max_current, "times")
+        .derived_as(64, source + ": N^2")
+        .explain_if_needed(why);
     out.claim("N = 8: G_m (chosen equal to INVC's of circuits/invc.cir)", with_8.g_m, "S");
     out.claim("linear range (slope within 5 %) up to", with_8.linear_range, "V");
     out.claim("the same of the pair without load", pair_only->linear_range, "V");
     out.claim_true("the mirrors keep the pair's linear range to a tenth", std::abs(with_8.linear_range / pair_only->linear_range - 1) < 0.1,
-              "thesis 2.3: the mirrors attenuate only the output");
+                   "thesis 2.3: the mirrors attenuate only the output");
     out.claim("power", with_8.power, "W");
 
-    const auto cancelling = simulate_transconductor({"ota_cancelling"}), invc = simulate_transconductor({R"(INVC under the conditions of fig. 13
+    const auto cancelling = simulate_transconductor({"ota_cancelling"}),
+               invc = simulate_transconductor({R"(INVC under the conditions of fig. 13
 .lib '../process/tsmc180.lib' tt
 .include 'parts/transconductor.inc'
 vdd vdd 0 0.7
@@ -67,10 +70,11 @@ vout out 0 0.35
     if (!invc) return invc.error();
     out.claim("INVC, the thesis's own: linear range up to", invc->linear_range, "V");
     out.claim("INVC: power", invc->power, "W");
-    out.claim_true("INVC has a larger linear range than either", invc->linear_range > with_8.linear_range && invc->linear_range > cancelling->linear_range,
-              "thesis 2.3: it \"combines the two techniques\"; app. E: linearised");
+    out.claim_true("INVC has a larger linear range than either",
+                   invc->linear_range > with_8.linear_range && invc->linear_range > cancelling->linear_range,
+                   "thesis 2.3: it \"combines the two techniques\"; app. E: linearised");
     out.claim_true("INVC takes less power than either", invc->power < with_8.power && invc->power < cancelling->power,
-              "thesis 2.3: \"to decrease the ... total power consumption\"")
+                   "thesis 2.3: \"to decrease the ... total power consumption\"")
         .explain_if_needed(
             "at the same transconductance the pairs take less: their tails carry nanoamperes, INVC's linear stage the bias of 200 nA. It "
             "buys a range many times as wide; a fair comparison would be a pair degenerated to that range");

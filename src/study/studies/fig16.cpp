@@ -16,14 +16,14 @@ constexpr double amplitude = 2.03e-6;  // A
 Result<TrialResult> simulate_step(const std::string& neuron, double current, double hold = off - on, double rate = 2e3, double u_rest = 0) {
     const std::string afferent = "sa1a+" + neuron;
     return run_trial({.afferent = afferent,
-                    .stimulus = "step",
-                    .settings = {afferent + ".k_d=0", fmt::format("{}.C_m={}", afferent, C), fmt::format("{}.V_th={}", afferent, theta),
-                                 fmt::format("{}.V_reset={}", afferent, reset), fmt::format("{}.E_L={}", afferent, u_rest),
-                                 neuron == "lif-a" ? fmt::format("{}.R_m={}", afferent, R) : fmt::format("{}.I_leak0={}", afferent, leak),
-                                 fmt::format("step.F_max={}", current / 1e-6), fmt::format("step.t_rest={}", on),
-                                 fmt::format("step.t_hold={}", hold), "step.t_post=2"},
-                    .rate = rate,
-                    .probes = {"u"}});
+                      .stimulus = "step",
+                      .settings = {afferent + ".k_d=0", fmt::format("{}.C_m={}", afferent, C), fmt::format("{}.V_th={}", afferent, theta),
+                                   fmt::format("{}.V_reset={}", afferent, reset), fmt::format("{}.E_L={}", afferent, u_rest),
+                                   neuron == "lif-a" ? fmt::format("{}.R_m={}", afferent, R) : fmt::format("{}.I_leak0={}", afferent, leak),
+                                   fmt::format("step.F_max={}", current / 1e-6), fmt::format("step.t_rest={}", on),
+                                   fmt::format("step.t_hold={}", hold), "step.t_post=2"},
+                      .rate = rate,
+                      .probes = {"u"}});
 }
 
 /// The smallest current (A) that makes it fire within 100 s, by bisection.
@@ -77,7 +77,7 @@ Result<StudyResult> work(const StudyOptions& options) {
         .explain("the approximation holds for currents far above the leak; this current is about twice the leak (errata B5b)");
     out.claim("LIF-A: frequency, by the solution of (5)", f_A, "Hz")
         .derived_as(1 / (R * C * std::log((R * amplitude - reset) / (R * amplitude - theta))),
-                 "errata B5b: 1 / {RC ln[(R I - u_rst) / (R I - theta)]}");
+                    "errata B5b: 1 / {RC ln[(R I - u_rst) / (R I - theta)]}");
     out.claim("LIF-B: frequency", f_B, "Hz")
         .derived_as((amplitude - leak) / C / (theta - reset), "thesis 3.2: (I - I_leak0) / [C (theta - u_rst)]");
     const auto many = simulate_step("lif-a", 100 * amplitude);

@@ -63,8 +63,8 @@ void report_currents(StudyResult& out, const Currents& i, const StudyCurve& forc
         .add("I_A", i.A.scaled(1, 1e6))
         .add("I_B", i.B.scaled(1, 1e6))
         .add("I_C", i.C.scaled(1, 1e6))
-        .describe_published(fmt::format("{}: I_A a copy of the force, I_B its derivative, I_C a slow decay; I is their sum without negative values",
-                           source));
+        .describe_published(fmt::format(
+            "{}: I_A a copy of the force, I_B its derivative, I_C a slow decay; I is their sum without negative values", source));
 }
 
 Result<StudyResult> work(const StudyOptions& options) {
@@ -91,7 +91,7 @@ Result<StudyResult> work(const StudyOptions& options) {
         out.claim(named("first frequency of the plateau"), plateau.y.front(), "Hz");
         out.claim(named("last frequency of the plateau"), measure<LastRate>(*exact, press::plateau), "Hz");
         out.claim_true(named("highest in protraction, and the first frequency of the plateau above its last"),
-                  f.x_of_max() < press::protraction.to && plateau.y.front() > plateau.y.back(), "thesis 1.2 and 3.3, fig. 17c");
+                       f.x_of_max() < press::protraction.to && plateau.y.front() > plateau.y.back(), "thesis 1.2 and 3.3, fig. 17c");
         out.claim(named("spikes after 40 % of retraction"), press::spike_count(*exact, {0.675, 0.75}), "spikes")
             .allow_max(1, "thesis 1.2: almost no response; the number is our choice");
         double worst_difference = algorithm->size() == exact->size() ? 0 : Claim::none;

@@ -39,7 +39,8 @@ void report_currents(StudyResult& out, const Currents& i, const StudyCurve& forc
     const double up = i.A.max(), down = i.B.max();
     out.claim("largest I_A", up, "A"), out.claim("largest I_B", down, "A");
     auto& ratio = out.claim("ratio of the two", up / down).derived_as(3.5 / 2.75, "thesis 3.4: k_A and k_B");
-    if (ratio.needs_explanation()) ratio.explain("the filter still holds charge from the rise when the force begins to fall, which reduces I_B");
+    if (ratio.needs_explanation())
+        ratio.explain("the filter still holds charge from the rise when the force begins to fall, which reduces I_B");
     out.claim("the same ratio, above the leak", (up - leak) / (down - leak)).derived_as(3.5 / 2.75, "thesis 3.4: k_A and k_B");
     out.claim("I_A: delay of its peak after the peak of the slope", i.A.x_of_max() - force.slope().x_of_max(), "s")
         .allow_min(1e-3, "thesis 3.4: slightly delayed in protraction; at least one sample of 1 ms");
@@ -56,9 +57,12 @@ void report_currents(StudyResult& out, const Currents& i, const StudyCurve& forc
 
 /// Claims that the train discharges in protraction and retraction only.
 void report_train(StudyResult& out, const std::string& name, const std::vector<double>& train, const char* why) {
-    out.claim(name + ": discharges in protraction", press::spike_count(train, press::protraction), "spikes").allow_min(1, "thesis 3.4, fig. 18c");
-    out.claim(name + ": discharges in retraction", press::spike_count(train, press::retraction), "spikes").allow_min(1, "thesis 3.4, fig. 18c");
-    out.claim(name + ": discharges in plateau and after", press::spike_count(train, press::plateau) + press::spike_count(train, press::after), "spikes")
+    out.claim(name + ": discharges in protraction", press::spike_count(train, press::protraction), "spikes")
+        .allow_min(1, "thesis 3.4, fig. 18c");
+    out.claim(name + ": discharges in retraction", press::spike_count(train, press::retraction), "spikes")
+        .allow_min(1, "thesis 3.4, fig. 18c");
+    out.claim(name + ": discharges in plateau and after",
+              press::spike_count(train, press::plateau) + press::spike_count(train, press::after), "spikes")
         .allow_range(0, 0, "thesis 1.2: only in protraction and retraction");
     for (auto c = out.claims.end() - 3; c != out.claims.end(); ++c)
         if (c->needs_explanation()) c->explain(why);

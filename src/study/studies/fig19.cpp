@@ -23,9 +23,9 @@ double nonlinearity(const StudyCurve& line) { return line.fit_line().max_deviati
 Result<StudyCurve> simulate_sensor() {
     const auto found =
         run_study_netlist({"The sensor\n.lib '../process/tsmc180.lib' tt\n.include 'parts/transducer.inc'\n"
-                  "vgf gf 0 20\neforce force 0 gf 0 9.80665m\nva a 0 1\nvi a b 0\nxfsr force b 0 fsr\n",
-                  {},
-                  ".dc vgf 20 4000 20"});
+                           "vgf gf 0 20\neforce force 0 gf 0 9.80665m\nva a 0 1\nvi a b 0\nxfsr force b 0 fsr\n",
+                           {},
+                           ".dc vgf 20 4000 20"});
     if (!found) return found.error();
     return found->curve("dc", "i(vi)");
 }

@@ -46,18 +46,19 @@ Result<StudyResult> work(const StudyOptions& options) {
     const auto i_a = found->curve("dc", "par('(v(za)-v(xa))/9.1k')"), x_a = found->curve("dc", "v(xa)");
     out.claim("output current of fig. 23's amplifier at 400 gf", i_a.at(400), "A")
         .allow_min(0.95 * 0.1 * G, "thesis eq. 15: \"must be able to output\" it")
-        .explain_if_needed("its output branch has I_BIASA of 100 nA and mirrors of one to one; it was designed to drive gates (figs. 22, 23)");
-    out.claim_true("with this amplifier only, \"the circuit will not function properly\": V_X at 20 gf is below half of V_Y", x_a.at(20) < 0.05,
-              "thesis 4.2, below eq. 15");
+        .explain_if_needed(
+            "its output branch has I_BIASA of 100 nA and mirrors of one to one; it was designed to drive gates (figs. 22, 23)");
+    out.claim_true("with this amplifier only, \"the circuit will not function properly\": V_X at 20 gf is below half of V_Y",
+                   x_a.at(20) < 0.05, "thesis 4.2, below eq. 15");
     const auto z_b = found->curve("dc", "v(zb)"), x_b = found->curve("dc", "v(xb)");
     out.claim("with a follower (our choice): V_Z at 400 gf", z_b.at(400), "V")
         .derived_as(0.1 + equation(0.1, 3.6e3).at(400), eq14 + " with 3.6 kohm");
     out.claim("with a follower: V_X at 400 gf", x_b.at(400), "V").derived_as(0.1, source + ": \"forces V_X to follow V_Y\"");
     const auto z = found->curve("dc", "v(z)");
     out.claim_true("V_Z and the current are largest at the largest force", z.x_of_max() == 500 && z_b.x_of_max() == 500,
-              "thesis 4.2: \"for the maximum applied force\"");
+                   "thesis 4.2: \"for the maximum applied force\"");
     out.claim_true("the conductance is largest there, not smallest", ForceSensor().conductance(500) > ForceSensor().conductance(1),
-              "printed: \"minimum ... conductance\", errata F4");
+                   "printed: \"minimum ... conductance\", errata F4");
     if (auto ok = options.report_progress(0.4); !ok) return ok.error();
 
     StudyCurve lowest;

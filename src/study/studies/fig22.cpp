@@ -34,10 +34,10 @@ std::vector<TransducerCell> cells() {
 /// Effect of the two techniques at 4 N and 0.9 V, where all transducers hold their sensor.
 Result<void> report_techniques(StudyResult& out) {
     const auto found = run_study_netlist({transducer_netlist(cells(), "4"),
-                                 {"vdd=0.9"},
-                                 ".save i(ximproved.mn1) i(ximproved.mn2) i(ximproved.mn3) v(ximproved.tb) "
-                                 "v(ximproved.vx) v(ximproved.vz) v(xatvss.vz) v(xplain.vz) v(xatsource.vz) "
-                                 "i(xplain.vif) i(ximproved.vif)\n.op"});
+                                          {"vdd=0.9"},
+                                          ".save i(ximproved.mn1) i(ximproved.mn2) i(ximproved.mn3) v(ximproved.tb) "
+                                          "v(ximproved.vx) v(ximproved.vz) v(xatvss.vz) v(xplain.vz) v(xatsource.vz) "
+                                          "i(xplain.vif) i(ximproved.vif)\n.op"});
     if (!found) return found.error();
     const auto at = [&](const std::string& name) { return found->operating_point(name); };
     out.claim("4 N, 0.9 V: I_D1 over I_D2", at("i(ximproved.mn1)") / at("i(ximproved.mn2)"))
@@ -127,10 +127,12 @@ Result<void> report_split(StudyResult& out) {
         expected.x.push_back(S / 16), expected.y.push_back(1e6 * I_F0 * S / (S + 16));
     }
     out.claim_true("a smaller S_1 / S_2 gives a smaller I_F", simulated.y.front() < simulated.y.back(),
-              "printed: \"maximum S_1/S_2\", errata F8: minimum");
+                   "printed: \"maximum S_1/S_2\", errata F8: minimum");
     StudyPlot& plot = out.plot("I_F at 4 N over S_1 / S_2, sixteen unit transistors in M_1 each", "S_1 / S_2", "I_F (uA)");
     plot.log_x = plot.log_y = true;
-    plot.add("netlist", simulated, StudyPlot::Style::points).add("I_F0 S_1 / (S_1 + S_2)", expected).describe_published("table 1 has 4x4 and 16x1: 1/16");
+    plot.add("netlist", simulated, StudyPlot::Style::points)
+        .add("I_F0 S_1 / (S_1 + S_2)", expected)
+        .describe_published("table 1 has 4x4 and 16x1: 1/16");
     return {};
 }
 

@@ -43,9 +43,9 @@ Result<void> report_amplifier(StudyResult& out) {
     if (!found) return found.error();
     const auto supply =
         run_study_netlist({"One amplifier\n.lib '../process/tsmc180.lib' tt\n.include 'parts/transducer.inc'\nvdd vdd 0 0.7\nvi vdd top 0\n"
-                  "vp plus 0 0.1\niba pg 0 100n\nxamp plus plus out pg top amplifier\nvo out 0 0.35\n",
-                  {},
-                  ".op"});
+                           "vp plus 0 0.1\niba pg 0 100n\nxamp plus plus out pg top amplifier\nvo out 0 0.35\n",
+                           {},
+                           ".op"});
     if (!supply) return supply.error();
     const double I = supply->operating_point("i(vi)");
     out.claim("gain into the transducer's M_1 to M_3", 20 * std::log10(found->number("gain")), "dB");
@@ -89,11 +89,11 @@ Result<void> report_input_pair(StudyResult& out) {
     if (!bulks) return bulks.error();
     if (!held) return held.error();
     const auto free_current = bulks->curve("dc", "i(x1.vb3)").absolute();
-    const auto limited =
-        run_study_netlist({"One amplifier\n.lib '../process/tsmc180.lib' tt\n.include 'parts/transducer.inc'\nvdd vdd 0 0.7\nvp plus 0 0.1\n"
-                  "vm minus plus 0\niba pg 0 100n\nxamp plus minus out pg vdd amplifier\nvo out 0 0.35\n",
-                  {},
-                  ".dc vp 0 0.7 2m"});
+    const auto limited = run_study_netlist(
+        {"One amplifier\n.lib '../process/tsmc180.lib' tt\n.include 'parts/transducer.inc'\nvdd vdd 0 0.7\nvp plus 0 0.1\n"
+         "vm minus plus 0\niba pg 0 100n\nxamp plus minus out pg vdd amplifier\nvo out 0 0.35\n",
+         {},
+         ".dc vp 0 0.7 2m"});
     if (!limited) return limited.error();
     const auto kept = limited->curve("dc", "i(vm)").absolute();
     out.claim("bulk current with both inputs at 0.4 V, bulk directly at vss", free_current.at(0.4), "A");
@@ -114,12 +114,12 @@ Result<Supplies> find_supplies(const Changes& changes) {
     if (!parts) return parts.error();
     const auto found =
         run_study_netlist({fmt::format("Two amplifiers, 0.1 mV apart either way\n.lib '../process/tsmc180.lib' tt\n{}\nvdd vdd 0 0.7\n"
-                              "vs s 0 0.1\nvup up s 50u\nvdown s down 50u\nib1 pg1 0 100n\nx1 up down o1 pg1 vdd amplifier\n"
-                              "v1 o1 half 0\nib2 pg2 0 100n\nx2 down up o2 pg2 vdd amplifier\nv2 o2 half 0\n"
-                              "ehalf half 0 vdd 0 0.5\n",
-                              *parts),
-                  {},
-                  ".dc vdd 0.25 0.7 5m"});
+                                       "vs s 0 0.1\nvup up s 50u\nvdown s down 50u\nib1 pg1 0 100n\nx1 up down o1 pg1 vdd amplifier\n"
+                                       "v1 o1 half 0\nib2 pg2 0 100n\nx2 down up o2 pg2 vdd amplifier\nv2 o2 half 0\n"
+                                       "ehalf half 0 vdd 0 0.5\n",
+                                       *parts),
+                           {},
+                           ".dc vdd 0.25 0.7 5m"});
     const auto transducer = find_lowest_supplies({&cell, 1}, 0.2, {}, *parts);
     if (!found) return found.error();
     if (!transducer) return transducer.error();

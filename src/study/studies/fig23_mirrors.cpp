@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "study/study_netlist.hpp"
 #include "study/studies.hpp"
+#include "study/study_netlist.hpp"
 
 namespace corpuscle::studies::fig23_mirrors {
 
@@ -57,8 +57,8 @@ mp3a t t vdd vdd pch w=6u l=0.5u m=4 stack=4
 mp3b oq t vdd vdd pch w=6u l=0.5u m=4 stack=4
 vq oq out 0
 )",
-                                 {},
-                                 ".dc vout 0 0.7 1m"});
+                                          {},
+                                          ".dc vout 0 0.7 1m"});
     if (!found) return found.error();
     const auto output_from = [&](const char* current) {
         const auto G = found->curve("dc", current).slope().absolute();

@@ -20,7 +20,9 @@ Result<void> report_curves(StudyResult& out) {
     const auto I = found->curve("dc", "i(vif)"), V_X = found->curve("dc", "v(vx)"), V_Z = found->curve("dc", "v(x.vz)");
     const auto slope = I.slope();
     out.claim("24b: dI_F/dF at 20 gf", slope.at(20), "A/gf").published_as(12e-9, "thesis 4.2, fig. 24b").explain_if_needed(slope_reason);
-    out.claim("24b: dI_F/dF at 400 gf", slope.at(400), "A/gf").published_as(4e-9, "thesis 4.2, fig. 24b").explain_if_needed(inconsistent_slopes);
+    out.claim("24b: dI_F/dF at 400 gf", slope.at(400), "A/gf")
+        .published_as(4e-9, "thesis 4.2, fig. 24b")
+        .explain_if_needed(inconsistent_slopes);
     out.claim("24b: dI_F/dF by eq. 13 and 15 and the split, at 20 gf", 0.1 * ForceSensor().slope(20) / 17, "A/gf")
         .published_as(12e-9, "thesis 4.2, fig. 24b")
         .explain_if_needed(inconsistent_slopes);
@@ -71,9 +73,11 @@ Result<void> report_corners(StudyResult& out) {
 
 Result<void> report_press(StudyResult& out) {
     const TransducerCell cell{"t", improved_cell_with_diode()};
-    const auto found = run_study_netlist({transducer_netlist({&cell, 1}, "dc 0 force 1"), {}, ".dc vforce 0.1 4.2 10m\n.force press\n.tran 1m 1 0 5m"});
+    const auto found =
+        run_study_netlist({transducer_netlist({&cell, 1}, "dc 0 force 1"), {}, ".dc vforce 0.1 4.2 10m\n.force press\n.tran 1m 1 0 5m"});
     if (!found) return found.error();
-    const auto I = found->curve("tran", "i(xt.vif)"), force = found->curve("tran", "v(force)"), static_curve = found->curve("dc", "i(xt.vif)");
+    const auto I = found->curve("tran", "i(xt.vif)"), force = found->curve("tran", "v(force)"),
+               static_curve = found->curve("dc", "i(xt.vif)");
     double worst_error = 0;
     for (std::size_t k = 0; k < I.x.size(); ++k) worst_error = std::max(worst_error, std::abs(I.y[k] - static_curve.at(force.y[k])));
     out.claim("24d: I_F at rest, 0.2 N", I.at(0.2), "A");
@@ -82,7 +86,9 @@ Result<void> report_press(StudyResult& out) {
     out.claim("24d: largest force", force.max(), "N").published_as(4, "thesis 1.2, fig. 4");
     out.claim("24d: I_F against its static characteristic, largest difference, of I_F in the plateau", 100 * worst_error / I.at(0.5), "%")
         .allow_max(1, "not published: the loop is fast compared with the stimulus; the bound is our choice");
-    out.plot("24d: the press stimulus", "time (s)", "I_F (uA)").add("I_F", I.scaled(1, 1e6)).describe_published("the force of fig. 4 as a current");
+    out.plot("24d: the press stimulus", "time (s)", "I_F (uA)")
+        .add("I_F", I.scaled(1, 1e6))
+        .describe_published("the force of fig. 4 as a current");
     out.plot("24d: force", "time (s)", "force (N)").add("F", force).describe_published("similar in magnitude to the experiment's");
     return {};
 }

@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
-#include "study/study_netlist.hpp"
 #include "study/studies.hpp"
+#include "study/study_netlist.hpp"
 #include "study/thesis/active_load.hpp"
 
 namespace corpuscle::studies::fig28 {
@@ -35,7 +35,7 @@ void add_claims(const ActiveLoad& load, StudyResult& out) {
     out.claim("resistance at 500 mV, relative to its largest", deviation_percent(500e-3), "%");
     out.claim("resistance at 200 mV, relative to its largest", deviation_percent(200e-3), "%");
     out.claim_true("outside 300 to 500 mV it is significantly non-linear: the resistance is a fifth lower at 150 and at 550 mV",
-              deviation_percent(150e-3) < -20 && deviation_percent(550e-3) < -20, source);
+                   deviation_percent(150e-3) < -20 && deviation_percent(550e-3) < -20, source);
 }
 
 Result<StudyResult> work(const StudyOptions& options) {

@@ -8,8 +8,9 @@
 
 namespace corpuscle::studies::fig3 {
 
-constexpr double on = 0.25, off = 0.75;                                    // s: start and end of the step
-constexpr TimeWindow onset{on, on + 0.1}, last{0.5, off}, removal{off, 1.0};  // s: windows for a burst at either end, and for "still pressed"
+constexpr double on = 0.25, off = 0.75;  // s: start and end of the step
+constexpr TimeWindow onset{on, on + 0.1}, last{0.5, off},
+    removal{off, 1.0};  // s: windows for a burst at either end, and for "still pressed"
 constexpr auto source = "thesis 1.2, fig. 3";
 
 struct Class {
@@ -68,15 +69,15 @@ Result<StudyResult> work(const StudyOptions& options) {
         const auto smallest = smallest_step(c.name);
         if (!smallest) return smallest.error();
         press::set_reference(out.claim(fmt::format("{}: smallest step that evokes a spike", c.full), *smallest, "N"), c.threshold,
-                        "median of the nerve, from memory, not verified");
+                             "median of the nerve, from memory, not verified");
         if (auto ok = options.report_progress(static_cast<double>(&c - classes + 1) / 5); !ok) return ok.error();
     }
     out.claim_true(
         fmt::format("type I has the larger ratio of onset to hold frequency: SA-I {:.2g}, SA-II {:.2g}", onset_ratios[0], onset_ratios[1]),
         onset_ratios[0] > onset_ratios[1], source);
     out.plot("The step", "time (s)", "force (N)").add("force", stimulus->curve());
-    out.plots.push_back(
-        spikes.describe_published("slowly adapting classes fire as long as the skin is pressed, fast adapting classes at onset and removal"));
+    out.plots.push_back(spikes.describe_published(
+        "slowly adapting classes fire as long as the skin is pressed, fast adapting classes at onset and removal"));
     out.note(
         "The thesis separates type I from type II by the ratio of onset to sustained discharge. The literature it cites uses the receptive "
         "field: small and sharp for type I, large and diffuse for type II (errata B18). A single afferent cannot show that.");

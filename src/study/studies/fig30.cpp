@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "study/study_netlist.hpp"
 #include "study/studies.hpp"
+#include "study/study_netlist.hpp"
 #include "study/thesis/active_load.hpp"
 
 namespace corpuscle::studies::fig30 {
@@ -32,9 +32,9 @@ struct CornerFrequencies {
 };
 Result<CornerFrequencies> simulate_corners(const std::vector<std::string>& settings = {}) {
     const auto found = run_study_netlist({"high_pass", settings,
-                                 ".ac dec 50 1m 10k\n.meas ac f_b when vp(hpb)=0.785398\n.meas ac f_c when vp(hpc)=0.785398\n"
-                                 ".meas ac low_b find vm(hpb) at=1m\n.meas ac low_c find vm(hpc) at=1m\n"
-                                 ".meas ac top_b max vm(hpb)\n.meas ac top_c max vm(hpc)"});
+                                          ".ac dec 50 1m 10k\n.meas ac f_b when vp(hpb)=0.785398\n.meas ac f_c when vp(hpc)=0.785398\n"
+                                          ".meas ac low_b find vm(hpb) at=1m\n.meas ac low_c find vm(hpc) at=1m\n"
+                                          ".meas ac top_b max vm(hpb)\n.meas ac top_c max vm(hpc)"});
     if (!found) return found.error();
     return CornerFrequencies{found->number("f_b"),          found->number("f_c"),   1e-3 / found->number("low_b"),
                              1e-3 / found->number("low_c"), found->number("top_b"), found->number("top_c")};

@@ -20,13 +20,14 @@ void report_static(const NetlistResult& found, StudyResult& out) {
     out.claim("I_F at 0.2 N", I_F.at(at_rest), "A"), out.claim("I_F at 4 N", I_F.at(at_hold), "A");
     out.claim("V_F at 0.2 N", V_F.at(at_rest), "V"), out.claim("V_F at 4 N", V_F.at(at_hold), "V");
     out.claim_true("V_F stays where its transconductor is linear, 300 to 500 mV", V_F.min() >= 0.3 && V_F.max() <= 0.5,
-              "thesis 4.3.1, fig. 28")
+                   "thesis 4.3.1, fig. 28")
         .explain(fmt::format("I_F / 2 - I_BIASF rises from {:.0f} to {:.0f} nA with these sizes and V_Y = 0.1 V, while 150 mV over the "
                              "published 413 kohm need {:.0f} nA; beyond that V_F is compressed",
                              1e9 * (I_F.at(at_rest) / 2 - 700e-9), 1e9 * (I_F.at(at_hold) / 2 - 700e-9), 150e-3 / 413e3 * 1e9));
     out.claim("I_A at 4 N", I_A.at(at_hold), "A"), out.claim("I_A at 0.2 N", I_A.at(at_rest), "A");
     const double fraction = I_A.at(at_rest) / I_A.at(at_hold), expected = I_F.at(at_rest) / I_F.at(at_hold);
-    out.claim("I_A is proportional to I_F: I_A at 0.2 N as a fraction of I_A at 4 N", 100 * fraction, "%").derived_as(100 * expected, source);
+    out.claim("I_A is proportional to I_F: I_A at 0.2 N as a fraction of I_A at 4 N", 100 * fraction, "%")
+        .derived_as(100 * expected, source);
 }
 
 /// A rectified component: its largest value, its time, and the rest where max{I_X, 0} is 0.
@@ -84,29 +85,33 @@ xb gp gn u vdd rectifier_sa
 
 Result<StudyResult> work(const StudyOptions& options) {
     StudyResult out;
-    const auto found =
-        run_study_netlist({"asp_sa1",
-                  {},
-                  ".save v(vf) v(hpb) v(hpc) i(vi) i(via) i(vib) i(vic) v(xrectb.en) v(xrectc.en) i(xccvs.mp3a)\n.op\n.tran 1m 1 0 5m"});
+    const auto found = run_study_netlist(
+        {"asp_sa1",
+         {},
+         ".save v(vf) v(hpb) v(hpc) i(vi) i(via) i(vib) i(vic) v(xrectb.en) v(xrectc.en) i(xccvs.mp3a)\n.op\n.tran 1m 1 0 5m"});
     if (!found) return found.error();
     if (auto ok = options.report_progress(0.5); !ok) return ok.error();
     report_static(*found, out);
     report_dynamic(*found, "I_B", "i(vib)", "v(xrectb.en)", out);
     report_dynamic(*found, "I_C", "i(vic)", "v(xrectc.en)", out);
     const auto I_B = found->curve("tran", "i(vib)").resampled(step), I_C = found->curve("tran", "i(vic)").resampled(step);
-    out.claim_true("I_B ends with the ramp and I_C decays through the plateau: at 420 ms I_B is below a tenth of its largest value, I_C above",
-              I_B.at(0.42) < 0.1 * I_B.max() && I_C.at(0.42) > 0.1 * I_C.max(), "thesis 3.3, fig. 17a, which this circuit implements");
+    out.claim_true(
+        "I_B ends with the ramp and I_C decays through the plateau: at 420 ms I_B is below a tenth of its largest value, I_C above",
+        I_B.at(0.42) < 0.1 * I_B.max() && I_C.at(0.42) > 0.1 * I_C.max(), "thesis 3.3, fig. 17a, which this circuit implements");
     const auto I = found->curve("tran", "i(vi)").resampled(step), I_A = found->curve("tran", "i(via)").resampled(step);
     out.claim("I: largest value", I.max(), "A");
     if (auto ok = report_comparator(out); !ok) return ok.error();
-    StudyPlot& a = out.plot("34a, voltages", "time (s)", "V")
-                  .describe_published("V_F, V_HPB (printed as V_HPA) and V_HPC (printed as V_HPB) under the press stimulus; the text gives no details");
+    StudyPlot& a =
+        out.plot("34a, voltages", "time (s)", "V")
+            .describe_published(
+                "V_F, V_HPB (printed as V_HPA) and V_HPC (printed as V_HPB) under the press stimulus; the text gives no details");
     for (const auto& [name, curve] : {std::pair{"V_F", "v(vf)"}, {"V_HPB", "v(hpb)"}, {"V_HPC", "v(hpc)"}})
         a.add(name, found->curve("tran", curve));
     StudyPlot& b = out.plot("34b, currents", "time (s)", "pA").describe_published("I_A, I_B and I_C, whose sum is I");
     b.add("I_A", I_A.scaled(1, 1e12)).add("I_B", I_B.scaled(1, 1e12)).add("I_C", I_C.scaled(1, 1e12)).add("I", I.scaled(1, 1e12));
-    out.claim_true("I has a glitch when the rectifiers switch, I_A has none: the largest step of I_A in 10 us is less than a tenth of I_B's",
-              largest_step(found->curve("tran", "i(via)")) < 0.1 * largest_step(found->curve("tran", "i(vib)")), "thesis 4.4, errata S18");
+    out.claim_true(
+        "I has a glitch when the rectifiers switch, I_A has none: the largest step of I_A in 10 us is less than a tenth of I_B's",
+        largest_step(found->curve("tran", "i(via)")) < 0.1 * largest_step(found->curve("tran", "i(vib)")), "thesis 4.4, errata S18");
     out.note(
         "As in circuits/asp_sa1.cir: 0.7 V, I_BIASB 200 nA, I_BIASF 700 nA, 27 C, typical, as published; the membrane is held at half the "
         "supply. Gains as intended (errata S9a, S10a). The numbers of the figure are not in the text; the claims come from its words.");

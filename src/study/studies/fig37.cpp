@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 #include <cmath>
 
-#include "study/study_netlist.hpp"
 #include "study/studies.hpp"
+#include "study/study_netlist.hpp"
 #include "study/thesis/chip_vs_model.hpp"
 
 namespace corpuscle::studies::fig37 {
@@ -26,7 +26,8 @@ Result<void> report_gains(StudyResult& out) {
     out.claim("table 8: ratio of the gains", up / down, "times")
         .derived_as(K_A / K_B, "thesis 3.4, 3.5 over 2.75 uA/N of the model")
         .explain("the ratio of table 8's sizes is 8 to 3 (errata S15)");
-    out.claim("as intended here, pair B 6x4: ratio of the gains", up / corrected, "times").derived_as(K_A / K_B, "thesis 3.4, of the model");
+    out.claim("as intended here, pair B 6x4: ratio of the gains", up / corrected, "times")
+        .derived_as(K_A / K_B, "thesis 3.4, of the model");
     return {};
 }
 
@@ -55,9 +56,10 @@ Result<StudyResult> work(const StudyOptions& options) {
                              "model's 2 Hz; the rest is probably V_F's compression above 500 mV",
                              1e3 * delay_of_ideal_blocks));
     out.claim("falling: delay after the model", down.x_of_max() - model_down.x_of_max(), "s");
-    out.claim_true("I_A drives the rise and I_B the fall: at the peak of one the other is below a tenth of it",
-              std::abs(I_B.at(up.x_of_max())) < 0.1 * I_A.at(up.x_of_max()) && std::abs(I_A.at(down.x_of_max())) < 0.1 * I_B.at(down.x_of_max()),
-              "thesis 4.3.2");
+    out.claim_true(
+        "I_A drives the rise and I_B the fall: at the peak of one the other is below a tenth of it",
+        std::abs(I_B.at(up.x_of_max())) < 0.1 * I_A.at(up.x_of_max()) && std::abs(I_A.at(down.x_of_max())) < 0.1 * I_B.at(down.x_of_max()),
+        "thesis 4.3.2");
     out.claim("I at rest", I.at(0.2), "A").allow_range(-0.2e-12, 0.2e-12, "thesis 4.3.2: it has no static current; 0.2 pA is our choice");
     const double switching_time = found->curve("tran", "v(xrect.en)").crossing(0.35, 0.63);
     auto& least = out.claim_true("I is never negative", I.min() > -0.2e-12, "thesis 4.3.2, fig. 36: a full-wave rectifier");

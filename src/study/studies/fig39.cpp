@@ -21,8 +21,8 @@ void report_swing(const NetlistResult& found, const Hysteresis& t, StudyResult& 
     out.claim("the membrane falls to", low, "V"), out.claim("V_L of the trigger", t.V_L, "V");
     out.claim("the membrane is charged to", high, "V"), out.claim("V_H of the trigger", t.V_H, "V");
     out.claim_true("the swing equals the hysteresis window, but not exactly: it is larger at one end at least",
-              high > t.V_H + 1e-3 && high < t.V_H + 0.1 * (t.V_H - t.V_L) && std::abs(low - t.V_L) < 0.1 * (t.V_H - t.V_L),
-              "thesis 4.4: not exactly defined by the window, since there is a switching delay");
+                   high > t.V_H + 1e-3 && high < t.V_H + 0.1 * (t.V_H - t.V_L) && std::abs(low - t.V_L) < 0.1 * (t.V_H - t.V_L),
+                   "thesis 4.4: not exactly defined by the window, since there is a switching delay");
     const double middle = (t.V_L + t.V_H) / 2, falls = u.crossing(middle, first + 5e-3);
     const auto rise = s.between(first, first + 5e-3);
     const double filled = u.between(first, first + 5e-3).crossing(middle, first);
@@ -104,7 +104,8 @@ Result<StudyResult> work(const StudyOptions& options) {
     StudyResult out;
     const auto t = simulate_trigger();
     if (!t) return t.error();
-    const auto shown_case = simulate_oscillator({.current = I_shown}), below_leak = simulate_oscillator({.current = O::I_LEAK / 2, .stop_time = 0.3});
+    const auto shown_case = simulate_oscillator({.current = I_shown}),
+               below_leak = simulate_oscillator({.current = O::I_LEAK / 2, .stop_time = 0.3});
     if (!shown_case) return shown_case.error();
     if (!below_leak) return below_leak.error();
     report_swing(*shown_case, *t, out);

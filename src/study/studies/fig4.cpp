@@ -25,7 +25,8 @@ double ramp_duration(const StudyCurve& force, const TimeWindow& s) {
 double asymmetry(const StudyCurve& force) {
     const double middle = (press::protraction.from + press::retraction.to) / 2;
     double out = 0;
-    for (double t = press::protraction.from; t < press::protraction.to; t += 1e-3) out = std::max(out, std::abs(force.at(t) - force.at(2 * middle - t)));
+    for (double t = press::protraction.from; t < press::protraction.to; t += 1e-3)
+        out = std::max(out, std::abs(force.at(t) - force.at(2 * middle - t)));
     return out;
 }
 
@@ -70,7 +71,8 @@ Result<StudyResult> work(const StudyOptions&) {
         if (!as_printed) return as_printed.error();
         const TimeWindow later{press::retraction.from, 2};
         out.claim(std::string(name) + ": spikes from the start of a retraction of 125 ms", press::spike_count(*as_used, later), "spikes");
-        out.claim(std::string(name) + ": spikes from the start of a retraction of 250 ms", press::spike_count(*as_printed, later), "spikes");
+        out.claim(std::string(name) + ": spikes from the start of a retraction of 250 ms", press::spike_count(*as_printed, later),
+                  "spikes");
     }
     out.plot("Force of the experiment", "time (s)", "force (N)")
         .add("as used here: retraction of 125 ms", *force)

@@ -14,13 +14,15 @@ namespace P = press;
 
 void report_pattern(const ChipVsModel& b, const std::vector<double>& low_leak_spikes, StudyResult& out) {
     const auto& chip = b.chip.spikes;
-    const auto f = press::frequency_at_start(chip), expected = press::frequency_at_start(b.model_spikes), low_leak = press::frequency_at_start(low_leak_spikes);
+    const auto f = press::frequency_at_start(chip), expected = press::frequency_at_start(b.model_spikes),
+               low_leak = press::frequency_at_start(low_leak_spikes);
     const auto reason =
         fmt::format("leakage of its switches: with high-threshold switches the frequency 100 ms before the end of the plateau is {:.1f} Hz",
                     low_leak.at(P::plateau_end.from));
     const std::string similar = "thesis 4.4: similar to the model's of fig. 17c; the published value is the model's, computed here";
     out.claim("spikes", static_cast<double>(chip.size())).derived_as(static_cast<double>(b.model_spikes.size()), similar);
-    out.claim("spikes while the force rises", press::spike_count(chip, P::protraction)).derived_as(press::spike_count(b.model_spikes, P::protraction), similar);
+    out.claim("spikes while the force rises", press::spike_count(chip, P::protraction))
+        .derived_as(press::spike_count(b.model_spikes, P::protraction), similar);
     for (const auto& [what, computed, model_value, unit] :
          {std::tuple{"spikes on the plateau", press::spike_count(chip, P::plateau), press::spike_count(b.model_spikes, P::plateau), ""},
           {"highest frequency", f.max(), expected.max(), "Hz"},
@@ -30,9 +32,11 @@ void report_pattern(const ChipVsModel& b, const std::vector<double>& low_leak_sp
     const auto plateau = f.between(P::plateau.from, P::plateau.to - 0.05);
     out.claim("spikes at rest", press::spike_count(chip, P::rest)).allow_range(0, 0, "thesis 1.2, fig. 5a");
     out.claim_true("highest while the force rises, then a sustained but slowly decaying frequency",
-              f.x_of_max() < P::plateau.from && std::is_sorted(plateau.y.rbegin(), plateau.y.rend()) && press::spike_count(chip, P::plateau_end) > 0,
-              "thesis 1.2, fig. 5a");
-    out.claim("spikes from the retraction on", press::spike_count(chip, {P::retraction.from, 1})).allow_max(1, "thesis 1.2: almost no response");
+                   f.x_of_max() < P::plateau.from && std::is_sorted(plateau.y.rbegin(), plateau.y.rend()) &&
+                       press::spike_count(chip, P::plateau_end) > 0,
+                   "thesis 1.2, fig. 5a");
+    out.claim("spikes from the retraction on", press::spike_count(chip, {P::retraction.from, 1}))
+        .allow_max(1, "thesis 1.2: almost no response");
 }
 
 void report_glitches(const TrialResult& chip, StudyResult& out) {
@@ -56,22 +60,23 @@ void report_glitches(const TrialResult& chip, StudyResult& out) {
     };
     out.claim("initial glitch when I_B's rectifier switches: step of I", jump("i(vi)"), "A");
     out.claim_true("the initial glitch of I comes from a rectified component, not from I_A",
-              jump("i(vib)") > 3 * jump("i(via)") && jump("i(vi)") > 3 * jump("i(via)"),
-              "thesis 4.4, as errata S18 corrects it: I_B and I_C");
+                   jump("i(vib)") > 3 * jump("i(via)") && jump("i(vi)") > 3 * jump("i(via)"),
+                   "thesis 4.4, as errata S18 corrects it: I_B and I_C");
 }
 
 Result<StudyResult> work(const StudyOptions& options) {
     StudyResult out;
-    const auto b =
-        compare_chip_with_model({.afferent = "sa1-circuit", .rate = 20e3, .probes = {"i(vi)", "i(via)", "i(vib)", "i(vic)", "v(u)", "v(s)", "v(xrectb.en)"}},
-               "sa1");
+    const auto b = compare_chip_with_model(
+        {.afferent = "sa1-circuit", .rate = 20e3, .probes = {"i(vi)", "i(via)", "i(vib)", "i(vic)", "v(u)", "v(s)", "v(xrectb.en)"}},
+        "sa1");
     if (!b) return b.error();
     const auto low_leak_spikes = simulate_train({"sa1-circuit", "press", {"sa1-circuit.hv_switches=1"}});
     if (!low_leak_spikes) return low_leak_spikes.error();
     if (auto ok = options.report_progress(0.9); !ok) return ok.error();
     report_pattern(*b, *low_leak_spikes, out), report_glitches(b->chip, out);
     const auto& traces = b->chip.probes;
-    StudyPlot& inputs = out.plot("40a, input signals", "time (s)", "pA").describe_published("glitches in I at each spike, and one at the beginning");
+    StudyPlot& inputs =
+        out.plot("40a, input signals", "time (s)", "pA").describe_published("glitches in I at each spike, and one at the beginning");
     for (const auto& [name, curve] : {std::pair{"I", "i(vi)"}, {"I_A", "i(via)"}, {"I_B", "i(vib)"}, {"I_C", "i(vic)"}})
         inputs.add(name, traces.at(curve).scaled(1, 1e12));
     out.plot("40b, membrane and output", "time (s)", "V")

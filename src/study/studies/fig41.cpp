@@ -25,11 +25,12 @@ void report_pattern(const ChipVsModel& b, StudyResult& out) {
             c.explain("each ramp has only two or three intervals, and each depends on the first spike; the comparator is late");
     }
     out.claim_true("it responds to the ramps only: no spike at rest and in the last 100 ms of the plateau",
-              press::spike_count(chip, P::rest) == 0 && press::spike_count(chip, P::plateau_end) == 0 && press::spike_count(chip, P::protraction) > 0 &&
-                  press::spike_count(chip, P::retraction) > 0,
-              "thesis 1.2, fig. 5b");
+                   press::spike_count(chip, P::rest) == 0 && press::spike_count(chip, P::plateau_end) == 0 &&
+                       press::spike_count(chip, P::protraction) > 0 && press::spike_count(chip, P::retraction) > 0,
+                   "thesis 1.2, fig. 5b");
     out.claim_true("asymmetrical: faster while the force rises",
-              f.between(P::protraction.from, P::plateau.from + 0.1).max() > f.between(P::retraction.from, 1).max(), "thesis 1.2, fig. 5b");
+                   f.between(P::protraction.from, P::plateau.from + 0.1).max() > f.between(P::retraction.from, 1).max(),
+                   "thesis 1.2, fig. 5b");
     out.claim("delay of the first spike after the model's", chip.empty() ? NAN : chip[0] - b.model_spikes[0], "s");
 }
 
@@ -40,8 +41,8 @@ Result<StudyResult> work(const StudyOptions& options) {
     if (auto ok = options.report_progress(0.9); !ok) return ok.error();
     report_pattern(*b, out);
     const auto& I = b->chip.probes.at("i(vi)");
-    const std::vector<double> rising(
-        b->chip.spikes.begin(), b->chip.spikes.begin() + static_cast<std::ptrdiff_t>(press::spike_count(b->chip.spikes, {0, P::plateau.to})));
+    const std::vector<double> rising(b->chip.spikes.begin(), b->chip.spikes.begin() + static_cast<std::ptrdiff_t>(press::spike_count(
+                                                                                          b->chip.spikes, {0, P::plateau.to})));
     out.claim("glitch in I at each spike up to the end of the plateau: smallest, over I just before it", min_jump(I, rising, 0.3e-3),
               "times")
         .explain(

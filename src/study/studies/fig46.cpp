@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "circuit/cost/area.hpp"
-#include "study/study_netlist.hpp"
 #include "study/sample_statistics.hpp"
 #include "study/studies.hpp"
+#include "study/study_netlist.hpp"
 #include "study/thesis/array_text.hpp"
 
 namespace corpuscle::studies::fig46 {
@@ -38,7 +38,7 @@ Result<void> add_lengths(StudyResult& out) {
     out.claim(fmt::format("0.18 um to {} unit transistors of 0.18 um in series: the same", n), array / ratio)
         .derived_as(1, "thesis C.1: a better mirror");
     out.claim_true("the ratio of the array is closer to the ratio of sizes than that of the long transistor",
-              std::abs(array / ratio - 1) < std::abs(long_transistor / ratio - 1), "thesis C.1");
+                   std::abs(array / ratio - 1) < std::abs(long_transistor / ratio - 1), "thesis C.1");
     return {};
 }
 
@@ -46,10 +46,11 @@ Result<void> add_lengths(StudyResult& out) {
 Result<void> add_spread(StudyResult& out) {
     const std::string unit = "0 nch w=1.5u l=0.5u";
     const auto deviation = [&](int m, int n) -> Result<double> {
-        const auto chips = run_study_variants({fmt::format("mirror\n{}iin 0 in 100n\nvo out 0 {}\n", process_card, V_out) +
-                                             array_lines("a", "in", "in", "0", m, 1, unit) + array_lines("b", "out", "in", "0", 1, n, unit),
-                                         {},
-                                         ".op\n.mc 1000 process=0"});
+        const auto chips =
+            run_study_variants({fmt::format("mirror\n{}iin 0 in 100n\nvo out 0 {}\n", process_card, V_out) +
+                                    array_lines("a", "in", "in", "0", m, 1, unit) + array_lines("b", "out", "in", "0", 1, n, unit),
+                                {},
+                                ".op\n.mc 1000 process=0"});
         if (!chips) return chips.error();
         return sample_statistics(*chips, "i(vo)").cv_percent();
     };
@@ -57,7 +58,7 @@ Result<void> add_spread(StudyResult& out) {
     if (!arrays || !parallel) return arrays ? parallel.error() : arrays.error();
     out.claim("1/16 by 4 unit transistors in parallel to 4 in series: standard deviation of I_out over 1000 chips", std::abs(*arrays), "%")
         .allow_max(std::abs(*parallel),
-                 "thesis C.2: less variability, and less area, than parallel unit transistors only; the bound is the deviation of those");
+                   "thesis C.2: less variability, and less area, than parallel unit transistors only; the bound is the deviation of those");
     return {};
 }
 
@@ -90,7 +91,8 @@ Result<StudyResult> work(const StudyOptions&) {
     }
     for (const auto put : {add_lengths, add_spread})
         if (auto ok = put(out); !ok) return ok.error();
-    out.plots = {currents.describe_published("C.1: I_out is I_in over N^2"), slopes.describe_published("C.1: G_o falls as the channel lengthens (eq. 36)")};
+    out.plots = {currents.describe_published("C.1: I_out is I_in over N^2"),
+                 slopes.describe_published("C.1: G_o falls as the channel lengthens (eq. 36)")};
     return out;
 }
 

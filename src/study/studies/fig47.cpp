@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 #include <cmath>
 
-#include "study/study_netlist.hpp"
 #include "study/studies.hpp"
+#include "study/study_netlist.hpp"
 
 namespace corpuscle::studies::fig47 {
 
@@ -23,8 +23,8 @@ Result<StudyResult> work(const StudyOptions&) {
     const double I = -rest->operating_point("i(vout)"), exact = S_A * (S_B + S_C + S_D) / (S_B * S_D);
     out.claim("I_in/I_out, equations only", I_in / -rest->operating_point("i(vout2)"))
         .derived_as(exact, "thesis eq. 38 and 39, exact (errata C5, C6)");
-    auto& approximate =
-        out.claim("I_in/I_out, equations only, against eq. 40", I_in / -rest->operating_point("i(vout2)")).derived_as(256, "thesis eq. 40; INVC, E.4");
+    auto& approximate = out.claim("I_in/I_out, equations only, against eq. 40", I_in / -rest->operating_point("i(vout2)"))
+                            .derived_as(256, "thesis eq. 40; INVC, E.4");
     if (approximate.needs_explanation()) approximate.explain("eq. 40 assumes S_C >> S_B + S_D; here it is 8 against 1");
     auto& card = out.claim("I_in/I_out, with the process card", I_in / I).derived_as(exact, "thesis eq. 38 and 39");
     if (card.needs_explanation()) card.explain(length_modulation);
@@ -37,8 +37,9 @@ Result<StudyResult> work(const StudyOptions&) {
     out.claim_true("a higher supply reduces the output current, because M_C takes a larger fraction", G_dd < 0, source);
     out.claim("change of I_out for a supply higher by 0.1 V", 100 * (out_over_supply.at(supply + step) / out_over_supply.at(supply) - 1),
               "%");
-    auto& supply_effect = out.claim("change of I_DC for the same step, over I_out", (C.at(supply + step) - C.at(supply)) / I)
-                              .allow_range(0.1, 10, source + ": \"can be in the same order of I_out magnitude\" (a tenth to ten times here)");
+    auto& supply_effect =
+        out.claim("change of I_DC for the same step, over I_out", (C.at(supply + step) - C.at(supply)) / I)
+            .allow_range(0.1, 10, source + ": \"can be in the same order of I_out magnitude\" (a tenth to ten times here)");
     if (supply_effect.needs_explanation())
         supply_effect.explain(
             fmt::format("M_C at fixed voltages would change by {:.2f} of I_out; but M_B keeps the sum almost constant, and the node "
@@ -51,7 +52,8 @@ Result<StudyResult> work(const StudyOptions&) {
     transfer.add("with the process card", over_input->curve("dc", "i(vout)").scaled(1e9, -1e12));
     transfer.add(fmt::format("I_in/{:g}, eq. 38 and 39", exact), {{1, 1000}, {1e3 / exact, 1e6 / exact}})
         .add("I_in/256, eq. 40", {{1, 1000}, {1e3 / 256, 1e6 / 256}});
-    out.plots = {by_supply.describe_published("C.2: I_out depends on V_DD through M_C's drain"), transfer.describe_published("C.2: N^4, here 256")};
+    out.plots = {by_supply.describe_published("C.2: I_out depends on V_DD through M_C's drain"),
+                 transfer.describe_published("C.2: N^4, here 256")};
     return out;
 }
 

@@ -66,8 +66,8 @@ Result<StudyResult> work(const StudyOptions& options) {
             .points("at the second spike of the interval", press::frequency_at_end(*train))
             .add("force, 10 Hz per newton", force->scaled(1, 10))
             .describe_published(name == std::string_view("SA-I")
-                       ? "high in protraction, sustained and slowly decaying in the plateau, almost nothing in retraction"
-                       : "discharges in protraction and retraction only, with unequal peaks");
+                                    ? "high in protraction, sustained and slowly decaying in the plateau, almost nothing in retraction"
+                                    : "discharges in protraction and retraction only, with unequal peaks");
     out.note(
         "The thesis plots a frequency at the spike that begins the interval (3.3), so the last spike has none (errata B14); many tools "
         "plot it at the spike that ends it. Here an interval that begins in protraction and ends in the plateau counts as protraction.");

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 #include <cmath>
 
-#include "study/study_netlist.hpp"
 #include "study/studies.hpp"
+#include "study/study_netlist.hpp"
 
 namespace corpuscle::studies::fig51 {
 
@@ -29,7 +29,8 @@ Result<void> claim_sensitivity(StudyResult& out, const QuiescentPoint& nominal) 
     }
     const auto hot = quiescent_point({"temp=95"}), cold = quiescent_point({"temp=-55"});
     if (!hot || !cold) return (hot ? cold : hot).error();
-    out.claim("largest change of V_Q0 over the five corners", largest, "V").allow_min(5e-3, "E.1: sensitive to process; 5 mV is our choice");
+    out.claim("largest change of V_Q0 over the five corners", largest, "V")
+        .allow_min(5e-3, "E.1: sensitive to process; 5 mV is our choice");
     auto& c = out.claim("change of V_Q0 from -55 to 95 C", std::abs(hot->V_Q0 - cold->V_Q0), "V")
                   .allow_min(5e-3, "E.1: sensitive to temperature variations; 5 mV is our choice");
     if (c.needs_explanation())

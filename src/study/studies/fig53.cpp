@@ -24,12 +24,13 @@ Result<StudyResult> work(const StudyOptions& options) {
         "V_BN follows from V_T, n and I_SQ of the process card. Its V_T is set so that the unbiased inverter carries the published 17.5 "
         "nA; the study bias-valid shows the effect of thresholds some tens of millivolts lower";
     for (const auto& [I, printed] : {std::pair{100e-9, 100e-3}, {2e-6, 600e-3}}) {
-        auto& c =
-            out.claim(I < 1e-6 ? "typical: V_BN at 100 nA" : "typical: V_BN at 2 uA", V_BN.at(I), "V").published_as(printed, figure.source());
+        auto& c = out.claim(I < 1e-6 ? "typical: V_BN at 100 nA" : "typical: V_BN at 2 uA", V_BN.at(I), "V")
+                      .published_as(printed, figure.source());
         if (c.needs_explanation()) c.explain(why);
     }
     out.claim_true("V_BN rises with I_BIAS", V_BN.slope().between(20e-9, 2e-6).min() > 0, figure.source());
-    const auto inside = is_saturated(200e-9), below = is_saturated(0.5 * typical.working_range.from), above = is_saturated(2 * typical.working_range.to);
+    const auto inside = is_saturated(200e-9), below = is_saturated(0.5 * typical.working_range.from),
+               above = is_saturated(2 * typical.working_range.to);
     for (const auto* s : {&inside, &below, &above})
         if (!*s) return s->error();
     const char* source = "E.2: saturated in the range, in the linear region below and above it";

@@ -21,9 +21,9 @@ Result<StudyResult> work(const StudyOptions& options) {
     out.claim_true("V_REF is half the supply, within a thousandth of it, from 0.4 to 0.9 V", largest_error < 1e-3, "thesis E.2");
     const auto from = typical.working_range.from, to = typical.working_range.to;
     out.claim_true("V_BP rises with the supply", typical.sweep.curve("v(bp)").between(from, to).slope().min() > 0,
-              "E.2: as V_DD increases, so does V_REF, and V_BP and V_BN");
+                   "E.2: as V_DD increases, so does V_REF, and V_BP and V_BN");
     out.claim_true("V_BN falls as the supply rises", typical.sweep.curve("v(bn)").between(from, to).slope().max() < 0,
-              "follows from E.2: V_REF drives M4A, whose current is constant, so its bulk needs less bias");
+                   "follows from E.2: V_REF drives M4A, whose current is constant, so its bulk needs less bias");
     out.note(
         "I_BIAS is not given; it is 200 nA here, as in table 18. The text can also be read as V_BN rising with the supply, which would "
         "contradict the circuit: BN comes closer to its rail, as BP does to its own.");

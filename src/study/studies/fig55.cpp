@@ -18,11 +18,12 @@ Result<StudyResult> work(const StudyOptions& options) {
     if (!corners) return corners.error();
     const auto& c = *corners;
     out.claim_true("V_BN falls as the temperature rises", c[0].sweep.curve("v(bn)").slope().max() < 0,
-              "E.2: V_T decreases, V_BP and V_BN compensate");
+                   "E.2: V_T decreases, V_BP and V_BN compensate");
     out.claim_true("V_BP rises, so the body bias decreases", c[0].sweep.curve("v(bp)").slope().min() > 0, "E.2: as above");
     for (const auto& corner : c) out.claim(std::string(corner.name) + ": largest error of I_Q", 100 * largest_error(corner), "%");
     out.claim_true("the error of I_Q is largest in the FF corner",
-              largest_error(c[2]) > largest_error(c[1]) && largest_error(c[2]) > largest_error(c[0]), "E.2: in special for the FF corner");
+                   largest_error(c[2]) > largest_error(c[1]) && largest_error(c[2]) > largest_error(c[0]),
+                   "E.2: in special for the FF corner");
     out.claim("FF: works to", c[2].working_range.to, "C");
     out.claim("SS: works from", c[1].working_range.from, "C");
     out.note(

@@ -41,9 +41,13 @@ Result<StudyResult> work(const StudyOptions& options) {
     const auto I_A = inverters->output_current('a'), I_B = inverters->output_current('b'), G_A = inverters->transconductance('a'),
                G_B = inverters->transconductance('b');
     auto& currents = out.plot("Fig. 57a: output current, held at 0 V", "V_IN (mV)", "I_o (uA)");
-    currents.add("INVA", I_A.scaled(1e3, 1e6)).add("INVB", I_B.scaled(1e3, 1e6)).describe_published("INVA's much larger; V_IN from -350 to 350 mV");
+    currents.add("INVA", I_A.scaled(1e3, 1e6))
+        .add("INVB", I_B.scaled(1e3, 1e6))
+        .describe_published("INVA's much larger; V_IN from -350 to 350 mV");
     auto& conductances = out.plot("Fig. 57b: transconductance", "V_IN (mV)", "G_m (uS)");
-    conductances.add("INVA", G_A.scaled(1e3, 1e6)).add("INVB", G_B.scaled(1e3, 1e6)).describe_published("INVA's higher, and much more non-linear");
+    conductances.add("INVA", G_A.scaled(1e3, 1e6))
+        .add("INVB", G_B.scaled(1e3, 1e6))
+        .describe_published("INVA's higher, and much more non-linear");
     double smallest_ratio = 1e300;
     for (std::size_t k = 0; k < I_A.x.size(); ++k)
         if (std::abs(I_A.x[k]) > 0.05) smallest_ratio = std::min(smallest_ratio, std::abs(I_A.y[k] / I_B.y[k]));

@@ -27,7 +27,8 @@ Result<StudyResult> work(const StudyOptions& options) {
     for (int k = 0; k < 2; ++k) {
         const char inverter = inverter_letters[k];
         G[k] = normalise(at_700_mV->transconductance(inverter), at_700_mV->transconductance_at_zero(inverter));
-        out.plots[0].add(inverter_names[k], normalise(at_700_mV->output_current(inverter), at_700_mV->transconductance_at_zero(inverter)).scaled(1e3, 1e3));
+        out.plots[0].add(inverter_names[k],
+                         normalise(at_700_mV->output_current(inverter), at_700_mV->transconductance_at_zero(inverter)).scaled(1e3, 1e3));
         out.plots[1].add(inverter_names[k], G[k].scaled(1e3, 1));
     }
     out.plots[0].add("linear", {{-350, 350}, {350, -350}}).describe_published("INVB's is the more linear one");
@@ -37,12 +38,13 @@ Result<StudyResult> work(const StudyOptions& options) {
             out.claim(fmt::format("{}: deviation of G_m from its value at 0 within {:g} mV", inverter_names[k], 1e3 * within),
                       100 * largest_deviation(G[k], within), "%");
         out.claim_true(fmt::format("INVB's deviation is smaller within {:g} mV", 1e3 * within),
-                  largest_deviation(G[1], within) < largest_deviation(G[0], within), "E.3: INVB is still non-linear, but better");
+                       largest_deviation(G[1], within) < largest_deviation(G[0], within), "E.3: INVB is still non-linear, but better");
     }
     const auto G_more = normalise(at_800_mV->transconductance('b'), at_800_mV->transconductance_at_zero('b'));
     out.claim_true("INVB's deviation within 200 mV is smaller at 0.8 V than at 0.7 V",
-              largest_deviation(G_more, 0.2) < largest_deviation(G[1], 0.2), "E.3: even better results with higher supply voltages");
-    out.claim("INVB at 0.8 V: transconductance over that at 0.7 V", at_800_mV->transconductance_at_zero('b') / at_700_mV->transconductance_at_zero('b'), "times")
+                   largest_deviation(G_more, 0.2) < largest_deviation(G[1], 0.2), "E.3: even better results with higher supply voltages");
+    out.claim("INVB at 0.8 V: transconductance over that at 0.7 V",
+              at_800_mV->transconductance_at_zero('b') / at_700_mV->transconductance_at_zero('b'), "times")
         .allow_min(1, "E.3: the transconductance would also increase accordingly");
     if (auto& last = out.claims.back(); last.needs_explanation())
         last.explain("the bias generator keeps 200 nA at any supply, and so the transconductance");

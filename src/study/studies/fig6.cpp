@@ -70,9 +70,10 @@ Result<StudyResult> work(const StudyOptions& options) {
             if (auto ok = options.report_progress(done += 1.0 / 7); !ok) return ok.error();
         }
         const auto n = out.claims.size();
-        out.claim_true(fmt::format("{}: spike times of the digital implementation are closer to the model's than those of the chip", c.model),
-                  out.claims[n - 8].computed < out.claims[n - 2].computed,
-                  "thesis 1.3: analog blocks depend on their accuracy, linearity and noise");
+        out.claim_true(
+            fmt::format("{}: spike times of the digital implementation are closer to the model's than those of the chip", c.model),
+            out.claims[n - 8].computed < out.claims[n - 2].computed,
+            "thesis 1.3: analog blocks depend on their accuracy, linearity and noise");
         out.plots.push_back(rows);
     }
     if (auto ok = add_shared_converter(out); !ok) return ok.error();

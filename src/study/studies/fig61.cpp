@@ -43,13 +43,14 @@ struct Curves {
 /// current.
 void claim_gains(StudyResult& out, const Curves& c) {
     const auto per_current = [&](char input, double branch) { return c.coarse.transconductance_at_zero(input) / branch; };
-    const double ratio_A = per_current('a', c.coarse.supply_current('a').at(0)), ratio_C = per_current('b', 0.5 * c.coarse.supply_current('b').at(0));
+    const double ratio_A = per_current('a', c.coarse.supply_current('a').at(0)),
+                 ratio_C = per_current('b', 0.5 * c.coarse.supply_current('b').at(0));
     out.claim("INVA: G_m over the current of one branch", ratio_A, "1/V");
     out.claim("INVC: the same for its INVB, in each of the two mirrored branches", ratio_C, "1/V");
     for (const char inverter : {'b', 'a'}) {
         const auto statement = fmt::format("INVC's gain is larger than {}'s", inverter_names[inverter - 'a']);
         auto& claim = out.claim_true(statement, c.largest_gain('c') > c.largest_gain(inverter),
-                                "E.4: INVC voltage gain is also bigger; the text does not say than whose");
+                                     "E.4: INVC voltage gain is also bigger; the text does not say than whose");
         if (claim.needs_explanation())
             claim.explain(
                 inverter == 'a'
@@ -78,9 +79,9 @@ Result<StudyResult> work(const StudyOptions& options) {
         out.claim(name + ": output range with at least half of the largest gain", c.excursion(inverter), "V");
     }
     out.claim_true("INVB's output excursion is smaller than INVA's", c.swing('b') < c.swing('a'),
-              "E.4: slightly smaller, by its source degeneration (errata I15)");
+                   "E.4: slightly smaller, by its source degeneration (errata I15)");
     out.claim_true("INVC is displaced more than INVA", std::abs(c.V_Q('c') - 0.35) > std::abs(c.V_Q('a') - 0.35),
-              "E.4: INVC's characteristic curve is slightly displaced");
+                   "E.4: INVC's characteristic curve is slightly displaced");
     auto& down = out.claim_true("INVC is displaced downwards", c.V_Q('c') < 0.35, "E.4: V_Q is about 347 mV");
     if (down.needs_explanation())
         down.explain(

@@ -14,7 +14,7 @@ constexpr double largest = 0.35;           // V: half the supply, the largest ex
 /// V/sqrt(Hz) over Hz; without_bias: leaves out the noise of the bias generator.
 Result<StudyCurve> input_noise(char inverter, bool without_bias) {
     const auto found = InverterSweep::run_with_directives(fmt::format(".noise v(i{}) vin dec 10 {} {}", inverter, slow, fast),
-                                          {fmt::format("c_bias={}", without_bias ? "1000" : "0")});
+                                                          {fmt::format("c_bias={}", without_bias ? "1000" : "0")});
     if (!found) return found.error();
     return found->found.curve("noise", "inoise_spectrum");
 }
@@ -61,9 +61,10 @@ Result<StudyResult> work(const StudyOptions& options) {
     if (!rest) return rest.error();
     double taken[3];
     for (int k = 0; k < 3; ++k)
-        out.claim(fmt::format("{}: supply current at V_IN = 0", inverter_names[k]), taken[k] = rest->supply_current(inverter_letters[k]).at(0), "A");
+        out.claim(fmt::format("{}: supply current at V_IN = 0", inverter_names[k]),
+                  taken[k] = rest->supply_current(inverter_letters[k]).at(0), "A");
     out.claim_true("INVC takes more current than INVA and INVB", taken[2] > taken[0] && taken[2] > taken[1],
-              "E.4: very power inefficient (INVC is meant, errata I14)");
+                   "E.4: very power inefficient (INVC is meant, errata I14)");
     out.note(
         "The divider of the bias generator has very large resistances (E.2); its noise enters through BN and BP up to the frequency at "
         "which the capacitances at REF short it.");

@@ -14,11 +14,11 @@ struct Components {
 };
 Result<Components> components_under(double force, double seconds) {
     const auto response = run_trial({.afferent = "sa1a+lif-a",
-                                   .stimulus = "ramp-hold",
-                                   .settings = {fmt::format("ramp-hold.F_max={}", force), fmt::format("ramp-hold.t_up={}", seconds),
-                                                fmt::format("ramp-hold.t_down={}", seconds)},
-                                   .rate = 1e3,
-                                   .probes = {"I_s", "I_d"}});
+                                     .stimulus = "ramp-hold",
+                                     .settings = {fmt::format("ramp-hold.F_max={}", force), fmt::format("ramp-hold.t_up={}", seconds),
+                                                  fmt::format("ramp-hold.t_down={}", seconds)},
+                                     .rate = 1e3,
+                                     .probes = {"I_s", "I_d"}});
     if (!response) return response.error();
     const auto &s = response->probes.at("I_s"), &d = response->probes.at("I_d");
     const double up = 0.25 + seconds / 2, hold = 0.25 + seconds + 0.5, down = 0.25 + seconds + 1 + seconds / 2;

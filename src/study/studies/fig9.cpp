@@ -11,9 +11,9 @@ namespace corpuscle::studies::fig9 {
 
 Result<TrialResult> simulate_lee(std::vector<std::string> settings = {}, const char* stimulus = "press") {
     return run_trial({.afferent = "fa1-lee",
-                    .stimulus = stimulus,
-                    .settings = std::move(settings),
-                    .probes = {"I_+", "I_-", "u_+", "u_-", "a_+", "a_-"}});
+                      .stimulus = stimulus,
+                      .settings = std::move(settings),
+                      .probes = {"I_+", "I_-", "u_+", "u_-", "a_+", "a_-"}});
 }
 
 /// Number of spikes, counted as sudden falls of the membrane by more than a tenth of its largest value.
@@ -41,7 +41,8 @@ void add_component_claims(StudyResult& out, const TrialResult& response) {
     out.claim("I+ and I- in the last 100 ms of the plateau", charge(plus, press::plateau_end) + charge(minus, press::plateau_end), "C")
         .allow_range(0, 0, "thesis 2.2: no static component");
     const double up = count_resets(response.probes.at("u_+")), down = count_resets(response.probes.at("u_-"));
-    out.claim("spikes of the first neuron over all spikes until the middle of the plateau", up / press::spike_count(response.spikes, rising))
+    out.claim("spikes of the first neuron over all spikes until the middle of the plateau",
+              up / press::spike_count(response.spikes, rising))
         .allow_range(1, 1, "thesis 3.1: two independent neurons");
     out.claim("spikes of the second neuron over all spikes after it", down / press::spike_count(response.spikes, falling))
         .allow_range(1, 1, "thesis 3.1: two independent neurons");

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "study/study_netlist.hpp"
 #include "study/studies.hpp"
+#include "study/study_netlist.hpp"
 
 namespace corpuscle::studies::invc_loop {
 
@@ -32,7 +32,7 @@ vnext next 0 0.35
 )";
 
 struct Loop {
-    StudyCurve dB, phase;                               ///< phase: degrees above -180 of the closed loop's return ratio
+    StudyCurve dB, phase;                         ///< phase: degrees above -180 of the closed loop's return ratio
     double gain, unity, margin, phase_crossover;  ///< dB, Hz, degrees, Hz; turn: phase margin zero
     double gain_margin;                           ///< dB below unity at that frequency
     double inner;                                 ///< Hz: 45 degrees more than the 90 degrees of the outer pole

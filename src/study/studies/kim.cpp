@@ -40,15 +40,15 @@ Result<StudyResult> work(const StudyOptions&) {
     const auto [beta, slope] = fit_current();
     const double contact = -beta / slope;  // mm: below it the fitted current is negative
     StudyPlot plot{"Interval in the hold",
-              "depth (mm)",
-              "interval (ms)",
-              {{"published", {}, {}, StudyPlot::Style::points}, {"computed", {}, {}, StudyPlot::Style::line}}};
+                   "depth (mm)",
+                   "interval (ms)",
+                   {{"published", {}, {}, StudyPlot::Style::points}, {"computed", {}, {}, StudyPlot::Style::line}}};
     for (const auto& h : holds) {
         const double F = h.depth - contact;  // 1 N represents a millimetre beyond contact
         const auto train = simulate_train({"sa1a+lif-a",
-                                     "ramp-hold",
-                                     {fmt::format("sa1a+lif-a.k_s={}", slope), "sa1a+lif-a.beta=0", "sa1a+lif-a.k_d=0",
-                                      fmt::format("ramp-hold.F_max={}", F), "ramp-hold.t_hold=5"}});
+                                           "ramp-hold",
+                                           {fmt::format("sa1a+lif-a.k_s={}", slope), "sa1a+lif-a.beta=0", "sa1a+lif-a.k_d=0",
+                                            fmt::format("ramp-hold.F_max={}", F), "ramp-hold.t_hold=5"}});
         if (!train) return train.error();
         const double computed = 1 / measure<LastRate>(*train, {1, 5.35});
         out.claim(fmt::format("interval in the hold at {} mm", h.depth), computed, "s")

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 #include <algorithm>
 
-#include "study/study_netlist.hpp"
 #include "study/studies.hpp"
+#include "study/study_netlist.hpp"
 
 namespace corpuscle::studies::leakage {
 
@@ -74,7 +74,7 @@ Result<StudyResult> work(const StudyOptions& options) {
     if (auto ok = options.report_progress(0.9); !ok) return ok.error();
     add_claims("as printed", *standard, *I_A, out), add_claims("hv_switches=1", *high_threshold, *I_A, out);
     auto& least = out.claim_true("at 27 C the leakage of a switch is below a tenth of the published I_LEAK of 5 pA",
-                            standard->P.at(27) < 0.5e-12, "thesis 4.4: the membrane's leak is I_LEAK only");
+                                 standard->P.at(27) < 0.5e-12, "thesis 4.4: the membrane's leak is I_LEAK only");
     if (least.needs_explanation())
         least.explain(
             "table 9's switches are 2x1 with a threshold of 0.45 V in our process card. Either the foundry's leak less or the switches are "

@@ -19,9 +19,9 @@ Result<double> detection_threshold(const std::string& afferent, double f, double
         const double middle = std::sqrt(low * high);
         const auto train =
             simulate_train({afferent,
-                      "sine",
-                      {fmt::format("sine.f={}", f), fmt::format("sine.F_amp={}", middle), "sine.F_mean=0.2", "sine.duration=1"},
-                      rate});
+                            "sine",
+                            {fmt::format("sine.f={}", f), fmt::format("sine.F_amp={}", middle), "sine.F_mean=0.2", "sine.duration=1"},
+                            rate});
         if (!train) return train.error();
         (measure<SpikeCount>(*train, {0.5, 1.0}) > 0 ? high : low) = middle;
     }

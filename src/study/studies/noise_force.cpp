@@ -99,8 +99,8 @@ Result<void> add_claims(StudyResult& out, double newtons) {
     out.claim(what("oscillator's input, from dI/dF"), p->oscillator, "N");
     out.claim(what("total"), total, "N")
         .allow_max(repeatability * newtons,
-                 "thesis E.4: \"adequate for its application\"; taken here as below the sensor's own repeatability, 2 % of the force "
-                 "(FSR 400 series data sheet, Interlink)");
+                   "thesis E.4: \"adequate for its application\"; taken here as below the sensor's own repeatability, 2 % of the force "
+                   "(FSR 400 series data sheet, Interlink)");
     out.claim(what("at filter B's output"), p->filter_B, "N").allow_max(repeatability * newtons, "as above");
     out.claim(what("at filter C's output"), p->filter_C, "N").allow_max(repeatability * newtons, "as above");
     out.claim(what("total, over the 3.8 N range of the press stimulus"), 100 * total / 3.8, "%");

@@ -38,8 +38,8 @@ bool is_working(std::string_view chip, const std::vector<double>& t) {
 }
 
 std::string phase_counts(const std::vector<double>& t) {
-    return fmt::format("{:g} / {:g} / {:g} / {:g}", press::spike_count(t, P::protraction), press::spike_count(t, P::plateau), press::spike_count(t, P::retraction),
-                       press::spike_count(t, P::after));
+    return fmt::format("{:g} / {:g} / {:g} / {:g}", press::spike_count(t, P::protraction), press::spike_count(t, P::plateau),
+                       press::spike_count(t, P::retraction), press::spike_count(t, P::after));
 }
 
 /// The last condition on an axis at which the chip works, and the reason beyond it; NaN: none.
@@ -57,9 +57,9 @@ class ChipExplorer {
     std::string setting(const char* what, auto value) const { return fmt::format("{}.{}={}", chip_, what, value); }
     Condition run(Condition condition) const {
         auto response = run_trial({chip_,
-                                 "press",
-                                 {setting("supply", condition.supply), setting("temp", condition.celsius), setting("corner", corner_),
-                                  setting("hv_switches", condition.high_threshold ? 1 : 0)}});
+                                   "press",
+                                   {setting("supply", condition.supply), setting("temp", condition.celsius), setting("corner", corner_),
+                                    setting("hv_switches", condition.high_threshold ? 1 : 0)}});
         if (!response) return condition.failed = response.error().text(), condition;
         condition.response = std::move(*response), condition.works = is_working(chip_, condition.response.spikes);
         return condition;

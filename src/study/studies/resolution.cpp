@@ -13,7 +13,8 @@ Result<SpikeTimingError> digital_timing_error(const std::string& name, double bi
     const auto exact = simulate_train({name});
     if (!exact) return exact.error();
     const auto afferent = "adc+" + name;
-    const auto train = simulate_train({afferent, "press", {fmt::format("{}.bits={}", afferent, bits), fmt::format("{}.f_s={}", afferent, rate)}});
+    const auto train =
+        simulate_train({afferent, "press", {fmt::format("{}.bits={}", afferent, bits), fmt::format("{}.f_s={}", afferent, rate)}});
     if (!train) return train.error();
     return spike_timing_error(*exact, *train);
 }
@@ -47,8 +48,8 @@ Result<StudyResult> work(const StudyOptions& options) {
             if (auto ok = options.report_progress(done += 1.0 / 28); !ok) return ok.error();
         }
         out.claim_true(fmt::format("{}: fewer bits or samples reduce the resolution", name),
-                  bits.y.front() > bits.y.back() && rate.y.front() > rate.y.back(),
-                  "thesis 1.3: signal resolution loss due to conversion and quantization");
+                       bits.y.front() > bits.y.back() && rate.y.front() > rate.y.back(),
+                       "thesis 1.3: signal resolution loss due to conversion and quantization");
         by_bits.add(name, bits), by_rate.add(name, rate);
     }
     out.plots = {std::move(by_bits), std::move(by_rate)};

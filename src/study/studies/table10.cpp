@@ -32,18 +32,19 @@ Result<StudyResult> work(const StudyOptions&) {
     const auto S = compare_by([](const SimulatedArray& a) { return a.S; });
     const auto share = compare_by([](const SimulatedArray& a) { return a.A / a.A_T; });
     out.claim_true("B1 has the lowest S_eq, D1 the highest",
-              std::min_element(arrays.begin(), arrays.end(), S)->published->name == std::string_view("B1") &&
-                  std::max_element(arrays.begin(), arrays.end(), S)->published->name == std::string_view("D1"),
-              source);
+                   std::min_element(arrays.begin(), arrays.end(), S)->published->name == std::string_view("B1") &&
+                       std::max_element(arrays.begin(), arrays.end(), S)->published->name == std::string_view("D1"),
+                   source);
     out.claim_true("C1 has the largest ratio of active to total area",
-              std::max_element(arrays.begin(), arrays.end(), share)->published->name == std::string_view("C1"), source);
+                   std::max_element(arrays.begin(), arrays.end(), share)->published->name == std::string_view("C1"), source);
     const double A_T = arrays("C1").A_T;
     out.claim_true("all except A have the same total area",
-              std::all_of(arrays.begin() + 1, arrays.end(), [&](const SimulatedArray& a) { return std::abs(a.A_T / A_T - 1) < 1e-9; }), source);
+                   std::all_of(arrays.begin() + 1, arrays.end(), [&](const SimulatedArray& a) { return std::abs(a.A_T / A_T - 1) < 1e-9; }),
+                   source);
     out.claim_true("B2, C2 and D2 have the same active area, and less than B1, C1 and D1",
-              std::abs(arrays("B2").A / arrays("C2").A - 1) < 1e-9 && std::abs(arrays("D2").A / arrays("C2").A - 1) < 1e-9 &&
-                  arrays("B2").A < std::min({arrays("B1").A, arrays("C1").A, arrays("D1").A}),
-              source);
+                   std::abs(arrays("B2").A / arrays("C2").A - 1) < 1e-9 && std::abs(arrays("D2").A / arrays("C2").A - 1) < 1e-9 &&
+                       arrays("B2").A < std::min({arrays("B1").A, arrays("C1").A, arrays("D1").A}),
+                   source);
     out.claim("S_eq of A over S_eq of C2", arrays("A").S / arrays("C2").S).derived_as(1, source + ": the same");
     out.note(
         "A_T is the area of a rectangle around polysilicon and diffusion (errata U16: not its perimeter). Its margins are inferred from "

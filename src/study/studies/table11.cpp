@@ -20,23 +20,28 @@ Result<StudyResult> work(const StudyOptions&) {
     const auto I = [&](const char* name) { return ours(name).I_D; };
     out.claim("B2's current over C2's", I("B2") / I("C2")).published_as(0.25, source);
     out.claim("D2's current over C2's", I("D2") / I("C2")).published_as(4, source);
-    out.claim("A's current over C2's", I("A") / I("C2")).derived_as(find_published(rectangles, "A").I_D / find_published(rectangles, "C2").I_D, "table 11");
+    out.claim("A's current over C2's", I("A") / I("C2"))
+        .derived_as(find_published(rectangles, "A").I_D / find_published(rectangles, "C2").I_D, "table 11");
     out.claim_true("A carries more current than C2, which has the same S_eq", I("A") > I("C2"), source);
     const double V_T = ours("A").V_T;
-    out.claim_true("A, B2, C2 and D2 have the same threshold", ours("B2").V_T == V_T && ours("C2").V_T == V_T && ours("D2").V_T == V_T, source);
+    out.claim_true("A, B2, C2 and D2 have the same threshold", ours("B2").V_T == V_T && ours("C2").V_T == V_T && ours("D2").V_T == V_T,
+                   source);
     const auto shift = [&](const char* name) { return ours(name).V_T - V_T; };
-    const auto printed_shift = [&](const char* name) { return 1e-3 * (find_published(rectangles, name).V_T - find_published(rectangles, "A").V_T); };
+    const auto printed_shift = [&](const char* name) {
+        return 1e-3 * (find_published(rectangles, name).V_T - find_published(rectangles, "A").V_T);
+    };
     for (const char* name : {"B1", "C1", "D1"})
         out.claim(fmt::format("{}: threshold minus A's", name), shift(name), "V")
             .derived_as(printed_shift(name), "table 11")
             .explain(
                 "set so that it carries the published current with the specific current of the short unit transistor; the true specific "
                 "current differs with geometry");
-    out.claim_true(
-        "as published, V_T rises as L falls and as W grows: no drain-induced lowering, the drain being at 0 V",
-        find_published(rectangles, "A").V_T > find_published(rectangles, "B1").V_T && find_published(rectangles, "D1").V_T > find_published(rectangles, "C1").V_T &&
-            find_published(rectangles, "C1").V_T > find_published(rectangles, "B1").V_T && find_published(rectangles, "D1").V_T > find_published(rectangles, "A").V_T,
-        "errata U13, against \"due to DIBL\" (B.1, C.1)");
+    out.claim_true("as published, V_T rises as L falls and as W grows: no drain-induced lowering, the drain being at 0 V",
+                   find_published(rectangles, "A").V_T > find_published(rectangles, "B1").V_T &&
+                       find_published(rectangles, "D1").V_T > find_published(rectangles, "C1").V_T &&
+                       find_published(rectangles, "C1").V_T > find_published(rectangles, "B1").V_T &&
+                       find_published(rectangles, "D1").V_T > find_published(rectangles, "A").V_T,
+                   "errata U13, against \"due to DIBL\" (B.1, C.1)");
 
     add_sum_rule(out, rectangles, 1e-9, "errata U7: g_md in uS, not nS");
     const auto& d2 = find_published(rectangles, "D2");

@@ -34,7 +34,7 @@ void add_text(StudyResult& out, const SimulatedArrays& ours) {
     const auto gain = [](const SimulatedArray& a, const SimulatedArray& b) { return a.gain() < b.gain(); };
     const auto highest_gain = std::max_element(ours.begin(), ours.end(), gain);
     out.claim_true("B1 has the highest V_A and the largest g_mg/g_md; B2's is lower at the same total area",
-              highest_gain->published->name == std::string_view("B1") && V_A("B1") > V_A("B2"), source);
+                   highest_gain->published->name == std::string_view("B1") && V_A("B1") > V_A("B2"), source);
     const double a = ours("A").g_by_I();
     double worst_difference = 0;
     for (const char* name : {"B2", "C2", "D2"}) worst_difference = std::max(worst_difference, std::abs(ours(name).g_by_I() / a - 1));
@@ -50,12 +50,15 @@ void add_text(StudyResult& out, const SimulatedArrays& ours) {
               (1 + slope_range.second->bulk_ratio()) / (1 + slope_range.first->bulk_ratio()))
         .derived_as(1.276 / 1.265, source + ": similar; table 12");
     out.claim("g_mg/A: D2's over B2's, of equal active area", ours("D2").g_by_A() / ours("B2").g_by_A())
-        .derived_as(find_published(rectangles, "D2").g_by_A / find_published(rectangles, "B2").g_by_A, source + ": widely different; table 12");
+        .derived_as(find_published(rectangles, "D2").g_by_A / find_published(rectangles, "B2").g_by_A,
+                    source + ": widely different; table 12");
 }
 
 void add_mismatch_text(StudyResult& out, const SimulatedArrays& ours, const std::vector<double>& sigma) {
     const std::string source = "thesis B.1";
-    const auto of = [&](const char* name) { return sigma[static_cast<std::size_t>(&find_published(rectangles, name) - published_rectangles)]; };
+    const auto of = [&](const char* name) {
+        return sigma[static_cast<std::size_t>(&find_published(rectangles, name) - published_rectangles)];
+    };
     for (const char* name : {"B2", "C2", "D2"})
         out.claim(fmt::format("{}: deviation over A's, which has a quarter of its area", name), of(name) / of("A"))
             .derived_as(0.5, source + ": half; errata U14: inversely proportional to the square root of the area, not proportional");
@@ -65,7 +68,8 @@ void add_mismatch_text(StudyResult& out, const SimulatedArrays& ours, const std:
         c.explain(
             fmt::format("B1's deviation is {:.2f} % and C1's {:.2f} %; their uncertainty of {:.1f} % does not separate them. By the card's "
                         "law they are {:.2f} and {:.2f} %",
-                        of("B1"), of("C1"), mismatch_uncertainty(), ours("B1").predicted_mismatch(ours("B1").g_by_I()), ours("C1").predicted_mismatch(ours("C1").g_by_I())));
+                        of("B1"), of("C1"), mismatch_uncertainty(), ours("B1").predicted_mismatch(ours("B1").g_by_I()),
+                        ours("C1").predicted_mismatch(ours("C1").g_by_I())));
 }
 
 Result<StudyResult> work(const StudyOptions&) {

@@ -19,11 +19,11 @@ Result<StudyResult> work(const StudyOptions&) {
     const std::string source = "thesis B.2";
     const auto A = [&](const char* name) { return ours(name).A; };
     out.claim("E's active area over G1's", A("E") / A("G1")).published_as(4, source + ": about 4; errata U18: 3.63");
-    out.claim_true("G1, G2 and G3 have the same active area", std::abs(A("G1") / A("G2") - 1) < 1e-9 && std::abs(A("G1") / A("G3") - 1) < 1e-9,
-              source);
+    out.claim_true("G1, G2 and G3 have the same active area",
+                   std::abs(A("G1") / A("G2") - 1) < 1e-9 && std::abs(A("G1") / A("G3") - 1) < 1e-9, source);
     const auto& A_T = [&](const char* name) { return ours(name).A_T; };
     out.claim_true("E, G1, G2 and G3 have the same total area by the rule of table 10",
-              std::abs(A_T("G1") / A_T("E") - 1) < 1e-9 && A_T("G1") == A_T("G2") && A_T("G1") == A_T("G3"), source);
+                   std::abs(A_T("G1") / A_T("E") - 1) < 1e-9 && A_T("G1") == A_T("G2") && A_T("G1") == A_T("G3"), source);
     out.claim("G1's S_eq over that of one unit transistor, eight in series", ours("G1").S / (*rectangular)("A").S)
         .derived_as(0.125, source + ": a rectangular series array");
     out.claim("G3's S_eq over A's", ours("G3").S / (*rectangular)("A").S).allow_range(0.8, 1.25, source + ": similar (0.8 to 1.25 here)");

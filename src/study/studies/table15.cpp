@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "study/study_netlist.hpp"
 #include "study/studies.hpp"
+#include "study/study_netlist.hpp"
 #include "study/thesis/arrays.hpp"
 
 namespace corpuscle::studies::table15 {
@@ -15,7 +15,8 @@ void add_errata(StudyResult& out) {
     for (const auto& a : published_trapezoids) {
         out.claim(fmt::format("{}: g_mg over A (table 13), as printed", a.name), 1e-6 * a.g_mg / a.A, "S/um^2")
             .published_as(1e-6 * a.g_by_A, "table 15, nS corrected to uS: errata U9");
-        out.claim(fmt::format("{}: g_mb/g_mg by table 14 as printed", a.name), a.g_mb / a.g_mg).published_as(a.bulk_ratio, "table 15, errata U5");
+        out.claim(fmt::format("{}: g_mb/g_mg by table 14 as printed", a.name), a.g_mb / a.g_mg)
+            .published_as(a.bulk_ratio, "table 15, errata U5");
     }
 }
 
@@ -35,13 +36,15 @@ void add_text(StudyResult& out, const SimulatedArrays& ours, const SimulatedArra
 
 void add_mismatch_text(StudyResult& out, const std::vector<double>& sigma, double of_a) {
     const std::string source = "thesis B.2";
-    const auto of = [&](const char* name) { return sigma[static_cast<std::size_t>(&find_published(trapezoids, name) - published_trapezoids)]; };
+    const auto of = [&](const char* name) {
+        return sigma[static_cast<std::size_t>(&find_published(trapezoids, name) - published_trapezoids)];
+    };
     out.claim("E's deviation over G1's", of("E") / of("G1")).derived_as(2.36 / 5.77, source + ": half; table 15").explain("");
     out.claim("E's deviation over G1's, by the areas of table 13", std::sqrt(0.6048 / 2.1924))
         .derived_as(2.36 / 5.77, "errata U18: 3.63 times the area")
         .explain("in addition E is in stronger inversion with a lower g_mg/I_D");
     out.claim_true("G3's deviation is much larger than G1's and G2's", of("G3") > 1.5 * std::max(of("G1"), of("G2")),
-              source + "; a factor of 1.5 here, 2 as published");
+                   source + "; a factor of 1.5 here, 2 as published");
     auto& g3 = out.claim("G3's deviation over A's", of("G3") / of_a).derived_as(14.9 / 15.6, source + ": similar; tables 15 and 12");
     if (g3.needs_explanation()) g3.explain("as for G3 itself: its unit transistor at the source is not fully saturated");
     out.claim("G2's deviation over G1's", of("G2") / of("G1")).derived_as(7.46 / 5.77, source + ": slightly more; table 15");

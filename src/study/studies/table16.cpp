@@ -4,8 +4,8 @@
 #include <cmath>
 #include <sstream>
 
-#include "study/study_netlist.hpp"
 #include "study/studies.hpp"
+#include "study/study_netlist.hpp"
 
 namespace corpuscle::studies::table16 {
 
@@ -95,8 +95,9 @@ Result<StudyResult> work(const StudyOptions& options) {
         }
         const auto source = fmt::format("table {}", row.table);
         auto& area = areas[std::string_view(row.name).starts_with("INV") ? std::string(row.name, 4) : source];
-        auto& claim = out.claim_true(fmt::format("table {}: {} is {:g}x{:g} of {:g}/{:g} um", row.table, row.name, row.m, row.n, row.W, row.L),
-                                as_printed(row, *c, area), source);
+        auto& claim =
+            out.claim_true(fmt::format("table {}: {} is {:g}x{:g} of {:g}/{:g} um", row.table, row.name, row.m, row.n, row.W, row.L),
+                           as_printed(row, *c, area), source);
         if (claim.needs_explanation()) claim.explain(fmt::format("errata {}", row.erratum));
     }
     out.claim("gate area of the bias generator", areas["table 16"], "um^2");

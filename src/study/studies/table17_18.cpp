@@ -55,8 +55,8 @@ void claim(StudyResult& out, const InverterCase& row, std::size_t variation, con
     const double error = std::abs(100 * c.deviation());
     if (c.needs_explanation()) c.explain(reason(row, variation, voltage));
     if (variation != 1) return;
-    auto& tolerance_claim =
-        out.claim(prefix + "relative error of that deviation", error, "%").allow_max(tolerance, "decided in advance, with A_VT of table 12");
+    auto& tolerance_claim = out.claim(prefix + "relative error of that deviation", error, "%")
+                                .allow_max(tolerance, "decided in advance, with A_VT of table 12");
     if (tolerance_claim.needs_explanation()) tolerance_claim.explain(divider_reason);
 }
 
@@ -93,7 +93,8 @@ Result<StudyResult> work(const StudyOptions& options) {
             if (!chips) return chips.error();
             const auto V = sample_statistics(*chips, row.voltage), I = sample_statistics(*chips, row.current);
             claim(out, row, k, V, true), claim(out, row, k, I, false);
-            V_plot.add(variations[k].name, histogram_of(V.values).scaled(1e3, 1)), I_plot.add(variations[k].name, histogram_of(I.values).scaled(1e9, 1));
+            V_plot.add(variations[k].name, histogram_of(V.values).scaled(1e3, 1)),
+                I_plot.add(variations[k].name, histogram_of(I.values).scaled(1e9, 1));
             deviations[row.is_fitted ? 0 : 1][k] = I.cv_percent();
         }
         out.plots.push_back(std::move(V_plot)), out.plots.push_back(std::move(I_plot));

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 #include <algorithm>
 
-#include "study/study_netlist.hpp"
 #include "study/studies.hpp"
+#include "study/study_netlist.hpp"
 
 namespace corpuscle::studies::table1_2 {
 
@@ -63,7 +63,7 @@ Result<StudyResult> work(const StudyOptions&) {
         }
         matches = matches && m == row.m && n == row.n && W == row.W * 1e-6;
         auto& c = out.claim_true(fmt::format("{}: {:g} by {:g} of {:g}/0.5 um", row.name, row.m, row.n, row.W), matches,
-                            fmt::format("table {}", row.table));
+                                 fmt::format("table {}", row.table));
         c.explain_if_needed(row.reason);
     }
     const auto& all = (*circuit)->elements;

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "study/study_netlist.hpp"
 #include "study/studies.hpp"
+#include "study/study_netlist.hpp"
 
 namespace corpuscle::studies::table4 {
 
@@ -35,11 +35,13 @@ Result<void> report_sizes(StudyResult& out) {
     }
     const auto q = by_16->operating_point("i(vis)");
     out.claim("table 16: replica current at 200 nA", q, "A").derived_as(I_BIASB, "thesis E.2: I_Q is I_BIAS");
-    out.claim("table 16: V_BN at 200 nA", by_16->operating_point("v(bn)"), "V").allow_range(100e-3, 600e-3, "thesis E.2: 100 to 600 mV over its range");
+    out.claim("table 16: V_BN at 200 nA", by_16->operating_point("v(bn)"), "V")
+        .allow_range(100e-3, 600e-3, "thesis E.2: 100 to 600 mV over its range");
     out.claim("V_REF", by_16->operating_point("v(ref)"), "V").derived_as(V_DD / 2, "thesis 4.3.1, errata S12: half of V_DD, V_SS being 0");
     StudyPlot& p = out.plot("The replica's current over I_BIASB", "I_BIASB (nA)", "I_Q (nA)");
     p.add("table 4 as printed", by_4->curve("dc", "i(vis6)").between(0, 3).scaled(1e3, 1e9));
-    p.add("table 4, N arrays of 1.5 um", by_4->curve("dc", "i(vis1)").between(0, 3).scaled(1e3, 1e9)).add("equal", {{20, 3000}, {20, 3000}});
+    p.add("table 4, N arrays of 1.5 um", by_4->curve("dc", "i(vis1)").between(0, 3).scaled(1e3, 1e9))
+        .add("equal", {{20, 3000}, {20, 3000}});
     p.log_x = p.log_y = true;
     return {};
 }

@@ -13,7 +13,7 @@ namespace corpuscle::studies::touchsim {
 
 constexpr auto measured = "TouchSim's response, measured: median, noise on";
 constexpr double E_star = 1.19 / (2 * 5e-3 * 2e-3);  // Pa: from TouchSim's 1.19 N for a flat punch of 5 mm, 2 mm deep, on a half-space
-constexpr TimeWindow end_of_hold{0.575, 0.625};         // s, the last 50 ms
+constexpr TimeWindow end_of_hold{0.575, 0.625};      // s, the last 50 ms
 
 /// Peak and mean of protraction, mean and end of the hold, peak and mean of retraction; Hz.
 struct Rates {
@@ -43,7 +43,8 @@ Rates rates_of(const std::vector<double>& train) {
         const double x = measure<PeakRate>(train, s);
         return std::isfinite(x) ? x : 0;
     };
-    return {peak(press::protraction), mean(press::protraction), mean(press::plateau), mean(end_of_hold), peak(press::retraction), mean(press::retraction)};
+    return {peak(press::protraction), mean(press::protraction), mean(press::plateau),
+            mean(end_of_hold),        peak(press::retraction),  mean(press::retraction)};
 }
 
 double median(std::vector<double> v) {
@@ -211,13 +212,16 @@ Result<void> report_press(StudyResult& out) {
     if (!fa1) return fa1.error();
     constexpr auto bound = "our bound after Birznieks et al. 2001, as described in thesis 1.2";
     const auto peak = [](const std::vector<double>& t, const TimeWindow& s) { return measure<PeakRate>(t, s); };
-    out.claim("4 N: SA-I, peak of protraction over the end of the hold", peak(*sa1, press::protraction) / measure<LastRate>(*sa1, press::plateau))
+    out.claim("4 N: SA-I, peak of protraction over the end of the hold",
+              peak(*sa1, press::protraction) / measure<LastRate>(*sa1, press::plateau))
         .allow_range(2, 3, bound);
-    out.claim("4 N: SA-I, spikes after 40 % of retraction", press::spike_count(*sa1, {press::retraction.from + 0.4 * 0.125, press::after.to}), "spikes")
+    out.claim("4 N: SA-I, spikes after 40 % of retraction",
+              press::spike_count(*sa1, {press::retraction.from + 0.4 * 0.125, press::after.to}), "spikes")
         .allow_max(1, bound);
     out.claim("4 N: FA-I, peak of protraction over that of retraction", peak(*fa1, press::protraction) / peak(*fa1, press::retraction))
         .allow_range(1.2, 1.5, bound);
-    out.claim("4 N: FA-I, spikes in the last 100 ms of the hold", press::spike_count(*fa1, press::plateau_end), "spikes").allow_max(0, bound);
+    out.claim("4 N: FA-I, spikes in the last 100 ms of the hold", press::spike_count(*fa1, press::plateau_end), "spikes")
+        .allow_max(0, bound);
     return {};
 }
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "study/study_netlist.hpp"
 #include "study/studies.hpp"
+#include "study/study_netlist.hpp"
 
 namespace corpuscle::studies::transducer_loop {
 

@@ -30,10 +30,10 @@ AfferentMeasures::AfferentMeasures(const SweepForce& nominal, bool circuit, std:
     for (const auto& phase : nominal.phases)
         for (std::size_t m = 0; m < std::size(measures); ++m)
             available_.push_back({Kind::phase,
-                              m,
-                              phase.name,
-                              {fmt::format("{}.{}", measures[m].name, phase.name), std::string(measures[m].unit),
-                               fmt::format("{} ({})", measures[m].description, phase.name)}});
+                                  m,
+                                  phase.name,
+                                  {fmt::format("{}.{}", measures[m].name, phase.name), std::string(measures[m].unit),
+                                   fmt::format("{} ({})", measures[m].description, phase.name)}});
 }
 
 Result<void> AfferentMeasures::select(const std::optional<std::vector<LocatedText>>& names) {
@@ -66,7 +66,7 @@ Result<std::size_t> AfferentMeasures::require_column(const LocatedText& name) {
         if (entry.kind != Kind::phase) listed += (listed.empty() ? "" : ", ") + entry.column.name;
     }
     return name.error_here(fmt::format("unknown measure '{}'{} (known: {}; and for a phase, such as {})", name.text,
-                                  did_you_mean(name.text, names), listed, names.back()));
+                                       did_you_mean(name.text, names), listed, names.back()));
 }
 
 std::vector<double> AfferentMeasures::values(const SweepForce& force, const ItemResponse& response) const {

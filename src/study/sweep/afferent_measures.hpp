@@ -10,9 +10,9 @@ namespace corpuscle::sweeps {
 
 /// The result of one simulated item.
 struct ItemResponse {
-    std::span<const double> spikes;                   ///< s
+    std::span<const double> spikes;                        ///< s
     double power = 0, sensor_power = 0, time_outside = 0;  ///< of a circuit: W, W, s
-    std::vector<double> time_outside_ranges = {};              ///< for each of its ranges, s
+    std::vector<double> time_outside_ranges = {};          ///< for each of its ranges, s
     double iterations = 0;
 };
 

@@ -14,9 +14,9 @@
 namespace corpuscle::sweeps {
 namespace {
 
+using circuit::AnalysisContext;
 using circuit::Circuit;
 using circuit::RunOutcome;
-using circuit::AnalysisContext;
 
 constexpr std::string_view spike_measures[] = {"spikes", "first_spike", "last_spike", "mean_interval"};
 
@@ -109,8 +109,8 @@ Result<void> AnalysesSweep::select_measures(const SweepText& spec) {
             for (std::size_t n = 1; n < nominal_->nodes.size(); ++n) all.push_back(fmt::format("v({})", nominal_->nodes[n]));
             const std::vector<std::string_view> names(all.begin(), all.end());
             return name.error_here(fmt::format("the netlist has no number '{}'{} (it has {}; voltages are v(NODE), currents i(SOURCE))",
-                                          name.text, did_you_mean(name.text, names),
-                                          known.empty() ? "none of its own" : fmt::format("{}", fmt::join(known, ", "))));
+                                               name.text, did_you_mean(name.text, names),
+                                               known.empty() ? "none of its own" : fmt::format("{}", fmt::join(known, ", "))));
         }
         measures_.push_back({name.text, unit_of(name.text), ""});
         return measures_.size() - 1;
@@ -128,7 +128,8 @@ Result<void> AnalysesSweep::select_measures(const SweepText& spec) {
         }};
     if (auto ok = set_limits(spec, limiting, measures_); !ok) return ok;
     if (measures_.empty())
-        return spec.netlist->error_here("the netlist has no number of its own (.meas, .print op); name the measures: measures = [\"v(out)\"]");
+        return spec.netlist->error_here(
+            "the netlist has no number of its own (.meas, .print op); name the measures: measures = [\"v(out)\"]");
     return {};
 }
 

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "signal/ascii_text.hpp"
 #include "signal/elementary.hpp"
 #include "signal/parameter.hpp"
 #include "signal/quantity.hpp"
-#include "signal/ascii_text.hpp"
 #include "study/sweep/sobol.hpp"
 
 namespace corpuscle::sweeps {
@@ -55,7 +55,7 @@ class AxisReader {
     /// Rejects keys that the method does not use.
     Result<void> accept_only(std::initializer_list<std::string_view> known) const {
         const std::pair<std::string_view, const OptionalLocatedText*> all[] = {
-            {"from", &spec_.from}, {"to", &spec_.to},       {"count", &spec_.count},       {"log", &spec_.log},
+            {"from", &spec_.from}, {"to", &spec_.to},       {"count", &spec_.count},  {"log", &spec_.log},
             {"mean", &spec_.mean}, {"sigma", &spec_.sigma}, {"at_least", &spec_.min}, {"at_most", &spec_.max}};
         for (const auto& [name, value] : all)
             if (*value && std::find(known.begin(), known.end(), name) == known.end())
@@ -98,10 +98,10 @@ class AxisReader {
         if (*count == 1 && axis.first != axis.second) return error_at(*spec_.count, "count must be 2 or more, because from and to differ");
         for (std::int64_t k = 0; k < *count; ++k) {
             const double fraction = *count == 1 ? 0 : static_cast<double>(k) / static_cast<double>(*count - 1);
-            axis.values.push_back(k == 0            ? axis.first
-                                  : k == *count - 1 ? axis.second
-                                  : axis.is_logarithmic  ? axis.first * num::exp(fraction * num::log(axis.second / axis.first))
-                                                    : axis.first + fraction * (axis.second - axis.first));
+            axis.values.push_back(k == 0                ? axis.first
+                                  : k == *count - 1     ? axis.second
+                                  : axis.is_logarithmic ? axis.first * num::exp(fraction * num::log(axis.second / axis.first))
+                                                        : axis.first + fraction * (axis.second - axis.first));
         }
         return {};
     }
@@ -183,8 +183,8 @@ public:
     Result<SweepAxis> read(SamplingSpec& drawing) const {
         SweepAxis axis{target_.column};
         if (std::find(std::begin(methods), std::end(methods), method_) == std::end(methods))
-            return error_at(*spec_.distribution, fmt::format("how = \"{}\" is unknown{} (there are {})", method_, did_you_mean(method_, methods),
-                                                    fmt::join(methods, ", ")));
+            return error_at(*spec_.distribution, fmt::format("how = \"{}\" is unknown{} (there are {})", method_,
+                                                             did_you_mean(method_, methods), fmt::join(methods, ", ")));
         if (target_.labels_only && method_ != "list")
             return missing(fmt::format("it takes labels only: list = [\"{}\", ...]", target_.column.name == "corner" ? "ss" : "..."));
         if (auto ok = method_ == "grid" ? grid(axis) : method_ == "list" ? list(axis) : sampled(axis, drawing); !ok) return ok.error();
@@ -199,7 +199,9 @@ bool is_sampled(const AxisSpec& given) {
     return method == "uniform" || method == "normal" || method == "latin" || method == "sobol";
 }
 
-Result<SweepAxis> axis_of(const AxisSpec& given, const VariedQuantity& target, SamplingSpec& drawing) { return AxisReader(given, target).read(drawing); }
+Result<SweepAxis> axis_of(const AxisSpec& given, const VariedQuantity& target, SamplingSpec& drawing) {
+    return AxisReader(given, target).read(drawing);
+}
 
 Result<std::int64_t> parse_integer(const LocatedText& given, std::string_view name, double min, double max) {
     const auto value = parse_quantity(given.text, "");

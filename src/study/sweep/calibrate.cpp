@@ -9,17 +9,17 @@
 #include <optional>
 
 #include "circuit/hierarchical_names.hpp"
+#include "signal/ascii_text.hpp"
 #include "signal/parameter.hpp"
 #include "signal/thread_pool.hpp"
-#include "signal/ascii_text.hpp"
 
 namespace corpuscle {
 namespace {
 
 using circuit::Chip;
 using circuit::ChipResponse;
-using circuit::CircuitAfferentFactory;
 using circuit::ChipSample;
+using circuit::CircuitAfferentFactory;
 using Codes = std::vector<int>;
 
 /// A chip to press with these codes, and its response.
@@ -194,8 +194,8 @@ double Trim::value(int code, int bits) const {
     return is_integer ? std::max(1.0, std::round(value)) : value;
 }
 
-Result<Trim> trim_of(const std::string& netlist, const std::vector<circuit::NetlistOverride>& knobs, std::vector<std::string> names, double range,
-                     bool is_integer) {
+Result<Trim> trim_of(const std::string& netlist, const std::vector<circuit::NetlistOverride>& knobs, std::vector<std::string> names,
+                     double range, bool is_integer) {
     const auto read = circuit::apply_overrides(netlist, knobs);
     if (!read) return read.error();
     const auto circuit = read->elaborate();

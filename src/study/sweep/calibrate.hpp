@@ -17,7 +17,7 @@ namespace corpuscle {
 struct Trim {
     std::vector<std::string> names;  ///< numeric netlist parameters: "i_leak"; "rect.p1b.m" and "rect.n2b.m" are switched together
     double designed = 0;
-    double range = 0.5;  ///< relative change at the largest code
+    double range = 0.5;       ///< relative change at the largest code
     bool is_integer = false;  ///< columns of an array: rounded to the nearest integer, at least 1
 
     double value(int code, int bits) const;
@@ -44,7 +44,7 @@ struct CalibratedChip {
     int bits = -1;                              ///< number of bits with which it meets the limits: 0 without calibration; -1 if none
     int presses = 0;                            ///< total number of presses
     std::vector<double> spikes_before, spikes;  ///< s, before calibration and after
-    bool diverged = false;                          ///< did not converge without calibration
+    bool diverged = false;                      ///< did not converge without calibration
 };
 
 /// Calibrates each chip separately, from coarse steps to fine ones: with one bit, then two, and so on. From the best codes so far, each

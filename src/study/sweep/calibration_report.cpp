@@ -20,7 +20,8 @@ long CalibrationResult::total_presses() const {
 
 double CalibrationResult::mean_presses() const {
     const auto trimmed = chips.size() - count_within_limits(0);
-    return trimmed == 0 ? 0 : static_cast<double>(total_presses() - static_cast<long>(count_within_limits(0))) / static_cast<double>(trimmed);
+    return trimmed == 0 ? 0
+                        : static_cast<double>(total_presses() - static_cast<long>(count_within_limits(0))) / static_cast<double>(trimmed);
 }
 
 std::string CalibrationResult::names() const {
@@ -45,8 +46,8 @@ std::string describe_frame_error(const ChipCalibration& options, const std::vect
     for (const auto& set : all) {
         out += fmt::format("{:{}}", set.names(), width);
         for (int b = 0; b <= options.bits; ++b)
-            out += fmt::format("{:{}.1f}{}", 100 * static_cast<double>(set.count_within_limits(b)) / static_cast<double>(set.chips.size()), b == 0 ? 8 : 7,
-                               " %");
+            out += fmt::format("{:{}.1f}{}", 100 * static_cast<double>(set.count_within_limits(b)) / static_cast<double>(set.chips.size()),
+                               b == 0 ? 8 : 7, " %");
         out += fmt::format("  {:.1f}\n", set.mean_presses());
     }
     for (const auto& t : all.empty() ? std::vector<Trim>() : all[0].trims)

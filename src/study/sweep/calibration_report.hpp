@@ -12,8 +12,9 @@ struct CalibrationResult {
     std::vector<Trim> trims;
     std::vector<CalibratedChip> chips;
 
-    std::size_t count_within_limits(int bits) const;  ///< number of chips that meet the limits with at most this many bits; 0: without calibration
-    long total_presses() const;              ///< of all chips
+    std::size_t count_within_limits(
+        int bits) const;         ///< number of chips that meet the limits with at most this many bits; 0: without calibration
+    long total_presses() const;  ///< of all chips
     /// Mean over the chips that do not meet the limits without calibration.
     double mean_presses() const;
     std::string names() const;

@@ -68,9 +68,9 @@ Result<void> ChipSweep::select_measures(const SweepText& spec) {
     afferent_measures_ = std::make_unique<AfferentMeasures>(*force_.nominal(), true, ranges);
     if (auto ok = afferent_measures_->select(spec.measures); !ok) return ok;
     const MeasureLookup limiting{[&](const LocatedText& name) { return afferent_measures_->require_column(name); },
-                            [&](const LocatedText& model, std::size_t column) {
-                                return model_measure(model, force_, {afferent_measures_->columns()[column].name, model.location});
-                            }};
+                                 [&](const LocatedText& model, std::size_t column) {
+                                     return model_measure(model, force_, {afferent_measures_->columns()[column].name, model.location});
+                                 }};
     if (auto ok = set_limits(spec, limiting, afferent_measures_->columns()); !ok) return ok;
     measures_ = afferent_measures_->columns();
     return {};
@@ -83,7 +83,7 @@ Result<void> ChipSweep::select_probes(const SweepText& spec) {
         if (!found) return word.error_here(found.error().message);
         if (!*found)
             return word.error_here(fmt::format("traces: {} has no node or device '{}'{}", netlist_.name(), word.text,
-                                          circuit::suggest_probe(*nominal_->circuit, word.text)));
+                                               circuit::suggest_probe(*nominal_->circuit, word.text)));
         probe_names_.push_back(**found);
     }
     if (probe_names_.empty()) return {};
@@ -147,7 +147,8 @@ Result<std::unique_ptr<Sweep>> ChipSweep::make(const SweepText& spec, const std:
     if (auto ok = s.select_probes(spec); !ok) return ok.error();
     s.metadata_ = first_metadata(spec, s.nominal_->circuit->title);
     for (auto& fact : s.netlist_.metadata()) s.metadata_.push_back(std::move(fact));
-    if (auto recorded = s.force_.recording_summary(); !recorded.empty()) s.metadata_.push_back({"recording " + s.force_.name(), std::move(recorded)});
+    if (auto recorded = s.force_.recording_summary(); !recorded.empty())
+        s.metadata_.push_back({"recording " + s.force_.name(), std::move(recorded)});
     s.add_mismatch_metadata(s.netlist_.name(), *s.nominal_->circuit);
     return std::unique_ptr<Sweep>(std::move(out));
 }
@@ -183,7 +184,8 @@ long ChipSweep::most_iterations(const std::function<bool()>& stop) const {
     const auto response =
         circuit::run_chip_scalar({0, nominal_, circuit::chip_sample_of(*nominal_->circuit), force.samples, force.clock.T()}, options);
     if (response.error && response.error->code == ErrorCode::interrupted) return 0;
-    nominal_iteration_limit_ = response.error ? 0 : static_cast<long>(iteration_limit_factor * static_cast<double>(response.stats.iterations));
+    nominal_iteration_limit_ =
+        response.error ? 0 : static_cast<long>(iteration_limit_factor * static_cast<double>(response.stats.iterations));
     return *nominal_iteration_limit_;
 }
 
@@ -201,7 +203,8 @@ ItemOutcome ChipSweep::outcome(std::int64_t item, const ActiveChip& at, ChipResp
     out.item = item, out.ran_alone = response.is_scalar;
     out.steps = response.stats.steps, out.iterations = response.stats.iterations;
     if (response.error) return out;
-    if (response.hit_iteration_limit) out.end = ItemEnd::iteration_limit, out.reason = fmt::format("stopped after {} iterations", response.stats.iterations);
+    if (response.hit_iteration_limit)
+        out.end = ItemEnd::iteration_limit, out.reason = fmt::format("stopped after {} iterations", response.stats.iterations);
     ItemResponse measured;
     measured.spikes = response.spikes, measured.iterations = static_cast<double>(response.stats.iterations);
     const double T = at.force->clock.T(), seconds = response.energy_use.seconds;
@@ -212,7 +215,7 @@ ItemOutcome ChipSweep::outcome(std::int64_t item, const ActiveChip& at, ChipResp
     }
     measured.time_outside_ranges.resize(nominal_->operating_ranges.size());
     out.measures = response.hit_iteration_limit ? std::vector<double>(measures_.size(), std::numeric_limits<double>::quiet_NaN())
-                                   : afferent_measures_->values(*at.force, measured);
+                                                : afferent_measures_->values(*at.force, measured);
     if (!train_names_.empty()) out.spikes.push_back(std::move(response.spikes));
     out.probes = std::move(response.probes);
     out.probes.resize(probe_names_.size());
@@ -255,7 +258,8 @@ Result<void> ChipSweep::run_items(const NextItem& next, const OutcomeHandler& on
     };
     const auto ended = [&](const Chip& chip, ChipResponse&& response) {
         const auto at = active.find(chip.id);
-        if (!response.error || response.error->code != ErrorCode::interrupted) on_outcome(outcome(chip.id, at->second, std::move(response)));
+        if (!response.error || response.error->code != ErrorCode::interrupted)
+            on_outcome(outcome(chip.id, at->second, std::move(response)));
         active.erase(at);
     };
     const auto done = circuit::run_chips(nominal_, next_chip, ended, options);

@@ -83,8 +83,8 @@ Result<void> dump_results(const SweepResults& results, const std::function<bool(
     Result<void> each;
     if (should_continue)
         each = results.for_each_row([&](const SweepResults::Row& row) {
-            auto text =
-                fmt::format("{},{},{},{},{},{}", row.item, end_name(row.end), row.steps, row.iterations, row.ran_alone ? 1 : 0, field(row.reason));
+            auto text = fmt::format("{},{},{},{},{},{}", row.item, end_name(row.end), row.steps, row.iterations, row.ran_alone ? 1 : 0,
+                                    field(row.reason));
             for (std::size_t k = 0; k < row.axes.size(); ++k) text += "," + number(row.axes[k], results.axes()[k]);
             for (std::size_t k = 0; k < row.measures.size(); ++k) text += "," + number(row.measures[k], results.measures()[k]);
             ok = spikes.put(row.item, results.train_names().size(), text);

@@ -58,9 +58,10 @@ std::string FiringLimits::text() const {
     for (const auto& p : phases)
         out += fmt::format("{}{}", out.empty() ? "" : ", ",
                            p.min == p.max ? fmt::format("{:g}", p.min) : fmt::format("{:g} to {:g}", p.min, p.max));
-    return fmt::format(
-        "{} spikes{}", out,
-        first_spike_tolerance > 0 ? fmt::format(", the first at {} +- {}", format_quantity(first_spike, "s"), format_quantity(first_spike_tolerance, "s")) : "");
+    return fmt::format("{} spikes{}", out,
+                       first_spike_tolerance > 0 ? fmt::format(", the first at {} +- {}", format_quantity(first_spike, "s"),
+                                                               format_quantity(first_spike_tolerance, "s"))
+                                                 : "");
 }
 
 }  // namespace corpuscle

@@ -12,9 +12,9 @@ namespace corpuscle {
 /// Limits on a chip's spikes.
 struct FiringLimits {
     struct PhaseLimits {
-        TimeWindow phase;       ///< s
-        double min, max;  ///< spikes
-        double designed;        ///< designed spike count, each spike spread over the interval after it
+        TimeWindow phase;  ///< s
+        double min, max;   ///< spikes
+        double designed;   ///< designed spike count, each spike spread over the interval after it
     };
     std::vector<PhaseLimits> phases;
     double first_spike = 0, first_spike_tolerance = 0;  ///< s: designed time of the first spike, and the allowed deviation

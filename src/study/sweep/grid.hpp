@@ -8,7 +8,7 @@ namespace corpuscle {
 /// The effect of one axis on a measure: the mean at each value of the axis (SweepTable::points), over all values of the other axes.
 struct AxisEffect {
     std::size_t axis = 0;
-    double fraction = 0;           ///< fraction of the measure's variance over the grid that lies between these means
+    double fraction = 0;        ///< fraction of the measure's variance over the grid that lies between these means
     std::vector<double> means;  ///< NaN: no item has the measure there
 };
 

@@ -91,8 +91,8 @@ Result<std::int64_t> SweepResults::merge(const SweepResults& from) {
     if (ok) {
         ok = sql::run(file, path(),
                       "BEGIN IMMEDIATE;" + insertion_of("units", unit_columns(impl.layout), item_count()) +
-                          insertion_of("spikes", "unit, train, times", item_count()) + insertion_of("traces", "unit, trace, samples", item_count()) +
-                          "COMMIT");
+                          insertion_of("spikes", "unit, train, times", item_count()) +
+                          insertion_of("traces", "unit, trace, samples", item_count()) + "COMMIT");
         if (!ok && !sqlite3_get_autocommit(file)) (void)sql::run(file, path(), "ROLLBACK");
     }
     if (ok) {

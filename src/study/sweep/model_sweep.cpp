@@ -39,8 +39,8 @@ class ModelSweep final : public PlannedSweep {
 
     std::size_t parameter(std::string_view name) const {
         const auto& all = *nominal_.parameters;
-        return static_cast<std::size_t>(std::find_if(all.begin(), all.end(), [&](const AfferentParameter& p) { return p.info.name == name; }) -
-                                        all.begin());
+        return static_cast<std::size_t>(
+            std::find_if(all.begin(), all.end(), [&](const AfferentParameter& p) { return p.info.name == name; }) - all.begin());
     }
     /// "f_B" of "sa1.f_B".
     std::string_view parameter_name(std::string_view afferent_name, std::string_view text) const {
@@ -91,7 +91,8 @@ Result<void> ModelSweep::set(const SweepText& spec) {
     }
     wishes.clear();
     for (const auto& s : spec.settings)
-        if (!force_.has_parameter(s.name)) wishes.push_back({afferent_name, std::string(parameter_name(afferent_name, s.name)), s.value.text});
+        if (!force_.has_parameter(s.name))
+            wishes.push_back({afferent_name, std::string(parameter_name(afferent_name, s.name)), s.value.text});
     auto plan = plan_any_afferent(afferent_name, wishes);
     if (!plan) return spec.settings[0].value.error_here(plan.error().message);
     nominal_ = std::move(*plan);
@@ -108,8 +109,8 @@ Result<void> ModelSweep::select_probes(const SweepText& spec) {
     for (const auto& word : spec.probes) {
         const auto at = std::find(names.begin(), names.end(), word.text);
         if (at == names.end())
-            return word.error_here(fmt::format("traces: {} has no '{}'{} (it has {})", nominal_.name, word.text, did_you_mean(word.text, names),
-                                          fmt::join(names, ", ")));
+            return word.error_here(fmt::format("traces: {} has no '{}'{} (it has {})", nominal_.name, word.text,
+                                               did_you_mean(word.text, names), fmt::join(names, ", ")));
         probes_.push_back(static_cast<std::size_t>(at - names.begin()));
         probe_names_.push_back(word.text);
     }
@@ -156,9 +157,9 @@ Result<std::unique_ptr<Sweep>> ModelSweep::make(const SweepText& spec, const std
     s.afferent_measures_ = std::make_unique<AfferentMeasures>(*s.force_.nominal(), false, std::span<const std::string>());
     if (auto ok = s.afferent_measures_->select(spec.measures); !ok) return ok.error();
     const MeasureLookup limiting{[&](const LocatedText& name) { return s.afferent_measures_->require_column(name); },
-                            [&](const LocatedText& model, std::size_t column) {
-                                return model_measure(model, s.force_, {s.afferent_measures_->columns()[column].name, model.location});
-                            }};
+                                 [&](const LocatedText& model, std::size_t column) {
+                                     return model_measure(model, s.force_, {s.afferent_measures_->columns()[column].name, model.location});
+                                 }};
     if (auto ok = set_limits(spec, limiting, s.afferent_measures_->columns()); !ok) return ok.error();
     s.measures_ = s.afferent_measures_->columns();
     const auto keeps = keeps_spikes(spec);
@@ -166,7 +167,8 @@ Result<std::unique_ptr<Sweep>> ModelSweep::make(const SweepText& spec, const std
     if (*keeps) s.train_names_ = {s.nominal_.name};
     if (auto ok = s.select_probes(spec); !ok) return ok.error();
     s.metadata_ = first_metadata(spec, fmt::format("{}, {}", afferent_name, s.force_.name()));
-    if (auto recorded = s.force_.recording_summary(); !recorded.empty()) s.metadata_.push_back({"recording " + s.force_.name(), std::move(recorded)});
+    if (auto recorded = s.force_.recording_summary(); !recorded.empty())
+        s.metadata_.push_back({"recording " + s.force_.name(), std::move(recorded)});
     return std::unique_ptr<Sweep>(std::move(out));
 }
 
@@ -245,7 +247,7 @@ Result<bool> ModelSweep::respond_on_lanes(std::span<ModelItem* const> items, Ins
     const bool same_parameters = varied_.empty();
     auto population =
         make_lane_population({same_parameters ? std::span(plans).first(1) : std::span<const AfferentPlan* const>(plans), items.size()},
-                        run_of(*items[0]->force), set);
+                             run_of(*items[0]->force), set);
     if (!population) return population.error();
     const bool one_force = std::all_of(items.begin(), items.end(), [&](const ModelItem* u) { return u->force == items[0]->force; });
     std::size_t longest = 0;

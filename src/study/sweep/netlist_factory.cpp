@@ -4,18 +4,18 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "signal/embedded_files.hpp"
-#include "signal/parameter.hpp"
-#include "signal/input_files.hpp"
 #include "signal/ascii_text.hpp"
+#include "signal/embedded_files.hpp"
+#include "signal/input_files.hpp"
+#include "signal/parameter.hpp"
 #include "study/netlist_directives.hpp"
 
 namespace corpuscle::sweeps {
 namespace {
 
 namespace fs = std::filesystem;
-using circuit::NetlistOverride;
 using circuit::Netlist;
+using circuit::NetlistOverride;
 
 constexpr std::size_t max_bytes = std::size_t{64} << 20;
 
@@ -33,7 +33,9 @@ Result<std::string> bytes_of(const fs::path& path, const std::string& name) {
     return text ? std::move(text) : Error{text.error().code, text.error().message, {name}};
 }
 
-NetlistOverride override_of(const std::string& name, std::string value) { return {name, std::move(value), name, equal_ignoring_case(name, "supply")}; }
+NetlistOverride override_of(const std::string& name, std::string value) {
+    return {name, std::move(value), name, equal_ignoring_case(name, "supply")};
+}
 
 /// Accepts "85" and "85C".
 Result<double> temperature_of(const LocatedText& given) {
@@ -78,8 +80,8 @@ Result<NetlistFactory> NetlistFactory::of(const LocatedText& given, const std::s
             if (file.ends_with(".cir")) known.push_back(file);
         for (const auto& c : circuit::embedded_netlists) known.push_back(c.name);
         if (!is_embedded(out.file_))
-            return given.error_here(fmt::format("there is no netlist '{}' beside the sweep file and no embedded one of this name{}", given.text,
-                                           did_you_mean(given.text, known)));
+            return given.error_here(fmt::format("there is no netlist '{}' beside the sweep file and no embedded one of this name{}",
+                                                given.text, did_you_mean(given.text, known)));
         out.is_embedded_ = true;
     }
     auto opened = out.open("");
@@ -108,8 +110,7 @@ Result<Netlist> NetlistFactory::open(const std::string& corner) const {
     auto text = text_of(file_);
     if (!text) return text.error();
     if (!directives_.empty()) text = with_directives(*text, directives_);
-    auto netlist = Netlist::parse(
-        std::move(*text), file_, [this](const std::string& path) { return text_of(path); }, corner);
+    auto netlist = Netlist::parse(std::move(*text), file_, [this](const std::string& path) { return text_of(path); }, corner);
     if (!netlist) return netlist;
     const std::lock_guard lock(files_->mutex);
     files_->by_corner.emplace(corner, *netlist);
@@ -127,7 +128,8 @@ Result<Netlist> NetlistFactory::with_overrides(std::span<const NetlistOverride> 
 Result<void> NetlistFactory::set(const LocatedSetting& setting) {
     auto extended = overrides_;
     extended.push_back(override_of(setting.name, setting.value.text));
-    if (const auto ok = with_overrides(extended); !ok) return ok.error().location.line > 0 ? ok.error() : setting.value.error_here(ok.error().message);
+    if (const auto ok = with_overrides(extended); !ok)
+        return ok.error().location.line > 0 ? ok.error() : setting.value.error_here(ok.error().message);
     overrides_ = std::move(extended);
     return {};
 }
@@ -201,7 +203,8 @@ bool same_devices(const circuit::Circuit& a, const circuit::Circuit& b) {
         const auto type = [](const circuit::Circuit& c, const circuit::Element& e) {
             return e.model < 0 ? std::string_view() : std::string_view(c.models[static_cast<std::size_t>(e.model)].type);
         };
-        if (x.name != y.name || x.letter != y.letter || x.nodes != y.nodes || x.control_source != y.control_source || type(a, x) != type(b, y))
+        if (x.name != y.name || x.letter != y.letter || x.nodes != y.nodes || x.control_source != y.control_source ||
+            type(a, x) != type(b, y))
             return false;
     }
     return true;

@@ -5,10 +5,10 @@
 #include <thread>
 #include <unordered_set>
 
-#include "study/sweep/worker_pool.hpp"
+#include "study/sweep/rank_messages.hpp"
 #include "study/sweep/rank_run.hpp"
 #include "study/sweep/rank_time.hpp"
-#include "study/sweep/rank_messages.hpp"
+#include "study/sweep/worker_pool.hpp"
 
 namespace corpuscle {
 namespace {
@@ -155,7 +155,8 @@ public:
                 std::vector<ItemQueue::Range> missing)
         : ranks_(ranks), sweep_(sweep), results_(results), run_(run), count_(count), dead_ranks_(lost),
           queue_(std::move(missing), run.shard), workers_(static_cast<std::size_t>(ranks.size())),
-          metadata_hash_(RankHandshake::of_this_process(&sweep).metadata_hash), threads_(std::max(1U, run.threads)), pool_(sweep, threads_) {
+          metadata_hash_(RankHandshake::of_this_process(&sweep).metadata_hash), threads_(std::max(1U, run.threads)),
+          pool_(sweep, threads_) {
         count_ = {.planned = queue_.remaining()};
         results_.announce_run(count_.planned);
         for (std::size_t rank = 1; rank < workers_.size(); ++rank) {
@@ -185,7 +186,8 @@ void end_all(Ranks& ranks, bool together) {
 
 }  // namespace
 
-Result<void> run_coordinator(Ranks& ranks, const Sweep& sweep, SweepResults& results, const SweepRunOptions& run, SweepProgress& count, DeadRanks& lost) {
+Result<void> run_coordinator(Ranks& ranks, const Sweep& sweep, SweepResults& results, const SweepRunOptions& run, SweepProgress& count,
+                             DeadRanks& lost) {
     auto missing = results.missing_ranges();
     if (!missing) {
         shut_down_workers(ranks);

@@ -67,13 +67,15 @@ bool get(Message& m, ItemOutcome& o) {
     if (!m.get(numbers.data(), sizeof numbers)) return false;
     o.item = static_cast<std::int64_t>(numbers[0]), o.end = static_cast<ItemEnd>(numbers[1]);
     o.steps = static_cast<std::int64_t>(numbers[2]), o.iterations = static_cast<std::int64_t>(numbers[3]), o.ran_alone = numbers[4] != 0;
-    return numbers[1] <= static_cast<std::uint64_t>(ItemEnd::diverged) && m.get(o.reason) && get_numbers(m, o.measures) && get_all(m, o.spikes) &&
-           get_all(m, o.probes);
+    return numbers[1] <= static_cast<std::uint64_t>(ItemEnd::diverged) && m.get(o.reason) && get_numbers(m, o.measures) &&
+           get_all(m, o.spikes) && get_all(m, o.probes);
 }
 
 }  // namespace
 
-RankHandshake RankHandshake::of_this_process(const Sweep* sweep) { return {host_name(), static_cast<std::uint64_t>(::getpid()), sweep ? hash_of(*sweep) : 0}; }
+RankHandshake RankHandshake::of_this_process(const Sweep* sweep) {
+    return {host_name(), static_cast<std::uint64_t>(::getpid()), sweep ? hash_of(*sweep) : 0};
+}
 bool RankHandshake::is_dead() const {
     const bool is_id = process > 0 && process <= std::numeric_limits<pid_t>::max();  // of one process, not of a process group
     return is_id && ::kill(static_cast<pid_t>(process), 0) != 0 && errno == ESRCH;
@@ -129,7 +131,9 @@ std::optional<RankMessageType> decode_rank_message_type(Message& m) {
     return static_cast<RankMessageType>(word);
 }
 
-bool decode_rank_message(Message& m, RankHandshake& hello) { return m.get(hello.host) && m.get(hello.process) && m.get(hello.metadata_hash); }
+bool decode_rank_message(Message& m, RankHandshake& hello) {
+    return m.get(hello.host) && m.get(hello.process) && m.get(hello.metadata_hash);
+}
 bool decode_rank_message(Message& m, std::vector<std::int64_t>& units) { return get_numbers(m, units); }
 
 bool decode_rank_message(Message& m, std::vector<ItemOutcome>& outcomes) {

@@ -9,7 +9,7 @@ namespace corpuscle {
 /// Ranks that died or stopped responding are counted as dead and their blocks are distributed again. A rank that only paused can return;
 /// its duplicate outcomes are not counted twice.
 struct DeadRanks {
-    int ranks = 0;            ///< ranks
+    int ranks = 0;                         ///< ranks
     std::int64_t redistributed_items = 0;  ///< distributed again
 };
 

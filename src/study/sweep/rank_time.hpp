@@ -12,8 +12,8 @@ inline RankTime rank_time() { return std::chrono::steady_clock::now(); }
 inline double seconds_between(RankTime from, RankTime to) { return std::chrono::duration<double>(to - from).count(); }
 
 inline constexpr std::chrono::milliseconds rank_tick{1};
-inline constexpr double heartbeat_interval = 1;     // s
-inline constexpr double rank_timeout = 20;  // s; death of a rank on the same machine is noticed at once
+inline constexpr double heartbeat_interval = 1;  // s
+inline constexpr double rank_timeout = 20;       // s; death of a rank on the same machine is noticed at once
 
 /// Number of items to keep queued at a rank: half a second's work, so that requests cost no time, and enough to fill its lanes.
 class RankThroughput {

@@ -5,10 +5,10 @@
 #include <chrono>
 #include <thread>
 
-#include "study/sweep/worker_pool.hpp"
+#include "study/sweep/rank_messages.hpp"
 #include "study/sweep/rank_run.hpp"
 #include "study/sweep/rank_time.hpp"
-#include "study/sweep/rank_messages.hpp"
+#include "study/sweep/worker_pool.hpp"
 
 namespace corpuscle {
 namespace {
@@ -37,7 +37,8 @@ class RankWorker {
         const auto word = decode_rank_message_type(m);
         std::uint64_t together = 0;
         std::vector<std::int64_t> units;
-        if (word == RankMessageType::handshake && decode_rank_message(m, coordinator_)) sees_coordinator_ = coordinator_.is_on_this_machine();
+        if (word == RankMessageType::handshake && decode_rank_message(m, coordinator_))
+            sees_coordinator_ = coordinator_.is_on_this_machine();
         if (word == RankMessageType::shutdown && m.get(together)) is_over_ = true, leave_together_ = together != 0;
         if (word == RankMessageType::items && decode_rank_message(m, units) && pool_) pool_->add(units), has_request_ = false;
     }

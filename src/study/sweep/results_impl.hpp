@@ -1,8 +1,8 @@
 #pragma once
 // Implementation of an open results file, for sweep_results.cpp and results_checkpoint.cpp.
 
-#include "study/sweep/sweep_results.hpp"
 #include "study/sweep/results_layout.hpp"
+#include "study/sweep/sweep_results.hpp"
 #include "study/sweep/writer_lock.hpp"
 
 namespace corpuscle {

@@ -227,7 +227,8 @@ Result<ResultsLayout> ResultsLayout::read(sqlite3* file, const std::string& path
     } catch (const std::exception&) {  // a table that was edited by hand
         return bad_input("is damaged: its tables about and columns cannot be read; name another file", {path});
     }
-    if (out.item_count < 1 || out.item_count > max_items) return changed_by_other_program(path, fmt::format("its number of units is {}", out.item_count));
+    if (out.item_count < 1 || out.item_count > max_items)
+        return changed_by_other_program(path, fmt::format("its number of units is {}", out.item_count));
     if (auto ok = check_tables(file, path, out.stored_column_names); !ok) return ok.error();
     if (auto ok = check_units(file, path, out.item_count); !ok) return ok.error();
     return out;
@@ -235,9 +236,9 @@ Result<ResultsLayout> ResultsLayout::read(sqlite3* file, const std::string& path
 
 Result<void> ResultsLayout::write(sqlite3* file, const std::string& path) const {
     if (stored_column_names.size() > max_columns)
-        return bad_input(
-            fmt::format("{} axes and measures are more than a table can have ({}); vary or measure fewer", stored_column_names.size(), max_columns),
-            {path});
+        return bad_input(fmt::format("{} axes and measures are more than a table can have ({}); vary or measure fewer",
+                                     stored_column_names.size(), max_columns),
+                         {path});
     std::string statements = fmt::format("PRAGMA application_id = {}; PRAGMA user_version = {}; BEGIN;{}", application_id, format, tables);
     for (const auto& column : stored_column_names) statements += fmt::format(", {} REAL", sql::quoted_name(column));
     if (auto ok = sql::run(file, path, statements + ");"); !ok) return ok;
@@ -259,7 +260,8 @@ Result<void> ResultsLayout::write(sqlite3* file, const std::string& path) const 
 std::string ResultsLayout::difference_from(const ResultsLayout& there) const {
     for (const auto& name : metadata_names) {
         const auto found = there.about.find(name);
-        if (found == there.about.end() || std::find(there.metadata_names.begin(), there.metadata_names.end(), name) == there.metadata_names.end())
+        if (found == there.about.end() ||
+            std::find(there.metadata_names.begin(), there.metadata_names.end(), name) == there.metadata_names.end())
             return fmt::format("it has no entry '{}'", name);
         if (found->second != about.at(name)) return name + describe_difference(about.at(name), found->second);
     }

@@ -9,14 +9,14 @@
 namespace corpuscle {
 
 struct ResultsLayout {
-    static constexpr std::int64_t format = 1;                ///< of the file; later formats are rejected
+    static constexpr std::int64_t format = 1;                   ///< of the file; later formats are rejected
     static constexpr std::int64_t application_id = 0x53776570;  ///< "Swep", identifies the file
 
     std::int64_t item_count = 0;
     std::vector<SweepColumn> axes, measures;
     std::vector<std::string> train_names, probe_names;
     std::vector<double> probe_times;
-    std::vector<std::string> metadata_names;            ///< names, in order
+    std::vector<std::string> metadata_names;   ///< names, in order
     std::map<std::string, std::string> about;  ///< metadata and everything else, by key
     /// Column names of axes, then measures, in the table. A name that exists already, or that differs only in case, gets a number.
     std::vector<std::string> stored_column_names;

@@ -1,14 +1,14 @@
 #pragma once
 // Runs a sweep's items on threads and writes the outcomes to its file.
 
-#include "study/sweep/sweep_results.hpp"
 #include "study/sweep/item_queue.hpp"
+#include "study/sweep/sweep_results.hpp"
 
 namespace corpuscle {
 
 /// Progress of a run.
 struct SweepProgress {
-    std::int64_t planned = 0;                       ///< items of this run: those of its shard without a row
+    std::int64_t planned = 0;                                  ///< items of this run: those of its shard without a row
     std::int64_t done = 0, iteration_limit = 0, diverged = 0;  ///< items by their end
     std::int64_t steps = 0, iterations = 0, spikes = 0, ran_alone = 0;
 

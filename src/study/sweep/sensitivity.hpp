@@ -16,8 +16,8 @@ using SweepFactor = std::vector<double>;
 /// A significant factor.
 struct Influence {
     std::size_t factor = 0;
-    double slope = 0;   ///< change of the measure for one standard deviation of the factor
-    Estimate fraction;     ///< fraction of the measure's variance, minus what is expected by chance
+    double slope = 0;    ///< change of the measure for one standard deviation of the factor
+    Estimate fraction;   ///< fraction of the measure's variance, minus what is expected by chance
     double p_value = 1;  ///< probability that a factor without effect is as strong
 };
 

@@ -13,8 +13,8 @@ constexpr std::size_t block_samples = 4096;  // samples
 
 }  // namespace
 
-Result<SimulatedResponse> simulate_afferent(const Afferent& afferent, const SweepForce& force, std::span<const std::size_t> probes, std::size_t every,
-                                 const std::function<bool()>& stop) {
+Result<SimulatedResponse> simulate_afferent(const Afferent& afferent, const SweepForce& force, std::span<const std::size_t> probes,
+                                            std::size_t every, const std::function<bool()>& stop) {
     const auto delay = static_cast<std::size_t>(afferent.delay());
     auto samples = force.samples;
     samples.insert(samples.end(), delay, samples.back());
@@ -41,7 +41,8 @@ Result<SimulatedResponse> simulate_afferent(const Afferent& afferent, const Swee
 }
 
 Result<double> model_measure(const LocatedText& model, const ForceFactory& force, const LocatedText& measure) {
-    if (force.varies()) return model.error_here("like: the force varies between items, and so does a model's response; write numbers instead");
+    if (force.varies())
+        return model.error_here("like: the force varies between items, and so does a model's response; write numbers instead");
     const auto plan = plan_any_afferent(model.text, {});
     if (!plan) return model.error_here("like: " + plan.error().message);
     const auto& sweep_force = *force.nominal();

@@ -6,9 +6,9 @@
 
 #include "circuit/netlist_overrides.hpp"
 #include "model/catalog.hpp"
+#include "signal/ascii_text.hpp"
 #include "signal/parameter.hpp"
 #include "signal/quantity.hpp"
-#include "signal/ascii_text.hpp"
 #include "study/sweep/mismatch_samples.hpp"
 
 namespace corpuscle::sweeps {
@@ -37,7 +37,8 @@ class PlanReader {
         chips_.seed = drawing_.seed;
         const auto* spec = chips_axis();
         if (spec && !varying_.can_sample_chips)
-            return spec->name.error_here(fmt::format("{} is a model; '{}' applies to the chips of a circuit", varying_.subject_name, spec->name.text));
+            return spec->name.error_here(
+                fmt::format("{} is a model; '{}' applies to the chips of a circuit", varying_.subject_name, spec->name.text));
         if (!spec && writes_chips()) {
             chips_.has_process = written_->chips().has_process, chips_.has_mismatch = written_->chips().has_mismatch;
             if (!spec_.seed) chips_.seed = drawing_.seed = written_->chips().seed;
@@ -45,7 +46,8 @@ class PlanReader {
         for (const auto& a : spec_.axes) {
             if (a.name.text != "process" && a.name.text != "mismatch") continue;
             if (a.distribution || a.from || a.to || a.count || a.list || a.mean || a.sigma || a.log || a.min || a.max)
-                return a.name.error_here(fmt::format("{}: its distribution comes from the process card; remove the other keys", a.name.text));
+                return a.name.error_here(
+                    fmt::format("{}: its distribution comes from the process card; remove the other keys", a.name.text));
             bool& one = a.name.text == "process" ? chips_.has_process : chips_.has_mismatch;
             if (one) return a.name.error_here(fmt::format("'{}' varies twice", a.name.text));
             one = true;
@@ -93,16 +95,17 @@ class PlanReader {
     /// The unit used in the file, for quantities without a unit of their own.
     static std::string unit_in(const AxisSpec& spec) {
         const LocatedText* first = spec.list && !spec.list->empty() ? &spec.list->front()
-                            : spec.from                      ? &*spec.from
-                            : spec.mean                      ? &*spec.mean
-                                                             : nullptr;
+                                   : spec.from                      ? &*spec.from
+                                   : spec.mean                      ? &*spec.mean
+                                                                    : nullptr;
         const auto value = first ? circuit::parse_number_with_unit(first->text) : Result<circuit::NumberWithUnit>(Error{});
         return value ? std::string(value->unit) : "";
     }
 
     Result<void> axis(const AxisSpec& spec) {
         for (const auto& other : axes_)
-            if (equal_ignoring_case(other.column.name, spec.name.text)) return spec.name.error_here(fmt::format("'{}' varies twice", spec.name.text));
+            if (equal_ignoring_case(other.column.name, spec.name.text))
+                return spec.name.error_here(fmt::format("'{}' varies twice", spec.name.text));
         auto target = varying_.find_quantity(spec.name);
         if (!target) return target.error();
         if (target->column.unit.empty() && target->check) target->column.unit = unit_in(spec);
@@ -203,7 +206,8 @@ Result<bool> keeps_spikes(const SweepText& spec) {
     if (!spec.keep) return true;
     for (const auto& word : *spec.keep)
         if (word.text != "spikes")
-            return word.error_here(fmt::format("keep: '{}' is unknown; known: \"spikes\" (traces are kept with traces = [...])", word.text));
+            return word.error_here(
+                fmt::format("keep: '{}' is unknown; known: \"spikes\" (traces are kept with traces = [...])", word.text));
     return !spec.keep->empty();
 }
 
@@ -220,7 +224,7 @@ Result<std::size_t> probe_stride(const SweepText& spec, double T) {
 
 std::vector<Sweep::MetadataText> first_metadata(const SweepText& spec, const std::string& title) {
     std::vector<Sweep::MetadataText> out = {{"title", spec.title ? spec.title->text : title},
-                                    {"results format", fmt::format("{}", results_format)}};
+                                            {"results format", fmt::format("{}", results_format)}};
     if (!spec.canonical.empty()) out.push_back({"sweep file", spec.canonical});
     return out;
 }

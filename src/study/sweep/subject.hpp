@@ -45,7 +45,7 @@ struct VariableQuantities {
     std::function<Result<VariedQuantity>(const LocatedText& quantity)> find_quantity;
     std::function<void(const SweepAxis&, const std::string& quantity, std::size_t axis)> vary;
     bool can_sample_chips = false;  ///< process and mismatch can be sampled
-    std::string subject_name;   ///< name of the subject
+    std::string subject_name;       ///< name of the subject
 };
 Result<std::uint64_t> seed_of(const SweepText&);
 /// `written`: the .step and .mc lines of the netlist itself.
@@ -70,10 +70,10 @@ Result<double> model_measure(const LocatedText& model, const ForceFactory&, cons
 
 /// The response of one afferent to a complete force.
 struct SimulatedResponse {
-    std::vector<double> spikes;             ///< s
+    std::vector<double> spikes;                     ///< s
     std::vector<std::vector<float>> probe_samples;  ///< each requested probe at each `every`th sample
 };
-Result<SimulatedResponse> simulate_afferent(const Afferent&, const SweepForce&, std::span<const std::size_t> probes = {}, std::size_t every = 0,
-                                 const std::function<bool()>& stop = {});
+Result<SimulatedResponse> simulate_afferent(const Afferent&, const SweepForce&, std::span<const std::size_t> probes = {},
+                                            std::size_t every = 0, const std::function<bool()>& stop = {});
 
 }  // namespace corpuscle::sweeps

@@ -15,7 +15,7 @@ namespace corpuscle {
 /// A column of a sweep's table: an axis value or a measure of an item.
 struct SweepColumn {
     std::string name, unit, description = {};
-    std::vector<std::string> labels = {};                ///< for an axis of labels: value k means words[k]
+    std::vector<std::string> labels = {};      ///< for an axis of labels: value k means words[k]
     std::optional<double> min = {}, max = {};  ///< limits of a measure, which an item must meet to pass
 };
 
@@ -25,12 +25,12 @@ enum class ItemEnd { done, iteration_limit, diverged };  ///< diverged: the solv
 struct ItemOutcome {
     std::int64_t item = 0;
     ItemEnd end = ItemEnd::done;
-    std::string reason = {};                          ///< reason, unless the end is done
+    std::string reason = {};                       ///< reason, unless the end is done
     std::vector<double> measures = {};             ///< one for each column of measures; NaN: not available
     std::vector<std::vector<double>> spikes = {};  ///< for each train, s
     std::vector<std::vector<float>> probes = {};   ///< for each kept probe, at the common sample times
     std::int64_t steps = 0, iterations = 0;        ///< of a circuit
-    bool ran_alone = false;                            ///< removed from its lane and simulated alone
+    bool ran_alone = false;                        ///< removed from its lane and simulated alone
 };
 
 /// An item's outcome depends only on this object and the item's index: not on the process, the batch or the time.
@@ -43,7 +43,7 @@ public:
     virtual const std::vector<SweepColumn>& measures() const = 0;
     virtual const std::vector<std::string>& train_names() const = 0;  ///< names of the kept spike trains
     virtual const std::vector<std::string>& probe_names() const = 0;  ///< names of the kept probes
-    virtual const std::vector<double>& probe_times() const = 0;  ///< s
+    virtual const std::vector<double>& probe_times() const = 0;       ///< s
     /// The value of each axis for an item.
     virtual std::vector<double> values(std::int64_t item) const = 0;
 

@@ -73,7 +73,8 @@ SummaryJson device_json(const MismatchSamples& drawn, const DeviceContribution& 
 SummaryJson dependence_json(const SweepTable& table, const SweepSummary& summary, const Dependence& d) {
     SummaryJson points = SummaryJson::array(), influences = SummaryJson::array(), devices = SummaryJson::array();
     for (const auto& [axis, between] : d.points)
-        points.push_back({{"axis", table.axes[axis].name}, {"share", json_number(between.fraction)}, {"chance", json_number(between.p_value)}});
+        points.push_back(
+            {{"axis", table.axes[axis].name}, {"share", json_number(between.fraction)}, {"chance", json_number(between.p_value)}});
     SummaryJson effects = SummaryJson::array();
     for (const auto& e : d.effects) {
         SummaryJson values = SummaryJson::array(), means = SummaryJson::array();
@@ -83,8 +84,13 @@ SummaryJson dependence_json(const SweepTable& table, const SweepSummary& summary
     }
     for (const auto& i : d.influences) influences.push_back(influence_json(i));
     for (const auto& s : d.devices) devices.push_back(device_json(*summary.mismatch, s));
-    SummaryJson out = {{"measure", d.measure},         {"between_points", points}, {"chips", d.sensitivity.items}, {"factors", d.sensitivity.factors},
-                       {"explained", d.sensitivity.explained}, {"influences", influences}, {"devices", devices}};
+    SummaryJson out = {{"measure", d.measure},
+                       {"between_points", points},
+                       {"chips", d.sensitivity.items},
+                       {"factors", d.sensitivity.factors},
+                       {"explained", d.sensitivity.explained},
+                       {"influences", influences},
+                       {"devices", devices}};
     if (table.is_grid) out["effects"] = effects;
     return out;
 }

@@ -101,7 +101,8 @@ Result<VariedQuantity> ForceFactory::find_quantity(const LocatedText& quantity) 
         if (card.name != wish.target) continue;
         const auto row = find_parameter(wish, card.parameters);
         if (!row) return quantity.error_here(row.error().message);
-        VariedQuantity out{{quantity.text, std::string((*row)->unit), std::string((*row)->description)}, (*row)->default_value, (*row)->low, (*row)->high};
+        VariedQuantity out{
+            {quantity.text, std::string((*row)->unit), std::string((*row)->description)}, (*row)->default_value, (*row)->low, (*row)->high};
         for (const auto& w : overrides_)
             if (w.target == wish.target && w.parameter == wish.parameter) out.nominal = *parse_quantity(w.value, (*row)->unit);
         out.parse = [unit = std::string((*row)->unit)](const LocatedText& s) { return parse_quantity(s.text, unit); };
@@ -115,7 +116,8 @@ Result<void> ForceFactory::set(const LocatedSetting& setting) {
     std::vector<ParameterOverride> settings = {{setting.name.substr(0, dot), setting.name.substr(dot + 1), setting.value.text}};
     for (const auto& card : stimulus_catalog())
         if (card.name == settings[0].target)
-            if (const auto ok = settings_for(card.name, card.parameters, settings); !ok) return setting.value.error_here(ok.error().message);
+            if (const auto ok = settings_for(card.name, card.parameters, settings); !ok)
+                return setting.value.error_here(ok.error().message);
     overrides_.push_back(std::move(settings[0]));
     fixed_count_ = overrides_.size();
     return {};

@@ -5,8 +5,8 @@
 #include <memory>
 #include <mutex>
 
-#include "signal/parameter_override.hpp"
 #include "signal/force_source.hpp"
+#include "signal/parameter_override.hpp"
 #include "study/sweep/axis.hpp"
 
 namespace corpuscle::sweeps {

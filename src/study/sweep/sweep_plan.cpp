@@ -8,7 +8,9 @@ namespace corpuscle::sweeps {
 
 double SweepAxis::sample(std::uint64_t draw) const {
     const double u = numbers->at(draw);
-    if (is_normal) return first + second * normal_quantile(std::clamp(min_probability + u * (max_probability - min_probability), 0x1p-1000, 1 - 0x1p-53));
+    if (is_normal)
+        return first +
+               second * normal_quantile(std::clamp(min_probability + u * (max_probability - min_probability), 0x1p-1000, 1 - 0x1p-53));
     return is_logarithmic ? first * num::exp(u * num::log(second / first)) : first + u * (second - first);
 }
 

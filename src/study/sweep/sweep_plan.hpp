@@ -13,10 +13,10 @@ namespace corpuscle::sweeps {
 /// One quantity that varies and has a value.
 struct SweepAxis {
     SweepColumn column;
-    std::vector<double> values = {};          ///< listed values; labels as their indexes; empty: sampled
+    std::vector<double> values = {};             ///< listed values; labels as their indexes; empty: sampled
     std::optional<UniformNumbers> numbers = {};  ///< for a sampled axis
     bool is_normal = false, is_logarithmic = false;
-    double first = 0, second = 0;            ///< normal: mean and standard deviation; otherwise from and to
+    double first = 0, second = 0;                     ///< normal: mean and standard deviation; otherwise from and to
     double min_probability = 0, max_probability = 1;  ///< for a truncated normal distribution: range of its cumulative probability
 
     double sample(std::uint64_t draw) const;

@@ -113,18 +113,27 @@ Result<void> SweepResults::Impl::insert(const Sweep& sweep, const ItemOutcome& o
     ++finished;
     for (std::size_t k = 0; k < o.spikes.size(); ++k)
         if (!o.spikes[k].empty())
-            if (auto ok = insert_spikes.set(1, o.item).set(2, static_cast<std::int64_t>(k)).set(3, std::as_bytes(std::span(o.spikes[k]))).finish();
+            if (auto ok = insert_spikes.set(1, o.item)
+                              .set(2, static_cast<std::int64_t>(k))
+                              .set(3, std::as_bytes(std::span(o.spikes[k])))
+                              .finish();
                 !ok)
                 return ok;
     for (std::size_t k = 0; k < o.probes.size(); ++k)
-        if (auto ok = insert_probe.set(1, o.item).set(2, static_cast<std::int64_t>(k)).set(3, std::as_bytes(std::span(o.probes[k]))).finish(); !ok)
+        if (auto ok =
+                insert_probe.set(1, o.item).set(2, static_cast<std::int64_t>(k)).set(3, std::as_bytes(std::span(o.probes[k]))).finish();
+            !ok)
             return ok;
     return {};
 }
 
-Result<SweepResults> SweepResults::open(const std::string& path, const Sweep& sweep) { return open_with_layout(path, ResultsLayout::of(sweep)); }
+Result<SweepResults> SweepResults::open(const std::string& path, const Sweep& sweep) {
+    return open_with_layout(path, ResultsLayout::of(sweep));
+}
 
-Result<SweepResults> SweepResults::open(const std::string& path, const SweepResults& other) { return open_with_layout(path, other.impl_->layout); }
+Result<SweepResults> SweepResults::open(const std::string& path, const SweepResults& other) {
+    return open_with_layout(path, other.impl_->layout);
+}
 
 Result<SweepResults> SweepResults::open_with_layout(const std::string& path, const ResultsLayout& expected) {
     auto impl = std::make_unique<Impl>();
@@ -199,7 +208,8 @@ Result<void> SweepResults::add(const Sweep& sweep, std::vector<ItemOutcome>&& ou
     }
     std::error_code none;
     const auto size = fs::file_size(impl.wal_path(), none);
-    if (!none && static_cast<std::int64_t>(size) > impl.next_checkpoint_size && !impl.checkpoint(false)) impl.set_next_checkpoint_size();  // tried again later
+    if (!none && static_cast<std::int64_t>(size) > impl.next_checkpoint_size && !impl.checkpoint(false))
+        impl.set_next_checkpoint_size();  // tried again later
     return {};
 }
 

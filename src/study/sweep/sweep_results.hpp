@@ -52,7 +52,7 @@ public:
     void announce_run(std::int64_t to_do) const;
 
     const std::string& path() const;
-    std::int64_t item_count() const;     ///< of the complete sweep
+    std::int64_t item_count() const;      ///< of the complete sweep
     std::int64_t finished_count() const;  ///< rows
     const std::vector<SweepColumn>& axes() const;
     const std::vector<SweepColumn>& measures() const;

@@ -207,8 +207,8 @@ Dependence dependence_of(const std::string& name, const std::vector<double>& val
     return out;
 }
 
-std::vector<Dependence> dependences_of(const SweepTable& table, const std::optional<MismatchSamples>& drawn, const std::vector<char>& passed,
-                                       std::size_t& chips) {
+std::vector<Dependence> dependences_of(const SweepTable& table, const std::optional<MismatchSamples>& drawn,
+                                       const std::vector<char>& passed, std::size_t& chips) {
     std::vector<std::size_t> point_axes;
     for (std::size_t a = 0; a < table.axes.size(); ++a)
         if (table.has_points(a)) point_axes.push_back(a);
@@ -258,7 +258,8 @@ Result<SweepSummary> summary_of(const SweepTable& table, const std::optional<Mis
     for (std::size_t r = 0; r < passed.size(); ++r) passed[r] = table.passes(r);
     for (const auto& g : groups->groups) {
         auto& point = out.points.emplace_back(point_summary(table, g, passed));
-        out.all.done += point.done, out.all.iteration_limit += point.iteration_limit, out.all.diverged += point.diverged, out.all.passed += point.passed;
+        out.all.done += point.done, out.all.iteration_limit += point.iteration_limit, out.all.diverged += point.diverged,
+            out.all.passed += point.passed;
         finish(point, table.measures.size());
     }
     finish(out.all, table.measures.size());

@@ -4,8 +4,8 @@
 #include <map>
 #include <optional>
 
-#include "study/sweep/mismatch_samples.hpp"
 #include "study/sweep/grid.hpp"
+#include "study/sweep/mismatch_samples.hpp"
 #include "study/sweep/sensitivity.hpp"
 #include "study/sweep/sweep_table.hpp"
 
@@ -50,7 +50,7 @@ struct PointSummary {
 /// A sampled factor that a measure depends on.
 struct NamedInfluence {
     std::string name;                          ///< of a device or an axis
-    std::string quantity;                          ///< of a device: "V_T" or "I_S"; for the yield also "V_T squared"
+    std::string quantity;                      ///< of a device: "V_T" or "I_S"; for the yield also "V_T squared"
     std::ptrdiff_t device = -1, subject = -1;  ///< in the mismatch samples
     std::ptrdiff_t axis = -1;
     Influence influence;
@@ -64,10 +64,10 @@ struct DeviceContribution {
 struct Dependence {
     std::string measure;  ///< "yield": whether an item passes
     Sensitivity sensitivity;
-    std::vector<NamedInfluence> influences;               ///< the strongest first
-    std::vector<DeviceContribution> devices;                     ///< those with a fraction of the variance, the largest first
+    std::vector<NamedInfluence> influences;                   ///< the strongest first
+    std::vector<DeviceContribution> devices;                  ///< those with a fraction of the variance, the largest first
     std::vector<std::pair<std::size_t, GroupEffect>> points;  ///< axes with points, and the effect of each
-    std::vector<AxisEffect> effects;                      ///< for a full grid, instead of all others
+    std::vector<AxisEffect> effects;                          ///< for a full grid, instead of all others
 };
 
 struct SweepSummary {
@@ -76,7 +76,7 @@ struct SweepSummary {
     std::vector<PointSummary> points;
     PointSummary all;
     std::optional<MismatchSamples> mismatch;
-    std::size_t searched_chips = 0;                ///< number of chips in which dependences were searched
+    std::size_t searched_chips = 0;       ///< number of chips in which dependences were searched
     std::vector<Dependence> dependences;  ///< for each measure that varies, then for the yield, if there are limits
 };
 

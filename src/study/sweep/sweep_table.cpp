@@ -121,8 +121,10 @@ Result<SweepTable> read_table(const SweepResults& results, const std::vector<std
     std::vector<std::string> columns_sql;
     for (std::size_t k = 0; k < results.axes().size(); ++k) columns_sql.push_back(sql::quoted_name(results.stored_column_names()[k]));
     for (const auto m : *wanted)
-        columns_sql.push_back(sql::quoted_name(results.stored_column_names()[results.axes().size() + m])), out.measures.push_back(results.measures()[m]);
-    const auto has_iterations = sql::query_integer(results.handle(), results.path(), "SELECT EXISTS(SELECT 1 FROM units WHERE iterations > 0)");
+        columns_sql.push_back(sql::quoted_name(results.stored_column_names()[results.axes().size() + m])),
+            out.measures.push_back(results.measures()[m]);
+    const auto has_iterations =
+        sql::query_integer(results.handle(), results.path(), "SELECT EXISTS(SELECT 1 FROM units WHERE iterations > 0)");
     if (!has_iterations) return has_iterations.error();
     if (*has_iterations && measures.empty()) {
         columns_sql.emplace_back("iterations");

@@ -59,7 +59,8 @@ void WorkerPool::stop() {
 
 std::vector<ItemOutcome> WorkerPool::collect(double seconds) {
     std::unique_lock lock(mutex_);
-    outcomes_ready_.wait_for(lock, std::chrono::duration<double>(seconds), [&] { return pending_bytes_ >= min_collect_bytes || (active_workers_ == 0 && items_.empty()); });
+    outcomes_ready_.wait_for(lock, std::chrono::duration<double>(seconds),
+                             [&] { return pending_bytes_ >= min_collect_bytes || (active_workers_ == 0 && items_.empty()); });
     std::vector<ItemOutcome> out;
     out.swap(outcomes_);
     pending_bytes_ = 0;

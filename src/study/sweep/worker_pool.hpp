@@ -26,7 +26,7 @@ public:
     /// Outcomes since the last call. Waits up to this time (s), but returns at once if there are many or if no thread is working.
     std::vector<ItemOutcome> collect(double seconds);
     std::size_t queued() const;  ///< items that have not started
-    bool is_done() const;         ///< all items are finished and collected
+    bool is_done() const;        ///< all items are finished and collected
     /// The error in the sweep itself, if there was one.
     Result<void> sweep_error() const;
 

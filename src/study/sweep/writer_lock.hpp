@@ -19,7 +19,7 @@ public:
     struct Writer {
         long process = 0;
         std::string host;
-        double since = 0;                      ///< s, system clock
+        double since = 0;                        ///< s, system clock
         std::int64_t finished = 0, planned = 0;  ///< items, at the start
     };
 

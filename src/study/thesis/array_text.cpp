@@ -5,7 +5,7 @@
 namespace corpuscle {
 
 std::string array_lines(const std::string& name, const std::string& drain, const std::string& gate, const std::string& source, int m, int n,
-                       const std::string& rest) {
+                        const std::string& rest) {
     std::string out;
     for (int column = 0; column < m; ++column)
         for (int k = 0; k < n; ++k) {  // from the source up

@@ -17,6 +17,6 @@ inline constexpr std::string_view process_card = ".lib '../process/tsmc180.lib' 
 /// m columns of n unit transistors in series between drain and source, each column with its own inner nodes. `rest` follows the source
 /// node: "b nch w=1.5u l=0.5u".
 std::string array_lines(const std::string& name, const std::string& drain, const std::string& gate, const std::string& source, int m, int n,
-                       const std::string& rest);
+                        const std::string& rest);
 
 }  // namespace corpuscle

@@ -5,10 +5,10 @@
 #include <cmath>
 
 #include "circuit/cost/area.hpp"
-#include "circuit/device/physical_constants.hpp"
 #include "circuit/device/inversion_charge.hpp"
-#include "study/study_netlist.hpp"
+#include "circuit/device/physical_constants.hpp"
 #include "study/sample_statistics.hpp"
+#include "study/study_netlist.hpp"
 
 namespace corpuscle {
 namespace {
@@ -117,7 +117,8 @@ Result<std::vector<double>> simulate_mismatch(const PublishedArrays& all) { retu
 void add_column(StudyResult& out, const TableColumn& column, const SimulatedArrays& ours, const std::string& source) {
     for (const auto& a : ours) {
         auto& c = out.claim(fmt::format("{}: {}", a.published->name, column.quantity), column.computed(a), column.unit);
-        c.published_as(column.factor * a.published->*column.published, *column.source_note == 0 ? source : source + ", " + column.source_note);
+        c.published_as(column.factor * a.published->*column.published,
+                       *column.source_note == 0 ? source : source + ", " + column.source_note);
         if (c.needs_explanation() && column.reason != nullptr) c.explain(column.reason(a));
     }
 }
@@ -152,7 +153,13 @@ void add_ratios(StudyResult& out, const PublishedArrays& all, const SimulatedArr
         {"g_mg/I_D", "1/V", [](const SimulatedArray& a) { return a.g_by_I(); }, &P::g_by_I},
         {"I_D/g_md", "V", [](const SimulatedArray& a) { return a.V_A(); }, &P::V_A, 1, early_voltage_reason},
         {"g_mg/g_md", "dB", [](const SimulatedArray& a) { return a.gain(); }, &P::gain},
-        {"g_mb/g_mg", "", [](const SimulatedArray& a) { return a.bulk_ratio(); }, &P::bulk_ratio, 1, {}, "the column g_mg/g_mb is inverted: errata U5"},
+        {"g_mb/g_mg",
+         "",
+         [](const SimulatedArray& a) { return a.bulk_ratio(); },
+         &P::bulk_ratio,
+         1,
+         {},
+         "the column g_mg/g_mb is inverted: errata U5"},
         {"g_mg/A", "S/um^2", [](const SimulatedArray& a) { return a.g_by_A(); }, &P::g_by_A, all.g_by_A, {}, all.g_by_A_note},
     };
     for (const auto& column : columns) add_column(out, column, ours, all.ratios_table);
@@ -200,10 +207,11 @@ void add_rule(StudyResult& out, const PublishedArrays& all, double head, const s
         with_ours = std::max(with_ours, residual(a, all.g_md)), with_head = std::max(with_head, residual(a, head));
         all_closer = all_closer && residual(a, all.g_md) < residual(a, head);
     }
-    out.claim_true(fmt::format("Published numbers only: {} by up to {:.2g} % with the unit of g_md used here, by up to {:.2g} % with the head's "
-                          "unit; smaller in every row",
-                          what, 100 * with_ours, 100 * with_head),
-              all_closer, erratum);
+    out.claim_true(
+        fmt::format("Published numbers only: {} by up to {:.2g} % with the unit of g_md used here, by up to {:.2g} % with the head's "
+                    "unit; smaller in every row",
+                    what, 100 * with_ours, 100 * with_head),
+        all_closer, erratum);
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ namespace corpuscle {
 /// the units of the table's head.
 struct PublishedArray {
     const char *name, *subcircuit;  ///< subcircuit: its name in the netlist
-    double rows, columns;     ///< as drawn; inferred from A_T
+    double rows, columns;           ///< as drawn; inferred from A_T
     double S, A, A_T, area_ratio;
     double g_md, g_mg, g_ms, g_mb, I_D, V_T;
     double g_by_I, V_A, gain, bulk_ratio, g_by_A, sigma;
@@ -54,8 +54,8 @@ inline constexpr PublishedArray published_trapezoids[] = {
 inline constexpr PublishedArrays rectangles = {
     "rectangular_arrays", published_rectangles, "table 10", "table 11", "table 12", 1e-6, 1e-6, "its nS read as uS: errata U7", ""};
 inline constexpr PublishedArrays trapezoids = {
-    "trapezoidal_arrays",          published_trapezoids, "table 13", "table 14", "table 15", 1e-10, 1e-6, "divided by ten: errata U8",
-    "its nS read as uS: errata U9"};
+    "trapezoidal_arrays",        published_trapezoids,          "table 13", "table 14", "table 15", 1e-10, 1e-6,
+    "divided by ten: errata U8", "its nS read as uS: errata U9"};
 
 const PublishedArray& find_published(const PublishedArrays&, std::string_view name);
 
@@ -98,9 +98,9 @@ struct TableColumn {
     const char *quantity, *unit;
     double (*computed)(const SimulatedArray&);
     double PublishedArray::* published;
-    double factor = 1;                         ///< published number to SI
+    double factor = 1;                                  ///< published number to SI
     std::string (*reason)(const SimulatedArray&) = {};  ///< reason for a difference
-    const char* source_note = "";                  ///< remark on the unit if the head of the table is wrong
+    const char* source_note = "";                       ///< remark on the unit if the head of the table is wrong
 };
 /// Adds one claim per cell.
 void add_column(StudyResult&, const TableColumn&, const SimulatedArrays&, const std::string& source);

@@ -18,11 +18,12 @@ Result<void> claim_end(StudyResult& out, const std::string& what, const BiasSwee
 
 Result<void> claim_ranges(const BiasFigure& figure, std::span<const BiasCorner> corners, StudyResult& out) {
     const auto& typical = corners[0];
-    if (auto ok =
-            claim_end(out, "typical: works from", typical.sweep, typical.working_range.from, typical.working_range.reaches_sweep_start, figure.typical_range[0], figure);
+    if (auto ok = claim_end(out, "typical: works from", typical.sweep, typical.working_range.from,
+                            typical.working_range.reaches_sweep_start, figure.typical_range[0], figure);
         !ok)
         return ok;
-    if (auto ok = claim_end(out, "typical: works to", typical.sweep, typical.working_range.to, typical.working_range.reaches_sweep_end, figure.typical_range[1], figure);
+    if (auto ok = claim_end(out, "typical: works to", typical.sweep, typical.working_range.to, typical.working_range.reaches_sweep_end,
+                            figure.typical_range[1], figure);
         !ok)
         return ok;
     if (std::isnan(figure.corner_range[0])) return {};
@@ -34,11 +35,12 @@ Result<void> claim_ranges(const BiasFigure& figure, std::span<const BiasCorner> 
     const auto name = [](const char* what, const BiasCorner& c) {
         return fmt::format("all corners: works {} (limited by {})", what, c.name);
     };
-    if (auto ok =
-            claim_end(out, name("from", *lowest), lowest->sweep, lowest->working_range.from, lowest->working_range.reaches_sweep_start, figure.corner_range[0], figure);
+    if (auto ok = claim_end(out, name("from", *lowest), lowest->sweep, lowest->working_range.from,
+                            lowest->working_range.reaches_sweep_start, figure.corner_range[0], figure);
         !ok)
         return ok;
-    return claim_end(out, name("to", *highest), highest->sweep, highest->working_range.to, highest->working_range.reaches_sweep_end, figure.corner_range[1], figure);
+    return claim_end(out, name("to", *highest), highest->sweep, highest->working_range.to, highest->working_range.reaches_sweep_end,
+                     figure.corner_range[1], figure);
 }
 
 void add_plots(const BiasFigure& figure, std::span<const BiasCorner> corners, StudyResult& out) {
@@ -55,7 +57,9 @@ void add_plots(const BiasFigure& figure, std::span<const BiasCorner> corners, St
         out.plot("Error over its margin: 1 is 5 mV of V_Q or a tenth of I_Q, the worse of the two", figure.x_label, "error over margin");
     errors.log_x = log, errors.log_y = true;
     for (const auto& c : corners) errors.add(c.name, c.sweep.worst_error().scaled(figure.plot_scale, 1));
-    errors.add("limit", {{corners[0].sweep.worst_error().x.front() * figure.plot_scale, corners[0].sweep.worst_error().x.back() * figure.plot_scale}, {1, 1}});
+    errors.add("limit",
+               {{corners[0].sweep.worst_error().x.front() * figure.plot_scale, corners[0].sweep.worst_error().x.back() * figure.plot_scale},
+                {1, 1}});
 }
 
 }  // namespace

@@ -9,9 +9,9 @@ namespace corpuscle {
 struct BiasFigure {
     BiasAxis axis;
     const char *number, *x_label, *unit;  ///< "53", "I_BIAS (nA)", "A"
-    double plot_scale;                         ///< factor of the x axis: 1e9, A to nA
-    double typical_range[2];                    ///< published working range
-    double corner_range[2];                    ///< the same over all corners; NaN: not published
+    double plot_scale;                    ///< factor of the x axis: 1e9, A to nA
+    double typical_range[2];              ///< published working range
+    double corner_range[2];               ///< the same over all corners; NaN: not published
 
     std::string source() const { return std::string("thesis E.2, fig. ") + number; }
 };

@@ -87,7 +87,8 @@ double BiasSweep::Range::covered_fraction(double min, double max) const {
 }
 
 BiasSweep::Range range_intersection(const BiasSweep::Range& a, const BiasSweep::Range& b) {
-    return {std::max(a.from, b.from), std::min(a.to, b.to), a.reaches_sweep_start && b.reaches_sweep_start, a.reaches_sweep_end && b.reaches_sweep_end};
+    return {std::max(a.from, b.from), std::min(a.to, b.to), a.reaches_sweep_start && b.reaches_sweep_start,
+            a.reaches_sweep_end && b.reaches_sweep_end};
 }
 
 Result<BiasState> simulate_bias_state(const std::vector<std::string>& settings) {

@@ -30,7 +30,7 @@ struct BiasSweep {
     /// The working range about the best point. An end outside the sweep is replaced by the sweep's end.
     struct Range {
         double from, to;
-        bool reaches_sweep_start, reaches_sweep_end;                    ///< the range is limited by the sweep only
+        bool reaches_sweep_start, reaches_sweep_end;            ///< the range is limited by the sweep only
         double covered_fraction(double min, double max) const;  ///< fraction of the range [min, max] that this range covers
     };
     Range working_range() const;
@@ -44,8 +44,8 @@ struct BiasState {
     double V_Q, I_Q, V_BN, V_BP, V_REF;  // V, A
     double V_M3B, V_M4A;                 // V: drain-source voltages
     double V_sat_M3B, V_sat_M4A;         // V, to be saturated: phi_t (sqrt(1 + i_f) + 3), eq. 23 where i_r is a hundredth or so of i_f
-    double bulk_current;                        // A: what flows from BN into the bulks' junctions
-    double I_BIAS;                        // A: I_BIAS
+    double bulk_current;                 // A: what flows from BN into the bulks' junctions
+    double I_BIAS;                       // A: I_BIAS
 
     std::string description() const;
 };

@@ -46,8 +46,8 @@ std::string transducer_netlist(std::span<const TransducerCell> cells, const std:
     return out;
 }
 
-Result<std::vector<double>> find_lowest_supplies(std::span<const TransducerCell> cells, double newtons, const std::vector<std::string>& settings,
-                                            const std::string& parts) {
+Result<std::vector<double>> find_lowest_supplies(std::span<const TransducerCell> cells, double newtons,
+                                                 const std::vector<std::string>& settings, const std::string& parts) {
     const auto found = run_study_netlist({transducer_netlist(cells, fmt::format("{}", newtons), parts), settings, ".dc vdd 0.3 1 5m"});
     if (!found) return found.error();
     std::vector<double> out;

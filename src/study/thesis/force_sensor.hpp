@@ -9,7 +9,7 @@
 
 namespace corpuscle {
 
-constexpr double gram_force = 9.80665e-3;       // N
+constexpr double gram_force = 9.80665e-3;    // N
 constexpr double min_gf = 20, max_gf = 400;  ///< range over which the thesis evaluates its transducer (4.2)
 
 /// Eq. 13 corrected (errata F1): G = 1/R_0 + F^m / a, F in gf, a = 170 kohm gf^m.
@@ -41,11 +41,12 @@ std::string voltage_cell(double R_F);
 /// All cells side by side with a common force (source vforce, 1 V per N: "4", "dc 0 force 1"), supply (vdd) and reference (vy). Node and
 /// current names: v(xNAME.vx), i(xNAME.vif). `parts` is the line that includes the subcircuits.
 std::string transducer_netlist(std::span<const TransducerCell>, const std::string& force,
-                        const std::string& parts = ".include 'parts/transducer.inc'");
+                               const std::string& parts = ".include 'parts/transducer.inc'");
 
 /// The lowest supply at which each cell still holds its sensor: v_x at least 95 % of the 0.1 V of v_y, so that the sensor's current follows
 /// eq. 15. NaN: no such supply up to 1 V.
-Result<std::vector<double>> find_lowest_supplies(std::span<const TransducerCell>, double newtons, const std::vector<std::string>& settings = {},
-                                            const std::string& parts = ".include 'parts/transducer.inc'");
+Result<std::vector<double>> find_lowest_supplies(std::span<const TransducerCell>, double newtons,
+                                                 const std::vector<std::string>& settings = {},
+                                                 const std::string& parts = ".include 'parts/transducer.inc'");
 
 }  // namespace corpuscle

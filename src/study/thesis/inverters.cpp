@@ -26,7 +26,9 @@ Result<InverterSweep> InverterSweep::run_with_directives(const std::string& dire
     return InverterSweep{std::move(*found), 0.7};
 }
 
-StudyCurve InverterSweep::output_current(char which) const { return relative_to_half_supply(found.curve("dc", fmt::format("i(vh{})", which)), supply / 2); }
+StudyCurve InverterSweep::output_current(char which) const {
+    return relative_to_half_supply(found.curve("dc", fmt::format("i(vh{})", which)), supply / 2);
+}
 StudyCurve InverterSweep::transconductance(char which) const { return output_current(which).slope().scaled(1, -1); }
 
 StudyCurve InverterSweep::transfer_curve(char which) const {
@@ -42,6 +44,8 @@ StudyCurve InverterSweep::voltage_gain(char which) const {
     return out;
 }
 
-StudyCurve InverterSweep::supply_current(char which) const { return relative_to_half_supply(found.curve("dc", fmt::format("i(vs{})", which)), supply / 2); }
+StudyCurve InverterSweep::supply_current(char which) const {
+    return relative_to_half_supply(found.curve("dc", fmt::format("i(vs{})", which)), supply / 2);
+}
 
 }  // namespace corpuscle

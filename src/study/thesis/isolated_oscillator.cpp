@@ -26,8 +26,8 @@ iin u 0 pwl(0 0 10m 0 10.1m {i_in})
 
 Result<NetlistResult> simulate_oscillator(const IsolatedOscillator& o) {
     return run_study_netlist({netlist,
-                     {fmt::format("i_in={}", o.current), fmt::format("until={}", o.stop_time),
-                      fmt::format("hv={}", o.has_high_threshold_switches ? 0.15 : 0), fmt::format("i_leak={}", o.leak)}});
+                              {fmt::format("i_in={}", o.current), fmt::format("until={}", o.stop_time),
+                               fmt::format("hv={}", o.has_high_threshold_switches ? 0.15 : 0), fmt::format("i_leak={}", o.leak)}});
 }
 
 Hysteresis find_hysteresis(const NetlistResult& found, const std::string& output) {

@@ -9,8 +9,8 @@ namespace corpuscle {
 struct IsolatedOscillator {
     static constexpr double I_LEAK = 2e-12, I_CHARGE = 1e-9, C = 1.8e-12;  // A, F
     double current = 20e-12;                                               ///< A, from 10 ms on
-    double stop_time = 0.2;                                                    ///< s
-    bool has_high_threshold_switches = false;                                          ///< switches with a higher threshold, which leak almost nothing
+    double stop_time = 0.2;                                                ///< s
+    bool has_high_threshold_switches = false;                              ///< switches with a higher threshold, which leak almost nothing
     double leak = I_LEAK;                                                  ///< A
 };
 /// Records v(u) and v(s) over time, the spikes, and v(u) at rest.

@@ -11,7 +11,8 @@
 namespace corpuscle::press {
 
 // s; plateau_end: the plateau's last 100 ms
-inline constexpr TimeWindow rest{0, 0.25}, protraction{0.25, 0.375}, plateau{0.375, 0.625}, plateau_end{0.525, 0.625}, retraction{0.625, 0.75}, after{0.75, 1.0};
+inline constexpr TimeWindow rest{0, 0.25}, protraction{0.25, 0.375}, plateau{0.375, 0.625}, plateau_end{0.525, 0.625},
+    retraction{0.625, 0.75}, after{0.75, 1.0};
 inline constexpr double min_force = 0.2, max_force = 4;  // N
 
 /// Force (N) over time (s), sampled every T (s).

@@ -6,12 +6,13 @@
 namespace corpuscle {
 
 struct TransconductorCurve {
-    StudyCurve current;         ///< A, over the differential input voltage, V
-    double zero_current_voltage = 0;    ///< V: input at which the current is zero
-    double g_m = 0;       ///< S, at that input; positive
-    double max_current = 0;      ///< A, the largest current; the smaller of the two signs
-    double linear_range = 0;  ///< V: half the width of the range about the middle in which the slope is within 5 % of g_m; at most the sweep
-    double power = 0;     ///< W, with equal inputs
+    StudyCurve current;               ///< A, over the differential input voltage, V
+    double zero_current_voltage = 0;  ///< V: input at which the current is zero
+    double g_m = 0;                   ///< S, at that input; positive
+    double max_current = 0;           ///< A, the largest current; the smaller of the two signs
+    double linear_range =
+        0;             ///< V: half the width of the range about the middle in which the slope is within 5 % of g_m; at most the sweep
+    double power = 0;  ///< W, with equal inputs
     double sign() const { return current.slope_at(zero_current_voltage) < 0 ? -1 : 1; }
 };
 

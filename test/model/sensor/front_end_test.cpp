@@ -80,7 +80,8 @@ std::map<std::string, std::vector<double>> probe_values(const Afferent& a, const
     ResponseBlock overrides{response.spikes, 0, rows};
     auto state = a.start();
     if (auto ok = a.respond(f, state, overrides); !ok) throw std::runtime_error(ok.error().text());
-    response.truncated_steps = overrides.truncated_steps, response.saturated = overrides.saturated, response.overflowed = overrides.overflowed;
+    response.truncated_steps = overrides.truncated_steps, response.saturated = overrides.saturated,
+    response.overflowed = overrides.overflowed;
     std::map<std::string, std::vector<double>> out;
     for (std::size_t p = 0; p < values.size(); ++p) out[std::string(a.probes()[p].name)] = values[p];
     return out;

@@ -11,8 +11,8 @@
 namespace corpuscle {
 namespace {
 
-using test::TemporaryFolder;
 using test::run_program;
+using test::TemporaryFolder;
 
 std::string repeated(std::string_view text, int times) {
     std::string out;

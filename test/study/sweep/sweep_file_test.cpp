@@ -8,8 +8,8 @@
 #include <regex>
 #include <set>
 
-#include "circuit/run_directives.hpp"
 #include "circuit/netlist_variants.hpp"
+#include "circuit/run_directives.hpp"
 #include "study/sweep/sampling.hpp"
 #include "study/sweep/sobol.hpp"
 #include "study/sweep/sweep.hpp"
