@@ -1,0 +1,70 @@
+#pragma once
+
+#include "model/current.hpp"
+#include "model/neuron/substeps.hpp"
+#include "signal/afferent.hpp"
+#include "signal/field.hpp"
+
+namespace corpuscle {
+
+/// Quadratic integrate-and-fire:   C_m du/dt = g (u - E_L) (u - V_T) / (V_T - E_L) + I
+///     u > V_peak  =>  spike, then u = V_reset
+/// Latham et al. 2000, J Neurophysiol 83:808. Both methods use the same substeps. Left out: a refractory time.
+struct QifTraits {
+    struct Params {
+        double C_m = 500e-9, g = 5e-6, E_L = 0, V_T = 0.25, V_peak = 0.5, V_reset = 0, substep = 20e-6;
+    };
+    static constexpr std::string_view name = "qif", sentence = "quadratic integrate-and-fire";
+    static constexpr std::string_view source = "Latham et al. 2000, J Neurophysiol 83:808; values are our choice";
+    static constexpr Field<Params> fields[] = {
+        {"C_m", &Params::C_m, "F", 1e-18, 1, "membrane capacitance"},
+        {"g", &Params::g, "S", 1e-15, 1, "conductance at rest"},
+        {"E_L", &Params::E_L, "V", -10, 10, "resting potential"},
+        {"V_T", &Params::V_T, "V", -10, 10, "unstable equilibrium without current"},
+        {"V_peak", &Params::V_peak, "V", -10, 10, "top of a spike"},
+        {"V_reset", &Params::V_reset, "V", -10, 10, "membrane after a spike"},
+        {"substep", &Params::substep, "s", 1e-8, 1e-3, "longest substep", "choice", true},
+    };
+    static constexpr Below<Params> orders[] = {
+        {"E_L", &Params::E_L, "V_T", &Params::V_T},
+        {"V_T", &Params::V_T, "V_peak", &Params::V_peak},
+        {"V_reset", &Params::V_reset, "V_peak", &Params::V_peak},
+    };
+    static constexpr Probe parts[] = {{"u", "V"}};
+};
+
+template <class T>
+struct Qif : QifTraits {
+    struct State {
+        T u;
+    };
+
+    template <class Values>
+    Qif(const Values& value, double dt, Method)
+        : E_L(value(&Params::E_L)), V_T(value(&Params::V_T)), V_peak(value(&Params::V_peak)), V_reset(value(&Params::V_reset)),
+          gain(T(1.0) / value(&Params::C_m)), bend(value(&Params::g) * gain / (V_T - E_L)), dt(dt),
+          count(substeps_of(dt, value.one(&Params::substep))) {}
+
+    State start() const { return {E_L}; }
+    void show(const State& s, T (&out)[1]) const { out[0] = s.u; }
+
+    /// One sample under current i. Calls fired(mask, offset) for each spike in it.
+    template <class Fired>
+    num::Mask<T> step(State& s, Current<T> i, Fired&& fired) const {
+        Pair<T> y{s.u, T(0.0)};  // the second variable is not used
+        const auto slopes = [this](Pair<T> at, T current) {
+            const T u = num::min(at.v, V_peak);  // the parabola is not followed above it
+            return Pair<T>{bend * (u - E_L) * (u - V_T) + gain * current, T(0.0)};
+        };
+        advance(y, i, dt, count, V_peak, slopes, [this](Pair<T> at) { return Pair<T>{V_reset, at.w}; }, fired);
+        s.u = y.v;
+        return num::none<T>();  // no step is cut short: at most one spike a substep
+    }
+
+private:
+    T E_L, V_T, V_peak, V_reset, gain, bend;
+    double dt;
+    int count;
+};
+
+}  // namespace corpuscle
