@@ -8,7 +8,7 @@
 using namespace corpuscle::circuit;
 
 /// Gives a device its unknowns, as the solver does for a whole circuit.
-class OneDevice final : public Setup {
+class OneDevice final : public DeviceSetup {
     Circuit circuit_;
     int count_ = 2;
 
@@ -17,9 +17,9 @@ public:
         auto& model = circuit_.models.emplace_back();
         model.name = "surge", model.type = "varistor", model.values = card;
     }
-    int node(int number) const override { return number - 1; }
-    int branch(int) const override { return -1; }
-    int own(std::string_view) override { return count_++; }
+    int node_unknown(int number) const override { return number - 1; }
+    int branch_unknown(int) const override { return -1; }
+    int add_unknown(std::string_view) override { return count_++; }
     double temperature(const Element&) const override { return 300.15; }
     const Circuit& circuit() const override { return circuit_; }
 };

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "circuit/device/values.hpp"
+#include "circuit/device/named_values.hpp"
 
 namespace corpuscle::circuit {
 namespace {
@@ -11,7 +11,7 @@ struct VaristorCard {
     double v0 = 10, i0 = 1e-3, alpha = 5, c = 0;
 };
 
-constexpr Field<VaristorCard> fields[] = {
+constexpr ParameterDef<VaristorCard> fields[] = {
     {"v0", &VaristorCard::v0, "V", 1e-3, 1e6, "voltage at which the current is i0"},
     {"i0", &VaristorCard::i0, "A", 1e-15, 1e3, "current at v0"},
     {"alpha", &VaristorCard::alpha, "", 1, 100, "exponent"},
@@ -24,9 +24,9 @@ class Varistor final : public Device {
 
 public:
     explicit Varistor(const VaristorCard& card) : c_(card) {}
-    bool linear() const override { return false; }
+    bool is_linear() const override { return false; }
 
-    void eval(std::span<const double> v, const Instant&, const Stamp& out) const override {
+    void eval(std::span<const double> v, const EvalContext&, const Stamp& out) const override {
         const double u = v[0] - v[1], x = std::abs(u) / c_.v0;
         const double g = c_.i0 / c_.v0 * std::pow(x, c_.alpha - 1);  // i / u
         const double i = g * u, di = c_.alpha * g;
@@ -36,7 +36,7 @@ public:
         out.capacitance(0, 0) += c_.c, out.capacitance(0, 1) -= c_.c, out.capacitance(1, 0) -= c_.c, out.capacitance(1, 1) += c_.c;
     }
 
-    std::vector<Reading> readings(std::span<const double> v) const override {
+    std::vector<OperatingValue> operating_info(std::span<const double> v) const override {
         const double u = v[0] - v[1], g = c_.i0 / c_.v0 * std::pow(std::abs(u) / c_.v0, c_.alpha - 1);
         return {{"v", "V", u}, {"i", "A", g * u}};
     }
@@ -44,12 +44,12 @@ public:
 
 }  // namespace
 
-Result<std::unique_ptr<Device>> make_varistor(const Element& e, Setup& setup) {
-    if (auto wrong = unknown_value(e.name, e.values, {}, e.place)) return *wrong;
-    const auto card = card_from<VaristorCard>(fields, setup.circuit().models[static_cast<std::size_t>(e.model)], {});
+Result<std::unique_ptr<Device>> make_varistor(const Element& e, DeviceSetup& setup) {
+    if (auto ok = check_value_names(e.name, e.values, {}, e.location); !ok) return ok.error();
+    const auto card = read_model_card<VaristorCard>(fields, setup.circuit().models[static_cast<std::size_t>(e.model)], {});
     if (!card) return card.error();
     auto device = std::make_unique<Varistor>(*card);
-    device->unknowns = {setup.node(e.nodes[0]), setup.node(e.nodes[1])};
+    device->unknowns = {setup.node_unknown(e.nodes[0]), setup.node_unknown(e.nodes[1])};
     return std::unique_ptr<Device>(std::move(device));
 }
 

@@ -5,6 +5,6 @@
 
 namespace corpuscle::circuit {
 
-Result<std::unique_ptr<Device>> make_varistor(const Element&, Setup&);
+Result<std::unique_ptr<Device>> make_varistor(const Element&, DeviceSetup&);
 
 }  // namespace corpuscle::circuit

@@ -20,7 +20,7 @@ double closed_form_interval(const QifTraits::Params& p, double current) {
 
 /// The same, of the model in steps of dt.
 double interval(const QifTraits::Params& p, double current, double dt) {
-    const Qif<double> neuron(Same<QifTraits::Params>{p}, dt, Method::exact);
+    const Qif<double> neuron(UniformParams<QifTraits::Params>{p}, dt, Method::exact);
     auto state = neuron.start();
     double last = 0, between = 0;
     for (int k = 1; k * dt < 2; ++k)
@@ -37,13 +37,13 @@ int main() {
     std::printf("interval at 1 uA: %.6f s, closed form %.6f s\n", found, expected);
     if (!(std::abs(found - expected) < 1e-6)) return 1;
 
-    const Chain<Sa1b, Qif> afferent(Sa1bFacts::Params{}, params, {.dt = 1e-4});
+    const Chain<Sa1b, Qif> afferent(Sa1bTraits::Params{}, params, {.dt = 1e-4});
     const auto press = make_stimulus("press", {}, 10e3, 0);
     auto state = afferent.start({});
     std::vector<Spike> spikes;
-    Answer answer{spikes};
+    ResponseBlock response{spikes};
     for (Frames block(1, 4096); (*press)->read(block) && block.count > 0;)
-        if (auto ok = afferent.respond({block.force[0].data(), block.count}, state, answer); !ok)
+        if (auto ok = afferent.respond({block.force[0].data(), block.count}, state, response); !ok)
             return std::puts(ok.error().text().c_str()), 1;
     std::printf("sa1b+qif under a press: %zu spikes, the first at %.1f ms\n", spikes.size(),
                 spikes.empty() ? 0.0 : 1e3 * (*press)->clock().time(spikes[0].step, spikes[0].offset));

@@ -3,7 +3,7 @@
 #include "model/current.hpp"
 #include "model/neuron/substeps.hpp"
 #include "signal/afferent.hpp"
-#include "signal/field.hpp"
+#include "signal/parameter.hpp"
 
 namespace corpuscle {
 
@@ -14,9 +14,9 @@ struct QifTraits {
     struct Params {
         double C_m = 500e-9, g = 5e-6, E_L = 0, V_T = 0.25, V_peak = 0.5, V_reset = 0, substep = 20e-6;
     };
-    static constexpr std::string_view name = "qif", sentence = "quadratic integrate-and-fire";
+    static constexpr std::string_view name = "qif", description = "quadratic integrate-and-fire";
     static constexpr std::string_view source = "Latham et al. 2000, J Neurophysiol 83:808; values are our choice";
-    static constexpr Field<Params> fields[] = {
+    static constexpr ParameterDef<Params> fields[] = {
         {"C_m", &Params::C_m, "F", 1e-18, 1, "membrane capacitance"},
         {"g", &Params::g, "S", 1e-15, 1, "conductance at rest"},
         {"E_L", &Params::E_L, "V", -10, 10, "resting potential"},
@@ -25,12 +25,12 @@ struct QifTraits {
         {"V_reset", &Params::V_reset, "V", -10, 10, "membrane after a spike"},
         {"substep", &Params::substep, "s", 1e-8, 1e-3, "longest substep", "choice", true},
     };
-    static constexpr Below<Params> orders[] = {
+    static constexpr OrderConstraint<Params> order_constraints[] = {
         {"E_L", &Params::E_L, "V_T", &Params::V_T},
         {"V_T", &Params::V_T, "V_peak", &Params::V_peak},
         {"V_reset", &Params::V_reset, "V_peak", &Params::V_peak},
     };
-    static constexpr Probe parts[] = {{"u", "V"}};
+    static constexpr Probe recordables[] = {{"u", "V"}};
 };
 
 template <class T>
@@ -43,22 +43,23 @@ struct Qif : QifTraits {
     Qif(const Values& value, double dt, Method)
         : E_L(value(&Params::E_L)), V_T(value(&Params::V_T)), V_peak(value(&Params::V_peak)), V_reset(value(&Params::V_reset)),
           gain(T(1.0) / value(&Params::C_m)), bend(value(&Params::g) * gain / (V_T - E_L)), dt(dt),
-          count(substeps_of(dt, value.one(&Params::substep))) {}
+          count(substep_count(dt, value.uniform(&Params::substep))) {}
 
     State start() const { return {E_L}; }
-    void show(const State& s, T (&out)[1]) const { out[0] = s.u; }
+    void record(const State& s, T (&out)[1]) const { out[0] = s.u; }
 
     /// One sample under current i. Calls fired(mask, offset) for each spike in it.
     template <class Fired>
     num::Mask<T> step(State& s, Current<T> i, Fired&& fired) const {
-        Pair<T> y{s.u, T(0.0)};  // the second variable is not used
-        const auto slopes = [this](Pair<T> at, T current) {
+        MembraneRecovery<T> y{s.u, T(0.0)};  // the second variable is not used
+        const auto slopes = [this](MembraneRecovery<T> at, T current) {
             const T u = num::min(at.v, V_peak);  // the parabola is not followed above it
-            return Pair<T>{bend * (u - E_L) * (u - V_T) + gain * current, T(0.0)};
+            return MembraneRecovery<T>{bend * (u - E_L) * (u - V_T) + gain * current, T(0.0)};
         };
-        advance(y, i, dt, count, V_peak, slopes, [this](Pair<T> at) { return Pair<T>{V_reset, at.w}; }, fired);
+        advance_substeps(
+            y, i, dt, count, V_peak, slopes, [this](MembraneRecovery<T> at) { return MembraneRecovery<T>{V_reset, at.w}; }, fired);
         s.u = y.v;
-        return num::none<T>();  // no step is cut short: at most one spike a substep
+        return num::empty_mask<T>();  // no step is cut short: at most one spike a substep
     }
 
 private:
