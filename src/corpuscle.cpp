@@ -53,6 +53,6 @@ Response respond(const std::string& afferent, const ForceSignal& signal, const s
     return {spike_times(spikes, clock)};
 }
 
-std::vector<double> Response::instantaneous_rates() const { return instantaneous_rates(spikes); }
+std::vector<double> Response::instantaneous_rates() const { return corpuscle::instantaneous_rates(spikes); }
 
 }  // namespace corpuscle
