@@ -13,9 +13,9 @@ extern "C" {
 typedef struct corpuscle_skin corpuscle_skin;
 
 typedef struct corpuscle_spike {
-    double time;      /* s; the first frame is at time 0 */
-    uint32_t afferent;    /* index of the afferent; corpuscle_afferent_name gives its name */
-    uint32_t address; /* the afferent's address in event files (doc/events.md) */
+    double time;       /* s; the first frame is at time 0 */
+    uint32_t afferent; /* index of the afferent; corpuscle_afferent_name gives its name */
+    uint32_t address;  /* the afferent's address in event files (doc/events.md) */
 } corpuscle_spike;
 
 /* Called for each spike, in time order. It must not throw or call longjmp. */
@@ -29,8 +29,8 @@ corpuscle_skin* corpuscle_create_with(const char* population, double rate_hz, si
                                       char* error, size_t error_size);
 void corpuscle_destroy(corpuscle_skin* skin); /* NULL is allowed */
 
-size_t corpuscle_sites(const corpuscle_skin* skin);                         /* number of forces in a frame */
-const char* corpuscle_site_name(const corpuscle_skin* skin, size_t site);   /* "r1c2"; sites count from 0; NULL: no such site */
+size_t corpuscle_sites(const corpuscle_skin* skin);                       /* number of forces in a frame */
+const char* corpuscle_site_name(const corpuscle_skin* skin, size_t site); /* such as "r1c2"; sites count from 0; NULL if unknown */
 /* Position of a site in metres: x to the right, y away from the wrist. Returns 0, or -1 if there is no such site. */
 int corpuscle_site_position(const corpuscle_skin* skin, size_t site, double* x, double* y);
 size_t corpuscle_afferents(const corpuscle_skin* skin);                         /* number of afferents */

@@ -163,7 +163,7 @@ void add_respond(CLI::App& app, RespondArguments& w, CommonArguments& common) {
         "single precision: up to twice as fast, but spike times change (see doc/lanes.md); currents and membranes are not recorded");
     verb.add_option(
             "--rate", w.rate,
-            "sampling rate of a stimulus (default 10 kHz; with --population 1 kHz); of a recording: assume even sampling at this rate")
+            "sampling rate of a stimulus (default 10 kHz; with --population 1 kHz). For a recording: assume even sampling at this rate")
         ->type_name("FREQUENCY");
     add_recording_options(verb, w);
     verb.add_option("--out,-o", w.out, "write spikes.csv, summary.json and, with --copies, copies.csv into this directory")

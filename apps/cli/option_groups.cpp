@@ -86,7 +86,7 @@ void add_recording_options(CLI::App& verb, RecordingArguments& w) {
         ->type_name("WHAT")
         ->group(group);
     verb.add_option("--despike", w.despike,
-                    "outlier limit: readings further than this from the median of 25 neighbours are bad; auto: 6 standard deviations")
+                    "outlier limit: readings further than this from the median of 25 neighbours are bad (auto is 6 standard deviations)")
         ->type_name("LIMIT")
         ->group(group);
     verb.add_option("--notch", w.notch, "remove mains hum: 50Hz, with a bandwidth of 4 Hz (repeatable)")

@@ -12,7 +12,7 @@ namespace corpuscle {
 /// The error of a report page whose name does not end in .html.
 std::string page_name_error(const std::string& name);
 
-/// The error of a force in the place of a report page's name, with the command that works.
+/// The error of a force instead of a report page's name, with the command that works.
 std::string report_argument_error(const std::string& name, std::vector<std::string> forces);
 
 void add_netlist_options(CLI::App&, NetlistArguments&);

@@ -21,7 +21,7 @@ std::vector<std::string> file_names_in(const std::string& directory, const std::
 /// The path of the report page of this run, if one was requested.
 std::optional<std::string> report_page_path(const RespondArguments&);
 
-/// Checks that each output may be written: files of a directory ("": none), a page, a checkpoint ("": none).
+/// Checks that each output may be written: the files of a directory, a page, a checkpoint. An empty directory or checkpoint means none.
 Result<void> check_outputs(const std::string& directory, std::vector<std::string> names, const std::optional<std::string>& page,
                            const std::string& checkpoint, OutputCheck&);
 

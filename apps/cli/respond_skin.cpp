@@ -58,7 +58,7 @@ Result<void> check_skin_options(const RespondArguments& w) {
         {"--trace", !w.netlists.probes.empty(), netlists},
         {"--vectors", w.vectors,
          "afferents of a skin have no converter; run an afferent with one: --afferent sa1-kim, without --population"},
-        {"--wav", w.wav, "the clicks of thousands of afferents are not audible one by one; run one afferent without --population"},
+        {"--wav", w.wav, "the clicks of thousands of afferents are not audible separately; run one afferent without --population"},
         {"--corner", w.netlists.corner.has_value(), netlists},
         {"--supply", w.netlists.supply.has_value(), netlists},
         {"--temp", w.netlists.temp.has_value(), netlists},
@@ -198,7 +198,7 @@ std::string stronger_stimulus_advice(const SkinJob& job, const RespondArguments&
     const auto facts = job.source->metadata();
     if (!is_stimulus(job.source->name())) {
         const bool has_gain = !facts.empty() && facts[0].name.ends_with("newtons per unit");
-        return has_gain ? fmt::format("try --scale {}{}", format_rounded_up(factor * facts[0].value), w.unit ? " in place of --unit" : "")
+        return has_gain ? fmt::format("try --scale {}{}", format_rounded_up(factor * facts[0].value), w.unit ? " instead of --unit" : "")
                         : "";
     }
     const MetadataEntry* largest = nullptr;

@@ -65,7 +65,7 @@ class LiveRun {
     }
 
     /// Maps the columns of a CSV header to sites. Either all names are sites, or none is and the columns are in site order.
-    /// `sites`: the site of each column by --layout; empty: all sites in order.
+    /// `sites` is the site of each column by --layout. If it is empty, the columns are all sites in order.
     HeaderReader header_reader(std::vector<std::uint32_t> sites) const {
         return [this, sites = std::move(sites)](std::span<const std::string> names) -> Result<std::vector<std::uint32_t>> {
             const auto& all = skin_->innervation().plan.sites;

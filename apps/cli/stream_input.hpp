@@ -18,7 +18,7 @@ bool is_live_input(const std::string& in);
 /// "standard input", "tcp:7000", "grip.csv"
 std::string input_name(const std::string& in);
 
-/// Quantities of the command line in SI. limit: N; hold, longest, idle: s; buffer: bytes.
+/// Quantities of the command line in SI: max_force in N, times in s, the buffer in bytes.
 struct StreamQuantities {
     RecordingOptions recording;  ///< rate, scale, offset and unit apply to live frames, too
     double max_force = 0, hold = 0, max_gap = 0, buffer = 0, idle_timeout = 0;

@@ -18,7 +18,7 @@ std::string quantiles(const LatencyHistogram& d) {
                        time_of(d.quantile(0.999)), time_of(d.max()));
 }
 
-/// True if frames arrived one by one at the pace of a clock. If they arrived in bulk, jitter is meaningless.
+/// True if frames arrived one at a time at the pace of a clock. If they arrived in bulk, jitter is meaningless.
 bool is_paced(const StreamReportInput& f) {
     const auto& done = f.loop.stats();
     if (!f.frames.is_live() || done.rate() == 0) return false;

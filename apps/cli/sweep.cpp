@@ -54,12 +54,12 @@ Result<void> run_units(const SweepProcess& self, const Sweep& sweep, SweepResult
     if (!self.ranks) return run_sweep(sweep, results, run, count);
     if (!self.ranks->survive_death_of_one() && !common.quiet)
         fmt::print(stderr,
-                   "corpuscle: note: if one rank dies, mpirun ends all of them (the same command then resumes the sweep); "
-                   "with 'mpirun --enable-recovery ...' the others finish\n");
+                   "corpuscle: note: if one rank dies, mpirun ends all of them, and the same command resumes the sweep. "
+                   "With 'mpirun --enable-recovery ...' the others finish\n");
     DeadRanks lost;
     auto ok = run_coordinator(*self.ranks, sweep, results, run, count, lost);
     if (lost.ranks > 0)
-        fmt::print(stderr, "corpuscle: warning: {} rank{} died or stopped responding; other ranks repeat {} items\n", lost.ranks,
+        fmt::print(stderr, "corpuscle: warning: {} rank{} died or stopped responding, and other ranks repeat {} items\n", lost.ranks,
                    lost.ranks == 1 ? "" : "s", lost.redistributed_items);
     return ok;
 }

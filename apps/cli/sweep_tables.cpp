@@ -168,7 +168,7 @@ std::string dependences_text(const SweepTable& from, const SweepSummary& s) {
     std::string text;
     if (rows.size() > 1)
         text = fmt::format(
-            "\nInfluences, in percent of variance (grid axes: of the total variance; random parameters: of the variance within a grid\n"
+            "\nInfluences, in percent of variance (for grid axes of the total variance, for random parameters of that within a grid\n"
             "point, {} chips):\n{}",
             s.searched_chips, format_table(rows));
     if (!explained.empty())

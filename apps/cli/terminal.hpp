@@ -12,7 +12,8 @@ namespace corpuscle {
 /// Prints the error on standard error and returns its exit status.
 int report_error(const Error&);
 
-/// Prints one line on standard error: "corpuscle: ...", "corpuscle: warning: ...". Control characters are escaped.
+/// Prints one line on standard error. It begins with "corpuscle:", and a warning with "corpuscle: warning:". Control characters are
+/// escaped.
 void print_message(const std::string& message);
 void print_warning(const std::string& message);
 

@@ -87,7 +87,7 @@ class Hdf5Samples final : public Samples {
             const auto passes = (height - 1) / max_rows + 1, rows = (height - 1) / passes + 1, chunk = row / height * height;
             if (passes > max_passes)
                 return bad_input(
-                    fmt::format("{}: {} columns in chunks of {} rows do not fit into memory; select some columns by --channel, "
+                    fmt::format("{}: {} columns in chunks of {} rows do not fit into memory. Select some columns by --channel, "
                                 "or repack the file: h5repack -l {} {} repacked.h5",
                                 name_, width_, height, quote_shell_word(name_ + ":CHUNK=4096x64"), quote_shell_word(path_)),
                     {path_});

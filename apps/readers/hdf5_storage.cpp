@@ -23,7 +23,7 @@ std::string name_in(auto&& get) {
 
 /// The error for data in other files. The user copies them, and thus sees what is read.
 Error data_elsewhere(const ArrayInfo& facts, const std::set<std::string>& files, const std::string& path) {
-    return bad_input(fmt::format("{}: its data are in '{}', and other files are not read; copy the data into one file, in Python: "
+    return bad_input(fmt::format("{}: its data are in '{}', and other files are not read. Copy the data into one file, in Python: "
                                  "h5py.File('own.h5', 'w')['force'] = h5py.File('{}')['{}'][:]",
                                  describe(facts), fmt::join(files, "', '"), path, facts.name),
                      {path});
@@ -63,7 +63,7 @@ Result<void> check_filters(hid_t properties, const ArrayInfo& facts, const std::
         char name[64] = {};
         const auto id = H5Pget_filter2(properties, static_cast<unsigned>(k), &flags, &values, nullptr, sizeof name - 1, name, &settings);
         if (id < 0 || (flags & H5Z_FLAG_OPTIONAL) || H5Zfilter_avail(id) > 0) continue;
-        return bad_input(fmt::format("{}: compressed by filter {}{}, which is not available here; where it is, repack the file: "
+        return bad_input(fmt::format("{}: compressed by filter {}{}, which is not available here. Where it is, repack the file: "
                                      "h5repack -f GZIP=4 {} repacked.h5",
                                      describe(facts), id, *name ? fmt::format(" ({})", name) : "", quote_shell_word(path)),
                          {path});
@@ -91,7 +91,7 @@ Result<void> check_chunks(hid_t dataset, hid_t properties, const ArrayInfo& fact
         return bad_input(fmt::format("cannot read {}; the file may be damaged", facts.name), {path});
     if (bytes_of(storage.chunk, H5Tget_size(type)) > max_chunk)
         return bad_input(
-            fmt::format("{}: chunks of {} need more than 1 GB of memory each; repack the file: h5repack -l {} {} "
+            fmt::format("{}: chunks of {} need more than 1 GB of memory each. Repack the file: h5repack -l {} {} "
                         "repacked.h5",
                         describe(facts), fmt::join(storage.chunk, " x "),
                         quote_shell_word(fmt::format("{}:CHUNK={}", facts.name, facts.shape.size() == 1 ? "65536" : "4096x64")),
@@ -106,7 +106,7 @@ Result<void> check_chunks(hid_t dataset, hid_t properties, const ArrayInfo& fact
     if (stored == 0) return never_written(facts, path);
     if (stored >= expected) return {};
     if (stored < expected - stored)
-        return bad_input(fmt::format("{}: only {} of its {} chunks were written; if the recording ended early, keep its beginning, in "
+        return bad_input(fmt::format("{}: only {} of its {} chunks were written. If the recording ended early, keep its beginning, in "
                                      "Python: h5py.File('{}', 'r+')['{}'].resize(ROWS, axis=0)",
                                      describe(facts), stored, expected, path, facts.name),
                          {path});

@@ -3,7 +3,7 @@
 
 const MAX_LABELS = 46;  // with more lanes there is no space for a label per lane
 
-/// Each lane is an afferent on a channel. Spikes are ticks if they can be told apart, else the spikes per pixel are shown as shades.
+/// Each lane is an afferent on a channel. Spikes are ticks if they can be distinguished, else the spikes per pixel are shown as shades.
 class RasterPanel extends Panel {
     /// `lanes`: [{afferent, group, label, color, spikes, channel, chosen}], the first at the top. `grouped`: draw a line between groups.
     constructor({lanes, pick, grouped, afferents, named, ...rest}) {
@@ -103,7 +103,7 @@ class RasterPanel extends Panel {
     }
 }
 
-/// Adds spikes i ... j-1 to the pixel columns of [a, b). Few spikes are counted one by one; for many, the edges of the columns are searched.
+/// Adds spikes i ... j-1 to the pixel columns of [a, b). Few spikes are counted singly; for many, the edges of the columns are searched.
 function countPerColumn(counts, spikes, i, j, a, b) {
     const t = spikes.times, columns = counts.length;
     if (j - i < 8 * columns) {

@@ -147,10 +147,14 @@ function setPrinting(on) {
 }
 
 /// For tests and the browser's console.
-///   charts                       the dygraphs by panel: "force", "sa1 current", "sa1 membrane", "raster", "frequency"; with copies "population";
-///                                with several implementations "sa1 I", "sa1 I_A", "sa1 u", "sa1 frequency", scaled to the left axis
-///   valueAt(part, t, afferent)   the value on the selected channel at the sample nearest to t: a number; [min, max] if the trace holds only
-///                                these; null if there is no such trace. "force" has no afferent
+///
+///   charts                       The dygraphs by panel: "force", "sa1 current", "sa1 membrane", "raster", "frequency". With copies
+///                                there is "population". With several implementations: "sa1 I", "sa1 I_A", "sa1 u", "sa1 frequency", scaled
+///                                to the left axis.
+///
+///   valueAt(part, t, afferent)   The value on the selected channel at the sample nearest to t. It is [min, max] if the trace holds only
+///                                these, and null without such a trace. "force" has no afferent.
+///
 ///   window(), setWindow(a, b)    the time range in seconds; setting it redraws at once
 ///   pointsDrawn()                by panel: the rows last passed to its dygraph, and the width of its plot in pixels
 window.corpuscle = {

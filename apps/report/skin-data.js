@@ -127,7 +127,7 @@ class Skin {
         return (this.cached = {frame, frames, counts, some});
     }
 
-    /// The maximum rate per afferent of each class, averaged over so many frames, Hz.
+    /// The maximum rate per afferent of each class, averaged over this number of frames, Hz.
     maxRates(frames) {
         const counts = new Int32Array(this.marks.places), rates = this.classes.map(() => 0), ends = this.classes.map((one) => this.marksOf(one)[1]);
         for (let f = 0; f < this.marks.count; ++f) {

@@ -10,7 +10,7 @@ class Scene {
         this.frameForce = null;
     }
 
-    /// Arranges the maps side by side, as large as the window allows.
+    /// Arranges the maps in a row, as large as the window allows.
     layOut(width) {
         const count = this.skin.classes.length, [x0, y0, x1, y1] = this.all, aspect = Math.max(0.3, Math.min(3.5, (x1 - x0) / (y1 - y0)));
         const maxHeight = Math.max(260, Math.min(600, 0.58 * innerHeight));

@@ -1,5 +1,5 @@
 "use strict";
-// The page of a sweep: yields, measures, influences; plots of the selected measure; failed and extreme items.
+// The page of a sweep: yields, measures, influences, plots of the selected measure, and failed and extreme items.
 
 const data = JSON.parse(document.getElementById("data").textContent);
 const table = data.summary, measures = table.measures;

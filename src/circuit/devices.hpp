@@ -16,7 +16,7 @@ struct DeviceKind {
     /// At 0 Hz. conducts: the current depends, or may depend, on the voltage across the device. fixes_voltage: the device fixes the
     /// voltage between its first two terminals.
     bool conducts_dc, fixes_voltage;
-    /// Makes the batch that evaluates devices of this kind together. If null, they are evaluated one by one.
+    /// Makes the batch that evaluates devices of this kind together. If null, they are evaluated one at a time.
     Result<std::unique_ptr<DeviceBatch>> (*make_batch)() = nullptr;
 };
 

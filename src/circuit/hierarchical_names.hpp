@@ -8,7 +8,7 @@
 
 namespace corpuscle::circuit {
 
-/// What the last piece of a name denotes. The x of a subcircuit may be left out; so may the first letter of an element.
+/// The kind of object that the last piece of a name denotes. The x of a subcircuit and the first letter of an element may be left out.
 enum class LastPiece { node, element };
 
 /// Indices of the names that match `typed`. Letters of either case match. Pieces are compared from the end, and the last pieces are

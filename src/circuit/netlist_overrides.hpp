@@ -8,10 +8,15 @@
 namespace corpuscle::circuit {
 
 /// An override NAME=VALUE, such as C_u=4pF. NAME is one of:
-///  - corner, temp, mismatch;
-///  - a .param of the top level;
-///  - a device, which sets the value of R C L V I, the gain of E F G H, or the array of a transistor ("8x4" is 8 columns of 4 in series);
-///  - a device and one of its parameters, "summer.N3B.w".
+///
+///  - corner, temp, mismatch
+///
+///  - a .param of the top level
+///
+///  - a device: sets the value of R C L V I, the gain of E F G H, or the array of a transistor ("8x4" is 8 columns of 4 in series)
+///
+///  - a device and one of its parameters, "summer.N3B.w"
+///
 /// Letters may be of either case. The end of a device's path is enough, and SPICE's letters may be left out.
 struct NetlistOverride {
     std::string name, value;

@@ -30,8 +30,11 @@ Result<ChipSpec> parse_chip_spec(const Directive&);
 std::optional<ChipSample> chip_sample_of(const Circuit&);
 
 /// All combinations of the values of .step with the chips of .mc:
+///
 ///     .step param NAME FROM TO STEP | .step param NAME list A B ... | .step dec|oct param NAME FROM TO POINTS
+///
 ///     .mc COUNT [seed=S] [process=0] [mismatch=0]
+///
 /// NAME may be temp, without param. Several .step lines are combined in every way. For each chip, a process shift is sampled, and each
 /// transistor samples its own delvto and mulu0. The deviations are those of the model card (avt, ais, svt0, sis).
 class NetlistVariants {

@@ -37,7 +37,7 @@ Error ambiguous_probe(std::string_view word, const Circuit& c, std::span<const s
                       const std::vector<std::size_t>& found) {
     std::vector<std::string_view> some;
     for (const auto k : found) some.push_back(names[k]);
-    return bad_input(fmt::format("--trace {}: ambiguous in {}: {}; write more of its path", word, c.file, abbreviated_list(some)));
+    return bad_input(fmt::format("--trace {}: ambiguous in {} ({}); write more of its path", word, c.file, abbreviated_list(some)));
 }
 
 std::vector<std::string_view> nodes_of(const Circuit& c) { return {c.nodes.begin() + 1, c.nodes.end()}; }

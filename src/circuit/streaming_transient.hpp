@@ -60,7 +60,7 @@ public:
     const PowerMeter& meter() const { return *meter_; }
 
     void save(std::vector<double>& out);
-    /// Restores the state that save() wrote after so many samples. Returns false if `in` cannot be such a state.
+    /// Restores the state that save() wrote after this number of samples. Returns false if `in` cannot be such a state.
     bool restore(std::span<const double> in, std::int64_t samples);
 
 private:

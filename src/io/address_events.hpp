@@ -1,10 +1,16 @@
 #pragma once
 // Binary address events: a header with the clock and the meaning of the addresses, then 16 bytes for each spike (doc/events.md). All
 // numbers are little-endian.
-//     header: "corpaer1", i64 per, i64 seconds (a sample is seconds/per s), u32 runs, u32 bytes that follow; then the runs of afferents
-//     a run:  u32 first address, u32 stride, u32 first number (0: name without a number), u32 count, u32 letters, letters, 0 to 3 zeros
-//     then, if bytes of the header remain: u32 runs of channels, and these runs, with the name of the channel of the addresses
-//     spike:  i64 step, u32 fraction of the step, u32 address
+//
+//     header  "corpaer1", i64 per, i64 seconds (a sample is seconds/per s), u32 runs, u32 bytes that follow. Then the runs of afferents.
+//
+//     a run   u32 first address, u32 stride, u32 first number (0 for a name without a number), u32 count, u32 letters, letters,
+//             0 to 3 zeros
+//
+//     then    if bytes of the header remain: u32 runs of channels, and these runs, with the name of the channel of the addresses
+//
+//     spike   i64 step, u32 fraction of the step, u32 address
+//
 // The offset of a spike in its step is (fraction + 1) / 2^32, so its time is (step - 1 + offset) * seconds / per.
 
 #include <bit>

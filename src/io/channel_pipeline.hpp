@@ -27,7 +27,7 @@ class ChannelPipeline {
     GapFiller gaps_;
     double offset_, gain_;
     std::vector<Biquad> filters_;
-    bool filters_rows_;                        // true: filter the evenly spaced rows; false: filter after resampling
+    bool filters_rows_;                        // true: filters the evenly spaced rows, false: filters after resampling
     std::vector<double> despiked_, repaired_;  // scratch memory
 
     Result<void> repair(std::span<const double> read);

@@ -5,7 +5,7 @@
 namespace corpuscle {
 namespace {
 
-/// Removes every second point between the ends. With so many points, the remaining ones have the same distance to within rounding.
+/// Removes every second point between the ends. With this number of points, the remaining ones have the same distance to within rounding.
 template <class Points>
 void thin(Points& side) {
     std::size_t kept = 1;

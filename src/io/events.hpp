@@ -19,7 +19,7 @@ struct EventAddressing {
     Clock clock;
     std::vector<std::string> names;           ///< "sa1#17"
     std::vector<std::uint32_t> addresses;     ///< empty: the afferent index is the address
-    std::vector<std::string> afferents = {};  ///< names in text formats: "sa1" on a channel, "sa1#17" in a skin; empty: as `names`
+    std::vector<std::string> afferents = {};  ///< names in text formats: "sa1" on a channel, "sa1#17" in a skin; default `names`
     std::vector<std::string> channels = {};   ///< "press", "palm"; empty: no channels
 };
 
@@ -28,7 +28,7 @@ public:
     virtual ~EventFormat() = default;
     virtual std::string_view name() const = 0;             ///< "lines"
     virtual std::size_t max_bytes() const = 0;             ///< upper bound on the size of one spike
-    virtual bool has_fixed_size() const { return false; }  ///< true: every spike takes max_bytes(); false: every spike is a line
+    virtual bool has_fixed_size() const { return false; }  ///< true: every spike takes max_bytes(), false: every spike is a line
     virtual std::string header() const = 0;                ///< bytes before the first spike; may be ""
     /// Writes one spike at `at`, where max_bytes() must be free. Returns the number of bytes written. Does not allocate.
     virtual std::size_t write(const Spike&, char* at) const = 0;

@@ -15,8 +15,9 @@ struct ForeignFormat {
     std::string_view within;     ///< a text that must also occur in the first bytes
     std::string_view extension;  ///< the file extension, which can replace `within`
     std::string_view what;
-    std::string_view needs;    ///< Python packages, or programs, that the command needs
-    std::string_view command;  ///< {0}: the file, {1}: the new name without extension, both for Python; {2}, {3}: for a shell
+    std::string_view needs;  ///< Python packages, or programs, that the command needs
+    /// {0} is the file, {1} the new name without extension, both for Python. {2} and {3} are the same for a shell.
+    std::string_view command;
 };
 
 // In Python the names are in single quotes. An index column is kept if there can be one, because it may be the time.
@@ -46,7 +47,7 @@ constexpr ForeignFormat foreign_formats[] = {
     {"\x80\x03", "", ".pickle", a_pickle, "pandas", pickle},
     {"\x80\x04", "", ".pkl", a_pickle, "pandas", pickle},
     {"\x80\x05", "", ".pkl", a_pickle, "pandas", pickle},
-    {"#ROSBAG V", "", ".bag", "a ROS bag", "rostopic of ROS 1, and a topic from 'rosbag info' in place of /TOPIC",
+    {"#ROSBAG V", "", ".bag", "a ROS bag", "rostopic of ROS 1, and a topic from 'rosbag info' instead of /TOPIC",
      "rostopic echo -p -b {2} /TOPIC > {3}.csv"},
 };
 

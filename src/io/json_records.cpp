@@ -177,7 +177,7 @@ class JsonReader {
     void find_columns(const std::string& name, const OrderedJson& object, std::vector<JsonColumn>& out) const {
         for (const auto& [key, member] : object.items()) {
             const auto full = name.empty() ? key : name + "." + key;
-            if (member.is_array() ? is_list(member) : is_list(member) && member.contains("0")) {  // pandas: {"0": ..., "1": ...}
+            if (member.is_array() ? is_list(member) : is_list(member) && member.contains("0")) {  // {"0": ..., "1": ...} of pandas
                 out.push_back({full, {}});
                 for (const auto& v : member) out.back().values.push_back(&v);
             } else if (member.is_object()) {
@@ -295,7 +295,7 @@ class JsonReader {
             text.append(line) += '\n';
             if (text.size() > max_document)
                 return error_at(fmt::format(
-                    "the JSON document is larger than {} MB; convert it to one record on each line, without a limit: python3 -c "
+                    "the JSON document is larger than {} MB. Convert it to one record on each line, without a limit: python3 -c "
                     "\"import pandas; pandas.read_json('FILE').to_json('FILE.jsonl', orient='records', lines=True)\"",
                     max_document >> 20));
         }

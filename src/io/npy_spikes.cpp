@@ -53,7 +53,7 @@ Result<std::vector<NamedTrain>> read_npy_spikes(const std::string& path, const S
     }
     if (found->seconds_per_unit == 1 && are_sample_numbers(all))
         return bad_input(
-            fmt::format("the times are integers, as sample numbers are; convert them to seconds with the sample rate: python3 -c "
+            fmt::format("the times are integers, as sample numbers are. Convert them to seconds with the sample rate: python3 -c "
                         "\"import numpy; numpy.save('seconds.npy', numpy.load('{}') / 30000)\"",
                         path.find_first_of("'\"\\$`!") == path.npos ? path : "FILE.npy"),
             {path});

@@ -38,7 +38,7 @@ public:
     bool has(const std::string& name) const;
     /// The bytes of an array, including its header.
     Result<std::unique_ptr<SeekableBytes>> bytes(const std::string& name) const;
-    // An entire array as a list, whatever its shape. An unknown name, or elements of another type, are errors.
+    // An entire array as a list, for any shape. An unknown name, or elements of another type, are errors.
     Result<std::vector<std::int64_t>> integers(const std::string& name) const;
     Result<std::vector<double>> numbers(const std::string& name) const;
     Result<std::vector<std::string>> strings(const std::string& name) const;

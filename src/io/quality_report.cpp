@@ -139,7 +139,7 @@ class ReportWriter {
         if (rows.dropped > 0) add(false, fmt::format("{} rows with a bad field were dropped", rows.dropped));
         std::int64_t samples = 0;
         for (const auto& p : paths_) samples += p.levels.count;
-        constexpr std::int64_t min_warning = 20;  // one sample in so many
+        constexpr std::int64_t min_warning = 20;  // warn if more than one sample in this number was interpolated
         if (filled > 0)
             add(filled * min_warning > samples, fmt::format("{} of {} samples were interpolated ({} outside --range, {} outliers)", filled,
                                                             samples, rows.out_of_range, outliers));

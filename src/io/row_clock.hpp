@@ -14,7 +14,7 @@ struct RowClock {
     std::optional<std::size_t> time_column;  ///< the time column
     double seconds_per_unit = 1;             ///< unit of the time column
     double origin = 0;                       ///< the time in that column that becomes 0 s
-    bool uses_row_times = false;             ///< true: rows have their own, uneven times; false: rows follow `clock`
+    bool uses_row_times = false;             ///< true: rows have their own, uneven times, false: rows follow `clock`
     bool drops_untimed = false;              ///< rows without a readable time are dropped
     Clock clock;
     std::int64_t gap_count = 0;  ///< steps longer than one and a half times the median step

@@ -46,7 +46,7 @@ Result<ResolvedSpikeColumns> find_spike_columns(const std::vector<std::string>& 
         if (!*requested) continue;
         *to = requested_column(headings, **requested);
         if (!*to)
-            return bad_input(fmt::format("{} {}: there is no such column; columns: {}", option, **requested, listed_headings(headings)));
+            return bad_input(fmt::format("{} {}: there is no such column. Columns: {}", option, **requested, listed_headings(headings)));
     }
     for (std::size_t c = 0; c < headings.size(); ++c) {
         const auto name = lower(parse_heading(headings[c]).name);
@@ -61,11 +61,11 @@ Result<ResolvedSpikeColumns> find_spike_columns(const std::vector<std::string>& 
     if (out.channel == out.afferent) out.channel.reset();
     if (!time && headings.size() == 1 && headings[0].empty()) time = 0;
     if (!time)
-        return bad_input(fmt::format("no column of spike times; call one time_s (or time, t [ms] ...), or name it with --time; columns: {}",
+        return bad_input(fmt::format("no column of spike times; call one time_s (or time, t [ms] ...), or name it with --time. Columns: {}",
                                      listed_headings(headings)));
     if (!out.afferent && !out.channel && headings.size() > 1)
         return bad_input(
-            fmt::format("no column identifies the trains; call one unit, afferent or channel, or name it with --unit; columns: {}",
+            fmt::format("no column identifies the trains; call one unit, afferent or channel, or name it with --unit. Columns: {}",
                         listed_headings(headings)));
     out.time = *time;
     const auto in = parse_heading(headings[*time]).unit;

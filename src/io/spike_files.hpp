@@ -26,9 +26,11 @@ struct SpikeColumns {
 };
 
 /// All trains of a file, sorted by name, with numbers in names sorted by value. Formats recognised by their first bytes:
+///
 /// - NPZ of Corpuscle or of SpikeInterface, where segments after the first become channels "segment 2" ...
 /// - address events of Corpuscle and AEDAT 2 (doc/events.md)
 /// - NPY arrays of times in seconds
+///
 /// Any other file is a text table, or JSON with one record for each spike. It has a column of times (time_s, t [ms], spike_times ...;
 /// seconds if there is no unit). The columns afferent or unit (cluster, neuron ...) and channel identify the train. A single column of
 /// times needs neither these nor a header. Only an NPZ of Corpuscle contains trains without spikes.

@@ -26,7 +26,7 @@ inline constexpr std::size_t rows_per_block = 4096;
 /// Options for opening a file.
 struct TableOptions {
     std::optional<std::string> dataset = {};  ///< the array to read: "/force/data" in HDF5, "force" in NPZ
-    std::optional<bool> transpose = {};       ///< true: rows are channels; false: rows are samples, even if there are fewer rows
+    std::optional<bool> transpose = {};       ///< true: rows are channels, false: rows are samples, even if there are fewer rows
     std::size_t skip_lines = 0;               ///< number of lines before the table in a text file
     /// Called while a file is opened that must be read completely. Returning false stops it.
     std::function<bool()> should_continue = [] { return true; };

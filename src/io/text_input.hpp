@@ -1,5 +1,5 @@
 #pragma once
-// Reads a text file as UTF-8: plain, compressed with gzip, or UTF-16. Memory is bounded whatever the uncompressed size.
+// Reads a text file as UTF-8: plain, compressed with gzip, or UTF-16. Memory is bounded for any uncompressed size.
 
 #include <cstddef>
 #include <memory>

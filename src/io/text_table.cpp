@@ -190,7 +190,7 @@ class TextTable final : public Table {
     struct TrialColumn {
         std::size_t column;  ///< the column that identifies trials
         std::string first;   ///< its field in the first row
-        bool changes;        ///< true: changes at the row where the time decreases; false: constant up to that row
+        bool changes;        ///< true: changes at the row where the time decreases, false: constant up to that row
     };
 
     /// The columns that distinguish the trial that begins in line `begins` from the first trial. Reads the rows again. Empty if no column

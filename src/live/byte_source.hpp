@@ -51,7 +51,7 @@ Result<std::unique_ptr<ByteSource>> open_standard_input();
 /// Limits for the senders on a network, which send one after another.
 struct SenderLimits {
     std::int64_t clients = 0;            ///< the stream ends after this many; 0: never
-    std::int64_t idle = 10'000'000'000;  ///< ns: a sender that is silent for this long is replaced if another wants to send; 0: never
+    std::int64_t idle = 10'000'000'000;  ///< ns; a sender that is silent for this long is replaced if another connects; 0 is never
 };
 
 /// Listens on a port (0: any free one) of a local address, for one client at a time. The next is accepted after it has disconnected.

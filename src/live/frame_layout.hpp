@@ -8,7 +8,7 @@ namespace corpuscle {
 
 enum class FrameKind { csv, f32, f64, i16 };
 
-/// The data before the forces of a frame: none, its number (binary: u32), or its time in seconds (binary: f64).
+/// The data before the forces of a frame: none, its number (u32 if binary), or its time in seconds (f64 if binary).
 enum class FrameStamp { none, sequence, time };
 
 struct FrameLayout {

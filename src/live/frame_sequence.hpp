@@ -44,7 +44,7 @@ public:
         return {true, held, ahead - 1 - held};
     }
 
-    /// Call when another sender begins: its first frame is the next one, whatever its number.
+    /// Call when another sender begins: its first frame is the next one, regardless of its number.
     void restart() { begun_ = false; }
     /// Continues as after a frame with this number.
     void resume_after(std::uint32_t number) { begun_ = true, last_ = number; }

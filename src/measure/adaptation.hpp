@@ -10,7 +10,7 @@ namespace corpuscle {
 /// whose pauses are longer in total than its firing.
 struct AdaptationRatio : MeasureBase {
     static constexpr MeasureInfo info{"adaptation_ratio", "adaptation", "", 2,
-                                      "first interval of the phase divided by its last: 1 is no adaptation, 0.5 a slowing to half"};
+                                      "first interval of the phase divided by its last: 1 means no adaptation, 0.5 a slowing to half"};
     int intervals = 0;  // up to 2; more are not counted
     double first = 0, last = 0;
     PauseDetector pauses;

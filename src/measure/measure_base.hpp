@@ -15,8 +15,11 @@ struct TimeWindow {
 };
 
 /// Description of a measure. A measure is a struct with this as `info`. It implements those of the following functions that it needs:
+///
 ///     spike(t, window)            each spike of the window, in order
-///     interval(a, b, inside)      from each spike of the window to the next one; inside: that one is in the window as well
+///
+///     interval(a, b, inside)      from each spike of the window to the next one; `inside` if that one is in the window as well
+///
 ///     value(window)               at the end; no_value if it is undefined
 struct MeasureInfo {
     std::string_view name;   ///< in files: "peak_rate"

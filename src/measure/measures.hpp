@@ -1,6 +1,6 @@
 #pragma once
 // Measures of spike trains. To add one, put its struct into a file here and its name into the list. It is then a column in summary, table
-// and report. Measures receive spikes one by one and keep a few numbers each, independent of the length of the train.
+// and report. Measures receive spikes one at a time and keep a few numbers each, independent of the length of the train.
 
 #include <span>
 #include <tuple>

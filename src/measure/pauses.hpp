@@ -3,9 +3,9 @@
 
 namespace corpuscle {
 
-/// Separates pauses from interspike intervals, one by one. A pause is longer than half a second and longer than ten times the mean of the
-/// intervals before it. An interval of more than ten seconds is always a pause. Both are choices: touched afferents fire faster than once a
-/// second, most of them ten times as fast.
+/// Separates pauses from interspike intervals, one at a time. A pause is longer than half a second and longer than ten times the mean of
+/// the intervals before it. An interval of more than ten seconds is always a pause. Both are choices: touched afferents fire faster than
+/// once a second, most of them ten times as fast.
 class PauseDetector {
     static constexpr double min_pause = 0.5, min_ratio = 10;
     double firing_ = 0, paused_ = 0;  // s, in all

@@ -1,7 +1,7 @@
 #pragma once
 // Many afferents of one kind, simulated together on SIMD lanes and threads. All have the same receptor and neuron models, with individual
-// or shared parameters. In double precision the result is bit-identical to simulating the afferents one by one, for any number of lanes and
-// threads.
+// or shared parameters. In double precision the result is bit-identical to simulating the afferents one at a time, for any number of lanes
+// and threads.
 
 #include <memory>
 #include <span>

@@ -12,7 +12,7 @@
 #include "model/receptor/fa1b.hpp"
 #include "model/receptor/sa1a.hpp"
 #include "model/receptor/sa1b.hpp"
-#include "model/receptor/vibration.hpp"
+#include "model/receptor/vibration_receptor.hpp"
 
 namespace corpuscle {
 

@@ -29,7 +29,7 @@ struct ValidRange {
 
 /// Counts the samples at which a quantity was outside its valid range.
 struct RangeViolation {
-    std::int64_t samples = 0, first_sample = -1;  ///< first: the index of the first such sample; -1: none
+    std::int64_t samples = 0, first_sample = -1;  ///< first_sample: the index of the first such sample, or -1
 };
 
 /// A message such as "v(vf) was outside 100 mV to 600 mV for 120 ms of 1 s, first at 310 ms: ...". Times are in seconds.

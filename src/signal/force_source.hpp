@@ -41,7 +41,7 @@ struct MetadataEntry {
 /// A measure of a channel's recording quality.
 struct QualityMetric {
     std::uint32_t channel = 0;
-    std::string_view name;  ///< "hum", "strays"
+    std::string_view name;  ///< such as "hum"
     double value = 0;
     std::string_view unit;
 };

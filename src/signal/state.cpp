@@ -86,7 +86,7 @@ Result<void> check_block(std::string_view name, std::string_view format, std::si
                          std::span<const double> force) {
     if (state.format != format) return format_mismatch(name, format, state.format);
     if (state.values.size() != values)
-        return bad_input(fmt::format("{}: the saved state is damaged: it has {} values, expected {}; start again with start()", name,
+        return bad_input(fmt::format("{}: the saved state is damaged: it has {} values, expected {}. Start again with start()", name,
                                      state.values.size(), values));
     if (const auto bad = first_non_finite(force); bad < force.size())
         return bad_input(fmt::format("{}: the force of sample {} is {}, not a finite number", name,

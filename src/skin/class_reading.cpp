@@ -101,8 +101,8 @@ Result<void> read_numbers(const ClassSpec& spec, const Sites& sites, const Numbe
     if (dense == spec.per_site.has_value())
         return bad_input(fmt::format("[[class]] {}: needs either density = \"70 /cm2\" or per_site = 1", out.name), spec.location);
     if (dense && !(sites.area > 0))
-        return bad_input(fmt::format("[[class]] {}: a density needs sites that represent an area of skin: regions, or area = \"4 mm2\" in "
-                                     "[sites]; for sensors use per_site = 1",
+        return bad_input(fmt::format("[[class]] {}: a density needs sites with an area of skin. Give regions, or area = \"4 mm2\" in "
+                                     "[sites]. For sensors use per_site = 1",
                                      out.name),
                          spec.location);
     const auto per_site = numbers.integer(spec.per_site, "per_site", 1, 1000, 0);

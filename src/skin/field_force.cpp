@@ -59,7 +59,7 @@ void FieldForce::build_by_afferent() {
                 by_afferent_->add(n * tiles_per_piece * tile_width + pieces_[n].afferent[k], s, pieces_[n].weight[k]);
 }
 
-/// All tiles are computed: with so many touched sites few would be without force.
+/// All tiles are computed: with this number of touched sites few would be without force.
 void FieldForce::compute_by_afferent(const Call& call, ThreadPool& pool) {
     static constexpr std::array<double, skin_steps> zero = {};
     if (!by_afferent_) build_by_afferent();

@@ -14,8 +14,8 @@ namespace corpuscle {
 /// Steps that pass through a skin at once. The force on a tile and its sums over these steps stay in the caches.
 inline constexpr std::size_t skin_steps = 32;
 
-/// Sums run in the order of the sites, and a site without force adds nothing. The result is therefore the same bit for bit, whatever list
-/// of touched sites is given.
+/// Sums run in the order of the sites, and a site without force adds nothing. The result is therefore the same bit for bit, for any list
+/// of touched sites.
 class FieldForce {
 public:
     /// For afferents [first, first + count) of a class.

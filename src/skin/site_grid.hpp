@@ -1,5 +1,5 @@
 #pragma once
-// A spatial index of sites: square cells that are searched one by one.
+// A spatial index of sites: square cells that are searched one at a time.
 
 #include <algorithm>
 #include <cstdint>

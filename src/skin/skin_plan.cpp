@@ -131,7 +131,7 @@ Result<Sites> requested_sites(const SkinSpec& spec, std::span<const Channel> cha
     }
     const bool grid = s.rows || s.columns, list = s.has_list || s.file, outline = !spec.regions.empty();
     if (grid + list + outline != 1)
-        return bad_input("[sites] needs exactly one of these: rows and columns; a list; pitch and regions ([[region]])", s.location);
+        return bad_input("[sites] needs either rows and columns, or a list, or pitch and regions ([[region]])", s.location);
     if (list && s.pitch) return s.pitch->error_here("a list of sites has no pitch");
     if (s.file) return read_site_table((std::filesystem::path(spec.file).parent_path() / s.file->text).string());
     if (list) return sites_of_list(s, numbers);

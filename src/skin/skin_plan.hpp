@@ -23,7 +23,7 @@ struct SkinClass {
     double sigma = 0;                          ///< of each hot spot of a receptive field, a Gaussian; m. 0: only the nearest site
     std::uint32_t hot_spots = 1;               ///< of one receptive field
     double hot_spot_spread = 0;                ///< standard deviation of their positions about the afferent's, in x and in y; m
-    double velocity = 0, velocity_spread = 0;  ///< conduction, m/s: mean and standard deviation; 0: no delay
+    double velocity = 0, velocity_spread = 0;  ///< conduction, m/s: mean and standard deviation; at 0 spikes are not delayed
     std::vector<ParameterDistribution> distributions = {};  ///< how the parameters of its afferents vary
     std::vector<SourceNote> sources = {};
 };
@@ -42,7 +42,7 @@ struct SkinPlan {
     std::vector<SourceNote> sources = {};
     /// Named afferents, one on every channel. An afferent is then named after its class and channel, without a number.
     bool is_by_channel = false;
-    std::optional<Position> nerve = {};  ///< the recording point: spikes arrive after (distance to it) / velocity; not set: at once
+    std::optional<Position> nerve = {};  ///< the recording point: spikes arrive after (distance to it) / velocity, or at once if not set
 };
 
 /// A population by its name ("hand", "fingertip", "grid 8x8") or file. `channels` are those of the force input, for files with sites =

@@ -63,7 +63,7 @@ struct RespondOptions {
     double noise = 0;        ///< of every membrane, see Run
     std::uint64_t seed = 0;  ///< of the noise
     Precision precision = Precision::double_precision;
-    ThreadPool* pool = nullptr;  ///< threads; the response does not depend on it; null: only the calling thread
+    ThreadPool* pool = nullptr;  ///< threads, or null for only the calling thread; the response does not depend on it
     std::size_t block = 4096;    ///< samples; the response does not depend on it
     /// Called once a block with the completed fraction, 0 to 1; false stops the run.
     std::function<bool(double)> should_continue = [](double) { return true; };

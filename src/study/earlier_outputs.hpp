@@ -1,6 +1,6 @@
 #pragma once
 // The files that an earlier run wrote into a directory, as its summary.json there lists them ("files"). A summary.json may come from
-// anyone, so only names that this program writes are trusted.
+// an unknown source, so only names that this program writes are trusted.
 
 #include <string>
 #include <string_view>

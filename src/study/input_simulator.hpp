@@ -1,5 +1,5 @@
 #pragma once
-// Simulates the afferents of one input on all threads: on SIMD lanes if possible, otherwise one by one.
+// Simulates the afferents of one input on all threads: on SIMD lanes if possible, otherwise one at a time.
 
 #include "model/lane_population.hpp"
 #include "study/afferent_run.hpp"
@@ -9,7 +9,7 @@ namespace corpuscle {
 
 class InputSimulator {
 public:
-    /// `probed`: a sink wants probes; then the afferents are simulated one by one.
+    /// `probed`: a sink wants probes; then the afferents are simulated one at a time.
     static Result<InputSimulator> make(Input input, const RespondOptions& options, bool probed);
 
     const Input& input() const { return input_; }

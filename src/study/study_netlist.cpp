@@ -36,13 +36,13 @@ Result<Netlist> netlist_of(const StudyNetlist& deck) {
         text = std::move(*carried);
     }
     if (!deck.directives.empty()) text = with_directives(text, deck.directives);
-    std::vector<NetlistOverride> knobs;
+    std::vector<NetlistOverride> overrides;
     for (const auto& setting : deck.settings) {
         const auto equals = setting.find('=');
         if (equals == std::string::npos) return bad_input(fmt::format("setting '{}' must be NAME=VALUE", setting));
-        knobs.push_back({setting.substr(0, equals), setting.substr(equals + 1), setting});
+        overrides.push_back({setting.substr(0, equals), setting.substr(equals + 1), setting});
     }
-    return apply_overrides([&](const std::string& corner) { return parse_embedded(text, file, corner); }, file, knobs);
+    return apply_overrides([&](const std::string& corner) { return parse_embedded(text, file, corner); }, file, overrides);
 }
 
 std::shared_ptr<const Circuit> with_models(const Circuit& circuit, const Values& numbers) {

@@ -9,7 +9,8 @@
 
 namespace corpuscle {
 
-/// vectors-AFFERENT.csv: the constants as comments, then one row for each conversion; a second channel gives vectors-AFFERENT-2.csv ...
+/// vectors-AFFERENT.csv: the constants as comments, then one row for each conversion. A second channel gives vectors-AFFERENT-2.csv ...
+///
 /// rom-AFFERENT.csv: the table from codes to force words. Afferents without a converter have no such files.
 class TestVectorsFile final : public FileSink {
     struct AfferentFile {

@@ -20,7 +20,7 @@ struct VersionComparison {
     PhaseCount total;                             ///< over the whole input; its phase name is empty
     std::vector<PhaseCount> phases = {};          ///< phases of the stimulus; empty if it has none
     std::size_t matched = 0;                      ///< spikes matched with one of the reference, see victor_purpura
-    double mean_shift = NAN, median_shift = NAN;  ///< s, of matched spikes; positive: later than the reference; NaN: none matched
+    double mean_shift = NAN, median_shift = NAN;  ///< s, of matched spikes; positive if later than the reference, NaN if none matched
     double victor_purpura = NAN;                  ///< NaN: too many spikes close to each other to compute it
     double van_rossum = 0;
 };

@@ -881,7 +881,8 @@ class Sweeps(unittest.TestCase):
         self.assertLess(printed_table.index("all limits"), printed_table.index("v(q) (mV)"))
         self.assertIn("temp = 85 degC", printed_table)
         wrong = subprocess.run([CORPUSCLE, "sweep", "show", str(results), "--by", "tmp"], capture_output=True, text=True)
-        self.assertEqual((wrong.returncode, wrong.stderr.strip()), (2, "corpuscle: --by tmp: unknown axis; did you mean 'temp'?; known: temp"))
+        self.assertEqual((wrong.returncode, wrong.stderr.strip()),
+                         (2, "corpuscle: --by tmp: unknown axis; did you mean 'temp'? (known: temp)"))
         with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as profile:
             options = webdriver.ChromeOptions()
             options.binary_location = shutil.which("chromium")

@@ -224,7 +224,7 @@ TEST(Hdf5, NoOtherFileIsReadForItsData) {
         make_dataset(file, properties, {100});
     });
     EXPECT_NE(load_error(external, {.rate = 10})
-                  .find("x.h5: /force (100): its data are in '" + secret + "', and other files are not read; copy the data"),
+                  .find("x.h5: /force (100): its data are in '" + secret + "', and other files are not read. Copy the data"),
               std::string::npos);
     Hdf5File(folder / "source.h5").write_numbers("/data", {100}, ramp(100));
     for (const auto* source : {"source.h5", "not-copied-along.h5"}) {
@@ -266,7 +266,7 @@ TEST(Hdf5, DataThatWereNeverWrittenAreNotAForce) {
                                          }),
                          {.rate = 10})
                   .substr(0, 82),
-              "x.h5: /force (1000000000000000): only 2 of its 10000000000000 chunks were written;");
+              "x.h5: /force (1000000000000000): only 2 of its 10000000000000 chunks were written.");
     const auto first_part = ramp(600);
     const auto path = write_file_with(
         folder, "x.h5", [&](hid_t f, hid_t properties) { chunked(properties, 100), make_dataset(f, properties, {1000}, &first_part); });
@@ -360,7 +360,7 @@ TEST(Hdf5, AMissingFilterIsNamed) {
     ASSERT_NE(message, std::string::npos);
     bytes[message - 8] = '\x0f', bytes[message - 7] = '\x7d', bytes[message - 4] = '\0';  // 32015: zstd; not optional
     EXPECT_NE(load_error(folder.write("z.h5", bytes), {.rate = 10})
-                  .find("compressed by filter 32015 (deflate), which is not available here; where it is"),
+                  .find("compressed by filter 32015 (deflate), which is not available here. Where it is"),
               std::string::npos);
 }
 

@@ -53,10 +53,10 @@ TEST(SpikeFiles, ErrorsNameTheFaultAndItsLocation) {
         {"afferent,channel,time_s\nsa1,0.5\n", "x.csv:2: 2 columns where 3 are expected"},
         {"afferent,channel,time_s\nsa1,\"fz,0.5\n", "x.csv:2:5: a quote is opened here but not closed"},
         {"a,b\n1,2\n",
-         "x.csv:1: no column of spike times; call one time_s (or time, t [ms] ...), or name it with --time; columns: 'a', 'b'"},
+         "x.csv:1: no column of spike times; call one time_s (or time, t [ms] ...), or name it with --time. Columns: 'a', 'b'"},
         {"time_s,fz_N\n0,1\n",
-         "x.csv:1: no column identifies the trains; call one unit, afferent or channel, or name it with --unit; "
-         "columns: 'time_s', 'fz_N'"},
+         "x.csv:1: no column identifies the trains; call one unit, afferent or channel, or name it with --unit. "
+         "Columns: 'time_s', 'fz_N'"},
         {"0.5 3\n0.6 4\n", "x.csv:1: 2 columns without a header; select the columns of times and trains, such as --time 1 --unit 2"},
         {"unit,time_N\n1,1\n", "x.csv:1:6: 'N' is not a unit of time; use s, ms, us or min"},
         {"", "x.csv: the file has no header and no spikes"},
@@ -86,7 +86,7 @@ TEST(SpikeFiles, ColumnsOfOtherProgramsAreKnownOrNamed) {
     EXPECT_EQ(read_with("0.5 7\n0.25 7\n", {"1", "2"})[0].times, (std::vector<double>{0.25, 0.5}));
     EXPECT_EQ(read_with("when [ms],afferent,who\n500,x,a\n", {"when", "who"})[0].name(), "a") << "takes precedence over column names";
     const auto wrong = read_spikes(folder.write("x.csv", "time,unit\n0.5,1\n"), {"when", {}});
-    EXPECT_NE(wrong.error().message.find("--time when: there is no such column; columns: 'time', 'unit'"), std::string::npos);
+    EXPECT_NE(wrong.error().message.find("--time when: there is no such column. Columns: 'time', 'unit'"), std::string::npos);
 }
 
 TEST(SpikeFiles, JsonLinesAreReadAsTheStreamWritesThem) {

@@ -194,7 +194,7 @@ TEST(PopulationFile, ErrorsGiveTheLocationAndTheRemedy) {
     EXPECT_EQ(error_in(text, "pitch = 1", "pitch = 50"),
               "pad.toml:2:1: region 'pad' has no site: it is smaller than the pitch, or earlier regions cover all of it");
     EXPECT_EQ(error_in(text, "pitch = 1", "rows = 2"),
-              "pad.toml:2:1: [sites] needs exactly one of these: rows and columns; a list; pitch and regions ([[region]])");
+              "pad.toml:2:1: [sites] needs either rows and columns, or a list, or pitch and regions ([[region]])");
     EXPECT_EQ(error_in(text, "width = [10, 8]", "height = 3"), "pad.toml:6:11: a capsule has neither height nor angle");
     EXPECT_EQ(error_in(text, "[0, 20]]", "[0, 20, 1]]"), "pad.toml:6:31: capsule: a position needs two numbers, [x, y]");
     EXPECT_EQ(error_in(text, "density = \"70 /cm2\"", "density = \"70 /cm2\"\nspread = {f_B = \"5%\", f_X = \"5%\"}").substr(0, 65),

@@ -194,7 +194,7 @@ TEST_F(SyntheticSweepSummary, AnAxisOfManyValuesIsCutIntoBandsAndAWrongNameGetsA
     for (const auto& g : bands.groups) EXPECT_NEAR(static_cast<double>(g.rows.size()), 600, 10);
     const auto wrong = group_rows(table, {"tmep"});
     ASSERT_FALSE(wrong);
-    EXPECT_EQ(wrong.error().message, "--by tmep: unknown axis; did you mean 'temp'?; known: temp, corner, process.vt_n");
+    EXPECT_EQ(wrong.error().message, "--by tmep: unknown axis; did you mean 'temp'? (known: temp, corner, process.vt_n)");
 }
 
 }  // namespace

@@ -12,10 +12,15 @@ struct Equilibrium {
     bool is_power_on = false;  ///< the one that the circuit reaches at power-on
 };
 
-/// Finds equilibria by a search from these points: the start of .op; each node clamped to either supply voltage, then released; the end of
-/// the power-on transient; the midpoint of any two stable equilibria, between which there is an unstable one. Two equilibria differ if a
-/// node differs by more than 1 mV. The list may be incomplete. Order: the default one, then stable ones, then unstable ones, each sorted by
-/// their voltages. With variation applied, these are the equilibria of that chip.
+/// Finds equilibria by a search from these points:
+///
+/// - the start of .op
+/// - each node clamped to either supply voltage, then released
+/// - the end of the power-on transient
+/// - the midpoint of any two stable equilibria, because an unstable one lies between them
+///
+/// Two equilibria differ if a node differs by more than 1 mV. The list may be incomplete. Order: the default one, then stable ones, then
+/// unstable ones, each sorted by their voltages. With variation applied, these are the equilibria of that chip.
 ///
 /// Power-on is a transient from 0 V everywhere, without .ic, in which all V and I sources rise linearly within `rise` (s) to their values
 /// in .op. If it settles, its end is an equilibrium. Otherwise no equilibrium has is_power_on.

@@ -18,7 +18,7 @@ Error unstable_warning(const AnalysisContext& context, const UnstableMode& mode)
         std::max_element(d.begin(), d.begin() + context.system.nodes(), [](double a, double b) { return std::abs(a) < std::abs(b); });
     const auto node = static_cast<std::size_t>(largest - d.begin());
     return bad_input(
-        fmt::format("the operating point is unstable: a disturbance grows{}; the transient starts {} from it, at {}; set .ic to choose the "
+        fmt::format("the operating point is unstable: a disturbance grows{}. The transient starts {} from it, at {}. Set .ic to choose the "
                     "start",
                     mode.rate > 0 ? fmt::format(" by a factor of {:.3g} in {}", std::exp(1.0), format_quantity(1 / mode.rate, "s"))
                                   : std::string(" while it oscillates"),

@@ -8,7 +8,7 @@ namespace corpuscle::circuit {
 struct InitialCondition {
     std::vector<double> x;
     bool is_consistent = true;       ///< false (uic): only the charges are consistent; the other unknowns follow from them
-    std::vector<double> charge{};    ///< by equation: charge that ic= of elements adds to the charges at x; empty: none
+    std::vector<double> charge{};    ///< by equation: charge that ic= of elements adds to the charges at x; may be empty
     std::optional<Error> warning{};  ///< the operating point is unstable, so the transient starts beside it
 };
 

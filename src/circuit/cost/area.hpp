@@ -20,8 +20,11 @@ inline constexpr double capacitor_density = 2e-3;
 
 /// Total area of an array of equal unit transistors of W by L, in rows and columns (along L) of one rectangle. The margins around the
 /// array and between its units are inferred from the thesis's tables 10 and 13 (0.18 um):
+///
 ///     A_T = (r W + (r - 1) 0.28 um + 0.5 um) (c L + (c - 1) 0.54 um + 0.96 um)
-/// exact for B1, B2, C1, C2, D1, D2 (r by c of 2x1, 2x2, 1x1, 2x2, 1x2, 2x2), E (1x1) and G1 to G3 (1x8); 3.6 % above A.
+///
+/// This is exact for these arrays, with r by c: B1 2x1, B2 2x2, C1 1x1, C2 2x2, D1 1x2, D2 2x2, E 1x1. It is also exact for G1 to G3 (1x8).
+/// For A it is 3.6 % too large.
 struct RectangleRule {
     static constexpr double around_W = 0.5e-6, around_L = 0.96e-6;  ///< m; margin of an island around its channel
     static constexpr double between_W = 0.28e-6,
@@ -29,7 +32,7 @@ struct RectangleRule {
                                 0.54e-6;  ///< m; between units along W (separate diffusions) and along L (a shared diffusion with contacts)
 };
 double rectangle_area(double W, double L, double rows, double columns);
-/// The area of the smallest rectangle that holds so many unit transistors.
+/// The area of the smallest rectangle that holds this number of unit transistors.
 double array_area(double W, double L, double unit_transistors);
 
 /// The area of a transistor or a linear capacitor. It is 0 for other elements and for a capacitor with an expression.

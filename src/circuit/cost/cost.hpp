@@ -3,7 +3,7 @@
 
 #include "circuit/analysis/analysis_context.hpp"
 #include "circuit/cost/area.hpp"
-#include "circuit/cost/leakage.hpp"
+#include "circuit/cost/leakage_cost.hpp"
 #include "circuit/cost/power.hpp"
 
 namespace corpuscle::circuit {

@@ -20,17 +20,22 @@ struct MosChannel {
 };
 
 /// Unified current control model (thesis app. A) with the velocity saturation of ACM2. At each end x = (V_P - V)/phi_t + 1 and
+///
 ///     q + ln q = x;     i = (q_S + q_D + 2)(q_S - q_D) / (1 + zeta |q_S - q_D|)
+///
 /// With h the higher and l the lower of the two charges, l cannot fall below the charge q_sat = zeta i / 2 of saturated carriers:
+///
 ///     s = q_sat / h = zeta (h + 2) / (zeta h + 1 + zeta + sqrt((1 + zeta)^2 + 2 zeta h));
 ///     l' = (q_sat + (1 - 2 s) l) / (1 - s l / h) replaces l
+///
 /// ACM2 solves a third logarithm for l'. This rational form has the same limits: i = 2 q_sat / zeta in saturation, and i never falls as
 /// V_DS grows. It is better at V_DS = 0. There the conductance is that of free carriers, so the noise is 4kTg, and the capacitances are
 /// continuous where source and drain change places. zeta = 0 gives the plain model to the last bit, smooth to all orders. Otherwise
 /// current and charges have continuous first derivatives; the second derivative jumps at V_DS = 0 by order zeta.
 /// In saturation i = 2 q_S / (1 + zeta) as q_S goes to 0: the saturation velocity limits diffusion, too.
 ///
-/// Charges (ACM2; u = q_S + 1 - q_x, w = q_D + 1 - q_x, q_x = zeta i / 2), in a form without cancellation as q goes to 0:
+/// Charges (ACM2) in a form without cancellation as q goes to 0, with u = q_S + 1 - q_x, w = q_D + 1 - q_x, q_x = zeta i / 2:
+///
 ///     Q_D = (2/15) (2u^3 + 4u^2 w + 6u w^2 + 3w^3) / (u + w)^2 - 1/2 + q_x / 2,   Q_S with u and w exchanged
 template <class T>
 class OrderedChannel {  // ordered: the higher end first

@@ -142,7 +142,7 @@ Result<UicmInstance> read_instance(const Element& e) {
 Result<std::unique_ptr<Device>> make_transistor(const Element& e, DeviceSetup& setup) {
     const auto& model = setup.circuit().models[static_cast<std::size_t>(e.model)];
     if (value_or(model.values, "level", 1) != UicmCard::level)
-        return bad_input(fmt::format("{}: MOS model level {:g} is not supported; use level={:g}, UICM (model cards: process/tsmc180.lib)",
+        return bad_input(fmt::format("{}: MOS model level {:g} is not supported; use level={:g}, UICM, as in process/tsmc180.lib",
                                      model.name, value_or(model.values, "level", 1), UicmCard::level),
                          model.location);
     const auto card = read_model_card<UicmCard>(UicmCard::fields, model, {"level"});

@@ -32,13 +32,28 @@ struct UicmInternals {
 };
 
 /// MOS transistor: unified current control model (thesis app. A; equations and the parts from ACM2 are in mos_channel.hpp).
+///
 ///     V_P = (V_GB - V_T + sigma (V_DB + V_SB)) / n;     x_S(D) = (V_P - V_S(D)B) / phi_t + 1
-///     I_D = I_S i(x_S, x_D) (1 + (sqrt(V_DS^2 + knee^2) - knee) / V_A),   knee = 4 phi_t, V_A = V_E L:
+///
+///     I_D = I_S i(x_S, x_D) (1 + (sqrt(V_DS^2 + knee^2) - knee) / V_A),   knee = 4 phi_t, V_A = V_E L
+///
 /// Above the knee, where weak inversion saturates, the conductance is I_D / V_A. At V_DS = 0 the factor is 1 and even in V_DS, so that
 /// exchanging source and drain negates I_D to the last bit.
-/// Charges: Q_S, Q_D of the channel; Q_B = -(n - 1)/n (C_ox W L V_GB + Q_I), the depletion charge that a constant n implies (ACM2 has its
-/// first term in the capacitances but not in the charges); Q_G = -(Q_S + Q_D + Q_B); overlaps; junctions (junction.hpp).
-/// Noise: thermal 4kT mu |Q_I| / L^2; flicker q^2 N_ot mu I_D / (L^2 n C_ox) ln((1 + q_S) / (1 + q_D)) / f; shot 2q (I + 2 I_sat).
+///
+/// Charges:
+///
+/// - Q_S and Q_D of the channel
+/// - Q_B = -(n - 1)/n (C_ox W L V_GB + Q_I), the depletion charge that a constant n implies. ACM2 has its first term in the capacitances
+///   but not in the charges.
+/// - Q_G = -(Q_S + Q_D + Q_B)
+/// - overlaps, and junctions (junction.hpp)
+///
+/// Noise:
+///
+/// - thermal 4kT mu |Q_I| / L^2
+/// - flicker q^2 N_ot mu I_D / (L^2 n C_ox) ln((1 + q_S) / (1 + q_D)) / f
+/// - shot 2q (I + 2 I_sat)
+///
 /// Temperature: V_T is linear in T, I_S a power of T; phi_t and the saturation current of the junctions vary, too. n, sigma, zeta, V_E and
 /// the capacitances are constant.
 /// Left out: gate leakage, impact ionisation, gate-induced drain leakage, accumulation, non-quasi-static effects, self-heating, series

@@ -104,7 +104,7 @@ private:
 
 namespace {
 
-/// The order in which ngspice runs analyses, whatever the order of their lines. Of one kind, it runs the last line first.
+/// The order in which ngspice runs analyses, for any order of their lines. Of one kind, it runs the last line first.
 constexpr std::string_view run_order[] = {"ac", "dc", "op", "tran", "noise", "sens", "tf"};
 std::ptrdiff_t run_rank(std::string_view kind) {
     return std::find(std::begin(run_order), std::end(run_order), kind) - std::begin(run_order);

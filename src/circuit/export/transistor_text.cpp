@@ -7,8 +7,10 @@ namespace {
 
 // g is q as a function of z, chosen so that q + ln q is nearly linear in z. Newton's method then converges, and q is never below 0.
 // With p and q the charges at the two ends, h the larger and l the smaller of them (mos_channel.hpp):
+//
 //     d = q_S - q_D with velocity saturation;            y = q_S + q_D of these = p + q + |p - q| - |d|
 //     t = y + 2 - zeta |i| = (y + 2) / (1 + zeta |d|);   i = d t
+//
 // The charge of an end follows from y, t and d with the sign for that end. None of these has a kink at V_DS = 0, where ngspice's
 // derivative of |x| is 0.
 constexpr std::string_view functions = R"(.func uicm_g(z) {z > 300 ? z+0.6931471805599453 : asinh(exp(min(z,300)))}
@@ -19,9 +21,15 @@ constexpr std::string_view functions = R"(.func uicm_g(z) {z > 300 ? z+0.6931471
 .func uicm_charge(d,y,t) {y/4+d/12+d*d/(12*t)-d*d*d/(60*t*t)}
 )";
 
-// {1} {2} {3} {4}: voltages from gate, source and drain to bulk and from drain to source, with the signs of the polarity. {5} {6}: the
-// terminals between which the channel current flows. {7}: the sign of charges. {8} {9} {10} {11}: the terminals of the source and drain
-// junctions.
+// The numbered fields:
+//
+//     {1} {2} {3} {4}      voltages from gate, source and drain to bulk and from drain to source, with the signs of the polarity
+//
+//     {5} {6}              terminals between which the channel current flows
+//
+//     {7}                  sign of charges
+//
+//     {8} {9} {10} {11}    terminals of the source and drain junctions
 constexpr std::string_view subcircuit = R"(.subckt {0} d g s b vt=0.5 slope=1.3 phit=0.02587 sigma=0 zeta=0 is=0 va=1e6
 + cox=0 cgs=0 cgd=0 cgb=0 iss=0 isd=0 tops=0 topd=0 njphit=0.02587 cjs=0 cjd=0 pb=0.8 mj=0.4 fc=0.5
 * q + ln q = x at source and drain

@@ -60,7 +60,7 @@ struct SolveCall {
 };
 struct StepCall {
     LaneRow updates_x;                  // flag: add the step to x
-    LaneRow size, clamped, non_finite;  // out: largest component / allowed error; > 0 if limited to 0.5 V; not 0 if NaN or infinite
+    LaneRow size, clamped, non_finite;  // out: largest component / allowed error, > 0 if limited to 0.5 V, not 0 if NaN or infinite
 };
 struct ErrorCall {
     LaneRow charge_weight, rate_weight;

@@ -9,10 +9,14 @@
 namespace corpuscle::circuit {
 
 /// Parses the words of a .meas line that follow NAME, for a plot with the curves of `head`:
+///
 ///     find CURVE at=X | find CURVE when EDGE | deriv CURVE at=X | deriv CURVE when EDGE | when EDGE | count EDGE [rise|fall|cross]
+///
 ///     min|max|pp|min_at|max_at|avg|rms|integ CURVE [from=A] [to=B]
+///
 ///     trig at=X | trig CURVE val=V ... targ at=X | targ CURVE val=V ...
-/// with EDGE: CURVE=VALUE|CURVE [rise=N|last] [fall=N|last] [cross=N|last] [td=T] [from=A] [to=B]. For an operating point only find CURVE.
+///
+/// EDGE is CURVE=VALUE|CURVE [rise=N|last] [fall=N|last] [cross=N|last] [td=T] [from=A] [to=B]. For an operating point only find CURVE.
 Result<std::unique_ptr<Measurement>> parse_measurement(const Directive&, const Plot& head);
 
 }  // namespace corpuscle::circuit

@@ -43,13 +43,16 @@ public:
     /// suffixes. It also has the functions of ngspice and its constants, such as pi. An error has the column within the line of `at`.
     ///
     /// As in ngspice 39:
-    ///  - x^y and x**y are |x|^y and associate from left to right; -x^2 is -(x^2);
-    ///  - log is the natural logarithm; u(0) is 1/2;
-    ///  - pow(x,y) is C's pow in a parameter, and |x|^y if the expression may use voltages;
-    ///  - pwr(x,y) is |x|^y in a parameter, and sgn(x)|x|^y if the expression may use voltages.
+    ///
+    ///  - The powers x^y and x**y are |x|^y and associate from left to right. The value of -x^2 is -(x^2).
+    ///  - The function log is the natural logarithm. The value of u(0) is 1/2.
+    ///  - In a parameter pow(x,y) is C's pow. It is |x|^y if the expression may use voltages.
+    ///  - In a parameter pwr(x,y) is |x|^y. It is sgn(x)|x|^y if the expression may use voltages.
+    ///
     /// Different from ngspice:
-    ///  - exp(x) and its derivative stay at e^700 beyond x = 700;
-    ///  - limit(x,a,b) limits x to the range from a to b;
+    ///
+    ///  - exp(x) and its derivative stay at e^700 beyond x = 700.
+    ///  - limit(x,a,b) limits x to the range from a to b.
     ///  - agauss, gauss, unif, aunif and limit(x,d) return their nominal value x.
     static Result<Expression> parse(std::string_view text, const SourceLocation& at, const ExpressionScope&);
 

@@ -27,7 +27,7 @@ struct LogicalLine {
     bool was_capital(std::size_t at) const;
 };
 
-/// Reads the logical lines of a file one by one.
+/// Reads the logical lines of a file one at a time.
 class LogicalLineReader {
     std::shared_ptr<const std::string> file_;
     std::string_view rest_, last_;  // last_: rest_ before the physical line last taken

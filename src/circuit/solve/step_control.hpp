@@ -32,8 +32,8 @@ struct StepControl {
     bool can_lower_order() const { return order > 1; }
     bool can_raise_order(int highest, int points) const { return order < highest && points > order + 1; }
 
-    /// After an accepted step of length `taken` with this error. points: number of earlier points; highest: largest allowed order;
-    /// error_of(order): error of the step for another order.
+    /// Call after an accepted step of length `taken` with this error. `points` is the number of earlier points, `highest` the largest
+    /// allowed order, and error_of(order) the error of the step for another order.
     template <class ErrorOf>
     void choose(double taken, double error, int points, int highest, ErrorOf&& error_of) {
         double factor = growth_factor(error, order);
@@ -50,8 +50,8 @@ struct StepControl {
         }
         scale_step(taken, factor, points);
     }
-    /// After choose(): limits the step so that the interpolation error stays allowed. error: that of the last step, relative to the allowed
-    /// error; points: of the interpolating polynomial.
+    /// Call after choose(). Limits the step so that the interpolation error stays allowed. `error` is that of the last step, relative to
+    /// the allowed error. `points` is the number of points of the interpolating polynomial.
     void limit_by_curve(double taken, double error, int points) {
         h = std::min(h, taken * std::clamp(growth_factor(error, points - 1), 0.3, max_growth));
     }
@@ -60,9 +60,9 @@ struct StepControl {
     double jump_step_limit(double reltol, double max_step) const { return std::max(reltol * recent_max_step, 1e-9 * max_step); }
     void scale_step(double taken, double factor, int points) { h = taken * std::clamp(factor, 0.3, points < 3 ? 5 : max_growth); }
 
-    /// After a rejected step of length `taken`. error: relative to the allowed error; 0: the equations were not solved. last: length of the
-    /// step before, 0 if there was none since the start. Returns true if the integration must restart from the last point, which happens
-    /// after more than `max_failures` failures or a strong reduction.
+    /// Call after a rejected step of length `taken`. `error` is relative to the allowed error, and 0 if the equations were not solved.
+    /// `last` is the length of the step before, 0 if there was none since the start. Returns true if the integration must restart from the
+    /// last point, which happens after more than `max_failures` failures or a strong reduction.
     bool shorten(double taken, double error, double last, int max_failures = 1) {
         ++failures;
         h = taken * (error > 0 ? std::clamp(growth_factor(error, order), last > 0 ? 0.1 : 1e-3, 0.8) : 0.125);

@@ -33,7 +33,7 @@ struct DeviceGroup {
     std::vector<const Device*> members;
     std::size_t terminals, stride;
     std::vector<int> unknowns;         ///< [member][terminal]
-    std::vector<std::size_t> entries;  ///< [member][terminal^2]: matrix entry of each derivative; past the end of the pattern: ground
+    std::vector<std::size_t> entries;  ///< [member][terminal^2]: matrix entry of each derivative; ground is past the end of the pattern
 };
 
 class System {

@@ -84,8 +84,8 @@ Result<void> check_floating_nodes(const Circuit& c) {
     const auto why = sources ? "is connected to ground only through current sources, so nothing sets its voltage"
                              : "is connected to ground through capacitors and gates at most, so nothing sets its voltage";
     const auto subject = names.size() == 1 ? "it" : "their part of the circuit";
-    return bad_input(fmt::format("{} no path to ground for direct current: {} {} (elements there: {}); add a large resistor to ground",
-                                 what, subject, why, elements_at(c, first)),
+    return bad_input(fmt::format("{} no path to ground for direct current: {} {} (connected: {}). Add a large resistor to ground", what,
+                                 subject, why, elements_at(c, first)),
                      first_element != nullptr ? first_element->location : SourceLocation{c.file});
 }
 

@@ -74,10 +74,11 @@ private:
     } start_phase_ = StartPhase::none;  // after a breakpoint: a point immediately, then a first step
     int curve_points_ = 0;              // points of the interpolation in the last step; 0: as in the formula
     double uncharged_error_ = 0;        // error of unknowns without charge in the last step / allowed error
-    double voltage_scale_ = 0, largest_charge_ = 0, largest_current_ = 0;             // V, C, A: scales of the rounding error
-    bool converged_ = false, rounding_measured_ = false;                              // of the current step
-    std::vector<double> capacitance_, rounding_;                                      // F, by node; by unknown, see rounding_error()
-    std::vector<double> scale_, allowed_error_, tolerance_, history_, rate_, error_;  // allowed_: of a step; tolerance_: of reported values
+    double voltage_scale_ = 0, largest_charge_ = 0, largest_current_ = 0;  // V, C, A: scales of the rounding error
+    bool converged_ = false, rounding_measured_ = false;                   // of the current step
+    std::vector<double> capacitance_, rounding_;                           // F, by node; by unknown, see rounding_error()
+    // allowed_error_ is of a step, tolerance_ of reported values
+    std::vector<double> scale_, allowed_error_, tolerance_, history_, rate_, error_;
     std::vector<char> has_charge_;
     std::vector<int> curves_;  // reported unknowns that are interpolated
     struct SourceNode {        // a node whose voltage is that of node `base` plus that of a source

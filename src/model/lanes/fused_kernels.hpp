@@ -29,20 +29,20 @@ template <class V, class R, class N, ForceInput feed, Method method, int J, bool
 [[gnu::always_inline]] inline void fused_step(const ReceptorCall<V>& c, const NeuronCall<V>& to, int first, Prefetcher& prefetch) {
     constexpr int w = width<V>;
     using T = Batch<V>;
-    using Felt = typename R::State;
-    using Own = typename N::State;
-    static_assert(offsetof(Felt, I) == sizeof(Felt) - sizeof(T));
+    using ReceptorState = typename R::State;
+    using NeuronState = typename N::State;
+    static_assert(offsetof(ReceptorState, I) == sizeof(ReceptorState) - sizeof(T));
     const R* r[J];
     const N* n[J];
-    Felt receptor[J];
-    Own s[J];
+    ReceptorState receptor[J];
+    NeuronState s[J];
     FiringRecorder<V> fired[J];
     unrolled<J>([&](auto j) __attribute__((always_inline)) {
         r[j] = &model<R>(c.models, c.stride, first / w + j);
         n[j] = &model<N>(to.models, to.stride, first / w + j);
-        receptor[j] = read<Felt, V, stored_receptor_values<V, R>>(c.state, first + j * w);
+        receptor[j] = read<ReceptorState, V, stored_receptor_values<V, R>>(c.state, first + j * w);
         receptor[j].I = r[j]->current(receptor[j]);
-        s[j] = read<Own, V, stored_neuron_values<V, N>>(to.state, first + j * w);
+        s[j] = read<NeuronState, V, stored_neuron_values<V, N>>(to.state, first + j * w);
         fired[j] = {to.fired, first + j * w};
     });
     const ForceReader<feed, V> force(c, first);
@@ -62,8 +62,8 @@ template <class V, class R, class N, ForceInput feed, Method method, int J, bool
     }
     prefetch = local;
     unrolled<J>([&](auto j) __attribute__((always_inline)) {
-        write<Felt, V, stored_receptor_values<V, R>>(receptor[j], c.state, first + j * w);
-        write<Own, V, stored_neuron_values<V, N>>(s[j], to.state, first + j * w);
+        write<ReceptorState, V, stored_receptor_values<V, R>>(receptor[j], c.state, first + j * w);
+        write<NeuronState, V, stored_neuron_values<V, N>>(s[j], to.state, first + j * w);
     });
 }
 

@@ -8,13 +8,13 @@ namespace corpuscle::lanes {
 namespace {
 
 template <class R>
-class Transduction final : public SharedReceptor {
+class ReceptorRun final : public SharedReceptor {
     R receptor_;
     typename R::State state_ = {};
     std::int64_t step_ = 0;
 
 public:
-    explicit Transduction(R receptor) : receptor_(std::move(receptor)) {}
+    explicit ReceptorRun(R receptor) : receptor_(std::move(receptor)) {}
 
     std::vector<double> save() const override {
         static_assert(std::is_trivially_copyable_v<typename R::State> && sizeof(state_) % sizeof(double) == 0);
@@ -51,7 +51,7 @@ std::unique_ptr<SharedReceptor> make_shared_receptor(const AfferentPlan& plan, c
     visit_named(Receptors{}, plan.receptor, [&]<template <class> class R>(ModelTag<R>) {
         const auto params = with_settings<typename R<double>::Params>(R<double>::fields, settings_of(plan));
         receptor =
-            std::make_unique<Transduction<R<double>>>(R<double>(UniformParams<typename R<double>::Params>{params}, run.dt, run.method));
+            std::make_unique<ReceptorRun<R<double>>>(R<double>(UniformParams<typename R<double>::Params>{params}, run.dt, run.method));
     });
     return receptor;
 }

@@ -8,8 +8,10 @@
 namespace corpuscle {
 
 /// No leak; the threshold jumps at each spike and decays:
+///
 ///     C_m du/dt = I, not below E_L;   theta = V_th + a,  tau_th da/dt = -a
 ///     u > theta while I > 0  =>  spike, then u = V_reset for t_ref and a = a + dV_th
+///
 /// (A threshold that decays below a resting membrane potential does not cause a spike. Without a leak, such a spike would respond to a
 /// touch long past.) After Lee et al. 2016 as described in the thesis (3.1: no leak, "an adaptive threshold potential"). The thesis gives
 /// no equation and no value, so the equations above and all defaults are our choice. Both methods integrate them exactly for the current

@@ -8,8 +8,10 @@
 namespace corpuscle {
 
 /// Adaptive exponential integrate-and-fire, Brette and Gerstner 2005:
+///
 ///     C_m dv/dt = -g_L (v - E_L) + g_L Delta_T exp((v - V_T) / Delta_T) - w + gain I,   tau_w dw/dt = a (v - E_L) - w
 ///     v > V_peak  =>  spike, then v = V_reset and w = w + b
+///
 /// The exponential is limited to its value at V_peak. Both methods use the same substeps. No refractory time: adaptation takes its role.
 struct AdexTraits {
     struct Params {

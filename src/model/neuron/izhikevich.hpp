@@ -9,6 +9,7 @@ namespace corpuscle {
 
 /// Izhikevich 2003, in SI:   dv/dt = 4e4 v^2 + 5e3 v + 140 - w + gain I,   dw/dt = a (b v - w)      (v in V, w in V/s)
 ///     v > V_peak  =>  spike, then v = c and w = w + d
+///
 /// These are the paper's 0.04, 5 and 140 in mV and ms. Its a = 0.02/ms is 20 1/s, b = 0.2/ms is 200 1/s, d = 8 mV/ms is 8 V/s.
 /// Both methods use the same substeps. No refractory time: recovery takes its role. Named in thesis 3.2 for adaptation.
 struct IzhikevichTraits {

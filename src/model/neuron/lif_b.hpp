@@ -8,7 +8,9 @@
 namespace corpuscle {
 
 /// LIF-B, the thesis's leaky integrate-and-fire neuron with a constant leak, integrated exactly for a straight-line current:
+///
 ///     C_m du/dt = I - I_leak0 above E_L, u held at E_L when I < I_leak0;   u > V_th  =>  spike, then u = V_reset for t_ref
+///
 /// (thesis eq. 6, 7, Alg. 4; errata: the algorithm adds to u[n-1], not to u_rest. The thesis writes C, theta, u_rst, u_rest.)
 /// Limitation: if u exceeds V_th within a step and is below it again at the end, no spike is detected.
 struct LifBTraits {

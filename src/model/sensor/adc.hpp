@@ -9,8 +9,10 @@
 namespace corpuscle {
 
 /// An analog-to-digital converter, and the word format of the fixed-point algorithms behind it (doc/fixed-point.md):
+///
 ///     code = floor((y - y_low) / D + 1/2) within [0, 2^bits - 1],   D = (y_high - y_low) / (2^bits - 1)
-/// y is the value measured by the front end; y_low and y_high are its values at F_low and F_high, so the range is given in newtons for
+///
+/// y is the value measured by the front end. y_low and y_high are its values at F_low and F_high, so the range is given in newtons for
 /// every transducer. The converter is ideal: no noise, no aperture, no settling. All values are a choice.
 struct Adc {
     struct Params {
@@ -29,10 +31,10 @@ struct Adc {
          "",
          0,
          1,
-         "1: one converter samples all channels in turn, channel c of N delayed by c/(N f_s); 0: one converter per channel",
+         "1: one converter samples all channels in turn, channel c of N delayed by c/(N f_s). 0: one converter per channel",
          {},
          true},
-        {"linearise", &Params::linearise, "", 0, 1, "1: a table inverts the curve of sensor and transducer; 0: a straight line", {}, true},
+        {"linearise", &Params::linearise, "", 0, 1, "1: a table inverts the curve of sensor and transducer. 0: a straight line", {}, true},
         {"word", &Params::word, "", 8, 32, "bits of a word in the algorithms", {}, true},
         {"frac", &Params::frac, "", 0, 31, "fraction bits of a word: steps of 2^-frac N, uA, V", {}, true},
     };

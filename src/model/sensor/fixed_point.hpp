@@ -37,7 +37,7 @@ struct WordFormat {
     double value(Word n) const { return std::ldexp(static_cast<double>(n), -frac); }
 };
 
-/// A constant factor, mantissa * 2^-shift. It has as many significant digits as a word, whatever its size.
+/// A constant factor, mantissa * 2^-shift. It has as many significant digits as a word, regardless of its size.
 struct Factor {
     Word mantissa = 0;
     int shift = 0;

@@ -52,7 +52,7 @@ struct Chirp {
     }
 };
 
-/// Gaussian noise: independent deviates at intervals of 1 / (2 f_max), linearly interpolated, whatever the sample rate.
+/// Gaussian noise: independent deviates at intervals of 1 / (2 f_max), linearly interpolated, for any sample rate.
 struct Noise {
     struct Params {
         double F_mean = 1, F_sd = 0.2, f_max = 100, duration = 1;

@@ -28,7 +28,7 @@ Result<std::unique_ptr<Contact>> make_contact(std::string_view indenter, std::sp
 /// The parameters of all contacts, for listings.
 std::vector<ParameterInfo> contact_parameters();
 
-/// Named touches, which can be requested in place of a force: "stroke" (from the palm to the tip of the index finger), "scan" (a grating
+/// Named touches, which can be requested instead of a force: "stroke" (from the palm to the tip of the index finger), "scan" (a grating
 /// over the fingertip). A touch consists of a force, an indenter and a path.
 struct NamedTouch {
     std::string_view name, force, indenter, description;

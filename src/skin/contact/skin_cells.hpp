@@ -19,8 +19,8 @@ public:
     double side() const { return side_; }  ///< m
     bool is_lattice() const { return !lattice_.empty(); }
 
-    /// Visits the columns of cells around (x, y) within half a box: calls f(x0, y edges from below, sites of the cells between them;
-    /// no_site: none).
+    /// Visits the columns of cells around (x, y) within half a box. Calls f(x0, y edges from below, sites of the cells between
+    /// them). A cell without a site has no_site.
     template <class F>
     void for_each_column(double x, double y, double half_width, double half_height, F&& f);
 

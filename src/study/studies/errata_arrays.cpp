@@ -16,7 +16,7 @@ void add_tables(StudyResult& out) {
     out.claim("A: I_D/g_md by table 11, g_md in uS", a.I_D / a.g_md, "V").published_as(a.V_A, "table 12; errata U6: V_A is I_D/g_md");
     out.claim_true("A: g_md/I_D, as B.1 defines V_A, is not 2.10 V", std::abs(a.g_md / a.I_D / a.V_A - 1) > 0.5, "errata U6");
     out.claim("B2's V_A over A's, as printed", find_published(rectangles, "B2").V_A / a.V_A)
-        .published_as(4, "thesis B.1: 4 times \"A1\"; errata U15: A is meant");
+        .published_as(4, "thesis B.1, 4 times \"A1\"; by errata U15 A is meant");
     out.claim("C2's V_A over A's, as printed", find_published(rectangles, "C2").V_A / a.V_A).published_as(2, "the same");
     out.claim("C1: A_T as an area", 1e12 * circuit::rectangle_area(1.12e-6, 0.90e-6, 1, 1), "um^2")
         .published_as(find_published(rectangles, "C1").A_T, "table 10; errata U16");
@@ -35,7 +35,7 @@ void add_mismatch_by_area(StudyResult& out) {
     const auto &e = find_published(trapezoids, "E"), &g1 = find_published(trapezoids, "G1");
     out.claim("E's active area over G1's, as printed", e.A / g1.A).published_as(4, "thesis B.2; errata U18: 3.63");
     out.claim("G1's deviation over E's, as printed", g1.sigma / e.sigma)
-        .published_as(2, "thesis B.2: half; errata U18: 2.4")
+        .published_as(2, "thesis B.2, half; 2.4 by errata U18")
         .explain("3.63 times the area, and E is in stronger inversion with a lower g_mg/I_D");
 }
 

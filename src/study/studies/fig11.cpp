@@ -43,7 +43,7 @@ vmid mid 0 0.35
 .end
 )";
 constexpr double half = 0.35, offset = 0.1,
-                 on = 50.1e-3;  // V: half the supply; V: distance from it at which loads are compared; s: time of the step
+                 on = 50.1e-3;  // V, half the supply; V, distance from it at which loads are compared; s, time of the step
 
 double largest_difference(const StudyCurve& a, const StudyCurve& b) {
     double out = 0;

@@ -32,7 +32,7 @@ Result<void> add_comparison(StudyResult& out, StudyPlot& rows, const Implementat
     const auto timing_error = spike_timing_error(model, *train);
     if (!timing_error) return timing_error.error();
     const auto named = [&](const char* what) { return fmt::format("{}: {}", implementation.name, what); };
-    const auto because = fmt::format("{}; {} spikes: {}; of the model: {}", implementation.description, implementation.name,
+    const auto because = fmt::format("{}; {} spikes: {}, of the model {}", implementation.description, implementation.name,
                                      press::phase_counts(*train), press::phase_counts(model));
     out.claim(named("number of spikes over the model's"), static_cast<double>(train->size()) / static_cast<double>(model.size()))
         .explain(because);

@@ -61,7 +61,7 @@ void add_mismatch_text(StudyResult& out, const SimulatedArrays& ours, const std:
     };
     for (const char* name : {"B2", "C2", "D2"})
         out.claim(fmt::format("{}: deviation over A's, which has a quarter of its area", name), of(name) / of("A"))
-            .derived_as(0.5, source + ": half; errata U14: inversely proportional to the square root of the area, not proportional");
+            .derived_as(0.5, source + ": half; by errata U14 inversely proportional to the square root of the area, not proportional");
     const double smallest = *std::min_element(sigma.begin(), sigma.end());
     auto& c = out.claim_true("C1 has the smallest deviation", of("C1") == smallest, source);
     if (c.needs_explanation())

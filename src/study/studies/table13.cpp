@@ -18,7 +18,7 @@ Result<StudyResult> work(const StudyOptions&) {
     add_sizes(out, trapezoids, ours);
     const std::string source = "thesis B.2";
     const auto A = [&](const char* name) { return ours(name).A; };
-    out.claim("E's active area over G1's", A("E") / A("G1")).published_as(4, source + ": about 4; errata U18: 3.63");
+    out.claim("E's active area over G1's", A("E") / A("G1")).published_as(4, source + ": about 4; by errata U18 3.63");
     out.claim_true("G1, G2 and G3 have the same active area",
                    std::abs(A("G1") / A("G2") - 1) < 1e-9 && std::abs(A("G1") / A("G3") - 1) < 1e-9, source);
     const auto& A_T = [&](const char* name) { return ours(name).A_T; };

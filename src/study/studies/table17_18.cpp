@@ -75,7 +75,7 @@ Result<void> claim_text(StudyResult& out, const circuit::Circuit& generator, con
     if (!chips) return chips.error();
     out.claim("arrays of four times the area and the same aspect ratio (4x16): standard deviation of I_Q by mismatch, over that of 2x8",
               sample_statistics(*chips, "i(vis)").cv_percent() / I_Q[1][1], "times")
-        .derived_as(0.5, "E.2: reduced by larger arrays; Pelgrom: by the square root of the area");
+        .derived_as(0.5, "E.2: reduced by larger arrays; by Pelgrom with the square root of the area");
     return {};
 }
 

@@ -46,10 +46,10 @@ class ChipPresser {
     Result<std::shared_ptr<const CircuitAfferentFactory>> design(const Codes& codes) {
         const auto at = values(codes);
         if (const auto known = designs_.find(at); known != designs_.end()) return known->second;
-        auto knobs = options_.overrides;
+        auto overrides = options_.overrides;
         for (std::size_t k = 0; k < at.size(); ++k)
-            for (const auto& name : options_.trims[k].names) knobs.push_back({name, fmt::format("{:.17g}", at[k]), name});
-        const auto netlist = circuit::apply_overrides(options_.netlist, knobs);
+            for (const auto& name : options_.trims[k].names) overrides.push_back({name, fmt::format("{:.17g}", at[k]), name});
+        const auto netlist = circuit::apply_overrides(options_.netlist, overrides);
         if (!netlist) return netlist.error();
         auto made = CircuitAfferentFactory::create(*netlist);
         if (!made) return made.error();
@@ -194,9 +194,9 @@ double Trim::value(int code, int bits) const {
     return is_integer ? std::max(1.0, std::round(value)) : value;
 }
 
-Result<Trim> trim_of(const std::string& netlist, const std::vector<circuit::NetlistOverride>& knobs, std::vector<std::string> names,
+Result<Trim> trim_of(const std::string& netlist, const std::vector<circuit::NetlistOverride>& overrides, std::vector<std::string> names,
                      double range, bool is_integer) {
-    const auto read = circuit::apply_overrides(netlist, knobs);
+    const auto read = circuit::apply_overrides(netlist, overrides);
     if (!read) return read.error();
     const auto circuit = read->elaborate();
     if (!circuit) return circuit.error();

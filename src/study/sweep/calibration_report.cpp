@@ -39,7 +39,7 @@ int useful_bits(const CalibrationResult& result, int max) {
 std::string describe_frame_error(const ChipCalibration& options, const std::vector<CalibrationResult>& all) {
     std::size_t width = 5;
     for (const auto& set : all) width = std::max(width, set.names().size());
-    std::string out = fmt::format("{}: {} chips; limits: {}\n\n{:{}}  as made", options.netlist, all.empty() ? 0 : all[0].chips.size(),
+    std::string out = fmt::format("{}: {} chips, limits: {}\n\n{:{}}  as made", options.netlist, all.empty() ? 0 : all[0].chips.size(),
                                   options.limits.text(), "trims", width);
     for (int b = 1; b <= options.bits; ++b) out += fmt::format("  {} bit{}", b, b == 1 ? " " : "s");
     out += "  presses per trimmed chip\n";

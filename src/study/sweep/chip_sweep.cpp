@@ -76,7 +76,7 @@ Result<void> ChipSweep::select_measures(const SweepText& spec) {
     return {};
 }
 
-/// Selects the probes to keep, in place of those that the netlist saves.
+/// Selects the probes to keep, instead of those that the netlist saves.
 Result<void> ChipSweep::select_probes(const SweepText& spec) {
     for (const auto& word : spec.probes) {
         const auto found = circuit::resolve_probe(*nominal_->circuit, word.text);

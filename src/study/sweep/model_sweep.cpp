@@ -1,4 +1,4 @@
-// A sweep over a model afferent: simulates blocks of items on SIMD lanes, and items that cannot share lanes one by one.
+// A sweep over a model afferent: simulates blocks of items on SIMD lanes, and items that cannot share lanes one at a time.
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -79,21 +79,21 @@ Result<VariedQuantity> ModelSweep::target(std::string_view afferent_name, const 
 
 Result<void> ModelSweep::set(const SweepText& spec) {
     const auto& afferent_name = spec.afferent->text;
-    std::vector<ParameterOverride> wishes;
+    std::vector<ParameterOverride> overrides;
     for (const auto& s : spec.settings) {
         if (force_.has_parameter(s.name)) {
             if (auto ok = force_.set(s); !ok) return ok;
             continue;
         }
-        wishes.assign(1, {afferent_name, std::string(parameter_name(afferent_name, s.name)), s.value.text});
-        const auto one = plan_any_afferent(afferent_name, wishes);
+        overrides.assign(1, {afferent_name, std::string(parameter_name(afferent_name, s.name)), s.value.text});
+        const auto one = plan_any_afferent(afferent_name, overrides);
         if (!one) return s.value.error_here(one.error().message);
     }
-    wishes.clear();
+    overrides.clear();
     for (const auto& s : spec.settings)
         if (!force_.has_parameter(s.name))
-            wishes.push_back({afferent_name, std::string(parameter_name(afferent_name, s.name)), s.value.text});
-    auto plan = plan_any_afferent(afferent_name, wishes);
+            overrides.push_back({afferent_name, std::string(parameter_name(afferent_name, s.name)), s.value.text});
+    auto plan = plan_any_afferent(afferent_name, overrides);
     if (!plan) return spec.settings[0].value.error_here(plan.error().message);
     nominal_ = std::move(*plan);
     return {};
@@ -240,7 +240,7 @@ Result<void> ModelSweep::respond(std::vector<ModelItem>& block, const OutcomeHan
     return {};
 }
 
-/// Returns false if the state of an item became NaN or infinite; then all items are simulated one by one.
+/// Returns false if the state of an item became NaN or infinite; then all items are simulated one at a time.
 Result<bool> ModelSweep::respond_on_lanes(std::span<ModelItem* const> items, InstructionSet set, const std::function<bool()>& stop) const {
     std::vector<const AfferentPlan*> plans;
     for (const auto* u : items) plans.push_back(&u->plan);

@@ -13,7 +13,7 @@ enum class RankMessageType : std::uint64_t {
     items,        ///< the requested items
     outcomes,     ///< of items
     sweep_error,  ///< an error code and a message: the sweep itself is wrong
-    shutdown,     ///< 1: all ranks leave together; 0: each rank leaves alone
+    shutdown,     ///< 1: all ranks leave together, 0: each rank leaves alone
 };
 
 /// The machine and process of a rank, and a hash of its sweep's metadata. Ranks on the same machine can check if the process is alive.

@@ -97,8 +97,8 @@ void keep_discoveries(std::vector<Candidate>& all, std::size_t tried) {
     all.resize(accepted);
 }
 
-/// Adds all candidates; if the regression is then singular, adds them one by one and skips those that depend on earlier ones. Returns false
-/// if none was added.
+/// Adds all candidates; if the regression is then singular, adds them one at a time and skips those that depend on earlier ones. Returns
+/// false if none was added.
 bool add_factors(Regression& regression, std::vector<Candidate>&& found, std::size_t limit, const std::vector<double>& y) {
     const auto before = regression.selected.size();
     if (before < limit && found.size() > limit - before) found.resize(limit - before);

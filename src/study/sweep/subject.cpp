@@ -206,8 +206,7 @@ Result<bool> keeps_spikes(const SweepText& spec) {
     if (!spec.keep) return true;
     for (const auto& word : *spec.keep)
         if (word.text != "spikes")
-            return word.error_here(
-                fmt::format("keep: '{}' is unknown; known: \"spikes\" (traces are kept with traces = [...])", word.text));
+            return word.error_here(fmt::format("keep: '{}' is unknown; try \"spikes\" (traces are kept with traces = [...])", word.text));
     return !spec.keep->empty();
 }
 

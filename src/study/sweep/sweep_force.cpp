@@ -96,19 +96,19 @@ bool ForceFactory::has_parameter(std::string_view name) const {
 
 Result<VariedQuantity> ForceFactory::find_quantity(const LocatedText& quantity) const {
     const auto dot = quantity.text.find('.');
-    const ParameterOverride wish{quantity.text.substr(0, dot), quantity.text.substr(dot + 1), ""};
+    const ParameterOverride parameter{quantity.text.substr(0, dot), quantity.text.substr(dot + 1), ""};
     for (const auto& card : stimulus_catalog()) {
-        if (card.name != wish.target) continue;
-        const auto row = find_parameter(wish, card.parameters);
+        if (card.name != parameter.target) continue;
+        const auto row = find_parameter(parameter, card.parameters);
         if (!row) return quantity.error_here(row.error().message);
         VariedQuantity out{
             {quantity.text, std::string((*row)->unit), std::string((*row)->description)}, (*row)->default_value, (*row)->low, (*row)->high};
         for (const auto& w : overrides_)
-            if (w.target == wish.target && w.parameter == wish.parameter) out.nominal = *parse_quantity(w.value, (*row)->unit);
+            if (w.target == parameter.target && w.parameter == parameter.parameter) out.nominal = *parse_quantity(w.value, (*row)->unit);
         out.parse = [unit = std::string((*row)->unit)](const LocatedText& s) { return parse_quantity(s.text, unit); };
         return out;
     }
-    return quantity.error_here(fmt::format("'{}' is not the stimulus of this sweep", wish.target));
+    return quantity.error_here(fmt::format("'{}' is not the stimulus of this sweep", parameter.target));
 }
 
 Result<void> ForceFactory::set(const LocatedSetting& setting) {
@@ -131,10 +131,10 @@ void ForceFactory::vary(const std::string& name, std::size_t axis) {
 
 Result<std::shared_ptr<const SweepForce>> ForceFactory::make(std::span<const double> values) const {
     if (is_recording_) return nominal_;
-    auto wishes = overrides_;
-    wishes.resize(fixed_count_ + values.size());
-    for (std::size_t k = 0; k < values.size(); ++k) wishes[fixed_count_ + k].value = fmt::format("{}", values[k]);
-    const auto source = make_stimulus(text_, wishes, rate_, seed_);
+    auto overrides = overrides_;
+    overrides.resize(fixed_count_ + values.size());
+    for (std::size_t k = 0; k < values.size(); ++k) overrides[fixed_count_ + k].value = fmt::format("{}", values[k]);
+    const auto source = make_stimulus(text_, overrides, rate_, seed_);
     if (!source) return source.error();
     return read_force(**source);
 }

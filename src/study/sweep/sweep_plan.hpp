@@ -13,7 +13,7 @@ namespace corpuscle::sweeps {
 /// One quantity that varies and has a value.
 struct SweepAxis {
     SweepColumn column;
-    std::vector<double> values = {};             ///< listed values; labels as their indexes; empty: sampled
+    std::vector<double> values = {};             ///< listed values, labels as their indexes; empty if sampled
     std::optional<UniformNumbers> numbers = {};  ///< for a sampled axis
     bool is_normal = false, is_logarithmic = false;
     double first = 0, second = 0;                     ///< normal: mean and standard deviation; otherwise from and to

@@ -14,14 +14,18 @@ std::string_view end_name(ItemEnd);
 
 /// The file has these tables. The results depend on everything in `about`; it contains neither user nor date.
 ///
-/// - about(key, value): the metadata entries by their names; and units, facts (names of the entries in order), trains, traces, trace_times,
-///   the last four as JSON.
+/// - about(key, value): the metadata entries by their names. Further keys are units, facts (names of the entries in order), trains, traces
+///   and trace_times, the last four as JSON.
+///
 /// - columns(position, kind, name, unit, sentence, words, at_least, at_most, stored): kind is 'axis' or 'measure', words is JSON, stored is
 ///   the column's name in the table units.
+///
 /// - units(unit, ended, steps, iterations, alone, why, ...): a row for each item, with a column for each axis and measure. ended is 'done',
 ///   'capped' or 'lost'. NaN is stored as NULL.
-/// - spikes(unit, train, times): little-endian doubles. train is counted from 0; a train without spikes has no row.
-/// - traces(unit, trace, samples): little-endian floats. trace is counted from 0.
+///
+/// - spikes(unit, train, times): little-endian doubles. The train is counted from 0; a train without spikes has no row.
+///
+/// - traces(unit, trace, samples): little-endian floats. The trace is counted from 0.
 ///
 /// During a run new rows are in path-wal, which only grows; checkpoint() replaces the file itself atomically. So a copy of the file, with
 /// or without its -wal, taken at any time, contains the first n transactions for some n.

@@ -22,7 +22,7 @@ Result<std::vector<std::size_t>> find_measures(const SweepResults& results, cons
         const auto at = std::find(known.begin(), known.end(), name);
         if (at == known.end())
             return bad_usage(
-                fmt::format("--measure {}: unknown measure{}; known: {}", name, did_you_mean(name, known), fmt::join(known, ", ")));
+                fmt::format("--measure {}: unknown measure{} (known: {})", name, did_you_mean(name, known), fmt::join(known, ", ")));
         if (const auto k = static_cast<std::size_t>(at - known.begin()); std::find(out.begin(), out.end(), k) == out.end())
             out.push_back(k);
     }

@@ -31,7 +31,7 @@ struct SweepTable {
     bool passes(std::size_t row) const;
 };
 
-/// All axes and these measures (by name; empty: all); for circuits also the iterations of each item.
+/// All axes and the measures of these names, or all measures if there are no names; for circuits also the iterations of each item.
 Result<SweepTable> read_table(const SweepResults&, const std::vector<std::string>& measures);
 
 /// Why an item failed; only the first items are listed.

@@ -37,7 +37,7 @@ double append_array(const SimulatedArray& a, double left, StudyCurve& channels, 
 }  // namespace
 
 StudyPlot layout_plot(const SimulatedArrays& arrays, std::string title) {
-    StudyPlot out{std::move(title), "along the channels, arrays side by side (um)", "across (um)", {}};
+    StudyPlot out{std::move(title), "along the channels, arrays in a row (um)", "across (um)", {}};
     StudyCurve channels, total;
     double left = 0;
     for (const auto& a : arrays) left += append_array(a, left, channels, total) + gap_between_arrays;

@@ -5,7 +5,7 @@
 
 namespace corpuscle {
 
-/// The arrays side by side, in um.
+/// The arrays in a row, in um.
 StudyPlot layout_plot(const SimulatedArrays&, std::string title);
 
 /// All of a layout figure: each array's areas beside the published ones, and the drawing. `remark` explains differences.

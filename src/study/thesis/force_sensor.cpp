@@ -37,7 +37,7 @@ std::string voltage_cell(double R_F) {
 
 std::string transducer_netlist(std::span<const TransducerCell> cells, const std::string& force, const std::string& parts) {
     std::string out = fmt::format(
-        "Transducers side by side\n.lib '../process/tsmc180.lib' tt\n{}\nvdd vdd 0 0.7\nvy vy 0 0.1\nvforce force 0 {}\n", parts, force);
+        "Transducers in a row\n.lib '../process/tsmc180.lib' tt\n{}\nvdd vdd 0 0.7\nvy vy 0 0.1\nvforce force 0 {}\n", parts, force);
     for (const auto& cell : cells)
         out += fmt::format(
             ".subckt cell_{0} vdd vy force\nxfsr force vx 0 fsr\niba pg 0 100n\nxamp vy vx vz pg vdd amplifier\nvif vdd if 0\n{1}.ends\n"

@@ -1,5 +1,5 @@
 #pragma once
-// The thesis's force sensor (4.1, 4.2): eq. 13, and netlists of transducer cells side by side.
+// The thesis's force sensor (4.1, 4.2): eq. 13, and netlists of transducer cells in a row.
 
 #include <span>
 #include <string>
@@ -38,7 +38,7 @@ std::string single_transistor_cell(int columns);
 /// Fig. 20 with a follower behind the amplifier; the follower's output is node z.
 std::string voltage_cell(double R_F);
 
-/// All cells side by side with a common force (source vforce, 1 V per N: "4", "dc 0 force 1"), supply (vdd) and reference (vy). Node and
+/// All cells in a row with a common force (source vforce, 1 V per N: "4", "dc 0 force 1"), supply (vdd) and reference (vy). Node and
 /// current names: v(xNAME.vx), i(xNAME.vif). `parts` is the line that includes the subcircuits.
 std::string transducer_netlist(std::span<const TransducerCell>, const std::string& force,
                                const std::string& parts = ".include 'parts/transducer.inc'");

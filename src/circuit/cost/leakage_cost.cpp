@@ -1,4 +1,4 @@
-#include "circuit/cost/leakage.hpp"
+#include "circuit/cost/leakage_cost.hpp"
 
 #include <algorithm>
 #include <cmath>

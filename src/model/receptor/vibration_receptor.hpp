@@ -7,7 +7,9 @@
 namespace corpuscle {
 
 /// A band of vibration, for FA-II:   I = k max{x, 0},   x = F through two high-passes at f_hp and a low-pass at f_lp
+///
 ///     |x / F| = f^2 / (f^2 + f_hp^2) * f_lp / sqrt(f^2 + f_lp^2), with its maximum at sqrt(2) f_hp for f_lp = f_hp
+///
 /// Our choice, for a class that the thesis names but does not model. It reproduces the tuning of Pacinian corpuscles (best at 200 to
 /// 300 Hz, no response to slow force), not their mechanics. Each section treats the output of the one before as a straight line between
 /// samples.

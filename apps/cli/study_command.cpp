@@ -51,7 +51,7 @@ Result<std::vector<const Study*>> chosen(const std::vector<std::string>& names) 
             if (name == s->name && std::find(out.begin(), out.end(), s) == out.end()) found = true, out.push_back(s);
         if (!found)
             return bad_usage(
-                fmt::format("study: unknown study '{}'{}; known studies: {}", name, did_you_mean(name, known), fmt::join(known, ", ")));
+                fmt::format("study: unknown study '{}'{} (known: {})", name, did_you_mean(name, known), fmt::join(known, ", ")));
     }
     return out;
 }
