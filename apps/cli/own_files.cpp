@@ -94,6 +94,9 @@ bool is_own_deck(std::string_view beginning) {
     return beginning.starts_with("* Written by 'corpuscle export ");
 }
 
-bool is_own_markdown(std::string_view beginning) { return beginning.find("\nMade by `corpuscle study ") != beginning.npos; }
+bool is_own_markdown(std::string_view beginning) {
+    return beginning.find("\nWritten by `corpuscle study ") != beginning.npos ||
+           beginning.find("\nMade by `corpuscle study ") != beginning.npos;  // version 0.1.0 and earlier
+}
 
 }  // namespace corpuscle

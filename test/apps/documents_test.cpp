@@ -28,11 +28,11 @@ std::vector<Quotation> quotations_in(const std::string& document) {
 
 TEST(Documents, QuoteFilesExactly) {
     std::size_t quoted = 0;
-    for (const auto& entry : std::filesystem::directory_iterator(test::root() + "/doc")) {
+    for (const auto& entry : std::filesystem::directory_iterator(test::source_root() + "/doc")) {
         if (entry.path().extension() != ".md") continue;
         for (const auto& [file, text] : quotations_in(test::read_file(entry.path().string()))) {
             ++quoted;
-            EXPECT_EQ(text, test::read_file(test::root() + "/" + file))
+            EXPECT_EQ(text, test::read_file(test::source_root() + "/" + file))
                 << entry.path().filename() << " quotes " << file << "; run doc/quote.py doc/" << entry.path().filename().string();
         }
     }
@@ -54,12 +54,13 @@ std::string without_code(const std::string& page) {
 TEST(Documents, LinkToFilesThatExist) {
     for (const auto* page : {"HACKING.md", "doc/architecture.md", "doc/data-flow.md", "doc/errors.md", "doc/determinism.md",
                              "doc/stability.md", "doc/own-neuron.md", "doc/own-device.md"}) {
-        const auto text = without_code(test::read_file(test::root() + "/" + page));
+        const auto text = without_code(test::read_file(test::source_root() + "/" + page));
         ASSERT_FALSE(text.empty()) << page;
         for (std::size_t at = text.find("]("); at != std::string::npos; at = text.find("](", at + 1)) {
             const auto link = text.substr(at + 2, text.find(')', at) - at - 2), target = link.substr(0, link.find('#'));
             if (link.starts_with("http") || target.empty()) continue;  // another site, or within the page
-            EXPECT_TRUE(std::filesystem::exists(std::filesystem::path(test::root()) / std::filesystem::path(page).parent_path() / target))
+            EXPECT_TRUE(
+                std::filesystem::exists(std::filesystem::path(test::source_root()) / std::filesystem::path(page).parent_path() / target))
                 << page << " links to " << target;
         }
     }
@@ -68,13 +69,13 @@ TEST(Documents, LinkToFilesThatExist) {
 /// Every test file, one after another.
 std::string test_sources() {
     std::string all;
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(test::root() + "/test"))
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(test::source_root() + "/test"))
         if (entry.path().extension() == ".cpp") all += test::read_file(entry.path().string());
     return all;
 }
 
 TEST(Documents, NameTestsThatExist) {
-    const auto sources = test_sources(), page = test::read_file(test::root() + "/doc/determinism.md");
+    const auto sources = test_sources(), page = test::read_file(test::source_root() + "/doc/determinism.md");
     const std::regex name("`([A-Z][A-Za-z0-9]*)\\.([A-Z][A-Za-z0-9]*)`");
     std::size_t named = 0;
     for (std::sregex_iterator it(page.begin(), page.end(), name), end; it != end; ++it, ++named)

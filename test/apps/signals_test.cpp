@@ -32,7 +32,7 @@ std::vector<std::string> lines_that_signal() {
     return out;
 }
 
-/// If fork() or forkpty() fails, its result -1 must not be signalled: kill(-1) reaches every process of the machine.
+/// If fork() or forkpty() fails, its result -1 must not be signalled: kill with -1 reaches every process of the machine.
 TEST(Signals, AreSentOnlyAfterACheckThatTheProcessWasStarted) {
     const std::map<std::string, std::string> checked = {
         {"src/io/helper_process.cpp", "behind child > 0"},

@@ -163,7 +163,7 @@ TEST(Batch, StopsOnRequest) {
 }
 
 /// The chips of the thesis under the first 0.4 s of a press: the same spikes in batched and in scalar runs.
-TEST(ChipSpec, RespondTheSameBatchedAndScalar) {
+TEST(Chips, RespondTheSameBatchedAndScalar) {
     for (const char* name : {"sa1-circuit", "fa1-circuit"}) {
         const auto design = design_of(name);
         const auto press = make_stimulus("press", {}, 1 / batch_T, 0);

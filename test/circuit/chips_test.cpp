@@ -96,7 +96,7 @@ TEST(FaChip, FiresInBothRampsAndNotAtTheEndOfThePlateau) {
 }
 
 /// As printed, I_A is too small to exceed the leak in the plateau (errata S10a), and FA-I's ramps are 8 to 3 (S15).
-TEST(ChipSpec, AsPrintedFireDifferently) {
+TEST(Chips, AsPrintedFireDifferently) {
     const auto press = stimulus("press");
     const auto sa1 = run_chip("sa1.cir", press, {{"as_printed", 1}}), fa1 = run_chip("fa1.cir", press, {{"as_printed", 1}});
     EXPECT_GE(sa1.between(rise_start, hold_start), 3U);
@@ -106,7 +106,7 @@ TEST(ChipSpec, AsPrintedFireDifferently) {
 }
 
 /// Without length modulation and velocity saturation the mirrors divide by their ratios: 288 x 64 (eq. 38, 39; errata S7b).
-TEST(ChipSpec, TransconductorsDivideByTheirRatiosInThePlainModel) {
+TEST(Chips, TransconductorsDivideByTheirRatiosInThePlainModel) {
     const auto netlist = Netlist::read(corpuscle::test::source_root() + "/circuits/invc.cir");
     ASSERT_TRUE(netlist);
     auto circuit = netlist->elaborate();
@@ -116,7 +116,7 @@ TEST(ChipSpec, TransconductorsDivideByTheirRatiosInThePlainModel) {
 }
 
 /// The membrane falls from V_H to V_L, and a spike charges it again. It overshoots because of the trigger's delay (thesis 4.4).
-TEST(ChipSpec, MembranesStayBetweenTheTriggersThresholdsWhileTheyFire) {
+TEST(Chips, MembranesStayBetweenTheTriggersThresholdsWhileTheyFire) {
     const auto trigger = run_netlist_file("schmitt.cir");
     const double V_L = trigger.number("v_l"), V_H = trigger.number("v_h");
     for (const char* file : {"sa1.cir", "fa1.cir"}) {
@@ -133,7 +133,7 @@ TEST(ChipSpec, MembranesStayBetweenTheTriggersThresholdsWhileTheyFire) {
 }
 
 /// "At each firing event the membrane potential u charges very fast, causing glitches in the input signal I" (thesis 4.4).
-TEST(ChipSpec, ChargingMakesGlitchesInTheCurrent) {
+TEST(Chips, ChargingMakesGlitchesInTheCurrent) {
     const auto press = stimulus("press", {}, 100e3);
     const auto chip = run_chip("sa1.cir", press);
     const auto& current = chip.shown.at("i(vi)");
@@ -148,7 +148,7 @@ TEST(ChipSpec, ChargingMakesGlitchesInTheCurrent) {
 }
 
 /// 0.05 to 40 N, fast and slow: the solver always converges, and a chip outside its range reports saturation.
-TEST(ChipSpec, ConvergeUnderAnyForceAndReportSaturation) {
+TEST(Chips, ConvergeUnderAnyForceAndReportSaturation) {
     for (const char* file : {"sa1.cir", "fa1.cir"}) {
         for (const double force : {0.05, 0.5, 10.0, 40.0}) {
             const auto press = run_chip(file, stimulus("press", {fmt::format("press.F_max={}", force)}));
@@ -164,7 +164,7 @@ TEST(ChipSpec, ConvergeUnderAnyForceAndReportSaturation) {
 }
 
 /// A force from the first sample on. Under 1 N and more SA-I keeps firing, so it has no stable operating point.
-TEST(ChipSpec, StartUnderAnyForce) {
+TEST(Chips, StartUnderAnyForce) {
     for (const char* file : {"sa1.cir", "fa1.cir"})
         for (const double celsius : {27.0, 85.0})
             for (const double force : {0.05, 0.3, 1.09, 2.5, 8.0, 40.0}) {
@@ -174,7 +174,7 @@ TEST(ChipSpec, StartUnderAnyForce) {
     EXPECT_GT(run_chip("sa1.cir", {1e3, std::vector<double>(300, 4.0)}).spikes.size(), 4U);
 }
 
-TEST(ChipSpec, RestSilentlyForHours) {
+TEST(Chips, RestSilentlyForHours) {
     for (const char* file : {"sa1.cir", "fa1.cir"}) {
         const auto quiet = run_chip(file, stimulus("step", {"step.t_rest=600", "step.t_hold=0.3", "step.F_max=4"}, 100));
         EXPECT_FALSE(quiet.error);
@@ -183,7 +183,7 @@ TEST(ChipSpec, RestSilentlyForHours) {
     }
 }
 
-TEST(ChipSpec, WorkWithADamagedSensor) {
+TEST(Chips, WorkWithADamagedSensor) {
     const auto press = stimulus("press");
     for (const char* file : {"sa1.cir", "fa1.cir"}) {
         const auto open = run_chip(file, press, {{"r_0", 1e15}, {"r_1gf", 1e15}});
@@ -195,7 +195,7 @@ TEST(ChipSpec, WorkWithADamagedSensor) {
 }
 
 /// Tolerances a hundred times tighter move no spike by 0.2 ms.
-TEST(ChipSpec, SpikesAreExact) {
+TEST(Chips, SpikesAreExact) {
     for (const std::string file : {"sa1.cir", "fa1.cir"}) {
         const auto folder = corpuscle::test::source_root() + "/circuits/";
         auto text = corpuscle::test::read_file(folder + file);

@@ -13,7 +13,7 @@ namespace corpuscle::circuit {
 namespace {
 
 bool has_time_and_unknown(const std::string& message) {
-    static const std::regex both(R"(at [0-9.]+ .*s .*[vi]\(.+\))");
+    static const std::regex both(R"(at [0-9.]+ .*s: .*[vi]\(.+\))");
     return std::regex_search(message, both);
 }
 

@@ -205,7 +205,7 @@ std::string four_transistors(const std::array<std::string, 4>& more) {
         more[0], more[1], more[2], more[3]);
 }
 
-TEST(ChipSpec, RestWhereTheSameMismatchWrittenOutDoes) {
+TEST(Chips, RestWhereTheSameMismatchWrittenOutDoes) {
     auto sampled = solve_bench(four_transistors({}));
     const auto& circuit = *sampled->circuit;
     for (std::uint64_t chip = 0; chip < 50; ++chip) {
@@ -230,7 +230,7 @@ TEST(ChipSpec, RestWhereTheSameMismatchWrittenOutDoes) {
     }
 }
 
-TEST(ChipSpec, RestAtTheSameBitsOnEveryInstructionSet) {
+TEST(Chips, RestAtTheSameBitsOnEveryInstructionSet) {
     const char* const before = std::getenv("CORPUSCLE_ISA");
     const std::string previous = before ? before : "";
     std::vector<std::vector<double>> first;

@@ -324,7 +324,7 @@ TEST(LoggerFiles, RowsTakenAsChannelsMayBeginWithANameAndTheirGapsHaveALocation)
     EXPECT_EQ(load_recording(folder / "x.csv", rows).force[0], (std::vector<double>{4, 5, 6})) << "the remedy";
     rows.bad_fields.reset();
     rows.rate = 100;
-    EXPECT_EQ(refused_logged(folder, "0,1,2,,4\n1,2,3,4,5\n", rows).substr(0, 29), "x.csv:1: field 4 is no number");
+    EXPECT_EQ(refused_logged(folder, "0,1,2,,4\n1,2,3,4,5\n", rows).substr(0, 32), "x.csv:1: field 4 is not a number");
 }
 
 TEST(LoggerFiles, AJsonDocumentsRateAndUnitAreUsedAndListsBesideTheTableLeftOut) {
@@ -602,7 +602,7 @@ TEST(LoggerFiles, GzipIsUnpackedInChunksAndItsDamageNamed) {
     complete[complete.size() / 2] ^= 0x55;
     EXPECT_NE(refused_logged(folder, complete, {}, "x.gz").find("this gzip file is damaged"), std::string::npos);
     EXPECT_NE(refused_logged(folder, packed(text) + "more", {}, "x.gz").find("this gzip file is damaged"), std::string::npos);
-    EXPECT_NE(refused_logged(folder, packed("\x93NUMPY..."), {}, "x.npy.gz").find("unpack it first: gzip -dk "), std::string::npos);
+    EXPECT_NE(refused_logged(folder, packed("\x93NUMPY..."), {}, "x.npy.gz").find("decompress it first: gzip -dc "), std::string::npos);
 }
 
 TEST(LoggerFiles, AGzipBombTakesNoMoreMemoryThanALineMay) {

@@ -160,7 +160,7 @@ TEST(Recording, HeadingsAreReadAsPeopleWriteThem) {
         << "nan is not a heading";
     EXPECT_EQ(error_text(folder, std::string("t,F\n\0\0", 6)), "x.csv: not a text file: it contains NUL bytes, as binary files do");
     EXPECT_EQ(error_text(folder, "t,F_furlong\n0,1\n1,2\n", {.unit = "mn"}).substr(0, 91),
-              "x.csv: 'F_furlong' is read as mn, which is not a known unit of force (N, mN, gf, kgf, lbf");
+              "x.csv: 'F_furlong' is read as mn, which is not a known unit of force (N, mN, gf, kgf, lbf .");
 }
 
 TEST(Recording, OptionsThatContradictTheHeaderAreReported) {
@@ -198,7 +198,7 @@ TEST(Recording, AnUnevenClockIsRefusedUnlessAnOptionReplacesOrInterpolatesIt) {
     const std::string bursts = "time_s,F_N\n0,0\n0.001,1\n0.002,2\n0.003,3\n0.1,4\n0.101,5\n0.102,6\n0.2,7\n";
     EXPECT_EQ(error_text(folder, bursts).substr(0, 150),
               "x.csv: the times in 'time' are not evenly spaced: mean rate 35 Hz, steps from 1 ms to 98 ms, jitter up to 82.71 ms. "
-              "Use --rate 35H");
+              "Use --rate 35Hz to take the sample");
     const auto path = folder / "x.csv";
     const auto even = read(path, {.rate = 35});
     EXPECT_EQ(even.force[0], (std::vector<double>{0, 1, 2, 3, 4, 5, 6, 7}));

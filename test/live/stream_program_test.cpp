@@ -465,7 +465,7 @@ TEST(StreamProgram, AHeaderThatNamesNoSiteOrOneTwiceOrAnotherThanTheLayoutIsRefu
     };
     refused("r1c1,r1c2,r2cl,r2c2", "header: there is no site 'r2cl'; did you mean 'r2c1'");
     refused("r1c1,r1c2,r1c1,r2c2", "header: two channels have the name 'r1c1', which is one site");
-    refused("r1c1,r1c2,r2c1,r2c2", "number 1 is site 'r1c1' by name, and 'r2c1' by", {"--layout", folder / "turned.csv"});
+    refused("r1c1,r1c2,r2c1,r2c2", "column 1 is site 'r1c1' in the header, but 'r2c1' in", {"--layout", folder / "turned.csv"});
 }
 
 TEST(StreamProgram, OneSenderOfSeveralWithAWrongHeaderEndsNothing) {
@@ -688,7 +688,7 @@ TEST(StreamProgram, ContradictoryOptionsAreRefused) {
         {"--rate 1kHz --time-unit ms", "--stamp time"},
         {"--in press --notch 50Hz", "--notch is for recordings, but press is a stimulus"},
         {"--in pres --pace fast", "did you mean 'press'?"},
-        {"--rate 1kHz --unit mmHg", "say --scale S"},
+        {"--rate 1kHz --unit mmHg", "use --scale S"},
         {"--rate 1kHz --set sa9.f_B=25Hz", "did you mean 'sa1'?"},
         {"--rate 1kHz --in serial:/dev/null", "this is not a serial device"},
         {"--rate 1kHz --to 7000 -o x.csv", "--out and --to cannot be used together"},

@@ -117,7 +117,7 @@ TEST(VictorPurpura, TrainsOfAHundredThousandTakeWellUnderASecondAndInvalidOnesAr
     const auto refused = victor_purpura(a, b, 1e-4);
     ASSERT_FALSE(refused);
     EXPECT_EQ(refused.error().message.substr(0, 83),
-              "at a cost of 0.0001 per second, 100000 and 100000 spikes have 10000000000 pairs within");
+              "at a cost of 0.0001 per second, 100000 and 100000 spikes have 10000000000 pairs wit");
 }
 
 // 25 million pairs; the decisions of 4 million are kept at once.

@@ -3,15 +3,15 @@
 # does not name its lanes (by xsimd's type), nor a global symbol except its tables.
 # Usage: lanes_stay_inside.sh OBJECT...
 set -eu
-test $# -ge 3 || { echo "objects for three instruction sets were to come, not $#"; exit 1; }
+test $# -ge 3 || { echo "expected objects for three instruction sets, not $#"; exit 1; }
 status=0
-table='corpuscle::(circuit::)?lanes::(baseline|avx2|avx512)::(doubles|floats|fields|frames|transistors|chip_lanes)$'
+table='corpuscle::(circuit::)?lanes::(baseline|avx2|avx512)::(doubles|floats|fields|frames|transistor_kernel_table|chip_kernel_table)$'
 for object in "$@"; do
   wide=$(nm -C "$object" | grep -E ' [WVuw] ' | grep -v 'xsimd' || true)
   strong=$(nm -C --defined-only "$object" | grep -E ' [TDBRG] ' | grep -vE "$table" || true)
   tables=$(nm -C --defined-only "$object" | grep -cE "$table" || true)
   if [ -n "$wide$strong" ] || [ "$tables" -eq 0 ]; then
-    printf '%s has %s tables and lets out:\n%s\n%s\n' "$object" "$tables" "$wide" "$strong"
+    printf '%s has %s tables and exports:\n%s\n%s\n' "$object" "$tables" "$wide" "$strong"
     status=1
   fi
 done

@@ -75,7 +75,7 @@ TEST(State, ThePreviousVersionIsReadAndALaterOneRefused) {
     bytes[6] = std::byte{'3'};
     const auto later = unpack(bytes);
     ASSERT_FALSE(later);
-    EXPECT_NE(later.error().message.find("a later version than 2"), std::string::npos) << later.error().message;
+    EXPECT_NE(later.error().message.find("a version later than 2"), std::string::npos) << later.error().message;
     bytes[6] = std::byte{'1'};
     bytes.resize(bytes.size() - 8);  // version 1 has no checksum
     const auto before = unpack(bytes);

@@ -236,7 +236,7 @@ TEST(PopulationFile, SensorsComeFromAListATableOrARecording) {
     EXPECT_EQ(recorded->sites.names, (std::vector<std::string>{"p1", "p2"}));
     const Channel nowhere[] = {{0, "p1"}};
     EXPECT_EQ(parse_skin_plan("sites = \"channels\"\n" + classes, "c.toml", nowhere).error().text().substr(0, 44),
-              "c.toml:1:9: channel 'p1' has no place on the");
+              "c.toml:1:9: channel 'p1' has no position on ");
 }
 
 TEST(PopulationFile, TheOneInTheManualIsRead) {

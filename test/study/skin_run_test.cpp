@@ -243,7 +243,7 @@ TEST(SkinRun, ARecordingsChannelsAreItsSitesByNameOrInOrder) {
     EXPECT_NE(read_file(folder / "named/units.csv").find("sa1#3"), std::string::npos);
     const auto wrong = test::run_program(folder, "respond ordered.csv --population 'grid 3x2' --out wrong");
     EXPECT_EQ(wrong.status, 1);
-    EXPECT_NE(wrong.err.find("ordered has 4 channels, and grid 3x2 has 6 sites"), std::string::npos) << wrong.err;
+    EXPECT_NE(wrong.err.find("ordered has 4 channels, but grid 3x2 has 6 sites"), std::string::npos) << wrong.err;
     EXPECT_FALSE(std::filesystem::exists(folder / "wrong"));
 }
 
