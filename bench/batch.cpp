@@ -28,17 +28,17 @@ constexpr double T = 1e-4;
 
 double seconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
-using Answers = std::map<std::int64_t, ChipResponse>;
+using Responses = std::map<std::int64_t, ChipResponse>;
 
-void print_answers(const Answers& answers, double seconds) {
+void print_responses(const Responses& responses, double seconds) {
     long steps = 0, rejected = 0, iterations = 0, max_iterations = 0, left = 0, lost = 0;
     std::map<std::size_t, int> counts;
-    for (const auto& [number, a] : answers) {
+    for (const auto& [number, a] : responses) {
         steps += a.stats.steps, rejected += a.stats.rejected, iterations += a.stats.iterations;
         max_iterations = std::max(max_iterations, a.stats.iterations);
         left += a.is_scalar, lost += a.error.has_value(), ++counts[a.spikes.size()];
     }
-    const auto chips = static_cast<double>(answers.size());
+    const auto chips = static_cast<double>(responses.size());
     std::printf(
         "%.0f chips: %.2f s, %.1f ms a chip; %.0f steps, %.0f rejected, %.0f iterations a chip (at most %ld), %.2f us an iteration; "
         "%ld left their lane, %ld did not converge\nspikes:",
@@ -48,7 +48,7 @@ void print_answers(const Answers& answers, double seconds) {
     std::printf("\n");
 }
 
-void compare(const Answers& lanes, const Answers& alone) {
+void compare(const Responses& lanes, const Responses& alone) {
     int other_counts = 0, other_steps = 0;
     long steps = 0, of = 0;
     std::vector<double> apart;
@@ -69,7 +69,7 @@ void compare(const Answers& lanes, const Answers& alone) {
         return apart.empty() ? 0 : apart[static_cast<std::size_t>(fraction * static_cast<double>(apart.size() - 1))];
     };
     std::printf(
-        "other counts of spikes: %d; furthest two spikes: median %.1f us, 99 %% %.1f us, all %.1f us; chips with other steps: %d, by %ld "
+        "other counts of spikes: %d; spikes furthest apart: median %.1f us, 99 %% %.1f us, all %.1f us; chips with other steps: %d, by %ld "
         "of %ld steps\n",
         other_counts, at(0.5) * 1e6, at(0.99) * 1e6, at(1) * 1e6, other_steps, steps, of);
 }
@@ -92,7 +92,7 @@ int main(int argc, char** argv) {
     const ChipSpec chips{static_cast<double>(count), 1};
     const auto chip = [&](std::int64_t k) { return Chip{k, *design, chips.sample(static_cast<std::uint64_t>(k)), force, T}; };
 
-    Answers lanes, alone;
+    Responses lanes, alone;
     std::int64_t next = 0;
     double began = seconds();
     const auto done = run_chips(
@@ -100,11 +100,11 @@ int main(int argc, char** argv) {
         [&](const Chip& c, ChipResponse&& a) { lanes.emplace(c.id, std::move(a)); }, options);
     if (!done) return std::fprintf(stderr, "%s\n", done.error().text().c_str()), 1;
     std::printf("on lanes, ");
-    print_answers(lanes, seconds() - began);
+    print_responses(lanes, seconds() - began);
     if (argc < 5) return 0;
     began = seconds();
     for (std::int64_t k = 0; k < count; ++k) alone.emplace(k, run_chip_scalar(chip(k), options));
     std::printf("alone, ");
-    print_answers(alone, seconds() - began);
+    print_responses(alone, seconds() - began);
     compare(lanes, alone);
 }

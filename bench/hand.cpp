@@ -59,9 +59,9 @@ struct PressCase {
     std::unique_ptr<SkinForce> force;
 };
 
-PressCase press(const Innervation& skin, std::string_view stimulus, std::string_view indenter, std::vector<ParameterOverride> wishes) {
-    PressCase p{value_or_exit(make_stimulus(stimulus, wishes, 1e3, 0)), {}, {}};
-    p.contact = value_or_exit(make_contact(indenter, wishes, skin.plan.sites, p.source->clock()));
+PressCase press(const Innervation& skin, std::string_view stimulus, std::string_view indenter, std::vector<ParameterOverride> overrides) {
+    PressCase p{value_or_exit(make_stimulus(stimulus, overrides, 1e3, 0)), {}, {}};
+    p.contact = value_or_exit(make_contact(indenter, overrides, skin.plan.sites, p.source->clock()));
     p.force = make_pressed_force(*p.source, *p.contact);
     return p;
 }
@@ -122,9 +122,9 @@ int main(int argc, char** argv) {
             auto out = SkinEventsFile(value_or_exit(OutputFile::create(file)), "aer");
             SkinSink* const listeners[] = {&out};
             const SkinInput input{name, "", *make_clock(1e3), {}, *skin};
-            const auto answerer = local_skin_simulator(*at_work, alone);
+            const auto simulator = local_skin_simulator(*at_work, alone);
             const double from = processor();
-            work = value_or_exit(run_skin(*force.force, input, *answerer, listeners, {}));
+            work = value_or_exit(run_skin(*force.force, input, *simulator, listeners, {}));
             if (!out.commit()) return 1;
             ran.push_back(processor() - from);
             bytes = std::filesystem::file_size(file);

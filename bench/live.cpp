@@ -9,8 +9,8 @@
 // The sender and the reader are threads of this program on the other cores.
 //
 // With delay, program and sender busy-wait (--spin), which excludes the time to wake a thread.
-// delay, sleep, share, together, noise: frames are binary float32 through a pipe (together: TCP), each written at its scheduled time
-// (clock_nanosleep to absolute times); events are binary through another pipe. The delay of a frame is from just before its write to the
+// In all modes but soak, frames are binary float32 through a pipe (together: TCP). Each is written at its scheduled time (clock_nanosleep
+// to absolute times). Events are binary through another pipe. The delay of a frame is from just before its write to the
 // read of its first spike. A frame without a spike has no delay here, but the program counts it; at its end the program reports the number
 // of frames and its own measurement of every frame. For comparison an idle loop runs first for the same time: a thread sleeps to the same
 // ticks and records how late it wakes, which is the machine's own delay. Every site has noise of some mN at every frame, so that no
@@ -92,10 +92,10 @@ int through_pipes(const std::string& program, const std::string& population, int
     if (together > 1) words.insert(words.end(), {"--together", std::to_string(together), "--in", "tcp:0", "--clients", "1"});
     Program child(program, words, cores - 1);
     if (together > 1) child.in = connect_to(child);
-    double begun = 0;  // processor time, s
+    double seconds_at_start = 0;  // processor time, s
     std::thread watch([&] {
         std::this_thread::sleep_for(std::chrono::seconds(start_up));
-        begun = child.processor_seconds();
+        seconds_at_start = child.processor_seconds();
     });
     Sender sender(second, sites, rate, count, false);
     LatencyHistogram delay;
@@ -132,7 +132,7 @@ int through_pipes(const std::string& program, const std::string& population, int
     fmt::print(
         "\nIts own summary (status {}):\n{}\nIt used {:.2f} % of one core after the first {} s, and {:.2f} s in total of {} s; "
         "{} MB at peak.\n",
-        status, summary, 100 * (child.seconds() - begun) / std::max(1, seconds - start_up), start_up, child.seconds(), seconds,
+        status, summary, 100 * (child.seconds() - seconds_at_start) / std::max(1, seconds - start_up), start_up, child.seconds(), seconds,
         child.used.ru_maxrss / 1024);
     return status;
 }

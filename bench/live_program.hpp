@@ -35,7 +35,7 @@ inline void sleep_until(std::int64_t ns) {
     }
 }
 
-/// Frames of one second, to be repeated: noise and a contact that moves in a circle of `turn_radius` (m; 0: over most of the skin).
+/// Frames of one second, to be repeated, with noise and a contact that moves in a circle. `turn_radius`: m; 0: over most of the skin.
 inline std::vector<float> frames_of_a_second(const SkinPlan& plan, int rate, double radius, bool noise, double turn_radius = 0) {
     const auto& sites = plan.sites;
     // force at a site (N) that acts on an afferent like 1 N
@@ -98,11 +98,11 @@ struct Program {
     }
     /// Processor time so far, user and system, s.
     double processor_seconds() const {
-        std::ifstream in(fmt::format("/proc/{}/stat", pid));
+        std::ifstream stat(fmt::format("/proc/{}/stat", pid));
         std::string word;
         double user = 0, system = 0;
-        for (int k = 1; k < 14; ++k) in >> word;
-        in >> user >> system;
+        for (int k = 1; k < 14; ++k) stat >> word;
+        stat >> user >> system;
         return (user + system) / static_cast<double>(::sysconf(_SC_CLK_TCK));
     }
     double seconds() const {

@@ -151,11 +151,11 @@ struct Case {
         for (std::size_t k = 0; k < steps; k += block) {
             const std::size_t count = std::min(block, steps - k);
             found.clear();
-            PopulationResponse answer{marks ? nullptr : &found, marks ? &bits : nullptr};
+            PopulationResponse response{marks ? nullptr : &found, marks ? &bits : nullptr};
             const auto f = force(k, count);
-            const double begun = now();
-            const auto done = population->respond(f, count, answer, alone);
-            taken += now() - begun;
+            const double start = now();
+            const auto done = population->respond(f, count, response, alone);
+            taken += now() - start;
             if (!done) stop(done.error().text());
             for (std::size_t w = 0; marks && w < bits.size(); ++w) spikes += __builtin_popcountll(bits[w]);
             spikes += static_cast<std::int64_t>(found.size());
@@ -251,14 +251,14 @@ public:
     explicit Bench(std::string only) : only_(std::move(only)) {
         for (std::size_t u = 0; u < max_count; ++u) gains_.push_back(gain(u));
         all_.push_back(std::make_unique<TimedCase>(TimedCase{"read", static_cast<double>(doubles_.size() * sizeof(double)), [this] {
-                                                                 const double begun = now();
+                                                                 const double start = now();
                                                                  added_up = sum(doubles_.data(), doubles_.size());
-                                                                 return now() - begun;
+                                                                 return now() - start;
                                                              }}));
         all_.push_back(std::make_unique<TimedCase>(TimedCase{"additions", 64.0 * rounds, [] {
-                                                                 const double begun = now();
+                                                                 const double start = now();
                                                                  added_up = additions(rounds);
-                                                                 return now() - begun;
+                                                                 return now() - start;
                                                              }}));
         const auto sets = instruction_sets();
         for (std::size_t k = sets.size() - 1; k > 0; --k)  // without the scalar set

@@ -1,8 +1,10 @@
 // How fast is a text recording read, and how much memory does it use? bench-read MEGABYTES FOLDER
 //
-// Method: a CSV file with a time and 16 channels of footsteps, two decimals, is written to FOLDER, then read completely in several ways:
-// only its bytes (the limit, given by fread); its numbers (every column into blocks); and as a force recording with all checks, at a given
-// rate (one pass) and on its own clock (two passes). Printed are bytes per wall second, and the peak memory of the process so far.
+// Method: a CSV file with a time and 16 channels of footsteps, two decimals, is written to FOLDER, then read completely in these ways:
+// - only its bytes, by fread, which is the limit;
+// - its numbers, every column into blocks;
+// - as a force recording with all checks, at a given rate (one pass) and on its own clock (two passes).
+// Printed are bytes per wall second, and the peak memory of the process so far.
 
 #include <fmt/format.h>
 #include <sys/resource.h>

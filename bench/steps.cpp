@@ -1,8 +1,8 @@
 // How many samples per second does one afferent process on one core, without SIMD lanes?
 //
-// Method: one second of the press, or of a 30 Hz sine about 1 N, at 10 kHz in a block of 10,000 samples, repeated with the
-// state carried over; spikes are kept in memory. Processor time; the median of 9 runs is the result. Counters give the work:
-// samples per second, and spikes per sample (the press is at rest for half its length; the sine keeps the afferent active).
+// Method: one second of the press, or of a 30 Hz sine about 1 N, at 10 kHz in a block of 10,000 samples, repeated with the state carried
+// over. Spikes are kept in memory. The result is the median processor time of 9 runs. Counters give the work in samples per second and
+// spikes per sample. The press is at rest for half its length, but the sine keeps the afferent active.
 
 #include <benchmark/benchmark.h>
 
@@ -20,7 +20,7 @@ std::vector<double> force_of(const std::string& stimulus) {
     return block.force[0];
 }
 
-void answer(benchmark::State& run, const std::string& name, const std::string& stimulus, Method method) {
+void respond(benchmark::State& run, const std::string& name, const std::string& stimulus, Method method) {
     const auto afferent = make_afferent(*plan_afferent(name, {}), {1e-4, method, method == Method::backward_euler});
     const auto force = force_of(stimulus);
     std::vector<Spike> spikes;
@@ -45,7 +45,7 @@ const bool registered = [] {
             for (const auto method : {Method::exact, Method::backward_euler})
                 benchmark::RegisterBenchmark(
                     (std::string(name) + "/" + stimulus + (method == Method::exact ? "/exact" : "/backward-euler")).c_str(),
-                    [=](benchmark::State& run) { answer(run, name, stimulus, method); })
+                    [=](benchmark::State& run) { respond(run, name, stimulus, method); })
                     ->MinTime(0.05)
                     ->Repetitions(9)
                     ->ReportAggregatesOnly();

@@ -18,9 +18,9 @@ DRAWN = {"table12", "table15", "table17-18", "bias-spread", "fig46"}
 def timed(names):
     runs = []
     for _ in range(3):
-        spent, began = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime, time.monotonic()
+        cpu_before, began = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime, time.monotonic()
         subprocess.run([PROGRAM, "study", *names, "--quiet"], check=True)
-        runs.append((time.monotonic() - began, resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - spent))
+        runs.append((time.monotonic() - began, resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - cpu_before))
     return [statistics.median(kind) for kind in zip(*runs)]
 
 

@@ -23,7 +23,7 @@ namespace {
 using namespace corpuscle;
 using Clock = std::chrono::steady_clock;
 
-double since(Clock::time_point begun) { return std::chrono::duration<double>(Clock::now() - begun).count(); }
+double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 double processor() {
     timespec t = {};
     ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
@@ -35,7 +35,7 @@ double memory_MB() {
     return static_cast<double>(use.ru_maxrss) / 1024;
 }
 
-class Drawn final : public Sweep {
+class RandomSweep final : public Sweep {
     std::int64_t units_;
     std::vector<SweepColumn> axes_, measures_;
     std::vector<std::string> trains_ = {"sa1"}, traces_;
@@ -43,7 +43,7 @@ class Drawn final : public Sweep {
     std::vector<MetadataText> facts_ = {{"title", "bench"}};
 
 public:
-    explicit Drawn(std::int64_t units) : units_(units) {
+    explicit RandomSweep(std::int64_t units) : units_(units) {
         for (int k = 0; k < 6; ++k) axes_.push_back({fmt::format("axis{}", k), ""});
         for (int k = 0; k < 10; ++k) measures_.push_back({fmt::format("measure{}", k), ""});
     }
@@ -72,15 +72,15 @@ public:
 };
 
 void run_query(const SweepResults& results, const char* query) {
-    const auto begun = Clock::now();
-    const auto answer = sql::query_integer(results.handle(), results.path(), query);
-    fmt::print("  {:.3f} s  {}  ({})\n", since(begun), query, answer ? *answer : -1);
+    const auto start = Clock::now();
+    const auto value = sql::query_integer(results.handle(), results.path(), query);
+    fmt::print("  {:.3f} s  {}  ({})\n", since(start), query, value ? *value : -1);
 }
 
 int rows(std::int64_t units, const std::string& folder) {
     const std::string path = folder + "/bench-sweep.sqlite";
     std::filesystem::remove(path);
-    const Drawn sweep(units);
+    const RandomSweep sweep(units);
     auto results = SweepResults::open(path, sweep);
     if (!results) return fmt::print("{}\n", results.error().text()), 1;
     constexpr std::int64_t batch = 8192;
@@ -89,24 +89,24 @@ int rows(std::int64_t units, const std::string& folder) {
     for (std::int64_t from = 0; from < units; from += batch) {
         std::vector<ItemOutcome> outcomes, back;
         for (std::int64_t k = from; k < std::min(units, from + batch); ++k) outcomes.push_back(sweep.outcome(k, random));
-        auto begun = processor();
+        auto start = processor();
         auto packed = rank_message(outcomes);
-        packing += processor() - begun, begun = processor();
+        packing += processor() - start, start = processor();
         (void)decode_rank_message_type(packed), (void)decode_rank_message(packed, back);
-        unpacking += processor() - begun, begun = processor();
+        unpacking += processor() - start, start = processor();
         const auto wall = Clock::now();
         if (auto ok = results->add(sweep, std::move(back)); !ok) return fmt::print("{}\n", ok.error().text()), 1;
-        writing += processor() - begun, writing_wall += since(wall);
+        writing += processor() - start, writing_wall += since(wall);
         if (at_tenth == 0 && from >= units / 10) at_tenth = memory_MB();
     }
-    const auto begun = Clock::now();
+    const auto start = Clock::now();
     const auto folded = results->checkpoint();
     const auto n = static_cast<double>(units);
     fmt::print("{} rows: {:.2f} us of processor time per row, {:.2f} us of wall time ({:.0f} rows/s)\n", units, writing / n * 1e6,
                writing_wall / n * 1e6, n / writing_wall);
     fmt::print("packing an outcome {:.2f} us, unpacking it {:.2f} us of processor time\n", packing / n * 1e6, unpacking / n * 1e6);
     fmt::print("checkpoint in {:.2f} s{}: {:.0f} MB, {:.0f} bytes per row; memory {:.0f} MB after a tenth, {:.0f} MB at the end\n",
-               since(begun), folded ? "" : " (failed)", static_cast<double>(std::filesystem::file_size(path)) / 1e6,
+               since(start), folded ? "" : " (failed)", static_cast<double>(std::filesystem::file_size(path)) / 1e6,
                static_cast<double>(std::filesystem::file_size(path)) / n, at_tenth, memory_MB());
     run_query(*results, "SELECT count(*) FROM units");
     run_query(*results, "SELECT avg(measure3) * 1e6 FROM units");
@@ -124,7 +124,7 @@ int messages() {
     for (const std::size_t size : {16UL, 4096UL, 131072UL}) {
         constexpr int count = 20'000;
         const std::string text(size, 'x');
-        const auto begun = Clock::now();
+        const auto start = Clock::now();
         double at_work = 0;
         const auto send = [&] {
             const auto before = processor();
@@ -145,7 +145,7 @@ int messages() {
         }
         if (first)
             fmt::print("a message of {} bytes: {:.2f} us one way; {:.2f} us of rank 0's processor to receive one and send one\n", size,
-                       since(begun) / count / 2 * 1e6, at_work / count * 1e6);
+                       since(start) / count / 2 * 1e6, at_work / count * 1e6);
     }
     ranks.leave(true);
     return 0;

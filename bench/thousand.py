@@ -3,9 +3,10 @@
 
     bench/thousand.py CORPUSCLE [CHIPS]
 
-Method: examples/sweeps/sa1-chips.toml unchanged (process and mismatch, 1.0 s of press, spikes and ten measures stored), into a file on
-disk; wall time of the complete command. All chips run on two threads. A tenth of them runs on one thread, with the default lanes, with 4
-lanes and with 1; their results must be equal. bench-batch times single iterations and scalar chips; peers/chip.py times a chip in ngspice.
+Method: examples/sweeps/sa1-chips.toml runs unchanged (process and mismatch, 1.0 s of press, spikes and ten measures stored) into a file
+on disk. The result is the wall time of the complete command. All chips run on two threads. A tenth of them runs on one thread, with the
+default lanes, with 4 lanes and with 1. Their results must be equal. bench-batch times single iterations and scalar chips. peers/chip.py
+times a chip in ngspice.
 """
 import os
 import subprocess

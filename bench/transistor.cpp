@@ -26,12 +26,12 @@ constexpr std::size_t count = 512, rounds = 64;
 
 double scalar_rounds(const UicmConstants& constants, const double* const (&v)[4], std::size_t points, std::size_t times) {
     const Uicm<double> device(constants);
-    UicmEvaluation<double> answer;
+    UicmEvaluation<double> evaluation;
     double sum = 0;
     for (std::size_t round = 0; round < times; ++round)
         for (std::size_t k = 0; k < points; ++k) {
-            device.eval({v[0][k], v[1][k], v[2][k], v[3][k]}, answer);
-            sum += test::sum_of_values(answer);
+            device.eval({v[0][k], v[1][k], v[2][k], v[3][k]}, evaluation);
+            sum += test::sum_of_values(evaluation);
         }
     return sum;
 }

@@ -30,15 +30,15 @@ using namespace corpuscle;
 using namespace corpuscle::circuit;
 using Trains = std::vector<std::vector<double>>;
 
-std::shared_ptr<const CircuitAfferentFactory> design_of(const std::string& name, const std::vector<NetlistOverride>& knobs) {
-    const auto netlist = apply_overrides(name, knobs);
+std::shared_ptr<const CircuitAfferentFactory> factory_of(const std::string& name, const std::vector<NetlistOverride>& overrides) {
+    const auto netlist = apply_overrides(name, overrides);
     if (!netlist) std::fprintf(stderr, "%s\n", netlist.error().text().c_str()), std::exit(1);
-    auto design = CircuitAfferentFactory::create(*netlist);
-    if (!design) std::fprintf(stderr, "%s\n", design.error().text().c_str()), std::exit(1);
-    return *design;
+    auto factory = CircuitAfferentFactory::create(*netlist);
+    if (!factory) std::fprintf(stderr, "%s\n", factory.error().text().c_str()), std::exit(1);
+    return *factory;
 }
 
-Trains pressed(const std::shared_ptr<const CircuitAfferentFactory>& design, const ChipSpec& chips, const ForceSignal& press) {
+Trains pressed(const std::shared_ptr<const CircuitAfferentFactory>& factory, const ChipSpec& chips, const ForceSignal& press) {
     Trains out(static_cast<std::size_t>(chips.count));
     std::mutex guard;
     std::size_t next = 0;
@@ -47,16 +47,16 @@ Trains pressed(const std::shared_ptr<const CircuitAfferentFactory>& design, cons
     ThreadPool pool;
     pool.for_each(pool.threads(), [&](std::size_t, unsigned) {
         const auto done = run_chips(
-            design,
+            factory,
             [&]() -> std::optional<Chip> {
                 const std::lock_guard lock(guard);
                 if (next == out.size()) return {};
                 const auto k = next++;
-                return Chip{static_cast<std::int64_t>(k), design, chips.sample(k), press.force, 1 / press.rate};
+                return Chip{static_cast<std::int64_t>(k), factory, chips.sample(k), press.force, 1 / press.rate};
             },
-            [&](const Chip& chip, ChipResponse&& answer) {
-                if (answer.error) std::fprintf(stderr, "chip %lld: %s\n", static_cast<long long>(chip.id), answer.error->text().c_str());
-                out[static_cast<std::size_t>(chip.id)] = std::move(answer.spikes);
+            [&](const Chip& chip, ChipResponse&& response) {
+                if (response.error) std::fprintf(stderr, "chip %lld: %s\n", static_cast<long long>(chip.id), response.error->text().c_str());
+                out[static_cast<std::size_t>(chip.id)] = std::move(response.spikes);
             },
             options);
         if (!done) std::fprintf(stderr, "%s\n", done.error().text().c_str());
@@ -105,7 +105,7 @@ int main(int argc, char** argv) {
     const auto limits = FiringLimits::around(respond(model, press).spikes, phases, 10e-3);
     fmt::print("{}: {}\n", netlist, limits.text());
 
-    const auto designed = design_of(netlist, {});
+    const auto designed = factory_of(netlist, {});
     const auto before = pressed(designed, chips, press);
     print_statistics("as designed", before, limits);
     std::vector<double> counts;
@@ -144,12 +144,12 @@ int main(int argc, char** argv) {
         std::vector<NetlistOverride> own;
         for (const char* side : {"w", "l"}) own.push_back({e.name + "." + side, fmt::format("{:.17g}", 2 * e.values.at(side)), e.name});
         all.insert(all.end(), own.begin(), own.end());
-        print_statistics(fmt::format("{} four times as large", e.name).c_str(), pressed(design_of(netlist, own), chips, press), limits);
+        print_statistics(fmt::format("{} four times as large", e.name).c_str(), pressed(factory_of(netlist, own), chips, press), limits);
     }
-    const auto larger = design_of(netlist, all);
+    const auto larger = factory_of(netlist, all);
     print_statistics("all three", pressed(larger, chips, press), limits);
-    const auto plain = [&](const std::shared_ptr<const CircuitAfferentFactory>& design) {
-        return run_chip_scalar({0, design, {}, press.force, 1 / press.rate}, {}).spikes.size();
+    const auto plain = [&](const std::shared_ptr<const CircuitAfferentFactory>& factory) {
+        return run_chip_scalar({0, factory, {}, press.force, 1 / press.rate}, {}).spikes.size();
     };
     fmt::print("without mismatch: {} spikes as designed, {} with all three\n", plain(designed), plain(larger));
 }

@@ -13,10 +13,10 @@ int main() {
 
     auto state = afferent->start();
     std::vector<Spike> spikes;
-    ResponseBlock answer{spikes};
+    ResponseBlock response{spikes};
     for (int block = 0; block < 20; ++block) {
         std::vector<double> force(50, block < 10 ? 0.2 : 3.0);  // N: a step after half a second
-        if (auto ok = afferent->respond(force, state, answer); !ok) return std::puts(ok.error().text().c_str()), 1;
+        if (auto ok = afferent->respond(force, state, response); !ok) return std::puts(ok.error().text().c_str()), 1;
         state = *unpack(pack(state));  // optional: save the state to disk and read it back
     }
     for (const auto& s : spikes) std::printf("%.4f s\n", Clock{1000, 1}.time(s.step, s.offset));

@@ -18,8 +18,8 @@ int main() {
     ThreadPool threads;
     Frames force(1, 500);  // 50 ms
     for (std::vector<Spike> spikes; (*press)->read(force) && force.count > 0; spikes.clear()) {
-        PopulationResponse answer{&spikes};
-        const auto done = (*population)->respond(ForceProfile{{force.force[0].data(), force.count}, gains}, force.count, answer, threads);
+        PopulationResponse response{&spikes};
+        const auto done = (*population)->respond(ForceProfile{{force.force[0].data(), force.count}, gains}, force.count, response, threads);
         if (!done) return std::puts(done.error().text().c_str()), 1;
         std::printf("%6.2f N at the most: %5zu spikes\n", force.force[0][force.count - 1], spikes.size());
     }

@@ -3,11 +3,11 @@
 
     chip.py CORPUSCLE CHIP_CIR [--until SECONDS] [--rounds N] [--keep DIR]
 
-Method: `corpuscle run` on the netlist with its default accuracy, N times (printed are the fastest and the median; processor seconds of
-complete processes), and once with tolerances a hundred times tighter as the reference for the spikes. Then ngspice runs once on the netlist
-as exported by `corpuscle export` (the same transistors as expressions, the force as a piecewise linear source), up to SECONDS of the press.
-It uses Corpuscle's tolerances instead of the much tighter ones of the deck. Corpuscle runs again up to the same time. A spike is an upward
-crossing of half the supply by v(s), interpolated linearly between two points. One core each, in sequence.
+Method: `corpuscle run` simulates the netlist N times with its default accuracy, and once with tolerances a hundred times tighter as the
+reference for the spikes. Printed are the fastest and the median, in processor seconds of complete processes. Then ngspice runs once on
+the netlist as exported by `corpuscle export` (the same transistors as expressions, the force as a piecewise linear source), up to SECONDS
+of the press. It uses Corpuscle's tolerances instead of the much tighter ones of the deck. Corpuscle runs again up to the same time. A
+spike is an upward crossing of half the supply by v(s), interpolated linearly between two points. One core each, in sequence.
 """
 import argparse
 import re
@@ -58,10 +58,10 @@ class Chip:
 
     def ours(self, name, until, options=""):
         raw = self.folder / f"{name}.raw"
-        seconds, said = timed([self.program, "run", str(self.netlist(name, until, "spikecheck=0 " + options)), "-o", str(raw)])
-        numbers = re.search(r"(\d+) steps, (\d+) rejected, (\d+) Newton iterations", said)
+        seconds, log = timed([self.program, "run", str(self.netlist(name, until, "spikecheck=0 " + options)), "-o", str(raw)])
+        numbers = re.search(r"(\d+) steps, (\d+) rejected, (\d+) Newton iterations", log)
         if not numbers:
-            raise SystemExit(said)
+            raise SystemExit(log)
         return seconds, [int(n) for n in numbers.groups()], spikes(raw)
 
     def theirs(self, until):
@@ -71,17 +71,17 @@ class Chip:
         text = re.sub(r"reltol=\S+ abstol=\S+ vntol=\S+", OPTIONS, deck.read_text())
         control = f".control\nset num_threads=1\nrun\nrusage traniter accept rejected\nwrite {raw}\nquit\n.endc\n.end\n"
         deck.write_text(re.sub(r"\.end\n*$", control, text))
-        seconds, said = timed(["ngspice", "-b", str(deck)])
-        numbers = [re.search(rf"{what} = (\d+)", said) for what in ("Accepted timepoints", "Rejected timepoints", "Transient iterations")]
+        seconds, log = timed(["ngspice", "-b", str(deck)])
+        numbers = [re.search(rf"{what} = (\d+)", log) for what in ("Accepted timepoints", "Rejected timepoints", "Transient iterations")]
         if not all(numbers):
-            raise SystemExit("ngspice did not come to the end:\n" + said[-2000:])
+            raise SystemExit("ngspice did not finish:\n" + log[-2000:])
         return seconds, [int(n[1]) for n in numbers], spikes(raw)
 
 
 def row(name, run):
     seconds, (steps, rejected, iterations), found = run
-    told = f"{', '.join(f'{1e3 * t:.3f}' for t in found[:3])} ... {1e3 * found[-1]:.3f} ms" if found else "none"
-    print(f"{name:<26}{seconds:9.3f} s{steps:8}{rejected:9}{iterations:11}{1e6 * seconds / iterations:9.1f}{len(found):8}   {told}")
+    spike_times = f"{', '.join(f'{1e3 * t:.3f}' for t in found[:3])} ... {1e3 * found[-1]:.3f} ms" if found else "none"
+    print(f"{name:<26}{seconds:9.3f} s{steps:8}{rejected:9}{iterations:11}{1e6 * seconds / iterations:9.1f}{len(found):8}   {spike_times}")
 
 
 def main():

@@ -3,11 +3,11 @@
 
     chips.py CORPUSCLE BENCH_CHIPS NETLIST [CHIPS] [CHIPS_OF_NGSPICE]
 
-Method: `bench-chips` solves its chips. Then ngspice runs the same circuit as exported by `corpuscle export`, with normal deviates of the
-same sizes added to each transistor's threshold and current (agauss), chip after chip in one process (reset, op), as is usual there. Its
-deviates differ from Corpuscle's, so only means and deviations of v(q) are compared, not single chips. ngspice's time is the time of its
-complete process less the time of a process with one chip. A chip has failed if ngspice reports a failed operating point. It is wrong if
-v(q) differs from Corpuscle's mean by more than 20 of its standard deviations.
+Method: `bench-chips` solves its chips. Then ngspice runs the same circuit as exported by `corpuscle export`. Normal deviates of the same
+sizes are added to each transistor's threshold and current (agauss). The chips run one after another in one process (reset, op), as is
+usual there. Its deviates differ from Corpuscle's, so only means and deviations of v(q) are compared, not single chips. ngspice's time is
+the time of its complete process less the time of a process with one chip. A chip has failed if ngspice reports a failed operating point.
+It is wrong if v(q) differs from Corpuscle's mean by more than 20 of its standard deviations.
 """
 import math
 import re

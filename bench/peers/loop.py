@@ -123,21 +123,21 @@ def row(name, seconds, numbers, raw):
 
 def ours(program, deck, folder):
     raw = folder / "ours.raw"
-    seconds, said = timed([program, "run", str(deck), "-o", str(raw)])
-    numbers = re.search(r"(\d+) steps, (\d+) rejected, (\d+) Newton iterations", said or "")
-    if said is not None and not numbers:
-        sys.exit(said)
+    seconds, log = timed([program, "run", str(deck), "-o", str(raw)])
+    numbers = re.search(r"(\d+) steps, (\d+) rejected, (\d+) Newton iterations", log or "")
+    if log is not None and not numbers:
+        sys.exit(log)
     return row("corpuscle", seconds, numbers and [int(n) for n in numbers.groups()], raw)
 
 
 def theirs(model, text, folder):
     deck, raw = folder / f"{model}.cir", folder / f"{model}.raw"
     deck.write_text(ngspice_deck(text, model, raw))
-    seconds, said = timed(["ngspice", "-b", str(deck)])
-    numbers = said and [re.search(rf"{what} = (\d+)", said) for what in
+    seconds, log = timed(["ngspice", "-b", str(deck)])
+    numbers = log and [re.search(rf"{what} = (\d+)", log) for what in
                         ("Accepted timepoints", "Rejected timepoints", "Transient iterations")]
     if numbers and not all(numbers):
-        sys.exit(said[-2000:])
+        sys.exit(log[-2000:])
     return row(f"ngspice, {model.upper()}", seconds, numbers and [int(n[1]) for n in numbers], raw)
 
 

@@ -54,7 +54,7 @@ def shared(task, rows):
     return folded if task.folded else as_written
 
 
-def transduction(task, rows, du):
+def receptor(task, rows, du):
     """Returns a function that adds the current of the force change dF to du, which contains k_A F, and converts it to an increase of u."""
     c, keep_C, keep_B = task.c, task.c.keep_C, task.keep_B[rows]
     if task.name == "streamed":
@@ -87,7 +87,7 @@ def transduction(task, rows, du):
 def own(task, rows):
     g, press = task.g[rows], [task.dtype(F) for F in task.press]
     F, before, du = multiply(g, press[0]), np.empty_like(g), np.empty_like(g)
-    answer = transduction(task, rows, du)
+    add_response = receptor(task, rows, du)
     static = [task.dtype(work.K_A * work.K * F) for F in task.press]
     change = [task.dtype(F - task.press[max(step - 1, 0)]) for step, F in enumerate(task.press)]
 
@@ -96,11 +96,11 @@ def own(task, rows):
         F, before = before, F
         multiply(g, press[step], out=F)
         multiply(task.c.k_A, F, out=du)
-        return answer(subtract(F, before, out=before))
+        return add_response(subtract(F, before, out=before))
 
     def folded(step):
         multiply(g, static[step], out=du)
-        return answer(multiply(g, change[step], out=F))
+        return add_response(multiply(g, change[step], out=F))
 
     return folded if task.folded else as_written
 
@@ -108,12 +108,12 @@ def own(task, rows):
 def streamed(task, rows):
     frames, k_A = task.frames, task.c.k_A_k if task.folded else task.c.k_A
     du, dF = np.empty(rows.stop - rows.start, task.dtype), np.empty(rows.stop - rows.start, task.dtype)
-    answer = transduction(task, rows, du)
+    add_response = receptor(task, rows, du)
 
     def rise(step):
         F = frames[step, rows]
         multiply(k_A, F, out=du)
-        return answer(subtract(F, frames[max(step - 1, 0), rows], out=dF))
+        return add_response(subtract(F, frames[max(step - 1, 0), rows], out=dF))
 
     return rise
 

@@ -29,7 +29,7 @@ def trains(spikes):
     return out
 
 
-def answer(program, recording, out, options):
+def respond(program, recording, out, options):
     """The program's spike trains, one per channel of the recording."""
     subprocess.run([program, "respond", recording, "--unit", "N", "--rate", "10kHz", "--afferent", "sa1", "--method", "backward-euler",
                     "--sampled", "--quiet", "--out", out, *options], check=True)
@@ -44,8 +44,8 @@ def by_program(program, name, directory):
     recording = Path(directory) / "force.npy"
     np.save(recording, work.frames(N, work.SAMPLES[name], np.float64))
     if name != "own":
-        return answer(program, recording, directory, [])
-    each = [answer(program, recording, directory, ["--channel", f"ch{i + 1}", "--set", f"sa1.f_B={f!r}"])[i]
+        return respond(program, recording, directory, [])
+    each = [respond(program, recording, directory, ["--channel", f"ch{i + 1}", "--set", f"sa1.f_B={f!r}"])[i]
             for i, f in enumerate(work.corners(N).tolist())]
     return each
 

@@ -25,8 +25,8 @@ FORMS = ["as-written", "folded"]
 def ours(program, name, dtype, n):
     """Time (s) and spikes of one run with the best instruction set, which the program prints first."""
     precision = {"float64": "double", "float32": "float"}[dtype]
-    told = subprocess.run([program, "--runs", "1", "--only", f"{precision} the peers' {name}"], check=True, capture_output=True, text=True)
-    line = next(line for line in told.stdout.splitlines() if "the peers'" in line)
+    run = subprocess.run([program, "--runs", "1", "--only", f"{precision} the peers' {name}"], check=True, capture_output=True, text=True)
+    line = next(line for line in run.stdout.splitlines() if "the peers'" in line)
     rate, _, _, spikes = line[50:].split()
     return n * len(work.SAMPLES[name]) / float(rate), int(spikes)
 

@@ -3,12 +3,12 @@
 
     touchsim_hand.py CORPUSCLE [--rounds N] [--seconds S] [--rate HZ] [--pitch MM] [--part UNITS] [--noise]
 
-Method: each round runs in sequence, each part in its own process on one core: `corpuscle respond stroke --population hand` for its 10 s,
-and TouchSim for the first S seconds, with all afferents at once (its usual call) and with UNITS at a time (smaller arrays need less cache
-and memory). Printed are medians, and minimum and maximum of the ratios. Corpuscle's time is that of the complete command, which builds the
-hand, simulates and writes its files. TouchSim's time is only that of Stimulus() and response(); its import (with numba's compilation), its
-afferents and a first small run are listed separately. Peak memory is that of complete processes; TouchSim's memory before its start is
-listed, too.
+Method: the parts of a round run in sequence, each in its own process on one core. Corpuscle runs `corpuscle respond stroke --population
+hand` for its 10 s. TouchSim runs for the first S seconds, once with all afferents together (its usual call) and once with UNITS at a time
+(smaller arrays need less cache and memory). Printed are medians, and minimum and maximum of the ratios. Corpuscle's time is that of the
+complete command, which builds the hand, simulates and writes its files. TouchSim's time is only that of Stimulus() and response(); its
+import (with numba's compilation), its afferents and a first small run are listed separately. Peak memory is that of complete processes;
+TouchSim's memory before its start is listed, too.
 
 Equal in both: positions and classes of the afferents (Corpuscle's sa1 is SA1, fa1 is RA, fa2 is PC), the sphere, its path and speed, and
 the input sampling rate. Different: TouchSim has no SA-II, so Corpuscle has more afferents. TouchSim's input is in millimetres: pins on a
@@ -40,14 +40,14 @@ ONE_CORE = {f"{who}_NUM_THREADS": "1" for who in ("NUMBA", "OPENBLAS", "OMP", "M
 def ran(command):
     """Processor and wall seconds, peak memory (MB) and output of a process."""
     began = time.perf_counter()
-    with tempfile.TemporaryFile("w+") as said:
-        process = subprocess.Popen([str(word) for word in command], stdout=said, env=os.environ | ONE_CORE)
+    with tempfile.TemporaryFile("w+") as printed:
+        process = subprocess.Popen([str(word) for word in command], stdout=printed, env=os.environ | ONE_CORE)
         _, status, used = os.wait4(process.pid, 0)
         process.returncode = os.waitstatus_to_exitcode(status)
         if process.returncode:
             raise SystemExit(f"{command[0]} ended with status {process.returncode}")
-        said.seek(0)
-        return used.ru_utime + used.ru_stime, time.perf_counter() - began, used.ru_maxrss / 1024, said.read()
+        printed.seek(0)
+        return used.ru_utime + used.ru_stime, time.perf_counter() - began, used.ru_maxrss / 1024, printed.read()
 
 
 def touchsim(folder, given):
@@ -55,7 +55,7 @@ def touchsim(folder, given):
     warnings.simplefilter("ignore")
     import numpy as np
     import touchsim as ts
-    p = {name: said["value"] for name, said in json.loads((folder / "summary.json").read_text())["input"]["parameters"].items()}
+    p = {name: parameter["value"] for name, parameter in json.loads((folder / "summary.json").read_text())["input"]["parameters"].items()}
     R, E, t = 1e3 * p["contact.radius"], 1e-6 * p["contact.E_star"], np.arange(round(given.seconds * given.rate)) / given.rate  # mm, MPa, s
     depth = np.cbrt(9 * (p["ramp-hold.F_max"] * np.minimum(1, t / p["ramp-hold.t_up"])) ** 2 / (16 * R * E**2))
     start, end = (1e3 * np.array([p["contact.x" + n], p["contact.y" + n]]) for n in ("", "1"))
@@ -69,28 +69,28 @@ def touchsim(folder, given):
     units = [(u["afferent"].split("#")[0], float(u["x_mm"]), float(u["y_mm"])) for u in csv.DictReader((folder / "units.csv").open())]
     skin = ts.AfferentPopulation(*[ts.Afferent(CLASSES[c], location=[x, y], noisy=given.noise) for c, x, y in units if c in CLASSES])
 
-    def answer(skin, samples):
+    def respond(skin, samples):
         stroke = ts.Stimulus(trace=sunk[:, :samples], location=pins, fs=given.rate, pin_radius=given.pitch / 2)
         part = given.part or len(skin)
         return stroke, [train for k in range(0, len(skin), part) for train in skin[k:k + part].response(stroke).spikes]
 
-    answer(skin[:100], round(0.1 * given.rate))
+    respond(skin[:100], round(0.1 * given.rate))
     before, real = resource.getrusage(resource.RUSAGE_SELF), time.perf_counter()
-    stroke, trains = answer(skin, t.size)
+    stroke, trains = respond(skin, t.size)
     after, real = resource.getrusage(resource.RUSAGE_SELF), time.perf_counter() - real
     kernel, user = after.ru_stime - before.ru_stime, after.ru_utime - before.ru_utime
     far = np.hypot(*(skin.location[:, None] - path[::20]).T).min(0)  # from the path, mm
-    said = []
+    fired_by_class = []
     for c in CLASSES.values():
         fired = [(len(train), d) for a, train, d in zip(skin.affclass, trains, far) if a == c and len(train)]
         spikes, off = sum(k for k, _ in fired), np.median([d for _, d in fired] or [0])
-        said.append(f"{c} {spikes} spikes of {len(fired)} units, half of these within {off:.0f} mm")
+        fired_by_class.append(f"{c} {spikes} spikes of {len(fired)} units, half of these within {off:.0f} mm")
     print(json.dumps({
         "cpu": (user + kernel) / given.seconds, "kernel": kernel / given.seconds, "real": real / given.seconds,
         "units": len(skin), "steps": 5000 * len(skin),
         "spikes": sum(map(len, trains)) / given.seconds, "apart": before.ru_utime + before.ru_stime, "before": before.ru_maxrss / 1024,
         "pressed": f"{len(pins)} pins, up to {depth.max():.2f} mm deep, {np.median(stroke._profile.sum(1)):.2f} N by its mechanics",
-        "fired": "; ".join(said)}))
+        "fired": "; ".join(fired_by_class)}))
 
 
 def middle(runs):
@@ -106,11 +106,11 @@ def main():
     words = argparse.ArgumentParser()
     words.add_argument("corpuscle")
     words.add_argument("--rounds", type=int, default=5)
-    words.add_argument("--seconds", type=float, default=1, help="of the stroke, for TouchSim; its memory goes with them")
-    words.add_argument("--rate", type=float, default=1000, help="of samples, for both, Hz")
-    words.add_argument("--pitch", type=float, default=2, help="of TouchSim's pins, mm")
-    words.add_argument("--part", type=int, default=100, help="how many of TouchSim's units at a time")
-    words.add_argument("--noise", action="store_true", help="TouchSim's")
+    words.add_argument("--seconds", type=float, default=1, help="seconds of the stroke for TouchSim, whose memory use grows with them")
+    words.add_argument("--rate", type=float, default=1000, help="sampling rate of both, Hz")
+    words.add_argument("--pitch", type=float, default=2, help="distance of TouchSim's pins, mm")
+    words.add_argument("--part", type=int, default=100, help="number of TouchSim afferents at a time")
+    words.add_argument("--noise", action="store_true", help="simulate TouchSim's noise")
     words.add_argument("--within", type=Path, help=argparse.SUPPRESS)
     given = words.parse_args()
     if given.within:
@@ -122,17 +122,17 @@ def main():
         for _ in range(given.rounds):
             stroke = ["respond", "stroke", "--population", "hand", "--rate", given.rate, "--threads", 1, "--quiet", "--out", folder]
             cpu, real, peak, _ = ran([given.corpuscle, *stroke])
-            said = json.loads((folder / "summary.json").read_text())
-            work, s = said["work"], said["input"]["samples"] / said["input"]["rate_Hz"]
-            ours.append({"cpu": cpu / s, "real": real / s, "peak": peak, "units": said["skin"]["units"], "spikes": work["spikes"] / s,
+            summary = json.loads((folder / "summary.json").read_text())
+            work, s = summary["work"], summary["input"]["samples"] / summary["input"]["rate_Hz"]
+            ours.append({"cpu": cpu / s, "real": real / s, "peak": peak, "units": summary["skin"]["units"], "spikes": work["spikes"] / s,
                          "steps": (work["afferent_steps"] + work["at_rest"]) / s, "worked": work["afferent_steps"] / s})
             for part, runs in theirs.items() if there else ():
                 same = [word for name in ("seconds", "rate", "pitch") for word in ("--" + name, getattr(given, name))]
                 same += ["--noise"] * given.noise
-                _, _, peak, told = ran([sys.executable, __file__, given.corpuscle, "--within", folder, "--part", part, *same])
-                runs.append(json.loads(told) | {"peak": peak})
-        heard = csv.DictReader((folder / "spikes.csv").open())
-        first = [u["afferent"].split("#")[0] for u in heard if float(u["time_s"]) < given.seconds]
+                _, _, peak, printed = ran([sys.executable, __file__, given.corpuscle, "--within", folder, "--part", part, *same])
+                runs.append(json.loads(printed) | {"peak": peak})
+        spikes = csv.DictReader((folder / "spikes.csv").open())
+        first = [u["afferent"].split("#")[0] for u in spikes if float(u["time_s"]) < given.seconds]
     print("one core, of a second of touch         cpu s   real s  peak MB   units     steps   spikes")
     row("corpuscle, a stroke over the hand", ours)
     print(f"    {ours[0]['worked']:.2g} steps computed, the others skipped; in the first {given.seconds:g} s "

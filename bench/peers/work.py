@@ -98,7 +98,7 @@ def currents(force):
 
 
 def arguments(form, **more):
-    """Parses the command line: tasks, number types and forms (default: all), numbers of afferents and runs; and `more`."""
+    """Parses the command line: tasks, number types, forms (default: all), numbers of afferents and runs, and `more`."""
     parser = argparse.ArgumentParser()
     parser.add_argument("--work", nargs="+", choices=list(SAMPLES), default=list(SAMPLES))
     parser.add_argument("--dtype", nargs="+", choices=["float64", "float32"], default=["float64", "float32"])

@@ -10,7 +10,7 @@ namespace {
 /// The comment lines above the rows: the afferent, and every constant.
 std::string header(const AfferentPlan& plan, const std::string& channel, const DigitalAfferent& afferent) {
     const auto& constants = afferent.chain().constants();
-    std::string text = "# corpuscle vectors 1, as doc/fixed-point.md tells them\n";
+    std::string text = "# corpuscle vectors 1, described in doc/fixed-point.md\n";
     text += fmt::format("# afferent {}\n# parts {}\n# channel {}\n", plan.name, plan.composition(), channel);
     text += fmt::format("# word {}\n# frac {}\n# bits {:g}\n# f_s {} Hz\n", constants.format().word, constants.format().frac,
                         *plan.value("bits"), *plan.value("f_s"));

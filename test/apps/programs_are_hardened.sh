@@ -1,6 +1,7 @@
 #!/bin/sh
-# A program as it is shipped: position-independent code, addresses of libraries resolved at start and read-only afterwards, no executable
-# stack, no search path for libraries, and checks of the stack and of copies compiled in (cmake/hardening.cmake).
+# Checks a program as it is shipped (cmake/hardening.cmake). Its code is position-independent. Addresses of libraries are resolved at
+# start and read-only afterwards. It has no executable stack and no search path for libraries. Checks of the stack and of copies are
+# compiled in.
 # Usage: programs_are_hardened.sh PROGRAM...
 set -eu
 status=0

@@ -31,11 +31,11 @@ std::vector<double> pushed(std::size_t samples) {
     return force;
 }
 
-using Answers = std::map<std::int64_t, ChipResponse>;
+using Responses = std::map<std::int64_t, ChipResponse>;
 
-Answers responses_of(const std::vector<Chip>& chips, const std::shared_ptr<const CircuitAfferentFactory>& nominal,
-                     const BatchOptions& options = {}) {
-    Answers out;
+Responses responses_of(const std::vector<Chip>& chips, const std::shared_ptr<const CircuitAfferentFactory>& nominal,
+                       const BatchOptions& options = {}) {
+    Responses out;
     std::size_t next = 0;
     const auto done = run_chips(
         nominal, [&]() -> std::optional<Chip> { return next < chips.size() ? std::optional(chips[next++]) : std::nullopt; },
@@ -51,7 +51,7 @@ std::vector<Chip> sampled_chips(const std::shared_ptr<const CircuitAfferentFacto
     return out;
 }
 
-void expect_same_bytes(const Answers& a, const Answers& b) {
+void expect_same_bytes(const Responses& a, const Responses& b) {
     ASSERT_EQ(a.size(), b.size());
     for (const auto& [number, one] : a) {
         const auto& other = b.at(number);

@@ -203,19 +203,19 @@ TEST(CircuitAfferent, FallingSelectsTheOtherEdge) {
 
 TEST(CircuitAfferent, ErrorsNameTheirLocation) {
     const std::string t = "t\niin 0 a force 1u\nr1 a 0 1k\n", file = corpuscle::test::source_root() + "/process/test.cir";
-    const auto says = [&](const std::string& text, const std::string& what) {
+    const auto expect_error = [&](const std::string& text, const std::string& what) {
         EXPECT_NE(afferent_error(text).find(what), std::string::npos) << afferent_error(text);
     };
-    says("t\niin 0 a 1u\nr1 a 0 1k\n.spike v(a) 1\n", file + ": no source carries a force; add one, such as 'iin 0 fin force 60n'");
-    says(t, file + ": no .spike directive defines the spike output; add '.spike v(NODE) LEVEL [rise|fall]'");
-    says(t + ".spike v(b) 1\n", file + ":4:8: .spike: unknown output v(b); did you mean 'v(a)'?");
-    says(t + ".spike v(a) 1\n.spike v(a) 2\n", file + ":5:1: .spike: only one is allowed; the first is in line 4");
-    says(t + ".spike v(a)\n", file + ":4:1: .spike: v(a) needs a level to cross");
-    says(t + ".spike\n", file + ":4:1: .spike: an output is missing");
-    says(t + ".spike v(a) high\n", file + ":4:13: .spike: 'high' is not a number; expected the level to cross");
-    says(t + ".spike v(a) 1 up\n", file + ":4:15: .spike: 'up' must be rise or fall");
-    says(t + ".spike v(a) 1 rise now\n", file + ":4:20: .spike: unexpected 'now'");
-    says("t\niin 0 a force 1u 2u\nr1 a 0 1k\n.spike v(a) 1\n", file + ":2:9: iin: force has 2 numbers; expected force [scale]");
+    expect_error("t\niin 0 a 1u\nr1 a 0 1k\n.spike v(a) 1\n", file + ": no source carries a force; add one, such as 'iin 0 fin force 60n'");
+    expect_error(t, file + ": no .spike directive defines the spike output; add '.spike v(NODE) LEVEL [rise|fall]'");
+    expect_error(t + ".spike v(b) 1\n", file + ":4:8: .spike: unknown output v(b); did you mean 'v(a)'?");
+    expect_error(t + ".spike v(a) 1\n.spike v(a) 2\n", file + ":5:1: .spike: only one is allowed; the first is in line 4");
+    expect_error(t + ".spike v(a)\n", file + ":4:1: .spike: v(a) needs a level to cross");
+    expect_error(t + ".spike\n", file + ":4:1: .spike: an output is missing");
+    expect_error(t + ".spike v(a) high\n", file + ":4:13: .spike: 'high' is not a number; expected the level to cross");
+    expect_error(t + ".spike v(a) 1 up\n", file + ":4:15: .spike: 'up' must be rise or fall");
+    expect_error(t + ".spike v(a) 1 rise now\n", file + ":4:20: .spike: unexpected 'now'");
+    expect_error("t\niin 0 a force 1u 2u\nr1 a 0 1k\n.spike v(a) 1\n", file + ":2:9: iin: force has 2 numbers; expected force [scale]");
     EXPECT_EQ(afferent_error(t + ".spike v(a) 1\n"), "");
 }
 
@@ -304,22 +304,22 @@ struct RecordingListener final : ResponseSink {
 
 TEST(Respond, NetlistsAndModelsInBlocksOfAnySize) {
     const auto path = corpuscle::test::source_root() + "/circuits/spiker.cir";
-    std::vector<RecordingListener> ears(3);
-    for (std::size_t k = 0; k < ears.size(); ++k) {
+    std::vector<RecordingListener> recorders(3);
+    for (std::size_t k = 0; k < recorders.size(); ++k) {
         const std::vector<AfferentPlan> plans = {value_or_throw(plan_any_afferent(path, {})), value_or_throw(plan_any_afferent("fa1", {}))};
         std::vector<std::unique_ptr<ForceSource>> sources;
         sources.push_back(value_or_throw(make_stimulus("press", {}, 1e3, 0)));
-        ResponseSink* listeners[] = {&ears[k]};
+        ResponseSink* listeners[] = {&recorders[k]};
         RespondOptions options;
         options.block = std::vector<std::size_t>{4096, 1, 37}[k];
         const auto work = value_or_throw(respond(sources, plans, listeners, options));
         EXPECT_EQ(work.samples, 1000);
         EXPECT_GT(work.steps, 10000);
-        EXPECT_EQ(ears[k].samples, 1000);
-        EXPECT_TRUE(ears[k].spikes == ears[0].spikes);
-        EXPECT_TRUE(ears[k].shown == ears[0].shown);
+        EXPECT_EQ(recorders[k].samples, 1000);
+        EXPECT_TRUE(recorders[k].spikes == recorders[0].spikes);
+        EXPECT_TRUE(recorders[k].shown == recorders[0].shown);
     }
-    EXPECT_GT(ears[0].spikes.size(), 60U);
+    EXPECT_GT(recorders[0].spikes.size(), 60U);
 }
 
 class Responding : public ::testing::Test {

@@ -40,9 +40,9 @@ Cost cost(std::shared_ptr<const Circuit> circuit) {
 Cost cost_in_time(std::shared_ptr<const Circuit> circuit) {
     auto bench = cost_bench(std::move(circuit));
     CostMeter accountant(*bench);
-    RunOptions orders;
-    if (const auto watched = accountant.attach(orders); !watched) ADD_FAILURE() << watched.error().text();
-    if (const auto ran = run_directives(*bench, orders); !ran) ADD_FAILURE() << ran.error().text();
+    RunOptions options;
+    if (const auto watched = accountant.attach(options); !watched) ADD_FAILURE() << watched.error().text();
+    if (const auto ran = run_directives(*bench, options); !ran) ADD_FAILURE() << ran.error().text();
     auto found = accountant.cost();
     if (!found) return ADD_FAILURE() << found.error().text(), Cost();
     return std::move(*found);

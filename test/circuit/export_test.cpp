@@ -85,7 +85,7 @@ void hold_all(const Circuit& circuit, const std::vector<Plot>& mine, std::vector
     }
 }
 
-/// Results of the netlist itself, with built-in transistors in place of expressions.
+/// Results of the netlist itself, with built-in transistors instead of expressions.
 std::string of_our_transistors(const TemporaryFolder& folder, const std::string& path) {
     const auto name = std::filesystem::path(path).stem().string();
     return name.starts_with("uicm_") ? folder.write("native.cir", with_native_transistors(path)) : path;
@@ -191,7 +191,7 @@ TEST(ExportedDirectives, TheForceIsExportedInItsSources) {
     EXPECT_NEAR(mine->numbers[1].second, 6, 1e-3);
 }
 
-constexpr const char* wishes_for_all = R"(what ngspice has no words for
+constexpr const char* unsupported_directives = R"(what ngspice has no words for
 .param w=1.5u
 vdd v 0 0.7
 vin g 0 dc 0.4 ac 1
@@ -214,7 +214,7 @@ r1 v d 1meg
 
 TEST(ExportedDirectives, UnsupportedByNgspiceStayAsCommentsAndAreReported) {
     const TemporaryFolder folder;
-    const auto deck = ngspice_deck(elaborate_netlist(folder.write("x.cir", wishes_for_all)));
+    const auto deck = ngspice_deck(elaborate_netlist(folder.write("x.cir", unsupported_directives)));
     ASSERT_TRUE(deck);
     for (const char* line :
          {"* left out: .step param w 1u 2u 0.5u", "* left out: .mc 10", "* left out: .expect half 0.35 1", "* left out: .dc temp 0 50 10",

@@ -19,13 +19,13 @@ double measured(const std::string& words, const std::vector<double>& t, const st
     Directive c{"meas", {"tran", "x"}, {}, {}};
     std::istringstream split(words);
     for (std::string word; split >> word;) c.words.push_back(word);
-    const auto gauge = parse_measurement(c, head);
-    if (!gauge) return ADD_FAILURE() << gauge.error().text(), not_found;
+    const auto measurement = parse_measurement(c, head);
+    if (!measurement) return ADD_FAILURE() << measurement.error().text(), not_found;
     for (std::size_t k = 0; k < t.size(); ++k) {
         const double row[] = {t[k], y[k], 0};
-        (*gauge)->add_point(t[k], PlotRow(row));
+        (*measurement)->add_point(t[k], PlotRow(row));
     }
-    return (*gauge)->value();
+    return (*measurement)->value();
 }
 
 const std::vector<double> times{0, 1, 3, 4, 8}, values{0, 2, -2, -1, 3};  // 0 at 2 s and 5 s

@@ -76,24 +76,25 @@ TEST(NetlistOverridesProgram, ImpossibleOverridesAreRejectedByName) {
     auto other = std::string(divider_text);
     other.replace(other.find("supply=1 r_top=1k"), 17, "r_top=1k v=1"), other.replace(other.find("{supply}"), 8, "{v}");
     folder.write("b.cir", other);
-    const auto says = [&](const std::string& words, int status, const std::string& what) {
+    const auto expect_error = [&](const std::string& words, int status, const std::string& what) {
         const auto ran = run_program(folder, "respond step " + words);
         EXPECT_EQ(ran.status, status) << words << ran.err;
         EXPECT_TRUE(has(ran.err, what)) << ran.err;
     };
-    says("--afferent sa1 --temp 85", 2, "--temp 85: there is no netlist in this run; try --afferent sa1-circuit");
-    says("--afferent sa1 --trace vf -o out", 2, "--trace vf: there is no netlist in this run");
-    says("--afferent a.cir --trace mid", 2, "--trace mid needs --out DIR or --report");
-    says("--afferent a.cir,b.cir --supply 0.7V", 1, "--supply 0.7V: b.cir has no .param supply");
-    says("--afferent a.cir --corner ss", 1, "--corner ss: there is no corner 'ss': the netlist has no line .lib 'file' section");
-    says("--afferent sa1-circuit --corner slow", 1,
-         "--corner slow: no corner 'slow': library '../../process/tsmc180.lib' has tt, ss, ff, sf, fs, mc");
-    says("--afferent sa1-circut", 1, "unknown afferent 'sa1-circut'; did you mean 'sa1-circuit'?");
-    says("--afferent a.cir --trace mod -o out", 1, "--trace mod: no netlist of this run has such a node or device; did you mean 'mid'?");
-    says("--afferent a.cir --set a.cir.div.rtp=2k", 1, "did you mean 'div.top'?");
-    says("--afferent a.cir --set c.cir.div.rtop=2k", 2, "no afferent or stimulus 'c.cir.div' in this run");
-    says("--afferent a.cir --mismatch half", 1, "--mismatch half: 'half' is not a seed");
-    says("--afferent a.cir --copies 3 --spread a.cir.temp=5%", 1, "unknown parameter 'temp'");
+    expect_error("--afferent sa1 --temp 85", 2, "--temp 85: there is no netlist in this run; try --afferent sa1-circuit");
+    expect_error("--afferent sa1 --trace vf -o out", 2, "--trace vf: there is no netlist in this run");
+    expect_error("--afferent a.cir --trace mid", 2, "--trace mid needs --out DIR or --report");
+    expect_error("--afferent a.cir,b.cir --supply 0.7V", 1, "--supply 0.7V: b.cir has no .param supply");
+    expect_error("--afferent a.cir --corner ss", 1, "--corner ss: there is no corner 'ss': the netlist has no line .lib 'file' section");
+    expect_error("--afferent sa1-circuit --corner slow", 1,
+                 "--corner slow: no corner 'slow': library '../../process/tsmc180.lib' has tt, ss, ff, sf, fs, mc");
+    expect_error("--afferent sa1-circut", 1, "unknown afferent 'sa1-circut'; did you mean 'sa1-circuit'?");
+    expect_error("--afferent a.cir --trace mod -o out", 1,
+                 "--trace mod: no netlist of this run has such a node or device; did you mean 'mid'?");
+    expect_error("--afferent a.cir --set a.cir.div.rtp=2k", 1, "did you mean 'div.top'?");
+    expect_error("--afferent a.cir --set c.cir.div.rtop=2k", 2, "no afferent or stimulus 'c.cir.div' in this run");
+    expect_error("--afferent a.cir --mismatch half", 1, "--mismatch half: 'half' is not a seed");
+    expect_error("--afferent a.cir --copies 3 --spread a.cir.temp=5%", 1, "unknown parameter 'temp'");
     EXPECT_TRUE(folder.file_names().size() == 2) << "no other file is left";
 }
 

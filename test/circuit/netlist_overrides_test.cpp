@@ -108,9 +108,9 @@ TEST(NetlistOverrides, AnOverrideChangesItsValueAndNothingElse) {
 
 TEST(NetlistOverrides, UnknownNamesAndWrongValuesAreRejectedWithSuggestions) {
     const OverrideFiles files(blocks);
-    const auto expect_error = [&](const std::string& knob_text, const std::string& what) {
-        const auto message = files.error_of({knob_text});
-        EXPECT_NE(message.find("--set " + knob_text + ": "), std::string::npos) << message;
+    const auto expect_error = [&](const std::string& override_text, const std::string& what) {
+        const auto message = files.error_of({override_text});
+        EXPECT_NE(message.find("--set " + override_text + ": "), std::string::npos) << message;
         EXPECT_NE(message.find(what), std::string::npos) << message;
     };
     expect_error("c_v=4pF", "has no parameter or device 'c_v'; did you mean 'c_u'?");
@@ -216,7 +216,7 @@ TEST(NetlistOverrides, MismatchIsTheFirstChipOfASample) {
         const auto chip = spikes_of_copy(sampled, 1);
         ASSERT_GT(chip.size(), 3U);
         EXPECT_EQ(spikes_of_copy(with(plain), 0), chip);
-        EXPECT_EQ(spikes_of_copy(with(sampled), 0), chip) << "in place of .mc";
+        EXPECT_EQ(spikes_of_copy(with(sampled), 0), chip) << "instead of .mc";
         EXPECT_EQ(spikes_of_copy(with(plain), 2), spikes_of_copy(sampled, 2)) << "its copies are the chips of that seed";
         EXPECT_NE(spikes_of_copy(plain, 0), chip);
         auto variants = value_or_throw(NetlistVariants::create(with(sampled)));

@@ -184,7 +184,7 @@ TEST(NetlistElements, DiodesAndTransistorsHaveModelsAndGeometry) {
     EXPECT_EQ(element_in(c, "d2").values, (Values{{"area", 4}}));
     EXPECT_EQ(nodes(c, element_in(c, "m1")), "d g s 0");
     EXPECT_EQ(element_in(c, "m1").values, (Values{{"delvto", 0.01}, {"l", 1e-6}, {"mulu0", 1.1}, {"stack", 3}, {"w", 4e-6}}));
-    ASSERT_EQ(c.models.size(), 2U) << "a model that nobody uses is not worked out";
+    ASSERT_EQ(c.models.size(), 2U) << "a model without elements is not evaluated";
     EXPECT_EQ(c.models[1].values, (Values{{"level", 1}, {"vto", 2e-6}}));
     EXPECT_EQ(c.models[1].texts.at("version"), "3.3.0");
     EXPECT_EQ(c.models[0].values.at("n"), 1);

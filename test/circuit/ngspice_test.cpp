@@ -33,9 +33,9 @@ void compare_plots(const Plot& mine, const Plot& theirs, double tolerance) {
     EXPECT_GE(compared + 1 + static_cast<std::size_t>(inner), mine.curves.size()) << "curves that both have";
 }
 
-class Deck : public testing::TestWithParam<std::string> {};
+class DeckComparison : public testing::TestWithParam<std::string> {};
 
-TEST_P(Deck, AgreesWithNgspice) {
+TEST_P(DeckComparison, AgreesWithNgspice) {
     const std::string deck = deck_path(GetParam());
     const auto raw = std::filesystem::temp_directory_path() / ("corpuscle-" + GetParam() + "-" + std::to_string(getpid()) + ".raw");
     const auto log = run_ngspice(deck, raw);
@@ -54,7 +54,7 @@ TEST_P(Deck, AgreesWithNgspice) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Ngspice, Deck, testing::ValuesIn(deck_names()), [](const auto& one) {
+INSTANTIATE_TEST_SUITE_P(Ngspice, DeckComparison, testing::ValuesIn(deck_names()), [](const auto& one) {
     std::string name = one.param;
     std::replace(name.begin(), name.end(), '-', '_');
     return name;

@@ -36,11 +36,11 @@ TEST(OperatingRange, AnAfferentCountsTheSamplesOutsideInBlocksOfAnySize) {
     for (const std::size_t block : {std::size_t{1}, std::size_t{33}, force.size()}) {
         std::vector<Spike> spikes;
         std::vector<RangeViolation> outside(1);
-        ResponseBlock answer{spikes};
-        answer.range_violations = outside;
+        ResponseBlock response{spikes};
+        response.range_violations = outside;
         auto state = afferent->start();
         for (std::size_t k = 0; k < force.size(); k += block)
-            ASSERT_TRUE(afferent->respond(std::span(force).subspan(k, std::min(block, force.size() - k)), state, answer));
+            ASSERT_TRUE(afferent->respond(std::span(force).subspan(k, std::min(block, force.size() - k)), state, response));
         EXPECT_EQ(outside[0].samples, 50) << block;
         EXPECT_EQ(outside[0].first_sample, 100) << block;
     }

@@ -196,9 +196,9 @@ TEST(Warnings, ReportMistakesThatCanBeSolved) {
 TEST(Save, OfManyWordsTakesTimeInProportion) {
     std::string text = "v1 n0 0 1\n", words;
     for (int k = 0; k < 20'000; ++k) text += fmt::format("r{0} n{0} n{1} 1\n", k, k + 1), words += fmt::format(" v(n{},n{})", k + 1, k);
-    const auto begun = std::chrono::steady_clock::now();
+    const auto start = std::chrono::steady_clock::now();
     EXPECT_TRUE(outcome_of(text + "rl n20000 0 1\n.save" + words + "\n.op\n"));
-    EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count(), 10) << "normally about 0.2 s";
+    EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 10) << "normally about 0.2 s";
 }
 
 // dv/dt = 1e39 (v^2 + 1): no step is short enough.

@@ -1,6 +1,6 @@
 #pragma once
-// The array sizes published in the thesis (tables 1 to 9, 16, 19, 20), including its misprints; the location of each table's devices in
-// circuits/; the sizes that differ from the published ones, and the erratum for each.
+// The array sizes published in the thesis (tables 1 to 9, 16, 19, 20), including its misprints, and the location of each table's devices in
+// circuits/. Also the sizes that differ from the published ones, and the erratum for each.
 
 namespace corpuscle::circuit {
 

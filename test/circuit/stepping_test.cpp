@@ -52,7 +52,7 @@ struct TransientFixture {
         plan.stop = stop, plan.max_step = stop / 50;
         bench->system.start_transient(stop / 1000, stop);
     }
-    std::unique_ptr<Transient> begun() {
+    std::unique_ptr<Transient> started_transient() {
         auto out = std::make_unique<Transient>(bench->system, bench->newton, plan);
         const auto from = find_initial_condition(*bench, false);
         EXPECT_TRUE(from) << from.error().text();
@@ -65,13 +65,13 @@ const std::string membrane = oscillator_netlist("0.2");
 
 TEST(Transient, ResumesFromASavedStateWithTheSameResult) {
     TransientFixture one(membrane, 0.2), other(membrane, 0.2);
-    auto continuous = one.begun();
+    auto continuous = one.started_transient();
     std::optional<TransientState> saved;
     for (int k = 0; k < 2000; ++k) {
         ASSERT_TRUE(continuous->step(0.2));
         if (k == 700) saved = continuous->save();
     }
-    auto resumed = other.begun();
+    auto resumed = other.started_transient();
     resumed->restore(*saved);
     for (int k = 701; k < 2000; ++k) ASSERT_TRUE(resumed->step(0.2));
     EXPECT_EQ(resumed->time(), continuous->time());
@@ -84,7 +84,7 @@ TEST(Transient, GivesTheSameBitsOnLanesOfAnyWidth) {
     for (const auto set : instruction_sets()) {
         setenv("CORPUSCLE_ISA", std::string(name_of(set)).c_str(), 1);
         TransientFixture one(membrane, 0.1);
-        auto t = one.begun();
+        auto t = one.started_transient();
         while (t->time() < 0.1) ASSERT_TRUE(t->step(0.1));
         ends.emplace_back(t->x().begin(), t->x().end());
         ends.back().push_back(static_cast<double>(t->stats().steps));
@@ -96,7 +96,7 @@ TEST(Transient, GivesTheSameBitsOnLanesOfAnyWidth) {
 
 TEST(Transient, TakesTheSameStepsForAnyBlockLength) {
     TransientFixture one(membrane, 0.1), other(membrane, 0.1);
-    auto continuous = one.begun(), pieces = other.begun();
+    auto continuous = one.started_transient(), pieces = other.started_transient();
     std::vector<double> there, here;
     while (continuous->time() < 0.1) {
         ASSERT_TRUE(continuous->step(0.1));
@@ -116,7 +116,7 @@ TEST(Transient, TakesTheSameStepsForAnyBlockLength) {
 TEST(Transient, FindsWhereALevelIsCrossedWithinAStep) {
     TransientFixture sine("sine\nv1 a 0 sin(0 1 50)\nr1 a b 1k\nc1 b 0 1n\n.tran 1u 0.1\n", 0.1);
     sine.plan.max_step = 1e-3;
-    auto t = sine.begun();
+    auto t = sine.started_transient();
     const int node = sine.bench->system.unknown("v(a)");
     std::vector<double> up, down;
     while (t->time() < 0.1) {
@@ -184,7 +184,7 @@ TEST(Transient, TheTrapezoidalRuleDoesNotKeepRinging) {
         TransientFixture ramp("ramp\nb1 a 0 v=uramp(time-10.0303m)\nc1 a 0 1n\n.end\n", 0.02);
         ramp.plan.max_step = 1e-4, ramp.plan.reltol = 1, ramp.plan.vntol = 1;  // steps of the maximum length
         ramp.plan.method = method;
-        auto t = ramp.begun();
+        auto t = ramp.started_transient();
         double off = 0;
         while (t->time() < 0.02) {
             ASSERT_TRUE(t->step(0.02));

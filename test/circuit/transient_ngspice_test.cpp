@@ -21,7 +21,7 @@ constexpr double spike_tolerance = 1e-3;
 /// Interpolates a curve. Uses the less curved of the two parabolas through three neighbouring points, which keeps corners sharp.
 /// Linear in the first and the last step.
 class Wave {
-    std::vector<double> t_, v_, bend_;  // bend_: second divided difference at each point and its two neighbours
+    std::vector<double> t_, v_, curvature_;  // curvature_: second divided difference at each point and its two neighbours
 
 public:
     Wave(const Curve& time, const Curve& curve) {
@@ -32,18 +32,19 @@ public:
         }
         if (t_.size() < 3) return;
         const auto secant = [&](std::size_t k) { return (v_[k + 1] - v_[k]) / (t_[k + 1] - t_[k]); };
-        bend_.resize(t_.size());
-        for (std::size_t k = 1; k + 1 < t_.size(); ++k) bend_[k] = (secant(k) - secant(k - 1)) / (t_[k + 1] - t_[k - 1]);
+        curvature_.resize(t_.size());
+        for (std::size_t k = 1; k + 1 < t_.size(); ++k) curvature_[k] = (secant(k) - secant(k - 1)) / (t_[k + 1] - t_[k - 1]);
     }
     const std::vector<double>& times() const { return t_; }
-    bool is_valid() const { return !bend_.empty(); }
+    bool is_valid() const { return !curvature_.empty(); }
 
     double at(double t) const {
         t = std::clamp(t, t_.front(), t_.back());
         const auto after = std::upper_bound(t_.begin() + 1, t_.end() - 1, t);
         const auto k = static_cast<std::size_t>(after - t_.begin()) - 1;
-        const double bend = std::abs(bend_[k]) < std::abs(bend_[k + 1]) ? bend_[k] : bend_[k + 1], from = t - t_[k];
-        return v_[k] + (v_[k + 1] - v_[k]) * from / (t_[k + 1] - t_[k]) + bend * from * (t - t_[k + 1]);
+        const double curvature = std::abs(curvature_[k]) < std::abs(curvature_[k + 1]) ? curvature_[k] : curvature_[k + 1],
+                     from = t - t_[k];
+        return v_[k] + (v_[k + 1] - v_[k]) * from / (t_[k + 1] - t_[k]) + curvature * from * (t - t_[k + 1]);
     }
     /// Distance (V) of v from the range of the curve within +-max_shift (s) of t.
     double distance(double t, double v, double max_shift) const {
@@ -102,7 +103,7 @@ std::vector<std::string> transistor_decks() {
     return out;
 }
 
-/// Runs a deck with built-in transistors in place of the expressions.
+/// Runs a deck with built-in transistors instead of expressions.
 RunOutcome run_with_native_transistors(const std::string& path) {
     std::string text = read_file(path);
     if (const auto at = text.find(by_formulas); at != std::string::npos) text.replace(at, by_formulas.size(), native);

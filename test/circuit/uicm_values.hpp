@@ -21,11 +21,11 @@ void for_each_value(const Uicm<T>& device, const T (&v)[4], const Put& put) {
 }
 
 template <class T>
-T sum_of_values(const UicmEvaluation<T>& answer) {
+T sum_of_values(const UicmEvaluation<T>& evaluation) {
     T sum(0.0);
     for (int a = 0; a < 4; ++a) {
-        sum = sum + answer.i[a] + answer.q[a];
-        for (int b = 0; b < 4; ++b) sum = sum + answer.di[a][b] + answer.dq[a][b];
+        sum = sum + evaluation.i[a] + evaluation.q[a];
+        for (int b = 0; b < 4; ++b) sum = sum + evaluation.di[a][b] + evaluation.dq[a][b];
     }
     return sum;
 }

@@ -58,7 +58,7 @@ void take_datagrams(const FrameLayout& layout, std::span<const std::uint8_t> byt
         require(!decoder.has_partial_frame());
     }
     for (const double f : force) require(std::abs(f) <= layout.limit);
-    if (const auto& misfit = decoder.first_error()) require(!describe_frame_error(*misfit, layout, "hand").empty());
+    if (const auto& frame_error = decoder.first_error()) require(!describe_frame_error(*frame_error, layout, "hand").empty());
 }
 
 }  // namespace

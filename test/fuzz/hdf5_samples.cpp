@@ -1,5 +1,5 @@
-// Valid HDF5 files of any shape, type, storage and attributes, written by the library and read in this process, so that the fuzzer sees the
-// reader's branches. fuzz-hdf5 tests damaged files through the helper process, because they may crash the library.
+// Valid HDF5 files of any shape, type, storage and attributes. The library writes them, and this process reads them, so that the fuzzer
+// reaches the reader's branches. fuzz-hdf5 tests damaged files through the helper process, because they may crash the library.
 
 #include <fuzzer/FuzzedDataProvider.h>
 #include <sys/mman.h>

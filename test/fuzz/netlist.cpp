@@ -50,7 +50,7 @@ void check(const Circuit& c) {
     }
     for (std::size_t k = 0; k < c.nodes.size(); ++k) must(c.find_node(c.nodes[k]) == static_cast<int>(k));
     for (const auto& command : c.directives) must(command.words.size() == command.columns.size());
-    for (const auto& remark : c.warnings) check(remark);
+    for (const auto& warning : c.warnings) check(warning);
 }
 
 }  // namespace

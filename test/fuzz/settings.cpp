@@ -29,11 +29,11 @@ void run(const AfferentPlan& plan, ForceSource& source, Method method) {
     const auto afferent = make_afferent(plan, {source.clock().T(), method, false});
     auto state = afferent->start();
     std::vector<Spike> spikes;
-    ResponseBlock answer{spikes};
+    ResponseBlock response{spikes};
     Frames block(1, 256);
     for (int k = 0; k < 4; ++k) {
         if (auto ok = source.read(block); !ok) return;
-        if (const auto ok = afferent->respond({block.force[0].data(), block.count}, state, answer); !ok) {
+        if (const auto ok = afferent->respond({block.force[0].data(), block.count}, state, response); !ok) {
             if (ok.error().message.empty()) std::abort();
             return;  // the error must have a message
         }
@@ -45,10 +45,10 @@ void run(const AfferentPlan& plan, ForceSource& source, Method method) {
 }
 
 /// The same settings as parameter distributions. Expected: valid copies, or an error with a message.
-void draw(std::string_view text, std::span<const ParameterOverride> wishes) {
+void make_random_copies(std::string_view text, std::span<const ParameterOverride> overrides) {
     const auto plan = plan_afferent(text, {});
     if (!plan) return;
-    const auto spreads = distributions_for(*plan, text, wishes);
+    const auto spreads = distributions_for(*plan, text, overrides);
     if (!spreads) return spreads.error().message.empty() ? std::abort() : void();
     const auto copies = make_copies(*plan, 3, *spreads, 1);
     if (!copies) return copies.error().message.empty() ? std::abort() : void();
@@ -63,14 +63,14 @@ void draw(std::string_view text, std::span<const ParameterOverride> wishes) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     const auto lines = lines_of({reinterpret_cast<const char*>(data), size});
-    std::vector<ParameterOverride> wishes;
+    std::vector<ParameterOverride> overrides;
     for (std::size_t k = 2; k < lines.size(); ++k)
-        if (auto wish = parse_override(lines[k])) wishes.push_back(std::move(*wish));
-    const auto plan = plan_afferent(lines[0], wishes);
+        if (auto parsed = parse_override(lines[k])) overrides.push_back(std::move(*parsed));
+    const auto plan = plan_afferent(lines[0], overrides);
     if (!plan && plan.error().message.empty()) std::abort();
-    draw(lines[0], wishes);
+    make_random_copies(lines[0], overrides);
     if (lines.size() < 2 || !is_stimulus(lines[1])) return 0;
-    const auto source = make_stimulus(lines[1], wishes, 1e3, 1);
+    const auto source = make_stimulus(lines[1], overrides, 1e3, 1);
     if (!source && source.error().message.empty()) std::abort();
     if (plan && source) run(*plan, **source, size % 2 ? Method::exact : Method::backward_euler);
     return 0;

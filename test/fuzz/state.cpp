@@ -19,9 +19,9 @@ void try_state(std::span<const std::byte> bytes) {
     if (has_checksum && !std::equal(bytes.begin(), bytes.end(), again.begin(), again.end())) std::abort();
     static const auto afferent = make_afferent(*plan_afferent("sa1", {}), {});
     std::vector<Spike> spikes;
-    ResponseBlock answer{spikes};
+    ResponseBlock response{spikes};
     const std::vector<double> force(64, 1.0);
-    (void)afferent->respond(force, *state, answer);
+    (void)afferent->respond(force, *state, response);
 }
 
 }  // namespace

@@ -35,22 +35,22 @@ void check(const Sweep& s) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    const auto said = read_sweep_text({reinterpret_cast<const char*>(data), size}, "fuzz.toml");
-    if (!said) {
-        must(said.error().location.file == "fuzz.toml");
-        return check(said.error()), 0;
+    const auto text = read_sweep_text({reinterpret_cast<const char*>(data), size}, "fuzz.toml");
+    if (!text) {
+        must(text.error().location.file == "fuzz.toml");
+        return check(text.error()), 0;
     }
     // This fuzzer tests the keys and values of the file. Netlists and recordings have other fuzzers, and forces may be long.
-    const bool known = said->afferent ? said->afferent->text == "sa1" || said->afferent->text == "sa1-macro"
-                                      : said->netlist && said->netlist->text == "circuits/bias.cir";
-    if (!known || said->force || said->rate || (said->afferent && said->netlist)) return 0;
-    for (const auto& s : said->settings)
+    const bool known = text->afferent ? text->afferent->text == "sa1" || text->afferent->text == "sa1-macro"
+                                      : text->netlist && text->netlist->text == "circuits/bias.cir";
+    if (!known || text->force || text->rate || (text->afferent && text->netlist)) return 0;
+    for (const auto& s : text->settings)
         if (s.name.find(".t_") != std::string::npos) return 0;
-    for (const auto& a : said->axes)
+    for (const auto& a : text->axes)
         if (a.count && a.count->text.size() > 3) return 0;
-    const auto sweep = said->netlist                   ? make_analysis_sweep(*said, "/nowhere")
-                       : said->afferent->text == "sa1" ? make_model_sweep(*said, "/nowhere")
-                                                       : make_chip_sweep(*said, "/nowhere");
+    const auto sweep = text->netlist                   ? make_analysis_sweep(*text, "/nowhere")
+                       : text->afferent->text == "sa1" ? make_model_sweep(*text, "/nowhere")
+                                                       : make_chip_sweep(*text, "/nowhere");
     sweep ? check(**sweep) : check(sweep.error());
     return 0;
 }

@@ -370,20 +370,20 @@ TEST(EventSink, AReaderIsReconnectedThoughTheNameServiceIsGone) {
     auto to = value_or_throw(resolve(at));
     to.at.address = "robot.invalid";  // no name service knows it
     const auto format = value_or_throw(make_event_format("lines", {Clock{1000, 1}, {"a"}, {}}));
-    const auto outlet = value_or_throw(connect_event_client(to, *format, 1024));
+    const auto client = value_or_throw(connect_event_client(to, *format, 1024));
     accepted().close();
     const auto start = steady_now();
     std::int64_t longest_call = 0;
-    while (outlet->connections() < 2 && steady_now() - start < 10'000'000'000) {
+    while (client->connections() < 2 && steady_now() - start < 10'000'000'000) {
         const auto before = steady_now();
-        EXPECT_TRUE(outlet->put("a,,0.1\n"));
-        EXPECT_TRUE(outlet->flush());
+        EXPECT_TRUE(client->put("a,,0.1\n"));
+        EXPECT_TRUE(client->flush());
         longest_call = std::max(longest_call, steady_now() - before);
         std::this_thread::sleep_for(std::chrono::milliseconds(5));
     }
-    EXPECT_EQ(outlet->connections(), 2);
+    EXPECT_EQ(client->connections(), 2);
     EXPECT_LT(longest_call, 1'000'000'000) << "no call waits";
-    EXPECT_GT(outlet->dropped(), 0);
+    EXPECT_GT(client->dropped(), 0);
     accepted().close();
 }
 

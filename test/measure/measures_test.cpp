@@ -170,14 +170,14 @@ TEST(MeasureAccumulator, GivesTheValueOfTheEntireTrainHoweverItIsCutIntoPhases) 
         std::vector<double> spikes;
         int at = 0;
         for (const int x : steps) spikes.push_back(1e-2 * (at += x));
-        std::vector<TimeWindow> stretches;
+        std::vector<TimeWindow> windows;
         int edge = *rc::gen::inRange(0, 50);
-        for (const int x : edges) stretches.push_back({1e-2 * edge, 1e-2 * (edge + x)}), edge += x + *rc::gen::element(0, 3);
-        MeasureAccumulator tally(stretches, 2);
+        for (const int x : edges) windows.push_back({1e-2 * edge, 1e-2 * (edge + x)}), edge += x + *rc::gen::element(0, 3);
+        MeasureAccumulator tally(windows, 2);
         for (const double t : spikes) tally.spike(1, t);
-        for (std::size_t p = 0; p < stretches.size(); ++p) {
-            const auto begin = std::lower_bound(spikes.begin(), spikes.end(), stretches[p].from);
-            const auto end = std::max(begin, std::lower_bound(spikes.begin(), spikes.end(), stretches[p].to));
+        for (std::size_t p = 0; p < windows.size(); ++p) {
+            const auto begin = std::lower_bound(spikes.begin(), spikes.end(), windows[p].from);
+            const auto end = std::max(begin, std::lower_bound(spikes.begin(), spikes.end(), windows[p].to));
             const auto rates = instantaneous_rates(std::vector<double>(begin, end == spikes.end() ? end : end + 1));
             const auto same = [](double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); };
             const auto values = tally.values(1, p);

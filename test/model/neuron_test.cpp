@@ -10,7 +10,7 @@ namespace {
 struct NeuronRun {
     std::vector<double> times;     // s
     std::vector<double> membrane;  // first probe, a value a sample
-    std::int64_t capped = 0;
+    std::int64_t truncated_steps = 0;
 };
 
 template <template <class> class N>
@@ -22,8 +22,8 @@ NeuronRun run(typename N<double>::Params p, const std::function<double(double)>&
     for (long k = 1; k <= std::lround(seconds / dt); ++k) {
         const double end = current(static_cast<double>(k) * dt),
                      from = method == Method::exact ? current(static_cast<double>(k - 1) * dt) : end;
-        out.capped += neuron.step(state, Current<double>{from, end},
-                                  [&](bool, double x) { out.times.push_back((static_cast<double>(k - 1) + x) * dt); });
+        out.truncated_steps += neuron.step(state, Current<double>{from, end},
+                                           [&](bool, double x) { out.times.push_back((static_cast<double>(k - 1) + x) * dt); });
         double parts[std::size(N<double>::recordables)];
         neuron.record(state, parts);
         out.membrane.push_back(parts[0]);
@@ -112,12 +112,12 @@ TEST(Neuron, LifsFollowARampOfCurrentExactlyWhateverTheStep) {
 TEST(Neuron, SeveralSpikesInAStepAreAllGivenUpToTheReportedLimit) {
     const auto many = run<LifB>({}, [](double) { return 50e-6; }, 0.5, 0.05);  // 396 Hz: some twenty a step
     EXPECT_NEAR(static_cast<double>(many.times.size()), (49.5e-6 * 0.5 / 500e-9 - 0.5) / 0.25 + 1, 1);
-    EXPECT_EQ(many.capped, 0);
+    EXPECT_EQ(many.truncated_steps, 0);
     const auto too_many = run<LifB>({}, [](double) { return 50e-6; }, 0.5, 0.5);
     EXPECT_EQ(too_many.times.size(), static_cast<std::size_t>(max_spikes_per_step));
-    EXPECT_EQ(too_many.capped, 1);
-    EXPECT_EQ(run<LifA>({}, [](double) { return 50e-6; }, 0.5, 0.5).capped, 1);
-    EXPECT_EQ(run<Adaptive>({}, [](double) { return 500e-6; }, 0.5, 0.5).capped, 1);
+    EXPECT_EQ(too_many.truncated_steps, 1);
+    EXPECT_EQ(run<LifA>({}, [](double) { return 50e-6; }, 0.5, 0.5).truncated_steps, 1);
+    EXPECT_EQ(run<Adaptive>({}, [](double) { return 500e-6; }, 0.5, 0.5).truncated_steps, 1);
 }
 
 TEST(Neuron, LifBIsHeldAtRestAndLeavesItWhenTheCurrentPassesTheLeak) {

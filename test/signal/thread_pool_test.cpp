@@ -16,13 +16,13 @@ TEST(ThreadPool, EveryTaskIsRunOnceWhateverTheThreads) {
         EXPECT_EQ(pool.threads(), threads);
         for (const std::size_t count : {0, 1, 2, 1000}) {
             std::vector<int> done(count);
-            std::atomic<bool> strange = false;
+            std::atomic<bool> out_of_range = false;
             pool.for_each(count, [&](std::size_t k, unsigned thread) {
                 ++done[k];
-                if (thread >= threads) strange = true;
+                if (thread >= threads) out_of_range = true;
             });
             EXPECT_EQ(std::count(done.begin(), done.end(), 1), static_cast<std::ptrdiff_t>(count)) << threads;
-            EXPECT_FALSE(strange);
+            EXPECT_FALSE(out_of_range);
         }
     }
     EXPECT_GE(ThreadPool().threads(), 1U);

@@ -77,8 +77,8 @@ TEST(Contacts, LoseTheForceOffTheSkinAndReportIt) {
     for (const auto* indenter : {"flat", "sphere", "edge", "grating"}) {
         const auto contact = pressing(indenter, {"x=10.5mm", "y=0mm"}, sites);  // exactly at the edge of the skin
         EXPECT_NEAR(sum(map_at(*contact, sites, 2)), 1, std::string(indenter) == "grating" ? 0.2 : 1e-9) << indenter;
-        const auto remarks = contact->notes();
-        EXPECT_TRUE(std::any_of(remarks.begin(), remarks.end(), [](const auto& r) {
+        const auto notes = contact->notes();
+        EXPECT_TRUE(std::any_of(notes.begin(), notes.end(), [](const auto& r) {
             return r.find("% of the force, over time, was off the skin") != r.npos;
         })) << indenter;
     }

@@ -53,14 +53,14 @@ VersionsRan run_versions(const std::vector<std::string>& stimuli, const std::vec
     std::vector<AfferentPlan> plans;
     for (const auto& s : stimuli) sources.push_back(value_or_throw(make_stimulus(s, {}, 2e3, 9)));
     for (const auto& n : names) plans.push_back(value_or_throw(plan_any_afferent(n, {})));
-    std::vector<AfferentPlan> standing;
+    std::vector<AfferentPlan> all_plans;  // with copies
     for (const auto& p : plans)
-        for (auto& copy : copies ? value_or_throw(make_copies(p, copies, {}, 1)) : std::vector{p}) standing.push_back(std::move(copy));
+        for (auto& copy : copies ? value_or_throw(make_copies(p, copies, {}, 1)) : std::vector{p}) all_plans.push_back(std::move(copy));
     VersionsRan ran;
     ResponseSink* listeners[] = {&ran.summary};
     RespondOptions options;
     options.block = block;
-    const auto work = value_or_throw(respond(sources, standing, listeners, options));
+    const auto work = value_or_throw(respond(sources, all_plans, listeners, options));
     ran.document = ran.summary.document(plans, work, options, 9, {}).dump();
     return ran;
 }

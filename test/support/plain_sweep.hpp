@@ -51,11 +51,11 @@ public:
         return o;
     }
 
-    Result<void> run_items(const NextItem& next, const OutcomeHandler& told, const std::function<bool()>& stop) const override {
+    Result<void> run_items(const NextItem& next, const OutcomeHandler& handle_outcome, const std::function<bool()>& stop) const override {
         for (auto unit = next(); unit; unit = next()) {
             if (stop()) return {};
             if (seconds_per_item_ > 0) std::this_thread::sleep_for(std::chrono::duration<double>(seconds_per_item_));
-            told(outcome(*unit));
+            handle_outcome(outcome(*unit));
         }
         return {};
     }

@@ -10,10 +10,12 @@ The rules are in rules.toml, the exceptions in excuses.toml. An excuse that matc
 
 import collections
 import fnmatch
+import functools
 import pathlib
 import re
 import subprocess
 import sys
+import textwrap
 import tomllib
 
 HERE = pathlib.Path(__file__).resolve().parent
@@ -21,14 +23,27 @@ RULES = tomllib.loads((HERE / "rules.toml").read_text())
 EXCUSES = tomllib.loads((HERE / "excuses.toml").read_text()).get("excuse", [])
 
 C_LIKE = {".cpp", ".hpp", ".h", ".c", ".def", ".js", ".css"}
-HASH = {".py", ".sh", ".cmake", ".toml", ".yml", ".in"}
+HASH = {".sh", ".cmake", ".toml", ".yml", ".in"}
 C_TOKEN = re.compile(
     r'(?P<line>//[^\n]*)|(?P<block>/\*.*?\*/)|R"(?P<delimiter>[^(\s]{0,16})\((?P<raw>.*?)\)(?P=delimiter)"'
     r'|(?P<string>"(?:\\.|[^"\\\n])*"|`(?:\\.|[^`\\])*`)|(?P<char>\'(?:\\.|[^\'\\\n])+\')|(?P<name>[A-Za-z_$][\w$]*)|(?P<number>\d[\w.\']*)',
     re.S)
+PY_TOKEN = re.compile(
+    r'(?P<line>#[^\n]*)|(?P<quote>"""|\'\'\')(?P<doc>.*?)(?P=quote)|(?P<string>"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])*\')'
+    r'|(?P<name>[A-Za-z_]\w*)', re.S)
 INCLUDE = re.compile(r'^\s*#\s*include[^\n]*', re.M)
-SENTENCE_END = re.compile(r'(?<=[.!?])["\')\]]*\s+(?=[A-Z"\'(`0-9])')
+# A sentence ends before a capital letter, after the question of a suggestion, and between the items of a list of definitions.
+SENTENCE_END = re.compile(r'(?<=[.!?])["\')\]]*\s+(?=[A-Z"\'(`0-9\[])|(?<=\?);\s+|;\s+(?=[^\s;:]+(?: [^\s;:]+){0,2}:\s)')
 WORD = re.compile(r"[A-Za-z][A-Za-z'-]*|\d[\d.,]*")
+LABELS = re.compile(r"^(?:[^\s;]+(?: [^\s:;]+){0,2}:\s+)+")  # of a message: program, file:line:column:, option or name
+PLACEHOLDER = re.compile(r"%[-+ 0]*[\d.*]*l*[a-zA-Z%]|\$?\{[^{}]*\}")
+CODE = re.compile(RULES["strings"]["code"])
+EXPRESSIONS = [(re.compile(r["pattern"]), r) for r in RULES["expression"]]
+ANY_EXPRESSION = re.compile("|".join(re.sub(r"^\(\?i\)(.*)$", r"(?i:\1)", r["pattern"]) for r in RULES["expression"]))
+ITEM = re.compile(r"([-*+]|\d+\.)\s+")
+RULER = re.compile(r"[-=*#]{3}|[^A-Za-z]*$")
+ASIDE = re.compile(r"\([^()]{0,40}\)|\{[^{}]*\}")
+COLUMNS = re.compile(r"\S(?: {3,}|\t)\S")
 
 Prose = collections.namedtuple("Prose", "kind line text")  # kind: comment, string or document
 Finding = collections.namedtuple("Finding", "file line rule text")
@@ -36,6 +51,35 @@ Finding = collections.namedtuple("Finding", "file line rule text")
 
 def sentences(text):
     return [s for s in SENTENCE_END.split(" ".join(text.split())) if s]
+
+
+def is_data(text):
+    """True for a string that is no sentence: code, or a row whose words are mostly placeholders."""
+    words = WORD.findall(PLACEHOLDER.sub(" ", text))
+    return bool(CODE.search(text)) or 3 * len(PLACEHOLDER.findall(text)) >= len(words)
+
+
+def paragraphs(start, rows):
+    """Paragraphs of a comment as (line, text). List items, indented rows (formulas, usage) and rows of columns stand alone."""
+    found, item = [], False
+    for number, row in enumerate(rows, start):
+        plain = row.strip()
+        indented = len(row) - len(row.lstrip()) >= 2
+        alone = COLUMNS.search(plain) or RULER.match(plain) or (indented and not item)
+        mark = ITEM.match(plain)
+        if mark and plain[0].isdigit() and not item and found and found[-1]:
+            mark = None  # the end of a sentence: "errata 12."
+        if not plain:
+            found.append(None)
+            item = False
+        elif mark or alone or not found or found[-1] is None:
+            found.append((number, [plain[mark.end():] if mark else plain]))
+            item = bool(mark)
+            if alone:
+                found.append(None)
+        else:
+            found[-1][1].append(plain)
+    return [(number, "\n".join(parts)) for number, parts in (f for f in found if f)]
 
 
 def c_like(text):
@@ -50,7 +94,7 @@ def c_like(text):
         line += text.count("\n", at, m.start())
         at = m.start()
         if m["line"]:
-            body = re.sub(r"^//[/!<]*", "", m["line"]).strip()
+            body = re.sub(r"^//[/!<]* ?", "", m["line"]).rstrip()
             alone = not text[text.rfind("\n", 0, at) + 1:at].strip()
             if comment and alone and last_line == line - 1 and comment[2]:
                 comment[1].append(body)
@@ -59,8 +103,8 @@ def c_like(text):
                 prose.append(("comment", comment))
             last_line = line
         elif m["block"]:
-            body = re.sub(r"^\s*\*", "", m["block"][2:-2], flags=re.M)
-            prose.append(("comment", (line, [body], True)))
+            body = textwrap.dedent(re.sub(r"^\s*\*", "", "  " + m["block"][2:-2].lstrip("*! "), flags=re.M))
+            prose.append(("comment", (line, body.split("\n"), True)))
         elif m["string"] is not None or m["raw"] is not None:
             body = m["raw"] if m["raw"] is not None else m["string"][1:-1].replace("\\n", "\n").replace('\\"', '"')
             if joined and not text[joined_end:at].strip():
@@ -73,14 +117,39 @@ def c_like(text):
             names.append((line, m["name"]))
     out = []
     for kind, (start, parts, _) in prose:
-        body = ("" if kind == "string" else "\n").join(parts)
         if kind == "string":
-            if body.count(" ") < 2:
-                continue
-            out.extend(Prose(kind, start, p) for p in re.split(r"\n", body) if p.strip())
+            body = "".join(parts)
+            if body.count(" ") >= 2:
+                out.extend(Prose(kind, start, p) for p in re.split(r"\n", body) if p.strip())
         else:
-            out.extend(Prose(kind, start, p) for p in re.split(r"\n\s*\n", body) if p.strip())
+            out.extend(Prose(kind, *p) for p in paragraphs(start, parts))
     return out, names
+
+
+def python(text):
+    """Like c_like(), for Python: triple-quoted texts are comments."""
+    prose, names, comments = [], [], []
+    line, at = 1, 0
+    for m in PY_TOKEN.finditer(text):
+        line += text.count("\n", at, m.start())
+        at = m.start()
+        if m["line"]:
+            body = re.sub(r"^# ?", "", m["line"]).rstrip()
+            alone = not text[text.rfind("\n", 0, at) + 1:at].strip()
+            if alone and comments and comments[-1][0] + len(comments[-1][1]) == line:
+                comments[-1][1].append(body)
+            elif line > 1 or not m["line"].startswith("#!"):
+                comments.append((line, [body]))
+        elif m["doc"] is not None and CODE.search(m["doc"]):
+            continue
+        elif m["doc"] is not None:
+            comments.append((line, textwrap.dedent("    " + m["doc"]).split("\n") + [""]))
+        elif m["string"]:
+            if m["string"].count(" ") >= 2:
+                prose.extend(Prose("string", line, p) for p in m["string"][1:-1].split("\\n") if p.strip())
+        else:
+            names.append((line, m["name"]))
+    return prose + [Prose("comment", *p) for start, rows in comments for p in paragraphs(start, rows)], names
 
 
 def hash_comments(text, mark="#"):
@@ -90,10 +159,10 @@ def hash_comments(text, mark="#"):
         if stripped.startswith(mark) and not stripped.startswith("#!"):
             if not parts:
                 start = number
-            parts.append(stripped.lstrip(mark).strip())
+            parts.append(re.sub("^ ", "", stripped.lstrip(mark)).rstrip())
             continue
         if parts:
-            prose.append(Prose("comment", start, " ".join(parts)))
+            prose.extend(Prose("comment", *p) for p in paragraphs(start, parts))
             parts = []
         tail = re.search(r"\s" + re.escape(mark) + r"\s(.*)$", row) if mark == "#" else None
         if tail and '"' not in tail[1]:
@@ -119,7 +188,7 @@ def document(text):
             continue
         if fence:
             continue
-        plain = re.sub(r"!?\[([^\]]*)\]\([^)]*\)", r"\1", re.sub(r"`[^`]*`", "x", stripped))
+        plain = re.sub(r"!?\[([^\]]*)\]\([^)]*\)", r"\1", re.sub(r"`[^`]*`", "`x`", stripped))
         plain = re.sub(r"<[^>]*>", " ", plain)
         if plain.startswith("|"):
             flush()
@@ -129,9 +198,9 @@ def document(text):
             if plain.lstrip("# "):
                 prose.append(Prose("document", number, plain.lstrip("# ")))
         else:
-            if re.match(r"([-*+]|\d+\.)\s", plain):
+            if ITEM.match(plain):
                 flush()
-                plain = re.sub(r"^([-*+]|\d+\.)\s+", "", plain)
+                plain = plain[ITEM.match(plain).end():]
             if not parts:
                 start = number
             parts.append(plain)
@@ -144,14 +213,17 @@ def read(path, name):
         return c_like(text)
     if path.suffix == ".md":
         return document(text), []
+    if path.suffix == ".py":
+        return python(text)
     if path.suffix in HASH or path.name in ("Makefile", "CMakeLists.txt", "packages", "install", "run"):
         names = [(n, word) for n, row in enumerate(text.split("\n"), 1) for word in re.findall(r"[A-Za-z_]\w*", row.split("#")[0])]
-        return hash_comments(text), names if path.suffix in {".py", ".cmake"} or path.name == "CMakeLists.txt" else []
+        return hash_comments(text), names if path.suffix == ".cmake" or path.name == "CMakeLists.txt" else []
     if path.suffix in (".cir", ".lib"):
         return hash_comments(text, "*"), []
     return [], []
 
 
+@functools.cache
 def parts_of(name):
     return [p.lower() for p in re.findall(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+|\d+", name)]
 
@@ -170,16 +242,19 @@ def check_names(file, names):
 
 def check_prose(file, prose):
     for p in prose:
-        for rule in RULES["expression"]:
+        for pattern, rule in EXPRESSIONS if ANY_EXPRESSION.search(p.text) else ():
             if p.kind not in rule.get("where", ("comment", "string", "document")):
                 continue
-            for m in re.finditer(rule["pattern"], p.text):
+            for m in pattern.finditer(p.text):
                 yield Finding(file, p.line, f"{rule['instead']}", p.text[max(0, m.start() - 40):m.end() + 40])
-        for s in sentences(p.text):
+        if p.kind == "string" and is_data(p.text):
+            continue
+        text = LABELS.sub("", p.text) if p.kind == "string" else p.text
+        for s in sentences(re.sub(r'"[^"\n]*"', "x", text)):
             count = len(WORD.findall(s))
             if count > RULES["sentence"]["most_words"]:
                 yield Finding(file, p.line, f"a sentence of {count} words; at most {RULES['sentence']['most_words']}", s)
-            marks = len(re.findall(r"[;:](?=\s)", s))
+            marks = len(re.findall(r"[;:](?=\s)", ASIDE.sub("", s)))
             if marks > RULES["sentence"]["most_colons"]:
                 yield Finding(file, p.line, f"{marks} colons and semicolons in a sentence; at most {RULES['sentence']['most_colons']}", s)
 
@@ -259,7 +334,19 @@ def self_test():
         wrong.append("a participle as a type, or an optional error, is not found")
     if not list(check_file_names(["src/a/x.cpp", "src/b/x.cpp"])):
         wrong.append("a file name that occurs twice is not found")
-    if document("a `b`\n\n```sh\nwhoever\n```\n| c | d |\n") != [Prose("document", 1, "a x"), Prose("document", 6, "c"), Prose("document", 6, "d")]:
+    formula = "/// With a\n///     b = c\n/// one has table\n/// 3. Here:\n/// - d\n///   e\n/// - f\n/// g    h\n/// ---- i ----\n/// j - k\nint x;"
+    if [p.text for p in c_like(formula)[0]] != ["With a", "b = c", "one has table\n3. Here:", "d\ne", "f", "g    h", "---- i ----", "j - k"]:
+        wrong.append(f"formulas, items and columns of a comment are not separate: {c_like(formula)[0]}")
+    prose, names = python('"""One.\n\nTwo."""\nwish = f("a b c")  # d\n')
+    if sorted(p.text for p in prose) != ["One.", "Two.", "a b c", "d"] or (4, "wish") not in names or (4, "a") in names:
+        wrong.append(f"Python is not read: {prose} {names}")
+    for kind, text in RULES["strings"]["good"]:
+        if list(check_prose("x", [Prose(kind, 1, text)])):
+            wrong.append(f"a rule of sentences finds: {text}")
+    for kind, text in RULES["strings"]["bad"]:
+        if not list(check_prose("x", [Prose(kind, 1, text)])):
+            wrong.append(f"no rule of sentences finds: {text}")
+    if document("a `b`\n\n```sh\nwhoever\n```\n| c | d |\n") != [Prose("document", 1, "a `x`"), Prose("document", 6, "c"), Prose("document", 6, "d")]:
         wrong.append("Markdown is not read")
     return wrong
 

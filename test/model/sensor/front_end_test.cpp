@@ -88,12 +88,12 @@ std::map<std::string, std::vector<double>> probe_values(const Afferent& a, const
 }
 
 TEST(FrontEndAfferent, RespondsToTheCalibratedForceAndRecordsTheStagesBefore) {
-    std::vector<Spike> fronted, plain;
-    ResponseBlock response{fronted}, direct{plain};
+    std::vector<Spike> behind_front_end, plain;
+    ResponseBlock response{behind_front_end}, direct{plain};
     const auto f = test::force("press");
     const auto inside = probe_values(*test::afferent("fsr+f2v+sa1"), f, response);
     const auto bare = probe_values(*test::afferent("sa1"), inside.at("F_read"), direct);
-    EXPECT_EQ(fronted, plain);
+    EXPECT_EQ(behind_front_end, plain);
     EXPECT_EQ(inside.at("u"), bare.at("u"));
     const Fsr::Params fsr;
     for (std::size_t k = 0; k < f.size(); k += 100) {
