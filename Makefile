@@ -7,9 +7,11 @@ corpuscle = build/release/corpuscle
 # The two afferents of the thesis, each as equations and as a chip.
 touched = press --afferent sa1 --afferent sa1-circuit --afferent fa1 --afferent fa1-circuit
 
-demo: build
-	@$(corpuscle) respond $(touched) --out out/press --report
-	@echo "Spikes: out/press/spikes.csv   Page to look at: out/press/report.html"
+demo:
+	@start=$$(date +%s); $(MAKE) --no-print-directory build && built=$$(date +%s) && \
+	$(corpuscle) respond $(touched) --out out/press --report && done=$$(date +%s) && \
+	echo "Built $(corpuscle) in $$((built - start)) s, and ran it in $$((done - built)) s." && \
+	echo "Open out/press/report.html in a browser. The spikes are in out/press/spikes.csv."
 
 build: setup-run
 	@cmake --preset release > /dev/null

@@ -1,14 +1,14 @@
 // How long is the delay from a frame of forces to its spikes, how much of a core does this take, and is it stable over time?
 //   bench-live delay [SECONDS [PROGRAM]]   "grid 64x64" (8192 afferents) at 5.2 kHz, the densest published skin: 2.1e7 samples per second
-//   bench-live sleep [SECONDS [PROGRAM]]   the same without --spin: the program, the sender and the reader sleep until a frame comes
+//   bench-live sleep [SECONDS [PROGRAM]]   the same without --busy-poll: the program, the sender and the reader sleep until a frame comes
 //   bench-live share [SECONDS [PROGRAM]]   "hand" (17,000 afferents) at 1 kHz under a stroke: the fraction of a core
-//   bench-live together [SECONDS [PROGRAM]] the same with --together 16, over loopback: the program sleeps until 16 frames have arrived
+//   bench-live together [SECONDS [PROGRAM]] the same with --batch-frames 16, over loopback: the program sleeps until 16 frames have arrived
 //   bench-live noise [SECONDS [PROGRAM]]   the same with noise that keeps every afferent active
 //   bench-live soak [SECONDS [PROGRAM]]    "grid 16x16" at 1 kHz over loopback, frames numbered: memory, drift, lost events
 // Defaults: 60 s (3600 s are recommended for soak) and ./corpuscle. `corpuscle stream` runs with its usual options on the last core only.
 // The sender and the reader are threads of this program on the other cores.
 //
-// With delay, program and sender busy-wait (--spin), which excludes the time to wake a thread.
+// With delay, program and sender busy-wait (--busy-poll), which excludes the time to wake a thread.
 // In all modes but soak, frames are binary float32 through a pipe (together: TCP). Each is written at its scheduled time (clock_nanosleep
 // to absolute times). Events are binary through another pipe. The delay of a frame is from just before its write to the
 // read of its first spike. A frame without a spike has no delay here, but the program counts it; at its end the program reports the number
@@ -88,8 +88,8 @@ int through_pipes(const std::string& program, const std::string& population, int
     const std::int64_t count = std::int64_t{rate} * seconds;
     std::vector<std::string> words = {"--population", population, "--rate",   fmt::format("{}Hz", rate),
                                       "--frames",     "f32",      "--format", "aer"};
-    if (spin) words.push_back("--spin");
-    if (together > 1) words.insert(words.end(), {"--together", std::to_string(together), "--in", "tcp:0", "--clients", "1"});
+    if (spin) words.push_back("--busy-poll");
+    if (together > 1) words.insert(words.end(), {"--batch-frames", std::to_string(together), "--in", "tcp:0", "--clients", "1"});
     Program child(program, words, cores - 1);
     if (together > 1) child.in = connect_to(child);
     double seconds_at_start = 0;  // processor time, s

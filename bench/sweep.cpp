@@ -36,34 +36,34 @@ double memory_MB() {
 }
 
 class RandomSweep final : public Sweep {
-    std::int64_t units_;
+    std::int64_t items_;
     std::vector<SweepColumn> axes_, measures_;
     std::vector<std::string> trains_ = {"sa1"}, traces_;
     std::vector<double> times_;
     std::vector<MetadataText> facts_ = {{"title", "bench"}};
 
 public:
-    explicit RandomSweep(std::int64_t units) : units_(units) {
+    explicit RandomSweep(std::int64_t items) : items_(items) {
         for (int k = 0; k < 6; ++k) axes_.push_back({fmt::format("axis{}", k), ""});
         for (int k = 0; k < 10; ++k) measures_.push_back({fmt::format("measure{}", k), ""});
     }
-    std::int64_t item_count() const override { return units_; }
+    std::int64_t item_count() const override { return items_; }
     const std::vector<SweepColumn>& axes() const override { return axes_; }
     const std::vector<SweepColumn>& measures() const override { return measures_; }
     const std::vector<std::string>& train_names() const override { return trains_; }
     const std::vector<std::string>& probe_names() const override { return traces_; }
     const std::vector<double>& probe_times() const override { return times_; }
     const std::vector<MetadataText>& metadata() const override { return facts_; }
-    std::vector<double> values(std::int64_t unit) const override {
+    std::vector<double> values(std::int64_t item) const override {
         std::vector<double> out(axes_.size());
-        for (std::size_t k = 0; k < out.size(); ++k) out[k] = 1 / static_cast<double>(3 + unit + static_cast<std::int64_t>(k));
+        for (std::size_t k = 0; k < out.size(); ++k) out[k] = 1 / static_cast<double>(3 + item + static_cast<std::int64_t>(k));
         return out;
     }
     Result<void> run_items(const NextItem&, const OutcomeHandler&, const std::function<bool()>&) const override { return {}; }
 
-    ItemOutcome outcome(std::int64_t unit, std::mt19937& random) const {
+    ItemOutcome outcome(std::int64_t item, std::mt19937& random) const {
         std::uniform_real_distribution<> number;
-        ItemOutcome o{unit};
+        ItemOutcome o{item};
         for (std::size_t k = 0; k < measures_.size(); ++k) o.measures.push_back(number(random));
         o.spikes.resize(1);
         for (int k = 0; k < 15; ++k) o.spikes[0].push_back(number(random));
@@ -77,18 +77,18 @@ void run_query(const SweepResults& results, const char* query) {
     fmt::print("  {:.3f} s  {}  ({})\n", since(start), query, value ? *value : -1);
 }
 
-int rows(std::int64_t units, const std::string& folder) {
+int rows(std::int64_t items, const std::string& folder) {
     const std::string path = folder + "/bench-sweep.sqlite";
     std::filesystem::remove(path);
-    const RandomSweep sweep(units);
+    const RandomSweep sweep(items);
     auto results = SweepResults::open(path, sweep);
     if (!results) return fmt::print("{}\n", results.error().text()), 1;
     constexpr std::int64_t batch = 8192;
     std::mt19937 random(1);
     double writing = 0, writing_wall = 0, packing = 0, unpacking = 0, at_tenth = 0;
-    for (std::int64_t from = 0; from < units; from += batch) {
+    for (std::int64_t from = 0; from < items; from += batch) {
         std::vector<ItemOutcome> outcomes, back;
-        for (std::int64_t k = from; k < std::min(units, from + batch); ++k) outcomes.push_back(sweep.outcome(k, random));
+        for (std::int64_t k = from; k < std::min(items, from + batch); ++k) outcomes.push_back(sweep.outcome(k, random));
         auto start = processor();
         auto packed = rank_message(outcomes);
         packing += processor() - start, start = processor();
@@ -97,21 +97,21 @@ int rows(std::int64_t units, const std::string& folder) {
         const auto wall = Clock::now();
         if (auto ok = results->add(sweep, std::move(back)); !ok) return fmt::print("{}\n", ok.error().text()), 1;
         writing += processor() - start, writing_wall += since(wall);
-        if (at_tenth == 0 && from >= units / 10) at_tenth = memory_MB();
+        if (at_tenth == 0 && from >= items / 10) at_tenth = memory_MB();
     }
     const auto start = Clock::now();
     const auto folded = results->checkpoint();
-    const auto n = static_cast<double>(units);
-    fmt::print("{} rows: {:.2f} us of processor time per row, {:.2f} us of wall time ({:.0f} rows/s)\n", units, writing / n * 1e6,
+    const auto n = static_cast<double>(items);
+    fmt::print("{} rows: {:.2f} us of processor time per row, {:.2f} us of wall time ({:.0f} rows/s)\n", items, writing / n * 1e6,
                writing_wall / n * 1e6, n / writing_wall);
     fmt::print("packing an outcome {:.2f} us, unpacking it {:.2f} us of processor time\n", packing / n * 1e6, unpacking / n * 1e6);
     fmt::print("checkpoint in {:.2f} s{}: {:.0f} MB, {:.0f} bytes per row; memory {:.0f} MB after a tenth, {:.0f} MB at the end\n",
                since(start), folded ? "" : " (failed)", static_cast<double>(std::filesystem::file_size(path)) / 1e6,
                static_cast<double>(std::filesystem::file_size(path)) / n, at_tenth, memory_MB());
-    run_query(*results, "SELECT count(*) FROM units");
-    run_query(*results, "SELECT avg(measure3) * 1e6 FROM units");
-    run_query(*results, "SELECT count(*) FROM units WHERE measure0 < 0.5 AND measure9 > 0.1 AND ended = 'done'");
-    run_query(*results, "SELECT length(times) FROM spikes WHERE unit = 77777 AND train = 0");
+    run_query(*results, "SELECT count(*) FROM items");
+    run_query(*results, "SELECT avg(measure3) * 1e6 FROM items");
+    run_query(*results, "SELECT count(*) FROM items WHERE measure0 < 0.5 AND measure9 > 0.1 AND ended = 'done'");
+    run_query(*results, "SELECT length(times) FROM spikes WHERE item = 77777 AND train = 0");
     std::filesystem::remove(path);
     return 0;
 }

@@ -18,14 +18,14 @@ program, chips = sys.argv[1], int(sys.argv[2]) if len(sys.argv) > 2 else 1000
 sweep = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../examples/sweeps/sa1-chips.toml")
 
 
-def run(units, *options):
+def run(samples, *options):
     with tempfile.TemporaryDirectory() as folder:
         out = os.path.join(folder, "r.sqlite")
         began = time.perf_counter()
-        subprocess.run([program, "sweep", sweep, "--quiet", "--out", out, "--units", str(units), *options], check=True, stdout=subprocess.DEVNULL)
+        subprocess.run([program, "sweep", sweep, "--quiet", "--out", out, "--samples", str(samples), *options], check=True, stdout=subprocess.DEVNULL)
         took = time.perf_counter() - began
         rows = subprocess.run([program, "sweep", "dump", out], check=True, capture_output=True).stdout
-        print(f"{units} chips, {' '.join(options)}: {took:.1f} s, {took / units * 1e3:.1f} ms a chip, {os.path.getsize(out) / units:.0f} bytes a chip")
+        print(f"{samples} chips, {' '.join(options)}: {took:.1f} s, {took / samples * 1e3:.1f} ms a chip, {os.path.getsize(out) / samples:.0f} bytes a chip")
         return rows
 
 

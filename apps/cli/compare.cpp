@@ -47,8 +47,8 @@ Json document_of(const TrainDifference& d) {
             {"matched", d.matched},
             {"missing", d.missing()},
             {"extra", d.extra()},
-            {"largest_s", seconds(d.max_shift)},
-            {"rms_s", seconds(d.rms())},
+            {"max_shift_s", seconds(d.max_shift)},
+            {"rms_shift_s", seconds(d.rms())},
             {"victor_purpura", d.victor_purpura},
             {"victor_purpura_per_spike", d.victor_purpura_per_spike()},
             {"van_rossum", d.van_rossum()}};
@@ -102,7 +102,7 @@ Result<void> run(const CompareArguments& w, const CommonArguments& common) {
     const SpikeColumns columns{w.time_column, w.train_column};
     auto a = read_spikes(w.files.front(), columns);
     auto b = w.files.size() == 1 ? a : read_spikes(w.files.back(), columns);
-    // --time and --unit apply to the file that has these columns; the other file is read with the default columns.
+    // --time and --train apply to the file that has these columns; the other file is read with the default columns.
     if (!a && b && w.files.size() == 2 && (w.time_column || w.train_column))
         if (auto with_defaults = read_spikes(w.files.front())) a = std::move(with_defaults);
     if (a && !b && (w.time_column || w.train_column))

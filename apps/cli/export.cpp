@@ -18,10 +18,10 @@ namespace {
 using namespace circuit;
 using Json = nlohmann::ordered_json;
 
-Json document_of(const NgspiceDeck& deck, const std::vector<Error>& remarks) {
+Json document_of(const NgspiceDeck& deck, const std::vector<Error>& found) {
     Json warnings = Json::array();
-    for (const auto& r : remarks) warnings.push_back(r.text());
-    return {{"for", "ngspice"}, {"deck", deck.text}, {"warnings", warnings}};
+    for (const auto& r : found) warnings.push_back(r.text());
+    return {{"simulator", "ngspice"}, {"deck", deck.text}, {"warnings", warnings}};
 }
 
 Result<void> export_netlist(const ExportArguments& words, const CommonArguments& common) {
@@ -32,15 +32,15 @@ Result<void> export_netlist(const ExportArguments& words, const CommonArguments&
         if (auto ok = outputs.check_file(words.out, is_own_deck); !ok) return ok;
     auto circuit = netlist->elaborate();
     if (!circuit) return circuit.error();
-    auto remarks = circuit->warnings;
+    auto warnings = circuit->warnings;
     const auto deck = ngspice_deck(std::make_shared<const Circuit>(std::move(*circuit)));
     if (!deck) return deck.error();
-    remarks.insert(remarks.end(), deck->left_out.begin(), deck->left_out.end());
+    warnings.insert(warnings.end(), deck->left_out.begin(), deck->left_out.end());
     if (!words.out.empty())
         if (auto ok = write_file(words.out, deck->text); !ok) return ok;
-    for (const auto& r : remarks) print_warning(r.text());
+    for (const auto& r : warnings) print_warning(r.text());
     if (common.json)
-        fmt::print("{}\n", json_text(document_of(*deck, remarks)));
+        fmt::print("{}\n", json_text(document_of(*deck, warnings)));
     else if (words.out.empty())
         fmt::print("{}", deck->text);
     return {};

@@ -3,12 +3,34 @@
 #include <fmt/format.h>
 #include <algorithm>
 
+#include "renamed_arguments.hpp"
 #include "signal/parameter.hpp"
 
 namespace corpuscle {
 namespace {
 
-constexpr std::size_t max_width = 100;  // columns
+constexpr std::size_t max_width = 100;     // columns
+constexpr std::size_t short_examples = 3;  // number of examples of a verb's --help
+
+/// The options that --help lists for verbs with many options.
+struct CommonOptions {
+    std::string_view verb;
+    std::vector<std::string_view> options;
+};
+
+const CommonOptions common_options[] = {
+    {"respond",
+     {"--help-all", "--afferent", "--set", "--population", "--copies", "--spread", "--rate", "--channel", "--unit", "--scale", "--out",
+      "--report", "--json"}},
+    {"stream",
+     {"--help-all", "--in", "--rate", "--population", "--channels", "--frames", "--scale", "--out", "--to", "--format", "--json"}}};
+
+/// The common options of a verb; null for a verb with few options, which lists all.
+const CommonOptions* common_options_of(const CLI::App& app) {
+    const auto* at =
+        std::find_if(std::begin(common_options), std::end(common_options), [&](const auto& c) { return c.verb == app.get_name(); });
+    return at == std::end(common_options) ? nullptr : at;
+}
 
 /// The width of a UTF-8 text in columns, one per character.
 std::size_t columns_of(std::string_view text) {
@@ -74,20 +96,31 @@ std::string example(std::string_view line) {
     return fmt::format("{}      {}\n", continued(command), explanation);
 }
 
-/// Splits the footer into the paragraphs of examples and all others.
-std::pair<std::string, std::string> split_footer(const std::string& footer) {
-    std::pair<std::string, std::string> out;
+struct Footer {
+    std::string examples, prose;
+    bool is_short = false;  ///< examples were left out
+};
+
+/// Splits the footer into the paragraphs of examples, of which at most `limit` are kept, and all others.
+Footer split_footer(const std::string& footer, std::size_t limit) {
+    Footer out;
     bool in_examples = false;
+    std::size_t count = 0;
     for (std::size_t at = 0; at < footer.size();) {
         const auto end = std::min(footer.find('\n', at), footer.size());
         const std::string_view line(footer.data() + at, end - at);
         at = end + 1;
-        for (const std::string_view title : {"Examples:", "Example:", "First steps:"}) in_examples = in_examples || line == title;
-        in_examples = in_examples && !line.empty();
-        in_examples ? out.first += example(line) : out.second += wrapped(line, line.starts_with("  ") ? 17 : 0);
+        bool is_title = false;
+        for (const std::string_view title : {"Examples:", "Example:", "First steps:"}) is_title = is_title || line == title;
+        in_examples = (in_examples || is_title) && !line.empty();
+        if (in_examples && !is_title && ++count > limit) {
+            out.is_short = true;
+            continue;
+        }
+        in_examples ? out.examples += example(line) : out.prose += wrapped(line, line.starts_with("  ") ? 17 : 0);
     }
-    const auto text = out.second.find_first_not_of('\n');
-    out.second.erase(0, std::min(text, out.second.size()));
+    const auto text = out.prose.find_first_not_of('\n');
+    out.prose.erase(0, std::min(text, out.prose.size()));
     return out;
 }
 
@@ -103,13 +136,25 @@ std::string Help::make_subcommand(const CLI::App* verb) const {
 
 std::string Help::make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const {
     if (mode == CLI::AppFormatMode::Sub) return make_expanded(app);
-    const auto [examples, prose] = split_footer(app->get_footer());
-    auto out = wrapped(app->get_description(), 0) + make_usage(app, std::move(name));
+    const bool is_short = mode == CLI::AppFormatMode::Normal && app->get_parent() != nullptr;
+    const auto [examples, prose, omits_examples] = split_footer(app->get_footer(), is_short ? short_examples : std::string::npos);
+    auto out = wrapped(app->get_description(), 0) + make_usage(app, name);
     if (!examples.empty()) out += "\n" + examples;
-    out += make_positionals(app) + make_groups(app, mode) + make_subcommands(app, mode);
+    out += make_positionals(app) + list_options(app, mode) + make_subcommands(app, CLI::AppFormatMode::Normal);
     if (!prose.empty()) out += "\n" + prose;
+    if (is_short && (omits_examples || common_options_of(*app)))
+        out += fmt::format("\nAll examples{}: {} --help-all\n", common_options_of(*app) ? " and options" : "", name);
     for (std::size_t at = 0; (at = out.find("\n\n\n", at)) != out.npos;) out.erase(at, 1);
     return out;
+}
+
+std::string Help::list_options(const CLI::App* app, CLI::AppFormatMode mode) const {
+    const auto* common = common_options_of(*app);
+    if (mode != CLI::AppFormatMode::Normal || common == nullptr) return make_groups(app, mode);
+    return make_group("Options", false, app->get_options([&](const CLI::Option* option) {
+        return option->nonpositional() &&
+               std::find(common->options.begin(), common->options.end(), option->get_name()) != common->options.end();
+    }));
 }
 
 std::vector<std::string> normalize_help(std::vector<std::string> arguments) {
@@ -118,6 +163,52 @@ std::vector<std::string> normalize_help(std::vector<std::string> arguments) {
     arguments.erase(arguments.begin());
     arguments.emplace_back("--help");
     return arguments;
+}
+
+namespace {
+
+/// True if the argument at k is `text`: an option ("--spin", "--limit=2N"), an option with a value ("--stamp count"), or a word.
+bool is_at(const std::vector<std::string>& arguments, std::size_t k, std::string_view text) {
+    const auto blank = text.find(' ');
+    const auto name = text.substr(0, blank);
+    const std::string_view argument = arguments[k];
+    const bool is_joined =
+        argument.starts_with("--") && argument.size() > name.size() && argument[name.size()] == '=' && argument.starts_with(name);
+    if (blank == text.npos) return is_joined || argument == name;
+    const auto value = text.substr(blank + 1);
+    return is_joined ? argument.substr(name.size() + 1) == value
+                     : argument == name && k + 1 < arguments.size() && arguments[k + 1] == value;
+}
+
+}  // namespace
+
+std::string unknown_option_error(const CLI::App& app, const std::vector<std::string>& arguments) {
+    std::vector<std::string> known;
+    const CLI::App* at = &app;
+    std::string name;
+    const auto add_options = [&] {
+        for (const auto* option : at->get_options())
+            for (const auto& n : option->get_lnames()) known.push_back("--" + n);
+    };
+    add_options();
+    for (std::size_t k = 0; k < arguments.size() && arguments[k] != "--"; ++k) {  // verbs: "sweep", "show"
+        const auto verbs = at->get_subcommands([&](const CLI::App* verb) { return verb->get_name() == arguments[k]; });
+        if (verbs.empty()) continue;
+        at = verbs.front(), name += (name.empty() ? "" : " ") + arguments[k];
+        add_options();
+    }
+    const std::vector<std::string_view> names(known.begin(), known.end());
+    for (std::size_t k = 1; k < arguments.size() && arguments[k] != "--"; ++k) {
+        for (const auto& r : renamed_arguments)
+            if (r.verb == arguments[0] && is_at(arguments, k, r.old_text))
+                return fmt::format("{}: {} is now {}", name, r.old_text, r.new_text);
+        const std::string_view option = std::string_view(arguments[k]).substr(0, arguments[k].find('='));
+        if (!option.starts_with("--") || std::find(names.begin(), names.end(), option) != names.end()) continue;
+        const auto hint = did_you_mean(option, names);
+        return fmt::format("{}: unknown option '{}'{}", name, option,
+                           hint.empty() ? fmt::format("; 'corpuscle {} --help-all' lists the options", name) : hint);
+    }
+    return "";
 }
 
 std::string unknown_verb_error(const CLI::App& app, const std::vector<std::string>& arguments) {

@@ -1,5 +1,5 @@
 #pragma once
-// Formats --help: examples first, lines of at most 100 columns.
+// Formats --help: examples first, lines of at most 100 columns. --help of a verb is short; --help-all prints everything.
 
 #include <CLI/CLI.hpp>
 
@@ -13,11 +13,16 @@ public:
     std::string make_subcommand(const CLI::App*) const override;
 
 private:
+    /// The groups of options of --help-all, or the common options of --help.
+    std::string list_options(const CLI::App*, CLI::AppFormatMode) const;
     static constexpr std::size_t width_of_names = 30;
 };
 
 /// Rewrites "help respond" to "respond --help", and an empty command line to "--help".
 std::vector<std::string> normalize_help(std::vector<std::string> arguments);
+
+/// The error message if an argument has a former spelling or is an option that the verb does not have, else "".
+std::string unknown_option_error(const CLI::App&, const std::vector<std::string>& arguments);
 
 /// The error message if the first argument is not a verb of the program, else "".
 std::string unknown_verb_error(const CLI::App&, const std::vector<std::string>& arguments);

@@ -95,7 +95,7 @@ std::vector<ListSection> catalogue() {
                                     {"sensors", entries_of(sensor_entries())},
                                     {"transducers", entries_of(transducer_entries())},
                                     {"converters", entries_of(converter_entries())},
-                                    {"transductions", entries_of(receptor_entries())},
+                                    {"receptors", entries_of(receptor_entries())},
                                     {"neurons", entries_of(neuron_entries())},
                                     {"stimuli", entries_of(stimulus_catalog())},
                                     {"measures", measure_entries},
@@ -156,7 +156,7 @@ std::string text_of(const ListEntry& e) {
 }
 
 Json document_of(const ListEntry& e) {
-    Json out = {{"name", e.name}, {"sentence", e.description}};
+    Json out = {{"name", e.name}, {"description", e.description}};
     if (!e.detail.empty()) out[std::string(e.detail_key)] = e.detail;
     if (!e.source.empty()) out["source"] = e.source;
     if (!e.other_names.empty()) out["also_called"] = e.other_names;
@@ -166,10 +166,10 @@ Json document_of(const ListEntry& e) {
                                      {"unit", p.info.unit},
                                      {"low", has_range(p.info) ? Json(p.info.low) : Json(nullptr)},
                                      {"high", has_range(p.info) ? Json(p.info.high) : Json(nullptr)},
-                                     {"sentence", p.info.description},
+                                     {"description", p.info.description},
                                      {"source", p.info.source},
-                                     {"of", p.component}});
-    for (const auto& t : e.notes) out["told"].push_back({{"of", t.subject}, {"text", t.text}, {"source", t.source}});
+                                     {"component", p.component}});
+    for (const auto& t : e.notes) out["notes"].push_back({{"subject", t.subject}, {"text", t.text}, {"source", t.source}});
     return out;
 }
 

@@ -17,7 +17,7 @@ struct ListEntry {
     std::string name, detail, description, source;
     std::vector<AfferentParameter> parameters;
     std::vector<std::string> other_names;
-    std::string_view detail_key = "made_of";  ///< the JSON key of made_of for this kind of entry
+    std::string_view detail_key = "composition";  ///< the JSON key of `detail` for this kind of entry
     std::vector<CatalogNote> notes = {};
 };
 

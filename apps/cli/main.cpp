@@ -56,12 +56,14 @@ An afferent is one of
 list' prints all parameters. A value without a unit is in SI: press.t_hold=0.25 means 0.25 s.
 
 Examples:
+  corpuscle respond press --report press.html              the thesis's stimulus through an SA-I and an FA-I afferent
+  corpuscle respond touch.csv --unit mN --out result       your own recording: spikes.csv, summary.json
   corpuscle respond press --set press.F_max=2N --set sa1.f_B=25Hz
   corpuscle respond press --json                           one JSON document, with the time of every spike
   corpuscle respond sine --set sine.f=250Hz --afferent fa2 --rate 20kHz
   corpuscle respond press --afferent sa1 --copies 1000 --spread sa1.f_B=10% --spread sa1.V_th=5%
   corpuscle respond press --afferent sa1,sa1-circuit --corner ss --temp 85 --supply 0.65V
-  corpuscle respond press --afferent sa1-circuit --set sa1-circuit.C_u=4pF --set sa1-circuit.summer.N3B=8x4 --trace 'vf,i(N3B)' -o result
+  corpuscle respond press --afferent sa1-circuit --set sa1-circuit.C_u=4pF --set sa1-circuit.summer.N3B=8x4 --probe 'vf,i(N3B)' -o result
   corpuscle respond stroke --population hand --out hand --report      a stroke over a hand with 17,000 afferents
   corpuscle respond frames.csv --population 'grid 8x8' --out skin     64 sensor channels, one per skin site
   corpuscle respond touch.csv --channel fz --scale 0.02 --abs --out result --report
@@ -78,7 +80,7 @@ is extra.
 
 Files are spikes.csv or spikes.npz of 'corpuscle respond', a list of times in seconds (.txt, .npy),
 or any CSV or JSON lines with a column time_s. A column such as afferent, channel, unit or cluster
-separates several trains. --time and --unit choose other columns. Trains of the same name are
+separates several trains. --time and --train choose other columns. Trains of the same name are
 compared, and so are two files with one train each. A NAME is an afferent, a channel, or both:
 sa1,fz.
 
@@ -102,7 +104,7 @@ Further directives:
   .meas dc NAME find v(out) at=0.3  measure one number
   .expect NAME VALUE 1%             fail if a measured number differs: the netlist tests itself
   .spike v(s) 0.35                  the threshold that defines a spike in a .tran
-  .within v(a) 0 0.6                the range in which the circuit works as designed
+  .assert v(a) 0 0.6                the range in which the circuit works as designed
   .force press                      the stimulus of the FORCE sources
   .options accuracy=fine|finest     more than the default accuracy
 
@@ -111,7 +113,7 @@ The file of a .tran is written during the run. After Ctrl-C it is readable.
 Examples:
   corpuscle run circuits/divider.cir
   corpuscle run circuits/spiker.cir -o spiker.raw
-  corpuscle run sa1-circuit --corner ff --temp 85 --set summer.N3B=8x4 --trace 'vf,u,i(N3B)' -o sa1.csv
+  corpuscle run sa1-circuit --corner ff --temp 85 --set summer.N3B=8x4 --probe 'vf,u,i(N3B)' -o sa1.csv
   corpuscle run amplifier.cir -o amplifier.raw
   corpuscle run amplifier.cir -o amplifier.csv --json)";
 
@@ -169,7 +171,7 @@ void add_respond(CLI::App& app, RespondArguments& w, CommonArguments& common) {
     verb.add_option("--out,-o", w.out, "write spikes.csv, summary.json and, with --copies, copies.csv into this directory")
         ->type_name("DIR")
         ->group("Output");
-    verb.add_flag("--traces", w.probe_files, "with --out, also write traces.csv: force, currents, membranes")->group("Output");
+    verb.add_flag("--probe-files", w.probe_files, "with --out, also write probes.csv: force, currents, membranes")->group("Output");
     verb.add_option("--bin", w.bin, "with --out, also write psth.csv: spike counts and rates in bins of this length")
         ->type_name("TIME")
         ->group("Output");
@@ -206,7 +208,7 @@ void add_compare(CLI::App& app, CompareArguments& w, CommonArguments& common) {
         ->type_name("A-NAME=B-NAME");
     verb.add_flag("--by-order", w.by_order, "ignore names: compare the first train of A with the first of B, and so on");
     verb.add_option("--time", w.time_column, "column of spike times, by name or number (default: time_s)")->type_name("COLUMN");
-    verb.add_option("--unit", w.train_column, "column that identifies the train, by name or number")->type_name("COLUMN");
+    verb.add_option("--train", w.train_column, "column that identifies the train, by name or number")->type_name("COLUMN");
     verb.add_option("--window", w.window, "maximum distance of matching spikes")->capture_default_str()->type_name("TIME");
     verb.add_option("--cost", w.cost, "Victor-Purpura distance: cost per second of shift")->capture_default_str()->type_name("FREQUENCY");
     verb.add_option("--tau", w.tau, "van Rossum distance: time constant")->capture_default_str()->type_name("TIME");
@@ -273,9 +275,8 @@ void add_list(CLI::App& app, ListArguments& w, CommonArguments& common) {
     auto& verb =
         *app.add_subcommand("list", "list all models, stimuli, circuits ... with the default, range and description of every parameter");
     verb.footer("Examples:\n  corpuscle list\n  corpuscle list neurons\n  corpuscle list sa1 press\n  corpuscle list 'grid 4x4' --sites");
-    verb.add_option(
-        "WHAT", w.names,
-        "afferents, sensors, transducers, converters, transductions, neurons, stimuli, measures, formats, or the name of an entry");
+    verb.add_option("WHAT", w.names,
+                    "afferents, sensors, transducers, converters, receptors, neurons, stimuli, measures, formats, or the name of an entry");
     verb.add_flag("--sites", w.list_sites,
                   "print the sites of a population (hand, 'grid 4x4', own.toml) in frame order, as CSV: name, x_mm, y_mm, region");
     add_common(verb, common);
@@ -305,6 +306,8 @@ int main(int argc, char** argv) {
     std::signal(SIGXFSZ, SIG_IGN);  // exceeding the file size limit is a write error
     CLI::App app(about, "corpuscle");
     app.formatter(std::make_shared<Help>());
+    app.set_help_flag("--help,-h", "print help");
+    app.set_help_all_flag("--help-all", "print help with all examples and options");
     app.set_version_flag("--version", fmt::format("corpuscle {}", version));
     app.footer(first_steps);
     app.require_subcommand(1);
@@ -332,6 +335,7 @@ int main(int argc, char** argv) {
     try {
         auto arguments = normalize_help({argv + 1, argv + argc});
         if (const auto error = unknown_verb_error(app, arguments); !error.empty()) return report_error(bad_usage(error));
+        if (const auto error = unknown_option_error(app, arguments); !error.empty()) return report_error(bad_usage(error));
         std::reverse(arguments.begin(), arguments.end());  // CLI11 takes them in reverse order
         app.parse(std::move(arguments));
         common.typed = typed_options(app);
@@ -339,7 +343,7 @@ int main(int argc, char** argv) {
     } catch (const CLI::ParseError& e) {
         if (e.get_exit_code() != 0) {
             print_message(e.what());
-            print_message("'corpuscle --help' and 'corpuscle VERB --help' list the options");
+            print_message("'corpuscle help VERB' prints the commonest options, 'corpuscle VERB --help-all' all of them");
             return 2;
         }
         std::ostringstream text;

@@ -24,7 +24,7 @@ std::vector<std::string> probe_names(const NetlistArguments& w) {
 
 std::string first_netlist_option(const NetlistArguments& w) {
     const auto overrides = netlist_overrides(w);
-    return !overrides.empty() ? overrides[0].text : !w.probes.empty() ? "--trace " + w.probes[0] : "";
+    return !overrides.empty() ? overrides[0].text : !w.probes.empty() ? "--probe " + w.probes[0] : "";
 }
 
 }  // namespace corpuscle

@@ -9,7 +9,7 @@ namespace corpuscle {
 /// --supply, --temp, --corner, --mismatch.
 std::vector<circuit::NetlistOverride> netlist_overrides(const NetlistArguments&);
 
-/// The probes of all --trace options, one string each.
+/// The probes of all --probe options, one string each.
 std::vector<std::string> probe_names(const NetlistArguments&);
 
 /// The first of these options that was given, with its value, such as "--temp 85"; "" if none was.

@@ -33,7 +33,7 @@ void add_netlist_options(CLI::App& verb, NetlistArguments& w) {
                     "simulate one mismatched chip: random threshold and current of each transistor (replaces .mc)")
         ->type_name("SEED[/CHIP]")
         ->group(group);
-    verb.add_option("--trace", w.probes,
+    verb.add_option("--probe", w.probes,
                     "record these instead of .save: vf, v(a,b), i(vdd), i(N3B). Device currents flow into the drain or first terminal, "
                     "without displacement currents. A path suffix is enough: rectb.o")
         ->allow_extra_args(false)

@@ -113,7 +113,7 @@ Result<void> check_netlist_options(const NetlistArguments& w, const NetlistOptio
         return bad_usage(fmt::format("{}: there is no netlist in this run; try --afferent sa1-circuit", option));
     for (std::size_t k = 0; k < netlist_options.probes.size(); ++k)
         if (!netlist_options.probe_found[k])
-            return bad_input(fmt::format("--trace {}: no netlist of this run has such a node or device{}", netlist_options.probes[k],
+            return bad_input(fmt::format("--probe {}: no netlist of this run has such a node or device{}", netlist_options.probes[k],
                                          netlist_options.probe_hint));
     return {};
 }
@@ -292,7 +292,7 @@ std::vector<std::string> later_names(const Job& job, const RespondArguments& w) 
     std::size_t channels = 0;
     for (std::size_t k = 0; k < job.sources.size(); ++k) {
         const auto number = k == 0 ? "" : fmt::format("-{}", k + 1);
-        if (w.probe_files) all.push_back(fmt::format("traces{}.csv", number));
+        if (w.probe_files) all.push_back(fmt::format("probes{}.csv", number));
         if (w.wav) all.push_back(fmt::format("spikes{}.wav", number));
         channels += job.sources[k]->channels().size();
     }

@@ -68,10 +68,10 @@ Result<void> RespondOutputs::check(const RespondArguments& w, const CopySpec& co
 Result<void> RespondOutputs::open(const RespondArguments& w, const CopySpec& copy_spec, std::vector<std::string> later,
                                   OutputCheck& outputs) {
     const std::pair<const char*, bool> options[] = {
-        {"--traces", w.probe_files}, {"--vectors", w.vectors}, {"--bin", w.bin.has_value()}, {"--npz", w.npz}, {"--wav", w.wav}};
+        {"--probe-files", w.probe_files}, {"--vectors", w.vectors}, {"--bin", w.bin.has_value()}, {"--npz", w.npz}, {"--wav", w.wav}};
     for (const auto& [option, given] : options)
         if (given && w.out.empty()) return bad_usage(fmt::format("{} needs --out DIR", option));
-    for (const auto& [option, given] : {std::pair{"--traces", w.probe_files}, std::pair{"--vectors", w.vectors}})
+    for (const auto& [option, given] : {std::pair{"--probe-files", w.probe_files}, std::pair{"--vectors", w.vectors}})
         if (given && w.copies > RespondReport::max_copies)
             return bad_usage(
                 fmt::format("{} works with at most {} copies, not {}; use fewer, or --set the values of one copy in copies.csv", option,

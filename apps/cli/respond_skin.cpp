@@ -41,8 +41,8 @@ Result<void> check_skin_options(const RespondArguments& w) {
     constexpr const char* spread =
         "density, per_site and spread in the population file set the number of afferents of a skin and their variation "
         "(doc/skin.md)";
-    constexpr const char* traces =
-        "currents and membranes of a skin are not recorded; run one afferent without --population, or use units.csv "
+    constexpr const char* probes =
+        "currents and membranes of a skin are not recorded; run one afferent without --population, or use afferents.csv "
         "and --bin 10ms";
     constexpr const char* netlists =
         "the afferents of a skin are models, not netlists; run a netlist with --afferent sa1-circuit, without "
@@ -54,8 +54,8 @@ Result<void> check_skin_options(const RespondArguments& w) {
         {"--spread", !w.spreads.empty(), spread},
         {"--noise", w.noise.has_value(), "membranes of a skin have no noise; for a noisy force use press+noise as FORCE"},
         {"--float", w.use_float, "a skin is simulated in double precision only; remove --float"},
-        {"--traces", w.probe_files, traces},
-        {"--trace", !w.netlists.probes.empty(), netlists},
+        {"--probe-files", w.probe_files, probes},
+        {"--probe", !w.netlists.probes.empty(), netlists},
         {"--vectors", w.vectors,
          "afferents of a skin have no converter; run an afferent with one: --afferent sa1-kim, without --population"},
         {"--wav", w.wav, "the clicks of thousands of afferents are not audible separately; run one afferent without --population"},
@@ -232,7 +232,7 @@ void add_silence_notes(SkinJob& job, const RespondArguments& w, const std::vecto
         if (const auto remedy = stronger_stimulus_advice(job, w, margin * *min_factor); !remedy.empty()) text += "; " + remedy;
     if (all && !any_force && job.contact)
         text += fmt::format(
-            "; --set contact.x=... and --set contact.y=... place the indenter (for positions see units.csv, or type: corpuscle list {} "
+            "; --set contact.x=... and --set contact.y=... place the indenter (for positions see afferents.csv, or type: corpuscle list {} "
             "--sites)",
             quote_shell_word(w.population));
     (all ? job.run_info.warnings : job.run_info.notes).push_back(std::move(text));

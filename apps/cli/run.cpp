@@ -58,7 +58,7 @@ struct VariantResult {
 
 Json document_of(const VariantResult& result) {
     const auto& outcome = result.outcome;
-    Json plots = Json::array(), analyses = Json::array(), numbers = Json::object(), expectations = Json::array(), remarks = Json::array();
+    Json plots = Json::array(), analyses = Json::array(), numbers = Json::object(), expectations = Json::array(), warnings = Json::array();
     for (const auto& plot : result.plots) {
         Json curves = Json::object();
         for (const auto& curve : plot.curves) curves[curve.name] = column(plot, curve);
@@ -71,14 +71,11 @@ Json document_of(const VariantResult& result) {
     }
     for (const auto& [name, value] : outcome.numbers) numbers[name] = json_number(value);
     for (const auto& e : outcome.expectations)
-        expectations.push_back({{"what", e.name},
-                                {"found", json_number(e.actual)},
-                                {"expected", e.expected},
-                                {"tolerance", e.tolerance},
-                                {"holds", e.is_met}});
-    for (const auto& r : outcome.warnings) remarks.push_back(r.text());
-    Json out = {{"title", result.variant.circuit->title}, {"plots", plots},     {"analyses", analyses}, {"numbers", numbers},
-                {"expectations", expectations},           {"warnings", remarks}};
+        expectations.push_back(
+            {{"name", e.name}, {"actual", json_number(e.actual)}, {"expected", e.expected}, {"tolerance", e.tolerance}, {"met", e.is_met}});
+    for (const auto& r : outcome.warnings) warnings.push_back(r.text());
+    Json out = {{"title", result.variant.circuit->title}, {"plots", plots},      {"analyses", analyses}, {"numbers", numbers},
+                {"expectations", expectations},           {"warnings", warnings}};
     for (const auto& a : outcome.analyses)
         if (a.result.spikes) out["spikes"].push_back(*a.result.spikes);  // one list per .tran
     if (result.cost) out["budget"] = corpuscle::document_of(*result.cost);
@@ -286,7 +283,7 @@ Result<NetlistOverride> parse_override(const std::string& text) {
     return NetlistOverride{text.substr(0, equals), text.substr(equals + 1), "--set " + text};
 }
 
-/// The netlist with its overrides and with the probes of --trace in addition to its own.
+/// The netlist with its overrides and with the probes of --probe in addition to its own.
 Result<Netlist> netlist_of(const RunArguments& w) {
     auto overrides = netlist_overrides(w.netlists);
     for (const auto& text : w.settings) {
@@ -303,7 +300,7 @@ Result<Netlist> netlist_of(const RunArguments& w) {
         const auto found = resolve_probe(*circuit, probe);
         if (!found) return found.error();
         if (!*found)
-            return bad_input(fmt::format("--trace {}: {} has no such node or device{}", probe, w.netlist, suggest_probe(*circuit, probe)));
+            return bad_input(fmt::format("--probe {}: {} has no such node or device{}", probe, w.netlist, suggest_probe(*circuit, probe)));
         changes.saved.push_back(**found);
     }
     return netlist->with_overrides(std::move(changes));

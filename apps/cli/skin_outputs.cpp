@@ -41,13 +41,13 @@ Result<void> SkinOutputs::open_directory(const RespondArguments& w, const SkinSu
         return bad_usage(fmt::format("--events {}: expected one of {}{}", w.events, fmt::join(names, ", "), did_you_mean(w.events, names)));
     }
     const auto spikes = w.events.empty() ? std::string("spikes.csv") : fmt::format("spikes{}", format->extension);
-    std::vector<std::string> names = {spikes, "units.csv", "summary.json"};
+    std::vector<std::string> names = {spikes, "afferents.csv", "summary.json"};
     if (w.npz) names.emplace_back("spikes.npz");
     if (*bin) names.emplace_back("psth.csv");
     if (auto ok = check_outputs(w.out, std::move(names), page, w.checkpoint, outputs); !ok) return ok;
     auto ok = w.events.empty() ? add<SkinSpikesFile>(spikes) : add<SkinEventsFile>(spikes, w.events);
     if (!ok) return ok;
-    if (ok = add<SkinAfferentsFile>("units.csv", std::cref(summary)); !ok) return ok;
+    if (ok = add<SkinAfferentsFile>("afferents.csv", std::cref(summary)); !ok) return ok;
     if (w.npz)
         if (ok = add<SkinNpzFile>("spikes.npz"); !ok) return ok;
     if (*bin)

@@ -33,7 +33,7 @@ Result<void> check_live_options(const StreamArguments& w) {
                             ? "the time of a frame is its number divided by --rate; use --stamp time if frames begin with their time"
                         : option == "--dataset" || option == "--skip" ? "live frames are not read from a file"
                         : option == "--range" || option == "--bad-fields"
-                            ? "an invalid force, or one beyond --limit, is replaced by the last force of the site"
+                            ? "an invalid force, or one beyond --max-force, is replaced by the last force of the site"
                             : "it needs later readings, and live frames are processed at once";
     return bad_usage(fmt::format("{} is for recordings (--in FILE), not for live frames from {}: {}", option, input_name(w.in), reason));
 }
@@ -61,10 +61,10 @@ Result<StreamQuantities> stream_quantities(const StreamArguments& w) {
     auto options = recording_options(w);
     if (!options) return options.error();
     n.recording = std::move(*options);
-    for (const auto& [text, unit, option, to] : {std::tuple{&w.max_force, "N", "--limit", &n.max_force},
+    for (const auto& [text, unit, option, to] : {std::tuple{&w.max_force, "N", "--max-force", &n.max_force},
                                                  {&w.hold, "s", "--hold", &n.hold},
-                                                 {&w.max_gap, "s", "--longest-gap", &n.max_gap},
-                                                 {&w.idle_timeout, "s", "--idle-limit", &n.idle_timeout},
+                                                 {&w.max_gap, "s", "--max-gap", &n.max_gap},
+                                                 {&w.idle_timeout, "s", "--idle-timeout", &n.idle_timeout},
                                                  {&w.buffer, "", "--buffer", &n.buffer}}) {
         const auto value = required_quantity(*text, unit, option);
         if (!value) return value.error();
@@ -101,7 +101,7 @@ Result<FrameLayout> live_layout(const StreamArguments& w, const StreamQuantities
                   : w.frames == "f32" ? FrameKind::f32
                   : w.frames == "f64" ? FrameKind::f64
                                       : FrameKind::i16;
-    layout.stamp = w.stamp == "none" ? FrameStamp::none : w.stamp == "count" ? FrameStamp::sequence : FrameStamp::time;
+    layout.stamp = w.stamp == "none" ? FrameStamp::none : w.stamp == "sequence" ? FrameStamp::sequence : FrameStamp::time;
     layout.sites = sites, layout.rate = clock.rate();
     layout.scale = *scale, layout.offset = n.recording.offset, layout.limit = n.max_force;
     return layout;

@@ -93,34 +93,34 @@ nlohmann::ordered_json stream_document(const StreamReportInput& f) {
     const auto counts = f.frames.counts();
     const auto& plan = f.skin.innervation().plan;
     nlohmann::ordered_json doc = {
-        {"population", plan.name},          {"sites", f.skin.sites()}, {"units", f.skin.innervation().afferents.size()},
+        {"population", plan.name},          {"sites", f.skin.sites()}, {"afferents", f.skin.innervation().afferents.size()},
         {"rate_Hz", f.skin.clock().rate()}, {"frames", counts.frames}, {"frames_filled", done.filled},
         {"steps", f.skin.frames()},         {"spikes", done.spikes}};
     if (plan.is_by_channel) doc["channels"] = plan.sites.names;  // binary events refer to channels by index
-    doc["frames_in_order"] = {{"gaps", counts.sequence.gaps},         {"held", counts.sequence.held},
-                              {"released", counts.sequence.released}, {"duplicates", counts.sequence.duplicates},
-                              {"late", counts.sequence.late},         {"restarts", counts.sequence.restarts}};
-    doc["frames_as_bytes"] = {{"senders", counts.sender_count},
-                              {"headers", counts.headers},
-                              {"unreadable", counts.unreadable},
-                              {"unreadable_forces", counts.invalid_values},
-                              {"halves", counts.partial_frames},
-                              {"idle_senders", counts.senders.idle},
-                              {"datagrams_of_others", counts.senders.ignored},
-                              {"datagrams_lost", counts.senders.dropped},
-                              {"bytes_unread", done.unread}};
+    doc["sequence"] = {{"gaps", counts.sequence.gaps},         {"held", counts.sequence.held},
+                       {"released", counts.sequence.released}, {"duplicates", counts.sequence.duplicates},
+                       {"late", counts.sequence.late},         {"restarts", counts.sequence.restarts}};
+    doc["input"] = {{"senders", counts.sender_count},
+                    {"headers", counts.headers},
+                    {"unreadable", counts.unreadable},
+                    {"invalid_values", counts.invalid_values},
+                    {"incomplete", counts.partial_frames},
+                    {"idle_senders", counts.senders.idle},
+                    {"datagrams_ignored", counts.senders.ignored},
+                    {"datagrams_dropped", counts.senders.dropped},
+                    {"bytes_unread", done.unread}};
     doc["events"] = {{"format", f.format.name()},
                      {"to", f.sink.description()},
                      {"dropped", done.dropped},
-                     {"lost", f.sink.dropped()},
-                     {"readers", f.sink.connections()}};
+                     {"undelivered", f.sink.dropped()},
+                     {"connections", f.sink.connections()}};
     doc["work"] = {{"afferent_steps", f.skin.stats().afferent_steps},
                    {"at_rest", f.skin.stats().skipped_steps},
-                   {"capped", f.skin.stats().truncated_steps}};
-    doc["delay_s"] = in_seconds(done.latency);
+                   {"truncated_steps", f.skin.stats().truncated_steps}};
+    doc["latency_s"] = in_seconds(done.latency);
     const bool paced = is_paced(f);
     doc["jitter_s"] = paced ? in_seconds(done.jitter) : nullptr;
-    doc["came_at_Hz"] = paced ? nlohmann::ordered_json(done.rate()) : nullptr;
+    doc["input_rate_Hz"] = paced ? nlohmann::ordered_json(done.rate()) : nullptr;
     return doc;
 }
 

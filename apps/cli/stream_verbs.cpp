@@ -11,7 +11,7 @@ namespace {
 constexpr const char* stream_examples =
     R"(A frame is one force per site, all sampled at the same time. The time of a frame is its number
 divided by --rate, not its time of arrival. A CSV frame is a line of text; a binary frame is a
-sequence of numbers (f32, f64 or i16, little-endian). With --stamp count a frame begins with its
+sequence of numbers (f32, f64 or i16, little-endian). With --stamp sequence a frame begins with its
 number (binary: u32), with --stamp time with its time in seconds (binary: f64). Gaps are then filled
 by the last force, and duplicate and late frames are ignored. The summary at the end counts all of
 these.
@@ -30,7 +30,7 @@ Examples:
   corpuscle stream --population "grid 64x64" --rate 5.2kHz --frames f32 < frames.f32 > spikes.aer --format aer
   corpuscle stream --channels 16 --rate 500Hz --in serial:/dev/ttyACM0 --baud 921600 --frames i16 --scale 2mN -o spikes.csv
   corpuscle stream --in grip.csv --unit mN --format jsonl --pace fast  a recording, with the recording options of respond
-  corpuscle stream --channels 16 --rate 1kHz --in udp:7000 --stamp count --frames f32     numbered frames in datagrams
+  corpuscle stream --channels 16 --rate 1kHz --in udp:7000 --stamp sequence --frames f32     numbered frames in datagrams
   corpuscle stream --rate 1kHz --save-state now.state; corpuscle stream --rate 1kHz --resume now.state
 
 Ctrl-C ends the stream: received frames are processed, files and the state are saved, and a summary
@@ -49,12 +49,12 @@ void add_frames(CLI::App& verb, StreamArguments& w) {
         ->capture_default_str()
         ->type_name("KIND")
         ->group(group);
-    verb.add_option("--stamp", w.stamp, "first field of a frame: none, count (its number), or time (in seconds)")
-        ->check(CLI::IsMember({"none", "count", "time"}))
+    verb.add_option("--stamp", w.stamp, "first field of a frame: none, sequence (its number), or time (in seconds)")
+        ->check(CLI::IsMember({"none", "sequence", "time"}))
         ->capture_default_str()
         ->type_name("WHAT")
         ->group(group);
-    verb.add_option("--limit", w.max_force, "maximum valid force; beyond it the last force of the site is used")
+    verb.add_option("--max-force", w.max_force, "maximum valid force; beyond it the last force of the site is used")
         ->capture_default_str()
         ->type_name("FORCE")
         ->group(group);
@@ -62,7 +62,7 @@ void add_frames(CLI::App& verb, StreamArguments& w) {
         ->capture_default_str()
         ->type_name("TIME")
         ->group(group);
-    verb.add_option("--longest-gap", w.max_gap, "treat a larger jump of the stamp as a restart of the sender")
+    verb.add_option("--max-gap", w.max_gap, "treat a larger jump of the stamp as a restart of the sender")
         ->capture_default_str()
         ->type_name("TIME")
         ->group(group);
@@ -75,7 +75,7 @@ void add_frames(CLI::App& verb, StreamArguments& w) {
         ->capture_default_str()
         ->type_name("N")
         ->group(group);
-    verb.add_option("--idle-limit", w.idle_timeout, "disconnect a sender that is silent for TIME if another is waiting (0: never)")
+    verb.add_option("--idle-timeout", w.idle_timeout, "disconnect a sender that is silent for TIME if another is waiting (0: never)")
         ->capture_default_str()
         ->type_name("TIME")
         ->group(group);
@@ -129,12 +129,12 @@ void StreamVerb::add_to(CLI::App& app, CommonArguments& common) {
         ->allow_extra_args(false)
         ->type_name("NAME.PARAMETER=VALUE");
     verb.add_flag("--sampled", w.sampled, "put spikes on the sampling times, as in the thesis (default: interpolate within the step)");
-    verb.add_option("--together", w.batch_frames,
+    verb.add_option("--batch-frames", w.batch_frames,
                     "process N frames at once: less CPU time, but up to N frames more latency; the spikes are the same")
         ->check(CLI::Range(1, 1024))
         ->capture_default_str()
         ->type_name("N");
-    verb.add_flag("--spin", w.busy_poll, "poll for frames without sleeping: lower latency, but occupies one core");
+    verb.add_flag("--busy-poll", w.busy_poll, "poll for frames without sleeping: lower latency, but occupies one core");
     add_frames(verb, w);
     add_recording_options(verb, w);
     add_events(verb, w);

@@ -48,7 +48,7 @@ struct SweepProcess {
     bool is_coordinator() const { return !ranks || ranks->rank() == 0; }
 };
 
-Result<void> run_units(const SweepProcess& self, const Sweep& sweep, SweepResults& results, const SweepRunOptions& run,
+Result<void> run_items(const SweepProcess& self, const Sweep& sweep, SweepResults& results, const SweepRunOptions& run,
                        const CommonArguments& common) {
     SweepProgress count;
     if (!self.ranks) return run_sweep(sweep, results, run, count);
@@ -85,7 +85,7 @@ Result<void> coordinate_run(const SweepProcess& self, const Sweep& sweep, const 
         run.on_progress = [&](const SweepProgress& c) {
             progress.update(static_cast<double>(c.finished()) / static_cast<double>(std::max<std::int64_t>(1, c.planned)));
         };
-        return run_units(self, sweep, *results, run, common);
+        return run_items(self, sweep, *results, run, common);
     }();
     if (const auto folded = results->checkpoint(); !folded && !common.quiet)
         print_warning(fmt::format("the results are complete only if {} is kept together with {}-wal: {}", results->path(), results->path(),

@@ -90,7 +90,7 @@ Result<void> calibrate_as(const SweepCalibrateArguments& words, const CommonArgu
         return bad_usage(
             fmt::format("sweep calibrate {}: --like MODEL and --trim NAME=RANGE are required for this netlist", words.netlist));
     if (words.samples < 1 || words.samples > 1'000'000)
-        return bad_usage(fmt::format("--units {}: must be from 1 to 1000000", words.samples));
+        return bad_usage(fmt::format("--samples {}: must be from 1 to 1000000", words.samples));
     ChipCalibration calibration;
     calibration.netlist = words.netlist, calibration.bits = words.bits, calibration.threads = words.threads;
     calibration.overrides = {{"corner", words.corner, "--corner " + words.corner}};

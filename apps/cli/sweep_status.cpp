@@ -47,15 +47,15 @@ Result<SweepStatus> read_sweep_status(const SweepResults& results, const Shard& 
     SweepStatus out;
     out.results = results.path(), out.shard = shard, out.items = shard.count(0, results.item_count());
     auto* file = results.handle();
-    auto counts = sql::Statement::make(file, results.path(),
-                                       "SELECT count(*), total(ended = 'capped'), total(ended = 'lost'), total(iterations) FROM units");
+    auto counts = sql::Statement::make(
+        file, results.path(), "SELECT count(*), total(ended = 'truncated'), total(ended = 'diverged'), total(iterations) FROM items");
     if (!counts) return counts.error();
     if (const auto row = counts->step(); !row) return row.error();
     out.finished = counts->integer(0), out.truncated = counts->integer(1), out.diverged = counts->integer(2),
     out.iterations = counts->integer(3);
     if (out.truncated + out.diverged == 0) return out;
     auto reasons = sql::Statement::make(file, results.path(),
-                                        "SELECT why, count(*) FROM units WHERE ended <> 'done' GROUP BY why ORDER BY 2 DESC, 1 LIMIT 3");
+                                        "SELECT why, count(*) FROM items WHERE ended <> 'done' GROUP BY why ORDER BY 2 DESC, 1 LIMIT 3");
     if (!reasons) return reasons.error();
     for (;;) {
         const auto more = reasons->step();
@@ -79,16 +79,16 @@ std::string describe_frame_error(const SweepStatus& s) {
 }
 
 nlohmann::ordered_json document_of(const SweepStatus& s) {
-    nlohmann::ordered_json out = {{"results", s.results},   {"units", s.items},      {"ended", s.finished},
-                                  {"missing", s.missing()}, {"capped", s.truncated}, {"lost", s.diverged}};
+    nlohmann::ordered_json out = {{"results", s.results},   {"items", s.items},         {"finished", s.finished},
+                                  {"missing", s.missing()}, {"truncated", s.truncated}, {"diverged", s.diverged}};
     out["iterations"] = s.iterations;
-    if (s.finished_now) out["now"] = *s.finished_now;
-    if (s.shard.shard_count > 1) out["shard"] = {{"part", s.shard.index + 1}, {"of", s.shard.shard_count}};
+    if (s.finished_now) out["this_run"] = *s.finished_now;
+    if (s.shard.shard_count > 1) out["shard"] = {{"index", s.shard.index + 1}, {"count", s.shard.shard_count}};
     auto& reasons = out["reasons"] = nlohmann::ordered_json::array();
-    for (const auto& [reason, items] : s.reasons) reasons.push_back({{"why", reason}, {"units", items}});
+    for (const auto& [reason, items] : s.reasons) reasons.push_back({{"reason", reason}, {"items", items}});
     if (!s.writer) return out;
     auto& writer = out["writer"] = {{"process", s.writer->process}, {"host", s.writer->host}};
-    if (const auto rate = rate_of(s); rate > 0) writer["units_a_second"] = rate, writer["seconds_left"] = seconds_left(s);
+    if (const auto rate = rate_of(s); rate > 0) writer["items_per_second"] = rate, writer["seconds_left"] = seconds_left(s);
     return out;
 }
 

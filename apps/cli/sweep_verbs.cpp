@@ -18,7 +18,7 @@ do not depend on threads, lanes, shards or MPI ranks.
 
   afferent = "sa1-circuit"             # chips.toml
   force = "press"
-  units = 1000
+  samples = 1000
   [[vary]]
   what = "mismatch"
 
@@ -27,11 +27,11 @@ Examples:
   corpuscle sweep chips.toml --status                               progress, also while it runs
   corpuscle sweep show chips.sqlite --report chips.html             means, yields, most influential devices
   corpuscle sweep dump chips.sqlite > chips.csv                     all rows, in order
-  corpuscle sweep chips.toml --seed 2 --units 100 -o again.sqlite   other random chips, fewer of them
+  corpuscle sweep chips.toml --seed 2 --samples 100 -o again.sqlite other random chips, fewer of them
   corpuscle sweep chips.toml --shard 1/3                            one third, on one of three machines (chips-1of3.sqlite)
   corpuscle sweep merge chips.sqlite chips-?of3.sqlite              combine the three parts
   mpirun --enable-recovery -n 64 corpuscle sweep chips.toml         64 MPI processes; if one dies, only its block is repeated
-  sqlite3 chips.sqlite "SELECT ended, count(*) FROM units GROUP BY ended"
+  sqlite3 chips.sqlite "SELECT ended, count(*) FROM items GROUP BY ended"
 
 Exit status: 0 all items have ended (truncated and diverged ones are reported), 1 bad input, 2 bad
 usage, 3 no item converged, 130 interrupted.)";
@@ -65,7 +65,7 @@ CLI::App& add_sweep(CLI::App& app, SweepArguments& w, SweepMergeArguments& m, st
         ->type_name("1|4|8");
     verb.add_option("--shard", w.shard, "run only part K of N, for several machines without MPI")->type_name("K/N");
     verb.add_option("--seed", w.seed, "random seed (replaces the seed of the file)")->type_name("N");
-    verb.add_option("--units", w.samples, "number of random samples (replaces the number in the file)")
+    verb.add_option("--samples", w.samples, "number of random samples at each point (replaces the number in the file)")
         ->check(CLI::PositiveNumber)
         ->type_name("N");
     verb.add_flag("--status", w.status, "print progress: finished items, missing items, speed");
@@ -119,7 +119,7 @@ void add_sweep_calibrate(CLI::App& sweep, SweepCalibrateArguments& w, CommonArgu
         "the model's by at most a quarter (or one spike), if no spike precedes the force, and if the first\n"
         "spike is within 10 ms of the model's. A chip that fails is trimmed, coarse steps first, and\n"
         "simulated again.\n\n"
-        "Examples:\n  corpuscle sweep calibrate sa1-circuit\n  corpuscle sweep calibrate fa1-circuit --units 200 --bits 6 --apart\n"
+        "Examples:\n  corpuscle sweep calibrate sa1-circuit\n  corpuscle sweep calibrate fa1-circuit --samples 200 --bits 6 --separately\n"
         "  corpuscle sweep calibrate own.cir --like sa1 --trim i_leak=50% --trim x1.m3.m+x1.m4.m=25%");
     verb.add_option("NETLIST", w.netlist, "sa1-circuit, fa1-circuit, or a netlist with a force input and a spike output")->required();
     verb.add_option("--like", w.like, "the model to match (default: sa1 for sa1-circuit, fa1 for fa1-circuit)")->type_name("AFFERENT");
@@ -131,11 +131,11 @@ void add_sweep_calibrate(CLI::App& sweep, SweepCalibrateArguments& w, CommonArgu
         ->check(CLI::Range(1, 12))
         ->capture_default_str()
         ->type_name("N");
-    verb.add_option("--units", w.samples, "number of chips")->check(CLI::PositiveNumber)->capture_default_str()->type_name("N");
+    verb.add_option("--samples", w.samples, "number of chips")->check(CLI::PositiveNumber)->capture_default_str()->type_name("N");
     verb.add_option("--seed", w.seed, "random seed of process and mismatch")->capture_default_str()->type_name("N");
     verb.add_option("--corner", w.corner, "process corner; mc includes process variation")->capture_default_str();
     verb.add_option("--force", w.force, "the stimulus")->capture_default_str()->type_name("STIMULUS");
-    verb.add_flag("--apart", w.separately, "also evaluate each trim alone");
+    verb.add_flag("--separately", w.separately, "also evaluate each trim alone");
     verb.add_option("--threads,-j", w.threads, "number of threads (0: one per core); results do not depend on it")
         ->check(CLI::Range(0U, 1024U))
         ->capture_default_str()

@@ -10,7 +10,7 @@ PartJson curve_document(std::uint32_t channel, const PartJson& afferent, std::st
                         const Envelope& e) {
     return {{"channel", channel},
             {"afferent", afferent},
-            {"part", quantity},
+            {"quantity", quantity},
             {"unit", unit},
             {"bucket", e.bucket()},
             {"count", e.count()},
@@ -26,9 +26,9 @@ PartJson parameters_document(const AfferentPlan& plan, std::span<const Parameter
                        {"unit", p.info.unit},
                        {"default", p.info.default_value},
                        {"set", p.set_by_user},
-                       {"sentence", p.info.description},
+                       {"description", p.info.description},
                        {"source", p.info.source},
-                       {"of", p.component}});
+                       {"component", p.component}});
         for (const auto& s : spreads)
             if (s.afferent == plan.name && s.parameter == p.info.name) out.back()["spread"] = s.deviation;
     }

@@ -11,7 +11,7 @@ function bytesOf(base64) {
 /// One recorded quantity. Sample k is at t0 + k T. If bucket > 1, only the minimum and maximum of each `bucket` samples are known.
 class Trace {
     constructor(record, input) {
-        Object.assign(this, {part: record.part, afferent: record.afferent, unit: record.unit, bucket: record.bucket});
+        Object.assign(this, {quantity: record.quantity, afferent: record.afferent, unit: record.unit, bucket: record.bucket});
         this.t0 = input.t0;
         this.T = input.T;
         this.samples = input.samples;

@@ -3,14 +3,14 @@
 
 /// A key that is equal for the same quantity in all implementations: "ia" for I_A and i(via), "u" for u and v(u). A current through a source
 /// is named after the source.
-function quantityOf(part) {
-    const probed = part.match(/^([vi])\((.*)\)$/);
-    const name = probed ? (probed[1] === "i" ? probed[2].replace(/^v/, "") : probed[2]) : part;
+function baseQuantity(quantity) {
+    const probed = quantity.match(/^([vi])\((.*)\)$/);
+    const name = probed ? (probed[1] === "i" ? probed[2].replace(/^v/, "") : probed[2]) : quantity;
     return name.toLowerCase().replace(/_/g, "");
 }
 
 /// True for a total current or a membrane, false for components.
-const isTotal = ({part, unit}) => (unit === "A" ? /^i[+-]?$/ : /^u[+-]?$/).test(quantityOf(part));
+const isTotal = ({quantity, unit}) => (unit === "A" ? /^i[+-]?$/ : /^u[+-]?$/).test(baseQuantity(quantity));
 
 /// [{name, members: [{afferent, index}]}], in order. The first member is the reference. `index` selects the colour.
 function receptorsOf(afferents) {
@@ -34,8 +34,8 @@ class Scale {
 /// A trace scaled to the axis of the reference; at() returns unscaled values.
 class ScaledTrace {
     constructor(trace, scale) {
-        const {part, afferent, unit, bucket, t0, T, samples} = trace;
-        Object.assign(this, {trace, scale, part, afferent, unit, bucket, t0, T, samples});
+        const {quantity, afferent, unit, bucket, t0, T, samples} = trace;
+        Object.assign(this, {trace, scale, quantity, afferent, unit, bucket, t0, T, samples});
     }
     range(k, l) {
         const [low, high] = this.trace.range(k, l).map((v) => this.scale.to(v));

@@ -4,7 +4,7 @@
 function receptorPanels({name, members}) {
     const traced = members.map((member) => ({...member, traces: shown.traces.filter((trace) => trace.afferent === member.afferent.name)}));
     if (!traced.some(({traces}) => traces.length)) return [];
-    const about = ({afferent}) => [report.data.copies ? "copy 1" : "", afferent.made_of, afferent.sentence].filter(Boolean).join(": ");
+    const about = ({afferent}) => [report.data.copies ? "copy 1" : "", afferent.composition, afferent.description].filter(Boolean).join(": ");
     if (members.length === 1) {
         const host = section(members[0].afferent.name, about(members[0]), afferentColour(members[0].index));
         return withTimes(traced[0].traces.length ? afferentPanels(host, traced[0], traced[0].traces) : []);
@@ -27,7 +27,7 @@ function implementationPanels(host, name, members) {
     const quantities = new Map();
     for (const member of members)
         for (const trace of member.traces.filter((one) => !isFrontEnd(one, member.traces))) {
-            const key = trace.unit + quantityOf(trace.part);
+            const key = trace.unit + baseQuantity(trace.quantity);
             quantities.set(key, [...(quantities.get(key) || []), {trace, member}]);
         }
     const shared = [...quantities.values()].filter((list) => new Set(list.map(({member}) => member)).size > 1);
@@ -47,8 +47,8 @@ function overlay(host, name, members, list, scales) {
     const V_th = trace.unit === "V" && scales.V[members.indexOf(member)].isIdentity ? member.afferent.V_th : null;
     const title = `${{A: total ? "current " : "", V: "membrane "}[trace.unit]}`;
     return new OverlayPanel({
-        host, input: shown.input, name: `${name} ${trace.part}`, title, symbol: trace.part, height: total ? 130 : 84,
-        about: `${name} ${title}${trace.part} of ${list.map((one) => one.member.afferent.name).join(", ")}`,
+        host, input: shown.input, name: `${name} ${trace.quantity}`, title, symbol: trace.quantity, height: total ? 130 : 84,
+        about: `${name} ${title}${trace.quantity} of ${list.map((one) => one.member.afferent.name).join(", ")}`,
         line: Number.isFinite(V_th) ? {value: V_th, html: symbolHtml("V_th")} : null,
         implementations: list.map((one) => ({trace: one.trace, name: one.member.afferent.name, color: afferentColour(one.member.index),
                                              scale: scales[trace.unit][members.indexOf(one.member)]})),
@@ -59,12 +59,12 @@ function overlay(host, name, members, list, scales) {
 function afferentPanels(host, {afferent, index}, traces, withName = false) {
     return byKind(traces, afferent.netlist).map(([kind, group]) => {
         const {unit} = group[0];
-        const title = {A: "current", V: "membrane", nodes: "nodes"}[kind] || group.map((trace) => trace.part).join(", ");
+        const title = {A: "current", V: "membrane", nodes: "nodes"}[kind] || group.map((trace) => trace.quantity).join(", ");
         const hasLine = kind === "V" && Number.isFinite(afferent.V_th);
         group.sort((one, other) => isTotal(other) - isTotal(one));  // totals first, so that components are drawn over them
         return new TracePanel({
             host, input: shown.input, traces: group, name: `${afferent.name} ${title}`, title: withName ? `${afferent.name} ${title}` : title,
-            about: `${afferent.name} ${title}: ${group.map((trace) => trace.part).join(", ")}`, height: unit === "A" ? 130 : 110,
+            about: `${afferent.name} ${title}: ${group.map((trace) => trace.quantity).join(", ")}`, height: unit === "A" ? 130 : 110,
             line: hasLine ? {value: afferent.V_th, html: symbolHtml("V_th")} : null,
             series: styles(group, afferentColour(index)),
         });
@@ -75,14 +75,14 @@ function afferentPanels(host, {afferent, index}, traces, withName = false) {
 function byKind(traces, netlist) {
     const groups = new Map();
     for (const trace of traces) {
-        const kind = isFrontEnd(trace, traces) ? trace.part : netlist && trace.unit === "V" && !isTotal(trace) ? "nodes" : trace.unit;
+        const kind = isFrontEnd(trace, traces) ? trace.quantity : netlist && trace.unit === "V" && !isTotal(trace) ? "nodes" : trace.unit;
         groups.set(kind, [...(groups.get(kind) || []), trace]);
     }
     return [...groups];
 }
 
 /// True for quantities of the sensor front end (sensor, transducer, converter): all traces up to F_read.
-const isFrontEnd = (trace, traces) => traces.indexOf(trace) <= traces.findIndex(({part}) => part === "F_read");
+const isFrontEnd = (trace, traces) => traces.indexOf(trace) <= traces.findIndex(({quantity}) => quantity === "F_read");
 
 /// Line styles: totals and membranes are bold in the colour of the afferent; components are thinner, in its shades and dashed.
 function styles(traces, base) {
@@ -93,5 +93,5 @@ function styles(traces, base) {
     const components = traces.filter((trace) => !isTotal(trace));
     const pick = (list, k) => list[Math.min(k, list.length - 1)];
     const styleOf = (trace) => (isTotal(trace) ? pick(bold, main.indexOf(trace)) : pick(main.length ? thin : [...bold, ...thin], components.indexOf(trace)));
-    return traces.map((trace) => ({label: trace.part, html: symbolHtml(trace.part), ...styleOf(trace)}));
+    return traces.map((trace) => ({label: trace.quantity, html: symbolHtml(trace.quantity), ...styleOf(trace)}));
 }

@@ -38,11 +38,11 @@ function showImplementations(table, channel) {
 }
 
 /// Findings about the recordings, the most serious first, and their numbers.
-function showQuality({sentences, columns, rows}) {
+function showQuality({notes, columns, rows}) {
     const section = document.getElementById("quality");
     section.hidden = !rows.length;
     if (section.hidden) return;
-    section.querySelector("ul").innerHTML = sentences.map(({text, grave}) => `<li${grave ? ' class="grave"' : ""}>${escaped(text)}</li>`).join("") ||
+    section.querySelector("ul").innerHTML = notes.map(({text, grave}) => `<li${grave ? ' class="grave"' : ""}>${escaped(text)}</li>`).join("") ||
         "<li>No problems were found.</li>";
     fillRates(section.querySelector(".scroll"), {columns, decimals: [], rows}, null);
 }
@@ -57,10 +57,10 @@ function showCosts(costs, afferents) {
 
 const squareMicrons = (area) => (area ? (area * 1e12).toFixed(0) : "–");
 
-function costTable({afferent, rest_N, power, area, blocks, receptors}, index) {
+function costTable({afferent, rest_force_N, power, area, blocks, receptors}, index) {
     const text = (value, unit) => escaped(quantity(value, unit, true));
     const row = (head, cells) => `<tr><th scope="row">${head}</th>${cells.map((cell) => `<td class="number">${cell}</td>`).join("")}</tr>`;
-    const head = ["block", `power at rest (${text(rest_N, "N")})`, "area (µm²)", "off leakage"].map((cell) => `<th scope="col">${cell}</th>`).join("");
+    const head = ["block", `power at rest (${text(rest_force_N, "N")})`, "area (µm²)", "off leakage"].map((cell) => `<th scope="col">${cell}</th>`).join("");
     const listed = blocks.filter((one) => one.area.total_m2 || Math.abs(power.op.blocks_W[one.block]) > 1e-6 * power.op.delivered_W);
     const rows = listed.map((one) => row(escaped(one.block), [text(power.op.blocks_W[one.block], "W"), squareMicrons(one.area.total_m2),
         one.worst_leak ? text(one.worst_leak.current_A, "A") : "–"]));
@@ -78,19 +78,19 @@ function showParameters(afferents) {
     section.querySelector(".columns").innerHTML = listed.map(parameterTable).join("");
 }
 
-function parameterTable({name, made_of, parameters, index}) {
+function parameterTable({name, composition, parameters, index}) {
     const head = ["model", "parameter", "value", "default", "description"].map((text) => `<th scope="col">${text}</th>`).join("");
     return `<table class="parameters"><caption><span class="chip" style="background: ${afferentColour(index)}"></span>${escaped(name)}
-        <span class="unit">${escaped(made_of || "")}</span></caption><thead><tr>${head}</tr></thead><tbody>${parameters.map(parameterRow).join("")}</tbody></table>`;
+        <span class="unit">${escaped(composition || "")}</span></caption><thead><tr>${head}</tr></thead><tbody>${parameters.map(parameterRow).join("")}</tbody></table>`;
 }
 
 function parameterRow(parameter, k, all) {
-    const first = !k || all[k - 1].of !== parameter.of;
+    const first = !k || all[k - 1].component !== parameter.component;
     const source = parameter.source ? ` <span class="unit">(${escaped(parameter.source)})</span>` : "";
     const text = (value) => escaped(quantity(value, parameter.unit || "", true));
-    return `<tr class="${parameter.set ? "set" : ""} ${first && k ? "group" : ""}"><td>${first ? escaped(parameter.of || "") : ""}</td>
+    return `<tr class="${parameter.set ? "set" : ""} ${first && k ? "group" : ""}"><td>${first ? escaped(parameter.component || "") : ""}</td>
         <th scope="row">${escaped(parameter.name)}</th><td class="number">${text(parameter.value)}${parameter.spread === undefined ? "" : ` ± ${text(parameter.spread)}`}${parameter.set ? ' <span class="tag">set</span>' : ""}</td>
-        <td class="number">${text(parameter.default)}</td><td>${escaped(parameter.sentence || "")}${source}</td></tr>`;
+        <td class="number">${text(parameter.default)}</td><td>${escaped(parameter.description || "")}${source}</td></tr>`;
 }
 
 function showVersions(versions) {

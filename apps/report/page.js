@@ -7,12 +7,12 @@ const view = new View({span: at("span"), now: at("now")});
 const receptors = receptorsOf(report.data.afferents);
 const shown = {input: null, channel: null, traces: []};
 
-function showHeading({title, program, command, remarks}) {
+function showHeading({title, program, command, notes}) {
     at("title").textContent = title;
     at("program").textContent = program;
     at("command").textContent = command;
-    at("remarks").hidden = !remarks || !remarks.length;
-    at("remarks").innerHTML = (remarks || []).map((text) => `<li>${escaped(text)}</li>`).join("");
+    at("notes").hidden = !notes || !notes.length;
+    at("notes").innerHTML = (notes || []).map((text) => `<li>${escaped(text)}</li>`).join("");
 }
 
 /// Shows the figures of one channel. The time range is kept if only the channel changes.
@@ -58,11 +58,11 @@ function forcePanels() {
     const traces = shown.traces.filter((trace) => trace.afferent === null);
     if (!shown.traces.length) element(at("figures"), "p", "note", "No traces were recorded for this channel; its spikes are below.");
     if (!traces.length) return [];
-    const host = section("Stimulus", [shown.channel.name, shown.input.sentence].filter(Boolean).join(": "));
+    const host = section("Stimulus", [shown.channel.name, shown.input.description].filter(Boolean).join(": "));
     return byKind(traces).map(([, group], k, all) => new TracePanel({
-        host, input: shown.input, traces: group, name: group[0].part, title: group.map((trace) => trace.part).join(", "),
-        about: group.map((trace) => trace.part).join(", "), height: 120, bottom: k === all.length - 1, named: k === 0,
-        series: group.map(({part}, n) => ({label: part, html: group.length > 1 ? symbolHtml(part) : "", width: 1.6,
+        host, input: shown.input, traces: group, name: group[0].quantity, title: group.map((trace) => trace.quantity).join(", "),
+        about: group.map((trace) => trace.quantity).join(", "), height: 120, bottom: k === all.length - 1, named: k === 0,
+        series: group.map(({quantity}, n) => ({label: quantity, html: group.length > 1 ? symbolHtml(quantity) : "", width: 1.6,
                                            color: mixed(colour("ink"), colour("faint"), n / group.length)})),
     }));
 }
@@ -88,9 +88,9 @@ function spikePanels() {
 }
 
 /// Explains which copies the figures show.
-function aboutCopies({count, shown, traced}) {
+function aboutCopies({count, shown, has_probes}) {
     const rows = shown === count ? `All ${count} copies of each afferent` : `The first ${shown} of ${count} copies of each afferent`;
-    const traces = traced ? "Currents, membranes and instantaneous frequency are of copy 1." : `Instantaneous frequency is of copy 1; with more than ${shown} copies currents and membranes are not recorded.`;
+    const traces = has_probes ? "Currents, membranes and instantaneous frequency are of copy 1." : `Instantaneous frequency is of copy 1; with more than ${shown} copies currents and membranes are not recorded.`;
     return `${rows}, one row per copy. The rate below is the mean over all ${count}. ${traces}`;
 }
 
@@ -152,15 +152,15 @@ function setPrinting(on) {
 ///                                there is "population". With several implementations: "sa1 I", "sa1 I_A", "sa1 u", "sa1 frequency", scaled
 ///                                to the left axis.
 ///
-///   valueAt(part, t, afferent)   The value on the selected channel at the sample nearest to t. It is [min, max] if the trace holds only
+///   valueAt(quantity, t, afferent)   The value on the selected channel at the sample nearest to t. It is [min, max] if the trace holds only
 ///                                these, and null without such a trace. "force" has no afferent.
 ///
 ///   window(), setWindow(a, b)    the time range in seconds; setting it redraws at once
 ///   pointsDrawn()                by panel: the rows last passed to its dygraph, and the width of its plot in pixels
 window.corpuscle = {
     get charts() { return Object.fromEntries(view.panels.map((panel) => [panel.name, panel.chart])); },
-    valueAt(part, t, afferent = null) {
-        const trace = shown.traces.find((one) => one.part === part && one.afferent === afferent);
+    valueAt(quantity, t, afferent = null) {
+        const trace = shown.traces.find((one) => one.quantity === quantity && one.afferent === afferent);
         if (!trace) return null;
         return trace.bucket === 1 ? trace.at(t)[0] : trace.at(t);
     },

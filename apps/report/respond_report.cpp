@@ -65,7 +65,7 @@ Json quality_document(const RunSummary& summary) {
             rows.back().push_back(std::isfinite(f.value) ? Json(f.value) : Json(nullptr));
         }
     }
-    return {{"sentences", messages}, {"columns", columns}, {"rows", rows}};
+    return {{"notes", messages}, {"columns", columns}, {"rows", rows}};
 }
 
 }  // namespace
@@ -149,7 +149,7 @@ Result<void> RespondReport::end(const Input& input, std::int64_t samples) {
             if (copies_.count > 0) add_rate(input, c, g, samples);
         }
     inputs_.push_back({{"name", input.name},
-                       {"sentence", input.source.description()},
+                       {"description", input.source.description()},
                        {"t0", input.source.clock().t0},
                        {"T", input.source.clock().T()},
                        {"samples", samples},
@@ -169,12 +169,12 @@ std::string RespondReport::page(const RunSummary& summary, std::span<const Affer
         afferents.push_back({{"name", plan.name},
                              {"receptor", receptor_of(plan)},
                              {"netlist", plan.factory != nullptr},
-                             {"made_of", plan.composition()},
-                             {"sentence", plan.description},
+                             {"composition", plan.composition()},
+                             {"description", plan.description},
                              {"V_th", level(first_copies_[a], "V_th")},
                              {"V_reset", level(first_copies_[a], "V_reset")},
                              {"parameters", parameters_document(plan, copies_.distributions)},
-                             {"parts", recordables_[a]}});
+                             {"probes", recordables_[a]}});
     }
     for (const auto& w : warnings) notes.push_back(w);
     for (const auto& i : summary.inputs())
@@ -189,12 +189,12 @@ std::string RespondReport::page(const RunSummary& summary, std::span<const Affer
                      {"table", table_document(summary)},
                      {"comparisons", implementations_document(summary.comparisons())},
                      {"quality", quality_document(summary)},
-                     {"remarks", notes},
+                     {"notes", notes},
                      {"versions", {{"corpuscle", version}, {"compiler", compiler_version()}}}};
     document["costs"] = costs;
     if (copies_.count > 0)
         document["copies"] = {
-            {"count", copies_.count}, {"shown", std::min(copies_.count, max_copies)}, {"traced", wants_probes()}, {"rates", rates_}};
+            {"count", copies_.count}, {"shown", std::min(copies_.count, max_copies)}, {"has_probes", wants_probes()}, {"rates", rates_}};
     return fill_template(asset("page.html"), escape_html(title), script_json(document));
 }
 

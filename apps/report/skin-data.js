@@ -90,8 +90,8 @@ class Skin {
         this.siteRegion = new Uint16Array(bytesOf(sites.region).buffer);
         this.siteForce = new Frames(over.sites);
         this.marks = new Frames(over.marks);
-        this.together = over.units_a_mark;
-        this.sitesTogether = over.sites_a_mark;
+        this.together = over.afferents_per_mark;
+        this.sitesTogether = over.sites_per_mark;
         this.side = sites.side || spacing(this.sitePlaces) * 0.9;
         this.hasSeparateSites = !sites.side;
         this.perClass = new Frames(over.classes);
@@ -104,13 +104,13 @@ class Skin {
 
     /// A mark is an afferent or a group of neighbours; name and region are those of its first afferent.
     markOf(unit) { return firstAt(this.firstUnits, unit + 1) - 1; }
-    classOf(mark) { return this.classes.find(({first, units}) => this.firstUnits[mark] >= first && this.firstUnits[mark] < first + units); }
+    classOf(mark) { return this.classes.find(({first, afferents}) => this.firstUnits[mark] >= first && this.firstUnits[mark] < first + afferents); }
     markName(mark) { return `${this.classOf(mark).name}#${this.copy[mark]}${this.unitsOf(mark) > 1 ? ` and ${this.unitsOf(mark) - 1} neighbours` : ""}`; }
     regionName(mark) { return this.regions[this.region[mark]]; }
     get duration() { return this.input.samples * this.input.T; }
 
     /// The marks of a class: [first, end).
-    marksOf({first, units}) { return [firstAt(this.firstUnits, first), firstAt(this.firstUnits, first + units)]; }
+    marksOf({first, afferents}) { return [firstAt(this.firstUnits, first), firstAt(this.firstUnits, first + afferents)]; }
     unitsOf(mark) { return this.firstUnits[mark + 1] - this.firstUnits[mark]; }
 
     /// The number of frames in about `seconds`, over which a rate is averaged.

@@ -37,7 +37,7 @@ const scaleHtml = (low, high, colours) => `<span class="scale">${low} <span clas
 
 /// The heading of a map: its class and the scale of its colours.
 function captionOf(map, low, high, colours) {
-    map.caption.innerHTML = `<span class="name">${chipOf(map.one.color)}${escaped(map.one.name)}</span> <span class="unit">${map.one.units} afferents</span> ${scaleHtml(low, high, colours)}`;
+    map.caption.innerHTML = `<span class="name">${chipOf(map.one.color)}${escaped(map.one.name)}</span> <span class="unit">${map.one.afferents} afferents</span> ${scaleHtml(low, high, colours)}`;
     map.count = element(map.caption, "span", "readout");
 }
 
@@ -56,7 +56,7 @@ function makeMaps() {
     }
     rateCaptions();
     makeFirsts(firsts);
-    at("force-key").innerHTML = skin.data.over.sites.greatest > 0 ? `${chipOf(colour("force"))} force on ${skin.hasSeparateSites ? "a sensor" : "the skin"}` : "";
+    at("force-key").innerHTML = skin.data.over.sites.max > 0 ? `${chipOf(colour("force"))} force on ${skin.hasSeparateSites ? "a sensor" : "the skin"}` : "";
     scene.layOut(at("maps").clientWidth);
 }
 
@@ -64,7 +64,7 @@ function makeMaps() {
 function makeFirsts(host) {
     const times = Array.from(skin.first).filter((t) => !Number.isNaN(t)).sort((a, b) => a - b);
     const active = Object.fromEntries(skin.data.summary.rates.filter(({region, phase}) => region === "all" && phase === "all").map((row) => [row.afferent, row.active]));
-    at("about-firsts").textContent = `${Object.values(active).reduce((sum, n) => sum + n, 0)} of ${skin.data.summary.skin.units} afferents fired`;
+    at("about-firsts").textContent = `${Object.values(active).reduce((sum, n) => sum + n, 0)} of ${skin.data.summary.skin.afferents} afferents fired`;
     if (!times.length) return;
     const from = times[0], to = times[Math.floor(0.98 * (times.length - 1))], span = to - from || 1;
     const values = (map, call) => { for (let m = map.from; m < map.to; ++m) if (!Number.isNaN(skin.first[m])) call(m, (skin.first[m] - from) / span); };

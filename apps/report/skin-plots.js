@@ -27,7 +27,7 @@ function rasterBar() {
         select.id = "raster-region";
         select.onchange = () => { shown.region = select.value; makePanels(); at("raster-region").focus(); };
     }
-    if (!skin.trains) element(bar, "span", "note", `More than ${skin.data.over.most_spikes} spikes: the rasters show counts per frame of the maps (${escaped(quantity(skin.marks.width, "s", true))}).`);
+    if (!skin.trains) element(bar, "span", "note", `More than ${skin.data.over.max_spikes} spikes: the rasters show counts per frame of the maps (${escaped(quantity(skin.marks.width, "s", true))}).`);
 }
 
 function rasterPanel(one, k) {
@@ -35,9 +35,9 @@ function rasterPanel(one, k) {
     const common = {one, name: `raster ${one.name}`, about: `spikes of ${one.name}`, bottom: k === skin.classes.length - 1, onPoint: (unit) => selectMark(unit === null ? null : skin.markOf(unit))};
     if (!skin.trains) return [shadePanel(one, common, wanted)];
     const all = [];
-    for (let t = firstAt(skin.trains.unit, one.first), end = firstAt(skin.trains.unit, one.first + one.units); t < end; ++t) all.push(t);
+    for (let t = firstAt(skin.trains.unit, one.first), end = firstAt(skin.trains.unit, one.first + one.afferents); t < end; ++t) all.push(t);
     const trains = all.filter((t) => wanted(skin.markOf(skin.trains.unit[t]))).map((t) => skin.trains.train(t));
-    return [panel(SkinRasterPanel, {...common, trains, countText: countText(trains.length, all.length, `${one.units} afferents`), height: rasterHeight(trains.length)})];
+    return [panel(SkinRasterPanel, {...common, trains, countText: countText(trains.length, all.length, `${one.afferents} afferents`), height: rasterHeight(trains.length)})];
 }
 
 function shadePanel(one, common, wanted) {
@@ -47,7 +47,7 @@ function shadePanel(one, common, wanted) {
         if (totals[m]) ++fired;
         if (totals[m] && wanted(m)) rowOf[m] = rowCount++;
     }
-    return panel(SkinShadePanel, {...common, frames: skin.marks, t0: skin.t0, rowOf, rowCount, countText: countText(rowCount, fired, skin.together > 1 ? `${to - from} groups of ${skin.together} afferents` : `${one.units} afferents`), height: rasterHeight(rowCount)});
+    return panel(SkinShadePanel, {...common, frames: skin.marks, t0: skin.t0, rowOf, rowCount, countText: countText(rowCount, fired, skin.together > 1 ? `${to - from} groups of ${skin.together} afferents` : `${one.afferents} afferents`), height: rasterHeight(rowCount)});
 }
 
 /// The number of rows of a raster, for its title.

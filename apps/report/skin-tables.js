@@ -13,13 +13,13 @@ function tableHtml(head, rows, numeric = () => false) {
 function showFirstSpikes(skin, host) {
     const {first_spikes, input} = skin.data.summary, touched = input.touched_from_s;
     if (!first_spikes.length) return void (host.innerHTML = "<p class=\"note\">No afferent fired.</p>");
-    const rows = first_spikes.map(({unit, afferent, region, time_s}, k) => [String(k + 1), chipOf(skin.classOf(skin.markOf(unit)).color) + escaped(afferent), escaped(region), time_s.toFixed(6),
+    const rows = first_spikes.map(({afferent_index, afferent, region, time_s}, k) => [String(k + 1), chipOf(skin.classOf(skin.markOf(afferent_index)).color) + escaped(afferent), escaped(region), time_s.toFixed(6),
         touched === null ? "–" : ((time_s - skin.t0 - touched) * 1e3).toFixed(3).replace("-", "−")]);
     host.innerHTML = tableHtml(["", "afferent", "region", "first spike (s)", "after first force (ms)"], rows, (c) => c === 0 || c >= 3);
 }
 
-const RATE_COLUMNS = [["phase", "phase"], ["units", "afferents", 0], ["touched", "stimulated", 0], ["active", "active", 0], ["spikes", "spikes", 0], ["rate_while_touched_Hz", "rate while stimulated (Hz)", 1],
-                      ["rate_of_active_Hz", "mean rate of active (Hz)", 1], ["busiest_Hz", "max (Hz)", 1], ["first_spike_s", "first spike (s)", 4], ["median_first_spike_s", "median first spike (s)", 4]];
+const RATE_COLUMNS = [["phase", "phase"], ["afferents", "afferents", 0], ["touched", "stimulated", 0], ["active", "active", 0], ["spikes", "spikes", 0], ["rate_while_touched_Hz", "rate while stimulated (Hz)", 1],
+                      ["rate_of_active_Hz", "mean rate of active (Hz)", 1], ["max_rate_Hz", "max (Hz)", 1], ["first_spike_s", "first spike (s)", 4], ["median_first_spike_s", "median first spike (s)", 4]];
 
 function showSkinRates(skin, host, region) {
     const phases = skin.data.summary.input.phases.length > 0, columns = RATE_COLUMNS.filter(([key]) => phases || key !== "phase");
@@ -34,7 +34,7 @@ function showClasses(skin, host) {
         const {sigma_m, hot_spots, hot_spot_spread_m} = one.receptive_field, {velocity_m_s, standard_deviation_m_s} = one.conduction, about = skin.classes[k];
         const field = sigma_m ? `Gaussian, σ ${millimetres(sigma_m)}${hot_spots > 1 ? `; ${hot_spots} hot spots, spread ${millimetres(hot_spot_spread_m)}` : ""}` : "nearest site";
         const speed = velocity_m_s ? `${quantity(velocity_m_s, "m/s", true)}${standard_deviation_m_s ? ` ± ${quantity(standard_deviation_m_s, "m/s", true)}` : ""}` : "no delay";
-        return [chipOf(about.color) + escaped(one.name), String(one.units), escaped(about.made_of), escaped(field), escaped(speed), escaped([about.sentence, one.source || about.source].filter(Boolean).join("; "))];
+        return [chipOf(about.color) + escaped(one.name), String(one.afferents), escaped(about.composition), escaped(field), escaped(speed), escaped([about.description, one.source || about.source].filter(Boolean).join("; "))];
     });
     host.innerHTML = tableHtml(["class", "afferents", "model", "receptive field", "conduction velocity", "description and source"], rows, (c) => c === 1);
 }
@@ -52,12 +52,12 @@ function showSources(skin, host) {
 /// The number of afferents of each class in each region, and their density per cm².
 function showDensities(skin, host) {
     const {classes, skin: about} = skin.data.summary, names = skin.regions;
-    if (names.length < 2 && !classes.some((one) => Object.values(one.regions).some(({units_per_cm2}) => units_per_cm2 !== undefined))) return void (host.hidden = true);
+    if (names.length < 2 && !classes.some((one) => Object.values(one.regions).some(({afferents_per_cm2}) => afferents_per_cm2 !== undefined))) return void (host.hidden = true);
     const rows = names.map((name) => {
         const area = about.regions[name].area_cm2;
         return [escaped(name), area ? area.toFixed(2) : "–", ...classes.map((one) => {
-            const {units, units_per_cm2} = one.regions[name];
-            return `${units}${units_per_cm2 === undefined ? "" : ` <span class="unit">(${Number(units_per_cm2.toPrecision(3))} /cm²)</span>`}`;
+            const {afferents, afferents_per_cm2} = one.regions[name];
+            return `${afferents}${afferents_per_cm2 === undefined ? "" : ` <span class="unit">(${Number(afferents_per_cm2.toPrecision(3))} /cm²)</span>`}`;
         })];
     });
     host.innerHTML = tableHtml(["region", "area (cm²)", ...skin.classes.map((one) => chipOf(one.color) + escaped(one.name))], rows, (c) => c >= 1);

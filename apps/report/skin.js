@@ -9,13 +9,13 @@ const player = new Player(view, skin.marks.width, at);
 const shown = {mode: "", frames: 1, maxRates: [], region: "all"};
 const totals = skin.marks.totals();
 
-function showHeading({title, program, command, remarks, summary}) {
+function showHeading({title, program, command, notes, summary}) {
     at("title").textContent = title;
     at("program").textContent = program;
     at("command").textContent = command;
-    at("sentence").textContent = [summary.input.sentence, summary.input.contact].filter((text, k, all) => text && all.indexOf(text) === k).join("; ");
-    at("remarks").hidden = !remarks.length;
-    at("remarks").innerHTML = remarks.map((text) => `<li>${escaped(text)}</li>`).join("");
+    at("description").textContent = [summary.input.description, summary.input.contact].filter((text, k, all) => text && all.indexOf(text) === k).join("; ");
+    at("notes").hidden = !notes.length;
+    at("notes").innerHTML = notes.map((text) => `<li>${escaped(text)}</li>`).join("");
 }
 
 /// Selects the mark under the pointer, on a map or in a raster.
@@ -105,7 +105,7 @@ window.corpuscle = {
 showHeading(skin.data);
 at("about-maps").textContent = skin.together > 1 ? `Each mark is a group of ${skin.together} neighbouring afferents; frames of ${quantity(skin.marks.width, "s", true)}.`
                                                  : `Each mark is an afferent; frames of ${quantity(skin.marks.width, "s", true)}.`;
-at("about-skin").textContent = [skin.data.summary.skin.sentence, `${skin.data.summary.skin.units} afferents`, `seed ${skin.data.summary.skin.seed}`].filter(Boolean).join("; ");
+at("about-skin").textContent = [skin.data.summary.skin.description, `${skin.data.summary.skin.afferents} afferents`, `seed ${skin.data.summary.skin.seed}`].filter(Boolean).join("; ");
 showSkinRates(skin, document.querySelector("#rates .scroll"), "all");
 showSources(skin, document.querySelector("#classes .sources"));
 showVersions(skin.data.versions);

@@ -31,7 +31,7 @@ nlohmann::ordered_json force_document(const BinnedFrames<double>& sites, double 
     return {{"count", frames.size()},
             {"width", static_cast<double>(sites.width()) * T},
             {"places", sites.places()},
-            {"greatest", max},
+            {"max", max},
             {"data", array64(bytes.bytes)}};
 }
 

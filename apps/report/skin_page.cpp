@@ -63,11 +63,11 @@ Json classes_document(const Innervation& skin) {
     for (std::size_t c = 0; c < skin.plan.classes.size(); ++c) {
         const auto& k = skin.plan.classes[c];
         out.push_back({{"name", k.name},
-                       {"made_of", k.afferent.composition()},
-                       {"sentence", k.afferent.description},
+                       {"composition", k.afferent.composition()},
+                       {"description", k.afferent.description},
                        {"source", k.afferent.source},
                        {"first", skin.class_begin[c]},
-                       {"units", skin.class_begin[c + 1] - skin.class_begin[c]},
+                       {"afferents", skin.class_begin[c + 1] - skin.class_begin[c]},
                        {"parameters", parameters_document(k.afferent, k.distributions)}});
     }
     return out;
@@ -82,7 +82,7 @@ std::string skin_page(const SkinSummary& summary, const SkinReport& report, cons
     const Json page = {{"title", title},
                        {"program", fmt::format("corpuscle {}", version)},
                        {"command", command},
-                       {"remarks", notes},
+                       {"notes", notes},
                        {"summary", summary.document(run_info)},
                        {"regions", summary.skin().plan.sites.regions},
                        {"sites", sites_document(summary.skin().plan.sites)},

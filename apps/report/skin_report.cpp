@@ -118,10 +118,10 @@ Json SkinReport::document() const {
             {"force", curve_document(0, nullptr, "force", "N", forces_)},
             {"classes", frames_document(classes_, clock_.T())},
             {"marks", frames_document(marks_, clock_.T())},
-            {"units_a_mark", afferents_per_mark_},
+            {"afferents_per_mark", afferents_per_mark_},
             {"sites", force_document(sites_, clock_.T(), samples_)},
-            {"sites_a_mark", sites_per_mark_},
-            {"most_spikes", limits_.timed_spikes},
+            {"sites_per_mark", sites_per_mark_},
+            {"max_spikes", limits_.timed_spikes},
             {"spikes", spikes_document()}};
 }
 

@@ -15,10 +15,10 @@ function element(host, tag, kind = "", html = "") {
 const NUMBERS = ["computed", "published", "deviation", "allowed"];
 
 /// The cells of a claim: its name, four numbers, the verdict, the source and reason. On a narrow screen CSS shows data-column beside each number.
-function claimCells({what, texts, verdict, source, note}) {
+function claimCells({label, texts, verdict, source, note}) {
     const numbers = texts.map((text, k) => `<td class="number" data-column="${NUMBERS[k]}">${escaped(text === "-" ? "\u2013" : text)}</td>`).join("");
     const kind = {holds: "holds", agrees: "holds", differs: "fails", "does not hold": "fails"}[verdict] || "";
-    return `<td class="what">${escaped(what)}</td>${numbers}<td class="verdict ${kind}">${verdict}</td><td class="reason unit">${escaped([source, note].filter(Boolean).join("; "))}</td>`;
+    return `<td class="what">${escaped(label)}</td>${numbers}<td class="verdict ${kind}">${verdict}</td><td class="reason unit">${escaped([source, note].filter(Boolean).join("; "))}</td>`;
 }
 
 function showTable(host, first, rows) {
@@ -72,7 +72,7 @@ const logTicks = (lo, hi) => {
 function showPlot(host, plot) {
     const figure = element(host, "figure");
     element(figure, "figcaption", "", escaped(plot.title));
-    if (plot.printed) element(figure, "p", "printed", `Published: ${escaped(plot.printed)}`);
+    if (plot.published) element(figure, "p", "printed", `Published: ${escaped(plot.published)}`);
     element(figure, "div", "key", plot.series.map(({name}, k) => `<span><span class="chip" style="background: ${colour(k)}"></span>${escaped(name)}</span>`).join(""));
     const raster = plot.series.every(({style}) => style === "raster");
     const series = plot.series.map((one) => ({...one, x: plot.log_x ? one.x.map(Math.log10) : one.x, y: plot.log_y ? one.y.map(Math.log10) : one.y}));

@@ -15,7 +15,7 @@ function startGrid(host) {
     const note = `${openingText()}; a grid of ${table.axes.map(({name}) => name).join(" by ")}, without random parameters`;
     const node = section(host, "measures", "Measures", note);
     if (!table.finished) return;
-    if (table.all.passed < table.all.units) showGridYields(node);
+    if (table.all.passed < table.all.items) showGridYields(node);
     showGridMeasures(node);
     showEffects(host);
     showGridPoints(host);
@@ -23,7 +23,7 @@ function startGrid(host) {
 
 function showGridYields(host) {
     const {all} = table, limited = measures.some((m) => "at_least" in m);
-    const line = (name, limits, {value}) => word(name) + word(limits) + cell(`${Math.round(value * all.units)} of ${all.units}`) + cell(`${percent(value)} %`);
+    const line = (name, limits, {value}) => word(name) + word(limits) + cell(`${Math.round(value * all.items)} of ${all.items}`) + cell(`${percent(value)} %`);
     const rows = [line(limited ? "all limits" : "completed", "", all.yield)];
     all.measures.forEach((one, k) => one.yield && rows.push(line(one.name, limitsText(measures[k]), one.yield)));
     showTable(host, ["", "limits", "passed", ""], rows);
@@ -31,8 +31,8 @@ function showGridYields(host) {
 
 function showGridMeasures(host) {
     const rows = table.all.measures.map((one, k) => {
-        const rows = data.extremes[k], at = (row) => (one.least === one.greatest ? "all points" : row === undefined ? "–" : pointText(row));
-        return `<th scope="row">${escaped(one.name)}</th>` + cell(one.units) + cell(measureText(k, one.least)) + word(at(rows[0])) + cell(measureText(k, one.greatest)) +
+        const rows = data.extremes[k], at = (row) => (one.min === one.max ? "all points" : row === undefined ? "–" : pointText(row));
+        return `<th scope="row">${escaped(one.name)}</th>` + cell(one.items) + cell(measureText(k, one.min)) + word(at(rows[0])) + cell(measureText(k, one.max)) +
             word(at(rows[Math.ceil(rows.length / 2)] ?? rows[0])) + cell(measureText(k, one.mean.value));
     });
     showTable(host, ["", "items", "min", "at", "max", "at", "mean"], rows);
@@ -44,14 +44,14 @@ function showEffects(host) {
     data.grids.forEach(({effects}, m) => {
         const first = `<th scope="row">${escaped(measures[m].name)}</th>`;
         if (!effects.length) rows.push(`${first}<td colspan="5">constant</td>`);
-        effects.forEach(({axis, share: fraction, values, means}, k) => {
+        effects.forEach(({axis, fraction, values, means}, k) => {
             const end = (n) => cell(`${escaped(levelText(axis, values.at(n)))} <span class="range">${measureText(m, means.at(n))}</span>`);
             rows.push((k ? word("") : first) + word(axisName(axis)) + cell(`${percent(fraction)} %`) + cell(fractionBar(fraction), "") + end(0) + end(-1));
         });
         const rest = 1 - effects.reduce((sum, {share}) => sum + share, 0);
         if (effects.length > 1 && rest >= 0.0005) rows.push(word("") + word("interactions") + cell(`${percent(rest)} %`) + cell(fractionBar(rest), "") + cell("") + cell(""));
     });
-    if (rows.length) showTable(section(host, "matters", "Effect of each axis", "percent of the variance over the grid that is explained by the means at the axis values; means at the first and last value"),
+    if (rows.length) showTable(section(host, "influences", "Effect of each axis", "percent of the variance over the grid that is explained by the means at the axis values; means at the first and last value"),
                                ["", "axis", "variance", "", "from", "to"], rows);
 }
 
@@ -60,7 +60,7 @@ const fractionBar = (fraction) => `<span class="bar"><span class="full" style="w
 function showGridPoints(host) {
     if (table.points.length < 2 || table.points.length > 400) return;
     const rows = table.points.map(({point, measures: found}) => word(point) + found.map(({mean}, k) => cell(mean.value === null ? "–" : measureText(k, mean.value))).join(""));
-    showTable(section(host, "points", "By grid point", table.points.some(({units}) => units > 1) ? "means" : ""), ["", ...measures.map(({name}) => escaped(name))], rows);
+    showTable(section(host, "points", "By grid point", table.points.some(({items}) => items > 1) ? "means" : ""), ["", ...measures.map(({name}) => escaped(name))], rows);
 }
 
 /// At most `max` evenly spaced indices below `count`, including the first and the last.

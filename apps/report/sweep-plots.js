@@ -84,19 +84,19 @@ function showScatter(host, measure, factor) {
     const {name, unit} = measures[measure], xs = factor.values || varied(factor.axis, data.points), ys = measured(measure, data.points);
     const rows = columnsOf(xs, ys, groupsOf(data.points), grouping().groups.length);
     if (!rows.length) return;
-    const part = factor.part ? `, ${factor.part.replace(/_(.)/, "<sub>$1</sub>")}` : "";
+    const part = factor.quantity ? `, ${factor.quantity.replace(/_(.)/, "<sub>$1</sub>")}` : "";
     const thinned = data.points.length < table.finished ? `; ${data.points.length} of ${table.finished} items` : "";
-    plot(figure(host, `${escaped(name)} over ${escaped(factor.name)}${part} <span class="unit">${percent(factor.share)} % of its variance${thinned}</span>`), rows, [factor.name, ...groupLabels()],
+    plot(figure(host, `${escaped(name)} over ${escaped(factor.name)}${part} <span class="unit">${percent(factor.fraction)} % of its variance${thinned}</span>`), rows, [factor.name, ...groupLabels()],
          {x: escaped(factor.name) + part, y: escaped(name), xUnit: factor.unit, yUnit: unit, series: pointSeries(1.5), drawBackground: (context, area, chart) => limitLines(context, area, chart, measure, false)});
 }
 
 function showEnvelope(host, trace) {
-    const {name, times, units, medians, every} = trace, groups = medians[state.grouping], several = groups.length > 1;
-    const note = `${units < table.finished ? `${units} of ${table.finished} items: ` : ""}median, 5 to 95 %, min to max${every ? "; not every sample is shown" : ""}`;
+    const {name, times, items, medians, every} = trace, groups = medians[state.grouping], several = groups.length > 1;
+    const note = `${items < table.finished ? `${items} of ${table.finished} items: ` : ""}median, 5 to 95 %, min to max${every ? "; not every sample is shown" : ""}`;
     const box = figure(host, `${escaped(name)} <span class="unit">${note}</span>`);
     const labels = several ? groupLabels() : ["median"], columns = several ? groups : [trace.median];
     const rows = times.map((t, k) => [t, ...columns.map((column) => column[k])]);
-    const known = [...trace.least, ...trace.greatest].filter((v) => v !== null), low = Math.min(...known), high = Math.max(...known), margin = 0.05 * (high - low || 1);
+    const known = [...trace.min, ...trace.max].filter((v) => v !== null), low = Math.min(...known), high = Math.max(...known), margin = 0.05 * (high - low || 1);
     const band = (context, chart, from, to, alpha) => {
         context.beginPath();
         times.forEach((t, k) => context.lineTo(...chart.toDomCoords(t, to[k])));
@@ -105,7 +105,7 @@ function showEnvelope(host, trace) {
     };
     plot(box, rows, ["time", ...labels], {x: "time", y: escaped(name), xUnit: "s", range: [low - margin, high + margin],
          series: Object.fromEntries(labels.map((label, k) => [label, {color: several ? groupColour(k) : colour(0), strokeWidth: 1.6}])),
-         drawBackground: (context, area, chart) => { band(context, chart, trace.least, trace.greatest, 0.14); band(context, chart, trace.low, trace.high, 0.28); }});
+         drawBackground: (context, area, chart) => { band(context, chart, trace.min, trace.max, 0.14); band(context, chart, trace.low, trace.high, 0.28); }});
 }
 
 /// Shows the legend of the groups.

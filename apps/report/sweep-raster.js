@@ -24,7 +24,7 @@ function showRaster(host, train) {
     new ResizeObserver(paint).observe(node);
     canvas.addEventListener("mousemove", (event) => {
         const lane = lanes[Math.floor((event.offsetY - RASTER.top) / tall * lanes.length)];
-        readout.textContent = lane ? ` item ${data.rows.unit[rowNumber.get(lane.row)]}, ${measures[state.measure]?.name ?? ""} ${quantity(lane.value, measures[state.measure]?.unit ?? "", true)}, ${lane.spikes.length} spikes` : "";
+        readout.textContent = lane ? ` item ${data.rows.item[rowNumber.get(lane.row)]}, ${measures[state.measure]?.name ?? ""} ${quantity(lane.value, measures[state.measure]?.unit ?? "", true)}, ${lane.spikes.length} spikes` : "";
     });
 }
 

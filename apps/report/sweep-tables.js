@@ -29,9 +29,9 @@ function showTable(host, head, rows) {
 }
 
 function openingText() {
-    const {units, finished, all} = table, parts = [finished === units ? `${units} items, all finished` : `${finished} of ${units} items are finished`];
-    if (all.capped) parts.push(`${all.capped} truncated (too costly)`);
-    if (all.lost) parts.push(`${all.lost} diverged`);
+    const {items, finished, all} = table, parts = [finished === items ? `${items} items, all finished` : `${finished} of ${items} items are finished`];
+    if (all.truncated) parts.push(`${all.truncated} truncated (too costly)`);
+    if (all.diverged) parts.push(`${all.diverged} diverged`);
     return parts.join("; ");
 }
 
@@ -53,46 +53,46 @@ function yieldRow(name, limits, estimate, items) {
 function showYields(host) {
     const {all, axes} = table, limited = measures.some((m) => "at_least" in m);
     if (!table.finished) return;
-    const rows = [yieldRow(limited ? "all limits" : "completed", "", all.yield, all.units)];
-    all.measures.forEach((one, k) => one.yield && rows.push(yieldRow(one.name, limitsText(measures[k]), one.yield, all.units)));
+    const rows = [yieldRow(limited ? "all limits" : "completed", "", all.yield, all.items)];
+    all.measures.forEach((one, k) => one.yield && rows.push(yieldRow(one.name, limitsText(measures[k]), one.yield, all.items)));
     showTable(host, ["", "limits", "passed", "yield, 95 % CI", ""], rows);
-    if (axes.length) element(host, "p", "note", `Varied: ${axes.map(({name, sentence}) => `<b>${escaped(name)}</b>${sentence ? ` (${escaped(sentence)})` : ""}`).join(", ")}.`);
+    if (axes.length) element(host, "p", "note", `Varied: ${axes.map(({name, description}) => `<b>${escaped(name)}</b>${description ? ` (${escaped(description)})` : ""}`).join(", ")}.`);
 }
 
 function showMeasures(host) {
     const quantileHeads = table.quantiles.map((q) => (q === 0.5 ? "median" : `${100 * q} %`));
     const rows = table.all.measures.map((one, k) => {
         const {unit} = measures[k], text = (value) => quantity(value, unit, true), withRange = (estimate) => cell(text(estimate.value) + range(estimate, text));
-        const {correlation, of_normal_samples_at_least: floor} = one.normal_plot;
+        const {correlation, min_of_normal_samples: floor} = one.normal_plot;
         const normal = correlation === null ? "–" : `${correlation.toFixed(4)}, ${correlation >= floor ? "normal" : "not normal"}`;
-        return `<th scope="row">${escaped(one.name)}</th>` + cell(one.units) + withRange(one.mean) + withRange(one.sigma) + cell(text(one.least)) +
-            one.quantiles.map((q) => `<td class="number" title="${text(q.low)} … ${text(q.high)}">${text(q.value)}</td>`).join("") + cell(text(one.greatest)) + cell(normal, "");
+        return `<th scope="row">${escaped(one.name)}</th>` + cell(one.items) + withRange(one.mean) + withRange(one.sigma) + cell(text(one.min)) +
+            one.quantiles.map((q) => `<td class="number" title="${text(q.low)} … ${text(q.high)}">${text(q.value)}</td>`).join("") + cell(text(one.max)) + cell(normal, "");
     });
     showTable(host, ["", "items", "mean", "sigma", "min", ...quantileHeads, "max", "normality (r)"], rows);
 }
 
 function showPoints(host) {
     if (table.points.length < 2) return;
-    const rows = table.points.map((point) => word(point.point) + cell(point.units) + cell(`${percent(point.yield.value)} %${range(point.yield, percent)}`) +
+    const rows = table.points.map((point) => word(point.point) + cell(point.items) + cell(`${percent(point.yield.value)} %${range(point.yield, percent)}`) +
         point.measures.map(({mean, sigma}, k) => cell(mean.value === null ? "–" : `${quantity(mean.value, measures[k].unit, true)} ± ${quantity(sigma.value, measures[k].unit, true)}`)).join(""));
     showTable(section(host, "points", "By grid point", "mean ± sigma"), ["", "items", "yield, 95 % CI", ...measures.map(({name}) => escaped(name))], rows);
 }
 
 function showDependences(host) {
     const rows = [];
-    for (const {measure, between_points: points, influences, devices, explained} of table.depends_on) {
+    for (const {measure, between_points: points, influences, devices, explained_fraction: explained} of table.depends_on) {
         const first = () => (rows.some((row) => row.includes(`data-measure="${escaped(measure)}"`)) ? word("") : `<th scope="row" data-measure="${escaped(measure)}">${escaped(measure)}</th>`);
         const add = (name, kind, fraction, rest) => rows.push(first() + word(name) + cell(kind, "unit") + cell(fraction) + rest);
         const blank = cell("") + cell("") + cell("");
-        for (const {axis, share} of points) add(axis, "grid axis, of the total variance", `${percent(share)} %`, blank);
-        for (const {axis, share} of influences) if (axis && share.value >= 0.0005) add(axis, "random", `${percent(share.value)} %${range(share, percent)}`, blank);
+        for (const {axis, fraction} of points) add(axis, "grid axis, of the total variance", `${percent(fraction)} %`, blank);
+        for (const {axis, fraction} of influences) if (axis && fraction.value >= 0.0005) add(axis, "random", `${percent(fraction.value)} %${range(fraction, percent)}`, blank);
         for (const one of devices.slice(0, 8))
-            add(one.device, escaped(data.sizes[one.device] || ""), `${percent(one.share)} %`, cell(percent(one.share_V_T)) + cell(percent(one.share_I_S)) +
-                cell(measure === "yield" ? "" : `${(100 * (one.sigma_with_four_times_the_area - 1)).toFixed(1).replace("-", "−")} %`));
+            add(one.device, escaped(data.sizes[one.device] || ""), `${percent(one.fraction)} %`, cell(percent(one.fraction_V_T)) + cell(percent(one.fraction_I_S)) +
+                cell(measure === "yield" ? "" : `${(100 * (one.relative_sigma_at_4x_area - 1)).toFixed(1).replace("-", "−")} %`));
         if (influences.length) rows.push(`${word("")}<td class="unit" colspan="6">a linear model explains ${percent(explained)} % of the random variance</td>`);
     }
     if (!rows.length) return;
-    const host_ = section(host, "matters", "Influences", "percent of variance: for grid axes of the total, for random parameters of the variance within a grid point; only significant effects are listed");
+    const host_ = section(host, "influences", "Influences", "percent of variance: for grid axes of the total, for random parameters of the variance within a grid point; only significant effects are listed");
     showTable(host_, ["", "", "", "variance, 95 % CI", "by V<sub>T</sub> (%)", "by I<sub>S</sub> (%)", "sigma at 4× area"], rows);
 }
 
@@ -100,13 +100,13 @@ function showDependences(host) {
 function showItems(host, rows, withReason) {
     const head = ["item", ...table.axes.map(({name, unit}) => headed(name, unit)), ...measures.map(({name}) => escaped(name)), ...(withReason ? ["reason"] : [])];
     const lines = rows.map((row) => {
-        const k = rowNumber.get(row), item = data.rows.unit[k];
+        const k = rowNumber.get(row), item = data.rows.item[k];
         const axes = table.axes.map(({words}, a) => { const value = data.rows.axes[a][k]; return cell(words ? escaped(words[value] ?? "–") : cellText(value)); });
         const values = measures.map((m, i) => {
             const value = data.rows.measures[i][k], off = "at_least" in m && !((m.at_least === null || value >= m.at_least) && (m.at_most === null || value <= m.at_most) && value !== null);
             return cell(quantity(value, m.unit, true), off ? "number fails" : "number");
         });
-        const reason = data.rows.end[k] ? data.why[item] || ["", "too costly", "did not converge"][data.rows.end[k]] : "limits";
+        const reason = data.rows.end[k] ? data.reasons[item] || ["", "too costly", "did not converge"][data.rows.end[k]] : "limits";
         return cell(item) + axes.join("") + values.join("") + (withReason ? word(reason) : "");
     });
     showTable(host, head, lines);
@@ -114,7 +114,7 @@ function showItems(host, rows, withReason) {
 
 function showFailed(host) {
     if (!data.failed.length) return;
-    const failed = table.all.units - table.all.passed;
+    const failed = table.all.items - table.all.passed;
     const note = data.failed.length < failed ? `the first ${data.failed.length} of ${failed}` : `${failed}`;
     showItems(section(host, "failed", "Failed items", note), data.failed, true);
 }
@@ -123,5 +123,5 @@ function showExtremes(host, measure) {
     if (!measures.length) return;
     element(host, "h2", "", `Items with the smallest and largest ${escaped(measures[measure].name)}`);
     showItems(host, data.extremes[measure], false);
-    if (data.alone) element(host, "p", "note", escaped(data.alone));
+    if (data.single_chip_hint) element(host, "p", "note", escaped(data.single_chip_hint));
 }

@@ -31,14 +31,14 @@ public:
     Json document(const std::vector<Grouping>& groupings) {
         std::size_t count = 0;
         for (auto& [row, n] : number_) n = count++;
-        Json out = {{"row", Json::array()}, {"unit", Json::array()}, {"end", Json::array()}, {"passes", Json::array()}};
+        Json out = {{"row", Json::array()}, {"item", Json::array()}, {"end", Json::array()}, {"passes", Json::array()}};
         const auto column = [&](const std::vector<double>& all) {
             std::vector<double> selected;
             for (const auto& [row, n] : number_) selected.push_back(all[row]);
             return rounded_numbers(selected);
         };
         for (const auto& [row, n] : number_) {
-            out["row"].push_back(row), out["unit"].push_back(table_.items[row]), out["end"].push_back(static_cast<int>(table_.ends[row]));
+            out["row"].push_back(row), out["item"].push_back(table_.items[row]), out["end"].push_back(static_cast<int>(table_.ends[row]));
             out["passes"].push_back(table_.passes(row) ? 1 : 0);
         }
         out["axes"] = Json::array(), out["measures"] = Json::array(), out["groups"] = Json::array();
@@ -70,7 +70,7 @@ std::vector<std::size_t> extremes_of(const std::vector<double>& values) {
 
 /// A factor for a scatter plot: the index of an axis, or the mismatch deviates of a device for the plotted rows.
 Json factor_document(const SweepTable& table, const SweepSummary& s, const NamedInfluence& i, const std::vector<std::size_t>& rows) {
-    Json out = {{"name", i.name}, {"part", i.quantity}, {"share", i.influence.fraction.value}};
+    Json out = {{"name", i.name}, {"quantity", i.quantity}, {"fraction", i.influence.fraction.value}};
     if (i.device < 0) {
         out["axis"] = i.axis, out["unit"] = table.axes[static_cast<std::size_t>(i.axis)].unit;
         return out;
@@ -92,8 +92,8 @@ Json factors_document(const SweepTable& table, const SweepSummary& s, const std:
         out.push_back(Json::array());
         for (const auto& [axis, between] : d.points)
             out.back().push_back({{"name", table.axes[axis].name},
-                                  {"part", ""},
-                                  {"share", between.fraction},
+                                  {"quantity", ""},
+                                  {"fraction", between.fraction},
                                   {"axis", axis},
                                   {"unit", table.axes[axis].unit}});
         for (const auto& i : d.influences)
@@ -118,7 +118,7 @@ Json grids_document(const SweepTable& table) {
         Json one = {{"effects", Json::array()}, {"pairs", Json::array()}};
         for (const auto& e : effects)
             one["effects"].push_back({{"axis", e.axis},
-                                      {"share", e.fraction},
+                                      {"fraction", e.fraction},
                                       {"values", rounded_numbers(table.points[e.axis])},
                                       {"means", rounded_numbers(e.means)}});
         for (std::size_t a = 0; a < std::min(effects.size(), max_axes); ++a)
@@ -148,9 +148,9 @@ Json sizes_document(const SweepSummary& s) {
     Json out = Json::object();
     if (!s.mismatch) return out;
     for (const auto& d : s.dependences)
-        for (const auto& share : d.devices) {
+        for (const auto& contribution : d.devices) {
             const auto& device =
-                s.mismatch->subjects[static_cast<std::size_t>(share.subject)].devices[static_cast<std::size_t>(share.device)];
+                s.mismatch->subjects[static_cast<std::size_t>(contribution.subject)].devices[static_cast<std::size_t>(contribution.device)];
             out[device.name] = fmt::format("{:g}x{:g} of {:.4g} x {:.4g} um", device.m, device.stack, 1e6 * device.W, 1e6 * device.L);
         }
     return out;
@@ -172,7 +172,7 @@ Result<std::string> sweep_page(const SweepResults& results, const SweepTable& ta
         page["groupings"].push_back({{"name", g.name}, {"groups", labels}});
     }
     if (const auto samples = parse_mismatch_samples(results.about(mismatch_metadata_name)))
-        page["alone"] = fmt::format(
+        page["single_chip_hint"] = fmt::format(
             "To simulate one chip: corpuscle respond or run with the settings of the sweep and --mismatch {}/CHIP; CHIP is the number of "
             "the item{}.",
             samples->seed, samples->chips > 0 ? fmt::format(" modulo {}", samples->chips) : "");
@@ -204,8 +204,8 @@ Result<std::string> sweep_page(const SweepResults& results, const SweepTable& ta
     }
     const auto diverged = failed_items(results, max_failed);
     if (!diverged) return diverged.error();
-    page["why"] = Json::object();
-    for (const auto& l : *diverged) page["why"][fmt::format("{}", l.item)] = l.reason;
+    page["reasons"] = Json::object();
+    for (const auto& l : *diverged) page["reasons"][fmt::format("{}", l.item)] = l.reason;
     for (const auto* rows : {&points, &chips, &failed}) shown.add(*rows);
     page["points"] = points, page["failed"] = failed;
     page["factors"] = factors_document(table, summary, points);

@@ -167,12 +167,12 @@ Result<PlotJson> envelopes(const SweepResults& results, std::size_t trace, const
     return PlotJson{{"name", results.probe_names()[trace]},
                     {"times", rounded_numbers(times)},
                     {"every", results.probe_times().size() > max_times},
-                    {"units", rows.size()},
-                    {"least", rounded_numbers(overall.min)},
+                    {"items", rows.size()},
+                    {"min", rounded_numbers(overall.min)},
                     {"low", rounded_numbers(overall.low)},
                     {"median", rounded_numbers(overall.median)},
                     {"high", rounded_numbers(overall.high)},
-                    {"greatest", rounded_numbers(overall.max)},
+                    {"max", rounded_numbers(overall.max)},
                     {"medians", medians}};
 }
 

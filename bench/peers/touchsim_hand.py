@@ -66,7 +66,7 @@ def touchsim(folder, given):
     sunk = np.maximum(0, depth - ((pins[:, None] - path) ** 2).sum(-1) / (2 * R))
     pins, sunk = pins[sunk.any(1)], sunk[sunk.any(1)]
     random.seed(0)  # TouchSim chooses each afferent at random from its few fitted ones
-    units = [(u["afferent"].split("#")[0], float(u["x_mm"]), float(u["y_mm"])) for u in csv.DictReader((folder / "units.csv").open())]
+    units = [(u["afferent"].split("#")[0], float(u["x_mm"]), float(u["y_mm"])) for u in csv.DictReader((folder / "afferents.csv").open())]
     skin = ts.AfferentPopulation(*[ts.Afferent(CLASSES[c], location=[x, y], noisy=given.noise) for c, x, y in units if c in CLASSES])
 
     def respond(skin, samples):
@@ -124,7 +124,7 @@ def main():
             cpu, real, peak, _ = ran([given.corpuscle, *stroke])
             summary = json.loads((folder / "summary.json").read_text())
             work, s = summary["work"], summary["input"]["samples"] / summary["input"]["rate_Hz"]
-            ours.append({"cpu": cpu / s, "real": real / s, "peak": peak, "units": summary["skin"]["units"], "spikes": work["spikes"] / s,
+            ours.append({"cpu": cpu / s, "real": real / s, "peak": peak, "units": summary["skin"]["afferents"], "spikes": work["spikes"] / s,
                          "steps": (work["afferent_steps"] + work["at_rest"]) / s, "worked": work["afferent_steps"] / s})
             for part, runs in theirs.items() if there else ():
                 same = [word for name in ("seconds", "rate", "pitch") for word in ("--" + name, getattr(given, name))]

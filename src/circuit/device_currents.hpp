@@ -1,5 +1,5 @@
 #pragma once
-// Currents of devices as additional curves of a plot, for .save and --trace: i(x1.m1).
+// Currents of devices as additional curves of a plot, for .save and --probe: i(x1.m1).
 
 #include "circuit/saved_quantities.hpp"
 

@@ -6,21 +6,21 @@ namespace corpuscle::circuit {
 namespace {
 
 Result<OperatingRange> parse_range(const System& system, const Directive& c) {
-    constexpr std::string_view syntax = ".within v(NODE) LOW HIGH [\"MESSAGE\"]";
+    constexpr std::string_view syntax = ".assert v(NODE) LOW HIGH [\"MESSAGE\"]";
     const auto of = read_output_variable(system, c, 0);
     if (!of) return of.error();
     const auto low = read_number(c, 1, "the lowest value"), high = read_number(c, 2, "the highest value");
     if (!low) return low.error();
     if (!high) return high.error();
-    if (!(*low < *high)) return error_at(c, 1, fmt::format(".within: {:g} to {:g}: the first must be below the second", *low, *high));
+    if (!(*low < *high)) return error_at(c, 1, fmt::format(".assert: {:g} to {:g}: the first must be below the second", *low, *high));
     OperatingRange out{{c.words[0], *of}, *low, *high, "", c.location};
     if (c.words.size() > 3) {
         const std::string_view word = c.words[3];
         if (word.size() < 3 || word.front() != '"' || word.back() != '"')
-            return error_at(c, 3, fmt::format(".within: '{}' must be a message in double quotes: {}", word, syntax));
+            return error_at(c, 3, fmt::format(".assert: '{}' must be a message in double quotes: {}", word, syntax));
         out.message = word.substr(1, word.size() - 2);
     }
-    if (c.words.size() > 4) return error_at(c, 4, fmt::format(".within: unexpected '{}'; expected {}", c.words[4], syntax));
+    if (c.words.size() > 4) return error_at(c, 4, fmt::format(".assert: unexpected '{}'; expected {}", c.words[4], syntax));
     return out;
 }
 
@@ -29,7 +29,7 @@ Result<OperatingRange> parse_range(const System& system, const Directive& c) {
 Result<std::vector<OperatingRange>> read_operating_ranges(const System& system) {
     std::vector<OperatingRange> out;
     for (const auto& c : system.circuit().directives) {
-        if (c.name != "within") continue;
+        if (c.name != "assert") continue;
         auto one = parse_range(system, c);
         if (!one) return one.error();
         out.push_back(std::move(*one));

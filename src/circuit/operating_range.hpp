@@ -1,12 +1,12 @@
 #pragma once
-// .within: the operating range of a circuit.
+// .assert: the operating range of a circuit.
 
 #include "circuit/saved_quantities.hpp"
 #include "signal/afferent.hpp"
 
 namespace corpuscle::circuit {
 
-/// .within v(NODE[,NODE]) LOW HIGH ["MESSAGE"]: the range of a voltage, or of a current i(V), in which the circuit works as designed.
+/// .assert v(NODE[,NODE]) LOW HIGH ["MESSAGE"]: the range of a voltage, or of a current i(V), in which the circuit works as designed.
 /// Violations are reported; the simulation continues.
 struct OperatingRange {
     SavedQuantity quantity;

@@ -29,7 +29,7 @@ Result<ProbeText> parse_probe(std::string_view word) {
         out = {lower(text[0]) == 'i', trimmed(inside.substr(0, comma)), comma == inside.npos ? "" : trimmed(inside.substr(comma + 1))};
     }
     if (out.first.empty() || (out.is_current && !out.second.empty()) || out.first.find_first_of("() \t") != std::string_view::npos)
-        return bad_usage(fmt::format("--trace '{}': write a node, v(NODE), v(NODE,NODE), i(SOURCE) or i(DEVICE)", word));
+        return bad_usage(fmt::format("--probe '{}': write a node, v(NODE), v(NODE,NODE), i(SOURCE) or i(DEVICE)", word));
     return out;
 }
 
@@ -37,7 +37,7 @@ Error ambiguous_probe(std::string_view word, const Circuit& c, std::span<const s
                       const std::vector<std::size_t>& found) {
     std::vector<std::string_view> some;
     for (const auto k : found) some.push_back(names[k]);
-    return bad_input(fmt::format("--trace {}: ambiguous in {} ({}); write more of its path", word, c.file, abbreviated_list(some)));
+    return bad_input(fmt::format("--probe {}: ambiguous in {} ({}); write more of its path", word, c.file, abbreviated_list(some)));
 }
 
 std::vector<std::string_view> nodes_of(const Circuit& c) { return {c.nodes.begin() + 1, c.nodes.end()}; }
@@ -63,7 +63,7 @@ Result<std::optional<std::string>> resolve_current(const Circuit& c, std::string
     const auto& e = c.elements[found[0]];
     if (!has_branch_current(e) && !has_device_current(e))
         return bad_input(
-            fmt::format("--trace {}: the current of {} cannot be recorded; only M, D, R and voltage sources have one", word, e.name));
+            fmt::format("--probe {}: the current of {} cannot be recorded; only M, D, R and voltage sources have one", word, e.name));
     return std::optional(fmt::format("i({})", e.name));
 }
 

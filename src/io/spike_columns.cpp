@@ -42,7 +42,7 @@ std::optional<std::size_t> requested_column(const std::vector<std::string>& head
 Result<ResolvedSpikeColumns> find_spike_columns(const std::vector<std::string>& headings, const SpikeColumns& wanted, std::size_t& column) {
     std::optional<std::size_t> time, unit;
     ResolvedSpikeColumns out;
-    for (const auto& [option, requested, to] : {std::tuple{"--time", &wanted.time, &time}, {"--unit", &wanted.train, &unit}}) {
+    for (const auto& [option, requested, to] : {std::tuple{"--time", &wanted.time, &time}, {"--train", &wanted.train, &unit}}) {
         if (!*requested) continue;
         *to = requested_column(headings, **requested);
         if (!*to)

@@ -12,12 +12,15 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json document_of(const circuit::Area& a) {
-    return {
-        {"gates_m2", a.gates}, {"arrays_m2", a.arrays}, {"apart_m2", a.islands}, {"capacitors_m2", a.capacitors}, {"total_m2", a.total()}};
+    return {{"gates_m2", a.gates},
+            {"arrays_m2", a.arrays},
+            {"islands_m2", a.islands},
+            {"capacitors_m2", a.capacitors},
+            {"total_m2", a.total()}};
 }
 
 Json document_of(const circuit::Cost& cost, const circuit::PowerBreakdown& p) {
-    Json out = {{"delivered_W", p.supplies}, {"sensor_W", p.sensor}, {"own_W", p.without_sensor}};
+    Json out = {{"delivered_W", p.supplies}, {"sensor_W", p.sensor}, {"without_sensor_W", p.without_sensor}};
     if (p.blocks.empty()) return out;  // means over a run have no blocks
     Json sources = Json::object(), blocks = Json::object();
     for (std::size_t k = 0; k < p.sources.size(); ++k) sources[cost.sources[k]] = p.sources[k];
@@ -50,12 +53,13 @@ Json document_of(const circuit::Cost& cost) {
     Json power = Json::object(), blocks = Json::array(), leaks = Json::array();
     for (const auto& [when, p] : cost.power) power[when] = document_of(cost, p);
     for (const auto& b : cost.blocks) {
-        blocks.push_back({{"block", b.name}, {"arrays", b.transistors}, {"units", b.unit_transistors}, {"area", document_of(b.area)}});
+        blocks.push_back(
+            {{"block", b.name}, {"arrays", b.transistors}, {"unit_transistors", b.unit_transistors}, {"area", document_of(b.area)}});
         if (!b.worst_name.empty()) blocks.back()["worst_leak"] = {{"transistor", b.worst_name}, {"current_A", b.worst_leak.current}};
     }
     for (std::size_t k = 0; k < cost.leaks.size(); ++k) {
         leaks.push_back({{"transistor", cost.leaking_names[k]}, {"current_A", cost.leaks[k].current}});
-        if (!cost.leaks[k].capacitor_node.empty()) leaks.back()["onto"] = cost.leaks[k].capacitor_node;
+        if (!cost.leaks[k].capacitor_node.empty()) leaks.back()["capacitor_node"] = cost.leaks[k].capacitor_node;
     }
     Json out = {{"supply_V", cost.supply}, {"power", power}, {"area", document_of(cost.area())}, {"blocks", blocks}};
     out["unsized_elements"] = cost.unknown_areas;
@@ -63,7 +67,7 @@ Json document_of(const circuit::Cost& cost) {
     if (cost.is_afferent) {
         Json per_mW = Json::object();
         for (const auto& [when, p] : cost.power)
-            per_mW[when] = {{"own", p.without_sensor > 0 ? Json(1e-3 / p.without_sensor) : Json()},
+            per_mW[when] = {{"without_sensor", p.without_sensor > 0 ? Json(1e-3 / p.without_sensor) : Json()},
                             {"delivered", p.supplies > 0 ? Json(1e-3 / p.supplies) : Json()}};
         out["receptors"] = {{"per_mm2", cost.area().total() > 0 ? Json(cost.per_mm2()) : Json()}, {"per_mW", per_mW}};
     }
@@ -81,7 +85,7 @@ Json cost_documents_of(std::span<const AfferentPlan> afferents, const RunStats& 
             const double supplies = spent.supplies / spent.seconds, sensor = spent.sensor / spent.seconds;
             cost->power.emplace_back("mean", circuit::PowerBreakdown{supplies, sensor, supplies - sensor, {}, {}});
         }
-        out.push_back({{"afferent", afferents[a].name}, {"rest_N", force}});
+        out.push_back({{"afferent", afferents[a].name}, {"rest_force_N", force}});
         out.back().update(document_of(*cost));
     }
     return out;

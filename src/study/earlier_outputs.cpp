@@ -37,15 +37,15 @@ bool is_own_page(std::string_view beginning) {
 
 bool is_output_name(std::string_view name) {
     if (name.find('/') != name.npos || name.find('\0') != name.npos) return false;
-    const std::string_view fixed_names[] = {"spikes.csv", "spikes.jsonl", "spikes.aer", "spikes.aedat", "spikes.npz",
-                                            "copies.csv", "units.csv",    "psth.csv",   "summary.json"};
+    const std::string_view fixed_names[] = {"spikes.csv", "spikes.jsonl",  "spikes.aer", "spikes.aedat", "spikes.npz",
+                                            "copies.csv", "afferents.csv", "psth.csv",   "summary.json", "units.csv"};
     if (std::find(std::begin(fixed_names), std::end(fixed_names), name) != std::end(fixed_names)) return true;
     const auto between = [&](std::string_view before, std::string_view after) {
         return name.size() >= before.size() + after.size() && name.starts_with(before) && name.ends_with(after)
                    ? std::optional(name.substr(before.size(), name.size() - before.size() - after.size()))
                    : std::nullopt;
     };
-    for (const auto& [before, after] : {std::pair{"traces", ".csv"}, std::pair{"spikes", ".wav"}})
+    for (const auto& [before, after] : {std::pair{"probes", ".csv"}, std::pair{"traces", ".csv"}, std::pair{"spikes", ".wav"}})
         if (const auto number = between(before, after); number && is_file_number(*number)) return true;
     for (const auto* const before : {"vectors-", "rom-"})
         if (const auto afferent = between(before, ".csv"); afferent && !afferent->empty()) return true;

@@ -8,7 +8,7 @@
 
 namespace corpuscle {
 
-/// True for a name that 'respond' writes into a directory: "spikes.csv", "traces-2.csv", "vectors-sa1.csv", any page ("*.html").
+/// True for a name that 'respond' writes into a directory: "spikes.csv", "probes-2.csv", "vectors-sa1.csv", any page ("*.html").
 bool is_output_name(std::string_view name);
 
 /// "summary.json", if it is one of ours, and the files that it lists, if they are regular files in that directory. Pages only if this

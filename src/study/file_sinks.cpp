@@ -33,7 +33,7 @@ Result<void> SpikesFile::block(const Input& input, const RunBlock& block) {
 }
 
 Result<void> ProbesFile::begin(const Input& input) {
-    auto file = OutputFile::create(numbered_path(directory_, "traces", ".csv", input.index));
+    auto file = OutputFile::create(numbered_path(directory_, "probes", ".csv", input.index));
     if (!file) return file.error();
     std::string header = "time_s";
     for (std::size_t c = 0; c < input.source.channels().size(); ++c) header += "," + quote_csv_field(input.channel_name(c) + "_N");

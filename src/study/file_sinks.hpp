@@ -18,7 +18,7 @@ public:
 /// "sa1,press" of each afferent of an input, as fields of a CSV file.
 std::vector<std::string> afferent_csv_names(const Input&);
 
-/// DIR/traces.csv for the first input, DIR/traces-2.csv for the second.
+/// DIR/probes.csv for the first input, DIR/probes-2.csv for the second.
 std::string numbered_path(const std::string& directory, std::string_view name, std::string_view extension, std::size_t index);
 
 /// spikes.csv: afferent,channel,time_s; in order of time, input after input. Times to the nanosecond.
@@ -35,8 +35,8 @@ public:
     Result<void> commit() override { return file_.commit(); }
 };
 
-/// traces.csv: time_s, the force of each channel, the probes of each afferent on it; one row for each sample. A second input gives
-/// traces-2.csv ...
+/// probes.csv: time_s, the force of each channel, the probes of each afferent on it; one row for each sample. A second input gives
+/// probes-2.csv ...
 class ProbesFile final : public FileSink {
     std::string directory_;
     std::vector<OutputFile> files_;

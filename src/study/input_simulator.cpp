@@ -71,7 +71,7 @@ Result<void> InputSimulator::place_afferents(const RespondOptions& options, Inst
     if (in_float && set == InstructionSet::scalar) return bad_usage("float needs SIMD lanes: CORPUSCLE_ISA=scalar has none");
     auto kinds = kinds_of(plans, run);
     if (in_float && (wants_probes_ || !kinds.scalar.empty()))
-        return bad_usage(wants_probes_ ? "in float no probes are recorded: leave out --traces"
+        return bad_usage(wants_probes_ ? "in float no probes are recorded: leave out --probe-files"
                                        : fmt::format("{}: {} cannot run in float", plans[kinds.scalar[0]].name,
                                                      plans[kinds.scalar[0]].factory ? "netlists" : "sensors, converters and noise"));
     std::vector<bool> is_scalar(plans.size());

@@ -36,7 +36,7 @@ Json quality_document(const RunSummary::InputSummary& input) {
                 json_number(findings[k].value));
         add(channels, input.channels[channel], std::move(one));
     }
-    return {{"warnings", input.quality.warnings}, {"sentences", input.quality.descriptions}, {"channels", channels}};
+    return {{"warnings", input.quality.warnings}, {"notes", input.quality.descriptions}, {"channels", channels}};
 }
 
 Json input_document(const RunSummary::InputSummary& input) {
@@ -53,7 +53,7 @@ Json input_document(const RunSummary::InputSummary& input) {
             {"t0_s", input.clock.t0},
             {"channels", input.channels},
             {"phases", phases},
-            {"remarks", input.notes},
+            {"notes", input.notes},
             {"positions", position_document(input)},
             {"quality", quality_document(input)}};
 }
@@ -61,8 +61,8 @@ Json input_document(const RunSummary::InputSummary& input) {
 Json copies_document(const CopyStatistics& o) {
     return {{"mean", json_number(o.mean())},
             {"standard_deviation", json_number(o.standard_deviation())},
-            {"least", json_number(o.min)},
-            {"greatest", json_number(o.max)},
+            {"min", json_number(o.min)},
+            {"max", json_number(o.max)},
             {"copies", o.copies}};
 }
 
@@ -94,17 +94,17 @@ Json document_of(const AfferentPlan& plan) {
     for (std::size_t k = 0; k < plan.values.size(); ++k) {
         const auto& p = (*plan.parameters)[k];
         parameters[std::string(p.info.name)] = {
-            {"value", plan.values[k]}, {"unit", p.info.unit}, {"of", p.component}, {"set", p.set_by_user}};
+            {"value", plan.values[k]}, {"unit", p.info.unit}, {"component", p.component}, {"set", p.set_by_user}};
     }
     if (plan.factory) {
-        Json out = {{"name", plan.name}, {"made_of", plan.composition()}, {"title", plan.description}};
+        Json out = {{"name", plan.name}, {"composition", plan.composition()}, {"description", plan.description}};
         for (const auto& [name, word] : plan.factory->labels()) out[name] = word;
         out["parameters"] = std::move(parameters);
         return out;
     }
     return {{"name", plan.name},
-            {"made_of", plan.composition()},
-            {"transduction", plan.receptor},
+            {"composition", plan.composition()},
+            {"receptor", plan.receptor},
             {"neuron", plan.neuron},
             {"parameters", parameters}};
 }
@@ -116,11 +116,11 @@ Json document_of(std::span<const ParameterDistribution> all) {
                            {"parameter", s.parameter},
                            {"standard_deviation", s.deviation},
                            {"unit", s.unit},
-                           {"share", s.fraction ? Json(*s.fraction) : Json(nullptr)}});
+                           {"fraction", s.fraction ? Json(*s.fraction) : Json(nullptr)}});
     return spreads;
 }
 
-Json document_of(const CopySpec& copies) { return {{"of_each_afferent", copies.count}, {"spreads", document_of(copies.distributions)}}; }
+Json document_of(const CopySpec& copies) { return {{"per_afferent", copies.count}, {"spreads", document_of(copies.distributions)}}; }
 
 std::string column_heading(const MeasureInfo& m) { return std::string(m.title) + (m.unit.empty() ? "" : " (" + std::string(m.unit) + ")"); }
 
@@ -202,9 +202,9 @@ Json RunSummary::document(std::span<const AfferentPlan> afferents, const RunStat
     out["rates"] = Json::array();
     for (const auto& r : rows_) out["rates"].push_back(row_document(r));
     if (!comparisons_.rows().empty()) out["comparisons"] = comparisons_.document();
-    out["work"] = {{"samples", stats.samples},   {"afferent_steps", stats.afferent_steps},
-                   {"spikes", stats.spikes},     {"capped_steps", stats.truncated_steps},
-                   {"clipped", stats.saturated}, {"overflowed", stats.overflowed}};
+    out["work"] = {{"samples", stats.samples},     {"afferent_steps", stats.afferent_steps},
+                   {"spikes", stats.spikes},       {"truncated_steps", stats.truncated_steps},
+                   {"saturated", stats.saturated}, {"overflowed", stats.overflowed}};
     if (stats.steps > 0 || !stats.diverged.empty())
         out["work"]["circuits"] = {{"steps", stats.steps},
                                    {"rejected", stats.rejected},

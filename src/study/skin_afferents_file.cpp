@@ -23,7 +23,7 @@ std::string afferent_row(const SkinSummary& summary, std::size_t u) {
 }  // namespace
 
 Result<void> SkinAfferentsFile::end(const SkinInput&, std::int64_t, std::span<const Spike>) {
-    if (auto ok = file_.write("unit,afferent,region,x_mm,y_mm,delay_ms,spikes,first_spike_s,touched_s,rate_Hz\n"); !ok) return ok;
+    if (auto ok = file_.write("afferent_index,afferent,region,x_mm,y_mm,delay_ms,spikes,first_spike_s,touched_s,rate_Hz\n"); !ok) return ok;
     for (std::size_t u = 0; u < summary_.skin().afferents.size(); ++u)
         if (auto ok = file_.write(afferent_row(summary_, u)); !ok) return ok;
     return {};

@@ -18,27 +18,27 @@ constexpr std::size_t max_first_spikes = 100;
 
 Json sources_document(const std::vector<SourceNote>& all) {
     Json out = Json::array();
-    for (const auto& s : all) out.push_back({{"of", s.quantity}, {"source", s.source}});
+    for (const auto& s : all) out.push_back({{"quantity", s.quantity}, {"source", s.source}});
     return out;
 }
 
 /// Number of afferents of a class in each region.
 Json density_document(const Innervation& skin, std::size_t c) {
     const auto& plan = skin.plan;
-    std::vector<std::int64_t> units(plan.sites.regions.size());
-    for (std::size_t u = skin.class_begin[c]; u < skin.class_begin[c + 1]; ++u) ++units[skin.afferents[u].region];
+    std::vector<std::int64_t> afferents(plan.sites.regions.size());
+    for (std::size_t u = skin.class_begin[c]; u < skin.class_begin[c + 1]; ++u) ++afferents[skin.afferents[u].region];
     Json out = Json::object();
-    for (std::size_t r = 0; r < units.size(); ++r) {
-        out[plan.sites.regions[r]] = {{"units", units[r]}};
-        if (!plan.classes[c].density.empty()) out[plan.sites.regions[r]]["units_per_cm2"] = plan.classes[c].density[r] * 1e-4;
+    for (std::size_t r = 0; r < afferents.size(); ++r) {
+        out[plan.sites.regions[r]] = {{"afferents", afferents[r]}};
+        if (!plan.classes[c].density.empty()) out[plan.sites.regions[r]]["afferents_per_cm2"] = plan.classes[c].density[r] * 1e-4;
     }
     return out;
 }
 
 Json class_document(const Innervation& skin, std::size_t c) {
     const auto& k = skin.plan.classes[c];
-    Json out = {{"name", k.name}, {"units", skin.class_begin[c + 1] - skin.class_begin[c]}};
-    if (k.per_site > 0) out["units_at_each_site"] = k.per_site;
+    Json out = {{"name", k.name}, {"afferents", skin.class_begin[c + 1] - skin.class_begin[c]}};
+    if (k.per_site > 0) out["afferents_per_site"] = k.per_site;
     out["regions"] = density_document(skin, c);
     out["receptive_field"] = {{"sigma_m", k.sigma}, {"hot_spots", k.hot_spots}, {"hot_spot_spread_m", k.hot_spot_spread}};
     out["conduction"] = {{"velocity_m_s", k.velocity}, {"standard_deviation_m_s", k.velocity_spread}};
@@ -56,9 +56,9 @@ Json skin_document(const Innervation& skin) {
     for (std::size_t r = 0; r < sites.size(); ++r)
         regions[plan.sites.regions[r]] = {{"sites", sites[r]}, {"area_cm2", 1e4 * static_cast<double>(sites[r]) * plan.sites.area}};
     Json out = {{"name", plan.name},
-                {"sentence", plan.description},
+                {"description", plan.description},
                 {"seed", plan.seed},
-                {"units", skin.afferents.size()},
+                {"afferents", skin.afferents.size()},
                 {"sites", plan.sites.size()}};
     out["site_area_m2"] = plan.sites.area, out["felt_area_m2"] = plan.felt_area;
     out["nerve_m"] = plan.nerve ? Json{plan.nerve->x, plan.nerve->y} : Json(nullptr);
@@ -72,7 +72,7 @@ Json skin_input_document(const SkinSummary& s, const SkinRunNotes& notes) {
     for (const auto& p : s.phases()) phases.push_back({{"name", p.name}, {"from_s", p.from}, {"to_s", p.to}});
     for (const auto& f : notes.metadata) facts[f.name] = {{"value", f.value}, {"unit", f.unit}};
     return {{"name", s.name()},
-            {"sentence", s.description()},
+            {"description", s.description()},
             {"contact", notes.contact},
             {"parameters", facts},
             {"force_min_N", s.min_force()},
@@ -82,7 +82,7 @@ Json skin_input_document(const SkinSummary& s, const SkinRunNotes& notes) {
             {"t0_s", s.clock().t0},
             {"touched_from_s", json_number(s.touch_start())},
             {"phases", phases},
-            {"remarks", notes.notes}};
+            {"notes", notes.notes}};
 }
 
 std::string region_name(const SkinSummary& s, const SkinSummaryRow& r) {
@@ -97,13 +97,13 @@ Json skin_row_document(const SkinSummary& s, const SkinSummaryRow& r) {
     return {{"afferent", s.skin().plan.classes[r.class_index].name},
             {"region", region_name(s, r)},
             {"phase", phase_name(s, r)},
-            {"units", r.afferents},
+            {"afferents", r.afferents},
             {"touched", r.touched},
             {"active", r.active},
             {"spikes", r.spikes},
             {"rate_of_active_Hz", json_number(r.rate())},
             {"rate_while_touched_Hz", json_number(r.touched_rate)},
-            {"busiest_Hz", json_number(r.max_rate)},
+            {"max_rate_Hz", json_number(r.max_rate)},
             {"first_spike_s", json_number(r.first_spike)},
             {"median_first_spike_s", json_number(r.median_first_spike)}};
 }
@@ -122,7 +122,7 @@ Json SkinSummary::document(const SkinRunNotes& notes) const {
     for (std::size_t c = 0; c < skin_->plan.classes.size(); ++c) out["classes"].push_back(class_document(*skin_, c));
     for (const auto& r : rows_) out["rates"].push_back(skin_row_document(*this, r));
     for (const auto& f : first_spikes(max_first_spikes))
-        out["first_spikes"].push_back({{"unit", f.afferent_index},
+        out["first_spikes"].push_back({{"afferent_index", f.afferent_index},
                                        {"afferent", skin_->afferent_name(f.afferent_index)},
                                        {"region", skin_->plan.sites.regions[skin_->afferents[f.afferent_index].region]},
                                        {"time_s", f.time}});
@@ -131,7 +131,7 @@ Json SkinSummary::document(const SkinRunNotes& notes) const {
                    {"afferent_steps", w.afferent_steps},
                    {"at_rest", w.skipped_steps},
                    {"spikes", w.spikes},
-                   {"capped_steps", w.truncated_steps}};
+                   {"truncated_steps", w.truncated_steps}};
     out["warnings"] = notes.warnings;
     return out;
 }

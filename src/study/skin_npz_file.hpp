@@ -6,8 +6,8 @@
 
 namespace corpuscle {
 
-/// spikes.npz: the arrays of NpzFile (npz_file.hpp), one segment. unit_ids are the numbers of units.csv, unit_channel the regions; unit_x_m
-/// and unit_y_m are positions. The spikes are kept in memory until the end.
+/// spikes.npz: the arrays of NpzFile (npz_file.hpp), one segment. unit_ids are the numbers of afferents.csv, unit_channel the regions;
+/// unit_x_m and unit_y_m are positions. The spikes are kept in memory until the end.
 class SkinNpzFile final : public SkinFileSink {
     OutputFile file_;
     NpzWriter npz_;

@@ -8,7 +8,7 @@
 namespace corpuscle {
 
 SkinPsthFile::SkinPsthFile(OutputFile file, double bin) : file_(std::move(file)), bin_width_(bin) {
-    (void)file_.write("afferent,channel,units,from_s,to_s,spikes,rate_Hz\n");
+    (void)file_.write("afferent,channel,afferents,from_s,to_s,spikes,rate_Hz\n");
 }
 
 Result<void> SkinPsthFile::begin(const SkinInput& input) {

@@ -6,7 +6,7 @@
 
 namespace corpuscle {
 
-/// psth.csv: afferent,channel,units,from_s,to_s,spikes,rate_Hz. One row for each class in a region, bin after bin. The rate is per
+/// psth.csv: afferent,channel,afferents,from_s,to_s,spikes,rate_Hz. One row for each class in a region, bin after bin. The rate is per
 /// afferent: spikes divided by afferents and seconds. Bins as in time_bins.hpp.
 class SkinPsthFile final : public SkinFileSink {
     OutputFile file_;

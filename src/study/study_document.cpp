@@ -18,11 +18,11 @@ Json numbers(const std::vector<double>& values) {
 }
 
 Json document_of(const Claim& c) {
-    return {{"what", c.label},
-            {"made", c.is_boolean ? Json(c.computed > 0) : json_number(c.computed)},
+    return {{"label", c.label},
+            {"computed", c.is_boolean ? Json(c.computed > 0) : json_number(c.computed)},
             {"unit", c.unit},
-            {"printed", json_number(c.published)},
-            {"follows", c.is_derived},
+            {"published", json_number(c.published)},
+            {"derived", c.is_derived},
             {"deviation", json_number(c.deviation())},
             {"low", c.is_boolean ? Json(nullptr) : json_number(c.allowed_min)},
             {"high", json_number(c.allowed_max)},
@@ -36,8 +36,9 @@ Json document_of(const StudyPlot& p) {
     constexpr const char* styles[] = {"line", "points", "raster", "path"};
     for (const auto& s : p.series)
         series.push_back({{"name", s.name}, {"style", styles[static_cast<int>(s.style)]}, {"x", numbers(s.x)}, {"y", numbers(s.y)}});
-    return {{"title", p.title}, {"printed", p.published_shape}, {"x", p.x_label}, {"y", p.y_label}, {"log_x", p.log_x}, {"log_y", p.log_y},
-            {"series", series}};
+    return {
+        {"title", p.title}, {"published", p.published_shape}, {"x", p.x_label}, {"y", p.y_label}, {"log_x", p.log_x}, {"log_y", p.log_y},
+        {"series", series}};
 }
 
 /// A cell of a Markdown table.

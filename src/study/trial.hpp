@@ -16,7 +16,7 @@ struct TrialSpec {
     std::vector<std::string> settings = {};    ///< "press.F_max=2N", of afferent or stimulus
     double rate = 10e3;                        ///< Hz
     std::uint64_t seed = 0;
-    std::vector<std::string> probes = {};  ///< recordable quantities: "u", "I_B"; of a netlist "v(vf)", "i(m1)", as for --trace
+    std::vector<std::string> probes = {};  ///< recordable quantities: "u", "I_B"; of a netlist "v(vf)", "i(m1)", as for --probe
     Method method = Method::exact;         ///< of a model afferent
     bool sampled = false;                  ///< spikes at sample times, as in the thesis
 };

@@ -51,10 +51,10 @@ TEST(Program, VersionsOfOneReceptorAreComparedWithTheFirst) {
 
 TEST(Program, WritesTheRequestedFilesWithTheSameBytesTwice) {
     const TemporaryFolder folder;
-    const std::string arguments = "respond press noise --seed 3 --out answer --traces --report";
+    const std::string arguments = "respond press noise --seed 3 --out answer --probe-files --report";
     ASSERT_EQ(run_program(folder, arguments).status, 0);
     EXPECT_EQ(folder.file_names(),
-              (std::vector<std::string>{"answer", "report.html", "spikes.csv", "summary.json", "traces-2.csv", "traces.csv"}));
+              (std::vector<std::string>{"answer", "probes-2.csv", "probes.csv", "report.html", "spikes.csv", "summary.json"}));
     std::map<std::string, std::string> first;
     for (const auto& name : folder.file_names())
         if (name != "answer") first[name] = test::read_file(folder / ("answer/" + name));
@@ -109,9 +109,9 @@ TEST(Program, FloatSpikesAreWithinMicrosecondsAndHaveNoProbes) {
         EXPECT_EQ(pair["extra"], 0) << near.out;
     }
     EXPECT_EQ(Json::parse(test::read_file(folder / "float/summary.json"))["options"]["precision"], "float");
-    const auto traces = run_program(folder, "respond press --float --out float --traces");
+    const auto traces = run_program(folder, "respond press --float --out float --probe-files");
     EXPECT_EQ(traces.status, 2);
-    EXPECT_NE(traces.err.find("in float no probes are recorded: leave out --traces"), std::string::npos) << traces.err;
+    EXPECT_NE(traces.err.find("in float no probes are recorded: leave out --probe-files"), std::string::npos) << traces.err;
     const auto sensor = run_program(folder, "respond press --float --afferent fsr+sa1");
     EXPECT_EQ(sensor.status, 2);
     EXPECT_NE(sensor.err.find("fsr+sa1: sensors, converters and noise cannot run in float"), std::string::npos) << sensor.err;
@@ -120,12 +120,12 @@ TEST(Program, FloatSpikesAreWithinMicrosecondsAndHaveNoProbes) {
 
 TEST(Program, ASecondRunLeavesNothingOfTheFirst) {
     const TemporaryFolder folder;
-    ASSERT_EQ(run_program(folder, "respond press noise --out answer --traces --npz --wav --bin 10ms").status, 0);
-    EXPECT_EQ(folder.file_names(), (std::vector<std::string>{"answer", "psth.csv", "spikes-2.wav", "spikes.csv", "spikes.npz", "spikes.wav",
-                                                             "summary.json", "traces-2.csv", "traces.csv"}));
+    ASSERT_EQ(run_program(folder, "respond press noise --out answer --probe-files --npz --wav --bin 10ms").status, 0);
+    EXPECT_EQ(folder.file_names(), (std::vector<std::string>{"answer", "probes-2.csv", "probes.csv", "psth.csv", "spikes-2.wav",
+                                                             "spikes.csv", "spikes.npz", "spikes.wav", "summary.json"}));
     folder.write("answer/notes.txt", "mine");
     const auto ran = run_program(folder, "respond press --out answer --npz");
-    EXPECT_NE(ran.out.find("Removed files of an earlier run: psth.csv, spikes.wav, spikes-2.wav, traces.csv, traces-2.csv\n"),
+    EXPECT_NE(ran.out.find("Removed files of an earlier run: psth.csv, spikes.wav, spikes-2.wav, probes.csv, probes-2.csv\n"),
               std::string::npos)
         << ran.out;
     EXPECT_EQ(folder.file_names(), (std::vector<std::string>{"answer", "notes.txt", "spikes.csv", "spikes.npz", "summary.json"}));
@@ -145,10 +145,10 @@ TEST(Program, CopiesGiveTheSameSpikesSummaryAndTableTwice) {
     ASSERT_EQ(run_program(folder, arguments).status, 0);
     for (const auto& [name, bytes] : first) EXPECT_EQ(test::read_file(folder / ("answer/" + name)), bytes) << name;
     const auto summary = Json::parse(first["summary.json"]);
-    EXPECT_EQ(summary["copies"]["of_each_afferent"], 60);
+    EXPECT_EQ(summary["copies"]["per_afferent"], 60);
     EXPECT_EQ(summary["copies"]["spreads"][0],
-              (Json{{"afferent", "sa1"}, {"parameter", "f_B"}, {"standard_deviation", 2.0}, {"unit", "Hz"}, {"share", 0.1}}));
-    EXPECT_EQ(summary["copies"]["spreads"][1]["share"], nullptr);
+              (Json{{"afferent", "sa1"}, {"parameter", "f_B"}, {"standard_deviation", 2.0}, {"unit", "Hz"}, {"fraction", 0.1}}));
+    EXPECT_EQ(summary["copies"]["spreads"][1]["fraction"], nullptr);
     EXPECT_EQ(summary["afferents"].size(), 2U);
     EXPECT_EQ(summary["rates"].size(), 2U * 5 + 2);
     EXPECT_EQ(summary["rates"][2]["afferent"], "sa1");
@@ -173,7 +173,8 @@ TEST(Program, OneCopyIsTheAfferentItself) {
 TEST(Program, ACopyIsReproducedByTheParametersInItsRow) {
     const TemporaryFolder folder;
     ASSERT_EQ(
-        run_program(folder, "respond press -a sa1 --copies 9 --spread sa1.f_B=20% --spread sa1.V_th=10% --traces --out answer").status, 0);
+        run_program(folder, "respond press -a sa1 --copies 9 --spread sa1.f_B=20% --spread sa1.V_th=10% --probe-files --out answer").status,
+        0);
     const auto table = test::read_file(folder / "answer/copies.csv"), spikes = test::read_file(folder / "answer/spikes.csv");
     const auto row = table.substr(table.find("sa1#7,press,") + 12);
     const auto f_B = row.substr(0, row.find(',')), V_th = row.substr(f_B.size() + 1, row.find(',', f_B.size() + 1) - f_B.size() - 1);
@@ -183,7 +184,7 @@ TEST(Program, ACopyIsReproducedByTheParametersInItsRow) {
     for (std::string line; std::getline(lines, line);)
         if (line.starts_with("sa1#7,")) expected += "sa1" + line.substr(5) + "\n";
     EXPECT_EQ(expected, test::read_file(folder / "same/spikes.csv"));
-    EXPECT_NE(test::read_file(folder / "answer/traces.csv").find(",sa1#9.press.u [V]\n"), std::string::npos);
+    EXPECT_NE(test::read_file(folder / "answer/probes.csv").find(",sa1#9.press.u [V]\n"), std::string::npos);
 }
 
 TEST(Program, CompareReportsTheMatchingSpikes) {
@@ -193,7 +194,7 @@ TEST(Program, CompareReportsTheMatchingSpikes) {
     const auto same = Json::parse(run_program(folder, "compare a/spikes.npz a/spikes.csv --json").out);
     EXPECT_EQ(same["total"]["spikes_a"], 39);
     EXPECT_EQ(same["total"]["matched"], 39);
-    EXPECT_LE(same["total"]["largest_s"], 0.51e-9) << "CSV is rounded to the nanosecond";
+    EXPECT_LE(same["total"]["max_shift_s"], 0.51e-9) << "CSV is rounded to the nanosecond";
     const auto text = run_program(folder, "compare a/spikes.csv b/spikes.csv");
     EXPECT_EQ(text.status, 0) << text.err;
     EXPECT_NE(text.out.find("sa1-kim,press  -          16   0        0       16      0      -      -    16.00"), std::string::npos)
@@ -239,11 +240,11 @@ TEST(Program, JsonIsOneDocumentAndNothingElse) {
     const auto ran = run_program(folder, "respond press --json --set sa1.f_B=25Hz --set press.F_max=2N");
     ASSERT_EQ(ran.status, 0);
     const auto document = Json::parse(ran.out);
-    EXPECT_EQ(document["afferents"][0]["parameters"]["f_B"], (Json{{"value", 25.0}, {"unit", "Hz"}, {"of", "sa1b"}, {"set", true}}));
+    EXPECT_EQ(document["afferents"][0]["parameters"]["f_B"], (Json{{"value", 25.0}, {"unit", "Hz"}, {"component", "sa1b"}, {"set", true}}));
     const auto listed = Json::parse(run_program(folder, "list --json").out);
     EXPECT_EQ(listed["afferents"].size(), named_afferents().size() + std::size(circuit::embedded_netlists) + 1);  // and any netlist
     for (const auto& card : receptor_entries())
-        EXPECT_TRUE(std::any_of(listed["transductions"].begin(), listed["transductions"].end(), [&](const Json& e) {
+        EXPECT_TRUE(std::any_of(listed["receptors"].begin(), listed["receptors"].end(), [&](const Json& e) {
             return e["name"] == card.name;
         })) << card.name;
     EXPECT_EQ(run_program(folder, "respond press --json --quiet").out, run_program(folder, "respond press --json").out);
@@ -287,7 +288,7 @@ TEST(Program, BadInputAndBadUsageHaveTheirStatusAndMessageAndLeaveNoFiles) {
         {"respond press --set fa2.k=1", 2, "--set fa2.k=1: there is no afferent or stimulus 'fa2' in this run; did you mean 'fa1'?"},
         {"respond press --set f_B=1", 2, "'f_B=1' is not a setting; write NAME.PARAMETER=VALUE, such as 'sa1.f_B=25Hz'"},
         {"respond press --rate fast", 2, "--rate 'fast' is not a quantity; write a number and a unit, such as '2 Hz'"},
-        {"respond press --traces", 2, "--traces needs --out DIR"},
+        {"respond press --probe-files", 2, "--probe-files needs --out DIR"},
         {"respond press --vectors", 2, "--vectors needs --out DIR"},
         {"respond press --vectors --out answer", 2, "--vectors: sa1 has no converter, and so no fixed-point words; try 'adc+sa1'"},
         {"respond press --noise -1nA", 2, "--noise '-1nA' is negative; write a standard deviation, such as '50 nA'"},
@@ -299,8 +300,8 @@ TEST(Program, BadInputAndBadUsageHaveTheirStatusAndMessageAndLeaveNoFiles) {
          "--spread fa2.k=10%: there is no afferent 'fa2' in this run; did you mean 'fa1'?"},
         {"respond press --copies 9 --spread fa1.I_leak0=10ms", 1,
          "--spread fa1.I_leak0=10ms: '10ms' is a time; expected a value in A, such as '2 A'"},
-        {"respond press --copies 51 --traces --out answer", 2,
-         "--traces works with at most 50 copies, not 51; use fewer, or --set the values of one copy in copies.csv"},
+        {"respond press --copies 51 --probe-files --out answer", 2,
+         "--probe-files works with at most 50 copies, not 51; use fewer, or --set the values of one copy in copies.csv"},
         {"respond press --copies 51 --vectors --out answer -a sa1-kim", 2,
          "--vectors works with at most 50 copies, not 51; use fewer, or --set the values of one copy in copies.csv"},
         {"respond press --copies 30000 --wav --out answer --set press.t_hold=0s", 1,
@@ -338,7 +339,7 @@ TEST(Program, StudiesAreListedWrittenAndSelectedByAnyOfTheirNumbers) {
     std::vector<std::string> names;
     for (const auto& study : document) names.push_back(study["name"]);
     EXPECT_EQ(names, (std::vector<std::string>{"fig4", "table17-18", "eq21-30"}));
-    EXPECT_EQ(document[0]["claims"][0]["printed"], 0.2);
+    EXPECT_EQ(document[0]["claims"][0]["published"], 0.2);
     EXPECT_FALSE(document[0]["plots"][0]["series"][0]["x"].empty());
     EXPECT_EQ(folder.file_names(), (std::vector<std::string>{"numbers.md", "page.html"}));
     EXPECT_NE(test::read_file(folder / "numbers.md").find("## table17-18"), std::string::npos);
@@ -429,7 +430,7 @@ TEST(Program, SaturationOverflowAndUnreachedForcesAreReported) {
               "corpuscle: warning: sa1-kim: --noise has no effect; behind a converter the membrane is digital\n");
     const auto noisy = Json::parse(run_program(folder, "respond press --noise 200nA --seed 5 --json").out);
     EXPECT_DOUBLE_EQ(noisy["options"]["noise_A"].get<double>(), 200e-9);
-    EXPECT_EQ(noisy["work"]["clipped"], 0);
+    EXPECT_EQ(noisy["work"]["saturated"], 0);
 }
 
 TEST(Program, ReadsFromAPipe) {

@@ -62,7 +62,7 @@ TEST(ImportProgram, TwoLoneTrainsAreComparedWhateverTheyAreCalled) {
         EXPECT_EQ(ran.status, 0) << ran.err;
         EXPECT_TRUE(found_in(ran.out, "\"matched\": 2")) << ran.out;
     }
-    EXPECT_EQ(run_program(folder, "compare phy.csv ours.csv --time times --unit cluster").status, 0);
+    EXPECT_EQ(run_program(folder, "compare phy.csv ours.csv --time times --train cluster").status, 0);
 }
 
 TEST(ImportProgram, AMatchingWindowOfSecondsCausesAWarning) {

@@ -47,7 +47,7 @@ TEST(Outputs, NeverReplaceAFileThatTheCommandReads) {
     folder.write("a.cir", std::string(small_deck) + ".include part-1.csv\n");
     folder.write("part-1.csv", "* nothing\n");
     folder.write("f.csv", numbers());
-    for (const char* name : {"psth.csv", "spikes.csv", "traces.csv", "units.csv", "page.html"}) folder.write(name, numbers());
+    for (const char* name : {"psth.csv", "spikes.csv", "probes.csv", "afferents.csv", "page.html"}) folder.write(name, numbers());
     folder.write("layout.html", "channel,name,x_mm,y_mm\n1,a,0,0\n");
     fs::create_symlink("f.csv", folder / "link.csv");
     fs::create_hard_link(folder / "f.csv", folder / "hard.csv");
@@ -56,9 +56,9 @@ TEST(Outputs, NeverReplaceAFileThatTheCommandReads) {
     for (const std::string arguments : {
              "respond psth.csv --bin 10ms -o .",
              "respond spikes.csv -o .",
-             "respond traces.csv --traces -o .",
+             "respond probes.csv --probe-files -o .",
              "respond spikes.csv -o . --overwrite",
-             "respond units.csv --population 'grid 1x1' -o .",
+             "respond afferents.csv --population 'grid 1x1' -o .",
              "respond page.html --report page.html",
              "respond page.html --report page.html --overwrite",
              "respond f.csv --layout layout.html --report layout.html",
@@ -88,9 +88,10 @@ TEST(Outputs, ReplaceAFileThatNoEarlierRunWroteOnlyWithForce) {
     };
     for (const auto& c :
          {Case{"own/spikes.csv", "respond press -o own"}, Case{"own/summary.json", "respond press -o own"},
-          Case{"own/units.csv", "respond press --population 'grid 4x4' -o own"}, Case{"own/report.html", "respond press -o own --report"},
-          Case{"x.html", "respond press --report x.html"}, Case{"x-1.csv", "run a.cir -o x.csv"}, Case{"x-2.csv", "run a.cir -o x.csv"},
-          Case{"x.raw", "run a.cir -o x.raw"}, Case{"x.raw.part", "run a.cir -o x.raw"}, Case{"x.cir", "export a.cir -o x.cir"},
+          Case{"own/afferents.csv", "respond press --population 'grid 4x4' -o own"},
+          Case{"own/report.html", "respond press -o own --report"}, Case{"x.html", "respond press --report x.html"},
+          Case{"x-1.csv", "run a.cir -o x.csv"}, Case{"x-2.csv", "run a.cir -o x.csv"}, Case{"x.raw", "run a.cir -o x.raw"},
+          Case{"x.raw.part", "run a.cir -o x.raw"}, Case{"x.cir", "export a.cir -o x.cir"},
           Case{"x.csv", "stream --in press --pace fast -o x.csv"}, Case{"x.csv.part", "stream --in press --pace fast -o x.csv"},
           Case{"x.state", "stream --in press --pace fast -o /dev/null --save-state x.state"}, Case{"x.md", "study fig3 --markdown x.md"},
           Case{"x.html", "study fig3 --report x.html"}}) {
@@ -156,7 +157,7 @@ TEST(Outputs, OfTheSameCommandAreReplacedWithoutAnOption) {
     folder.write("a.cir", small_deck);
     folder.write("f.csv", numbers());
     for (const std::string arguments :
-         {"respond press -o answer --traces --npz --bin 10ms --wav --report", "respond press -o answer --vectors -a sa1-kim",
+         {"respond press -o answer --probe-files --npz --bin 10ms --wav --report", "respond press -o answer --vectors -a sa1-kim",
           "respond f.csv -o answer", "respond press --population 'grid 4x4' -o answer --report --events aer",
           "respond press --report page.html", "respond press --report", "run a.cir -o x.csv", "run a.cir -o x.raw",
           "run a.cir -o y.raw --ascii", "export a.cir -o x.cir", "study fig3 --report s.html --markdown s.md",
@@ -199,10 +200,10 @@ TEST(Outputs, ASummaryOfOthersRemovesAndReplacesNothing) {
 
 TEST(Outputs, AnInputThatAnEarlierRunWroteStays) {
     const TemporaryFolder folder;
-    ASSERT_EQ(test::run_program(folder, "respond press --traces -o . -q").status, 0);
-    const auto ran = test::run_program(folder, "respond traces.csv --channel 1 -o .");
+    ASSERT_EQ(test::run_program(folder, "respond press --probe-files -o . -q").status, 0);
+    const auto ran = test::run_program(folder, "respond probes.csv --channel 1 -o .");
     EXPECT_EQ(ran.status, 0) << ran.err;
-    EXPECT_TRUE(fs::exists(folder / "traces.csv"));
+    EXPECT_TRUE(fs::exists(folder / "probes.csv"));
     EXPECT_EQ(ran.out.find("Removed"), std::string::npos) << ran.out;
 }
 
@@ -223,7 +224,7 @@ TEST(Outputs, OfKilledRunsAreClearedByTheNext) {
         for (const auto& name : folder.file_names()) count += name.find(".part-") != name.npos;
         return count;
     };
-    const auto endless = begin({"respond", "sine", "--set", "sine.duration=100000s", "--rate", "100kHz", "--traces", "-q", "-o", "a"});
+    const auto endless = begin({"respond", "sine", "--set", "sine.duration=100000s", "--rate", "100kHz", "--probe-files", "-q", "-o", "a"});
     for (int k = 0; k < 500 && parts() < 3; ++k) ::usleep(10000);
     EXPECT_EQ(parts(), 3);
     EXPECT_EQ(test::run_program(folder, "respond press -o a -q").status, 0) << "while another run writes there";
@@ -323,10 +324,10 @@ TEST(Outputs, AFullDiskBehindStandardOutputIsAnError) {
 TEST(Outputs, AFileThatMayGrowNoFurtherIsAnErrorAndLeavesNothing) {
     const TemporaryFolder folder;
     const auto status = std::system(
-        ("cd '" + folder.path() + "' && (ulimit -f 8; exec '" + test::program_path() + "' respond press --traces -o big -q) 2>err")
+        ("cd '" + folder.path() + "' && (ulimit -f 8; exec '" + test::program_path() + "' respond press --probe-files -o big -q) 2>err")
             .c_str());
     EXPECT_EQ(WEXITSTATUS(status), 1);
-    EXPECT_EQ(read_file(folder / "err"), "corpuscle: big/traces.csv: could not be written completely: File too large\n");
+    EXPECT_EQ(read_file(folder / "err"), "corpuscle: big/probes.csv: could not be written completely: File too large\n");
     EXPECT_EQ(folder.file_names(), std::vector<std::string>{"err"});
 }
 

@@ -68,7 +68,7 @@ def coded(kind, values):
 def trace(data, part, afferent=None, channel=None):
     """Minimum and maximum of each bucket of a curve; both are equal where every sample is kept."""
     channel = data["inputs"][0]["channels"][0]["id"] if channel is None else channel
-    record = next(r for r in data["traces"] if (r["part"], r["afferent"], r["channel"]) == (part, afferent, channel))
+    record = next(r for r in data["traces"] if (r["quantity"], r["afferent"], r["channel"]) == (part, afferent, channel))
     values = numbers("f", record["data"])
     return (values, values, 1) if record["bucket"] == 1 else (values[0::2], values[1::2], record["bucket"])
 
@@ -303,7 +303,7 @@ class Press(Page):
     def test_every_current_read_between_two_samples_is_that_of_the_nearer(self):
         T, t0 = self.input["T"], self.input["t0"]
         k = round((spike_times(self.data, "sa1")[3] - t0) / T)
-        parts = [part["name"] for part in self.data["afferents"][0]["parts"] if part["unit"] == "A"]
+        parts = [part["name"] for part in self.data["afferents"][0]["probes"] if part["unit"] == "A"]
         self.assertGreater(len(parts), 1)
         self.js("corpuscle.setWindow(arguments[0], arguments[1])", t0 + (k - 20) * T, t0 + (k + 20) * T)
         for beside in (-0.3, 0.3):
@@ -534,7 +534,7 @@ class TwoChannels(Page):
             first = data["inputs"][0]["channels"][0]
             data["inputs"][0]["channels"].append({"id": 77, "name": "second <b>", "unit": first["unit"]})
             low, _, bucket = trace(data, "force")
-            record = next(r for r in data["traces"] if r["part"] == "force")
+            record = next(r for r in data["traces"] if r["quantity"] == "force")
             both = [v / 2 for v in low] if bucket == 1 else [v / 2 for pair in zip(*trace(data, "force")[:2]) for v in pair]
             data["traces"].append({**record, "channel": 77, "data": coded("f", both)})
             data["spikes"].append({"afferent": "sa1", "channel": 77, "count": 1, "times": coded("d", [plateau(data)[0]])})
@@ -670,7 +670,7 @@ class Million(Page):
         low, high, _ = trace(self.data, "force")
         self.assertEqual(self.drawn_extremes("force", 1), [min(low), max(high)])
         for afferent in self.data["afferents"][:1]:
-            parts = [part["name"] for part in afferent["parts"] if part["unit"] == "V"]
+            parts = [part["name"] for part in afferent["probes"] if part["unit"] == "V"]
             low, high, _ = trace(self.data, parts[0], afferent["name"])
             self.assertEqual(self.drawn_extremes(afferent["name"] + " membrane", 1), [min(low), max(high)])
 
@@ -733,7 +733,7 @@ class OnASkin(Page):
 
     def active(self, frame):
         """For each class, the number of afferents that fired in a frame."""
-        return {one["name"]: sum(one["first"] <= unit < one["first"] + one["units"] for unit in self.frames[frame]) for one in self.classes}
+        return {one["name"]: sum(one["first"] <= unit < one["first"] + one["afferents"] for unit in self.frames[frame]) for one in self.classes}
 
     def coloured_pixels(self, name):
         """The number of coloured pixels of a map."""
@@ -763,7 +763,7 @@ class OnASkin(Page):
         Select(self.browser.find_element(By.ID, "mode")).select_by_value("all")
         ever = {unit for frame in self.frames for unit in frame}
         sa1 = self.classes[0]
-        WebDriverWait(self.browser, 20).until(lambda _: self.js("return corpuscle.active().sa1") == sum(unit < sa1["units"] for unit in ever))
+        WebDriverWait(self.browser, 20).until(lambda _: self.js("return corpuscle.active().sa1") == sum(unit < sa1["afferents"] for unit in ever))
 
     def test_the_maps_play_and_the_plots_follow(self):
         self.to_frame(2)
@@ -790,7 +790,7 @@ class OnASkin(Page):
         self.assertRegex(title, r"^mean rate of afferents that fire, in bins of .*Hz")
 
     def test_rasters_hold_every_spike(self):
-        spikes = {one["name"]: sum(n for frame in self.frames for unit, n in frame.items() if one["first"] <= unit < one["first"] + one["units"]) for one in self.classes}
+        spikes = {one["name"]: sum(n for frame in self.frames for unit, n in frame.items() if one["first"] <= unit < one["first"] + one["afferents"]) for one in self.classes}
         self.assertEqual(sum(spikes.values()), self.over["spikes"]["count"])
         dark_pixels = self.dark_pixels()
         for name, count in spikes.items():
@@ -802,7 +802,7 @@ class OnASkin(Page):
 
     def test_the_afferent_under_the_pointer_is_named(self):
         first = self.data["summary"]["first_spikes"][0]
-        x, y = self.js("const map = corpuscle.scene.maps[0]; return map.place(arguments[0])", first["unit"])
+        x, y = self.js("const map = corpuscle.scene.maps[0]; return map.place(arguments[0])", first["afferent_index"])
         canvas = self.browser.find_element(By.CSS_SELECTOR, '[data-map="sa1"] canvas')
         self.js("arguments[0].scrollIntoView({block: 'center'})", canvas)
         ActionChains(self.browser, duration=50).move_to_element_with_offset(canvas, round(x - canvas.size["width"] / 2), round(y - canvas.size["height"] / 2)).perform()
@@ -898,7 +898,7 @@ class Sweeps(unittest.TestCase):
             self.assertEqual(len(browser.find_elements(By.CSS_SELECTOR, "#points tbody tr")), 2)
             self.assertEqual(len(browser.find_elements(By.CSS_SELECTOR, "#measures tbody tr")), len(summary["measures"]))
             found = [one["device"] for one in summary["depends_on"][0]["devices"]]
-            self.assertIn(found[0], browser.find_element(By.ID, "matters").text)
+            self.assertIn(found[0], browser.find_element(By.ID, "influences").text)
             counted = "return charts[0].rawData_.reduce((sum, row) => sum + row[1], 0)"  # of the histogram
             self.assertEqual(browser.execute_script(counted), 120)
             self.assertEqual(len(browser.find_elements(By.CSS_SELECTOR, "#figures figure")), 2 + len(data["factors"][0]))
@@ -939,7 +939,7 @@ class Sweeps(unittest.TestCase):
         path = self.page_of("grid", GRID)
         browser = self.browse(path)
         self.assertEqual(browser.get_log("browser"), [])
-        matters = browser.find_element(By.ID, "matters").text
+        matters = browser.find_element(By.ID, "influences").text
         for axis in ("press.F_max", "sa1.f_B"):
             self.assertEqual(matters.count(axis), 2, matters)
         captions = [one.text for one in browser.find_elements(By.CSS_SELECTOR, "#figures figcaption")]
@@ -964,9 +964,9 @@ class Sweeps(unittest.TestCase):
 
         def poison(there):
             there.execute("UPDATE columns SET unit = ?", (payload,))
-            there.execute("UPDATE columns SET sentence = ?", (payload,))
+            there.execute("UPDATE columns SET description = ?", (payload,))
             there.execute("UPDATE about SET value = ? WHERE key = 'title'", (payload,))
-            there.execute("UPDATE units SET why = ?, ended = 'lost' WHERE unit = 3", (payload,))
+            there.execute("UPDATE items SET why = ?, ended = 'diverged' WHERE item = 3", (payload,))
 
         for name, sweep in (("poisoned", GRID), ("poisoned_chips", SWEEP)):
             browser = self.browse(self.page_of(name, sweep, poison))
@@ -1006,7 +1006,7 @@ list = ["20Hz", "40Hz", "80Hz"]
 
 SWEEP = """
 netlist = "circuits/bias.cir"
-units = 60
+samples = 60
 measures = ["v(q)", "i(vis)"]
 [set]
 corner = "mc"

@@ -17,7 +17,7 @@ using test::run_program;
 
 /// A sweep of the SA-I model, with `items` items at each of two forces.
 std::string sweep_of(int items) {
-    return "afferent = \"sa1\"\nunits = " + std::to_string(items) +
+    return "afferent = \"sa1\"\nsamples = " + std::to_string(items) +
            "\nmeasures = [\"spikes\", \"first_spike\"]\n[[vary]]\nwhat = \"press.F_max\"\nlist = [\"1N\", \"2N\"]\n"
            "[[vary]]\nwhat = \"f_B\"\nsigma = \"5%\"\n";
 }
@@ -29,13 +29,23 @@ std::string dump(const TemporaryFolder& folder, const std::string& results) {
     return ran.out;
 }
 
+TEST(SweepProgram, FormerOptionsAreRefusedWithTheirPresentNames) {
+    const TemporaryFolder folder;
+    for (const std::string arguments : {"sweep a.toml --units 3", "sweep a.toml --units=3", "sweep calibrate sa1-circuit --units 3"}) {
+        const auto ran = run_program(folder, arguments);
+        EXPECT_EQ(ran.status, 2) << arguments;
+        EXPECT_NE(ran.err.find("--units is now --samples"), std::string::npos) << ran.err;
+    }
+    EXPECT_NE(run_program(folder, "sweep calibrate sa1-circuit --apart").err.find("--apart is now --separately"), std::string::npos);
+}
+
 TEST(SweepProgram, ReportsItsProgressAndResumesWhereItStopped) {
     const TemporaryFolder folder;
     folder.write("a.toml", sweep_of(50));
     EXPECT_NE(run_program(folder, "sweep a.toml --status").err.find("a.sqlite: does not exist"), std::string::npos);
     ASSERT_EQ(run_program(folder, "sweep a.toml --shard 1/4 -o a.sqlite --quiet").status, 0);
     const auto status = Json::parse(run_program(folder, "sweep a.toml --status --json").out);
-    EXPECT_EQ(status["ended"], 25);
+    EXPECT_EQ(status["finished"], 25);
     EXPECT_EQ(status["missing"], 75);
     const auto ran = run_program(folder, "sweep a.toml -j 2");
     ASSERT_EQ(ran.status, 0) << ran.err;
@@ -66,7 +76,7 @@ TEST(SweepProgram, InterruptedKeepsTheFinishedItems) {
               std::string::npos)
         << test::read_file(folder / "err");
     const auto status = Json::parse(run_program(folder, "sweep a.toml --status --json").out);
-    EXPECT_GT(status["ended"], 0);
+    EXPECT_GT(status["finished"], 0);
     EXPECT_GT(status["missing"], 0);
     EXPECT_FALSE(status.contains("writer"));
     EXPECT_FALSE(std::filesystem::exists(folder / "a.sqlite-wal")) << "one file";
@@ -144,10 +154,10 @@ TEST(SweepRanks, WithoutRecoveryNoFinishedItemIsLost) {
     folder.write("a.toml", sweep_of(30'000));
     const auto ran = run_ranks(folder, 3, "r", "", 2);
     EXPECT_NE(ran.status, 0) << "mpirun ends all ranks\n" << ran.output;
-    const auto ended = Json::parse(run_program(folder, "sweep a.toml -o r --status --json").out)["ended"].get<int>();
+    const auto ended = Json::parse(run_program(folder, "sweep a.toml -o r --status --json").out)["finished"].get<int>();
     EXPECT_GT(ended, 0);
     const auto rest = Json::parse(run_program(folder, "sweep a.toml -o r --json").out);
-    EXPECT_EQ(rest["now"], 60'000 - ended);
+    EXPECT_EQ(rest["this_run"], 60'000 - ended);
     EXPECT_EQ(rest["missing"], 0);
 }
 

@@ -345,20 +345,20 @@ protected:
 
 TEST_F(Responding, NetlistsAndModelsRespondTheSameOnAnyNumberOfThreads) {
     const std::string names = "sa1,./spiker.cir,relaxer.cir";
-    const auto one = corpuscle::test::run_program(folder, words(names, "--out one --traces -j 1 --report"));
+    const auto one = corpuscle::test::run_program(folder, words(names, "--out one --probe-files -j 1 --report"));
     ASSERT_EQ(one.status, 0) << one.err;
-    ASSERT_EQ(corpuscle::test::run_program(folder, words(names, "--out four --traces -j 4")).status, 0);
-    for (const std::string name : {"/spikes.csv", "/traces.csv"})
+    ASSERT_EQ(corpuscle::test::run_program(folder, words(names, "--out four --probe-files -j 4")).status, 0);
+    for (const std::string name : {"/spikes.csv", "/probes.csv"})
         EXPECT_TRUE(read_file(folder / ("one" + name)) == read_file(folder / ("four" + name))) << name;
     const auto summary = nlohmann::json::parse(read_file(folder / "one/summary.json"));
     EXPECT_EQ(summary["afferents"][1]["name"], "./spiker.cir");
-    EXPECT_EQ(summary["afferents"][1]["made_of"], "netlist");
+    EXPECT_EQ(summary["afferents"][1]["composition"], "netlist");
     EXPECT_GT(summary["work"]["circuits"]["steps"], 1000);
     EXPECT_EQ(summary["work"]["circuits"]["not_converged"], 0);
     const auto spikes = read_file(folder / "one/spikes.csv");
     for (const std::string train : {"\nsa1,a,", "\n./spiker.cir,a,", "\n./spiker.cir,b,", "\nrelaxer.cir,c,"})
         EXPECT_NE(spikes.find(train), std::string::npos) << train;
-    const auto traces = read_file(folder / "one/traces.csv");
+    const auto traces = read_file(folder / "one/probes.csv");
     EXPECT_NE(traces.substr(0, traces.find('\n')).find("./spiker.cir.b.v(u) [V]"), std::string::npos);
     EXPECT_EQ(std::count(traces.begin(), traces.end(), '\n'), 501);
     EXPECT_EQ(traces.find("nan"), std::string::npos);

@@ -251,11 +251,11 @@ TEST(Cost, RespondReportsThePowerAtRestAndTheMeanOverTheResponse) {
     const auto costs = nlohmann::json::parse(ran.out)["costs"];
     ASSERT_EQ(costs.size(), 1U) << "equations have no known cost";
     EXPECT_TRUE(costs[0]["afferent"].get<std::string>().ends_with("sa1.cir"));
-    EXPECT_EQ(costs[0]["rest_N"], 0.2);
+    EXPECT_EQ(costs[0]["rest_force_N"], 0.2);
     const auto c = cost_in_time(file("sa1.cir"));
     for (const auto& [word, of] : {std::pair{"delivered_W", &PowerBreakdown::supplies},
                                    {"sensor_W", &PowerBreakdown::sensor},
-                                   {"own_W", &PowerBreakdown::without_sensor}}) {
+                                   {"without_sensor_W", &PowerBreakdown::without_sensor}}) {
         EXPECT_NEAR(costs[0]["power"]["op"][word].get<double>(), c.powers("rest")->*of, 1e-4 * c.powers("rest")->*of) << word;
         // after the press of 1 s the run continues at rest for a step of at most 20 ms, which moves the mean towards the rest value
         const double press = c.powers("mean")->*of, rest = c.powers("rest")->*of, farthest = (press + 20e-3 * rest) / (1 + 20e-3);

@@ -34,11 +34,11 @@ TEST(NetlistOverridesProgram, TheChipRespondsInAnyFolderAndOverridesChangeIt) {
     const auto set =
         run_program(folder, press +
                                 "SA1-circuit --set sa1-circuit.C_u=9pF --set SA1-circuit.summer.N3B=12x4 --corner tt --temp 27 "
-                                "--trace 'VF,i(N3B),rectb.o' -o set");
+                                "--probe 'VF,i(N3B),rectb.o' -o set");
     ASSERT_EQ(set.status, 0) << set.err;
     EXPECT_EQ(spikes_in(folder, "plain"), 14U);
     EXPECT_LT(spikes_in(folder, "set"), 10U) << "a membrane of twice the capacitance";
-    const auto traces = read_file(folder / "set/traces.csv");
+    const auto traces = read_file(folder / "set/probes.csv");
     EXPECT_EQ(traces.substr(0, traces.find('\n')),
               "time_s,press_N,sa1-circuit.press.v(vf) [V],sa1-circuit.press.i(xsummer.mn3b) [A],sa1-circuit.press.v(xrectb.o) [V]");
     const auto one = Json::parse(read_file(folder / "set/summary.json"))["afferents"][0];
@@ -56,13 +56,13 @@ TEST(NetlistOverridesProgram, OptionsApplyToEveryNetlistAndAnOverrideForOneTakes
     const TemporaryFolder folder;
     folder.write("a.cir", divider_text), folder.write("b.cir", divider_text);
     const auto ran =
-        run_program(folder, "respond step -a a.cir,b.cir,sa1 --supply 0.5V --set b.cir.SUPPLY=2 --trace 'div.a,mid,i(top)' -o out");
+        run_program(folder, "respond step -a a.cir,b.cir,sa1 --supply 0.5V --set b.cir.SUPPLY=2 --probe 'div.a,mid,i(top)' -o out");
     ASSERT_EQ(ran.status, 1) << "vdd is the node, div.a only a port";
-    EXPECT_TRUE(has(ran.err, "--trace div.a: no netlist of this run has such a node or device")) << ran.err;
+    EXPECT_TRUE(has(ran.err, "--probe div.a: no netlist of this run has such a node or device")) << ran.err;
     const auto good =
-        run_program(folder, "respond step -a a.cir,b.cir,sa1 --supply 0.5V --set b.cir.SUPPLY=2 --trace 'VDD,i(div.top)' -o out --report");
+        run_program(folder, "respond step -a a.cir,b.cir,sa1 --supply 0.5V --set b.cir.SUPPLY=2 --probe 'VDD,i(div.top)' -o out --report");
     ASSERT_EQ(good.status, 0) << good.err;
-    const auto traces = read_file(folder / "out/traces.csv");
+    const auto traces = read_file(folder / "out/probes.csv");
     EXPECT_TRUE(
         has(traces, "a.cir.step.v(vdd) [V],a.cir.step.i(xdiv.rtop) [A],b.cir.step.v(vdd) [V],b.cir.step.i(xdiv.rtop) [A],sa1.step"));
     EXPECT_TRUE(has(traces, ",0.5,0.00025,2,0.001,")) << traces.substr(0, 400);
@@ -82,15 +82,15 @@ TEST(NetlistOverridesProgram, ImpossibleOverridesAreRejectedByName) {
         EXPECT_TRUE(has(ran.err, what)) << ran.err;
     };
     expect_error("--afferent sa1 --temp 85", 2, "--temp 85: there is no netlist in this run; try --afferent sa1-circuit");
-    expect_error("--afferent sa1 --trace vf -o out", 2, "--trace vf: there is no netlist in this run");
-    expect_error("--afferent a.cir --trace mid", 2, "--trace mid needs --out DIR or --report");
+    expect_error("--afferent sa1 --probe vf -o out", 2, "--probe vf: there is no netlist in this run");
+    expect_error("--afferent a.cir --probe mid", 2, "--probe mid needs --out DIR or --report");
     expect_error("--afferent a.cir,b.cir --supply 0.7V", 1, "--supply 0.7V: b.cir has no .param supply");
     expect_error("--afferent a.cir --corner ss", 1, "--corner ss: there is no corner 'ss': the netlist has no line .lib 'file' section");
     expect_error("--afferent sa1-circuit --corner slow", 1,
                  "--corner slow: no corner 'slow': library '../../process/tsmc180.lib' has tt, ss, ff, sf, fs, mc");
     expect_error("--afferent sa1-circut", 1, "unknown afferent 'sa1-circut'; did you mean 'sa1-circuit'?");
-    expect_error("--afferent a.cir --trace mod -o out", 1,
-                 "--trace mod: no netlist of this run has such a node or device; did you mean 'mid'?");
+    expect_error("--afferent a.cir --probe mod -o out", 1,
+                 "--probe mod: no netlist of this run has such a node or device; did you mean 'mid'?");
     expect_error("--afferent a.cir --set a.cir.div.rtp=2k", 1, "did you mean 'div.top'?");
     expect_error("--afferent a.cir --set c.cir.div.rtop=2k", 2, "no afferent or stimulus 'c.cir.div' in this run");
     expect_error("--afferent a.cir --mismatch half", 1, "--mismatch half: 'half' is not a seed");
@@ -101,14 +101,14 @@ TEST(NetlistOverridesProgram, ImpossibleOverridesAreRejectedByName) {
 TEST(NetlistOverridesProgram, CopiesOfANetlistVaryItsParametersAndAreTheChipsOfASeed) {
     const TemporaryFolder folder;
     folder.write("a.cir", divider_text);
-    const auto ran = run_program(folder, "respond step -a a.cir --copies 3 --spread a.cir.R_top=5% --trace 'i(rtop)' -o out --quiet");
+    const auto ran = run_program(folder, "respond step -a a.cir --copies 3 --spread a.cir.R_top=5% --probe 'i(rtop)' -o out --quiet");
     ASSERT_EQ(ran.status, 0) << ran.err;
     const auto copies = read_file(folder / "out/copies.csv");
     EXPECT_EQ(copies.substr(0, 22), "afferent,channel,r_top");
     const auto first = copies.substr(copies.find("a.cir#1,step,") + 13), second = copies.substr(copies.find("a.cir#2,step,") + 13);
     const double r1 = std::stod(first), r2 = std::stod(second);
     EXPECT_NE(r1, r2);
-    const auto traces = read_file(folder / "out/traces.csv");
+    const auto traces = read_file(folder / "out/probes.csv");
     const auto row = traces.substr(traces.find('\n') + 1);
     double time = 0, force = 0, i1 = 0, i2 = 0;
     ASSERT_EQ(std::sscanf(row.c_str(), "%lf,%lf,%lf,%lf", &time, &force, &i1, &i2), 4);
@@ -121,7 +121,7 @@ TEST(NetlistOverridesProgram, RunTakesTheSameOptionsAndSavesProbesInAddition) {
     const TemporaryFolder folder;
     folder.write("a.cir", std::string(divider_text) + ".op\n.expect v(mid) 0.5 1%\n");
     EXPECT_EQ(run_program(folder, "run a.cir").status, 0);
-    const auto ran = run_program(folder, "run a.cir --supply 2V --set DIV.top=3k --trace 'vdd,i(div.rtop),mid' --json");
+    const auto ran = run_program(folder, "run a.cir --supply 2V --set DIV.top=3k --probe 'vdd,i(div.rtop),mid' --json");
     ASSERT_EQ(ran.status, 0) << ran.err;
     EXPECT_TRUE(has(ran.err, "values of the netlist are overridden, so .expect is ignored")) << ran.err;
     const auto curves = Json::parse(ran.out)["plots"][0]["curves"];
@@ -129,9 +129,9 @@ TEST(NetlistOverridesProgram, RunTakesTheSameOptionsAndSavesProbesInAddition) {
     EXPECT_NEAR(curves["v(mid)"][0].get<double>(), 0.5, 1e-6);
     EXPECT_NEAR(curves["v(vdd)"][0].get<double>(), 2, 1e-9);
     EXPECT_NEAR(curves["i(xdiv.rtop)"][0].get<double>(), 0.5e-3, 1e-9);
-    EXPECT_EQ(run_program(folder, "run a.cir --trace vdd").status, 0) << "without overrides its .expect lines still apply";
+    EXPECT_EQ(run_program(folder, "run a.cir --probe vdd").status, 0) << "without overrides its .expect lines still apply";
     EXPECT_EQ(run_program(folder, "run a.cir --set div.top").status, 2);
-    EXPECT_TRUE(has(run_program(folder, "run a.cir --trace vd").err, "--trace vd: a.cir has no such node or device; did you mean 'vdd'?"));
+    EXPECT_TRUE(has(run_program(folder, "run a.cir --probe vd").err, "--probe vd: a.cir has no such node or device; did you mean 'vdd'?"));
     EXPECT_EQ(run_program(folder, "export sa1-circuit --for ngspice -o deck.cir").status, 0);
 }
 
@@ -139,12 +139,12 @@ TEST(NetlistOverridesProgram, ListShowsTheContentsOfAChip) {
     const TemporaryFolder folder;
     const auto listed = Json::parse(run_program(folder, "list sa1-circuit --json").out)["afferents"][0];
     EXPECT_EQ(listed["name"], "sa1-circuit");
-    EXPECT_EQ(listed["made_of"], "netlist");
+    EXPECT_EQ(listed["composition"], "netlist");
     const auto& all = listed["parameters"];
     const auto c_u = std::find_if(all.begin(), all.end(), [](const Json& p) { return p["name"] == "c_u"; });
     ASSERT_NE(c_u, all.end());
     EXPECT_EQ((*c_u)["default"], 4.5e-12);
-    EXPECT_TRUE(has((*c_u)["sentence"], "as_printed"));
+    EXPECT_TRUE(has((*c_u)["description"], "as_printed"));
     EXPECT_TRUE((*c_u)["low"].is_null());
     EXPECT_EQ(std::count_if(all.begin(), all.end(), [](const Json& p) { return p["name"] == "vtn_shift"; }), 0);
 }

@@ -1,10 +1,11 @@
-// .within: a quantity outside its design range is reported, in a netlist's own transient and for a netlist afferent.
+// .assert: a quantity outside its design range is reported, in a netlist's own transient and for a netlist afferent.
 
 #include "circuit/operating_range.hpp"
 
 #include <gtest/gtest.h>
 
 #include "circuit/circuit_afferent.hpp"
+#include "circuit/netlist/renamed_directives.hpp"
 #include "circuit/netlist_runner.hpp"
 #include "study/afferent_run.hpp"
 #include "support/program.hpp"
@@ -14,11 +15,11 @@ namespace corpuscle::circuit {
 namespace {
 
 /// The force as a voltage, and a comparator; out of range above 1 V.
-const std::string follower = "follower\nvf f 0 force 1\nrf f s 1k\ncs s 0 1n\n.spike v(s) 2 rise\n.within v(f) -1 1 \"too much force\"\n";
+const std::string follower = "follower\nvf f 0 force 1\nrf f s 1k\ncs s 0 1n\n.spike v(s) 2 rise\n.assert v(f) -1 1 \"too much force\"\n";
 
 TEST(OperatingRange, ATransientReportsDurationAndStart) {
     const auto ramp =
-        run_netlist("t\nv1 a 0 pwl(0 0 1 1 2 0)\nr1 a 0 1k\n.within v(a) -1 0.2505 \"too high\"\n.within v(a) -1 2\n.tran 1m 2 0 1m\n");
+        run_netlist("t\nv1 a 0 pwl(0 0 1 1 2 0)\nr1 a 0 1k\n.assert v(a) -1 0.2505 \"too high\"\n.assert v(a) -1 2\n.tran 1m 2 0 1m\n");
     ASSERT_EQ(ramp.warnings().size(), 1U) << "one of two was left";
     const auto& sentence = ramp.warnings()[0].message;
     EXPECT_TRUE(sentence.starts_with("v(a) was outside -1 V to 250.5 mV for 1.499 s of 2 s, first at 251 ms")) << sentence;
@@ -62,12 +63,21 @@ TEST(OperatingRange, ErrorsNameTheirLocation) {
             test::value_or_throw(parse_netlist_text("t\nvf f 0 force 1\nr1 f 0 1\n.spike v(f) 1\n" + line + "\n")));
         return made ? std::string() : made.error().message;
     };
-    EXPECT_EQ(refusal(".within v(f) 0 1"), "");
-    EXPECT_NE(refusal(".within v(g) 0 1").find("v(g)"), std::string::npos);
-    EXPECT_EQ(refusal(".within v(f) 1 0"), ".within: 1 to 0: the first must be below the second");
-    EXPECT_EQ(refusal(".within v(f) 1"), ".within: the highest value is missing");
-    EXPECT_NE(refusal(".within v(f) 0 1 loud").find("'loud' must be a message in double quotes"), std::string::npos);
-    EXPECT_NE(refusal(".within v(f) 0 1 \"a\" \"b\"").find("unexpected '\"b\"'"), std::string::npos);
+    EXPECT_EQ(refusal(".assert v(f) 0 1"), "");
+    EXPECT_NE(refusal(".assert v(g) 0 1").find("v(g)"), std::string::npos);
+    EXPECT_EQ(refusal(".assert v(f) 1 0"), ".assert: 1 to 0: the first must be below the second");
+    EXPECT_EQ(refusal(".assert v(f) 1"), ".assert: the highest value is missing");
+    EXPECT_NE(refusal(".assert v(f) 0 1 loud").find("'loud' must be a message in double quotes"), std::string::npos);
+    EXPECT_NE(refusal(".assert v(f) 0 1 \"a\" \"b\"").find("unexpected '\"b\"'"), std::string::npos);
+}
+
+TEST(OperatingRange, FormerDirectivesAreRefusedWithTheirPresentNames) {
+    for (const auto& [old_name, new_name] : renamed_directives) {
+        const auto read = parse_netlist_text(fmt::format("t\nr1 f 0 1\n{} v(f) 0 1\n", old_name));
+        ASSERT_FALSE(read) << old_name;
+        EXPECT_EQ(read.error().message, fmt::format("{} is now {}", old_name, new_name));
+        EXPECT_EQ(read.error().location.line, 3);
+    }
 }
 
 }  // namespace

@@ -21,8 +21,8 @@ void check(const Error& e) { must(!e.message.empty()); }
 void check(const Sweep& s) {
     must(s.item_count() >= 1 && !s.metadata().empty());
     for (const auto& f : s.metadata()) must(!f.name.empty());
-    for (const auto unit : {std::int64_t{0}, s.item_count() / 2, s.item_count() - 1}) {
-        const auto values = s.values(unit);
+    for (const auto item : {std::int64_t{0}, s.item_count() / 2, s.item_count() - 1}) {
+        const auto values = s.values(item);
         must(values.size() == s.axes().size());
         for (std::size_t k = 0; k < values.size(); ++k) {
             must(std::isfinite(values[k]));

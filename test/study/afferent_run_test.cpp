@@ -37,7 +37,7 @@ RunFiles run(const TemporaryFolder& folder, const std::vector<std::string>& stim
     const auto work = test::value_or_throw(respond(sources, plans, listeners, options));
     EXPECT_TRUE(spikes.commit());
     EXPECT_TRUE(traces.commit());
-    return {test::read_file(folder / "spikes.csv"), test::read_file(folder / "traces.csv"),
+    return {test::read_file(folder / "spikes.csv"), test::read_file(folder / "probes.csv"),
             summary.document(plans, work, options, 9, {}).dump(), work};
 }
 
@@ -84,7 +84,7 @@ TEST(Respond, ProbeFilesAreReadBackAsRecordings) {
         ran.traces.starts_with("time_s,press_N,sa1.press.I_A [A],sa1.press.I_B [A],sa1.press.I_C [A],sa1.press.I [A],sa1.press.u [V]\n"));
     RecordingOptions options;
     options.channels = {"press"};
-    const auto back = test::value_or_throw(open_recording(folder / "traces.csv", options));
+    const auto back = test::value_or_throw(open_recording(folder / "probes.csv", options));
     EXPECT_EQ(back->clock().rate(), 2000);
     const auto read = test::read_first_channel(*back), expected = test::force("press", {.rate = 2e3});
     ASSERT_EQ(read.size(), expected.size());

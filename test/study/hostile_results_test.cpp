@@ -11,6 +11,7 @@
 #include "study/sweep/dump.hpp"
 #include "study/sweep/run_sweep.hpp"
 #include "study/sweep/sqlite.hpp"
+#include "study/sweep/sweep_table.hpp"
 #include "support/plain_sweep.hpp"
 #include "support/support.hpp"
 
@@ -18,6 +19,7 @@ namespace corpuscle {
 namespace {
 
 using test::PlainSweep;
+using test::read_file;
 using test::TemporaryFolder;
 using test::value_or_throw;
 
@@ -76,26 +78,51 @@ TEST(SweepResults, OfTheFirstFormatAreReadAndOfALaterOneRefused) {
     EXPECT_EQ(results.finished_count(), 2);
     std::string text;
     ASSERT_TRUE(dump_results(results, [&](const std::string& more) { return text += more, true; }));
-    EXPECT_EQ(text, "unit,ended,steps,iterations,alone,why,temp,v(q),spikes of out\n0,done,1,2,0,,27,0.35,1\n1,lost,1,2,0,no rest,85,,\n");
+    EXPECT_EQ(text,
+              "item,ended,steps,iterations,alone,why,temp,v(q),spikes of out\n0,done,1,2,0,,27,0.35,1\n1,diverged,1,2,0,no rest,85,,\n");
     const TemporaryFolder later;
-    const auto refused = SweepResults::open_read_only(old_results(later, std::string(first_format) + "PRAGMA user_version = 2;"));
+    const auto refused = SweepResults::open_read_only(old_results(later, std::string(first_format) + "PRAGMA user_version = 3;"));
     ASSERT_FALSE(refused);
     EXPECT_NE(
-        refused.error().text().find("was written by a later corpuscle (its format is 2, this one reads up to 1): use the later version"),
+        refused.error().text().find("was written by a later corpuscle (its format is 3, this one reads up to 2): use the later version"),
         std::string::npos)
         << refused.error().text();
+}
+
+TEST(SweepResults, OfTheFirstFormatAreNotExtendedOrMergedAndTheRemedyIsNamed) {
+    const TemporaryFolder folder;
+    const auto path = old_results(folder, std::string(first_format) + "PRAGMA user_version = 1;");
+    auto results = value_or_throw(SweepResults::open_read_only(path));
+    EXPECT_EQ(*results.count_ended(ItemEnd::diverged), 1);
+    EXPECT_EQ(value_or_throw(results.spikes(0, 0)), std::vector<double>{1.0});
+    const auto table = value_or_throw(read_table(results, {}));
+    EXPECT_EQ(table.items, (std::vector<std::int64_t>{0, 1}));
+    EXPECT_EQ(table.ends, (std::vector<ItemEnd>{ItemEnd::done, ItemEnd::diverged}));
+    const auto bytes = read_file(path);
+    const PlainSweep sweep(100);
+    const auto extended = SweepResults::open(path, sweep);
+    ASSERT_FALSE(extended);
+    EXPECT_EQ(
+        extended.error().message,
+        "has results of format 1, of an earlier corpuscle; this one writes format 2 and only reads the earlier one (sweep show, sweep "
+        "dump). To compute or merge, run the sweep into another file: corpuscle sweep FILE --out NEW.sqlite");
+    auto into = value_or_throw(SweepResults::open(folder / "all.sqlite", sweep));
+    const auto merged = into.merge(results);
+    ASSERT_FALSE(merged);
+    EXPECT_EQ(merged.error().message, extended.error().message);
+    EXPECT_EQ(read_file(path), bytes) << "it is not changed";
 }
 
 TEST(HostileResults, WithoutAColumnAreRefusedByItsName) {
     const struct {
         const char *statements, *message;
-    } cases[] = {{"ALTER TABLE units RENAME COLUMN gain TO gian", "its table 'units' has no column 'gain'"},
-                 {"ALTER TABLE units RENAME COLUMN ended TO over", "its table 'units' has no column 'ended'"},
+    } cases[] = {{"ALTER TABLE items RENAME COLUMN gain TO gian", "its table 'items' has no column 'gain'"},
+                 {"ALTER TABLE items RENAME COLUMN ended TO over", "its table 'items' has no column 'ended'"},
                  {"ALTER TABLE spikes RENAME COLUMN times TO t", "its table 'spikes' has no column 'times'"},
                  {"ALTER TABLE columns RENAME COLUMN unit TO u", "its table 'columns' has no column 'unit'"},
                  {"ALTER TABLE traces RENAME TO trace", "it has no table 'traces'"},
                  {"PRAGMA user_version = 0", "its format version is missing"},
-                 {"UPDATE about SET value = '-5' WHERE key = 'units'", "its number of units is -5"},
+                 {"UPDATE about SET value = '-5' WHERE key = 'items'", "its number of items is -5"},
                  {"UPDATE about SET value = '[[' WHERE key = 'trains'", "its tables about and columns cannot be read"}};
     for (const auto& c : cases) {
         const TemporaryFolder folder;
@@ -108,8 +135,8 @@ TEST(HostileResults, WithoutAColumnAreRefusedByItsName) {
 TEST(HostileResults, OfItemsThatTheSweepDoesNotHaveAreRefused) {
     for (const auto* item : {"-1", "100", "4611686018427387904"}) {
         const TemporaryFolder folder;
-        const auto path = changed_results(folder, fmt::format("UPDATE units SET unit = {} WHERE unit = 7", item));
-        EXPECT_NE(refusal_of(path).find(fmt::format("it holds unit {}, of a sweep of 100 units (0 to 99)", item)), std::string::npos)
+        const auto path = changed_results(folder, fmt::format("UPDATE items SET item = {} WHERE item = 7", item));
+        EXPECT_NE(refusal_of(path).find(fmt::format("it holds item {}, of a sweep of 100 items (0 to 99)", item)), std::string::npos)
             << refusal_of(path);
         EXPECT_FALSE(SweepResults::open(path, PlainSweep(100)));
     }
@@ -118,27 +145,27 @@ TEST(HostileResults, OfItemsThatTheSweepDoesNotHaveAreRefused) {
 TEST(HostileResults, ExecuteNothingThatTheirSchemaContains) {
     const TemporaryFolder folder;
     const auto path = changed_results(folder,
-                                      "DELETE FROM units WHERE unit > 50; DELETE FROM spikes; DELETE FROM traces;"
-                                      "CREATE TRIGGER t AFTER INSERT ON units BEGIN UPDATE units SET ended = 'lost'; END");
+                                      "DELETE FROM items WHERE item > 50; DELETE FROM spikes; DELETE FROM traces;"
+                                      "CREATE TRIGGER t AFTER INSERT ON items BEGIN UPDATE items SET ended = 'diverged'; END");
     const PlainSweep sweep(100);
     auto results = value_or_throw(SweepResults::open(path, sweep));
     std::vector<ItemOutcome> one;
     one.push_back(sweep.outcome(60));
     ASSERT_TRUE(results.add(sweep, std::move(one)));
-    std::int64_t lost = 0, should = 0;
+    std::int64_t diverged = 0, should = 0;
     ASSERT_TRUE(results.for_each_row([&](const SweepResults::Row& row) {
-        lost += row.end == ItemEnd::diverged, should += sweep.outcome(row.item).end == ItemEnd::diverged;
+        diverged += row.end == ItemEnd::diverged, should += sweep.outcome(row.item).end == ItemEnd::diverged;
         return true;
     }));
-    EXPECT_EQ(lost, should);
+    EXPECT_EQ(diverged, should);
 }
 
 TEST(HostileResults, WithAViewForATableAreRefused) {
     const TemporaryFolder folder;
     const auto path = changed_results(folder,
-                                      "ALTER TABLE units RENAME TO old;"
-                                      "CREATE VIEW units AS WITH RECURSIVE n(unit) AS (SELECT 1 UNION ALL SELECT unit + 1 FROM n) "
-                                      "SELECT unit, 'done' AS ended, 1 AS steps, 1 AS iterations, 0 AS alone, '' AS why FROM n");
+                                      "ALTER TABLE items RENAME TO old;"
+                                      "CREATE VIEW items AS WITH RECURSIVE n(item) AS (SELECT 1 UNION ALL SELECT item + 1 FROM n) "
+                                      "SELECT item, 'done' AS ended, 1 AS steps, 1 AS iterations, 0 AS alone, '' AS why FROM n");
     const auto message = refusal_of(path);
     EXPECT_NE(message.find("changed by another program"), std::string::npos) << message;
 }
@@ -156,9 +183,9 @@ TEST(HostileResults, InAnotherOrderOfColumnsAreMergedColumnByColumn) {
     const TemporaryFolder folder;
     const PlainSweep sweep(100);
     const auto path = changed_results(folder,
-                                      "DELETE FROM units WHERE unit < 50; DELETE FROM spikes WHERE unit < 50; DELETE FROM traces WHERE "
-                                      "unit < 50; ALTER TABLE units ADD COLUMN extra; ALTER TABLE units RENAME COLUMN why TO w;"
-                                      "ALTER TABLE units ADD COLUMN why TEXT NOT NULL DEFAULT ''; UPDATE units SET why = w");
+                                      "DELETE FROM items WHERE item < 50; DELETE FROM spikes WHERE item < 50; DELETE FROM traces WHERE "
+                                      "item < 50; ALTER TABLE items ADD COLUMN extra; ALTER TABLE items RENAME COLUMN why TO w;"
+                                      "ALTER TABLE items ADD COLUMN why TEXT NOT NULL DEFAULT ''; UPDATE items SET why = w");
     auto into = value_or_throw(SweepResults::open(folder / "all.sqlite", sweep));
     const auto merged = into.merge(value_or_throw(SweepResults::open_read_only(path)));
     ASSERT_TRUE(merged) << merged.error().text();

@@ -91,7 +91,7 @@ TEST(PlainGrid, ReportsEveryAxisAndNoStatisticsOfChance) {
 TEST(PlainGrid, IsNotPlainIfAnAxisIsSampled) {
     const TemporaryFolder folder;
     folder.write("drawn.toml", std::string(grid_file) + "[[vary]]\nwhat = \"sa1.f_C\"\nhow = \"uniform\"\nfrom = \"5Hz\"\nto = \"10Hz\"\n");
-    ASSERT_EQ(run_program(folder, "sweep drawn.toml --units 2 --out r.sqlite --quiet").status, 0);
+    ASSERT_EQ(run_program(folder, "sweep drawn.toml --samples 2 --out r.sqlite --quiet").status, 0);
     EXPECT_FALSE(is_deterministic(value_or_throw(SweepResults::open_read_only(folder / "r.sqlite"))));
     folder.write("plain.toml", grid_file);
     ASSERT_EQ(run_program(folder, "sweep plain.toml --seed 3 --out p.sqlite --quiet").status, 0);

@@ -184,7 +184,7 @@ TEST_F(SyntheticSweepSummary, TheDocumentHasTheContentsOfTheSummary) {
     const auto& device = document["depends_on"][0]["devices"][0];
     EXPECT_EQ(device["device"], "x1.m7");
     EXPECT_NEAR(device["area_m2"].get<double>(), 8e-12, 1e-20);
-    const double fraction = device["share"], left = device["sigma_with_four_times_the_area"];
+    const double fraction = device["fraction"], left = device["relative_sigma_at_4x_area"];
     EXPECT_NEAR(left * left, 1 - 0.75 * fraction, 1e-12);
 }
 

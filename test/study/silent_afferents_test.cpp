@@ -148,7 +148,8 @@ TEST(Rates, OfASingleSpikeAreBlank) {
     for (const auto& row : skin["rates"])
         if (row["spikes"] == 1) {
             ++single;
-            EXPECT_TRUE(row["busiest_Hz"].is_null() && row["rate_of_active_Hz"].is_null() && row["rate_while_touched_Hz"].is_null()) << row;
+            EXPECT_TRUE(row["max_rate_Hz"].is_null() && row["rate_of_active_Hz"].is_null() && row["rate_while_touched_Hz"].is_null())
+                << row;
         }
     EXPECT_GT(single, 0) << skin["rates"];
 }

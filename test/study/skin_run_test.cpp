@@ -240,7 +240,7 @@ TEST(SkinRun, ARecordingsChannelsAreItsSitesByNameOrInOrder) {
     ASSERT_EQ(test::run_program(folder, "respond named.csv --population 'grid 2x2' --out named --quiet").status, 0);
     ASSERT_EQ(test::run_program(folder, "respond ordered.csv --population 'grid 2x2' --out ordered --quiet").status, 0);
     EXPECT_EQ(read_file(folder / "named/spikes.csv"), read_file(folder / "ordered/spikes.csv"));
-    EXPECT_NE(read_file(folder / "named/units.csv").find("sa1#3"), std::string::npos);
+    EXPECT_NE(read_file(folder / "named/afferents.csv").find("sa1#3"), std::string::npos);
     const auto wrong = test::run_program(folder, "respond ordered.csv --population 'grid 3x2' --out wrong");
     EXPECT_EQ(wrong.status, 1);
     EXPECT_NE(wrong.err.find("ordered has 4 channels, but grid 3x2 has 6 sites"), std::string::npos) << wrong.err;
@@ -268,7 +268,7 @@ TEST(SkinRun, SpikesOfASkinAreNumPysArraysToo) {
 
 TEST(SkinRun, OptionsForAfferentsOnChannelsAreRefused) {
     const TemporaryFolder folder;
-    for (const char* arguments : {"--afferent fa2", "--copies 3", "--noise 10nA", "--traces --out x", "--corner ss"}) {
+    for (const char* arguments : {"--afferent fa2", "--copies 3", "--noise 10nA", "--probe-files --out x", "--corner ss"}) {
         const auto ran = test::run_program(folder, std::string("respond press --population fingertip ") + arguments);
         EXPECT_EQ(ran.status, 2) << arguments << ran.err;
         EXPECT_NE(ran.err.find("cannot be used with --population"), std::string::npos) << ran.err;
@@ -288,7 +288,7 @@ TEST(SkinRanks, GiveTheSpikesOfOneProcess) {
     };
     for (const int count : {2, 3}) {
         ASSERT_EQ(ranks(count, "press --population fingertip --events aer --out r"), 0) << read_file(folder / "said");
-        for (const char* file : {"spikes.aer", "units.csv", "summary.json"})
+        for (const char* file : {"spikes.aer", "afferents.csv", "summary.json"})
             EXPECT_EQ(read_file((folder / "r/") + file), read_file((folder / "alone/") + file)) << file << " of " << count;
     }
     EXPECT_EQ(ranks(2, "press --population fingertip --set press.F_max=no"), 1);

@@ -180,7 +180,7 @@ TEST(SkinSummary, FilesHoldTheListedSpikes) {
     const TemporaryFolder folder;
     SkinSummary s;
     SkinSpikesFile spikes(value_or_throw(OutputFile::create(folder / "spikes.csv")));
-    SkinAfferentsFile afferents_file(value_or_throw(OutputFile::create(folder / "units.csv")), s);
+    SkinAfferentsFile afferents_file(value_or_throw(OutputFile::create(folder / "afferents.csv")), s);
     SkinPsthFile bins(value_or_throw(OutputFile::create(folder / "psth.csv")), 10e-3);
     run_listeners(skin, {&s, &spikes, &afferents_file, &bins}, 7);
     for (SkinFileSink* file :
@@ -189,13 +189,15 @@ TEST(SkinSummary, FilesHoldTheListedSpikes) {
     EXPECT_EQ(test::read_file(folder / "spikes.csv"),
               "afferent,channel,time_s\nsa1#1,tip,0.002500000\nsa1#2,tip,0.006000000\nfa1#1,tip,0.006000000\nsa1#1,tip,0.010250000\n"
               "sa1#2,tip,0.015000000\nfa1#1,tip,0.015000000\nfa1#1,tip,0.020500000\n");
-    EXPECT_EQ(test::read_file(folder / "units.csv"),
-              "unit,afferent,region,x_mm,y_mm,delay_ms,spikes,first_spike_s,touched_s,rate_Hz\n0,sa1#1,tip,0.000,0.000,0.000000,2,0."
-              "002500000,0.01,100\n"
-              "1,sa1#2,tip,2.000,0.000,0.000000,2,0.006000000,0.005,100\n2,sa1#3,palm,4.000,1.000,2.000000,0,,0,0\n"
-              "3,fa1#1,tip,2.000,1.000,0.000000,3,0.006000000,0.005,150\n4,fa1#2,palm,4.000,0.000,0.000000,0,,0,0\n");
+    EXPECT_EQ(
+        test::read_file(folder / "afferents.csv"),
+        "afferent_index,afferent,region,x_mm,y_mm,delay_ms,spikes,first_spike_s,touched_s,rate_Hz\n0,sa1#1,tip,0.000,0.000,0.000000,2,0."
+        "002500000,0.01,100\n"
+        "1,sa1#2,tip,2.000,0.000,0.000000,2,0.006000000,0.005,100\n2,sa1#3,palm,4.000,1.000,2.000000,0,,0,0\n"
+        "3,fa1#1,tip,2.000,1.000,0.000000,3,0.006000000,0.005,150\n4,fa1#2,palm,4.000,0.000,0.000000,0,,0,0\n");
     const auto psth = test::read_file(folder / "psth.csv");
-    EXPECT_TRUE(psth.starts_with("afferent,channel,units,from_s,to_s,spikes,rate_Hz\nsa1,tip,2,0.000000000,0.010000000,2,100\nsa1,palm,1,"))
+    EXPECT_TRUE(
+        psth.starts_with("afferent,channel,afferents,from_s,to_s,spikes,rate_Hz\nsa1,tip,2,0.000000000,0.010000000,2,100\nsa1,palm,1,"))
         << psth;
     EXPECT_NE(psth.find("fa1,tip,1,0.020000000,0.022000000,1,500\n"), psth.npos) << "the last bin ends after the last spike\n" << psth;
 }
@@ -206,14 +208,14 @@ TEST(SkinPage, ContainsForceMapsAndEverySpike) {
     SkinReport report;
     run_listeners(skin, {&s, &report});
     const auto data = page_data(skin_page(s, report, {.notes = {"</script> left out"}}, "corpuscle respond poke"));
-    EXPECT_EQ(data["remarks"], (SkinJson{"</script> left out"}));
+    EXPECT_EQ(data["notes"], (SkinJson{"</script> left out"}));
     const auto& over = data["over"];
     EXPECT_EQ(over["samples"], 20);
     EXPECT_EQ(over["shown_samples"], 21);
     const std::vector<std::vector<unsigned>> by_unit = {{1, 1, 0, 1, 0}, {1, 1, 0, 1, 0}, {0, 0, 0, 1, 0}};
     EXPECT_DOUBLE_EQ(over["marks"]["width"], 10e-3);
     EXPECT_EQ(frames_of(over["marks"]), by_unit);
-    EXPECT_DOUBLE_EQ(over["sites"]["greatest"], 1.0);  // of ten samples, five with 2 N
+    EXPECT_DOUBLE_EQ(over["sites"]["max"], 1.0);  // of ten samples, five with 2 N
     EXPECT_EQ(frames_of(over["sites"])[0], (std::vector<unsigned>{203, 254, 0})) << "eight samples of 1 N";
     EXPECT_EQ(frames_of(over["sites"])[1], (std::vector<unsigned>{51, 0, 0}));
     EXPECT_EQ(frames_of(over["classes"])[5], (std::vector<unsigned>{0, 0}));
@@ -229,7 +231,7 @@ TEST(SkinPage, KeepsNoSpikesWhenThereAreTooMany) {
     run_listeners(skin, {&s, &all, &few});
     EXPECT_EQ(all.document()["spikes"]["count"], 7);
     EXPECT_TRUE(few.document()["spikes"].is_null());
-    EXPECT_EQ(few.document()["units_a_mark"], 3);
+    EXPECT_EQ(few.document()["afferents_per_mark"], 3);
     EXPECT_EQ(frames_of(few.document()["marks"]), (std::vector<std::vector<unsigned>>{{4, 2}, {0, 1}})) << "two frames of 20 ms";
 }
 

@@ -263,7 +263,7 @@ TEST(SweepResults, RefuseTheFileOfAnotherSweepAndNameTheDifference) {
               path +
                   ": holds results of another sweep: netlist circuits/sa1.cir has changed since, in line 2. Give another file with --out, "
                   "undo the change, or remove this file");
-    EXPECT_NE(refusal(path, PlainSweep(30)).find("the number of units was 20 and is 30 now"), std::string::npos);
+    EXPECT_NE(refusal(path, PlainSweep(30)).find("the number of items was 20 and is 30 now"), std::string::npos);
     PlainSweep more(20);
     more.metadata_.insert(more.metadata_.begin(), {"card process/x.lib", "y"});
     EXPECT_NE(refusal(path, more).find("it has no entry 'card process/x.lib'"), std::string::npos);
@@ -290,7 +290,7 @@ TEST(SweepResults, AreWrittenByOneAtATimeAndReadMeanwhile) {
         ASSERT_TRUE(first.add(sweep, {sweep.outcome(3)}));
         EXPECT_NE(refusal(path, sweep).find(fmt::format("is being written by process {} on ", ::getpid())), std::string::npos);
         ASSERT_TRUE(first.add(sweep, {sweep.outcome(4), sweep.outcome(3)}));
-        EXPECT_EQ(value_or_throw(SweepResults::open_read_only(path)).finished_count(), 2) << "a row a unit";
+        EXPECT_EQ(value_or_throw(SweepResults::open_read_only(path)).finished_count(), 2) << "a row an item";
         EXPECT_EQ(first.finished_count(), 2);
     }
     EXPECT_EQ(refusal(path, sweep), "") << "the lock is released with its owner";
@@ -319,7 +319,7 @@ TEST(SweepResults, ShardsMergeIntoAllItemsAndNothingIsCountedTwice) {
     run_sweep_of(Changed(1001), folder / "changed", {.shard = {1, 3}});
     const auto merged = all.merge(value_or_throw(SweepResults::open_read_only(folder / "changed")));
     ASSERT_FALSE(merged);
-    EXPECT_NE(merged.error().text().find("changed: unit 7 has other results than"), std::string::npos) << merged.error().text();
+    EXPECT_NE(merged.error().text().find("changed: item 7 has other results than"), std::string::npos) << merged.error().text();
     run_sweep_of(PlainSweep(1001, "other"), folder / "other", {});
     EXPECT_NE(
         all.merge(value_or_throw(SweepResults::open_read_only(folder / "other"))).error().text().find("belongs to another sweep than"),

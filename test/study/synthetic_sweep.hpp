@@ -44,27 +44,27 @@ public:
     const std::vector<std::string>& probe_names() const override { return probe_names_; }
     const std::vector<double>& probe_times() const override { return probe_times_; }
     const std::vector<MetadataText>& metadata() const override { return metadata_; }
-    std::vector<double> values(std::int64_t unit) const override {
-        return {temps[unit / chips_], 0, normal(99, static_cast<std::uint32_t>(unit % chips_), 1, 0)};
+    std::vector<double> values(std::int64_t item) const override {
+        return {temps[item / chips_], 0, normal(99, static_cast<std::uint32_t>(item % chips_), 1, 0)};
     }
     Result<void> run_items(const NextItem&, const OutcomeHandler&, const std::function<bool()>&) const override { return {}; }
 
-    ItemOutcome outcome(std::int64_t unit) const {
-        const auto chip = mismatch_.chip(unit);
+    ItemOutcome outcome(std::int64_t item) const {
+        const auto chip = mismatch_.chip(item);
         const auto own = [&](std::size_t d) { return deviates_of(mismatch_.subjects[0].devices[d], mismatch_.seed, {chip}); };
-        const double at = values(unit)[0], noise = normal(7, static_cast<std::uint32_t>(unit), 2, 0);
+        const double at = values(item)[0], noise = normal(7, static_cast<std::uint32_t>(item), 2, 0);
         const double line = weight_m7 * own(7).V_T[0] + weight_m20 * own(20).I_S[0] + weight_m3 * own(3).V_T[0] +
-                            weight_process * values(unit)[2] + weight_noise * noise + (at == 85 ? offset_at_85 : 0);
+                            weight_process * values(item)[2] + weight_noise * noise + (at == 85 ? offset_at_85 : 0);
         ItemOutcome out;
-        out.item = unit, out.steps = 100 + unit % 7, out.iterations = 300 + unit % 11;
-        out.measures = {line, std::exp(normal(8, static_cast<std::uint32_t>(unit), 3, 0)), 4 + static_cast<double>(unit % 3)};
-        if (unit % 50 == 9)
+        out.item = item, out.steps = 100 + item % 7, out.iterations = 300 + item % 11;
+        out.measures = {line, std::exp(normal(8, static_cast<std::uint32_t>(item), 3, 0)), 4 + static_cast<double>(item % 3)};
+        if (item % 50 == 9)
             out.end = ItemEnd::iteration_limit, out.reason = "more than 1000 iterations by 0.4 s", out.measures[2] = std::nan("");
-        if (unit % 500 == 11)
+        if (item % 500 == 11)
             out.end = ItemEnd::diverged, out.reason = "did not converge at 0.3 s",
             out.measures = {std::nan(""), std::nan(""), std::nan("")};
         out.spikes.emplace_back();
-        for (int k = 0; k < 5 + unit % 3; ++k) out.spikes[0].push_back(0.1 * k + 0.02 + 0.004 * line);
+        for (int k = 0; k < 5 + item % 3; ++k) out.spikes[0].push_back(0.1 * k + 0.02 + 0.004 * line);
         out.probes.emplace_back();
         for (const double t : probe_times_) out.probes[0].push_back(static_cast<float>(std::sin(6 * t) + 0.1 * line));
         return out;
@@ -75,7 +75,7 @@ public:
 inline SweepResults write_synthetic_results(const std::string& path, const SyntheticSweep& sweep) {
     auto results = value_or_throw(SweepResults::open(path, sweep));
     std::vector<ItemOutcome> all;
-    for (std::int64_t unit = 0; unit < sweep.item_count(); ++unit) all.push_back(sweep.outcome(unit));
+    for (std::int64_t item = 0; item < sweep.item_count(); ++item) all.push_back(sweep.outcome(item));
     EXPECT_TRUE(results.add(sweep, std::move(all)) && results.checkpoint());
     return results;
 }

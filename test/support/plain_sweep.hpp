@@ -22,8 +22,8 @@ class PlainSweep : public Sweep {
 public:
     std::vector<MetadataText> metadata_;
 
-    explicit PlainSweep(std::int64_t units, std::string netlist = "a\nb\nc\n", double seconds = 0)
-        : item_count_(units), seconds_per_item_(seconds),
+    explicit PlainSweep(std::int64_t items, std::string netlist = "a\nb\nc\n", double seconds = 0)
+        : item_count_(items), seconds_per_item_(seconds),
           metadata_({{"title", "plain"}, {"netlist circuits/sa1.cir", std::move(netlist)}}) {}
 
     std::int64_t item_count() const override { return item_count_; }
@@ -33,29 +33,29 @@ public:
     const std::vector<std::string>& probe_names() const override { return probe_names_; }
     const std::vector<double>& probe_times() const override { return probe_times_; }
     const std::vector<MetadataText>& metadata() const override { return metadata_; }
-    std::vector<double> values(std::int64_t unit) const override {
-        return {0.5 + static_cast<double>(unit) / 7, static_cast<double>(unit % 2)};
+    std::vector<double> values(std::int64_t item) const override {
+        return {0.5 + static_cast<double>(item) / 7, static_cast<double>(item % 2)};
     }
 
-    virtual ItemOutcome outcome(std::int64_t unit) const {
-        ItemOutcome o{unit};
-        const auto x = static_cast<double>(unit % 1000) / 1000;
-        if (unit % 97 == 5) o.end = ItemEnd::iteration_limit, o.reason = "more than 1000 iterations";
-        if (unit % 97 == 6) return o.end = ItemEnd::diverged, o.reason = "no rest", o;
-        o.measures = {100 * x, unit % 5 == 0 ? std::nan("") : -x, x * x};
+    virtual ItemOutcome outcome(std::int64_t item) const {
+        ItemOutcome o{item};
+        const auto x = static_cast<double>(item % 1000) / 1000;
+        if (item % 97 == 5) o.end = ItemEnd::iteration_limit, o.reason = "more than 1000 iterations";
+        if (item % 97 == 6) return o.end = ItemEnd::diverged, o.reason = "no rest", o;
+        o.measures = {100 * x, item % 5 == 0 ? std::nan("") : -x, x * x};
         o.spikes.resize(2);
-        for (std::int64_t k = 0; k < unit % 4; ++k) o.spikes[0].push_back(x + 0.1 * static_cast<double>(k));
-        if (unit % 3 == 0) o.spikes[1] = {1 / (1 + x)};
-        if (unit % 10 == 0) o.probes = {{0, 1, static_cast<float>(x), 3}};
-        o.steps = unit, o.iterations = 3 * unit, o.ran_alone = unit % 50 == 0;
+        for (std::int64_t k = 0; k < item % 4; ++k) o.spikes[0].push_back(x + 0.1 * static_cast<double>(k));
+        if (item % 3 == 0) o.spikes[1] = {1 / (1 + x)};
+        if (item % 10 == 0) o.probes = {{0, 1, static_cast<float>(x), 3}};
+        o.steps = item, o.iterations = 3 * item, o.ran_alone = item % 50 == 0;
         return o;
     }
 
     Result<void> run_items(const NextItem& next, const OutcomeHandler& handle_outcome, const std::function<bool()>& stop) const override {
-        for (auto unit = next(); unit; unit = next()) {
+        for (auto item = next(); item; item = next()) {
             if (stop()) return {};
             if (seconds_per_item_ > 0) std::this_thread::sleep_for(std::chrono::duration<double>(seconds_per_item_));
-            handle_outcome(outcome(*unit));
+            handle_outcome(outcome(*item));
         }
         return {};
     }

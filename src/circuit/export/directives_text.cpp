@@ -21,7 +21,7 @@ public:
         if (c.name == "noise") return noise(c);
         if (c.name == "print") return print(c);
         if (c.name == "force") return "";  // the sources contain it
-        for (const std::string_view own : {"expect", "step", "mc", "spike", "within", "probe"})
+        for (const std::string_view own : {"expect", "step", "mc", "spike", "assert", "probe"})
             if (c.name == own)
                 return comment_out(c, own == "step" || own == "mc" ? "ngspice has no such directive; the nominal values are exported"
                                                                    : "ngspice has no such directive");

@@ -6,6 +6,7 @@
 
 #include "circuit/netlist/corner_selector.hpp"
 #include "circuit/netlist/parsed_netlist.hpp"
+#include "circuit/netlist/renamed_directives.hpp"
 #include "circuit/netlist/spice_number.hpp"
 #include "signal/ascii_text.hpp"
 #include "signal/parameter.hpp"
@@ -21,7 +22,7 @@ constexpr std::string_view structural_directives[] = {".subckt", ".ends",    ".p
                                                       ".ic",     ".nodeset", ".end",    ".control", ".endc",    ".title"};
 constexpr std::string_view circuit_directives[] = {".op",   ".dc",      ".ac",    ".noise", ".tf",     ".sens", ".tran",
                                                    ".meas", ".measure", ".print", ".plot",  ".probe",  ".save", ".step",
-                                                   ".mc",   ".expect",  ".force", ".spike", ".within", ".four"};
+                                                   ".mc",   ".expect",  ".force", ".spike", ".assert", ".four"};
 
 /// True for values that may contain blanks: expressions of sources and charges.
 bool is_long_value(char letter, std::string_view name) {
@@ -162,6 +163,8 @@ private:
         known.insert(known.end(), std::begin(circuit_directives), std::end(circuit_directives));
         if (word == ".if" || word == ".elseif" || word == ".else" || word == ".endif")
             return bad_input(fmt::format("{}: conditional parts of a netlist are not supported", word), std::move(location));
+        for (const auto& [old_name, new_name] : renamed_directives)
+            if (word == old_name) return bad_input(fmt::format("{} is now {}", old_name, new_name), std::move(location));
         return bad_input(fmt::format("unknown statement '{}'{}", word, did_you_mean(word, known)), std::move(location));
     }
 

@@ -31,7 +31,7 @@ class AnalysesSweep final : public PlannedSweep {
     Result<void> select_measures(const SweepText&);
     Result<void> select_trains(const SweepText&);
     Result<std::shared_ptr<const Circuit>> circuit(std::span<const double> values) const;
-    ItemOutcome outcome(std::int64_t item, const Result<RunOutcome>&, bool capped = false) const;
+    ItemOutcome outcome(std::int64_t item, const Result<RunOutcome>&, bool truncated = false) const;
 
     /// A thread's analysis context, and the values for which it was made.
     struct ThreadContext {
@@ -221,13 +221,13 @@ long AnalysesSweep::most_iterations(const std::function<bool()>& stop) const {
     return *nominal_iteration_limit_;
 }
 
-ItemOutcome AnalysesSweep::outcome(std::int64_t item, const Result<RunOutcome>& found, bool capped) const {
+ItemOutcome AnalysesSweep::outcome(std::int64_t item, const Result<RunOutcome>& found, bool truncated) const {
     ItemOutcome out;
     out.item = item;
     out.measures.assign(measures_.size(), std::numeric_limits<double>::quiet_NaN());
     out.spikes.resize(train_names_.size());
     if (!found) {
-        out.end = capped ? ItemEnd::iteration_limit : ItemEnd::diverged, out.reason = found.error().text();
+        out.end = truncated ? ItemEnd::iteration_limit : ItemEnd::diverged, out.reason = found.error().text();
         return out;
     }
     for (std::size_t k = 0; k < measures_.size(); ++k)

@@ -61,10 +61,10 @@ std::string describe_frame_error(const ChipCalibration& options, const std::vect
 nlohmann::ordered_json document_of(const ChipCalibration& options, const std::vector<CalibrationResult>& all) {
     nlohmann::ordered_json out = {{"netlist", options.netlist}, {"limits", options.limits.text()}, {"bits", options.bits}};
     for (const auto& set : all) {
-        nlohmann::ordered_json one, trims, kept, chips;
+        nlohmann::ordered_json one, trims, within_limits, chips;
         for (const auto& t : set.trims)
-            trims.push_back({{"names", t.names}, {"designed", t.designed}, {"range", t.range}, {"whole", t.is_integer}});
-        for (int b = 0; b <= options.bits; ++b) kept.push_back(set.count_within_limits(b));
+            trims.push_back({{"names", t.names}, {"designed", t.designed}, {"range", t.range}, {"integer", t.is_integer}});
+        for (int b = 0; b <= options.bits; ++b) within_limits.push_back(set.count_within_limits(b));
         for (const auto& c : set.chips)
             chips.push_back({{"bits", c.bits},
                              {"presses", c.presses},
@@ -72,8 +72,8 @@ nlohmann::ordered_json document_of(const ChipCalibration& options, const std::ve
                              {"spikes_before", c.spikes_before},
                              {"spikes", c.spikes}});
         out["sets"].push_back({{"trims", trims},
-                               {"kept", kept},
-                               {"bits_worth_having", useful_bits(set, options.bits)},
+                               {"within_limits", within_limits},
+                               {"useful_bits", useful_bits(set, options.bits)},
                                {"presses", set.total_presses()},
                                {"chips", chips}});
     }

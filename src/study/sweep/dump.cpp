@@ -64,7 +64,7 @@ public:
 };
 
 std::string names(const SweepResults& results) {
-    std::string text = "unit,ended,steps,iterations,alone,why";
+    std::string text = "item,ended,steps,iterations,alone,why";
     for (const auto& name : results.stored_column_names()) text += "," + field(name);
     for (const auto& name : results.train_names()) text += "," + field("spikes of " + name);
     for (const auto& name : results.probe_names()) text += "," + field("trace of " + name);
@@ -77,8 +77,8 @@ Result<void> dump_results(const SweepResults& results, const std::function<bool(
     BlobReader<double> spikes;
     BlobReader<float> traces;
     if (auto ok = sql::run(results.handle(), results.path(), "BEGIN"); !ok) return ok;  // one consistent state, also during a run
-    auto ok = spikes.begin(results, "SELECT unit, train, times FROM spikes ORDER BY unit, train");
-    if (ok) ok = traces.begin(results, "SELECT unit, trace, samples FROM traces ORDER BY unit, trace");
+    auto ok = spikes.begin(results, "SELECT item, train, times FROM spikes ORDER BY item, train");
+    if (ok) ok = traces.begin(results, "SELECT item, trace, samples FROM traces ORDER BY item, trace");
     bool should_continue = ok && put(names(results));
     Result<void> each;
     if (should_continue)

@@ -30,9 +30,9 @@ public:
     /// The next items, in order, at most `max`; returned items come first.
     std::vector<std::int64_t> take(std::int64_t max);
     /// Returns items to the queue.
-    void put_back(const std::vector<std::int64_t>& units) {
-        returned_.insert(returned_.end(), units.begin(), units.end());
-        remaining_ += static_cast<std::int64_t>(units.size());
+    void put_back(const std::vector<std::int64_t>& items) {
+        returned_.insert(returned_.end(), items.begin(), items.end());
+        remaining_ += static_cast<std::int64_t>(items.size());
     }
     std::int64_t remaining() const { return remaining_; }
 

@@ -9,9 +9,9 @@
 namespace corpuscle {
 namespace {
 
-constexpr int max_listed = 3;  // units listed in a message about differences
+constexpr int max_listed = 3;  // items listed in a message about differences
 
-/// "u.ended, u.steps, ..."
+/// "i.ended, i.steps, ..."
 std::string all_columns(const std::string& table, const ResultsLayout& layout) {
     std::string out;
     for (const char* name : {"ended", "steps", "iterations", "alone", "why"})
@@ -20,29 +20,29 @@ std::string all_columns(const std::string& table, const ResultsLayout& layout) {
     return out;
 }
 
-std::string unit_columns(const ResultsLayout& layout) {
-    std::string out = "unit, ended, steps, iterations, alone, why";
+std::string item_columns(const ResultsLayout& layout) {
+    std::string out = "item, ended, steps, iterations, alone, why";
     for (const auto& name : layout.stored_column_names) out += ", " + sql::quoted_name(name);
     return out;
 }
 
-/// Copies the rows that the other file has and this one lacks, for units of this sweep.
-std::string insertion_of(std::string_view table, const std::string& columns, std::int64_t units) {
-    return fmt::format("INSERT INTO main.{0}({1}) SELECT {1} FROM source.{0} WHERE unit >= 0 AND unit < {2} ON CONFLICT DO NOTHING;", table,
-                       columns, units);
+/// Copies the rows that the other file has and this one lacks, for items of this sweep.
+std::string insertion_of(std::string_view table, const std::string& columns, std::int64_t items) {
+    return fmt::format("INSERT INTO main.{0}({1}) SELECT {1} FROM source.{0} WHERE item >= 0 AND item < {2} ON CONFLICT DO NOTHING;", table,
+                       columns, items);
 }
 
 /// Units that both files have with different results.
 std::string select_differing(const ResultsLayout& layout) {
-    std::string text = fmt::format("SELECT unit FROM main.units u JOIN source.units s USING(unit) WHERE ({}) IS NOT ({})",
-                                   all_columns("u", layout), all_columns("s", layout));
+    std::string text = fmt::format("SELECT item FROM main.items i JOIN source.items s USING(item) WHERE ({}) IS NOT ({})",
+                                   all_columns("i", layout), all_columns("s", layout));
     for (const auto& [table, number, bytes] : {std::tuple{"spikes", "train", "times"}, std::tuple{"traces", "trace", "samples"}})
         for (const auto& [one, other] : {std::pair{"main", "source"}, std::pair{"source", "main"}})
             text += fmt::format(
-                " UNION SELECT unit FROM {0}.{2} a WHERE EXISTS(SELECT 1 FROM {1}.units b WHERE b.unit = a.unit) AND EXISTS(SELECT 1 FROM "
-                "{0}.units b WHERE b.unit = a.unit) AND a.{4} IS NOT (SELECT b.{4} FROM {1}.{2} b WHERE b.unit = a.unit AND b.{3} = a.{3})",
+                " UNION SELECT item FROM {0}.{2} a WHERE EXISTS(SELECT 1 FROM {1}.items b WHERE b.item = a.item) AND EXISTS(SELECT 1 FROM "
+                "{0}.items b WHERE b.item = a.item) AND a.{4} IS NOT (SELECT b.{4} FROM {1}.{2} b WHERE b.item = a.item AND b.{3} = a.{3})",
                 one, other, table, number, bytes);
-    return text + " ORDER BY unit";
+    return text + " ORDER BY item";
 }
 
 Result<void> check_differences(sqlite3* file, const ResultsLayout& layout, const std::string& path, const std::string& from) {
@@ -61,7 +61,7 @@ Result<void> check_differences(sqlite3* file, const ResultsLayout& layout, const
     }
     if (listed.empty()) return {};
     return bad_input(
-        fmt::format("unit {} has other results than in {}, although the sweep is the same: one of the two was changed or made by "
+        fmt::format("item {} has other results than in {}, although the sweep is the same: one of the two was changed or made by "
                     "another program; nothing was merged",
                     listed, path),
         {from});
@@ -70,6 +70,8 @@ Result<void> check_differences(sqlite3* file, const ResultsLayout& layout, const
 }  // namespace
 
 Result<void> SweepResults::check_same_sweep(const SweepResults& other) const {
+    for (const auto* results : {this, &other})
+        if (!results->impl_->layout.is_current_format()) return results->impl_->layout.read_only_format(results->path());
     const auto difference = impl_->layout.difference_from(other.impl_->layout);
     if (difference.empty()) return {};
     return bad_input(fmt::format("belongs to another sweep than {}: {}", other.path(), difference), {path()});
@@ -90,13 +92,13 @@ Result<std::int64_t> SweepResults::merge(const SweepResults& from) {
     auto ok = check_differences(file, impl.layout, path(), from.path());
     if (ok) {
         ok = sql::run(file, path(),
-                      "BEGIN IMMEDIATE;" + insertion_of("units", unit_columns(impl.layout), item_count()) +
-                          insertion_of("spikes", "unit, train, times", item_count()) +
-                          insertion_of("traces", "unit, trace, samples", item_count()) + "COMMIT");
+                      "BEGIN IMMEDIATE;" + insertion_of("items", item_columns(impl.layout), item_count()) +
+                          insertion_of("spikes", "item, train, times", item_count()) +
+                          insertion_of("traces", "item, trace, samples", item_count()) + "COMMIT");
         if (!ok && !sqlite3_get_autocommit(file)) (void)sql::run(file, path(), "ROLLBACK");
     }
     if (ok) {
-        const auto rows = sql::query_integer(file, path(), "SELECT count(*) FROM main.units");
+        const auto rows = sql::query_integer(file, path(), "SELECT count(*) FROM main.items");
         rows ? void(impl.finished = *rows) : void(ok = rows.error());
     }
     if (auto detached = sql::run(file, path(), "DETACH source"); ok) ok = detached;

@@ -106,10 +106,10 @@ class Coordinator {
         for (std::size_t rank = 1; rank < workers_.size() && queue_.remaining() > 0; ++rank) {
             auto& worker = workers_[rank];
             if (!worker.lives || worker.requested == 0) continue;
-            const auto units = queue_.take(std::min(worker.requested, block_size()));
-            worker.has.insert(units.begin(), units.end());
+            const auto items = queue_.take(std::min(worker.requested, block_size()));
+            worker.has.insert(items.begin(), items.end());
             worker.requested = 0;
-            send(rank, rank_message(units));
+            send(rank, rank_message(items));
         }
         const auto wanted = pace_.queue_target(threads_), waiting = static_cast<std::int64_t>(pool_.queued());
         if (2 * waiting <= wanted && queue_.remaining() > 0) pool_.add(queue_.take(std::min(wanted - waiting, block_size())));

@@ -100,9 +100,9 @@ Message rank_message(RankMessageType word, std::uint64_t number) {
     return m;
 }
 
-Message rank_message(const std::vector<std::int64_t>& units) {
+Message rank_message(const std::vector<std::int64_t>& items) {
     auto m = rank_message(RankMessageType::items);
-    put(m, units);
+    put(m, items);
     return m;
 }
 
@@ -134,7 +134,7 @@ std::optional<RankMessageType> decode_rank_message_type(Message& m) {
 bool decode_rank_message(Message& m, RankHandshake& hello) {
     return m.get(hello.host) && m.get(hello.process) && m.get(hello.metadata_hash);
 }
-bool decode_rank_message(Message& m, std::vector<std::int64_t>& units) { return get_numbers(m, units); }
+bool decode_rank_message(Message& m, std::vector<std::int64_t>& items) { return get_numbers(m, items); }
 
 bool decode_rank_message(Message& m, std::vector<ItemOutcome>& outcomes) {
     std::uint64_t size = 0;

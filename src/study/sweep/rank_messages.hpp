@@ -31,7 +31,7 @@ struct RankHandshake {
 Message rank_message(RankMessageType);
 Message rank_message(const RankHandshake&);
 Message rank_message(RankMessageType, std::uint64_t);
-Message rank_message(const std::vector<std::int64_t>& units);
+Message rank_message(const std::vector<std::int64_t>& items);
 Message rank_message(const std::vector<ItemOutcome>&);
 Message rank_message(const Error&);
 

@@ -19,12 +19,12 @@ inline constexpr double rank_timeout = 20;       // s; death of a rank on the sa
 class RankThroughput {
     RankTime since_ = rank_time();
     std::size_t finished_ = 0;
-    double rate_ = 0;  // units a second
+    double rate_ = 0;  // items a second
 
 public:
-    void add_finished(std::size_t units, RankTime now) {
+    void add_finished(std::size_t items, RankTime now) {
         constexpr double min_seconds = 0.1, weight = 0.3;
-        finished_ += units;
+        finished_ += items;
         const double seconds = seconds_between(since_, now);
         if (seconds < min_seconds) return;
         const double rate = static_cast<double>(finished_) / seconds;

@@ -36,11 +36,11 @@ class RankWorker {
         last_received_ = now_;
         const auto word = decode_rank_message_type(m);
         std::uint64_t together = 0;
-        std::vector<std::int64_t> units;
+        std::vector<std::int64_t> items;
         if (word == RankMessageType::handshake && decode_rank_message(m, coordinator_))
             sees_coordinator_ = coordinator_.is_on_this_machine();
         if (word == RankMessageType::shutdown && m.get(together)) is_over_ = true, leave_together_ = together != 0;
-        if (word == RankMessageType::items && decode_rank_message(m, units) && pool_) pool_->add(units), has_request_ = false;
+        if (word == RankMessageType::items && decode_rank_message(m, items) && pool_) pool_->add(items), has_request_ = false;
     }
 
     void deliver_outcomes() {

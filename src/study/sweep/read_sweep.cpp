@@ -60,7 +60,7 @@ Result<std::unique_ptr<Sweep>> read_sweep(const std::string& path, const SweepOv
     auto spec = is_netlist ? Result<SweepText>(of_netlist(file)) : text_at(file);
     if (!spec) return spec.error();
     put(spec->seed, "seed", text_of(requested.seed), *spec);
-    put(spec->items, "units", text_of(requested.items), *spec);
+    put(spec->items, "samples", text_of(requested.items), *spec);
     auto sweep = of_subject(*spec, folder);
     if (sweep) return sweep;
     auto error = sweep.error();  // netlists and the files they include have paths relative to the folder

@@ -16,13 +16,22 @@ constexpr std::size_t max_time_bytes = std::size_t{32} << 20;   // bytes: sample
 constexpr std::int64_t max_items = 1'000'000'000'000;           // as SweepPlan allows
 constexpr std::size_t max_about_bytes = std::size_t{96} << 20;  // bytes of all metadata
 
+/// Names that changed between the formats of results files.
+struct FormatNames {
+    const char *items, *item, *description, *metadata;
+};
+constexpr FormatNames first_format_names = {"units", "unit", "sentence", "facts"};
+constexpr FormatNames current_names = {"items", "item", "description", "metadata"};
+
+const FormatNames& names_of_format(std::int64_t format) { return format == 1 ? first_format_names : current_names; }
+
 constexpr const char* tables = R"(
 CREATE TABLE about(key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;
-CREATE TABLE columns(position INTEGER PRIMARY KEY, kind TEXT NOT NULL, name TEXT NOT NULL, unit TEXT NOT NULL, sentence TEXT NOT NULL,
+CREATE TABLE columns(position INTEGER PRIMARY KEY, kind TEXT NOT NULL, name TEXT NOT NULL, unit TEXT NOT NULL, description TEXT NOT NULL,
                      words TEXT NOT NULL, at_least REAL, at_most REAL, stored TEXT NOT NULL);
-CREATE TABLE spikes(unit INTEGER NOT NULL, train INTEGER NOT NULL, times BLOB NOT NULL, PRIMARY KEY(unit, train)) WITHOUT ROWID;
-CREATE TABLE traces(unit INTEGER NOT NULL, trace INTEGER NOT NULL, samples BLOB NOT NULL, PRIMARY KEY(unit, trace)) WITHOUT ROWID;
-CREATE TABLE units(unit INTEGER PRIMARY KEY, ended TEXT NOT NULL, steps INTEGER NOT NULL, iterations INTEGER NOT NULL,
+CREATE TABLE spikes(item INTEGER NOT NULL, train INTEGER NOT NULL, times BLOB NOT NULL, PRIMARY KEY(item, train)) WITHOUT ROWID;
+CREATE TABLE traces(item INTEGER NOT NULL, trace INTEGER NOT NULL, samples BLOB NOT NULL, PRIMARY KEY(item, trace)) WITHOUT ROWID;
+CREATE TABLE items(item INTEGER PRIMARY KEY, ended TEXT NOT NULL, steps INTEGER NOT NULL, iterations INTEGER NOT NULL,
                    alone INTEGER NOT NULL, why TEXT NOT NULL)";
 
 std::string lower(std::string text) {
@@ -32,7 +41,7 @@ std::string lower(std::string text) {
 }
 
 std::vector<std::string> unique_names(const std::vector<SweepColumn>& axes, const std::vector<SweepColumn>& measures) {
-    std::set<std::string> taken = {"unit", "ended", "steps", "iterations", "alone", "why"};
+    std::set<std::string> taken = {"item", "ended", "steps", "iterations", "alone", "why"};
     std::vector<std::string> out;
     for (const auto* columns : {&axes, &measures})
         for (const auto& c : *columns) {
@@ -59,7 +68,8 @@ Error changed_by_other_program(const std::string& path, std::string_view how) {
 }
 
 /// Returns an error if a table lacks one of these columns.
-Result<void> check_table(sqlite3* file, const std::string& path, const std::string& table, const std::vector<std::string>& wanted) {
+Result<void> check_table(sqlite3* file, const std::string& path, const std::string& table, const std::vector<std::string>& wanted,
+                         const FormatNames& names = current_names) {
     auto rows = sql::Statement::make(file, path, "SELECT name, type, pk FROM pragma_table_info(?)");
     if (!rows) return rows.error();
     rows->set(1, std::string_view(table));
@@ -70,39 +80,59 @@ Result<void> check_table(sqlite3* file, const std::string& path, const std::stri
         if (!more) return more.error();
         if (!*more) break;
         there.insert(lower(rows->text(0)));
-        has_integer_key = has_integer_key || (rows->text(0) == "unit" && lower(rows->text(1)) == "integer" && rows->integer(2) == 1);
+        has_integer_key = has_integer_key || (rows->text(0) == names.item && lower(rows->text(1)) == "integer" && rows->integer(2) == 1);
     }
     if (there.empty()) return changed_by_other_program(path, fmt::format("it has no table '{}'", table));
     for (const auto& name : wanted)
         if (!there.contains(lower(name)))
             return changed_by_other_program(path, fmt::format("its table '{}' has no column '{}'", table, name));
-    if (table == "units" && !has_integer_key)
-        return changed_by_other_program(path, "the column 'unit' of its table 'units' is not an integer key");
+    if (table == names.items && !has_integer_key)
+        return changed_by_other_program(path,
+                                        fmt::format("the column '{}' of its table '{}' is not an integer key", names.item, names.items));
     return {};
 }
 
-Result<void> check_tables(sqlite3* file, const std::string& path, const std::vector<std::string>& stored) {
-    std::vector<std::string> units = {"unit", "ended", "steps", "iterations", "alone", "why"};
-    units.insert(units.end(), stored.begin(), stored.end());
-    if (auto ok = check_table(file, path, "units", units); !ok) return ok;
-    if (auto ok = check_table(file, path, "spikes", {"unit", "train", "times"}); !ok) return ok;
-    return check_table(file, path, "traces", {"unit", "trace", "samples"});
+Result<void> check_tables(sqlite3* file, const std::string& path, const std::vector<std::string>& stored, const FormatNames& names) {
+    std::vector<std::string> columns = {names.item, "ended", "steps", "iterations", "alone", "why"};
+    columns.insert(columns.end(), stored.begin(), stored.end());
+    if (auto ok = check_table(file, path, names.items, columns, names); !ok) return ok;
+    if (auto ok = check_table(file, path, "spikes", {names.item, "train", "times"}); !ok) return ok;
+    return check_table(file, path, "traces", {names.item, "trace", "samples"});
 }
 
-/// Returns an error if there are rows of units outside the sweep.
-Result<void> check_units(sqlite3* file, const std::string& path, std::int64_t units) {
-    auto rows = sql::Statement::make(file, path, "SELECT unit FROM units WHERE unit < 0 OR unit >= ? LIMIT 1");
+/// Shows the tables of a file of the first format under the names of the current one, by temporary views. Views of this connection precede
+/// the file's own tables, so all queries work unchanged. `stored`: the column names in the file; `shown`: in the views.
+Result<void> show_first_format(sqlite3* file, const std::string& path, const std::vector<std::string>& stored,
+                               const std::vector<std::string>& shown) {
+    std::string columns;
+    for (std::size_t k = 0; k < stored.size(); ++k)
+        columns += fmt::format(", {} AS {}", sql::quoted_name(stored[k]), sql::quoted_name(shown[k]));
+    return sql::run(file, path,
+                    fmt::format("PRAGMA temp_store = MEMORY;"
+                                "CREATE TEMP VIEW items AS SELECT unit AS item, CASE ended WHEN 'capped' THEN 'truncated' WHEN 'lost' THEN "
+                                "'diverged' ELSE ended END AS ended, steps, iterations, alone, why{} FROM main.units;"
+                                "CREATE TEMP VIEW spikes AS SELECT unit AS item, train, times FROM main.spikes;"
+                                "CREATE TEMP VIEW traces AS SELECT unit AS item, trace, samples FROM main.traces;",
+                                columns));
+}
+
+/// Returns an error if there are rows of items outside the sweep.
+Result<void> check_items(sqlite3* file, const std::string& path, std::int64_t items) {
+    auto rows = sql::Statement::make(file, path, "SELECT item FROM items WHERE item < 0 OR item >= ? LIMIT 1");
     if (!rows) return rows.error();
-    const auto found = rows->set(1, units).step();
+    const auto found = rows->set(1, items).step();
     if (!found) return found.error();
     if (!*found) return {};
     return changed_by_other_program(path,
-                                    fmt::format("it holds unit {}, of a sweep of {} units (0 to {})", rows->integer(0), units, units - 1));
+                                    fmt::format("it holds item {}, of a sweep of {} items (0 to {})", rows->integer(0), items, items - 1));
 }
 
-Result<std::vector<SweepColumn>> read_columns(sqlite3* file, const std::string& path, const char* kind, std::vector<std::string>& stored) {
+Result<std::vector<SweepColumn>> read_columns(sqlite3* file, const std::string& path, const char* kind, const FormatNames& names,
+                                              std::vector<std::string>& stored) {
     auto rows = sql::Statement::make(
-        file, path, "SELECT name, unit, sentence, words, at_least, at_most, stored FROM columns WHERE kind = ? ORDER BY position");
+        file, path,
+        fmt::format("SELECT name, unit, {}, words, at_least, at_most, stored FROM columns WHERE kind = ? ORDER BY position",
+                    names.description));
     if (!rows) return rows.error();
     rows->set(1, std::string_view(kind));
     std::vector<SweepColumn> out;
@@ -157,8 +187,8 @@ Result<std::map<std::string, std::string>> read_about(sqlite3* file, const std::
     }
 }
 
-/// Checks that the file is a results file of a known format; an SQLite file can contain anything.
-Result<void> check_kind(sqlite3* file, const std::string& path) {
+/// The format of a results file. An error if it is another SQLite file, which can contain anything, or of an unknown format.
+Result<std::int64_t> format_of(sqlite3* file, const std::string& path) {
     const auto application = sql::query_integer(file, path, "PRAGMA application_id");
     if (!application) return application.error();
     const auto written = sql::query_integer(file, path, "PRAGMA user_version");
@@ -172,7 +202,7 @@ Result<void> check_kind(sqlite3* file, const std::string& path) {
                         "another file",
                         *written, ResultsLayout::format),
             {path});
-    return {};
+    return *written;
 }
 
 bool same_columns(const std::vector<SweepColumn>& a, const std::vector<SweepColumn>& b) {
@@ -197,30 +227,33 @@ ResultsLayout ResultsLayout::of(const Sweep& sweep) {
 }
 
 Result<ResultsLayout> ResultsLayout::read(sqlite3* file, const std::string& path) {
-    if (auto ok = check_kind(file, path); !ok) return ok.error();
+    const auto written = format_of(file, path);
+    if (!written) return written.error();
+    const auto& names = names_of_format(*written);
     ResultsLayout out;
+    out.file_format = *written;
     if (auto ok = check_table(file, path, "about", {"key", "value"}); !ok) return ok.error();
-    if (auto ok =
-            check_table(file, path, "columns", {"position", "kind", "name", "unit", "sentence", "words", "at_least", "at_most", "stored"});
+    if (auto ok = check_table(file, path, "columns",
+                              {"position", "kind", "name", "unit", names.description, "words", "at_least", "at_most", "stored"});
         !ok)
         return ok.error();
     try {
         auto about = read_about(file, path);
         if (!about) return about.error();
         out.about = std::move(*about);
-        for (const auto& [key, limit] : {std::pair{"facts", max_label_bytes},
+        for (const auto& [key, limit] : {std::pair{names.metadata, max_label_bytes},
                                          {"trains", max_label_bytes},
                                          {"traces", max_label_bytes},
                                          {"trace_times", max_time_bytes}})
             if (out.about.at(key).size() > limit)
                 return changed_by_other_program(path, fmt::format("'{}' of its table about is larger than {} MB", key, limit >> 20));
-        out.item_count = std::stoll(out.about.at("units"));
-        out.metadata_names = Json::parse(out.about.at("facts")).get<std::vector<std::string>>();
+        out.item_count = std::stoll(out.about.at(names.items));
+        out.metadata_names = Json::parse(out.about.at(names.metadata)).get<std::vector<std::string>>();
         out.train_names = Json::parse(out.about.at("trains")).get<std::vector<std::string>>();
         out.probe_names = Json::parse(out.about.at("traces")).get<std::vector<std::string>>();
         out.probe_times = Json::parse(out.about.at("trace_times")).get<std::vector<double>>();
         for (auto [kind, into] : {std::pair{"axis", &out.axes}, std::pair{"measure", &out.measures}}) {
-            auto columns = read_columns(file, path, kind, out.stored_column_names);
+            auto columns = read_columns(file, path, kind, names, out.stored_column_names);
             if (!columns) return columns.error();
             *into = std::move(*columns);
         }
@@ -228,9 +261,14 @@ Result<ResultsLayout> ResultsLayout::read(sqlite3* file, const std::string& path
         return bad_input("is damaged: its tables about and columns cannot be read; name another file", {path});
     }
     if (out.item_count < 1 || out.item_count > max_items)
-        return changed_by_other_program(path, fmt::format("its number of units is {}", out.item_count));
-    if (auto ok = check_tables(file, path, out.stored_column_names); !ok) return ok.error();
-    if (auto ok = check_units(file, path, out.item_count); !ok) return ok.error();
+        return changed_by_other_program(path, fmt::format("its number of items is {}", out.item_count));
+    if (auto ok = check_tables(file, path, out.stored_column_names, names); !ok) return ok.error();
+    if (*written == 1) {
+        const auto shown = unique_names(out.axes, out.measures);
+        if (auto ok = show_first_format(file, path, out.stored_column_names, shown); !ok) return ok.error();
+        out.stored_column_names = shown;
+    }
+    if (auto ok = check_items(file, path, out.item_count); !ok) return ok.error();
     return out;
 }
 
@@ -245,8 +283,8 @@ Result<void> ResultsLayout::write(sqlite3* file, const std::string& path) const 
     auto row = sql::Statement::make(file, path, "INSERT INTO about VALUES(?, ?)");
     if (!row) return row.error();
     auto all = about;
-    all["units"] = fmt::format("{}", item_count);
-    all["facts"] = Json(metadata_names).dump();
+    all["items"] = fmt::format("{}", item_count);
+    all["metadata"] = Json(metadata_names).dump();
     all["trains"] = Json(train_names).dump();
     all["traces"] = Json(probe_names).dump();
     all["trace_times"] = Json(probe_times).dump();
@@ -255,6 +293,14 @@ Result<void> ResultsLayout::write(sqlite3* file, const std::string& path) const 
     if (auto ok = write_columns(file, path, "axis", axes, stored_column_names, 0); !ok) return ok;
     if (auto ok = write_columns(file, path, "measure", measures, stored_column_names, axes.size()); !ok) return ok;
     return sql::run(file, path, "COMMIT");
+}
+
+Error ResultsLayout::read_only_format(const std::string& path) const {
+    return bad_input(
+        fmt::format("has results of format {}, of an earlier corpuscle; this one writes format {} and only reads the earlier one "
+                    "(sweep show, sweep dump). To compute or merge, run the sweep into another file: corpuscle sweep FILE --out NEW.sqlite",
+                    file_format, format),
+        {path});
 }
 
 std::string ResultsLayout::difference_from(const ResultsLayout& there) const {
@@ -267,7 +313,7 @@ std::string ResultsLayout::difference_from(const ResultsLayout& there) const {
     }
     for (const auto& name : there.metadata_names)
         if (!about.contains(name)) return fmt::format("'{}' is not part of the sweep now", name);
-    if (item_count != there.item_count) return fmt::format("the number of units was {} and is {} now", there.item_count, item_count);
+    if (item_count != there.item_count) return fmt::format("the number of items was {} and is {} now", there.item_count, item_count);
     if (!same_columns(axes, there.axes)) return "the axes have changed since";
     if (!same_columns(measures, there.measures)) return "the measures have changed since";
     if (train_names != there.train_names || probe_names != there.probe_names || probe_times != there.probe_times)

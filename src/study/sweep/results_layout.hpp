@@ -9,9 +9,10 @@
 namespace corpuscle {
 
 struct ResultsLayout {
-    static constexpr std::int64_t format = 1;                   ///< of the file; later formats are rejected
+    static constexpr std::int64_t format = 2;                   ///< of new files; earlier ones are only read, later ones are rejected
     static constexpr std::int64_t application_id = 0x53776570;  ///< "Swep", identifies the file
 
+    std::int64_t file_format = format;  ///< of the file that was read
     std::int64_t item_count = 0;
     std::vector<SweepColumn> axes, measures;
     std::vector<std::string> train_names, probe_names;
@@ -25,6 +26,9 @@ struct ResultsLayout {
     static Result<ResultsLayout> read(sqlite3*, const std::string& path);
     /// Creates the empty tables.
     Result<void> write(sqlite3*, const std::string& path) const;
+    bool is_current_format() const { return file_format == format; }
+    /// The error for adding rows to a file of an earlier format, or merging it.
+    Error read_only_format(const std::string& path) const;
     /// The first difference, as a sentence; "" if there is none.
     std::string difference_from(const ResultsLayout& there) const;
 };

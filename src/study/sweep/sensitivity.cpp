@@ -13,13 +13,13 @@ constexpr int max_rounds = 6;
 constexpr std::size_t max_influences = 60;
 
 /// Values of the items that have the measure, scaled to mean 0 and sum of squares 1; empty if they are all equal.
-std::vector<double> standardised(std::span<const double> all, const std::vector<std::size_t>& units) {
-    std::vector<double> out(units.size());
+std::vector<double> standardised(std::span<const double> all, const std::vector<std::size_t>& items) {
+    std::vector<double> out(items.size());
     double sum = 0, squares = 0;
-    for (std::size_t k = 0; k < units.size(); ++k) sum += out[k] = all[units[k]];
-    const double mean = sum / static_cast<double>(units.size());
+    for (std::size_t k = 0; k < items.size(); ++k) sum += out[k] = all[items[k]];
+    const double mean = sum / static_cast<double>(items.size());
     for (auto& x : out) x -= mean, squares += x * x;
-    if (!(squares > 1e-24 * mean * mean * static_cast<double>(units.size()))) return {};
+    if (!(squares > 1e-24 * mean * mean * static_cast<double>(items.size()))) return {};
     for (auto& x : out) x /= std::sqrt(squares);
     return out;
 }
@@ -116,16 +116,16 @@ bool add_factors(Regression& regression, std::vector<Candidate>&& found, std::si
 }  // namespace
 
 Sensitivity sensitivity_of(std::span<const double> measure, std::span<const SweepFactor> factors) {
-    std::vector<std::size_t> units;
+    std::vector<std::size_t> items;
     for (std::size_t k = 0; k < measure.size(); ++k)
-        if (std::isfinite(measure[k])) units.push_back(k);
-    const auto n = static_cast<double>(units.size());
-    Sensitivity out{units.size(), factors.size()};
-    const auto y = units.size() < 8 ? std::vector<double>() : standardised(measure, units);
+        if (std::isfinite(measure[k])) items.push_back(k);
+    const auto n = static_cast<double>(items.size());
+    Sensitivity out{items.size(), factors.size()};
+    const auto y = items.size() < 8 ? std::vector<double>() : standardised(measure, items);
     if (y.empty()) return out;
     double mean = 0, squares = 0;
-    for (const auto k : units) mean += measure[k] / n;
-    for (const auto k : units) squares += (measure[k] - mean) * (measure[k] - mean);
+    for (const auto k : items) mean += measure[k] / n;
+    for (const auto k : items) squares += (measure[k] - mean) * (measure[k] - mean);
     out.variance = squares / (n - 1);
 
     Regression regression;
@@ -138,7 +138,7 @@ Sensitivity sensitivity_of(std::span<const double> measure, std::span<const Swee
         std::size_t tried = 0;
         for (std::size_t f = 0; f < factors.size(); ++f) {
             if (std::find(regression.selected.begin(), regression.selected.end(), f) != regression.selected.end()) continue;
-            auto x = standardised(factors[f], units);
+            auto x = standardised(factors[f], items);
             if (x.empty()) continue;
             ++tried;
             const double r = std::clamp(product(x, regression.residual) / std::sqrt(unexplained), -1.0, 1.0);

@@ -55,21 +55,23 @@ class PlanReader {
         return {};
     }
 
-    Result<void> units() {
+    Result<void> samples() {
         const AxisSpec* drawn = chips_axis();
         for (const auto& a : spec_.axes)
             if (!drawn && is_sampled(a)) drawn = &a;
         if (spec_.items) {
-            const auto units = parse_integer(*spec_.items, "units", 1, 1e9);
-            if (!units) return units.error();
-            if (!drawn && !writes_chips() && *units > 1)
+            const auto samples = parse_integer(*spec_.items, "samples", 1, 1e9);
+            if (!samples) return samples.error();
+            if (!drawn && !writes_chips() && *samples > 1)
                 return spec_.items->error_here(fmt::format(
-                    "units = {}, but nothing is sampled, so all would be equal; remove units (a grid determines the number)", *units));
-            drawing_.samples = static_cast<std::uint64_t>(*units);
+                    "samples = {}, but nothing is sampled, so all would be equal; remove samples (a grid determines the number)",
+                    *samples));
+            drawing_.samples = static_cast<std::uint64_t>(*samples);
         } else if (writes_chips()) {
             drawing_.samples = static_cast<std::uint64_t>(written_->chips().count);
         } else if (drawn) {
-            return drawn->name.error_here(fmt::format("{} is sampled, but the number of units is missing: units = 1000", drawn->name.text));
+            return drawn->name.error_here(
+                fmt::format("{} is sampled, but the number of samples is missing: samples = 1000", drawn->name.text));
         }
         return {};
     }
@@ -125,7 +127,7 @@ public:
         if (!seed) return seed.error();
         drawing_.seed = *seed;
         if (auto ok = chips(); !ok) return ok.error();
-        if (auto ok = units(); !ok) return ok.error();
+        if (auto ok = samples(); !ok) return ok.error();
         if (auto ok = steps(); !ok) return ok.error();
         for (const auto& a : spec_.axes)
             if (a.name.text != "process" && a.name.text != "mismatch")
@@ -133,7 +135,7 @@ public:
         double count = static_cast<double>(drawing_.samples);
         for (const auto& a : axes_) count *= a.values.empty() ? 1 : static_cast<double>(a.values.size());
         if (count > SweepPlan::max_items)
-            return bad_input(fmt::format("{:g} units are more than the limit of {:g}", count, SweepPlan::max_items), {spec_.file});
+            return bad_input(fmt::format("{:g} items are more than the limit of {:g}", count, SweepPlan::max_items), {spec_.file});
         return SweepPlan(std::move(axes_), chips_, static_cast<std::int64_t>(drawing_.samples));
     }
 };

@@ -17,17 +17,17 @@ namespace {
 namespace fs = std::filesystem;
 static_assert(std::endian::native == std::endian::little, "spikes and traces have the same byte order in the file and in memory");
 
-constexpr std::array<std::string_view, 3> unit_ends = {"done", "capped", "lost"};
+constexpr std::array<std::string_view, 3> item_ends = {"done", "truncated", "diverged"};
 
 ItemEnd end_of(std::string_view word) {
-    const auto* at = std::find(unit_ends.begin(), unit_ends.end(), word);
-    return at == unit_ends.end() ? ItemEnd::diverged : static_cast<ItemEnd>(at - unit_ends.begin());
+    const auto* at = std::find(item_ends.begin(), item_ends.end(), word);
+    return at == item_ends.end() ? ItemEnd::diverged : static_cast<ItemEnd>(at - item_ends.begin());
 }
 
 std::string insertion(const std::vector<std::string>& columns) {
-    std::string names = "unit, ended, steps, iterations, alone, why", values = "?, ?, ?, ?, ?, ?";
+    std::string names = "item, ended, steps, iterations, alone, why", values = "?, ?, ?, ?, ?, ?";
     for (const auto& column : columns) names += ", " + sql::quoted_name(column), values += ", ?";
-    return fmt::format("INSERT INTO units({}) VALUES({}) ON CONFLICT(unit) DO NOTHING", names, values);
+    return fmt::format("INSERT INTO items({}) VALUES({}) ON CONFLICT(item) DO NOTHING", names, values);
 }
 
 /// The numbers of a blob; an incomplete last number is ignored.
@@ -64,7 +64,7 @@ Error needs_writable_folder(const std::string& path) {
 
 }  // namespace
 
-std::string_view end_name(ItemEnd end) { return unit_ends[static_cast<std::size_t>(end)]; }
+std::string_view end_name(ItemEnd end) { return item_ends[static_cast<std::size_t>(end)]; }
 
 Result<void> SweepResults::Impl::open_file(int flags) {
     auto opened = sql::open(path, flags);
@@ -88,8 +88,8 @@ Result<void> SweepResults::Impl::begin_writing() {
         return {};
     };
     if (auto ok = make(insertion(layout.stored_column_names), insert_item); !ok) return ok;
-    if (auto ok = make("INSERT INTO spikes(unit, train, times) VALUES(?, ?, ?)", insert_spikes); !ok) return ok;
-    if (auto ok = make("INSERT INTO traces(unit, trace, samples) VALUES(?, ?, ?)", insert_probe); !ok) return ok;
+    if (auto ok = make("INSERT INTO spikes(item, train, times) VALUES(?, ?, ?)", insert_spikes); !ok) return ok;
+    if (auto ok = make("INSERT INTO traces(item, trace, samples) VALUES(?, ?, ?)", insert_probe); !ok) return ok;
     set_next_checkpoint_size();
     is_writing = true;
     return {};
@@ -99,7 +99,7 @@ Result<void> SweepResults::Impl::insert(const Sweep& sweep, const ItemOutcome& o
     const auto values = sweep.values(o.item);
     if (o.item < 0 || o.item >= layout.item_count || (!o.measures.empty() && o.measures.size() != layout.measures.size()) ||
         values.size() != layout.axes.size())
-        return bad_input(fmt::format("unit {} with {} axes and {} measures does not fit {} units with {} and {}", o.item, values.size(),
+        return bad_input(fmt::format("item {} with {} axes and {} measures does not fit {} items with {} and {}", o.item, values.size(),
                                      o.measures.size(), layout.item_count, layout.axes.size(), layout.measures.size()),
                          {path});
     insert_item.set(1, o.item).set(2, end_name(o.end)).set(3, o.steps).set(4, o.iterations).set(5, std::int64_t{o.ran_alone});
@@ -151,12 +151,13 @@ Result<SweepResults> SweepResults::open_with_layout(const std::string& path, con
     auto stored = ResultsLayout::read(impl->file.get(), path);
     if (!stored) return stored.error();
     impl->layout = std::move(*stored);
+    if (!impl->layout.is_current_format()) return impl->layout.read_only_format(path);
     if (const auto difference = expected.difference_from(impl->layout); !difference.empty())
         return bad_input(fmt::format("holds results of another sweep: {}. Give another file with --out, undo the change, or "
                                      "remove this file",
                                      difference),
                          {path});
-    const auto rows = sql::query_integer(impl->file.get(), path, "SELECT count(*) FROM units");
+    const auto rows = sql::query_integer(impl->file.get(), path, "SELECT count(*) FROM items");
     if (!rows) return rows.error();
     impl->finished = *rows;
     return SweepResults(std::move(impl));
@@ -181,7 +182,7 @@ Result<SweepResults> SweepResults::open_read_only(const std::string& path) {
     if (!stored) return stored.error();
     impl->layout = std::move(*stored);
     if (auto ok = sql::run(impl->file.get(), path, "PRAGMA query_only = 1"); !ok) return ok.error();
-    const auto rows = sql::query_integer(impl->file.get(), path, "SELECT count(*) FROM units");
+    const auto rows = sql::query_integer(impl->file.get(), path, "SELECT count(*) FROM items");
     if (!rows) return rows.error();
     impl->finished = *rows;
     return SweepResults(std::move(impl));
@@ -234,7 +235,7 @@ std::string SweepResults::about(const std::string& key) const {
 }
 
 Result<std::vector<std::pair<std::int64_t, std::int64_t>>> SweepResults::missing_ranges() const {
-    auto rows = sql::Statement::make(handle(), path(), "SELECT unit FROM units ORDER BY unit");
+    auto rows = sql::Statement::make(handle(), path(), "SELECT item FROM items ORDER BY item");
     if (!rows) return rows.error();
     std::vector<std::pair<std::int64_t, std::int64_t>> out;
     std::int64_t from = 0;
@@ -249,13 +250,13 @@ Result<std::vector<std::pair<std::int64_t, std::int64_t>>> SweepResults::missing
 }
 
 Result<std::int64_t> SweepResults::count_ended(ItemEnd end) const {
-    return sql::query_integer(handle(), path(), fmt::format("SELECT count(*) FROM units WHERE ended = '{}'", end_name(end)));
+    return sql::query_integer(handle(), path(), fmt::format("SELECT count(*) FROM items WHERE ended = '{}'", end_name(end)));
 }
 
 Result<void> SweepResults::for_each_row(const std::function<bool(const Row&)>& on_row) const {
-    std::string text = "SELECT unit, ended, steps, iterations, alone, why";
+    std::string text = "SELECT item, ended, steps, iterations, alone, why";
     for (const auto& column : stored_column_names()) text += ", " + sql::quoted_name(column);
-    auto rows = sql::Statement::make(handle(), path(), text + " FROM units ORDER BY unit");
+    auto rows = sql::Statement::make(handle(), path(), text + " FROM items ORDER BY item");
     if (!rows) return rows.error();
     Row row;
     row.axes.resize(axes().size()), row.measures.resize(measures().size());
@@ -273,11 +274,11 @@ Result<void> SweepResults::for_each_row(const std::function<bool(const Row&)>& o
 }
 
 Result<std::vector<double>> SweepResults::spikes(std::int64_t item, std::size_t train) const {
-    return blob<double>(handle(), path(), "SELECT times FROM spikes WHERE unit = ? AND train = ?", item, train);
+    return blob<double>(handle(), path(), "SELECT times FROM spikes WHERE item = ? AND train = ?", item, train);
 }
 
 Result<std::vector<float>> SweepResults::probe_samples(std::int64_t item, std::size_t trace) const {
-    return blob<float>(handle(), path(), "SELECT samples FROM traces WHERE unit = ? AND trace = ?", item, trace);
+    return blob<float>(handle(), path(), "SELECT samples FROM traces WHERE item = ? AND trace = ?", item, trace);
 }
 
 }  // namespace corpuscle

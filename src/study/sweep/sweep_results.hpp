@@ -9,23 +9,24 @@ namespace corpuscle {
 
 struct ResultsLayout;
 
-/// The spelling in the file: "done", "capped", "lost".
+/// The spelling in the file: "done", "truncated", "diverged".
 std::string_view end_name(ItemEnd);
 
-/// The file has these tables. The results depend on everything in `about`; it contains neither user nor date.
+/// The file has these tables. A file of format 1 has other names; it can be read, but not extended or merged. The results depend on
+/// everything in `about`; it contains neither user nor date.
 ///
-/// - about(key, value): the metadata entries by their names. Further keys are units, facts (names of the entries in order), trains, traces
+/// - about(key, value): the metadata entries by their names. Further keys are items, metadata (names of the entries in order), trains, traces
 ///   and trace_times, the last four as JSON.
 ///
-/// - columns(position, kind, name, unit, sentence, words, at_least, at_most, stored): kind is 'axis' or 'measure', words is JSON, stored is
-///   the column's name in the table units.
+/// - columns(position, kind, name, unit, description, words, at_least, at_most, stored): kind is 'axis' or 'measure', words is JSON, stored is
+///   the column's name in the table items.
 ///
-/// - units(unit, ended, steps, iterations, alone, why, ...): a row for each item, with a column for each axis and measure. ended is 'done',
-///   'capped' or 'lost'. NaN is stored as NULL.
+/// - items(item, ended, steps, iterations, alone, why, ...): a row for each item, with a column for each axis and measure. ended is 'done',
+///   'truncated' or 'diverged'. NaN is stored as NULL.
 ///
-/// - spikes(unit, train, times): little-endian doubles. The train is counted from 0; a train without spikes has no row.
+/// - spikes(item, train, times): little-endian doubles. The train is counted from 0; a train without spikes has no row.
 ///
-/// - traces(unit, trace, samples): little-endian floats. The trace is counted from 0.
+/// - traces(item, trace, samples): little-endian floats. The trace is counted from 0.
 ///
 /// During a run new rows are in path-wal, which only grows; checkpoint() replaces the file itself atomically. So a copy of the file, with
 /// or without its -wal, taken at any time, contains the first n transactions for some n.
@@ -47,7 +48,7 @@ public:
     /// Merges the -wal into one file. Call at the end of a run; add() also does it when the -wal has become long. If the disk is full,
     /// nothing is lost.
     Result<void> checkpoint();
-    /// Returns an error if the other file is of another sweep.
+    /// Returns an error if the other file is of another sweep, or one of them has an earlier format.
     Result<void> check_same_sweep(const SweepResults& other) const;
     /// Copies all rows of another file of the same sweep; returns the number of new rows. Rejects a file in which an item has different
     /// results.
@@ -67,7 +68,7 @@ public:
     std::string about(const std::string& key) const;
     /// Items without a row, as ranges [from, to).
     Result<std::vector<std::pair<std::int64_t, std::int64_t>>> missing_ranges() const;
-    /// Column names of axes, then measures, in the table units.
+    /// Column names of axes, then measures, in the table items.
     const std::vector<std::string>& stored_column_names() const;
 
     /// Calls `on_row` for every row in order of items, with axes and measures as in the columns; false stops.

@@ -10,10 +10,10 @@
 namespace corpuscle {
 namespace {
 
-MeasureSummary measure_summary(const SortedSample& sorted, std::size_t units, const SweepSummaryOptions& question) {
+MeasureSummary measure_summary(const SortedSample& sorted, std::size_t items, const SweepSummaryOptions& question) {
     MeasureSummary out;
     out.count = static_cast<std::int64_t>(sorted.count());
-    out.missing = static_cast<std::int64_t>(units) - out.count;
+    out.missing = static_cast<std::int64_t>(items) - out.count;
     if (out.count == 0) return out;
     out.min = sorted.values().front(), out.max = sorted.values().back();
     out.mean = sorted.mean(), out.sigma = sorted.sigma();
@@ -26,10 +26,10 @@ MeasureSummary measure_summary(const SortedSample& sorted, std::size_t units, co
 void put_measure(SweepSummary& out, const SweepTable& table, const SweepGroups& groups, std::size_t measure) {
     std::vector<SortedSample> sorted;
     std::int64_t total_passed = 0;
-    const auto put = [&](PointSummary& point, const SortedSample& values, std::size_t units, std::int64_t passed) {
+    const auto put = [&](PointSummary& point, const SortedSample& values, std::size_t items, std::int64_t passed) {
         auto& at = point.measures[measure];
-        at = measure_summary(values, units, out.options);
-        if (table.has_limits(measure)) at.yield = estimate_proportion(passed, static_cast<std::int64_t>(units));
+        at = measure_summary(values, items, out.options);
+        if (table.has_limits(measure)) at.yield = estimate_proportion(passed, static_cast<std::int64_t>(items));
     };
     for (std::size_t p = 0; p < groups.groups.size(); ++p) {
         const auto& rows = groups.groups[p].rows;

@@ -46,7 +46,7 @@ std::vector<double> few_values(const std::vector<double>& all, bool is_listed, s
 
 /// Columns read for a range of rows.
 struct ReadPart {
-    std::vector<std::int64_t> unit;
+    std::vector<std::int64_t> items;
     std::vector<ItemEnd> end;
     std::vector<std::vector<double>> columns;
 };
@@ -56,7 +56,7 @@ Result<ReadPart> read_part(const SweepResults& results, const std::string& colum
                            std::int64_t to) {
     auto rows = sql::Statement::make(
         results.handle(), results.path(),
-        fmt::format("SELECT unit, ended, {} FROM units WHERE unit >= {} AND unit < {} ORDER BY unit", columns_sql, from, to));
+        fmt::format("SELECT item, ended, {} FROM items WHERE item >= {} AND item < {} ORDER BY item", columns_sql, from, to));
     if (!rows) return rows.error();
     ReadPart out;
     out.columns.resize(columns);
@@ -64,9 +64,9 @@ Result<ReadPart> read_part(const SweepResults& results, const std::string& colum
         const auto more = rows->step();
         if (!more) return more.error();
         if (!*more) return out;
-        out.unit.push_back(rows->integer(0));
+        out.items.push_back(rows->integer(0));
         const auto ended = rows->text(1);
-        out.end.push_back(ended == "done" ? ItemEnd::done : ended == "capped" ? ItemEnd::iteration_limit : ItemEnd::diverged);
+        out.end.push_back(ended == "done" ? ItemEnd::done : ended == "truncated" ? ItemEnd::iteration_limit : ItemEnd::diverged);
         for (std::size_t k = 0; k < columns; ++k) out.columns[k].push_back(rows->number(static_cast<int>(k) + 2));
     }
 }
@@ -124,7 +124,7 @@ Result<SweepTable> read_table(const SweepResults& results, const std::vector<std
         columns_sql.push_back(sql::quoted_name(results.stored_column_names()[results.axes().size() + m])),
             out.measures.push_back(results.measures()[m]);
     const auto has_iterations =
-        sql::query_integer(results.handle(), results.path(), "SELECT EXISTS(SELECT 1 FROM units WHERE iterations > 0)");
+        sql::query_integer(results.handle(), results.path(), "SELECT EXISTS(SELECT 1 FROM items WHERE iterations > 0)");
     if (!has_iterations) return has_iterations.error();
     if (*has_iterations && measures.empty()) {
         columns_sql.emplace_back("iterations");
@@ -137,7 +137,7 @@ Result<SweepTable> read_table(const SweepResults& results, const std::vector<std
         all.empty() ? void(all = std::move(part)) : void(all.insert(all.end(), part.begin(), part.end()));
     };
     for (auto& part : *parts) {
-        put(out.items, part.unit), put(out.ends, part.end);
+        put(out.items, part.items), put(out.ends, part.end);
         for (std::size_t k = 0; k < columns_sql.size(); ++k) {
             put(k < out.axes.size() ? out.axis_values[k] : out.measure_values[k - out.axes.size()], part.columns[k]);
             std::vector<double>().swap(part.columns[k]);
@@ -152,7 +152,7 @@ Result<SweepTable> read_table(const SweepResults& results, const std::vector<std
 
 Result<std::vector<FailedItem>> failed_items(const SweepResults& results, std::size_t limit) {
     auto rows = sql::Statement::make(results.handle(), results.path(),
-                                     fmt::format("SELECT unit, ended, why FROM units WHERE ended <> 'done' ORDER BY unit LIMIT {}", limit));
+                                     fmt::format("SELECT item, ended, why FROM items WHERE ended <> 'done' ORDER BY item LIMIT {}", limit));
     if (!rows) return rows.error();
     std::vector<FailedItem> out;
     for (;;) {

@@ -11,7 +11,7 @@ namespace {
 
 using Names = TomlReader::Names;
 
-const Names known_keys = {"title",      "afferent", "netlist", "force", "channel", "rate",     "unit", "scale",  "seed",  "units",
+const Names known_keys = {"title",      "afferent", "netlist", "force", "channel", "rate",     "unit", "scale",  "seed",  "samples",
                           "iterations", "every",    "orders",  "set",   "vary",    "measures", "keep", "traces", "limits"};
 const Names axis_keys = {"what", "how", "from", "to", "count", "log", "list", "mean", "sigma", "at_least", "at_most"};
 const Names limit_keys = {"at_least", "at_most", "like", "within"};
@@ -66,11 +66,14 @@ public:
 
 SweepText text_from(const toml::table& top, SweepFileReader& reading) {
     SweepText out;
+    for (const auto& [key, value] : top)
+        for (const auto& [old_key, new_key] : renamed_keys)
+            if (key.str() == old_key) reading.reject(key.source(), fmt::format("{} is now {}", old_key, new_key));
     reading.reject_unknown_keys(top, known_keys, "");
     out.title = reading.scalar(top, "title"), out.afferent = reading.scalar(top, "afferent"), out.netlist = reading.scalar(top, "netlist");
     out.force = reading.scalar(top, "force"), out.channel = reading.scalar(top, "channel"), out.rate = reading.scalar(top, "rate");
     out.unit = reading.scalar(top, "unit"), out.scale = reading.scalar(top, "scale");
-    out.seed = reading.scalar(top, "seed"), out.items = reading.scalar(top, "units"), out.every = reading.scalar(top, "every");
+    out.seed = reading.scalar(top, "seed"), out.items = reading.scalar(top, "samples"), out.every = reading.scalar(top, "every");
     out.iterations = reading.scalar(top, "iterations"), out.directives = reading.scalar(top, "orders");
     out.measures = reading.list(top, "measures"), out.keep = reading.list(top, "keep");
     if (auto traces = reading.list(top, "traces")) out.probes = std::move(*traces);

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "signal/located_text.hpp"
@@ -32,6 +33,12 @@ struct SweepText {
     std::vector<LimitSpec> limits;
     std::string canonical;  ///< the text without comments and blanks; equal for files with the same content
 };
+
+/// Keys of former versions, which are refused, with their present names.
+struct RenamedKey {
+    std::string_view old_key, new_key;
+};
+inline constexpr RenamedKey renamed_keys[] = {{"units", "samples"}};
 
 /// Reads TOML. Unknown keys and values of the wrong type are errors.
 Result<SweepText> read_sweep_text(std::string_view text, const std::string& file);

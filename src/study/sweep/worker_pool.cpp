@@ -42,11 +42,11 @@ WorkerPool::~WorkerPool() {
     for (auto& t : threads_) t.join();
 }
 
-void WorkerPool::add(const std::vector<std::int64_t>& units) {
+void WorkerPool::add(const std::vector<std::int64_t>& items) {
     {
         const std::lock_guard lock(mutex_);
         if (stopping_) return;
-        items_.insert(items_.end(), units.begin(), units.end());
+        items_.insert(items_.end(), items.begin(), items.end());
     }
     items_added_.notify_all();
 }

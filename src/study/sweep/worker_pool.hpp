@@ -19,7 +19,7 @@ public:
     WorkerPool(const WorkerPool&) = delete;
     WorkerPool& operator=(const WorkerPool&) = delete;
 
-    void add(const std::vector<std::int64_t>& units);
+    void add(const std::vector<std::int64_t>& items);
     /// Removes items that have not started. Items in progress end as soon as the sweep can be stopped.
     void stop();
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <fmt/format.h>
 #include <cmath>
 #include <cstring>
 #include <numeric>
@@ -13,6 +14,7 @@
 #include "study/sweep/sampling.hpp"
 #include "study/sweep/sobol.hpp"
 #include "study/sweep/sweep.hpp"
+#include "study/sweep/sweep_text.hpp"
 #include "support/support.hpp"
 
 namespace corpuscle {
@@ -153,7 +155,7 @@ TEST(Sampling, NormalDeviatesHaveTheirMomentsAndTheirTails) {
 TEST(SweepFile, ANormalAxisKeepsItsLimitsAndHasTheSameSamplesAtEachPoint) {
     const SweepFolder w;
     const auto s = w.sweep(
-        "afferent = 'sa1'\nunits = 200\nseed = 9\n[[vary]]\nwhat = 'press.F_max'\nlist = ['1N', 2]\n[[vary]]\nwhat = 'f_B'\nmean = "
+        "afferent = 'sa1'\nsamples = 200\nseed = 9\n[[vary]]\nwhat = 'press.F_max'\nlist = ['1N', 2]\n[[vary]]\nwhat = 'f_B'\nmean = "
         "'20Hz'\nsigma = '50%'\nat_least = '15Hz'\nat_most = '26Hz'\n");
     ASSERT_EQ(s->item_count(), 400);
     std::set<double> seen;
@@ -210,12 +212,12 @@ TEST(SweepFile, AStepAndMcOfANetlistMeanTheSameChipsAsTheFileDoes) {
     const std::string bare(stepped, std::strstr(stepped, ".step"));
     w.put("mine/bare.cir", bare);
     expect_same_bytes(
-        first_measures(*w.sweep("netlist = 'mine/bare.cir'\nunits = 3\nseed = 11\n[[vary]]\nwhat = 'r'\nlist = ['1k', '1.5kohm']\n"
+        first_measures(*w.sweep("netlist = 'mine/bare.cir'\nsamples = 3\nseed = 11\n[[vary]]\nwhat = 'r'\nlist = ['1k', '1.5kohm']\n"
                                 "[[vary]]\nwhat = 'temp'\nfrom = -40\nto = '85C'\ncount = 3\n[[vary]]\nwhat = 'process'\n"
                                 "[[vary]]\nwhat = 'mismatch'\n")),
         expected);
     // Settings of the sweep file override the netlist's, parameter by parameter.
-    const auto fewer = w.sweep("netlist = 'mine/x.cir'\nunits = 2\n[[vary]]\nwhat = 'temp'\nlist = [85]\n");
+    const auto fewer = w.sweep("netlist = 'mine/x.cir'\nsamples = 2\n[[vary]]\nwhat = 'temp'\nlist = [85]\n");
     expect_same_bytes(first_measures(*fewer), std::vector<double>{expected[6], expected[7], expected[15], expected[16]});
     for (const auto& f : fewer->metadata()) {
         EXPECT_EQ(f.name.find(w.path("")), std::string::npos) << f.name;
@@ -226,19 +228,19 @@ TEST(SweepFile, AStepAndMcOfANetlistMeanTheSameChipsAsTheFileDoes) {
 TEST(SweepFile, AnItemDoesNotDependOnItsProcessOrTheItemsBefore) {
     const SweepFolder w;
     expect_the_same_in_any_order(
-        *w.sweep("netlist = 'circuits/quiescent.cir'\nunits = 40\nmeasures = ['v(qa)', 'i(visa)']\nset.corner = 'mc'\n"
+        *w.sweep("netlist = 'circuits/quiescent.cir'\nsamples = 40\nmeasures = ['v(qa)', 'i(visa)']\nset.corner = 'mc'\n"
                  "[[vary]]\nwhat = 'process'\n[[vary]]\nwhat = 'mismatch'\n"));
     expect_the_same_in_any_order(
-        *w.sweep("afferent = 'sa1'\nunits = 100\n[[vary]]\nwhat = 'f_B'\nsigma = '5%'\nhow = 'latin'\n[[vary]]\n"
+        *w.sweep("afferent = 'sa1'\nsamples = 100\n[[vary]]\nwhat = 'f_B'\nsigma = '5%'\nhow = 'latin'\n[[vary]]\n"
                  "what = 'press.t_hold'\nhow = 'uniform'\nfrom = '0.1s'\nto = '0.3s'\n"));
     expect_the_same_in_any_order(
-        *w.sweep("afferent = 'fsr+sa1'\nunits = 4\ntraces = ['u']\nevery = '10ms'\n[[vary]]\nwhat = 'f_B'\nsigma = '5%'\n"));
+        *w.sweep("afferent = 'fsr+sa1'\nsamples = 4\ntraces = ['u']\nevery = '10ms'\n[[vary]]\nwhat = 'f_B'\nsigma = '5%'\n"));
 }
 
 TEST(SweepFile, ItemsOnLanesRespondAsScalarAfferentsDo) {
     const SweepFolder w;
-    const auto s =
-        w.sweep("afferent = 'sa1'\nunits = 70\n[[vary]]\nwhat = 'sa1.f_B'\nsigma = '10%'\n[[vary]]\nwhat = 'press.F_max'\nlist = [1, 3]\n");
+    const auto s = w.sweep(
+        "afferent = 'sa1'\nsamples = 70\n[[vary]]\nwhat = 'sa1.f_B'\nsigma = '10%'\n[[vary]]\nwhat = 'press.F_max'\nlist = [1, 3]\n");
     const auto all = run_items(*s);
     for (const std::int64_t item : {0, 69, 70, 139}) {
         const auto values = s->values(item);
@@ -259,7 +261,7 @@ TEST(SweepFile, ChipsOfANetlistHaveTheSameSamplesInEveryDesign) {
     w.put("process/tsmc180.lib", test::read_file(test::source_root() + "/process/tsmc180.lib"));
     w.put("mine/x.cir", chip);
     const std::string head =
-        "afferent = 'mine/x.cir'\nforce = 'step'\nrate = '1kHz'\nunits = 3\ntraces = ['a']\n"
+        "afferent = 'mine/x.cir'\nforce = 'step'\nrate = '1kHz'\nsamples = 3\ntraces = ['a']\n"
         "measures = ['spikes', 'spikes.hold', 'first_spike', 'power']\n[set]\nstep.t_rest = '10ms'\nstep.t_hold = '50ms'\n"
         "step.t_post = '10ms'\n[[vary]]\nwhat = 'mismatch'\n";
     const auto plain = w.sweep(head), wider = w.sweep(head + "[[vary]]\nwhat = 'c'\nlist = ['10nF', '20nF']\n");
@@ -300,15 +302,15 @@ TEST(SweepFile, ErrorsGiveTheLocationAndTheRemedy) {
         {"afferent = 'sa1'\nunit = 3\n[[vari]]\n", "3:3: there is no 'vari'; did you mean 'vary'?"},
         {"afferent = sa1\n", "1:12: "},
         {"afferent = 'sa3'\n", "1:12: unknown afferent 'sa3'"},
-        {"units = 3\n", "the sweep has no subject"},
+        {"samples = 3\n", "the sweep has no subject"},
         {"afferent = 'sa1'\nnetlist = 'x.cir'\n", "2:11: give either afferent"},
         {"netlist = 'circuits/bais.cir'\n",
          "1:11: there is no netlist 'circuits/bais.cir' beside the sweep file and no embedded one "
          "of this name; did you mean 'circuits/bias.cir'?"},
-        {"afferent = 'sa1'\nunits = 2.5\n[[vary]]\nwhat = 'f_B'\nsigma = '5%'\n", "2:9: units = 2.5 must be an integer"},
-        {"afferent = 'sa1'\nunits = [1]\n", "2:9: units is a list; expected a text or a number"},
-        {"afferent = 'sa1'\nunits = 5\n", "2:9: units = 5, but nothing is sampled"},
-        {"afferent = 'sa1'\n[[vary]]\nwhat = 'f_B'\nsigma = '5%'\n", "3:8: f_B is sampled, but the number of units is missing"},
+        {"afferent = 'sa1'\nsamples = 2.5\n[[vary]]\nwhat = 'f_B'\nsigma = '5%'\n", "2:11: samples = 2.5 must be an integer"},
+        {"afferent = 'sa1'\nsamples = [1]\n", "2:11: samples is a list; expected a text or a number"},
+        {"afferent = 'sa1'\nsamples = 5\n", "2:11: samples = 5, but nothing is sampled"},
+        {"afferent = 'sa1'\n[[vary]]\nwhat = 'f_B'\nsigma = '5%'\n", "3:8: f_B is sampled, but the number of samples is missing"},
         {"afferent = 'sa1'\n[[vary]]\nwhat = 'f_BB'\nlist = [1]\n", "3:8: sa1: unknown parameter 'f_BB'; did you mean 'f_B'?"},
         {"afferent = 'sa1'\n[[vary]]\nwhat = 'f_B'\nlist = ['20Hz', '-3Hz']\n", "4:17: f_B: -3 Hz is outside ["},
         {"afferent = 'sa1'\n[[vary]]\nwhat = 'f_B'\nlist = ['20V']\n", "4:9: f_B: "},
@@ -317,7 +319,7 @@ TEST(SweepFile, ErrorsGiveTheLocationAndTheRemedy) {
         {"afferent = 'sa1'\n[[vary]]\nwhat = 'f_B'\nhow = 'sobl'\n", "4:7: f_B: how = \"sobl\" is unknown; did you mean 'sobol'?"},
         {"afferent = 'sa1'\n[[vary]]\nwhat = 'f_B'\nlist = [1]\nsigma = 2\n", "5:9: f_B: 'sigma' has no meaning for how = \"list\""},
         {"afferent = 'sa1'\n[[vary]]\nlist = [1]\n", "2:1: [[vary]]: 'what' is missing"},
-        {"afferent = 'sa1'\nunits = 2\n[[vary]]\nwhat = 'process'\n", "4:8: sa1 is a model; 'process' applies to the chips of a circuit"},
+        {"afferent = 'sa1'\nsamples = 2\n[[vary]]\nwhat = 'process'\n", "4:8: sa1 is a model; 'process' applies to the chips of a circuit"},
         {"afferent = 'sa1'\nset.press.F_mox = 2\n", "2:19: press: unknown parameter 'F_mox'; did you mean 'F_m"},
         {"afferent = 'sa1'\nmeasures = ['spikes', 'spikes.plato']\n",
          "2:23: unknown measure 'spikes.plato'; did you mean 'spikes.plateau'?"},
@@ -331,7 +333,7 @@ TEST(SweepFile, ErrorsGiveTheLocationAndTheRemedy) {
          "did you mean 'supply'?"},
         {"netlist = 'circuits/bias.cir'\n[[vary]]\nwhat = 'corner'\nlist = ['tt', 'sx']\n", "4:15: "},
         {"netlist = 'circuits/bias.cir'\nmeasures = ['v(qq)']\n", "2:13: the netlist has no number 'v(qq)'; did you mean 'v(q)'?"},
-        {"netlist = 'circuits/bias.cir'\nunits = 2\nset.mismatch = 7\n[[vary]]\nwhat = 'mismatch'\n", "[set] selects one chip"},
+        {"netlist = 'circuits/bias.cir'\nsamples = 2\nset.mismatch = 7\n[[vary]]\nwhat = 'mismatch'\n", "[set] selects one chip"},
     };
     for (const auto& [text, expected] : wrong) {
         const auto message = w.refusal(text);
@@ -339,14 +341,22 @@ TEST(SweepFile, ErrorsGiveTheLocationAndTheRemedy) {
     }
 }
 
+TEST(SweepFile, FormerKeysAreRefusedWithTheirPresentNames) {
+    const SweepFolder w;
+    for (const auto& [old_key, new_key] : sweeps::renamed_keys)
+        EXPECT_NE(w.refusal(fmt::format("afferent = 'sa1'\n  {} = 3\n", old_key)).find(fmt::format("2:3: {} is now {}", old_key, new_key)),
+                  std::string::npos)
+            << old_key;
+}
+
 TEST(SweepFile, TheLayoutOfTheTextDoesNotMatter) {
     const SweepFolder w;
-    const auto a = w.sweep("# one\nunits = 3\nafferent = 'sa1'\n[set]\n'press.F_max' = 2\n[[vary]]\nwhat = 'f_B'\nsigma = '5%'\n");
+    const auto a = w.sweep("# one\nsamples = 3\nafferent = 'sa1'\n[set]\n'press.F_max' = 2\n[[vary]]\nwhat = 'f_B'\nsigma = '5%'\n");
     const auto b =
-        w.sweep("afferent   = \"sa1\"  # two\nunits = 3\nset = {'press.F_max' = 2}\n\n[[vary]]\nsigma = '5%'\nwhat = 'f_B'\n", "y.toml");
+        w.sweep("afferent   = \"sa1\"  # two\nsamples = 3\nset = {'press.F_max' = 2}\n\n[[vary]]\nsigma = '5%'\nwhat = 'f_B'\n", "y.toml");
     ASSERT_EQ(a->metadata().size(), b->metadata().size());
     for (std::size_t k = 0; k < a->metadata().size(); ++k) EXPECT_EQ(a->metadata()[k].text, b->metadata()[k].text) << a->metadata()[k].name;
-    const auto c = w.sweep("afferent = 'sa1'\nunits = 3\n[set]\n'press.F_max' = 3\n[[vary]]\nwhat = 'f_B'\nsigma = '5%'\n");
+    const auto c = w.sweep("afferent = 'sa1'\nsamples = 3\n[set]\n'press.F_max' = 3\n[[vary]]\nwhat = 'f_B'\nsigma = '5%'\n");
     EXPECT_NE(a->metadata().at(2).text, c->metadata().at(2).text);
 }
 
@@ -357,7 +367,7 @@ TEST(SweepFile, TheExamplesRun) {
     for (const auto& file : std::filesystem::directory_iterator(test::source_root() + "/examples/sweeps")) {
         const auto complete = test::read_file(file.path().string());
         EXPECT_GT(test::value_or_throw(read_sweep(file.path().string()))->item_count(), 50);
-        const auto s = w.sweep(std::regex_replace(complete, std::regex("units( *)= [0-9]+"), "units = 2"));
+        const auto s = w.sweep(std::regex_replace(complete, std::regex("samples( *)= [0-9]+"), "samples = 2"));
         const auto all = run_items(*s, {0, s->item_count() - 1});
         for (const auto& [item, o] : all) {
             EXPECT_EQ(o.end, ItemEnd::done) << file.path() << o.reason;
