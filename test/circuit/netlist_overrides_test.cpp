@@ -258,8 +258,8 @@ TEST(ProbeNames, NodesAndCurrentsAreFoundByPartialNames) {
         ASSERT_FALSE(found) << word;
         EXPECT_NE(found.error().message.find(what), std::string::npos) << found.error().message;
     };
-    refused("o", "own.cir: xb.o, xc.o; write more of its path");
-    refused("i(n1)", "xb.mn1, xc.mn1; write more of its path");
+    refused("o", "own.cir (xb.o, xc.o); write more of its path");
+    refused("i(n1)", "xb.mn1, xc.mn1); write more of its path");
     refused("i(b.co)", "the current of xb.co cannot be recorded");
     for (const auto* wrong : {"", "v()", "i(a,b)", "v(a", "p(a)", "a b"}) refused(wrong, "write a node, v(NODE), v(NODE,NODE), i(SOURCE)");
     EXPECT_EQ(suggest_probe(c, "vg"), "; did you mean 'vf'?");
