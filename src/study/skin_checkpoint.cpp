@@ -145,11 +145,11 @@ Result<void> SkinCheckpoint::check_file() const {
         std::ifstream in(file_, std::ios::binary);
         std::string line;
         std::getline(in, line);
-        const auto version = line.substr(checkpoint_magic.size(), 20);
+        const auto file_version = line.substr(checkpoint_magic.size(), 20);
         return bad_input(
             fmt::format("a checkpoint of version {}; this program resumes version {} only (version 1 does not record how "
                         "the force was made). Finish the run with the program that started it, or {}",
-                        version.find_first_not_of("0123456789") == std::string::npos ? version : "?", checkpoint_version, remedy()),
+                        file_version.find_first_not_of("0123456789") == std::string::npos ? file_version : "?", checkpoint_version, remedy()),
             {file_});
     }
     if (!fs::exists(spikes_file_, status))

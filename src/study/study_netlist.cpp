@@ -96,15 +96,15 @@ double NetlistResult::derivative(std::string_view output, std::string_view sourc
 }
 
 double NetlistResult::operating_info(std::string_view device, std::string_view name) const {
-    constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    constexpr double absent = std::numeric_limits<double>::quiet_NaN();
     const auto bench = AnalysisContext::make(circuit);
     const auto* found = bench ? (*bench)->system.device(device) : nullptr;
-    if (found == nullptr) return none;
+    if (found == nullptr) return absent;
     std::vector<double> x;
     for (const auto& unknown : (*bench)->system.names()) x.push_back(operating_point(unknown));
     for (const auto& r : found->operating_info((*bench)->system.terminal_values(*found, x)))
         if (r.name == name) return r.value;
-    return none;
+    return absent;
 }
 
 Result<std::vector<NetlistResult>> run_study_variants(const StudyNetlist& deck) {
