@@ -82,7 +82,7 @@ function mapRegions() {
     const pressed = new Uint8Array(skin.sitePlaces.length / 2);
     skin.siteForce.place.forEach((p) => pressed.fill(1, p * skin.sitesTogether, (p + 1) * skin.sitesTogether));
     const regions = [["complete skin", scene.all]], grow = (box) => grown(box, Math.max(2 * skin.side, 0.15 * Math.max(box[2] - box[0], box[3] - box[1])));
-    if (pressed.includes(1) && pressed.includes(0)) regions.push(["stimulated area", grow(extentOfPlaces(skin.sitePlaces, (s) => pressed[s]))]);
+    if (pressed.includes(1) && pressed.includes(0)) regions.push(["touched area", grow(extentOfPlaces(skin.sitePlaces, (s) => pressed[s]))]);
     if (skin.regions.length > 1) skin.regions.forEach((name, r) => regions.push([name, grow(extentOfPlaces(skin.sitePlaces, (s) => skin.siteRegion[s] === r))]));
     return regions.filter(([, box]) => box.every(Number.isFinite));
 }

@@ -2,7 +2,7 @@
 // Plots over time below the maps: the mean rate of each class, and rasters of its afferents.
 
 /// Mean rates of classes in about 100 bins over the visible time range. The mean is over the afferents that fire at some time, because the
-/// others were not stimulated.
+/// others were not touched.
 class SkinRatePanel extends PopulationPanel {
     /// `fine`: {frames, classes}, the spikes of each class in narrow bins.
     constructor({fine, ...rest}) {

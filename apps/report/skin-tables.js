@@ -18,7 +18,7 @@ function showFirstSpikes(skin, host) {
     host.innerHTML = tableHtml(["", "afferent", "region", "first spike (s)", "after first force (ms)"], rows, (c) => c === 0 || c >= 3);
 }
 
-const RATE_COLUMNS = [["phase", "phase"], ["afferents", "afferents", 0], ["touched", "stimulated", 0], ["active", "active", 0], ["spikes", "spikes", 0], ["rate_while_touched_Hz", "rate while stimulated (Hz)", 1],
+const RATE_COLUMNS = [["phase", "phase"], ["afferents", "afferents", 0], ["touched", "touched", 0], ["active", "active", 0], ["spikes", "spikes", 0], ["rate_while_touched_Hz", "rate while touched (Hz)", 1],
                       ["rate_of_active_Hz", "mean rate of active (Hz)", 1], ["max_rate_Hz", "max (Hz)", 1], ["first_spike_s", "first spike (s)", 4], ["median_first_spike_s", "median first spike (s)", 4]];
 
 function showSkinRates(skin, host, region) {

@@ -159,7 +159,7 @@ class ReportWriter {
             number(k, "below_0.2N", p.levels.fraction(p.levels.below_range));
             number(k, "above_4N", p.levels.fraction(p.levels.above_range));
             number(k, "negative", p.levels.fraction(p.levels.negative));
-            number(k, "strays", outlier_fraction(p));
+            number(k, "outliers", outlier_fraction(p));
             number(k, "at_highest", p.saturation.fraction());
             number(k, "hum", p.hum.result().fraction);
             number(k, "hum_frequency", p.hum.result().frequency, "Hz");

@@ -698,7 +698,7 @@ class Recorded(Page):
         self.assertIn("are isolated outliers, probably transmission errors", section.find_element(By.TAG_NAME, "ul").text)
         cells = dict(zip((th.text for th in section.find_elements(By.TAG_NAME, "th")), (td.text for td in section.find_elements(By.TAG_NAME, "td"))))
         self.assertEqual(cells["channel"], "fz")
-        self.assertAlmostEqual(float(cells["strays"]), 0.02, delta=0.001)
+        self.assertAlmostEqual(float(cells["outliers"]), 0.02, delta=0.001)
         self.assertAlmostEqual(float(cells["force_max (N)"]), 18, delta=0.01)
 
 
