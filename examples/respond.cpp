@@ -1,4 +1,4 @@
-// The thesis's press through a slowly adapting afferent, with one parameter changed.
+// The thesis's press through a slowly adapting afferent, with one parameter of each changed.
 
 #include <corpuscle.hpp>
 #include <cstdio>

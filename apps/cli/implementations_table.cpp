@@ -62,7 +62,7 @@ std::string implementations_table(const VersionComparisons& comparisons) {
     if (omitted > 0) text += fmt::format("... and {} more rows; --out writes all of them to summary.json\n", omitted);
     if (silent > 0) text += fmt::format("Not shown: {} pairs without spikes.\n", silent);
     return text + fmt::format(
-                      "Compared with the first implementation of each receptor. Spikes within {} match; shift: median of matched spikes.\n"
+                      "Compared with the first row of each receptor and channel. Spikes within {} match; shift: median of matched spikes.\n"
                       "Victor-Purpura cost {:g} per second; van Rossum time constant {}.\n",
                       format_quantity(2 / VersionComparisons::cost, "s"), VersionComparisons::cost,
                       format_quantity(VersionComparisons::tau, "s"));

@@ -178,7 +178,7 @@ void add_respond(CLI::App& app, RespondArguments& w, CommonArguments& common) {
     verb.add_flag("--npz", w.npz, "with --out, also write spikes.npz: exact times for NumPy and SpikeInterface")->group("Output");
     verb.add_flag("--wav", w.wav, "with --out, also write spikes.wav: one click per spike")->group("Output");
     verb.add_flag("--vectors", w.vectors,
-                  "with --out, also write vectors-AFFERENT.csv and rom-AFFERENT.csv: all fixed-point words behind a converter")
+                  "with --out, also write vectors-AFFERENT.csv and rom-AFFERENT.csv: every fixed-point value behind a converter")
         ->group("Output");
     auto* report = verb.add_option("--report", w.report_file, "write a report page (default: report.html, in the directory of --out)")
                        ->expected(0, 1)
@@ -343,7 +343,7 @@ int main(int argc, char** argv) {
     } catch (const CLI::ParseError& e) {
         if (e.get_exit_code() != 0) {
             print_message(e.what());
-            print_message("'corpuscle help VERB' prints the commonest options, 'corpuscle VERB --help-all' all of them");
+            print_message("'corpuscle help VERB' prints the most common options, 'corpuscle VERB --help-all' all of them");
             return 2;
         }
         std::ostringstream text;

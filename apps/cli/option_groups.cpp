@@ -23,7 +23,9 @@ std::string report_argument_error(const std::string& name, std::vector<std::stri
 
 void add_netlist_options(CLI::App& verb, NetlistArguments& w) {
     const auto group = "Netlists";
-    verb.add_option("--supply", w.supply, "value of .param supply, such as 0.65V")->type_name("VOLTAGE")->group(group);
+    verb.add_option("--supply", w.supply, "supply voltage of the circuit (its .param supply), such as 0.65V")
+        ->type_name("VOLTAGE")
+        ->group(group);
     verb.add_option("--temp", w.temp, "temperature in degrees Celsius")->type_name("DEGREES")->group(group);
     verb.add_option("--corner", w.corner,
                     "process corner (library section): tt ss ff sf fs, or mc (--mismatch then also samples the process)")
@@ -34,8 +36,8 @@ void add_netlist_options(CLI::App& verb, NetlistArguments& w) {
         ->type_name("SEED[/CHIP]")
         ->group(group);
     verb.add_option("--probe", w.probes,
-                    "record these instead of .save: vf, v(a,b), i(vdd), i(N3B). Device currents flow into the drain or first terminal, "
-                    "without displacement currents. A path suffix is enough: rectb.o")
+                    "record these instead of what .save names: vf, v(a,b), i(vdd), i(N3B). A device current is that into the drain or the "
+                    "first terminal, without displacement current. The last part of a path is enough: rectb.o")
         ->allow_extra_args(false)
         ->type_name("WHAT,WHAT")
         ->group(group);
@@ -80,7 +82,7 @@ void add_recording_options(CLI::App& verb, RecordingArguments& w) {
     verb.add_option("--offset", w.offset, "reading at zero force, subtracted before --scale")->type_name("X")->group(group);
     verb.add_option("--range", w.range, "valid range of readings; values outside are bad")->type_name("LO..HI")->group(group);
     verb.add_option("--bad-fields", w.bad_fields,
-                    "for fields that are not numbers and readings out of --range: error (default for fields), drop the row, "
+                    "what to do with fields that are not numbers and readings out of --range: error (default for fields), drop the row, "
                     "interpolate (default for readings)")
         ->check(CLI::IsMember({"error", "drop", "interpolate"}))
         ->type_name("WHAT")
