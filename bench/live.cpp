@@ -1,10 +1,10 @@
 // How long is the delay from a frame of forces to its spikes, how much of a core does this take, and is it stable over time?
 //   bench-live delay [SECONDS [PROGRAM]]   "grid 64x64" (8192 afferents) at 5.2 kHz, the densest published skin: 2.1e7 samples per second
-//   bench-live sleep [SECONDS [PROGRAM]]   the same without --busy-poll: the program, the sender and the reader sleep until a frame comes
+//   bench-live sleep [SECONDS [PROGRAM]]   as delay, without --busy-poll: the program, the sender and the reader sleep until a frame comes
 //   bench-live share [SECONDS [PROGRAM]]   "hand" (17,000 afferents) at 1 kHz under a stroke: the fraction of a core
-//   bench-live together [SECONDS [PROGRAM]] the same with --batch-frames 16, over loopback: the program sleeps until 16 frames have arrived
-//   bench-live noise [SECONDS [PROGRAM]]   the same with noise that keeps every afferent active
-//   bench-live soak [SECONDS [PROGRAM]]    "grid 16x16" at 1 kHz over loopback, frames numbered: memory, drift, lost events
+//   bench-live together [SECONDS [PROGRAM]] as share, with --batch-frames 16, over loopback: the program sleeps until 16 frames have
+//   arrived bench-live noise [SECONDS [PROGRAM]]   as share, with noise that keeps every afferent active bench-live soak [SECONDS
+//   [PROGRAM]]    "grid 16x16" at 1 kHz over loopback, frames numbered: memory, drift, lost events
 // Defaults: 60 s (3600 s are recommended for soak) and ./corpuscle. `corpuscle stream` runs with its usual options on the last core only.
 // The sender and the reader are threads of this program on the other cores.
 //
@@ -15,7 +15,7 @@
 // of frames and its own measurement of every frame. For comparison an idle loop runs first for the same time: a thread sleeps to the same
 // ticks and records how late it wakes, which is the machine's own delay. Every site has noise of some mN at every frame, so that no
 // afferent can be skipped, and a round contact moves over the skin. With share and together there is no noise; a fingertip rubs the palm in
-// circles of 1 cm. Printed is the program's user and system time after the seconds in which it builds its skin.
+// circles of 1 cm. The printed processor time (user and system) excludes the first seconds, in which the program builds its skin.
 // soak compares every received byte with the result of the same frames in this process.
 
 #include <sys/prctl.h>
@@ -76,37 +76,38 @@ std::shared_ptr<const Innervation> skin_of(const std::string& population) {
     return *skin;
 }
 
-int through_pipes(const std::string& program, const std::string& population, int rate, int seconds, double radius, bool spin, bool noise,
-                  int together = 1, double turn_radius = 0) {
+/// Every mode but soak. `circle_radius`: see frames_of_a_second.
+int measure_delay(const std::string& program, const std::string& population, int rate, int seconds, double contact_radius, bool busy_poll,
+                  bool noise, int batch_frames = 1, double circle_radius = 0) {
     const auto skin = skin_of(population);
     const auto sites = skin->plan.sites.size();
     const auto header = (*make_event_format("aer", make_event_afferents(*skin, {rate, 1})))->header().size();
-    const auto second = frames_of_a_second(skin->plan, rate, radius, noise, turn_radius);
+    const auto frames = frames_of_a_second(skin->plan, rate, contact_radius, noise, circle_radius);
     const int cores = static_cast<int>(std::thread::hardware_concurrency());
     if (cores > 1) bind_to(0, cores - 2);
     const auto idle = idle_loop(rate, seconds);
     const std::int64_t count = std::int64_t{rate} * seconds;
     std::vector<std::string> words = {"--population", population, "--rate",   fmt::format("{}Hz", rate),
                                       "--frames",     "f32",      "--format", "aer"};
-    if (spin) words.push_back("--busy-poll");
-    if (together > 1) words.insert(words.end(), {"--batch-frames", std::to_string(together), "--in", "tcp:0", "--clients", "1"});
+    if (busy_poll) words.push_back("--busy-poll");
+    if (batch_frames > 1) words.insert(words.end(), {"--batch-frames", std::to_string(batch_frames), "--in", "tcp:0", "--clients", "1"});
     Program child(program, words, cores - 1);
-    if (together > 1) child.in = connect_to(child);
-    double seconds_at_start = 0;  // processor time, s
+    if (batch_frames > 1) child.in = connect_to(child);
+    double processor_seconds_at_start = 0;
     std::thread watch([&] {
         std::this_thread::sleep_for(std::chrono::seconds(start_up));
-        seconds_at_start = child.processor_seconds();
+        processor_seconds_at_start = child.processor_seconds();
     });
-    Sender sender(second, sites, rate, count, false);
+    Sender sender(frames, sites, rate, count, false);
     LatencyHistogram delay;
     std::int64_t last = 0, spikes = 0;
-    HelperProgram reader(child.out.get(), header, [&](const address_events::EncodedSpike& spike, std::int64_t now) {
+    EventReader reader(child.out.get(), header, [&](const address_events::EncodedSpike& spike, std::int64_t now) {
         ++spikes;
         if (spike.step == last || spike.step >= count) return;
         last = spike.step;
         delay.add(now - sender.sent(spike.step));
     });
-    if (spin) {
+    if (busy_poll) {
         ::fcntl(child.out.get(), F_SETFL, O_NONBLOCK);
         for (std::int64_t k = 0; k < count; ++k) {
             while (steady_now() < sender.due(k)) reader.read();
@@ -132,8 +133,8 @@ int through_pipes(const std::string& program, const std::string& population, int
     fmt::print(
         "\nIts own summary (status {}):\n{}\nIt used {:.2f} % of one core after the first {} s, and {:.2f} s in total of {} s; "
         "{} MB at peak.\n",
-        status, summary, 100 * (child.seconds() - seconds_at_start) / std::max(1, seconds - start_up), start_up, child.seconds(), seconds,
-        child.used.ru_maxrss / 1024);
+        status, summary, 100 * (child.final_processor_seconds() - processor_seconds_at_start) / std::max(1, seconds - start_up), start_up,
+        child.final_processor_seconds(), seconds, child.used.ru_maxrss / 1024);
     return status;
 }
 
@@ -149,44 +150,44 @@ int soak(const std::string& program, int seconds) {
     const auto skin = skin_of("grid 16x16");
     const auto sites = skin->plan.sites.size();
     const auto format = make_event_format("aer", make_event_afferents(*skin, {rate, 1}));
-    const auto second = frames_of_a_second(skin->plan, rate, 8e-3, true);
-    Endpoint here;
-    auto door = open_listening_socket(here);
+    const auto frames = frames_of_a_second(skin->plan, rate, 8e-3, true);
+    Endpoint endpoint;
+    auto listener = open_listening_socket(endpoint);
     Program child(program,
-                  {"--population", "grid 16x16", "--rate", "1kHz", "--frames", "f32", "--stamp", "count", "--format", "aer", "--in",
-                   "tcp:0", "--clients", "1", "--to", std::to_string(here.port)},
+                  {"--population", "grid 16x16", "--rate", "1kHz", "--frames", "f32", "--stamp", "sequence", "--format", "aer", "--in",
+                   "tcp:0", "--clients", "1", "--to", std::to_string(endpoint.port)},
                   static_cast<int>(std::thread::hardware_concurrency()) - 1);
-    pollfd wait = {door->get(), POLLIN, 0};
+    pollfd wait = {listener->get(), POLLIN, 0};
     ::poll(&wait, 1, 10000);
-    Descriptor events(::accept(door->get(), nullptr, nullptr));
+    Descriptor events(::accept(listener->get(), nullptr, nullptr));
     auto to = connect_to(child);
     const std::int64_t count = std::int64_t{rate} * seconds;
-    Sender sender(second, sites, rate, count, true);
+    Sender sender(frames, sites, rate, count, true);
     std::thread sending([&] { sender.send_all(to.get()), to.close(); });
     // Simulates the same frames in this process, as far as events have been received.
-    auto ours = SkinStream::make(skin, {rate, 1});
+    auto reference = SkinStream::make(skin, {rate, 1});
     std::vector<double> frame(sites);
-    std::vector<address_events::EncodedSpike> wanted;
+    std::vector<address_events::EncodedSpike> expected;
     std::size_t at = 0;
-    const auto next = [&](std::int64_t step) {
-        while (at == wanted.size() && (*ours)->frames() < std::min(count, step + 1)) {
-            const auto* from = second.data() + static_cast<std::size_t>((*ours)->frames() % rate) * sites;
+    const auto expect_spikes_to = [&](std::int64_t step) {
+        while (at == expected.size() && (*reference)->frames() < std::min(count, step + 1)) {
+            const auto* from = frames.data() + static_cast<std::size_t>((*reference)->frames() % rate) * sites;
             std::copy_n(from, sites, frame.begin());
-            wanted.clear(), at = 0;
-            const auto spikes_here = (*ours)->push(frame);
+            expected.clear(), at = 0;
+            const auto spikes_here = (*reference)->push(frame);
             for (const auto& s : *spikes_here) {
                 address_events::EncodedSpike packed;
                 (*format)->write(s, reinterpret_cast<char*>(&packed));
-                wanted.push_back(packed);
+                expected.push_back(packed);
             }
         }
     };
     std::vector<LatencyHistogram> minutes(static_cast<std::size_t>(seconds) / 60 + 1);
     std::int64_t spikes = 0, wrong = 0, next_report = 0, last = -1;
-    HelperProgram reader(events.get(), (*format)->header().size(), [&](const address_events::EncodedSpike& spike, std::int64_t now) {
-        next(spike.step);
-        wrong += at == wanted.size() || std::memcmp(&wanted[at], &spike, sizeof spike) != 0;
-        ++spikes, at += at < wanted.size();
+    EventReader reader(events.get(), (*format)->header().size(), [&](const address_events::EncodedSpike& spike, std::int64_t now) {
+        expect_spikes_to(spike.step);
+        wrong += at == expected.size() || std::memcmp(&expected[at], &spike, sizeof spike) != 0;
+        ++spikes, at += at < expected.size();
         if (spike.step != last && spike.step < count)
             minutes[static_cast<std::size_t>(spike.step / rate / 60)].add(now - sender.sent(spike.step));
         last = spike.step;
@@ -198,14 +199,14 @@ int soak(const std::string& program, int seconds) {
     while (reader.read()) {
     }
     sending.join();
-    next(count);
+    expect_spikes_to(count);
     const auto summary = child.read_output(child.err.get());
     const int status = child.wait();
     fmt::print("\n{:28} {:>9} {:>8} {:>8} {:>8} {:>9}   within 1 ms\n", "us", "number", "50 %", "99 %", "99.9 %", "longest");
     fmt::print("{}{}", row("first minute", minutes.front()),
                row("last complete minute", minutes[minutes.size() > 1 ? minutes.size() - 2 : 0]));
-    fmt::print("\n{} events, {} wrong, {} missing at the end; status {}\n{}", spikes, wrong, wanted.size() - at, status, summary);
-    return wrong != 0 || at != wanted.size() ? 1 : status;
+    fmt::print("\n{} events, {} wrong, {} missing at the end; status {}\n{}", spikes, wrong, expected.size() - at, status, summary);
+    return wrong != 0 || at != expected.size() ? 1 : status;
 }
 
 }  // namespace
@@ -216,11 +217,11 @@ int main(int argc, char** argv) {
     const std::string what = argc > 1 ? argv[1] : "";
     const int seconds = argc > 2 ? std::atoi(argv[2]) : 60;
     const std::string program = argc > 3 ? argv[3] : "./corpuscle";
-    if (what == "delay") return through_pipes(program, "grid 64x64", 5200, seconds, 12e-3, true, true);
-    if (what == "sleep") return through_pipes(program, "grid 64x64", 5200, seconds, 12e-3, false, true);
-    if (what == "share") return through_pipes(program, "hand", 1000, seconds, 4e-3, false, false, 1, 5e-3);
-    if (what == "together") return through_pipes(program, "hand", 1000, seconds, 4e-3, false, false, 16, 5e-3);
-    if (what == "noise") return through_pipes(program, "hand", 1000, seconds, 12e-3, false, true);
+    if (what == "delay") return measure_delay(program, "grid 64x64", 5200, seconds, 12e-3, true, true);
+    if (what == "sleep") return measure_delay(program, "grid 64x64", 5200, seconds, 12e-3, false, true);
+    if (what == "share") return measure_delay(program, "hand", 1000, seconds, 4e-3, false, false, 1, 5e-3);
+    if (what == "together") return measure_delay(program, "hand", 1000, seconds, 4e-3, false, false, 16, 5e-3);
+    if (what == "noise") return measure_delay(program, "hand", 1000, seconds, 12e-3, false, true);
     if (what == "soak") return soak(program, seconds);
     return fmt::print("bench-live delay|sleep|share|together|noise|soak [SECONDS [PROGRAM]]\n"), 2;
 }

@@ -35,8 +35,8 @@ inline void sleep_until(std::int64_t ns) {
     }
 }
 
-/// Frames of one second, to be repeated, with noise and a contact that moves in a circle. `turn_radius`: m; 0: over most of the skin.
-inline std::vector<float> frames_of_a_second(const SkinPlan& plan, int rate, double radius, bool noise, double turn_radius = 0) {
+/// Frames of one second, to be repeated, with noise and a contact that moves in a circle. `circle_radius`: m; 0: over most of the skin.
+inline std::vector<float> frames_of_a_second(const SkinPlan& plan, int rate, double contact_radius, bool noise, double circle_radius = 0) {
     const auto& sites = plan.sites;
     // force at a site (N) that acts on an afferent like 1 N
     const double scale = plan.felt_area > 0 && sites.area > 0 ? sites.area / plan.felt_area : 1;
@@ -46,15 +46,15 @@ inline std::vector<float> frames_of_a_second(const SkinPlan& plan, int rate, dou
         low = {std::min(low.x, p.x), std::min(low.y, p.y)}, high = {std::max(high.x, p.x), std::max(high.y, p.y)};
     for (int k = 0; k < rate; ++k) {
         const double angle = 6.283185307179586 * k / rate;
-        const double x = (low.x + high.x) / 2 + (turn_radius > 0 ? turn_radius : (high.x - low.x) / 4) * std::cos(angle),
-                     y = (low.y + high.y) / 2 + (turn_radius > 0 ? turn_radius : (high.y - low.y) / 4) * std::sin(angle);
+        const double x = (low.x + high.x) / 2 + (circle_radius > 0 ? circle_radius : (high.x - low.x) / 4) * std::cos(angle),
+                     y = (low.y + high.y) / 2 + (circle_radius > 0 ? circle_radius : (high.y - low.y) / 4) * std::sin(angle);
         for (std::size_t s = 0; s < sites.size(); ++s) {
             const double d2 =
                 (sites.positions[s].x - x) * (sites.positions[s].x - x) + (sites.positions[s].y - y) * (sites.positions[s].y - y);
             const auto w = philox({static_cast<std::uint32_t>(k), static_cast<std::uint32_t>(s), 0, 0}, 1);
-            out[static_cast<std::size_t>(k) * sites.size() + s] =
-                static_cast<float>(scale * ((d2 < 6 * radius * radius ? 2 * std::exp(-d2 / (radius * radius)) : 0) +
-                                            (noise ? 1e-3 + 4e-3 * unit_interval(w[0], w[1]) : 0)));
+            out[static_cast<std::size_t>(k) * sites.size() + s] = static_cast<float>(
+                scale * ((d2 < 6 * contact_radius * contact_radius ? 2 * std::exp(-d2 / (contact_radius * contact_radius)) : 0) +
+                         (noise ? 1e-3 + 4e-3 * unit_interval(w[0], w[1]) : 0)));
         }
     }
     return out;
@@ -97,6 +97,7 @@ struct Program {
         return all;
     }
     /// Processor time so far, user and system, s.
+    /// User and system time so far.
     double processor_seconds() const {
         std::ifstream stat(fmt::format("/proc/{}/stat", pid));
         std::string word;
@@ -105,7 +106,8 @@ struct Program {
         stat >> user >> system;
         return (user + system) / static_cast<double>(::sysconf(_SC_CLK_TCK));
     }
-    double seconds() const {
+    /// User and system time of the ended program.
+    double final_processor_seconds() const {
         const auto s = [](const timeval& t) { return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec); };
         return s(used.ru_utime) + s(used.ru_stime);
     }
@@ -162,14 +164,14 @@ public:
 
 /// Reads events as they arrive; calls each() with every event and the time of its read.
 template <class Each>
-class HelperProgram {
+class EventReader {
     int fd_;
     std::size_t header_, filled_ = 0;
     Each each_;
     std::vector<char> buffer_ = std::vector<char>(1 << 20);
 
 public:
-    HelperProgram(int fd, std::size_t header, Each each) : fd_(fd), header_(header), each_(std::move(each)) {}
+    EventReader(int fd, std::size_t header, Each each) : fd_(fd), header_(header), each_(std::move(each)) {}
     /// Processes the result of one read. Returns false at the end, or if a non-blocking read finds nothing.
     bool read() {
         const auto n = ::read(fd_, buffer_.data() + filled_, buffer_.size() - filled_);

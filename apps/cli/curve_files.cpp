@@ -98,9 +98,9 @@ Result<std::string> CurveFiles::finish_early(bool interrupted) {
     return note;
 }
 
-std::string CurveFiles::path_of(std::size_t count, std::size_t k) const {
+std::string CurveFiles::path_of(std::size_t file_count, std::size_t index) const {
     auto path = arguments_.out;
-    if (count > 1) path.insert(path.size() - 4, fmt::format("-{}", k + 1));
+    if (file_count > 1) path.insert(path.size() - 4, fmt::format("-{}", index + 1));
     return path;
 }
 
@@ -113,10 +113,10 @@ Result<void> CurveFiles::check(std::size_t analysis_count) const {
     return {};
 }
 
-/// File k of `count`. The first use creates it with `head` as its content.
-Result<OutputFile*> CurveFiles::open(std::size_t count, std::size_t k, const std::string& head) {
-    if (k < files_.size()) return &files_[k];
-    const auto path = path_of(count, k);
+/// File `index` of `file_count`. The first use creates it with `head` as its content.
+Result<OutputFile*> CurveFiles::open(std::size_t file_count, std::size_t index, const std::string& head) {
+    if (index < files_.size()) return &files_[index];
+    const auto path = path_of(file_count, index);
     if (auto ok = check_.check_growing_file(path, is_csv_ ? is_own_table : is_own_raw); !ok) return ok.error();
     auto file = OutputFile::create_growing(path);
     if (!file) return file.error();

@@ -13,7 +13,8 @@
 namespace corpuscle {
 
 /// Writes curves while they are computed: either one .raw file, or one CSV table per analysis (x.csv, or x-1.csv, x-2.csv ...).
-/// With several steps each CSV row begins with its step. A transient's points are written in blocks; the files are readable at any time.
+/// With .step or .mc each CSV row begins with its step or chip. A transient's points are written in blocks; the files are readable at any
+/// time.
 class CurveFiles final : public circuit::CurveSink {
     using Clock = std::chrono::steady_clock;
     const RunArguments& arguments_;
@@ -33,12 +34,12 @@ class CurveFiles final : public circuit::CurveSink {
 
     Result<void> write_pending();
     Result<void> write_table(const circuit::Plot&, std::size_t count);
-    std::string path_of(std::size_t count, std::size_t k) const;
-    Result<OutputFile*> open(std::size_t count, std::size_t k, const std::string& head);
+    std::string path_of(std::size_t file_count, std::size_t index) const;
+    Result<OutputFile*> open(std::size_t file_count, std::size_t index, const std::string& head);
 
 public:
-    CurveFiles(const RunArguments& words, bool several, bool overwrite)
-        : arguments_(words), check_(overwrite), has_steps_(several), is_csv_(words.out.ends_with(".csv")) {}
+    CurveFiles(const RunArguments& arguments, bool has_steps, bool overwrite)
+        : arguments_(arguments), check_(overwrite), has_steps_(has_steps), is_csv_(arguments.out.ends_with(".csv")) {}
 
     /// Checks before the run that the files of a netlist with this many analyses may be written.
     Result<void> check(std::size_t analysis_count) const;

@@ -33,16 +33,17 @@ struct Claim {
 
     bool has_allowed_range() const { return allowed_min == allowed_min || allowed_max == allowed_max; }
     bool is_in_allowed_range() const { return !(computed < allowed_min) && !(computed > allowed_max); }
-    /// Relative deviation from the published value; NaN if there is none.
+    /// Relative deviation from the published value; NaN if that is missing or 0.
     double deviation() const { return published == 0 ? none : (computed - published) / (published < 0 ? -published : published); }
-    /// True if the value is outside the allowed range, or deviates from the published value by more than the tolerance.
+    /// True if the value is outside the allowed range or, without such a range, if it deviates from the published value by more than
+    /// the tolerance.
     bool needs_explanation() const {
         return has_allowed_range() ? !is_in_allowed_range() : deviation() > tolerance || deviation() < -tolerance;
     }
     /// Adds the explanation only if the claim needs one.
     Claim& explain_if_needed(std::string why) { return needs_explanation() ? explain(std::move(why)) : *this; }
-    /// "holds" or "does not hold" if there is an allowed range; "agrees" (within a tenth) or "differs" if there is a published number;
-    /// otherwise "".
+    /// "holds" or "does not hold" if there is an allowed range; "agrees" (within the tolerance) or "differs" if there is a published
+    /// number; otherwise "".
     const char* verdict() const {
         if (has_allowed_range()) return is_in_allowed_range() ? "holds" : "does not hold";
         if (deviation() != deviation()) return "";

@@ -11,7 +11,8 @@ namespace {
 constexpr double boltzmann = 1.380649e-23, charge = 1.602176634e-19;
 double kelvin(double celsius) { return celsius + 273.15; }
 
-// 200 points per decade are integrated as powers of f, with an error of 2e-5. Five decades on each side of the corner leave out 1.3e-5.
+// The total is integrated from 200 points per decade, with a power law of f between two points: an error of 2e-5. What lies more than five
+// decades from the corner is missing: 1.3e-5.
 TEST(ThermalNoise, AResistorLeavesKTByCOnACapacitor) {
     for (const auto& [R, C] : {std::pair{1e3, 1e-9}, {413e3, 8.8e-12}, {6.6e9, 0.8e-12}})
         for (const double celsius : {-55.0, 27.0, 125.0}) {
@@ -31,15 +32,15 @@ TEST(ThermalNoise, ManyResistorsLeaveKTByCTogether) {
 
 /// A transistor of the card whose drain is connected only to a capacitor: at rest V_DS = 0. A current drives it in .ac, so v(d) is the
 /// impedance of the drain and the capacitor.
-std::string open_drain(const char* type, double gate, double bulk, double celsius, const std::string& words, double from, double to) {
+std::string open_drain(const char* type, double gate, double bulk, double celsius, const std::string& more_lines, double from, double to) {
     return fmt::format(
         "open drain\n.lib 'tsmc180.lib' tt\nvg g 0 {}\nvb b 0 {}\ni1 0 d ac 1\nm1 d g 0 b {} w=1.5u l=0.5u m=2 stack=8\n.temp {}\n"
         ".options gmin=0\n{}\n.ac dec 1 {} {}\n.noise v(d) i1 dec 200 {} {}\n",
-        gate, bulk, type, celsius, words, from, to, from, to);
+        gate, bulk, type, celsius, more_lines, from, to, from, to);
 }
 
 // C includes the drain's own capacitances from .ac, 1.5 to 12 fF here. The junction's shot noise, 2q times twice its saturation current,
-// exceeds 4kT times its conductance by n_dio = 1.05. This matters only where the channel conducts no better than the junction.
+// exceeds 4kT times its conductance by the factor n_dio = 1.05. This matters only where the channel conducts no better than the junction.
 TEST(ThermalNoise, ATransistorLeavesKTByCWithItsOwnCapacitances) {
     for (const char* type : {"nch", "pch", "nch_hv"})
         for (const double gate : {0.3, 0.5, 0.9, 1.8})
@@ -80,7 +81,7 @@ TEST(ThermalNoise, WeakInversionIsShotNoiseOfBothDirections) {
         }
 }
 
-TEST(ThermalNoise, SaturatedWeakInversionIs2qIAndRisesToTwoThirdsOf4kTgms) {
+TEST(ThermalNoise, SaturationIs2qIInWeakAndTwoThirdsOf4kTgmsInStrongInversion) {
     const Drain weak(plain, 0.5, 0.1, 0), strong(plain, 3, 4, 0);
     EXPECT_NEAR(weak.S / (2 * charge * weak.I), 1, 1e-4);
     const double v_t = boltzmann * kelvin(27) / charge, I_S = 112e-9 * 3;

@@ -4,8 +4,8 @@
 
 namespace corpuscle::circuit {
 
-/// Constants common to all junctions of one model card at one temperature. Above the exponential's argument `exp_limit` (where the current
-/// is junction_current_limit) the current follows its tangent. Above v_limit = F_C P_B the capacitance follows its tangent.
+/// Constants common to all junctions of one model card at one temperature. Where v / (n_dio phi_t) exceeds `exp_limit` (at the current
+/// junction_current_limit) the current follows its tangent. Above v_limit = F_C P_B the capacitance follows its tangent.
 template <class T>
 struct JunctionConstants {
     T per_n_phi_t;                                            ///< 1 / (n_dio phi_t), 1/V
@@ -18,7 +18,7 @@ struct JunctionEvaluation {
     T i, g, q, c;  ///< A, S, C, F
 };
 
-/// Junction diode, v = v_anode - v_cathode.   i = I_sat (exp(v / n_dio phi_t) - 1)   (thesis eq. 43);
+/// Junction diode, v = v_anode - v_cathode.   i = I_sat (exp(v / (n_dio phi_t)) - 1)   (thesis eq. 43);
 ///     q = C_0 P_B / (1 - M_J) (1 - (1 - v / P_B)^(1 - M_J)),   c = dq/dv = C_0 / (1 - v / P_B)^M_J
 /// Both have continuous derivatives; the extrapolation of the charge is that of SPICE. No breakdown, series resistance or transit time.
 template <class T>

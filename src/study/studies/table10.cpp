@@ -8,7 +8,7 @@
 
 namespace corpuscle::studies::table10 {
 
-/// The printed A against its value from other published numbers.
+/// The published active area of C1 against the same area computed from other published numbers.
 void add_erratum(StudyResult& out, const SimulatedArrays& ours) {
     const auto& c1 = find_published(rectangles, "C1");
     const std::string source = "errata U11, C1's A = 1.0800";
@@ -29,14 +29,14 @@ Result<StudyResult> work(const StudyOptions&) {
     const auto compare_by = [](auto property) {
         return [property](const SimulatedArray& a, const SimulatedArray& b) { return property(a) < property(b); };
     };
-    const auto S = compare_by([](const SimulatedArray& a) { return a.S; });
-    const auto share = compare_by([](const SimulatedArray& a) { return a.A / a.A_T; });
+    const auto by_S_eq = compare_by([](const SimulatedArray& a) { return a.S; });
+    const auto by_area_ratio = compare_by([](const SimulatedArray& a) { return a.A / a.A_T; });
     out.claim_true("B1 has the lowest S_eq, D1 the highest",
-                   std::min_element(arrays.begin(), arrays.end(), S)->published->name == std::string_view("B1") &&
-                       std::max_element(arrays.begin(), arrays.end(), S)->published->name == std::string_view("D1"),
+                   std::min_element(arrays.begin(), arrays.end(), by_S_eq)->published->name == std::string_view("B1") &&
+                       std::max_element(arrays.begin(), arrays.end(), by_S_eq)->published->name == std::string_view("D1"),
                    source);
     out.claim_true("C1 has the largest ratio of active to total area",
-                   std::max_element(arrays.begin(), arrays.end(), share)->published->name == std::string_view("C1"), source);
+                   std::max_element(arrays.begin(), arrays.end(), by_area_ratio)->published->name == std::string_view("C1"), source);
     const double A_T = arrays("C1").A_T;
     out.claim_true("all except A have the same total area",
                    std::all_of(arrays.begin() + 1, arrays.end(), [&](const SimulatedArray& a) { return std::abs(a.A_T / A_T - 1) < 1e-9; }),

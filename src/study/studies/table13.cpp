@@ -24,12 +24,12 @@ Result<StudyResult> work(const StudyOptions&) {
     const auto& A_T = [&](const char* name) { return ours(name).A_T; };
     out.claim_true("E, G1, G2 and G3 have the same total area by the rule of table 10",
                    std::abs(A_T("G1") / A_T("E") - 1) < 1e-9 && A_T("G1") == A_T("G2") && A_T("G1") == A_T("G3"), source);
-    out.claim("G1's S_eq over that of one unit transistor, eight in series", ours("G1").S / (*rectangular)("A").S)
+    out.claim("G1's S_eq over that of A, one of its eight unit transistors in series", ours("G1").S / (*rectangular)("A").S)
         .derived_as(0.125, source + ": a rectangular series array");
     out.claim("G3's S_eq over A's", ours("G3").S / (*rectangular)("A").S).allow_range(0.8, 1.25, source + ": similar (0.8 to 1.25 here)");
     out.note(
         "F's two transistors have different lengths. Its rectangle is computed as two transistors of their mean length with the usual "
-        "spacing. It is too wide by the amount that F's published A_T is smaller, because F's two channels are closer together.");
+        "spacing. F's two channels are closer together, so the computed rectangle is too wide, and the published A_T is smaller.");
     out.note(
         "Table 13 calls F's transistor of 4.79 um M_D, and G1's single unit transistor above its seven M_S (errata U17, U17a). S_eq and "
         "areas are the same for both namings.");

@@ -7,25 +7,26 @@
 
 namespace corpuscle::sweeps {
 
-AfferentMeasures::AfferentMeasures(const SweepForce& nominal, bool circuit, std::span<const std::string> ranges) {
+AfferentMeasures::AfferentMeasures(const SweepForce& nominal, bool is_circuit, std::span<const std::string> ranges) {
     for (std::size_t m = 0; m < std::size(measures); ++m)
         available_.push_back(
             {Kind::total, m, "", {std::string(measures[m].name), std::string(measures[m].unit), std::string(measures[m].description)}});
     available_.push_back({Kind::first, 0, "", {"first_spike", "s", "time of the first spike"}});
     available_.push_back({Kind::last, 0, "", {"last_spike", "s", "time of the last spike"}});
-    if (circuit) {
+    if (is_circuit) {
         available_.push_back({Kind::power, 0, "", {"power", "W", "mean power of all sources"}});
         available_.push_back({Kind::sensor_power, 0, "", {"sensor_power", "W", "the part of it due to the sensor's current"}});
-        available_.push_back({Kind::outside, 0, "", {"outside", "s", "longest time outside one of its ranges"}});
+        available_.push_back({Kind::outside, 0, "", {"outside", "s", "total time outside an operating range; of several, the longest"}});
         available_.push_back({Kind::iterations, 0, "", {"iterations", "", "Newton iterations"}});
         for (std::size_t r = 0; r < ranges.size(); ++r)
             available_.push_back(
-                {Kind::one_range, r, "", {"outside." + ranges[r], "s", fmt::format("time that {} is outside its range", ranges[r])}});
+                {Kind::one_range, r, "", {"outside." + ranges[r], "s", fmt::format("total time that {} is outside its range", ranges[r])}});
     }
     for (auto& entry : available_) {
         const bool needs_cycle =
             entry.kind == Kind::total && (entry.column.name == VectorStrength::info.name || entry.column.name == Entrainment::info.name);
-        entry.is_default = entry.kind != Kind::iterations && entry.kind != Kind::one_range && !(needs_cycle && nominal.cycle == 0);
+        entry.is_default =
+            entry.kind != Kind::iterations && entry.kind != Kind::one_range && !(needs_cycle && nominal.cycle_frequency == 0);
     }
     for (const auto& phase : nominal.phases)
         for (std::size_t m = 0; m < std::size(measures); ++m)
@@ -70,10 +71,10 @@ Result<std::size_t> AfferentMeasures::require_column(const LocatedText& name) {
 }
 
 std::vector<double> AfferentMeasures::values(const SweepForce& force, const ItemResponse& response) const {
-    std::vector<TimeWindow> stretches;
-    for (const auto& p : force.phases) stretches.push_back({p.from, p.to, force.cycle});
-    MeasureAccumulator total({{.stimulus_frequency = force.cycle}}, 1), phases(std::move(stretches), 1);
-    const bool by_phase = std::any_of(selected_.begin(), selected_.end(), [](const Entry& o) { return o.kind == Kind::phase; });
+    std::vector<TimeWindow> windows;
+    for (const auto& p : force.phases) windows.push_back({p.from, p.to, force.cycle_frequency});
+    MeasureAccumulator total({{.stimulus_frequency = force.cycle_frequency}}, 1), phases(std::move(windows), 1);
+    const bool by_phase = std::any_of(selected_.begin(), selected_.end(), [](const Entry& entry) { return entry.kind == Kind::phase; });
     for (const double t : response.spikes) {
         total.spike(0, t);
         if (by_phase) phases.spike(0, t);

@@ -11,8 +11,8 @@ namespace corpuscle::sweeps {
 /// The result of one simulated item.
 struct ItemResponse {
     std::span<const double> spikes;                        ///< s
-    double power = 0, sensor_power = 0, time_outside = 0;  ///< of a circuit: W, W, s
-    std::vector<double> time_outside_ranges = {};          ///< for each of its ranges, s
+    double power = 0, sensor_power = 0, time_outside = 0;  ///< of a circuit: W, W, s; time_outside: largest of time_outside_ranges
+    std::vector<double> time_outside_ranges = {};          ///< total time outside each of its ranges, s
     double iterations = 0;
 };
 
@@ -30,7 +30,7 @@ class AfferentMeasures {
 
 public:
     /// All measures for this force and this afferent. `ranges`: the operating ranges of a circuit; empty for a model.
-    AfferentMeasures(const SweepForce& nominal, bool circuit, std::span<const std::string> ranges);
+    AfferentMeasures(const SweepForce& nominal, bool is_circuit, std::span<const std::string> ranges);
 
     /// Selects measures by name. Default: each measure over the complete force.
     Result<void> select(const std::optional<std::vector<LocatedText>>& names);

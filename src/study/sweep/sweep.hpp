@@ -15,7 +15,7 @@ namespace corpuscle {
 /// A column of a sweep's table: an axis value or a measure of an item.
 struct SweepColumn {
     std::string name, unit, description = {};
-    std::vector<std::string> labels = {};      ///< for an axis of labels: value k means words[k]
+    std::vector<std::string> labels = {};      ///< for an axis of labels: value k means labels[k]
     std::optional<double> min = {}, max = {};  ///< limits of a measure, which an item must meet to pass
 };
 

@@ -18,7 +18,7 @@ constexpr std::size_t max_cached_forces = 8;
 Result<std::shared_ptr<const SweepForce>> read_force(ForceSource& source) {
     auto force = std::make_shared<SweepForce>();
     force->clock = source.clock(), force->clock.t0 = 0;
-    force->phases = source.phases(), force->cycle = source.cycle_frequency();
+    force->phases = source.phases(), force->cycle_frequency = source.cycle_frequency();
     Frames frames(source.channels().size(), 4096);
     for (;;) {
         if (auto ok = source.read(frames); !ok) return ok.error();

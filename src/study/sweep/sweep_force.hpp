@@ -16,7 +16,7 @@ struct SweepForce {
     std::vector<double> samples;  ///< N
     Clock clock;                  ///< with the first sample at 0 s
     std::vector<Phase> phases;
-    double cycle = 0;  ///< Hz
+    double cycle_frequency = 0;  ///< Hz; 0 if the stimulus has no cycle
 
     double end() const { return static_cast<double>(samples.size()) * clock.T(); }
 };

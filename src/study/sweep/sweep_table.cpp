@@ -29,7 +29,8 @@ Result<std::vector<std::size_t>> find_measures(const SweepResults& results, cons
     return out;
 }
 
-/// The values of an axis in ascending order if they are few; otherwise empty.
+/// The distinct values of an axis in ascending order. Empty if there are more than `limit`, or, for an axis that is not listed, more than
+/// one for two rows.
 std::vector<double> few_values(const std::vector<double>& all, bool is_listed, std::size_t limit) {
     std::vector<double> known;
     double last = std::nan("");
@@ -78,12 +79,12 @@ Result<std::vector<ReadPart>> read_parts(const SweepResults& results, const std:
     std::vector<ReadPart> out(parts);
     std::vector<std::optional<Error>> errors(parts);
     ThreadPool(parts == 1 ? 1 : 0).for_each(parts, [&](std::size_t k, unsigned) {
-        const auto at = [&](std::size_t part) {
+        const auto first_item = [&](std::size_t part) {
             return part == parts ? std::numeric_limits<std::int64_t>::max() : results.item_count() / 4 * static_cast<std::int64_t>(part);
         };
         const auto own = parts == 1 ? Result<SweepResults>(Error{}) : SweepResults::open_read_only(results.path());
         if (parts > 1 && !own) return void(errors[k] = own.error());
-        auto read = read_part(parts == 1 ? results : *own, columns_sql, columns, at(k), at(k + 1));
+        auto read = read_part(parts == 1 ? results : *own, columns_sql, columns, first_item(k), first_item(k + 1));
         read ? void(out[k] = std::move(*read)) : void(errors[k] = read.error());
     });
     for (auto& e : errors)
@@ -133,13 +134,13 @@ Result<SweepTable> read_table(const SweepResults& results, const std::vector<std
     auto parts = read_parts(results, fmt::format("{}", fmt::join(columns_sql, ", ")), columns_sql.size());
     if (!parts) return parts.error();
     out.axis_values.resize(out.axes.size()), out.measure_values.resize(out.measures.size());
-    const auto put = [](auto& all, auto& part) {
+    const auto append = [](auto& all, auto& part) {
         all.empty() ? void(all = std::move(part)) : void(all.insert(all.end(), part.begin(), part.end()));
     };
     for (auto& part : *parts) {
-        put(out.items, part.items), put(out.ends, part.end);
+        append(out.items, part.items), append(out.ends, part.end);
         for (std::size_t k = 0; k < columns_sql.size(); ++k) {
-            put(k < out.axes.size() ? out.axis_values[k] : out.measure_values[k - out.axes.size()], part.columns[k]);
+            append(k < out.axes.size() ? out.axis_values[k] : out.measure_values[k - out.axes.size()], part.columns[k]);
             std::vector<double>().swap(part.columns[k]);
         }
     }

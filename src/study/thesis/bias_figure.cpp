@@ -6,11 +6,11 @@
 namespace corpuscle {
 namespace {
 
-/// Adds a claim on one end of a range, with the reason that limits the generator there.
-Result<void> claim_end(StudyResult& out, const std::string& what, const BiasSweep& sweep, double end, bool open, double printed,
-                       const BiasFigure& figure) {
-    auto& claim = out.claim(what, end, figure.unit).published_as(printed, figure.source());
-    auto why = explain_range_end(sweep, end, open);
+/// Adds a claim on one end of a working range, and what limits the generator there. `reaches_sweep_end`: as in explain_range_end.
+Result<void> claim_end(StudyResult& out, const std::string& what, const BiasSweep& sweep, double end, bool reaches_sweep_end,
+                       double published, const BiasFigure& figure) {
+    auto& claim = out.claim(what, end, figure.unit).published_as(published, figure.source());
+    auto why = explain_range_end(sweep, end, reaches_sweep_end);
     if (!why) return why.error();
     claim.explain(std::move(*why));
     return {};
@@ -27,20 +27,20 @@ Result<void> claim_ranges(const BiasFigure& figure, std::span<const BiasCorner> 
         !ok)
         return ok;
     if (std::isnan(figure.corner_range[0])) return {};
-    const BiasCorner *lowest = corners.data(), *highest = lowest;
+    const BiasCorner *limits_start = corners.data(), *limits_end = limits_start;  // the corners with the last start and the first end
     for (const auto& c : corners) {
-        if (c.working_range.from > lowest->working_range.from) lowest = &c;
-        if (c.working_range.to < highest->working_range.to) highest = &c;
+        if (c.working_range.from > limits_start->working_range.from) limits_start = &c;
+        if (c.working_range.to < limits_end->working_range.to) limits_end = &c;
     }
     const auto name = [](const char* what, const BiasCorner& c) {
         return fmt::format("all corners: works {} (limited by {})", what, c.name);
     };
-    if (auto ok = claim_end(out, name("from", *lowest), lowest->sweep, lowest->working_range.from,
-                            lowest->working_range.reaches_sweep_start, figure.corner_range[0], figure);
+    if (auto ok = claim_end(out, name("from", *limits_start), limits_start->sweep, limits_start->working_range.from,
+                            limits_start->working_range.reaches_sweep_start, figure.corner_range[0], figure);
         !ok)
         return ok;
-    return claim_end(out, name("to", *highest), highest->sweep, highest->working_range.to, highest->working_range.reaches_sweep_end,
-                     figure.corner_range[1], figure);
+    return claim_end(out, name("to", *limits_end), limits_end->sweep, limits_end->working_range.to,
+                     limits_end->working_range.reaches_sweep_end, figure.corner_range[1], figure);
 }
 
 void add_plots(const BiasFigure& figure, std::span<const BiasCorner> corners, StudyResult& out) {
@@ -64,12 +64,12 @@ void add_plots(const BiasFigure& figure, std::span<const BiasCorner> corners, St
 
 }  // namespace
 
-Result<std::string> explain_range_end(const BiasSweep& sweep, double end, bool open) {
+Result<std::string> explain_range_end(const BiasSweep& sweep, double end, bool reaches_sweep_end) {
     auto settings = sweep.settings;
     settings.push_back(bias_setting(sweep.axis, end));
     const auto state = simulate_bias_state(settings);
     if (!state) return state.error();
-    if (open) return "works to the end of the sweep; " + state->description();
+    if (reaches_sweep_end) return "works to the end of the sweep; " + state->description();
     const bool current_is_worse = sweep.current_error().at(end) > sweep.voltage_error().at(end);
     return fmt::format("{} leaves its margin; {}", current_is_worse ? "I_Q" : "V_Q", state->description());
 }
@@ -79,8 +79,8 @@ Result<std::vector<BiasCorner>> simulate_bias_figure(const BiasFigure& figure, S
     for (const char* name : {"tt", "ss", "ff"}) {
         auto sweep = BiasSweep::run(figure.axis, {fmt::format("corner={}", name)});
         if (!sweep) return sweep.error();
-        const auto works = sweep->working_range();
-        corners.push_back({name, std::move(*sweep), works});
+        const auto range = sweep->working_range();
+        corners.push_back({name, std::move(*sweep), range});
         if (auto ok = options.report_progress(static_cast<double>(corners.size()) / 4); !ok) return ok.error();
     }
     if (auto ok = claim_ranges(figure, corners, out); !ok) return ok.error();

@@ -25,7 +25,7 @@ struct BiasCorner {
 /// Sweeps the corners tt, ss and ff; adds the claims on the working range and both plots.
 Result<std::vector<BiasCorner>> simulate_bias_figure(const BiasFigure&, StudyResult&, const StudyOptions&);
 
-/// Reason for which the generator stops working at this end of its range.
-Result<std::string> explain_range_end(const BiasSweep&, double end, bool open);
+/// The reason why the generator works no further than to this end. `reaches_sweep_end`: it works to the end of the sweep, without a limit.
+Result<std::string> explain_range_end(const BiasSweep&, double end, bool reaches_sweep_end);
 
 }  // namespace corpuscle
