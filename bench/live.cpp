@@ -81,7 +81,7 @@ int measure_delay(const std::string& program, const std::string& population, int
                   bool noise, int batch_frames = 1, double circle_radius = 0) {
     const auto skin = skin_of(population);
     const auto sites = skin->plan.sites.size();
-    const auto header = (*make_event_format("aer", make_event_afferents(*skin, {rate, 1})))->header().size();
+    const auto header = (*make_event_format("aer", make_event_addressing(*skin, {rate, 1})))->header().size();
     const auto frames = frames_of_a_second(skin->plan, rate, contact_radius, noise, circle_radius);
     const int cores = static_cast<int>(std::thread::hardware_concurrency());
     if (cores > 1) bind_to(0, cores - 2);
@@ -149,7 +149,7 @@ int soak(const std::string& program, int seconds) {
     constexpr int rate = 1000;
     const auto skin = skin_of("grid 16x16");
     const auto sites = skin->plan.sites.size();
-    const auto format = make_event_format("aer", make_event_afferents(*skin, {rate, 1}));
+    const auto format = make_event_format("aer", make_event_addressing(*skin, {rate, 1}));
     const auto frames = frames_of_a_second(skin->plan, rate, 8e-3, true);
     Endpoint endpoint;
     auto listener = open_listening_socket(endpoint);

@@ -6,9 +6,9 @@
 // operating point with .ic held. It runs one second as it is, and one second with a constant force of 60 nA, at which nothing fires; the
 // difference is the cost of spikes. The operating-point search is not counted. Then the parts of an iteration are timed separately at 256
 // points of the run. The first part is the transistors with their charges on lanes. The others are factoring and solving each matrix
-// (conductances, plus capacitances over a step of 10 us), both along the list and by KLU with its last pivots. The rest of an iteration is bookkeeping: moving voltages to the
-// lanes and derivatives to the matrix, prediction, errors, history, convergence, crossings. Each line has median, minimum and maximum of
-// the rounds.
+// (conductances, plus capacitances over a step of 10 us), both along the list and by KLU with its last pivots. The rest of an iteration is
+// bookkeeping: moving voltages to the lanes and derivatives to the matrix, prediction, errors, history, convergence, crossings. Each line
+// has median, minimum and maximum of the rounds.
 
 #include <algorithm>
 #include <cstdio>

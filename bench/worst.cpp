@@ -55,7 +55,8 @@ Trains pressed(const std::shared_ptr<const CircuitAfferentFactory>& factory, con
                 return Chip{static_cast<std::int64_t>(k), factory, chips.sample(k), press.force, 1 / press.rate};
             },
             [&](const Chip& chip, ChipResponse&& response) {
-                if (response.error) std::fprintf(stderr, "chip %lld: %s\n", static_cast<long long>(chip.id), response.error->text().c_str());
+                if (response.error)
+                    std::fprintf(stderr, "chip %lld: %s\n", static_cast<long long>(chip.id), response.error->text().c_str());
                 out[static_cast<std::size_t>(chip.id)] = std::move(response.spikes);
             },
             options);

@@ -80,7 +80,9 @@ void add_recording_options(CLI::App& verb, RecordingArguments& w) {
     verb.add_option("--scale", w.scale, "newtons per unit of the recording: 0.002, 2mN")->type_name("S")->group(group);
     verb.add_flag("--abs", w.absolute, "use the absolute value of each reading")->group(group);
     verb.add_option("--offset", w.offset, "reading at zero force, subtracted before --scale")->type_name("X")->group(group);
-    verb.add_option("--range", w.range, "valid range of readings; values outside are bad")->type_name("LO..HI")->group(group);
+    verb.add_option("--range", w.range, "valid range of readings; --bad-fields says what happens to others")
+        ->type_name("LO..HI")
+        ->group(group);
     verb.add_option("--bad-fields", w.bad_fields,
                     "what to do with fields that are not numbers and readings out of --range: error (default for fields), drop the row, "
                     "interpolate (default for readings)")
@@ -112,8 +114,8 @@ void add_skin_options(CLI::App& verb, RespondArguments& w) {
             ->type_name("NAME|FILE")
             ->group(group);
     verb.add_option("--contact", w.contact,
-                    "indenter that applies a force of one channel: flat (default), sphere, edge, grating; for its parameters see "
-                    "'corpuscle list contact', and set them by --set contact.radius=5mm")
+                    "indenter that applies the force of a single channel to the skin: flat (default), sphere, edge, grating; for its "
+                    "parameters see 'corpuscle list contact', and set them by --set contact.radius=5mm")
         ->type_name("INDENTER")
         ->needs(population)
         ->group(group);

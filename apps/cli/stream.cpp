@@ -121,7 +121,7 @@ class LiveRun {
     }
 
     Result<void> open_outlet(const StreamQuantities& n) {
-        auto format = make_event_format(words_.format, make_event_afferents(skin_->innervation(), skin_->clock()));
+        auto format = make_event_format(words_.format, make_event_addressing(skin_->innervation(), skin_->clock()));
         if (!format) return format.error();
         format_ = std::move(*format);
         const auto ring = static_cast<std::size_t>(n.buffer);

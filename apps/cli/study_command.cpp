@@ -35,7 +35,7 @@ bool covers(std::string_view study, std::string_view requested) {
     return number >= from && number <= to;
 }
 
-Result<std::vector<const Study*>> chosen(const std::vector<std::string>& names) {
+Result<std::vector<const Study*>> selected_studies(const std::vector<std::string>& names) {
     std::vector<std::string_view> known = {"all"};
     for (const auto* s : all_studies) known.push_back(s->name);
     for (const auto* s : recorded_studies) known.push_back(s->name);
@@ -47,7 +47,7 @@ Result<std::vector<const Study*>> chosen(const std::vector<std::string>& names) 
             found = true;
             if (std::find(out.begin(), out.end(), s) == out.end()) out.push_back(s);
         }
-        for (const auto* s : recorded_studies)
+        for (const auto* s : recorded_studies)  // not part of "all"
             if (name == s->name && std::find(out.begin(), out.end(), s) == out.end()) found = true, out.push_back(s);
         if (!found)
             return bad_usage(
@@ -56,57 +56,57 @@ Result<std::vector<const Study*>> chosen(const std::vector<std::string>& names) 
     return out;
 }
 
-std::string text_of(const Study& study, const StudyResult& outcome) {
+std::string text_of(const Study& study, const StudyResult& result) {
     std::vector<std::vector<std::string>> rows = {{"", "computed", "published", "deviation", "allowed", ""}};
-    for (const auto& c : outcome.claims)
+    for (const auto& c : result.claims)
         rows.push_back(
             {c.label, format_claim_value(c.computed, c), format_published(c), format_deviation(c), format_allowed_range(c), c.verdict()});
     std::string text = fmt::format("{}: {}\n{}\n\n{}", study.name, study.title, study.question, format_table(rows));
-    for (const auto& c : outcome.claims)
+    for (const auto& c : result.claims)
         if (!c.note.empty()) text += fmt::format("\n{}: {}\n", c.label, c.note);
-    for (const auto& n : outcome.notes) text += fmt::format("\n{}\n", n);
+    for (const auto& n : result.notes) text += fmt::format("\n{}\n", n);
     return text;
 }
 
-/// The directory of third-party recordings.
+/// The directory of the recordings that recorded_studies read.
 std::string recordings_directory() {
-    const char* set = std::getenv("CORPUSCLE_DATA");
-    return set && *set ? set : "../shared/data";
+    const char* data = std::getenv("CORPUSCLE_DATA");
+    return data && *data ? data : "../shared/data";
 }
 
-Result<void> run(const StudyArguments& words, const CommonArguments& common) {
-    const auto all = chosen(words.names.empty() ? std::vector<std::string>{"all"} : words.names);
-    if (!all) return all.error();
+Result<void> run(const StudyArguments& arguments, const CommonArguments& common) {
+    const auto selected = selected_studies(arguments.names.empty() ? std::vector<std::string>{"all"} : arguments.names);
+    if (!selected) return selected.error();
     OutputCheck outputs(common.overwrite);
-    const std::pair<const std::string&, OutputCheck::Signature> files[] = {{words.report_file, is_own_page},
-                                                                           {words.markdown_file, is_own_markdown}};
-    for (const auto& [path, ours] : files)
+    const std::pair<const std::string&, OutputCheck::Signature> files[] = {{arguments.report_file, is_own_page},
+                                                                           {arguments.markdown_file, is_own_markdown}};
+    for (const auto& [path, is_own] : files)
         if (!path.empty())
-            if (auto ok = outputs.check_file(path, ours); !ok) return ok;
+            if (auto ok = outputs.check_file(path, is_own); !ok) return ok;
     const auto outcomes = [&] {
         Progress progress(common.quiet);
-        return run_studies(*all, {[&](double fraction) { return progress.update(fraction), !interrupted(); }, recordings_directory()});
+        return run_studies(*selected, {[&](double fraction) { return progress.update(fraction), !interrupted(); }, recordings_directory()});
     }();
     if (!outcomes) return outcomes.error();
-    if (!words.report_file.empty())
-        if (auto ok = write_file(words.report_file, study_page(*all, *outcomes, common.command)); !ok) return ok;
-    if (!words.markdown_file.empty())
-        if (auto ok = write_file(words.markdown_file, markdown_of(*all, *outcomes)); !ok) return ok;
+    if (!arguments.report_file.empty())
+        if (auto ok = write_file(arguments.report_file, study_page(*selected, *outcomes, common.command)); !ok) return ok;
+    if (!arguments.markdown_file.empty())
+        if (auto ok = write_file(arguments.markdown_file, markdown_of(*selected, *outcomes)); !ok) return ok;
     if (common.json) {
         auto document = nlohmann::ordered_json::array();
-        for (std::size_t k = 0; k < all->size(); ++k) document.push_back(document_of(*(*all)[k], (*outcomes)[k]));
+        for (std::size_t k = 0; k < selected->size(); ++k) document.push_back(document_of(*(*selected)[k], (*outcomes)[k]));
         fmt::print("{}\n", document.dump(1));
     } else if (!common.quiet) {
-        for (std::size_t k = 0; k < all->size(); ++k) print_text((k ? "\n" : "") + text_of(*(*all)[k], (*outcomes)[k]));
+        for (std::size_t k = 0; k < selected->size(); ++k) print_text((k ? "\n" : "") + text_of(*(*selected)[k], (*outcomes)[k]));
     }
     return {};
 }
 
 }  // namespace
 
-int study(const StudyArguments& words, const CommonArguments& common) {
+int study(const StudyArguments& arguments, const CommonArguments& common) {
     catch_interrupt();
-    const auto done = run(words, common);
+    const auto done = run(arguments, common);
     return done ? 0 : report_error(done.error());
 }
 

@@ -18,7 +18,7 @@ namespace corpuscle {
 namespace {
 
 /// The address space in use, bytes. A limit below it would make every allocation fail.
-std::uint64_t addresses_in_use() {
+std::uint64_t address_space_in_use() {
     unsigned long long pages = 0;
     if (std::FILE* f = std::fopen("/proc/self/statm", "r")) {
         if (std::fscanf(f, "%llu", &pages) != 1) pages = 0;
@@ -36,10 +36,10 @@ void lower(__rlimit_resource resource, std::uint64_t limit) {
 }
 
 /// Forbids opening, creating and removing any path: all rights of Landlock ABI 1, without exceptions.
-void close_file_system() {
-    landlock_ruleset_attr nothing{};
-    nothing.handled_access_fs = LANDLOCK_ACCESS_FS_MAKE_SYM * 2 - 1;  // the 13 rights of ABI 1 are the lowest bits
-    const long rules = ::syscall(SYS_landlock_create_ruleset, &nothing, sizeof nothing.handled_access_fs, 0);
+void forbid_paths() {
+    landlock_ruleset_attr controlled{};                                  // no rule allows anything of what it controls
+    controlled.handled_access_fs = LANDLOCK_ACCESS_FS_MAKE_SYM * 2 - 1;  // the 13 rights of ABI 1 are the lowest bits
+    const long rules = ::syscall(SYS_landlock_create_ruleset, &controlled, sizeof controlled.handled_access_fs, 0);
     if (rules < 0) return;
     (void)::syscall(SYS_landlock_restrict_self, rules, 0);
     ::close(static_cast<int>(rules));
@@ -55,8 +55,8 @@ constexpr std::uint32_t architecture = AUDIT_ARCH_RISCV64;
 constexpr std::uint32_t architecture = 0;
 #endif
 
-/// Calls for memory, the two descriptors, time and exit. Any other call fails with EPERM. fstat uses newfstatat; called with a path it can
-/// reveal whether a file exists, and its size.
+/// System calls for memory, time, exit, and reading and writing the open descriptors. Any other call fails with EPERM. newfstatat is
+/// allowed because the C library's fstat may use it; called with a path, it reveals whether a file exists, and its size.
 constexpr long allowed[] = {SYS_read,       SYS_pread64,      SYS_readv,          SYS_write,        SYS_writev,      SYS_lseek,
                             SYS_close,      SYS_fstat,        SYS_sendto,         SYS_recvfrom,
 #ifdef SYS_newfstatat
@@ -76,19 +76,19 @@ constexpr long allowed[] = {SYS_read,       SYS_pread64,      SYS_readv,        
 void forbid_system_calls() {
     if (architecture == 0) return;
     const auto load = [](std::size_t offset) { return sock_filter BPF_STMT(BPF_LD | BPF_W | BPF_ABS, static_cast<std::uint32_t>(offset)); };
-    const auto finish = [](std::uint32_t action) { return sock_filter BPF_STMT(BPF_RET | BPF_K, action); };
+    const auto return_action = [](std::uint32_t action) { return sock_filter BPF_STMT(BPF_RET | BPF_K, action); };
     const std::uint32_t denied = SECCOMP_RET_ERRNO | EPERM;
     std::vector<sock_filter> program = {load(offsetof(seccomp_data, arch)),
-                                        sock_filter BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, architecture, 1, 0), finish(denied),
+                                        sock_filter BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, architecture, 1, 0), return_action(denied),
                                         load(offsetof(seccomp_data, nr))};
     for (const long call : allowed) {
         program.push_back(sock_filter BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, static_cast<std::uint32_t>(call), 0, 1));
-        program.push_back(finish(SECCOMP_RET_ALLOW));
+        program.push_back(return_action(SECCOMP_RET_ALLOW));
     }
     const auto self = static_cast<std::uint32_t>(::getpid());  // abort() signals this process; signals to others are denied
     program.insert(program.end(),
                    {sock_filter BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, std::uint32_t{SYS_tgkill}, 0, 3), load(offsetof(seccomp_data, args)),
-                    sock_filter BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, self, 0, 1), finish(SECCOMP_RET_ALLOW), finish(denied)});
+                    sock_filter BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, self, 0, 1), return_action(SECCOMP_RET_ALLOW), return_action(denied)});
     const sock_fprog filter{static_cast<unsigned short>(program.size()), program.data()};
     (void)::prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &filter);
 }
@@ -96,12 +96,12 @@ void forbid_system_calls() {
 }  // namespace
 
 void confine(int last_descriptor, std::uint64_t memory) {
-    lower(RLIMIT_AS, addresses_in_use() + memory);
+    lower(RLIMIT_AS, address_space_in_use() + memory);
     lower(RLIMIT_CORE, 0);
     lower(RLIMIT_FSIZE, 0);
     (void)::prctl(PR_SET_DUMPABLE, 0);
     (void)::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
-    close_file_system();
+    forbid_paths();
     lower(RLIMIT_NOFILE, static_cast<std::uint64_t>(last_descriptor) + 1);
     forbid_system_calls();
 }

@@ -12,26 +12,27 @@ namespace corpuscle::hdf5 {
 namespace {
 
 constexpr std::size_t max_datasets = 10000;  // further datasets are ignored
-constexpr std::size_t max_text = 1 << 20;    // characters, or strings, of one attribute
+constexpr std::size_t max_text = 1 << 20;    // limit of the characters, and of the strings, in one attribute
 
 Handle space_of(hid_t dataset) { return {H5Dget_space(dataset), H5Sclose}; }
 
+/// An open attribute; an empty handle if the object has none of that name.
 Handle attribute_of(hid_t object, const std::string& name) {
     return H5Aexists(object, name.c_str()) > 0 ? Handle(H5Aopen(object, name.c_str(), H5P_DEFAULT), H5Aclose) : Handle();
 }
 
-/// Text up to its first zero, without trailing blanks.
+/// Text up to its first zero byte, without spaces at the end.
 std::string trimmed(std::string s) {
     s.resize(std::min(s.find('\0'), s.size()));
     return s.substr(0, s.find_last_not_of(' ') + 1);
 }
 
 std::vector<std::string> variable_length_strings(hid_t attribute, hid_t type, hid_t space, std::size_t count) {
-    std::vector<char*> words(count);
-    if (H5Aread(attribute, type, words.data()) < 0) return {};
+    std::vector<char*> texts(count);
+    if (H5Aread(attribute, type, texts.data()) < 0) return {};
     std::vector<std::string> out;
-    for (const char* w : words) out.push_back(w ? trimmed(w) : "");
-    H5Dvlen_reclaim(type, space, H5P_DEFAULT, words.data());
+    for (const char* text : texts) out.push_back(text ? trimmed(text) : "");
+    H5Dvlen_reclaim(type, space, H5P_DEFAULT, texts.data());
     return out;
 }
 
@@ -63,8 +64,8 @@ herr_t add_dataset_name(hid_t, const char* name, const H5O_info_t* info, void* t
 }  // namespace
 
 Result<Handle> open_file(int descriptor, const std::string& path) {
-    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-    H5PLset_loading_state(0);
+    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // no messages of the library on stderr
+    H5PLset_loading_state(0);                     // no filter plugins, which would run code from other files
     const Handle access(descriptor_access(descriptor), H5Pclose);
     if (!access) return bad_input("cannot set up the HDF5 library", {path});
     if (!has_signature(descriptor)) return bad_input("not an HDF5 file (in MATLAB use save -v7.3)", {path});
@@ -75,7 +76,7 @@ Result<Handle> open_file(int descriptor, const std::string& path) {
 
 Handle open_dataset(hid_t file, const std::string& name) {
     const Handle access(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose);
-    H5Pset_chunk_cache(access, 1, 0, 0.75);
+    H5Pset_chunk_cache(access, 1, 0, 0.75);  // a cache of 0 bytes
     return {H5Dopen2(file, name.c_str(), access), H5Dclose};
 }
 
@@ -98,15 +99,15 @@ std::vector<CompoundMember> numeric_members(hid_t type) {
 }
 
 ArrayInfo array_info(hid_t dataset, std::string name) {
-    ArrayInfo facts{std::move(name), {}, false};
+    ArrayInfo info{std::move(name), {}, false};
     const Handle type(H5Dget_type(dataset), H5Tclose), space = space_of(dataset);
     const int rank = space ? H5Sget_simple_extent_ndims(space) : -1;
-    if (!type || rank < 0 || H5Sget_simple_extent_type(space) == H5S_NULL) return facts;
+    if (!type || rank < 0 || H5Sget_simple_extent_type(space) == H5S_NULL) return info;
     std::vector<hsize_t> shape(static_cast<std::size_t>(rank));
     if (rank > 0) H5Sget_simple_extent_dims(space, shape.data(), nullptr);
-    facts.shape.assign(shape.begin(), shape.end());
-    facts.is_numeric = is_number(type) || !numeric_members(type).empty();
-    return facts;
+    info.shape.assign(shape.begin(), shape.end());
+    info.is_numeric = is_number(type) || !numeric_members(type).empty();
+    return info;
 }
 
 std::vector<ArrayInfo> datasets_in(hid_t file) {
@@ -138,8 +139,8 @@ std::vector<std::string> string_attributes(hid_t object, const std::string& name
 }
 
 std::optional<std::string> text_attribute(hid_t object, const std::string& name) {
-    auto words = string_attributes(object, name);
-    return words.size() == 1 ? std::optional(std::move(words[0])) : std::nullopt;
+    auto texts = string_attributes(object, name);
+    return texts.size() == 1 ? std::optional(std::move(texts[0])) : std::nullopt;
 }
 
 std::vector<std::string> attribute_names(hid_t object) {

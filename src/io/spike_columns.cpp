@@ -65,7 +65,7 @@ Result<ResolvedSpikeColumns> find_spike_columns(const std::vector<std::string>& 
                                      listed_headings(headings)));
     if (!out.afferent && !out.channel && headings.size() > 1)
         return bad_input(
-            fmt::format("no column identifies the trains; call one unit, afferent or channel, or name it with --unit. Columns: {}",
+            fmt::format("no column identifies the trains; call one unit, afferent or channel, or name it with --train. Columns: {}",
                         listed_headings(headings)));
     out.time = *time;
     const auto in = parse_heading(headings[*time]).unit;

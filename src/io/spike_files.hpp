@@ -1,5 +1,5 @@
 #pragma once
-// Reads spike files: Corpuscle's CSV, NPZ and address events, and similar files of other programs.
+// Reads spike files: Corpuscle's CSV, NPZ and address events, and spike files of other programs.
 
 #include <optional>
 #include <string>
@@ -17,7 +17,7 @@ struct NamedTrain {
     std::string name() const { return channel.empty() ? afferent : afferent + "," + channel; }
 };
 
-/// A name as a CSV field, quoted if necessary.
+/// Text as a field of a CSV file: in quotes if it needs them.
 std::string quote_csv_field(const std::string& name);
 
 /// Columns of a table of spikes, by name or number. Default: found by their headings.
@@ -25,7 +25,7 @@ struct SpikeColumns {
     std::optional<std::string> time = {}, train = {};
 };
 
-/// All trains of a file, sorted by name, with numbers in names sorted by value. Formats recognised by their first bytes:
+/// All trains of a file, sorted by name; numbers in names count by value, so "u2" is before "u10". Formats recognised by their first bytes:
 ///
 /// - NPZ of Corpuscle or of SpikeInterface, where segments after the first become channels "segment 2" ...
 /// - address events of Corpuscle and AEDAT 2 (doc/events.md)

@@ -1,11 +1,11 @@
 #pragma once
-// Writes events to a file in a separate thread, because a disk may block the writer.
+// Writes events to a file in a thread of its own, because a write to a disk may block, and the stream must not wait for it.
 
 #include "live/event_sink.hpp"
 
 namespace corpuscle {
 
-/// A descriptor that may block, written directly.
+/// Writes to the open descriptor `fd`, which stays open. `name` is for messages; `ring` is the size of the ring in bytes.
 Result<std::unique_ptr<EventSink>> make_file_sink(int fd, const std::string& name, const EventFormat&, std::size_t ring);
 
 }  // namespace corpuscle

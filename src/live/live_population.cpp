@@ -22,9 +22,9 @@ std::vector<std::string> names_in(std::string_view list) {
 Result<SkinClass> class_at_each_site(const std::string& name, std::span<const ParameterOverride> overrides) {
     const auto plan = plan_afferent(name, overrides);
     if (!plan) return plan.error();
-    SkinClass each{.name = plan->name, .afferent = *plan};
-    each.per_site = 1;
-    return each;
+    SkinClass result{.name = plan->name, .afferent = *plan};
+    result.per_site = 1;
+    return result;
 }
 
 }  // namespace
@@ -36,7 +36,7 @@ bool is_afferent_list(std::string_view list) {
 }
 
 Result<SkinPlan> make_channel_plan(std::string_view afferents, std::size_t channels, std::span<const ParameterOverride> overrides) {
-    auto sites = grid_sites(1, channels, 1e-3);
+    auto sites = grid_sites(1, channels, 1e-3);  // a site for each channel; the distance of 1 mm is arbitrary
     if (!sites) return sites.error();
     SkinPlan plan;
     plan.name = afferents, plan.is_by_channel = true;
@@ -44,11 +44,11 @@ Result<SkinPlan> make_channel_plan(std::string_view afferents, std::size_t chann
     plan.sites = std::move(*sites);
     for (std::size_t c = 0; c < channels; ++c) plan.sites.names[c] = fmt::format("ch{}", c + 1);
     for (const auto& name : names_in(afferents)) {
-        auto each = class_at_each_site(name, overrides);
-        if (!each) return each.error();
+        auto added = class_at_each_site(name, overrides);
+        if (!added) return added.error();
         for (const auto& other : plan.classes)
-            if (other.name == each->name) return bad_usage(fmt::format("'{}' is given twice", name));
-        plan.classes.push_back(std::move(*each));
+            if (other.name == added->name) return bad_usage(fmt::format("'{}' is given twice", name));
+        plan.classes.push_back(std::move(*added));
     }
     return plan;
 }
@@ -69,16 +69,16 @@ Result<SkinPlan> make_live_plan(std::string_view population, std::size_t channel
     return plan;
 }
 
-EventAddressing make_event_afferents(const Innervation& skin, const Clock& clock) {
+EventAddressing make_event_addressing(const Innervation& skin, const Clock& clock) {
     EventAddressing out{clock, {}, {}, {}, {}};
-    bool one_each = true;
-    for (const auto& c : skin.plan.classes) one_each &= c.density.empty() && c.per_site == 1;
+    bool one_per_site = true;  // then afferent.number, from 1, is also the number of its site
+    for (const auto& c : skin.plan.classes) one_per_site &= c.density.empty() && c.per_site == 1;
     const auto classes = static_cast<std::uint32_t>(skin.plan.classes.size());
     const auto& sites = skin.plan.sites;
     for (std::size_t u = 0; u < skin.afferents.size(); ++u) {
         const auto& afferent = skin.afferents[u];
         out.names.push_back(skin.afferent_name(u));
-        out.addresses.push_back(one_each ? (afferent.number - 1) * classes + afferent.class_index : static_cast<std::uint32_t>(u));
+        out.addresses.push_back(one_per_site ? (afferent.number - 1) * classes + afferent.class_index : static_cast<std::uint32_t>(u));
         out.afferents.push_back(skin.plan.is_by_channel ? skin.plan.classes[afferent.class_index].name : out.names.back());
         out.channels.push_back(skin.plan.is_by_channel ? sites.names[afferent.number - 1] : sites.regions[afferent.region]);
     }

@@ -20,6 +20,6 @@ Result<SkinPlan> make_live_plan(std::string_view population, std::size_t channel
 
 /// The names of each afferent, its channel or region, and its address. If each class has one afferent at each site, as on a grid, the
 /// address is site * classes + class. Otherwise it is the index of the afferent.
-EventAddressing make_event_afferents(const Innervation&, const Clock&);
+EventAddressing make_event_addressing(const Innervation&, const Clock&);
 
 }  // namespace corpuscle

@@ -37,7 +37,7 @@ LiveSkin::LiveSkin(const std::string& population, double rate, std::size_t chann
     auto plan = success_or_throw(make_live_plan(population, channels, overrides));
     success_or_throw(check_overrides_used(plan, overrides));
     auto placed = success_or_throw(innervate(std::move(plan)));
-    auto afferents = make_event_afferents(*placed, clock);
+    auto afferents = make_event_addressing(*placed, clock);
     impl_ = std::unique_ptr<Impl>(new Impl{success_or_throw(SkinStream::make(std::move(placed), clock)), std::move(afferents)});
     impl_->events.reserve(8 * impl_->afferents.names.size() + 64);
 }

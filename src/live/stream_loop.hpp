@@ -36,7 +36,7 @@ public:
         std::function<void()> on_second = [] {};            ///< called once a second
         bool busy_poll = false;                             ///< busy polling: no wake-up delay, but it uses a core
         std::function<void(const FrameError&)> on_frame_error = [](const FrameError&) {
-        };                         ///< called for the first frame that could not be read
+        };  ///< called for the first frame that could not be read
         bool keeps_state = false;  ///< the state is saved: spikes in transit at the end belong to the next stream
     };
 

@@ -146,11 +146,11 @@ Result<void> SkinCheckpoint::check_file() const {
         std::string line;
         std::getline(in, line);
         const auto file_version = line.substr(checkpoint_magic.size(), 20);
-        return bad_input(
-            fmt::format("a checkpoint of version {}; this program resumes version {} only (version 1 does not record how "
-                        "the force was made). Finish the run with the program that started it, or {}",
-                        file_version.find_first_not_of("0123456789") == std::string::npos ? file_version : "?", checkpoint_version, remedy()),
-            {file_});
+        return bad_input(fmt::format("a checkpoint of version {}; this program resumes version {} only (version 1 does not record how "
+                                     "the force was made). Finish the run with the program that started it, or {}",
+                                     file_version.find_first_not_of("0123456789") == std::string::npos ? file_version : "?",
+                                     checkpoint_version, remedy()),
+                         {file_});
     }
     if (!fs::exists(spikes_file_, status))
         return bad_input(fmt::format("its spikes, {}, are missing; remove {} to start over, or name another file with --checkpoint",

@@ -5,7 +5,7 @@
 namespace corpuscle {
 
 Result<void> SkinEventsFile::begin(const SkinInput& input) {
-    auto format = make_event_format(format_name_, make_event_afferents(input.skin, input.clock));
+    auto format = make_event_format(format_name_, make_event_addressing(input.skin, input.clock));
     if (!format) return format.error();
     format_ = std::move(*format);
     return file_.write(format_->header());

@@ -28,12 +28,12 @@ TEST(Program, PressPrintsTheTableAndWritesNoUnrequestedFile) {
     EXPECT_TRUE(folder.file_names().empty());
 }
 
-TEST(Program, VersionsOfOneReceptorAreComparedWithTheFirst) {
+TEST(Program, ImplementationsOfOneReceptorAreComparedWithTheFirst) {
     const TemporaryFolder folder;
     for (const std::string name : {"circuits", "process"})
         std::filesystem::create_directory_symlink(test::source_root() + "/" + name, folder / name);
-    const std::string chip = "circuits/sa1.cir";  // a relative path, because the width of the table depends on it
-    const auto ran = run_program(folder, "respond press --afferent sa1 --afferent " + chip + " --afferent fa1 --out answer");
+    const std::string netlist = "circuits/sa1.cir";  // a relative path, because the width of the table depends on it
+    const auto ran = run_program(folder, "respond press --afferent sa1 --afferent " + netlist + " --afferent fa1 --out answer");
     ASSERT_EQ(ran.status, 0) << ran.err;
     const auto table = ran.out.substr(std::min(ran.out.find("implementation "), ran.out.size()));
     EXPECT_NE(table.find("by phase   change  matched  shift  Victor-     van\n"), std::string::npos) << ran.out;
@@ -41,13 +41,13 @@ TEST(Program, VersionsOfOneReceptorAreComparedWithTheFirst) {
     EXPECT_NE(table.find(" 14  0 5 8 1 0      -7       14 "), std::string::npos) << table;
     EXPECT_NE(table.find("Compared with the first row of each receptor and channel. Spikes within 20 ms match"), std::string::npos)
         << table;
-    EXPECT_EQ(table.find("fa1"), std::string::npos) << "has one version\n" << table;
-    const auto message = Json::parse(test::read_file(folder / "answer/summary.json"))["comparisons"];
-    EXPECT_EQ(message["cost_Hz"], 100.0);
-    ASSERT_EQ(message["pairs"].size(), 1u);
-    EXPECT_EQ(message["pairs"][0]["afferent"], chip);
-    EXPECT_NEAR(message["pairs"][0]["excess"].get<double>(), 14.0 / 15 - 1, 1e-12);
-    EXPECT_EQ(run_program(folder, "respond press").out.find("Victor"), std::string::npos) << "no receptor has two versions";
+    EXPECT_EQ(table.find("fa1"), std::string::npos) << "has one implementation\n" << table;
+    const auto comparisons = Json::parse(test::read_file(folder / "answer/summary.json"))["comparisons"];
+    EXPECT_EQ(comparisons["cost_Hz"], 100.0);
+    ASSERT_EQ(comparisons["pairs"].size(), 1u);
+    EXPECT_EQ(comparisons["pairs"][0]["afferent"], netlist);
+    EXPECT_NEAR(comparisons["pairs"][0]["excess"].get<double>(), 14.0 / 15 - 1, 1e-12);
+    EXPECT_EQ(run_program(folder, "respond press").out.find("Victor"), std::string::npos) << "no receptor has two implementations";
 }
 
 TEST(Program, WritesTheRequestedFilesWithTheSameBytesTwice) {
@@ -82,8 +82,8 @@ TEST(Program, ThreadsAndInstructionSetsChangeNoByte) {
     folder.write("wide.csv", wide + "\n");
     for (const std::string arguments : {"respond wide.csv --afferent sa1,fa1,sa1b+izhikevich,fsr+sa1 --time t",
                                         "respond press --afferent sa1,fa1 --copies 150 --spread sa1.f_B=20% --spread fa1.V_th=10%"}) {
-        ASSERT_EQ(run_program(folder, arguments + " --out right -j 1").status, 0);
-        const auto expected = test::read_file(folder / "right/spikes.csv"), summary = test::read_file(folder / "right/summary.json");
+        ASSERT_EQ(run_program(folder, arguments + " --out expected -j 1").status, 0);
+        const auto expected = test::read_file(folder / "expected/spikes.csv"), summary = test::read_file(folder / "expected/summary.json");
         EXPECT_GT(expected.size(), 2000U);
         for (const std::string set : {"scalar", "baseline", "avx2", "avx512"})
             for (const std::string threads : {"1", "2", "7"}) {
@@ -102,17 +102,17 @@ TEST(Program, FloatSpikesAreWithinMicrosecondsAndHaveNoProbes) {
     const TemporaryFolder folder;
     ASSERT_EQ(run_program(folder, "respond press --out double").status, 0);
     ASSERT_EQ(run_program(folder, "respond press --float --out float --report").status, 0);
-    const auto near = run_program(folder, "compare double/spikes.csv float/spikes.csv --window 50us --json");
-    const auto document = Json::parse(near.out);
-    ASSERT_EQ(document["pairs"].size(), 2U) << near.out;
+    const auto compared = run_program(folder, "compare double/spikes.csv float/spikes.csv --window 50us --json");
+    const auto document = Json::parse(compared.out);
+    ASSERT_EQ(document["pairs"].size(), 2U) << compared.out;
     for (const auto& pair : document["pairs"]) {
-        EXPECT_EQ(pair["missing"], 0) << near.out;
-        EXPECT_EQ(pair["extra"], 0) << near.out;
+        EXPECT_EQ(pair["missing"], 0) << compared.out;
+        EXPECT_EQ(pair["extra"], 0) << compared.out;
     }
     EXPECT_EQ(Json::parse(test::read_file(folder / "float/summary.json"))["options"]["precision"], "float");
-    const auto traces = run_program(folder, "respond press --float --out float --probe-files");
-    EXPECT_EQ(traces.status, 2);
-    EXPECT_NE(traces.err.find("in float no probes are recorded: leave out --probe-files"), std::string::npos) << traces.err;
+    const auto with_probes = run_program(folder, "respond press --float --out float --probe-files");
+    EXPECT_EQ(with_probes.status, 2);
+    EXPECT_NE(with_probes.err.find("in float no probes are recorded: leave out --probe-files"), std::string::npos) << with_probes.err;
     const auto sensor = run_program(folder, "respond press --float --afferent fsr+sa1");
     EXPECT_EQ(sensor.status, 2);
     EXPECT_NE(sensor.err.find("fsr+sa1: sensors, converters and noise cannot run in float"), std::string::npos) << sensor.err;
@@ -244,22 +244,22 @@ TEST(Program, JsonIsOneDocumentAndNothingElse) {
     EXPECT_EQ(document["afferents"][0]["parameters"]["f_B"], (Json{{"value", 25.0}, {"unit", "Hz"}, {"component", "sa1b"}, {"set", true}}));
     const auto listed = Json::parse(run_program(folder, "list --json").out);
     EXPECT_EQ(listed["afferents"].size(), named_afferents().size() + std::size(circuit::embedded_netlists) + 1);  // and any netlist
-    for (const auto& card : receptor_entries())
+    for (const auto& entry : receptor_entries())
         EXPECT_TRUE(std::any_of(listed["receptors"].begin(), listed["receptors"].end(), [&](const Json& e) {
-            return e["name"] == card.name;
-        })) << card.name;
+            return e["name"] == entry.name;
+        })) << entry.name;
     EXPECT_EQ(run_program(folder, "respond press --json --quiet").out, run_program(folder, "respond press --json").out);
 }
 
 TEST(Program, ListNamesEveryParameterOfEveryModel) {
     const TemporaryFolder folder;
     const auto text = run_program(folder, "list").out;
-    for (const auto& cards :
+    for (const auto& entries :
          {sensor_entries(), transducer_entries(), converter_entries(), receptor_entries(), neuron_entries(), stimulus_catalog()})
-        for (const auto& card : cards) {
-            EXPECT_NE(text.find("  " + std::string(card.name) + ": "), std::string::npos) << card.name;
-            for (const auto& row : card.parameters)
-                EXPECT_NE(text.find(std::string(row.description)), std::string::npos) << card.name << '.' << row.name;
+        for (const auto& entry : entries) {
+            EXPECT_NE(text.find("  " + std::string(entry.name) + ": "), std::string::npos) << entry.name;
+            for (const auto& row : entry.parameters)
+                EXPECT_NE(text.find(std::string(row.description)), std::string::npos) << entry.name << '.' << row.name;
         }
     EXPECT_EQ(run_program(folder, "list neuron").err, "corpuscle: list: there is no 'neuron'; did you mean 'neurons'?\n");
     EXPECT_NE(run_program(folder, "list sa1 press").out.find("half-cosine"), std::string::npos);
@@ -314,7 +314,7 @@ TEST(Program, BadInputAndBadUsageHaveTheirStatusAndMessageAndLeaveNoFiles) {
         {"compare", 2, "compare: no files given; try 'corpuscle compare A/spikes.csv B/spikes.csv'"},
         {"compare bad.csv", 2, "compare bad.csv: needs a second file, or two trains of this file: --pair sa1=fa1"},
         {"compare bad.csv none.csv", 1,
-         "bad.csv:1: no column identifies the trains; call one unit, afferent or channel, or name it with --unit. "
+         "bad.csv:1: no column identifies the trains; call one unit, afferent or channel, or name it with --train. "
          "Columns: 'time_s', 'fz_N'"},
         {"compare nm.csv none.csv --window 0s", 2, "--window 0s: must be greater than 0"},
         {"compare bad.csv none.csv --cost=-1", 2, "--cost -1: must be 0 or more"},
@@ -349,7 +349,7 @@ TEST(Program, StudiesAreListedWrittenAndSelectedByAnyOfTheirNumbers) {
     EXPECT_NE(unknown.err.find("study: unknown study 'fig7'"), std::string::npos) << unknown.err;
     EXPECT_EQ(run_program(folder, "study table19").status, 2);
     EXPECT_EQ(folder.file_names().size(), 2u);
-    EXPECT_NE(run_program(folder, "study fig4 --quiet --report numbers.md/page.html").status, 0) << "in a file there is no other";
+    EXPECT_NE(run_program(folder, "study fig4 --quiet --report numbers.md/page.html").status, 0) << "a file cannot contain a page";
 }
 
 TEST(Program, NamesMayHoldAnyBytes) {
@@ -373,7 +373,7 @@ TEST(Program, WhatCannotBePrintedOrNamedIsAnError) {
     const TemporaryFolder folder;
     const auto full = std::system(("'" + test::program_path() + "' list >/dev/full 2>'" + (folder / "err") + "'").c_str());
     EXPECT_EQ(WEXITSTATUS(full), 1);
-    EXPECT_EQ(run_program(folder, "respond " + std::string(5000, 'x')).status, 1);
+    EXPECT_EQ(run_program(folder, "respond " + std::string(5000, 'x')).status, 1) << "longer than a file name can be";
 }
 
 TEST(Program, ANonFiniteStateIsReported) {
@@ -400,13 +400,13 @@ TEST(Program, SummaryDescribesTheRun) {
     folder.write("x.csv", "t,a,a\n0,1,2\n0.01,3,4\n");
     const auto read = Json::parse(run_program(folder, "respond x.csv --scale 0.5 --json").out);
     EXPECT_EQ(read["inputs"][0]["parameters"]["a: newtons per unit"]["value"], 0.5);
-    EXPECT_EQ(read["inputs"][0]["channels"], (Json{"a", "a (2)"})) << "two columns of one name stay two";
+    EXPECT_EQ(read["inputs"][0]["channels"], (Json{"a", "a (2)"})) << "two columns of the same name are two channels";
 }
 
 TEST(Program, ProgressWithTimeLeftIsPrintedToTerminalsOnly) {
     if (!test::has_pseudo_terminals()) GTEST_SKIP() << test::no_pseudo_terminals;
     const TemporaryFolder folder;
-    const std::string job = "respond sine --set sine.duration=400s --afferent sa1b+adex";  // takes some seconds
+    const std::string job = "respond sine --set sine.duration=400s --afferent sa1b+adex";  // long enough for progress to be printed
     const auto terminal_output = folder / "drawn";
     ASSERT_EQ(
         std::system(
@@ -418,7 +418,7 @@ TEST(Program, ProgressWithTimeLeftIsPrintedToTerminalsOnly) {
     EXPECT_EQ(run_program(folder, job).err, "") << "not a terminal";
 }
 
-TEST(Program, SaturationOverflowAndUnreachedForcesAreReported) {
+TEST(Program, SaturationOverflowAndNoiseWithoutEffectAreReported) {
     const TemporaryFolder folder;
     EXPECT_EQ(
         run_program(folder, "respond press -q -a fsr+f2v+sa1 --set press.F_max=8N").err,
@@ -445,7 +445,7 @@ TEST(Program, HelpAndVersionAreComplete) {
     EXPECT_NE(run_program(folder, "--help").out.find("corpuscle respond press"), std::string::npos);
     const auto help = run_program(folder, "respond --help");
     EXPECT_EQ(help.status, 0);
-    for (const auto& card : stimulus_catalog()) EXPECT_NE(help.out.find(std::string(card.name)), std::string::npos) << card.name;
+    for (const auto& entry : stimulus_catalog()) EXPECT_NE(help.out.find(std::string(entry.name)), std::string::npos) << entry.name;
     for (const auto& a : named_afferents()) EXPECT_NE(help.out.find(std::string(a.name)), std::string::npos) << a.name;
     EXPECT_EQ(run_program(folder, "--version").out.rfind("corpuscle ", 0), 0U);
 }
@@ -463,7 +463,7 @@ TEST(Program, CtrlCAndOtherSignalsEndItCleanly) {
         }
         for (int k = 0; k < 200 && !std::filesystem::exists(answer + "/summary.json.part-" + std::to_string(child)); ++k)
             std::this_thread::sleep_for(std::chrono::milliseconds(20));
-        EXPECT_TRUE(std::filesystem::exists(answer)) << "it is at work";
+        EXPECT_TRUE(std::filesystem::exists(answer)) << "the run has begun";
         std::this_thread::sleep_for(std::chrono::milliseconds(50));
         test::signal_child(child, signal);
         int status = 0;
@@ -474,7 +474,7 @@ TEST(Program, CtrlCAndOtherSignalsEndItCleanly) {
     }
 }
 
-TEST(Program, ThePressOnTheElectronicSkinByTheReadmesCommand) {
+TEST(Program, ThePressOnTheElectronicSkinWithItsTimesReplacedByTheRate) {
     const auto path = test::shared_file_path("fbg_eskin_press/fbg_press_S6_T16.csv");
     CORPUSCLE_NEEDS(path);
     const TemporaryFolder folder;

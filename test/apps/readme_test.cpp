@@ -7,14 +7,14 @@ namespace {
 
 const std::string project_root = test::source_root();
 
-/// The lines of a page's shell blocks that call the program, without a comment after '#'.
+/// The lines of a page's shell blocks that call the program. Comments after '#' are removed.
 std::vector<std::string> commands(const std::string& page) {
     std::istringstream text(test::read_file(project_root + "/" + page));
     std::vector<std::string> out;
-    bool shell = false;
+    bool in_shell_block = false;
     for (std::string line; std::getline(text, line);) {
-        if (line.starts_with("```")) shell = line == "```sh";
-        if (shell && line.starts_with("corpuscle ")) out.push_back(line.substr(0, line.find(" #")));
+        if (line.starts_with("```")) in_shell_block = line == "```sh";
+        if (in_shell_block && line.starts_with("corpuscle ")) out.push_back(line.substr(0, line.find(" #")));
     }
     return out;
 }
@@ -25,7 +25,7 @@ void run_commands_of(const std::string& page) {
     for (const auto* part : {"circuits", "process", "examples"})
         std::filesystem::copy(project_root + "/" + part, folder / part, std::filesystem::copy_options::recursive);
     const auto shown = commands(page);
-    ASSERT_GE(shown.size(), 6U);
+    ASSERT_GE(shown.size(), 6U) << "the commands of the page were not found";
     for (const auto& command : shown) {
         const auto arguments = command.substr(std::string("corpuscle").size());
         const auto ran = test::run_program(folder, arguments);
@@ -42,7 +42,7 @@ TEST(Readme, ItsProgramIsTheExampleThatRuns) {
     EXPECT_NE(readme.find("```cpp\n" + example + "```\n"), std::string::npos);
 }
 
-TEST(Readme, EveryPageItLinksToExists) {
+TEST(Pages, EveryFileTheyLinkToExists) {
     for (const auto* page : {"README.md",         "HACKING.md",         "doc/concepts.md",    "doc/afferents.md",
                              "doc/recordings.md", "doc/fixed-point.md", "doc/measures.md",    "doc/circuits.md",
                              "doc/chips.md",      "doc/lanes.md",       "doc/populations.md", "doc/real-recordings.md",
@@ -53,7 +53,7 @@ TEST(Readme, EveryPageItLinksToExists) {
         ASSERT_FALSE(text.empty()) << page;
         for (std::size_t at = text.find("]("); at != std::string::npos; at = text.find("](", at + 1)) {
             const auto link = text.substr(at + 2, text.find(')', at) - at - 2), target = link.substr(0, link.find('#'));
-            if (link.starts_with("http") || target.empty()) continue;  // another site, or within the page
+            if (link.starts_with("http") || target.empty()) continue;  // a web address, or a heading of the same page
             EXPECT_TRUE(std::filesystem::exists(std::filesystem::path(project_root) / std::filesystem::path(page).parent_path() / target))
                 << page << " points to " << target;
         }

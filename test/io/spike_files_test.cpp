@@ -55,7 +55,7 @@ TEST(SpikeFiles, ErrorsNameTheFaultAndItsLocation) {
         {"a,b\n1,2\n",
          "x.csv:1: no column of spike times; call one time_s (or time, t [ms] ...), or name it with --time. Columns: 'a', 'b'"},
         {"time_s,fz_N\n0,1\n",
-         "x.csv:1: no column identifies the trains; call one unit, afferent or channel, or name it with --unit. "
+         "x.csv:1: no column identifies the trains; call one unit, afferent or channel, or name it with --train. "
          "Columns: 'time_s', 'fz_N'"},
         {"0.5 3\n0.6 4\n", "x.csv:1: 2 columns without a header; select the columns of times and trains, such as --time 1 --unit 2"},
         {"unit,time_N\n1,1\n", "x.csv:1:6: 'N' is not a unit of time; use s, ms, us or min"},

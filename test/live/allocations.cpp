@@ -40,7 +40,7 @@ int main() {
         auto stream = SkinStream::make(*skin, clock);
         const double full_force =
             (*skin)->plan.felt_area > 0 ? (*skin)->plan.sites.area / (*skin)->plan.felt_area : 1;  // N at a site with the effect of 1 N
-        const auto format = make_event_format("lines", make_event_afferents(**skin, clock));
+        const auto format = make_event_format("lines", make_event_addressing(**skin, clock));
         if (!stream || !format) return std::puts("refused"), 1;
         FrameDecoder decoder({FrameKind::f64, FrameStamp::none, (*stream)->sites()});
         std::vector<double> sent((*stream)->sites()), force((*stream)->sites());

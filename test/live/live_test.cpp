@@ -101,7 +101,7 @@ TEST(Events, MicrosecondsOfAedatWrapAfterSeventyOneMinutesAndAreUnwrapped) {
 
 TEST(Events, AddressesOnAGridAreTaxelTimesClassesPlusClass) {
     const auto skin = value_or_throw(innervate(value_or_throw(make_channel_plan("sa1,fa1", 3))));
-    const auto afferents = make_event_afferents(*skin, {1000, 1});
+    const auto afferents = make_event_addressing(*skin, {1000, 1});
     EXPECT_EQ(afferents.names, (std::vector<std::string>{"sa1#1", "sa1#2", "sa1#3", "fa1#1", "fa1#2", "fa1#3"}));
     EXPECT_EQ(afferents.addresses, (std::vector<std::uint32_t>{0, 2, 4, 1, 3, 5}));
 }
@@ -111,9 +111,9 @@ TEST(Events, LinesNameAfferentAndChannelAsRespondDoes) {
     const auto on_channels = value_or_throw(innervate(value_or_throw(make_channel_plan("sa1,fa1", channels))));
     const auto lines = [](const std::shared_ptr<const Innervation>& skin, std::uint32_t afferent, const char* format) {
         const Spike spike{5, 1, afferent};
-        return bytes_of(*value_or_throw(make_event_format(format, make_event_afferents(*skin, {1000, 1}))), {&spike, 1});
+        return bytes_of(*value_or_throw(make_event_format(format, make_event_addressing(*skin, {1000, 1}))), {&spike, 1});
     };
-    EXPECT_EQ(value_or_throw(make_event_format("lines", make_event_afferents(*on_channels, {1000, 1})))->header(),
+    EXPECT_EQ(value_or_throw(make_event_format("lines", make_event_addressing(*on_channels, {1000, 1})))->header(),
               "afferent,channel,time_s\n");
     EXPECT_EQ(lines(on_channels, 0, "lines"), "sa1,fz,0.005000000\n");
     EXPECT_EQ(lines(on_channels, 3, "lines"), "fa1,\"thumb, tip\",0.005000000\n");
@@ -127,7 +127,7 @@ TEST(Events, HeadersOfBinaryFormatsNameTheChannelOfEachAddress) {
     const TemporaryFolder folder;
     const std::vector<Channel> channels = {{0, "fz"}, {1, "thumb\n#x"}, {2, "ch3"}};
     const auto afferents =
-        make_event_afferents(*value_or_throw(innervate(value_or_throw(make_channel_plan("sa1,fa1", channels)))), {1000, 1});
+        make_event_addressing(*value_or_throw(innervate(value_or_throw(make_channel_plan("sa1,fa1", channels)))), {1000, 1});
     const auto aer = value_or_throw(make_event_format("aer", afferents)), aedat = value_or_throw(make_event_format("aedat2", afferents));
     const std::vector<Spike> spikes = {{5, 1, 0}, {6, 1, 4}, {7, 1, 5}};  // afferents are numbered class after class
     const auto trains = value_or_throw(read_spikes(folder.write("x.aer", aer->header() + bytes_of(*aer, spikes))));
@@ -141,12 +141,12 @@ TEST(Events, HeadersOfBinaryFormatsNameTheChannelOfEachAddress) {
               "# addresses 0, 2 ... 4: sa1#1 ... sa1#3\r\n# addresses 1, 3 ... 5: fa1#1 ... fa1#3\r\n"
               "# addresses 0, 1: channel fz\r\n# addresses 2, 3: channel thumb #x\r\n# addresses 4, 5: channel ch3\r\n");
     EXPECT_EQ(value_or_throw(read_spikes(folder.write("x.aedat", aedat->header() + bytes_of(*aedat, spikes)))).size(), 3U);
-    const auto numbered = make_event_afferents(*value_or_throw(innervate(value_or_throw(make_channel_plan("sa1,fa1", 3, {})))), {1000, 1});
+    const auto numbered = make_event_addressing(*value_or_throw(innervate(value_or_throw(make_channel_plan("sa1,fa1", 3, {})))), {1000, 1});
     EXPECT_LT(value_or_throw(make_event_format("aer", numbered))->header().size(), aer->header().size()) << "ch1, ch2 ... need no table";
     std::vector<Channel> many(4000);
     for (std::uint32_t c = 0; c < many.size(); ++c) many[c] = {c, fmt::format("a long name {}", c)};
     const auto long_one = value_or_throw(make_event_format(
-        "aedat2", make_event_afferents(*value_or_throw(innervate(value_or_throw(make_channel_plan("sa1", many)))), {1000, 1})));
+        "aedat2", make_event_addressing(*value_or_throw(innervate(value_or_throw(make_channel_plan("sa1", many)))), {1000, 1})));
     EXPECT_EQ(value_or_throw(read_spikes(folder.write("y.aedat", long_one->header() + bytes_of(*long_one, {spikes.data(), 1})))).size(),
               1U);
 }
@@ -283,7 +283,7 @@ TEST(SkinStream, LiveEqualsOfflineAndResumedEqualsUninterruptedByteForByte) {
             some_frames(*rc::gen::inRange<std::size_t>(1, 700), skin->plan.sites.size(), *rc::gen::arbitrary<std::uint64_t>());
         const auto cut = *rc::gen::inRange<std::size_t>(0, frames.size());
         const auto format = value_or_throw(
-            make_event_format(*rc::gen::element<std::string>("lines", "jsonl", "aer", "aedat2"), make_event_afferents(*skin, clock)));
+            make_event_format(*rc::gen::element<std::string>("lines", "jsonl", "aer", "aedat2"), make_event_addressing(*skin, clock)));
         const auto batch_frames = *rc::gen::inRange<std::size_t>(1, 40);
         auto stream = value_or_throw(SkinStream::make(skin, clock)),
              grouped = value_or_throw(SkinStream::make(skin, clock, false, batch_frames));

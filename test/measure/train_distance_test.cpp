@@ -44,9 +44,9 @@ double all_pairs(const Train& a, const Train& b, double tau) {
 Train random_train() {
     auto at = *rc::gen::container<std::vector<int>>(rc::gen::inRange(0, 300));
     std::sort(at.begin(), at.end());
-    Train train;
-    for (const int t : at) train.push_back(1e-3 * t);
-    return train;
+    Train spikes;
+    for (const int t : at) spikes.push_back(1e-3 * t);
+    return spikes;
 }
 
 double random_cost() { return *rc::gen::element(0.0, 0.5, 10.0, 37.0, 200.0, 2000.0, 1e9); }
@@ -98,14 +98,14 @@ TEST(VictorPurpura, MovesAreInOrderWorthTheirCostAndAddUpToIt) {
 }
 
 /// A Poisson train of 100 Hz.
-Train poisson(std::size_t spikes, std::uint32_t index) {
-    Train train;
+Train poisson(std::size_t count, std::uint32_t index) {
+    Train spikes;
     double t = 0;
-    for (std::uint64_t k = 0; k < spikes; ++k) {
+    for (std::uint64_t k = 0; k < count; ++k) {
         const double x = normal(1, index, 0, 2 * k), y = normal(1, index, 0, 2 * k + 1);
-        train.push_back(t += 5e-3 * (x * x + y * y));
+        spikes.push_back(t += 5e-3 * (x * x + y * y));
     }
-    return train;
+    return spikes;
 }
 
 TEST(VictorPurpura, TrainsOfAHundredThousandTakeWellUnderASecondAndInvalidOnesAreRefused) {
@@ -116,8 +116,7 @@ TEST(VictorPurpura, TrainsOfAHundredThousandTakeWellUnderASecondAndInvalidOnesAr
     EXPECT_GT(aligned.moved.size(), 50'000U);
     const auto refused = victor_purpura(a, b, 1e-4);
     ASSERT_FALSE(refused);
-    EXPECT_EQ(refused.error().message.substr(0, 83),
-              "at a cost of 0.0001 per second, 100000 and 100000 spikes have 10000000000 pairs wit");
+    EXPECT_EQ(refused.error().message.substr(0, 83), "at a cost of 0.0001 per second, 100000 and 100000 spikes have 10000000000 pairs wit");
 }
 
 // 25 million pairs; the decisions of 4 million are kept at once.

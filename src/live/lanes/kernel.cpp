@@ -26,7 +26,7 @@ template <class Value>
 }
 
 template <class Value>
-std::size_t take(const char* from, const ForceScaling& scaling, double* force, std::size_t count) {
+std::size_t convert(const char* from, const ForceScaling& scaling, double* force, std::size_t count) {
     T bad(0.0);
     std::size_t s = 0;
     for (; s + width <= count; s += width) read_vector<Value>(from + s * sizeof(Value), scaling, force + s, bad);
@@ -52,7 +52,7 @@ std::size_t take(const char* from, const ForceScaling& scaling, double* force, s
 }  // namespace
 
 namespace CORPUSCLE_ISA {
-const FrameKernels frames{take<float>, take<double>, take<std::int16_t>};
+const FrameKernels frames{convert<float>, convert<double>, convert<std::int16_t>};
 }
 
 }  // namespace corpuscle::lanes

@@ -16,8 +16,8 @@ struct ForceScaling {
 /// The functions of one instruction set. They read `count` values from `from` and overwrite the last forces, except where a value is not
 /// valid. They return the number of values that are not valid.
 struct FrameKernels {
-    using Take = std::size_t (*)(const char* from, const ForceScaling&, double* force, std::size_t count);
-    Take f32, f64, i16;
+    using Convert = std::size_t (*)(const char* from, const ForceScaling&, double* force, std::size_t count);
+    Convert f32, f64, i16;
 };
 
 namespace baseline {

@@ -12,7 +12,8 @@ namespace corpuscle {
 ///     C_m dv/dt = -g_L (v - E_L) + g_L Delta_T exp((v - V_T) / Delta_T) - w + gain I,   tau_w dw/dt = a (v - E_L) - w
 ///     v > V_peak  =>  spike, then v = V_reset and w = w + b
 ///
-/// The exponential is limited to its value at V_peak. Both methods use the same substeps. No refractory time: adaptation takes its role.
+/// The exponential is limited to its value at V_peak. Method has no effect: both use the same substeps. There is no refractory time;
+/// adaptation limits the rate instead.
 struct AdexTraits {
     struct Params {
         double C_m = 281e-12, g_L = 30e-9, E_L = -70.6e-3, V_T = -50.4e-3, Delta_T = 2e-3, a = 4e-9, b = 80.5e-12, tau_w = 144e-3;
@@ -32,7 +33,8 @@ struct AdexTraits {
         {"V_peak", &Params::V_peak, "V", -0.2, 0.1, "top of a spike",
          "choice: V_T + 5 Delta_T; from there to the paper's 20 mV takes under 0.1 ms"},
         {"V_reset", &Params::V_reset, "V", -0.2, 0.1, "membrane after a spike"},
-        {"gain", &Params::gain, "", 0, 1e6, "gain from the receptor's current to the membrane's", "choice: tens of hertz at microamperes"},
+        {"gain", &Params::gain, "", 0, 1e6, "gain from the receptor's current to the membrane's",
+         "choice: firing rates of tens of hertz for currents of microamperes"},
         {"substep", &Params::substep, "s", 1e-8, 1e-3, "longest substep (at most a million substeps per sample)", "choice", true},
     };
     static constexpr OrderConstraint<Params> order_constraints[] = {
@@ -55,20 +57,21 @@ struct Adex : AdexTraits {
           V_peak(value(&Params::V_peak)), V_reset(value(&Params::V_reset)), gain(value(&Params::gain)), dt(dt),
           count(substep_count(dt, value.uniform(&Params::substep))) {}
 
-    State start() const {  // the exponential raises the rest slightly above E_L; solved by Newton's method
+    State start() const {  // the resting v, which the exponential raises slightly above E_L; by Newton's method
         T v = E_L, step = T(0.0);
         for (int pass = 0; pass < 12; ++pass) {
             const T e = num::exp((v - V_T) / Delta_T);
             step = (-(g_L + a) * (v - E_L) + g_L * Delta_T * e) / (g_L + a - g_L * e);
             v = v + step;
         }
-        // Without a resting state it starts at E_L.
+        // If there is no resting state between E_L and V_T, it starts at E_L.
         v = num::select((num::abs(step) < T(1e-9)) & (v >= E_L) & (v < V_T), v, E_L);
         return {v, a * (v - E_L)};
     }
     void record(const State& s, T (&out)[2]) const { out[0] = s.v, out[1] = s.w; }
 
-    /// One sample under current i. Calls fired(mask, offset) for each spike.
+    /// One sample under current i. Calls fired(mask, offset) for each spike. Returns the lanes that a limit of spikes truncated: never any
+    /// here.
     template <class Fired>
     num::Mask<T> step(State& s, Current<T> i, Fired&& fired) const {
         MembraneRecovery<T> y{s.v, s.w};

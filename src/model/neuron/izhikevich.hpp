@@ -24,7 +24,8 @@ struct IzhikevichTraits {
         {"c", &Params::c, "V", -0.2, 0.02, "membrane after a spike"},
         {"d", &Params::d, "V/s", -1e3, 1e3, "jump of recovery at a spike"},
         {"V_peak", &Params::V_peak, "V", -0.03, 0.2, "top of a spike"},
-        {"gain", &Params::gain, "V/s/A", 0, 1e15, "gain from the receptor's current to dv/dt", "choice: tens of hertz at microamperes"},
+        {"gain", &Params::gain, "V/s/A", 0, 1e15, "gain from the receptor's current to dv/dt",
+         "choice: firing rates of tens of hertz for currents of microamperes"},
         {"substep", &Params::substep, "s", 1e-8, 1e-3, "longest substep (at most a million substeps per sample)", "choice", true},
     };
     static constexpr OrderConstraint<Params> order_constraints[] = {

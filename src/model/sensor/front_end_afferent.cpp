@@ -3,7 +3,7 @@
 namespace corpuscle {
 namespace {
 
-constexpr std::size_t own_values = 1;  // the last force after hysteresis, N; the values of the inner afferent follow
+constexpr std::size_t own_values = 1;  // of the state: the last force after hysteresis, N. The values of the inner afferent follow
 
 }  // namespace
 
@@ -28,20 +28,21 @@ State FrontEndAfferent::start(ChannelSlot slot) const {
     return state;
 }
 
-/// The block of force as the calibration reads it; records the probes of the front end.
+/// The force that the front end reads, after calibration. Also records the probes of the front end.
 std::vector<double> FrontEndAfferent::calibrated_block(std::span<const double> force, State& state, ResponseBlock& response) const {
     double& last = state.values[0];
     if (state.step == 0) last = force[0];
-    std::vector<double> out, shown(front_end_.stages().size());
+    std::vector<double> out, stage_outputs(front_end_.stages().size());
     out.reserve(force.size());
     for (const double F : force) {
+        const auto sample = out.size();
         last = front_end_.apply_hysteresis(last, F);
-        const auto reading = front_end_.read(last, shown.data());
+        const auto reading = front_end_.read(last, stage_outputs.data());
         response.saturated += reading.saturated;
         if (!response.probes.empty())
-            for (std::size_t p = 0; p < shown.size(); ++p) response.probes[p][out.size()] = shown[p];
+            for (std::size_t p = 0; p < stage_outputs.size(); ++p) response.probes[p][sample] = stage_outputs[p];
         out.push_back(front_end_.calibrated_force(reading.value));
-        if (!response.probes.empty()) response.probes[shown.size()][out.size() - 1] = out.back();
+        if (!response.probes.empty()) response.probes[stage_outputs.size()][sample] = out.back();
     }
     return out;
 }
@@ -50,14 +51,14 @@ Result<void> FrontEndAfferent::respond(std::span<const double> force, State& sta
     if (auto ok = check_block(name_, format_, own_values + inner_values_, state, force); !ok) return ok;
     if (force.empty()) return {};
     const auto calibrated = calibrated_block(force, state, response);
-    State inside{inner_format_, state.step, {state.values.begin() + own_values, state.values.end()}};
+    State inner_state{inner_format_, state.step, {state.values.begin() + own_values, state.values.end()}};
     ResponseBlock inner_response{response.spikes, response.afferent_index};
     if (!response.probes.empty()) inner_response.probes = response.probes.subspan(front_end_.stages().size() + 1);
-    const auto done = inner_->respond(calibrated, inside, inner_response);
+    const auto done = inner_->respond(calibrated, inner_state, inner_response);
     response.truncated_steps += inner_response.truncated_steps, response.saturated += inner_response.saturated,
         response.overflowed += inner_response.overflowed;
-    std::copy(inside.values.begin(), inside.values.end(), state.values.begin() + own_values);
-    state.step = inside.step;
+    std::copy(inner_state.values.begin(), inner_state.values.end(), state.values.begin() + own_values);
+    state.step = inner_state.step;
     return done;
 }
 

@@ -15,10 +15,12 @@ std::string_view end_name(ItemEnd);
 /// The file has these tables. A file of format 1 has other names; it can be read, but not extended or merged. The results depend on
 /// everything in `about`; it contains neither user nor date.
 ///
-/// - about(key, value): the metadata entries by their names. Further keys are items, metadata (names of the entries in order), trains, traces
+/// - about(key, value): the metadata entries by their names. Further keys are items, metadata (names of the entries in order), trains,
+/// traces
 ///   and trace_times, the last four as JSON.
 ///
-/// - columns(position, kind, name, unit, description, words, at_least, at_most, stored): kind is 'axis' or 'measure', words is JSON, stored is
+/// - columns(position, kind, name, unit, description, words, at_least, at_most, stored): kind is 'axis' or 'measure', words is JSON, stored
+/// is
 ///   the column's name in the table items.
 ///
 /// - items(item, ended, steps, iterations, alone, why, ...): a row for each item, with a column for each axis and measure. ended is 'done',
