@@ -27,7 +27,7 @@ TEST(VersionGroup, HasTheReceptorThatTheirNameBeginsWith) {
     EXPECT_EQ(receptor_of(make_named("RA")), "fa1") << "another of its names";
     EXPECT_EQ(receptor_of(make_named("fa1-lee")), "fa1");
     for (const auto* name : {"sa1b+izhikevich", "fsr+f2i+sa1", "own-thing"})
-        EXPECT_EQ(receptor_of(make_named(name)), name) << "nobody else's";
+        EXPECT_EQ(receptor_of(make_named(name)), name) << "shared with no other afferent";
     EXPECT_EQ(receptor_of(make_named("circuits/spiker.cir")), "spiker");
     EXPECT_EQ(receptor_of(make_named("my_sa1.cir")), "my_sa1") << "does not begin with the name of an afferent";
 }
