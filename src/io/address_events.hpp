@@ -2,16 +2,18 @@
 // Binary address events: a header with the clock and the meaning of the addresses, then 16 bytes for each spike (doc/events.md). All
 // numbers are little-endian.
 //
-//     header  "corpaer1", i64 per, i64 seconds (a sample is seconds/per s), u32 runs, u32 bytes that follow. Then the runs of afferents.
+//     header    "corpaer1", i64 samples, i64 seconds (the clock has this number of samples in this number of seconds), u32 number of
+//               runs of afferents, u32 bytes of the header after this number. Then the runs of afferents.
 //
-//     a run   u32 first address, u32 stride, u32 first number (0 for a name without a number), u32 count, u32 letters, letters,
-//             0 to 3 zeros
+//     run       u32 first address, u32 stride, u32 first number (0 for a name without a number), u32 count, u32 bytes of the name, the
+//               name, 0 to 3 zero bytes (padding to a multiple of 4)
 //
-//     then    if bytes of the header remain: u32 runs of channels, and these runs, with the name of the channel of the addresses
+//     channels  only if bytes of the header remain: u32 number of runs of channels, and these runs. The name of a run is the channel of
+//               its addresses.
 //
-//     spike   i64 step, u32 fraction of the step, u32 address
+//     spike     i64 step, u32 fraction of the step, u32 address
 //
-// The offset of a spike in its step is (fraction + 1) / 2^32, so its time is (step - 1 + offset) * seconds / per.
+// The offset of a spike in its step is (fraction + 1) / 2^32, so its time is (step - 1 + offset) * seconds / samples.
 
 #include <bit>
 #include <cmath>
@@ -43,6 +45,6 @@ static_assert(sizeof(EncodedSpike) == spike_bytes);
 inline constexpr double fraction_scale = 4294967296.0;  // 2^32
 
 inline std::uint32_t encode_offset(double offset) { return static_cast<std::uint32_t>(std::ceil(offset * fraction_scale) - 1); }
-inline double decode_offset(std::uint32_t place) { return (static_cast<double>(place) + 1) / fraction_scale; }
+inline double decode_offset(std::uint32_t fraction) { return (static_cast<double>(fraction) + 1) / fraction_scale; }
 
 }  // namespace corpuscle::address_events

@@ -34,7 +34,7 @@ struct ArchiveEntry {
     std::string name, bytes;
 };
 
-/// The bytes of an uncompressed archive without dates: the same members give the same bytes.
+/// The bytes of an uncompressed archive. All members have the same constant date, so the same members give the same bytes.
 Result<std::string> make_archive(const std::vector<ArchiveEntry>&);
 
 }  // namespace corpuscle

@@ -13,7 +13,7 @@ namespace {
 
 namespace aer = address_events;
 
-/// Splits "sa1#17" into sa1 and 17. A name without a number has number 0.
+/// The run of a single afferent. Splits its name: "sa1#17" has the name sa1 and the number 17. A name without a number has number 0.
 aer::NameRun run_of(const std::string& name, std::uint32_t address) {
     const auto sign = name.rfind('#');
     std::uint32_t number = 0;
@@ -23,7 +23,7 @@ aer::NameRun run_of(const std::string& name, std::uint32_t address) {
     return {address, 1, number, 1, name.substr(0, sign)};
 }
 
-/// Extends the run by the next afferent if that continues it. Returns false if it does not.
+/// Extends the run by the next afferent if its number and address continue the run. Otherwise returns false.
 bool extend(aer::NameRun& run, const aer::NameRun& next) {
     if (run.first_number == 0 || next.first_number != run.first_number + run.count || next.name != run.name ||
         next.first_address <= run.first_address)
@@ -44,20 +44,21 @@ std::vector<aer::NameRun> runs_of(const EventAddressing& addressing) {
 }
 
 /// The channels of the afferents as runs of addresses, sorted by address. Empty if the names of the afferents already identify the
-/// channel. Default channel names (ch1, ch2 ...) are omitted, because the numbers are enough.
+/// channel. Default channel names (ch1, ch2 ...) are omitted, because the number in the name of an afferent identifies
+/// them.
 std::vector<aer::NameRun> channel_runs_of(const EventAddressing& addressing) {
-    std::vector<std::pair<std::uint32_t, const std::string*>> on;
+    std::vector<std::pair<std::uint32_t, const std::string*>> channel_at;
     bool any_named = false;
     for (std::size_t u = 0; u < addressing.afferents.size() && u < addressing.channels.size(); ++u) {
         if (addressing.afferents[u] == addressing.names[u]) return {};
-        on.emplace_back(addressing.addresses[u], &addressing.channels[u]);
+        channel_at.emplace_back(addressing.addresses[u], &addressing.channels[u]);
         const auto number = addressing.names[u].substr(addressing.names[u].rfind('#') + 1);
         any_named = any_named || addressing.channels[u] != "ch" + number;
     }
     if (!any_named) return {};
-    std::sort(on.begin(), on.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    std::sort(channel_at.begin(), channel_at.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
     std::vector<aer::NameRun> runs;
-    for (const auto& [address, name] : on) {
+    for (const auto& [address, name] : channel_at) {
         if (!runs.empty() && runs.back().name == *name && address == runs.back().first_address + runs.back().count)
             ++runs.back().count;
         else
@@ -79,7 +80,7 @@ std::string one_line(std::string text) {
     return text;
 }
 
-/// The meaning of the addresses as comments of at limit 32 kB. Readers expect the events within the first 64 kB.
+/// The meaning of the addresses as comments of at most 32 kB. Readers expect the events within the first 64 kB.
 std::string comments_of(const EventAddressing& addressing) {
     constexpr std::size_t limit = std::size_t{1} << 15;
     std::string text;

@@ -22,32 +22,32 @@ ChannelPipeline::ChannelPipeline(const RecordingOptions& options, double gain, b
     if (options.despike) outlier_filter_.emplace(*options.despike);
 }
 
-Result<ChannelPipeline> ChannelPipeline::make(const RecordingOptions& options, double gain, const Clock& filters, bool filter_early,
+Result<ChannelPipeline> ChannelPipeline::make(const RecordingOptions& options, double gain, const Clock& filter_clock, bool filter_early,
                                               const HumTable& table) {
-    ChannelPipeline path(options, gain, filter_early, table);
+    ChannelPipeline pipeline(options, gain, filter_early, table);
     for (const double f : options.notch) {
-        const auto filter = Biquad::notch(f, filters);
+        const auto filter = Biquad::notch(f, filter_clock);
         if (!filter) return filter.error();
-        path.filters_.push_back(*filter);
+        pipeline.filters_.push_back(*filter);
     }
     if (options.lowpass) {
-        const auto filter = Biquad::lowpass(*options.lowpass, filters);
+        const auto filter = Biquad::lowpass(*options.lowpass, filter_clock);
         if (!filter) return filter.error();
-        path.filters_.push_back(*filter);
+        pipeline.filters_.push_back(*filter);
     }
-    return path;
+    return pipeline;
 }
 
-Result<void> ChannelPipeline::repair(std::span<const double> read) {
+Result<void> ChannelPipeline::repair(std::span<const double> values) {
     if (outlier_filter_) {
         despiked_.clear();
-        for (const double x : read) outlier_filter_->push(x, despiked_);
-        read = despiked_;
+        for (const double x : values) outlier_filter_->push(x, despiked_);
+        values = despiked_;
     }
-    return gaps_.push(read, repaired_);
+    return gaps_.push(values, repaired_);
 }
 
-/// Converts the repaired samples to newtons and appends them. The detectors see them before the filters, which would hide faults.
+/// Converts the repaired samples to newtons and appends them. The detectors examine them before the filters, because filters hide faults.
 void ChannelPipeline::append(std::vector<double>& out) {
     for (double& x : repaired_) x = gain_ * (x - offset_);
     outliers.add(repaired_);
@@ -59,8 +59,8 @@ void ChannelPipeline::append(std::vector<double>& out) {
     repaired_.clear();
 }
 
-Result<void> ChannelPipeline::push(std::span<const double> read, std::vector<double>& out) {
-    if (auto ok = repair(read); !ok) return ok;
+Result<void> ChannelPipeline::push(std::span<const double> values, std::vector<double>& out) {
+    if (auto ok = repair(values); !ok) return ok;
     append(out);
     return {};
 }

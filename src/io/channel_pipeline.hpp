@@ -27,14 +27,16 @@ class ChannelPipeline {
     GapFiller gaps_;
     double offset_, gain_;
     std::vector<Biquad> filters_;
-    bool filters_rows_;                        // true: filters the evenly spaced rows, false: filters after resampling
+    bool filters_rows_;                        // true: filter the rows, which are evenly spaced; false: filter after resampling
     std::vector<double> despiked_, repaired_;  // scratch memory
 
-    Result<void> repair(std::span<const double> read);
+    Result<void> repair(std::span<const double> values);
 
 public:
-    /// `filters` is the clock that the filters run on.
-    static Result<ChannelPipeline> make(const RecordingOptions&, double gain, const Clock& filters, bool filter_early, const HumTable&);
+    /// `gain` is in newtons per unit of the file. `filter_clock` is the clock of the samples that are filtered: before resampling if
+    /// `filter_early`, otherwise after it.
+    static Result<ChannelPipeline> make(const RecordingOptions&, double gain, const Clock& filter_clock, bool filter_early,
+                                        const HumTable&);
 
     OutlierDetector outliers;
     SaturationDetector saturation;
@@ -46,8 +48,8 @@ public:
     std::int64_t outliers_removed() const { return outlier_filter_ ? outlier_filter_->outliers : 0; }
     std::int64_t filled() const { return gaps_.filled; }
 
-    /// Processes samples and appends newtons to `out`. Samples that depend on their neighbours are appended by a later call.
-    Result<void> push(std::span<const double> read, std::vector<double>& out);
+    /// Processes values of the file and appends newtons to `out`. Values that depend on later ones are appended by a later call.
+    Result<void> push(std::span<const double> values, std::vector<double>& out);
     /// Appends the remaining samples.
     Result<void> finish(std::vector<double>& out);
     /// Applies the filters that run after resampling, and updates the statistics of the final force.

@@ -5,7 +5,8 @@
 namespace corpuscle {
 namespace {
 
-/// Removes every second point between the ends. With this number of points, the remaining ones have the same distance to within rounding.
+/// Removes every second point between the ends. There are more than max_points points, so this changes the largest distance from a
+/// straight line only by a rounding error.
 template <class Points>
 void thin(Points& side) {
     std::size_t kept = 1;
@@ -43,10 +44,10 @@ void ClockAnalysis::add(double t) {
 double ClockAnalysis::peak_to_peak_jitter() const {
     if (last_.k == first_.k) return 0;
     const double step = mean_step();
-    const auto off = [&](Point p) { return p.t - first_.t - p.k * step; };
+    const auto deviation = [&](Point p) { return p.t - first_.t - p.k * step; };
     double late = 0, early = 0;
-    for (const auto& p : upper_) late = std::max(late, off(p));
-    for (const auto& p : lower_) early = std::min(early, off(p));
+    for (const auto& p : upper_) late = std::max(late, deviation(p));
+    for (const auto& p : lower_) early = std::min(early, deviation(p));
     return late - early;
 }
 

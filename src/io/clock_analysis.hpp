@@ -1,6 +1,6 @@
 #pragma once
-// Tests in one pass whether times are evenly spaced. Of all points (k, t_k) only those on the convex hull can be farthest from a
-// straight line, so only these are kept.
+// Tests in one pass whether times are evenly spaced. Only points (k, t_k) on the convex hull can be farthest from a straight line, so
+// only these are stored.
 
 #include <cstdint>
 #include <vector>
@@ -14,7 +14,7 @@ class ClockAnalysis {
     struct Point {
         double k, t;
     };
-    // The limit on each side. The times of a steadily slowing clock would all be on the hull.
+    // Limit on the points of each side of the hull. The times of a steadily slowing clock would all be on the hull.
     static constexpr std::size_t max_points = std::size_t{1} << 16;
     std::vector<Point> upper_, lower_;
     Point first_{}, last_{};
@@ -25,11 +25,11 @@ class ClockAnalysis {
 
 public:
     void add(double t);
-    /// A sample whose time is not known.
+    /// Counts a sample without a known time.
     void skip() { ++count_; }
 
     std::int64_t count() const { return count_; }
-    /// Steps longer than one and a half times the median step.
+    /// The number of steps longer than 1.5 times the median step.
     std::int64_t gap_count() const { return steps_.count_above(1.5 * steps_.median(steps_.count())); }
     double first() const { return first_.t; }
     double mean_step() const { return (last_.t - first_.t) / (last_.k - first_.k); }

@@ -7,7 +7,7 @@
 namespace corpuscle {
 namespace {
 
-constexpr std::size_t rows_of_an_index = 8;  // number of rows needed to recognise an index by its values
+constexpr std::size_t min_index_rows = 8;  // rows needed to recognise an index by its values
 
 struct Roles {
     std::vector<Column>& columns;
@@ -30,7 +30,7 @@ struct Roles {
 
     /// True if all values are integers, and all differences satisfy `step`.
     template <class Step>
-    bool counts(std::size_t c, const Step& step) const {
+    bool is_counter(std::size_t c, const Step& step) const {
         const auto& x = first[c].numbers;
         if (x.size() < 2 || first[c].value_count != x.size()) return false;
         for (std::size_t k = 0; k < x.size(); ++k)
@@ -51,7 +51,7 @@ struct Roles {
         return even;
     }
 
-    void find_kinds() {
+    void mark_stamps_and_words() {
         for (std::size_t c = 0; c < columns.size(); ++c) {
             const auto& f = first[c];
             const auto rows = f.numbers.size();
@@ -61,7 +61,7 @@ struct Roles {
         }
     }
 
-    /// Takes the first column that satisfies `matches` as the time.
+    /// Makes the first column that satisfies `matches` the time column. Returns false if there is none.
     template <class Matches>
     bool take_time(const Matches& matches) {
         for (std::size_t c = 0; c < columns.size(); ++c)
@@ -73,22 +73,22 @@ struct Roles {
         const auto likely = [&](std::size_t c) {
             return columns[c].holds_time_stamps || (holds_numbers(c) && (first[c].numbers.size() < 2 || rises(c)));
         };
-        const auto in_seconds = [&](std::size_t c) {
+        const auto has_time_unit = [&](std::size_t c) {
             return columns[c].holds_time_stamps || seconds_per_time_unit(columns[c].unit).has_value();
         };
         if (take_time([&](std::size_t c) { return is_time_name(columns[c].name); })) return;
-        const bool found = take_time([&](std::size_t c) { return may_be_time_name(columns[c].name) && in_seconds(c) && likely(c); }) ||
+        const bool found = take_time([&](std::size_t c) { return may_be_time_name(columns[c].name) && has_time_unit(c) && likely(c); }) ||
                            take_time([&](std::size_t c) {
                                return columns[c].unit.empty() && may_be_time_name(columns[c].name) && likely(c) && rises(c);
                            }) ||
                            take_time([&](std::size_t c) { return columns[c].holds_time_stamps; }) ||
-                           take_time([&](std::size_t c) { return in_seconds(c) && holds_numbers(c) && rises(c); });
+                           take_time([&](std::size_t c) { return has_time_unit(c) && holds_numbers(c) && rises(c); });
         if (found) {
             const auto& name = columns[*out.time_column].name;
             out.notes.push_back(
                 fmt::format("{} is taken as the time (use --time none if it is not)",
                             name.empty() ? fmt::format("column {}, which has no name,", *out.time_column + 1) : "'" + name + "'"));
-        } else if (columns.size() > 1 && columns[0].name.empty() && evenly_rises(0) && !counts(0, is_positive)) {
+        } else if (columns.size() > 1 && columns[0].name.empty() && evenly_rises(0) && !is_counter(0, is_positive)) {
             out.time_column = 0, out.is_time_guessed = true;
             out.notes.emplace_back(
                 "the first column has no name, increases evenly and is taken as the time (use --time none if it is a channel)");
@@ -98,10 +98,10 @@ struct Roles {
     bool is_index(std::size_t c) const {
         const auto& column = columns[c];
         if (!column.unit.empty() || !holds_numbers(c)) return false;
-        if (c == 0 && column.name.empty()) return counts(c, is_positive);
-        if (is_sequence_name(column.name) && counts(c, is_positive_or_restart)) return true;
-        if (is_index_name(column.name)) return counts(c, is_one_or_restart);
-        return first[c].numbers.size() >= rows_of_an_index && counts(c, is_one);
+        if (c == 0 && column.name.empty()) return is_counter(c, is_positive);
+        if (is_sequence_name(column.name) && is_counter(c, is_positive_or_restart)) return true;
+        if (is_index_name(column.name)) return is_counter(c, is_one_or_restart);
+        return first[c].numbers.size() >= min_index_rows && is_counter(c, is_one);
     }
 
     bool holds_integers(std::size_t c) const {
@@ -110,7 +110,7 @@ struct Roles {
     }
 
     /// Excludes columns of numbers that are not measurements: row numbers, trial numbers, second clocks. Keeps all if none would remain.
-    void leave_out() {
+    void exclude_non_measurements() {
         std::vector<std::pair<std::size_t, std::string>> excluded;
         std::size_t remaining = 0;
         for (std::size_t c = 0; c < columns.size(); ++c) {
@@ -141,14 +141,14 @@ bool have_own_names(const std::vector<Column>& columns) {
 
 ColumnRoles assign_roles(std::vector<Column>& columns, const std::vector<FirstFields>& first, bool named, std::optional<std::size_t> time) {
     Roles roles{columns, first, {.time_column = time}};
-    roles.find_kinds();
+    roles.mark_stamps_and_words();
     if (time)
         columns[*time].exclusion_reason.clear();
     else if (named)
         roles.find_named_time();
     else if (roles.take_time([&](std::size_t c) { return columns[c].holds_time_stamps; }))
         roles.out.is_time_guessed = true;
-    if (named) roles.leave_out();
+    if (named) roles.exclude_non_measurements();
     for (std::size_t c = 0; c < columns.size(); ++c)
         if (columns[c].holds_time_stamps && columns[c].unit.empty()) columns[c].unit = "s";
     return std::move(roles.out);

@@ -17,7 +17,7 @@ struct FirstFields {
     std::size_t value_count = 0, word_count = 0, stamp_count = 0, empty_count = 0;
 
     void add_number(double x) { numbers.push_back(x), ++value_count; }
-    void add_other(std::size_t& kind) { numbers.push_back(std::numeric_limits<double>::quiet_NaN()), ++kind; }
+    void add_other(std::size_t& count) { numbers.push_back(std::numeric_limits<double>::quiet_NaN()), ++count; }
 };
 
 struct ColumnRoles {
@@ -32,7 +32,7 @@ struct ColumnRoles {
 ColumnRoles assign_roles(std::vector<Column>& columns, const std::vector<FirstFields>& first, bool named,
                          std::optional<std::size_t> time = {});
 
-/// True if the columns have names of their own, other than ch1, ch2 ...
+/// True if any column has a name other than the default names ch1, ch2 ...
 bool have_own_names(const std::vector<Column>& columns);
 
 }  // namespace corpuscle

@@ -28,8 +28,8 @@ bool matches_name(const Column& column, std::string_view name) {
 }
 
 bool is_newtons(std::string_view unit) {
-    constexpr std::string_view words[] = {"Newton", "newton", "Newtons", "newtons"};
-    return std::find(std::begin(words), std::end(words), unit) != std::end(words);
+    constexpr std::string_view spellings[] = {"Newton", "newton", "Newtons", "newtons"};
+    return std::find(std::begin(spellings), std::end(spellings), unit) != std::end(spellings);
 }
 
 bool is_force(std::string_view unit) {
@@ -114,20 +114,20 @@ struct ChannelSelector {
     /// The default selection: all columns that may be forces. If a column has a unit of force, columns with other known units are
     /// excluded.
     Result<std::vector<std::size_t>> default_selection(std::vector<std::string>* notes) const {
-        const auto in_force = [&](std::size_t c) {
+        const auto has_force_unit = [&](std::size_t c) {
             return table.columns()[c].exclusion_reason.empty() && is_force(table.columns()[c].unit);
         };
-        const bool some_in_force = std::any_of(data.begin(), data.end(), in_force);
+        const bool any_force_unit = std::any_of(data.begin(), data.end(), has_force_unit);
         const auto is_other = [&](const Column& c) {
-            return is_never_force(c.unit) || (some_in_force && !c.unit.empty() && is_unit(c.unit) && !is_force(c.unit));
+            return is_never_force(c.unit) || (any_force_unit && !c.unit.empty() && is_unit(c.unit) && !is_force(c.unit));
         };
         std::vector<std::size_t> chosen, other;  // other: columns whose unit is not a force
         for (const auto c : data)
             if (table.columns()[c].exclusion_reason.empty()) (is_other(table.columns()[c]) ? other : chosen).push_back(c);
         if (chosen.empty() && other.empty()) {
-            const auto known =
+            const auto with_evidence =
                 std::find_if(data.begin(), data.end(), [&](std::size_t c) { return !table.columns()[c].exclusion_evidence.empty(); });
-            const auto& column = table.columns()[known == data.end() ? data[0] : *known];
+            const auto& column = table.columns()[with_evidence == data.end() ? data[0] : *with_evidence];
             return bad_input(fmt::format("no column holds force values: '{}' {}{}{}", column.name, column.exclusion_reason,
                                          column.exclusion_evidence.empty() ? "" : "; ", column.exclusion_evidence),
                              {path});

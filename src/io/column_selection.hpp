@@ -10,18 +10,18 @@
 namespace corpuscle {
 
 /// The columns requested by name, name and unit ("fz_N"), number, or range ("2-5", "fx-fz"). Numbers do not count the time column.
-/// Without a request, all columns except those that the table excludes and those in units that a force sensor never has. Appends
-/// notes about the excluded columns and about the names of columns selected by number.
+/// If `wanted` is empty, selects all columns except those that the table excludes and those in units that a force sensor never has.
+/// Appends notes about the excluded columns and about the names of columns selected by number.
 Result<std::vector<std::size_t>> select_columns(const Table&, std::optional<std::size_t> time, const std::vector<std::string>& wanted,
                                                 const std::string& path, std::vector<std::string>* notes = nullptr);
 
-/// The time column: the one requested by name or number, none, or by default the one that the file shows.
+/// The time column requested by name or number; nullopt for "none". By default the time column found in the file, if there is one.
 Result<std::optional<std::size_t>> select_time_column(const Table&, const std::optional<std::string>& wanted, const std::string& path);
 
-/// The factor from the column's values to newtons.
+/// The factor that converts the column's values to newtons.
 Result<double> newtons_per_unit(const Column&, const RecordingOptions&, const std::string& path);
 
-/// The factor from a time column's values to seconds.
+/// The factor that converts a time column's values to seconds.
 Result<double> seconds_per_unit(const Column&, const RecordingOptions&, const std::string& path);
 
 }  // namespace corpuscle

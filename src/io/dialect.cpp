@@ -66,16 +66,16 @@ bool Dialect::parse_number(std::string_view field, double& value, bool any) cons
 /// Like parse_plain_number(), but digit by digit.
 bool Dialect::parse_longer_number(const char*& p, const char* end, double& value) const {
     std::uint64_t digits = 0;
-    const auto take = [&] {
+    const auto read_digits = [&] {
         const char* const from = p;
         while (p < end && static_cast<unsigned char>(*p - '0') < 10) digits = digits * 10 + static_cast<unsigned char>(*p++ - '0');
         return p - from;
     };
-    const auto integers = take();
-    std::ptrdiff_t decimals = 0;
-    if (p < end && (*p == '.' || (decimal_comma && *p == ','))) ++p, decimals = take();
-    if (integers + decimals == 0 || integers + decimals > 15 || !ends_at(p, end)) return false;
-    value = static_cast<double>(digits) / powers_of_ten[decimals];
+    const auto integer_digits = read_digits();
+    std::ptrdiff_t fraction_digits = 0;
+    if (p < end && (*p == '.' || (decimal_comma && *p == ','))) ++p, fraction_digits = read_digits();
+    if (integer_digits + fraction_digits == 0 || integer_digits + fraction_digits > 15 || !ends_at(p, end)) return false;
+    value = static_cast<double>(digits) / powers_of_ten[fraction_digits];
     return true;
 }
 

@@ -37,10 +37,11 @@ private:
 
 inline constexpr double powers_of_ten[] = {1, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15};
 
-/// Eight characters in one 64-bit word, to parse short numbers fast. Digits are bytes 0 to 9, the first character in the lowest byte.
+/// Eight characters in one 64-bit word, to parse short numbers fast (SWAR: SIMD within a register). Digits are bytes 0 to 9, the first
+/// character in the lowest byte.
 struct SwarWord {
     std::uint64_t digits,
-        non_digits;  ///< others: the high bit of each byte that is not a digit; valid up to the first, and up to the second after a point
+        non_digits;  ///< the high bit of each byte that is not a digit; valid up to the first, and up to the second after a point
 
     explicit SwarWord(const char* p) {
         std::memcpy(&digits, p, 8);
@@ -68,21 +69,21 @@ inline bool Dialect::parse_plain_number(const char*& p, const char* end, double&
     const bool minus = p < end && *p == '-';
     p += minus;
     SwarWord eight(p);
-    const int integers = SwarWord::byte_index(eight.non_digits);
-    const bool point = integers < 8 && (p[integers] == '.' || (decimal_comma && p[integers] == ','));
-    const int length = point ? SwarWord::byte_index(eight.non_digits & (eight.non_digits - 1)) : integers;
+    const int integer_digits = SwarWord::byte_index(eight.non_digits);
+    const bool point = integer_digits < 8 && (p[integer_digits] == '.' || (decimal_comma && p[integer_digits] == ','));
+    const int length = point ? SwarWord::byte_index(eight.non_digits & (eight.non_digits - 1)) : integer_digits;
     const char* const stop = p + length;
-    double size;
+    double magnitude;
     if (length < 8) {
         if (length == point || !ends_at(stop, end)) return false;
-        if (point) eight.remove_byte(integers);
+        if (point) eight.remove_byte(integer_digits);
         // The digits fit into a double and the power of ten is exact, so one division gives the nearest double, as from_chars does.
-        size = static_cast<double>(eight.parse_digits(length - point)) / powers_of_ten[length - integers - point];
+        magnitude = static_cast<double>(eight.parse_digits(length - point)) / powers_of_ten[length - integer_digits - point];
         p = stop;
-    } else if (!parse_longer_number(p, end, size)) {
+    } else if (!parse_longer_number(p, end, magnitude)) {
         return false;
     }
-    value = minus ? -size : size;
+    value = minus ? -magnitude : magnitude;
     return true;
 }
 

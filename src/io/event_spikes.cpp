@@ -16,10 +16,10 @@ namespace {
 
 namespace aer = address_events;
 
-constexpr std::int64_t last_event_step = std::int64_t{1} << 53;
+constexpr std::int64_t last_event_step = std::int64_t{1} << 53;  // a double holds integers up to here exactly
 constexpr std::size_t events_at_once = 4096;
 
-/// Trains by address. The name of an address is looked up once.
+/// The trains, by address. The names of an address are looked up at its first event.
 class AddressTrains {
     std::unordered_map<std::uint32_t, std::vector<double>*> by_address_;
     TrainCollector trains_;
@@ -37,9 +37,9 @@ public:
     std::vector<NamedTrain> sorted() && { return std::move(trains_).sorted(); }
 };
 
-/// Calls `take` for every event of a file, `size` bytes each, from position `at` on.
+/// Calls `handle_event` for every event of a file, `size` bytes each, from position `at` on.
 template <class Take>
-Result<void> each_event(SeekableBytes& file, std::uint64_t at, std::size_t size, const Take& take) {
+Result<void> each_event(SeekableBytes& file, std::uint64_t at, std::size_t size, const Take& handle_event) {
     if ((file.size() - at) % size != 0)
         return bad_input(fmt::format("the last spike is incomplete: {} of {} bytes", (file.size() - at) % size, size), {file.name()});
     std::vector<std::byte> block(events_at_once * size);
@@ -47,7 +47,7 @@ Result<void> each_event(SeekableBytes& file, std::uint64_t at, std::size_t size,
         const auto count = std::min<std::uint64_t>(left, events_at_once);
         if (auto ok = file.read(std::span(block).first(count * size)); !ok) return ok;
         for (std::size_t k = 0; k < count; ++k)
-            if (auto ok = take(block.data() + k * size); !ok) return ok;
+            if (auto ok = handle_event(block.data() + k * size); !ok) return ok;
         left -= count;
     }
     return {};
@@ -69,23 +69,23 @@ class AerFile {
 
     Error format_error(std::string message) const { return bad_input(std::move(message), {file_->name()}); }
 
-    Result<void> read_head(std::uint32_t& runs, std::uint32_t& bytes) {
-        std::byte head[aer::header_bytes];
-        if (file_->size() < sizeof head) return format_error("the header of the address events is incomplete");
-        if (auto ok = file_->read(head); !ok) return ok;
-        clock_ = {number_at<std::int64_t>(head, 8), number_at<std::int64_t>(head, 16)};
-        runs = number_at<std::uint32_t>(head, 24), bytes = number_at<std::uint32_t>(head, 28);
+    Result<void> read_header(std::uint32_t& runs, std::uint32_t& bytes) {
+        std::byte header[aer::header_bytes];
+        if (file_->size() < sizeof header) return format_error("the header of the address events is incomplete");
+        if (auto ok = file_->read(header); !ok) return ok;
+        clock_ = {number_at<std::int64_t>(header, 8), number_at<std::int64_t>(header, 16)};
+        runs = number_at<std::uint32_t>(header, 24), bytes = number_at<std::uint32_t>(header, 28);
         if (clock_.rate_numerator < 1 || clock_.rate_denominator < 1)
             return format_error(fmt::format("invalid clock of {} samples in {} s: both numbers must be positive", clock_.rate_numerator,
                                             clock_.rate_denominator));
-        if (file_->size() - sizeof head < bytes) return format_error("the names of the afferents are incomplete");
-        begin_ = sizeof head + bytes;
+        if (file_->size() - sizeof header < bytes) return format_error("the names of the afferents are incomplete");
+        begin_ = sizeof header + bytes;
         return {};
     }
 
     Result<void> read_runs() {
         std::uint32_t runs = 0, bytes = 0;
-        if (auto ok = read_head(runs, bytes); !ok) return ok;
+        if (auto ok = read_header(runs, bytes); !ok) return ok;
         std::vector<std::byte> text(bytes);
         if (auto ok = file_->read(text); !ok) return ok;
         std::size_t at = 0;
@@ -95,14 +95,15 @@ class AerFile {
         return read_runs(text, at, runs, "channels", channels_);
     }
 
-    Result<void> read_runs(std::span<const std::byte> text, std::size_t& at, std::uint32_t count, std::string_view of,
+    Result<void> read_runs(std::span<const std::byte> text, std::size_t& at, std::uint32_t count, std::string_view kind,
                            std::vector<aer::NameRun>& out) const {
         for (std::uint32_t k = 0; k < count; ++k) {
             const auto number = [&](std::size_t field) { return number_at<std::uint32_t>(text, at + 4 * field); };
             if (text.size() - at < aer::run_bytes || text.size() - at - aer::run_bytes < number(4))
-                return format_error(fmt::format("the names of the {} end within run {} of {}", of, k + 1, count));
+                return format_error(fmt::format("the names of the {} end within run {} of {}", kind, k + 1, count));
             aer::NameRun run{number(0), number(1), number(2), number(3), {}};
-            if (run.stride == 0 || run.count == 0) return format_error(fmt::format("run {} of {} has a stride or a count of 0", k + 1, of));
+            if (run.stride == 0 || run.count == 0)
+                return format_error(fmt::format("run {} of {} has a stride or a count of 0", k + 1, kind));
             run.name.assign(reinterpret_cast<const char*>(text.data()) + at + aer::run_bytes, number(4));
             at = std::min<std::size_t>(text.size(), at + aer::run_bytes + (number(4) + std::size_t{3}) / 4 * 4);
             out.push_back(std::move(run));
@@ -118,7 +119,7 @@ class AerFile {
         return nullptr;
     }
 
-    /// The names of afferent and channel: "sa1" and "fz". Without a channel "sa1#17", without a name the address.
+    /// The names of afferent and channel: {"sa1", "fz"}. Without a channel {"sa1#17", ""}; without a name the address is the name.
     std::pair<std::string, std::string> names_of(std::uint32_t address) const {
         const auto *const run = run_at(runs_, address), *const channel = run_at(channels_, address);
         if (!run) return {std::to_string(address), channel ? channel->name : ""};

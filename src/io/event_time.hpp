@@ -7,11 +7,11 @@
 
 namespace corpuscle {
 
-/// The clock has rate_numerator samples in rate_denominator seconds. Such cycles are counted as integers, and only the remainder of less
-/// than one cycle is a double. So a spike after a year is as precise as the first one.
+/// A cycle is rate_numerator samples, which last rate_denominator seconds. Complete cycles are counted as integers, and only the
+/// remainder is a double, so a spike after a year is as precise as the first one.
 class EventTime {
-    std::int64_t samples_per_cycle_, cycle_ns_, start_ns_;  // samples; ns; ns
-    double sample_ns_;                                      // ns
+    std::int64_t samples_per_cycle_, cycle_ns_, start_ns_;  // start_ns_: time of sample 0
+    double sample_ns_;                                      // sample period
 
 public:
     explicit EventTime(const Clock& clock)

@@ -31,7 +31,7 @@ char* put_seconds(std::int64_t ns, char* at) {
     return at + 10;
 }
 
-/// A text format: the time of a spike between two texts that depend on the afferent.
+/// A text format. A spike is its time between two texts that depend on the afferent.
 class TextEvents final : public EventFormat {
     static constexpr std::size_t max_time = 21 + 10;
     std::string_view name_;

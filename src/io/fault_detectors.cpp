@@ -34,20 +34,20 @@ constexpr std::int64_t chunk = 4096;  // samples; windows do not extend over the
 void OutlierDetector::examine(std::span<const double> more) {
     chunk_.insert(chunk_.end(), more.begin(), more.end());
     const std::size_t n = chunk_.size() > 6 ? chunk_.size() - 6 : 0;
-    double off[chunk + 6], alone[chunk + 6];
+    double deviation[chunk + 6], isolation[chunk + 6];
     const double* const x = chunk_.data();
     for (std::size_t k = 0; k < n; ++k) {
         const double middle = x[k + 3], left = middle - x[k + 2], right = middle - x[k + 4];
-        off[k] = std::abs(middle - median_of_seven(x + k));
+        deviation[k] = std::abs(middle - median_of_seven(x + k));
         const double nearer = std::abs(left) < std::abs(right) ? std::abs(left) : std::abs(right);
-        const double smallest = nearer < off[k] ? nearer : off[k];
-        alone[k] = left * right > 0 ? smallest : 0;
+        const double smallest = nearer < deviation[k] ? nearer : deviation[k];
+        isolation[k] = left * right > 0 ? smallest : 0;
     }
     for (std::size_t k = 0; k < n; ++k) {
-        if (off[k] > 0) deviations_.add(off[k]);
-        if (!(alone[k] > 0)) continue;
-        isolations_.add(alone[k]);
-        if (min_isolation_ == 0 || alone[k] < min_isolation_) min_isolation_ = alone[k];
+        if (deviation[k] > 0) deviations_.add(deviation[k]);
+        if (!(isolation[k] > 0)) continue;
+        isolations_.add(isolation[k]);
+        if (min_isolation_ == 0 || isolation[k] < min_isolation_) min_isolation_ = isolation[k];
     }
     examined_ += static_cast<std::int64_t>(n);
     if (n > 0) chunk_.erase(chunk_.begin(), chunk_.end() - 6);

@@ -1,6 +1,7 @@
 #pragma once
 // Detectors of recording faults. They run while a channel is read, with bounded memory, and do not depend on the block size. In a
-// long recording every second is examined at first, later only one second in two, four and so on.
+// long recording the detectors of outliers and hum examine every chunk at first, later only one chunk in two, four and so on. A chunk
+// is 4096 samples for outliers and one second for hum.
 
 #include <array>
 #include <cstdint>
@@ -17,7 +18,7 @@ namespace corpuscle {
 class OutlierDetector {
     std::vector<double> chunk_;     // the last samples of the current chunk, at most six
     LogHistogram deviations_;       // distances from the median of seven
-    LogHistogram isolations_;       // the smallest of the three distances
+    LogHistogram isolations_;       // the smallest of the distances from both neighbours and the median
     double min_isolation_ = 0;      // the smallest distance above 0: the resolution of the sensor
     std::vector<double> retained_;  // samples at increasing intervals, for the quartiles
     std::int64_t seen_ = 0, examined_ = 0, stride_ = 1, next_retained_ = 0;
@@ -29,12 +30,12 @@ class OutlierDetector {
 public:
     void add(std::span<const double>);
     std::int64_t examined() const { return examined_; }
-    /// The number of outliers among the examined samples. Their distance is more than eight times the median distance, a tenth of the
-    /// interquartile range, and four times the resolution.
+    /// The number of outliers among the examined samples. The isolation of an outlier exceeds 8 times the median deviation, a tenth of
+    /// the interquartile range, and 4 times the resolution.
     std::int64_t count() const;
 };
 
-/// Detects a saturated sensor or converter, which returns to its highest value and stays there.
+/// Detects a saturated sensor or converter: it reaches its highest value repeatedly and stays there.
 class SaturationDetector {
     double highest_ = -1e308, lowest_ = 1e308;
     std::int64_t run_ = 0, runs_ = 0, at_highest_ = 0, seen_ = 0;
@@ -43,6 +44,7 @@ public:
     void add(std::span<const double>);
     double highest() const { return highest_; }
     bool varies() const { return lowest_ < highest_; }
+    /// The fraction of the samples at the highest value.
     double fraction() const { return seen_ > 0 ? static_cast<double>(at_highest_) / static_cast<double>(seen_) : 0; }
     bool is_likely() const { return runs_ >= 3; }  ///< the highest value was held at least three times for three samples or more
 };
@@ -54,7 +56,7 @@ class SumDetector {
     bool is_sum(std::size_t c, std::size_t from, std::size_t to) const;
 
 public:
-    struct Sum {
+    struct Sum {  // `channel` is the sum of the channels `from` to `to`
         std::size_t channel, from, to;
     };
     /// Adds a block with one vector for each channel. Only the first `channels` vectors are channels.
@@ -62,16 +64,18 @@ public:
     std::vector<Sum> find_sums() const;
 };
 
-/// Tables that all channels of one clock share to detect hum: windowed sines below, at and above 50 and 60 Hz, one second long.
+/// Tables that all channels of one clock share to detect hum: windowed phasors, one second long, at six frequencies (50 and 60 Hz, and
+/// 6 Hz below and above each of them).
 struct HumTable {
     static constexpr std::size_t line_count = 6;
     struct Phasors {
         double re[line_count], im[line_count];
     };
     double mains[2] = {50, 60};
-    std::int64_t decimation = 1;  ///< decimation factor, so that a second has about a thousand samples at most
-    std::vector<Phasors> second;
+    std::int64_t decimation = 1;  ///< this number of samples is averaged, so that a second has fewer than 2000 samples
+    std::vector<Phasors> second;  ///< for each decimated sample of a second; empty if the sample rate is below 2 Hz
     explicit HumTable(const Clock&);
+    /// True if the sample rate suffices for mains[which].
     bool covers(std::size_t which) const { return static_cast<double>(second.size()) > 2.2 * mains[which]; }
 };
 

@@ -5,8 +5,8 @@
 
 namespace corpuscle {
 
-ForceRows::ForceRows(RowReader rows, std::vector<ChannelPipeline> paths, std::string path, std::vector<std::string> names, bool timed)
-    : rows_(std::move(rows)), paths_(std::move(paths)), path_(std::move(path)), names_(std::move(names)),
+ForceRows::ForceRows(RowReader rows, std::vector<ChannelPipeline> pipelines, std::string path, std::vector<std::string> names, bool timed)
+    : rows_(std::move(rows)), paths_(std::move(pipelines)), path_(std::move(path)), names_(std::move(names)),
       ready_(paths_.size() + (timed ? 1 : 0)) {
     if (timed) times_.emplace();
 }

@@ -16,7 +16,7 @@ class ForceRows {
     std::vector<ChannelPipeline> paths_;
     std::string path_;                // of the file, for errors
     std::vector<std::string> names_;  // of the channels, for errors
-    std::optional<GapFiller> times_;  // if each row has its own time
+    std::optional<GapFiller> times_;  // fills gaps in the times; set if each row has its own time
     SumDetector sums_;
     std::vector<std::vector<double>> block_;  // as read
     std::vector<std::vector<double>> ready_;  // for each channel, in newtons; then the times
@@ -27,14 +27,14 @@ class ForceRows {
     Result<void> read_block();
 
 public:
-    /// `rows` provides the channels in the order of `paths`. If `timed`, the next column is the time; otherwise it is ignored.
-    ForceRows(RowReader rows, std::vector<ChannelPipeline> paths, std::string path, std::vector<std::string> names, bool timed);
+    /// `rows` provides the channels in the order of `pipelines`. If `timed`, the next column is the time; otherwise it is ignored.
+    ForceRows(RowReader rows, std::vector<ChannelPipeline> pipelines, std::string path, std::vector<std::string> names, bool timed);
 
-    /// Reads until a row is ready. Returns false at the end.
+    /// Reads blocks until a row is ready. Returns false at the end of the file.
     Result<bool> fetch_row();
     std::size_t ready_rows() const;
     double force(std::size_t channel) const { return ready_[channel][consumed_]; }
-    double time() const { return ready_.back()[consumed_]; }  ///< as in the file; only if `timed`
+    double time() const { return ready_.back()[consumed_]; }  ///< in the unit of the file; only if `timed`
     void advance(std::size_t rows = 1) { consumed_ += rows; }
     const double* ready_data(std::size_t channel) const { return ready_[channel].data() + consumed_; }
 

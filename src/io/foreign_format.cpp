@@ -14,7 +14,7 @@ struct ForeignFormat {
     std::string_view first;      ///< the first bytes of the file
     std::string_view within;     ///< a text that must also occur in the first bytes
     std::string_view extension;  ///< the file extension, which can replace `within`
-    std::string_view what;
+    std::string_view description;
     std::string_view needs;  ///< Python packages, or programs, that the command needs
     /// {0} is the file, {1} the new name without extension, both for Python. {2} and {3} are the same for a shell.
     std::string_view command;
@@ -63,14 +63,15 @@ constexpr PackedFormat packed_formats[] = {
 
 /// Supported binary formats, which are recognised by their file extension.
 struct BinaryFormat {
-    std::string_view first, what, extension;
+    std::string_view first, description, extension;
 };
 constexpr BinaryFormat binary_formats[] = {
     {"\x89HDF", "an HDF5 file", ".h5"}, {"\x93NUMPY", "a NumPy array", ".npy"}, {"PK\x03\x04", "a NumPy archive", ".npz"},
     {"RIFF", "a WAV file", ".wav"},     {"fLaC", "a FLAC file", ".flac"},
 };
 
-bool plain_word(const std::string& path) {
+/// True if the path needs no quotes in a shell and cannot be taken for an option.
+bool is_safe_in_shell(const std::string& path) {
     return !path.empty() && path.front() != '-' && std::all_of(path.begin(), path.end(), [](unsigned char c) {
         return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '.' || c == '_' || c == '/' || c == '-' ||
                c == '+';
@@ -88,14 +89,14 @@ std::string message_for(const ForeignFormat& f, const std::string& path) {
     // A name that cannot be quoted in Python within a double-quoted shell word is replaced by FILE.
     const bool simple = std::all_of(name.begin(), name.end(), [](unsigned char c) { return c >= ' ' && !std::strchr("'\"\\$`!", c); });
     const std::string file = simple ? name : "FILE", stem = simple ? stem_of(name) : "FILE";
-    return fmt::format("this is {}, which is not supported; with {}, convert it like this: {}", f.what, f.needs,
+    return fmt::format("this is {}, which is not supported; with {}, convert it like this: {}", f.description, f.needs,
                        fmt::format(fmt::runtime(f.command), "'" + file + "'", "'" + stem, quote_shell_word(file), quote_shell_word(stem)));
 }
 
 }  // namespace
 
 std::string quote_shell_word(const std::string& path) {
-    if (plain_word(path)) return path;
+    if (is_safe_in_shell(path)) return path;
     std::string out = "'";
     for (const char c : path) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
     return out + "'";
@@ -130,7 +131,7 @@ std::string describe_misnamed_format(std::string_view first, const std::string& 
     for (const auto& m : binary_formats)
         if (first.starts_with(m.first)) {
             const auto to = stem_of(path).empty() ? "FILE" : stem_of(path);
-            return fmt::format("this is {}, but its file extension is wrong; give it the right name: ln -s {} {}", m.what,
+            return fmt::format("this is {}, but its file extension is wrong; give it the right name: ln -s {} {}", m.description,
                                quote_shell_word(path), quote_shell_word(to + std::string(m.extension)));
         }
     return "";

@@ -13,8 +13,8 @@ std::string describe_foreign_format(std::string_view first, const std::string& p
 /// The same for binary files of supported formats (HDF5, NumPy ...) with the wrong file extension.
 std::string describe_misnamed_format(std::string_view first, const std::string& path);
 
-/// A command that decompresses a file with gzip, bzip2, xz or zstd. The output is called like the file without `extension`, or
-/// name-unpacked.
+/// A command that decompresses a file with gzip, bzip2, xz or zstd. The name of its output is the file name without `extension`. If the
+/// file has another extension, "-unpacked" replaces it.
 std::string unpack_command(const std::string& program, std::string_view extension, const std::string& path);
 
 /// A path as a shell word, quoted if necessary.

@@ -1,5 +1,5 @@
 #pragma once
-// A dataset of an HDF5 file as a table: plain, compound, or a time series of NWB.
+// A dataset of an HDF5 file as a table: of numbers, of a compound type, or a time series of NWB (Neurodata Without Borders).
 
 #include "io/table.hpp"
 

@@ -30,12 +30,12 @@ constexpr std::string_view never_force[] = {"hex",     "deg", "\u00b0", "rad",  
 /// Suffixes that are usually not units (left_F, sensor_A).
 constexpr std::string_view ambiguous_units[] = {"", "1", "F", "A", "S", "T", "C", "K", "h", "min"};
 
-/// True if the name shows that such a suffix is a unit: temp_C, motor_current_A.
-bool shows_unit(std::string_view name, std::string_view letter) {
+/// True if the name shows that an ambiguous suffix is a unit: temp_C, motor_current_A.
+bool shows_unit(std::string_view name, std::string_view suffix) {
     const auto n = lower(name);
-    if (letter == "C" || letter == "K" || letter == "F") return contains_any(n, {"temp", "therm"}) || (n == "t" && letter != "F");
-    if (letter == "h" || letter == "min") return may_be_time_name(n);
-    return letter == "A" && (contains_any(n, {"current", "strom"}) || n == "i");
+    if (suffix == "C" || suffix == "K" || suffix == "F") return contains_any(n, {"temp", "therm"}) || (n == "t" && suffix != "F");
+    if (suffix == "h" || suffix == "min") return may_be_time_name(n);
+    return suffix == "A" && (contains_any(n, {"current", "strom"}) || n == "i");
 }
 
 /// True if the suffix `s` of a heading is a unit.

@@ -21,7 +21,7 @@ Error cannot_start(const std::string& program, int error) {
     return bad_input(fmt::format("{} cannot be started: {}", program, std::strerror(error)));
 }
 
-/// A copy of a descriptor with a number above those that the child gets, so that creating those does not overwrite it.
+/// A duplicate of a descriptor, with a number of at least 10. The child's descriptors 3 and 4 are then created without overwriting it.
 class HighDescriptor {
     int number_;
 
@@ -46,7 +46,8 @@ std::vector<char*> environment() {
     return kept;
 }
 
-/// Starts the program with default signal handling and only these two descriptors.
+/// Starts the program with default signal handling. Its descriptors are /dev/null (0 to 2), the socket and the file. Returns an error
+/// number, or 0.
 int spawn(const std::string& program, const std::string& argument, int socket, int file, pid_t& child) {
     posix_spawn_file_actions_t actions;
     posix_spawnattr_t attributes;
@@ -62,8 +63,8 @@ int spawn(const std::string& program, const std::string& argument, int socket, i
     ::posix_spawnattr_setsigmask(&attributes, &none);
     ::posix_spawnattr_setsigdefault(&attributes, &all);
     ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
-    auto name = program, word = argument;
-    char* arguments[] = {name.data(), word.data(), nullptr};
+    auto program_copy = program, argument_copy = argument;  // posix_spawn expects char*
+    char* arguments[] = {program_copy.data(), argument_copy.data(), nullptr};
     const int failed = ::posix_spawn(&child, program.c_str(), &actions, &attributes, arguments, environment().data());
     ::posix_spawn_file_actions_destroy(&actions);
     ::posix_spawnattr_destroy(&attributes);
@@ -112,7 +113,7 @@ Result<Message> HelperProcess::receive(const std::string& path, const std::strin
 }
 
 Error HelperProcess::failure(const std::string& path, const std::string& library) {
-    const bool silent = errno == EAGAIN || errno == EWOULDBLOCK;
+    const bool timed_out = errno == EAGAIN || errno == EWOULDBLOCK;
     int status = 0;
     const pid_t child = std::exchange(child_, -1);
     if (child > 0) ::kill(child, SIGKILL);  // the child may have closed the socket without exiting
@@ -120,7 +121,7 @@ Error HelperProcess::failure(const std::string& path, const std::string& library
     }
     const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
     if (signal == SIGINT || signal == SIGTERM || signal == SIGHUP) return {ErrorCode::interrupted, "interrupted", {path}};
-    if (silent || signal == SIGALRM)
+    if (timed_out || signal == SIGALRM)
         return bad_input(fmt::format("{} did not read this file within {} s; it may be damaged", library, response_timeout_s), {path});
     if (signal == 0 && WEXITSTATUS(status) == exit_unknown_protocol)
         return bad_input(fmt::format("{} belongs to another version of Corpuscle; install both from the same version", program_), {path});

@@ -1,5 +1,5 @@
 #pragma once
-// A child process that reads one file with a library that damaged files can crash or block. A crash in the child becomes an error.
+// A child process that reads one file with a library that may crash or hang on a damaged file. A crash of the child becomes an error.
 
 #include <sys/types.h>
 
@@ -35,7 +35,8 @@ public:
     pid_t pid() const { return child_; }
 
     void send(const Message& m) { (void)m.send(socket_); }  // receive() reports a child that has exited
-    /// The next message. If there is none, an error about the file that begins with `library`.
+    /// Receives the next message. If the child crashes or does not respond in time, returns an error for the file `path` that names
+    /// `library`.
     Result<Message> receive(const std::string& path, const std::string& library);
 };
 

@@ -19,7 +19,7 @@ constexpr int max_depth = 16;
 
 /// Replaces NaN and Infinity, which Python writes but JSON does not have, by null. Returns nullopt if brackets are nested too deep.
 /// Stops after `max_bytes` bytes of output, and stores the number of bytes read in `read`.
-std::optional<std::string> plain_json(std::string_view text, std::size_t max_bytes = std::string_view::npos, std::size_t* read = nullptr) {
+std::optional<std::string> strict_json(std::string_view text, std::size_t max_bytes = std::string_view::npos, std::size_t* read = nullptr) {
     std::string out;
     out.reserve(std::min(text.size(), max_bytes));
     bool quoted = false;
@@ -80,7 +80,7 @@ class DocumentBuilder {
 public:
     explicit DocumentBuilder(const std::function<bool()>& keep_on) : keep_on_(keep_on) {}
     OrderedJson document;
-    std::optional<std::size_t> wrong_at;  ///< position of a syntax error in bytes
+    std::optional<std::size_t> syntax_error_at;  ///< position in bytes
     bool interrupted = false;
 
     bool null() { return add(nullptr); }
@@ -96,16 +96,16 @@ public:
     bool end_object() { return open_.pop_back(), true; }
     bool end_array() { return open_.pop_back(), true; }
     bool parse_error(std::size_t byte, const std::string&, const nlohmann::json::exception& e) {
-        constexpr int first_of_syntax = 100, behind_syntax = 200;
-        if (e.id >= first_of_syntax && e.id < behind_syntax) wrong_at = byte;
+        constexpr int first_syntax_error = 100, end_of_syntax_errors = 200;  // nlohmann's ids of syntax errors
+        if (e.id >= first_syntax_error && e.id < end_of_syntax_errors) syntax_error_at = byte;
         return false;
     }
 };
 
 class JsonReader {
-    using Take = std::function<Result<void>(std::span<const JsonField>, long)>;
+    using RecordHandler = std::function<Result<void>(std::span<const JsonField>, long)>;
     LineReader& lines_;
-    const Take& take_;
+    const RecordHandler& on_record_;
     const std::function<bool()>& keep_on_;
     JsonMetadata* metadata_;
     std::vector<JsonField> fields_;
@@ -113,14 +113,14 @@ class JsonReader {
     Error error_at(std::string message, long line = 0) const { return bad_input(std::move(message), {lines_.path(), line}); }
 
     Result<OrderedJson> parse(std::string_view text, long line) const {
-        const auto plain = plain_json(text);
-        if (!plain) return error_at(fmt::format("this JSON is nested more than {} deep, so it is not a table", max_depth), line);
+        const auto strict = strict_json(text);
+        if (!strict) return error_at(fmt::format("this JSON is nested more than {} deep, so it is not a table", max_depth), line);
         DocumentBuilder builder(keep_on_);
-        if (OrderedJson::sax_parse(*plain, &builder)) return std::move(builder.document);
+        if (OrderedJson::sax_parse(*strict, &builder)) return std::move(builder.document);
         if (builder.interrupted) return Error{ErrorCode::interrupted, "interrupted"};
-        if (!builder.wrong_at) return error_at("this JSON contains a number that is too large", line);
+        if (!builder.syntax_error_at) return error_at("this JSON contains a number that is too large", line);
         std::size_t at = 0;  // position in the original text
-        static_cast<void>(plain_json(text, std::min(*builder.wrong_at, plain->size()), &at));
+        static_cast<void>(strict_json(text, std::min(*builder.syntax_error_at, strict->size()), &at));
         const auto before = text.substr(0, at);
         const auto above = std::count(before.begin(), before.end(), '\n');
         const auto column = at - (above > 0 ? before.rfind('\n', at - 1) + 1 : 0);
@@ -139,27 +139,27 @@ class JsonReader {
         }
     }
 
-    Result<void> give(const OrderedJson& record, long line) {
+    Result<void> emit_record(const OrderedJson& record, long line) {
         fields_.clear();
         flatten("", record);
-        return take_(fields_, line);
+        return on_record_(fields_, line);
     }
 
-    Result<void> give_rows(const OrderedJson& list) {
+    Result<void> emit_records(const OrderedJson& list) {
         for (const auto& record : list)
-            if (auto ok = give(record, 0); !ok) return ok;
+            if (auto ok = emit_record(record, 0); !ok) return ok;
         return {};
     }
 
     /// {"columns": [...], "data": [[...]]}, as pandas writes it with orient="split".
-    Result<void> give_split(const OrderedJson& names, const OrderedJson& data) {
+    Result<void> emit_split_records(const OrderedJson& names, const OrderedJson& data) {
         for (const auto& row : data) {
             if (!row.is_array() || row.size() != names.size())
                 return error_at(fmt::format("a row of 'data' does not have the {} fields of 'columns'", names.size()));
             fields_.clear();
             for (std::size_t c = 0; c < names.size(); ++c)
                 flatten(names[c].is_string() ? names[c].get<std::string>() : names[c].dump(), row[c]);
-            if (auto ok = take_(fields_, 0); !ok) return ok;
+            if (auto ok = on_record_(fields_, 0); !ok) return ok;
         }
         return {};
     }
@@ -197,7 +197,7 @@ class JsonReader {
     }
 
     /// Removes lists of strings that are not as long as the lists of numbers, because they do not belong to the table.
-    void leave_out_other_lists(std::vector<JsonColumn>& columns) const {
+    void exclude_unrelated_lists(std::vector<JsonColumn>& columns) const {
         const auto has_numbers = [](const JsonColumn& c) {
             return std::any_of(c.values.begin(), c.values.end(), [](const OrderedJson* v) { return v->is_number(); });
         };
@@ -213,13 +213,13 @@ class JsonReader {
         });
     }
 
-    Result<void> give_columns(const OrderedJson& object) {
+    Result<void> emit_columns(const OrderedJson& object) {
         std::vector<JsonColumn> columns;
         find_columns("", object, columns);
         if (columns.empty())
             return error_at(
                 "no table in this JSON; expected one record on each line, a list of records, or an object of lists of equal length");
-        leave_out_other_lists(columns);
+        exclude_unrelated_lists(columns);
         const auto rows = columns[0].values.size();
         for (const auto& c : columns)
             if (c.values.size() != rows)
@@ -228,22 +228,22 @@ class JsonReader {
         for (std::size_t r = 0; r < rows; ++r) {
             fields_.clear();
             for (const auto& c : columns) fields_.push_back({c.name, c.values[r]});
-            if (auto ok = take_(fields_, 0); !ok) return ok;
+            if (auto ok = on_record_(fields_, 0); !ok) return ok;
         }
         return {};
     }
 
-    Result<void> give_document(const OrderedJson& all) {
-        if (all.is_array()) return give_rows(all);
+    Result<void> emit_document(const OrderedJson& all) {
+        if (all.is_array()) return emit_records(all);
         if (!all.is_object()) return error_at("no table in this JSON: it holds a single value");
         if (all.contains("columns") && all["columns"].is_array() && all.contains("data") && all["data"].is_array())
-            return give_split(all["columns"], all["data"]);
+            return emit_split_records(all["columns"], all["data"]);
         if (metadata_) read_metadata(all);
         const OrderedJson* records = nullptr;
         std::size_t lists = 0;
         for (const auto& member : all)
             if (member.is_array() && !member.empty()) ++lists, records = member[0].is_structured() ? &member : records;
-        return lists == 1 && records ? give_rows(*records) : give_columns(all);
+        return lists == 1 && records ? emit_records(*records) : emit_columns(all);
     }
 
     /// True if the first line is a complete record, followed by another one or by nothing.
@@ -251,7 +251,7 @@ class JsonReader {
         std::string_view line;
         std::string first;
         std::size_t lines = 0;
-        bool alike = true;
+        bool same_bracket = true;
         for (;;) {
             const auto more = lines_.next(line);
             if (!more) return more.error();
@@ -260,11 +260,11 @@ class JsonReader {
             if (text.empty()) continue;
             if (++lines == 1)
                 first = text;
-            else if (alike = text.front() == first.front(); true)
+            else if (same_bracket = text.front() == first.front(); true)
                 break;
         }
         if (auto ok = lines_.rewind(); !ok) return ok.error();
-        if (lines == 0 || !alike || first.size() > max_document) return false;
+        if (lines == 0 || !same_bracket || first.size() > max_document) return false;
         const auto record = parse(first, 1);
         if (!record && record.error().code == ErrorCode::interrupted) return record.error();
         if (!record || !record->is_structured()) return false;
@@ -282,7 +282,7 @@ class JsonReader {
             if (!record) return record.error();
             if (!record->is_structured())
                 return error_at("expected a record here, such as {\"time_s\": 0, \"fz_N\": 1}", lines_.line_number());
-            if (auto ok = give(*record, lines_.line_number()); !ok) return ok;
+            if (auto ok = emit_record(*record, lines_.line_number()); !ok) return ok;
         }
     }
 
@@ -301,12 +301,12 @@ class JsonReader {
         }
         if (!text.empty()) text.pop_back();  // the last line ending, which the file may not have
         const auto all = parse(text, 1);
-        return all ? give_document(*all) : all.error();
+        return all ? emit_document(*all) : all.error();
     }
 
 public:
-    JsonReader(LineReader& lines, const Take& take, const std::function<bool()>& keep_on, JsonMetadata* metadata)
-        : lines_(lines), take_(take), keep_on_(keep_on), metadata_(metadata) {}
+    JsonReader(LineReader& lines, const RecordHandler& on_record, const std::function<bool()>& keep_on, JsonMetadata* metadata)
+        : lines_(lines), on_record_(on_record), keep_on_(keep_on), metadata_(metadata) {}
 
     Result<void> read() {
         const auto by_line = are_json_lines();
@@ -317,9 +317,9 @@ public:
 
 }  // namespace
 
-Result<void> read_json_records(LineReader& lines, const std::function<Result<void>(std::span<const JsonField>, long line)>& take,
+Result<void> read_json_records(LineReader& lines, const std::function<Result<void>(std::span<const JsonField>, long line)>& on_record,
                                const std::function<bool()>& keep_on, JsonMetadata* metadata) {
-    return JsonReader(lines, take, keep_on, metadata).read();
+    return JsonReader(lines, on_record, keep_on, metadata).read();
 }
 
 Result<bool> looks_like_json(LineReader& lines) {

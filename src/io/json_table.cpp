@@ -29,9 +29,10 @@ class JsonTable final : public Table {
     std::vector<long> lines_;  // line number of each record, for JSON lines
     ColumnRoles roles_;
     JsonMetadata metadata_;
-    std::size_t rows_ = 0, next_ = 0, block_ = 0, numbers_ = 0;
+    std::size_t rows_ = 0, numbers_ = 0;  // numbers_: values in all columns
+    std::size_t next_ = 0, block_ = 0;    // next row to read, first row of the last block
 
-    static constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    static constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 
     Error error_at(std::string message, long line) const { return bad_input(std::move(message), {path_, line}); }
 
@@ -45,7 +46,7 @@ class JsonTable final : public Table {
         }
         const auto stamp = parse_time_stamp(word);
         if (first) first->add_other(stamp ? first->stamp_count : first->word_count);
-        if (!stamp) return none;
+        if (!stamp) return missing;
         if (!v.stamp) v.stamp = stamp;
         return seconds_between(*v.stamp, *stamp);
     }
@@ -53,7 +54,7 @@ class JsonTable final : public Table {
     double number_of(const nlohmann::ordered_json& value, Values& v) {
         FirstFields* const first = rows_ < inspected_rows ? &v.first : nullptr;
         if (value.is_string()) return number_of(value.get_ref<const std::string&>(), v, first);
-        const double x = value.is_number() ? value.get<double>() : none;
+        const double x = value.is_number() ? value.get<double>() : missing;
         if (first) std::isnan(x) ? first->add_other(value.is_boolean() ? first->word_count : first->empty_count) : first->add_number(x);
         return x;
     }
@@ -72,7 +73,7 @@ class JsonTable final : public Table {
             numbers_ += rows_ + 1 - v.numbers.size();
             if (numbers_ > max_json_numbers)
                 return error_at("the table is too large for memory; save it as CSV, which is read in blocks", line);
-            v.numbers.resize(rows_, none);
+            v.numbers.resize(rows_, missing);
             for (std::size_t k = v.first.numbers.size(); k < std::min(rows_, inspected_rows); ++k) v.first.add_other(v.first.empty_count);
             v.numbers.push_back(number_of(*f.value, v));
         }
@@ -85,17 +86,17 @@ public:
     explicit JsonTable(std::string path) : path_(std::move(path)) {}
 
     Result<void> open(LineReader& lines, const std::function<bool()>& keep_on) {
-        const auto take = [this, &keep_on](auto fields, long line) {
+        const auto on_record = [this, &keep_on](auto fields, long line) {
             if (rows_ % rows_per_block == 0 && !keep_on()) return Result<void>(Error{ErrorCode::interrupted, "interrupted"});
             return add(fields, line);
         };
-        if (auto ok = read_json_records(lines, take, keep_on, &metadata_); !ok) return ok;
+        if (auto ok = read_json_records(lines, on_record, keep_on, &metadata_); !ok) return ok;
         if (rows_ == 0 || columns_.empty()) return bad_input("no data in this file", {path_});
         if (rows_ > max_json_numbers / columns_.size())
             return bad_input("the table is too large for memory; save it as CSV, which is read in blocks", {path_});
         std::vector<FirstFields> first;
         for (auto& v : values_) {
-            v.numbers.resize(rows_, none);
+            v.numbers.resize(rows_, missing);
             for (std::size_t k = v.first.numbers.size(); k < std::min(rows_, inspected_rows); ++k) v.first.add_other(v.first.empty_count);
             first.push_back(std::move(v.first));
         }
@@ -142,7 +143,7 @@ public:
                                 "skip the record",
                                 next_ + row + 1, columns_[wanted[i]].name),
                     lines_.empty() ? SourceLocation{path_} : location(row));
-            std::replace_if(out[i].begin(), out[i].end(), [](double x) { return std::isinf(x); }, none);
+            std::replace_if(out[i].begin(), out[i].end(), [](double x) { return std::isinf(x); }, missing);
         }
         next_ += count;
         return count;

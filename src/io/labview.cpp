@@ -18,7 +18,7 @@ class LabviewReader {
     Fields fields_;
     std::vector<std::string> units_;
     double step_ = 0;
-    bool time_ = true;
+    bool is_time_axis_ = true;
     std::string x_columns_ = "One";
 
     void split(std::size_t k) { head_.dialect.split(lines_[k], fields_); }
@@ -30,14 +30,14 @@ class LabviewReader {
         const auto name = fields_[0];
         if (name == "Decimal_Separator") head_.dialect.decimal_comma = fields_[1] == ",";
         if (name == "X_Columns") x_columns_ = fields_[1];
-        if (name == "X_Dimension") time_ = fields_[1] == "Time";
+        if (name == "X_Dimension") is_time_axis_ = fields_[1] == "Time";
         if (name == "Y_Unit_Label") units_.assign(fields_.begin() + 1, fields_.end());
         if (name == "Delta_X") {
             head_.dialect.parse_number(fields_[1], step_);
-            delta_column_ = true;
+            has_delta_ = true;
         }
     }
-    bool delta_column_ = false;
+    bool has_delta_ = false;
 
     /// Reads the column names: X_Value, one for each channel, Comment. If every channel has its own X_Value, only the first is the time.
     void read_names(std::size_t k) {
@@ -48,7 +48,7 @@ class LabviewReader {
             if (name == "X_Value") {
                 const bool first = head_.columns.empty();
                 if (first && x_columns_ != "No")
-                    column = {time_ ? "time" : "X_Value", time_ ? "s" : ""};
+                    column = {is_time_axis_ ? "time" : "X_Value", is_time_axis_ ? "s" : ""};
                 else
                     column.exclusion_reason = x_columns_ == "No" ? "is empty" : "is the clock of another channel";
             } else if (name == "Comment") {
@@ -60,7 +60,7 @@ class LabviewReader {
             head_.columns.push_back(std::move(column));
         }
         while (!head_.columns.empty() && head_.columns.back().name.empty()) head_.columns.pop_back();
-        if (x_columns_ == "No" && delta_column_ && step_ > 0) head_.rate = 1 / step_;
+        if (x_columns_ == "No" && has_delta_ && step_ > 0) head_.rate = 1 / step_;
     }
 
 public:

@@ -78,7 +78,7 @@ std::string LineReader::copy_command(const std::string& filter, const std::strin
     auto name = fs::path(path_).filename();
     if (lower(name.extension().string()) == ".gz") name = name.stem();
     const auto stem = name.stem().string() + mark, extension = name.extension().string();
-    const auto is_there = [&](const fs::path& file) {  // also in the recording's folder, which may be another one
+    const auto is_there = [&](const fs::path& file) {  // in the working directory or in the recording's folder
         return fs::exists(fs::symlink_status(file, status)) || fs::exists(fs::symlink_status(fs::path(path_).parent_path() / file, status));
     };
     std::string copy = stem + extension;

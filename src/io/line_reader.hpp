@@ -17,8 +17,8 @@ class LineReader {
     std::size_t filled_ = 0;                           // bytes of the buffer that hold text
     std::size_t position_ = 0;                         // position of the next line in the buffer
     long line_number_ = 0;                             // number of the last line returned
-    double bytes_read_ = 0;                            // bytes read so far
-    bool ended_ = false, is_start_discarded_ = false;  // lost_: the beginning of the file is no longer in the buffer
+    double bytes_read_ = 0;                            // from the file
+    bool ended_ = false, is_start_discarded_ = false;  // is_start_discarded_: the beginning of the file is no longer in the buffer
 
     Result<bool> fill();
 

@@ -8,7 +8,7 @@
 namespace corpuscle {
 namespace {
 
-constexpr std::uint64_t max_message = std::uint64_t{1} << 30;
+constexpr std::uint64_t max_message = std::uint64_t{1} << 30;  // bytes
 constexpr std::size_t chunk_bytes = std::size_t{1} << 20;
 
 bool send_all(int socket, const void* data, std::size_t size) {

@@ -36,10 +36,10 @@ template <bool swap>
 double half(const std::byte* at) {
     const unsigned bits = stored<std::uint16_t, swap>(at), mantissa = bits & 0x3ff;
     const int exponent = static_cast<int>(bits >> 10 & 31);
-    const double size = exponent == 31  ? (mantissa ? std::nan("") : INFINITY)
-                        : exponent == 0 ? std::ldexp(mantissa, -24)
-                                        : std::ldexp(mantissa + 1024, exponent - 25);
-    return bits >> 15 ? -size : size;
+    const double magnitude = exponent == 31  ? (mantissa ? std::nan("") : INFINITY)
+                             : exponent == 0 ? std::ldexp(mantissa, -24)
+                                             : std::ldexp(mantissa + 1024, exponent - 25);
+    return bits >> 15 ? -magnitude : magnitude;
 }
 
 double boolean(const std::byte* at) { return *at == std::byte{0} ? 0 : 1; }
@@ -82,6 +82,7 @@ std::optional<NpyField> parse_type(std::string_view text) {
     return field;
 }
 
+/// The number of elements of this shape. Returns max_header if it is too large for std::size_t.
 std::size_t elements_of(const PythonLiteral& shape) {
     std::size_t product = 1;
     for (const auto& n : shape.items)
@@ -89,14 +90,15 @@ std::size_t elements_of(const PythonLiteral& shape) {
     return product;
 }
 
-/// Parses a type name, or the list of fields of a structured type: (name, type) or (name, type, shape).
-std::optional<std::vector<NpyField>> parse_fields(const PythonLiteral& type, std::size_t& element) {
+/// Parses a type name, or the list of fields of a structured type: (name, type) or (name, type, shape). Sets the size of an element in
+/// bytes.
+std::optional<std::vector<NpyField>> parse_fields(const PythonLiteral& type, std::size_t& element_size) {
     std::vector<NpyField> fields;
     if (type.kind == PythonLiteral::text) {
-        const auto plain = parse_type(type.characters);
-        if (!plain) return {};
-        element = plain->size;
-        return std::vector{*plain};
+        const auto scalar = parse_type(type.characters);
+        if (!scalar) return {};
+        element_size = scalar->size;
+        return std::vector{*scalar};
     }
     if (type.kind != PythonLiteral::list || type.items.empty()) return {};
     for (const auto& item : type.items) {
@@ -106,8 +108,8 @@ std::optional<std::vector<NpyField>> parse_fields(const PythonLiteral& type, std
         if (item.items.size() > 2) field->kind = 'V', field->size *= elements_of(item.items[2]);  // an array in each element
         if (field->size > max_header) return {};
         field->name = item.items[0].kind == PythonLiteral::text ? item.items[0].characters : "";
-        field->offset = element;
-        element += field->size;
+        field->offset = element_size;
+        element_size += field->size;
         if (field->name.empty()) field->kind = 'V';  // padding
         fields.push_back(*std::move(field));
     }

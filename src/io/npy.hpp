@@ -13,7 +13,7 @@ namespace corpuscle {
 struct NpyField {
     std::string name = {};             ///< "" if the type is not structured
     char kind = 'V';                   ///< NumPy's type letter: b i u f are numbers; c U S O V M m are not
-    std::size_t size = 0, offset = 0;  ///< bytes within an element
+    std::size_t size = 0, offset = 0;  ///< bytes; the offset is from the beginning of the element
     bool big_endian = false;
     bool is_numeric() const;
     /// A function that reads the number. Only for a numeric field.
@@ -31,7 +31,7 @@ struct NpyHeader {
     std::uint64_t element_count() const;  ///< number of elements
 };
 
-/// Reads versions 1, 2 and 3. An unknown type, or more elements than the file has bytes for, is an error.
+/// Reads versions 1, 2 and 3. Returns an error if the type is unknown or the file is shorter than the array.
 Result<NpyHeader> read_npy_header(SeekableBytes&);
 
 /// The header of a one-dimensional array of `count` elements.

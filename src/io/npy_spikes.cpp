@@ -10,8 +10,8 @@
 namespace corpuscle {
 namespace {
 
-/// The number of a train as its name.
-std::string unit_name(double x) { return std::floor(x) == x ? fmt::format("{:.0f}", x) : fmt::format("{}", x); }
+/// The name of an afferent or channel that the file identifies by a number.
+std::string name_of_number(double x) { return std::floor(x) == x ? fmt::format("{:.0f}", x) : fmt::format("{}", x); }
 
 /// True if the times look like sample numbers, as in spike_times.npy of Phy, which does not contain the rate.
 bool are_sample_numbers(const std::vector<double>& times) {
@@ -27,8 +27,8 @@ Result<std::vector<NamedTrain>> read_npy_spikes(const std::string& path, const S
     std::vector<std::string> headings;
     for (const auto& c : (*table)->columns()) headings.push_back(c.unit.empty() ? c.name : c.name + "_" + c.unit);
     if (headings.size() == 1) headings[0].clear();
-    const bool plain = headings.size() > 1 && headings[0] == "ch1";
-    if (plain && !(wanted.time && wanted.train))
+    const bool is_unnamed = headings.size() > 1 && headings[0] == "ch1";
+    if (is_unnamed && !(wanted.time && wanted.train))
         return bad_input(
             fmt::format("the array has {} columns; select the columns of times and trains, such as --time 1 --unit 2", headings.size()),
             {path});
@@ -39,19 +39,19 @@ Result<std::vector<NamedTrain>> read_npy_spikes(const std::string& path, const S
     if (found->afferent) columns.push_back(*found->afferent);
     if (found->channel) columns.push_back(*found->channel);
     TrainCollector trains;
-    std::vector<double> all;
+    std::vector<double> stored_times;
     for (std::vector<std::vector<double>> block(columns.size());;) {
         const auto rows = (*table)->read(columns, rows_per_block, block);
         if (!rows) return rows.error();
         if (*rows == 0) break;
         for (std::size_t k = 0; k < *rows; ++k) {
-            const auto afferent = found->afferent ? unit_name(block[1][k]) : std::string();
-            const auto channel = found->channel ? unit_name(block.back()[k]) : std::string();
+            const auto afferent = found->afferent ? name_of_number(block[1][k]) : std::string();
+            const auto channel = found->channel ? name_of_number(block.back()[k]) : std::string();
             trains.train(afferent, channel).push_back(block[0][k] * found->seconds_per_unit);
-            all.push_back(block[0][k]);
+            stored_times.push_back(block[0][k]);
         }
     }
-    if (found->seconds_per_unit == 1 && are_sample_numbers(all))
+    if (found->seconds_per_unit == 1 && are_sample_numbers(stored_times))
         return bad_input(
             fmt::format("the times are integers, as sample numbers are. Convert them to seconds with the sample rate: python3 -c "
                         "\"import numpy; numpy.save('seconds.npy', numpy.load('{}') / 30000)\"",

@@ -20,17 +20,17 @@ class NpySamples final : public Samples {
     NpyHeader header_;
     ArrayExtent extent_;
     bool by_columns_;               // the elements of a channel are contiguous
-    std::vector<NpyField> fields_;  // one for each column; a single one if the array is not is_structured
+    std::vector<NpyField> fields_;  // one for each column; a single one if the array is not structured
     SamplesInfo info_;
     std::vector<std::byte> buffer_;
 
     bool is_structured() const { return !header_.fields[0].name.empty(); }
     std::size_t field_of(std::size_t column) const { return is_structured() ? column : 0; }
-    std::uint64_t element(std::uint64_t number) const { return header_.data_offset + number * header_.element_size; }
+    std::uint64_t element_offset(std::uint64_t number) const { return header_.data_offset + number * header_.element_size; }
 
     Result<void> read_elements(std::uint64_t first, std::size_t count) {
         buffer_.resize(count * header_.element_size);
-        if (auto ok = bytes_->seek(element(first)); !ok) return ok;
+        if (auto ok = bytes_->seek(element_offset(first)); !ok) return ok;
         return bytes_->read(buffer_);
     }
 
@@ -102,13 +102,13 @@ Error no_numbers(const NpyHeader& header, const std::string& name) {
 
 /// One array as samples. `bytes` must be positioned after its header.
 Result<std::unique_ptr<NpySamples>> samples_of(std::unique_ptr<SeekableBytes> bytes, NpyHeader header, const ArrayInfo& array,
-                                               const ExtentHints& hints, bool packed = false) {
+                                               const ExtentHints& hints, bool in_archive = false) {
     const auto name = bytes->name();
     if (!has_numbers(header) || std::any_of(header.fields.begin(), header.fields.end(), [](const auto& f) { return f.kind == 'O'; }))
         return no_numbers(header, name);
     const auto extent = extent_of(array, name, hints);
     if (!extent) return extent.error();
-    if (packed && is_column_major(header, *extent)) {  // seeking in an archive is slow
+    if (in_archive && is_column_major(header, *extent)) {  // seeking in an archive is slow
         auto copy = copy_to_temporary_file(*bytes);
         if (!copy) return copy.error();
         bytes = *std::move(copy);
@@ -191,9 +191,9 @@ SamplesResult open_npz(const std::string& path, const TableOptions& options) {
     (*samples)->set_rate(npz.rate());
     const auto times = npz.times(*chosen, (*samples)->info().rows);
     if (!times) return std::unique_ptr<Samples>(*std::move(samples));
-    auto clock = npz.samples(*times, {});
-    if (!clock) return clock.error();
-    return add_time_column(*std::move(clock), *std::move(samples));
+    auto time_samples = npz.samples(*times, {});
+    if (!time_samples) return time_samples.error();
+    return add_time_column(*std::move(time_samples), *std::move(samples));
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 
 namespace corpuscle {
 
-/// Reads rows and channels in one or two dimensions, of any numeric type. Of a structured array each numeric field is a column.
+/// Reads an array of one or two dimensions and any numeric type. Each numeric field of a structured array is a column.
 Result<std::unique_ptr<Table>> open_npy_table(const std::string& path, const TableOptions& = {});
 
 /// Reads the requested array, or the only one. A number called rate or fs is the rate. A list called time or t with the same number of

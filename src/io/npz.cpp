@@ -53,7 +53,8 @@ struct NpyArray {
     const std::byte* at(std::size_t k) const { return elements.data() + k * header.element_size; }
 };
 
-/// Reads an array whose elements are of one of these kinds. Reads in chunks, so that a wrong length in the archive allocates no memory.
+/// Reads an array whose elements are of one of these kinds. Reads in chunks, so that a wrong length in the archive causes no large
+/// allocation.
 Result<NpyArray> read_array(const NpzReader& npz, const std::string& name, std::string_view kinds, std::string_view expected) {
     const auto bytes = npz.bytes(name);
     if (!bytes) return bytes.error();
@@ -73,7 +74,7 @@ Result<NpyArray> read_array(const NpzReader& npz, const std::string& name, std::
     return out;
 }
 
-/// An integer of up to 64 bits, which a double could not hold.
+/// Reads an integer of up to 64 bits exactly. A double would hold only 53 bits.
 std::int64_t integer_at(const NpyField& field, const std::byte* at) {
     if (field.size < 8) return static_cast<std::int64_t>(field.decoder()(at));
     std::int64_t value;

@@ -19,7 +19,7 @@ public:
     void add(const std::string& name, std::span<const double>);
     /// UTF-8 strings. Invalid bytes become U+FFFD.
     void add(const std::string& name, std::span<const std::string>);
-    /// The file, without dates: the same arrays in the same order give the same bytes.
+    /// The bytes of the file. The same arrays in the same order give the same bytes.
     Result<std::string> bytes() const { return make_archive(arrays_); }
 };
 

@@ -51,19 +51,19 @@ class NpzSpikes {
     Result<void> read_segment(std::int64_t segment) {
         const auto labels = npz_.integers(fmt::format("spike_labels_seg{}", segment));
         if (!labels) return labels.error();
-        const auto when = times(segment);
-        if (!when) return when.error();
-        if (when->size() != labels->size())
-            return format_error(fmt::format("segment {} has {} spikes and {} labels", segment, when->size(), labels->size()));
-        std::map<std::int64_t, std::vector<double>*> of;
-        for (std::size_t u = 0; u < ids_.size(); ++u) of[ids_[u]] = &train(u, segment);
+        const auto spike_times = times(segment);
+        if (!spike_times) return spike_times.error();
+        if (spike_times->size() != labels->size())
+            return format_error(fmt::format("segment {} has {} spikes and {} labels", segment, spike_times->size(), labels->size()));
+        std::map<std::int64_t, std::vector<double>*> train_of_id;
+        for (std::size_t u = 0; u < ids_.size(); ++u) train_of_id[ids_[u]] = &train(u, segment);
         for (std::size_t k = 0; k < labels->size(); ++k) {
-            const auto found = of.find((*labels)[k]);
-            if (found == of.end())
+            const auto found = train_of_id.find((*labels)[k]);
+            if (found == train_of_id.end())
                 return format_error(fmt::format("spike {} of segment {} has label {}, which is not in unit_ids", k, segment, (*labels)[k]));
-            if (!std::isfinite((*when)[k]))
+            if (!std::isfinite((*spike_times)[k]))
                 return format_error(fmt::format("spike {} of segment {} has a time that is not finite", k, segment));
-            found->second->push_back((*when)[k]);
+            found->second->push_back((*spike_times)[k]);
         }
         return {};
     }

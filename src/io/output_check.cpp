@@ -46,7 +46,7 @@ bool is_abandoned(const std::string& path) {
     return abandoned;
 }
 
-/// The output of a temporary file: "spikes.csv" for "spikes.csv.part-123" and "spikes.csv.part-123-2". "" for other files.
+/// The output to which a temporary file belongs: "spikes.csv" for "spikes.csv.part-123" and "spikes.csv.part-123-2". "" for other files.
 std::string_view output_of_part(std::string_view name) {
     constexpr std::string_view part = ".part-";
     const auto at = name.rfind(part);
@@ -91,8 +91,8 @@ void remove_stale_parts(const std::string& path) {
 Result<void> OutputCheck::add_output(const std::string& path) {
     std::error_code status;
     const std::filesystem::path output(path);
-    const auto above = output.parent_path();
-    auto absolute = (std::filesystem::weakly_canonical(above.empty() ? "." : above, status) / output.filename()).string();
+    const auto parent = output.parent_path();
+    auto absolute = (std::filesystem::weakly_canonical(parent.empty() ? "." : parent, status) / output.filename()).string();
     if (kind_of_file(path) == FileKind::device) return {};
     if (std::find(outputs_.begin(), outputs_.end(), absolute) != outputs_.end())
         return bad_usage(fmt::format("{}: two outputs of this command have this name; rename one of them", path));
@@ -100,19 +100,19 @@ Result<void> OutputCheck::add_output(const std::string& path) {
     return {};
 }
 
-Result<void> OutputCheck::check_file(const std::string& path, Signature ours) {
+Result<void> OutputCheck::check_file(const std::string& path, Signature is_ours) {
     if (auto ok = add_output(path); !ok) return ok;
     const auto kind = check_not_input(path);
     if (!kind) return kind.error();
-    if (may_be_foreign(*kind) && !overwrite_ && !ours(read_beginning(path)))
+    if (may_be_foreign(*kind) && !overwrite_ && !is_ours(read_beginning(path)))
         return bad_input("this file was not written by corpuscle; name another, or add --overwrite to replace it", {path});
     if (*kind != FileKind::device) remove_stale_parts(path);
     return {};
 }
 
-Result<void> OutputCheck::check_growing_file(const std::string& path, Signature ours) {
-    if (auto ok = check_file(path, ours); !ok) return ok;
-    return kind_of_file(path) == FileKind::device ? Result<void>() : check_file(path + ".part", ours);
+Result<void> OutputCheck::check_growing_file(const std::string& path, Signature is_ours) {
+    if (auto ok = check_file(path, is_ours); !ok) return ok;
+    return kind_of_file(path) == FileKind::device ? Result<void>() : check_file(path + ".part", is_ours);
 }
 
 Result<void> OutputCheck::check_directory(const std::string& path, std::span<const std::string> names,

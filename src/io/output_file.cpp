@@ -36,12 +36,12 @@ OutputFile::~OutputFile() {
 /// Creates the directories above the file.
 Result<OutputFile> OutputFile::prepare(const std::string& path) {
     std::error_code status;
-    const auto above = std::filesystem::path(path).parent_path();
+    const auto parent = std::filesystem::path(path).parent_path();
     std::vector<std::string> created;  // the new directories, innermost first
-    for (auto d = above; !d.empty() && !std::filesystem::exists(d, status); d = d.parent_path()) created.push_back(d.string());
+    for (auto d = parent; !d.empty() && !std::filesystem::exists(d, status); d = d.parent_path()) created.push_back(d.string());
     status.clear();
-    if (!above.empty()) std::filesystem::create_directories(above, status);
-    if (status) return bad_input(fmt::format("the directory cannot be created: {}", status.message()), {above.string()});
+    if (!parent.empty()) std::filesystem::create_directories(parent, status);
+    if (status) return bad_input(fmt::format("the directory cannot be created: {}", status.message()), {parent.string()});
     if (std::filesystem::is_directory(path, status)) return bad_input("this is a directory, not a file to write", {path});
     OutputFile out;
     out.path_ = path;
@@ -107,8 +107,8 @@ void start_writing_back(int file) { (void)::sync_file_range(file, 0, 0, SYNC_FIL
 }  // namespace
 
 Result<void> sync_directory_of(const std::string& path) {
-    const auto above = std::filesystem::path(path).parent_path().string();
-    const int directory = ::open(above.empty() ? "." : above.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    const auto parent = std::filesystem::path(path).parent_path().string();
+    const int directory = ::open(parent.empty() ? "." : parent.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (directory < 0) return {};  // no permission to open it, so it cannot be synchronised
     const bool done = sync_to_disk(directory);
     const int why = errno;

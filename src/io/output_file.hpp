@@ -1,6 +1,6 @@
 #pragma once
 // Output files. They are written under a temporary name and renamed when complete, so no partial file remains. A slowly growing file
-// is the exception: a part of it is useful.
+// is the exception, because a part of it is useful.
 
 #include <chrono>
 #include <cstdio>
@@ -13,13 +13,13 @@
 
 namespace corpuscle {
 
-/// When a file is synchronised to disk. With if_costly, only a file that took long to compute is: on a hard disk, synchronising takes
+/// When a file is synchronised to disk: always, or only if it took longer than a second to compute. On a hard disk, synchronising takes
 /// several times as long as a short run.
 enum class SyncPolicy { if_slow, always };
 
 class OutputFile {
     std::string path_, temporary_path_;
-    std::vector<std::string> created_directories_;  // directories that were created
+    std::vector<std::string> created_directories_;  // created for this file
     std::FILE* file_ = nullptr;
     std::size_t size_ = 0;
     bool is_growing_ = false, is_synced_ = false;
@@ -46,7 +46,7 @@ public:
     Result<void> overwrite(std::size_t at, std::string_view text);
     std::size_t size() const { return size_; }  ///< bytes written
     /// Renames the complete file to its path. Returns an error if a byte could not be written. If the file took longer than a second,
-    /// or with Sync::always, its bytes are synchronised to disk first. To synchronise the names of the files as well, call
+    /// or with SyncPolicy::always, its bytes are synchronised to disk first. To synchronise the names of the files as well, call
     /// sync_directory_of() after the last file of a directory.
     Result<void> commit(SyncPolicy = SyncPolicy::if_slow);
     bool is_synced() const { return is_synced_; }

@@ -11,7 +11,7 @@ namespace corpuscle {
 namespace {
 
 constexpr double min_outliers_note = 1e-3, min_outliers_warning = 0.01, min_hum_note = 0.02, min_hum_warning = 0.1;
-constexpr double far_above = 40;  // N: ten times the upper end of the range that the models are fitted to
+constexpr double max_plausible_force = 40;  // N: ten times the upper end of the range that the models are fitted to
 
 std::string percent(double fraction) { return fmt::format("{:.3g} %", 100 * fraction); }
 
@@ -20,7 +20,7 @@ double outlier_fraction(const ChannelPipeline& p) {
     return examined > 0 ? static_cast<double>(p.outliers.count()) / static_cast<double>(examined) : 0;
 }
 
-/// The channels that have a fault, and the one that has it most.
+/// The channels that have a fault, and the worst of them.
 struct AffectedChannels {
     std::vector<std::size_t> channels;
     std::size_t worst = 0;
@@ -29,19 +29,19 @@ struct AffectedChannels {
 
 class ReportWriter {
     const std::vector<Channel>& channels_;
-    const std::vector<ChannelPipeline>& paths_;
+    const std::vector<ChannelPipeline>& pipelines_;
     RecordingQuality out_;
 
-    /// The channels for which `amount` is above 0.
-    AffectedChannels affected_channels(const std::function<double(const ChannelPipeline&)>& amount) const {
+    /// The channels for which `severity` is above 0. The channel with the highest value is the worst.
+    AffectedChannels affected_channels(const std::function<double(const ChannelPipeline&)>& severity) const {
         AffectedChannels c;
-        for (std::size_t k = 0; k < paths_.size(); ++k) {
-            if (!(amount(paths_[k]) > 0)) continue;
-            if (c.channels.empty() || amount(paths_[k]) > amount(paths_[c.worst])) c.worst = k;
+        for (std::size_t k = 0; k < pipelines_.size(); ++k) {
+            if (!(severity(pipelines_[k]) > 0)) continue;
+            if (c.channels.empty() || severity(pipelines_[k]) > severity(pipelines_[c.worst])) c.worst = k;
             c.channels.push_back(k);
         }
         if (!c.channels.empty())
-            c.names = paths_.size() == 1       ? "the force"
+            c.names = pipelines_.size() == 1   ? "the force"
                       : c.channels.size() == 1 ? fmt::format("'{}'", channels_[c.worst].name)
                                                : fmt::format("'{}' (the worst of {} channels)", channels_[c.worst].name, c.channels.size());
         return c;
@@ -49,14 +49,14 @@ class ReportWriter {
 
     void add(bool is_warning, std::string message) { (is_warning ? out_.warnings : out_.descriptions).push_back(std::move(message)); }
 
-    void number(std::size_t channel, std::string_view name, double value, std::string_view unit = "") {
+    void add_metric(std::size_t channel, std::string_view name, double value, std::string_view unit = "") {
         out_.metrics.push_back({channels_[channel].id, name, value, unit});
     }
 
     void outliers() {
         const auto c = affected_channels([](const auto& p) { return outlier_fraction(p) > min_outliers_note ? outlier_fraction(p) : 0; });
         if (c.channels.empty()) return;
-        const auto& worst = paths_[c.worst];
+        const auto& worst = pipelines_[c.worst];
         add(outlier_fraction(worst) > min_outliers_warning,
             fmt::format(
                 "{}: {} of {} samples ({}) are isolated outliers, probably transmission errors; consecutive ones are not counted. Use "
@@ -68,7 +68,7 @@ class ReportWriter {
         const auto c =
             affected_channels([](const auto& p) { return p.hum.result().fraction > min_hum_note ? p.hum.result().fraction : 0; });
         if (c.channels.empty()) return;
-        const auto found = paths_[c.worst].hum.result();
+        const auto found = pipelines_[c.worst].hum.result();
         add(found.fraction > min_hum_warning,
             fmt::format("{}: mains hum at {:g} Hz is {} of the variance within a second, and afferents that respond to the derivative "
                         "amplify it; use --notch {:g}Hz to remove it",
@@ -78,7 +78,7 @@ class ReportWriter {
     void saturation() {
         const auto c = affected_channels([](const auto& p) { return p.saturation.is_likely() ? p.saturation.fraction() : 0; });
         if (c.channels.empty()) return;
-        const auto& s = paths_[c.worst].saturation;
+        const auto& s = pipelines_[c.worst].saturation;
         add(false, fmt::format("{}: repeatedly stays at its maximum, {:.4g} N ({} of the samples); the sensor or its converter may be "
                                "saturated",
                                c.names, s.highest(), percent(s.fraction())));
@@ -95,50 +95,50 @@ class ReportWriter {
         };
         const auto c = affected_channels(code);
         if (c.channels.empty()) return;
-        const auto& worst = paths_[c.worst];
+        const auto& worst = pipelines_[c.worst];
         add(true, fmt::format("{} is {:g}, the full scale of a {:g}-bit converter, for {} of the time; it is saturated, or not a force. "
                               "Use --channel to select other columns",
                               c.names, code(worst) - 1, std::log2(code(worst)), percent(worst.saturation.fraction())));
     }
 
-    void sums(const SumDetector& check) {
-        for (const auto& s : check.find_sums())
+    void sums(const SumDetector& sum_detector) {
+        for (const auto& s : sum_detector.find_sums())
             add(false, fmt::format("'{}' is the sum of '{}' to '{}', not a sensor of its own; use --channel or --layout to exclude it",
                                    channels_[s.channel].name, channels_[s.from].name, channels_[s.to].name));
     }
 
     void levels() {
-        const auto high = affected_channels([](const auto& p) { return p.levels.max > far_above ? p.levels.max : 0; });
+        const auto high = affected_channels([](const auto& p) { return p.levels.max > max_plausible_force ? p.levels.max : 0; });
         if (!high.channels.empty())
             add(true, fmt::format("{}: up to {:.4g} N, but the models are fitted to 0.2 to 4 N; use --scale S to convert to the force on "
                                   "one receptor",
-                                  high.names, paths_[high.worst].levels.max));
+                                  high.names, pipelines_[high.worst].levels.max));
         const auto low = affected_channels([](const auto& p) { return p.levels.max < 0.2 && p.levels.max > p.levels.min ? 1 : 0; });
-        if (!low.channels.empty() && low.channels.size() == paths_.size())
+        if (!low.channels.empty() && low.channels.size() == pipelines_.size())
             add(false, fmt::format("all forces are below 0.2 N, the lower end of the models' range (maximum {:.3g} N); check the unit",
-                                   paths_[low.worst].levels.max));
+                                   pipelines_[low.worst].levels.max));
         const auto negative =
             affected_channels([](const auto& p) { return p.levels.min < -0.2 && -p.levels.min > p.levels.max ? -p.levels.min : 0; });
         if (!negative.channels.empty())
             add(true, fmt::format("{}: mostly negative, down to {:.4g} N, but a press must be positive; use --abs or a negative --scale",
-                                  negative.names, paths_[negative.worst].levels.min));
+                                  negative.names, pipelines_[negative.worst].levels.min));
         const auto constant = affected_channels([](const auto& p) { return p.levels.max == p.levels.min ? 1 : 0; });
-        const auto& first = paths_[0].levels;
-        const bool all = constant.channels.size() == paths_.size();
-        if (paths_.size() == 1 && all && first.count > 1)
+        const auto& first = pipelines_[0].levels;
+        const bool all = constant.channels.size() == pipelines_.size();
+        if (pipelines_.size() == 1 && all && first.count > 1)
             add(true, fmt::format("the force is constant, {:.4g} N; check the file and the channel", first.max));
-        else if (paths_.size() > 1 && constant.channels.size() == 1)
+        else if (pipelines_.size() > 1 && constant.channels.size() == 1)
             add(false, fmt::format("{} is constant", constant.names));
-        else if (paths_.size() > 1 && !constant.channels.empty())
+        else if (pipelines_.size() > 1 && !constant.channels.empty())
             add(all, fmt::format("{} channels are constant{}", constant.channels.size(), all ? "; check the file and the channels" : ""));
     }
 
     void repaired(const RowCounts& rows) {
         std::int64_t outliers = 0, filled = 0;
-        for (const auto& p : paths_) outliers += p.outliers_removed(), filled += p.filled();
+        for (const auto& p : pipelines_) outliers += p.outliers_removed(), filled += p.filled();
         if (rows.dropped > 0) add(false, fmt::format("{} rows with a bad field were dropped", rows.dropped));
         std::int64_t samples = 0;
-        for (const auto& p : paths_) samples += p.levels.count;
+        for (const auto& p : pipelines_) samples += p.levels.count;
         constexpr std::int64_t min_warning = 20;  // warn if more than one sample in this number was interpolated
         if (filled > 0)
             add(filled * min_warning > samples, fmt::format("{} of {} samples were interpolated ({} outside --range, {} outliers)", filled,
@@ -151,44 +151,45 @@ class ReportWriter {
             add(false, fmt::format("{} time steps are longer than 1.5 times the median step", rows.gap_count));
     }
 
-    void numbers() {
-        for (std::size_t k = 0; k < paths_.size(); ++k) {
-            const auto& p = paths_[k];
-            number(k, "force_min", p.levels.min, "N");
-            number(k, "force_max", p.levels.max, "N");
-            number(k, "below_0.2N", p.levels.fraction(p.levels.below_range));
-            number(k, "above_4N", p.levels.fraction(p.levels.above_range));
-            number(k, "negative", p.levels.fraction(p.levels.negative));
-            number(k, "outliers", outlier_fraction(p));
-            number(k, "at_highest", p.saturation.fraction());
-            number(k, "hum", p.hum.result().fraction);
-            number(k, "hum_frequency", p.hum.result().frequency, "Hz");
-            number(k, "filled", static_cast<double>(p.filled()));
+    void add_metrics() {
+        for (std::size_t k = 0; k < pipelines_.size(); ++k) {
+            const auto& p = pipelines_[k];
+            add_metric(k, "force_min", p.levels.min, "N");
+            add_metric(k, "force_max", p.levels.max, "N");
+            add_metric(k, "below_0.2N", p.levels.fraction(p.levels.below_range));
+            add_metric(k, "above_4N", p.levels.fraction(p.levels.above_range));
+            add_metric(k, "negative", p.levels.fraction(p.levels.negative));
+            add_metric(k, "outliers", outlier_fraction(p));
+            add_metric(k, "at_highest", p.saturation.fraction());
+            add_metric(k, "hum", p.hum.result().fraction);
+            add_metric(k, "hum_frequency", p.hum.result().frequency, "Hz");
+            add_metric(k, "filled", static_cast<double>(p.filled()));
         }
     }
 
 public:
-    ReportWriter(const std::vector<Channel>& channels, const std::vector<ChannelPipeline>& paths) : channels_(channels), paths_(paths) {}
+    ReportWriter(const std::vector<Channel>& channels, const std::vector<ChannelPipeline>& pipelines)
+        : channels_(channels), pipelines_(pipelines) {}
 
-    RecordingQuality write(const RowClock& rows, const RowCounts& counts, const SumDetector& check) {
+    RecordingQuality write(const RowClock& rows, const RowCounts& counts, const SumDetector& sum_detector) {
         clock(rows);
-        sums(check);
+        sums(sum_detector);
         repaired(counts);
         outliers();
         hum();
         saturation();
         full_scale();
         levels();
-        numbers();
+        add_metrics();
         return std::move(out_);
     }
 };
 
 }  // namespace
 
-RecordingQuality assess_quality(const std::vector<Channel>& channels, const std::vector<ChannelPipeline>& paths, const RowClock& rows,
+RecordingQuality assess_quality(const std::vector<Channel>& channels, const std::vector<ChannelPipeline>& pipelines, const RowClock& rows,
                                 const RowCounts& counts, const SumDetector& sums) {
-    return ReportWriter(channels, paths).write(rows, counts, sums);
+    return ReportWriter(channels, pipelines).write(rows, counts, sums);
 }
 
 }  // namespace corpuscle

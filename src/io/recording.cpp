@@ -43,9 +43,9 @@ class Recording final : public ForceSource {
     // for resampling: the rows before and at (or after) the next sample time
     std::vector<double> before_, at_;
     double t_before_ = 0, t_at_ = 0;
-    std::int64_t next_ = 0;
+    std::int64_t next_ = 0;  // number of the next sample
 
-    Result<std::vector<SensorPlacement>> choose(std::optional<std::size_t> time) {
+    Result<std::vector<SensorPlacement>> choose_sensors(std::optional<std::size_t> time) {
         std::vector<SensorPlacement> chosen;
         if (!options_.layout.empty()) {
             auto layout = read_sensor_layout(options_.layout, *table_, time);
@@ -72,9 +72,9 @@ class Recording final : public ForceSource {
         clock_ = row_clock_.clock;
         notes_.insert(notes_.end(), row_clock_.notes.begin(), row_clock_.notes.end());
         if (!options_.resample) return {};
-        const auto even = make_clock(*options_.resample, clock_.t0);
-        if (!even) return even.error();
-        clock_ = *even;
+        const auto resampled = make_clock(*options_.resample, clock_.t0);
+        if (!resampled) return resampled.error();
+        clock_ = *resampled;
         return {};
     }
 
@@ -102,7 +102,7 @@ class Recording final : public ForceSource {
     }
 
     /// Warns if there are more channels than samples and the columns have no names: the table may have to be transposed.
-    void doubt_orientation(RecordingQuality& quality) const {
+    void warn_about_orientation(RecordingQuality& quality) const {
         const auto& columns = table_->columns();
         const auto samples = samples_;
         if (options_.table.transpose || options_.resample || static_cast<std::int64_t>(columns.size()) <= samples || samples == 0) return;
@@ -134,22 +134,22 @@ class Recording final : public ForceSource {
         if (!unitless.empty()) notes_.push_back(fmt::format("no unit for {}: assuming newtons", fmt::join(unitless, ", ")));
     }
 
-    /// The filters run on the rows if these are evenly spaced, and otherwise on the resampled rows.
-    Result<std::vector<ChannelPipeline>> paths_of(const std::vector<double>& gains) {
+    /// Creates the pipelines. The filters run on the rows if these are evenly spaced, otherwise on the resampled rows.
+    Result<std::vector<ChannelPipeline>> make_pipelines(const std::vector<double>& gains) {
         hum_table_ = std::make_unique<HumTable>(clock_);
         const bool even = !row_clock_.uses_row_times;
-        std::vector<ChannelPipeline> paths;
+        std::vector<ChannelPipeline> pipelines;
         for (const double gain : gains) {
-            auto path = ChannelPipeline::make(options_, gain, even ? row_clock_.clock : clock_, even, *hum_table_);
-            if (!path) return path.error();
-            paths.push_back(std::move(*path));
+            auto pipeline = ChannelPipeline::make(options_, gain, even ? row_clock_.clock : clock_, even, *hum_table_);
+            if (!pipeline) return pipeline.error();
+            pipelines.push_back(std::move(*pipeline));
         }
-        return paths;
+        return pipelines;
     }
 
     Result<bool> advance_to_next_row() {
-        const auto some = rows_->fetch_row();
-        if (!some || !*some) return some;
+        const auto has_row = rows_->fetch_row();
+        if (!has_row || !*has_row) return has_row;
         before_ = at_, t_before_ = t_at_;
         at_.resize(channels_.size());
         for (std::size_t c = 0; c < channels_.size(); ++c) at_[c] = rows_->force(c);
@@ -179,9 +179,9 @@ class Recording final : public ForceSource {
 
     Result<void> read_rows(Frames& block) {
         while (block.count < block.capacity) {
-            const auto some = rows_->fetch_row();
-            if (!some) return some.error();
-            if (!*some) return {};
+            const auto has_row = rows_->fetch_row();
+            if (!has_row) return has_row.error();
+            if (!*has_row) return {};
             const auto n = std::min(rows_->ready_rows(), block.capacity - block.count);
             for (std::size_t c = 0; c < channels_.size(); ++c)
                 std::copy_n(rows_->ready_data(c), n, block.force[c].begin() + static_cast<std::ptrdiff_t>(block.count));
@@ -202,7 +202,7 @@ public:
         if (*time && *time == table_->time_column())
             for (auto& note : table_->time_notes()) notes_.push_back(std::move(note));
         if (holds_spikes(*time)) return bad_input("this file holds spikes, not force; 'corpuscle compare' reads it", {path_});
-        const auto chosen = choose(*time);
+        const auto chosen = choose_sensors(*time);
         if (!chosen) return chosen.error();
         if (chosen->size() > max_channels)
             return bad_input(fmt::format("{} channels are more than the limit of {}; select some, such as --channel 1-1000", chosen->size(),
@@ -215,13 +215,13 @@ public:
         if (auto ok = set_clock(*time, columns); !ok) return ok;
         notes_.insert(notes_.end(), selection_notes_.begin(), selection_notes_.end());
         add_channels(*chosen);
-        auto paths = paths_of(*gains);
-        if (!paths) return paths.error();
+        auto pipelines = make_pipelines(*gains);
+        if (!pipelines) return pipelines.error();
         std::vector<std::string> names;
         for (const auto& c : channels_) names.push_back(c.name);
         const bool with_times = row_clock_.uses_row_times || row_clock_.drops_untimed;
-        rows_.emplace(RowReader(*table_, options_, columns, with_times ? *time : std::nullopt), std::move(*paths), path_, std::move(names),
-                      row_clock_.uses_row_times);
+        rows_.emplace(RowReader(*table_, options_, columns, with_times ? *time : std::nullopt), std::move(*pipelines), path_,
+                      std::move(names), row_clock_.uses_row_times);
         return {};
     }
 
@@ -251,7 +251,7 @@ public:
     RecordingQuality quality() const override {
         auto found =
             assess_quality(channels_, rows_->paths(), row_clock_, {rows_->rows().dropped, rows_->rows().out_of_range}, rows_->sums());
-        doubt_orientation(found);
+        warn_about_orientation(found);
         return found;
     }
 
@@ -290,7 +290,7 @@ Result<std::unique_ptr<ForceSource>> open_recording(const std::string& path, con
     if (options.table.skip_lines > 0 && format.name != "text")
         return bad_usage(
             fmt::format("--skip {}: only text files have lines to skip, and {} is {}", options.table.skip_lines, path, format.name));
-    if (format.name != "text") {  // older MATLAB files have the same extension as its HDF5 files
+    if (format.name != "text") {  // MATLAB files before version 7.3 are not HDF5 files, but have the same extension
         const auto first = peek_input(path, 512);
         if (auto refusal = describe_foreign_format(first, path); !refusal.empty()) return bad_input(std::move(refusal), {path});
     }

@@ -32,14 +32,15 @@ struct RangeViolation {
     std::int64_t samples = 0, first_sample = -1;  ///< first_sample: the index of the first such sample, or -1
 };
 
-/// A message such as "v(vf) was outside 100 mV to 600 mV for 120 ms of 1 s, first at 310 ms: ...". Times are in seconds.
-std::string range_violation_message(const ValidRange&, double outside, double of, double first);
+/// A message such as "v(vf) was outside 100 mV to 600 mV for 120 ms of 1 s, first at 310 ms: ...". `outside` is the time spent outside
+/// the range, `total` the simulated time and `first` the time of the first violation, all in s.
+std::string range_violation_message(const ValidRange&, double outside, double total, double first);
 
-/// Everything an afferent keeps from block to block. Copy it to simulate twice from one point; pack it to resume elsewhere.
+/// The state of an afferent between two blocks. Copy it to simulate twice from the same point; pack() it to resume in another process.
 struct State {
     std::string format;          ///< identifies the meaning of the values and its version: "sa1b+lif-b/1"
     std::int64_t step = 0;       ///< number of samples simulated so far
-    std::vector<double> values;  ///< SI
+    std::vector<double> values;  ///< in SI units
 };
 
 /// The state as bytes, with a checksum.
@@ -79,7 +80,7 @@ struct ChannelSlot {
 /// The index of the first value that is infinite or NaN; the size if all are finite.
 std::size_t first_non_finite(std::span<const double>);
 
-/// Returns an error if the state belongs to another afferent, or if a force is not finite.
+/// Returns an error if the state belongs to another afferent (another format or number of values), or if a force is not finite.
 Result<void> check_block(std::string_view name, std::string_view format, std::size_t values, const State&, std::span<const double> force);
 
 class Afferent {
@@ -90,7 +91,7 @@ public:
     virtual ~Afferent() = default;
     virtual std::span<const Probe> probes() const = 0;
     virtual std::span<const ValidRange> ranges() const { return {}; }
-    /// The state before the first sample. The force before the first sample is taken to be the first sample's.
+    /// The state before the first sample. The force before the first sample is assumed to equal the first sample.
     virtual State start(ChannelSlot = {}) const = 0;
     /// Latency in samples: the spikes and probes of a block belong to the force that many samples earlier.
     /// To get the complete response, append delay() samples of force.

@@ -42,7 +42,7 @@ bool is_interrupted() {
     return check && check();
 }
 
-constexpr int poll_ms = 100;  // longest delay until a signal is noticed that arrives just before the wait
+constexpr int poll_ms = 100;  // a signal that arrives just before poll() is noticed after at most this time
 
 /// Like read(), but returns -1 with errno EINTR at an interruption.
 ssize_t read_when_ready(int file, std::span<char> to) {

@@ -15,7 +15,7 @@ namespace corpuscle {
 
 class ThreadPool {
 public:
-    /// Called with the task's index and the index of its thread, below threads(), which can select scratch memory.
+    /// Called with the index of the task and the index of its thread (below threads()). The thread index can select scratch memory.
     using Task = std::function<void(std::size_t, unsigned)>;
 
     /// `threads` is the total, including the caller's thread; 0: one for each core.

@@ -55,7 +55,7 @@ inline Result<void> check_nesting(std::string_view text, const std::string& file
     return {};
 }
 
-/// Parses TOML, for sweeps and populations.
+/// Parses a TOML file, such as a sweep or a population. `file` is its name for errors.
 inline Result<toml::table> parse_toml(std::string_view text, const std::string& file) {
     if (auto ok = check_nesting(text, file); !ok) return ok.error();
     try {
@@ -66,7 +66,7 @@ inline Result<toml::table> parse_toml(std::string_view text, const std::string& 
     }
 }
 
-/// Reads tables. Keeps the first error; later ones are ignored.
+/// Reads values from TOML tables. Stores the first error and ignores later ones.
 class TomlReader {
     const std::string& file_;
 
@@ -155,7 +155,7 @@ public:
         }
     }
 
-    /// Reads [set]. press.F_max = "2N" is a nested table in TOML and means the same as "press.F_max" = "2N".
+    /// Reads the table [set]. press.F_max = "2N" is a nested table in TOML and means the same as "press.F_max" = "2N".
     void settings(const toml::table& from, const std::string& before, std::vector<LocatedSetting>& out) {
         for (const auto& [key, value] : from) {
             const auto name = before + std::string(key.str());
