@@ -27,14 +27,14 @@ inline double median_of_seven(const double* x) {
     return d;
 }
 
-constexpr std::int64_t chunk = 4096;  // samples; windows do not extend over the end of a chunk
+constexpr std::int64_t samples_per_chunk = 4096;  // windows of seven samples do not extend over the end of a chunk
 
 }  // namespace
 
 void OutlierDetector::examine(std::span<const double> more) {
     chunk_.insert(chunk_.end(), more.begin(), more.end());
     const std::size_t n = chunk_.size() > 6 ? chunk_.size() - 6 : 0;
-    double deviation[chunk + 6], isolation[chunk + 6];
+    double deviation[samples_per_chunk + 6], isolation[samples_per_chunk + 6];
     const double* const x = chunk_.data();
     for (std::size_t k = 0; k < n; ++k) {
         const double middle = x[k + 3], left = middle - x[k + 2], right = middle - x[k + 4];
@@ -67,9 +67,9 @@ void OutlierDetector::retain(std::span<const double> x) {
 
 void OutlierDetector::add(std::span<const double> x) {
     while (!x.empty()) {
-        const std::int64_t number = seen_ / chunk, left = chunk - seen_ % chunk;
+        const std::int64_t number = seen_ / samples_per_chunk, left = samples_per_chunk - seen_ % samples_per_chunk;
         const auto now = x.first(std::min(x.size(), static_cast<std::size_t>(left)));
-        if (seen_ % chunk == 0) chunk_.clear();
+        if (seen_ % samples_per_chunk == 0) chunk_.clear();
         if (is_examined(number)) examine(now);
         retain(now);
         seen_ += static_cast<std::int64_t>(now.size());

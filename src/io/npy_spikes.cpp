@@ -30,7 +30,7 @@ Result<std::vector<NamedTrain>> read_npy_spikes(const std::string& path, const S
     const bool is_unnamed = headings.size() > 1 && headings[0] == "ch1";
     if (is_unnamed && !(wanted.time && wanted.train))
         return bad_input(
-            fmt::format("the array has {} columns; select the columns of times and trains, such as --time 1 --unit 2", headings.size()),
+            fmt::format("the array has {} columns; select the columns of times and trains, such as --time 1 --train 2", headings.size()),
             {path});
     std::size_t column = 0;
     const auto found = find_spike_columns(headings, wanted, column);

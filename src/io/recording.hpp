@@ -26,7 +26,7 @@ struct RecordingOptions {
     std::optional<double> resample = {};                  ///< Hz; interpolates linearly to this rate
     std::optional<std::string> unit = {};                 ///< "N", "mN", "gf", "kgf" or "raw"; default: the unit in the header
     std::optional<double> scale = {};                     ///< newtons per unit of the values in the file
-    bool absolute = false;                                ///< takes the absolute value first
+    bool absolute = false;                                ///< takes the absolute value of the values in the file
     double offset = 0;                                    ///< the value in the file at zero force
     std::optional<std::pair<double, double>> range = {};  ///< valid values in the file; others are bad
     std::optional<BadFields> bad_fields = {};             ///< default: a non-numeric field is an error, other bad values are interpolated
@@ -34,7 +34,7 @@ struct RecordingOptions {
     std::vector<double> notch = {};      ///< Hz
     std::optional<double> lowpass = {};  ///< Hz
     std::string layout = {};             ///< path of a file with the names and positions of the sensors; "": none
-    /// Called for each block of the first pass through the file, with the fraction done. Returning false stops it.
+    /// Called for each block of the first pass through the file, with the fraction done. If it returns false, the pass stops.
     std::function<bool(double)> should_continue = [](double) { return true; };
 };
 

@@ -8,8 +8,8 @@ namespace corpuscle {
 
 /// The sample at center_, or NaN if it is an outlier.
 double HampelFilter::filtered() {
-    const double x = last_[center_], median = sorted_.empty() ? x : sorted_[sorted_.size() / 2], off = std::abs(x - median);
-    if (!(off > 0)) return x;
+    const double x = last_[center_], median = sorted_.empty() ? x : sorted_[sorted_.size() / 2], deviation = std::abs(x - median);
+    if (!(deviation > 0)) return x;
     double limit = limit_.value_or(0);
     if (!limit_) {
         std::vector<double> deviations;
@@ -18,7 +18,7 @@ double HampelFilter::filtered() {
         std::nth_element(deviations.begin(), middle, deviations.end());
         limit = 6 * 1.4826 * *middle;  // 1.4826: ratio of the standard deviation to the median absolute deviation of a normal distribution
     }
-    if (off <= limit) return x;
+    if (deviation <= limit) return x;
     ++outliers;
     return std::numeric_limits<double>::quiet_NaN();
 }

@@ -37,9 +37,10 @@ public:
     std::int64_t outliers = 0;
 };
 
-/// Replaces missing samples (NaN) by linear interpolation. At either end the nearest sample is held.
+/// Replaces missing samples (NaN) by linear interpolation. At either end of the recording the nearest sample is
+/// repeated.
 class GapFiller {
-    static constexpr std::int64_t max_gap = 1'000'000;
+    static constexpr std::int64_t max_gap = 1'000'000;  // samples
     double last_good_ = std::numeric_limits<double>::quiet_NaN();
     std::int64_t missing_ = 0;  // number of missing samples since `last_good_`
 

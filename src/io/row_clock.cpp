@@ -15,7 +15,7 @@ namespace {
 
 std::string hertz(double rate) { return fmt::format("{:.5g} Hz", rate); }
 
-std::string steps(const ClockAnalysis& c) {
+std::string step_range(const ClockAnalysis& c) {
     return fmt::format("steps from {} to {}", format_quantity(c.min_step(), "s"), format_quantity(c.max_step(), "s"));
 }
 
@@ -59,7 +59,7 @@ std::string uneven_message(const std::string& name, const ClockAnalysis& c) {
     return fmt::format(
         "the times in '{}' are not evenly spaced: mean rate {}, {}, jitter up to {}. Use --rate {:.5g}Hz to take the samples as evenly "
         "spaced{}",
-        name, hertz(mean), steps(c), format_quantity(c.peak_to_peak_jitter(), "s"), mean,
+        name, hertz(mean), step_range(c), format_quantity(c.peak_to_peak_jitter(), "s"), mean,
         c.min_step() > 0 ? fmt::format(", or --resample {:g}Hz to interpolate between their times", std::max(1.0, std::round(mean))) : "");
 }
 
@@ -74,7 +74,8 @@ Result<Clock> clock_by_rate(double rate, const std::string& name, const ClockAna
         notes.push_back(
             fmt::format("--rate is {}, but the mean rate of the times in '{}' is {}", hertz(rate), name, hertz(1 / times.mean_step())));
     else if (times.count() > 1 && !times.is_even())
-        notes.push_back(fmt::format("the uneven times in '{}' ({}) were replaced by an even clock of {}", name, steps(times), hertz(rate)));
+        notes.push_back(
+            fmt::format("the uneven times in '{}' ({}) were replaced by an even clock of {}", name, step_range(times), hertz(rate)));
     return make_clock(rate, times.first());
 }
 
@@ -87,7 +88,8 @@ Result<Clock> clock_by_times(const std::string& name, const TimeCheck& times, co
     if (!options.resample) return bad_input(uneven_message(name, times));
     if (times.duplicate) return *times.duplicate;
     out.uses_row_times = true;
-    out.notes.push_back(fmt::format("the uneven times in '{}' ({}) were interpolated at {}", name, steps(times), hertz(*options.resample)));
+    out.notes.push_back(
+        fmt::format("the uneven times in '{}' ({}) were interpolated at {}", name, step_range(times), hertz(*options.resample)));
     return make_clock(*options.resample, times.first());
 }
 
@@ -104,8 +106,8 @@ Result<RowClock> without_times(Table& table, double rate, const Error& problem, 
 }
 
 /// Times without a unit are taken as seconds. Adds a note if that gives an implausible rate for a force sensor.
-void doubt_seconds(const Column& column, const RecordingOptions& options, const Clock& clock, bool is_dated,
-                   std::vector<std::string>& notes) {
+void note_implausible_seconds(const Column& column, const RecordingOptions& options, const Clock& clock, bool is_dated,
+                              std::vector<std::string>& notes) {
     const double rate = clock.rate();
     if (!column.unit.empty() || options.time_unit || options.rate || is_dated || (rate >= 5 && rate <= 1e6)) return;
     const auto [unit, word] = rate > 1e6     ? std::pair{"min", "minutes"}
@@ -198,14 +200,14 @@ Result<RowClock> find_row_clock(Table& table, const RecordingOptions& options, c
     if (times->count() < 1 && options.rate && drop)
         return without_times(table, *options.rate, bad_input(fmt::format("'{}' holds no times", table.columns()[*column].name)), out);
     out.drops_untimed = drop;
-    if (times->gap_count() * 20 < times->count()) out.gap_count = times->gap_count();  // more gaps than that are normal for this clock
+    if (times->gap_count() * 20 < times->count()) out.gap_count = times->gap_count();  // many long steps are a property of the clock
     if (times->count() < 1) return bad_input("no data in this file", {path});
     const auto& name = table.columns()[*out.time_column].name;
     auto clock = options.rate ? clock_by_rate(*options.rate, name, *times, out.notes) : clock_by_times(name, *times, options, out);
     if (!clock)
         return bad_input(clock.error().message, clock.error().location.file.empty() ? SourceLocation{path} : clock.error().location);
     out.clock = *clock;
-    doubt_seconds(table.columns()[*out.time_column], options, out.clock, out.origin != 0, out.notes);
+    note_implausible_seconds(table.columns()[*out.time_column], options, out.clock, out.origin != 0, out.notes);
     return out;
 }
 

@@ -25,8 +25,8 @@ class SamplesTable final : public Table {
 
     const SamplesInfo& info() const { return samples_->info(); }
 
-    /// Turns infinities into gaps too. Without allowed gaps, returns an error.
-    Result<void> check(std::vector<double>& values, std::size_t column) {
+    /// Replaces infinities by gaps (NaN). If gaps are not allowed, returns an error for the first value that is not finite.
+    Result<void> check_values(std::vector<double>& values, std::size_t column) {
         for (std::size_t k = 0; k < values.size(); ++k) {
             if (std::isfinite(values[k])) continue;
             const auto field = allows_gaps_ ? std::nullopt : samples_->location_of(next_ + static_cast<std::int64_t>(k), column);
@@ -80,13 +80,14 @@ public:
         if (count == 0 || wanted.empty()) return count;
         if (auto ok = samples_->fetch(next_, count, wanted, out); !ok) return ok.error();
         for (std::size_t i = 0; i < wanted.size(); ++i)
-            if (auto ok = check(out[i], wanted[i]); !ok) return ok.error();
+            if (auto ok = check_values(out[i], wanted[i]); !ok) return ok.error();
         block_ = next_;
         next_ += static_cast<std::int64_t>(count);
         return count;
     }
 };
 
+/// Samples with the times as their first column.
 class WithTimes final : public Samples {
     std::unique_ptr<Samples> times_, samples_;
     SamplesInfo info_;
@@ -171,8 +172,8 @@ bool ends_in(std::string_view path, std::string_view names) {
     return path == names || (path.ends_with(names) && path.size() > names.size() && path[path.size() - names.size() - 1] == '/');
 }
 
-/// The arrays that match `wanted`: the complete path (with or without the first slash), otherwise the end of a path. A group stands for
-/// its member `data`.
+/// The arrays that match `wanted`: the complete path (with or without the first slash), otherwise the end of a path. The path of a
+/// group selects its member `data`.
 std::vector<std::size_t> matching_arrays(std::string_view wanted, std::span<const ArrayInfo> arrays) {
     if (wanted.starts_with('/')) wanted.remove_prefix(1);
     const auto find_all = [&](const auto& fits) {
@@ -195,9 +196,9 @@ Result<std::size_t> array_by_name(const std::string& wanted, std::span<const Arr
     for (const auto& a : arrays) names.push_back(a.name);
     const auto matches = matching_arrays(wanted, arrays);
     if (matches.size() > 1) {
-        std::vector<ArrayInfo> several;
-        for (const auto k : matches) several.push_back(arrays[k]);
-        return bad_input(fmt::format("several arrays match '{}'; select one with --dataset PATH: {}", wanted, list_arrays(several)),
+        std::vector<ArrayInfo> ambiguous;
+        for (const auto k : matches) ambiguous.push_back(arrays[k]);
+        return bad_input(fmt::format("several arrays match '{}'; select one with --dataset PATH: {}", wanted, list_arrays(ambiguous)),
                          {path});
     }
     if (matches.empty())
@@ -209,15 +210,15 @@ Result<std::size_t> array_by_name(const std::string& wanted, std::span<const Arr
 }
 
 Result<std::size_t> only_array(std::span<const ArrayInfo> arrays, const std::string& path) {
-    std::vector<std::size_t> able, likely;
+    std::vector<std::size_t> usable, likely;
     std::vector<ArrayInfo> candidates;
     for (std::size_t k = 0; k < arrays.size(); ++k) {
         if (!is_usable(arrays[k])) continue;
-        able.push_back(k);
+        usable.push_back(k);
         if (!is_accessory(arrays[k])) likely.push_back(k), candidates.push_back(arrays[k]);
     }
     if (likely.size() == 1) return likely[0];
-    if (likely.empty() && able.size() == 1) return able[0];
+    if (likely.empty() && usable.size() == 1) return usable[0];
     if (!likely.empty())
         return bad_input(fmt::format("several arrays could be the recording; select one with --dataset NAME: {}", list_arrays(candidates)),
                          {path});

@@ -1,5 +1,5 @@
 #pragma once
-// The common part of the binary formats: rows are counted and fetched by number, and a file may contain several arrays.
+// The common part of the binary formats: the number of rows is known, rows are read by number, and a file may contain several arrays.
 
 #include <cstdint>
 #include <memory>
@@ -14,7 +14,7 @@ struct SamplesInfo {
     std::vector<Column> columns = {};
     std::int64_t rows = 0;
     std::optional<double> rate = {};              ///< Hz
-    std::optional<std::size_t> time_column = {};  ///< the time column, if it is known otherwise than by its name
+    std::optional<std::size_t> time_column = {};  ///< the time column, if the format defines it
     std::vector<std::string> notes = {};
 };
 
@@ -28,6 +28,7 @@ class Samples {
 public:
     virtual ~Samples() = default;
     virtual const SamplesInfo& info() const = 0;
+    /// The location of a value in a text file, for messages. nullopt for binary formats.
     virtual std::optional<FieldLocation> location_of(std::int64_t row, std::size_t column) const {
         return static_cast<void>(row), static_cast<void>(column), std::nullopt;
     }
@@ -38,7 +39,8 @@ public:
 
 using SamplesResult = Result<std::unique_ptr<Samples>>;
 
-/// Wraps samples as a table. No samples are an error. A value that is not a finite number is an error when it is read.
+/// Wraps samples as a table. Returns an error if there are no samples. A value that is not finite is an error when it is read, unless
+/// gaps are allowed.
 Result<std::unique_ptr<Table>> make_table(SamplesResult, const std::string& path);
 
 /// Adds a list of times as the first column of samples with the same number of rows.
@@ -54,7 +56,7 @@ struct ArrayInfo {
 /// Name and shape: "force (12000 x 16)".
 std::string describe(const ArrayInfo&);
 
-/// The index of the array called `wanted`. Without a name, the index of the only array that can be a recording: numbers in one or two
+/// The index of the array called `wanted`. By default, the index of the only array that can be a recording: numbers in one or two
 /// dimensions that are neither times nor a rate. Otherwise returns an error that lists the arrays.
 Result<std::size_t> choose_array(std::span<const ArrayInfo>, const std::optional<std::string>& wanted, const std::string& path);
 
@@ -79,7 +81,7 @@ struct ExtentHints {
     std::optional<std::uint64_t> channel_names = {};  ///< number of channel names
 };
 
-/// More channels than samples are an error, unless a hint resolves the orientation.
+/// Determines the orientation of an array. More channels than samples are an error, unless a hint resolves the orientation.
 Result<ArrayExtent> extent_of(const ArrayInfo&, const std::string& path, const ExtentHints& = {});
 
 /// The length of the array if it can be a list of times, by its name, type and shape. Otherwise nullopt.

@@ -7,7 +7,7 @@ namespace {
 
 Error broken_response(const std::string& path) { return bad_input("invalid response of the helper process that reads this file", {path}); }
 
-/// The error in a response, if it is one.
+/// Reads the first number of a response. Returns the error if the response is one.
 Result<void> read_status(Message& m, const std::string& path) {
     std::uint64_t code = 1;
     if (!m.get(code)) return broken_response(path);
@@ -55,11 +55,11 @@ Message encode(const OpenRequest& request) {
 }
 
 bool decode(Message& m, OpenRequest& request) {
-    std::uint64_t transpose = 0, named = 0;
+    std::uint64_t transpose = 0, has_dataset = 0;
     std::string dataset;
-    if (!m.get(request.path) || !m.get(transpose) || !m.get(named) || !m.get(dataset)) return false;
+    if (!m.get(request.path) || !m.get(transpose) || !m.get(has_dataset) || !m.get(dataset)) return false;
     if (transpose) request.options.transpose = transpose == 2;
-    if (named) request.options.dataset = std::move(dataset);
+    if (has_dataset) request.options.dataset = std::move(dataset);
     return true;
 }
 

@@ -8,8 +8,8 @@ namespace corpuscle {
 
 /// The first message to the program.
 struct OpenRequest {
-    std::string path;  ///< for error messages only: the file is open already
-    TableOptions options;
+    std::string path;      ///< for error messages only: the file is open already
+    TableOptions options;  ///< only `dataset` and `transpose` are sent
 };
 
 /// All further messages: `rows` rows of the columns `wanted`, from row `first` on.
@@ -23,7 +23,7 @@ Message encode(const FetchRequest&);
 bool decode(Message&, OpenRequest&);
 bool decode(Message&, FetchRequest&);
 
-// Responses. Each begins with 0, or is an error.
+// Responses. A response begins with 0; an error begins with its ErrorCode.
 Message encode(const Error&);
 Message encode(const SamplesInfo&);
 Message encode(const std::vector<std::vector<double>>& columns);

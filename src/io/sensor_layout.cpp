@@ -78,7 +78,7 @@ class LayoutReader {
 
     Result<std::optional<Position>> position() const {
         Position p;
-        double* const to[] = {&p.x, &p.y, &p.z};
+        double* const coordinates[] = {&p.x, &p.y, &p.z};
         bool any = false;
         for (std::size_t axis = 0; axis < 3; ++axis) {
             if (!headings_.axes[axis]) continue;
@@ -86,13 +86,13 @@ class LayoutReader {
             double value;
             if (!dialect_.parse_number(fields_[field], value))
                 return error_at(fmt::format("'{}' where a coordinate is expected", fields_[field].substr(0, 40)), field);
-            *to[axis] = value * headings_.metres[axis];
+            *coordinates[axis] = value * headings_.metres[axis];
             any = true;
         }
         return any ? std::optional(p) : std::nullopt;
     }
 
-    Result<SensorPlacement> sensor(const SensorLayout& before) const {
+    Result<SensorPlacement> sensor(const SensorLayout& layout_so_far) const {
         if (fields_.size() != headings_.count)
             return error_at(fmt::format("{} columns where {} are expected", fields_.size(), headings_.count));
         const auto field = *headings_.channel;
@@ -100,11 +100,11 @@ class LayoutReader {
         if (!columns) return error_at(columns.error().message, field);
         if (columns->size() != 1) return error_at(fmt::format("'{}' is more than one channel", fields_[field]), field);
         const auto same = [&](const SensorPlacement& p) { return p.column == columns->front(); };
-        if (std::any_of(before.sensors.begin(), before.sensors.end(), same))
+        if (std::any_of(layout_so_far.sensors.begin(), layout_so_far.sensors.end(), same))
             return error_at(fmt::format("channel '{}' occurs twice", fields_[field]), field);
-        auto where = position();
-        if (!where) return where.error();
-        return SensorPlacement{columns->front(), headings_.name ? std::string(fields_[*headings_.name]) : "", *where};
+        auto placed_at = position();
+        if (!placed_at) return placed_at.error();
+        return SensorPlacement{columns->front(), headings_.name ? std::string(fields_[*headings_.name]) : "", *placed_at};
     }
 
 public:
@@ -124,7 +124,7 @@ public:
             if (!placed) return placed.error();
             layout.sensors.push_back(std::move(*placed));
         }
-        if (layout.sensors.empty()) return bad_input("the layout names no sensor", {lines_.path()});
+        if (layout.sensors.empty()) return bad_input("the layout lists no sensors", {lines_.path()});
         return layout;
     }
 };

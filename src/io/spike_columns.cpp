@@ -61,16 +61,17 @@ Result<ResolvedSpikeColumns> find_spike_columns(const std::vector<std::string>& 
     if (out.channel == out.afferent) out.channel.reset();
     if (!time && headings.size() == 1 && headings[0].empty()) time = 0;
     if (!time)
-        return bad_input(fmt::format("no column of spike times; call one time_s (or time, t [ms] ...), or name it with --time. Columns: {}",
-                                     listed_headings(headings)));
+        return bad_input(
+            fmt::format("no column of spike times; rename one to time_s (or time, t [ms] ...), or select it with --time. Columns: {}",
+                        listed_headings(headings)));
     if (!out.afferent && !out.channel && headings.size() > 1)
         return bad_input(
-            fmt::format("no column identifies the trains; call one unit, afferent or channel, or name it with --train. Columns: {}",
+            fmt::format("no column identifies the trains; rename one to unit, afferent or channel, or select it with --train. Columns: {}",
                         listed_headings(headings)));
     out.time = *time;
-    const auto in = parse_heading(headings[*time]).unit;
-    const auto seconds = in.empty() ? std::optional(1.0) : seconds_per_time_unit(in);
-    if (!seconds) return column = *time + 1, bad_input(fmt::format("'{}' is not a unit of time; use s, ms, us or min", in));
+    const auto time_unit = parse_heading(headings[*time]).unit;
+    const auto seconds = time_unit.empty() ? std::optional(1.0) : seconds_per_time_unit(time_unit);
+    if (!seconds) return column = *time + 1, bad_input(fmt::format("'{}' is not a unit of time; use s, ms, us or min", time_unit));
     out.seconds_per_unit = *seconds;
     return out;
 }

@@ -16,8 +16,8 @@ struct ResolvedSpikeColumns {
     std::optional<std::size_t> afferent = {}, channel = {};
 };
 
-/// `headings` are the header fields of the file, "" without a header. If a column is missing or wrong, returns an error and stores the
-/// index of a wrong one in `column`.
+/// `headings` are the header fields of the file, "" without a header. If a column is missing or wrong, returns an error. Sets `column` to
+/// the number of a wrong column, counted from 1.
 Result<ResolvedSpikeColumns> find_spike_columns(const std::vector<std::string>& headings, const SpikeColumns& wanted, std::size_t& column);
 
 }  // namespace corpuscle

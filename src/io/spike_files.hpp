@@ -17,15 +17,16 @@ struct NamedTrain {
     std::string name() const { return channel.empty() ? afferent : afferent + "," + channel; }
 };
 
-/// Text as a field of a CSV file: in quotes if it needs them.
+/// Text as a field of a CSV file, in quotes if necessary.
 std::string quote_csv_field(const std::string& name);
 
-/// Columns of a table of spikes, by name or number. Default: found by their headings.
+/// Columns of a table of spikes, by name or number. By default they are found by their headings.
 struct SpikeColumns {
     std::optional<std::string> time = {}, train = {};
 };
 
-/// All trains of a file, sorted by name; numbers in names count by value, so "u2" is before "u10". Formats recognised by their first bytes:
+/// All trains of a file, sorted by name; numbers in names are compared by value, so "u2" is before "u10". Formats recognised by their first
+/// bytes:
 ///
 /// - NPZ of Corpuscle or of SpikeInterface, where segments after the first become channels "segment 2" ...
 /// - address events of Corpuscle and AEDAT 2 (doc/events.md)

@@ -1,5 +1,6 @@
 #pragma once
-// The common interface of all recording formats: named columns of numbers, read in blocks, as often as needed.
+// The common interface of all recording formats: named columns of numbers, read in blocks. A table can be rewound
+// and read again.
 
 #include <cstddef>
 #include <functional>
@@ -28,7 +29,7 @@ struct TableOptions {
     std::optional<std::string> dataset = {};  ///< the array to read: "/force/data" in HDF5, "force" in NPZ
     std::optional<bool> transpose = {};       ///< true: rows are channels, false: rows are samples, even if there are fewer rows
     std::size_t skip_lines = 0;               ///< number of lines before the table in a text file
-    /// Called while a file is opened that must be read completely. Returning false stops it.
+    /// Called while opening a file that must be read completely. If it returns false, reading stops.
     std::function<bool()> should_continue = [] { return true; };
 };
 
@@ -45,7 +46,7 @@ public:
     virtual bool is_orientation_known() const { return false; }
     /// If gaps are allowed, a field that is not a finite number reads as NaN. Otherwise it is an error that names its location.
     void allow_gaps(bool allowed) { allows_gaps_ = allowed; }
-    /// The time column, if the file shows one.
+    /// The time column, if one was found in the file.
     virtual std::optional<std::size_t> time_column() const = 0;
     /// True if the time column was recognised by its values instead of its name.
     virtual bool is_time_guessed() const = 0;

@@ -119,11 +119,11 @@ class Utf16Text final : public TextInput {
     std::unique_ptr<TextInput> units_;
     bool big_endian_;
     std::string out_;
-    std::size_t given_ = 0;   // bytes of out_ that have been returned
-    unsigned long high_ = 0;  // a high surrogate without its low surrogate yet
+    std::size_t returned_ = 0;  // bytes of out_ that have been returned
+    unsigned long high_ = 0;    // a high surrogate without its low surrogate yet
     bool ended_ = false;
 
-    void take(unsigned long unit) {
+    void append_unit(unsigned long unit) {
         const bool low = unit >= 0xdc00 && unit < 0xe000;
         if (high_ != 0) {
             append_code_point(out_, low ? 0x10000 + ((high_ - 0xd800) << 10) + (unit - 0xdc00) : 0xfffd);
@@ -140,12 +140,12 @@ class Utf16Text final : public TextInput {
         char block[1 << 14];
         const auto got = units_->read(block, sizeof block);
         if (!got) return got.error();
-        out_.clear(), given_ = 0;
+        out_.clear(), returned_ = 0;
         ended_ = *got < sizeof block;
         if (*got % 2 != 0) return bad_input("this UTF-16 text is incomplete: it ends within a character", {path_});
         for (std::size_t k = 0; k < *got; k += 2) {
             const auto a = static_cast<unsigned char>(block[k]), b = static_cast<unsigned char>(block[k + 1]);
-            take(big_endian_ ? a * 256UL + b : b * 256UL + a);
+            append_unit(big_endian_ ? a * 256UL + b : b * 256UL + a);
         }
         if (ended_ && high_ != 0) append_code_point(out_, 0xfffd), high_ = 0;
         return {};
@@ -154,20 +154,20 @@ class Utf16Text final : public TextInput {
     Result<std::size_t> fetch(char* to, std::size_t max_bytes) override {
         std::size_t count = 0;
         while (count < max_bytes) {
-            if (given_ == out_.size()) {
+            if (returned_ == out_.size()) {
                 if (ended_) break;
                 if (auto ok = refill(); !ok) return ok.error();
                 continue;
             }
-            const std::size_t n = std::min(max_bytes - count, out_.size() - given_);
-            std::memcpy(to + count, out_.data() + given_, n);
-            count += n, given_ += n;
+            const std::size_t n = std::min(max_bytes - count, out_.size() - returned_);
+            std::memcpy(to + count, out_.data() + returned_, n);
+            count += n, returned_ += n;
         }
         return count;
     }
 
     Result<void> restart() override {
-        out_.clear(), given_ = 0, high_ = 0, ended_ = false;
+        out_.clear(), returned_ = 0, high_ = 0, ended_ = false;
         return units_->rewind();
     }
 

@@ -1,5 +1,5 @@
 #pragma once
-// Reads a text file as UTF-8: plain, compressed with gzip, or UTF-16. Memory is bounded for any uncompressed size.
+// Reads a text file as UTF-8. The file may be in UTF-8 or UTF-16, and compressed with gzip. Memory is bounded for any uncompressed size.
 
 #include <cstddef>
 #include <memory>
@@ -14,12 +14,13 @@ namespace corpuscle {
 class TextInput {
     std::string lookahead_;  // bytes read by peek() but not yet by read()
 
-    /// Reads up to `max_bytes` bytes. Returns fewer only at the end.
+    /// Reads like read(), but after the lookahead.
     virtual Result<std::size_t> fetch(char* to, std::size_t max_bytes) = 0;
     virtual Result<void> restart() = 0;
 
 public:
     virtual ~TextInput() = default;
+    /// Reads up to `max_bytes` bytes. Returns fewer only at the end.
     Result<std::size_t> read(char* to, std::size_t max_bytes);
     /// Returns the next bytes without consuming them. Fewer than `count` only at the end.
     Result<std::string_view> peek(std::size_t count);

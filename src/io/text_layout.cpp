@@ -112,12 +112,12 @@ class LayoutDetector {
         return fields_.size() == columns && units > others;
     }
 
-    void take_header(const Fields& names) {
+    void set_header(const Fields& names) {
         for (const auto f : names) layout_.columns.push_back(parse_heading(f));
         layout_.has_header = true;
     }
 
-    void take_units(std::size_t k) {
+    void set_units(std::size_t k) {
         split_row(layout_.dialect, head_[k].text, layout_.columns.size(), fields_);
         for (std::size_t c = 0; c < layout_.columns.size(); ++c) {
             auto f = fields_[c];
@@ -126,14 +126,14 @@ class LayoutDetector {
         }
     }
 
-    /// Takes a comment as the header, as numpy.savetxt and rostopic echo -p write it. `columns` is the number of fields of the row
-    /// below it.
-    bool take_commented_header(std::size_t k, std::size_t columns) {
+    /// Uses a comment as the header, as numpy.savetxt and rostopic echo -p write it. `columns` is the number of fields of the row
+    /// below it. Returns false if the comment has another number of fields.
+    bool use_commented_header(std::size_t k, std::size_t columns) {
         if (head_[k].comment.empty()) return false;
         Fields names;
         dialect_of(head_[k].comment).split(head_[k].comment, names);
         if (names.size() != columns) return false;
-        take_header(names);
+        set_header(names);
         return true;
     }
 
@@ -157,7 +157,7 @@ class LayoutDetector {
     }
 
     /// The number of fields if every row is a word followed by values, otherwise 0.
-    std::size_t fields_of_named_rows() {
+    std::size_t field_count_of_named_rows() {
         const auto d = dialect_of(head_[0].text);
         const auto columns = values_in(0, d).size();
         if (columns < 2) return 0;
@@ -170,9 +170,9 @@ class LayoutDetector {
         return columns;
     }
 
-    /// Takes a table without a header whose rows begin with their names.
-    bool take_named_rows() {
-        const auto columns = fields_of_named_rows();
+    /// Uses the layout of a table without a header whose rows begin with their names. Returns false if the table is different.
+    bool use_named_rows() {
+        const auto columns = field_count_of_named_rows();
         if (columns == 0) return false;
         layout_.dialect = dialect_of(head_[0].text);
         layout_.columns.assign(columns, Column{});
@@ -183,7 +183,7 @@ class LayoutDetector {
     bool are_rows_channels() {
         const auto d = dialect_of(head_[0].text);
         d.split(head_[0].text, fields_);
-        return head_.size() > 1 && is_time_name(parse_heading(fields_[0]).name) && fields_of_named_rows() > 0;
+        return head_.size() > 1 && is_time_name(parse_heading(fields_[0]).name) && field_count_of_named_rows() > 0;
     }
 
     /// The common layout: the table begins at the first line, with or without a header.
@@ -206,13 +206,13 @@ class LayoutDetector {
         return p;
     }
 
-    void take_plain(const PlainLayout& p) {
+    void use_plain_layout(const PlainLayout& p) {
         if (p.header) {
             split_row(layout_.dialect, head_[0].text, 0, fields_);
-            take_header(Fields(fields_));
+            set_header(Fields(fields_));
             row_ = p.units ? 2 : 1;
-            if (p.units) take_units(1);
-        } else if (!take_commented_header(0, p.columns)) {
+            if (p.units) set_units(1);
+        } else if (!use_commented_header(0, p.columns)) {
             layout_.columns.assign(p.columns, Column{});
         }
     }
@@ -241,15 +241,15 @@ class LayoutDetector {
     }
 
     /// Finds the first line from which all lines are rows, below a header or a preamble of another shape. Returns false if there is none.
-    bool take_after_preamble(const PlainLayout& plain) {
+    bool find_table_after_preamble(const PlainLayout& plain) {
         const auto plain_dialect = layout_.dialect;
         for (std::size_t k = 1; k < std::min(head_.size(), max_preamble); ++k) {
             const auto d = dialect_of(head_[k].text);
             split_row(d, head_[k].text, 0, fields_);
             const auto columns = fields_.size();
-            const bool alike = columns == plain.columns && d.separator == plain_dialect.separator;
+            const bool same_shape = columns == plain.columns && d.separator == plain_dialect.separator;
             const auto is_under_header = [&] { return is_sure_header(k - 1, columns, d) || (k > 2 && is_unit_row(k - 1, columns, d)); };
-            if ((alike && (k < 2 || !is_under_header())) || !are_rows(k, columns, d)) continue;
+            if ((same_shape && (k < 2 || !is_under_header())) || !are_rows(k, columns, d)) continue;
             if (head_.size() - k < 2 || !may_be_preamble(k, plain_dialect)) continue;
             layout_.dialect = d;
             std::size_t header = k - 1;
@@ -258,10 +258,10 @@ class LayoutDetector {
             split_row(d, head_[header].text, columns, fields_);
             const bool is_one_heading = columns == 1 && is_single_heading(header);
             if (fields_.size() == columns || is_one_heading) {
-                take_header(is_one_heading ? Fields{trimmed(head_[header].text)} : Fields(fields_));
-                if (units) take_units(k - 1);
+                set_header(is_one_heading ? Fields{trimmed(head_[header].text)} : Fields(fields_));
+                if (units) set_units(k - 1);
                 skipped_ = header;
-            } else if (take_commented_header(k, columns)) {
+            } else if (use_commented_header(k, columns)) {
                 skipped_ = k;
             } else if (fields_.size() == 1 || head_[k].gap_above) {
                 layout_.columns.assign(columns, Column{});
@@ -276,7 +276,8 @@ class LayoutDetector {
         return false;
     }
 
-    /// Decides whether a letter after a name is a unit. A single one is (skin_C), several distinguish sensors (left_C, left_A).
+    /// Decides whether a letter after a name is a unit. If it occurs in one column only, C and K are units (skin_C). Letters in several
+    /// columns distinguish sensors (left_C, left_A).
     void resolve_letter_suffixes() {
         const auto letter_of = [](const Column& c) {
             const auto n = c.name.size();
@@ -354,13 +355,13 @@ public:
             layout_.dialect = labview->dialect, layout_.columns = std::move(labview->columns), layout_.rate = labview->rate;
             layout_.has_header = layout_.is_last_field_optional = true;
             row_ = labview->first_row;
-        } else if (rows_are_channels && take_named_rows()) {
+        } else if (rows_are_channels && use_named_rows()) {
             row_ = 0;
         } else if (!rows_are_channels && are_rows_channels()) {
             return bad_input("every row begins with a name, and the first row is the time; use --transpose to take each row as a channel",
                              {path});
-        } else if (const auto plain = plain_layout(); plain.fits || !take_after_preamble(plain)) {
-            take_plain(plain);
+        } else if (const auto plain = plain_layout(); plain.fits || !find_table_after_preamble(plain)) {
+            use_plain_layout(plain);
         }
         layout_.first_row_line = row_ < head_.size() ? head_[row_].number : last + 1;
         resolve_letter_suffixes();

@@ -57,7 +57,7 @@ bool split(std::string_view line, char separator, std::vector<CsvField>& out) {
     }
 }
 
-bool is_time(std::string_view text, char separator, double& value) {
+bool parse_time(std::string_view text, char separator, double& value) {
     return Dialect{separator, separator != ','}.parse_number(text, value);
 }
 
@@ -83,7 +83,8 @@ class TextSpikes {
         std::vector<CsvField> fields;
         double value;
         split(line, ' ', fields);
-        const bool blanks = fields.size() > 1 && (is_time(fields[0].text, ' ', value) || is_time_name(parse_heading(fields[0].text).name));
+        const bool blanks =
+            fields.size() > 1 && (parse_time(fields[0].text, ' ', value) || is_time_name(parse_heading(fields[0].text).name));
         return blanks ? ' ' : ',';
     }
 
@@ -107,7 +108,8 @@ class TextSpikes {
     Result<bool> read_header() {
         columns_ = fields_.size();
         double value;
-        const bool row = std::all_of(fields_.begin(), fields_.end(), [&](const CsvField& f) { return is_time(f.text, separator_, value); });
+        const bool row =
+            std::all_of(fields_.begin(), fields_.end(), [&](const CsvField& f) { return parse_time(f.text, separator_, value); });
         std::vector<std::string> headings;
         for (const auto& f : fields_) headings.push_back(row ? "" : f.text);
         std::vector<CsvField> commented;
@@ -115,7 +117,7 @@ class TextSpikes {
             for (std::size_t c = 0; c < columns_; ++c) headings[c] = commented[c].text;
         if (row && columns_ > 1 && headings[0].empty() && !(wanted_.time && wanted_.train))
             return error_at(
-                fmt::format("{} columns without a header; select the columns of times and trains, such as --time 1 --unit 2", columns_));
+                fmt::format("{} columns without a header; select the columns of times and trains, such as --time 1 --train 2", columns_));
         std::size_t column = 0;
         const auto found = find_spike_columns(headings, wanted_, column);
         if (!found) return error_at(found.error().message, column > 0 ? fields_[column - 1].column : 0);
@@ -127,7 +129,7 @@ class TextSpikes {
         if (fields_.size() != columns_) return error_at(fmt::format("{} columns where {} are expected", fields_.size(), columns_));
         const auto& [text, column] = fields_[found_.time];
         double t = 0;
-        if (!is_time(text, separator_, t) || !std::isfinite(t * found_.seconds_per_unit))
+        if (!parse_time(text, separator_, t) || !std::isfinite(t * found_.seconds_per_unit))
             return error_at(fmt::format("'{}' where a time is expected", text.substr(0, 40)), column);
         const auto word = [this](const std::optional<std::size_t>& c) { return c ? fields_[*c].text : std::string(); };
         trains_.train(word(found_.afferent), word(found_.channel)).push_back(t * found_.seconds_per_unit);

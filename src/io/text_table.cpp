@@ -17,25 +17,25 @@ namespace {
 
 class TextTable final : public Table {
     LineReader lines_;
-    TextLayout form_;
+    TextLayout layout_;
     Dialect dialect_;
     std::vector<Column> columns_;
     std::optional<std::size_t> time_;
     std::size_t skip_;
     bool rows_are_channels_;
     Fields fields_;
-    std::vector<long> numbers_;                             // line numbers of the last block's rows
-    std::vector<double*> to_;                               // for each column: the destination of its numbers, or null
+    std::vector<long> line_numbers_;                        // line numbers of the last block's rows
+    std::vector<double*> destinations_;                     // for each column: the destination of its numbers, or null
     std::size_t wanted_end_ = 0;                            // one past the last requested column
-    double last_stamp_ = 0, days_ = 0;                      // s: the last time of day, and the days that have passed
-    bool quoted_rows_ = false, quoted_separators_ = false;  // found by find_trials()
+    double last_stamp_ = 0, days_ = 0;                      // s: the last time of day, and the complete days before it
+    bool quoted_rows_ = false, quoted_separators_ = false;  // set by find_trials(): quotes in rows, separators within quotes
 
     Error error_at(std::string message, long column = 0) const {
         return bad_input(std::move(message), {lines_.path(), lines_.line_number(), column});
     }
 
     std::string column_label(std::size_t c) const {
-        return form_.has_header ? fmt::format("'{}'", columns_[c].name) : fmt::format("{}", c + 1);
+        return layout_.has_header ? fmt::format("'{}'", columns_[c].name) : fmt::format("{}", c + 1);
     }
 
     /// Reads the next line that holds data.
@@ -43,15 +43,15 @@ class TextTable final : public Table {
         for (;;) {
             const auto more = lines_.next(line);
             if (!more || !*more) return more;
-            if (lines_.line_number() >= form_.first_row_line && !is_comment(line)) return true;
+            if (lines_.line_number() >= layout_.first_row_line && !is_comment(line)) return true;
         }
     }
 
     /// Seconds from the first time stamp. Times of day continue after midnight.
     std::optional<double> stamp_in(std::size_t c) {
         const auto stamp = parse_time_stamp(fields_[c]);
-        if (!stamp || !form_.first_stamp || stamp->has_date != form_.first_stamp->has_date) return {};
-        double t = seconds_between(*form_.first_stamp, *stamp) + days_;
+        if (!stamp || !layout_.first_stamp || stamp->has_date != layout_.first_stamp->has_date) return {};
+        double t = seconds_between(*layout_.first_stamp, *stamp) + days_;
         if (stamp->has_date || c != time_) return t;
         constexpr double day = 86'400;
         if (t < last_stamp_ - day / 2) days_ += day, t += day;
@@ -60,7 +60,7 @@ class TextTable final : public Table {
 
     /// Options that help with a field that cannot be read.
     std::string remedy(std::size_t c) const {
-        const bool first = lines_.line_number() <= form_.first_row_line;
+        const bool first = lines_.line_number() <= layout_.first_row_line;
         if (c == time_)
             return fmt::format("; use {}--rate, such as --rate 1kHz, to take the rows as evenly spaced, or --time to name another column",
                                first ? "" : "--bad-fields drop to skip the row, ");
@@ -97,19 +97,19 @@ class TextTable final : public Table {
     void store_evidence() {
         constexpr std::size_t max_evidence = 8;  // only one is reported, and only if no column holds numbers
         std::size_t count = 0;
-        for (std::size_t c = 0; c < std::min(columns_.size(), form_.first_fields.size()) && count < max_evidence; ++c) {
-            const auto& word = form_.first_fields[c];
+        for (std::size_t c = 0; c < std::min(columns_.size(), layout_.first_fields.size()) && count < max_evidence; ++c) {
+            const auto& word = layout_.first_fields[c];
             if (!columns_[c].exclusion_reason.starts_with("holds words") || word.empty()) continue;
             ++count;
             const auto advice = advice_for(word);
-            columns_[c].exclusion_evidence = fmt::format("line {} has '{}'{}{}", form_.first_row_line, word.substr(0, 40),
+            columns_[c].exclusion_evidence = fmt::format("line {} has '{}'{}{}", layout_.first_row_line, word.substr(0, 40),
                                                          advice.empty() ? "" : ", which contains ", advice);
         }
     }
 
     void split(std::string_view line) {
         split_row(dialect_, line, columns_.size(), fields_);
-        if (form_.is_last_field_optional && fields_.size() + 1 == columns_.size()) fields_.emplace_back();
+        if (layout_.is_last_field_optional && fields_.size() + 1 == columns_.size()) fields_.emplace_back();
     }
 
     /// For a table without a header: takes the first column as the time if it increases in similar steps over the first rows.
@@ -129,8 +129,8 @@ class TextTable final : public Table {
     }
 
     void set_columns(const std::vector<std::size_t>& wanted, std::vector<std::vector<double>>& out) {
-        to_.assign(columns_.size(), nullptr);
-        for (std::size_t i = 0; i < wanted.size(); ++i) to_[wanted[i]] = out[i].data();
+        destinations_.assign(columns_.size(), nullptr);
+        for (std::size_t i = 0; i < wanted.size(); ++i) destinations_[wanted[i]] = out[i].data();
         wanted_end_ = wanted.empty() ? 0 : *std::max_element(wanted.begin(), wanted.end()) + 1;
     }
 
@@ -145,20 +145,20 @@ class TextTable final : public Table {
     bool read_plain_row(std::string_view line, std::size_t row) const {
         const char *p = line.data(), *const end = p + line.size();
         const char separator = dialect_.separator;
-        for (std::size_t c = 0; c < to_.size(); ++c) {
+        for (std::size_t c = 0; c < destinations_.size(); ++c) {
             if (c > 0) {
                 if (p == end) return false;
                 ++p;
             }
-            if (c == wanted_end_ && separator != ' ') return ends_after(p, end, to_.size() - c);
-            if (!to_[c] && separator != ' ') {
+            if (c == wanted_end_ && separator != ' ') return ends_after(p, end, destinations_.size() - c);
+            if (!destinations_[c] && separator != ' ') {
                 while (p < end && *p != separator && *p != '"') ++p;
                 if (p < end && *p == '"') return false;
                 continue;
             }
             double value;
             if (!dialect_.parse_plain_number(p, end, value)) return false;
-            if (to_[c]) to_[c][row] = value;
+            if (destinations_[c]) destinations_[c][row] = value;
         }
         return p == end;
     }
@@ -166,7 +166,7 @@ class TextTable final : public Table {
     Result<void> read_row(std::string_view line, std::size_t row, const std::vector<std::size_t>& wanted,
                           std::vector<std::vector<double>>& out) {
         if (read_plain_row(line, row)) return {};
-        if (form_.is_last_field_optional && line.starts_with("Channels")) {
+        if (layout_.is_last_field_optional && line.starts_with("Channels")) {
             const auto command = lines_.copy_command(fmt::format("head -n {}", lines_.line_number() - 1), "-first");
             return error_at(fmt::format("another segment of the measurement begins here, but only one can be read; keep the first{}{}",
                                         command.empty() ? "" : ": ", command));
@@ -197,10 +197,10 @@ class TextTable final : public Table {
     /// changes there.
     Result<std::vector<TrialColumn>> find_trials(long begins) {
         std::vector<TrialColumn> found;
-        if (form_.trial_columns.empty()) return found;
+        if (layout_.trial_columns.empty()) return found;
         if (auto ok = lines_.rewind(); !ok) return ok.error();
-        std::vector<std::string> first, last, now;
-        std::vector<bool> constant(form_.trial_columns.size(), true);
+        std::vector<std::string> first, last, current;
+        std::vector<bool> constant(layout_.trial_columns.size(), true);
         quoted_rows_ = quoted_separators_ = false;
         for (std::string_view line; lines_.line_number() < begins;) {
             const auto more = next_row(line);
@@ -212,17 +212,18 @@ class TextTable final : public Table {
                 const auto inside = [&](auto field) { return field.find(dialect_.separator) != field.npos; };
                 quoted_separators_ = quoted_separators_ || std::any_of(fields_.begin(), fields_.end(), inside);
             }
-            last = std::move(now);
-            now.clear();
-            for (const auto c : form_.trial_columns) now.emplace_back(c < fields_.size() ? fields_[c] : std::string_view());
-            if (first.empty()) first = now;
-            for (std::size_t k = 0; k < now.size() && lines_.line_number() < begins; ++k) constant[k] = constant[k] && now[k] == first[k];
+            last = std::move(current);
+            current.clear();
+            for (const auto c : layout_.trial_columns) current.emplace_back(c < fields_.size() ? fields_[c] : std::string_view());
+            if (first.empty()) first = current;
+            for (std::size_t k = 0; k < current.size() && lines_.line_number() < begins; ++k)
+                constant[k] = constant[k] && current[k] == first[k];
         }
         if (last.empty()) return found;
-        for (std::size_t k = 0; k < now.size(); ++k) {
-            const bool changes = now[k] != last[k];
-            if (changes || (constant[k] && is_trial_name(columns_[form_.trial_columns[k]].name)))
-                found.push_back({form_.trial_columns[k], first[k], changes});
+        for (std::size_t k = 0; k < current.size(); ++k) {
+            const bool changes = current[k] != last[k];
+            if (changes || (constant[k] && is_trial_name(columns_[layout_.trial_columns[k]].name)))
+                found.push_back({layout_.trial_columns[k], first[k], changes});
         }
         // Keep the most likely column that changes, and the constant columns, which may change later.
         const auto one = std::find_if(found.begin(), found.end(), [](const TrialColumn& t) { return t.changes; });
@@ -250,8 +251,8 @@ class TextTable final : public Table {
         const auto fields = separator == ' ' ? "" : separator == '\t' ? " -F'\\t'" : fmt::format(" -F' *[{}] *'", separator);
         // Remove CR, which would be part of the last field, and quotes, which would be part of any field.
         return quoted_rows_ ? fmt::format("awk{} '{{sub(/\\r$/, \"\"); row=$0; gsub(/\"/, \"\")}} NR<{} || ({}) {{print row}}'", fields,
-                                          form_.first_row_line, wanted)
-                            : fmt::format("awk{} '{{sub(/\\r$/, \"\")}} NR<{} || ({})'", fields, form_.first_row_line, wanted);
+                                          layout_.first_row_line, wanted)
+                            : fmt::format("awk{} '{{sub(/\\r$/, \"\")}} NR<{} || ({})'", fields, layout_.first_row_line, wanted);
     }
 
     void name_columns() {
@@ -271,11 +272,11 @@ public:
         : lines_(std::move(lines)), skip_(skip), rows_are_channels_(rows_are_channels) {}
 
     Result<void> open() {
-        auto form = detect_text_layout(lines_, skip_, rows_are_channels_);
-        if (!form) return form.error();
-        form_ = std::move(*form);
-        dialect_ = form_.dialect, columns_ = form_.columns, time_ = form_.roles.time_column;
-        if (!form_.has_header && !time_ && !form_.has_row_names)
+        auto layout = detect_text_layout(lines_, skip_, rows_are_channels_);
+        if (!layout) return layout.error();
+        layout_ = std::move(*layout);
+        dialect_ = layout_.dialect, columns_ = layout_.columns, time_ = layout_.roles.time_column;
+        if (!layout_.has_header && !time_ && !layout_.has_row_names)
             if (auto ok = find_unnamed_time(); !ok) return ok;
         name_columns();
         store_evidence();
@@ -284,13 +285,13 @@ public:
 
     const std::vector<Column>& columns() const override { return columns_; }
     std::optional<std::size_t> time_column() const override { return time_; }
-    bool is_time_guessed() const override { return time_ && (!form_.has_header || form_.roles.is_time_guessed); }
-    std::optional<double> rate() const override { return form_.rate; }
-    std::vector<std::string> notes() const override { return form_.notes; }
+    bool is_time_guessed() const override { return time_ && (!layout_.has_header || layout_.roles.is_time_guessed); }
+    std::optional<double> rate() const override { return layout_.rate; }
+    std::vector<std::string> notes() const override { return layout_.notes; }
     std::vector<std::string> time_notes() const override {
-        auto all = form_.roles.notes;
-        if (time_ && columns_[*time_].holds_time_stamps && form_.first_stamp) {
-            const auto& s = *form_.first_stamp;
+        auto all = layout_.roles.notes;
+        if (time_ && columns_[*time_].holds_time_stamps && layout_.first_stamp) {
+            const auto& s = *layout_.first_stamp;
             const auto instant = format_instant(static_cast<double>(s.day) * 86'400 + static_cast<double>(s.nanoseconds) * 1e-9);
             all.push_back(
                 fmt::format("0 s is {}, the first time in '{}'", s.has_date ? instant : instant.substr(11), columns_[*time_].name));
@@ -301,16 +302,16 @@ public:
     std::string single_trial_advice(std::size_t row) override {
         auto trials = find_trials(location(row).line);
         if (!trials || trials->empty()) return "";
-        const auto telling = std::find_if(trials->begin(), trials->end(), [](const TrialColumn& t) { return t.changes; });
+        const auto distinguishing = std::find_if(trials->begin(), trials->end(), [](const TrialColumn& t) { return t.changes; });
         const auto filter = trial_filter(*trials);
         const auto command = filter.empty() ? filter : lines_.copy_command(filter, "-trial1");
         return fmt::format("the file has several trials, identified by '{}', but only one can be read at a time; make a file of {}{}",
-                           columns_[telling->column].name, command.empty() ? "each" : "one: ", command);
+                           columns_[distinguishing->column].name, command.empty() ? "each" : "one: ", command);
     }
 
     Result<std::vector<std::string>> row_names() override {
         std::vector<std::string> names;
-        if (!form_.has_row_names) return names;
+        if (!layout_.has_row_names) return names;
         for (std::string_view line;;) {
             const auto more = next_row(line);
             if (!more) return more.error();
@@ -321,11 +322,11 @@ public:
     }
 
     double progress() const override { return lines_.progress(); }
-    SourceLocation location(std::size_t row) const override { return {lines_.path(), row < numbers_.size() ? numbers_[row] : 0}; }
+    SourceLocation location(std::size_t row) const override { return {lines_.path(), row < line_numbers_.size() ? line_numbers_[row] : 0}; }
 
     Result<std::size_t> read(const std::vector<std::size_t>& wanted, std::size_t rows, std::vector<std::vector<double>>& out) override {
         for (auto& column : out) column.resize(rows);
-        numbers_.clear();
+        line_numbers_.clear();
         set_columns(wanted, out);
         std::size_t row = 0;
         for (std::string_view line; row < rows; ++row) {
@@ -333,7 +334,7 @@ public:
             if (!more) return more.error();
             if (!*more) break;
             if (auto ok = read_row(line, row, wanted, out); !ok) return ok.error();
-            numbers_.push_back(lines_.line_number());
+            line_numbers_.push_back(lines_.line_number());
         }
         return row;
     }

@@ -26,11 +26,11 @@ struct StampReader {
         rest.remove_prefix(n);
         return value;
     }
-    bool take(char c) {
+    bool accept(char c) {
         if (!rest.starts_with(c)) return false;
         return rest.remove_prefix(1), true;
     }
-    void need(char c) { good = take(c) && good; }
+    void expect(char c) { good = accept(c) && good; }
 };
 
 std::optional<std::int64_t> day_of(int year, int month, int day) {
@@ -41,22 +41,22 @@ std::optional<std::int64_t> day_of(int year, int month, int day) {
 }
 
 /// Parses "2026-03-01", "2026/03/01" or "01.03.2026". Consumes nothing if there is no date.
-std::optional<std::int64_t> take_date(StampReader& in) {
+std::optional<std::int64_t> parse_date(StampReader& in) {
     StampReader r = in;
     const std::size_t digits = std::min(r.rest.find_first_not_of("0123456789"), r.rest.size());
     std::optional<std::int64_t> day;
     if (digits == 4) {
         const int year = r.digits(4, 4);
         const char separator = r.rest.starts_with('/') ? '/' : '-';
-        r.need(separator);
+        r.expect(separator);
         const int month = r.digits(1, 2);
-        r.need(separator);
+        r.expect(separator);
         day = day_of(year, month, r.digits(1, 2));
     } else if (digits <= 2 && r.rest.substr(digits).starts_with('.')) {
         const int first = r.digits(1, 2);
-        r.need('.');
+        r.expect('.');
         const int month = r.digits(1, 2);
-        r.need('.');
+        r.expect('.');
         day = day_of(r.digits(4, 4), month, first);
     }
     if (!day || !r.good) return {};
@@ -65,15 +65,15 @@ std::optional<std::int64_t> take_date(StampReader& in) {
 }
 
 /// Parses "12:00:00.125" to nanoseconds.
-std::optional<std::int64_t> take_time_of_day(StampReader& r) {
+std::optional<std::int64_t> parse_time_of_day(StampReader& r) {
     const int hour = r.digits(1, 2);
-    r.need(':');
+    r.expect(':');
     const int minute = r.digits(2, 2);
-    r.need(':');
+    r.expect(':');
     const int second = r.digits(2, 2);
     if (!r.good || hour > 23 || minute > 59 || second > 60) return {};
     std::int64_t fraction = 0;
-    if (r.take('.') || r.take(',') || r.take(':')) {  // some loggers write a colon before the milliseconds
+    if (r.accept('.') || r.accept(',') || r.accept(':')) {  // some loggers write a colon before the milliseconds
         std::int64_t unit = second_ns;
         while (!r.rest.empty() && StampReader::is_digit(r.rest[0])) {
             if (unit > 1) fraction += (unit /= 10) * (r.rest[0] - '0');
@@ -85,33 +85,33 @@ std::optional<std::int64_t> take_time_of_day(StampReader& r) {
 }
 
 /// Parses "Z", "+01:00", "+0100" or "+01" to nanoseconds ahead of UTC.
-std::optional<std::int64_t> take_zone(StampReader& r) {
-    if (r.take('Z') || r.take('z')) return 0;
+std::optional<std::int64_t> parse_zone(StampReader& r) {
+    if (r.accept('Z') || r.accept('z')) return 0;
     const bool west = r.rest.starts_with('-');
     if (!west && !r.rest.starts_with('+')) return 0;
     r.rest.remove_prefix(1);
     const int hours = r.digits(2, 2);
-    r.take(':');
+    r.accept(':');
     const int minutes = r.rest.empty() ? 0 : r.digits(2, 2);
     if (!r.good || hours > 14 || minutes > 59) return {};
-    const std::int64_t ahead = (hours * 3600LL + minutes * 60LL) * second_ns;
-    return west ? -ahead : ahead;
+    const std::int64_t offset = (hours * 3600LL + minutes * 60LL) * second_ns;
+    return west ? -offset : offset;
 }
 
 }  // namespace
 
 std::optional<TimeStamp> parse_time_stamp(std::string_view text) {
     StampReader r{trimmed(text)};
-    const auto day = take_date(r);
-    if (day && !r.take('T') && !r.take('t') && !r.take(' ') && !r.take('-') && !r.take('_')) return {};
+    const auto day = parse_date(r);
+    if (day && !r.accept('T') && !r.accept('t') && !r.accept(' ') && !r.accept('-') && !r.accept('_')) return {};
     r.rest = trimmed(r.rest);
-    const auto time = take_time_of_day(r);
+    const auto time = parse_time_of_day(r);
     if (!time) return {};
     r.rest = trimmed(r.rest);
     if (r.rest == "UTC") r.rest = {};
-    const auto ahead = take_zone(r);
-    if (!ahead || !r.rest.empty()) return {};
-    TimeStamp out{day.value_or(0), *time - *ahead, day.has_value()};
+    const auto offset = parse_zone(r);
+    if (!offset || !r.rest.empty()) return {};
+    TimeStamp out{day.value_or(0), *time - *offset, day.has_value()};
     for (; out.nanoseconds < 0; out.nanoseconds += day_ns) --out.day;
     for (; out.nanoseconds >= day_ns; out.nanoseconds -= day_ns) ++out.day;
     return out;
@@ -119,7 +119,7 @@ std::optional<TimeStamp> parse_time_stamp(std::string_view text) {
 
 bool is_date(std::string_view text) {
     StampReader r{trimmed(text)};
-    return take_date(r) && r.rest.empty();
+    return parse_date(r) && r.rest.empty();
 }
 
 double seconds_between(const TimeStamp& from, const TimeStamp& to) {

@@ -15,8 +15,8 @@ struct TimeStamp {
     bool has_date = false;
 };
 
-/// Parses "2026-03-01T12:00:00.000Z", "2026-03-01 12:00:00,5", "2026/03/01 12:00:00", "01.03.2026 12:00:00", "12:00:00.000". It is a
-/// time of day with seconds, an optional date before it, and an optional time zone (Z, +01:00) after it. 03/01/2026 is not accepted,
+/// Parses "2026-03-01T12:00:00.000Z", "2026-03-01 12:00:00,5", "2026/03/01 12:00:00", "01.03.2026 12:00:00", "12:00:00.000". The
+/// seconds are required, the date and the time zone (Z, +01:00) optional. 03/01/2026 is not accepted,
 /// because day and month are ambiguous.
 std::optional<TimeStamp> parse_time_stamp(std::string_view text);
 

@@ -1,5 +1,6 @@
 #pragma once
-// Transposes a table, so that its rows become channels. For text, which cannot be read row by row as channels otherwise.
+// Transposes a table, so that its rows become channels. Used for text files; array formats transpose while they
+// read.
 
 #include "io/table.hpp"
 

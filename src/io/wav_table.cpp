@@ -15,7 +15,7 @@
 namespace corpuscle {
 namespace {
 
-std::uint64_t number_of_bytes(std::string_view bytes, bool big_endian) {
+std::uint64_t integer_of(std::string_view bytes, bool big_endian) {
     std::uint64_t n = 0;
     for (std::size_t k = 0; k < bytes.size(); ++k)
         n |= std::uint64_t{static_cast<unsigned char>(bytes[k])} << (8 * (big_endian ? bytes.size() - 1 - k : k));
@@ -27,33 +27,34 @@ struct SoundData {
     std::uint64_t begin, size;
 };
 
-/// For WAV, AIFF and AU files. nullopt for other formats, and for headers without a length, as streams have.
+/// Finds the samples of a WAV, AIFF or AU file. nullopt for other formats, and for the header of a stream, which has no length.
 std::optional<SoundData> find_sound_data(std::ifstream& file) {
     constexpr std::uint64_t no_length =
-        0x7fff'0000;  // a size from here on means unknown; streams write 0, the largest number or one close to it
+        0x7fff'0000;  // a size of at least this value is unknown: streams write the largest number or one close to it, or 0
     constexpr int max_chunks = 1000;
-    std::string head(12, '\0');
-    if (!file.read(head.data(), 12)) return {};
-    const std::string_view kind = std::string_view(head).substr(0, 4), form = std::string_view(head).substr(8);
+    std::string file_header(12, '\0');
+    if (!file.read(file_header.data(), 12)) return {};
+    const std::string_view kind = std::string_view(file_header).substr(0, 4), form = std::string_view(file_header).substr(8);
     if (kind == ".snd") {
-        const SoundData data{number_of_bytes(std::string_view(head).substr(4, 4), true), number_of_bytes(form, true)};
+        const SoundData data{integer_of(std::string_view(file_header).substr(4, 4), true), integer_of(form, true)};
         return data.size < no_length ? std::optional(data) : std::nullopt;
     }
     const bool wave = (kind == "RIFF" || kind == "RIFX") && form == "WAVE", aiff = kind == "FORM" && (form == "AIFF" || form == "AIFC");
     if (!wave && !aiff) return {};
     std::uint64_t at = 12;
     for (int chunk = 0; chunk < max_chunks; ++chunk) {
-        std::string head_of_chunk(8, '\0');
-        if (!file.seekg(static_cast<std::streamoff>(at)) || !file.read(head_of_chunk.data(), 8)) return {};
-        const auto size = number_of_bytes(std::string_view(head_of_chunk).substr(4), kind != "RIFF");
-        if (head_of_chunk.starts_with(wave ? "data" : "SSND"))
+        std::string chunk_header(8, '\0');
+        if (!file.seekg(static_cast<std::streamoff>(at)) || !file.read(chunk_header.data(), 8)) return {};
+        const auto size = integer_of(std::string_view(chunk_header).substr(4), kind != "RIFF");
+        if (chunk_header.starts_with(wave ? "data" : "SSND"))
             return size < no_length ? std::optional(SoundData{at + 8, size}) : std::nullopt;
         at += 8 + size + size % 2;
     }
     return {};
 }
 
-/// A note if the file ends before its samples do, as an incomplete copy does. libsndfile reads such a file as a shorter one. Otherwise "".
+/// A note if the file is shorter than its header states, as an incomplete copy is; otherwise "". libsndfile reads such a file without a
+/// warning.
 std::string missing_samples_note(const std::string& path) {
     std::error_code status;
     const auto size = std::filesystem::file_size(path, status);

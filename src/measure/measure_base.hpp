@@ -10,8 +10,8 @@ inline constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
 
 /// The time window that is measured, [from, to) in s. `to` is infinite while the end is not known.
 struct TimeWindow {
-    double from = 0, to = std::numeric_limits<double>::infinity();
-    double stimulus_frequency = 0;  ///< Hz, of a periodic stimulus; 0: not periodic
+    double from = 0, to = std::numeric_limits<double>::infinity();  ///< s
+    double stimulus_frequency = 0;                                  ///< Hz, of a periodic stimulus; 0: not periodic
 };
 
 /// Description of a measure. A measure is a struct with this as `info`. It implements those of the following functions that it needs:
@@ -25,7 +25,7 @@ struct MeasureInfo {
     std::string_view name;   ///< in files: "peak_rate"
     std::string_view title;  ///< for display: "peak"
     std::string_view unit;
-    int decimals;  ///< significant decimals; 0 for a count
+    int decimals;  ///< decimal places for display; 0 for a count
     std::string_view description;
 };
 

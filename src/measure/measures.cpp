@@ -13,17 +13,18 @@ void each(Tuple& all, F&& f) {
 
 }  // namespace
 
-MeasureAccumulator::MeasureAccumulator(std::vector<TimeWindow> stretches, std::size_t trains)
-    : windows_(std::move(stretches)), trains_(trains, Train{std::vector<Measures::Tuple>(windows_.size())}) {}
+MeasureAccumulator::MeasureAccumulator(std::vector<TimeWindow> windows, std::size_t trains)
+    : windows_(std::move(windows)), trains_(trains, Train{std::vector<Measures::Tuple>(windows_.size())}) {}
 
 void MeasureAccumulator::spike(std::size_t number, double t) {
     auto& train = trains_[number];
     const std::size_t before = train.window;
     while (train.window < windows_.size() && t >= windows_[train.window].to) ++train.window;
-    const bool here = train.window < windows_.size() && t >= windows_[train.window].from;
-    if (!std::isnan(train.last)) each(train.measures[before], [&](auto& m) { m.interval(train.last, t, here && train.window == before); });
-    if (here) each(train.measures[train.window], [&](auto& m) { m.spike(t, windows_[train.window]); });
-    train.last = here ? t : no_value;
+    const bool is_inside = train.window < windows_.size() && t >= windows_[train.window].from;
+    if (!std::isnan(train.last))
+        each(train.measures[before], [&](auto& m) { m.interval(train.last, t, is_inside && train.window == before); });
+    if (is_inside) each(train.measures[train.window], [&](auto& m) { m.spike(t, windows_[train.window]); });
+    train.last = is_inside ? t : no_value;
 }
 
 void MeasureAccumulator::set_end(double t) {
@@ -31,9 +32,9 @@ void MeasureAccumulator::set_end(double t) {
         if (std::isinf(s.to)) s.to = t;
 }
 
-std::vector<double> MeasureAccumulator::values(std::size_t train, std::size_t stretch) const {
+std::vector<double> MeasureAccumulator::values(std::size_t train, std::size_t window) const {
     std::vector<double> all;
-    each(trains_[train].measures[stretch], [&](const auto& m) { all.push_back(m.value(windows_[stretch])); });
+    each(trains_[train].measures[window], [&](const auto& m) { all.push_back(m.value(windows_[window])); });
     return all;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 // Measures of spike trains. To add one, put its struct into a file here and its name into the list. It is then a column in summary, table
-// and report. Measures receive spikes one at a time and keep a few numbers each, independent of the length of the train.
+// and report. Measures receive spikes one at a time and store a few numbers, independent of the length of the train.
 
 #include <span>
 #include <tuple>
@@ -44,25 +44,25 @@ class MeasureAccumulator {
 
 public:
     /// The windows are in order of time and do not overlap.
-    explicit MeasureAccumulator(std::vector<TimeWindow> stretches = {}, std::size_t trains = 0);
-    /// The next spike of a train, at t (s).
+    explicit MeasureAccumulator(std::vector<TimeWindow> windows = {}, std::size_t trains = 0);
+    /// Adds the next spike of a train, at t (s).
     void spike(std::size_t train, double t);
     /// Sets the end of windows whose end was unknown.
     void set_end(double t);
-    /// A value for each of `measures`.
-    std::vector<double> values(std::size_t train, std::size_t stretch) const;
+    /// A value for each of `measures`; no_value if a measure is undefined.
+    std::vector<double> values(std::size_t train, std::size_t window) const;
     template <class M>
-    double value(std::size_t train, std::size_t stretch) const {
-        return std::get<M>(trains_[train].measures[stretch]).value(windows_[stretch]);
+    double value(std::size_t train, std::size_t window) const {
+        return std::get<M>(trains_[train].measures[window]).value(windows_[window]);
     }
 };
 
 /// One measure of a complete train: measure<PeakRate>(train, {0.25, 0.375}).
 template <class M>
-double measure(std::span<const double> train, const TimeWindow& stretch) {
-    MeasureAccumulator tally({stretch}, 1);
-    for (const double t : train) tally.spike(0, t);
-    return tally.value<M>(0, 0);
+double measure(std::span<const double> train, const TimeWindow& window) {
+    MeasureAccumulator accumulator({window}, 1);
+    for (const double t : train) accumulator.spike(0, t);
+    return accumulator.value<M>(0, 0);
 }
 
 /// The instantaneous frequencies of a train, Hz; one value fewer than its spikes.

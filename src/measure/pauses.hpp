@@ -4,12 +4,12 @@
 namespace corpuscle {
 
 /// Separates pauses from interspike intervals, one at a time. A pause is longer than half a second and longer than ten times the mean of
-/// the intervals before it. An interval of more than ten seconds is always a pause. Both are choices: touched afferents fire faster than
-/// once a second, most of them ten times as fast.
+/// the intervals before it. An interval of more than ten seconds is always a pause. These limits are choices: touched afferents fire faster
+/// than once a second, most of them ten times as fast.
 class PauseDetector {
-    static constexpr double min_pause = 0.5, min_ratio = 10;
-    double firing_ = 0, paused_ = 0;  // s, in all
-    double intervals_ = 0;            // not counting pauses
+    static constexpr double min_pause = 0.5, min_ratio = 10;  // min_pause: s
+    double firing_ = 0, paused_ = 0;                          // s, total durations
+    double intervals_ = 0;                                    // number of intervals without the pauses
 
     double mean() const { return firing_ / intervals_; }
 

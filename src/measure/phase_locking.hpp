@@ -1,5 +1,5 @@
 #pragma once
-// Phase locking of spikes to a periodic stimulus, over the complete cycles of a phase, counted from its start.
+// Phase locking of spikes to a periodic stimulus, over the complete stimulus cycles of a time window, counted from its start.
 
 #include <cmath>
 
@@ -20,7 +20,9 @@ struct CycleMeasure : MeasureBase {
         if (std::floor(cycles_elapsed) != cycle) sum.add(current), current = {}, cycle = std::floor(cycles_elapsed);
         current.spike(cycles_elapsed);
     }
+    /// The number of complete cycles. The factor keeps a cycle that rounding would make incomplete.
     static double cycles(const TimeWindow& s) { return std::floor((s.to - s.from) * s.stimulus_frequency * (1 + 1e-12)); }
+    /// The sum over the complete cycles.
     Sum complete(const TimeWindow& s) const {
         Sum all = sum;
         if (cycle < cycles(s)) all.add(current);
@@ -51,7 +53,8 @@ struct SingleSpikeSum {
     void add(const SingleSpikeSum& o) { singles += o.singles; }
 };
 
-/// One spike per cycle is called tuned by Talbot et al. 1968 (J Neurophysiol 31:301), and entrained one to one by others.
+/// A response with one spike in each cycle is called "tuned" by Talbot et al. 1968 (J Neurophysiol 31:301) and "entrained one to one" by
+/// others.
 struct Entrainment : CycleMeasure<SingleSpikeSum> {
     static constexpr MeasureInfo info{"entrainment", "entrainment", "", 3,
                                       "fraction of the complete stimulus cycles with exactly one spike"};

@@ -8,9 +8,9 @@
 
 namespace corpuscle {
 
-/// The thesis's instantaneous frequency, 1 / (t[k+1] - t[k]), plotted at t[k] (3.3). Two spikes on one sample have none.
+/// The instantaneous frequency of the thesis (3.3) in Hz, 1 / (t[k+1] - t[k]), plotted at t[k]. No value for two spikes at the same time.
 inline double rate_between(double from, double to) { return to > from ? 1 / (to - from) : no_value; }
-/// The same, but NaN over a pause.
+/// The same, but no value for an interval longer than PauseDetector::max_interval.
 inline double firing_rate_between(double from, double to) {
     return to - from > PauseDetector::max_interval ? no_value : rate_between(from, to);
 }

@@ -10,19 +10,20 @@
 namespace corpuscle {
 namespace {
 
-/// The saving, compared with removing all of one train and adding all of the other: 2 - q |dt| for each move. Computed row by row over a,
-/// and only for the columns of b where a move saves something. Before these columns nothing changes; after them the last value applies.
+/// The saving of an alignment, compared with removing all spikes of one train and adding all spikes of the other: 2 - q |dt| for each
+/// move. The best saving is computed in a table with a row for each spike of a and a column for each spike of b. In a row only the columns
+/// are computed in which a move saves something. Columns before these keep their value; columns after these have the last value.
 class Savings {
     std::span<const double> a_, b_;
     double q_;
-    std::vector<double> best_;  // best_[j]: for a[0 .. i) and b[0 .. j); valid up to known_
+    std::vector<double> best_;  // best_[j]: the best saving for a[0 .. i) and b[0 .. j); valid up to known_
     std::size_t known_ = 0;
 
 public:
     enum Choice : unsigned char { skip_a, skip_b, move };
     struct RowRange {
         std::size_t from = 0, to = 0;  // the columns of b, [from, to)
-        std::size_t cells = 0;         // in all rows before
+        std::size_t cells = 0;         // in all earlier rows
     };
     /// The state on which the rows from `row` on depend.
     struct Checkpoint {
@@ -64,17 +65,17 @@ public:
         const auto begin = best_.begin() + static_cast<std::ptrdiff_t>(std::min(from, known_));
         return {row, std::min(from, known_), known_, {begin, best_.begin() + static_cast<std::ptrdiff_t>(known_) + 1}};
     }
-    void restore(const Checkpoint& there) {
-        known_ = there.known;
-        std::copy(there.best.begin(), there.best.end(), best_.begin() + static_cast<std::ptrdiff_t>(there.from));
+    void restore(const Checkpoint& saved_state) {
+        known_ = saved_state.known;
+        std::copy(saved_state.best.begin(), saved_state.best.end(), best_.begin() + static_cast<std::ptrdiff_t>(saved_state.from));
     }
 
     double total() const { return best_[known_]; }
 };
 
-constexpr std::size_t cells_kept = std::size_t{1} << 22;  // choices in memory at once
+constexpr std::size_t max_choices = std::size_t{1} << 22;  // stored at the same time
 
-/// Collects the moves of rows [from, to), whose choices are in memory, in falling order.
+/// Collects the moves of rows [from, to), whose choices are in memory, in descending order.
 void trace_back(std::span<const Savings::RowRange> rows, std::size_t from, std::size_t to, const std::vector<Savings::Choice>& choices,
                 std::size_t& j, std::vector<SpikePair>& moved) {
     for (std::size_t i = to; i-- > from;)
@@ -96,11 +97,12 @@ Result<Alignment> align(std::span<const double> a, std::span<const double> b, do
         return bad_input(
             fmt::format("at a cost of {:g} per second, {} and {} spikes have {} pairs within reach of each other; raise the cost", q,
                         a.size(), b.size(), cells));
-    // Choices are kept for as many rows as fit a fixed amount of memory. Those of earlier blocks are computed again from their checkpoints.
+    // Only the choices of one block of rows are in memory, at most max_choices. Those of earlier blocks are computed again from their
+    // checkpoints.
     std::vector<Savings::Choice> choices;
     std::vector<Savings::Checkpoint> blocks;
     for (std::size_t i = 0; i < rows.size(); ++i) {
-        if (with_moves && (blocks.empty() || rows[i].cells + rows[i].to - rows[i].from - rows[blocks.back().row].cells > cells_kept))
+        if (with_moves && (blocks.empty() || rows[i].cells + rows[i].to - rows[i].from - rows[blocks.back().row].cells > max_choices))
             blocks.push_back(savings.checkpoint(i, rows[i].from)), choices.clear();
         savings.process_row(i, rows[i], with_moves ? &choices : nullptr);
     }

@@ -10,7 +10,7 @@ namespace corpuscle {
 /// Kinds of error. The numbers are the exit statuses of the program.
 enum class ErrorCode { bad_input = 1, bad_usage = 2, not_converged = 3, interrupted = 130 };
 
-/// A place in a text file.
+/// A location in a text file.
 struct SourceLocation {
     std::string file;
     long line = 0;    ///< 1-based; 0: unknown
@@ -19,7 +19,7 @@ struct SourceLocation {
 
 struct Error {
     ErrorCode code = ErrorCode::bad_input;
-    std::string message;  ///< names the thing, the value and what would be right
+    std::string message;  ///< states what is wrong, its value, and what is expected
     SourceLocation location = {};
 
     /// "file:line:column: message", as compilers write it.

@@ -13,7 +13,7 @@
 
 namespace corpuscle {
 
-/// Position of a sensor in m, or in the unit of a layout file that names none.
+/// Position of a sensor in m, or as written in the layout file if this has no unit of length.
 struct Position {
     double x = 0, y = 0, z = 0;
 };
@@ -31,7 +31,7 @@ struct Phase {
     double from = 0, to = 0;
 };
 
-/// A property of a source: a stimulus's parameter, or an option with which a recording is read.
+/// A property of a source: a parameter of a stimulus, or an option with which a recording is read.
 struct MetadataEntry {
     std::string name;
     double value = 0;
@@ -46,7 +46,7 @@ struct QualityMetric {
     std::string_view unit;
 };
 
-/// The recording quality of a source: numbers, the same as text, and warnings if the response is doubtful.
+/// The recording quality of a source: metrics, descriptions of its faults, and warnings about faults that make the response doubtful.
 struct RecordingQuality {
     std::vector<QualityMetric> metrics = {};
     std::vector<std::string> descriptions = {}, warnings = {};
@@ -68,6 +68,7 @@ public:
     virtual const std::vector<Channel>& channels() const = 0;
     /// The fraction that has been read, 0 to 1, for a progress display.
     virtual double progress() const = 0;
+    /// The phases of a stimulus; empty if it has none.
     virtual std::vector<Phase> phases() const { return {}; }
     /// Frequency of repetition, Hz; 0 if the force is not periodic.
     virtual double cycle_frequency() const { return 0; }

@@ -18,7 +18,7 @@ struct MaskOf {
 /// exp() limits its argument to +- this value, so that it never returns infinity.
 template <class T>
 inline constexpr double exp_limit = 700;
-/// For a smaller |x| a short series replaces e^x - 1, which would lose digits.
+/// For |x| below this value exprel() uses a short series, because e^x - 1 would lose digits.
 template <class T>
 inline constexpr double series_limit = 0.01;
 /// The type of a comparison of two T: bool, or a mask of lanes.

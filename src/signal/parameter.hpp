@@ -16,7 +16,7 @@ template <class P>
 struct ParameterDef {
     std::string_view name;
     double P::* member;
-    std::string_view unit;  ///< SI, "" for a plain number
+    std::string_view unit;  ///< an SI unit; "" for a dimensionless number
     double low, high;       ///< the allowed range, ends included
     std::string_view description;
     std::string_view source = {};      ///< source of the default, if it is not the model's source
@@ -36,10 +36,10 @@ struct OrderConstraint {
 /// A parameter without its struct type, for lists, pages and settings.
 struct ParameterInfo {
     std::string_view name, unit;
-    double default_value;  ///< the default
+    double default_value;
     double low, high;
     std::string_view description;
-    std::string_view source;           ///< source of the default; "": that of the catalogue entry
+    std::string_view source;           ///< source of the default; "": the source of the catalogue entry
     bool is_shared_by_copies = false;  ///< true if all copies of an afferent share the value
 };
 
@@ -86,7 +86,8 @@ Result<void> check_order(std::string_view owner, std::span<const OrderConstraint
 /// Suggests the name that is closest to a mistyped one, as "; did you mean 'out'?". "" if none is close.
 std::string did_you_mean(std::string_view typed, std::span<const std::string_view> names);
 
-/// The default parameters with the settings applied. Settings for other parameters are ignored: they may belong to a partner model.
+/// The default parameters with the settings applied. Settings for other parameters are ignored, because they may belong to the
+/// other component of the model.
 template <class P>
 P with_settings(std::span<const ParameterDef<P>> fields, std::span<const Setting> settings) {
     P p;

@@ -68,10 +68,10 @@ std::string_view dimension_name(const Unit& u) {
     struct Kind {
         std::string_view unit, name;
     };
-    constexpr Kind kinds[] = {{"s", "a time"},        {"Hz", "a frequency"},  {"m", "a length"},       {"N", "a force"},
-                              {"V", "a voltage"},     {"A", "a current"},     {"ohm", "a resistance"}, {"S", "a conductance"},
-                              {"F", "a capacitance"}, {"", "a plain number"}, {"m/s", "a speed"},      {"W", "a power"},
-                              {"m2", "an area"},      {"Pa", "a pressure"}};
+    constexpr Kind kinds[] = {
+        {"s", "a time"},    {"Hz", "a frequency"},   {"m", "a length"},      {"N", "a force"},       {"V", "a voltage"},
+        {"A", "a current"}, {"ohm", "a resistance"}, {"S", "a conductance"}, {"F", "a capacitance"}, {"", "a number without a unit"},
+        {"m/s", "a speed"}, {"W", "a power"},        {"m2", "an area"},      {"Pa", "a pressure"}};
     for (const auto& k : kinds)
         if (parse_unit(k.unit)->has_same_dimension(u)) return k.name;
     return {};
@@ -80,7 +80,7 @@ std::string_view dimension_name(const Unit& u) {
 Error wrong_unit(std::string_view text, std::string_view wanted, const std::optional<Unit>& found) {
     const auto name = found ? dimension_name(*found) : std::string_view{};
     const auto problem = name.empty() ? fmt::format("'{}' has another unit", text) : fmt::format("'{}' is {}", text, name);
-    return bad_input(wanted.empty() ? fmt::format("{}; expected a plain number", problem)
+    return bad_input(wanted.empty() ? fmt::format("{}; expected a number without a unit", problem)
                                     : fmt::format("{}; expected a value in {}, such as '2 {}'", problem, wanted, wanted));
 }
 
@@ -132,11 +132,11 @@ Result<double> parse_quantity(std::string_view text, std::string_view unit) {
         const auto found = parse_unit(written);
         if (found && found->has_same_dimension(wanted)) {
             factor = found->factor / wanted.factor;
-        } else if (const auto bare = prefix_factor(written)) {
-            factor = *bare;
+        } else if (const auto prefix_only = prefix_factor(written)) {
+            factor = *prefix_only;
         } else if (!found) {
             return bad_input(fmt::format("'{}': {}; expected {}, such as '{}'", text, found.error().message,
-                                         unit.empty() ? "a plain number" : fmt::format("a value in {}", unit), example));
+                                         unit.empty() ? "a number without a unit" : fmt::format("a value in {}", unit), example));
         } else {
             return wrong_unit(text, unit, *found);
         }

@@ -8,8 +8,8 @@
 
 namespace corpuscle {
 
-/// The SI value of a quantity. `unit` is the expected unit ("s", "Hz", "A/N", "" for a plain number).
-/// A bare number, or one with a bare prefix ("1k", "500n"), is in that unit. "10%" is 0.1 if a plain number is expected.
+/// The SI value of a quantity. `unit` is the expected unit ("s", "Hz", "A/N", "" for a dimensionless
+/// number). A number without a unit, also with a prefix ("1k", "500n"), is in the expected unit. "10%" is 0.1 if `unit` is "".
 /// A power follows its symbol: "4 mm2", "241 /cm2".
 /// Prefixes are f p n u (or the micro sign) m k M G T; M is mega, m is milli. Other dimensions, infinities and NaN are errors.
 Result<double> parse_quantity(std::string_view text, std::string_view unit);

@@ -8,7 +8,8 @@
 #include <cstdint>
 
 #ifdef __AVX512F__
-// On AVX-512 xsimd negates by 0 - x, which gives 0 instead of -0. Other instruction sets and double change only the sign bit.
+// On AVX-512 xsimd negates by 0 - x, which gives 0 instead of -0. Other instruction sets, and the scalar type double, change
+// only the sign bit.
 template <>
 inline xsimd::batch<double> xsimd::batch<double>::operator-() const noexcept {
     return -data;
@@ -67,7 +68,7 @@ Lanes<V> sqrt(Lanes<V> x) {
     return xsimd::sqrt(x);
 }
 
-/// a > b ? a : b and a < b ? a : b, which is what the instructions do, also for equal zeros and NaN.
+/// max() is a > b ? a : b and min() is a < b ? a : b, as the instructions compute them, also for zeros of different sign and NaN.
 template <class V>
 Lanes<V> max(Lanes<V> a, Lanes<V> b) {
     return xsimd::max(a, b);

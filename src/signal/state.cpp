@@ -26,7 +26,7 @@ void put(std::vector<std::byte>& out, const T* data, std::size_t count) {
 }
 
 template <class T>
-bool take(std::span<const std::byte>& in, T* data, std::size_t count) {
+bool get(std::span<const std::byte>& in, T* data, std::size_t count) {
     if (in.size() < count * sizeof(T)) return false;
     if (count > 0) std::memcpy(data, in.data(), count * sizeof(T));
     in = in.subspan(count * sizeof(T));
@@ -63,20 +63,20 @@ SplitFormat split_format(std::string_view format) {
 
 /// The error for a state whose format is not that of the afferent that should resume from it.
 Error format_mismatch(std::string_view name, std::string_view format, std::string_view found) {
-    const auto ours = split_format(format), theirs = split_format(found);
-    if (ours.before != theirs.before || ours.after != theirs.after || ours.version == theirs.version)
+    const auto expected = split_format(format), actual = split_format(found);
+    if (expected.before != actual.before || expected.after != actual.after || expected.version == actual.version)
         return bad_input(fmt::format("a state of '{}' was given to '{}'", found, format));
     return bad_input(
         fmt::format("{}: the saved state has version {}, but this program reads version {}; start again with start(), which gives a "
                     "state of version {}, or continue with the program that saved it",
-                    name, theirs.version.empty() ? "0" : theirs.version, ours.version, ours.version));
+                    name, actual.version.empty() ? "0" : actual.version, expected.version, expected.version));
 }
 
 }  // namespace
 
 std::size_t first_non_finite(std::span<const double> x) {
     constexpr std::uint64_t exponent = 0x7ff0000000000000U;
-    std::uint64_t found = 0;  // without a branch, because almost always all are finite
+    std::uint64_t found = 0;  // no branch in the loop, because almost always all values are finite
     for (const double v : x) found |= (std::bit_cast<std::uint64_t>(v) & exponent) == exponent;
     if (!found) return x.size();
     return static_cast<std::size_t>(std::find_if(x.begin(), x.end(), [](double v) { return !std::isfinite(v); }) - x.begin());
@@ -112,16 +112,16 @@ Result<State> unpack(std::span<const std::byte> in) {
     std::array<char, 8> head = {};
     std::array<std::uint64_t, 2> sizes = {};
     const auto all = in;
-    if (!take(in, head.data(), head.size()) || !std::equal(head.begin(), head.begin() + version_at, magic.begin()))
+    if (!get(in, head.data(), head.size()) || !std::equal(head.begin(), head.begin() + version_at, magic.begin()))
         return bad_input("not a saved afferent state: it does not begin with 'corpst'");
     if (auto ok = check_checksum(all, head, in); !ok) return ok.error();
-    if (!take(in, sizes.data(), 2) || !take(in, &s.step, 1) || sizes[0] > max_length || sizes[1] > max_length ||
+    if (!get(in, sizes.data(), 2) || !get(in, &s.step, 1) || sizes[0] > max_length || sizes[1] > max_length ||
         in.size() != sizes[0] + sizes[1] * sizeof(double))
         return bad_input("the saved afferent state is incomplete or too long");
     s.format.resize(sizes[0]);
     s.values.resize(sizes[1]);
-    take(in, s.format.data(), s.format.size());
-    take(in, s.values.data(), s.values.size());
+    get(in, s.format.data(), s.format.size());
+    get(in, s.values.data(), s.values.size());
     if (s.step < 0 || s.step > max_step)
         return bad_input("the saved afferent state is damaged: its sample number is " + std::to_string(s.step));
     if (first_non_finite(s.values) < s.values.size()) return bad_input("the saved afferent state is damaged: it contains NaN or infinity");

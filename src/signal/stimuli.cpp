@@ -41,8 +41,8 @@ std::vector<CatalogEntry> catalog_of(StimulusList<S...>) {
 }
 
 std::optional<CatalogEntry> find_stimulus(std::string_view name) {
-    for (auto& card : stimulus_catalog())
-        if (card.name == name) return card;
+    for (auto& entry : stimulus_catalog())
+        if (entry.name == name) return entry;
     return {};
 }
 
@@ -125,15 +125,15 @@ Result<std::unique_ptr<ForceSource>> make_stimulus(std::string_view text, std::s
     std::vector<MetadataEntry> metadata;
     double duration = 0;
     for (const auto name : stimulus_members(text)) {
-        const auto card = find_stimulus(name);
-        if (!card) {
+        const auto entry = find_stimulus(name);
+        if (!entry) {
             std::vector<std::string_view> names;
             for (const auto& c : stimulus_catalog()) names.push_back(c.name);
             return bad_input(fmt::format("unknown stimulus '{}'{}", name, did_you_mean(name, names)));
         }
-        const auto settings = settings_for(name, card->parameters, overrides);
+        const auto settings = settings_for(name, entry->parameters, overrides);
         if (!settings) return settings.error();
-        for (const auto& row : card->parameters) {
+        for (const auto& row : entry->parameters) {
             const auto set = std::find_if(settings->rbegin(), settings->rend(), [&](const Setting& s) { return s.name == row.name; });
             metadata.push_back(
                 {fmt::format("{}.{}", name, row.name), set == settings->rend() ? row.default_value : set->value, std::string(row.unit)});

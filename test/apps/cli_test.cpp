@@ -314,7 +314,7 @@ TEST(Program, BadInputAndBadUsageHaveTheirStatusAndMessageAndLeaveNoFiles) {
         {"compare", 2, "compare: no files given; try 'corpuscle compare A/spikes.csv B/spikes.csv'"},
         {"compare bad.csv", 2, "compare bad.csv: needs a second file, or two trains of this file: --pair sa1=fa1"},
         {"compare bad.csv none.csv", 1,
-         "bad.csv:1: no column identifies the trains; call one unit, afferent or channel, or name it with --train. "
+         "bad.csv:1: no column identifies the trains; rename one to unit, afferent or channel, or select it with --train. "
          "Columns: 'time_s', 'fz_N'"},
         {"compare nm.csv none.csv --window 0s", 2, "--window 0s: must be greater than 0"},
         {"compare bad.csv none.csv --cost=-1", 2, "--cost -1: must be 0 or more"},

@@ -168,7 +168,7 @@ TEST(FloatLayout, ErrorsNameLineColumnAndWhatWouldBeRight) {
     EXPECT_EQ(wrong("sensor,x_N\na,1\n"), "l.csv:1:8: 'x' is in 'N', which is not a length; use m, cm, mm or um, or no unit");
     EXPECT_EQ(wrong("who,x\na,1\n"), "l.csv:1: a layout needs a column 'channel' (and may have name, x, y, z); this header has: who, x");
     EXPECT_EQ(wrong("sensor,x\na\n"), "l.csv:2: 1 columns where 2 are expected");
-    EXPECT_EQ(wrong("sensor,x\n"), "l.csv: the layout names no sensor");
+    EXPECT_EQ(wrong("sensor,x\n"), "l.csv: the layout lists no sensors");
 }
 
 TEST(QualityReport, WarnsOfMisleadingDataAndOfNothingElse) {

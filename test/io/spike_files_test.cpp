@@ -53,11 +53,11 @@ TEST(SpikeFiles, ErrorsNameTheFaultAndItsLocation) {
         {"afferent,channel,time_s\nsa1,0.5\n", "x.csv:2: 2 columns where 3 are expected"},
         {"afferent,channel,time_s\nsa1,\"fz,0.5\n", "x.csv:2:5: a quote is opened here but not closed"},
         {"a,b\n1,2\n",
-         "x.csv:1: no column of spike times; call one time_s (or time, t [ms] ...), or name it with --time. Columns: 'a', 'b'"},
+         "x.csv:1: no column of spike times; rename one to time_s (or time, t [ms] ...), or select it with --time. Columns: 'a', 'b'"},
         {"time_s,fz_N\n0,1\n",
-         "x.csv:1: no column identifies the trains; call one unit, afferent or channel, or name it with --train. "
+         "x.csv:1: no column identifies the trains; rename one to unit, afferent or channel, or select it with --train. "
          "Columns: 'time_s', 'fz_N'"},
-        {"0.5 3\n0.6 4\n", "x.csv:1: 2 columns without a header; select the columns of times and trains, such as --time 1 --unit 2"},
+        {"0.5 3\n0.6 4\n", "x.csv:1: 2 columns without a header; select the columns of times and trains, such as --time 1 --train 2"},
         {"unit,time_N\n1,1\n", "x.csv:1:6: 'N' is not a unit of time; use s, ms, us or min"},
         {"", "x.csv: the file has no header and no spikes"},
     };
@@ -114,7 +114,7 @@ TEST(SpikeFiles, NumpysTimesAreReadAndNumbersOfSamplesAreNot) {
     const auto message = refused(folder.write("x.npy", npy_of("<i8", "(2,)", {reinterpret_cast<const char*>(samples), sizeof samples})));
     EXPECT_NE(message.find("the times are integers, as sample numbers are"), std::string::npos) << message;
     EXPECT_EQ(refused(folder.write("y.npy", npy_of("<f8", "(2, 2)", bytes + bytes))),
-              "y.npy: the array has 2 columns; select the columns of times and trains, such as --time 1 --unit 2");
+              "y.npy: the array has 2 columns; select the columns of times and trains, such as --time 1 --train 2");
     EXPECT_EQ(value_or_throw(read_spikes(folder / "y.npy", {"1", "2"}))[0].times.size(), 2U);
 }
 

@@ -56,7 +56,7 @@ TEST(Quantity, RefusesOtherTextsAndGivesAnExample) {
         {"3 furlong", "m", "'3 furlong': unknown unit 'furlong'; expected a value in m, such as '2 m'"},
         {"1e999", "s", "'1e999' is not a quantity; write a number and a unit, such as '2 s'"},
         {"1e300 G", "s", "'1e300 G' is not a finite number"},
-        {"2 N", "", "'2 N' is a force; expected a plain number"},
+        {"2 N", "", "'2 N' is a force; expected a number without a unit"},
         {"nan", "s", "'nan' is not a finite number"},
         {"2 A/", "A/N", "'2 A/': unit 'A/' is incomplete: a symbol is missing at the end; expected a value in A/N, such as '2 A/N'"},
     };
