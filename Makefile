@@ -50,14 +50,14 @@ reproduction: build
 	@mkdir -p out
 	$(corpuscle) study all --quiet --report out/reproduction.html --markdown reproduction/reproduction.md
 	if [ -d $(CORPUSCLE_DATA)/fbg_eskin_press ]; then CORPUSCLE_DATA=$(CORPUSCLE_DATA) $(corpuscle) study eskin-press --quiet --markdown reproduction/recorded.md; \
-	else echo "reproduction/recorded.md is left as it is: no recordings in $(CORPUSCLE_DATA)"; fi
+	else echo "reproduction/recorded.md was not updated: there are no recordings in $(CORPUSCLE_DATA)"; fi
 
 install: build
-	@cmake --preset release -D CMAKE_INSTALL_PREFIX=$(PREFIX) > /dev/null  # programs of others look for the helper programs there
+	@cmake --preset release -D CMAKE_INSTALL_PREFIX=$(PREFIX) > /dev/null  # programs that link the library look for the helper programs there
 	@cmake --build --preset release --target corpuscle-cli
 	cmake --install build/release --prefix $(PREFIX)
 
-# The pictures of README and doc/; those of real recordings need them: CORPUSCLE_DATA, else ../shared/data.
+# The pictures of README and doc/. Those of real recordings need the recordings in the directory CORPUSCLE_DATA.
 CORPUSCLE_DATA ?= ../shared/data
 draw = /usr/bin/python3 doc/picture.py $(corpuscle)
 pictures: release

@@ -4,7 +4,7 @@
 #   corpuscle_checked: also aborts on an index outside a standard container. For code that runs once per command, such as the
 #   readers of netlists and sweeps. Not for loops over samples or devices.
 
-# Position-independent code everywhere, so that the archive can be linked into a shared library. Inlining across it stays possible.
+# Position-independent code, so that the archive can be linked into a shared library. The second option keeps inlining possible in it.
 add_compile_options(-fPIC -fno-semantic-interposition)
 
 add_library(corpuscle_hardened INTERFACE)
@@ -17,5 +17,5 @@ if(NOT CORPUSCLE_SANITIZE)
 endif()
 add_library(corpuscle_checked INTERFACE)
 target_compile_definitions(corpuscle_checked INTERFACE _GLIBCXX_ASSERTIONS)
-# Resolve addresses of other libraries at start and make them read-only; position-independent code; no executable stack.
+# Resolve addresses of other libraries at start and make them read-only. No executable stack.
 target_link_options(corpuscle_hardened INTERFACE LINKER:-z,relro,-z,now,-z,noexecstack)

@@ -1,5 +1,6 @@
 # Compiles a file once for each instruction set; the program chooses one at run time. CORPUSCLE_ISA names the set in the code.
-# Functions compiled here must not be linked elsewhere: no exceptions, no contraction, and a test checks the exported symbols.
+# An inline function that is compiled here must not replace its copy in other code when the program is linked, because that code must run
+# on any processor. Therefore exceptions are off, and a test checks the exported symbols.
 #
 # Only the first set is sanitized: the source is the same in all, and a sanitized set takes minutes to compile.
 if(NOT TARGET corpuscle_not_sanitized)
@@ -15,7 +16,7 @@ function(add_lanes target)
   endif()
   set(flags_avx2 -march=x86-64-v3)
   set(flags_avx512 -march=x86-64-v4)
-  # Comes after all other options. The constants of a model are doubles even if its numbers are floats.
+  # These options come after all others. The constants of a model are doubles even if its numbers are floats.
   set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS $<IF:$<CXX_COMPILER_ID:Clang>,-Wno-implicit-float-conversion,-Wno-float-conversion>)
   foreach(set IN LISTS sets)
     set(object ${target}-lanes-${set})
