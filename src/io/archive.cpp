@@ -86,9 +86,9 @@ Result<Archive> Archive::open(const std::string& path) {
     if (!archive.zip_) {
         zip_error_t error;
         zip_error_init_with_code(&error, code);
-        const auto why = bad_input(fmt::format("cannot be read as a zip archive: {}", zip_error_strerror(&error)), {path});
+        const auto failure = bad_input(fmt::format("cannot be read as a zip archive: {}", zip_error_strerror(&error)), {path});
         zip_error_fini(&error);
-        return why;
+        return failure;
     }
     const auto count = zip_get_num_entries(archive.zip_.get(), 0);
     for (zip_int64_t k = 0; k < count; ++k) {
@@ -109,9 +109,9 @@ Result<std::unique_ptr<SeekableBytes>> Archive::bytes(std::size_t member, std::s
 Result<std::string> make_archive(const std::vector<ArchiveEntry>& members) {
     zip_error_t error;
     zip_error_init(&error);
-    const auto failed = [](zip_error_t* why) {
-        auto result = bad_input(fmt::format("the archive cannot be created: {}", zip_error_strerror(why)));
-        zip_error_fini(why);
+    const auto failed = [](zip_error_t* cause) {
+        auto result = bad_input(fmt::format("the archive cannot be created: {}", zip_error_strerror(cause)));
+        zip_error_fini(cause);
         return result;
     };
     zip_source_t* buffer = zip_source_buffer_create(nullptr, 0, 0, &error);
@@ -119,9 +119,9 @@ Result<std::string> make_archive(const std::vector<ArchiveEntry>& members) {
     if (!archive) return zip_source_free(buffer), failed(&error);
     zip_source_keep(buffer);
     const auto discard = [&] {
-        auto why = bad_input(fmt::format("the archive cannot be created: {}", zip_strerror(archive)));
+        auto failure = bad_input(fmt::format("the archive cannot be created: {}", zip_strerror(archive)));
         zip_discard(archive), zip_source_free(buffer);
-        return why;
+        return failure;
     };
     for (const auto& m : members) {
         zip_source_t* bytes = zip_source_buffer(archive, m.bytes.data(), m.bytes.size(), 0);

@@ -43,9 +43,8 @@ std::vector<aer::NameRun> runs_of(const EventAddressing& addressing) {
     return runs;
 }
 
-/// The channels of the afferents as runs of addresses, sorted by address. Empty if the names of the afferents already identify the
-/// channel. Default channel names (ch1, ch2 ...) are omitted, because the number in the name of an afferent identifies
-/// them.
+/// The channels of the afferents as runs of addresses, sorted by address. Empty if the names of the afferents identify their channels, or
+/// if all channels have default names (ch1, ch2 ...), which the numbers of the afferents identify.
 std::vector<aer::NameRun> channel_runs_of(const EventAddressing& addressing) {
     std::vector<std::pair<std::uint32_t, const std::string*>> channel_at;
     bool any_named = false;

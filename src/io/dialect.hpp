@@ -41,7 +41,8 @@ inline constexpr double powers_of_ten[] = {1, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7,
 /// character in the lowest byte.
 struct SwarWord {
     std::uint64_t digits,
-        non_digits;  ///< the high bit of each byte that is not a digit; valid up to the first, and up to the second after a point
+        non_digits;  ///< the high bit of each byte that is not a digit; above the first one, or above the second if the first is a decimal
+                     ///< point, bits may be wrong
 
     explicit SwarWord(const char* p) {
         std::memcpy(&digits, p, 8);

@@ -188,7 +188,7 @@ Result<std::vector<NamedTrain>> read_aedat2_spikes(const std::string& path) {
     bool first = true;
     const auto ok = each_event(**file, *begin, 8, [&](const std::byte* at) -> Result<void> {
         const auto stamp = big_endian_at(at + 4);
-        // Time stamps have 32 bits. Take the time closest to the last one that has these bits.
+        // Time stamps have 32 bits. Among the times with these lowest bits, use the one closest to the previous time.
         now = std::exchange(first, false) ? stamp : now + static_cast<std::int32_t>(stamp - static_cast<std::uint32_t>(now));
         trains.train_at(big_endian_at(at), [](std::uint32_t a) { return std::pair(std::to_string(a), std::string()); })
             .push_back(static_cast<double>(now) * 1e-6);

@@ -20,7 +20,7 @@ constexpr EventFormatInfo event_format_names[] = {
     {"aedat2", ".aedat", "AEDAT 2.0 for jAER: address and microseconds, 4 bytes each"},
 };
 
-/// Writes seconds with nine decimals. Returns the end.
+/// Writes a time in ns as seconds with nine decimals. Returns the end of the text.
 char* put_seconds(std::int64_t ns, char* at) {
     if (ns < 0) *at++ = '-', ns = -ns;
     constexpr std::int64_t second = 1'000'000'000;

@@ -189,17 +189,17 @@ void HumDetector::add(std::span<const double> x) {
     }
 }
 
-bool HumDetector::is_significant(std::size_t which) const {
-    const double* p = power_ + 3 * which;
-    return table_.covers(which) && p[1] > 4 * (p[0] + p[2]);
+bool HumDetector::is_significant(std::size_t mains_index) const {
+    const double* p = power_ + 3 * mains_index;
+    return table_.covers(mains_index) && p[1] > 4 * (p[0] + p[2]);
 }
 
 HumDetector::Hum HumDetector::result() const {
     Hum best;
-    for (std::size_t which = 0; which < 2; ++which)
-        if (const double fraction = variance_ > 0 ? std::min(1.0, power_[3 * which + 1] / variance_) : 0;
-            is_significant(which) && fraction > best.fraction)
-            best = {table_.mains[which], fraction};
+    for (std::size_t mains_index = 0; mains_index < 2; ++mains_index)
+        if (const double fraction = variance_ > 0 ? std::min(1.0, power_[3 * mains_index + 1] / variance_) : 0;
+            is_significant(mains_index) && fraction > best.fraction)
+            best = {table_.mains[mains_index], fraction};
     return best;
 }
 

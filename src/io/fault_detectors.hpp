@@ -38,7 +38,8 @@ public:
 /// Detects a saturated sensor or converter: it reaches its highest value repeatedly and stays there.
 class SaturationDetector {
     double highest_ = -1e308, lowest_ = 1e308;
-    std::int64_t run_ = 0, runs_ = 0, at_highest_ = 0, seen_ = 0;
+    std::int64_t run_ = 0, runs_ = 0;         // samples in the current run at highest_, and number of runs of three samples or more
+    std::int64_t at_highest_ = 0, seen_ = 0;  // samples at highest_, and all samples
 
 public:
     void add(std::span<const double>);
@@ -75,22 +76,27 @@ struct HumTable {
     std::int64_t decimation = 1;  ///< this number of samples is averaged, so that a second has fewer than 2000 samples
     std::vector<Phasors> second;  ///< for each decimated sample of a second; empty if the sample rate is below 2 Hz
     explicit HumTable(const Clock&);
-    /// True if the sample rate suffices for mains[which].
-    bool covers(std::size_t which) const { return static_cast<double>(second.size()) > 2.2 * mains[which]; }
+    /// True if the sample rate suffices for mains[mains_index].
+    bool covers(std::size_t mains_index) const { return static_cast<double>(second.size()) > 2.2 * mains[mains_index]; }
 };
 
 /// Detects mains hum: the fraction of the variance within a second that is at 50 or 60 Hz, if it exceeds the adjacent frequencies.
 class HumDetector {
     const HumTable& table_;
+    // Sums over the examined seconds: the power at each frequency of the table, and the variance.
+    double power_[HumTable::line_count] = {}, variance_ = 0;
+    // The current second. Its first sample is subtracted from all its samples.
+    std::int64_t second_ = 0;  // its number
+    std::size_t at_ = 0;       // number of its decimated samples so far
     HumTable::Phasors sum_{};
-    double power_[HumTable::line_count] = {};
-    double decimated_ = 0, first_ = 0, total_ = 0, squares_ = 0, variance_ = 0;
-    std::int64_t in_group_ = 0, second_ = 0;
-    std::size_t at_ = 0;
+    double first_ = 0, total_ = 0, squares_ = 0;
+    // The current group of samples, which become one decimated sample.
+    double decimated_ = 0;  // their sum
+    std::int64_t in_group_ = 0;
 
     void add_decimated(double);
     void end_second();
-    bool is_significant(std::size_t which) const;
+    bool is_significant(std::size_t mains_index) const;
 
 public:
     explicit HumDetector(const HumTable& table) : table_(table) {}

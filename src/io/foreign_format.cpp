@@ -130,9 +130,9 @@ std::string describe_misnamed_format(std::string_view first, const std::string& 
         return fmt::format("this is a ZIP archive; extract its files: unzip {}", quote_shell_word(path));
     for (const auto& m : binary_formats)
         if (first.starts_with(m.first)) {
-            const auto to = stem_of(path).empty() ? "FILE" : stem_of(path);
+            const auto stem = stem_of(path).empty() ? "FILE" : stem_of(path);
             return fmt::format("this is {}, but its file extension is wrong; give it the right name: ln -s {} {}", m.description,
-                               quote_shell_word(path), quote_shell_word(to + std::string(m.extension)));
+                               quote_shell_word(path), quote_shell_word(stem + std::string(m.extension)));
         }
     return "";
 }

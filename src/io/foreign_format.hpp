@@ -10,7 +10,7 @@ namespace corpuscle {
 /// bytes of the file, about 512.
 std::string describe_foreign_format(std::string_view first, const std::string& path);
 
-/// The same for binary files of supported formats (HDF5, NumPy ...) with the wrong file extension.
+/// Like describe_foreign_format(), for binary files of supported formats (HDF5, NumPy ...) with a wrong file extension.
 std::string describe_misnamed_format(std::string_view first, const std::string& path);
 
 /// A command that decompresses a file with gzip, bzip2, xz or zstd. The name of its output is the file name without `extension`. If the

@@ -26,7 +26,7 @@ class HighDescriptor {
     int number_;
 
 public:
-    explicit HighDescriptor(int of) : number_(::fcntl(of, F_DUPFD_CLOEXEC, 10)) {}
+    explicit HighDescriptor(int descriptor) : number_(::fcntl(descriptor, F_DUPFD_CLOEXEC, 10)) {}
     HighDescriptor(const HighDescriptor&) = delete;
     HighDescriptor& operator=(const HighDescriptor&) = delete;
     ~HighDescriptor() {
@@ -125,8 +125,8 @@ Error HelperProcess::failure(const std::string& path, const std::string& library
         return bad_input(fmt::format("{} did not read this file within {} s; it may be damaged", library, response_timeout_s), {path});
     if (signal == 0 && WEXITSTATUS(status) == exit_unknown_protocol)
         return bad_input(fmt::format("{} belongs to another version of Corpuscle; install both from the same version", program_), {path});
-    const auto how = signal ? fmt::format("signal {}", signal) : fmt::format("status {}", WEXITSTATUS(status));
-    return bad_input(fmt::format("{} could not read this file ({}); it may be damaged", library, how), {path});
+    const auto reason = signal ? fmt::format("signal {}", signal) : fmt::format("status {}", WEXITSTATUS(status));
+    return bad_input(fmt::format("{} could not read this file ({}); it may be damaged", library, reason), {path});
 }
 
 }  // namespace corpuscle

@@ -36,11 +36,11 @@ std::optional<std::string> strict_json(std::string_view text, std::size_t max_by
         quoted = c == '"';
         if ((c == '{' || c == '[') && ++depth > max_depth) return {};
         if (c == '}' || c == ']') --depth;
-        std::size_t word = 0;
+        std::size_t literal_size = 0;
         for (const std::string_view w : {"-Infinity", "Infinity", "NaN"})
-            if (text.substr(k).starts_with(w)) word = std::max(word, w.size());
-        if (word > 0)
-            out += "null", k += word - 1;
+            if (text.substr(k).starts_with(w)) literal_size = std::max(literal_size, w.size());
+        if (literal_size > 0)
+            out += "null", k += literal_size - 1;
         else
             out += c;
     }
@@ -169,6 +169,7 @@ class JsonReader {
         std::vector<const OrderedJson*> values;
     };
 
+    /// True for a non-empty array or object of scalars.
     static bool is_list(const OrderedJson& j) {
         return (j.is_array() || j.is_object()) && !j.empty() &&
                std::all_of(j.begin(), j.end(), [](const OrderedJson& v) { return !v.is_structured(); });

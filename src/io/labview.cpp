@@ -19,7 +19,7 @@ class LabviewReader {
     std::vector<std::string> units_;
     double step_ = 0;
     bool is_time_axis_ = true;
-    std::string x_columns_ = "One";
+    std::string x_columns_ = "One";  // "One", "Multi" or "No": how many columns X_Value has
 
     void split(std::size_t k) { head_.dialect.split(lines_[k], fields_); }
 

@@ -60,9 +60,9 @@ bool Message::receive(int socket) {
     position_ = 0;
     if (!receive_all(socket, &size, sizeof size) || size > max_message) return false;
     while (bytes_.size() < size) {
-        const auto had = bytes_.size();
-        bytes_.resize(had + std::min<std::size_t>(chunk_bytes, size - had));
-        if (!receive_all(socket, bytes_.data() + had, bytes_.size() - had)) return false;
+        const auto old_size = bytes_.size();
+        bytes_.resize(old_size + std::min<std::size_t>(chunk_bytes, size - old_size));
+        if (!receive_all(socket, bytes_.data() + old_size, bytes_.size() - old_size)) return false;
     }
     return true;
 }

@@ -67,9 +67,9 @@ Result<NpyArray> read_array(const NpzReader& npz, const std::string& name, std::
     NpyArray out{*std::move(header), {}};
     const std::uint64_t all = out.header.element_count() * out.header.element_size;
     while (out.elements.size() < all) {
-        const auto had = out.elements.size();
-        out.elements.resize(had + static_cast<std::size_t>(std::min<std::uint64_t>(all - had, 1 << 24)));
-        if (auto ok = (*bytes)->read(std::span(out.elements).subspan(had)); !ok) return ok.error();
+        const auto old_size = out.elements.size();
+        out.elements.resize(old_size + static_cast<std::size_t>(std::min<std::uint64_t>(all - old_size, 1 << 24)));
+        if (auto ok = (*bytes)->read(std::span(out.elements).subspan(old_size)); !ok) return ok.error();
     }
     return out;
 }

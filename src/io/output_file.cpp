@@ -33,7 +33,7 @@ OutputFile::~OutputFile() {
     for (const auto& directory : created_directories_) ::rmdir(directory.c_str());  // fails if the directory is not empty
 }
 
-/// Creates the directories above the file.
+/// Creates the missing directories of the path.
 Result<OutputFile> OutputFile::prepare(const std::string& path) {
     std::error_code status;
     const auto parent = std::filesystem::path(path).parent_path();
@@ -90,9 +90,9 @@ int open_exclusively(const char* name) {
         const bool same = locked && ::fstat(file, &opened) == 0 && ::lstat(name, &named) == 0 && opened.st_ino == named.st_ino &&
                           opened.st_dev == named.st_dev;
         if (same && ::ftruncate(file, 0) == 0) return file;
-        const int why = regular ? errno : ELOOP;
+        const int error_number = regular ? errno : ELOOP;
         ::close(file);
-        errno = why;
+        errno = error_number;
         if (!locked || same) return -1;
     }
 }
@@ -111,9 +111,9 @@ Result<void> sync_directory_of(const std::string& path) {
     const int directory = ::open(parent.empty() ? "." : parent.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (directory < 0) return {};  // no permission to open it, so it cannot be synchronised
     const bool done = sync_to_disk(directory);
-    const int why = errno;
+    const int error_number = errno;
     ::close(directory);
-    return done ? Result<void>() : bad_input(fmt::format("cannot be synchronised to disk: {}", std::strerror(why)), {path});
+    return done ? Result<void>() : bad_input(fmt::format("cannot be synchronised to disk: {}", std::strerror(error_number)), {path});
 }
 
 Result<OutputFile> OutputFile::create(const std::string& path) {

@@ -85,9 +85,9 @@ class Recording final : public ForceSource {
             notes_.push_back(
                 fmt::format("--unit {} overrides the unit of '{}' in the header, {}", *options_.unit, column.name, column.unit));
         const auto& name = placed.name.empty() ? column.name : placed.name;
-        const int same = ++name_counts_[name];
-        channels_.push_back(
-            {static_cast<std::uint32_t>(channels_.size()), same == 1 ? name : fmt::format("{} ({})", name, same), placed.position});
+        const int occurrence = ++name_counts_[name];
+        channels_.push_back({static_cast<std::uint32_t>(channels_.size()),
+                             occurrence == 1 ? name : fmt::format("{} ({})", name, occurrence), placed.position});
     }
 
     /// Newtons per unit of each channel. Computed before reading, so that a unit that is not a force is reported at once.

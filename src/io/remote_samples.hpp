@@ -11,7 +11,7 @@ struct HelperProgram {
     std::string library;  ///< the library's name, with which error messages begin: "the HDF5 library"
 };
 
-/// Starts the program, which reads this file until the samples are destroyed.
+/// Starts the program, which opens this file. It runs until the samples are destroyed.
 SamplesResult open_remote_samples(const std::string& path, const HelperProgram&, const TableOptions& = {});
 
 /// The same with the program at the path `program`.

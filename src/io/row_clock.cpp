@@ -180,7 +180,7 @@ Result<RowClock> find_row_clock(Table& table, const RecordingOptions& options, c
     if (!options.time && table.is_time_guessed())
         out.notes.push_back("no header: the first column increases evenly and is taken as the time (use --time none if it is a channel)");
     const auto unit = seconds_per_unit(table.columns()[*out.time_column], options, path);
-    const bool drop = options.bad_fields == BadFields::drop;
+    const bool drops_rows = options.bad_fields == BadFields::drop;
     if (unit) {
         const auto& heading = table.columns()[*column];
         out.seconds_per_unit = *unit;
@@ -192,14 +192,14 @@ Result<RowClock> find_row_clock(Table& table, const RecordingOptions& options, c
             if (auto ok = find_epoch(table, *column, *unit, options.time_unit || !heading.unit.empty(), out); !ok) return ok.error();
     }
     const auto times =
-        unit ? check_times(table, RowReader(table, options, drop ? channels : std::vector<std::size_t>(), column), out, options)
+        unit ? check_times(table, RowReader(table, options, drops_rows ? channels : std::vector<std::size_t>(), column), out, options)
              : Result<TimeCheck>(unit.error());
     if (!times && times.error().code == ErrorCode::interrupted) return times.error();
     if (!times && options.rate) return without_times(table, *options.rate, times.error(), out);
     if (!times) return times.error();
-    if (times->count() < 1 && options.rate && drop)
+    if (times->count() < 1 && options.rate && drops_rows)
         return without_times(table, *options.rate, bad_input(fmt::format("'{}' holds no times", table.columns()[*column].name)), out);
-    out.drops_untimed = drop;
+    out.drops_untimed = drops_rows;
     if (times->gap_count() * 20 < times->count()) out.gap_count = times->gap_count();  // many long steps are a property of the clock
     if (times->count() < 1) return bad_input("no data in this file", {path});
     const auto& name = table.columns()[*out.time_column].name;

@@ -206,10 +206,10 @@ Result<std::size_t> TextInput::read(char* to, std::size_t max_bytes) {
 }
 
 Result<std::string_view> TextInput::peek(std::size_t count) {
-    if (const std::size_t had = lookahead_.size(); had < count) {
+    if (const std::size_t old_size = lookahead_.size(); old_size < count) {
         lookahead_.resize(count);
-        const auto got = fetch(lookahead_.data() + had, count - had);
-        lookahead_.resize(had + (got ? *got : 0));
+        const auto got = fetch(lookahead_.data() + old_size, count - old_size);
+        lookahead_.resize(old_size + (got ? *got : 0));
         if (!got) return got.error();
     }
     return std::string_view(lookahead_).substr(0, count);

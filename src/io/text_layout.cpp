@@ -17,7 +17,7 @@ constexpr std::size_t max_head = std::size_t{1} << 19;  // bytes of these lines,
 struct HeadLine {
     long number;
     std::string text;
-    std::string comment;     // the last comment before the line, without its mark
+    std::string comment;     // the last comment before the line, without # or %
     bool gap_above = false;  // follows an empty line or a comment
 };
 

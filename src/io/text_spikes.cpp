@@ -94,10 +94,10 @@ class TextSpikes {
         for (;;) {
             const auto more = lines_.next(line);
             if (!more || !*more) return more;
-            const auto plain = trimmed(line);
-            if (plain.empty()) continue;
-            if (plain.front() != '#' && plain.front() != '%') break;
-            if (columns_ == 0) comment_ = trimmed(plain.substr(1));
+            const auto content = trimmed(line);
+            if (content.empty()) continue;
+            if (content.front() != '#' && content.front() != '%') break;
+            if (columns_ == 0) comment_ = trimmed(content.substr(1));
         }
         if (columns_ == 0) separator_ = separator_of(line);
         if (!split(line, separator_, fields_)) return error_at("a quote is opened here but not closed", fields_.back().column);
@@ -131,8 +131,8 @@ class TextSpikes {
         double t = 0;
         if (!parse_time(text, separator_, t) || !std::isfinite(t * found_.seconds_per_unit))
             return error_at(fmt::format("'{}' where a time is expected", text.substr(0, 40)), column);
-        const auto word = [this](const std::optional<std::size_t>& c) { return c ? fields_[*c].text : std::string(); };
-        trains_.train(word(found_.afferent), word(found_.channel)).push_back(t * found_.seconds_per_unit);
+        const auto field_text = [this](const std::optional<std::size_t>& c) { return c ? fields_[*c].text : std::string(); };
+        trains_.train(field_text(found_.afferent), field_text(found_.channel)).push_back(t * found_.seconds_per_unit);
         return {};
     }
 
@@ -180,8 +180,8 @@ class JsonSpikes {
         const auto& time = *fields[found_.time].value;
         const double t = time.is_number() ? time.get<double>() * found_.seconds_per_unit : std::nan("");
         if (!std::isfinite(t)) return error_here(fmt::format("{} where a time is expected", time.dump(-1, ' ', true).substr(0, 40)));
-        const auto word = [&](const std::optional<std::size_t>& c) { return c ? word_of(*fields[*c].value) : std::string(); };
-        trains_.train(word(found_.afferent), word(found_.channel)).push_back(t);
+        const auto field_text = [&](const std::optional<std::size_t>& c) { return c ? word_of(*fields[*c].value) : std::string(); };
+        trains_.train(field_text(found_.afferent), field_text(found_.channel)).push_back(t);
         return {};
     }
 

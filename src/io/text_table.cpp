@@ -226,10 +226,10 @@ class TextTable final : public Table {
                 found.push_back({layout_.trial_columns[k], first[k], changes});
         }
         // Keep the most likely column that changes, and the constant columns, which may change later.
-        const auto one = std::find_if(found.begin(), found.end(), [](const TrialColumn& t) { return t.changes; });
-        if (one == found.end()) return std::vector<TrialColumn>();
-        const auto which = one->column;
-        std::erase_if(found, [&](const TrialColumn& t) { return t.changes && t.column != which; });
+        const auto changing = std::find_if(found.begin(), found.end(), [](const TrialColumn& t) { return t.changes; });
+        if (changing == found.end()) return std::vector<TrialColumn>();
+        const auto changing_column = changing->column;
+        std::erase_if(found, [&](const TrialColumn& t) { return t.changes && t.column != changing_column; });
         return found;
     }
 
@@ -239,11 +239,11 @@ class TextTable final : public Table {
         if (std::string_view("\"'\\^]").find(separator) != std::string_view::npos || quoted_separators_) return "";
         std::string wanted;
         for (const auto& t : trials) {
-            const bool plain = !t.first.empty() && std::all_of(t.first.begin(), t.first.end(), [](unsigned char c) {
+            const bool is_safe = !t.first.empty() && std::all_of(t.first.begin(), t.first.end(), [](unsigned char c) {
                 return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '.' || c == '_' || c == '-';
             });
-            if (!plain && t.changes) return "";
-            if (!plain) continue;
+            if (!is_safe && t.changes) return "";
+            if (!is_safe) continue;
             double number;
             wanted += fmt::format("{}${}=={}", wanted.empty() ? "" : " && ", t.column + 1,
                                   dialect_.parse_number(t.first, number) ? t.first : "\"" + t.first + "\"");

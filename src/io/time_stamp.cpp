@@ -11,10 +11,10 @@ namespace {
 
 constexpr std::int64_t second_ns = 1'000'000'000, day_ns = 86'400 * second_ns;  // ns
 
-/// Parses the parts of a time stamp from the front of a text. `good` becomes false if a required part is missing.
+/// Parses the parts of a time stamp from the front of a text. `valid` becomes false if a required part is missing.
 struct StampReader {
     std::string_view rest;
-    bool good = true;
+    bool valid = true;
 
     static bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
@@ -22,7 +22,7 @@ struct StampReader {
         std::size_t n = 0;
         int value = 0;
         while (n < max_count && n < rest.size() && is_digit(rest[n])) value = value * 10 + (rest[n++] - '0');
-        good = good && n >= min_count;
+        valid = valid && n >= min_count;
         rest.remove_prefix(n);
         return value;
     }
@@ -30,7 +30,7 @@ struct StampReader {
         if (!rest.starts_with(c)) return false;
         return rest.remove_prefix(1), true;
     }
-    void expect(char c) { good = accept(c) && good; }
+    void expect(char c) { valid = accept(c) && valid; }
 };
 
 std::optional<std::int64_t> day_of(int year, int month, int day) {
@@ -59,7 +59,7 @@ std::optional<std::int64_t> parse_date(StampReader& in) {
         r.expect('.');
         day = day_of(r.digits(4, 4), month, first);
     }
-    if (!day || !r.good) return {};
+    if (!day || !r.valid) return {};
     in = r;
     return day;
 }
@@ -71,7 +71,7 @@ std::optional<std::int64_t> parse_time_of_day(StampReader& r) {
     const int minute = r.digits(2, 2);
     r.expect(':');
     const int second = r.digits(2, 2);
-    if (!r.good || hour > 23 || minute > 59 || second > 60) return {};
+    if (!r.valid || hour > 23 || minute > 59 || second > 60) return {};
     std::int64_t fraction = 0;
     if (r.accept('.') || r.accept(',') || r.accept(':')) {  // some loggers write a colon before the milliseconds
         std::int64_t unit = second_ns;
@@ -93,7 +93,7 @@ std::optional<std::int64_t> parse_zone(StampReader& r) {
     const int hours = r.digits(2, 2);
     r.accept(':');
     const int minutes = r.rest.empty() ? 0 : r.digits(2, 2);
-    if (!r.good || hours > 14 || minutes > 59) return {};
+    if (!r.valid || hours > 14 || minutes > 59) return {};
     const std::int64_t offset = (hours * 3600LL + minutes * 60LL) * second_ns;
     return west ? -offset : offset;
 }

@@ -34,18 +34,19 @@ std::optional<SoundData> find_sound_data(std::ifstream& file) {
     constexpr int max_chunks = 1000;
     std::string file_header(12, '\0');
     if (!file.read(file_header.data(), 12)) return {};
-    const std::string_view kind = std::string_view(file_header).substr(0, 4), form = std::string_view(file_header).substr(8);
-    if (kind == ".snd") {
-        const SoundData data{integer_of(std::string_view(file_header).substr(4, 4), true), integer_of(form, true)};
+    const std::string_view container = std::string_view(file_header).substr(0, 4), form_type = std::string_view(file_header).substr(8);
+    if (container == ".snd") {
+        const SoundData data{integer_of(std::string_view(file_header).substr(4, 4), true), integer_of(form_type, true)};
         return data.size < no_length ? std::optional(data) : std::nullopt;
     }
-    const bool wave = (kind == "RIFF" || kind == "RIFX") && form == "WAVE", aiff = kind == "FORM" && (form == "AIFF" || form == "AIFC");
+    const bool wave = (container == "RIFF" || container == "RIFX") && form_type == "WAVE",
+               aiff = container == "FORM" && (form_type == "AIFF" || form_type == "AIFC");
     if (!wave && !aiff) return {};
     std::uint64_t at = 12;
     for (int chunk = 0; chunk < max_chunks; ++chunk) {
         std::string chunk_header(8, '\0');
         if (!file.seekg(static_cast<std::streamoff>(at)) || !file.read(chunk_header.data(), 8)) return {};
-        const auto size = integer_of(std::string_view(chunk_header).substr(4), kind != "RIFF");
+        const auto size = integer_of(std::string_view(chunk_header).substr(4), container != "RIFF");
         if (chunk_header.starts_with(wave ? "data" : "SSND"))
             return size < no_length ? std::optional(SoundData{at + 8, size}) : std::nullopt;
         at += 8 + size + size % 2;

@@ -5,9 +5,9 @@
 
 namespace corpuscle {
 
-/// Adaptation ratio: the first interspike interval of the phase divided by its last, both between two spikes of the phase. This is early
-/// over late, as in NeuroElectro (Tripathy et al. 2014, Front Neuroinform 8:40). It needs two intervals. There is no value for a train
-/// whose pauses are longer in total than its firing.
+/// Adaptation ratio: the first interspike interval of the phase divided by the last one, as in NeuroElectro (Tripathy et al. 2014, Front
+/// Neuroinform 8:40). Both intervals are between two spikes of the phase; at least two are required. There is no value for a train whose
+/// pauses are longer in total than its firing.
 struct AdaptationRatio : MeasureBase {
     static constexpr MeasureInfo info{"adaptation_ratio", "adaptation", "", 2,
                                       "first interval of the phase divided by its last: 1 means no adaptation, 0.5 a slowing to half"};

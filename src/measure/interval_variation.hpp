@@ -8,8 +8,8 @@
 namespace corpuscle {
 
 /// Coefficient of variation of the interspike intervals (Softky & Koch 1993, J Neurosci 13:334): their population standard deviation
-/// divided by their mean. It is 0 for a clock and 1 for a Poisson process. It needs two intervals. There is no value for a train whose
-/// pauses are longer in total than its firing. The sums are updated as in Welford (1962).
+/// divided by their mean. It is 0 for equal intervals and 1 for a Poisson process. At least two intervals are required. There is no value
+/// for a train whose pauses are longer in total than its firing. The sums are updated as in Welford (1962).
 struct IntervalVariation : MeasureBase {
     static constexpr MeasureInfo info{"isi_cv", "ISI CV", "", 2,
                                       "standard deviation of the interspike intervals of the phase divided by their mean"};

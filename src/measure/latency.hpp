@@ -6,7 +6,8 @@
 
 namespace corpuscle {
 
-/// First-spike latency (Johansson & Birznieks 2004, Nat Neurosci 7:170), measured from the start of the phase, in which the force begins.
+/// First-spike latency (Johansson & Birznieks 2004, Nat Neurosci 7:170): from the start of the phase to its first spike. The published
+/// measure refers to the phase in which the force begins.
 struct Latency : MeasureBase {
     static constexpr MeasureInfo info{"latency", "latency", "s", 4, "from the phase's start to its first spike"};
     double first = no_value;

@@ -3,7 +3,7 @@
 
 namespace corpuscle {
 
-/// Separates pauses from interspike intervals, one at a time. A pause is longer than half a second and longer than ten times the mean of
+/// Decides for each interspike interval whether it is a pause. A pause is longer than half a second and longer than ten times the mean of
 /// the intervals before it. An interval of more than ten seconds is always a pause. These limits are choices: touched afferents fire faster
 /// than once a second, most of them ten times as fast.
 class PauseDetector {
@@ -22,6 +22,7 @@ public:
             paused_ += interval;
             return true;
         }
+        // Compared with a much shorter interval, all earlier ones were pauses.
         if (intervals_ > 0 && mean() > min_pause && mean() > min_ratio * interval) paused_ += firing_, firing_ = intervals_ = 0;
         firing_ += interval, ++intervals_;
         return false;

@@ -8,7 +8,8 @@
 
 namespace corpuscle {
 
-/// The spikes of a cycle are added only when the next one begins. The last cycle may be incomplete, and is then not counted.
+/// The spikes of a cycle are added to the sum only when the next cycle begins, because the last cycle may be incomplete and is then not
+/// counted.
 template <class Sum>
 struct CycleMeasure : MeasureBase {
     double cycle = -1;  // index of the current cycle
@@ -36,8 +37,8 @@ struct PhaseSum {
     void add(const PhaseSum& o) { count += o.count, x += o.x, y += o.y; }
 };
 
-/// Goldberg & Brown 1969 (J Neurophysiol 32:613): the length of the mean of the spikes' phases as unit vectors. A single spike always gives
-/// 1, so at least two are required.
+/// Vector strength after Goldberg & Brown 1969 (J Neurophysiol 32:613): each spike is a unit vector at its phase of the stimulus cycle, and
+/// the value is the length of their mean. A single spike always gives 1, so at least two are required.
 struct VectorStrength : CycleMeasure<PhaseSum> {
     static constexpr MeasureInfo info{"vector_strength", "vector strength", "", 3,
                                       "phase locking of the spikes to the stimulus cycle: 1 all at one phase, 0 uniformly distributed"};

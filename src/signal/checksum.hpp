@@ -10,7 +10,7 @@
 namespace corpuscle {
 
 /// A 64-bit checksum of a byte sequence, computed eight bytes at a time. Each step is a bijection of the value so far, so sequences
-/// that differ in a single add_word never have the same checksum. If bytes are added in chunks, all chunks except the last must be
+/// that differ in a single eight-byte word never have the same checksum. If bytes are added in chunks, all chunks except the last must be
 /// multiples of eight bytes.
 class Checksum {
     std::uint64_t value_ = 0xcbf29ce484222325U;

@@ -83,7 +83,7 @@ T cos_turns(T turns) {
 /// (e^x - 1) / x without loss of digits for small x; 1 at x = 0.
 template <class T>
 T exprel(T x) {
-    T series = T(1.0 / 5040);  // to x^6: the remainder is below 3e-19 for |x| < 0.01, and below 6e-9 for 0.3
+    T series = T(1.0 / 5040);  // to x^6: the remainder is below 3e-19 for |x| < 0.01, and below 6e-9 for |x| < 0.3
     for (const double f : {720.0, 120.0, 24.0, 6.0, 2.0, 1.0}) series = series * x + T(1.0 / f);
     const auto small = num::abs(x) < T(series_limit<T>);
     return num::select(small, series, (num::exp(x) - T(1.0)) / num::select(small, T(1.0), x));

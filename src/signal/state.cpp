@@ -12,7 +12,8 @@ namespace corpuscle {
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "packed states are little-endian");
-/// "corpst", the version and a line break. Version 2 ends with a checksum of everything before it. Version 1 has none and is read too.
+/// "corpst", the version and a line break. Version 2 ends with a checksum of everything before it. Version 1 has none and can still be
+/// read.
 constexpr std::array<char, 8> magic = {'c', 'o', 'r', 'p', 's', 't', '2', '\n'};
 constexpr std::size_t version_at = 6;
 constexpr std::uint64_t max_length = 1U << 26;  // upper bound on the length of the format and of the values, to reject corrupt headers

@@ -134,9 +134,9 @@ Result<std::unique_ptr<ForceSource>> make_stimulus(std::string_view text, std::s
         const auto settings = settings_for(name, entry->parameters, overrides);
         if (!settings) return settings.error();
         for (const auto& row : entry->parameters) {
-            const auto set = std::find_if(settings->rbegin(), settings->rend(), [&](const Setting& s) { return s.name == row.name; });
-            metadata.push_back(
-                {fmt::format("{}.{}", name, row.name), set == settings->rend() ? row.default_value : set->value, std::string(row.unit)});
+            const auto setting = std::find_if(settings->rbegin(), settings->rend(), [&](const Setting& s) { return s.name == row.name; });
+            metadata.push_back({fmt::format("{}.{}", name, row.name), setting == settings->rend() ? row.default_value : setting->value,
+                                std::string(row.unit)});
         }
         members.push_back(*make_member(Stimuli{}, name, *settings, seed));
         duration = std::max(duration, members.back().duration);

@@ -122,8 +122,8 @@ public:
 
     std::vector<LocatedText> list(const toml::array& array, std::string_view name) {
         std::vector<LocatedText> out;
-        for (const auto& one : array)
-            if (auto element = scalar(one, fmt::format("an element of {}", name))) out.push_back(std::move(*element));
+        for (const auto& item : array)
+            if (auto element = scalar(item, fmt::format("an element of {}", name))) out.push_back(std::move(*element));
         return out;
     }
     std::optional<std::vector<LocatedText>> list(const toml::table& table, std::string_view name) {
@@ -148,9 +148,9 @@ public:
         const auto message = [&] { return fmt::format("{0} must be tables: write [[{0}]] on a line of its own for {1}", name, one_for); };
         const auto* array = node->as_array();
         if (!array) return reject(node->source(), message());
-        for (const auto& one : *array) {
-            const auto* inner = one.as_table();
-            if (!inner) return reject(one.source(), message());
+        for (const auto& item : *array) {
+            const auto* inner = item.as_table();
+            if (!inner) return reject(item.source(), message());
             each(*inner);
         }
     }

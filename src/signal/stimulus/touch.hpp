@@ -49,7 +49,7 @@ struct Press {
     }
 };
 
-/// Linear ramps with a hold between, as used by Kim and by most physiologists.
+/// Linear ramps with a hold between, as used by Kim et al. 2012 and most physiologists.
 struct RampHold {
     struct Params {
         double F_min = 0, F_max = 1, t_rest = 0.25, t_up = 0.1, t_hold = 1, t_down = 0.1, t_post = 0.25;
@@ -94,7 +94,7 @@ struct Step {
         return {{"rest", 0, on}, {"hold", on, off}, {"post", off, off + p.t_post}};
     }
     double at(double t) const {
-        const double later = t + 1e-9;  // a sample on the edge counts as after it, independent of rounding
+        const double later = t + 1e-9;  // a sample at the time of an edge counts as after it in spite of rounding
         return later >= p.t_rest && later < p.t_rest + p.t_hold ? p.F_max : p.F_min;
     }
 };

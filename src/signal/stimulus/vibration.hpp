@@ -69,7 +69,7 @@ struct Noise {
     double duration() const { return p.duration; }
     std::vector<Phase> phases() const { return {}; }
     double at(double t) const {
-        constexpr std::uint32_t purpose = 0x6e6f6973;  // the random stream of this stimulus
+        constexpr std::uint32_t purpose = 0x6e6f6973;  // "nois" in ASCII: separates these random numbers from those of other purposes
         const double position = t * 2 * p.f_max;
         const auto k = static_cast<std::uint64_t>(position);
         const double x = position - static_cast<double>(k);
