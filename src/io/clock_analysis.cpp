@@ -23,9 +23,9 @@ void ClockAnalysis::add(double t) {
         first_ = p;
     } else {
         const double step = t - last_.t;
-        const bool second = last_.k == first_.k;
-        min_step_ = second ? step : std::min(min_step_, step);
-        max_step_ = second ? step : std::max(max_step_, step);
+        const bool is_first_step = last_.k == first_.k;
+        min_step_ = is_first_step ? step : std::min(min_step_, step);
+        max_step_ = is_first_step ? step : std::max(max_step_, step);
         steps_.add(step);
     }
     has_samples_ = true;

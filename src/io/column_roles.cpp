@@ -42,6 +42,7 @@ struct Roles {
     static bool is_one_or_restart(double step) { return step == 1 || step < 0; }  // an index that restarts at each trial
     static bool is_positive_or_restart(double step) { return step != 0; }         // packets may be lost, and their number may restart
 
+    /// True if the numbers increase in steps within 50 % of their mean.
     bool evenly_rises(std::size_t c) const {
         const auto& x = first[c].numbers;
         if (x.size() < 3 || first[c].value_count != x.size()) return false;
@@ -63,26 +64,27 @@ struct Roles {
 
     /// Makes the first column that satisfies `matches` the time column. Returns false if there is none.
     template <class Matches>
-    bool take_time(const Matches& matches) {
+    bool use_as_time(const Matches& matches) {
         for (std::size_t c = 0; c < columns.size(); ++c)
             if (matches(c)) return out.time_column = c, true;
         return false;
     }
 
     void find_named_time() {
-        const auto likely = [&](std::size_t c) {
+        const auto may_be_time = [&](std::size_t c) {
             return columns[c].holds_time_stamps || (holds_numbers(c) && (first[c].numbers.size() < 2 || rises(c)));
         };
         const auto has_time_unit = [&](std::size_t c) {
             return columns[c].holds_time_stamps || seconds_per_time_unit(columns[c].unit).has_value();
         };
-        if (take_time([&](std::size_t c) { return is_time_name(columns[c].name); })) return;
-        const bool found = take_time([&](std::size_t c) { return may_be_time_name(columns[c].name) && has_time_unit(c) && likely(c); }) ||
-                           take_time([&](std::size_t c) {
-                               return columns[c].unit.empty() && may_be_time_name(columns[c].name) && likely(c) && rises(c);
-                           }) ||
-                           take_time([&](std::size_t c) { return columns[c].holds_time_stamps; }) ||
-                           take_time([&](std::size_t c) { return has_time_unit(c) && holds_numbers(c) && rises(c); });
+        if (use_as_time([&](std::size_t c) { return is_time_name(columns[c].name); })) return;
+        const bool found =
+            use_as_time([&](std::size_t c) { return may_be_time_name(columns[c].name) && has_time_unit(c) && may_be_time(c); }) ||
+            use_as_time([&](std::size_t c) {
+                return columns[c].unit.empty() && may_be_time_name(columns[c].name) && may_be_time(c) && rises(c);
+            }) ||
+            use_as_time([&](std::size_t c) { return columns[c].holds_time_stamps; }) ||
+            use_as_time([&](std::size_t c) { return has_time_unit(c) && holds_numbers(c) && rises(c); });
         if (found) {
             const auto& name = columns[*out.time_column].name;
             out.notes.push_back(
@@ -146,7 +148,7 @@ ColumnRoles assign_roles(std::vector<Column>& columns, const std::vector<FirstFi
         columns[*time].exclusion_reason.clear();
     else if (named)
         roles.find_named_time();
-    else if (roles.take_time([&](std::size_t c) { return columns[c].holds_time_stamps; }))
+    else if (roles.use_as_time([&](std::size_t c) { return columns[c].holds_time_stamps; }))
         roles.out.is_time_guessed = true;
     if (named) roles.exclude_non_measurements();
     for (std::size_t c = 0; c < columns.size(); ++c)

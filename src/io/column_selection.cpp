@@ -27,15 +27,16 @@ bool matches_name(const Column& column, std::string_view name) {
     return !heading.unit.empty() && column.name == heading.name && column.unit == heading.unit;
 }
 
-bool is_newtons(std::string_view unit) {
+/// True for the unit written as a word. Symbols such as N and mN are left to parse_unit().
+bool is_newton_word(std::string_view unit) {
     constexpr std::string_view spellings[] = {"Newton", "newton", "Newtons", "newtons"};
     return std::find(std::begin(spellings), std::end(spellings), unit) != std::end(spellings);
 }
 
 bool is_force(std::string_view unit) {
-    if (is_newtons(unit)) return true;
-    const auto known = unit.empty() || unit == "raw" ? Result<Unit>(bad_input("")) : parse_unit(unit);
-    return known && known->has_same_dimension(*parse_unit("N"));
+    if (is_newton_word(unit)) return true;
+    const auto parsed = unit.empty() || unit == "raw" ? Result<Unit>(bad_input("")) : parse_unit(unit);
+    return parsed && parsed->has_same_dimension(*parse_unit("N"));
 }
 
 std::string_view without_quotes(std::string_view s) {
@@ -205,12 +206,12 @@ Result<double> newtons_per_unit(const Column& column, const RecordingOptions& op
     if (options.scale) return *options.scale;
     const std::string& unit = options.unit ? *options.unit : column.unit;
     if (unit.empty()) return 1.0;
-    if (is_newtons(unit)) return 1.0;
-    const auto known = unit == "raw" ? Result<Unit>(bad_input("")) : parse_unit(unit);
-    if (known && known->has_same_dimension(*parse_unit("N"))) return known->factor;
+    if (is_newton_word(unit)) return 1.0;
+    const auto parsed = unit == "raw" ? Result<Unit>(bad_input("")) : parse_unit(unit);
+    if (parsed && parsed->has_same_dimension(*parse_unit("N"))) return parsed->factor;
     const auto subject =
         options.unit ? fmt::format("'{}' is read as {}", column.name, unit) : fmt::format("'{}' is in {}", column.name, unit);
-    const auto problem = known           ? "which is not a force"
+    const auto problem = parsed          ? "which is not a force"
                          : unit == "raw" ? "which needs a scale"
                                          : "which is not a known unit of force (N, mN, gf, kgf, lbf ...)";
     const auto alternatives = options.unit ? "" : ", --unit N if the header is wrong, or --channel to select another column";

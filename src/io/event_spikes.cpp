@@ -19,7 +19,7 @@ namespace aer = address_events;
 constexpr std::int64_t last_event_step = std::int64_t{1} << 53;  // a double holds integers up to here exactly
 constexpr std::size_t events_at_once = 4096;
 
-/// The trains, by address. The names of an address are looked up at its first event.
+/// The trains, by address. `name` returns the names of an address; it is called at the first event of the address.
 class AddressTrains {
     std::unordered_map<std::uint32_t, std::vector<double>*> by_address_;
     TrainCollector trains_;
@@ -38,8 +38,8 @@ public:
 };
 
 /// Calls `handle_event` for every event of a file, `size` bytes each, from position `at` on.
-template <class Take>
-Result<void> each_event(SeekableBytes& file, std::uint64_t at, std::size_t size, const Take& handle_event) {
+template <class Handler>
+Result<void> each_event(SeekableBytes& file, std::uint64_t at, std::size_t size, const Handler& handle_event) {
     if ((file.size() - at) % size != 0)
         return bad_input(fmt::format("the last spike is incomplete: {} of {} bytes", (file.size() - at) % size, size), {file.name()});
     std::vector<std::byte> block(events_at_once * size);
@@ -86,26 +86,27 @@ class AerFile {
     Result<void> read_runs() {
         std::uint32_t runs = 0, bytes = 0;
         if (auto ok = read_header(runs, bytes); !ok) return ok;
-        std::vector<std::byte> text(bytes);
-        if (auto ok = file_->read(text); !ok) return ok;
+        std::vector<std::byte> names(bytes);
+        if (auto ok = file_->read(names); !ok) return ok;
         std::size_t at = 0;
-        if (auto ok = read_runs(text, at, runs, "afferents", runs_); !ok) return ok;
-        if (text.size() - at < sizeof(std::uint32_t)) return {};
-        runs = number_at<std::uint32_t>(text, at), at += sizeof runs;
-        return read_runs(text, at, runs, "channels", channels_);
+        if (auto ok = read_runs(names, at, runs, "afferents", runs_); !ok) return ok;
+        if (names.size() - at < sizeof(std::uint32_t)) return {};
+        runs = number_at<std::uint32_t>(names, at), at += sizeof runs;
+        return read_runs(names, at, runs, "channels", channels_);
     }
 
-    Result<void> read_runs(std::span<const std::byte> text, std::size_t& at, std::uint32_t count, std::string_view kind,
+    /// Reads `count` runs from position `at` of `names` on, and moves `at` after them. `kind` is for messages.
+    Result<void> read_runs(std::span<const std::byte> names, std::size_t& at, std::uint32_t count, std::string_view kind,
                            std::vector<aer::NameRun>& out) const {
         for (std::uint32_t k = 0; k < count; ++k) {
-            const auto number = [&](std::size_t field) { return number_at<std::uint32_t>(text, at + 4 * field); };
-            if (text.size() - at < aer::run_bytes || text.size() - at - aer::run_bytes < number(4))
+            const auto number = [&](std::size_t field) { return number_at<std::uint32_t>(names, at + 4 * field); };
+            if (names.size() - at < aer::run_bytes || names.size() - at - aer::run_bytes < number(4))
                 return format_error(fmt::format("the names of the {} end within run {} of {}", kind, k + 1, count));
             aer::NameRun run{number(0), number(1), number(2), number(3), {}};
             if (run.stride == 0 || run.count == 0)
                 return format_error(fmt::format("run {} of {} has a stride or a count of 0", k + 1, kind));
-            run.name.assign(reinterpret_cast<const char*>(text.data()) + at + aer::run_bytes, number(4));
-            at = std::min<std::size_t>(text.size(), at + aer::run_bytes + (number(4) + std::size_t{3}) / 4 * 4);
+            run.name.assign(reinterpret_cast<const char*>(names.data()) + at + aer::run_bytes, number(4));
+            at = std::min<std::size_t>(names.size(), at + aer::run_bytes + (number(4) + std::size_t{3}) / 4 * 4);
             out.push_back(std::move(run));
         }
         return {};

@@ -22,9 +22,9 @@ std::size_t length_of_number(std::string_view text) {
 /// True for one to three digits, then groups of three digits after `separator`, then decimals after `point`: 1.016,21 or 12,345.
 bool has_groups(std::string_view text, char separator, char point) {
     if (text.starts_with('-') || text.starts_with('+')) text.remove_prefix(1);
-    const auto decimals = text.find(point);
-    const auto integer_part = text.substr(0, decimals);
-    if (decimals != text.npos && !std::all_of(text.begin() + static_cast<std::ptrdiff_t>(decimals) + 1, text.end(), is_decimal_digit))
+    const auto point_at = text.find(point);
+    const auto integer_part = text.substr(0, point_at);
+    if (point_at != text.npos && !std::all_of(text.begin() + static_cast<std::ptrdiff_t>(point_at) + 1, text.end(), is_decimal_digit))
         return false;
     std::size_t groups = 0, digits = 0;
     for (const char c : integer_part) {

@@ -16,7 +16,8 @@ struct ForeignFormat {
     std::string_view extension;  ///< the file extension, which can replace `within`
     std::string_view description;
     std::string_view needs;  ///< Python packages, or programs, that the command needs
-    /// {0} is the file, {1} the new name without extension, both for Python. {2} and {3} are the same for a shell.
+    /// {0} is the file as a Python string. {1} is the new name without extension, as the beginning of a Python string: the command adds the
+    /// extension and the closing quote. {2} and {3} are the same names for a shell.
     std::string_view command;
 };
 

@@ -182,17 +182,17 @@ std::optional<double> seconds_per_time_unit(std::string_view unit) {
     for (const auto& [word, factor] : words)
         if (word == unit) return factor;
     if (unit.empty()) return {};
-    const auto known = parse_unit(unit);
-    if (known && known->has_same_dimension(*parse_unit("s"))) return known->factor;
+    const auto parsed = parse_unit(unit);
+    if (parsed && parsed->has_same_dimension(*parse_unit("s"))) return parsed->factor;
     return {};
 }
 
 bool is_never_force(std::string_view unit) {
     if (in_list(never_force, unit) || seconds_per_time_unit(unit)) return true;
-    const auto known = unit.empty() ? Result<Unit>(bad_input("")) : parse_unit(unit);
-    if (!known) return false;
+    const auto parsed = unit.empty() ? Result<Unit>(bad_input("")) : parse_unit(unit);
+    if (!parsed) return false;
     for (const auto* other : {"Hz", "m/s", "m/s2", "N m"})
-        if (known->has_same_dimension(*parse_unit(other))) return true;
+        if (parsed->has_same_dimension(*parse_unit(other))) return true;
     return false;
 }
 

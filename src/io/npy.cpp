@@ -18,6 +18,7 @@ static_assert(std::endian::native == std::endian::little);
 constexpr std::string_view magic = "\x93NUMPY";
 constexpr std::size_t max_header = std::size_t{1} << 20;
 
+/// Reads a T from a file, with its bytes reversed if `swap`.
 template <class T, bool swap>
 T stored(const std::byte* at) {
     std::array<std::byte, sizeof(T)> bytes;

@@ -11,6 +11,7 @@
 namespace corpuscle {
 namespace {
 
+/// True if the elements of a channel are contiguous in the file.
 bool is_column_major(const NpyHeader& header, const ArrayExtent& extent) {
     return extent.columns > 1 && header.is_column_major != extent.is_transposed;
 }
@@ -19,7 +20,7 @@ class NpySamples final : public Samples {
     std::unique_ptr<SeekableBytes> bytes_;
     NpyHeader header_;
     ArrayExtent extent_;
-    bool by_columns_;               // the elements of a channel are contiguous
+    bool by_columns_;               // is_column_major() of this array
     std::vector<NpyField> fields_;  // one for each column; a single one if the array is not structured
     SamplesInfo info_;
     std::vector<std::byte> buffer_;

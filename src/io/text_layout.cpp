@@ -11,8 +11,8 @@
 namespace corpuscle {
 namespace {
 
-constexpr std::size_t max_preamble = 200;               // lines that are not comments
-constexpr std::size_t max_head = std::size_t{1} << 19;  // bytes of these lines, limited so that a pipe can be rewound
+constexpr std::size_t max_preamble = 200;               // lines before the table, without comments
+constexpr std::size_t max_head = std::size_t{1} << 19;  // bytes that are inspected; the limit allows a pipe to be rewound
 
 struct HeadLine {
     long number;

@@ -16,8 +16,7 @@ struct TimeStamp {
 };
 
 /// Parses "2026-03-01T12:00:00.000Z", "2026-03-01 12:00:00,5", "2026/03/01 12:00:00", "01.03.2026 12:00:00", "12:00:00.000". The
-/// seconds are required, the date and the time zone (Z, +01:00) optional. 03/01/2026 is not accepted,
-/// because day and month are ambiguous.
+/// seconds are required, the date and the time zone (Z, +01:00) optional. 03/01/2026 is not accepted, because day and month are ambiguous.
 std::optional<TimeStamp> parse_time_stamp(std::string_view text);
 
 /// True for a date without a time: "2026-03-01".

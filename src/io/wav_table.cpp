@@ -30,7 +30,7 @@ struct SoundData {
 /// Finds the samples of a WAV, AIFF or AU file. nullopt for other formats, and for the header of a stream, which has no length.
 std::optional<SoundData> find_sound_data(std::ifstream& file) {
     constexpr std::uint64_t no_length =
-        0x7fff'0000;  // a size of at least this value is unknown: streams write the largest number or one close to it, or 0
+        0x7fff'0000;  // a size of at least this value is unknown: streams write the largest number or one close to it
     constexpr int max_chunks = 1000;
     std::string file_header(12, '\0');
     if (!file.read(file_header.data(), 12)) return {};

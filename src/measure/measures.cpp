@@ -16,13 +16,13 @@ void each(Tuple& all, F&& f) {
 MeasureAccumulator::MeasureAccumulator(std::vector<TimeWindow> windows, std::size_t trains)
     : windows_(std::move(windows)), trains_(trains, Train{std::vector<Measures::Tuple>(windows_.size())}) {}
 
-void MeasureAccumulator::spike(std::size_t number, double t) {
-    auto& train = trains_[number];
-    const std::size_t before = train.window;
+void MeasureAccumulator::spike(std::size_t train_index, double t) {
+    auto& train = trains_[train_index];
+    const std::size_t previous_window = train.window;
     while (train.window < windows_.size() && t >= windows_[train.window].to) ++train.window;
     const bool is_inside = train.window < windows_.size() && t >= windows_[train.window].from;
     if (!std::isnan(train.last))
-        each(train.measures[before], [&](auto& m) { m.interval(train.last, t, is_inside && train.window == before); });
+        each(train.measures[previous_window], [&](auto& m) { m.interval(train.last, t, is_inside && train.window == previous_window); });
     if (is_inside) each(train.measures[train.window], [&](auto& m) { m.spike(t, windows_[train.window]); });
     train.last = is_inside ? t : no_value;
 }

@@ -33,8 +33,10 @@ public:
 
     Savings(std::span<const double> a, std::span<const double> b, double q) : a_(a), b_(b), q_(q), best_(b.size() + 1) {}
 
+    /// The saving of moving a[i] to b[j]; negative if the move costs more than removing and adding a spike.
     double saved(std::size_t i, std::size_t j) const { return 2 - q_ * std::abs(a_[i] - b_[j]); }
 
+    /// The columns of each row in which a move may save something.
     std::vector<RowRange> rows() const {
         std::vector<RowRange> all(a_.size());
         std::size_t from = 0, to = 0, cells = 0;
@@ -48,6 +50,7 @@ public:
         return all;
     }
 
+    /// Computes row i, and appends the choice in each of its columns to `choices` unless this is null.
     void process_row(std::size_t i, const RowRange& row, std::vector<Choice>* choices) {
         if (row.from == row.to) return;
         while (known_ < row.to) best_[known_ + 1] = best_[known_], ++known_;
@@ -75,7 +78,8 @@ public:
 
 constexpr std::size_t max_choices = std::size_t{1} << 22;  // stored at the same time
 
-/// Collects the moves of rows [from, to), whose choices are in memory, in descending order.
+/// Collects the moves of rows [from, to), whose choices are in memory, in descending order. `j` is the column that the later rows have
+/// reached.
 void trace_back(std::span<const Savings::RowRange> rows, std::size_t from, std::size_t to, const std::vector<Savings::Choice>& choices,
                 std::size_t& j, std::vector<SpikePair>& moved) {
     for (std::size_t i = to; i-- > from;)

@@ -24,7 +24,8 @@ struct Alignment {
 /// removing and adding one, so the computing time is proportional to the number of pairs closer than 2/q. More than max_candidates() pairs
 /// are an error.
 Result<double> victor_purpura(std::span<const double> a, std::span<const double> b, double q);
-/// The same, with the spikes that are moved: pairs closer than 2/q whose move is part of the minimum cost.
+/// The same, with the spikes that are moved: pairs closer than 2/q whose move is part of the minimum cost. More than a quarter of
+/// max_candidates() pairs are an error.
 Result<Alignment> align_trains(std::span<const double> a, std::span<const double> b, double q);
 constexpr std::size_t max_candidates() { return std::size_t{1} << 32; }
 

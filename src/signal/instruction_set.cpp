@@ -27,12 +27,12 @@ Result<InstructionSet> instruction_set() {
     const auto sets = instruction_sets();
     const char* requested = std::getenv("CORPUSCLE_ISA");
     if (!requested || !*requested) return sets.back();
-    std::string known;
+    std::string supported;
     for (const auto set : sets) {
         if (name_of(set) == requested) return set;
-        known += fmt::format("{}{}", known.empty() ? "" : ", ", name_of(set));
+        supported += fmt::format("{}{}", supported.empty() ? "" : ", ", name_of(set));
     }
-    return bad_usage(fmt::format("CORPUSCLE_ISA={}: this machine supports {}", requested, known));
+    return bad_usage(fmt::format("CORPUSCLE_ISA={}: this machine supports {}", requested, supported));
 }
 
 }  // namespace corpuscle

@@ -15,6 +15,7 @@ struct NamedUnit {
     std::string_view name;
     Unit unit;
 };
+// The factor to SI, and the exponents of s, m, N, V, A.
 constexpr NamedUnit units[] = {
     {"s", {1, 1, 0, 0, 0, 0}},    {"min", {60, 1, 0, 0, 0, 0}},        {"Hz", {1, -1, 0, 0, 0, 0}},
     {"m", {1, 0, 1, 0, 0, 0}},    {"cm", {0.01, 0, 1, 0, 0, 0}},       {"N", {1, 0, 0, 1, 0, 0}},
@@ -41,7 +42,7 @@ std::optional<double> prefix_factor(std::string_view s) {
 std::optional<Unit> unit_of_symbol(std::string_view s) {
     for (const auto& u : units)
         if (u.name == s) return u.unit;
-    for (const auto& p : prefixes)
+    for (const auto& p : prefixes)  // all units except five have prefixes
         if (s.starts_with(p.text))
             for (const auto& u : units)
                 if (u.name == s.substr(p.text.size()) && u.name != "%" && u.name != "1" && u.name != "min" && u.name != "lbf" &&
