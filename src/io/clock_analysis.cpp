@@ -30,6 +30,7 @@ void ClockAnalysis::add(double t) {
     }
     has_samples_ = true;
     const auto push = [&](std::vector<Point>& side, double sign) {
+        // True if b is not a corner of the hull of a, b and the new point.
         const auto inside = [&](Point a, Point b) { return sign * ((b.k - a.k) * (p.t - a.t) - (b.t - a.t) * (p.k - a.k)) >= 0; };
         while (side.size() >= 2 && inside(side[side.size() - 2], side.back())) side.pop_back();
         side.push_back(p);

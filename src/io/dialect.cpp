@@ -54,10 +54,10 @@ void Dialect::split(std::string_view line, Fields& out) const {
 
 bool Dialect::parse_number(std::string_view field, double& value, bool any) const {
     if (field.starts_with('+')) field.remove_prefix(1);
-    char plain[64];
-    if (decimal_comma && field.size() < sizeof plain && field.find(',') != std::string_view::npos) {
-        std::replace_copy(field.begin(), field.end(), plain, ',', '.');
-        field = std::string_view(plain, field.size());
+    char with_point[64];
+    if (decimal_comma && field.size() < sizeof with_point && field.find(',') != std::string_view::npos) {
+        std::replace_copy(field.begin(), field.end(), with_point, ',', '.');
+        field = std::string_view(with_point, field.size());
     }
     const auto [end, status] = std::from_chars(field.data(), field.data() + field.size(), value);
     return status == std::errc{} && end == field.data() + field.size() && (any || std::isfinite(value));

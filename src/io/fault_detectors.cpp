@@ -129,7 +129,7 @@ bool SumDetector::is_sum(std::size_t c, std::size_t from, std::size_t to) const 
 /// most channels of a tactile skin are zero.
 std::vector<SumDetector::Sum> SumDetector::find_sums() const {
     std::vector<Sum> sums;
-    std::vector<std::size_t> active(first_.size() + 1);  // number of channels before this one with a value other than 0
+    std::vector<std::size_t> active(first_.size() + 1);  // active[c]: number of channels before c that have a value other than 0
     for (std::size_t c = 0; c < first_.size(); ++c)
         active[c + 1] = active[c] + std::any_of(first_[c].begin(), first_[c].end(), [](double x) { return x != 0; });
     for (std::size_t c = 0; c < first_.size(); ++c)
@@ -146,13 +146,13 @@ HumTable::HumTable(const Clock& clock) {
     const auto length = static_cast<std::size_t>(rate);
     for (std::size_t n = 0; n < length; ++n) {
         const double at = static_cast<double>(n), window = 1 - num::cos_turns(at / static_cast<double>(length));  // Hann, mean 1
-        Phasors turn{};
+        Phasors phasors{};
         for (std::size_t l = 0; l < line_count; ++l) {
             const double f = mains[l / 3] + 6 * (static_cast<double>(l % 3) - 1), turns = f / rate * at;
-            turn.re[l] = window * num::cos_turns(turns - std::floor(turns));
-            turn.im[l] = window * num::sin_turns(turns - std::floor(turns));
+            phasors.re[l] = window * num::cos_turns(turns - std::floor(turns));
+            phasors.im[l] = window * num::sin_turns(turns - std::floor(turns));
         }
-        second.push_back(turn);
+        second.push_back(phasors);
     }
 }
 
@@ -172,8 +172,8 @@ void HumDetector::add_decimated(double x) {
     if (at_ == 0) first_ = x;
     const double y = x - first_;
     if (is_examined(second_)) {
-        const auto& turn = table_.second[at_];
-        for (std::size_t l = 0; l < HumTable::line_count; ++l) sum_.re[l] += turn.re[l] * y, sum_.im[l] += turn.im[l] * y;
+        const auto& phasors = table_.second[at_];
+        for (std::size_t l = 0; l < HumTable::line_count; ++l) sum_.re[l] += phasors.re[l] * y, sum_.im[l] += phasors.im[l] * y;
         total_ += y, squares_ += y * y;
     }
     if (++at_ == table_.second.size()) end_second();

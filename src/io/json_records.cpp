@@ -53,13 +53,13 @@ std::optional<std::string> strict_json(std::string_view text, std::size_t max_by
 class DocumentBuilder {
     using Members = std::vector<std::pair<const std::string, OrderedJson>>;
     static constexpr std::size_t values_between_checks = 4096;
-    const std::function<bool()>& keep_on_;
+    const std::function<bool()>& should_continue_;
     std::vector<OrderedJson*> open_;  // the containers around the next value
     std::string key_;
     std::size_t values_ = 0;
 
     bool add(OrderedJson value) {
-        if (++values_ % values_between_checks == 0 && !keep_on_()) return interrupted = true, false;
+        if (++values_ % values_between_checks == 0 && !should_continue_()) return interrupted = true, false;
         const bool is_container = value.is_structured();
         OrderedJson* at = &document;
         if (open_.empty()) {
@@ -78,7 +78,7 @@ class DocumentBuilder {
     }
 
 public:
-    explicit DocumentBuilder(const std::function<bool()>& keep_on) : keep_on_(keep_on) {}
+    explicit DocumentBuilder(const std::function<bool()>& should_continue) : should_continue_(should_continue) {}
     OrderedJson document;
     std::optional<std::size_t> syntax_error_at;  ///< position in bytes
     bool interrupted = false;
@@ -106,7 +106,7 @@ class JsonReader {
     using RecordHandler = std::function<Result<void>(std::span<const JsonField>, long)>;
     LineReader& lines_;
     const RecordHandler& on_record_;
-    const std::function<bool()>& keep_on_;
+    const std::function<bool()>& should_continue_;
     JsonMetadata* metadata_;
     std::vector<JsonField> fields_;
 
@@ -115,7 +115,7 @@ class JsonReader {
     Result<OrderedJson> parse(std::string_view text, long line) const {
         const auto strict = strict_json(text);
         if (!strict) return error_at(fmt::format("this JSON is nested more than {} deep, so it is not a table", max_depth), line);
-        DocumentBuilder builder(keep_on_);
+        DocumentBuilder builder(should_continue_);
         if (OrderedJson::sax_parse(*strict, &builder)) return std::move(builder.document);
         if (builder.interrupted) return Error{ErrorCode::interrupted, "interrupted"};
         if (!builder.syntax_error_at) return error_at("this JSON contains a number that is too large", line);
@@ -175,6 +175,7 @@ class JsonReader {
                std::all_of(j.begin(), j.end(), [](const OrderedJson& v) { return !v.is_structured(); });
     }
 
+    /// Finds lists of scalars in nested objects. A list is a column with its path as its name.
     void find_columns(const std::string& name, const OrderedJson& object, std::vector<JsonColumn>& out) const {
         for (const auto& [key, member] : object.items()) {
             const auto full = name.empty() ? key : name + "." + key;
@@ -206,11 +207,11 @@ class JsonReader {
         if (numbers == columns.end()) return;
         const auto rows = numbers->values.size();
         std::erase_if(columns, [&](const JsonColumn& c) {
-            const bool other = c.values.size() != rows && !has_numbers(c);
-            if (other && metadata_)
+            const bool is_unrelated = c.values.size() != rows && !has_numbers(c);
+            if (is_unrelated && metadata_)
                 metadata_->notes.push_back(
                     fmt::format("'{}' was ignored: it has {} strings, but the table has {} rows", c.name, c.values.size(), rows));
-            return other;
+            return is_unrelated;
         });
     }
 
@@ -306,8 +307,8 @@ class JsonReader {
     }
 
 public:
-    JsonReader(LineReader& lines, const RecordHandler& on_record, const std::function<bool()>& keep_on, JsonMetadata* metadata)
-        : lines_(lines), on_record_(on_record), keep_on_(keep_on), metadata_(metadata) {}
+    JsonReader(LineReader& lines, const RecordHandler& on_record, const std::function<bool()>& should_continue, JsonMetadata* metadata)
+        : lines_(lines), on_record_(on_record), should_continue_(should_continue), metadata_(metadata) {}
 
     Result<void> read() {
         const auto by_line = are_json_lines();
@@ -319,8 +320,8 @@ public:
 }  // namespace
 
 Result<void> read_json_records(LineReader& lines, const std::function<Result<void>(std::span<const JsonField>, long line)>& on_record,
-                               const std::function<bool()>& keep_on, JsonMetadata* metadata) {
-    return JsonReader(lines, on_record, keep_on, metadata).read();
+                               const std::function<bool()>& should_continue, JsonMetadata* metadata) {
+    return JsonReader(lines, on_record, should_continue, metadata).read();
 }
 
 Result<bool> looks_like_json(LineReader& lines) {

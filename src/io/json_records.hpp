@@ -26,10 +26,10 @@ struct JsonMetadata {
 };
 
 /// Calls `on_record` for each record, with the line number for JSON lines and 0 otherwise. Stops if `on_record` returns an error, or if
-/// `keep_on`, which is called every few thousand values, returns false.
+/// `should_continue`, which is called every few thousand values, returns false.
 Result<void> read_json_records(
     LineReader&, const std::function<Result<void>(std::span<const JsonField>, long line)>& on_record,
-    const std::function<bool()>& keep_on = [] { return true; }, JsonMetadata* metadata = nullptr);
+    const std::function<bool()>& should_continue = [] { return true; }, JsonMetadata* metadata = nullptr);
 
 /// True if the text begins like JSON. Rewinds the text.
 Result<bool> looks_like_json(LineReader&);

@@ -85,12 +85,12 @@ class JsonTable final : public Table {
 public:
     explicit JsonTable(std::string path) : path_(std::move(path)) {}
 
-    Result<void> open(LineReader& lines, const std::function<bool()>& keep_on) {
-        const auto on_record = [this, &keep_on](auto fields, long line) {
-            if (rows_ % rows_per_block == 0 && !keep_on()) return Result<void>(Error{ErrorCode::interrupted, "interrupted"});
+    Result<void> open(LineReader& lines, const std::function<bool()>& should_continue) {
+        const auto on_record = [this, &should_continue](auto fields, long line) {
+            if (rows_ % rows_per_block == 0 && !should_continue()) return Result<void>(Error{ErrorCode::interrupted, "interrupted"});
             return add(fields, line);
         };
-        if (auto ok = read_json_records(lines, on_record, keep_on, &metadata_); !ok) return ok;
+        if (auto ok = read_json_records(lines, on_record, should_continue, &metadata_); !ok) return ok;
         if (rows_ == 0 || columns_.empty()) return bad_input("no data in this file", {path_});
         if (rows_ > max_json_numbers / columns_.size())
             return bad_input("the table is too large for memory; save it as CSV, which is read in blocks", {path_});
@@ -152,9 +152,9 @@ public:
 
 }  // namespace
 
-Result<std::unique_ptr<Table>> open_json_table(LineReader lines, const std::function<bool()>& keep_on) {
+Result<std::unique_ptr<Table>> open_json_table(LineReader lines, const std::function<bool()>& should_continue) {
     auto table = std::make_unique<JsonTable>(lines.path());
-    if (auto ok = table->open(lines, keep_on); !ok) return ok.error();
+    if (auto ok = table->open(lines, should_continue); !ok) return ok.error();
     return std::unique_ptr<Table>(std::move(table));
 }
 

@@ -6,6 +6,7 @@
 
 namespace corpuscle {
 
-Result<std::unique_ptr<Table>> open_json_table(LineReader, const std::function<bool()>& keep_on);
+/// `should_continue` is called while reading; if it returns false, the result is an error (interrupted).
+Result<std::unique_ptr<Table>> open_json_table(LineReader, const std::function<bool()>& should_continue);
 
 }  // namespace corpuscle

@@ -11,7 +11,7 @@
 namespace corpuscle {
 namespace {
 
-/// True if the elements of a channel are contiguous in the file.
+/// True if there are several channels and the elements of each are contiguous in the file.
 bool is_column_major(const NpyHeader& header, const ArrayExtent& extent) {
     return extent.columns > 1 && header.is_column_major != extent.is_transposed;
 }

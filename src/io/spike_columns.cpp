@@ -10,9 +10,9 @@
 namespace corpuscle {
 namespace {
 
-constexpr std::string_view unit_names[] = {"unit",  "unit_id", "cluster",        "cluster_id", "clusters", "neuron", "neuron_id",
-                                           "cell",  "cell_id", "spike_clusters", "id",         "ids",      "label",  "train",
-                                           "units", "index",   "address",        "spike_unit", "senders"};
+constexpr std::string_view train_headings[] = {"unit",  "unit_id", "cluster",        "cluster_id", "clusters", "neuron", "neuron_id",
+                                               "cell",  "cell_id", "spike_clusters", "id",         "ids",      "label",  "train",
+                                               "units", "index",   "address",        "spike_unit", "senders"};
 
 bool is_spike_time_name(std::string_view name) {
     return is_time_name(name) || name == "spike_time" || name == "spike_times" || name == "spiketime" || name == "spiketimes" ||
@@ -40,12 +40,12 @@ std::optional<std::size_t> requested_column(const std::vector<std::string>& head
 }  // namespace
 
 Result<ResolvedSpikeColumns> find_spike_columns(const std::vector<std::string>& headings, const SpikeColumns& wanted, std::size_t& column) {
-    std::optional<std::size_t> time, unit;
+    std::optional<std::size_t> time, train;
     ResolvedSpikeColumns out;
-    for (const auto& [option, requested, to] : {std::tuple{"--time", &wanted.time, &time}, {"--train", &wanted.train, &unit}}) {
+    for (const auto& [option, requested, resolved] : {std::tuple{"--time", &wanted.time, &time}, {"--train", &wanted.train, &train}}) {
         if (!*requested) continue;
-        *to = requested_column(headings, **requested);
-        if (!*to)
+        *resolved = requested_column(headings, **requested);
+        if (!*resolved)
             return bad_input(fmt::format("{} {}: there is no such column. Columns: {}", option, **requested, listed_headings(headings)));
     }
     for (std::size_t c = 0; c < headings.size(); ++c) {
@@ -54,10 +54,10 @@ Result<ResolvedSpikeColumns> find_spike_columns(const std::vector<std::string>& 
         if (name == "afferent" && !wanted.train) out.afferent = c;
         if (name == "channel") out.channel = c;
     }
-    for (const auto name : unit_names)
-        for (std::size_t c = 0; c < headings.size() && !unit && !out.afferent; ++c)
-            if (c != time && lower(headings[c]) == name) unit = c;
-    if (unit) out.afferent = unit;
+    for (const auto name : train_headings)
+        for (std::size_t c = 0; c < headings.size() && !train && !out.afferent; ++c)
+            if (c != time && lower(headings[c]) == name) train = c;
+    if (train) out.afferent = train;
     if (out.channel == out.afferent) out.channel.reset();
     if (!time && headings.size() == 1 && headings[0].empty()) time = 0;
     if (!time)

@@ -189,29 +189,29 @@ class LayoutDetector {
     /// The common layout: the table begins at the first line, with or without a header.
     struct PlainLayout {
         std::size_t columns = 0;
-        bool header = false, units = false;
-        bool fits = false;  ///< all following lines are rows of this layout
+        bool has_header = false, has_units = false;  ///< has_units: a row of units follows the header
+        bool fits = false;                           ///< all following lines are rows of this layout
     };
     PlainLayout plain_layout() {
         PlainLayout p;
         layout_.dialect = dialect_of(head_[0].text);
         split_row(layout_.dialect, head_[0].text, 0, fields_);
         p.columns = fields_.size();
-        p.header = std::any_of(fields_.begin(), fields_.end(), [&](auto f) { return !f.empty() && !is_value(f, layout_.dialect); }) ||
-                   (head_.size() > 1 && are_numbered(fields_));
-        if (p.header && is_row_under_comment(0, p.columns)) p.header = false;
-        p.units = p.header && head_.size() > 2 && is_unit_row(1, p.columns, layout_.dialect);
-        p.fits = !p.header || head_.size() == 1 || are_rows(p.units ? 2 : 1, p.columns, layout_.dialect);
-        if (!p.header && head_.size() > 1) p.fits = are_rows(0, p.columns, layout_.dialect);
+        p.has_header = std::any_of(fields_.begin(), fields_.end(), [&](auto f) { return !f.empty() && !is_value(f, layout_.dialect); }) ||
+                       (head_.size() > 1 && are_numbered(fields_));
+        if (p.has_header && is_row_under_comment(0, p.columns)) p.has_header = false;
+        p.has_units = p.has_header && head_.size() > 2 && is_unit_row(1, p.columns, layout_.dialect);
+        p.fits = !p.has_header || head_.size() == 1 || are_rows(p.has_units ? 2 : 1, p.columns, layout_.dialect);
+        if (!p.has_header && head_.size() > 1) p.fits = are_rows(0, p.columns, layout_.dialect);
         return p;
     }
 
     void use_plain_layout(const PlainLayout& p) {
-        if (p.header) {
+        if (p.has_header) {
             split_row(layout_.dialect, head_[0].text, 0, fields_);
             set_header(Fields(fields_));
-            row_ = p.units ? 2 : 1;
-            if (p.units) set_units(1);
+            row_ = p.has_units ? 2 : 1;
+            if (p.has_units) set_units(1);
         } else if (!use_commented_header(0, p.columns)) {
             layout_.columns.assign(p.columns, Column{});
         }
@@ -220,7 +220,7 @@ class LayoutDetector {
     /// True if the entire line is the heading of a single column: "Force N".
     bool is_single_heading(std::size_t k) const { return head_[k].text.find_first_of(",;\t") == std::string::npos; }
 
-    /// True if the lines before `k` can be a preamble, because they are not rows of a table.
+    /// True if the lines before `k` can be a preamble: at most one of them consists of a single value, and none of several values.
     bool may_be_preamble(std::size_t k, const Dialect& plain) {
         std::size_t rows = 0;
         for (std::size_t j = 0; j < k; ++j) {

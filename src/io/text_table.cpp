@@ -94,6 +94,7 @@ class TextTable final : public Table {
         return fmt::format("{}; {}", advice.feature, advice.remedy.empty() ? "save the table without it" : advice.remedy);
     }
 
+    /// Stores the first word of columns that hold words, for the error message if no column holds numbers.
     void store_evidence() {
         constexpr std::size_t max_evidence = 8;  // only one is reported, and only if no column holds numbers
         std::size_t count = 0;
@@ -193,16 +194,16 @@ class TextTable final : public Table {
         bool changes;        ///< true: changes at the row where the time decreases, false: constant up to that row
     };
 
-    /// The columns that distinguish the trial that begins in line `begins` from the first trial. Reads the rows again. Empty if no column
-    /// changes there.
-    Result<std::vector<TrialColumn>> find_trials(long begins) {
+    /// The columns that distinguish the trial that begins in line `trial_line` from the first trial. Reads the rows again. Empty if no
+    /// column changes there.
+    Result<std::vector<TrialColumn>> find_trials(long trial_line) {
         std::vector<TrialColumn> found;
         if (layout_.trial_columns.empty()) return found;
         if (auto ok = lines_.rewind(); !ok) return ok.error();
         std::vector<std::string> first, last, current;
         std::vector<bool> constant(layout_.trial_columns.size(), true);
         quoted_rows_ = quoted_separators_ = false;
-        for (std::string_view line; lines_.line_number() < begins;) {
+        for (std::string_view line; lines_.line_number() < trial_line;) {
             const auto more = next_row(line);
             if (!more) return more.error();
             if (!*more) return found;
@@ -216,7 +217,7 @@ class TextTable final : public Table {
             current.clear();
             for (const auto c : layout_.trial_columns) current.emplace_back(c < fields_.size() ? fields_[c] : std::string_view());
             if (first.empty()) first = current;
-            for (std::size_t k = 0; k < current.size() && lines_.line_number() < begins; ++k)
+            for (std::size_t k = 0; k < current.size() && lines_.line_number() < trial_line; ++k)
                 constant[k] = constant[k] && current[k] == first[k];
         }
         if (last.empty()) return found;
