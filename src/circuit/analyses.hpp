@@ -1,5 +1,5 @@
 #pragma once
-// All analyses, by directive name. To add one, add its declaration and its line.
+// All analyses, by directive name. To add one, declare its function here and add a line to `analyses`.
 
 #include "circuit/analysis/analysis_context.hpp"
 

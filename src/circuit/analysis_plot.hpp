@@ -8,14 +8,14 @@
 
 namespace corpuscle::circuit {
 
-/// A named column of values; real values have no imaginary part.
+/// A named column of values; the imaginary part of a real value is 0.
 struct Curve {
     std::string name;  ///< "v(out)", "i(v1)", "frequency"
     std::string type;  ///< as in ngspice: "voltage", "current", "frequency", "notype" ...
     std::vector<std::complex<double>> values;
 };
 
-/// One plot. If `swept` is true, the first curve is the swept quantity.
+/// One plot. If `has_sweep` is true, the first curve is the swept quantity.
 struct Plot {
     std::string name;  ///< "DC transfer characteristic"
     bool is_complex = false, has_sweep = true;

@@ -11,7 +11,7 @@
 namespace corpuscle::circuit {
 namespace {
 
-/// FNV-1a hash over all that can make two circuits respond differently.
+/// FNV-1a hash over the values and connections that determine how a circuit responds.
 std::uint64_t fingerprint_of(const Circuit& c) {
     std::uint64_t hash = 0xcbf29ce484222325;
     const auto number = [&](std::uint64_t x) { hash = (hash ^ x) * 0x100000001b3; };
@@ -24,9 +24,9 @@ std::uint64_t fingerprint_of(const Circuit& c) {
         for (const auto& [name, value] : all) text(name), real(value);
     };
     const auto formula = [&](const Expression& f) {
-        const auto written =
+        const auto expression_text =
             f.text([](const ExpressionInput& in) { return fmt::format("{}({},{})", static_cast<int>(in.kind), in.name, in.minus); });
-        if (written) text(*written);
+        if (expression_text) text(*expression_text);
     };
     for (const auto& e : c.elements) {
         text(e.name), values(e.values), real(e.value), real(e.waveform.dc), number(static_cast<std::uint64_t>(e.waveform.shape));
@@ -36,8 +36,8 @@ std::uint64_t fingerprint_of(const Circuit& c) {
         if (e.expression) formula(*e.expression);
     }
     for (const auto& m : c.models) text(m.type), values(m.values);
-    for (const auto* starts : {&c.ic, &c.nodesets})
-        for (const auto& [node, value] : *starts) number(static_cast<std::uint64_t>(node)), real(value);
+    for (const auto* node_voltages : {&c.ic, &c.nodesets})
+        for (const auto& [node, value] : *node_voltages) number(static_cast<std::uint64_t>(node)), real(value);
     values(c.options), real(c.temperature);
     for (const auto& command : c.directives)
         if (command.name == "tran" || command.name == "spike")
@@ -45,7 +45,7 @@ std::uint64_t fingerprint_of(const Circuit& c) {
     return hash;
 }
 
-/// The unknowns that are interpolated between time points: those of spikes, probes and operating ranges.
+/// The unknowns that are interpolated between time points, for spikes, probes and operating ranges.
 std::vector<int> interpolated_unknowns(const CircuitAfferentFactory& design) {
     std::vector<int> out = {design.spike_output.unknowns.plus, design.spike_output.unknowns.minus};
     for (const auto& range : design.operating_ranges)
@@ -60,11 +60,11 @@ class CircuitAfferent final : public Afferent {
     bool sampled_;
     std::optional<ChipSample> chip_;
     std::int64_t delay_;
-    std::string format_;
+    std::string format_;  // marks saved states: a state fits only the same netlist, chip and T
     std::vector<Probe> probes_;
     std::vector<ValidRange> ranges_;
     mutable std::mutex guard_;
-    mutable std::vector<std::unique_ptr<StreamingTransient>> idle_;  // as many as ever ran at the same time
+    mutable std::vector<std::unique_ptr<StreamingTransient>> idle_;  // not in use by a call of respond()
 
     Result<std::unique_ptr<StreamingTransient>> borrow() const {
         {
@@ -175,7 +175,7 @@ Result<std::shared_ptr<const CircuitAfferentFactory>> CircuitAfferentFactory::cr
 Result<std::shared_ptr<const CircuitAfferentFactory>> CircuitAfferentFactory::create(std::shared_ptr<const Circuit> circuit) {
     const auto context = AnalysisContext::make(circuit);
     if (!context) return context.error();
-    const SourceLocation place{circuit->file};
+    const SourceLocation location{circuit->file};
     const auto plan = read_transient_plan(*circuit);
     if (!plan) return plan.error();
     const auto output = read_spike_output((*context)->system);
@@ -185,8 +185,8 @@ Result<std::shared_ptr<const CircuitAfferentFactory>> CircuitAfferentFactory::cr
     auto ranges = read_operating_ranges((*context)->system);
     if (!ranges) return ranges.error();
     if (!(*context)->system.set_force_input(nullptr))
-        return bad_input("no source carries a force; add one, such as 'iin 0 fin force 60n' (60 nA per newton)", place);
-    if (!*output) return bad_input("no .spike directive defines the spike output; add '.spike v(NODE) LEVEL [rise|fall]'", place);
+        return bad_input("no source carries a force; add one, such as 'iin 0 fin force 60n' (60 nA per newton)", location);
+    if (!*output) return bad_input("no .spike directive defines the spike output; add '.spike v(NODE) LEVEL [rise|fall]'", location);
     auto design = std::make_shared<CircuitAfferentFactory>();
     for (const auto& c : circuit->directives) {
         if (c.name == "mc") {
@@ -215,8 +215,8 @@ std::vector<std::pair<std::string, std::string>> CircuitAfferentFactory::labels(
 }
 
 std::unique_ptr<Afferent> CircuitAfferentFactory::make(double dt, bool sampled, std::uint32_t copy) const {
-    const bool drawn = chips && (copy > 0 || circuit->mismatch_seed);
-    const auto chip = drawn ? std::optional(chips->sample(copy > 0 ? copy - 1 : 0)) : std::nullopt;
+    const bool has_chip = chips && (copy > 0 || circuit->mismatch_seed);
+    const auto chip = has_chip ? std::optional(chips->sample(copy > 0 ? copy - 1 : 0)) : std::nullopt;
     return std::make_unique<CircuitAfferent>(shared_from_this(), dt, sampled, chip);
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// Selects some curves of a plot, such as those that .save names.
+// Selects some curves of a plot, for example the curves that .save names.
 
 #include "circuit/analysis/analysis_context.hpp"
 #include "circuit/curve_view.hpp"
@@ -16,8 +16,9 @@ class CurveSelector {
     bool keeps_all_ = true;
 
 public:
-    /// Returns the head of the output.
+    /// Takes the curves of a plot without their values, and returns the selected ones.
     Plot begin(const Plot& head, const std::vector<std::string>& names);
+    /// The selected values of a point; valid until the next call.
     std::span<const double> select(std::span<const double> row);
 };
 

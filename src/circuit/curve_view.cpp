@@ -87,13 +87,13 @@ std::optional<CurveView> CurveView::find(const Plot& plot, std::string_view name
     out.view_ = *view;
     const auto inside = name.substr(open + 1, name.size() - open - 2);
     const auto comma = inside.find(',');
-    const auto found = [&](std::string_view node, int& index) {
+    const auto find_index = [&](std::string_view node, int& index) {
         if (node == "0" || node == "gnd") return true;
         index = index_of(plot, std::string(1, name[0]) + "(" + std::string(node) + ")", names);
         return index >= 0;
     };
-    if (!found(inside.substr(0, comma), out.plus_)) return {};
-    if (comma != std::string_view::npos && !found(inside.substr(comma + 1), out.minus_)) return {};
+    if (!find_index(inside.substr(0, comma), out.plus_)) return {};
+    if (comma != std::string_view::npos && !find_index(inside.substr(comma + 1), out.minus_)) return {};
     return out;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// Curves of a plot by their names in netlists: v(a,b), vdb(out), vp(out), i(v1), par('v(a)*i(v1)').
+// Finds curves of a plot by the names that netlists use: v(a,b), vdb(out), vp(out), i(v1), par('v(a)*i(v1)').
 
 #include <memory>
 #include <optional>
@@ -25,11 +25,11 @@ public:
 /// currents and time.
 class CurveView {
     static constexpr int ground = -1;
-    int plus_ = ground, minus_ = ground;  // in the plot's curves
+    int plus_ = ground, minus_ = ground;  // indices in the plot's curves
     std::string_view view_{};             // "" or one of view_names
     bool has_no_view_ = true;             // v(a), i(x), v(a,b)
     std::shared_ptr<const Expression> expression_{};
-    std::vector<CurveView> inputs_{};  // of the expression
+    std::vector<CurveView> inputs_{};  // the curves that the expression uses
 
     std::complex<double> apply_view(std::complex<double> difference) const;
     double evaluate_expression(const PlotRow&) const;

@@ -16,11 +16,11 @@ class DeviceCurrents {
 public:
     DeviceCurrents(const System&, std::span<const SavedQuantity>);
     bool has_any() const { return !currents_.empty(); }
-    /// Appends the curves, without values, to a head. Its first curve must be the swept quantity, followed by all unknowns.
+    /// Appends the curves, without values, to a plot without values. Its first curve must be the swept quantity, followed by all unknowns.
     void extend_head(Plot& head) const;
-    /// Returns the point with the currents appended.
+    /// Returns the point with the currents appended; valid until the next call.
     std::span<const double> extend_point(std::span<const double> row);
-    /// Appends the curves to a complete plot. Returns false if it is a plot of another kind, or one over temperature.
+    /// Appends the curves to a complete plot. Returns false if the plot is complex, lacks an unknown, or is swept over temperature.
     bool extend_plot(Plot&) const;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// All devices, by letter. To add one, add its include and its line.
+// All devices, by letter. To add one, include its header here and add a line to `devices`.
 
 #include "circuit/device/diode.hpp"
 #include "circuit/device/passive.hpp"
@@ -13,8 +13,8 @@ struct DeviceKind {
     char letter;
     std::string_view description;
     Result<std::unique_ptr<Device>> (*make)(const Element&, DeviceSetup&);
-    /// At 0 Hz. conducts: the current depends, or may depend, on the voltage across the device. fixes_voltage: the device fixes the
-    /// voltage between its first two terminals.
+    /// Behaviour at 0 Hz. conducts_dc: the current depends, or may depend, on the voltage across the device. fixes_voltage: the device
+    /// fixes the voltage between its first two terminals.
     bool conducts_dc, fixes_voltage;
     /// Makes the batch that evaluates devices of this kind together. If null, they are evaluated one at a time.
     Result<std::unique_ptr<DeviceBatch>> (*make_batch)() = nullptr;

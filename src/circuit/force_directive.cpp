@@ -14,7 +14,7 @@ constexpr double max_samples = 1e8;
 
 Error error_in(const Directive& c, std::size_t word, std::string message) { return error_at(c, word, ".force: " + std::move(message)); }
 
-/// The parameter's name as the stimulus spells it; netlists are in small letters.
+/// The parameter's name with the stimulus's capital letters, since all names in a parsed netlist are in small letters.
 std::string spelling_of(std::string_view stimulus, std::string_view parameter) {
     for (const auto& card : stimulus_catalog())
         for (const auto& row : card.parameters)
@@ -39,9 +39,9 @@ Result<ForceSpec> parse_force_spec(const Directive& c) {
             out.rate = value->value;
             continue;
         }
-        const std::string of(dot == std::string_view::npos ? std::string_view(c.words[0]) : name.substr(0, dot));
-        out.overrides.push_back(
-            {of, spelling_of(of, dot == std::string_view::npos ? name : name.substr(dot + 1)), fmt::format("{}", value->value)});
+        const std::string stimulus(dot == std::string_view::npos ? std::string_view(c.words[0]) : name.substr(0, dot));
+        const auto parameter = dot == std::string_view::npos ? name : name.substr(dot + 1);
+        out.overrides.push_back({stimulus, spelling_of(stimulus, parameter), fmt::format("{}", value->value)});
     }
     return out;
 }
@@ -52,7 +52,7 @@ Result<ForceWaveform> read_waveform_of(ForceSource& source, const Directive& c) 
     for (Frames block(source.channels().size(), 4096);;) {
         if (auto ok = source.read(block); !ok) return ok.error();
         if (block.count == 0) {
-            waveform.append(std::vector<double>(ForceWaveform::lookahead + 1, last));  // the last force is held
+            waveform.append(std::vector<double>(ForceWaveform::lookahead + 1, last));  // the last samples need a lookahead
             return waveform;
         }
         if ((count += static_cast<double>(block.count)) > max_samples)

@@ -12,7 +12,7 @@ namespace corpuscle::circuit {
 /// Reads .force STIMULUS [PARAMETER=VALUE ...] [rate=10k], such as ".force press f_max=2". STIMULUS is the name of a stimulus or a sum
 /// of several; the parameters of a sum are written press.f_max. Returns nothing if the netlist has no .force.
 Result<std::optional<ForceWaveform>> force_directive(const Circuit&);
-/// The phases of this force; empty if it has none.
+/// The phases of the stimulus in .force; empty if there are none.
 Result<std::vector<Phase>> force_phases(const Circuit&);
 
 }  // namespace corpuscle::circuit

@@ -7,9 +7,9 @@
 namespace corpuscle::circuit {
 namespace {
 
-constexpr double min_bend = 2e-3;          // of a breakpoint, as a fraction of the largest force
-constexpr double min_bend_ratio = 4;       // to the smaller bend two samples away
-constexpr double max_deviation = 0.05;     // from the line of the last breakpoint, as a fraction of the largest force
+constexpr double min_bend = 2e-3;          // smallest bend of a breakpoint, as a fraction of the largest force
+constexpr double min_bend_ratio = 4;       // smallest ratio to the smaller of the bends two samples before and after
+constexpr double max_deviation = 0.05;     // from the line through the last breakpoint, as a fraction of the largest force
 constexpr std::size_t header_numbers = 7;  // in save(), before breakpoints and samples
 
 /// Limits a sample number to exact integers; a damaged state may contain larger ones.
@@ -35,8 +35,8 @@ void ForceWaveform::check_next_sample() {
     };
     largest_ = std::max({largest_, std::abs(sample(k - 1)), std::abs(sample(k)), std::abs(sample(k + lookahead))});
     if (k == 1) begin_line(0);
-    const double calm = std::min(std::abs(bend(k - 2)), std::abs(bend(k + 2)));
-    const bool is_sharp = std::abs(bend(k)) > std::max(min_bend * largest_, min_bend_ratio * calm);
+    const double nearby_bend = std::min(std::abs(bend(k - 2)), std::abs(bend(k + 2)));
+    const bool is_sharp = std::abs(bend(k)) > std::max(min_bend * largest_, min_bend_ratio * nearby_bend);
     const double line = line_at_ + line_slope_ * (static_cast<double>(k) - line_from_);
     if (!is_sharp && std::abs(sample(k) - line) <= max_deviation * largest_) return;
     breakpoints_.push_back(k);

@@ -11,8 +11,8 @@ namespace corpuscle::circuit {
 /// constant. Old samples are discarded.
 ///
 /// Not every sample is a breakpoint, because each breakpoint costs the circuit a time step. A sample is a breakpoint if the force bends
-/// there much more sharply than two samples before or after. It is also one if the force has left the straight line from the last
-/// breakpoint by a fraction of the largest force so far. Between breakpoints, error control of the step size is sufficient.
+/// there much more sharply than two samples before or after. It is also one if the force deviates from the straight line through the
+/// last breakpoint by more than 5 % of the largest force so far. Between breakpoints, error control of the step size is sufficient.
 class ForceWaveform {
     double T_;
     std::int64_t first_ = 0;          // number of samples_[0]
@@ -20,7 +20,7 @@ class ForceWaveform {
     std::vector<double> samples_;
     std::vector<std::int64_t> breakpoints_;
     double line_from_ = 0, line_at_ = 0, line_slope_ = 0;  // the line from the last breakpoint: sample, N, N per sample
-    double largest_ = 0;                                   // N, of all samples that were checked
+    double largest_ = 0;                                   // N, the largest magnitude of all samples that were checked
 
     double sample(std::int64_t k) const;
     double bend(std::int64_t k) const { return sample(k - 1) - 2 * sample(k) + sample(k + 1); }
@@ -28,7 +28,7 @@ class ForceWaveform {
 
 public:
     explicit ForceWaveform(double T = 1) : T_(T) {}
-    double T() const { return T_; }
+    double T() const { return T_; }  ///< sample time, s
 
     void append(std::span<const double> force);
     /// The force at time t, N; t in s.

@@ -21,9 +21,9 @@ std::vector<std::string_view> split(std::string_view name) {
 }
 
 /// True if the piece's first letter may be left out.
-bool has_optional_letter(std::string_view piece, bool last, LastPiece kind) {
+bool has_optional_letter(std::string_view piece, bool is_last, LastPiece kind) {
     if (piece.size() < 2) return false;
-    return last ? kind == LastPiece::element : piece[0] == 'x';
+    return is_last ? kind == LastPiece::element : piece[0] == 'x';
 }
 
 /// How well a name matches. 0 is the full path, 1 the full path with letters left out; 2 and 3 are the same for the end of the path.

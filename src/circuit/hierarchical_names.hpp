@@ -1,5 +1,6 @@
 #pragma once
-// Finds hierarchical names, such as "xsummer.mn3b", by what a user types: "summer.N3B".
+// Finds hierarchical names, such as "xsummer.mn3b", from the text that a user types, such as "summer.N3B". Dots separate the pieces of a
+// name.
 
 #include <span>
 #include <string>

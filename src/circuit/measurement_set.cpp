@@ -31,7 +31,9 @@ Result<Expression> parse_expression(const Directive& c, const KnownNumbers& numb
 Error without_analysis(const Directive& c) {
     return bad_input(fmt::format(".meas: the netlist has no .{} to measure", c.words[0]), c.location);
 }
-Error incomplete_measure(const Directive& c) { return bad_input(".meas: expected .meas op|dc|ac|noise|tran NAME WHAT ...", c.location); }
+Error incomplete_measure(const Directive& c) {
+    return bad_input(".meas: expected .meas op|dc|ac|noise|tran NAME MEASUREMENT ...", c.location);
+}
 
 }  // namespace
 
@@ -45,9 +47,9 @@ Result<void> MeasurementSet::begin(std::string_view analysis, const Plot& head) 
     for (auto& entry : entries_) {
         const auto& c = *entry.command;
         if (c.words.size() < 3 || c.words[0] != analysis || is_expression(c) || entry.measurement) continue;
-        auto made = parse_measurement(c, head);
-        if (!made) return made.error();
-        entry.measurement = std::move(*made);
+        auto parsed = parse_measurement(c, head);
+        if (!parsed) return parsed.error();
+        entry.measurement = std::move(*parsed);
         active_.push_back(entry.measurement.get());
     }
     return {};

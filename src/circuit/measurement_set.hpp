@@ -8,7 +8,7 @@
 
 namespace corpuscle::circuit {
 
-/// All .meas lines of a circuit. Each one measures the first plot of the first analysis of the kind that it names.
+/// All .meas lines of a circuit. Each line names a kind of analysis, and measures the first plot of the first analysis of this kind.
 class MeasurementSet {
     struct Entry {
         const Directive* command;
@@ -23,7 +23,7 @@ public:
     /// Begins a plot of the analysis of this name. An ill-formed line or an unknown curve is an error.
     Result<void> begin(std::string_view analysis, const Plot& head);
     /// Call this after begin() for every analysis. Reports the errors of finish() that depend on names only. `numbers` are the names of
-    /// the numbers that the analyses may give.
+    /// the numbers that the analyses may produce.
     Result<void> check(const std::vector<std::string>& numbers) const;
     void add_point(double x, const PlotRow& row) {
         for (auto* measurement : active_) measurement->add_point(x, row);

@@ -86,12 +86,13 @@ public:
 
     Result<void> apply(const NetlistOverride& setting) {
         const auto elements = find_matching_names(names_, setting.name, LastPiece::element);
-        if (elements.size() == 1) return device(setting, element(elements[0]), "");
+        if (elements.size() == 1) return override_device(setting, element(elements[0]), "");
         const auto dot = setting.name.rfind('.');
         if (dot != std::string::npos) {
-            const auto of = find_matching_names(names_, std::string_view(setting.name).substr(0, dot), LastPiece::element);
-            if (of.size() == 1) return device(setting, element(of[0]), lower(std::string_view(setting.name).substr(dot + 1)));
-            if (elements.empty() && of.size() > 1) return ambiguous_name(setting, setting.name.substr(0, dot), of);
+            const auto owners = find_matching_names(names_, std::string_view(setting.name).substr(0, dot), LastPiece::element);
+            if (owners.size() == 1)
+                return override_device(setting, element(owners[0]), lower(std::string_view(setting.name).substr(dot + 1)));
+            if (elements.empty() && owners.size() > 1) return ambiguous_name(setting, setting.name.substr(0, dot), owners);
         }
         return elements.empty() ? unknown(setting) : ambiguous_name(setting, setting.name, elements);
     }
@@ -125,32 +126,33 @@ private:
                                     names_.empty() ? "none" : short_name(names_.back(), piece_count(names_.back()), LastPiece::element)));
     }
 
-    Result<void> device(const NetlistOverride& setting, const Element& e, std::string_view number) {
-        if (number.empty() && e.letter == 'm') return array(setting, e);
+    /// Overrides a parameter of a device; "" is its value.
+    Result<void> override_device(const NetlistOverride& setting, const Element& e, std::string_view parameter) {
+        if (parameter.empty() && e.letter == 'm') return override_array(setting, e);
         const auto known = parameters_of(e);
-        const auto at = std::find_if(known.begin(), known.end(), [&](const ElementParameter& n) { return n.name == number; });
-        if (at == known.end()) return no_such(setting, e, number, known);
+        const auto at = std::find_if(known.begin(), known.end(), [&](const ElementParameter& n) { return n.name == parameter; });
+        if (at == known.end()) return unknown_parameter(setting, e, parameter, known);
         if (at->name.empty() || at->name == "dc")
             if (const auto shape = e.waveform.shape; shape != Waveform::Shape::none && shape != Waveform::Shape::force)
                 return error_of(setting, fmt::format("{} is a source with a time waveform; its value is not a single number", e.name));
         auto value = parse_quantity(setting.value, at->unit);
         if (!value) return error_of(setting, value.error().message);
-        return put(setting, e, *at, *value);
+        return add_change(setting, e, *at, *value);
     }
 
-    Error no_such(const NetlistOverride& setting, const Element& e, std::string_view number,
-                  const std::vector<ElementParameter>& known) const {
+    Error unknown_parameter(const NetlistOverride& setting, const Element& e, std::string_view parameter,
+                            const std::vector<ElementParameter>& known) const {
         std::vector<std::string_view> names;
         for (const auto& n : known)
             if (!n.name.empty()) names.push_back(n.name);
         if (names.empty()) return error_of(setting, fmt::format("{} has an expression; its value is not a single number", e.name));
-        if (number.empty())
+        if (parameter.empty())
             return error_of(setting, fmt::format("{} has no single value; set one of its parameters ({})", e.name, fmt::join(names, ", ")));
-        return error_of(setting,
-                        fmt::format("{} has no '{}'{} (it has {})", e.name, number, did_you_mean(number, names), fmt::join(names, ", ")));
+        return error_of(setting, fmt::format("{} has no '{}'{} (it has {})", e.name, parameter, did_you_mean(parameter, names),
+                                             fmt::join(names, ", ")));
     }
 
-    Result<void> array(const NetlistOverride& setting, const Element& e) {
+    Result<void> override_array(const NetlistOverride& setting, const Element& e) {
         const auto size = array_of(setting.value);
         if (!size || size->first != std::floor(size->first) || size->second != std::floor(size->second))
             return error_of(
@@ -164,23 +166,24 @@ private:
             if (n.name == "stack" && !(size->second >= 1))
                 return error_of(setting, fmt::format("{} units in series; at least 1 is required", size->second));
             if (n.name != "m" && n.name != "stack") continue;
-            if (auto ok = put(setting, e, n, n.name == "m" ? size->first : size->second); !ok) return ok;
+            if (auto ok = add_change(setting, e, n, n.name == "m" ? size->first : size->second); !ok) return ok;
         }
         return {};
     }
 
-    /// Adds one value to the changes. r of an R is another name of its value.
-    Result<void> put(const NetlistOverride& setting, const Element& e, const ElementParameter& number, double value) {
-        const bool own = number.name == "dc" || number.name == std::string_view(&e.letter, 1);
-        if (!(value >= number.low && value <= number.high))
+    /// Adds one value to the changes. The names r of an R, c of a C, l of an L and dc of a source mean the element's value.
+    Result<void> add_change(const NetlistOverride& setting, const Element& e, const ElementParameter& parameter, double value) {
+        const bool means_value = parameter.name == "dc" || parameter.name == std::string_view(&e.letter, 1);
+        if (!(value >= parameter.low && value <= parameter.high))
             return error_of(
                 setting,
-                number.high == huge && number.low >= 0
-                    ? fmt::format("{} must {}", format_quantity(value, number.unit), number.low > 0 ? "be above 0" : "not be below 0")
-                    : fmt::format("{} is outside [{}, {}]", format_quantity(value, number.unit), format_quantity(number.low, number.unit),
-                                  format_quantity(number.high, number.unit)));
-        if (e.letter == 'r' && (own || number.name.empty()) && value == 0) return error_of(setting, "a resistor must not be 0 ohm");
-        changes_.numbers[e.name].insert_or_assign(own && e.letter != 'm' ? "" : std::string(number.name), value);
+                parameter.high == huge && parameter.low >= 0
+                    ? fmt::format("{} must {}", format_quantity(value, parameter.unit), parameter.low > 0 ? "be above 0" : "not be below 0")
+                    : fmt::format("{} is outside [{}, {}]", format_quantity(value, parameter.unit),
+                                  format_quantity(parameter.low, parameter.unit), format_quantity(parameter.high, parameter.unit)));
+        if (e.letter == 'r' && (means_value || parameter.name.empty()) && value == 0)
+            return error_of(setting, "a resistor must not be 0 ohm");
+        changes_.numbers[e.name].insert_or_assign(means_value && e.letter != 'm' ? "" : std::string(parameter.name), value);
         return {};
     }
 };
@@ -254,7 +257,7 @@ Result<Netlist> apply_overrides(const NetlistOpener& open, const std::string& na
     const auto netlist = open(changes.corner);
     if (!netlist) return with_corner_override(overrides, changes.corner, netlist.error());
     std::vector<std::string> parameters;
-    for (const auto& [own, text] : netlist->parameters()) parameters.push_back(own);
+    for (const auto& [parameter, text] : netlist->parameters()) parameters.push_back(parameter);
     std::vector<const NetlistOverride*> devices;
     for (const auto& setting : overrides) {
         const auto lower_name = lower(setting.name);

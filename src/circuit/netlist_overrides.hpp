@@ -17,7 +17,8 @@ namespace corpuscle::circuit {
 ///
 ///  - a device and one of its parameters, "summer.N3B.w"
 ///
-/// Letters may be of either case. The end of a device's path is enough, and SPICE's letters may be left out.
+/// Letters may be of either case. The end of a device's path is enough. The first letter, which tells SPICE the kind of device, may be
+/// left out.
 struct NetlistOverride {
     std::string name, value;
     std::string text;                ///< as the user wrote it: "--set sa1-circuit.C_u=4pF"
@@ -31,7 +32,7 @@ Result<Netlist> apply_overrides(const std::string& name_or_path, std::span<const
 using NetlistOpener = std::function<Result<Netlist>(const std::string& corner)>;
 Result<Netlist> apply_overrides(const NetlistOpener& open, const std::string& name, std::span<const NetlistOverride>);
 
-/// A number in SI and the unit that was written with it: "4pF" is {4e-12, "F"}. M is mega here, and m is milli.
+/// A number in SI units and the unit that was written with it: "4pF" is {4e-12, "F"}. Unlike in SPICE, M is mega and m is milli.
 struct NumberWithUnit {
     double value;
     std::string_view unit;

@@ -158,8 +158,8 @@ Result<void> NetlistVariants::elaborate_step(std::size_t number) {
 }
 
 Result<Variant> NetlistVariants::at(std::size_t number) {
-    const std::size_t draws = std::max<std::size_t>(static_cast<std::size_t>(chips_.count), 1), chip = number % draws;
-    if (auto ok = elaborate_step(number / draws); !ok) return ok.error();
+    const std::size_t chip_count = std::max<std::size_t>(static_cast<std::size_t>(chips_.count), 1), chip = number % chip_count;
+    if (auto ok = elaborate_step(number / chip_count); !ok) return ok.error();
     Variant out{last_->label, last_->circuit, {}};
     out.sample = chip_sample_of(*out.circuit);
     if (!this->has_chips()) return out;

@@ -1,5 +1,5 @@
 #pragma once
-// The variants of a netlist by .step and .mc: the same circuit with other values.
+// The variants of a netlist that .step and .mc define: the same circuit with other values.
 
 #include <memory>
 #include <optional>
@@ -22,7 +22,7 @@ struct ChipSpec {
     bool has_process = true, has_mismatch = true;
     std::uint64_t first_chip = 0;  ///< number of the first chip
 
-    ChipSample sample(std::uint64_t chip) const;  ///< `chip` counts from `first_chip`
+    ChipSample sample(std::uint64_t chip) const;  ///< the sample of chip number `first_chip` + `chip`
 };
 /// Reads a .mc line.
 Result<ChipSpec> parse_chip_spec(const Directive&);
@@ -35,8 +35,9 @@ std::optional<ChipSample> chip_sample_of(const Circuit&);
 ///
 ///     .mc COUNT [seed=S] [process=0] [mismatch=0]
 ///
-/// NAME may be temp, without param. Several .step lines are combined in every way. For each chip, a process shift is sampled, and each
-/// transistor samples its own delvto and mulu0. The deviations are those of the model card (avt, ais, svt0, sis).
+/// To step the temperature, write temp instead of param NAME. Several .step lines give all combinations of their values. Each chip has
+/// a random process shift, and each of its transistors has a random delvto and mulu0. The standard deviations are in the model card (avt,
+/// ais, svt0, sis).
 class NetlistVariants {
 public:
     /// The values of one .step line.

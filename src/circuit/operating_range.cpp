@@ -7,13 +7,13 @@ namespace {
 
 Result<OperatingRange> parse_range(const System& system, const Directive& c) {
     constexpr std::string_view syntax = ".assert v(NODE) LOW HIGH [\"MESSAGE\"]";
-    const auto of = read_output_variable(system, c, 0);
-    if (!of) return of.error();
+    const auto unknowns = read_output_variable(system, c, 0);
+    if (!unknowns) return unknowns.error();
     const auto low = read_number(c, 1, "the lowest value"), high = read_number(c, 2, "the highest value");
     if (!low) return low.error();
     if (!high) return high.error();
     if (!(*low < *high)) return error_at(c, 1, fmt::format(".assert: {:g} to {:g}: the first must be below the second", *low, *high));
-    OperatingRange out{{c.words[0], *of}, *low, *high, "", c.location};
+    OperatingRange out{{c.words[0], *unknowns}, *low, *high, "", c.location};
     if (c.words.size() > 3) {
         const std::string_view word = c.words[3];
         if (word.size() < 3 || word.front() != '"' || word.back() != '"')
@@ -30,9 +30,9 @@ Result<std::vector<OperatingRange>> read_operating_ranges(const System& system) 
     std::vector<OperatingRange> out;
     for (const auto& c : system.circuit().directives) {
         if (c.name != "assert") continue;
-        auto one = parse_range(system, c);
-        if (!one) return one.error();
-        out.push_back(std::move(*one));
+        auto range = parse_range(system, c);
+        if (!range) return range.error();
+        out.push_back(std::move(*range));
     }
     return out;
 }

@@ -17,8 +17,7 @@ struct Head {
     Plot plot;
 };
 
-/// The curves that the analysis will give, without values.
-
+/// The curves that the analysis will produce, without values.
 Plot expected_curves(const System& system, const DeviceCurrents& currents, const Directive& c) {
     if (c.name == "noise")
         return {"Noise Spectral Density Curves",
@@ -50,15 +49,15 @@ Plot expected_curves(const System& system, const DeviceCurrents& currents, const
         auto plot = make_plot(system, "Transient Analysis", "time", "time");
         return currents.extend_head(plot), plot;
     }
-    const std::string what = c.words.empty() ? "v" : c.words[0];
-    const bool temperature = what == "temp";
+    const std::string swept = c.words.empty() ? "v" : c.words[0];
+    const bool is_temperature = swept == "temp";
     auto plot = make_plot(system, "DC transfer characteristic",
-                          temperature      ? "temp-sweep"
-                          : what[0] == 'i' ? "i-sweep"
-                          : what[0] == 'v' ? "v-sweep"
-                                           : "res-sweep",
+                          is_temperature    ? "temp-sweep"
+                          : swept[0] == 'i' ? "i-sweep"
+                          : swept[0] == 'v' ? "v-sweep"
+                                            : "res-sweep",
                           "");
-    if (!temperature) currents.extend_head(plot);
+    if (!is_temperature) currents.extend_head(plot);
     return plot;
 }
 
@@ -98,7 +97,8 @@ public:
     }
 
 private:
-    /// Each word of .print and .plot must be a curve of the analysis that is named first, or else of any analysis.
+    /// Each word of .print and .plot must be a curve of the analysis that the first word names. Without such a name, any analysis may have
+    /// the curve.
     Result<void> check_columns(const Directive& c) {
         if (c.name == "plot")
             warnings_.push_back(
@@ -143,10 +143,10 @@ private:
     }
 
     /// An error if the name of an .expect is neither a measurement, a number of an analysis nor a curve.
-    Result<void> check_expectation(const Directive& c, const std::vector<std::string>& given) const {
+    Result<void> check_expectation(const Directive& c, const std::vector<std::string>& analysis_numbers) const {
         if (c.words.empty()) return {};  // run_directives() reports the syntax
         const auto name = c.words[0].substr(0, c.words.size() == 2 ? c.words[0].find('=') : std::string::npos);
-        std::vector<std::string_view> known(given.begin(), given.end());
+        std::vector<std::string_view> known(analysis_numbers.begin(), analysis_numbers.end());
         for (const auto& other : circuit_.directives)
             if ((other.name == "meas" || other.name == "measure") && other.words.size() > 1) known.push_back(other.words[1]);
         if (std::find(known.begin(), known.end(), name) != known.end()) return {};
@@ -156,7 +156,7 @@ private:
                          c.location);
     }
 
-    /// Names of the numbers that the analyses may give.
+    /// Names of the numbers that the analyses may produce.
     std::vector<std::string> numbers() const {
         std::vector<std::string> out;
         for (const auto& head : heads_) {

@@ -1,5 +1,5 @@
 #pragma once
-// The points of a plot one after another, for plots that are too long to be kept in memory.
+// Passes on the points of a plot one after another, for plots that are too long to be kept in memory.
 
 #include <span>
 
@@ -33,7 +33,7 @@ public:
 struct PlotRow {
     std::span<const double> real{};
     std::span<const std::complex<double>> complex{};
-    bool is_complex = false;  ///< a complex plot may be given with real values
+    bool is_complex = false;  ///< true for a complex plot, even if this point has only `real` values
 
     PlotRow(std::span<const double> values) : real(values) {}
     PlotRow(std::span<const std::complex<double>> values, bool are_complex) : complex(values), is_complex(are_complex) {}

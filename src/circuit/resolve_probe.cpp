@@ -35,9 +35,9 @@ Result<ProbeText> parse_probe(std::string_view word) {
 
 Error ambiguous_probe(std::string_view word, const Circuit& c, std::span<const std::string_view> names,
                       const std::vector<std::size_t>& found) {
-    std::vector<std::string_view> some;
-    for (const auto k : found) some.push_back(names[k]);
-    return bad_input(fmt::format("--probe {}: ambiguous in {} ({}); write more of its path", word, c.file, abbreviated_list(some)));
+    std::vector<std::string_view> matches;
+    for (const auto k : found) matches.push_back(names[k]);
+    return bad_input(fmt::format("--probe {}: ambiguous in {} ({}); write more of its path", word, c.file, abbreviated_list(matches)));
 }
 
 std::vector<std::string_view> nodes_of(const Circuit& c) { return {c.nodes.begin() + 1, c.nodes.end()}; }
@@ -63,7 +63,7 @@ Result<std::optional<std::string>> resolve_current(const Circuit& c, std::string
     const auto& e = c.elements[found[0]];
     if (!has_branch_current(e) && !has_device_current(e))
         return bad_input(
-            fmt::format("--probe {}: the current of {} cannot be recorded; only M, D, R and voltage sources have one", word, e.name));
+            fmt::format("--probe {}: the current of {} cannot be recorded; record that of an M, D, R or voltage source", word, e.name));
     return std::optional(fmt::format("i({})", e.name));
 }
 

@@ -62,15 +62,15 @@ double tran_number(const Directive& c, std::size_t word) {
     return read_number(c, word, "a number") ? *read_number(c, word, "a number") : 0;
 }
 
-/// Passes each point of a transient to the measurements, to .print, to the sinks of the options and, if requested, to memory. Only the
-/// last of these grows with the length of the run.
+/// Passes each point of a transient to the measurements, to .print and to the sinks of the options. If requested, also stores the points,
+/// which takes memory in proportion to the length of the run.
 class PointDispatcher final : public PointSink {
     const RunOptions& options_;
     RunOutcome& out_;
     MeasurementSet& measures_;
-    AnalysisRun& analysed_;
+    AnalysisRun& run_;
     DeviceCurrents currents_;
-    std::optional<TransientPrinter> printed_;
+    std::optional<TransientPrinter> printer_;
     CurveSelector selector_;
     std::optional<PlotRecorder> recorder_;
     std::vector<double> last_;
@@ -78,11 +78,11 @@ class PointDispatcher final : public PointSink {
     bool begun_ = false;
 
 public:
-    PointDispatcher(const Circuit& circuit, const RunOptions& options, RunOutcome& out, MeasurementSet& measures, AnalysisRun& analysed,
+    PointDispatcher(const Circuit& circuit, const RunOptions& options, RunOutcome& out, MeasurementSet& measures, AnalysisRun& run,
                     const DeviceCurrents& currents)
-        : options_(options), out_(out), measures_(measures), analysed_(analysed), currents_(currents) {
-        const auto& c = *analysed.directive;
-        if (options.print_tables && c.name == "tran") printed_.emplace(circuit, tran_number(c, 2), tran_number(c, 0), tran_number(c, 1));
+        : options_(options), out_(out), measures_(measures), run_(run), currents_(currents) {
+        const auto& c = *run.directive;
+        if (options.print_tables && c.name == "tran") printer_.emplace(circuit, tran_number(c, 2), tran_number(c, 0), tran_number(c, 1));
         if (options.keep_points) recorder_.emplace();
     }
     bool begun() const { return begun_; }
@@ -90,13 +90,13 @@ public:
     Result<void> begin(const Plot& unknowns) override {
         Plot head = unknowns;
         currents_.extend_head(head);
-        analysed_.last_point = head;
-        unknowns_ = analysed_.directive->name == "tran" ? options_.unknowns_sink : nullptr;
+        run_.last_point = head;
+        unknowns_ = run_.directive->name == "tran" ? options_.unknowns_sink : nullptr;
         if (unknowns_)
             if (auto ok = unknowns_->begin(head); !ok) return ok;
-        if (auto ok = measures_.begin(analysed_.directive->name, head); !ok) return ok;
-        if (printed_)
-            if (auto ok = printed_->begin(head); !ok) return ok;
+        if (auto ok = measures_.begin(run_.directive->name, head); !ok) return ok;
+        if (printer_)
+            if (auto ok = printer_->begin(head); !ok) return ok;
         if (recorder_)
             if (auto ok = recorder_->begin(head); !ok) return ok;
         begun_ = true;
@@ -105,10 +105,10 @@ public:
     }
     Result<void> add_point(std::span<const double> unknowns) override {
         const auto row = currents_.extend_point(unknowns);
-        ++analysed_.point_count;
+        ++run_.point_count;
         last_.assign(row.begin(), row.end());
         measures_.add_point(row[0], row);
-        if (printed_) printed_->add_point(row);
+        if (printer_) printer_->add_point(row);
         if (unknowns_)
             if (auto ok = unknowns_->add_point(row); !ok) return ok;
         if (recorder_)
@@ -116,41 +116,41 @@ public:
         return options_.curve_sink ? options_.curve_sink->add_point(selector_.select(row)) : Result<void>();
     }
     Result<void> end() override {
-        for (std::size_t k = 0; k < last_.size(); ++k) analysed_.last_point.curves[k].values = {last_[k]};
-        if (printed_) analysed_.printed_tables = printed_->end();
+        for (std::size_t k = 0; k < last_.size(); ++k) run_.last_point.curves[k].values = {last_[k]};
+        if (printer_) run_.printed_tables = printer_->end();
         return options_.curve_sink ? options_.curve_sink->end() : Result<void>();
     }
-    /// Moves the kept points into the result of the analysis.
-    void move_points_to(AnalysisResult& found) {
-        if (recorder_) found.plots.insert(found.plots.begin(), std::move(recorder_->plot));
+    /// Moves the stored points into the result of the analysis.
+    void move_points_to(AnalysisResult& result) {
+        if (recorder_) result.plots.insert(result.plots.begin(), std::move(recorder_->plot));
     }
 };
 
-/// Runs one analysis; measures, prints and passes on its plots.
+/// Runs one analysis, measures and prints its plots, and passes them to the sinks.
 Result<void> analyse(AnalysisContext& context, const Analysis& analysis, const Directive& c, const RunOptions& options,
                      MeasurementSet& measures, const DeviceCurrents& currents, RunOutcome& out) {
-    AnalysisRun done{&c, {}, 0, {}, {}};
-    PointDispatcher dispatcher(*context.circuit, options, out, measures, done, currents);
+    AnalysisRun run{&c, {}, 0, {}, {}};
+    PointDispatcher dispatcher(*context.circuit, options, out, measures, run, currents);
     if (options.should_stop) context.should_stop = [&](double progress) { return options.should_stop(c.name, progress); };
     context.points = &dispatcher;
-    auto found = analysis.run(context, c);
+    auto result = analysis.run(context, c);
     context.points = nullptr, context.should_stop = {};
-    if (!found) return found.error();
-    done.result = std::move(*found);
-    for (const auto& number : done.result.numbers) out.numbers.push_back(number);
-    for (const auto& warning : done.result.warnings) out.warnings.push_back(warning);
+    if (!result) return result.error();
+    run.result = std::move(*result);
+    for (const auto& number : run.result.numbers) out.numbers.push_back(number);
+    for (const auto& warning : run.result.warnings) out.warnings.push_back(warning);
     if (dispatcher.begun()) {
-        dispatcher.move_points_to(done.result);
-    } else if (!done.result.plots.empty()) {
-        for (auto& plot : done.result.plots) (void)currents.extend_plot(plot);
-        const auto& plot = done.result.plots[0];
-        done.point_count = plot.point_count();
+        dispatcher.move_points_to(run.result);
+    } else if (!run.result.plots.empty()) {
+        for (auto& plot : run.result.plots) (void)currents.extend_plot(plot);
+        const auto& plot = run.result.plots[0];
+        run.point_count = plot.point_count();
         if (auto ok = measures.add_plot(c.name, plot); !ok) return ok;
-        if (options.print_tables) done.printed_tables = print_tables(*context.circuit, c.name, plot);
+        if (options.print_tables) run.printed_tables = print_tables(*context.circuit, c.name, plot);
         if (options.curve_sink)
-            if (auto ok = options.curve_sink->add_plots(out.plots(done)); !ok) return ok;
+            if (auto ok = options.curve_sink->add_plots(out.plots(run)); !ok) return ok;
     }
-    out.analyses.push_back(std::move(done));
+    out.analyses.push_back(std::move(run));
     return {};
 }
 

@@ -10,11 +10,11 @@ namespace corpuscle::circuit {
 
 /// One analysis and its result.
 struct AnalysisRun {
-    const Directive* directive;  ///< of the circuit
+    const Directive* directive;  ///< points into the circuit
     AnalysisResult result;
     std::size_t point_count = 0;  ///< in the first plot
     std::string printed_tables;   ///< the tables of .print
-    Plot last_point;              ///< the last point of a transient, whose points may not have been kept
+    Plot last_point;              ///< the last point of a transient, stored even if RunOptions::keep_points is false
 };
 
 /// One .expect and whether it is met.
@@ -28,7 +28,7 @@ struct Expectation {
 /// The results of a run.
 struct RunOutcome {
     std::vector<AnalysisRun> analyses;
-    std::vector<std::pair<std::string, double>> numbers;  ///< in order; a measurement that found nothing is NaN
+    std::vector<std::pair<std::string, double>> numbers;  ///< of analyses and .meas, in order; a measurement that found nothing is NaN
     std::vector<Expectation> expectations;
     std::vector<Error> warnings;
 

@@ -39,9 +39,9 @@ double SavedQuantity::current_into(const Device& d, std::span<const double> v) {
     const auto n = v.size();
     std::vector<double> stamp(2 * n + 2 * n * n);
     const auto all = std::span(stamp);
-    EvalContext at;
-    at.with_charges = false;
-    d.eval(v, at, {all.first(n), all.subspan(n, n), all.subspan(2 * n, n * n), all.subspan(2 * n + n * n)});
+    EvalContext context;
+    context.with_charges = false;
+    d.eval(v, context, {all.first(n), all.subspan(n, n), all.subspan(2 * n, n * n), all.subspan(2 * n + n * n)});
     return stamp[0];
 }
 
@@ -68,11 +68,11 @@ Result<std::vector<SavedQuantity>> resolve_saved_quantities(const System& system
                 out.push_back({name, {}, device});
                 continue;
             }
-            Directive one{c.name, {name}, {}, c.location};
-            if (k < c.columns.size()) one.columns = {c.columns[k]};
-            const auto of = read_output_variable(names, one, 0);
-            if (!of) return of.error();
-            out.push_back({name, *of});
+            Directive single_word{c.name, {name}, {}, c.location};
+            if (k < c.columns.size()) single_word.columns = {c.columns[k]};
+            const auto unknowns = read_output_variable(names, single_word, 0);
+            if (!unknowns) return unknowns.error();
+            out.push_back({name, *unknowns});
         }
     }
     return all ? std::vector<SavedQuantity>{} : out;

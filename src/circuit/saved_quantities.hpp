@@ -6,8 +6,8 @@
 namespace corpuscle::circuit {
 
 /// A voltage or a current. The current through a voltage source is an unknown of the system. The current into the first terminal of a
-/// device (drain, anode) is computed from its terminal voltages without displacement current; for a transistor it is the channel and the
-/// drain junction.
+/// device (drain, anode) is computed from its terminal voltages without displacement current; for a transistor it is the sum of the
+/// currents of the channel and of the drain junction.
 struct SavedQuantity {
     std::string name;  ///< "v(out)", "v(a,b)", "i(v1)", "i(x1.m1)"
     OutputVariable unknowns = {};
@@ -31,7 +31,7 @@ private:
 /// True if the current of the element is not an unknown but follows from its terminal voltages.
 inline bool has_device_current(const Element& e) { return e.letter == 'm' || e.letter == 'd' || e.letter == 'r'; }
 
-/// The quantities that .save names; "out" means v(out). An empty list means all, which is the default and the meaning of "all".
+/// The quantities that .save names; "out" means v(out). An empty list means all quantities, which `.save all` and the default select.
 Result<std::vector<SavedQuantity>> resolve_saved_quantities(const System&);
 
 /// True if a word of .probe is not supported: the current of a capacitor, vd(r2), p(x1).

@@ -9,8 +9,8 @@ namespace corpuscle::circuit {
 namespace {
 
 constexpr double max_time_before_shift = 100;  // s; then the time origin is shifted, to keep the resolution of the time
-constexpr double stop_time = 1e3;              // s, of a transient whose origin can be shifted
-constexpr double stop_time_unshifted = 1e5;    // s, if sources depend on absolute time
+constexpr double stop_time = 1e3;              // s, end of a transient whose origin can be shifted
+constexpr double stop_time_unshifted = 1e5;    // s, end of a transient with sources that depend on absolute time
 
 void append_values(std::vector<double>& out, std::span<const double> x) { out.insert(out.end(), x.begin(), x.end()); }
 
@@ -18,10 +18,10 @@ void append_values(std::vector<double>& out, std::span<const double> x) { out.in
 
 Result<std::unique_ptr<StreamingTransient>> StreamingTransient::make(const CircuitAfferentFactory& design, double T,
                                                                      const std::optional<ChipSample>& chip) {
-    auto bench = AnalysisContext::make(design.circuit);
-    if (!bench) return bench.error();
+    auto context = AnalysisContext::make(design.circuit);
+    if (!context) return context.error();
     std::unique_ptr<StreamingTransient> out(new StreamingTransient(design, T));
-    out->context_ = std::move(*bench);
+    out->context_ = std::move(*context);
     if (chip) out->context_->apply_variation(*chip);
     auto& system = out->context_->system;
     system.start_transient(design.times.step > 0 ? design.times.step : T, design.times.stop > 0 ? design.times.stop : 1);
@@ -35,7 +35,7 @@ Result<std::unique_ptr<StreamingTransient>> StreamingTransient::make(const Circu
     return out;
 }
 
-/// Finds the operating point at 0 N. If there is none, takes the initial condition of .ic.
+/// Finds the operating point at 0 N. If there is none, uses the voltages of .ic.
 void StreamingTransient::solve_rest() {
     auto found = find_initial_condition(*context_, design_.times.uic);
     rest_ = found ? std::move(found->x) : find_initial_condition(*context_, true)->x;
@@ -102,11 +102,12 @@ Result<void> StreamingTransient::step() {
 }
 
 /// Adds the energy of the last step, with the power interpolated linearly.
-void StreamingTransient::add_energy(double from) {
-    const double to = transient_->time(), half = (to - from) / 2;
-    const auto then = *power_now_;
-    power_now_ = meter_->delivered_at(transient_->x(), to);
-    energy_use_ += {to - from, half * (then.supplies + power_now_->supplies), half * (then.sensor + power_now_->sensor)};
+void StreamingTransient::add_energy(double step_start) {
+    const double t = transient_->time(), half = (t - step_start) / 2;
+    const auto power_before = *power_now_;
+    power_now_ = meter_->delivered_at(transient_->x(), t);
+    energy_use_ +=
+        {t - step_start, half * (power_before.supplies + power_now_->supplies), half * (power_before.sensor + power_now_->sensor)};
 }
 
 void StreamingTransient::shift_origin() {
@@ -200,9 +201,9 @@ bool StreamingTransient::restore(std::span<const double> values, std::int64_t sa
     constexpr double max_count = 0x1p53;
     StateReader in(values);
     origin_sample_ = in.integer(0, max_count);
-    const bool spike = in.integer(0, 1) != 0;
-    const Spike at{in.integer(0, max_count), in.next(), 0};
-    pending_spike_ = spike ? std::optional(at) : std::nullopt;
+    const bool has_spike = in.integer(0, 1) != 0;
+    const Spike spike{in.integer(0, max_count), in.next(), 0};
+    pending_spike_ = has_spike ? std::optional(spike) : std::nullopt;
     start_ = in.many(static_cast<std::size_t>(context_->system.size()));
     TransientState s;
     power_now_.reset(), energy_use_ = {};

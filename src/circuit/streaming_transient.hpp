@@ -18,7 +18,7 @@ class StreamingTransient {
     ForceWaveform force_;
     std::optional<Transient> transient_;
     std::optional<PowerMeter> meter_;
-    std::optional<PowerMeter::DeliveredPower> power_now_;  // power at the end of the last step, once evaluated
+    std::optional<PowerMeter::DeliveredPower> power_now_;  // power at the end of the last step; empty until evaluated
     EnergyUse energy_use_;
     bool is_time_dependent_ = false;      // a source other than the force depends on absolute time
     std::vector<double> rest_;            // operating point at 0 N
@@ -31,7 +31,7 @@ class StreamingTransient {
     void solve_rest();
     Result<InitialCondition> solve_start(std::span<const double> force, std::vector<double> from);
     std::vector<double> continue_from_rest(double force);
-    void add_energy(double from);
+    void add_energy(double step_start);
 
 public:
     static Result<std::unique_ptr<StreamingTransient>> make(const CircuitAfferentFactory&, double T, const std::optional<ChipSample>& chip);
@@ -50,6 +50,7 @@ public:
     bool has_reached(std::int64_t sample) const { return transient_->time() >= time_of(sample); }
     /// The value of a saved quantity at a sample within the last step, or at the start.
     double probe_value(const SavedQuantity&, std::int64_t sample) const;
+    /// Counts of the steps and iterations since begin().
     const TransientStats& work() const { return transient_->stats(); }
     /// The energy used since the last call.
     EnergyUse take_energy_use() { return std::exchange(energy_use_, {}); }

@@ -93,9 +93,9 @@ TEST(Amperes, AreAUnitAndNoScale) {
     EXPECT_DOUBLE_EQ(number("i1 0 a {2*2amp}\nr1 a 0 1\n.op\n", "v(a)"), 4);
     EXPECT_NE(error_of("c1 a 0 5aF\nr1 a 0 1\n.op\n").find("t.cir:2:8: '5af': some simulators read 'a' as 1e-18"), std::string::npos);
     EXPECT_NE(error_of("c1 a 0 {2*5aF}\nr1 a 0 1\n.op\n").find("write 5e-18"), std::string::npos);
-    EXPECT_NE(
-        warnings_in("i1 0 a 1\nc1 a 0 5a\nr1 a 0 1\n.op\n").find("c1: 5a is 5, since 'a' is not a scale; for 1e-18 of it write 5e-18"),
-        std::string::npos);
+    EXPECT_NE(warnings_in("i1 0 a 1\nc1 a 0 5a\nr1 a 0 1\n.op\n")
+                  .find("c1: 5a is 5, since 'a' is not a scale factor; for 5 times 1e-18 write 5e-18"),
+              std::string::npos);
 }
 
 TEST(Options, ThatAreUnknownAreRejected) {

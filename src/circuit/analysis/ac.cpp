@@ -29,9 +29,9 @@ Result<AnalysisResult> analyse_ac(AnalysisContext& context, const Directive& c) 
             return interrupted_error();
         const auto values = admittances(evaluation, system.pattern().entries(), 6.283185307179586 * f);
         if (!solver.factor(values)) {
-            const int at = solver.singularity().column;
+            const int unknown = solver.singularity().column;
             return bad_input(fmt::format(".ac at {:g} Hz: the matrix is singular{}", f,
-                                         at < 0 ? "" : " at " + system.names()[static_cast<std::size_t>(at)]),
+                                         unknown < 0 ? "" : " at " + system.names()[static_cast<std::size_t>(unknown)]),
                              c.location);
         }
         auto x = stimulus;

@@ -42,7 +42,7 @@ Result<OperatingPoint> AnalysisContext::initial_operating_point() {
 /// Solves the nominal circuit. Chips are solved from its operating point, with the pivot order of its matrix there.
 void AnalysisContext::solve_nominal() {
     if (!circuit->ic.empty())
-        if (auto begun = initial_operating_point()) nominal_initial_x_ = std::move(begun->x);
+        if (auto initial = initial_operating_point()) nominal_initial_x_ = std::move(initial->x);
     const auto found = operating_point();
     if (!found) return;
     nominal_x_ = found->x;
@@ -118,7 +118,7 @@ Result<OutputVariable> read_output_variable(const System& system, const Directiv
 
 Result<OutputVariable> read_output_variable(const UnknownNames& names, const Directive& c, std::size_t word) {
     if (word >= c.words.size())
-        return bad_input(fmt::format(".{}: an output is missing, v(node), v(node,node) or i(source)", c.name), c.location);
+        return bad_input(fmt::format(".{}: an output is missing; write v(node), v(node,node) or i(source)", c.name), c.location);
     auto location = c.location;
     if (word < c.columns.size()) location.column = c.columns[word];
     const auto& text = c.words[word];

@@ -23,7 +23,7 @@ struct AnalysisResult {
     std::optional<std::vector<double>> spikes;  ///< s, if the netlist has .spike
 };
 
-/// A circuit with everything that its analyses need. With apply_variation() it is one chip after another.
+/// A circuit with everything that its analyses need. apply_variation() turns it into another chip.
 class AnalysisContext {
     std::optional<OperatingPoint> operating_point_;
     std::vector<double> nominal_x_, nominal_initial_x_;  // nominal operating points, without and with .ic: the start of each chip's search
@@ -49,7 +49,7 @@ public:
     AnalysisContext(const AnalysisContext&) = delete;
 
     bool is_stopped(double fraction) const { return should_stop && should_stop(fraction); }
-    /// The operating point; computed once.
+    /// The operating point; computed once for each chip.
     Result<OperatingPoint> operating_point();
     /// The operating point with the present source values and the nodes of .ic clamped; computed at each call.
     Result<OperatingPoint> initial_operating_point();
@@ -63,13 +63,14 @@ Error interrupted_error();
 /// An error with the location of a word of a command.
 Error error_at(const Directive&, std::size_t word, std::string message);
 
-/// Reads a number, with SPICE suffixes, from a word of a command. Errors name the command, the word and its location.
+/// Reads a number, with SPICE suffixes, from a word of a command. Errors contain the command, `what` (the meaning of the number) and the
+/// word's location.
 Result<double> read_number(const Directive&, std::size_t word, std::string_view what);
 
 /// Reads frequencies (Hz) as "dec 10 1 1k", "oct ..." or "lin ...", starting at the given word.
 Result<std::vector<double>> read_frequencies(const Directive&, std::size_t word);
 
-/// An output variable v(a), v(a,b) or i(x): the difference of two unknowns. -1: 0.
+/// An output variable v(a), v(a,b) or i(x): the difference of two unknowns. The index -1 stands for the value 0.
 struct OutputVariable {
     int plus = -1, minus = -1;
     std::complex<double> value(std::span<const std::complex<double>> x) const;
@@ -91,6 +92,7 @@ Result<OutputVariable> read_output_variable(const UnknownNames&, const Directive
 
 /// A plot with an empty curve for the swept quantity, then one for each unknown.
 Plot make_plot(const System&, std::string name, std::string swept, std::string type);
+/// Appends a point to such a plot.
 void append(Plot&, std::complex<double> swept, std::span<const double> x);
 void append(Plot&, std::complex<double> swept, std::span<const std::complex<double>> x);
 

@@ -26,8 +26,8 @@ Result<Sweep> read_sweep(const AnalysisContext& context, const Directive& c, std
     Sweep s{c.words[word], 0, 0, 0};
     const auto from = read_number(c, word + 1, "the first value"), to = read_number(c, word + 2, "the last value"),
                step = read_number(c, word + 3, "the step");
-    for (const auto* part : {&from, &to, &step})
-        if (!*part) return part->error();
+    for (const auto* number : {&from, &to, &step})
+        if (!*number) return number->error();
     s.from = *from, s.to = *to, s.step = *step;
     if (s.step == 0 || (s.to - s.from) / s.step < 0) s.step = s.to == s.from ? 1 : s.step;
     if (s.step == 0 || (s.to - s.from) / s.step < 0)
@@ -53,9 +53,9 @@ std::string name_of(const std::string& variable) {
     return variable == "temp" ? "temp-sweep" : variable[0] == 'i' ? "i-sweep" : variable[0] == 'v' ? "v-sweep" : "res-sweep";
 }
 
-/// The circuit of a sweep: the given one, whose source values are restored at the end, or a copy at another temperature.
+/// The circuit of a sweep: the original circuit, whose source values are restored at the end, or a copy at another temperature.
 class SweptCircuit {
-    AnalysisContext& given_;
+    AnalysisContext& original_;
     std::unique_ptr<AnalysisContext> copy_;
     struct Source {
         std::string name;
@@ -64,12 +64,12 @@ class SweptCircuit {
     std::vector<Source> sources_;
 
 public:
-    explicit SweptCircuit(AnalysisContext& given) : given_(given) {}
+    explicit SweptCircuit(AnalysisContext& original) : original_(original) {}
     SweptCircuit(const SweptCircuit&) = delete;
     ~SweptCircuit() {
-        for (const auto& s : sources_) given_.system.device(s.name)->set_principal_value(s.original);
+        for (const auto& s : sources_) original_.system.device(s.name)->set_principal_value(s.original);
     }
-    AnalysisContext& context() { return copy_ ? *copy_ : given_; }
+    AnalysisContext& context() { return copy_ ? *copy_ : original_; }
 
     Result<void> set(const std::string& variable, double value) {
         return variable == "temp" ? set_temperature(value) : set_source(variable, value);
@@ -77,40 +77,40 @@ public:
 
 private:
     Result<void> set_temperature(double value) {
-        auto copy = std::make_shared<Circuit>(*given_.circuit);
+        auto copy = std::make_shared<Circuit>(*original_.circuit);
         copy->temperature = value;
         auto context = AnalysisContext::make(std::move(copy));
         if (!context) return context.error();
         copy_ = std::move(*context);
-        if (given_.chip_sample()) copy_->apply_variation(*given_.chip_sample());
+        if (original_.chip_sample()) copy_->apply_variation(*original_.chip_sample());
         for (const auto& s : sources_) copy_->system.device(s.name)->set_principal_value(s.current);
         return {};
     }
     Result<void> set_source(const std::string& name, double value) {
         auto source = std::find_if(sources_.begin(), sources_.end(), [&](const Source& s) { return s.name == name; });
         if (source == sources_.end())
-            source = sources_.insert(source, {name, given_.system.device(name)->principal_value().value_or(0), value});
+            source = sources_.insert(source, {name, original_.system.device(name)->principal_value().value_or(0), value});
         source->current = value;
         if (!context().system.device(name)->set_principal_value(value))
-            return bad_input(fmt::format(".dc: {:g} is not an allowed value of {}", value, name), SourceLocation{given_.circuit->file});
+            return bad_input(fmt::format(".dc: {:g} is not an allowed value of {}", value, name), SourceLocation{original_.circuit->file});
         return {};
     }
 };
 
 }  // namespace
 
-Result<AnalysisResult> analyse_dc(AnalysisContext& given, const Directive& c) {
-    auto words = c;
-    const bool up_down = !words.words.empty() && words.words.back() == "updown";
-    if (up_down) words.words.pop_back();
-    if (words.words.size() != 4 && words.words.size() != 8)
-        return bad_input(fmt::format(".dc: {} words; expected .dc SOURCE FROM TO STEP, or these four twice", words.words.size()),
+Result<AnalysisResult> analyse_dc(AnalysisContext& original, const Directive& c) {
+    auto directive = c;
+    const bool up_down = !directive.words.empty() && directive.words.back() == "updown";
+    if (up_down) directive.words.pop_back();
+    if (directive.words.size() != 4 && directive.words.size() != 8)
+        return bad_input(fmt::format(".dc: {} words; expected .dc SOURCE FROM TO STEP [SOURCE2 FROM TO STEP]", directive.words.size()),
                          c.location);
-    const auto inner = read_sweep(given, words, 0);
+    const auto inner = read_sweep(original, directive, 0);
     if (!inner) return inner.error();
     std::optional<Sweep> outer;
-    if (words.words.size() == 8) {
-        auto second = read_sweep(given, words, 4);
+    if (directive.words.size() == 8) {
+        auto second = read_sweep(original, directive, 4);
         if (!second) return second.error();
         outer = *second;
     }
@@ -121,14 +121,14 @@ Result<AnalysisResult> analyse_dc(AnalysisContext& given, const Directive& c) {
     if (static_cast<double>(values.size()) * static_cast<double>(outer_values.size()) > 1e7)
         return bad_input(fmt::format(".dc: {} times {} points; the maximum is 10000000", values.size(), outer_values.size()), c.location);
 
-    Plot plot = make_plot(given.system, "DC transfer characteristic", name_of(inner->variable), type_of(inner->variable));
-    SweptCircuit swept(given);
+    Plot plot = make_plot(original.system, "DC transfer characteristic", name_of(inner->variable), type_of(inner->variable));
+    SweptCircuit swept(original);
     for (std::size_t k = 0; k < outer_values.size(); ++k) {
         if (outer)
             if (auto ok = swept.set(outer->variable, outer_values[k]); !ok) return ok.error();
         std::vector<double> x;
         for (std::size_t j = 0; j < values.size(); ++j) {
-            if (given.is_stopped(static_cast<double>(k * values.size() + j) / static_cast<double>(outer_values.size() * values.size())))
+            if (original.is_stopped(static_cast<double>(k * values.size() + j) / static_cast<double>(outer_values.size() * values.size())))
                 return interrupted_error();
             if (auto ok = swept.set(inner->variable, values[j]); !ok) return ok.error();
             auto& context = swept.context();

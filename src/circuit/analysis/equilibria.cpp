@@ -32,6 +32,7 @@ public:
             if (std::abs(a[n] - b[n]) > min_difference) return false;
         return true;
     }
+    /// Adds an equilibrium, or finds the one that is already in the set.
     Equilibrium& add(std::vector<double> x) {
         for (auto& s : found_)
             if (same(s.x, x)) return s;
@@ -44,7 +45,7 @@ public:
         auto found = find_operating_point(context_.newton, std::move(start));
         return found ? &add(std::move(found->x)) : nullptr;
     }
-    /// Searches with a node clamped to a voltage, then from there without the clamp.
+    /// Searches from x with a node clamped to a voltage, then from the result without the clamp.
     void add_from_clamped(const std::vector<double>& x, std::size_t node, double to) {
         NodeClamps clamps{std::vector<double>(nodes()), std::vector<double>(x.size())};
         clamps.conductance[node] = 1, clamps.voltage[node] = to;
@@ -58,7 +59,7 @@ public:
             if (s.is_stable) out.push_back(s.x);
         return out;
     }
-    std::vector<Equilibrium> take() {
+    std::vector<Equilibrium> take_sorted() {
         std::sort(found_.begin(), found_.end(), [](const Equilibrium& a, const Equilibrium& b) {
             return std::tuple(!a.is_default, !a.is_stable, a.x) < std::tuple(!b.is_default, !b.is_stable, b.x);
         });
@@ -85,7 +86,7 @@ Result<std::vector<Equilibrium>> find_equilibria(AnalysisContext& context, doubl
     if (!operating_point) return operating_point.error();
     EquilibriumSet states(context);
     states.add(operating_point->x).is_default = true;
-    if (context.system.is_linear()) return states.take();
+    if (context.system.is_linear()) return states.take_sorted();
     const auto [low, high] = supply_range(context);
     for (std::size_t n = 0; n < static_cast<std::size_t>(context.system.nodes()); ++n) {
         if (context.is_stopped(static_cast<double>(n) / context.system.nodes())) return interrupted_error();
@@ -98,11 +99,11 @@ Result<std::vector<Equilibrium>> find_equilibria(AnalysisContext& context, doubl
     const auto stable = states.stable();
     for (std::size_t a = 0; a < stable.size(); ++a)
         for (std::size_t b = 0; b < a; ++b) {
-            auto between = stable[a];
-            for (std::size_t n = 0; n < between.size(); ++n) between[n] = (between[n] + stable[b][n]) / 2;
-            (void)states.add_from(std::move(between));
+            auto midpoint = stable[a];
+            for (std::size_t n = 0; n < midpoint.size(); ++n) midpoint[n] = (midpoint[n] + stable[b][n]) / 2;
+            (void)states.add_from(std::move(midpoint));
         }
-    return states.take();
+    return states.take_sorted();
 }
 
 std::vector<std::size_t> differing_nodes(const AnalysisContext& context, const Equilibrium& a, const Equilibrium& b) {

@@ -1,5 +1,5 @@
 #pragma once
-// The equilibria of a circuit, as far as a search finds them, and the one that it reaches at power-on.
+// Searches for the equilibria of a circuit, and for the equilibrium that it reaches at power-on.
 
 #include "circuit/analysis/analysis_context.hpp"
 
@@ -8,8 +8,8 @@ namespace corpuscle::circuit {
 struct Equilibrium {
     std::vector<double> x;
     bool is_stable = true;     ///< small disturbances decay (find_unstable_mode)
-    bool is_default = false;   ///< the one that AnalysisContext::operating_point() returns
-    bool is_power_on = false;  ///< the one that the circuit reaches at power-on
+    bool is_default = false;   ///< the equilibrium that AnalysisContext::operating_point() returns
+    bool is_power_on = false;  ///< the equilibrium that the circuit reaches at power-on
 };
 
 /// Finds equilibria by a search from these points:
@@ -19,8 +19,8 @@ struct Equilibrium {
 /// - the end of the power-on transient
 /// - the midpoint of any two stable equilibria, because an unstable one lies between them
 ///
-/// Two equilibria differ if a node differs by more than 1 mV. The list may be incomplete. Order: the default one, then stable ones, then
-/// unstable ones, each sorted by their voltages. With variation applied, these are the equilibria of that chip.
+/// Two equilibria differ if a node differs by more than 1 mV. The list may be incomplete. The default equilibrium is first, then the stable
+/// ones, then the unstable ones, both sorted by voltages. With variation applied, these are the equilibria of that chip.
 ///
 /// Power-on is a transient from 0 V everywhere, without .ic, in which all V and I sources rise linearly within `rise` (s) to their values
 /// in .op. If it settles, its end is an equilibrium. Otherwise no equilibrium has is_power_on.

@@ -52,9 +52,9 @@ std::vector<double> charge_of_ics(const AnalysisContext& context, std::vector<do
         const auto v = context.system.terminal_values(device, x);
         auto charged = v;
         charged[0] = v[1] + ic->second;
-        const auto here = charges_of(device, v, eval_context), requested = charges_of(device, charged, eval_context);
+        const auto at_x = charges_of(device, v, eval_context), requested = charges_of(device, charged, eval_context);
         for (std::size_t n = 0; n < v.size(); ++n)
-            if (const int unknown = device.unknowns[n]; unknown >= 0) out[static_cast<std::size_t>(unknown)] += requested[n] - here[n];
+            if (const int unknown = device.unknowns[n]; unknown >= 0) out[static_cast<std::size_t>(unknown)] += requested[n] - at_x[n];
     }
     return out;
 }

@@ -17,8 +17,8 @@ struct NoiseContribution {
     double last = 0, last_in = 0;    // densities at the previous frequency
 };
 
-/// Integral of a density between two frequencies, interpolated by a power law.
-double area(double f0, double s0, double f1, double s1) {
+/// The integral of a density between two frequencies (Hz), where it is interpolated by a power law.
+double integrated_density(double f0, double s0, double f1, double s1) {
     if (s0 <= 0 || s1 <= 0 || f0 <= 0) return 0.5 * (s0 + s1) * (f1 - f0);
     const double exponent = std::log(s1 / s0) / std::log(f1 / f0);
     if (std::abs(exponent + 1) < 1e-9) return s0 * f0 * std::log(f1 / f0);
@@ -81,8 +81,8 @@ Result<AnalysisResult> analyse_noise(AnalysisContext& context, const Directive& 
             auto& contribution = contributions[s.contribution];  // integrated separately, since each is nearly a power of f
             const double in = power / std::norm(gain);
             if (f_last > 0)
-                contribution.total += area(f_last, contribution.last, f, power),
-                    contribution.total_in += area(f_last, contribution.last_in, f, in);
+                contribution.total += integrated_density(f_last, contribution.last, f, power),
+                    contribution.total_in += integrated_density(f_last, contribution.last_in, f, in);
             contribution.last = power, contribution.last_in = in;
         }
         f_last = f;

@@ -30,7 +30,8 @@ struct DeviceTable {
         return minimum;
     }
 
-    /// A header and a row for each device, repeated until all quantities fit in lines of 100 characters. The state follows the last one.
+    /// Several tables below one another, so that no line exceeds 100 characters: each has a header and a row for each device. The state of
+    /// a device follows its last quantity.
     std::string text() const {
         const auto name_width = max_length(min_name_width, [](const DeviceRow& r) { return r.name.size(); });
         const auto state_width = max_length(0, [](const DeviceRow& r) { return r.state.empty() ? 0 : r.state.size() + 2; });
@@ -41,7 +42,7 @@ struct DeviceTable {
         std::string out;
         for (std::size_t from = 0, to = 0; from < quantities.size(); from = to) {
             auto width = name_width + widths[to++];
-            const auto state_column = [&] { return to + 1 == quantities.size() ? state_width : 0; };  // of the next column
+            const auto state_column = [&] { return to + 1 == quantities.size() ? state_width : 0; };  // for the next quantity
             while (to < quantities.size() && width + widths[to] + state_column() <= page_width) width += widths[to++];
             out += fmt::format("\n{:{}}", "", name_width);
             for (std::size_t k = from; k < to; ++k) out += fmt::format("{:>{}}", quantities[k], widths[k]);
@@ -120,11 +121,11 @@ Result<OpOptions> read_op_options(const Directive& c) {
     return out.rise = *rise, out;
 }
 
-/// Adds the numbers of states, which .mc evaluates over its chips, and their table.
+/// Adds the counts of states, which .mc evaluates over its chips, and a table of the states.
 Result<void> report_states(AnalysisContext& context, const OpOptions& options, AnalysisResult& out) {
     const auto states = find_equilibria(context, options.rise);
     if (!states) return states.error();
-    double stable = 0, elsewhere = 1;  // at power-on the circuit reaches another state than .op, or none
+    double stable = 0, elsewhere = 1;  // elsewhere: 1 if the circuit does not reach the state of .op at power-on, otherwise 0
     for (const auto& s : *states) stable += s.is_stable, elsewhere -= s.is_default && s.is_power_on;
     out.numbers = {
         {"stable_states", stable}, {"unstable_states", static_cast<double>(states->size()) - stable}, {"power_on_elsewhere", elsewhere}};

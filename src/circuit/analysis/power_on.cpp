@@ -27,11 +27,11 @@ std::shared_ptr<const Circuit> with_rising_sources(const AnalysisContext& contex
 
 }  // namespace
 
-Result<std::optional<std::vector<double>>> power_on_state(const AnalysisContext& given, double rise) {
-    auto made = AnalysisContext::make(with_rising_sources(given, rise));
-    if (!made) return made.error();
-    auto& context = **made;
-    if (given.chip_sample()) context.system.apply_variation(&*given.chip_sample());
+Result<std::optional<std::vector<double>>> power_on_state(const AnalysisContext& original, double rise) {
+    auto copy = AnalysisContext::make(with_rising_sources(original, rise));
+    if (!copy) return copy.error();
+    auto& context = **copy;
+    if (original.chip_sample()) context.system.apply_variation(&*original.chip_sample());
     auto plan = read_transient_plan(*context.circuit);
     if (!plan) return plan.error();
     plan->stop = settling_time, plan->max_step = settling_time / 50;

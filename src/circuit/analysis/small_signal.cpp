@@ -26,8 +26,9 @@ Result<LinearCircuit> linearize(AnalysisContext& context, const Directive& c) {
     return linear;
 }
 
-void add(std::vector<double>& to, int unknown, double value) {
-    if (unknown >= 0) to[static_cast<std::size_t>(unknown)] += value;
+/// Adds a value to the element of an unknown; ground (-1) has none.
+void add(std::vector<double>& x, int unknown, double value) {
+    if (unknown >= 0) x[static_cast<std::size_t>(unknown)] += value;
 }
 
 }  // namespace
@@ -41,9 +42,9 @@ Result<AnalysisResult> analyse_tf(AnalysisContext& context, const Directive& c) 
         return bad_input(fmt::format(".tf: '{}' is not an independent source", c.words[1]), c.location);
     auto linear = linearize(context, c);
     if (!linear) return linear.error();
-    const bool voltage = source->unknowns.size() == 3;
+    const bool is_voltage_source = source->unknowns.size() == 3;
     std::vector<double> response(linear->x.size());
-    if (voltage)
+    if (is_voltage_source)
         add(response, source->unknowns[2], 1);
     else
         add(response, source->unknowns[0], -1), add(response, source->unknowns[1], 1);
@@ -52,14 +53,14 @@ Result<AnalysisResult> analyse_tf(AnalysisContext& context, const Directive& c) 
     const auto across = [&](const std::vector<double>& x) {
         return OutputVariable{source->unknowns[0], source->unknowns[1]}.value(std::span<const double>(x));
     };
-    const double input_resistance = voltage ? (response[static_cast<std::size_t>(source->unknowns[2])] == 0
-                                                   ? 1e20
-                                                   : -1 / response[static_cast<std::size_t>(source->unknowns[2])])
-                                            : -across(response);
+    const double input_resistance = is_voltage_source ? (response[static_cast<std::size_t>(source->unknowns[2])] == 0
+                                                             ? 1e20
+                                                             : -1 / response[static_cast<std::size_t>(source->unknowns[2])])
+                                                      : -across(response);
     std::vector<double> output_response(linear->x.size());
-    const bool of_voltage = context.system.is_voltage(out->plus);
+    const bool is_voltage_output = context.system.is_voltage(out->plus);
     double resistance = 1e20;
-    if (of_voltage) {
+    if (is_voltage_output) {
         add(output_response, out->plus, 1), add(output_response, out->minus, -1);
         linear->solver.solve(output_response);
         resistance = out->value(std::span<const double>(output_response));

@@ -21,7 +21,7 @@ struct TranSetup {
     TransientTimes times;
     TransientPlan plan;
     std::optional<SpikeOutput> output;
-    InitialCondition from;
+    InitialCondition initial;
 };
 
 /// Measures how long each operating range of the circuit is violated.
@@ -54,7 +54,8 @@ public:
     }
 };
 
-/// The maximum step: LONGEST if given, otherwise STEP limited to 1/200 to 1/50 of the duration, so that short events are not missed.
+/// The maximum step: LONGEST if given, otherwise STEP, but at least 1/200 of the duration and, so that short events are not missed, at
+/// most 1/50 of it.
 double max_step_of(const TransientTimes& t) {
     const double duration = t.stop - t.start;
     return t.max_step.value_or(std::clamp(t.step, duration / 200, duration / 50));
@@ -66,7 +67,7 @@ Result<std::vector<double>> run_transient(AnalysisContext& context, const TranSe
     std::vector<double> out;
     bool stopped = false;
     const auto done = t.run(
-        setup.from.x, setup.from.is_consistent,
+        setup.initial.x, setup.initial.is_consistent,
         [&](double time, std::span<const double> x) {
             if (!each(time, x)) return false;
             if (time < t.time()) return true;  // within a step
@@ -75,7 +76,7 @@ Result<std::vector<double>> run_transient(AnalysisContext& context, const TranSe
             context.hit_iteration_limit = context.max_iterations > 0 && t.stats().iterations > context.max_iterations;
             return !context.hit_iteration_limit && !(stopped = context.is_stopped(time / setup.times.stop));
         },
-        setup.from.charge);
+        setup.initial.charge);
     if (!done) return done.error();
     if (stopped) return interrupted_error();
     if (context.hit_iteration_limit)
@@ -84,8 +85,8 @@ Result<std::vector<double>> run_transient(AnalysisContext& context, const TranSe
     return out;
 }
 
-/// Estimates the largest error of a spike time (s) by a second run with a tenth of the tolerances, whose errors are at most a third. NaN:
-/// the second run has a different number of spikes.
+/// Estimates the largest error of a spike time (s) by a second run with a tenth of the tolerances, whose errors are at most a third of the
+/// errors of the first. Returns NaN if the second run has a different number of spikes.
 Result<double> spike_error(AnalysisContext& context, TranSetup setup, const std::vector<double>& spikes) {
     for (double* tolerance : {&setup.plan.reltol, &setup.plan.vntol, &setup.plan.abstol}) *tolerance /= 10;
     // Only the spikes are compared, so other curves and points within a step are not needed.
@@ -144,8 +145,8 @@ Result<AnalysisResult> analyse_tran(AnalysisContext& context, const Directive& c
     TranSetup setup{*times, *plan, *output, {}};
     setup.plan.all_reported = true;
     setup.plan.stop = times->stop, setup.plan.max_step = max_step_of(*times);
-    PlotRecorder kept;
-    PointSink& points = context.points ? *context.points : kept;
+    PlotRecorder recorder;
+    PointSink& points = context.points ? *context.points : recorder;
     if (auto ok = points.begin(make_plot(context.system, "Transient Analysis", "time", "time")); !ok) return ok.error();
 
     context.system.start_transient(times->step, times->stop);
@@ -153,10 +154,10 @@ Result<AnalysisResult> analyse_tran(AnalysisContext& context, const Directive& c
     Transient transient(context.system, context.newton, setup.plan);
     Result<void> written;
     std::vector<double> row(1);
-    auto from = find_initial_condition(context, times->uic);
-    if (from) setup.from = std::move(*from);
-    if (setup.from.warning && !context.is_brief) out.warnings.push_back(*setup.from.warning);
-    auto spikes = !from ? from.error() : run_transient(context, setup, transient, [&](double t, std::span<const double> x) {
+    auto initial = find_initial_condition(context, times->uic);
+    if (initial) setup.initial = std::move(*initial);
+    if (setup.initial.warning && !context.is_brief) out.warnings.push_back(*setup.initial.warning);
+    auto spikes = !initial ? initial.error() : run_transient(context, setup, transient, [&](double t, std::span<const double> x) {
         range_monitor.add_point(t, x);
         if (t < times->start) return true;
         row.assign(1, t), row.insert(row.end(), x.begin(), x.end());
@@ -176,7 +177,7 @@ Result<AnalysisResult> analyse_tran(AnalysisContext& context, const Directive& c
     out.stats = {{"steps", static_cast<double>(work.steps)},
                  {"rejected", static_cast<double>(work.rejected)},
                  {"iterations", static_cast<double>(work.iterations)}};
-    if (!context.points) out.plots.push_back(std::move(kept.plot));
+    if (!context.points) out.plots.push_back(std::move(recorder.plot));
     return out;
 }
 

@@ -21,7 +21,7 @@ class Batch {
     ChipMemory memory_;
     std::vector<ChipLane> lanes_;
     std::vector<LaneRow> value_, slope_, weights_;
-    bool more_ = true;
+    bool has_more_chips_ = true;
     double gmin_;
     std::array<double, lanes::chips_per_block> error_{}, lower_{}, higher_{};
 
@@ -30,11 +30,11 @@ class Batch {
     void finish(std::size_t lane);
     void fail(std::size_t lane);
     std::uint8_t prepare(lanes::SolveCall&, lanes::StepCall&);
-    std::uint8_t inaccurate(std::uint8_t working, const lanes::SolveCall&);
+    std::uint8_t inaccurate_chips(std::uint8_t working, const lanes::SolveCall&);
     void iterate(std::uint8_t working, lanes::SolveCall&, lanes::StepCall&);
-    void judge(std::uint8_t needs_error, std::uint8_t diverged, const LaneRow& a);
+    void decide_steps(std::uint8_t needs_error, std::uint8_t diverged, const LaneRow& a);
     template <class Needs, class OrderOf>
-    void errors(std::uint8_t of, const Needs& needs, const OrderOf& order_of, std::array<double, lanes::chips_per_block>& out);
+    void estimate_errors(std::uint8_t chips, const Needs& needs, const OrderOf& order_of, std::array<double, lanes::chips_per_block>& out);
 
 public:
     Batch(const lanes::ChipKernels& kernels, const System& system, const Elimination& list, double radius, std::size_t points, double gmin,
@@ -56,9 +56,9 @@ std::uint8_t bit(std::size_t lane) { return static_cast<std::uint8_t>(1u << lane
 
 /// Loads the next chip that has an initial condition into a free lane.
 void Batch::fill(std::size_t lane) {
-    while (more_ && !lanes_[lane].is_occupied()) {
+    while (has_more_chips_ && !lanes_[lane].is_occupied()) {
         auto chip = next_();
-        more_ = chip.has_value();
+        has_more_chips_ = chip.has_value();
         if (!chip) return;
         const auto started = lanes_[lane].start(*chip, options_);
         if (!started) {
@@ -83,6 +83,7 @@ void Batch::finish(std::size_t lane) {
     fill(lane);
 }
 
+/// Simulates the chip of a lane by the scalar code, because its elimination or its convergence failed.
 void Batch::fail(std::size_t lane) {
     const Chip chip = lanes_[lane].chip();
     run_scalar(chip, lanes_[lane].finish().stats.iterations);
@@ -98,21 +99,23 @@ std::uint8_t Batch::prepare(lanes::SolveCall& solve, lanes::StepCall& step) {
     return working;
 }
 
+/// Estimates the errors of the steps for an order of each chip that needs it.
 template <class Needs, class OrderOf>
-void Batch::errors(std::uint8_t of, const Needs& needs, const OrderOf& order_of, std::array<double, lanes::chips_per_block>& out) {
+void Batch::estimate_errors(std::uint8_t chips, const Needs& needs, const OrderOf& order_of,
+                            std::array<double, lanes::chips_per_block>& out) {
     lanes::ErrorCall call{};
     call.past_weights = weights_.data();
     std::fill(weights_.begin(), weights_.end(), LaneRow{});
     bool any = false;
     for (std::size_t l = 0; l < lanes_.size(); ++l)
-        if (contains(of, l) && needs(lanes_[l])) lanes_[l].set_error_weights(order_of(lanes_[l]), call, weights_), any = true;
+        if (contains(chips, l) && needs(lanes_[l])) lanes_[l].set_error_weights(order_of(lanes_[l]), call, weights_), any = true;
     if (!any) return;
     kernels_.estimate_error(memory_.block, call);
     for (std::size_t l = 0; l < lanes_.size(); ++l) out[l] = call.worst.value[l];
 }
 
 /// The chips whose elimination was not accurate enough.
-std::uint8_t Batch::inaccurate(std::uint8_t working, const lanes::SolveCall& solve) {
+std::uint8_t Batch::inaccurate_chips(std::uint8_t working, const lanes::SolveCall& solve) {
     std::uint8_t doubtful = 0;
     for (std::size_t l = 0; l < lanes_.size(); ++l)
         if (contains(working, l) && !lanes_[l].is_restarting() && !(solve.growth.value[l] < doubtful_lane_growth)) doubtful |= bit(l);
@@ -126,7 +129,7 @@ std::uint8_t Batch::inaccurate(std::uint8_t working, const lanes::SolveCall& sol
 }
 
 void Batch::iterate(std::uint8_t working, lanes::SolveCall& solve, lanes::StepCall& step) {
-    const auto failed = inaccurate(working, solve);
+    const auto failed = inaccurate_chips(working, solve);
     kernels_.apply_step(memory_.block, step);
     std::uint8_t needs_error = 0, diverged = 0;
     for (std::size_t l = 0; l < lanes_.size(); ++l) {
@@ -139,21 +142,22 @@ void Batch::iterate(std::uint8_t working, lanes::SolveCall& solve, lanes::StepCa
         if (status == ChipLane::IterationStatus::needs_error) needs_error |= bit(l);
         if (status == ChipLane::IterationStatus::failed) diverged |= bit(l);
     }
-    judge(needs_error, diverged, solve.a);
+    decide_steps(needs_error, diverged, solve.a);
 }
 
-void Batch::judge(std::uint8_t needs_error, std::uint8_t diverged, const LaneRow& a) {
+/// Decides about the steps of these chips, and accepts those with an allowed error.
+void Batch::decide_steps(std::uint8_t needs_error, std::uint8_t diverged, const LaneRow& a) {
     if ((needs_error | diverged) == 0) return;
     kernels_.evaluate_charges(memory_.block);
-    errors(needs_error, [](const ChipLane&) { return true; }, [](const ChipLane& s) { return s.order(); }, error_);
+    estimate_errors(needs_error, [](const ChipLane&) { return true; }, [](const ChipLane& s) { return s.order(); }, error_);
     lanes::AcceptCall accept{{}, a};
-    std::uint8_t accepted = 0, around = 0;
+    std::uint8_t accepted = 0, change_order = 0;
     for (std::size_t l = 0; l < lanes_.size(); ++l) {
         if (!contains(needs_error | diverged, l)) continue;
         switch (lanes_[l].decide_step(contains(diverged, l) ? std::numeric_limits<double>::infinity() : error_[l])) {
             case ChipLane::StepStatus::accepted:
                 accepted |= bit(l), accept.is_accepted.value[l] = 1;
-                if (lanes_[l].is_order_change_due()) around |= bit(l);
+                if (lanes_[l].is_order_change_due()) change_order |= bit(l);
                 break;
             case ChipLane::StepStatus::failed:
                 fail(l);
@@ -163,8 +167,10 @@ void Batch::judge(std::uint8_t needs_error, std::uint8_t diverged, const LaneRow
         }
     }
     if (accepted == 0) return;
-    errors(around, [](const ChipLane& s) { return s.can_lower_order(); }, [](const ChipLane& s) { return s.order() - 1; }, lower_);
-    errors(around, [](const ChipLane& s) { return s.can_raise_order(); }, [](const ChipLane& s) { return s.order() + 1; }, higher_);
+    estimate_errors(
+        change_order, [](const ChipLane& s) { return s.can_lower_order(); }, [](const ChipLane& s) { return s.order() - 1; }, lower_);
+    estimate_errors(
+        change_order, [](const ChipLane& s) { return s.can_raise_order(); }, [](const ChipLane& s) { return s.order() + 1; }, higher_);
     kernels_.accept(memory_.block, accept);
     for (std::size_t l = 0; l < lanes_.size(); ++l) {
         if (!contains(accepted, l)) continue;
@@ -189,8 +195,9 @@ Result<void> Batch::run() {
     }
 }
 
-/// V: distance from its linearization point at which a transistor is linearized again. The relative error of its current there is at most
-/// (radius / n phi_t)^2 / 2. This equals an error of the gate voltage of that fraction of n phi_t, here a sixteenth of the allowed error.
+/// The distance from its linearization point, V, at which a transistor is linearized again. The relative error of its current there is at
+/// most (radius / n phi_t)^2 / 2. This equals an error of the gate voltage of that fraction of n phi_t, here a sixteenth of the allowed
+/// error.
 double linearization_radius(const TransientPlan& plan) {
     constexpr double phi_t = 0.026, fraction = 1.0 / 16;
     return std::sqrt(2 * phi_t * fraction * (plan.reltol * 0.5 + plan.vntol));
@@ -213,15 +220,15 @@ Result<void> run_chips(const std::shared_ptr<const CircuitAfferentFactory>& nomi
                        const std::function<void(const Chip&, ChipResponse&&)>& on_done, const BatchOptions& options) {
     const auto kernels = chip_kernels();
     if (!kernels) return kernels.error();
-    auto rig = StreamingTransient::make(*nominal, 1e-4, {});
-    if (!rig) return rig.error();
-    const auto& system = (*rig)->context().system;
-    const auto* list = (*rig)->transient().elimination();
+    auto simulation = StreamingTransient::make(*nominal, 1e-4, {});
+    if (!simulation) return simulation.error();
+    const auto& system = (*simulation)->context().system;
+    const auto* list = (*simulation)->transient().elimination();
     if (list == nullptr || system.groups().empty() || nominal->plan.method != Integration::bdf)
         return run_all_scalar(next, on_done, options);
     return Batch(**kernels, system, *list, linearization_radius(nominal->plan),
                  static_cast<std::size_t>(std::max(nominal->plan.max_order + 1, StepControl::max_curve_points)),
-                 (*rig)->context().tolerances.gmin, next, on_done, options)
+                 (*simulation)->context().tolerances.gmin, next, on_done, options)
         .run();
 }
 

@@ -14,7 +14,7 @@ namespace corpuscle::circuit {
 /// A chip to simulate.
 struct Chip {
     std::int64_t id = 0;                                   ///< chosen by the caller
-    std::shared_ptr<const CircuitAfferentFactory> design;  ///< all of one batch have the same devices at the same nodes
+    std::shared_ptr<const CircuitAfferentFactory> design;  ///< all chips of a batch must have the same devices at the same nodes
     std::optional<ChipSample> sample;
     std::span<const double> force;  ///< N, sampled at interval T; must stay valid until the chip is done
     double T = 1e-4;                ///< s
@@ -27,7 +27,7 @@ struct ChipResponse {
     EnergyUse energy_use;
     std::vector<RangeViolation> range_violations;  ///< by range of the design
     std::vector<std::vector<float>> probes;        ///< [probe of the design][recorded sample]
-    std::optional<Error> error;                    ///< it did not converge: time and unknown
+    std::optional<Error> error;                    ///< where the simulation did not converge: time and unknown
     bool hit_iteration_limit = false;              ///< stopped at the iteration limit
     bool is_scalar = false;                        ///< simulated by the scalar code after its lane failed
 };
@@ -41,7 +41,7 @@ struct BatchOptions {
 
 /// Simulates chips until `next` returns none. Calls on_done for each finished chip, in any order. The result of a chip does not depend on
 /// the other chips, the number of lanes or the instruction set. If the elimination or the convergence fails on a lane, the chip is
-/// simulated again from its beginning by the scalar code (CircuitDesign::make). Errors: interrupted by should_stop.
+/// simulated again from its beginning by the scalar code (run_chip_scalar). Errors: interrupted by should_stop.
 Result<void> run_chips(const std::shared_ptr<const CircuitAfferentFactory>& nominal, const std::function<std::optional<Chip>()>& next,
                        const std::function<void(const Chip&, ChipResponse&&)>& on_done, const BatchOptions&);
 

@@ -9,7 +9,7 @@
 namespace corpuscle::circuit {
 namespace {
 
-// As in transient.cpp.
+// The same limits as in transient.cpp.
 constexpr double min_lane_step = 1e-15;  // relative to the end time
 constexpr double large_lane_step = 20, hopeless_lane_error = 2;
 constexpr long rounds_between_sums = 256;
@@ -21,9 +21,9 @@ Result<bool> ChipLane::start(const Chip& chip, const BatchOptions& options) {
     if (simulation_ && design_ == chip.design && T_ == chip.T && chip.sample) {
         simulation_->set_chip(*chip.sample);
     } else {
-        auto rig = StreamingTransient::make(*chip.design, chip.T, chip.sample);
-        if (!rig) return rig.error();
-        simulation_ = std::move(*rig), design_ = chip.design, T_ = chip.T;
+        auto simulation = StreamingTransient::make(*chip.design, chip.T, chip.sample);
+        if (!simulation) return simulation.error();
+        simulation_ = std::move(*simulation), design_ = chip.design, T_ = chip.T;
     }
     if (!is_compatible()) return false;
     std::vector<double> force(chip.force.begin(), chip.force.end());
@@ -76,7 +76,7 @@ ChipResponse ChipLane::finish() {
     return std::move(response_);
 }
 
-/// Writes the currents of the time-dependent sources at t to the block's base.
+/// Writes the currents of the time-dependent sources at t to the block's source_currents.
 void ChipLane::set_sources(double t) {
     const auto& system = simulation_->context().system;
     EvalContext eval_context{t, 1, simulation_->context().tolerances.gmin, true};
@@ -168,21 +168,22 @@ ChipLane::IterationStatus ChipLane::finish_iteration(double size, bool clamped, 
     return !is_iterating_ || newton_.last_size > large_lane_step ? IterationStatus::needs_error : IterationStatus::iterating;
 }
 
-void ChipLane::set_error_weights(int order, lanes::ErrorCall& call, std::span<lanes::LaneRow> of_past) const {
-    for (auto& row : of_past) row.value[lane_] = 0;
+void ChipLane::set_error_weights(int order, lanes::ErrorCall& call, std::span<lanes::LaneRow> past_weights) const {
+    for (auto& row : past_weights) row.value[lane_] = 0;
     if (points_ == 1) {
-        const double per = 1 / (t_ - times_[0]);
-        call.charge_weight.value[lane_] = per, of_past[history_slot(0)].value[lane_] = -per, call.rate_weight.value[lane_] = -1;
+        const double per_step = 1 / (t_ - times_[0]);
+        call.charge_weight.value[lane_] = per_step, past_weights[history_slot(0)].value[lane_] = -per_step;
+        call.rate_weight.value[lane_] = -1;
         return;
     }
     const int points = std::min(order + 1, points_);
     const auto weights = order == control_.order ? predictor_weights_ : weights_of_value(times(points), t_);
-    const double per = 1 / (t_ - times_[static_cast<std::size_t>(points) - 1]);
-    call.charge_weight.value[lane_] = per, call.rate_weight.value[lane_] = 0;
-    for (int k = 0; k < points; ++k) of_past[history_slot(k)].value[lane_] = -per * weights[static_cast<std::size_t>(k)];
+    const double per_history = 1 / (t_ - times_[static_cast<std::size_t>(points) - 1]);
+    call.charge_weight.value[lane_] = per_history, call.rate_weight.value[lane_] = 0;
+    for (int k = 0; k < points; ++k) past_weights[history_slot(k)].value[lane_] = -per_history * weights[static_cast<std::size_t>(k)];
 }
 
-/// As in Transient.
+/// The same estimate as Transient::interpolation_error().
 double ChipLane::interpolation_error() {
     const auto curves = simulation_->transient().curves();
     curve_points_ = 0;
@@ -206,7 +207,7 @@ double ChipLane::interpolation_error() {
     return curve.error;
 }
 
-/// Decides about the step after the Newton iterations. error infinite: they diverged.
+/// Decides about the step after the Newton iterations. An infinite `error` means that they diverged.
 ChipLane::StepStatus ChipLane::decide_step(double error) {
     const bool diverged = std::isinf(error);
     if (!diverged && is_iterating_ && !(error > hopeless_lane_error)) return StepStatus::iterating;
@@ -251,9 +252,9 @@ void ChipLane::advance() {
 }
 
 bool ChipLane::accept_step() {
-    const double from = times_[0];
+    const double step_start = times_[0];
     advance();
-    add_energy(from);
+    add_energy(step_start);
     if (const auto at = spike(); at && std::ceil(*at / chip_->T) < static_cast<double>(chip_->force.size()))
         response_.spikes.push_back(*at);
     record_samples();
@@ -302,11 +303,11 @@ void ChipLane::record_samples() {
 }
 
 /// Adds the energy of the last step, by the trapezoidal rule for the power.
-void ChipLane::add_energy(double from) {
-    const double half = (times_[0] - from) / 2;
-    const auto last = power_;
+void ChipLane::add_energy(double step_start) {
+    const double half = (times_[0] - step_start) / 2;
+    const auto power_before = power_;
     power_ = simulation_->meter().delivered_at(x_, times_[0]);
-    response_.energy_use += {2 * half, half * (last.supplies + power_.supplies), half * (last.sensor + power_.sensor)};
+    response_.energy_use += {2 * half, half * (power_before.supplies + power_.supplies), half * (power_before.sensor + power_.sensor)};
 }
 
 }  // namespace corpuscle::circuit

@@ -31,15 +31,15 @@ private:
     std::array<double, 8> times_{};            // of the history, newest first
     int points_ = 0, newest_slot_ = 0;         // length of the history; slot of the newest point in the ring buffer
     int smooth_count_ = 0, curve_points_ = 0;  // points on one smooth curve; points of the last interpolation
-    double breakpoint_ = 0;                    // next breakpoint of the sources; outdated if not after the last time
+    double breakpoint_ = 0;                    // s: next breakpoint of the sources; a new one is searched for once it has been reached
     bool restart_pending_ = false, ends_at_breakpoint_ = false, may_jump_ = false, jumped_ = false;
     double end_time_ = 0;  // s: end of the force
 
     // the current step
     NextTask next_task_ = NextTask::nothing;
     bool is_new_step_ = false, is_limited_ = false,
-         is_iterating_ = false;  // is_iterating_: not converged yet, but the error is estimated early
-    double t_ = 0, a_ = 0, interpolation_error_ = 0;
+         is_iterating_ = false;                       // is_iterating_: not converged yet, but the error is estimated early
+    double t_ = 0, a_ = 0, interpolation_error_ = 0;  // end of the step, s; dq/dt = a q + history; relative to the allowed error
     HistoryWeights predictor_weights_{};
     std::vector<std::size_t> sources_;  // time-dependent sources
     std::vector<double> v_, stamp_, x_;
@@ -58,7 +58,7 @@ private:
     double interpolate(double t, int unknown) const;
     std::optional<double> spike() const;
     void record_samples();
-    void add_energy(double from);
+    void add_energy(double step_start);
 
 public:
     ChipLane(ChipMemory& memory, std::size_t lane) : memory_(memory), lane_(lane) {}
@@ -80,7 +80,7 @@ public:
     enum class IterationStatus { iterating, needs_error, failed };
     IterationStatus finish_iteration(double size, bool clamped, bool finite);
     /// Writes the weights that give the error of the current step for this order.
-    void set_error_weights(int order, lanes::ErrorCall&, std::span<lanes::LaneRow> of_past) const;
+    void set_error_weights(int order, lanes::ErrorCall&, std::span<lanes::LaneRow> past_weights) const;
     int order() const { return control_.order; }
     enum class StepStatus { iterating, rejected, accepted, failed };
     StepStatus decide_step(double error);

@@ -53,13 +53,13 @@ ChipMemory::ChipMemory(const System& system, const Elimination& elimination, std
         for (int e = p.column_begin()[static_cast<std::size_t>(column)]; e < p.column_begin()[static_cast<std::size_t>(column) + 1]; ++e)
             columns[static_cast<std::size_t>(e)] = column;
     entry_.resize(entries + 1, entries);
-    for (const auto place : order) {
-        entry_[place] = row_.size();
-        row_.push_back(p.rows()[place]), column_.push_back(columns[place]), slot_.push_back(list.entry_slot[place]);
+    for (const auto k : order) {
+        entry_[k] = row_.size();
+        row_.push_back(p.rows()[k]), column_.push_back(columns[k]), slot_.push_back(list.entry_slot[k]);
     }
     for (int u = 0; u < system.size(); ++u) voltage_.push_back(system.is_voltage(u));
     for (const auto& group : system.groups())
-        for (const auto place : group.entries) entries_.push_back(entry_[place]);
+        for (const auto k : group.entries) entries_.push_back(entry_[k]);
     auto& b = block;
     b.unknowns = n, b.entries = entries, b.points = points, b.devices = transistors_, b.list = list;
     b.row = row_.data(), b.column = column_.data(), b.slot = slot_.data(), b.is_voltage = voltage_.data(), b.terminals = terminals_.data();
@@ -96,7 +96,7 @@ void ChipMemory::sum_linear_devices(const System& system, std::size_t chip, cons
         const Device& d = *system.devices()[k];
         const auto n = d.unknowns.size();
         NonlinearDevice other{k, d.unknowns, {}, std::vector<double>(n), {}, std::vector<double>(2 * n + 2 * n * n), {}};
-        for (const auto place : system.entries(k)) other.entries.push_back(entry_[place]);
+        for (const auto pattern_entry : system.entries(k)) other.entries.push_back(entry_[pattern_entry]);
         if (!d.is_linear()) {
             other.last_linearization = other.linearization;
             nonlinear_devices_[chip].push_back(std::move(other));
@@ -107,10 +107,10 @@ void ChipMemory::sum_linear_devices(const System& system, std::size_t chip, cons
         for (std::size_t row = 0; row < n; ++row) {
             if (!d.is_time_dependent() && d.unknowns[row] >= 0) I[d.unknowns[row]].value[chip] += all[row];
             for (std::size_t column = 0; column < n; ++column) {
-                const auto place = other.entries[row * n + column];
-                if (place >= block.entries) continue;
-                G[place].value[chip] += all[2 * n + row * n + column];
-                C[place].value[chip] += all[2 * n + n * n + row * n + column];
+                const auto entry = other.entries[row * n + column];
+                if (entry >= block.entries) continue;
+                G[entry].value[chip] += all[2 * n + row * n + column];
+                C[entry].value[chip] += all[2 * n + n * n + row * n + column];
             }
         }
     }
@@ -137,24 +137,24 @@ void ChipMemory::sum_again(std::size_t chip) {
         for (std::size_t j = 0; j < 4; ++j)
             if (const int u = terminals_[4 * d + j]; u < n) block.I[u].value[chip] += line.i[j], block.Q[u].value[chip] += line.q[j];
         for (std::size_t e = 0; e < 16; ++e)
-            if (const auto place = entries_[16 * d + e]; place < block.entries)
-                block.G[place].value[chip] += line.g[e], block.C[place].value[chip] += line.c[e];
+            if (const auto entry = entries_[16 * d + e]; entry < block.entries)
+                block.G[entry].value[chip] += line.g[e], block.C[entry].value[chip] += line.c[e];
     }
     for (auto& other : nonlinear_devices_[chip]) std::fill(other.last_linearization.begin(), other.last_linearization.end(), 0.0);
 }
 
-void ChipMemory::replace_linearization(const DeviceOnChip& p, const Linearization& now) {
+void ChipMemory::replace_linearization(const DeviceOnChip& p, const Linearization& updated) {
     constexpr std::size_t row = lanes::chips_per_block;  // distance between rows
     Linearization &old = linearizations_[p.chip * transistors_ + p.device], change;
-    for (std::size_t k = 0; k < 4; ++k) change.i[k] = now.i[k] - old.i[k], change.q[k] = now.q[k] - old.q[k];
-    for (std::size_t e = 0; e < 16; ++e) change.g[e] = now.g[e] - old.g[e], change.c[e] = now.c[e] - old.c[e];
-    old = now;
+    for (std::size_t k = 0; k < 4; ++k) change.i[k] = updated.i[k] - old.i[k], change.q[k] = updated.q[k] - old.q[k];
+    for (std::size_t e = 0; e < 16; ++e) change.g[e] = updated.g[e] - old.g[e], change.c[e] = updated.c[e] - old.c[e];
+    old = updated;
     double *const I = block.I->value + p.chip, *const Q = block.Q->value + p.chip, *const G = block.G->value + p.chip,
                   *const C = block.C->value + p.chip;
-    const std::size_t* const place = entries_.data() + 16 * p.device;
-    for (std::size_t e = 0; e < 16; ++e) C[place[e] * row] += change.c[e];
+    const std::size_t* const entry = entries_.data() + 16 * p.device;
+    for (std::size_t e = 0; e < 16; ++e) C[entry[e] * row] += change.c[e];
     for (std::size_t e = 0; e < 16; ++e)
-        if (e / 4 != Terminals::G) G[place[e] * row] += change.g[e];  // the gate current is 0
+        if (e / 4 != Terminals::G) G[entry[e] * row] += change.g[e];  // the gate current is 0
     for (std::size_t k = 0; k < 4; ++k) {
         const std::size_t u = static_cast<std::size_t>(terminals_[4 * p.device + k]);
         I[u * row] += change.i[k], Q[u * row] += change.q[k];
@@ -164,10 +164,10 @@ void ChipMemory::replace_linearization(const DeviceOnChip& p, const Linearizatio
 
 /// Prefetches the data of the next replace_linearization(), which is mostly in a slower cache.
 void ChipMemory::prefetch(const DeviceOnChip& p) const {
-    const std::size_t* const place = entries_.data() + 16 * p.device;
+    const std::size_t* const entry = entries_.data() + 16 * p.device;
     for (std::size_t e = 0; e < 16; ++e) {
-        __builtin_prefetch(block.G[place[e]].value, 1);
-        __builtin_prefetch(block.C[place[e]].value, 1);
+        __builtin_prefetch(block.G[entry[e]].value, 1);
+        __builtin_prefetch(block.C[entry[e]].value, 1);
     }
     const auto* const line = reinterpret_cast<const char*>(&linearizations_[p.chip * transistors_ + p.device]);
     for (std::size_t at = 0; at < sizeof(Linearization); at += 64) __builtin_prefetch(line + at, 1);

@@ -27,7 +27,7 @@ class ChipMemory {
     std::size_t transistors_;
     std::vector<std::vector<int>> scalar_unknowns_;  // unknowns of each device that is not a transistor
     std::vector<char> voltage_;
-    std::vector<std::size_t> entry_;               // by index in the sparsity pattern, and of ground
+    std::vector<std::size_t> entry_;               // matrix entry by index in the sparsity pattern; the last one is for ground
     std::vector<std::size_t> entries_;             // entry of each derivative of the transistors
     std::vector<Linearization> linearizations_;    // [chip][transistor]
     std::vector<lanes::LaneRow> linear_sums_;      // I, G, C of linear devices
@@ -43,7 +43,7 @@ class ChipMemory {
     std::vector<NonlinearDevice> nonlinear_devices_[lanes::chips_per_block];
 
     void prefetch(const DeviceOnChip&) const;
-    void replace_linearization(const DeviceOnChip&, const Linearization& now);
+    void replace_linearization(const DeviceOnChip&, const Linearization& updated);
     void sum_linear_devices(const System&, std::size_t chip, const EvalContext&);
 
 public:
@@ -55,7 +55,7 @@ public:
     ChipMemory(const ChipMemory&) = delete;
 
     std::size_t unknowns() const { return block.unknowns; }
-    /// True if the devices of a system have the same unknowns as those of the system that this was made for.
+    /// True if the devices of this system have the same unknowns as those of the system passed to the constructor.
     bool is_compatible(const System&) const;
     /// Loads a chip into a column. Its transistors are linearized when they are next needed.
     void load_chip(std::size_t chip, const System&, const EvalContext&);

@@ -5,7 +5,7 @@
 namespace corpuscle::circuit {
 namespace {
 
-constexpr std::size_t block = 256;  // samples
+constexpr std::size_t samples_per_block = 256;
 
 /// Simulates a chip block by block.
 class ScalarRun {
@@ -19,10 +19,10 @@ class ScalarRun {
     std::vector<double*> rows_;
 
     void record_probes(std::int64_t first, std::size_t count) {
-        const auto every = static_cast<std::int64_t>(options_.probe_every), last = static_cast<std::int64_t>(chip_.force.size());
+        const auto every = static_cast<std::int64_t>(options_.probe_every), end = static_cast<std::int64_t>(chip_.force.size());
         for (std::size_t p = 0; p < probes_.size(); ++p)
             for (std::size_t k = 0; k < count; ++k)
-                if (const auto sample = first + static_cast<std::int64_t>(k); sample >= 0 && sample < last && sample % every == 0)
+                if (const auto sample = first + static_cast<std::int64_t>(k); sample >= 0 && sample < end && sample % every == 0)
                     out_.probes[p].push_back(static_cast<float>(probes_[p][k]));
     }
 
@@ -31,7 +31,7 @@ public:
         : chip_(chip), options_(options), out_(out), afferent_(chip.design->make(chip.T, chip.sample)), state_(afferent_->start()) {
         out.range_violations.resize(afferent_->ranges().size());
         if (options.probe_every == 0) return;
-        probes_.assign(afferent_->probes().size(), std::vector<double>(block));
+        probes_.assign(afferent_->probes().size(), std::vector<double>(samples_per_block));
         for (auto& p : probes_) rows_.push_back(p.data());
         out.probes.resize(probes_.size());
     }
@@ -39,9 +39,9 @@ public:
     Result<void> run() {
         std::vector<double> force(chip_.force.begin(), chip_.force.end());
         force.insert(force.end(), static_cast<std::size_t>(afferent_->delay()), force.back());
-        for (std::size_t at = 0; at < force.size() && !out_.hit_iteration_limit; at += block) {
+        for (std::size_t at = 0; at < force.size() && !out_.hit_iteration_limit; at += samples_per_block) {
             if (options_.should_stop && options_.should_stop()) return Error{ErrorCode::interrupted, "interrupted"};
-            const auto count = std::min(block, force.size() - at);
+            const auto count = std::min(samples_per_block, force.size() - at);
             const auto first = state_.step - afferent_->delay();
             ResponseBlock block_response{spikes_, 0, rows_, out_.range_violations};
             auto done = afferent_->respond(std::span(force).subspan(at, count), state_, block_response);

@@ -5,7 +5,7 @@
 
 namespace corpuscle::circuit {
 
-/// In m^2, without wells, bulk contacts, wires, guard rings and pads.
+/// Areas in m^2, without wells, bulk contacts, wires, guard rings and pads.
 struct Area {
     double gates = 0;       ///< channel area: m stack W L
     double arrays = 0;      ///< of transistors, with each array in its smallest rectangle
@@ -23,16 +23,20 @@ inline constexpr double capacitor_density = 2e-3;
 ///
 ///     A_T = (r W + (r - 1) 0.28 um + 0.5 um) (c L + (c - 1) 0.54 um + 0.96 um)
 ///
-/// This is exact for these arrays, with r by c: B1 2x1, B2 2x2, C1 1x1, C2 2x2, D1 1x2, D2 2x2, E 1x1. It is also exact for G1 to G3 (1x8).
-/// For A it is 3.6 % too large.
+/// This is exact for these arrays of the thesis, given as r by c:
+///
+///     B1 2x1, B2 2x2, C1 1x1, C2 2x2, D1 1x2, D2 2x2, E 1x1, G1 to G3 1x8
+///
+/// For array A it is 3.6 % too large.
 struct RectangleRule {
     static constexpr double around_W = 0.5e-6, around_L = 0.96e-6;  ///< m; margin of an island around its channel
     static constexpr double between_W = 0.28e-6,
                             between_L =
                                 0.54e-6;  ///< m; between units along W (separate diffusions) and along L (a shared diffusion with contacts)
 };
+/// A_T, m^2.
 double rectangle_area(double W, double L, double rows, double columns);
-/// The area of the smallest rectangle that holds this number of unit transistors.
+/// The area, m^2, of the smallest rectangle that contains this number of unit transistors.
 double array_area(double W, double L, double unit_transistors);
 
 /// The area of a transistor or a linear capacitor. It is 0 for other elements and for a capacitor with an expression.

@@ -17,7 +17,9 @@ bool is_afferent(const Circuit& circuit) {
            std::any_of(circuit.directives.begin(), circuit.directives.end(), [](const auto& c) { return c.name == "spike"; });
 }
 
-bool has_no_size(const Element& e) { return e.letter == 'r' || e.letter == 'l' || e.letter == 'd' || (e.letter == 'c' && e.expression); }
+bool has_unknown_area(const Element& e) {
+    return e.letter == 'r' || e.letter == 'l' || e.letter == 'd' || (e.letter == 'c' && e.expression);
+}
 
 void add_areas(const Circuit& circuit, const Blocks& blocks, Cost& out) {
     for (const auto& name : blocks.names) out.blocks.push_back({name, 0, 0, {}, {}, ""});
@@ -25,7 +27,7 @@ void add_areas(const Circuit& circuit, const Blocks& blocks, Cost& out) {
         const auto& e = circuit.elements[k];
         auto& block = out.blocks[blocks.block_of_element[k]];
         block.area += area_of(e);
-        out.unknown_areas += has_no_size(e);
+        out.unknown_areas += has_unknown_area(e);
         if (e.letter != 'm') continue;
         ++block.transistors;
         block.unit_transistors += static_cast<std::size_t>(std::ceil(value_or(e.values, "m", 1) * value_or(e.values, "stack", 1)));
@@ -56,22 +58,22 @@ Area Cost::area() const {
     return all;
 }
 
-const PowerBreakdown* Cost::powers(std::string_view of) const {
+const PowerBreakdown* Cost::powers(std::string_view key) const {
     for (const auto& [name, powers] : power)
-        if (name == of) return &powers;
+        if (name == key) return &powers;
     return nullptr;
 }
 
 Result<Cost> cost_of(AnalysisContext& context, const PowerOverTime* over) {
-    const auto rest = context.operating_point();
-    if (!rest) return rest.error();
-    const PowerMeter meter(context.system, rest->x, context.tolerances.gmin);
+    const auto operating_point = context.operating_point();
+    if (!operating_point) return operating_point.error();
+    const PowerMeter meter(context.system, operating_point->x, context.tolerances.gmin);
     Cost out;
     out.supply = meter.supply(), out.sources = meter.sources(), out.has_sensor = meter.has_sensor();
     out.is_afferent = is_afferent(*context.circuit);
     add_areas(*context.circuit, meter.blocks(), out);
-    add_leakage(context, rest->x, meter.blocks(), out);
-    out.power.emplace_back("op", meter.power_at(rest->x));
+    add_leakage(context, operating_point->x, meter.blocks(), out);
+    out.power.emplace_back("op", meter.power_at(operating_point->x));
     if (over)
         for (auto& named_power : over->averages()) out.power.push_back(std::move(named_power));
     return out;

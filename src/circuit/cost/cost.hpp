@@ -24,16 +24,16 @@ struct Cost {
     std::vector<BlockCost> blocks;                              ///< in netlist order
     std::vector<std::pair<std::string, PowerBreakdown>> power;  ///< "op"; for a transient also "mean", "peak" and the phases of its force
     bool has_sensor = false;                                    ///< if false, none of the power is the sensor's
-    bool is_afferent = false;                                   ///< it has a force input and a spike output
+    bool is_afferent = false;                                   ///< the circuit has a force input and a spike output
     std::size_t unknown_areas = 0;  ///< elements of unknown area: resistors, inductors, diodes, capacitors with an expression
     double smallest_bias = 0;       ///< A; 0 if the circuit has no ideal bias source
     std::vector<Leakage>
         leaks;  ///< devices that are off and leak more than a tenth of smallest_bias; those at capacitor nodes first, then by current
     std::vector<std::string> leaking_names;  ///< names of the devices of `leaks`
 
-    Area area() const;
-    const PowerBreakdown* powers(std::string_view of) const;  ///< null if there is none of this name
-    double per_mm2() const { return 1e-6 / area().total(); }
+    Area area() const;                                         ///< of all blocks
+    const PowerBreakdown* powers(std::string_view key) const;  ///< the entry of `power` with this name; null if there is none
+    double per_mm2() const { return 1e-6 / area().total(); }   ///< number of these circuits on 1 mm^2
 };
 
 /// The cost of a circuit in its present state. `over` holds the power over a transient; null omits it.

@@ -15,21 +15,21 @@ enum Terminal { D, G, S, B };
 
 /// Merges nodes that are connected by 0 V sources, which only measure a current.
 class MergedNodes {
-    std::vector<int> of_;
+    std::vector<int> representative_;
 
 public:
-    explicit MergedNodes(const Circuit& circuit) : of_(circuit.nodes.size()) {
-        std::iota(of_.begin(), of_.end(), 0);
+    explicit MergedNodes(const Circuit& circuit) : representative_(circuit.nodes.size()) {
+        std::iota(representative_.begin(), representative_.end(), 0);
         for (const auto& e : circuit.elements) {
             if (!is_wire(e)) continue;
-            const int first = of(e.nodes[0]), second = of(e.nodes[1]);
-            std::replace(of_.begin(), of_.end(), std::max(first, second), std::min(first, second));
+            const int first = representative(e.nodes[0]), second = representative(e.nodes[1]);
+            std::replace(representative_.begin(), representative_.end(), std::max(first, second), std::min(first, second));
         }
     }
     static bool is_wire(const Element& e) {
         return e.letter == 'v' && e.waveform.dc == 0 && e.waveform.shape == Waveform::Shape::none && e.waveform.ac_magnitude == 0;
     }
-    int of(int node) const { return of_[static_cast<std::size_t>(node)]; }
+    int representative(int node) const { return representative_[static_cast<std::size_t>(node)]; }
 };
 
 /// Nodes whose voltage is held by a capacitor and not by a voltage source. Maps each merged node to the capacitor's node.
@@ -37,21 +37,23 @@ std::map<int, int> capacitor_nodes(const Circuit& circuit, const MergedNodes& me
     std::map<int, int> out;
     for (const auto& e : circuit.elements)
         if (e.letter == 'c')
-            for (int k = 0; k < 2; ++k) out.emplace(merged.of(e.nodes[static_cast<std::size_t>(k)]), e.nodes[static_cast<std::size_t>(k)]);
+            for (int k = 0; k < 2; ++k)
+                out.emplace(merged.representative(e.nodes[static_cast<std::size_t>(k)]), e.nodes[static_cast<std::size_t>(k)]);
     out.erase(0);
     for (const auto& e : circuit.elements)
         if (e.letter == 'v' && !MergedNodes::is_wire(e))
-            for (const int node : e.nodes) out.erase(merged.of(node));
+            for (const int node : e.nodes) out.erase(merged.representative(node));
     return out;
 }
 
-/// The drain current with the gate at the source. `forward` is the forward bias of the bulk against the source, with the signs of an NMOS.
+/// The drain current, A, with the gate at the source voltage. `forward` is the forward bias of the bulk against the source, with the signs
+/// of an NMOS.
 double drain_current(const Device& d, double polarity, double supply, double forward) {
     const double v[4] = {polarity * supply, 0, 0, polarity * forward};
     double f[4] = {}, q[4] = {}, df[16] = {}, dq[16] = {};
-    EvalContext at;
-    at.with_charges = false;
-    d.eval(v, at, {f, q, df, dq});
+    EvalContext context;
+    context.with_charges = false;
+    d.eval(v, context, {f, q, df, dq});
     return std::abs(f[D]);
 }
 
@@ -61,7 +63,7 @@ std::vector<Leakage> leakage_of(const System& system, std::span<const double> x,
     std::vector<Leakage> out;
     const auto& circuit = system.circuit();
     const MergedNodes merged(circuit);
-    const auto held = capacitor_nodes(circuit, merged);
+    const auto capacitor_node_of = capacitor_nodes(circuit, merged);
     for (std::size_t k = 0; k < circuit.elements.size(); ++k) {
         const auto& e = circuit.elements[k];
         if (e.letter != 'm') continue;
@@ -72,7 +74,8 @@ std::vector<Leakage> leakage_of(const System& system, std::span<const double> x,
         Leakage leak{k, drain_current(d, polarity, supply, std::max(polarity * v[B] - source, 0.0)), polarity * v[G] - source, false, ""};
         leak.is_off = leak.V_GS < thermal_voltage(circuit.temperature + zero_celsius);
         for (const auto end : {D, S})
-            if (const auto node = held.find(merged.of(e.nodes[end])); leak.capacitor_node.empty() && node != held.end())
+            if (const auto node = capacitor_node_of.find(merged.representative(e.nodes[end]));
+                leak.capacitor_node.empty() && node != capacitor_node_of.end())
                 leak.capacitor_node = circuit.nodes[static_cast<std::size_t>(node->second)];
         out.push_back(std::move(leak));
     }

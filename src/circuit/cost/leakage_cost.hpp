@@ -11,7 +11,7 @@ namespace corpuscle::circuit {
 /// Leakage of one transistor: the drain current, junction included, with the gate at the source and the supply voltage between drain
 /// and source. The bulk is at the source, or as far forward-biased as at the operating point.
 struct Leakage {
-    std::size_t element = 0;  ///< in Circuit::elements
+    std::size_t element = 0;  ///< index in Circuit::elements
     double current = 0;       ///< A
     double V_GS = 0;      ///< V at the operating point, positive towards conduction; the source is the terminal that acts as source there
     bool is_off = false;  ///< V_GS is below phi_t: the transistor carries less than e times its leakage
@@ -21,7 +21,7 @@ struct Leakage {
 /// The leakage of every transistor at the operating point x.
 std::vector<Leakage> leakage_of(const System&, std::span<const double> x, double supply);
 
-/// The smallest current of the ideal current sources that carry no force, A; 0 if there is none.
+/// The smallest current of the ideal current sources, A, FORCE sources excluded; 0 if there is none.
 double smallest_bias(const Circuit&);
 
 }  // namespace corpuscle::circuit

@@ -12,28 +12,28 @@ std::string block_of(const Element& e) {
     return e.letter == 'i' ? "ideal currents" : "top level";
 }
 
-bool carries_force(const Element& e) { return e.waveform.shape == Waveform::Shape::force; }
+bool is_force_source(const Element& e) { return e.waveform.shape == Waveform::Shape::force; }
 bool is_independent(const Element& e) { return e.letter == 'v' || e.letter == 'i'; }
 
-/// Unknowns of the nodes of voltage sources that carry force.
+/// Unknowns of the nodes of FORCE voltage sources.
 std::vector<int> force_nodes(const System& system) {
     std::vector<int> out;
     const auto& elements = system.circuit().elements;
     for (std::size_t k = 0; k < elements.size(); ++k)
-        if (elements[k].letter == 'v' && carries_force(elements[k]))
+        if (elements[k].letter == 'v' && is_force_source(elements[k]))
             for (const int node : std::span(system.devices()[k]->unknowns).first(2))
                 if (node >= 0) out.push_back(node);
     return out;
 }
 
 /// True for a current source with an expression that reads one of these nodes.
-bool is_sensor(const Element& e, const Device& d, std::span<const int> force) {
+bool is_sensor(const Element& e, const Device& d, std::span<const int> nodes) {
     if (!e.expression || e.expression_is_voltage || (e.letter != 'b' && e.letter != 'g')) return false;
     return std::any_of(d.unknowns.begin() + 2, d.unknowns.end(),
-                       [&](int u) { return std::find(force.begin(), force.end(), u) != force.end(); });
+                       [&](int u) { return std::find(nodes.begin(), nodes.end(), u) != nodes.end(); });
 }
 
-/// Calls f(a, b) for each pair of numbers.
+/// Calls f(x, y) for each number x of `a` and the corresponding number y of `b`.
 template <class F>
 void for_each_power(PowerBreakdown& a, const PowerBreakdown& b, F f) {
     f(a.supplies, b.supplies), f(a.sensor, b.sensor), f(a.without_sensor, b.without_sensor);
@@ -63,13 +63,13 @@ PowerMeter::PowerMeter(const System& system, std::span<const double> x, double g
         role_.push_back(-1 - static_cast<int>(blocks_.block_of_element[k]));
         if (is_sensor(e, *system.devices()[k], force)) sensors_.push_back(k);
         if (!is_independent(e)) continue;
-        double heat = 0;
-        current(k, x, 0, heat);
-        if (e.letter == 'i' && !carries_force(e) && heat >= 0) continue;
+        double dissipated = 0;
+        current(k, x, 0, dissipated);
+        if (e.letter == 'i' && !is_force_source(e) && dissipated >= 0) continue;
         role_.back() = static_cast<int>(sources_.size());
         sources_.push_back(k);
-        if (e.letter != 'v' || carries_force(e) || -heat <= max_delivered) continue;
-        max_delivered = -heat;
+        if (e.letter != 'v' || is_force_source(e) || -dissipated <= max_delivered) continue;
+        max_delivered = -dissipated;
         const auto v = system.terminal_values(*system.devices()[k], x);
         supply_ = std::abs(v[0] - v[1]);
     }
@@ -83,9 +83,9 @@ double PowerMeter::current(std::size_t k, std::span<const double> x, double t, d
     for (std::size_t u = 0; u < n; ++u) v_[u] = d.unknowns[u] < 0 ? 0 : x[static_cast<std::size_t>(d.unknowns[u])];
     for (auto* currents : {&f_, &q_}) currents->assign(n, 0);
     for (auto* derivatives : {&df_, &dq_}) derivatives->assign(n * n, 0);
-    EvalContext at;
-    at.time = t, at.gmin = gmin_, at.with_charges = false;
-    d.eval(v_, at, {f_, q_, df_, dq_});
+    EvalContext context;
+    context.time = t, context.gmin = gmin_, context.with_charges = false;
+    d.eval(v_, context, {f_, q_, df_, dq_});
     power = 0;
     for (std::size_t u = 0; u < n; ++u)
         if (d.unknowns[u] >= 0 && system_.is_voltage(d.unknowns[u])) power += v_[u] * f_[u];
@@ -148,7 +148,7 @@ Result<void> PowerOverTime::add_point(std::span<const double> row) {
         for (std::size_t p = 0; p < sums_.size(); ++p) {
             const double from = p == 0 ? t_ : std::max(t_, phases_[p - 1].from), to = p == 0 ? t : std::min(t, phases_[p - 1].to);
             if (!(to > from)) continue;
-            const double fraction = ((from + to) / 2 - t_) / (t - t_);  // linear between two points, so the middle is the mean
+            const double fraction = ((from + to) / 2 - t_) / (t - t_);  // power is linear between points: the mean is at the middle
             for_each_power(sums_[p], previous_, [&](double& sum, double b) { sum += (to - from) * (1 - fraction) * b; });
             for_each_power(sums_[p], now, [&](double& sum, double n) { sum += (to - from) * fraction * n; });
             times_[p] += to - from;

@@ -19,18 +19,18 @@ struct Blocks {
     explicit Blocks(const Circuit&);
 };
 
-/// In W. Sources deliver power and blocks dissipate it. The difference charges capacitors; it averages to zero.
+/// Powers in W. Sources deliver power and blocks dissipate it. The difference charges capacitors; it averages to zero.
 struct PowerBreakdown {
     double supplies = 0;                  ///< delivered by all sources
-    double sensor = 0;                    ///< of that, the power for the current through the sensor; see PowerMeter
+    double sensor = 0;                    ///< the part of `supplies` for the current through the sensor; see PowerMeter
     double without_sensor = 0;            ///< the rest
     std::vector<double> sources, blocks;  ///< of each source and block, in the order of the meter
 };
 
-/// Computes power at a solution of the circuit. Sources are independent voltage sources, sources that carry force, and current sources
-/// that deliver power at the operating point. Any other current source represents the transistor that would replace it; its power is
-/// dissipated in its block. A sensor is a current source with an expression that reads a node of a FORCE source. Its current, times the
-/// voltage of the source that delivers most, is counted as the sensor's power, wherever between the rails it is dissipated.
+/// Computes power at a solution of the circuit. Sources are independent voltage sources, FORCE sources, and current sources that deliver
+/// power at the operating point. Any other current source represents the transistor that would replace it; its power is dissipated in its
+/// block. A sensor is a current source with an expression that reads a node of a FORCE source. The sensor's power is its current times the
+/// voltage of the source that delivers most, although a part of this power is dissipated in other elements.
 class PowerMeter {
     const System& system_;
     double gmin_;
@@ -46,6 +46,7 @@ public:
     /// x is the operating point; gmin is in S.
     PowerMeter(const System&, std::span<const double> x, double gmin);
 
+    /// The power at the solution x and time t, s.
     PowerBreakdown power_at(std::span<const double> x, double t = 0) const;
     /// Only the power of the sources and of the sensor, W; cheap enough for every time step.
     struct DeliveredPower {
@@ -53,8 +54,8 @@ public:
     };
     DeliveredPower delivered_at(std::span<const double> x, double t) const;
     const Blocks& blocks() const { return blocks_; }
-    std::vector<std::string> sources() const;
-    double supply() const { return supply_; }  ///< V, of the source that delivers most
+    std::vector<std::string> sources() const;  ///< their names
+    double supply() const { return supply_; }  ///< V, of the source that delivers the most power
     bool has_sensor() const { return !sensors_.empty(); }
 };
 

@@ -27,8 +27,9 @@ struct EvalContext {
 };
 
 /// The contribution of a device to the equations. The unknowns are the terminals, then the device's own unknowns. For a node, f is the
-/// current (A) out of the node into the device and q is the charge (C) of that current. For an own unknown that is not a node, f and q are
-/// the two parts of its equation f + dq/dt = 0. The derivatives df and dq are stored row by row.
+/// current (A) out of the node into the device without the displacement current dq/dt of the charge q (C). An own unknown that is not a
+/// node has the equation f + dq/dt = 0. The derivatives df and dq are stored row by row. With n unknowns, f and q have n elements, df and
+/// dq have n^2; most callers allocate them in this order in one buffer.
 struct Stamp {
     std::span<double> f, q, df, dq;
     double& slope(std::size_t row, std::size_t column) const { return df[row * f.size() + column]; }
@@ -76,7 +77,7 @@ public:
     /// The value that .dc sweeps: DC value of a source, resistance, gain ... Returns false (or nothing) if the device has none.
     virtual bool set_principal_value(double) { return false; }
     virtual std::optional<double> principal_value() const { return {}; }
-    /// Adds the source's AC value to the right side of .ac.
+    /// Adds the source's AC value to the right-hand side of the equations of .ac.
     virtual void add_ac_stimulus(std::span<std::complex<double>>) const {}
 
     /// Starts a transient with this step and end (s). An end of 0 freezes the source at its DC value again.
@@ -94,7 +95,7 @@ public:
     /// this kind of device has none.
     virtual bool apply_variation(const ChipSample*, std::uint32_t /*index*/) { return false; }
 
-    // At the operating point; v as in eval.
+    // Properties at an operating point; the argument is v as in eval().
     virtual std::vector<NoiseSource> noise(std::span<const double>) const { return {}; }
     virtual std::vector<OperatingValue> operating_info(std::span<const double>) const { return {}; }
     virtual std::string operating_region(std::span<const double>) const { return {}; }  ///< "saturation", "weak" ...

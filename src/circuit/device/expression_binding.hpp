@@ -7,7 +7,7 @@ namespace corpuscle::circuit {
 
 class ExpressionBinding {
 public:
-    /// The derivative of the value by one of the device's unknowns.
+    /// The derivative of the value with respect to one of the device's unknowns.
     struct Slope {
         std::size_t unknown;
         double value;

@@ -4,7 +4,7 @@
 
 namespace corpuscle::circuit {
 
-/// Natural logarithm of a normal x > 0, as accurate as num::log and faster. From log m = 2 artanh s = 2 s + s z (2/3 + 2/5 z ...), z = s^2,
+/// Natural logarithm of a normal x > 0, as accurate as num::log and faster. Uses log m = 2 artanh s = 2 s + s z (2/3 + 2/5 z ...), z = s^2,
 /// with the minimax polynomial for |s| <= 0.172 (error 3e-16) instead of the series. Terms are summed in pairs.
 template <class T>
 [[gnu::always_inline]] inline T fast_log(T x) {

@@ -4,8 +4,9 @@
 
 namespace corpuscle::circuit {
 
-/// Constants common to all junctions of one model card at one temperature. Where v / (n_dio phi_t) exceeds `exp_limit` (at the current
-/// junction_current_limit) the current follows its tangent. Above v_limit = F_C P_B the capacitance follows its tangent.
+/// Constants common to all junctions of one model card at one temperature. The current is extrapolated linearly where v / (n_dio phi_t)
+/// exceeds `exp_limit`, the value at which it is junction_current_limit. The capacitance is extrapolated linearly above
+/// v_limit = F_C P_B.
 template <class T>
 struct JunctionConstants {
     T per_n_phi_t;                                            ///< 1 / (n_dio phi_t), 1/V

@@ -4,7 +4,7 @@
 
 namespace corpuscle::circuit {
 
-/// A quantity of the channel with its derivatives by x at the source and at the drain.
+/// A quantity of the channel with its derivatives with respect to x at the source and x at the drain.
 template <class T>
 struct ValueWithSlopes {
     T value, by_S, by_D;
@@ -19,7 +19,8 @@ struct MosChannel {
     T Q() const { return Q_S.value + Q_D.value; }
 };
 
-/// Unified current control model (thesis app. A) with the velocity saturation of ACM2. At each end x = (V_P - V)/phi_t + 1 and
+/// Unified current control model (thesis app. A) with the velocity saturation of ACM2 (Advanced Compact MOSFET model, version 2). At each
+/// end x = (V_P - V)/phi_t + 1 and
 ///
 ///     q + ln q = x;     i = (q_S + q_D + 2)(q_S - q_D) / (1 + zeta |q_S - q_D|)
 ///
@@ -30,8 +31,9 @@ struct MosChannel {
 ///
 /// ACM2 solves a third logarithm for l'. This rational form has the same limits: i = 2 q_sat / zeta in saturation, and i never falls as
 /// V_DS grows. It is better at V_DS = 0. There the conductance is that of free carriers, so the noise is 4kTg, and the capacitances are
-/// continuous where source and drain change places. zeta = 0 gives the plain model to the last bit, smooth to all orders. Otherwise
-/// current and charges have continuous first derivatives; the second derivative jumps at V_DS = 0 by order zeta.
+/// continuous where source and drain change places. zeta = 0 gives exactly the model without velocity saturation, which has continuous
+/// derivatives of all orders. Otherwise current and charges have continuous first derivatives; at V_DS = 0 the second derivative jumps by
+/// an amount of order zeta.
 /// In saturation i = 2 q_S / (1 + zeta) as q_S goes to 0: the saturation velocity limits diffusion, too.
 ///
 /// Charges (ACM2) in a form without cancellation as q goes to 0, with u = q_S + 1 - q_x, w = q_D + 1 - q_x, q_x = zeta i / 2:
@@ -44,7 +46,7 @@ class OrderedChannel {  // ordered: the higher end first
 
 public:
     struct EndSlopes {
-        T high, low;  // derivatives by x at the higher and at the lower end
+        T high, low;  // derivatives with respect to x at the higher and at the lower end
     };
     T i, Q_high, Q_low;
     EndSlopes di, dQ_high, dQ_low;
@@ -82,7 +84,7 @@ public:
     }
 
 private:
-    /// The part of the channel charge assigned to one end, and its derivatives by a (that end) and by b (the other end).
+    /// The part of the channel charge assigned to one end, and its derivatives with respect to a (that end) and b (the other end).
     struct EndCharge {
         T value, own, other;
         [[gnu::always_inline]] EndCharge(T a, T b, T per_T, T per_T2) {

@@ -17,10 +17,10 @@ inline double value_or(const Values& values, std::string_view name, double fallb
 
 /// Rejects a parameter name that is not in `known`. `owner`: name of the element or model.
 inline Result<void> check_value_names(std::string_view owner, const Values& values, std::span<const std::string_view> known,
-                                      const SourceLocation& place) {
+                                      const SourceLocation& location) {
     for (const auto& [name, value] : values)
         if (std::find(known.begin(), known.end(), name) == known.end())
-            return bad_input(fmt::format("{}: unknown parameter '{}'{}", owner, name, did_you_mean(name, known)), place);
+            return bad_input(fmt::format("{}: unknown parameter '{}'{}", owner, name, did_you_mean(name, known)), location);
     return {};
 }
 

@@ -9,7 +9,8 @@
 namespace corpuscle::circuit {
 namespace {
 
-/// Value times scale times (1 + tc1 dT + tc2 dT^2). dT is relative to tnom of the model, of .options, or 27 C.
+/// The value of an R, C or L at its temperature: value scale (1 + tc1 dT + tc2 dT^2). dT is relative to tnom of the model, of .options, or
+/// 27 C.
 double at_temperature(double value, const Element& e, const DeviceSetup& setup) {
     const Model* model = e.model < 0 ? nullptr : &setup.circuit().models[static_cast<std::size_t>(e.model)];
     const auto parameter = [&](std::string_view name, double fallback) {

@@ -33,7 +33,7 @@ std::complex<double> phasor(const Waveform& w) {
     return {w.ac_magnitude * num::cos_turns(turns), w.ac_magnitude * num::sin_turns(turns)};
 }
 
-/// With the keyword FORCE its value is the DC value plus a scale factor times the force input.
+/// A V or I source. With the keyword FORCE its value is the DC value plus a scale factor times the force input.
 class IndependentSource : public Device {
     Waveform wave_;
     double value_;
@@ -124,12 +124,12 @@ public:
     std::optional<double> principal_value() const override { return gain_; }
 };
 
-/// True if the text of an expression contains a comparison, a condition or a rounding function. An expression without text counts as such.
+/// True if an expression contains a comparison, a condition or a rounding function, or if it cannot be written as text.
 bool contains_jumps(const Expression& expression) {
     const auto text = expression.text([](const ExpressionInput&) { return std::string("x"); });
     if (!text) return true;
-    constexpr std::string_view signs[] = {"?", "<", ">", "==", "!=", "&&", "||", "sgn(", "u(", "floor(", "ceil(", "int("};
-    return std::any_of(std::begin(signs), std::end(signs), [&](auto sign) { return text->find(sign) != std::string::npos; });
+    constexpr std::string_view jumps[] = {"?", "<", ">", "==", "!=", "&&", "||", "sgn(", "u(", "floor(", "ceil(", "int("};
+    return std::any_of(std::begin(jumps), std::end(jumps), [&](auto jump) { return text->find(jump) != std::string::npos; });
 }
 
 class ExpressionCurrentSource final : public Device {
@@ -206,8 +206,7 @@ Result<std::unique_ptr<Device>> make_controlled_source(const Element& e, DeviceS
     if (by_current) {
         const int control = setup.circuit().find_element(e.control_source);
         if (control < 0 || setup.branch_unknown(control) < 0)
-            return bad_input(fmt::format("{}: unknown voltage source '{}'; its current is the control", e.name, e.control_source),
-                             e.location);
+            return bad_input(fmt::format("{}: unknown controlling voltage source '{}'", e.name, e.control_source), e.location);
         unknowns.push_back(setup.branch_unknown(control));
     } else {
         unknowns.push_back(setup.node_unknown(e.nodes[2]));

@@ -39,7 +39,7 @@ double SourceWaveform::at(double t) const {
     }
 }
 
-/// v1 v2 td tr tf pw per np
+/// The arguments of PULSE are v1 v2 td tr tf pw per np.
 double SourceWaveform::pulse(double t) const {
     const auto positive_or = [&](std::size_t k, double fallback) { return number(k, 0) > 0 ? number(k, 0) : fallback; };
     const double v1 = number(0, 0), v2 = number(1, 0), rise = positive_or(3, step_), fall = positive_or(4, step_), width = number(5, stop_);
@@ -54,7 +54,7 @@ double SourceWaveform::pulse(double t) const {
     return t < start + (rise + width + fall) ? v2 + (v1 - v2) * ((t - down) / fall) : v1;
 }
 
-/// vo va freq td theta phase
+/// The arguments of SIN are vo va freq td theta phase.
 double SourceWaveform::sine(double t) const {
     const double elapsed = t - number(3, 0), phase = number(5, 0) / 360;
     if (elapsed < 0) return number(0, 0) + number(1, 0) * num::sin_turns(phase);
@@ -62,7 +62,7 @@ double SourceWaveform::sine(double t) const {
     return number(0, 0) + number(1, 0) * num::sin_turns(turns - std::floor(turns)) * num::exp(-elapsed * number(4, 0));
 }
 
-/// v1 v2 td1 tau1 td2 tau2
+/// The arguments of EXP are v1 v2 td1 tau1 td2 tau2.
 double SourceWaveform::exponential(double t) const {
     const double v1 = number(0, 0), v2 = number(1, 0), up = number(2, 0), down = number(4, up + step_);
     const auto positive_or = [&](std::size_t k) { return number(k, 0) > 0 ? number(k, 0) : step_; };

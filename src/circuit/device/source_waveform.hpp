@@ -7,8 +7,8 @@
 
 namespace corpuscle::circuit {
 
-/// PULSE, SIN, EXP and PWL as in SPICE. Defaults depend on the analysis: rise and fall times are its step, pulse width and period are its
-/// end, and a sine has one period.
+/// PULSE, SIN, EXP and PWL as in SPICE. Defaults depend on the step and the end time of the analysis (s): rise and fall times are `step`,
+/// pulse width and period are `stop`, and the frequency of a sine is 1 / `stop`.
 class SourceWaveform {
     Waveform wave_;
     double step_ = 0, stop_ = 0;

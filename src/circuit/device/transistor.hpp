@@ -4,7 +4,7 @@
 
 namespace corpuscle::circuit {
 
-/// M: drain, gate, source, bulk, with a model of level=80. The equations are in uicm.hpp.
+/// The device of an M line: nodes drain, gate, source, bulk, and a model with level=80. The equations are in uicm.hpp.
 Result<std::unique_ptr<Device>> make_transistor(const Element&, DeviceSetup&);
 /// Transistors on SIMD lanes of the best instruction set of this machine. Results are bit-identical on all instruction sets. Errors: see
 /// instruction_set().

@@ -11,8 +11,8 @@ struct Terminals {
     enum { D, G, S, B };
 };
 
-/// Currents from the nodes into the device (A) and charges on it (C), at drain, gate, source, bulk. di[a][b] is the derivative of i[a] by
-/// the voltage of b; dq likewise.
+/// Currents from the nodes into the device (A) and charges on it (C), at drain, gate, source, bulk. di[a][b] is the derivative of i[a] with
+/// respect to the voltage of b; dq likewise.
 template <class T>
 struct UicmEvaluation : Terminals {
     T i[4], q[4], di[4][4], dq[4][4];
@@ -130,7 +130,8 @@ private:
         return evaluate_channel((V_P - at.sb) * per_phi_t + T(1.0), (V_P - at.db) * per_phi_t + T(1.0), zeta);
     }
 
-    /// Derivatives by the four terminal voltages, from the derivatives by x at source and drain. They sum to zero.
+    /// Derivatives with respect to the four terminal voltages, from the derivatives with respect to x at source and drain. They sum to
+    /// zero.
     struct Slopes {
         T d, g, s, b;
     };
@@ -140,7 +141,7 @@ private:
         return {d, g, s, -(d + g + s)};
     }
 
-    /// `early_d`: derivative of I_D by V_DS that comes from the Early factor.
+    /// `early_d`: derivative of I_D with respect to V_DS that comes from the Early factor.
     [[gnu::always_inline]] void currents(const ValueWithSlopes<T>& i, T factor, T early_d, const JunctionEvaluation<T>& b_s,
                                          const JunctionEvaluation<T>& b_d, UicmEvaluation<T>& out) const {
         const T I = factor * i.value, zero(0.0);

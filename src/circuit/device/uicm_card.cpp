@@ -29,7 +29,7 @@ double junction_growth(const UicmCard& card, double T, double T_nom, double phi_
 /// Argument of exp at which the junction current is junction_current_limit.
 double exp_limit_of(double I_sat) { return I_sat > 0 ? std::clamp(num::log(junction_current_limit / I_sat), 0.0, 600.0) : 0; }
 
-enum RandomPurpose : std::uint32_t { mismatch_purpose = 0x75690001, process_purpose };  // separates the streams of the Philox generator
+enum RandomPurpose : std::uint32_t { mismatch_purpose = 0x75690001, process_purpose };  // selects a stream of the Philox generator
 
 }  // namespace
 
@@ -63,9 +63,9 @@ UicmConstants uicm_constants(const UicmCard& card, const UicmInstance& instance,
 
 UicmShift sample_mismatch(const UicmCard& card, const UicmInstance& instance, std::uint64_t seed, std::uint32_t device,
                           std::uint64_t chip) {
-    const double per_side = 1 / num::sqrt(instance.area());
+    const double per_root_area = 1 / num::sqrt(instance.area());
     const auto deviates = normal_pair(seed, device, mismatch_purpose, chip);
-    return {card.A_VT * per_side * deviates.first, num::exp(card.A_IS * per_side * deviates.second)};
+    return {card.A_VT * per_root_area * deviates.first, num::exp(card.A_IS * per_root_area * deviates.second)};
 }
 
 UicmInstance with_mismatch(UicmInstance instance, const UicmCard& card, std::uint64_t seed, std::uint32_t device, std::uint64_t chip) {

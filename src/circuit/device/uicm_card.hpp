@@ -10,8 +10,9 @@ namespace corpuscle::circuit {
 
 /// A process card: `.model nch nmos (level=80 isq=112n vto=0.461 ...)`. The two polarities are mirror images: parameters have the same
 /// sign for both, and vto > 0 is an enhancement device, also for PMOS.
-/// Effects of length: DIBL and velocity saturation are proportional to 1/L, the Early voltage to L. For zeta = mu phi_t / (L v_sat) this
-/// is the definition. For all three it makes a stack of elements equal to one device of their total length.
+/// Effects of length: drain-induced barrier lowering (DIBL) and velocity saturation are proportional to 1/L, the Early voltage to L. For
+/// velocity saturation this follows from the definition zeta = mu phi_t / (L v_sat). With these proportions a stack of elements equals one
+/// device of their total length.
 struct UicmCard {
     double I_SQ = 112e-9, V_T0 = 0.461, n = 1.27, sigma_L = 0, zeta_L = 0, V_E = 8e6, C_ox = 8.42e-3;
     double C_GSO = 0, C_GDO = 0, C_GBO = 0;
@@ -37,7 +38,7 @@ struct UicmCard {
         {"cjsw", &UicmCard::C_JSW, "F/m", 0, 1, "junction capacitance at 0 V per perimeter; pb and mj apply to it, too"},
         {"pb", &UicmCard::P_B, "V", 0.1, 5, "built-in potential of the junctions"},
         {"mj", &UicmCard::M_J, "", 0, 0.95, "grading coefficient of the junctions"},
-        {"fc", &UicmCard::F_C, "", 0, 0.95, "fraction of pb above which the junction capacitance follows its tangent"},
+        {"fc", &UicmCard::F_C, "", 0, 0.95, "fraction of pb above which the junction capacitance is extrapolated linearly"},
         {"js", &UicmCard::J_S, "A/m^2", 0, 1, "saturation current of the junctions per area"},
         {"jssw", &UicmCard::J_SSW, "A/m", 0, 1, "saturation current of the junctions per perimeter"},
         {"nj", &UicmCard::n_dio, "", 0.5, 10, "ideality factor of the junctions (n_dio)"},
@@ -50,16 +51,16 @@ struct UicmCard {
         {"nt", &UicmCard::N_ot, "1/m^2", 0, 1e25, "effective trap density, for flicker noise"},
         {"avt", &UicmCard::A_VT, "V m", 0, 1, "mismatch of vto between devices, times the root of the gate area (Pelgrom)"},
         {"ais", &UicmCard::A_IS, "m", 0, 1, "relative mismatch of isq between devices, times the root of the gate area"},
-        {"svt0", &UicmCard::S_VT0, "V", 0, 5, "process variation of vto between runs (standard deviation)"},
-        {"sis", &UicmCard::S_IS, "", 0, 5, "relative process variation of isq between runs (standard deviation)"},
+        {"svt0", &UicmCard::S_VT0, "V", 0, 5, "process variation of vto between chips (standard deviation)"},
+        {"sis", &UicmCard::S_IS, "", 0, 5, "relative process variation of isq between chips (standard deviation)"},
     };
 };
 
 /// The size of a transistor: `m1 d g s b nch w=1.5u l=0.5u m=2 stack=8`. It is an array of m parallel columns, each of `stack` elements in
 /// series under one gate. W and L are those of an element. The array is modelled as one device with I_S = I_SQ m W / (stack L), which is
-/// exact for the currents of the plain model by the series identity (thesis eq. 31).
-/// Not exact: dynamic charges of inner nodes; sigma, zeta and Early voltage, which are those of the total length although the element at
-/// the drain carries most of the effect. Left out: junctions and overlaps of inner nodes.
+/// exact for the currents of the model without DIBL, velocity saturation and Early effect, by the series identity (thesis eq. 31).
+/// Not exact: dynamic charges of inner nodes; DIBL, velocity saturation and Early effect, which are computed from the total length although
+/// they occur mostly in the element at the drain. Left out: junctions and overlaps of inner nodes.
 struct UicmInstance {
     double W = 1e-6, L = 1e-6, m = 1, stack = 1, delvto = 0, mulu0 = 1, AS = -1, AD = -1, PS = -1, PD = -1;
 
@@ -78,10 +79,11 @@ struct UicmInstance {
     double area() const { return W * L * m * stack; }
 };
 
-/// A: above this current a junction follows its tangent, so that Newton iterations cannot overflow. Real currents are far lower.
+/// Above this current (A) the current of a junction is extrapolated linearly, so that Newton iterations cannot overflow. Real currents are
+/// far lower.
 inline constexpr double junction_current_limit = 10e-3;
 
-/// temperature: degrees Celsius.
+/// Computes the constants of a transistor at a temperature in degrees Celsius.
 UicmConstants uicm_constants(const UicmCard&, const UicmInstance&, double temperature, bool pmos);
 
 /// The deviation of a transistor from its nominal parameters.
@@ -90,7 +92,8 @@ struct UicmShift {
 };
 
 /// The mismatch of one transistor, a random sample for (seed, device, chip): A_VT / sqrt(area) times a normal deviate, and the factor
-/// exp(A_IS / sqrt(area) times another). The area is the total gate area of the array. `device`: index of the transistor in the netlist.
+/// exp(A_IS / sqrt(area) times another deviate). The area is the total gate area of the array. `device`: index of the transistor in the
+/// netlist.
 UicmShift sample_mismatch(const UicmCard&, const UicmInstance&, std::uint64_t seed, std::uint32_t device, std::uint64_t chip);
 /// The same mismatch as changes of delvto and mulu0.
 UicmInstance with_mismatch(UicmInstance, const UicmCard&, std::uint64_t seed, std::uint32_t device, std::uint64_t chip);
@@ -105,7 +108,7 @@ UicmShift process_shift(const UicmCard&, bool pmos, const double (&deviates)[4])
 /// The card with the process variation of one chip.
 UicmCard with_process(UicmCard, bool pmos, std::uint64_t seed, std::uint64_t chip);
 
-/// Constants with mismatch and process shifts applied: equal to those of with_mismatch and with_process, except for rounding.
+/// Applies mismatch and process shifts to the constants. The result equals that of with_mismatch() and with_process() except for rounding.
 UicmConstants with_shifts(UicmConstants, const UicmShift& mismatch, const UicmShift& process);
 
 }  // namespace corpuscle::circuit

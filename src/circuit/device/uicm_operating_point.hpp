@@ -9,7 +9,7 @@ namespace corpuscle::circuit {
 
 /// Currents have their real sign: into the drain, out of the bulk. All other quantities are those of the equivalent NMOS.
 struct UicmOperatingPoint {
-    std::string_view inversion_level;     ///< at the end with the larger i: off (i < 1e-7), weak (i < 1), moderate or strong (i > 100)
+    std::string_view inversion_level;     ///< by i, the larger of i_f and i_r: off (i < 1e-7), weak (i < 1), moderate or strong (i > 100)
     std::string_view region;              ///< off; triode; saturation, |V_DS| >= phi_t (sqrt(1 + i_f) + 3)
     double i_f, i_r;                      ///< inversion coefficients q (q + 2) at source and drain
     double I_D, I_bs, I_bd;               ///< A: channel, drain to source; junctions, bulk to source and bulk to drain

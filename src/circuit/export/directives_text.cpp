@@ -21,10 +21,10 @@ public:
         if (c.name == "noise") return noise(c);
         if (c.name == "print") return print(c);
         if (c.name == "force") return "";  // the sources contain it
-        for (const std::string_view own : {"expect", "step", "mc", "spike", "assert", "probe"})
-            if (c.name == own)
-                return comment_out(c, own == "step" || own == "mc" ? "ngspice has no such directive; the nominal values are exported"
-                                                                   : "ngspice has no such directive");
+        for (const std::string_view name : {"expect", "step", "mc", "spike", "assert", "probe"})
+            if (c.name == name)
+                return comment_out(c, name == "step" || name == "mc" ? "ngspice has no such directive; the nominal values are exported"
+                                                                     : "ngspice has no such directive");
         return line(c.name, renamed(c));
     }
 
@@ -104,7 +104,8 @@ private:
 
 namespace {
 
-/// The order in which ngspice runs analyses, for any order of their lines. Of one kind, it runs the last line first.
+/// The order in which ngspice runs analyses, which does not depend on the order of their lines. It runs several lines of one analysis in
+/// reverse.
 constexpr std::string_view run_order[] = {"ac", "dc", "op", "tran", "noise", "sens", "tf"};
 std::ptrdiff_t run_rank(std::string_view kind) {
     return std::find(std::begin(run_order), std::end(run_order), kind) - std::begin(run_order);

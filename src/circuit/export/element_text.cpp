@@ -51,7 +51,7 @@ public:
 private:
     double value(std::string_view name, double default_value) const { return value_or(e_.values, name, default_value); }
     const Model* model() const { return e_.model < 0 ? nullptr : &circuit_.models[static_cast<std::size_t>(e_.model)]; }
-    /// The value of the element, or else of its model.
+    /// The value that the element has for this name, or else its model.
     double value_or_of_model(std::string_view name, double default_value) const {
         return value(name, model() ? value_or(model()->values, name, default_value) : default_value);
     }
@@ -61,8 +61,8 @@ private:
         return e_.values.contains("dtemp") ? fmt::format(" dtemp={}", value("dtemp", 0)) : "";
     }
 
-    /// Parallel elements are merged into one. An element that .dc sweeps is written with its value at temperature, because ngspice would
-    /// apply the temperature coefficients to each value of the sweep.
+    /// Parallel elements are merged into one. An element that .dc sweeps is written with its value at its temperature and without
+    /// temperature coefficients, because ngspice would apply these to each value of the sweep.
     std::string passive() const {
         const double m = value("m", 1), scaled = e_.value * value("scale", 1), total = e_.letter == 'c' ? scaled * m : scaled / m;
         const double tc1 = value_or_of_model("tc1", 0), tc2 = value_or_of_model("tc2", 0),
@@ -93,7 +93,7 @@ private:
         if (!force) return out + '\n';
         const auto points = pwl_force(circuit_, w.numbers.empty() ? 1 : w.numbers[0]);
         if (!points) return points.error();
-        if (points->empty()) return fmt::format("* {} carries a force in Corpuscle; here it is constant\n{}\n", e_.name, out);
+        if (points->empty()) return fmt::format("* {} is a FORCE source in Corpuscle; here it is constant\n{}\n", e_.name, out);
         return fmt::format("* {}: the force of .force, piecewise linear\n{} {}\n", e_.name, out, *points);
     }
     static std::string_view shape_name(Waveform::Shape shape) {
@@ -167,9 +167,9 @@ std::string model_text(const Circuit& circuit, std::size_t k, const ExportNames&
     if (m.type != "d") return "";
     std::string out = fmt::format(".model {} d(", names.model(static_cast<int>(k)));
     for (const auto& [name, value] : m.values) {
-        const bool is_unknown = name == "level" || name == "jsw" || name == "ikf" || name == "trs" || name == "rsw" ||
-                                (name == "bv" && value == 0) || (name == "cjo" && m.values.contains("cj0"));
-        if (!is_unknown) out += fmt::format("{}{}={}", out.back() == '(' ? "" : " ", name == "cj0" ? "cjo" : name, value);
+        const bool is_left_out = name == "level" || name == "jsw" || name == "ikf" || name == "trs" || name == "rsw" ||
+                                 (name == "bv" && value == 0) || (name == "cjo" && m.values.contains("cj0"));
+        if (!is_left_out) out += fmt::format("{}{}={}", out.back() == '(' ? "" : " ", name == "cj0" ? "cjo" : name, value);
     }
     return out + ")\n";
 }

@@ -24,14 +24,15 @@ std::vector<std::string> unique_names(const std::vector<std::string>& wanted, st
     for (std::size_t k = 0; k < wanted.size(); ++k)
         if (legal(wanted[k], allowed) == wanted[k] && taken.insert(wanted[k]).second) out[k] = wanted[k];
     for (std::size_t k = 0; k < wanted.size(); ++k) {
-        const auto plain = legal(wanted[k], allowed);
+        const auto legal_name = legal(wanted[k], allowed);
         for (int n = 1; out[k].empty(); ++n)
-            if (auto name = n == 1 ? plain : fmt::format("{}_{}", plain, n); taken.insert(name).second) out[k] = std::move(name);
+            if (auto name = n == 1 ? legal_name : fmt::format("{}_{}", legal_name, n); taken.insert(name).second) out[k] = std::move(name);
     }
     return out;
 }
 
-std::string letter_first(const Element& e) {
+/// The name that an element has in the export, before illegal letters are replaced.
+std::string exported_name(const Element& e) {
     const std::string letters = e.letter == 'm' ? "xm" : std::string(1, e.letter);
     if (e.name.find('.') != std::string::npos) return letters + "_" + e.name;
     return e.letter == 'm' ? "x" + e.name : e.name;
@@ -44,7 +45,7 @@ bool is_in_name(char c) { return is_letter_or_digit(c) || c == '_' || c == '.' |
 ExportNames::ExportNames(const Circuit& circuit) : circuit_(circuit) {
     nodes_ = unique_names(circuit.nodes, "_.#");
     std::vector<std::string> elements, models;
-    for (const auto& e : circuit.elements) elements.push_back(legal(letter_first(e), "_"));
+    for (const auto& e : circuit.elements) elements.push_back(legal(exported_name(e), "_"));
     for (const auto& m : circuit.models) models.push_back(legal(m.name, "_"));
     elements_ = unique_names(elements, "_"), models_ = unique_names(models, "_");
 }
@@ -69,7 +70,7 @@ std::string ExportNames::word(std::string_view text) const {
         out += text.substr(at, open + 1 - at);
         at = open + 1;
         const char kind = name < open ? text[name] : ' ';
-        if (open - name > 3 || (kind != 'v' && kind != 'i')) continue;  // v vm vdb ...; not max(
+        if (open - name > 3 || (kind != 'v' && kind != 'i')) continue;  // a view such as v vm vdb, but not max(
         auto inside = text.substr(at, close - at);
         for (bool first = true; first || !inside.empty(); first = false) {
             const auto comma = std::min(inside.find(','), inside.size());

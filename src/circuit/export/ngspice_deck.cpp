@@ -32,11 +32,11 @@ std::string header(const Circuit& c, bool transistors) {
     if (transistors)
         out +=
             "* Transistors are expressions, so their noise and the table of the operating point are missing. Nodes such as xm1.zs\n"
-            "* belong to them (about ln q at an end of the channel). The parameters of a transistor are valid at one temperature only.\n";
+            "* belong to the transistors; they solve their equations. The parameters of a transistor are valid at one temperature only.\n";
     return out;
 }
 
-/// Tolerances are tighter than ours, because ngspice stops iterating one step earlier and its defaults are far too loose for
+/// Tolerances are tighter than in Corpuscle, because ngspice stops iterating one step earlier and its defaults are far too loose for
 /// picoamperes. itl2 limits the iterations for the next point of a sweep. In transients, ngspice's trapezoidal rule fails at picoamperes
 /// ("timestep too small"); Gear's method does not.
 std::string options_text(const Tolerances& t, const Circuit& c) {

@@ -31,7 +31,7 @@ struct EliminationList {
 /// A block of chips: linearized equations I + G x + d/dt (Q + C x) = 0 about the points at which the devices were last evaluated, and the
 /// state of each transient. The last index of x, I, Q, G, C is for ground.
 struct ChipBlock {
-    std::size_t unknowns, entries, points, devices;
+    std::size_t unknowns, entries, points, devices;  // points: length of the history
     EliminationList list;
     const int *row, *column, *slot;  // of each matrix entry; entries are in the order of their slots
     const char* is_voltage;          // [unknowns]: not 0 if the unknown is a voltage
@@ -42,11 +42,11 @@ struct ChipBlock {
     LaneRow *x, *q;                             // unknowns [unknowns + 1] and charges at the end of the current step; ground is 0
     LaneRow *source_currents, *history, *rate;  // source currents at the end of the step; dq/dt - a q; dq/dt at the last point
     LaneRow *r, *step, *error;                  // residual, Newton step, error of the time step
-    LaneRow *slots, *inverse_pivot, *work;
-    LaneRow *scale, *inverse_allowed;  // of each unknown: largest magnitude so far; 1 / allowed error, 0 if it has no charge
-    LaneRow *relative, *floor;         // allowed error = relative * scale + floor
-    LaneRow *past_x, *past_q;          // [points][unknowns]
-    LaneRow* linearized_at;            // [devices][4]: voltages at which each device was last evaluated
+    LaneRow *slots, *inverse_pivot, *work;      // of the elimination
+    LaneRow *scale, *inverse_allowed;           // of each unknown: largest magnitude so far; 1 / allowed error, 0 if it has no charge
+    LaneRow *relative, *floor;                  // allowed error = relative * scale + floor
+    LaneRow *past_x, *past_q;                   // [points][unknowns]
+    LaneRow* linearized_at;                     // [devices][4]: voltages at which each device was last evaluated
 };
 
 // Arguments of the kernels. A flag is 1 or 0 for each chip.
@@ -62,6 +62,7 @@ struct StepCall {
     LaneRow updates_x;                  // flag: add the step to x
     LaneRow size, clamped, non_finite;  // out: largest component / allowed error, > 0 if limited to 0.5 V, not 0 if NaN or infinite
 };
+/// The charge error of unknown n is charge_weight q[n] + rate_weight rate[n] + the sum of past_weights[k] past_q[k][n].
 struct ErrorCall {
     LaneRow charge_weight, rate_weight;
     const LaneRow* past_weights;  // [points]
@@ -71,8 +72,8 @@ struct AcceptCall {
     LaneRow is_accepted, a;  // flag; dq/dt = a q + history
 };
 
-/// Linearized currents and charges of a transistor: i + g v + d/dt (q + c v). g[4 a + b] is the derivative at terminal a by the voltage of
-/// b.
+/// Linearized currents and charges of a transistor: i + g v + d/dt (q + c v). g[4 a + b] is the derivative at terminal a with respect to
+/// the voltage of terminal b.
 struct Linearization {
     double i[4], q[4], g[16], c[16];
 };

@@ -163,16 +163,16 @@ template <class T>
 void residual(const ChipBlock& block, const SolveCall& call, LaneRow& worst) {
     const ChipBlock b = block;  // a local copy cannot alias the stores below
     const Wide<T> a(call.a);
-    LaneRow *const left = b.error, *const largest = b.work;
-    for (std::size_t n = 0; n < b.unknowns; ++n) left[n] = b.r[n], row<T>(b.r[n]).abs().to(largest[n]);
+    LaneRow *const sum = b.error, *const largest = b.work;
+    for (std::size_t n = 0; n < b.unknowns; ++n) sum[n] = b.r[n], row<T>(b.r[n]).abs().to(largest[n]);
     for (std::size_t e = 0; e < b.entries; ++e) {
         const Wide<T> part = (row<T>(b.G[e]) + a * row<T>(b.C[e])) * row<T>(b.step[b.column[e]]);
-        (row<T>(left[b.row[e]]) + part).to(left[b.row[e]]);
+        (row<T>(sum[b.row[e]]) + part).to(sum[b.row[e]]);
         max(part.abs(), row<T>(largest[b.row[e]])).to(largest[b.row[e]]);
     }
     Wide<T> max_residual(0.0);
     for (std::size_t n = 0; n < b.unknowns; ++n)
-        max_residual = max(row<T>(left[n]).abs() / max(row<T>(largest[n]), Wide<T>(1e-300)), max_residual);
+        max_residual = max(row<T>(sum[n]).abs() / max(row<T>(largest[n]), Wide<T>(1e-300)), max_residual);
     max_residual.to(worst);
 }
 

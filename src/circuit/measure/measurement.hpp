@@ -1,5 +1,5 @@
 #pragma once
-// Measurements for .meas: each takes one number from a curve point by point, in constant memory.
+// Measurements for .meas: each computes one number from a curve, point by point and in constant memory.
 
 #include <limits>
 #include <optional>
@@ -63,8 +63,8 @@ class CrossingCounter {
     double count_ = 0, position_ = not_found;
 
 public:
-    CrossingCounter(CurveFollower traced, EdgeSelection edges) : follower_(std::move(traced)), edges_(edges) {}
-    /// Returns true if the newest segment has the selected crossing. For the last crossing, true at every crossing so far.
+    CrossingCounter(CurveFollower follower, EdgeSelection edges) : follower_(std::move(follower)), edges_(edges) {}
+    /// Returns true if the newest segment has the selected crossing. If the last crossing is selected, returns true at every crossing.
     bool add_point(double x, const PlotRow&);
     double count() const { return count_; }
     double position() const { return position_; }  ///< NaN if it was not found yet
@@ -84,7 +84,7 @@ class PositionMeasurement final : public Measurement {
     EventPoint event_;
 
 public:
-    explicit PositionMeasurement(EventPoint spot) : event_(std::move(spot)) {}
+    explicit PositionMeasurement(EventPoint event) : event_(std::move(event)) {}
     void add_point(double x, const PlotRow& row) override { event_.add_point(x, row); }
     double value() const override { return event_.position(); }
 };
@@ -117,11 +117,11 @@ class ValueMeasurement final : public Measurement {
     std::optional<LineSegment> first_segment_;
     double value_ = not_found;
 
-    double value_in(const LineSegment& piece, double x) const { return is_slope_ ? piece.slope() : piece.at(x); }
+    double value_in(const LineSegment& segment, double x) const { return is_slope_ ? segment.slope() : segment.at(x); }
 
 public:
-    ValueMeasurement(CurveFollower curve, bool slope, EventPoint spot)
-        : curve_(std::move(curve)), is_slope_(slope), event_(std::move(spot)) {}
+    ValueMeasurement(CurveFollower curve, bool slope, EventPoint event)
+        : curve_(std::move(curve)), is_slope_(slope), event_(std::move(event)) {}
     void add_point(double x, const PlotRow&) override;
     double value() const override;
 };
@@ -137,13 +137,14 @@ private:
     Interval interval_;
     bool any_ = false;
     double low_ = 0, high_ = 0, low_at_ = 0, high_at_ = 0;
-    double length_ = 0, area_ = 0, integral_ = 0, squares_ = 0, only_ = 0;
+    double length_ = 0, area_ = 0, integral_ = 0, squares_ = 0;  // area_ is integrated over |dx|; squares_: integral of the square
+    double only_ = 0;                                            // first value, the result if the interval has length 0
 
     void update_extremes(double x, double y);
 
 public:
-    SummaryMeasurement(Statistic of, CurveFollower curve, Interval stretch)
-        : statistic_(of), curve_(std::move(curve)), interval_(stretch) {}
+    SummaryMeasurement(Statistic statistic, CurveFollower curve, Interval interval)
+        : statistic_(statistic), curve_(std::move(curve)), interval_(interval) {}
     void add_point(double x, const PlotRow&) override;
     double value() const override;
 };

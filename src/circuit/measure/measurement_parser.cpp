@@ -9,7 +9,7 @@ namespace {
 
 struct SummaryWord {
     std::string_view word;
-    SummaryMeasurement::Statistic of;
+    SummaryMeasurement::Statistic statistic;
 };
 constexpr SummaryWord summaries[] = {{"min", SummaryMeasurement::Statistic::min},       {"max", SummaryMeasurement::Statistic::max},
                                      {"pp", SummaryMeasurement::Statistic::pp},         {"min_at", SummaryMeasurement::Statistic::min_at},
@@ -24,7 +24,7 @@ struct EdgeWord {
 constexpr EdgeWord edge_words[] = {
     {"rise", EdgeSelection::Kind::rise}, {"fall", EdgeSelection::Kind::fall}, {"cross", EdgeSelection::Kind::cross}};
 
-/// The position of '=' in CURVE=VALUE, ignoring those inside par('...').
+/// The position of '=' in CURVE=VALUE. An '=' inside par('...') does not count.
 std::size_t equals_in(const std::string& word) {
     const bool is_expression = word.starts_with("par('");
     return word.find('=', is_expression ? word.find('\'', 5) : 0);
@@ -57,22 +57,22 @@ private:
     }
 
     ParseResult swept() {
-        const auto what = peek();
+        const auto kind = peek();
         for (const auto& s : summaries)
-            if (what == s.word) return ++at_, summary(s.of);
-        if (what == "find" || what == "deriv") return ++at_, find_or_deriv(what == "deriv");
-        if (what == "trig") return ++at_, between();
-        if (what == "when" || what == "count") {
+            if (kind == s.word) return ++at_, summary(s.statistic);
+        if (kind == "find" || kind == "deriv") return ++at_, find_or_deriv(kind == "deriv");
+        if (kind == "trig") return ++at_, distance();
+        if (kind == "when" || kind == "count") {
             ++at_;
-            auto crossings = edge(what == "count");
+            auto crossings = edge(kind == "count");
             if (!crossings) return crossings.error();
-            if (what == "count") return ParseResult(std::make_unique<CountMeasurement>(std::move(*crossings)));
+            if (kind == "count") return ParseResult(std::make_unique<CountMeasurement>(std::move(*crossings)));
             return ParseResult(std::make_unique<PositionMeasurement>(EventPoint{not_found, std::move(*crossings)}));
         }
         return error_here(
             fmt::format("unknown measurement '{}'; expected one of find, when, deriv, min, max, pp, avg, rms, integ, min_at, max_at, trig, "
                         "count, param=",
-                        what));
+                        kind));
     }
 
     ParseResult operating_point() {
@@ -102,7 +102,7 @@ private:
         return out;
     }
 
-    /// Reads the number of "name=NUMBER", if the next word is that.
+    /// Reads the number if the next word is "name=NUMBER".
     Result<std::optional<double>> option(std::string_view name) {
         const auto word = peek();
         if (!word.starts_with(name) || word.size() <= name.size() || word[name.size()] != '=') return std::optional<double>();
@@ -113,7 +113,7 @@ private:
         return std::optional<double>(number->value);
     }
 
-    /// Reads from= and to=; true if there was one of them.
+    /// Reads from= and to=. Returns true if there was at least one of them.
     Result<bool> bounds(Interval& interval) {
         const auto from = option("from");
         if (!from) return from.error();
@@ -124,8 +124,8 @@ private:
         return *from || *to;
     }
 
-    /// Reads rise=, fall= or cross=; true if there was one of them.
-    Result<bool> which(EdgeSelection& edges) {
+    /// Reads rise=, fall= or cross=. Returns true if there was one of them.
+    Result<bool> numbered_edge(EdgeSelection& edges) {
         for (const auto& e : edge_words) {
             const bool last = peek() == fmt::format("{}=last", e.word);
             if (last) ++at_;
@@ -147,7 +147,7 @@ private:
             more = false;
             for (const auto& e : edge_words)
                 if (is_count && peek() == e.word) out.kind = e.kind, more = true, ++at_;
-            const auto chosen = is_count ? Result<bool>(false) : which(out);
+            const auto chosen = is_count ? Result<bool>(false) : numbered_edge(out);
             if (!chosen) return chosen.error();
             const auto bounded = bounds(out.interval);
             if (!bounded) return bounded.error();
@@ -174,12 +174,12 @@ private:
         const auto other = level ? left : curve(right);
         if (!other) return other.error();
         ++at_;
-        const auto which = edges(is_count);
-        if (!which) return which.error();
-        return CrossingCounter(level ? CurveFollower(*left, level->value) : CurveFollower(*left, *other), *which);
+        const auto selection = edges(is_count);
+        if (!selection) return selection.error();
+        return CrossingCounter(level ? CurveFollower(*left, level->value) : CurveFollower(*left, *other), *selection);
     }
 
-    ParseResult summary(SummaryMeasurement::Statistic of) {
+    ParseResult summary(SummaryMeasurement::Statistic statistic) {
         const auto view = curve();
         if (!view) return view.error();
         Interval interval;
@@ -188,7 +188,7 @@ private:
             if (!bounded) return bounded.error();
             more = *bounded;
         }
-        return ParseResult(std::make_unique<SummaryMeasurement>(of, CurveFollower(*view), interval));
+        return ParseResult(std::make_unique<SummaryMeasurement>(statistic, CurveFollower(*view), interval));
     }
 
     ParseResult find_or_deriv(bool slope) {
@@ -204,7 +204,7 @@ private:
         return ParseResult(std::make_unique<ValueMeasurement>(CurveFollower(*view), slope, EventPoint{not_found, std::move(*crossings)}));
     }
 
-    ParseResult between() {
+    ParseResult distance() {
         auto trigger = position();
         if (!trigger) return trigger.error();
         if (peek() != "targ") return error_here("expected targ after trig");
@@ -228,10 +228,10 @@ private:
         const auto view = curve();
         if (!view) return view.error();
         std::optional<double> level;
-        const auto which = edges(false, &level);
-        if (!which) return which.error();
+        const auto selection = edges(false, &level);
+        if (!selection) return selection.error();
         if (!level) return error_here(fmt::format("expected val= after '{}'", name));
-        return EventPoint{not_found, CrossingCounter(CurveFollower(*view, *level), *which)};
+        return EventPoint{not_found, CrossingCounter(CurveFollower(*view, *level), *selection)};
     }
 };
 

@@ -71,7 +71,7 @@ Result<int> CircuitBuilder::find_or_add_model(Scope& scope, const WordRef& name,
     if (std::find(types.begin(), types.end(), type) == types.end())
         return bad_input(fmt::format("{}: model '{}' has type {}; expected {}", user, name.view(), s.text(2), alternatives(types)),
                          name.location());
-    if (const auto made = f->models.find(name.view()); made != f->models.end()) return made->second;
+    if (const auto existing = f->models.find(name.view()); existing != f->models.end()) return existing->second;
     Model model{f->path + std::string(name.view()), std::string(type), s.line.location(), {}, {}};
     for (const auto& pair : s.pairs) {
         if (pair.value.kind == Word::Kind::quoted || (s.text(pair.name) == "version" && !parse_number(s.text(pair.value)))) {

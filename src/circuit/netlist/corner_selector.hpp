@@ -1,6 +1,6 @@
 #pragma once
-// Selects a process corner: libraries are read with the section of this name instead of the one in the netlist. Inside circuit/netlist
-// only.
+// Selects a process corner: libraries are read with the section of this name instead of the section that the netlist names. Used inside
+// circuit/netlist only.
 
 #include <string>
 #include <string_view>

@@ -20,16 +20,16 @@ class CircuitElaborator {
     CircuitBuilder builder_;
     Scope top_;
 
-    struct NodeVoltage {  // of .ic and .nodeset
+    struct NodeVoltage {  // from .ic or .nodeset
         std::string node;
         double value;
-        SourceLocation place;
+        SourceLocation location;
         bool is_ic;
     };
     std::vector<NodeVoltage> node_voltages_;
 
 public:
-    CircuitElaborator(const ParsedNetlist& parsed, const ResolvedOverrides& changes) : parsed_(parsed), builder_(parsed, changes) {
+    CircuitElaborator(const ParsedNetlist& parsed, const ResolvedOverrides& overrides) : parsed_(parsed), builder_(parsed, overrides) {
         top_.definition = &parsed.top;
     }
 
@@ -79,10 +79,10 @@ private:
         auto words = node_words(s);
         if (words.size() < 1)
             return bad_input(fmt::format("{}: expected nodes and the name of a subcircuit", name), s.location(std::size_t{1}));
-        const Word of = words.back();
+        const Word subcircuit_name = words.back();
         words.pop_back();
         Scope inner;
-        if (const auto ok = find_body(scope, s, of, inner); !ok) return ok;
+        if (const auto ok = find_body(scope, s, subcircuit_name, inner); !ok) return ok;
         if (const auto ok = connect(scope, s, words, inner); !ok) return ok;
         inner.caller = &scope, inner.depth = scope.depth + 1, inner.path = fmt::format("{}{}.", scope.path, name);
         if (inner.depth > max_subcircuit_depth)
@@ -102,17 +102,18 @@ private:
         return words;
     }
 
-    static Result<void> find_body(Scope& scope, const Statement& s, const Word& of, Scope& inner) {
+    static Result<void> find_body(Scope& scope, const Statement& s, const Word& name, Scope& inner) {
         std::vector<std::string_view> known;
         for (Scope* f = &scope; f; f = f->enclosing) {
-            if (const auto at = f->definition->subcircuits.find(s.text(of)); at != f->definition->subcircuits.end()) {
+            if (const auto at = f->definition->subcircuits.find(s.text(name)); at != f->definition->subcircuits.end()) {
                 inner.definition = at->second.get(), inner.enclosing = f;
                 return {};
             }
             for (const auto n : keys_of(f->definition->subcircuits)) known.push_back(n);
         }
-        return bad_input(fmt::format("{}: unknown subcircuit '{}'{}", s.text(std::size_t{0}), s.text(of), did_you_mean(s.text(of), known)),
-                         s.location(of));
+        return bad_input(
+            fmt::format("{}: unknown subcircuit '{}'{}", s.text(std::size_t{0}), s.text(name), did_you_mean(s.text(name), known)),
+            s.location(name));
     }
 
     Result<void> connect(Scope& scope, const Statement& s, const std::vector<Word>& words, Scope& inner) {
@@ -163,7 +164,7 @@ private:
                          s.location(pair.name));
     }
 
-    /// Checks that all names in expressions, F and H exist.
+    /// Checks that all names in expressions and in F and H lines exist.
     Result<void> check_references() const {
         const Circuit& c = builder_.circuit;
         for (const auto& p : builder_.forward_refs) {
@@ -267,7 +268,7 @@ private:
             const int k = c.find_node(voltage.node);
             if (k < 0) {
                 const std::vector<std::string_view> known(c.nodes.begin() + 1, c.nodes.end());
-                return bad_input(fmt::format("unknown node '{}'{}", voltage.node, did_you_mean(voltage.node, known)), voltage.place);
+                return bad_input(fmt::format("unknown node '{}'{}", voltage.node, did_you_mean(voltage.node, known)), voltage.location);
             }
             (voltage.is_ic ? c.ic : c.nodesets).emplace_back(k, voltage.value);
         }
@@ -287,21 +288,21 @@ private:
 
     /// Applies the overrides that concern directives. .expect holds only for the netlist as written, so overrides remove it.
     void apply_overrides_to_directives(Circuit& c) const {
-        const auto& changes = builder_.overrides;
+        const auto& overrides = builder_.overrides;
         const auto expectation =
             std::find_if(c.directives.begin(), c.directives.end(), [](const Directive& directive) { return directive.name == "expect"; });
-        if (changes.changes_values() && expectation != c.directives.end()) {
+        if (overrides.changes_values() && expectation != c.directives.end()) {
             c.warnings.push_back(bad_input("values of the netlist are overridden, so .expect is ignored", expectation->location));
             std::erase_if(c.directives, [](const Directive& directive) { return directive.name == "expect"; });
         }
         std::erase_if(c.directives, [&](const Directive& directive) {
-            return (changes.replaces_saved && (directive.name == "save" || directive.name == "probe")) ||
-                   (changes.mismatch_seed && directive.name == "mc");
+            return (overrides.replaces_saved && (directive.name == "save" || directive.name == "probe")) ||
+                   (overrides.mismatch_seed && directive.name == "mc");
         });
-        if (!changes.saved.empty()) c.directives.push_back({"save", changes.saved, {}, {c.file}});
+        if (!overrides.saved.empty()) c.directives.push_back({"save", overrides.saved, {}, {c.file}});
     }
 
-    /// The word without blanks outside quotes and braces. Expressions of parameters only are replaced by their values.
+    /// The word without blanks outside quotes and braces. Expressions that depend only on parameters are replaced by their values.
     std::string without_blanks(const Statement& s, const Word& w) const {
         std::string out;
         const auto text = s.text(w);

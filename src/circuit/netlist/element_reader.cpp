@@ -11,7 +11,7 @@
 namespace corpuscle::circuit {
 namespace {
 
-/// The parameters that elements of each letter may have by name.
+/// The named parameters that elements of each letter may have.
 struct ElementNames {
     char letter;
     std::initializer_list<std::string_view> names;
@@ -56,15 +56,15 @@ public:
 
     Result<void> read() {
         if (name_.size() < 2) return error_at("the name of an element must be longer than its letter, such as r1", 0);
-        if (const auto ok = by_letter(); !ok) return ok;
-        if (const auto ok = pairs(); !ok) return ok;
+        if (const auto ok = read_by_letter(); !ok) return ok;
+        if (const auto ok = named_parameters(); !ok) return ok;
         override_values();
         if (const auto ok = apply_multiplicity(); !ok) return ok;
         return builder_.add_element(std::move(out_));
     }
 
 private:
-    Result<void> by_letter() {
+    Result<void> read_by_letter() {
         switch (out_.letter) {
             case 'r':
             case 'c':
@@ -75,12 +75,12 @@ private:
                 return source();
             case 'e':
             case 'g':
-                return by_voltage();
+                return voltage_controlled_source();
             case 'f':
             case 'h':
-                return by_current();
+                return current_controlled_source();
             case 'b':
-                return behaviour();
+                return behavioural_source();
             case 'd':
                 return diode();
             default:
@@ -115,10 +115,10 @@ private:
             if (const auto ok = is_name ? passive_model(k) : value_of(text(k)); !ok) return ok;
             has_value = has_value || !is_name;
         }
-        const std::string_view own(&out_.letter, 1);
-        if (const auto* pair = out_.letter == 'l' || out_.model < 0 || !has_value ? s_.find(own) : nullptr) {
+        const std::string_view letter(&out_.letter, 1);
+        if (const auto* pair = out_.letter == 'l' || out_.model < 0 || !has_value ? s_.find(letter) : nullptr) {
             if (has_value) return bad_input(fmt::format("{}: its value is given twice", name_), s_.location(pair->name));
-            read_names_.push_back(own);
+            read_names_.push_back(letter);
             if (const auto ok = value_of({&s_, pair->value}); !ok) return ok;
             has_value = true;
         }
@@ -131,7 +131,7 @@ private:
             return error_at("a resistor must not be 0 ohm; use a 0 V source to connect two nodes", 3);
         return {};
     }
-    /// After the nodes a number or an expression is the value; a word that is not a parameter is a model.
+    /// A number or an expression after the nodes is the value. A word that is not the name of a parameter is a model.
     bool is_model(std::size_t k, bool has_value) const {
         if (s_.words[k].kind != Word::Kind::plain || parse_number(s_.text(k))) return false;
         if (builder_.has_model(scope_, s_.text(k))) return true;
@@ -169,7 +169,7 @@ private:
 
     // ---- E G F H B ----
 
-    Result<void> by_voltage() {
+    Result<void> voltage_controlled_source() {
         if (const auto ok = nodes(2, "plus, minus, the two controlling nodes, then the gain"); !ok) return ok;
         out_.expression_is_voltage = out_.letter == 'e';
         for (const auto name : {"value", "vol", "cur"})
@@ -191,7 +191,7 @@ private:
         return value_of(text(k));
     }
 
-    Result<void> by_current() {
+    Result<void> current_controlled_source() {
         if (const auto ok = nodes(2, "plus, minus, then the controlling voltage source and the gain"); !ok) return ok;
         if (s_.text(3) == "poly") return error_at("poly is not supported; use a B source instead", 3);
         if (s_.words.size() < 4) return error_at("the controlling voltage source is missing", 3);
@@ -200,7 +200,7 @@ private:
         return gain(4);
     }
 
-    Result<void> behaviour() {
+    Result<void> behavioural_source() {
         if (const auto ok = nodes(2, "plus and minus, then v=... or i=..."); !ok) return ok;
         if (s_.words.size() > 3) return too_many(3);
         const auto *v = s_.find("v"), *i = s_.find("i");
@@ -271,7 +271,7 @@ private:
 
     // ---- name=value ----
 
-    Result<void> pairs() {
+    Result<void> named_parameters() {
         const auto known = names_for(out_.letter);
         for (const auto& pair : s_.pairs) {
             const auto name = s_.text(pair.name);
@@ -288,7 +288,7 @@ private:
         return {};
     }
 
-    /// Overrides replace the values of the line.
+    /// Replaces the values in the line by the overrides.
     void override_values() {
         const auto overrides = builder_.overrides.numbers.find(out_.name);
         if (overrides == builder_.overrides.numbers.end()) return;

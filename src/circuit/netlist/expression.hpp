@@ -16,7 +16,7 @@ namespace corpuscle::circuit {
 /// An input of an expression: v(a), v(a,b), i(vx), time or temper (C).
 struct ExpressionInput {
     enum class Kind { voltage, current, time, temperature } kind;
-    std::string name, minus;  ///< of a voltage the node and its reference ("" is ground); of a current the element
+    std::string name, minus;  ///< voltage: the node and its reference ("" is ground); current: the element
     bool operator==(const ExpressionInput&) const = default;
 };
 
@@ -40,7 +40,7 @@ struct ExpressionScope {
 class Expression {
 public:
     /// Parses "2*v(a) + max(i(vx), 0)". It has + - * / ** ^ (powers), unary - + !, comparisons, && ||, c ? a : b, and numbers with SPICE's
-    /// suffixes. It also has the functions of ngspice and its constants, such as pi. An error has the column within the line of `at`.
+    /// suffixes. It also has the functions of ngspice and its constants, such as pi. `at` is the location of the text, for errors.
     ///
     /// As in ngspice 39:
     ///
@@ -73,7 +73,7 @@ private:
     template <class Values>
     double evaluate(std::span<const double> inputs, Values& values) const;
     struct Step {
-        std::int16_t operation;            // the number of an Operation
+        std::int16_t operation;            // an Operation, as a number
         std::int32_t a = 0, b = 0, c = 0;  // indices of earlier steps
         double number = 0;
     };

@@ -126,13 +126,13 @@ private:
     void remove_unused(Index last) {
         auto& steps = out_.steps_;
         std::vector<Index> new_index(steps.size(), no_index), new_input_index(out_.inputs_.size(), no_index);
-        const auto need = [&](Index k) { new_index[static_cast<std::size_t>(k)] = 0; };
-        need(last);
+        const auto mark_used = [&](Index k) { new_index[static_cast<std::size_t>(k)] = 0; };
+        mark_used(last);
         for (std::size_t k = static_cast<std::size_t>(last) + 1; k-- > 0;) {
             if (new_index[k] == no_index) continue;
             const auto operation = static_cast<Operation>(steps[k].operation);
             if (operation == Operation::input) new_input_index[static_cast<std::size_t>(steps[k].a)] = 0;
-            if (operand_count(operation) > 0) need(steps[k].a), need(steps[k].b), need(steps[k].c);
+            if (operand_count(operation) > 0) mark_used(steps[k].a), mark_used(steps[k].b), mark_used(steps[k].c);
         }
         renumber_inputs(new_input_index);
         std::size_t kept = 0;
@@ -320,26 +320,27 @@ private:
     }
 
     Index call(const std::string& name, std::size_t from) {
-        const auto* own = scope_.function ? scope_.function(name) : nullptr;
-        if (!own && (name == "v" || name == "i")) return probe(name[0], from);
-        if (!own && (name == "ddt" || name == "idt" || name == "sdt"))
+        const auto* user_function = scope_.function ? scope_.function(name) : nullptr;
+        if (!user_function && (name == "v" || name == "i")) return probe(name[0], from);
+        if (!user_function && (name == "ddt" || name == "idt" || name == "sdt"))
             return fail(fmt::format("{}() is not supported; for a charge, use a capacitor with q='...'", name), from);
-        const auto* row = own ? nullptr : find_function(name, scope_.allows_inputs);
-        if (!own && !row) return fail(fmt::format("unknown function '{}'{}", name, function_suggestion(name)), from);
+        const auto* row = user_function ? nullptr : find_function(name, scope_.allows_inputs);
+        if (!user_function && !row) return fail(fmt::format("unknown function '{}'{}", name, function_suggestion(name)), from);
         std::vector<Index> values;
         if (!read_arguments(values)) return no_index;
-        if (own) return expand_function(name, *own, values, from);
-        const int given = static_cast<int>(values.size());
-        if (given < row->min_arguments || given > row->max_arguments) return fail(argument_count_message(*row, given), from);
-        const bool is_nominal = row->operation == Operation::limit && given == 2;
+        if (user_function) return expand_function(name, *user_function, values, from);
+        const int argument_count = static_cast<int>(values.size());
+        if (argument_count < row->min_arguments || argument_count > row->max_arguments)
+            return fail(argument_count_message(*row, argument_count), from);
+        const bool is_nominal = row->operation == Operation::limit && argument_count == 2;
         values.resize(3, values[0]);
         return apply(is_nominal ? Operation::nominal : row->operation, values[0], values[1], values[2]);
     }
 
-    static std::string argument_count_message(const FunctionInfo& row, int given) {
+    static std::string argument_count_message(const FunctionInfo& row, int argument_count) {
         const auto expected = row.min_arguments == row.max_arguments ? fmt::format("{}", row.max_arguments)
                                                                      : fmt::format("{} or {}", row.min_arguments, row.max_arguments);
-        return fmt::format("{}() takes {} argument{}, not {}", row.name, expected, row.max_arguments == 1 ? "" : "s", given);
+        return fmt::format("{}() takes {} argument{}, not {}", row.name, expected, row.max_arguments == 1 ? "" : "s", argument_count);
     }
 
     bool read_arguments(std::vector<Index>& values) {
@@ -358,18 +359,17 @@ private:
     }
 
     /// Expands a user's function: parses its text with its argument names bound to the values.
-    Index expand_function(const std::string& name, const ExpressionScope::Function& own, const std::vector<Index>& values,
+    Index expand_function(const std::string& name, const ExpressionScope::Function& function, const std::vector<Index>& values,
                           std::size_t from) {
-        if (values.size() != own.arguments.size())
-            return fail(fmt::format("{}() takes {} argument{}, not {}", name, own.arguments.size(), own.arguments.size() == 1 ? "" : "s",
-                                    values.size()),
-                        from);
+        const std::size_t expected = function.arguments.size();
+        if (values.size() != expected)
+            return fail(fmt::format("{}() takes {} argument{}, not {}", name, expected, expected == 1 ? "" : "s", values.size()), from);
         if (std::find(calls_.begin(), calls_.end(), name) != calls_.end()) return fail(fmt::format("{}() calls itself", name), from);
         if (depth_ >= max_expression_depth)
             return fail(fmt::format("the expression is nested deeper than the limit of {}", max_expression_depth), from);
         Arguments bound;
-        for (std::size_t k = 0; k < values.size(); ++k) bound.emplace_back(own.arguments[k], values[k]);
-        const auto text = std::exchange(text_, own.text);
+        for (std::size_t k = 0; k < values.size(); ++k) bound.emplace_back(function.arguments[k], values[k]);
+        const auto text = std::exchange(text_, function.text);
         const auto at = std::exchange(at_, 0);
         const auto* arguments = std::exchange(arguments_, &bound);
         if (calls_.empty()) call_at_ = from;

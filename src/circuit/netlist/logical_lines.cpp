@@ -14,9 +14,9 @@ bool is_blank(char c) { return c == ' ' || c == '\t'; }
 bool is_utf8(std::string_view s) {
     for (std::size_t k = 0; k < s.size();) {
         const auto c = static_cast<unsigned char>(s[k++]);
-        int more = c < 0x80 ? 0 : c >= 0xc2 && c < 0xe0 ? 1 : c >= 0xe0 && c < 0xf0 ? 2 : c >= 0xf0 && c < 0xf5 ? 3 : -1;
-        if (more < 0) return false;
-        for (; more > 0; --more, ++k)
+        int continuation_bytes = c < 0x80 ? 0 : c >= 0xc2 && c < 0xe0 ? 1 : c >= 0xe0 && c < 0xf0 ? 2 : c >= 0xf0 && c < 0xf5 ? 3 : -1;
+        if (continuation_bytes < 0) return false;
+        for (; continuation_bytes > 0; --continuation_bytes, ++k)
             if (k >= s.size() || (static_cast<unsigned char>(s[k]) & 0xc0) != 0x80) return false;
     }
     return true;
@@ -62,8 +62,8 @@ bool names_a_file(std::string_view text) {
 
 SourceLocation LogicalLine::location(std::size_t at) const {
     const auto after = std::upper_bound(segments.begin(), segments.end(), at, [](std::size_t a, const Segment& p) { return a < p.at; });
-    const Segment piece = after == segments.begin() ? Segment{0, 0, 0} : *(after - 1);
-    return {file ? *file : "", static_cast<long>(piece.line), static_cast<long>(piece.column + (at - piece.at))};
+    const Segment segment = after == segments.begin() ? Segment{0, 0, 0} : *(after - 1);
+    return {file ? *file : "", static_cast<long>(segment.line), static_cast<long>(segment.column + (at - segment.at))};
 }
 
 bool LogicalLine::was_capital(std::size_t at) const { return std::binary_search(capitals.begin(), capitals.end(), at); }

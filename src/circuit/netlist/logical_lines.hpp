@@ -23,15 +23,17 @@ struct LogicalLine {
 
     std::vector<std::uint32_t> capitals;  ///< offsets of capital F and M, which users often mean differently from SPICE
 
+    /// The location in the file of the character at this offset of the text.
     SourceLocation location(std::size_t at = 0) const;
+    /// True if the character at this offset was a capital F or M in the file.
     bool was_capital(std::size_t at) const;
 };
 
 /// Reads the logical lines of a file one at a time.
 class LogicalLineReader {
     std::shared_ptr<const std::string> file_;
-    std::string_view rest_, last_;  // last_: rest_ before the physical line last taken
-    std::uint32_t number_ = 0;      // of the physical line last taken
+    std::string_view rest_, last_;  // the text that is not read yet; the same before the last take(), for put_back()
+    std::uint32_t number_ = 0;      // number of the physical line that was taken last
     LogicalLine next_;              // the line being read; following lines may continue it
     char quote_ = 0;                // the quote that is open at the end of next_; 0 if none
     std::uint32_t quote_at_ = 0;
@@ -42,7 +44,7 @@ public:
 
     /// The first line of the main file, which is its title, as UTF-8.
     Result<std::string> title();
-    /// The next line; false at the end.
+    /// Reads the next line. Returns false at the end.
     Result<bool> next(LogicalLine&);
     /// Skips all lines up to and including the one that begins with `word`. Returns false if there is none.
     bool skip_past(std::string_view word);

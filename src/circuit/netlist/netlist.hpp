@@ -25,22 +25,22 @@ struct Waveform {
     double dc = 0;
     bool has_dc = false;
     double ac_magnitude = 0, ac_phase = 0;  ///< phase in degrees
-    std::vector<double> numbers;            ///< the arguments of PULSE, SIN or EXP; of PWL t1 v1 t2 v2 ...
+    std::vector<double> numbers;            ///< the arguments of PULSE, SIN or EXP; for PWL t1 v1 t2 v2 ...
 };
 
 /// An element with all its values evaluated.
 struct Element {
     std::string name;        ///< in small letters, with the path of its subcircuit: "x1.xinv.m1"
     char letter = 0;         ///< r c l v i e f g h b d m
-    std::vector<int> nodes;  ///< indices in Circuit::nodes, in netlist order; of E and G also the controlling nodes
+    std::vector<int> nodes;  ///< indices in Circuit::nodes, in netlist order; for E and G including the controlling nodes
     SourceLocation location;
     int model = -1;                        ///< index in Circuit::models; -1 if none
-    double value = 0;                      ///< of R C L in ohm, farad, henry; of E F G H the gain
+    double value = 0;                      ///< for R C L in ohm, farad, henry; for E F G H the gain
     Values values;                         ///< all values given by name: w, l, m, stack, delvto, ic, tc1 ...
-    Waveform waveform;                     ///< of V and I
-    std::optional<Expression> expression;  ///< of B (v= or i=), C (q=), E and G (value=)
-    bool expression_is_voltage = false;    ///< of B: true for v=, false for i=
-    std::string control_source;            ///< of F and H: the voltage source whose current controls, with its path
+    Waveform waveform;                     ///< for V and I
+    std::optional<Expression> expression;  ///< for B (v= or i=), C (q=), E and G (value=)
+    bool expression_is_voltage = false;    ///< for B: true for v=, false for i=
+    std::string control_source;            ///< for F and H: the controlling voltage source, with its path
 };
 
 struct Model {
@@ -66,12 +66,12 @@ struct Circuit {
     std::vector<Element> elements;
     std::vector<Model> models;
     std::vector<Directive> directives;
-    Values options;                                                ///< of .options; a flag is 1
+    Values options;                                                ///< from .options; a flag is 1
     std::map<std::string, std::string, std::less<>> option_words;  ///< options whose value is a word: method=gear
     double temperature = 27;                                       ///< C
     std::vector<std::pair<int, double>> ic, nodesets;              ///< node, V
     std::vector<Error> warnings;                                   ///< warnings, such as "1F is 1 femtofarad"
-    Values parameters;                                             ///< .param of the top level
+    Values parameters;                                             ///< .param lines of the top level
     std::optional<std::uint64_t> mismatch_seed;                    ///< seed of the mismatch sample; nothing for the nominal circuit
     std::uint64_t chip = 0;                                        ///< number of the chip for this seed; copies are the following chips
 
@@ -84,8 +84,8 @@ struct Circuit {
 /// Overrides of the values in a netlist.
 struct ResolvedOverrides {
     std::string corner;                                  ///< section to read from libraries; "" means the sections that the netlist names
-    Values parameters;                                   ///< .param of the top level
-    std::map<std::string, Values, std::less<>> numbers;  ///< of elements, by full path; the name "" is the value of R C L V I ...
+    Values parameters;                                   ///< new values for .param lines of the top level
+    std::map<std::string, Values, std::less<>> numbers;  ///< values of elements, by full path; the name "" is the value of R C L V I ...
     std::optional<double> temperature;                   ///< C
     std::optional<std::uint64_t> mismatch_seed;          ///< seed of the mismatch sample; if set, .mc is ignored
     std::uint64_t chip = 0;                              ///< number of the chip for this seed
@@ -106,19 +106,21 @@ public:
     /// `corner` replaces the section of each line `.lib 'file' section` whose file has a section of this name. It is an error if no file
     /// has one.
     static Result<Netlist> parse(std::string text, std::string file, const FileOpener& open, const std::string& corner = "");
+    /// Parses the netlist in a file.
     static Result<Netlist> read(const std::string& path, const std::string& corner = "");
 
-    /// The same netlist with overrides. The corner is not applied here but by parse().
+    /// The same netlist with overrides. Their corner has no effect here, because parse() applies it.
     Netlist with_overrides(ResolvedOverrides) const;
     const ResolvedOverrides& overrides() const;
-    /// .param of the top level.
+    /// A parameter that a .param line of the top level defines.
     struct Parameter {
         std::string text;  ///< as written in the netlist: "2*c_u"
         bool is_own;       ///< defined in the netlist or an included file, not in a library section
     };
+    /// All parameters of the top level, by name.
     std::map<std::string, Parameter, std::less<>> parameters() const;
 
-    /// The flat circuit. `parameters` override .param of the top level and the overrides of the netlist.
+    /// The flat circuit. `parameters` override the .param lines of the top level and the overrides of the netlist.
     Result<Circuit> elaborate(const Values& parameters = {}) const;
 };
 

@@ -45,8 +45,8 @@ class NetlistReader {
     const Opener& open_;
     std::map<std::string, std::shared_ptr<const std::string>> texts_;  // cached, because a library is often read for several sections
     std::vector<Source> open_files_;                                   // files being read, outermost first
-    SubcktDef *body_, *file_body_;  // the definition being read; the one in which the file began, which the file cannot close
-    std::size_t text_read_ = 0, opened_ = 0, subcircuit_depth_ = 0;
+    SubcktDef *body_, *file_body_;  // the definition being read; the one that was open when the file began, which the file cannot close
+    std::size_t bytes_read_ = 0, files_opened_ = 0, subcircuit_depth_ = 0;
     bool ended_ = false;
     CornerSelector corner_;
 
@@ -61,8 +61,8 @@ public:
     }
 
     Result<void> read(std::string_view text, const std::string& path, const std::string& section) {
-        text_read_ += text.size();
-        if (text_read_ > max_text_bytes)
+        bytes_read_ += text.size();
+        if (bytes_read_ > max_text_bytes)
             return bad_input(fmt::format("the netlist and its included files exceed the limit of {} MB", max_text_bytes >> 20), {path});
         LogicalLineReader lines(text, std::make_shared<const std::string>(path));
         if (open_files_.empty())
@@ -133,7 +133,7 @@ private:
         if (word == ".lib") return library(lines, std::move(line));
         if (word == ".endl" || word == ".endc")
             return bad_input(fmt::format("{} without {}", word, word == ".endl" ? ".lib" : ".control"), line.location());
-        if (word == ".ic" || word == ".nodeset") return keep_directive(std::move(line), body_->ics);
+        if (word == ".ic" || word == ".nodeset") return store_directive(std::move(line), body_->ics);
         if (std::find(std::begin(structural_directives), std::end(structural_directives), word) == std::end(structural_directives) &&
             std::find(std::begin(circuit_directives), std::end(circuit_directives), word) == std::end(circuit_directives))
             return unknown(word, line.location());
@@ -148,14 +148,14 @@ private:
     Result<void> top_level_directive(std::string_view word, LogicalLine line) {
         if (word == ".title") return out_.title = trimmed(std::string_view(line.text).substr(word.size())), Result<void>();
         if (word == ".global") return global(std::move(line));
-        if (word == ".temp") return keep_directive(std::move(line), out_.temperatures);
+        if (word == ".temp") return store_directive(std::move(line), out_.temperatures);
         if (word.starts_with(".opt")) {
             auto read = split_element(std::move(line), nullptr);
             if (!read) return read.error();
-            out_.options.push_back(&keep(std::move(*read)));
+            out_.options.push_back(&store(std::move(*read)));
             return {};
         }
-        return keep_directive(std::move(line), out_.directives);
+        return store_directive(std::move(line), out_.directives);
     }
 
     static Error unknown(std::string_view word, SourceLocation location) {
@@ -168,12 +168,12 @@ private:
         return bad_input(fmt::format("unknown statement '{}'{}", word, did_you_mean(word, known)), std::move(location));
     }
 
-    Statement& keep(Statement s) { return out_.statements.emplace_back(std::move(s)); }
+    Statement& store(Statement s) { return out_.statements.emplace_back(std::move(s)); }
 
-    Result<void> keep_directive(LogicalLine line, std::vector<const Statement*>& list) {
+    Result<void> store_directive(LogicalLine line, std::vector<const Statement*>& list) {
         auto read = split_directive(std::move(line));
         if (!read) return read.error();
-        list.push_back(&keep(std::move(*read)));
+        list.push_back(&store(std::move(*read)));
         return {};
     }
 
@@ -186,7 +186,7 @@ private:
         auto read = split_element(std::move(line), is_long_value);
         if (!read) return read.error();
         if (const auto ok = check_duplicates(*read); !ok) return ok;
-        body_->elements.push_back(&keep(std::move(*read)));
+        body_->elements.push_back(&store(std::move(*read)));
         warn_about_units(*body_->elements.back(), out_.warnings);
         return {};
     }
@@ -209,7 +209,7 @@ private:
     Result<void> parameters(LogicalLine line) {
         auto read = split_assignments(std::move(line));
         if (!read) return read.error();
-        const Statement& s = keep(std::move(*read));
+        const Statement& s = store(std::move(*read));
         if (s.pairs.empty()) return bad_input(".param: expected name=value", s.line.location());
         for (const auto& pair : s.pairs) {
             const std::string name(s.text(pair.name));
@@ -266,7 +266,7 @@ private:
         if (const auto known = body_->models.find(name); known != body_->models.end())
             return bad_input(fmt::format("model '{}' is already defined at {}", name, location_text(*known->second)),
                              read->location(std::size_t{1}));
-        body_->models.emplace(name, &keep(std::move(*read)));
+        body_->models.emplace(name, &store(std::move(*read)));
         return {};
     }
     static std::string location_text(const Statement& s) {
@@ -297,7 +297,7 @@ private:
             return bad_input(fmt::format("subcircuit '{}' is already defined at {}", name, location_text(*body->head)),
                              read->location(std::size_t{1}));
         body = std::make_unique<SubcktDef>();
-        body->name = name, body->outer = body_, body->head = &keep(std::move(*read));
+        body->name = name, body->outer = body_, body->head = &store(std::move(*read));
         body_ = body.get();
         return read_head(*body);
     }
@@ -371,11 +371,12 @@ private:
     }
 
     Result<void> open(std::string_view name, std::string section, SourceLocation location) {
-        ++opened_;
+        ++files_opened_;
         const std::string path = resolved_path(open_files_.back().path, name);
         if (open_files_.size() > max_include_depth)
             return bad_input(fmt::format("included files are nested deeper than the limit of {}", max_include_depth), std::move(location));
-        if (opened_ > max_elements) return bad_input(fmt::format("more than {} files are included", max_elements), std::move(location));
+        if (files_opened_ > max_elements)
+            return bad_input(fmt::format("more than {} files are included", max_elements), std::move(location));
         auto& text = texts_[path];
         if (!text) {
             auto opened = open_(path);

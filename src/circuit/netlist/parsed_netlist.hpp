@@ -15,8 +15,8 @@
 
 namespace corpuscle::circuit {
 
-inline constexpr std::size_t max_elements = 2000000;                   // and statements
-inline constexpr std::size_t max_text_bytes = std::size_t{256} << 20;  // bytes
+inline constexpr std::size_t max_elements = 2000000;                   // limits elements, statements and included files
+inline constexpr std::size_t max_text_bytes = std::size_t{256} << 20;  // limit for all files together
 
 /// A word of a statement whose value is not yet evaluated.
 struct WordRef {
@@ -35,7 +35,7 @@ struct SubcktDef {
     const Statement* head = nullptr;  ///< its .subckt line; null for the top level
     SubcktDef* outer = nullptr;       ///< the definition that contains this one
     std::vector<std::string> ports;
-    ByName<WordRef> defaults;  ///< of the .subckt line
+    ByName<WordRef> defaults;  ///< default values of the parameters in the .subckt line
     ByName<WordRef> parameters;
     ByName<ExpressionScope::Function> functions;
     ByName<const Statement*> models;

@@ -1,5 +1,5 @@
 #pragma once
-// Directives of former versions, which are refused, with their present names.
+// Old names of directives and their new names. A netlist with an old name is an error.
 
 #include <string_view>
 

@@ -11,12 +11,13 @@ struct Scope {
     const Scope* caller = nullptr;  ///< the scope of the X line; as in ngspice, names that are unknown here are looked up there
     Scope* enclosing = nullptr;     ///< the scope that contains the subcircuit's definition; its models and subcircuits are visible here
     std::string path = {};          ///< "x1.x2."
-    ByName<int> ports = {};         ///< numbers of the nodes that the ports are connected to
+    ByName<int> ports = {};         ///< indices of the nodes that the ports are connected to
     ByName<int> models = {};        ///< indices of models that are already in the circuit
     Values parameters = {};
     double m = 1;  ///< number of parallel instances
     int depth = 0;
 
+    /// Look up a name in this scope, then in its callers.
     std::optional<double> parameter(std::string_view name) const;
     const ExpressionScope::Function* function(std::string_view name) const;
 

@@ -20,8 +20,8 @@ public:
     bool done() const { return at >= s_.size(); }
     char here() const { return done() ? '\0' : s_[at]; }
     std::string_view text() const { return s_; }
-    void skip(std::string_view these) { at = std::min(s_.find_first_not_of(these, at), s_.size()); }
-    Error error_at(std::string sentence, std::size_t where) const { return bad_input(std::move(sentence), line_.location(where)); }
+    void skip(std::string_view characters) { at = std::min(s_.find_first_not_of(characters, at), s_.size()); }
+    Error error_at(std::string message, std::size_t offset) const { return bad_input(std::move(message), line_.location(offset)); }
 
     /// True if the character is an assignment '=', not a part of == <= >= !=.
     bool is_assignment(std::size_t k) const {
@@ -30,7 +30,7 @@ public:
         return k == 0 || std::string_view("=<>!~").find(s_[k - 1]) == std::string_view::npos;
     }
 
-    /// The position after the group that opens here: ( ) or { } with nested groups, or quotes.
+    /// The position after the group that opens here. A group is ( ) or { } with nested groups, or a quoted text.
     Result<std::size_t> past_group() const {
         std::string open;
         for (std::size_t k = at; k < s_.size(); ++k) {

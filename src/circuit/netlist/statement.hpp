@@ -16,8 +16,8 @@ struct Word {
         plain,
         expression,
         quoted
-    } kind = Kind::plain;  ///< formula: an expression in {} or '', which are not part of it
-    std::uint32_t at = 0, size = 0;
+    } kind = Kind::plain;            ///< expression: in {} or '', which the word does not include
+    std::uint32_t at = 0, size = 0;  ///< offset and length in the line's text, bytes
 };
 
 /// A pair name=value.
@@ -40,7 +40,7 @@ struct Statement {
 };
 
 /// Splits elements, .subckt and .model. Blanks, commas and parentheses separate words; "name = value" is a pair. A value ends at the next
-/// blank or comma, unless `is_long_value` is true for its name; it then extends to the next pair or the end, with its blanks.
+/// blank or comma, unless `is_long_value` is true for its name. A long value may contain blanks and extends to the next pair or the end.
 Result<Statement> split_element(LogicalLine, bool (*is_long_value)(char letter, std::string_view name));
 
 /// Splits .param into pairs. A name may be "f(x, y)", and a value extends to the next pair.

@@ -14,7 +14,7 @@ std::string warning_for(char element, const SpiceNumber& number, std::string_vie
     const bool is_milli = scale.starts_with('m') && scale != "meg" && scale != "mil";
     const auto digits = as_read.substr(0, as_read.size() - number.suffix.size());
     if (element != 'v' && element != 'i' && element != 'b' && equal_ignoring_case(number.suffix, "a"))
-        return fmt::format("{}{} is {}, since 'a' is not a scale; for 1e-18 of it write {}e-18", digits, number.suffix, digits, digits);
+        return fmt::format("{0}{1} is {0}, since 'a' is not a scale factor; for {0} times 1e-18 write {0}e-18", digits, number.suffix);
     if (element == 'r' && is_milli) return fmt::format("{}M is {} milliohm; for a megohm write {}Meg", digits, digits, digits);
     if (element == 'c' && number.suffix == "f") return fmt::format("{}F is {} femtofarad; for a farad write {}", digits, digits, digits);
     if ((element == 'v' || element == 'i') && number.suffix == "mhz")

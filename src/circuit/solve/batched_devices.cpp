@@ -9,7 +9,7 @@ namespace corpuscle::circuit {
 BatchedDevices::ScatterAdd BatchedDevices::make_scatter(std::vector<std::pair<int, int>> target_source) {
     std::map<int, std::vector<int>> sources;
     for (const auto& [to, from] : target_source) sources[to].push_back(from);
-    std::vector<std::pair<std::size_t, int>> order;  // equal lengths together, for branch prediction
+    std::vector<std::pair<std::size_t, int>> order;  // sums of equal length together, for branch prediction
     for (const auto& [to, from] : sources) order.emplace_back(from.size(), to);
     std::sort(order.begin(), order.end());
     ScatterAdd out;
@@ -67,8 +67,8 @@ BatchedDevices::BatchedDevices(const System& system) {
             }
         for (std::size_t k = 0; k < group.members.size(); ++k)
             for (std::size_t entry = 0; entry < n * n; ++entry)
-                if (const auto place = group.entries[k * n * n + entry]; place < system.pattern().entries())
-                    slopes.emplace_back(static_cast<int>(place), static_cast<int>(df + entry * stride + k));
+                if (const auto matrix_entry = group.entries[k * n * n + entry]; matrix_entry < system.pattern().entries())
+                    slopes.emplace_back(static_cast<int>(matrix_entry), static_cast<int>(df + entry * stride + k));
         at += (3 * n + 2 * n * n) * stride;
     }
     lines_.resize(at / 8);

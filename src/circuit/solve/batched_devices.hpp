@@ -17,7 +17,7 @@ class BatchedDevices {
     };
     /// Index lists that add values to targets, grouped by the number of terms of each target.
     struct ScatterAdd {
-        struct Run {
+        struct Run {  // `count` successive targets, each with this number of terms
             int terms, count;
         };
         std::vector<Run> runs;

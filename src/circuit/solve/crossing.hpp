@@ -18,8 +18,8 @@ std::optional<double> bisect_crossing(double from, double to, const Function& f)
     return to;
 }
 
-/// The same with known values at both ends. Without a sign change, f may still cross zero twice in the interval. If an end is closer to
-/// zero than the ends are to each other, four subintervals are searched, too.
+/// The same with known values at both ends. Without a sign change, f may still cross zero twice in the interval. If one of the two values
+/// is closer to zero than to the other value, four subintervals are therefore searched.
 template <class Function>
 std::optional<double> find_crossing(double from, double to, double f_from, double f_to, const Function& f) {
     if (f_from <= 0 && f_to > 0) return bisect_crossing(from, to, f);

@@ -47,17 +47,17 @@ Elimination::Elimination(const SparsityPattern& p, std::span<const int> rows, st
     const auto columns_of_row = pattern_with_fill(p, step_of_row, step_of_column);
 
     std::map<std::pair<int, int>, int> slot;  // by (row, column), numbered by elimination step
-    const auto put = [&](int i, int j) {
+    const auto add_slot = [&](int i, int j) {
         const int index = static_cast<int>(slot.size());
         slot[{i, j}] = index;
         return index;
     };
     pivots_.resize(n);
     for (std::size_t k = 0; k < n; ++k) {
-        put(static_cast<int>(k), static_cast<int>(k));
+        add_slot(static_cast<int>(k), static_cast<int>(k));
         pivots_[k].u_begin = static_cast<int>(slot.size());
         for (const int j : columns_of_row[k])
-            if (j > static_cast<int>(k)) put(static_cast<int>(k), j);
+            if (j > static_cast<int>(k)) add_slot(static_cast<int>(k), j);
         pivots_[k].u_end = static_cast<int>(slot.size());
     }
     l_first_slot_ = static_cast<int>(slot.size());
@@ -67,7 +67,7 @@ Elimination::Elimination(const SparsityPattern& p, std::span<const int> rows, st
         pivots_[k].l_begin = static_cast<int>(slot.size());
         for (std::size_t i = k + 1; i < n; ++i)
             if (std::binary_search(columns_of_row[i].begin(), columns_of_row[i].end(), static_cast<int>(k))) {
-                put(static_cast<int>(i), static_cast<int>(k));
+                add_slot(static_cast<int>(i), static_cast<int>(k));
                 l_rows_.push_back(static_cast<int>(i));
             }
         pivots_[k].l_end = static_cast<int>(slot.size());

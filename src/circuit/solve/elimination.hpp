@@ -17,10 +17,10 @@ class SparsityPattern;
 class Elimination {
     using Pivot = lanes::EliminationList::Pivot;  // slots of a row of U without its pivot; slots of a column of L
     std::vector<Pivot> pivots_;
-    std::vector<int> updates_;             // target slots, pivot by pivot: for each slot of L one target for each slot in the row of U
-    std::vector<int> l_rows_, u_columns_;  // row or column of each slot, numbered by elimination step
-    std::vector<int> entry_slot_, entry_row_;
-    std::vector<int> rows_, columns_;  // P, Q
+    std::vector<int> updates_;                 // target slots, pivot by pivot: for each slot of L one target for each slot in the row of U
+    std::vector<int> l_rows_, u_columns_;      // row or column of each slot, numbered by elimination step
+    std::vector<int> entry_slot_, entry_row_;  // slot and row of each entry of the sparsity pattern
+    std::vector<int> rows_, columns_;          // P, Q
     std::vector<double> scale_, slots_, inverse_pivot_;
     int l_first_slot_ = 0;
     double growth_ = 0;
@@ -38,7 +38,7 @@ public:
     /// The list for the lane kernels, which is valid as long as this object.
     lanes::EliminationList list() const;
 
-    std::size_t multiplications() const { return updates_.size(); }  ///< multiplications in one factor(); as many additions
+    std::size_t multiplications() const { return updates_.size(); }  ///< in one factor(); the number of additions is equal
     std::size_t slots() const { return slots_.size(); }
 };
 

@@ -14,7 +14,7 @@ struct TimePoint {
     std::vector<double> x, q;
 };
 
-/// Weights of the values at some times, newest first. The weighted sum is a property of the polynomial through these points.
+/// Weights of the values at some times, newest first. The weighted sum is the value, slope or error of the polynomial through these points.
 using HistoryWeights = std::array<double, 7>;
 /// The value of the polynomial at t.
 HistoryWeights weights_of_value(std::span<const double> times, double t);
@@ -26,10 +26,10 @@ HistoryWeights weights_of_interpolation_error(std::span<const double> times);
 /// The newest points, newest first.
 class History {
 public:
-    static constexpr int max_points = std::tuple_size_v<HistoryWeights>;  ///< points
+    static constexpr int max_points = std::tuple_size_v<HistoryWeights>;
 
     void clear() { count_ = smooth_count_ = 0; }
-    /// Integration continues from the newest point only. `forget`: the earlier points are not on its smooth curve, either.
+    /// Integration continues from the newest point only. `forget`: the earlier points do not lie on one smooth curve with it, either.
     void restart(bool forget) { count_ = std::min(count_, 1), smooth_count_ = forget ? count_ : smooth_count_; }
     int count() const { return count_; }                ///< points that the integration formula may use
     int smooth_count() const { return smooth_count_; }  ///< points that lie on one smooth curve, at least count()

@@ -88,7 +88,7 @@ bool LinearSolver<T>::factor(std::span<const T> values) {
         if (impl_->by_list) return true;
         if (impl_->list) return factor_with_new_pivots(values);
     }
-    // With a list the previous pivots are not reused: a solution must depend on its matrix only, not on earlier matrices.
+    // If there is a list, the previous pivots are not reused: a solution must depend on its matrix only, not on earlier matrices.
     return (impl_->numeric != nullptr && !impl_->list && impl_->refactor(numbers)) || impl_->factor(numbers);
 }
 
@@ -107,9 +107,9 @@ double LinearSolver<T>::growth() const {
 template <class T>
 void LinearSolver<T>::fix_pivot_order(std::span<const T> values) {
     if constexpr (!Impl::is_complex) {
-        constexpr int too_large = 3000;  // unknowns: the constructor of Elimination needs a dense matrix of bytes
+        constexpr int max_unknowns = 3000;  // since the constructor of Elimination needs a dense matrix of bytes
         auto* numbers = const_cast<double*>(values.data());
-        if (impl_->symbolic == nullptr || impl_->size > too_large || !impl_->factor(numbers)) return;
+        if (impl_->symbolic == nullptr || impl_->size > max_unknowns || !impl_->factor(numbers)) return;
         std::vector<int> rows(static_cast<std::size_t>(impl_->size)), columns(rows.size());
         klu_extract(impl_->numeric, impl_->symbolic, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr,
                     rows.data(), columns.data(), nullptr, nullptr, &impl_->common);

@@ -51,7 +51,7 @@ public:
     /// stable for a matrix, that matrix gets new pivots. No effect on complex matrices and on very large ones.
     void fix_pivot_order(std::span<const T> values);
     const Elimination* elimination() const;  ///< null: no list
-    long fallback_count() const;             ///< number of matrices since then for which the list was not used
+    long fallback_count() const;             ///< number of matrices since fix_pivot_order() for which the list was not used
     /// The largest multiplier of the last factorization by the list. If it is large, the solution should be checked. 0: the list was not
     /// used.
     double growth() const;

@@ -75,11 +75,11 @@ std::string NewtonSolver::describe_residual(std::span<const double> x) {
     std::size_t worst = 0;
     double largest = -1;
     for (std::size_t n = 0; n < evaluation.f.size(); ++n) {
-        const double off =
+        const double relative_residual =
             std::isfinite(evaluation.f[n])
                 ? std::abs(evaluation.f[n]) / (tolerances.reltol * evaluation.scale[n] + evaluation.roundoff[n] + tolerances.abstol)
                 : 1e300;
-        if (off > largest) largest = off, worst = n;
+        if (relative_residual > largest) largest = relative_residual, worst = n;
     }
     const Device* device = nullptr;
     double contribution = -1;

@@ -36,7 +36,7 @@ class OperatingPointSearch {
     NewtonSolver& newton_;
     const System& system_;
     bool has_guess_;                    // the start is near the solution; .nodeset is then ignored
-    std::vector<double> start_, last_;  // last: where plain Newton's method failed
+    std::vector<double> start_, last_;  // last_: where Newton's method without continuation failed
     std::size_t nodes_;
     NodeClamps clamps_;  // clamps that are part of the solved circuit
 
@@ -48,26 +48,26 @@ class OperatingPointSearch {
         return out;
     }
 
-    bool plain(std::vector<double>& x) {
-        constexpr int near = 40;  // iterations: from a good guess Newton's method needs at most half of these, or diverges
+    bool plain_newton(std::vector<double>& x) {
+        constexpr int max_from_guess = 40;  // iterations: from a good guess Newton's method converges within half of these, or diverges
         newton_.limiting_state = system_.initial_limiting_state();
-        return newton_.solve(x, clamps_, has_guess_ ? std::min(near, newton_.tolerances.itl1) : 0);
+        return newton_.solve(x, clamps_, has_guess_ ? std::min(max_from_guess, newton_.tolerances.itl1) : 0);
     }
 
     /// gmin stepping: a conductance from every node to ground, reduced decade by decade.
-    bool by_gmin(std::vector<double>& x) {
+    bool gmin_stepping(std::vector<double>& x) {
         const std::vector<double> ground(x.size());
         double g = 1e-2, factor = 10;
         newton_.limiting_state = system_.initial_limiting_state();
         for (int tries = 0; tries < 200; ++tries) {
             auto next = x;
-            const auto memory = newton_.limiting_state;
+            const auto saved_limiting_state = newton_.limiting_state;
             if (newton_.solve(next, clamp_all(g, ground), 50)) {
                 x = next;
                 if (g < 1e-15) return newton_.solve(x, clamps_);
                 g /= factor, factor = std::min(factor * 1.5, 10.0);
             } else {
-                newton_.limiting_state = memory;
+                newton_.limiting_state = saved_limiting_state;
                 if (factor < 1.001) return false;
                 g *= factor, factor = std::sqrt(factor), g /= factor;
             }
@@ -76,19 +76,19 @@ class OperatingPointSearch {
     }
 
     /// Source stepping: all sources rise from 0.
-    bool by_sources(std::vector<double>& x) {
+    bool source_stepping(std::vector<double>& x) {
         double reached = 0, step = 0.1;
         newton_.limiting_state = system_.initial_limiting_state();
         newton_.context.source_scale = 0;
         bool found = newton_.solve(x, clamps_);
         for (int tries = 0; found && reached < 1 && tries < 500; ++tries) {
             auto next = x;
-            const auto memory = newton_.limiting_state;
+            const auto saved_limiting_state = newton_.limiting_state;
             newton_.context.source_scale = std::min(1.0, reached + step);
             if (newton_.solve(next, clamps_, 30)) {
                 x = next, reached = newton_.context.source_scale, step *= 2;
             } else {
-                newton_.limiting_state = memory, step /= 4;
+                newton_.limiting_state = saved_limiting_state, step /= 4;
                 found = step > 1e-7;
             }
         }
@@ -97,26 +97,26 @@ class OperatingPointSearch {
     }
 
     /// Pseudo-transient: a capacitor from every node to ground and ever longer time steps, until the voltages are constant. A circuit with
-    /// positive feedback, such as a trigger in its other state, moves faster and faster; there the step is limited so that a voltage
+    /// positive feedback, such as a Schmitt trigger that switches, moves faster and faster; there the step is limited so that a voltage
     /// changes by about `max_change`. Only the last steps are solved with tight tolerances.
-    bool by_time(std::vector<double>& x) {
+    bool pseudo_transient(std::vector<double>& x) {
         constexpr double max_change = 20e-3, settled_below = 2e-3;  // V
-        constexpr int patience = 5;
+        constexpr int max_iterations = 5;
         const LooseTolerances loose(newton_.tolerances);
-        double g = 1e-4, rate = 0, too_small = 0;
-        int careful = 0;  // remaining steps with a length limit, after one that was too long
+        double g = 1e-4, rate = 0, failed_g = 0;  // S, A, S; a step is longer if g is smaller
+        int limited_steps = 0;                    // remaining steps with a length limit, after one that was too long
         newton_.limiting_state = system_.initial_limiting_state();
         for (int tries = 0; tries < 600; ++tries) {
             auto next = x;
-            const auto memory = newton_.limiting_state;
+            const auto saved_limiting_state = newton_.limiting_state;
             const int before = newton_.iterations;
-            if (!newton_.solve(next, clamp_all(g, x), patience)) {
-                newton_.limiting_state = memory;
-                too_small = g, careful = 20, g *= 3;
+            if (!newton_.solve(next, clamp_all(g, x), max_iterations)) {
+                newton_.limiting_state = saved_limiting_state;
+                failed_g = g, limited_steps = 20, g *= 3;
                 if (g > 1e6) return false;
                 continue;
             }
-            const double moved = farthest(x, next), faster = rate > 0 ? moved * g / rate : 0;
+            const double moved = largest_difference(x, next), speedup = rate > 0 ? moved * g / rate : 0;
             x = std::move(next), rate = moved * g;
             if (moved < 10 * settled_below && g < 1e-13) {
                 if (auto solution = x; loose.with_tight([&] { return newton_.solve(solution, clamps_, 20); }))
@@ -124,31 +124,31 @@ class OperatingPointSearch {
                 if (g < 1e-19) return false;
             }
             const bool quick = newton_.iterations - before <= 3;
-            g = faster > 1.03 ? std::max(rate * faster / max_change, g) : g / (moved < settled_below ? 10 : quick ? 4 : 2);
-            if (careful > 0) --careful, g = std::max(g, 1.5 * too_small);
+            g = speedup > 1.03 ? std::max(rate * speedup / max_change, g) : g / (moved < settled_below ? 10 : quick ? 4 : 2);
+            if (limited_steps > 0) --limited_steps, g = std::max(g, 1.5 * failed_g);
         }
         return false;
     }
     /// Pseudo-transient with tight tolerances in every step, shortened only after a failure: slow but robust.
-    bool by_exact_time(std::vector<double>& x) {
+    bool exact_pseudo_transient(std::vector<double>& x) {
         double g = 1e-4;
         newton_.limiting_state = system_.initial_limiting_state();
         for (int tries = 0; tries < 2000; ++tries) {
             auto next = x;
-            const auto memory = newton_.limiting_state;
+            const auto saved_limiting_state = newton_.limiting_state;
             if (newton_.solve(next, clamp_all(g, x), 20)) {
                 x = next;
                 if (g < 1e-19) return newton_.solve(x, clamps_);
                 g /= 2;
             } else {
-                newton_.limiting_state = memory;
+                newton_.limiting_state = saved_limiting_state;
                 g *= 8;
                 if (g > 1e6) return false;
             }
         }
         return false;
     }
-    double farthest(const std::vector<double>& a, const std::vector<double>& b) const {
+    double largest_difference(const std::vector<double>& a, const std::vector<double>& b) const {
         double largest = 0;
         for (std::size_t n = 0; n < nodes_; ++n) largest = std::max(largest, std::abs(a[n] - b[n]));
         return largest;
@@ -190,10 +190,10 @@ private:
             std::string_view name;
             bool (OperatingPointSearch::*run)(std::vector<double>&);
         };
-        const Method newton{"newton", &OperatingPointSearch::plain}, gmin{"gmin", &OperatingPointSearch::by_gmin},
-            source{"source", &OperatingPointSearch::by_sources}, time{"pseudo-transient", &OperatingPointSearch::by_time},
-            exact_time{"pseudo-transient", &OperatingPointSearch::by_exact_time};
-        // From a near start the pseudo-transient follows the circuit itself; gmin and source stepping ignore the start.
+        const Method newton{"newton", &OperatingPointSearch::plain_newton}, gmin{"gmin", &OperatingPointSearch::gmin_stepping},
+            source{"source", &OperatingPointSearch::source_stepping}, time{"pseudo-transient", &OperatingPointSearch::pseudo_transient},
+            exact_time{"pseudo-transient", &OperatingPointSearch::exact_pseudo_transient};
+        // If the start is near the solution, the pseudo-transient follows the motion of the circuit; gmin and source stepping ignore it.
         for (const Method& method : has_guess_ ? std::array{newton, time, gmin, source} : std::array{newton, gmin, source, exact_time}) {
             auto x = start_;
             if ((this->*method.run)(x)) return OperatingPoint{std::move(x), method.name, newton_.iterations};

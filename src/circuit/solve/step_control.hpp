@@ -32,10 +32,10 @@ struct StepControl {
     bool can_lower_order() const { return order > 1; }
     bool can_raise_order(int highest, int points) const { return order < highest && points > order + 1; }
 
-    /// Call after an accepted step of length `taken` with this error. `points` is the number of earlier points, `highest` the largest
+    /// Call after an accepted step of this length (s) and error. `points` is the number of earlier points, `highest` the largest
     /// allowed order, and error_of(order) the error of the step for another order.
     template <class ErrorOf>
-    void choose(double taken, double error, int points, int highest, ErrorOf&& error_of) {
+    void choose(double length, double error, int points, int highest, ErrorOf&& error_of) {
         double factor = growth_factor(error, order);
         if (is_order_change_due()) {
             steps_since_order_change = 0;
@@ -48,25 +48,25 @@ struct StepControl {
             else if (starting && order < highest)
                 ++order;
         }
-        scale_step(taken, factor, points);
+        scale_step(length, factor, points);
     }
-    /// Call after choose(). Limits the step so that the interpolation error stays allowed. `error` is that of the last step, relative to
-    /// the allowed error. `points` is the number of points of the interpolating polynomial.
-    void limit_by_curve(double taken, double error, int points) {
-        h = std::min(h, taken * std::clamp(growth_factor(error, points - 1), 0.3, max_growth));
+    /// Call after choose(). Limits the next step so that its interpolation error is allowed. `error` is the interpolation error of the last
+    /// step, relative to the allowed error. `points` is the number of points of the interpolating polynomial.
+    void limit_by_curve(double length, double error, int points) {
+        h = std::min(h, length * std::clamp(growth_factor(error, points - 1), 0.3, max_growth));
     }
     void record_step(double step) { recent_max_step = std::max(step, 0.7 * recent_max_step); }
     /// Steps up to this length may contain a jump. Unknowns without charge are then checked at the ends only, and interpolation is linear.
     double jump_step_limit(double reltol, double max_step) const { return std::max(reltol * recent_max_step, 1e-9 * max_step); }
-    void scale_step(double taken, double factor, int points) { h = taken * std::clamp(factor, 0.3, points < 3 ? 5 : max_growth); }
+    void scale_step(double length, double factor, int points) { h = length * std::clamp(factor, 0.3, points < 3 ? 5 : max_growth); }
 
-    /// Call after a rejected step of length `taken`. `error` is relative to the allowed error, and 0 if the equations were not solved.
-    /// `last` is the length of the step before, 0 if there was none since the start. Returns true if the integration must restart from the
-    /// last point, which happens after more than `max_failures` failures or a strong reduction.
-    bool shorten(double taken, double error, double last, int max_failures = 1) {
+    /// Call after a rejected step of this length (s). `error` is relative to the allowed error, and 0 if the equations were not solved.
+    /// `previous` is the length of the step before, 0 if there was none since the start. Returns true if the integration must restart from
+    /// the last point, which happens after more than `max_failures` failures or a strong reduction.
+    bool shorten(double length, double error, double previous, int max_failures = 1) {
         ++failures;
-        h = taken * (error > 0 ? std::clamp(growth_factor(error, order), last > 0 ? 0.1 : 1e-3, 0.8) : 0.125);
-        return last > 0 && (failures > max_failures || h < 0.1 * last);
+        h = length * (error > 0 ? std::clamp(growth_factor(error, order), previous > 0 ? 0.1 : 1e-3, 0.8) : 0.125);
+        return previous > 0 && (failures > max_failures || h < 0.1 * previous);
     }
 };
 
@@ -81,9 +81,10 @@ struct NewtonControl {
     double quadratic_factor = 1;  ///< constant of the quadratic convergence: error after a step / (size of the step)^2
 
     void begin() { iterations = 0, last_size = 0; }
-    /// The iteration has not converged although the last Newton step was small.
+    /// Call this if the iteration has not converged although the last Newton step was small.
     Status continue_iterating() const { return iterations < max_iterations ? Status::iterating : Status::diverged; }
-    /// After a Newton step of this size for nonlinear equations. is_limited: the step was limited, or a device was evaluated elsewhere.
+    /// Call this after a Newton step of this size for nonlinear equations. is_limited: the step was limited, or a device was evaluated at
+    /// limited voltages.
     Status update(double size, bool is_limited) {
         const double last = last_size;
         last_size = is_limited ? 0 : size, ++iterations;

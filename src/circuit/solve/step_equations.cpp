@@ -40,8 +40,8 @@ StepEquations::StepEquations(const System& system, NewtonSolver& newton)
             }
         }
     }
-    for (std::size_t place = 0; place + 1 < sums.size(); ++place)
-        if (sums[place].g != 0 || sums[place].c != 0) linear_.push_back(sums[place]), linear_.back().entry = place;
+    for (std::size_t entry = 0; entry + 1 < sums.size(); ++entry)
+        if (sums[entry].g != 0 || sums[entry].c != 0) linear_.push_back(sums[entry]), linear_.back().entry = entry;
 }
 
 void StepEquations::prepare(double t, double a, std::span<const double> history) {
@@ -75,14 +75,14 @@ void StepEquations::linearize_device(ScalarDevice& scalar) {
     const std::span<double> all(scalar.stamp);
     const Stamp stamp{all.first(n), all.subspan(n, n), all.subspan(2 * n, n * n), all.subspan(2 * n + n * n)};
     d.eval(scalar.linearized_at, newton_.context, stamp);
-    const auto places = system_.entries(scalar.device);
+    const auto entries = system_.entries(scalar.device);
     for (std::size_t row = 0; row < n; ++row) {
         for (std::size_t column = 0; column < n; ++column) {
             const double slope = stamp.slope(row, column), c = stamp.capacitance(row, column);
             if (scalar.limited)
                 stamp.f[row] += slope * (scalar.v[column] - scalar.linearized_at[column]),
                     stamp.q[row] += c * (scalar.v[column] - scalar.linearized_at[column]);
-            J_[places[row * n + column]] += slope + a_ * c;
+            J_[entries[row * n + column]] += slope + a_ * c;
         }
         r_[static_cast<std::size_t>(scalar.unknowns[row])] += stamp.f[row] + a_ * stamp.q[row];
     }
@@ -172,6 +172,7 @@ bool StepEquations::expressions_match() {
             double linear = scalar.stamp[row];
             for (std::size_t column = 0; column < n; ++column)
                 linear += scalar.stamp[2 * n + row * n + column] * (v[column] - scalar.v[column]);
+            // The equation of a branch current is a sum of voltages.
             const bool is_voltage = scalar.unknowns[row] < system_.size() && !is_voltage_[static_cast<std::size_t>(scalar.unknowns[row])];
             const double scale = is_voltage ? std::abs(v[0] - v[1]) : std::max(std::abs(f[row]), std::abs(linear));
             if (!expression_tolerance_.accepts(is_voltage, f[row] - linear, scale)) return false;

@@ -16,9 +16,9 @@ struct ExpressionTolerance {
     }
 };
 
-/// Linear devices are summed once, sources once per time step, and other devices only into the Jacobian and the residual. So an iteration
-/// costs little more than its transistors and one elimination. The final charges are extrapolated linearly from the last evaluation. The
-/// charge residual of a step enters the next one, so charge is conserved.
+/// Linear devices are summed once, and sources once per time step. Only the other devices are evaluated in each iteration, directly into
+/// the Jacobian and the residual. So an iteration costs little more than evaluating the transistors and one elimination. The final charges
+/// are extrapolated linearly from the last evaluation. The charge residual of a step enters the next one, so charge is conserved.
 class StepEquations {
     const System& system_;
     NewtonSolver& newton_;
@@ -33,16 +33,18 @@ class StepEquations {
     struct ScalarDevice {                      // a nonlinear device that is not in a group
         std::size_t device, terminals;
         std::vector<int> unknowns;
-        std::vector<double> v, linearized_at, stamp;
+        std::vector<double> v, linearized_at, stamp;  // stamp: f, q, df, dq one after another
         bool limited = false;
     };
     std::vector<ScalarDevice> scalar_devices_;
     BatchedDevices batched_devices_;
     LinearSolver<double> solver_;  // not the one of the operating point, whose pivot order differs
+    // base_ is the residual at x = 0 without the devices that are evaluated in each iteration, J_0_ the Jacobian of the linear devices. The
+    // last element of each vector is for ground.
     std::vector<double> x_, base_, J_0_, J_, r_, step_, scratch_;
     std::vector<char> is_voltage_;
     NewtonControl newton_control_;
-    double a_ = 0;
+    double a_ = 0;  // 1/s: dq/dt = a q + history
     bool limited_ = false, checks_expressions_ = false;
     ExpressionTolerance expression_tolerance_;
     bool expressions_match();
@@ -60,9 +62,9 @@ public:
 
     /// Prepares a step that ends at t (s), with dq/dt = a q + history.
     void prepare(double t, double a, std::span<const double> history);
-    /// If on, an iteration converges only when each expression with jumps matches its linearization at the solution. At a jump the
+    /// If `enabled`, an iteration converges only when each expression with jumps matches its linearization at the solution. At a jump the
     /// linearization is wrong even if the last Newton step was short.
-    void check_expressions(bool on, const ExpressionTolerance& t) { checks_expressions_ = on, expression_tolerance_ = t; }
+    void check_expressions(bool enabled, const ExpressionTolerance& t) { checks_expressions_ = enabled, expression_tolerance_ = t; }
     using Status = NewtonControl::Status;
     /// One Newton step from x. converged: the error of every unknown with allowed[n] > 0 is a small part of allowed[n].
     Status iterate(std::vector<double>& x, std::span<const double> allowed);
@@ -78,7 +80,7 @@ public:
     /// Fixes the pivot order of all later matrices to that of the matrix at x with dq/dt = a q.
     void fix_pivot_order(std::span<const double> x, double a);
     double quadratic_factor() const { return newton_control_.quadratic_factor; }
-    void set_quadratic_factor(double bend) { newton_control_.quadratic_factor = bend; }
+    void set_quadratic_factor(double factor) { newton_control_.quadratic_factor = factor; }
     /// The elimination list after fix_pivot_order(); null: there is none.
     const Elimination* elimination() const { return solver_.elimination(); }
 };

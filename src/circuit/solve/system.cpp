@@ -42,11 +42,11 @@ Result<System> System::make(std::shared_ptr<const Circuit> circuit) {
     if (auto ok = check_solvable(*circuit); !ok) return ok.error();
     System system;
     system.circuit_ = std::move(circuit);
-    Builder maker(system);
+    Builder builder(system);
     for (const auto& e : system.circuit_->elements) {
         const auto* kind = find_device_kind(e.letter);
         if (kind == nullptr) return bad_input(fmt::format("{}: no device has the letter '{}'", e.name, e.letter), e.location);
-        auto device = kind->make(e, maker);
+        auto device = kind->make(e, builder);
         if (!device) return device.error();
         (*device)->name = e.name, (*device)->location = e.location;
         system.limiting_state_offset_.push_back(system.limiting_state_size_);
@@ -61,10 +61,10 @@ Result<System> System::make(std::shared_ptr<const Circuit> circuit) {
                 if (row >= 0 && column >= 0) entries.emplace_back(row, column);
     system.pattern_ = std::make_unique<SparsityPattern>(system.size(), std::move(entries));
     for (const auto& d : system.devices_) {
-        auto& places = system.entries_.emplace_back();
+        auto& device_entries = system.entries_.emplace_back();
         for (const int row : d->unknowns)
             for (const int column : d->unknowns)
-                places.push_back(row >= 0 && column >= 0 ? system.pattern_->entry_index(row, column) : system.pattern_->entries());
+                device_entries.push_back(row >= 0 && column >= 0 ? system.pattern_->entry_index(row, column) : system.pattern_->entries());
     }
     if (auto ok = system.make_groups(); !ok) return ok.error();
     system.is_linear_ = std::all_of(system.devices_.begin(), system.devices_.end(), [](const auto& d) { return d->is_linear(); });
@@ -81,9 +81,9 @@ Result<void> System::make_groups() {
             scalar_devices_.insert(scalar_devices_.end(), members.begin(), members.end());
             continue;
         }
-        auto bank = kind.make_batch();
-        if (!bank) return bank.error();
-        DeviceGroup group{std::move(*bank), {}, devices_[members[0]]->unknowns.size(), (members.size() + 7) / 8 * 8, {}, {}};
+        auto batch = kind.make_batch();
+        if (!batch) return batch.error();
+        DeviceGroup group{std::move(*batch), {}, devices_[members[0]]->unknowns.size(), (members.size() + 7) / 8 * 8, {}, {}};
         for (const auto k : members) {
             group.members.push_back(devices_[k].get());
             group.unknowns.insert(group.unknowns.end(), devices_[k]->unknowns.begin(), devices_[k]->unknowns.end());
@@ -164,7 +164,7 @@ void System::add_device(std::size_t k, std::span<const double> x, const EvalCont
     const Stamp stamp{stamp_buffer.first(n), stamp_buffer.subspan(n, n), stamp_buffer.subspan(2 * n, n * n),
                       stamp_buffer.subspan(2 * n + n * n)};
     d.eval(limited_v, context, stamp);
-    const auto& places = entries_[k];
+    const auto& device_entries = entries_[k];
     for (std::size_t row = 0; row < n; ++row) {
         double f = stamp.f[row], q = stamp.q[row], roundoff = 0;
         for (std::size_t column = 0; column < n; ++column) {
@@ -173,8 +173,8 @@ void System::add_device(std::size_t k, std::span<const double> x, const EvalCont
                 q += stamp.capacitance(row, column) * (v[column] - limited_v[column]);
             }
             roundoff = std::max(roundoff, std::abs(stamp.slope(row, column) * v[column]));
-            sums.G[places[row * n + column]] += stamp.slope(row, column);
-            sums.C[places[row * n + column]] += stamp.capacitance(row, column);
+            sums.G[device_entries[row * n + column]] += stamp.slope(row, column);
+            sums.C[device_entries[row * n + column]] += stamp.capacitance(row, column);
         }
         if (d.unknowns[row] < 0) continue;
         const auto u = static_cast<std::size_t>(d.unknowns[row]);
@@ -198,8 +198,8 @@ void System::add_group(const DeviceGroup& group, std::span<const double> x, cons
     group.batch->eval(context, {stride, v, f, df, max_term, context.with_charges ? q : nullptr, dq});
     for (std::size_t k = 0; k < count; ++k) {
         const auto* unknowns = group.unknowns.data() + k * n;
-        const auto* places = group.entries.data() + k * n * n;
-        for (std::size_t entry = 0; entry < n * n; ++entry) sums.G[places[entry]] += df[entry * stride + k];
+        const auto* device_entries = group.entries.data() + k * n * n;
+        for (std::size_t entry = 0; entry < n * n; ++entry) sums.G[device_entries[entry]] += df[entry * stride + k];
         for (std::size_t row = 0; row < n; ++row) {
             if (unknowns[row] < 0) continue;
             const auto u = static_cast<std::size_t>(unknowns[row]);
@@ -209,7 +209,7 @@ void System::add_group(const DeviceGroup& group, std::span<const double> x, cons
             sums.roundoff[u] = std::max(sums.roundoff[u], 1e-15 * max_term[row * stride + k]);
         }
         if (!context.with_charges) continue;
-        for (std::size_t entry = 0; entry < n * n; ++entry) sums.C[places[entry]] += dq[entry * stride + k];
+        for (std::size_t entry = 0; entry < n * n; ++entry) sums.C[device_entries[entry]] += dq[entry * stride + k];
         for (std::size_t row = 0; row < n; ++row)
             if (unknowns[row] >= 0) sums.q[static_cast<std::size_t>(unknowns[row])] += q[row * stride + k];
     }

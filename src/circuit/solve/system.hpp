@@ -78,8 +78,9 @@ public:
     bool is_linear() const { return is_linear_; }
     std::vector<double> initial_limiting_state() const { return std::vector<double>(limiting_state_size_); }
 
+    /// Evaluates all devices at x and sums their contributions.
     void eval(std::span<const double> x, const EvalContext&, std::vector<double>& limiting_state, SystemEvaluation&) const;
-    // The same functions of all devices; see Device.
+    // These call the function of the same name of all devices; next_breakpoint() and max_step() return the smallest result.
     void start_transient(double step, double stop);
     double next_breakpoint(double t) const;
     double max_step() const;

@@ -58,22 +58,22 @@ Result<void> Transient::begin(std::vector<double> x, bool settled, std::span<con
 /// Computes the unknowns without charge by a step so short that no charge changes.
 Result<void> Transient::make_consistent() {
     const double h = 1e-15 * plan_.max_step;
-    auto now = history_points_[0];
-    for (std::size_t n = 0; n < now.q.size(); ++n) history_[n] = -now.q[n] / h;
+    auto point = history_points_[0];
+    for (std::size_t n = 0; n < point.q.size(); ++n) history_[n] = -point.q[n] / h;
     equations_.prepare(0, 1 / h, history_);
-    const auto allowed = std::exchange(allowed_error_, std::vector<double>(now.x.size(), plan_.vntol));
+    const auto allowed = std::exchange(allowed_error_, std::vector<double>(point.x.size(), plan_.vntol));
     auto status = StepEquations::Status::iterating;
     for (int k = 0; k < 100 && status != StepEquations::Status::converged; ++k) {
         if (k % 10 == 9) equations_.prepare(0, 1 / h, history_);  // resets the iteration count
-        status = equations_.iterate(now.x, allowed_error_);
+        status = equations_.iterate(point.x, allowed_error_);
     }
     allowed_error_ = allowed;
     if (status != StepEquations::Status::converged) {
-        history_points_.next_point() = std::move(now);
+        history_points_.next_point() = std::move(point);
         return step_too_short(h);
     }
     history_points_.clear();
-    history_points_.next_point() = std::move(now);
+    history_points_.next_point() = std::move(point);
     history_points_.accept();
     update_tolerances();
     return {};
@@ -82,9 +82,9 @@ Result<void> Transient::make_consistent() {
 /// Integration continues from the newest point only; dq/dt there follows from the currents. With `exact`, the charge is recomputed from x.
 /// Otherwise it keeps the value of the last step, whose small residual would be a large current in a short first step.
 void Transient::restart(bool forget, bool exact) {
-    TimePoint& now = history_points_.newest();
-    equations_.evaluate_static(now.t, now.x, rate_, error_);
-    if (exact) now.q = error_;
+    TimePoint& point = history_points_.newest();
+    equations_.evaluate_static(point.t, point.x, rate_, error_);
+    if (exact) point.q = error_;
     for (double& r : rate_) r = -r;
     history_points_.restart(forget);
     control_.restart();
@@ -110,7 +110,7 @@ void Transient::update_tolerances() {
         if (system_.is_voltage(static_cast<int>(n))) voltage_scale_ = std::max(voltage_scale_, scale_[n]);
         if (!system_.is_voltage(static_cast<int>(n))) tolerance_[n] += of_largest * largest;
     }
-    // A capacitor between nodes of similar voltage has a small charge, but the rounding error of its terminals' voltages.
+    // A capacitor between nodes of similar voltage has a small charge, but one with the rounding error of its terminals' voltages.
     largest_charge_ = std::max(largest_charge_, *std::max_element(capacitance_.begin(), capacitance_.end()) * voltage_scale_);
 }
 
@@ -138,9 +138,8 @@ bool Transient::attempt(double t, double& error) {
         using Status = StepEquations::Status;
         const auto status = equations_.iterate(next.x, allowed_error_);
         if (status == Status::diverged) return false;
-        const bool far =
-            status == Status::iterating && equations_.step_size() > large_newton_step && !must_converge;  // check whether to stop early
-        if (status == Status::iterating && !far) continue;
+        const bool may_stop_early = status == Status::iterating && equations_.step_size() > large_newton_step && !must_converge;
+        if (status == Status::iterating && !may_stop_early) continue;
         equations_.read_charges(next.q);
         converged_ = status == Status::converged;
         error = error_of(control_.order);
@@ -150,9 +149,8 @@ bool Transient::attempt(double t, double& error) {
 
 double Transient::worst_error() {
     equations_.solve_perturbation(error_);
-    constexpr double uncharged_factor = 2;  // factor of the allowed error without charge, where the error does not reach the next step
-    constexpr double sum_factor =
-        1.5;  // stricter than in an afferent, so that the errors of many steps add up to less than ten allowed ones
+    constexpr double uncharged_factor = 2;  // an unknown without charge may have a larger error, because it does not affect the next step
+    constexpr double sum_factor = 1.5;      // stricter than in an afferent: the sum over many steps stays below ten allowed errors
     double worst = 0;
     uncharged_error_ = 0;
     for (std::size_t n = 0; n < error_.size(); ++n)
@@ -247,7 +245,7 @@ void Transient::choose_step(double h, double error) {
     control_.scale_step(h, factor, points);
 }
 
-/// Shortens the step after a rejection. error 0: its equations were not solved.
+/// Shortens the step after a rejection. An `error` of 0 means that the equations of the step were not solved.
 Result<void> Transient::reject_step(double h, double error) {
     constexpr int max_failures = 3;  // before a restart with order 1, which gives inaccurate currents
     ++stats_.rejected;
@@ -311,48 +309,47 @@ bool Transient::take_breakpoint_step(double t0, double breakpoint, double& t) {
 }
 
 Result<bool> Transient::step(double until) {
-    constexpr double first_part = 1.0 / 256;  // length of the first step after a breakpoint, where the curvature is not known
-    // An error that does not fall as the first step is shortened comes from rounding of the point where it starts. After three such
-    // attempts the step is accepted.
-    constexpr double no_better = 0.9;
-    constexpr int max_alike = 3;
+    constexpr double first_part = 1.0 / 256;  // first step after a breakpoint / planned step, since the curvature is not known
+    // If the error does not fall as the first step is shortened, it comes from the rounding of the start point. After three such attempts
+    // the step is accepted.
+    constexpr double min_reduction = 0.9;
+    constexpr int max_not_reduced = 3;
     if (std::exchange(restart_pending_, false)) restart(true, plan_.all_reported);
     double rejected = 0;  // error of the last attempt
-    int alike = 0;        // number of successive attempts with no smaller error
+    int not_reduced = 0;  // number of successive attempts that did not reduce the error
     for (;;) {
         const double t0 = time(), breakpoint = std::min(plan_.stop, system_.next_breakpoint(t0));
-        double h = std::min(control_.h, plan_.max_step), after = 0;
+        double h = std::min(control_.h, plan_.max_step), breakpoint_step_end = 0;
         if (until < plan_.stop && t0 + 2.1 * h > until) return false;
-        if (take_breakpoint_step(t0, breakpoint, after)) return true;
+        if (take_breakpoint_step(t0, breakpoint, breakpoint_step_end)) return true;
         if (std::exchange(start_phase_, StartPhase::none) == StartPhase::first_step)
             h = std::max(first_part * std::min(h, breakpoint - t0), min_relative_gap * t0);
-        const bool last = t0 + 1.01 * h >= breakpoint;
-        if (!last && t0 + 2 * h > breakpoint) h = (breakpoint - t0) / 2;
-        const double t = last ? breakpoint : t0 + h;
+        const bool ends_at_breakpoint = t0 + 1.01 * h >= breakpoint;
+        if (!ends_at_breakpoint && t0 + 2 * h > breakpoint) h = (breakpoint - t0) / 2;
+        const double t = ends_at_breakpoint ? breakpoint : t0 + h;
         double error = 0;
         may_jump_ = !curves_.empty() && t - t0 <= control_.jump_step_limit(plan_.reltol, plan_.max_step);
-        const bool found = attempt(t, error);
+        const bool solved = attempt(t, error);
         stats_.iterations = equations_.iterations;
-        double curve_error = found ? interpolation_error() : 0;
-        if (found) measure_rounding(error, curve_error);
+        double curve_error = solved ? interpolation_error() : 0;
+        if (solved) measure_rounding(error, curve_error);
         const double worst = may_jump_ ? error : std::max(error, curve_error);
-        alike = found && converged_ && plan_.all_reported && history_points_.count() == 1 && worst > no_better * rejected && rejected > 0
-                    ? alike + 1
-                    : 0;
-        rejected = found ? worst : 0;
-        if (!found || (!(worst <= 1) && alike < max_alike)) {
-            if (auto ok = reject_step(t - t0, found ? worst : 0); !ok) return ok.error();
+        const bool is_first_step = converged_ && plan_.all_reported && history_points_.count() == 1;
+        not_reduced = solved && is_first_step && worst > min_reduction * rejected && rejected > 0 ? not_reduced + 1 : 0;
+        rejected = solved ? worst : 0;
+        if (!solved || (!(worst <= 1) && not_reduced < max_not_reduced)) {
+            if (auto ok = reject_step(t - t0, solved ? worst : 0); !ok) return ok.error();
             continue;
         }
         const bool jumped = may_jump_ && (uncharged_error_ > 1 || curve_error > 1);
         const double planned = control_.h;
         choose_step(t - t0, error);
         if (!may_jump_) control_.limit_by_curve(t - t0, curve_error, curve_points_);
-        if (last && t - t0 < planned) control_.h = std::max(control_.h, std::min(planned, plan_.max_step));
+        if (ends_at_breakpoint && t - t0 < planned) control_.h = std::max(control_.h, std::min(planned, plan_.max_step));
         if (jumped) curve_points_ = 2;
         accept_step();
-        restart_pending_ = last || jumped;
-        if (last && plan_.all_reported) start_phase_ = StartPhase::breakpoint;
+        restart_pending_ = ends_at_breakpoint || jumped;
+        if (ends_at_breakpoint && plan_.all_reported) start_phase_ = StartPhase::breakpoint;
         return true;
     }
 }

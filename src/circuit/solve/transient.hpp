@@ -49,8 +49,8 @@ struct TransientState {
 /// The trapezoidal rule rings if the circuit is much faster than the step; two BDF steps then damp the ringing.
 /// Between points the solution is interpolated by a polynomial through the last points. A step is accepted only if the interpolation error
 /// of each reported unknown, estimated with the next higher degree, is allowed as well. A jump has no such polynomial. The steps shrink
-/// until the jump is in a step so short that linear interpolation is accurate. A node whose voltage only sources define follows them
-/// exactly.
+/// until the jump is in a step so short that linear interpolation is accurate. A node voltage that is defined by sources only is computed
+/// exactly from their waveforms.
 /// Integration restarts with order 1 at the beginning, at every breakpoint of a source, and when the step must shrink tenfold.
 class Transient {
 public:
@@ -63,7 +63,7 @@ private:
     StepEquations equations_;
     History history_points_;
     StepControl control_;
-    double leading_ = 0;
+    double leading_ = 0;              // 1/s: dq/dt = leading_ q + history_ in the current step
     bool pivot_order_fixed_ = false;  // the pivot order of the matrix
     bool restart_pending_ = false;    // the last point is a breakpoint of a source or the end of a jump: integration restarts there
     bool may_jump_ = false;           // the current step is so short that it may contain a jump
@@ -72,22 +72,23 @@ private:
         first_step,
         breakpoint
     } start_phase_ = StartPhase::none;  // after a breakpoint: a point immediately, then a first step
-    int curve_points_ = 0;              // points of the interpolation in the last step; 0: as in the formula
+    int curve_points_ = 0;              // points of the interpolation in the last step; 0: see interpolation_points()
     double uncharged_error_ = 0;        // error of unknowns without charge in the last step / allowed error
     double voltage_scale_ = 0, largest_charge_ = 0, largest_current_ = 0;  // V, C, A: scales of the rounding error
     bool converged_ = false, rounding_measured_ = false;                   // of the current step
     std::vector<double> capacitance_, rounding_;                           // F, by node; by unknown, see rounding_error()
-    // allowed_error_ is of a step, tolerance_ of reported values
+    // scale_ is the largest magnitude of each unknown so far. The error of a step is compared with allowed_error_, that of reported values
+    // with tolerance_. rate_ is dq/dt at the newest point, error_ is a buffer.
     std::vector<double> scale_, allowed_error_, tolerance_, history_, rate_, error_;
     std::vector<char> has_charge_;
     std::vector<int> curves_;  // reported unknowns that are interpolated
-    struct SourceNode {        // a node whose voltage is that of node `base` plus that of a source
+    struct SourceNode {        // a node with the voltage of node `base` plus `sign` times the source's
         int unknown, base;
         const Device* source;
         double sign;
     };
     std::vector<SourceNode> source_nodes_;
-    std::vector<int> source_node_index_;
+    std::vector<int> source_node_index_;          // by unknown, index in source_nodes_; -1: none
     std::vector<double> rate_change_, max_rate_;  // trapezoidal rule: last change of dq/dt, largest dq/dt
     std::vector<int> alternations_;               // number of successive sign changes
     int damping_steps_ = 0;                       // remaining BDF steps that damp ringing
@@ -121,9 +122,9 @@ public:
     Transient(System& system, NewtonSolver& newton, const TransientPlan& plan)
         : system_(system), newton_(newton), plan_(plan), equations_(system, newton) {}
 
-    /// See begin(). Calls each(t, x) from t = 0 until it returns false or the end is reached: at the end of every step, and between where
-    /// linear interpolation would have more than a few times the allowed error. Errors: the time and unknown where the step became too
-    /// short.
+    /// Calls begin() and simulates until `each` returns false or the end is reached. Calls each(t, x) at t = 0, at the end of every step,
+    /// and at points within a step if linear interpolation across it would have more than a few times the allowed error. Errors: the time
+    /// and unknown where the step became too short.
     Result<void> run(std::vector<double> x, bool settled, const PointCallback& each, std::span<const double> charge = {});
     const TransientStats& stats() const { return stats_; }
     const TransientPlan& plan() const { return plan_; }

@@ -39,12 +39,13 @@ void Transient::find_source_nodes() {
     for (int u = 0; plan_.all_reported && u < system_.size(); ++u) add(u);
 }
 
-double Transient::source_node_voltage(const SourceNode& h, double t) const {
+double Transient::source_node_voltage(const SourceNode& node, double t) const {
     const double zero[3] = {};
     double f[3] = {}, q[3] = {}, df[9] = {}, dq[9] = {};
-    h.source->eval(zero, {t, 1, newton_.context.gmin, false}, {f, q, df, dq});
-    const double base = h.base < 0 ? 0 : source_voltage(t, h.base).value_or(history_points_[0].x[static_cast<std::size_t>(h.base)]);
-    return base - h.sign * f[2];
+    node.source->eval(zero, {t, 1, newton_.context.gmin, false}, {f, q, df, dq});
+    const double base =
+        node.base < 0 ? 0 : source_voltage(t, node.base).value_or(history_points_[0].x[static_cast<std::size_t>(node.base)]);
+    return base - node.sign * f[2];
 }
 
 std::optional<double> Transient::source_voltage(double t, int unknown) const {
@@ -65,7 +66,7 @@ double Transient::interpolate(double t, int unknown) const {
 void Transient::interpolate(double t, std::span<double> x) const {
     const int points = interpolation_points();
     history_points_.combine(history_points_.value_weights(t, points), points, &TimePoint::x, x);
-    for (const auto& h : source_nodes_) x[static_cast<std::size_t>(h.unknown)] = source_node_voltage(h, t);
+    for (const auto& node : source_nodes_) x[static_cast<std::size_t>(node.unknown)] = source_node_voltage(node, t);
 }
 
 /// Passes the last step to the callback, with enough intermediate points for linear interpolation.
