@@ -48,6 +48,7 @@ Response respond(const std::string& afferent, const ForceSignal& signal, const s
     std::vector<Spike> spikes;
     ResponseBlock response{spikes};
     auto force = signal.force;
+    // Hold the last force for the delay of the model, so that the response to the last sample is complete.
     if (!force.empty()) force.insert(force.end(), static_cast<std::size_t>(model->delay()), force.back());
     if (auto ok = model->respond(force, state, response); !ok) throw InputError(ok.error().text());
     return {spike_times(spikes, clock)};

@@ -34,9 +34,9 @@ const char* corpuscle_site_name(const corpuscle_skin* skin, size_t site); /* suc
 /* Position of a site in metres: x to the right, y away from the wrist. Returns 0, or -1 if there is no such site. */
 int corpuscle_site_position(const corpuscle_skin* skin, size_t site, double* x, double* y);
 size_t corpuscle_afferents(const corpuscle_skin* skin);                         /* number of afferents */
-const char* corpuscle_afferent_name(const corpuscle_skin* skin, uint32_t unit); /* "sa1#17"; NULL: no such afferent */
+const char* corpuscle_afferent_name(const corpuscle_skin* skin, uint32_t index); /* "sa1#17"; NULL: no such afferent */
 
-/* These return 0, or -1 on failure; corpuscle_error then gives the reason. */
+/* corpuscle_push, corpuscle_finish and corpuscle_resume return 0, or -1 on failure. corpuscle_error then returns the message. */
 
 /* Simulates one frame: one force (N) for each site. Spikes that arrive during this frame are passed to `sink`, which may be NULL. */
 int corpuscle_push(corpuscle_skin* skin, const double* frame, size_t sites, corpuscle_sink sink, void* user);
@@ -44,12 +44,12 @@ int corpuscle_push(corpuscle_skin* skin, const double* frame, size_t sites, corp
 int corpuscle_finish(corpuscle_skin* skin, corpuscle_sink sink, void* user);
 
 /* Writes the state into `bytes`, a buffer of `size` bytes. Returns the number of bytes needed, or 0 on failure. With NULL nothing is
- * written. */
+ * written. A buffer that is too small is a failure. */
 size_t corpuscle_save(corpuscle_skin* skin, void* bytes, size_t size);
 /* Restores a saved state. The skin must have been created with the same arguments. */
 int corpuscle_resume(corpuscle_skin* skin, const void* bytes, size_t size);
 
-const char* corpuscle_error(const corpuscle_skin* skin); /* message of the last call that failed; "": none failed */
+const char* corpuscle_error(const corpuscle_skin* skin); /* message of the last call that failed; "" if none has failed */
 
 #ifdef __cplusplus
 }

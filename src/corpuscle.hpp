@@ -1,5 +1,6 @@
 #pragma once
-// The public interface: name an afferent, pass a force, get spikes. Errors are exceptions here, and only here.
+// The public interface: name an afferent, pass a force, get spikes. Errors are thrown as InputError; the internal headers return a
+// Result instead.
 
 #include <cstddef>
 #include <cstdint>
@@ -34,9 +35,9 @@ struct Response {
 /// Simulates one afferent ("sa1", "sa1b+izhikevich") over the whole signal, with settings such as "sa1.f_B=25Hz". Throws InputError.
 Response respond(const std::string& afferent, const ForceSignal&, const std::vector<std::string>& settings = {});
 
-/// A simulated skin, made for robots: force frames in, spikes out, one frame at a time (doc/live.md). After construction it allocates no
-/// memory and takes no lock. The spikes are the same as those of a recording of these frames. It must not be used by two threads at the
-/// same time.
+/// A simulated skin for robots: force frames in, spikes out, one frame at a time (doc/live.md). After construction push() and respond()
+/// allocate no memory and take no lock. The spikes are the same as if the frames were simulated as one recording. It must not be used by
+/// two threads at the same time.
 class LiveSkin {
 public:
     struct Event {
@@ -64,7 +65,7 @@ public:
     Site site(std::size_t number) const;                  ///< site of force `number` of a frame, from 0
     std::size_t afferents() const;                        ///< number of afferents
     std::int64_t frames() const;                          ///< frames simulated so far
-    std::string afferent_name(std::uint32_t unit) const;  ///< "sa1#17"
+    std::string afferent_name(std::uint32_t index) const;  ///< "sa1#17"
 
     /// Simulates one frame: one force (N) for each site. Calls sink(event), in order, for each spike that arrives during this frame.
     template <class Sink>

@@ -10,7 +10,7 @@ namespace corpuscle {
 namespace {
 
 using namespace circuit;
-/// The closest published chip with measurements, for comparison.
+/// Published measurements of the most similar chip, for comparison.
 constexpr std::string_view published_silicon =
     "For comparison, measured silicon (0.18 um): 12.33 nW per taxel, 25 taxels per mm2 (Alea et al. 2024,\n"
     "doi:10.1109/TBCAS.2024.3387545). Its piezoelectric taxels generate their own charge and respond to changes only, so compare\n"
@@ -22,18 +22,18 @@ using Rows = std::vector<std::vector<std::string>>;
 std::string cell(double x) { return x == 0 ? "0" : std::abs(x) < 100 ? fmt::format("{:.3g}", x) : fmt::format("{:.0f}", x); }
 std::string um2(double area) { return cell(area * 1e12); }
 
-template <class Of>
-void add_row(Rows& rows, const Cost& cost, std::string name, Of&& of) {
+template <class Power>
+void add_row(Rows& rows, const Cost& cost, std::string name, Power&& power_of) {
     rows.push_back({std::move(name)});
-    for (const auto& [when, p] : cost.power) rows.back().push_back(cell(of(p) * 1e9));
+    for (const auto& [when, p] : cost.power) rows.back().push_back(cell(power_of(p) * 1e9));
 }
 
 /// True if the contribution exceeds 1e-6 of the total in any column.
-template <class Of>
-bool is_visible(const Cost& cost, Of&& of) {
+template <class Power>
+bool is_visible(const Cost& cost, Power&& power_of) {
     constexpr double visible = 1e-6;
     for (const auto& [when, p] : cost.power)
-        if (std::abs(of(p)) > visible * std::abs(p.supplies)) return true;
+        if (std::abs(power_of(p)) > visible * std::abs(p.supplies)) return true;
     return false;
 }
 
@@ -92,11 +92,13 @@ std::string leaks_table(const Cost& cost) {
         format_quantity(cost.supply, "V"), format_table(rows));
 }
 
+/// The mean power of a transient, or the power in .op if there is none.
 const PowerBreakdown& typical(const Cost& cost) {
     const auto* mean = cost.powers("mean");
     return mean ? *mean : cost.power[0].second;
 }
 
+/// The number of receptors per area and per power.
 std::string density(const Cost& cost) {
     if (!cost.is_afferent) return "";
     const auto& p = typical(cost);

@@ -17,11 +17,11 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Result<CompareOptions> options_of(const CompareArguments& w) {
-    CompareOptions options{.pairs = w.pairs, .by_order = w.by_order};
-    for (const auto& [text, unit, option, to] : {std::tuple{&w.window, "s", "--window", &options.window},
-                                                 {&w.cost, "Hz", "--cost", &options.cost},
-                                                 {&w.tau, "s", "--tau", &options.tau}}) {
+Result<CompareOptions> options_of(const CompareArguments& args) {
+    CompareOptions options{.pairs = args.pairs, .by_order = args.by_order};
+    for (const auto& [text, unit, option, to] : {std::tuple{&args.window, "s", "--window", &options.window},
+                                                 {&args.cost, "Hz", "--cost", &options.cost},
+                                                 {&args.tau, "s", "--tau", &options.tau}}) {
         const auto value = parse_quantity(*text, unit);
         if (!value) return bad_usage(fmt::format("{} {}", option, value.error().message));
         if (!(*value > 0) && !(to == &options.cost && *value == 0))
@@ -32,12 +32,12 @@ Result<CompareOptions> options_of(const CompareArguments& w) {
 }
 
 /// Warns of a window above 0.5 s. It is probably a number meant as milliseconds; a number without a unit is in seconds.
-void warn_of_window(const CompareOptions& options, const CompareArguments& w) {
+void warn_of_window(const CompareOptions& options, const CompareArguments& args) {
     constexpr double max_usual = 0.5;  // s
     if (options.window <= max_usual) return;
-    const bool has_no_unit = w.window.find_first_not_of("+0123456789.eE") == std::string::npos;
-    fmt::print(stderr, "corpuscle: warning: --window {} matches spikes up to {} apart{}\n", w.window, format_quantity(options.window, "s"),
-               has_no_unit ? fmt::format("; for milliseconds write --window {}ms", w.window) : "");
+    const bool has_no_unit = args.window.find_first_not_of("+0123456789.eE") == std::string::npos;
+    fmt::print(stderr, "corpuscle: warning: --window {} matches spikes up to {} apart{}\n", args.window,
+               format_quantity(options.window, "s"), has_no_unit ? fmt::format("; for milliseconds write --window {}ms", args.window) : "");
 }
 
 Json document_of(const TrainDifference& d) {
@@ -92,21 +92,21 @@ std::string text(const CompareOptions& options, const std::vector<TrainDifferenc
                                             format_quantity(options.window, "s"), options.cost, format_quantity(options.tau, "s"));
 }
 
-Result<void> run(const CompareArguments& w, const CommonArguments& common) {
-    const auto options = options_of(w);
+Result<void> run(const CompareArguments& args, const CommonArguments& common) {
+    const auto options = options_of(args);
     if (!options) return options.error();
-    if (w.files.empty()) return bad_usage("compare: no files given; try 'corpuscle compare A/spikes.csv B/spikes.csv'");
-    if (w.files.size() == 1 && w.pairs.empty())
-        return bad_usage(fmt::format("compare {}: needs a second file, or two trains of this file: --pair sa1=fa1", w.files[0]));
-    warn_of_window(*options, w);
-    const SpikeColumns columns{w.time_column, w.train_column};
-    auto a = read_spikes(w.files.front(), columns);
-    auto b = w.files.size() == 1 ? a : read_spikes(w.files.back(), columns);
+    if (args.files.empty()) return bad_usage("compare: no files given; try 'corpuscle compare A/spikes.csv B/spikes.csv'");
+    if (args.files.size() == 1 && args.pairs.empty())
+        return bad_usage(fmt::format("compare {}: needs a second file, or two trains of this file: --pair sa1=fa1", args.files[0]));
+    warn_of_window(*options, args);
+    const SpikeColumns columns{args.time_column, args.train_column};
+    auto a = read_spikes(args.files.front(), columns);
+    auto b = args.files.size() == 1 ? a : read_spikes(args.files.back(), columns);
     // --time and --train apply to the file that has these columns; the other file is read with the default columns.
-    if (!a && b && w.files.size() == 2 && (w.time_column || w.train_column))
-        if (auto with_defaults = read_spikes(w.files.front())) a = std::move(with_defaults);
-    if (a && !b && (w.time_column || w.train_column))
-        if (auto with_defaults = read_spikes(w.files.back())) b = std::move(with_defaults);
+    if (!a && b && args.files.size() == 2 && (args.time_column || args.train_column))
+        if (auto with_defaults = read_spikes(args.files.front())) a = std::move(with_defaults);
+    if (a && !b && (args.time_column || args.train_column))
+        if (auto with_defaults = read_spikes(args.files.back())) b = std::move(with_defaults);
     if (!a) return a.error();
     if (!b) return b.error();
     const auto pairs = pair_trains(*a, *b, *options);
@@ -129,9 +129,9 @@ Result<void> run(const CompareArguments& w, const CommonArguments& common) {
 
 }  // namespace
 
-int compare_trains(const CompareArguments& words, const CommonArguments& common) {
+int compare_trains(const CompareArguments& args, const CommonArguments& common) {
     catch_interrupt();
-    const auto done = run(words, common);
+    const auto done = run(args, common);
     return done ? 0 : report_error(done.error());
 }
 

@@ -10,8 +10,8 @@
 namespace corpuscle {
 namespace {
 
-constexpr std::size_t block = 1 << 16;                      // bytes
-constexpr auto max_delay = std::chrono::milliseconds(500);  // before a pending point is written
+constexpr std::size_t block = 1 << 16;                      // bytes; pending points are written when there are this many
+constexpr auto max_delay = std::chrono::milliseconds(500);  // after which pending points are written
 
 }  // namespace
 

@@ -25,8 +25,9 @@ class CurveFiles final : public circuit::CurveSink {
     std::size_t analysis_count_ = 0, plot_count_ = 0;  // of the current variant: number of analyses; plots written so far
     // state of the current transient:
     OutputFile* file_ = nullptr;
-    std::string rows_;  // not written yet
-    std::size_t point_count_ = 0, count_offset_ = 0;
+    std::string rows_;  // points that are not written yet, in the format of the file
+    std::size_t point_count_ = 0;
+    std::size_t count_offset_ = 0;               // position of the point count in a .raw file, bytes
     double newest_time_ = 0, written_time_ = 0;  // s: newest point; last point written to the file
     Clock::time_point last_write_;
     bool has_streamed_ = false;        // a transient has delivered more than its first point
@@ -51,7 +52,7 @@ public:
 
     /// Renames the finished files to their final names.
     Result<void> finish();
-    /// Finishes the files of an incomplete run. Returns a note that says where they end, or "" if nothing was kept.
+    /// Finishes the files of an incomplete run. Returns a note that says at which point they end, or "" if no file was kept.
     /// After a failure only the points of a transient are kept; after an interruption complete analyses are kept, too.
     Result<std::string> finish_early(bool interrupted);
 };

@@ -24,32 +24,32 @@ Json document_of(const NgspiceDeck& deck, const std::vector<Error>& found) {
     return {{"simulator", "ngspice"}, {"deck", deck.text}, {"warnings", warnings}};
 }
 
-Result<void> export_netlist(const ExportArguments& words, const CommonArguments& common) {
-    const auto netlist = open_netlist(words.netlist);
+Result<void> export_netlist(const ExportArguments& args, const CommonArguments& common) {
+    const auto netlist = open_netlist(args.netlist);
     if (!netlist) return netlist.error();
     OutputCheck outputs(common.overwrite);
-    if (!words.out.empty())
-        if (auto ok = outputs.check_file(words.out, is_own_deck); !ok) return ok;
+    if (!args.out.empty())
+        if (auto ok = outputs.check_file(args.out, is_own_deck); !ok) return ok;
     auto circuit = netlist->elaborate();
     if (!circuit) return circuit.error();
     auto warnings = circuit->warnings;
     const auto deck = ngspice_deck(std::make_shared<const Circuit>(std::move(*circuit)));
     if (!deck) return deck.error();
     warnings.insert(warnings.end(), deck->left_out.begin(), deck->left_out.end());
-    if (!words.out.empty())
-        if (auto ok = write_file(words.out, deck->text); !ok) return ok;
+    if (!args.out.empty())
+        if (auto ok = write_file(args.out, deck->text); !ok) return ok;
     for (const auto& r : warnings) print_warning(r.text());
     if (common.json)
         fmt::print("{}\n", json_text(document_of(*deck, warnings)));
-    else if (words.out.empty())
+    else if (args.out.empty())
         fmt::print("{}", deck->text);
     return {};
 }
 
 }  // namespace
 
-int export_to(const ExportArguments& words, const CommonArguments& common) {
-    const auto done = export_netlist(words, common);
+int export_to(const ExportArguments& args, const CommonArguments& common) {
+    const auto done = export_netlist(args, common);
     return done ? 0 : report_error(done.error());
 }
 

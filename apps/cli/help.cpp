@@ -27,9 +27,9 @@ const CommonOptions common_options[] = {
 
 /// The common options of a verb; null for a verb with few options, which lists all.
 const CommonOptions* common_options_of(const CLI::App& app) {
-    const auto* at =
+    const auto* found =
         std::find_if(std::begin(common_options), std::end(common_options), [&](const auto& c) { return c.verb == app.get_name(); });
-    return at == std::end(common_options) ? nullptr : at;
+    return found == std::end(common_options) ? nullptr : found;
 }
 
 /// The width of a UTF-8 text in columns, one per character.
@@ -65,7 +65,7 @@ std::string entry(const std::string& name, const std::string& description, std::
     return wrapped(head, 4) + wrapped(std::string(width, ' ') + description, width);
 }
 
-/// A command broken into lines with backslashes, as a shell accepts it; never broken within quotes.
+/// Breaks a command into lines that end with a backslash, as a shell accepts them. Quoted text is not broken.
 std::string continued(std::string_view command) {
     std::string out;
     constexpr std::size_t max_command = max_width - 2;  // leaves two columns for the backslash
@@ -101,7 +101,7 @@ struct Footer {
     bool is_short = false;  ///< examples were left out
 };
 
-/// Splits the footer into the paragraphs of examples, of which at most `limit` are kept, and all others.
+/// Splits the footer into examples, of which at most `limit` are kept, and all other paragraphs.
 Footer split_footer(const std::string& footer, std::size_t limit) {
     Footer out;
     bool in_examples = false;
@@ -167,7 +167,8 @@ std::vector<std::string> normalize_help(std::vector<std::string> arguments) {
 
 namespace {
 
-/// True if the argument at k is `text`: an option ("--spin", "--limit=2N"), an option with a value ("--stamp count"), or a word.
+/// True if the argument at k is `text`: an option ("--spin", "--limit=2N"), an option with a value ("--stamp count"), or a positional
+/// argument.
 bool is_at(const std::vector<std::string>& arguments, std::size_t k, std::string_view text) {
     const auto blank = text.find(' ');
     const auto name = text.substr(0, blank);
@@ -184,17 +185,17 @@ bool is_at(const std::vector<std::string>& arguments, std::size_t k, std::string
 
 std::string unknown_option_error(const CLI::App& app, const std::vector<std::string>& arguments) {
     std::vector<std::string> known;
-    const CLI::App* at = &app;
+    const CLI::App* current = &app;
     std::string name;
     const auto add_options = [&] {
-        for (const auto* option : at->get_options())
+        for (const auto* option : current->get_options())
             for (const auto& n : option->get_lnames()) known.push_back("--" + n);
     };
     add_options();
     for (std::size_t k = 0; k < arguments.size() && arguments[k] != "--"; ++k) {  // verbs: "sweep", "show"
-        const auto verbs = at->get_subcommands([&](const CLI::App* verb) { return verb->get_name() == arguments[k]; });
+        const auto verbs = current->get_subcommands([&](const CLI::App* verb) { return verb->get_name() == arguments[k]; });
         if (verbs.empty()) continue;
-        at = verbs.front(), name += (name.empty() ? "" : " ") + arguments[k];
+        current = verbs.front(), name += (name.empty() ? "" : " ") + arguments[k];
         add_options();
     }
     const std::vector<std::string_view> names(known.begin(), known.end());

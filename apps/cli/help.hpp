@@ -21,7 +21,7 @@ private:
 /// Rewrites "help respond" to "respond --help", and an empty command line to "--help".
 std::vector<std::string> normalize_help(std::vector<std::string> arguments);
 
-/// The error message if an argument has a former spelling or is an option that the verb does not have, else "".
+/// The error message if an argument has been renamed or is an option that the verb does not have, else "".
 std::string unknown_option_error(const CLI::App&, const std::vector<std::string>& arguments);
 
 /// The error message if the first argument is not a verb of the program, else "".

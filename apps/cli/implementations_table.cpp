@@ -1,4 +1,4 @@
-// The table below the rates of corpuscle respond: implementations of one receptor, compared with the first.
+// The table that corpuscle respond prints below the rates: the implementations of each receptor, compared with the first one.
 
 #include "implementations_table.hpp"
 
@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t max_rows = 30;
 constexpr std::size_t max_rows_with_silent = 8;  // longer tables omit pairs without spikes
 
-/// The counts of all phases: "0 5 8 1 0".
+/// The spike counts of all phases: "0 5 8 1 0".
 std::string by_phase(const VersionComparison& c, std::size_t VersionComparison::PhaseCount::* count) {
     std::string text;
     for (const auto& p : c.phases) text += fmt::format("{}{}", text.empty() ? "" : " ", p.*count);
@@ -46,7 +46,7 @@ std::string implementations_table(const VersionComparisons& comparisons) {
         {"implementation", "channel", "spikes", "by phase", "change (%)", "matched", "shift (ms)", "Victor-Purpura", "van Rossum"}};
     const auto& all = comparisons.rows();
     std::size_t omitted = 0, silent = 0;
-    const VersionComparison* last = nullptr;  // the last printed; its reference has been printed, too
+    const VersionComparison* last = nullptr;  // the last printed row; its reference has been printed, too
     for (const auto& c : all) {
         if (c.total.spikes + c.total.reference_spikes == 0 && all.size() > max_rows_with_silent) {
             ++silent;

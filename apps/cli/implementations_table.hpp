@@ -6,7 +6,7 @@
 
 namespace corpuscle {
 
-/// A table of the differences between the implementations of one receptor. Empty if no receptor has two.
+/// A table that compares the implementations of each receptor with its first one. Empty if no receptor has two implementations.
 std::string implementations_table(const VersionComparisons&);
 
 }  // namespace corpuscle

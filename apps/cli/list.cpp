@@ -24,15 +24,15 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-ListEntry entry_of(const CatalogEntry& card) {
-    ListEntry e{std::string(card.name), "", std::string(card.description), std::string(card.source), {}, {}};
-    for (const auto& row : card.parameters) e.parameters.push_back({row, card.name});
+ListEntry entry_of(const CatalogEntry& model) {
+    ListEntry e{std::string(model.name), "", std::string(model.description), std::string(model.source), {}, {}};
+    for (const auto& row : model.parameters) e.parameters.push_back({row, model.name});
     return e;
 }
 
-std::vector<ListEntry> entries_of(const std::vector<CatalogEntry>& cards) {
+std::vector<ListEntry> entries_of(const std::vector<CatalogEntry>& models) {
     std::vector<ListEntry> entries;
-    for (const auto& c : cards) entries.push_back(entry_of(c));
+    for (const auto& m : models) entries.push_back(entry_of(m));
     return entries;
 }
 
@@ -117,17 +117,18 @@ Result<std::vector<ListSection>> select_sections(const std::vector<std::string>&
     }
     for (const auto& typed : what) {
         const auto plan = plan_afferent(typed, {});
-        const std::string w = plan && typed.find('+') == std::string::npos ? plan->name : typed;  // TouchSim's SA1, RA ... are sa1, fa1 ...
-        if (std::find(known.begin(), known.end(), w) == known.end())
-            return bad_usage(fmt::format("list: there is no '{}'{}", w, did_you_mean(w, known)));
+        const std::string name =
+            plan && typed.find('+') == std::string::npos ? plan->name : typed;  // TouchSim's SA1, RA ... are sa1, fa1 ...
+        if (std::find(known.begin(), known.end(), name) == known.end())
+            return bad_usage(fmt::format("list: there is no '{}'{}", name, did_you_mean(name, known)));
         for (const auto& s : all) {
-            if (s.name == w) {
+            if (s.name == name) {
                 out.push_back(s);
                 continue;
             }
             ListSection selected{s.name, {}};
             std::copy_if(s.entries.begin(), s.entries.end(), std::back_inserter(selected.entries),
-                         [&](const ListEntry& e) { return e.name == w; });
+                         [&](const ListEntry& e) { return e.name == name; });
             if (!selected.entries.empty()) out.push_back(selected);
         }
     }
@@ -175,14 +176,14 @@ Json document_of(const ListEntry& e) {
 
 }  // namespace
 
-int list(const ListArguments& words, const CommonArguments& common) {
-    if (words.list_sites) {
-        const auto sites = sites_listing(words.names, common.json);
+int list(const ListArguments& args, const CommonArguments& common) {
+    if (args.list_sites) {
+        const auto sites = sites_listing(args.names, common.json);
         if (!sites) return report_error(sites.error());
         fmt::print("{}", *sites);
         return 0;
     }
-    const auto sections = select_sections(words.names);
+    const auto sections = select_sections(args.names);
     if (!sections) return report_error(sections.error());
     if (common.json) {
         Json out = Json::object();

@@ -14,7 +14,7 @@ struct CatalogNote {
 };
 
 struct ListEntry {
-    std::string name, detail, description, source;
+    std::string name, detail, description, source;  ///< `detail` is printed in parentheses after the name
     std::vector<AfferentParameter> parameters;
     std::vector<std::string> other_names;
     std::string_view detail_key = "composition";  ///< the JSON key of `detail` for this kind of entry

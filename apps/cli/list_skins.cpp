@@ -1,4 +1,4 @@
-// corpuscle list skins, contact: populations with their classes, indenters with their parameters.
+// corpuscle list skins, corpuscle list contact: populations with their classes, indenters with their parameters.
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -20,7 +20,8 @@ std::string source_for(const std::vector<SourceNote>& sources, std::string_view 
     return found == sources.end() ? "" : found->source;
 }
 
-/// "tip 70, middle 33, palm 10 /cm2". Regions are named by the part after the last dot if regions of that name share one density.
+/// The densities of a class: "tip 70, middle 33, palm 10 /cm2". A region is named by the part after its last dot if all regions with that
+/// part have the same density.
 std::string densities(const SkinPlan& plan, const SkinClass& c) {
     std::vector<std::pair<std::string, double>> found;
     bool is_unique = true;
@@ -68,7 +69,7 @@ void add_class_notes(const SkinPlan& plan, std::uint32_t k, std::vector<CatalogN
 ListEntry entry_of_skin(const NamedSkin& named) {
     ListEntry e{std::string(named.name), "", std::string(named.description), fmt::format("skins/{}.toml", named.name), {}, {}};
     const auto plan = load_skin_plan(named.name);
-    if (!plan) return e;  // a test makes sure that it exists
+    if (!plan) return e;  // a test checks that every built-in skin loads
     const auto& sites = plan->sites;
     e.notes.push_back({"sites", fmt::format("{}, {:.3g} mm2 each, in {} regions", sites.size(), sites.area * 1e6, sites.regions.size()),
                        source_for(plan->sources, "sites")});

@@ -27,7 +27,7 @@ using namespace corpuscle;
 constexpr const char* about = "Corpuscle: artificial touch. Force goes in, nerve-like spikes come out.";
 
 constexpr const char* first_steps = R"(First steps:
-  corpuscle respond press                                the thesis's stimulus through an SA-I and an FA-I afferent
+  corpuscle respond press                                press, hold and release, through an SA-I and an FA-I afferent
   corpuscle respond press --report press.html            the same, with a report page
   corpuscle respond press --afferent sa1,sa1-circuit     a model beside its transistor circuit
   corpuscle respond touch.csv --unit mN --out result     your own recording: spikes.csv, summary.json
@@ -56,7 +56,7 @@ An afferent is one of
 list' prints all parameters. A value without a unit is in SI: press.t_hold=0.25 means 0.25 s.
 
 Examples:
-  corpuscle respond press --report press.html              the thesis's stimulus through an SA-I and an FA-I afferent
+  corpuscle respond press --report press.html              press, hold and release, through an SA-I and an FA-I afferent
   corpuscle respond touch.csv --unit mN --out result       your own recording: spikes.csv, summary.json
   corpuscle respond press --set press.F_max=2N --set sa1.f_B=25Hz
   corpuscle respond press --json                           one JSON document, with the time of every spike
@@ -79,9 +79,9 @@ constexpr const char* compare_examples =
 is extra.
 
 Files are spikes.csv or spikes.npz of 'corpuscle respond', a list of times in seconds (.txt, .npy),
-or any CSV or JSON lines with a column time_s. A column such as afferent, channel, unit or cluster
-separates several trains. --time and --train choose other columns. Trains of the same name are
-compared, and so are two files with one train each. A NAME is an afferent, a channel, or both:
+or any CSV or JSON Lines file with a column time_s. A column such as afferent, channel, unit or
+cluster separates several trains. --time and --train choose other columns. Trains of the same name
+are compared, and so are two files with one train each. A NAME is an afferent, a channel, or both:
 sa1,fz.
 
 Examples:
@@ -128,94 +128,100 @@ Examples:
   ngspice -b amplifier-ng.cir -r amplifier.raw                          the same curves as 'corpuscle run amplifier.cir'
   corpuscle export amplifier.cir --for ngspice > deck.cir && ngspice -b deck.cir       tables and measurements)";
 
-void add_respond(CLI::App& app, RespondArguments& w, CommonArguments& common) {
+void add_respond(CLI::App& app, RespondArguments& args, CommonArguments& common) {
     auto& verb = *app.add_subcommand("respond", "simulate afferents: force recordings or stimuli -> spikes, rates, report");
     verb.footer(respond_examples);
-    verb.add_option("FORCE", w.forces, "recordings and stimuli");
-    verb.add_option("--afferent,-a", w.afferents, "the afferents to simulate (repeat the option, or separate by commas)")
+    verb.add_option("FORCE", args.forces, "recordings and stimuli");
+    verb.add_option("--afferent,-a", args.afferents, "the afferents to simulate (repeat the option, or separate by commas)")
         ->delimiter(',')
         ->allow_extra_args(false)
         ->type_name("NAME")
         ->default_str("sa1,fa1");
-    verb.add_option("--set,-s", w.settings, "set a parameter of an afferent or a stimulus, such as sa1.f_B=25Hz")
+    verb.add_option("--set,-s", args.settings, "set a parameter of an afferent or a stimulus, such as sa1.f_B=25Hz")
         ->allow_extra_args(false)
         ->type_name("NAME.PARAMETER=VALUE");
-    verb.add_option("--copies", w.copies, "simulate N copies of each afferent on every channel: sa1#1 ... sa1#N")
+    verb.add_option("--copies", args.copies, "simulate N copies of each afferent on every channel: sa1#1 ... sa1#N")
         ->check(CLI::Range(1U, max_copies))
         ->type_name("N");
-    verb.add_option("--spread", w.spreads, "vary a parameter between copies: its standard deviation, relative (10%) or with its unit")
+    verb.add_option("--spread", args.spreads, "vary a parameter between copies: its standard deviation, relative (10%) or with its unit")
         ->allow_extra_args(false)
         ->type_name("NAME.PARAMETER=10%");
-    add_skin_options(verb, w);
-    verb.add_option("--method", w.method, "time stepping: exact, or backward-euler as in the thesis")
+    add_skin_options(verb, args);
+    verb.add_option("--method", args.method, "time stepping: exact, or backward-euler as in the thesis")
         ->check(CLI::IsMember({"exact", "backward-euler"}))
         ->capture_default_str()
         ->type_name("METHOD");
-    verb.add_flag("--sampled", w.sampled, "put spikes on the sampling times, as in the thesis (default: interpolate within the step)");
-    verb.add_option("--noise", w.noise,
+    verb.add_flag("--sampled", args.sampled, "put spikes on the sampling times, as in the thesis (default: interpolate within the step)");
+    verb.add_option("--noise", args.noise,
                     "add white noise current to every membrane: its standard deviation in a bandwidth of 1 kHz, such as 100nA")
         ->type_name("CURRENT");
-    verb.add_option("--seed", w.seed, "seed of all random numbers")->check(CLI::NonNegativeNumber)->capture_default_str()->type_name("N");
-    verb.add_option("--threads,-j", w.threads, "number of threads (0: one per core); results do not depend on it")
+    verb.add_option("--seed", args.seed, "seed of all random numbers")
+        ->check(CLI::NonNegativeNumber)
+        ->capture_default_str()
+        ->type_name("N");
+    verb.add_option("--threads,-j", args.threads, "number of threads (0: one per core); results do not depend on it")
         ->check(CLI::Range(0U, 1024U))
         ->capture_default_str()
         ->type_name("N");
     verb.add_flag(
-        "--float", w.use_float,
+        "--float", args.use_float,
         "single precision: up to twice as fast, but spike times change (see doc/lanes.md); currents and membranes are not recorded");
     verb.add_option(
-            "--rate", w.rate,
+            "--rate", args.rate,
             "sampling rate of a stimulus (default 10 kHz; with --population 1 kHz). For a recording: assume even sampling at this rate")
         ->type_name("FREQUENCY");
-    add_recording_options(verb, w);
-    verb.add_option("--out,-o", w.out, "write spikes.csv, summary.json and, with --copies, copies.csv into this directory")
+    add_recording_options(verb, args);
+    verb.add_option("--out,-o", args.out, "write spikes.csv, summary.json and, with --copies, copies.csv into this directory")
         ->type_name("DIR")
         ->group("Output");
-    verb.add_flag("--probe-files", w.probe_files, "with --out, also write probes.csv: force, currents, membranes")->group("Output");
-    verb.add_option("--bin", w.bin, "with --out, also write psth.csv: spike counts and rates in bins of this length")
+    verb.add_flag("--probe-files", args.probe_files, "with --out, also write probes.csv: force, currents, membranes")->group("Output");
+    verb.add_option("--bin", args.bin, "with --out, also write psth.csv: spike counts and rates in bins of this length")
         ->type_name("TIME")
         ->group("Output");
-    verb.add_flag("--npz", w.npz, "with --out, also write spikes.npz: exact times for NumPy and SpikeInterface")->group("Output");
-    verb.add_flag("--wav", w.wav, "with --out, also write spikes.wav: one click per spike")->group("Output");
-    verb.add_flag("--vectors", w.vectors,
-                  "with --out, also write vectors-AFFERENT.csv and rom-AFFERENT.csv: every fixed-point value behind a converter")
+    verb.add_flag("--npz", args.npz, "with --out, also write spikes.npz: exact times for NumPy and SpikeInterface")->group("Output");
+    verb.add_flag("--wav", args.wav, "with --out, also write spikes.wav: one click per spike")->group("Output");
+    verb.add_flag("--vectors", args.vectors,
+                  "with --out, also write vectors-AFFERENT.csv and rom-AFFERENT.csv: every fixed-point value after the converter")
         ->group("Output");
-    auto* report = verb.add_option("--report", w.report_file, "write a report page (default: report.html, in the directory of --out)")
+    auto* report = verb.add_option("--report", args.report_file, "write a report page (default: report.html, in the directory of --out)")
                        ->expected(0, 1)
                        ->type_name("[FILE.html]")
                        ->group("Output");
-    add_netlist_options(verb, w.netlists);
+    add_netlist_options(verb, args.netlists);
     add_common(verb, common);
     add_overwrite(verb, common);
-    verb.callback([&w, report] {
-        w.has_report = report->count() > 0;
-        if (w.report_file.empty() || w.report_file.ends_with(".html")) return;
-        // "respond --report press": the argument is not a page, so it is the force. If a force was given it may be a misspelt page.
-        if (!is_force(w.report_file)) throw CLI::ValidationError(page_name_error(w.report_file));
-        if (!w.forces.empty()) throw CLI::ValidationError(report_argument_error(w.report_file, w.forces));
-        w.forces.push_back(std::exchange(w.report_file, ""));
+    verb.callback([&args, report] {
+        args.has_report = report->count() > 0;
+        if (args.report_file.empty() || args.report_file.ends_with(".html")) return;
+        // "respond --report press": the argument is not a page, so it is the force. If a force was already given, it may be a misspelt
+        // page.
+        if (!is_force(args.report_file)) throw CLI::ValidationError(page_name_error(args.report_file));
+        if (!args.forces.empty()) throw CLI::ValidationError(report_argument_error(args.report_file, args.forces));
+        args.forces.push_back(std::exchange(args.report_file, ""));
     });
 }
 
-void add_compare(CLI::App& app, CompareArguments& w, CommonArguments& common) {
+void add_compare(CLI::App& app, CompareArguments& args, CommonArguments& common) {
     auto& verb = *app.add_subcommand("compare", "compare two spike files: matches, distances, missing and extra spikes");
     verb.footer(compare_examples);
-    verb.add_option("FILES", w.files, "the spike files A and B (CSV, NPZ ...), or one file with --pair")
+    verb.add_option("FILES", args.files, "the spike files A and B (CSV, NPZ ...), or one file with --pair")
         ->expected(1, 2)
         ->type_name("A [B]");
-    verb.add_option("--pair,-p", w.pairs, "compare train A-NAME of the first file with B-NAME of the second (repeatable)")
+    verb.add_option("--pair,-p", args.pairs, "compare train A-NAME of the first file with B-NAME of the second (repeatable)")
         ->allow_extra_args(false)
         ->type_name("A-NAME=B-NAME");
-    verb.add_flag("--by-order", w.by_order, "ignore names: compare the first train of A with the first of B, and so on");
-    verb.add_option("--time", w.time_column, "column of spike times, by name or number (default: time_s)")->type_name("COLUMN");
-    verb.add_option("--train", w.train_column, "column that identifies the train, by name or number")->type_name("COLUMN");
-    verb.add_option("--window", w.window, "maximum distance of matching spikes")->capture_default_str()->type_name("TIME");
-    verb.add_option("--cost", w.cost, "Victor-Purpura distance: cost per second of shift")->capture_default_str()->type_name("FREQUENCY");
-    verb.add_option("--tau", w.tau, "van Rossum distance: time constant")->capture_default_str()->type_name("TIME");
+    verb.add_flag("--by-order", args.by_order, "ignore names: compare the first train of A with the first of B, and so on");
+    verb.add_option("--time", args.time_column, "column of spike times, by name or number (default: time_s)")->type_name("COLUMN");
+    verb.add_option("--train", args.train_column, "column that identifies the train, by name or number")->type_name("COLUMN");
+    verb.add_option("--window", args.window, "maximum distance of matching spikes")->capture_default_str()->type_name("TIME");
+    verb.add_option("--cost", args.cost, "Victor-Purpura distance: cost per second of shift")
+        ->capture_default_str()
+        ->type_name("FREQUENCY");
+    verb.add_option("--tau", args.tau, "van Rossum distance: time constant")->capture_default_str()->type_name("TIME");
     add_common(verb, common);
 }
 
-void add_study(CLI::App& app, StudyArguments& w, CommonArguments& common) {
+void add_study(CLI::App& app, StudyArguments& args, CommonArguments& common) {
     auto& verb = *app.add_subcommand("study", "reproduce published results and compare them with the published numbers");
     std::string known;
     for (const auto* s : all_studies) known += fmt::format("\n  {:14} {}", s->name, s->title);
@@ -225,17 +231,18 @@ void add_study(CLI::App& app, StudyArguments& w, CommonArguments& common) {
                 "\n\nStudies of recordings, not part of 'all' (CORPUSCLE_DATA: directory of the recordings):" + recorded +
                 "\n\nExamples:\n  corpuscle study all --report reproduction.html\n  corpuscle study fig24 table17 --report chips.html\n"
                 "  corpuscle study fig3 --json");
-    verb.add_option("NAME", w.names, "the studies to run (default: all)");
-    verb.add_option("--report", w.report_file, "write a report page: figures, published and computed numbers")->type_name("FILE.html");
-    verb.callback([&w] {
-        if (!w.report_file.empty() && !w.report_file.ends_with(".html")) throw CLI::ValidationError(page_name_error(w.report_file));
+    verb.add_option("NAME", args.names, "the studies to run (default: all)");
+    verb.add_option("--report", args.report_file, "write a report page: figures, published and computed numbers")->type_name("FILE.html");
+    verb.callback([&args] {
+        if (!args.report_file.empty() && !args.report_file.ends_with(".html"))
+            throw CLI::ValidationError(page_name_error(args.report_file));
     });
-    verb.add_option("--markdown", w.markdown_file, "write all numbers as Markdown")->type_name("FILE.md");
+    verb.add_option("--markdown", args.markdown_file, "write all numbers as Markdown")->type_name("FILE.md");
     add_common(verb, common);
     add_overwrite(verb, common);
 }
 
-void add_run(CLI::App& app, RunArguments& w, CommonArguments& common) {
+void add_run(CLI::App& app, RunArguments& args, CommonArguments& common) {
     auto& verb = *app.add_subcommand("run", "run the analyses of a netlist -> .raw, CSV, printed measurements");
     std::string known;
     for (const auto& a : circuit::analyses) known += fmt::format("\n  {}\n      {}", a.usage, a.description);
@@ -243,41 +250,41 @@ void add_run(CLI::App& app, RunArguments& w, CommonArguments& common) {
         "A netlist is SPICE: a title, elements (R C L V I E F G H B D M X), .model, .subckt, .param, .include,\n"
         ".lib, .options ... and the analyses to run:" +
         known + run_examples);
-    verb.add_option("NETLIST", w.netlist, "a SPICE netlist, or a built-in one: sa1-circuit, fa1-circuit")->required();
-    verb.add_option("--set,-s", w.settings,
+    verb.add_option("NETLIST", args.netlist, "a SPICE netlist, or a built-in one: sa1-circuit, fa1-circuit")->required();
+    verb.add_option("--set,-s", args.settings,
                     "set a .param, an array (summer.N3B=8x4), a device value (cco.cu=4pF) or a device parameter (N3B.w=1.2um)")
         ->allow_extra_args(false)
         ->type_name("NAME=VALUE");
-    verb.add_flag("--budget", w.budget, "also print power, area and leakage of each block");
-    add_netlist_options(verb, w.netlists);
-    verb.add_option("--out,-o", w.out, "write the curves: x.raw (the format of ngspice, binary) or x.csv")
+    verb.add_flag("--budget", args.budget, "also print power, area and leakage of each block");
+    add_netlist_options(verb, args.netlists);
+    verb.add_option("--out,-o", args.out, "write the curves: x.raw (the format of ngspice, binary) or x.csv")
         ->type_name("FILE")
         ->group("Output");
-    verb.add_flag("--ascii", w.ascii, "write the .raw file as text")->group("Output");
+    verb.add_flag("--ascii", args.ascii, "write the .raw file as text")->group("Output");
     add_common(verb, common);
     add_overwrite(verb, common);
 }
 
-void add_export(CLI::App& app, ExportArguments& w, CommonArguments& common) {
+void add_export(CLI::App& app, ExportArguments& args, CommonArguments& common) {
     auto& verb = *app.add_subcommand("export", "convert a netlist to the format of another simulator");
     verb.footer(export_examples);
-    verb.add_option("NETLIST", w.netlist, "a SPICE netlist, or a built-in one: sa1-circuit, fa1-circuit")->required();
-    verb.add_option("--for", w.target, "the target simulator: ngspice (version 39)")
+    verb.add_option("NETLIST", args.netlist, "a SPICE netlist, or a built-in one: sa1-circuit, fa1-circuit")->required();
+    verb.add_option("--for", args.target, "the target simulator: ngspice (version 39)")
         ->check(CLI::IsMember({"ngspice"}))
         ->capture_default_str()
         ->type_name("SIMULATOR");
-    verb.add_option("--out,-o", w.out, "write to this file (default: standard output)")->type_name("FILE")->group("Output");
+    verb.add_option("--out,-o", args.out, "write to this file (default: standard output)")->type_name("FILE")->group("Output");
     add_common(verb, common);
     add_overwrite(verb, common);
 }
 
-void add_list(CLI::App& app, ListArguments& w, CommonArguments& common) {
+void add_list(CLI::App& app, ListArguments& args, CommonArguments& common) {
     auto& verb =
         *app.add_subcommand("list", "list all models, stimuli, circuits ... with the default, range and description of every parameter");
     verb.footer("Examples:\n  corpuscle list\n  corpuscle list neurons\n  corpuscle list sa1 press\n  corpuscle list 'grid 4x4' --sites");
-    verb.add_option("WHAT", w.names,
+    verb.add_option("WHAT", args.names,
                     "afferents, sensors, transducers, converters, receptors, neurons, stimuli, measures, formats, or the name of an entry");
-    verb.add_flag("--sites", w.list_sites,
+    verb.add_flag("--sites", args.list_sites,
                   "print the sites of a population (hand, 'grid 4x4', own.toml) in frame order, as CSV: name, x_mm, y_mm, region");
     add_common(verb, common);
 }

@@ -6,25 +6,25 @@
 
 namespace corpuscle {
 
-std::vector<circuit::NetlistOverride> netlist_overrides(const NetlistArguments& w) {
+std::vector<circuit::NetlistOverride> netlist_overrides(const NetlistArguments& args) {
     std::vector<circuit::NetlistOverride> out;
     const auto add = [&](const char* name, const std::optional<std::string>& value) {
         if (value) out.push_back({name, *value, fmt::format("--{} {}", name, *value), true});
     };
-    add("supply", w.supply), add("temp", w.temp), add("corner", w.corner), add("mismatch", w.mismatch);
+    add("supply", args.supply), add("temp", args.temp), add("corner", args.corner), add("mismatch", args.mismatch);
     return out;
 }
 
-std::vector<std::string> probe_names(const NetlistArguments& w) {
+std::vector<std::string> probe_names(const NetlistArguments& args) {
     std::vector<std::string> out;
-    for (const auto& text : w.probes)
+    for (const auto& text : args.probes)
         for (auto& probe : circuit::split_probes(text)) out.push_back(std::move(probe));
     return out;
 }
 
-std::string first_netlist_option(const NetlistArguments& w) {
-    const auto overrides = netlist_overrides(w);
-    return !overrides.empty() ? overrides[0].text : !w.probes.empty() ? "--probe " + w.probes[0] : "";
+std::string first_netlist_option(const NetlistArguments& args) {
+    const auto overrides = netlist_overrides(args);
+    return !overrides.empty() ? overrides[0].text : !args.probes.empty() ? "--probe " + args.probes[0] : "";
 }
 
 }  // namespace corpuscle

@@ -6,13 +6,13 @@
 
 namespace corpuscle {
 
-/// --supply, --temp, --corner, --mismatch.
+/// The overrides from --supply, --temp, --corner and --mismatch.
 std::vector<circuit::NetlistOverride> netlist_overrides(const NetlistArguments&);
 
 /// The probes of all --probe options, one string each.
 std::vector<std::string> probe_names(const NetlistArguments&);
 
-/// The first of these options that was given, with its value, such as "--temp 85"; "" if none was.
+/// The first netlist option that was given, with its value, such as "--temp 85"; "" if none was.
 std::string first_netlist_option(const NetlistArguments&);
 
 }  // namespace corpuscle

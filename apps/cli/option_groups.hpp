@@ -9,14 +9,14 @@ class App;
 
 namespace corpuscle {
 
-/// The error of a report page whose name does not end in .html.
+/// The error message if the name of a report page does not end in .html.
 std::string page_name_error(const std::string& name);
 
-/// The error of a force instead of a report page's name, with the command that works.
+/// The error message if --report is followed by a force instead of a page name. It includes the correct command.
 std::string report_argument_error(const std::string& name, std::vector<std::string> forces);
 
 void add_netlist_options(CLI::App&, NetlistArguments&);
-/// All recording options but --rate, which has further meanings.
+/// Adds all recording options except --rate, which means something different in each verb.
 void add_recording_options(CLI::App&, RecordingArguments&);
 void add_skin_options(CLI::App&, RespondArguments&);
 

@@ -29,19 +29,19 @@ std::vector<std::string> file_names_in(const std::string& directory, const std::
     return all;
 }
 
-std::optional<std::string> report_page_path(const RespondArguments& w) {
-    if (!w.has_report) return {};
-    return !w.report_file.empty() ? w.report_file : w.out.empty() ? "report.html" : w.out + "/report.html";
+std::optional<std::string> report_page_path(const RespondArguments& args) {
+    if (!args.has_report) return {};
+    return !args.report_file.empty() ? args.report_file : args.out.empty() ? "report.html" : args.out + "/report.html";
 }
 
 Result<void> check_outputs(const std::string& directory, std::vector<std::string> names, const std::optional<std::string>& page,
                            const std::string& checkpoint, OutputCheck& outputs) {
     if (page) {
-        const auto own = file_names_in(directory, {*page});
-        if (own.empty()) {
+        const auto page_names = file_names_in(directory, {*page});
+        if (page_names.empty()) {
             if (auto ok = outputs.check_file(*page, is_own_page); !ok) return ok;
         }
-        names.insert(names.end(), own.begin(), own.end());
+        names.insert(names.end(), page_names.begin(), page_names.end());
     }
     if (!checkpoint.empty())
         if (auto ok = outputs.check_file(checkpoint, is_own_checkpoint); !ok) return ok;

@@ -5,8 +5,8 @@
 
 namespace corpuscle {
 
-bool is_own_raw(std::string_view beginning);         ///< of 'run': .raw; ngspice's own .raw files differ by their date line
-bool is_own_table(std::string_view beginning);       ///< of 'run': CSV
+bool is_own_raw(std::string_view beginning);         ///< .raw of 'run'; the .raw files of ngspice have a date line
+bool is_own_table(std::string_view beginning);       ///< CSV of 'run'
 bool is_own_events(std::string_view beginning);      ///< of 'stream'
 bool is_own_state(std::string_view beginning);       ///< of 'stream --save-state'
 bool is_own_checkpoint(std::string_view beginning);  ///< of 'respond --checkpoint'

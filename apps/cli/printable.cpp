@@ -9,6 +9,7 @@
 namespace corpuscle {
 namespace {
 
+/// A decoded UTF-8 character. If it is not valid, `bytes` is 1 and `code` is meaningless.
 struct Character {
     std::uint32_t code = 0;
     std::size_t bytes = 1;
@@ -44,6 +45,7 @@ std::string escaped(std::uint32_t c) {
     return c < 0x80 ? fmt::format("\\x{:02x}", c) : fmt::format("\\u{:04x}", c);
 }
 
+/// Escapes all control characters except those in `kept`.
 std::string escape_except(std::string_view text, std::string_view kept) {
     std::string out;
     out.reserve(text.size());

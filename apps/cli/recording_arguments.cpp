@@ -20,24 +20,24 @@ Result<std::pair<double, double>> range_of(const std::string& text) {
 }
 
 /// Reads the options that are not a single quantity.
-Result<void> read_structured_options(const RecordingArguments& w, RecordingOptions& options) {
-    if (w.range) {
-        const auto range = range_of(*w.range);
+Result<void> read_structured_options(const RecordingArguments& args, RecordingOptions& options) {
+    if (args.range) {
+        const auto range = range_of(*args.range);
         if (!range) return range.error();
         options.range = *range;
     }
-    if (w.bad_fields)
-        options.bad_fields = *w.bad_fields == "error"  ? BadFields::error
-                             : *w.bad_fields == "drop" ? BadFields::drop
-                                                       : BadFields::interpolate;
-    if (w.despike) {
-        const auto limit = *w.despike == "auto" ? Result<double>(1) : parse_quantity(*w.despike, "");
+    if (args.bad_fields)
+        options.bad_fields = *args.bad_fields == "error"  ? BadFields::error
+                             : *args.bad_fields == "drop" ? BadFields::drop
+                                                          : BadFields::interpolate;
+    if (args.despike) {
+        const auto limit = *args.despike == "auto" ? Result<double>(1) : parse_quantity(*args.despike, "");
         if (!limit || !(*limit > 0))
-            return bad_usage(fmt::format("--despike {}: write 'auto', or a limit above 0 in the unit of the readings", *w.despike));
+            return bad_usage(fmt::format("--despike {}: write 'auto', or a limit above 0 in the unit of the readings", *args.despike));
         options.despike.emplace();
-        if (*w.despike != "auto") options.despike->limit = *limit;
+        if (*args.despike != "auto") options.despike->limit = *limit;
     }
-    for (const auto& text : w.notch) {
+    for (const auto& text : args.notch) {
         const auto f = parse_quantity(text, "Hz");
         if (!f) return bad_usage(fmt::format("--notch {}", f.error().message));
         options.notch.push_back(*f);
@@ -62,60 +62,60 @@ Result<std::optional<double>> optional_quantity(const std::optional<std::string>
     return std::optional<double>(*value);
 }
 
-Result<RecordingOptions> recording_options(const RecordingArguments& w) {
+Result<RecordingOptions> recording_options(const RecordingArguments& args) {
     RecordingOptions options;
-    options.table.dataset = w.dataset;
-    options.table.skip_lines = w.skip.value_or(0);
-    options.table.transpose = w.transpose;
-    options.channels = w.channels, options.time = w.time, options.time_unit = w.time_unit, options.unit = w.unit;
-    options.absolute = w.absolute;
-    options.layout = w.layout;
+    options.table.dataset = args.dataset;
+    options.table.skip_lines = args.skip.value_or(0);
+    options.table.transpose = args.transpose;
+    options.channels = args.channels, options.time = args.time, options.time_unit = args.time_unit, options.unit = args.unit;
+    options.absolute = args.absolute;
+    options.layout = args.layout;
     std::optional<double> offset;
-    for (const auto& [text, unit, option, to] : {std::tuple{&w.rate, "Hz", "--rate", &options.rate},
-                                                 {&w.resample, "Hz", "--resample", &options.resample},
-                                                 {&w.offset, "", "--offset", &offset},
-                                                 {&w.lowpass, "Hz", "--lowpass", &options.lowpass}}) {
+    for (const auto& [text, unit, option, to] : {std::tuple{&args.rate, "Hz", "--rate", &options.rate},
+                                                 {&args.resample, "Hz", "--resample", &options.resample},
+                                                 {&args.offset, "", "--offset", &offset},
+                                                 {&args.lowpass, "Hz", "--lowpass", &options.lowpass}}) {
         const auto value = optional_quantity(*text, unit, option);
         if (!value) return value.error();
         *to = *value;
     }
-    const auto scale = scale_of(w.scale);
+    const auto scale = scale_of(args.scale);
     if (!scale) return scale.error();
     options.scale = *scale;
     options.offset = offset.value_or(0);
-    if (auto ok = read_structured_options(w, options); !ok) return ok.error();
+    if (auto ok = read_structured_options(args, options); !ok) return ok.error();
     return options;
 }
 
-std::string_view first_recording_option(const RecordingArguments& w) {
-    const std::pair<std::string_view, bool> options[] = {{"--channel", !w.channels.empty()},
-                                                         {"--dataset", w.dataset.has_value()},
-                                                         {"--skip", w.skip.has_value()},
-                                                         {"--transpose", w.transpose.has_value()},
-                                                         {"--time", w.time.has_value()},
-                                                         {"--time-unit", w.time_unit.has_value()},
-                                                         {"--unit", w.unit.has_value()},
-                                                         {"--scale", w.scale.has_value()},
-                                                         {"--abs", w.absolute},
-                                                         {"--resample", w.resample.has_value()},
-                                                         {"--offset", w.offset.has_value()},
-                                                         {"--range", w.range.has_value()},
-                                                         {"--bad-fields", w.bad_fields.has_value()},
-                                                         {"--despike", w.despike.has_value()},
-                                                         {"--notch", !w.notch.empty()},
-                                                         {"--lowpass", w.lowpass.has_value()},
-                                                         {"--layout", !w.layout.empty()}};
+std::string_view first_recording_option(const RecordingArguments& args) {
+    const std::pair<std::string_view, bool> options[] = {{"--channel", !args.channels.empty()},
+                                                         {"--dataset", args.dataset.has_value()},
+                                                         {"--skip", args.skip.has_value()},
+                                                         {"--transpose", args.transpose.has_value()},
+                                                         {"--time", args.time.has_value()},
+                                                         {"--time-unit", args.time_unit.has_value()},
+                                                         {"--unit", args.unit.has_value()},
+                                                         {"--scale", args.scale.has_value()},
+                                                         {"--abs", args.absolute},
+                                                         {"--resample", args.resample.has_value()},
+                                                         {"--offset", args.offset.has_value()},
+                                                         {"--range", args.range.has_value()},
+                                                         {"--bad-fields", args.bad_fields.has_value()},
+                                                         {"--despike", args.despike.has_value()},
+                                                         {"--notch", !args.notch.empty()},
+                                                         {"--lowpass", args.lowpass.has_value()},
+                                                         {"--layout", !args.layout.empty()}};
     for (const auto& [option, given] : options)
         if (given) return option;
     return "";
 }
 
-Result<void> check_recording_arguments(const RespondArguments& w) {
-    if (!std::all_of(w.forces.begin(), w.forces.end(), [](const auto& f) { return is_stimulus(f); })) return {};
-    const auto option = first_recording_option(w);
+Result<void> check_recording_arguments(const RespondArguments& args) {
+    if (!std::all_of(args.forces.begin(), args.forces.end(), [](const auto& f) { return is_stimulus(f); })) return {};
+    const auto option = first_recording_option(args);
     if (option.empty()) return {};
-    return bad_usage(
-        fmt::format("{} is for recordings, but {} is a stimulus; change it by --set {}.PARAMETER=VALUE", option, w.forces[0], w.forces[0]));
+    return bad_usage(fmt::format("{} is for recordings, but {} is a stimulus; change it by --set {}.PARAMETER=VALUE", option,
+                                 args.forces[0], args.forces[0]));
 }
 
 }  // namespace corpuscle

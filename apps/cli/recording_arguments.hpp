@@ -13,10 +13,10 @@ namespace corpuscle {
 /// A quantity in SI, if the option was given. Errors name the option.
 Result<std::optional<double>> optional_quantity(const std::optional<std::string>& text, std::string_view unit, std::string_view option);
 
-/// The reader's options; respond and stream share them.
+/// Converts the recording options, which respond and stream have in common, to options of the reader.
 Result<RecordingOptions> recording_options(const RecordingArguments&);
 
-/// The first of these options that was given, such as "--channel"; "" if none was. --rate is not counted.
+/// The first recording option that was given, such as "--channel"; "" if none was. --rate is not considered.
 std::string_view first_recording_option(const RecordingArguments&);
 
 /// Rejects recording options if all forces are stimuli.

@@ -31,6 +31,7 @@ constexpr double default_rate = 10e3;             // Hz, of stimuli
 constexpr std::size_t max_rows = 60;              // of the printed table
 constexpr std::size_t max_rows_with_silent = 24;  // longer tables omit silent afferents
 
+/// A simulation, prepared from the arguments.
 struct Job {
     std::vector<ParameterOverride> overrides;
     std::vector<AfferentPlan> afferents;  // as requested
@@ -41,11 +42,11 @@ struct Job {
     std::vector<std::string> warnings;
 };
 
-Result<std::vector<ParameterOverride>> spread_overrides(const RespondArguments& w) {
-    if (w.copies == 0 && !w.spreads.empty())
-        return bad_usage(fmt::format("--spread {} needs --copies N, such as --copies 100", w.spreads[0]));
+Result<std::vector<ParameterOverride>> spread_overrides(const RespondArguments& args) {
+    if (args.copies == 0 && !args.spreads.empty())
+        return bad_usage(fmt::format("--spread {} needs --copies N, such as --copies 100", args.spreads[0]));
     std::vector<ParameterOverride> overrides;
-    for (const auto& text : w.spreads) {
+    for (const auto& text : args.spreads) {
         auto parsed = parse_override(text);
         if (!parsed) return bad_usage(fmt::format("--spread '{}': write NAME.PARAMETER=DEVIATION, such as 'sa1.f_B=10%'", text));
         overrides.push_back(std::move(*parsed));
@@ -55,22 +56,22 @@ Result<std::vector<ParameterOverride>> spread_overrides(const RespondArguments& 
 
 /// Parameter names of netlists are in lower case.
 std::vector<ParameterOverride> in_lower_case(std::vector<ParameterOverride> overrides) {
-    for (auto& w : overrides) w.parameter = lower(w.parameter);
+    for (auto& entry : overrides) entry.parameter = lower(entry.parameter);
     return overrides;
 }
 
 /// Replaces every afferent by its copies, if --copies was given.
-Result<void> populate(Job& job, const RespondArguments& w) {
-    const auto overrides = spread_overrides(w);
+Result<void> populate(Job& job, const RespondArguments& args) {
+    const auto overrides = spread_overrides(args);
     if (!overrides) return overrides.error();
-    job.copy_spec.count = w.copies;
-    if (w.copies == 0) job.copies = job.afferents;
-    for (std::size_t a = 0; w.copies > 0 && a < job.afferents.size(); ++a) {
-        const auto own = job.afferents[a].factory ? in_lower_case(*overrides) : *overrides;
-        auto spreads = distributions_for(job.afferents[a], w.afferents[a], own);
-        for (std::size_t k = 0; k < own.size(); ++k) (*overrides)[k].is_used |= own[k].is_used;
+    job.copy_spec.count = args.copies;
+    if (args.copies == 0) job.copies = job.afferents;
+    for (std::size_t a = 0; args.copies > 0 && a < job.afferents.size(); ++a) {
+        const auto afferent_overrides = job.afferents[a].factory ? in_lower_case(*overrides) : *overrides;
+        auto spreads = distributions_for(job.afferents[a], args.afferents[a], afferent_overrides);
+        for (std::size_t k = 0; k < afferent_overrides.size(); ++k) (*overrides)[k].is_used |= afferent_overrides[k].is_used;
         if (!spreads) return spreads.error();
-        auto copies = make_copies(job.afferents[a], w.copies, *spreads, w.seed);
+        auto copies = make_copies(job.afferents[a], args.copies, *spreads, args.seed);
         if (!copies) return copies.error();
         for (auto& copy : *copies)
             if (auto ok = rebuild_copy(copy, job.afferents[a]); !ok) return ok;
@@ -100,16 +101,16 @@ Result<void> check_overrides(const Job& job) {
     std::vector<std::string_view> names;
     for (const auto& a : job.afferents) names.push_back(a.name);
     for (const auto& s : job.sources) names.push_back(s->name());
-    for (const auto& w : job.overrides)
-        if (!w.is_used)
-            return bad_usage(fmt::format("--set {}: there is no afferent or stimulus '{}' in this run{}", w.text(), w.target,
-                                         did_you_mean(w.target, names)));
+    for (const auto& entry : job.overrides)
+        if (!entry.is_used)
+            return bad_usage(fmt::format("--set {}: there is no afferent or stimulus '{}' in this run{}", entry.text(), entry.target,
+                                         did_you_mean(entry.target, names)));
     return {};
 }
 
 /// Options and probes of netlists must have been used by a netlist.
-Result<void> check_netlist_options(const NetlistArguments& w, const NetlistOptions& netlist_options) {
-    if (const auto option = first_netlist_option(w); !option.empty() && !netlist_options.is_used)
+Result<void> check_netlist_options(const NetlistArguments& args, const NetlistOptions& netlist_options) {
+    if (const auto option = first_netlist_option(args); !option.empty() && !netlist_options.is_used)
         return bad_usage(fmt::format("{}: there is no netlist in this run; try --afferent sa1-circuit", option));
     for (std::size_t k = 0; k < netlist_options.probes.size(); ++k)
         if (!netlist_options.probe_found[k])
@@ -118,53 +119,53 @@ Result<void> check_netlist_options(const NetlistArguments& w, const NetlistOptio
     return {};
 }
 
-Result<void> plan_afferents(Job& job, const RespondArguments& w) {
-    const NetlistOptions netlist_options{netlist_overrides(w.netlists), probe_names(w.netlists)};
-    for (const auto& name : w.afferents) {
+Result<void> plan_afferents(Job& job, const RespondArguments& args) {
+    const NetlistOptions netlist_options{netlist_overrides(args.netlists), probe_names(args.netlists)};
+    for (const auto& name : args.afferents) {
         auto plan = plan_any_afferent(name, job.overrides, netlist_options);
         if (!plan) return plan.error();
         if (std::any_of(job.afferents.begin(), job.afferents.end(), [&](const auto& a) { return a.name == plan->name; }))
             return bad_usage(fmt::format("--afferent {}: given twice", name));
         job.afferents.push_back(std::move(*plan));
     }
-    return check_netlist_options(w.netlists, netlist_options);
+    return check_netlist_options(args.netlists, netlist_options);
 }
 
-Result<Job> prepare(const RespondArguments& w, bool quiet) {
+Result<Job> prepare(const RespondArguments& args, bool quiet) {
     Job job;
-    if (w.forces.empty()) return bad_usage("respond: no FORCE given; try 'corpuscle respond press'");
-    for (const auto& text : w.settings) {
+    if (args.forces.empty()) return bad_usage("respond: no FORCE given; try 'corpuscle respond press'");
+    for (const auto& text : args.settings) {
         auto parsed = parse_override(text);
         if (!parsed) return parsed.error();
         job.overrides.push_back(std::move(*parsed));
     }
-    if (auto ok = plan_afferents(job, w); !ok) return ok.error();
-    if (auto ok = populate(job, w); !ok) return ok.error();
-    auto options = recording_options(w);
+    if (auto ok = plan_afferents(job, args); !ok) return ok.error();
+    if (auto ok = populate(job, args); !ok) return ok.error();
+    auto options = recording_options(args);
     if (!options) return options.error();
     Progress progress(quiet);
     options->should_continue = [&](double fraction) { return progress.update(fraction), !interrupted(); };
-    for (const auto& force : w.forces) {
-        auto source = open_force(force, *options, job.overrides, default_rate, w.seed);
+    for (const auto& force : args.forces) {
+        auto source = open_force(force, *options, job.overrides, default_rate, args.seed);
         if (!source) return source.error();
         job.sources.push_back(std::move(*source));
     }
     if (auto ok = check_overrides(job); !ok) return ok.error();
-    if (auto ok = check_recording_arguments(w); !ok) return ok.error();
+    if (auto ok = check_recording_arguments(args); !ok) return ok.error();
     if (auto ok = check_afferent_count(job); !ok) return ok.error();
-    if (w.vectors && !w.out.empty() &&
+    if (args.vectors && !args.out.empty() &&
         std::all_of(job.afferents.begin(), job.afferents.end(), [](const auto& a) { return a.converter.empty(); }))
-        return bad_usage(fmt::format("--vectors: {} has no converter, and so no fixed-point words; try 'adc+{}'", job.afferents[0].name,
+        return bad_usage(fmt::format("--vectors: {} has no converter, and so no fixed-point values; try 'adc+{}'", job.afferents[0].name,
                                      job.afferents[0].name));
-    job.options.method = w.method == "exact" ? Method::exact : Method::backward_euler;
-    job.options.sampled = w.sampled;
-    job.options.precision = w.use_float ? Precision::single_precision : Precision::double_precision;
-    const auto noise = optional_quantity(w.noise, "A", "--noise");
+    job.options.method = args.method == "exact" ? Method::exact : Method::backward_euler;
+    job.options.sampled = args.sampled;
+    job.options.precision = args.use_float ? Precision::single_precision : Precision::double_precision;
+    const auto noise = optional_quantity(args.noise, "A", "--noise");
     if (!noise) return noise.error();
     if (noise->value_or(0) < 0)
-        return bad_usage(fmt::format("--noise '{}' is negative; write a standard deviation, such as '50 nA'", *w.noise));
+        return bad_usage(fmt::format("--noise '{}' is negative; write a standard deviation, such as '50 nA'", *args.noise));
     job.options.noise = noise->value_or(0);
-    job.options.seed = w.seed;
+    job.options.seed = args.seed;
     job.warnings = rate_warnings(job.sources, job.afferents);
     for (auto& warning : noise_warnings(job.afferents, job.options.noise)) job.warnings.push_back(std::move(warning));
     return job;
@@ -172,7 +173,7 @@ Result<Job> prepare(const RespondArguments& w, bool quiet) {
 
 std::string cell(const MeasureInfo& m, double x) { return std::isnan(x) ? "-" : fmt::format("{:.{}f}", x, m.decimals); }
 
-/// The value of one afferent; of copies the mean and standard deviation, with at least one decimal.
+/// The value of one afferent. For copies: mean and standard deviation, with at least one decimal.
 std::string cell(const MeasureRow& row, std::size_t m) {
     if (row.copy_statistics.empty()) return cell(measures[m], row.values[m]);
     const int decimals = std::max(measures[m].decimals, 1);
@@ -218,7 +219,7 @@ std::string rate_table(const RunSummary& summary) {
     if (omitted > 0) text += fmt::format("... and {} more rows; --out writes all of them to summary.json\n", omitted);
     const auto silent = std::count_if(spikes.begin(), spikes.end(), [](const auto& s) { return s.second == 0; });
     if (!with_silent && silent > 0)
-        text += fmt::format("Not shown: {} of {} afferents, which did not fire (each channel counted).\n", silent, spikes.size());
+        text += fmt::format("Not shown: {} of {} afferents without spikes (counted once per channel).\n", silent, spikes.size());
     return text;
 }
 
@@ -226,7 +227,7 @@ std::string rate_table(const RunSummary& summary) {
 void print_notes(const Job& job, bool quiet) {
     for (const auto& s : job.sources)
         for (const auto& r : quiet ? std::vector<std::string>{} : s->notes()) print_message(fmt::format("{}: {}", s->name(), r));
-    for (const auto& w : job.warnings) print_warning(w);
+    for (const auto& warning : job.warnings) print_warning(warning);
 }
 
 void warn(Job& job, std::string message) {
@@ -267,7 +268,7 @@ std::size_t netlist_count(const Job& job) {
 /// Collects the spikes of every afferent for the JSON document on standard output.
 class SpikeTimes final : public ResponseSink {
     nlohmann::ordered_json trains_ = nlohmann::ordered_json::array();
-    std::size_t first_ = 0;
+    std::size_t first_ = 0;  // index of the first train of the current input
 
 public:
     Result<void> begin(const Input& input) override {
@@ -287,17 +288,17 @@ public:
 };
 
 /// Names of the files that are written per input, per afferent or per channel.
-std::vector<std::string> later_names(const Job& job, const RespondArguments& w) {
+std::vector<std::string> later_names(const Job& job, const RespondArguments& args) {
     std::vector<std::string> all;
     std::size_t channels = 0;
     for (std::size_t k = 0; k < job.sources.size(); ++k) {
         const auto number = k == 0 ? "" : fmt::format("-{}", k + 1);
-        if (w.probe_files) all.push_back(fmt::format("probes{}.csv", number));
-        if (w.wav) all.push_back(fmt::format("spikes{}.wav", number));
+        if (args.probe_files) all.push_back(fmt::format("probes{}.csv", number));
+        if (args.wav) all.push_back(fmt::format("spikes{}.wav", number));
         channels += job.sources[k]->channels().size();
     }
     for (const auto& a : job.copies) {
-        if (!w.vectors || a.converter.empty()) continue;
+        if (!args.vectors || a.converter.empty()) continue;
         all.push_back(fmt::format("rom-{}.csv", a.name));
         for (std::size_t c = 1; c <= channels; ++c)
             all.push_back(fmt::format("vectors-{}{}.csv", a.name, c == 1 ? "" : fmt::format("-{}", c)));
@@ -305,15 +306,15 @@ std::vector<std::string> later_names(const Job& job, const RespondArguments& w) 
     return all;
 }
 
-Result<void> run(const RespondArguments& w, const CommonArguments& common) {
-    auto job = prepare(w, common.quiet);
+Result<void> run(const RespondArguments& args, const CommonArguments& common) {
+    auto job = prepare(args, common.quiet);
     if (!job) return job.error();
     RespondOutputs outputs;
     OutputCheck check(common.overwrite);
-    if (auto ok = outputs.open(w, job->copy_spec, later_names(*job, w), check); !ok) return ok;
+    if (auto ok = outputs.open(args, job->copy_spec, later_names(*job, args), check); !ok) return ok;
     print_notes(*job, common.quiet);
 
-    ThreadPool pool(w.threads);
+    ThreadPool pool(args.threads);
     job->options.pool = &pool;
     RunSummary summary;
     SilenceDetector silence;
@@ -332,7 +333,7 @@ Result<void> run(const RespondArguments& w, const CommonArguments& common) {
     warn_of_rates(*job, summary);
     const auto silent = silence.silent_afferents(job->copies, job->options);
     for (const auto& s : common.quiet ? std::vector<SilentAfferent>{} : silent) print_message(silence_message(s));
-    auto result = summary.document(job->afferents, *work, job->options, w.seed, job->warnings);
+    auto result = summary.document(job->afferents, *work, job->options, args.seed, job->warnings);
     if (job->copy_spec.count > 0) result["copies"] = document_of(job->copy_spec);
     for (const auto& s : silent)
         result["silent"].push_back({{"afferent", s.name},
@@ -359,17 +360,17 @@ Result<void> run(const RespondArguments& w, const CommonArguments& common) {
 
 }  // namespace
 
-int respond(const RespondArguments& typed, const CommonArguments& common) {
-    if (!typed.population.empty()) return respond_skin(typed, common);
+int respond(const RespondArguments& given, const CommonArguments& common) {
+    if (!given.population.empty()) return respond_skin(given, common);
     catch_interrupt();
-    auto w = typed;
-    if (!w.netlists.probes.empty()) {
-        if (w.out.empty() && !w.has_report)
+    auto args = given;
+    if (!args.netlists.probes.empty()) {
+        if (args.out.empty() && !args.has_report)
             return report_error(
-                bad_usage(fmt::format("{} needs --out DIR or --report", first_netlist_option({{}, {}, {}, {}, w.netlists.probes}))));
-        w.probe_files |= !w.out.empty();
+                bad_usage(fmt::format("{} needs --out DIR or --report", first_netlist_option({{}, {}, {}, {}, args.netlists.probes}))));
+        args.probe_files |= !args.out.empty();
     }
-    const auto done = run(w, common);
+    const auto done = run(args, common);
     return done ? 0 : report_error(done.error());
 }
 

@@ -19,24 +19,24 @@ RespondOutputs::~RespondOutputs() {
 }
 
 template <class F, class... A>
-Result<void> RespondOutputs::add(const char* name, A... how) {
+Result<void> RespondOutputs::add(const char* name, A... arguments) {
     auto file = OutputFile::create(directory_ + "/" + name);
     if (!file) return file.error();
-    files_.push_back(std::make_unique<F>(std::move(*file), how...));
+    files_.push_back(std::make_unique<F>(std::move(*file), arguments...));
     return {};
 }
 
-Result<void> RespondOutputs::open_directory(const RespondArguments& w, const CopySpec& copy_spec, std::optional<double> bin) {
+Result<void> RespondOutputs::open_directory(const RespondArguments& args, const CopySpec& copy_spec, std::optional<double> bin) {
     if (auto ok = add<SpikesFile>("spikes.csv"); !ok) return ok;
     if (copy_spec.count > 0)
         if (auto ok = add<CopiesFile>("copies.csv", copy_spec); !ok) return ok;
-    if (w.npz)
+    if (args.npz)
         if (auto ok = add<NpzFile>("spikes.npz"); !ok) return ok;
     if (bin)
         if (auto ok = add<PsthFile>("psth.csv", *bin); !ok) return ok;
-    if (w.wav) files_.push_back(std::make_unique<SpikeSoundFile>(directory_));
-    if (w.probe_files) files_.push_back(std::make_unique<ProbesFile>(directory_));
-    if (w.vectors) files_.push_back(std::make_unique<TestVectorsFile>(directory_));
+    if (args.wav) files_.push_back(std::make_unique<SpikeSoundFile>(directory_));
+    if (args.probe_files) files_.push_back(std::make_unique<ProbesFile>(directory_));
+    if (args.vectors) files_.push_back(std::make_unique<TestVectorsFile>(directory_));
     auto summary = OutputFile::create(directory_ + "/summary.json");
     if (!summary) return summary.error();
     summary_file_ = std::move(*summary);
@@ -53,42 +53,45 @@ std::vector<std::string> RespondOutputs::paths() const {
 }
 
 /// Checks all output files before the first is created.
-Result<void> RespondOutputs::check(const RespondArguments& w, const CopySpec& copy_spec, const std::optional<std::string>& page,
+Result<void> RespondOutputs::check(const RespondArguments& args, const CopySpec& copy_spec, const std::optional<std::string>& page,
                                    std::vector<std::string> later, OutputCheck& outputs) {
     const std::pair<const char*, bool> names[] = {{"spikes.csv", true},
                                                   {"copies.csv", copy_spec.count > 0},
-                                                  {"spikes.npz", w.npz},
-                                                  {"psth.csv", w.bin.has_value()},
+                                                  {"spikes.npz", args.npz},
+                                                  {"psth.csv", args.bin.has_value()},
                                                   {"summary.json", true}};
     for (const auto& [name, is_written] : names)
         if (is_written) later.emplace_back(name);
-    return check_outputs(w.out, std::move(later), page, w.checkpoint, outputs);
+    return check_outputs(args.out, std::move(later), page, args.checkpoint, outputs);
 }
 
-Result<void> RespondOutputs::open(const RespondArguments& w, const CopySpec& copy_spec, std::vector<std::string> later,
+Result<void> RespondOutputs::open(const RespondArguments& args, const CopySpec& copy_spec, std::vector<std::string> later,
                                   OutputCheck& outputs) {
-    const std::pair<const char*, bool> options[] = {
-        {"--probe-files", w.probe_files}, {"--vectors", w.vectors}, {"--bin", w.bin.has_value()}, {"--npz", w.npz}, {"--wav", w.wav}};
+    const std::pair<const char*, bool> options[] = {{"--probe-files", args.probe_files},
+                                                    {"--vectors", args.vectors},
+                                                    {"--bin", args.bin.has_value()},
+                                                    {"--npz", args.npz},
+                                                    {"--wav", args.wav}};
     for (const auto& [option, given] : options)
-        if (given && w.out.empty()) return bad_usage(fmt::format("{} needs --out DIR", option));
-    for (const auto& [option, given] : {std::pair{"--probe-files", w.probe_files}, std::pair{"--vectors", w.vectors}})
-        if (given && w.copies > RespondReport::max_copies)
+        if (given && args.out.empty()) return bad_usage(fmt::format("{} needs --out DIR", option));
+    for (const auto& [option, given] : {std::pair{"--probe-files", args.probe_files}, std::pair{"--vectors", args.vectors}})
+        if (given && args.copies > RespondReport::max_copies)
             return bad_usage(
                 fmt::format("{} works with at most {} copies, not {}; use fewer, or --set the values of one copy in copies.csv", option,
-                            RespondReport::max_copies, w.copies));
-    const auto bin = optional_quantity(w.bin, "s", "--bin");
+                            RespondReport::max_copies, args.copies));
+    const auto bin = optional_quantity(args.bin, "s", "--bin");
     if (!bin) return bin.error();
-    if (*bin && !(**bin > 0)) return bad_usage(fmt::format("--bin {}: must be greater than 0, such as 10ms", *w.bin));
-    directory_ = w.out;
-    const auto page_path = report_page_path(w);
-    if (auto ok = check(w, copy_spec, page_path, std::move(later), outputs); !ok) return ok;
-    if (!w.out.empty())
-        if (auto ok = open_directory(w, copy_spec, *bin); !ok) return ok;
+    if (*bin && !(**bin > 0)) return bad_usage(fmt::format("--bin {}: must be greater than 0, such as 10ms", *args.bin));
+    directory_ = args.out;
+    const auto page_path = report_page_path(args);
+    if (auto ok = check(args, copy_spec, page_path, std::move(later), outputs); !ok) return ok;
+    if (!args.out.empty())
+        if (auto ok = open_directory(args, copy_spec, *bin); !ok) return ok;
     if (!page_path) return {};
     auto page = OutputFile::create(*page_path);
     if (!page) return page.error();
     report_file_ = std::move(*page);
-    report_.emplace(RespondReport::max_total_points, copy_spec, !w.use_float);
+    report_.emplace(RespondReport::max_total_points, copy_spec, !args.use_float);
     return {};
 }
 

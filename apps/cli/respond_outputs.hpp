@@ -21,7 +21,7 @@ class RespondOutputs {
     std::vector<std::string> removed_;
 
     template <class F, class... A>
-    Result<void> add(const char* name, A... how);
+    Result<void> add(const char* name, A... arguments);
     Result<void> open_directory(const RespondArguments&, const CopySpec&, std::optional<double> bin);
     Result<void> check(const RespondArguments&, const CopySpec&, const std::optional<std::string>& page, std::vector<std::string> later,
                        OutputCheck&);

@@ -31,7 +31,7 @@ constexpr double skin_rate = 1e3;  // Hz, of stimuli
 constexpr const char* default_indenter = "flat";
 
 /// Rejects options that apply only to afferents without a skin, each with the reason and a remedy.
-Result<void> check_skin_options(const RespondArguments& w) {
+Result<void> check_skin_options(const RespondArguments& args) {
     struct Refusal {
         const char* option;
         bool given;
@@ -47,25 +47,25 @@ Result<void> check_skin_options(const RespondArguments& w) {
     constexpr const char* netlists =
         "the afferents of a skin are models, not netlists; run a netlist with --afferent sa1-circuit, without "
         "--population";
-    const RespondArguments plain;
+    const RespondArguments defaults;
     const Refusal refusals[] = {
-        {"--afferent", w.afferents != plain.afferents, in_file},
-        {"--copies", w.copies > 0, spread},
-        {"--spread", !w.spreads.empty(), spread},
-        {"--noise", w.noise.has_value(), "membranes of a skin have no noise; for a noisy force use press+noise as FORCE"},
-        {"--float", w.use_float, "a skin is simulated in double precision only; remove --float"},
-        {"--probe-files", w.probe_files, probes},
-        {"--probe", !w.netlists.probes.empty(), netlists},
-        {"--vectors", w.vectors,
+        {"--afferent", args.afferents != defaults.afferents, in_file},
+        {"--copies", args.copies > 0, spread},
+        {"--spread", !args.spreads.empty(), spread},
+        {"--noise", args.noise.has_value(), "membranes of a skin have no noise; for a noisy force use press+noise as FORCE"},
+        {"--float", args.use_float, "a skin is simulated in double precision only; remove --float"},
+        {"--probe-files", args.probe_files, probes},
+        {"--probe", !args.netlists.probes.empty(), netlists},
+        {"--vectors", args.vectors,
          "afferents of a skin have no converter; run an afferent with one: --afferent sa1-kim, without --population"},
-        {"--wav", w.wav, "the clicks of thousands of afferents are not audible separately; run one afferent without --population"},
-        {"--corner", w.netlists.corner.has_value(), netlists},
-        {"--supply", w.netlists.supply.has_value(), netlists},
-        {"--temp", w.netlists.temp.has_value(), netlists},
-        {"--mismatch", w.netlists.mismatch.has_value(), netlists}};
+        {"--wav", args.wav, "the clicks of thousands of afferents are not audible separately; run one afferent without --population"},
+        {"--corner", args.netlists.corner.has_value(), netlists},
+        {"--supply", args.netlists.supply.has_value(), netlists},
+        {"--temp", args.netlists.temp.has_value(), netlists},
+        {"--mismatch", args.netlists.mismatch.has_value(), netlists}};
     for (const auto& r : refusals)
         if (r.given) return bad_usage(fmt::format("{} cannot be used with --population: {}", r.option, r.reason));
-    if (w.forces.size() != 1) return bad_usage(fmt::format("--population takes one FORCE, not {}", w.forces.size()));
+    if (args.forces.size() != 1) return bad_usage(fmt::format("--population takes one FORCE, not {}", args.forces.size()));
     return {};
 }
 
@@ -85,7 +85,7 @@ struct SkinJob {
     std::unique_ptr<SkinForce> force;
     SkinRunNotes run_info;
     std::string name;
-    std::string taken_for_skin;  ///< note that the site table is used as a skin; "": it is not
+    std::string skin_note;  ///< note that the site table is used as a skin; "": it is not
 };
 
 /// Adds the settings of a skin stimulus as overrides. Overrides of the user take precedence.
@@ -103,25 +103,27 @@ void add_stimulus_overrides(std::vector<ParameterOverride>& overrides, const Nam
 Result<void> check_skin_overrides(const SkinJob& job) {
     std::vector<std::string_view> names = {"contact", job.source->name()};
     for (const auto& c : job.skin->plan.classes) names.push_back(c.name);
-    for (const auto& w : job.overrides)
-        if (!w.is_used)
-            return bad_usage(fmt::format("--set {}: there is no '{}' in this run{}", w.text(), w.target, did_you_mean(w.target, names)));
+    for (const auto& entry : job.overrides)
+        if (!entry.is_used)
+            return bad_usage(
+                fmt::format("--set {}: there is no '{}' in this run{}", entry.text(), entry.target, did_you_mean(entry.target, names)));
     return {};
 }
 
-Result<void> open_contact(SkinJob& job, const RespondArguments& w, const NamedTouch* stimulus) {
+Result<void> open_contact(SkinJob& job, const RespondArguments& args, const NamedTouch* stimulus) {
     const auto& sites = job.skin->plan.sites;
     const std::size_t channels = job.source->channels().size();
     if (channels > 1 || sites.size() == 1) {
-        if (!w.contact.empty())
-            return bad_usage(fmt::format("--contact {}: {} has {} channels; an indenter needs a force of one channel", w.contact,
-                                         job.source->name(), channels));
+        if (!args.contact.empty())
+            return bad_usage(channels > 1 ? fmt::format("--contact {}: {} has {} channels; an indenter needs a force of one channel",
+                                                        args.contact, job.source->name(), channels)
+                                          : fmt::format("--contact {}: the skin has one site; an indenter needs several", args.contact));
         auto at = match_sites(job.skin->plan, *job.source);
         if (!at) return at.error();
         job.force = make_site_force(*job.source, std::move(*at), sites.size());
         return {};
     }
-    const std::string indenter = !w.contact.empty() ? w.contact : stimulus ? std::string(stimulus->indenter) : default_indenter;
+    const std::string indenter = !args.contact.empty() ? args.contact : stimulus ? std::string(stimulus->indenter) : default_indenter;
     auto contact = make_contact(indenter, job.overrides, sites, job.source->clock());
     if (!contact) return contact.error();
     job.contact = std::move(*contact);
@@ -129,36 +131,36 @@ Result<void> open_contact(SkinJob& job, const RespondArguments& w, const NamedTo
     return {};
 }
 
-Result<SkinJob> prepare_skin(const RespondArguments& w) {
-    if (auto ok = check_skin_options(w); !ok) return ok.error();
+Result<SkinJob> prepare_skin(const RespondArguments& args) {
+    if (auto ok = check_skin_options(args); !ok) return ok.error();
     SkinJob job;
-    for (const auto& text : w.settings) {
+    for (const auto& text : args.settings) {
         auto parsed = parse_override(text);
         if (!parsed) return parsed.error();
         job.overrides.push_back(std::move(*parsed));
     }
-    const auto* stimulus = find_skin_stimulus(w.forces[0]);
+    const auto* stimulus = find_skin_stimulus(args.forces[0]);
     if (stimulus) add_stimulus_overrides(job.overrides, *stimulus);
-    auto options = recording_options(w);
+    auto options = recording_options(args);
     if (!options) return options.error();
-    auto source = open_force(stimulus ? std::string(stimulus->force) : w.forces[0], *options, job.overrides, skin_rate, w.seed);
+    auto source = open_force(stimulus ? std::string(stimulus->force) : args.forces[0], *options, job.overrides, skin_rate, args.seed);
     if (!source) return source.error();
     job.source = std::move(*source);
     job.name = stimulus ? std::string(stimulus->name) : job.source->name();
-    auto plan = load_skin_plan(w.population, job.source->channels());
+    auto plan = load_skin_plan(args.population, job.source->channels());
     if (!plan) return plan.error();
     if (auto ok = apply_class_overrides(*plan, job.overrides); !ok) return ok.error();
-    if (w.seed != 0) plan->seed = w.seed;
-    if (job.source->channels().size() == 1) job.taken_for_skin = treat_as_skin(*plan);
+    if (args.seed != 0) plan->seed = args.seed;
+    if (job.source->channels().size() == 1) job.skin_note = treat_as_skin(*plan);
     auto skin = innervate(std::move(*plan));
     if (!skin) return skin.error();
     job.skin = std::move(*skin);
-    if (auto ok = open_contact(job, w, stimulus); !ok) return ok.error();
+    if (auto ok = open_contact(job, args, stimulus); !ok) return ok.error();
     if (auto ok = check_skin_overrides(job); !ok) return ok.error();
     if (!stimulus)
-        if (auto ok = check_recording_arguments(w); !ok) return ok.error();
-    job.run_info.method = w.method == "exact" ? Method::exact : Method::backward_euler;
-    job.run_info.sampled = w.sampled;
+        if (auto ok = check_recording_arguments(args); !ok) return ok.error();
+    job.run_info.method = args.method == "exact" ? Method::exact : Method::backward_euler;
+    job.run_info.sampled = args.sampled;
     return job;
 }
 
@@ -170,7 +172,7 @@ void add_force_notes(SkinJob& job) {
     const auto quality = job.source->quality();
     run_info.notes.insert(run_info.notes.end(), quality.descriptions.begin(), quality.descriptions.end());
     run_info.warnings.insert(run_info.warnings.end(), quality.warnings.begin(), quality.warnings.end());
-    if (!job.taken_for_skin.empty()) run_info.notes.push_back(job.taken_for_skin);
+    if (!job.skin_note.empty()) run_info.notes.push_back(job.skin_note);
     if (job.contact) {
         run_info.contact = job.contact->description();
         for (auto& f : job.contact->metadata()) run_info.metadata.push_back(std::move(f));
@@ -188,27 +190,28 @@ void add_force_notes(SkinJob& job) {
 }
 
 /// A remedy for a stimulus that is too weak: the option that makes it stronger by this factor.
-std::string stronger_stimulus_advice(const SkinJob& job, const RespondArguments& w, double factor) {
+std::string stronger_stimulus_advice(const SkinJob& job, const RespondArguments& args, double factor) {
     const auto& plan = job.skin->plan;
     if (job.contact && plan.sites.area > 0 && !(plan.felt_area > 0)) {
         const auto area = std::max(factor * plan.sites.area, default_felt_area);
         return fmt::format("set felt_area = \"{} cm2\" in {}: without it an afferent receives the mean force of its sites",
-                           format_rounded_up(1e4 * area), w.population);
+                           format_rounded_up(1e4 * area), args.population);
     }
-    const auto facts = job.source->metadata();
+    const auto metadata = job.source->metadata();
     if (!is_stimulus(job.source->name())) {
-        const bool has_gain = !facts.empty() && facts[0].name.ends_with("newtons per unit");
-        return has_gain ? fmt::format("try --scale {}{}", format_rounded_up(factor * facts[0].value), w.unit ? " instead of --unit" : "")
-                        : "";
+        const bool has_gain = !metadata.empty() && metadata[0].name.ends_with("newtons per unit");
+        return has_gain
+                   ? fmt::format("try --scale {}{}", format_rounded_up(factor * metadata[0].value), args.unit ? " instead of --unit" : "")
+                   : "";
     }
     const MetadataEntry* largest = nullptr;
-    for (const auto& f : facts)
+    for (const auto& f : metadata)
         if (f.unit == "N" && (!largest || f.value > largest->value)) largest = &f;
     return largest ? fmt::format("try --set {}={}N", largest->name, format_rounded_up(factor * largest->value)) : "";
 }
 
 /// Reports classes without spikes: as a warning if no class fired, else as a note.
-void add_silence_notes(SkinJob& job, const RespondArguments& w, const std::vector<SilentClass>& silent) {
+void add_silence_notes(SkinJob& job, const RespondArguments& args, const std::vector<SilentClass>& silent) {
     constexpr double margin = 1.25;  // afferents of a class vary, and receive different forces
     std::vector<std::string> messages;
     std::optional<double> min_factor;
@@ -229,12 +232,12 @@ void add_silence_notes(SkinJob& job, const RespondArguments& w, const std::vecto
     const bool all = silent.size() == job.skin->plan.classes.size();
     auto text = fmt::format("{}: {}", all ? "no afferent fired" : "never fired", fmt::join(messages, "; "));
     if (all && min_factor)
-        if (const auto remedy = stronger_stimulus_advice(job, w, margin * *min_factor); !remedy.empty()) text += "; " + remedy;
+        if (const auto remedy = stronger_stimulus_advice(job, args, margin * *min_factor); !remedy.empty()) text += "; " + remedy;
     if (all && !any_force && job.contact)
         text += fmt::format(
             "; --set contact.x=... and --set contact.y=... place the indenter (for positions see afferents.csv, or type: corpuscle list {} "
             "--sites)",
-            quote_shell_word(w.population));
+            quote_shell_word(args.population));
     (all ? job.run_info.warnings : job.run_info.notes).push_back(std::move(text));
 }
 
@@ -242,10 +245,10 @@ void add_silence_notes(SkinJob& job, const RespondArguments& w, const std::vecto
 void add_rate_warnings(SkinJob& job, const SkinSummary& summary) {
     for (std::size_t c = 0; c < job.skin->plan.classes.size(); ++c) {
         const auto& plan = job.skin->plan.classes[c].afferent;
-        const auto [units, rate] = summary.count_faster_than(c, max_nerve_rate);
-        if (units > 0)
+        const auto [count, rate] = summary.count_faster_than(c, max_nerve_rate);
+        if (count > 0)
             job.run_info.warnings.push_back(
-                fmt::format("{} of {} {} afferents: {}", units, job.skin->class_begin[c + 1] - job.skin->class_begin[c],
+                fmt::format("{} of {} {} afferents: {}", count, job.skin->class_begin[c + 1] - job.skin->class_begin[c],
                             job.skin->plan.classes[c].name, excessive_rate_warning(rate, plan, job.skin->plan.classes[c].name)));
     }
 }
@@ -276,15 +279,15 @@ std::string sites_checksum(const Sites& sites) {
 }
 
 /// Everything that determines the response: all options except output options, and the contents of the files they name.
-Result<RunFingerprint> fingerprint_of(const SkinJob& job, const RespondArguments& w, const CommonArguments& common) {
-    RunFingerprint all = {{"the program", fmt::format("version {}", version)}, {"FORCE", w.forces[0]}};
+Result<RunFingerprint> fingerprint_of(const SkinJob& job, const RespondArguments& args, const CommonArguments& common) {
+    RunFingerprint all = {{"the program", fmt::format("version {}", version)}, {"FORCE", args.forces[0]}};
     for (const auto& [name, values] : common.typed)
         if (name != "FORCE" && std::find(std::begin(output_options), std::end(output_options), name) == std::end(output_options))
             all.emplace_back(name, fmt::format("{}", fmt::join(values, " ")));
-    if (!is_stimulus(w.forces[0]) && !find_skin_stimulus(w.forces[0]))
-        if (auto ok = add_contents(all, "recording", w.forces[0]); !ok) return ok.error();
-    if (auto ok = add_contents(all, "population file", w.population); !ok) return ok.error();
-    if (auto ok = add_contents(all, "layout file", w.layout); !ok) return ok.error();
+    if (!is_stimulus(args.forces[0]) && !find_skin_stimulus(args.forces[0]))
+        if (auto ok = add_contents(all, "recording", args.forces[0]); !ok) return ok.error();
+    if (auto ok = add_contents(all, "population file", args.population); !ok) return ok.error();
+    if (auto ok = add_contents(all, "layout file", args.layout); !ok) return ok.error();
     all.emplace_back("contents of the table of sites", sites_checksum(job.skin->plan.sites));
     return all;
 }
@@ -293,7 +296,7 @@ Result<RunFingerprint> fingerprint_of(const SkinJob& job, const RespondArguments
 struct SkinProcess {
     std::unique_ptr<Ranks> ranks;  ///< null: a single process
     bool is_coordinator() const { return !ranks || ranks->rank() == 0; }
-    SkinPart share() const {
+    SkinPart part() const {
         return ranks ? SkinPart{static_cast<std::uint32_t>(ranks->rank()), static_cast<std::uint32_t>(ranks->size())} : SkinPart{};
     }
 };
@@ -301,29 +304,29 @@ struct SkinProcess {
 Result<std::unique_ptr<Skin>> make_skin(const SkinJob& job, const SkinProcess& self) {
     const auto set = instruction_set();
     if (!set) return set.error();
-    return Skin::make(job.skin, {job.source->clock().T(), job.run_info.method, job.run_info.sampled, 0, 0}, *set, self.share());
+    return Skin::make(job.skin, {job.source->clock().T(), job.run_info.method, job.run_info.sampled, 0, 0}, *set, self.part());
 }
 
-Result<void> coordinate_skin(SkinJob& job, const RespondArguments& w, const CommonArguments& common, const SkinProcess& self) {
+Result<void> coordinate_skin(SkinJob& job, const RespondArguments& args, const CommonArguments& common, const SkinProcess& self) {
     auto skin = make_skin(job, self);
     if (!skin) return skin.error();
     SkinSummary summary;
     SkinSilenceDetector silence;
     SkinOutputs outputs;
     OutputCheck check(common.overwrite);
-    if (auto ok = outputs.open(w, summary, check); !ok) return ok;
-    ThreadPool pool(self.ranks ? std::max(1U, w.threads) : w.threads);
+    if (auto ok = outputs.open(args, summary, check); !ok) return ok;
+    ThreadPool pool(self.ranks ? std::max(1U, args.threads) : args.threads);
     std::unique_ptr<SkinCheckpoint> checkpoint;
-    if (!w.checkpoint.empty()) {
+    if (!args.checkpoint.empty()) {
         if (self.ranks) return bad_usage("--checkpoint works with one process only, not under mpirun");
-        auto fingerprint = fingerprint_of(job, w, common);
+        auto fingerprint = fingerprint_of(job, args, common);
         if (!fingerprint) return fingerprint.error();
-        auto opened = SkinCheckpoint::open(w.checkpoint, **skin, std::move(*fingerprint));
+        auto opened = SkinCheckpoint::open(args.checkpoint, **skin, std::move(*fingerprint));
         if (!opened) return opened.error();
         checkpoint = std::move(*opened);
         if (checkpoint->resumed_samples() > 0 && !common.quiet)
             print_message(fmt::format("resuming after {:.3f} s, from {}",
-                                      job.source->clock().T() * static_cast<double>(checkpoint->resumed_samples()), w.checkpoint));
+                                      job.source->clock().T() * static_cast<double>(checkpoint->resumed_samples()), args.checkpoint));
     }
     SkinSpikeTimes times;
     std::vector<SkinSink*> listeners = {&summary, &silence};
@@ -337,11 +340,11 @@ Result<void> coordinate_skin(SkinJob& job, const RespondArguments& w, const Comm
                         {[&](double fraction) { return progress.update(fraction), !interrupted(); }, checkpoint.get()});
     }();
     if (!work && work.error().code == ErrorCode::interrupted && checkpoint)
-        return Error{ErrorCode::interrupted, fmt::format("interrupted; the same command resumes from {}", w.checkpoint)};
+        return Error{ErrorCode::interrupted, fmt::format("interrupted; the same command resumes from {}", args.checkpoint)};
     if (!work) return work.error();
     job.run_info.stats = *work;
     add_force_notes(job);
-    add_silence_notes(job, w, silence.silent_classes(job.run_info.method, job.run_info.sampled));
+    add_silence_notes(job, args, silence.silent_classes(job.run_info.method, job.run_info.sampled));
     add_rate_warnings(job, summary);
     auto result = summary.document(job.run_info);
     result["files"] = outputs.file_names();
@@ -361,23 +364,23 @@ Result<void> coordinate_skin(SkinJob& job, const RespondArguments& w, const Comm
     return {};
 }
 
-Result<void> run_as(const RespondArguments& w, const CommonArguments& common, const SkinProcess& self) {
-    auto job = prepare_skin(w);
+Result<void> run_as(const RespondArguments& args, const CommonArguments& common, const SkinProcess& self) {
+    auto job = prepare_skin(args);
     if (!self.is_coordinator()) {
-        ThreadPool pool(std::max(1U, w.threads));
+        ThreadPool pool(std::max(1U, args.threads));
         if (!job) return run_skin_worker(*self.ranks, job.error(), nullptr, pool);
         auto skin = make_skin(*job, self);
         if (!skin) return run_skin_worker(*self.ranks, skin.error(), nullptr, pool);
         return run_skin_worker(*self.ranks, job->force.get(), skin->get(), pool);
     }
-    auto done = job ? coordinate_skin(*job, w, common, self) : Result<void>(job.error());
+    auto done = job ? coordinate_skin(*job, args, common, self) : Result<void>(job.error());
     if (self.ranks) shut_down_skin_workers(*self.ranks);
     return done;
 }
 
 }  // namespace
 
-int respond_skin(const RespondArguments& w, const CommonArguments& common) {
+int respond_skin(const RespondArguments& args, const CommonArguments& common) {
     catch_interrupt();
     SkinProcess self;
     if (Ranks::are_started()) {
@@ -385,7 +388,7 @@ int respond_skin(const RespondArguments& w, const CommonArguments& common) {
         if (!ranks) return Ranks::reports_errors() ? report_error(ranks.error()) : static_cast<int>(ranks.error().code);
         if ((*ranks)->size() > 1) self.ranks = std::move(*ranks);
     }
-    const auto done = run_as(w, common, self);
+    const auto done = run_as(args, common, self);
     return done ? 0 : report_error(done.error());
 }
 

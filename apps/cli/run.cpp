@@ -36,23 +36,23 @@ Json column(const Plot& plot, const Curve& curve) {
 
 /// Collects saved curves for the JSON document. It is not used if the curves go into a file.
 class CollectedPlots final : public CurveSink {
-    PlotRecorder kept_;
+    PlotRecorder recorder_;
 
 public:
     std::vector<Plot> plots;
     Result<void> add_plots(std::span<const Plot> more) override {
         return plots.insert(plots.end(), more.begin(), more.end()), Result<void>();
     }
-    Result<void> begin(const Plot& head) override { return kept_.begin(head); }
-    Result<void> add_point(std::span<const double> row) override { return kept_.add_point(row); }
-    Result<void> end() override { return plots.push_back(std::move(kept_.plot)), Result<void>(); }
+    Result<void> begin(const Plot& head) override { return recorder_.begin(head); }
+    Result<void> add_point(std::span<const double> row) override { return recorder_.add_point(row); }
+    Result<void> end() override { return plots.push_back(std::move(recorder_.plot)), Result<void>(); }
 };
 
 /// One variant of the netlist (a step or a Monte Carlo chip) and its results.
 struct VariantResult {
     Variant variant;
     RunOutcome outcome;
-    std::vector<Plot> plots;  ///< for the document; without the curves that were streamed into a file
+    std::vector<Plot> plots;  ///< for the JSON document; without the curves that were streamed into a file
     std::optional<Cost> cost = {};
 };
 
@@ -132,7 +132,7 @@ class VariantPrinter {
 
 public:
     std::vector<Error> failures;              ///< of variants that did not converge
-    std::optional<Error> failed_expectation;  ///< the first
+    std::optional<Error> failed_expectation;  ///< the first expectation that was not met
 
     VariantPrinter(const CommonArguments& common, bool has_steps, bool is_monte_carlo)
         : common_(common), has_steps_(has_steps), is_monte_carlo_(is_monte_carlo) {}
@@ -184,15 +184,16 @@ private:
     }
 };
 
-/// The progress of a variant. If it has transients only these count, because they take most of the time.
+/// The progress of a variant. If there are transients, other analyses are not counted, because transients take most of the time.
 class VariantProgress {
     std::size_t analyses_ = 0, transients_ = 0, done_ = 0;
-    double last_ = 0;
+    double last_ = 0;  // fraction of the current analysis; a smaller one means that the next analysis has begun
 
 public:
     explicit VariantProgress(const Circuit& circuit) {
         for (const auto& c : circuit.directives) analyses_ += find_analysis(c.name) != nullptr, transients_ += c.name == "tran";
     }
+    /// The finished fraction of the variant when `fraction` of the current analysis is finished; both 0 to 1.
     double of(std::string_view analysis, double fraction) {
         if (transients_ > 0 && analysis != "tran") return static_cast<double>(done_) / static_cast<double>(transients_);
         if (fraction < last_) ++done_;
@@ -202,12 +203,12 @@ public:
     }
 };
 
-std::size_t analyses_of(const Circuit& circuit) {
+std::size_t analysis_count_of(const Circuit& circuit) {
     return static_cast<std::size_t>(std::count_if(circuit.directives.begin(), circuit.directives.end(),
                                                   [](const Directive& c) { return find_analysis(c.name) != nullptr; }));
 }
 
-/// Creates the analysis context of a variant, or reuses the last one if the circuit is the same.
+/// Creates the analysis context of a variant, or reuses the last one if the circuit is the same. `brief`: without tables and warnings.
 Result<void> prepare(std::unique_ptr<AnalysisContext>& context, const Variant& variant, bool brief) {
     if (!context || context->circuit != variant.circuit) {
         auto made = AnalysisContext::make(variant.circuit);
@@ -219,7 +220,7 @@ Result<void> prepare(std::unique_ptr<AnalysisContext>& context, const Variant& v
     return {};
 }
 
-Result<void> run_all(NetlistVariants& variants, const RunArguments& w, const CommonArguments& common, VariantPrinter& printer,
+Result<void> run_all(NetlistVariants& variants, const RunArguments& args, const CommonArguments& common, VariantPrinter& printer,
                      CurveFiles& files) {
     const auto count = variants.count();
     Progress progress(common.quiet);
@@ -229,35 +230,35 @@ Result<void> run_all(NetlistVariants& variants, const RunArguments& w, const Com
         if (!variant) return variant.error();
         if (auto ok = prepare(context, *variant, k > 0 || variants.has_chips()); !ok) return ok;
         if (k == 0)
-            if (auto ok = files.check(analyses_of(*variant->circuit)); !ok) return ok;
+            if (auto ok = files.check(analysis_count_of(*variant->circuit)); !ok) return ok;
         VariantProgress variant_progress(*variant->circuit);
         CollectedPlots collected;
         RunOptions options;
         options.keep_points = false, options.print_tables = !common.json && !common.quiet;
         if (common.json) options.curve_sink = &collected;
-        if (!w.out.empty()) options.curve_sink = &files, files.begin_variant(*variant);
+        if (!args.out.empty()) options.curve_sink = &files, files.begin_variant(*variant);
         options.should_stop = [&](std::string_view analysis, double fraction) {
             progress.update((static_cast<double>(k) + variant_progress.of(analysis, fraction)) / static_cast<double>(count));
             return interrupted();
         };
-        CostMeter accountant(*context);
-        const auto watched = w.budget ? accountant.attach(options) : Result<void>();
-        auto found = watched ? circuit::run_directives(*context, options) : watched.error();
+        CostMeter cost_meter(*context);
+        const auto attached = args.budget ? cost_meter.attach(options) : Result<void>();
+        auto outcome = attached ? circuit::run_directives(*context, options) : attached.error();
         if (interrupted()) return Error{ErrorCode::interrupted, "interrupted"};
         progress.update(static_cast<double>(k + 1) / static_cast<double>(count));
-        if (!found && found.error().code == ErrorCode::not_converged && count > 1) {
-            printer.fail(variant->label, found.error());
+        if (!outcome && outcome.error().code == ErrorCode::not_converged && count > 1) {
+            printer.fail(variant->label, outcome.error());
             continue;
         }
-        if (!found) {
-            auto error = found.error();
+        if (!outcome) {
+            auto error = outcome.error();
             if (!variant->label.empty()) error.message = fmt::format("{}: {}", variant->label, error.message);
             return error;
         }
-        auto plots = w.out.empty() ? std::move(collected.plots) : found->plots();
-        VariantResult result{std::move(*variant), std::move(*found), std::move(plots)};
-        if (w.budget) {
-            auto cost = accountant.cost();
+        auto plots = args.out.empty() ? std::move(collected.plots) : outcome->plots();
+        VariantResult result{std::move(*variant), std::move(*outcome), std::move(plots)};
+        if (args.budget) {
+            auto cost = cost_meter.cost();
             if (!cost) return cost.error();
             result.cost = std::move(*cost);
         }
@@ -284,37 +285,38 @@ Result<NetlistOverride> parse_override(const std::string& text) {
 }
 
 /// The netlist with its overrides and with the probes of --probe in addition to its own.
-Result<Netlist> netlist_of(const RunArguments& w) {
-    auto overrides = netlist_overrides(w.netlists);
-    for (const auto& text : w.settings) {
+Result<Netlist> netlist_of(const RunArguments& args) {
+    auto overrides = netlist_overrides(args.netlists);
+    for (const auto& text : args.settings) {
         auto parsed = parse_override(text);
         if (!parsed) return parsed.error();
         overrides.push_back(std::move(*parsed));
     }
-    auto netlist = apply_overrides(w.netlist, overrides);
-    if (!netlist || w.netlists.probes.empty()) return netlist;
+    auto netlist = apply_overrides(args.netlist, overrides);
+    if (!netlist || args.netlists.probes.empty()) return netlist;
     const auto circuit = netlist->elaborate();
     if (!circuit) return circuit.error();
     auto changes = netlist->overrides();
-    for (const auto& probe : probe_names(w.netlists)) {
+    for (const auto& probe : probe_names(args.netlists)) {
         const auto found = resolve_probe(*circuit, probe);
         if (!found) return found.error();
         if (!*found)
-            return bad_input(fmt::format("--probe {}: {} has no such node or device{}", probe, w.netlist, suggest_probe(*circuit, probe)));
+            return bad_input(
+                fmt::format("--probe {}: {} has no such node or device{}", probe, args.netlist, suggest_probe(*circuit, probe)));
         changes.saved.push_back(**found);
     }
     return netlist->with_overrides(std::move(changes));
 }
 
-Result<void> run_netlist(const RunArguments& w, const CommonArguments& common) {
-    const auto netlist = netlist_of(w);
+Result<void> run_netlist(const RunArguments& args, const CommonArguments& common) {
+    const auto netlist = netlist_of(args);
     if (!netlist) return netlist.error();
     auto variants = NetlistVariants::create(*netlist);
     if (!variants) return variants.error();
     const bool has_steps = variants->count() > 1;
     VariantPrinter printer(common, has_steps, variants->has_chips());
-    CurveFiles files(w, has_steps, common.overwrite);
-    const auto done = run_all(*variants, w, common, printer, files);
+    CurveFiles files(args, has_steps, common.overwrite);
+    const auto done = run_all(*variants, args, common, printer, files);
     printer.finish();
     if (!done) return keep_partial_files(files), done;
     if (auto ok = files.finish(); !ok) return ok;
@@ -329,9 +331,9 @@ Result<void> run_netlist(const RunArguments& w, const CommonArguments& common) {
 
 }  // namespace
 
-int run(const RunArguments& w, const CommonArguments& common) {
+int run(const RunArguments& args, const CommonArguments& common) {
     catch_interrupt();
-    const auto done = run_netlist(w, common);
+    const auto done = run_netlist(args, common);
     return done ? 0 : report_error(done.error());
 }
 

@@ -21,34 +21,35 @@ SkinOutputs::~SkinOutputs() {
 }
 
 template <class F, class... A>
-Result<void> SkinOutputs::add(const std::string& name, const A&... how) {
+Result<void> SkinOutputs::add(const std::string& name, const A&... arguments) {
     auto file = OutputFile::create(directory_ + "/" + name);
     if (!file) return file.error();
-    files_.push_back(std::make_unique<F>(std::move(*file), how...));
+    files_.push_back(std::make_unique<F>(std::move(*file), arguments...));
     return {};
 }
 
-Result<void> SkinOutputs::open_directory(const RespondArguments& w, const SkinSummary& summary, const std::optional<std::string>& page,
+Result<void> SkinOutputs::open_directory(const RespondArguments& args, const SkinSummary& summary, const std::optional<std::string>& page,
                                          OutputCheck& outputs) {
-    const auto bin = optional_quantity(w.bin, "s", "--bin");
+    const auto bin = optional_quantity(args.bin, "s", "--bin");
     if (!bin) return bin.error();
-    if (*bin && !(**bin > 0)) return bad_usage(fmt::format("--bin {}: must be greater than 0, such as 10ms", *w.bin));
+    if (*bin && !(**bin > 0)) return bad_usage(fmt::format("--bin {}: must be greater than 0, such as 10ms", *args.bin));
     const auto formats = event_formats();
-    const auto format = std::find_if(formats.begin(), formats.end(), [&](const auto& f) { return f.name == w.events; });
-    if (!w.events.empty() && format == formats.end()) {
+    const auto format = std::find_if(formats.begin(), formats.end(), [&](const auto& f) { return f.name == args.events; });
+    if (!args.events.empty() && format == formats.end()) {
         std::vector<std::string_view> names;
         for (const auto& f : formats) names.push_back(f.name);
-        return bad_usage(fmt::format("--events {}: expected one of {}{}", w.events, fmt::join(names, ", "), did_you_mean(w.events, names)));
+        return bad_usage(
+            fmt::format("--events {}: expected one of {}{}", args.events, fmt::join(names, ", "), did_you_mean(args.events, names)));
     }
-    const auto spikes = w.events.empty() ? std::string("spikes.csv") : fmt::format("spikes{}", format->extension);
+    const auto spikes = args.events.empty() ? std::string("spikes.csv") : fmt::format("spikes{}", format->extension);
     std::vector<std::string> names = {spikes, "afferents.csv", "summary.json"};
-    if (w.npz) names.emplace_back("spikes.npz");
+    if (args.npz) names.emplace_back("spikes.npz");
     if (*bin) names.emplace_back("psth.csv");
-    if (auto ok = check_outputs(w.out, std::move(names), page, w.checkpoint, outputs); !ok) return ok;
-    auto ok = w.events.empty() ? add<SkinSpikesFile>(spikes) : add<SkinEventsFile>(spikes, w.events);
+    if (auto ok = check_outputs(args.out, std::move(names), page, args.checkpoint, outputs); !ok) return ok;
+    auto ok = args.events.empty() ? add<SkinSpikesFile>(spikes) : add<SkinEventsFile>(spikes, args.events);
     if (!ok) return ok;
     if (ok = add<SkinAfferentsFile>("afferents.csv", std::cref(summary)); !ok) return ok;
-    if (w.npz)
+    if (args.npz)
         if (ok = add<SkinNpzFile>("spikes.npz"); !ok) return ok;
     if (*bin)
         if (ok = add<SkinPsthFile>("psth.csv", **bin); !ok) return ok;
@@ -58,16 +59,16 @@ Result<void> SkinOutputs::open_directory(const RespondArguments& w, const SkinSu
     return {};
 }
 
-Result<void> SkinOutputs::open(const RespondArguments& w, const SkinSummary& summary, OutputCheck& outputs) {
+Result<void> SkinOutputs::open(const RespondArguments& args, const SkinSummary& summary, OutputCheck& outputs) {
     for (const auto& [option, given] :
-         {std::pair{"--bin", w.bin.has_value()}, std::pair{"--events", !w.events.empty()}, std::pair{"--npz", w.npz}})
-        if (given && w.out.empty()) return bad_usage(fmt::format("{} needs --out DIR", option));
-    directory_ = w.out;
-    const auto page_path = report_page_path(w);
-    if (!w.out.empty())
-        if (auto ok = open_directory(w, summary, page_path, outputs); !ok) return ok;
-    if (w.out.empty())
-        if (auto ok = check_outputs("", {}, page_path, w.checkpoint, outputs); !ok) return ok;
+         {std::pair{"--bin", args.bin.has_value()}, std::pair{"--events", !args.events.empty()}, std::pair{"--npz", args.npz}})
+        if (given && args.out.empty()) return bad_usage(fmt::format("{} needs --out DIR", option));
+    directory_ = args.out;
+    const auto page_path = report_page_path(args);
+    if (!args.out.empty())
+        if (auto ok = open_directory(args, summary, page_path, outputs); !ok) return ok;
+    if (args.out.empty())
+        if (auto ok = check_outputs("", {}, page_path, args.checkpoint, outputs); !ok) return ok;
     if (!page_path) return {};
     auto page = OutputFile::create(*page_path);
     if (!page) return page.error();

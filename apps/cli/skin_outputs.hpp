@@ -21,7 +21,7 @@ class SkinOutputs {
     std::vector<std::string> removed_;
 
     template <class F, class... A>
-    Result<void> add(const std::string& name, const A&... how);
+    Result<void> add(const std::string& name, const A&... arguments);
     Result<void> open_directory(const RespondArguments&, const SkinSummary&, const std::optional<std::string>& page, OutputCheck&);
     std::vector<std::string> paths() const;
 
@@ -30,7 +30,7 @@ public:
     SkinOutputs(const SkinOutputs&) = delete;
     SkinOutputs& operator=(const SkinOutputs&) = delete;
     ~SkinOutputs();
-    /// The summary must be called before the files: some of them write what it has counted.
+    /// Creates the files. Some of them write counts of the summary, which must therefore precede them in the list of sinks.
     Result<void> open(const RespondArguments&, const SkinSummary&, OutputCheck&);
     void add_listeners(std::vector<SkinSink*>&);
     std::vector<std::string> file_names() const;

@@ -16,7 +16,7 @@ class SkinSpikeTimes final : public SkinSink {
     void add(const Clock&, std::span<const Spike>);
 
 public:
-    static constexpr std::size_t max_spikes = 10'000'000;  ///< with more, the document has none
+    static constexpr std::size_t max_spikes = 10'000'000;  ///< with more, document() is null
 
     Result<void> begin(const SkinInput&) override;
     Result<void> block(const SkinInput&, const SkinRunBlock&) override;

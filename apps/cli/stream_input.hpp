@@ -29,7 +29,7 @@ Result<StreamQuantities> stream_quantities(const StreamArguments&);
 Result<std::unique_ptr<ForceSource>> open_stream_source(const StreamArguments&, const StreamQuantities&,
                                                         std::span<const ParameterOverride>);
 
-/// The clock of live frames, and their layout in the bytes.
+/// The clock of live frames, and the layout of their bytes.
 Result<Clock> live_clock(const StreamArguments&, const StreamQuantities&);
 Result<FrameLayout> live_layout(const StreamArguments&, const StreamQuantities&, std::size_t sites, const Clock&);
 Result<std::unique_ptr<ByteSource>> open_live_input(const StreamArguments&, const StreamQuantities&, const FrameLayout&);

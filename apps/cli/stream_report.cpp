@@ -13,24 +13,24 @@ std::string time_of(std::int64_t ns) { return format_quantity(static_cast<double
 /// "3 gaps", "1 gap"
 std::string counted(std::int64_t n, std::string_view noun) { return fmt::format("{} {}{}", n, noun, n == 1 ? "" : "s"); }
 
-std::string quantiles(const LatencyHistogram& d) {
-    return fmt::format("median {}, 99 % {}, 99.9 % {}, max {}", time_of(d.quantile(0.5)), time_of(d.quantile(0.99)),
-                       time_of(d.quantile(0.999)), time_of(d.max()));
+std::string quantiles(const LatencyHistogram& histogram) {
+    return fmt::format("median {}, 99 % {}, 99.9 % {}, max {}", time_of(histogram.quantile(0.5)), time_of(histogram.quantile(0.99)),
+                       time_of(histogram.quantile(0.999)), time_of(histogram.max()));
 }
 
 /// True if frames arrived one at a time at the pace of a clock. If they arrived in bulk, jitter is meaningless.
-bool is_paced(const StreamReportInput& f) {
-    const auto& done = f.loop.stats();
-    if (!f.frames.is_live() || done.rate() == 0) return false;
-    const bool in_bulk = done.received > 2 * static_cast<std::int64_t>(f.skin.batch_frames()) * done.reads;
-    return !in_bulk || done.rate() < 2 * f.skin.clock().rate();
+bool is_paced(const StreamReportInput& parts) {
+    const auto& stats = parts.loop.stats();
+    if (!parts.frames.is_live() || stats.rate() == 0) return false;
+    const bool in_bulk = stats.received > 2 * static_cast<std::int64_t>(parts.skin.batch_frames()) * stats.reads;
+    return !in_bulk || stats.rate() < 2 * parts.skin.clock().rate();
 }
 
 /// Everything that went wrong, one line each.
-std::string problems(const StreamReportInput& f) {
-    const auto counts = f.frames.counts();
+std::string problems(const StreamReportInput& parts) {
+    const auto counts = parts.frames.counts();
     const auto& order = counts.sequence;
-    const auto& done = f.loop.stats();
+    const auto& stats = parts.loop.stats();
     const std::pair<std::int64_t, std::string> all[] = {
         {order.gaps, fmt::format("{}: {} filled by the last force, {} by zero force", counted(order.gaps, "gap"),
                                  counted(order.held, "frame"), order.released)},
@@ -45,11 +45,11 @@ std::string problems(const StreamReportInput& f) {
         {counts.senders.idle, counted(counts.senders.idle, "sender") + " disconnected: idle while another was waiting"},
         {counts.senders.ignored, counted(counts.senders.ignored, "datagram") + " from other senders ignored"},
         {counts.senders.dropped, counted(counts.senders.dropped, "datagram") + " lost: they arrived faster than they were processed"},
-        {static_cast<std::int64_t>(done.unread), counted(static_cast<std::int64_t>(done.unread), "byte") + " of input unread at the end"},
-        {done.dropped, counted(done.dropped, "spike") + " dropped: the receiver was too slow and the buffer full"},
-        {f.sink.dropped(), counted(f.sink.dropped(), "spike") + " lost: the receiver disconnected or stopped reading"},
-        {f.skin.stats().truncated_steps,
-         fmt::format("{} truncated at the spike limit of one step", counted(f.skin.stats().truncated_steps, "step"))},
+        {static_cast<std::int64_t>(stats.unread), counted(static_cast<std::int64_t>(stats.unread), "byte") + " of input unread at the end"},
+        {stats.dropped, counted(stats.dropped, "spike") + " dropped: the receiver was too slow and the buffer full"},
+        {parts.sink.dropped(), counted(parts.sink.dropped(), "spike") + " lost: the receiver disconnected or stopped reading"},
+        {parts.skin.stats().truncated_steps,
+         fmt::format("{} truncated at the spike limit of one step", counted(parts.skin.stats().truncated_steps, "step"))},
     };
     std::string text;
     for (const auto& [count, message] : all)
@@ -57,45 +57,49 @@ std::string problems(const StreamReportInput& f) {
     return text;
 }
 
-nlohmann::ordered_json in_seconds(const LatencyHistogram& d) {
+nlohmann::ordered_json in_seconds(const LatencyHistogram& histogram) {
     const auto s = [](std::int64_t ns) { return static_cast<double>(ns) * 1e-9; };
-    return {{"count", d.count()},
-            {"p50", s(d.quantile(0.5))},
-            {"p99", s(d.quantile(0.99))},
-            {"p99.9", s(d.quantile(0.999))},
-            {"max", s(d.max())}};
+    return {{"count", histogram.count()},
+            {"p50", s(histogram.quantile(0.5))},
+            {"p99", s(histogram.quantile(0.99))},
+            {"p99.9", s(histogram.quantile(0.999))},
+            {"max", s(histogram.max())}};
 }
 
 }  // namespace
 
-std::string stream_summary(const StreamReportInput& f) {
-    const auto& done = f.loop.stats();
-    const auto counts = f.frames.counts();
-    const double T = f.skin.clock().T();
+std::string stream_summary(const StreamReportInput& parts) {
+    const auto& stats = parts.loop.stats();
+    const auto counts = parts.frames.counts();
+    const double T = parts.skin.clock().T();
     auto text = fmt::format("{} ({} of force), {} from {}\n", counted(counts.frames, "frame"),
-                            format_quantity(static_cast<double>(counts.frames + done.filled) * T, "s"), counted(done.spikes, "spike"),
-                            counted(static_cast<std::int64_t>(f.skin.innervation().afferents.size()), "afferent"));
+                            format_quantity(static_cast<double>(counts.frames + stats.filled) * T, "s"), counted(stats.spikes, "spike"),
+                            counted(static_cast<std::int64_t>(parts.skin.innervation().afferents.size()), "afferent"));
     if (counts.sender_count != 1) text += fmt::format("  {}\n", counted(counts.sender_count, "client"));
-    if (f.sink.connections() != 1) text += fmt::format("  {}\n", counted(f.sink.connections(), "connection") + " to the receiver");
-    if (done.latency.count() > 0) text += fmt::format("  latency from a frame to its written spikes: {}\n", quantiles(done.latency));
-    if (is_paced(f)) text += fmt::format("  input rate {}; jitter: {}\n", format_quantity(done.rate(), "Hz"), quantiles(done.jitter));
-    return text + problems(f);
+    if (parts.sink.connections() != 1) text += fmt::format("  {}\n", counted(parts.sink.connections(), "connection") + " to the receiver");
+    if (stats.latency.count() > 0) text += fmt::format("  latency from a frame to its written spikes: {}\n", quantiles(stats.latency));
+    if (is_paced(parts)) text += fmt::format("  input rate {}; jitter: {}\n", format_quantity(stats.rate(), "Hz"), quantiles(stats.jitter));
+    return text + problems(parts);
 }
 
-std::string stream_status(const StreamReportInput& f) {
-    const auto& done = f.loop.stats();
-    return fmt::format("{} frames  {} spikes  {} dropped  latency {} (99.9 %: {})", f.frames.counts().frames, done.spikes,
-                       done.dropped + f.sink.dropped(), time_of(done.latency.quantile(0.5)), time_of(done.latency.quantile(0.999)));
+std::string stream_status(const StreamReportInput& parts) {
+    const auto& stats = parts.loop.stats();
+    return fmt::format("{} frames  {} spikes  {} dropped  latency {} (99.9 %: {})", parts.frames.counts().frames, stats.spikes,
+                       stats.dropped + parts.sink.dropped(), time_of(stats.latency.quantile(0.5)), time_of(stats.latency.quantile(0.999)));
 }
 
-nlohmann::ordered_json stream_document(const StreamReportInput& f) {
-    const auto& done = f.loop.stats();
-    const auto counts = f.frames.counts();
-    const auto& plan = f.skin.innervation().plan;
-    nlohmann::ordered_json doc = {
-        {"population", plan.name},          {"sites", f.skin.sites()}, {"afferents", f.skin.innervation().afferents.size()},
-        {"rate_Hz", f.skin.clock().rate()}, {"frames", counts.frames}, {"frames_filled", done.filled},
-        {"steps", f.skin.frames()},         {"spikes", done.spikes}};
+nlohmann::ordered_json stream_document(const StreamReportInput& parts) {
+    const auto& stats = parts.loop.stats();
+    const auto counts = parts.frames.counts();
+    const auto& plan = parts.skin.innervation().plan;
+    nlohmann::ordered_json doc = {{"population", plan.name},
+                                  {"sites", parts.skin.sites()},
+                                  {"afferents", parts.skin.innervation().afferents.size()},
+                                  {"rate_Hz", parts.skin.clock().rate()},
+                                  {"frames", counts.frames},
+                                  {"frames_filled", stats.filled},
+                                  {"steps", parts.skin.frames()},
+                                  {"spikes", stats.spikes}};
     if (plan.is_by_channel) doc["channels"] = plan.sites.names;  // binary events refer to channels by index
     doc["sequence"] = {{"gaps", counts.sequence.gaps},         {"held", counts.sequence.held},
                        {"released", counts.sequence.released}, {"duplicates", counts.sequence.duplicates},
@@ -108,19 +112,19 @@ nlohmann::ordered_json stream_document(const StreamReportInput& f) {
                     {"idle_senders", counts.senders.idle},
                     {"datagrams_ignored", counts.senders.ignored},
                     {"datagrams_dropped", counts.senders.dropped},
-                    {"bytes_unread", done.unread}};
-    doc["events"] = {{"format", f.format.name()},
-                     {"to", f.sink.description()},
-                     {"dropped", done.dropped},
-                     {"undelivered", f.sink.dropped()},
-                     {"connections", f.sink.connections()}};
-    doc["work"] = {{"afferent_steps", f.skin.stats().afferent_steps},
-                   {"at_rest", f.skin.stats().skipped_steps},
-                   {"truncated_steps", f.skin.stats().truncated_steps}};
-    doc["latency_s"] = in_seconds(done.latency);
-    const bool paced = is_paced(f);
-    doc["jitter_s"] = paced ? in_seconds(done.jitter) : nullptr;
-    doc["input_rate_Hz"] = paced ? nlohmann::ordered_json(done.rate()) : nullptr;
+                    {"bytes_unread", stats.unread}};
+    doc["events"] = {{"format", parts.format.name()},
+                     {"to", parts.sink.description()},
+                     {"dropped", stats.dropped},
+                     {"undelivered", parts.sink.dropped()},
+                     {"connections", parts.sink.connections()}};
+    doc["work"] = {{"afferent_steps", parts.skin.stats().afferent_steps},
+                   {"at_rest", parts.skin.stats().skipped_steps},
+                   {"truncated_steps", parts.skin.stats().truncated_steps}};
+    doc["latency_s"] = in_seconds(stats.latency);
+    const bool paced = is_paced(parts);
+    doc["jitter_s"] = paced ? in_seconds(stats.jitter) : nullptr;
+    doc["input_rate_Hz"] = paced ? nlohmann::ordered_json(stats.rate()) : nullptr;
     return doc;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// `corpuscle stream`: its options on the command line.
+// The command-line options of `corpuscle stream`.
 
 #include "verbs.hpp"
 

@@ -29,9 +29,9 @@ Result<Shard> shard_of(const std::string& text) {
 }
 
 /// The default results file in the current directory: "mc.sqlite" for some/where/mc.toml, "mc-1of4.sqlite" for a shard.
-std::string results_path(const SweepArguments& w, const Shard& shard) {
-    if (!w.out.empty()) return w.out;
-    const auto stem = fs::path(w.file).stem().string();
+std::string results_path(const SweepArguments& args, const Shard& shard) {
+    if (!args.out.empty()) return args.out;
+    const auto stem = fs::path(args.file).stem().string();
     return shard.shard_count == 1 ? stem + ".sqlite" : fmt::format("{}-{}of{}.sqlite", stem, shard.index + 1, shard.shard_count);
 }
 
@@ -50,17 +50,17 @@ struct SweepProcess {
 
 Result<void> run_items(const SweepProcess& self, const Sweep& sweep, SweepResults& results, const SweepRunOptions& run,
                        const CommonArguments& common) {
-    SweepProgress count;
-    if (!self.ranks) return run_sweep(sweep, results, run, count);
+    SweepProgress progress;
+    if (!self.ranks) return run_sweep(sweep, results, run, progress);
     if (!self.ranks->survive_death_of_one() && !common.quiet)
         fmt::print(stderr,
                    "corpuscle: note: if one rank dies, mpirun ends all of them, and the same command resumes the sweep. "
                    "With 'mpirun --enable-recovery ...' the others finish\n");
-    DeadRanks lost;
-    auto ok = run_coordinator(*self.ranks, sweep, results, run, count, lost);
-    if (lost.ranks > 0)
-        fmt::print(stderr, "corpuscle: warning: {} rank{} died or stopped responding, and other ranks repeat {} items\n", lost.ranks,
-                   lost.ranks == 1 ? "" : "s", lost.redistributed_items);
+    DeadRanks dead_ranks;
+    auto ok = run_coordinator(*self.ranks, sweep, results, run, progress, dead_ranks);
+    if (dead_ranks.ranks > 0)
+        fmt::print(stderr, "corpuscle: warning: {} rank{} died or stopped responding, and other ranks repeat {} items\n", dead_ranks.ranks,
+                   dead_ranks.ranks == 1 ? "" : "s", dead_ranks.redistributed_items);
     return ok;
 }
 
@@ -71,15 +71,15 @@ Error with_advice(const Error& error, const SweepResults& results) {
                                     results.finished_count(), results.item_count(), results.path())};
 }
 
-Result<void> coordinate_run(const SweepProcess& self, const Sweep& sweep, const SweepArguments& w, const CommonArguments& common,
+Result<void> coordinate_run(const SweepProcess& self, const Sweep& sweep, const SweepArguments& args, const CommonArguments& common,
                             const Shard& shard) {
-    auto results = SweepResults::open(results_path(w, shard), sweep);
+    auto results = SweepResults::open(results_path(args, shard), sweep);
     if (!results) {
         if (self.ranks) shut_down_workers(*self.ranks);
         return results.error();
     }
     const auto before = results->finished_count();
-    SweepRunOptions run{.threads = self.ranks ? std::max(1U, w.threads) : w.threads, .shard = shard, .should_stop = interrupted};
+    SweepRunOptions run{.threads = self.ranks ? std::max(1U, args.threads) : args.threads, .shard = shard, .should_stop = interrupted};
     auto done = [&] {
         Progress progress(common.quiet);
         run.on_progress = [&](const SweepProgress& c) {
@@ -87,14 +87,14 @@ Result<void> coordinate_run(const SweepProcess& self, const Sweep& sweep, const 
         };
         return run_items(self, sweep, *results, run, common);
     }();
-    if (const auto folded = results->checkpoint(); !folded && !common.quiet)
+    if (const auto checkpointed = results->checkpoint(); !checkpointed && !common.quiet)
         print_warning(fmt::format("the results are complete only if {} is kept together with {}-wal: {}", results->path(), results->path(),
-                                  folded.error().message));
+                                  checkpointed.error().message));
     if (!done) return with_advice(done.error(), *results);
     const auto state = read_sweep_status(*results, shard);
     if (!state) return state.error();
     auto final_state = *state;
-    final_state.finished_now = results->finished_count() - before, final_state.sweep = w.file;
+    final_state.finished_now = results->finished_count() - before, final_state.sweep = args.file;
     print_state(common, final_state);
     if (results->finished_count() > 0 && final_state.diverged == results->finished_count())
         return Error{ErrorCode::not_converged,
@@ -102,32 +102,32 @@ Result<void> coordinate_run(const SweepProcess& self, const Sweep& sweep, const 
     return {};
 }
 
-Result<void> run(const SweepArguments& w, const CommonArguments& common, SweepProcess& self) {
-    const auto shard = shard_of(w.shard);
+Result<void> run(const SweepArguments& args, const CommonArguments& common, SweepProcess& self) {
+    const auto shard = shard_of(args.shard);
     if (!shard) return shard.error();
     if (Ranks::are_started()) {
         auto ranks = Ranks::join();
         if (!ranks) return ranks.error();
         if ((*ranks)->size() > 1) self.ranks = std::move(*ranks);
     }
-    auto sweep = read_sweep(w.file, {w.seed, w.samples});
-    if (sweep) (*sweep)->set_lanes(w.lanes);
-    if (!self.is_coordinator()) return run_worker(*self.ranks, sweep, {.threads = w.threads, .should_stop = interrupted});
+    auto sweep = read_sweep(args.file, {args.seed, args.samples});
+    if (sweep) (*sweep)->set_lanes(args.lanes);
+    if (!self.is_coordinator()) return run_worker(*self.ranks, sweep, {.threads = args.threads, .should_stop = interrupted});
     if (!sweep) {
         if (self.ranks) shut_down_workers(*self.ranks);
         return sweep.error();
     }
-    return coordinate_run(self, **sweep, w, common, *shard);
+    return coordinate_run(self, **sweep, args, common, *shard);
 }
 
-Result<void> status(const SweepArguments& w, const CommonArguments& common) {
-    const auto shard = shard_of(w.shard);
+Result<void> show_sweep_status(const SweepArguments& args, const CommonArguments& common) {
+    const auto shard = shard_of(args.shard);
     if (!shard) return shard.error();
-    const auto results = SweepResults::open_read_only(results_path(w, *shard));
+    const auto results = SweepResults::open_read_only(results_path(args, *shard));
     if (!results) return results.error();
     auto state = read_sweep_status(*results, *shard);
     if (!state) return state.error();
-    state->sweep = w.file;
+    state->sweep = args.file;
     if (const auto writer = WriterLock::holder(results->path())) {
         const auto now = std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
         state->writer = *writer, state->running_for = now - writer->since;
@@ -147,18 +147,18 @@ Result<void> merge_all(SweepResults& out, const std::vector<SweepResults>& in, c
     return {};
 }
 
-Result<void> merge(const SweepMergeArguments& w, const CommonArguments& common) {
+Result<void> merge(const SweepMergeArguments& args, const CommonArguments& common) {
     std::vector<SweepResults> in;
-    for (const auto& path : w.in) {
+    for (const auto& path : args.in) {
         auto results = SweepResults::open_read_only(path);
         if (!results) return results.error();
         in.push_back(std::move(*results));
         if (auto ok = in.back().check_same_sweep(in.front()); !ok) return ok;
     }
-    auto out = SweepResults::open(w.out, in.front());
+    auto out = SweepResults::open(args.out, in.front());
     if (!out) return out.error();
     auto ok = merge_all(*out, in, common);
-    if (auto folded = out->checkpoint(); ok) ok = folded;
+    if (auto checkpointed = out->checkpoint(); ok) ok = checkpointed;
     if (!ok) return ok;
     const auto state = read_sweep_status(*out, {});
     if (!state) return state.error();
@@ -183,11 +183,11 @@ int status_of(const Result<void>& done) { return done ? 0 : report_error(done.er
 
 }  // namespace
 
-int sweep(const SweepArguments& w, const CommonArguments& common) {
+int sweep(const SweepArguments& args, const CommonArguments& common) {
     catch_interrupt();
-    if (w.status) return status_of(status(w, common));
+    if (args.status) return status_of(show_sweep_status(args, common));
     SweepProcess self;
-    const auto done = run(w, common, self);
+    const auto done = run(args, common, self);
     // With several ranks the coordinator prints errors. Other ranks have sent theirs to it, unless it has died.
     const bool prints_errors = self.ranks ? self.is_coordinator() || !done : Ranks::reports_errors();
     const int code = done ? 0 : prints_errors ? report_error(done.error()) : static_cast<int>(done.error().code);
@@ -198,9 +198,9 @@ int sweep(const SweepArguments& w, const CommonArguments& common) {
     return code;
 }
 
-int sweep_merge(const SweepMergeArguments& w, const CommonArguments& common) {
+int sweep_merge(const SweepMergeArguments& args, const CommonArguments& common) {
     catch_interrupt();
-    return status_of(merge(w, common));
+    return status_of(merge(args, common));
 }
 
 int sweep_dump(const std::string& results, const CommonArguments&) {

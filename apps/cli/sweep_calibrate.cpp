@@ -44,12 +44,12 @@ Result<Trim> parse_trim(const std::string& text, const ChipCalibration& calibrat
 
 constexpr double max_first_spike_error = 10e-3;  // s
 
-/// Sets the stimulus, and the limits from the response of the model.
-Result<void> set_target(ChipCalibration& calibration, const std::string& model, const SweepCalibrateArguments& words) {
-    const TrialSpec press{model, words.force, {}, 10e3};
-    const auto stimulus = trial_force(press);
+/// Sets the stimulus, and derives the pass limits from the response of the model.
+Result<void> set_target(ChipCalibration& calibration, const std::string& model, const SweepCalibrateArguments& args) {
+    const TrialSpec trial{model, args.force, {}, 10e3};
+    const auto stimulus = trial_force(trial);
     if (!stimulus) return stimulus.error();
-    const auto train = simulate_train(press);
+    const auto train = simulate_train(trial);
     if (!train) return train.error();
     calibration.force = stimulus->force, calibration.T = stimulus->clock.T();
     std::vector<TimeWindow> phases;
@@ -65,12 +65,12 @@ Result<void> set_target(ChipCalibration& calibration, const std::string& model, 
 }
 
 Result<std::vector<CalibrationResult>> run_calibrations(ChipCalibration& calibration, const std::vector<Trim>& trims,
-                                                        const SweepCalibrateArguments& words) {
-    const circuit::ChipSpec sampler{static_cast<double>(words.samples), words.seed};
+                                                        const SweepCalibrateArguments& args) {
+    const circuit::ChipSpec sampler{static_cast<double>(args.samples), args.seed};
     std::vector<circuit::ChipSample> chips;
-    for (std::int64_t k = 0; k < words.samples; ++k) chips.push_back(sampler.sample(static_cast<std::uint64_t>(k)));
+    for (std::int64_t k = 0; k < args.samples; ++k) chips.push_back(sampler.sample(static_cast<std::uint64_t>(k)));
     std::vector<std::vector<Trim>> sets = {trims};
-    if (words.separately && trims.size() > 1)
+    if (args.separately && trims.size() > 1)
         for (const auto& t : trims) sets.push_back({t});
     std::vector<CalibrationResult> out;
     for (const auto& set : sets) {
@@ -82,24 +82,23 @@ Result<std::vector<CalibrationResult>> run_calibrations(ChipCalibration& calibra
     return out;
 }
 
-Result<void> calibrate_as(const SweepCalibrateArguments& words, const CommonArguments& common) {
-    const DefaultTrims* known = nullptr;
+Result<void> calibrate_netlist(const SweepCalibrateArguments& args, const CommonArguments& common) {
+    const DefaultTrims* defaults = nullptr;
     for (const auto& d : default_trims)
-        if (words.netlist == d.netlist) known = &d;
-    if (!known && (words.trims.empty() || words.like.empty()))
-        return bad_usage(
-            fmt::format("sweep calibrate {}: --like MODEL and --trim NAME=RANGE are required for this netlist", words.netlist));
-    if (words.samples < 1 || words.samples > 1'000'000)
-        return bad_usage(fmt::format("--samples {}: must be from 1 to 1000000", words.samples));
+        if (args.netlist == d.netlist) defaults = &d;
+    if (!defaults && (args.trims.empty() || args.like.empty()))
+        return bad_usage(fmt::format("sweep calibrate {}: --like MODEL and --trim NAME=RANGE are required for this netlist", args.netlist));
+    if (args.samples < 1 || args.samples > 1'000'000)
+        return bad_usage(fmt::format("--samples {}: must be from 1 to 1000000", args.samples));
     ChipCalibration calibration;
-    calibration.netlist = words.netlist, calibration.bits = words.bits, calibration.threads = words.threads;
-    calibration.overrides = {{"corner", words.corner, "--corner " + words.corner}};
+    calibration.netlist = args.netlist, calibration.bits = args.bits, calibration.threads = args.threads;
+    calibration.overrides = {{"corner", args.corner, "--corner " + args.corner}};
     calibration.batch.max_iterations = 60'000;
     calibration.batch.should_stop = interrupted;
-    if (auto ok = set_target(calibration, words.like.empty() ? known->model : words.like, words); !ok) return ok;
+    if (auto ok = set_target(calibration, args.like.empty() ? defaults->model : args.like, args); !ok) return ok;
     std::vector<Trim> trims;
     for (const auto& text :
-         words.trims.empty() ? std::vector<std::string>(std::begin(known->trims), std::end(known->trims)) : words.trims) {
+         args.trims.empty() ? std::vector<std::string>(std::begin(defaults->trims), std::end(defaults->trims)) : args.trims) {
         auto trim = parse_trim(text, calibration);
         if (!trim) return trim.error();
         trims.push_back(std::move(*trim));
@@ -107,9 +106,9 @@ Result<void> calibrate_as(const SweepCalibrateArguments& words, const CommonArgu
     auto done = [&] {
         Progress progress(common.quiet);
         calibration.on_progress = [&](std::size_t left, std::size_t) {
-            progress.update(1 - static_cast<double>(left) / static_cast<double>(words.samples));
+            progress.update(1 - static_cast<double>(left) / static_cast<double>(args.samples));
         };
-        return run_calibrations(calibration, trims, words);
+        return run_calibrations(calibration, trims, args);
     }();
     if (!done) return done.error();
     if (common.json)
@@ -121,9 +120,9 @@ Result<void> calibrate_as(const SweepCalibrateArguments& words, const CommonArgu
 
 }  // namespace
 
-int sweep_calibrate(const SweepCalibrateArguments& words, const CommonArguments& common) {
+int sweep_calibrate(const SweepCalibrateArguments& args, const CommonArguments& common) {
     catch_interrupt();
-    const auto done = calibrate_as(words, common);
+    const auto done = calibrate_netlist(args, common);
     return done ? 0 : report_error(done.error());
 }
 

@@ -27,7 +27,7 @@ std::string writer_text(const SweepStatus& s) {
     return text + "\n";
 }
 
-/// The command for the next step.
+/// The command to run next; "" while the sweep is running.
 std::string next_step(const SweepStatus& s) {
     if (s.writer) return "";
     if (s.missing() > 0)

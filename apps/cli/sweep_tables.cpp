@@ -31,8 +31,8 @@ public:
         if (!(typical > 0)) return;
         const auto text = unit.empty() ? "" : format_quantity(typical, unit);
         if (const auto blank = text.find(' '); blank != text.npos) {
-            const auto with = parse_unit(text.substr(blank + 1)), without = parse_unit(unit);
-            if (with && without) unit_ = text.substr(blank + 1), factor_ = without->factor / with->factor;
+            const auto prefixed = parse_unit(text.substr(blank + 1)), unprefixed = parse_unit(unit);
+            if (prefixed && unprefixed) unit_ = text.substr(blank + 1), factor_ = unprefixed->factor / prefixed->factor;
         }
         const double resolution = m.sigma.value > 0 ? m.sigma.value : typical;
         decimals_ = std::clamp(2 - static_cast<int>(std::floor(std::log10(resolution * factor_))), 0, 12);
@@ -65,37 +65,39 @@ std::string limits_of(const SweepColumn& c) {
                           : "max " + formatted(*c.max);
 }
 
-std::string opening(const SweepTable& from, const SweepSummary& s, const std::string& title) {
-    const auto finished = static_cast<std::int64_t>(from.rows());
-    std::string text = finished == from.item_count
-                           ? fmt::format("{}: {} items, all finished", title, from.item_count)
-                           : fmt::format("{}: {} of {} items are finished and analysed here", title, finished, from.item_count);
-    if (s.all.iteration_limit > 0) text += fmt::format("; {} truncated (too costly)", s.all.iteration_limit);
+/// "chips: 1000 items, all finished; 3 diverged."
+std::string opening(const SweepTable& table, const SweepSummary& s, const std::string& title) {
+    const auto finished = static_cast<std::int64_t>(table.rows());
+    std::string text = finished == table.item_count
+                           ? fmt::format("{}: {} items, all finished", title, table.item_count)
+                           : fmt::format("{}: {} of {} items are finished and analysed here", title, finished, table.item_count);
+    if (s.all.iteration_limit > 0) text += fmt::format("; {} truncated (too many steps or iterations)", s.all.iteration_limit);
     if (s.all.diverged > 0) text += fmt::format("; {} diverged", s.all.diverged);
     return text + ".\n";
 }
 
-std::string yields(const SweepTable& from, const SweepSummary& s) {
+std::string yields(const SweepTable& table, const SweepSummary& s) {
     Rows rows = {{"yield", "limits", "passed", "of", "%", "95 % CI"}};
-    const auto line = [&](const std::string& name, const std::string& limits, std::int64_t passed, const Estimate& share) {
+    const auto line = [&](const std::string& name, const std::string& limits, std::int64_t passed, const Estimate& fraction) {
         rows.push_back(
-            {name, limits, fmt::format("{}", passed), fmt::format("{}", s.all.items), percent(share.value), percent_interval(share)});
+            {name, limits, fmt::format("{}", passed), fmt::format("{}", s.all.items), percent(fraction.value), percent_interval(fraction)});
     };
-    line(from.has_limits() ? "all limits" : "completed", "", s.all.passed, s.all.yield);
-    for (std::size_t m = 0; m < from.measures.size(); ++m)
-        if (const auto& own = s.all.measures[m].yield)
-            line(from.measures[m].name, limits_of(from.measures[m]), std::llround(own->value * static_cast<double>(s.all.items)), *own);
+    line(table.has_limits() ? "all limits" : "completed", "", s.all.passed, s.all.yield);
+    for (std::size_t m = 0; m < table.measures.size(); ++m)
+        if (const auto& measure_yield = s.all.measures[m].yield)
+            line(table.measures[m].name, limits_of(table.measures[m]),
+                 std::llround(measure_yield->value * static_cast<double>(s.all.items)), *measure_yield);
     return "\n" + format_table(rows);
 }
 
-std::string measures_text(const SweepTable& from, const SweepSummary& s) {
+std::string measures_text(const SweepTable& table, const SweepSummary& s) {
     Rows rows = {{"measure", "items", "mean", "95 % CI", "sigma", "95 % CI", "min"}};
     for (const double q : s.options.quantiles) rows[0].push_back(q == 0.5 ? "median" : fmt::format("{:g} %", 100 * q));
     for (const char* last : {"max", "normality (r)"}) rows[0].emplace_back(last);
-    for (std::size_t m = 0; m < from.measures.size(); ++m) {
+    for (std::size_t m = 0; m < table.measures.size(); ++m) {
         const auto& one = s.all.measures[m];
-        const NumberFormat format(from.measures[m].unit, one);
-        rows.push_back({heading_of(from.measures[m], format.unit()), fmt::format("{}", one.count), format(one.mean.value),
+        const NumberFormat format(table.measures[m].unit, one);
+        rows.push_back({heading_of(table.measures[m], format.unit()), fmt::format("{}", one.count), format(one.mean.value),
                         format.interval(one.mean), format(one.sigma.value), format.interval(one.sigma), format(one.min)});
         for (std::size_t q = 0; q < s.options.quantiles.size(); ++q)
             rows.back().push_back(q < one.quantiles.size() ? format(one.quantiles[q].value) : "-");
@@ -107,17 +109,17 @@ std::string measures_text(const SweepTable& from, const SweepSummary& s) {
     return "\n" + format_table(rows);
 }
 
-std::string points_text(const SweepTable& from, const SweepSummary& s) {
+std::string points_text(const SweepTable& table, const SweepSummary& s) {
     if (s.points.size() < 2) return "";
     Rows rows = {{"point", "items", "yield %", "95 % CI"}};
     std::vector<NumberFormat> formats;
-    for (std::size_t m = 0; m < from.measures.size(); ++m) {
-        formats.emplace_back(from.measures[m].unit, s.all.measures[m]);
-        rows[0].push_back(heading_of(from.measures[m], formats.back().unit()));
+    for (std::size_t m = 0; m < table.measures.size(); ++m) {
+        formats.emplace_back(table.measures[m].unit, s.all.measures[m]);
+        rows[0].push_back(heading_of(table.measures[m], formats.back().unit()));
     }
     for (const auto& p : s.points) {
         rows.push_back({p.label, fmt::format("{}", p.items), percent(p.yield.value), percent_interval(p.yield)});
-        for (std::size_t m = 0; m < from.measures.size(); ++m) {
+        for (std::size_t m = 0; m < table.measures.size(); ++m) {
             const auto& one = p.measures[m];
             rows.back().push_back(one.count == 0 ? "-"
                                   : std::isnan(one.sigma.value)
@@ -128,39 +130,40 @@ std::string points_text(const SweepTable& from, const SweepSummary& s) {
     return fmt::format("\nBy grid point, mean and standard deviation:\n{}", format_table(rows));
 }
 
-/// "4x2 of 2 x 0.5 um".
+/// The array and transistor size of a device: "4x2 of 2 x 0.5 um".
 std::string array_of(const MismatchDevice& d) {
     const auto size = fmt::format("{:.4g} x {:.4g} um", 1e6 * d.W, 1e6 * d.L);
     return d.m == 1 && d.stack == 1 ? size : fmt::format("{:g}x{:g} of {}", d.m, d.stack, size);
 }
 
-void put_dependence(Rows& rows, const SweepTable& from, const SweepSummary& s, const Dependence& d) {
+void add_dependence(Rows& rows, const SweepTable& table, const SweepSummary& s, const Dependence& d) {
     auto name = d.measure;
     const auto line = [&](std::vector<std::string> cells) {
         rows.push_back({name}), name.clear();
         for (auto& c : cells) rows.back().push_back(std::move(c));
     };
-    for (const auto& [axis, between] : d.points) line({from.axes[axis].name, "grid axis", "", percent(between.fraction), "", "", ""});
+    for (const auto& [axis, between] : d.points) line({table.axes[axis].name, "grid axis", "", percent(between.fraction), "", "", ""});
     for (const auto& i : d.influences)
         if (i.device < 0 && i.influence.fraction.value >= min_fraction)
             line({i.name, "random", "", percent(i.influence.fraction.value), "", "", ""});
     for (std::size_t k = 0; k < std::min(d.devices.size(), max_devices); ++k) {
-        const auto& share = d.devices[k];
-        const auto& device = s.mismatch->subjects[static_cast<std::size_t>(share.subject)].devices[static_cast<std::size_t>(share.device)];
-        line({device.name, array_of(device), fmt::format("{:.4g}", 1e12 * device.area()), percent(share.fraction()), percent(share.V_T),
-              percent(share.I_S),
-              d.measure == "yield" ? "" : fmt::format("{:.1f}", 100 * (relative_sigma_at_four_times_area(share.fraction()) - 1))});
+        const auto& contribution = d.devices[k];
+        const auto& device =
+            s.mismatch->subjects[static_cast<std::size_t>(contribution.subject)].devices[static_cast<std::size_t>(contribution.device)];
+        line({device.name, array_of(device), fmt::format("{:.4g}", 1e12 * device.area()), percent(contribution.fraction()),
+              percent(contribution.V_T), percent(contribution.I_S),
+              d.measure == "yield" ? "" : fmt::format("{:.1f}", 100 * (relative_sigma_at_four_times_area(contribution.fraction()) - 1))});
     }
     if (d.devices.size() > max_devices) line({fmt::format("and {} more devices", d.devices.size() - max_devices), "", "", "", "", "", ""});
 }
 
-std::string dependences_text(const SweepTable& from, const SweepSummary& s) {
+std::string dependences_text(const SweepTable& table, const SweepSummary& s) {
     Rows rows = {{"measure", "depends on", "size", "area (um^2)", "variance (%)", "by V_T", "by I_S", "sigma at 4x area (%)"}};
     std::vector<std::string> independent;
     std::string explained;
     for (const auto& d : s.dependences) {
         const auto before = rows.size();
-        put_dependence(rows, from, s, d);
+        add_dependence(rows, table, s, d);
         if (rows.size() == before) independent.push_back(d.measure);
         if (!d.influences.empty())
             explained += fmt::format("{}{} {}", explained.empty() ? "" : ", ", d.measure, percent(d.sensitivity.explained));
@@ -168,77 +171,77 @@ std::string dependences_text(const SweepTable& from, const SweepSummary& s) {
     std::string text;
     if (rows.size() > 1)
         text = fmt::format(
-            "\nInfluences, in percent of variance (for grid axes of the total variance, for random parameters of that within a grid\n"
-            "point, {} chips):\n{}",
+            "\nInfluences, in percent of variance (for grid axes of the total variance, for random parameters of the variance within\n"
+            "a grid point, {} chips):\n{}",
             s.searched_chips, format_table(rows));
     if (!explained.empty())
         text += fmt::format("A linear model explains (%): {}. The rest is nonlinear, an interaction, or not significant.\n", explained);
-    if (!independent.empty() && (s.mismatch || !from.axes.empty()))
+    if (!independent.empty() && (s.mismatch || !table.axes.empty()))
         text += fmt::format("No significant influence on: {}.\n", fmt::join(independent, ", "));
     return text;
 }
 
 /// "Grid of press.F_max (8 values) by sa1.f_B (4 values) ..."
-std::string grid_opening(const SweepTable& from) {
+std::string grid_opening(const SweepTable& table) {
     std::string axes;
-    for (std::size_t a = 0; a < from.axes.size(); ++a)
-        axes += fmt::format("{}{} ({} value{})", a == 0 ? "" : " by ", from.axes[a].name, from.points[a].size(),
-                            from.points[a].size() == 1 ? "" : "s");
+    for (std::size_t a = 0; a < table.axes.size(); ++a)
+        axes += fmt::format("{}{} ({} value{})", a == 0 ? "" : " by ", table.axes[a].name, table.points[a].size(),
+                            table.points[a].size() == 1 ? "" : "s");
     return fmt::format("Grid of {}, without random parameters: the values are exact, not estimates.\n", axes);
 }
 
-std::string grid_yields(const SweepTable& from, const SweepSummary& s) {
+std::string grid_yields(const SweepTable& table, const SweepSummary& s) {
     if (s.all.passed == s.all.items) return "";
     Rows rows = {{"yield", "limits", "passed", "of", "%"}};
-    const auto line = [&](const std::string& name, const std::string& limits, std::int64_t passed, double share) {
-        rows.push_back({name, limits, fmt::format("{}", passed), fmt::format("{}", s.all.items), percent(share)});
+    const auto line = [&](const std::string& name, const std::string& limits, std::int64_t passed, double fraction) {
+        rows.push_back({name, limits, fmt::format("{}", passed), fmt::format("{}", s.all.items), percent(fraction)});
     };
-    line(from.has_limits() ? "all limits" : "completed", "", s.all.passed, s.all.yield.value);
-    for (std::size_t m = 0; m < from.measures.size(); ++m)
-        if (const auto& own = s.all.measures[m].yield)
-            line(from.measures[m].name, limits_of(from.measures[m]), std::llround(own->value * static_cast<double>(s.all.items)),
-                 own->value);
+    line(table.has_limits() ? "all limits" : "completed", "", s.all.passed, s.all.yield.value);
+    for (std::size_t m = 0; m < table.measures.size(); ++m)
+        if (const auto& measure_yield = s.all.measures[m].yield)
+            line(table.measures[m].name, limits_of(table.measures[m]),
+                 std::llround(measure_yield->value * static_cast<double>(s.all.items)), measure_yield->value);
     return "\n" + format_table(rows);
 }
 
 /// The label of the first row in which a measure has this value.
-std::string point_of(const SweepTable& from, std::size_t measure, double value) {
-    const auto& values = from.measure_values[measure];
+std::string point_of(const SweepTable& table, std::size_t measure, double value) {
+    const auto& values = table.measure_values[measure];
     const auto at = std::find(values.begin(), values.end(), value);
-    return at == values.end() ? "-" : point_label(from, static_cast<std::size_t>(at - values.begin()));
+    return at == values.end() ? "-" : point_label(table, static_cast<std::size_t>(at - values.begin()));
 }
 
-std::string grid_measures(const SweepTable& from, const SweepSummary& s) {
+std::string grid_measures(const SweepTable& table, const SweepSummary& s) {
     Rows rows = {{"measure", "items", "min", "at", "max", "at", "mean"}};
-    for (std::size_t m = 0; m < from.measures.size(); ++m) {
+    for (std::size_t m = 0; m < table.measures.size(); ++m) {
         const auto& one = s.all.measures[m];
-        const NumberFormat format(from.measures[m].unit, one, true);
+        const NumberFormat format(table.measures[m].unit, one, true);
         const bool varies = one.min < one.max;
-        rows.push_back({heading_of(from.measures[m], format.unit()), fmt::format("{}", one.count), format(one.min),
-                        varies ? point_of(from, m, one.min) : "all", format(one.max), varies ? point_of(from, m, one.max) : "all",
+        rows.push_back({heading_of(table.measures[m], format.unit()), fmt::format("{}", one.count), format(one.min),
+                        varies ? point_of(table, m, one.min) : "all", format(one.max), varies ? point_of(table, m, one.max) : "all",
                         format(one.mean.value)});
     }
     return "\n" + format_table(rows);
 }
 
 /// The effect of every axis on each measure.
-std::string effects_text(const SweepTable& from, const SweepSummary& s) {
+std::string effects_text(const SweepTable& table, const SweepSummary& s) {
     Rows rows = {{"measure", "axis", "variance (%)", "from", "mean there", "to", "mean there"}};
     for (std::size_t d = 0; d < s.dependences.size(); ++d) {
         const auto& one = s.dependences[d];
-        const bool is_yield = d >= from.measures.size();
-        const NumberFormat format(is_yield ? "" : from.measures[d].unit, is_yield ? MeasureSummary{} : s.all.measures[d], true);
+        const bool is_yield = d >= table.measures.size();
+        const NumberFormat format(is_yield ? "" : table.measures[d].unit, is_yield ? MeasureSummary{} : s.all.measures[d], true);
         const auto mean = [&](double x) { return is_yield ? percent(x) + " %" : format(x); };
-        const auto name = is_yield ? one.measure : heading_of(from.measures[d], format.unit());
+        const auto name = is_yield ? one.measure : heading_of(table.measures[d], format.unit());
         double rest = 1;
         for (const auto& e : one.effects) {
-            const auto& axis = from.axes[e.axis];
+            const auto& axis = table.axes[e.axis];
             const auto value = [&](double x) {
                 return axis.labels.empty() ? format_quantity(x, axis.unit)
                                            : axis.labels[std::min(static_cast<std::size_t>(x), axis.labels.size() - 1)];
             };
-            rows.push_back({&e == &one.effects[0] ? name : "", axis.name, percent(e.fraction), value(from.points[e.axis].front()),
-                            mean(e.means.front()), value(from.points[e.axis].back()), mean(e.means.back())});
+            rows.push_back({&e == &one.effects[0] ? name : "", axis.name, percent(e.fraction), value(table.points[e.axis].front()),
+                            mean(e.means.front()), value(table.points[e.axis].back()), mean(e.means.back())});
             rest -= e.fraction;
         }
         if (one.effects.size() > 1 && rest >= min_fraction) rows.push_back({"", "interactions", percent(rest)});
@@ -250,20 +253,20 @@ std::string effects_text(const SweepTable& from, const SweepSummary& s) {
                      format_table(rows);
 }
 
-std::string grid_points(const SweepTable& from, const SweepSummary& s) {
+std::string grid_points(const SweepTable& table, const SweepSummary& s) {
     if (s.points.size() < 2) return "";
     Rows rows = {{"point"}};
-    const bool limits = from.has_limits();
+    const bool limits = table.has_limits();
     if (limits) rows[0].emplace_back("passed");
     std::vector<NumberFormat> formats;
-    for (std::size_t m = 0; m < from.measures.size(); ++m) {
-        formats.emplace_back(from.measures[m].unit, s.all.measures[m], true);
-        rows[0].push_back(heading_of(from.measures[m], formats.back().unit()));
+    for (std::size_t m = 0; m < table.measures.size(); ++m) {
+        formats.emplace_back(table.measures[m].unit, s.all.measures[m], true);
+        rows[0].push_back(heading_of(table.measures[m], formats.back().unit()));
     }
     for (const auto& p : s.points) {
         rows.push_back({p.label});
         if (limits) rows.back().push_back(p.items == 1 ? (p.passed ? "yes" : "no") : fmt::format("{} of {}", p.passed, p.items));
-        for (std::size_t m = 0; m < from.measures.size(); ++m)
+        for (std::size_t m = 0; m < table.measures.size(); ++m)
             rows.back().push_back(p.measures[m].count == 0 ? "-" : formats[m](p.measures[m].mean.value));
     }
     const bool means = std::any_of(s.points.begin(), s.points.end(), [](const PointSummary& p) { return p.items > 1; });
@@ -271,17 +274,17 @@ std::string grid_points(const SweepTable& from, const SweepSummary& s) {
 }
 
 /// The requested quantiles, with confidence intervals unless the sweep is a grid.
-std::string quantiles_text(const SweepTable& from, const SweepSummary& s) {
+std::string quantiles_text(const SweepTable& table, const SweepSummary& s) {
     Rows rows = {{"quantile"}};
-    for (std::size_t m = 0; m < from.measures.size(); ++m) {
-        const NumberFormat format(from.measures[m].unit, s.all.measures[m]);
-        rows[0].push_back(heading_of(from.measures[m], format.unit()));
-        if (!from.is_grid) rows[0].push_back("95 % CI");
+    for (std::size_t m = 0; m < table.measures.size(); ++m) {
+        const NumberFormat format(table.measures[m].unit, s.all.measures[m]);
+        rows[0].push_back(heading_of(table.measures[m], format.unit()));
+        if (!table.is_grid) rows[0].push_back("95 % CI");
         for (std::size_t q = 0; q < s.options.quantiles.size(); ++q) {
             if (m == 0) rows.push_back({fmt::format("{:g} %", 100 * s.options.quantiles[q])});
             const auto& all = s.all.measures[m].quantiles;
             rows[q + 1].push_back(q < all.size() ? format(all[q].value) : "-");
-            if (!from.is_grid) rows[q + 1].push_back(q < all.size() ? format.interval(all[q]) : "-");
+            if (!table.is_grid) rows[q + 1].push_back(q < all.size() ? format.interval(all[q]) : "-");
         }
     }
     return "\n" + format_table(rows);
@@ -289,16 +292,16 @@ std::string quantiles_text(const SweepTable& from, const SweepSummary& s) {
 
 }  // namespace
 
-std::string sweep_tables(const SweepTable& from, const SweepSummary& s, const std::string& title, bool quantiles) {
-    if (from.rows() == 0) return fmt::format("{}: none of {} items is finished yet.\n", title, from.item_count);
-    if (from.is_grid) {
-        auto text = opening(from, s, title) + grid_opening(from) + grid_yields(from, s);
-        if (!from.measures.empty()) text += grid_measures(from, s) + (quantiles ? quantiles_text(from, s) : "");
-        return text + effects_text(from, s) + grid_points(from, s);
+std::string sweep_tables(const SweepTable& table, const SweepSummary& s, const std::string& title, bool quantiles) {
+    if (table.rows() == 0) return fmt::format("{}: none of {} items is finished yet.\n", title, table.item_count);
+    if (table.is_grid) {
+        auto text = opening(table, s, title) + grid_opening(table) + grid_yields(table, s);
+        if (!table.measures.empty()) text += grid_measures(table, s) + (quantiles ? quantiles_text(table, s) : "");
+        return text + effects_text(table, s) + grid_points(table, s);
     }
-    auto text = opening(from, s, title) + yields(from, s);
-    if (!from.measures.empty()) text += measures_text(from, s) + (quantiles ? quantiles_text(from, s) : "");
-    return text + points_text(from, s) + dependences_text(from, s);
+    auto text = opening(table, s, title) + yields(table, s);
+    if (!table.measures.empty()) text += measures_text(table, s) + (quantiles ? quantiles_text(table, s) : "");
+    return text + points_text(table, s) + dependences_text(table, s);
 }
 
 }  // namespace corpuscle

@@ -1,5 +1,5 @@
 #pragma once
-// `corpuscle sweep` and its sub-verbs: their options on the command line.
+// The command-line options of `corpuscle sweep` and its sub-verbs.
 
 #include "verbs.hpp"
 

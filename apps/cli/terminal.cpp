@@ -47,8 +47,8 @@ std::size_t width(const std::string& text) {
 /// Splits a heading at blanks and hyphens: "Victor-", "Purpura".
 std::vector<std::string> split_heading(const std::string& heading) {
     std::vector<std::string> out;
-    std::istringstream words(heading);
-    for (std::string word; words >> word;) {
+    std::istringstream input(heading);
+    for (std::string word; input >> word;) {
         const auto hyphen = word.find('-', 2);
         if (hyphen != word.npos && hyphen + 2 < word.size())
             out.push_back(word.substr(0, hyphen + 1)), out.push_back(word.substr(hyphen + 1));
@@ -224,11 +224,11 @@ void Progress::update(double fraction) {
 }
 
 std::string quote_command(int argc, const char* const* argv) {
-    constexpr std::string_view plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./,:%@";
+    constexpr std::string_view safe_characters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./,:%@";
     std::string text = "corpuscle";
     for (int k = 1; k < argc; ++k) {
         const auto argument = without_directories(argv[k]);
-        if (!argument.empty() && argument.find_first_not_of(plain) == std::string::npos) {
+        if (!argument.empty() && argument.find_first_not_of(safe_characters) == std::string::npos) {
             text += " " + argument;
             continue;
         }

@@ -113,7 +113,7 @@ struct StreamArguments : RecordingArguments {
     std::vector<std::string> settings;
     std::string max_force = "1kN", hold = "100ms", max_gap = "10s", buffer = "1M", idle_timeout = "10s";
     std::string out = "-", to, format = "lines", save_state, resume;
-    std::size_t channel_count = 1;  ///< channels
+    std::size_t channel_count = 1;  ///< forces per frame, if `population` is a list of afferents
     std::size_t batch_frames = 1;   ///< frames per batch
     std::int64_t clients = 0;       ///< 0: unlimited
     long baud = 115200;

@@ -37,7 +37,7 @@ void lower(__rlimit_resource resource, std::uint64_t limit) {
 
 /// Forbids opening, creating and removing any path: all rights of Landlock ABI 1, without exceptions.
 void forbid_paths() {
-    landlock_ruleset_attr controlled{};                                  // no rule allows anything of what it controls
+    landlock_ruleset_attr controlled{};                                  // no rules follow, so every controlled access is denied
     controlled.handled_access_fs = LANDLOCK_ACCESS_FS_MAKE_SYM * 2 - 1;  // the 13 rights of ABI 1 are the lowest bits
     const long rules = ::syscall(SYS_landlock_create_ruleset, &controlled, sizeof controlled.handled_access_fs, 0);
     if (rules < 0) return;

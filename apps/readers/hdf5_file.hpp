@@ -12,7 +12,7 @@
 
 namespace corpuscle::hdf5 {
 
-/// A handle of any kind; negative: none.
+/// An HDF5 handle, closed by the destructor. A negative handle means none.
 class Handle {
     hid_t id_ = -1;
     herr_t (*close_)(hid_t) = nullptr;
@@ -48,7 +48,7 @@ struct CompoundMember {
 std::vector<CompoundMember> numeric_members(hid_t type);
 bool is_number(hid_t type);
 
-// Attributes of a dataset or group; empty if there is none of this name and kind.
+// Attributes of a dataset or group; empty if there is none of this name and type.
 std::optional<double> number_attribute(hid_t object, const std::string& attribute);
 std::optional<std::string> text_attribute(hid_t object, const std::string& attribute);
 std::vector<std::string> string_attributes(hid_t object, const std::string& attribute);

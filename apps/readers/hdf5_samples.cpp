@@ -14,10 +14,10 @@ namespace {
 
 using hdf5::Handle;
 
-constexpr std::size_t default_band = std::size_t{1} << 20, max_band = std::size_t{1} << 26;  // numbers
-constexpr std::size_t max_passes = 16;                                                       // over one chunk
+constexpr std::size_t default_band = std::size_t{1} << 20, max_band = std::size_t{1} << 26;  // numbers in memory
+constexpr std::size_t max_passes = 16;  // a large chunk is read in at most this many parts
 
-constexpr const char* names_of_channels[] = {"columns", "channels", "names"};  // attributes
+constexpr const char* channel_name_attributes[] = {"columns", "channels", "names"};  // hold the names of all channels
 
 std::string parent_of(const std::string& name) { return name.substr(0, std::max<std::size_t>(1, name.rfind('/'))); }
 
@@ -28,14 +28,15 @@ class Hdf5Samples final : public Samples {
     std::size_t rank_ = 1;
     std::vector<std::string> members_;  // the columns of a compound type
     double factor_ = 1, offset_ = 0;    // scaling attributes of NWB
-    SamplesInfo facts_;
+    SamplesInfo info_;
     hdf5::StorageInfo storage_;
 
     // The rows in memory: a band of one or several complete chunks, so that each chunk is decompressed only once.
     std::vector<double> band_;
     std::vector<std::size_t> band_columns_;
-    std::uint64_t first_ = 0, band_rows_ = 0, low_ = 0;
-    std::size_t width_ = 0;  // columns from low_ on; of a compound type the requested members
+    std::uint64_t first_ = 0, band_rows_ = 0;  // first row, number of rows
+    std::uint64_t low_ = 0;                    // first column
+    std::size_t width_ = 0;                    // number of columns; for a compound type, number of requested members
 
     Error unreadable() const { return bad_input(fmt::format("cannot read {}; the file may be damaged", name_), {path_}); }
 
@@ -75,7 +76,8 @@ class Hdf5Samples final : public Samples {
             }
     }
 
-    /// Chooses the rows of the band that contains `row`: complete chunks, or an equal part of one if chunks are too large.
+    /// Chooses the rows of the band that contains `row`: complete chunks, or one of several equal parts of a
+    /// chunk that is too large.
     Result<void> choose_rows(std::uint64_t row) {
         const std::uint64_t height = chunk_rows(), default_rows = std::max<std::size_t>(1, default_band / width_),
                             max_rows = std::max<std::size_t>(1, max_band / width_);
@@ -120,46 +122,46 @@ class Hdf5Samples final : public Samples {
     }
 
     /// MATLAB stores matrices by columns, so the first dimension in HDF5 is the second of MATLAB.
-    Result<void> take_shape(const ArrayInfo& facts, ExtentHints hints) {
+    Result<void> read_shape(const ArrayInfo& array, ExtentHints hints) {
         hints.is_column_major = hdf5::text_attribute(dataset_, "MATLAB_class").has_value();
-        for (const auto* attribute : names_of_channels)
-            if (const auto words = hdf5::string_attributes(dataset_, attribute); words.size() > 1) hints.channel_names = words.size();
-        const auto extent = extent_of(facts, path_, hints);
+        for (const auto* attribute : channel_name_attributes)
+            if (const auto labels = hdf5::string_attributes(dataset_, attribute); labels.size() > 1) hints.channel_names = labels.size();
+        const auto extent = extent_of(array, path_, hints);
         if (!extent) return extent.error();
         extent_ = *extent;
-        rank_ = facts.shape.size();
-        if (!extent_.note.empty()) facts_.notes.push_back(extent_.note);
-        facts_.rows = static_cast<std::int64_t>(extent_.rows);
-        auto storage = hdf5::check_storage(dataset_, facts, path_);
+        rank_ = array.shape.size();
+        if (!extent_.note.empty()) info_.notes.push_back(extent_.note);
+        info_.rows = static_cast<std::int64_t>(extent_.rows);
+        auto storage = hdf5::check_storage(dataset_, array, path_);
         if (!storage) return storage.error();
         storage_ = *std::move(storage);
-        facts_.notes.insert(facts_.notes.end(), storage_.notes.begin(), storage_.notes.end());
+        info_.notes.insert(info_.notes.end(), storage_.notes.begin(), storage_.notes.end());
         return {};
     }
 
     Result<void> name_columns() {
         const Handle type(H5Dget_type(dataset_), H5Tclose);
-        for (const auto& m : hdf5::numeric_members(type)) members_.push_back(m.name), facts_.columns.push_back(parse_heading(m.name));
+        for (const auto& m : hdf5::numeric_members(type)) members_.push_back(m.name), info_.columns.push_back(parse_heading(m.name));
         if (!members_.empty() && extent_.columns > 1)
             return bad_input(fmt::format("{}: compound types must have one dimension", name_), {path_});
         if (!members_.empty()) return {};
         const auto name = last_path_component(name_);
-        facts_.columns =
+        info_.columns =
             columns_named_after(name == "data" ? last_path_component(parent_of(name_)) : name, static_cast<std::size_t>(extent_.columns));
-        for (const auto* attribute : names_of_channels)
-            if (const auto words = hdf5::string_attributes(dataset_, attribute); words.size() == facts_.columns.size())
-                for (std::size_t c = 0; c < words.size(); ++c) {
-                    auto heading = parse_heading(words[c]);
-                    if (heading.unit.empty()) heading.unit = facts_.columns[c].unit;
-                    facts_.columns[c] = std::move(heading);
+        for (const auto* attribute : channel_name_attributes)
+            if (const auto labels = hdf5::string_attributes(dataset_, attribute); labels.size() == info_.columns.size())
+                for (std::size_t c = 0; c < labels.size(); ++c) {
+                    auto heading = parse_heading(labels[c]);
+                    if (heading.unit.empty()) heading.unit = info_.columns[c].unit;
+                    info_.columns[c] = std::move(heading);
                 }
         return {};
     }
 
-    void take_unit() {
+    void read_unit() {
         for (const auto* attribute : {"unit", "units"})
             if (const auto unit = hdf5::text_attribute(dataset_, attribute))
-                for (auto& column : facts_.columns)
+                for (auto& column : info_.columns)
                     if (members_.empty() || (column.unit.empty() && !is_time_name(column.name))) column.unit = *unit;
         if (!members_.empty()) return;
         factor_ = hdf5::number_attribute(dataset_, "conversion").value_or(1);
@@ -170,15 +172,15 @@ public:
     Hdf5Samples(std::string path, std::string name, Handle dataset)
         : path_(std::move(path)), name_(std::move(name)), dataset_(std::move(dataset)) {}
 
-    Result<void> open(const ArrayInfo& facts, const ExtentHints& hints) {
-        if (auto ok = take_shape(facts, hints); !ok) return ok;
+    Result<void> open(const ArrayInfo& array, const ExtentHints& hints) {
+        if (auto ok = read_shape(array, hints); !ok) return ok;
         if (auto ok = name_columns(); !ok) return ok;
-        take_unit();
+        read_unit();
         return {};
     }
 
-    void set_rate(std::optional<double> rate) { facts_.rate = rate; }
-    const SamplesInfo& info() const override { return facts_; }
+    void set_rate(std::optional<double> rate) { info_.rate = rate; }
+    const SamplesInfo& info() const override { return info_; }
 
     Result<void> fetch(std::int64_t start, std::size_t rows, std::span<const std::size_t> columns,
                        std::vector<std::vector<double>>& out) override {
@@ -222,11 +224,11 @@ std::optional<double> rate_of(hid_t file, const std::string& name, std::span<con
     }
 }
 
-Result<std::unique_ptr<Hdf5Samples>> samples_of(hid_t file, const std::string& path, const ArrayInfo& facts, const ExtentHints& hints) {
-    auto dataset = hdf5::open_dataset(file, facts.name);
-    if (!dataset) return bad_input(fmt::format("cannot open {}; the file may be damaged", facts.name), {path});
-    auto samples = std::make_unique<Hdf5Samples>(path, facts.name, std::move(dataset));
-    if (auto ok = samples->open(facts, hints); !ok) return ok.error();
+Result<std::unique_ptr<Hdf5Samples>> samples_of(hid_t file, const std::string& path, const ArrayInfo& array, const ExtentHints& hints) {
+    auto dataset = hdf5::open_dataset(file, array.name);
+    if (!dataset) return bad_input(fmt::format("cannot open {}; the file may be damaged", array.name), {path});
+    auto samples = std::make_unique<Hdf5Samples>(path, array.name, std::move(dataset));
+    if (auto ok = samples->open(array, hints); !ok) return ok.error();
     return samples;
 }
 
@@ -263,13 +265,13 @@ SamplesResult open_hdf5_samples(int descriptor, const std::string& path, const T
         return bad_input(fmt::format("'{}' is a link to another file, which is not followed; open that file instead", *options.dataset),
                          {path});
     if (!chosen) return chosen.error();
-    const auto& facts = arrays[*chosen];
+    const auto& array = arrays[*chosen];
     ExtentHints hints{options.transpose};
-    for (const auto* times : time_arrays(facts, arrays)) hints.time_lengths.push_back(*time_list_length(*times));
-    auto samples = samples_of(*file, path, facts, hints);
+    for (const auto* times : time_arrays(array, arrays)) hints.time_lengths.push_back(*time_list_length(*times));
+    auto samples = samples_of(*file, path, array, hints);
     if (!samples) return samples.error();
-    (*samples)->set_rate(rate_of(*file, facts.name, arrays));
-    const auto* times = times_of(facts, (*samples)->info().rows, arrays);
+    (*samples)->set_rate(rate_of(*file, array.name, arrays));
+    const auto* times = times_of(array, (*samples)->info().rows, arrays);
     if (!times) return std::unique_ptr<Samples>(*std::move(samples));
     auto clock = samples_of(*file, path, *times, {});
     if (!clock) return clock.error();

@@ -12,6 +12,7 @@ namespace {
 
 constexpr hsize_t max_chunk = hsize_t{1} << 30;  // bytes, decompressed
 
+/// The name that an HDF5 function get(buffer, size) writes. Without a buffer the function returns the length of the name.
 std::string name_in(auto&& get) {
     const auto size = get(nullptr, 0);
     if (size <= 0) return "";
@@ -21,11 +22,11 @@ std::string name_in(auto&& get) {
     return name;
 }
 
-/// The error for data in other files. The user copies them, and thus sees what is read.
-Error data_elsewhere(const ArrayInfo& facts, const std::set<std::string>& files, const std::string& path) {
+/// The error for data in other files. No other file is read unless the user copies it.
+Error data_in_other_files(const ArrayInfo& array, const std::set<std::string>& files, const std::string& path) {
     return bad_input(fmt::format("{}: its data are in '{}', and other files are not read. Copy the data into one file, in Python: "
                                  "h5py.File('own.h5', 'w')['force'] = h5py.File('{}')['{}'][:]",
-                                 describe(facts), fmt::join(files, "', '"), path, facts.name),
+                                 describe(array), fmt::join(files, "', '"), path, array.name),
                      {path});
 }
 
@@ -55,7 +56,7 @@ std::set<std::string> virtual_sources(hid_t properties) {
     return files;
 }
 
-Result<void> check_filters(hid_t properties, const ArrayInfo& facts, const std::string& path) {
+Result<void> check_filters(hid_t properties, const ArrayInfo& array, const std::string& path) {
     const int count = H5Pget_nfilters(properties);
     for (int k = 0; k < count; ++k) {
         unsigned flags = 0, settings = 0;
@@ -63,16 +64,17 @@ Result<void> check_filters(hid_t properties, const ArrayInfo& facts, const std::
         char name[64] = {};
         const auto id = H5Pget_filter2(properties, static_cast<unsigned>(k), &flags, &values, nullptr, sizeof name - 1, name, &settings);
         if (id < 0 || (flags & H5Z_FLAG_OPTIONAL) || H5Zfilter_avail(id) > 0) continue;
-        return bad_input(fmt::format("{}: compressed by filter {}{}, which is not available here. Where it is, repack the file: "
-                                     "h5repack -f GZIP=4 {} repacked.h5",
-                                     describe(facts), id, *name ? fmt::format(" ({})", name) : "", quote_shell_word(path)),
-                         {path});
+        return bad_input(
+            fmt::format("{}: compressed by filter {}{}, which is not available here. Repack the file where the filter is available: "
+                        "h5repack -f GZIP=4 {} repacked.h5",
+                        describe(array), id, *name ? fmt::format(" ({})", name) : "", quote_shell_word(path)),
+            {path});
     }
     return {};
 }
 
-Error never_written(const ArrayInfo& facts, const std::string& path) {
-    return bad_input(fmt::format("{}: no data were written into it", describe(facts)), {path});
+Error never_written(const ArrayInfo& array, const std::string& path) {
+    return bad_input(fmt::format("{}: no data were written into it", describe(array)), {path});
 }
 
 /// Number of elements times their size, bytes; the maximum value on overflow.
@@ -83,60 +85,60 @@ hsize_t bytes_of(std::span<const hsize_t> counts, size_t element) {
     return bytes;
 }
 
-Result<void> check_chunks(hid_t dataset, hid_t properties, const ArrayInfo& facts, const std::string& path, StorageInfo& storage) {
+Result<void> check_chunks(hid_t dataset, hid_t properties, const ArrayInfo& array, const std::string& path, StorageInfo& storage) {
     const Handle space(H5Dget_space(dataset), H5Sclose), type(H5Dget_type(dataset), H5Tclose);
-    storage.chunk.resize(facts.shape.size());
+    storage.chunk.resize(array.shape.size());
     if (H5Pget_chunk(properties, static_cast<int>(storage.chunk.size()), storage.chunk.data()) < 0 ||
         std::any_of(storage.chunk.begin(), storage.chunk.end(), [](auto n) { return n == 0; }))
-        return bad_input(fmt::format("cannot read {}; the file may be damaged", facts.name), {path});
+        return bad_input(fmt::format("cannot read {}; the file may be damaged", array.name), {path});
     if (bytes_of(storage.chunk, H5Tget_size(type)) > max_chunk)
         return bad_input(
             fmt::format("{}: chunks of {} need more than 1 GB of memory each. Repack the file: h5repack -l {} {} "
                         "repacked.h5",
-                        describe(facts), fmt::join(storage.chunk, " x "),
-                        quote_shell_word(fmt::format("{}:CHUNK={}", facts.name, facts.shape.size() == 1 ? "65536" : "4096x64")),
+                        describe(array), fmt::join(storage.chunk, " x "),
+                        quote_shell_word(fmt::format("{}:CHUNK={}", array.name, array.shape.size() == 1 ? "65536" : "4096x64")),
                         quote_shell_word(path)),
             {path});
     std::vector<hsize_t> chunk_counts;
-    for (std::size_t d = 0; d < storage.chunk.size(); ++d) chunk_counts.push_back((facts.shape[d] - 1) / storage.chunk[d] + 1);
+    for (std::size_t d = 0; d < storage.chunk.size(); ++d) chunk_counts.push_back((array.shape[d] - 1) / storage.chunk[d] + 1);
     const auto expected = bytes_of(chunk_counts, 1);
     hsize_t stored = 0;
     if (H5Dget_num_chunks(dataset, space, &stored) < 0)
-        return bad_input(fmt::format("cannot read {}; the file may be damaged", facts.name), {path});
-    if (stored == 0) return never_written(facts, path);
+        return bad_input(fmt::format("cannot read {}; the file may be damaged", array.name), {path});
+    if (stored == 0) return never_written(array, path);
     if (stored >= expected) return {};
     if (stored < expected - stored)
         return bad_input(fmt::format("{}: only {} of its {} chunks were written. If the recording ended early, keep its beginning, in "
                                      "Python: h5py.File('{}', 'r+')['{}'].resize(ROWS, axis=0)",
-                                     describe(facts), stored, expected, path, facts.name),
+                                     describe(array), stored, expected, path, array.name),
                          {path});
     H5D_fill_value_t fill = H5D_FILL_VALUE_UNDEFINED;
     (void)H5Pfill_value_defined(properties, &fill);
     storage.has_gaps = fill != H5D_FILL_VALUE_USER_DEFINED;
     storage.notes.push_back(
-        fmt::format("{}: {} of its {} chunks were never written; {}", facts.name, expected - stored, expected,
+        fmt::format("{}: {} of its {} chunks were never written; {}", array.name, expected - stored, expected,
                     storage.has_gaps ? "their readings are treated as bad" : "their readings are the fill value of the file"));
     return {};
 }
 
 }  // namespace
 
-Result<StorageInfo> check_storage(hid_t dataset, const ArrayInfo& facts, const std::string& path) {
+Result<StorageInfo> check_storage(hid_t dataset, const ArrayInfo& array, const std::string& path) {
     StorageInfo storage;
     const Handle properties(H5Dget_create_plist(dataset), H5Pclose), type(H5Dget_type(dataset), H5Tclose);
     const auto layout = H5Pget_layout(properties);
-    if (auto files = external_files(properties); !files.empty()) return data_elsewhere(facts, files, path);
-    if (layout == H5D_VIRTUAL) return data_elsewhere(facts, virtual_sources(properties), path);
-    if (auto ok = check_filters(properties, facts, path); !ok) return ok.error();
+    if (auto files = external_files(properties); !files.empty()) return data_in_other_files(array, files, path);
+    if (layout == H5D_VIRTUAL) return data_in_other_files(array, virtual_sources(properties), path);
+    if (auto ok = check_filters(properties, array, path); !ok) return ok.error();
     if (layout == H5D_CHUNKED) {
-        if (auto ok = check_chunks(dataset, properties, facts, path, storage); !ok) return ok.error();
+        if (auto ok = check_chunks(dataset, properties, array, path, storage); !ok) return ok.error();
         return storage;
     }
     const auto stored = H5Dget_storage_size(dataset);
-    const std::vector<hsize_t> shape(facts.shape.begin(), facts.shape.end());
-    if (stored == 0) return never_written(facts, path);
+    const std::vector<hsize_t> shape(array.shape.begin(), array.shape.end());
+    if (stored == 0) return never_written(array, path);
     if (stored < bytes_of(shape, H5Tget_size(type)))
-        return bad_input(fmt::format("{}: only {} bytes of it are stored; the file may be damaged or truncated", describe(facts), stored),
+        return bad_input(fmt::format("{}: only {} bytes of it are stored; the file may be damaged or truncated", describe(array), stored),
                          {path});
     return storage;
 }

@@ -15,7 +15,7 @@ class SoundSamples final : public Samples {
     std::string path_;
     std::unique_ptr<SNDFILE, CloseSoundFile> file_;
     SF_INFO info_{};
-    SamplesInfo facts_;
+    SamplesInfo samples_info_;
     sf_count_t at_ = 0;  // index of the next frame
     std::vector<double> frames_;
 
@@ -32,18 +32,18 @@ public:
         if (!file_) return bad_input(fmt::format("not a readable sound file: {}", sf_strerror(nullptr)), {path_});
         if (info_.channels < 1) return bad_input("this sound file has no channel", {path_});
         if (info_.frames < 1) return bad_input("this sound file has no samples", {path_});
-        facts_.rows = info_.frames;
-        if (info_.samplerate > 0) facts_.rate = info_.samplerate;
+        samples_info_.rows = info_.frames;
+        if (info_.samplerate > 0) samples_info_.rate = info_.samplerate;
         for (int c = 0; c < info_.channels; ++c)
-            facts_.columns.push_back({fmt::format("ch{}", c + 1), is_floating_point() ? "" : "parts of full scale"});
+            samples_info_.columns.push_back({fmt::format("ch{}", c + 1), is_floating_point() ? "" : "parts of full scale"});
         return {};
     }
 
-    const SamplesInfo& info() const override { return facts_; }
+    const SamplesInfo& info() const override { return samples_info_; }
 
     Result<void> fetch(std::int64_t first, std::size_t rows, std::span<const std::size_t> columns,
                        std::vector<std::vector<double>>& out) override {
-        const auto width = facts_.columns.size();
+        const auto width = samples_info_.columns.size();
         if (at_ != first && sf_seek(file_.get(), first, SEEK_SET) != first)
             return bad_input(fmt::format("cannot seek to sample {}: {}", first + 1, sf_strerror(file_.get())), {path_});
         frames_.resize(rows * width);

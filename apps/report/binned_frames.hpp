@@ -1,6 +1,6 @@
 #pragma once
-// Sums of values at many places over time, in frames of equal length. Memory is bounded: adjacent frames are merged in pairs when there
-// are more than `max_frames`.
+// Sums of values over time, in frames of equal length, for many places: the marks of a map, or the classes of a skin. Memory is bounded:
+// adjacent frames are merged in pairs when there are more than `max_frames`.
 
 #include <algorithm>
 #include <cstddef>
@@ -13,7 +13,7 @@ template <class V>
 class BinnedFrames {
 public:
     struct Entry {
-        std::uint32_t place;
+        std::uint32_t place;  ///< index of the mark or class
         V value;
         bool operator==(const Entry&) const = default;
     };
@@ -88,12 +88,13 @@ private:
         return out;
     }
 
+    /// Doubles the length of the frames. If their number is odd, the last completed frame becomes the first half of the current one.
     void merge_pairs() {
         if (completed_.size() % 2 == 1) {
             for (const auto& e : completed_.back()) {
                 const V value = current_values_[e.place];
                 current_values_[e.place] = V{};
-                add(e.place, e.value), current_values_[e.place] += value;  // keeps the order of time
+                add(e.place, e.value), current_values_[e.place] += value;  // sums in order of time
             }
             completed_.pop_back();
         }

@@ -10,7 +10,7 @@ namespace corpuscle {
 
 class Envelope {
     std::vector<float> values_;  // bucket 1: samples; else min, max, min, max ...
-    std::int64_t bucket_ = 1, last_count_ = 0;
+    std::int64_t bucket_ = 1, last_count_ = 0;  // samples per bucket; samples in the last bucket
     std::size_t max_points_;
 
     void double_bucket();
@@ -18,8 +18,9 @@ class Envelope {
 public:
     explicit Envelope(std::size_t max_points = std::size_t{1} << 20) : max_points_(max_points) {}
     void add(double value);
+    /// Samples per bucket.
     std::int64_t bucket() const { return bucket_; }
-    /// The number of samples, or of pairs.
+    /// The number of samples, or of pairs of minimum and maximum.
     std::size_t count() const { return bucket_ == 1 ? values_.size() : values_.size() / 2; }
     const std::vector<float>& values() const { return values_; }
 };

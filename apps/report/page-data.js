@@ -95,7 +95,7 @@ class Report {
         return copies ? Array.from({length: copies.shown}, (_, k) => ({name: `${afferent.name}#${k + 1}`})) : [afferent];
     }
 
-    /// The mean rate of all copies of an afferent: {bin, values}.
+    /// The mean rate of all copies of an afferent: {bin (s), values (Hz)}.
     rate(afferent, channel) { return this.data.copies.rates.find((one) => one.afferent === afferent.name && one.channel === channel.id); }
 
     spikes(afferent, channel) { return this.spikeTrains.get(afferent.name + "\n" + channel.id) || new Spikes(null); }

@@ -28,21 +28,22 @@ class FrequencyPanel extends Panel {
 
     rows(a, b, width) {
         const margin = 4 * devicePixels() * (b - a) / width;  // includes marks that are cut by the edge
-        const seen = this.trains.map((spikes) => [spikes.before(a - margin), Math.min(spikes.before(b + margin), spikes.count - 1)]);
-        const total = seen.reduce((sum, [i, j]) => sum + Math.max(j - i, 0), 0);
-        return total <= 2 * width ? this.everyMark(seen) : this.columnMarks(a, b, width);
+        const visible = this.trains.map((spikes) => [spikes.before(a - margin), Math.min(spikes.before(b + margin), spikes.count - 1)]);
+        const total = visible.reduce((sum, [i, j]) => sum + Math.max(j - i, 0), 0);
+        return total <= 2 * width ? this.everyMark(visible) : this.columnMarks(a, b, width);
     }
 
-    everyMark(seen) {
+    /// `visible`: [first, end) of the visible frequencies of each train.
+    everyMark(visible) {
         const rows = [];
         this.trains.forEach((spikes, s) => {
             const f = spikes.frequency.levels[0].lo;
-            for (let k = seen[s][0]; k < seen[s][1]; ++k) rows.push([spikes.times[k], ...this.trains.map((_, o) => (o === s ? f[k] : null))]);
+            for (let k = visible[s][0]; k < visible[s][1]; ++k) rows.push([spikes.times[k], ...this.trains.map((_, o) => (o === s ? f[k] : null))]);
         });
         return rows.sort((one, other) => one[0] - other[0]);
     }
 
-    /// Minimum and maximum in each pixel column.
+    /// The minimum and maximum frequency in each pixel column.
     columnMarks(a, b, width) {
         const rows = [], columns = Math.ceil(width), step = (b - a) / columns;
         let from = this.trains.map((spikes) => spikes.before(a));

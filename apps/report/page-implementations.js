@@ -1,5 +1,5 @@
 "use strict";
-// Overlays of the implementations of one receptor: matching their quantities, and the scales by which they share a panel.
+// Overlays of the implementations of one receptor: matches their quantities, and computes the scales with which they share a panel.
 
 /// A key that is equal for the same quantity in all implementations: "ia" for I_A and i(via), "u" for u and v(u). A current through a source
 /// is named after the source.
@@ -56,20 +56,20 @@ function meanDrive(trace) {
     return count ? sum / count : 0;
 }
 
-/// Threshold and reset value of a membrane, from its parameters if they have them. Otherwise both are estimated from the extremes between
-/// spikes. The medians over short intervals are used, because in longer intervals the membrane may rest. With few samples the outermost
-/// values are used. Null if the afferent fired less than twice.
+/// Threshold and reset voltage of a membrane, V: the parameters of the afferent if it has both. Otherwise they are estimated from the
+/// extremes between spikes: the medians over short intervals, because in longer intervals the membrane may be at rest. With few samples the
+/// outermost values are used. Null if the afferent fired less than twice.
 function windowOf({afferent}, trace, spikes) {
     if (Number.isFinite(afferent.V_th) && Number.isFinite(afferent.V_reset)) return {threshold: afferent.V_th, reset: afferent.V_reset};
     const sample = (t) => Math.floor((t - trace.t0) / trace.T), t = spikes.times;
     const intervals = Array.from(t.slice(1), (end, k) => [sample(t[k]), sample(end)]).filter(([i, j]) => j > i);
     if (!intervals.length) return null;
     const longest = 3 * Math.min(...intervals.map(([i, j]) => j - i));
-    const quick = intervals.filter(([i, j]) => j - i <= longest).slice(0, 1000);
-    const ends = [0, 1].map((end) => quick.map(([i, j]) => trace.range(i, j + 1)[end]).sort((one, other) => one - other));
-    const [low, high] = longest < 24 * trace.bucket ? [ends[0][0], ends[1].at(-1)] : ends.map((all) => all[all.length >> 1]);
+    const shortIntervals = intervals.filter(([i, j]) => j - i <= longest).slice(0, 1000);
+    const extremes = [0, 1].map((end) => shortIntervals.map(([i, j]) => trace.range(i, j + 1)[end]).sort((one, other) => one - other));
+    const [low, high] = longest < 24 * trace.bucket ? [extremes[0][0], extremes[1].at(-1)] : extremes.map((all) => all[all.length >> 1]);
     if (!(low < high)) return null;
-    return isRising(trace, quick, (low + high) / 2) ? {threshold: high, reset: low} : {threshold: low, reset: high};
+    return isRising(trace, shortIntervals, (low + high) / 2) ? {threshold: high, reset: low} : {threshold: low, reset: high};
 }
 
 /// True if a membrane rises towards its threshold: most steps between spikes go up, or, with few samples, its first value is below `middle`.
@@ -96,17 +96,18 @@ function sharedScales(members, properties, isSimilar, make) {
 
 /// Scales currents of a different magnitude so that their mean positive currents are equal. The total current is used if it is shown.
 function currentScales(members, currents) {
-    const lead = currents.reduce((best, list) => (list.length > best.length ? list : best), []);  // the total comes first
-    const means = members.map((member) => lead.filter((one) => one.member === member).map(({trace}) => meanDrive(trace))[0]);
-    return sharedScales(members, means, areSimilar, (own, first) => new Scale(0, first / own));
+    // the current that most implementations have; the total current comes first
+    const common = currents.reduce((best, list) => (list.length > best.length ? list : best), []);
+    const means = members.map((member) => common.filter((one) => one.member === member).map(({trace}) => meanDrive(trace))[0]);
+    return sharedScales(members, means, areSimilar, (mean, reference) => new Scale(0, reference / mean));
 }
 
 /// Scales membranes so that their thresholds align, and their reset values, too.
 function membraneScales(members, windows) {
     const areClose = (one, other) => Math.abs(one.threshold - other.threshold) + Math.abs(one.reset - other.reset) < 0.2 * Math.abs(other.threshold - other.reset);
-    return sharedScales(members, windows, areClose, (own, first) => {
-        const factor = (first.threshold - first.reset) / (own.threshold - own.reset);
-        return new Scale(first.reset - factor * own.reset, factor);
+    return sharedScales(members, windows, areClose, (membrane, reference) => {
+        const factor = (reference.threshold - reference.reset) / (membrane.threshold - membrane.reset);
+        return new Scale(reference.reset - factor * membrane.reset, factor);
     });
 }
 

@@ -79,6 +79,7 @@ class Panel {
         this.selection = element(this.plot, "div", "selection");
     }
 
+    /// Shows the times below this panel.
     showTimes() {
         Object.assign(this, {bottom: true, axisHeight: 22});
         this.plot.style.height = this.height + this.axisHeight + "px";
@@ -87,6 +88,7 @@ class Panel {
     options() { return {}; }
     click() {}
     clearValues() { this.values.forEach((value) => { value.textContent = ""; }); }
+    /// Rows without values: dygraphs then draws the axes only.
     empty(a, b) { return [a, b].map((t) => [t, ...this.series.map(() => null)]); }
     get area() { return this.chart.getArea(); }
 

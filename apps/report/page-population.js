@@ -5,17 +5,17 @@ const DASHES = [null, [6, 3], [2, 2], [8, 2, 2, 2]];
 
 /// A step curve for each afferent.
 class PopulationPanel extends Panel {
-    /// `rates`: [{name, color, index, bin, values}].
-    constructor({rates, one = "copy", ...rest}) {
+    /// `rates`: [{name, color, index, bin, values}]. `noun`: what a rate is per, for the title.
+    constructor({rates, noun = "copy", ...rest}) {
         const highest = rates.reduce((high, {values}) => values.reduce((m, v) => Math.max(m, v), high), 0);
         const power = Math.max(0, prefixPower(highest, "Hz"));  // rates below 1 Hz are not shown in mHz
         super({...rest, scale: 10 ** power, title: "", bottom: true,
                series: rates.map(({name, color, index}) => ({label: name, html: escaped(name), color, width: 1.6, dash: DASHES[index % DASHES.length]}))});
-        Object.assign(this, {rates, highest, one, unit: PREFIXES[power] + "Hz"});
+        Object.assign(this, {rates, highest, noun, unit: PREFIXES[power] + "Hz"});
         this.heading.querySelector(".panel-title").innerHTML = this.titleOf();
     }
 
-    titleOf() { return titleHtml(`mean rate per ${this.one}, in bins of ${quantity(this.rates[0].bin, "s", true)}`, this.unit); }
+    titleOf() { return titleHtml(`mean rate per ${this.noun}, in bins of ${quantity(this.rates[0].bin, "s", true)}`, this.unit); }
 
     /// The last bin ends with the recording.
     edge(k) { return Math.min(this.input.t0 + k * this.rates[0].bin, endOf(this.input)); }

@@ -5,10 +5,11 @@ const MAX_LABELS = 46;  // with more lanes there is no space for a label per lan
 
 /// Each lane is an afferent on a channel. Spikes are ticks if they can be distinguished, else the spikes per pixel are shown as shades.
 class RasterPanel extends Panel {
-    /// `lanes`: [{afferent, group, label, color, spikes, channel, chosen}], the first at the top. `grouped`: draw a line between groups.
+    /// `lanes`: [{afferent, group, label, color, spikes, channel, chosen}], the first at the top; `chosen`: on the selected channel. `pick`
+    /// selects the channel of a lane; null: a click does nothing. `grouped`: draw a line between groups.
     constructor({lanes, pick, grouped, afferents, named, ...rest}) {
-        const tall = Math.min(24, 560 / lanes.length), strip = named ? 16 : 0;
-        super({...rest, named, title: "spikes", height: strip + Math.max(40, tall * lanes.length), bottom: true,
+        const laneHeight = Math.min(24, 560 / lanes.length), strip = named ? 16 : 0;
+        super({...rest, named, title: "spikes", height: strip + Math.max(40, laneHeight * lanes.length), bottom: true,
                series: afferents.map(({name, color}) => ({label: name, html: escaped(name), color, width: 3}))});
         Object.assign(this, {lanes, pick, grouped, strip, labelEach: lanes.length <= MAX_LABELS});
     }
@@ -20,7 +21,8 @@ class RasterPanel extends Panel {
 
     /// A lane has height 1; the strip above the lanes is for the names of the phases.
     range() { return [0, this.lanes.length * this.height / (this.height - this.strip)]; }
-    inner(area) { return {...area, y: area.y + this.strip, h: area.h - this.strip, tall: (area.h - this.strip) / this.lanes.length}; }
+    /// The area of the lanes, which is below the strip, and the height of a lane in pixels.
+    inner(area) { return {...area, y: area.y + this.strip, h: area.h - this.strip, laneHeight: (area.h - this.strip) / this.lanes.length}; }
 
     /// A label for each lane if there is space, else one for each afferent in the middle of its lanes.
     valueTicks() {
@@ -37,13 +39,13 @@ class RasterPanel extends Panel {
         super.drawBackground(context, outer);
         const area = this.inner(outer);
         const [a, b] = this.chart.xAxisRange();
-        const seen = this.lanes.map(({spikes}) => [spikes.before(a), spikes.before(b)]);
-        const maxCount = seen.reduce((max, [i, j]) => Math.max(max, j - i), 0);
-        const total = seen.reduce((sum, [i, j]) => sum + j - i, 0);
+        const visible = this.lanes.map(({spikes}) => [spikes.before(a), spikes.before(b)]);
+        const maxCount = visible.reduce((max, [i, j]) => Math.max(max, j - i), 0);
+        const total = visible.reduce((sum, [i, j]) => sum + j - i, 0);
         this.markLanes(context, area);
-        if (maxCount * 4 < area.w && total < 20000) this.drawTicks(context, area, seen);
-        else this.drawDensity(context, area, a, b, seen);
-        this.countSpikes(seen);
+        if (maxCount * 4 < area.w && total < 20000) this.drawTicks(context, area, visible);
+        else this.drawDensity(context, area, a, b, visible);
+        this.countSpikes(visible);
     }
 
     /// Tints the lanes of the selected channel and draws a line between groups.
@@ -51,46 +53,46 @@ class RasterPanel extends Panel {
         if (!this.grouped) return;
         const [tint, rule] = [colour("chosen"), colour("rule")];
         this.lanes.forEach((lane, k) => {
-            const y = area.y + k * area.tall;
+            const y = area.y + k * area.laneHeight;
             context.fillStyle = tint;
-            if (this.pick && lane.chosen) context.fillRect(area.x, y, area.w, Math.max(area.tall, 2));
+            if (this.pick && lane.chosen) context.fillRect(area.x, y, area.w, Math.max(area.laneHeight, 2));
             context.fillStyle = rule;
             if (k && lane.group !== this.lanes[k - 1].group) context.fillRect(area.x, Math.round(y), area.w, 1);
         });
     }
 
-    drawTicks(context, area, seen) {
-        const {tall} = area, gap = tall > 4 ? tall * 0.12 : 0;
+    drawTicks(context, area, visible) {
+        const {laneHeight} = area, gap = laneHeight > 4 ? laneHeight * 0.12 : 0;
         this.lanes.forEach(({spikes, color}, k) => {
             context.fillStyle = color;
-            for (let i = seen[k][0]; i < seen[k][1]; ++i)
-                context.fillRect(this.chart.toDomXCoord(spikes.times[i]) - 0.75, area.y + k * tall + gap, 1.5, Math.max(1, tall - 2 * gap));
+            for (let i = visible[k][0]; i < visible[k][1]; ++i)
+                context.fillRect(this.chart.toDomXCoord(spikes.times[i]) - 0.75, area.y + k * laneHeight + gap, 1.5, Math.max(1, laneHeight - 2 * gap));
         });
     }
 
     /// Paints an image with one pixel per lane and column, then scales it to the plot. Lanes thinner than a pixel share a line.
-    drawDensity(context, area, a, b, seen) {
+    drawDensity(context, area, a, b, visible) {
         const columns = Math.round(area.w * devicePixelRatio);
         const lines = Math.min(this.lanes.length, Math.floor(area.h * devicePixelRatio));
         const counts = Array.from({length: lines}, () => new Uint32Array(columns));
         const colours = [];
         this.lanes.forEach(({spikes, color}, k) => {
             const line = Math.floor(k * lines / this.lanes.length);
-            countPerColumn(counts[line], spikes, ...seen[k], a, b);
+            countPerColumn(counts[line], spikes, ...visible[k], a, b);
             colours[line] = color;
         });
-        const image = painted(counts, colours), gap = area.tall > 6 ? 1 : 0;
+        const image = painted(counts, colours), gap = area.laneHeight > 6 ? 1 : 0;
         context.imageSmoothingEnabled = false;
         for (let k = 0; k < lines; ++k)
             context.drawImage(image, 0, k, columns, 1, area.x, area.y + k * area.h / lines + gap, area.w, area.h / lines - 2 * gap);
     }
 
     /// Shows in the legend how many spikes of the selected channel (or of all copies shown) are visible.
-    countSpikes(seen) {
+    countSpikes(visible) {
         this.series.forEach(({label}, s) => {
             let [shown, total] = [0, 0];
             this.lanes.forEach((lane, k) => {
-                if (lane.afferent === label && lane.chosen) [shown, total] = [shown + seen[k][1] - seen[k][0], total + lane.spikes.count];
+                if (lane.afferent === label && lane.chosen) [shown, total] = [shown + visible[k][1] - visible[k][0], total + lane.spikes.count];
             });
             this.values[s].textContent = shown === total ? `${total}` : `${shown} of ${total}`;
         });
@@ -98,12 +100,13 @@ class RasterPanel extends Panel {
 
     click(x, y) {
         const area = this.inner(this.area);
-        const lane = this.lanes[Math.floor((y - area.y) / area.tall)];
+        const lane = this.lanes[Math.floor((y - area.y) / area.laneHeight)];
         if (lane && this.pick && !lane.chosen) this.pick(lane.channel);
     }
 }
 
-/// Adds spikes i ... j-1 to the pixel columns of [a, b). Few spikes are counted singly; for many, the edges of the columns are searched.
+/// Adds spikes i ... j-1 to the pixel columns of [a, b). Few spikes are counted one by one; with many, the first spike
+/// of each column is found by binary search.
 function countPerColumn(counts, spikes, i, j, a, b) {
     const t = spikes.times, columns = counts.length;
     if (j - i < 8 * columns) {

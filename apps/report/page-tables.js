@@ -37,7 +37,7 @@ function showImplementations(table, channel) {
     fillRates(section.querySelector(".scroll"), table, channel.name, isFirst);
 }
 
-/// Findings about the recordings, the most serious first, and their numbers.
+/// Quality findings of the recordings, the most serious first, and the numbers of each channel.
 function showQuality({notes, columns, rows}) {
     const section = document.getElementById("quality");
     section.hidden = !rows.length;
@@ -60,7 +60,7 @@ const squareMicrons = (area) => (area ? (area * 1e12).toFixed(0) : "–");
 function costTable({afferent, rest_force_N, power, area, blocks, receptors}, index) {
     const text = (value, unit) => escaped(quantity(value, unit, true));
     const row = (head, cells) => `<tr><th scope="row">${head}</th>${cells.map((cell) => `<td class="number">${cell}</td>`).join("")}</tr>`;
-    const head = ["block", `power at rest (${text(rest_force_N, "N")})`, "area (µm²)", "off leakage"].map((cell) => `<th scope="col">${cell}</th>`).join("");
+    const head = ["block", `power at rest (${text(rest_force_N, "N")})`, "area (µm²)", "leakage when off"].map((cell) => `<th scope="col">${cell}</th>`).join("");
     const listed = blocks.filter((one) => one.area.total_m2 || Math.abs(power.op.blocks_W[one.block]) > 1e-6 * power.op.delivered_W);
     const rows = listed.map((one) => row(escaped(one.block), [text(power.op.blocks_W[one.block], "W"), squareMicrons(one.area.total_m2),
         one.worst_leak ? text(one.worst_leak.current_A, "A") : "–"]));

@@ -61,7 +61,7 @@ class TracePanel extends Panel {
     }
 }
 
-/// One quantity of several implementations. Those with another scale are read on the right axis, which belongs to the first of them.
+/// One quantity of several implementations. Implementations with another scale are read on the right axis, which belongs to the first of them.
 class OverlayPanel extends TracePanel {
     /// `implementations`: [{trace, scale, color, name}].
     constructor({implementations, title, symbol, ...rest}) {

@@ -1,6 +1,7 @@
 "use strict";
 // The time range and the cursor that all panels share. Each panel is drawn at most once per screen frame.
 
+/// Times in s: a, b are the visible range, begin, end the complete recording, and cursor the time under the pointer, or null.
 class View {
     constructor({span, now}) {
         Object.assign(this, {span, now, panels: [], autoscale: false, cursor: null, waiting: false});
@@ -92,7 +93,7 @@ function placeHairline(panel, t, {a, b}) {
     style.height = area.h + "px";
 }
 
-/// Drag zooms, shift-drag (or a finger) pans, a click goes to the panel, double click resets, Ctrl with the wheel zooms about the pointer.
+/// Drag zooms, shift-drag (or a finger) pans, a click is passed to the panel, double click resets, Ctrl with the wheel zooms about the pointer.
 function connectMouse(panel, view) {
     const positionOf = (event) => {
         const box = panel.plot.getBoundingClientRect();

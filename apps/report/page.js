@@ -112,7 +112,7 @@ function lanes(input, chosen) {
     });
 }
 
-/// The channel with most spikes, which is shown first: channel 1 of many may have no force.
+/// The channel with the most spikes. It is shown first, because channel 1 of many may have no force.
 function mostActiveChannel(input) {
     const count = (channel) => report.data.afferents.flatMap((afferent) => report.members(afferent)).reduce((sum, one) => sum + report.spikes(one, channel).count, 0);
     return input.channels.reduce((best, channel) => (count(channel) > count(best) ? channel : best));
@@ -152,8 +152,8 @@ function setPrinting(on) {
 ///                                there is "population". With several implementations: "sa1 I", "sa1 I_A", "sa1 u", "sa1 frequency", scaled
 ///                                to the left axis.
 ///
-///   valueAt(quantity, t, afferent)   The value on the selected channel at the sample nearest to t. It is [min, max] if the trace holds only
-///                                these, and null without such a trace. "force" has no afferent.
+///   valueAt(quantity, t, afferent)   The value on the selected channel at the sample nearest to t. It is [min, max] if the trace has only
+///                                these, and null if there is no such trace. "force" has no afferent.
 ///
 ///   window(), setWindow(a, b)    the time range in seconds; setting it redraws at once
 ///   pointsDrawn()                by panel: the rows last passed to its dygraph, and the width of its plot in pixels

@@ -10,7 +10,7 @@ namespace corpuscle {
 /// Name and version of the compiler.
 std::string_view compiler_version();
 
-/// An embedded file: of apps/report, or of the chart library.
+/// The content of an embedded file of apps/report or of the chart library; "" if there is no such file.
 std::string_view asset(std::string_view name);
 
 /// JSON for a script element: '<' is escaped, so that the data cannot end the element.

@@ -3,7 +3,7 @@
 // Level 0 holds the samples; each entry of the next level is the minimum (maximum) of four entries below it.
 
 class Pyramid {
-    /// `lo` and `hi` are typed arrays of one length; the same array twice for plain samples. NaN is skipped.
+    /// `lo` and `hi` are typed arrays of equal length; for samples they are the same array. NaN is skipped.
     constructor(lo, hi = lo) {
         this.levels = [{lo, hi}];
         for (let top = this.levels[0]; top.lo.length > 4; this.levels.push(top)) top = Pyramid.above(top);

@@ -14,7 +14,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json level(const AfferentPlan& plan, std::string_view name) {
+Json parameter_or_null(const AfferentPlan& plan, std::string_view name) {
     const auto value = plan.value(name);
     return value ? Json(*value) : Json(nullptr);
 }
@@ -75,7 +75,7 @@ Result<void> RespondReport::begin(const Input& input) {
     const auto channels = input.source.channels().size();
     std::size_t traces = 1;  // per channel: the force and all probes
     for (std::size_t g = 0; g < groups(); ++g) traces += input.probes[groups_[g]].size();
-    // A trace beyond this limit is kept as pairs of two points.
+    // A trace with more samples than this limit is kept as pairs of minimum and maximum.
     const std::size_t max_points =
         std::clamp<std::size_t>(max_points_ / (2 * traces * channels * input.input_count), 16, std::size_t{1} << 20);
     forces_.assign(channels, Envelope(max_points));
@@ -85,9 +85,9 @@ Result<void> RespondReport::begin(const Input& input) {
     trains_.assign(input.afferent_count(), {});
     if (recordables_.empty())
         for (std::size_t g = 0; g < groups(); ++g) {
-            Json parts = Json::array();
-            for (const auto& p : input.probes[groups_[g]]) parts.push_back({{"name", p.name}, {"unit", p.unit}});
-            recordables_.push_back(std::move(parts));
+            Json probe_list = Json::array();
+            for (const auto& p : input.probes[groups_[g]]) probe_list.push_back({{"name", p.name}, {"unit", p.unit}});
+            recordables_.push_back(std::move(probe_list));
             first_copies_.push_back(input.plans[groups_[g]]);
         }
     return {};
@@ -171,8 +171,8 @@ std::string RespondReport::page(const RunSummary& summary, std::span<const Affer
                              {"netlist", plan.factory != nullptr},
                              {"composition", plan.composition()},
                              {"description", plan.description},
-                             {"V_th", level(first_copies_[a], "V_th")},
-                             {"V_reset", level(first_copies_[a], "V_reset")},
+                             {"V_th", parameter_or_null(first_copies_[a], "V_th")},
+                             {"V_reset", parameter_or_null(first_copies_[a], "V_reset")},
                              {"parameters", parameters_document(plan, copies_.distributions)},
                              {"probes", recordables_[a]}});
     }

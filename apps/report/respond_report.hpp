@@ -36,11 +36,11 @@ private:
     std::size_t max_points_;
     CopySpec copies_;
     bool with_probes_;
-    std::vector<std::size_t> groups_;            // of the current input: the first copy of each afferent, then the end
-    std::vector<Envelope> forces_;               // by channel
-    std::vector<std::vector<Envelope>> probes_;  // [channel and group][probe], of the first copy; empty with too many copies
+    std::vector<std::size_t> groups_;  // of the current input: index of the first copy of each afferent, then the number of copies
+    std::vector<Envelope> forces_;     // one per channel, N
+    std::vector<std::vector<Envelope>> probes_;  // [channel * groups() + group][probe], of the first copy; empty with too many copies
     std::vector<std::vector<double>> trains_;    // [afferent], s
-    std::uint32_t first_channel_ = 0;
+    std::uint32_t first_channel_ = 0;            // number of channels of all earlier inputs
 
     std::size_t groups() const { return groups_.size() - 1; }
     /// The index of the first afferent of a group on a channel.
@@ -48,7 +48,7 @@ private:
     void add_spikes(const Input&, std::size_t channel, std::size_t group);
     void add_rate(const Input&, std::size_t channel, std::size_t group, std::int64_t samples);
     std::vector<AfferentPlan> first_copies_;  // each afferent, or its first copy
-    Json recordables_ = Json::array();        // the probes of each
+    Json recordables_ = Json::array();        // name and unit of the probes of each afferent
     Json inputs_ = Json::array(), traces_ = Json::array(), spikes_ = Json::array(), rates_ = Json::array();
 };
 

@@ -14,7 +14,7 @@ class PackedNumbers {
     }
 }
 
-/// Sparse values at many places in each frame. Frame f has entries begin[f] ... begin[f + 1] - 1 of `place` and `value`.
+/// Sparse values at many places (marks, sites or classes) in each frame. Frame f has entries begin[f] ... begin[f + 1] - 1 of `place` and `value`.
 class Frames {
     constructor({count, width, places, data}) {
         Object.assign(this, {count, width, places, begin: new Uint32Array(count + 1)});
@@ -42,14 +42,14 @@ class Frames {
     }
 }
 
-/// Spikes of the afferents that fired, in order. Train k belongs to afferent `unit[k]`; its times have indices begin[k] ... begin[k + 1] - 1.
+/// Spikes of the afferents that fired, in order. Train k belongs to afferent `afferent[k]`; its times (s) have indices begin[k] ... begin[k + 1] - 1.
 class Trains {
     constructor({count, trains, tick, data}, t0) {
         const source = new PackedNumbers(data);
-        Object.assign(this, {unit: new Uint32Array(trains), begin: new Uint32Array(trains + 1), times: new Float64Array(count)});
-        for (let k = 0, unit = 0, at = 0; k < trains; ++k) {
-            unit += source.next();
-            this.unit[k] = unit++;
+        Object.assign(this, {afferent: new Uint32Array(trains), begin: new Uint32Array(trains + 1), times: new Float64Array(count)});
+        for (let k = 0, afferent = 0, at = 0; k < trains; ++k) {
+            afferent += source.next();
+            this.afferent[k] = afferent++;
             const end = at + source.next();
             for (let ticks = 0; at < end; ++at) this.times[at] = t0 + (ticks += source.next()) * tick;
             this.begin[k + 1] = end;
@@ -59,7 +59,7 @@ class Trains {
     /// A train in the form that page-raster.js counts.
     train(k) {
         const times = this.times.subarray(this.begin[k], this.begin[k + 1]);
-        return {unit: this.unit[k], times, before: (t) => firstAt(times, t)};
+        return {afferent: this.afferent[k], times, before: (t) => firstAt(times, t)};
     }
 }
 
@@ -74,6 +74,7 @@ function firstAt(times, t) {
     return low;
 }
 
+/// The decoded data of the page. Positions are in mm: x, y, x, y ...
 class Skin {
     constructor(data) {
         const {over, marks, sites} = data;
@@ -81,18 +82,18 @@ class Skin {
         const overall = (name) => data.summary.rates.find(({afferent, region, phase}) => afferent === name && region === "all" && phase === "all");
         this.classes = data.classes.map((one, index) => ({...one, index, active: overall(one.name).active, get color() { return afferentColour(index); }}));
         this.input = {t0: over.t0, T: over.T, samples: over.shown_samples, phases: data.summary.input.phases.map(({name, from_s, to_s}) => ({name, from: over.t0 + from_s, to: over.t0 + to_s}))};
-        this.places = floats(marks.places);
+        this.markPositions = floats(marks.places);
         this.region = new Uint16Array(bytesOf(marks.region).buffer);
         this.copy = new Uint32Array(bytesOf(marks.copy).buffer);
-        this.first = floats(marks.first);
-        this.firstUnits = new Uint32Array(bytesOf(marks.begin).buffer);
-        this.sitePlaces = floats(sites.places);
+        this.firstSpikes = floats(marks.first);  // s from t0, one per mark; NaN: none
+        this.firstAfferents = new Uint32Array(bytesOf(marks.begin).buffer);
+        this.sitePositions = floats(sites.places);
         this.siteRegion = new Uint16Array(bytesOf(sites.region).buffer);
         this.siteForce = new Frames(over.sites);
         this.marks = new Frames(over.marks);
-        this.together = over.afferents_per_mark;
-        this.sitesTogether = over.sites_per_mark;
-        this.side = sites.side || spacing(this.sitePlaces) * 0.9;
+        this.afferentsPerMark = over.afferents_per_mark;
+        this.sitesPerMark = over.sites_per_mark;
+        this.side = sites.side || spacing(this.sitePositions) * 0.9;
         this.hasSeparateSites = !sites.side;
         this.perClass = new Frames(over.classes);
     }
@@ -103,28 +104,28 @@ class Skin {
     }
 
     /// A mark is an afferent or a group of neighbours; name and region are those of its first afferent.
-    markOf(unit) { return firstAt(this.firstUnits, unit + 1) - 1; }
-    classOf(mark) { return this.classes.find(({first, afferents}) => this.firstUnits[mark] >= first && this.firstUnits[mark] < first + afferents); }
-    markName(mark) { return `${this.classOf(mark).name}#${this.copy[mark]}${this.unitsOf(mark) > 1 ? ` and ${this.unitsOf(mark) - 1} neighbours` : ""}`; }
+    markOf(afferent) { return firstAt(this.firstAfferents, afferent + 1) - 1; }
+    classOf(mark) { return this.classes.find(({first, afferents}) => this.firstAfferents[mark] >= first && this.firstAfferents[mark] < first + afferents); }
+    markName(mark) { return `${this.classOf(mark).name}#${this.copy[mark]}${this.afferentsIn(mark) > 1 ? ` and ${this.afferentsIn(mark) - 1} neighbours` : ""}`; }
     regionName(mark) { return this.regions[this.region[mark]]; }
     get duration() { return this.input.samples * this.input.T; }
 
     /// The marks of a class: [first, end).
-    marksOf({first, afferents}) { return [firstAt(this.firstUnits, first), firstAt(this.firstUnits, first + afferents)]; }
-    unitsOf(mark) { return this.firstUnits[mark + 1] - this.firstUnits[mark]; }
+    marksOf({first, afferents}) { return [firstAt(this.firstAfferents, first), firstAt(this.firstAfferents, first + afferents)]; }
+    afferentsIn(mark) { return this.firstAfferents[mark + 1] - this.firstAfferents[mark]; }
 
     /// The number of frames in about `seconds`, over which a rate is averaged.
     framesOver(seconds) { return Math.max(1, Math.round(seconds / this.marks.width)); }
     /// Duration of `frames` frames up to this one, s. The last frame of the recording may be shorter.
     lengthOver(frame, frames) { return Math.min((frame + 1) * this.marks.width, this.duration) - Math.max(0, frame + 1 - frames) * this.marks.width; }
 
-    /// Spike counts of marks in `frames` frames up to this one: counts by mark, and the marks with spikes.
+    /// Spikes in `frames` frames up to this one: `counts` of all marks, and `activeMarks`, the marks with spikes.
     recent(frame, frames) {
         if (this.cached && this.cached.frame === frame && this.cached.frames === frames) return this.cached;
-        const counts = new Uint32Array(this.marks.places), some = [];
+        const counts = new Uint32Array(this.marks.places), activeMarks = [];
         for (let f = Math.max(0, frame + 1 - frames); f <= frame; ++f)
-            this.marks.each(f, (mark, n) => { if (!counts[mark]) some.push(mark); counts[mark] += n; });
-        return (this.cached = {frame, frames, counts, some});
+            this.marks.each(f, (mark, n) => { if (!counts[mark]) activeMarks.push(mark); counts[mark] += n; });
+        return (this.cached = {frame, frames, counts, activeMarks});
     }
 
     /// The maximum rate per afferent of each class, averaged over this number of frames, Hz.
@@ -136,7 +137,7 @@ class Skin {
             this.marks.each(f, (mark, n) => {
                 counts[mark] += n;
                 while (mark >= ends[c]) ++c;
-                rates[c] = Math.max(rates[c], counts[mark] / this.unitsOf(mark) / this.lengthOver(f, frames));
+                rates[c] = Math.max(rates[c], counts[mark] / this.afferentsIn(mark) / this.lengthOver(f, frames));
             });
         }
         return rates.map((rate) => rate || 1);

@@ -21,30 +21,30 @@ function timeRamp() {
 /// The map of one class. `values(map, call)` calls back with each drawn mark and its level, 0 to 1. `ramp`: colours of the levels. `force()`: true
 /// if force is shown.
 class SkinMap {
-    constructor(host, scene, one, {values, ramp, force}) {
-        Object.assign(this, {scene, skin: scene.skin, one, values, ramp, force, idle: null});
+    constructor(host, scene, skinClass, {values, ramp, force}) {
+        Object.assign(this, {scene, skin: scene.skin, skinClass, values, ramp, force, idle: null});
         this.root = element(host, "figure", "map");
-        this.root.dataset.map = one.name;
+        this.root.dataset.map = skinClass.name;
         this.canvas = element(this.root, "canvas");
         this.canvas.setAttribute("role", "img");
         this.caption = element(this.root, "figcaption");
-        [this.from, this.to] = this.skin.marksOf(one);
-        this.at = this.skin.places.subarray(2 * this.from, 2 * this.to);
-        this.radius = Math.min(1.2, 0.36 * spacing(this.at));  // mm
+        [this.from, this.to] = this.skin.marksOf(skinClass);
+        this.positions = this.skin.markPositions.subarray(2 * this.from, 2 * this.to);
+        this.radius = Math.min(1.2, 0.36 * spacing(this.positions));  // mm
         scene.maps.push(this);
         connectPointer(this);
     }
 
     renew() { this.idle = this.colours = null; }
 
-    place(mark) { return [this.scene.x(this.at[2 * (mark - this.from)]), this.scene.y(this.at[2 * (mark - this.from) + 1])]; }
+    place(mark) { return [this.scene.x(this.positions[2 * (mark - this.from)]), this.scene.y(this.positions[2 * (mark - this.from) + 1])]; }
     get pixels() { return Math.max(0.75, Math.min(5, this.radius * this.scene.scale)); }
 
     idleLayer() {
         if (this.idle) return this.idle;
         const [layer, context] = this.scene.canvas(), r = Math.max(0.55, this.pixels * 0.6);
         context.drawImage(this.scene.groundLayer(), 0, 0, this.scene.width, this.scene.height);
-        context.fillStyle = mixed(colour("flesh"), this.one.color, 0.3);
+        context.fillStyle = mixed(colour("flesh"), this.skinClass.color, 0.3);
         for (let m = this.from; m < this.to; ++m) dot(context, ...this.place(m), r);
         return (this.idle = layer);
     }
@@ -60,7 +60,7 @@ class SkinMap {
         context.clearRect(0, 0, width, height);
         context.drawImage(this.idleLayer(), 0, 0, width, height);
         if (this.force()) context.drawImage(this.scene.forceLayer(), 0, 0, width, height);
-        this.colours = this.colours || this.ramp(this.one.color);
+        this.colours = this.colours || this.ramp(this.skinClass.color);
         const steps = this.colours.length, r = this.pixels;
         this.values(this, (mark, level) => {
             context.fillStyle = this.colours[Math.max(0, Math.min(steps - 1, Math.floor(level * steps)))];

@@ -1,23 +1,23 @@
 "use strict";
-// Contents of the maps: rates over a time window, first spikes; and the regions that can be selected.
+// Contents of the maps: rates over a time window, and first spikes. Also the regions that can be selected.
 
-const rateOf = (mark, spikes, seconds) => spikes / skin.unitsOf(mark) / seconds;  // Hz, per afferent
+const rateOf = (mark, spikes, seconds) => spikes / skin.afferentsIn(mark) / seconds;  // Hz, per afferent
 
 /// Passes the rates of a class to its map as levels, 0 to 1.
 function rateValues(map, call) {
-    const {one, from, to} = map, isOwn = (mark) => mark >= from && mark < to;
+    const {skinClass, from, to} = map, isOnMap = (mark) => mark >= from && mark < to;
     map.active = 0;
-    const add = (mark, spikes, seconds) => { ++map.active; call(mark, rateOf(mark, spikes, seconds) / shown.maxRates[one.index]); };
+    const add = (mark, spikes, seconds) => { ++map.active; call(mark, rateOf(mark, spikes, seconds) / shown.maxRates[skinClass.index]); };
     if (shown.mode === "all") for (let m = from; m < to; ++m) { if (totals[m]) add(m, totals[m], skin.duration); }
     else {
-        const {counts, some} = skin.recent(scene.frame, shown.frames);
-        for (const mark of some) if (isOwn(mark)) add(mark, counts[mark], skin.lengthOver(scene.frame, shown.frames));
+        const {counts, activeMarks} = skin.recent(scene.frame, shown.frames);
+        for (const mark of activeMarks) if (isOnMap(mark)) add(mark, counts[mark], skin.lengthOver(scene.frame, shown.frames));
     }
     map.count.textContent = `${map.active} active`;
-    map.canvas.setAttribute("aria-label", `${one.name}: ${map.active} of ${to - from} active, ${shown.mode === "all" ? "over the recording" : `at ${timeText(skin.t0 + scene.frame * skin.marks.width, skin.marks.width)}`}`);
+    map.canvas.setAttribute("aria-label", `${skinClass.name}: ${map.active} of ${to - from} active, ${shown.mode === "all" ? "over the recording" : `at ${timeText(skin.t0 + scene.frame * skin.marks.width, skin.marks.width)}`}`);
 }
 
-/// Sets what the maps show: the rate in a window up to now, or the mean rate of the recording.
+/// Sets what the maps show: the rate in a window that ends at the current time, or the mean rate of the recording.
 function chooseMode(mode) {
     shown.mode = mode;
     shown.frames = mode === "all" ? 1 : Number(mode);
@@ -37,13 +37,13 @@ const scaleHtml = (low, high, colours) => `<span class="scale">${low} <span clas
 
 /// The heading of a map: its class and the scale of its colours.
 function captionOf(map, low, high, colours) {
-    map.caption.innerHTML = `<span class="name">${chipOf(map.one.color)}${escaped(map.one.name)}</span> <span class="unit">${map.one.afferents} afferents</span> ${scaleHtml(low, high, colours)}`;
+    map.caption.innerHTML = `<span class="name">${chipOf(map.skinClass.color)}${escaped(map.skinClass.name)}</span> <span class="unit">${map.skinClass.afferents} afferents</span> ${scaleHtml(low, high, colours)}`;
     map.count = element(map.caption, "span", "readout");
 }
 
 function rateCaptions() {
     for (const map of scene.maps)
-        if (map.ofRates) captionOf(map, "0", escaped(quantity(shown.maxRates[map.one.index], "Hz", true)), rateRamp(map.one.color));
+        if (map.ofRates) captionOf(map, "0", escaped(quantity(shown.maxRates[map.skinClass.index], "Hz", true)), rateRamp(map.skinClass.color));
 }
 
 function makeMaps() {
@@ -62,12 +62,12 @@ function makeMaps() {
 
 /// Maps of the first spike of each afferent. The colours span the earliest time to the 98th percentile.
 function makeFirsts(host) {
-    const times = Array.from(skin.first).filter((t) => !Number.isNaN(t)).sort((a, b) => a - b);
+    const times = Array.from(skin.firstSpikes).filter((t) => !Number.isNaN(t)).sort((a, b) => a - b);
     const active = Object.fromEntries(skin.data.summary.rates.filter(({region, phase}) => region === "all" && phase === "all").map((row) => [row.afferent, row.active]));
     at("about-firsts").textContent = `${Object.values(active).reduce((sum, n) => sum + n, 0)} of ${skin.data.summary.skin.afferents} afferents fired`;
     if (!times.length) return;
     const from = times[0], to = times[Math.floor(0.98 * (times.length - 1))], span = to - from || 1;
-    const values = (map, call) => { for (let m = map.from; m < map.to; ++m) if (!Number.isNaN(skin.first[m])) call(m, (skin.first[m] - from) / span); };
+    const values = (map, call) => { for (let m = map.from; m < map.to; ++m) if (!Number.isNaN(skin.firstSpikes[m])) call(m, (skin.firstSpikes[m] - from) / span); };
     for (const one of skin.classes) {
         const map = new SkinMap(host, scene, one, {values, ramp: timeRamp, force: () => false});
         captionOf(map, escaped(timeText(skin.t0 + from, span / 100)), escaped(timeText(skin.t0 + to, span / 100)), timeRamp());
@@ -79,10 +79,10 @@ function makeFirsts(host) {
 
 /// The selectable regions of the maps: [name, bounding box].
 function mapRegions() {
-    const pressed = new Uint8Array(skin.sitePlaces.length / 2);
-    skin.siteForce.place.forEach((p) => pressed.fill(1, p * skin.sitesTogether, (p + 1) * skin.sitesTogether));
+    const pressed = new Uint8Array(skin.sitePositions.length / 2);
+    skin.siteForce.place.forEach((p) => pressed.fill(1, p * skin.sitesPerMark, (p + 1) * skin.sitesPerMark));
     const regions = [["complete skin", scene.all]], grow = (box) => grown(box, Math.max(2 * skin.side, 0.15 * Math.max(box[2] - box[0], box[3] - box[1])));
-    if (pressed.includes(1) && pressed.includes(0)) regions.push(["touched area", grow(extentOfPlaces(skin.sitePlaces, (s) => pressed[s]))]);
-    if (skin.regions.length > 1) skin.regions.forEach((name, r) => regions.push([name, grow(extentOfPlaces(skin.sitePlaces, (s) => skin.siteRegion[s] === r))]));
+    if (pressed.includes(1) && pressed.includes(0)) regions.push(["touched area", grow(extentOfPlaces(skin.sitePositions, (s) => pressed[s]))]);
+    if (skin.regions.length > 1) skin.regions.forEach((name, r) => regions.push([name, grow(extentOfPlaces(skin.sitePositions, (s) => skin.siteRegion[s] === r))]));
     return regions.filter(([, box]) => box.every(Number.isFinite));
 }

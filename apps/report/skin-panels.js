@@ -6,13 +6,13 @@
 class SkinRatePanel extends PopulationPanel {
     /// `fine`: {frames, classes}, the spikes of each class in narrow bins.
     constructor({fine, ...rest}) {
-        super({...rest, one: "afferent", rates: SkinRatePanel.binned(fine, rest.input, fine.frames.count * fine.frames.width)});
+        super({...rest, noun: "afferent", rates: SkinRatePanel.binned(fine, rest.input, fine.frames.count * fine.frames.width)});
         this.fine = fine;
     }
 
     titleOf() { return titleHtml(`mean rate of afferents that fire, in bins of ${quantity(this.rates[0].bin, "s", true)}`, this.unit); }
 
-    /// Joins narrow bins for a time range of `span` seconds.
+    /// Merges narrow bins into about 100 bins over `span` seconds.
     static binned({frames, classes}, input, span) {
         const join = 2 ** Math.max(0, Math.round(Math.log2(span / 100 / frames.width))), bins = Math.ceil(frames.count / join), bin = join * frames.width;
         const counts = classes.map(() => new Float64Array(bins));
@@ -29,15 +29,15 @@ class SkinRatePanel extends PopulationPanel {
     }
 }
 
-/// Raster of the afferents of one class that fired, neighbours next to each other. Each spike is a tick if there is space, else spikes per pixel
-/// are shown as shades.
+/// Raster of the afferents of one class that fired; neighbours are adjacent. Each spike is a tick if there is space, else spikes per pixel are
+/// shown as shades.
 class SkinRasterPanel extends Panel {
-    /// `trains`: from Trains.train(). `countText`: the number of afferents, for the title. `onPoint(unit)` is called with the afferent under the
-    /// pointer.
-    constructor({one, trains, countText, onPoint, ...rest}) {
-        super({...rest, title: `<span class="chip" style="background: ${one.color}"></span>${escaped(one.name)} spikes <span class="unit">${escaped(countText)}; neighbours are adjacent</span>`,
-               series: [{label: one.name, html: "", color: one.color, width: 3}]});
-        Object.assign(this, {one, trains, onPoint});
+    /// `trains`: from Trains.train(). `countText`: the number of afferents, for the title. `onPoint(afferent)` is called with the index of
+    /// the afferent under the pointer, or null.
+    constructor({skinClass, trains, countText, onPoint, ...rest}) {
+        super({...rest, title: `<span class="chip" style="background: ${skinClass.color}"></span>${escaped(skinClass.name)} spikes <span class="unit">${escaped(countText)}; neighbours are adjacent</span>`,
+               series: [{label: skinClass.name, html: "", color: skinClass.color, width: 3}]});
+        Object.assign(this, {skinClass, trains, onPoint});
     }
 
     rows() { return []; }
@@ -45,7 +45,7 @@ class SkinRasterPanel extends Panel {
     showValues() {}
     clearValues() {}
     range() { return [0, Math.max(1, this.trains.length)]; }
-    valueTicks() { return [{v: Math.max(1, this.trains.length) / 2, label: escaped(this.one.name)}]; }
+    valueTicks() { return [{v: Math.max(1, this.trains.length) / 2, label: escaped(this.skinClass.name)}]; }
 
     start(view) {
         super.start(view);
@@ -55,34 +55,34 @@ class SkinRasterPanel extends Panel {
 
     pointAt(y) {
         const row = Math.floor((y - this.area.y) / this.area.h * this.trains.length);
-        this.onPoint(this.trains[row] ? this.trains[row].unit : null);
+        this.onPoint(this.trains[row] ? this.trains[row].afferent : null);
     }
 
     drawBackground(context, area) {
         super.drawBackground(context, area);
         const [a, b] = this.chart.xAxisRange();
-        const seen = this.trains.map((train) => [train.before(a), train.before(b)]);
-        const all = seen.reduce((sum, [i, j]) => sum + j - i, 0), total = this.trains.reduce((sum, {times}) => sum + times.length, 0);
-        const tall = area.h / Math.max(1, this.trains.length);
-        this.marked = tall >= 1.5 && all < 20000 && all < area.w * area.h / 12;
-        if (this.marked) this.drawMarks(context, area, seen, tall);
-        else if (this.trains.length) this.drawShades(context, area, a, b, seen);
-        this.values[0].textContent = all === total ? `${total}` : `${all} of ${total}`;
+        const visible = this.trains.map((train) => [train.before(a), train.before(b)]);
+        const visibleCount = visible.reduce((sum, [i, j]) => sum + j - i, 0), total = this.trains.reduce((sum, {times}) => sum + times.length, 0);
+        const rowHeight = area.h / Math.max(1, this.trains.length);
+        this.marked = rowHeight >= 1.5 && visibleCount < 20000 && visibleCount < area.w * area.h / 12;
+        if (this.marked) this.drawMarks(context, area, visible, rowHeight);
+        else if (this.trains.length) this.drawShades(context, area, a, b, visible);
+        this.values[0].textContent = visibleCount === total ? `${total}` : `${visibleCount} of ${total}`;
     }
 
-    drawMarks(context, area, seen, tall) {
-        context.fillStyle = this.one.color;
+    drawMarks(context, area, visible, rowHeight) {
+        context.fillStyle = this.skinClass.color;
         this.trains.forEach(({times}, k) => {
-            for (let i = seen[k][0]; i < seen[k][1]; ++i) context.fillRect(this.chart.toDomXCoord(times[i]) - 0.75, area.y + k * tall, 1.5, Math.max(1, tall * 0.85));
+            for (let i = visible[k][0]; i < visible[k][1]; ++i) context.fillRect(this.chart.toDomXCoord(times[i]) - 0.75, area.y + k * rowHeight, 1.5, Math.max(1, rowHeight * 0.85));
         });
     }
 
-    drawShades(context, area, a, b, seen) {
-        const all = seen.reduce((sum, [i, j]) => sum + j - i, 0), wide = all < area.w * area.h / 40 ? 1.6 : 1;  // few spikes are drawn wider, so that they are visible
+    drawShades(context, area, a, b, visible) {
+        const visibleCount = visible.reduce((sum, [i, j]) => sum + j - i, 0), wide = visibleCount < area.w * area.h / 40 ? 1.6 : 1;  // few spikes are drawn wider, so that they are visible
         const [columns, lines] = [Math.round(area.w * ratioOf() / wide), Math.min(this.trains.length, Math.floor(area.h * ratioOf()))];
         const counts = Array.from({length: lines}, () => new Uint32Array(columns));
-        this.trains.forEach((train, k) => countPerColumn(counts[Math.floor(k * lines / this.trains.length)], train, ...seen[k], a, b));
-        drawScaled(context, area, counts, this.one.color);
+        this.trains.forEach((train, k) => countPerColumn(counts[Math.floor(k * lines / this.trains.length)], train, ...visible[k], a, b));
+        drawScaled(context, area, counts, this.skinClass.color);
     }
 }
 
@@ -94,7 +94,7 @@ function drawScaled(context, area, counts, color) {
     context.drawImage(painted(counts, counts.map(() => color), 110), area.x, area.y, area.w, area.h);
 }
 
-/// Raster for more spikes than the page holds: counts per frame of the maps.
+/// Raster for recordings with more spikes than the page contains: it shows the counts per frame of the maps.
 class SkinShadePanel extends SkinRasterPanel {
     /// `rowOf`: the row of each mark, or -1. `frames`: spike counts of the marks.
     constructor({frames, t0, rowOf, rowCount, ...rest}) {
@@ -103,7 +103,7 @@ class SkinShadePanel extends SkinRasterPanel {
     }
 
     range() { return [0, Math.max(1, this.rowCount)]; }
-    valueTicks() { return [{v: Math.max(1, this.rowCount) / 2, label: escaped(this.one.name)}]; }
+    valueTicks() { return [{v: Math.max(1, this.rowCount) / 2, label: escaped(this.skinClass.name)}]; }
     pointAt() {}
 
     drawBackground(context, area) {
@@ -121,6 +121,6 @@ class SkinShadePanel extends SkinRasterPanel {
                 for (let c = from; c < to; ++c) line[c] += n / (to - from);
             });
         }
-        drawScaled(context, area, counts, this.one.color);
+        drawScaled(context, area, counts, this.skinClass.color);
     }
 }

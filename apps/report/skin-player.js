@@ -1,5 +1,5 @@
 "use strict";
-// Playback of the maps. The playback time is also the slider's and the cursor of the plots.
+// Playback of the maps. The slider and the cursor of the plots show the playback time.
 
 /// The time range and cursor of all plots; the maps show the time of the cursor.
 class SkinView extends View {

@@ -17,7 +17,7 @@ function makePanels() {
     view.show([...panels, ...skin.classes.flatMap(rasterPanel)], skin.input, keep);
 }
 
-/// The selector of the rasters' region, and a note if there are too many spikes to show each.
+/// The selector of the region that the rasters show, and a note if there are too many spikes to show each.
 function rasterBar() {
     const bar = element(at("figures"), "div", "bar");
     const names = [...skin.regions.map((_, r) => r)];
@@ -32,11 +32,11 @@ function rasterBar() {
 
 function rasterPanel(one, k) {
     const wanted = (mark) => shown.region === "all" || skin.region[mark] === Number(shown.region);
-    const common = {one, name: `raster ${one.name}`, about: `spikes of ${one.name}`, bottom: k === skin.classes.length - 1, onPoint: (unit) => selectMark(unit === null ? null : skin.markOf(unit))};
+    const common = {skinClass: one, name: `raster ${one.name}`, about: `spikes of ${one.name}`, bottom: k === skin.classes.length - 1, onPoint: (afferent) => selectMark(afferent === null ? null : skin.markOf(afferent))};
     if (!skin.trains) return [shadePanel(one, common, wanted)];
     const all = [];
-    for (let t = firstAt(skin.trains.unit, one.first), end = firstAt(skin.trains.unit, one.first + one.afferents); t < end; ++t) all.push(t);
-    const trains = all.filter((t) => wanted(skin.markOf(skin.trains.unit[t]))).map((t) => skin.trains.train(t));
+    for (let t = firstAt(skin.trains.afferent, one.first), end = firstAt(skin.trains.afferent, one.first + one.afferents); t < end; ++t) all.push(t);
+    const trains = all.filter((t) => wanted(skin.markOf(skin.trains.afferent[t]))).map((t) => skin.trains.train(t));
     return [panel(SkinRasterPanel, {...common, trains, countText: countText(trains.length, all.length, `${one.afferents} afferents`), height: rasterHeight(trains.length)})];
 }
 
@@ -47,7 +47,7 @@ function shadePanel(one, common, wanted) {
         if (totals[m]) ++fired;
         if (totals[m] && wanted(m)) rowOf[m] = rowCount++;
     }
-    return panel(SkinShadePanel, {...common, frames: skin.marks, t0: skin.t0, rowOf, rowCount, countText: countText(rowCount, fired, skin.together > 1 ? `${to - from} groups of ${skin.together} afferents` : `${one.afferents} afferents`), height: rasterHeight(rowCount)});
+    return panel(SkinShadePanel, {...common, frames: skin.marks, t0: skin.t0, rowOf, rowCount, countText: countText(rowCount, fired, skin.afferentsPerMark > 1 ? `${to - from} groups of ${skin.afferentsPerMark} afferents` : `${one.afferents} afferents`), height: rasterHeight(rowCount)});
 }
 
 /// The number of rows of a raster, for its title.

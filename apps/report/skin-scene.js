@@ -5,7 +5,7 @@
 class Scene {
     constructor(skin) {
         Object.assign(this, {skin, maps: [], frame: 0, chosen: null, waiting: false});
-        this.all = grown(joined(extentOfPlaces(skin.sitePlaces), extentOfPlaces(skin.places)), skin.side);
+        this.all = grown(joined(extentOfPlaces(skin.sitePositions), extentOfPlaces(skin.markPositions)), skin.side);
         this.box = this.all;
         this.frameForce = null;
     }
@@ -83,20 +83,20 @@ class Scene {
     }
 
     eachSite(call) {
-        const {sitePlaces} = this.skin;
-        for (let s = 0; 2 * s < sitePlaces.length; ++s) call(this.x(sitePlaces[2 * s]), this.y(sitePlaces[2 * s + 1]), s);
+        const {sitePositions} = this.skin;
+        for (let s = 0; 2 * s < sitePositions.length; ++s) call(this.x(sitePositions[2 * s]), this.y(sitePositions[2 * s + 1]), s);
     }
 
     /// Mean force of each site in the frame, as opacity.
     forceLayer() {
         if (this.frameForce && this.frameForce.frame === this.frame) return this.frameForce.layer;
-        const [layer, context] = this.canvas(), {siteForce, sitePlaces, sitesTogether} = this.skin, side = this.skin.side * this.scale + 0.6;
+        const [layer, context] = this.canvas(), {siteForce, sitePositions, sitesPerMark} = this.skin, side = this.skin.side * this.scale + 0.6;
         context.fillStyle = colour("force");
         if (this.frame < siteForce.count)
             siteForce.each(this.frame, (place, level) => {
                 context.globalAlpha = 0.12 + 0.68 * level / 254;
-                for (let s = place * sitesTogether; s < (place + 1) * sitesTogether && 2 * s < sitePlaces.length; ++s)
-                    square(context, this.x(sitePlaces[2 * s]), this.y(sitePlaces[2 * s + 1]), side);
+                for (let s = place * sitesPerMark; s < (place + 1) * sitesPerMark && 2 * s < sitePositions.length; ++s)
+                    square(context, this.x(sitePositions[2 * s]), this.y(sitePositions[2 * s + 1]), side);
             });
         this.frameForce = {frame: this.frame, layer};
         return layer;

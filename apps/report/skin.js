@@ -30,7 +30,7 @@ function selectMark(mark) {
 function showMark() {
     const mark = scene.chosen;
     if (mark === null) return void (at("unit").textContent = "");
-    const rate = rateOf(mark, skin.recent(scene.frame, shown.frames).counts[mark], skin.lengthOver(scene.frame, shown.frames)), first = skin.first[mark];
+    const rate = rateOf(mark, skin.recent(scene.frame, shown.frames).counts[mark], skin.lengthOver(scene.frame, shown.frames)), first = skin.firstSpikes[mark];
     at("unit").textContent = `${skin.markName(mark)}, ${skin.regionName(mark)}: ${quantity(rate, "Hz", true)} now, ` +
         `${totals[mark]} spikes${Number.isNaN(first) ? "" : `, the first at ${timeText(skin.t0 + first, 1e-4)}`}`;
 }
@@ -99,11 +99,11 @@ window.corpuscle = {
     get frame() { return scene.frame; },
     get playing() { return player.playing; },
     skin, scene, view,
-    active: () => Object.fromEntries(scene.maps.filter((map) => map.ofRates).map((map) => [map.one.name, map.active])),
+    active: () => Object.fromEntries(scene.maps.filter((map) => map.ofRates).map((map) => [map.skinClass.name, map.active])),
 };
 
 showHeading(skin.data);
-at("about-maps").textContent = skin.together > 1 ? `Each mark is a group of ${skin.together} neighbouring afferents; frames of ${quantity(skin.marks.width, "s", true)}.`
+at("about-maps").textContent = skin.afferentsPerMark > 1 ? `Each mark is a group of ${skin.afferentsPerMark} neighbouring afferents; frames of ${quantity(skin.marks.width, "s", true)}.`
                                                  : `Each mark is an afferent; frames of ${quantity(skin.marks.width, "s", true)}.`;
 at("about-skin").textContent = [skin.data.summary.skin.description, `${skin.data.summary.skin.afferents} afferents`, `seed ${skin.data.summary.skin.seed}`].filter(Boolean).join("; ");
 showSkinRates(skin, document.querySelector("#rates .scroll"), "all");

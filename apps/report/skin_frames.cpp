@@ -4,13 +4,13 @@
 
 namespace corpuscle {
 
-nlohmann::ordered_json frames_document(const BinnedFrames<std::uint32_t>& framed, double T) {
+nlohmann::ordered_json frames_document(const BinnedFrames<std::uint32_t>& counts, double T) {
     PackedNumbers bytes;
-    const auto frames = framed.frames();
-    for (const auto& f : frames) bytes.append_frame(f, framed.places(), [](std::uint32_t n) { return std::uint64_t{n}; });
+    const auto frames = counts.frames();
+    for (const auto& f : frames) bytes.append_frame(f, counts.places(), [](std::uint32_t n) { return std::uint64_t{n}; });
     return {{"count", frames.size()},
-            {"width", static_cast<double>(framed.width()) * T},
-            {"places", framed.places()},
+            {"width", static_cast<double>(counts.width()) * T},
+            {"places", counts.places()},
             {"data", array64(bytes.bytes)}};
 }
 

@@ -21,7 +21,8 @@ public:
         for (; n >= 128; n >>= 7) bytes.push_back(static_cast<unsigned char>(n | 128));
         bytes.push_back(static_cast<unsigned char>(n));
     }
-    /// Encodes a frame: levels 1 to 254 as one byte, larger ones as 255 and a number, runs of zeros as 0 and their length.
+    /// Encodes a frame: levels 1 to 254 as one byte, larger ones as 255 and a number, runs of zeros as 0 and their length. `level` converts
+    /// a value to its level.
     template <class Frame, class Level>
     void append_frame(const Frame& f, std::size_t places, Level level) {
         std::size_t at = 0;
@@ -40,7 +41,7 @@ public:
 };
 
 /// Spike counts in frames. T: sampling period, s.
-nlohmann::ordered_json frames_document(const BinnedFrames<std::uint32_t>&, double T);
+nlohmann::ordered_json frames_document(const BinnedFrames<std::uint32_t>& counts, double T);
 
 /// Mean force of each mark in each frame, in steps of 1/254 of the maximum.
 nlohmann::ordered_json force_document(const BinnedFrames<double>& sites, double T, std::int64_t samples);

@@ -16,11 +16,11 @@ using Json = nlohmann::ordered_json;
 constexpr std::size_t max_named = 500;  // with more sites the page has no names of sites
 
 /// Positions in millimetres, rounded to micrometres: x, y, x, y ...
-template <class Each>
-std::string places64(std::size_t count, Each at) {
+template <class PositionOf>
+std::string places64(std::size_t count, PositionOf position_of) {
     std::vector<float> xy;
     for (std::size_t k = 0; k < count; ++k) {
-        const Position p = at(k);
+        const Position p = position_of(k);
         for (const double v : {p.x, p.y}) xy.push_back(static_cast<float>(std::round(1e6 * v) * 1e-3));
     }
     return base64(xy.data(), xy.size() * sizeof(float));
@@ -36,26 +36,26 @@ Json sites_document(const Sites& sites) {
 
 /// The constant properties of each mark. A mark of several neighbours has their mean position and the earliest of their first spikes.
 Json marks_document(const SkinSummary& summary, std::span<const std::uint32_t> begin) {
-    const auto& units = summary.skin().afferents;
+    const auto& afferents = summary.skin().afferents;
     std::vector<std::uint16_t> region;
     std::vector<std::uint32_t> copy;
-    std::vector<float> first;
-    std::vector<Position> at;
+    std::vector<float> first_spikes;
+    std::vector<Position> positions;
     for (std::size_t m = 0; m + 1 < begin.size(); ++m) {
         Position mean;
         double earliest = no_value;
         for (auto u = begin[m]; u < begin[m + 1]; ++u) {
-            mean.x += units[u].position.x / (begin[m + 1] - begin[m]), mean.y += units[u].position.y / (begin[m + 1] - begin[m]);
+            mean.x += afferents[u].position.x / (begin[m + 1] - begin[m]), mean.y += afferents[u].position.y / (begin[m + 1] - begin[m]);
             earliest = std::fmin(earliest, summary.first_times()[u]);  // fmin ignores NaN
         }
-        at.push_back(mean), first.push_back(static_cast<float>(earliest));
-        region.push_back(static_cast<std::uint16_t>(units[begin[m]].region)), copy.push_back(units[begin[m]].number);
+        positions.push_back(mean), first_spikes.push_back(static_cast<float>(earliest));
+        region.push_back(static_cast<std::uint16_t>(afferents[begin[m]].region)), copy.push_back(afferents[begin[m]].number);
     }
     return {{"begin", base64(begin.data(), begin.size_bytes())},
-            {"places", places64(at.size(), [&](std::size_t m) { return at[m]; })},
+            {"places", places64(positions.size(), [&](std::size_t m) { return positions[m]; })},
             {"region", base64(region.data(), region.size() * sizeof(std::uint16_t))},
             {"copy", base64(copy.data(), copy.size() * sizeof(std::uint32_t))},
-            {"first", base64(first.data(), first.size() * sizeof(float))}};
+            {"first", base64(first_spikes.data(), first_spikes.size() * sizeof(float))}};
 }
 
 Json classes_document(const Innervation& skin) {

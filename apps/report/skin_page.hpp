@@ -8,7 +8,7 @@
 
 namespace corpuscle {
 
-/// Both must have recorded the same run. The innervation must still exist.
+/// The summary and the report must be of the same run, and its Innervation must still exist.
 std::string skin_page(const SkinSummary&, const SkinReport&, const SkinRunNotes&, const std::string& command);
 
 }  // namespace corpuscle

@@ -15,7 +15,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr int ticks_per_sample = 10;
 
-/// The number of neighbours per mark.
+/// The number of neighbouring afferents or sites that share a mark.
 std::uint32_t per_mark(std::size_t count, std::size_t max_marks) {
     return static_cast<std::uint32_t>((count + max_marks - 1) / std::max<std::size_t>(max_marks, 1));
 }

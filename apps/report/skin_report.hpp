@@ -10,11 +10,11 @@
 
 namespace corpuscle {
 
-/// Limits on the collected data.
+/// Maximum numbers of collected data.
 struct SkinReportLimits {
-    std::size_t frames = 200, bins = 4096;  ///< of the maps; of the counts. Both double in length as the recording grows
-    std::size_t marks = 20000;              ///< on a map; with more afferents, neighbours of a class share a mark
-    std::size_t timed_spikes = 2'000'000;   ///< with times; with more spikes only counts per frame are kept
+    std::size_t frames = 200, bins = 4096;  ///< of the maps; of the counts. Their length doubles when there are more
+    std::size_t marks = 20000;              ///< on a map; with more afferents, neighbours of one class share a mark
+    std::size_t timed_spikes = 2'000'000;   ///< spikes with their times; with more, only counts per frame are kept
 };
 
 class SkinReport final : public SkinSink {
@@ -25,7 +25,7 @@ public:
     Result<void> block(const SkinInput&, const SkinRunBlock&) override;
     Result<void> end(const SkinInput&, std::int64_t samples, std::span<const Spike> last) override;
 
-    /// The first afferent of each mark on the maps, then the end.
+    /// The first afferent of each mark on the maps, then the number of afferents.
     std::span<const std::uint32_t> marks() const { return mark_first_; }
     /// All time-dependent data of the page.
     nlohmann::ordered_json document() const;
@@ -33,13 +33,15 @@ public:
 private:
     SkinReportLimits limits_;
     Clock clock_;
-    std::int64_t samples_ = 0, samples_with_delays_ = 0, spikes_ = 0;  // shown: including spikes after the end of the force
+    std::int64_t samples_ = 0;              // of the force
+    std::int64_t samples_with_delays_ = 0;  // of the force and of the spikes that arrive after its end
+    std::int64_t spikes_ = 0;
     std::size_t site_count_ = 0;
     Envelope forces_;                                // total over all sites, N
-    BinnedFrames<std::uint32_t> classes_, marks_;    // spikes: of each class in bins, of each mark in frames
-    BinnedFrames<double> sites_;                     // force of each mark of sites, summed over the samples of a frame, N
+    BinnedFrames<std::uint32_t> classes_, marks_;    // spike counts of each class in bins, and of each mark in frames
+    BinnedFrames<double> sites_;                     // force at each mark of the site map, summed over the samples of a frame, N
     std::vector<std::uint32_t> class_of_, mark_of_;  // of each afferent
-    std::vector<std::uint32_t> mark_first_;          // the first afferent of each mark, then the end
+    std::vector<std::uint32_t> mark_first_;          // the first afferent of each mark, then the number of afferents
     std::uint32_t afferents_per_mark_ = 1, sites_per_mark_ = 1;
     std::vector<std::uint32_t> spike_afferents_;  // in order of time
     std::vector<std::int64_t> spike_ticks_;       // tenths of a sample

@@ -3,7 +3,7 @@
 
 const data = JSON.parse(document.getElementById("data").textContent);
 const colour = (k) => getComputedStyle(document.documentElement).getPropertyValue(`--series-${k % 8}`).trim();
-const ink = (name) => getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
+const themeColour = (name) => getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
 
 function element(host, tag, kind = "", html = "") {
     const node = document.createElement(tag);
@@ -30,7 +30,7 @@ function showClaims(host, claims) {
     if (claims.length) showTable(host, [], claims.map(claimCells));
 }
 
-/// Above several studies: a table of all published numbers and all deviations, which can be reduced to the deviations.
+/// If there are several studies: a table of all published numbers and all deviations. A checkbox hides the rows without a deviation.
 function showDeviations(host, studies) {
     const rows = studies.flatMap(({name, claims}) => claims.filter((claim) => claim.on_top).map((claim) => `<td class="study"><a href="#${name}">${name}</a></td>${claimCells(claim)}`));
     if (studies.length < 2 || !rows.length) return;
@@ -58,7 +58,8 @@ function shortest(v) {
     return size !== 0 && (size < 1e-3 || size >= 1e6) ? number.toExponential().replace("e+", "e") : String(number);
 }
 
-/// Ticks of a logarithmic axis. The plotted values are logarithms and the labels their powers; dygraphs' own log axis does not suit x axes.
+/// Ticks of a logarithmic axis. The plotted values are log10 of the data; the labels show the data. The logarithmic axis of dygraphs does not
+/// suit x axes.
 const logTicks = (lo, hi) => {
     const ticks = [], mantissas = hi - lo > 5 ? [1] : [1, 2, 5];
     for (let decade = Math.floor(lo); decade <= Math.ceil(hi); ++decade)
@@ -92,7 +93,7 @@ function showPlot(host, plot) {
         ...(paths.length ? {valueRange: span(paths.flatMap(({y}) => y)), underlayCallback: (context, area, chart) => paths.forEach((one) => drawPath(chart, context, one))} : {}),
         xlabel: plot.x, ylabel: plot.y || undefined, xLabelHeight: 16, yLabelWidth: 16,
         xRangePad: raster ? 14 : 6, yRangePad: 6, legend: "never", highlightCircleSize: 0,
-        gridLineColor: ink("grid"), axisLineColor: ink("axis"),
+        gridLineColor: themeColour("grid"), axisLineColor: themeColour("axis"),
     });
     (window.charts ||= []).push(chart);
 }

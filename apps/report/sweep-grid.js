@@ -2,7 +2,7 @@
 // A grid without random parameters: the effect of each axis, as line plots and heat maps.
 
 const MAX_LINES = 10;
-const HEAT = {left: 76, right: 10, top: 4, bottom: 40};
+const HEAT = {left: 76, right: 10, top: 4, bottom: 40};  // margins of a heat map, pixels
 
 const axisName = (axis) => table.axes[axis].name;
 const levelText = (axis, value) => (table.axes[axis].words ? table.axes[axis].words[value] ?? "–" : quantity(value, table.axes[axis].unit, true));
@@ -23,7 +23,7 @@ function startGrid(host) {
 
 function showGridYields(host) {
     const {all} = table, limited = measures.some((m) => "at_least" in m);
-    const line = (name, limits, {value}) => word(name) + word(limits) + cell(`${Math.round(value * all.items)} of ${all.items}`) + cell(`${percent(value)} %`);
+    const line = (name, limits, {value}) => textCell(name) + textCell(limits) + cell(`${Math.round(value * all.items)} of ${all.items}`) + cell(`${percent(value)} %`);
     const rows = [line(limited ? "all limits" : "completed", "", all.yield)];
     all.measures.forEach((one, k) => one.yield && rows.push(line(one.name, limitsText(measures[k]), one.yield)));
     showTable(host, ["", "limits", "passed", ""], rows);
@@ -32,8 +32,8 @@ function showGridYields(host) {
 function showGridMeasures(host) {
     const rows = table.all.measures.map((one, k) => {
         const rows = data.extremes[k], at = (row) => (one.min === one.max ? "all points" : row === undefined ? "–" : pointText(row));
-        return `<th scope="row">${escaped(one.name)}</th>` + cell(one.items) + cell(measureText(k, one.min)) + word(at(rows[0])) + cell(measureText(k, one.max)) +
-            word(at(rows[Math.ceil(rows.length / 2)] ?? rows[0])) + cell(measureText(k, one.mean.value));
+        return `<th scope="row">${escaped(one.name)}</th>` + cell(one.items) + cell(measureText(k, one.min)) + textCell(at(rows[0])) + cell(measureText(k, one.max)) +
+            textCell(at(rows[Math.ceil(rows.length / 2)] ?? rows[0])) + cell(measureText(k, one.mean.value));
     });
     showTable(host, ["", "items", "min", "at", "max", "at", "mean"], rows);
 }
@@ -46,10 +46,10 @@ function showEffects(host) {
         if (!effects.length) rows.push(`${first}<td colspan="5">constant</td>`);
         effects.forEach(({axis, fraction, values, means}, k) => {
             const end = (n) => cell(`${escaped(levelText(axis, values.at(n)))} <span class="range">${measureText(m, means.at(n))}</span>`);
-            rows.push((k ? word("") : first) + word(axisName(axis)) + cell(`${percent(fraction)} %`) + cell(fractionBar(fraction), "") + end(0) + end(-1));
+            rows.push((k ? textCell("") : first) + textCell(axisName(axis)) + cell(`${percent(fraction)} %`) + cell(fractionBar(fraction), "") + end(0) + end(-1));
         });
         const rest = 1 - effects.reduce((sum, {share}) => sum + share, 0);
-        if (effects.length > 1 && rest >= 0.0005) rows.push(word("") + word("interactions") + cell(`${percent(rest)} %`) + cell(fractionBar(rest), "") + cell("") + cell(""));
+        if (effects.length > 1 && rest >= 0.0005) rows.push(textCell("") + textCell("interactions") + cell(`${percent(rest)} %`) + cell(fractionBar(rest), "") + cell("") + cell(""));
     });
     if (rows.length) showTable(section(host, "influences", "Effect of each axis", "percent of the variance over the grid that is explained by the means at the axis values; means at the first and last value"),
                                ["", "axis", "variance", "", "from", "to"], rows);
@@ -59,12 +59,12 @@ const fractionBar = (fraction) => `<span class="bar"><span class="full" style="w
 
 function showGridPoints(host) {
     if (table.points.length < 2 || table.points.length > 400) return;
-    const rows = table.points.map(({point, measures: found}) => word(point) + found.map(({mean}, k) => cell(mean.value === null ? "–" : measureText(k, mean.value))).join(""));
+    const rows = table.points.map(({point, measures: found}) => textCell(point) + found.map(({mean}, k) => cell(mean.value === null ? "–" : measureText(k, mean.value))).join(""));
     showTable(section(host, "points", "By grid point", table.points.some(({items}) => items > 1) ? "means" : ""), ["", ...measures.map(({name}) => escaped(name))], rows);
 }
 
 /// At most `max` evenly spaced indices below `count`, including the first and the last.
-const someOf = (count, max) => (count <= max ? [...Array(count).keys()] : [...Array(max).keys()].map((k) => Math.round(k * (count - 1) / (max - 1))));
+const evenlySpaced = (count, max) => (count <= max ? [...Array(count).keys()] : [...Array(max).keys()].map((k) => Math.round(k * (count - 1) / (max - 1))));
 
 /// Plots means over one axis, with a line for each value of another axis, if there is one.
 function showLines(host, measure, xAxis, xs, lines) {
@@ -85,7 +85,7 @@ function showGrid(host, measure) {
     if (effects.length === 1 || !pairs.length)
         for (const {axis, values, means} of effects) showLines(host, measure, axis, values, [{label: measures[measure].name, ys: means}]);
     for (const {x, y, xs, ys, means} of pairs) {
-        const across = someOf(ys.length, MAX_LINES), along = someOf(xs.length, MAX_LINES);
+        const across = evenlySpaced(ys.length, MAX_LINES), along = evenlySpaced(xs.length, MAX_LINES);
         showLines(host, measure, x, xs, across.map((j) => ({label: `${axisName(y)} ${levelText(y, ys[j])}`, ys: means.map((row) => row[j])})));
         showLines(host, measure, y, ys, along.map((i) => ({label: `${axisName(x)} ${levelText(x, xs[i])}`, ys: means[i]})));
         showHeatMap(host, measure, {x, y, xs, ys, means});
@@ -107,9 +107,9 @@ function showHeatMap(host, measure, map) {
     const caption = element(node, "figcaption", "", `<span class="title">${escaped(measures[measure].name)} <span class="unit">${measureText(measure, low)} ${scale} ${measureText(measure, high)}${others}</span></span>`);
     const readout = element(caption, "span", "readout"), canvas = element(node, "canvas");
     canvas.setAttribute("aria-label", `${measures[measure].name} over ${axisName(x)} and ${axisName(y)}`);
-    const tall = 260 - HEAT.top - HEAT.bottom;
-    const cellAt = (event) => [Math.floor((event.offsetX - HEAT.left) / (canvas.clientWidth - HEAT.left - HEAT.right) * xs.length), ys.length - 1 - Math.floor((event.offsetY - HEAT.top) / tall * ys.length)];
-    const paint = () => paintHeatMap(canvas, map, tall, (v) => (high > low ? (v - low) / (high - low) : 0.5));
+    const plotHeight = 260 - HEAT.top - HEAT.bottom;
+    const cellAt = (event) => [Math.floor((event.offsetX - HEAT.left) / (canvas.clientWidth - HEAT.left - HEAT.right) * xs.length), ys.length - 1 - Math.floor((event.offsetY - HEAT.top) / plotHeight * ys.length)];
+    const paint = () => paintHeatMap(canvas, map, plotHeight, (v) => (high > low ? (v - low) / (high - low) : 0.5));
     new ResizeObserver(paint).observe(node);
     canvas.addEventListener("mousemove", (event) => {
         const [i, j] = cellAt(event);
@@ -118,24 +118,24 @@ function showHeatMap(host, measure, map) {
     canvas.addEventListener("mouseleave", () => { readout.textContent = ""; });
 }
 
-function paintHeatMap(canvas, {x, y, xs, ys, means}, tall, fractionOf) {
-    const wide = canvas.parentElement.clientWidth, scale = devicePixelRatio || 1, context = canvas.getContext("2d");
-    [canvas.width, canvas.height] = [wide * scale, 260 * scale];
+function paintHeatMap(canvas, {x, y, xs, ys, means}, plotHeight, fractionOf) {
+    const fullWidth = canvas.parentElement.clientWidth, scale = devicePixelRatio || 1, context = canvas.getContext("2d");
+    [canvas.width, canvas.height] = [fullWidth * scale, 260 * scale];
     canvas.style.height = "260px";
     context.scale(scale, scale);
-    const width = wide - HEAT.left - HEAT.right, w = width / xs.length, h = tall / ys.length;
+    const width = fullWidth - HEAT.left - HEAT.right, w = width / xs.length, h = plotHeight / ys.length;
     means.forEach((row, i) => row.forEach((value, j) => {
         if (value === null) return;
         context.fillStyle = heatColour(fractionOf(value));
         context.fillRect(HEAT.left + i * w, HEAT.top + (ys.length - 1 - j) * h, Math.ceil(w), Math.ceil(h));
     }));
-    context.font = "11px system-ui, sans-serif", context.fillStyle = ink("faint"), context.textAlign = "center";
-    for (const i of someOf(xs.length, Math.max(2, Math.min(xs.length, Math.floor(width / 70))))) context.fillText(levelText(x, xs[i]), HEAT.left + (i + 0.5) * w, HEAT.top + tall + 14);
-    context.fillText(axisName(x), HEAT.left + width / 2, HEAT.top + tall + 31);
+    context.font = "11px system-ui, sans-serif", context.fillStyle = themeColour("faint"), context.textAlign = "center";
+    for (const i of evenlySpaced(xs.length, Math.max(2, Math.min(xs.length, Math.floor(width / 70))))) context.fillText(levelText(x, xs[i]), HEAT.left + (i + 0.5) * w, HEAT.top + plotHeight + 14);
+    context.fillText(axisName(x), HEAT.left + width / 2, HEAT.top + plotHeight + 31);
     context.textAlign = "right", context.textBaseline = "middle";
-    for (const j of someOf(ys.length, Math.max(2, Math.min(ys.length, Math.floor(tall / 18))))) context.fillText(levelText(y, ys[j]), HEAT.left - 6, HEAT.top + (ys.length - 0.5 - j) * h);
+    for (const j of evenlySpaced(ys.length, Math.max(2, Math.min(ys.length, Math.floor(plotHeight / 18))))) context.fillText(levelText(y, ys[j]), HEAT.left - 6, HEAT.top + (ys.length - 0.5 - j) * h);
     context.save();
-    context.translate(9, HEAT.top + tall / 2), context.rotate(-Math.PI / 2), context.textAlign = "center";
+    context.translate(9, HEAT.top + plotHeight / 2), context.rotate(-Math.PI / 2), context.textAlign = "center";
     context.fillText(axisName(y), 0, 0);
     context.restore();
 }

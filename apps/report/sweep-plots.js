@@ -13,7 +13,7 @@ const axisText = (unit) => (v) => quantity(Number(v.toPrecision(10)), unit, true
 function plot(host, rows, labels, {x, y, xUnit = "", yUnit = "", yTicker, series = {}, drawBackground, range}) {
     const chart = new Dygraph(host, rows, {
         labels, series, xlabel: x, ylabel: y, xLabelHeight: 16, yLabelWidth: 16, legend: "never", highlightCircleSize: 0, xRangePad: 6, yRangePad: 4,
-        gridLineColor: ink("grid"), axisLineColor: ink("axis"), underlayCallback: drawBackground, ...(range ? {valueRange: range} : {}),
+        gridLineColor: themeColour("grid"), axisLineColor: themeColour("axis"), underlayCallback: drawBackground, ...(range ? {valueRange: range} : {}),
         axes: {x: {axisLabelFontSize: 11, axisLabelFormatter: axisText(xUnit), axisLabelWidth: 64, pixelsPerLabel: 80},
                y: {axisLabelFontSize: 11, axisLabelWidth: 60, ...(yTicker ? {ticker: yTicker} : {axisLabelFormatter: axisText(yUnit)})}},
     });
@@ -27,7 +27,7 @@ function limitLines(context, area, chart, measure, vertical) {
         if (limit === null || limit === undefined) continue;
         const at = vertical ? chart.toDomXCoord(limit) : chart.toDomYCoord(limit);
         context.save();
-        context.strokeStyle = ink("ink"), context.lineWidth = 1, context.setLineDash([5, 3]);
+        context.strokeStyle = themeColour("ink"), context.lineWidth = 1, context.setLineDash([5, 3]);
         context.beginPath();
         if (vertical) context.moveTo(at, area.y), context.lineTo(at, area.y + area.h);
         else context.moveTo(area.x, at), context.lineTo(area.x + area.w, at);
@@ -75,7 +75,7 @@ function showNormalPlot(host, measure) {
     const ticker = (lo, hi) => PROBABILITIES.filter(([v]) => v >= lo && v <= hi).map(([v, label]) => ({v, label}));
     plot(figure(host, `${escaped(name)}: normal plot <span class="unit">a straight line indicates a normal distribution</span>`), columnsOf(xs, ys, groups, all.length), [name, ...groupLabels()],
          {x: escaped(name), y: "cumulative fraction", xUnit: unit, yTicker: ticker, series: pointSeries(1.6), drawBackground: (context, area, chart) => {
-             if (single) line(context, chart, [mean.value - 6 * sigma.value, -6], [mean.value + 6 * sigma.value, 6], ink("axis"));
+             if (single) line(context, chart, [mean.value - 6 * sigma.value, -6], [mean.value + 6 * sigma.value, 6], themeColour("axis"));
              limitLines(context, area, chart, measure, true);
          }});
 }

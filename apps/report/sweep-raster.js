@@ -1,7 +1,7 @@
 "use strict";
 // Raster of the spikes of many items, sorted by the selected measure, smallest at the bottom.
 
-const RASTER = {left: 66, right: 8, top: 4, bottom: 34};
+const RASTER = {left: 66, right: 8, top: 4, bottom: 34};  // margins, pixels
 
 /// The items sorted by the measure, each with its spikes.
 function rasterLanes({rows, counts, times}) {
@@ -19,22 +19,22 @@ function showRaster(host, train) {
     const readout = element(caption, "span", "readout");
     const canvas = element(node, "canvas");
     canvas.setAttribute("aria-label", `spikes of ${train.rows.length} items`);
-    const tall = Math.max(80, Math.min(420, 8 * lanes.length));
-    const paint = () => paintRaster(canvas, lanes, end, tall);
+    const plotHeight = Math.max(80, Math.min(420, 8 * lanes.length));
+    const paint = () => paintRaster(canvas, lanes, end, plotHeight);
     new ResizeObserver(paint).observe(node);
     canvas.addEventListener("mousemove", (event) => {
-        const lane = lanes[Math.floor((event.offsetY - RASTER.top) / tall * lanes.length)];
+        const lane = lanes[Math.floor((event.offsetY - RASTER.top) / plotHeight * lanes.length)];
         readout.textContent = lane ? ` item ${data.rows.item[rowNumber.get(lane.row)]}, ${measures[state.measure]?.name ?? ""} ${quantity(lane.value, measures[state.measure]?.unit ?? "", true)}, ${lane.spikes.length} spikes` : "";
     });
 }
 
-function paintRaster(canvas, lanes, end, tall) {
-    const wide = canvas.parentElement.clientWidth, scale = devicePixelRatio || 1, context = canvas.getContext("2d");
-    [canvas.width, canvas.height] = [wide * scale, (tall + RASTER.top + RASTER.bottom) * scale];
-    canvas.style.height = `${tall + RASTER.top + RASTER.bottom}px`;
+function paintRaster(canvas, lanes, end, plotHeight) {
+    const fullWidth = canvas.parentElement.clientWidth, scale = devicePixelRatio || 1, context = canvas.getContext("2d");
+    [canvas.width, canvas.height] = [fullWidth * scale, (plotHeight + RASTER.top + RASTER.bottom) * scale];
+    canvas.style.height = `${plotHeight + RASTER.top + RASTER.bottom}px`;
     context.scale(scale, scale);
-    const width = wide - RASTER.left - RASTER.right, lane = tall / lanes.length, x = (t) => RASTER.left + t / end * width;
-    paintAxis(context, x, end, tall, width);
+    const width = fullWidth - RASTER.left - RASTER.right, lane = plotHeight / lanes.length, x = (t) => RASTER.left + t / end * width;
+    paintAxis(context, x, end, plotHeight, width);
     lanes.forEach(({row, group, spikes}, k) => {
         const y = RASTER.top + k * lane;
         context.fillStyle = groupColour(group);
@@ -45,14 +45,14 @@ function paintRaster(canvas, lanes, end, tall) {
     });
 }
 
-function paintAxis(context, x, end, tall, width) {
-    const bottom = RASTER.top + tall;
-    context.font = "11px system-ui, sans-serif", context.textAlign = "center", context.fillStyle = ink("faint"), context.strokeStyle = ink("grid");
+function paintAxis(context, x, end, plotHeight, width) {
+    const bottom = RASTER.top + plotHeight;
+    context.font = "11px system-ui, sans-serif", context.textAlign = "center", context.fillStyle = themeColour("faint"), context.strokeStyle = themeColour("grid");
     for (const t of roundTicks(0, end, width / 90).values) {
         context.beginPath(), context.moveTo(x(t), RASTER.top), context.lineTo(x(t), bottom + 4), context.stroke();
         context.fillText(quantity(t, "s", true), x(t), bottom + 16);
     }
-    context.strokeStyle = ink("axis");
+    context.strokeStyle = themeColour("axis");
     context.beginPath(), context.moveTo(x(0), bottom), context.lineTo(x(end), bottom), context.stroke();
     context.fillText("time", x(end / 2), bottom + 30);
 }

@@ -2,7 +2,7 @@
 // The tables of a sweep page.
 
 const colour = (k) => getComputedStyle(document.documentElement).getPropertyValue(`--series-${k % 8}`).trim();
-const ink = (name) => getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
+const themeColour = (name) => getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
 const charts = [];
 
 function element(host, tag, kind = "", html = "") {
@@ -15,7 +15,7 @@ function element(host, tag, kind = "", html = "") {
 const percent = (fraction) => (fraction === null ? "–" : `${(100 * fraction).toFixed(1)}`);
 const range = ({low, high}, text) => (low === null && high === null ? "" : ` <span class="range">${text(low)} … ${text(high)}</span>`);
 const cell = (html, kind = "number") => `<td class="${kind}">${html}</td>`;
-const word = (text) => cell(escaped(text), "");
+const textCell = (text) => cell(escaped(text), "");
 const headed = (name, unit) => escaped(name) + (unit && ` <span class="unit">(${escaped(unit)})</span>`);
 
 function showTable(host, head, rows) {
@@ -30,7 +30,7 @@ function showTable(host, head, rows) {
 
 function openingText() {
     const {items, finished, all} = table, parts = [finished === items ? `${items} items, all finished` : `${finished} of ${items} items are finished`];
-    if (all.truncated) parts.push(`${all.truncated} truncated (too costly)`);
+    if (all.truncated) parts.push(`${all.truncated} truncated (too many steps or iterations)`);
     if (all.diverged) parts.push(`${all.diverged} diverged`);
     return parts.join("; ");
 }
@@ -47,7 +47,7 @@ function bar({value, low, high}) {
 
 function yieldRow(name, limits, estimate, items) {
     const {value} = estimate;
-    return word(name) + word(limits) + cell(`${Math.round(value * items)} of ${items}`) + cell(`${percent(value)} %${range(estimate, (x) => percent(x))}`) + cell(bar(estimate), "");
+    return textCell(name) + textCell(limits) + cell(`${Math.round(value * items)} of ${items}`) + cell(`${percent(value)} %${range(estimate, (x) => percent(x))}`) + cell(bar(estimate), "");
 }
 
 function showYields(host) {
@@ -73,7 +73,7 @@ function showMeasures(host) {
 
 function showPoints(host) {
     if (table.points.length < 2) return;
-    const rows = table.points.map((point) => word(point.point) + cell(point.items) + cell(`${percent(point.yield.value)} %${range(point.yield, percent)}`) +
+    const rows = table.points.map((point) => textCell(point.point) + cell(point.items) + cell(`${percent(point.yield.value)} %${range(point.yield, percent)}`) +
         point.measures.map(({mean, sigma}, k) => cell(mean.value === null ? "–" : `${quantity(mean.value, measures[k].unit, true)} ± ${quantity(sigma.value, measures[k].unit, true)}`)).join(""));
     showTable(section(host, "points", "By grid point", "mean ± sigma"), ["", "items", "yield, 95 % CI", ...measures.map(({name}) => escaped(name))], rows);
 }
@@ -81,22 +81,22 @@ function showPoints(host) {
 function showDependences(host) {
     const rows = [];
     for (const {measure, between_points: points, influences, devices, explained_fraction: explained} of table.depends_on) {
-        const first = () => (rows.some((row) => row.includes(`data-measure="${escaped(measure)}"`)) ? word("") : `<th scope="row" data-measure="${escaped(measure)}">${escaped(measure)}</th>`);
-        const add = (name, kind, fraction, rest) => rows.push(first() + word(name) + cell(kind, "unit") + cell(fraction) + rest);
+        const first = () => (rows.some((row) => row.includes(`data-measure="${escaped(measure)}"`)) ? textCell("") : `<th scope="row" data-measure="${escaped(measure)}">${escaped(measure)}</th>`);
+        const add = (name, kind, fraction, rest) => rows.push(first() + textCell(name) + cell(kind, "unit") + cell(fraction) + rest);
         const blank = cell("") + cell("") + cell("");
         for (const {axis, fraction} of points) add(axis, "grid axis, of the total variance", `${percent(fraction)} %`, blank);
         for (const {axis, fraction} of influences) if (axis && fraction.value >= 0.0005) add(axis, "random", `${percent(fraction.value)} %${range(fraction, percent)}`, blank);
         for (const one of devices.slice(0, 8))
             add(one.device, escaped(data.sizes[one.device] || ""), `${percent(one.fraction)} %`, cell(percent(one.fraction_V_T)) + cell(percent(one.fraction_I_S)) +
                 cell(measure === "yield" ? "" : `${(100 * (one.relative_sigma_at_4x_area - 1)).toFixed(1).replace("-", "−")} %`));
-        if (influences.length) rows.push(`${word("")}<td class="unit" colspan="6">a linear model explains ${percent(explained)} % of the random variance</td>`);
+        if (influences.length) rows.push(`${textCell("")}<td class="unit" colspan="6">a linear model explains ${percent(explained)} % of the random variance</td>`);
     }
     if (!rows.length) return;
-    const host_ = section(host, "influences", "Influences", "percent of variance: for grid axes of the total, for random parameters of the variance within a grid point; only significant effects are listed");
-    showTable(host_, ["", "", "", "variance, 95 % CI", "by V<sub>T</sub> (%)", "by I<sub>S</sub> (%)", "sigma at 4× area"], rows);
+    const node = section(host, "influences", "Influences", "percent of variance: for grid axes of the total, for random parameters of the variance within a grid point; only significant effects are listed");
+    showTable(node, ["", "", "", "variance, 95 % CI", "by V<sub>T</sub> (%)", "by I<sub>S</sub> (%)", "sigma at 4× area"], rows);
 }
 
-/// A table of items: axes, then measures. Values beyond their limits are marked. `withReason`: add why an item failed.
+/// A table of items: axes, then measures. Values beyond their limits are marked. `withReason`: add a column with the reason why an item failed.
 function showItems(host, rows, withReason) {
     const head = ["item", ...table.axes.map(({name, unit}) => headed(name, unit)), ...measures.map(({name}) => escaped(name)), ...(withReason ? ["reason"] : [])];
     const lines = rows.map((row) => {
@@ -106,8 +106,8 @@ function showItems(host, rows, withReason) {
             const value = data.rows.measures[i][k], off = "at_least" in m && !((m.at_least === null || value >= m.at_least) && (m.at_most === null || value <= m.at_most) && value !== null);
             return cell(quantity(value, m.unit, true), off ? "number fails" : "number");
         });
-        const reason = data.rows.end[k] ? data.reasons[item] || ["", "too costly", "did not converge"][data.rows.end[k]] : "limits";
-        return cell(item) + axes.join("") + values.join("") + (withReason ? word(reason) : "");
+        const reason = data.rows.end[k] ? data.reasons[item] || ["", "too many steps or iterations", "did not converge"][data.rows.end[k]] : "limits";
+        return cell(item) + axes.join("") + values.join("") + (withReason ? textCell(reason) : "");
     });
     showTable(host, head, lines);
 }

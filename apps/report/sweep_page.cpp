@@ -16,12 +16,14 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+// Items in scatter plots, rasters, trace envelopes and the table of failed items; items at each end of a measure; scatter plots per
+// measure.
 constexpr std::size_t max_points = 1500, max_rasters = 800, max_traces = 1000, max_failed = 200, max_extremes = 8, max_scatters = 4;
 
 /// The data of all rows that plots and tables refer to, each row once.
 class PageRows {
     const SweepTable& table_;
-    std::map<std::size_t, std::size_t> number_;
+    std::map<std::size_t, std::size_t> number_;  // row of the table -> index on the page
 
 public:
     explicit PageRows(const SweepTable& table) : table_(table) {}
@@ -205,7 +207,7 @@ Result<std::string> sweep_page(const SweepResults& results, const SweepTable& ta
     const auto diverged = failed_items(results, max_failed);
     if (!diverged) return diverged.error();
     page["reasons"] = Json::object();
-    for (const auto& l : *diverged) page["reasons"][fmt::format("{}", l.item)] = l.reason;
+    for (const auto& failure : *diverged) page["reasons"][fmt::format("{}", failure.item)] = failure.reason;
     for (const auto* rows : {&points, &chips, &failed}) shown.add(*rows);
     page["points"] = points, page["failed"] = failed;
     page["factors"] = factors_document(table, summary, points);

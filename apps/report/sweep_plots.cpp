@@ -61,13 +61,13 @@ std::vector<std::size_t> ranks_in_normal_plot(std::size_t count) {
     return out;
 }
 
-/// Five statistics over rows, at each time.
+/// Minimum, 5 %, median, 95 % and maximum over the rows at each time.
 struct EnvelopeStats {
     std::vector<double> min, low, median, high, max;
-    void add(std::vector<double>& at) {
-        if (at.empty()) at.push_back(std::nan(""));
-        low.push_back(quantile_of(at, 0.05)), median.push_back(quantile_of(at, 0.5)), high.push_back(quantile_of(at, 0.95));
-        min.push_back(*std::min_element(at.begin(), at.end())), max.push_back(*std::max_element(at.begin(), at.end()));
+    void add(std::vector<double>& values) {
+        if (values.empty()) values.push_back(std::nan(""));
+        low.push_back(quantile_of(values, 0.05)), median.push_back(quantile_of(values, 0.5)), high.push_back(quantile_of(values, 0.95));
+        min.push_back(*std::min_element(values.begin(), values.end())), max.push_back(*std::max_element(values.begin(), values.end()));
     }
 };
 

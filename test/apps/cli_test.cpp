@@ -291,7 +291,7 @@ TEST(Program, BadInputAndBadUsageHaveTheirStatusAndMessageAndLeaveNoFiles) {
         {"respond press --rate fast", 2, "--rate 'fast' is not a quantity; write a number and a unit, such as '2 Hz'"},
         {"respond press --probe-files", 2, "--probe-files needs --out DIR"},
         {"respond press --vectors", 2, "--vectors needs --out DIR"},
-        {"respond press --vectors --out answer", 2, "--vectors: sa1 has no converter, and so no fixed-point words; try 'adc+sa1'"},
+        {"respond press --vectors --out answer", 2, "--vectors: sa1 has no converter, and so no fixed-point values; try 'adc+sa1'"},
         {"respond press --noise -1nA", 2, "--noise '-1nA' is negative; write a standard deviation, such as '50 nA'"},
         {"respond press -a sa1 -a SA1", 2, "--afferent SA1: given twice"},
         {"respond", 2, "respond: no FORCE given; try 'corpuscle respond press'"},
