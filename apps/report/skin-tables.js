@@ -42,10 +42,10 @@ function showClasses(skin, host) {
 /// Sources of the population's numbers; a source of several classes is listed once.
 function showSources(skin, host) {
     const {classes, skin: about} = skin.data.summary, entries = new Map();
-    const add = ({of, source}, name) => entries.set(source, [...(entries.get(source) || []), name ? `${of} of ${name}` : of]);
+    const add = ({quantity, source}, name) => entries.set(source, [...(entries.get(source) || []), name ? `${quantity} of ${name}` : quantity]);
     about.sources.forEach((one) => add(one, ""));
     classes.forEach(({name, sources}) => sources.forEach((one) => add(one, name)));
-    host.innerHTML = Array.from(entries, ([source, of]) => `<li>${escaped(of.join(", "))}: ${escaped(source)}</li>`).join("");
+    host.innerHTML = Array.from(entries, ([source, quantities]) => `<li>${escaped(quantities.join(", "))}: ${escaped(source)}</li>`).join("");
     host.hidden = !entries.size;
 }
 

@@ -48,7 +48,7 @@ function showEffects(host) {
             const end = (n) => cell(`${escaped(levelText(axis, values.at(n)))} <span class="range">${measureText(m, means.at(n))}</span>`);
             rows.push((k ? textCell("") : first) + textCell(axisName(axis)) + cell(`${percent(fraction)} %`) + cell(fractionBar(fraction), "") + end(0) + end(-1));
         });
-        const rest = 1 - effects.reduce((sum, {share}) => sum + share, 0);
+        const rest = 1 - effects.reduce((sum, {fraction}) => sum + fraction, 0);
         if (effects.length > 1 && rest >= 0.0005) rows.push(textCell("") + textCell("interactions") + cell(`${percent(rest)} %`) + cell(fractionBar(rest), "") + cell("") + cell(""));
     });
     if (rows.length) showTable(section(host, "influences", "Effect of each axis", "percent of the variance over the grid that is explained by the means at the axis values; means at the first and last value"),
