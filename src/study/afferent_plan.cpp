@@ -14,22 +14,22 @@ namespace {
 
 using circuit::CircuitAfferentFactory;
 
-/// Parameters, and the texts that their rows refer to.
+/// Parameters of a netlist afferent and their values. `texts` stores the names and descriptions to which `parameters` refers.
 struct NetlistParameters {
     std::deque<std::string> texts;
     std::vector<AfferentParameter> parameters;
     std::vector<double> values;
 
-    void add(std::string name, std::string description, double initial, double value, bool set, bool one_for_all = true) {
+    void add(std::string name, std::string description, double initial, double value, bool set_by_user, bool shared_by_copies = true) {
         constexpr double limit = std::numeric_limits<double>::max();
         const auto& stored_name = texts.emplace_back(std::move(name));
-        parameters.push_back(
-            {{stored_name, "", initial, -limit, limit, texts.emplace_back(std::move(description)), "", one_for_all}, "netlist", set});
+        const auto& stored_description = texts.emplace_back(std::move(description));
+        parameters.push_back({{stored_name, "", initial, -limit, limit, stored_description, "", shared_by_copies}, "netlist", set_by_user});
         values.push_back(value);
     }
 };
 
-/// A device's parameter as set in a circuit, or its default; "" means its main value.
+/// A device's parameter as set in a circuit, or its default. An empty name means the device's main value.
 double number_of(const circuit::Circuit& c, std::string_view element, std::string_view name) {
     const int k = c.find_element(element);
     if (k < 0) return 0;
@@ -42,7 +42,7 @@ double number_of(const circuit::Circuit& c, std::string_view element, std::strin
     return name == "m" || name == "area" ? 1 : name == "temp" ? c.temperature : 0;
 }
 
-/// Lists a netlist's parameters, then its other settings. The defaults are the netlist's own values.
+/// Lists a netlist's parameters, then the other values that are set. The defaults are the values written in the netlist.
 Result<void> describe_parameters(AfferentPlan& plan, const CircuitAfferentFactory& design) {
     auto described = std::make_shared<NetlistParameters>();
     const auto& changes = design.netlist->overrides();
@@ -97,10 +97,10 @@ Result<AfferentPlan> plan_netlist(std::string_view text, std::span<const Paramet
     if (!options.probes.empty()) {
         const auto circuit = netlist->elaborate();
         if (!circuit) return circuit.error();
-        auto traces = probes_in(*circuit, options);
-        if (!traces) return traces.error();
+        auto probes = probes_in(*circuit, options);
+        if (!probes) return probes.error();
         auto changes = netlist->overrides();
-        changes.replaces_saved = !traces->empty(), changes.saved = std::move(*traces);
+        changes.replaces_saved = !probes->empty(), changes.saved = std::move(*probes);
         netlist = netlist->with_overrides(std::move(changes));
     }
     const auto design = CircuitAfferentFactory::create(*netlist);
@@ -131,8 +131,8 @@ Error unknown_afferent(std::string_view text, Error error) {
 std::optional<std::string> netlist_override_name(const ParameterOverride& setting, std::string_view netlist) {
     const auto full_name = setting.target + "." + setting.parameter;
     if (full_name.size() <= netlist.size() + 1 || full_name[netlist.size()] != '.') return {};
-    const auto own = std::string_view(full_name).substr(0, netlist.size());
-    const bool same = circuit::find_embedded_netlist(netlist) ? equal_ignoring_case(own, netlist) : own == netlist;
+    const auto prefix = std::string_view(full_name).substr(0, netlist.size());
+    const bool same = circuit::find_embedded_netlist(netlist) ? equal_ignoring_case(prefix, netlist) : prefix == netlist;
     return same ? std::optional(full_name.substr(netlist.size() + 1)) : std::nullopt;
 }
 
@@ -149,13 +149,13 @@ Result<void> rebuild_copy(AfferentPlan& copy, const AfferentPlan& original) {
     for (std::size_t k = 0; k < copy.values.size(); ++k)
         if (copy.values[k] != original.values[k])
             changes.parameters.insert_or_assign(std::string((*copy.parameters)[k].info.name), copy.values[k]);
-    const auto made = CircuitAfferentFactory::create(design->netlist->with_overrides(std::move(changes)));
-    if (!made) {
-        auto error = made.error();
+    const auto factory = CircuitAfferentFactory::create(design->netlist->with_overrides(std::move(changes)));
+    if (!factory) {
+        auto error = factory.error();
         error.message = fmt::format("{}: {}", copy.name, error.message);
         return error;
     }
-    copy.factory = *made;
+    copy.factory = *factory;
     return {};
 }
 

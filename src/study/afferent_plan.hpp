@@ -14,20 +14,20 @@ inline bool names_netlist(std::string_view text) {
 /// Options for every netlist of a run.
 struct NetlistOptions {
     std::vector<circuit::NetlistOverride> overrides = {};
-    std::vector<std::string> probes = {};        ///< recorded instead of what .save names, by each netlist that has such a quantity
-    mutable std::vector<bool> probe_found = {};  ///< for each entry of the line above: true if some netlist has it
+    std::vector<std::string> probes = {};        ///< recorded instead of the .save quantities, in each netlist that has them
+    mutable std::vector<bool> probe_found = {};  ///< for each entry of `probes`: true if some netlist has it
     mutable std::string probe_hint = {};         ///< suggestion for an entry that no netlist has
-    mutable bool is_used = false;
+    mutable bool is_used = false;                ///< true once a netlist has been planned with these options
 };
 
 /// Like plan_afferent, and accepts netlists: "sa1-circuit", or "path/own.cir" with a force input and a spike output (doc/circuits.md). An
 /// override for a netlist sets one of its values: "sa1-circuit.summer.N3B.w=1.2um".
 Result<AfferentPlan> plan_any_afferent(std::string_view text, std::span<const ParameterOverride> overrides, const NetlistOptions& = {});
 
-/// Rebuilds the copy of a netlist's plan with the copy's sampled values. Does nothing for other plans.
+/// Rebuilds the circuit of a copy with the copy's sampled values if its plan is a netlist. Does nothing for other plans.
 Result<void> rebuild_copy(AfferentPlan& copy, const AfferentPlan& original);
 
-/// The part of an override's name behind the netlist's name: "summer.N3B.w" of "sa1-circuit.summer.N3B.w=1.2um". Empty if the override
+/// The part of an override's name after the netlist's name: "summer.N3B.w" of "sa1-circuit.summer.N3B.w=1.2um". Empty if the override
 /// names something else.
 std::optional<std::string> netlist_override_name(const ParameterOverride&, std::string_view netlist);
 

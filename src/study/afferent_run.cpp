@@ -17,13 +17,13 @@ std::string unique_name(std::span<const std::unique_ptr<ForceSource>> sources, s
 }  // namespace
 
 std::string Input::channel_name(std::size_t channel) const {
-    const auto& own = source.channels()[channel].name;
-    return input_count == 1 ? own : own == source.name() ? name : name + ":" + own;
+    const auto& name_in_source = source.channels()[channel].name;
+    return input_count == 1 ? name_in_source : name_in_source == source.name() ? name : name + ":" + name_in_source;
 }
 
 Result<RunStats> respond(std::span<const std::unique_ptr<ForceSource>> sources, std::span<const AfferentPlan> afferents,
                          std::span<ResponseSink* const> sinks, const RespondOptions& options) {
-    const bool wants_probes = std::any_of(sinks.begin(), sinks.end(), [](const ResponseSink* l) { return l->wants_probes(); });
+    const bool wants_probes = std::any_of(sinks.begin(), sinks.end(), [](const ResponseSink* sink) { return sink->wants_probes(); });
     RunStats stats;
     ThreadPool single_thread(1);
     ThreadPool& pool = options.pool ? *options.pool : single_thread;
@@ -33,21 +33,20 @@ Result<RunStats> respond(std::span<const std::unique_ptr<ForceSource>> sources, 
         auto simulator = InputSimulator::make({source, unique_name(sources, n), afferents, {}, first_afferent, n, sources.size()}, options,
                                               wants_probes);
         if (!simulator) return simulator.error();
-        InputSimulator& units = *simulator;
         for (auto* sink : sinks)
-            if (auto ok = sink->begin(units.input()); !ok) return ok.error();
+            if (auto ok = sink->begin(simulator->input()); !ok) return ok.error();
         for (;;) {
-            const auto more = units.simulate_block(source, sinks, pool, stats);
+            const auto more = simulator->simulate_block(source, sinks, pool, stats);
             if (!more) return more.error();
             if (!*more) break;
             if (!options.should_continue((static_cast<double>(n) + source.progress()) / static_cast<double>(sources.size())))
                 return Error{ErrorCode::interrupted, "interrupted"};
         }
-        for (auto& warning : units.range_warnings()) stats.range_warnings.push_back(std::move(warning));
-        if (units.samples() == 0) return bad_input("no samples of force", {source.name()});
+        for (auto& warning : simulator->range_warnings()) stats.range_warnings.push_back(std::move(warning));
+        if (simulator->samples() == 0) return bad_input("no samples of force", {source.name()});
         for (auto* sink : sinks)
-            if (auto ok = sink->end(units.input(), units.samples()); !ok) return ok.error();
-        first_afferent += static_cast<std::uint32_t>(units.input().afferent_count());
+            if (auto ok = sink->end(simulator->input(), simulator->samples()); !ok) return ok.error();
+        first_afferent += static_cast<std::uint32_t>(simulator->input().afferent_count());
     }
     return stats;
 }

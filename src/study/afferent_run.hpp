@@ -13,11 +13,11 @@ namespace corpuscle {
 /// One source with one afferent of each plan on each of its channels: afferent_index = first_afferent + channel * plans + plan.
 struct Input {
     const ForceSource& source;
-    std::string name;  ///< of the source; a second one of the same name is "press (2)"
+    std::string name;  ///< name of the source; a second source of the same name is called "press (2)"
     std::span<const AfferentPlan> plans;
-    std::span<const std::span<const Probe>> probes;  ///< for each plan; empty if no sink wants probes and the afferent runs on SIMD lanes
+    std::span<const std::span<const Probe>> probes;  ///< of each plan; empty for a plan on SIMD lanes (only if no sink wants probes)
     std::uint32_t first_afferent = 0;
-    std::size_t index = 0, input_count = 1;  ///< number of this input, and number of inputs
+    std::size_t index = 0, input_count = 1;  ///< index of this input, and number of inputs
 
     std::size_t afferent_count() const { return source.channels().size() * plans.size(); }
     const AfferentPlan& plan_of(std::size_t afferent_index) const { return plans[afferent_index % plans.size()]; }
@@ -28,9 +28,9 @@ struct Input {
 
 /// The response to one block of force.
 struct RunBlock {
-    std::int64_t first_sample = 0;  ///< number of the block's first sample
+    std::int64_t first_sample = 0;  ///< index of the block's first sample
     const Frames& force;
-    std::span<const Spike> spikes;                                ///< of all afferents, in order of time, then afferent index
+    std::span<const Spike> spikes;                                ///< spikes of all afferents, in order of time, then afferent index
     const std::vector<std::vector<std::vector<double>>>& probes;  ///< [afferent of this input][probe][sample]; empty if no sink wants them
 };
 
@@ -45,7 +45,7 @@ public:
 };
 
 struct RunStats {
-    std::int64_t samples = 0;         ///< of force, over all channels
+    std::int64_t samples = 0;         ///< force samples, summed over all channels
     std::int64_t afferent_steps = 0;  ///< samples times afferents
     std::int64_t spikes = 0;
     std::int64_t truncated_steps = 0;                      ///< steps that reached the limit on spikes in one step
@@ -53,14 +53,14 @@ struct RunStats {
     std::int64_t overflowed = 0;                           ///< results that overflowed the word length of a digital afferent
     std::int64_t steps = 0, rejected = 0, iterations = 0;  ///< of circuits: time steps, rejected time steps, and Newton iterations
     std::vector<std::string> range_warnings;               ///< quantities that left the range in which an afferent works as designed
-    std::vector<EnergyUse> energy_use;  ///< of each circuit afferent, over its channels; empty if none is simulated alone
+    std::vector<EnergyUse> energy_use;  ///< of each plan, summed over its channels; 0 for models; empty if all use SIMD lanes
     std::vector<Error> diverged;        ///< netlists that did not converge, and when; their channels have no later spikes
 };
 
 struct RespondOptions {
     Method method = Method::exact;
     bool sampled = false;
-    double noise = 0;        ///< of every membrane, see Run
+    double noise = 0;        ///< of every membrane, see SimulationOptions
     std::uint64_t seed = 0;  ///< of the noise
     Precision precision = Precision::double_precision;
     ThreadPool* pool = nullptr;  ///< threads, or null for only the calling thread; the response does not depend on it
@@ -69,7 +69,7 @@ struct RespondOptions {
     std::function<bool(double)> should_continue = [](double) { return true; };
 };
 
-/// Runs all sources through all afferents. A run that is stopped by this callback returns an error of code `interrupted`.
+/// Simulates all afferents with all sources. A run that should_continue stops returns an error of code `interrupted`.
 Result<RunStats> respond(std::span<const std::unique_ptr<ForceSource>> sources, std::span<const AfferentPlan> afferents,
                          std::span<ResponseSink* const> sinks, const RespondOptions&);
 

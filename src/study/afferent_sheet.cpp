@@ -12,7 +12,7 @@ namespace {
 std::shared_ptr<const Innervation> sheet_innervation(const AfferentSheet& sheet, const std::string& afferent, AfferentPlan plan,
                                                      const SheetForce& force, double sigma) {
     auto out = std::make_shared<Innervation>();
-    const std::size_t sensors = force.positions.size(), units = sheet.rows * sheet.columns;
+    const std::size_t sensors = force.positions.size(), afferents = sheet.rows * sheet.columns;
     auto& p = out->plan;
     p.name = "sheet";
     p.sites.positions = force.positions;
@@ -20,12 +20,12 @@ std::shared_ptr<const Innervation> sheet_innervation(const AfferentSheet& sheet,
     p.sites.region.assign(sensors, 0);
     p.sites.regions = {"sheet"};
     p.classes.push_back({.name = afferent, .afferent = std::move(plan), .sigma = sigma});
-    for (std::size_t k = 0; k < units; ++k) out->afferents.push_back({0, static_cast<std::uint32_t>(k) + 1, 0, sheet.position(k), 0});
-    out->class_begin = {0, units};
+    for (std::size_t k = 0; k < afferents; ++k) out->afferents.push_back({0, static_cast<std::uint32_t>(k) + 1, 0, sheet.position(k), 0});
+    out->class_begin = {0, afferents};
     auto& fields = out->fields.emplace_back();
     fields.begin.push_back(0);
     for (std::size_t s = 0; s < sensors; ++s) {
-        for (std::size_t k = 0; k < units; ++k) {
+        for (std::size_t k = 0; k < afferents; ++k) {
             const double dx = out->afferents[k].position.x - force.positions[s].x, dy = out->afferents[k].position.y - force.positions[s].y;
             const double distance_squared = (dx * dx + dy * dy) / (sigma * sigma);
             if (distance_squared > 16) continue;

@@ -37,10 +37,10 @@ struct SheetForce {
 };
 
 /// The response of a sheet of one afferent type ("sa1"). The force of each afferent is the sum over the sensors of their force times
-/// exp(-d^2 / 2 sigma^2).
+/// exp(-d^2 / (2 sigma^2)), where d is the distance between sensor and afferent; sigma in m.
 Result<std::vector<SheetSpike>> simulate_sheet(const AfferentSheet&, const std::string& afferent, const SheetForce&, double sigma);
 
-/// The weighted centroid in each time bin; NaN in an empty bin.
+/// The weighted centroid (m) in each time bin (s); NaN in an empty bin.
 struct CentroidTrack {
     std::vector<double> t, x, y, weight;
 };

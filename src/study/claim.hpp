@@ -22,7 +22,7 @@ struct Claim {
     bool is_boolean = false;                        ///< `computed` is 1 (true) or 0 (false)
 
     Claim& published_as(double value, std::string where) { return published = value, source = std::move(where), *this; }
-    /// A value that is not published itself but derived from what is: from an equation, a sentence or the model.
+    /// A reference value that the source does not state: it is derived from an equation, a sentence or the model.
     Claim& derived_as(double value, std::string from) { return is_derived = true, published_as(value, std::move(from)); }
     Claim& allow_range(double min, double max, std::string where) {
         return allowed_min = min, allowed_max = max, source = std::move(where), *this;
@@ -51,13 +51,13 @@ struct Claim {
     }
 };
 
-/// A computed or allowed value in the claim's unit: "350 mV", "yes"; "-" for none.
+/// A computed or allowed value in the claim's unit: "350 mV", "yes"; "-" for NaN.
 std::string format_claim_value(double, const Claim&);
 /// The published value; in brackets if it is derived.
 std::string format_published(const Claim&);
-/// "350 mV .. 351 mV", "<= 1 nA"; "-" if there is no range.
+/// "350 mV to 351 mV", "at most 1 nA"; "-" if there is no range.
 std::string format_allowed_range(const Claim&);
-/// "-2.3 %"; "-" if there is none.
+/// The relative deviation: "-2.3 %"; "-" if there is none.
 std::string format_deviation(const Claim&);
 
 }  // namespace corpuscle

@@ -13,12 +13,12 @@ namespace corpuscle {
 class CopiesFile final : public FileSink {
     struct Column {
         std::string_view parameter, unit;
-        std::vector<std::string> afferents;  // in which it differs
+        std::vector<std::string> afferents;  // names of the afferents in which the parameter differs
     };
     OutputFile file_;
     std::vector<Column> columns_;
     Clock since_start_;         // of the current input, with its first sample at 0 s
-    MeasureAccumulator tally_;  // on that clock
+    MeasureAccumulator tally_;  // measures the spikes, with times on that clock
     fmt::memory_buffer text_;
 
     void put_row(const Input&, std::size_t afferent_index);

@@ -31,18 +31,18 @@ Json document_of(const circuit::Cost& cost, const circuit::PowerBreakdown& p) {
 
 /// The cost at rest under this force.
 Result<circuit::Cost> cost_under(const circuit::CircuitAfferentFactory& design, double force) {
-    auto bench = circuit::AnalysisContext::make(design.circuit);
-    if (!bench) return bench.error();
-    circuit::ForceWaveform trace;
-    trace.append(std::array{force});
-    (*bench)->system.set_force_input(&trace);
-    return circuit::cost_of(**bench);
+    auto context = circuit::AnalysisContext::make(design.circuit);
+    if (!context) return context.error();
+    circuit::ForceWaveform waveform;
+    waveform.append(std::array{force});
+    (*context)->system.set_force_input(&waveform);
+    return circuit::cost_of(**context);
 }
 
-/// Energy used by an afferent's copies, which are adjacent; `of`: number of afferents.
-EnergyUse energy_used_by(const RunStats& stats, std::size_t afferent, std::size_t of) {
+/// Energy used by an afferent's copies, which are adjacent in the statistics.
+EnergyUse energy_used_by(const RunStats& stats, std::size_t afferent, std::size_t afferent_count) {
     EnergyUse out;
-    const std::size_t copies = stats.energy_use.size() / of;
+    const std::size_t copies = stats.energy_use.size() / afferent_count;
     for (std::size_t k = 0; k < copies; ++k) out += stats.energy_use[afferent * copies + k];
     return out;
 }
@@ -80,7 +80,7 @@ Json cost_documents_of(std::span<const AfferentPlan> afferents, const RunStats& 
         const auto* design = dynamic_cast<const circuit::CircuitAfferentFactory*>(afferents[a].factory.get());
         if (design == nullptr) continue;
         auto cost = cost_under(*design, force);
-        if (!cost) continue;  // it has no operating point; this is reported elsewhere
+        if (!cost) continue;  // no operating point: reported elsewhere
         if (const auto spent = energy_used_by(stats, a, afferents.size()); spent.seconds > 0) {
             const double supplies = spent.supplies / spent.seconds, sensor = spent.sensor / spent.seconds;
             cost->power.emplace_back("mean", circuit::PowerBreakdown{supplies, sensor, supplies - sensor, {}, {}});

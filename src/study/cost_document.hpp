@@ -10,8 +10,8 @@ namespace corpuscle {
 
 nlohmann::ordered_json document_of(const circuit::Cost&);
 
-/// Cost of each afferent that is a netlist, for one receptor: its cost table at rest under a force (N), and the mean power over all its
-/// copies and channels in the run. Empty without netlists.
+/// For each netlist afferent: the cost table of one receptor at rest under `force` (N), and the mean power in the run over all copies and
+/// channels of the afferent. Empty without netlists.
 nlohmann::ordered_json cost_documents_of(std::span<const AfferentPlan>, const RunStats&, double force);
 
 }  // namespace corpuscle

@@ -20,7 +20,7 @@ bool is_file_number(std::string_view text) {
     return text.empty() || (text.size() > 1 && text[0] == '-' && text.find_first_not_of("0123456789", 1) == text.npos);
 }
 
-/// False for links, because their target is outside the directory.
+/// True for a regular file. False for a symbolic link, because its target may be outside the directory.
 bool is_plain_file(const std::filesystem::path& path) {
     std::error_code status;
     return std::filesystem::symlink_status(path, status).type() == std::filesystem::file_type::regular;

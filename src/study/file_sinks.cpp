@@ -52,8 +52,8 @@ Result<void> ProbesFile::block(const Input& input, const RunBlock& block) {
     for (std::size_t k = 0; k < block.force.count; ++k) {
         fmt::format_to(out, "{:.9f}", input.source.clock().time(block.first_sample + static_cast<std::int64_t>(k)));
         for (const auto& channel : block.force.force) fmt::format_to(out, ",{:.9g}", channel[k]);
-        for (const auto& unit : block.probes)
-            for (const auto& probe : unit) fmt::format_to(out, ",{:.9g}", probe[k]);
+        for (const auto& afferent_probes : block.probes)
+            for (const auto& probe : afferent_probes) fmt::format_to(out, ",{:.9g}", probe[k]);
         text_.push_back('\n');
     }
     return files_.back().write({text_.data(), text_.size()});

@@ -15,10 +15,10 @@ public:
     virtual Result<void> commit() = 0;
 };
 
-/// "sa1,press" of each afferent of an input, as fields of a CSV file.
+/// Name and channel of each afferent of an input as two CSV fields: "sa1,press".
 std::vector<std::string> afferent_csv_names(const Input&);
 
-/// DIR/probes.csv for the first input, DIR/probes-2.csv for the second.
+/// Path of an output file: DIR/probes.csv for the first input, DIR/probes-2.csv for the second.
 std::string numbered_path(const std::string& directory, std::string_view name, std::string_view extension, std::size_t index);
 
 /// spikes.csv: afferent,channel,time_s; in order of time, input after input. Times to the nanosecond.

@@ -11,42 +11,42 @@ namespace {
 /// Smallest number of afferents for which SIMD lanes are used; with fewer, most lanes are empty.
 constexpr std::size_t min_lane_group = 4;
 
-/// Uses shorter blocks if there are many channels, or many afferents with probes: about 64 MB of either. With very many afferents blocks
-/// are short enough that progress is still reported.
-std::size_t block_for(const Input& input, const RespondOptions& options, bool wants_probes) {
-    constexpr std::size_t max_values = std::size_t{1} << 23, max_steps = std::size_t{1} << 28, probes = 8;
-    const std::size_t values = wants_probes ? input.afferent_count() * probes : input.source.channels().size();
+/// Number of samples per block: options.block, or fewer, to limit the memory for force or probes to about 64 MB and to report progress
+/// often enough with very many afferents.
+std::size_t block_size(const Input& input, const RespondOptions& options, bool wants_probes) {
+    constexpr std::size_t max_values = std::size_t{1} << 23, max_steps = std::size_t{1} << 28, probes_per_afferent = 8;
+    const std::size_t values = wants_probes ? input.afferent_count() * probes_per_afferent : input.source.channels().size();
     return std::clamp<std::size_t>(std::min(max_values / (values + 1), max_steps / (input.afferent_count() + 1)), 1, options.block);
 }
 
-/// Two afferents can share SIMD lanes if this text is equal.
-std::string kind_of(const AfferentPlan& plan) {
-    std::string kind = plan.composition();
+/// Afferents with equal keys can be simulated on the same SIMD lanes.
+std::string lane_key(const AfferentPlan& plan) {
+    std::string key = plan.composition();
     for (std::size_t k = 0; k < plan.values.size(); ++k)
-        if ((*plan.parameters)[k].info.is_shared_by_copies) kind += fmt::format(" {}", plan.values[k]);
-    return kind;
+        if ((*plan.parameters)[k].info.is_shared_by_copies) key += fmt::format(" {}", plan.values[k]);
+    return key;
 }
 
-/// The plans that can share lanes, by index; and those that are simulated alone.
-struct Kinds {
-    std::vector<std::vector<std::size_t>> on_lanes;
-    std::vector<std::size_t> scalar;
+/// Indexes of plans.
+struct PlanGroups {
+    std::vector<std::vector<std::size_t>> on_lanes;  ///< groups of plans that can share lanes
+    std::vector<std::size_t> scalar;                 ///< plans that are simulated alone
 };
 
-Kinds kinds_of(std::span<const AfferentPlan> plans, const SimulationOptions& run) {
-    Kinds kinds;
-    std::vector<std::string> names;
+PlanGroups group_plans(std::span<const AfferentPlan> plans, const SimulationOptions& run) {
+    PlanGroups groups;
+    std::vector<std::string> keys;
     for (std::size_t k = 0; k < plans.size(); ++k) {
         if (!can_use_lanes(plans[k], run)) {
-            kinds.scalar.push_back(k);
+            groups.scalar.push_back(k);
             continue;
         }
-        const auto kind = kind_of(plans[k]);
-        const auto at = static_cast<std::size_t>(std::find(names.begin(), names.end(), kind) - names.begin());
-        if (at == names.size()) names.push_back(kind), kinds.on_lanes.emplace_back();
-        kinds.on_lanes[at].push_back(k);
+        const auto key = lane_key(plans[k]);
+        const auto at = static_cast<std::size_t>(std::find(keys.begin(), keys.end(), key) - keys.begin());
+        if (at == keys.size()) keys.push_back(key), groups.on_lanes.emplace_back();
+        groups.on_lanes[at].push_back(k);
     }
-    return kinds;
+    return groups;
 }
 
 }  // namespace
@@ -57,10 +57,10 @@ InputSimulator::InputSimulator(Input input, std::size_t block, bool wants_probes
 Result<InputSimulator> InputSimulator::make(Input input, const RespondOptions& options, bool wants_probes) {
     const auto set = instruction_set();
     if (!set) return set.error();
-    const std::size_t block = block_for(input, options, wants_probes);
-    InputSimulator units(std::move(input), block, wants_probes);
-    if (auto ok = units.place_afferents(options, *set); !ok) return ok.error();
-    return units;
+    const std::size_t block = block_size(input, options, wants_probes);
+    InputSimulator simulator(std::move(input), block, wants_probes);
+    if (auto ok = simulator.place_afferents(options, *set); !ok) return ok.error();
+    return simulator;
 }
 
 Result<void> InputSimulator::place_afferents(const RespondOptions& options, InstructionSet set) {
@@ -69,17 +69,17 @@ Result<void> InputSimulator::place_afferents(const RespondOptions& options, Inst
     const std::size_t channels = input_.source.channels().size();
     const bool in_float = options.precision == Precision::single_precision;
     if (in_float && set == InstructionSet::scalar) return bad_usage("float needs SIMD lanes: CORPUSCLE_ISA=scalar has none");
-    auto kinds = kinds_of(plans, run);
-    if (in_float && (wants_probes_ || !kinds.scalar.empty()))
-        return bad_usage(wants_probes_ ? "in float no probes are recorded: leave out --probe-files"
-                                       : fmt::format("{}: {} cannot run in float", plans[kinds.scalar[0]].name,
-                                                     plans[kinds.scalar[0]].factory ? "netlists" : "sensors, converters and noise"));
+    const auto groups = group_plans(plans, run);
+    if (in_float && (wants_probes_ || !groups.scalar.empty()))
+        return bad_usage(wants_probes_ ? "float precision cannot record probes: leave out --probe-files"
+                                       : fmt::format("{}: {} cannot run in float", plans[groups.scalar[0]].name,
+                                                     plans[groups.scalar[0]].factory ? "netlists" : "sensors, converters and noise"));
     std::vector<bool> is_scalar(plans.size());
-    for (const auto k : kinds.scalar) is_scalar[k] = true;
-    for (const auto& kind : kinds.on_lanes) {
-        if (!in_float && (wants_probes_ || set == InstructionSet::scalar || kind.size() * channels < min_lane_group))
-            for (const auto k : kind) is_scalar[k] = true;
-        else if (auto ok = place_on_lanes(kind, run, options, set); !ok)
+    for (const auto k : groups.scalar) is_scalar[k] = true;
+    for (const auto& group : groups.on_lanes) {
+        if (!in_float && (wants_probes_ || set == InstructionSet::scalar || group.size() * channels < min_lane_group))
+            for (const auto k : group) is_scalar[k] = true;
+        else if (auto ok = place_on_lanes(group, run, options, set); !ok)
             return ok;
     }
     afferents_.resize(plans.size());
@@ -103,23 +103,24 @@ Result<void> InputSimulator::place_afferents(const RespondOptions& options, Inst
     return {};
 }
 
-/// Packs all channels into one population, or one population for each channel if most of its afferents have the same force.
+/// Makes one lane population for all channels or, if there are at least as many plans as channels, one population for each channel, whose
+/// afferents then share their force.
 Result<void> InputSimulator::place_on_lanes(std::span<const std::size_t> plans, const SimulationOptions& run, const RespondOptions& options,
                                             InstructionSet set) {
-    const std::size_t channels = input_.source.channels().size(), all = input_.plans.size();
+    const std::size_t channels = input_.source.channels().size(), plan_count = input_.plans.size();
     const bool by_channel = plans.size() >= channels;
     LaneGroup group{{}, {}, by_channel};
     std::vector<const AfferentPlan*> lane_plans;
     for (std::size_t c = 0; c < channels; ++c) {
         for (const auto k : plans) {
-            group.afferents.push_back(static_cast<std::uint32_t>(c * all + k));
+            group.afferents.push_back(static_cast<std::uint32_t>(c * plan_count + k));
             if (plans.size() > 1) lane_plans.push_back(&input_.plans[k]);
         }
         if (!by_channel && c + 1 < channels) continue;
         if (plans.size() == 1) lane_plans = {&input_.plans[plans[0]]};
-        std::vector<std::uint32_t> numbers;
-        for (const auto u : group.afferents) numbers.push_back(input_.first_afferent + u);
-        auto population = make_lane_population({lane_plans, group.afferents.size(), numbers, options.precision}, run, set);
+        std::vector<std::uint32_t> indexes;
+        for (const auto u : group.afferents) indexes.push_back(input_.first_afferent + u);
+        auto population = make_lane_population({lane_plans, group.afferents.size(), indexes, options.precision}, run, set);
         if (!population) return population.error();
         group.population = std::move(*population);
         lane_groups_.push_back(std::exchange(group, {{}, {}, by_channel}));
@@ -150,35 +151,35 @@ Result<void> InputSimulator::simulate_lane_group(LaneGroup& group, ThreadPool& p
     return {};
 }
 
-void InputSimulator::simulate_scalar(ScalarAfferent& single) {
-    const std::size_t u = single.afferent_index;
+void InputSimulator::simulate_scalar(ScalarAfferent& scalar) {
+    const std::size_t u = scalar.afferent_index;
     std::vector<double*> probe_values;
     if (wants_probes_)
         for (auto& p : probe_values_[u]) probe_values.push_back(p.data());
-    single.spikes.clear();
-    ResponseBlock response{single.spikes, input_.first_afferent + single.afferent_index};
-    if (single.diverged)
+    scalar.spikes.clear();
+    ResponseBlock response{scalar.spikes, input_.first_afferent + scalar.afferent_index};
+    if (scalar.diverged)
         for (double* p : probe_values) std::fill_n(p, force_.count, std::numeric_limits<double>::quiet_NaN());
-    else if (auto ok = respond_to_force(single, response, probe_values); !ok)
-        single.error = with_afferent_name(ok.error(), u);
-    single.truncated_steps = response.truncated_steps, single.saturated = response.saturated, single.overflowed = response.overflowed;
-    single.steps = response.steps, single.rejected = response.rejected_steps, single.iterations = response.newton_iterations;
-    single.energy_use = response.energy_use;
+    else if (auto ok = respond_to_force(scalar, response, probe_values); !ok)
+        scalar.error = with_afferent_name(ok.error(), u);
+    scalar.truncated_steps = response.truncated_steps, scalar.saturated = response.saturated, scalar.overflowed = response.overflowed;
+    scalar.steps = response.steps, scalar.rejected = response.rejected_steps, scalar.iterations = response.newton_iterations;
+    scalar.energy_use = response.energy_use;
 }
 
-/// An afferent with a delay first receives that many samples before the first block.
-Result<void> InputSimulator::respond_to_force(ScalarAfferent& single, ResponseBlock& response, std::span<double* const> probe_values) {
-    const auto& afferent = *afferents_[single.afferent_index % afferents_.size()];
-    const auto delay = static_cast<std::size_t>(afferent.delay()), channel = input_.channel_of(single.afferent_index);
+/// An afferent with a delay receives its first delay() samples before the first block, and then stays ahead of the block by as many.
+Result<void> InputSimulator::respond_to_force(ScalarAfferent& scalar, ResponseBlock& response, std::span<double* const> probe_values) {
+    const auto& afferent = *afferents_[scalar.afferent_index % afferents_.size()];
+    const auto delay = static_cast<std::size_t>(afferent.delay()), channel = input_.channel_of(scalar.afferent_index);
     if (delay > 0 && samples_ == 0)
-        if (auto ok = afferent.respond(lookahead_.samples(channel, 0, delay), single.state, response); !ok) return ok;
+        if (auto ok = afferent.respond(lookahead_.samples(channel, 0, delay), scalar.state, response); !ok) return ok;
     const std::span<const double> force =
-        delay > 0 ? lookahead_.samples(channel, delay, force_.count) : std::span(force_of(single.afferent_index), force_.count);
-    response.probes = probe_values, response.range_violations = single.range_violations;
-    return afferent.respond(force, single.state, response);
+        delay > 0 ? lookahead_.samples(channel, delay, force_.count) : std::span(force_of(scalar.afferent_index), force_.count);
+    response.probes = probe_values, response.range_violations = scalar.range_violations;
+    return afferent.respond(force, scalar.state, response);
 }
 
-/// The afferent of this plan that was outside a range longest, or null; and the number of afferents that were outside it.
+/// The afferent of this plan that was outside a range for the longest time, or null; and the number of afferents that were outside it.
 std::pair<const InputSimulator::ScalarAfferent*, std::size_t> InputSimulator::longest_violation(std::size_t plan, std::size_t range) const {
     const ScalarAfferent* longest = nullptr;
     std::size_t count = 0;
@@ -196,14 +197,14 @@ std::vector<std::string> InputSimulator::range_warnings() const {
     for (std::size_t plan = 0; plan < afferents_.size(); ++plan) {
         const auto ranges = afferents_[plan] ? afferents_[plan]->ranges() : std::span<const ValidRange>{};
         for (std::size_t r = 0; r < ranges.size(); ++r) {
-            const auto [single, count] = longest_violation(plan, r);
-            if (!single) continue;
-            const auto& o = single->range_violations[r];
+            const auto [scalar, count] = longest_violation(plan, r);
+            if (!scalar) continue;
+            const auto& o = scalar->range_violations[r];
             const auto violation = range_violation_message(ranges[r], static_cast<double>(o.samples) * T, static_cast<double>(samples_) * T,
                                                            static_cast<double>(o.first_sample) * T);
             warnings.push_back(fmt::format("{} on {}: {}{}", input_.plans[plan].name,
-                                           input_.channel_name(input_.channel_of(single->afferent_index)), violation,
-                                           count > 1 ? fmt::format(" (also on {} more channels, for less time)", count - 1) : ""));
+                                           input_.channel_name(input_.channel_of(scalar->afferent_index)), violation,
+                                           count > 1 ? fmt::format(" (and on {} other channels for a shorter time)", count - 1) : ""));
         }
     }
     return warnings;

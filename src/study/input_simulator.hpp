@@ -44,8 +44,8 @@ private:
     Result<void> place_on_lanes(std::span<const std::size_t> plans, const SimulationOptions& run, const RespondOptions& options,
                                 InstructionSet set);
     Result<void> simulate_lane_group(LaneGroup& group, ThreadPool& pool, RunStats& stats);
-    void simulate_scalar(ScalarAfferent& single);
-    Result<void> respond_to_force(ScalarAfferent& single, ResponseBlock& response, std::span<double* const> probe_values);
+    void simulate_scalar(ScalarAfferent& scalar);
+    Result<void> respond_to_force(ScalarAfferent& scalar, ResponseBlock& response, std::span<double* const> probe_values);
     Result<void> simulate_scalars(ThreadPool& pool, RunStats& stats);
     std::pair<const ScalarAfferent*, std::size_t> longest_violation(std::size_t plan, std::size_t range) const;
     Error with_afferent_name(Error error, std::size_t afferent_index) const;

@@ -14,7 +14,7 @@ Result<void> LookaheadBuffer::next(ForceSource& source, Frames& block) {
     return {};
 }
 
-/// Reads until there is a full block and all samples to look ahead behind it.
+/// Reads until the buffer has a full block and the look-ahead after it, or the source ends.
 Result<void> LookaheadBuffer::fill(ForceSource& source, Frames& block) {
     while (!ended_ && available_ < block.capacity + lookahead_) {
         if (auto ok = source.read(block); !ok) return ok;

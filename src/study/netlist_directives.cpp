@@ -10,10 +10,10 @@ namespace {
 
 bool is_removed_directive(std::string_view line) {
     if (!line.starts_with('.')) return false;
-    const auto word = lower(line.substr(1, line.find_first_of(" \t\r") - 1));
+    const auto name = lower(line.substr(1, line.find_first_of(" \t\r") - 1));
     constexpr std::string_view other_directives[] = {"meas", "measure", "print", "plot", "save", "step", "mc", "expect", "end"};
-    return circuit::find_analysis(word) != nullptr ||
-           std::find(std::begin(other_directives), std::end(other_directives), word) != std::end(other_directives);
+    return circuit::find_analysis(name) != nullptr ||
+           std::find(std::begin(other_directives), std::end(other_directives), name) != std::end(other_directives);
 }
 
 }  // namespace

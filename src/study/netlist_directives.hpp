@@ -1,5 +1,5 @@
 #pragma once
-// A netlist with other directives than its own.
+// Replaces the directives in the text of a netlist.
 
 #include <string>
 

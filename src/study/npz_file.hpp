@@ -8,8 +8,8 @@ namespace corpuscle {
 
 /// spikes.npz: the arrays that SpikeInterface's NpzSortingExtractor reads (unit_ids, num_segment, sampling_frequency, spike_indexes_seg0,
 /// spike_labels_seg0), with one segment for each input. In addition unit_afferent, unit_channel, and exact times on the clock of the
-/// recording, spike_times_seg0. The indexes count microseconds from the segment's first sample: finer than any nerve, and integers that are
-/// easy to read. The spikes are kept in memory until the end, because the length of an array precedes its data.
+/// recording, spike_times_seg0. The indexes count microseconds from the segment's first sample: finer than the timing of any nerve,
+/// and integers that are easy to read. The spikes are kept in memory until the end, because the length of an array precedes its data.
 class NpzFile final : public FileSink {
     OutputFile file_;
     NpzWriter npz_;

@@ -8,9 +8,9 @@ PsthFile::PsthFile(OutputFile file, double bin) : file_(std::move(file)), bin_wi
 
 Result<void> PsthFile::begin(const Input& input) {
     if (auto ok = TimeBins::check(input.source.clock(), bin_width_); !ok) return ok;
-    std::vector<TimeBins::Group> rows;
-    for (auto& name : afferent_csv_names(input)) rows.push_back({std::move(name)});
-    bins_ = TimeBins(std::move(rows), input.source.clock(), bin_width_);
+    std::vector<TimeBins::Group> groups;
+    for (auto& name : afferent_csv_names(input)) groups.push_back({std::move(name)});
+    bins_ = TimeBins(std::move(groups), input.source.clock(), bin_width_);
     return {};
 }
 

@@ -14,27 +14,29 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Adds a key that the object does not have yet. Skips the search for it, which matters with 100,000 channels.
-void add(Json& object, std::string key, Json value) { object.get_ref<Json::object_t&>().push_back({std::move(key), std::move(value)}); }
+/// Appends a key that the object does not have yet, without a search for it, which would be slow with 100,000 channels.
+void append_key(Json& object, std::string key, Json value) {
+    object.get_ref<Json::object_t&>().push_back({std::move(key), std::move(value)});
+}
 
 /// Positions of the sensors, by channel; empty if unknown.
 Json position_document(const RunSummary::InputSummary& input) {
     Json out = Json::object();
     for (std::size_t c = 0; c < input.sensors.size(); ++c)
-        if (const auto& p = input.sensors[c].position) add(out, input.channels[c], {p->x, p->y, p->z});
+        if (const auto& p = input.sensors[c].position) append_key(out, input.channels[c], {p->x, p->y, p->z});
     return out;
 }
 
 Json quality_document(const RunSummary::InputSummary& input) {
     Json channels = Json::object();
-    const auto& findings = input.quality.metrics;  // in order of channels
-    for (std::size_t k = 0; k < findings.size();) {
+    const auto& metrics = input.quality.metrics;  // in order of channels
+    for (std::size_t k = 0; k < metrics.size();) {
         Json one = Json::object();
-        const auto channel = findings[k].channel;
-        for (; k < findings.size() && findings[k].channel == channel; ++k)
-            add(one, findings[k].unit.empty() ? std::string(findings[k].name) : fmt::format("{}_{}", findings[k].name, findings[k].unit),
-                json_number(findings[k].value));
-        add(channels, input.channels[channel], std::move(one));
+        const auto channel = metrics[k].channel;
+        for (; k < metrics.size() && metrics[k].channel == channel; ++k)
+            append_key(one, metrics[k].unit.empty() ? std::string(metrics[k].name) : fmt::format("{}_{}", metrics[k].name, metrics[k].unit),
+                       json_number(metrics[k].value));
+        append_key(channels, input.channels[channel], std::move(one));
     }
     return {{"warnings", input.quality.warnings}, {"notes", input.quality.descriptions}, {"channels", channels}};
 }
@@ -42,10 +44,10 @@ Json quality_document(const RunSummary::InputSummary& input) {
 Json input_document(const RunSummary::InputSummary& input) {
     Json phases = Json::array();
     for (const auto& p : input.phases) phases.push_back({{"name", p.name}, {"from_s", p.from}, {"to_s", p.to}});
-    Json facts = Json::object();
-    for (const auto& f : input.metadata) add(facts, f.name, {{"value", f.value}, {"unit", f.unit}});
+    Json parameters = Json::object();
+    for (const auto& f : input.metadata) append_key(parameters, f.name, {{"value", f.value}, {"unit", f.unit}});
     return {{"name", input.name},
-            {"parameters", facts},
+            {"parameters", parameters},
             {"force_min_N", input.min_force},
             {"force_max_N", input.max_force},
             {"samples", input.samples},
@@ -98,7 +100,7 @@ Json document_of(const AfferentPlan& plan) {
     }
     if (plan.factory) {
         Json out = {{"name", plan.name}, {"composition", plan.composition()}, {"description", plan.description}};
-        for (const auto& [name, word] : plan.factory->labels()) out[name] = word;
+        for (const auto& [name, label] : plan.factory->labels()) out[name] = label;
         out["parameters"] = std::move(parameters);
         return out;
     }
@@ -125,47 +127,47 @@ Json document_of(const CopySpec& copies) { return {{"per_afferent", copies.count
 std::string column_heading(const MeasureInfo& m) { return std::string(m.title) + (m.unit.empty() ? "" : " (" + std::string(m.unit) + ")"); }
 
 Result<void> RunSummary::begin(const Input& input) {
-    InputSummary facts{input.name, input.source.clock(), 0, {}, input.source.notes(), input.source.metadata(), INFINITY,
-                       -INFINITY,  input.source.phases()};
-    for (std::size_t c = 0; c < input.source.channels().size(); ++c) facts.channels.push_back(input.channel_name(c));
-    facts.sensors = input.source.channels();
-    inputs_.push_back(std::move(facts));
+    InputSummary summary{input.name, input.source.clock(), 0, {}, input.source.notes(), input.source.metadata(), INFINITY,
+                         -INFINITY,  input.source.phases()};
+    for (std::size_t c = 0; c < input.source.channels().size(); ++c) summary.channels.push_back(input.channel_name(c));
+    summary.sensors = input.source.channels();
+    inputs_.push_back(std::move(summary));
     since_start_ = input.source.clock();
     since_start_.t0 = 0;  // times since 1970 would lose precision
-    std::vector<TimeWindow> stretches;
-    for (const auto& p : inputs_.back().phases) stretches.push_back({p.from, p.to, input.source.cycle_frequency()});
-    if (stretches.empty()) stretches.push_back({.stimulus_frequency = input.source.cycle_frequency()});
-    tally_ = MeasureAccumulator(std::move(stretches), input.afferent_count());
+    std::vector<TimeWindow> windows;
+    for (const auto& p : inputs_.back().phases) windows.push_back({p.from, p.to, input.source.cycle_frequency()});
+    if (windows.empty()) windows.push_back({.stimulus_frequency = input.source.cycle_frequency()});
+    tally_ = MeasureAccumulator(std::move(windows), input.afferent_count());
     return comparisons_.begin(input);
 }
 
 Result<void> RunSummary::block(const Input& input, const RunBlock& block) {
-    auto& facts = inputs_.back();
+    auto& summary = inputs_.back();
     for (const auto& channel : block.force.force)
         for (std::size_t k = 0; k < block.force.count; ++k)
-            facts.min_force = std::min(facts.min_force, channel[k]), facts.max_force = std::max(facts.max_force, channel[k]);
+            summary.min_force = std::min(summary.min_force, channel[k]), summary.max_force = std::max(summary.max_force, channel[k]);
     for (const auto& s : block.spikes) tally_.spike(s.afferent_index - input.first_afferent, since_start_.time(s.step, s.offset));
     return comparisons_.block(input, block);
 }
 
 Result<void> RunSummary::end(const Input& input, std::int64_t samples) {
-    auto& facts = inputs_.back();
-    facts.samples = samples;
-    facts.quality = input.source.quality();
+    auto& summary = inputs_.back();
+    summary.samples = samples;
+    summary.quality = input.source.quality();
     tally_.set_end(since_start_.time(samples));
     const auto groups = copy_group_starts(input.plans);
-    for (std::size_t c = 0; c < facts.channels.size(); ++c)
+    for (std::size_t c = 0; c < summary.channels.size(); ++c)
         for (std::size_t g = 0; g + 1 < groups.size(); ++g)
-            for (std::size_t p = 0; p < std::max<std::size_t>(facts.phases.size(), 1); ++p)
+            for (std::size_t p = 0; p < std::max<std::size_t>(summary.phases.size(), 1); ++p)
                 rows_.push_back(row(input, c, groups[g], groups[g + 1], p));
     return comparisons_.end(input, samples);
 }
 
-/// A row for the afferents from ... to - 1, which are one afferent or the copies of one.
+/// A row for the plans from ... to - 1, which are one afferent or all copies of one afferent.
 MeasureRow RunSummary::row(const Input& input, std::size_t channel, std::size_t from, std::size_t to, std::size_t phase) const {
-    const auto& facts = inputs_.back();
+    const auto& summary = inputs_.back();
     const std::size_t first = channel * input.plans.size();
-    MeasureRow row{base_name(input.plans[from]), facts.channels[channel], facts.phases.empty() ? "all" : facts.phases[phase].name,
+    MeasureRow row{base_name(input.plans[from]), summary.channels[channel], summary.phases.empty() ? "all" : summary.phases[phase].name,
                    tally_.values(first + from, phase)};
     if (input.plans[from].copy_number == 0) {
         if (row.values[measure_index<SpikeCount>] == 1) row.values[measure_index<MeanRate>] = no_value;  // one spike has no rate
@@ -210,9 +212,9 @@ Json RunSummary::document(std::span<const AfferentPlan> afferents, const RunStat
                                    {"rejected", stats.rejected},
                                    {"iterations", stats.iterations},
                                    {"not_converged", stats.diverged.size()}};
-    double least = INFINITY;
-    for (const auto& i : inputs_) least = std::min(least, i.min_force);
-    if (auto costs = cost_documents_of(afferents, stats, least); !costs.empty()) out["costs"] = std::move(costs);
+    double rest_force = INFINITY;
+    for (const auto& i : inputs_) rest_force = std::min(rest_force, i.min_force);
+    if (auto costs = cost_documents_of(afferents, stats, rest_force); !costs.empty()) out["costs"] = std::move(costs);
     out["warnings"] = warnings;
     return out;
 }

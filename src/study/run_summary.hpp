@@ -15,7 +15,7 @@ namespace corpuscle {
 
 /// A measure over those copies of an afferent that have a value for it. Sums after Welford (1962).
 class CopyStatistics {
-    double sum_ = 0, mean_ = 0, squares_ = 0;  // squares: sum of squared distances from the mean so far
+    double sum_ = 0, mean_ = 0, squares_ = 0;  // squares_: sum of squared distances from the mean so far
 
 public:
     std::int64_t copies = 0;

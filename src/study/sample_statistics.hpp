@@ -1,5 +1,5 @@
 #pragma once
-// Mean and standard deviation of a quantity over the chips of a .mc.
+// Mean and standard deviation of a quantity over the chips that a .mc directive samples.
 
 #include <vector>
 
@@ -14,7 +14,7 @@ struct SampleStatistics {
 };
 SampleStatistics sample_statistics(std::vector<double> values);
 
-/// For a voltage or a current at each chip's operating point: "v(q)".
+/// Statistics of a voltage or a current at each chip's operating point: "v(q)".
 SampleStatistics sample_statistics(const std::vector<NetlistResult>& chips, const std::string& name);
 
 }  // namespace corpuscle

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double max_factor = 1e6, factor_tolerance = 1.02;
 
-bool fires(const Afferent& afferent, std::span<const double> force, double factor) {
+bool fires_with_factor(const Afferent& afferent, std::span<const double> force, double factor) {
     constexpr std::size_t block = 4096;
     std::vector<double> scaled(block);
     std::vector<Spike> spikes;
@@ -32,13 +32,13 @@ bool fires(const Afferent& afferent, std::span<const double> force, double facto
 std::optional<double> factor_to_fire(const AfferentPlan& plan, const SimulationOptions& run, std::span<const double> force) {
     const auto afferent = make_afferent(plan, run);
     double low = 1, high = 1;
-    while (!fires(*afferent, force, high)) {
+    while (!fires_with_factor(*afferent, force, high)) {
         if (high >= max_factor) return {};
         low = high, high *= 2;
     }
     while (high > low * factor_tolerance) {
         const double midpoint = std::sqrt(low * high);
-        (fires(*afferent, force, midpoint) ? high : low) = midpoint;
+        (fires_with_factor(*afferent, force, midpoint) ? high : low) = midpoint;
     }
     return high;
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Afferents that never fired, and how much more of the same force would make them fire.
+// Afferents that never fired, and the factor by which the same force must be multiplied to make them fire.
 
 #include <optional>
 #include <span>
@@ -10,7 +10,7 @@
 
 namespace corpuscle {
 
-/// Number of force samples that are kept for this question; later samples are ignored.
+/// Number of force samples that are kept to compute this factor; later samples are ignored.
 inline constexpr std::size_t max_silence_samples = std::size_t{1} << 18;
 
 /// The factor, at least 1, by which force must be multiplied for the afferent to fire. Accurate to 2 %, rounded up. None if it exceeds a
@@ -43,7 +43,7 @@ public:
 /// "fa1 never fired: the largest force was 0.5 N; it would fire at about 6.3 times this force".
 std::string silence_message(const SilentAfferent&);
 
-/// Two digits, rounded up: "1.5", "0.0021".
+/// Two significant digits, rounded up: "1.5", "0.0021".
 std::string format_rounded_up(double);
 
 }  // namespace corpuscle

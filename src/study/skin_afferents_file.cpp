@@ -11,12 +11,12 @@ namespace {
 
 std::string afferent_row(const SkinSummary& summary, std::size_t u) {
     const auto& skin = summary.skin();
-    const auto& unit = skin.afferents[u];
+    const auto& afferent = skin.afferents[u];
     const double first = summary.first_times()[u], seconds = summary.seconds();
     const auto spikes = summary.counts()[u];
     return fmt::format("{},{},{},{:.3f},{:.3f},{:.6f},{},{},{:.9g},{:.6g}\n", u, quote_csv_field(skin.afferent_name(u)),
-                       quote_csv_field(skin.plan.sites.regions[unit.region]), 1e3 * unit.position.x, 1e3 * unit.position.y,
-                       1e3 * unit.delay, spikes, std::isnan(first) ? "" : fmt::format("{:.9f}", summary.clock().t0 + first),
+                       quote_csv_field(skin.plan.sites.regions[afferent.region]), 1e3 * afferent.position.x, 1e3 * afferent.position.y,
+                       1e3 * afferent.delay, spikes, std::isnan(first) ? "" : fmt::format("{:.9f}", summary.clock().t0 + first),
                        summary.touched_times()[u], seconds > 0 ? static_cast<double>(spikes) / seconds : 0);
 }
 

@@ -6,8 +6,9 @@
 
 namespace corpuscle {
 
-/// afferents.csv: afferent_index,afferent,region,x_mm,y_mm,delay_ms,spikes,first_spike_s,touched_s,rate_Hz. `afferent_index` is the index
-/// that spikes have; the rate is over the complete force. Takes the counts from the summary, which must precede it among the sinks.
+/// afferents.csv: afferent_index,afferent,region,x_mm,y_mm,delay_ms,spikes,first_spike_s,touched_s,rate_Hz. `afferent_index` is
+/// Spike::afferent_index; the rate is over the complete force. The counts come from the summary, which must precede this file among the
+/// sinks.
 class SkinAfferentsFile final : public SkinFileSink {
     OutputFile file_;
     const SkinSummary& summary_;

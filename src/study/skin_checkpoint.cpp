@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// FILE: magic, fingerprint, checksum of the force, number and checksum of the spikes, the skin's state, checksum of everything before.
+// FILE: magic, fingerprint, checksum of the force, number and checksum of the spikes, the skin's state, checksum of all that.
 constexpr std::string_view checkpoint_magic = "corpuscle checkpoint ", checkpoint_version = "2";
 constexpr std::string_view spikes_header = "corpuscle told spikes 2\n";
 static_assert(spikes_header.size() % sizeof(std::uint64_t) == 0);
@@ -29,7 +29,7 @@ static_assert(spikes_header.size() % sizeof(std::uint64_t) == 0);
 struct StoredSpike {
     std::int64_t step;
     double offset;
-    std::uint64_t unit;
+    std::uint64_t afferent_index;
 };
 
 template <class T>
@@ -110,7 +110,7 @@ std::string SkinCheckpoint::remedy() const {
 }
 
 Error SkinCheckpoint::changed_force_error() const {
-    return bad_input(fmt::format("the force up to this checkpoint differs from the one that it was made with; {}", remedy()), {file_});
+    return bad_input(fmt::format("the force up to this checkpoint differs from the force of the run that made it; {}", remedy()), {file_});
 }
 
 Result<std::unique_ptr<SkinCheckpoint>> SkinCheckpoint::open(const std::string& file, Skin& skin, RunFingerprint fingerprint) {
@@ -146,11 +146,12 @@ Result<void> SkinCheckpoint::check_file() const {
         std::string line;
         std::getline(in, line);
         const auto file_version = line.substr(checkpoint_magic.size(), 20);
-        return bad_input(fmt::format("a checkpoint of version {}; this program resumes version {} only (version 1 does not record how "
-                                     "the force was made). Finish the run with the program that started it, or {}",
-                                     file_version.find_first_not_of("0123456789") == std::string::npos ? file_version : "?",
-                                     checkpoint_version, remedy()),
-                         {file_});
+        return bad_input(
+            fmt::format("this is a checkpoint of version {}; this program resumes only version {} (version 1 does not record how "
+                        "the force was made). Finish the run with the program that started it, or {}",
+                        file_version.find_first_not_of("0123456789") == std::string::npos ? file_version : "?", checkpoint_version,
+                        remedy()),
+            {file_});
     }
     if (!fs::exists(spikes_file_, status))
         return bad_input(fmt::format("its spikes, {}, are missing; remove {} to start over, or name another file with --checkpoint",
@@ -225,12 +226,12 @@ Result<void> SkinCheckpoint::resume() {
     return check_spikes(spikes_sum);
 }
 
-/// Checks the spikes: their number and checksum as in FILE, in order, with valid afferent indexes and times.
+/// Checks that the spikes have the number and checksum in FILE, are in order, and have valid afferent indexes and times.
 Result<void> SkinCheckpoint::check_spikes(std::uint64_t checksum) {
     std::error_code status;
-    const auto size = fs::file_size(spikes_file_, status), have = (size - std::min(size, spikes_header.size())) / sizeof(StoredSpike);
-    if (status || spike_count_ > have)
-        return bad_input(fmt::format("it has {} spikes, but {} was written after {}; {}", have, file_, spike_count_, remedy()),
+    const auto size = fs::file_size(spikes_file_, status), stored = (size - std::min(size, spikes_header.size())) / sizeof(StoredSpike);
+    if (status || spike_count_ > stored)
+        return bad_input(fmt::format("it has {} spikes, but {} was written after {} spikes; {}", stored, file_, spike_count_, remedy()),
                          {spikes_file_});
     std::fseek(spikes_, static_cast<long>(spikes_header.size()), SEEK_SET);
     std::array<StoredSpike, 1024> buffer;
@@ -242,9 +243,9 @@ Result<void> SkinCheckpoint::check_spikes(std::uint64_t checksum) {
         spikes_sum_.add(buffer.data(), count * sizeof buffer[0]);
         for (std::size_t k = 0; k < count; ++k) {
             const auto& s = buffer[k];
-            const Spike spike{s.step, s.offset, static_cast<std::uint32_t>(s.unit)};
-            is_valid &= s.unit < skin_.innervation().afferents.size() && s.step >= 0 && s.step < resumed_samples_ && s.offset > 0 &&
-                        s.offset <= 1 && ((at == 0 && k == 0) || last <= spike);
+            const Spike spike{s.step, s.offset, static_cast<std::uint32_t>(s.afferent_index)};
+            is_valid &= s.afferent_index < skin_.innervation().afferents.size() && s.step >= 0 && s.step < resumed_samples_ &&
+                        s.offset > 0 && s.offset <= 1 && ((at == 0 && k == 0) || last <= spike);
             last = spike;
         }
         at += count;
@@ -277,7 +278,7 @@ Result<void> SkinCheckpoint::replay(std::int64_t end, std::vector<Spike>& spikes
             if (replayed_ >= spike_count_) return {};
             if (std::fread(&stored, sizeof stored, 1, spikes_) != 1) return damaged_file_error(spikes_file_);
             ++replayed_;
-            read_ahead_.push_back({stored.step, stored.offset, static_cast<std::uint32_t>(stored.unit)});
+            read_ahead_.push_back({stored.step, stored.offset, static_cast<std::uint32_t>(stored.afferent_index)});
         }
         if (read_ahead_[0].step >= end) return {};
         spikes.push_back(read_ahead_[0]);
@@ -295,7 +296,7 @@ Result<void> SkinCheckpoint::append(std::span<const Spike> spikes) {
     return {};
 }
 
-/// Writes the spikes to disk before the FILE that counts them, and FILE before it gets its name.
+/// Writes the spikes to disk before FILE, which contains their number; FILE gets its name only when it is complete on disk.
 Result<void> SkinCheckpoint::flush() {
     if (std::fflush(spikes_) != 0 || ::fsync(::fileno(spikes_)) != 0) return damaged_file_error(spikes_file_);
     std::string bytes = fmt::format("{}{}\n", checkpoint_magic, checkpoint_version);
@@ -312,7 +313,7 @@ Result<void> SkinCheckpoint::flush() {
     return sync_directory_of(file_);
 }
 
-/// The lock is held until both files are removed. An output that has the same name is not a checkpoint and is kept.
+/// The lock is held until both files are removed. An output of the same name is not a checkpoint and is not removed.
 void SkinCheckpoint::remove_files() {
     std::error_code ignored;
     if (begins_with(file_, checkpoint_magic)) fs::remove(file_, ignored);

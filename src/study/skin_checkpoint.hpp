@@ -52,8 +52,8 @@ private:
     std::uint64_t spike_count_ = 0;  // spikes written
     std::uint64_t replayed_ = 0;     // spikes of these that were read again
     Checksum spikes_sum_, force_sum_;
-    std::uint64_t force_to_resumed_ = 0;  // checksum of the force up to `resumed_`
-    std::vector<Spike> read_ahead_;       // read already, but of a later block
+    std::uint64_t force_to_resumed_ = 0;  // checksum of the force before `resumed_samples_`
+    std::vector<Spike> read_ahead_;       // a spike that was read but belongs to a later block
 };
 
 /// Checksum of a file's contents, as used in a RunFingerprint.

@@ -22,7 +22,7 @@ Json sources_document(const std::vector<SourceNote>& all) {
     return out;
 }
 
-/// Number of afferents of a class in each region.
+/// Number and density of the afferents of a class in each region.
 Json density_document(const Innervation& skin, std::size_t c) {
     const auto& plan = skin.plan;
     std::vector<std::int64_t> afferents(plan.sites.regions.size());
@@ -68,13 +68,13 @@ Json skin_document(const Innervation& skin) {
 }
 
 Json skin_input_document(const SkinSummary& s, const SkinRunNotes& notes) {
-    Json phases = Json::array(), facts = Json::object();
+    Json phases = Json::array(), parameters = Json::object();
     for (const auto& p : s.phases()) phases.push_back({{"name", p.name}, {"from_s", p.from}, {"to_s", p.to}});
-    for (const auto& f : notes.metadata) facts[f.name] = {{"value", f.value}, {"unit", f.unit}};
+    for (const auto& f : notes.metadata) parameters[f.name] = {{"value", f.value}, {"unit", f.unit}};
     return {{"name", s.name()},
             {"description", s.description()},
             {"contact", notes.contact},
-            {"parameters", facts},
+            {"parameters", parameters},
             {"force_min_N", s.min_force()},
             {"force_max_N", s.max_force()},
             {"samples", s.samples()},

@@ -9,7 +9,7 @@
 namespace corpuscle {
 namespace {
 
-/// Blocks are short, because all sites touched at any time within a block are simulated for the whole block.
+/// Samples per block. Blocks are short, because each site with force at any time in a block is simulated for the complete block.
 constexpr std::size_t pressed_block = 64, site_block = 256;
 
 class PressedForce final : public SkinForce {
@@ -81,7 +81,7 @@ Result<std::vector<std::uint32_t>> match_sites(const SkinPlan& plan, const Force
     if (source.channels().size() != plan.sites.size())
         return bad_input(
             fmt::format("{} has {} channels, but {} has {} sites, named {} ...; name the channels after sites with "
-                        "--layout, select as many with --channel, or use a population with its sites at the channels "
+                        "--layout, select one channel for each site with --channel, or use a population with its sites at the channels "
                         "(sites = \"channels\")",
                         source.name(), source.channels().size(), plan.name, plan.sites.size(), plan.sites.names[0]));
     return in_order;

@@ -1,13 +1,13 @@
 #pragma once
-// Spikes of a skin as NumPy's arrays.
+// Spikes of a skin as NumPy arrays.
 
 #include "io/npz.hpp"
 #include "study/skin_file_sink.hpp"
 
 namespace corpuscle {
 
-/// spikes.npz: the arrays of NpzFile (npz_file.hpp), one segment. unit_ids are the numbers of afferents.csv, unit_channel the regions;
-/// unit_x_m and unit_y_m are positions. The spikes are kept in memory until the end.
+/// spikes.npz: the arrays of NpzFile (npz_file.hpp), one segment. unit_ids are the values of afferent_index in afferents.csv,
+/// unit_channel contains the regions, unit_x_m and unit_y_m the positions. The spikes are kept in memory until the end.
 class SkinNpzFile final : public SkinFileSink {
     OutputFile file_;
     NpzWriter npz_;

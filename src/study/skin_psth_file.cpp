@@ -13,9 +13,9 @@ SkinPsthFile::SkinPsthFile(OutputFile file, double bin) : file_(std::move(file))
 
 Result<void> SkinPsthFile::begin(const SkinInput& input) {
     if (auto ok = TimeBins::check(input.clock, bin_width_); !ok) return ok;
-    const auto& [plan, units, first, fields] = input.skin;
+    const auto& plan = input.skin.plan;
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> afferents_in;  // by class and region
-    for (const auto& u : units) ++afferents_in[{u.class_index, u.region}];
+    for (const auto& u : input.skin.afferents) ++afferents_in[{u.class_index, u.region}];
     std::vector<TimeBins::Group> groups;
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> group_of;
     for (const auto& [class_and_region, count] : afferents_in) {
@@ -25,7 +25,7 @@ Result<void> SkinPsthFile::begin(const SkinInput& input) {
                           1.0 * count});
     }
     group_of_.clear();
-    for (const auto& u : units) group_of_.push_back(group_of[{u.class_index, u.region}]);
+    for (const auto& u : input.skin.afferents) group_of_.push_back(group_of[{u.class_index, u.region}]);
     bins_ = TimeBins(std::move(groups), input.clock, bin_width_);
     return {};
 }

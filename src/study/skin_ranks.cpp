@@ -12,7 +12,7 @@ namespace {
 /// The first byte of a message between the ranks of a skin run.
 enum SkinMessage : char {
     spikes_of_block = 's',  ///< worker: any number of PackedRankSpike
-    worker_stats = 'w',     ///< worker, its last message: SkinWork
+    worker_stats = 'w',     ///< worker, its last message: SkinStats
     worker_error = 'e',     ///< worker: an error code and a message
     acknowledged = 't',     ///< coordinator: a block was received
     shutdown = 'd',         ///< coordinator: the run is over
@@ -24,7 +24,7 @@ constexpr int max_unacknowledged = 8;
 struct PackedRankSpike {
     std::int64_t step;
     double offset;
-    std::uint64_t unit;
+    std::uint64_t afferent_index;
 };
 
 std::string pack_spikes(const std::vector<Spike>& spikes) {
@@ -40,7 +40,7 @@ void unpack_into(const std::string& text, std::vector<Spike>& spikes) {
     for (std::size_t at = 1; at + sizeof(PackedRankSpike) <= text.size(); at += sizeof(PackedRankSpike)) {
         PackedRankSpike s;
         std::memcpy(&s, text.data() + at, sizeof s);
-        spikes.push_back({s.step, s.offset, static_cast<std::uint32_t>(s.unit)});
+        spikes.push_back({s.step, s.offset, static_cast<std::uint32_t>(s.afferent_index)});
     }
 }
 
@@ -55,7 +55,7 @@ class DistributedSimulator final : public SkinSimulator {
     std::vector<std::deque<std::string>> received_;  // of each rank
     SkinStats others_stats_;
 
-    /// The next message of a rank.
+    /// Waits for the next message of a rank. Returns an error if that rank had one.
     Result<std::string> next_from(int rank) {
         auto& queue = received_[static_cast<std::size_t>(rank)];
         while (queue.empty()) {
@@ -70,6 +70,7 @@ class DistributedSimulator final : public SkinSimulator {
         return text;
     }
 
+    /// Adds the spikes of all other ranks for one block, in order.
     Result<void> gather(std::vector<Spike>& spikes) {
         for (int rank = 1; rank < ranks_.size(); ++rank) {
             auto text = next_from(rank);
@@ -140,8 +141,8 @@ public:
     }
 };
 
-/// Returns false if the coordinator shut the run down before the end of the force.
-Result<bool> simulate_part(WorkerChannel& channel, SkinForce& force, Skin& skin, ThreadPool& pool) {
+/// Simulates the afferents of this rank. Returns false if the coordinator shut the run down before the end of the force.
+Result<bool> simulate_rank_afferents(WorkerChannel& channel, SkinForce& force, Skin& skin, ThreadPool& pool) {
     std::vector<Spike> spikes;
     for (;;) {
         auto block = force.next();
@@ -175,7 +176,7 @@ void shut_down_skin_workers(Ranks& ranks) {
 
 Result<void> run_skin_worker(Ranks& ranks, Result<SkinForce*> force, Skin* skin, ThreadPool& pool) {
     WorkerChannel channel(ranks);
-    auto done = force ? simulate_part(channel, **force, *skin, pool) : Result<bool>(force.error());
+    auto done = force ? simulate_rank_afferents(channel, **force, *skin, pool) : Result<bool>(force.error());
     if (!done) (void)channel.send(pack_error(done.error()));
     channel.wait_for_shutdown();
     ranks.leave(true);

@@ -7,7 +7,7 @@
 
 namespace corpuscle {
 
-/// For rank 0: simulates its own part and gathers the others'. An error of any rank is reported as its own.
+/// For rank 0: simulates its own afferents and gathers the spikes of the other ranks. Returns the error of any rank.
 std::unique_ptr<SkinSimulator> distributed_skin_simulator(Ranks&, Skin& own, ThreadPool&);
 /// For rank 0, at the end of the run or after an error: makes the other ranks end.
 void shut_down_skin_workers(Ranks&);

@@ -33,13 +33,13 @@ public:
 };
 
 /// Gets the spikes of one block, by simulation or from the log.
-Result<void> run_block(const SkinForce::Block& block, std::int64_t first, SkinSimulator& skin, SkinRunLog* spool,
+Result<void> run_block(const SkinForce::Block& block, std::int64_t first, SkinSimulator& skin, SkinRunLog* run_log,
                        std::vector<Spike>& spikes) {
     spikes.clear();
     const auto steps = block.total_force.size();
-    if (spool && first < spool->resumed_samples()) return spool->replay(first + static_cast<std::int64_t>(steps), spikes);
+    if (run_log && first < run_log->resumed_samples()) return run_log->replay(first + static_cast<std::int64_t>(steps), spikes);
     if (auto ok = skin.respond(block.force, steps, spikes); !ok) return ok;
-    return spool ? spool->append(spikes) : Result<void>{};
+    return run_log ? run_log->append(spikes) : Result<void>{};
 }
 
 }  // namespace
@@ -48,8 +48,8 @@ std::unique_ptr<SkinSimulator> local_skin_simulator(Skin& skin, ThreadPool& pool
 
 Result<SkinStats> run_skin(SkinForce& force, const SkinInput& input, SkinSimulator& skin, std::span<SkinSink* const> sinks,
                            const SkinRunOptions& options) {
-    for (auto* l : sinks)
-        if (auto ok = l->begin(input); !ok) return ok.error();
+    for (auto* sink : sinks)
+        if (auto ok = sink->begin(input); !ok) return ok.error();
     std::vector<Spike> spikes;
     std::int64_t samples = 0;
     FlushTimer flush_timer;
@@ -61,8 +61,8 @@ Result<SkinStats> run_skin(SkinForce& force, const SkinInput& input, SkinSimulat
         if (options.log)
             if (auto ok = options.log->add_force(*block, samples); !ok) return ok.error();
         if (auto ok = run_block(*block, samples, skin, options.log, spikes); !ok) return ok.error();
-        for (auto* l : sinks)
-            if (auto ok = l->block(input, {samples, steps, block->force, block->total_force, spikes}); !ok) return ok.error();
+        for (auto* sink : sinks)
+            if (auto ok = sink->block(input, {samples, steps, block->force, block->total_force, spikes}); !ok) return ok.error();
         samples += static_cast<std::int64_t>(steps);
         const bool stop = !options.should_continue(force.progress());
         if (options.log && samples > options.log->resumed_samples() && (stop || flush_timer.is_due()))
@@ -74,8 +74,8 @@ Result<SkinStats> run_skin(SkinForce& force, const SkinInput& input, SkinSimulat
         if (auto ok = options.log->finish(samples); !ok) return ok.error();
     spikes.clear();
     if (auto ok = skin.flush(spikes); !ok) return ok.error();
-    for (auto* l : sinks)
-        if (auto ok = l->end(input, samples, spikes); !ok) return ok.error();
+    for (auto* sink : sinks)
+        if (auto ok = sink->end(input, samples, spikes); !ok) return ok.error();
     return skin.stats();
 }
 

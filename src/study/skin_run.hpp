@@ -12,7 +12,7 @@ namespace corpuscle {
 
 /// The input of a run.
 struct SkinInput {
-    std::string name;         ///< of the force: "press"
+    std::string name;         ///< name of the force: "press"
     std::string description;  ///< "a sphere of 5 mm, pressed with ..."
     Clock clock;
     std::vector<Phase> phases;
@@ -21,7 +21,7 @@ struct SkinInput {
 
 /// The response to one block of force.
 struct SkinRunBlock {
-    std::int64_t first_sample = 0;  ///< number of the block's first sample
+    std::int64_t first_sample = 0;  ///< index of the block's first sample
     std::size_t steps = 0;
     const SiteForce& force;
     std::span<const double> total_force;  ///< total force of all sites at each step, N
@@ -33,7 +33,7 @@ public:
     virtual ~SkinSink() = default;
     virtual Result<void> begin(const SkinInput&) { return {}; }
     virtual Result<void> block(const SkinInput&, const SkinRunBlock&) { return {}; }
-    /// `last`: spikes that are still under conduction at the end of the force.
+    /// `last`: spikes that the nerve fibres are still conducting at the end of the force.
     virtual Result<void> end(const SkinInput&, std::int64_t /*samples*/, std::span<const Spike> /*last*/) { return {}; }
 };
 
@@ -46,14 +46,14 @@ public:
         std::span<const double> total_force;  ///< of all sites together, N; one value for each step of the block
     };
     virtual ~SkinForce() = default;
-    /// A block without samples is the end.
+    /// Returns the next block; at the end of the force, a block without samples.
     virtual Result<Block> next() = 0;
     virtual double progress() const = 0;  ///< completed fraction, 0 to 1
 };
 
-/// One channel of force, pressed onto the skin.
+/// The force at the sites when a contact presses one channel of force onto the skin.
 std::unique_ptr<SkinForce> make_pressed_force(ForceSource&, Contact&);
-/// One channel for each site; `sites`: the site of each channel.
+/// The force at the sites from one channel for each site; `sites`: the site of each channel.
 std::unique_ptr<SkinForce> make_site_force(ForceSource&, std::vector<std::uint32_t> sites, std::size_t all_sites);
 /// The site of each channel of a recording: by name, or by order if there are as many channels as sites.
 Result<std::vector<std::uint32_t>> match_sites(const SkinPlan&, const ForceSource&);
@@ -62,7 +62,9 @@ Result<std::vector<std::uint32_t>> match_sites(const SkinPlan&, const ForceSourc
 class SkinSimulator {
 public:
     virtual ~SkinSimulator() = default;
+    /// Simulates these steps and appends their spikes.
     virtual Result<void> respond(const SiteForce&, std::size_t steps, std::vector<Spike>&) = 0;
+    /// Call after the last step: appends the spikes that the nerve fibres are still conducting.
     virtual Result<void> flush(std::vector<Spike>&) = 0;
     virtual SkinStats stats() const = 0;
 };
@@ -74,7 +76,7 @@ class SkinRunLog {
 public:
     virtual ~SkinRunLog() = default;
     virtual std::int64_t resumed_samples() const = 0;  ///< samples simulated before this run
-    /// Takes the force of the next block. If the block was simulated before, returns an error unless its force is the same.
+    /// Adds the force of the next block to the log. If the block was simulated before, returns an error unless its force is the same.
     virtual Result<void> add_force(const SkinForce::Block&, std::int64_t first) = 0;
     /// Replays the spikes of the next block that was simulated before.
     virtual Result<void> replay(std::int64_t end, std::vector<Spike>&) = 0;
@@ -82,7 +84,7 @@ public:
     virtual Result<void> append(std::span<const Spike>) = 0;
     /// Makes everything so far durable.
     virtual Result<void> flush() = 0;
-    /// The force had this many samples.
+    /// Call at the end of the force, which had this many samples.
     virtual Result<void> finish(std::int64_t samples) = 0;
 };
 

@@ -62,7 +62,7 @@ std::vector<SilentClass> SkinSilenceDetector::silent_classes(Method method, bool
         if (has_fired_[c] || skin_->class_begin[c + 1] == skin_->class_begin[c]) continue;
         out.push_back({c, max_force_[c], {}});
         if (!(max_force_[c] > 0 && max_total_force_ > 0)) continue;
-        auto force_on_afferent = total_force_;  // force on the afferent with the largest force
+        auto force_on_afferent = total_force_;  // scaled to the afferent with the largest force
         for (auto& f : force_on_afferent) f *= max_force_[c] / max_total_force_;
         out.back().factor = factor_to_fire(skin_->plan.classes[c].afferent, {dt_, method, sampled, 0, 0}, force_on_afferent);
     }

@@ -14,8 +14,8 @@ struct SilentClass {
     std::optional<double> factor;  ///< by which the stimulus must be stronger for one of them to fire
 };
 
-/// Estimates the force on each afferent, from above, by its receptive field's mean over the largest force of each site within a block.
-/// Exact if the sites have their largest force at the same time. Memory is proportional to sites and afferents.
+/// Computes an upper bound of the force on each afferent: the weighted mean, over its receptive field, of the largest force of each site
+/// within a block. Exact if the sites have their largest force at the same time. Memory is proportional to sites and afferents.
 class SkinSilenceDetector final : public SkinSink {
     const Innervation* skin_ = nullptr;
     double dt_ = 0, max_total_force_ = 0;

@@ -7,7 +7,7 @@
 namespace corpuscle {
 namespace {
 
-/// For each afferent the site with its largest weight; the first of equals.
+/// For each afferent, the site with its largest weight; the first such site if several weights are equal.
 std::vector<std::uint32_t> main_sites(const Innervation& skin) {
     std::vector<std::uint32_t> site(skin.afferents.size());
     std::vector<double> weight(skin.afferents.size());
@@ -34,12 +34,12 @@ Result<void> SkinSummary::begin(const SkinInput& input) {
     skin_ = &input.skin;
     name_ = input.name, description_ = input.description, clock_ = since_start_ = input.clock, phases_ = input.phases;
     since_start_.t0 = 0;  // times since 1970 would lose precision
-    const auto units = skin_->afferents.size();
-    if (phases_.size() * units > max_phase_counts) phases_.clear();
+    const auto afferents = skin_->afferents.size();
+    if (phases_.size() * afferents > max_phase_counts) phases_.clear();
     samples_ = all_spikes_ = 0, min_force_ = max_force_ = 0, touch_start_ = no_value;
-    counts_.assign(units, 0), first_times_.assign(units, no_value);
-    last_times_.assign(units, -INFINITY), shortest_intervals_.assign(units, INFINITY);
-    phase_counts_.assign(phases_.size() * units, 0);
+    counts_.assign(afferents, 0), first_times_.assign(afferents, no_value);
+    last_times_.assign(afferents, -INFINITY), shortest_intervals_.assign(afferents, INFINITY);
+    phase_counts_.assign(phases_.size() * afferents, 0);
     site_touched_samples_.assign((phases_.size() + 1) * skin_->plan.sites.size(), 0);
     spikes_while_touched_.assign((phases_.size() + 1) * skin_->plan.classes.size() * skin_->plan.sites.regions.size(), 0);
     main_site_ = main_sites(*skin_);
@@ -55,12 +55,12 @@ std::size_t SkinSummary::phase_of(double t) const {
 /// True if the site of an afferent's largest weight has force at this sample of the block.
 bool SkinSummary::is_touched(const SkinRunBlock& block, std::size_t afferent_index, std::int64_t sample) const {
     const auto site = main_site_[afferent_index];
-    const auto& [of, stride, touched, all] = block.force;
-    if (!all && !std::binary_search(touched.begin(), touched.end(), site)) return false;
-    return of[site * stride + static_cast<std::size_t>(sample - block.first_sample)] > 0;
+    const auto& [data, stride, touched, reads_all] = block.force;
+    if (!reads_all && !std::binary_search(touched.begin(), touched.end(), site)) return false;
+    return data[site * stride + static_cast<std::size_t>(sample - block.first_sample)] > 0;
 }
 
-/// `block`: the block in which the spikes arrive; null after the last block.
+/// Counts spikes. `block`: the block in which they arrive; null after the last block.
 void SkinSummary::add(std::span<const Spike> spikes, const SkinRunBlock* block) {
     for (const auto& s : spikes) {
         const double t = since_start_.time(s.step, s.offset);
@@ -75,7 +75,7 @@ void SkinSummary::add(std::span<const Spike> spikes, const SkinRunBlock* block) 
     all_spikes_ += static_cast<std::int64_t>(spikes.size());
 }
 
-/// Splits the block into parts that are in one phase and counts the samples with force at each site.
+/// Splits the block at the edges of phases and counts the samples with force at each site in each phase.
 void SkinSummary::count_touched_samples(const SkinRunBlock& block) {
     const auto sites = skin_->plan.sites.size();
     const auto time = [&](std::size_t k) { return since_start_.time(block.first_sample + static_cast<std::int64_t>(k)); };
@@ -110,7 +110,7 @@ std::size_t SkinSummary::group_index(const SkinAfferent& u, std::size_t phase) c
     return (phase * skin_->plan.classes.size() + u.class_index) * skin_->plan.sites.regions.size() + u.region;
 }
 
-/// Spikes of a class that arrived while their afferents were touched; in one region and phase, or in all.
+/// Number of spikes of a row that arrived while their afferents were touched.
 std::int64_t SkinSummary::count_spikes_while_touched(const SkinSummaryRow& r) const {
     std::int64_t sum = 0;
     for (std::uint32_t region = 0; region < skin_->plan.sites.regions.size(); ++region)
@@ -121,7 +121,7 @@ std::int64_t SkinSummary::count_spikes_while_touched(const SkinSummaryRow& r) co
     return sum;
 }
 
-/// In one phase, or in all.
+/// Number of samples at which an afferent is touched, in one phase or in all.
 std::int64_t SkinSummary::touched_samples(std::size_t afferent_index, std::size_t phase) const {
     const auto sites = skin_->plan.sites.size();
     if (phase != SkinSummaryRow::all) return site_touched_samples_[phase * sites + main_site_[afferent_index]];
@@ -131,12 +131,13 @@ std::int64_t SkinSummary::touched_samples(std::size_t afferent_index, std::size_
 }
 
 SkinSummaryRow SkinSummary::row(std::size_t class_index, std::size_t region, std::size_t phase,
-                                std::span<const std::uint32_t> units) const {
-    SkinSummaryRow r{.class_index = class_index, .region = region, .phase = phase, .afferents = static_cast<std::int64_t>(units.size())};
+                                std::span<const std::uint32_t> afferents) const {
+    SkinSummaryRow r{
+        .class_index = class_index, .region = region, .phase = phase, .afferents = static_cast<std::int64_t>(afferents.size())};
     r.seconds = phase == SkinSummaryRow::all ? seconds() : std::max(std::min(phases_[phase].to, seconds()) - phases_[phase].from, 0.0);
     std::int64_t max_spikes = 0, touched = 0;
     std::vector<double> firsts;
-    for (const auto u : units) {
+    for (const auto u : afferents) {
         const std::int64_t spikes = phase == SkinSummaryRow::all ? counts_[u] : phase_counts_[phase * counts_.size() + u];
         const auto samples = touched_samples(u, phase);
         r.spikes += spikes, r.active += spikes > 0, r.touched += samples > 0;
@@ -153,9 +154,9 @@ SkinSummaryRow SkinSummary::row(std::size_t class_index, std::size_t region, std
     return r;
 }
 
-void SkinSummary::add_rows(std::size_t class_index, std::size_t region, const std::vector<std::uint32_t>& units) {
-    rows_.push_back(row(class_index, region, SkinSummaryRow::all, units));
-    for (std::size_t p = 0; p < phases_.size(); ++p) rows_.push_back(row(class_index, region, p, units));
+void SkinSummary::add_rows(std::size_t class_index, std::size_t region, const std::vector<std::uint32_t>& afferents) {
+    rows_.push_back(row(class_index, region, SkinSummaryRow::all, afferents));
+    for (std::size_t p = 0; p < phases_.size(); ++p) rows_.push_back(row(class_index, region, p, afferents));
 }
 
 Result<void> SkinSummary::end(const SkinInput&, std::int64_t samples, std::span<const Spike> last) {
@@ -180,8 +181,8 @@ Result<void> SkinSummary::end(const SkinInput&, std::int64_t samples, std::span<
 std::pair<std::size_t, double> SkinSummary::count_faster_than(std::size_t class_index, double rate) const {
     const auto from = shortest_intervals_.begin() + static_cast<std::ptrdiff_t>(skin_->class_begin[class_index]),
                to = shortest_intervals_.begin() + static_cast<std::ptrdiff_t>(skin_->class_begin[class_index + 1]);
-    const auto units = std::count_if(from, to, [&](double interval) { return interval < 1 / rate; });
-    return {static_cast<std::size_t>(units), from == to ? 0 : 1 / *std::min_element(from, to)};
+    const auto afferents = std::count_if(from, to, [&](double interval) { return interval < 1 / rate; });
+    return {static_cast<std::size_t>(afferents), from == to ? 0 : 1 / *std::min_element(from, to)};
 }
 
 std::vector<SkinSummary::FirstSpike> SkinSummary::first_spikes(std::size_t count) const {

@@ -16,27 +16,27 @@ namespace corpuscle {
 struct SkinRunNotes {
     Method method = Method::exact;
     bool sampled = false;
-    std::string contact = {};                  ///< its description; "": force at the sites, from a recording
+    std::string contact = {};                  ///< its description; empty if a recording gives the force at each site
     std::vector<MetadataEntry> metadata = {};  ///< of the force and of the contact
     std::vector<std::string> notes = {};       ///< of the source and of the contact: their simplifications
     std::vector<std::string> warnings = {};    ///< why the response may be wrong
     SkinStats stats = {};
 };
 
-/// A class in one region or all, during one phase or all.
+/// Statistics of a class in one region or in all regions, during one phase or all phases.
 struct SkinSummaryRow {
     static constexpr std::size_t all = static_cast<std::size_t>(-1);
     std::size_t class_index = 0, region = all, phase = all;
     std::int64_t afferents = 0, active = 0;  ///< active: with at least one spike
-    std::int64_t touched = 0;                ///< afferents whose site of largest weight had force
+    std::int64_t touched = 0;                ///< afferents with force at the site of their largest weight
     std::int64_t spikes = 0;
     double seconds = 0;  ///< duration of the phase
     /// Hz: spikes that arrived while their afferent was touched, divided by the time that afferents were touched
     double touched_rate = no_value;
-    double max_rate = 0;                   ///< Hz: highest rate of an afferent over the phase; none if it has one spike
+    double max_rate = 0;                   ///< Hz: highest rate of an afferent over the phase; NaN if that is a single spike
     double first_spike = no_value;         ///< s since the start: the earliest spike; for rows over all phases
     double median_first_spike = no_value;  ///< s since the start: median of the afferents' first spikes
-    /// Hz, of one active afferent; a single spike has no rate.
+    /// Mean rate of the active afferents, Hz; a single spike has no rate.
     double rate() const {
         if (spikes == 1) return no_value;
         return seconds > 0 && active > 0 ? static_cast<double>(spikes) / (static_cast<double>(active) * seconds) : 0;
@@ -77,7 +77,7 @@ public:
     double touch_start() const { return touch_start_; }
     const std::vector<std::int64_t>& counts() const { return counts_; }      ///< spikes of each afferent
     const std::vector<double>& first_times() const { return first_times_; }  ///< s since the start; NaN if there is none
-    /// s during which the site of each afferent's largest weight had force
+    /// s during which there was force at the site where an afferent has its largest weight, for each afferent
     const std::vector<double>& touched_times() const { return touched_times_; }
 
     /// The number of afferents of a class that had an interval shorter than 1 / rate, and the highest rate of any interval; Hz.
@@ -97,10 +97,10 @@ private:
     std::int64_t samples_ = 0, all_spikes_ = 0;
     double min_force_ = 0, max_force_ = 0, touch_start_ = no_value;
     std::vector<std::int64_t> counts_;
-    std::vector<std::uint32_t> phase_counts_;  // [phase][unit]
+    std::vector<std::uint32_t> phase_counts_;  // [phase][afferent]
     std::vector<double> first_times_, touched_times_;
     std::vector<double> last_times_, shortest_intervals_;  // of each afferent: its last spike, and its shortest interval; s
-    std::vector<std::uint32_t> main_site_;                 // site of each afferent's largest weight
+    std::vector<std::uint32_t> main_site_;                 // for each afferent, the site with its largest weight
     std::vector<std::int64_t> site_touched_samples_;       // [phase; after the last: no phase][site], samples
     std::vector<SkinSummaryRow> rows_;
 
@@ -113,8 +113,8 @@ private:
     void count_touched_samples(const SkinRunBlock&);
     std::size_t phase_of(double t) const;
     std::int64_t touched_samples(std::size_t afferent_index, std::size_t phase) const;
-    void add_rows(std::size_t class_index, std::size_t region, const std::vector<std::uint32_t>& units);
-    SkinSummaryRow row(std::size_t class_index, std::size_t region, std::size_t phase, std::span<const std::uint32_t> units) const;
+    void add_rows(std::size_t class_index, std::size_t region, const std::vector<std::uint32_t>& afferents);
+    SkinSummaryRow row(std::size_t class_index, std::size_t region, std::size_t phase, std::span<const std::uint32_t> afferents) const;
 };
 
 }  // namespace corpuscle

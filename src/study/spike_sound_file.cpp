@@ -10,13 +10,14 @@
 namespace corpuscle {
 namespace {
 
-/// The gain of stereo position a of n on one ear: from fully left to fully right.
-double gain(std::size_t a, std::size_t n, std::size_t ear) {
+/// The gain of stereo position a of n on one ear; position 0 is fully left, n - 1 fully right.
+double ear_gain(std::size_t a, std::size_t n, std::size_t ear) {
     if (n == 1) return 1;
     const double right = static_cast<double>(a) / static_cast<double>(n - 1);
     return ear == 0 ? 1 - right : right;
 }
 
+/// Time of a step since the start of the input, s.
 double since_start(const Input& input, std::int64_t step, double offset = 1) {
     auto clock = input.source.clock();
     clock.t0 = 0;
@@ -29,24 +30,24 @@ std::int64_t frame_of(double t) { return std::llround(t * SpikeSoundFile::sample
 
 void SpikeSoundFile::SoundCloser::operator()(sf_private_tag* wav) const { sf_close(wav); }
 
-/// Full level at once, then an exponential decay with a time constant of a quarter of a millisecond.
+/// A click starts at its full level and decays exponentially with a time constant of a quarter of a millisecond.
 Result<void> SpikeSoundFile::shape_clicks(const Input& input) {
     const auto groups = copy_group_starts(input.plans);
-    const std::size_t places = groups.size() - 1;  // copies share the position of their original
+    const std::size_t positions = groups.size() - 1;  // copies share the position of their original
     position_of_.clear();
-    for (std::size_t p = 0; p < places; ++p) position_of_.resize(groups[p + 1], p);
-    sound_channels_ = places == 1 ? 1 : 2;
-    const double loudness_sum = static_cast<double>(input.plans.size()) / (places == 1 ? 1 : 2);  // the gains on one ear add up to this
+    for (std::size_t p = 0; p < positions; ++p) position_of_.resize(groups[p + 1], p);
+    sound_channels_ = positions == 1 ? 1 : 2;
+    const double loudness_sum = static_cast<double>(input.plans.size()) / (positions == 1 ? 1 : 2);  // sum of the gains on one ear
     const double loudest = 0.9 * 32767 / (loudness_sum * static_cast<double>(input.source.channels().size()));
     if (loudest < 1)
         return bad_input(fmt::format("'{}': {} afferents at once would make each click too soft for 16 bits; run it without --wav",
                                      input.name, input.afferent_count()));
-    click_shape_.assign(places, {});
-    for (std::size_t p = 0; p < places; ++p)
+    click_shape_.assign(positions, {});
+    for (std::size_t p = 0; p < positions; ++p)
         for (std::int64_t k = 0; k < click_frames; ++k)
             for (std::size_t ear = 0; ear < sound_channels_; ++ear)
                 click_shape_[p].push_back(
-                    static_cast<int>(loudest * gain(p, places, ear) * num::exp(static_cast<double>(-4 * k) / click_frames)));
+                    static_cast<int>(loudest * ear_gain(p, positions, ear) * num::exp(static_cast<double>(-4 * k) / click_frames)));
     return {};
 }
 
@@ -67,13 +68,13 @@ Result<void> SpikeSoundFile::begin(const Input& input) {
     return {};
 }
 
-void SpikeSoundFile::add_click(std::size_t afferent_index, std::size_t sound, std::int64_t frame) {
-    const auto place = [this](std::int64_t f) { return static_cast<std::size_t>(f - written_) * sound_channels_; };
-    pending_.resize(std::max(pending_.size(), place(frame + click_frames)));
-    const auto& shape = click_shape_[sound];
-    const auto since = static_cast<std::size_t>(std::min(frame - last_click_[afferent_index], click_frames)) * sound_channels_;
-    for (std::size_t k = since; k < shape.size(); ++k) pending_[place(frame) + k - since] -= shape[k];
-    for (std::size_t k = 0; k < shape.size(); ++k) pending_[place(frame) + k] += shape[k];
+void SpikeSoundFile::add_click(std::size_t afferent_index, std::size_t position, std::int64_t frame) {
+    const auto index_of = [this](std::int64_t f) { return static_cast<std::size_t>(f - written_) * sound_channels_; };
+    pending_.resize(std::max(pending_.size(), index_of(frame + click_frames)));
+    const auto& shape = click_shape_[position];
+    const auto skipped = static_cast<std::size_t>(std::min(frame - last_click_[afferent_index], click_frames)) * sound_channels_;
+    for (std::size_t k = skipped; k < shape.size(); ++k) pending_[index_of(frame) + k - skipped] -= shape[k];
+    for (std::size_t k = 0; k < shape.size(); ++k) pending_[index_of(frame) + k] += shape[k];
     last_click_[afferent_index] = frame;
 }
 
@@ -85,7 +86,7 @@ Result<void> SpikeSoundFile::write_up_to(std::int64_t frame) {
     pending_.erase(pending_.begin(), pending_.begin() + static_cast<std::ptrdiff_t>(values));
     auto& [file, wav] = sounds_.back();
     if (sf_writef_short(wav.get(), out_.data(), frame - written_) != frame - written_)
-        return bad_input(fmt::format("cannot write all of it: {}", sf_strerror(wav.get())), {file.path()});
+        return bad_input(fmt::format("cannot write the complete sound: {}", sf_strerror(wav.get())), {file.path()});
     written_ = frame;
     return {};
 }
@@ -107,7 +108,7 @@ Result<void> SpikeSoundFile::end(const Input& input, std::int64_t samples) {
     const auto clicks_end = written_ + static_cast<std::int64_t>(pending_.size() / sound_channels_);
     if (auto ok = write_up_to(std::max(frame_of(since_start(input, samples)), clicks_end)); !ok) return ok;
     auto& [file, wav] = sounds_.back();
-    if (sf_close(wav.release()) != 0) return bad_input("cannot write all of it", {file.path()});
+    if (sf_close(wav.release()) != 0) return bad_input("cannot write the complete sound", {file.path()});
     return {};
 }
 

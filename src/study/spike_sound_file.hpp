@@ -10,9 +10,9 @@ struct sf_private_tag;
 namespace corpuscle {
 
 /// spikes.wav, and spikes-2.wav ... for further inputs: 44.1 kHz, 16 bits. A spike is a click of one millisecond that begins on the nearest
-/// sample. One afferent is mono. Of several, the first is on the left, the last on the right, the others between; copies share the position
-/// of their original. A new click of an afferent cuts off its previous one. The level is such that clicks of all afferents at once do not
-/// clip.
+/// sample. One afferent gives a mono file. With several, the first is on the left, the last on the right, the others between; copies have
+/// the position of their original. A new click of an afferent cuts off its previous one. The level is such that clicks of all afferents at
+/// once do not clip.
 class SpikeSoundFile final : public FileSink {
     struct SoundCloser {
         void operator()(sf_private_tag*) const;
@@ -32,7 +32,7 @@ class SpikeSoundFile final : public FileSink {
     std::vector<short> out_;
 
     Result<void> shape_clicks(const Input&);
-    void add_click(std::size_t afferent_index, std::size_t sound, std::int64_t frame);
+    void add_click(std::size_t afferent_index, std::size_t position, std::int64_t frame);
     Result<void> write_up_to(std::int64_t frame);
 
 public:

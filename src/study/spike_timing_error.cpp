@@ -8,7 +8,7 @@
 namespace corpuscle {
 
 Result<SpikeTimingError> spike_timing_error(const std::vector<double>& exact, const std::vector<double>& other) {
-    const auto alignment = align_trains(exact, other, 2 / 50e-3);
+    const auto alignment = align_trains(exact, other, 2 / 50e-3);  // spikes closer than 50 ms are matched
     if (!alignment) return alignment.error();
     SpikeTimingError out;
     std::vector<double> delays;

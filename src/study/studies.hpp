@@ -1,5 +1,5 @@
 #pragma once
-// The studies that studies.def names. Each has a file in studies/ and a namespace of its own in it, corpuscle::studies::NAME.
+// The studies listed in studies.def. The study NAME is defined in a file of studies/, in the namespace corpuscle::studies::NAME.
 
 #include "study/study.hpp"
 
@@ -18,7 +18,8 @@ inline constexpr const Study* all_studies[] = {
 };
 #undef STUDY
 
-/// Studies of published recordings, which are kept beside the project and may be absent. Not part of "all"; they run if named.
+/// Studies of published recordings. The recordings are not part of the project and may be absent, so these studies are not included in
+/// "all"; they run if named.
 namespace studies::eskin_press {
 extern const Study study;
 }

@@ -13,21 +13,21 @@ namespace {
 /// Progress and first error of several studies that run on different threads.
 class StudyProgress {
     const StudyOptions& options_;
-    std::mutex guard_;
+    std::mutex mutex_;
     std::vector<double> fractions_;
     std::optional<Error> error_;
 
 public:
     StudyProgress(const StudyOptions& options, std::size_t count) : options_(options), fractions_(count) {}
 
-    bool update(std::size_t which, double fraction) {
-        const std::lock_guard lock(guard_);
-        fractions_[which] = fraction;
+    bool update(std::size_t index, double fraction) {
+        const std::lock_guard lock(mutex_);
+        fractions_[index] = fraction;
         return !error_ && options_.should_continue(std::accumulate(fractions_.begin(), fractions_.end(), 0.0) /
                                                    static_cast<double>(fractions_.size()));
     }
     void fail(std::string_view name, Error error) {
-        const std::lock_guard lock(guard_);
+        const std::lock_guard lock(mutex_);
         if (error_) return;
         if (error.code != ErrorCode::interrupted) error.message = fmt::format("{}: {}", name, error.message);
         error_ = std::move(error);

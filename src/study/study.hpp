@@ -16,7 +16,7 @@ namespace corpuscle {
 struct StudyResult {
     std::vector<Claim> claims;
     std::vector<StudyPlot> plots;
-    std::vector<std::string> notes;  ///< findings, and what is left out
+    std::vector<std::string> notes;  ///< findings, and the limits of the study
 
     /// A computed number. The published value follows: claim("V_Q", v, "V").published_as(350.1e-3, "table 17").
     Claim& claim(std::string label, double computed, std::string unit = {}) {
@@ -38,7 +38,7 @@ struct StudyOptions {
     std::function<bool(double)> should_continue = [](double) { return true; };
     std::string recordings_folder = {};  ///< the folder of published recordings, for studies of them
 
-    /// The same, as an error that a study returns.
+    /// Calls should_continue. If that returns false, returns an error of code `interrupted`, which the study passes on.
     Result<void> report_progress(double fraction) const {
         return should_continue(fraction) ? Result<void>() : Error{ErrorCode::interrupted, "interrupted"};
     }
@@ -48,9 +48,9 @@ struct Study {
     std::string_view name, title;
     std::string_view question;  ///< the published statement or the question, and its source
     Result<StudyResult> (*compute)(const StudyOptions&);
-    std::string_view recording_folder = {};  ///< the folder it needs within StudyOptions::recordings; "": none
+    std::string_view recording_folder = {};  ///< the folder it needs within StudyOptions::recordings_folder; "": none
 
-    /// Runs the study, unless it is stopped before or after.
+    /// Runs the study. Returns the error `interrupted` if the callback stops it, also before or after the computation.
     Result<StudyResult> run(const StudyOptions& options) const {
         if (auto ok = options.report_progress(0); !ok) return ok.error();
         auto outcome = compute(options);
@@ -60,7 +60,7 @@ struct Study {
     }
 };
 
-/// Runs all of them, several at once. The first error ends the run.
+/// Runs all these studies, several in parallel. The first error ends the run.
 Result<std::vector<StudyResult>> run_studies(std::span<const Study* const>, const StudyOptions&);
 
 }  // namespace corpuscle

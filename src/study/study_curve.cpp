@@ -39,10 +39,10 @@ StudyCurve StudyCurve::slope() const {
     return out;
 }
 
-StudyCurve StudyCurve::scaled(double of_x, double of_y) const {
+StudyCurve StudyCurve::scaled(double x_factor, double y_factor) const {
     StudyCurve out = *this;
-    for (double& v : out.x) v *= of_x;
-    for (double& v : out.y) v *= of_y;
+    for (double& v : out.x) v *= x_factor;
+    for (double& v : out.y) v *= y_factor;
     return out;
 }
 

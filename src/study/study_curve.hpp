@@ -5,19 +5,19 @@
 
 namespace corpuscle {
 
-/// Pairs with rising x. Functions return NaN if there is nothing to read.
+/// Pairs with rising x. Functions return NaN if the curve has no such value.
 struct StudyCurve {
     std::vector<double> x, y;
 
     bool empty() const { return x.empty(); }
     /// Linear interpolation between two pairs; NaN beyond the ends.
-    double at(double place) const;
+    double at(double at_x) const;
     /// The first x, from `from` on, at which y crosses the level.
     double crossing(double level, double from = -1e300) const;
     /// dy/dx at every pair except the ends, from the parabola through the pair and its neighbours.
     StudyCurve slope() const;
-    double slope_at(double place) const { return slope().at(place); }
-    StudyCurve scaled(double of_x, double of_y) const;
+    double slope_at(double at_x) const { return slope().at(at_x); }
+    StudyCurve scaled(double x_factor, double y_factor) const;
     StudyCurve absolute() const;
     StudyCurve inverse() const;  ///< 1/y
     /// The pairs from one x to another.
@@ -30,7 +30,7 @@ struct StudyCurve {
     double x_of_max() const;
     /// A straight line fitted by least squares.
     struct LineFit {
-        double intercept, slope, max_deviation;  ///< farthest: the largest distance in y from the line
+        double intercept, slope, max_deviation;  ///< max_deviation: the largest distance in y from the line
     };
     LineFit fit_line() const;
 };

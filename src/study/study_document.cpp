@@ -11,7 +11,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json numbers(const std::vector<double>& values) {
+Json number_array(const std::vector<double>& values) {
     Json out = Json::array();
     for (const double x : values) out.push_back(json_number(x));
     return out;
@@ -35,14 +35,15 @@ Json document_of(const StudyPlot& p) {
     Json series = Json::array();
     constexpr const char* styles[] = {"line", "points", "raster", "path"};
     for (const auto& s : p.series)
-        series.push_back({{"name", s.name}, {"style", styles[static_cast<int>(s.style)]}, {"x", numbers(s.x)}, {"y", numbers(s.y)}});
+        series.push_back(
+            {{"name", s.name}, {"style", styles[static_cast<int>(s.style)]}, {"x", number_array(s.x)}, {"y", number_array(s.y)}});
     return {
         {"title", p.title}, {"published", p.published_shape}, {"x", p.x_label}, {"y", p.y_label}, {"log_x", p.log_x}, {"log_y", p.log_y},
         {"series", series}};
 }
 
 /// A cell of a Markdown table.
-std::string cell(std::string_view text) {
+std::string markdown_cell(std::string_view text) {
     std::string out;
     for (const char c : text) {
         if (c == '|') out += '\\';
@@ -51,7 +52,7 @@ std::string cell(std::string_view text) {
     return out;
 }
 
-/// Number of claims of a kind that agree, and that do not.
+/// Number of claims of one kind that agree, and that deviate.
 struct VerdictCount {
     int agreeing = 0, deviating = 0;
     void add(const Claim& c) { c.needs_explanation() ? ++deviating : ++agreeing; }
@@ -61,20 +62,20 @@ void put_table(std::string& text, const StudyResult& outcome) {
     if (outcome.claims.empty()) return;
     text += "| | computed | published | deviation | allowed | | source, reason |\n|---|---|---|---|---|---|---|\n";
     for (const auto& c : outcome.claims)
-        text += fmt::format("| {} | {} | {} | {} | {} | {} | {} |\n", cell(c.label), format_claim_value(c.computed, c), format_published(c),
-                            format_deviation(c), format_allowed_range(c), c.verdict(),
-                            cell(c.source + (c.source.empty() || c.note.empty() ? "" : "; ") + c.note));
+        text += fmt::format("| {} | {} | {} | {} | {} | {} | {} |\n", markdown_cell(c.label), format_claim_value(c.computed, c),
+                            format_published(c), format_deviation(c), format_allowed_range(c), c.verdict(),
+                            markdown_cell(c.source + (c.source.empty() || c.note.empty() ? "" : "; ") + c.note));
     text += '\n';
 }
 
 void put_deviations(std::string& text, std::span<const Study* const> studies, std::span<const StudyResult> outcomes) {
-    text += "| study | what | computed | published | deviation | allowed | reason, if it deviates |\n|---|---|---|---|---|---|---|\n";
+    text += "| study | quantity | computed | published | deviation | allowed | reason, if it deviates |\n|---|---|---|---|---|---|---|\n";
     for (std::size_t k = 0; k < studies.size(); ++k)
         for (const auto& c : outcomes[k].claims)
             if (is_headline(c))
-                text += fmt::format("| [{0}](#{0}) | {1} | {2} | {3} | {4} | {5} | {6} |\n", studies[k]->name, cell(c.label),
+                text += fmt::format("| [{0}](#{0}) | {1} | {2} | {3} | {4} | {5} | {6} |\n", studies[k]->name, markdown_cell(c.label),
                                     format_claim_value(c.computed, c), format_published(c), format_deviation(c), format_allowed_range(c),
-                                    c.needs_explanation() ? cell(c.note) : "");
+                                    c.needs_explanation() ? markdown_cell(c.note) : "");
 }
 
 }  // namespace
@@ -82,14 +83,14 @@ void put_deviations(std::string& text, std::span<const Study* const> studies, st
 bool is_headline(const Claim& c) { return c.needs_explanation() || (!std::isnan(c.published) && !c.is_derived); }
 
 std::string verdict_counts(std::span<const StudyResult> outcomes) {
-    VerdictCount printed, follow, other;
+    VerdictCount published, derived, other;
     for (const auto& outcome : outcomes)
         for (const auto& c : outcome.claims)
-            if (*c.verdict() != 0) (c.has_allowed_range() ? other : c.is_derived ? follow : printed).add(c);
+            if (*c.verdict() != 0) (c.has_allowed_range() ? other : c.is_derived ? derived : published).add(c);
     return fmt::format(
         "{} published numbers agree within a tenth, {} differ by more. {} numbers agree with values derived from published ones (in "
         "brackets: by an equation, a sentence or the thesis's model), {} differ. {} claims in words hold, {} do not.",
-        printed.agreeing, printed.deviating, follow.agreeing, follow.deviating, other.agreeing, other.deviating);
+        published.agreeing, published.deviating, derived.agreeing, derived.deviating, other.agreeing, other.deviating);
 }
 
 Json document_of(const Study& study, const StudyResult& outcome) {
@@ -103,8 +104,8 @@ Json document_of(const Study& study, const StudyResult& outcome) {
 std::string markdown_of(std::span<const Study* const> studies, std::span<const StudyResult> outcomes) {
     const bool from_recording = !studies.empty() && !studies.front()->recording_folder.empty();
     std::string text = fmt::format(
-        "# {}, reproduced\n\nWritten by `corpuscle study {}` (`make reproduction` writes this page{}); its only typed numbers are the "
-        "published ones. {} Deviations have a reason if one is known.\n\n## Published numbers, and deviations\n\n",
+        "# {}, reproduced\n\nWritten by `corpuscle study {}` (`make reproduction` writes this page{}). All numbers are "
+        "computed, except the published ones. {} Deviations have a reason if one is known.\n\n## Published numbers, and deviations\n\n",
         from_recording ? "A published recording" : "Every figure and table", from_recording ? studies.front()->name : "all",
         from_recording ? " if the recording is in CORPUSCLE_DATA" : ", and `out/reproduction.html` with the pictures",
         verdict_counts(outcomes));

@@ -27,13 +27,13 @@ using circuit::RunOptions;
 using circuit::Values;
 
 Result<Netlist> netlist_of(const StudyNetlist& deck) {
-    const bool own = deck.circuit.find('\n') != std::string::npos;
-    const auto file = own ? std::string("circuits/study.cir") : fmt::format("circuits/{}.cir", deck.circuit);
+    const bool is_text = deck.circuit.find('\n') != std::string::npos;
+    const auto file = is_text ? std::string("circuits/study.cir") : fmt::format("circuits/{}.cir", deck.circuit);
     std::string text = deck.circuit;
-    if (!own) {
-        auto carried = embedded_text(file);
-        if (!carried) return carried.error();
-        text = std::move(*carried);
+    if (!is_text) {
+        auto embedded = embedded_text(file);
+        if (!embedded) return embedded.error();
+        text = std::move(*embedded);
     }
     if (!deck.directives.empty()) text = with_directives(text, deck.directives);
     std::vector<NetlistOverride> overrides;
@@ -45,7 +45,8 @@ Result<Netlist> netlist_of(const StudyNetlist& deck) {
     return apply_overrides([&](const std::string& corner) { return parse_embedded(text, file, corner); }, file, overrides);
 }
 
-std::shared_ptr<const Circuit> with_models(const Circuit& circuit, const Values& numbers) {
+/// A copy of the circuit with these parameters set in every model.
+std::shared_ptr<const Circuit> with_model_parameters(const Circuit& circuit, const Values& numbers) {
     auto out = std::make_shared<Circuit>(circuit);
     for (auto& model : out->models)
         for (const auto& [name, value] : numbers) model.values[name] = value;
@@ -97,12 +98,12 @@ double NetlistResult::derivative(std::string_view output, std::string_view sourc
 
 double NetlistResult::operating_info(std::string_view device, std::string_view name) const {
     constexpr double absent = std::numeric_limits<double>::quiet_NaN();
-    const auto bench = AnalysisContext::make(circuit);
-    const auto* found = bench ? (*bench)->system.device(device) : nullptr;
+    const auto context = AnalysisContext::make(circuit);
+    const auto* found = context ? (*context)->system.device(device) : nullptr;
     if (found == nullptr) return absent;
     std::vector<double> x;
-    for (const auto& unknown : (*bench)->system.names()) x.push_back(operating_point(unknown));
-    for (const auto& r : found->operating_info((*bench)->system.terminal_values(*found, x)))
+    for (const auto& unknown : (*context)->system.names()) x.push_back(operating_point(unknown));
+    for (const auto& r : found->operating_info((*context)->system.terminal_values(*found, x)))
         if (r.name == name) return r.value;
     return absent;
 }
@@ -113,21 +114,21 @@ Result<std::vector<NetlistResult>> run_study_variants(const StudyNetlist& deck) 
     auto variants = NetlistVariants::create(*netlist);
     if (!variants) return variants.error();
     std::vector<NetlistResult> out;
-    std::unique_ptr<AnalysisContext> bench;
-    RunOptions orders;
-    orders.print_tables = false;
+    std::unique_ptr<AnalysisContext> context;
+    RunOptions run_options;
+    run_options.print_tables = false;
     for (std::size_t k = 0; k < variants->count(); ++k) {
         auto variant = variants->at(k);
         if (!variant) return variant.error();
-        if (!deck.model_parameters.empty()) variant->circuit = with_models(*variant->circuit, deck.model_parameters);
-        if (!bench || bench->circuit != variant->circuit) {
-            auto context = AnalysisContext::make(variant->circuit);
-            if (!context) return context.error();
-            bench = std::move(*context);
+        if (!deck.model_parameters.empty()) variant->circuit = with_model_parameters(*variant->circuit, deck.model_parameters);
+        if (!context || context->circuit != variant->circuit) {
+            auto new_context = AnalysisContext::make(variant->circuit);
+            if (!new_context) return new_context.error();
+            context = std::move(*new_context);
         }
-        bench->is_brief = true;
-        if (variant->sample) bench->apply_variation(*variant->sample);
-        auto outcome = circuit::run_directives(*bench, orders);
+        context->is_brief = true;
+        if (variant->sample) context->apply_variation(*variant->sample);
+        auto outcome = circuit::run_directives(*context, run_options);
         if (!outcome) {
             auto error = outcome.error();
             if (!variant->label.empty()) error.message = fmt::format("{}: {}", variant->label, error.message);

@@ -11,24 +11,24 @@ struct StudyNetlist {
     /// and '../process/tsmc180.lib' as the netlists in circuits/ do.
     std::string circuit;
     std::vector<std::string> settings = {};  ///< "i_bias=100n", "temp=85", "corner=ss", "m1a.w=2um": as for --set
-    /// Lines that replace the netlist's analyses, measures, .print, .save, .step, .mc and expectations; empty: keep its own.
+    /// Lines that replace the netlist's analyses, measures, .print, .save, .step, .mc and expectations; empty: the netlist keeps them.
     std::string directives = {};
     /// Parameters of the model card that are set in every model: `ideal_mirrors`.
     circuit::Values model_parameters = {};
 };
 
-/// Without channel-length modulation and velocity saturation, mirror ratios are exact.
+/// Disables channel-length modulation and velocity saturation, so that mirror ratios are exact.
 inline const circuit::Values ideal_mirrors = {{"ve", 1e30}, {"zetal", 0}};
 
 /// Results of one variant of a netlist.
 struct NetlistResult {
-    std::string label;  ///< of the variant, as .step and .mc name it
+    std::string label;  ///< of the variant, as in the results of .step and .mc
     std::shared_ptr<const circuit::Circuit> circuit;
     circuit::RunOutcome outcome;
 
     /// A curve, named as in .save and .print, of the first analysis of this kind ("dc"), over its swept quantity; empty if there is none.
     StudyCurve curve(std::string_view analysis, const std::string& y) const;
-    /// One curve over another.
+    /// One curve over the values of another.
     StudyCurve curve(std::string_view analysis, const std::string& y, const std::string& over) const;
     /// The value of a measurement, or one that an analysis prints; NaN if there is none.
     double number(std::string_view name) const;
@@ -50,7 +50,7 @@ Result<std::vector<NetlistResult>> run_study_variants(const StudyNetlist&);
 /// a text does not occur.
 Result<std::string> substitute_in_embedded_text(const std::string& file, const std::vector<std::pair<std::string, std::string>>& changes);
 
-/// The elaborated circuit, for its sizes and counts.
+/// The elaborated circuit, to read transistor sizes and device counts.
 Result<std::shared_ptr<const circuit::Circuit>> elaborate_study_netlist(const StudyNetlist&);
 
 }  // namespace corpuscle

@@ -7,8 +7,8 @@
 namespace corpuscle {
 namespace {
 
-/// The comment lines above the rows: the afferent, and every constant.
-std::string header(const AfferentPlan& plan, const std::string& channel, const DigitalAfferent& afferent) {
+/// The lines above the rows: comments with the afferent and every constant, then the names of the columns.
+std::string header_text(const AfferentPlan& plan, const std::string& channel, const DigitalAfferent& afferent) {
     const auto& constants = afferent.chain().constants();
     std::string text = "# corpuscle vectors 1, described in doc/fixed-point.md\n";
     text += fmt::format("# afferent {}\n# parts {}\n# channel {}\n", plan.name, plan.composition(), channel);
@@ -18,14 +18,15 @@ std::string header(const AfferentPlan& plan, const std::string& channel, const D
         text += c.shift < 0 ? fmt::format("# level {} {} {}\n", c.name, c.value, c.word)
                             : fmt::format("# factor {} {} {} {}\n", c.name, c.value, c.word, c.shift);
     std::string columns = "code,F", bits;
-    for (const auto& [name, afferent_index] : afferent.chain().recordables()) {
+    for (const auto& [name, unit] : afferent.chain().recordables()) {
         columns += "," + name;
         if (name.starts_with("I")) bits += ",s" + name.substr(1);
     }
     return text + columns + bits + "\n";
 }
 
-std::string rom(const DigitalAfferent& afferent) {
+/// The table from codes to force words, as CSV.
+std::string rom_text(const DigitalAfferent& afferent) {
     std::string text = "code,F\n";
     for (std::size_t code = 0; code < afferent.rom().size(); ++code) text += fmt::format("{},{}\n", code, afferent.rom()[code]);
     return text;
@@ -40,7 +41,7 @@ std::string one_line(std::string name) {
 
 }  // namespace
 
-/// Makes the digital afferents at this input's sample rate; for the first input also writes their tables.
+/// Makes the digital afferents at this input's sample rate; for the first input also writes their tables of force words.
 Result<void> TestVectorsFile::make_afferents(const Input& input) {
     digital_.clear();
     for (const auto& plan : input.plans) {
@@ -50,7 +51,7 @@ Result<void> TestVectorsFile::make_afferents(const Input& input) {
         paths_.push_back(fmt::format("{}/rom-{}.csv", directory_, plan.name));
         auto file = OutputFile::create(paths_.back());
         if (!file) return file.error();
-        if (auto ok = file->write(rom(*digital_.back())); !ok) return ok;
+        if (auto ok = file->write(rom_text(*digital_.back())); !ok) return ok;
         complete_files_.push_back(std::move(*file));
     }
     file_counts_.resize(digital_.size());
@@ -63,9 +64,9 @@ Result<void> TestVectorsFile::open(const Input& input, std::size_t afferent_inde
     paths_.push_back(fmt::format("{}/vectors-{}{}.csv", directory_, input.plans[a].name, number));
     auto file = OutputFile::create(paths_.back());
     if (!file) return file.error();
-    if (auto ok = file->write(header(input.plans[a], one_line(input.channel_name(c)), *digital_[a])); !ok) return ok;
-    const ChannelSlot turn{static_cast<std::uint32_t>(c), static_cast<std::uint32_t>(input.source.channels().size())};
-    afferent_files_[afferent_index] = AfferentFile{a, std::move(*file), digital_[a]->start(turn)};
+    if (auto ok = file->write(header_text(input.plans[a], one_line(input.channel_name(c)), *digital_[a])); !ok) return ok;
+    const ChannelSlot slot{static_cast<std::uint32_t>(c), static_cast<std::uint32_t>(input.source.channels().size())};
+    afferent_files_[afferent_index] = AfferentFile{a, std::move(*file), digital_[a]->start(slot)};
     return {};
 }
 
@@ -100,8 +101,8 @@ Result<void> TestVectorsFile::block(const Input& input, const RunBlock& block) {
 }
 
 Result<void> TestVectorsFile::end(const Input&, std::int64_t) {
-    for (auto& afferent_index : afferent_files_)
-        if (afferent_index) complete_files_.push_back(std::move(afferent_index->file));
+    for (auto& afferent_file : afferent_files_)
+        if (afferent_file) complete_files_.push_back(std::move(afferent_file->file));
     afferent_files_.clear();
     return {};
 }

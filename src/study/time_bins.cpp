@@ -16,8 +16,8 @@ Result<void> TimeBins::check(const Clock& clock, double bin) {
                                  format_quantity(bin, "s"), format_quantity(clock.T(), "s"), format_quantity(min, "s")));
 }
 
-TimeBins::TimeBins(std::vector<Group> rows, const Clock& clock, double bin)
-    : groups_(std::move(rows)), since_start_(clock), bin_width_(bin), t0_(std::exchange(since_start_.t0, 0.0)), counts_(groups_.size()) {}
+TimeBins::TimeBins(std::vector<Group> groups, const Clock& clock, double bin)
+    : groups_(std::move(groups)), since_start_(clock), bin_width_(bin), t0_(std::exchange(since_start_.t0, 0.0)), counts_(groups_.size()) {}
 
 std::int64_t TimeBins::bin_index(double t) const { return static_cast<std::int64_t>(std::floor(t / bin_width_ + 1e-9)); }
 
@@ -36,9 +36,9 @@ void TimeBins::end_bins_before(std::int64_t bin) {
     while (current_bin_ < bin) end_bin(static_cast<double>(current_bin_ + 1) * bin_width_);
 }
 
-void TimeBins::count(const Spike& s, std::size_t row) {
+void TimeBins::count(const Spike& s, std::size_t group) {
     end_bins_before(bin_index(since_start_.time(s.step, s.offset)));
-    ++counts_[row];
+    ++counts_[group];
 }
 
 void TimeBins::advance_to(std::int64_t sample) { end_bins_before(bin_index(since_start_.time(sample))); }

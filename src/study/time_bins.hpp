@@ -25,11 +25,12 @@ public:
     static Result<void> check(const Clock&, double bin);
 
     TimeBins() = default;
-    TimeBins(std::vector<Group> rows, const Clock& clock, double bin);
-    void count(const Spike& s, std::size_t row);
-    /// All later spikes come after this sample.
+    TimeBins(std::vector<Group> groups, const Clock& clock, double bin);
+    /// Counts a spike of a group, in order of time. Ends the bins before the spike.
+    void count(const Spike& s, std::size_t group);
+    /// States that all later spikes come after this sample, and ends the bins before it.
     void advance_to(std::int64_t sample);
-    /// The input had this many samples.
+    /// States that the input had this many samples, and ends the last bin.
     void end(std::int64_t samples);
     /// Lines of the bins completed since the last call: name,from_s,to_s,spikes,rate_Hz. Valid until the next count.
     std::string_view take_lines();
@@ -37,9 +38,9 @@ public:
 private:
     std::vector<Group> groups_;
     Clock since_start_;
-    double bin_width_ = 1, t0_ = 0;     // s; t0: start of the input on the clock of the spike file
+    double bin_width_ = 1, t0_ = 0;     // s; t0_: start of the input on the clock of the spike file
     std::int64_t current_bin_ = 0;      // index of the current bin
-    std::vector<std::int64_t> counts_;  // spikes in the current bin, for each row
+    std::vector<std::int64_t> counts_;  // spikes in the current bin, for each group
     fmt::memory_buffer text_;
     bool lines_taken_ = false;
 

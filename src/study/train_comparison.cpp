@@ -49,8 +49,8 @@ public:
         return found == by_shown_name_.end() ? nullptr : found->second;
     }
 
-    /// The train of the same name. If one of the two files has no channels (address events), the only train of this afferent. "sa1#1"
-    /// without a channel matches the first train of "sa1".
+    /// The train of the same name; or, if one of the two files has no channels (address events), the only train of this afferent. "sa1#1"
+    /// without a channel matches the only train of "sa1".
     const NamedTrain* partner_of(const NamedTrain& train) const {
         if (const auto* found = of_name(train.afferent, train.channel)) return found;
         if (train.afferent.empty()) return nullptr;
@@ -81,7 +81,7 @@ const NamedTrain* renamed_partner(const TrainIndex& b, const NamedTrain& train, 
     return found || train.channel != from ? found : b.of_name(train.afferent, to);
 }
 
-/// Adds the pairs of one --pair: the only two trains of these names, or all trains whose names differ only in this part.
+/// Adds the pairs of one --pair option: the only train of each name, or all pairs of trains whose names differ only in the given part.
 Result<void> add_pairs(const Trains& a, const Trains& b, const std::string& text, std::vector<TrainPair>& out) {
     const auto equals = text.find('=');
     if (equals == text.npos) return bad_usage(fmt::format("--pair {}: write A-NAME=B-NAME, such as sa1=sa1-kim", text));
@@ -98,17 +98,17 @@ Result<void> add_pairs(const Trains& a, const Trains& b, const std::string& text
     if (out.size() > before) return {};
     return bad_usage(
         fmt::format("--pair {}: matches {} trains of the first file and {} of the second, and no two names differ only "
-                    "in this; name one of each, such as --pair '{}={}'",
+                    "in this; name one train of each file, such as --pair '{}={}'",
                     text, in_a.size(), in_b.size(), in_a[0]->name(), in_b[0]->name()));
 }
 
-/// Pairs trains of equal name; the others get no partner. A pair must match both ways: "sa1" of a file without channels does not match
+/// Pairs trains of equal name; other trains have no partner. A pair must match both ways: "sa1" of a file without channels does not match
 /// several channels of another file.
 std::vector<TrainPair> by_name(const Trains& a, const Trains& b) {
     const TrainIndex in_a(a), in_b(b);
-    const auto partner = [](const NamedTrain& t, const TrainIndex& own, const TrainIndex& other) {
-        const auto* found = other.partner_of(t);
-        return found && own.partner_of(*found) == &t ? found : nullptr;
+    const auto partner = [](const NamedTrain& t, const TrainIndex& same_file, const TrainIndex& other_file) {
+        const auto* found = other_file.partner_of(t);
+        return found && same_file.partner_of(*found) == &t ? found : nullptr;
     };
     std::vector<TrainPair> out;
     for (const auto& t : a) out.push_back(train_pair(&t, partner(t, in_a, in_b)));
@@ -117,7 +117,7 @@ std::vector<TrainPair> by_name(const Trains& a, const Trains& b) {
     return out;
 }
 
-/// A --pair option that would pair two of the trains, which differ in one name.
+/// A --pair option for two trains that differ only in the afferent or only in the channel; otherwise for the first train of each file.
 std::string suggest_pair(const Trains& a, const Trains& b) {
     for (const auto& x : a)
         for (const auto& y : b) {
@@ -151,7 +151,7 @@ Result<std::vector<TrainPair>> pair_trains(const Trains& a, const Trains& b, con
         if (!options.pairs.empty()) return bad_usage("--by-order and --pair are alternatives: give one");
         if (a.size() != b.size())
             return bad_usage(
-                fmt::format("--by-order: the first file has {} trains, the second {}; --pair A-NAME=B-NAME names those to compare",
+                fmt::format("--by-order: the first file has {} trains, the second {}; --pair A-NAME=B-NAME selects trains to compare",
                             a.size(), b.size()));
         for (std::size_t k = 0; k < a.size(); ++k) out.push_back(train_pair(&a[k], &b[k]));
         return out;

@@ -81,10 +81,10 @@ Result<TrialResult> run_trial(const TrialSpec& spec) {
     for (std::size_t k = 0; k < outside.size(); ++k)
         if (outside[k].samples > 0) out.range_warnings.emplace_back(afferent->ranges()[k].meaning);
     for (std::size_t k = 0; k < spec.probes.size(); ++k) {
-        auto& line = out.probes[spec.probes[k]];
+        auto& curve = out.probes[spec.probes[k]];
         const auto& values = probe_values[(*indexes)[k]];
         for (std::size_t j = delay; j < values.size(); ++j)
-            line.x.push_back(trial->clock.time(static_cast<std::int64_t>(j - delay))), line.y.push_back(values[j]);
+            curve.x.push_back(trial->clock.time(static_cast<std::int64_t>(j - delay))), curve.y.push_back(values[j]);
     }
     return out;
 }

@@ -33,7 +33,7 @@ Json row_document(const VersionComparison& c) {
 }
 
 /// Number of spikes of a train in [from, to).
-std::size_t count(std::span<const double> train, double from, double to) {
+std::size_t count_spikes(std::span<const double> train, double from, double to) {
     return static_cast<std::size_t>(std::lower_bound(train.begin(), train.end(), to) - std::lower_bound(train.begin(), train.end(), from));
 }
 
@@ -101,7 +101,8 @@ VersionComparison VersionComparisons::compare_version(const Input& input, std::s
                           input.plans[v.members[0]].name,
                           input.channel_name(channel),
                           {"", train.size(), reference.size()}};
-    for (const auto& p : input.source.phases()) out.phases.push_back({p.name, count(train, p.from, p.to), count(reference, p.from, p.to)});
+    for (const auto& p : input.source.phases())
+        out.phases.push_back({p.name, count_spikes(train, p.from, p.to), count_spikes(reference, p.from, p.to)});
     measure_distance(reference, train, out);
     return out;
 }

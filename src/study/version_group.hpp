@@ -8,8 +8,8 @@
 
 namespace corpuscle {
 
-/// "sa1" for sa1, SA-I, sa1-circuit, sa1-kim and any circuits/sa1.cir or sa1_biased.cir. A name that does not begin with a known afferent's
-/// name is returned complete; of a netlist path, the file's stem.
+/// "sa1" for sa1, SA-I, sa1-circuit, sa1-kim and any circuits/sa1.cir or sa1_biased.cir. If the name does not begin
+/// with the name of a known afferent, returns the complete name; for a netlist path, the file's stem.
 std::string receptor_of(const AfferentPlan&);
 
 /// Afferents of one receptor, by index. The first is the reference: the afferent with the receptor's own name, otherwise the first model,

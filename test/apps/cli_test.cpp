@@ -112,7 +112,7 @@ TEST(Program, FloatSpikesAreWithinMicrosecondsAndHaveNoProbes) {
     EXPECT_EQ(Json::parse(test::read_file(folder / "float/summary.json"))["options"]["precision"], "float");
     const auto with_probes = run_program(folder, "respond press --float --out float --probe-files");
     EXPECT_EQ(with_probes.status, 2);
-    EXPECT_NE(with_probes.err.find("in float no probes are recorded: leave out --probe-files"), std::string::npos) << with_probes.err;
+    EXPECT_NE(with_probes.err.find("float precision cannot record probes: leave out --probe-files"), std::string::npos) << with_probes.err;
     const auto sensor = run_program(folder, "respond press --float --afferent fsr+sa1");
     EXPECT_EQ(sensor.status, 2);
     EXPECT_NE(sensor.err.find("fsr+sa1: sensors, converters and noise cannot run in float"), std::string::npos) << sensor.err;

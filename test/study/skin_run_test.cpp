@@ -84,7 +84,8 @@ TEST(SkinRun, ACheckpointOfAnotherForceIsRefusedWhateverWasTyped) {
     ASSERT_FALSE(press_fingertip(folder, "a", 5, true));
     const auto other = press_fingertip(folder, "a", -1, true, {{"FORCE", "press"}}, 1.5);
     ASSERT_FALSE(other);
-    EXPECT_NE(other.error().message.find("the force up to this checkpoint differs from the one that it was made with"), std::string::npos)
+    EXPECT_NE(other.error().message.find("the force up to this checkpoint differs from the force of the run that made it"),
+              std::string::npos)
         << other.error().message;
     EXPECT_FALSE(std::filesystem::exists(folder / "a"));
 }

@@ -15,8 +15,11 @@ AfferentMeasures::AfferentMeasures(const SweepForce& nominal, bool is_circuit, s
     available_.push_back({Kind::last, 0, "", {"last_spike", "s", "time of the last spike"}});
     if (is_circuit) {
         available_.push_back({Kind::power, 0, "", {"power", "W", "mean power of all sources"}});
-        available_.push_back({Kind::sensor_power, 0, "", {"sensor_power", "W", "the part of it due to the sensor's current"}});
-        available_.push_back({Kind::outside, 0, "", {"outside", "s", "total time outside an operating range; of several, the longest"}});
+        available_.push_back({Kind::sensor_power, 0, "", {"sensor_power", "W", "the part of the power due to the sensor's current"}});
+        available_.push_back({Kind::outside,
+                              0,
+                              "",
+                              {"outside", "s", "total time outside an operating range; with several ranges, the longest of their times"}});
         available_.push_back({Kind::iterations, 0, "", {"iterations", "", "Newton iterations"}});
         for (std::size_t r = 0; r < ranges.size(); ++r)
             available_.push_back(
@@ -66,7 +69,7 @@ Result<std::size_t> AfferentMeasures::require_column(const LocatedText& name) {
         names.push_back(entry.column.name);
         if (entry.kind != Kind::phase) listed += (listed.empty() ? "" : ", ") + entry.column.name;
     }
-    return name.error_here(fmt::format("unknown measure '{}'{} (known: {}; and for a phase, such as {})", name.text,
+    return name.error_here(fmt::format("unknown measure '{}'{} (known: {}; for one phase: {}, for example)", name.text,
                                        did_you_mean(name.text, names), listed, names.back()));
 }
 

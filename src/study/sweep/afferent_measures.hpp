@@ -13,7 +13,7 @@ struct ItemResponse {
     std::span<const double> spikes;                        ///< s
     double power = 0, sensor_power = 0, time_outside = 0;  ///< of a circuit: W, W, s; time_outside: largest of time_outside_ranges
     std::vector<double> time_outside_ranges = {};          ///< total time outside each of its ranges, s
-    double iterations = 0;
+    double iterations = 0;                                 ///< of a circuit: Newton iterations
 };
 
 class AfferentMeasures {

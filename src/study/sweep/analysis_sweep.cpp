@@ -1,4 +1,4 @@
-// A sweep over a netlist's own analyses: runs them for each chip or value in turn, on one analysis context for each thread.
+// A sweep over a netlist's own analyses. Each thread has one analysis context, on which it runs them for one item after another.
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -23,11 +23,11 @@ constexpr std::string_view spike_measures[] = {"spikes", "first_spike", "last_sp
 class AnalysesSweep final : public PlannedSweep {
     NetlistFactory netlist_{};
     std::shared_ptr<const Circuit> nominal_;
-    long iteration_limit_ = 0;  // iteration limit of the file; 0 if it has none
+    long iteration_limit_ = 0;  // iteration limit in the sweep file; 0 if it has none
     mutable std::mutex mutex_;
     mutable std::optional<long> nominal_iteration_limit_;
 
-    long most_iterations(const std::function<bool()>& stop) const;
+    long find_iteration_limit(const std::function<bool()>& stop) const;
     Result<void> select_measures(const SweepText&);
     Result<void> select_trains(const SweepText&);
     Result<std::shared_ptr<const Circuit>> circuit(std::span<const double> values) const;
@@ -35,8 +35,8 @@ class AnalysesSweep final : public PlannedSweep {
 
     /// A thread's analysis context, and the values for which it was made.
     struct ThreadContext {
-        std::vector<double> own;
-        std::unique_ptr<AnalysisContext> bench;
+        std::vector<double> values;
+        std::unique_ptr<AnalysisContext> context;
     };
     Result<void> prepare(ThreadContext&, std::span<const double> values) const;
 
@@ -51,27 +51,27 @@ std::string unit_of(std::string_view name) {
     return name.starts_with("v(") ? "V" : name.starts_with("i(") ? "A" : "";
 }
 
-/// Results of the nominal circuit and their names. Transients are left out, because they may take long.
+/// Runs the analyses of the nominal circuit, to find the names of their results. Transients are left out, because they may take long.
 Result<RunOutcome> run_without_transients(const Circuit& circuit) {
     auto without_transients = std::make_shared<Circuit>(circuit);
     std::erase_if(without_transients->directives, [](const circuit::Directive& c) {
         return c.name == "tran" || ((c.name == "meas" || c.name == "measure") && !c.words.empty() && c.words[0] == "tran") ||
                c.name == "expect" || ((c.name == "meas" || c.name == "measure") && c.words.size() > 2 && c.words[2].starts_with("param="));
     });
-    circuit::RunOptions orders;
-    orders.print_tables = false;
-    auto bench = AnalysisContext::make(std::move(without_transients));
-    if (!bench) return bench.error();
-    (*bench)->is_brief = true;
-    return circuit::run_directives(**bench, orders);
+    circuit::RunOptions run_options;
+    run_options.print_tables = false;
+    auto context = AnalysisContext::make(std::move(without_transients));
+    if (!context) return context.error();
+    (*context)->is_brief = true;
+    return circuit::run_directives(**context, run_options);
 }
 
-bool has(const Circuit& circuit, std::string_view command) {
+bool has_directive(const Circuit& circuit, std::string_view command) {
     return std::any_of(circuit.directives.begin(), circuit.directives.end(), [&](const auto& c) { return c.name == command; });
 }
 
 /// The names of all numbers that the netlist computes.
-std::vector<std::string> numbers_of(const Circuit& circuit, const std::optional<RunOutcome>& without_transients) {
+std::vector<std::string> number_names(const Circuit& circuit, const std::optional<RunOutcome>& without_transients) {
     std::vector<std::string> out;
     const auto add = [&](std::string name) {
         if (std::find(out.begin(), out.end(), name) == out.end()) out.push_back(std::move(name));
@@ -79,7 +79,7 @@ std::vector<std::string> numbers_of(const Circuit& circuit, const std::optional<
     if (without_transients)
         for (const auto& a : without_transients->analyses)
             for (const auto& [name, value] : a.result.numbers) add(name);
-    if (has(circuit, "tran") && has(circuit, "spike"))
+    if (has_directive(circuit, "tran") && has_directive(circuit, "spike"))
         for (const auto name : spike_measures) add(std::string(name));
     for (const auto& c : circuit.directives)
         if ((c.name == "meas" || c.name == "measure") && c.words.size() > 2) add(c.words[1]);
@@ -92,17 +92,17 @@ std::vector<std::string> numbers_of(const Circuit& circuit, const std::optional<
 }
 
 Result<void> AnalysesSweep::select_measures(const SweepText& spec) {
-    const auto found = run_without_transients(*nominal_);
+    const auto result = run_without_transients(*nominal_);
     std::optional<RunOutcome> without_transients;
-    if (found) without_transients = *found;
-    if (!found && !has(*nominal_, "tran")) return found.error();
-    const auto known = numbers_of(*nominal_, without_transients);
+    if (result) without_transients = *result;
+    if (!result && !has_directive(*nominal_, "tran")) return result.error();
+    const auto known = number_names(*nominal_, without_transients);
     const auto column = [&](const LocatedText& name) -> Result<std::size_t> {
         for (std::size_t k = 0; k < measures_.size(); ++k)
             if (measures_[k].name == name.text) return k;
         const bool is_known = std::find(known.begin(), known.end(), name.text) != known.end();
         const bool is_curve = without_transients && without_transients->find_number(name.text);
-        const bool is_node = has(*nominal_, "tran") && name.text.starts_with("v(") && name.text.ends_with(')') &&
+        const bool is_node = has_directive(*nominal_, "tran") && name.text.starts_with("v(") && name.text.ends_with(')') &&
                              nominal_->find_node(std::string_view(name.text).substr(2, name.text.size() - 3)) >= 0;
         if (!is_known && !is_curve && !is_node) {
             std::vector<std::string> all = known;
@@ -110,7 +110,7 @@ Result<void> AnalysesSweep::select_measures(const SweepText& spec) {
             const std::vector<std::string_view> names(all.begin(), all.end());
             return name.error_here(fmt::format("the netlist has no number '{}'{} (it has {}; voltages are v(NODE), currents i(SOURCE))",
                                                name.text, did_you_mean(name.text, names),
-                                               known.empty() ? "none of its own" : fmt::format("{}", fmt::join(known, ", "))));
+                                               known.empty() ? "none" : fmt::format("{}", fmt::join(known, ", "))));
         }
         measures_.push_back({name.text, unit_of(name.text), ""});
         return measures_.size() - 1;
@@ -122,22 +122,21 @@ Result<void> AnalysesSweep::select_measures(const SweepText& spec) {
         for (const auto& name : known)
             if (const auto ok = column({name, {}}); !ok) return ok.error();
     }
-    const MeasureLookup limiting{
+    const MeasureLookup lookup{
         column, [](const LocatedText& model, std::size_t) -> Result<double> {
             return model.error_here("like: models respond to a force; use it with afferent = ..., not with a netlist's own analyses");
         }};
-    if (auto ok = set_limits(spec, limiting, measures_); !ok) return ok;
+    if (auto ok = set_limits(spec, lookup, measures_); !ok) return ok;
     if (measures_.empty())
-        return spec.netlist->error_here(
-            "the netlist has no number of its own (.meas, .print op); name the measures: measures = [\"v(out)\"]");
+        return spec.netlist->error_here("the netlist computes no numbers (.meas, .print op); name the measures: measures = [\"v(out)\"]");
     return {};
 }
 
 Result<void> AnalysesSweep::select_trains(const SweepText& spec) {
-    if (!spec.probes.empty()) return spec.probes[0].error_here("traces is for afferent = ...; for a netlist's own analyses use .meas");
+    if (!spec.probes.empty()) return spec.probes[0].error_here("traces applies to afferent = ...; for a netlist's own analyses use .meas");
     const auto keeps = keeps_spikes(spec);
     if (!keeps) return keeps.error();
-    if (!*keeps || !has(*nominal_, "spike")) return {};
+    if (!*keeps || !has_directive(*nominal_, "spike")) return {};
     for (const auto& c : nominal_->directives)
         if (c.name == "tran") train_names_.push_back(train_names_.empty() ? "tran" : fmt::format("tran {}", train_names_.size() + 1));
     return {};
@@ -149,7 +148,8 @@ Result<std::unique_ptr<Sweep>> AnalysesSweep::make(const SweepText& spec, const 
     for (const auto& [name, value] :
          {std::pair{"force", &spec.force}, {"rate", &spec.rate}, {"channel", &spec.channel}, {"every", &spec.every}})
         if (*value)
-            return (*value)->error_here(fmt::format("{} is for afferent = ...; a netlist's own .tran takes its force from .force", name));
+            return (*value)->error_here(
+                fmt::format("{} applies to afferent = ...; a netlist's own .tran takes its force from .force", name));
     auto netlist = NetlistFactory::of(*spec.netlist, folder, spec.directives ? spec.directives->text : "");
     if (!netlist) return netlist.error();
     s.netlist_ = std::move(*netlist);
@@ -160,15 +160,15 @@ Result<std::unique_ptr<Sweep>> AnalysesSweep::make(const SweepText& spec, const 
     auto elaborated = nominal->elaborate();
     if (!elaborated) return elaborated.error();
     s.nominal_ = std::make_shared<const Circuit>(std::move(*elaborated));
-    auto written = circuit::NetlistVariants::create(*nominal);
-    if (!written) return written.error();
-    VariableQuantities varying;
-    varying.subject_name = s.netlist_.name(), varying.can_sample_chips = true;
-    varying.find_quantity = [&](const LocatedText& quantity) { return s.netlist_.find_quantity(quantity); };
-    varying.vary = [&](const SweepAxis& a, const std::string& quantity, std::size_t axis) {
+    auto variants = circuit::NetlistVariants::create(*nominal);
+    if (!variants) return variants.error();
+    VariableQuantities quantities;
+    quantities.subject_name = s.netlist_.name(), quantities.can_sample_chips = true;
+    quantities.find_quantity = [&](const LocatedText& quantity) { return s.netlist_.find_quantity(quantity); };
+    quantities.vary = [&](const SweepAxis& a, const std::string& quantity, std::size_t axis) {
         s.netlist_.vary(quantity, axis, a.column.labels);
     };
-    auto plan = plan_of(spec, varying, &*written);
+    auto plan = plan_of(spec, quantities, &*variants);
     if (!plan) return plan.error();
     s.plan_ = std::move(*plan);
     if (s.plan_.samples_chips() && s.nominal_->mismatch_seed)
@@ -186,54 +186,54 @@ Result<std::unique_ptr<Sweep>> AnalysesSweep::make(const SweepText& spec, const 
     return std::unique_ptr<Sweep>(std::move(out));
 }
 
-Result<void> AnalysesSweep::prepare(ThreadContext& at, std::span<const double> values) const {
-    auto own = netlist_.own_values(values);
-    if (at.bench && at.own == own) return {};
-    at.bench.reset();
+Result<void> AnalysesSweep::prepare(ThreadContext& thread, std::span<const double> values) const {
+    auto netlist_values = netlist_.own_values(values);
+    if (thread.context && thread.values == netlist_values) return {};
+    thread.context.reset();
     std::shared_ptr<const Circuit> circuit = nominal_;
     if (netlist_.varies()) {
         const auto netlist = netlist_.at(values);
         if (!netlist) return netlist.error();
-        auto made = netlist->elaborate();
-        if (!made) return made.error();
-        circuit = std::make_shared<const Circuit>(std::move(*made));
+        auto elaborated = netlist->elaborate();
+        if (!elaborated) return elaborated.error();
+        circuit = std::make_shared<const Circuit>(std::move(*elaborated));
     }
-    auto bench = AnalysisContext::make(std::move(circuit));
-    if (!bench) return bench.error();
-    at.bench = std::move(*bench), at.bench->is_brief = true, at.own = std::move(own);
+    auto context = AnalysisContext::make(std::move(circuit));
+    if (!context) return context.error();
+    thread.context = std::move(*context), thread.context->is_brief = true, thread.values = std::move(netlist_values);
     return {};
 }
 
-/// Iteration limit of each transient: from the file, otherwise a multiple of what the nominal circuit takes.
-long AnalysesSweep::most_iterations(const std::function<bool()>& stop) const {
-    if (iteration_limit_ > 0 || !has(*nominal_, "tran")) return iteration_limit_;
+/// Iteration limit of each transient: from the sweep file, otherwise a multiple of the iterations of the nominal circuit.
+long AnalysesSweep::find_iteration_limit(const std::function<bool()>& stop) const {
+    if (iteration_limit_ > 0 || !has_directive(*nominal_, "tran")) return iteration_limit_;
     const std::lock_guard lock(mutex_);
     if (nominal_iteration_limit_) return *nominal_iteration_limit_;
-    auto bench = AnalysisContext::make(nominal_);
-    if (!bench) return 0;
-    (*bench)->is_brief = true;
-    circuit::RunOptions orders;
-    orders.keep_points = orders.print_tables = false;
-    orders.should_stop = [&](std::string_view, double) { return stop(); };
-    const auto found = circuit::run_directives(**bench, orders);
-    if (!found && found.error().code == ErrorCode::interrupted) return 0;
-    nominal_iteration_limit_ = found ? static_cast<long>(iteration_limit_factor * static_cast<double>(outcome(0, found).iterations)) : 0;
+    auto context = AnalysisContext::make(nominal_);
+    if (!context) return 0;
+    (*context)->is_brief = true;
+    circuit::RunOptions run_options;
+    run_options.keep_points = run_options.print_tables = false;
+    run_options.should_stop = [&](std::string_view, double) { return stop(); };
+    const auto result = circuit::run_directives(**context, run_options);
+    if (!result && result.error().code == ErrorCode::interrupted) return 0;
+    nominal_iteration_limit_ = result ? static_cast<long>(iteration_limit_factor * static_cast<double>(outcome(0, result).iterations)) : 0;
     return *nominal_iteration_limit_;
 }
 
-ItemOutcome AnalysesSweep::outcome(std::int64_t item, const Result<RunOutcome>& found, bool truncated) const {
+ItemOutcome AnalysesSweep::outcome(std::int64_t item, const Result<RunOutcome>& result, bool truncated) const {
     ItemOutcome out;
     out.item = item;
     out.measures.assign(measures_.size(), std::numeric_limits<double>::quiet_NaN());
     out.spikes.resize(train_names_.size());
-    if (!found) {
-        out.end = truncated ? ItemEnd::iteration_limit : ItemEnd::diverged, out.reason = found.error().text();
+    if (!result) {
+        out.end = truncated ? ItemEnd::iteration_limit : ItemEnd::diverged, out.reason = result.error().text();
         return out;
     }
     for (std::size_t k = 0; k < measures_.size(); ++k)
-        if (const auto value = found->find_number(measures_[k].name)) out.measures[k] = *value;
+        if (const auto value = result->find_number(measures_[k].name)) out.measures[k] = *value;
     std::size_t train = 0;
-    for (const auto& a : found->analyses) {
+    for (const auto& a : result->analyses) {
         if (a.result.spikes && train < out.spikes.size()) out.spikes[train++] = *a.result.spikes;
         for (const auto& [quantity, count] : a.result.stats) {
             if (quantity == "steps") out.steps += static_cast<std::int64_t>(count);
@@ -244,27 +244,28 @@ ItemOutcome AnalysesSweep::outcome(std::int64_t item, const Result<RunOutcome>& 
 }
 
 Result<void> AnalysesSweep::run_items(const NextItem& next, const OutcomeHandler& on_outcome, const std::function<bool()>& stop) const {
-    ThreadContext at;
-    const auto limit = most_iterations(stop);
-    circuit::RunOptions orders;
-    orders.keep_points = orders.print_tables = false;
-    orders.should_stop = [&](std::string_view, double) { return stop(); };
+    ThreadContext thread;
+    const auto limit = find_iteration_limit(stop);
+    circuit::RunOptions run_options;
+    run_options.keep_points = run_options.print_tables = false;
+    run_options.should_stop = [&](std::string_view, double) { return stop(); };
     while (!stop()) {
         const auto item = next();
         if (!item) return {};
-        if (const auto ok = prepare(at, plan_.values(*item)); !ok) {
+        if (const auto ok = prepare(thread, plan_.values(*item)); !ok) {
             on_outcome(outcome(*item, ok.error()));
             continue;
         }
-        if (const auto own = circuit::chip_sample_of(*at.bench->circuit))
-            at.bench->apply_variation(*own);
-        else if (const auto draw = plan_.chip_sample(*item))
-            at.bench->apply_variation(*draw);
-        at.bench->max_iterations = limit, at.bench->hit_iteration_limit = false;
-        const auto found = circuit::run_directives(*at.bench, orders);
-        if (!found && found.error().code == ErrorCode::interrupted) return {};
-        if (!found && found.error().code != ErrorCode::not_converged) return found.error();
-        on_outcome(outcome(*item, found, at.bench->hit_iteration_limit));
+        auto& context = *thread.context;
+        if (const auto fixed_sample = circuit::chip_sample_of(*context.circuit))
+            context.apply_variation(*fixed_sample);
+        else if (const auto sample = plan_.chip_sample(*item))
+            context.apply_variation(*sample);
+        context.max_iterations = limit, context.hit_iteration_limit = false;
+        const auto result = circuit::run_directives(context, run_options);
+        if (!result && result.error().code == ErrorCode::interrupted) return {};
+        if (!result && result.error().code != ErrorCode::not_converged) return result.error();
+        on_outcome(outcome(*item, result, context.hit_iteration_limit));
     }
     return {};
 }

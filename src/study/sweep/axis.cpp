@@ -16,7 +16,7 @@ namespace {
 constexpr std::string_view methods[] = {"grid", "list", "uniform", "normal", "latin", "sobol"};
 constexpr double max_values = 1e6;
 
-/// The method given by `how`, otherwise the one implied by the given keys.
+/// The method given by the key `how`, otherwise the method implied by the other keys.
 std::string method_of(const AxisSpec& given) {
     if (given.distribution) return given.distribution->text;
     if (given.list) return "list";
@@ -24,10 +24,10 @@ std::string method_of(const AxisSpec& given) {
     return "grid";
 }
 
-/// Reads one axis.
+/// Interprets the text of one axis.
 class AxisReader {
     const AxisSpec& spec_;
-    const VariedQuantity& target_;
+    const VariedQuantity& quantity_;
     const std::string method_ = method_of(spec_);
 
     std::string name() const { return spec_.name.text; }
@@ -35,7 +35,7 @@ class AxisReader {
     Error missing(std::string message) const { return error_at(spec_.distribution ? *spec_.distribution : spec_.name, std::move(message)); }
 
     Result<double> number(const LocatedText& given) const {
-        auto value = target_.parse(given);
+        auto value = quantity_.parse(given);
         if (!value) return error_at(given, value.error().message);
         return value;
     }
@@ -43,12 +43,12 @@ class AxisReader {
     Result<double> allowed(const LocatedText& given) const {
         const auto value = number(given);
         if (!value) return value;
-        if (!(*value >= target_.min && *value <= target_.max))
-            return error_at(
-                given, fmt::format("{} is outside [{}, {}]", format_quantity(*value, target_.column.unit),
-                                   format_quantity(target_.min, target_.column.unit), format_quantity(target_.max, target_.column.unit)));
-        if (target_.check)
-            if (auto ok = target_.check(given.text); !ok) return given.error_here(ok.error().message);
+        if (!(*value >= quantity_.min && *value <= quantity_.max))
+            return error_at(given, fmt::format("{} is outside [{}, {}]", format_quantity(*value, quantity_.column.unit),
+                                               format_quantity(quantity_.min, quantity_.column.unit),
+                                               format_quantity(quantity_.max, quantity_.column.unit)));
+        if (quantity_.check)
+            if (auto ok = quantity_.check(given.text); !ok) return given.error_here(ok.error().message);
         return value;
     }
 
@@ -59,8 +59,8 @@ class AxisReader {
             {"mean", &spec_.mean}, {"sigma", &spec_.sigma}, {"at_least", &spec_.min}, {"at_most", &spec_.max}};
         for (const auto& [name, value] : all)
             if (*value && std::find(known.begin(), known.end(), name) == known.end())
-                return error_at(**value,
-                                fmt::format("'{}' has no meaning for how = \"{}\" (it takes {})", name, method_, fmt::join(known, ", ")));
+                return error_at(
+                    **value, fmt::format("'{}' has no meaning for how = \"{}\" (which allows: {})", name, method_, fmt::join(known, ", ")));
         if (spec_.list && method_ != "list")
             return error_at(spec_.list->empty() ? spec_.name : spec_.list->front(),
                             fmt::format("list and how = \"{}\" exclude each other", method_));
@@ -108,8 +108,8 @@ class AxisReader {
 
     Result<void> labels(SweepAxis& axis) const {
         for (const auto& label : *spec_.list) {
-            if (target_.check)
-                if (auto ok = target_.check(label.text); !ok) return label.error_here(ok.error().message);
+            if (quantity_.check)
+                if (auto ok = quantity_.check(label.text); !ok) return label.error_here(ok.error().message);
             axis.values.push_back(static_cast<double>(axis.column.labels.size()));
             axis.column.labels.push_back(label.text);
         }
@@ -119,8 +119,8 @@ class AxisReader {
     Result<void> list(SweepAxis& axis) const {
         if (auto ok = accept_only({}); !ok) return ok;
         if (!spec_.list || spec_.list->empty()) return missing("the list is empty: list = [...]");
-        const auto is_label = [&](const LocatedText& s) { return !target_.parse(s); };
-        if (target_.labels_only || (target_.allows_labels && std::any_of(spec_.list->begin(), spec_.list->end(), is_label)))
+        const auto is_label = [&](const LocatedText& s) { return !quantity_.parse(s); };
+        if (quantity_.labels_only || (quantity_.allows_labels && std::any_of(spec_.list->begin(), spec_.list->end(), is_label)))
             return labels(axis);
         for (const auto& one : *spec_.list) {
             const auto value = allowed(one);
@@ -144,13 +144,13 @@ class AxisReader {
     Result<void> normal(SweepAxis& axis) const {
         if (auto ok = accept_only({"mean", "sigma", "at_least", "at_most"}); !ok) return ok;
         if (!spec_.sigma) return missing("sigma is missing: a standard deviation, or a percentage of the mean such as \"5%\"");
-        if (!spec_.mean && !target_.nominal) return missing("mean is missing");
-        const auto mean = spec_.mean ? allowed(*spec_.mean) : *target_.nominal;
+        if (!spec_.mean && !quantity_.nominal) return missing("mean is missing");
+        const auto mean = spec_.mean ? allowed(*spec_.mean) : *quantity_.nominal;
         if (!mean) return mean.error();
         const auto deviation = sigma(*mean);
         if (!deviation) return deviation.error();
         axis.is_normal = true, axis.first = *mean, axis.second = *deviation;
-        double low = target_.min, high = target_.max;
+        double low = quantity_.min, high = quantity_.max;
         for (const auto& [given, end] : {std::pair{&spec_.min, &low}, {&spec_.max, &high}}) {
             if (!*given) continue;
             const auto value = allowed(**given);
@@ -164,30 +164,31 @@ class AxisReader {
         return {};
     }
 
-    Result<void> sampled(SweepAxis& axis, SamplingSpec& drawing) const {
+    Result<void> sampled(SweepAxis& axis, SamplingSpec& sampling_spec) const {
         const auto sampling = method_ == "latin" ? Sampling::latin : method_ == "sobol" ? Sampling::sobol : Sampling::random;
         const bool as_normal = method_ == "normal" || (method_ != "uniform" && (spec_.mean || spec_.sigma));
         if (!as_normal)
             if (auto ok = accept_only({"from", "to", "log"}); !ok) return ok;
         if (auto ok = as_normal ? normal(axis) : range(axis); !ok) return ok;
-        if (sampling == Sampling::sobol && drawing.dimension == sobol_dimensions)
+        if (sampling == Sampling::sobol && sampling_spec.dimension == sobol_dimensions)
             return error_at(*spec_.distribution, fmt::format("Sobol points are available for at most {} axes", sobol_dimensions));
-        axis.numbers.emplace(sampling, drawing.seed, axis.column.name, sampling == Sampling::sobol ? drawing.dimension++ : 0,
-                             drawing.samples);
+        axis.numbers.emplace(sampling, sampling_spec.seed, axis.column.name, sampling == Sampling::sobol ? sampling_spec.dimension++ : 0,
+                             sampling_spec.samples);
         return {};
     }
 
 public:
-    AxisReader(const AxisSpec& given, const VariedQuantity& target) : spec_(given), target_(target) {}
+    AxisReader(const AxisSpec& given, const VariedQuantity& quantity) : spec_(given), quantity_(quantity) {}
 
-    Result<SweepAxis> read(SamplingSpec& drawing) const {
-        SweepAxis axis{target_.column};
+    Result<SweepAxis> read(SamplingSpec& sampling_spec) const {
+        SweepAxis axis{quantity_.column};
         if (std::find(std::begin(methods), std::end(methods), method_) == std::end(methods))
             return error_at(*spec_.distribution, fmt::format("how = \"{}\" is unknown{} (there are {})", method_,
                                                              did_you_mean(method_, methods), fmt::join(methods, ", ")));
-        if (target_.labels_only && method_ != "list")
-            return missing(fmt::format("it takes labels only: list = [\"{}\", ...]", target_.column.name == "corner" ? "ss" : "..."));
-        if (auto ok = method_ == "grid" ? grid(axis) : method_ == "list" ? list(axis) : sampled(axis, drawing); !ok) return ok.error();
+        if (quantity_.labels_only && method_ != "list")
+            return missing(fmt::format("its values are labels: list = [\"{}\", ...]", quantity_.column.name == "corner" ? "ss" : "..."));
+        if (auto ok = method_ == "grid" ? grid(axis) : method_ == "list" ? list(axis) : sampled(axis, sampling_spec); !ok)
+            return ok.error();
         return axis;
     }
 };
@@ -199,8 +200,8 @@ bool is_sampled(const AxisSpec& given) {
     return method == "uniform" || method == "normal" || method == "latin" || method == "sobol";
 }
 
-Result<SweepAxis> axis_of(const AxisSpec& given, const VariedQuantity& target, SamplingSpec& drawing) {
-    return AxisReader(given, target).read(drawing);
+Result<SweepAxis> axis_of(const AxisSpec& given, const VariedQuantity& quantity, SamplingSpec& sampling_spec) {
+    return AxisReader(given, quantity).read(sampling_spec);
 }
 
 Result<std::int64_t> parse_integer(const LocatedText& given, std::string_view name, double min, double max) {

@@ -15,13 +15,13 @@ struct VariedQuantity {
     std::optional<double> nominal = {};  ///< value without a setting
     double min = -std::numeric_limits<double>::infinity(), max = std::numeric_limits<double>::infinity();
     std::function<Result<double>(const LocatedText&)> parse = {};  ///< converts a text to a number
-    /// returns an error if the subject rejects the value; null: low and high are the only check
+    /// returns an error if the subject rejects the value; null: min and max are the only check
     std::function<Result<void>(const std::string& value)> check = {};
-    /// only labels such as "ss"; or labels such as "8x4" as well as numbers
+    /// labels_only: values are labels such as "ss"; allows_labels: values are numbers or labels such as "8x4"
     bool labels_only = false, allows_labels = false;
 };
 
-/// Number of samples and seed for the axes that are sampled; `dimension` counts those with Sobol points.
+/// Seed and number of samples of the sampled axes. `dimension`: number of axes with Sobol points so far.
 struct SamplingSpec {
     std::uint64_t seed = 0;
     std::uint64_t samples = 1;
@@ -30,6 +30,7 @@ struct SamplingSpec {
 
 /// True if the axis is sampled rather than listed.
 bool is_sampled(const AxisSpec&);
+/// Combines the text of an axis with its quantity. An axis with Sobol points increments `dimension`.
 Result<SweepAxis> axis_of(const AxisSpec&, const VariedQuantity&, SamplingSpec&);
 
 /// An integer from min to max.

@@ -23,7 +23,7 @@ using circuit::CircuitAfferentFactory;
 using Codes = std::vector<int>;
 
 /// A chip to press with these codes, and its response.
-struct Press {
+struct ChipPress {
     std::size_t chip;
     Codes codes;
     std::vector<double> spikes = {};
@@ -31,7 +31,7 @@ struct Press {
     bool meets_limits = false, diverged = false;
 };
 
-/// Presses chips, many at once. Designs are made once for each set of values.
+/// Presses many chips in parallel. Makes each design, which is one set of trim values, only once.
 class ChipPresser {
     const ChipCalibration& options_;
     const std::vector<ChipSample>& chips_;
@@ -44,22 +44,22 @@ class ChipPresser {
         return out;
     }
     Result<std::shared_ptr<const CircuitAfferentFactory>> design(const Codes& codes) {
-        const auto at = values(codes);
-        if (const auto known = designs_.find(at); known != designs_.end()) return known->second;
+        const auto trim_values = values(codes);
+        if (const auto known = designs_.find(trim_values); known != designs_.end()) return known->second;
         auto overrides = options_.overrides;
-        for (std::size_t k = 0; k < at.size(); ++k)
-            for (const auto& name : options_.trims[k].names) overrides.push_back({name, fmt::format("{:.17g}", at[k]), name});
+        for (std::size_t k = 0; k < trim_values.size(); ++k)
+            for (const auto& name : options_.trims[k].names) overrides.push_back({name, fmt::format("{:.17g}", trim_values[k]), name});
         const auto netlist = circuit::apply_overrides(options_.netlist, overrides);
         if (!netlist) return netlist.error();
-        auto made = CircuitAfferentFactory::create(*netlist);
-        if (!made) return made.error();
-        return designs_.emplace(at, *made).first->second;
+        auto factory = CircuitAfferentFactory::create(*netlist);
+        if (!factory) return factory.error();
+        return designs_.emplace(trim_values, *factory).first->second;
     }
-    void evaluate(Press& p, ChipResponse&& response) const {
+    void evaluate(ChipPress& p, ChipResponse&& response) const {
         p.spikes = std::move(response.spikes), p.diverged = response.error.has_value();
         p.meets_limits = !p.diverged && !response.hit_iteration_limit && options_.limits.are_met(p.spikes);
         p.distance = p.diverged ? std::numeric_limits<double>::infinity() : options_.limits.distance(p.spikes);
-        // A run that was stopped for firing too often is worse than any complete run, and the worse the earlier it was stopped.
+        // A press that was stopped because the chip fired too often has a larger distance than any complete press; the earlier, the larger.
         if (response.hit_iteration_limit)
             p.distance = 1e6 * (2 - (p.spikes.empty() ? 0 : p.spikes.back() / (options_.T * static_cast<double>(options_.force.size()))));
     }
@@ -68,21 +68,21 @@ public:
     ChipPresser(const ChipCalibration& options, const std::vector<ChipSample>& chips)
         : options_(options), chips_(chips), pool_(options.threads) {}
 
-    /// True if two codes give the same chip; after rounding to integer columns there are fewer values than codes.
+    /// True if two sets of codes give the same trim values, because integer columns are rounded.
     bool same_values(const Codes& a, const Codes& b) const { return values(a) == values(b); }
 
-    Result<void> press(std::vector<Press>& all) {
+    Result<void> press(std::vector<ChipPress>& all) {
         if (all.empty()) return {};
         std::vector<std::shared_ptr<const CircuitAfferentFactory>> designs;
         for (const auto& p : all) {
-            auto made = design(p.codes);
-            if (!made) return made.error();
-            designs.push_back(std::move(*made));
+            auto factory = design(p.codes);
+            if (!factory) return factory.error();
+            designs.push_back(std::move(*factory));
         }
         std::mutex mutex;
         std::size_t next = 0;
         std::optional<Error> failed;
-        const auto more = [&]() -> std::optional<Chip> {
+        const auto next_chip = [&]() -> std::optional<Chip> {
             const std::lock_guard lock(mutex);
             if (next == all.size()) return {};
             const auto k = next++;
@@ -92,7 +92,7 @@ public:
             evaluate(all[static_cast<std::size_t>(chip.id)], std::move(response));
         };
         pool_.for_each(pool_.threads(), [&](std::size_t, unsigned) {
-            if (auto done = circuit::run_chips(designs[0], more, on_response, options_.batch); !done) {
+            if (auto done = circuit::run_chips(designs[0], next_chip, on_response, options_.batch); !done) {
                 const std::lock_guard lock(mutex);
                 failed = done.error();
             }
@@ -112,7 +112,7 @@ class TrimSearch {
     int bits_ = 0, rounds_ = 0;
     std::vector<Codes> tried_;
 
-    static constexpr int max_rounds_per_bits = 6;  // for one number of bits
+    static constexpr int max_rounds_per_bits = 6;  // of presses, for one number of bits
 
     int step() const { return 1 << (options_.bits - bits_); }
     bool allowed(const Codes& codes) const {
@@ -121,11 +121,13 @@ class TrimSearch {
             if (c < min || c > max) return false;
         return std::none_of(tried_.begin(), tried_.end(), [&](const Codes& t) { return presser_.same_values(t, codes); });
     }
+    /// Ends the search with this number of bits; the next presses use one bit more.
     void finish_bits() {
         out_.codes.push_back(best_), out_.distance.push_back(distance_);
         ++bits_, rounds_ = 0;
     }
-    bool better(const Press& p) {
+    /// Takes the press as the best one so far if its distance is smaller.
+    bool take_if_better(const ChipPress& p) {
         if (!(p.distance < distance_)) return false;
         distance_ = p.distance, best_ = p.codes, out_.spikes = p.spikes;
         return true;
@@ -139,11 +141,11 @@ public:
     CalibratedChip take() { return std::move(out_); }
 
     /// The presses to run next.
-    std::vector<Press> next_presses() {
+    std::vector<ChipPress> next_presses() {
         if (bits_ == 0) return {{chip_, best_}};
         if (!combined_.empty()) return {{chip_, combined_}};
         while (!is_finished()) {
-            std::vector<Press> out;
+            std::vector<ChipPress> out;
             for (std::size_t k = 0; k < best_.size() && rounds_ < max_rounds_per_bits; ++k)
                 for (const int d : {-step(), step()}) {
                     auto codes = best_;
@@ -157,10 +159,10 @@ public:
     }
 
     /// Takes the results of these presses.
-    void take_results(std::vector<Press>&& all) {
+    void take_results(std::vector<ChipPress>&& all) {
         out_.presses += static_cast<int>(all.size());
         for (const auto& p : all) tried_.push_back(p.codes);
-        const auto passing = std::find_if(all.begin(), all.end(), [](const Press& p) { return p.meets_limits; });
+        const auto passing = std::find_if(all.begin(), all.end(), [](const ChipPress& p) { return p.meets_limits; });
         if (passing != all.end()) out_.bits = bits_, best_ = passing->codes, distance_ = passing->distance, out_.spikes = passing->spikes;
         if (bits_ == 0) {
             out_.spikes_before = all[0].spikes, out_.diverged = all[0].diverged;
@@ -174,16 +176,16 @@ public:
         const auto before = best_;
         auto combined = best_;
         const double start = distance_;
-        std::size_t helped = 0;
+        std::size_t improving_trims = 0;
         std::vector<double> best_distance(best_.size(), start);
         for (auto& p : all) {
             for (std::size_t k = 0; k < best_.size() && !was_combined; ++k)
                 if (p.codes[k] != before[k] && p.distance < best_distance[k])
-                    helped += best_distance[k] == start, best_distance[k] = p.distance, combined[k] = p.codes[k];
-            better(p);
+                    improving_trims += best_distance[k] == start, best_distance[k] = p.distance, combined[k] = p.codes[k];
+            take_if_better(p);
         }
         if (best_ == before && !was_combined) return finish_bits();
-        if (helped > 1 && allowed(combined)) combined_ = combined;
+        if (improving_trims > 1 && allowed(combined)) combined_ = combined;
     }
 };
 
@@ -215,8 +217,8 @@ Result<Trim> trim_of(const std::string& netlist, const std::vector<circuit::Netl
     std::vector<std::string_view> parameters;
     for (const auto& [parameter, value] : circuit->parameters) parameters.push_back(parameter);
     return bad_input(
-        fmt::format("trim '{}': {} has no such number, a .param of the top level or a device parameter such as 'summer.n3b.m'{}", names[0],
-                    netlist, did_you_mean(full_name, parameters)));
+        fmt::format("trim '{}': {} has no such number; name a .param of the top level or a device parameter such as 'summer.n3b.m'{}",
+                    names[0], netlist, did_you_mean(full_name, parameters)));
 }
 
 Result<std::vector<CalibratedChip>> calibrate(const ChipCalibration& options, const std::vector<ChipSample>& chips) {
@@ -226,7 +228,7 @@ Result<std::vector<CalibratedChip>> calibrate(const ChipCalibration& options, co
     for (std::size_t k = 0; k < chips.size(); ++k) searches.emplace_back(options, presser, k);
     std::size_t presses = 0;
     for (;;) {
-        std::vector<Press> all;
+        std::vector<ChipPress> all;
         for (auto& s : searches)
             if (!s.is_finished())
                 for (auto& p : s.next_presses()) all.push_back(std::move(p));

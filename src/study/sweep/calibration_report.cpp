@@ -39,7 +39,7 @@ int useful_bits(const CalibrationResult& result, int max) {
 std::string describe_frame_error(const ChipCalibration& options, const std::vector<CalibrationResult>& all) {
     std::size_t width = 5;
     for (const auto& set : all) width = std::max(width, set.names().size());
-    std::string out = fmt::format("{}: {} chips, limits: {}\n\n{:{}}  as made", options.netlist, all.empty() ? 0 : all[0].chips.size(),
+    std::string out = fmt::format("{}: {} chips, limits: {}\n\n{:{}}   0 bits", options.netlist, all.empty() ? 0 : all[0].chips.size(),
                                   options.limits.text(), "trims", width);
     for (int b = 1; b <= options.bits; ++b) out += fmt::format("  {} bit{}", b, b == 1 ? " " : "s");
     out += "  presses per trimmed chip\n";
@@ -54,7 +54,7 @@ std::string describe_frame_error(const ChipCalibration& options, const std::vect
         out += fmt::format("\n{}: {:g} as designed, {:g} to {:g} with {} bits{}", fmt::join(t.names, " and "), t.designed,
                            t.value(1 - (1 << (options.bits - 1)), options.bits), t.value(1 << (options.bits - 1), options.bits),
                            options.bits, t.is_integer ? ", integer columns" : "");
-    if (!all.empty()) out += fmt::format("\nuseful: {} bits\n", useful_bits(all[0], options.bits));
+    if (!all.empty()) out += fmt::format("\nuseful number of bits: {}\n", useful_bits(all[0], options.bits));
     return out;
 }
 

@@ -12,10 +12,10 @@ struct CalibrationResult {
     std::vector<Trim> trims;
     std::vector<CalibratedChip> chips;
 
-    std::size_t count_within_limits(
-        int bits) const;         ///< number of chips that meet the limits with at most this many bits; 0: without calibration
+    /// Number of chips that meet the limits with at most this many bits; 0: without calibration.
+    std::size_t count_within_limits(int bits) const;
     long total_presses() const;  ///< of all chips
-    /// Mean over the chips that do not meet the limits without calibration.
+    /// Mean number of presses of the chips that do not meet the limits without calibration.
     double mean_presses() const;
     std::string names() const;
 };
@@ -25,7 +25,7 @@ struct CalibrationResult {
 std::string describe_frame_error(const ChipCalibration&, const std::vector<CalibrationResult>&);
 nlohmann::ordered_json document_of(const ChipCalibration&, const std::vector<CalibrationResult>&);
 
-/// The smallest number of bits with which at most 1 % of the chips fail that meet the limits with all bits.
+/// The smallest number of bits that is sufficient for 99 % of the chips that meet the limits with `max` bits.
 int useful_bits(const CalibrationResult&, int max);
 
 }  // namespace corpuscle

@@ -1,5 +1,5 @@
-// A sweep over an afferent that is a netlist: simulates many chips at once, each with its own mismatch sample and, if values vary, its own
-// design.
+// A sweep over an afferent that is a netlist. Simulates many chips in parallel; each has a mismatch sample and, if netlist values vary, a
+// separate design.
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -27,14 +27,14 @@ class ChipSweep final : public PlannedSweep {
     DesignPointer nominal_;
     std::unique_ptr<AfferentMeasures> afferent_measures_;
     std::size_t every_ = 0, lanes_ = circuit::BatchOptions{}.lanes;
-    long iteration_limit_ = 0;  // iteration limit of the file; 0 if it has none
+    long iteration_limit_ = 0;  // iteration limit in the sweep file; 0 if it has none
 
     mutable std::mutex mutex_;
     mutable std::map<std::vector<double>, Result<DesignPointer>> designs_;
     mutable std::mutex nominal_mutex_;
     mutable std::optional<long> nominal_iteration_limit_;
 
-    /// The data of a chip that is being simulated.
+    /// Force and design of a chip that is being simulated.
     struct ActiveChip {
         std::shared_ptr<const SweepForce> force;
         DesignPointer design;
@@ -44,8 +44,9 @@ class ChipSweep final : public PlannedSweep {
     Result<void> select_measures(const SweepText&);
     Result<void> select_probes(const SweepText&);
     Result<DesignPointer> design(std::span<const double> values) const;
-    std::optional<circuit::ChipSample> draw(std::int64_t item, const CircuitAfferentFactory&) const;
-    long most_iterations(const std::function<bool()>& stop) const;
+    /// The chip sample fixed by the netlist, otherwise that of the sweep.
+    std::optional<circuit::ChipSample> chip_sample(std::int64_t item, const CircuitAfferentFactory&) const;
+    long find_iteration_limit(const std::function<bool()>& stop) const;
     ItemOutcome outcome(std::int64_t item, const ActiveChip&, ChipResponse&&) const;
     ItemOutcome failed_outcome(std::int64_t item, const Error&) const;
 
@@ -67,23 +68,23 @@ Result<void> ChipSweep::select_measures(const SweepText& spec) {
     for (const auto& w : nominal_->operating_ranges) ranges.emplace_back(w.range().quantity);
     afferent_measures_ = std::make_unique<AfferentMeasures>(*force_.nominal(), true, ranges);
     if (auto ok = afferent_measures_->select(spec.measures); !ok) return ok;
-    const MeasureLookup limiting{[&](const LocatedText& name) { return afferent_measures_->require_column(name); },
-                                 [&](const LocatedText& model, std::size_t column) {
-                                     return model_measure(model, force_, {afferent_measures_->columns()[column].name, model.location});
-                                 }};
-    if (auto ok = set_limits(spec, limiting, afferent_measures_->columns()); !ok) return ok;
+    const MeasureLookup lookup{[&](const LocatedText& name) { return afferent_measures_->require_column(name); },
+                               [&](const LocatedText& model, std::size_t column) {
+                                   return model_measure(model, force_, {afferent_measures_->columns()[column].name, model.location});
+                               }};
+    if (auto ok = set_limits(spec, lookup, afferent_measures_->columns()); !ok) return ok;
     measures_ = afferent_measures_->columns();
     return {};
 }
 
 /// Selects the probes to keep, instead of those that the netlist saves.
 Result<void> ChipSweep::select_probes(const SweepText& spec) {
-    for (const auto& word : spec.probes) {
-        const auto found = circuit::resolve_probe(*nominal_->circuit, word.text);
-        if (!found) return word.error_here(found.error().message);
+    for (const auto& probe : spec.probes) {
+        const auto found = circuit::resolve_probe(*nominal_->circuit, probe.text);
+        if (!found) return probe.error_here(found.error().message);
         if (!*found)
-            return word.error_here(fmt::format("traces: {} has no node or device '{}'{}", netlist_.name(), word.text,
-                                               circuit::suggest_probe(*nominal_->circuit, word.text)));
+            return probe.error_here(fmt::format("traces: {} has no node or device '{}'{}", netlist_.name(), probe.text,
+                                                circuit::suggest_probe(*nominal_->circuit, probe.text)));
         probe_names_.push_back(**found);
     }
     if (probe_names_.empty()) return {};
@@ -104,7 +105,7 @@ Result<void> ChipSweep::select_probes(const SweepText& spec) {
 Result<std::unique_ptr<Sweep>> ChipSweep::make(const SweepText& spec, const std::string& folder) {
     auto out = std::make_unique<ChipSweep>();
     auto& s = *out;
-    if (spec.directives) return spec.directives->error_here("orders is for netlist = ...; an afferent = ... responds to its force");
+    if (spec.directives) return spec.directives->error_here("orders applies to netlist = ...; an afferent = ... responds to its force");
     auto netlist = NetlistFactory::of(*spec.afferent, folder);
     if (!netlist) return netlist.error();
     s.netlist_ = std::move(*netlist);
@@ -119,17 +120,17 @@ Result<std::unique_ptr<Sweep>> ChipSweep::make(const SweepText& spec, const std:
     auto design = CircuitAfferentFactory::create(*nominal);
     if (!design) return design.error();
     s.nominal_ = std::move(*design);
-    auto written = circuit::NetlistVariants::create(*nominal);
-    if (!written) return written.error();
-    VariableQuantities varying;
-    varying.subject_name = s.netlist_.name(), varying.can_sample_chips = true;
-    varying.find_quantity = [&](const LocatedText& quantity) {
+    auto variants = circuit::NetlistVariants::create(*nominal);
+    if (!variants) return variants.error();
+    VariableQuantities quantities;
+    quantities.subject_name = s.netlist_.name(), quantities.can_sample_chips = true;
+    quantities.find_quantity = [&](const LocatedText& quantity) {
         return s.force_.has_parameter(quantity.text) ? s.force_.find_quantity(quantity) : s.netlist_.find_quantity(quantity);
     };
-    varying.vary = [&](const SweepAxis& a, const std::string& quantity, std::size_t axis) {
+    quantities.vary = [&](const SweepAxis& a, const std::string& quantity, std::size_t axis) {
         s.force_.has_parameter(quantity) ? s.force_.vary(quantity, axis) : s.netlist_.vary(quantity, axis, a.column.labels);
     };
-    auto plan = plan_of(spec, varying, &*written);
+    auto plan = plan_of(spec, quantities, &*variants);
     if (!plan) return plan.error();
     s.plan_ = std::move(*plan);
     if (s.plan_.samples_chips() && s.nominal_->circuit->mismatch_seed)
@@ -146,7 +147,7 @@ Result<std::unique_ptr<Sweep>> ChipSweep::make(const SweepText& spec, const std:
     if (*keeps) s.train_names_ = {s.netlist_.name()};
     if (auto ok = s.select_probes(spec); !ok) return ok.error();
     s.metadata_ = first_metadata(spec, s.nominal_->circuit->title);
-    for (auto& fact : s.netlist_.metadata()) s.metadata_.push_back(std::move(fact));
+    for (auto& entry : s.netlist_.metadata()) s.metadata_.push_back(std::move(entry));
     if (auto recorded = s.force_.recording_summary(); !recorded.empty())
         s.metadata_.push_back({"recording " + s.force_.name(), std::move(recorded)});
     s.add_mismatch_metadata(s.netlist_.name(), *s.nominal_->circuit);
@@ -155,26 +156,26 @@ Result<std::unique_ptr<Sweep>> ChipSweep::make(const SweepText& spec, const std:
 
 Result<DesignPointer> ChipSweep::design(std::span<const double> values) const {
     if (!netlist_.varies()) return nominal_;
-    const auto own = netlist_.own_values(values);
+    const auto netlist_values = netlist_.own_values(values);
     {
         const std::lock_guard lock(mutex_);
-        if (const auto at = designs_.find(own); at != designs_.end()) return at->second;
+        if (const auto at = designs_.find(netlist_values); at != designs_.end()) return at->second;
     }
     const auto netlist = netlist_.at(values);
-    const auto made = netlist ? CircuitAfferentFactory::create(*netlist) : Result<DesignPointer>(netlist.error());
+    const auto new_design = netlist ? CircuitAfferentFactory::create(*netlist) : Result<DesignPointer>(netlist.error());
     const std::lock_guard lock(mutex_);
     if (designs_.size() >= max_cached_designs) designs_.clear();
-    designs_.emplace(own, made);
-    return made;
+    designs_.emplace(netlist_values, new_design);
+    return new_design;
 }
 
-std::optional<circuit::ChipSample> ChipSweep::draw(std::int64_t item, const CircuitAfferentFactory& design) const {
-    if (auto own = circuit::chip_sample_of(*design.circuit)) return own;
+std::optional<circuit::ChipSample> ChipSweep::chip_sample(std::int64_t item, const CircuitAfferentFactory& design) const {
+    if (auto fixed_sample = circuit::chip_sample_of(*design.circuit)) return fixed_sample;
     return plan_.chip_sample(item);
 }
 
-/// Iteration limit of an item: from the file, otherwise a multiple of what the nominal chip takes with the nominal force.
-long ChipSweep::most_iterations(const std::function<bool()>& stop) const {
+/// Iteration limit of an item: from the sweep file, otherwise a multiple of the iterations of the nominal chip with the nominal force.
+long ChipSweep::find_iteration_limit(const std::function<bool()>& stop) const {
     if (iteration_limit_ > 0) return iteration_limit_;
     const std::lock_guard lock(nominal_mutex_);
     if (nominal_iteration_limit_) return *nominal_iteration_limit_;
@@ -198,7 +199,7 @@ ItemOutcome ChipSweep::failed_outcome(std::int64_t item, const Error& error) con
     return out;
 }
 
-ItemOutcome ChipSweep::outcome(std::int64_t item, const ActiveChip& at, ChipResponse&& response) const {
+ItemOutcome ChipSweep::outcome(std::int64_t item, const ActiveChip& chip, ChipResponse&& response) const {
     auto out = response.error ? failed_outcome(item, *response.error) : ItemOutcome{};
     out.item = item, out.ran_alone = response.is_scalar;
     out.steps = response.stats.steps, out.iterations = response.stats.iterations;
@@ -207,7 +208,7 @@ ItemOutcome ChipSweep::outcome(std::int64_t item, const ActiveChip& at, ChipResp
         out.end = ItemEnd::iteration_limit, out.reason = fmt::format("stopped after {} iterations", response.stats.iterations);
     ItemResponse measured;
     measured.spikes = response.spikes, measured.iterations = static_cast<double>(response.stats.iterations);
-    const double T = at.force->clock.T(), seconds = response.energy_use.seconds;
+    const double T = chip.force->clock.T(), seconds = response.energy_use.seconds;
     measured.power = response.energy_use.supplies / seconds, measured.sensor_power = response.energy_use.sensor / seconds;
     for (const auto& o : response.range_violations) {
         measured.time_outside_ranges.push_back(static_cast<double>(o.samples) * T);
@@ -215,7 +216,7 @@ ItemOutcome ChipSweep::outcome(std::int64_t item, const ActiveChip& at, ChipResp
     }
     measured.time_outside_ranges.resize(nominal_->operating_ranges.size());
     out.measures = response.hit_iteration_limit ? std::vector<double>(measures_.size(), std::numeric_limits<double>::quiet_NaN())
-                                                : afferent_measures_->values(*at.force, measured);
+                                                : afferent_measures_->values(*chip.force, measured);
     if (!train_names_.empty()) out.spikes.push_back(std::move(response.spikes));
     out.probes = std::move(response.probes);
     out.probes.resize(probe_names_.size());
@@ -226,11 +227,11 @@ ItemOutcome ChipSweep::outcome(std::int64_t item, const ActiveChip& at, ChipResp
 Result<void> ChipSweep::run_items(const NextItem& next, const OutcomeHandler& on_outcome, const std::function<bool()>& stop) const {
     circuit::BatchOptions options;
     options.should_stop = stop, options.probe_every = every_, options.lanes = lanes_;
-    options.max_iterations = most_iterations(stop);
+    options.max_iterations = find_iteration_limit(stop);
     std::map<std::int64_t, ActiveChip> active;
     std::optional<Error> sweep_error;
     const auto chip_of = [&](std::int64_t item, ActiveChip& at) {
-        return Chip{item, at.design, draw(item, *at.design), at.force->samples, at.force->clock.T()};
+        return Chip{item, at.design, chip_sample(item, *at.design), at.force->samples, at.force->clock.T()};
     };
     const auto next_chip = [&]() -> std::optional<Chip> {
         while (!stop() && !sweep_error) {
@@ -239,12 +240,12 @@ Result<void> ChipSweep::run_items(const NextItem& next, const OutcomeHandler& on
             const auto values = plan_.values(*item);
             const auto force = force_.at(values);
             if (!force) return sweep_error = force.error(), std::nullopt;
-            const auto made = design(values);
-            if (!made) {
-                on_outcome(failed_outcome(*item, made.error()));
+            const auto item_design = design(values);
+            if (!item_design) {
+                on_outcome(failed_outcome(*item, item_design.error()));
                 continue;
             }
-            ActiveChip at{*force, *made};
+            ActiveChip at{*force, *item_design};
             if (at.design == nominal_ || same_devices(*at.design->circuit, *nominal_->circuit)) {
                 auto& active_chip = active[*item] = std::move(at);
                 return chip_of(*item, active_chip);

@@ -10,17 +10,18 @@ namespace corpuscle {
 namespace {
 
 /// A text as a CSV field, quoted if necessary.
-std::string field(const std::string& text) {
+std::string csv_field(const std::string& text) {
     if (text.find_first_of(",\"\n\r") == text.npos) return text;
     std::string out = "\"";
     for (const char c : text) out += c == '"' ? "\"\"" : std::string(1, c);
     return out + "\"";
 }
 
-std::string number(double x, const SweepColumn& column) {
-    const auto& words = column.labels;
-    if (!words.empty() && x >= 0 && x < static_cast<double>(words.size()) && x == std::floor(x))
-        return field(words[static_cast<std::size_t>(x)]);
+/// The text of a value: its label if the column has labels, otherwise a number.
+std::string value_text(double x, const SweepColumn& column) {
+    const auto& labels = column.labels;
+    if (!labels.empty() && x >= 0 && x < static_cast<double>(labels.size()) && x == std::floor(x))
+        return csv_field(labels[static_cast<std::size_t>(x)]);
     return std::isnan(x) ? "" : fmt::format("{}", x);
 }
 
@@ -38,13 +39,14 @@ class BlobReader {
     }
 
 public:
-    Result<void> begin(const SweepResults& of, const std::string& query) {
-        auto made = sql::Statement::make(of.handle(), of.path(), query);
-        if (!made) return made.error();
-        rows_ = std::move(*made);
+    Result<void> begin(const SweepResults& results, const std::string& query) {
+        auto statement = sql::Statement::make(results.handle(), results.path(), query);
+        if (!statement) return statement.error();
+        rows_ = std::move(*statement);
         return advance();
     }
 
+    /// Appends the blobs of an item as `columns` fields; a field without a blob is empty.
     Result<void> put(std::int64_t item, std::size_t columns, std::string& text) {
         while (has_ && rows_.integer(0) < item)
             if (auto ok = advance(); !ok) return ok;
@@ -63,11 +65,11 @@ public:
     }
 };
 
-std::string names(const SweepResults& results) {
+std::string header_line(const SweepResults& results) {
     std::string text = "item,ended,steps,iterations,alone,why";
-    for (const auto& name : results.stored_column_names()) text += "," + field(name);
-    for (const auto& name : results.train_names()) text += "," + field("spikes of " + name);
-    for (const auto& name : results.probe_names()) text += "," + field("trace of " + name);
+    for (const auto& name : results.stored_column_names()) text += "," + csv_field(name);
+    for (const auto& name : results.train_names()) text += "," + csv_field("spikes of " + name);
+    for (const auto& name : results.probe_names()) text += "," + csv_field("trace of " + name);
     return text + "\n";
 }
 
@@ -75,26 +77,26 @@ std::string names(const SweepResults& results) {
 
 Result<void> dump_results(const SweepResults& results, const std::function<bool(const std::string&)>& put) {
     BlobReader<double> spikes;
-    BlobReader<float> traces;
+    BlobReader<float> probes;
     if (auto ok = sql::run(results.handle(), results.path(), "BEGIN"); !ok) return ok;  // one consistent state, also during a run
     auto ok = spikes.begin(results, "SELECT item, train, times FROM spikes ORDER BY item, train");
-    if (ok) ok = traces.begin(results, "SELECT item, trace, samples FROM traces ORDER BY item, trace");
-    bool should_continue = ok && put(names(results));
-    Result<void> each;
+    if (ok) ok = probes.begin(results, "SELECT item, trace, samples FROM traces ORDER BY item, trace");
+    bool should_continue = ok && put(header_line(results));
+    Result<void> row_result;
     if (should_continue)
-        each = results.for_each_row([&](const SweepResults::Row& row) {
+        row_result = results.for_each_row([&](const SweepResults::Row& row) {
             auto text = fmt::format("{},{},{},{},{},{}", row.item, end_name(row.end), row.steps, row.iterations, row.ran_alone ? 1 : 0,
-                                    field(row.reason));
-            for (std::size_t k = 0; k < row.axes.size(); ++k) text += "," + number(row.axes[k], results.axes()[k]);
-            for (std::size_t k = 0; k < row.measures.size(); ++k) text += "," + number(row.measures[k], results.measures()[k]);
+                                    csv_field(row.reason));
+            for (std::size_t k = 0; k < row.axes.size(); ++k) text += "," + value_text(row.axes[k], results.axes()[k]);
+            for (std::size_t k = 0; k < row.measures.size(); ++k) text += "," + value_text(row.measures[k], results.measures()[k]);
             ok = spikes.put(row.item, results.train_names().size(), text);
-            if (ok) ok = traces.put(row.item, results.probe_names().size(), text);
+            if (ok) ok = probes.put(row.item, results.probe_names().size(), text);
             should_continue = ok && put(text + "\n");
             return should_continue;
         });
-    spikes = {}, traces = {};
+    spikes = {}, probes = {};
     const auto ended = sql::run(results.handle(), results.path(), "END");
-    return !ok ? ok : !each ? each : ended;
+    return !ok ? ok : !row_result ? row_result : ended;
 }
 
 }  // namespace corpuscle

@@ -10,15 +10,15 @@ namespace corpuscle {
 namespace {
 
 constexpr double tail = (1 - confidence) / 2;
-constexpr std::size_t max_plotted = 1000;
+constexpr std::size_t max_plotted = 1000;  // points of the normal probability plot
 
-/// 1 - normality() is at most this large in 95 of 100 normal samples of n. From 8000 random samples (numpy; 600 for the largest n). Looney
-/// and Gulledge (1985) publish 0.918, 0.951, 0.977 and 0.987 for 10, 20, 50 and 100.
+/// {n, d}: 1 - normality() is at most d in 95 of 100 normal samples of size n. Computed from 8000 random samples for each n (numpy; 600 for
+/// the largest n). Looney and Gulledge (1985) publish 1 - d = 0.918, 0.951, 0.977 and 0.987 for n = 10, 20, 50 and 100.
 constexpr std::pair<double, double> normality_deviation[] = {{5, 0.120},       {10, 0.0827},     {20, 0.0491},     {50, 0.0235},
                                                              {100, 0.0128},    {200, 0.00682},   {500, 0.00299},   {1000, 0.00153},
                                                              {2000, 0.000817}, {5000, 0.000322}, {20000, 8.07e-5}, {100000, 1.46e-5}};
 
-/// The mean without the same number of the smallest and the largest values.
+/// The mean without this proportion of the smallest values and the same number of the largest.
 double trimmed_mean(const std::vector<double>& sorted, double proportion) {
     const auto cut = std::min(static_cast<std::size_t>(proportion * static_cast<double>(sorted.size())), (sorted.size() - 1) / 2);
     double sum = 0;
@@ -96,7 +96,7 @@ Estimate SortedSample::quantile(double q) const {
     Estimate out{rank(below) + (at - below) * (rank(below + 1) - rank(below))};
     // The quantile is below the k-th smallest value with probability P(at most k - 1 of n values are below it).
     double low = -1, high = n, step = n;
-    const auto largest = [&](auto&& holds) {  // largest k of 0 ... n for which it holds; it holds for all smaller k
+    const auto largest = [&](auto&& holds) {  // largest k of 0 ... n with holds(k), or -1; holds() is true for all smaller k
         double k = -1;
         for (step = std::exp2(std::ceil(std::log2(n + 1))); step >= 1; step /= 2)
             if (k + step <= n && holds(k + step)) k += step;

@@ -16,8 +16,8 @@ struct Estimate {
     double value = none, low = none, high = none;
 };
 
-/// The proportion some / all with the interval of Clopper and Pearson. Its coverage is never below the confidence level, even if none or
-/// all passed. (Wilson's interval is narrower, but its coverage can be lower.)
+/// The proportion count / total with the interval of Clopper and Pearson. Its coverage is never below the confidence level, even if the
+/// count is 0 or `total`. (Wilson's interval is narrower, but its coverage can be lower.)
 Estimate estimate_proportion(std::int64_t count, std::int64_t total);
 
 /// A sample in ascending order.
@@ -49,7 +49,7 @@ public:
     /// Correlation of a normal probability plot, 1 for a normal distribution (Filliben 1975; plotting positions after Blom), of at most
     /// 1000 points.
     double normality() const;
-    /// 95 of 100 normal samples of this size have at least this correlation; a smaller one is evidence of another distribution.
+    /// 95 of 100 normal samples of this size have at least this normality(); a smaller one is evidence of another distribution.
     double normality_floor() const;
 };
 

@@ -24,15 +24,16 @@ double spread_count(std::span<const double> spikes, const TimeWindow& phase) {
     return out + (spikes.empty() ? 0 : count_in(spikes.last(1), phase));
 }
 
-FiringLimits FiringLimits::around(std::span<const double> designed, std::span<const TimeWindow> phases, double first_off) {
+FiringLimits FiringLimits::around(std::span<const double> reference, std::span<const TimeWindow> phases, double time_tolerance) {
     FiringLimits out;
     bool fired = false;
     for (const auto& phase : phases) {
-        const double count = count_in(designed, phase), tolerance = std::max(1.0, std::floor(count / 4));
+        const double count = count_in(reference, phase), count_tolerance = std::max(1.0, std::floor(count / 4));
         fired |= count > 0;
-        out.phases.push_back({phase, std::max(0.0, count - tolerance), fired ? count + tolerance : 0, spread_count(designed, phase)});
+        out.phases.push_back(
+            {phase, std::max(0.0, count - count_tolerance), fired ? count + count_tolerance : 0, spread_count(reference, phase)});
     }
-    out.first_spike = designed.empty() ? 0 : designed[0], out.first_spike_tolerance = first_off;
+    out.first_spike = reference.empty() ? 0 : reference[0], out.first_spike_tolerance = time_tolerance;
     return out;
 }
 
@@ -45,8 +46,8 @@ bool FiringLimits::are_met(std::span<const double> spikes) const {
 double FiringLimits::distance(std::span<const double> spikes) const {
     double out = 0;
     for (const auto& p : phases) {
-        const double tolerance = (spread_count(spikes, p.phase) - p.designed) / std::max(0.5, (p.max - p.min) / 2);
-        out += tolerance * tolerance;
+        const double deviation = (spread_count(spikes, p.phase) - p.designed) / std::max(0.5, (p.max - p.min) / 2);
+        out += deviation * deviation;
     }
     if (first_spike_tolerance <= 0) return out;
     const double delay = spikes.empty() ? phases.back().phase.to - first_spike : spikes[0] - first_spike;

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double no_mean = std::numeric_limits<double>::quiet_NaN();
 
-/// The index of a row's value among the values of the axis; equal to their number if the row has none.
+/// The index of a row's value among the values of the axis; the number of values if the row has none.
 std::size_t level_of(const SweepTable& table, std::size_t axis, std::size_t row) {
     const auto& values = table.points[axis];
     const double x = table.axis_values[axis][row];

@@ -7,7 +7,7 @@
 
 namespace corpuscle {
 
-/// The part of a sweep to run here: items k with k % of == index.
+/// The part of a sweep to run here: items k with k % shard_count == index.
 struct Shard {
     std::int64_t index = 0, shard_count = 1;
 
@@ -39,7 +39,7 @@ public:
 private:
     std::vector<Range> ranges_;
     std::vector<std::int64_t> returned_;
-    std::size_t at_ = 0;
+    std::size_t at_ = 0;  // index of the first range with items left
     Shard shard_;
     std::int64_t remaining_ = 0;
 };

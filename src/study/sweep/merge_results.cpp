@@ -26,13 +26,13 @@ std::string item_columns(const ResultsLayout& layout) {
     return out;
 }
 
-/// Copies the rows that the other file has and this one lacks, for items of this sweep.
+/// The statement that copies the rows of the other file that this file lacks, for items of this sweep.
 std::string insertion_of(std::string_view table, const std::string& columns, std::int64_t items) {
     return fmt::format("INSERT INTO main.{0}({1}) SELECT {1} FROM source.{0} WHERE item >= 0 AND item < {2} ON CONFLICT DO NOTHING;", table,
                        columns, items);
 }
 
-/// Units that both files have with different results.
+/// The query for items that both files have with different results.
 std::string select_differing(const ResultsLayout& layout) {
     std::string text = fmt::format("SELECT item FROM main.items i JOIN source.items s USING(item) WHERE ({}) IS NOT ({})",
                                    all_columns("i", layout), all_columns("s", layout));
@@ -61,7 +61,7 @@ Result<void> check_differences(sqlite3* file, const ResultsLayout& layout, const
     }
     if (listed.empty()) return {};
     return bad_input(
-        fmt::format("item {} has other results than in {}, although the sweep is the same: one of the two was changed or made by "
+        fmt::format("the results of item {} differ from those in {}, although the sweep is the same: one of the two was changed or made by "
                     "another program; nothing was merged",
                     listed, path),
         {from});
@@ -80,8 +80,8 @@ Result<void> SweepResults::check_same_sweep(const SweepResults& other) const {
 Result<std::int64_t> SweepResults::merge(const SweepResults& from) {
     auto& impl = *impl_;
     if (auto same = from.check_same_sweep(*this); !same) return same.error();
-    std::error_code none;
-    if (std::filesystem::equivalent(path(), from.path(), none)) return bad_input("is also the file to merge into", {from.path()});
+    std::error_code status;
+    if (std::filesystem::equivalent(path(), from.path(), status)) return bad_input("is also the file to merge into", {from.path()});
     if (auto ok = impl.begin_writing(); !ok) return ok.error();
     auto* file = impl.file.get();
     auto attach = sql::Statement::make(file, path(), "ATTACH ? AS source");

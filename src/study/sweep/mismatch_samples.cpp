@@ -73,7 +73,7 @@ Result<MismatchSamples> parse_mismatch_samples(const std::string& text) {
 }
 
 DeviceDeviates deviates_of(const MismatchDevice& device, std::uint64_t seed, const std::vector<std::uint64_t>& chips) {
-    circuit::UicmCard card;  // with these values a device of 1 m by 1 m gives the deviates themselves
+    circuit::UicmCard card;  // with A_VT = A_IS = 1 and W = L = 1 m, the standard deviations are 1
     card.A_VT = 1, card.A_IS = 1;
     const circuit::UicmInstance size{.W = 1, .L = 1};
     DeviceDeviates out;

@@ -19,17 +19,17 @@ struct MismatchDevice {
     std::string name;          ///< with its path, in lower case
     std::uint32_t number = 0;  ///< index among the transistors with mismatch in its netlist
     bool pmos = false;
-    double W = 0, L = 0, m = 1, stack = 1;  ///< of one element, m; number of elements in parallel and in series
+    double W = 0, L = 0, m = 1, stack = 1;  ///< size of one element, m; number of elements in parallel and in series
     double sigma_VT = 0, sigma_IS = 0;      ///< standard deviations: of V_T in V, and of the logarithm of I_SQ
 
     double area() const { return W * L * m * stack; }
 };
 
 /// The transistors that differ from chip to chip. (Process parameters, which all transistors of a chip share, are axes.) The deviates of
-/// device `number` on chip c are normals(seed, number, ..., c), see mismatch() in circuit/device/uicm_card.hpp.
+/// device `number` on chip c are normals(seed, number, ..., c), see sample_mismatch() in circuit/device/uicm_card.hpp.
 struct MismatchSamples {
     std::uint64_t seed = 0;
-    std::int64_t chips = 0;  ///< item u is chip u % chips; 0: chip u
+    std::int64_t chips = 0;  ///< item k is chip k % chips; if 0, chip k
     struct Subject {
         std::string name;  ///< its measures are called NAME.MEASURE, unless it is the only subject
         std::vector<MismatchDevice> devices;

@@ -14,7 +14,7 @@ namespace corpuscle::sweeps {
 namespace {
 
 constexpr std::size_t max_block_items = 1024, min_block_items = 64;  // items
-constexpr std::size_t max_varied_samples = std::size_t{1} << 22;     // total samples of a block's forces, if they vary: 32 MB
+constexpr std::size_t max_varied_samples = std::size_t{1} << 22;     // total force samples of a block if the force varies: 32 MB
 constexpr std::size_t block_steps = 1024;                            // samples between two calls of `stop`
 
 /// A work item.
@@ -37,6 +37,7 @@ class ModelSweep final : public PlannedSweep {
     std::vector<std::size_t> probes_;
     std::size_t every_ = 0;
 
+    /// Index of a parameter of the afferent.
     std::size_t parameter(std::string_view name) const {
         const auto& all = *nominal_.parameters;
         return static_cast<std::size_t>(
@@ -48,7 +49,7 @@ class ModelSweep final : public PlannedSweep {
         return dot != std::string_view::npos && matches_name(nominal_, afferent_name, text.substr(0, dot)) ? text.substr(dot + 1) : text;
     }
 
-    Result<VariedQuantity> target(std::string_view afferent_name, const LocatedText& quantity) const;
+    Result<VariedQuantity> find_quantity(std::string_view afferent_name, const LocatedText& quantity) const;
     Result<void> set(const SweepText&);
     Result<void> select_probes(const SweepText&);
 
@@ -58,14 +59,14 @@ class ModelSweep final : public PlannedSweep {
     Result<void> respond(std::vector<ModelItem>&, const OutcomeHandler&, const std::function<bool()>& stop) const;
     Result<bool> respond_on_lanes(std::span<ModelItem* const>, InstructionSet, const std::function<bool()>& stop) const;
     Result<std::vector<std::vector<float>>> respond_alone(ModelItem&, const std::function<bool()>& stop) const;
-    void report(ModelItem&, std::vector<std::vector<float>> traces, const OutcomeHandler&) const;
+    void report(ModelItem&, std::vector<std::vector<float>> probe_samples, const OutcomeHandler&) const;
 
 public:
     static Result<std::unique_ptr<Sweep>> make(const SweepText&, const std::string& folder);
     Result<void> run_items(const NextItem&, const OutcomeHandler&, const std::function<bool()>& stop) const override;
 };
 
-Result<VariedQuantity> ModelSweep::target(std::string_view afferent_name, const LocatedText& quantity) const {
+Result<VariedQuantity> ModelSweep::find_quantity(std::string_view afferent_name, const LocatedText& quantity) const {
     if (force_.has_parameter(quantity.text)) return force_.find_quantity(quantity);
     std::vector<ParameterInfo> rows;
     for (const auto& p : *nominal_.parameters) rows.push_back(p.info);
@@ -106,13 +107,13 @@ Result<void> ModelSweep::select_probes(const SweepText& spec) {
     const auto afferent = make_afferent(nominal_, run_of(force));
     std::vector<std::string_view> names;
     for (const auto& p : afferent->probes()) names.push_back(p.name);
-    for (const auto& word : spec.probes) {
-        const auto at = std::find(names.begin(), names.end(), word.text);
+    for (const auto& probe : spec.probes) {
+        const auto at = std::find(names.begin(), names.end(), probe.text);
         if (at == names.end())
-            return word.error_here(fmt::format("traces: {} has no '{}'{} (it has {})", nominal_.name, word.text,
-                                               did_you_mean(word.text, names), fmt::join(names, ", ")));
+            return probe.error_here(fmt::format("traces: {} has no '{}'{} (it has {})", nominal_.name, probe.text,
+                                                did_you_mean(probe.text, names), fmt::join(names, ", ")));
         probes_.push_back(static_cast<std::size_t>(at - names.begin()));
-        probe_names_.push_back(word.text);
+        probe_names_.push_back(probe.text);
     }
     const auto every = probe_stride(spec, force.clock.T());
     if (!every) return every.error();
@@ -124,7 +125,7 @@ Result<void> ModelSweep::select_probes(const SweepText& spec) {
 Result<std::unique_ptr<Sweep>> ModelSweep::make(const SweepText& spec, const std::string& folder) {
     auto out = std::make_unique<ModelSweep>();
     auto& s = *out;
-    if (spec.directives) return spec.directives->error_here("orders is for netlist = ...; an afferent = ... responds to its force");
+    if (spec.directives) return spec.directives->error_here("orders applies to netlist = ...; an afferent = ... responds to its force");
     const auto& afferent_name = spec.afferent->text;
     if (spec.iterations)
         return spec.iterations->error_here(fmt::format("{} is a model and has no iterations; remove iterations", afferent_name));
@@ -138,16 +139,16 @@ Result<std::unique_ptr<Sweep>> ModelSweep::make(const SweepText& spec, const std
     s.force_ = std::move(*force);
     if (!spec.settings.empty())
         if (auto ok = s.set(spec); !ok) return ok.error();
-    VariableQuantities varying;
-    varying.subject_name = s.nominal_.name;
-    varying.find_quantity = [&](const LocatedText& quantity) { return s.target(afferent_name, quantity); };
-    varying.vary = [&](const SweepAxis&, const std::string& quantity, std::size_t axis) {
+    VariableQuantities quantities;
+    quantities.subject_name = s.nominal_.name;
+    quantities.find_quantity = [&](const LocatedText& quantity) { return s.find_quantity(afferent_name, quantity); };
+    quantities.vary = [&](const SweepAxis&, const std::string& quantity, std::size_t axis) {
         if (s.force_.has_parameter(quantity))
             s.force_.vary(quantity, axis);
         else
             s.varied_.push_back({s.parameter(s.parameter_name(afferent_name, quantity)), axis});
     };
-    auto sweep_plan = plan_of(spec, varying);
+    auto sweep_plan = plan_of(spec, quantities);
     if (!sweep_plan) return sweep_plan.error();
     s.plan_ = std::move(*sweep_plan);
     if (auto ok = s.force_.prepare(); !ok) return ok.error();
@@ -156,19 +157,19 @@ Result<std::unique_ptr<Sweep>> ModelSweep::make(const SweepText& spec, const std
             .error_here(fmt::format("the sample rate is {:g} Hz, but {} needs {:g} Hz or more", rate, afferent_name, s.nominal_.min_rate));
     s.afferent_measures_ = std::make_unique<AfferentMeasures>(*s.force_.nominal(), false, std::span<const std::string>());
     if (auto ok = s.afferent_measures_->select(spec.measures); !ok) return ok.error();
-    const MeasureLookup limiting{[&](const LocatedText& name) { return s.afferent_measures_->require_column(name); },
-                                 [&](const LocatedText& model, std::size_t column) {
-                                     return model_measure(model, s.force_, {s.afferent_measures_->columns()[column].name, model.location});
-                                 }};
-    if (auto ok = set_limits(spec, limiting, s.afferent_measures_->columns()); !ok) return ok.error();
+    const MeasureLookup lookup{[&](const LocatedText& name) { return s.afferent_measures_->require_column(name); },
+                               [&](const LocatedText& model, std::size_t column) {
+                                   return model_measure(model, s.force_, {s.afferent_measures_->columns()[column].name, model.location});
+                               }};
+    if (auto ok = set_limits(spec, lookup, s.afferent_measures_->columns()); !ok) return ok.error();
     s.measures_ = s.afferent_measures_->columns();
     const auto keeps = keeps_spikes(spec);
     if (!keeps) return keeps.error();
     if (*keeps) s.train_names_ = {s.nominal_.name};
     if (auto ok = s.select_probes(spec); !ok) return ok.error();
     s.metadata_ = first_metadata(spec, fmt::format("{}, {}", afferent_name, s.force_.name()));
-    if (auto recorded = s.force_.recording_summary(); !recorded.empty())
-        s.metadata_.push_back({"recording " + s.force_.name(), std::move(recorded)});
+    if (auto summary = s.force_.recording_summary(); !summary.empty())
+        s.metadata_.push_back({"recording " + s.force_.name(), std::move(summary)});
     return std::unique_ptr<Sweep>(std::move(out));
 }
 
@@ -183,6 +184,7 @@ Result<ModelItem> ModelSweep::make_item(std::int64_t number) const {
     return out;
 }
 
+/// Number of items in a block: an eighth of the sweep, within limits.
 std::size_t ModelSweep::block_items() const {
     auto limit = max_block_items;
     if (force_.varies()) limit = std::clamp<std::size_t>(max_varied_samples / force_.nominal()->samples.size(), 1, limit);
@@ -197,43 +199,44 @@ Result<void> ModelSweep::run_items(const NextItem& next, const OutcomeHandler& o
         while (block.size() < limit && !stop()) {
             const auto number = next();
             if (!number) break;
-            auto made = make_item(*number);
-            if (!made) return made.error();
-            block.push_back(std::move(*made));
+            auto item = make_item(*number);
+            if (!item) return item.error();
+            block.push_back(std::move(*item));
         }
         if (block.empty() || stop()) return {};
         if (auto ok = respond(block, on_outcome, stop); !ok) return ok.error().code == ErrorCode::interrupted ? Result<void>() : ok;
     }
 }
 
-/// Simulates items with equal shared parameters together; these must be the same in a whole population.
+/// Groups the items by the parameters that must be equal in a lane population, and simulates each group on lanes. Items that cannot use
+/// lanes are simulated one at a time.
 Result<void> ModelSweep::respond(std::vector<ModelItem>& block, const OutcomeHandler& on_outcome, const std::function<bool()>& stop) const {
     const auto set = instruction_set();
     if (!set) return set.error();
-    std::map<std::vector<double>, std::vector<ModelItem*>> kinds;
-    std::vector<ModelItem*> singles;
-    for (auto& u : block) {
-        if (u.failure) continue;
-        if (*set == InstructionSet::scalar || !probes_.empty() || !can_use_lanes(u.plan, run_of(*u.force))) {
-            singles.push_back(&u);
+    std::map<std::vector<double>, std::vector<ModelItem*>> lane_groups;
+    std::vector<ModelItem*> scalars;
+    for (auto& item : block) {
+        if (item.failure) continue;
+        if (*set == InstructionSet::scalar || !probes_.empty() || !can_use_lanes(item.plan, run_of(*item.force))) {
+            scalars.push_back(&item);
             continue;
         }
         std::vector<double> shared;
-        for (std::size_t k = 0; k < u.plan.values.size(); ++k)
-            if ((*u.plan.parameters)[k].info.is_shared_by_copies) shared.push_back(u.plan.values[k]);
-        kinds[shared].push_back(&u);
+        for (std::size_t k = 0; k < item.plan.values.size(); ++k)
+            if ((*item.plan.parameters)[k].info.is_shared_by_copies) shared.push_back(item.plan.values[k]);
+        lane_groups[shared].push_back(&item);
     }
-    for (const auto& [shared, items] : kinds) {
+    for (const auto& [shared, items] : lane_groups) {
         const auto done = respond_on_lanes(items, *set, stop);
         if (!done) return done.error();
-        if (!*done) singles.insert(singles.end(), items.begin(), items.end());
+        if (!*done) scalars.insert(scalars.end(), items.begin(), items.end());
     }
     std::vector<bool> is_reported(block.size());
-    for (auto* u : singles) {
-        u->spikes.clear();
-        auto traces = respond_alone(*u, stop);
-        if (!traces) return traces.error();
-        report(*u, std::move(*traces), on_outcome), is_reported[static_cast<std::size_t>(u - block.data())] = true;
+    for (auto* item : scalars) {
+        item->spikes.clear();
+        auto probe_samples = respond_alone(*item, stop);
+        if (!probe_samples) return probe_samples.error();
+        report(*item, std::move(*probe_samples), on_outcome), is_reported[static_cast<std::size_t>(item - block.data())] = true;
     }
     for (std::size_t k = 0; k < block.size(); ++k)
         if (!is_reported[k]) report(block[k], {}, on_outcome);
@@ -243,15 +246,15 @@ Result<void> ModelSweep::respond(std::vector<ModelItem>& block, const OutcomeHan
 /// Returns false if the state of an item became NaN or infinite; then all items are simulated one at a time.
 Result<bool> ModelSweep::respond_on_lanes(std::span<ModelItem* const> items, InstructionSet set, const std::function<bool()>& stop) const {
     std::vector<const AfferentPlan*> plans;
-    for (const auto* u : items) plans.push_back(&u->plan);
+    for (const auto* item : items) plans.push_back(&item->plan);
     const bool same_parameters = varied_.empty();
     auto population =
         make_lane_population({same_parameters ? std::span(plans).first(1) : std::span<const AfferentPlan* const>(plans), items.size()},
                              run_of(*items[0]->force), set);
     if (!population) return population.error();
-    const bool one_force = std::all_of(items.begin(), items.end(), [&](const ModelItem* u) { return u->force == items[0]->force; });
+    const bool same_force = std::all_of(items.begin(), items.end(), [&](const ModelItem* item) { return item->force == items[0]->force; });
     std::size_t longest = 0;
-    for (const auto* u : items) longest = std::max(longest, u->force->samples.size());
+    for (const auto* item : items) longest = std::max(longest, item->force->samples.size());
     std::vector<std::vector<double>> padded(items.size());  // shorter forces are extended by their last value
     std::vector<const double*> columns(items.size());
     std::vector<Spike> spikes;
@@ -260,7 +263,7 @@ Result<bool> ModelSweep::respond_on_lanes(std::span<ModelItem* const> items, Ins
         if (stop()) return Error{ErrorCode::interrupted, "interrupted"};
         const auto steps = std::min(block_steps, longest - at);
         PopulationForce force;
-        if (one_force) {
+        if (same_force) {
             force = ForceProfile{std::span(items[0]->force->samples).subspan(at, steps)};
         } else {
             for (std::size_t k = 0; k < items.size(); ++k) {
@@ -277,39 +280,40 @@ Result<bool> ModelSweep::respond_on_lanes(std::span<ModelItem* const> items, Ins
         PopulationResponse response{&spikes};
         if (const auto ok = (*population)->respond(force, steps, response, single_thread); !ok) return false;
         for (const auto& s : spikes) {
-            auto& u = *items[s.afferent_index];
-            if (s.step < static_cast<std::int64_t>(u.force->samples.size())) u.spikes.push_back(u.force->clock.time(s.step, s.offset));
+            auto& item = *items[s.afferent_index];
+            if (s.step < static_cast<std::int64_t>(item.force->samples.size()))
+                item.spikes.push_back(item.force->clock.time(s.step, s.offset));
         }
     }
     return true;
 }
 
-Result<std::vector<std::vector<float>>> ModelSweep::respond_alone(ModelItem& u, const std::function<bool()>& stop) const {
-    auto response = simulate_afferent(*make_afferent(u.plan, run_of(*u.force)), *u.force, probes_, every_, stop);
+Result<std::vector<std::vector<float>>> ModelSweep::respond_alone(ModelItem& item, const std::function<bool()>& stop) const {
+    auto response = simulate_afferent(*make_afferent(item.plan, run_of(*item.force)), *item.force, probes_, every_, stop);
     if (!response && response.error().code == ErrorCode::interrupted) return response.error();
     if (!response) {
-        u.failure = response.error().message;
+        item.failure = response.error().message;
         return std::vector<std::vector<float>>();
     }
-    u.spikes = std::move(response->spikes);
+    item.spikes = std::move(response->spikes);
     return std::move(response->probe_samples);
 }
 
-void ModelSweep::report(ModelItem& u, std::vector<std::vector<float>> traces, const OutcomeHandler& on_outcome) const {
+void ModelSweep::report(ModelItem& item, std::vector<std::vector<float>> probe_samples, const OutcomeHandler& on_outcome) const {
     ItemOutcome out;
-    out.item = u.number;
-    if (u.failure) {
-        out.end = ItemEnd::diverged, out.reason = *u.failure, u.spikes.clear();
+    out.item = item.number;
+    if (item.failure) {
+        out.end = ItemEnd::diverged, out.reason = *item.failure, item.spikes.clear();
         out.measures.assign(measures_.size(), std::numeric_limits<double>::quiet_NaN());
     } else {
         ItemResponse response;
-        response.spikes = u.spikes;
-        out.measures = afferent_measures_->values(*u.force, response);
+        response.spikes = item.spikes;
+        out.measures = afferent_measures_->values(*item.force, response);
     }
-    if (!train_names_.empty()) out.spikes.push_back(std::move(u.spikes));
-    traces.resize(probe_names_.size());
-    for (auto& t : traces) t.resize(probe_times_.size(), std::numeric_limits<float>::quiet_NaN());
-    out.probes = std::move(traces);
+    if (!train_names_.empty()) out.spikes.push_back(std::move(item.spikes));
+    probe_samples.resize(probe_names_.size());
+    for (auto& t : probe_samples) t.resize(probe_times_.size(), std::numeric_limits<float>::quiet_NaN());
+    out.probes = std::move(probe_samples);
     on_outcome(std::move(out));
 }
 

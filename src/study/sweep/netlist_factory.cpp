@@ -17,22 +17,23 @@ namespace fs = std::filesystem;
 using circuit::Netlist;
 using circuit::NetlistOverride;
 
-constexpr std::size_t max_bytes = std::size_t{64} << 20;
+constexpr std::size_t max_bytes = std::size_t{64} << 20;  // of one netlist file
 
 bool is_embedded(std::string_view path) {
     const auto all = embedded_files();
     return std::find(all.begin(), all.end(), path) != all.end();
 }
 
-/// Reads a file that can be read again for each process corner.
-Result<std::string> bytes_of(const fs::path& path, const std::string& name) {
+/// Reads a netlist file. Accepts only regular files: pipes could not be read again in another run.
+Result<std::string> read_netlist_file(const fs::path& path, const std::string& name) {
     std::error_code status;
     if (fs::exists(path, status) && !fs::is_regular_file(path, status))
-        return bad_input("this is not a regular file; save it to one", {name});
+        return bad_input("this is not a regular file; save its content to a file", {name});
     auto text = read_entire_input(path.string(), max_bytes, "netlist");
     return text ? std::move(text) : Error{text.error().code, text.error().message, {name}};
 }
 
+/// An override for a setting or a varied value of the sweep file.
 NetlistOverride override_of(const std::string& name, std::string value) {
     return {name, std::move(value), name, equal_ignoring_case(name, "supply")};
 }
@@ -71,7 +72,7 @@ Result<NetlistFactory> NetlistFactory::of(const LocatedText& given, const std::s
     std::error_code status;
     if (const auto* embedded = circuit::find_embedded_netlist(given.text)) {
         out.file_ = embedded->file, out.name_ = embedded->name, out.is_embedded_ = true;
-    } else if (const fs::path path = given.text; path.is_absolute()) {  // paths of this machine stay out of the results
+    } else if (const fs::path path = given.text; path.is_absolute()) {  // results must not contain absolute paths
         out.folder_ = path.parent_path().string(), out.name_ = out.file_ = path.filename().string();
     }
     if (!out.is_embedded_ && !fs::exists(fs::path(out.folder_) / out.file_, status)) {
@@ -80,8 +81,9 @@ Result<NetlistFactory> NetlistFactory::of(const LocatedText& given, const std::s
             if (file.ends_with(".cir")) known.push_back(file);
         for (const auto& c : circuit::embedded_netlists) known.push_back(c.name);
         if (!is_embedded(out.file_))
-            return given.error_here(fmt::format("there is no netlist '{}' beside the sweep file and no embedded one of this name{}",
-                                                given.text, did_you_mean(given.text, known)));
+            return given.error_here(
+                fmt::format("there is no netlist '{}' in the folder of the sweep file and no embedded one of this name{}", given.text,
+                            did_you_mean(given.text, known)));
         out.is_embedded_ = true;
     }
     auto opened = out.open("");
@@ -95,7 +97,7 @@ Result<std::string> NetlistFactory::text_of(const std::string& path) const {
         for (const auto& [name, text] : files_->texts)
             if (name == path) return text;
     }
-    auto text = is_embedded_ ? embedded_text(path) : bytes_of(fs::path(folder_) / path, path);
+    auto text = is_embedded_ ? embedded_text(path) : read_netlist_file(fs::path(folder_) / path, path);
     if (!text) return text;
     const std::lock_guard lock(files_->mutex);
     files_->texts.emplace_back(path, *text);

@@ -30,7 +30,7 @@ class NetlistFactory {
     Result<circuit::Netlist> with_overrides(std::span<const circuit::NetlistOverride>) const;
 
 public:
-    /// "sa1-circuit", a path relative to the folder, or the path of an embedded netlist. `orders` replace its own directives.
+    /// "sa1-circuit", a path relative to the folder, or the path of an embedded netlist. `directives` replace the netlist's.
     static Result<NetlistFactory> of(const LocatedText& name, const std::string& folder, const std::string& directives = "");
 
     const std::string& name() const { return name_; }

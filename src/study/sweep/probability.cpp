@@ -32,10 +32,11 @@ double log_beta(double a, double b) { return std::lgamma(a) + std::lgamma(b) - s
 double normal_quantile(double p) {
     if (!(p > 0 && p < 1)) return p == 0 || p == 1 ? (p - 0.5) * std::numeric_limits<double>::infinity() : std::nan("");
     // An initial value after Abramowitz and Stegun 26.2.23, then Halley steps on erfc.
-    const double tail = std::min(p, 1 - p), t = std::sqrt(-2 * std::log(tail));
+    const double smaller_tail = std::min(p, 1 - p), t = std::sqrt(-2 * std::log(smaller_tail));
     double x = -(t - (2.515517 + t * (0.802853 + t * 0.010328)) / (1 + t * (1.432788 + t * (0.189269 + t * 0.001308))));
     for (int k = 0; k < 3; ++k) {
-        const double off = (0.5 * std::erfc(-x / std::sqrt(2.0)) - tail) * std::sqrt(2 * 3.14159265358979323846) * std::exp(x * x / 2);
+        const double off =
+            (0.5 * std::erfc(-x / std::sqrt(2.0)) - smaller_tail) * std::sqrt(2 * 3.14159265358979323846) * std::exp(x * x / 2);
         x -= off / (1 + x * off / 2);
     }
     return p < 0.5 ? x : -x;

@@ -14,13 +14,13 @@ namespace corpuscle {
 namespace {
 
 struct WorkerState {
-    RankHandshake hello;
-    bool is_seen = false, lives = true, is_counted = false;  // is_counted: among the dead ranks
-    std::unordered_set<std::int64_t> has;                    // items
+    RankHandshake handshake;
+    bool is_local = false, is_alive = true, is_counted = false;  // is_local: on this machine; is_counted: among the dead ranks
+    std::unordered_set<std::int64_t> items;                      // items in progress
     std::int64_t requested = 0;
     RankTime last_received, last_sent;
 
-    bool is_gone() const { return is_seen && hello.is_dead(); }
+    bool is_gone() const { return is_local && handshake.is_dead(); }
 };
 
 class Coordinator {
@@ -38,7 +38,7 @@ class Coordinator {
     std::vector<ItemOutcome> pending_;
     const std::uint64_t metadata_hash_;
     const unsigned threads_;
-    RankThroughput pace_;
+    RankThroughput throughput_;
     RankTime now_ = rank_time(), written_ = now_, stopped_at_ = now_;
     bool stopped_ = false;
     Result<void> fault_;
@@ -56,62 +56,62 @@ class Coordinator {
 
     void handle_handshake(std::size_t rank, Message& m) {
         auto& worker = workers_[rank];
-        if (!decode_rank_message(m, worker.hello)) return;
-        worker.is_seen = worker.hello.is_on_this_machine();
-        if (worker.hello.metadata_hash != 0 && worker.hello.metadata_hash != metadata_hash_ && fault_)
+        if (!decode_rank_message(m, worker.handshake)) return;
+        worker.is_local = worker.handshake.is_on_this_machine();
+        if (worker.handshake.metadata_hash != 0 && worker.handshake.metadata_hash != metadata_hash_ && fault_)
             fault_ = bad_input(
-                fmt::format("rank {} on {} reads another sweep than rank 0: give all of them the same files", rank, worker.hello.host));
+                fmt::format("rank {} on {} reads another sweep than rank 0: give all ranks the same files", rank, worker.handshake.host));
     }
 
     void handle(std::size_t rank, Message m) {
         auto& worker = workers_[rank];
         worker.last_received = now_;
-        if (!worker.lives) worker.lives = !worker.is_gone();  // the message may have been sent before it died
-        const auto word = decode_rank_message_type(m);
+        if (!worker.is_alive) worker.is_alive = !worker.is_gone();  // the message may have been sent before it died
+        const auto type = decode_rank_message_type(m);
         std::uint64_t number = 0;
         std::vector<ItemOutcome> outcomes;
         Error error;
-        if (word == RankMessageType::handshake) handle_handshake(rank, m);
-        if (word == RankMessageType::request && m.get(number)) worker.requested = static_cast<std::int64_t>(number);
-        // Items that it no longer has were given to other ranks when it was counted as dead.
-        if (word == RankMessageType::outcomes && decode_rank_message(m, outcomes))
+        if (type == RankMessageType::handshake) handle_handshake(rank, m);
+        if (type == RankMessageType::request && m.get(number)) worker.requested = static_cast<std::int64_t>(number);
+        // Outcomes of other items are ignored: these were given to other ranks when this rank was counted as dead.
+        if (type == RankMessageType::outcomes && decode_rank_message(m, outcomes))
             for (auto& o : outcomes)
-                if (worker.has.erase(o.item) > 0) accept(std::move(o));
-        if (word == RankMessageType::sweep_error && decode_rank_message(m, error) && fault_)
-            fault_ = Error{error.code, fmt::format("rank {} on {}: {}", rank, worker.hello.host, error.message)};
+                if (worker.items.erase(o.item) > 0) accept(std::move(o));
+        if (type == RankMessageType::sweep_error && decode_rank_message(m, error) && fault_)
+            fault_ = Error{error.code, fmt::format("rank {} on {}: {}", rank, worker.handshake.host, error.message)};
     }
 
     void mark_dead(std::size_t rank) {
         auto& worker = workers_[rank];
-        queue_.put_back({worker.has.begin(), worker.has.end()});
+        queue_.put_back({worker.items.begin(), worker.items.end()});
         if (!std::exchange(worker.is_counted, true)) ++dead_ranks_.ranks;
-        dead_ranks_.redistributed_items += static_cast<std::int64_t>(worker.has.size());
-        worker.lives = false, worker.requested = 0;
-        worker.has.clear();
+        dead_ranks_.redistributed_items += static_cast<std::int64_t>(worker.items.size());
+        worker.is_alive = false, worker.requested = 0;
+        worker.items.clear();
         ranks_.drop_messages_to(static_cast<int>(rank));
     }
 
     void check_worker(std::size_t rank) {
         auto& worker = workers_[rank];
-        if (!worker.lives) return;
+        if (!worker.is_alive) return;
         if (worker.is_gone() || seconds_between(worker.last_received, now_) > rank_timeout) return mark_dead(rank);
         if (seconds_between(worker.last_sent, now_) > heartbeat_interval) send(rank, rank_message(RankMessageType::heartbeat));
     }
 
     void distribute() {
         if (stopped_ || queue_.remaining() == 0) return;
-        const auto alive = 1 + std::count_if(workers_.begin() + 1, workers_.end(), [](const WorkerState& f) { return f.lives; });
+        const auto alive = 1 + std::count_if(workers_.begin() + 1, workers_.end(), [](const WorkerState& f) { return f.is_alive; });
         // Shrinking blocks make all ranks finish at about the same time.
         const auto block_size = [&] { return std::max<std::int64_t>(1, queue_.remaining() / (2 * alive)); };
         for (std::size_t rank = 1; rank < workers_.size() && queue_.remaining() > 0; ++rank) {
             auto& worker = workers_[rank];
-            if (!worker.lives || worker.requested == 0) continue;
+            if (!worker.is_alive || worker.requested == 0) continue;
             const auto items = queue_.take(std::min(worker.requested, block_size()));
-            worker.has.insert(items.begin(), items.end());
+            worker.items.insert(items.begin(), items.end());
             worker.requested = 0;
             send(rank, rank_message(items));
         }
-        const auto wanted = pace_.queue_target(threads_), waiting = static_cast<std::int64_t>(pool_.queued());
+        const auto wanted = throughput_.queue_target(threads_), waiting = static_cast<std::int64_t>(pool_.queued());
         if (2 * waiting <= wanted && queue_.remaining() > 0) pool_.add(queue_.take(std::min(wanted - waiting, block_size())));
     }
 
@@ -126,7 +126,7 @@ class Coordinator {
     bool is_over() const {
         if (stopped_) return pool_.is_done() && seconds_between(stopped_at_, now_) > drain_time;
         return queue_.remaining() == 0 && pool_.is_done() && pending_.empty() &&
-               std::all_of(workers_.begin() + 1, workers_.end(), [](const WorkerState& f) { return f.has.empty(); });
+               std::all_of(workers_.begin() + 1, workers_.end(), [](const WorkerState& f) { return f.items.empty(); });
     }
 
     Result<void> run_loop() {
@@ -136,9 +136,9 @@ class Coordinator {
                 handle(static_cast<std::size_t>(received->from), Message(std::move(received->message)));
             for (std::size_t rank = 1; rank < workers_.size(); ++rank) check_worker(rank);
             distribute();
-            auto own = pool_.collect(0);
-            pace_.add_finished(own.size(), now_);
-            for (auto& o : own) accept(std::move(o));
+            auto outcomes = pool_.collect(0);
+            throughput_.add_finished(outcomes.size(), now_);
+            for (auto& o : outcomes) accept(std::move(o));
             if (auto ok = write(); !ok) return ok;
             if (auto ok = pool_.sweep_error(); !ok && fault_) fault_ = ok;
             if (!fault_) break;
@@ -151,9 +151,9 @@ class Coordinator {
     }
 
 public:
-    Coordinator(Ranks& ranks, const Sweep& sweep, SweepResults& results, const SweepRunOptions& run, SweepProgress& count, DeadRanks& lost,
-                std::vector<ItemQueue::Range> missing)
-        : ranks_(ranks), sweep_(sweep), results_(results), run_(run), count_(count), dead_ranks_(lost),
+    Coordinator(Ranks& ranks, const Sweep& sweep, SweepResults& results, const SweepRunOptions& run, SweepProgress& count,
+                DeadRanks& dead_ranks, std::vector<ItemQueue::Range> missing)
+        : ranks_(ranks), sweep_(sweep), results_(results), run_(run), count_(count), dead_ranks_(dead_ranks),
           queue_(std::move(missing), run.shard), workers_(static_cast<std::size_t>(ranks.size())),
           metadata_hash_(RankHandshake::of_this_process(&sweep).metadata_hash), threads_(std::max(1U, run.threads)),
           pool_(sweep, threads_) {
@@ -165,18 +165,18 @@ public:
         }
     }
 
-    Result<void> lead() {
+    Result<void> run() {
         auto ok = run_loop();
         pool_.stop();
         return ok;
     }
 
     bool all_alive() const {
-        return std::all_of(workers_.begin() + 1, workers_.end(), [](const WorkerState& f) { return f.lives; });
+        return std::all_of(workers_.begin() + 1, workers_.end(), [](const WorkerState& f) { return f.is_alive; });
     }
 };
 
-/// Sends the end to all ranks. Does not wait for dead ranks.
+/// Sends a shutdown message to all ranks. Does not wait for dead ranks.
 void end_all(Ranks& ranks, bool together) {
     for (int rank = 1; rank < ranks.size(); ++rank) ranks.send(rank, rank_message(RankMessageType::shutdown, together).bytes());
     const auto begun = rank_time();
@@ -187,15 +187,15 @@ void end_all(Ranks& ranks, bool together) {
 }  // namespace
 
 Result<void> run_coordinator(Ranks& ranks, const Sweep& sweep, SweepResults& results, const SweepRunOptions& run, SweepProgress& count,
-                             DeadRanks& lost) {
+                             DeadRanks& dead_ranks) {
     auto missing = results.missing_ranges();
     if (!missing) {
         shut_down_workers(ranks);
         return missing.error();
     }
-    Coordinator leading(ranks, sweep, results, run, count, lost, std::move(*missing));
-    auto ok = leading.lead();
-    end_all(ranks, leading.all_alive());
+    Coordinator coordinator(ranks, sweep, results, run, count, dead_ranks, std::move(*missing));
+    auto ok = coordinator.run();
+    end_all(ranks, coordinator.all_alive());
     return ok;
 }
 

@@ -18,14 +18,14 @@ std::string host_name() {
     return host.data();
 }
 
-/// FNV-1a hash of everything that two equal sweeps have in common.
+/// FNV-1a hash of everything that must be equal in two ranks of the same sweep.
 std::uint64_t hash_of(const Sweep& sweep) {
     std::uint64_t hash = 0xcbf29ce484222325;
     const auto add = [&](const std::string& text) {
         for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3;
         hash *= 0x100000001b3;
     };
-    for (const auto& fact : sweep.metadata()) add(fact.name), add(fact.text);
+    for (const auto& entry : sweep.metadata()) add(entry.name), add(entry.text);
     for (const auto& name : ResultsLayout::of(sweep).stored_column_names) add(name);
     add(std::to_string(sweep.item_count()));
     return hash;
@@ -82,20 +82,20 @@ bool RankHandshake::is_dead() const {
 }
 bool RankHandshake::is_on_this_machine() const { return host == host_name() && !is_dead(); }
 
-Message rank_message(RankMessageType word) {
+Message rank_message(RankMessageType type) {
     Message m;
-    m.put(static_cast<std::uint64_t>(word));
+    m.put(static_cast<std::uint64_t>(type));
     return m;
 }
 
-Message rank_message(const RankHandshake& hello) {
+Message rank_message(const RankHandshake& handshake) {
     auto m = rank_message(RankMessageType::handshake);
-    m.put(hello.host), m.put(hello.process), m.put(hello.metadata_hash);
+    m.put(handshake.host), m.put(handshake.process), m.put(handshake.metadata_hash);
     return m;
 }
 
-Message rank_message(RankMessageType word, std::uint64_t number) {
-    auto m = rank_message(word);
+Message rank_message(RankMessageType type, std::uint64_t number) {
+    auto m = rank_message(type);
     m.put(number);
     return m;
 }
@@ -126,13 +126,13 @@ Message rank_message(const Error& error) {
 }
 
 std::optional<RankMessageType> decode_rank_message_type(Message& m) {
-    std::uint64_t word = 0;
-    if (!m.get(word) || word > static_cast<std::uint64_t>(RankMessageType::shutdown)) return {};
-    return static_cast<RankMessageType>(word);
+    std::uint64_t type = 0;
+    if (!m.get(type) || type > static_cast<std::uint64_t>(RankMessageType::shutdown)) return {};
+    return static_cast<RankMessageType>(type);
 }
 
-bool decode_rank_message(Message& m, RankHandshake& hello) {
-    return m.get(hello.host) && m.get(hello.process) && m.get(hello.metadata_hash);
+bool decode_rank_message(Message& m, RankHandshake& handshake) {
+    return m.get(handshake.host) && m.get(handshake.process) && m.get(handshake.metadata_hash);
 }
 bool decode_rank_message(Message& m, std::vector<std::int64_t>& items) { return get_numbers(m, items); }
 

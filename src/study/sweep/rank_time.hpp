@@ -13,7 +13,7 @@ inline double seconds_between(RankTime from, RankTime to) { return std::chrono::
 
 inline constexpr std::chrono::milliseconds rank_tick{1};
 inline constexpr double heartbeat_interval = 1;  // s
-inline constexpr double rank_timeout = 20;       // s; death of a rank on the same machine is noticed at once
+inline constexpr double rank_timeout = 20;       // s; a rank that dies on the same machine is noticed at once
 
 /// Number of items to keep queued at a rank: half a second's work, so that requests cost no time, and enough to fill its lanes.
 class RankThroughput {

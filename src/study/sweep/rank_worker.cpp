@@ -14,8 +14,8 @@ namespace corpuscle {
 namespace {
 
 class RankWorker {
-    static constexpr double between_outcomes = 0.1;  // s
-    static constexpr std::size_t max_unsent = 8;     // messages; the worker threads wait if there are more
+    static constexpr double delivery_interval = 0.1;  // s
+    static constexpr std::size_t max_unsent = 8;      // messages; with more, outcomes stay in the pool and its threads wait
 
     Ranks& ranks_;
     const SweepRunOptions& run_;
@@ -23,9 +23,9 @@ class RankWorker {
     std::optional<WorkerPool> pool_;
     RankHandshake coordinator_;
     RankTime now_, last_received_ = rank_time(), last_sent_ = last_received_, last_delivered_ = last_received_;
-    RankThroughput pace_;
+    RankThroughput throughput_;
     bool has_request_ = false, error_reported_ = false, is_over_ = false, leave_together_ = true, is_stopped_ = false,
-         sees_coordinator_ = false;
+         coordinator_is_local_ = false;
 
     void send(const Message& m) {
         ranks_.send(0, m.bytes());
@@ -34,25 +34,25 @@ class RankWorker {
 
     void handle(Message m) {
         last_received_ = now_;
-        const auto word = decode_rank_message_type(m);
+        const auto type = decode_rank_message_type(m);
         std::uint64_t together = 0;
         std::vector<std::int64_t> items;
-        if (word == RankMessageType::handshake && decode_rank_message(m, coordinator_))
-            sees_coordinator_ = coordinator_.is_on_this_machine();
-        if (word == RankMessageType::shutdown && m.get(together)) is_over_ = true, leave_together_ = together != 0;
-        if (word == RankMessageType::items && decode_rank_message(m, items) && pool_) pool_->add(items), has_request_ = false;
+        if (type == RankMessageType::handshake && decode_rank_message(m, coordinator_))
+            coordinator_is_local_ = coordinator_.is_on_this_machine();
+        if (type == RankMessageType::shutdown && m.get(together)) is_over_ = true, leave_together_ = together != 0;
+        if (type == RankMessageType::items && decode_rank_message(m, items) && pool_) pool_->add(items), has_request_ = false;
     }
 
     void deliver_outcomes() {
-        if (seconds_between(last_delivered_, now_) < between_outcomes || ranks_.unsent() >= max_unsent) return;
+        if (seconds_between(last_delivered_, now_) < delivery_interval || ranks_.unsent() >= max_unsent) return;
         const auto outcomes = pool_->collect(0);
-        pace_.add_finished(outcomes.size(), now_);
+        throughput_.add_finished(outcomes.size(), now_);
         last_delivered_ = now_;
         if (!outcomes.empty()) send(rank_message(outcomes));
     }
 
     void request_items() {
-        const auto wanted = pace_.queue_target(threads_);
+        const auto wanted = throughput_.queue_target(threads_);
         const auto waiting = static_cast<std::int64_t>(pool_->queued());
         if (has_request_ || is_stopped_ || 2 * waiting > wanted) return;
         has_request_ = true;
@@ -67,7 +67,7 @@ class RankWorker {
     }
 
     bool coordinator_is_gone() const {
-        return (sees_coordinator_ && coordinator_.is_dead()) || seconds_between(last_received_, now_) > rank_timeout;
+        return (coordinator_is_local_ && coordinator_.is_dead()) || seconds_between(last_received_, now_) > rank_timeout;
     }
 
 public:
@@ -81,7 +81,7 @@ public:
             send(rank_message(sweep.error()));
     }
 
-    Result<void> follow() {
+    Result<void> run() {
         for (; !is_over_; std::this_thread::sleep_for(rank_tick)) {
             now_ = rank_time();
             while (auto received = ranks_.receive()) handle(Message(std::move(received->message)));
@@ -104,7 +104,7 @@ public:
 }  // namespace
 
 Result<void> run_worker(Ranks& ranks, const Result<std::unique_ptr<Sweep>>& sweep, const SweepRunOptions& run) {
-    return RankWorker(ranks, sweep, run).follow();
+    return RankWorker(ranks, sweep, run).run();
 }
 
 }  // namespace corpuscle

@@ -36,7 +36,7 @@ bool Ranks::reports_errors() { return launcher_variable("OMPI_COMM_WORLD_RANK") 
 
 namespace {
 
-/// MPI's functions, loaded from its library by name. Only types and constants come from the header.
+/// MPI's functions, loaded by name from its library. Only types and constants come from the header.
 struct Mpi {
     decltype(&MPI_Init) init = nullptr;
     decltype(&MPI_Comm_rank) rank = nullptr;
@@ -79,7 +79,7 @@ struct Mpi {
 
 /// A message in transmission; its bytes must not move.
 struct PendingMessage {
-    int other;
+    int rank;  ///< receiver or sender
     std::string bytes;
     MPI_Request request;
 };
@@ -89,13 +89,13 @@ struct PendingMessage {
 struct Ranks::Impl {
     Mpi mpi;
     int rank = 0, size = 1;
-    std::list<PendingMessage> sent, coming;
+    std::list<PendingMessage> sending, receiving;
 
-    enum class State { under_way, arrived, failed };
+    enum class State { in_progress, complete, failed };
     State state(PendingMessage& m) {
         int done = 0;
         if (mpi.test(&m.request, &done, MPI_STATUS_IGNORE) != MPI_SUCCESS) return State::failed;
-        return done ? State::arrived : State::under_way;
+        return done ? State::complete : State::in_progress;
     }
     void begin_receiving();
 };
@@ -108,7 +108,7 @@ Result<std::unique_ptr<Ranks>> Ranks::join() {
             fmt::format("started by mpirun, but the MPI library cannot be loaded here ({}); install OpenMPI, or start it "
                         "without mpirun: -j for the cores of one machine, --shard and 'corpuscle sweep merge' for several",
                         mpi.missing));
-    // With single copy, a large message would be read from the memory of a process that may be dead.
+    // With single-copy transfer, the receiver would read a large message from the memory of the sender, which may be dead.
     ::setenv("OMPI_MCA_btl_vader_single_copy_mechanism", "none", 0);
     if (mpi.init(nullptr, nullptr) != MPI_SUCCESS) return bad_input("MPI_Init failed; see its message above");
     mpi.set_errhandler(mpi.world, mpi.errors_return);
@@ -119,14 +119,14 @@ Result<std::unique_ptr<Ranks>> Ranks::join() {
 
 void Ranks::Impl::begin_receiving() {
     for (;;) {
-        int there = 0;
+        int is_available = 0;
         MPI_Message found = {};
         MPI_Status status = {};
-        if (mpi.improbe(MPI_ANY_SOURCE, 0, mpi.world, &there, &found, &status) != MPI_SUCCESS || !there) return;
+        if (mpi.improbe(MPI_ANY_SOURCE, 0, mpi.world, &is_available, &found, &status) != MPI_SUCCESS || !is_available) return;
         int bytes = 0;
         mpi.count(&status, mpi.byte, &bytes);
-        auto& m = coming.emplace_back(PendingMessage{status.MPI_SOURCE, std::string(static_cast<std::size_t>(bytes), '\0'), {}});
-        if (mpi.imrecv(m.bytes.data(), bytes, mpi.byte, &found, &m.request) != MPI_SUCCESS) coming.pop_back();
+        auto& m = receiving.emplace_back(PendingMessage{status.MPI_SOURCE, std::string(static_cast<std::size_t>(bytes), '\0'), {}});
+        if (mpi.imrecv(m.bytes.data(), bytes, mpi.byte, &found, &m.request) != MPI_SUCCESS) receiving.pop_back();
     }
 }
 
@@ -138,31 +138,31 @@ bool Ranks::survive_death_of_one() const {
 }
 
 void Ranks::send(int to, std::string message) {
-    auto& m = impl_->sent.emplace_back(PendingMessage{to, std::move(message), {}});
+    auto& m = impl_->sending.emplace_back(PendingMessage{to, std::move(message), {}});
     const auto& mpi = impl_->mpi;
     if (mpi.isend(m.bytes.data(), static_cast<int>(m.bytes.size()), mpi.byte, to, 0, mpi.world, &m.request) != MPI_SUCCESS)
-        impl_->sent.pop_back();
+        impl_->sending.pop_back();
 }
 
 std::size_t Ranks::unsent() const {
-    impl_->sent.remove_if([&](PendingMessage& m) { return impl_->state(m) != Impl::State::under_way; });
-    return impl_->sent.size();
+    impl_->sending.remove_if([&](PendingMessage& m) { return impl_->state(m) != Impl::State::in_progress; });
+    return impl_->sending.size();
 }
 
 std::optional<Ranks::Received> Ranks::receive() {
     impl_->begin_receiving();
     std::vector<int> incomplete;  // senders with an earlier message that is incomplete
-    for (auto m = impl_->coming.begin(); m != impl_->coming.end();) {
-        const auto here = m++;
-        if (std::find(incomplete.begin(), incomplete.end(), here->other) != incomplete.end()) continue;
-        const auto state = impl_->state(*here);
-        if (state == Impl::State::under_way) {
-            incomplete.push_back(here->other);
+    for (auto m = impl_->receiving.begin(); m != impl_->receiving.end();) {
+        const auto current = m++;
+        if (std::find(incomplete.begin(), incomplete.end(), current->rank) != incomplete.end()) continue;
+        const auto state = impl_->state(*current);
+        if (state == Impl::State::in_progress) {
+            incomplete.push_back(current->rank);
             continue;
         }
-        Received out{here->other, std::move(here->bytes)};
-        impl_->coming.erase(here);
-        if (state == Impl::State::arrived) return out;
+        Received out{current->rank, std::move(current->bytes)};
+        impl_->receiving.erase(current);
+        if (state == Impl::State::complete) return out;
     }
     return {};
 }
@@ -170,10 +170,10 @@ std::optional<Ranks::Received> Ranks::receive() {
 // MPI may still write into these buffers, so they are never freed.
 void Ranks::drop_messages_to(int rank) {
     static std::list<PendingMessage> forgotten;
-    for (auto* all : {&impl_->sent, &impl_->coming})
+    for (auto* all : {&impl_->sending, &impl_->receiving})
         for (auto m = all->begin(); m != all->end();) {
-            const auto here = m++;
-            if (here->other == rank) forgotten.splice(forgotten.end(), *all, here);
+            const auto current = m++;
+            if (current->rank == rank) forgotten.splice(forgotten.end(), *all, current);
         }
 }
 

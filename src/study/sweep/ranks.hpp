@@ -1,6 +1,6 @@
 #pragma once
 // Processes of one sweep, started together by mpirun, that exchange messages. Only ranks.cpp uses MPI. The MPI library is loaded by join(),
-// so that a start without mpirun does not pay for it.
+// so that a start without mpirun does not take the time to load it.
 
 #include <memory>
 #include <optional>
@@ -14,9 +14,9 @@ class Ranks {
 public:
     /// True if mpirun, or another launcher, started more than one process.
     static bool are_started();
-    /// True for the first process or the only one. It alone prints errors that all processes have.
+    /// True for the first process or the only one. Only this process prints errors that occur in all processes.
     static bool reports_errors();
-    /// Waits for all other processes.
+    /// Initialises MPI, which waits for all other processes.
     static Result<std::unique_ptr<Ranks>> join();
     ~Ranks();
 
@@ -36,7 +36,7 @@ public:
     std::optional<Received> receive();
     /// Drops the messages that are kept for this rank, because it is dead.
     void drop_messages_to(int rank);
-    /// Ends this rank's part. `together`: all ranks are alive and leave as well; otherwise the process must exit at once.
+    /// Ends the communication of this rank. `together`: all ranks are alive and leave as well; otherwise the process must exit at once.
     void leave(bool together);
     bool left_together() const { return left_together_; }
 

@@ -1,4 +1,4 @@
-// Reads a sweep file, selects the kind of sweep, and reports errors with paths as the user knows them.
+// Reads a sweep file, makes the sweep of its subject, and reports errors with paths relative to the current folder.
 
 #include <fmt/format.h>
 #include <filesystem>
@@ -21,8 +21,8 @@ Result<SweepText> text_at(const fs::path& path) {
     return text ? sweeps::read_sweep_text(*text, path.string()) : Result<SweepText>(text.error());
 }
 
-/// A netlist alone: its own .step and .mc define what varies.
-SweepText of_netlist(const fs::path& path) {
+/// The text of a sweep over a netlist alone: its .step and .mc lines define what varies.
+SweepText text_of_netlist(const fs::path& path) {
     SweepText out;
     out.file = path.string();
     std::error_code status;
@@ -30,7 +30,7 @@ SweepText of_netlist(const fs::path& path) {
     return out;
 }
 
-Result<std::unique_ptr<Sweep>> of_subject(const SweepText& spec, const std::string& folder) {
+Result<std::unique_ptr<Sweep>> make_sweep(const SweepText& spec, const std::string& folder) {
     if (spec.afferent && spec.netlist)
         return spec.netlist->error_here("give either afferent = ..., which responds to a force, or netlist = ..., with its own analyses");
     if (spec.netlist) return sweeps::make_analysis_sweep(spec, folder);
@@ -40,7 +40,7 @@ Result<std::unique_ptr<Sweep>> of_subject(const SweepText& spec, const std::stri
 }
 
 /// Replaces a setting of the file by one of the command line.
-void put(OptionalLocatedText& into, std::string_view key, const std::optional<std::string>& requested, SweepText& spec) {
+void replace_setting(OptionalLocatedText& into, std::string_view key, const std::optional<std::string>& requested, SweepText& spec) {
     if (!requested || (into && into->text == *requested)) return;
     into = LocatedText{*requested, {}};
     spec.canonical += fmt::format("--{} {}\n", key, *requested);
@@ -53,15 +53,15 @@ std::optional<std::string> text_of(const std::optional<N>& number) {
 
 }  // namespace
 
-Result<std::unique_ptr<Sweep>> read_sweep(const std::string& path, const SweepOverrides& requested) {
+Result<std::unique_ptr<Sweep>> read_sweep(const std::string& path, const SweepOverrides& overrides) {
     const fs::path file = path;
     const auto folder = file.parent_path().string();
     const bool is_netlist = file.extension() != ".toml";
-    auto spec = is_netlist ? Result<SweepText>(of_netlist(file)) : text_at(file);
+    auto spec = is_netlist ? Result<SweepText>(text_of_netlist(file)) : text_at(file);
     if (!spec) return spec.error();
-    put(spec->seed, "seed", text_of(requested.seed), *spec);
-    put(spec->items, "samples", text_of(requested.items), *spec);
-    auto sweep = of_subject(*spec, folder);
+    replace_setting(spec->seed, "seed", text_of(overrides.seed), *spec);
+    replace_setting(spec->items, "samples", text_of(overrides.items), *spec);
+    auto sweep = make_sweep(*spec, folder);
     if (sweep) return sweep;
     auto error = sweep.error();  // netlists and the files they include have paths relative to the folder
     std::error_code status;

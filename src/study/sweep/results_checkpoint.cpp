@@ -1,4 +1,4 @@
-// Creates and replaces a results file: always as a whole, by renaming, never by overwriting a file that a copy may be reading.
+// Creates and replaces a results file, always by renaming a complete new file: another program may be copying the old one.
 
 #include <fcntl.h>
 #include <sqlite3.h>
@@ -17,12 +17,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::int64_t long_wal = std::int64_t{256} << 20;
+constexpr std::int64_t long_wal = std::int64_t{256} << 20;  // bytes
 
 std::int64_t size_of(const std::string& path) {
-    std::error_code none;
-    const auto size = fs::file_size(path, none);
-    return none ? 0 : static_cast<std::int64_t>(size);
+    std::error_code status;
+    const auto size = fs::file_size(path, status);
+    return status ? 0 : static_cast<std::int64_t>(size);
 }
 
 Error not_written(const std::string& path) {
@@ -64,24 +64,24 @@ void sync_folder(const std::string& path) {
 
 /// Copies all pages of one database, including those in its -wal, to the other with the same page numbers.
 Result<void> copy_pages(sqlite3* from, sqlite3* to, const std::string& path) {
-    auto* copying = sqlite3_backup_init(to, "main", from, "main");
-    if (!copying) return sql::error_of(to, path);
-    sqlite3_backup_step(copying, -1);
-    if (sqlite3_backup_finish(copying) != SQLITE_OK) return sql::error_of(to, path);
+    auto* backup = sqlite3_backup_init(to, "main", from, "main");
+    if (!backup) return sql::error_of(to, path);
+    sqlite3_backup_step(backup, -1);
+    if (sqlite3_backup_finish(backup) != SQLITE_OK) return sql::error_of(to, path);
     return {};
 }
 
 }  // namespace
 
 Result<void> SweepResults::Impl::create_file() const {
-    // Remains of a removed file must not be taken for a part of this one.
+    // A -wal that remains of a removed file must not be applied to this file.
     ::unlink(wal_path().c_str()), ::unlink(shared_memory_path().c_str());
     if (auto ok = create_empty(checkpoint_path()); !ok) return ok;
-    auto made = sql::open(checkpoint_path(), SQLITE_OPEN_READWRITE);
-    if (!made) return made.error();
-    if (auto ok = sql::run(made->get(), path, "PRAGMA journal_mode = OFF"); !ok) return ok;
-    auto ok = layout.write(made->get(), path);
-    made->reset();
+    auto database = sql::open(checkpoint_path(), SQLITE_OPEN_READWRITE);
+    if (!database) return database.error();
+    if (auto ok = sql::run(database->get(), path, "PRAGMA journal_mode = OFF"); !ok) return ok;
+    auto ok = layout.write(database->get(), path);
+    database->reset();
     if (ok) ok = sync_file(checkpoint_path(), false);
     if (ok) ok = move_into_place(checkpoint_path(), path);
     if (!ok) return ::unlink(checkpoint_path().c_str()), ok;
@@ -91,16 +91,17 @@ Result<void> SweepResults::Impl::create_file() const {
 
 void SweepResults::Impl::set_next_checkpoint_size() { next_checkpoint_size = std::max({long_wal, size_of(path), 2 * size_of(wal_path())}); }
 
-// The new file has each page at the -wal's version. A crash between the two steps is safe: the new file with the old -wal has the same
-// content, and the old file without it has the previous checkpoint.
+// The new file contains each page as in the -wal. A crash between renaming it and removing the -wal is safe: the new file with the old -wal
+// has the same content. A copy of the old file without its -wal has the content of the previous checkpoint.
 Result<void> SweepResults::Impl::checkpoint(bool last) {
-    if (std::error_code none; !fs::exists(wal_path(), none) && !is_writing) return {};
+    if (std::error_code status; !fs::exists(wal_path(), status) && !is_writing) return {};
     {
         if (auto fresh = create_empty(checkpoint_path()); !fresh) return fresh;
-        auto made = sql::open(checkpoint_path(), SQLITE_OPEN_READWRITE);
-        auto ok = made ? sql::run(made->get(), checkpoint_path(), "PRAGMA journal_mode = OFF; PRAGMA synchronous = OFF") : made.error();
-        if (ok) ok = copy_pages(file.get(), made->get(), checkpoint_path());
-        if (ok) made->reset(), ok = sync_file(checkpoint_path(), last);
+        auto database = sql::open(checkpoint_path(), SQLITE_OPEN_READWRITE);
+        auto ok = database ? sql::run(database->get(), checkpoint_path(), "PRAGMA journal_mode = OFF; PRAGMA synchronous = OFF")
+                           : database.error();
+        if (ok) ok = copy_pages(file.get(), database->get(), checkpoint_path());
+        if (ok) database->reset(), ok = sync_file(checkpoint_path(), last);
         if (!ok) return ::unlink(checkpoint_path().c_str()), ok;
     }
     insert_item = {}, insert_spikes = {}, insert_probe = {}, is_writing = false;

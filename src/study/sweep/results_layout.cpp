@@ -13,7 +13,7 @@ using Json = nlohmann::json;
 constexpr std::size_t max_columns = 1900;                       // SQLite's limit for a table is 2000
 constexpr std::size_t max_label_bytes = std::size_t{4} << 20;   // bytes: all labels of all axes
 constexpr std::size_t max_time_bytes = std::size_t{32} << 20;   // bytes: sample times of the probes
-constexpr std::int64_t max_items = 1'000'000'000'000;           // as SweepPlan allows
+constexpr std::int64_t max_items = 1'000'000'000'000;           // SweepPlan::max_items
 constexpr std::size_t max_about_bytes = std::size_t{96} << 20;  // bytes of all metadata
 
 /// Names that changed between the formats of results files.
@@ -52,18 +52,18 @@ std::vector<std::string> unique_names(const std::vector<SweepColumn>& axes, cons
     return out;
 }
 
-/// The rest of a sentence that begins with a name: the line in which two texts differ.
-std::string describe_difference(const std::string& here, const std::string& there) {
+/// Completes a sentence that begins with a name: says in which line a text differs from its earlier version.
+std::string describe_difference(const std::string& now, const std::string& before) {
     std::size_t line = 1;
-    const auto end = std::min(here.size(), there.size());
-    for (std::size_t k = 0; k < end && here[k] == there[k]; ++k) line += here[k] == '\n';
-    const bool several = here.find('\n') != here.npos && there.find('\n') != there.npos;
-    return several ? fmt::format(" has changed since, in line {}", line) : fmt::format(" was '{}' and is '{}' now", there, here);
+    const auto end = std::min(now.size(), before.size());
+    for (std::size_t k = 0; k < end && now[k] == before[k]; ++k) line += now[k] == '\n';
+    const bool are_multiline = now.find('\n') != now.npos && before.find('\n') != before.npos;
+    return are_multiline ? fmt::format(" has changed since, in line {}", line) : fmt::format(" was '{}' and is '{}' now", before, now);
 }
 
 Error changed_by_other_program(const std::string& path, std::string_view how) {
     return bad_input(
-        fmt::format("{}: it was changed by another program; take a copy from before, or sweep again into another file with --out", how),
+        fmt::format("{}: it was changed by another program; use an earlier copy, or run the sweep into another file with --out", how),
         {path});
 }
 
@@ -73,18 +73,18 @@ Result<void> check_table(sqlite3* file, const std::string& path, const std::stri
     auto rows = sql::Statement::make(file, path, "SELECT name, type, pk FROM pragma_table_info(?)");
     if (!rows) return rows.error();
     rows->set(1, std::string_view(table));
-    std::set<std::string> there;
+    std::set<std::string> existing;
     bool has_integer_key = false;
     for (;;) {
         const auto more = rows->step();
         if (!more) return more.error();
         if (!*more) break;
-        there.insert(lower(rows->text(0)));
+        existing.insert(lower(rows->text(0)));
         has_integer_key = has_integer_key || (rows->text(0) == names.item && lower(rows->text(1)) == "integer" && rows->integer(2) == 1);
     }
-    if (there.empty()) return changed_by_other_program(path, fmt::format("it has no table '{}'", table));
+    if (existing.empty()) return changed_by_other_program(path, fmt::format("it has no table '{}'", table));
     for (const auto& name : wanted)
-        if (!there.contains(lower(name)))
+        if (!existing.contains(lower(name)))
             return changed_by_other_program(path, fmt::format("its table '{}' has no column '{}'", table, name));
     if (table == names.items && !has_integer_key)
         return changed_by_other_program(path,
@@ -136,14 +136,14 @@ Result<std::vector<SweepColumn>> read_columns(sqlite3* file, const std::string& 
     if (!rows) return rows.error();
     rows->set(1, std::string_view(kind));
     std::vector<SweepColumn> out;
-    std::size_t words = 0;
+    std::size_t label_bytes = 0;
     for (;;) {
         const auto more = rows->step();
         if (!more) return more.error();
         if (!*more) return out;
         if (out.size() == max_columns) return changed_by_other_program(path, fmt::format("there are more than {} columns", max_columns));
-        for (const int text : {0, 1, 2, 3, 6}) words += rows->bytes(text).size();
-        if (words > max_label_bytes)
+        for (const int column : {0, 1, 2, 3, 6}) label_bytes += rows->bytes(column).size();
+        if (label_bytes > max_label_bytes)
             return changed_by_other_program(path, fmt::format("its table columns holds more than {} MB of labels", max_label_bytes >> 20));
         SweepColumn c{rows->text(0), rows->text(1), rows->text(2)};
         c.labels = Json::parse(rows->text(3)).get<std::vector<std::string>>();
@@ -160,9 +160,9 @@ Result<void> write_columns(sqlite3* file, const std::string& path, const char* k
     if (!row) return row.error();
     for (std::size_t k = 0; k < columns.size(); ++k) {
         const auto& c = columns[k];
-        const auto words = Json(c.labels).dump();
+        const auto labels = Json(c.labels).dump();
         row->set(1, static_cast<std::int64_t>(first + k)).set(2, std::string_view(kind)).set(3, std::string_view(c.name));
-        row->set(4, std::string_view(c.unit)).set(5, std::string_view(c.description)).set(6, std::string_view(words));
+        row->set(4, std::string_view(c.unit)).set(5, std::string_view(c.description)).set(6, std::string_view(labels));
         c.min ? row->set(7, *c.min) : row->set_null(7);
         c.max ? row->set(8, *c.max) : row->set_null(8);
         row->set(9, std::string_view(stored[first + k]));
@@ -187,22 +187,22 @@ Result<std::map<std::string, std::string>> read_about(sqlite3* file, const std::
     }
 }
 
-/// The format of a results file. An error if it is another SQLite file, which can contain anything, or of an unknown format.
+/// The format of a results file. Returns an error for any other SQLite file and for an unknown format.
 Result<std::int64_t> format_of(sqlite3* file, const std::string& path) {
     const auto application = sql::query_integer(file, path, "PRAGMA application_id");
     if (!application) return application.error();
-    const auto written = sql::query_integer(file, path, "PRAGMA user_version");
-    if (!written) return written.error();
+    const auto file_version = sql::query_integer(file, path, "PRAGMA user_version");
+    if (!file_version) return file_version.error();
     if (*application != ResultsLayout::application_id)
         return bad_input("is an SQLite file, but holds no results of a sweep; name another file", {path});
-    if (*written < 1) return changed_by_other_program(path, "its format version is missing");
-    if (*written > ResultsLayout::format)
+    if (*file_version < 1) return changed_by_other_program(path, "its format version is missing");
+    if (*file_version > ResultsLayout::format)
         return bad_input(
             fmt::format("was written by a later corpuscle (its format is {}, this one reads up to {}): use the later version, or name "
                         "another file",
-                        *written, ResultsLayout::format),
+                        *file_version, ResultsLayout::format),
             {path});
-    return *written;
+    return *file_version;
 }
 
 bool same_columns(const std::vector<SweepColumn>& a, const std::vector<SweepColumn>& b) {
@@ -219,19 +219,19 @@ ResultsLayout ResultsLayout::of(const Sweep& sweep) {
     out.axes = sweep.axes(), out.measures = sweep.measures();
     out.train_names = sweep.train_names(), out.probe_names = sweep.probe_names(), out.probe_times = sweep.probe_times();
     out.stored_column_names = unique_names(out.axes, out.measures);
-    for (const auto& fact : sweep.metadata()) {
-        out.metadata_names.push_back(fact.name);
-        out.about[fact.name] = fact.text;
+    for (const auto& entry : sweep.metadata()) {
+        out.metadata_names.push_back(entry.name);
+        out.about[entry.name] = entry.text;
     }
     return out;
 }
 
 Result<ResultsLayout> ResultsLayout::read(sqlite3* file, const std::string& path) {
-    const auto written = format_of(file, path);
-    if (!written) return written.error();
-    const auto& names = names_of_format(*written);
+    const auto stored_format = format_of(file, path);
+    if (!stored_format) return stored_format.error();
+    const auto& names = names_of_format(*stored_format);
     ResultsLayout out;
-    out.file_format = *written;
+    out.file_format = *stored_format;
     if (auto ok = check_table(file, path, "about", {"key", "value"}); !ok) return ok.error();
     if (auto ok = check_table(file, path, "columns",
                               {"position", "kind", "name", "unit", names.description, "words", "at_least", "at_most", "stored"});
@@ -263,7 +263,7 @@ Result<ResultsLayout> ResultsLayout::read(sqlite3* file, const std::string& path
     if (out.item_count < 1 || out.item_count > max_items)
         return changed_by_other_program(path, fmt::format("its number of items is {}", out.item_count));
     if (auto ok = check_tables(file, path, out.stored_column_names, names); !ok) return ok.error();
-    if (*written == 1) {
+    if (*stored_format == 1) {
         const auto shown = unique_names(out.axes, out.measures);
         if (auto ok = show_first_format(file, path, out.stored_column_names, shown); !ok) return ok.error();
         out.stored_column_names = shown;
@@ -303,20 +303,20 @@ Error ResultsLayout::read_only_format(const std::string& path) const {
         {path});
 }
 
-std::string ResultsLayout::difference_from(const ResultsLayout& there) const {
+std::string ResultsLayout::difference_from(const ResultsLayout& other) const {
     for (const auto& name : metadata_names) {
-        const auto found = there.about.find(name);
-        if (found == there.about.end() ||
-            std::find(there.metadata_names.begin(), there.metadata_names.end(), name) == there.metadata_names.end())
+        const auto found = other.about.find(name);
+        if (found == other.about.end() ||
+            std::find(other.metadata_names.begin(), other.metadata_names.end(), name) == other.metadata_names.end())
             return fmt::format("it has no entry '{}'", name);
         if (found->second != about.at(name)) return name + describe_difference(about.at(name), found->second);
     }
-    for (const auto& name : there.metadata_names)
+    for (const auto& name : other.metadata_names)
         if (!about.contains(name)) return fmt::format("'{}' is not part of the sweep now", name);
-    if (item_count != there.item_count) return fmt::format("the number of items was {} and is {} now", there.item_count, item_count);
-    if (!same_columns(axes, there.axes)) return "the axes have changed since";
-    if (!same_columns(measures, there.measures)) return "the measures have changed since";
-    if (train_names != there.train_names || probe_names != there.probe_names || probe_times != there.probe_times)
+    if (item_count != other.item_count) return fmt::format("the number of items was {} and is {} now", other.item_count, item_count);
+    if (!same_columns(axes, other.axes)) return "the axes have changed since";
+    if (!same_columns(measures, other.measures)) return "the measures have changed since";
+    if (train_names != other.train_names || probe_names != other.probe_names || probe_times != other.probe_times)
         return "the kept trains and traces have changed since";
     return "";
 }

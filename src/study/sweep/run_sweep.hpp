@@ -9,7 +9,7 @@ namespace corpuscle {
 /// Progress of a run.
 struct SweepProgress {
     std::int64_t planned = 0;                                  ///< items of this run: those of its shard without a row
-    std::int64_t done = 0, iteration_limit = 0, diverged = 0;  ///< items by their end
+    std::int64_t done = 0, iteration_limit = 0, diverged = 0;  ///< finished items, by how they ended
     std::int64_t steps = 0, iterations = 0, spikes = 0, ran_alone = 0;
 
     std::int64_t finished() const { return done + iteration_limit + diverged; }

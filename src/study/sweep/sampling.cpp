@@ -11,7 +11,7 @@ namespace corpuscle::sweeps {
 namespace {
 
 constexpr std::uint64_t sweep_key = 0x7377656570;  // a separate key, because chip samples use the seed itself
-constexpr unsigned rounds = 8;
+constexpr unsigned rounds = 8;                     // of the Feistel network
 
 std::uint64_t stream_named(std::string_view name) {  // FNV-1a
     std::uint64_t hash = 0xcbf29ce484222325;
@@ -25,7 +25,7 @@ PhiloxCounter random_words(std::uint64_t key, std::uint64_t stream, std::uint64_
                   key);
 }
 
-double fraction(std::uint32_t high, std::uint32_t low) {  // 53 bits, never 0
+double uniform_fraction(std::uint32_t high, std::uint32_t low) {  // 53 bits, never 0
     return (static_cast<double>((std::uint64_t{high} << 21) | (low >> 11)) + 0.5) * 0x1p-53;
 }
 
@@ -46,27 +46,27 @@ UniformNumbers::UniformNumbers(Sampling method, std::uint64_t seed, std::string_
 }
 
 /// A permutation of the sample indexes: a Feistel network over the next power of 4, repeated until the result is in range.
-std::uint64_t UniformNumbers::shuffled(std::uint64_t draw) const {
+std::uint64_t UniformNumbers::shuffled(std::uint64_t sample) const {
     const std::uint64_t mask = (std::uint64_t{1} << half_bits_) - 1;
     do {
-        std::uint64_t left = draw >> half_bits_, right = draw & mask;
+        std::uint64_t left = sample >> half_bits_, right = sample & mask;
         for (unsigned round = 0; round < rounds; ++round) {
             const auto mixed = random_words(~key_ + round, stream_, right)[0] & mask;
             const auto next = left ^ mixed;
             left = right, right = next;
         }
-        draw = left << half_bits_ | right;
-    } while (draw >= count_);
-    return draw;
+        sample = left << half_bits_ | right;
+    } while (sample >= count_);
+    return sample;
 }
 
-double UniformNumbers::at(std::uint64_t draw) const {
+double UniformNumbers::at(std::uint64_t sample) const {
     if (method_ == Sampling::sobol)
-        return (static_cast<double>(sobol_point(directions_, static_cast<std::uint32_t>(draw)) ^ shift_) + 0.5) * 0x1p-32;
-    const auto w = random_words(key_, stream_, draw);
-    const double u = fraction(w[0], w[1]);
+        return (static_cast<double>(sobol_point(directions_, static_cast<std::uint32_t>(sample)) ^ shift_) + 0.5) * 0x1p-32;
+    const auto w = random_words(key_, stream_, sample);
+    const double u = uniform_fraction(w[0], w[1]);
     if (method_ == Sampling::random) return u;
-    return std::clamp((static_cast<double>(shuffled(draw)) + u) / static_cast<double>(count_), 0x1p-60, 1 - 0x1p-53);
+    return std::clamp((static_cast<double>(shuffled(sample)) + u) / static_cast<double>(count_), 0x1p-60, 1 - 0x1p-53);
 }
 
 double normal_quantile(double u) {

@@ -18,12 +18,12 @@ class UniformNumbers {
     std::uint32_t shift_ = 0;
     unsigned half_bits_ = 1;  // of the permutation
 
-    std::uint64_t shuffled(std::uint64_t draw) const;
+    std::uint64_t shuffled(std::uint64_t sample) const;
 
 public:
     UniformNumbers(Sampling method, std::uint64_t seed, std::string_view axis, std::size_t dimension, std::uint64_t count);
-    /// In (0, 1).
-    double at(std::uint64_t draw) const;
+    /// The number of this sample, in (0, 1).
+    double at(std::uint64_t sample) const;
 };
 
 /// Quantile of the standard normal distribution, 0 < u < 1: Wichura, algorithm AS 241, Appl. Stat. 37 (1988), to 1e-16.

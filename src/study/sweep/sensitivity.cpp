@@ -12,7 +12,7 @@ namespace {
 constexpr int max_rounds = 6;
 constexpr std::size_t max_influences = 60;
 
-/// Values of the items that have the measure, scaled to mean 0 and sum of squares 1; empty if they are all equal.
+/// Values of these items, scaled to mean 0 and sum of squares 1; empty if they are all equal.
 std::vector<double> standardised(std::span<const double> all, const std::vector<std::size_t>& items) {
     std::vector<double> out(items.size());
     double sum = 0, squares = 0;
@@ -24,7 +24,7 @@ std::vector<double> standardised(std::span<const double> all, const std::vector<
     return out;
 }
 
-double product(const std::vector<double>& a, const std::vector<double>& b) {
+double dot_product(const std::vector<double>& a, const std::vector<double>& b) {
     return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
 }
 
@@ -55,7 +55,7 @@ bool solve(std::vector<std::vector<double>> A, std::vector<double>& b, std::vect
         std::vector<double> unit(n);
         unit[j] = 1;
         forward_substitute(unit);
-        diagonal[j] = product(unit, unit);
+        diagonal[j] = dot_product(unit, unit);
     }
     return true;
 }
@@ -70,8 +70,8 @@ struct Regression {
         std::vector<std::vector<double>> A(x.size(), std::vector<double>(x.size()));
         slopes.resize(x.size());
         for (std::size_t i = 0; i < x.size(); ++i) {
-            slopes[i] = product(x[i], y);
-            for (std::size_t j = 0; j <= i; ++j) A[i][j] = A[j][i] = product(x[i], x[j]);
+            slopes[i] = dot_product(x[i], y);
+            for (std::size_t j = 0; j <= i; ++j) A[i][j] = A[j][i] = dot_product(x[i], x[j]);
         }
         if (!solve(std::move(A), slopes, diagonal)) return false;
         residual = y;
@@ -83,17 +83,17 @@ struct Regression {
 
 struct Candidate {
     std::size_t factor;
-    double chance;
+    double p_value;
     std::vector<double> x = {};
 };
 
 /// Keeps the candidates accepted by the procedure of Benjamini and Hochberg, the most significant first.
 void keep_discoveries(std::vector<Candidate>& all, std::size_t tried) {
     std::sort(all.begin(), all.end(),
-              [](const auto& a, const auto& b) { return std::pair(a.chance, a.factor) < std::pair(b.chance, b.factor); });
+              [](const auto& a, const auto& b) { return std::pair(a.p_value, a.factor) < std::pair(b.p_value, b.factor); });
     std::size_t accepted = 0;
     for (std::size_t k = 0; k < all.size(); ++k)
-        if (all[k].chance <= false_discovery_rate * static_cast<double>(k + 1) / static_cast<double>(tried)) accepted = k + 1;
+        if (all[k].p_value <= false_discovery_rate * static_cast<double>(k + 1) / static_cast<double>(tried)) accepted = k + 1;
     all.resize(accepted);
 }
 
@@ -141,14 +141,14 @@ Sensitivity sensitivity_of(std::span<const double> measure, std::span<const Swee
             auto x = standardised(factors[f], items);
             if (x.empty()) continue;
             ++tried;
-            const double r = std::clamp(product(x, regression.residual) / std::sqrt(unexplained), -1.0, 1.0);
-            const double chance = student_two_sided(degrees_of_freedom, r * std::sqrt(degrees_of_freedom / std::max(1 - r * r, 1e-300)));
-            if (chance <= false_discovery_rate) found.push_back({f, chance, std::move(x)});
+            const double r = std::clamp(dot_product(x, regression.residual) / std::sqrt(unexplained), -1.0, 1.0);
+            const double p_value = student_two_sided(degrees_of_freedom, r * std::sqrt(degrees_of_freedom / std::max(1 - r * r, 1e-300)));
+            if (p_value <= false_discovery_rate) found.push_back({f, p_value, std::move(x)});
         }
         keep_discoveries(found, tried);
-        const auto max_factors = static_cast<std::size_t>(n / 4);  // a regression with as many factors as items explains anything
+        const auto max_factors = static_cast<std::size_t>(n / 4);  // as many factors as items would explain any measure
         if (!add_factors(regression, std::move(found), std::min(max_factors, max_influences), y)) break;
-        unexplained = product(regression.residual, regression.residual);
+        unexplained = dot_product(regression.residual, regression.residual);
     }
 
     const double degrees_of_freedom = n - 1 - static_cast<double>(regression.selected.size()), noise = unexplained / degrees_of_freedom;
@@ -176,8 +176,8 @@ GroupEffect group_effect(std::span<const double> measure, std::span<const std::s
     if (used < 2 || n <= used) return {};
     for (std::size_t k = 0; k < measure.size(); ++k) {
         if (!std::isfinite(measure[k])) continue;
-        const double off = measure[k] - sum / n, own = measure[k] - sums[group[k]] / counts[group[k]];
-        squares += off * off, inside += own * own;
+        const double deviation = measure[k] - sum / n, deviation_in_group = measure[k] - sums[group[k]] / counts[group[k]];
+        squares += deviation * deviation, inside += deviation_in_group * deviation_in_group;
     }
     if (!(squares > 0)) return {};
     const double noise = inside / (n - used), between = squares - inside;
@@ -185,6 +185,6 @@ GroupEffect group_effect(std::span<const double> measure, std::span<const std::s
             noise > 0 ? fisher_upper(used - 1, n - used, between / (used - 1) / noise) : 0};
 }
 
-double relative_sigma_at_four_times_area(double share_of_device) { return std::sqrt(std::max(1 - 0.75 * share_of_device, 0.0)); }
+double relative_sigma_at_four_times_area(double fraction_of_device) { return std::sqrt(std::max(1 - 0.75 * fraction_of_device, 0.0)); }
 
 }  // namespace corpuscle

@@ -22,9 +22,9 @@ struct Influence {
 };
 
 struct Sensitivity {
-    std::size_t items = 0, factors = 0;      ///< that were examined
+    std::size_t items = 0, factors = 0;      ///< examined items and factors
     double variance = 0;                     ///< of the measure
-    double explained = 0;                    ///< fraction explained by all influences together; the rest is nonlinear, joint or noise
+    double explained = 0;  ///< fraction explained by all influences together; the rest is due to nonlinear or joint effects, or noise
     std::vector<Influence> influences = {};  ///< the strongest first
 };
 
@@ -43,7 +43,8 @@ struct GroupEffect {
 };
 GroupEffect group_effect(std::span<const double> measure, std::span<const std::size_t> group, std::size_t groups);
 
-/// The relative standard deviation of a measure if the gate area of a device is four times as large, which halves its mismatch.
-double relative_sigma_at_four_times_area(double share_of_device);
+/// The factor by which the standard deviation of a measure changes if the gate area of a device is four times as large, which halves its
+/// mismatch. `fraction_of_device`: fraction of the variance due to this device.
+double relative_sigma_at_four_times_area(double fraction_of_device);
 
 }  // namespace corpuscle

@@ -1,4 +1,4 @@
-// Simulates one afferent through a complete force; also the measures of a reference model.
+// Simulates one afferent with a complete force; also computes the measures of a reference model.
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -9,7 +9,7 @@
 namespace corpuscle::sweeps {
 namespace {
 
-constexpr std::size_t block_samples = 4096;  // samples
+constexpr std::size_t block_samples = 4096;
 
 }  // namespace
 
@@ -19,8 +19,8 @@ Result<SimulatedResponse> simulate_afferent(const Afferent& afferent, const Swee
     auto samples = force.samples;
     samples.insert(samples.end(), delay, samples.back());
     std::vector<std::vector<double>> probe_values(probes.empty() ? 0 : afferent.probes().size(), std::vector<double>(block_samples));
-    std::vector<double*> rows;
-    for (auto& s : probe_values) rows.push_back(s.data());
+    std::vector<double*> probe_rows;
+    for (auto& s : probe_values) probe_rows.push_back(s.data());
     SimulatedResponse out;
     out.probe_samples.resize(probes.size());
     std::vector<Spike> spikes;
@@ -28,7 +28,7 @@ Result<SimulatedResponse> simulate_afferent(const Afferent& afferent, const Swee
     for (std::size_t at = 0; at < samples.size(); at += block_samples) {
         if (stop && stop()) return Error{ErrorCode::interrupted, "interrupted"};
         const auto count = std::min(block_samples, samples.size() - at);
-        ResponseBlock response{spikes, 0, rows};
+        ResponseBlock response{spikes, 0, probe_rows};
         if (auto ok = afferent.respond(std::span(samples).subspan(at, count), state, response); !ok) return ok.error();
         for (std::size_t p = 0; p < probes.size(); ++p)
             for (std::size_t k = 0; k < count; ++k)

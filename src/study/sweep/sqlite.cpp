@@ -12,11 +12,11 @@ namespace {
 constexpr int wait_ms = 10'000;           // for another program's short lock on the file
 constexpr int max_value_size = 64 << 20;  // bytes of one text or blob: a probe of 16 million samples
 
-/// Disables code in a file's schema, and makes a quoted name a column or an error, never a text.
+/// Disables triggers and views in a file's schema. A quoted name that is not a column is an error, not a text.
 void disable_schema_code(sqlite3* file) {
-    for (const int off : {SQLITE_DBCONFIG_DQS_DML, SQLITE_DBCONFIG_DQS_DDL, SQLITE_DBCONFIG_ENABLE_TRIGGER, SQLITE_DBCONFIG_ENABLE_VIEW,
-                          SQLITE_DBCONFIG_TRUSTED_SCHEMA})
-        sqlite3_db_config(file, off, 0, nullptr);
+    for (const int option : {SQLITE_DBCONFIG_DQS_DML, SQLITE_DBCONFIG_DQS_DDL, SQLITE_DBCONFIG_ENABLE_TRIGGER, SQLITE_DBCONFIG_ENABLE_VIEW,
+                             SQLITE_DBCONFIG_TRUSTED_SCHEMA})
+        sqlite3_db_config(file, option, 0, nullptr);
     sqlite3_limit(file, SQLITE_LIMIT_LENGTH, max_value_size);
 }
 
@@ -26,7 +26,7 @@ int cause_of(sqlite3* file) {
     return cause == 0 && sqlite3_extended_errcode(file) == SQLITE_IOERR_WRITE ? errno : cause;
 }
 
-std::string reason(sqlite3* file) {
+std::string error_reason(sqlite3* file) {
     const int cause = cause_of(file);
     return cause ? std::strerror(cause) : sqlite3_errmsg(file);
 }
@@ -57,7 +57,7 @@ Error error_of(sqlite3* file, const std::string& path) {
         case SQLITE_READONLY:
         case SQLITE_PERM:
         case SQLITE_CANTOPEN:
-            return error(fmt::format("cannot be opened for writing ({}); give a writable path with --out", reason(file)));
+            return error(fmt::format("cannot be opened for writing ({}); give a writable path with --out", error_reason(file)));
         case SQLITE_BUSY:
         case SQLITE_LOCKED:
             return error("another program has locked this file; close it, and repeat the command");
@@ -65,13 +65,13 @@ Error error_of(sqlite3* file, const std::string& path) {
             return error(
                 fmt::format("cannot be read or written ({}); what was written before is kept: check the disk and repeat the "
                             "command",
-                            reason(file)));
+                            error_reason(file)));
         case SQLITE_TOOBIG:
             return error(
-                fmt::format("a text or a blob is larger than {} MB; keep fewer traces, or a longer 'every'", max_value_size >> 20));
+                fmt::format("a text or a blob is larger than {} MB; keep fewer traces, or increase 'every'", max_value_size >> 20));
         case SQLITE_ERROR:
             return error(fmt::format(
-                "is not a results file as a sweep writes it ({}): it was changed by another program; take a copy from before, or give "
+                "is not a results file as a sweep writes it ({}): it was changed by another program; use an earlier copy, or give "
                 "another file with --out",
                 sqlite3_errmsg(file)));
         default:
@@ -114,15 +114,15 @@ Result<Statement> Statement::make(sqlite3* file, const std::string& path, const 
 }
 
 // A position that does not exist is a programming error; the next step would return wrong rows, which tests detect.
-Statement& Statement::set(int place, std::int64_t x) { return sqlite3_bind_int64(statement_.get(), place, x), *this; }
-Statement& Statement::set(int place, double x) { return sqlite3_bind_double(statement_.get(), place, x), *this; }
-Statement& Statement::set(int place, std::string_view x) {
-    return sqlite3_bind_text64(statement_.get(), place, x.data() ? x.data() : "", x.size(), SQLITE_STATIC, SQLITE_UTF8), *this;
+Statement& Statement::set(int position, std::int64_t x) { return sqlite3_bind_int64(statement_.get(), position, x), *this; }
+Statement& Statement::set(int position, double x) { return sqlite3_bind_double(statement_.get(), position, x), *this; }
+Statement& Statement::set(int position, std::string_view x) {
+    return sqlite3_bind_text64(statement_.get(), position, x.data() ? x.data() : "", x.size(), SQLITE_STATIC, SQLITE_UTF8), *this;
 }
-Statement& Statement::set(int place, std::span<const std::byte> x) {
-    return sqlite3_bind_blob64(statement_.get(), place, x.data(), x.size(), SQLITE_STATIC), *this;
+Statement& Statement::set(int position, std::span<const std::byte> x) {
+    return sqlite3_bind_blob64(statement_.get(), position, x.data(), x.size(), SQLITE_STATIC), *this;
 }
-Statement& Statement::set_null(int place) { return sqlite3_bind_null(statement_.get(), place), *this; }
+Statement& Statement::set_null(int position) { return sqlite3_bind_null(statement_.get(), position), *this; }
 
 Result<bool> Statement::step() {
     const int code = sqlite3_step(statement_.get());
@@ -150,8 +150,8 @@ double Statement::number(int column) const {
     return is_null(column) ? std::numeric_limits<double>::quiet_NaN() : sqlite3_column_double(statement_.get(), column);
 }
 std::string Statement::text(int column) const {
-    const auto bytes_there = bytes(column);
-    return {reinterpret_cast<const char*>(bytes_there.data()), bytes_there.size()};
+    const auto data = bytes(column);
+    return {reinterpret_cast<const char*>(data.data()), data.size()};
 }
 bool Statement::is_null(int column) const { return sqlite3_column_type(statement_.get(), column) == SQLITE_NULL; }
 std::span<const std::byte> Statement::bytes(int column) const {

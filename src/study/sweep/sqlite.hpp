@@ -40,12 +40,12 @@ public:
     Statement() = default;
     static Result<Statement> make(sqlite3*, const std::string& path, const std::string& text);
 
-    /// Positions count from 1. Text and bytes must stay valid until the statement has run.
-    Statement& set(int place, std::int64_t);
-    Statement& set(int place, double);  ///< NaN is stored as NULL
-    Statement& set(int place, std::string_view);
-    Statement& set(int place, std::span<const std::byte>);
-    Statement& set_null(int place);
+    /// Bind a value to a parameter of the statement. Positions count from 1. Text and bytes must stay valid until the statement has run.
+    Statement& set(int position, std::int64_t);
+    Statement& set(int position, double);  ///< NaN is stored as NULL
+    Statement& set(int position, std::string_view);
+    Statement& set(int position, std::span<const std::byte>);
+    Statement& set_null(int position);
 
     /// Returns true if there is a (further) row.
     Result<bool> step();

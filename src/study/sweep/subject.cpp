@@ -19,29 +19,30 @@ constexpr double max_seed = 0x1p53 - 1;
 /// Reads the varied quantities of a sweep file into a plan.
 class PlanReader {
     const SweepText& spec_;
-    const VariableQuantities& varying_;
-    const circuit::NetlistVariants* written_;
+    const VariableQuantities& quantities_;
+    const circuit::NetlistVariants* variants_;
     circuit::ChipSpec chips_{0, 0, false, false};
-    SamplingSpec drawing_;
+    SamplingSpec sampling_;
     std::vector<SweepAxis> axes_;
 
-    bool writes_chips() const { return written_ && written_->has_chips(); }
+    bool netlist_samples_chips() const { return variants_ && variants_->has_chips(); }
+    /// The first axis of the file that samples chips, or null.
     const AxisSpec* chips_axis() const {
         for (const auto& a : spec_.axes)
             if (a.name.text == "process" || a.name.text == "mismatch") return &a;
         return nullptr;
     }
 
-    /// process and mismatch as set in the file, otherwise as in the netlist's .mc.
+    /// Reads whether process and mismatch are sampled: from the file, otherwise from the netlist's .mc.
     Result<void> chips() {
-        chips_.seed = drawing_.seed;
+        chips_.seed = sampling_.seed;
         const auto* spec = chips_axis();
-        if (spec && !varying_.can_sample_chips)
+        if (spec && !quantities_.can_sample_chips)
             return spec->name.error_here(
-                fmt::format("{} is a model; '{}' applies to the chips of a circuit", varying_.subject_name, spec->name.text));
-        if (!spec && writes_chips()) {
-            chips_.has_process = written_->chips().has_process, chips_.has_mismatch = written_->chips().has_mismatch;
-            if (!spec_.seed) chips_.seed = drawing_.seed = written_->chips().seed;
+                fmt::format("{} is a model; '{}' applies to the chips of a circuit", quantities_.subject_name, spec->name.text));
+        if (!spec && netlist_samples_chips()) {
+            chips_.has_process = variants_->chips().has_process, chips_.has_mismatch = variants_->chips().has_mismatch;
+            if (!spec_.seed) chips_.seed = sampling_.seed = variants_->chips().seed;
         }
         for (const auto& a : spec_.axes) {
             if (a.name.text != "process" && a.name.text != "mismatch") continue;
@@ -55,23 +56,24 @@ class PlanReader {
         return {};
     }
 
+    /// Reads the number of samples.
     Result<void> samples() {
-        const AxisSpec* drawn = chips_axis();
+        const AxisSpec* sampled_axis = chips_axis();
         for (const auto& a : spec_.axes)
-            if (!drawn && is_sampled(a)) drawn = &a;
+            if (!sampled_axis && is_sampled(a)) sampled_axis = &a;
         if (spec_.items) {
             const auto samples = parse_integer(*spec_.items, "samples", 1, 1e9);
             if (!samples) return samples.error();
-            if (!drawn && !writes_chips() && *samples > 1)
+            if (!sampled_axis && !netlist_samples_chips() && *samples > 1)
                 return spec_.items->error_here(fmt::format(
                     "samples = {}, but nothing is sampled, so all would be equal; remove samples (a grid determines the number)",
                     *samples));
-            drawing_.samples = static_cast<std::uint64_t>(*samples);
-        } else if (writes_chips()) {
-            drawing_.samples = static_cast<std::uint64_t>(written_->chips().count);
-        } else if (drawn) {
-            return drawn->name.error_here(
-                fmt::format("{} is sampled, but the number of samples is missing: samples = 1000", drawn->name.text));
+            sampling_.samples = static_cast<std::uint64_t>(*samples);
+        } else if (netlist_samples_chips()) {
+            sampling_.samples = static_cast<std::uint64_t>(variants_->chips().count);
+        } else if (sampled_axis) {
+            return sampled_axis->name.error_here(
+                fmt::format("{} is sampled, but the number of samples is missing: samples = 1000", sampled_axis->name.text));
         }
         return {};
     }
@@ -82,19 +84,19 @@ class PlanReader {
 
     /// Axes of the netlist's own .step, except those that the file sets.
     Result<void> steps() {
-        if (!written_) return {};
-        for (const auto& step : written_->axes()) {
+        if (!variants_) return {};
+        for (const auto& step : variants_->axes()) {
             if (is_in_file(step.name)) continue;
-            const auto target = varying_.find_quantity({step.name, {}});
+            const auto target = quantities_.find_quantity({step.name, {}});
             if (!target) return target.error();
             SweepAxis axis{target->column, step.values};
-            varying_.vary(axis, step.name, axes_.size());
+            quantities_.vary(axis, step.name, axes_.size());
             axes_.push_back(std::move(axis));
         }
         return {};
     }
 
-    /// The unit used in the file, for quantities without a unit of their own.
+    /// The unit written in the sweep file, for quantities whose subject has no unit for them.
     static std::string unit_in(const AxisSpec& spec) {
         const LocatedText* first = spec.list && !spec.list->empty() ? &spec.list->front()
                                    : spec.from                      ? &*spec.from
@@ -108,41 +110,41 @@ class PlanReader {
         for (const auto& other : axes_)
             if (equal_ignoring_case(other.column.name, spec.name.text))
                 return spec.name.error_here(fmt::format("'{}' varies twice", spec.name.text));
-        auto target = varying_.find_quantity(spec.name);
+        auto target = quantities_.find_quantity(spec.name);
         if (!target) return target.error();
         if (target->column.unit.empty() && target->check) target->column.unit = unit_in(spec);
-        auto axis = axis_of(spec, *target, drawing_);
+        auto axis = axis_of(spec, *target, sampling_);
         if (!axis) return axis.error();
-        varying_.vary(*axis, spec.name.text, axes_.size());
+        quantities_.vary(*axis, spec.name.text, axes_.size());
         axes_.push_back(std::move(*axis));
         return {};
     }
 
 public:
-    PlanReader(const SweepText& spec, const VariableQuantities& varying, const circuit::NetlistVariants* written)
-        : spec_(spec), varying_(varying), written_(written) {}
+    PlanReader(const SweepText& spec, const VariableQuantities& quantities, const circuit::NetlistVariants* variants)
+        : spec_(spec), quantities_(quantities), variants_(variants) {}
 
     Result<SweepPlan> read() {
         const auto seed = seed_of(spec_);
         if (!seed) return seed.error();
-        drawing_.seed = *seed;
+        sampling_.seed = *seed;
         if (auto ok = chips(); !ok) return ok.error();
         if (auto ok = samples(); !ok) return ok.error();
         if (auto ok = steps(); !ok) return ok.error();
         for (const auto& a : spec_.axes)
             if (a.name.text != "process" && a.name.text != "mismatch")
                 if (auto ok = axis(a); !ok) return ok.error();
-        double count = static_cast<double>(drawing_.samples);
+        double count = static_cast<double>(sampling_.samples);
         for (const auto& a : axes_) count *= a.values.empty() ? 1 : static_cast<double>(a.values.size());
         if (count > SweepPlan::max_items)
             return bad_input(fmt::format("{:g} items are more than the limit of {:g}", count, SweepPlan::max_items), {spec_.file});
-        return SweepPlan(std::move(axes_), chips_, static_cast<std::int64_t>(drawing_.samples));
+        return SweepPlan(std::move(axes_), chips_, static_cast<std::int64_t>(sampling_.samples));
     }
 };
 
 /// Reads one line of [limits] into its column.
-Result<void> set_limit(const LimitSpec& limit, const MeasureLookup& limiting, std::vector<SweepColumn>& columns) {
-    const auto at = limiting.column(limit.measure);
+Result<void> set_limit(const LimitSpec& limit, const MeasureLookup& lookup, std::vector<SweepColumn>& columns) {
+    const auto at = lookup.column(limit.measure);
     if (!at) return at.error();
     auto& column = columns[*at];
     const auto wrong = [&](const LocatedText& s, std::string why) { return s.error_here(fmt::format("{}: {}", limit.measure.text, why)); };
@@ -153,7 +155,7 @@ Result<void> set_limit(const LimitSpec& limit, const MeasureLookup& limiting, st
     if (limit.like) {
         if (limit.min || limit.max) return wrong(*limit.like, "give either like and within, or at_least and at_most");
         if (!limit.within) return wrong(*limit.like, "within is missing: the allowed distance from the model, such as 3 or \"10%\"");
-        const auto model = limiting.model_value(*limit.like, *at);
+        const auto model = lookup.model_value(*limit.like, *at);
         if (!model) return model.error();
         if (std::isnan(*model)) return wrong(*limit.like, fmt::format("{} has no value for this force", limit.like->text));
         const bool is_percentage = trimmed(limit.within->text).ends_with('%') && !column.unit.empty();
@@ -164,7 +166,7 @@ Result<void> set_limit(const LimitSpec& limit, const MeasureLookup& limiting, st
         column.min = *model - *within, column.max = *model + *within;
         return {};
     }
-    if (limit.within) return wrong(*limit.within, "within needs like = \"sa1\"");
+    if (limit.within) return wrong(*limit.within, "within is allowed only with like, such as like = \"sa1\"");
     for (const auto& [spec, end] : {std::pair{&limit.min, &column.min}, {&limit.max, &column.max}}) {
         if (!*spec) continue;
         const auto value = read(**spec);
@@ -194,13 +196,13 @@ Result<std::uint64_t> seed_of(const SweepText& spec) {
     return static_cast<std::uint64_t>(*seed);
 }
 
-Result<SweepPlan> plan_of(const SweepText& spec, const VariableQuantities& varying, const circuit::NetlistVariants* written) {
-    return PlanReader(spec, varying, written).read();
+Result<SweepPlan> plan_of(const SweepText& spec, const VariableQuantities& quantities, const circuit::NetlistVariants* variants) {
+    return PlanReader(spec, quantities, variants).read();
 }
 
-Result<void> set_limits(const SweepText& spec, const MeasureLookup& limiting, std::vector<SweepColumn>& columns) {
+Result<void> set_limits(const SweepText& spec, const MeasureLookup& lookup, std::vector<SweepColumn>& columns) {
     for (const auto& limit : spec.limits)
-        if (auto ok = set_limit(limit, limiting, columns); !ok) return ok;
+        if (auto ok = set_limit(limit, lookup, columns); !ok) return ok;
     return {};
 }
 

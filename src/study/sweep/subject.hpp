@@ -7,7 +7,7 @@
 
 namespace corpuscle::sweeps {
 
-/// Results of another number come from a program that computes differently.
+/// Version of the computation: results with another version come from a program that computes differently.
 inline constexpr int results_format = 1;
 
 /// An item is stopped after this many times the nominal item's iterations, unless the file sets a limit.
@@ -35,7 +35,7 @@ public:
     const std::vector<MetadataText>& metadata() const override { return metadata_; }
 };
 
-/// A model afferent, a netlist afferent, and a netlist with its analyses. `folder`: the folder of the sweep file.
+/// Make the sweep of a model afferent, of a netlist afferent, and of a netlist with its analyses. `folder`: the folder of the sweep file.
 Result<std::unique_ptr<Sweep>> make_model_sweep(const SweepText&, const std::string& folder);
 Result<std::unique_ptr<Sweep>> make_chip_sweep(const SweepText&, const std::string& folder);
 Result<std::unique_ptr<Sweep>> make_analysis_sweep(const SweepText&, const std::string& folder);
@@ -45,11 +45,11 @@ struct VariableQuantities {
     std::function<Result<VariedQuantity>(const LocatedText& quantity)> find_quantity;
     std::function<void(const SweepAxis&, const std::string& quantity, std::size_t axis)> vary;
     bool can_sample_chips = false;  ///< process and mismatch can be sampled
-    std::string subject_name;       ///< name of the subject
+    std::string subject_name;
 };
 Result<std::uint64_t> seed_of(const SweepText&);
-/// `written`: the .step and .mc lines of the netlist itself.
-Result<SweepPlan> plan_of(const SweepText&, const VariableQuantities&, const circuit::NetlistVariants* written = nullptr);
+/// `variants`: of the netlist's own .step and .mc lines; null: none.
+Result<SweepPlan> plan_of(const SweepText&, const VariableQuantities&, const circuit::NetlistVariants* variants = nullptr);
 
 /// Looks up measures by name, and computes a model's values of them.
 struct MeasureLookup {
@@ -62,16 +62,16 @@ Result<void> set_limits(const SweepText&, const MeasureLookup&, std::vector<Swee
 Result<bool> keeps_spikes(const SweepText&);
 /// The sampling step of the kept probes, in samples.
 Result<std::size_t> probe_stride(const SweepText&, double T);
-/// Title and format, then the sweep file.
+/// The first metadata entries: title, results format and sweep file.
 std::vector<Sweep::MetadataText> first_metadata(const SweepText&, const std::string& title);
 
-/// The measure of a model afferent's response to a force.
+/// Simulates a model afferent with a force and returns one measure of its response.
 Result<double> model_measure(const LocatedText& model, const ForceFactory&, const LocatedText& measure);
 
 /// The response of one afferent to a complete force.
 struct SimulatedResponse {
     std::vector<double> spikes;                     ///< s
-    std::vector<std::vector<float>> probe_samples;  ///< each requested probe at each `every`th sample
+    std::vector<std::vector<float>> probe_samples;  ///< each requested probe at every `every`-th sample
 };
 Result<SimulatedResponse> simulate_afferent(const Afferent&, const SweepForce&, std::span<const std::size_t> probes = {},
                                             std::size_t every = 0, const std::function<bool()>& stop = {});

@@ -25,7 +25,7 @@ enum class ItemEnd { done, iteration_limit, diverged };  ///< diverged: the solv
 struct ItemOutcome {
     std::int64_t item = 0;
     ItemEnd end = ItemEnd::done;
-    std::string reason = {};                       ///< reason, unless the end is done
+    std::string reason = {};                       ///< why the item did not end normally; empty if it did
     std::vector<double> measures = {};             ///< one for each column of measures; NaN: not available
     std::vector<std::vector<double>> spikes = {};  ///< for each train, s
     std::vector<std::vector<float>> probes = {};   ///< for each kept probe, at the common sample times
@@ -71,6 +71,6 @@ struct SweepOverrides {
 };
 
 /// A sweep file (.toml), or a netlist with .mc and .step lines.
-Result<std::unique_ptr<Sweep>> read_sweep(const std::string& path, const SweepOverrides& asked = {});
+Result<std::unique_ptr<Sweep>> read_sweep(const std::string& path, const SweepOverrides& overrides = {});
 
 }  // namespace corpuscle

@@ -55,8 +55,8 @@ SummaryJson influence_json(const NamedInfluence& i) {
     return out;
 }
 
-SummaryJson device_json(const MismatchSamples& drawn, const DeviceContribution& s) {
-    const auto& d = drawn.subjects[static_cast<std::size_t>(s.subject)].devices[static_cast<std::size_t>(s.device)];
+SummaryJson device_json(const MismatchSamples& samples, const DeviceContribution& s) {
+    const auto& d = samples.subjects[static_cast<std::size_t>(s.subject)].devices[static_cast<std::size_t>(s.device)];
     return {{"device", d.name},
             {"type", d.pmos ? "pmos" : "nmos"},
             {"m", d.m},

@@ -148,17 +148,17 @@ Result<void> ForceFactory::prepare() {
 
 Result<std::shared_ptr<const SweepForce>> ForceFactory::at(std::span<const double> values) const {
     if (!varies()) return nominal_;
-    std::vector<double> own_values;
-    for (const auto axis : axes_) own_values.push_back(values[axis]);
+    std::vector<double> force_values;
+    for (const auto axis : axes_) force_values.push_back(values[axis]);
     {
         const std::lock_guard lock(cache_->mutex);
-        if (const auto at = cache_->forces.find(own_values); at != cache_->forces.end()) return at->second;
+        if (const auto at = cache_->forces.find(force_values); at != cache_->forces.end()) return at->second;
     }
-    auto force = make(own_values);
+    auto force = make(force_values);
     if (!force) return force;
     const std::lock_guard lock(cache_->mutex);
     if (cache_->forces.size() >= max_cached_forces) cache_->forces.clear();
-    cache_->forces[own_values] = *force;
+    cache_->forces[force_values] = *force;
     return force;
 }
 

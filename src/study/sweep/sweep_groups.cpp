@@ -11,46 +11,47 @@
 namespace corpuscle {
 namespace {
 
-/// For each row the index of its part of an axis, and the labels of the parts.
-struct AxisParts {
-    std::vector<std::size_t> part;
+/// Divides the rows by the values of one axis: the index of each row's group, and the labels of the groups.
+struct AxisGroups {
+    std::vector<std::size_t> group_of;
     std::vector<std::string> labels;
 };
 
 std::string value_label(const SweepColumn& axis, double value) {
-    const bool word = !axis.labels.empty() && value >= 0 && value < static_cast<double>(axis.labels.size());
-    return word ? axis.labels[static_cast<std::size_t>(value)] : format_quantity(value, axis.unit);
+    const bool is_label = !axis.labels.empty() && value >= 0 && value < static_cast<double>(axis.labels.size());
+    return is_label ? axis.labels[static_cast<std::size_t>(value)] : format_quantity(value, axis.unit);
 }
 
-AxisParts points_of(const SweepColumn& axis, const std::vector<double>& all, const std::vector<double>& values) {
-    AxisParts out;
-    out.part.reserve(all.size());
+AxisGroups points_of(const SweepColumn& axis, const std::vector<double>& all, const std::vector<double>& values) {
+    AxisGroups out;
+    out.group_of.reserve(all.size());
     for (const double x : all)
-        out.part.push_back(!out.part.empty() && out.part.back() < values.size() && values[out.part.back()] == x ? out.part.back()
-                           : std::isnan(x)                                                                      ? values.size()
-                                           : static_cast<std::size_t>(std::lower_bound(values.begin(), values.end(), x) - values.begin()));
+        out.group_of.push_back(
+            !out.group_of.empty() && out.group_of.back() < values.size() && values[out.group_of.back()] == x ? out.group_of.back()
+            : std::isnan(x)                                                                                  ? values.size()
+                            : static_cast<std::size_t>(std::lower_bound(values.begin(), values.end(), x) - values.begin()));
     for (const double x : values) out.labels.push_back(fmt::format("{} = {}", axis.name, value_label(axis, x)));
     out.labels.push_back(axis.name + " = none");
     return out;
 }
 
-AxisParts bands_of(const SweepColumn& axis, const std::vector<double>& all) {
+AxisGroups bands_of(const SweepColumn& axis, const std::vector<double>& all) {
     auto sorted = all;
     std::erase_if(sorted, [](double x) { return std::isnan(x); });
     if (sorted.empty()) return {std::vector<std::size_t>(all.size()), {axis.name + " = none"}};
     std::sort(sorted.begin(), sorted.end());
     std::vector<double> edges;  // the first value of each band except the first
     for (std::size_t b = 1; b < SweepGroups::bands; ++b) edges.push_back(sorted[b * sorted.size() / SweepGroups::bands]);
-    AxisParts out;
+    AxisGroups out;
     for (const double x : all)
-        out.part.push_back(static_cast<std::size_t>(std::upper_bound(edges.begin(), edges.end(), x) - edges.begin()));
+        out.group_of.push_back(static_cast<std::size_t>(std::upper_bound(edges.begin(), edges.end(), x) - edges.begin()));
     for (std::size_t b = 0; b < SweepGroups::bands; ++b)
         out.labels.push_back(fmt::format("{} {} ... {}", axis.name, format_quantity(b == 0 ? sorted.front() : edges[b - 1], axis.unit),
                                          format_quantity(b + 1 == SweepGroups::bands ? sorted.back() : edges[b], axis.unit)));
     return out;
 }
 
-AxisParts parts_of_axis(const SweepTable& table, std::size_t axis) {
+AxisGroups groups_of_axis(const SweepTable& table, std::size_t axis) {
     const auto& all = table.axis_values[axis];
     return table.has_points(axis) ? points_of(table.axes[axis], all, table.points[axis]) : bands_of(table.axes[axis], all);
 }
@@ -70,11 +71,11 @@ SweepGroups group_rows_by_axes(const SweepTable& table, const std::vector<std::s
     SweepGroups out;
     out.axes = axes;
     if (table.rows() == 0) return out;
-    std::vector<AxisParts> parts;
-    for (const auto a : axes) parts.push_back(parts_of_axis(table, a));
+    std::vector<AxisGroups> axis_groups;
+    for (const auto a : axes) axis_groups.push_back(groups_of_axis(table, a));
     std::vector<std::size_t> key(table.rows());
-    for (const auto& p : parts)
-        for (std::size_t r = 0; r < key.size(); ++r) key[r] = key[r] * p.labels.size() + p.part[r];
+    for (const auto& p : axis_groups)
+        for (std::size_t r = 0; r < key.size(); ++r) key[r] = key[r] * p.labels.size() + p.group_of[r];
     std::map<std::size_t, std::size_t> number;  // index of each combination that occurs
     for (std::size_t r = 0; r < key.size(); ++r)
         if (r == 0 || key[r] != key[r - 1]) number[key[r]] = 0;
@@ -82,7 +83,7 @@ SweepGroups group_rows_by_axes(const SweepTable& table, const std::vector<std::s
         n = out.groups.size();
         std::string label;
         auto rest = k;
-        for (auto p = parts.rbegin(); p != parts.rend(); ++p) {
+        for (auto p = axis_groups.rbegin(); p != axis_groups.rend(); ++p) {
             label = p->labels[rest % p->labels.size()] + (label.empty() ? "" : ", ") + label;
             rest /= p->labels.size();
         }

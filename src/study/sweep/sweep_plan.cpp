@@ -6,16 +6,16 @@
 
 namespace corpuscle::sweeps {
 
-double SweepAxis::sample(std::uint64_t draw) const {
-    const double u = numbers->at(draw);
+double SweepAxis::sample(std::uint64_t index) const {
+    const double u = numbers->at(index);
     if (is_normal)
         return first +
                second * normal_quantile(std::clamp(min_probability + u * (max_probability - min_probability), 0x1p-1000, 1 - 0x1p-53));
     return is_logarithmic ? first * num::exp(u * num::log(second / first)) : first + u * (second - first);
 }
 
-SweepPlan::SweepPlan(std::vector<SweepAxis> axes, const circuit::ChipSpec& chips, std::int64_t draws)
-    : axes_(std::move(axes)), chips_(chips), samples_(draws) {
+SweepPlan::SweepPlan(std::vector<SweepAxis> axes, const circuit::ChipSpec& chips, std::int64_t samples)
+    : axes_(std::move(axes)), chips_(chips), samples_(samples) {
     for (const auto& a : axes_) {
         columns_.push_back(a.column);
         if (!a.values.empty()) points_ *= static_cast<std::int64_t>(a.values.size());
@@ -31,11 +31,11 @@ SweepPlan::SweepPlan(std::vector<SweepAxis> axes, const circuit::ChipSpec& chips
 std::vector<double> SweepPlan::values(std::int64_t item) const {
     std::vector<double> out(axes_.size());
     auto point = item / samples_;
-    const auto draw = static_cast<std::uint64_t>(item % samples_);
+    const auto sample = static_cast<std::uint64_t>(item % samples_);
     for (std::size_t k = axes_.size(); k-- > 0;) {
         const auto& a = axes_[k];
         if (a.values.empty()) {
-            out[k] = a.sample(draw);
+            out[k] = a.sample(sample);
             continue;
         }
         const auto count = static_cast<std::int64_t>(a.values.size());
@@ -43,7 +43,7 @@ std::vector<double> SweepPlan::values(std::int64_t item) const {
         point /= count;
     }
     if (chips_.has_process) {
-        const auto chip = chips_.sample(draw);
+        const auto chip = chips_.sample(sample);
         out.insert(out.end(), std::begin(chip.process), std::end(chip.process));
     }
     return out;

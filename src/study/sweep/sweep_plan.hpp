@@ -19,7 +19,8 @@ struct SweepAxis {
     double first = 0, second = 0;                     ///< normal: mean and standard deviation; otherwise from and to
     double min_probability = 0, max_probability = 1;  ///< for a truncated normal distribution: range of its cumulative probability
 
-    double sample(std::uint64_t draw) const;
+    /// The value of a sampled axis for this sample.
+    double sample(std::uint64_t index) const;
 };
 
 class SweepPlan {
@@ -33,7 +34,7 @@ public:
 
     SweepPlan() = default;
     /// `chips`: the seed, and whether process and mismatch are sampled.
-    SweepPlan(std::vector<SweepAxis> axes, const circuit::ChipSpec& chips, std::int64_t draws);
+    SweepPlan(std::vector<SweepAxis> axes, const circuit::ChipSpec& chips, std::int64_t samples);
 
     const std::vector<SweepAxis>& axes() const { return axes_; }
     /// One for each axis; then, if the process is sampled, its four deviates.

@@ -19,12 +19,13 @@ static_assert(std::endian::native == std::endian::little, "spikes and traces hav
 
 constexpr std::array<std::string_view, 3> item_ends = {"done", "truncated", "diverged"};
 
-ItemEnd end_of(std::string_view word) {
-    const auto* at = std::find(item_ends.begin(), item_ends.end(), word);
+ItemEnd end_of(std::string_view name) {
+    const auto* at = std::find(item_ends.begin(), item_ends.end(), name);
     return at == item_ends.end() ? ItemEnd::diverged : static_cast<ItemEnd>(at - item_ends.begin());
 }
 
-std::string insertion(const std::vector<std::string>& columns) {
+/// The statement that inserts a row into the table items.
+std::string insert_statement(const std::vector<std::string>& columns) {
     std::string names = "item, ended, steps, iterations, alone, why", values = "?, ?, ?, ?, ?, ?";
     for (const auto& column : columns) names += ", " + sql::quoted_name(column), values += ", ?";
     return fmt::format("INSERT INTO items({}) VALUES({}) ON CONFLICT(item) DO NOTHING", names, values);
@@ -39,10 +40,10 @@ std::vector<T> numbers(std::span<const std::byte> bytes) {
 }
 
 template <class T>
-Result<std::vector<T>> blob(sqlite3* file, const std::string& path, const char* query, std::int64_t item, std::size_t which) {
+Result<std::vector<T>> read_blob(sqlite3* file, const std::string& path, const char* query, std::int64_t item, std::size_t index) {
     auto row = sql::Statement::make(file, path, query);
     if (!row) return row.error();
-    const auto found = row->set(1, item).set(2, static_cast<std::int64_t>(which)).step();
+    const auto found = row->set(1, item).set(2, static_cast<std::int64_t>(index)).step();
     if (!found) return found.error();
     return *found ? numbers<T>(row->bytes(0)) : std::vector<T>{};
 }
@@ -81,15 +82,15 @@ Result<void> SweepResults::Impl::begin_writing() {
                      "PRAGMA journal_mode = WAL; PRAGMA wal_autocheckpoint = 0; PRAGMA synchronous = FULL; PRAGMA cache_size = -32768");
         !ok)
         return ok;
-    const auto make = [&](const std::string& text, sql::Statement& out) -> Result<void> {
-        auto made = sql::Statement::make(file.get(), path, text);
-        if (!made) return made.error();
-        out = std::move(*made);
+    const auto prepare = [&](const std::string& text, sql::Statement& out) -> Result<void> {
+        auto statement = sql::Statement::make(file.get(), path, text);
+        if (!statement) return statement.error();
+        out = std::move(*statement);
         return {};
     };
-    if (auto ok = make(insertion(layout.stored_column_names), insert_item); !ok) return ok;
-    if (auto ok = make("INSERT INTO spikes(item, train, times) VALUES(?, ?, ?)", insert_spikes); !ok) return ok;
-    if (auto ok = make("INSERT INTO traces(item, trace, samples) VALUES(?, ?, ?)", insert_probe); !ok) return ok;
+    if (auto ok = prepare(insert_statement(layout.stored_column_names), insert_item); !ok) return ok;
+    if (auto ok = prepare("INSERT INTO spikes(item, train, times) VALUES(?, ?, ?)", insert_spikes); !ok) return ok;
+    if (auto ok = prepare("INSERT INTO traces(item, trace, samples) VALUES(?, ?, ?)", insert_probe); !ok) return ok;
     set_next_checkpoint_size();
     is_writing = true;
     return {};
@@ -99,9 +100,10 @@ Result<void> SweepResults::Impl::insert(const Sweep& sweep, const ItemOutcome& o
     const auto values = sweep.values(o.item);
     if (o.item < 0 || o.item >= layout.item_count || (!o.measures.empty() && o.measures.size() != layout.measures.size()) ||
         values.size() != layout.axes.size())
-        return bad_input(fmt::format("item {} with {} axes and {} measures does not fit {} items with {} and {}", o.item, values.size(),
-                                     o.measures.size(), layout.item_count, layout.axes.size(), layout.measures.size()),
-                         {path});
+        return bad_input(
+            fmt::format("item {} with {} axes and {} measures does not fit this file of {} items with {} axes and {} measures", o.item,
+                        values.size(), o.measures.size(), layout.item_count, layout.axes.size(), layout.measures.size()),
+            {path});
     insert_item.set(1, o.item).set(2, end_name(o.end)).set(3, o.steps).set(4, o.iterations).set(5, std::int64_t{o.ran_alone});
     insert_item.set(6, std::string_view(o.reason));
     int position = 7;
@@ -143,7 +145,7 @@ Result<SweepResults> SweepResults::open_with_layout(const std::string& path, con
     if (!lock) return lock.error();
     impl->lock = std::move(*lock);
     ::unlink(impl->checkpoint_path().c_str());  // left by a killed run
-    if (std::error_code none; !fs::exists(path, none)) {
+    if (std::error_code status; !fs::exists(path, status)) {
         impl->layout = expected;
         if (auto ok = impl->create_file(); !ok) return ok.error();
     }
@@ -164,15 +166,15 @@ Result<SweepResults> SweepResults::open_with_layout(const std::string& path, con
 }
 
 Result<SweepResults> SweepResults::open_read_only(const std::string& path) {
-    std::error_code none;
-    if (!fs::exists(path, none)) return bad_input("does not exist; 'corpuscle sweep FILE --out RESULTS' creates it", {path});
+    std::error_code status;
+    if (!fs::exists(path, status)) return bad_input("does not exist; 'corpuscle sweep FILE --out RESULTS' creates it", {path});
     auto impl = std::make_unique<Impl>();
     impl->path = path;
     if (auto ok = impl->open_file(SQLITE_OPEN_READWRITE | SQLITE_OPEN_NOMUTEX); !ok) return ok.error();
     auto stored = ResultsLayout::read(impl->file.get(), path);
     if (!stored && (sqlite3_errcode(impl->file.get()) & 0xff) == SQLITE_CANTOPEN) {
         // SQLite needs a file beside it, which cannot be created here. It is not needed if the -wal has no rows.
-        if (fs::exists(impl->wal_path(), none) && fs::file_size(impl->wal_path(), none) > 0) return needs_writable_folder(path);
+        if (fs::exists(impl->wal_path(), status) && fs::file_size(impl->wal_path(), status) > 0) return needs_writable_folder(path);
         auto opened =
             sql::open("file:" + fs::absolute(path).string() + "?immutable=1", SQLITE_OPEN_READONLY | SQLITE_OPEN_URI | SQLITE_OPEN_NOMUTEX);
         if (!opened) return opened.error();
@@ -207,15 +209,15 @@ Result<void> SweepResults::add(const Sweep& sweep, std::vector<ItemOutcome>&& ou
         if (impl.file && !sqlite3_get_autocommit(impl.file.get())) (void)sql::run(impl.file.get(), impl.path, "ROLLBACK");
         return ok;
     }
-    std::error_code none;
-    const auto size = fs::file_size(impl.wal_path(), none);
-    if (!none && static_cast<std::int64_t>(size) > impl.next_checkpoint_size && !impl.checkpoint(false))
+    std::error_code status;
+    const auto size = fs::file_size(impl.wal_path(), status);
+    if (!status && static_cast<std::int64_t>(size) > impl.next_checkpoint_size && !impl.checkpoint(false))
         impl.set_next_checkpoint_size();  // tried again later
     return {};
 }
 
-void SweepResults::announce_run(std::int64_t to_do) const {
-    if (impl_->lock) impl_->lock->write_progress(finished_count(), to_do);
+void SweepResults::announce_run(std::int64_t planned) const {
+    if (impl_->lock) impl_->lock->write_progress(finished_count(), planned);
 }
 
 const std::string& SweepResults::path() const { return impl_->path; }
@@ -274,11 +276,11 @@ Result<void> SweepResults::for_each_row(const std::function<bool(const Row&)>& o
 }
 
 Result<std::vector<double>> SweepResults::spikes(std::int64_t item, std::size_t train) const {
-    return blob<double>(handle(), path(), "SELECT times FROM spikes WHERE item = ? AND train = ?", item, train);
+    return read_blob<double>(handle(), path(), "SELECT times FROM spikes WHERE item = ? AND train = ?", item, train);
 }
 
-Result<std::vector<float>> SweepResults::probe_samples(std::int64_t item, std::size_t trace) const {
-    return blob<float>(handle(), path(), "SELECT samples FROM traces WHERE item = ? AND trace = ?", item, trace);
+Result<std::vector<float>> SweepResults::probe_samples(std::int64_t item, std::size_t probe) const {
+    return read_blob<float>(handle(), path(), "SELECT samples FROM traces WHERE item = ? AND trace = ?", item, probe);
 }
 
 }  // namespace corpuscle

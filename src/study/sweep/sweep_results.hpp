@@ -12,23 +12,21 @@ struct ResultsLayout;
 /// The spelling in the file: "done", "truncated", "diverged".
 std::string_view end_name(ItemEnd);
 
-/// The file has these tables. A file of format 1 has other names; it can be read, but not extended or merged. The results depend on
-/// everything in `about`; it contains neither user nor date.
+/// The file has these tables. A file of format 1 has other names; it can be read, but not extended or merged. The table about
+/// contains everything on which the results depend, but neither user nor date.
 ///
 /// - about(key, value): the metadata entries by their names. Further keys are items, metadata (names of the entries in order), trains,
-/// traces
-///   and trace_times, the last four as JSON.
+///   traces and trace_times, the last four as JSON.
 ///
-/// - columns(position, kind, name, unit, description, words, at_least, at_most, stored): kind is 'axis' or 'measure', words is JSON, stored
-/// is
-///   the column's name in the table items.
+/// - columns(position, kind, name, unit, description, words, at_least, at_most, stored): kind is 'axis' or 'measure', words is JSON (the
+///   labels of an axis), stored is the column's name in the table items.
 ///
 /// - items(item, ended, steps, iterations, alone, why, ...): a row for each item, with a column for each axis and measure. ended is 'done',
 ///   'truncated' or 'diverged'. NaN is stored as NULL.
 ///
-/// - spikes(item, train, times): little-endian doubles. The train is counted from 0; a train without spikes has no row.
+/// - spikes(item, train, times): little-endian doubles. The train is an index from 0; a train without spikes has no row.
 ///
-/// - traces(item, trace, samples): little-endian floats. The trace is counted from 0.
+/// - traces(item, trace, samples): samples of the kept probes, little-endian floats. The trace is the index of the probe.
 ///
 /// During a run new rows are in path-wal, which only grows; checkpoint() replaces the file itself atomically. So a copy of the file, with
 /// or without its -wal, taken at any time, contains the first n transactions for some n.
@@ -47,7 +45,7 @@ public:
 
     /// Adds all of these rows, or none if the program or the disk fails; existing rows are not changed.
     Result<void> add(const Sweep&, std::vector<ItemOutcome>&&);
-    /// Merges the -wal into one file. Call at the end of a run; add() also does it when the -wal has become long. If the disk is full,
+    /// Merges the -wal into the file. Call at the end of a run; add() also does it when the -wal has become long. If the disk is full,
     /// nothing is lost.
     Result<void> checkpoint();
     /// Returns an error if the other file is of another sweep, or one of them has an earlier format.
@@ -55,8 +53,8 @@ public:
     /// Copies all rows of another file of the same sweep; returns the number of new rows. Rejects a file in which an item has different
     /// results.
     Result<std::int64_t> merge(const SweepResults& from);
-    /// Tells readers of the file how many items this run has.
-    void announce_run(std::int64_t to_do) const;
+    /// Records the number of items planned in this run, for other processes that read the file.
+    void announce_run(std::int64_t planned) const;
 
     const std::string& path() const;
     std::int64_t item_count() const;      ///< of the complete sweep
@@ -86,7 +84,7 @@ public:
     /// Number of rows with this end.
     Result<std::int64_t> count_ended(ItemEnd) const;
     Result<std::vector<double>> spikes(std::int64_t item, std::size_t train) const;
-    Result<std::vector<float>> probe_samples(std::int64_t item, std::size_t trace) const;
+    Result<std::vector<float>> probe_samples(std::int64_t item, std::size_t probe) const;
     sqlite3* handle() const;  ///< for custom queries
 
 private:

@@ -10,19 +10,19 @@
 namespace corpuscle {
 namespace {
 
-MeasureSummary measure_summary(const SortedSample& sorted, std::size_t items, const SweepSummaryOptions& question) {
+MeasureSummary measure_summary(const SortedSample& sorted, std::size_t items, const SweepSummaryOptions& options) {
     MeasureSummary out;
     out.count = static_cast<std::int64_t>(sorted.count());
     out.missing = static_cast<std::int64_t>(items) - out.count;
     if (out.count == 0) return out;
     out.min = sorted.values().front(), out.max = sorted.values().back();
     out.mean = sorted.mean(), out.sigma = sorted.sigma();
-    for (const double q : question.quantiles) out.quantiles.push_back(sorted.quantile(q));
+    for (const double q : options.quantiles) out.quantiles.push_back(sorted.quantile(q));
     out.normality = sorted.normality(), out.normality_floor = sorted.normality_floor();
     return out;
 }
 
-/// Summarises one measure, at each point and then over all.
+/// Summarises one measure at each point, and then over all points.
 void put_measure(SweepSummary& out, const SweepTable& table, const SweepGroups& groups, std::size_t measure) {
     std::vector<SortedSample> sorted;
     std::int64_t total_passed = 0;
@@ -55,7 +55,8 @@ PointSummary point_summary(const SweepTable& table, const SweepGroup& group, con
     return out;
 }
 
-void finish(PointSummary& point, std::size_t measures) {
+/// Computes the number of items and the yield of a point, and allocates its measures.
+void finish_point(PointSummary& point, std::size_t measures) {
     point.items = point.done + point.iteration_limit + point.diverged;
     point.yield = estimate_proportion(point.passed, point.items);
     point.measures.resize(measures);
@@ -77,10 +78,10 @@ class ChipMeans {
     static constexpr auto none = static_cast<std::size_t>(-1);
 
 public:
-    ChipMeans(const SweepTable& table, std::int64_t draws) {
+    ChipMeans(const SweepTable& table, std::int64_t samples) {
         std::unordered_map<std::uint64_t, std::size_t> number;
-        for (const auto unit : table.items) {
-            const auto chip = static_cast<std::uint64_t>(draws > 0 ? unit % draws : unit);
+        for (const auto item : table.items) {
+            const auto chip = static_cast<std::uint64_t>(samples > 0 ? item % samples : item);
             const auto known = number.find(chip);
             if (known == number.end() && chips_.size() == max_searched_chips) {
                 chip_of_.push_back(none);
@@ -102,45 +103,45 @@ public:
 };
 
 /// The subject of a measure: from NAME.MEASURE, or the only subject; -1 if there is none.
-std::ptrdiff_t subject_of(const std::string& measure, const MismatchSamples& drawn) {
-    if (drawn.subjects.size() == 1) return 0;
-    for (std::size_t s = 0; s < drawn.subjects.size(); ++s)
-        if (measure.starts_with(drawn.subjects[s].name + ".")) return static_cast<std::ptrdiff_t>(s);
+std::ptrdiff_t subject_of(const std::string& measure, const MismatchSamples& mismatch) {
+    if (mismatch.subjects.size() == 1) return 0;
+    for (std::size_t s = 0; s < mismatch.subjects.size(); ++s)
+        if (measure.starts_with(mismatch.subjects[s].name + ".")) return static_cast<std::ptrdiff_t>(s);
     return -1;
 }
 
-/// All factors that may matter: those of axes for every measure, those of devices for measures of their own netlist.
+/// All factors that may influence a measure: sampled axes influence every measure, devices only the measures of their netlist.
 struct Factors {
     std::vector<SweepFactor> axes;
     std::vector<NamedInfluence> axis_names;
-    struct OfSubject {
+    struct SubjectFactors {
         std::vector<SweepFactor> values;
         std::vector<NamedInfluence> names;
     };
-    std::vector<OfSubject> subjects;
+    std::vector<SubjectFactors> subjects;
 };
 
-Factors factors_of(const SweepTable& table, const std::optional<MismatchSamples>& drawn, const ChipMeans& means) {
+Factors factors_of(const SweepTable& table, const std::optional<MismatchSamples>& mismatch, const ChipMeans& means) {
     Factors out;
     for (std::size_t a = 0; a < table.axes.size(); ++a) {
         if (table.has_points(a)) continue;
         out.axes.push_back(means.of(table.axis_values[a]));
         out.axis_names.push_back({table.axes[a].name, "", -1, -1, static_cast<std::ptrdiff_t>(a), {}});
     }
-    if (!drawn) return out;
-    for (std::size_t s = 0; s < drawn->subjects.size(); ++s) {
-        auto& of = out.subjects.emplace_back();
-        const auto& devices = drawn->subjects[s].devices;
+    if (!mismatch) return out;
+    for (std::size_t s = 0; s < mismatch->subjects.size(); ++s) {
+        auto& subject_factors = out.subjects.emplace_back();
+        const auto& devices = mismatch->subjects[s].devices;
         for (std::size_t d = 0; d < devices.size(); ++d) {
             if (devices[d].sigma_VT == 0 && devices[d].sigma_IS == 0) continue;
-            auto own = deviates_of(devices[d], drawn->seed, means.chips());
+            auto deviates = deviates_of(devices[d], mismatch->seed, means.chips());
             const NamedInfluence name{devices[d].name, "", static_cast<std::ptrdiff_t>(d), static_cast<std::ptrdiff_t>(s), -1, {}};
-            const auto add = [&](double sigma, const char* part, SweepFactor& values) {
+            const auto add = [&](double sigma, const char* quantity, SweepFactor& values) {
                 if (sigma == 0) return;
-                of.values.push_back(std::move(values)), of.names.push_back(name);
-                of.names.back().quantity = part;
+                subject_factors.values.push_back(std::move(values)), subject_factors.names.push_back(name);
+                subject_factors.names.back().quantity = quantity;
             };
-            add(devices[d].sigma_VT, "V_T", own.V_T), add(devices[d].sigma_IS, "I_S", own.I_S);
+            add(devices[d].sigma_VT, "V_T", deviates.V_T), add(devices[d].sigma_IS, "I_S", deviates.I_S);
         }
     }
     return out;
@@ -162,68 +163,68 @@ std::vector<DeviceContribution> device_contributions(const std::vector<NamedInfl
 
 struct DependenceSearch {
     const SweepTable& table;
-    const std::optional<MismatchSamples>& drawn;
+    const std::optional<MismatchSamples>& mismatch;
     SweepGroups points;
     std::vector<std::pair<std::size_t, SweepGroups>> by_axis;
     ChipMeans means;
     Factors factors;
 };
 
-/// A yield has limits on both sides, so deviations in either direction lower it. It therefore depends on squares as well.
-void add_squares(Factors::OfSubject& own) {
-    const auto count = own.values.size();
+/// Adds the square of each factor. A measure can have limits on both sides, so deviations in either direction lower the yield.
+void add_squares(Factors::SubjectFactors& subject_factors) {
+    const auto count = subject_factors.values.size();
     for (std::size_t f = 0; f < count; ++f) {
         SweepFactor squares;
-        for (const double x : own.values[f]) squares.push_back(x * x);
-        own.values.push_back(std::move(squares)), own.names.push_back(own.names[f]);
-        own.names.back().quantity += " squared";
+        for (const double x : subject_factors.values[f]) squares.push_back(x * x);
+        subject_factors.values.push_back(std::move(squares)), subject_factors.names.push_back(subject_factors.names[f]);
+        subject_factors.names.back().quantity += " squared";
     }
 }
 
-/// Finds the dependences of one measure. The factors of its own devices are appended to those of the axes during the search.
-Dependence dependence_of(const std::string& name, const std::vector<double>& values, DependenceSearch& in) {
+/// Finds the dependences of one measure. During the search, the factors of its netlist's devices are appended to those of the axes.
+Dependence dependence_of(const std::string& name, const std::vector<double>& values, DependenceSearch& search) {
     Dependence out{name, {}, {}, {}, {}, {}};
-    for (const auto& [axis, groups] : in.by_axis) {
+    for (const auto& [axis, groups] : search.by_axis) {
         const auto between = group_effect(values, groups.group_of, groups.groups.size());
         if (between.p_value <= false_discovery_rate && between.fraction > 0) out.points.emplace_back(axis, between);
     }
     std::sort(out.points.begin(), out.points.end(),
               [](const auto& a, const auto& b) { return std::pair(-a.second.fraction, a.first) < std::pair(-b.second.fraction, b.first); });
-    auto& all = in.factors.axes;
+    auto& all = search.factors.axes;
     const auto axes = all.size();
-    const auto subject = in.drawn ? subject_of(name, *in.drawn) : -1;
-    auto* own = subject >= 0 ? &in.factors.subjects[static_cast<std::size_t>(subject)] : nullptr;
-    if (own)
-        for (auto& f : own->values) all.push_back(std::move(f));
-    out.sensitivity = sensitivity_of(in.means.of(inside_groups(values, in.points)), all);
+    const auto subject = search.mismatch ? subject_of(name, *search.mismatch) : -1;
+    auto* subject_factors = subject >= 0 ? &search.factors.subjects[static_cast<std::size_t>(subject)] : nullptr;
+    if (subject_factors)
+        for (auto& f : subject_factors->values) all.push_back(std::move(f));
+    out.sensitivity = sensitivity_of(search.means.of(inside_groups(values, search.points)), all);
     for (const auto& i : out.sensitivity.influences) {
-        out.influences.push_back(i.factor < axes ? in.factors.axis_names[i.factor] : own->names[i.factor - axes]);
+        out.influences.push_back(i.factor < axes ? search.factors.axis_names[i.factor] : subject_factors->names[i.factor - axes]);
         out.influences.back().influence = i;
     }
-    if (own)
-        for (std::size_t f = 0; f < own->values.size(); ++f) own->values[f] = std::move(all[axes + f]);
+    if (subject_factors)
+        for (std::size_t f = 0; f < subject_factors->values.size(); ++f) subject_factors->values[f] = std::move(all[axes + f]);
     all.resize(axes);
     out.devices = device_contributions(out.influences);
     return out;
 }
 
-std::vector<Dependence> dependences_of(const SweepTable& table, const std::optional<MismatchSamples>& drawn,
+std::vector<Dependence> dependences_of(const SweepTable& table, const std::optional<MismatchSamples>& mismatch,
                                        const std::vector<char>& passed, std::size_t& chips) {
     std::vector<std::size_t> point_axes;
     for (std::size_t a = 0; a < table.axes.size(); ++a)
         if (table.has_points(a)) point_axes.push_back(a);
     auto points = group_rows_by_axes(table, point_axes);
     const auto count = static_cast<std::int64_t>(points.groups.size());
-    const ChipMeans means(table, drawn ? drawn->chips : count > 0 && table.item_count % count == 0 ? table.item_count / count : 0);
+    const ChipMeans means(table, mismatch ? mismatch->chips : count > 0 && table.item_count % count == 0 ? table.item_count / count : 0);
     chips = means.chips().size();
-    DependenceSearch in{table, drawn, std::move(points), {}, means, factors_of(table, drawn, means)};
+    DependenceSearch search{table, mismatch, std::move(points), {}, means, factors_of(table, mismatch, means)};
     for (const auto a : point_axes)
-        if (auto groups = group_rows_by_axes(table, {a}); groups.groups.size() > 1) in.by_axis.emplace_back(a, std::move(groups));
+        if (auto groups = group_rows_by_axes(table, {a}); groups.groups.size() > 1) search.by_axis.emplace_back(a, std::move(groups));
     std::vector<Dependence> out;
     for (std::size_t m = 0; m < table.measures.size(); ++m)
-        out.push_back(dependence_of(table.measures[m].name, table.measure_values[m], in));
-    for (auto& own : in.factors.subjects) add_squares(own);
-    if (table.has_limits()) out.push_back(dependence_of("yield", {passed.begin(), passed.end()}, in));
+        out.push_back(dependence_of(table.measures[m].name, table.measure_values[m], search));
+    for (auto& subject_factors : search.factors.subjects) add_squares(subject_factors);
+    if (table.has_limits()) out.push_back(dependence_of("yield", {passed.begin(), passed.end()}, search));
     return out;
 }
 
@@ -249,24 +250,25 @@ std::vector<Dependence> effects_on_all(const SweepTable& table, const std::vecto
 
 }  // namespace
 
-Result<SweepSummary> summary_of(const SweepTable& table, const std::optional<MismatchSamples>& drawn, const SweepSummaryOptions& question) {
-    const auto groups = group_rows(table, question.axes);
+Result<SweepSummary> summary_of(const SweepTable& table, const std::optional<MismatchSamples>& mismatch,
+                                const SweepSummaryOptions& options) {
+    const auto groups = group_rows(table, options.axes);
     if (!groups) return groups.error();
     SweepSummary out;
-    out.options = question, out.axes = groups->axes, out.mismatch = drawn;
+    out.options = options, out.axes = groups->axes, out.mismatch = mismatch;
     std::vector<char> passed(table.rows());
     for (std::size_t r = 0; r < passed.size(); ++r) passed[r] = table.passes(r);
     for (const auto& g : groups->groups) {
         auto& point = out.points.emplace_back(point_summary(table, g, passed));
         out.all.done += point.done, out.all.iteration_limit += point.iteration_limit, out.all.diverged += point.diverged,
             out.all.passed += point.passed;
-        finish(point, table.measures.size());
+        finish_point(point, table.measures.size());
     }
-    finish(out.all, table.measures.size());
+    finish_point(out.all, table.measures.size());
     ThreadPool pool(table.rows() > 100000 ? 0 : 1);
     pool.for_each(table.measures.size(), [&](std::size_t m, unsigned) { put_measure(out, table, *groups, m); });
     if (!table.is_grid) {
-        out.dependences = dependences_of(table, drawn, passed, out.searched_chips);
+        out.dependences = dependences_of(table, mismatch, passed, out.searched_chips);
         return out;
     }
     remove_statistics(out.all);

@@ -12,7 +12,7 @@
 namespace corpuscle {
 
 struct SweepSummaryOptions {
-    std::vector<std::string> axes;  ///< axes; empty: all that are listed rather than sampled, if they have few points
+    std::vector<std::string> axes;  ///< axes that define the points; empty: all listed axes, if they have few points
     std::vector<double> quantiles = {0.05, 0.25, 0.5, 0.75, 0.95};
 };
 
@@ -24,12 +24,13 @@ struct SweepGroup {
 /// Groups of a table's rows: by the values of an axis with few values, or by five bands of equal size for an axis with many.
 struct SweepGroups {
     static constexpr std::size_t max_groups = 64, bands = 5;
-    std::vector<std::size_t> axes;  ///< that define the groups
+    std::vector<std::size_t> axes;  ///< axes that define the groups
     std::vector<SweepGroup> groups;
     std::vector<std::size_t> group_of;  ///< for each row
 };
+/// Groups the rows by the axes of these names; without names, by all axes with points, if that gives few groups.
 Result<SweepGroups> group_rows(const SweepTable&, const std::vector<std::string>& by);
-/// For axes that have points or are divided into bands.
+/// Groups the rows by these axes. An axis without points is divided into bands.
 SweepGroups group_rows_by_axes(const SweepTable&, const std::vector<std::size_t>& axes);
 
 struct MeasureSummary {
@@ -38,24 +39,24 @@ struct MeasureSummary {
     Estimate mean, sigma;
     std::vector<Estimate> quantiles;
     double normality = Estimate::none, normality_floor = Estimate::none;
-    std::optional<Estimate> yield;  ///< of its own limits, over all items
+    std::optional<Estimate> yield;  ///< fraction of all items that meet the limits of this measure
 };
 struct PointSummary {
     std::string label;
     std::int64_t items = 0, done = 0, iteration_limit = 0, diverged = 0, passed = 0;
-    Estimate yield;  ///< items that ended and meet all limits
+    Estimate yield;  ///< fraction of items that ended normally and meet all limits
     std::vector<MeasureSummary> measures;
 };
 
 /// A sampled factor that a measure depends on.
 struct NamedInfluence {
-    std::string name;                          ///< of a device or an axis
+    std::string name;                          ///< name of a device or an axis
     std::string quantity;                      ///< of a device: "V_T" or "I_S"; for the yield also "V_T squared"
-    std::ptrdiff_t device = -1, subject = -1;  ///< in the mismatch samples
-    std::ptrdiff_t axis = -1;
+    std::ptrdiff_t device = -1, subject = -1;  ///< indexes in the mismatch samples; -1 for an axis
+    std::ptrdiff_t axis = -1;                  ///< index of the axis; -1 for a device
     Influence influence;
 };
-/// A device with both of its factors.
+/// The contributions of both factors of a device, V_T and I_S, to the variance of a measure.
 struct DeviceContribution {
     std::ptrdiff_t subject, device;
     double V_T = 0, I_S = 0;  ///< fractions of the variance
@@ -67,12 +68,12 @@ struct Dependence {
     std::vector<NamedInfluence> influences;                   ///< the strongest first
     std::vector<DeviceContribution> devices;                  ///< those with a fraction of the variance, the largest first
     std::vector<std::pair<std::size_t, GroupEffect>> points;  ///< axes with points, and the effect of each
-    std::vector<AxisEffect> effects;                          ///< for a full grid, instead of all others
+    std::vector<AxisEffect> effects;                          ///< of a full grid, which has no other dependences
 };
 
 struct SweepSummary {
     SweepSummaryOptions options;
-    std::vector<std::size_t> axes;  ///< axes
+    std::vector<std::size_t> axes;  ///< axes that define the points
     std::vector<PointSummary> points;
     PointSummary all;
     std::optional<MismatchSamples> mismatch;

@@ -29,8 +29,8 @@ Result<std::vector<std::size_t>> find_measures(const SweepResults& results, cons
     return out;
 }
 
-/// The distinct values of an axis in ascending order. Empty if there are more than `limit`, or, for an axis that is not listed, more than
-/// one for two rows.
+/// The distinct values of an axis in ascending order. Empty if there are more than `limit` values or, for an axis that is not listed,
+/// more values than half the number of rows.
 std::vector<double> few_values(const std::vector<double>& all, bool is_listed, std::size_t limit) {
     std::vector<double> known;
     double last = std::nan("");
@@ -82,9 +82,9 @@ Result<std::vector<ReadPart>> read_parts(const SweepResults& results, const std:
         const auto first_item = [&](std::size_t part) {
             return part == parts ? std::numeric_limits<std::int64_t>::max() : results.item_count() / 4 * static_cast<std::int64_t>(part);
         };
-        const auto own = parts == 1 ? Result<SweepResults>(Error{}) : SweepResults::open_read_only(results.path());
-        if (parts > 1 && !own) return void(errors[k] = own.error());
-        auto read = read_part(parts == 1 ? results : *own, columns_sql, columns, first_item(k), first_item(k + 1));
+        const auto connection = parts == 1 ? Result<SweepResults>(Error{}) : SweepResults::open_read_only(results.path());
+        if (parts > 1 && !connection) return void(errors[k] = connection.error());
+        auto read = read_part(parts == 1 ? results : *connection, columns_sql, columns, first_item(k), first_item(k + 1));
         read ? void(out[k] = std::move(*read)) : void(errors[k] = read.error());
     });
     for (auto& e : errors)
@@ -114,8 +114,8 @@ bool SweepTable::passes(std::size_t row) const {
     return true;
 }
 
-Result<SweepTable> read_table(const SweepResults& results, const std::vector<std::string>& measures) {
-    const auto wanted = find_measures(results, measures);
+Result<SweepTable> read_table(const SweepResults& results, const std::vector<std::string>& measure_names) {
+    const auto wanted = find_measures(results, measure_names);
     if (!wanted) return wanted.error();
     SweepTable out;
     out.item_count = results.item_count(), out.axes = results.axes();
@@ -127,7 +127,7 @@ Result<SweepTable> read_table(const SweepResults& results, const std::vector<std
     const auto has_iterations =
         sql::query_integer(results.handle(), results.path(), "SELECT EXISTS(SELECT 1 FROM items WHERE iterations > 0)");
     if (!has_iterations) return has_iterations.error();
-    if (*has_iterations && measures.empty()) {
+    if (*has_iterations && measure_names.empty()) {
         columns_sql.emplace_back("iterations");
         out.measures.push_back({"iterations", "", "Newton iterations of the circuit"});
     }

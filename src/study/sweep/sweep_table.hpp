@@ -17,12 +17,12 @@ struct SweepTable {
 
     /// For each axis with few values, such as a listed one, its values in ascending order, which are its points. Otherwise empty.
     std::vector<std::vector<double>> points;
-    /// limits for an axis with points: in a sampled sweep, and in a grid
+    /// largest number of values of an axis with points: in a sampled sweep, and in a grid
     static constexpr std::size_t max_points = 64, max_grid_points = 10'000;
     bool is_grid = false;  ///< nothing is sampled, see grid.hpp
 
     std::size_t rows() const { return items.size(); }
-    /// True if a row ended normally and meets a measure's limits; false without the measure.
+    /// True if a row ended normally and meets a measure's limits; false if there are limits and the item has no value.
     bool meets_limits(std::size_t row, std::size_t measure) const;
     bool has_limits(std::size_t measure) const { return measures[measure].min || measures[measure].max; }
     bool has_limits() const;
@@ -32,7 +32,7 @@ struct SweepTable {
 };
 
 /// All axes and the measures of these names, or all measures if there are no names; for circuits also the iterations of each item.
-Result<SweepTable> read_table(const SweepResults&, const std::vector<std::string>& measures);
+Result<SweepTable> read_table(const SweepResults&, const std::vector<std::string>& measure_names);
 
 /// Why an item failed; only the first items are listed.
 struct FailedItem {

@@ -1,4 +1,4 @@
-// Reads a sweep file's TOML; the only file that uses toml++.
+// Reads the TOML text of a sweep file.
 
 #include "study/sweep/sweep_text.hpp"
 
@@ -21,18 +21,18 @@ class SweepFileReader : public TomlReader {
 public:
     using TomlReader::TomlReader;
 
-    void limits(const toml::table& from, const std::string& before, std::vector<LimitSpec>& out) {
+    void limits(const toml::table& from, const std::string& prefix, std::vector<LimitSpec>& out) {
         for (const auto& [key, value] : from) {
-            LimitSpec limit{{before + std::string(key.str()), location_of(key.source())}, {}, {}, {}, {}};
+            LimitSpec limit{{prefix + std::string(key.str()), location_of(key.source())}, {}, {}, {}, {}};
             if (const auto* pair = value.as_array()) {
                 if (pair->size() != 2)
                     return reject(value.source(), fmt::format("{}: a limit needs two numbers, [min, max]", limit.measure.text));
                 limit.min = scalar((*pair)[0], limit.measure.text), limit.max = scalar((*pair)[1], limit.measure.text);
             } else if (const auto* inner = value.as_table()) {
-                const bool of_limit = inner->is_inline() || inner->empty() || std::any_of(inner->begin(), inner->end(), [](const auto& e) {
-                                          return is_one_of(limit_keys, e.first.str());
-                                      });
-                if (!of_limit) {
+                const bool has_limit_keys =
+                    inner->is_inline() || inner->empty() ||
+                    std::any_of(inner->begin(), inner->end(), [](const auto& e) { return is_one_of(limit_keys, e.first.str()); });
+                if (!has_limit_keys) {
                     limits(*inner, limit.measure.text + ".", out);
                     continue;
                 }
@@ -56,7 +56,7 @@ public:
             a.name = std::move(*what);
         else
             reject(from.source(),
-                   "[[vary]]: 'what' is missing, the quantity that varies: what = \"process\", \"temp\", a parameter's name ...");
+                   "[[vary]]: 'what' is missing; give the quantity that varies: what = \"process\", \"temp\" or a parameter's name");
         a.distribution = scalar(from, "how"), a.from = scalar(from, "from"), a.to = scalar(from, "to"), a.count = scalar(from, "count");
         a.log = scalar(from, "log", true), a.mean = scalar(from, "mean"), a.sigma = scalar(from, "sigma");
         a.min = scalar(from, "at_least"), a.max = scalar(from, "at_most"), a.list = list(from, "list");
@@ -64,26 +64,26 @@ public:
     }
 };
 
-SweepText text_from(const toml::table& top, SweepFileReader& reading) {
+SweepText text_from(const toml::table& top, SweepFileReader& reader) {
     SweepText out;
     for (const auto& [key, value] : top)
         for (const auto& [old_key, new_key] : renamed_keys)
-            if (key.str() == old_key) reading.reject(key.source(), fmt::format("{} is now {}", old_key, new_key));
-    reading.reject_unknown_keys(top, known_keys, "");
-    out.title = reading.scalar(top, "title"), out.afferent = reading.scalar(top, "afferent"), out.netlist = reading.scalar(top, "netlist");
-    out.force = reading.scalar(top, "force"), out.channel = reading.scalar(top, "channel"), out.rate = reading.scalar(top, "rate");
-    out.unit = reading.scalar(top, "unit"), out.scale = reading.scalar(top, "scale");
-    out.seed = reading.scalar(top, "seed"), out.items = reading.scalar(top, "samples"), out.every = reading.scalar(top, "every");
-    out.iterations = reading.scalar(top, "iterations"), out.directives = reading.scalar(top, "orders");
-    out.measures = reading.list(top, "measures"), out.keep = reading.list(top, "keep");
-    if (auto traces = reading.list(top, "traces")) out.probes = std::move(*traces);
-    if (const auto* set = reading.table(top, "set")) reading.settings(*set, "", out.settings);
-    if (const auto* limits = reading.table(top, "limits")) reading.limits(*limits, "", out.limits);
-    reading.tables(top, "vary", "each thing that varies", [&](const toml::table& one) { reading.axis(one, out.axes); });
+            if (key.str() == old_key) reader.reject(key.source(), fmt::format("{} is now {}", old_key, new_key));
+    reader.reject_unknown_keys(top, known_keys, "");
+    out.title = reader.scalar(top, "title"), out.afferent = reader.scalar(top, "afferent"), out.netlist = reader.scalar(top, "netlist");
+    out.force = reader.scalar(top, "force"), out.channel = reader.scalar(top, "channel"), out.rate = reader.scalar(top, "rate");
+    out.unit = reader.scalar(top, "unit"), out.scale = reader.scalar(top, "scale");
+    out.seed = reader.scalar(top, "seed"), out.items = reader.scalar(top, "samples"), out.every = reader.scalar(top, "every");
+    out.iterations = reader.scalar(top, "iterations"), out.directives = reader.scalar(top, "orders");
+    out.measures = reader.list(top, "measures"), out.keep = reader.list(top, "keep");
+    if (auto traces = reader.list(top, "traces")) out.probes = std::move(*traces);
+    if (const auto* set = reader.table(top, "set")) reader.settings(*set, "", out.settings);
+    if (const auto* limits = reader.table(top, "limits")) reader.limits(*limits, "", out.limits);
+    reader.tables(top, "vary", "each varied quantity", [&](const toml::table& one) { reader.axis(one, out.axes); });
     return out;
 }
 
-/// Makes all tables regular ones, however they were written.
+/// Converts inline tables to regular ones, so that files with the same content have the same canonical text.
 void make_tables_regular(toml::node& node) {
     if (auto* table = node.as_table()) {
         table->is_inline(false);
@@ -105,9 +105,9 @@ std::string canonical_text(toml::table top) {
 Result<SweepText> read_sweep_text(std::string_view text, const std::string& file) {
     const auto top = parse_toml(text, file);
     if (!top) return top.error();
-    SweepFileReader reading(file);
-    auto out = text_from(*top, reading);
-    if (reading.first_error) return *reading.first_error;
+    SweepFileReader reader(file);
+    auto out = text_from(*top, reader);
+    if (reader.first_error) return *reader.first_error;
     out.file = file, out.canonical = canonical_text(*top);
     return out;
 }

@@ -14,7 +14,7 @@ std::size_t bytes_of(const ItemOutcome& o) {
     return sum;
 }
 
-/// Turns exceptions of libraries into errors; an exception that leaves a thread ends the program.
+/// Converts exceptions of libraries to errors, because an exception that leaves a thread would end the program.
 Result<void> run_items_safely(const Sweep& sweep, const Sweep::NextItem& next, const Sweep::OutcomeHandler& on_outcome,
                               const std::function<bool()>& stop) {
     try {
@@ -84,8 +84,8 @@ Result<void> WorkerPool::sweep_error() const {
     return sweep_error_;
 }
 
-// A call of Sweep::work may have other items in progress when it asks for the next one, so next() does not wait. Without items the call
-// returns, and the thread waits here.
+// A call of Sweep::run_items may have other items in progress when it calls next(), so next() does not wait for items. When the queue is
+// empty, the call finishes its items and returns, and the thread waits here.
 void WorkerPool::work() {
     std::unique_lock lock(mutex_);
     for (;;) {

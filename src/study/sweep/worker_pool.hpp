@@ -11,7 +11,7 @@
 
 namespace corpuscle {
 
-/// One thread adds items and collects outcomes. `threads` worker threads each run Sweep::work while there are items.
+/// One thread adds items and collects outcomes. `threads` worker threads each run Sweep::run_items while there are items.
 class WorkerPool {
 public:
     WorkerPool(const Sweep&, unsigned threads);

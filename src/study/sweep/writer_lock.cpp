@@ -30,7 +30,7 @@ bool is_file_at_path(int file, const std::string& path) {
            open_file.st_dev == file_at_path.st_dev;
 }
 
-/// True if the file is empty or has the content of write_progress(). Any other file is not ours and must not be truncated.
+/// True if the file is empty or has the content of write_progress(). Any other file must not be truncated.
 bool is_ours(int file) {
     struct stat status = {};
     if (::fstat(file, &status) != 0 || !S_ISREG(status.st_mode) || status.st_nlink > 1 || status.st_size > 512) return false;
@@ -55,7 +55,7 @@ Error locked_error(const std::string& results) {
     const auto writer =
         holder && holder->process ? fmt::format("process {} on {}", holder->process, holder->host) : std::string("another process");
     return bad_input(fmt::format("is being written by {}; 'corpuscle sweep FILE --status' shows its progress. Wait for it, or give another "
-                                 "file with --out (shards have one each, for 'corpuscle sweep merge')",
+                                 "file with --out (each shard needs a separate file, for 'corpuscle sweep merge')",
                                  writer),
                      {results});
 }
@@ -93,7 +93,7 @@ Result<WriterLock> WriterLock::take(const std::string& results) {
             return bad_input(fmt::format("cannot be locked ({}): does this file system support locks?", std::strerror(cause)), {path});
         }
         if (is_file_at_path(file, path)) {
-            if (!is_ours(file)) return ::close(file), not_ours(path, "holds something else");
+            if (!is_ours(file)) return ::close(file), not_ours(path, "has other content");
             lock.path_ = path, lock.file_ = file;
             lock.write_progress(0, 0);
             return lock;

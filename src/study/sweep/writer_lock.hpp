@@ -31,7 +31,7 @@ public:
     /// Fails if another process has the lock, and names it.
     static Result<WriterLock> take(const std::string& results);
     /// Records the number of finished items at the start, and of items to run.
-    void write_progress(std::int64_t finished, std::int64_t to_do) const;
+    void write_progress(std::int64_t finished, std::int64_t planned) const;
     /// The current owner of the lock, if any.
     static std::optional<Writer> holder(const std::string& results);
 };

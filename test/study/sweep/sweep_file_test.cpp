@@ -305,7 +305,7 @@ TEST(SweepFile, ErrorsGiveTheLocationAndTheRemedy) {
         {"samples = 3\n", "the sweep has no subject"},
         {"afferent = 'sa1'\nnetlist = 'x.cir'\n", "2:11: give either afferent"},
         {"netlist = 'circuits/bais.cir'\n",
-         "1:11: there is no netlist 'circuits/bais.cir' beside the sweep file and no embedded one "
+         "1:11: there is no netlist 'circuits/bais.cir' in the folder of the sweep file and no embedded one "
          "of this name; did you mean 'circuits/bias.cir'?"},
         {"afferent = 'sa1'\nsamples = 2.5\n[[vary]]\nwhat = 'f_B'\nsigma = '5%'\n", "2:11: samples = 2.5 must be an integer"},
         {"afferent = 'sa1'\nsamples = [1]\n", "2:11: samples is a list; expected a text or a number"},
