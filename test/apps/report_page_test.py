@@ -118,8 +118,15 @@ def frames(record):
     return found
 
 
+def missing_values(browser):
+    """Words of the page that a script writes if a key or a number is missing."""
+    text = browser.execute_script("""return [...document.body.querySelectorAll("*")].filter((one) => !["SCRIPT", "STYLE"].includes(one.tagName))
+        .flatMap((one) => [...one.childNodes].filter((child) => child.nodeType === Node.TEXT_NODE).map((child) => child.data)).join(" ")""")
+    return re.findall(r".{0,40}(?:undefined|NaN|\[object ).{0,40}", text)
+
+
 class Page(unittest.TestCase):
-    """A browser with one report open. No test may cause a message in the console."""
+    """A browser with one report open. No test may cause a message in the console or show a missing value."""
 
     @classmethod
     def setUpClass(cls):
@@ -147,6 +154,7 @@ class Page(unittest.TestCase):
         console_messages = [e["message"] for e in self.browser.get_log("browser") if e["level"] != "INFO"]
         # the advice concerns this test, which reads pixels back
         self.assertEqual([text for text in console_messages if "willReadFrequently" not in text], [])
+        self.assertEqual(missing_values(self.browser), [])
 
     def js(self, script, *arguments):
         return self.browser.execute_script(script, *arguments)
@@ -854,6 +862,7 @@ class Studies(unittest.TestCase):
             points = browser.execute_script("return charts.map((chart) => chart.numRows())")
             self.assertEqual(len(points), sum(len(study["plots"]) for study in data["studies"]))
             self.assertGreater(min(points), 2)
+            self.assertEqual(missing_values(browser), [])
             self.on_a_telephone(browser)
 
     def on_a_telephone(self, browser):
@@ -908,6 +917,7 @@ class Sweeps(unittest.TestCase):
             Select(browser.find_element(By.ID, "measure")).select_by_visible_text("i(vis)")
             self.assertIn("i(vis)", browser.find_element(By.CSS_SELECTOR, "#figures figcaption").text)
             self.assertEqual(len(browser.find_elements(By.CSS_SELECTOR, "#failed tbody tr")), 120 - summary["all"]["passed"])
+            self.assertEqual(missing_values(browser), [])
             self.assertEqual(browser.get_log("browser"), [])
 
     def browse(self, path, width=1400):
@@ -942,6 +952,8 @@ class Sweeps(unittest.TestCase):
         matters = browser.find_element(By.ID, "influences").text
         for axis in ("press.F_max", "sa1.f_B"):
             self.assertEqual(matters.count(axis), 2, matters)
+        self.assertIn("interactions", matters)
+        self.assertEqual(missing_values(browser), [])
         captions = [one.text for one in browser.find_elements(By.CSS_SELECTOR, "#figures figcaption")]
         self.assertEqual(len(captions), 3, captions)
         self.assertTrue(captions[0].startswith("spikes over press.F_max"), captions)
