@@ -39,7 +39,7 @@ void print_state(const CommonArguments& common, const SweepStatus& state) {
     if (common.json)
         fmt::print("{}\n", json_text(document_of(state)));
     else if (!common.quiet)
-        print_text(describe_frame_error(state));
+        print_text(sweep_status_text(state));
 }
 
 /// This process among the MPI ranks.

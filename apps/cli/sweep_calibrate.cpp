@@ -114,7 +114,7 @@ Result<void> calibrate_netlist(const SweepCalibrateArguments& args, const Common
     if (common.json)
         fmt::print("{}\n", document_of(calibration, *done).dump(1));
     else
-        print_text(describe_frame_error(calibration, *done));
+        print_text(format_calibration(calibration, *done));
     return {};
 }
 

@@ -65,7 +65,7 @@ Result<SweepStatus> read_sweep_status(const SweepResults& results, const Shard& 
     }
 }
 
-std::string describe_frame_error(const SweepStatus& s) {
+std::string sweep_status_text(const SweepStatus& s) {
     const auto completed = s.finished - s.truncated - s.diverged;
     std::vector<std::vector<std::string>> rows = {{"items", "ended", "missing", "completed", "truncated", "diverged"}, {}};
     for (const auto n : {s.items, s.finished, s.missing(), completed, s.truncated, s.diverged}) rows[1].push_back(fmt::format("{}", n));

@@ -23,7 +23,7 @@ struct SweepStatus {
 };
 
 Result<SweepStatus> read_sweep_status(const SweepResults&, const Shard&);
-std::string describe_frame_error(const SweepStatus&);
+std::string sweep_status_text(const SweepStatus&);
 nlohmann::ordered_json document_of(const SweepStatus&);
 
 }  // namespace corpuscle

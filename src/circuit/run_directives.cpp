@@ -174,7 +174,7 @@ Result<RunOutcome> run_directives(AnalysisContext& context, const RunOptions& op
     if (!saved) return saved.error();
     for (const auto& curve : *saved) out.saved_curves.push_back(curve.name);
     const DeviceCurrents currents(context.system, *saved);
-    if (!std::exchange(context.requests_checked, true))
+    if (!std::exchange(context.output_directives_checked, true))
         if (auto ok = check_output_directives(context.system, currents, out.warnings); !ok) return ok.error();
     MeasurementSet measures(*circuit);
     for (const auto& c : circuit->directives) {

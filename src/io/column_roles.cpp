@@ -135,7 +135,7 @@ struct Roles {
 
 }  // namespace
 
-bool have_own_names(const std::vector<Column>& columns) {
+bool has_named_columns(const std::vector<Column>& columns) {
     return std::any_of(columns.begin(), columns.end(), [](const Column& c) {
         return !c.name.starts_with("ch") || c.name.find_first_not_of("0123456789", 2) != c.name.npos;
     });

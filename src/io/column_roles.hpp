@@ -33,6 +33,6 @@ ColumnRoles assign_roles(std::vector<Column>& columns, const std::vector<FirstFi
                          std::optional<std::size_t> time = {});
 
 /// True if any column has a name other than the default names ch1, ch2 ...
-bool have_own_names(const std::vector<Column>& columns);
+bool has_named_columns(const std::vector<Column>& columns);
 
 }  // namespace corpuscle

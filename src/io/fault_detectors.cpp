@@ -152,12 +152,12 @@ HumTable::HumTable(const Clock& clock) {
             phasors.re[l] = window * num::cos_turns(turns - std::floor(turns));
             phasors.im[l] = window * num::sin_turns(turns - std::floor(turns));
         }
-        second.push_back(phasors);
+        phasors_of_second.push_back(phasors);
     }
 }
 
 void HumDetector::end_second() {
-    const auto n = static_cast<double>(table_.second.size());
+    const auto n = static_cast<double>(table_.phasors_of_second.size());
     if (is_examined(second_)) {
         variance_ += squares_ / n - total_ / n * (total_ / n);
         for (std::size_t l = 0; l < HumTable::line_count; ++l) {  // a sinusoid of amplitude A gives A^2 / 2
@@ -172,11 +172,11 @@ void HumDetector::add_decimated(double x) {
     if (at_ == 0) first_ = x;
     const double y = x - first_;
     if (is_examined(second_)) {
-        const auto& phasors = table_.second[at_];
+        const auto& phasors = table_.phasors_of_second[at_];
         for (std::size_t l = 0; l < HumTable::line_count; ++l) sum_.re[l] += phasors.re[l] * y, sum_.im[l] += phasors.im[l] * y;
         total_ += y, squares_ += y * y;
     }
-    if (++at_ == table_.second.size()) end_second();
+    if (++at_ == table_.phasors_of_second.size()) end_second();
 }
 
 void HumDetector::add(std::span<const double> x) {

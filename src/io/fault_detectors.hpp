@@ -74,7 +74,7 @@ struct HumTable {
     };
     double mains[2] = {50, 60};
     std::int64_t decimation = 1;  ///< this number of samples is averaged, so that a second has fewer than 2000 samples
-    std::vector<Phasors> second;  ///< for each decimated sample of a second; empty if the sample rate is below 2 Hz
+    std::vector<Phasors> phasors_of_second;  ///< for each decimated sample of a second; empty if the sample rate is below 2 Hz
     explicit HumTable(const Clock&);
     /// True if the sample rate suffices for mains[mains_index].
     bool covers(std::size_t mains_index) const { return static_cast<double>(second.size()) > 2.2 * mains[mains_index]; }

@@ -6,8 +6,8 @@
 namespace corpuscle {
 
 ForceRows::ForceRows(RowReader rows, std::vector<ChannelPipeline> pipelines, std::string path, std::vector<std::string> names, bool timed)
-    : rows_(std::move(rows)), paths_(std::move(pipelines)), path_(std::move(path)), names_(std::move(names)),
-      ready_(paths_.size() + (timed ? 1 : 0)) {
+    : rows_(std::move(rows)), pipelines_(std::move(pipelines)), path_(std::move(path)), names_(std::move(names)),
+      ready_(pipelines_.size() + (timed ? 1 : 0)) {
     if (timed) times_.emplace();
 }
 
@@ -30,13 +30,13 @@ Result<void> ForceRows::read_block() {
     const auto rows = rows_.next(block_);
     if (!rows) return rows.error();
     ended_ = *rows == 0;
-    sums_.add(block_, paths_.size());
-    for (std::size_t c = 0; c < paths_.size(); ++c)
-        if (auto ok = ended_ ? paths_[c].finish(ready_[c]) : paths_[c].push(block_[c], ready_[c]); !ok) return channel_error(c, ok.error());
+    sums_.add(block_, pipelines_.size());
+    for (std::size_t c = 0; c < pipelines_.size(); ++c)
+        if (auto ok = ended_ ? pipelines_[c].finish(ready_[c]) : pipelines_[c].push(block_[c], ready_[c]); !ok) return channel_error(c, ok.error());
     if (!times_) return {};
-    if (auto ok = times_->push({block_.back().data(), *rows}, ready_.back()); !ok) return channel_error(paths_.size(), ok.error());
+    if (auto ok = times_->push({block_.back().data(), *rows}, ready_.back()); !ok) return channel_error(pipelines_.size(), ok.error());
     if (ended_)
-        if (auto ok = times_->finish(ready_.back()); !ok) return channel_error(paths_.size(), ok.error());
+        if (auto ok = times_->finish(ready_.back()); !ok) return channel_error(pipelines_.size(), ok.error());
     return {};
 }
 

@@ -13,7 +13,7 @@ namespace corpuscle {
 
 class ForceRows {
     RowReader rows_;
-    std::vector<ChannelPipeline> paths_;
+    std::vector<ChannelPipeline> pipelines_;
     std::string path_;                // of the file, for errors
     std::vector<std::string> names_;  // of the channels, for errors
     std::optional<GapFiller> times_;  // fills gaps in the times; set if each row has its own time
@@ -38,8 +38,8 @@ public:
     void advance(std::size_t rows = 1) { consumed_ += rows; }
     const double* ready_data(std::size_t channel) const { return ready_[channel].data() + consumed_; }
 
-    std::vector<ChannelPipeline>& paths() { return paths_; }
-    const std::vector<ChannelPipeline>& paths() const { return paths_; }
+    std::vector<ChannelPipeline>& paths() { return pipelines_; }
+    const std::vector<ChannelPipeline>& paths() const { return pipelines_; }
     const RowReader& rows() const { return rows_; }
     const SumDetector& sums() const { return sums_; }
 };

@@ -100,7 +100,7 @@ public:
             for (std::size_t k = v.first.numbers.size(); k < std::min(rows_, inspected_rows); ++k) v.first.add_other(v.first.empty_count);
             first.push_back(std::move(v.first));
         }
-        roles_ = assign_roles(columns_, first, have_own_names(columns_));
+        roles_ = assign_roles(columns_, first, has_named_columns(columns_));
         for (std::size_t c = 0; c < columns_.size(); ++c)
             if (columns_[c].unit.empty() && columns_[c].exclusion_reason.empty() && c != roles_.time_column)
                 columns_[c].unit = metadata_.unit;

@@ -50,7 +50,7 @@ public:
 
     /// Determines the roles of the columns from their names and first rows, as for a text file.
     Result<void> find_roles() {
-        if (!have_own_names(columns_)) return {};
+        if (!has_named_columns(columns_)) return {};
         const auto rows = std::min({inspected_rows, static_cast<std::size_t>(info().rows), max_inspected_numbers / columns_.size()});
         std::vector<std::size_t> all(columns_.size());
         std::iota(all.begin(), all.end(), std::size_t{0});

@@ -9,16 +9,16 @@
 namespace corpuscle {
 
 class LatencyHistogram {
-    static constexpr int sub = 32, bins = 44 * sub;
+    static constexpr int bins_per_octave = 32, bins = 44 * bins_per_octave;
     std::array<std::uint64_t, bins> counts_{};
     std::uint64_t count_ = 0;
     std::int64_t max_ = 0;
 
     static int bin_of(std::int64_t ns) {
         const auto n = static_cast<std::uint64_t>(std::max<std::int64_t>(ns, 0));
-        if (n < sub) return static_cast<int>(n);
+        if (n < bins_per_octave) return static_cast<int>(n);
         const int octave = static_cast<int>(std::bit_width(n)) - 6;  // 0 for 32 ns
-        return std::min(bins - 1, (octave + 1) * sub + static_cast<int>((n >> octave) - sub));
+        return std::min(bins - 1, (octave + 1) * bins_per_octave + static_cast<int>((n >> octave) - bins_per_octave));
     }
 
 public:
@@ -28,9 +28,9 @@ public:
 
     /// The upper end of a bin, ns, exclusive.
     static std::int64_t end_of(int bin) {
-        if (bin < sub) return bin + 1;
-        const int octave = bin / sub - 1;
-        return static_cast<std::int64_t>(static_cast<std::uint64_t>(bin % sub + sub + 1) << octave);
+        if (bin < bins_per_octave) return bin + 1;
+        const int octave = bin / bins_per_octave - 1;
+        return static_cast<std::int64_t>(static_cast<std::uint64_t>(bin % bins_per_octave + bins_per_octave + 1) << octave);
     }
     static constexpr int bin_count() { return bins; }
     std::uint64_t count_in(int bin) const { return counts_[static_cast<std::size_t>(bin)]; }

@@ -36,7 +36,7 @@ Result<void> StreamLoop::run() {
     if (ended && options_.stop()) ended = run_remaining();
     if (ended) ended = run_batch();
     if (ended && !options_.keeps_state) ended = put(skin_.finish());
-    const auto finished = sink_.finish({patience_ends_ == FrameSource::never ? second : 0, !frames_.is_live(), options_.stop});
+    const auto finished = sink_.finish({reader_deadline_ == FrameSource::never ? second : 0, !frames_.is_live(), options_.stop});
     return ended ? finished : ended;
 }
 
@@ -131,10 +131,10 @@ Result<void> StreamLoop::put(std::span<const Spike> spikes) {
 
 /// Waits for space if the reader may be waited for; false: there is none. After a stop, a reader that reads nothing has one more second.
 Result<bool> StreamLoop::wait_for_space(std::size_t bytes) {
-    while (waits_for_reader() && steady_now() < patience_ends_) {
+    while (waits_for_reader() && steady_now() < reader_deadline_) {
         const auto room = sink_.wait_for_space(bytes, 100);
         if (!room || *room) return room;
-        if (!sink_.is_file() && options_.stop() && patience_ends_ == FrameSource::never) patience_ends_ = steady_now() + second;
+        if (!sink_.is_file() && options_.stop() && reader_deadline_ == FrameSource::never) reader_deadline_ = steady_now() + second;
     }
     return false;
 }

@@ -68,7 +68,7 @@ private:
     std::vector<double> force_;
     std::vector<char> event_;
     std::vector<std::int64_t> arrival_times_;  // arrival times of the received frames of the batch
-    std::int64_t next_check_ = 0, patience_ends_ = FrameSource::never;
+    std::int64_t next_check_ = 0, reader_deadline_ = FrameSource::never;
     bool error_reported_ = false;
 };
 

@@ -49,7 +49,7 @@ Result<void> describe_parameters(AfferentPlan& plan, const CircuitAfferentFactor
     const auto original = design.netlist->with_overrides({}).elaborate();
     if (!original) return original.error();
     for (const auto& [name, written] : design.netlist->parameters())
-        if (written.is_own || changes.parameters.contains(name))
+        if (written.is_defined_in_netlist || changes.parameters.contains(name))
             described->add(name, fmt::format(".param {}={}", name, written.text), original->parameters.at(name),
                            design.circuit->parameters.at(name), changes.parameters.contains(name), false);
     for (const auto& [element, numbers] : changes.numbers)

@@ -103,7 +103,7 @@ bool is_file_at(int file, const std::string& path) {
 
 }  // namespace
 
-Error SkinCheckpoint::damaged_file_error(const std::string& path) const { return bad_input(std::strerror(errno), {path}); }
+Error SkinCheckpoint::system_error(const std::string& path) const { return bad_input(std::strerror(errno), {path}); }
 
 std::string SkinCheckpoint::remedy() const {
     return fmt::format("remove {} and {} to start over, or name another file with --checkpoint", file_, spikes_file_);
@@ -122,7 +122,7 @@ Result<std::unique_ptr<SkinCheckpoint>> SkinCheckpoint::open(const std::string& 
         if (auto ok = checkpoint->resume(); !ok) return ok.error();
     const auto end = spikes_header.size() + checkpoint->spike_count_ * sizeof(StoredSpike);
     if (::ftruncate(::fileno(checkpoint->spikes_), static_cast<off_t>(end)) != 0)
-        return checkpoint->damaged_file_error(checkpoint->spikes_file_);
+        return checkpoint->system_error(checkpoint->spikes_file_);
     return checkpoint;
 }
 
@@ -165,15 +165,15 @@ Result<void> SkinCheckpoint::lock_spikes() {
     for (int tries = 0; tries < 100; ++tries) {
         int file = ::open(spikes_file_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
         const bool is_new = file >= 0;
-        if (!is_new && errno != EEXIST) return damaged_file_error(spikes_file_);
+        if (!is_new && errno != EEXIST) return system_error(spikes_file_);
         if (!is_new) file = ::open(spikes_file_.c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC);
         if (file < 0 && errno == ENOENT) continue;
-        if (file < 0) return damaged_file_error(spikes_file_);
+        if (file < 0) return system_error(spikes_file_);
         if (::flock(file, LOCK_EX | LOCK_NB) != 0) {
             const int why = errno;
             ::close(file);
             errno = why;
-            if (why != EWOULDBLOCK) return damaged_file_error(spikes_file_);
+            if (why != EWOULDBLOCK) return system_error(spikes_file_);
             return bad_input("another run is using this checkpoint; wait for it to end, or name another file with --checkpoint", {file_});
         }
         if (!is_file_at(file, spikes_file_)) {
@@ -181,7 +181,7 @@ Result<void> SkinCheckpoint::lock_spikes() {
             continue;
         }
         if (is_new && ::write(file, spikes_header.data(), spikes_header.size()) != static_cast<ssize_t>(spikes_header.size())) {
-            const auto error = damaged_file_error(spikes_file_);
+            const auto error = system_error(spikes_file_);
             ::unlink(spikes_file_.c_str());
             ::close(file);
             return error;
@@ -239,7 +239,7 @@ Result<void> SkinCheckpoint::check_spikes(std::uint64_t checksum) {
     bool is_valid = true;
     for (std::uint64_t at = 0; at < spike_count_ && is_valid;) {
         const auto count = std::fread(buffer.data(), sizeof buffer[0], std::min<std::uint64_t>(buffer.size(), spike_count_ - at), spikes_);
-        if (count == 0) return damaged_file_error(spikes_file_);
+        if (count == 0) return system_error(spikes_file_);
         spikes_sum_.add(buffer.data(), count * sizeof buffer[0]);
         for (std::size_t k = 0; k < count; ++k) {
             const auto& s = buffer[k];
@@ -276,7 +276,7 @@ Result<void> SkinCheckpoint::replay(std::int64_t end, std::vector<Spike>& spikes
     for (StoredSpike stored{};;) {
         if (read_ahead_.empty()) {
             if (replayed_ >= spike_count_) return {};
-            if (std::fread(&stored, sizeof stored, 1, spikes_) != 1) return damaged_file_error(spikes_file_);
+            if (std::fread(&stored, sizeof stored, 1, spikes_) != 1) return system_error(spikes_file_);
             ++replayed_;
             read_ahead_.push_back({stored.step, stored.offset, static_cast<std::uint32_t>(stored.afferent_index)});
         }
@@ -290,7 +290,7 @@ Result<void> SkinCheckpoint::append(std::span<const Spike> spikes) {
     std::string bytes;
     for (const auto& s : spikes) append_bytes(bytes, StoredSpike{s.step, s.offset, s.afferent_index});
     std::fseek(spikes_, static_cast<long>(spikes_header.size() + spike_count_ * sizeof(StoredSpike)), SEEK_SET);
-    if (std::fwrite(bytes.data(), 1, bytes.size(), spikes_) != bytes.size()) return damaged_file_error(spikes_file_);
+    if (std::fwrite(bytes.data(), 1, bytes.size(), spikes_) != bytes.size()) return system_error(spikes_file_);
     spikes_sum_.add(bytes.data(), bytes.size());
     spike_count_ += spikes.size();
     return {};
@@ -298,7 +298,7 @@ Result<void> SkinCheckpoint::append(std::span<const Spike> spikes) {
 
 /// Writes the spikes to disk before FILE, which contains their number; FILE gets its name only when it is complete on disk.
 Result<void> SkinCheckpoint::flush() {
-    if (std::fflush(spikes_) != 0 || ::fsync(::fileno(spikes_)) != 0) return damaged_file_error(spikes_file_);
+    if (std::fflush(spikes_) != 0 || ::fsync(::fileno(spikes_)) != 0) return system_error(spikes_file_);
     std::string bytes = fmt::format("{}{}\n", checkpoint_magic, checkpoint_version);
     append_bytes(bytes, std::uint64_t{fingerprint_.size()});
     for (const auto& [name, value] : fingerprint_) append_text(bytes, name), append_text(bytes, value);

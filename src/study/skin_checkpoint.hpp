@@ -40,7 +40,7 @@ private:
     Result<void> check_spikes_header() const;
     Result<void> resume();
     Result<void> check_spikes(std::uint64_t checksum);
-    Error damaged_file_error(const std::string& path) const;
+    Error system_error(const std::string& path) const;
     Error changed_force_error() const;
     std::string remedy() const;
 

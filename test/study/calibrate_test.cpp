@@ -59,7 +59,7 @@ TEST(Calibrate, ReportsTargetsOutOfRange) {
     EXPECT_EQ(done->at(1).bits, -1);
     EXPECT_EQ(done->at(1).codes.back().at(0), 8) << "as close as possible";
     EXPECT_LT(done->at(1).distance.back(), done->at(1).distance.front());
-    EXPECT_NE(describe_frame_error(calibration, {report}).find("0.0 %"), std::string::npos);
+    EXPECT_NE(format_calibration(calibration, {report}).find("0.0 %"), std::string::npos);
 }
 
 TEST(Calibrate, RefusesTrimsThatAreNotNumbers) {

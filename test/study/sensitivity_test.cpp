@@ -93,7 +93,7 @@ TEST(MismatchSamples, DevicesAreListedInSamplingOrderWithTheDeviatesOfTheChip) {
         "t.cir", [](const std::string&) -> Result<std::string> { return bad_input("none"); }));
     const auto circuit = value_or_throw(netlist.elaborate());
     MismatchSamples mismatch_samples{9, 0, {{"t", mismatch_devices(circuit)}}};
-    mismatch_samples = value_or_throw(parse_mismatch_samples(describe_frame_error(mismatch_samples)));
+    mismatch_samples = value_or_throw(parse_mismatch_samples(format_mismatch_samples(mismatch_samples)));
     const auto& devices = mismatch_samples.subjects[0].devices;
     ASSERT_EQ(devices.size(), 3U);
     EXPECT_EQ(devices[0].name, "m1");

@@ -34,7 +34,7 @@ public:
         for (std::uint32_t d = 0; d < devices; ++d)
             mismatch_.subjects[0].devices.push_back({"x1.m" + std::to_string(d), d, d % 2 == 1, 2e-6, 0.5e-6, 4, 2, 5e-3, 0.02});
         for (int k = 0; k < 50; ++k) probe_times_.push_back(0.02 * k);
-        metadata_ = {{"title", "A made-up sweep"}, {"sweep", "[vary]\n"}, {mismatch_metadata_name, describe_frame_error(mismatch_)}};
+        metadata_ = {{"title", "A made-up sweep"}, {"sweep", "[vary]\n"}, {mismatch_metadata_name, format_mismatch_samples(mismatch_)}};
     }
     const MismatchSamples& mismatch() const { return mismatch_; }
     std::int64_t item_count() const override { return 3 * chips_; }

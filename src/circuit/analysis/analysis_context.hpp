@@ -42,7 +42,7 @@ public:
     PointSink* points = nullptr;       ///< receives the points of a transient; null: they are kept in the result
     long max_iterations = 0;           ///< limit for a transient; 0: no limit
     bool hit_iteration_limit = false;  ///< the last transient was stopped by this limit
-    bool requests_checked = false;     ///< .print, .plot and .meas were checked against the circuit
+    bool output_directives_checked = false;     ///< .print, .plot and .meas were checked against the circuit
     bool is_brief = false;             ///< one of many analyses: no printed tables, no warnings
 
     static Result<std::unique_ptr<AnalysisContext>> make(std::shared_ptr<const Circuit>);

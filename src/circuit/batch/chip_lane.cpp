@@ -102,7 +102,7 @@ void ChipLane::start_step() {
     ends_at_breakpoint_ = now + 1.01 * h >= breakpoint_;
     if (!ends_at_breakpoint_ && now + 2 * h > breakpoint_) h = (breakpoint_ - now) / 2;
     t_ = ends_at_breakpoint_ ? breakpoint_ : now + h;
-    may_jump_ = !simulation_->transient().curves().empty() && t_ - now <= control_.jump_step_limit(plan_.reltol, plan_.max_step);
+    may_jump_ = !simulation_->transient().interpolated_unknowns().empty() && t_ - now <= control_.jump_step_limit(plan_.reltol, plan_.max_step);
     predictor_weights_ = weights_of_value(times(std::min(control_.order + 1, points_)), t_);
     newton_.begin();
     is_new_step_ = true;
@@ -185,7 +185,7 @@ void ChipLane::set_error_weights(int order, lanes::ErrorCall& call, std::span<la
 
 /// The same estimate as Transient::interpolation_error().
 double ChipLane::interpolation_error() {
-    const auto curves = simulation_->transient().curves();
+    const auto curves = simulation_->transient().interpolated_unknowns();
     curve_points_ = 0;
     if (curves.empty()) return 0;
     auto& b = memory_.block;

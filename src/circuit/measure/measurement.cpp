@@ -45,7 +45,7 @@ void SummaryMeasurement::add_point(double x, const PlotRow& row) {
     curve_.add_point(x, row);
     auto segment = *curve_.segment();  // at the first point a segment of length 0
     if (!segment.cut(interval_.from, interval_.to)) return;
-    if (!any_) only_ = segment.y0;
+    if (!any_) first_value_ = segment.y0;
     update_extremes(segment.x0, segment.y0);
     update_extremes(segment.x1, segment.y1);
     const double integral = segment.integral();
@@ -67,9 +67,9 @@ double SummaryMeasurement::value() const {
         case Statistic::max_at:
             return high_at_;
         case Statistic::avg:
-            return length_ == 0 ? only_ : area_ / length_;
+            return length_ == 0 ? first_value_ : area_ / length_;
         case Statistic::rms:
-            return length_ == 0 ? std::abs(only_) : std::sqrt(squares_ / length_);
+            return length_ == 0 ? std::abs(first_value_) : std::sqrt(squares_ / length_);
         case Statistic::integ:
             return integral_;
     }

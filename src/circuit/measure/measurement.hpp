@@ -138,7 +138,7 @@ private:
     bool any_ = false;
     double low_ = 0, high_ = 0, low_at_ = 0, high_at_ = 0;
     double length_ = 0, area_ = 0, integral_ = 0, squares_ = 0;  // area_ is integrated over |dx|; squares_: integral of the square
-    double only_ = 0;                                            // first value, the result if the interval has length 0
+    double first_value_ = 0;                                            // first value, the result if the interval has length 0
 
     void update_extremes(double x, double y);
 

@@ -115,7 +115,7 @@ public:
     /// A parameter that a .param line of the top level defines.
     struct Parameter {
         std::string text;  ///< as written in the netlist: "2*c_u"
-        bool is_own;       ///< defined in the netlist or an included file, not in a library section
+        bool is_defined_in_netlist;       ///< defined in the netlist or an included file, not in a library section
     };
     /// All parameters of the top level, by name.
     std::map<std::string, Parameter, std::less<>> parameters() const;

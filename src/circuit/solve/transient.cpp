@@ -189,7 +189,7 @@ double Transient::interpolation_error() {
     constexpr double convergence_ratio = 3;  // each higher degree must change the curve at least this many times less
     constexpr double output_factor = 2.2;    // stricter than in an afferent, since users draw straight lines between the points
     curve_points_ = 0;
-    if (curves_.empty()) return 0;
+    if (interpolated_unknowns_.empty()) return 0;
     const auto& next = history_points_.next_point();
     std::array<double, History::max_points + 1> times{next.t};
     const auto before = history_points_.times();
@@ -197,10 +197,10 @@ double Transient::interpolation_error() {
     std::array<const double*, History::max_points + 1> x{next.x.data()};
     for (int k = 0; k < history_points_.smooth_count(); ++k) x[static_cast<std::size_t>(k) + 1] = history_points_[k].x.data();
     auto& tolerance = error_;
-    for (const int u : curves_) tolerance[static_cast<std::size_t>(u)] = tolerance_[static_cast<std::size_t>(u)] + rounding_error(u);
+    for (const int u : interpolated_unknowns_) tolerance[static_cast<std::size_t>(u)] = tolerance_[static_cast<std::size_t>(u)] + rounding_error(u);
     const auto worst_of = [&](const HistoryWeights& w, int points) {
         double worst = 0;
-        for (const int u : curves_) {
+        for (const int u : interpolated_unknowns_) {
             const auto n = static_cast<std::size_t>(u);
             double sum = w[0] * x[0][n];
             for (std::size_t k = 1; k <= static_cast<std::size_t>(points); ++k) sum += w[k] * x[k][n];
@@ -328,7 +328,7 @@ Result<bool> Transient::step(double until) {
         if (!ends_at_breakpoint && t0 + 2 * h > breakpoint) h = (breakpoint - t0) / 2;
         const double t = ends_at_breakpoint ? breakpoint : t0 + h;
         double error = 0;
-        may_jump_ = !curves_.empty() && t - t0 <= control_.jump_step_limit(plan_.reltol, plan_.max_step);
+        may_jump_ = !interpolated_unknowns_.empty() && t - t0 <= control_.jump_step_limit(plan_.reltol, plan_.max_step);
         const bool solved = attempt(t, error);
         stats_.iterations = equations_.iterations;
         double curve_error = solved ? interpolation_error() : 0;

@@ -81,7 +81,7 @@ private:
     // with tolerance_. rate_ is dq/dt at the newest point, error_ is a buffer.
     std::vector<double> scale_, allowed_error_, tolerance_, history_, rate_, error_;
     std::vector<char> has_charge_;
-    std::vector<int> curves_;  // reported unknowns that are interpolated
+    std::vector<int> interpolated_unknowns_;  // reported unknowns that are interpolated
     struct SourceNode {        // a node with the voltage of node `base` plus `sign` times the source's
         int unknown, base;
         const Device* source;
@@ -128,7 +128,7 @@ public:
     Result<void> run(std::vector<double> x, bool settled, const PointCallback& each, std::span<const double> charge = {});
     const TransientStats& stats() const { return stats_; }
     const TransientPlan& plan() const { return plan_; }
-    std::span<const int> curves() const { return curves_; }  ///< unknowns whose interpolation error is controlled
+    std::span<const int> interpolated_unknowns() const { return interpolated_unknowns_; }  ///< unknowns whose interpolation error is controlled
     /// True if the unknown has a charge, so that its error is controlled.
     bool has_charge(std::size_t unknown) const { return has_charge_[unknown] != 0; }
     /// The elimination list, after begin(); null: there is none.

@@ -13,7 +13,7 @@ namespace corpuscle::circuit {
 /// not included, since the force of later blocks is not known yet.
 void Transient::find_source_nodes() {
     const auto count = static_cast<std::size_t>(system_.size());
-    source_nodes_.clear(), source_node_index_.assign(count, -1), curves_.clear();
+    source_nodes_.clear(), source_node_index_.assign(count, -1), interpolated_unknowns_.clear();
     std::vector<char> known(count + 1);  // the last element is ground
     known[count] = 1;
     const auto& elements = system_.circuit().elements;
@@ -31,9 +31,9 @@ void Transient::find_source_nodes() {
             source_nodes_.push_back({u, base, &d, plus ? -1.0 : 1.0});
         }
     const auto add = [&](int u) {
-        if (u < 0 || source_node_index_[static_cast<std::size_t>(u)] >= 0 || std::find(curves_.begin(), curves_.end(), u) != curves_.end())
+        if (u < 0 || source_node_index_[static_cast<std::size_t>(u)] >= 0 || std::find(interpolated_unknowns_.begin(), interpolated_unknowns_.end(), u) != interpolated_unknowns_.end())
             return;
-        if (plan_.method == Integration::bdf || system_.is_voltage(u)) curves_.push_back(u);  // currents ring with the trapezoidal rule
+        if (plan_.method == Integration::bdf || system_.is_voltage(u)) interpolated_unknowns_.push_back(u);  // currents ring with the trapezoidal rule
     };
     for (const int u : plan_.reported) add(u);
     for (int u = 0; plan_.all_reported && u < system_.size(); ++u) add(u);

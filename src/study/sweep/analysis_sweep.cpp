@@ -187,7 +187,7 @@ Result<std::unique_ptr<Sweep>> AnalysesSweep::make(const SweepText& spec, const 
 }
 
 Result<void> AnalysesSweep::prepare(ThreadContext& thread, std::span<const double> values) const {
-    auto netlist_values = netlist_.own_values(values);
+    auto netlist_values = netlist_.netlist_values(values);
     if (thread.context && thread.values == netlist_values) return {};
     thread.context.reset();
     std::shared_ptr<const Circuit> circuit = nominal_;

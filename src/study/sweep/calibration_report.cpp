@@ -36,7 +36,7 @@ int useful_bits(const CalibrationResult& result, int max) {
     return max;
 }
 
-std::string describe_frame_error(const ChipCalibration& options, const std::vector<CalibrationResult>& all) {
+std::string format_calibration(const ChipCalibration& options, const std::vector<CalibrationResult>& all) {
     std::size_t width = 5;
     for (const auto& set : all) width = std::max(width, set.names().size());
     std::string out = fmt::format("{}: {} chips, limits: {}\n\n{:{}}   0 bits", options.netlist, all.empty() ? 0 : all[0].chips.size(),

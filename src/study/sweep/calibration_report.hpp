@@ -22,7 +22,7 @@ struct CalibrationResult {
 
 /// A table with one row for each set of trims: yield without calibration and with 1, 2 ... bits, presses. Then the useful number of bits,
 /// see useful_bits().
-std::string describe_frame_error(const ChipCalibration&, const std::vector<CalibrationResult>&);
+std::string format_calibration(const ChipCalibration&, const std::vector<CalibrationResult>&);
 nlohmann::ordered_json document_of(const ChipCalibration&, const std::vector<CalibrationResult>&);
 
 /// The smallest number of bits that is sufficient for 99 % of the chips that meet the limits with `max` bits.

@@ -156,7 +156,7 @@ Result<std::unique_ptr<Sweep>> ChipSweep::make(const SweepText& spec, const std:
 
 Result<DesignPointer> ChipSweep::design(std::span<const double> values) const {
     if (!netlist_.varies()) return nominal_;
-    const auto netlist_values = netlist_.own_values(values);
+    const auto netlist_values = netlist_.netlist_values(values);
     {
         const std::lock_guard lock(mutex_);
         if (const auto at = designs_.find(netlist_values); at != designs_.end()) return at->second;

@@ -46,7 +46,7 @@ std::vector<MismatchDevice> mismatch_devices(const circuit::Circuit& circuit) {
     return out;
 }
 
-std::string describe_frame_error(const MismatchSamples& samples) {
+std::string format_mismatch_samples(const MismatchSamples& samples) {
     MismatchJson out = {{"seed", samples.seed}, {"chips", samples.chips}};
     out["columns"] = device_columns;
     out["subjects"] = MismatchJson::array();

@@ -45,7 +45,7 @@ std::vector<MismatchDevice> mismatch_devices(const circuit::Circuit&);
 /// Name of the sweep's metadata entry with the samples.
 inline constexpr const char* mismatch_metadata_name = "drawn";
 /// Converts to and from the text of this metadata entry.
-std::string describe_frame_error(const MismatchSamples&);
+std::string format_mismatch_samples(const MismatchSamples&);
 Result<MismatchSamples> parse_mismatch_samples(const std::string& text);
 
 /// Standard normal deviates of a device's threshold and current, one for each chip.

@@ -181,7 +181,7 @@ Result<Netlist> NetlistFactory::at(std::span<const double> values) const {
     return with_overrides(overrides);
 }
 
-std::vector<double> NetlistFactory::own_values(std::span<const double> values) const {
+std::vector<double> NetlistFactory::netlist_values(std::span<const double> values) const {
     std::vector<double> out;
     for (const auto& v : varied_) out.push_back(values[v.axis]);
     return out;

@@ -46,7 +46,7 @@ public:
     /// The netlist for an item's values. Thread-safe.
     Result<circuit::Netlist> at(std::span<const double> values) const;
     /// The values on which this netlist depends.
-    std::vector<double> own_values(std::span<const double> values) const;
+    std::vector<double> netlist_values(std::span<const double> values) const;
 
     /// One entry for every file that was read.
     std::vector<Sweep::MetadataText> metadata() const;

@@ -60,7 +60,7 @@ Result<std::unique_ptr<Sweep>> read_sweep(const std::string& path, const SweepOv
     auto spec = is_netlist ? Result<SweepText>(text_of_netlist(file)) : text_at(file);
     if (!spec) return spec.error();
     replace_setting(spec->seed, "seed", text_of(overrides.seed), *spec);
-    replace_setting(spec->items, "samples", text_of(overrides.items), *spec);
+    replace_setting(spec->samples, "samples", text_of(overrides.samples), *spec);
     auto sweep = make_sweep(*spec, folder);
     if (sweep) return sweep;
     auto error = sweep.error();  // netlists and the files they include have paths relative to the folder

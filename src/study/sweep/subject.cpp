@@ -61,11 +61,11 @@ class PlanReader {
         const AxisSpec* sampled_axis = chips_axis();
         for (const auto& a : spec_.axes)
             if (!sampled_axis && is_sampled(a)) sampled_axis = &a;
-        if (spec_.items) {
-            const auto samples = parse_integer(*spec_.items, "samples", 1, 1e9);
+        if (spec_.samples) {
+            const auto samples = parse_integer(*spec_.samples, "samples", 1, 1e9);
             if (!samples) return samples.error();
             if (!sampled_axis && !netlist_samples_chips() && *samples > 1)
-                return spec_.items->error_here(fmt::format(
+                return spec_.samples->error_here(fmt::format(
                     "samples = {}, but nothing is sampled, so all would be equal; remove samples (a grid determines the number)",
                     *samples));
             sampling_.samples = static_cast<std::uint64_t>(*samples);
@@ -186,7 +186,7 @@ void PlannedSweep::add_mismatch_metadata(const std::string& subject, const circu
     MismatchSamples samples;
     samples.seed = plan_.chips().seed, samples.chips = plan_.samples();
     samples.subjects.push_back({subject, mismatch_devices(circuit)});
-    metadata_.push_back({mismatch_metadata_name, describe_frame_error(samples)});
+    metadata_.push_back({mismatch_metadata_name, format_mismatch_samples(samples)});
 }
 
 Result<std::uint64_t> seed_of(const SweepText& spec) {

@@ -67,7 +67,7 @@ public:
 /// Options that replace settings of the file.
 struct SweepOverrides {
     std::optional<std::uint64_t> seed = {};
-    std::optional<std::int64_t> items = {};
+    std::optional<std::int64_t> samples = {};
 };
 
 /// A sweep file (.toml), or a netlist with .mc and .step lines.

@@ -73,7 +73,7 @@ SweepText text_from(const toml::table& top, SweepFileReader& reader) {
     out.title = reader.scalar(top, "title"), out.afferent = reader.scalar(top, "afferent"), out.netlist = reader.scalar(top, "netlist");
     out.force = reader.scalar(top, "force"), out.channel = reader.scalar(top, "channel"), out.rate = reader.scalar(top, "rate");
     out.unit = reader.scalar(top, "unit"), out.scale = reader.scalar(top, "scale");
-    out.seed = reader.scalar(top, "seed"), out.items = reader.scalar(top, "samples"), out.every = reader.scalar(top, "every");
+    out.seed = reader.scalar(top, "seed"), out.samples = reader.scalar(top, "samples"), out.every = reader.scalar(top, "every");
     out.iterations = reader.scalar(top, "iterations"), out.directives = reader.scalar(top, "orders");
     out.measures = reader.list(top, "measures"), out.keep = reader.list(top, "keep");
     if (auto traces = reader.list(top, "traces")) out.probes = std::move(*traces);

@@ -25,7 +25,7 @@ struct LimitSpec {
 
 struct SweepText {
     std::string file;
-    OptionalLocatedText title, afferent, netlist, force, channel, rate, unit, scale, seed, items, iterations, every, directives;
+    OptionalLocatedText title, afferent, netlist, force, channel, rate, unit, scale, seed, samples, iterations, every, directives;
     std::vector<LocatedSetting> settings;
     std::vector<AxisSpec> axes;
     std::optional<std::vector<LocatedText>> measures, keep;
