@@ -77,7 +77,7 @@ struct HumTable {
     std::vector<Phasors> phasors_of_second;  ///< for each decimated sample of a second; empty if the sample rate is below 2 Hz
     explicit HumTable(const Clock&);
     /// True if the sample rate suffices for mains[mains_index].
-    bool covers(std::size_t mains_index) const { return static_cast<double>(second.size()) > 2.2 * mains[mains_index]; }
+    bool covers(std::size_t mains_index) const { return static_cast<double>(phasors_of_second.size()) > 2.2 * mains[mains_index]; }
 };
 
 /// Detects mains hum: the fraction of the variance within a second that is at 50 or 60 Hz, if it exceeds the adjacent frequencies.
