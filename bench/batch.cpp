@@ -3,9 +3,10 @@
 //     bench-batch NETLIST|NAME [CHIPS] [LANES] [alone]
 //
 // Method: the netlist's afferent responds to a press of 1.0 s (10 kHz); each chip has its own sample of process and mismatch. run_chips
-// simulates all chips on one thread. Printed are time per chip, steps, iterations and their time, chips that left their lane, and spike
-// counts. With `alone` each chip also runs scalar, with its own pivots (KLU) and every transistor evaluated in every iteration. Then the
-// output adds the chips whose spike counts differ, the largest difference of two spikes of the same index, and the differences in steps.
+// simulates all chips on one thread. Output: time per chip, steps, iterations and their time, chips that left their lane and ended as
+// scalar runs, and spike counts. With `alone` each chip also runs scalar, with its own pivots (KLU) and every transistor evaluated in every
+// iteration. Then the output adds the chips whose spike counts differ, the largest difference of two spikes of the same index, and the
+// differences in steps.
 
 #include <algorithm>
 #include <chrono>
@@ -24,54 +25,55 @@ namespace {
 using namespace corpuscle;
 using namespace corpuscle::circuit;
 
-constexpr double T = 1e-4;
+constexpr double T = 1e-4;  // s
 
 double seconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 using Responses = std::map<std::int64_t, ChipResponse>;
 
 void print_responses(const Responses& responses, double seconds) {
-    long steps = 0, rejected = 0, iterations = 0, max_iterations = 0, left = 0, lost = 0;
+    long steps = 0, rejected = 0, iterations = 0, max_iterations = 0, left = 0, diverged = 0;
     std::map<std::size_t, int> counts;
     for (const auto& [number, a] : responses) {
         steps += a.stats.steps, rejected += a.stats.rejected, iterations += a.stats.iterations;
         max_iterations = std::max(max_iterations, a.stats.iterations);
-        left += a.is_scalar, lost += a.error.has_value(), ++counts[a.spikes.size()];
+        left += a.is_scalar, diverged += a.error.has_value(), ++counts[a.spikes.size()];
     }
     const auto chips = static_cast<double>(responses.size());
     std::printf(
         "%.0f chips: %.2f s, %.1f ms a chip; %.0f steps, %.0f rejected, %.0f iterations a chip (at most %ld), %.2f us an iteration; "
         "%ld left their lane, %ld did not converge\nspikes:",
         chips, seconds, seconds / chips * 1e3, static_cast<double>(steps) / chips, static_cast<double>(rejected) / chips,
-        static_cast<double>(iterations) / chips, max_iterations, seconds / static_cast<double>(iterations) * 1e6, left, lost);
-    for (const auto& [count, of] : counts) std::printf(" %zu (%d)", count, of);
+        static_cast<double>(iterations) / chips, max_iterations, seconds / static_cast<double>(iterations) * 1e6, left, diverged);
+    for (const auto& [count, chip_count] : counts) std::printf(" %zu (%d)", count, chip_count);
     std::printf("\n");
 }
 
 void compare(const Responses& lanes, const Responses& alone) {
-    int other_counts = 0, other_steps = 0;
-    long steps = 0, of = 0;
-    std::vector<double> apart;
+    int chips_with_other_counts = 0, chips_with_other_steps = 0;
+    long step_difference = 0, total_steps = 0;
+    std::vector<double> shifts;
     for (const auto& [number, a] : lanes) {
         const auto& b = alone.at(number);
-        other_steps += a.stats.steps != b.stats.steps || a.stats.rejected != b.stats.rejected;
-        steps += std::labs(a.stats.steps - b.stats.steps) + std::labs(a.stats.rejected - b.stats.rejected), of += b.stats.steps;
+        chips_with_other_steps += a.stats.steps != b.stats.steps || a.stats.rejected != b.stats.rejected;
+        step_difference += std::labs(a.stats.steps - b.stats.steps) + std::labs(a.stats.rejected - b.stats.rejected);
+        total_steps += b.stats.steps;
         if (a.spikes.size() != b.spikes.size()) {
-            ++other_counts;
+            ++chips_with_other_counts;
             continue;
         }
         double largest = 0;
         for (std::size_t k = 0; k < a.spikes.size(); ++k) largest = std::max(largest, std::abs(a.spikes[k] - b.spikes[k]));
-        apart.push_back(largest);
+        shifts.push_back(largest);
     }
-    std::sort(apart.begin(), apart.end());
+    std::sort(shifts.begin(), shifts.end());
     const auto at = [&](double fraction) {
-        return apart.empty() ? 0 : apart[static_cast<std::size_t>(fraction * static_cast<double>(apart.size() - 1))];
+        return shifts.empty() ? 0 : shifts[static_cast<std::size_t>(fraction * static_cast<double>(shifts.size() - 1))];
     };
     std::printf(
-        "other counts of spikes: %d; spikes furthest apart: median %.1f us, 99 %% %.1f us, all %.1f us; chips with other steps: %d, by %ld "
-        "of %ld steps\n",
-        other_counts, at(0.5) * 1e6, at(0.99) * 1e6, at(1) * 1e6, other_steps, steps, of);
+        "%d chips have another spike count; %d chips have other steps, which differ by %ld of %ld\n"
+        "largest shift of a spike: median %.1f us, 99 %% %.1f us, all %.1f us\n",
+        chips_with_other_counts, chips_with_other_steps, step_difference, total_steps, at(0.5) * 1e6, at(0.99) * 1e6, at(1) * 1e6);
 }
 
 }  // namespace
@@ -87,7 +89,7 @@ int main(int argc, char** argv) {
     if (!design) return std::fprintf(stderr, "%s\n", design.error().text().c_str()), 1;
     const auto press = make_stimulus("press", {}, 1 / T, 0);
     Frames frames(1, 20000);
-    if (!press || !(*press)->read(frames)) return std::fputs("no press\n", stderr), 1;
+    if (!press || !(*press)->read(frames)) return std::fputs("cannot create the press stimulus\n", stderr), 1;
     const auto force = std::span<const double>(frames.force[0]).first(frames.count);
     const ChipSpec chips{static_cast<double>(count), 1};
     const auto chip = [&](std::int64_t k) { return Chip{k, *design, chips.sample(static_cast<std::uint64_t>(k)), force, T}; };

@@ -3,7 +3,7 @@
 //
 //     bench-calibrate sa1|fa1 [CHIPS] [BITS] [SEED] [TRIM ...]      TRIM: i_leak i_biasb gain; default: all, then each alone
 //
-// Method: study/sweep/calibrate.hpp. The limits enclose the model's spikes (FiringLimits::around). Printed are the limits, then for each
+// Method: study/sweep/calibrate.hpp. The limits enclose the model's spikes (FiringLimits::around). Output: the limits, then for each
 // set of trims the number of chips within the limits without trims and with 1, 2 ... bits, and the number of presses.
 
 #include <fmt/format.h>
@@ -22,41 +22,41 @@ namespace {
 
 using namespace corpuscle;
 
-struct Kind {
+struct CalibrationCase {
     const char* model;
-    std::vector<std::string> gain;
+    std::vector<std::string> gain;  ///< parameters that the gain trim sets
 };
-const Kind kinds[] = {{"sa1", {"summer.n3b.m"}}, {"fa1", {"rect.p1b.m", "rect.n2b.m"}}};
+const CalibrationCase cases[] = {{"sa1", {"summer.n3b.m"}}, {"fa1", {"rect.p1b.m", "rect.n2b.m"}}};
 
 int fail(const Error& error) { return std::fprintf(stderr, "%s\n", error.text().c_str()), 1; }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-    const Kind* kind = nullptr;
-    for (const auto& k : kinds)
-        if (argc > 1 && std::strcmp(argv[1], k.model) == 0) kind = &k;
-    if (kind == nullptr) return std::fputs("bench-calibrate sa1|fa1 [CHIPS] [BITS] [SEED] [TRIM ...]\n", stderr), 2;
+    const CalibrationCase* chosen_case = nullptr;
+    for (const auto& k : cases)
+        if (argc > 1 && std::strcmp(argv[1], k.model) == 0) chosen_case = &k;
+    if (chosen_case == nullptr) return std::fputs("bench-calibrate sa1|fa1 [CHIPS] [BITS] [SEED] [TRIM ...]\n", stderr), 2;
     const int count = argc > 2 ? std::atoi(argv[2]) : 64, bits = argc > 3 ? std::atoi(argv[3]) : 4;
     const circuit::ChipSpec sampled{static_cast<double>(count), argc > 4 ? std::strtoull(argv[4], nullptr, 10) : 1};
     std::vector<circuit::ChipSample> chips;
     for (int k = 0; k < count; ++k) chips.push_back(sampled.sample(static_cast<std::uint64_t>(k)));
 
     ChipCalibration calibration;
-    calibration.netlist = std::string(kind->model) + "-circuit", calibration.bits = bits;
+    calibration.netlist = std::string(chosen_case->model) + "-circuit", calibration.bits = bits;
     calibration.overrides = {{"corner", "mc", "corner=mc"}};
     calibration.batch.max_iterations = 60'000;
     const auto press = stimulus("press");
     calibration.force = press.force, calibration.T = 1 / press.rate;
     const TimeWindow phases[] = {{0, 0.25}, {0.25, 0.375}, {0.375, 0.625}, {0.625, 0.75}, {0.75, 1}};
-    calibration.limits = FiringLimits::around(respond(kind->model, press).spikes, phases, 10e-3);
+    calibration.limits = FiringLimits::around(respond(chosen_case->model, press).spikes, phases, 10e-3);
     calibration.on_progress = [](std::size_t left, std::size_t presses) {
         std::fprintf(stderr, "%zu chips left, %zu presses\n", left, presses);
     };
     fmt::print("{}, {} chips: {}\n", calibration.netlist, count, calibration.limits.text());
 
-    const std::vector<std::string> trims[] = {{"i_leak"}, {"i_biasb"}, kind->gain};
-    std::vector<std::vector<int>> sets = {{0, 1, 2}, {0}, {1}, {2}};
+    const std::vector<std::string> trims[] = {{"i_leak"}, {"i_biasb"}, chosen_case->gain};
+    std::vector<std::vector<int>> sets = {{0, 1, 2}, {0}, {1}, {2}};  // indexes of `trims`
     if (argc > 5) {
         sets = {{}};
         for (int a = 5; a < argc; ++a)
@@ -75,19 +75,19 @@ int main(int argc, char** argv) {
         const auto all = calibrate(calibration, chips);
         if (!all) return fail(all.error());
         std::vector<int> within(static_cast<std::size_t>(bits) + 1), presses(within.size());
-        int total = 0, max_presses = 0, lost = 0;
+        int total = 0, max_presses = 0, diverged = 0;
         for (const auto& c : *all) {
-            total += c.presses, max_presses = std::max(max_presses, c.presses), lost += c.diverged;
+            total += c.presses, max_presses = std::max(max_presses, c.presses), diverged += c.diverged;
             for (int b = 0; b <= bits; ++b) within[static_cast<std::size_t>(b)] += c.bits >= 0 && c.bits <= b;
         }
         fmt::print("{}: within limits untrimmed {}", names, within[0]);
         for (int b = 1; b <= bits; ++b) fmt::print(", {} bits {}", b, within[static_cast<std::size_t>(b)]);
-        fmt::print("; {} presses, at most {} per chip, {} failed\n", total, max_presses, lost);
+        fmt::print("; {} presses, at most {} per chip, {} did not converge\n", total, max_presses, diverged);
         std::fflush(stdout);
         if (set.size() == 3)
             for (std::size_t k = 0; k < all->size(); ++k) {
                 const auto& c = (*all)[k];
-                fmt::print("  chip {:4} {} spikes -> {} with {} bits, codes {}, off {:.2f} -> {:.2f}, {} presses\n", k,
+                fmt::print("  chip {:4} {} spikes -> {} with {} bits, codes {}, distance {:.2f} -> {:.2f}, {} presses\n", k,
                            c.spikes_before.size(), c.spikes.size(), c.bits, fmt::join(c.codes.back(), " "), c.distance.front(),
                            c.distance.back(), c.presses);
             }

@@ -1,10 +1,10 @@
-// How long does one chip of a Monte Carlo take: the operating point of a circuit with mismatch in each transistor?
+// How long does one chip of a Monte Carlo analysis take: the operating point of a circuit with mismatch in each transistor?
 //
 //     bench-chips NETLIST [CHIPS]
 //
 // Method: the netlist is read once. Each chip has its own sample of mismatch and process, and is solved from the nominal operating point to
-// the tolerances of its .options. Printed are median, minimum and maximum of 9 rounds over the same chips, Newton steps, chips that needed
-// another method than Newton's or failed, and mean and deviation of each node. `bench/peers/chips.py` compares it with ngspice.
+// the tolerances of its .options. Output: median, minimum and maximum of 9 rounds over the same chips, Newton steps, chips that needed
+// another method than Newton's or failed, and mean and standard deviation of each node. `bench/peers/chips.py` compares it with ngspice.
 
 #include <algorithm>
 #include <chrono>
@@ -21,11 +21,11 @@ using namespace corpuscle;
 using namespace corpuscle::circuit;
 
 struct Work {
-    long steps = 0, detours = 0, lost = 0;
+    long steps = 0, other_methods = 0, failed = 0;
     std::vector<double> sum, squares;
 };
 
-Work round_of(AnalysisContext& bench, std::uint64_t chips) {
+Work run_round(AnalysisContext& bench, std::uint64_t chips) {
     Work work;
     const auto nodes = static_cast<std::size_t>(bench.system.nodes());
     work.sum.resize(nodes), work.squares.resize(nodes);
@@ -35,10 +35,10 @@ Work round_of(AnalysisContext& bench, std::uint64_t chips) {
         bench.apply_variation(draw);
         const auto found = bench.operating_point();
         if (!found) {
-            ++work.lost;
+            ++work.failed;
             continue;
         }
-        work.steps += found->iterations, work.detours += found->method != "newton";
+        work.steps += found->iterations, work.other_methods += found->method != "newton";
         for (std::size_t n = 0; n < nodes; ++n) work.sum[n] += found->x[n], work.squares[n] += found->x[n] * found->x[n];
     }
     return work;
@@ -59,16 +59,17 @@ int main(int argc, char** argv) {
     Work work;
     for (int round = 0; round < 9; ++round) {
         const auto start = std::chrono::steady_clock::now();
-        work = round_of(**bench, chips);
+        work = run_round(**bench, chips);
         us.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() * 1e6 / static_cast<double>(chips));
     }
     std::sort(us.begin(), us.end());
     std::printf(
-        "%llu chips: %.2f us each (%.2f ... %.2f), %.2f Newton steps each, %ld by another method, %ld failed, %ld matrices off the list\n",
+        "%llu chips: %.2f us each (%.2f ... %.2f), %.2f Newton steps each, %ld by another method, %ld failed, %ld matrices not eliminated "
+        "along the list\n",
         static_cast<unsigned long long>(chips), us[us.size() / 2], us.front(), us.back(),
-        static_cast<double>(work.steps) / static_cast<double>(chips), work.detours, work.lost,
+        static_cast<double>(work.steps) / static_cast<double>(chips), work.other_methods, work.failed,
         (*bench)->newton.linear_solver.fallback_count());
-    const double count = static_cast<double>(chips) - static_cast<double>(work.lost);
+    const double count = static_cast<double>(chips) - static_cast<double>(work.failed);
     for (std::size_t n = 0; n < work.sum.size(); ++n) {
         const double mean = work.sum[n] / count;
         std::printf("  %-12s mean %.6f V  deviation %.6f V\n", (*bench)->system.names()[n].c_str(), mean,

@@ -3,12 +3,12 @@
 //     bench-hand [SECONDS] [RUNS]
 //
 // Method: the built-in hand (17,144 afferents, 4,793 sites), one thread, spikes stored as binary address events, processor time of this
-// process. Construction and runs are timed separately. Printed are median, minimum and maximum of RUNS (7), then the work: steps computed,
-// steps skipped because no force came and no state could change, spikes, bytes written. Three forces of SECONDS (10) at 1 kHz are used.
+// process. Construction and runs are timed separately. Output: median, minimum and maximum of RUNS (7), then the work: steps computed,
+// steps skipped because no force acted and no state could change, spikes, bytes written. Three forces of SECONDS (10) at 1 kHz are used.
 // `stroke` moves a fingertip over the hand with 1 N (as in `corpuscle respond stroke --population hand`). A flat disk of 40 mm presses the
 // palm with a sine. Noise on every site keeps every afferent active, which is the worst case. Peak memory is that of the complete process.
 //
-// Compared with TouchSim: peers/touchsim_hand.py; doc/skin.md lists the work that TouchSim does and this does not.
+// Compared with TouchSim: peers/touchsim_hand.py; doc/skin.md lists the work that TouchSim does and this program does not.
 
 #include <fmt/format.h>
 #include <sys/resource.h>
@@ -66,11 +66,12 @@ PressCase press(const Innervation& skin, std::string_view stimulus, std::string_
     return p;
 }
 
-void print_times(const char* what, std::vector<double> seconds, double of) {
+/// `simulated`: s of touch per run, or 0.
+void print_times(const char* label, std::vector<double> seconds, double simulated) {
     std::sort(seconds.begin(), seconds.end());
     const double middle = seconds[seconds.size() / 2];
-    fmt::print("  {:<34} {:6.1f} ms ({:.1f} to {:.1f})", what, 1e3 * middle, 1e3 * seconds.front(), 1e3 * seconds.back());
-    if (of > 0) fmt::print("  {:5.0f} times real time", of / middle);
+    fmt::print("  {:<34} {:6.1f} ms ({:.1f} to {:.1f})", label, 1e3 * middle, 1e3 * seconds.front(), 1e3 * seconds.back());
+    if (simulated > 0) fmt::print("  {:5.0f} times real time", simulated / middle);
     fmt::print("\n");
 }
 
@@ -82,16 +83,16 @@ int main(int argc, char** argv) {
     const auto file = (std::filesystem::temp_directory_path() / fmt::format("bench-hand-{}.aer", ::getpid())).string();
     ThreadPool alone(1);
     const auto set = value_or_exit(instruction_set());
-    std::vector<double> built;
+    std::vector<double> build_times;
     std::shared_ptr<const Innervation> skin;
     for (int k = 0; k < runs; ++k) {
         const double from = processor();
         skin = value_or_exit(innervate(value_or_exit(load_skin_plan("hand"))));
         (void)value_or_exit(Skin::make(skin, {1e-3}, set));
-        built.push_back(processor() - from);
+        build_times.push_back(processor() - from);
     }
     fmt::print("hand: {} afferents, {} sites, {}\n", skin->afferents.size(), skin->plan.sites.size(), name_of(set));
-    print_times("built from its file", built, 0);
+    print_times("built from its file", build_times, 0);
 
     const NamedTouch& stroke = named_touches()[0];
     std::vector<ParameterOverride> stroked, palm = {{"sine", "duration", fmt::format("{}", length)},
@@ -113,24 +114,24 @@ int main(int argc, char** argv) {
              return p;
          }}};
     for (const auto& [name, make] : forces) {
-        std::vector<double> ran;
+        std::vector<double> run_times;
         SkinStats work;
         std::uintmax_t bytes = 0;
         for (int k = 0; k < runs; ++k) {
             auto force = make();
-            auto at_work = value_or_exit(Skin::make(skin, {1e-3}, set));
+            auto skin_state = value_or_exit(Skin::make(skin, {1e-3}, set));
             auto out = SkinEventsFile(value_or_exit(OutputFile::create(file)), "aer");
-            SkinSink* const listeners[] = {&out};
+            SkinSink* const sinks[] = {&out};
             const SkinInput input{name, "", *make_clock(1e3), {}, *skin};
-            const auto simulator = local_skin_simulator(*at_work, alone);
+            const auto simulator = local_skin_simulator(*skin_state, alone);
             const double from = processor();
-            work = value_or_exit(run_skin(*force.force, input, *simulator, listeners, {}));
+            work = value_or_exit(run_skin(*force.force, input, *simulator, sinks, {}));
             if (!out.commit()) return 1;
-            ran.push_back(processor() - from);
+            run_times.push_back(processor() - from);
             bytes = std::filesystem::file_size(file);
             std::filesystem::remove(file);
         }
-        print_times(name, ran, static_cast<double>(work.steps) * 1e-3);
+        print_times(name, run_times, static_cast<double>(work.steps) * 1e-3);
         fmt::print("  {:<34} {:.3g} afferent-steps computed, {:.3g} skipped; {} spikes, {} bytes\n", "",
                    static_cast<double>(work.afferent_steps), static_cast<double>(work.skipped_steps), work.spikes, bytes);
     }

@@ -1,10 +1,12 @@
 // How long is the delay from a frame of forces to its spikes, how much of a core does this take, and is it stable over time?
-//   bench-live delay [SECONDS [PROGRAM]]   "grid 64x64" (8192 afferents) at 5.2 kHz, the densest published skin: 2.1e7 samples per second
-//   bench-live sleep [SECONDS [PROGRAM]]   as delay, without --busy-poll: the program, the sender and the reader sleep until a frame comes
-//   bench-live share [SECONDS [PROGRAM]]   "hand" (17,000 afferents) at 1 kHz under a stroke: the fraction of a core
-//   bench-live together [SECONDS [PROGRAM]] as share, with --batch-frames 16, over loopback: the program sleeps until 16 frames have
-//   arrived bench-live noise [SECONDS [PROGRAM]]   as share, with noise that keeps every afferent active bench-live soak [SECONDS
-//   [PROGRAM]]    "grid 16x16" at 1 kHz over loopback, frames numbered: memory, drift, lost events
+//   bench-live MODE [SECONDS [PROGRAM]]
+// - delay: "grid 64x64" (8192 afferents) at 5.2 kHz, the densest published skin: 2.1e7 samples per second
+// - sleep: as delay, without --busy-poll: the program, the sender and the reader sleep until a frame comes
+// - share: "hand" (17,000 afferents) at 1 kHz under a stroke: the fraction of a core
+// - together: as share, with --batch-frames 16, over loopback: the program sleeps until 16 frames have arrived
+// - noise: as share, with noise that keeps every afferent active
+// - soak: "grid 16x16" at 1 kHz over loopback, frames numbered: memory, drift, lost events
+//
 // Defaults: 60 s (3600 s are recommended for soak) and ./corpuscle. `corpuscle stream` runs with its usual options on the last core only.
 // The sender and the reader are threads of this program on the other cores.
 //
@@ -33,6 +35,7 @@ using namespace corpuscle;
 
 constexpr int start_up = 3;  // s in which the program builds its skin and warms up
 
+/// A row of a table: count, quantiles and maximum (us), and the fraction within 1 ms.
 std::string row(const char* name, const LatencyHistogram& d) {
     std::uint64_t within = 0;
     for (int b = 0; b < LatencyHistogram::bin_count() && LatencyHistogram::end_of(b) <= 1'000'000; ++b) within += d.count_in(b);
@@ -58,6 +61,7 @@ void print_histograms(const LatencyHistogram& idle, const LatencyHistogram& dela
     }
 }
 
+/// Delays with which this thread wakes at its scheduled times, without other work.
 LatencyHistogram idle_loop(int rate, int seconds) {
     LatencyHistogram late;
     const auto begin = steady_now() + 10'000'000;
@@ -87,11 +91,12 @@ int measure_delay(const std::string& program, const std::string& population, int
     if (cores > 1) bind_to(0, cores - 2);
     const auto idle = idle_loop(rate, seconds);
     const std::int64_t count = std::int64_t{rate} * seconds;
-    std::vector<std::string> words = {"--population", population, "--rate",   fmt::format("{}Hz", rate),
-                                      "--frames",     "f32",      "--format", "aer"};
-    if (busy_poll) words.push_back("--busy-poll");
-    if (batch_frames > 1) words.insert(words.end(), {"--batch-frames", std::to_string(batch_frames), "--in", "tcp:0", "--clients", "1"});
-    Program child(program, words, cores - 1);
+    std::vector<std::string> arguments = {"--population", population, "--rate",   fmt::format("{}Hz", rate),
+                                          "--frames",     "f32",      "--format", "aer"};
+    if (busy_poll) arguments.push_back("--busy-poll");
+    if (batch_frames > 1)
+        arguments.insert(arguments.end(), {"--batch-frames", std::to_string(batch_frames), "--in", "tcp:0", "--clients", "1"});
+    Program child(program, arguments, cores - 1);
     if (batch_frames > 1) child.in = connect_to(child);
     double processor_seconds_at_start = 0;
     std::thread watch([&] {
@@ -131,7 +136,7 @@ int measure_delay(const std::string& program, const std::string& population, int
     fmt::print("{}{}", row("idle loop, late", idle), row("frame written to spike read", delay));
     print_histograms(idle, delay);
     fmt::print(
-        "\nIts own summary (status {}):\n{}\nIt used {:.2f} % of one core after the first {} s, and {:.2f} s in total of {} s; "
+        "\nSummary of the program (status {}):\n{}\nIt used {:.2f} % of one core after the first {} s, and {:.2f} s in total of {} s; "
         "{} MB at peak.\n",
         status, summary, 100 * (child.final_processor_seconds() - processor_seconds_at_start) / std::max(1, seconds - start_up), start_up,
         child.final_processor_seconds(), seconds, child.used.ru_maxrss / 1024);
@@ -214,14 +219,14 @@ int soak(const std::string& program, int seconds) {
 int main(int argc, char** argv) {
     std::signal(SIGPIPE, SIG_IGN);
     ::prctl(PR_SET_TIMERSLACK, 1);  // ns; new threads inherit it
-    const std::string what = argc > 1 ? argv[1] : "";
+    const std::string mode = argc > 1 ? argv[1] : "";
     const int seconds = argc > 2 ? std::atoi(argv[2]) : 60;
     const std::string program = argc > 3 ? argv[3] : "./corpuscle";
-    if (what == "delay") return measure_delay(program, "grid 64x64", 5200, seconds, 12e-3, true, true);
-    if (what == "sleep") return measure_delay(program, "grid 64x64", 5200, seconds, 12e-3, false, true);
-    if (what == "share") return measure_delay(program, "hand", 1000, seconds, 4e-3, false, false, 1, 5e-3);
-    if (what == "together") return measure_delay(program, "hand", 1000, seconds, 4e-3, false, false, 16, 5e-3);
-    if (what == "noise") return measure_delay(program, "hand", 1000, seconds, 12e-3, false, true);
-    if (what == "soak") return soak(program, seconds);
+    if (mode == "delay") return measure_delay(program, "grid 64x64", 5200, seconds, 12e-3, true, true);
+    if (mode == "sleep") return measure_delay(program, "grid 64x64", 5200, seconds, 12e-3, false, true);
+    if (mode == "share") return measure_delay(program, "hand", 1000, seconds, 4e-3, false, false, 1, 5e-3);
+    if (mode == "together") return measure_delay(program, "hand", 1000, seconds, 4e-3, false, false, 16, 5e-3);
+    if (mode == "noise") return measure_delay(program, "hand", 1000, seconds, 12e-3, false, true);
+    if (mode == "soak") return soak(program, seconds);
     return fmt::print("bench-live delay|sleep|share|together|noise|soak [SECONDS [PROGRAM]]\n"), 2;
 }

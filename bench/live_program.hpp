@@ -22,6 +22,7 @@
 
 namespace corpuscle {
 
+/// Binds the calling thread to these cores.
 inline void bind_to(int first, int last) {
     cpu_set_t cores;
     CPU_ZERO(&cores);
@@ -29,6 +30,7 @@ inline void bind_to(int first, int last) {
     ::sched_setaffinity(0, sizeof cores, &cores);
 }
 
+/// Sleeps until a time of the monotonic clock.
 inline void sleep_until(std::int64_t ns) {
     const timespec at = {ns / 1'000'000'000, ns % 1'000'000'000};
     while (::clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &at, nullptr) == EINTR) {
@@ -66,20 +68,20 @@ struct Program {
     Descriptor in, out, err;
     rusage used = {};
 
-    Program(const std::string& path, std::vector<std::string> words, int core) {
+    Program(const std::string& path, std::vector<std::string> arguments, int core) {
         int pipes[3][2];
         for (auto& p : pipes)
             if (::pipe2(p, O_CLOEXEC) != 0) std::exit(1);
         ::fcntl(pipes[0][0], F_SETPIPE_SZ, 1 << 20);
-        words.insert(words.begin(), {path, "stream"});
-        std::vector<char*> arguments;
-        for (auto& w : words) arguments.push_back(w.data());
-        arguments.push_back(nullptr);
+        arguments.insert(arguments.begin(), {path, "stream"});
+        std::vector<char*> argument_pointers;
+        for (auto& w : arguments) argument_pointers.push_back(w.data());
+        argument_pointers.push_back(nullptr);
         if ((pid = ::fork()) < 0) fmt::print(stderr, "fork failed\n"), std::exit(1);
         if (pid == 0) {
             bind_to(core, core);
             ::dup2(pipes[0][0], 0), ::dup2(pipes[1][1], 1), ::dup2(pipes[2][1], 2);
-            ::execv(arguments[0], arguments.data());
+            ::execv(argument_pointers[0], argument_pointers.data());
             ::_exit(127);
         }
         in = Descriptor(pipes[0][1]), out = Descriptor(pipes[1][0]), err = Descriptor(pipes[2][0]);
@@ -97,7 +99,6 @@ struct Program {
         return all;
     }
     /// Processor time so far, user and system, s.
-    /// User and system time so far.
     double processor_seconds() const {
         std::ifstream stat(fmt::format("/proc/{}/stat", pid));
         std::string word;
@@ -106,14 +107,14 @@ struct Program {
         stat >> user >> system;
         return (user + system) / static_cast<double>(::sysconf(_SC_CLK_TCK));
     }
-    /// User and system time of the ended program.
+    /// The same of the ended program.
     double final_processor_seconds() const {
         const auto s = [](const timeval& t) { return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec); };
         return s(used.ru_utime) + s(used.ru_stime);
     }
 };
 
-/// Connects to the address on which the program reports to listen.
+/// Connects to the address that the program prints when it listens.
 inline Descriptor connect_to(const Program& child) {
     pollfd wait = {child.err.get(), POLLIN, 0};
     ::poll(&wait, 1, 10000);
@@ -137,20 +138,20 @@ class Sender {
     std::int64_t begin_ = steady_now() + 10'000'000;
 
 public:
-    std::vector<std::int64_t> at;
+    std::vector<std::int64_t> sent_at;
 
     Sender(const std::vector<float>& second, std::size_t sites, int rate, std::int64_t count, bool numbered)
         : second_(second), sites_(sites), rate_(rate), numbered_(numbered), bytes_(4 + sites * sizeof(float)),
-          at(static_cast<std::size_t>(count)) {}
+          sent_at(static_cast<std::size_t>(count)) {}
     std::int64_t due(std::int64_t k) const { return begin_ + k * 1'000'000'000 / rate_; }
-    std::int64_t sent(std::int64_t k) const { return __atomic_load_n(&at[static_cast<std::size_t>(k)], __ATOMIC_ACQUIRE); }
+    std::int64_t sent(std::int64_t k) const { return __atomic_load_n(&sent_at[static_cast<std::size_t>(k)], __ATOMIC_ACQUIRE); }
     void send(int fd, std::int64_t k) {
         const auto number = static_cast<std::uint32_t>(k);
         std::memcpy(bytes_.data(), &number, 4);
         std::memcpy(bytes_.data() + 4, second_.data() + static_cast<std::size_t>(k % rate_) * sites_, sites_ * sizeof(float));
         std::string_view left(bytes_.data(), bytes_.size());
         if (!numbered_) left.remove_prefix(4);
-        __atomic_store_n(&at[static_cast<std::size_t>(k)], steady_now(), __ATOMIC_RELEASE);
+        __atomic_store_n(&sent_at[static_cast<std::size_t>(k)], steady_now(), __ATOMIC_RELEASE);
         while (!left.empty()) {
             const auto n = ::write(fd, left.data(), left.size());
             if (n < 0) return;
@@ -158,7 +159,7 @@ public:
         }
     }
     void send_all(int fd) {
-        for (std::int64_t k = 0; k < static_cast<std::int64_t>(at.size()); ++k) sleep_until(due(k)), send(fd, k);
+        for (std::int64_t k = 0; k < static_cast<std::int64_t>(sent_at.size()); ++k) sleep_until(due(k)), send(fd, k);
     }
 };
 

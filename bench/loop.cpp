@@ -3,12 +3,12 @@
 //     bench-loop [NETLIST] [ROUNDS]
 //
 // Method: one core, processor seconds, default accuracy (`.options accuracy=normal`). The netlist (bench/decks/loop.cir) starts from its
-// operating point with .ic held. It runs one second as it is, and one second with a constant force of 60 nA, at which nothing fires; the
-// difference is the cost of spikes. The operating-point search is not counted. Then the parts of an iteration are timed separately at 256
-// points of the run. The first part is the transistors with their charges on lanes. The others are factoring and solving each matrix
-// (conductances, plus capacitances over a step of 10 us), both along the list and by KLU with its last pivots. The rest of an iteration is
-// bookkeeping: moving voltages to the lanes and derivatives to the matrix, prediction, errors, history, convergence, crossings. Each line
-// has median, minimum and maximum of the rounds.
+// operating point with .ic held. It runs one second as it is, and one second with a constant input current of 60 nA, at which nothing
+// fires; the difference is the cost of spikes. The operating-point search is not counted. Then the parts of an iteration are timed
+// separately at 256 points of the run. The first part is the transistors with their charges on lanes. The others are factoring and solving
+// each matrix (conductances, plus capacitances over a step of 10 us), both along the list and by KLU with its last pivots. The rest of an
+// iteration is bookkeeping: moving voltages to the lanes and derivatives to the matrix, prediction, errors, history, convergence,
+// crossings. Each line has median, minimum and maximum of the rounds.
 
 #include <algorithm>
 #include <cstdio>
@@ -24,7 +24,7 @@ namespace {
 using namespace corpuscle;
 using namespace corpuscle::circuit;
 
-constexpr double seconds = 1, level = 0.35, quiet_force = 60e-9, step = 10e-6;
+constexpr double seconds = 1, level = 0.35, quiet_current = 60e-9, step = 10e-6;  // s, V, A, s
 constexpr std::size_t max_points = 256;
 
 /// Processor time, s; other load on the machine affects it less than wall time.
@@ -34,9 +34,9 @@ double processor_time() {
     return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
-void print_times(const char* what, std::vector<double> times, double scale, const char* unit) {
+void print_times(const char* label, std::vector<double> times, double scale, const char* unit) {
     std::sort(times.begin(), times.end());
-    std::printf("  %-34s %9.3f %s (%.3f ... %.3f)\n", what, times[times.size() / 2] * scale, unit, times.front() * scale,
+    std::printf("  %-34s %9.3f %s (%.3f ... %.3f)\n", label, times[times.size() / 2] * scale, unit, times.front() * scale,
                 times.back() * scale);
 }
 double median(std::vector<double> times) {
@@ -44,7 +44,7 @@ double median(std::vector<double> times) {
     return times[times.size() / 2];
 }
 
-struct Second {
+struct OneSecondRun {
     std::vector<double> times;  // processor time of each round, s
     TransientStats work;
     double reltol = 0;
@@ -54,8 +54,8 @@ struct Second {
 };
 
 /// Runs one second `rounds` times from the same start.
-Result<Second> second_of(AnalysisContext& bench, int rounds, bool quiet) {
-    Second out;
+Result<OneSecondRun> run_one_second(AnalysisContext& bench, int rounds, bool quiet) {
+    OneSecondRun out;
     const int spiking = bench.system.unknown("v(s)");
     TransientPlan plan;
     plan.stop = seconds, plan.max_step = seconds / 50;
@@ -63,18 +63,18 @@ Result<Second> second_of(AnalysisContext& bench, int rounds, bool quiet) {
     for (int round = 0; round < rounds; ++round) {
         bench.system.start_transient(1e-3, seconds);
         if (auto* force = bench.system.device("if"); quiet && force != nullptr)
-            force->start_transient(0, 0), force->set_principal_value(quiet_force);
+            force->start_transient(0, 0), force->set_principal_value(quiet_current);
         const auto from = find_initial_condition(bench, false);
         if (!from) return from.error();
         out.spikes.clear(), out.points.clear(), out.at.clear();
         Transient transient(bench.system, bench.newton, plan);
-        const long apart = std::max(1L, out.work.steps / static_cast<long>(max_points));
+        const long spacing = std::max(1L, out.work.steps / static_cast<long>(max_points));
         const double start = processor_time();
         if (auto ok = transient.begin(from->x, from->is_consistent); !ok) return ok.error();
         while (transient.time() < seconds) {
             if (const auto ok = transient.step(seconds); !ok) return ok.error();
             if (const auto at = transient.crossing(spiking, -1, level, true)) out.spikes.push_back(*at);
-            if (round > 0 && transient.stats().steps % apart == 0) {
+            if (round > 0 && transient.stats().steps % spacing == 0) {
                 out.points.emplace_back(transient.x().begin(), transient.x().end());
                 out.at.push_back(transient.time());
             }
@@ -98,12 +98,13 @@ std::vector<double> time_each(int rounds, std::size_t count, const std::function
     return out;
 }
 
+/// Times (s) of the parts of an iteration, one for each round.
 struct IterationParts {
     std::vector<double> devices, factor, solve, factor_listed, solve_listed;
     long off_list = 0;
 };
 
-IterationParts parts_of(const AnalysisContext& bench, const Second& run, int rounds) {
+IterationParts time_parts(const AnalysisContext& bench, const OneSecondRun& run, int rounds) {
     IterationParts out;
     EvalContext at;
     at.gmin = bench.tolerances.gmin;
@@ -111,19 +112,19 @@ IterationParts parts_of(const AnalysisContext& bench, const Second& run, int rou
     SystemEvaluation sums;
     const auto count = run.points.size(), entries = bench.system.pattern().entries();
     const DeviceGroup& transistors = bench.system.groups()[0];
-    const auto n = transistors.terminals, room = transistors.stride;
+    const auto n = transistors.terminals, stride = transistors.stride;
     struct alignas(64) Line {
         double of[8];
     };
-    std::vector<Line> lines((3 * n + 2 * n * n) * room / 8);
-    double *const v = lines[0].of, *const f = v + n * room, *const q = f + n * room, *const df = q + n * room;
+    std::vector<Line> lines((3 * n + 2 * n * n) * stride / 8);
+    double *const v = lines[0].of, *const f = v + n * stride, *const q = f + n * stride, *const df = q + n * stride;
     out.devices = time_each(rounds, count, [&](std::size_t k) {
         for (std::size_t m = 0; m < transistors.members.size(); ++m)
             for (std::size_t j = 0; j < n; ++j) {
                 const int u = transistors.unknowns[m * n + j];
-                v[j * room + m] = u < 0 ? 0 : run.points[k][static_cast<std::size_t>(u)];
+                v[j * stride + m] = u < 0 ? 0 : run.points[k][static_cast<std::size_t>(u)];
             }
-        transistors.batch->eval(at, {room, v, f, df, nullptr, q, df + n * n * room, 1e5});
+        transistors.batch->eval(at, {stride, v, f, df, nullptr, q, df + n * n * stride, 1e5});
     });
     std::vector<std::vector<double>> matrices;
     for (std::size_t k = 0; k < count; ++k) {
@@ -143,9 +144,9 @@ IterationParts parts_of(const AnalysisContext& bench, const Second& run, int rou
     return out;
 }
 
-void report(const AnalysisContext& bench, const Second& whole, const Second& quiet, const IterationParts& parts) {
-    const auto row = [](const char* what, const Second& s) {
-        std::printf("%s, to %g a step: %ld steps, %ld rejected, %ld Newton iterations, %zu spikes", what, s.reltol, s.work.steps,
+void report(const AnalysisContext& bench, const OneSecondRun& whole, const OneSecondRun& quiet, const IterationParts& parts) {
+    const auto row = [](const char* label, const OneSecondRun& s) {
+        std::printf("%s, to %g a step: %ld steps, %ld rejected, %ld Newton iterations, %zu spikes", label, s.reltol, s.work.steps,
                     s.work.rejected, s.work.iterations, s.spikes.size());
         if (!s.spikes.empty()) std::printf(", from %.6f to %.6f s", s.spikes.front(), s.spikes.back());
         std::printf("\n");
@@ -153,10 +154,11 @@ void report(const AnalysisContext& bench, const Second& whole, const Second& qui
         print_times("an iteration", s.times, 1e6 / static_cast<double>(s.work.iterations), "us");
     };
     row("a second of touch", whole);
-    const double spikes = static_cast<double>(whole.spikes.size()), beyond = spikes - static_cast<double>(quiet.spikes.size());
+    const double spikes = static_cast<double>(whole.spikes.size()), extra_spikes = spikes - static_cast<double>(quiet.spikes.size());
     if (spikes > 0) print_times("per spike, in total", whole.times, 1e3 / spikes, "ms");
     row("a quiet second", quiet);
-    if (beyond > 0) std::printf("  a spike beyond it %27.3f ms\n", (median(whole.times) - median(quiet.times)) * 1e3 / beyond);
+    if (extra_spikes > 0)
+        std::printf("  a spike, by the difference %18.3f ms\n", (median(whole.times) - median(quiet.times)) * 1e3 / extra_spikes);
     std::printf("an iteration: %d unknowns, %zu devices, %zu entries\n", bench.system.size(), bench.system.devices().size(),
                 bench.system.pattern().entries());
     print_times("transistors", parts.devices, 1e6, "us");
@@ -184,9 +186,9 @@ int main(int argc, char** argv) {
     auto bench = AnalysisContext::make(std::make_shared<const Circuit>(std::move(*circuit)));
     if (!bench) return fail(bench.error());
     if ((*bench)->system.unknown("v(s)") < 0) return std::fputs("bench-loop: the netlist has no node s\n", stderr), 1;
-    const auto whole = second_of(**bench, rounds, false);
+    const auto whole = run_one_second(**bench, rounds, false);
     if (!whole) return fail(whole.error());
-    const auto quiet = second_of(**bench, rounds, true);
+    const auto quiet = run_one_second(**bench, rounds, true);
     if (!quiet) return fail(quiet.error());
-    report(**bench, *whole, *quiet, parts_of(**bench, *whole, 20 * rounds));
+    report(**bench, *whole, *quiet, time_parts(**bench, *whole, 20 * rounds));
 }

@@ -1,7 +1,7 @@
 // How many afferent-steps per second does a population of `sa1` compute on one core, and how close is this to the machine's limit?
 //
 // Method: one process runs these in turn, 25 times (--runs): the sum of the streamed force (the memory limit), additions in registers (the
-// arithmetic limit), and the population with each kind of input. Printed are medians. N = 100,000 at 10 kHz; spikes are stored in memory in
+// arithmetic limit), and the population with each kind of input. Output: medians. N = 100,000 at 10 kHz; spikes are stored in memory in
 // order, or as marks (one bit per afferent and step). Streamed: each afferent has its own force, in tiles, 1,000 steps from the press's
 // rise, 800 MB in double, which exceeds the caches. Profile: one press of 10,000 steps; each afferent has a gain from 0.5 to 1, and the
 // receptor is computed once. Own parameters: every afferent has its own f_B and its own receptor.
@@ -31,7 +31,7 @@ using namespace corpuscle;
 
 constexpr std::size_t max_count = 100'000, stream_steps = 1000;
 constexpr long rounds = 20'000'000;
-volatile double added_up;
+volatile double discarded;
 
 double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
@@ -40,7 +40,7 @@ double now() { return std::chrono::duration<double>(std::chrono::steady_clock::n
     std::exit(1);
 }
 
-// The compiler itself compiles the limits for each instruction set, because the lanes are the code under test.
+// The compiler vectorizes the two limits for each instruction set. They do not use the lanes, which are the code under test.
 #ifdef __x86_64__
 #define EACH_SET __attribute__((target_clones("default", "arch=x86-64-v3", "arch=x86-64-v4"), optimize("O3,unroll-loops")))
 #else
@@ -85,11 +85,11 @@ double additions(long count) {
 std::vector<double> press() {
     Frames block(1, 10000);
     const auto source = make_stimulus("press", {}, 10e3, 0);
-    if (!source || !(*source)->read(block)) stop("no press");
+    if (!source || !(*source)->read(block)) stop("cannot create the press stimulus");
     return block.force[0];
 }
 
-double gain(std::size_t unit) { return 0.5 + 0.5 * static_cast<double>(unit) / (max_count - 1); }
+double gain(std::size_t afferent_index) { return 0.5 + 0.5 * static_cast<double>(afferent_index) / (max_count - 1); }
 
 /// The press multiplied by each afferent's gain, in tiles.
 template <class E>
@@ -106,11 +106,11 @@ lanes::AlignedBuffer<E> tiles(const std::vector<double>& f, double scale) {
 /// One timed case.
 struct TimedCase {
     std::string name;
-    double work;                       // a run
+    double work;                       // bytes, additions or afferent-steps in a run
     std::function<double()> once;      // runs once; returns seconds
     double operations = 0, bytes = 0;  // per afferent-step; operations in double
     std::vector<double> seconds = {};
-    std::int64_t spikes = 0;  // a run
+    std::int64_t spikes = 0;  // of the last run
 
     double rate() const {
         auto s = seconds;
@@ -123,15 +123,15 @@ struct TimedCase {
 struct Case {
     std::size_t units = max_count, steps = 0, block = 0;
     Method method = Method::exact;
-    bool own = false, sampled = true, marks = false;
+    bool own_parameters = false, sampled = true, marks = false;
     Precision precision = Precision::double_precision;
     InstructionSet set = InstructionSet::baseline;
     std::function<PopulationForce(std::size_t first, std::size_t steps)> force = {};
 
-    std::unique_ptr<LanePopulation> made() const {
+    std::unique_ptr<LanePopulation> make_population() const {
         const auto plan = plan_afferent("sa1", {});
-        std::vector<AfferentPlan> plans(own ? units : 1, *plan);
-        for (std::size_t u = 0; own && u < units; ++u)
+        std::vector<AfferentPlan> plans(own_parameters ? units : 1, *plan);
+        for (std::size_t u = 0; own_parameters && u < units; ++u)
             for (std::size_t k = 0; k < plans[u].values.size(); ++k)
                 if ((*plans[u].parameters)[k].info.name == "f_B") plans[u].values[k] = 15 + 10 * static_cast<double>(u) / (max_count - 1);
         std::vector<const AfferentPlan*> pointers;
@@ -145,8 +145,8 @@ struct Case {
         static ThreadPool alone(1);
         static std::vector<Spike> found;
         static std::vector<std::uint64_t> bits;
-        const auto population = made();
-        double taken = 0;
+        const auto population = make_population();
+        double elapsed = 0;
         spikes = 0;
         for (std::size_t k = 0; k < steps; k += block) {
             const std::size_t count = std::min(block, steps - k);
@@ -155,12 +155,12 @@ struct Case {
             const auto f = force(k, count);
             const double start = now();
             const auto done = population->respond(f, count, response, alone);
-            taken += now() - start;
+            elapsed += now() - start;
             if (!done) stop(done.error().text());
             for (std::size_t w = 0; marks && w < bits.size(); ++w) spikes += __builtin_popcountll(bits[w]);
             spikes += static_cast<std::int64_t>(found.size());
         }
-        return taken;
+        return elapsed;
     }
 };
 
@@ -192,50 +192,50 @@ class Bench {
     void add_set(InstructionSet set, Precision precision) {
         const bool in_double = precision == Precision::double_precision;
         const std::string tag = fmt::format("{} {} ", name_of(set), in_double ? "double" : "float");
-        const double one = in_double ? 1 : 0.5, bytes = in_double ? 8 : 4;
+        const double operation = in_double ? 1 : 0.5, bytes = in_double ? 8 : 4;
         const auto changed = [](Case c, auto change) { return change(c), c; };
         Case stream{.steps = stream_steps, .block = stream_steps, .precision = precision, .set = set};
         stream.force = [this, precision](std::size_t, std::size_t) { return streamed(precision); };
-        add(tag + "streamed", stream, 20 * one, bytes);
-        add(tag + "streamed, interpolated", changed(stream, [](Case& c) { c.sampled = false; }), 20 * one, bytes);
+        add(tag + "streamed", stream, 20 * operation, bytes);
+        add(tag + "streamed, interpolated", changed(stream, [](Case& c) { c.sampled = false; }), 20 * operation, bytes);
         if (set != instruction_sets().back()) {  // for smaller instruction sets, only the main cases
-            add(tag + "profile", profile_case(set, precision), 5 * one, 0);
+            add(tag + "profile", profile_case(set, precision), 5 * operation, 0);
             return;
         }
-        add(tag + "streamed, own parameters", changed(stream, [](Case& c) { c.own = true; }), 20 * one, bytes);
+        add(tag + "streamed, own parameters", changed(stream, [](Case& c) { c.own_parameters = true; }), 20 * operation, bytes);
         add(tag + "streamed, 16-bit words",
             changed(stream,
                     [&](Case& c) {
                         c.force = [this](std::size_t, std::size_t) { return PopulationForce(ForceInt16{words_.data(), 1.0 / 8000}); };
                     }),
-            20 * one, 2);
+            20 * operation, 2);
         add(tag + "streamed from the cache, N = 1000", changed(stream, [](Case& c) { c.units = 1000, c.steps = 10000, c.block = 100; }),
-            20 * one, 0);
+            20 * operation, 0);
         const Case profile = profile_case(set, precision);
-        add(tag + "profile", profile, 5 * one, 0);
-        add(tag + "profile, marks", changed(profile, [](Case& c) { c.marks = true; }), 5 * one, 0);
-        add(tag + "profile, interpolated", changed(profile, [](Case& c) { c.sampled = false; }), 5 * one, 0);
+        add(tag + "profile", profile, 5 * operation, 0);
+        add(tag + "profile, marks", changed(profile, [](Case& c) { c.marks = true; }), 5 * operation, 0);
+        add(tag + "profile, interpolated", changed(profile, [](Case& c) { c.sampled = false; }), 5 * operation, 0);
         add(tag + "profile, own parameters",
             changed(profile,
                     [this](Case& c) {
-                        c.own = true, c.steps = 1000;
+                        c.own_parameters = true, c.steps = 1000;
                         c.force = [this](std::size_t k, std::size_t n) {
                             return PopulationForce(ForceProfile{std::span(press_).subspan(2400 + k, n), gains_});
                         };
                     }),
-            21 * one, 0);
+            21 * operation, 0);
         const auto peers = [](Case c) { return c.method = Method::backward_euler, c; };
-        add(tag + "the peers' shared", peers(profile), 5 * one, 0);
+        add(tag + "the peers' shared", peers(profile), 5 * operation, 0);
         add(tag + "the peers' own",
             changed(peers(profile),
                     [this](Case& c) {
-                        c.own = true, c.steps = 2000;
+                        c.own_parameters = true, c.steps = 2000;
                         c.force = [this](std::size_t k, std::size_t n) {
                             return PopulationForce(ForceProfile{std::span(press_).subspan(2400 + k, n), gains_});
                         };
                     }),
-            21 * one, 0);
-        add(tag + "the peers' streamed", peers(stream), 20 * one, bytes);
+            21 * operation, 0);
+        add(tag + "the peers' streamed", peers(stream), 20 * operation, bytes);
         add(tag + "profile, N = 1000",
             changed(profile,
                     [this](Case& c) {
@@ -244,7 +244,7 @@ class Bench {
                             return PopulationForce(ForceProfile{std::span(press_).subspan(k, n), std::span(gains_).first(1000)});
                         };
                     }),
-            5 * one, 0);
+            5 * operation, 0);
     }
 
 public:
@@ -252,12 +252,12 @@ public:
         for (std::size_t u = 0; u < max_count; ++u) gains_.push_back(gain(u));
         all_.push_back(std::make_unique<TimedCase>(TimedCase{"read", static_cast<double>(doubles_.size() * sizeof(double)), [this] {
                                                                  const double start = now();
-                                                                 added_up = sum(doubles_.data(), doubles_.size());
+                                                                 discarded = sum(doubles_.data(), doubles_.size());
                                                                  return now() - start;
                                                              }}));
         all_.push_back(std::make_unique<TimedCase>(TimedCase{"additions", 64.0 * rounds, [] {
                                                                  const double start = now();
-                                                                 added_up = additions(rounds);
+                                                                 discarded = additions(rounds);
                                                                  return now() - start;
                                                              }}));
         const auto sets = instruction_sets();

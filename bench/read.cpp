@@ -4,7 +4,7 @@
 // - only its bytes, by fread, which is the limit;
 // - its numbers, every column into blocks;
 // - as a force recording with all checks, at a given rate (one pass) and on its own clock (two passes).
-// Printed are bytes per wall second, and the peak memory of the process so far.
+// Output: bytes per wall second, and the peak memory of the process so far.
 
 #include <fmt/format.h>
 #include <sys/resource.h>
@@ -40,13 +40,13 @@ void write_steps(const std::string& path, double megabytes) {
     std::fclose(file);
 }
 
-void report(const char* what, double bytes, const std::function<std::int64_t()>& work) {
+void report(const char* label, double bytes, const std::function<std::int64_t()>& work) {
     const auto start = std::chrono::steady_clock::now();
     const auto rows = work();
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     rusage used{};
     ::getrusage(RUSAGE_SELF, &used);
-    fmt::print("{:44} {:6.0f} MB/s {:6.2f} s {:12} rows, {:4} MB peak\n", what, bytes / seconds / 1e6, seconds, rows,
+    fmt::print("{:44} {:6.0f} MB/s {:6.2f} s {:12} rows, {:4} MB peak\n", label, bytes / seconds / 1e6, seconds, rows,
                used.ru_maxrss / 1024);
 }
 

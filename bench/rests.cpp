@@ -3,8 +3,8 @@
 //     bench-rests NETLIST [CHIPS] [SEED]
 //
 // Method: the netlist is read once. Each chip has its own sample of mismatch and process (of the card's section in the netlist). It is
-// solved first like .op, then like the start of a transient, with the nodes of .ic held. Printed are the chips that each method solved,
-// Newton steps (mean, median, maximum), and microseconds of processor time per chip.
+// solved first like .op, then like the start of a transient, with the nodes of .ic held. "none" is the row of chips that did not converge.
+// Output: the chips that each method solved, Newton steps (mean, median, maximum), and microseconds of processor time per chip.
 
 #include <algorithm>
 #include <cstdio>
@@ -30,16 +30,16 @@ struct Method {
     double seconds = 0;
 };
 
-void print_methods(const char* what, std::map<std::string, Method>& methods) {
-    std::printf("%s\n", what);
-    for (auto& [name, way] : methods) {
-        auto& s = way.steps;
+void print_methods(const char* label, std::map<std::string, Method>& methods) {
+    std::printf("%s\n", label);
+    for (auto& [name, statistics] : methods) {
+        auto& s = statistics.steps;
         std::sort(s.begin(), s.end());
         double sum = 0;
         for (const int n : s) sum += n;
         const double count = static_cast<double>(s.size());
         std::printf("  %-18s %6zu chips  steps mean %.1f median %d max %d  %.0f us each\n", name.c_str(), s.size(), sum / count,
-                    s[s.size() / 2], s.back(), 1e6 * way.seconds / count);
+                    s[s.size() / 2], s.back(), 1e6 * statistics.seconds / count);
     }
 }
 
@@ -55,16 +55,16 @@ int main(int argc, char** argv) {
     auto bench = AnalysisContext::make(std::make_shared<const Circuit>(std::move(*circuit)));
     if (!bench) return std::fprintf(stderr, "%s\n", bench.error().text().c_str()), 1;
     const ChipSpec sampled{chips, argc > 3 ? std::strtoull(argv[3], nullptr, 10) : 1};
-    for (const bool held : {false, true}) {
+    for (const bool with_ic : {false, true}) {
         std::map<std::string, Method> methods;
         for (std::uint64_t k = 0; static_cast<double>(k) < chips; ++k) {
             (*bench)->apply_variation(sampled.sample(k));
             const double start = now();
-            const auto found = held ? (*bench)->initial_operating_point() : (*bench)->operating_point();
-            auto& way = methods[found ? std::string(found->method) : "lost"];
-            way.seconds += now() - start;
-            way.steps.push_back((*bench)->newton.iterations);
+            const auto found = with_ic ? (*bench)->initial_operating_point() : (*bench)->operating_point();
+            auto& statistics = methods[found ? std::string(found->method) : "none"];
+            statistics.seconds += now() - start;
+            statistics.steps.push_back((*bench)->newton.iterations);
         }
-        print_methods(held ? "with .ic held" : "as .op", methods);
+        print_methods(with_ic ? "with .ic held" : "as .op", methods);
     }
 }

@@ -12,7 +12,7 @@ import sys
 import time
 
 PROGRAM = sys.argv[1]
-DRAWN = {"table12", "table15", "table17-18", "bias-spread", "fig46"}
+SAMPLED = {"table12", "table15", "table17-18", "bias-spread", "fig46"}
 
 
 def timed(names):
@@ -21,10 +21,10 @@ def timed(names):
         cpu_before, began = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime, time.monotonic()
         subprocess.run([PROGRAM, "study", *names, "--quiet"], check=True)
         runs.append((time.monotonic() - began, resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - cpu_before))
-    return [statistics.median(kind) for kind in zip(*runs)]
+    return [statistics.median(column) for column in zip(*runs)]
 
 
 names = [study["name"] for study in json.loads(subprocess.run([PROGRAM, "study", "all", "--json", "--quiet"], check=True, capture_output=True).stdout)]
-for label, chosen in (("all", names), ("without those that draw chips", [n for n in names if n not in DRAWN])):
+for label, chosen in (("all", names), ("without those that sample chips", [n for n in names if n not in SAMPLED])):
     wall, processor = timed(chosen)
     print(f"corpuscle study, {label} ({len(chosen)}): {wall:.1f} s, {processor:.1f} s of processor")

@@ -3,7 +3,7 @@
 //   bench-sweep [ITEMS [FOLDER]]        rows: 1e6 work items, 6 axes, 10 measures, a train of 15 spikes; random numbers
 //   mpirun -n 2 bench-sweep             messages between two ranks (-n 2 binds them to different cores)
 // Rows are written by SweepResults::add in batches of 8192, each a transaction on disk; then the file is checkpointed and queried. One run.
-// Printed are wall time and processor time; processor time is rank 0's limit and depends less on other load. Messages: the mean of 20,000
+// Output: wall time and processor time; processor time is rank 0's limit and depends less on other load. Messages: the mean of 20,000
 // in sequence, and rank 0's processor time in the calls that send and receive one.
 
 #include <fmt/format.h>
@@ -38,9 +38,9 @@ double memory_MB() {
 class RandomSweep final : public Sweep {
     std::int64_t items_;
     std::vector<SweepColumn> axes_, measures_;
-    std::vector<std::string> trains_ = {"sa1"}, traces_;
-    std::vector<double> times_;
-    std::vector<MetadataText> facts_ = {{"title", "bench"}};
+    std::vector<std::string> trains_ = {"sa1"}, probe_names_;
+    std::vector<double> probe_times_;
+    std::vector<MetadataText> metadata_ = {{"title", "bench"}};
 
 public:
     explicit RandomSweep(std::int64_t items) : items_(items) {
@@ -51,9 +51,9 @@ public:
     const std::vector<SweepColumn>& axes() const override { return axes_; }
     const std::vector<SweepColumn>& measures() const override { return measures_; }
     const std::vector<std::string>& train_names() const override { return trains_; }
-    const std::vector<std::string>& probe_names() const override { return traces_; }
-    const std::vector<double>& probe_times() const override { return times_; }
-    const std::vector<MetadataText>& metadata() const override { return facts_; }
+    const std::vector<std::string>& probe_names() const override { return probe_names_; }
+    const std::vector<double>& probe_times() const override { return probe_times_; }
+    const std::vector<MetadataText>& metadata() const override { return metadata_; }
     std::vector<double> values(std::int64_t item) const override {
         std::vector<double> out(axes_.size());
         for (std::size_t k = 0; k < out.size(); ++k) out[k] = 1 / static_cast<double>(3 + item + static_cast<std::int64_t>(k));
@@ -87,26 +87,26 @@ int rows(std::int64_t items, const std::string& folder) {
     std::mt19937 random(1);
     double writing = 0, writing_wall = 0, packing = 0, unpacking = 0, at_tenth = 0;
     for (std::int64_t from = 0; from < items; from += batch) {
-        std::vector<ItemOutcome> outcomes, back;
+        std::vector<ItemOutcome> outcomes, decoded;
         for (std::int64_t k = from; k < std::min(items, from + batch); ++k) outcomes.push_back(sweep.outcome(k, random));
         auto start = processor();
         auto packed = rank_message(outcomes);
         packing += processor() - start, start = processor();
-        (void)decode_rank_message_type(packed), (void)decode_rank_message(packed, back);
+        (void)decode_rank_message_type(packed), (void)decode_rank_message(packed, decoded);
         unpacking += processor() - start, start = processor();
         const auto wall = Clock::now();
-        if (auto ok = results->add(sweep, std::move(back)); !ok) return fmt::print("{}\n", ok.error().text()), 1;
+        if (auto ok = results->add(sweep, std::move(decoded)); !ok) return fmt::print("{}\n", ok.error().text()), 1;
         writing += processor() - start, writing_wall += since(wall);
         if (at_tenth == 0 && from >= items / 10) at_tenth = memory_MB();
     }
     const auto start = Clock::now();
-    const auto folded = results->checkpoint();
+    const auto checkpoint_result = results->checkpoint();
     const auto n = static_cast<double>(items);
     fmt::print("{} rows: {:.2f} us of processor time per row, {:.2f} us of wall time ({:.0f} rows/s)\n", items, writing / n * 1e6,
                writing_wall / n * 1e6, n / writing_wall);
     fmt::print("packing an outcome {:.2f} us, unpacking it {:.2f} us of processor time\n", packing / n * 1e6, unpacking / n * 1e6);
     fmt::print("checkpoint in {:.2f} s{}: {:.0f} MB, {:.0f} bytes per row; memory {:.0f} MB after a tenth, {:.0f} MB at the end\n",
-               since(start), folded ? "" : " (failed)", static_cast<double>(std::filesystem::file_size(path)) / 1e6,
+               since(start), checkpoint_result ? "" : " (failed)", static_cast<double>(std::filesystem::file_size(path)) / 1e6,
                static_cast<double>(std::filesystem::file_size(path)) / n, at_tenth, memory_MB());
     run_query(*results, "SELECT count(*) FROM items");
     run_query(*results, "SELECT avg(measure3) * 1e6 FROM items");
@@ -120,32 +120,32 @@ int messages() {
     auto joined = Ranks::join();
     if (!joined) return fmt::print("{}\n", joined.error().text()), 1;
     auto& ranks = **joined;
-    const bool first = ranks.rank() == 0;
+    const bool is_first = ranks.rank() == 0;
     for (const std::size_t size : {16UL, 4096UL, 131072UL}) {
         constexpr int count = 20'000;
         const std::string text(size, 'x');
         const auto start = Clock::now();
-        double at_work = 0;
+        double busy = 0;
         const auto send = [&] {
             const auto before = processor();
-            ranks.send(first ? 1 : 0, text);
+            ranks.send(is_first ? 1 : 0, text);
             (void)ranks.unsent();
-            at_work += processor() - before;
+            busy += processor() - before;
         };
-        if (first) send();
+        if (is_first) send();
         for (int k = 0; k < count; ++k) {
             for (bool found = false; !found; (void)ranks.unsent()) {
                 const auto before = processor();
                 found = ranks.receive().has_value();
-                if (found) at_work += processor() - before;
+                if (found) busy += processor() - before;
             }
-            if (!first || k + 1 < count) send();
+            if (!is_first || k + 1 < count) send();
         }
         while (ranks.unsent() > 0) {
         }
-        if (first)
+        if (is_first)
             fmt::print("a message of {} bytes: {:.2f} us one way; {:.2f} us of rank 0's processor to receive one and send one\n", size,
-                       since(start) / count / 2 * 1e6, at_work / count * 1e6);
+                       since(start) / count / 2 * 1e6, busy / count * 1e6);
     }
     ranks.leave(true);
     return 0;

@@ -33,4 +33,4 @@ run(chips, "-j", "2")
 few = max(chips // 10, 8)
 one = run(few, "-j", "1", "--lanes", "8")
 for lanes in ("4", "1"):
-    assert run(few, "-j", "1", "--lanes", lanes) == one, "the answer depends on the lanes"
+    assert run(few, "-j", "1", "--lanes", lanes) == one, "the results depend on the number of lanes"

@@ -2,7 +2,7 @@
 //
 // Method: one NMOS of 1.5/0.5 um with every effect of the model enabled (velocity saturation, DIBL, Early voltage, junctions, overlaps), at
 // 512 random voltage points between -0.2 and 1 V. The data fit the first-level cache, and no branch is predictable. All results are summed.
-// A lane is one transistor at one point. Processor time; printed are median, minimum and maximum of 15 rounds of about 20 ms, for scalar
+// A lane is one transistor at one point. Output: median, minimum and maximum processor time of 15 rounds of about 20 ms, for scalar
 // code and for the SIMD lanes of each instruction set of this machine.
 
 #include <algorithm>
@@ -67,7 +67,7 @@ int main() {
     for (std::uint32_t n = 0; n < 4; ++n)
         for (std::size_t k = 0; k < count; ++k) v[n][k] = std::clamp(0.4 + 0.3 * normal(1, n, 0, k), -0.2, 1.0);
     const double* const points[4] = {v[0], v[1], v[2], v[3]};
-    measure("one", scalar_rounds, constants, points);
+    measure("scalar", scalar_rounds, constants, points);
     measure("baseline", test::baseline::uicm_evaluate_rounds, constants, points);
 #ifdef __x86_64__
     if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))

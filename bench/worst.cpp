@@ -4,9 +4,9 @@
 //
 // Method: chips with only mismatch, each under the press. The ranks of their spike counts are correlated with the two deviates of each
 // transistor (threshold, current), sampled again as in the chip. A transistor's contribution is the sum of both squares. The three with
-// the largest contributions get four times the area (W and L doubled), and the same chips run again. Printed are mean and deviation of the
-// spike count before and after, for each of the three alone and for all together; and the number of chips within FiringLimits::around the
-// model.
+// the largest contributions get four times the area (W and L doubled), and the same chips run again. Output: mean and standard deviation
+// of the spike count before and after, for each of the three alone and for all together; and the number of chips within
+// FiringLimits::around the model.
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -38,7 +38,7 @@ std::shared_ptr<const CircuitAfferentFactory> factory_of(const std::string& name
     return *factory;
 }
 
-Trains pressed(const std::shared_ptr<const CircuitAfferentFactory>& factory, const ChipSpec& chips, const ForceSignal& press) {
+Trains press_chips(const std::shared_ptr<const CircuitAfferentFactory>& factory, const ChipSpec& chips, const ForceSignal& press) {
     Trains out(static_cast<std::size_t>(chips.count));
     std::mutex guard;
     std::size_t next = 0;
@@ -81,7 +81,7 @@ double correlation(const std::vector<double>& a, const std::vector<double>& b) {
     return product(a, b) / std::sqrt(product(a, a) * product(b, b));
 }
 
-void print_statistics(const char* what, const Trains& trains, const FiringLimits& limits) {
+void print_statistics(const char* label, const Trains& trains, const FiringLimits& limits) {
     double sum = 0, squares = 0;
     long within = 0;
     for (const auto& t : trains) {
@@ -89,7 +89,7 @@ void print_statistics(const char* what, const Trains& trains, const FiringLimits
         sum += n, squares += n * n, within += limits.are_met(t);
     }
     const auto count = static_cast<double>(trains.size());
-    fmt::print("{:40} {:6.2f} spikes, deviation {:6.3f}; {} of {} chips are within the limits\n", what, sum / count,
+    fmt::print("{:40} {:6.2f} spikes, standard deviation {:6.3f}; {} of {} chips are within the limits\n", label, sum / count,
                std::sqrt(squares / count - sum * sum / count / count), within, trains.size());
     std::fflush(stdout);
 }
@@ -107,7 +107,7 @@ int main(int argc, char** argv) {
     fmt::print("{}: {}\n", netlist, limits.text());
 
     const auto designed = factory_of(netlist, {});
-    const auto before = pressed(designed, chips, press);
+    const auto before = press_chips(designed, chips, press);
     print_statistics("as designed", before, limits);
     std::vector<double> counts;
     for (const auto& t : before) counts.push_back(static_cast<double>(t.size()));
@@ -128,8 +128,8 @@ int main(int argc, char** argv) {
         if (e.letter != 'm') continue;
         std::vector<double> threshold, current;
         for (std::size_t k = 0; k < before.size(); ++k) {
-            const auto own = sample_mismatch(card, square, chips.seed, number, k);
-            threshold.push_back(own.V_T), current.push_back(std::log(own.factor));
+            const auto deviates = sample_mismatch(card, square, chips.seed, number, k);
+            threshold.push_back(deviates.V_T), current.push_back(std::log(deviates.factor));
         }
         contributions.push_back({&e, correlation(order, threshold), correlation(order, current)});
         ++number;
@@ -142,15 +142,18 @@ int main(int argc, char** argv) {
                    contributions[k].by_current);
     for (std::size_t k = 0; k < 3; ++k) {
         const auto& e = *contributions[k].device;
-        std::vector<NetlistOverride> own;
-        for (const char* side : {"w", "l"}) own.push_back({e.name + "." + side, fmt::format("{:.17g}", 2 * e.values.at(side)), e.name});
-        all.insert(all.end(), own.begin(), own.end());
-        print_statistics(fmt::format("{} four times as large", e.name).c_str(), pressed(factory_of(netlist, own), chips, press), limits);
+        std::vector<NetlistOverride> overrides;
+        for (const char* dimension : {"w", "l"})
+            overrides.push_back({e.name + "." + dimension, fmt::format("{:.17g}", 2 * e.values.at(dimension)), e.name});
+        all.insert(all.end(), overrides.begin(), overrides.end());
+        print_statistics(fmt::format("{} with four times the area", e.name).c_str(),
+                         press_chips(factory_of(netlist, overrides), chips, press), limits);
     }
     const auto larger = factory_of(netlist, all);
-    print_statistics("all three", pressed(larger, chips, press), limits);
-    const auto plain = [&](const std::shared_ptr<const CircuitAfferentFactory>& factory) {
+    print_statistics("all three", press_chips(larger, chips, press), limits);
+    const auto spikes_without_mismatch = [&](const std::shared_ptr<const CircuitAfferentFactory>& factory) {
         return run_chip_scalar({0, factory, {}, press.force, 1 / press.rate}, {}).spikes.size();
     };
-    fmt::print("without mismatch: {} spikes as designed, {} with all three\n", plain(designed), plain(larger));
+    fmt::print("without mismatch: {} spikes as designed, {} with all three\n", spikes_without_mismatch(designed),
+               spikes_without_mismatch(larger));
 }

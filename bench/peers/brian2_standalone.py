@@ -53,7 +53,7 @@ def step_of(name, folded, rectify):
 
 
 def constants(name, n):
-    """Parameters by their names in the step code, as variables of the group. Literals would be doubles among floats."""
+    """Parameters by their names in the step code, as variables of the group. Literals in the code would be doubles."""
     k = work.K
     return {"k": k, "k_A": work.K_A, "K_B": work.K_B, "K_C": work.K_C, "I_leak0": work.I_LEAK0, "keep_C": work.keep(work.F_C),
             "k_A_k": work.K_A * k, "K_B_k": work.K_B * k, "K_C_k": work.K_C * k, "leak_k": work.I_LEAK0 * k,
@@ -64,28 +64,28 @@ def forces(name, n, dtype):
     """Inputs of the afferents, as functions of time."""
     press = np.array(work.press(work.SAMPLES[name]))
     current = np.array(work.currents(list(press)))
-    felt = {"press": press, "change": np.diff(press, prepend=press[0]), "current": current, "current_k": current * work.K}
+    inputs = {"press": press, "change": np.diff(press, prepend=press[0]), "current": current, "current_k": current * work.K}
     if name == "streamed":
-        felt = {"frames": work.frames(n, work.SAMPLES[name], dtype)}
-    return {key: b2.TimedArray(value, dt=work.DT * b2.second) for key, value in felt.items()}
+        inputs = {"frames": work.frames(n, work.SAMPLES[name], dtype)}
+    return {key: b2.TimedArray(value, dt=work.DT * b2.second) for key, value in inputs.items()}
 
 
 def afferents(name, dtype, folded, n, rectify):
-    """The group, ready to run."""
-    values, felt = constants(name, n), forces(name, n, dtype)
+    """The NeuronGroup of a task, with its parameters, inputs and step."""
+    values, inputs = constants(name, n), forces(name, n, dtype)
     model = "".join(f"{key} : 1 (constant{', shared' if np.ndim(value) == 0 else ''})\n" for key, value in values.items())
     states = {"shared": ["u"], "own": ["u", "x_B", "x_C"], "streamed": ["u", "x_B", "x_C", "F", "F_before"]}[name]
     model += "".join(f"{key} : 1\n" for key in states)
     assert work.E_L == 0
     group = b2.NeuronGroup(n, model + "fired : integer", threshold="u > V_th", reset="u -= drop",
-                           namespace={"V_th": work.V_TH, "drop": work.DROP, **felt})
+                           namespace={"V_th": work.V_TH, "drop": work.DROP, **inputs})
     if name == "streamed":
         group.run_regularly(FETCH, order=-1)
     group.run_regularly(step_of(name, folded, rectify))
     for key, value in values.items():
         setattr(group, key, value)
     if name == "streamed":
-        group.F = felt["frames"].values[0]
+        group.F = inputs["frames"].values[0]
     return group
 
 
@@ -101,15 +101,15 @@ def monitor_of(kind, group, n):
     return [spikes], lambda: int(spikes.num_spikes)
 
 
-def build(name, dtype, form, words, directory):
+def build(name, dtype, form, options, directory):
     """Builds the program in the directory and runs it once. Returns the number of spikes."""
     b2.device.reinit()
     b2.set_device("cpp_standalone", build_on_run=False)
     b2.prefs.core.default_float_dtype = np.dtype(dtype).type
-    b2.prefs.codegen.cpp.extra_compile_args_gcc = FLAGS.get(words.flags, words.flags).split()
+    b2.prefs.codegen.cpp.extra_compile_args_gcc = FLAGS.get(options.flags, options.flags).split()
     b2.defaultclock.dt = work.DT * b2.second
-    group = afferents(name, np.dtype(dtype).type, form == "folded", words.n, words.rectify)
-    monitor, count = monitor_of(words.monitor, group, words.n)
+    group = afferents(name, np.dtype(dtype).type, form == "folded", options.n, options.rectify)
+    monitor, count = monitor_of(options.monitor, group, options.n)
     net = b2.Network(group, *monitor)
     net.run(len(work.SAMPLES[name]) * work.DT * b2.second)
     b2.device.build(directory=directory, compile=True, run=True, with_output=False)
@@ -123,14 +123,14 @@ def run(directory):
 
 
 def main():
-    words = work.arguments(form=["as-written", "folded"], flags="unrolled", monitor="spikes", rectify="clip")
+    options = work.arguments(form=["as-written", "folded"], flags="unrolled", monitor="spikes", rectify="clip")
     print(work.machine())
-    for name, dtype, form in words.works:
+    for name, dtype, form in options.works:
         with tempfile.TemporaryDirectory() as directory:
-            spikes = build(name, dtype, form, words, directory)
-            seconds = [run(directory) for _ in range(words.runs)]
-        how = f"{form}, {words.rectify}, monitor: {words.monitor}, {FLAGS.get(words.flags, words.flags)}"
-        work.tell(f"brian2 {b2.__version__}", name, dtype, how, words.n, seconds, spikes)
+            spikes = build(name, dtype, form, options, directory)
+            seconds = [run(directory) for _ in range(options.runs)]
+        how = f"{form}, {options.rectify}, monitor: {options.monitor}, {FLAGS.get(options.flags, options.flags)}"
+        work.report(f"brian2 {b2.__version__}", name, dtype, how, options.n, seconds, spikes)
 
 
 if __name__ == "__main__":

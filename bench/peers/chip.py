@@ -4,7 +4,7 @@
     chip.py CORPUSCLE CHIP_CIR [--until SECONDS] [--rounds N] [--keep DIR]
 
 Method: `corpuscle run` simulates the netlist N times with its default accuracy, and once with tolerances a hundred times tighter as the
-reference for the spikes. Printed are the fastest and the median, in processor seconds of complete processes. Then ngspice runs once on
+reference for the spikes. Output: the fastest and the median, in processor seconds of complete processes. Then ngspice runs once on
 the netlist as exported by `corpuscle export` (the same transistors as expressions, the force as a piecewise linear source), up to SECONDS
 of the press. It uses Corpuscle's tolerances instead of the much tighter ones of the deck. Corpuscle runs again up to the same time. A
 spike is an upward crossing of half the supply by v(s), interpolated linearly between two points. One core each, in sequence.
@@ -85,32 +85,32 @@ def row(name, run):
 
 
 def main():
-    words = argparse.ArgumentParser()
-    words.add_argument("corpuscle")
-    words.add_argument("chip", type=Path)
-    words.add_argument("--until", type=float, default=0.332, help="of the press, for ngspice, s")
-    words.add_argument("--rounds", type=int, default=7)
-    words.add_argument("--keep", type=Path)
-    given = words.parse_args()
+    parser = argparse.ArgumentParser()
+    parser.add_argument("corpuscle")
+    parser.add_argument("chip", type=Path)
+    parser.add_argument("--until", type=float, default=0.332, help="seconds of the press that ngspice simulates")
+    parser.add_argument("--rounds", type=int, default=7)
+    parser.add_argument("--keep", type=Path)
+    options = parser.parse_args()
     with tempfile.TemporaryDirectory() as scratch:
-        folder = given.keep or Path(scratch)
+        folder = options.keep or Path(scratch)
         folder.mkdir(parents=True, exist_ok=True)
-        chip = Chip(given.corpuscle, given.chip, folder)
-        print(f"{given.chip.stem} under the press\n" + " " * 32 + "cpu   steps rejected iterations  us each  spikes")
-        rounds = sorted((chip.ours("default", 1) for _ in range(given.rounds)), key=lambda run: run[0])
+        chip = Chip(options.corpuscle, options.chip, folder)
+        print(f"{options.chip.stem} under the press\n" + " " * 32 + "cpu   steps rejected iterations  us each  spikes")
+        rounds = sorted((chip.ours("default", 1) for _ in range(options.rounds)), key=lambda run: run[0])
         middle = statistics.median(run[0] for run in rounds)
         row("corpuscle, 1 s of touch", rounds[0])
-        print(f"{'':<26}{middle:9.3f} s is the median of {given.rounds} rounds")
+        print(f"{'':<26}{middle:9.3f} s is the median of {options.rounds} rounds")
         tight = chip.ours("tight", 1, "reltol=1e-7 vntol=1e-8")
         row("a hundredth of reltol", tight)
         worst = max((abs(a - b) for a, b in zip(rounds[0][2], tight[2])), default=float("nan"))
-        same = "as many" if len(rounds[0][2]) == len(tight[2]) else "NOT as many"
+        same = "the same number of" if len(rounds[0][2]) == len(tight[2]) else "NOT the same number of"
         print(f"{'':<26}{same} spikes, largest difference {1e6 * worst:.0f} us")
-        mine, peer = chip.ours("part", given.until), chip.theirs(given.until)
-        row(f"corpuscle, {given.until:g} s of it", mine)
-        row(f"ngspice, {given.until:g} s of it", peer)
+        mine, peer = chip.ours("part", options.until), chip.theirs(options.until)
+        row(f"corpuscle, {options.until:g} s", mine)
+        row(f"ngspice, {options.until:g} s", peer)
         off = max((abs(a - b) for a, b in zip(mine[2], peer[2])), default=float("nan"))
-        print(f"{'':<26}ngspice over ours: whole {peer[0] / mine[0]:.0f}, an iteration "
+        print(f"{'':<26}ngspice over ours: total {peer[0] / mine[0]:.0f}, per iteration "
               f"{peer[0] / peer[1][2] / (mine[0] / mine[1][2]):.0f}; spikes {1e6 * off:.0f} us apart")
 
 

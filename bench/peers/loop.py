@@ -102,7 +102,7 @@ def timed(command):
         return used.ru_utime + used.ru_stime
     start, before = time.perf_counter(), processor()
     try:
-        ran = subprocess.run(command, capture_output=True, text=True, timeout=at_most)
+        ran = subprocess.run(command, capture_output=True, text=True, timeout=time_limit)
     except subprocess.TimeoutExpired:
         return None, None
     return (time.perf_counter() - start, processor() - before), ran.stdout + ran.stderr
@@ -110,7 +110,7 @@ def timed(command):
 
 def row(name, seconds, numbers, raw):
     if seconds is None:
-        print(f"{name:<18} not finished in {at_most:g} s")
+        print(f"{name:<18} not finished in {time_limit:g} s")
         return None
     steps, rejected, iterations = numbers
     found = spikes(raw)
@@ -151,8 +151,9 @@ def main():
         for model in ("uicm", "bsim3"):
             peer = theirs(model, text, folder)
             if mine and peer:
-                print(f"{'':<18}ngspice over ours: whole {peer[0] / mine[0]:.1f}, an iteration {peer[1] / mine[1]:.1f}, a spike {peer[2] / mine[2]:.1f}")
+                print(f"{'':<18}ngspice over ours: total {peer[0] / mine[0]:.1f}, per iteration {peer[1] / mine[1]:.1f}, "
+                      f"per spike {peer[2] / mine[2]:.1f}")
 
 
-at_most = float(sys.argv[3]) if len(sys.argv) > 3 and not sys.argv[3].startswith("-") else 300.0
+time_limit = float(sys.argv[3]) if len(sys.argv) > 3 and not sys.argv[3].startswith("-") else 300.0
 main()

@@ -37,7 +37,7 @@ class Task:
 
 
 def shared(task, rows):
-    """Returns a function that computes the increase of u in a step (before E_L) for the afferents `rows`, in a reused array."""
+    """Returns a function that computes the increase of u in a step (before E_L) for a slice `rows` of afferents, in a reused array."""
     c, g = task.c, task.g[rows]
     du = np.empty_like(g)
     I = [task.dtype(I * work.K if task.folded else I) for I in work.currents(task.press)]
@@ -119,7 +119,9 @@ def streamed(task, rows):
 
 
 def fire(task, rows, rise, watched):
-    """Computes all steps of the afferents `rows`; returns their spikes as (step, first row, rows that fired)."""
+    """Computes all steps of the afferents `rows`; returns their spikes as (step, first row, rows that fired).
+
+    `watched`: checks that no afferent fires twice in a step."""
     c, spikes = task.c, []
     u, over = np.full(rows.stop - rows.start, c.E_L), np.empty(rows.stop - rows.start, bool)
     for step in range(len(task.press)):
@@ -149,15 +151,15 @@ def count(spikes):
 
 
 def main():
-    words = work.arguments(form=["as-written", "folded"], block=0)
+    options = work.arguments(form=["as-written", "folded"], block=0)
     print(work.machine())
-    for name, dtype, form in words.works:
-        task = Task(name, np.dtype(dtype).type, form, words.n)
-        block = words.block or 2**18 // task.g.itemsize
+    for name, dtype, form in options.works:
+        task = Task(name, np.dtype(dtype).type, form, options.n)
+        block = options.block or 2**18 // task.g.itemsize
         total = count(run(task, block, watched=True)[1])
-        runs = [run(task, block) for _ in range(words.runs)]
+        runs = [run(task, block) for _ in range(options.runs)]
         assert all(count(spikes) == total for _, spikes in runs)
-        work.tell(f"numpy {np.__version__}", name, dtype, f"{form}, blocks of {block}", words.n, [s for s, _ in runs], total)
+        work.report(f"numpy {np.__version__}", name, dtype, f"{form}, blocks of {block}", options.n, [s for s, _ in runs], total)
 
 
 if __name__ == "__main__":

@@ -41,6 +41,7 @@ def respond(program, recording, out, options):
 
 
 def by_program(program, name, directory):
+    """The program's spike trains in a task."""
     recording = Path(directory) / "force.npy"
     np.save(recording, work.frames(N, work.SAMPLES[name], np.float64))
     if name != "own":

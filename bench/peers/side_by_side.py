@@ -1,9 +1,9 @@
 """How many times faster than NumPy and Brian2 is a population, for the tasks of work.py?
 
 Method: everything is built first. Each round then runs in sequence: Corpuscle once, NumPy once and Brian2 once, the latter two in both of
-their forms. A drift of the machine's speed therefore affects all alike. In each round Corpuscle's rate is divided by the fastest of the
-others. Printed are the medians of the rates and of that ratio, with its minimum and maximum. Spike totals in double must be equal, or the
-status is 1. The methods are described in numpy_in_place.py, brian2_standalone.py and ../population.cpp.
+their forms. A drift of the machine's speed therefore affects all of them equally. In each round Corpuscle's rate is divided by the
+fastest of the others. Output: the medians of the rates and of that ratio, with its minimum and maximum. Spike totals in double must be
+equal, or the status is 1. The methods are described in numpy_in_place.py, brian2_standalone.py and ../population.cpp.
 
     side_by_side.py build/release/bench-population [--work shared ...] [--dtype float32 ...] [--runs 5]
 """
@@ -32,34 +32,35 @@ def ours(program, name, dtype, n):
 
 
 def of_numpy(name, dtype, form, n):
-    """A function that runs it once and returns its time (s); and its spikes."""
+    """A function that runs the task once and returns its time (s); and its number of spikes."""
     task = numpy_in_place.Task(name, np.dtype(dtype).type, form, n)
     block = 2**18 // task.g.itemsize
     return lambda: numpy_in_place.run(task, block)[0], numpy_in_place.count(numpy_in_place.run(task, block)[1])
 
 
-def of_brian2(name, dtype, form, words, directory):
-    spikes = brian2_standalone.build(name, dtype, form, words, directory)
+def of_brian2(name, dtype, form, options, directory):
+    spikes = brian2_standalone.build(name, dtype, form, options, directory)
     return lambda: brian2_standalone.run(directory), spikes
 
 
-def compare(program, name, dtype, words):
-    """Prints a line. Returns True if all spike counts are equal, in double."""
+def compare(program, name, dtype, options):
+    """Measures one task and prints a line. Returns True if all spike counts are equal, in double."""
     with tempfile.TemporaryDirectory() as top:
-        peers = {("numpy", form): of_numpy(name, dtype, form, words.n) for form in FORMS}
-        peers |= {("brian2", form): of_brian2(name, dtype, form, words, f"{top}/{form}") for form in FORMS}
-        taken, ratios, spikes = {key: [] for key in ["ours", *peers]}, [], 0
-        for _ in range(words.runs):
-            seconds, spikes = ours(program, name, dtype, words.n)
-            taken["ours"].append(seconds)
+        peers = {("numpy", form): of_numpy(name, dtype, form, options.n) for form in FORMS}
+        peers |= {("brian2", form): of_brian2(name, dtype, form, options, f"{top}/{form}") for form in FORMS}
+        elapsed, ratios, spikes = {key: [] for key in ["ours", *peers]}, [], 0
+        for _ in range(options.runs):
+            seconds, spikes = ours(program, name, dtype, options.n)
+            elapsed["ours"].append(seconds)
             for key, (run, _) in peers.items():
-                taken[key].append(run())
-            ratios.append(min(taken[key][-1] for key in peers) / seconds)
-    steps = words.n * len(work.SAMPLES[name])
-    best = {who: max(steps / statistics.median(taken[key]) for key in taken if key == who or key[0] == who) for who in ("ours", "numpy", "brian2")}
-    rates = "  ".join(f"{who} {rate / 1e6:6.0f}" for who, rate in best.items())
+                elapsed[key].append(run())
+            ratios.append(min(elapsed[key][-1] for key in peers) / seconds)
+    steps = options.n * len(work.SAMPLES[name])
+    best = {peer: max(steps / statistics.median(elapsed[key]) for key in elapsed if key == peer or key[0] == peer)
+            for peer in ("ours", "numpy", "brian2")}
+    rates = "  ".join(f"{peer} {rate / 1e6:6.0f}" for peer, rate in best.items())
     print(f"{name:9}{dtype:8} {rates}  M afferent-steps/s   {statistics.median(ratios):.1f} times the faster ({min(ratios):.1f} to {max(ratios):.1f},"
-          f" {words.runs} rounds)   {spikes} spikes", flush=True)
+          f" {options.runs} rounds)   {spikes} spikes", flush=True)
     same = dtype != "float64" or all(found == spikes for _, found in peers.values())
     if not same:
         print(f"  not the same work: {[(*key, found) for key, (_, found) in peers.items()]}")
@@ -68,11 +69,11 @@ def compare(program, name, dtype, words):
 
 def main():
     program = sys.argv.pop(1)
-    words = work.arguments(form=FORMS)
-    words = SimpleNamespace(**vars(words), flags="unrolled", monitor="spikes", rectify="clip")
+    options = work.arguments(form=FORMS)
+    options = SimpleNamespace(**vars(options), flags="unrolled", monitor="spikes", rectify="clip")
     print(work.machine())
-    pairs = dict.fromkeys((name, dtype) for name, dtype, _ in words.works)
-    same = [compare(program, name, dtype, words) for name, dtype in pairs]
+    pairs = dict.fromkeys((name, dtype) for name, dtype, _ in options.works)
+    same = [compare(program, name, dtype, options) for name, dtype in pairs]
     sys.exit(0 if all(same) else 1)
 
 

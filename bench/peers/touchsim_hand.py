@@ -5,7 +5,7 @@
 
 Method: the parts of a round run in sequence, each in its own process on one core. Corpuscle runs `corpuscle respond stroke --population
 hand` for its 10 s. TouchSim runs for the first S seconds, once with all afferents together (its usual call) and once with UNITS at a time
-(smaller arrays need less cache and memory). Printed are medians, and minimum and maximum of the ratios. Corpuscle's time is that of the
+(smaller arrays need less cache and memory). Output: medians, and minimum and maximum of the ratios. Corpuscle's time is that of the
 complete command, which builds the hand, simulates and writes its files. TouchSim's time is only that of Stimulus() and response(); its
 import (with numba's compilation), its afferents and a first small run are listed separately. Peak memory is that of complete processes;
 TouchSim's memory before its start is listed, too.
@@ -37,7 +37,7 @@ CLASSES = {"sa1": "SA1", "fa1": "RA", "fa2": "PC"}
 ONE_CORE = {f"{who}_NUM_THREADS": "1" for who in ("NUMBA", "OPENBLAS", "OMP", "MKL")}
 
 
-def ran(command):
+def run_process(command):
     """Processor and wall seconds, peak memory (MB) and output of a process."""
     began = time.perf_counter()
     with tempfile.TemporaryFile("w+") as printed:
@@ -50,31 +50,32 @@ def ran(command):
         return used.ru_utime + used.ru_stime, time.perf_counter() - began, used.ru_maxrss / 1024, printed.read()
 
 
-def touchsim(folder, given):
+def touchsim(folder, options):
     """Runs TouchSim with the stroke recorded in Corpuscle's output folder, in its own process, which prints its resource use as JSON."""
     warnings.simplefilter("ignore")
     import numpy as np
     import touchsim as ts
     p = {name: parameter["value"] for name, parameter in json.loads((folder / "summary.json").read_text())["input"]["parameters"].items()}
-    R, E, t = 1e3 * p["contact.radius"], 1e-6 * p["contact.E_star"], np.arange(round(given.seconds * given.rate)) / given.rate  # mm, MPa, s
+    R, E = 1e3 * p["contact.radius"], 1e-6 * p["contact.E_star"]  # mm, MPa
+    t = np.arange(round(options.seconds * options.rate)) / options.rate  # s
     depth = np.cbrt(9 * (p["ramp-hold.F_max"] * np.minimum(1, t / p["ramp-hold.t_up"])) ** 2 / (16 * R * E**2))
     start, end = (1e3 * np.array([p["contact.x" + n], p["contact.y" + n]]) for n in ("", "1"))
     path = start + np.outer(t / p["contact.t_move"], end - start)
-    low, high = ((path.min(0), path.max(0)) + np.sqrt(2 * R * depth.max()) * np.array([[-1], [1]])) // given.pitch
+    low, high = ((path.min(0), path.max(0)) + np.sqrt(2 * R * depth.max()) * np.array([[-1], [1]])) // options.pitch
     lattice = np.meshgrid(np.arange(low[0], high[0] + 1), np.arange(low[1], high[1] + 1))
-    pins = given.pitch * (np.stack(lattice, -1).reshape(-1, 2) + 0.5)
-    sunk = np.maximum(0, depth - ((pins[:, None] - path) ** 2).sum(-1) / (2 * R))
-    pins, sunk = pins[sunk.any(1)], sunk[sunk.any(1)]
+    pins = options.pitch * (np.stack(lattice, -1).reshape(-1, 2) + 0.5)
+    indentation = np.maximum(0, depth - ((pins[:, None] - path) ** 2).sum(-1) / (2 * R))
+    pins, indentation = pins[indentation.any(1)], indentation[indentation.any(1)]
     random.seed(0)  # TouchSim chooses each afferent at random from its few fitted ones
     units = [(u["afferent"].split("#")[0], float(u["x_mm"]), float(u["y_mm"])) for u in csv.DictReader((folder / "afferents.csv").open())]
-    skin = ts.AfferentPopulation(*[ts.Afferent(CLASSES[c], location=[x, y], noisy=given.noise) for c, x, y in units if c in CLASSES])
+    skin = ts.AfferentPopulation(*[ts.Afferent(CLASSES[c], location=[x, y], noisy=options.noise) for c, x, y in units if c in CLASSES])
 
     def respond(skin, samples):
-        stroke = ts.Stimulus(trace=sunk[:, :samples], location=pins, fs=given.rate, pin_radius=given.pitch / 2)
-        part = given.part or len(skin)
+        stroke = ts.Stimulus(trace=indentation[:, :samples], location=pins, fs=options.rate, pin_radius=options.pitch / 2)
+        part = options.part or len(skin)
         return stroke, [train for k in range(0, len(skin), part) for train in skin[k:k + part].response(stroke).spikes]
 
-    respond(skin[:100], round(0.1 * given.rate))
+    respond(skin[:100], round(0.1 * options.rate))
     before, real = resource.getrusage(resource.RUSAGE_SELF), time.perf_counter()
     stroke, trains = respond(skin, t.size)
     after, real = resource.getrusage(resource.RUSAGE_SELF), time.perf_counter() - real
@@ -86,9 +87,9 @@ def touchsim(folder, given):
         spikes, off = sum(k for k, _ in fired), np.median([d for _, d in fired] or [0])
         fired_by_class.append(f"{c} {spikes} spikes of {len(fired)} units, half of these within {off:.0f} mm")
     print(json.dumps({
-        "cpu": (user + kernel) / given.seconds, "kernel": kernel / given.seconds, "real": real / given.seconds,
+        "cpu": (user + kernel) / options.seconds, "kernel": kernel / options.seconds, "real": real / options.seconds,
         "units": len(skin), "steps": 5000 * len(skin),
-        "spikes": sum(map(len, trains)) / given.seconds, "apart": before.ru_utime + before.ru_stime, "before": before.ru_maxrss / 1024,
+        "spikes": sum(map(len, trains)) / options.seconds, "apart": before.ru_utime + before.ru_stime, "before": before.ru_maxrss / 1024,
         "pressed": f"{len(pins)} pins, up to {depth.max():.2f} mm deep, {np.median(stroke._profile.sum(1)):.2f} N by its mechanics",
         "fired": "; ".join(fired_by_class)}))
 
@@ -103,39 +104,39 @@ def row(who, runs):
 
 
 def main():
-    words = argparse.ArgumentParser()
-    words.add_argument("corpuscle")
-    words.add_argument("--rounds", type=int, default=5)
-    words.add_argument("--seconds", type=float, default=1, help="seconds of the stroke for TouchSim, whose memory use grows with them")
-    words.add_argument("--rate", type=float, default=1000, help="sampling rate of both, Hz")
-    words.add_argument("--pitch", type=float, default=2, help="distance of TouchSim's pins, mm")
-    words.add_argument("--part", type=int, default=100, help="number of TouchSim afferents at a time")
-    words.add_argument("--noise", action="store_true", help="simulate TouchSim's noise")
-    words.add_argument("--within", type=Path, help=argparse.SUPPRESS)
-    given = words.parse_args()
-    if given.within:
-        return touchsim(given.within, given)
+    parser = argparse.ArgumentParser()
+    parser.add_argument("corpuscle")
+    parser.add_argument("--rounds", type=int, default=5)
+    parser.add_argument("--seconds", type=float, default=1, help="seconds of the stroke for TouchSim, whose memory use grows with them")
+    parser.add_argument("--rate", type=float, default=1000, help="sampling rate of both, Hz")
+    parser.add_argument("--pitch", type=float, default=2, help="distance of TouchSim's pins, mm")
+    parser.add_argument("--part", type=int, default=100, help="number of TouchSim afferents at a time")
+    parser.add_argument("--noise", action="store_true", help="simulate TouchSim's noise")
+    parser.add_argument("--within", type=Path, help=argparse.SUPPRESS)
+    options = parser.parse_args()
+    if options.within:
+        return touchsim(options.within, options)
     there = importlib.util.find_spec("touchsim") is not None
-    ours, theirs = [], {0: [], given.part: []}
+    ours, theirs = [], {0: [], options.part: []}
     with tempfile.TemporaryDirectory() as scratch:
         folder = Path(scratch)
-        for _ in range(given.rounds):
-            stroke = ["respond", "stroke", "--population", "hand", "--rate", given.rate, "--threads", 1, "--quiet", "--out", folder]
-            cpu, real, peak, _ = ran([given.corpuscle, *stroke])
+        for _ in range(options.rounds):
+            stroke = ["respond", "stroke", "--population", "hand", "--rate", options.rate, "--threads", 1, "--quiet", "--out", folder]
+            cpu, real, peak, _ = run_process([options.corpuscle, *stroke])
             summary = json.loads((folder / "summary.json").read_text())
             work, s = summary["work"], summary["input"]["samples"] / summary["input"]["rate_Hz"]
             ours.append({"cpu": cpu / s, "real": real / s, "peak": peak, "units": summary["skin"]["afferents"], "spikes": work["spikes"] / s,
                          "steps": (work["afferent_steps"] + work["at_rest"]) / s, "worked": work["afferent_steps"] / s})
             for part, runs in theirs.items() if there else ():
-                same = [word for name in ("seconds", "rate", "pitch") for word in ("--" + name, getattr(given, name))]
-                same += ["--noise"] * given.noise
-                _, _, peak, printed = ran([sys.executable, __file__, given.corpuscle, "--within", folder, "--part", part, *same])
+                same = [word for name in ("seconds", "rate", "pitch") for word in ("--" + name, getattr(options, name))]
+                same += ["--noise"] * options.noise
+                _, _, peak, printed = run_process([sys.executable, __file__, options.corpuscle, "--within", folder, "--part", part, *same])
                 runs.append(json.loads(printed) | {"peak": peak})
         spikes = csv.DictReader((folder / "spikes.csv").open())
-        first = [u["afferent"].split("#")[0] for u in spikes if float(u["time_s"]) < given.seconds]
-    print("one core, of a second of touch         cpu s   real s  peak MB   units     steps   spikes")
+        first = [u["afferent"].split("#")[0] for u in spikes if float(u["time_s"]) < options.seconds]
+    print("one core, per second of touch          cpu s   real s  peak MB   units     steps   spikes")
     row("corpuscle, a stroke over the hand", ours)
-    print(f"    {ours[0]['worked']:.2g} steps computed, the others skipped; in the first {given.seconds:g} s "
+    print(f"    {ours[0]['worked']:.2g} steps computed, the others skipped; in the first {options.seconds:g} s "
           + ", ".join(f"{name} {first.count(name)}" for name in sorted(set(first))) + " spikes")
     if not there:
         print("TouchSim is not installed: pip install git+https://github.com/hsaal/touchsim, or add a checkout to PYTHONPATH.")
@@ -143,10 +144,10 @@ def main():
         row("TouchSim, " + (f"{part} units at a time" if part else "all units at once"), runs)
         m, ratios = middle(runs), [run["cpu"] / mine["cpu"] for run, mine in zip(runs, ours)]
         print(f"    {m['kernel']:.1f} s of it in the kernel; before its start {m['apart']:.1f} s and {m['before']:.0f} MB")
-        print(f"    over ours: processor {statistics.median(ratios):.0f} ({min(ratios):.0f} to {max(ratios):.0f}, {given.rounds} rounds), "
-              f"memory {m['peak'] / middle(ours)['peak']:.1f}")
+        print(f"    over ours: processor {statistics.median(ratios):.0f} ({min(ratios):.0f} to {max(ratios):.0f}, "
+              f"{options.rounds} rounds), memory {m['peak'] / middle(ours)['peak']:.1f}")
     if there:
-        print(f"under TouchSim {m['pressed']}; from the path:\n    {m['fired']}")
+        print(f"TouchSim: {m['pressed']}; distances from the path:\n    {m['fired']}")
 
 
 main()

@@ -61,16 +61,17 @@ def press(samples):
 
 
 def keep(f):
-    """Both constants of a high-pass with cutoff f (Hz) in backward Euler."""
+    """The factor `keep` of a high-pass with cutoff f (Hz) in backward Euler."""
     return 1.0 / (1.0 + f * (6.283185307179586 * DT))
 
 
 def between(low, high, n):
-    """n values from low to high."""
+    """n equally spaced values from low to high."""
     return low + (high - low) * numpy.arange(n) / max(n - 1, 1)
 
 
 def gains(n):
+    """Factor g_i of each afferent's force."""
     return between(0.5, 1.0, n)
 
 
@@ -107,12 +108,12 @@ def arguments(form, **more):
     parser.add_argument("--runs", type=int, default=5)
     for name, value in more.items():
         parser.add_argument(f"--{name}", type=type(value), default=value)
-    words = parser.parse_args()
-    words.works = list(itertools.product(words.work, words.dtype, words.form))
-    return words
+    options = parser.parse_args()
+    options.works = list(itertools.product(options.work, options.dtype, options.form))
+    return options
 
 
-def tell(peer, work, dtype, form, n, seconds, spikes):
+def report(peer, work, dtype, form, n, seconds, spikes):
     """Prints one measurement as text and as JSON. `seconds` has the time of each run."""
     steps, median = len(SAMPLES[work]), statistics.median(seconds)
     rate, spread = n * steps / median, (max(seconds) - min(seconds)) / median

@@ -10,7 +10,7 @@ namespace corpuscle::studies::bias_spread {
 
 using namespace bias_chips;
 
-/// Variance of V_Q and I_Q caused by a group, to first order: each device's threshold and current is shifted separately.
+/// Variance of V_Q (V^2) and I_Q (A^2) caused by a group, to first order: each device's threshold and current is shifted separately.
 struct Variance {
     double V = 0, I = 0;
 };
@@ -20,26 +20,28 @@ struct Group {
     Variance variance = {};
 };
 
-Result<void> add_variance(Group& group, const circuit::Circuit& c, const NetlistResult& rest) {
-    constexpr double threshold = 1e-4, current = 1e-3;  // V; relative
+Result<void> add_variance(Group& group, const circuit::Circuit& c, const NetlistResult& nominal) {
+    constexpr double threshold_shift = 1e-4, current_change = 1e-3;  // V; relative
     for (const char* device : group.devices) {
         const auto k = static_cast<std::size_t>(c.find_element(device));
         const double sqrt_area = std::sqrt(channel_area(c.elements[k]));
-        const double by_V = model_parameter(c, k, "avt") / sqrt_area / threshold, by_I = model_parameter(c, k, "ais") / sqrt_area / current;
-        for (const auto& [setting, deviations] :
-             {std::pair{fmt::format("{}.delvto={}", device, threshold), by_V}, {fmt::format("{}.mulu0={}", device, 1 + current), by_I}}) {
+        // standard deviations of the mismatch, in units of the shifts
+        const double threshold_sigma = model_parameter(c, k, "avt") / sqrt_area / threshold_shift,
+                     current_sigma = model_parameter(c, k, "ais") / sqrt_area / current_change;
+        for (const auto& [setting, sigma] : {std::pair{fmt::format("{}.delvto={}", device, threshold_shift), threshold_sigma},
+                                             {fmt::format("{}.mulu0={}", device, 1 + current_change), current_sigma}}) {
             const auto shifted = run_study_netlist({"bias", {setting}, ".op"});
             if (!shifted) return shifted.error();
-            group.variance.V += std::pow((shifted->operating_point("v(q)") - rest.operating_point("v(q)")) * deviations, 2);
-            group.variance.I += std::pow((shifted->operating_point("i(vis)") - rest.operating_point("i(vis)")) * deviations, 2);
+            group.variance.V += std::pow((shifted->operating_point("v(q)") - nominal.operating_point("v(q)")) * sigma, 2);
+            group.variance.I += std::pow((shifted->operating_point("i(vis)") - nominal.operating_point("i(vis)")) * sigma, 2);
         }
     }
     return {};
 }
 
 Result<void> claim_contributions(StudyResult& out, const circuit::Circuit& c) {
-    const auto rest = run_study_netlist({"bias", {}, ".op"});
-    if (!rest) return rest.error();
+    const auto nominal = run_study_netlist({"bias", {}, ".op"});
+    if (!nominal) return nominal.error();
     Group groups[] = {{"divider M1A-M2B", {"m1a", "m2a", "m1b", "m2b"}},
                       {"current mirror M3A, M3B", {"m3a", "m3b"}},
                       {"M4A, which sets BN", {"m4a"}},
@@ -47,11 +49,12 @@ Result<void> claim_contributions(StudyResult& out, const circuit::Circuit& c) {
                       {"replica M4C, M5B", {"m4c", "m5b"}}};
     Variance total;
     for (auto& group : groups) {
-        if (auto ok = add_variance(group, c, *rest); !ok) return ok;
+        if (auto ok = add_variance(group, c, *nominal); !ok) return ok;
         total.V += group.variance.V, total.I += group.variance.I;
     }
-    out.claim("biasing, mismatch to first order: standard deviation of V_Q", 100 * std::sqrt(total.V) / rest->operating_point("v(q)"), "%");
-    out.claim("biasing, mismatch to first order: standard deviation of I_Q", 100 * std::sqrt(total.I) / rest->operating_point("i(vis)"),
+    out.claim("biasing, mismatch to first order: standard deviation of V_Q", 100 * std::sqrt(total.V) / nominal->operating_point("v(q)"),
+              "%");
+    out.claim("biasing, mismatch to first order: standard deviation of I_Q", 100 * std::sqrt(total.I) / nominal->operating_point("i(vis)"),
               "%");
     for (const auto& group : groups) {
         out.claim(fmt::format("contribution to the variance of V_Q, {}", group.name), 100 * group.variance.V / total.V, "%");
@@ -68,8 +71,8 @@ Result<void> claim_bulk_connections(StudyResult& out, const Chips& nominal) {
                       .published_as(inverter_cases[1].V[1].percent, "table 17");
         if (c.needs_explanation())
             c.explain(
-                "closer than as built; the divider adds spread for every bulk connection that fig. 52 allows, and fig. 52 does not show "
-                "its bulks");
+                "closer than the circuit as built. Fig. 52 does not show the bulks of the divider, and the divider adds spread for every "
+                "bulk connection that the figure allows");
     };
     const double mean = sample_statistics(nominal, "v(q)").mean;
     out.claim("biasing, mismatch, each bulk of the divider at its source, as built: standard deviation of V_Q relative to V_REF",
@@ -100,12 +103,12 @@ void claim_early(StudyResult& out, const Chips& chips) {
     const auto fit = points.fit_line();
     const auto V_BN = sample_statistics(points.x), I_Q = sample_statistics(points.y);
     out.claim("biasing, process: standard deviation of V_BN", V_BN.standard_deviation, "V");
-    out.claim("I_Q falls as V_BN rises, by an Early voltage of", -1 / fit.slope, "V");
-    out.claim("contribution of that to the variance of I_Q",
+    out.claim("biasing, process: Early voltage with which I_Q falls as V_BN rises", -1 / fit.slope, "V");
+    out.claim("biasing, process: contribution of this fall to the variance of I_Q",
               100 * std::pow(fit.slope * V_BN.standard_deviation / I_Q.standard_deviation, 2), "%");
 }
 
-Result<StudyResult> work(const StudyOptions& options) {
+Result<StudyResult> compute(const StudyOptions& options) {
     StudyResult out;
     const auto circuit = elaborate_study_netlist({"bias"});
     if (!circuit) return circuit.error();
@@ -121,6 +124,6 @@ Result<StudyResult> work(const StudyOptions& options) {
 
 const Study study{"bias-spread", "Sources of the bias generator's spread",
                   "Which transistors cause the spread of V_Q and I_Q in tables 17 and 18, and what does fig. 52 leave open? Thesis E.2",
-                  work};
+                  compute};
 
 }  // namespace corpuscle::studies::bias_spread

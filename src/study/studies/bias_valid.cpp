@@ -15,7 +15,7 @@ using Range = BiasSweep::Range;
 /// A published range; fractions of a current range are in decades.
 struct PublishedRange {
     BiasAxis axis;
-    const char *name, *unit, *sweep;
+    const char *name, *unit, *sweep;  ///< sweep: from, to, step
     double typical[2], corners[2];
 };
 constexpr PublishedRange published_ranges[] = {
@@ -39,7 +39,8 @@ std::string range_text(const PublishedRange& p, const Range& r) {
     return fmt::format("{} to {}", text(r.from), text(r.to));
 }
 
-/// Adds the covered fraction of a published range, and the reasons for both ends of our range.
+/// Adds the covered fraction of a published range, and the reasons for both ends of our range. `low` and `high` are the sweeps of the
+/// corners that set the two ends.
 Result<void> claim_coverage(StudyResult& out, const std::string& prefix, const PublishedRange& p, const Range& r, const BiasSweep& low,
                             const BiasSweep& high, const double (&range)[2]) {
     auto& c = out.claim(fmt::format("{}: covered fraction of the published {}{}", prefix, p.name,
@@ -60,24 +61,24 @@ Result<void> claim_coverage(StudyResult& out, const std::string& prefix, const P
 
 Result<void> claim_axis(StudyResult& out, const PublishedRange& p) {
     std::vector<BiasSweep> sweeps;
-    std::vector<Range> works;
+    std::vector<Range> working_ranges;
     for (const char* corner : {"tt", "ss", "ff"}) {
         auto s = sweep(p, {fmt::format("corner={}", corner)});
         if (!s) return s.error();
-        works.push_back(s->working_range()), sweeps.push_back(std::move(*s));
+        working_ranges.push_back(s->working_range()), sweeps.push_back(std::move(*s));
     }
-    if (auto ok = claim_coverage(out, "typical", p, works[0], sweeps[0], sweeps[0], p.typical); !ok) return ok;
-    const auto all = range_intersection(range_intersection(works[0], works[1]), works[2]);
+    if (auto ok = claim_coverage(out, "typical", p, working_ranges[0], sweeps[0], sweeps[0], p.typical); !ok) return ok;
+    const auto all = range_intersection(range_intersection(working_ranges[0], working_ranges[1]), working_ranges[2]);
     const auto limiting_corner = [&](bool low) {
         for (std::size_t k = 0; k < 3; ++k)
-            if ((low ? works[k].from : works[k].to) == (low ? all.from : all.to)) return k;
+            if ((low ? working_ranges[k].from : working_ranges[k].to) == (low ? all.from : all.to)) return k;
         return std::size_t{0};
     };
     if (!std::isnan(p.corners[0]))
         return claim_coverage(out, "all corners", p, all, sweeps[limiting_corner(true)], sweeps[limiting_corner(false)], p.corners);
     out.claim_true("FF is the first corner to leave the published temperature range", limiting_corner(false) == 2,
-                   "thesis E.2: in special for the FF corner");
-    return claim_coverage(out, "FF", p, works[2], sweeps[2], sweeps[2], p.typical);
+                   "thesis E.2: \"in special for the FF corner\"");
+    return claim_coverage(out, "FF", p, working_ranges[2], sweeps[2], sweeps[2], p.typical);
 }
 
 /// The limiting mechanism at both ends of the typical current range, from the simulation.
@@ -127,8 +128,8 @@ Result<void> add_plots(StudyResult& out) {
     return {};
 }
 
-/// All thresholds lower by the shift: the published ranges result, but not the published current without biasing.
-Result<void> claim_trade(StudyResult& out) {
+/// With all thresholds lower by the shift the working ranges are the published ones, but the current without biasing is not.
+Result<void> claim_lower_thresholds(StudyResult& out) {
     const std::vector<std::string> shift = {fmt::format("vtn_shift={}", -threshold_shift), fmt::format("vtp_shift={}", -threshold_shift)};
     const auto prefix = fmt::format("thresholds {:g} mV lower", 1e3 * threshold_shift);
     for (const auto& p : published_ranges) {
@@ -155,7 +156,7 @@ Result<void> claim_trade(StudyResult& out) {
     return {};
 }
 
-Result<StudyResult> work(const StudyOptions& options) {
+Result<StudyResult> compute(const StudyOptions& options) {
     StudyResult out;
     double done = 0;
     for (const auto& p : published_ranges) {
@@ -163,7 +164,7 @@ Result<StudyResult> work(const StudyOptions& options) {
         if (auto ok = options.report_progress(done += 0.2); !ok) return ok.error();
     }
     if (auto ok = claim_causes(out); !ok) return ok.error();
-    if (auto ok = claim_trade(out); !ok) return ok.error();
+    if (auto ok = claim_lower_thresholds(out); !ok) return ok.error();
     if (auto ok = add_plots(out); !ok) return ok.error();
     out.note(
         "Criterion: V_Q within 5 mV of half the supply and I_Q within a tenth of I_BIAS; fixed in advance, as the thesis gives none. The "
@@ -172,9 +173,10 @@ Result<StudyResult> work(const StudyOptions& options) {
     return out;
 }
 
-const Study study{"bias-valid", "Coverage of the published ranges by the bias generator",
-                  "It works over currents, supplies and temperatures, typically and in corners (thesis E.2). How much of these ranges does "
-                  "our circuit cover by one criterion, and what limits it?",
-                  work};
+const Study study{
+    "bias-valid", "Coverage of the published ranges by the bias generator",
+    "Thesis E.2 gives ranges of current, supply and temperature in which the generator works, typically and in corners. How much of them "
+    "does our circuit cover by one criterion, and what limits it?",
+    compute};
 
 }  // namespace corpuscle::studies::bias_valid

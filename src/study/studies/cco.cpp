@@ -12,7 +12,7 @@ namespace corpuscle::studies::cco {
 using O = IsolatedOscillator;
 constexpr auto source = "thesis 4.4";
 
-/// Overshoot of the membrane beyond its window, over its speed.
+/// Overshoot of the membrane voltage beyond the trigger's window at several currents, and the switching delay that it implies.
 Result<void> report_delay(const Hysteresis& t, StudyResult& out) {
     StudyCurve below, above;
     double delay = 0, overshoot = 0;
@@ -63,14 +63,14 @@ voff off 0 0.35
     out.claim("pull-up current for I_LEAK 2 pA, at 350 mV", middle, "A")
         .published_as(O::I_LEAK, "thesis 4.4, fig. 39")
         .explain(fmt::format("M1A and M1B carry {:.2f} pA at V_GS = 0. As a diode of 2 pA, M1A is therefore within three thermal voltages "
-                             "of the supply and not saturated, while M1B is",
+                             "of the supply and not saturated, while M1B is saturated",
                              1e12 * off));
     out.claim("pull-up current for I_LEAK 200 pA, at 350 mV", larger_leak.at(0.35), "A").derived_as(200e-12, "1:1, table 9");
     const auto remainder = [&](const StudyCurve& line, double below) { return 100 * line.at(0.7 - below) / line.at(0.35); };
     for (const double below : {100e-3, 50e-3, 25e-3, 10e-3})
         out.claim(fmt::format("remainder of the leak {:.0f} mV below the supply", 1e3 * below), remainder(leak, below), "%");
     const double g = leak.at(0.7 - 10e-3) / 10e-3;
-    out.claim_true("100 mV below the supply it equals the value at 350 mV within a tenth, 25 mV below it does not",
+    out.claim_true("100 mV below the supply the leak is within a tenth of its value at 350 mV, 25 mV below the supply it is not",
                    std::abs(remainder(leak, 100e-3) - 100) < 10 && std::abs(remainder(leak, 25e-3) - 100) > 10, source);
     out.claim("resistance of the leak close to the supply", 1 / g, "ohm");
     const double linearity = leak.at(0.7 - 5e-3) / 5e-3 / g;
@@ -82,8 +82,8 @@ voff off 0 0.35
     return {};
 }
 
-/// The trigger with separate bulk nodes: N bulks above VSS and P bulks below VDD by the same voltage, separately for the devices in
-/// feedback.
+/// The trigger with separate bulk nodes: N bulks above VSS and P bulks below VDD by the same voltage. The devices in feedback have
+/// their own bulk nodes.
 constexpr auto netlist = R"(The trigger's window under forward body bias
 .lib '../process/tsmc180.lib' tt
 .param all=0 feedback=0
@@ -117,13 +117,14 @@ Result<void> report_body_bias(const Hysteresis& t, StudyResult& out) {
         out.claim(fmt::format("change of V_H, body bias on {}", name), high.y.back() - t.V_H, "V"),
             out.claim(fmt::format("change of V_L, body bias on {}", name), low.y.back() - t.V_L, "V");
         if (name == std::string_view("the feedback devices"))
-            out.claim_true("forward body bias controls the size of the window: by at least a tenth", std::abs(window) > 10, source);
+            out.claim_true("forward body bias of the feedback devices changes the window by at least a tenth", std::abs(window) > 10,
+                           source);
         plot.add(fmt::format("V_H, {}", name), high).add(fmt::format("V_L, {}", name), low);
     }
     return {};
 }
 
-Result<StudyResult> work(const StudyOptions& options) {
+Result<StudyResult> compute(const StudyOptions& options) {
     StudyResult out;
     const auto t = simulate_trigger();
     if (!t) return t.error();
@@ -137,6 +138,6 @@ Result<StudyResult> work(const StudyOptions& options) {
 const Study study{"cco", "The oscillator's delay, leak and window",
                   "A switching delay extends the swing beyond the window; the leak becomes a resistor near the supply; body bias controls "
                   "the window. Thesis 4.4",
-                  work};
+                  compute};
 
 }  // namespace corpuscle::studies::cco

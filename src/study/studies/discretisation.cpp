@@ -15,7 +15,7 @@ constexpr const char* tenfold = "thesis 3.2: Euler's backward method, of first o
 /// theta and u_rst, V: fig. 16's, our choice, and a third pair (errata B10a).
 constexpr std::pair<double, double> threshold_pairs[] = {{1, 0.5}, {0.5, 0.25}, {0.2, 0}};
 
-/// Largest difference of a trace from the exact one, at its own samples, over the largest exact value.
+/// Largest difference of a coarse trace from the exact one, at the samples of the coarse one, over the largest exact value.
 double relative_error(const StudyCurve& rough, const StudyCurve& exact) {
     const auto stride = static_cast<std::size_t>(std::lround((rough.x[1] - rough.x[0]) / fine));
     double largest = 0;
@@ -42,22 +42,22 @@ Result<TrialResult> simulate_at_step(const char* afferent, double T, bool exact,
          .sampled = !exact});
 }
 
-void add_claims(StudyResult& out, StudyPlot& plot, const std::string& what, const double (&errors)[3], const char* unit) {
+void add_claims(StudyResult& out, StudyPlot& plot, const std::string& quantity, const double (&errors)[3], const char* unit) {
     StudyCurve line;
     for (int k = 0; k < 3; ++k) {
-        auto& c = out.claim(fmt::format("{}, T = {} ms", what, 1e3 * steps[k]), errors[k], unit);
+        auto& c = out.claim(fmt::format("{}, T = {} ms", quantity, 1e3 * steps[k]), errors[k], unit);
         if (std::isnan(errors[k])) c.explain("the numbers of spikes differ");
         line.x.push_back(1e3 * steps[k]), line.y.push_back(unit == std::string_view("s") ? errors[k] * 1e3 : errors[k]);
     }
-    out.claim(what + ": at 1 ms over that at 0.1 ms", errors[0] / errors[1])
-        .allow_range(5, 20, std::string(tenfold) + "; the bounds of half and twice that are our choice");
-    out.claim(what + ": at 0.1 ms over that at 0.01 ms", errors[1] / errors[2])
-        .allow_range(5, 20, std::string(tenfold) + "; the bounds of half and twice that are our choice");
-    plot.add(what, line);
+    out.claim(quantity + ": error at 1 ms over error at 0.1 ms", errors[0] / errors[1])
+        .allow_range(5, 20, std::string(tenfold) + "; the bounds 5 and 20 are our choice");
+    out.claim(quantity + ": error at 0.1 ms over error at 0.01 ms", errors[1] / errors[2])
+        .allow_range(5, 20, std::string(tenfold) + "; the bounds 5 and 20 are our choice");
+    plot.add(quantity, line);
 }
 
 /// One recorded current at three steps.
-Result<void> report_current(StudyResult& out, StudyPlot& plot, const char* afferent, const char* trace, const std::string& what) {
+Result<void> report_current(StudyResult& out, StudyPlot& plot, const char* afferent, const char* trace, const std::string& quantity) {
     const auto exact = simulate_at_step(afferent, fine, true, threshold_pairs[1], {trace});
     if (!exact) return exact.error();
     double errors[3];
@@ -66,7 +66,7 @@ Result<void> report_current(StudyResult& out, StudyPlot& plot, const char* affer
         if (!rough) return rough.error();
         errors[k] = 100 * relative_error(rough->probes.at(trace), exact->probes.at(trace));
     }
-    add_claims(out, plot, what, errors, "%");
+    add_claims(out, plot, quantity, errors, "%");
     return {};
 }
 
@@ -87,7 +87,7 @@ Result<void> report_spikes(StudyResult& out, StudyPlot& plot, const char* affere
     return {};
 }
 
-Result<StudyResult> work(const StudyOptions& options) {
+Result<StudyResult> compute(const StudyOptions& options) {
     StudyResult out;
     StudyPlot currents{"Error of currents, over their largest value", "T (ms)", "error (%)", {}, true, true},
         spikes{"Largest spike time error", "T (ms)", "error (ms)", {}, true, true};
@@ -101,7 +101,8 @@ Result<StudyResult> work(const StudyOptions& options) {
     if (auto ok = report_spikes(out, spikes, "fa1"); !ok) return ok.error();
     out.plots = {std::move(currents), std::move(spikes)};
     out.note(
-        "FA-I's largest error is at the last spike of a decay, where the current is little above the leak and a small charge takes long.");
+        "FA-I's largest error is at the last spike of a decay, where the current is little above the leak, so that a small error of charge "
+        "is a large error of time.");
     out.note(
         "The numbers of spikes must be equal at all three steps; otherwise no error is defined. The exact reference is the model at 0.01 "
         "ms, whose error falls with the square of its step (test/model/thesis_test.cpp compares it with the closed form).");
@@ -111,6 +112,6 @@ Result<StudyResult> work(const StudyOptions& options) {
 const Study study{"discretisation", "Error of a step of 1 ms",
                   "The thesis solves its equations by Euler's backward method at T = 1 ms: how large is the error of its currents and "
                   "spikes? Thesis 3.2 to 3.4",
-                  work};
+                  compute};
 
 }  // namespace corpuscle::studies::discretisation

@@ -12,7 +12,7 @@ const ForceSensor sensor;
 
 /// The largest relative difference (%) between a curve over the force in gf and a formula, in the transducer's range.
 template <class Formula>
-double percent_off(const StudyCurve& line, Formula formula) {
+double percent_difference(const StudyCurve& line, Formula formula) {
     double largest = 0;
     for (std::size_t k = 0; k < line.x.size(); ++k)
         if (line.x[k] >= min_gf && line.x[k] <= max_gf) largest = std::max(largest, std::abs(line.y[k] / formula(line.x[k]) - 1));
@@ -25,49 +25,51 @@ Result<StudyCurve> force_sweep(const std::string& circuit, const std::string& cu
     return found->curve("dc", curve);
 }
 
-Result<StudyResult> work(const StudyOptions&) {
+Result<StudyResult> compute(const StudyOptions&) {
     StudyResult out;
     const auto G = [](double gf) { return sensor.conductance(gf); };
     const auto without_G0 = [](double gf) { return std::pow(gf, sensor.m) / sensor.a; };
     const auto ideal = force_sweep("force_to_voltage", "par('v(z)-v(x)')"),
                follower = force_sweep("force_to_voltage", "par('v(zb)-v(xb)')");
-    const auto i_b = force_sweep("force_to_voltage", "par('(v(zb)-v(xb))/3.6k/v(xb)')"),
-               plain = force_sweep("force_to_current_plain", "par('i(vif)/v(vx)')");
-    const auto plain_Y = force_sweep("force_to_current_plain", "i(vif)"), plain4_Y = force_sweep("force_to_current_plain", "i(vif4)");
-    const auto sensor_i = force_sweep("transducer", "v(vx)"), I_F = force_sweep("transducer", "i(vif)");
-    for (const auto* line : {&ideal, &follower, &i_b, &plain, &plain_Y, &plain4_Y, &sensor_i, &I_F})
+    const auto fig20_G = force_sweep("force_to_voltage", "par('(v(zb)-v(xb))/3.6k/v(xb)')"),
+               fig21_G = force_sweep("force_to_current_plain", "par('i(vif)/v(vx)')");
+    const auto fig21_I_F = force_sweep("force_to_current_plain", "i(vif)"),
+               fig21_I_F_64x1 = force_sweep("force_to_current_plain", "i(vif4)");
+    const auto V_X = force_sweep("transducer", "v(vx)"), I_F = force_sweep("transducer", "i(vif)");
+    for (const auto* line : {&ideal, &follower, &fig20_G, &fig21_G, &fig21_I_F, &fig21_I_F_64x1, &V_X, &I_F})
         if (!*line) return line->error();
     const std::string bound = "; the bound is our choice", range = ", largest difference from 20 to 400 gf";
 
     out.claim("eq. 13: parallel resistances against the sum of conductances" + range,
-              percent_off(sensor.conductance_curve(1, 500),
-                          [](double gf) { return 1 / sensor.R_0 + 1 / (sensor.a * std::pow(gf, -sensor.m)); }),
+              percent_difference(sensor.conductance_curve(1, 500),
+                                 [](double gf) { return 1 / sensor.R_0 + 1 / (sensor.a * std::pow(gf, -sensor.m)); }),
               "%")
         .allow_max(1e-9, "thesis eq. 13: printed as approximate, but exact (errata F1a)");
-    out.claim("eq. 13 with a = 170 ohm: G over that with 170 kohm, at 400 gf", ForceSensor{.a = 170}.conductance(400) / G(400), "times")
+    out.claim("eq. 13: G with a = 170 ohm over G with a = 170 kohm, at 400 gf", ForceSensor{.a = 170}.conductance(400) / G(400), "times")
         .derived_as(1, "thesis eq. 13")
         .explain_if_needed("a misprint for 170 kohm (errata F1)");
-    out.claim("eq. 14, V_Z - V_X with an ideal amplifier" + range, percent_off(*ideal, [&](double gf) { return 0.1 * G(gf) * 9.1e3; }), "%")
+    out.claim("eq. 14, V_Z - V_X with an ideal amplifier" + range,
+              percent_difference(*ideal, [&](double gf) { return 0.1 * G(gf) * 9.1e3; }), "%")
         .allow_max(1, "thesis eq. 14" + bound);
     out.claim("eq. 14, with fig. 23's amplifier and a follower" + range,
-              percent_off(*follower, [&](double gf) { return 0.1 * G(gf) * 3.6e3; }), "%")
+              percent_difference(*follower, [&](double gf) { return 0.1 * G(gf) * 3.6e3; }), "%")
         .allow_max(5, "thesis eq. 14" + bound);
     out.claim("eq. 14's last line omits G_0: error of V_Z - V_X at 20 gf", 100 * (1 - without_G0(20) / G(20)), "%")
         .allow_max(1, "printed as approximate (errata F5)" + bound);
     out.claim("eq. 14's last line with a F^m, a = 170: V_Z - V_X at 400 gf, R_F 9.1 kohm", 0.1 * 170 * std::pow(400, sensor.m) * 9.1e3, "V")
         .allow_max(0.7, "the supply")
         .explain_if_needed("a is printed where 1/a is meant, and is a thousand times too small (errata F1)");
-    out.claim("eq. 15, (V_Z - V_X) / R_F over V_X, fig. 20 with a follower" + range, percent_off(*i_b, G), "%")
+    out.claim("eq. 15, (V_Z - V_X) / R_F over V_X, fig. 20 with a follower" + range, percent_difference(*fig20_G, G), "%")
         .allow_max(0.1, "thesis eq. 15" + bound);
-    out.claim("eq. 15, I_F over V_X, fig. 21" + range, percent_off(*plain, G), "%").allow_max(0.1, "thesis eq. 15" + bound);
-    out.claim("I_F against V_Y G, 16x1" + range, percent_off(*plain_Y, [&](double gf) { return 0.1 * G(gf); }), "%")
+    out.claim("eq. 15, I_F over V_X, fig. 21" + range, percent_difference(*fig21_G, G), "%").allow_max(0.1, "thesis eq. 15" + bound);
+    out.claim("I_F against V_Y G, 16x1" + range, percent_difference(*fig21_I_F, [&](double gf) { return 0.1 * G(gf); }), "%")
         .allow_max(5, "V_X follows V_Y" + bound);
-    out.claim("I_F against V_Y G, 64x1" + range, percent_off(*plain4_Y, [&](double gf) { return 0.1 * G(gf); }), "%")
+    out.claim("I_F against V_Y G, 64x1" + range, percent_difference(*fig21_I_F_64x1, [&](double gf) { return 0.1 * G(gf); }), "%")
         .allow_max(5, "V_X follows V_Y" + bound);
     out.claim("eq. 15 and the split, I_F against V_Y G / 17, fig. 22" + range,
-              percent_off(*I_F, [&](double gf) { return 0.1 * G(gf) / 17; }), "%")
+              percent_difference(*I_F, [&](double gf) { return 0.1 * G(gf) / 17; }), "%")
         .allow_max(10, "thesis 4.2" + bound);
-    out.claim("V_X against V_Y, fig. 22" + range, percent_off(*sensor_i, [](double) { return 0.1; }), "%")
+    out.claim("V_X against V_Y, fig. 22" + range, percent_difference(*V_X, [](double) { return 0.1; }), "%")
         .allow_max(5, "V_X follows V_Y" + bound);
     out.claim_true("the largest current is at the largest conductance", I_F->x_of_max() == 500 && G(500) > G(1),
                    "printed: at the smallest conductance (errata F4)");
@@ -79,8 +81,8 @@ Result<StudyResult> work(const StudyOptions&) {
     out.plot("Difference of the netlists from the equations, with V_Y for V_X", "force (gf)", "%")
         .add("eq. 14, ideal amplifier", percents(*ideal, [&](double gf) { return 0.1 * G(gf) * 9.1e3; }))
         .add("eq. 14, follower", percents(*follower, [&](double gf) { return 0.1 * G(gf) * 3.6e3; }))
-        .add("eq. 15, fig. 21, 16x1", percents(*plain_Y, [&](double gf) { return 0.1 * G(gf); }))
-        .add("eq. 15, fig. 21, 64x1", percents(*plain4_Y, [&](double gf) { return 0.1 * G(gf); }))
+        .add("eq. 15, fig. 21, 16x1", percents(*fig21_I_F, [&](double gf) { return 0.1 * G(gf); }))
+        .add("eq. 15, fig. 21, 64x1", percents(*fig21_I_F_64x1, [&](double gf) { return 0.1 * G(gf); }))
         .add("eq. 15 / 17, fig. 22", percents(*I_F, [&](double gf) { return 0.1 * G(gf) / 17; }));
     out.note(
         "The error of fig. 22 is in the split: the single transistors of M_2 have the lower Early voltage and are connected to the supply, "
@@ -89,6 +91,6 @@ Result<StudyResult> work(const StudyOptions&) {
 }
 
 const Study study{"eq13-15", "Equations 13 to 15 against the netlists",
-                  "The sensor, the force-to-voltage gain and the current it needs. Thesis 4.1 and 4.2, eq. 13 to 15", work};
+                  "The sensor, the force-to-voltage gain and the sensor's current. Thesis 4.1 and 4.2, eq. 13 to 15", compute};
 
 }  // namespace corpuscle::studies::eq13_15

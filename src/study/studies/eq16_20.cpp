@@ -46,7 +46,7 @@ Result<void> eq_16_18(StudyResult& out) {
     out.claim("(16): measured copy I_A0 / I_F at 1.4 uA", I_A0.at(1.4e-6) / 1.4e-6, "times").derived_as(k_1, "eq. 16, errata S1");
     out.claim("V_F where (S_3B/S_3A) I_F = (S_4B/S_4A) I_BIASF, I_F = 1.4 uA", V_F.at(k_4 * I_BIASF / k_1), "V")
         .derived_as(V_DD / 2, "eq. 18, errata S2a");
-    out.claim("V_F at I_F = I_BIASF, as the text has it", V_F.at(I_BIASF), "V")
+    out.claim("V_F at I_F = I_BIASF, as the text states", V_F.at(I_BIASF), "V")
         .derived_as(V_DD / 2, "thesis 4.3.1: V_DD/2 for I_F1 = I_BIASF")
         .explain("I_F1 is the current of M3B, half of I_F (errata S2a)");
     out.claim("slope dV_F/dI_F at mid-range", V_F.slope_at(1.4e-6), "ohm")
@@ -63,8 +63,8 @@ Result<void> eq_16_18(StudyResult& out) {
            }(),
            "V")
         .allow_max(10e-3, "eq. 18, errata S2; within its linear range; 10 mV is our choice");
-    out.claim("(18) as printed multiplies by G_m1: rise of V_F for 0.2 uA more of I_F", k_1 * 0.2e-6 / R, "V")
-        .derived_as(V_F.at(1.6e-6) - V_F.at(1.4e-6), "computed here by the circuit")
+    out.claim("(18) as printed multiplies by G_m1: rise of V_F when I_F rises by 0.2 uA", k_1 * 0.2e-6 / R, "V")
+        .derived_as(V_F.at(1.6e-6) - V_F.at(1.4e-6), "of the circuit, simulated here")
         .explain("A times S is not V; (16) divides (errata S2)");
     out.plot("V_F over I_F, and (18)", "I_F (uA)", "V_F (V)")
         .add("circuit", V_F.scaled(1e6, 1))
@@ -72,7 +72,7 @@ Result<void> eq_16_18(StudyResult& out) {
     return {};
 }
 
-/// Largest difference (%) of |H| of a filter from s / (s + k_N G_mN / C) with its own corner.
+/// Largest difference (%) of |H| of a filter from the form of (17), s / (s + 2 pi f_c), with the simulated corner f_c; up to `to` (Hz).
 double difference_from_17(const StudyCurve& magnitude, double corner, double to) {
     double largest = 0;
     const auto band = magnitude.between(0, to);
@@ -134,14 +134,14 @@ Result<void> eq_20(StudyResult& out) {
     const auto& c = *found->circuit;
     const auto division_ratio = [&](const char* curve) { return 2 * 1.22e-6 / found->curve("dc", curve).at(1.22e-6); };
     const SplitMirrorGain first(c, "x1.mn1a", "x1.mn1b", "x1.mn1c", "x1.mn1d");
-    const double rest = 0.5 * ratio(c, "x1.mp2b", "x1.mp2a") * ratio(c, "x1.mn3b", "x1.mn3a");
-    out.claim("(20): 1 / k_A by the printed ratios, k_A = I_A / I_F", 1 / (rest * first.printed), "times")
+    const double other_stages = 0.5 * ratio(c, "x1.mp2b", "x1.mp2a") * ratio(c, "x1.mn3b", "x1.mn3a");
+    out.claim("(20): 1 / k_A by the printed ratios, k_A = I_A / I_F", 1 / (other_stages * first.printed), "times")
         .derived_as(262144, "eq. 20, errata S10");
-    out.claim("(20): exact 1 / k_A", 1 / (rest * first.exact), "times").derived_as(294912, "eq. 20 with 1/288, errata S7b, S10");
+    out.claim("(20): exact 1 / k_A", 1 / (other_stages * first.exact), "times").derived_as(294912, "eq. 20 with 1/288, errata S7b, S10");
     out.claim("division ratio of the summer for I_F, without length modulation", division_ratio("i(va3)"), "times")
-        .derived_as(1 / (rest * first.exact), "eq. 20, exact");
+        .derived_as(1 / (other_stages * first.exact), "eq. 20, exact");
     out.claim("division ratio of the summer for I_F, at 4 N", division_ratio("i(va)"), "times")
-        .derived_as(1 / (rest * first.printed), "eq. 20")
+        .derived_as(1 / (other_stages * first.printed), "eq. 20")
         .explain("1/288 instead of 1/256, and length modulation of three mirrors (circuits/summer.cir)");
     const auto rectifier = run_study_netlist({"rectifier_sa", {}, ".dc vhp 0.37 0.39 1m"});
     if (!rectifier) return rectifier.error();
@@ -155,7 +155,7 @@ Result<void> eq_20(StudyResult& out) {
     return {};
 }
 
-Result<StudyResult> work(const StudyOptions& options) {
+Result<StudyResult> compute(const StudyOptions& options) {
     StudyResult out;
     for (const auto add_part : {eq_16_18, eq_17_19, eq_20}) {
         if (auto ok = add_part(out); !ok) return ok.error();
@@ -167,6 +167,7 @@ Result<StudyResult> work(const StudyOptions& options) {
 
 const Study study{
     "eq16-20", "Equations (16) to (20) as corrected, compared with the circuits",
-    "Do V_F, the filters and the summer follow their equations, and what do the printed forms give? Thesis 4.3.1; errata S1 to S10", work};
+    "Do V_F, the filters and the summer follow their equations, and what do the printed forms give? Thesis 4.3.1; errata S1 to S10",
+    compute};
 
 }  // namespace corpuscle::studies::eq16_20

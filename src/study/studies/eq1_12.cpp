@@ -95,7 +95,7 @@ Result<void> equations_5_to_7(StudyResult& out) {
     return {};
 }
 
-/// (8) and (9) under the press stimulus, and (10) as printed: I_B - alpha F' + beta I_B' at 10 kHz.
+/// (8) and (9) under the press stimulus, and (10) and (11) as printed, I = alpha F' - beta I', sampled at 10 kHz.
 Result<void> equations_8_to_10(StudyResult& out) {
     const auto response = run_trial({.afferent = "sa1", .probes = {"I", "I_A", "I_B", "I_C"}});
     if (!response) return response.error();
@@ -116,13 +116,15 @@ Result<void> equations_8_to_10(StudyResult& out) {
         for (std::size_t k = 0; k < combination.y.size(); ++k) combination.y[k] = alpha * slope_F.y[k] - beta * slope_I.y[k];
         out.claim(fmt::format("{} against alpha F' - beta I', alpha = K / 2 pi f, beta = 1 / 2 pi f", name),
                   largest_difference(combination, [&](std::size_t k) { return I->y[k + 1]; }), "%")
-            .allow_max(1, "thesis 3.3; a hundredth is our choice, for slopes by differences of 0.1 ms at the corners of the force");
+            .allow_max(
+                1,
+                "thesis 3.3; a hundredth is our choice; slopes are differences over 0.1 ms, which are inexact at the corners of the force");
     }
     return {};
 }
 
-/// Response of I_B to a sine of force: amplitude and phase relative to the force.
-Result<Complex> response(double f) {
+/// Response of I_B (A/N) to a sine of force at `f` (Hz): amplitude and phase relative to the force.
+Result<Complex> sine_response(double f) {
     const auto response = run_trial({.afferent = "sa1",
                                      .stimulus = "sine",
                                      .settings = {fmt::format("sine.f={}", f), "sine.F_amp=1", "sine.F_mean=2", "sine.duration=2"},
@@ -144,7 +146,7 @@ Result<void> equation_12(StudyResult& out, const StudyOptions& options) {
     StudyCurve computed, exact;
     double worst = 0;
     for (const double f : {1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0}) {
-        const auto H = response(f);
+        const auto H = sine_response(f);
         if (!H) return H.error();
         const Complex s{0, f}, expected = K_B * s / (s + f_B);
         worst = std::max(worst, std::abs(*H - expected) / K_B);
@@ -171,7 +173,7 @@ Result<void> equation_12(StudyResult& out, const StudyOptions& options) {
     return {};
 }
 
-Result<StudyResult> work(const StudyOptions& options) {
+Result<StudyResult> compute(const StudyOptions& options) {
     StudyResult out;
     if (auto ok = equation_1(out); !ok) return ok.error();
     if (auto ok = equations_2_to_4(out); !ok) return ok.error();
@@ -184,6 +186,6 @@ Result<StudyResult> work(const StudyOptions& options) {
 }
 
 const Study study{"eq1-12", "Equations 1 to 12",
-                  "Do the models follow the thesis's equations as corrected by the errata? Thesis 3.1 to 3.3, eq. 1 to 12", work};
+                  "Do the models follow the thesis's equations as corrected by the errata? Thesis 3.1 to 3.3, eq. 1 to 12", compute};
 
 }  // namespace corpuscle::studies::eq1_12

@@ -11,7 +11,7 @@
 
 namespace corpuscle::studies::eq21_30 {
 
-constexpr double W_by_L = 3, I_S = simple_I_SQ * W_by_L, V_S = 0.1, solver_accuracy = 1e-6;  // V; %: the accuracy of the solution
+constexpr double W_by_L = 3, I_S = simple_I_SQ * W_by_L, V_S = 0.1, solver_accuracy = 1e-6;  // A, V, %
 const double phi_t = circuit::thermal_voltage(300.15);
 
 /// A transistor at one bias point: its currents, inversion levels and slopes from the solved circuit.
@@ -42,6 +42,7 @@ Result<std::vector<BiasPoint>> solve_bias_points(std::string_view card, const st
 
 /// sqrt(1 + i) - 1, accurate for small i too.
 double charge(double i) { return i / (std::sqrt(1 + i) + 1); }
+/// The function f of (23) to (25).
 double f_of(double i) { return charge(i) - 1 + std::log(charge(i)); }
 
 /// The largest relative error of an equation, %.
@@ -52,13 +53,13 @@ double largest_error(const std::vector<BiasPoint>& all, double (*error)(const Bi
 }
 
 struct Equation {
-    const char *what, *source;
+    const char *label, *source;
     double (*error)(const BiasPoint&);
 };
 constexpr Equation equations[] = {
     {"(21): largest error of I_D = I_S (i_f - i_r)", "thesis eq. 21",
      [](const BiasPoint& a) { return a.I_D / (I_S * (a.i_f - a.i_r)) - 1; }},
-    {"(23) to (25): largest error of f(i_f) = (V_GB - V_T0 - n V_SB)/(n phi_t), of phi_t", "thesis eq. 23 to 25; errata U4",
+    {"(23) to (25): largest error of f(i_f) = (V_GB - V_T0 - n V_SB)/(n phi_t)", "thesis eq. 23 to 25; errata U4",
      [](const BiasPoint& a) { return f_of(a.i_f) - (a.V_G - simple_V_T0 - simple_n * V_S) / (simple_n * phi_t); }},
     {"(23) to (25): the same for f(i_r), with V_DB", "thesis eq. 23 to 25",
      [](const BiasPoint& a) { return f_of(a.i_r) - (a.V_G - simple_V_T0 - simple_n * a.V_D) / (simple_n * phi_t); }},
@@ -75,7 +76,7 @@ constexpr Equation equations[] = {
 };
 
 void add_errata(StudyResult& out, const std::vector<BiasPoint>& all) {
-    out.claim_true("(26): dI_D/dV_S is negative at all points; g_ms > 0 of (27) and (28) is its opposite",
+    out.claim_true("(26): dI_D/dV_S is negative at all points; g_ms > 0 of (27) and (28) is its negative",
                    std::all_of(all.begin(), all.end(), [](const BiasPoint& a) { return a.by_S < 0; }), "errata U2");
     const auto& a = all.back();
     out.claim("g_mb/g_mg", a.by_B / a.by_G).derived_as(simple_n - 1, "thesis eq. 29, inverted: errata U5");
@@ -96,12 +97,12 @@ StudyPlot inversion_plot() {
     return out.add("eq. 23", exact).add("weak: 2 exp(x + 1), as eq. 42", weak).add("strong: x^2", strong);
 }
 
-Result<StudyResult> work(const StudyOptions&) {
+Result<StudyResult> compute(const StudyOptions&) {
     const auto simple = solve_bias_points(simple_card, "plain"), complete = solve_bias_points(process_card, "nch"),
                channel = solve_bias_points(process_card, "nch", true);
     if (!simple || !complete || !channel) return !simple ? simple.error() : !complete ? complete.error() : channel.error();
     StudyResult out;
-    for (const auto& e : equations) out.claim(e.what, largest_error(*simple, e.error), "%").allow_max(solver_accuracy, e.source);
+    for (const auto& e : equations) out.claim(e.label, largest_error(*simple, e.error), "%").allow_max(solver_accuracy, e.source);
     add_errata(out, *simple);
     const auto pinched_off = run_study_netlist(
         {fmt::format("pinch-off\n{}vd d 0 1\nvg g 0 {}\nm1 d g 0 0 plain w=1u l=1u\n", simple_card, simple_V_T0), {}, ".op"});
@@ -115,13 +116,13 @@ Result<StudyResult> work(const StudyOptions&) {
                       2e4 * m.values.at("isq") / (m.values.at("cox") * m.values.at("n") * phi_t * phi_t), "cm^2/(V s)")
                 .allow_range(200, 500, "usual for electrons at 0.18 um");
     for (const auto& e : {equations[3], equations[6], equations[7]}) {
-        out.claim(fmt::format("process card, channel only, {}", e.what), largest_error(*channel, e.error), "%")
+        out.claim(fmt::format("process card, channel only, {}", e.label), largest_error(*channel, e.error), "%")
             .allow_max(solver_accuracy, e.source);
-        out.claim(fmt::format("process card, with junctions, {}", e.what), largest_error(*complete, e.error), "%");
+        out.claim(fmt::format("process card, with junctions, {}", e.label), largest_error(*complete, e.error), "%");
     }
-    out.claim(fmt::format("process card, {}", equations[4].what), largest_error(*complete, equations[4].error), "%");
+    out.claim(fmt::format("process card, {}", equations[4].label), largest_error(*complete, equations[4].error), "%");
     out.note(
-        "The process card adds velocity saturation and length modulation to these equations. (27), (29) and (30) still hold; (28) is off "
+        "The process card adds velocity saturation and length modulation to these equations. (27), (29) and (30) still hold; (28) deviates "
         "by these effects, most in strong inversion.");
     out.plots = {inversion_plot()};
     return out;
@@ -129,6 +130,6 @@ Result<StudyResult> work(const StudyOptions&) {
 
 const Study study{"eq21-30", "The transistor's equations",
                   "Currents, inversion and slopes of the unified current control model. Thesis app. A, eq. 21 to 30; errata U2, U4, U5",
-                  work};
+                  compute};
 
 }  // namespace corpuscle::studies::eq21_30

@@ -12,6 +12,7 @@
 
 namespace corpuscle::studies::eq31_33 {
 
+/// m columns of n unit transistors in series.
 struct SubArray {
     int m, n;
     double S() const { return double(m) / n; }
@@ -20,7 +21,7 @@ struct SubArray {
 constexpr SubArray rectangles[] = {{1, 2}, {1, 4}, {2, 2}, {4, 1}, {1, 8}, {2, 8}, {16, 1}};
 /// Sub-array at the source, sub-array at the drain: G2 and G3 of table 13, the op amp's (errata U19), the splitting mirror's.
 constexpr std::pair<SubArray, SubArray> trapezoids[] = {{{1, 4}, {4, 1}}, {{1, 1}, {7, 1}}, {{4, 4}, {16, 1}}, {{2, 4}, {8, 1}}};
-/// The array's current over S_eq times A's, from tables 11 and 14; NaN if the tables do not have it.
+/// The array's current over S_eq times the current of array A, from tables 11 and 14; NaN if the tables do not have it.
 double published_ratio(const std::string& name, double S) {
     constexpr std::pair<const char*, const char*> rows[] = {{"1x4", "B2"}, {"2x2", "C2"},           {"4x1", "D2"},
                                                             {"1x8", "G1"}, {"1x4 under 4x1", "G2"}, {"1x1 under 7x1", "G3"}};
@@ -50,7 +51,7 @@ struct Array {
     std::string name, equation;
     double S;
     std::string (*text)(const Array&, const std::string& rest);
-    SubArray low, high;
+    SubArray low, high;  ///< at the source and at the drain
 };
 
 std::string rectangle(const Array& a, const std::string& rest) { return array_lines("a", "d", "g", "0", a.low.m, a.low.n, rest); }
@@ -81,7 +82,7 @@ Result<void> add_mirror(StudyResult& out) {
     return {};
 }
 
-Result<StudyResult> work(const StudyOptions&) {
+Result<StudyResult> compute(const StudyOptions&) {
     StudyResult out;
     double worst = 0;
     for (const auto& a : arrays()) {
@@ -92,7 +93,7 @@ Result<StudyResult> work(const StudyOptions&) {
         const auto with_process_card = ratios(process_card, "nch018", a.text(a, fmt::format("0 nch018 w={}u l={}u", W, L)), a.S, "");
         if (!with_process_card) return with_process_card.error();
         const double published_value = published_ratio(a.name, a.S);
-        out.claim(fmt::format("{}: with the process card at 0.5 V, its current over that of one unit transistor of S_eq = {:.4g}", a.name,
+        out.claim(fmt::format("{}: current over that of one transistor of the unit's length and S_eq = {:.4g}, process card, 0.5 V", a.name,
                               a.S),
                   with_process_card->front())
             .derived_as(std::isnan(published_value) ? 1 : published_value,
@@ -102,8 +103,8 @@ Result<StudyResult> work(const StudyOptions&) {
         .allow_max(1e-6, "thesis eq. 31 and 32, exact in eq. 21 to 25");
     if (auto ok = add_mirror(out); !ok) return ok.error();
     out.note(
-        "With the process card, as in tables 11 and 14, arrays carry less than the equations give. One transistor of the unit's length has "
-        "all of V_DS and its full length modulation; in an array only the transistor nearest to the drain is affected.");
+        "With the process card, as in tables 11 and 14, arrays carry less current than the equations give. One transistor of the unit's "
+        "length has all of V_DS and its full length modulation; in an array only the transistor nearest to the drain is affected.");
     out.note(
         "Inversion levels divide along a stack as voltages do along resistors, so both equations are identities of the simple model, in "
         "triode and in saturation. A trapezoidal array is two rectangular arrays in series (errata U19).");
@@ -111,6 +112,7 @@ Result<StudyResult> work(const StudyOptions&) {
 }
 
 const Study study{"eq31-33", "Arrays as single transistors",
-                  "An array acts as one transistor of its equivalent aspect ratio. Thesis B.1, B.2, C.1, eq. 31 to 33; errata U19", work};
+                  "An array acts as one transistor of its equivalent aspect ratio. Thesis B.1, B.2, C.1, eq. 31 to 33; errata U19",
+                  compute};
 
 }  // namespace corpuscle::studies::eq31_33

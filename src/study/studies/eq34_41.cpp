@@ -52,7 +52,7 @@ Result<SplitCurrents> simulate_split(std::string_view card, const std::string& m
 }
 
 constexpr const char* length_modulation =
-    "the parallel diodes have more voltage than the series arrays, and length modulation increases their current";
+    "the parallel diodes have a larger drain-source voltage than the series arrays, and length modulation increases their current";
 
 Result<void> add_parallel_series(StudyResult& out) {
     for (const int n : sizes) {
@@ -70,8 +70,8 @@ Result<void> add_parallel_series(StudyResult& out) {
                                "thesis eq. 36 with V_E of the process card and L of N unit transistors");
         if (early_claim.needs_explanation())
             early_claim.explain(
-                "only the unit transistor at the drain has length modulation, which reduces it to less than its fraction of the stack's "
-                "length");
+                "in a stack of N only the unit transistor at the drain has length modulation, so the effect is less than 1/N of a single "
+                "transistor's");
     }
     return {};
 }
@@ -92,8 +92,8 @@ Result<void> add_split(StudyResult& out) {
             .derived_as(N2, "thesis eq. 39; errata C5: exact in saturation");
         out.claim(prefix + "I_in/I_out, equations only", I_in / simple->I_out)
             .derived_as(by_38_39, "eq. 38 and 39: N^2 (N^2 + 2); errata C6");
-        auto& error_claim =
-            out.claim(prefix + "excess of eq. 40", 100 * (simple->I_out > 0 ? I_in / simple->I_out / (N2 * N2) - 1 : Claim::none), "%");
+        auto& error_claim = out.claim(prefix + "excess of I_in/I_out over eq. 40",
+                                      100 * (simple->I_out > 0 ? I_in / simple->I_out / (N2 * N2) - 1 : Claim::none), "%");
         error_claim.derived_as(200 / N2, "errata C6: 2/N^2, because S_C >> S_B + S_D is only approximate");
         auto& against_41 = out.claim(prefix + "I_in/I_out, equations only, against eq. 41", I_in / simple->I_out)
                                .derived_as(N2 * N2, "thesis eq. 41: N^4");
@@ -140,7 +140,7 @@ Result<void> add_output(StudyResult& out) {
     return {};
 }
 
-Result<StudyResult> work(const StudyOptions&) {
+Result<StudyResult> compute(const StudyOptions&) {
     StudyResult out;
     for (const auto add : {add_parallel_series, add_output, add_split})
         if (auto ok = add(out); !ok) return ok.error();
@@ -152,6 +152,6 @@ Result<StudyResult> work(const StudyOptions&) {
 const Study study{"eq34-41", "Current-dividing mirrors",
                   "Division by N^2 with parallel and series arrays, and by almost N^4 with current splitting. Thesis C.1, C.2, eq. 34 to "
                   "41; errata C1 to C6",
-                  work};
+                  compute};
 
 }  // namespace corpuscle::studies::eq34_41

@@ -14,7 +14,7 @@ namespace corpuscle::studies::eq42_44 {
 constexpr double W_by_L = 3;  // of 1.5/0.5 um
 const double phi_t = circuit::thermal_voltage(300.15);
 
-/// (42), for a drain at 0.6 V: accurate in weak inversion to the order of i_f, not above it.
+/// (42), for a drain at 0.6 V: its relative error is of the order of i_f, so it holds in weak inversion only.
 Result<void> add_42(StudyResult& out) {
     const auto found = run_study_variants(
         {fmt::format("weak\n{}vd d 0 0.6\nvg g 0 {{vg}}\nvb b 0 {{vb}}\nm1 d g 0 b plain w=1.5u l=0.5u\n.param vg=0.2 vb=0\n", simple_card),
@@ -78,7 +78,7 @@ Result<void> add_44(StudyResult& out) {
     return {};
 }
 
-Result<StudyResult> work(const StudyOptions&) {
+Result<StudyResult> compute(const StudyOptions&) {
     StudyResult out;
     for (const auto add : {add_42, add_43, add_44})
         if (auto ok = add(out); !ok) return ok.error();
@@ -88,6 +88,6 @@ Result<StudyResult> work(const StudyOptions&) {
 const Study study{
     "eq42-44", "Weak inversion, junctions, body bias",
     "The exponential characteristics of a body-biased transistor and of its junction. Thesis app. D, eq. 42 to 44; errata I1, C7, C8",
-    work};
+    compute};
 
 }  // namespace corpuscle::studies::eq42_44

@@ -12,9 +12,9 @@ namespace corpuscle::studies::eq45_47 {
 
 constexpr double phi_t = 1.380649e-23 * 300.15 / 1.602176634e-19, e = 2.718281828459045;  // V at 27 C
 constexpr double low = 0.4;        // V: a supply at which all transistors are in weak inversion
-constexpr double saturated = 0.6;  // V: a supply at which they almost are, and drain voltages are large enough for eq. 46
+constexpr double saturated = 0.6;  // V: a supply at which they almost are, and at which the drains are saturated, as eq. 46 needs
 
-// One array, and three inverters of such arrays: output tied to the input, output held at that voltage, and output open.
+// An array and a unit transistor, and inverters of 2x8 arrays: with the output tied to the input, held at v_q, and open.
 constexpr const char* circuit = R"(Arrays and inverters in weak inversion
 .lib '../process/tsmc180.lib' tt
 .param low=0.4 v_q=0.2 stronger=1
@@ -50,24 +50,27 @@ Result<NetlistResult> run(const std::vector<std::string>& settings, const std::s
     return run_study_netlist({circuit, settings, directives});
 }
 
-/// The parameters of a transistor in the process card; V_A of a stack is that of all its unit transistors.
+/// The process card's parameters of an array; V_A is that of a transistor as long as the complete stack.
 struct Array {
     double n, V_T, I_S, V_A;
     Array(const circuit::Circuit& c, const char* name) {
         const auto& m = c.elements[static_cast<std::size_t>(c.find_element(name))];
         const auto& values = c.models[static_cast<std::size_t>(m.model)].values;
-        const auto of = [](const circuit::Values& v, const char* what) { return v.find(what)->second; };
-        n = of(values, "n"), V_T = of(values, "vto"), V_A = of(values, "ve") * of(m.values, "l") * of(m.values, "stack");
-        I_S = of(values, "isq") * of(m.values, "w") / of(m.values, "l") * of(m.values, "m") / of(m.values, "stack");
+        const auto value_of = [](const circuit::Values& v, const char* key) { return v.find(key)->second; };
+        n = value_of(values, "n"), V_T = value_of(values, "vto"),
+        V_A = value_of(values, "ve") * value_of(m.values, "l") * value_of(m.values, "stack");
+        I_S = value_of(values, "isq") * value_of(m.values, "w") / value_of(m.values, "l") * value_of(m.values, "m") /
+              value_of(m.values, "stack");
     }
     double weak(double V_GS, double V_BS) const { return I_S * e * std::exp((V_GS + (n - 1) * V_BS - V_T) / (n * phi_t)); }
 };
 
-void claim_both(StudyResult& out, const std::string& what, double by_corrected, double by_printed, const char* equation,
+void claim_both(StudyResult& out, const std::string& quantity, double by_corrected, double by_printed, const char* equation,
                 const char* erratum) {
-    out.claim(fmt::format("{}, over eq. {} as corrected", what, equation), by_corrected).derived_as(1, fmt::format("errata {}", erratum));
+    out.claim(fmt::format("{}, over eq. {} as corrected", quantity, equation), by_corrected)
+        .derived_as(1, fmt::format("errata {}", erratum));
     auto& c =
-        out.claim(fmt::format("{}, over eq. {} as printed", what, equation), by_printed).derived_as(1, fmt::format("eq. {}", equation));
+        out.claim(fmt::format("{}, over eq. {} as printed", quantity, equation), by_printed).derived_as(1, fmt::format("eq. {}", equation));
     if (c.needs_explanation()) c.explain(fmt::format("misprinted: errata {}", erratum));
 }
 
@@ -151,7 +154,7 @@ Result<void> claim_rest(StudyResult& out) {
         out.claim(fmt::format("V_Q0 at {:g} V with I_SP = {:g} I_SN", low, stronger), result->operating_point("v(q0)"), "V")
             .derived_as(middle + shift, "eq. 47b with + and V_TP < 0 (errata I5)");
         if (stronger == 1) continue;
-        out.claim(fmt::format("the same minus V_DD / 2 + (V_TP + V_TN) / 2n, I_SP = {:g} I_SN", stronger),
+        out.claim(fmt::format("V_Q0 - [V_DD / 2 + (V_TP + V_TN) / 2n] with I_SP = {:g} I_SN", stronger),
                   result->operating_point("v(q0)") - middle, "V")
             .derived_as(-shift, "eq. 47b with the printed -")
             .explain("the sign is misprinted: a stronger PMOS raises V_Q (errata I5)");
@@ -159,7 +162,7 @@ Result<void> claim_rest(StudyResult& out) {
     return {};
 }
 
-Result<StudyResult> work(const StudyOptions& options) {
+Result<StudyResult> compute(const StudyOptions& options) {
     StudyResult out;
     if (auto ok = claim_currents(out); !ok) return ok.error();
     if (auto ok = options.report_progress(0.3); !ok) return ok.error();
@@ -173,6 +176,7 @@ Result<StudyResult> work(const StudyOptions& options) {
 }
 
 const Study study{"eq45-47", "The inverter's equations",
-                  "I_Q, G_m, G_o, A_V and V_Q by eq. 45 to 47, compared with simulated circuits. Thesis E.1 (errata I1, I2, I4, I5)", work};
+                  "I_Q, G_m, G_o, A_V and V_Q by eq. 45 to 47, compared with simulated circuits. Thesis E.1 (errata I1, I2, I4, I5)",
+                  compute};
 
 }  // namespace corpuscle::studies::eq45_47

@@ -24,17 +24,17 @@ void add_tables(StudyResult& out) {
     out.claim("C1: perimeter of the same rectangle, um", 1e6 * 2 * (1.12e-6 + Rule::around_W + 0.90e-6 + Rule::around_L));
 }
 
-/// (U14) Published deviations over area, for arrays of equal inversion level.
+/// (U14) Published standard deviations of I_D over area, for arrays of equal inversion level.
 void add_mismatch_by_area(StudyResult& out) {
     const auto& a = find_published(rectangles, "A");
     for (const char* name : {"B2", "C2", "D2"}) {
         const auto& p = find_published(rectangles, name);
-        out.claim(fmt::format("{}: published deviation over A's", name), p.sigma / a.sigma)
+        out.claim(fmt::format("{}: published standard deviation over A's", name), p.sigma / a.sigma)
             .derived_as(std::sqrt(a.A / p.A), "errata U14: inversely proportional to the square root of the area");
     }
     const auto &e = find_published(trapezoids, "E"), &g1 = find_published(trapezoids, "G1");
     out.claim("E's active area over G1's, as printed", e.A / g1.A).published_as(4, "thesis B.2; errata U18: 3.63");
-    out.claim("G1's deviation over E's, as printed", g1.sigma / e.sigma)
+    out.claim("G1's standard deviation over E's, as printed", g1.sigma / e.sigma)
         .published_as(2, "thesis B.2, half; 2.4 by errata U18")
         .explain("3.63 times the area, and E is in stronger inversion with a lower g_mg/I_D");
 }
@@ -52,7 +52,7 @@ Result<void> add_mismatch_by_inversion(StudyResult& out) {
     };
     const auto weak = sigma(0.25), strong = sigma(0.9);
     if (!weak || !strong) return weak ? strong.error() : weak.error();
-    out.claim("A: deviation of I_D caused by the threshold's at V_G = 0.25 V", *weak, "%");
+    out.claim("A: standard deviation of I_D caused by threshold mismatch, at V_G = 0.25 V", *weak, "%");
     out.claim("A: the same at 0.9 V", *strong, "%").allow_max(*weak, "errata U14: it falls with inversion");
     return {};
 }
@@ -65,7 +65,7 @@ Result<void> add_threshold(StudyResult& out) {
     if (!found) return found.error();
     const double at_0 = found->front().operating_info("m1", "v_t"), at_half = found->back().operating_info("m1", "v_t");
     out.claim("short unit transistor: V_T at V_D = 0.5 V minus that at 0", at_half - at_0, "V")
-        .allow_range(-16e-3, 0, "errata U13: the most that g_md allows for drain-induced lowering; the fit gives 0");
+        .allow_range(-16e-3, 0, "errata U13: the largest drain-induced barrier lowering that g_md allows; the fit gives 0");
     const auto V_T = [](const PublishedArrays& all, const char* name) { return 1e-3 * find_published(all, name).V_T; };
     out.claim_true(
         "published at V_D = 0: 441.4 mV at 5.22 um, 479.6 mV at 0.9 um, 531.7 mV at 0.18 um. V_T rises as L falls; drain-induced lowering "
@@ -88,7 +88,7 @@ Result<void> add_bulk(StudyResult& out) {
     return {};
 }
 
-Result<StudyResult> work(const StudyOptions&) {
+Result<StudyResult> compute(const StudyOptions&) {
     StudyResult out;
     add_tables(out);
     add_mismatch_by_area(out);
@@ -105,6 +105,6 @@ Result<StudyResult> work(const StudyOptions&) {
 }
 
 const Study study{"errata-arrays", "Misprints of appendices A to D",
-                  "Evidence from sums, units and simulated circuits. Errata U1 to U19, C1 to C9", work};
+                  "Evidence from sums, units and simulated circuits. Errata U1 to U19, C1 to C9", compute};
 
 }  // namespace corpuscle::studies::errata_arrays

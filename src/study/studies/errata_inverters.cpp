@@ -14,7 +14,7 @@ constexpr double pi = 3.141592653589793;
 
 /// I5: V_TN = 480 mV, V_TP = -450 mV, I_SP = 2 I_SN at 0.7 V, n = 1.27.
 Result<void> add_sign_claims(StudyResult& out) {
-    constexpr double V_TN = 0.48, V_TP = 0.45;
+    constexpr double V_TN = 0.48, V_TP = 0.45;  // V, magnitudes
     const auto circuit = elaborate_study_netlist({"quiescent"});
     if (!circuit) return circuit.error();
     const auto vto = [&](const char* name) {
@@ -48,7 +48,7 @@ Result<void> add_generator_claims(StudyResult& out) {
     out.claim("I18: table 16's V_BN at 200 nA", by_16->V_BN, "V").allow_range(min_V_BN, 0.6, "E.2, fig. 53a: 100 to 600 mV");
     out.claim("I18: table 16's I_Q at 200 nA", by_16->I_Q, "A").derived_as(I_BIAS, "E.2: I_Q = I_BIAS");
     const char* why =
-        "arrays with table 4's aspect ratios carry more than that at V_REF without any forward bias, so M4A is forced into its linear "
+        "arrays with table 4's aspect ratios carry more than 200 nA at V_REF without any forward bias, so M4A is forced into its linear "
         "region. Table 4 sizes a different circuit from table 16 (errata I18)";
     for (const auto& [name, V_BN, I_Q] :
          {std::tuple{"table 4 as printed", &V_BN6, &I_Q6}, {"table 4 with NMOS arrays of 1.5 um", &V_BN1, &I_Q1}}) {
@@ -70,7 +70,7 @@ Result<void> add_generator_claims(StudyResult& out) {
     return {};
 }
 
-Result<StudyResult> work(const StudyOptions& options) {
+Result<StudyResult> compute(const StudyOptions& options) {
     StudyResult out;
     if (auto ok = add_sign_claims(out); !ok) return ok.error();
     const auto generator = elaborate_study_netlist({"bias"});
@@ -86,14 +86,14 @@ Result<StudyResult> work(const StudyOptions& options) {
     if (!inverters) return inverters.error();
     const double G_B = inverters->transconductance_at_zero('b'), G_C = inverters->transconductance_at_zero('c'), C = G_B / (2 * pi * 2);
     out.claim("I13: capacitor of a 2 Hz filter with INVB", C, "F").derived_as(0.2e-6, "errata I13: from 2.5 uS");
-    out.claim("I13: over one microfarad", C / 1e-6)
+    out.claim("I13: the same over one microfarad", C / 1e-6)
         .allow_max(1, "E.4: would need micro Farad capacitors; a fifth of a microfarad is enough");
     out.claim_true("I14: INVC, not INVB, has the very small transconductance", G_C < 1e-3 * G_B, "errata I14");
     const auto fine_sweep = InverterSweep::run_with_directives(".dc vin 0.345 0.355 20u");
     if (!fine_sweep) return fine_sweep.error();
-    auto rest = fine_sweep->transfer_curve('c');
-    for (std::size_t k = 0; k < rest.x.size(); ++k) rest.y[k] -= rest.x[k];
-    const double V_Q = rest.crossing(0);
+    auto output_minus_input = fine_sweep->transfer_curve('c');
+    for (std::size_t k = 0; k < output_minus_input.x.size(); ++k) output_minus_input.y[k] -= output_minus_input.x[k];
+    const double V_Q = output_minus_input.crossing(0);
     auto& offset_claim = out.claim("I16: INVC's V_Q relative to half the supply, as in fig. 57", V_Q, "V")
                              .derived_as(-3e-3, "347 mV of fig. 61 minus 350 mV");
     if (offset_claim.needs_explanation()) offset_claim.explain("the simulated curve is displaced by less and upwards: fig61");
@@ -105,6 +105,6 @@ Result<StudyResult> work(const StudyOptions& options) {
     return options.report_progress(0.9) ? Result<StudyResult>(out) : options.report_progress(0.9).error();
 }
 
-const Study study{"errata-inverters", "Errata of the inverters", "Errata I1 to I18 of appendix E that a computation can show", work};
+const Study study{"errata-inverters", "Errata of the inverters", "Errata I1 to I18 of appendix E that a computation can show", compute};
 
 }  // namespace corpuscle::studies::errata_inverters

@@ -1,5 +1,5 @@
 // Algorithms 1, 2, 5 and 6 of the thesis as printed, compared with the corrected ones: the effect of each misprint on current and spikes.
-// Numbers B.. are those of the errata. The neurons' errata are in errata_neurons.
+// Numbers such as B2 are those of the errata. The neurons' errata are in errata_neurons.
 
 #include <fmt/format.h>
 #include <cmath>
@@ -85,7 +85,7 @@ StudyCurve sa1_current(const StudyCurve& force, FilterForm form, double K_B = 8e
     return out;
 }
 
-Result<void> algorithm_5(StudyResult& out, const StudyCurve& force, StudyPlot& rows) {
+Result<void> algorithm_5(StudyResult& out, const StudyCurve& force, StudyPlot& raster) {
     for (const auto& [f, filter_name] : {std::pair{20.0, "filter B"}, {2.0, "filter C"}}) {
         const double k = k2(f, T), root = std::sqrt(k * k + 4 * k);
         out.claim(fmt::format("Alg. 5, {}: larger pole if I' is a difference, as printed", filter_name), -(k + root) / 2)
@@ -107,12 +107,12 @@ Result<void> algorithm_5(StudyResult& out, const StudyCurve& force, StudyPlot& r
     out.claim("Alg. 5: spikes if I' is I[n-1], as printed", static_cast<double>(value.size()), "spikes")
         .allow_range(static_cast<double>(catalogue_spikes->size()), static_cast<double>(catalogue_spikes->size()),
                      "sa1 of the catalogue with fig. 16's theta")
-        .explain("a pole at -k_2 makes it a filter for frequencies near half the sample rate, which passes almost nothing (B8)");
+        .explain("with its pole at -k_2 it passes only frequencies near half the sample rate, so almost no current remains (B8)");
     out.claim("spikes with I_A only", static_cast<double>(static_spikes.size()), "spikes");
     out.claim("Alg. 5: spikes, as corrected", static_cast<double>(corrected.size()), "spikes")
         .allow_range(static_cast<double>(catalogue_spikes->size()), static_cast<double>(catalogue_spikes->size()),
                      "sa1 of the catalogue with fig. 16's theta");
-    rows.raster_row("Alg. 5 as printed, I' = I[n-1]", value)
+    raster.raster_row("Alg. 5 as printed, I' = I[n-1]", value)
         .raster_row("Alg. 5 as corrected", corrected)
         .raster_row("sa1", *catalogue_spikes);
     return {};
@@ -128,7 +128,7 @@ void check_gain_units(StudyResult& out, const StudyCurve& force) {
 }
 
 /// Algorithm 6: it uses k_B I_0 where I_0 is negative (B12).
-Result<void> algorithm_6(StudyResult& out, const StudyCurve& force, StudyPlot& rows) {
+Result<void> algorithm_6(StudyResult& out, const StudyCurve& force, StudyPlot& raster) {
     const auto current = [&](double sign) {
         double I_0 = 0;
         return apply(force, [&](double F, double before) {
@@ -145,7 +145,7 @@ Result<void> algorithm_6(StudyResult& out, const StudyCurve& force, StudyPlot& r
         .explain("k_B I_0 is negative there; -k_B I_0 is meant, which makes a full-wave rectifier with two gains, as in 4.3.2 (B12)");
     out.claim("Alg. 6: the same, as corrected", press::spike_count(corrected, later), "spikes")
         .allow_range(press::spike_count(*catalogue_spikes, later), press::spike_count(*catalogue_spikes, later), "fa1 of the catalogue");
-    rows.raster_row("Alg. 6 as printed", as_printed).raster_row("Alg. 6 as corrected", corrected).raster_row("fa1", *catalogue_spikes);
+    raster.raster_row("Alg. 6 as printed", as_printed).raster_row("Alg. 6 as corrected", corrected).raster_row("fa1", *catalogue_spikes);
     return {};
 }
 
@@ -153,22 +153,22 @@ Result<void> algorithm_6(StudyResult& out, const StudyCurve& force, StudyPlot& r
 void check_first_sample(StudyResult& out, const StudyCurve& force) {
     out.claim("I_B at the first sample if F[-1] is 0", 8e-6 * k2(20, T) * force.y[0], "A");
     out.claim("I_B at the first sample if F[-1] is F[0], as here", apply_filter(force, 8e-6, 20, FilterForm::corrected).y[0], "A")
-        .allow_range(0, 0, "B16, open: at rest, our choice");
+        .allow_range(0, 0, "B16 leaves this open; a start at rest is our choice");
 }
 
-Result<StudyResult> work(const StudyOptions& options) {
+Result<StudyResult> compute(const StudyOptions& options) {
     StudyResult out;
     const auto force = press::force_curve(T);
     if (!force) return force.error();
-    StudyPlot rows{"Spikes under the press stimulus, T = 1 ms", "time (s)", "", {}};
+    StudyPlot raster{"Spikes under the press stimulus, T = 1 ms", "time (s)", "", {}};
     if (auto ok = algorithm_1(out); !ok) return ok.error();
     if (auto ok = algorithm_2(out, *force); !ok) return ok.error();
     if (auto ok = options.report_progress(0.4); !ok) return ok.error();
-    if (auto ok = algorithm_5(out, *force, rows); !ok) return ok.error();
+    if (auto ok = algorithm_5(out, *force, raster); !ok) return ok.error();
     check_gain_units(out, *force);
-    if (auto ok = algorithm_6(out, *force, rows); !ok) return ok.error();
+    if (auto ok = algorithm_6(out, *force, raster); !ok) return ok.error();
     check_first_sample(out, *force);
-    out.plots.push_back(std::move(rows));
+    out.plots.push_back(std::move(raster));
     out.plot("I_B by Alg. 5, T = 1 ms", "time (s)", "current (uA)")
         .add("as corrected", apply_filter(*force, 8e-6, 20, FilterForm::corrected).scaled(1, 1e6))
         .add("as printed, I' = I[n-1]", apply_filter(*force, 8e-6, 20, FilterForm::value).scaled(1, 1e6))
@@ -181,6 +181,7 @@ Result<StudyResult> work(const StudyOptions& options) {
 }
 
 const Study study{"errata-models", "Algorithms 1, 2, 5 and 6 as printed",
-                  "What is the response of the thesis's algorithms as printed, and as corrected by the errata? Thesis 3.1, 3.3, 3.4", work};
+                  "What is the response of the thesis's algorithms as printed, and as corrected by the errata? Thesis 3.1, 3.3, 3.4",
+                  compute};
 
 }  // namespace corpuscle::studies::errata_models

@@ -32,8 +32,8 @@ void algorithm_3(StudyResult& out) {
     out.claim("Alg. 3: k_b as corrected", k_b).allow_range(-1, 1, "u must settle");
     out.claim("Alg. 3: u after two samples of 2 uA, as printed", membrane_a(k_a, r * (1 + r), 0, 2e-6, 2), "V")
         .allow_max(2, "eq. 5: never above R I")
-        .explain("it grows by k_b each sample (B4)");
-    out.claim("Alg. 3: u after ten thousand, as corrected", membrane_a(k_a, k_b, 0, 2e-6, 10000), "V").derived_as(2, "eq. 5: R I");
+        .explain("it grows by the factor k_b in each sample (B4)");
+    out.claim("Alg. 3: u after ten thousand samples, as corrected", membrane_a(k_a, k_b, 0, 2e-6, 10000), "V").derived_as(2, "eq. 5: R I");
     out.claim("Alg. 3: u at rest for u_rest = 0.1 V, with k_c = u_rest as printed", membrane_a(k_a, k_b, u_rest, 0, 20000), "V")
         .derived_as(u_rest, "eq. 5")
         .explain("k_c is u_rest / (1 + RC/T); the printed one is correct for RC far below T, and makes no difference for u_rest = 0 (B5)");
@@ -50,7 +50,7 @@ Result<void> algorithm_4(StudyResult& out) {
     for (double& y : u.y) y = T / C_m * (y - leak);
     out.claim("Alg. 4: largest u under the press stimulus, as printed", u.max(), "V")
         .allow_min(theta, "thesis 3.3, fig. 17b: it fires; theta is our choice")
-        .explain("u[n] does not contain u[n-1], so it holds the charge of one step only (B6)");
+        .explain("u[n] does not contain u[n-1], so it contains the charge of one step only (B6)");
     const auto corrected = algorithms::lif_b(I, {});
     out.claim("Alg. 4: spikes, as corrected", static_cast<double>(corrected.spikes.size()), "spikes")
         .allow_range(static_cast<double>(response->spikes.size()), static_cast<double>(response->spikes.size()), "sa1 of the catalogue");
@@ -75,7 +75,7 @@ double interval(double current, double u_rst, double theta) {
     return t;
 }
 
-/// A sample that brings more charge than u_rst to theta needs (B6c).
+/// A current that within one sample raises the membrane by more than theta - u_rst (B6c).
 Result<void> one_spike_per_sample(StudyResult& out) {
     const double current = 400e-6;
     const auto as_printed = algorithms::lif_b(constant_current(current, 0.1), {});
@@ -88,7 +88,7 @@ Result<void> one_spike_per_sample(StudyResult& out) {
     const double expected = (current - leak) / 500e-9 / 0.25;
     out.claim("Alg. 4: frequency at 400 uA, one spike per sample as printed", static_cast<double>(as_printed.spikes.size()) / 0.1, "Hz")
         .derived_as(expected, "thesis 3.2: (I - I_leak0) / [C (theta - u_rst)]")
-        .explain("if a sample brings more than theta - u_rst, the rest stays above theta and grows (B6c)");
+        .explain("if u rises by more than theta - u_rst in a sample, the excess over theta remains and grows (B6c)");
     out.claim("LIF-B at 400 uA, with several spikes per sample as here", static_cast<double>(catalogue_spikes->size()) / 0.1, "Hz")
         .derived_as(expected, "thesis 3.2, the same");
     return {};
@@ -104,11 +104,11 @@ void check_rounding(StudyResult& out) {
         return largest;
     };
     out.claim("fig. 16's LIF-B at 2 uA, T = 1 ms: largest shift of a spike for a 2 nV change of theta", spike_shift(2e-6), "s")
-        .allow_min(T / 2, "B7: u reaches theta exactly, so rounding moves it by a sample");
+        .allow_min(T / 2, "B7: u reaches theta exactly, so rounding moves a spike by a sample");
     out.claim("the same at 2.03 uA", spike_shift(2.03e-6), "s").allow_range(0, 0, "B7: no exact equality there");
 }
 
-Result<StudyResult> work(const StudyOptions& options) {
+Result<StudyResult> compute(const StudyOptions& options) {
     StudyResult out;
     algorithm_3(out);
     if (auto ok = algorithm_4(out); !ok) return ok.error();
@@ -130,6 +130,6 @@ Result<StudyResult> work(const StudyOptions& options) {
 }
 
 const Study study{"errata-neurons", "Algorithms 3 and 4 as printed",
-                  "How do the thesis's two neurons behave as printed, and what do (5) to (7) leave out? Thesis 3.2", work};
+                  "How do the thesis's two neurons behave as printed, and what do (5) to (7) leave out? Thesis 3.2", compute};
 
 }  // namespace corpuscle::studies::errata_neurons

@@ -123,8 +123,8 @@ Result<void> report_chips(const StudyOptions& options, StudyResult& out) {
     if (!with_M6) return with_M6.error();
     if (auto ok = options.report_progress(0.9); !ok) return ok;
     report_chip("SA-I, tables' sizes, 5 pA, 1.8 pF", *as_printed, *sa1,
-                "I_A is hardly more than the leak of 5 pA plus the leakage of the switches, so it does not sustain the plateau; I_C's gain "
-                "is half (errata S9a, S10a)",
+                "I_A is hardly more than the leak of 5 pA plus the leakage of the switches, so it does not sustain firing on the plateau; "
+                "I_C's gain is half (errata S9a, S10a)",
                 out);
     report_chip("SA-I as intended", *as_intended, *sa1, "see fig40", out);
     report_chip("FA-I, table 8's sizes, 5 pA, 5.4 pF", *fa_printed, *fa1,
@@ -148,7 +148,7 @@ Result<void> report_chips(const StudyOptions& options, StudyResult& out) {
     return {};
 }
 
-Result<StudyResult> work(const StudyOptions& options) {
+Result<StudyResult> compute(const StudyOptions& options) {
     StudyResult out;
     for (const auto add_part : {report_M6, report_weights, report_charging})
         if (auto ok = add_part(out); !ok) return ok.error();
@@ -158,6 +158,6 @@ Result<StudyResult> work(const StudyOptions& options) {
 }
 
 const Study study{"errata-signal", "Misprints of the signal processing and the oscillator, computed in both forms",
-                  "How do the circuits behave as printed and as corrected? Errata S1 to S20 of thesis 4.3, 4.4", work};
+                  "How do the circuits behave as printed and as corrected? Errata S1 to S20 of thesis 4.3, 4.4", compute};
 
 }  // namespace corpuscle::studies::errata_signal

@@ -1,5 +1,5 @@
-// Errors and open points of 4.1 and 4.2 that a computation can show: the printed interpretation compared with the one that is built. Errata
-// F1 to F12 give the interpretations; nothing depends on F6 and F11.
+// Errors and open points of 4.1 and 4.2 that a computation can show: the printed form compared with our circuit, which follows the
+// interpretation in errata F1 to F12. Nothing depends on F6 and F11.
 
 #include <fmt/format.h>
 #include <cmath>
@@ -21,9 +21,9 @@ void report_sensor(StudyResult& out) {
     out.claim("F1: with a = 170 as a conductance (a F^m)", 0.1 * 170 * std::pow(press, sensor.m), "A")
         .allow_max(1e-3, "as above")
         .explain_if_needed("a is a resistance, used where a conductance is meant");
-    out.claim("F2: 0.2 N, while the fit is stated to be fair from 50 gf on", 0.2 / gram_force, "gf")
+    out.claim("F2: smallest force of the press stimulus; the fit is stated to be fair from 50 gf on", 0.2 / gram_force, "gf")
         .allow_min(50, "thesis 4.1")
-        .explain_if_needed("the press stimulus begins below it, and so does fig. 24's 20 gf");
+        .explain_if_needed("the press stimulus begins below 50 gf, and so does fig. 24, at 20 gf");
     out.claim("F3: dI_F/dF at 20 gf over that at 400 gf, by m = 0.72", sensor.slope(20) / sensor.slope(400), "times")
         .derived_as(12.0 / 4, "thesis 4.2, fig. 24b")
         .explain_if_needed("eq. 13 gives (400/20)^0.28; both published numbers are \"approximately\"");
@@ -41,9 +41,9 @@ void report_sensor(StudyResult& out) {
 Result<void> report_transistors(StudyResult& out) {
     const std::string swapped =
         "mn1 if vz vx tb nch w=1.5u l=0.5u m=16\nmn2 vdd vz vx tb nch w=1.5u l=0.5u m=4 stack=4\nmn3 vz vdd tb tb nch w=1.5u l=0.5u m=8\n";
-    const std::string drain_at_vss = improved_cell_at("0");
+    const std::string bulk_at_vss = improved_cell_at("0");
     const TransducerCell cells[] = {
-        {"built", improved_cell()}, {"swapped", swapped}, {"without", drain_at_vss}, {"plain", single_transistor_cell(16)}};
+        {"built", improved_cell()}, {"swapped", swapped}, {"without", bulk_at_vss}, {"plain", single_transistor_cell(16)}};
     const auto found = run_study_netlist({transducer_netlist(cells, "4"), {}, ".op"});
     if (!found) return found.error();
     const auto current = [&](const char* name) {
@@ -111,16 +111,16 @@ mnb db g 0 b nch w=1.5u l=0.5u m=16
 Result<void> report_reference(StudyResult& out) {
     const double V_20 = 17 * 12e-9 / sensor.slope(20), V_400 = 17 * 4e-9 / sensor.slope(400);
     out.claim("F12: V_Y that gives 12 nA/gf at 20 gf", V_20, "V")
-        .derived_as(0.1, "the interpretation that is built")
+        .derived_as(0.1, "V_Y of our circuit")
         .explain_if_needed("no single V_Y gives both published slopes");
     out.claim("F12: V_Y that gives 4 nA/gf at 400 gf", V_400, "V")
-        .derived_as(0.1, "the interpretation that is built")
+        .derived_as(0.1, "V_Y of our circuit")
         .explain_if_needed("no single V_Y gives both published slopes");
-    const double I_mid = 2 * 700e-9, I_most = 0.1 * sensor.conductance(400) / 17;
+    const double I_mid = 2 * 700e-9, max_I_F = 0.1 * sensor.conductance(400) / 17;
     out.claim("F12: force at which half of I_F is I_BIASF, at 0.1 V",
               ForceSensor{.R_0 = 1e30}.conductance_curve(1, 400).scaled(1, 0.1 / 17).crossing(I_mid), "gf")
         .allow_range(100, 300, "thesis 4.3.1: V_F is at half the supply there; the middle half of 0 to 400 gf is our choice");
-    out.claim("F12: I_F at 400 gf, at 0.1 V", I_most, "A");
+    out.claim("F12: I_F at 400 gf, at 0.1 V", max_I_F, "A");
     StudyCurve at_20, at_400, V_Z;
     for (const double V_Y : {0.06, 0.07, 0.08, 0.09, 0.1, 0.11, 0.12, 0.13, 0.14}) {
         const auto found = run_study_netlist({"transducer", {fmt::format("vy={}", V_Y)}, ".dc vgf 18 402 2"});
@@ -142,7 +142,7 @@ Result<void> report_reference(StudyResult& out) {
     return {};
 }
 
-Result<StudyResult> work(const StudyOptions& options) {
+Result<StudyResult> compute(const StudyOptions& options) {
     StudyResult out;
     report_sensor(out);
     double done = 0;
@@ -151,12 +151,12 @@ Result<StudyResult> work(const StudyOptions& options) {
         if (auto ok = options.report_progress(done += 0.3); !ok) return ok.error();
     }
     out.note(
-        "The result of each printed interpretation has a row of its own, which does not hold or differs where the errata say so. F1a is "
-        "exact (eq13-15). Nothing depends on F6, F10 and F11 (a caption, names of transistors, \"are\" for \"and\"); fig20 covers F11a.");
+        "Each printed form has its own row; the row does not hold or differs where the errata list a misprint. Eq. 13 is exact (F1a, "
+        "eq13-15). Nothing depends on F6, F10 and F11 (a caption, names of transistors, \"are\" for \"and\"); fig20 covers F11a.");
     return out;
 }
 
 const Study study{"errata-transducer", "Misprints of sensor and transducer",
-                  "The printed interpretation compared with the one that is built. Thesis 4.1 and 4.2; errata F1 to F12", work};
+                  "The printed form compared with our circuit. Thesis 4.1 and 4.2; errata F1 to F12", compute};
 
 }  // namespace corpuscle::studies::errata_transducer

@@ -72,7 +72,7 @@ double extent(const Counts& counts, std::size_t columns) {
     return std::sqrt(square / n);
 }
 
-/// The number of columns for which they are closest together.
+/// The number of columns of the sheet for which the neurons that fired are closest together.
 std::size_t columns_of(const Counts& counts) {
     std::size_t best = 2;
     for (std::size_t c = 2; c <= 450; ++c)
@@ -111,22 +111,22 @@ std::vector<double> dense_counts(const Counts& counts, const AfferentSheet& shee
 
 /// Start and end (s) of the time in which the most loaded sensor is above a twentieth of its maximum.
 std::pair<double, double> press_interval(const SheetForce& force) {
-    std::size_t most = 0;
-    const auto top = [&](std::size_t s) { return *std::max_element(force.force[s].begin(), force.force[s].end()); };
+    std::size_t strongest = 0;
+    const auto peak_force = [&](std::size_t s) { return *std::max_element(force.force[s].begin(), force.force[s].end()); };
     for (std::size_t s = 0; s < force.positions.size(); ++s)
-        if (top(s) > top(most)) most = s;
-    const auto& f = force.force[most];
-    const auto above = [&](double x) { return x > 0.05 * top(most); };
+        if (peak_force(s) > peak_force(strongest)) strongest = s;
+    const auto& f = force.force[strongest];
+    const auto above = [&](double x) { return x > 0.05 * peak_force(strongest); };
     const auto first = std::find_if(f.begin(), f.end(), above) - f.begin();
     const auto last = f.rend() - std::find_if(f.rbegin(), f.rend(), above) - 1;
     return {force.time(static_cast<std::size_t>(first)), force.time(static_cast<std::size_t>(last))};
 }
 
-/// The longest interval between two spikes, s.
+/// The longest interval between two consecutive spikes, s.
 double longest_silence(const std::vector<double>& t) {
-    double most = 0;
-    for (std::size_t k = 1; k < t.size(); ++k) most = std::max(most, t[k] - t[k - 1]);
-    return most;
+    double longest = 0;
+    for (std::size_t k = 1; k < t.size(); ++k) longest = std::max(longest, t[k] - t[k - 1]);
+    return longest;
 }
 
 struct Comparison {
@@ -142,10 +142,10 @@ void report_numbers(StudyResult& out, const Comparison& a) {
     const std::size_t columns = columns_of(counts), top = most_active(counts);
     out.claim("network: neurons that fired", static_cast<double>(counts.size()), "neurons").published_as(123, "the recording's README");
     out.claim("network: spikes", static_cast<double>(a.published.network.size()), "spikes").published_as(42156, "the recording's README");
-    out.claim("width of the sheet for which they are closest together", static_cast<double>(columns), "neurons")
+    out.claim("width of the sheet for which the neurons that fired are closest together", static_cast<double>(columns), "neurons")
         .derived_as(30, "900 neurons are 30 x 30 if the sheet is square, which is not stated");
-    out.claim("their spread for this width", extent(counts, columns), "neurons");
-    out.claim("their spread for a sheet two columns narrower", extent(counts, columns - 2), "neurons")
+    out.claim("spread of these neurons for this width", extent(counts, columns), "neurons");
+    out.claim("spread of these neurons for a sheet two columns narrower", extent(counts, columns - 2), "neurons")
         .allow_min(1.5 * extent(counts, columns), "check: no other width gives a disc");
     out.claim("most active neuron: row, from 0", static_cast<double>(top / columns));
     out.claim("most active neuron: column, from 0", static_cast<double>(top % columns));
@@ -157,9 +157,9 @@ void report_time(StudyResult& out, const Comparison& a) {
     const auto [on, off] = press_interval(a.force);
     const auto add_edge_claims = [&](const char* source, const std::vector<double>& t) {
         if (t.empty()) return;
-        out.claim(fmt::format("{}: first spike after the sensor's 5 %", source), t.front() - on, "s")
+        out.claim(fmt::format("{}: delay of the first spike after the sensor exceeds 5 %", source), t.front() - on, "s")
             .allow_range(-arrival_gap, arrival_gap, "the recording's timestamps: gaps of up to 163 ms");
-        out.claim(fmt::format("{}: last spike after the sensor's 5 %", source), t.back() - off, "s")
+        out.claim(fmt::format("{}: delay of the last spike after the sensor falls below 5 %", source), t.back() - off, "s")
             .allow_range(-arrival_gap, arrival_gap, "the recording's timestamps: gaps of up to 163 ms");
     };
     out.claim("sensor 11: above a twentieth of its maximum from", on, "s");
@@ -207,8 +207,9 @@ void report_place(StudyResult& out, const Comparison& a) {
         out.claim(fmt::format("{}: mean position across the skin", source), mean(track->x), "m");
         out.claim(fmt::format("{}: mean position along the skin", source), mean(track->y), "m");
     }
-    const auto add_correlation = [&](const char* what, const std::vector<double>& v, const std::vector<double>& w, double least) -> Claim& {
-        return out.claim(what, correlation(v, w)).allow_min(least, "check: rates follow the position");
+    const auto add_correlation = [&](const char* label, const std::vector<double>& v, const std::vector<double>& w,
+                                     double min_r) -> Claim& {
+        return out.claim(label, correlation(v, w)).allow_min(min_r, "check: rates follow the position");
     };
     add_correlation("our SA-I follow the sensors across the skin: r", ours.x, sensors.x, 0.8);
     add_correlation("our SA-I follow the sensors along the skin: r", ours.y, sensors.y, 0.8)
@@ -220,8 +221,8 @@ void report_place(StudyResult& out, const Comparison& a) {
     add_correlation("the network's row and our SA-I across the skin: r", published.x, ours.x, 0.5);
     out.claim("rates of the network and of our SA-I over time: r", correlation(published.weight, ours.weight));
     out.claim("rates of the network and of the display over time: r", correlation(published.weight, display_rate(a.published)));
-    const auto map = dense_counts(counts_of(a.published.network), a.sheet), mine = dense_counts(counts_of(a.sa1), a.sheet);
-    add_correlation("spike counts of 900 neurons, network and our SA-I, compared by number: r", map, mine, 0.8);
+    const auto network_counts = dense_counts(counts_of(a.published.network), a.sheet), our_counts = dense_counts(counts_of(a.sa1), a.sheet);
+    add_correlation("spike counts of 900 neurons, network and our SA-I, compared by number: r", network_counts, our_counts, 0.8);
     StudyPlot across{"Position of the press across the skin", "time (s)", "x (mm)", {}},
         along{"Position of the press along the skin", "time (s)", "y (mm)", {}},
         rates{"Spikes, and sum of the sensors, in 100 ms", "time (s)", "fraction of the largest", {}};
@@ -237,7 +238,7 @@ void report_place(StudyResult& out, const Comparison& a) {
     for (auto* plot : {&across, &along, &rates}) out.plots.push_back(std::move(*plot));
 }
 
-Result<StudyResult> work(const StudyOptions& options) {
+Result<StudyResult> compute(const StudyOptions& options) {
     const std::string path = options.recordings_folder + "/" + folder;
     if (!std::filesystem::is_directory(path))
         return bad_input(fmt::format("no recording in '{}'; CORPUSCLE_DATA must name the folder that contains '{}'", path, folder));
@@ -262,8 +263,8 @@ Result<StudyResult> work(const StudyOptions& options) {
     out.notes = {
         "One press shows this about the network's neuron numbers. In rows of 30 the neurons that fired form one round patch, cut by the "
         "edge of the sheet at column 0. The patch drifts over the rows as the load drifts across the skin, and over the columns as it "
-        "drifts along the skin, both rising. The spacing of the neurons in millimetres and the origin of the sheet remain unknown, because "
-        "only one place was pressed.",
+        "drifts along the skin, both towards higher numbers. The spacing of the neurons in millimetres and the origin of the sheet remain "
+        "unknown, because only one place was pressed.",
         "Our sheet is also 30 x 30, with a spacing of 4.5 mm (our choice), centred on the skin's width and starting at its origin. These "
         "two choices put the network's patch at the place of the press, so only the drift is evidence, not the place.",
         "Times: sensors are sampled at an even 100.04 Hz, because their timestamps are arrival times in bursts; the published spikes use "
@@ -280,6 +281,6 @@ Result<StudyResult> work(const StudyOptions& options) {
 const Study study{"eskin-press", "A press on an electronic skin, and its authors' network",
                   "Do the rates of a sheet of our afferents follow the pressed place, and when do they begin and end compared with the "
                   "published network's? Neuromorphic-Touch-Sensing-Haptic-Display, data of figure 2",
-                  work, folder};
+                  compute, folder};
 
 }  // namespace corpuscle::studies::eskin_press

@@ -30,16 +30,16 @@ double gain_slope(const StudyCurve& magnitude, double from, double to) {
 void add_press_claims(StudyResult& out, const NetlistResult& press, double tau) {
     const auto force = press.curve("tran", "v(in)"), response = press.curve("tran", "v(out)");
     const auto slope = force.slope().scaled(1, -tau);
-    double off = 0;
+    double largest_error = 0;
     for (std::size_t k = 0; k < response.x.size(); ++k)
-        if (const double d = std::abs(response.y[k] - slope.at(response.x[k])); d > off) off = d;
-    out.claim("under the press stimulus: largest difference from -RC dF/dt, of the largest -RC dF/dt", 100 * off / slope.absolute().max(),
-              "%")
+        if (const double d = std::abs(response.y[k] - slope.at(response.x[k])); d > largest_error) largest_error = d;
+    out.claim("under the press stimulus: largest difference from -RC dF/dt, relative to the largest -RC dF/dt",
+              100 * largest_error / slope.absolute().max(), "%")
         .allow_max(2, "thesis 2.2 and 2.3: a differentiator; the range is our choice, for steps of at most 1 ms");
     out.plot("Under the press stimulus, one volt per newton", "time (s)", "voltage (V)").add("v(out)", response).add("-RC dF/dt", slope);
 }
 
-Result<StudyResult> work(const StudyOptions&) {
+Result<StudyResult> compute(const StudyOptions&) {
     StudyResult out;
     const auto ac = run_study_netlist({"differentiator", {}, ".ac dec 20 0.1 1k"}), press = run_study_netlist({under_press, {}, {}});
     if (!ac) return ac.error();
@@ -48,9 +48,9 @@ Result<StudyResult> work(const StudyOptions&) {
     const double tau = 1 / (2 * M_PI * magnitude.crossing(1)), model_B = 1 / (2 * M_PI * 20), model_C = 1 / (2 * M_PI * 2);
     out.claim("tau of the differentiator, from the frequency at which its gain is 1", tau, "s")
         .allow_range(1e-3, 10e-3, "thesis 2.3: tau = RC in the order of milliseconds; a decade is our choice");
-    out.claim("tau of the model's fast filter (20 Hz)", model_B, "s").allow_range(1e-3, 10e-3, "thesis 2.3: accordingly to the model");
+    out.claim("tau of the model's fast filter (20 Hz)", model_B, "s").allow_range(1e-3, 10e-3, "thesis 2.3: in accordance with the model");
     out.claim("tau of the model's slow filter (2 Hz)", model_C, "s")
-        .allow_range(1e-3, 10e-3, "thesis 2.3: accordingly to the model")
+        .allow_range(1e-3, 10e-3, "thesis 2.3: in accordance with the model")
         .explain("section 2.3 is about the differentiator of Kim's model; the thesis's own slow filter comes later (3.3)");
     out.claim("growth of the gain from 1 to 100 Hz, decades per decade", gain_slope(magnitude, 1, 100))
         .derived_as(1, "thesis 3.3: amplitude increases proportionally with frequency");
@@ -69,13 +69,14 @@ Result<StudyResult> work(const StudyOptions&) {
         .add("gain 1", {{magnitude.x.front(), magnitude.x.back()}, {1, 1}});
     out.note(
         "R, C and the amplifier's gain (1 Mohm, 8 nF, 1e6) are our choice; the bandwidth of a real amplifier is left out. The plate area "
-        "shows both \"relatively easy to implement with discrete components\" and \"a large size\": millimetres at a megohm.");
+        "explains both statements of the thesis, \"relatively easy to implement with discrete components\" and \"a large size\": at 1 Mohm "
+        "the plate has a side of millimetres.");
     return out;
 }
 
 const Study study{
     "fig10", "The differentiator with an ideal operational amplifier",
     "Its time constant tau = RC is in the order of milliseconds; its gain grows with frequency without limit. Thesis 2.2, 2.3, fig. 10",
-    work};
+    compute};
 
 }  // namespace corpuscle::studies::fig10

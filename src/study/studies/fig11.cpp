@@ -68,7 +68,7 @@ void add_ideal_claims(StudyResult& out, const NetlistResult& ideal) {
         .describe_published("the same high-pass, with 1 / G_m instead of R");
 }
 
-/// A load's current times its resistance at half the supply, over the voltage from there.
+/// A load's current times its resistance at half the supply, over the voltage relative to half the supply.
 StudyCurve normalised_current(const StudyCurve& current) {
     const double slope = current.slope_at(half), middle = current.at(half);
     StudyCurve out;
@@ -76,8 +76,8 @@ StudyCurve normalised_current(const StudyCurve& current) {
         out.x.push_back(current.x[k] - half), out.y.push_back((current.y[k] - middle) / slope);
     return out;
 }
-double nonlinearity(const StudyCurve& straight) {
-    return 100 * std::max(std::abs(straight.at(-offset) / offset + 1), std::abs(straight.at(offset) / offset - 1));
+double nonlinearity(const StudyCurve& normalised) {
+    return 100 * std::max(std::abs(normalised.at(-offset) / offset + 1), std::abs(normalised.at(offset) / offset - 1));
 }
 
 void add_load_claims(StudyResult& out, const NetlistResult& found) {
@@ -93,7 +93,7 @@ void add_load_claims(StudyResult& out, const NetlistResult& found) {
         .describe_published("a resistor obeys Ohm's law; a transconductor of transistors does not");
 }
 
-/// Fraction of a step that remains after a time, for v(hp) and v(a).
+/// Fraction of a voltage step that remains 50 ms after it, for v(hp) and v(a).
 struct Remainder {
     double invc, resistor;
 };
@@ -112,7 +112,7 @@ Result<Remainder> remainder_after_step(double size, double resistance, StudyPlot
     return Remainder{hp.at(on + 50e-3), a.at(on + 50e-3)};
 }
 
-Result<StudyResult> work(const StudyOptions& options) {
+Result<StudyResult> compute(const StudyOptions& options) {
     StudyResult out;
     const auto ideal = run_study_netlist({"high_pass_ideal", {}, ".ac dec 50 10m 10k"}), real_loads = run_study_netlist({loads, {}, {}});
     if (!ideal) return ideal.error();
@@ -131,14 +131,14 @@ Result<StudyResult> work(const StudyOptions& options) {
         .allow_max(1, "thesis 2.3: large signals are distorted; beyond its linear range INVC takes more current than a resistor");
     out.plots.push_back(std::move(plot));
     out.note(
-        "Of the ways to a low transconductance in the references (bulk- or drain-driven inputs, pseudo-resistors) only those of figs. 12 "
-        "and 13 and the thesis's own are built here.");
+        "Of the circuits for a low transconductance in the references (bulk- or drain-driven inputs, pseudo-resistors) only those of "
+        "figs. 12 and 13 and the thesis's own are simulated here.");
     return out;
 }
 
 const Study study{"fig11", "Passive and active high-pass",
                   "An active load of transconductance G_m replaces R, so tau = C / G_m. A resistor and an ideal transconductor are linear; "
                   "transistors are not. Thesis 2.3, fig. 11",
-                  work};
+                  compute};
 
 }  // namespace corpuscle::studies::fig11

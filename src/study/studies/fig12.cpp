@@ -1,5 +1,5 @@
-// Fig. 12: a transconductor with a low transconductance, by current splitting (M_M) and by cancellation (M_N). The thesis gives words only;
-// the sizes are our choice (circuits/ota_cancelling.cir), for the transconductance of INVC.
+// Fig. 12: a transconductor with a low transconductance, by current splitting (M_M) and by cancellation (M_N). The thesis describes it in
+// words only; the sizes are our choice (circuits/ota_cancelling.cir), for the transconductance of INVC.
 
 #include <fmt/format.h>
 #include <cmath>
@@ -11,7 +11,7 @@ namespace corpuscle::studies::fig12 {
 
 constexpr double S_1 = 2.0 / 8, S_N = 2.0 / 9, S_M = 16;  // aspect ratios of the netlist's arrays: columns over unit transistors in series
 
-/// The netlist without the devices on these lines.
+/// Simulates the netlist without the devices on these lines.
 Result<TransconductorCurve> simulate_without(const std::vector<std::string>& lines) {
     std::vector<std::pair<std::string, std::string>> changes;
     for (const auto& line : lines) changes.emplace_back("\n" + line, "\n* " + line);
@@ -33,11 +33,12 @@ Result<void> add_pair_claims(StudyResult& out, const StudyOptions& options) {
     const std::string source = "thesis 2.3, text";
     StudyPlot& plot = out.plot("Linear range of a pair without load (slope within 5 %)", "transconductance over tail current (1/V)", "V");
     plot.describe_published("\"the transconductance linearity is also proportional to the transistor inversion\"");
-    StudyCurve straight, g_m;
+    StudyCurve linear_ranges, g_m;
     for (const double i_b : {1e-9, 3e-9, 10e-9, 30e-9, 100e-9, 300e-9, 1e-6, 3e-6, 10e-6, 30e-6}) {
         const auto pair = simulate_isolated_pair(i_b, 2, 8);
         if (!pair) return pair.error();
-        straight.x.insert(straight.x.begin(), pair->g_m / i_b), straight.y.insert(straight.y.begin(), pair->linear_range);
+        linear_ranges.x.insert(linear_ranges.x.begin(), pair->g_m / i_b);
+        linear_ranges.y.insert(linear_ranges.y.begin(), pair->linear_range);
         g_m.x.push_back(i_b), g_m.y.push_back(pair->g_m);
     }
     const auto wide = simulate_isolated_pair(10e-6, 16, 1);
@@ -46,9 +47,9 @@ Result<void> add_pair_claims(StudyResult& out, const StudyOptions& options) {
         .allow_range(9, 11, source + ": proportional to the current while inversion is weak");
     out.claim("at 10 uA: transconductance of 2x8 over that of 16x1", g_m.at(10e-6) / wide->g_m)
         .allow_max(0.9, source + ": falls with the aspect ratio, in stronger inversion");
-    out.claim("pair 2x8: linear range at 30 uA over that at 1 nA", straight.y.front() / straight.y.back(), "times")
+    out.claim("pair 2x8: linear range at 30 uA over that at 1 nA", linear_ranges.y.front() / linear_ranges.y.back(), "times")
         .allow_min(1, source + ": more linear in stronger inversion");
-    plot.add("P pair of 2x8, 1 nA to 30 uA", straight);
+    plot.add("P pair of 2x8, 1 nA to 30 uA", linear_ranges);
     return options.report_progress(0.5);
 }
 
@@ -78,36 +79,37 @@ m3 d3 g2 0 0 nch w=1.5u l=0.5u m=2 stack=8
     return {};
 }
 
-Result<StudyResult> work(const StudyOptions& options) {
+Result<StudyResult> compute(const StudyOptions& options) {
     StudyResult out;
-    const auto all = simulate_without({}), no_n = simulate_without({"mna ", "mnb "}),
-               bare = simulate_without({"mna ", "mnb ", "mma ", "mmb "});
-    const auto no_m = simulate_without({"mma ", "mmb "});
-    const auto i_m = simulate_split();
-    for (const auto* r : {&all, &no_n, &no_m, &bare})
+    const auto all = simulate_without({}), without_N = simulate_without({"mna ", "mnb "}),
+               pair_only = simulate_without({"mna ", "mnb ", "mma ", "mmb "});
+    const auto without_M = simulate_without({"mma ", "mmb "});
+    const auto split = simulate_split();
+    for (const auto* r : {&all, &without_N, &without_M, &pair_only})
         if (!*r) return r->error();
-    if (!i_m) return i_m.error();
+    if (!split) return split.error();
     const std::string source = "thesis 2.3, fig. 12";
     out.claim("G_m of the complete circuit (chosen equal to INVC's of circuits/invc.cir)", all->g_m, "S");
-    out.claim("current of M_M over that of M_1", *i_m, "times")
+    out.claim("current of M_M over that of M_1", *split, "times")
         .derived_as(S_M / S_1, source + ": \"proportionally to their dimensions\"")
         .explain_if_needed("M_M's drain is at vss, M_1's at the load: the single transistors of M_M have the lower Early voltage");
-    out.claim("splitting only: G_m with M_M over that without", no_n->g_m / bare->g_m)
+    out.claim("splitting only: G_m with M_M over that without", without_N->g_m / pair_only->g_m)
         .derived_as(S_1 / (S_1 + S_M), source + ": lower by the split of the current, in weak inversion")
-        .explain_if_needed("the error of the split");
-    out.claim("cancellation only: G_m with M_N over that without", no_m->g_m / bare->g_m)
+        .explain_if_needed("the error of the current ratio above");
+    out.claim("cancellation only: G_m with M_N over that without", without_M->g_m / pair_only->g_m)
         .derived_as((S_1 - S_N) / (S_1 + S_N), source + ": the difference of two transconductances, in weak inversion")
         .explain_if_needed("a difference of nearly equal numbers amplifies the error of each");
-    out.claim("both: G_m over that of the pair without either", all->g_m / bare->g_m)
+    out.claim("both techniques: G_m over that of the pair without either", all->g_m / pair_only->g_m)
         .derived_as((S_1 - S_N) / (S_1 + S_N + S_M), source + ", in weak inversion")
         .explain_if_needed("the product of the two errors above");
     out.claim("linear range (slope within 5 %) up to", all->linear_range, "V");
-    out.claim("the same of the pair without either", bare->linear_range, "V");
-    out.claim_true("with both the pair keeps its linear range to a tenth", std::abs(all->linear_range / bare->linear_range - 1) < 0.1,
+    out.claim("linear range of the pair without either technique up to", pair_only->linear_range, "V");
+    out.claim_true("with both techniques the linear range stays within a tenth of the pair's",
+                   std::abs(all->linear_range / pair_only->linear_range - 1) < 0.1,
                    "thesis 2.3: they balance linearity and transconductance; the bound is our choice");
     out.claim("power", all->power, "W");
-    StudyPlot& plot = out.plot("Output current over its largest positive value, over the input voltage", "V_+ - V_- (V)", "I / largest");
-    for (const auto& [name, t] : {std::pair{"complete", &*all}, {"without M_N", &*no_n}, {"pair only", &*bare}})
+    StudyPlot& plot = out.plot("Output current relative to its largest positive value", "V_+ - V_- (V)", "I / largest");
+    for (const auto& [name, t] : {std::pair{"complete", &*all}, {"without M_N", &*without_N}, {"pair only", &*pair_only}})
         plot.add(name, t->current.between(-0.15, 0.15).scaled(1, t->sign() / t->max_current));
     out.note(
         "Beyond 0.2 V the tail node falls below the output, which is held at 0.35 V here, and M_N conducts in the other direction; the "
@@ -123,6 +125,6 @@ Result<StudyResult> work(const StudyOptions& options) {
 const Study study{"fig12", "A low transconductance by current splitting and cancellation",
                   "The current is split in proportion to the sizes, which lowers G_m; slightly smaller cross-coupled devices cancel most "
                   "of the rest. Thesis 2.3, fig. 12",
-                  work};
+                  compute};
 
 }  // namespace corpuscle::studies::fig12

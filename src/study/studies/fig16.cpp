@@ -26,7 +26,7 @@ Result<TrialResult> simulate_step(const std::string& neuron, double current, dou
                       .probes = {"u"}});
 }
 
-/// The smallest current (A) that makes it fire within 100 s, by bisection.
+/// The smallest current (A) that makes the neuron fire within 100 s, by bisection.
 Result<double> rheobase(const std::string& neuron, double u_rest = 0) {
     double low = 0, high = amplitude;
     for (int k = 0; k < 14; ++k) {
@@ -38,10 +38,10 @@ Result<double> rheobase(const std::string& neuron, double u_rest = 0) {
     return high;
 }
 
-/// From the end of the step, after the last reset, until the membrane is at rest again.
+/// The membrane voltage from the end of the step, after the last reset, until the membrane is at rest again.
 StudyCurve after_step(const StudyCurve& u) { return u.between(off + 1e-3, 6); }
 
-/// The first time at which it is at rest.
+/// The first time (s) at which the membrane is at rest.
 double time_of_rest(const StudyCurve& u) {
     for (std::size_t k = 0; k < u.x.size(); ++k)
         if (u.y[k] <= 0) return u.x[k];
@@ -64,26 +64,26 @@ Result<void> report_rheobases(StudyResult& out, const StudyOptions& options) {
     return options.report_progress(0.8);
 }
 
-Result<StudyResult> work(const StudyOptions& options) {
+Result<StudyResult> compute(const StudyOptions& options) {
     StudyResult out;
     const auto A = simulate_step("lif-a", amplitude), B = simulate_step("lif-b", amplitude);
     if (!A) return A.error();
     if (!B) return B.error();
     if (auto ok = options.report_progress(0.3); !ok) return ok.error();
     const double f_A = measure<LastRate>(A->spikes, {on, off}), f_B = measure<LastRate>(B->spikes, {on, off});
-    const double near = amplitude / C / (theta - reset);
+    const double approximate_rate = amplitude / C / (theta - reset);
     out.claim("LIF-A: frequency", f_A, "Hz")
-        .derived_as(near, "thesis 3.2: I / [C (theta - u_rst)] for I much above I_R")
+        .derived_as(approximate_rate, "thesis 3.2: I / [C (theta - u_rst)] for I much above I_R")
         .explain("the approximation holds for currents far above the leak; this current is about twice the leak (errata B5b)");
     out.claim("LIF-A: frequency, by the solution of (5)", f_A, "Hz")
         .derived_as(1 / (R * C * std::log((R * amplitude - reset) / (R * amplitude - theta))),
                     "errata B5b: 1 / {RC ln[(R I - u_rst) / (R I - theta)]}");
     out.claim("LIF-B: frequency", f_B, "Hz")
         .derived_as((amplitude - leak) / C / (theta - reset), "thesis 3.2: (I - I_leak0) / [C (theta - u_rst)]");
-    const auto many = simulate_step("lif-a", 100 * amplitude);
-    if (!many) return many.error();
-    out.claim("LIF-A: frequency at a hundred times the current", measure<LastRate>(many->spikes, {on, off}), "Hz")
-        .derived_as(100 * near, "thesis 3.2: I / [C (theta - u_rst)] for I much above I_R");
+    const auto strong_response = simulate_step("lif-a", 100 * amplitude);
+    if (!strong_response) return strong_response.error();
+    out.claim("LIF-A: frequency at a hundred times the current", measure<LastRate>(strong_response->spikes, {on, off}), "Hz")
+        .derived_as(100 * approximate_rate, "thesis 3.2: I / [C (theta - u_rst)] for I much above I_R");
     if (auto ok = report_rheobases(out, options); !ok) return ok.error();
 
     const auto &u_A = A->probes.at("u"), &u_B = B->probes.at("u");
@@ -91,7 +91,7 @@ Result<StudyResult> work(const StudyOptions& options) {
     const double from = fall_A.x.front();
     out.claim("u_A: fraction that remains after RC", fall_A.at(from + R * C) / fall_A.at(from))
         .derived_as(std::exp(-1), "thesis 3.2: exponentially");
-    out.claim("u_A: fraction that remains between RC before 6 s and 6 s", fall_A.at(6 - 1e-3) / fall_A.at(6 - 1e-3 - R * C))
+    out.claim("u_A: value at 6 s as a fraction of its value RC earlier", fall_A.at(6 - 1e-3) / fall_A.at(6 - 1e-3 - R * C))
         .derived_as(std::exp(-1), "thesis 3.2: exponentially");
     const double rest_from = time_of_rest(fall_B);
     const auto line = fall_B.between(from, rest_from - 1e-3).fit_line();
@@ -115,6 +115,6 @@ Result<StudyResult> work(const StudyOptions& options) {
 const Study study{"fig16", "The two leaky integrate-and-fire models",
                   "Under the same step of current LIF-A and LIF-B fire in the same way; afterwards u_A falls exponentially, u_B linearly. "
                   "The thesis gives formulas for rates and rheobases. Thesis 3.2, fig. 16",
-                  work};
+                  compute};
 
 }  // namespace corpuscle::studies::fig16

@@ -39,14 +39,14 @@ void report_currents(StudyResult& out, const Currents& i, const StudyCurve& forc
     for (std::size_t k = 0; k < force.y.size(); ++k) worst_error = std::max(worst_error, std::abs(i.A.y[k] / 1e-6 - force.y[k]));
     out.claim("I_A / k_A: largest difference from the force", worst_error, "N")
         .allow_max(1e-9, "thesis 3.3: I_A is an exact copy of the force");
-    const double late = i.B.x_of_max() - force.slope().x_of_max();
-    out.claim("I_B: delay of its peak after the peak of the slope", late, "s")
+    const double peak_delay = i.B.x_of_max() - force.slope().x_of_max();
+    out.claim("I_B: delay of its peak after the peak of the slope", peak_delay, "s")
         .allow_range(0, 10e-3, "thesis 3.3: proportional to the derivative; the range is our choice, the filter's time constant is 8 ms");
     out.claim("I_B: peak over that of a derivative with the same gain", i.B.max() / (8e-6 / (2 * M_PI * 20) * force.slope().max()))
         .allow_range(0.9, 1.1, "thesis 3.3: proportional to the derivative; a tenth is our choice");
     const double w = 2 * M_PI * 4, corner = 2 * M_PI * 20;  // the half-cosine of 125 ms is half a period of 4 Hz
     out.claim("high-pass of 20 Hz at 4 Hz: amplitude below a derivative's", 100 * (1 - corner / std::hypot(w, corner)), "%");
-    out.claim("high-pass of 20 Hz at 4 Hz: phase lag to a derivative", std::atan(w / corner) * 180 / M_PI, "degrees");
+    out.claim("high-pass of 20 Hz at 4 Hz: phase lag behind a derivative", std::atan(w / corner) * 180 / M_PI, "degrees");
     const auto value_at = [&](const StudyCurve& x, double t) { return x.at(t); };
     const double from = press::plateau.from + 50e-3, to = press::plateau.to - 1e-3;  // I_B has decayed by then
     out.claim("fraction of the decay of I in the plateau that is due to I_C, from 50 ms on",
@@ -67,7 +67,7 @@ void report_currents(StudyResult& out, const Currents& i, const StudyCurve& forc
             "{}: I_A a copy of the force, I_B its derivative, I_C a slow decay; I is their sum without negative values", source));
 }
 
-Result<StudyResult> work(const StudyOptions& options) {
+Result<StudyResult> compute(const StudyOptions& options) {
     StudyResult out;
     auto spec = press::thesis_algorithm("sa1");
     spec.probes = {"I_A", "I_B", "I_C", "u"};
@@ -85,12 +85,12 @@ Result<StudyResult> work(const StudyOptions& options) {
         if (!algorithm) return algorithm.error();
         if (!exact) return exact.error();
         if (auto ok = options.report_progress(static_cast<double>(&r - threshold_cases + 1) / 4); !ok) return ok.error();
-        const auto named = [&](const char* what) { return fmt::format("theta, u_rst {}: {}", r.name, what); };
+        const auto named = [&](const char* quantity) { return fmt::format("theta, u_rst {}: {}", r.name, quantity); };
         const auto f = press::frequency_at_start(*exact), plateau = f.between(press::plateau.from, press::plateau.to);
         out.claim(named("peak of the frequency"), measure<PeakRate>(*exact, press::protraction), "Hz");
         out.claim(named("first frequency of the plateau"), plateau.y.front(), "Hz");
         out.claim(named("last frequency of the plateau"), measure<LastRate>(*exact, press::plateau), "Hz");
-        out.claim_true(named("highest in protraction, and the first frequency of the plateau above its last"),
+        out.claim_true(named("frequency highest in protraction, and higher at the start of the plateau than at its end"),
                        f.x_of_max() < press::protraction.to && plateau.y.front() > plateau.y.back(), "thesis 1.2 and 3.3, fig. 17c");
         out.claim(named("spikes after 40 % of retraction"), press::spike_count(*exact, {0.675, 0.75}), "spikes")
             .allow_max(1, "thesis 1.2: almost no response; the number is our choice");
@@ -112,6 +112,6 @@ const Study study{
     "fig17", "The SA-I model under the press stimulus",
     "Currents I_A, I_B, I_C and their sum, membrane, and instantaneous frequency at T = 1 ms; \"a similar response to the data\". "
     "Thesis 3.3, fig. 17",
-    work};
+    compute};
 
 }  // namespace corpuscle::studies::fig17

@@ -19,9 +19,9 @@ struct Currents {
     }
 };
 
-/// Charge (C) of the current above the leak between two times.
-double net_charge(const StudyCurve& current, const TimeWindow& s) {
-    const auto part = current.between(s.from, s.to);
+/// Charge (C) of the current above the leak in a window.
+double net_charge(const StudyCurve& current, const TimeWindow& window) {
+    const auto part = current.between(window.from, window.to);
     double out = 0;
     for (std::size_t k = 1; k < part.x.size(); ++k)
         out += (part.x[k] - part.x[k - 1]) * std::max((part.y[k] + part.y[k - 1]) / 2 - leak, 0.0);
@@ -38,7 +38,7 @@ void report_currents(StudyResult& out, const Currents& i, const StudyCurve& forc
     out.claim_true("I is I_A while the filtered force is positive and I_B while it is negative", exclusive, "thesis 3.4, fig. 18a");
     const double up = i.A.max(), down = i.B.max();
     out.claim("largest I_A", up, "A"), out.claim("largest I_B", down, "A");
-    auto& ratio = out.claim("ratio of the two", up / down).derived_as(3.5 / 2.75, "thesis 3.4: k_A and k_B");
+    auto& ratio = out.claim("largest I_A over largest I_B", up / down).derived_as(3.5 / 2.75, "thesis 3.4: k_A and k_B");
     if (ratio.needs_explanation())
         ratio.explain("the filter still holds charge from the rise when the force begins to fall, which reduces I_B");
     out.claim("the same ratio, above the leak", (up - leak) / (down - leak)).derived_as(3.5 / 2.75, "thesis 3.4: k_A and k_B");
@@ -68,7 +68,7 @@ void report_train(StudyResult& out, const std::string& name, const std::vector<d
         if (c->needs_explanation()) c->explain(why);
 }
 
-Result<StudyResult> work(const StudyOptions& options) {
+Result<StudyResult> compute(const StudyOptions& options) {
     StudyResult out;
     const auto response = simulate({}), with_fig16_threshold = simulate({"fa1.V_th=1", "fa1.V_reset=0.5"}),
                with_20_Hz = simulate({"fa1.f=20"}),
@@ -109,6 +109,6 @@ Result<StudyResult> work(const StudyOptions& options) {
 const Study study{"fig18", "The FA-I model under the press stimulus",
                   "Currents I_A and I_B, membrane, and instantaneous frequency: discharges in protraction and retraction with unequal "
                   "peaks, those in protraction slightly late. Thesis 3.4, fig. 18",
-                  work};
+                  compute};
 
 }  // namespace corpuscle::studies::fig18

@@ -10,16 +10,16 @@ namespace corpuscle::studies::fig19 {
 
 constexpr double from = 50, to = 4000;  // gf: the range in which the thesis calls the model fairly accurate
 
-StudyCurve sample_logarithmically(const ForceSensor& sensor, double (ForceSensor::*what)(double) const) {
+StudyCurve sample_logarithmically(const ForceSensor& sensor, double (ForceSensor::*quantity)(double) const) {
     StudyCurve out;
-    for (double gf = 10; gf <= 1e4; gf *= std::pow(10, 1.0 / 20)) out.x.push_back(gf), out.y.push_back((sensor.*what)(gf));
+    for (double gf = 10; gf <= 1e4; gf *= std::pow(10, 1.0 / 20)) out.x.push_back(gf), out.y.push_back((sensor.*quantity)(gf));
     return out;
 }
 
 /// Largest difference of a curve from its fitted straight line, as a fraction of its range.
 double nonlinearity(const StudyCurve& line) { return line.fit_line().max_deviation / (line.max() - line.min()); }
 
-/// The netlist's sensor at 1 V: its current over the force in gf.
+/// The netlist's sensor at 1 V: its current (A), equal to its conductance (S), over the force in gf.
 Result<StudyCurve> simulate_sensor() {
     const auto found =
         run_study_netlist({"The sensor\n.lib '../process/tsmc180.lib' tt\n.include 'parts/transducer.inc'\n"
@@ -30,7 +30,7 @@ Result<StudyCurve> simulate_sensor() {
     return found->curve("dc", "i(vi)");
 }
 
-Result<StudyResult> work(const StudyOptions&) {
+Result<StudyResult> compute(const StudyOptions&) {
     StudyResult out;
     const std::string source = "thesis 4.1", sheet = "FSR 400 series data sheet (Interlink)";
     const ForceSensor sensor, as_printed{.a = 170};
@@ -84,6 +84,6 @@ Result<StudyResult> work(const StudyOptions&) {
 }
 
 const Study study{"fig19", "The force-sensitive resistor",
-                  "Resistance falls with force as a power law, conductance rises almost linearly. Thesis 4.1, fig. 19, eq. 13", work};
+                  "Resistance falls with force as a power law, conductance rises almost linearly. Thesis 4.1, fig. 19, eq. 13", compute};
 
 }  // namespace corpuscle::studies::fig19

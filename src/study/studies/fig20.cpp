@@ -10,13 +10,13 @@
 namespace corpuscle::studies::fig20 {
 
 /// V_Z - V_X with an ideal amplifier, over the force in gf.
-Result<StudyCurve> gain(std::vector<std::string> settings) {
+Result<StudyCurve> ideal_output(std::vector<std::string> settings) {
     const auto found = run_study_netlist({"force_to_voltage", std::move(settings), ".dc vgf 1 500 1"});
     if (!found) return found.error();
     return found->curve("dc", "par('v(z)-v(x)')");
 }
 
-/// Eq. 14 over the force in gf.
+/// V_Z - V_X (V) by eq. 14 over the force in gf.
 StudyCurve equation(double V, double R_F) { return ForceSensor().conductance_curve(1, 500).scaled(1, V * R_F); }
 
 double worst_error(const StudyCurve& a, const StudyCurve& b) {
@@ -26,20 +26,20 @@ double worst_error(const StudyCurve& a, const StudyCurve& b) {
     return worst;
 }
 
-Result<StudyResult> work(const StudyOptions& options) {
+Result<StudyResult> compute(const StudyOptions& options) {
     StudyResult out;
     const std::string source = "thesis 4.2, fig. 20", eq14 = "thesis eq. 14";
     const auto found = run_study_netlist({"force_to_voltage", {}, ".dc vgf 1 500 1"});
     if (!found) return found.error();
-    const auto usual = gain({}), twice_V = gain({"vy=0.2"}), half_R = gain({"rf=4.55k"});
-    for (const auto* g : {&usual, &twice_V, &half_R})
+    const auto nominal = ideal_output({}), twice_V = ideal_output({"vy=0.2"}), half_R = ideal_output({"rf=4.55k"});
+    for (const auto* g : {&nominal, &twice_V, &half_R})
         if (!*g) return g->error();
     out.claim("ideal amplifier: V_Z - V_X against eq. 14, largest difference from 20 to 400 gf",
-              100 * worst_error(*usual, equation(0.1, 9.1e3)), "%")
+              100 * worst_error(*nominal, equation(0.1, 9.1e3)), "%")
         .allow_max(1, eq14 + " (with the G_0 that its last line drops, errata F5); the bound is our choice");
-    out.claim("V_Z - V_X at 400 gf with twice V_Y", twice_V->at(400) / usual->at(400), "times")
+    out.claim("V_Z - V_X at 400 gf: with twice V_Y over that with V_Y", twice_V->at(400) / nominal->at(400), "times")
         .derived_as(2, source + ": V_Y controls the gain");
-    out.claim("V_Z - V_X at 400 gf with half R_F", half_R->at(400) / usual->at(400), "times")
+    out.claim("V_Z - V_X at 400 gf: with half R_F over that with R_F", half_R->at(400) / nominal->at(400), "times")
         .derived_as(0.5, source + ": R_F controls the gain");
     const auto G = ForceSensor().conductance(400);
     out.claim("output current that the amplifier needs at 400 gf", 0.1 * G, "A");
@@ -70,11 +70,11 @@ Result<StudyResult> work(const StudyOptions& options) {
     auto supplies = find_lowest_supplies(cells, 4);
     if (!supplies) return supplies.error();
     lowest.y = std::move(*supplies);
-    out.claim("lowest supply at 4 N: rise per volt of rise of V_Z", lowest.fit_line().slope)
+    out.claim("rise of the lowest supply at 4 N over the rise of V_Z", lowest.fit_line().slope)
         .allow_min(0.9, "thesis 4.2: V_Zmax \"limits the required minimum supply voltage\"; the bound is our choice");
     const auto amplifier = run_study_netlist({"amplifier"});
     if (!amplifier) return amplifier.error();
-    out.claim("number of parallel amplifiers of fig. 23 that would hold the sensor to 5 % at 400 gf",
+    out.claim("number of parallel amplifiers of fig. 23 that would hold V_X within 5 % of V_Y at 400 gf",
               0.1 * G / (0.05 * 0.1 * amplifier->number("g_m")));
     out.plot("20: V_Z", "force (gf)", "V")
         .add("eq. 14, 9.1 kohm", equation(0.1, 9.1e3).scaled(1, 1))
@@ -92,6 +92,6 @@ Result<StudyResult> work(const StudyOptions& options) {
 
 const Study study{"fig20", "Force to voltage",
                   "A transimpedance amplifier holds the sensor at V_Y; its output current limits it. Thesis 4.2, fig. 20, eq. 14 and 15",
-                  work};
+                  compute};
 
 }  // namespace corpuscle::studies::fig20

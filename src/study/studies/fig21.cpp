@@ -9,7 +9,7 @@
 
 namespace corpuscle::studies::fig21 {
 
-Result<StudyResult> work(const StudyOptions& options) {
+Result<StudyResult> compute(const StudyOptions& options) {
     StudyResult out;
     const std::string source = "thesis 4.2, fig. 21";
     const auto found = run_study_netlist({"force_to_current_plain", {}, ".dc vgf 1 500 1"});
@@ -46,7 +46,8 @@ Result<StudyResult> work(const StudyOptions& options) {
     out.claim("lowest supply at 4 N with 16x1", supply.at(16), "V");
     out.claim("lowest supply at 4 N with 256x1", supply.at(256), "V")
         .allow_max(supply.at(16), source + ": \"and consequently, a lower supply voltage\"");
-    out.claim("number of unit transistors for the lowest supply of fig. 22, which has 40", supply.crossing(lowest->back()));
+    out.claim("number of unit transistors with which fig. 21 reaches the lowest supply of fig. 22, which has 40",
+              supply.crossing(lowest->back()));
     out.claim("doubling S_1 at 256x1 lowers V_Z by", V_Z.at(256) - V_Z.at(512), "V");
     out.plot("21: I_F", "force (gf)", "uA")
         .add("16x1", I.scaled(1, 1e6))
@@ -61,6 +62,7 @@ Result<StudyResult> work(const StudyOptions& options) {
 
 const Study study{
     "fig21", "Force to current with one transistor",
-    "One transistor carries the sensor's current; a larger one allows a lower V_Z and a lower supply. Thesis 4.2, fig. 21, eq. 15", work};
+    "One transistor carries the sensor's current; a larger one allows a lower V_Z and a lower supply. Thesis 4.2, fig. 21, eq. 15",
+    compute};
 
 }  // namespace corpuscle::studies::fig21

@@ -1,5 +1,5 @@
 // Fig. 22: force to current with current splitting and forward-biased bulks, and the benefit of each. Compares the three transducers by the
-// lowest supply at which they still hold their sensor at 4 N.
+// lowest supply at which they still regulate the sensor's voltage at 4 N.
 
 #include <fmt/format.h>
 #include <cmath>
@@ -18,7 +18,7 @@ struct Variant {
 std::vector<Variant> variants() {
     return {{"voltage", "fig. 20 with a follower of 64 unit transistors, 3.6 kohm", voltage_cell(3.6e3)},
             {"plain", "fig. 21, M1 16x1", single_transistor_cell(16)},
-            {"plain40", "fig. 21, M1 of as many unit transistors as fig. 22 has", single_transistor_cell(40)},
+            {"plain40", "fig. 21, M1 40x1, the number of unit transistors of fig. 22", single_transistor_cell(40)},
             {"atvss", "fig. 22 without M3, bulks at vss", improved_cell_at("0")},
             {"atsource", "fig. 22 without M3, bulks at the source", improved_cell_at("vx")},
             {"improved", "fig. 22", improved_cell()},
@@ -31,7 +31,7 @@ std::vector<TransducerCell> cells() {
     return out;
 }
 
-/// Effect of the two techniques at 4 N and 0.9 V, where all transducers hold their sensor.
+/// Effect of the two techniques at 4 N and 0.9 V, where all transducers regulate the sensor's voltage.
 Result<void> report_techniques(StudyResult& out) {
     const auto found = run_study_netlist({transducer_netlist(cells(), "4"),
                                           {"vdd=0.9"},
@@ -43,8 +43,8 @@ Result<void> report_techniques(StudyResult& out) {
     out.claim("4 N, 0.9 V: I_D1 over I_D2", at("i(ximproved.mn1)") / at("i(ximproved.mn2)"))
         .derived_as(1.0 / 16, source + ": S_1 / S_2")
         .explain_if_needed(
-            "the single transistors of M_2 have the lower Early voltage and carry more than their ratio; the effect is smaller at 0.7 V, "
-            "where their drain is lower");
+            "the single transistors of M_2 have the lower Early voltage and carry more current than their ratio gives; the effect is "
+            "smaller at 0.7 V, where their drain is lower");
     out.claim("I_F over fig. 21's", at("i(ximproved.vif)") / at("i(xplain.vif)"))
         .derived_as(1.0 / 17, source + ": I_F = I_F0 S_1 / (S_1 + S_2), errata F8")
         .explain_if_needed("as above");
@@ -58,7 +58,7 @@ Result<void> report_techniques(StudyResult& out) {
     return {};
 }
 
-/// V_X over the supply, and the lowest supply of each.
+/// V_X over the supply, and the lowest supply of each transducer.
 Result<void> report_supplies(StudyResult& out) {
     const auto found = run_study_netlist({transducer_netlist(cells(), "4"), {}, ".dc vdd 0.3 1 5m"});
     if (!found) return found.error();
@@ -73,7 +73,7 @@ Result<void> report_supplies(StudyResult& out) {
     plot.add("limit: 95 % of V_Y", {{0.3, 1}, {95, 95}});
     out.claim("supply saved by M_3, compared with bulks at vss", lowest["atvss"] - lowest["improved"], "V").allow_min(0, source);
     out.claim("supply saved by M_3, compared with bulks at the source", lowest["atsource"] - lowest["improved"], "V").allow_min(0, source);
-    out.claim("supply saved by the split and M_3, compared with fig. 21 of as many unit transistors",
+    out.claim("supply saved by the split and M_3, compared with fig. 21 with the same number of unit transistors",
               lowest["plain40"] - lowest["improved"], "V")
         .allow_min(0, source + ": lower \"without increasing the transistor size\"");
     out.claim("supply saved by fig. 22, compared with fig. 20", lowest["voltage"] - lowest["improved"], "V")
@@ -109,7 +109,7 @@ Result<void> report_forces_and_corners(StudyResult& out, const StudyOptions& opt
     return {};
 }
 
-/// Which aspect ratios give which fraction of the current (errata F8).
+/// The fraction of the current over the ratio of the aspect ratios (errata F8).
 Result<void> report_split(StudyResult& out) {
     StudyCurve simulated, expected;
     std::vector<TransducerCell> all;
@@ -128,7 +128,7 @@ Result<void> report_split(StudyResult& out) {
     }
     out.claim_true("a smaller S_1 / S_2 gives a smaller I_F", simulated.y.front() < simulated.y.back(),
                    "printed: \"maximum S_1/S_2\", errata F8: minimum");
-    StudyPlot& plot = out.plot("I_F at 4 N over S_1 / S_2, sixteen unit transistors in M_1 each", "S_1 / S_2", "I_F (uA)");
+    StudyPlot& plot = out.plot("I_F at 4 N over S_1 / S_2, with sixteen unit transistors in each M_1", "S_1 / S_2", "I_F (uA)");
     plot.log_x = plot.log_y = true;
     plot.add("netlist", simulated, StudyPlot::Style::points)
         .add("I_F0 S_1 / (S_1 + S_2)", expected)
@@ -136,7 +136,7 @@ Result<void> report_split(StudyResult& out) {
     return {};
 }
 
-Result<StudyResult> work(const StudyOptions& options) {
+Result<StudyResult> compute(const StudyOptions& options) {
     StudyResult out;
     if (auto ok = report_supplies(out); !ok) return ok.error();
     if (auto ok = report_techniques(out); !ok) return ok.error();
@@ -155,6 +155,6 @@ Result<StudyResult> work(const StudyOptions& options) {
 const Study study{"fig22", "Force to current, improved, and comparison of the three transducers",
                   "The sensor's current is split by S_1 and S_2, and M_3 forward-biases their bulks, which allows a lower V_GS and supply. "
                   "Thesis 4.2, fig. 22, table 1; 4.5",
-                  work};
+                  compute};
 
 }  // namespace corpuscle::studies::fig22

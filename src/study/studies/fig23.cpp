@@ -14,19 +14,19 @@ const std::string source = "thesis 4.2, fig. 23";
 
 const Changes pair_at_supply = {{" t b3 pch", " t vdd pch"}, {" t b4 pch", " t vdd pch"}};
 const Changes pair_at_source = {{" t b3 pch", " t t pch"}, {" t b4 pch", " t t pch"}};
-const Changes n_unlifted = {{" 0 b5 nch", " 0 0 nch"}, {" f1 b6 nch", " f1 0 nch"}, {" f2 b6 nch", " f2 0 nch"}};
-const Changes p_unlifted = {{" vdd b1 pch", " vdd vdd pch"}, {" b2 pch w=6u l=0.5u m=16", " vdd pch w=6u l=0.5u m=16"}};
+const Changes n_bulks_at_vss = {{" 0 b5 nch", " 0 0 nch"}, {" f1 b6 nch", " f1 0 nch"}, {" f2 b6 nch", " f2 0 nch"}};
+const Changes p_bulks_at_supply = {{" vdd b1 pch", " vdd vdd pch"}, {" b2 pch w=6u l=0.5u m=16", " vdd pch w=6u l=0.5u m=16"}};
 /// The input pair's bulks directly at vss, each through a source that measures the bulk current.
 const Changes bulks_at_vss = {{"mp3c plus  0 b3 b3 pch w=6u l=0.5u m=16", "vb3 b3 0 0"},
                               {"mp3d minus 0 b4 b4 pch w=6u l=0.5u m=16", "vb4 b4 0 0"}};
 
 /// circuits/amplifier.cir with these changes in its subcircuits.
-Result<NetlistResult> simulate_amplifier(const Changes& changes, const std::string& orders = "") {
+Result<NetlistResult> simulate_amplifier(const Changes& changes, const std::string& directives = "") {
     const auto parts = substitute_in_embedded_text("circuits/parts/transducer.inc", changes);
     if (!parts) return parts.error();
     auto netlist = substitute_in_embedded_text("circuits/amplifier.cir", {{".include 'parts/transducer.inc'", *parts}});
     if (!netlist) return netlist.error();
-    return run_study_netlist({std::move(*netlist), {}, orders});
+    return run_study_netlist({std::move(*netlist), {}, directives});
 }
 
 /// Transconductance over the common mode, from the pair of cells in circuits/amplifier.cir with inputs of +0.1 mV and -0.1 mV.
@@ -35,6 +35,7 @@ Result<StudyCurve> transconductance(const Changes& changes) {
     if (!found) return found.error();
     return found->curve("dc", "par('(i(v1)-i(v2))/0.2m')");
 }
+/// Common-mode input (V) above 0.1 V at which the transconductance is half of that at 0.1 V.
 double common_mode_limit(const StudyCurve& g_m) { return g_m.crossing(g_m.at(0.1) / 2, 0.1); }
 
 /// Gain, bandwidth and ranges of the amplifier without the sensor loop.
@@ -48,9 +49,9 @@ Result<void> report_amplifier(StudyResult& out) {
                            ".op"});
     if (!supply) return supply.error();
     const double I = supply->operating_point("i(vi)");
-    out.claim("gain into the transducer's M_1 to M_3", 20 * std::log10(found->number("gain")), "dB");
-    out.claim("gain-bandwidth there", found->number("f_unity"), "Hz");
-    out.claim("phase margin there, with feedback of one", found->number("margin"), "degrees")
+    out.claim("gain with the transducer's M_1 to M_3 as the load", 20 * std::log10(found->number("gain")), "dB");
+    out.claim("unity-gain frequency with this load", found->number("f_unity"), "Hz");
+    out.claim("phase margin with this load at unity feedback", found->number("margin"), "degrees")
         .allow_min(45, "not published; the bound is our choice");
     out.claim("input transconductance at V_Y", found->number("g_m"), "S");
     out.claim("offset", found->number("offset"), "V");
@@ -77,11 +78,11 @@ Result<void> report_input_pair(StudyResult& out) {
         if (!*r) return r->error();
     out.claim("common-mode input up to, bulks of the pair at the supply", common_mode_limit(*at_supply), "V");
     out.claim("common-mode input up to, bulks at the source", common_mode_limit(*at_source), "V");
-    out.claim("gain in common-mode range by the biased bulks, compared with bulks at the supply",
+    out.claim("increase of the common-mode range by the biased bulks, compared with bulks at the supply",
               common_mode_limit(*lifted) - common_mode_limit(*at_supply), "V")
         .allow_min(0, source + ": \"to increase the OTA common-mode input voltage excursion\"");
     out.plot("Transconductance over the common mode", "V (both inputs)", "g_m (uS)")
-        .add("fig. 23: bulks by M_3C, D", lifted->scaled(1, 1e6))
+        .add("fig. 23: bulks biased by M_3C, D", lifted->scaled(1, 1e6))
         .add("bulks at the source", at_source->scaled(1, 1e6))
         .add("bulks at the supply", at_supply->scaled(1, 1e6));
     const auto bulks = simulate_amplifier(bulks_at_vss, ".dc vs 0 0.7 2m"),
@@ -95,11 +96,11 @@ Result<void> report_input_pair(StudyResult& out) {
          {},
          ".dc vp 0 0.7 2m"});
     if (!limited) return limited.error();
-    const auto kept = limited->curve("dc", "i(vm)").absolute();
+    const auto limited_current = limited->curve("dc", "i(vm)").absolute();
     out.claim("bulk current with both inputs at 0.4 V, bulk directly at vss", free_current.at(0.4), "A");
-    out.claim("the same limited by M_3C, D; it flows out of the input", kept.at(0.4), "A")
+    out.claim("the same limited by M_3C, D; it flows out of the input", limited_current.at(0.4), "A")
         .allow_max(free_current.at(0.4), source + ": M_3C, D limit the parasitic substrate current");
-    out.claim("current out of an input at V_Y", kept.at(0.1), "A");
+    out.claim("current out of an input at V_Y", limited_current.at(0.1), "A");
     return {};
 }
 
@@ -128,16 +129,16 @@ Result<Supplies> find_supplies(const Changes& changes) {
 }
 
 Result<void> report_supply(StudyResult& out) {
-    const auto lifted = find_supplies({}), no_n = find_supplies(n_unlifted), no_p = find_supplies(p_unlifted);
-    for (const auto* r : {&lifted, &no_n, &no_p})
+    const auto lifted = find_supplies({}), n_at_vss = find_supplies(n_bulks_at_vss), p_at_supply = find_supplies(p_bulks_at_supply);
+    for (const auto* r : {&lifted, &n_at_vss, &p_at_supply})
         if (!*r) return r->error();
     const std::string lower = source + ": forward body bias in the mirrors \"to decrease the minimum voltage supply requirement\"";
     out.claim("lowest supply of the amplifier", lifted->amplifier, "V");
-    out.claim("lowest supply of the amplifier, N mirrors' bulks at vss", no_n->amplifier, "V").allow_min(lifted->amplifier, lower);
+    out.claim("lowest supply of the amplifier, N mirrors' bulks at vss", n_at_vss->amplifier, "V").allow_min(lifted->amplifier, lower);
     out.claim("voltage of I_BIASA's diode", lifted->diode, "V");
-    out.claim("voltage of I_BIASA's diode, P mirrors' bulks at the supply", no_p->diode, "V").allow_min(lifted->diode, lower);
+    out.claim("voltage of I_BIASA's diode, P mirrors' bulks at the supply", p_at_supply->diode, "V").allow_min(lifted->diode, lower);
     out.claim("lowest supply of the transducer at 0.2 N", lifted->transducer, "V");
-    out.claim("lowest supply of the transducer at 0.2 N, N mirrors' bulks at vss", no_n->transducer, "V")
+    out.claim("lowest supply of the transducer at 0.2 N, N mirrors' bulks at vss", n_at_vss->transducer, "V")
         .allow_min(lifted->transducer, lower)
         .explain_if_needed(
             "V_Z limits it, not the mirrors: both branches then have too little supply. With the bulks at vss the end of the left branch "
@@ -145,7 +146,7 @@ Result<void> report_supply(StudyResult& out) {
     return {};
 }
 
-Result<StudyResult> work(const StudyOptions& options) {
+Result<StudyResult> compute(const StudyOptions& options) {
     StudyResult out;
     double done = 0;
     for (const auto report : {report_amplifier, report_input_pair, report_supply}) {
@@ -161,6 +162,6 @@ Result<StudyResult> work(const StudyOptions& options) {
 const Study study{"fig23", "The transducer's amplifier",
                   "A folded cascode with self-cascode mirrors and forward-biased bulks: larger ranges of input and output, a lower supply. "
                   "Thesis 4.2, fig. 23, table 2",
-                  work};
+                  compute};
 
 }  // namespace corpuscle::studies::fig23

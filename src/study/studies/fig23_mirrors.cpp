@@ -11,7 +11,7 @@ namespace corpuscle::studies::fig23_mirrors {
 const std::string source = "thesis 4.2, fig. 23";
 
 /// Mirrors of 100 nA with equal inputs: the output voltage from which the resistance is at least half of that at 0.5 V.
-Result<StudyResult> work(const StudyOptions&) {
+Result<StudyResult> compute(const StudyOptions&) {
     StudyResult out;
     const auto found = run_study_netlist({R"(Mirrors of fig. 23 and alternatives
 .lib '../process/tsmc180.lib' tt
@@ -69,17 +69,17 @@ vq oq out 0
     out.claim("conventional cascode, two stacked diodes: output from", output_from("i(vd)"), "V")
         .allow_min(output_from("i(va)"), source + ": the self-cascode \"allows a larger output voltage excursion\"");
     StudyCurve ratio = found->curve("dc", "i(va)").slope().absolute();
-    const auto other = found->curve("dc", "i(vd)").slope().absolute();
-    for (std::size_t k = 0; k < ratio.x.size(); ++k) ratio.y[k] /= other.y[k];
+    const auto conventional = found->curve("dc", "i(vd)").slope().absolute();
+    for (std::size_t k = 0; k < ratio.x.size(); ++k) ratio.y[k] /= conventional.y[k];
     out.claim("the conventional cascode has the higher resistance from", ratio.crossing(1, 0.2), "V");
     out.claim("voltage of the conventional cascode's diodes", found->curve("dc", "v(d)").at(0.35), "V")
-        .allow_min(0.7, source + ": the self-cascode's advantage at \"similar ... power supplies\"; at 0.7 V nothing would remain");
+        .allow_min(0.7, source + ": the self-cascode's advantage at \"similar ... power supplies\"; at 0.7 V no output range would remain");
     out.claim("self-cascode: input voltage, bulks at vss", found->curve("dc", "v(c)").at(0.35), "V");
     out.claim("self-cascode: input voltage, bulks forward biased", found->curve("dc", "v(a)").at(0.35), "V")
         .allow_max(found->curve("dc", "v(c)").at(0.35), source + ": \"to decrease the minimum voltage supply requirement\"");
     out.claim("P trapezoid: output resistance at 0.35 V", resistance("i(vp)"), "ohm")
         .allow_min(resistance("i(vq)"), source + ": trapezoidal arrays \"to increase the output impedance\", compared with the 4x4 array");
-    out.claim("the 4x4 array without the trapezoid", resistance("i(vq)"), "ohm");
+    out.claim("P 4x4 array without the trapezoid: output resistance at 0.35 V", resistance("i(vq)"), "ohm");
     StudyPlot& plot = out.plot("Output resistance of N mirrors of 100 nA", "V_OUT (V)", "Mohm");
     plot.log_y = true;
     for (const auto& [name, current] : {std::pair{"self-cascode, bulks forward biased (fig. 23)", "i(va)"},
@@ -96,6 +96,6 @@ vq oq out 0
 const Study study{"fig23-mirrors", "The mirrors of the transducer's amplifier",
                   "Self-cascode mirrors allow a larger output range than conventional cascodes, trapezoidal arrays raise the output "
                   "impedance, forward-biased bulks lower the supply. Thesis 4.2, fig. 23, table 2",
-                  work};
+                  compute};
 
 }  // namespace corpuscle::studies::fig23_mirrors

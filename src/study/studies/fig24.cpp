@@ -12,7 +12,8 @@ constexpr double V_DD = 0.7, headroom = 175e-3;  // V, published
 
 const std::string inconsistent_slopes = "no single V_Y gives both published slopes (errata F12); V_Y is 0.1 V here";
 const std::string slope_reason =
-    inconsistent_slopes + ". The single transistors of M_2 take some percent more than their ratio, which leaves less for M_1";
+    inconsistent_slopes +
+    ". The single transistors of M_2 take some percent more current than their ratio gives, which leaves less for M_1";
 
 Result<void> report_curves(StudyResult& out) {
     const auto found = run_study_netlist({"transducer", {}, ".dc vgf 1 500 1"});
@@ -84,7 +85,8 @@ Result<void> report_press(StudyResult& out) {
     out.claim("24d: I_F in the plateau, 4 N", I.at(0.5), "A");
     out.claim("24d: smallest force", force.min(), "N").published_as(0.2, "thesis 1.2, fig. 4");
     out.claim("24d: largest force", force.max(), "N").published_as(4, "thesis 1.2, fig. 4");
-    out.claim("24d: I_F against its static characteristic, largest difference, of I_F in the plateau", 100 * worst_error / I.at(0.5), "%")
+    out.claim("24d: I_F against its static characteristic, largest difference, relative to I_F in the plateau",
+              100 * worst_error / I.at(0.5), "%")
         .allow_max(1, "not published: the loop is fast compared with the stimulus; the bound is our choice");
     out.plot("24d: the press stimulus", "time (s)", "I_F (uA)")
         .add("I_F", I.scaled(1, 1e6))
@@ -93,7 +95,7 @@ Result<void> report_press(StudyResult& out) {
     return {};
 }
 
-Result<StudyResult> work(const StudyOptions& options) {
+Result<StudyResult> compute(const StudyOptions& options) {
     StudyResult out;
     if (auto ok = report_curves(out); !ok) return ok.error();
     if (auto ok = options.report_progress(0.3); !ok) return ok.error();
@@ -105,8 +107,7 @@ Result<StudyResult> work(const StudyOptions& options) {
 
 const Study study{"fig24", "The transducer: characteristic, gain, voltages, and the press stimulus",
                   "I_F proportional to the sensor's conductance, gain from about 12 to about 4 nA/gf, V_X follows V_Y, V_Z stays 175 mV "
-                  "below the supply. "
-                  "Thesis 4.2, fig. 24",
-                  work};
+                  "below the supply. Thesis 4.2, fig. 24",
+                  compute};
 
 }  // namespace corpuscle::studies::fig24

@@ -38,7 +38,7 @@ void add_claims(const ActiveLoad& load, StudyResult& out) {
                    deviation_percent(150e-3) < -20 && deviation_percent(550e-3) < -20, source);
 }
 
-Result<StudyResult> work(const StudyOptions& options) {
+Result<StudyResult> compute(const StudyOptions& options) {
     StudyResult out;
     const auto found = run_study_netlist({"invb", {}, ".dc vin 0 0.7 0.5m"});
     if (!found) return found.error();
@@ -63,6 +63,6 @@ Result<StudyResult> work(const StudyOptions& options) {
 }
 
 const Study study{"fig28", "The transconductor of the current-controlled voltage source",
-                  "No current at half the supply, 413 kohm at 350 mV, linear from 300 to 500 mV. Thesis 4.3.1, fig. 28", work};
+                  "No current at half the supply, 413 kohm at 350 mV, linear from 300 to 500 mV. Thesis 4.3.1, fig. 28", compute};
 
 }  // namespace corpuscle::studies::fig28

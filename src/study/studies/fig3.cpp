@@ -10,13 +10,13 @@ namespace corpuscle::studies::fig3 {
 
 constexpr double on = 0.25, off = 0.75;  // s: start and end of the step
 constexpr TimeWindow onset{on, on + 0.1}, last{0.5, off},
-    removal{off, 1.0};  // s: windows for a burst at either end, and for "still pressed"
+    removal{off, 1.0};  // s: for the bursts at onset and removal, and for the end of the hold
 constexpr auto source = "thesis 1.2, fig. 3";
 
 struct Class {
-    const char *name, *full;
-    bool slow;
-    double threshold;  // N, median of the nerve
+    const char *name, *full_name;
+    bool slowly_adapting;
+    double threshold;  // N, median of the nerve's afferents
 };
 constexpr Class classes[] = {
     {"sa1", "SA-I", true, 1.3e-3}, {"sa2", "SA-II", true, 7.5e-3}, {"fa1", "FA-I", false, 0.58e-3}, {"fa2", "FA-II", false, 0.54e-3}};
@@ -39,20 +39,20 @@ Result<double> smallest_step(const char* afferent) {
 
 void add_claims(StudyResult& out, const Class& c, const std::vector<double>& train) {
     const auto spikes = [&](const char* when, const TimeWindow& s) -> Claim& {
-        return out.claim(fmt::format("{}: {}", c.full, when), press::spike_count(train, s), "spikes");
+        return out.claim(fmt::format("{}: {}", c.full_name, when), press::spike_count(train, s), "spikes");
     };
     spikes("within 100 ms of the onset (two make a burst)", onset).allow_min(2, source);
-    auto& held = spikes("in the last 250 ms of the step", last);
-    c.slow ? held.allow_min(2, fmt::format("{}: a sustained discharge", source))
-           : held.allow_range(0, 0, fmt::format("{}: only at onset and removal", source));
-    auto& gone = spikes("after the removal", removal);
-    if (!c.slow) gone.allow_min(2, fmt::format("{}: a burst at the removal", source));
+    auto& during_hold = spikes("in the last 250 ms of the step", last);
+    c.slowly_adapting ? during_hold.allow_min(2, fmt::format("{}: a sustained discharge", source))
+                      : during_hold.allow_range(0, 0, fmt::format("{}: only at onset and removal", source));
+    auto& after_removal = spikes("after the removal", removal);
+    if (!c.slowly_adapting) after_removal.allow_min(2, fmt::format("{}: a burst at the removal", source));
 }
 
 /// Peak frequency after the onset over the frequency of the hold.
 double onset_ratio(const std::vector<double>& train) { return measure<PeakRate>(train, onset) / measure<LastRate>(train, last); }
 
-Result<StudyResult> work(const StudyOptions& options) {
+Result<StudyResult> compute(const StudyOptions& options) {
     StudyResult out;
     const auto stimulus = trial_force({"sa1", "step", {"step.F_max=4"}});
     if (!stimulus) return stimulus.error();
@@ -62,14 +62,14 @@ Result<StudyResult> work(const StudyOptions& options) {
         const auto train = simulate_step(c.name, 4);
         if (!train) return train.error();
         add_claims(out, c, *train);
-        spikes.raster_row(c.full, *train);
-        if (c.slow) onset_ratios.push_back(onset_ratio(*train));
+        spikes.raster_row(c.full_name, *train);
+        if (c.slowly_adapting) onset_ratios.push_back(onset_ratio(*train));
     }
     for (const auto& c : classes) {
         const auto smallest = smallest_step(c.name);
         if (!smallest) return smallest.error();
-        press::set_reference(out.claim(fmt::format("{}: smallest step that evokes a spike", c.full), *smallest, "N"), c.threshold,
-                             "median of the nerve, from memory, not verified");
+        press::set_reference(out.claim(fmt::format("{}: smallest step that evokes a spike", c.full_name), *smallest, "N"), c.threshold,
+                             "median threshold of the nerve's afferents, from memory, not verified");
         if (auto ok = options.report_progress(static_cast<double>(&c - classes + 1) / 5); !ok) return ok.error();
     }
     out.claim_true(
@@ -86,7 +86,7 @@ Result<StudyResult> work(const StudyOptions& options) {
         "% SA-I, 13 % FA-II and 19 % SA-II are from memory, not verified.");
     out.note(
         "The models are made for forces of 0.2 to 4 N and their leak is a fraction of the current at these forces, so they need far more "
-        "force than the nerve.");
+        "force than the nerve's afferents.");
     out.note(
         "The parameters of sa2 and fa2 are our choice; the thesis has none. Without noise all classes fire regularly. The spikes of SA-II "
         "at the end of the step come from the |F'| of SA-IA, which the thesis finds more suitable to SA-II (3.1). The step rises within "
@@ -97,6 +97,6 @@ Result<StudyResult> work(const StudyOptions& options) {
 const Study study{"fig3", "The four afferent classes under a step of force",
                   "Slowly adapting classes fire as long as the skin is pressed, fast adapting ones only at onset and removal. Onset and "
                   "hold frequency differ much for type I and little for type II. Thesis 1.2, fig. 3",
-                  work};
+                  compute};
 
 }  // namespace corpuscle::studies::fig3

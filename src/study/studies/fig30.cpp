@@ -15,7 +15,7 @@ constexpr double C_B = 0.8e-12, C_C = 8.8e-12;  // F, table 5's text, errata S4
 
 struct Loads {
     ActiveLoad b, c;  ///< INVB and INVC
-    double times() const { return c.max_resistance / b.max_resistance; }
+    double ratio() const { return c.max_resistance / b.max_resistance; }
 };
 Result<Loads> simulate_loads(const circuit::Values& of_models = {}) {
     const auto found = run_study_netlist({"invc", {}, ".dc vin 0 0.7 0.5m", of_models});
@@ -27,8 +27,9 @@ Result<Loads> simulate_loads(const circuit::Values& of_models = {}) {
 }
 
 struct CornerFrequencies {
-    double B, C, alone_B, alone_C, top_B, top_C;  ///< Hz, except top_B and top_C. alone_B, alone_C: G / (2 pi C), from far below the
-                                                  ///< corners; top_B, top_C: gain far above the corners
+    double B, C;              ///< Hz
+    double alone_B, alone_C;  ///< Hz: with the filter's capacitor alone, G / (2 pi C), from the gain far below the corners
+    double top_B, top_C;      ///< gain far above the corners
 };
 Result<CornerFrequencies> simulate_corners(const std::vector<std::string>& settings = {}) {
     const auto found = run_study_netlist({"high_pass", settings,
@@ -52,12 +53,12 @@ double largest_difference(const Loads& loads, double from, double to) {
 void add_claims(const Loads& loads, const Loads& ideal, StudyResult& out) {
     const auto why = fmt::format(
         "by their ratios its mirrors divide by 288 x 64 = 18432 (eq. 38, 39; errata S7b); simulated without length modulation they divide "
-        "by {:.0f}. With length modulation the mirrors' diodes have more voltage than the series arrays, so the currents are divided by "
-        "more. Why the foundry's mirrors divide by less than the ratios is not known",
-        ideal.times());
+        "by {:.0f}. With length modulation the mirrors' diodes have a larger drain-source voltage than the series arrays, so the currents "
+        "are divided by more. Why the foundry's mirrors divide by less than the ratios is not known",
+        ideal.ratio());
     out.claim("largest resistance", loads.c.max_resistance, "ohm").published_as(6.6e9, source).explain(why);
-    out.claim("ratio to INVB's", loads.times(), "times").published_as(16000, source).explain(why);
-    out.claim("without length modulation: ratio to INVB's", ideal.times(), "times").derived_as(18432, "eq. 38 and 39, errata S7b");
+    out.claim("ratio to INVB's", loads.ratio(), "times").published_as(16000, source).explain(why);
+    out.claim("without length modulation: ratio to INVB's", ideal.ratio(), "times").derived_as(18432, "eq. 38 and 39, errata S7b");
     out.claim("zero input current at", loads.c.zero_current_voltage, "V").derived_as(350e-3, "thesis 4.3.1: the same shape as fig. 28a");
     out.claim("largest resistance at", loads.c.max_resistance_at, "V").derived_as(350e-3, "thesis 4.3.1: the same shape as fig. 28b");
     out.claim("resistance as a fraction of its largest, largest difference from INVB's, 200 to 500 mV", largest_difference(loads, 0.2, 0.5))
@@ -85,22 +86,22 @@ void add_claims(const CornerFrequencies& f, StudyResult& out) {
     out.claim("signal lost by this capacitance far above the corner: C", 100 * (1 - f.top_C), "%");
 }
 
-Result<StudyResult> work(const StudyOptions& options) {
+Result<StudyResult> compute(const StudyOptions& options) {
     StudyResult out;
     const auto loads = simulate_loads(), ideal = simulate_loads(ideal_mirrors);
     if (!loads) return loads.error();
     if (!ideal) return ideal.error();
-    const auto f = simulate_corners(), pico = simulate_corners({"cb=800p"});
+    const auto f = simulate_corners(), with_800_pF = simulate_corners({"cb=800p"});
     if (!f) return f.error();
-    if (!pico) return pico.error();
+    if (!with_800_pF) return with_800_pF.error();
     if (auto ok = options.report_progress(0.9); !ok) return ok.error();
     add_claims(*loads, *ideal, out);
     add_claims(*f, out);
-    out.claim("with the printed 800 pF: corner of filter B", pico->B, "Hz")
+    out.claim("with the printed 800 pF: corner of filter B", with_800_pF->B, "Hz")
         .published_as(30, source)
         .explain("\"800 pF\" is 800 fF: 20 x 20 um at 2 fF/um^2, and eleven of them are the 8.8 pF of the same sentence (errata S4)");
     out.plot("30a, input current over input voltage", "V_IN (mV)", "current (pA)")
-        .describe_published("as 28a, in picoamperes")
+        .describe_published("like fig. 28a, in picoamperes")
         .add("into INVC as a load", loads->c.current.scaled(1e3, 1e12));
     out.plot("30b, resistance over input voltage", "V_IN (mV)", "resistance (Gohm)")
         .describe_published("at most 6.6 Gohm")
@@ -111,6 +112,6 @@ Result<StudyResult> work(const StudyOptions& options) {
 }
 
 const Study study{"fig30", "The high-pass filters' transconductor and their corner frequencies",
-                  "6.6 Gohm, 16000 times the other transconductor; corners at 30 and 2.7 Hz. Thesis 4.3.1, fig. 30", work};
+                  "6.6 Gohm, 16000 times the other transconductor; corners at 30 and 2.7 Hz. Thesis 4.3.1, fig. 30", compute};
 
 }  // namespace corpuscle::studies::fig30

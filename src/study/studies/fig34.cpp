@@ -30,7 +30,7 @@ void report_static(const NetlistResult& found, StudyResult& out) {
         .derived_as(100 * expected, source);
 }
 
-/// A rectified component: its largest value, its time, and the rest where max{I_X, 0} is 0.
+/// Claims on a rectified component: its largest value and when it occurs, its value at rest, and the effects of its switch.
 void report_dynamic(const NetlistResult& found, const std::string& name, const char* curve, const char* enable, StudyResult& out) {
     const auto all = found.curve("tran", curve), I = all.resampled(step), en = found.curve("tran", enable);
     const auto rise = I.between(0.26, 0.5);
@@ -38,12 +38,13 @@ void report_dynamic(const NetlistResult& found, const std::string& name, const c
         out.claim(name + ": delay of its peak after the steepest point of the ramp", rise.x_of_max() - mid_rise, "s");
     out.claim(name + ": at rest", I.at(at_rest), "A")
         .allow_range(-0.1e-12, 0.1e-12, "thesis 4.3.1, eq. 4 and 8: otherwise I_X = 0; 0.1 pA is our choice");
-    auto& least = out.claim_true(name + " is never negative", I.min() >= -0.1e-12, "thesis 4.3.1, max{I_X, 0}");
+    auto& not_negative = out.claim_true(name + " is never negative", I.min() >= -0.1e-12, "thesis 4.3.1, max{I_X, 0}");
     const double opening = en.between(0.63, 1).crossing(0.35);
-    if (least.needs_explanation())
-        least.explain(fmt::format(
+    if (not_negative.needs_explanation())
+        not_negative.explain(fmt::format(
             "while its switch is closed it outputs the leakage of M5A as a negative current ({:.1f} pA at 620 ms). The comparator has to "
-            "charge capacitances with picoamperes, so it opens the switch only {:.0f} ms after the force begins to fall; {:.1f} pA then",
+            "charge capacitances with picoamperes, so it opens the switch only {:.0f} ms after the force begins to fall; the current is "
+            "then {:.1f} pA",
             1e12 * I.at(0.62), 1e3 * (opening - 0.625), 1e12 * I.min()));
     const double closing = en.crossing(0.35, 0.25);
     out.claim(name + ": largest glitch when its switch closes, for microseconds",
@@ -53,6 +54,7 @@ void report_dynamic(const NetlistResult& found, const std::string& name, const c
         .allow_range(-0.1e-12, 0.1e-12, "thesis 4.3.1: the switch is open");
 }
 
+/// The largest change (A) of a current in 10 us at the start of the ramp.
 double largest_step(const StudyCurve& line) {
     const auto even = line.between(0.25, 0.3).resampled(10e-6);
     double largest = 0;
@@ -83,7 +85,7 @@ xb gp gn u vdd rectifier_sa
     return {};
 }
 
-Result<StudyResult> work(const StudyOptions& options) {
+Result<StudyResult> compute(const StudyOptions& options) {
     StudyResult out;
     const auto found = run_study_netlist(
         {"asp_sa1",
@@ -114,11 +116,11 @@ Result<StudyResult> work(const StudyOptions& options) {
         largest_step(found->curve("tran", "i(via)")) < 0.1 * largest_step(found->curve("tran", "i(vib)")), "thesis 4.4, errata S18");
     out.note(
         "As in circuits/asp_sa1.cir: 0.7 V, I_BIASB 200 nA, I_BIASF 700 nA, 27 C, typical, as published; the membrane is held at half the "
-        "supply. Gains as intended (errata S9a, S10a). The numbers of the figure are not in the text; the claims come from its words.");
+        "supply. Gains as intended (errata S9a, S10a). The numbers of the figure are not in the text; the claims come from the text.");
     return out;
 }
 
 const Study study{"fig34", "SA-I's analog signal processing under the press stimulus",
-                  "V_F, V_HPB, V_HPC, and I_A, I_B, I_C with their sum I. Thesis 4.3.1, fig. 34", work};
+                  "V_F, V_HPB, V_HPC, and I_A, I_B, I_C with their sum I. Thesis 4.3.1, fig. 34", compute};
 
 }  // namespace corpuscle::studies::fig34

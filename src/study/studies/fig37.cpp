@@ -31,7 +31,7 @@ Result<void> report_gains(StudyResult& out) {
     return {};
 }
 
-Result<StudyResult> work(const StudyOptions& options) {
+Result<StudyResult> compute(const StudyOptions& options) {
     StudyResult out;
     const auto found = run_study_netlist({"asp_fa1", {}, ".save v(vf) v(hpc) i(vi) i(via) i(vib) v(xrect.en)\n.op\n.tran 1m 1 0 5m"});
     if (!found) return found.error();
@@ -46,7 +46,7 @@ Result<StudyResult> work(const StudyOptions& options) {
     const auto up = I.between(0.26, 0.5), down = I.between(0.68, 0.9), model_up = expected.between(0.26, 0.5),
                model_down = expected.between(0.63, 0.9);
     out.claim("I: largest value, rising", up.max(), "A"), out.claim("I: largest value, falling", down.max(), "A");
-    out.claim("ratio of the two", up.max() / down.max(), "times")
+    out.claim("I: largest value rising over largest value falling", up.max() / down.max(), "times")
         .derived_as(model_up.max() / model_down.max(), "of the model, thesis 3.4 and fig. 18a");
     const auto macro = run_trial({.afferent = "fa1-macro", .probes = {"i(vi)"}});
     if (!macro) return macro.error();
@@ -62,9 +62,9 @@ Result<StudyResult> work(const StudyOptions& options) {
         "thesis 4.3.2");
     out.claim("I at rest", I.at(0.2), "A").allow_range(-0.2e-12, 0.2e-12, "thesis 4.3.2: it has no static current; 0.2 pA is our choice");
     const double switching_time = found->curve("tran", "v(xrect.en)").crossing(0.35, 0.63);
-    auto& least = out.claim_true("I is never negative", I.min() > -0.2e-12, "thesis 4.3.2, fig. 36: a full-wave rectifier");
-    if (least.needs_explanation())
-        least.explain(
+    auto& not_negative = out.claim_true("I is never negative", I.min() > -0.2e-12, "thesis 4.3.2, fig. 36: a full-wave rectifier");
+    if (not_negative.needs_explanation())
+        not_negative.explain(
             fmt::format("the comparator's input is driven by the filter's small current, so it switches {:.0f} ms after the force begins "
                         "to fall. Until then the current has the wrong sign, at most {:.0f} pA",
                         1e3 * (switching_time - 0.625), -1e12 * I.min()));
@@ -85,6 +85,6 @@ Result<StudyResult> work(const StudyOptions& options) {
 }
 
 const Study study{"fig37", "FA-I's analog signal processing under the press stimulus",
-                  "One filter's current rectified for both signs, with different gains. Thesis 4.3.2, figs. 36 and 37, table 8", work};
+                  "One filter's current rectified for both signs, with different gains. Thesis 4.3.2, figs. 36 and 37, table 8", compute};
 
 }  // namespace corpuscle::studies::fig37

@@ -20,33 +20,34 @@ void report_swing(const NetlistResult& found, const Hysteresis& t, StudyResult& 
     out.claim("rest voltage of the membrane", found.operating_point("v(u)"), "V").derived_as(0.7, "thesis 4.4: u_rest is the supply");
     out.claim("the membrane falls to", low, "V"), out.claim("V_L of the trigger", t.V_L, "V");
     out.claim("the membrane is charged to", high, "V"), out.claim("V_H of the trigger", t.V_H, "V");
-    out.claim_true("the swing equals the hysteresis window, but not exactly: it is larger at one end at least",
+    out.claim_true("the swing equals the hysteresis window only approximately: it is larger at one end at least",
                    high > t.V_H + 1e-3 && high < t.V_H + 0.1 * (t.V_H - t.V_L) && std::abs(low - t.V_L) < 0.1 * (t.V_H - t.V_L),
                    "thesis 4.4: not exactly defined by the window, since there is a switching delay");
-    const double middle = (t.V_L + t.V_H) / 2, falls = u.crossing(middle, first + 5e-3);
+    const double middle = (t.V_L + t.V_H) / 2, fall_time = u.crossing(middle, first + 5e-3);
     const auto rise = s.between(first, first + 5e-3);
-    const double filled = u.between(first, first + 5e-3).crossing(middle, first);
-    out.claim("discharge rate at the middle of the swing", u.slope_at(falls), "V/s");
-    out.claim("charging rate at the middle of the swing", u.slope_at(filled), "V/s");
+    const double rise_time = u.between(first, first + 5e-3).crossing(middle, first);
+    out.claim("discharge rate at the middle of the swing", u.slope_at(fall_time), "V/s");
+    out.claim("charging rate at the middle of the swing", u.slope_at(rise_time), "V/s");
     out.claim("duration of a spike", rise.crossing(0.35, first + 1e-4) - first, "s");
 }
 
-/// Membrane capacitance and leak, from its slopes at two currents.
+/// Membrane capacitance and leak, from the rates (V/s) at which the membrane voltage falls at two currents (A).
 struct Membrane {
     double C, leak;  ///< F, A
-    Membrane(double I_1, double falls_1, double I_2, double falls_2) : C((I_2 - I_1) / (falls_2 - falls_1)), leak(I_1 - C * falls_1) {}
+    Membrane(double I_1, double fall_rate_1, double I_2, double fall_rate_2)
+        : C((I_2 - I_1) / (fall_rate_2 - fall_rate_1)), leak(I_1 - C * fall_rate_1) {}
 };
 
-/// Frequency over I if the membrane is discharged by I - I_leak and charged by I_CHARGE + I_leak - I, from V_H to V_L and back.
+/// Frequency (Hz) if the membrane is discharged by I - I_leak and charged by I_CHARGE + I_leak - I, from V_H to V_L and back.
 double ideal_frequency(double I, double leak, double C, double swing) {
     return 1 / (C * swing / (I - leak) + C * swing / (O::I_CHARGE + leak - I));
 }
 
 constexpr double currents[] = {4e-12, 8e-12, 20e-12, 60e-12, 200e-12, 500e-12, 800e-12};  // A
 
-/// Frequency at each current and slope of the membrane at 350 mV, for currents above the leak.
+/// The frequency (Hz) and the rate (V/s) at which the membrane voltage falls at 350 mV, over the current (A), where the oscillator fires.
 struct CurrentSweep {
-    StudyCurve frequency, falls;
+    StudyCurve frequency, fall_rate;
 };
 Result<CurrentSweep> sweep_current(bool high_threshold_switches, double swing) {
     CurrentSweep out;
@@ -58,7 +59,7 @@ Result<CurrentSweep> sweep_current(bool high_threshold_switches, double swing) {
         if (!(T > 0)) continue;
         const auto u = found->curve("tran", "v(u)");
         out.frequency.x.push_back(I), out.frequency.y.push_back(1 / T);
-        out.falls.x.push_back(I), out.falls.y.push_back(-u.slope_at(u.crossing(0.35, first + T / 4)));
+        out.fall_rate.x.push_back(I), out.fall_rate.y.push_back(-u.slope_at(u.crossing(0.35, first + T / 4)));
     }
     return out;
 }
@@ -69,7 +70,7 @@ Result<void> report_frequency(const Hysteresis& t, const StudyOptions& options, 
     if (!standard) return standard.error();
     if (!high_threshold) return high_threshold.error();
     if (auto ok = options.report_progress(0.9); !ok) return ok;
-    const Membrane m(currents[1], high_threshold->falls.at(currents[1]), currents[2], high_threshold->falls.at(currents[2]));
+    const Membrane m(currents[1], high_threshold->fall_rate.at(currents[1]), currents[2], high_threshold->fall_rate.at(currents[2]));
     const auto worst_error = [&](double leak, double C, double to) {
         double worst = 0;
         for (const double I : currents)
@@ -79,7 +80,7 @@ Result<void> report_frequency(const Hysteresis& t, const StudyOptions& options, 
     out.claim("membrane capacitance, with the trigger's gates", m.C, "F")
         .published_as(O::C, "thesis 4.4: 1.8 pF of input capacitance")
         .explain("the gates of the trigger are in parallel with the capacitor");
-    out.claim("its leak with high-threshold switches", m.leak, "A")
+    out.claim("leak of the membrane, with high-threshold switches", m.leak, "A")
         .published_as(O::I_LEAK, source)
         .explain(
             "2 pA is only a little more than the current of M1A at V_GS = 0, so M1A as a diode is not saturated, while M1B is (see cco)");
@@ -100,7 +101,7 @@ Result<void> report_frequency(const Hysteresis& t, const StudyOptions& options, 
     return {};
 }
 
-Result<StudyResult> work(const StudyOptions& options) {
+Result<StudyResult> compute(const StudyOptions& options) {
     StudyResult out;
     const auto t = simulate_trigger();
     if (!t) return t.error();
@@ -129,6 +130,6 @@ Result<StudyResult> work(const StudyOptions& options) {
     return out;
 }
 
-const Study study{"fig39", "The isolated oscillator", "Membrane, spikes and the trigger's hysteresis window. Thesis 4.4, fig. 39", work};
+const Study study{"fig39", "The isolated oscillator", "Membrane, spikes and the trigger's hysteresis window. Thesis 4.4, fig. 39", compute};
 
 }  // namespace corpuscle::studies::fig39

@@ -41,12 +41,12 @@ double cosine_error(const StudyCurve& force) {
     return out;
 }
 
-Result<StudyResult> work(const StudyOptions&) {
+Result<StudyResult> compute(const StudyOptions&) {
     StudyResult out;
     const auto force = press::force_curve(1e-4);
     if (!force) return force.error();
-    const double half = (press::plateau.from + press::plateau.to) / 2, end = press::after.to;
-    const double up = ramp_duration(*force, {0, half}), down = ramp_duration(*force, {half, end});
+    const double mid_plateau = (press::plateau.from + press::plateau.to) / 2, end = press::after.to;
+    const double up = ramp_duration(*force, {0, mid_plateau}), down = ramp_duration(*force, {mid_plateau, end});
     out.claim("smallest force", force->min(), "N").published_as(0.2, source);
     out.claim("largest force", force->max(), "N").published_as(4, source);
     out.claim("rest before protraction", force->crossing(force->min() + 1e-9), "s").published_as(250e-3, source);
@@ -88,6 +88,6 @@ Result<StudyResult> work(const StudyOptions&) {
 const Study study{"fig4", "The force of the fingertip experiment",
                   "Four phases between 0.2 and 4 N: 250 ms of rest, a sinusoidal ramp of 125 ms, a plateau of 250 ms, and a retraction "
                   "described both as 250 ms and as symmetrical. Thesis 1.2, fig. 4",
-                  work};
+                  compute};
 
 }  // namespace corpuscle::studies::fig4

@@ -31,7 +31,7 @@ void report_pattern(const ChipVsModel& b, const std::vector<double>& low_leak_sp
         if (auto& c = out.claim(what, computed, unit).derived_as(model_value, similar); c.needs_explanation()) c.explain(reason);
     const auto plateau = f.between(P::plateau.from, P::plateau.to - 0.05);
     out.claim("spikes at rest", press::spike_count(chip, P::rest)).allow_range(0, 0, "thesis 1.2, fig. 5a");
-    out.claim_true("highest while the force rises, then a sustained but slowly decaying frequency",
+    out.claim_true("frequency highest while the force rises, then sustained but slowly decaying",
                    f.x_of_max() < P::plateau.from && std::is_sorted(plateau.y.rbegin(), plateau.y.rend()) &&
                        press::spike_count(chip, P::plateau_end) > 0,
                    "thesis 1.2, fig. 5a");
@@ -43,7 +43,7 @@ void report_glitches(const TrialResult& chip, StudyResult& out) {
     const auto& I = chip.probes.at("i(vi)");
     const std::vector<double> spikes_under_force(
         chip.spikes.begin(), chip.spikes.begin() + static_cast<std::ptrdiff_t>(press::spike_count(chip.spikes, {0, P::plateau.to})));
-    out.claim("glitch in I at each spike: smallest, over I before it", min_jump(I, spikes_under_force, 1.5e-3), "times")
+    out.claim("smallest glitch in I at a spike, over I before it", min_jump(I, spikes_under_force, 1.5e-3), "times")
         .allow_min(1.2, "thesis 4.4: glitches in the input signal I at each firing event; a fifth is our choice");
     const double charging_time = longest_time_above(chip.probes.at("v(s)"), 0.35);
     double shortest = 1;
@@ -64,7 +64,7 @@ void report_glitches(const TrialResult& chip, StudyResult& out) {
                    "thesis 4.4, as errata S18 corrects it: I_B and I_C");
 }
 
-Result<StudyResult> work(const StudyOptions& options) {
+Result<StudyResult> compute(const StudyOptions& options) {
     StudyResult out;
     const auto b = compare_chip_with_model(
         {.afferent = "sa1-circuit", .rate = 20e3, .probes = {"i(vi)", "i(via)", "i(vib)", "i(vic)", "v(u)", "v(s)", "v(xrectb.en)"}},
@@ -80,7 +80,7 @@ Result<StudyResult> work(const StudyOptions& options) {
     for (const auto& [name, curve] : {std::pair{"I", "i(vi)"}, {"I_A", "i(via)"}, {"I_B", "i(vib)"}, {"I_C", "i(vic)"}})
         inputs.add(name, traces.at(curve).scaled(1, 1e12));
     out.plot("40b, membrane and output", "time (s)", "V")
-        .describe_published("u is charged very fast at each s")
+        .describe_published("u is charged very fast at each spike of s")
         .add("u", traces.at("v(u)"))
         .add("s", traces.at("v(s)"));
     out.plot("Frequency compared with the model's of fig. 17c", "time (s)", "frequency (Hz)")
@@ -95,6 +95,6 @@ Result<StudyResult> work(const StudyOptions& options) {
 }
 
 const Study study{"fig40", "SA-I's chip under the press stimulus",
-                  "Glitches in its input, and a frequency similar to the model's of fig. 17c. Thesis 4.4, fig. 40", work};
+                  "Glitches in its input, and a frequency similar to the model's of fig. 17c. Thesis 4.4, fig. 40", compute};
 
 }  // namespace corpuscle::studies::fig40

@@ -22,29 +22,30 @@ void report_pattern(const ChipVsModel& b, StudyResult& out) {
         auto& c = out.claim(std::string("highest frequency, ") + name, f.between(window.from, window.to).max(), "Hz")
                       .derived_as(expected.between(window.from, window.to).max(), similar);
         if (c.needs_explanation())
-            c.explain("each ramp has only two or three intervals, and each depends on the first spike; the comparator is late");
+            c.explain("each ramp has only two or three intervals, and each depends on the first spike; the comparator switches late");
     }
     out.claim_true("it responds to the ramps only: no spike at rest and in the last 100 ms of the plateau",
                    press::spike_count(chip, P::rest) == 0 && press::spike_count(chip, P::plateau_end) == 0 &&
                        press::spike_count(chip, P::protraction) > 0 && press::spike_count(chip, P::retraction) > 0,
                    "thesis 1.2, fig. 5b");
-    out.claim_true("asymmetrical: faster while the force rises",
+    out.claim_true("asymmetrical: a higher frequency while the force rises",
                    f.between(P::protraction.from, P::plateau.from + 0.1).max() > f.between(P::retraction.from, 1).max(),
                    "thesis 1.2, fig. 5b");
     out.claim("delay of the first spike after the model's", chip.empty() ? NAN : chip[0] - b.model_spikes[0], "s");
 }
 
-Result<StudyResult> work(const StudyOptions& options) {
+Result<StudyResult> compute(const StudyOptions& options) {
     StudyResult out;
     const auto b = compare_chip_with_model({.afferent = "fa1-circuit", .rate = 20e3, .probes = {"i(vi)", "v(u)", "v(s)"}}, "fa1");
     if (!b) return b.error();
     if (auto ok = options.report_progress(0.9); !ok) return ok.error();
     report_pattern(*b, out);
     const auto& I = b->chip.probes.at("i(vi)");
-    const std::vector<double> rising(b->chip.spikes.begin(), b->chip.spikes.begin() + static_cast<std::ptrdiff_t>(press::spike_count(
-                                                                                          b->chip.spikes, {0, P::plateau.to})));
-    out.claim("glitch in I at each spike up to the end of the plateau: smallest, over I just before it", min_jump(I, rising, 0.3e-3),
-              "times")
+    const std::vector<double> spikes_under_force(
+        b->chip.spikes.begin(),
+        b->chip.spikes.begin() + static_cast<std::ptrdiff_t>(press::spike_count(b->chip.spikes, {0, P::plateau.to})));
+    out.claim("smallest glitch in I at a spike up to the end of the plateau, over I just before it",
+              min_jump(I, spikes_under_force, 0.3e-3), "times")
         .explain(
             "its membrane capacitance is three times SA-I's, so it is charged at a third of the speed and draws a third of the current "
             "through the rectifier's capacitances");
@@ -65,6 +66,6 @@ Result<StudyResult> work(const StudyOptions& options) {
 }
 
 const Study study{"fig41", "FA-I's chip under the press stimulus",
-                  "Signals and a firing pattern similar to the model's of fig. 18. Thesis 4.4, fig. 41", work};
+                  "Signals and a firing pattern similar to the model's of fig. 18. Thesis 4.4, fig. 41", compute};
 
 }  // namespace corpuscle::studies::fig41

@@ -5,11 +5,11 @@
 
 namespace corpuscle::studies::fig43 {
 
-Result<StudyResult> work(const StudyOptions&) {
+Result<StudyResult> compute(const StudyOptions&) {
     return report_layout(rectangles, "fig. 43", "A has a single channel; by the same rule its rectangle is larger than published.");
 }
 
 const Study study{"fig43", "Layout of the rectangular arrays",
-                  "Channels in rows and columns, and the rectangles that count as area. Thesis B.1, fig. 43", work};
+                  "Channels in rows and columns, and the rectangles that count as area. Thesis B.1, fig. 43", compute};
 
 }  // namespace corpuscle::studies::fig43

@@ -57,12 +57,13 @@ Result<void> add_spread(StudyResult& out) {
     const auto arrays = deviation(4, 4), parallel = deviation(16, 1);
     if (!arrays || !parallel) return arrays ? parallel.error() : arrays.error();
     out.claim("1/16 by 4 unit transistors in parallel to 4 in series: standard deviation of I_out over 1000 chips", std::abs(*arrays), "%")
-        .allow_max(std::abs(*parallel),
-                   "thesis C.2: less variability, and less area, than parallel unit transistors only; the bound is the deviation of those");
+        .allow_max(
+            std::abs(*parallel),
+            "thesis C.2: less variability, and less area, than parallel unit transistors only; the bound is their standard deviation");
     return {};
 }
 
-Result<StudyResult> work(const StudyOptions&) {
+Result<StudyResult> compute(const StudyOptions&) {
     const auto found = run_study_netlist({"parallel_series_mirror", {}, ".dc vo 0 0.7 5m"});
     if (!found) return found.error();
     StudyResult out;
@@ -80,23 +81,23 @@ Result<StudyResult> work(const StudyOptions&) {
         c.derived_as(n, "thesis eq. 36: V_A = V_E L");
         if (c.needs_explanation())
             c.explain(
-                "only the unit transistor at the drain has length modulation, which reduces it to less than its fraction of the stack's "
-                "length");
+                "in a stack of N only the unit transistor at the drain has length modulation, so the effect is less than 1/N of a single "
+                "transistor's");
         currents.add(name, I.scaled(1, 1e9 * N2)), slopes.add(name, slope.between(0.02, 0.7).scaled(1, 1e9 * N2));
         if (n == 1) continue;
         const double units = 2 * n, array = circuit::array_area(1.5e-6, 0.5e-6, units), plain = circuit::array_area(1.5e-6, 0.5e-6, N2 + 1);
-        out.claim(fmt::format("{}: area of its {:g} unit transistors over that of {:g} in parallel to one", name, units, N2 + 1),
+        out.claim(fmt::format("{}: area of its {:g} unit transistors over that of {:g}, N^2 in parallel and one", name, units, N2 + 1),
                   array / plain)
             .allow_max(1, "thesis B.1, C.1: area-efficient");
     }
-    for (const auto put : {add_lengths, add_spread})
-        if (auto ok = put(out); !ok) return ok.error();
+    for (const auto add : {add_lengths, add_spread})
+        if (auto ok = add(out); !ok) return ok.error();
     out.plots = {currents.describe_published("C.1: I_out is I_in over N^2"),
                  slopes.describe_published("C.1: G_o falls as the channel lengthens (eq. 36)")};
     return out;
 }
 
 const Study study{"fig46", "Current mirrors, conventional and of arrays",
-                  "Ratio, output conductance, and the effect of different lengths. Thesis C.1, fig. 46", work};
+                  "Ratio, output conductance, and the effect of different lengths. Thesis C.1, fig. 46", compute};
 
 }  // namespace corpuscle::studies::fig46

@@ -18,7 +18,7 @@ StudyCurve sum(const StudyCurve& a, const StudyCurve& b) {
     return out;
 }
 
-/// The part above the floor, in nA, for a logarithmic axis.
+/// The part of a curve within the plot's limits, in nA, for a logarithmic axis.
 StudyCurve plotted_part(const StudyCurve& I) {
     StudyCurve out;
     for (std::size_t k = 0; k < I.x.size(); ++k)
@@ -28,8 +28,10 @@ StudyCurve plotted_part(const StudyCurve& I) {
 
 StudyCurve swap_axes(const StudyCurve& of) { return {of.y, of.x}; }
 
+/// Curves over the voltage of the diodes.
 struct Diodes {
-    StudyCurve X, Y, B_Y, Z, B_Z, bulk;
+    StudyCurve X, Y, B_Y, Z, B_Z;  ///< A: drain currents of X, Y and Z, bulk currents of Y and Z
+    StudyCurve bulk;               ///< V: bulk voltage of Z
 };
 
 void add_currents(StudyResult& out, const Diodes& d) {
@@ -71,7 +73,7 @@ void add_augmented(StudyResult& out, const Diodes& d) {
         .allow_range(0.5, 1, "as above, with less body bias");
 }
 
-Result<StudyResult> work(const StudyOptions&) {
+Result<StudyResult> compute(const StudyOptions&) {
     const auto found = run_study_netlist({"body_diodes", {}, ".dc vin 0 0.95 1m"});
     if (!found) return found.error();
     const auto curve = [&](const char* name) { return found->curve("dc", name); };
@@ -108,6 +110,6 @@ Result<StudyResult> work(const StudyOptions&) {
 
 const Study study{"fig48-49", "A transistor as a diode with forward-biased bulk",
                   "Currents and voltages of a plain, a body-biased and an augmented body-biased diode. Thesis app. D, figs. 48 and 49",
-                  work};
+                  compute};
 
 }  // namespace corpuscle::studies::fig48_49

@@ -48,7 +48,7 @@ void add_fa1_claims(StudyResult& out, const std::vector<double>& train) {
             "B13)");
 }
 
-Result<StudyResult> work(const StudyOptions& options) {
+Result<StudyResult> compute(const StudyOptions& options) {
     StudyResult out;
     const auto sa1 = simulate_train({"sa1"}), fa1 = simulate_train({"fa1"});
     const auto force = press::force_curve(1e-3);
@@ -57,9 +57,9 @@ Result<StudyResult> work(const StudyOptions& options) {
     if (!force) return force.error();
     if (auto ok = options.report_progress(0.5); !ok) return ok.error();
     add_sa1_claims(out, *sa1), add_fa1_claims(out, *fa1);
-    const auto ahead = press::frequency_at_start(*sa1), behind = press::frequency_at_end(*sa1);
-    out.claim("SA-I: time of the peak, frequency at the start of each interval", ahead.x_of_max(), "s");
-    out.claim("the same, frequency at the end of each interval", behind.x_of_max(), "s");
+    const auto at_interval_start = press::frequency_at_start(*sa1), at_interval_end = press::frequency_at_end(*sa1);
+    out.claim("SA-I: time of the peak, frequency at the start of each interval", at_interval_start.x_of_max(), "s");
+    out.claim("the same, frequency at the end of each interval", at_interval_end.x_of_max(), "s");
     for (const auto& [name, train] : {std::pair{"SA-I", &*sa1}, {"FA-I", &*fa1}})
         out.plot(fmt::format("{}: instantaneous frequency", name), "time (s)", "frequency (Hz)")
             .points("at the first spike of the interval", press::frequency_at_start(*train))
@@ -73,7 +73,7 @@ Result<StudyResult> work(const StudyOptions& options) {
         "plot it at the spike that ends it. Here an interval that begins in protraction and ends in the plateau counts as protraction.");
     out.note(
         "Frequencies are proportional to 1 / (theta - u_rst), which is not published: 0.25 V is our choice (errata B10a). Single afferents "
-        "at 4 N peak at 50 to 150 Hz, and SA-I holds 20 to 50 Hz; from memory, not verified.");
+        "at 4 N peak at 50 to 150 Hz, and SA-I sustains 20 to 50 Hz; from memory, not verified.");
     out.note(
         "The paper's abstract says that nearly all of the 196 afferents responded. Their numbers, 73 SA-I, 41 SA-II, 72 FA-I and 10 FA-II, "
         "are from memory, not verified. The paper's curves are population means; one model of one afferent has no spread.");
@@ -83,6 +83,6 @@ Result<StudyResult> work(const StudyOptions& options) {
 const Study study{"fig5", "Instantaneous discharge frequency under the press stimulus",
                   "SA-I: high in protraction, sustained but slowly decaying in the plateau, almost none in retraction. FA-I: unequal "
                   "discharges in protraction and retraction only. Thesis 1.2, fig. 5, after Birznieks et al. 2001",
-                  work};
+                  compute};
 
 }  // namespace corpuscle::studies::fig5

@@ -40,21 +40,21 @@ Result<void> claim_sensitivity(StudyResult& out, const QuiescentPoint& nominal) 
     return {};
 }
 
-Result<StudyResult> work(const StudyOptions& options) {
+Result<StudyResult> compute(const StudyOptions& options) {
     StudyResult out;
     const auto found = run_study_netlist({"quiescent", {}, ".dc vbn 0 0.4 5m"});
     if (!found) return found.error();
-    const auto both = found->curve("dc", "v(qa)"), v_bn_only = found->curve("dc", "v(qe)"), V_Q0 = found->curve("dc", "v(qb)"),
+    const auto both_biased = found->curve("dc", "v(qa)"), v_bn_only = found->curve("dc", "v(qe)"), V_Q0 = found->curve("dc", "v(qb)"),
                I_Q = found->curve("dc", "i(visa)");
-    out.claim("V_Q, bulks at the rails", both.at(0), "V").published_as(355.1e-3, "table 17, mean without biasing, mismatch only");
+    out.claim("V_Q, bulks at the rails", both_biased.at(0), "V").published_as(355.1e-3, "table 17, mean without biasing, mismatch only");
     out.claim("I_Q, bulks at the rails", I_Q.at(0), "A").published_as(17.59e-9, "table 18, mean without biasing, mismatch only");
     out.claim("V_Q0, bulks at the output", V_Q0.at(0), "V");
     const auto line = v_bn_only.fit_line();
     out.claim("V_Q over V_BN, V_BP fixed: slope", line.slope, "V/V").derived_as(-(n - 1) / 2, "eq. 47a: -(n-1)/2");
-    out.claim("largest difference of that from a straight line, of the change of V_Q",
+    out.claim("V_Q over V_BN, V_BP fixed: largest difference from a straight line, relative to the change of V_Q",
               100 * line.max_deviation / (v_bn_only.max() - v_bn_only.min()), "%")
         .allow_max(5, "E.1: V_Q varies almost proportionally with the bulk voltages; a twentieth is our choice");
-    out.claim("change of V_Q when both bulks are biased equally, 0 to 0.35 V", std::abs(both.at(0.35) - both.at(0)), "V")
+    out.claim("change of V_Q when both bulks are biased equally, 0 to 0.35 V", std::abs(both_biased.at(0.35) - both_biased.at(0)), "V")
         .allow_max(5e-3, "eq. 47a: no change, as V_BP + V_BN is constant; 5 mV is our choice");
     out.claim("I_Q with both bulks at half the supply, over that with bulks at the rails", I_Q.at(0.35) / I_Q.at(0), "times");
     const auto nominal = quiescent_point({});
@@ -68,7 +68,7 @@ Result<StudyResult> work(const StudyOptions& options) {
     out.plot("V_Q over the bulk voltages", "V_BN (V)", "V")
         .add("V_Q (51a), V_BN only", v_bn_only)
         .add("eq. 47a with V_Q0 of 51b", by_47a)
-        .add("V_Q (51a), both biased equally", both)
+        .add("V_Q (51a), both biased equally", both_biased)
         .add("V_Q0 (51b)", V_Q0)
         .describe_published("the figure shows circuits only: 51a and 51b extract V_Q and V_Q0");
     out.plot("I_Q with both bulks biased equally", "V_BN, V_DD - V_BP (V)", "I_Q (nA)").add("I_Q", I_Q.scaled(1, 1e9)).log_y = true;
@@ -77,6 +77,6 @@ Result<StudyResult> work(const StudyOptions& options) {
 
 const Study study{"fig51", "Operating point of an inverter with its output tied to its input",
                   "V_Q varies almost in proportion to the bulk voltages; V_Q0 is sensitive to process and temperature. Thesis E.1, fig. 51",
-                  work};
+                  compute};
 
 }  // namespace corpuscle::studies::fig51

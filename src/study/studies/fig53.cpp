@@ -14,7 +14,7 @@ Result<bool> is_saturated(double I_BIAS) {
     return s->V_M3B >= s->V_sat_M3B && s->V_M4A >= s->V_sat_M4A;
 }
 
-Result<StudyResult> work(const StudyOptions& options) {
+Result<StudyResult> compute(const StudyOptions& options) {
     StudyResult out;
     const auto corners = simulate_bias_figure(figure, out, options);
     if (!corners) return corners.error();
@@ -35,8 +35,8 @@ Result<StudyResult> work(const StudyOptions& options) {
         if (!*s) return s->error();
     const char* source = "E.2: saturated in the range, in the linear region below and above it";
     out.claim_true("M3B and M4A are saturated at 200 nA", *inside, source);
-    out.claim_true("not both are saturated at half the lower end of the working range", !*below, source);
-    out.claim_true("not both are saturated at twice the upper end of the working range", !*above, source);
+    out.claim_true("at least one of them is not saturated at half the lower end of the working range", !*below, source);
+    out.claim_true("at least one of them is not saturated at twice the upper end of the working range", !*above, source);
     out.plots[0].describe_published("V_BN from 100 to 600 mV over 100 nA to 2 uA");
     out.plots[1].describe_published("three corners, each with its own range; 100 to 700 nA is common to all");
     return out;
@@ -45,6 +45,6 @@ Result<StudyResult> work(const StudyOptions& options) {
 const Study study{
     "fig53", "The bias generator over its current",
     "It works from 100 nA to 2 uA typically with V_BN from 100 to 600 mV, and from 100 to 700 nA in all corners. Thesis E.2, fig. 53",
-    work};
+    compute};
 
 }  // namespace corpuscle::studies::fig53

@@ -10,7 +10,7 @@ namespace corpuscle::studies::fig54 {
 
 constexpr BiasFigure figure{BiasAxis::supply, "54", "V_DD (V)", "V", 1, {550e-3, 800e-3}, {650e-3, 750e-3}};
 
-Result<StudyResult> work(const StudyOptions& options) {
+Result<StudyResult> compute(const StudyOptions& options) {
     StudyResult out;
     const auto corners = simulate_bias_figure(figure, out, options);
     if (!corners) return corners.error();
@@ -33,6 +33,6 @@ Result<StudyResult> work(const StudyOptions& options) {
 }
 
 const Study study{"fig54", "The bias generator over its supply",
-                  "It works from 550 to 800 mV typically, from 650 to 750 mV in all corners. Thesis E.2, fig. 54 (errata I7)", work};
+                  "It works from 550 to 800 mV typically, from 650 to 750 mV in all corners. Thesis E.2, fig. 54 (errata I7)", compute};
 
 }  // namespace corpuscle::studies::fig54

@@ -12,7 +12,7 @@ constexpr BiasFigure figure{BiasAxis::temperature, "55", "temperature (C)", "C",
 /// Largest relative error of I_Q.
 double largest_error(const BiasCorner& c) { return c.sweep.current_error().max() * bias_current_margin; }
 
-Result<StudyResult> work(const StudyOptions& options) {
+Result<StudyResult> compute(const StudyOptions& options) {
     StudyResult out;
     const auto corners = simulate_bias_figure(figure, out, options);
     if (!corners) return corners.error();
@@ -23,7 +23,7 @@ Result<StudyResult> work(const StudyOptions& options) {
     for (const auto& corner : c) out.claim(std::string(corner.name) + ": largest error of I_Q", 100 * largest_error(corner), "%");
     out.claim_true("the error of I_Q is largest in the FF corner",
                    largest_error(c[2]) > largest_error(c[1]) && largest_error(c[2]) > largest_error(c[0]),
-                   "E.2: in special for the FF corner");
+                   "E.2: \"in special for the FF corner\"");
     out.claim("FF: works to", c[2].working_range.to, "C");
     out.claim("SS: works from", c[1].working_range.from, "C");
     out.note(
@@ -36,6 +36,6 @@ Result<StudyResult> work(const StudyOptions& options) {
 
 const Study study{"fig55", "The bias generator over temperature",
                   "It works from -55 to 95 C typically; in the FF corner it corrects I_Q less well. Thesis E.2, fig. 55 (errata I7, I8)",
-                  work};
+                  compute};
 
 }  // namespace corpuscle::studies::fig55

@@ -34,7 +34,7 @@ Result<void> claim_regions(StudyResult& out) {
     return {};
 }
 
-Result<StudyResult> work(const StudyOptions& options) {
+Result<StudyResult> compute(const StudyOptions& options) {
     StudyResult out;
     const auto inverters = InverterSweep::run(2e-3);
     if (!inverters) return inverters.error();
@@ -70,6 +70,6 @@ Result<StudyResult> work(const StudyOptions& options) {
 
 const Study study{
     "fig57", "Current and transconductance of INVA and INVB",
-    "INVA's current and transconductance are much larger than those of the linearised INVB, about 2.5 uS. Thesis E.3, fig. 57", work};
+    "INVA's current and transconductance are much larger than those of the linearised INVB, about 2.5 uS. Thesis E.3, fig. 57", compute};
 
 }  // namespace corpuscle::studies::fig57

@@ -16,7 +16,7 @@ double largest_deviation(const StudyCurve& G, double within) {
     return std::max(part.max() - 1, 1 - part.min());
 }
 
-Result<StudyResult> work(const StudyOptions& options) {
+Result<StudyResult> compute(const StudyOptions& options) {
     StudyResult out;
     const auto at_700_mV = InverterSweep::run(2e-3), at_800_mV = InverterSweep::run(2e-3, 0.8);
     for (const auto* s : {&at_700_mV, &at_800_mV})
@@ -40,20 +40,21 @@ Result<StudyResult> work(const StudyOptions& options) {
         out.claim_true(fmt::format("INVB's deviation is smaller within {:g} mV", 1e3 * within),
                        largest_deviation(G[1], within) < largest_deviation(G[0], within), "E.3: INVB is still non-linear, but better");
     }
-    const auto G_more = normalise(at_800_mV->transconductance('b'), at_800_mV->transconductance_at_zero('b'));
+    const auto G_at_800_mV = normalise(at_800_mV->transconductance('b'), at_800_mV->transconductance_at_zero('b'));
     out.claim_true("INVB's deviation within 200 mV is smaller at 0.8 V than at 0.7 V",
-                   largest_deviation(G_more, 0.2) < largest_deviation(G[1], 0.2), "E.3: even better results with higher supply voltages");
+                   largest_deviation(G_at_800_mV, 0.2) < largest_deviation(G[1], 0.2),
+                   "E.3: even better results with higher supply voltages");
     out.claim("INVB at 0.8 V: transconductance over that at 0.7 V",
               at_800_mV->transconductance_at_zero('b') / at_700_mV->transconductance_at_zero('b'), "times")
         .allow_min(1, "E.3: the transconductance would also increase accordingly");
     if (auto& last = out.claims.back(); last.needs_explanation())
-        last.explain("the bias generator keeps 200 nA at any supply, and so the transconductance");
+        last.explain("the bias generator keeps 200 nA at any supply, and so it keeps the transconductance");
     return options.report_progress(0.9) ? Result<StudyResult>(out) : options.report_progress(0.9).error();
 }
 
 const Study study{"fig58", "Normalised current and transconductance of INVA and INVB",
                   "INVB's normalised transconductance is still non-linear, but better than INVA's, and better still with a higher supply. "
                   "Thesis E.3, fig. 58",
-                  work};
+                  compute};
 
 }  // namespace corpuscle::studies::fig58

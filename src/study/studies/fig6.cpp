@@ -25,21 +25,21 @@ const Class classes[] = {{"sa1",
                            {"fa1-macro", "(b) of ideal blocks"},
                            {"fa1-circuit", "(b), the chip"}}}};
 
-/// Compares its spikes with the model's, phase by phase.
-Result<void> add_comparison(StudyResult& out, StudyPlot& rows, const Implementation& implementation, const std::vector<double>& model) {
+/// Compares the spikes of an implementation with the model's, phase by phase.
+Result<void> add_comparison(StudyResult& out, StudyPlot& raster, const Implementation& implementation, const std::vector<double>& model) {
     const auto train = simulate_train({implementation.name});
     if (!train) return train.error();
     const auto timing_error = spike_timing_error(model, *train);
     if (!timing_error) return timing_error.error();
-    const auto named = [&](const char* what) { return fmt::format("{}: {}", implementation.name, what); };
-    const auto because = fmt::format("{}; {} spikes: {}, of the model {}", implementation.description, implementation.name,
-                                     press::phase_counts(*train), press::phase_counts(model));
+    const auto named = [&](const char* quantity) { return fmt::format("{}: {}", implementation.name, quantity); };
+    const auto explanation = fmt::format("{}; spikes at rest, in protraction, plateau, retraction and after: {}, of the model {}",
+                                         implementation.description, press::phase_counts(*train), press::phase_counts(model));
     out.claim(named("number of spikes over the model's"), static_cast<double>(train->size()) / static_cast<double>(model.size()))
-        .explain(because);
+        .explain(explanation);
     out.claim(named("rms error of spike times"), timing_error->rms, "s")
         .explain(fmt::format("{:g} spikes have no partner within 50 ms", timing_error->unmatched));
     out.claim(named("median delay of spikes"), timing_error->median, "s");
-    rows.raster_row(implementation.name, *train);
+    raster.raster_row(implementation.name, *train);
     return {};
 }
 
@@ -57,16 +57,16 @@ Result<void> add_shared_converter(StudyResult& out) {
     return {};
 }
 
-Result<StudyResult> work(const StudyOptions& options) {
+Result<StudyResult> compute(const StudyOptions& options) {
     StudyResult out;
     double done = 0;
     for (const auto& c : classes) {
         const auto model = simulate_train({c.model});
         if (!model) return model.error();
-        StudyPlot rows{fmt::format("{}: spikes under the press stimulus", c.model), "time (s)", "", {}};
-        rows.raster_row(c.model, *model);
+        StudyPlot raster{fmt::format("{}: spikes under the press stimulus", c.model), "time (s)", "", {}};
+        raster.raster_row(c.model, *model);
         for (const auto& implementation : c.implementations) {
-            if (auto ok = add_comparison(out, rows, implementation, *model); !ok) return ok.error();
+            if (auto ok = add_comparison(out, raster, implementation, *model); !ok) return ok.error();
             if (auto ok = options.report_progress(done += 1.0 / 7); !ok) return ok.error();
         }
         const auto n = out.claims.size();
@@ -74,7 +74,7 @@ Result<StudyResult> work(const StudyOptions& options) {
             fmt::format("{}: spike times of the digital implementation are closer to the model's than those of the chip", c.model),
             out.claims[n - 8].computed < out.claims[n - 2].computed,
             "thesis 1.3: analog blocks depend on their accuracy, linearity and noise");
-        out.plots.push_back(rows);
+        out.plots.push_back(raster);
     }
     if (auto ok = add_shared_converter(out); !ok) return ok.error();
     out.note(
@@ -89,6 +89,6 @@ Result<StudyResult> work(const StudyOptions& options) {
 const Study study{"fig6", "Mixed-signal against analog implementation",
                   "(a) converts the signal, processes it digitally, and converts back; (b) stays analog. The first loses resolution by "
                   "conversion, the second depends on the accuracy of its blocks. Thesis 1.3, fig. 6",
-                  work};
+                  compute};
 
 }  // namespace corpuscle::studies::fig6

@@ -16,7 +16,7 @@ double largest_difference(const StudyCurve& a, const StudyCurve& b, double withi
     return out / a.absolute().max();
 }
 
-Result<StudyResult> work(const StudyOptions& options) {
+Result<StudyResult> compute(const StudyOptions& options) {
     StudyResult out;
     const auto all = InverterSweep::run(2e-3);
     if (!all) return all.error();
@@ -27,7 +27,7 @@ Result<StudyResult> work(const StudyOptions& options) {
         return 1 / (narrow * narrow / (wide * (wide + 2 * narrow)) * last);
     }();
     const auto why = fmt::format(
-        "the ratios of table 20 only give {:.5g} (errata S7b); the rest is length modulation of the parallel diodes. Why the foundry's "
+        "the ratios of table 20 alone give {:.5g} (errata S7b); the rest is length modulation of the parallel diodes. Why the foundry's "
         "mirrors divide by less is not known",
         by_ratios);
     auto& G = out.claim("INVC: transconductance at V_IN = 0", G_C, "S").published_as(146e-12, "E.4, fig. 60b");
@@ -61,6 +61,7 @@ Result<StudyResult> work(const StudyOptions& options) {
 
 const Study study{
     "fig60", "INVC's current and transconductance",
-    "About 146 pS, 16000 times less than INVB's, with the same shape and picoampere currents. Thesis E.4, fig. 60 (errata S7, S8)", work};
+    "About 146 pS, 16000 times less than INVB's, with the same shape and picoampere currents. Thesis E.4, fig. 60 (errata S7, S8)",
+    compute};
 
 }  // namespace corpuscle::studies::fig60

@@ -11,7 +11,7 @@ namespace corpuscle::studies::fig61 {
 /// A coarse sweep over all of V_IN, and a fine one where the outputs switch.
 struct Curves {
     InverterSweep coarse, fine;
-    static Result<Curves> swept() {
+    static Result<Curves> simulate() {
         auto coarse = InverterSweep::run(2e-3);
         if (!coarse) return coarse.error();
         auto fine = InverterSweep::run_with_directives(".dc vin 0.34 0.36 20u");
@@ -42,7 +42,9 @@ struct Curves {
 /// The gain is G_m / I times half an Early voltage; in the process card arrays of eight unit transistors have the same Early voltage at any
 /// current.
 void claim_gains(StudyResult& out, const Curves& c) {
-    const auto per_current = [&](char input, double branch) { return c.coarse.transconductance_at_zero(input) / branch; };
+    const auto per_current = [&](char inverter, double branch_current) {
+        return c.coarse.transconductance_at_zero(inverter) / branch_current;
+    };
     const double ratio_A = per_current('a', c.coarse.supply_current('a').at(0)),
                  ratio_C = per_current('b', 0.5 * c.coarse.supply_current('b').at(0));
     out.claim("INVA: G_m over the current of one branch", ratio_A, "1/V");
@@ -50,19 +52,19 @@ void claim_gains(StudyResult& out, const Curves& c) {
     for (const char inverter : {'b', 'a'}) {
         const auto statement = fmt::format("INVC's gain is larger than {}'s", inverter_names[inverter - 'a']);
         auto& claim = out.claim_true(statement, c.largest_gain('c') > c.largest_gain(inverter),
-                                     "E.4: INVC voltage gain is also bigger; the text does not say than whose");
+                                     "E.4: INVC voltage gain is also bigger; the text does not say which gain it is compared with");
         if (claim.needs_explanation())
             claim.explain(
                 inverter == 'a'
                     ? "degeneration reduces G_m over current, and by the process card its output has the same Early voltage as INVA's. A "
-                      "longer Early voltage of the foundry's transistors at picoamperes would explain it, but is not known"
+                      "larger Early voltage of the foundry's transistors at picoamperes would explain it, but is not known"
                     : "degeneration raises INVB's output resistance more than it lowers G_m over current here; see above");
     }
 }
 
-Result<StudyResult> work(const StudyOptions& options) {
+Result<StudyResult> compute(const StudyOptions& options) {
     StudyResult out;
-    const auto curves = Curves::swept();
+    const auto curves = Curves::simulate();
     if (!curves) return curves.error();
     const auto& c = *curves;
     out.plot("Fig. 61a: transfer curves, outputs open", "V_IN (mV)", "V_OUT (mV)");
@@ -98,6 +100,6 @@ Result<StudyResult> work(const StudyOptions& options) {
 
 const Study study{
     "fig61", "Transfer curves and voltage gain",
-    "INVB's excursion is smaller than INVA's; INVC's V_Q is 347 mV, with a larger gain and INVA's excursion. Thesis E.4, fig. 61", work};
+    "INVB's excursion is smaller than INVA's; INVC's V_Q is 347 mV, with a larger gain and INVA's excursion. Thesis E.4, fig. 61", compute};
 
 }  // namespace corpuscle::studies::fig61

@@ -8,13 +8,14 @@
 
 namespace corpuscle::studies::fig62 {
 
-constexpr double slow = 1e-3, fast = 1e5;  // Hz
-constexpr double largest = 0.35;           // V: half the supply, the largest excursion of a filter's node
+constexpr double min_frequency = 1e-3, max_frequency = 1e5;  // Hz
+constexpr double largest_signal = 0.35;                      // V: half the supply, the largest excursion of a filter's node
 
 /// V/sqrt(Hz) over Hz; without_bias: leaves out the noise of the bias generator.
 Result<StudyCurve> input_noise(char inverter, bool without_bias) {
-    const auto found = InverterSweep::run_with_directives(fmt::format(".noise v(i{}) vin dec 10 {} {}", inverter, slow, fast),
-                                                          {fmt::format("c_bias={}", without_bias ? "1000" : "0")});
+    const auto found =
+        InverterSweep::run_with_directives(fmt::format(".noise v(i{}) vin dec 10 {} {}", inverter, min_frequency, max_frequency),
+                                           {fmt::format("c_bias={}", without_bias ? "1000" : "0")});
     if (!found) return found.error();
     return found->found.curve("noise", "inoise_spectrum");
 }
@@ -22,7 +23,7 @@ Result<StudyCurve> input_noise(char inverter, bool without_bias) {
 /// Corner frequency (Hz): 1/f noise equals the thermal noise, which is the smallest density.
 double corner_frequency(const StudyCurve& noise) { return noise.crossing(std::sqrt(2) * noise.min()); }
 
-Result<StudyResult> work(const StudyOptions& options) {
+Result<StudyResult> compute(const StudyOptions& options) {
     StudyResult out;
     out.plot("Fig. 62: input-referred noise", "Hz", "V/sqrt(Hz)");
     StudyCurve noise[3];
@@ -42,28 +43,29 @@ Result<StudyResult> work(const StudyOptions& options) {
     }
     out.plots[0].log_x = out.plots[0].log_y = true;
     out.plots[0].describe_published("INVC's thermal noise is orders of magnitude larger, its 1/f noise is larger as well");
-    const auto over = [](const StudyCurve& a, const StudyCurve& b, bool thermal) {
+    const auto ratio = [](const StudyCurve& a, const StudyCurve& b, bool thermal) {
         return thermal ? a.min() / b.min() : a.y.front() / b.y.front();
     };
     for (int k = 0; k < 2; ++k) {
-        out.claim(fmt::format("INVC's thermal noise over {}'s", inverter_names[k]), over(noise[2], noise[k], true), "times")
+        out.claim(fmt::format("INVC's thermal noise over {}'s", inverter_names[k]), ratio(noise[2], noise[k], true), "times")
             .allow_min(10, "E.4: orders of magnitude larger");
-        out.claim(fmt::format("INVC's 1/f noise over {}'s, at 1 mHz", inverter_names[k]), over(noise[2], noise[k], false), "times")
+        out.claim(fmt::format("INVC's 1/f noise over {}'s, at 1 mHz", inverter_names[k]), ratio(noise[2], noise[k], false), "times")
             .allow_min(1, "E.4: larger, as it has extra transistors");
     }
     const auto filter = InverterSweep::run_with_directives(".noise v(load) vin dec 10 1m 100k");
     if (!filter) return filter.error();
     const double total = filter->found.number("onoise_total");
     out.claim("INVC as a load of 0.8 pF (filter B): noise from 1 mHz to 100 kHz", total, "V");
-    out.claim("half the supply over this noise", 20 * std::log10(largest / total), "dB")
+    out.claim("half the supply over this noise", 20 * std::log10(largest_signal / total), "dB")
         .allow_min(40, "E.4: adequate for its application; 40 dB is our choice");
-    const auto rest = InverterSweep::run(0.35);
-    if (!rest) return rest.error();
-    double taken[3];
+    const auto at_rest = InverterSweep::run(0.35);
+    if (!at_rest) return at_rest.error();
+    double supply_currents[3];
     for (int k = 0; k < 3; ++k)
         out.claim(fmt::format("{}: supply current at V_IN = 0", inverter_names[k]),
-                  taken[k] = rest->supply_current(inverter_letters[k]).at(0), "A");
-    out.claim_true("INVC takes more current than INVA and INVB", taken[2] > taken[0] && taken[2] > taken[1],
+                  supply_currents[k] = at_rest->supply_current(inverter_letters[k]).at(0), "A");
+    out.claim_true("INVC takes more current than INVA and INVB",
+                   supply_currents[2] > supply_currents[0] && supply_currents[2] > supply_currents[1],
                    "E.4: very power inefficient (INVC is meant, errata I14)");
     out.note(
         "The divider of the bias generator has very large resistances (E.2); its noise enters through BN and BP up to the frequency at "
@@ -76,6 +78,7 @@ Result<StudyResult> work(const StudyOptions& options) {
 
 const Study study{
     "fig62", "Noise of the three inverters",
-    "INVC's thermal noise is orders of magnitude larger, its 1/f noise larger, but adequate in its bandwidth. Thesis E.4, fig. 62", work};
+    "INVC's thermal noise is orders of magnitude larger, its 1/f noise larger, but adequate in its bandwidth. Thesis E.4, fig. 62",
+    compute};
 
 }  // namespace corpuscle::studies::fig62

@@ -39,12 +39,12 @@ Result<void> add_component_claims(StudyResult& out) {
     return {};
 }
 
-Result<StudyResult> work(const StudyOptions& options) {
+Result<StudyResult> compute(const StudyOptions& options) {
     StudyResult out;
     if (auto ok = add_component_claims(out); !ok) return ok.error();
-    const auto kim = run_trial({.afferent = "sa1-kim", .probes = {"F_read", "I", "u"}}), own = run_trial({.afferent = "sa1"});
+    const auto kim = run_trial({.afferent = "sa1-kim", .probes = {"F_read", "I", "u"}}), sa1 = run_trial({.afferent = "sa1"});
     if (!kim) return kim.error();
-    if (!own) return own.error();
+    if (!sa1) return sa1.error();
     if (auto ok = options.report_progress(0.6); !ok) return ok.error();
     const auto force = press::force_curve(1e-4);
     if (!force) return force.error();
@@ -52,40 +52,40 @@ Result<StudyResult> work(const StudyOptions& options) {
     double worst_error = 0;
     for (const double t : {0.2, 0.3, 0.5, 0.7})
         worst_error = std::max(worst_error, std::abs(kim->probes.at("F_read").at(t) - force->at(t)));
-    out.claim("error of the converted force, at four times of the stimulus", worst_error, "N")
+    out.claim("largest error of the converted force at four times of the stimulus", worst_error, "N")
         .allow_max(0.1, "thesis 2.2: the force signal in the digital domain; the range is our choice, a sample is up to 1 ms old");
-    const double up = measure<PeakRate>(spikes, press::protraction), held = measure<LastRate>(spikes, press::plateau),
+    const double up = measure<PeakRate>(spikes, press::protraction), hold_rate = measure<LastRate>(spikes, press::plateau),
                  down = press::spike_count(spikes, press::retraction);
-    out.claim("peak in protraction over the last frequency of the plateau", up / held)
+    out.claim("peak in protraction over the last frequency of the plateau", up / hold_rate)
         .allow_min(1, "thesis 3.1: fires faster in protraction");
     const TimeWindow plateau_late{0.5, 0.625};
     out.claim("spikes in retraction", down, "spikes");
     out.claim("mean frequency in retraction over that of the second half of the plateau",
               measure<MeanRate>(spikes, press::retraction) / measure<MeanRate>(spikes, plateau_late))
         .allow_min(1, "thesis 3.1: the output also increases for negative changes (printed \"at the protraction phase\"; errata B11a)");
-    out.claim("spikes in retraction minus those of sa1", down - press::spike_count(own->spikes, press::retraction), "spikes")
+    out.claim("spikes in retraction minus those of sa1", down - press::spike_count(sa1->spikes, press::retraction), "spikes")
         .allow_min(1, "thesis 3.1 and 3.3: SA-IA fires in retraction, the nerve and SA-IB hardly do");
     const TimeWindow steady_plateau{press::plateau.from + 50e-3, press::plateau.to};
     out.claim("last frequency of the plateau over its first, from 50 ms on",
               measure<LastRate>(spikes, steady_plateau) / measure<FirstRate>(spikes, steady_plateau))
         .allow_range(0.9, 1.1, "thesis 3.3: SA-IA does not take the slow decay into account; a tenth is our choice");
-    out.plot("Spikes under the press stimulus", "time (s)", "").raster_row("sa1-kim", spikes).raster_row("sa1", own->spikes);
+    out.plot("Spikes under the press stimulus", "time (s)", "").raster_row("sa1-kim", spikes).raster_row("sa1", sa1->spikes);
     out.plot("Instantaneous frequency", "time (s)", "frequency (Hz)")
         .points("sa1-kim", press::frequency_at_start(spikes))
-        .points("sa1", press::frequency_at_start(own->spikes))
+        .points("sa1", press::frequency_at_start(sa1->spikes))
         .add("force, 10 Hz per newton", force->scaled(1, 10))
         .describe_published("rises with the slope of the force in both directions; the thesis finds that more suitable to SA-II");
     out.plot("Current of the fixed-point model", "time (s)", "current (uA)").add("I", kim->probes.at("I").scaled(1, 1e6));
     out.note(
         "The thesis does not give Kim's parameters (beta, k_s, k_d, those of the neuron); those of sa1-kim are our choice (corpuscle "
-        "list). The study kim compares the equation with the intervals in the paper's abstract. Whether it was fitted to ex vivo mouse "
-        "skin is not checked.");
+        "list). The study kim compares the equation with the intervals in the paper's abstract. Whether the model was fitted to ex vivo "
+        "mouse skin is not checked.");
     return out;
 }
 
 const Study study{"fig8", "Kim's SA-I system",
-                  "Sensor, electronics, converter, then digital processing: a static component and one of the force's rate of change, of "
+                  "Sensor, electronics, converter, then digital processing: a static component and a dynamic one, for a rate of change of "
                   "either sign, drive a leaky integrate-and-fire neuron. Thesis 2.2, 3.1, fig. 8",
-                  work};
+                  compute};
 
 }  // namespace corpuscle::studies::fig8

@@ -69,18 +69,18 @@ Result<void> add_inhibition_claims(StudyResult& out) {
     return {};
 }
 
-Result<StudyResult> work(const StudyOptions& options) {
+Result<StudyResult> compute(const StudyOptions& options) {
     StudyResult out;
     const auto response = simulate_lee();
     if (!response) return response.error();
-    const auto own = simulate_train({"fa1"});
-    if (!own) return own.error();
+    const auto fa1 = simulate_train({"fa1"});
+    if (!fa1) return fa1.error();
     const auto force = press::force_curve(1e-4);
     if (!force) return force.error();
     add_component_claims(out, *response);
     if (auto ok = options.report_progress(0.5); !ok) return ok.error();
     if (auto ok = add_inhibition_claims(out); !ok) return ok.error();
-    for (const auto& [name, train] : {std::pair{"fa1-lee", &response->spikes}, {"fa1", &*own}}) {
+    for (const auto& [name, train] : {std::pair{"fa1-lee", &response->spikes}, {"fa1", &*fa1}}) {
         out.claim(fmt::format("{}: spikes in protraction and retraction", name),
                   press::spike_count(*train, press::protraction) + press::spike_count(*train, press::retraction), "spikes")
             .allow_min(2, "thesis 1.2 and 2.2");
@@ -89,19 +89,19 @@ Result<StudyResult> work(const StudyOptions& options) {
                       .allow_range(0, 0, "thesis 1.2: only in protraction and retraction");
         if (c.needs_explanation()) c.explain("a high-pass of 2 Hz continues after the ramp (errata B13); a plain derivative ends with it");
     }
-    out.plot("Spikes under the press stimulus", "time (s)", "").raster_row("fa1-lee", response->spikes).raster_row("fa1", *own);
+    out.plot("Spikes under the press stimulus", "time (s)", "").raster_row("fa1-lee", response->spikes).raster_row("fa1", *fa1);
     out.plot("Currents of the fixed-point model", "time (s)", "current (uA)")
         .add("I+", response->probes.at("I_+").scaled(1, 1e6))
         .add("I-", response->probes.at("I_-").scaled(1, 1e6))
         .describe_published("one current from rising and one from falling force, each to its own neuron");
     out.plot("Instantaneous frequency", "time (s)", "frequency (Hz)")
         .points("fa1-lee", press::frequency_at_start(response->spikes))
-        .points("fa1", press::frequency_at_start(*own))
+        .points("fa1", press::frequency_at_start(*fa1))
         .add("force, 10 Hz per newton", force->scaled(1, 10));
     out.note(
         "The thesis says that Lee's neuron has no leak, an adaptive threshold, and a membrane that \"increases by a non-proportional "
-        "rate\". The last has no equation and is not modelled. \"Each with its own parameters\" is not modelled either: both neurons have "
-        "the same parameters here.");
+        "rate\". This increase has no equation and is not modelled. \"Each with its own parameters\" is not modelled either: both neurons "
+        "have the same parameters here.");
     out.note("The hardware (an FPGA that processes many sensors in real time) is not modelled; here fixed-point arithmetic runs at 1 kHz.");
     return out;
 }
@@ -109,6 +109,6 @@ Result<StudyResult> work(const StudyOptions& options) {
 const Study study{"fig9", "Lee's FA-I system",
                   "No static component. Rising and falling force drive two independent neurons, which an adaptive threshold inhibits after "
                   "each spike. Thesis 2.2, 3.1, fig. 9",
-                  work};
+                  compute};
 
 }  // namespace corpuscle::studies::fig9

@@ -12,8 +12,8 @@ namespace corpuscle::studies::invc_loop {
 
 constexpr auto source = "thesis E.4";
 
-/// The loop is open for small signals and closed for the operating point. Its end has the capacitor and a second cell, which loads it as
-/// the input of the first one does.
+/// The loop is open for small signals and closed for the operating point. At its end are the capacitor and a second cell, which is the
+/// same load as the input of the first cell.
 constexpr auto opened = R"(INVC's loop, opened
 .lib '../process/tsmc180.lib' tt
 .include 'parts/transconductor.inc'
@@ -33,9 +33,9 @@ vnext next 0 0.35
 
 struct Loop {
     StudyCurve dB, phase;                         ///< phase: degrees above -180 of the closed loop's return ratio
-    double gain, unity, margin, phase_crossover;  ///< dB, Hz, degrees, Hz; turn: phase margin zero
+    double gain, unity, margin, phase_crossover;  ///< dB, Hz, degrees, Hz; phase_crossover: where `phase` is zero
     double gain_margin;                           ///< dB below unity at that frequency
-    double inner;                                 ///< Hz: 45 degrees more than the 90 degrees of the outer pole
+    double inner;                                 ///< Hz: where the inner poles add 45 degrees to the 90 degrees of the outer pole
 };
 Result<Loop> loop_with(double farad) {
     const auto found = run_study_netlist({opened, {fmt::format("c_hp={}", farad)}});
@@ -43,7 +43,7 @@ Result<Loop> loop_with(double farad) {
     const auto degrees = found->curve("ac", "vp(out)").scaled(1, 180 / std::numbers::pi);
     Loop out{found->curve("ac", "vdb(out)"), degrees, 0, 0, 0, 0, 0, 0};
     for (double& p : out.phase.y)
-        if (p < -90) p += 360;  // -180 is 180
+        if (p < -90) p += 360;  // -180 degrees is the same as 180
     out.gain = out.dB.y[0], out.unity = out.dB.crossing(0), out.margin = out.phase.at(out.unity);
     out.phase_crossover = out.phase.crossing(0, out.unity), out.gain_margin = -out.dB.at(out.phase_crossover),
     out.inner = out.phase.crossing(45, out.unity);
@@ -58,7 +58,7 @@ void add_claims(const std::string& name, const Loop& loop, StudyResult& out) {
         .allow_min(10, "thesis E.4: its output impedance is very large compared with the inner nodes'; ten times is our choice");
 }
 
-Result<StudyResult> work(const StudyOptions& options) {
+Result<StudyResult> compute(const StudyOptions& options) {
     StudyResult out;
     auto& gain = out.plot("Gain of the loop", "frequency (Hz)", "dB");
     gain.log_x = true;
@@ -82,6 +82,6 @@ Result<StudyResult> work(const StudyOptions& options) {
 }
 
 const Study study{"invc-loop", "Is the ultra-low transconductor's loop stable?",
-                  "With only three inversions and one large impedance, at its output, it is inherently stable. Thesis 4.3.1, E.4", work};
+                  "With only three inversions and one large impedance, at its output, it is inherently stable. Thesis 4.3.1, E.4", compute};
 
 }  // namespace corpuscle::studies::invc_loop

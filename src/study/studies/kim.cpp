@@ -35,7 +35,7 @@ std::pair<double, double> fit_current() {
     return {current - product / square * depth, product / square};
 }
 
-Result<StudyResult> work(const StudyOptions&) {
+Result<StudyResult> compute(const StudyOptions&) {
     StudyResult out;
     const auto [beta, slope] = fit_current();
     const double contact = -beta / slope;  // mm: below it the fitted current is negative
@@ -74,6 +74,6 @@ Result<StudyResult> work(const StudyOptions&) {
 }
 
 const Study study{"kim", "Kim's ramp and hold",
-                  "Can the equation reproduce the published intervals? Kim et al. 2012, doi 10.1186/1743-0003-9-45", work};
+                  "Can the equation reproduce the published intervals? Kim et al. 2012, doi 10.1186/1743-0003-9-45", compute};
 
 }  // namespace corpuscle::studies::kim

@@ -11,7 +11,7 @@ namespace corpuscle::studies::leakage {
 constexpr double I_LEAK_SA = 7e-12, I_LEAK_FA = 10e-12;  // A, of the chips as intended
 
 /// One P and one N switch with V_GS = 0 and half the supply across them; and an oscillator with its membrane held, switches included.
-constexpr auto off = R"(Leakage of switches over temperature
+constexpr auto netlist = R"(Leakage of switches over temperature
 .lib '../process/tsmc180.lib' tt
 .include 'parts/trigger.inc'
 .include 'parts/oscillator.inc'
@@ -33,7 +33,7 @@ struct LeakageCurrents {
     StudyCurve P, N, membrane;  ///< A over C: one switch each, and the total current that pulls an SA-I membrane up
 };
 Result<LeakageCurrents> simulate_leakage(bool high_threshold) {
-    const auto found = run_study_netlist({off, {high_threshold ? "hv=0.15" : "hv=0"}});
+    const auto found = run_study_netlist({netlist, {high_threshold ? "hv=0.15" : "hv=0"}});
     if (!found) return found.error();
     return LeakageCurrents{found->curve("dc", "i(vp)").absolute(), found->curve("dc", "i(vn)").absolute(),
                            found->curve("dc", "i(vu)").absolute()};
@@ -64,7 +64,7 @@ void add_claims(const std::string& name, const LeakageCurrents& leakage, const S
               net_current(I_A, leakage).crossing(0), "C");
 }
 
-Result<StudyResult> work(const StudyOptions& options) {
+Result<StudyResult> compute(const StudyOptions& options) {
     StudyResult out;
     const auto standard = simulate_leakage(false), high_threshold = simulate_leakage(true);
     if (!standard) return standard.error();
@@ -73,10 +73,10 @@ Result<StudyResult> work(const StudyOptions& options) {
     if (!I_A) return I_A.error();
     if (auto ok = options.report_progress(0.9); !ok) return ok.error();
     add_claims("as printed", *standard, *I_A, out), add_claims("hv_switches=1", *high_threshold, *I_A, out);
-    auto& least = out.claim_true("at 27 C the leakage of a switch is below a tenth of the published I_LEAK of 5 pA",
-                                 standard->P.at(27) < 0.5e-12, "thesis 4.4: the membrane's leak is I_LEAK only");
-    if (least.needs_explanation())
-        least.explain(
+    auto& leakage_claim = out.claim_true("at 27 C the leakage of a switch is below a tenth of the published I_LEAK of 5 pA",
+                                         standard->P.at(27) < 0.5e-12, "thesis 4.4: the membrane's leak is I_LEAK only");
+    if (leakage_claim.needs_explanation())
+        leakage_claim.explain(
             "table 9's switches are 2x1 with a threshold of 0.45 V in our process card. Either the foundry's leak less or the switches are "
             "of another type; the thesis does not say");
     out.claim_true("the same with high-threshold switches", high_threshold->P.at(27) < 0.5e-12, "as above");
@@ -87,13 +87,14 @@ Result<StudyResult> work(const StudyOptions& options) {
         .add("the same with hv_switches=1", high_threshold->membrane.scaled(1, 1e12));
     p.add("SA-I's I_A at 4 N", I_A->scaled(1, 1e12)), p.log_y = true;
     out.note(
-        "M5B connects the charged node of M2B to the membrane, M5A of each rectifier the supply to its output. Both pull up against the "
-        "current that the force makes sink. The study range finds the temperature limits of the chips.");
+        "M5B connects the charged node of M2B to the membrane; M5A of each rectifier connects the supply to the rectifier's output. Both "
+        "leakage currents oppose the current that the force sinks from the membrane. The study range finds the temperature limits of the "
+        "chips.");
     out.note("With hv_switches=1 the remaining leakage is M1B's own: its 2x4 at V_GS = 0 leaks more than I_LEAK at high temperature.");
     return out;
 }
 
 const Study study{"leakage", "Leakage of switches that are off",
-                  "Does the leakage of the switches matter compared with I_LEAK, and from which temperature? Thesis 4.4, table 9", work};
+                  "Does the leakage of the switches matter compared with I_LEAK, and from which temperature? Thesis 4.4, table 9", compute};
 
 }  // namespace corpuscle::studies::leakage

@@ -12,7 +12,7 @@ namespace corpuscle::studies::nerve {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-/// The smallest amplitude (N) that evokes a spike after the first 0.5 s, by bisection on a logarithmic scale.
+/// The smallest amplitude (N) of a sine of `f` (Hz) that evokes a spike after the first 0.5 s, by bisection on a logarithmic scale.
 Result<double> detection_threshold(const std::string& afferent, double f, double rate) {
     double low = 1e-4, high = 4;
     for (int k = 0; k < 14; ++k) {
@@ -39,7 +39,7 @@ Result<StudyPlot::Series> tuning_curve(const std::string& afferent, const StudyO
     return curve;
 }
 
-/// The frequency range in which it needs at most a tenth more than the smallest amplitude.
+/// The frequency range (Hz) in which the threshold is at most a tenth above its minimum; NaN if there is no threshold.
 std::pair<double, double> most_sensitive_band(const StudyPlot::Series& curve) {
     std::pair band{none, none};
     if (curve.y.empty()) return band;
@@ -49,7 +49,7 @@ std::pair<double, double> most_sensitive_band(const StudyPlot::Series& curve) {
     return band;
 }
 
-Result<StudyResult> work(const StudyOptions& options) {
+Result<StudyResult> compute(const StudyOptions& options) {
     StudyResult out;
     StudyPlot plot{"Detection threshold of vibration", "frequency (Hz)", "amplitude (mN)", {}, true, true};
     double done = 0;
@@ -71,8 +71,7 @@ Result<StudyResult> work(const StudyOptions& options) {
     out.plots.push_back(std::move(plot));
     out.notes = {
         "The papers displace the skin; here the stimulus is a force that oscillates about 0.2 N, the smallest that the models are fitted "
-        "to. The skin "
-        "between the two is not modelled.",
+        "to. The skin's mechanics, which relate displacement and force, are not modelled.",
         "Most sensitive: at most a tenth above the smallest amplitude. A response is a spike between 0.5 and 1 s.",
         "sa1 and fa1 are the thesis's models. They rectify behind their high-passes, so any vibration above the corner adds the same mean "
         "current and they are equally sensitive to all such frequencies. The nerve is not: the skin and the receptor are low-passes, which "
@@ -81,6 +80,6 @@ Result<StudyResult> work(const StudyOptions& options) {
 }
 
 const Study study{"nerve", "Published vibration sensitivity of the nerve",
-                  "To which vibration is each class most sensitive? Johansson et al. 1982; for the press stimulus see fig5", work};
+                  "To which vibration is each class most sensitive? Johansson et al. 1982; for the press stimulus see fig5", compute};
 
 }  // namespace corpuscle::studies::nerve

@@ -71,6 +71,7 @@ double sensor_noise(double newtons) {
 }
 
 struct NoiseParts {
+    // N rms; `chain`: transducer and signal processing together
     double sensor, transducer, processing, oscillator, chain, filter_B, filter_C;
 };
 Result<NoiseParts> noise_parts(double newtons) {
@@ -90,24 +91,24 @@ Result<NoiseParts> noise_parts(double newtons) {
 Result<void> add_claims(StudyResult& out, double newtons) {
     const auto p = noise_parts(newtons);
     if (!p) return p.error();
-    const auto what = [&](const char* quantity) { return fmt::format("{:g} N: {}", newtons, quantity); };
+    const auto label = [&](const char* quantity) { return fmt::format("{:g} N: {}", newtons, quantity); };
     const double total = std::hypot(p->sensor, p->chain, p->oscillator);
-    out.claim(what("sensor, as a resistor (4 k T G)"), p->sensor, "N");
-    out.claim(what("transducer, at I_F"), p->transducer, "N");
-    out.claim(what("signal processing, at I_A"), p->processing, "N");
-    out.claim(what("transducer and signal processing, at the membrane"), p->chain, "N");
-    out.claim(what("oscillator's input, from dI/dF"), p->oscillator, "N");
-    out.claim(what("total"), total, "N")
+    out.claim(label("sensor, as a resistor (4 k T G)"), p->sensor, "N");
+    out.claim(label("transducer, at I_F"), p->transducer, "N");
+    out.claim(label("signal processing, at I_A"), p->processing, "N");
+    out.claim(label("transducer and signal processing, at the membrane"), p->chain, "N");
+    out.claim(label("oscillator's input, from dI/dF"), p->oscillator, "N");
+    out.claim(label("total"), total, "N")
         .allow_max(repeatability * newtons,
                    "thesis E.4: \"adequate for its application\"; taken here as below the sensor's own repeatability, 2 % of the force "
                    "(FSR 400 series data sheet, Interlink)");
-    out.claim(what("at filter B's output"), p->filter_B, "N").allow_max(repeatability * newtons, "as above");
-    out.claim(what("at filter C's output"), p->filter_C, "N").allow_max(repeatability * newtons, "as above");
-    out.claim(what("total, over the 3.8 N range of the press stimulus"), 100 * total / 3.8, "%");
+    out.claim(label("at filter B's output"), p->filter_B, "N").allow_max(repeatability * newtons, "as above");
+    out.claim(label("at filter C's output"), p->filter_C, "N").allow_max(repeatability * newtons, "as above");
+    out.claim(label("total, over the 3.8 N range of the press stimulus"), 100 * total / 3.8, "%");
     return {};
 }
 
-Result<StudyResult> work(const StudyOptions& options) {
+Result<StudyResult> compute(const StudyOptions& options) {
     StudyResult out;
     for (const double newtons : {0.2, 4.0}) {
         if (auto ok = add_claims(out, newtons); !ok) return ok.error();
@@ -130,9 +131,9 @@ Result<StudyResult> work(const StudyOptions& options) {
         for (auto [line, value] : {std::pair{&transducer, *t}, {&membrane, *m}, {&sensor, repeatability * newtons}})
             line->x.push_back(newtons), line->y.push_back(1e3 * value);
     }
-    StudyPlot& along = out.plot("Noise from 1 to 100 Hz over the force", "force (N)", "mN rms");
-    along.log_x = along.log_y = true;
-    along.add("transducer", transducer).add("at the membrane", membrane).add("2 %, the sensor's repeatability", sensor);
+    StudyPlot& by_force = out.plot("Noise from 1 to 100 Hz over the force", "force (N)", "mN rms");
+    by_force.log_x = by_force.log_y = true;
+    by_force.add("transducer", transducer).add("at the membrane", membrane).add("2 %, the sensor's repeatability", sensor);
     out.note(
         "The .noise analysis linearises about the operating point: the force is constant and the rectifiers of I_B and I_C are open, so "
         "the membrane has only I_A's noise. The claims at the filters' outputs show the noise of I_B and I_C while the force changes. The "
@@ -145,7 +146,7 @@ Result<StudyResult> work(const StudyOptions& options) {
 
 const Study study{"noise-force", "The circuits' noise as a force",
                   "The thesis names noise as the price of analog processing (1.3) and calls INVC's adequate for its application (E.4). How "
-                  "many newtons is it?",
-                  work};
+                  "large is it as a force?",
+                  compute};
 
 }  // namespace corpuscle::studies::noise_force

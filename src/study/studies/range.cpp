@@ -42,7 +42,7 @@ std::string phase_counts(const std::vector<double>& t) {
                        press::spike_count(t, P::retraction), press::spike_count(t, P::after));
 }
 
-/// The last condition on an axis at which the chip works, and the reason beyond it; NaN: none.
+/// The last condition on an axis at which the chip works (NaN: none), and the reason why it fails beyond it.
 struct Limit {
     double last = Claim::none;
     std::size_t count = 0;  ///< number of conditions on the axis at which it works
@@ -54,7 +54,7 @@ class ChipExplorer {
     const char *chip_, *corner_;
     std::deque<Condition> conditions_;  // references stay valid
 
-    std::string setting(const char* what, auto value) const { return fmt::format("{}.{}={}", chip_, what, value); }
+    std::string setting(const char* parameter, auto value) const { return fmt::format("{}.{}={}", chip_, parameter, value); }
     Condition run(Condition condition) const {
         auto response = run_trial({chip_,
                                    "press",
@@ -64,11 +64,11 @@ class ChipExplorer {
         condition.response = std::move(*response), condition.works = is_working(chip_, condition.response.spikes);
         return condition;
     }
-    /// The reason for which it does not work there, as far as another trial can show.
+    /// The reason why the chip does not work under a condition, as far as another trial can show it.
     std::string reason(const Condition& condition) {
         if (!condition.failed.empty()) return condition.failed;
         std::string out;
-        for (const auto& meaning : condition.response.range_warnings) out += (out.empty() ? "" : "; ") + meaning;
+        for (const auto& warning : condition.response.range_warnings) out += (out.empty() ? "" : "; ") + warning;
         if (out.empty() && !condition.high_threshold && at(condition.supply, condition.celsius, true).works)
             return "switches that are off leak as much as the membrane's own leak; it works with hv_switches=1";
         return out.empty() ? "its currents are too small or too large, but nothing is saturated" : out;
@@ -85,7 +85,7 @@ public:
         conditions_.push_back(run({supply, celsius, high_threshold}));
         return conditions_.back();
     }
-    /// The limit of the working range along an axis from the nominal condition, by bisection, optionally with the end of the axis first.
+    /// The limit of the working range along an axis from the nominal condition, by bisection. `end_first`: tries the end of the axis first.
     /// `good`: number of conditions already known to work.
     using RunAt = std::function<const Condition&(double)>;
     Limit find_limit(const std::vector<double>& axis_values, double nominal, const RunAt& run_at, bool end_first = false,
@@ -129,8 +129,8 @@ void report(ChipExplorer& t, StudyResult& out) {
     const auto spikes = phase_counts(nominal.response.spikes);
     out.claim(t.name() + ": spikes under the press stimulus at 0.7 V, 27 C", static_cast<double>(nominal.response.spikes.size()))
         .explain(nominal.works ? spikes : "does not work; " + t.ends.hot.beyond);
-    const auto add = [&](const char* what, const Limit& end, const char* unit) {
-        if (!std::isnan(end.last)) out.claim(t.name() + ": " + what, end.last, unit).explain(end.beyond);
+    const auto add = [&](const char* label, const Limit& end, const char* unit) {
+        if (!std::isnan(end.last)) out.claim(t.name() + ": " + label, end.last, unit).explain(end.beyond);
     };
     add("works at 27 C down to", t.ends.low, "V"), add("works at 27 C up to", t.ends.high, "V");
     add("works at 0.7 V down to", t.ends.cold, "C"), add("works at 0.7 V up to", t.ends.hot, "C");
@@ -153,7 +153,7 @@ void add_plot(const ChipExplorer& t, const char* axis_name, const char* unit, do
     if (!with_high_threshold.empty()) plot.points("hv_switches=1", with_high_threshold);
 }
 
-Result<StudyResult> work(const StudyOptions& options) {
+Result<StudyResult> compute(const StudyOptions& options) {
     std::vector<ChipExplorer> all;
     for (const char* chip : chips)
         for (const char* corner : corner_names) all.emplace_back(chip, corner);
@@ -196,6 +196,6 @@ Result<StudyResult> work(const StudyOptions& options) {
 const Study study{
     "range", "Working range of the chips: supply, temperature, process corners",
     "Between which supplies and temperatures do the two chips fire as designed under the press stimulus, and what limits them? Thesis E.2",
-    work};
+    compute};
 
 }  // namespace corpuscle::studies::range

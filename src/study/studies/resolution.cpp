@@ -1,5 +1,5 @@
 // Effect of conversion and quantisation on the mixed-signal implementation (thesis 1.3). The spikes of sa1 and fa1 behind a converter with
-// given bits and sampling rate are compared with those of the same equations in double precision at 10 kHz.
+// a given number of bits and sampling rate are compared with those of the same equations in double precision at 10 kHz.
 
 #include <fmt/format.h>
 
@@ -31,7 +31,7 @@ Result<void> add_point(StudyResult& out, StudyCurve& curve, double x, const std:
     return {};
 }
 
-Result<StudyResult> work(const StudyOptions& options) {
+Result<StudyResult> compute(const StudyOptions& options) {
     StudyResult out;
     const double all_bits[] = {4, 6, 8, 10, 12, 14, 16}, rates[] = {100, 200, 500, 1e3, 2e3, 5e3, 10e3};
     StudyPlot by_bits{"Error of spike times over bits, at 10 kHz", "bits", "rms error (ms)", {}, false, true};
@@ -54,8 +54,8 @@ Result<StudyResult> work(const StudyOptions& options) {
     }
     out.plots = {std::move(by_bits), std::move(by_rate)};
     out.note(
-        "A digital afferent's spikes are on its samples: up to a period late, 58 % of it rms, by this grid only. Backward Euler uses the "
-        "current at the end of a step and is early by about half a step, so the two partly cancel.");
+        "A digital afferent's spikes are on its samples. This alone makes them up to one period late, 58 % of a period rms. Backward "
+        "Euler uses the current at the end of a step, so its spikes are early by about half a step. The two errors partly cancel.");
     out.note(
         "Fixed-point numbers have 32 bits, 20 of them fractional; the converter's range is 0 to 5 N. Spikes more than 50 ms apart are not "
         "matched.");
@@ -65,6 +65,6 @@ Result<StudyResult> work(const StudyOptions& options) {
 const Study study{"resolution", "Effect of bits and sampling rate of a digital afferent on spike times",
                   "The mixed-signal implementation loses resolution by conversion and quantisation: how many bits and samples per second "
                   "does it need? Thesis 1.3, fig. 6a",
-                  work};
+                  compute};
 
 }  // namespace corpuscle::studies::resolution

@@ -17,7 +17,7 @@ void add_erratum(StudyResult& out, const SimulatedArrays& ours) {
     out.claim_true("C1: W L is 1.0080 um^2, not 1.0800", std::abs(ours("C1").A * 1e12 - 1.0080) < 5e-5, source);
 }
 
-Result<StudyResult> work(const StudyOptions&) {
+Result<StudyResult> compute(const StudyOptions&) {
     const auto ours = simulate_arrays(rectangles);
     if (!ours) return ours.error();
     StudyResult out;
@@ -54,6 +54,6 @@ Result<StudyResult> work(const StudyOptions&) {
 
 const Study study{
     "table10", "Sizes of the rectangular arrays",
-    "Equivalent aspect ratios, active and total areas of seven arrays, six of them with equal total area. Thesis B.1, table 10", work};
+    "Equivalent aspect ratios, active and total areas of seven arrays, six of them with equal total area. Thesis B.1, table 10", compute};
 
 }  // namespace corpuscle::studies::table10

@@ -9,7 +9,7 @@
 
 namespace corpuscle::studies::table11 {
 
-Result<StudyResult> work(const StudyOptions&) {
+Result<StudyResult> compute(const StudyOptions&) {
     const auto found = simulate_arrays(rectangles);
     if (!found) return found.error();
     const auto& ours = *found;
@@ -34,14 +34,15 @@ Result<StudyResult> work(const StudyOptions&) {
         out.claim(fmt::format("{}: threshold minus A's", name), shift(name), "V")
             .derived_as(printed_shift(name), "table 11")
             .explain(
-                "set so that it carries the published current with the specific current of the short unit transistor; the true specific "
-                "current differs with geometry");
-    out.claim_true("as published, V_T rises as L falls and as W grows: no drain-induced lowering, the drain being at 0 V",
-                   find_published(rectangles, "A").V_T > find_published(rectangles, "B1").V_T &&
-                       find_published(rectangles, "D1").V_T > find_published(rectangles, "C1").V_T &&
-                       find_published(rectangles, "C1").V_T > find_published(rectangles, "B1").V_T &&
-                       find_published(rectangles, "D1").V_T > find_published(rectangles, "A").V_T,
-                   "errata U13, against \"due to DIBL\" (B.1, C.1)");
+                "set so that the array carries the published current with the specific current of the short unit transistor; the true "
+                "specific current differs with geometry");
+    out.claim_true(
+        "as published, V_T rises as L falls and as W grows: this is not drain-induced barrier lowering, because the drain is at 0 V",
+        find_published(rectangles, "A").V_T > find_published(rectangles, "B1").V_T &&
+            find_published(rectangles, "D1").V_T > find_published(rectangles, "C1").V_T &&
+            find_published(rectangles, "C1").V_T > find_published(rectangles, "B1").V_T &&
+            find_published(rectangles, "D1").V_T > find_published(rectangles, "A").V_T,
+        "errata U13, against \"due to DIBL\" (B.1, C.1)");
 
     add_sum_rule(out, rectangles, 1e-9, "errata U7: g_md in uS, not nS");
     const auto& d2 = find_published(rectangles, "D2");
@@ -56,6 +57,6 @@ Result<StudyResult> work(const StudyOptions&) {
 }
 
 const Study study{"table11", "Currents and small signals of the rectangular arrays",
-                  "Seven arrays at V_G = V_D = 0.5 V; the sums of their slopes reveal two misprints. Thesis B.1, table 11", work};
+                  "Seven arrays at V_G = V_D = 0.5 V; the sums of their slopes reveal two misprints. Thesis B.1, table 11", compute};
 
 }  // namespace corpuscle::studies::table11

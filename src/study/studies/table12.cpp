@@ -28,8 +28,8 @@ void add_text(StudyResult& out, const SimulatedArrays& ours) {
                       .published_as(factor, source + fmt::format("; {:.2f} by its table", printed_V_A(name) / printed_V_A("A")));
         if (c.needs_explanation())
             c.explain(
-                "only the unit transistor at the drain has length modulation, which reduces it to less than its fraction of the stack's "
-                "length");
+                "in a stack of N only the unit transistor at the drain has length modulation, so the effect is less than 1/N of a single "
+                "transistor's");
     }
     const auto gain = [](const SimulatedArray& a, const SimulatedArray& b) { return a.gain() < b.gain(); };
     const auto highest_gain = std::max_element(ours.begin(), ours.end(), gain);
@@ -56,23 +56,23 @@ void add_text(StudyResult& out, const SimulatedArrays& ours) {
 
 void add_mismatch_text(StudyResult& out, const SimulatedArrays& ours, const std::vector<double>& sigma) {
     const std::string source = "thesis B.1";
-    const auto of = [&](const char* name) {
+    const auto sigma_of = [&](const char* name) {
         return sigma[static_cast<std::size_t>(&find_published(rectangles, name) - published_rectangles)];
     };
     for (const char* name : {"B2", "C2", "D2"})
-        out.claim(fmt::format("{}: deviation over A's, which has a quarter of its area", name), of(name) / of("A"))
+        out.claim(fmt::format("{}: standard deviation over A's, which has a quarter of its area", name), sigma_of(name) / sigma_of("A"))
             .derived_as(0.5, source + ": half; by errata U14 inversely proportional to the square root of the area, not proportional");
     const double smallest = *std::min_element(sigma.begin(), sigma.end());
-    auto& c = out.claim_true("C1 has the smallest deviation", of("C1") == smallest, source);
+    auto& c = out.claim_true("C1 has the smallest standard deviation", sigma_of("C1") == smallest, source);
     if (c.needs_explanation())
-        c.explain(
-            fmt::format("B1's deviation is {:.2f} % and C1's {:.2f} %; their uncertainty of {:.1f} % does not separate them. By the card's "
-                        "law they are {:.2f} and {:.2f} %",
-                        of("B1"), of("C1"), mismatch_uncertainty(), ours("B1").predicted_mismatch(ours("B1").g_by_I()),
-                        ours("C1").predicted_mismatch(ours("C1").g_by_I())));
+        c.explain(fmt::format(
+            "B1's standard deviation is {:.2f} % and C1's {:.2f} %; their uncertainty of {:.1f} % does not separate them. By the card's "
+            "law they are {:.2f} and {:.2f} %",
+            sigma_of("B1"), sigma_of("C1"), mismatch_uncertainty(), ours("B1").predicted_mismatch(ours("B1").g_by_I()),
+            ours("C1").predicted_mismatch(ours("C1").g_by_I())));
 }
 
-Result<StudyResult> work(const StudyOptions&) {
+Result<StudyResult> compute(const StudyOptions&) {
     const auto ours = simulate_arrays(rectangles);
     if (!ours) return ours.error();
     StudyResult out;
@@ -88,6 +88,7 @@ Result<StudyResult> work(const StudyOptions&) {
 
 const Study study{
     "table12", "Ratios and mismatch of the rectangular arrays",
-    "g_mg/I_D, Early voltage, gain, n - 1, g_mg per area and mismatch (1000 samples in the thesis, 2000 here). Thesis B.1, table 12", work};
+    "g_mg/I_D, Early voltage, gain, n - 1, g_mg per area and mismatch (1000 samples in the thesis, 2000 here). Thesis B.1, table 12",
+    compute};
 
 }  // namespace corpuscle::studies::table12

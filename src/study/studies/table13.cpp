@@ -9,7 +9,7 @@
 
 namespace corpuscle::studies::table13 {
 
-Result<StudyResult> work(const StudyOptions&) {
+Result<StudyResult> compute(const StudyOptions&) {
     const auto found = simulate_arrays(trapezoids);
     const auto rectangular = simulate_arrays(rectangles);
     if (!found || !rectangular) return found ? rectangular.error() : found.error();
@@ -38,6 +38,6 @@ Result<StudyResult> work(const StudyOptions&) {
 
 const Study study{"table13", "Sizes of the trapezoidal arrays",
                   "Equivalent aspect ratios, active and total areas of five arrays with equal total area. Thesis B.2, eq. 32, table 13",
-                  work};
+                  compute};
 
 }  // namespace corpuscle::studies::table13

@@ -25,7 +25,7 @@ Result<void> add_f(StudyResult& out) {
     return {};
 }
 
-Result<StudyResult> work(const StudyOptions&) {
+Result<StudyResult> compute(const StudyOptions&) {
     const auto found = simulate_arrays(trapezoids);
     const auto rectangular = simulate_arrays(rectangles);
     if (!found || !rectangular) return found ? rectangular.error() : found.error();
@@ -44,6 +44,6 @@ Result<StudyResult> work(const StudyOptions&) {
 
 const Study study{
     "table14", "Currents and small signals of the trapezoidal arrays",
-    "Five arrays at V_G = V_D = 0.5 V; the sums of their slopes show that a column is ten times too large. Thesis B.2, table 14", work};
+    "Five arrays at V_G = V_D = 0.5 V; the sums of their slopes show that a column is ten times too large. Thesis B.2, table 14", compute};
 
 }  // namespace corpuscle::studies::table14

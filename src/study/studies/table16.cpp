@@ -9,12 +9,12 @@
 
 namespace corpuscle::studies::table16 {
 
-/// A row as printed: m columns of n unit transistors of W by L, um; and the devices in one of our netlists that it sizes.
+/// A row as printed: m columns of n unit transistors of W by L, um; and the devices of this row in one of our netlists.
 struct SizeRow {
     const char *table, *name;
     double m, n, W, L;
     const char *circuit, *devices;
-    const char* erratum = "";  ///< erratum for which they are built differently
+    const char* erratum = "";  ///< the erratum, if the devices of our netlist have another size
 };
 constexpr SizeRow rows[] = {
     {"16", "M1A-B", 2, 8, 6.0, 0.5, "bias", "m1a m1b"},
@@ -45,12 +45,13 @@ double value_or_1(const circuit::Element& e, const char* name) {
     const auto found = e.values.find(name);
     return found == e.values.end() ? 1 : found->second;  // m, stack
 }
+/// Gate area, um^2.
 double gate_area(const circuit::Element& e) {
     return 1e12 * value_or_1(e, "m") * value_or_1(e, "stack") * value_or_1(e, "w") * value_or_1(e, "l");
-}  // um^2
+}
 
 /// True if all devices of a row have the printed sizes; adds their gate area to `area`.
-bool as_printed(const SizeRow& row, const circuit::Circuit& c, double& area) {
+bool has_printed_sizes(const SizeRow& row, const circuit::Circuit& c, double& area) {
     bool all = true;
     std::istringstream names(row.devices);
     for (std::string name; names >> name;) {
@@ -82,7 +83,7 @@ Result<void> add_symmetry(StudyResult& out) {
     return {};
 }
 
-Result<StudyResult> work(const StudyOptions& options) {
+Result<StudyResult> compute(const StudyOptions& options) {
     StudyResult out;
     std::map<std::string, std::shared_ptr<const circuit::Circuit>> circuits;
     std::map<std::string, double> areas;
@@ -97,7 +98,7 @@ Result<StudyResult> work(const StudyOptions& options) {
         auto& area = areas[std::string_view(row.name).starts_with("INV") ? std::string(row.name, 4) : source];
         auto& claim =
             out.claim_true(fmt::format("table {}: {} is {:g}x{:g} of {:g}/{:g} um", row.table, row.name, row.m, row.n, row.W, row.L),
-                           as_printed(row, *c, area), source);
+                           has_printed_sizes(row, *c, area), source);
         if (claim.needs_explanation()) claim.explain(fmt::format("errata {}", row.erratum));
     }
     out.claim("gate area of the bias generator", areas["table 16"], "um^2");
@@ -112,6 +113,6 @@ Result<StudyResult> work(const StudyOptions& options) {
 }
 
 const Study study{"table16", "The inverters' arrays as built",
-                  "Sizes of the bias generator and of INVA, INVB and INVC. Thesis tables 16, 19 and 20", work};
+                  "Sizes of the bias generator and of INVA, INVB and INVC. Thesis tables 16, 19 and 20", compute};
 
 }  // namespace corpuscle::studies::table16

@@ -15,12 +15,13 @@ namespace corpuscle::studies::table17_18 {
 using namespace bias_chips;
 
 constexpr const char* divider_reason =
-    "half of the variance is V_REF's, from the divider's four transistors; relative to V_REF V_Q is as published (bias-spread). No "
-    "connection of the divider's bulks removes all of it; whether table 17's simulation had mismatch in them is not known";
-constexpr double tolerance = 25;  // %: tolerance of a predicted deviation, decided in advance
+    "half of the variance is V_REF's, from the divider's four transistors; relative to V_REF, V_Q varies as published (bias-spread). No "
+    "connection of the divider's bulks removes all of it; it is not known whether table 17's simulation had mismatch in the divider";
+constexpr double tolerance = 25;  // %: tolerance of a predicted standard deviation, decided in advance
 
-/// A_VT from table 12: its deviations minus the part of A_IS, each with its g_m/I_D and area. Both are derived from g_mg, so that misprints
-/// of single cells (errata U11, U12) have no effect. The mean of seven arrays, V um.
+/// A_VT (V um), the mean of the seven arrays of table 12. For each array the part of A_IS is subtracted from the published standard deviation,
+/// with the array's g_m/I_D and area. Both of these are computed from g_mg, so that misprints of single cells (errata U11, U12) have no
+/// effect.
 void claim_calibration(StudyResult& out, const circuit::Circuit& c) {
     const auto m4a = static_cast<std::size_t>(c.find_element("m4a"));
     const double A_IS = 1e6 * model_parameter(c, m4a, "ais");
@@ -36,14 +37,14 @@ void claim_calibration(StudyResult& out, const circuit::Circuit& c) {
 std::string reason(const InverterCase& row, std::size_t variation, bool voltage) {
     if (row.is_fitted && variation == 2 && voltage)
         return fmt::format(
-            "the published rows disagree: {:g} % of process and {:g} % of mismatch give {:.3g} %, not {:g} %; 1000 chips give a deviation "
-            "with an uncertainty of 2.2 %",
+            "the published rows disagree: {:g} % of process and {:g} % of mismatch give {:.3g} %, not {:g} %; the standard deviation of "
+            "1000 chips has an uncertainty of 2.2 %",
             row.V[0].percent, row.V[1].percent, std::hypot(row.V[0].percent, row.V[1].percent), row.V[2].percent);
-    if (row.is_fitted) return "A_VT is table 12's; 1000 chips give a deviation with an uncertainty of 2.2 %";
+    if (row.is_fitted) return "A_VT is table 12's; the standard deviation of 1000 chips has an uncertainty of 2.2 %";
     if (voltage && variation == 0) return "published with one digit";
     if (voltage) return divider_reason;
-    return "the simulated deviation comes mostly from the Early voltage: I_Q follows V_BN (bias-spread). The published one needs a larger "
-           "effect or another cause, which is not known; the inferred bulks of fig. 52 are not the cause";
+    return "the simulated standard deviation comes mostly from the Early voltage: I_Q follows V_BN (bias-spread). The published one needs "
+           "a larger effect or another cause, which is not known; the inferred bulks of fig. 52 are not the cause";
 }
 
 void claim(StudyResult& out, const InverterCase& row, std::size_t variation, const SampleStatistics& s, bool voltage) {
@@ -55,7 +56,7 @@ void claim(StudyResult& out, const InverterCase& row, std::size_t variation, con
     const double error = std::abs(100 * c.deviation());
     if (c.needs_explanation()) c.explain(reason(row, variation, voltage));
     if (variation != 1) return;
-    auto& tolerance_claim = out.claim(prefix + "relative error of that deviation", error, "%")
+    auto& tolerance_claim = out.claim(prefix + "relative error of this standard deviation", error, "%")
                                 .allow_max(tolerance, "decided in advance, with A_VT of table 12");
     if (tolerance_claim.needs_explanation()) tolerance_claim.explain(divider_reason);
 }
@@ -79,7 +80,7 @@ Result<void> claim_text(StudyResult& out, const circuit::Circuit& generator, con
     return {};
 }
 
-Result<StudyResult> work(const StudyOptions& options) {
+Result<StudyResult> compute(const StudyOptions& options) {
     StudyResult out;
     const auto circuit = elaborate_study_netlist({"bias"});
     if (!circuit) return circuit.error();
@@ -107,6 +108,6 @@ Result<StudyResult> work(const StudyOptions& options) {
 const Study study{
     "table17-18", "V_Q and I_Q of 1000 chips",
     "Means and standard deviations for process, mismatch and all, with and without biasing. Thesis E.2, tables 17 and 18 (errata I9, I10)",
-    work};
+    compute};
 
 }  // namespace corpuscle::studies::table17_18

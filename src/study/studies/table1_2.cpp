@@ -46,7 +46,7 @@ std::vector<std::string> split_words(std::string_view text) {
     return out;
 }
 
-Result<StudyResult> work(const StudyOptions&) {
+Result<StudyResult> compute(const StudyOptions&) {
     StudyResult out;
     const auto circuit = elaborate_study_netlist({"transducer"});
     if (!circuit) return circuit.error();
@@ -79,6 +79,6 @@ Result<StudyResult> work(const StudyOptions&) {
 
 const Study study{"table1-2", "Sizes of the transducer and its amplifier",
                   "Arrays of m columns of n unit transistors; every PMOS is 6 um and every NMOS 1.5 um wide. Thesis 4.2, tables 1 and 2",
-                  work};
+                  compute};
 
 }  // namespace corpuscle::studies::table1_2

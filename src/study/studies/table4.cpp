@@ -29,7 +29,7 @@ Result<void> report_sizes(StudyResult& out) {
         out.claim(fmt::format("{}: V_BN at 200 nA", name), V_BN.at(0.2), "V")
             .allow_range(100e-3, 600e-3, "thesis E.2: 100 to 600 mV over its range")
             .explain(reason);
-        out.claim(fmt::format("{}: V_BN is 100 mV from", name), 1e-6 * V_BN.crossing(0.1), "A")
+        out.claim(fmt::format("{}: current from which V_BN is 100 mV", name), 1e-6 * V_BN.crossing(0.1), "A")
             .published_as(100e-9, "thesis E.2, fig. 53: it works from 100 nA")
             .explain(reason);
     }
@@ -67,7 +67,7 @@ vref ref 0 0.35
     return {};
 }
 
-/// V_F is half the supply at I_F1 = I_BIASF: finds this I_F in the corners.
+/// Finds the I_F1 at which V_F is half the supply in each corner; by the thesis it is I_BIASF.
 Result<void> report_middle(StudyResult& out) {
     for (const char* corner : {"tt", "ss", "ff", "sf", "fs"}) {
         const auto found = run_study_netlist({"current_to_voltage", {fmt::format("corner={}", corner)}, ".dc if 1u 1.8u 10n"});
@@ -79,7 +79,7 @@ Result<void> report_middle(StudyResult& out) {
     return {};
 }
 
-Result<StudyResult> work(const StudyOptions& options) {
+Result<StudyResult> compute(const StudyOptions& options) {
     StudyResult out;
     for (const auto add_part : {report_sizes, report_divider, report_middle}) {
         if (auto ok = add_part(out); !ok) return ok.error();
@@ -90,6 +90,6 @@ Result<StudyResult> work(const StudyOptions& options) {
 }
 
 const Study study{"table4", "The transconductors' bias with table 4's sizes",
-                  "V_REF, very large resistances, and V_F = V_DD/2 for I_F1 = I_BIASF. Thesis 4.3.1, fig. 27, table 4", work};
+                  "V_REF, very large resistances, and V_F = V_DD/2 for I_F1 = I_BIASF. Thesis 4.3.1, fig. 27, table 4", compute};
 
 }  // namespace corpuscle::studies::table4

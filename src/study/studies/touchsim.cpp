@@ -1,5 +1,5 @@
-// Comparison with TouchSim, the field's model of a hand, within the range it was fitted to: its measured responses and those of our
-// fingertip.
+// Comparison with TouchSim, a widely used model of the hand's afferents, within the range that it was fitted to: its measured responses
+// and those of our fingertip.
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -21,7 +21,7 @@ struct Rates {
 };
 struct RateRow {
     const char* name;
-    double Rates::* of;
+    double Rates::*rate;
 };
 constexpr RateRow rows[] = {
     {"protraction, peak", &Rates::up_peak}, {"protraction, mean", &Rates::up},       {"hold, mean", &Rates::hold},
@@ -53,38 +53,38 @@ double median(std::vector<double> v) {
     return *middle;
 }
 
-const char* reason(const std::string& of, const RateRow& row, bool wide_contact) {
-    const bool is_retraction = row.of == &Rates::down_peak || row.of == &Rates::down,
-               is_hold = row.of == &Rates::hold || row.of == &Rates::end;
-    if (of == "sa1" && is_hold && wide_contact)
+const char* reason(const std::string& afferent, const RateRow& row, bool wide_contact) {
+    const bool is_retraction = row.rate == &Rates::down_peak || row.rate == &Rates::down,
+               is_hold = row.rate == &Rates::hold || row.rate == &Rates::end;
+    if (afferent == "sa1" && is_hold && wide_contact)
         return "the mechanics of TouchSim suppress the plateau under a wide flat contact; our afferents respond to the pressure below it, "
                "which persists";
-    if (of == "sa1" && is_retraction)
+    if (afferent == "sa1" && is_retraction)
         return "the dynamic component of SA-IB is negative for falling force (thesis 3.3); the spikes come from the decaying static "
                "component";
-    if (of == "sa1") return "the current must exceed the leak first, so it begins later in the ramp than TouchSim's SA1";
+    if (afferent == "sa1") return "the current must exceed the leak first, so firing begins later in the ramp than in TouchSim's SA1";
     if (is_hold) return "the high-pass of 2 Hz continues for about 130 ms after a ramp (errata B13)";
-    return "the current must exceed the leak first, so it begins later than TouchSim's RA and then fires faster; its gains are the "
+    return "the current must exceed the leak first, so firing begins later than in TouchSim's RA and is then faster; the gains are the "
            "thesis's (3.4)";
 }
 
 constexpr double max_distance = 1.5e-3;  // m, distance from the centre of the punch
 
-std::vector<Rates> rates_within_distance(const std::vector<FingertipTrain>& trains, const std::string& of) {
+std::vector<Rates> rates_within_distance(const std::vector<FingertipTrain>& trains, const std::string& afferent) {
     std::vector<Rates> out;
     for (const auto& t : trains)
-        if (t.afferent == of && t.distance <= max_distance) out.push_back(rates_of(t.spikes));
+        if (t.afferent == afferent && t.distance <= max_distance) out.push_back(rates_of(t.spikes));
     return out;
 }
 
-double median_of(const std::vector<Rates>& all, double Rates::* of) {
+double median_of(const std::vector<Rates>& all, double Rates::*rate) {
     std::vector<double> values;
-    for (const auto& r : all) values.push_back(r.*of);
+    for (const auto& r : all) values.push_back(r.*rate);
     return values.empty() ? 0 : median(std::move(values));
 }
 
 /// The force (N) at which our SA-I match TouchSim's SA1 in the selected rate, by bisection on a logarithmic scale.
-Result<double> force_for(const Contact& contact) {
+Result<double> find_matching_force(const Contact& contact) {
     double low = 0.01, high = 100;
     for (int k = 0; k < 14; ++k) {
         const double middle = std::sqrt(low * high);
@@ -97,23 +97,23 @@ Result<double> force_for(const Contact& contact) {
 
 void report_row(StudyResult& out, const std::string& name, const RateRow& row, const std::vector<Rates>& ours, const Rates& theirs,
                 const char* reason_text) {
-    auto& claim = out.claim(fmt::format("{}: {}", name, row.name), median_of(ours, row.of), "Hz")
-                      .derived_as(theirs.*row.of, measured)
+    auto& claim = out.claim(fmt::format("{}: {}", name, row.name), median_of(ours, row.rate), "Hz")
+                      .derived_as(theirs.*row.rate, measured)
                       .explain_if_needed(reason_text);
-    if (theirs.*row.of == 0 && claim.computed > 0) claim.explain(reason_text);
+    if (theirs.*row.rate == 0 && claim.computed > 0) claim.explain(reason_text);
 }
 
 Result<void> report_touch(StudyResult& out, const Contact& contact) {
     const double equivalent_force = 2 * E_star * contact.radius * contact.depth;
-    const auto matching_force = force_for(contact);
+    const auto matching_force = find_matching_force(contact);
     if (!matching_force) return matching_force.error();
     const auto at = simulate_fingertip({contact.radius, equivalent_force}), matched = simulate_fingertip({contact.radius, *matching_force});
     if (!at) return at.error();
     if (!matched) return matched.error();
     out.claim(fmt::format("{}: equivalent force", contact.name), equivalent_force, "N");
-    for (const auto& [of, theirs] : {std::pair{"sa1", &contact.sa1}, {"fa1", &contact.ra}})
-        report_row(out, fmt::format("{}, {}", contact.name, of == std::string("sa1") ? "SA-I" : "FA-I"), rows[0],
-                   rates_within_distance(*at, of), *theirs,
+    for (const auto& [afferent, theirs] : {std::pair{"sa1", &contact.sa1}, {"fa1", &contact.ra}})
+        report_row(out, fmt::format("{}, {}", contact.name, afferent == std::string("sa1") ? "SA-I" : "FA-I"), rows[0],
+                   rates_within_distance(*at, afferent), *theirs,
                    "the thesis's models are made for 0.2 to 4 N and their leak is a fraction of the current at these forces (fig3); the "
                    "nerve and TouchSim respond to millinewtons");
     out.claim(fmt::format("{}: force at which our SA-I match TouchSim's {}", contact.name,
@@ -121,10 +121,10 @@ Result<void> report_touch(StudyResult& out, const Contact& contact) {
               *matching_force, "N")
         .derived_as(equivalent_force, "the equivalent force")
         .explain_if_needed("as above: the models' range is that of the thesis's stimulus");
-    for (const auto& [of, theirs] : {std::pair{"sa1", &contact.sa1}, {"fa1", &contact.ra}})
+    for (const auto& [afferent, theirs] : {std::pair{"sa1", &contact.sa1}, {"fa1", &contact.ra}})
         for (const auto& row : rows)
-            report_row(out, fmt::format("{} at that force, {}", contact.name, of == std::string("sa1") ? "SA-I" : "FA-I"), row,
-                       rates_within_distance(*matched, of), *theirs, reason(of, row, contact.radius > 1e-3));
+            report_row(out, fmt::format("{} at that force, {}", contact.name, afferent == std::string("sa1") ? "SA-I" : "FA-I"), row,
+                       rates_within_distance(*matched, afferent), *theirs, reason(afferent, row, contact.radius > 1e-3));
     return {};
 }
 
@@ -225,7 +225,7 @@ Result<void> report_press(StudyResult& out) {
     return {};
 }
 
-Result<StudyResult> work(const StudyOptions& options) {
+Result<StudyResult> compute(const StudyOptions& options) {
     StudyResult out;
     if (auto ok = report_touches(out, options); !ok) return ok.error();
     if (auto ok = report_tuning(out, options); !ok) return ok.error();
@@ -245,6 +245,6 @@ Result<StudyResult> work(const StudyOptions& options) {
 const Study study{"touchsim", "Comparison in TouchSim's fitted range",
                   "How do our SA-I, FA-I and FA-II respond where TouchSim was fitted: a small probe, a flat one, vibration? Saal et al. "
                   "2017; its responses as measured, its tuning as published",
-                  work};
+                  compute};
 
 }  // namespace corpuscle::studies::touchsim

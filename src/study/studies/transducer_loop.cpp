@@ -19,6 +19,7 @@ struct Loops {
     static std::string description(std::size_t k) {
         return k == 0 ? "without capacitance" : fmt::format("with {}F at the sensor", capacitances[k]);
     }
+    /// Simulates the loop at a force and appends the results.
     Result<void> add(double newtons) {
         std::string directives;
         for (std::size_t k = 0; k < 3; ++k)
@@ -35,7 +36,7 @@ struct Loops {
     }
 };
 
-Result<StudyResult> work(const StudyOptions& options) {
+Result<StudyResult> compute(const StudyOptions& options) {
     StudyResult out;
     Loops loops;
     for (const double newtons : {0.02, 0.05, 0.2, 0.5, 1.0, 2.0, 4.0, 6.0, 10.0, 20.0, 40.0})
@@ -64,6 +65,6 @@ Result<StudyResult> work(const StudyOptions& options) {
 const Study study{
     "transducer-loop", "The transducer's loop over the force",
     "The amplifier \"provides a feedback loop control to force V_X to follow V_Y\" (thesis 4.2); its gain and stability are not published",
-    work};
+    compute};
 
 }  // namespace corpuscle::studies::transducer_loop

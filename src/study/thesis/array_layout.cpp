@@ -12,9 +12,9 @@ using Rule = circuit::RectangleRule;
 constexpr double um = 1e6, gap_between_arrays = 0.8;  // um per m; um
 
 /// Appends a rectangle (um) to a path.
-void append_rectangle(StudyCurve& path, double left, double low, double width, double height) {
+void append_rectangle(StudyCurve& path, double left, double bottom, double width, double height) {
     const double x[] = {left, left + width, left + width, left, left, Claim::none};
-    const double y[] = {low, low, low + height, low + height, low, Claim::none};
+    const double y[] = {bottom, bottom, bottom + height, bottom + height, bottom, Claim::none};
     path.x.insert(path.x.end(), std::begin(x), std::end(x)), path.y.insert(path.y.end(), std::begin(y), std::end(y));
 }
 

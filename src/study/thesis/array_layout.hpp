@@ -5,10 +5,10 @@
 
 namespace corpuscle {
 
-/// The arrays in a row, in um.
+/// A drawing of the arrays side by side; both axes in um.
 StudyPlot layout_plot(const SimulatedArrays&, std::string title);
 
-/// All of a layout figure: each array's areas beside the published ones, and the drawing. `remark` explains differences.
+/// The result of a layout figure ("fig. 43"): each array's areas beside the published ones, and the drawing. `remark` explains differences.
 Result<StudyResult> report_layout(const PublishedArrays&, const std::string& figure, const std::string& remark);
 
 }  // namespace corpuscle

@@ -16,7 +16,7 @@ namespace {
 constexpr double um2 = 1e-12, half_volt = 0.5;
 constexpr int chips = 2000;  // the thesis has 1000
 
-/// The netlist holds three copies of each array: vi moves the gate, the drain or the bulk; vh moves gate and drain.
+/// The netlist has three copies of each array. Source vi varies the gate, the drain or the bulk; source vh varies gate and drain.
 std::string slope_directives(const std::string& array) {
     return fmt::format(".tf i({0}.vg) vi\n.tf i({0}.vd) vi\n.tf i({0}.vb) vi\n.tf i({0}.vb) vh\n", array);
 }
@@ -26,7 +26,7 @@ double value(const circuit::Element& e, const char* name, double otherwise) {
     return found == e.values.end() ? otherwise : found->second;
 }
 
-/// Sizes are those of the copy whose gate moves; its transistors are in series.
+/// Reads the sizes of the copy whose gate is varied; its transistors are in series.
 void measure_size(SimulatedArray& out, const circuit::Circuit& circuit, const std::string& array) {
     double inverse_S = 0;
     for (const auto& e : circuit.elements) {
@@ -56,8 +56,8 @@ std::string early_voltage_reason(const SimulatedArray&) {
 
 std::string threshold_reason(const SimulatedArray& a) {
     return fmt::format(
-        "another definition: the simulator's V_T at its operating point. Used as V_T0 in the equations of appendix A it would give "
-        "g_mg/I_D = {:.1f} 1/V, but {:.2f} 1/V is printed",
+        "the published V_T has another definition: the simulator's at its operating point. Used as V_T0 in the equations of appendix A it "
+        "would give g_mg/I_D = {:.1f} 1/V, but {:.2f} 1/V is printed",
         g_by_I_with_published_threshold(*a.published), a.published->g_by_I);
 }
 
@@ -92,9 +92,9 @@ Result<SimulatedArrays> simulate_arrays(const char* circuit, std::span<const Arr
     if (!found) return found.error();
     SimulatedArrays out;
     for (const auto& [published, array] : matches) {
-        const auto g = [&](char moved, const char* by) { return found->derivative(fmt::format("i({}.v{})", array, moved), by); };
+        const auto g = [&](char terminal, const char* by) { return found->derivative(fmt::format("i({}.v{})", array, terminal), by); };
         SimulatedArray a{.published = published, .g_md = g('d', "vi"), .g_mg = g('g', "vi"), .g_mb = g('b', "vi")};
-        a.g_ms = g('b', "vh") + a.g_mb;  // all but the source moved
+        a.g_ms = g('b', "vh") + a.g_mb;  // raising gate, drain and bulk together is the same as lowering the source
         a.I_D = found->operating_point(fmt::format("i({}.vg)", array));
         a.V_T = found->operating_info(array + ".mg2", "v_t");
         if (std::isnan(a.V_T)) a.V_T = found->operating_info(array + ".mg1", "v_t");
@@ -171,13 +171,13 @@ std::string mismatch_reason(const SimulatedArray& a) {
     const std::string name = a.published->name;
     if (name == "G3")
         return "in the equations the unit transistor at the source is not fully saturated (i_r is one eighth of i_f), so the seven above "
-               "it contribute to the deviation";
+               "it contribute to the mismatch";
     if (name == "F")
-        return "the short transistor at the drain has a large deviation and contributes to the total; at the source it contributes less "
+        return "the short transistor at the drain has a large mismatch and contributes to the total; at the source it contributes less "
                "(below)";
     return fmt::format(
         "one A_VT is used for all arrays. For a single transistor of this area the card's law gives {:.2f} % with the published g_mg/I_D "
-        "and {:.2f} % with the simulated one. The uncertainty of a deviation is {:.1f} % here, 2.2 % with 1000 chips",
+        "and {:.2f} % with the simulated one. The statistical uncertainty of a standard deviation is {:.1f} % here, 2.2 % with 1000 chips",
         a.predicted_mismatch(a.published->g_by_I), a.predicted_mismatch(a.g_by_I()), mismatch_uncertainty());
 }
 
@@ -199,7 +199,7 @@ double sum_residual(const PublishedArray& a, double g_md) {
 
 double ratio_residual(const PublishedArray& a, double g_md) { return std::abs(1e-6 * a.I_D / (g_md * a.g_md * a.V_A) - 1); }
 
-void add_rule(StudyResult& out, const PublishedArrays& all, double head, const std::string& erratum, const std::string& what,
+void add_rule(StudyResult& out, const PublishedArrays& all, double head, const std::string& erratum, const std::string& statement,
               double (*residual)(const PublishedArray&, double)) {
     double with_ours = 0, with_head = 0;
     bool all_closer = true;
@@ -208,9 +208,9 @@ void add_rule(StudyResult& out, const PublishedArrays& all, double head, const s
         all_closer = all_closer && residual(a, all.g_md) < residual(a, head);
     }
     out.claim_true(
-        fmt::format("Published numbers only: {} by up to {:.2g} % with the unit of g_md used here, by up to {:.2g} % with the head's "
-                    "unit; smaller in every row",
-                    what, 100 * with_ours, 100 * with_head),
+        fmt::format("Published numbers only: {} by up to {:.2g} % with the unit of g_md used here, and by up to {:.2g} % with the unit "
+                    "in the table's head. The difference is smaller with our unit in every row",
+                    statement, 100 * with_ours, 100 * with_head),
         all_closer, erratum);
 }
 
@@ -221,7 +221,7 @@ void add_sum_rule(StudyResult& out, const PublishedArrays& all, double head, con
 }
 
 void add_ratio_rule(StudyResult& out, const PublishedArrays& all, double head, const std::string& erratum) {
-    add_rule(out, all, head, erratum, "I_D over g_md differs from its column", ratio_residual);
+    add_rule(out, all, head, erratum, "I_D/g_md differs from its printed column", ratio_residual);
 }
 
 }  // namespace corpuscle

@@ -52,10 +52,10 @@ inline constexpr PublishedArray published_trapezoids[] = {
 };
 
 inline constexpr PublishedArrays rectangles = {
-    "rectangular_arrays", published_rectangles, "table 10", "table 11", "table 12", 1e-6, 1e-6, "its nS read as uS: errata U7", ""};
+    "rectangular_arrays", published_rectangles, "table 10", "table 11", "table 12", 1e-6, 1e-6, "nS corrected to uS: errata U7", ""};
 inline constexpr PublishedArrays trapezoids = {
-    "trapezoidal_arrays",        published_trapezoids,          "table 13", "table 14", "table 15", 1e-10, 1e-6,
-    "divided by ten: errata U8", "its nS read as uS: errata U9"};
+    "trapezoidal_arrays",        published_trapezoids,           "table 13", "table 14", "table 15", 1e-10, 1e-6,
+    "divided by ten: errata U8", "nS corrected to uS: errata U9"};
 
 const PublishedArray& find_published(const PublishedArrays&, std::string_view name);
 
@@ -80,7 +80,7 @@ struct SimulatedArrays : std::vector<SimulatedArray> {
 
 /// Simulates the arrays at V_G = V_D = 0.5 V; every unit transistor is solved.
 Result<SimulatedArrays> simulate_arrays(const PublishedArrays&);
-/// Other subcircuits of the same netlist, each with the table row to compare it with.
+/// A subcircuit of a netlist, and the table row that it is compared with.
 struct ArrayMatch {
     const PublishedArray* published;
     std::string subcircuit;
@@ -90,7 +90,7 @@ Result<SimulatedArrays> simulate_arrays(const char* circuit, std::span<const Arr
 /// sigma/mu of the drain currents (%), in the order of the matches.
 Result<std::vector<double>> simulate_mismatch(const char* circuit, std::span<const ArrayMatch>);
 Result<std::vector<double>> simulate_mismatch(const PublishedArrays&);
-/// Statistical uncertainty of a simulated deviation, % of it.
+/// Relative statistical uncertainty of a simulated standard deviation, %.
 double mismatch_uncertainty();
 
 /// A column of a table: the published number in its unit, and the simulated one.
@@ -102,7 +102,7 @@ struct TableColumn {
     std::string (*reason)(const SimulatedArray&) = {};  ///< reason for a difference
     const char* source_note = "";                       ///< remark on the unit if the head of the table is wrong
 };
-/// Adds one claim per cell.
+/// Adds one claim for each array.
 void add_column(StudyResult&, const TableColumn&, const SimulatedArrays&, const std::string& source);
 
 void add_sizes(StudyResult&, const PublishedArrays&, const SimulatedArrays&);
@@ -111,7 +111,7 @@ void add_ratios(StudyResult&, const PublishedArrays&, const SimulatedArrays&);
 void add_mismatch(StudyResult&, const PublishedArrays&, const SimulatedArrays&, const std::vector<double>& sigmas);
 
 /// The identity g_mg + g_md + g_mb = g_ms (eq. 27) gives the unit of the printed g_md. Adds the residual of the sum with the unit used here
-/// and with `head`, the head's unit in S.
+/// and with `head`, the unit in the table's head (S).
 void add_sum_rule(StudyResult&, const PublishedArrays&, double head, const std::string& erratum);
 /// The same check with the ratio I_D/g_md.
 void add_ratio_rule(StudyResult&, const PublishedArrays&, double head, const std::string& erratum);

@@ -4,8 +4,9 @@
 
 namespace corpuscle::bias_chips {
 
-Result<Chips> simulate_chips(const std::string& circuit, const Variation& way) {
-    return run_study_variants({circuit, {fmt::format("corner={}", way.corner)}, fmt::format(".op\n.mc 1000 {}", way.mc_options)});
+Result<Chips> simulate_chips(const std::string& circuit, const Variation& variation) {
+    return run_study_variants(
+        {circuit, {fmt::format("corner={}", variation.corner)}, fmt::format(".op\n.mc 1000 {}", variation.mc_options)});
 }
 
 double model_parameter(const circuit::Circuit& c, std::size_t element, const char* name) {

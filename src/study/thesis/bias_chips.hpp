@@ -6,10 +6,10 @@
 namespace corpuscle::bias_chips {
 
 struct InverterCase {
-    const char *circuit, *name, *voltage, *current;
+    const char *circuit, *name, *voltage, *current;  ///< voltage, current: of the output, in the netlist
     struct PublishedSpread {
         double mean, percent;  // V or A; % of the mean
-    } V[3], I[3];
+    } V[3], I[3];              ///< one for each of `variations`
     bool is_fitted;  ///< true: the spread of the process card was fitted to this row
 };
 inline constexpr InverterCase inverter_cases[] = {
@@ -39,7 +39,7 @@ Result<Chips> simulate_chips(const std::string& circuit, const Variation&);
 
 /// A parameter of a transistor's model card: "avt", V m.
 double model_parameter(const circuit::Circuit&, std::size_t element, const char* name);
-/// Channel area of all its unit transistors, m^2.
+/// Total channel area of the unit transistors of an array, m^2.
 double channel_area(const circuit::Element&);
 
 }  // namespace corpuscle::bias_chips

@@ -7,9 +7,9 @@ namespace corpuscle {
 namespace {
 
 /// Adds a claim on one end of a working range, and what limits the generator there. `reaches_sweep_end`: as in explain_range_end.
-Result<void> claim_end(StudyResult& out, const std::string& what, const BiasSweep& sweep, double end, bool reaches_sweep_end,
+Result<void> claim_end(StudyResult& out, const std::string& claim_label, const BiasSweep& sweep, double end, bool reaches_sweep_end,
                        double published, const BiasFigure& figure) {
-    auto& claim = out.claim(what, end, figure.unit).published_as(published, figure.source());
+    auto& claim = out.claim(claim_label, end, figure.unit).published_as(published, figure.source());
     auto why = explain_range_end(sweep, end, reaches_sweep_end);
     if (!why) return why.error();
     claim.explain(std::move(*why));
@@ -27,19 +27,19 @@ Result<void> claim_ranges(const BiasFigure& figure, std::span<const BiasCorner> 
         !ok)
         return ok;
     if (std::isnan(figure.corner_range[0])) return {};
-    const BiasCorner *limits_start = corners.data(), *limits_end = limits_start;  // the corners with the last start and the first end
+    const BiasCorner *limits_start = corners.data(), *limits_end = limits_start;  // the corners whose range starts last and ends first
     for (const auto& c : corners) {
         if (c.working_range.from > limits_start->working_range.from) limits_start = &c;
         if (c.working_range.to < limits_end->working_range.to) limits_end = &c;
     }
-    const auto name = [](const char* what, const BiasCorner& c) {
-        return fmt::format("all corners: works {} (limited by {})", what, c.name);
+    const auto label = [](const char* end, const BiasCorner& c) {
+        return fmt::format("all corners: works {} (limited by {})", end, c.name);
     };
-    if (auto ok = claim_end(out, name("from", *limits_start), limits_start->sweep, limits_start->working_range.from,
+    if (auto ok = claim_end(out, label("from", *limits_start), limits_start->sweep, limits_start->working_range.from,
                             limits_start->working_range.reaches_sweep_start, figure.corner_range[0], figure);
         !ok)
         return ok;
-    return claim_end(out, name("to", *limits_end), limits_end->sweep, limits_end->working_range.to,
+    return claim_end(out, label("to", *limits_end), limits_end->sweep, limits_end->working_range.to,
                      limits_end->working_range.reaches_sweep_end, figure.corner_range[1], figure);
 }
 
@@ -54,7 +54,7 @@ void add_plots(const BiasFigure& figure, std::span<const BiasCorner> corners, St
     for (const auto& c : corners) currents.add(c.name, c.sweep.I_Q().scaled(figure.plot_scale, 1e9));
     if (log) currents.add("I_Q = I_BIAS", {{10, 3000}, {10, 3000}});
     auto& errors =
-        out.plot("Error over its margin: 1 is 5 mV of V_Q or a tenth of I_Q, the worse of the two", figure.x_label, "error over margin");
+        out.plot("Error over its margin (5 mV of V_Q, a tenth of I_BIAS), the larger of the two", figure.x_label, "error over margin");
     errors.log_x = log, errors.log_y = true;
     for (const auto& c : corners) errors.add(c.name, c.sweep.worst_error().scaled(figure.plot_scale, 1));
     errors.add("limit",

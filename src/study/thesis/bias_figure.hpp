@@ -1,5 +1,6 @@
 #pragma once
-// Figs. 53 to 55 have the same form along three axes: the body voltages in the typical corner, and the replica's current in the corners.
+// Figs. 53 to 55 show the same curves over current, supply and temperature: the body voltages in the typical corner, and the replica's
+// current in the corners.
 
 #include "study/study.hpp"
 #include "study/thesis/bias_sweep.hpp"
@@ -25,7 +26,7 @@ struct BiasCorner {
 /// Sweeps the corners tt, ss and ff; adds the claims on the working range and both plots.
 Result<std::vector<BiasCorner>> simulate_bias_figure(const BiasFigure&, StudyResult&, const StudyOptions&);
 
-/// The reason why the generator works no further than to this end. `reaches_sweep_end`: it works to the end of the sweep, without a limit.
+/// Explains why the working range ends at `end`. `reaches_sweep_end`: the sweep ends there, and the generator still works.
 Result<std::string> explain_range_end(const BiasSweep&, double end, bool reaches_sweep_end);
 
 }  // namespace corpuscle

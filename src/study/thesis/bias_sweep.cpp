@@ -23,10 +23,11 @@ std::string dc_directive(BiasAxis axis, const std::string& range) {
 double saturation_voltage(const circuit::Circuit& c, std::string_view name, double current) {
     const auto& element = c.elements[static_cast<std::size_t>(c.find_element(name))];
     const auto& card = c.models[static_cast<std::size_t>(element.model)].values;
-    const auto of = [](const circuit::Values& values, std::string_view what) { return values.find(what)->second; };
-    const double kelvin = c.temperature + 273.15, temperature_ratio = kelvin / (of(card, "tnom") + 273.15);
-    const double aspect = of(element.values, "w") / of(element.values, "l") * of(element.values, "m") / of(element.values, "stack");
-    const double i_f = current / (of(card, "isq") * std::pow(temperature_ratio, of(card, "tis")) * aspect);
+    const auto value_of = [](const circuit::Values& values, std::string_view key) { return values.find(key)->second; };
+    const double kelvin = c.temperature + 273.15, temperature_ratio = kelvin / (value_of(card, "tnom") + 273.15);
+    const double aspect =
+        value_of(element.values, "w") / value_of(element.values, "l") * value_of(element.values, "m") / value_of(element.values, "stack");
+    const double i_f = current / (value_of(card, "isq") * std::pow(temperature_ratio, value_of(card, "tis")) * aspect);
     return k_over_q * kelvin * (std::sqrt(1 + i_f) + 3);
 }
 
@@ -78,8 +79,8 @@ BiasSweep::Range BiasSweep::working_range() const {
     const auto edge = [&](std::size_t in, std::size_t out) {
         return m.x[in] + (m.x[out] - m.x[in]) * (1 - m.y[in]) / (m.y[out] - m.y[in]);
     };
-    const bool all_below = low == 0, all_above = high + 1 == m.x.size();
-    return {all_below ? m.x[low] : edge(low, low - 1), all_above ? m.x[high] : edge(high, high + 1), all_below, all_above};
+    const bool reaches_start = low == 0, reaches_end = high + 1 == m.x.size();
+    return {reaches_start ? m.x[low] : edge(low, low - 1), reaches_end ? m.x[high] : edge(high, high + 1), reaches_start, reaches_end};
 }
 
 double BiasSweep::Range::covered_fraction(double min, double max) const {

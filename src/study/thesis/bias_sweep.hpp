@@ -9,7 +9,7 @@ namespace corpuscle {
 enum class BiasAxis { current, supply, temperature };
 
 /// Working range: V_Q within 5 mV of half the supply and I_Q within a tenth of I_BIAS. Our definition; the thesis gives none.
-constexpr double bias_voltage_margin = 5e-3, bias_current_margin = 0.1;  // V, of I_BIAS
+constexpr double bias_voltage_margin = 5e-3, bias_current_margin = 0.1;  // V; fraction of I_BIAS
 
 struct BiasSweep {
     BiasAxis axis;
@@ -17,7 +17,8 @@ struct BiasSweep {
     NetlistResult found;
 
     static Result<BiasSweep> run(BiasAxis, std::vector<std::string> settings = {});
-    static Result<BiasSweep> run(BiasAxis, const std::string& range, std::vector<std::string> settings);  ///< "10n 3u 2n"
+    static Result<BiasSweep> run(BiasAxis, const std::string& range,
+                                 std::vector<std::string> settings);  ///< range: "10n 3u 2n", from 10 nA to 3 uA in 2 nA
 
     StudyCurve curve(const std::string& name) const;  ///< "v(bn)"
     StudyCurve V_Q() const { return curve("v(q)"); }
@@ -27,7 +28,8 @@ struct BiasSweep {
     StudyCurve current_error() const;
     StudyCurve worst_error() const;  ///< the larger of the two
 
-    /// The working range about the best point. An end outside the sweep is replaced by the sweep's end.
+    /// The working range around the point of the smallest error, on the axis; NaN if there is none. An end outside the sweep is replaced by
+    /// the sweep's end.
     struct Range {
         double from, to;
         bool reaches_sweep_start, reaches_sweep_end;            ///< the range is limited by the sweep only
@@ -43,13 +45,13 @@ BiasSweep::Range range_intersection(const BiasSweep::Range&, const BiasSweep::Ra
 struct BiasState {
     double V_Q, I_Q, V_BN, V_BP, V_REF;  // V, A
     double V_M3B, V_M4A;                 // V: drain-source voltages
-    double V_sat_M3B, V_sat_M4A;         // V, to be saturated: phi_t (sqrt(1 + i_f) + 3), eq. 23 where i_r is a hundredth or so of i_f
-    double bulk_current;                 // A: what flows from BN into the bulks' junctions
-    double I_BIAS;                       // A: I_BIAS
+    double V_sat_M3B, V_sat_M4A;         // V: saturation voltages phi_t (sqrt(1 + i_f) + 3); there i_r is about a hundredth of i_f (eq. 23)
+    double bulk_current;                 // A: current from BN into the bulk junctions
+    double I_BIAS;                       // A
 
     std::string description() const;
 };
-/// Settings "i_bias=100n", "supply=0.8", "temp=95", "corner=ff", "vtn_shift=-35m".
+/// Simulates the generator at rest with settings such as "i_bias=100n", "supply=0.8", "temp=95", "corner=ff", "vtn_shift=-35m".
 Result<BiasState> simulate_bias_state(const std::vector<std::string>& settings);
 
 /// The setting for a value on the axis: "supply=0.61".

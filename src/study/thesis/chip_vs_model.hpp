@@ -12,8 +12,8 @@ struct ChipVsModel {
 /// Runs the chip as requested, and the model with the thesis's parameters.
 Result<ChipVsModel> compare_chip_with_model(const TrialSpec& chip, const std::string& model);
 
-/// For each spike: the largest value of a trace in `duration` (s) after the spike, over the largest in the same time before it. Returns the
-/// smallest of these ratios.
+/// For each spike: the largest value of a trace in `duration` (s) after the spike, over the largest value between two durations and half a
+/// duration before it. Returns the smallest of these ratios.
 double min_jump(const StudyCurve& trace, const std::vector<double>& spikes, double duration);
 
 /// The longest time (s) for which a trace stays above a level.

@@ -14,14 +14,14 @@ constexpr double min_gf = 20, max_gf = 400;  ///< range over which the thesis ev
 
 /// Eq. 13 corrected (errata F1): G = 1/R_0 + F^m / a, F in gf, a = 170 kohm gf^m.
 struct ForceSensor {
-    double R_0 = 10e6, a = 170e3, m = 0.72;
-    double conductance(double gf) const;
-    double resistance(double gf) const { return 1 / conductance(gf); }
-    double slope(double gf) const;  ///< dG/dF, S/gf
+    double R_0 = 10e6, a = 170e3, m = 0.72;                             ///< ohm, ohm gf^m, exponent
+    double conductance(double gf) const;                                ///< S
+    double resistance(double gf) const { return 1 / conductance(gf); }  ///< ohm
+    double slope(double gf) const;                                      ///< dG/dF, S/gf
     StudyCurve conductance_curve(double from, double to, double step = 1) const;
 };
 
-/// A transducer with its own sensor: netlist lines between the nodes vx (sensor), vz (amplifier output), if (output, held at the supply by
+/// Netlist lines of a transducer with its own sensor. Its nodes are vx (sensor), vz (amplifier output), if (output, held at the supply by
 /// the source vif), vdd and vy. Device names begin with SPICE letters.
 struct TransducerCell {
     std::string name, lines;
@@ -38,13 +38,13 @@ std::string single_transistor_cell(int columns);
 /// Fig. 20 with a follower behind the amplifier; the follower's output is node z.
 std::string voltage_cell(double R_F);
 
-/// All cells in a row with a common force (source vforce, 1 V per N: "4", "dc 0 force 1"), supply (vdd) and reference (vy). Node and
+/// A netlist of all cells with a common force (source vforce, 1 V per N: "4", "dc 0 force 1"), supply (vdd) and reference (vy). Node and
 /// current names: v(xNAME.vx), i(xNAME.vif). `parts` is the line that includes the subcircuits.
 std::string transducer_netlist(std::span<const TransducerCell>, const std::string& force,
                                const std::string& parts = ".include 'parts/transducer.inc'");
 
-/// The lowest supply at which each cell still holds its sensor: v_x at least 95 % of the 0.1 V of v_y, so that the sensor's current follows
-/// eq. 15. NaN: no such supply up to 1 V.
+/// The lowest supply (V) at which each cell still regulates its sensor's voltage: v_x at least 95 % of the 0.1 V of v_y, so that the
+/// sensor's current follows eq. 15. NaN: no such supply up to 1 V.
 Result<std::vector<double>> find_lowest_supplies(std::span<const TransducerCell>, double newtons,
                                                  const std::vector<std::string>& settings = {},
                                                  const std::string& parts = ".include 'parts/transducer.inc'");

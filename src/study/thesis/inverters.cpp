@@ -26,26 +26,26 @@ Result<InverterSweep> InverterSweep::run_with_directives(const std::string& dire
     return InverterSweep{std::move(*found), 0.7};
 }
 
-StudyCurve InverterSweep::output_current(char which) const {
-    return relative_to_half_supply(found.curve("dc", fmt::format("i(vh{})", which)), supply / 2);
+StudyCurve InverterSweep::output_current(char letter) const {
+    return relative_to_half_supply(found.curve("dc", fmt::format("i(vh{})", letter)), supply / 2);
 }
-StudyCurve InverterSweep::transconductance(char which) const { return output_current(which).slope().scaled(1, -1); }
+StudyCurve InverterSweep::transconductance(char letter) const { return output_current(letter).slope().scaled(1, -1); }
 
-StudyCurve InverterSweep::transfer_curve(char which) const {
-    auto out = relative_to_half_supply(found.curve("dc", fmt::format("v(o{})", which)), supply / 2);
+StudyCurve InverterSweep::transfer_curve(char letter) const {
+    auto out = relative_to_half_supply(found.curve("dc", fmt::format("v(o{})", letter)), supply / 2);
     for (double& y : out.y) y -= supply / 2;
     return out;
 }
 
-StudyCurve InverterSweep::voltage_gain(char which) const {
-    const auto curve = transfer_curve(which), slope = curve.slope().absolute();
+StudyCurve InverterSweep::voltage_gain(char letter) const {
+    const auto curve = transfer_curve(letter), slope = curve.slope().absolute();
     StudyCurve out;
     for (std::size_t k = slope.x.size(); k-- > 0;) out.x.push_back(curve.y[k + 1]), out.y.push_back(slope.y[k]);
     return out;
 }
 
-StudyCurve InverterSweep::supply_current(char which) const {
-    return relative_to_half_supply(found.curve("dc", fmt::format("i(vs{})", which)), supply / 2);
+StudyCurve InverterSweep::supply_current(char letter) const {
+    return relative_to_half_supply(found.curve("dc", fmt::format("i(vs{})", letter)), supply / 2);
 }
 
 }  // namespace corpuscle

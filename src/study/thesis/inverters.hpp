@@ -12,21 +12,21 @@ struct InverterSweep {
     NetlistResult found;
     double supply;  // V
 
-    /// `run` sweeps V_IN over the supply in steps of `step` (V); `run_with_directives` takes other directives.
+    /// `run` sweeps V_IN from 0 V to the supply in steps of `step` (V); `run_with_directives` runs other directives.
     static Result<InverterSweep> run(double step, double supply = 0.7);
     static Result<InverterSweep> run_with_directives(const std::string& directives, std::vector<std::string> settings = {});
 
-    /// Output current (A) over V_IN (V) with the output held at half the supply.
-    StudyCurve output_current(char which) const;
+    /// Output current (A) over V_IN (V) with the output held at half the supply. `letter`: one of inverter_letters.
+    StudyCurve output_current(char letter) const;
     /// Transconductance: the negative slope of that current, S over V.
-    StudyCurve transconductance(char which) const;
-    double transconductance_at_zero(char which) const { return transconductance(which).at(0); }  ///< S, at V_IN = 0
+    StudyCurve transconductance(char letter) const;
+    double transconductance_at_zero(char letter) const { return transconductance(letter).at(0); }  ///< S, at V_IN = 0
     /// Voltage of the open output, V over V.
-    StudyCurve transfer_curve(char which) const;
+    StudyCurve transfer_curve(char letter) const;
     /// Gain of the open output at each output voltage: |dV_OUT/dV_IN| over V_OUT.
-    StudyCurve voltage_gain(char which) const;
-    /// Supply current with the output held, A over V.
-    StudyCurve supply_current(char which) const;
+    StudyCurve voltage_gain(char letter) const;
+    /// Supply current with the output held at half the supply, A over V.
+    StudyCurve supply_current(char letter) const;
 };
 
 }  // namespace corpuscle

@@ -19,10 +19,11 @@ Result<NetlistResult> simulate_oscillator(const IsolatedOscillator&);
 /// An output over an input that is swept up and down again.
 struct Hysteresis {
     StudyCurve rising, falling;
-    double V_H, V_L;  ///< input at which the output crosses half the supply of 0.7 V, going up and down
+    double V_H, V_L;  ///< V: input at which the output crosses half the supply of 0.7 V, going up and down
 };
-/// From the first .dc analysis that has `updown`.
+/// Reads the curves of an output from the first .dc analysis, which must have `updown`.
 Hysteresis find_hysteresis(const NetlistResult&, const std::string& output);
+/// Simulates the trigger alone (circuits/schmitt.cir).
 Result<Hysteresis> simulate_trigger();
 
 }  // namespace corpuscle

@@ -26,10 +26,10 @@ StudyCurve frequency_at_start(const std::vector<double>& train);
 /// The same at the time of the second spike, as many tools plot it.
 StudyCurve frequency_at_end(const std::vector<double>& train);
 
-/// Adds a reference value from elsewhere and its reliability to a claim; no verdict depends on it.
+/// Adds a reference value from another source to a claim, and a mark of its reliability; no verdict depends on it.
 Claim& set_reference(Claim&, double value, const std::string& mark);
 
-/// Runs a model as the thesis does: Algorithms 4 to 6 at 1 ms, spikes on the samples.
+/// Runs a model as the thesis does: Algorithms 4 to 6 with steps of 1 ms, spike times on the samples.
 TrialSpec thesis_algorithm(std::string afferent, std::vector<std::string> settings = {});
 
 }  // namespace corpuscle::press
