@@ -1,4 +1,4 @@
-// Block by block, as force arrives. The caller holds the state, and may copy, save and resume it.
+// Simulates an afferent block by block, as force arrives. The state belongs to the caller, which may copy, save and resume it.
 
 #include <cstdio>
 

@@ -1,4 +1,5 @@
-// Ten thousand slowly adapting afferents under one press, each with its own gain on the force. Prints the number of spikes in each 50 ms.
+// Ten thousand slowly adapting afferents under one press. The force on each is multiplied by its own gain, from 0 to 1. Prints the number
+// of spikes in each 50 ms.
 
 #include <cstdio>
 
@@ -14,13 +15,13 @@ int main() {
     if (!population) return std::puts(population.error().text().c_str()), 1;
 
     std::vector<double> gains;
-    for (int unit = 0; unit < 10'000; ++unit) gains.push_back(unit / 10'000.0);
+    for (int afferent = 0; afferent < 10'000; ++afferent) gains.push_back(afferent / 10'000.0);
     ThreadPool threads;
     Frames force(1, 500);  // 50 ms
     for (std::vector<Spike> spikes; (*press)->read(force) && force.count > 0; spikes.clear()) {
         PopulationResponse response{&spikes};
         const auto done = (*population)->respond(ForceProfile{{force.force[0].data(), force.count}, gains}, force.count, response, threads);
         if (!done) return std::puts(done.error().text().c_str()), 1;
-        std::printf("%6.2f N at the most: %5zu spikes\n", force.force[0][force.count - 1], spikes.size());
+        std::printf("up to %.2f N: %5zu spikes\n", force.force[0][force.count - 1], spikes.size());
     }
 }

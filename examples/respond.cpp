@@ -1,4 +1,4 @@
-// The thesis's press through a slowly adapting afferent, with one parameter of each changed.
+// The response of a slowly adapting afferent to the thesis's press. One parameter of the stimulus and one of the afferent are changed.
 
 #include <corpuscle.hpp>
 #include <cstdio>

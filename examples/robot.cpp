@@ -1,4 +1,4 @@
-// The loop of a robot at 1 kHz: the forces of 64 taxels in, spikes out within the same millisecond.
+// A robot's control loop at 1 kHz: the forces of 64 taxels in, spikes out within the same millisecond.
 
 #include <chrono>
 #include <corpuscle.hpp>

@@ -1,4 +1,4 @@
-/* The same from C: two kinds of afferent on each of four channels, pressed for half a second. */
+/* A live skin in C: two kinds of afferent on each of four channels, pressed for half a second. */
 
 #include <corpuscle.h>
 #include <stdio.h>

@@ -1,7 +1,7 @@
-"""Makes touch.csv: a fingertip on a load cell, as a 12-bit converter at 500 Hz would log it. Usage: python3 touch.py > touch.csv
+"""Computes touch.csv: a fingertip on a load cell, as a 12-bit converter at 500 Hz would log it. Usage: python3 touch.py > touch.csv
 
 Two taps, a press that is held, and a rub. The hold relaxes slowly and has physiological tremor at 9 Hz. The rub is a load of 1.8 N
-that swings at 6 Hz. Mains hum, noise, an offset drift and steps of 1.5 mN are the sensor's.
+that varies at 6 Hz. The sensor adds mains hum, noise, an offset that drifts, and steps of 1.5 mN.
 """
 
 import math
@@ -12,7 +12,7 @@ STEP = 1.5  # mN, one code of the converter
 
 
 def pulse(t, start, rise, hold, fall):
-    """0 to 1 by half a cosine, held, and back."""
+    """A pulse: rises from 0 to 1 as half a cosine, holds, and falls back in the same way. All times in s."""
     if t < start or t > start + rise + hold + fall:
         return 0.0
     if t < start + rise:

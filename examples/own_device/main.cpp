@@ -1,4 +1,4 @@
-// A device of your own, held to what the solver relies on: currents that add up to zero, slopes that are the slopes.
+// Checks what the solver requires of your own device: its currents add up to zero, and its slopes are the derivatives of its currents.
 
 #include <cmath>
 #include <cstdio>

@@ -9,7 +9,7 @@ namespace corpuscle {
 
 /// Quadratic integrate-and-fire:   C_m du/dt = g (u - E_L) (u - V_T) / (V_T - E_L) + I
 ///     u > V_peak  =>  spike, then u = V_reset
-/// Latham et al. 2000, J Neurophysiol 83:808. Both methods use the same substeps. Left out: a refractory time.
+/// Latham et al. 2000, J Neurophysiol 83:808. Method has no effect: the substeps are always the same. There is no refractory time.
 struct QifTraits {
     struct Params {
         double C_m = 500e-9, g = 5e-6, E_L = 0, V_T = 0.25, V_peak = 0.5, V_reset = 0, substep = 20e-6;
@@ -53,13 +53,13 @@ struct Qif : QifTraits {
     num::Mask<T> step(State& s, Current<T> i, Fired&& fired) const {
         MembraneRecovery<T> y{s.u, T(0.0)};  // the second variable is not used
         const auto slopes = [this](MembraneRecovery<T> at, T current) {
-            const T u = num::min(at.v, V_peak);  // the parabola is not followed above it
+            const T u = num::min(at.v, V_peak);  // the parabola is limited to its value at V_peak
             return MembraneRecovery<T>{bend * (u - E_L) * (u - V_T) + gain * current, T(0.0)};
         };
         advance_substeps(
             y, i, dt, count, V_peak, slopes, [this](MembraneRecovery<T> at) { return MembraneRecovery<T>{V_reset, at.w}; }, fired);
         s.u = y.v;
-        return num::empty_mask<T>();  // no step is cut short: at most one spike a substep
+        return num::empty_mask<T>();  // no step is truncated: there is at most one spike per substep
     }
 
 private:

@@ -11,9 +11,9 @@ class ByteFrames final : public FrameSource {
     FrameDecoder decoder_;
     FrameSequence order_;
     FrameCounts counts_;
-    std::int64_t hold_ = 0, release_ = 0;  // frames to insert before the found one
+    std::int64_t hold_ = 0, release_ = 0;  // frames to insert before the found one: with the last force, then with none
     bool found_ = false;
-    std::size_t unnumbered_errors_ = 0;  // unreadable frames without a number; each is replaced by a filled one
+    std::size_t unnumbered_errors_ = 0;  // unreadable datagrams without frame numbers; each is replaced by one filled frame
 
     bool has_header_error() const { return decoder_.header_error() && source_->has_one_sender(); }
     bool is_numbered() const { return decoder_.layout().stamp != FrameStamp::none; }

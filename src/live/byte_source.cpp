@@ -16,15 +16,15 @@
 namespace corpuscle {
 namespace {
 
-bool is_temporary(int why) { return why == EAGAIN || why == EWOULDBLOCK || why == EINTR; }
+bool is_temporary(int error_number) { return error_number == EAGAIN || error_number == EWOULDBLOCK || error_number == EINTR; }
 
 class StandardInput final : public ByteSource {
 public:
     int poll_fd() const override { return STDIN_FILENO; }
     std::string description() const override { return "standard input"; }
     bool is_live() const override {
-        struct ::stat facts = {};
-        return ::fstat(STDIN_FILENO, &facts) != 0 || !S_ISREG(facts.st_mode);
+        struct ::stat info = {};
+        return ::fstat(STDIN_FILENO, &info) != 0 || !S_ISREG(info.st_mode);
     }
     Result<ReadResult> read(std::span<char> out) override {
         const auto count = ::read(STDIN_FILENO, out.data(), out.size());
@@ -36,7 +36,7 @@ public:
 };
 
 class Listener final : public ByteSource {
-    static constexpr std::int64_t check_interval = 200'000'000;  // ns: between two checks for a waiting client while this one is idle
+    static constexpr std::int64_t check_interval = 200'000'000;  // ns between checks if another client waits, once this one is idle
     Endpoint at_;
     Descriptor listener_, client_;
     SenderLimits limits_;
@@ -68,7 +68,7 @@ class Listener final : public ByteSource {
         return ::poll(&listener, 1, 0) == 1;
     }
 
-    /// Called when the client is connected but has sent nothing.
+    /// Called when the client is connected but has sent nothing. Disconnects it if it has been idle for the limit and another client waits.
     ReadResult check_idle() {
         const auto now = steady_now();
         if (now < due_) return {ReadResult::nothing};
@@ -139,8 +139,8 @@ Result<std::unique_ptr<ByteSource>> listen_on(const std::string& address, int po
 Result<std::unique_ptr<ByteSource>> open_serial(const std::string& path, long baud) {
     speed_t speed = B0;
     std::string known;
-    for (const auto& [number, word] : bauds) {
-        if (number == baud) speed = word;
+    for (const auto& [number, constant] : bauds) {
+        if (number == baud) speed = constant;
         known += fmt::format("{}{}", known.empty() ? "" : ", ", number);
     }
     if (speed == B0) return bad_usage(fmt::format("--baud {}: expected one of {}", baud, known));

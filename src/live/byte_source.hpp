@@ -24,7 +24,7 @@ struct ReadResult {
 
 /// Statistics of senders on a network.
 struct SenderCounts {
-    std::int64_t idle = 0;     ///< senders that were idle for the time limit while another wanted to send
+    std::int64_t idle = 0;     ///< senders that were replaced by another, because they were idle for the time limit
     std::int64_t ignored = 0;  ///< datagrams of senders other than the current one; ignored
     std::int64_t dropped = 0;  ///< datagrams dropped by the system because they were not read fast enough
 };
@@ -33,10 +33,10 @@ class ByteSource {
 public:
     virtual ~ByteSource() = default;
     virtual int poll_fd() const = 0;                                ///< file descriptor to poll for reading
-    virtual std::int64_t due_time() const { return steady_never; }  ///< time at which it must be read even if nothing has arrived
+    virtual std::int64_t due_time() const { return steady_never; }  ///< steady_now() at which it must be read even if nothing has arrived
     virtual Result<ReadResult> read(std::span<char>) = 0;
-    virtual std::string description() const = 0;  ///< "127.0.0.1, port 7000"
-    /// Sets the number of bytes that are worth a read. If the source can, it lets the reader sleep until they have arrived.
+    virtual std::string description() const = 0;  ///< "listening on 127.0.0.1:7000"
+    /// Requests that poll() reports bytes only after this number has arrived. A source that cannot do this ignores the request.
     virtual void set_low_watermark(std::size_t) {}
     virtual std::int64_t sender_count() const { return 1; }  ///< senders so far
     virtual SenderCounts sender_counts() const { return {}; }
@@ -51,7 +51,7 @@ Result<std::unique_ptr<ByteSource>> open_standard_input();
 /// Limits for the senders on a network, which send one after another.
 struct SenderLimits {
     std::int64_t clients = 0;            ///< the stream ends after this many; 0: never
-    std::int64_t idle = 10'000'000'000;  ///< ns; a sender that is silent for this long is replaced if another connects; 0 is never
+    std::int64_t idle = 10'000'000'000;  ///< ns; a sender that is silent for this time is replaced if another connects; 0: never
 };
 
 /// Listens on a port (0: any free one) of a local address, for one client at a time. The next is accepted after it has disconnected.

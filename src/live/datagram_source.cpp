@@ -17,7 +17,7 @@ constexpr int receive_buffer = 4 << 20;  // requested receive buffer, bytes; the
 struct Datagram {
     ssize_t bytes = -1;
     SocketAddress from;
-    std::optional<std::uint32_t> lost;  ///< total of datagrams on this socket that the system dropped
+    std::optional<std::uint32_t> total_dropped;  ///< datagrams that the system has dropped on this socket so far
 };
 
 Datagram receive_one(int fd, std::span<char> out) {
@@ -34,7 +34,7 @@ Datagram receive_one(int fd, std::span<char> out) {
     if (const auto* head = CMSG_FIRSTHDR(&message); head && head->cmsg_level == SOL_SOCKET && head->cmsg_type == SO_RXQ_OVFL) {
         std::uint32_t dropped = 0;
         std::memcpy(&dropped, CMSG_DATA(head), sizeof dropped);
-        datagram.lost = dropped;
+        datagram.total_dropped = dropped;
     }
     return datagram;
 }
@@ -84,7 +84,7 @@ public:
     SenderCounts sender_counts() const override { return counts_; }
     Result<ReadResult> read(std::span<char> out) override {
         const auto datagram = receive_one(fd_.get(), out);
-        if (datagram.lost) counts_.dropped = *datagram.lost;
+        if (datagram.total_dropped) counts_.dropped = *datagram.total_dropped;
         if (datagram.bytes >= 0) return accept(datagram);
         // An error caused by a datagram to an earlier sender, whose port was closed, does not concern the next sender.
         if (errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR || errno == ECONNREFUSED) return ReadResult{ReadResult::nothing};

@@ -26,7 +26,7 @@ class FileEventSink final : public EventSink {
     std::function<Result<void>()> commit_;
     std::atomic<bool> ending_ = false, failed_ = false;
     std::optional<Error> error_;  // set by the writing thread; read when failed_ is set
-    // Used only when the ring is full: wakes the writer, and lets the putting thread sleep until there is space.
+    // Used only when the ring is full: wakes the writing thread, and lets the thread that puts events sleep until there is space.
     std::mutex full_;
     std::condition_variable wake_writer_, space_;
     std::atomic<bool> is_space_awaited_ = false;
@@ -40,7 +40,7 @@ class FileEventSink final : public EventSink {
 
     void write_loop() {
         for (;;) {
-            const bool last = ending_.load(std::memory_order_acquire);  // read before the ring, so that everything put before is seen
+            const bool last = ending_.load(std::memory_order_acquire);  // read before the ring: all events put before join() are then seen
             for (auto chunk = ring_.readable(); !chunk.empty(); chunk = ring_.readable()) {
                 if (auto ok = write_(chunk); !ok) {
                     error_ = ok.error();

@@ -1,5 +1,5 @@
 #pragma once
-// Writes events to a file in a thread of its own, because a write to a disk may block, and the stream must not wait for it.
+// Writes events to a file in a separate thread, because a write to a disk may block, and the stream must not wait for it.
 
 #include "live/event_sink.hpp"
 

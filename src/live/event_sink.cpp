@@ -38,14 +38,14 @@ void poll_for_writing(int fd, int ms) {
     ::poll(&wait, 1, ms);
 }
 
-/// Writes everything, unless the reader takes nothing for too long.
-WriteResult write_out(ByteRing& ring, int fd, bool socket, const FinishPolicy& patience) {
+/// Writes everything. Stops early if the reader has accepted nothing for the policy's timeout.
+WriteResult write_out(ByteRing& ring, int fd, bool socket, const FinishPolicy& policy) {
     for (auto since = steady_now();;) {
         const auto before = ring.total_taken();
         const auto result = write_some(ring, fd, socket);
         if (result != WriteResult::some) return result;
-        if (ring.total_taken() != before || (patience.is_endless && !patience.stop())) since = steady_now();
-        if (steady_now() - since > patience.timeout) return result;
+        if (ring.total_taken() != before || (policy.is_endless && !policy.stop())) since = steady_now();
+        if (steady_now() - since > policy.timeout) return result;
         poll_for_writing(fd, check_interval_ms);
     }
 }
@@ -59,10 +59,11 @@ class PipeSink final : public EventSink {
     Result<void> check(WriteResult result) {
         waiting_ = result == WriteResult::some;
         if (result != WriteResult::closed) return {};
-        const int why = errno;
+        const int error_number = errno;
         drop_all();
-        return bad_input(why == EPIPE || why == ECONNRESET ? fmt::format("the reader of {} has closed it", name_)
-                                                           : fmt::format("{} cannot be written: {}", name_, std::strerror(why)));
+        return bad_input(error_number == EPIPE || error_number == ECONNRESET
+                             ? fmt::format("the reader of {} has closed it", name_)
+                             : fmt::format("{} cannot be written: {}", name_, std::strerror(error_number)));
     }
 
 public:
@@ -80,8 +81,8 @@ public:
         if (auto ok = flush(); !ok) return ok.error();
         return ring_.has_space(bytes);
     }
-    Result<void> finish(const FinishPolicy& patience) override {
-        auto done = check(write_out(ring_, fd_, socket_, patience));
+    Result<void> finish(const FinishPolicy& policy) override {
+        auto done = check(write_out(ring_, fd_, socket_, policy));
         drop_all();
         return done;
     }
@@ -141,8 +142,8 @@ public:
         (void)flush();
         return ring_.has_space(bytes);
     }
-    Result<void> finish(const FinishPolicy& patience) override {
-        if (connected_) write_out(ring_, fd_.get(), true, patience);
+    Result<void> finish(const FinishPolicy& policy) override {
+        if (connected_) write_out(ring_, fd_.get(), true, policy);
         drop_all();
         return {};
     }

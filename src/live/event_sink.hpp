@@ -1,6 +1,6 @@
 #pragma once
-// Destinations of a stream's events. Events are put into a ring of fixed size, which never blocks; they wait there for a slow reader. When
-// the ring is full, the caller waits for space, or drops whole events and counts them.
+// Destinations of a stream's events. Events are put into a ring buffer of fixed size, which never blocks, and stay there until the reader
+// accepts them. When the ring is full, the caller waits for space, or drops whole events and counts them.
 
 #include <functional>
 #include <memory>
@@ -16,7 +16,7 @@ namespace corpuscle {
 /// How long to wait, at the end of a stream, for a reader that does not read.
 struct FinishPolicy {
     std::int64_t timeout = 1'000'000'000;               ///< ns
-    bool is_endless = false;                            ///< the time counts only from the moment the stream is stopped
+    bool is_endless = false;                            ///< true: the timeout begins only when stop() returns true
     std::function<bool()> stop = [] { return false; };  ///< called at least ten times a second
 };
 
@@ -25,7 +25,7 @@ protected:
     ByteRing ring_;
     const EventFormat& format_;
     std::int64_t dropped_ = 0, connections_ = 1;
-    std::size_t header_end_ = 0;  // of all bytes that were put
+    std::size_t header_end_ = 0;  // position of the header's end among all bytes that were put
 
     void put_header() { ring_.put(format_.header()), header_end_ = ring_.total_put(); }
     void drop_all();  ///< discards and counts the events in the ring
@@ -37,13 +37,13 @@ public:
 
     /// Puts a whole event; false if the ring is full.
     bool put(std::string_view event) { return ring_.put(event); }
-    /// Waits up to `ms` for space for `bytes`; false: not yet.
+    /// Waits up to `ms` milliseconds for space for `bytes`. Returns false if there is still not enough.
     virtual Result<bool> wait_for_space(std::size_t bytes, int ms) = 0;
     /// True for a file, which always accepts data sooner or later. Nothing is ever dropped then.
     virtual bool is_file() const { return false; }
     /// Writes as much as possible without blocking.
     virtual Result<void> flush() = 0;
-    /// A descriptor to poll for writing before flush() is called; -1: nothing is waiting to be written.
+    /// A descriptor to poll for writing before flush() is called; -1: there is nothing to write.
     virtual int poll_fd() const { return -1; }
     /// Writes everything that is left, as long as the reader accepts it.
     virtual Result<void> finish(const FinishPolicy&) = 0;
@@ -55,7 +55,7 @@ public:
 /// Standard output: a pipe, a terminal or a file. It is an error if its reader has closed it.
 Result<std::unique_ptr<EventSink>> open_standard_output(const EventFormat&, std::size_t ring);
 
-/// An open pipe, terminal or socket; `own` is closed with it.
+/// Writes to `fd`, an open pipe, terminal or socket. `own`, if it is not empty, is closed with the sink.
 std::unique_ptr<EventSink> make_pipe_sink(Descriptor own, int fd, std::string name, const EventFormat&, std::size_t ring);
 
 /// A file. It grows as PATH.part and is renamed when it is complete; a named pipe is written directly.

@@ -16,17 +16,17 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "binary frames are copied as they are in memory");
 
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
-constexpr std::size_t max_field = 32;  // bytes of text, with its separator
+constexpr std::size_t max_field = 32;  // bytes of a field's text with its separator
 
-bool separates(char c) { return c == ',' || c == ';' || c == '\t' || c == ' '; }
+bool is_separator(char c) { return c == ',' || c == ';' || c == '\t' || c == ' '; }
 
 /// Removes the next field from the line. Blanks around a field are ignored; several blanks are one separator.
 std::string_view next_field(std::string_view& line) {
-    const auto end = std::min(static_cast<std::size_t>(std::find_if(line.begin(), line.end(), separates) - line.begin()), line.size());
+    const auto end = std::min(static_cast<std::size_t>(std::find_if(line.begin(), line.end(), is_separator) - line.begin()), line.size());
     const auto field = line.substr(0, end);
-    auto behind = trimmed(line.substr(end));
-    if (!behind.empty() && (behind.front() == ',' || behind.front() == ';')) behind = trimmed(behind.substr(1));
-    line = behind;
+    auto rest = trimmed(line.substr(end));
+    if (!rest.empty() && (rest.front() == ',' || rest.front() == ';')) rest = trimmed(rest.substr(1));
+    line = rest;
     return field;
 }
 
@@ -113,8 +113,8 @@ FrameDecoder::Status FrameDecoder::next() {
     }
 }
 
-FrameDecoder::Status FrameDecoder::unreadable(FrameError::Reason why, std::size_t found) {
-    if (!first_error_) first_error_ = FrameError{why, seen_, found, {}};
+FrameDecoder::Status FrameDecoder::unreadable(FrameError::Reason reason, std::size_t found) {
+    if (!first_error_) first_error_ = FrameError{reason, seen_, found, {}};
     return Status::unreadable;
 }
 
@@ -128,7 +128,7 @@ bool FrameDecoder::add_datagram(std::size_t bytes) {
     return add_bytes(bytes), true;
 }
 
-/// True for a line with as many words as a frame has numbers, none of them a number or nan.
+/// True for a line with the number of fields of a frame, if none of them is a number or nan.
 bool FrameDecoder::is_header(std::string_view line) const {
     std::size_t fields = 0;
     for (; !line.empty(); ++fields)
@@ -146,11 +146,11 @@ void FrameDecoder::read_header(std::string_view line) {
         names.emplace_back(field);
     }
     if (layout_.stamp != FrameStamp::none) names.erase(names.begin());
-    auto places = read_header_(names);
-    if (!places)
-        header_error_ = places.error();
+    auto indices = read_header_(names);
+    if (!indices)
+        header_error_ = indices.error();
     else
-        value_index_ = *std::move(places);
+        value_index_ = *std::move(indices);
 }
 
 bool FrameDecoder::read_stamp(double seconds) {

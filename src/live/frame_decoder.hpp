@@ -26,13 +26,13 @@ private:
     std::size_t scanned_ = 0;          // no line end before this position
     bool skipping_ = false;            // skipping a line that is longer than any frame
     bool first_ = true;                // nothing has been read yet: a header may come
-    const char* found_ = nullptr;      // forces of a binary frame
-    std::vector<double> values_;       // of a line
+    const char* found_ = nullptr;      // forces of the found frame, if frames are binary
+    std::vector<double> values_;       // numbers of the found line
     HeaderReader read_header_;
     std::vector<std::uint32_t> value_index_;  // index into the values for each number of a line; empty: in order
     std::optional<Error> header_error_;       // error in the header of this sender
     std::uint32_t number_ = 0;
-    std::int64_t headers_ = 0, seen_ = 0;  // seen: frames, readable or not
+    std::int64_t headers_ = 0, seen_ = 0;  // seen_: frames, readable or not
     std::optional<FrameError> first_error_;
 
     Status unreadable(FrameError::Reason, std::size_t found = 0);
@@ -43,22 +43,22 @@ private:
     bool read_stamp(std::string_view text);
 
 public:
-    /// Always has space for `frames` further frames.
+    /// The buffer always has space for `frames` further frames.
     explicit FrameDecoder(const FrameLayout&, std::size_t frames = 1, HeaderReader = {});
     const FrameLayout& layout() const { return layout_; }
 
     std::span<char> buffer();                                              ///< destination of the next bytes; never empty
-    void add_bytes(std::size_t bytes) { end_ += bytes; }                   ///< `bytes` have been written there
+    void add_bytes(std::size_t bytes) { end_ += bytes; }                   ///< call when `bytes` have been written to buffer()
     bool has_partial_frame() const { return end_ > begin_ || skipping_; }  ///< part of a frame has arrived
-    /// `bytes` have been written there as one datagram. It must contain whole frames; its last line needs no line end. Returns false, and
-    /// ignores it, if it does not.
+    /// The same for one datagram of `bytes`. It must contain whole frames; its last line needs no line end. Returns false, and ignores the
+    /// datagram, if its frames are not whole.
     bool add_datagram(std::size_t bytes);
     std::size_t partial_bytes() const { return end_ - begin_; }  ///< size of the partial frame
     void reset();                                                ///< discards everything, because the sender has disconnected
 
     /// Finds the next complete frame and consumes its bytes.
     Status next();
-    /// number of the found frame, modulo 2^32, if frames are stamped
+    /// Number of the found frame, modulo 2^32, if frames are stamped.
     std::uint32_t number() const { return number_; }
     const std::optional<Error>& header_error() const { return header_error_; }     ///< if set, the frames after it cannot be read
     std::int64_t headers() const { return headers_; }                              ///< first lines that were names, not numbers

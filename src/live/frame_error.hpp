@@ -12,7 +12,7 @@ struct FrameLayout;
 
 struct FrameError {
     enum Reason {
-        width,     ///< a line has `found` fields
+        width,     ///< the line has the wrong number of fields: `found`
         stamp,     ///< its stamp is not a valid number or time
         endless,   ///< a line is longer than any frame
         datagram,  ///< a datagram of `found` bytes does not contain whole frames

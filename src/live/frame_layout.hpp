@@ -17,7 +17,7 @@ struct FrameLayout {
     std::size_t sites = 1;
     double rate = 1000;            ///< Hz: converts a stamped time to a frame number
     double scale = 1, offset = 0;  ///< force (N) = (value - offset) * scale
-    double limit = 1000;           ///< N; larger values are not valid readings
+    double limit = 1000;           ///< N; a force of larger magnitude is not a valid reading
     std::size_t stamp_bytes() const { return stamp == FrameStamp::none ? 0 : stamp == FrameStamp::sequence ? 4 : 8; }
     std::size_t value_bytes() const { return kind == FrameKind::i16 ? 2 : kind == FrameKind::f32 ? 4 : 8; }
     std::size_t bytes() const { return stamp_bytes() + sites * value_bytes(); }  ///< of a binary frame

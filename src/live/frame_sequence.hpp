@@ -31,7 +31,7 @@ public:
         std::int64_t hold = 0, release = 0;  ///< frames to insert before it: with the last force, then with none
     };
 
-    /// Frame numbers are modulo 2^32.
+    /// Decides about a frame by its number, modulo 2^32, and counts it.
     FrameDecision decide(std::uint32_t number) {
         const std::int64_t ahead = begun_ ? static_cast<std::int32_t>(number - last_) : 1;
         if (ahead == 0) return ++counts_.duplicates, FrameDecision{false};
@@ -44,9 +44,9 @@ public:
         return {true, held, ahead - 1 - held};
     }
 
-    /// Call when another sender begins: its first frame is the next one, regardless of its number.
+    /// Call when another sender begins: its first frame is accepted as the next one, regardless of its number.
     void restart() { begun_ = false; }
-    /// Continues as after a frame with this number.
+    /// Continues as if a frame with this number had been the last one.
     void resume_after(std::uint32_t number) { begun_ = true, last_ = number; }
     bool has_begun() const { return begun_; }
     std::uint32_t last() const { return last_; }

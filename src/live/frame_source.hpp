@@ -40,23 +40,23 @@ public:
     virtual int poll_fd() const { return -1; }               ///< descriptor to poll for reading; -1: driven by the clock
     virtual std::int64_t due_time() const { return never; }  ///< time of the next frame that needs no poll; steady_now()
     virtual Result<bool> receive() = 0;                      ///< reads what has arrived; false: no more data
-    virtual void disable_batching() {}                       ///< makes reads return immediately, however little has arrived
-    virtual Next next(std::span<double> force) = 0;          ///< writes the next frame over the last one
+    virtual void disable_batching() {}                       ///< makes reads return as soon as any bytes have arrived
+    virtual Next next(std::span<double> force) = 0;          ///< `force` (N) is the last frame; overwrites it with the next one
     virtual FrameCounts counts() const = 0;
     virtual std::string description() const = 0;
     /// True if frames arrive at their own pace. Otherwise they can wait for a slow reader of the spikes.
     virtual bool is_live() const { return true; }
     virtual std::size_t unread_bytes() const { return 0; }                ///< bytes that have arrived but have not been read
     virtual std::optional<FrameError> first_error() const { return {}; }  ///< the first frame that could not be read
-    virtual FrameSequence* sequence() { return nullptr; }                 ///< of numbered frames
+    virtual FrameSequence* sequence() { return nullptr; }                 ///< of numbered frames; otherwise null
 };
 
-/// `hold` and `max_gap` in frames (see FrameSequence). `batch_frames`: frames that are simulated at once. If the header of the only sender
-/// is refused, this is an error. If there can be other senders, only the frames of this one are ignored.
+/// `hold` and `max_gap` in frames (see FrameSequence). `batch_frames`: frames that are simulated at once. A header that is refused ends the
+/// stream with an error if the source has one sender; otherwise only this sender's frames are ignored.
 std::unique_ptr<FrameSource> make_frame_source(std::unique_ptr<ByteSource>, const FrameLayout&, std::int64_t hold, std::int64_t max_gap,
                                                std::size_t batch_frames = 1, HeaderReader = {});
 
-/// A recording, each frame at its time, or as fast as they can be simulated.
+/// A recording. `real_time`: each frame comes at its time; otherwise frames come as fast as they can be simulated.
 std::unique_ptr<FrameSource> make_frame_source(std::unique_ptr<ForceSource>, bool real_time);
 
 }  // namespace corpuscle

@@ -18,7 +18,7 @@ Result<SkinPlan> make_channel_plan(std::string_view afferents, std::span<const C
 /// "hand", "grid 8x8", a population file, or named afferents on channels. Overrides that name one of its classes are marked as used.
 Result<SkinPlan> make_live_plan(std::string_view population, std::size_t channels, std::span<const ParameterOverride> overrides = {});
 
-/// The names of each afferent, its channel or region, and its address. If each class has one afferent at each site, as on a grid, the
+/// For each afferent its names, its channel or region, and its address. If each class has one afferent at each site, as on a grid, the
 /// address is site * classes + class. Otherwise it is the index of the afferent.
 EventAddressing make_event_addressing(const Innervation&, const Clock&);
 

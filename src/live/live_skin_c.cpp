@@ -1,4 +1,4 @@
-// The C interface of LiveSkin. No exception leaves it.
+// The C interface of LiveSkin. Its functions never throw; errors are returned.
 
 #include <algorithm>
 #include <cstring>

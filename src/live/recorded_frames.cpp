@@ -1,4 +1,4 @@
-// A recording as a stream: each frame at its time, or as fast as they can be simulated.
+// A recording as a stream: each frame comes at its time, or frames come as fast as they can be simulated.
 
 #include "live/frame_source.hpp"
 
@@ -12,7 +12,7 @@ class RecordedFrames final : public FrameSource {
     std::unique_ptr<ForceSource> source_;
     Frames frames_;
     std::size_t at_ = 0;       // position in the block
-    std::int64_t begun_ = -1;  // when the first frame was due; ns
+    std::int64_t begun_ = -1;  // steady_now() of the first frame, ns
     std::int64_t count_ = 0, in_batch_ = 0;
     bool paced_;
 

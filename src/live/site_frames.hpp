@@ -8,8 +8,8 @@
 
 namespace corpuscle {
 
-/// Assigns force k of each frame to site sites[k]; the other sites of all_sites get none. `from` gives frames of sites.size() forces. It is
-/// returned unchanged if these are all sites in order.
+/// Assigns force k of each frame to site sites[k]; the other sites get no force. `from` delivers frames of sites.size() forces. It is
+/// returned unchanged if `sites` are all sites in order. `all_sites`: the number of sites of the skin.
 std::unique_ptr<FrameSource> assign_sites(std::unique_ptr<FrameSource> from, std::vector<std::uint32_t> sites, std::size_t all_sites);
 
 }  // namespace corpuscle

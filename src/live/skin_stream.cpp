@@ -24,17 +24,17 @@ Result<void> SkinStream::warm_up() {
     const auto& plan = innervation_->plan;
     const double press = plan.felt_area > 0 && plan.sites.area > 0 ? 10 * plan.sites.area / plan.felt_area : 10;
     std::vector<double> frame(sites());
-    std::uint32_t chance = 1;
+    std::uint32_t random = 1;  // of a linear congruential generator
     const auto frames = std::clamp<std::size_t>(2'000'000 / innervation_->afferents.size(), 32, 512);
     for (std::size_t k = 0; k < frames; ++k) {
-        chance = 1664525 * chance + 1013904223;
-        std::fill(frame.begin(), frame.end(), chance >> 31 == 0 ? 0.0 : press);
-        if (k + 2 * batch_frames_ > frames) std::fill(frame.begin() + 1, frame.end(), 0.0);  // the last ones at one site only
+        random = 1664525 * random + 1013904223;
+        std::fill(frame.begin(), frame.end(), random >> 31 == 0 ? 0.0 : press);
+        if (k + 2 * batch_frames_ > frames) std::fill(frame.begin() + 1, frame.end(), 0.0);  // the last frames touch one site only
         if (batch_frames_ > 1 && !add_to_batch(frame)) continue;
         if (auto done = batch_frames_ > 1 ? run_batch() : push(frame); !done) return done.error();
     }
     if (batch_frames_ > 1)
-        if (auto answered = run_batch(); !answered) return answered.error();
+        if (auto done = run_batch(); !done) return done.error();
     return skin_->resume(start);
 }
 

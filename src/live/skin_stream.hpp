@@ -16,7 +16,7 @@ class SkinStream {
     ThreadPool pool_{1};
     std::vector<std::uint32_t> touched_, all_sites_;
     std::vector<Spike> spikes_;
-    // Frames of a batch: [site][frame], for the sites that any of them touches.
+    // Frames of a batch: [site][frame], for the sites that have force in any of them.
     std::size_t batch_frames_ = 1, batched_ = 0;
     std::vector<double> block_;
     std::vector<std::uint32_t> batch_sites_;
@@ -43,9 +43,10 @@ public:
     /// until the next call.
     Result<std::span<const Spike>> push(std::span<const double> frame);
     std::size_t batch_frames() const { return batch_frames_; }
-    /// Adds a frame to the batch, which is simulated at once: less work, but the spikes come later. Returns true when the batch is full.
+    /// Adds a frame to the batch; returns true when the batch is full and run_batch() must be called. A batch takes less time than its
+    /// frames one by one, but the spikes come later.
     bool add_to_batch(std::span<const double> frame);
-    /// The spikes that arrive during the frames of the batch, which may be empty.
+    /// Simulates the frames of the batch, which may be empty. Returns the spikes that arrive during them; valid until the next call.
     Result<std::span<const Spike>> run_batch();
 
     /// Call after the last frame: the spikes that are still in transit.

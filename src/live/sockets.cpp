@@ -77,7 +77,7 @@ Result<ResolvedEndpoint> resolve(const Endpoint& at) {
 
 namespace {
 
-/// Binds to the first usable address of the endpoint; `make_ready` does the rest.
+/// Opens a socket at the first usable address of the endpoint. `make_ready` binds and configures it; it returns false on failure.
 template <class MakeReady>
 Result<Descriptor> bind_socket(Endpoint& at, int socket_type, const MakeReady& make_ready) {
     const auto addresses = addresses_of(at, socket_type, AI_PASSIVE);

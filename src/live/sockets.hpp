@@ -1,5 +1,5 @@
 #pragma once
-// Sockets, by address and port.
+// Opens and connects sockets by address and port.
 
 #include <sys/socket.h>
 #include <string>
@@ -39,7 +39,7 @@ Result<Descriptor> open_datagram_socket(Endpoint&);
 /// Tries one address after another, each for at most `timeout_ms`. The socket is non-blocking.
 Result<Descriptor> connect_socket(const ResolvedEndpoint&, int timeout_ms);
 Result<Descriptor> connect_socket(const Endpoint&, int timeout_ms);
-/// Starts a connection and returns at once. Returns no descriptor if it failed immediately.
+/// Starts a connection and returns at once. Returns an empty descriptor if it failed immediately.
 Descriptor begin_connection(const SocketAddress&);
 /// State of a connection started by begin_connection(): connected (1), failed (-1), or still pending (0).
 int connection_state(const Descriptor&);

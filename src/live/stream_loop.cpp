@@ -8,13 +8,13 @@ namespace corpuscle {
 namespace {
 
 constexpr std::int64_t second = 1'000'000'000, max_wait = second / 5;
-constexpr std::int64_t max_rest = 5 * second;  // once stopped: for the frames that have come
+constexpr std::int64_t max_remaining = 5 * second;  // after a stop: time for the frames that have arrived
 constexpr int grace_ms = 50;                   // after a stop: total wait for bytes in transit between two machines
 
 }  // namespace
 
-StreamLoop::StreamLoop(SkinStream& skin, const EventFormat& format, FrameSource& frames, EventSink& outlet, StreamOptions ways)
-    : skin_(skin), format_(format), frames_(frames), sink_(outlet), options_(std::move(ways)), force_(skin.sites()),
+StreamLoop::StreamLoop(SkinStream& skin, const EventFormat& format, FrameSource& frames, EventSink& sink, StreamOptions options)
+    : skin_(skin), format_(format), frames_(frames), sink_(sink), options_(std::move(options)), force_(skin.sites()),
       event_(format.max_bytes()) {
     arrival_times_.reserve(skin.batch_frames());
 }
@@ -59,10 +59,11 @@ Result<bool> StreamLoop::wait() {
     return *more;
 }
 
-/// After a stop: simulates the frames that have arrived, and waits only briefly for others. The frames of a file can be read again.
+/// After a stop: simulates the frames that have arrived, and waits only briefly for others. This is not done for a file, whose frames can
+/// be read again.
 Result<void> StreamLoop::run_remaining() {
     frames_.disable_batching();
-    const auto until = steady_now() + max_rest;
+    const auto until = steady_now() + max_remaining;
     auto grace = second / 1000 * grace_ms;
     for (bool more = frames_.poll_fd() >= 0 && frames_.is_live(); more && steady_now() < until;) {
         const auto before = steady_now();
@@ -88,12 +89,12 @@ Result<void> StreamLoop::run_received() {
         if (auto ok = run_frame(next == FrameSource::Next::frame, at); !ok) return ok;
     stats_.reads += stats_.received > before;
     if (error_reported_) return {};
-    if (const auto misfit = frames_.first_error()) options_.on_frame_error(*misfit), error_reported_ = true;
+    if (const auto error = frames_.first_error()) options_.on_frame_error(*error), error_reported_ = true;
     return {};
 }
 
-Result<void> StreamLoop::run_frame(bool came, std::int64_t at) {
-    if (came) {
+Result<void> StreamLoop::run_frame(bool was_received, std::int64_t at) {
+    if (was_received) {
         record_arrival(at);
         arrival_times_.push_back(at);
     } else {
@@ -103,7 +104,7 @@ Result<void> StreamLoop::run_frame(bool came, std::int64_t at) {
     return write_spikes(skin_.batch_frames() > 1 ? skin_.run_batch() : skin_.push(force_));
 }
 
-/// Simulates an incomplete batch, at the end.
+/// Simulates the incomplete batch at the end of a stream.
 Result<void> StreamLoop::run_batch() { return skin_.batch_frames() > 1 ? write_spikes(skin_.run_batch()) : Result<void>{}; }
 
 Result<void> StreamLoop::write_spikes(const Result<std::span<const Spike>>& spikes) {
@@ -122,18 +123,18 @@ Result<void> StreamLoop::put(std::span<const Spike> spikes) {
     for (const auto& s : spikes) {
         const std::string_view event(event_.data(), format_.write(s, event_.data()));
         if (sink_.put(event)) continue;
-        const auto room = wait_for_space(event.size());
-        if (!room) return room.error();
-        if (!*room || !sink_.put(event)) ++stats_.dropped;
+        const auto has_space = wait_for_space(event.size());
+        if (!has_space) return has_space.error();
+        if (!*has_space || !sink_.put(event)) ++stats_.dropped;
     }
     return {};
 }
 
-/// Waits for space if the reader may be waited for; false: there is none. After a stop, a reader that reads nothing has one more second.
+/// Waits for space in the ring if waits_for_reader(). Returns false if there is none. After a stop, a slow reader has one more second.
 Result<bool> StreamLoop::wait_for_space(std::size_t bytes) {
     while (waits_for_reader() && steady_now() < reader_deadline_) {
-        const auto room = sink_.wait_for_space(bytes, 100);
-        if (!room || *room) return room;
+        const auto has_space = sink_.wait_for_space(bytes, 100);
+        if (!has_space || *has_space) return has_space;
         if (!sink_.is_file() && options_.stop() && reader_deadline_ == FrameSource::never) reader_deadline_ = steady_now() + second;
     }
     return false;

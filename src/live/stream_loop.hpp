@@ -1,6 +1,6 @@
 #pragma once
-// The main loop of a live stream: waits for frames, simulates each, writes its spikes. It runs in one thread. It waits for a reader of the
-// spikes only if this is our own file writer, or if the frames can wait.
+// The main loop of a live stream: waits for frames, simulates each, writes its spikes. It runs in one thread. It waits for a slow reader of
+// the spikes only if this reader is the thread that writes a file, or if the frames can wait.
 
 #include <functional>
 
@@ -14,12 +14,12 @@ namespace corpuscle {
 /// Statistics of a stream.
 struct StreamStats {
     std::int64_t filled = 0;                             ///< frames inserted for missing or unreadable ones
-    std::int64_t spikes = 0;                             ///< of the skin
-    std::int64_t dropped = 0;                            ///< of these, dropped because the ring was full
-    std::int64_t first_received = 0, last_received = 0;  ///< frames; steady_now()
+    std::int64_t spikes = 0;                             ///< spikes of the skin
+    std::int64_t dropped = 0;                            ///< spikes dropped because the ring was full
+    std::int64_t first_received = 0, last_received = 0;  ///< steady_now() of the first and the last received frame
     std::int64_t received = 0;                           ///< frames received
     std::int64_t reads = 0;                              ///< reads that returned whole frames
-    std::size_t unread = 0;                              ///< bytes that had arrived when it was stopped, but were not read
+    std::size_t unread = 0;                              ///< bytes that had arrived when the stream was stopped, but were not read
     LatencyHistogram latency;                            ///< from reading the last byte of a frame to writing its spikes
     LatencyHistogram jitter;                             ///< difference between the interval of two frames and the sampling interval
     double rate() const {                                ///< rate of received frames, Hz; 0 if unknown
@@ -40,9 +40,9 @@ public:
         bool keeps_state = false;  ///< the state is saved: spikes in transit at the end belong to the next stream
     };
 
-    StreamLoop(SkinStream& skin, const EventFormat& format, FrameSource& frames, EventSink& outlet, StreamOptions ways);
+    StreamLoop(SkinStream& skin, const EventFormat& format, FrameSource& frames, EventSink& sink, StreamOptions options);
 
-    /// Runs until the frames end, it is stopped, or the reader of the spikes closes.
+    /// Runs until the frames end, StreamOptions::stop returns true, or the reader of the spikes disconnects.
     Result<void> run();
     const StreamStats& stats() const { return stats_; }
     std::span<double> force() { return force_; }  ///< of the last frame, N
@@ -50,7 +50,7 @@ public:
 private:
     Result<bool> wait();
     Result<void> run_received();
-    Result<void> run_frame(bool came, std::int64_t at);
+    Result<void> run_frame(bool was_received, std::int64_t at);
     Result<void> run_batch();
     Result<void> run_remaining();
     Result<void> write_spikes(const Result<std::span<const Spike>>&);

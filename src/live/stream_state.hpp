@@ -16,7 +16,7 @@ struct StreamState {
 };
 
 std::vector<std::byte> pack_stream(const StreamState&);
-/// Refuses bytes that are not such a state; errors name `file`.
+/// Refuses bytes that were not made by pack_stream(); errors name `file`.
 Result<StreamState> unpack_stream(std::span<const std::byte>, const std::string& file);
 
 Result<void> save_stream(const std::string& path, const StreamState&);

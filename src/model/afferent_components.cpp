@@ -8,9 +8,9 @@
 namespace corpuscle {
 namespace {
 
-std::vector<std::string_view> names_of(const std::vector<CatalogEntry>& cards) {
+std::vector<std::string_view> names_of(const std::vector<CatalogEntry>& entries) {
     std::vector<std::string_view> names;
-    for (const auto& c : cards) names.push_back(c.name);
+    for (const auto& entry : entries) names.push_back(entry.name);
     return names;
 }
 
@@ -58,14 +58,14 @@ Error unknown_afferent(std::string_view text) {
                     did_you_mean(text, names)));
 }
 
-Result<std::string_view> part_named(std::string_view text, std::string_view typed, const std::vector<std::string_view>& names,
+Result<std::string_view> find_component(std::string_view text, std::string_view typed, const std::vector<std::string_view>& names,
                                     std::string_view kind) {
     if (std::find(names.begin(), names.end(), typed) != names.end()) return *std::find(names.begin(), names.end(), typed);
     return bad_input(
         fmt::format("{}: unknown {} '{}'{} (there are {})", text, kind, typed, did_you_mean(typed, names), fmt::join(names, ", ")));
 }
 
-/// The error for a component after its place, or for a word that is not a component.
+/// The error for a component in the wrong position, or for a word that is not a component.
 Error misplaced(std::string_view text, std::string_view word, const AfferentComponents& parts) {
     std::vector<std::string_view> known;
     for (const auto& kind : kinds()) {
@@ -79,8 +79,8 @@ Error misplaced(std::string_view text, std::string_view word, const AfferentComp
     return bad_input(fmt::format("{}: '{}' is not a component that fits there{} ({})", text, word, did_you_mean(word, known), order()));
 }
 
-/// Reads the components of the front end from the first words; returns how many they were.
-std::size_t take_front(std::span<const std::string_view> words, AfferentComponents& parts) {
+/// Reads the components of the front end from the first words; returns the number of words read.
+std::size_t read_front_end(std::span<const std::string_view> words, AfferentComponents& parts) {
     std::size_t taken = 0;
     for (const auto& kind : kinds())
         if (taken < words.size())
@@ -88,21 +88,21 @@ std::size_t take_front(std::span<const std::string_view> words, AfferentComponen
     return taken;
 }
 
-Result<void> take_afferent(std::string_view text, std::span<const std::string_view> words, AfferentComponents& parts) {
+Result<void> read_afferent(std::string_view text, std::span<const std::string_view> words, AfferentComponents& parts) {
     static const auto receptors = names_of(receptor_entries()), neurons = names_of(neuron_entries());
     if (words.empty())
         return bad_input(fmt::format("{}: '{}' must be followed by an afferent, such as '{}+sa1'", text, parts.front_end(), text));
     parts.named = find_named_afferent(words.back());
-    const std::size_t own = parts.named ? 1 : 2;  // words of the afferent itself
+    const std::size_t needed = parts.named ? 1 : 2;  // words: a name, or a receptor and a neuron
     for (const auto& kind : kinds())
         for (const auto word : words)
             if (!catalog_name(kind.names, word).empty()) return misplaced(text, word, parts);
-    if (words.size() > own) return misplaced(text, words[0], parts);
-    if (words.size() < own) return unknown_afferent(words[0]);
+    if (words.size() > needed) return misplaced(text, words[0], parts);
+    if (words.size() < needed) return unknown_afferent(words[0]);
     if (parts.named) return {};
-    const auto receptor = part_named(text, words[0], receptors, "receptor");
+    const auto receptor = find_component(text, words[0], receptors, "receptor");
     if (!receptor) return receptor.error();
-    const auto neuron = part_named(text, words[1], neurons, "neuron");
+    const auto neuron = find_component(text, words[1], neurons, "neuron");
     if (!neuron) return neuron.error();
     parts.receptor = *receptor, parts.neuron = *neuron;
     return {};
@@ -129,14 +129,14 @@ std::string AfferentComponents::front_end() const {
 Result<AfferentComponents> parse_components(std::string_view text) {
     AfferentComponents parts;
     const auto words = split(text);
-    const auto taken = take_front(words, parts);
-    if (auto ok = take_afferent(text, std::span(words).subspan(taken), parts); !ok) return ok.error();
+    const auto taken = read_front_end(words, parts);
+    if (auto ok = read_afferent(text, std::span(words).subspan(taken), parts); !ok) return ok.error();
     if (parts.named) {
         parts.receptor = parts.named->receptor, parts.neuron = parts.named->neuron;
         if (taken > 0 && !parts.named->front_end.empty())
             return bad_input(fmt::format("{}: {} has its own front end ({}); put '{}' before {}+{} instead", text, parts.named->name,
                                          parts.named->front_end, parts.front_end(), parts.receptor, parts.neuron));
-        if (taken == 0 && !parts.named->front_end.empty()) take_front(split(parts.named->front_end), parts);
+        if (taken == 0 && !parts.named->front_end.empty()) read_front_end(split(parts.named->front_end), parts);
     }
     if (parts.sensor.empty() && !parts.transducer.empty())
         return bad_input(fmt::format("{}: {} needs the conductance of a sensor before it, such as 'fsr+{}'", text, parts.transducer, text));

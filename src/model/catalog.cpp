@@ -170,7 +170,7 @@ Result<AfferentPlan> plan_afferent(std::string_view text, std::span<const Parame
             if (auto& row = parameters[k].info; plan.values[k] != row.default_value)
                 row.default_value = plan.values[k], row.source = named->source;  // the default of the named afferent
     }
-    for (const auto& o : overrides) {  // overrides may use any of its names
+    for (const auto& o : overrides) {  // an override may use any name or alias of the afferent
         if (!matches_name(plan, text, o.target)) continue;
         const auto settings = settings_for(o.target, rows, std::span(&o, 1));
         if (!settings) return settings.error();

@@ -19,7 +19,7 @@
 
 namespace corpuscle {
 
-/// The components before a receptor. They are written for double only.
+/// A list of components that can come before a receptor. They are computed in double only, not on lanes.
 template <class... M>
 struct ComponentList {};
 template <class M>
@@ -43,7 +43,7 @@ struct NamedAfferent {
 };
 const std::vector<NamedAfferent>& named_afferents();
 
-std::vector<CatalogEntry> sensor_entries();  ///< each with the rows of its calibration
+std::vector<CatalogEntry> sensor_entries();  ///< each includes the parameters of its calibration
 std::vector<CatalogEntry> transducer_entries();
 std::vector<CatalogEntry> converter_entries();
 std::vector<CatalogEntry> receptor_entries();
@@ -53,7 +53,7 @@ std::vector<CatalogEntry> neuron_entries();
 struct AfferentParameter {
     ParameterInfo info;
     std::string_view component;  ///< the component that it belongs to
-    bool set_by_user = false;    ///< true if the user set it
+    bool set_by_user = false;
 };
 
 /// The first of two parameters of an afferent must be below the second.
@@ -64,15 +64,15 @@ struct ParameterOrder {
 
 /// A complete description of an afferent, before its sampling interval is known.
 struct AfferentPlan {
-    std::string name;  ///< as requested: "sa1", "sa1b+izhikevich"
+    std::string name;  ///< in outputs: "sa1", "sa1b+izhikevich"
     std::string_view receptor, neuron, description, source;
-    std::shared_ptr<const std::vector<AfferentParameter>> parameters;  ///< their descriptions, shared by all copies
+    std::shared_ptr<const std::vector<AfferentParameter>> parameters;  ///< descriptions of the parameters, shared by all copies
     std::vector<double> values;                                        ///< of each parameter, SI
     double min_rate = 0;                                               ///< Hz; below this sampling rate the response is not reliable
     std::string_view sensor = {}, transducer = {}, converter = {};     ///< "": none
     std::uint32_t copy_number = 0;                                     ///< number among its copies, from 1; 0: not a copy
     std::string original_name = {};                                    ///< of a copy: the name of the original
-    /// set if the afferent is not made of model equations; then there is no neuron either
+    /// Set if the afferent is not made of model equations but, for example, a circuit; receptor and neuron are then empty.
     std::shared_ptr<const AfferentFactory> factory = {};
     std::optional<double> value(std::string_view parameter) const;
     std::string composition() const;  ///< "fsr+f2v+adc+sa1a+lif-a"
@@ -81,20 +81,20 @@ struct AfferentPlan {
 /// True if `name` refers to the plan that was requested as `requested`.
 bool matches_name(const AfferentPlan&, std::string_view requested, std::string_view name);
 
-/// Pairs of its parameters whose order is constrained.
+/// The pairs of a plan's parameters whose order is constrained.
 std::vector<ParameterOrder> order_constraints_of(const AfferentPlan&);
 
-/// Checks what single rows cannot: order constraints, integers, a front end that cannot measure its own range, fixed-point words that are
-/// too short.
+/// Checks conditions beyond the range of a single parameter: order constraints, integers, whether the front end can measure its range of
+/// force, and whether fixed-point words are long enough.
 Result<void> check_plan(const AfferentPlan&);
 
-/// The values of a plan's parameters, in the form that `with` takes.
+/// The values of a plan's parameters, as with_settings() takes them.
 std::vector<Setting> settings_of(const AfferentPlan&);
 
 /// Parses "sa1", "SA1", "sa1b+izhikevich", "fsr+f2i+sa1". Overrides may use the requested name or the plan's own name.
 Result<AfferentPlan> plan_afferent(std::string_view text, std::span<const ParameterOverride> overrides);
 
-/// Builds the afferent of a plan, for samples run.dt apart.
+/// Builds the afferent of a plan, for the sampling interval in the options.
 std::unique_ptr<Afferent> make_afferent(const AfferentPlan&, const SimulationOptions&);
 
 }  // namespace corpuscle

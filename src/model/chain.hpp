@@ -17,7 +17,7 @@ struct SimulationOptions {
     double dt = 1e-4;  ///< s, sampling interval
     Method method = Method::exact;
     bool spikes_on_samples = false;  ///< spikes are put on the sample, as in the thesis; otherwise they get a time within the step
-    /// Membrane noise: a white current into each neuron, constant within a step. Its standard deviation within noise_band, A.
+    /// Membrane noise: a white current into each neuron, constant within a step. Its standard deviation between 0 and noise_band, A.
     double noise = 0;
     std::uint64_t seed = 0;
 };
@@ -90,7 +90,8 @@ class Chain final : public Afferent {
         }
     }
 
-    /// The recordable quantities in the order of the probes: components of the current, the currents, then those of each neuron.
+    /// The recordable quantities in the order of the probes: components of the receptor's current, the currents, then the quantities of
+    /// each neuron.
     void record(const Values& s, const Currents& i, double (&out)[all_recordables]) const {
         std::size_t at = 0;
         const auto add = [&](const auto& model, const auto& state, auto& parts) {
@@ -122,15 +123,15 @@ class Chain final : public Afferent {
             return neuron_.step(n[0], i[0], into);
         } else {
             const std::size_t seen = into.response.spikes.size();
-            bool capped = false;
-            for (int k = 0; k < outputs; ++k) capped |= neuron_.step(n[k], i[k], into);
+            bool truncated = false;
+            for (int k = 0; k < outputs; ++k) truncated |= neuron_.step(n[k], i[k], into);
             auto& spikes = into.response.spikes;
             if (spikes.size() > seen + 1) std::sort(spikes.begin() + static_cast<std::ptrdiff_t>(seen), spikes.end());
-            return capped;
+            return truncated;
         }
     }
 
-    /// The first sample: the force before it is taken to be the same. Backward Euler takes a step there, as the published algorithms do,
+    /// The first sample. The force before it is assumed to be the same. Backward Euler takes a step there, as the published algorithms do,
     /// and puts its spikes on the sample, because there is no time before it. The exact method has no interval to integrate yet.
     void run_first_sample(double force, Values& s, ResponseBlock& response) const {
         s.receptor = receptor_.start(force);
@@ -145,7 +146,7 @@ class Chain final : public Afferent {
         record(s, i, 0, response);
     }
 
-    /// Samples [from, to). Without probes and noise the state stays in registers.
+    /// Simulates samples [from, to). Without probes and noise the state stays in registers.
     template <bool observed>
     void run(std::span<const double> force, std::size_t from, std::size_t to, std::int64_t first, Values& state,
              ResponseBlock& response) const {
@@ -188,12 +189,12 @@ public:
         std::memcpy(&s, state.values.data(), sizeof s);
         const bool is_first = state.step == 0;
         if (is_first) run_first_sample(force[0], s, response);
-        const auto rest = response.probes.empty() && noise_ == 0 ? &Chain::run<false> : &Chain::run<true>;
+        const auto run_samples = response.probes.empty() && noise_ == 0 ? &Chain::run<false> : &Chain::run<true>;
         for (std::size_t k = is_first ? 1 : 0, to = 0; k < force.size(); k = to) {
             const std::int64_t now = state.step + static_cast<std::int64_t>(k), left = flush_interval - now % flush_interval;
             if (left == flush_interval) flush_decayed(s);
             to = std::min(force.size(), k + static_cast<std::size_t>(left));
-            (this->*rest)(force, k, to, state.step, s, response);
+            (this->*run_samples)(force, k, to, state.step, s, response);
         }
         std::memcpy(state.values.data(), &s, sizeof s);
         if (first_non_finite(state.values) < state.values.size())

@@ -1,16 +1,16 @@
 #pragma once
-// Copies of one afferent whose parameters vary: each value is sampled from a distribution about the afferent's own (doc/populations.md).
+// Copies of one afferent whose parameters vary: each value is sampled from a distribution around the original's value (doc/populations.md).
 
 #include "model/catalog.hpp"
 
 namespace corpuscle {
 
-/// The normal distribution of one parameter over the copies; its mean is the afferent's own value.
+/// The normal distribution of one parameter over the copies; its mean is the value of the original afferent.
 struct ParameterDistribution {
-    std::string afferent;  ///< the afferent's own name
+    std::string afferent;  ///< AfferentPlan::name
     std::string_view parameter, unit;
     double deviation = 0;                 ///< standard deviation, SI
-    std::optional<double> fraction = {};  ///< of the value, if it was given as a percentage: 0.1 for "10%"
+    std::optional<double> fraction = {};  ///< deviation over the mean, if it was given as a percentage: 0.1 for "10%"
     bool operator==(const ParameterDistribution&) const = default;
 };
 
@@ -28,11 +28,11 @@ Result<std::vector<ParameterDistribution>> distributions_for(const AfferentPlan&
                                                              std::span<const ParameterOverride> overrides);
 
 /// Copies 1 to n of a plan, each with its own values. A value depends only on the seed, the names of afferent and parameter, and the number
-/// of the copy. A value outside the parameter's range is sampled again. So are the parameters of an order constraint that is violated.
+/// of the copy. A value outside the parameter's range is sampled again, and so are the parameters of a violated order constraint.
 Result<std::vector<AfferentPlan>> make_copies(const AfferentPlan&, std::uint32_t n, std::span<const ParameterDistribution>,
                                               std::uint64_t seed);
 
-/// Index of the first copy of each afferent, then the total. An afferent without copies counts as one.
+/// Index of the first copy of each afferent, then the total. An afferent without copies counts as a single copy.
 std::vector<std::size_t> copy_group_starts(std::span<const AfferentPlan>);
 
 /// The name of an afferent in outputs; for a copy, the name of the original.

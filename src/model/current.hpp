@@ -1,5 +1,5 @@
 #pragma once
-// The current from a receptor to a neuron, and how time is stepped.
+// The current from a receptor to a neuron, and the integration methods.
 
 #include <cstdint>
 
@@ -16,7 +16,7 @@ template <class T>
 struct Current {
     T from, to;
     T sum() const { return from + to; }  ///< of the two ends: twice the mean
-    /// True where it begins below a level and ends above it.
+    /// True on the lanes where the current begins below a level and ends above it.
     num::Mask<T> rises_through(T level) const { return (from < level) & (to > level); }
     static constexpr bool may_rise() { return true; }
 };
@@ -48,7 +48,7 @@ struct HighPass {
 /// Every 1,024 samples, counted from the first, a model's flush_decayed() sets decayed state to zero. Without force a state then reaches
 /// exact rest. This also avoids denormals, which are slow.
 inline constexpr std::int64_t flush_interval = 1024;
-/// State below these limits is set to zero: it is some 1e-16 of one ulp of its effect.
+/// State below these limits is set to zero. They are 1e-18 of typical values (1 uA, 1 N, 10 mV), which is less than 1 % of an ulp.
 inline constexpr double negligible_current = 1e-24, negligible_force = 1e-18, negligible_voltage = 1e-20;  // A, N, V
 
 /// `level` where x is closer to it than `tolerance`, otherwise x.
@@ -57,7 +57,7 @@ T snap_to_level(T x, double tolerance, T level = T(0.0)) {
     return num::select(num::abs(x - level) < T(tolerance), level, x);
 }
 
-/// Gives a model the values of its parameters as T: here the same double on all lanes.
+/// Passes the values of a model's parameters to its constructor: here the same double on all lanes.
 template <class P>
 struct UniformParams {
     const P& p;

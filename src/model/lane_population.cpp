@@ -27,7 +27,7 @@ const KernelTable<V>& table_of(InstructionSet set) {
 }
 
 template <class L>
-const L* named(std::span<const L> all, std::string_view name) {
+const L* find_by_name(std::span<const L> all, std::string_view name) {
     const auto at = std::find_if(all.begin(), all.end(), [&](const L& l) { return l.name == name; });
     return at == all.end() ? nullptr : &*at;
 }
@@ -42,14 +42,14 @@ bool same_for_all(std::span<const AfferentPlan* const> plans, std::string_view p
 }
 
 /// Returns an error for plans that cannot share lanes.
-Result<void> check_alike(std::span<const AfferentPlan* const> plans) {
+Result<void> check_same_models(std::span<const AfferentPlan* const> plans) {
     const auto& first = *plans[0];
     for (const auto* plan : plans) {
         if (plan->receptor != first.receptor || plan->neuron != first.neuron)
             return bad_input(fmt::format("a population of {} cannot contain a {}", first.composition(), plan->composition()));
         for (std::size_t k = 0; k < first.values.size(); ++k)
             if (const auto& p = (*first.parameters)[k]; p.info.is_shared_by_copies && plan->values[k] != first.values[k])
-                return bad_input(fmt::format("{} must be the same in a whole population, but {:g} and {:g} were given", p.info.name,
+                return bad_input(fmt::format("{} must be the same for a whole population, but {:g} and {:g} were given", p.info.name,
                                              first.values[k], plan->values[k]));
     }
     return {};
@@ -71,10 +71,10 @@ AlignedBuffer<std::byte> models_of(List list, const L& lanes, int width, std::sp
             return;
         }
         params.resize((size + tile_size - 1) / tile_size * tile_size, params.back());
-        const std::size_t a_tile = tile_size / static_cast<std::size_t>(width) * lanes.model_bytes;
-        models = AlignedBuffer<std::byte>(params.size() / tile_size * a_tile);
+        const std::size_t tile_bytes = tile_size / static_cast<std::size_t>(width) * lanes.model_bytes;
+        models = AlignedBuffer<std::byte>(params.size() / tile_size * tile_bytes);
         for (std::size_t tile = 0; tile * tile_size < params.size(); ++tile)
-            lanes.build(models.data() + tile * a_tile, params.data() + tile * tile_size, tile_size, run.dt, run.method);
+            lanes.build(models.data() + tile * tile_bytes, params.data() + tile * tile_size, tile_size, run.dt, run.method);
     });
     return models;
 }
@@ -83,8 +83,8 @@ template <class V>
 std::unique_ptr<LanePopulation> make_tiled(const PopulationPlan& p, const SimulationOptions& run, InstructionSet set) {
     const auto& table = table_of<V>(set);
     const auto& plan = *p.plans[0];
-    PopulationLayout<V> layout{named(table.receptors, plan.receptor),
-                               named(table.neurons, plan.neuron),
+    PopulationLayout<V> layout{find_by_name(table.receptors, plan.receptor),
+                               find_by_name(table.neurons, plan.neuron),
                                nullptr,
                                table.lanes,
                                p.size,
@@ -96,8 +96,8 @@ std::unique_ptr<LanePopulation> make_tiled(const PopulationPlan& p, const Simula
                                fmt::format("{}+{}", plan.receptor, plan.neuron)};
     layout.receptors = models_of<V>(Receptors{}, *layout.receptor, table.lanes, p.plans, p.size, run);
     layout.neurons = models_of<V>(Neurons{}, *layout.neuron, table.lanes, p.plans, p.size, run);
-    const auto& joined = layout.receptor->fused[static_cast<std::size_t>(layout.neuron - table.neurons.data())];
-    if (joined.run && joined.is_usable(layout.neurons.data(), layout.neurons.size() / layout.neuron->model_bytes)) layout.fused = &joined;
+    const auto& fused = layout.receptor->fused[static_cast<std::size_t>(layout.neuron - table.neurons.data())];
+    if (fused.run && fused.is_usable(layout.neurons.data(), layout.neurons.size() / layout.neuron->model_bytes)) layout.fused = &fused;
     if (layout.receptors.size() == layout.receptor->model_bytes) layout.shared_receptor = make_shared_receptor(plan, run);
     return std::make_unique<TiledPopulation<V>>(std::move(layout), run);
 }
@@ -113,7 +113,7 @@ Result<std::unique_ptr<LanePopulation>> make_lane_population(const PopulationPla
         return bad_input(fmt::format("a population of {} afferents with {} plans: give one plan, or one for each", p.size, p.plans.size()));
     if (!p.afferent_numbers.empty() && p.afferent_numbers.size() != p.size)
         return bad_input(fmt::format("{} afferent numbers for {} afferents", p.afferent_numbers.size(), p.size));
-    if (auto ok = check_alike(p.plans); !ok) return ok.error();
+    if (auto ok = check_same_models(p.plans); !ok) return ok.error();
     for (const auto* plan : p.plans)
         if (!can_use_lanes(*plan, run))
             return bad_input(fmt::format("{}: netlists, sensors, converters and noise cannot run on SIMD lanes", plan->name));

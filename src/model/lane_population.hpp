@@ -32,14 +32,14 @@ struct ForceTiles {
     const std::uint8_t* zero_force = nullptr;
 };
 
-/// Tiles of 16-bit integers, as a converter gives them; times `scale` they are in N.
+/// Tiles of 16-bit integers, as an analog-to-digital converter delivers them; multiplied by `scale` they are in N.
 struct ForceInt16 {
     const std::int16_t* rows;
     double scale;
 };
 
-/// One force for all afferents (N), multiplied by a `gain` (0 or more) for each; without gains by 1. If all afferents share their receptor,
-/// and its current scales with force, the current is computed once, in double, and then multiplied.
+/// One force for all afferents (N), multiplied by a `gain` (0 or more) for each afferent; empty: all gains are 1. If all afferents share
+/// their receptor, and its current scales with force, the current is computed once, in double, and then multiplied.
 struct ForceProfile {
     std::span<const double> force;
     std::span<const double> gain = {};
@@ -56,7 +56,7 @@ struct PopulationResponse {
     std::int64_t extra_spikes = 0;
     std::int64_t truncated_steps = 0;  ///< steps that reached the limit of spikes per step
     std::int64_t skipped_steps = 0;    ///< steps of afferents that were skipped, because no state could change
-    std::size_t failed_afferent = 0;   ///< the first afferent that an error is about
+    std::size_t failed_afferent = 0;   ///< after an error: the first afferent that caused it
 };
 
 enum class Precision { double_precision, single_precision };
@@ -78,7 +78,7 @@ public:
 struct PopulationPlan {
     std::span<const AfferentPlan* const> plans;  ///< one for all afferents, or one for each; with the same receptor and neuron models
     std::size_t size = 0;                        ///< at least 1
-    std::span<const std::uint32_t> afferent_numbers = {};  ///< the afferent numbers in spikes, rising; empty: 0, 1, 2 ...
+    std::span<const std::uint32_t> afferent_numbers = {};  ///< written to the spikes; ascending; empty: 0, 1, 2 ...
     Precision precision = Precision::double_precision;
 };
 

@@ -8,10 +8,11 @@ namespace corpuscle::skins {
 namespace {
 
 constexpr double max_density = 1e10;                      // afferents per m2: a million in 1 cm2
-constexpr double max_width = 0.1;                         // m, of a hot spot and of the distances between them
+constexpr double max_width = 0.1;                         // m; limit of sigma and hot_spot_spread
 constexpr double min_velocity = 0.1, max_velocity = 200;  // m/s
 
-/// The settings of a file for an afferent as overrides of the name by which it was requested. Each keeps its location.
+/// Converts the settings of a class to overrides for its afferent, under the name by which the file requests it. Override k is made from
+/// setting k, which has the location for messages.
 std::vector<ParameterOverride> overrides_for(std::string_view afferent, std::span<const LocatedSetting> spec) {
     std::vector<ParameterOverride> out;
     for (const auto& s : spec) {
@@ -24,12 +25,12 @@ std::vector<ParameterOverride> overrides_for(std::string_view afferent, std::spa
     return out;
 }
 
-/// Turns an error about overrides into one with a location in the file: that of the first setting that alone causes it.
+/// Adds a location in the file to an error about overrides: the first setting that causes an error by itself, or else the first setting.
 template <class F>
-Error in_file(std::span<const LocatedSetting> spec, const Error& all, F&& fails_with) {
+Error locate_error(std::span<const LocatedSetting> spec, const Error& error, F&& fails_with) {
     for (std::size_t k = 0; k < spec.size(); ++k)
-        if (fails_with(spec.subspan(k, 1))) return spec[k].value.error_here(all.message);
-    return spec.empty() ? all : spec.front().value.error_here(all.message);
+        if (fails_with(spec.subspan(k, 1))) return spec[k].value.error_here(error.message);
+    return spec.empty() ? error : spec.front().value.error_here(error.message);
 }
 
 Result<AfferentPlan> afferent_of(const ClassSpec& spec) {
@@ -38,7 +39,7 @@ Result<AfferentPlan> afferent_of(const ClassSpec& spec) {
     if (const auto known = plan_afferent(text, {}); !known) return spec.afferent->error_here(known.error().message);
     const auto overrides = overrides_for(text, spec.set);
     auto plan = plan_afferent(text, overrides);
-    if (!plan) return in_file(spec.set, plan.error(), [&](auto some) { return !plan_afferent(text, overrides_for(text, some)); });
+    if (!plan) return locate_error(spec.set, plan.error(), [&](auto some) { return !plan_afferent(text, overrides_for(text, some)); });
     for (std::size_t k = 0; k < overrides.size(); ++k)
         if (!overrides[k].is_used) return spec.set[k].value.error_here(fmt::format("{} has no parameter '{}'", text, spec.set[k].name));
     return plan;
@@ -49,8 +50,8 @@ Result<std::vector<ParameterDistribution>> spreads_of(const ClassSpec& spec, con
     const auto overrides = overrides_for(text, spec.spread);
     auto spreads = distributions_for(plan, text, overrides);
     if (!spreads) {
-        auto error =
-            in_file(spec.spread, spreads.error(), [&](auto some) { return !distributions_for(plan, text, overrides_for(text, some)); });
+        auto error = locate_error(spec.spread, spreads.error(),
+                                  [&](auto some) { return !distributions_for(plan, text, overrides_for(text, some)); });
         if (error.message.starts_with("--spread ")) error.message.erase(0, 9);  // a file does not use this option
         return error;
     }
@@ -60,7 +61,7 @@ Result<std::vector<ParameterDistribution>> spreads_of(const ClassSpec& spec, con
     return spreads;
 }
 
-/// True if the key of a density refers to a region: by its name, or by the part of it after a dot.
+/// True if the key of a density refers to a region: by its full name ("index.tip"), or by the part after a dot ("tip").
 bool matches_region(std::string_view key, std::string_view region) {
     return region == key || (region.size() > key.size() && region.ends_with(key) && region[region.size() - key.size() - 1] == '.');
 }

@@ -6,9 +6,9 @@
 namespace corpuscle {
 namespace {
 
-constexpr std::size_t field_steps = 4;  // rows of sums are padded to a multiple of this, to begin on whole vectors
+constexpr std::size_t field_steps = 4;  // rows of sums are padded to a multiple of this, so that each begins at a vector
 
-constexpr std::size_t dense = 2;  // by_afferent is used if more than one site in this many is touched
+constexpr std::size_t dense_ratio = 2;  // sums run afferent by afferent if more than 1 / dense_ratio of the sites are touched
 
 std::size_t padded(std::size_t steps) { return (steps + field_steps - 1) / field_steps * field_steps; }
 
@@ -24,14 +24,14 @@ void transpose(const double* sums, std::size_t stride, std::size_t steps, double
 FieldForce::FieldForce(const ReceptiveFields& fields, std::size_t first, std::size_t count, std::size_t sites, InstructionSet set)
     : lanes_(lanes::field_kernels(set)), size_(count), tiles_((count + tile_width - 1) / tile_width),
       pieces_((tiles_ + tiles_per_piece - 1) / tiles_per_piece), rows_(tiles_ * skin_steps * tile_width), zero_force_(tiles_) {
-    constexpr std::size_t piece_units = tiles_per_piece * tile_width;
+    constexpr std::size_t piece_afferents = tiles_per_piece * tile_width;
     for (auto& p : pieces_) p.begin.assign(1, 0);
     for (std::size_t s = 0; s < sites; ++s) {
         for (std::size_t k = fields.begin[s]; k < fields.begin[s + 1]; ++k) {
             const std::size_t afferent = fields.afferent[k];
             if (afferent < first || afferent >= first + count) continue;
-            auto& p = pieces_[(afferent - first) / piece_units];
-            p.afferent.push_back(static_cast<std::uint32_t>((afferent - first) % piece_units));
+            auto& p = pieces_[(afferent - first) / piece_afferents];
+            p.afferent.push_back(static_cast<std::uint32_t>((afferent - first) % piece_afferents));
             p.weight.push_back(fields.weight[k]);
         }
         for (auto& p : pieces_) p.begin.push_back(static_cast<std::uint32_t>(p.afferent.size()));
@@ -42,7 +42,7 @@ void FieldForce::compute(const SiteForce& force, std::span<const std::uint32_t> 
                          ThreadPool& pool) {
     const Call call{force, touched, at, steps};
     if (steps == 1) return compute_one_step(call);
-    if (touched.size() * dense > pieces_[0].begin.size()) return compute_by_afferent(call, pool);
+    if (touched.size() * dense_ratio > pieces_[0].begin.size()) return compute_by_afferent(call, pool);
     while (sums_.size() < pool.threads()) sums_.emplace_back(tiles_per_piece * tile_width * skin_steps);
     pool.for_each(pieces_.size(), [&call, this](std::size_t piece, unsigned thread) { compute_piece(piece, call, sums_[thread].data()); });
 }
@@ -59,7 +59,7 @@ void FieldForce::build_by_afferent() {
                 by_afferent_->add(n * tiles_per_piece * tile_width + pieces_[n].afferent[k], s, pieces_[n].weight[k]);
 }
 
-/// All tiles are computed: with this number of touched sites few would be without force.
+/// Computes every tile. This method is used when many sites are touched, so few tiles are without force.
 void FieldForce::compute_by_afferent(const Call& call, ThreadPool& pool) {
     static constexpr std::array<double, skin_steps> zero = {};
     if (!by_afferent_) build_by_afferent();
@@ -75,19 +75,19 @@ void FieldForce::compute_piece(std::size_t piece, const Call& call, double* sums
     const auto& [force, touched, at, steps] = call;
     const auto& p = pieces_[piece];
     const std::size_t first = piece * tiles_per_piece, tiles = std::min(tiles_per_piece, tiles_ - first), stride = padded(steps);
-    auto* without = zero_force_.data() + first;
-    std::fill_n(without, tiles, std::uint8_t{1});
+    auto* zero_force = zero_force_.data() + first;
+    std::fill_n(zero_force, tiles, std::uint8_t{1});
     double* rows = rows_.data() + first * steps * tile_width;
     for (const auto s : touched) {
         const std::size_t begin = p.begin[s], end = p.begin[s + 1];
         for (std::size_t k = begin; k < end; ++k)
-            if (const auto tile = p.afferent[k] / tile_width; without[tile])
-                std::fill_n(sums + tile * tile_width * stride, tile_width * stride, 0.0), without[tile] = 0;
+            if (const auto tile = p.afferent[k] / tile_width; zero_force[tile])
+                std::fill_n(sums + tile * tile_width * stride, tile_width * stride, 0.0), zero_force[tile] = 0;
         lanes_.add_site(p.afferent.data() + begin, p.weight.data() + begin, end - begin, force.data + s * force.stride + at, steps, sums,
                         stride);
     }
     for (std::size_t tile = 0; tile < tiles; ++tile)
-        if (!without[tile]) transpose(sums + tile * tile_width * stride, stride, steps, rows + tile * steps * tile_width);
+        if (!zero_force[tile]) transpose(sums + tile * tile_width * stride, stride, steps, rows + tile * steps * tile_width);
 }
 
 }  // namespace corpuscle

@@ -1,4 +1,4 @@
-// Receptive fields at a single step. The sums and their order are those of several steps, bit for bit.
+// Receptive fields at a single step. The sums equal those of several steps bit for bit, because the order of their terms is the same.
 
 #include <algorithm>
 #include <array>
@@ -16,7 +16,7 @@ constexpr std::size_t margin = tile_width;
 
 }  // namespace
 
-/// Groups of eight weights, each distinct group stored once. Most are equal where afferents are alike.
+/// Groups of eight weights, each distinct group stored once. Few are distinct if many receptive fields have the same shape.
 class FieldForce::WeightGroups {
     std::map<std::array<double, group_size>, std::uint32_t> index_;
 
@@ -32,7 +32,7 @@ public:
 };
 
 /// Builds the rows of one tile, if its afferents are arranged like the sites, so that neighbours respond to neighbouring sites.
-void FieldForce::build_tile(std::size_t tile, std::size_t sites, WeightGroups& eights) {
+void FieldForce::build_tile(std::size_t tile, std::size_t sites, WeightGroups& groups) {
     const auto& p = pieces_[tile / tiles_per_piece];
     const std::size_t first = tile % tiles_per_piece * tile_width;
     struct Entry {
@@ -42,7 +42,7 @@ void FieldForce::build_tile(std::size_t tile, std::size_t sites, WeightGroups& e
     };
     std::vector<Entry> entries;
     std::vector<std::size_t> counts(tile_width);
-    std::map<std::ptrdiff_t, std::size_t> rows;  // by the site of their first afferent
+    std::map<std::ptrdiff_t, std::size_t> rows;  // from OneStep::row to its index k
     for (std::uint32_t s = 0; s < sites; ++s)
         for (std::size_t k = p.begin[s]; k < p.begin[s + 1]; ++k) {
             if (p.afferent[k] < first || p.afferent[k] >= first + tile_width) continue;
@@ -56,20 +56,20 @@ void FieldForce::build_tile(std::size_t tile, std::size_t sites, WeightGroups& e
     for (auto& [row, k] : rows) k = out.row.size(), out.row.push_back(row);
     std::vector<double> weights(rows.size() * tile_width);
     for (const auto& e : entries) weights[rows[e.row] * tile_width + e.afferent] = e.weight;
-    for (std::size_t k = 0; k < weights.size(); k += group_size) out.weights.push_back(eights.index_of(weights.data() + k));
+    for (std::size_t k = 0; k < weights.size(); k += group_size) out.weights.push_back(groups.index_of(weights.data() + k));
 }
 
 void FieldForce::build_one_step() {
     const std::size_t sites = pieces_[0].begin.size() - 1;
     padded_force_.assign(sites + 2 * margin, 0);
     one_step_.resize(tiles_);
-    WeightGroups eights;
-    for (std::size_t t = 0; t < tiles_; ++t) build_tile(t, sites, eights);
+    WeightGroups groups;
+    for (std::size_t t = 0; t < tiles_; ++t) build_tile(t, sites, groups);
     has_rows_.assign(pieces_.size(), 1);
     for (std::size_t t = 0; t < tiles_; ++t)
         if (one_step_[t].row.empty()) has_rows_[t / tiles_per_piece] = 0;
-    weights_ = lanes::AlignedBuffer<double>(eights.all.size());
-    std::copy(eights.all.begin(), eights.all.end(), weights_.data());
+    weights_ = lanes::AlignedBuffer<double>(groups.all.size());
+    std::copy(groups.all.begin(), groups.all.end(), weights_.data());
     std::vector<std::uint32_t> last(tiles_, std::uint32_t(-1));
     responding_begin_.assign(1, 0);
     for (std::uint32_t s = 0; s < sites; ++s) {

@@ -19,8 +19,8 @@ public:
     void finish_counts();
     void add(std::size_t afferent, std::uint32_t site, double weight);
 
-    /// Computes the force on the afferents of a tile over some steps, from the rows of all sites' force into rows [step][afferent]. The
-    /// sums equal those of the other methods bit for bit.
+    /// Computes the force on the afferents of a tile over some steps and writes it to rows[step][afferent]. site_rows[s] is the force of
+    /// site s over these steps. The sums equal those of the other methods bit for bit.
     void compute_tile(std::size_t tile, std::span<const double* const> site_rows, std::size_t steps, double* rows) const;
 
 private:

@@ -12,7 +12,6 @@ namespace corpuscle {
 /// defines the area of its sites or they are not on a lattice.
 std::string treat_as_skin(SkinPlan&);
 
-// m2, as in the built-in skins
-inline constexpr double default_felt_area = 1e-4;
+inline constexpr double default_felt_area = 1e-4;  ///< m2, as in the built-in skins
 
 }  // namespace corpuscle

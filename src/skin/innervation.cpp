@@ -10,7 +10,7 @@
 namespace corpuscle {
 namespace {
 
-/// Checks a plan that was not read from a file.
+/// Checks the sites and densities of a plan. A plan read from a file is already valid; one built by a program may not be.
 Result<void> check_sites(const SkinPlan& plan) {
     const auto& s = plan.sites;
     if (s.positions.empty() || s.names.size() != s.size() || s.region.size() != s.size() || s.regions.empty() || s.size() > max_sites)
@@ -37,14 +37,14 @@ Result<void> check_skin_memory(const SkinPlan& plan) {
     for (const auto& p : plan.sites.positions)
         left = std::min(left, p.x), right = std::max(right, p.x), low = std::min(low, p.y), high = std::max(high, p.y);
     const auto sites = static_cast<double>(plan.sites.size());
-    const double a_site = plan.sites.area > 0 ? plan.sites.area : std::max((right - left) * (high - low) / sites, 1e-12);
+    const double site_area = plan.sites.area > 0 ? plan.sites.area : std::max((right - left) * (high - low) / sites, 1e-12);
     double afferents = 0, weights = 0;
     for (std::uint32_t c = 0; c < plan.classes.size(); ++c) {
         const auto& k = plan.classes[c];
         double all = 0;
         for (const auto n : afferents_by_region(plan, c)) all += static_cast<double>(n);
-        const double reach = 3 * k.sigma + (k.hot_spots > 1 ? k.hot_spot_spread : 0);  // that contains most of a field
-        afferents += all, weights += all * std::clamp(3 * reach * reach / a_site, 1.0, sites);
+        const double reach = 3 * k.sigma + (k.hot_spots > 1 ? k.hot_spot_spread : 0);  // m; radius that contains most of a field
+        afferents += all, weights += all * std::clamp(3 * reach * reach / site_area, 1.0, sites);
     }
     return check_available_memory(plan.name, sites, afferents, weights);
 }

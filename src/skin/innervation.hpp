@@ -16,8 +16,8 @@ struct SkinAfferent {
     double delay = 0;        ///< conduction delay to the recording point, s
 };
 
-/// The receptive fields of a class, site by site. Entries [begin[s], begin[s + 1]) are the afferents that respond to site s, and the weight
-/// of its force. Afferents count from the first of the class, and rise within each site.
+/// The receptive fields of a class, site by site. Entries [begin[s], begin[s + 1]) are the afferents that respond to site s, and the
+/// weights of its force. Afferents are counted from the first one of the class, and are in ascending order within each site.
 struct ReceptiveFields {
     std::vector<std::size_t> begin;
     std::vector<std::uint32_t> afferent;

@@ -7,8 +7,8 @@
 
 namespace corpuscle {
 
-/// Refuses what exceeds the memory of this machine or the limit of this process (ulimit -v). `weights`: sites in the receptive fields of
-/// all afferents together.
+/// Returns an error if a skin needs more memory than this machine has or this process may use (ulimit -v). `weights`: the total number of
+/// sites in the receptive fields of all afferents.
 Result<void> check_available_memory(std::string_view name, double sites, double afferents, double weights);
 
 }  // namespace corpuscle

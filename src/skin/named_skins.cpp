@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t max_file_size = std::size_t{64} << 20;  // bytes
 
-std::string carried_path(std::string_view name) { return fmt::format("skins/{}.toml", name); }
+std::string embedded_path(std::string_view name) { return fmt::format("skins/{}.toml", name); }
 
 Error unknown_skin(std::string_view name) {
     std::vector<std::string_view> names = {"grid 8x8"};
@@ -27,8 +27,8 @@ Error unknown_skin(std::string_view name) {
                                  did_you_mean(name, names), fmt::join(names.begin() + 1, names.end(), ", ")));
 }
 
-/// Titles and names of the built-in populations; they are kept as long as the program runs.
-std::vector<std::pair<std::string, std::string>> carried_skins() {
+/// Names and titles of the built-in populations.
+std::vector<std::pair<std::string, std::string>> embedded_skins() {
     std::vector<std::pair<std::string, std::string>> out;
     for (const auto file : embedded_files()) {
         if (!file.starts_with("skins/")) continue;
@@ -41,10 +41,10 @@ std::vector<std::pair<std::string, std::string>> carried_skins() {
 }  // namespace
 
 std::span<const NamedSkin> named_skins() {
-    static const auto texts = carried_skins();
+    static const auto texts = embedded_skins();  // a NamedSkin refers to these strings
     static const auto all = [] {
         std::vector<NamedSkin> out;
-        for (const auto& [name, sentence] : texts) out.push_back({name, sentence});
+        for (const auto& [name, title] : texts) out.push_back({name, title});
         return out;
     }();
     return all;
@@ -53,7 +53,7 @@ std::span<const NamedSkin> named_skins() {
 Result<SkinPlan> load_skin_plan(std::string_view name, std::span<const Channel> channels) {
     name = trimmed(name);
     if (is_grid_name(name)) return plan_grid(name);
-    if (const auto text = embedded_text(carried_path(lower(name)))) return parse_skin_plan(*text, carried_path(lower(name)), channels);
+    if (const auto text = embedded_text(embedded_path(lower(name)))) return parse_skin_plan(*text, embedded_path(lower(name)), channels);
     const fs::path path(name);
     std::error_code status;
     if (fs::exists(path, status) && !fs::is_directory(path, status)) {

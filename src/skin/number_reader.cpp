@@ -10,7 +10,7 @@ namespace corpuscle::skins {
 namespace {
 
 /// True if a text is a number without a unit.
-bool is_bare(std::string_view text) {
+bool has_no_unit(std::string_view text) {
     text = trimmed(text);
     double value = 0;
     const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -20,7 +20,7 @@ bool is_bare(std::string_view text) {
 }  // namespace
 
 Result<double> NumberReader::number(const LocatedText& item, std::string_view name, std::string_view unit, double low, double high) const {
-    const bool bare = is_bare(item.text), length = unit == "m";
+    const bool bare = has_no_unit(item.text), length = unit == "m";
     if (bare && !unit.empty() && (!length || !metres_))
         return item.error_here(fmt::format("{} = {}: the unit is missing; write {} = \"{} {}\"{}", name, item.text, name,
                                            trimmed(item.text),

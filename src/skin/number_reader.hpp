@@ -1,5 +1,5 @@
 #pragma once
-// Numbers of a population file, with their units and ranges.
+// Reads the numbers of a population file and checks their units and ranges.
 
 #include <cstdint>
 #include <string_view>
@@ -8,14 +8,14 @@
 
 namespace corpuscle::skins {
 
-/// Numbers in a population file. A number with a physical unit must be given with it; only a length may use the file's own unit.
+/// The unit of a physical quantity must be written. Only a length may omit it, if the file defines its unit of length.
 class NumberReader {
-    std::optional<double> metres_;
+    std::optional<double> metres_;  // metres per unit of length of the file
 
 public:
     NumberReader() = default;
     explicit NumberReader(double metres) : metres_(metres) {}
-    /// Converted to SI, within [low, high].
+    /// The value in SI. Returns an error that names `name` if it is outside [low, high]. `fallback` is the value of a missing item.
     Result<double> number(const LocatedText&, std::string_view name, std::string_view unit, double low, double high) const;
     Result<double> number(const OptionalLocatedText&, std::string_view name, std::string_view unit, double low, double high,
                           double fallback) const;

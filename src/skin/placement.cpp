@@ -23,7 +23,7 @@ std::uint32_t along_curve(std::uint32_t x, std::uint32_t y) {
     return d;
 }
 
-/// The sites of each region, in the order of the curve.
+/// The sites of each region, in the order of the Hilbert curve.
 std::vector<std::vector<std::uint32_t>> sites_along(const Sites& sites) {
     double left = sites.positions[0].x, low = sites.positions[0].y, extent = 0;
     for (const auto& p : sites.positions) left = std::min(left, p.x), low = std::min(low, p.y);
@@ -90,8 +90,8 @@ void set_delays(const SkinPlan& plan, const SkinClass& c, std::vector<SkinAffere
 
 }  // namespace
 
-std::uint32_t class_stream(const SkinClass& c, std::string_view what) {
-    return static_cast<std::uint32_t>(stream_id(fmt::format("skin.{}.{}", c.name, what)));
+std::uint32_t class_stream(const SkinClass& c, std::string_view quantity) {
+    return static_cast<std::uint32_t>(stream_id(fmt::format("skin.{}.{}", c.name, quantity)));
 }
 
 std::vector<std::uint64_t> afferents_by_region(const SkinPlan& plan, std::uint32_t class_index) {

@@ -1,4 +1,5 @@
-// Receptive fields: each hot spot is a Gaussian over the sites; the hot spots of an afferent together are a weighted mean.
+// Receptive fields: each hot spot is a Gaussian over the sites. The weights of all hot spots of an afferent are added, and scaled to a sum
+// of 1, or of felt_area / area of a site.
 
 #include <fmt/format.h>
 #include <cmath>
@@ -10,13 +11,13 @@
 namespace corpuscle {
 namespace {
 
-constexpr double cut = 3;  // a hot spot ends after this many standard deviations
+constexpr double cutoff = 3;  // a hot spot ends at this distance, in standard deviations
 
 /// Rounds to 1e-12, so that sites at equal distances have equal weights in spite of round-off in their positions. Equal fields can then be
 /// stored once.
 double rounded_to_picounits(double x) {
-    constexpr double fine = 1099511627776.0;  // 2^40
-    return std::floor(x * fine + 0.5) / fine;
+    constexpr double units = 1099511627776.0;  // 2^40
+    return std::floor(x * units + 0.5) / units;
 }
 
 /// The receptive fields, afferent after afferent.
@@ -31,7 +32,7 @@ class FieldsOfClass {
     const SkinClass& class_;
     const SiteGrid& near_;
     const std::vector<char>& touching_;
-    const double per_square_, scale_;
+    const double per_square_, scale_;  // 1 / (2 sigma^2), 1/m2; sum of an afferent's weights
     const std::uint32_t stream_;
     std::vector<double> weights_;                              // weight of each site for the current afferent
     std::vector<std::uint32_t> reached_;                       // the sites where it is not 0
@@ -40,10 +41,10 @@ class FieldsOfClass {
     void add_spot(const SkinAfferent& afferent, double x, double y) {
         const char* reaches = touching_.data() + afferent.region * plan_.sites.regions.size();
         near_spot_.clear();
-        near_.for_each_within(x, y, cut * class_.sigma, [&](std::uint32_t site, double d2) {
+        near_.for_each_within(x, y, cutoff * class_.sigma, [&](std::uint32_t site, double d2) {
             if (reaches[plan_.sites.region[site]]) near_spot_.emplace_back(site, d2);
         });
-        // a loop of its own: the exponentials overlap in the pipeline
+        // A separate loop, so that the exponentials overlap in the processor's pipeline.
         for (auto& s : near_spot_) s.second = num::exp(-rounded_to_picounits(s.second * per_square_));
         for (const auto& [site, w] : near_spot_) {
             if (weights_[site] == 0) reached_.push_back(site);
@@ -54,9 +55,8 @@ class FieldsOfClass {
     void add_spots(const SkinAfferent& afferent) {
         if (class_.hot_spots <= 1) return add_spot(afferent, afferent.position.x, afferent.position.y);
         for (std::uint32_t h = 0; h < class_.hot_spots; ++h) {
-            const auto by = normal_pair(plan_.seed, afferent.number, stream_, h);
-            add_spot(afferent, afferent.position.x + class_.hot_spot_spread * by.first,
-                     afferent.position.y + class_.hot_spot_spread * by.second);
+            const auto [dx, dy] = normal_pair(plan_.seed, afferent.number, stream_, h);
+            add_spot(afferent, afferent.position.x + class_.hot_spot_spread * dx, afferent.position.y + class_.hot_spot_spread * dy);
         }
     }
 
@@ -81,16 +81,16 @@ public:
 };
 
 /// The same data, site after site.
-ReceptiveFields by_site(const FieldTable& felt, std::size_t sites) {
-    ReceptiveFields out{std::vector<std::size_t>(sites + 1), std::vector<std::uint32_t>(felt.site.size()),
-                        std::vector<double>(felt.site.size())};
-    for (const auto s : felt.site) ++out.begin[s + 1];
+ReceptiveFields by_site(const FieldTable& table, std::size_t sites) {
+    ReceptiveFields out{std::vector<std::size_t>(sites + 1), std::vector<std::uint32_t>(table.site.size()),
+                        std::vector<double>(table.site.size())};
+    for (const auto s : table.site) ++out.begin[s + 1];
     std::partial_sum(out.begin.begin(), out.begin.end(), out.begin.begin());
     std::vector<std::size_t> next(out.begin.begin(), out.begin.end() - 1);
-    for (std::size_t afferent = 0, k = 0; afferent < felt.end.size(); ++afferent)
-        for (; k < felt.end[afferent]; ++k) {
-            const auto to = next[felt.site[k]]++;
-            out.afferent[to] = static_cast<std::uint32_t>(afferent), out.weight[to] = felt.weight[k];
+    for (std::size_t afferent = 0, k = 0; afferent < table.end.size(); ++afferent)
+        for (; k < table.end[afferent]; ++k) {
+            const auto to = next[table.site[k]]++;
+            out.afferent[to] = static_cast<std::uint32_t>(afferent), out.weight[to] = table.weight[k];
         }
     return out;
 }
@@ -114,15 +114,15 @@ Result<ReceptiveFields> receptive_fields_of(const SkinPlan& plan, std::uint32_t 
                                             const SiteGrid& near, const std::vector<char>& touching) {
     const auto& c = plan.classes[class_index];
     FieldsOfClass fields(plan, c, near, touching);
-    FieldTable felt;
-    felt.end.reserve(afferents.size());
+    FieldTable table;
+    table.end.reserve(afferents.size());
     for (const auto& u : afferents) {
-        fields.add(u, felt);
-        if (felt.site.size() > max_weights)
+        fields.add(u, table);
+        if (table.site.size() > max_weights)
             return bad_input(fmt::format("{}: its receptive fields have more than {} weights in total; use a smaller sigma or fewer sites",
                                          c.name, max_weights));
     }
-    return by_site(felt, plan.sites.size());
+    return by_site(table, plan.sites.size());
 }
 
 }  // namespace corpuscle

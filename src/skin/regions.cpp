@@ -49,7 +49,7 @@ bool in_polygon(const SkinShape& s, double x, double y) {
 
 /// Cells of a lattice whose lines pass through the origin.
 struct Lattice {
-    double pitch, left, low;  ///< of the first cell, in cells
+    double pitch, left, low;  ///< pitch: m; left, low: position of the first cell, in cells
     std::size_t columns, rows;
     std::vector<std::int32_t> region;  ///< of each cell; -1: none
 
@@ -109,8 +109,8 @@ std::pair<Position, Position> SkinShape::bounding_box() const {
     Position from = points[0], to = points[0];
     for (const auto& p : points)
         from.x = std::min(from.x, p.x), from.y = std::min(from.y, p.y), to.x = std::max(to.x, p.x), to.y = std::max(to.y, p.y);
-    const double about = kind == Kind::polygon ? 0 : 0.5 * std::max(width, end_width);
-    return {{from.x - about, from.y - about, 0}, {to.x + about, to.y + about, 0}};
+    const double half_width = kind == Kind::polygon ? 0 : 0.5 * std::max(width, end_width);
+    return {{from.x - half_width, from.y - half_width, 0}, {to.x + half_width, to.y + half_width, 0}};
 }
 
 Result<Sites> fill_regions(std::span<const SkinRegion> regions, double pitch) {

@@ -14,7 +14,7 @@ struct SkinShape {
     std::vector<Position> points;
     double width = 0;      ///< of a strip or capsule at its beginning; of an ellipse
     double end_width = 0;  ///< of a strip or capsule at its end; height of an ellipse
-    double turns = 0;      ///< of an ellipse: angle from x to its width, counter-clockwise, in turns
+    double turns = 0;      ///< of an ellipse: angle from the x axis to the axis of `width`, counter-clockwise, in turns
 
     bool contains(double x, double y) const;
     /// A bounding box: {left, low} and {right, high}.

@@ -7,13 +7,13 @@
 namespace corpuscle {
 
 SiteGrid::SiteGrid(const std::vector<Position>& at) {
-    constexpr double a_cell = 0.7;  // sites per cell if they were evenly distributed; measured
+    constexpr double sites_per_cell = 0.7;  // for evenly distributed sites; the fastest value measured
     double right = at[0].x, high = at[0].y;
     left_ = right, low_ = high;
     for (const auto& p : at)
         left_ = std::min(left_, p.x), right = std::max(right, p.x), low_ = std::min(low_, p.y), high = std::max(high, p.y);
     const double width = right - left_, height = high - low_, n = static_cast<double>(at.size());
-    cell_side_ = std::max({num::sqrt(width * height * a_cell / n), std::max(width, height) * a_cell / n, 1e-9});
+    cell_side_ = std::max({num::sqrt(width * height * sites_per_cell / n), std::max(width, height) * sites_per_cell / n, 1e-9});
     columns_ = static_cast<std::size_t>(width / cell_side_) + 1, rows_ = static_cast<std::size_t>(height / cell_side_) + 1;
     const auto cell_of = [this](const Position& p) { return row(p.y) * columns_ + column(p.x); };
     begin_.assign(columns_ * rows_ + 1, 0);

@@ -1,5 +1,5 @@
 #pragma once
-// A spatial index of sites: square cells that are searched one at a time.
+// A spatial index of sites: square cells, each with the sites inside it.
 
 #include <algorithm>
 #include <cstdint>
@@ -27,7 +27,7 @@ public:
             }
     }
 
-    /// The site nearest to (x, y); of several equally near the first.
+    /// The site nearest to (x, y); the first one if several are equally near.
     std::uint32_t nearest(double x, double y) const;
     double cell_side() const { return cell_side_; }  ///< side of a cell, m
 

@@ -134,7 +134,7 @@ Result<std::vector<std::uint32_t>> find_sites(const Sites& sites, std::span<cons
 }
 
 Result<std::optional<std::vector<std::uint32_t>>> find_sites_if_named(const Sites& sites, std::span<const std::string> names) {
-    std::unordered_set<std::string> known;  // in lower case: 'R1C1' also counts as a name
+    std::unordered_set<std::string> known;  // in lower case, so that 'R1C1' is recognised as a site
     for (const auto& name : sites.names) known.insert(lower(name));
     const auto is_site = [&](const std::string& name) { return known.contains(lower(name)); };
     std::vector<std::string> bare;

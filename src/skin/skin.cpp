@@ -9,7 +9,7 @@
 namespace corpuscle {
 namespace {
 
-/// The afferents of a class as plans: one for all, or one for each if they differ.
+/// The plans of a class's afferents: a single plan if all afferents are equal, otherwise one for each.
 Result<std::vector<AfferentPlan>> plans_of(const SkinClass& c, std::size_t first, std::size_t count, std::size_t all, std::uint64_t seed) {
     if (c.distributions.empty()) return std::vector<AfferentPlan>{c.afferent};
     auto sampled = make_copies(c.afferent, static_cast<std::uint32_t>(all), c.distributions, seed);
@@ -19,21 +19,23 @@ Result<std::vector<AfferentPlan>> plans_of(const SkinClass& c, std::size_t first
 }
 
 /// The index of the first afferent of a part; parts consist of whole tiles.
-std::size_t part_begin(std::size_t size, std::uint32_t part, std::uint32_t of) {
+std::size_t part_begin(std::size_t size, std::uint32_t part, std::uint32_t parts) {
     const std::size_t tiles = (size + tile_width - 1) / tile_width;
-    return std::min(size, tiles * part / of * tile_width);
+    return std::min(size, tiles * part / parts * tile_width);
 }
 
-/// The part of one class that this process simulates; nothing if it has no afferents.
+/// The part of one class that this process simulates; nullopt if it has no afferents. `field_forces`: of the classes, which share them if
+/// their receptive fields are equal.
 Result<std::optional<ClassSimulation>> make_class(const Innervation& skin, std::size_t class_index, const SimulationOptions& run,
-                                                  InstructionSet set, SkinPart share, std::vector<std::shared_ptr<FieldForce>>& felt) {
+                                                  InstructionSet set, SkinPart part,
+                                                  std::vector<std::shared_ptr<FieldForce>>& field_forces) {
     const auto& c = skin.plan.classes[class_index];
     const std::size_t all = skin.class_begin[class_index + 1] - skin.class_begin[class_index],
-                      first = part_begin(all, share.part, share.parts), count = part_begin(all, share.part + 1, share.parts) - first;
+                      first = part_begin(all, part.part, part.parts), count = part_begin(all, part.part + 1, part.parts) - first;
     if (count == 0) return std::optional<ClassSimulation>{};
     if (!can_use_lanes(c.afferent, run))
-        return bad_input(fmt::format("{}: a skin needs model equations without sensor, converter and noise; {} is not of this kind", c.name,
-                                     c.afferent.name));
+        return bad_input(fmt::format("{}: {} cannot be used in a skin, which needs model equations without sensor, converter and noise",
+                                     c.name, c.afferent.name));
     const auto plans = plans_of(c, first, count, all, skin.plan.seed);
     if (!plans) return plans.error();
     std::vector<const AfferentPlan*> each;
@@ -44,10 +46,11 @@ Result<std::optional<ClassSimulation>> make_class(const Innervation& skin, std::
     if (!population) return population.error();
     const auto same =
         static_cast<std::size_t>(std::find(skin.fields.begin(), skin.fields.end(), skin.fields[class_index]) - skin.fields.begin());
-    const bool as_before = felt[same] && skin.class_begin[same + 1] - skin.class_begin[same] == all;
-    felt[class_index] =
-        as_before ? felt[same] : std::make_shared<FieldForce>(skin.fields[class_index], first, count, skin.plan.sites.size(), set);
-    return std::optional<ClassSimulation>(ClassSimulation{std::move(*population), felt[class_index], as_before});
+    const bool shares_force = field_forces[same] && skin.class_begin[same + 1] - skin.class_begin[same] == all;
+    field_forces[class_index] =
+        shares_force ? field_forces[same]
+                     : std::make_shared<FieldForce>(skin.fields[class_index], first, count, skin.plan.sites.size(), set);
+    return std::optional<ClassSimulation>(ClassSimulation{std::move(*population), field_forces[class_index], shares_force});
 }
 
 /// True if all touched sites have a finite force at one step.
@@ -65,19 +68,19 @@ bool all_finite(const SiteForce& force, std::span<const std::uint32_t> touched) 
 }
 
 /// An error for the first site with a force that is not finite, and its sample.
-Result<void> check_finite(const Skin::Impl& held, const SiteForce& force, std::span<const std::uint32_t> touched, std::size_t steps) {
+Result<void> check_finite(const Skin::Impl& impl, const SiteForce& force, std::span<const std::uint32_t> touched, std::size_t steps) {
     if (steps == 1 && all_finite(force, touched)) return {};
     for (const auto s : touched)
         if (const auto t = first_non_finite({force.data + s * force.stride, steps}); t < steps)
-            return bad_input(fmt::format("{}: the force at site {} is {} at sample {}, not a finite number", held.skin->plan.name,
-                                         held.skin->plan.sites.names[s], force.data[s * force.stride + t],
-                                         held.step + static_cast<std::int64_t>(t)));
+            return bad_input(fmt::format("{}: the force at site {} is {} at sample {}, not a finite number", impl.skin->plan.name,
+                                         impl.skin->plan.sites.names[s], force.data[s * force.stride + t],
+                                         impl.step + static_cast<std::int64_t>(t)));
     return {};
 }
 
 }  // namespace
 
-/// The sites that are not 0 during some steps.
+/// The sites whose force is not 0 in at least one of the steps.
 std::span<const std::uint32_t> Skin::Impl::find_touched(const SiteForce& force, std::size_t at, std::size_t steps) {
     if (!force.reads_all) return force.touched;
     touched.clear();
@@ -110,19 +113,19 @@ Result<void> Skin::Impl::run_steps(const SiteForce& force, std::size_t at, std::
 }
 
 Result<std::unique_ptr<Skin>> Skin::make(const std::shared_ptr<const Innervation>& skin, const SimulationOptions& run, InstructionSet set,
-                                         SkinPart share) {
-    auto held = std::make_unique<Impl>(skin, run, share);
-    std::vector<std::shared_ptr<FieldForce>> felt(skin->plan.classes.size());
+                                         SkinPart part) {
+    auto impl = std::make_unique<Impl>(skin, run, part);
+    std::vector<std::shared_ptr<FieldForce>> field_forces(skin->plan.classes.size());
     for (std::size_t c = 0; c < skin->plan.classes.size(); ++c) {
-        auto simulation = make_class(*skin, c, run, set, share, felt);
+        auto simulation = make_class(*skin, c, run, set, part, field_forces);
         if (!simulation) return simulation.error();
-        if (*simulation) held->classes.push_back(std::move(**simulation));
+        if (*simulation) impl->classes.push_back(std::move(**simulation));
     }
-    held->touched.reserve(skin->plan.sites.size());
-    return std::unique_ptr<Skin>(new Skin(std::move(held)));
+    impl->touched.reserve(skin->plan.sites.size());
+    return std::unique_ptr<Skin>(new Skin(std::move(impl)));
 }
 
-Skin::Skin(std::unique_ptr<Impl> held) : impl_(std::move(held)) {}
+Skin::Skin(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 Skin::~Skin() = default;
 
 const Innervation& Skin::innervation() const { return *impl_->skin; }

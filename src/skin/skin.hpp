@@ -14,16 +14,16 @@
 
 namespace corpuscle {
 
-/// A block of force: site s at step t is of[s * stride + t], N.
+/// A block of force: site s at step t is data[s * stride + t], N.
 struct SiteForce {
     const double* data = nullptr;
     std::size_t stride = 0;
-    /// The sites that are not 0 during the whole block, rising; the others are not read.
+    /// The sites whose force is not 0 in at least one step of the block, in ascending order; the others are not read.
     std::span<const std::uint32_t> touched = {};
-    bool reads_all = true;  ///< no list is given: all sites are read
+    bool reads_all = true;  ///< true: all sites are read, and `touched` is ignored
 };
 
-/// The afferents of a skin that one process simulates: part `part` of `of` equal ranges of each class.
+/// The afferents of a skin that one process simulates: each class is divided into `parts` equal ranges; `part` is the index of one.
 struct SkinPart {
     std::uint32_t part = 0, parts = 1;
 };
@@ -49,13 +49,13 @@ public:
     std::int64_t step() const;  ///< samples simulated so far
     const SkinStats& stats() const;
 
-    /// Simulates the next block. Appends to `spikes` those that arrive in it, in order of time, then afferent. With one thread it allocates
-    /// nothing after the first blocks, unless a step has more spikes than any before.
+    /// Simulates the next block. Appends the spikes that arrive in it to `spikes`, in order of time, then afferent. With one thread it
+    /// allocates no memory after the first blocks, unless a step has more spikes than any step before.
     Result<void> respond(const SiteForce&, std::size_t steps, std::vector<Spike>& spikes, ThreadPool&);
-    /// Returns the spikes that are still in transit to the recording point.
+    /// Appends the spikes that are still in transit to the recording point.
     void finish(std::vector<Spike>& spikes);
 
-    /// The complete state, in a format of its own. A new skin made with the same arguments can resume from it.
+    /// The complete state. A new skin made with the same arguments can resume from it.
     std::vector<std::byte> save() const;
     Result<void> resume(std::span<const std::byte>);
 

@@ -18,8 +18,8 @@ struct ClassSimulation {
 };
 
 struct Skin::Impl {
-    Impl(std::shared_ptr<const Innervation> skin, const SimulationOptions& run, SkinPart share)
-        : skin(std::move(skin)), run(run), part(share), conduction(*this->skin, run.dt) {}
+    Impl(std::shared_ptr<const Innervation> skin, const SimulationOptions& run, SkinPart part)
+        : skin(std::move(skin)), run(run), part(part), conduction(*this->skin, run.dt) {}
 
     std::shared_ptr<const Innervation> skin;
     SimulationOptions run;
@@ -27,7 +27,7 @@ struct Skin::Impl {
     std::vector<ClassSimulation> classes;
     Conduction conduction;
     std::vector<Spike> fired;            // spikes fired in the current steps
-    std::vector<std::uint32_t> touched;  // sites touched in them
+    std::vector<std::uint32_t> touched;  // sites touched in the current steps
     std::int64_t step = 0;
     SkinStats stats;
 

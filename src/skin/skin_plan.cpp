@@ -16,7 +16,7 @@ namespace {
 
 constexpr double max_coordinate = 10, min_pitch = 10e-6, max_pitch = 0.1;  // m
 
-/// The numbers of a file, with the file's unit of length.
+/// The reader of a file's numbers, with the file's unit of length.
 Result<NumberReader> numbers_of(const SkinSpec& spec) {
     if (!spec.unit) return NumberReader{};
     const auto unit = parse_unit(spec.unit->text);
@@ -117,7 +117,7 @@ Result<Sites> sites_of_grid(const SitesSpec& spec, double pitch, const NumberRea
     return grid;
 }
 
-/// The sites that [sites] describes, before its area.
+/// The sites that [sites] describes; the key `area` is not applied yet.
 Result<Sites> requested_sites(const SkinSpec& spec, std::span<const Channel> channels, const NumberReader& numbers) {
     const auto& s = *spec.sites;
     if (s.word) {

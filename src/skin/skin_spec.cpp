@@ -26,7 +26,7 @@ class SkinReading : public TomlReader {
 public:
     using TomlReader::TomlReader;
 
-    LocatedText wanted(const toml::table& from, std::string_view name, std::string_view where, std::string_view example) {
+    LocatedText required(const toml::table& from, std::string_view name, std::string_view where, std::string_view example) {
         if (auto value = scalar(from, name)) return *value;
         reject(from.source(), fmt::format("{}: {} is missing: {} = {}", where, name, name, example));
         return {};
@@ -39,7 +39,7 @@ public:
         return {};
     }
 
-    std::vector<PositionSpec> places(const toml::node& node, std::string_view name) {
+    std::vector<PositionSpec> positions(const toml::node& node, std::string_view name) {
         std::vector<PositionSpec> out;
         const auto* array = node.as_array();
         if (!array) return reject(node.source(), fmt::format("{} needs positions: [[x, y], [x, y] ...]", name)), out;
@@ -61,7 +61,7 @@ public:
             if (kind == "ellipse")
                 s.points.push_back(pair(*points, kind));
             else
-                s.points = places(*points, kind);
+                s.points = positions(*points, kind);
         }
         if (s.kind.text.empty()) return reject(node.source(), fmt::format("a shape must be one of {}", fmt::join(shape_kinds, ", ")));
         if (const auto* width = table->get("width"))
@@ -74,7 +74,7 @@ public:
 
     void region(const toml::table& from, std::vector<RegionSpec>& out) {
         reject_unknown_keys(from, region_keys, "[[region]]: ");
-        RegionSpec r{wanted(from, "name", "[[region]]", "\"palm\""), {}};
+        RegionSpec r{required(from, "name", "[[region]]", "\"palm\""), {}};
         const auto* shapes = from.get("shapes");
         if (!shapes || !shapes->is_array())
             return reject(shapes ? shapes->source() : from.source(), "[[region]]: shapes must be a list: shapes = [{capsule = ...}]");
@@ -86,8 +86,8 @@ public:
         const auto* table = node.as_table();
         if (!table) return reject(node.source(), "a site must be a table, such as {name = \"tip\", x = 0, y = 2}");
         reject_unknown_keys(*table, site_keys, "a site: ");
-        out.push_back({wanted(*table, "name", "a site", "\"tip\""), wanted(*table, "x", "a site", "0"), wanted(*table, "y", "a site", "2"),
-                       scalar(*table, "region")});
+        out.push_back({required(*table, "name", "a site", "\"tip\""), required(*table, "x", "a site", "0"),
+                       required(*table, "y", "a site", "2"), scalar(*table, "region")});
     }
 
     SitesSpec sites(const toml::node& node) {
@@ -117,7 +117,7 @@ public:
         settings(*inner, "", out);
     }
 
-    void a_class(const toml::table& from, std::vector<ClassSpec>& out) {
+    void class_spec(const toml::table& from, std::vector<ClassSpec>& out) {
         reject_unknown_keys(from, class_keys, "[[class]]: ");
         ClassSpec c;
         c.location = location_of(from.source());
@@ -141,7 +141,7 @@ SkinSpec skin_from(const toml::table& top, SkinReading& reading) {
     if (const auto* nerve = top.get("nerve")) out.nerve = reading.pair(*nerve, "nerve");
     if (const auto* sites = top.get("sites")) out.sites = reading.sites(*sites);
     reading.tables(top, "region", "each region", [&](const toml::table& one) { reading.region(one, out.regions); });
-    reading.tables(top, "class", "each class of afferents", [&](const toml::table& one) { reading.a_class(one, out.classes); });
+    reading.tables(top, "class", "each class of afferents", [&](const toml::table& one) { reading.class_spec(one, out.classes); });
     reading.named(top, "source", skin_sources, out.source);
     return out;
 }

@@ -12,7 +12,7 @@ using PositionSpec = std::vector<LocatedText>;  ///< two elements in a valid fil
 
 /// One shape of a region: { strip = [[x, y], [x, y]], width = [a, b] }.
 struct ShapeSpec {
-    LocatedText kind;  ///< "strip"; its location is that of the shape
+    LocatedText kind;  ///< "strip", with the location of the shape
     std::vector<PositionSpec> points;
     std::vector<LocatedText> width;
     OptionalLocatedText height, angle;

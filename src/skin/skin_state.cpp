@@ -15,7 +15,7 @@ namespace {
 constexpr std::array<char, 8> skin_magic = {'c', 'o', 'r', 'p', 's', 'k', '2', '\n'},
                               skin_magic_1 = {'c', 'o', 'r', 'p', 's', 'k', '1', '\n'};
 
-/// A hash of what a state belongs to: the afferents, their receptive fields and the simulation options (FNV-1a).
+/// A hash (FNV-1a) of the skin that a state belongs to: its afferents, their receptive fields and the simulation options.
 class Fingerprint {
     std::uint64_t value_ = 0xcbf29ce484222325U;
 
@@ -33,11 +33,11 @@ public:
     std::uint64_t value() const { return value_; }
 };
 
-std::uint64_t fingerprint(const Skin::Impl& held) {
+std::uint64_t fingerprint(const Skin::Impl& impl) {
     Fingerprint all;
-    const auto& skin = *held.skin;
-    all.add(held.run.dt), all.add(static_cast<int>(held.run.method)), all.add(held.run.spikes_on_samples);
-    all.add(held.part.part), all.add(held.part.parts), all.add(skin.plan.seed), all.add(skin.plan.sites.size());
+    const auto& skin = *impl.skin;
+    all.add(impl.run.dt), all.add(static_cast<int>(impl.run.method)), all.add(impl.run.spikes_on_samples);
+    all.add(impl.part.part), all.add(impl.part.parts), all.add(skin.plan.seed), all.add(skin.plan.sites.size());
     for (const auto& c : skin.plan.classes) {
         all.add(c.afferent.composition());
         for (const double v : c.afferent.values) all.add(v);
@@ -98,7 +98,7 @@ public:
 struct PackedSpike {
     std::int64_t step;
     double offset;
-    std::uint64_t unit;
+    std::uint64_t afferent;
 };
 
 /// The bytes between a state's magic number and its checksum, which is verified.
@@ -167,8 +167,8 @@ Result<void> Skin::resume(std::span<const std::byte> saved) {
     if (!from.take_list(packed) || !from.ended()) return damaged;
     std::vector<Spike> in_transit;
     for (const auto& s : packed) {
-        in_transit.push_back({s.step, s.offset, static_cast<std::uint32_t>(s.unit)});
-        if (s.unit >= h.skin->afferents.size() || !h.conduction.can_be_in_transit(in_transit.back(), step - 1)) return damaged;
+        in_transit.push_back({s.step, s.offset, static_cast<std::uint32_t>(s.afferent)});
+        if (s.afferent >= h.skin->afferents.size() || !h.conduction.can_be_in_transit(in_transit.back(), step - 1)) return damaged;
     }
     for (std::size_t c = 0; c < states.size(); ++c)
         if (auto ok = h.classes[c].population->resume(states[c]); !ok || h.classes[c].population->step() != step) return damaged;

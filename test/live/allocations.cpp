@@ -1,5 +1,5 @@
-// A live skin allocates no memory while frames are pushed, for any forces. This is a program of its own, because it replaces
-// operator new to count allocations.
+// A live skin allocates no memory while frames are pushed, for any forces. This is a separate program, because it replaces operator new to
+// count allocations.
 
 #include <atomic>
 #include <cstdio>
@@ -39,7 +39,7 @@ int main() {
         const auto skin = innervate(std::move(*plan));
         auto stream = SkinStream::make(*skin, clock);
         const double full_force =
-            (*skin)->plan.felt_area > 0 ? (*skin)->plan.sites.area / (*skin)->plan.felt_area : 1;  // N at a site with the effect of 1 N
+            (*skin)->plan.felt_area > 0 ? (*skin)->plan.sites.area / (*skin)->plan.felt_area : 1;  // N at every site: acts as 1 N
         const auto format = make_event_format("lines", make_event_addressing(**skin, clock));
         if (!stream || !format) return std::puts("refused"), 1;
         FrameDecoder decoder({FrameKind::f64, FrameStamp::none, (*stream)->sites()});
@@ -68,7 +68,7 @@ int main() {
             }
         }
         const long times = allocations - before;
-        std::printf("%s: %ld spikes, %ld bytes, memory asked for %ld times\n", population, spikes, bytes, times);
+        std::printf("%s: %ld spikes, %ld bytes, %ld allocations\n", population, spikes, bytes, times);
         if (spikes == 0) return 1;
         total += times;
     }

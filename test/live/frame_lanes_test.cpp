@@ -1,5 +1,5 @@
-// The forces of a frame are the same bits on every instruction set: scaled readings, and the last force where a reading is
-// not valid.
+// The conversion of a frame to forces gives the same bits on every instruction set. It scales readings, and keeps the last force where a
+// reading is not valid.
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// Bytes to frames, frame order, a skin frame by frame, spikes to bytes: the same however the bytes are cut into chunks.
+// The steps of a live stream: bytes to frames, the order of frames, a skin simulated frame by frame, spikes to bytes.
 
 #include <bit>
 #include <cstring>
@@ -41,7 +41,7 @@ std::string bytes_of(const EventFormat& format, std::span<const Spike> spikes) {
 
 // --- spikes to bytes
 
-TEST(Events, AreReadBackAsTheyWereWhateverTheFormat) {
+TEST(Events, AreReadBackUnchangedInEveryFormat) {
     const TemporaryFolder folder;
     EXPECT_TRUE(rc::check([&] {
         const auto clock = *rc::gen::element(Clock{1000, 1}, Clock{5200, 1}, Clock{1213, 5}, Clock{3, 7});
@@ -57,13 +57,13 @@ TEST(Events, AreReadBackAsTheyWereWhateverTheFormat) {
             spikes.push_back({step, (*rc::gen::inRange(1, 4097)) / 4096.0, static_cast<std::uint32_t>(step) % afferents});
         std::sort(spikes.begin(), spikes.end());
         for (const auto& [name, error] : {std::pair{"lines", 0.51e-9}, {"aer", 1e-12}, {"jsonl", 0.51e-9}, {"aedat2", 0.51e-6}}) {
-            // Silent for more than 71 minutes: the wrap of the time stamp cannot be detected.
+            // At such a low rate two spikes can be more than 71 minutes apart, so a wrap of the time stamp cannot be detected.
             if (name == std::string_view("aedat2") && clock.rate_numerator < 10) continue;
             const auto format = value_or_throw(make_event_format(name, named));
             const auto path = folder.write("events", format->header() + bytes_of(*format, spikes));
-            std::map<std::string, std::vector<double>> wanted;
+            std::map<std::string, std::vector<double>> expected;
             for (const auto& s : spikes)
-                wanted[format->name() == "aedat2" ? std::to_string(3 * s.afferent_index) : named.names[s.afferent_index]].push_back(
+                expected[format->name() == "aedat2" ? std::to_string(3 * s.afferent_index) : named.names[s.afferent_index]].push_back(
                     clock.time(s.step, s.offset));
             if (format->name() == "jsonl") {  // each line is a document
                 std::ifstream in(path);
@@ -78,9 +78,9 @@ TEST(Events, AreReadBackAsTheyWereWhateverTheFormat) {
                 continue;
             }
             const auto trains = value_or_throw(read_spikes(path));
-            RC_ASSERT(trains.size() == wanted.size());
+            RC_ASSERT(trains.size() == expected.size());
             for (const auto& t : trains) {
-                auto& times = wanted[t.afferent];
+                auto& times = expected[t.afferent];
                 std::sort(times.begin(), times.end());
                 RC_ASSERT(t.times.size() == times.size());
                 for (std::size_t k = 0; k < times.size(); ++k) RC_ASSERT(std::abs(t.times[k] - times[k]) < error * (1 + times[k]));
@@ -99,14 +99,14 @@ TEST(Events, MicrosecondsOfAedatWrapAfterSeventyOneMinutesAndAreUnwrapped) {
     EXPECT_NEAR(trains[0].times.back(), 9000.001, 1e-6);
 }
 
-TEST(Events, AddressesOnAGridAreTaxelTimesClassesPlusClass) {
+TEST(Events, AddressesOnChannelsAreChannelTimesClassesPlusClass) {
     const auto skin = value_or_throw(innervate(value_or_throw(make_channel_plan("sa1,fa1", 3))));
     const auto afferents = make_event_addressing(*skin, {1000, 1});
     EXPECT_EQ(afferents.names, (std::vector<std::string>{"sa1#1", "sa1#2", "sa1#3", "fa1#1", "fa1#2", "fa1#3"}));
     EXPECT_EQ(afferents.addresses, (std::vector<std::uint32_t>{0, 2, 4, 1, 3, 5}));
 }
 
-TEST(Events, LinesNameAfferentAndChannelAsRespondDoes) {
+TEST(Events, LinesNameAfferentAndChannelLikeTheOutputOfRespond) {
     const std::vector<Channel> channels = {{0, "fz"}, {1, "thumb, tip"}};
     const auto on_channels = value_or_throw(innervate(value_or_throw(make_channel_plan("sa1,fa1", channels))));
     const auto lines = [](const std::shared_ptr<const Innervation>& skin, std::uint32_t afferent, const char* format) {
@@ -151,7 +151,7 @@ TEST(Events, HeadersOfBinaryFormatsNameTheChannelOfEachAddress) {
               1U);
 }
 
-TEST(Events, FilesThatAreDamagedAreRefused) {
+TEST(Events, TruncatedFilesAreRefused) {
     const TemporaryFolder folder;
     const auto format = value_or_throw(make_event_format("aer", {Clock{1000, 1}, {"sa1#1", "sa1#2"}, {}}));
     const Spike spike{5, 0.5, 1};
@@ -195,7 +195,7 @@ Decoded decoded(const FrameLayout& layout, std::string_view bytes, const std::ve
     return out;
 }
 
-TEST(Frames, AreTheSameHoweverTheirBytesAreCutIntoChunks) {
+TEST(Frames, DoNotDependOnTheChunksInWhichTheirBytesArrive) {
     EXPECT_TRUE(rc::check([] {
         FrameLayout layout;
         layout.kind = *rc::gen::element(FrameKind::csv, FrameKind::f32, FrameKind::f64, FrameKind::i16);
@@ -209,7 +209,7 @@ TEST(Frames, AreTheSameHoweverTheirBytesAreCutIntoChunks) {
     }));
 }
 
-TEST(Frames, ALineWithTooFewOrTooManyForcesIsSkippedAndABadForceIsHeld) {
+TEST(Frames, ALineOfTheWrongWidthIsSkippedAndAnInvalidForceRepeatsTheLastOne) {
     FrameLayout layout;
     layout.sites = 2;
     const auto d = decoded(layout, "a,b\n1,2\r\n3\n1,2,3\nx,4\n# said\n\n5 ; 1e9\n nan, -.5 \n", {});
@@ -227,8 +227,8 @@ TEST(Frames, AFirstLineOfNansIsAFrame) {
 }
 
 TEST(Frames, NumbersRevealMissingDuplicateAndLateFrames) {
-    FrameSequence order(2, 10);
-    const auto decide = [&](std::uint32_t n) { return order.decide(n); };
+    FrameSequence sequence(2, 10);
+    const auto decide = [&](std::uint32_t n) { return sequence.decide(n); };
     EXPECT_TRUE(decide(4294967295U).take) << "the first number starts the sequence";
     EXPECT_EQ(decide(0).hold, 0) << "it wraps at 2^32";
     EXPECT_FALSE(decide(0).take);
@@ -236,9 +236,9 @@ TEST(Frames, NumbersRevealMissingDuplicateAndLateFrames) {
     EXPECT_EQ(gap.hold, 2);
     EXPECT_EQ(gap.release, 2);
     EXPECT_FALSE(decide(3).take);
-    EXPECT_TRUE(decide(1000).take) << "too far for a gap";
-    EXPECT_TRUE(decide(7).take) << "and back";
-    const auto& c = order.counts();
+    EXPECT_TRUE(decide(1000).take) << "too large a jump for a gap: a restart";
+    EXPECT_TRUE(decide(7).take) << "a jump back is a restart, too";
+    const auto& c = sequence.counts();
     EXPECT_EQ((std::vector{c.gaps, c.held, c.released, c.duplicates, c.late, c.restarts}), (std::vector<std::int64_t>{1, 2, 2, 1, 1, 2}));
 }
 
@@ -251,7 +251,7 @@ SkinPlan conducting_grid(std::size_t rows, std::size_t columns) {
     return plan;
 }
 
-/// [frame][site]; presses on some sites, and long silences.
+/// Frames [frame][site] of force, N: presses of 37 frames on some sites, with pauses between them.
 std::vector<std::vector<double>> some_frames(std::size_t count, std::size_t sites, std::uint64_t seed) {
     std::vector<std::vector<double>> frames(count, std::vector<double>(sites));
     for (std::size_t k = 0; k < count; ++k)
@@ -274,7 +274,7 @@ std::vector<Spike> offline(const std::shared_ptr<const Innervation>& skin, const
     return spikes;
 }
 
-TEST(SkinStream, LiveEqualsOfflineAndResumedEqualsUninterruptedByteForByte) {
+TEST(SkinStream, SpikesInBatchesAndAfterResumeEqualTheOfflineSpikesByteForByte) {
     EXPECT_TRUE(rc::check([] {
         const auto skin =
             value_or_throw(innervate(conducting_grid(*rc::gen::inRange<std::size_t>(1, 12), *rc::gen::inRange<std::size_t>(1, 12))));
@@ -286,8 +286,8 @@ TEST(SkinStream, LiveEqualsOfflineAndResumedEqualsUninterruptedByteForByte) {
             make_event_format(*rc::gen::element<std::string>("lines", "jsonl", "aer", "aedat2"), make_event_addressing(*skin, clock)));
         const auto batch_frames = *rc::gen::inRange<std::size_t>(1, 40);
         auto stream = value_or_throw(SkinStream::make(skin, clock)),
-             grouped = value_or_throw(SkinStream::make(skin, clock, false, batch_frames));
-        std::string live, in_groups;
+             batched = value_or_throw(SkinStream::make(skin, clock, false, batch_frames));
+        std::string live, in_batches;
         for (std::size_t k = 0; k < frames.size(); ++k) {
             if (k == cut) {
                 const auto restored = value_or_throw(unpack_stream(pack_stream({frames[k], 7, stream->save()}), "x"));
@@ -296,11 +296,11 @@ TEST(SkinStream, LiveEqualsOfflineAndResumedEqualsUninterruptedByteForByte) {
                 RC_ASSERT(bool(stream->resume(restored.skin)));
             }
             live += bytes_of(*format, value_or_throw(stream->push(frames[k])));
-            if (grouped->add_to_batch(frames[k])) in_groups += bytes_of(*format, value_or_throw(grouped->run_batch()));
+            if (batched->add_to_batch(frames[k])) in_batches += bytes_of(*format, value_or_throw(batched->run_batch()));
         }
         live += bytes_of(*format, stream->finish());
-        in_groups += bytes_of(*format, value_or_throw(grouped->run_batch()));
-        RC_ASSERT(in_groups + bytes_of(*format, grouped->finish()) == live);
+        in_batches += bytes_of(*format, value_or_throw(batched->run_batch()));
+        RC_ASSERT(in_batches + bytes_of(*format, batched->finish()) == live);
         RC_ASSERT(live == bytes_of(*format, offline(skin, frames)));
     }));
 }
@@ -341,12 +341,12 @@ TEST(ByteRing, PassesCompleteEventsInOrderBetweenThreads) {
         std::string received;
         std::uint32_t last = 0;
         while (last != 1'000'000) {
-            const auto size = ring.readable();
-            received.append(size), ring.consume(size.size());
+            const auto chunk = ring.readable();
+            received.append(chunk), ring.consume(chunk.size());
             for (; received.size() >= sizeof last; received.erase(0, sizeof last)) {
                 std::uint32_t number = 0;
                 std::memcpy(&number, received.data(), sizeof number);
-                if (number <= last) return;  // out of order: the test never sees `done`
+                if (number <= last) return;  // out of order: `next` stays 0, and the test fails
                 last = number;
             }
         }
@@ -359,7 +359,7 @@ TEST(ByteRing, PassesCompleteEventsInOrderBetweenThreads) {
     EXPECT_EQ(next, 1'000'000U);
 }
 
-TEST(EventSink, AReaderIsReconnectedThoughTheNameServiceIsGone) {
+TEST(EventSink, AReaderIsReconnectedWithoutTheNameService) {
     Endpoint at;
     auto listener = value_or_throw(open_listening_socket(at));
     const auto accepted = [&] {
@@ -368,7 +368,7 @@ TEST(EventSink, AReaderIsReconnectedThoughTheNameServiceIsGone) {
         return Descriptor(::accept(listener.get(), nullptr, nullptr));
     };
     auto to = value_or_throw(resolve(at));
-    to.at.address = "robot.invalid";  // no name service knows it
+    to.at.address = "robot.invalid";  // a name that cannot be resolved
     const auto format = value_or_throw(make_event_format("lines", {Clock{1000, 1}, {"a"}, {}}));
     const auto client = value_or_throw(connect_event_client(to, *format, 1024));
     accepted().close();
@@ -382,7 +382,7 @@ TEST(EventSink, AReaderIsReconnectedThoughTheNameServiceIsGone) {
         std::this_thread::sleep_for(std::chrono::milliseconds(5));
     }
     EXPECT_EQ(client->connections(), 2);
-    EXPECT_LT(longest_call, 1'000'000'000) << "no call waits";
+    EXPECT_LT(longest_call, 1'000'000'000) << "ns; no call may block";
     EXPECT_GT(client->dropped(), 0);
     accepted().close();
 }
@@ -411,7 +411,7 @@ TEST(CHeader, GivesThePositionOfEachSite) {
 
 // --- frames with fewer forces than sites
 
-/// Frames 1, 2, 3 ... of two forces each: {1, 10}, {2, 20} ...
+/// Frame k has the two forces {k, 10 k}. Frame 3 is a filled one.
 class CountedFrames final : public FrameSource {
     int frame_count_ = 0;
 
@@ -420,13 +420,13 @@ public:
     FrameCounts counts() const override { return {.frames = frame_count_}; }
     std::string description() const override { return "counted"; }
     Next next(std::span<double> force) override {
-        if (++frame_count_ == 3) return Next::filled;  // holds the last frame
+        if (++frame_count_ == 3) return Next::filled;  // repeats the last frame
         force[0] = frame_count_, force[1] = 10.0 * frame_count_;
         return Next::frame;
     }
 };
 
-TEST(SiteFrames, GiveEachForceToItsSiteAndNoneToTheOthers) {
+TEST(SiteFrames, AssignEachForceToItsSiteAndNoForceToOthers) {
     const auto frames = assign_sites(std::make_unique<CountedFrames>(), {4, 1}, 6);
     std::vector<double> force(6);
     EXPECT_EQ(frames->next(force), FrameSource::Next::frame);
@@ -436,13 +436,13 @@ TEST(SiteFrames, GiveEachForceToItsSiteAndNoneToTheOthers) {
     EXPECT_EQ(force, (std::vector<double>{0, 20, 0, 0, 2, 0}));
 }
 
-TEST(SiteFrames, OfAllSitesInOrderAreTheFramesThemselves) {
+TEST(SiteFrames, AreNotWrappedIfAllSitesAreInOrder) {
     auto numbered = std::make_unique<CountedFrames>();
     const auto* const same = numbered.get();
     EXPECT_EQ(assign_sites(std::move(numbered), {0, 1}, 2).get(), same);
 }
 
-TEST(SiteMap, ReadsWhichSiteEachNumberOfAFrameIs) {
+TEST(SiteMap, AssignsASiteToEachValueOfAFrame) {
     const TemporaryFolder folder;
     const auto sites = value_or_throw(grid_sites(2, 3, 2e-3));
     const auto map = [&](const std::string& text) { return read_site_map(folder.write("palm.csv", text), sites); };
@@ -463,7 +463,7 @@ TEST(SiteMap, ReadsWhichSiteEachNumberOfAFrameIs) {
     }
 }
 
-TEST(SiteMap, EitherAllNamesOrNoneAreSites) {
+TEST(SiteMap, RequiresThatAllNamesOrNoneAreSites) {
     const auto sites = value_or_throw(grid_sites(2, 2, 2e-3));
     using Names = std::vector<std::string>;
     const auto found = [&](const Names& names) { return find_sites_if_named(sites, names); };
@@ -518,7 +518,7 @@ TEST(CHeader, ReportsErrorsAndResumesASavedState) {
     corpuscle_destroy(one), corpuscle_destroy(other), corpuscle_destroy(nullptr);
 }
 
-TEST(CHeader, TakesSettingsOfAPopulationsClasses) {
+TEST(CHeader, AppliesSettingsToTheClassesOfAPopulation) {
     char error[400];
     const auto spikes = [&](std::vector<const char*> settings) {
         auto* skin = corpuscle_create_with("grid 2x2", 1000, 1, settings.data(), settings.size(), error, sizeof error);

@@ -1,5 +1,6 @@
 #pragma once
-// Runs corpuscle stream as a child process, with its pipes and sockets held by the test. Included by stream_program_test.cpp alone.
+// Runs corpuscle stream as a child process; the test owns the other ends of its pipes and sockets. Included only by
+// stream_program_test.cpp.
 
 #include <arpa/inet.h>
 #include <fcntl.h>
@@ -20,7 +21,7 @@ namespace {
 
 using test::TemporaryFolder;
 
-/// The running program. The test holds its standard input and output; standard error goes to a file.
+/// The running program. `in` and `out` are the test's ends of its standard input and output; standard error goes to a file.
 class Child {
     pid_t pid_ = -1;
     std::string err_;
@@ -33,7 +34,7 @@ public:
         if (::pipe2(to, O_CLOEXEC) != 0 || ::pipe2(from, O_CLOEXEC) != 0) throw std::runtime_error("no pipe");
         options.insert(options.begin(), {test::program_path(), "stream"});
         std::vector<char*> arguments;
-        for (auto& w : options) arguments.push_back(w.data());
+        for (auto& option : options) arguments.push_back(option.data());
         arguments.push_back(nullptr);
         std::ofstream(err_).close();
         pid_ = test::fork_child();
@@ -68,7 +69,7 @@ public:
         for (ssize_t count = 0; (count = ::read(out, chunk, sizeof chunk)) > 0;) all.append(chunk, static_cast<std::size_t>(count));
         return all;
     }
-    /// The exit status; -1 if it hangs, 128 + signal if a signal ended it.
+    /// The exit status; 128 + signal if a signal ended the program, -1 if it has not ended after 10 s.
     int wait() {
         for (int k = 0; k < 2000; ++k) {
             int status = 0;
@@ -122,6 +123,7 @@ std::pair<int, int> listen_on(int port = 0) {
     return {fd, ntohs(at.sin_port)};
 }
 
+/// Frames of one force, one per line, from number `first` on: 0 N, then 2 N, with a period of 400 frames.
 std::string force_lines(int count, int first = 0) {
     std::string text;
     for (int k = first; k < first + count; ++k) text += std::to_string(k % 400 < 100 ? 0 : 2) + "\n";

@@ -1,4 +1,4 @@
-// corpuscle stream with real pipes and sockets and their failures: it never crashes or hangs, and counts and reports all losses.
+// corpuscle stream with real pipes, sockets and their failures: it never crashes or hangs, and counts and reports all losses.
 
 #include <netinet/tcp.h>
 #include <poll.h>
@@ -19,14 +19,14 @@ namespace {
 
 using test::value_or_throw;
 
-TEST(StreamProgram, GivesTheSameSpikesForChunksAndRespondsToEachFrameAtOnce) {
+TEST(StreamProgram, GivesTheSameSpikesForAnyChunksAndRespondsImmediately) {
     ignore_broken_pipes();
     const TemporaryFolder folder;
     Child undivided(folder, with_base_options({"--quiet"}));
     undivided.send(force_lines(1000)), undivided.close_in();
-    const auto wanted = undivided.read_out();
+    const auto expected = undivided.read_out();
     EXPECT_EQ(undivided.wait(), 0);
-    EXPECT_GT(wanted.size(), 300U);
+    EXPECT_GT(expected.size(), 300U);
     Child chunked(folder, with_base_options({"--quiet"}));
     const auto lines = force_lines(1000);
     chunked.send(lines.substr(0, 401)), chunked.send(lines.substr(401, 2));
@@ -34,7 +34,7 @@ TEST(StreamProgram, GivesTheSameSpikesForChunksAndRespondsToEachFrameAtOnce) {
     EXPECT_EQ(::poll(&spikes, 1, 10000), 1) << "spikes arrive before the last frames are sent";
     for (std::size_t at = 403; at < lines.size(); at += 7) chunked.send(lines.substr(at, 7));
     chunked.close_in();
-    EXPECT_EQ(chunked.read_out(), wanted);
+    EXPECT_EQ(chunked.read_out(), expected);
     EXPECT_EQ(chunked.wait(), 0);
 }
 
@@ -51,7 +51,7 @@ TEST(StreamProgram, AStateSavedOnCtrlCIsResumedExactly) {
         ::ioctl(first.in, FIONREAD, &unread);
         std::this_thread::sleep_for(std::chrono::milliseconds(5));
     }
-    std::this_thread::sleep_for(std::chrono::milliseconds(100));  // ... and its frame processed
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));  // until the frames that have been read are processed
     first.interrupt();
     EXPECT_EQ(first.wait(), 130) << first.error_text();
     EXPECT_NE(first.error_text().find("700 frames (700 ms of force)"), std::string::npos) << first.error_text();
@@ -62,11 +62,11 @@ TEST(StreamProgram, AStateSavedOnCtrlCIsResumedExactly) {
     EXPECT_EQ(test::read_file(folder / "first.aer") + test::read_file(folder / "second.aer").substr(header),
               test::read_file(folder / "whole.aer"));
     Child other(folder, {"--rate", "2kHz", "--resume", folder / "now.state"});
-    EXPECT_EQ(other.wait(), 1) << "another rate";
+    EXPECT_EQ(other.wait(), 1) << "a state saved at another rate";
     EXPECT_NE(other.error_text().find("now.state: "), std::string::npos) << other.error_text();
 }
 
-TEST(StreamProgram, GarbageWrongWidthsAndHalfAFrameAreCountedAndReported) {
+TEST(StreamProgram, InvalidBytesWrongWidthsAndIncompleteFramesAreCountedAndReported) {
     ignore_broken_pipes();
     const TemporaryFolder folder;
     Child text(folder, with_base_options({"--channels", "2", "--out", "/dev/null"}));
@@ -77,7 +77,7 @@ TEST(StreamProgram, GarbageWrongWidthsAndHalfAFrameAreCountedAndReported) {
         EXPECT_NE(text.error_text().find(message), std::string::npos) << message << "\n" << text.error_text();
     Child binary(folder,
                  with_base_options({"--channels", "3", "--frames", "f64", "--stamp", "sequence", "--out", folder / "s.csv", "--json"}));
-    std::string bytes(100 * 28 + 5, '\xff');  // NaN everywhere, and the frame number is always the same
+    std::string bytes(100 * 28 + 5, '\xff');  // all forces are NaN, and all frame numbers are equal
     binary.send(bytes), binary.close_in();
     const auto doc = nlohmann::json::parse(binary.read_out());
     EXPECT_EQ(binary.wait(), 0);
@@ -108,17 +108,17 @@ TEST(StreamProgram, AThousandClientsOneAfterAnotherSendTheirFrames) {
 TEST(StreamProgram, FramesInBatchesGiveTheSpikesOfSingleFrames) {
     ignore_broken_pipes();
     const TemporaryFolder folder;
-    std::vector<float> frames;  // 0.6 s of 1000 forces; the last are too few for a batch
+    std::vector<float> frames;  // 600 frames of 1000 forces; the last 8 are too few for a batch
     for (int k = 0; k < 600; ++k)
         for (int s = 0; s < 1000; ++s) frames.push_back(k % 200 < 50 ? 0.0F : 0.002F * static_cast<float>(s));
     const std::string_view bytes(reinterpret_cast<const char*>(frames.data()), frames.size() * sizeof(float));
     const std::vector<std::string> options = {"--channels", "1000", "--frames", "f32", "--format", "aer", "--quiet"};
     Child unbatched(folder, with_base_options(options));
     std::thread feeding([&] { unbatched.send(bytes), unbatched.close_in(); });
-    const auto wanted = unbatched.read_out();
+    const auto expected = unbatched.read_out();
     feeding.join();
     EXPECT_EQ(unbatched.wait(), 0) << unbatched.error_text();
-    EXPECT_GT(wanted.size(), 50000U);
+    EXPECT_GT(expected.size(), 50000U);
     auto batch_options = options;
     batch_options.insert(batch_options.end(), {"--batch-frames", "16", "--clients", "1", "--in", "tcp:0"});
     batch_options.erase(std::find(batch_options.begin(), batch_options.end(), "--quiet"));
@@ -129,13 +129,13 @@ TEST(StreamProgram, FramesInBatchesGiveTheSpikesOfSingleFrames) {
             EXPECT_GT(::send(fd, bytes.data() + at, std::min<std::size_t>(333'333, bytes.size() - at), 0), 0);
         ::close(fd);
     });
-    EXPECT_EQ(child.read_out(), wanted);
+    EXPECT_EQ(child.read_out(), expected);
     sending.join();
     EXPECT_EQ(child.wait(), 0) << child.error_text();
     EXPECT_NE(child.error_text().find("600 frames (600 ms of force)"), std::string::npos) << child.error_text();
 }
 
-TEST(StreamProgram, FramesTooFewForABatchAreProcessedWhenItIsInterrupted) {
+TEST(StreamProgram, AnIncompleteBatchIsProcessedAtAnInterrupt) {
     ignore_broken_pipes();
     const TemporaryFolder folder;
     Child child(folder,
@@ -148,24 +148,24 @@ TEST(StreamProgram, FramesTooFewForABatchAreProcessedWhenItIsInterrupted) {
         std::this_thread::sleep_for(std::chrono::milliseconds(2));
         ::ioctl(fd, TIOCOUTQ, &unacknowledged);
     }
-    std::this_thread::sleep_for(std::chrono::milliseconds(100));  // ... and its sender accepted
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));  // until the sender has been accepted
     child.interrupt();
     EXPECT_EQ(child.wait(), 130) << child.error_text();
     EXPECT_NE(child.error_text().find("5 frames (5 ms of force)"), std::string::npos) << child.error_text();
     ::close(fd);
 }
 
-TEST(StreamProgram, ASerialLineIsReadAsRawBytesUntilItHangsUp) {
+TEST(StreamProgram, ASerialLineIsReadAsRawBytesUntilItIsDisconnected) {
     ignore_broken_pipes();
     const TemporaryFolder folder;
     int far = -1, near = -1;
     char name[128];
     if (::openpty(&far, &near, name, nullptr, nullptr) != 0) GTEST_SKIP() << test::no_pseudo_terminals;
     ::fcntl(far, F_SETFD, FD_CLOEXEC), ::fcntl(near, F_SETFD, FD_CLOEXEC);
-    Child undivided(folder, with_base_options({"--quiet"}));
-    undivided.send(force_lines(500)), undivided.close_in();
-    const auto wanted = undivided.read_out();
-    EXPECT_EQ(undivided.wait(), 0);
+    Child by_pipe(folder, with_base_options({"--quiet"}));
+    by_pipe.send(force_lines(500)), by_pipe.close_in();
+    const auto expected = by_pipe.read_out();
+    EXPECT_EQ(by_pipe.wait(), 0);
     Child child(folder, with_base_options({"--in", std::string("serial:") + name, "--baud", "115200"}));
     ASSERT_TRUE(child.wait_for_text("serial line")) << child.error_text();
     const auto lines = force_lines(500);
@@ -174,14 +174,14 @@ TEST(StreamProgram, ASerialLineIsReadAsRawBytesUntilItHangsUp) {
         EXPECT_EQ(::write(far, chunk.data(), chunk.size()), static_cast<ssize_t>(chunk.size()));
     }
     std::string received;
-    char some[4096];
-    for (pollfd there = {child.out, POLLIN, 0}; received.size() < wanted.size() && ::poll(&there, 1, 10000) == 1;)
-        received.append(some, static_cast<std::size_t>(::read(child.out, some, sizeof some)));
-    EXPECT_EQ(received, wanted);
-    termios ways = {};
-    EXPECT_EQ(::tcgetattr(near, &ways), 0);
-    EXPECT_EQ(::cfgetispeed(&ways), static_cast<speed_t>(B115200));
-    EXPECT_EQ(ways.c_lflag & static_cast<tcflag_t>(ICANON | ECHO), 0U) << "the terminal interprets no byte of a frame";
+    char chunk[4096];
+    for (pollfd spikes = {child.out, POLLIN, 0}; received.size() < expected.size() && ::poll(&spikes, 1, 10000) == 1;)
+        received.append(chunk, static_cast<std::size_t>(::read(child.out, chunk, sizeof chunk)));
+    EXPECT_EQ(received, expected);
+    termios settings = {};
+    EXPECT_EQ(::tcgetattr(near, &settings), 0);
+    EXPECT_EQ(::cfgetispeed(&settings), static_cast<speed_t>(B115200));
+    EXPECT_EQ(settings.c_lflag & static_cast<tcflag_t>(ICANON | ECHO), 0U) << "the terminal interprets no byte of a frame";
     ::close(near), ::close(far);  // the device is unplugged
     EXPECT_EQ(child.wait(), 0) << child.error_text();
     EXPECT_NE(child.error_text().find("500 frames (500 ms of force)"), std::string::npos) << child.error_text();
@@ -198,7 +198,7 @@ TEST(StreamProgram, ASlowReaderLosesCompleteEventsAndNeverDelaysTheForce) {
     }
     child.close_in();
     const auto bytes = child.read_out();
-    EXPECT_EQ(child.wait(), 1) << "spikes that were left out are an error";
+    EXPECT_EQ(child.wait(), 1) << "dropped spikes are an error";
     EXPECT_NE(child.error_text().find("--allow-drops"), std::string::npos) << child.error_text();
     EXPECT_NE(child.error_text().find("20000 frames (20 s of force)"), std::string::npos) << child.error_text();
     EXPECT_NE(child.error_text().find("dropped: the receiver was too slow"), std::string::npos) << child.error_text();
@@ -206,7 +206,7 @@ TEST(StreamProgram, ASlowReaderLosesCompleteEventsAndNeverDelaysTheForce) {
     EXPECT_EQ(read.size(), 128U) << "every received event is complete";
 }
 
-TEST(StreamProgram, AReaderThatDisconnectsIsReportedAndEndsIt) {
+TEST(StreamProgram, AReaderThatDisconnectsIsReportedAndEndsTheStream) {
     ignore_broken_pipes();
     const TemporaryFolder folder;
     Child child(folder, with_base_options({}));
@@ -234,17 +234,17 @@ TEST(StreamProgram, AReaderMayDisconnectAndReconnect) {
     char head[24] = {};
     child.send(force_lines(400));
     EXPECT_EQ(::recv(reader, head, sizeof head, MSG_WAITALL), 24);
-    EXPECT_EQ(std::string_view(head, 24), "afferent,channel,time_s\n") << "the header, again";
+    EXPECT_EQ(std::string_view(head, 24), "afferent,channel,time_s\n") << "the header is sent again";
     child.close_in();
     EXPECT_EQ(child.wait(), 0) << child.error_text();
     EXPECT_NE(child.error_text().find("2 connections"), std::string::npos) << child.error_text();
     ::close(reader), ::close(listener);
-    Child unbatched(folder, with_base_options({"--to", std::to_string(port)}));
-    EXPECT_EQ(unbatched.wait(), 1);
-    EXPECT_NE(unbatched.error_text().find("cannot connect to 127.0.0.1:"), std::string::npos) << unbatched.error_text();
+    Child without_reader(folder, with_base_options({"--to", std::to_string(port)}));
+    EXPECT_EQ(without_reader.wait(), 1);
+    EXPECT_NE(without_reader.error_text().find("cannot connect to 127.0.0.1:"), std::string::npos) << without_reader.error_text();
 }
 
-TEST(StreamProgram, GapsDuplicatesAndLateFramesKeepTheSamplesTime) {
+TEST(StreamProgram, GapsDuplicatesAndLateFramesDoNotShiftTheTime) {
     ignore_broken_pipes();
     const TemporaryFolder folder;
     const auto run = [&](const std::string& text, const std::string& hold) {
@@ -254,26 +254,26 @@ TEST(StreamProgram, GapsDuplicatesAndLateFramesKeepTheSamplesTime) {
         EXPECT_EQ(child.wait(), 0);
         return std::pair(out, child.error_text());
     };
-    std::string undivided, torn;
+    std::string complete, with_gaps;
     for (int k = 0; k < 600; ++k) {
         const auto line = std::to_string(k) + "," + std::to_string(k / 100) + "\n";
-        undivided += line;
-        if (k % 100 < 20 || k % 100 > 60) torn += line;
-        if (k % 100 == 80) torn += line + std::to_string(k - 5) + ",7\n";
+        complete += line;
+        if (k % 100 < 20 || k % 100 > 60) with_gaps += line;
+        if (k % 100 == 80) with_gaps += line + std::to_string(k - 5) + ",7\n";
     }
-    const auto [wanted, quiet] = run(undivided, "1s");
-    const auto [received, errors] = run(torn, "1s");
-    EXPECT_EQ(received, wanted) << "a force that does not change is held";
+    const auto [expected, no_errors] = run(complete, "1s");
+    const auto [received, errors] = run(with_gaps, "1s");
+    EXPECT_EQ(received, expected) << "the force is constant during each gap, so the last force replaces the missing frames";
     EXPECT_GT(received.size(), 300U);
     for (const auto* message :
          {"6 gaps: 246 frames filled by the last force, 0 by zero force", "6 duplicate frames ignored", "6 late frames ignored"})
         EXPECT_NE(errors.find(message), std::string::npos) << errors;
-    EXPECT_NE(run(torn, "10ms").second.find("60 frames filled by the last force, 186 by zero force"), std::string::npos);
+    EXPECT_NE(run(with_gaps, "10ms").second.find("60 frames filled by the last force, 186 by zero force"), std::string::npos);
 }
 
 // --- no event is dropped where frames can wait
 
-/// Noise at every site gives many spikes from few frames.
+/// A recording whose force changes at every sample and channel, which gives many spikes from few frames.
 std::string noisy_recording(int samples, int channels) {
     std::string text;
     for (int c = 0; c < channels; ++c) text += (c > 0 ? ",f" : "f") + std::to_string(c) + "_N";
@@ -285,7 +285,7 @@ std::string noisy_recording(int samples, int channels) {
     return text;
 }
 
-TEST(StreamProgram, ARecordingToAFileDropsNoSpikeHoweverSmallTheBuffer) {
+TEST(StreamProgram, ARecordingToAFileDropsNoSpikeWithASmallBuffer) {
     ignore_broken_pipes();
     const TemporaryFolder folder;
     const auto recording = folder.write("touch.csv", noisy_recording(3000, 8));
@@ -297,16 +297,16 @@ TEST(StreamProgram, ARecordingToAFileDropsNoSpikeHoweverSmallTheBuffer) {
         const auto doc = nlohmann::json::parse(ran.out);
         EXPECT_EQ(doc["events"]["dropped"], 0);
         EXPECT_EQ(doc["events"]["undelivered"], 0);
-        EXPECT_TRUE(doc["input_rate_Hz"].is_null()) << "a recording at --pace fast has no pace";
+        EXPECT_TRUE(doc["input_rate_Hz"].is_null()) << "with --pace fast there is no input rate";
         return doc["spikes"].get<std::size_t>();
     };
     const auto count = spikes("small.aer", "1k");
-    EXPECT_GT(count * 16, 100'000U) << "far more than the buffer holds";
+    EXPECT_GT(count * 16, 100'000U) << "many times the size of the buffer, in bytes";
     EXPECT_EQ(spikes("large.aer", "100M"), count);
     EXPECT_EQ(test::read_file(folder / "small.aer"), test::read_file(folder / "large.aer"));
 }
 
-TEST(StreamProgram, ARecordingWaitsForAReaderThatIsSlow) {
+TEST(StreamProgram, ARecordingWaitsForASlowReader) {
     ignore_broken_pipes();
     const TemporaryFolder folder;
     const auto recording = folder.write("touch.csv", noisy_recording(3000, 8));
@@ -324,12 +324,12 @@ TEST(StreamProgram, ARecordingWaitsForAReaderThatIsSlow) {
     EXPECT_EQ(again.read_out(), bytes);
     EXPECT_EQ(again.wait(), 0);
     Child stopped(folder, options);
-    std::this_thread::sleep_for(std::chrono::milliseconds(200));  // it waits for this test
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));  // the stream now waits for this test to read
     stopped.interrupt();
     EXPECT_EQ(stopped.wait(), 130) << "a reader that reads nothing does not delay Ctrl-C: " << stopped.error_text();
 }
 
-TEST(StreamProgram, AFileOnStandardInputIsWaitedForAsARecordingIs) {
+TEST(StreamProgram, AFileOnStandardInputWaitsForTheWriterLikeARecording) {
     const TemporaryFolder folder;
     std::string frames;
     for (int k = 0; k < 20000; ++k) frames += std::to_string((k * 7) % 5) + "\n";
@@ -338,10 +338,10 @@ TEST(StreamProgram, AFileOnStandardInputIsWaitedForAsARecordingIs) {
     EXPECT_EQ(ran.status, 0) << ran.err;
     EXPECT_EQ(ran.err.find("dropped"), std::string::npos) << ran.err;
     EXPECT_EQ(ran.err.find("ignored"), std::string::npos) << ran.err;
-    EXPECT_EQ(ran.err.find("input rate"), std::string::npos) << "a file has no pace: " << ran.err;
+    EXPECT_EQ(ran.err.find("input rate"), std::string::npos) << "a file has no input rate: " << ran.err;
 }
 
-TEST(StreamProgram, FramesInBulkHaveNoPaceAndFramesByAClockHaveOne) {
+TEST(StreamProgram, OnlyFramesThatArriveOneByOneHaveAnInputRate) {
     ignore_broken_pipes();
     const TemporaryFolder folder;
     Child bulk(folder, with_base_options({"--json", "-o", folder / "a.csv"}));
@@ -391,7 +391,7 @@ TEST(StreamProgram, ARecordingIsReadWithTheOptionsAndWarningsOfRespond) {
 
 // --- frames of another width
 
-TEST(StreamProgram, TheFirstFrameOfAnotherWidthGivesTheExpectedWidth) {
+TEST(StreamProgram, TheErrorForTheFirstFrameOfTheWrongWidthNamesTheExpectedWidth) {
     ignore_broken_pipes();
     const TemporaryFolder folder;
     Child child(folder, {"--population", "fingertip", "--rate", "1kHz"});
@@ -418,7 +418,7 @@ TEST(StreamProgram, TheFirstFrameOfAnotherWidthGivesTheExpectedWidth) {
 
 // --- names in the header
 
-/// Half a second of 3 N at one site of a grid of four, with columns in this order.
+/// Frames of a grid of four sites, with this header: 50 ms without force, then 3 N in one column, 0.5 s in total.
 std::string pressed(const std::string& header, std::size_t column) {
     std::string text = header + "\n";
     for (int k = 0; k < 500; ++k)
@@ -444,13 +444,13 @@ TEST(StreamProgram, NamesInTheHeaderDetermineTheSiteOfEachColumn) {
     EXPECT_NE(in_order.find("sa1#3,"), std::string::npos) << in_order;
     EXPECT_EQ(spikes_of(pressed("r2c2_N,r2c1_N,r1c1_N,r1c2_N", 1)), in_order);
     EXPECT_EQ(spikes_of(pressed("\"r2c1\";r2c2;r1c1;r1c2", 0)), in_order);
-    EXPECT_EQ(spikes_of(pressed("north,east,south,west", 2)), in_order) << "no names of sites: in order";
+    EXPECT_EQ(spikes_of(pressed("north,east,south,west", 2)), in_order) << "no name is a site, so the columns are the sites in order";
     folder.write("turned.csv", "channel,name\n1,r2c1\n2,r1c1\n3,r1c2\n4,r2c2\n");
     EXPECT_EQ(spikes_of(pressed("a,b,c,d", 0), {"--layout", folder / "turned.csv"}), in_order);
     EXPECT_EQ(spikes_of(pressed("r2c1,r1c1,r1c2,r2c2", 0), {"--layout", folder / "turned.csv"}), in_order);
 }
 
-TEST(StreamProgram, AHeaderThatNamesNoSiteOrOneTwiceOrAnotherThanTheLayoutIsRefused) {
+TEST(StreamProgram, AHeaderWithAnUnknownOrRepeatedSiteOrThatContradictsTheLayoutIsRefused) {
     ignore_broken_pipes();
     const TemporaryFolder folder;
     folder.write("turned.csv", "channel,name\n1,r2c1\n2,r1c1\n3,r1c2\n4,r2c2\n");
@@ -468,7 +468,7 @@ TEST(StreamProgram, AHeaderThatNamesNoSiteOrOneTwiceOrAnotherThanTheLayoutIsRefu
     refused("r1c1,r1c2,r2c1,r2c2", "column 1 is site 'r1c1' in the header, but 'r2c1' in", {"--layout", folder / "turned.csv"});
 }
 
-TEST(StreamProgram, OneSenderOfSeveralWithAWrongHeaderEndsNothing) {
+TEST(StreamProgram, AWrongHeaderOfOneSenderDoesNotEndTheStreamOfOthers) {
     ignore_broken_pipes();
     const TemporaryFolder folder;
     auto options = small_grid;
@@ -489,7 +489,7 @@ TEST(StreamProgram, OneSenderOfSeveralWithAWrongHeaderEndsNothing) {
     EXPECT_EQ(spikes.find("sa1#1,"), std::string::npos) << spikes;
 }
 
-TEST(StreamProgram, ChannelsOfARecordingGoToTheSitesOfTheirNamesOrAreRefused) {
+TEST(StreamProgram, ChannelsOfARecordingAreAssignedToTheSitesOfTheirNamesOrRefused) {
     ignore_broken_pipes();
     const TemporaryFolder folder;
     const auto recorded = [&](const std::string& header) {
@@ -498,10 +498,10 @@ TEST(StreamProgram, ChannelsOfARecordingGoToTheSitesOfTheirNamesOrAreRefused) {
         folder.write("x.csv", text);
         return test::run_program(folder, "stream --in x.csv --population 'grid 2x2' --pace fast");
     };
-    const auto in_order = recorded("r1c1,r1c2,r2c1,r2c2"), reversed = recorded("r2c2,r2c1,r1c1,r1c2"), free = recorded("a,b,c,d");
+    const auto in_order = recorded("r1c1,r1c2,r2c1,r2c2"), reversed = recorded("r2c2,r2c1,r1c1,r1c2"), other_names = recorded("a,b,c,d");
     EXPECT_NE(in_order.out.find("sa1#1,"), std::string::npos) << in_order.err;
     EXPECT_NE(reversed.out.find("sa1#4,"), std::string::npos) << reversed.err;
-    EXPECT_EQ(free.out, in_order.out);
+    EXPECT_EQ(other_names.out, in_order.out);
     for (const auto& [header, message] :
          {std::pair{"r2c2,r2c1,r2c2,r1c2", "x: two channels have the name 'r2c2', which is one site; --layout FILE"},
           {"r2c2,r2cl,r1c1,r1c2", "x: there is no site 'r2cl'; did you mean 'r2c1'"}}) {
@@ -513,12 +513,12 @@ TEST(StreamProgram, ChannelsOfARecordingGoToTheSitesOfTheirNamesOrAreRefused) {
         EXPECT_NE(at_once.err.find(message), std::string::npos) << at_once.err;
     }
     folder.write("x.csv", "time_s,fz_N,fz_N\n0,0,0\n0.001,1,2\n0.002,1,2\n");
-    EXPECT_EQ(test::run_program(folder, "stream --in x.csv --population sa1 --pace fast -q").status, 0) << "they are fz and fz (2)";
+    EXPECT_EQ(test::run_program(folder, "stream --in x.csv --population sa1 --pace fast -q").status, 0) << "the names are fz and fz (2)";
 }
 
 // --- settings
 
-TEST(StreamProgram, ClassesOfAPopulationCanBeSet) {
+TEST(StreamProgram, ParametersOfTheClassesOfAPopulationCanBeSet) {
     const TemporaryFolder folder;
     const auto recording = folder.write("touch.csv", noisy_recording(2000, 4));
     const auto spikes = [&](const std::string& settings) {
@@ -535,7 +535,7 @@ TEST(StreamProgram, ClassesOfAPopulationCanBeSet) {
 
 // --- senders on a network
 
-TEST(StreamProgram, FramesSentBeforeAnInterruptAreProcessedAlsoThoseInTheSocket) {
+TEST(StreamProgram, AllFramesSentBeforeAnInterruptAreProcessedEvenIfStillInTheSocket) {
     ignore_broken_pipes();
     const TemporaryFolder folder;
     Child child(folder, with_base_options({"--in", "tcp:0", "--json", "-o", folder / "s.csv"}));
@@ -555,7 +555,7 @@ TEST(StreamProgram, FramesSentBeforeAnInterruptAreProcessedAlsoThoseInTheSocket)
     EXPECT_EQ(doc["input"]["bytes_unread"], 0);
 }
 
-TEST(StreamProgram, AnIdleSenderIsReplacedByTheNextIfThereIsOne) {
+TEST(StreamProgram, AnIdleSenderIsReplacedWhenAnotherConnects) {
     ignore_broken_pipes();
     const TemporaryFolder folder;
     Child child(folder,
@@ -574,7 +574,6 @@ TEST(StreamProgram, AnIdleSenderIsReplacedByTheNextIfThereIsOne) {
     ::close(silent);
 }
 
-/// The seconds of silence after which the system probes a connection, as the child process set them.
 TEST(Network, ALostPeerIsDetectedWithinSecondsNotHours) {
     const int fd = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
     enable_keepalive(fd);
@@ -601,11 +600,11 @@ void send_datagram(int fd, std::string_view text) { EXPECT_EQ(::send(fd, text.da
 TEST(StreamProgram, FramesInDatagramsGiveTheSpikesOfFramesInAPipe) {
     ignore_broken_pipes();
     const TemporaryFolder folder;
-    Child undivided(folder, with_base_options({"--quiet"}));
-    undivided.send(force_lines(600)), undivided.close_in();
-    const auto wanted = undivided.read_out();
-    EXPECT_EQ(undivided.wait(), 0);
-    EXPECT_GT(wanted.size(), 200U);
+    Child by_pipe(folder, with_base_options({"--quiet"}));
+    by_pipe.send(force_lines(600)), by_pipe.close_in();
+    const auto expected = by_pipe.read_out();
+    EXPECT_EQ(by_pipe.wait(), 0);
+    EXPECT_GT(expected.size(), 200U);
     Child child(folder, with_base_options({"--in", "udp:0", "--clients", "1"}));
     const int fd = datagrams_to(child.port());
     for (int k = 0; k < 600; k += 3) {
@@ -614,30 +613,30 @@ TEST(StreamProgram, FramesInDatagramsGiveTheSpikesOfFramesInAPipe) {
         if (k % 60 == 0) std::this_thread::sleep_for(std::chrono::milliseconds(2));
     }
     send_datagram(fd, "");  // marks the end
-    EXPECT_EQ(child.read_out(), wanted);
+    EXPECT_EQ(child.read_out(), expected);
     EXPECT_EQ(child.wait(), 0) << child.error_text();
     EXPECT_NE(child.error_text().find("600 frames (600 ms of force)"), std::string::npos) << child.error_text();
     ::close(fd);
 }
 
-TEST(StreamProgram, NumberedDatagramsKeepTheirTimeAndOnlyOneSenderIsAccepted) {
+TEST(StreamProgram, NumberedDatagramsKeepTheirTimeAndOneSenderIsAcceptedAtATime) {
     ignore_broken_pipes();
     const TemporaryFolder folder;
     Child child(folder, with_base_options({"--in", "udp:0", "--clients", "1", "--stamp", "sequence", "--frames", "f64", "--json", "-o",
                                            folder / "s.csv"}));
-    const int port = child.port(), fd = datagrams_to(port), stranger = datagrams_to(port);
+    const int port = child.port(), fd = datagrams_to(port), other_sender = datagrams_to(port);
     const auto frame = [](std::uint32_t number, double force) {
         std::string bytes(12, '\0');
         std::memcpy(bytes.data(), &number, 4), std::memcpy(bytes.data() + 4, &force, 8);
         return bytes;
     };
     send_datagram(fd, frame(0, 1));
-    send_datagram(stranger, frame(1, 1));
+    send_datagram(other_sender, frame(1, 1));
     send_datagram(fd, frame(4, 1) + frame(5, 1));
     send_datagram(fd, frame(3, 1));                        // late
-    send_datagram(fd, frame(5, 1));                        // twice
-    send_datagram(fd, frame(6, 1).substr(0, 11));          // cut short
-    send_datagram(fd, frame(7, 1) + std::string(3, 'x'));  // not complete
+    send_datagram(fd, frame(5, 1));                        // duplicate
+    send_datagram(fd, frame(6, 1).substr(0, 11));          // an incomplete frame
+    send_datagram(fd, frame(7, 1) + std::string(3, 'x'));  // a frame and three more bytes
     send_datagram(fd, "");
     const auto doc = nlohmann::json::parse(child.read_out());
     EXPECT_EQ(child.wait(), 0) << child.error_text();
@@ -649,12 +648,12 @@ TEST(StreamProgram, NumberedDatagramsKeepTheirTimeAndOnlyOneSenderIsAccepted) {
     EXPECT_EQ(doc["input"]["unreadable"], 2);
     EXPECT_EQ(doc["input"]["datagrams_ignored"], 1);
     EXPECT_NE(child.error_text().find("a datagram has 11 bytes"), std::string::npos) << child.error_text();
-    ::close(fd), ::close(stranger);
+    ::close(fd), ::close(other_sender);
 }
 
-// --- where the system waits
+// --- signals, and options that are refused
 
-TEST(StreamProgram, OneSignalEndsItWhileItWaitsForARecordingThatDoesNotCome) {
+TEST(StreamProgram, OneSignalEndsTheStreamWhileItWaitsForARecording) {
     ignore_broken_pipes();
     const TemporaryFolder folder;
     const auto fifo = folder / "fifo.csv";

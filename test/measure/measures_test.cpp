@@ -19,13 +19,13 @@ double measured(std::string_view name, const std::vector<double>& spikes, const 
     throw std::invalid_argument(std::string(name));
 }
 
-TEST(Measures, UseThePhasesSpikesAndTheForwardFrequency) {
+TEST(Measures, RatesOfAPhaseUseTheIntervalsOfItsSpikes) {
     const TimeWindow hold{0.2, 0.5};
     EXPECT_EQ(measured("spikes", train, hold), 3);
     EXPECT_NEAR(measured("mean_rate", train, hold), 10, 1e-9);
     EXPECT_NEAR(measured("first_rate", train, hold), 20, 1e-9);
     EXPECT_NEAR(measured("peak_rate", train, hold), 20, 1e-9);
-    EXPECT_NEAR(measured("last_rate", train, hold), 5, 1e-9) << "between the last two inside, not to the one beyond";
+    EXPECT_NEAR(measured("last_rate", train, hold), 5, 1e-9) << "from the last interval inside the phase, not the one that leaves it";
 }
 
 TEST(Measures, APhaseIncludesItsStartAndNotItsEnd) {
@@ -33,7 +33,7 @@ TEST(Measures, APhaseIncludesItsStartAndNotItsEnd) {
     EXPECT_EQ(measured("spikes", train, {0.2, 0.25}), 1);
 }
 
-TEST(Measures, HaveNoValueWhereThereIsNone) {
+TEST(Measures, AreNaNWhereTheyAreNotDefined) {
     for (const auto& m : measures) {
         const double empty = measured(m.name, {}, {0, 1, 10}), last = measured(m.name, train, {0.9, 1});
         if (m.name == "spikes" || m.name == "mean_rate") {
@@ -46,13 +46,14 @@ TEST(Measures, HaveNoValueWhereThereIsNone) {
             EXPECT_TRUE(std::isnan(empty));
             EXPECT_NEAR(last, 0.05, 1e-12);
         } else {
-            EXPECT_TRUE(std::isnan(empty) && std::isnan(last)) << m.name << ": the last spike of all has no frequency";
+            EXPECT_TRUE(std::isnan(empty) && std::isnan(last)) << m.name << ": the last spike of the train has no frequency";
         }
     }
     EXPECT_TRUE(std::isnan(measured("mean_rate", train, {0.5, 0.5})));
 }
 
-/// Presses of half a second with spikes every 20 ms, slowing to 40 ms, and so long a pause between them.
+/// Trains of `count` presses of about half a second. In each the interval between spikes grows from 20 to 40 ms. `pause` (s) is the time
+/// between presses.
 std::vector<double> presses(int count, double pause) {
     std::vector<double> spikes;
     double t = 1;
@@ -61,30 +62,30 @@ std::vector<double> presses(int count, double pause) {
     return spikes;
 }
 
-TEST(Measures, HaveNoAdaptationAndNoVariationWherePausesAreLongerThanPresses) {
+TEST(Measures, HaveNoAdaptationAndNoVariationAcrossLongPauses) {
     const TimeWindow all{0, 1000};
     for (const char* name : {"adaptation_ratio", "isi_cv"}) {
         EXPECT_FALSE(std::isnan(measured(name, presses(1, 0), all))) << name;
         EXPECT_TRUE(std::isnan(measured(name, presses(13, 9), all))) << name;
         EXPECT_FALSE(std::isnan(measured(name, presses(13, 0.03), all))) << name << ": no pause";
-        auto late = presses(1, 0);
-        late.insert(late.begin(), {0.1, 0.6});
-        EXPECT_FALSE(std::isnan(measured(name, late, all))) << name << ": an irregular beginning is not a pause";
+        auto irregular = presses(1, 0);
+        irregular.insert(irregular.begin(), {0.1, 0.6});
+        EXPECT_FALSE(std::isnan(measured(name, irregular, all))) << name << ": an irregular beginning is not a pause";
         auto isolated = presses(2, 5);
         isolated.insert(isolated.begin(), -8);
-        EXPECT_TRUE(std::isnan(measured(name, isolated, {-10, 1000}))) << name << ": a spike alone, then presses";
+        EXPECT_TRUE(std::isnan(measured(name, isolated, {-10, 1000}))) << name << ": an isolated spike, then presses";
     }
     EXPECT_NEAR(measured("peak_rate", presses(13, 9), all), measured("peak_rate", presses(1, 0), all), 1e-6) << "within a press";
-    auto after = presses(1, 0);
-    EXPECT_FALSE(std::isnan(measured("last_rate", after, all)));
-    after.push_back(after.back() + 7);
-    EXPECT_TRUE(std::isnan(measured("last_rate", after, all))) << "over a pause";
+    auto press = presses(1, 0);
+    EXPECT_FALSE(std::isnan(measured("last_rate", press, all)));
+    press.push_back(press.back() + 7);
+    EXPECT_TRUE(std::isnan(measured("last_rate", press, all))) << "the last interval is a pause";
 }
 
-TEST(Measures, AnIntervalOfMoreThanTenSecondsIsNoFrequency) {
+TEST(Measures, AnIntervalOfMoreThanTenSecondsHasNoFrequency) {
     for (const char* name : {"peak_rate", "first_rate", "last_rate"}) {
         EXPECT_TRUE(std::isnan(measured(name, {1, 62}, {0, 133}))) << name;
-        EXPECT_NEAR(measured(name, {1, 3}, {0, 133}), 0.5, 1e-12) << name << ": slow, and regular";
+        EXPECT_NEAR(measured(name, {1, 3}, {0, 133}), 0.5, 1e-12) << name << ": slow, but not a pause";
     }
     EXPECT_EQ(measured("mean_rate", {1, 62}, {0, 100}), 0.02);
 }
@@ -102,7 +103,7 @@ TEST(Measures, InstantaneousRatesAreOneFewerThanSpikes) {
     EXPECT_NEAR(instantaneous_rates(train)[0], 10, 1e-9);
 }
 
-TEST(Measures, EachHasANameATitleAndADescriptionOfItsOwn) {
+TEST(Measures, EachHasAUniqueNameATitleAndADescription) {
     for (const auto& m : measures) {
         EXPECT_FALSE(m.title.empty() || m.description.empty()) << m.name;
         EXPECT_EQ(std::count_if(std::begin(measures), std::end(measures), [&](const MeasureInfo& o) { return o.name == m.name; }), 1)
@@ -110,7 +111,7 @@ TEST(Measures, EachHasANameATitleAndADescriptionOfItsOwn) {
     }
 }
 
-TEST(Measures, LatencyIsFromThePhasesStart) {
+TEST(Measures, LatencyIsMeasuredFromTheStartOfThePhase) {
     EXPECT_NEAR(measured("latency", train, {0.2, 0.5}), 0, 1e-12) << "a spike on the start";
     EXPECT_NEAR(measured("latency", train, {0.3, 0.5}), 0.15, 1e-12);
     EXPECT_TRUE(std::isnan(measured("latency", train, {0.5, 0.9})));
@@ -118,14 +119,14 @@ TEST(Measures, LatencyIsFromThePhasesStart) {
 
 TEST(Measures, AdaptationIsTheFirstIntervalOverTheLast) {
     EXPECT_NEAR(measured("adaptation_ratio", train, {0, 0.5}), 0.5, 1e-9) << "0.1 s, then 0.2 s; the 0.5 s after the phase do not count";
-    EXPECT_TRUE(std::isnan(measured("adaptation_ratio", train, {0.2, 0.4}))) << "one interval has no other";
+    EXPECT_TRUE(std::isnan(measured("adaptation_ratio", train, {0.2, 0.4}))) << "a single interval has no ratio";
     EXPECT_NEAR(measured("adaptation_ratio", {1, 2, 3, 4}, {0, 9}), 1, 1e-12);
 }
 
-TEST(Measures, VariationIsThatOfAllIntervalsInside) {
-    EXPECT_NEAR(measured("isi_cv", {1, 2, 3, 4}, {0, 9}), 0, 1e-12) << "a clock";
+TEST(Measures, VariationUsesAllIntervalsWithinThePhase) {
+    EXPECT_NEAR(measured("isi_cv", {1, 2, 3, 4}, {0, 9}), 0, 1e-12) << "regular intervals";
     EXPECT_NEAR(measured("isi_cv", {0, 1, 4, 99}, {0, 9}), 0.5, 1e-12) << "1 s and 3 s: a deviation of 1 s about 2 s";
-    EXPECT_TRUE(rc::check("against two passes", [] {  // intervals that are not pauses
+    EXPECT_TRUE(rc::check("equals a computation in two passes", [] {  // intervals that are not pauses
         const auto steps = *rc::gen::container<std::vector<int>>(*rc::gen::inRange<std::size_t>(2, 50), rc::gen::inRange(1, 500));
         std::vector<double> spikes = {1e3};
         for (const int x : steps) spikes.push_back(spikes.back() + x * 1e-3);
@@ -137,7 +138,7 @@ TEST(Measures, VariationIsThatOfAllIntervalsInside) {
     }));
 }
 
-TEST(Measures, VectorStrengthIsOneForALockAndNoneForAnEvenSpread) {
+TEST(Measures, VectorStrengthIsOneForPhaseLockingAndZeroForUniformPhases) {
     std::vector<double> locked, twice, spread;
     for (int k = 0; k < 100; ++k) {
         locked.push_back((k + 0.3) / 25.0);
@@ -146,12 +147,12 @@ TEST(Measures, VectorStrengthIsOneForALockAndNoneForAnEvenSpread) {
     }
     const TimeWindow s{0, 4, 25};
     EXPECT_NEAR(measured("vector_strength", locked, s), 1, 1e-9);
-    EXPECT_NEAR(measured("vector_strength", twice, {0, 2, 25}), 0, 1e-9) << "two spikes a cycle, on opposite sides";
+    EXPECT_NEAR(measured("vector_strength", twice, {0, 2, 25}), 0, 1e-9) << "two spikes per cycle, at opposite phases";
     EXPECT_NEAR(measured("vector_strength", spread, s), 0, 1e-9);
     EXPECT_EQ(measured("entrainment", locked, s), 1);
-    EXPECT_EQ(measured("entrainment", twice, {0, 2, 25}), 0) << "two are not one";
+    EXPECT_EQ(measured("entrainment", twice, {0, 2, 25}), 0) << "two spikes in a cycle do not count as one";
     EXPECT_TRUE(std::isnan(measured("vector_strength", locked, {0, 4})));
-    EXPECT_TRUE(std::isnan(measured("entrainment", locked, {0, 4}))) << "nothing repeats itself";
+    EXPECT_TRUE(std::isnan(measured("entrainment", locked, {0, 4}))) << "the window has no cycles";
 }
 
 TEST(Measures, SpikesAfterTheLastCompleteCycleDoNotCount) {
@@ -162,9 +163,9 @@ TEST(Measures, SpikesAfterTheLastCompleteCycleDoNotCount) {
     EXPECT_NEAR(measured("entrainment", {1.25, 3.25}, {1, 4, 1}), 2.0 / 3, 1e-9);
 }
 
-/// The definitions of spikes, first, peak and last, computed over the entire train at once.
-TEST(MeasureAccumulator, GivesTheValueOfTheEntireTrainHoweverItIsCutIntoPhases) {
-    EXPECT_TRUE(rc::check("against the entire train", [] {
+/// Compares with the definitions of spikes, peak_rate, first_rate and last_rate, computed from the entire train.
+TEST(MeasureAccumulator, GivesTheValuesOfTheEntireTrainForAnyDivisionIntoPhases) {
+    EXPECT_TRUE(rc::check("equals a computation from the entire train", [] {
         const auto steps = *rc::gen::container<std::vector<int>>(rc::gen::inRange(0, 40));
         const auto edges = *rc::gen::container<std::vector<int>>(*rc::gen::inRange<std::size_t>(1, 6), rc::gen::inRange(0, 100));
         std::vector<double> spikes;

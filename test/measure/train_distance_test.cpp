@@ -30,6 +30,7 @@ double full_table(const Train& a, const Train& b, double q) {
     return g[a.size()][b.size()];
 }
 
+/// The square of the van Rossum distance, as a sum over all pairs of spikes.
 double all_pairs(const Train& a, const Train& b, double tau) {
     const auto sum = [tau](const Train& x, const Train& y) {
         double all = 0;
@@ -52,7 +53,7 @@ Train random_train() {
 double random_cost() { return *rc::gen::element(0.0, 0.5, 10.0, 37.0, 200.0, 2000.0, 1e9); }
 
 TEST(VictorPurpura, EqualsTheFullDynamicProgramAtAnyCost) {
-    EXPECT_TRUE(rc::check("against every cell", [] {
+    EXPECT_TRUE(rc::check("equals the full table", [] {
         const auto a = random_train(), b = random_train();
         const double q = random_cost();
         RC_ASSERT(std::abs(distance(a, b, q) - full_table(a, b, q)) < 1e-9 * static_cast<double>(a.size() + b.size() + 1));
@@ -70,18 +71,18 @@ TEST(VictorPurpura, IsADistance) {
     }));
 }
 
-TEST(VictorPurpura, CountsAtNoCostAndComparesNothingButCoincidencesAtAnyOther) {
+TEST(VictorPurpura, IsTheDifferenceOfCountsAtZeroCostAndTheTotalCountAtInfiniteCost) {
     const Train a = {0.1, 0.2, 0.3}, b = {0.15, 0.31, 0.4, 0.5, 0.6};
     EXPECT_EQ(distance(a, b, 0), 2) << "q -> 0: the difference of the counts";
-    EXPECT_EQ(distance(a, b, 1e12), 8) << "q -> inf: all spikes";
+    EXPECT_EQ(distance(a, b, 1e12), 8) << "q -> inf: the number of all spikes";
     EXPECT_EQ(distance(a, {}, 7), 3);
     EXPECT_EQ(distance({}, {}, 7), 0);
     EXPECT_NEAR(distance({0.1}, {0.101}, 100), 0.1, 1e-12);
-    EXPECT_EQ(distance({0.1}, {0.2}, 100), 2) << "too far to move: removed and added";
+    EXPECT_EQ(distance({0.1}, {0.2}, 100), 2) << "moving costs more than removing and adding";
 }
 
-TEST(VictorPurpura, MovesAreInOrderWorthTheirCostAndAddUpToIt) {
-    EXPECT_TRUE(rc::check("the moves of an alignment", [] {
+TEST(VictorPurpura, MovesAreInOrderAndTheirCostsAddUpToTheDistance) {
+    EXPECT_TRUE(rc::check("the moved pairs of an alignment", [] {
         const auto a = random_train(), b = random_train();
         const double q = random_cost();
         const auto aligned = value_or_throw(align_trains(a, b, q));
@@ -108,19 +109,19 @@ Train poisson(std::size_t count, std::uint32_t index) {
     return spikes;
 }
 
-TEST(VictorPurpura, TrainsOfAHundredThousandTakeWellUnderASecondAndInvalidOnesAreRefused) {
+TEST(VictorPurpura, AHundredThousandSpikesTakeUnderASecondAndTooManyPairsAreRefused) {
     const auto a = poisson(100'000, 1), b = poisson(100'000, 2);
     const auto start = std::chrono::steady_clock::now();
     const auto aligned = value_or_throw(align_trains(a, b, 100));
-    EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 1) << "ten times that, in a sanitized build";
+    EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 1) << "sanitizers take 10 times longer";
     EXPECT_GT(aligned.moved.size(), 50'000U);
     const auto refused = victor_purpura(a, b, 1e-4);
     ASSERT_FALSE(refused);
     EXPECT_EQ(refused.error().message.substr(0, 83), "at a cost of 0.0001 per second, 100000 and 100000 spikes have 10000000000 pairs wit");
 }
 
-// 25 million pairs; the decisions of 4 million are kept at once.
-TEST(VictorPurpura, MovesOfManyCoincidencesAreFoundPartByPart) {
+// 25 million pairs; the decisions for only 4 million of them are stored at once.
+TEST(VictorPurpura, AlignsTrainsWithMorePairsThanAreStoredAtOnce) {
     std::vector<double> a, b;
     for (int k = 0; k < 5000; ++k) a.push_back(1e-6 * k), b.push_back(1e-6 * (k + (k * 7919) % 13));
     std::sort(b.begin(), b.end());
@@ -142,8 +143,8 @@ TEST(VictorPurpura, MovesOfManyCoincidencesAreFoundPartByPart) {
     EXPECT_NEAR(found->distance, *victor_purpura(a, b, q), 1e-9);
 }
 
-TEST(VanRossum, IsTheSumOverAllPairs) {
-    EXPECT_TRUE(rc::check("against the double sum", [] {
+TEST(VanRossum, EqualsTheSumOverAllPairs) {
+    EXPECT_TRUE(rc::check("equals the double sum", [] {
         const auto a = random_train(), b = random_train();
         const double tau = *rc::gen::element(1e-4, 1e-3, 1e-2, 1.0, 100.0);
         const auto n = static_cast<double>(a.size() + b.size() + 1);

@@ -1,4 +1,4 @@
-// Contract that every entry of the catalogue must keep. An excused entry carries its reason.
+// The contract that every entry of the catalogue must satisfy. The reason for each exception is given.
 
 #include <fmt/format.h>
 
@@ -22,7 +22,7 @@ TEST(Contract, NoForceGivesNoSpikes) {
                     << name << ' ' << rate;
 }
 
-TEST(Contract, EachRespondsToATouchOfItsKind) {
+TEST(Contract, EveryAfferentFiresUnderAStimulusOfItsKind) {
     for (const auto& name : all_afferent_names()) {
         const bool feels_vibration_only = name == "fa2" || name.starts_with("vibration");
         const auto touch = feels_vibration_only ? force("sine", {.settings = {"sine.f=250Hz", "sine.F_amp=0.3N"}}) : force("press");
@@ -44,14 +44,14 @@ TEST(Contract, ParametersOfCombinedComponentsNeverShareAName) {
 }
 
 TEST(Contract, EveryParameterHasADescriptionAReadableUnitAndItsDefaultInRange) {
-    for (const auto& cards :
+    for (const auto& entries :
          {sensor_entries(), transducer_entries(), converter_entries(), receptor_entries(), neuron_entries(), stimulus_catalog()})
-        for (const auto& card : cards) {
-            EXPECT_FALSE(card.description.empty() || card.source.empty()) << card.name;
-            for (const auto& row : card.parameters) {
-                EXPECT_FALSE(row.description.empty()) << card.name << '.' << row.name;
-                EXPECT_TRUE(parse_unit(row.unit)) << card.name << '.' << row.name << ": " << row.unit;
-                EXPECT_TRUE(row.default_value >= row.low && row.default_value <= row.high) << card.name << '.' << row.name;
+        for (const auto& entry : entries) {
+            EXPECT_FALSE(entry.description.empty() || entry.source.empty()) << entry.name;
+            for (const auto& row : entry.parameters) {
+                EXPECT_FALSE(row.description.empty()) << entry.name << '.' << row.name;
+                EXPECT_TRUE(parse_unit(row.unit)) << entry.name << '.' << row.name << ": " << row.unit;
+                EXPECT_TRUE(row.default_value >= row.low && row.default_value <= row.high) << entry.name << '.' << row.name;
             }
         }
 }
@@ -71,7 +71,7 @@ TEST(Contract, ValuesOutsideAParametersRangeAreRefusedByName) {
 }
 
 TEST(Contract, BlocksOfAnySizeGiveTheSameSpikesAndProbes) {
-    EXPECT_TRUE(rc::check("chunked equals whole, byte for byte", [] {
+    EXPECT_TRUE(rc::check("the response in blocks equals the undivided response, bit for bit", [] {
         const auto names = all_afferent_names();
         const auto name = names[*rc::gen::inRange<std::size_t>(0, names.size())];
         const auto method = *rc::gen::element(Method::exact, Method::backward_euler);
@@ -97,9 +97,9 @@ TEST(Contract, BlocksOfAnySizeGiveTheSameSpikesAndProbes) {
             return std::pair(out, probes);
         };
         const auto sizes = *rc::gen::nonEmpty(rc::gen::container<std::vector<std::size_t>>(rc::gen::inRange<std::size_t>(1, 700)));
-        const auto undivided = simulate({f.size()}), parts = simulate(sizes);
-        RC_ASSERT(undivided.first == parts.first);
-        RC_ASSERT(undivided.second == parts.second);
+        const auto undivided = simulate({f.size()}), in_blocks = simulate(sizes);
+        RC_ASSERT(undivided.first == in_blocks.first);
+        RC_ASSERT(undivided.second == in_blocks.second);
         RC_ASSERT(spikes(*a, f) == [&] {
             auto s = undivided.first;
             for (auto& x : s) x.afferent_index = 0;
@@ -173,7 +173,7 @@ TEST(Contract, EveryMachineAndCompilerGivesTheSameBits) {
     for (const auto& [name, hash] : right) EXPECT_EQ(fingerprint(spikes(*afferent(name, {.rate = 5e3}), f)), hash) << name;
 }
 
-TEST(Contract, SpikesComeInOrderInsideTheirSteps) {
+TEST(Contract, SpikesAreOrderedAndLieWithinTheirSteps) {
     for (const auto& name : all_afferent_names())
         for (const auto method : {Method::exact, Method::backward_euler}) {
             const auto train = spikes(*afferent(name, {.rate = 500, .method = method}),
@@ -192,7 +192,7 @@ TEST(Contract, AStateOfAnotherAfferentIsRefused) {
               "a state of 'sa1b+lif-b/2, T = 0.0001 s' was given to 'fa1b+lif-b/2, T = 0.0001 s'");
 }
 
-TEST(Contract, EachConvergesToItsOwnFineStepResponse) {
+TEST(Contract, SpikeTimesConvergeAsTheStepDecreases) {
     for (const auto& name : all_afferent_names()) {
         const bool vibration = name == "fa2" || name.starts_with("vibration"),
                    substeps = name.ends_with("izhikevich") || name.ends_with("adex");
@@ -200,7 +200,7 @@ TEST(Contract, EachConvergesToItsOwnFineStepResponse) {
             std::vector<std::string> settings = {"sine.f=200Hz", "sine.F_amp=0.3N", "sine.duration=100ms"};
             if (substeps) settings.push_back(fmt::format("{}.substep={}us", name, std::min(1e6 / rate, 1000.0)));
             auto t = test::train(name, vibration ? "sine" : "press", {.settings = settings, .rate = rate});
-            while (vibration && !t.empty() && t.back() > 0.095) t.pop_back();  // the end of the run decides about the last spike
+            while (vibration && !t.empty() && t.back() > 0.095) t.pop_back();  // the end of the run decides if there is a last spike
             return t;
         };
         const auto fine = at(2.048e6);
@@ -217,9 +217,9 @@ TEST(Contract, EachConvergesToItsOwnFineStepResponse) {
     }
 }
 
-TEST(Contract, FirstSampleSetsTheForceBeforeIt) {
+TEST(Contract, TheForceBeforeTheFirstSampleEqualsTheFirstSample) {
     for (const auto& name : all_afferent_names()) {
-        if (name.find("sa") != std::string::npos) {  // they respond to constant force, but not as to a step
+        if (name.find("sa") != std::string::npos) {  // these respond to constant force, but later than to a step
             const auto at_once = spikes(*afferent(name), std::vector<double>(2, 3.0)),
                        later = spikes(*afferent(name), std::vector<double>(2000, 3.0));
             EXPECT_TRUE(at_once.empty()) << name;

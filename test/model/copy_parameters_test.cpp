@@ -45,11 +45,11 @@ double deviation(const std::vector<double>& x) { return std::sqrt(covariance_of(
 double density(double z) { return std::exp(-z * z / 2) / std::sqrt(2 * M_PI); }
 double above(double z) { return 0.5 * std::erfc(z / std::sqrt(2.0)); }
 
-/// The mean, and the standard deviation, of a standard normal deviate that is above z.
+/// Mean and standard deviation of a standard normal distribution truncated to values above z.
 double mean_above(double z) { return density(z) / above(z); }
 double deviation_above(double z) { return std::sqrt(1 + z * mean_above(z) - mean_above(z) * mean_above(z)); }
 
-TEST(ParameterDistribution, IsNormalAboutTheValueByAFractionOrByAnAmount) {
+TEST(ParameterDistribution, IsNormalAroundTheValueWithADeviationInPercentOrInItsUnit) {
     for (const auto* setting : {"sa1.f_B=10%", "sa1.f_B=2.5Hz"}) {
         const auto x = values(sample_copies("sa1", {{"sa1.f_B=25Hz"}, {setting}}), "f_B");
         const double n = static_cast<double>(x.size());
@@ -63,7 +63,7 @@ TEST(ParameterDistribution, IsNormalAboutTheValueByAFractionOrByAnAmount) {
 }
 
 TEST(ParameterDistribution, IsANormalTruncatedAtTheRangeOrByAnOrderConstraint) {
-    // V_reset = 0.45 V is the lower limit of thresholds, 0 A of leaks.
+    // V_th must be above V_reset = 0.45 V; I_leak0 must not be negative.
     const auto V_th = values(sample_copies("sa1", {{"sa1.V_reset=0.45V"}, {"sa1.V_th=100mV"}}), "V_th");
     EXPECT_NEAR(mean_of(V_th), 0.5 + 0.1 * mean_above(-0.5), 4 * 0.1 * deviation_above(-0.5) / std::sqrt(1e5));
     EXPECT_GT(*std::min_element(V_th.begin(), V_th.end()), 0.45);
@@ -73,19 +73,19 @@ TEST(ParameterDistribution, IsANormalTruncatedAtTheRangeOrByAnOrderConstraint) {
 }
 
 TEST(ParameterDistribution, OfTwoOrderedParametersIsSampledJointly) {
-    // Their difference is a normal deviate truncated at 0; their sum is independent of it, so it is a complete one.
+    // The difference V_th - V_reset is normal, truncated at 0. The sum is independent of it, so it is normal without truncation.
     const auto copies = sample_copies("sa1", {{"sa1.E_L=-9V", "sa1.V_reset=0.25V"}, {"sa1.V_th=250mV", "sa1.V_reset=250mV"}});
     const auto V_th = values(copies, "V_th"), V_reset = values(copies, "V_reset");
-    std::vector<double> apart, sum;
-    for (std::size_t k = 0; k < V_th.size(); ++k) apart.push_back(V_th[k] - V_reset[k]), sum.push_back(V_th[k] + V_reset[k]);
+    std::vector<double> difference, sum;
+    for (std::size_t k = 0; k < V_th.size(); ++k) difference.push_back(V_th[k] - V_reset[k]), sum.push_back(V_th[k] + V_reset[k]);
     const double sd = 0.25 * std::sqrt(2.0), z = -0.25 / sd, root = std::sqrt(1e5);
-    EXPECT_GT(*std::min_element(apart.begin(), apart.end()), 0);
-    EXPECT_NEAR(mean_of(apart), 0.25 + sd * mean_above(z), 4 * sd * deviation_above(z) / root);
+    EXPECT_GT(*std::min_element(difference.begin(), difference.end()), 0);
+    EXPECT_NEAR(mean_of(difference), 0.25 + sd * mean_above(z), 4 * sd * deviation_above(z) / root);
     EXPECT_NEAR(mean_of(sum), 0.75, 4 * sd / root);
     EXPECT_NEAR(deviation(sum), sd, 4 * sd / root / std::sqrt(2.0));
 }
 
-TEST(ParameterDistribution, DependsOnSeedNamesAndNumberAndNothingElse) {
+TEST(ParameterDistribution, DependsOnlyOnSeedNamesAndCopyNumber) {
     EXPECT_TRUE(rc::check("more copies, other settings in other orders, an alias of the name", [] {
         const auto seed = *rc::gen::inRange<std::uint64_t>(0, 1000);
         const auto few = *rc::gen::inRange<std::uint32_t>(1, 20), many = few + *rc::gen::inRange<std::uint32_t>(0, 100);
@@ -101,7 +101,7 @@ TEST(ParameterDistribution, DependsOnSeedNamesAndNumberAndNothingElse) {
     }));
 }
 
-TEST(ParameterDistribution, IsAnotherOneForEverySeedNumberAndName) {
+TEST(ParameterDistribution, IsUncorrelatedBetweenSeedsCopiesAndNames) {
     const auto copies = sample_copies("sa1", {{}, {"sa1.f_B=10%", "sa1.f_C=10%"}});
     const auto f_B = values(copies, "f_B"), f_C = values(copies, "f_C");
     const auto other_seed = values(sample_copies("sa1", {{}, {"sa1.f_B=10%"}, 100'000, 2}), "f_B");
@@ -129,10 +129,10 @@ TEST(ParameterDistribution, GivesCopiesWithNamesAndNumbersThatShareTheirParamete
     const auto other = sample_copies("fa1", {{}, {}, 2});
     all.insert(all.end(), other.begin(), other.end());
     EXPECT_EQ(copy_group_starts(all), (std::vector<std::size_t>{0, 3, 5}));
-    const std::vector plain = {value_or_throw(plan_afferent("sa1", {})), value_or_throw(plan_afferent("fa1", {}))};
-    EXPECT_EQ(copy_group_starts(plain), (std::vector<std::size_t>{0, 1, 2}));
+    const std::vector originals = {value_or_throw(plan_afferent("sa1", {})), value_or_throw(plan_afferent("fa1", {}))};
+    EXPECT_EQ(copy_group_starts(originals), (std::vector<std::size_t>{0, 1, 2}));
     EXPECT_EQ(base_name(all[4]), "fa1");
-    EXPECT_EQ(base_name(plain[1]), "fa1");
+    EXPECT_EQ(base_name(originals[1]), "fa1");
 }
 
 TEST(Contract, EveryParameterThatCopiesDoNotShareCanDifferInEveryAfferent) {
@@ -159,10 +159,10 @@ TEST(Contract, CopiesShareIntegerParametersAndEverySubstep) {
     for (const auto at : Adc::integers)
         for (const auto& f : Adc::fields) EXPECT_TRUE(f.member != at || f.is_shared_by_copies) << f.name;
     int substeps = 0;
-    for (const auto& card : neuron_entries())
-        for (const auto& row : card.parameters) {
+    for (const auto& entry : neuron_entries())
+        for (const auto& row : entry.parameters) {
             if (row.name != "substep") continue;
-            EXPECT_TRUE(row.is_shared_by_copies) << card.name;
+            EXPECT_TRUE(row.is_shared_by_copies) << entry.name;
             ++substeps;
         }
     EXPECT_GE(substeps, 2);
@@ -203,7 +203,7 @@ TEST(ParameterDistribution, WithoutAcceptableSamplesIsAnErrorAfterAThousandTries
     ASSERT_FALSE(wide);
     EXPECT_EQ(wide.error().text(),
               "sa1#1: none of 1000 samples of V_th about 500 mV with a standard deviation of 1 GV is valid; lower its --spread");
-    // Half of the samples of R_fb leave V_Z above V_DD at F_cal, where the sensor could not be calibrated. Those are sampled again.
+    // Half of the samples of R_fb give a V_Z above V_DD at F_cal, where the sensor could not be calibrated. These are sampled again.
     const auto edge = sample_copies("fsr+f2v+sa1", {{"fsr+f2v+sa1.R_fb=13.3kohm"}, {"fsr+f2v+sa1.R_fb=10%"}, 1000});
     for (const auto& copy : edge) EXPECT_TRUE(check_plan(copy));
 }

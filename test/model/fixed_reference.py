@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""Builds the algorithms of doc/fixed-point.md again, from that page alone, in whole numbers of any size,
-and checks files of vectors against it: fixed_reference.py VECTORS.csv ROM.csv ..."""
+"""An independent implementation of the algorithms of doc/fixed-point.md, written from that page alone, with integers of any
+size. Checks files of test vectors against it: fixed_reference.py VECTORS.csv ROM.csv ..."""
 
 import sys
 from fractions import Fraction
@@ -8,12 +8,12 @@ from fractions import Fraction
 
 class Words:
     def __init__(self, word):
-        self.least, self.most, self.overflows = -(2 ** (word - 1)), 2 ** (word - 1) - 1, 0
+        self.min, self.max, self.overflows = -(2 ** (word - 1)), 2 ** (word - 1) - 1, 0
 
     def sat(self, x):
-        kept = min(max(x, self.least), self.most)
-        self.overflows += kept != x
-        return kept
+        saturated = min(max(x, self.min), self.max)
+        self.overflows += saturated != x
+        return saturated
 
     def times(self, factor, n):
         mantissa, shift = factor
@@ -90,24 +90,24 @@ class Neuron:
         self.wait = c["ref"]
         return 1
 
-    def shown(self):
+    def recorded(self):
         return [self.u]
 
     def step(self, c, w, I):
         if self.wait > 0:
             self.wait -= 1
             return 0
-        return self.free(c, w, I)
+        return self.integrate(c, w, I)
 
 
 class LifA(Neuron):
-    def free(self, c, w, I):
+    def integrate(self, c, w, I):
         self.u = w.sat(w.times(c["k_a"], I) + w.times(c["k_b"], self.u) + c["k_c"])
         return self.spike(c, w, c["V_th"]) if self.u > c["V_th"] else 0
 
 
 class LifB(Neuron):
-    def free(self, c, w, I):
+    def integrate(self, c, w, I):
         self.u = w.sat(self.u + w.times(c["k_m"], w.sat(I - c["I_leak0"])))
         if self.u > c["V_th"]:
             return self.spike(c, w, c["V_th"])
@@ -116,14 +116,14 @@ class LifB(Neuron):
 
 
 class Adaptive(Neuron):
-    def shown(self):
+    def recorded(self):
         return [self.u, self.a]
 
     def step(self, c, w, I):
         self.a = w.times(c["k_th"], self.a)
         return super().step(c, w, I)
 
-    def free(self, c, w, I):
+    def integrate(self, c, w, I):
         self.u = max(w.sat(self.u + w.times(c["k_m"], I)), c["E_L"])
         theta = w.sat(c["V_th"] + self.a)
         if not (I > 0 and self.u > theta):
@@ -138,7 +138,7 @@ NEURONS = {"lif-a": LifA, "lif-b": LifB, "adaptive": Adaptive}
 
 
 def read_vectors(path):
-    facts, levels, factors, rows = {}, {}, {}, []
+    header, levels, factors, rows = {}, {}, {}, []
     for line in open(path, encoding="utf-8", errors="replace"):
         words = line.split()
         if line.startswith("# level"):
@@ -146,32 +146,32 @@ def read_vectors(path):
         elif line.startswith("# factor"):
             factors[words[2]] = (float(words[3]), int(words[4]), int(words[5]))
         elif line.startswith("#"):
-            facts[words[1]] = words[2] if len(words) > 2 else ""
+            header[words[1]] = words[2] if len(words) > 2 else ""
         elif line[0].isdigit():
             rows.append([int(x) for x in line.split(",")])
-    return facts, levels, factors, rows
+    return header, levels, factors, rows
 
 
 def constants_of(levels, factors, word, frac):
     c = {}
     for name, (value, n) in levels.items():
-        right = level_of(value, 0 if name == "ref" else frac)
-        assert n == right, f"level {name}: {n}, not {right}"
+        expected = level_of(value, 0 if name == "ref" else frac)
+        assert n == expected, f"level {name}: {n}, not {expected}"
         c[name] = n
     for name, (value, mantissa, shift) in factors.items():
-        right = factor_of(value, word)
-        assert (mantissa, shift) == right, f"factor {name}: {(mantissa, shift)}, not {right}"
-        c[name] = right
+        expected = factor_of(value, word)
+        assert (mantissa, shift) == expected, f"factor {name}: {(mantissa, shift)}, not {expected}"
+        c[name] = expected
     return c
 
 
 def check(path, rom_path):
-    facts, levels, factors, rows = read_vectors(path)
+    header, levels, factors, rows = read_vectors(path)
     rom = [int(line.split(",")[1]) for line in open(rom_path) if line[0].isdigit()]
-    assert len(rom) == 2 ** int(facts["bits"]), "the table has a word for every code"
-    c = constants_of(levels, factors, int(facts["word"]), int(facts["frac"]))
-    w = Words(int(facts["word"]))
-    receptor_name, neuron_name = facts["parts"].split("+")[-2:]
+    assert len(rom) == 2 ** int(header["bits"]), "the table must have a word for every code"
+    c = constants_of(levels, factors, int(header["word"]), int(header["frac"]))
+    w = Words(int(header["word"]))
+    receptor_name, neuron_name = header["parts"].split("+")[-2:]
     receptor = RECEPTORS[receptor_name]()
     neurons = [NEURONS[neuron_name](c) for _ in range(receptor.outputs)]
     F1 = None
@@ -179,11 +179,11 @@ def check(path, rom_path):
         F = rom[row[0]]
         I = receptor.step(c, w, F, F if F1 is None else F1)
         bits = [n.step(c, w, i) for n, i in zip(neurons, I)]
-        right = [row[0], F, *I, *(x for n in neurons for x in n.shown()), *bits]
-        assert row == right, f"{path}: conversion {number}: {row}, not {right}"
+        expected = [row[0], F, *I, *(x for n in neurons for x in n.recorded()), *bits]
+        assert row == expected, f"{path}: conversion {number}: {row}, not {expected}"
         F1 = F
     assert rows, f"{path}: no rows"
-    print(f"{path}: {len(rows)} conversions, {w.overflows} overflows, every word as it should be")
+    print(f"{path}: {len(rows)} conversions, {w.overflows} overflows, every word matches")
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-// Afferents on lanes respond as scalar afferents do: to the bit in double, for any instruction set, threads and blocks.
+// Afferents on lanes respond like scalar afferents: bit for bit in double, for any instruction set, number of threads and block size.
 
 #include "model/lane_population.hpp"
 
@@ -52,7 +52,7 @@ std::unique_ptr<LanePopulation> population(const Case& c, const LaneOptions& opt
     return value_or_throw(make_lane_population({plans, c.afferent_count(), {}, options.precision}, c.run, options.set));
 }
 
-/// Responds in blocks; feed(first, count, response) passes in the force of each block.
+/// Simulates a population in blocks. feed(population, first, count, response, pool) simulates samples [first, first + count).
 template <class Feed>
 std::vector<Spike> in_blocks(const Case& c, const LaneOptions& options, const Feed& feed) {
     const auto p = population(c, options);
@@ -98,7 +98,7 @@ std::vector<std::vector<double>> forces(std::size_t afferent_count, double rate,
     return all;
 }
 
-/// A plan with parameters near their defaults.
+/// The plan with parameters sampled around their values.
 AfferentPlan scattered(AfferentPlan plan, std::uint64_t seed, std::uint32_t afferent_index) {
     for (std::uint32_t k = 0; k < plan.values.size(); ++k) {
         const auto& row = (*plan.parameters)[k].info;
@@ -111,45 +111,47 @@ AfferentPlan scattered(AfferentPlan plan, std::uint64_t seed, std::uint32_t affe
     return plan;
 }
 
-/// With coarse substeps where a model has any: they take most of the time and are all alike.
+/// The plan of an afferent. If its model has substeps, they are coarse: fine substeps would only take more time.
 AfferentPlan plan_of(const std::string& name) {
     auto plan = value_or_throw(plan_afferent(name, {}));
     if (plan.value("substep")) plan = value_or_throw(plan_afferent(name, test::parse_settings({name + ".substep=200us"})));
     return plan;
 }
 
-Case own_parameters(const std::string& name, std::size_t afferent_count, const SimulationOptions& run, double seconds, std::uint64_t seed) {
+Case individual_parameters(const std::string& name, std::size_t afferent_count, const SimulationOptions& run, double seconds,
+                           std::uint64_t seed) {
     Case c{{}, forces(afferent_count, 1 / run.dt, seconds), run};
     const auto plan = plan_of(name);
     for (std::uint32_t u = 0; u < afferent_count; ++u) c.plans.push_back(scattered(plan, seed, u));
     return c;
 }
 
-TEST(LanePopulation, EveryModelOnLanesGivesTheBitsOfTheScalarOne) {
+TEST(LanePopulation, EveryModelOnLanesGivesTheSameBitsAsTheScalarModel) {
     for (const auto& name : all_models())
         for (const auto method : {Method::exact, Method::backward_euler})
             for (const bool sampled : {false, true}) {
                 const corpuscle::SimulationOptions run{1e-3, method, sampled};
-                const Case shared{{plan_of(name)}, forces(70, 1e3, 0.3), run}, own = own_parameters(name, 70, run, 0.3, 8);
-                const auto expected = scalar_spikes(shared), expected_own = scalar_spikes(own);
+                const Case shared{{plan_of(name)}, forces(70, 1e3, 0.3), run},
+                           individual = individual_parameters(name, 70, run, 0.3, 8);
+                const auto expected = scalar_spikes(shared), expected_individual = scalar_spikes(individual);
                 if (method == Method::exact) {
                     EXPECT_FALSE(expected.empty()) << name;
                 }
                 for (const auto set : lane_sets()) {
                     EXPECT_EQ(lane_spikes(shared, {set}), expected) << name << ' ' << name_of(set);
-                    EXPECT_EQ(lane_spikes(own, {set}), expected_own) << name << ' ' << name_of(set);
+                    EXPECT_EQ(lane_spikes(individual, {set}), expected_individual) << name << ' ' << name_of(set);
                 }
             }
 }
 
-TEST(LanePopulation, AnyChunksAnyThreadsAnyLanesGiveTheSameSpikes) {
+TEST(LanePopulation, SpikesDoNotDependOnBlocksThreadsOrInstructionSet) {
     ThreadPool three(3);
     EXPECT_TRUE(rc::check("random blocks, models, parameters, instruction sets and threads", [&] {
         const auto names = all_models();
         const auto& name = names[*rc::gen::inRange<std::size_t>(0, names.size())];
         const auto afferent_count = *rc::gen::element<std::size_t>(1, 7, 64, 65, 130);
         const corpuscle::SimulationOptions run{1e-3, *rc::gen::element(Method::exact, Method::backward_euler), *rc::gen::arbitrary<bool>()};
-        const auto c = own_parameters(name, afferent_count, run, 0.2, *rc::gen::inRange<std::uint64_t>(0, 1000));
+        const auto c = individual_parameters(name, afferent_count, run, 0.2, *rc::gen::inRange<std::uint64_t>(0, 1000));
         const auto sets = lane_sets();
         const auto set = sets[*rc::gen::inRange<std::size_t>(0, sets.size())];
         const auto blocks = *rc::gen::nonEmpty(rc::gen::container<std::vector<std::size_t>>(rc::gen::inRange<std::size_t>(1, 80)));
@@ -196,7 +198,7 @@ lanes::AlignedBuffer<E> tiles(const Case& c, std::size_t first, std::size_t coun
     return rows;
 }
 
-TEST(LanePopulation, TilesAndInt16ForcesAreReadAsColumnsAre) {
+TEST(LanePopulation, TilesAndInt16ForcesGiveTheSpikesOfColumns) {
     constexpr double newtons = 1.0 / 4096;
     const corpuscle::SimulationOptions run{5e-4};
     Case c{{value_or_throw(plan_afferent("sa1", {}))}, forces(150, 2e3, 0.4), run};
@@ -220,9 +222,9 @@ TEST(LanePopulation, TilesAndInt16ForcesAreReadAsColumnsAre) {
     }
 }
 
-TEST(LanePopulation, OneProfileIsEveryAfferentsOwnForce) {
+TEST(LanePopulation, AProfileGivesTheSpikesOfEqualColumns) {
     for (const auto& name : all_models()) {
-        Case c = own_parameters(name, 70, {5e-4}, 0.3, 4);
+        Case c = individual_parameters(name, 70, {5e-4}, 0.3, 4);
         for (auto& f : c.force) f = c.force[0];
         const auto by_profile = [&](LanePopulation& p, std::size_t first, std::size_t count, PopulationResponse& response,
                                     ThreadPool& pool) {
@@ -236,7 +238,7 @@ TEST(LanePopulation, OneProfileIsEveryAfferentsOwnForce) {
     }
 }
 
-TEST(LanePopulation, AGainTimesAProfileIsThatForceToRoundingWithASharedOrOwnReceptor) {
+TEST(LanePopulation, AProfileWithGainsGivesTheSpikesOfScaledColumnsWithinRounding) {
     for (const auto& receptor : receptor_entries()) {
         const std::string name = fmt::format("{}+lif-b", receptor.name);
         for (const auto method : {Method::exact, Method::backward_euler}) {
@@ -263,7 +265,7 @@ TEST(LanePopulation, AGainTimesAProfileIsThatForceToRoundingWithASharedOrOwnRece
     }
 }
 
-TEST(LanePopulation, SpikeBitsAreTheSampledSpikes) {
+TEST(LanePopulation, SpikeBitsEqualTheListOfSpikes) {
     const corpuscle::SimulationOptions run{5e-4, Method::exact, true};
     const Case c{{value_or_throw(plan_afferent("sa1", {}))}, forces(100, 2e3, 0.4), run};
     std::vector<const double*> columns;
@@ -328,7 +330,7 @@ TEST(LanePopulation, AfferentsThatCannotShareLanesAreRefused) {
     EXPECT_NE(refused({}).find("0 afferents"), std::string::npos);
 }
 
-TEST(LanePopulation, ItsForceKeepsToOneLayout) {
+TEST(LanePopulation, AForceWithAnotherLayoutOrSizeIsRefused) {
     const Case c{{value_or_throw(plan_afferent("sa1", {}))}, forces(3, 1e3, 0.1), {1e-3}};
     const auto p = population(c, {});
     ThreadPool pool(1);
@@ -345,7 +347,8 @@ TEST(LanePopulation, ItsForceKeepsToOneLayout) {
     EXPECT_FALSE(population(c, {})->respond(ForceProfile{c.force[0]}, c.force[0].size() + 1, response, pool));
     EXPECT_FALSE(population(c, {})->respond(ForceColumns{std::span(columns).first(2)}, 10, response, pool));
 
-    // The current of sa1a does not scale with force. Without gains its receptor is computed once, with gains for each afferent.
+    // The current of sa1a does not scale with force. So its receptor is computed once for a profile without gains, but for each afferent if
+    // there are gains; a population must not change from one to the other.
     const Case mixed{{value_or_throw(plan_afferent("sa1a+lif-b", {}))}, c.force, c.run};
     const std::vector<double> ones = {1, 1, 1};
     const auto m = population(mixed, {});
@@ -353,7 +356,7 @@ TEST(LanePopulation, ItsForceKeepsToOneLayout) {
     EXPECT_FALSE(m->respond(ForceProfile{c.force[0], ones}, 10, response, pool));
 }
 
-/// Float against double, afferent by afferent: the same number of spikes, none more than `bound` apart.
+/// Compares float with double for each afferent: the same number of spikes, with times that differ by at most `bound` (s).
 void expect_near(const Case& c, InstructionSet set, double bound) {
     const auto trains = [&](const std::vector<Spike>& all) {
         std::vector<std::vector<double>> of(c.afferent_count());
@@ -367,7 +370,7 @@ void expect_near(const Case& c, InstructionSet set, double bound) {
     }
 }
 
-TEST(LanePopulation, FloatGivesThePressTheSameSpikesWithinFiftyMicroseconds) {
+TEST(LanePopulation, FloatFiresTheSameSpikesUnderThePressWithinFiftyMicroseconds) {
     for (const auto* name : {"sa1", "fa1", "sa2"})
         for (const auto set : lane_sets())
             for (const auto method : {Method::exact, Method::backward_euler}) {
@@ -378,7 +381,7 @@ TEST(LanePopulation, FloatGivesThePressTheSameSpikesWithinFiftyMicroseconds) {
 
 TEST(LanePopulation, FloatIsTheSameOnEveryInstructionSet) {
     for (const auto& name : all_models()) {
-        const auto c = own_parameters(name, 70, {5e-4}, 0.3, 2);
+        const auto c = individual_parameters(name, 70, {5e-4}, 0.3, 2);
         const auto expected = lane_spikes(c, {InstructionSet::baseline, Precision::single_precision});
         for (const auto set : lane_sets())
             EXPECT_EQ(lane_spikes(c, {set, Precision::single_precision}), expected) << name << ' ' << name_of(set);

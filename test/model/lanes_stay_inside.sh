@@ -1,6 +1,6 @@
 #!/bin/sh
-# Code compiled for one instruction set must not be linked instead of code for every machine. No object may export a weak symbol that
-# does not name its lanes (by xsimd's type), nor a global symbol except its tables.
+# The linker must not use code that was compiled for one instruction set for all machines. So an object may export no weak symbol, except
+# those whose name contains its lane type (of xsimd), and no global symbol except its tables.
 # Usage: lanes_stay_inside.sh OBJECT...
 set -eu
 test $# -ge 3 || { echo "expected objects for three instruction sets, not $#"; exit 1; }

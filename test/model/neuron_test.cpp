@@ -1,4 +1,4 @@
-// Every neuron alone, under currents with known responses.
+// Every neuron without a receptor, under currents with known responses.
 
 #include <cmath>
 
@@ -9,7 +9,7 @@ namespace {
 
 struct NeuronRun {
     std::vector<double> times;     // s
-    std::vector<double> membrane;  // first probe, a value a sample
+    std::vector<double> membrane;  // first probe, one value for each sample
     std::int64_t truncated_steps = 0;
 };
 
@@ -58,7 +58,7 @@ TEST(Neuron, EachFiresFasterWithMoreCurrent) {
     });
 }
 
-TEST(Neuron, EachKeepsItsRefractoryTimeAtTheResetVoltage) {
+TEST(Neuron, EachStaysAtTheResetVoltageForItsRefractoryTime) {
     for_each_type(Neurons{}, []<template <class> class N>(ModelTag<N>) {
         if constexpr (!has_refractory_time<N>) {
             EXPECT_TRUE(N<double>::name == "izhikevich" || N<double>::name == "adex") << "their recovery variable is their refractoriness";
@@ -86,7 +86,7 @@ TEST(Neuron, LifBsIntervalsAreTheChargeOverTheNetCurrent) {
     for (std::size_t k = 1; k < result.times.size(); ++k) EXPECT_NEAR(result.times[k] - result.times[k - 1], 500e-9 * 0.25 / 4.5e-6, 1e-12);
 }
 
-TEST(Neuron, LifAsIntervalsAreTheLogarithmOfTheDecay) {  // errata B5b
+TEST(Neuron, LifAsFiringRateMatchesTheClosedForm) {  // errata B5b
     const LifA<double>::Params p{.C_m = 1e-6, .R_m = 1e6, .E_L = 0, .V_th = 1, .V_reset = 0.5};
     for (const double dt : {1e-4, 1e-2, 1.0}) {  // exact for any step, because the current is a straight line
         const auto result = run<LifA>(p, [](double) { return 2e-6; }, 10, dt);
@@ -96,7 +96,7 @@ TEST(Neuron, LifAsIntervalsAreTheLogarithmOfTheDecay) {  // errata B5b
     }
 }
 
-TEST(Neuron, LifsFollowARampOfCurrentExactlyWhateverTheStep) {
+TEST(Neuron, IntegrateAndFireNeuronsFollowARampOfCurrentExactlyAtAnyStep) {
     const auto ramp = [](double t) { return 20e-6 * t; };
     const auto fine_b = run<LifB>({}, ramp, 1, 1e-5), coarse_b = run<LifB>({}, ramp, 1, 0.05);
     ASSERT_EQ(fine_b.times.size(), coarse_b.times.size());
@@ -109,8 +109,8 @@ TEST(Neuron, LifsFollowARampOfCurrentExactlyWhateverTheStep) {
     for (std::size_t k = 0; k < fine.times.size(); ++k) EXPECT_NEAR(fine.times[k], coarse.times[k], 1e-8) << k;
 }
 
-TEST(Neuron, SeveralSpikesInAStepAreAllGivenUpToTheReportedLimit) {
-    const auto many = run<LifB>({}, [](double) { return 50e-6; }, 0.5, 0.05);  // 396 Hz: some twenty a step
+TEST(Neuron, AllSpikesOfAStepAreReturnedUpToALimitThatIsReported) {
+    const auto many = run<LifB>({}, [](double) { return 50e-6; }, 0.5, 0.05);  // 396 Hz: some twenty spikes per step
     EXPECT_NEAR(static_cast<double>(many.times.size()), (49.5e-6 * 0.5 / 500e-9 - 0.5) / 0.25 + 1, 1);
     EXPECT_EQ(many.truncated_steps, 0);
     const auto too_many = run<LifB>({}, [](double) { return 50e-6; }, 0.5, 0.5);
@@ -120,16 +120,16 @@ TEST(Neuron, SeveralSpikesInAStepAreAllGivenUpToTheReportedLimit) {
     EXPECT_EQ(run<Adaptive>({}, [](double) { return 500e-6; }, 0.5, 0.5).truncated_steps, 1);
 }
 
-TEST(Neuron, LifBIsHeldAtRestAndLeavesItWhenTheCurrentPassesTheLeak) {
+TEST(Neuron, LifBStaysAtRestUntilTheCurrentExceedsTheLeak) {
     const auto result = run<LifB>({}, [](double t) { return 1e-6 * t; }, 2, 0.2);  // passes 0.5 uA in the middle of a step
-    const double charge_to_fire = 500e-9 * 0.5;                                    // 1e-6 (t - 0.5)^2 / 2
+    const double charge_to_fire = 500e-9 * 0.5;  // C; the charge delivered until time t is 1e-6 (t - 0.5)^2 / 2
     ASSERT_EQ(result.times.size(), 8U);
     for (std::size_t k = 0; k < 8; ++k)
         EXPECT_NEAR(result.times[k], 0.5 + std::sqrt(2 * charge_to_fire * (1 + 0.5 * static_cast<double>(k)) / 1e-6), 1e-9);
 }
 
-TEST(Neuron, AdaptiveFiresForAllTheTimeItIsDrivenInAStep) {
-    // 50 ms from 100 uA down to 0, and then below 0: all spikes are in the driven part, where u = 100e-6 (x - x^2 / 2) T / C_m.
+TEST(Neuron, AdaptiveFiresAllSpikesWhileTheCurrentIsPositiveWithinAStep) {
+    // A current that falls from 100 uA to 0, or to -50 uA, in one step of 50 ms. All spikes occur while it is positive.
     for (const double end : {0.0, -50e-6}) {
         const auto coarse = run<Adaptive>({}, [=](double t) { return 100e-6 + (end - 100e-6) * t / 0.05; }, 0.05, 0.05);
         const auto fine = run<Adaptive>({}, [=](double t) { return 100e-6 + (end - 100e-6) * t / 0.05; }, 0.05, 1e-6);
@@ -139,7 +139,7 @@ TEST(Neuron, AdaptiveFiresForAllTheTimeItIsDrivenInAStep) {
     }
 }
 
-TEST(Neuron, AdexWithoutAFixedPointStartsAtItsDefinedState) {
+TEST(Neuron, AdexWithoutARestingStateStartsAtTheRestingPotential) {
     const Adex<double>::Params p{.Delta_T = 0.1};
     const Adex<double> neuron(UniformParams<Adex<double>::Params>{p}, 1e-4, Method::exact);
     EXPECT_EQ(neuron.start().v, p.E_L);
@@ -158,7 +158,7 @@ TEST(Neuron, IzhikevichFiresAsPublished) {
     EXPECT_NEAR(result.times.back() - result.times[result.times.size() - 2], interval * 1e-3, 0.02e-3);
 }
 
-TEST(Neuron, AdexFiresAsItsEquationsDo) {
+TEST(Neuron, AdexMatchesAFineEulerIntegration) {
     double v = -70.6e-3, w = 0;
     std::vector<double> right;
     for (double t = 0, h = 1e-7; t < 0.3; t += h) {
@@ -180,8 +180,8 @@ TEST(Neuron, SlopesByDualsMatchFiniteDifferencesForEveryParameter) {
         constexpr double dt = 1e-4;
         constexpr int steps = 400;
         for (const auto& field : N<double>::fields) {
-            if (field.name == "substep") continue;                  // it sets a count, not a value
-            const auto last_time = [&](auto neuron, auto number) {  // time of the last spike before the end, and the membrane there
+            if (field.name == "substep") continue;                       // it sets a number of substeps, which has no derivative
+            const auto spike_and_end = [&](auto neuron, auto number) {  // time of the last spike, in steps; membrane at the end
                 using T = decltype(number);
                 auto state = neuron.start();
                 T last{};
@@ -194,8 +194,8 @@ TEST(Neuron, SlopesByDualsMatchFiniteDifferencesForEveryParameter) {
                 return std::pair(last, parts[0]);
             };
             Params p;
-            if constexpr (has_refractory_time<N>) p.t_ref = 1.3e-3;  // at 0 it has a one-sided derivative only
-            const auto dual = last_time(N<num::Dual>(DualParams<Params>{p, field.member}, dt, Method::exact), num::Dual{});
+            if constexpr (has_refractory_time<N>) p.t_ref = 1.3e-3;  // at 0 there is only a one-sided derivative
+            const auto dual = spike_and_end(N<num::Dual>(DualParams<Params>{p, field.member}, dt, Method::exact), num::Dual{});
             const double scale = p.*field.member != 0 ? std::abs(p.*field.member)
                                  : field.unit == "V"  ? 1e-2
                                  : field.unit == "s"  ? 1e-3
@@ -203,7 +203,7 @@ TEST(Neuron, SlopesByDualsMatchFiniteDifferencesForEveryParameter) {
             const auto moved = [&](double by) {
                 Params q = p;
                 q.*field.member += by;
-                return last_time(N<double>(UniformParams<Params>{q}, dt, Method::exact), 0.0);
+                return spike_and_end(N<double>(UniformParams<Params>{q}, dt, Method::exact), 0.0);
             };
             const double h = 1e-6 * scale;
             const auto up = moved(h), down = moved(-h);

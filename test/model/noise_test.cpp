@@ -1,4 +1,4 @@
-// Membrane noise: its amplitude at any sampling rate, and that it depends on nothing but its indices.
+// Membrane noise: its amplitude at any sampling rate, and that it depends only on seed, afferent, neuron and step.
 
 #include <cmath>
 
@@ -38,7 +38,7 @@ double covariance(const std::vector<double>& x, const std::vector<double>& y, st
     return sum / static_cast<double>(x.size());
 }
 
-TEST(Noise, OfAStepIsWhiteAndAsLargeAsItsBandwidthGives) {
+TEST(Noise, IsWhiteWithAVarianceProportionalToTheSamplingRate) {
     for (const double rate : {500.0, 2e3, 50e3}) {
         std::vector<double> f(4000, 0.0);
         const auto i = run("sa1a+lif-b", {}, f, rate, 100e-9).probes[2];
@@ -50,7 +50,7 @@ TEST(Noise, OfAStepIsWhiteAndAsLargeAsItsBandwidthGives) {
     }
 }
 
-TEST(Noise, MovesAMembraneAlikeAtEveryRate) {
+TEST(Noise, GivesTheSameMembraneDeviationAtEverySamplingRate) {
     // R C u' = -u + R n, n white with S = SD^2 / 1 kHz (one-sided): the variance of u is R^2 S / (4 R C).
     const double expected = std::sqrt(1e12 * 1e-14 / 1e3 / (4 * 10e-3));
     for (const double rate : {1e3, 4e3, 16e3}) {
@@ -62,28 +62,29 @@ TEST(Noise, MovesAMembraneAlikeAtEveryRate) {
     }
 }
 
-TEST(Noise, DependsOnSeedAfferentNeuronAndStepAndNothingElse) {
+TEST(Noise, DependsOnlyOnSeedAfferentNeuronAndStep) {
     const auto f = test::force("press", {.rate = 2e3});
     const auto undivided = run("fa1a+lif-b", {}, f, 2e3, 1e-6);
     for (const std::size_t block : {1U, 7U, 333U}) {
-        const auto parts = run("fa1a+lif-b", {}, f, 2e3, 1e-6, 0, 7, block);
-        EXPECT_EQ(parts.spikes, undivided.spikes) << block;
-        EXPECT_EQ(parts.probes, undivided.probes) << block;
+        const auto in_blocks = run("fa1a+lif-b", {}, f, 2e3, 1e-6, 0, 7, block);
+        EXPECT_EQ(in_blocks.spikes, undivided.spikes) << block;
+        EXPECT_EQ(in_blocks.probes, undivided.probes) << block;
     }
     const auto other_afferent = run("fa1a+lif-b", {}, f, 2e3, 1e-6, 1), other_seed = run("fa1a+lif-b", {}, f, 2e3, 1e-6, 0, 8);
     const auto &up = undivided.probes[0], &down = undivided.probes[1];
-    const double one = covariance(std::vector(up.begin() + 1, up.begin() + 400), std::vector(up.begin() + 1, up.begin() + 400));
-    EXPECT_NEAR(covariance(std::vector(up.begin() + 1, up.begin() + 400), std::vector(down.begin() + 1, down.begin() + 400)) / one, 0, 0.2)
-        << "each neuron has its own";
+    const double variance = covariance(std::vector(up.begin() + 1, up.begin() + 400), std::vector(up.begin() + 1, up.begin() + 400));
+    EXPECT_NEAR(covariance(std::vector(up.begin() + 1, up.begin() + 400), std::vector(down.begin() + 1, down.begin() + 400)) / variance, 0,
+                0.2)
+        << "the noise of the two neurons is independent";
     EXPECT_NE(other_afferent.probes[0], up);
     EXPECT_NE(other_seed.probes[0], up);
 }
 
-TEST(Noise, ReachesAfferentsBehindASensorAndLeavesFixedPointAlone) {
+TEST(Noise, ActsBehindASensorButNotInFixedPoint) {
     const auto f = test::force("press", {.rate = 2e3});
-    const auto plain = run("fsr+f2v+sa1", {}, f, 2e3, 0), noisy = run("fsr+f2v+sa1", {}, f, 2e3, 1e-6);
-    EXPECT_EQ(plain.probes[0], noisy.probes[0]);
-    EXPECT_NE(plain.probes.back(), noisy.probes.back());
+    const auto noiseless = run("fsr+f2v+sa1", {}, f, 2e3, 0), noisy = run("fsr+f2v+sa1", {}, f, 2e3, 1e-6);
+    EXPECT_EQ(noiseless.probes[0], noisy.probes[0]);
+    EXPECT_NE(noiseless.probes.back(), noisy.probes.back());
     EXPECT_EQ(run("sa1-kim", {}, f, 2e3, 0).probes, run("sa1-kim", {}, f, 2e3, 1e-6).probes);
 }
 

@@ -1,4 +1,4 @@
-// Every receptor alone.
+// Every receptor without a neuron, and the named afferents.
 
 #include <fmt/format.h>
 
@@ -21,7 +21,7 @@ TEST(Receptor, HighPassUnderARampIsExactAtAnyStep) {
     }
 }
 
-TEST(Receptor, CurrentsAreContinuousBetweenStepsOrHoldASlope) {
+TEST(Receptor, CurrentsAreContinuousUnlessTheyDependOnTheSlopeOfForce) {
     for_each_type(Receptors{}, []<template <class> class R>(ModelTag<R>) {
         const std::string name(R<double>::name);
         const R<double> receptor(UniformParams<typename R<double>::Params>{{}}, 1e-3, Method::exact);
@@ -32,8 +32,8 @@ TEST(Receptor, CurrentsAreContinuousBetweenStepsOrHoldASlope) {
             receptor.step(s, f[k], i);
             for (int o = 0; o < R<double>::outputs; ++o) {
                 ASSERT_TRUE(std::isfinite(i[o].from) && std::isfinite(i[o].to)) << name;
-                ASSERT_GE(i[o].to, 0) << name << " excites or is still";
-                if (k > 1 && name != "sa1a" && name != "fa1a") {  // these two hold a slope
+                ASSERT_GE(i[o].to, 0) << name << " never inhibits";
+                if (k > 1 && name != "sa1a" && name != "fa1a") {  // the currents of these two depend on the slope of the force
                     ASSERT_EQ(i[o].from, before[o].to) << name;
                 }
                 before[o] = i[o];
@@ -63,8 +63,8 @@ TEST(Receptor, SlopesByDualsMatchFiniteDifferencesForEveryParameter) {
                     return current(R<double>(UniformParams<Params>{q}, 1e-3, method), 0.0);
                 };
                 const double slope = (moved(h) - moved(-h)) / (2 * h) * scale,
-                             made = current(R<num::Dual>(DualParams<Params>{p, field.member}, 1e-3, method), num::Dual{}).d * scale;
-                EXPECT_NEAR(made, slope, 1e-7 * std::abs(slope) + 1e-17) << R<double>::name << '.' << field.name;
+                             dual_slope = current(R<num::Dual>(DualParams<Params>{p, field.member}, 1e-3, method), num::Dual{}).d * scale;
+                EXPECT_NEAR(dual_slope, slope, 1e-7 * std::abs(slope) + 1e-17) << R<double>::name << '.' << field.name;
             }
     });
 }

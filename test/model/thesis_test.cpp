@@ -1,4 +1,5 @@
-// The thesis's afferents against closed forms, the golden values and the firing pattern that it describes.
+// Compares the thesis's afferents with closed forms, with golden values (stored reference values) and with the firing pattern that the
+// thesis describes.
 
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -25,7 +26,7 @@ struct ThesisCase {
 
 const ThesisCase cases[] = {{"sa1", 0.5, 0.25}, {"fa1", 0.5, 0.25}, {"sa1", 1, 0.5}, {"fa1", 1, 0.5}, {"sa1", 0.2, 0}, {"fa1", 0.2, 0}};
 
-/// The largest distance between spikes of the same index; infinite if the counts differ.
+/// The largest difference between the times of spikes with the same index, s; infinite if the counts differ.
 double max_difference(const std::vector<double>& a, const std::vector<double>& b) {
     if (a.size() != b.size()) return INFINITY;
     double largest = 0;
@@ -45,15 +46,16 @@ TEST(Thesis, ExactIsWithinATenthOfAMillisecondAt1kHz) {
             << c.afferent << ' ' << c.V_th;
 }
 
-TEST(Thesis, PublishedClosedFormTimesAreMet) {
-    const auto near = [](const std::vector<double>& made, const std::vector<double>& ms) {
-        ASSERT_EQ(made.size(), ms.size());
-        for (std::size_t k = 0; k < ms.size(); ++k) EXPECT_NEAR(made[k] * 1e3, ms[k], 1e-3);
+TEST(Thesis, ExactMatchesThePublishedClosedFormTimes) {
+    const auto near = [](const std::vector<double>& seconds, const std::vector<double>& ms) {
+        ASSERT_EQ(seconds.size(), ms.size());
+        for (std::size_t k = 0; k < ms.size(); ++k) EXPECT_NEAR(seconds[k] * 1e3, ms[k], 1e-3);
     };
     near(train("sa1", "press", {.settings = cases[2].settings()}), {346.8884, 374.8316, 413.0233, 460.9993, 517.9470, 581.7380, 651.2533});
     near(train("fa1", "press", {.settings = cases[3].settings()}), {387.7107, 700.5009, 757.6866});
 }
 
+/// The order of convergence: the slope of log(error) over log(T).
 double slope(const ThesisCase& c, Method method) {
     const auto expected = c.exact();
     double sum_x = 0, sum_y = 0, sum_xx = 0, sum_xy = 0;
@@ -75,7 +77,7 @@ TEST(Thesis, BackwardEulerConvergesWithTheStep) {
     for (const auto& c : cases) EXPECT_NEAR(slope(c, Method::backward_euler), 1.0, 0.2) << c.afferent << ' ' << c.V_th;
 }
 
-/// Algorithms 4 to 6 with the corrections of the errata, written as printed.
+/// Algorithms 4 to 6 as printed in the thesis, with the corrections of the errata. Returns the spike times, s.
 std::vector<double> algorithm(const ThesisCase& c, double T) {
     const auto F = test::force("press", {.rate = 1 / T});
     const bool sa1 = c.afferent == "sa1";
@@ -99,7 +101,7 @@ std::vector<double> algorithm(const ThesisCase& c, double T) {
     return out;
 }
 
-TEST(Thesis, SampledBackwardEulerIsTheAlgorithmToTheSample) {
+TEST(Thesis, SampledBackwardEulerFiresOnTheSamplesOfThePrintedAlgorithm) {
     for (const auto& c : cases)
         for (const double T : {1e-3, 5e-4, 1e-4})
             EXPECT_LT(max_difference(train(c.afferent, "press",
@@ -109,7 +111,7 @@ TEST(Thesis, SampledBackwardEulerIsTheAlgorithmToTheSample) {
                 << c.afferent << ' ' << c.V_th << ' ' << T;
 }
 
-TEST(Thesis, GoldenCasesAreMet) {
+TEST(Thesis, SpikesAndMeasuresMatchTheGoldenCases) {
     const auto path = test::shared_file_path("../golden/behaviour.json");
     CORPUSCLE_NEEDS(path);
     const auto golden = nlohmann::json::parse(test::read_file(path));
@@ -130,20 +132,21 @@ TEST(Thesis, GoldenCasesAreMet) {
                 1e-12)
                 << g["model"] << g["neuron_set"];
         }
-        for (const auto& [name, facts] : g["stats"]["phases"].items()) {
+        for (const auto& [name, statistics] : g["stats"]["phases"].items()) {
             const auto& ends = golden["conventions"]["phases_s"][name];
             const TimeWindow s{ends[0], ends[1]};
-            EXPECT_EQ(measure<SpikeCount>(expected, s), facts["count"].get<double>());
-            const auto same = [](double made, const nlohmann::json& value) {
+            EXPECT_EQ(measure<SpikeCount>(expected, s), statistics["count"].get<double>());
+            const auto same = [](double computed, const nlohmann::json& value) {
                 if (value.is_null()) {
-                    EXPECT_TRUE(std::isnan(made));
+                    EXPECT_TRUE(std::isnan(computed));
                 } else {
-                    EXPECT_NEAR(made, value.get<double>(), 1e-9);
+                    EXPECT_NEAR(computed, value.get<double>(), 1e-9);
                 }
             };
-            same(measure<MeanRate>(expected, s), facts["mean_rate_Hz"]), same(measure<PeakRate>(expected, s), facts["peak_inst_Hz"]);
-            same(measure<FirstRate>(expected, s), facts["first_inst_Hz"]),
-                same(measure<LastRate>(expected, s), facts["last_inst_inside_Hz"]);
+            same(measure<MeanRate>(expected, s), statistics["mean_rate_Hz"]),
+                same(measure<PeakRate>(expected, s), statistics["peak_inst_Hz"]);
+            same(measure<FirstRate>(expected, s), statistics["first_inst_Hz"]),
+                same(measure<LastRate>(expected, s), statistics["last_inst_inside_Hz"]);
         }
     }
 }
@@ -153,7 +156,7 @@ TEST(Thesis, Figure16sNeuronsMeetTheGoldenValues) {
     CORPUSCLE_NEEDS(path);
     const auto golden = nlohmann::json::parse(test::read_file(path))["fig16"];
     const auto run = [](const std::string& neuron, double amplitude, Method method, bool sampled, double T) {
-        // A step of force through SA-IA with k_s = 1 uA/N and no dynamic part is a step of current.
+        // A step of force is converted to a step of current by SA-IA with k_s = 1 uA/N and without its dynamic part.
         const std::string name = "sa1a+" + neuron;
         const auto a = test::afferent(name, {.settings = {name + ".k_d=0", name + ".C_m=1uF", name + ".V_th=1V", name + ".V_reset=0.5V"},
                                              .rate = 1 / T,
@@ -167,10 +170,10 @@ TEST(Thesis, Figure16sNeuronsMeetTheGoldenValues) {
     for (const auto& g : golden["cases"]) {
         const double amplitude = g["I_amp"].get<double>() * 1e6;
         for (const auto& [neuron, key] : {std::pair{"lif-a", "spike_times_A"}, {"lif-b", "spike_times_B"}}) {
-            // The step is between two samples, half a step early for first-order hold.
+            // The edge lies between two samples. First-order hold makes it a ramp over this interval, half an interval early on average.
             EXPECT_LT(max_difference(run(neuron, amplitude, Method::exact, false, 1e-4), g["exact"][key].get<std::vector<double>>()), 6e-5)
                 << neuron;
-            // One rounding decides the result there.
+            // In these cases a rounding error decides whether a spike is fired.
             if (g["rounding_ties_in_sampled_LIF_B"].get<bool>() && std::string(neuron) == "lif-b") continue;
             for (const auto& s : g["sampled"])
                 EXPECT_LT(max_difference(run(neuron, amplitude, Method::backward_euler, true, s["T"]), s[key].get<std::vector<double>>()),
@@ -180,7 +183,7 @@ TEST(Thesis, Figure16sNeuronsMeetTheGoldenValues) {
     }
 }
 
-TEST(Thesis, DefaultPressHasTheDescribedPattern) {
+TEST(Thesis, ThePressGivesTheFiringPatternThatTheThesisDescribes) {
     const auto sa1 = train("sa1"), fa1 = train("fa1");
     const TimeWindow plateau{0.375, 0.625};
     EXPECT_NEAR(measure<PeakRate>(sa1, {0, 1}), 76.0, 0.5);

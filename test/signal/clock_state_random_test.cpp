@@ -22,7 +22,7 @@ TEST(Clock, IsAnExactFractionOfASecond) {
         EXPECT_NEAR(test::value_or_throw(make_clock(rate)).rate(), rate, 1e-12 * rate);
 }
 
-TEST(Clock, TimesOfALongRunAreNotAccumulated) {
+TEST(Clock, TimesOfALongRunHaveNoAccumulatedError) {
     const auto c = test::value_or_throw(make_clock(10e3, 2.5));
     EXPECT_EQ(c.time(0), 2.5);
     EXPECT_EQ(c.time(36'000'000'000), 2.5 + 3.6e6);  // a thousand hours
@@ -39,7 +39,7 @@ TEST(Spike, IsOrderedByTimeThenAfferent) {
     EXPECT_LT((Spike{4, 0.1, 0}), (Spike{4, 0.1, 1}));
 }
 
-RC_GTEST_PROP(State, PackedAndUnpackedIsTheSame, ()) {
+RC_GTEST_PROP(State, IsUnchangedByPackingAndUnpacking, ()) {
     const State s{*rc::gen::container<std::string>(rc::gen::inRange('a', 'z')), *rc::gen::inRange<std::int64_t>(0, std::int64_t{1} << 53),
                   *rc::gen::arbitrary<std::vector<double>>()};
     const auto back = unpack(pack(s));
@@ -47,7 +47,7 @@ RC_GTEST_PROP(State, PackedAndUnpackedIsTheSame, ()) {
     RC_ASSERT(back->format == s.format && back->step == s.step && back->values == s.values);
 }
 
-TEST(State, CutShortOrForeignBytesAreRefused) {
+TEST(State, TruncatedOrForeignBytesAreRefused) {
     const auto bytes = pack({"sa1b+lif-b/1", 5, {1, 2, 3}});
     for (std::size_t n = 0; n < bytes.size(); ++n) EXPECT_FALSE(unpack(std::span(bytes).first(n))) << n;
     auto longer = bytes;
@@ -61,7 +61,7 @@ TEST(State, CutShortOrForeignBytesAreRefused) {
     EXPECT_FALSE(unpack(foreign));
 }
 
-TEST(State, AFlippedBitIsFound) {
+TEST(State, AFlippedBitIsRefused) {
     const auto bytes = pack({"sa1b+lif-b/1", 5, {1, 2, 3}});
     for (std::size_t bit = 0; bit < 8 * bytes.size(); ++bit) {
         auto damaged = bytes;
@@ -83,14 +83,14 @@ TEST(State, ThePreviousVersionIsReadAndALaterOneRefused) {
     EXPECT_EQ(before->values, (std::vector<double>{1, 2, 3}));
 }
 
-TEST(RandomDevice, PhiloxGivesThePublishedNumbers) {  // test vectors of Random123, kat_vectors
+TEST(RandomNumbers, PhiloxGivesThePublishedNumbers) {  // test vectors of Random123, kat_vectors
     EXPECT_EQ(philox({0, 0, 0, 0}, 0), (PhiloxCounter{0x6627e8d5, 0xe169c58d, 0xbc57ac4c, 0x9b00dbd8}));
     EXPECT_EQ(philox({~0U, ~0U, ~0U, ~0U}, ~0ULL), (PhiloxCounter{0x408f276d, 0x41c83b0e, 0xa20bc7c6, 0x6d5451fd}));
     EXPECT_EQ(philox({0x243f6a88, 0x85a308d3, 0x13198a2e, 0x03707344}, 0x299f31d0a4093822),
               (PhiloxCounter{0xd16cfe09, 0x94fdcceb, 0x5001e420, 0x24126ea1}));
 }
 
-TEST(RandomDevice, NormalDeviatesHaveTheMomentsOfANormal) {
+TEST(RandomNumbers, NormalDeviatesHaveTheMomentsOfANormalDistribution) {
     constexpr int n = 200000;
     double sum = 0, square = 0, fourth = 0;
     for (std::uint64_t k = 0; k < n; ++k) {

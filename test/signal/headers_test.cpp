@@ -8,7 +8,8 @@
 namespace corpuscle {
 namespace {
 
-/// Two types of one name in one namespace are taken for each other if one program has both, and no compiler reports it.
+/// If two headers define different types with the same name in one namespace, a program that contains both is broken (one-definition
+/// rule), and no compiler reports it.
 TEST(Headers, NoTwoDefineATypeOfTheSameName) {
     const std::regex space("^namespace ([\\w:]+)", std::regex::multiline),
         type("^(?:struct|class|enum class|enum) (\\w+)(?= |:|\\{)(?!::)", std::regex::multiline);

@@ -1,4 +1,5 @@
-// Functions on lanes equal the scalar ones: to the bit in double. In float they are the same on every instruction set, and close.
+// Functions on lanes equal the scalar functions bit for bit in double. In float they are the same on every instruction set, and close to
+// double.
 
 #include <gtest/gtest.h>
 
@@ -23,7 +24,7 @@ using test::function_count;
 constexpr std::size_t points = 4096;
 
 template <class V>
-test::NumberFunctions<V> on(InstructionSet set) {
+test::NumberFunctions<V> functions_for(InstructionSet set) {
     const auto pick = [](auto in_double, auto in_float) {
         if constexpr (sizeof(V) == 8)
             return (void)in_float, in_double;
@@ -42,21 +43,21 @@ template <class V>
 struct Arguments {
     lanes::AlignedBuffer<V> a{points}, b{points};
     Arguments() {
-        const V odd[] = {0,
-                         -V(0),
-                         1,
-                         -1,
-                         V(0.5),
-                         std::numeric_limits<V>::infinity(),
-                         -std::numeric_limits<V>::infinity(),
-                         std::numeric_limits<V>::quiet_NaN(),
-                         700,
-                         -700,
-                         V(1e-30),
-                         V(0.01)};
+        const V special[] = {0,
+                             -V(0),
+                             1,
+                             -1,
+                             V(0.5),
+                             std::numeric_limits<V>::infinity(),
+                             -std::numeric_limits<V>::infinity(),
+                             std::numeric_limits<V>::quiet_NaN(),
+                             700,
+                             -700,
+                             V(1e-30),
+                             V(0.01)};
         for (std::size_t k = 0; k < points; ++k) {
             a.data()[k] = static_cast<V>(20 * normal(1, 0, 0, k)), b.data()[k] = static_cast<V>(normal(1, 1, 0, k));
-            if (k < 144) a.data()[k] = odd[k / 12], b.data()[k] = odd[k % 12];
+            if (k < 144) a.data()[k] = special[k / 12], b.data()[k] = special[k % 12];
         }
     }
 };
@@ -66,7 +67,7 @@ std::vector<lanes::AlignedBuffer<V>> values(InstructionSet set, const Arguments<
     std::vector<lanes::AlignedBuffer<V>> out;
     V* at[function_count];
     for (auto& p : at) p = out.emplace_back(points).data();
-    on<V>(set)(x.a.data(), x.b.data(), points, at);
+    functions_for<V>(set)(x.a.data(), x.b.data(), points, at);
     return out;
 }
 
@@ -76,7 +77,7 @@ bool same(V x, V y) {
     return std::memcmp(&x, &y, sizeof x) == 0 || (std::isnan(x) && std::isnan(y));
 }
 
-TEST(Lanes, EveryFunctionInDoubleGivesTheBitsOfTheScalarOne) {
+TEST(Lanes, EveryFunctionInDoubleGivesTheSameBitsAsTheScalarFunction) {
     const Arguments<double> x;
     for (const auto set : instruction_sets().subspan(1)) {
         const auto found = values(set, x);
@@ -88,7 +89,7 @@ TEST(Lanes, EveryFunctionInDoubleGivesTheBitsOfTheScalarOne) {
     }
 }
 
-TEST(Lanes, EveryFunctionInFloatIsTheSameOnAllSetsAndNearDouble) {
+TEST(Lanes, EveryFunctionInFloatIsTheSameOnAllInstructionSetsAndNearDouble) {
     const Arguments<float> x;
     const auto expected = values(InstructionSet::baseline, x);
     for (const auto set : instruction_sets().subspan(1)) {
@@ -99,7 +100,7 @@ TEST(Lanes, EveryFunctionInFloatIsTheSameOnAllSetsAndNearDouble) {
                     << name_of(set) << " function " << f << " of " << x.a.data()[k] << ", " << x.b.data()[k] << ": " << found[f].data()[k]
                     << ", not " << expected[f].data()[k];
     }
-    for (std::size_t k = 144; k < points; ++k)  // exp's error grows with its argument, log's as its argument comes near 1
+    for (std::size_t k = 144; k < points; ++k)  // without the special values; the relative error of exp grows with its argument
         test::for_each_function<double>(x.a.data()[k], x.b.data()[k], [&](std::size_t f, double y) {
             if (std::abs(x.a.data()[k]) > 80 && f == 0) return;
             const double scale = f == 0 ? std::abs(y) * (1 + std::abs(x.a.data()[k])) : std::abs(y) + 1;
@@ -107,7 +108,7 @@ TEST(Lanes, EveryFunctionInFloatIsTheSameOnAllSetsAndNearDouble) {
         });
 }
 
-TEST(Lanes, TheEnvironmentNamesTheInstructionSetOrIsRefused) {
+TEST(Lanes, TheEnvironmentVariableSelectsTheInstructionSetOrIsRefused) {
     for (const auto set : instruction_sets()) {
         setenv("CORPUSCLE_ISA", std::string(name_of(set)).c_str(), 1);
         const auto chosen = instruction_set();

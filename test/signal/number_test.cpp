@@ -47,7 +47,7 @@ TEST(Elementary, SineAndCosineOfTurnsAreExactAtQuartersAndCloseElsewhere) {
     }
 }
 
-TEST(Elementary, ExprelKeepsItsDigitsNearZero) {
+TEST(Elementary, ExprelIsAccurateNearZero) {
     for (double x = -1; x < 1; x += 1e-4)
         ASSERT_NEAR(num::exprel(x), x == 0 ? 1.0 : static_cast<double>(std::expm1(static_cast<long double>(x)) / x), 1e-13) << x;
     for (double x = 1e-300; x < 1; x *= 7)

@@ -46,7 +46,7 @@ TEST(Quantity, ReadsNumbersWithUnitsInAllTheirSpellings) {
     }
 }
 
-TEST(Quantity, RefusesOtherTextsAndGivesAnExample) {
+TEST(Quantity, RefusesInvalidTextsAndGivesAnExample) {
     const struct {
         const char *text, *unit, *message;
     } cases[] = {
@@ -67,18 +67,19 @@ TEST(Quantity, RefusesOtherTextsAndGivesAnExample) {
     }
 }
 
-TEST(Quantity, OfEveryParameterReadsItsOwnDefaultBack) {
-    for (const auto& cards : {receptor_entries(), neuron_entries(), stimulus_catalog()})
-        for (const auto& card : cards)
-            for (const auto& row : card.parameters) {
+TEST(Quantity, FormattedDefaultsOfAllParametersAreReadBack) {
+    for (const auto& entries : {receptor_entries(), neuron_entries(), stimulus_catalog()})
+        for (const auto& entry : entries)
+            for (const auto& row : entry.parameters) {
                 const auto text = format_quantity(row.default_value, row.unit);
                 const auto back = parse_quantity(text, row.unit);
-                ASSERT_TRUE(back) << card.name << '.' << row.name << ": " << back.error().text();
-                EXPECT_NEAR(*back, row.default_value, 1e-3 * std::abs(row.default_value)) << card.name << '.' << row.name << " as " << text;
+                ASSERT_TRUE(back) << entry.name << '.' << row.name << ": " << back.error().text();
+                EXPECT_NEAR(*back, row.default_value, 1e-3 * std::abs(row.default_value))
+                    << entry.name << '.' << row.name << " as " << text;
             }
 }
 
-RC_GTEST_PROP(Quantity, WrittenAndReadBackAgreesToItsDigits, ()) {
+RC_GTEST_PROP(Quantity, AFormattedValueIsReadBack, ()) {
     const auto mantissa = *rc::gen::inRange(1000, 9999);
     const auto power = *rc::gen::inRange(-15, 12);
     const double value = mantissa * std::pow(10.0, power - 3);
@@ -88,18 +89,18 @@ RC_GTEST_PROP(Quantity, WrittenAndReadBackAgreesToItsDigits, ()) {
     RC_ASSERT(std::abs(*back - value) <= 1e-9 * value);
 }
 
-TEST(Quantity, HasPowersOfLengthsAndPressures) {
+TEST(Quantity, ReadsAreasDensitiesAndPressures) {
     EXPECT_DOUBLE_EQ(*parse_quantity("4 mm2", "m2"), 4e-6);
     EXPECT_DOUBLE_EQ(*parse_quantity("241 /cm2", "1/m2"), 241e4);
     EXPECT_DOUBLE_EQ(*parse_quantity("2 1/mm2", "1/m2"), 2e6);
     EXPECT_DOUBLE_EQ(*parse_quantity("50 kPa", "Pa"), 50e3);
     EXPECT_DOUBLE_EQ(*parse_quantity("0.05 N/mm2", "Pa"), 50e3);
     EXPECT_DOUBLE_EQ(*parse_quantity("3 cm", "m"), 0.03);
-    EXPECT_EQ(format_quantity(4e-6, "m2"), "4e-06 m2");  // "4 um2" would be another value
+    EXPECT_EQ(format_quantity(4e-6, "m2"), "4e-06 m2");  // not "4 um2", which is 4e-12 m2
     for (const auto* wrong : {"4 mm", "4 /", "4 2", "4 ccm2", "4 cm22"}) EXPECT_FALSE(parse_quantity(wrong, "m2")) << wrong;
 }
 
-RC_GTEST_PROP(Quantity, NeverMistakesUnitsOfDifferentDimensions, ()) {
+RC_GTEST_PROP(Quantity, AcceptsOnlyUnitsOfTheRequiredDimension, ()) {
     const auto a = *rc::gen::element<std::string>("s", "N", "V", "A", "m"), b = *rc::gen::element<std::string>("s", "N", "V", "A", "m");
     RC_ASSERT(static_cast<bool>(parse_quantity("2 k" + a, b)) == (a == b));
 }

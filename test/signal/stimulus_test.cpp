@@ -8,41 +8,41 @@ namespace {
 using test::RunSettings, test::force;
 
 TEST(Stimulus, EachIsFiniteNotNegativeAndReproducible) {
-    for (const auto& card : stimulus_catalog()) {
-        const std::string name(card.name);
+    for (const auto& entry : stimulus_catalog()) {
+        const std::string name(entry.name);
         const auto once = force(name), again = force(name);
         ASSERT_FALSE(once.empty()) << name;
         EXPECT_EQ(once, again) << name;
         for (const double f : once) ASSERT_TRUE(std::isfinite(f)) << name;
-        if (name == "noise") continue;  // noise may be negative now and then
+        if (name == "noise") continue;  // noise may be negative
         for (const double f : once) ASSERT_GE(f, 0) << name;
     }
 }
 
 TEST(Stimulus, EachIsTheSameAtEveryRate) {
-    for (const auto& card : stimulus_catalog()) {
-        const std::string name(card.name);
+    for (const auto& entry : stimulus_catalog()) {
+        const std::string name(entry.name);
         const auto coarse = force(name, {.rate = 1e3}), fine = force(name, {.rate = 8e3});
         for (std::size_t k = 0; k < coarse.size(); ++k) ASSERT_NEAR(coarse[k], fine[8 * k], 1e-9) << name << " at " << k;
     }
 }
 
-TEST(Stimulus, PhasesFollowEachOtherToTheEnd) {
-    for (const auto& card : stimulus_catalog()) {
-        const auto source = test::value_or_throw(make_stimulus(card.name, {}, 1e3, 0));
+TEST(Stimulus, PhasesCoverTheStimulusWithoutGaps) {
+    for (const auto& entry : stimulus_catalog()) {
+        const auto source = test::value_or_throw(make_stimulus(entry.name, {}, 1e3, 0));
         double at = 0;
         for (const auto& p : source->phases()) {
-            EXPECT_EQ(p.from, at) << card.name;
-            EXPECT_GE(p.to, p.from) << card.name;
+            EXPECT_EQ(p.from, at) << entry.name;
+            EXPECT_GE(p.to, p.from) << entry.name;
             at = p.to;
         }
         if (at > 0) {
-            EXPECT_NEAR(at * 1e3, static_cast<double>(test::read_first_channel(*source).size()), 0.5) << card.name;
+            EXPECT_NEAR(at * 1e3, static_cast<double>(test::read_first_channel(*source).size()), 0.5) << entry.name;
         }
     }
 }
 
-TEST(Stimulus, PressIsTheThesissExperiment) {
+TEST(Stimulus, PressIsTheStimulusOfTheThesis) {
     const auto f = force("press", {.rate = 1e3});
     ASSERT_EQ(f.size(), 1000U);
     EXPECT_EQ(f[0], 0.2);
@@ -53,7 +53,7 @@ TEST(Stimulus, PressIsTheThesissExperiment) {
     EXPECT_EQ(f[999], 0.2);
 }
 
-TEST(Stimulus, ASumAddsAndLastsAsLongAsItsLongest) {
+TEST(Stimulus, ASumAddsForcesAndLastsAsLongAsItsLongestMember) {
     const auto sum = force("press+sine", {.settings = {"sine.duration=1.5s"}}), press = force("press"),
                sine = force("sine", {.settings = {"sine.duration=1.5s"}});
     ASSERT_EQ(sum.size(), 15000U);
@@ -70,12 +70,12 @@ TEST(Stimulus, AShorterMemberOfASumHoldsItsLastValue) {
     EXPECT_EQ(source->phases().back().to, 3);
 }
 
-TEST(Stimulus, ANearlyFlatChirpKeepsItsDigits) {
+TEST(Stimulus, AChirpOfNearlyConstantFrequencyIsAccurate) {
     const auto flat = force("chirp", {.settings = {"chirp.f_from=1000Hz", "chirp.f_to=1000.000002Hz", "chirp.duration=100s"}, .rate = 1e3});
-    for (std::size_t k = 0; k < flat.size(); k += 97) ASSERT_NEAR(flat[k], 1, 1e-3) << "complete cycles, to a thousandth";
+    for (std::size_t k = 0; k < flat.size(); k += 97) ASSERT_NEAR(flat[k], 1, 1e-3) << "every sample is at the same phase";
 }
 
-TEST(Stimulus, AStepsEdgesFallOnTheirSamples) {
+TEST(Stimulus, TheEdgesOfAStepAreOnSamples) {
     const auto f = force("step", {.settings = {"step.t_rest=0.1s", "step.t_hold=0.2s"}, .rate = 1e3});
     EXPECT_EQ(f[99], 0);
     EXPECT_EQ(f[100], 1);
@@ -83,7 +83,7 @@ TEST(Stimulus, AStepsEdgesFallOnTheirSamples) {
     EXPECT_EQ(f[300], 0);
 }
 
-TEST(Stimulus, NoiseFollowsItsSeedAndHasItsSpread) {
+TEST(Stimulus, NoiseDependsOnItsSeedAndHasItsStandardDeviation) {
     const RunSettings a{.settings = {"noise.duration=100s"}, .rate = 1e3, .seed = 1},
         b{.settings = {"noise.duration=100s"}, .rate = 1e3, .seed = 2};
     const auto x = force("noise", a);
@@ -97,9 +97,9 @@ TEST(Stimulus, NoiseFollowsItsSeedAndHasItsSpread) {
 }
 
 TEST(Stimulus, ChirpAndGratingHaveTheirStatedFrequencies) {
-    const auto rises = [](const std::vector<double>& f, std::size_t from, std::size_t to, double through) {
+    const auto rises = [](const std::vector<double>& f, std::size_t from, std::size_t to, double level) {
         int n = 0;
-        for (std::size_t k = from + 1; k < to; ++k) n += f[k - 1] < through && f[k] >= through;
+        for (std::size_t k = from + 1; k < to; ++k) n += f[k - 1] < level && f[k] >= level;
         return n;
     };
     const auto chirp = force("chirp", {.rate = 20e3});

@@ -1,4 +1,4 @@
-// Tasks on several threads.
+// The thread pool runs tasks on several threads.
 
 #include "signal/thread_pool.hpp"
 
@@ -10,7 +10,7 @@
 namespace corpuscle {
 namespace {
 
-TEST(ThreadPool, EveryTaskIsRunOnceWhateverTheThreads) {
+TEST(ThreadPool, EveryTaskRunsOnceForAnyNumberOfThreads) {
     for (const unsigned threads : {1U, 2U, 7U}) {
         ThreadPool pool(threads);
         EXPECT_EQ(pool.threads(), threads);

@@ -1,4 +1,4 @@
-// Contact mechanics: the forces of an indenter sum to its force, have the textbook pressures, and follow its path.
+// Contact mechanics: the forces at the sites sum to the force on the indenter, match the textbook pressures and follow the path.
 
 #include <cmath>
 #include <cstring>
@@ -10,7 +10,7 @@
 namespace corpuscle {
 namespace {
 
-/// Skin from (-half, -half) to (half, half), m, without gaps. One site has its centre at (0, 0).
+/// A square of skin without gaps from (-half, -half) to (half, half), m. The centre of one site is at (0, 0).
 Sites sheet(double half, double pitch) {
     const auto n = 2 * static_cast<std::size_t>(std::lround(half / pitch)) + 1;
     auto sites = *grid_sites(n, n, pitch);
@@ -19,8 +19,8 @@ Sites sheet(double half, double pitch) {
     return sites;
 }
 
-std::unique_ptr<Contact> pressing(std::string_view indenter, std::initializer_list<const char*> settings, const Sites& sites,
-                                  double rate = 1000) {
+std::unique_ptr<Contact> make_checked_contact(std::string_view indenter, std::initializer_list<const char*> settings,
+                                              const Sites& sites, double rate = 1000) {
     std::vector<ParameterOverride> overrides;
     for (const std::string text : settings) overrides.push_back(*parse_override("contact." + text));
     auto made = make_contact(indenter, overrides, sites, *make_clock(rate));
@@ -29,7 +29,7 @@ std::unique_ptr<Contact> pressing(std::string_view indenter, std::initializer_li
 }
 
 /// Force at all sites at sample `at`.
-std::vector<double> map_at(Contact& contact, const Sites& sites, double force, std::int64_t at = 0) {
+std::vector<double> force_map(Contact& contact, const Sites& sites, double force, std::int64_t at = 0) {
     const auto pressed = contact.press({&force, 1}, at);
     EXPECT_TRUE(pressed) << pressed.error().text();
     std::vector<double> out(sites.size(), 0.0);
@@ -39,7 +39,7 @@ std::vector<double> map_at(Contact& contact, const Sites& sites, double force, s
 
 double sum(const std::vector<double>& all) { return std::accumulate(all.begin(), all.end(), 0.0); }
 
-/// Force within a distance of the centre.
+/// Total force at the sites within `reach` (m) of the centre.
 double within(const std::vector<double>& map, const Sites& sites, double reach) {
     double out = 0;
     for (std::size_t s = 0; s < map.size(); ++s) out += std::hypot(sites.positions[s].x, sites.positions[s].y) < reach ? map[s] : 0;
@@ -53,7 +53,7 @@ Position centroid(const std::vector<double>& map, const Sites& sites) {
     return out;
 }
 
-RC_GTEST_PROP(Contacts, HaveAllOfTheForce, ()) {
+RC_GTEST_PROP(Contacts, DistributeAllOfTheForce, ()) {
     const auto sites = sheet(20e-3, 1e-3);
     const auto indenter = *rc::gen::element<std::string>("flat", "sphere", "edge", "grating");
     std::vector<ParameterOverride> overrides;
@@ -67,30 +67,30 @@ RC_GTEST_PROP(Contacts, HaveAllOfTheForce, ()) {
     const double force = *rc::gen::inRange(1, 4000) * 1e-3;
     auto contact = make_contact(indenter, overrides, sites, *make_clock(1000));
     RC_ASSERT(bool(contact));
-    const double total_force = sum(map_at(**contact, sites, force));
+    const double total_force = sum(force_map(**contact, sites, force));
     RC_ASSERT(std::abs(total_force - force) < 1e-12 ||
-              (indenter == "grating" && total_force == 0));  // a patch over a groove is not touched
+              (indenter == "grating" && total_force == 0));  // a small patch may lie over a groove, where there is no contact
 }
 
 TEST(Contacts, LoseTheForceOffTheSkinAndReportIt) {
     const auto sites = sheet(10e-3, 1e-3);
     for (const auto* indenter : {"flat", "sphere", "edge", "grating"}) {
-        const auto contact = pressing(indenter, {"x=10.5mm", "y=0mm"}, sites);  // exactly at the edge of the skin
-        EXPECT_NEAR(sum(map_at(*contact, sites, 2)), 1, std::string(indenter) == "grating" ? 0.2 : 1e-9) << indenter;
+        const auto contact = make_checked_contact(indenter, {"x=10.5mm", "y=0mm"}, sites);  // exactly at the edge of the skin
+        EXPECT_NEAR(sum(force_map(*contact, sites, 2)), 1, std::string(indenter) == "grating" ? 0.2 : 1e-9) << indenter;
         const auto notes = contact->notes();
         EXPECT_TRUE(std::any_of(notes.begin(), notes.end(), [](const auto& r) {
             return r.find("% of the force, over time, was off the skin") != r.npos;
         })) << indenter;
     }
-    EXPECT_EQ(sum(map_at(*pressing("sphere", {"x=1m", "y=0"}, sites), sites, 1)), 0);
-    EXPECT_EQ(sum(map_at(*pressing("sphere", {}, sites), sites, -1)), 0);
+    EXPECT_EQ(sum(force_map(*make_checked_contact("sphere", {"x=1m", "y=0"}, sites), sites, 1)), 0);
+    EXPECT_EQ(sum(force_map(*make_checked_contact("sphere", {}, sites), sites, -1)), 0);
 }
 
-TEST(Contacts, OfIrregularSitesHaveAllOfTheForce) {
+TEST(Contacts, DistributeAllOfTheForceOverIrregularSites) {
     auto sites = *grid_sites(4, 5, 3e-3);
     for (std::size_t s = 0; s < sites.size(); ++s) sites.positions[s].x += 0.3e-3 * static_cast<double>(s % 3);
-    const auto contact = pressing("flat", {"radius=4mm", "x=6mm", "y=4mm"}, sites);
-    EXPECT_NEAR(sum(map_at(*contact, sites, 3)), 3, 1e-12);
+    const auto contact = make_checked_contact("flat", {"radius=4mm", "x=6mm", "y=4mm"}, sites);
+    EXPECT_NEAR(sum(force_map(*contact, sites, 3)), 3, 1e-12);
     EXPECT_NE(contact->notes()[1].find("not on a lattice"), std::string::npos);
 }
 
@@ -98,7 +98,7 @@ TEST(Contacts, AreAsSymmetricAsTheirIndenters) {
     const auto sites = sheet(8e-3, 0.5e-3);
     const std::size_t n = 33;
     for (const auto* indenter : {"flat", "sphere", "edge"}) {
-        const auto map = map_at(*pressing(indenter, {"x=0", "y=0"}, sites), sites, 1);
+        const auto map = force_map(*make_checked_contact(indenter, {"x=0", "y=0"}, sites), sites, 1);
         for (std::size_t r = 0; r < n; ++r)
             for (std::size_t c = 0; c < n; ++c) {
                 const double here = map[r * n + c];
@@ -108,16 +108,16 @@ TEST(Contacts, AreAsSymmetricAsTheirIndenters) {
     }
 }
 
-// Johnson, Contact Mechanics: radius, pressure at the centre, and the force within r.
-TEST(Sphere, HasHertzsRadiusAndPressureAsThePitchFalls) {
+// Radius, pressure at the centre and force within r from Johnson, Contact Mechanics.
+TEST(Sphere, ConvergesToHertzsRadiusAndPressureAsThePitchDecreases) {
     const double F = 1, R = 8e-3, E = 60e3, a = std::cbrt(3 * F * R / (4 * E)), p0 = 3 * F / (2 * M_PI * a * a);
     double before = 1;
     for (const double pitch : {1e-3, 0.5e-3, 0.25e-3}) {
         const auto sites = sheet(8e-3, pitch);
-        const auto map = map_at(*pressing("sphere", {"radius=8mm", "E_star=60kPa", "x=0", "y=0"}, sites), sites, F);
+        const auto map = force_map(*make_checked_contact("sphere", {"radius=8mm", "E_star=60kPa", "x=0", "y=0"}, sites), sites, F);
         const double middle = *std::max_element(map.begin(), map.end()) / (pitch * pitch);
         const double error = std::abs(middle / p0 - 1);
-        EXPECT_LT(error, 0.4 * before);  // the error falls with the square of the pitch; the rest is the quadrature's own
+        EXPECT_LT(error, 0.4 * before);  // the error decreases with the square of the pitch, apart from the quadrature error
         before = error;
         double far = 0;
         for (std::size_t s = 0; s < map.size(); ++s) far = map[s] > 0 ? std::max(far, sites.positions[s].x) : far;
@@ -127,27 +127,27 @@ TEST(Sphere, HasHertzsRadiusAndPressureAsThePitchFalls) {
     EXPECT_LT(before, 0.005);
 }
 
-TEST(Flat, HasAFiniteMaximumAtItsEdge) {
+TEST(Flat, HasItsMaximumPressureAtItsRim) {
     const double F = 2, a = 4e-3;
     for (const double pitch : {0.5e-3, 0.1e-3}) {
         const auto sites = sheet(5e-3, pitch);
-        const auto map = map_at(*pressing("flat", {"radius=4mm", "x=0", "y=0"}, sites), sites, F);
+        const auto map = force_map(*make_checked_contact("flat", {"radius=4mm", "x=0", "y=0"}, sites), sites, F);
         EXPECT_NEAR(map[map.size() / 2] / (pitch * pitch), F / (2 * M_PI * a * a), 0.01 * F / (2 * M_PI * a * a));
-        for (const double part : {0.5, 0.8})
-            EXPECT_NEAR(within(map, sites, part * a), F * (1 - std::sqrt(1 - part * part)), 100 * F * pitch);
+        for (const double r : {0.5, 0.8})  // in radii
+            EXPECT_NEAR(within(map, sites, r * a), F * (1 - std::sqrt(1 - r * r)), 100 * F * pitch);
         EXPECT_EQ(within(map, sites, 1), within(map, sites, a + pitch));
         EXPECT_GT(*std::max_element(map.begin(), map.end()), 3 * map[map.size() / 2]);  // the rim
     }
 }
 
-TEST(Edge, IsAsWideAsHertzsCylinderAndCanBeRotated) {
+TEST(Edge, HasTheWidthOfHertzsCylinderAndCanBeRotated) {
     const double F = 1, R = 2e-3, L = 10e-3, E = 100e3, b = std::sqrt(4 * F * R / (M_PI * L * E)), p0 = 2 * F / (M_PI * b * L);
     const auto sites = sheet(8e-3, 0.1e-3);
-    const auto flat = map_at(*pressing("edge", {"edge_radius=2mm", "x=0", "y=0"}, sites), sites, F);
+    const auto flat = force_map(*make_checked_contact("edge", {"edge_radius=2mm", "x=0", "y=0"}, sites), sites, F);
     EXPECT_NEAR(flat[flat.size() / 2] / 1e-8, p0, 0.02 * p0);
     for (const double angle : {0.0, 30.0, 90.0}) {
         const auto text = "angle=" + std::to_string(angle);
-        const auto map = map_at(*pressing("edge", {"edge_radius=2mm", text.c_str(), "x=0", "y=0"}, sites), sites, F);
+        const auto map = force_map(*make_checked_contact("edge", {"edge_radius=2mm", text.c_str(), "x=0", "y=0"}, sites), sites, F);
         double along = 0, across = 0;
         for (std::size_t s = 0; s < map.size(); ++s) {
             const double c = std::cos(angle * M_PI / 180), n = std::sin(angle * M_PI / 180);
@@ -159,43 +159,44 @@ TEST(Edge, IsAsWideAsHertzsCylinderAndCanBeRotated) {
     }
 }
 
-TEST(Grating, RepeatsAfterAPeriodAndPasses) {
+TEST(Grating, RepeatsAfterOnePeriodInTimeAndSpace) {
     const auto sites = sheet(8e-3, 0.25e-3);
-    const auto contact = pressing("grating", {"radius=6mm", "period=3mm", "ridge=1.5mm", "speed=30mm/s", "x=0", "y=0"}, sites);
-    const auto first = map_at(*contact, sites, 1, 0), half = map_at(*contact, sites, 1, 50), undivided = map_at(*contact, sites, 1, 100);
-    const auto near = map_at(*contact, sites, 1, 10);  // 0.3 mm further
-    double same = 0, opposite = 0;
+    const auto contact = make_checked_contact("grating", {"radius=6mm", "period=3mm", "ridge=1.5mm", "speed=30mm/s", "x=0", "y=0"}, sites);
+    const auto first = force_map(*contact, sites, 1, 0), after_half_period = force_map(*contact, sites, 1, 50),
+               after_period = force_map(*contact, sites, 1, 100);
+    const auto near = force_map(*contact, sites, 1, 10);  // 0.3 mm further
+    double same = 0, opposite = 0;                        // correlations with the first map
     for (std::size_t s = 0; s < first.size(); ++s) {
-        EXPECT_NEAR(first[s], undivided[s], 1e-12);
+        EXPECT_NEAR(first[s], after_period[s], 1e-12);
         if (std::hypot(sites.positions[s].x, sites.positions[s].y) > 5e-3) continue;
-        same += first[s] * near[s], opposite += first[s] * half[s];
+        same += first[s] * near[s], opposite += first[s] * after_half_period[s];
     }
     EXPECT_LT(opposite, 0.3 * same);
     const std::size_t n = 65, row = 32 * n;  // along the centre line: a period is 12 sites
     for (std::size_t c = 20; c < 32; ++c) EXPECT_NEAR(first[row + c], first[row + c + 12], 1e-12);
 }
 
-TEST(Path, IsWhereItShouldBeAtAnyTime) {
+TEST(Path, IsAStraightLineAtConstantSpeed) {
     const auto sites = sheet(20e-3, 1e-3);
-    const auto contact = pressing("sphere", {"x=-10mm", "y=5mm", "x1=10mm", "y1=-3mm", "t_start=0.1s", "t_move=0.4s"}, sites);
+    const auto contact = make_checked_contact("sphere", {"x=-10mm", "y=5mm", "x1=10mm", "y1=-3mm", "t_start=0.1s", "t_move=0.4s"}, sites);
     for (const auto& [sample, x, y] :
          {std::tuple(0, -10.0, 5.0), {100, -10.0, 5.0}, {200, -5.0, 3.0}, {300, 0.0, 1.0}, {500, 10.0, -3.0}, {900, 10.0, -3.0}}) {
-        const auto at = centroid(map_at(*contact, sites, 1, sample), sites);
+        const auto at = centroid(force_map(*contact, sites, 1, sample), sites);
         EXPECT_NEAR(at.x, x * 1e-3, 5e-5) << sample;
         EXPECT_NEAR(at.y, y * 1e-3, 5e-5) << sample;
     }
     EXPECT_NE(contact->description().find("moved from (-10, 5) mm to (10, -3) mm in 400 ms"), std::string::npos) << contact->description();
-    const auto speeding = pressing("flat", {"x=-10mm", "y=0", "x1=10mm", "speed=40mm/s"}, sites);
-    EXPECT_NEAR(centroid(map_at(*speeding, sites, 1, 250), sites).x, 0, 5e-5);
+    const auto with_speed = make_checked_contact("flat", {"x=-10mm", "y=0", "x1=10mm", "speed=40mm/s"}, sites);
+    EXPECT_NEAR(centroid(force_map(*with_speed, sites, 1, 250), sites).x, 0, 5e-5);
 }
 
-RC_GTEST_PROP(Contacts, AreTheSameInAnyBlocks, ()) {
+RC_GTEST_PROP(Contacts, GiveTheSameForceForAnyBlocks, ()) {
     const auto sites = sheet(10e-3, 1e-3);
     const std::size_t samples = 60;
     std::vector<double> force(samples);
     for (std::size_t k = 0; k < samples; ++k) force[k] = k % 17 == 0 ? 0 : 0.1 * static_cast<double>(k % 7);
     const auto run = [&](auto&& block) {
-        const auto contact = pressing("sphere", {"x=-8mm", "y=0", "x1=8mm", "t_move=50ms"}, sites);
+        const auto contact = make_checked_contact("sphere", {"x=-8mm", "y=0", "x1=8mm", "t_move=50ms"}, sites);
         std::vector<double> out(sites.size() * samples, 0.0);
         for (std::size_t k = 0; k < samples;) {
             const auto n = std::min(samples - k, static_cast<std::size_t>(block()));
@@ -207,17 +208,17 @@ RC_GTEST_PROP(Contacts, AreTheSameInAnyBlocks, ()) {
         }
         return out;
     };
-    const auto undivided = run([] { return 60; }), cut = run([] { return *rc::gen::inRange(1, 30); });
-    RC_ASSERT(std::memcmp(undivided.data(), cut.data(), undivided.size() * sizeof(double)) == 0);
+    const auto undivided = run([] { return 60; }), in_blocks = run([] { return *rc::gen::inRange(1, 30); });
+    RC_ASSERT(std::memcmp(undivided.data(), in_blocks.data(), undivided.size() * sizeof(double)) == 0);
 }
 
-TEST(ContactOptions, AreRefusedWithTheRemedy) {
+TEST(ContactOptions, AreRefusedWithARemedy) {
     const auto sites = sheet(10e-3, 1e-3);
     const auto error_text = [&](std::string_view indenter, std::initializer_list<const char*> settings) {
         std::vector<ParameterOverride> overrides;
         for (const std::string text : settings) overrides.push_back(*parse_override("contact." + text));
         const auto made = make_contact(indenter, overrides, sites, *make_clock(1000));
-        return made ? "nothing is wrong" : made.error().text();
+        return made ? "accepted" : made.error().text();
     };
     EXPECT_EQ(error_text("spere", {}), "there is no indenter 'spere'; did you mean 'sphere'? (there are flat, sphere, edge, grating)");
     EXPECT_EQ(
@@ -235,7 +236,7 @@ TEST(ContactOptions, AreRefusedWithTheRemedy) {
             .operator bool(),
         true);
     double force = 1;
-    const auto wide = pressing("flat", {"radius=1m"}, sites);
+    const auto wide = make_checked_contact("flat", {"radius=1m"}, sites);
     EXPECT_EQ(wide->press({&force, 1}, 0).error().text(),
               "contact: with 1 N it is 2 m by 2 m wide, which is more than a million cells of 1 mm of this skin");
     force = std::nan("");

@@ -1,4 +1,4 @@
-// Populations: their files, the locations of their afferents, and their receptive fields.
+// Populations: their files, the positions of their afferents, and their receptive fields.
 
 #include <cmath>
 #include <fstream>
@@ -17,10 +17,10 @@ const Innervation& hand() {
     return **placed;
 }
 
-/// [afferent]: its receptive field as pairs of site and weight.
-std::vector<std::vector<std::pair<std::uint32_t, double>>> fields_of_class(const Innervation& skin, std::size_t of) {
-    std::vector<std::vector<std::pair<std::uint32_t, double>>> out(skin.class_begin[of + 1] - skin.class_begin[of]);
-    const auto& f = skin.fields[of];
+/// The receptive field of each afferent of a class, as pairs of site and weight.
+std::vector<std::vector<std::pair<std::uint32_t, double>>> fields_of_class(const Innervation& skin, std::size_t class_index) {
+    std::vector<std::vector<std::pair<std::uint32_t, double>>> out(skin.class_begin[class_index + 1] - skin.class_begin[class_index]);
+    const auto& f = skin.fields[class_index];
     for (std::uint32_t s = 0; s + 1 < f.begin.size(); ++s)
         for (auto k = f.begin[s]; k < f.begin[s + 1]; ++k) out[f.afferent[k]].emplace_back(s, f.weight[k]);
     return out;
@@ -56,7 +56,7 @@ TEST(HandPopulation, EachAfferentIsInACellOfItsOwnRegion) {
     }
 }
 
-TEST(HandPopulation, AReceptiveFieldSumsToItsGainAndIsOnOneFinger) {
+TEST(HandPopulation, AReceptiveFieldSumsToItsGainAndStaysOnOneFinger) {
     const auto& h = hand();
     const double per_cell = h.plan.felt_area / h.plan.sites.area;
     const auto finger = [&](std::uint32_t region) {
@@ -79,30 +79,30 @@ TEST(HandPopulation, AReceptiveFieldSumsToItsGainAndIsOnOneFinger) {
 
 TEST(HandPopulation, AfferentsWithNeighbouringNumbersAreClose) {
     const auto& h = hand();
-    double far = 0, tiles = 0;
+    double sum = 0, tiles = 0;
     for (std::size_t c = 0; c < h.fields.size(); ++c)
         for (auto k = h.class_begin[c]; k + 64 <= h.class_begin[c + 1]; k += 64) {
             double max_distance = 0;
             for (std::size_t i = 1; i < 64; ++i)
                 max_distance = std::max(max_distance, std::hypot(h.afferents[k + i].position.x - h.afferents[k].position.x,
                                                                  h.afferents[k + i].position.y - h.afferents[k].position.y));
-            far += max_distance, tiles += 1;
+            sum += max_distance, tiles += 1;
         }
-    EXPECT_LT(far / tiles, 30e-3);  // of a hand of 110 by 190 mm
+    EXPECT_LT(sum / tiles, 30e-3);  // m; the hand is 110 by 190 mm
 }
 
-TEST(HandPopulation, IsTheSameEachTimeAndItsSeedMatters) {
+TEST(HandPopulation, DependsOnlyOnItsPlanAndSeed) {
     auto plan = *load_skin_plan("hand");
     const auto again = *innervate(plan);
     EXPECT_EQ(again->fields[1].weight, hand().fields[1].weight);
     plan.seed = 2;
     EXPECT_NE((*innervate(plan))->fields[1].weight, hand().fields[1].weight);
     plan.seed = 1;
-    plan.classes.erase(plan.classes.begin());  // the locations in the other classes must not change
+    plan.classes.erase(plan.classes.begin());  // the receptive fields of the other classes must not change
     EXPECT_EQ((*innervate(plan))->fields[0].weight, hand().fields[1].weight);
 }
 
-RC_GTEST_PROP(Innervate, WeightsFollowTheGaussians, ()) {
+RC_GTEST_PROP(Innervate, WeightsAreProportionalToGaussians, ()) {
     SkinPlan plan{"any", "", *grid_sites(*rc::gen::inRange<std::size_t>(1, 9), *rc::gen::inRange<std::size_t>(1, 9), 2e-3), {}};
     for (auto& p : plan.sites.positions) p.x += *rc::gen::inRange(-9, 9) * 1e-4;
     SkinClass c{"sa1", *plan_afferent("sa1", {})};
@@ -121,11 +121,11 @@ RC_GTEST_PROP(Innervate, WeightsFollowTheGaussians, ()) {
             if (d <= 3 * c.sigma) sum += expected[s] = std::exp(-d * d / (2 * c.sigma * c.sigma));
         }
         for (const auto& [site, weight] : receptive_fields[u]) RC_ASSERT(std::abs(weight - std::exchange(expected[site], 0) / sum) < 1e-12);
-        for (const double missed : expected) RC_ASSERT(missed / sum < 0.02);  // only sites that rounding puts beyond the edge
+        for (const double missed : expected) RC_ASSERT(missed / sum < 0.02);  // only sites at the cutoff, which rounding may exclude
     }
 }
 
-TEST(Grid, IsNumberedByRowsUpwardsWithTwoAfferentsASite) {
+TEST(Grid, IsNumberedByRowsUpwardsWithTwoAfferentsPerSite) {
     const auto skin = *innervate(*load_skin_plan("grid 3x2"));
     EXPECT_EQ(skin->plan.sites.names, (std::vector<std::string>{"r1c1", "r1c2", "r2c1", "r2c2", "r3c1", "r3c2"}));
     EXPECT_EQ(skin->plan.sites.positions[3].x, 2e-3);
@@ -156,14 +156,15 @@ afferent = "sa1"
 density = "70 /cm2"
 )";
 
-std::string error_in(std::string text, std::string_view part, std::string_view by) {
+/// The error of a population file in which `part` is replaced by `replacement`.
+std::string error_in(std::string text, std::string_view part, std::string_view replacement) {
     const auto at = text.find(part);
     EXPECT_NE(at, std::string::npos) << part;
-    const auto plan = parse_skin_plan(text.replace(at, part.size(), by), "pad.toml");
-    return plan ? "nothing is wrong" : plan.error().text();
+    const auto plan = parse_skin_plan(text.replace(at, part.size(), replacement), "pad.toml");
+    return plan ? "accepted" : plan.error().text();
 }
 
-TEST(PopulationFile, OutlinesHoldTheAreaThatTheirShapesHave) {
+TEST(PopulationFile, SitesCoverTheAreaOfTheShapes) {
     const auto area = [](std::string_view shape) {
         auto text = std::string(pad).replace(pad.find("{capsule"), pad.find("}]") - pad.find("{capsule") + 1, shape);
         text.replace(text.find("pitch = 1"), 9, "pitch = 0.1");
@@ -177,7 +178,7 @@ TEST(PopulationFile, OutlinesHoldTheAreaThatTheirShapesHave) {
     EXPECT_NEAR(area("{polygon = [[0, 0], [10, 0], [10, 10], [5, 2]]}"), 35, 1);
 }
 
-TEST(PopulationFile, ErrorsGiveTheLocationAndTheRemedy) {
+TEST(PopulationFile, ErrorsGiveTheLocationAndARemedy) {
     const std::string text(pad);
     EXPECT_EQ(error_in(text, "density =", "densty ="),
               "pad.toml:9:1: [[class]]: there is no 'densty'; did you mean 'density'? (there are name, afferent, set, spread, density, "
@@ -208,7 +209,7 @@ TEST(PopulationFile, ErrorsGiveTheLocationAndTheRemedy) {
     EXPECT_EQ(error_in(text, "\"70 /cm2\"", "\"1 /um2\"").substr(0, 20), "pad.toml:9:11: densi");
 }
 
-TEST(PopulationFile, SensorsComeFromAListATableOrARecording) {
+TEST(PopulationFile, SitesComeFromAListATableOrARecording) {
     const std::string classes = "[[class]]\nafferent = \"fa1\"\nname = \"quick\"\nper_site = 2\nset = {f = \"3 Hz\"}\nsigma = \"1 mm\"\n";
     const auto listed = parse_skin_plan(
         "[sites]\nlist = [{name = \"a\", x = \"1 mm\", y = \"2 mm\"}, {name = \"b\", x = \"3 mm\", y = \"4 mm\", region = \"top\"}]\n" +
@@ -239,7 +240,7 @@ TEST(PopulationFile, SensorsComeFromAListATableOrARecording) {
               "c.toml:1:9: channel 'p1' has no position on ");
 }
 
-TEST(PopulationFile, TheOneInTheManualIsRead) {
+TEST(PopulationFile, TheExampleInTheManualIsAccepted) {
     std::ifstream page(test::source_root() + "/doc/skin.md");
     std::stringstream all;
     all << page.rdbuf();

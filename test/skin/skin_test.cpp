@@ -1,4 +1,4 @@
-// A skin responds as its afferents would one at a time, for any blocks, threads and instruction sets, and after a save and resume.
+// A skin responds like its afferents simulated one at a time, for any blocks, threads and instruction sets, and after save and resume.
 
 #include "skin/skin.hpp"
 #include "model/catalog.hpp"
@@ -10,7 +10,7 @@ namespace {
 
 constexpr double skin_T = 1e-3;
 
-/// Three classes on a grid, optionally with parameter spread and with delays.
+/// Three classes on a grid. `spread`: their thresholds vary. `velocity`: of conduction, m/s; 0: no delays.
 std::shared_ptr<const Innervation> small_skin(std::size_t rows, std::size_t columns, bool spread, double velocity) {
     SkinPlan plan{"small", "", *grid_sites(rows, columns, 2e-3), {}, 7};
     for (const char* name : {"sa1", "fa1", "sa2"}) {
@@ -26,7 +26,7 @@ std::shared_ptr<const Innervation> small_skin(std::size_t rows, std::size_t colu
     return *skin;
 }
 
-/// [site][step]: presses on some sites, far enough apart for the state of afferents to decay to zero.
+/// Presses on some sites, force[site * steps + step] in N. The pauses are long enough for the state of afferents to decay to zero.
 struct PressPattern {
     std::size_t sites, steps;
     std::vector<double> force;
@@ -42,8 +42,8 @@ struct PressPattern {
 };
 
 std::unique_ptr<Skin> make_skin(const std::shared_ptr<const Innervation>& skin, InstructionSet set = *instruction_set(),
-                                SkinPart shard = {}) {
-    auto made = Skin::make(skin, SimulationOptions{skin_T}, set == InstructionSet::scalar ? InstructionSet::baseline : set, shard);
+                                SkinPart part = {}) {
+    auto made = Skin::make(skin, SimulationOptions{skin_T}, set == InstructionSet::scalar ? InstructionSet::baseline : set, part);
     EXPECT_TRUE(made) << made.error().text();
     return std::move(*made);
 }
@@ -55,7 +55,7 @@ std::vector<Spike> simulate_all(Skin& skin, const PressPattern& touch, ThreadPoo
     return spikes;
 }
 
-TEST(Skin, RespondsAsItsAfferentsWouldSeparately) {
+TEST(Skin, RespondsLikeItsAfferentsSimulatedSeparately) {
     ThreadPool pool(1);
     const auto map = small_skin(5, 6, true, 40);
     const PressPattern touch(30, 9000, 3);  // long enough for states to decay and to become active again
@@ -76,11 +76,11 @@ TEST(Skin, RespondsAsItsAfferentsWouldSeparately) {
         for (std::size_t u = 0; u < count; ++u) {
             const auto afferent = make_afferent((*plans)[u], corpuscle::SimulationOptions{skin_T});
             auto state = afferent->start();
-            std::vector<Spike> own;
-            ResponseBlock response{own, static_cast<std::uint32_t>(first + u)};
+            std::vector<Spike> fired;
+            ResponseBlock response{fired, static_cast<std::uint32_t>(first + u)};
             ASSERT_TRUE(afferent->respond({forces.data() + u * touch.steps, touch.steps}, state, response));
             const double delay = map->afferents[first + u].delay / skin_T, steps = std::floor(delay);
-            for (auto s : own) {
+            for (auto s : fired) {
                 s.offset += delay - steps, s.step += static_cast<std::int64_t>(steps);
                 if (s.offset > 1) s.offset -= 1, ++s.step;
                 separate.push_back(s);
@@ -92,7 +92,7 @@ TEST(Skin, RespondsAsItsAfferentsWouldSeparately) {
     EXPECT_EQ(spikes, separate);
 }
 
-TEST(Skin, GivesTheSameWhateverTheBlocksAndAfterItWasSaved) {
+TEST(Skin, GivesTheSameSpikesForAnyBlocksAndAfterSaveAndResume) {
     EXPECT_TRUE(rc::check([] {
         ThreadPool pool(1);
         const bool spread = *rc::gen::arbitrary<bool>();
@@ -115,7 +115,7 @@ TEST(Skin, GivesTheSameWhateverTheBlocksAndAfterItWasSaved) {
     }));
 }
 
-TEST(Skin, GivesTheSameOnThreadsInShardsAndOnEveryInstructionSet) {
+TEST(Skin, GivesTheSameSpikesOnThreadsInShardsAndOnEveryInstructionSet) {
     ThreadPool one(1), three(3);
     const auto map = small_skin(16, 24, true, 30);
     const PressPattern touch(16 * 24, 3000, 11);
@@ -125,8 +125,8 @@ TEST(Skin, GivesTheSameOnThreadsInShardsAndOnEveryInstructionSet) {
     for (const auto set : instruction_sets()) EXPECT_EQ(simulate_all(*make_skin(map, set), touch, one), expected) << name_of(set);
     std::vector<Spike> merged;
     for (std::uint32_t part = 0; part < 3; ++part) {
-        const auto own = simulate_all(*make_skin(map, *instruction_set(), {part, 3}), touch, one);
-        merged.insert(merged.end(), own.begin(), own.end());
+        const auto spikes = simulate_all(*make_skin(map, *instruction_set(), {part, 3}), touch, one);
+        merged.insert(merged.end(), spikes.begin(), spikes.end());
     }
     std::sort(merged.begin(), merged.end());
     EXPECT_EQ(merged, expected);
@@ -143,7 +143,7 @@ TEST(Skin, ANonFiniteForceIsReportedBySiteAndSample) {
     EXPECT_NE(ok.error().message.find("the force at site r2c1 is nan at sample 40"), std::string::npos) << ok.error().message;
 }
 
-TEST(Skin, RefusesAStateThatIsNotItsOwnOrIsCutShort) {
+TEST(Skin, RefusesAStateOfAnotherSkinOrADamagedState) {
     ThreadPool pool(1);
     const auto map = small_skin(3, 3, true, 20);
     auto skin = make_skin(map);

@@ -33,18 +33,18 @@ Result<void> check_force(const PopulationForce& force, std::size_t steps, std::s
     return {};
 }
 
-/// The gains of a tile whose first afferent is `first`; 1 where no gains are given.
+/// Writes the gains of the tile whose first afferent is `first` to out[tile_size]. All are 1 if no gains are given.
 template <class V>
 void profile_gains(const ForceProfile& profile, std::size_t first, V* out) {
     for (std::size_t u = 0; u < tile_size; ++u)
         out[u] = profile.gain.empty() ? V(1) : first + u < profile.gain.size() ? static_cast<V>(profile.gain[first + u]) : V(0);
 }
 
-/// The profile of a block in V, or its currents if they are computed once for all.
+/// The force of a profile, or the currents of the shared receptor, converted to V.
 template <class V>
 class ProfileBuffers {
     std::array<ProfileCurrents, max_outputs> in_double_;
-    std::array<std::array<AlignedBuffer<V>, 3>, max_outputs> currents_;  // from, to, both
+    std::array<std::array<AlignedBuffer<V>, 3>, max_outputs> currents_;  // from, to, end_sum
     AlignedBuffer<V> force_;
 
     static void convert(std::span<const double> values, AlignedBuffer<V>& out) {
@@ -54,8 +54,8 @@ class ProfileBuffers {
 
 public:
     void set_force(std::span<const double> force) { convert(force, force_); }
-    void compute_currents(SharedReceptor& by, std::span<const double> force, bool first, int outputs) {
-        by.run(force, first, in_double_);
+    void compute_currents(SharedReceptor& receptor, std::span<const double> force, bool first, int outputs) {
+        receptor.run(force, first, in_double_);
         for (std::size_t k = 0; k < static_cast<std::size_t>(outputs); ++k) {
             const auto& c = in_double_[k];
             convert(c.from, currents_[k][0]), convert(c.to, currents_[k][1]), convert(c.end_sum, currents_[k][2]);

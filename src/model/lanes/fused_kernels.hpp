@@ -7,8 +7,8 @@
 namespace corpuscle::lanes {
 namespace {
 
-/// Pairs that can be fused. The receptor has one current that is continuous across steps and computed from the rest of its state. The
-/// neuron has a quick test for steps without events.
+/// True if a receptor and a neuron can be fused. The receptor must have one current that is continuous across steps and is computed from
+/// the other state values. The neuron must have a quick test for steps without events.
 template <class R, class N>
 inline constexpr bool can_fuse = continuous<R> && R::outputs == 1 && requires(const R& r, const typename R::State& s, const N& n) {
     R::propagates_nan;
@@ -17,14 +17,14 @@ inline constexpr bool can_fuse = continuous<R> && R::outputs == 1 && requires(co
     N::refractory_values;
 };
 
-/// The state values that are stored: the last current is recomputed, and no afferent is refractory. A single step is limited by memory
-/// traffic.
+/// Number of state values that are loaded and stored. The receptor's last current is recomputed, and the neuron's refractory time is always
+/// 0 here, so neither is stored. This saves memory traffic, which limits the speed of a single step.
 template <class V, class R>
 inline constexpr std::size_t stored_receptor_values = value_count<typename R::State, V> - 1;
 template <class V, class N>
 inline constexpr std::size_t stored_neuron_values = value_count<typename N::State, V> - N::refractory_values;
 
-/// J vectors of a tile at once, from `first` on. `once`: a single step.
+/// Simulates J vectors of a tile, from afferent `first` on. `once`: a single step.
 template <class V, class R, class N, ForceInput feed, Method method, int J, bool once>
 [[gnu::always_inline]] inline void fused_step(const ReceptorCall<V>& c, const NeuronCall<V>& to, int first, Prefetcher& prefetch) {
     constexpr int w = width<V>;
@@ -54,9 +54,9 @@ template <class V, class R, class N, ForceInput feed, Method method, int J, bool
         Current<T> i[J];
         unrolled<J>([&](auto j) __attribute__((always_inline)) {
             const T before = receptor[j].I;
-            Current<T> own[1];
-            r[j]->step(receptor[j], force.at(t, j * w), own);
-            i[j] = {method == Method::exact ? before : own[0].to, own[0].to};
+            Current<T> current[1];
+            r[j]->step(receptor[j], force.at(t, j * w), current);
+            i[j] = {method == Method::exact ? before : current[0].to, current[0].to};
         });
         step_all<false, J>(n, s, fired, StoredCurrents<T, J>{i});
     }
@@ -87,7 +87,7 @@ template <class V, class R, class N, ForceInput feed>
 void fused_tile(const ReceptorCall<V>& c, const NeuronCall<V>& to) {
     c.method == Method::exact ? fused_tile<V, R, N, feed, Method::exact>(c, to) : fused_tile<V, R, N, feed, Method::backward_euler>(c, to);
 }
-/// A single step of rows, as a live skin takes, has its own loop, because setup and teardown cost as much as the step.
+/// A live skin simulates single steps of rows. They have their own loop, because setup and teardown would cost as much as the step.
 template <class V, class R, class N>
 void fused_tile(const ReceptorCall<V>& c, const NeuronCall<V>& to) {
     if (c.input == ForceInput::rows && c.steps == 1 && c.method == Method::exact)

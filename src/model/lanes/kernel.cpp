@@ -1,5 +1,6 @@
-// The models on SIMD lanes, compiled once for each instruction set, CORPUSCLE_ISA. Only two tables may be visible outside this file: no
-// standard container, no model in double, nothing that the linker could share with another file.
+// The models on SIMD lanes, compiled once for each instruction set, CORPUSCLE_ISA. Only two tables may be visible outside this file. It
+// uses no standard container and no model in double: the linker could use such a function for other files too, and a machine without these
+// instructions would then crash.
 
 #include <array>
 
@@ -10,21 +11,21 @@ namespace corpuscle::lanes {
 namespace {
 
 template <class V, class R, class N>
-constexpr FusedKernel<V> joined_lanes() {
+constexpr FusedKernel<V> fused_kernel() {
     if constexpr (can_fuse<R, N>)
         return {none_refractory<N>, flush_decayed_fused<V, R>, fused_tile<V, R, N>};
     else
         return {};
 }
 template <class V, class R, class Neurons>
-struct Joined;
+struct FusedKernels;
 template <class V, class R, template <class> class... N>
-struct Joined<V, R, ModelList<N...>> {
-    static constexpr FusedKernel<V> with_each[] = {joined_lanes<V, R, N<Batch<V>>>()...};
+struct FusedKernels<V, R, ModelList<N...>> {
+    static constexpr FusedKernel<V> with_each[] = {fused_kernel<V, R, N<Batch<V>>>()...};
 };
 
 template <class V, class R>
-constexpr ReceptorKernel<V> receptor_lanes() {
+constexpr ReceptorKernel<V> receptor_kernel() {
     return {R::name,
             R::outputs,
             continuous<R>,
@@ -34,10 +35,10 @@ constexpr ReceptorKernel<V> receptor_lanes() {
             start_states<V, R>,
             flush_decayed<V, R>,
             run_receptor_tile<V, R>,
-            Joined<V, R, Neurons>::with_each};
+            FusedKernels<V, R, Neurons>::with_each};
 }
 template <class V, class N>
-constexpr NeuronKernel<V> neuron_lanes() {
+constexpr NeuronKernel<V> neuron_kernel() {
     return {N::name,
             sizeof(N),
             sizeof(typename N::State) / sizeof(Batch<V>),
@@ -48,14 +49,14 @@ constexpr NeuronKernel<V> neuron_lanes() {
 }
 
 template <class V>
-struct All {
+struct AllKernels {
     template <template <class> class... R>
     static constexpr auto receptors_of(ModelList<R...>) {
-        return std::array<ReceptorKernel<V>, sizeof...(R)>{receptor_lanes<V, R<Batch<V>>>()...};
+        return std::array<ReceptorKernel<V>, sizeof...(R)>{receptor_kernel<V, R<Batch<V>>>()...};
     }
     template <template <class> class... N>
     static constexpr auto neurons_of(ModelList<N...>) {
-        return std::array<NeuronKernel<V>, sizeof...(N)>{neuron_lanes<V, N<Batch<V>>>()...};
+        return std::array<NeuronKernel<V>, sizeof...(N)>{neuron_kernel<V, N<Batch<V>>>()...};
     }
     static constexpr auto receptors = receptors_of(Receptors{});
     static constexpr auto neurons = neurons_of(Neurons{});
@@ -64,8 +65,8 @@ struct All {
 }  // namespace
 
 namespace CORPUSCLE_ISA {
-const KernelTable<double> doubles{width<double>, All<double>::receptors, All<double>::neurons};
-const KernelTable<float> floats{width<float>, All<float>::receptors, All<float>::neurons};
+const KernelTable<double> doubles{width<double>, AllKernels<double>::receptors, AllKernels<double>::neurons};
+const KernelTable<float> floats{width<float>, AllKernels<float>::receptors, AllKernels<float>::neurons};
 }  // namespace CORPUSCLE_ISA
 
 }  // namespace corpuscle::lanes

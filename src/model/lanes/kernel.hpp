@@ -59,10 +59,10 @@ struct ReceptorCall {
     Method method;
     ForceInput input;
     const V* rows;                   ///< ForceInput::rows: force [step][tile_size], N
-    const std::int16_t* int16_rows;  ///< ForceInput::int16: the same as integers that are N when multiplied by `scale`
-    V scale;
-    const V* profile;  ///< ForceInput::profile: one force for each step, N, multiplied for each afferent by its ...
-    const V* gain;     ///< [tile_size]
+    const std::int16_t* int16_rows;  ///< ForceInput::int16: force [step][tile_size] as integers
+    V scale;                         ///< N per unit of these integers
+    const V* profile;                ///< ForceInput::profile: force of each step, N, the same for all afferents
+    const V* gain;                   ///< [tile_size]: the factor of each afferent for the profile
     V* from;           ///< out: currents, [output][current_rows][tile_size], A; for a continuous receptor only the first row
     V* to;
     PrefetchRange prefetch;
@@ -76,7 +76,7 @@ struct NeuronCall {
     std::size_t stride;
     V* state;
     int afferents, steps;
-    const V* from;  ///< [step][tile_size]; with gains one value for each step, as are the next two
+    const V* from;  ///< [step][tile_size]; if `gain` is set, one value for each step; the same for `to` and `end_sum`
     const V* to;
     const V* end_sum;
     const V* gain;  ///< [tile_size]; null: every afferent has its own currents
@@ -84,7 +84,7 @@ struct NeuronCall {
     PrefetchRange prefetch;
 };
 
-/// A receptor and a neuron in one loop. The pointers are null if this pair cannot be fused.
+/// A receptor and a neuron in one loop. The pointers are null for a pair that cannot be fused.
 template <class V>
 struct FusedKernel {
     bool (*is_usable)(const std::byte* neurons, std::size_t count);  ///< true if it can be used with these models
@@ -103,7 +103,7 @@ struct ReceptorKernel {
     void (*start)(const ReceptorCall<V>&);          ///< sets the state before the first row of force
     void (*flush_decayed)(const ReceptorCall<V>&);  ///< sets decayed state to zero; reads only models and state
     void (*run)(ReceptorCall<V>&);
-    std::span<const FusedKernel<V>> fused;  ///< with each neuron of the table
+    std::span<const FusedKernel<V>> fused;  ///< this receptor with each neuron, in the order of KernelTable::neurons
 };
 
 template <class V>

@@ -33,8 +33,8 @@ void start_states(const NeuronCall<V>& c) {
 /// One step of a vector under its current, with all events.
 template <class N, class S, class I, class F>
 [[gnu::always_inline]] inline void step_one(const N& n, S& s, const I& i, const F& fired) {
-    const auto capped = n.step(s, i, fired);
-    if (num::any(capped)) fired.truncated(capped);
+    const auto truncated = n.step(s, i, fired);
+    if (num::any(truncated)) fired.truncated(truncated);
 }
 
 /// The current into vector j, recomputed at each access.
@@ -59,27 +59,28 @@ struct StoredCurrents {
 };
 
 /// One step of J vectors; current(j) is the current into vector j. If the neuron has a quick test for steps without events, all vectors are
-/// tested first. Those in which something may happen are then simulated in full, one after another.
-template <bool waits, int J, class N, class S, class F, class I>
+/// tested first. Those in which an event is possible are then simulated in full, one after another.
+template <bool check_refractory, int J, class N, class S, class F, class I>
 [[gnu::always_inline]] inline void step_all(const N* const (&n)[J], S (&s)[J], const F (&fired)[J], const I& current) {
-    if constexpr (requires(S next) { n[0]->template try_quiet_step<waits>(s[0], current(0), next); }) {
+    if constexpr (requires(S next) { n[0]->template try_quiet_step<check_refractory>(s[0], current(0), next); }) {
         S next[J];
-        decltype(n[0]->template try_quiet_step<waits>(s[0], current(0), next[0])) something[J];
-        unrolled<J>([&](auto j)
-                        __attribute__((always_inline)) { something[j] = n[j]->template try_quiet_step<waits>(s[j], current(j), next[j]); });
-        if (num::any_of(something)) [[unlikely]] {
+        decltype(n[0]->template try_quiet_step<check_refractory>(s[0], current(0), next[0])) events[J];
+        unrolled<J>([&](auto j) __attribute__((always_inline)) {
+            events[j] = n[j]->template try_quiet_step<check_refractory>(s[j], current(j), next[j]);
+        });
+        if (num::any_of(events)) [[unlikely]] {
             S before[J], after[J];
-            const auto again = current.copy();
-            unsigned where = 0;
+            const auto copied_current = current.copy();
+            unsigned vectors = 0;  // one bit for each vector with an event
             unrolled<J>([&](auto j) __attribute__((always_inline)) {
                 before[j] = s[j], after[j] = next[j];
-                where |= static_cast<unsigned>(num::any(something[j])) << j;
+                vectors |= static_cast<unsigned>(num::any(events[j])) << j;
             });
-            for (; where != 0; where &= where - 1) {
-                const int k = __builtin_ctz(where);
-                S one = before[k];
-                step_one(*n[k], one, again(k), fired[k]);
-                after[k] = one;
+            for (; vectors != 0; vectors &= vectors - 1) {
+                const int k = __builtin_ctz(vectors);
+                S state = before[k];
+                step_one(*n[k], state, copied_current(k), fired[k]);
+                after[k] = state;
             }
             unrolled<J>([&](auto j) __attribute__((always_inline)) { next[j] = after[j]; });
         }
@@ -89,7 +90,7 @@ template <bool waits, int J, class N, class S, class F, class I>
     }
 }
 
-template <class V, class N, bool scaled, bool waits, bool shared, int J>
+template <class V, class N, bool scaled, bool check_refractory, bool shared, int J>
 void run_neurons(const NeuronCall<V>& c, int first, Prefetcher& prefetch) {
     constexpr int w = width<V>;
     using T = Batch<V>;
@@ -116,11 +117,11 @@ void run_neurons(const NeuronCall<V>& c, int first, Prefetcher& prefetch) {
                 }};
             };
             if (to[t] > from[t])
-                step_all<waits, J>(n, s, fired, current(std::true_type{}));
+                step_all<check_refractory, J>(n, s, fired, current(std::true_type{}));
             else
-                step_all<waits, J>(n, s, fired, current(std::false_type{}));
+                step_all<check_refractory, J>(n, s, fired, current(std::false_type{}));
         } else {
-            step_all<waits, J>(n, s, fired, ComputedCurrents{[&](int j) __attribute__((always_inline)) {
+            step_all<check_refractory, J>(n, s, fired, ComputedCurrents{[&](int j) __attribute__((always_inline)) {
                                    return Current<T>{load(from + t * tile_size + j * w), load(to + t * tile_size + j * w)};
                                }});
         }

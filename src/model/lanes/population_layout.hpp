@@ -16,7 +16,7 @@ template <class V>
 struct PopulationLayout {
     const ReceptorKernel<V>* receptor;
     const NeuronKernel<V>* neuron;
-    const FusedKernel<V>* fused;  ///< both in one loop; null: not available
+    const FusedKernel<V>* fused;  ///< receptor and neuron in one loop; null: not available
     int lanes;
     std::size_t size;
     AlignedBuffer<std::byte> receptors, neurons;      ///< models: one for all, or those of each tile in turn

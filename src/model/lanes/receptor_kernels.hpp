@@ -6,8 +6,8 @@
 namespace corpuscle::lanes {
 namespace {
 
-/// Reads the force of a tile's vectors. It copies the pointers of the call, because the compiler may assume that stores of lanes change
-/// them.
+/// Reads the force of a tile's vectors. It copies the pointers of the call: otherwise the compiler would reload them after each store of
+/// lanes, which might have changed them.
 template <ForceInput feed, class V>
 struct ForceReader {
     const V *rows = nullptr, *profile = nullptr, *gain = nullptr;
@@ -47,7 +47,7 @@ void start_states(const ReceptorCall<V>& c) {
 template <class R>
 inline constexpr bool continuous = requires { R::continuous; };
 
-/// J vectors of a tile at once, from `first` on.
+/// Simulates J vectors of a tile, from afferent `first` on.
 template <class V, class R, ForceInput feed, int J>
 void run_receptors(ReceptorCall<V>& c, int first, Prefetcher& prefetch) {
     constexpr int w = width<V>;
@@ -57,7 +57,7 @@ void run_receptors(ReceptorCall<V>& c, int first, Prefetcher& prefetch) {
         r[j] = &model<R>(c.models, c.stride, first / w + j);
         s[j] = read<typename R::State>(c.state, first + j * w);
     });
-    // Rows of force are summed to detect NaN and infinity. This is not needed if such a force makes the receptor's own state NaN for good.
+    // Rows of force are summed to detect NaN and infinity. This is not needed if the receptor's state stays NaN after such a force.
     constexpr bool checks_force = feed == ForceInput::rows && !requires { R::propagates_nan; };
     Batch<V> sum[J];
     unrolled<J>([&](auto j) __attribute__((always_inline)) { sum[j] = Batch<V>(V(0)); });

@@ -1,5 +1,5 @@
 #pragma once
-// A shortcut for one force shared by many afferents: the current of their common receptor is computed once.
+// If many afferents share one force and one set of receptor parameters, the current of their receptor is computed once.
 
 #include <array>
 #include <memory>
@@ -11,7 +11,7 @@
 
 namespace corpuscle::lanes {
 
-/// Currents of a profile, A: for each output and step the values at both ends, and their sum.
+/// Currents of one output for a profile, A: for each step the values at both ends, and their sum.
 struct ProfileCurrents {
     std::vector<double> from, to, end_sum;
 };
@@ -21,14 +21,14 @@ public:
     virtual ~SharedReceptor() = default;
     virtual std::vector<double> save() const = 0;
     virtual bool resume(std::span<const double>) = 0;  ///< false: not a state of this receptor
-    /// Simulates the next steps. `first`: they are the beginning of the profile.
+    /// Simulates the next steps, one for each sample of force. `first`: true for the first block of a run.
     virtual void run(std::span<const double> force, bool first, std::array<ProfileCurrents, max_outputs>& out) = 0;
 };
 
 /// The shared receptor of a plan.
 std::unique_ptr<SharedReceptor> make_shared_receptor(const AfferentPlan&, const SimulationOptions&);
 
-/// True if twice the force gives twice the current.
+/// True if twice the force gives twice the current in the plan's receptor.
 bool scales_with_force(const AfferentPlan&);
 
 }  // namespace corpuscle::lanes

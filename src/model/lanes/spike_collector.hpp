@@ -59,7 +59,7 @@ private:
 };
 
 /// Appends the events of all jobs as spikes, in order of time, then afferent: a counting sort by step, then a sort within each step.
-/// `numbers` are the afferent numbers in spikes, rising; empty: 0, 1, 2 ...
+/// `numbers` are the afferent numbers in spikes, ascending; empty: 0, 1, 2 ... `first` is the first step of the block.
 /// `begin` and `at` are scratch arrays.
 inline void merge_spikes(std::span<const JobResult> jobs, std::size_t steps, std::int64_t first, std::span<const std::uint32_t> numbers,
                          std::vector<Spike>& spikes, std::vector<std::size_t>& begin, std::vector<std::size_t>& at) {

@@ -15,11 +15,11 @@ namespace corpuscle::lanes {
 
 template <class V>
 class TileStates {
-    std::size_t receptor_values_, neuron_values_;  // values of a tile: of the receptors; of the neurons of all outputs, one after another
+    std::size_t receptor_values_, neuron_values_;  // number of values per tile; the neurons of all outputs are stored one after another
     AlignedBuffer<V> receptors_, neurons_;
     std::vector<std::uint8_t> at_rest_;
 
-    /// True if all values are finite. Eight sums at a time, which vectorises.
+    /// True if all values are finite. Eight separate sums let the compiler vectorise the loop.
     static bool all_finite_in(const V* states, std::size_t count) {
         V sums[8] = {};
         for (std::size_t k = 0; k < count; k += 8)
@@ -33,8 +33,9 @@ class TileStates {
     }
 
 public:
-    TileStates(std::size_t tiles, std::size_t felt, std::size_t own)
-        : receptor_values_(felt * tile_size), neuron_values_(own * tile_size), receptors_(tiles * receptor_values_),
+    /// The last two arguments are the numbers of state values of one afferent.
+    TileStates(std::size_t tiles, std::size_t receptor_values, std::size_t neuron_values)
+        : receptor_values_(receptor_values * tile_size), neuron_values_(neuron_values * tile_size), receptors_(tiles * receptor_values_),
           neurons_(tiles * neuron_values_), at_rest_(tiles) {}
 
     V* receptor(std::size_t tile) const { return receptors_.data() + tile * receptor_values_; }

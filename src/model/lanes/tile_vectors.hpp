@@ -27,11 +27,11 @@ Batch<V> load(const V* at) {
     return Batch<V>::load_aligned(at);
 }
 
-/// Gives a model the values of its parameters: one afferent for all lanes, or one afferent for each lane.
+/// Passes the values of a model's parameters to its constructor: of one afferent for all lanes, or of one afferent for each lane.
 template <class V, class P>
 struct PerLaneParams {
     const P* params;
-    int count;  ///< 1: one for all; the last afferent fills the lanes beyond the count
+    int count;  ///< of afferents in `params`; lanes beyond it get the last afferent's values
     Batch<V> operator()(double P::* at) const {
         alignas(64) V lanes[width<V>];
         for (int l = 0; l < width<V>; ++l) lanes[l] = static_cast<V>(params[l < count ? l : count - 1].*at);
@@ -59,21 +59,21 @@ const M& model(const std::byte* models, std::size_t stride, int vector) {
 template <class S, class V>
 inline constexpr std::size_t value_count = sizeof(S) / sizeof(Batch<V>);
 
-/// Loads a state from its tile, value by value; only the first `kept` values, the others are 0. It works through a copy: a loop variable
-/// without an address can stay in registers.
-template <class S, class V, std::size_t kept = value_count<S, V>>
+/// Loads the first `stored` values of a state from its tile; the others are 0. The state is returned by value: a loop variable whose
+/// address is never taken can stay in registers.
+template <class S, class V, std::size_t stored = value_count<S, V>>
 [[gnu::always_inline]] inline S read(const V* state, int first) {
     return [&]<std::size_t... k>(std::index_sequence<k...>) __attribute__((always_inline)) {
-        return S{(k < kept ? load(state + k * tile_size + first) : Batch<V>(V(0)))...};
+        return S{(k < stored ? load(state + k * tile_size + first) : Batch<V>(V(0)))...};
     }(std::make_index_sequence<value_count<S, V>>{});
 }
-/// Stores a state into its tile; only the first `kept` values.
-template <class S, class V, std::size_t kept = value_count<S, V>>
+/// Stores the first `stored` values of a state in its tile.
+template <class S, class V, std::size_t stored = value_count<S, V>>
 [[gnu::always_inline]] inline void write(const S& s, V* state, int first) {
     constexpr auto values = value_count<S, V>;
     const auto put = [&](const auto&... value) __attribute__((always_inline)) {
         std::size_t k = 0;
-        ((k < kept ? value.store_aligned(state + k * tile_size + first) : void(), ++k), ...);
+        ((k < stored ? value.store_aligned(state + k * tile_size + first) : void(), ++k), ...);
     };
     static_assert(values <= 5);
     if constexpr (values == 1) {
@@ -94,18 +94,18 @@ template <class S, class V, std::size_t kept = value_count<S, V>>
     }
 }
 
-/// Sets the decayed states of one model in a tile to zero; `kept` values of each state are stored.
-template <class V, class M, class Call, std::size_t kept = value_count<typename M::State, V>>
+/// Sets the decayed states of one model in a tile to zero. The tile contains the first `stored` values of each state.
+template <class V, class M, class Call, std::size_t stored = value_count<typename M::State, V>>
 void flush_decayed(const Call& c) {
     if constexpr (requires(const M& m, typename M::State& s) { m.flush_decayed(s); })
         for (int first = 0; first < tile_size; first += width<V>) {
-            auto s = read<typename M::State, V, kept>(c.state, first);
+            auto s = read<typename M::State, V, stored>(c.state, first);
             model<M>(c.models, c.stride, first / width<V>).flush_decayed(s);
-            write<typename M::State, V, kept>(s, c.state, first);
+            write<typename M::State, V, stored>(s, c.state, first);
         }
 }
 
-/// Prefetches a range of memory, some cache lines in each call, so that all of it is requested in `times` calls.
+/// Prefetches a range of memory: a few cache lines in each call, so that `times` calls request all of it.
 class Prefetcher {
     const char *at_, *end_;
     std::size_t step_;
@@ -119,7 +119,7 @@ public:
     }
 };
 
-/// Iterations of a loop over a tile with J vectors at once.
+/// Number of iterations of a loop over steps that simulates a tile with J vectors at once.
 template <class V, int J, class Call>
 int iteration_count(const Call& c) {
     return (c.afferents + J * width<V> - 1) / (J * width<V>)*c.steps;

@@ -1,5 +1,6 @@
 #pragma once
-// A population of one precision. Models and states are in tiles of 64 afferents; blocks are split into chunks that fit the cache.
+// A population in one precision, float or double. Models and states are in tiles of 64 afferents; blocks are split into chunks that fit the
+// cache.
 
 #include <fmt/format.h>
 #include <cmath>
@@ -18,8 +19,8 @@ namespace corpuscle::lanes {
 
 template <class V>
 class TiledPopulation final : public LanePopulation {
-    static constexpr int chunk = chunk_steps<V>, long_chunk = 2 * chunk;  // long: used where no separate currents share the cache
-    static constexpr std::size_t tiles_per_job = 16;                      // 1,024 afferents: the work of one thread
+    static constexpr int chunk = chunk_steps<V>, long_chunk = 2 * chunk;  // steps; long_chunk: if no arrays of currents share the cache
+    static constexpr std::size_t tiles_per_job = 16;                      // 1,024 afferents; threads take whole jobs
 
     /// Scratch memory of one thread.
     struct Scratch {
@@ -69,20 +70,20 @@ class TiledPopulation final : public LanePopulation {
         }
     }
 
-    /// The memory that the next chunk reads.
+    /// The rows of force that the next chunk reads.
     template <class E>
     static PrefetchRange next_chunk(const E* rows, int steps) {
         const auto chunk_size = static_cast<std::size_t>(steps) * tile_size;
         return {reinterpret_cast<const char*>(rows + chunk_size), chunk_size * sizeof(E)};
     }
-    /// Prefetches half of it during the receptors; the other half, which is returned, during the neurons.
+    /// Reduces a range to its first half, which is prefetched by the receptors' loop. Returns the second half, for the neurons' loop.
     static PrefetchRange take_second_half(PrefetchRange& all) {
         all.bytes /= 2;
         return {all.at + all.bytes, all.bytes};
     }
 
-    /// The destination of the currents at the ends of steps. For a continuous receptor they are also the beginnings of the next step, one
-    /// row on.
+    /// The destination of the currents at the ends of steps. For a continuous receptor these are also the currents at the beginnings of the
+    /// next steps, so they are stored in `from`, one row further on.
     V* step_ends(Scratch& s) const { return layout_.receptor->continuous ? s.from.data() + tile_size : s.to.data(); }
 
     ReceptorCall<V> receptor_call(const Block& b, std::size_t tile, std::size_t step, int steps, Scratch& s) const {
@@ -126,10 +127,10 @@ class TiledPopulation final : public LanePopulation {
         return c;
     }
 
-    /// Simulates some steps of a tile. For the first step of all, the force before it is taken to be the same. Backward Euler takes a step
-    /// there, with its spikes on the sample. The exact method has no interval to integrate yet.
+    /// Simulates some steps of a tile. The force before the very first sample is assumed to be the same. Backward Euler takes a step there,
+    /// with its spikes on the sample. The exact method has no interval to integrate yet.
     void run_chunk(const Block& b, std::size_t tile, std::size_t step, int steps, Scratch& s, JobResult& job) const {
-        const bool first = step_ == 0 && step == 0, silent = first && method_ == Method::exact;
+        const bool first = step_ == 0 && step == 0, skips_neurons = first && method_ == Method::exact;
         SpikeCollector<V> fired{{s.firings.data(), spikes_on_samples_ || first ? nullptr : s.offsets.data(), 0, 0, valid_bits(tile), 0,
                                  [](FiringList<V>& list) { static_cast<SpikeCollector<V>&>(list).flush(); }},
                                 job,
@@ -151,7 +152,7 @@ class TiledPopulation final : public LanePopulation {
             for (int k = 0; k < layout_.receptor->outputs; ++k) {
                 const auto c = neuron_call(b, tile, k, step, steps, s, fired, k == 0 ? ahead : PrefetchRange{});
                 if (first) layout_.neuron->start(c);
-                if (!silent) layout_.neuron->run(c);
+                if (!skips_neurons) layout_.neuron->run(c);
                 fired.flush();
             }
         }
@@ -178,8 +179,8 @@ class TiledPopulation final : public LanePopulation {
         }
     }
 
-    /// Takes one step without force. If this changes no bit of the tile's state and no afferent fires, the tile is at rest. It is then
-    /// skipped until force comes. The state is flushed first, so that a later flush cannot change it.
+    /// Takes one step without force. If no afferent fires, and neither this step nor a flush changes a bit of the tile's state, the tile is
+    /// at rest. It is then skipped until there is force again.
     void check_rest(const Block& b, std::size_t tile, std::size_t step, Scratch& s, JobResult& job) {
         states_.copy(tile, s.saved_state);
         const auto fired = job.firings;
@@ -190,31 +191,31 @@ class TiledPopulation final : public LanePopulation {
         states_.restore(tile, s.saved_state);
     }
 
-    /// Runs as many steps as possible at once. A run ends where states are flushed; the step after which a tile may be found at rest is run
-    /// alone. Returns the number of steps taken before the tile was found at rest.
+    /// Simulates a tile over a block, in chunks of as many steps as possible. A chunk ends where states are flushed; the step of
+    /// check_rest() is a chunk by itself. Returns the number of steps taken before the tile was found at rest.
     std::size_t run_tile(const Block& b, std::size_t tile, Scratch& s, JobResult& job) {
         constexpr std::int64_t rest_interval = 256;
-        const bool without = has_zero_force(b, tile);
-        if (!without) states_.set_at_rest(tile, false);
+        const bool zero_force = has_zero_force(b, tile);
+        if (!zero_force) states_.set_at_rest(tile, false);
         const std::int64_t max_steps = b.shared_currents ? 256 : layout_.fused ? long_chunk : chunk;
         std::size_t step = 0;
         while (step < b.steps && !states_.is_at_rest(tile)) {
             const std::int64_t now = step_ + static_cast<std::int64_t>(step);
             if (now % flush_interval == 0 && now > 0) flush_decayed(tile);
             const std::int64_t to_check = (rest_interval + 1 - now % rest_interval) % rest_interval;
-            if (without && to_check == 0) {
+            if (zero_force && to_check == 0) {
                 check_rest(b, tile, step++, s, job);
                 continue;
             }
             std::int64_t steps = std::min({max_steps, static_cast<std::int64_t>(b.steps - step), flush_interval - now % flush_interval});
-            if (without) steps = std::min(steps, to_check);
+            if (zero_force) steps = std::min(steps, to_check);
             run_chunk(b, tile, step, now == 0 ? 1 : static_cast<int>(steps), s, job);
             step += now == 0 ? 1 : static_cast<std::size_t>(steps);
         }
         return step;
     }
 
-    /// A state that becomes NaN stays NaN. For blocks of one or two steps it is therefore checked only every few steps.
+    /// Steps between checks for NaN. A state that becomes NaN stays NaN, so short blocks need not check each time.
     static constexpr std::int64_t check_interval = 64;
     bool is_check_due(const Block& b) const {
         return step_ / check_interval != (step_ + static_cast<std::int64_t>(b.steps)) / check_interval;
@@ -315,10 +316,10 @@ public:
 
     Result<void> resume(std::span<const double> all) override {
         constexpr double last_step = 1LL << 53, kinds = 2 * std::variant_size_v<PopulationForce>;
-        const std::size_t own = 2 + states_.size();
+        const std::size_t own_values = 2 + states_.size();  // without those of the shared receptor
         const auto is_integer = [](double x, double max) { return x >= 0 && x <= max && x == std::floor(x); };
-        const bool fits = all.size() >= own && is_integer(all[0], last_step) && is_integer(all[1], kinds) &&
-                          (layout_.shared_receptor ? layout_.shared_receptor->resume(all.subspan(own)) : all.size() == own) &&
+        const bool fits = all.size() >= own_values && is_integer(all[0], last_step) && is_integer(all[1], kinds) &&
+                          (layout_.shared_receptor ? layout_.shared_receptor->resume(all.subspan(own_values)) : all.size() == own_values) &&
                           states_.resume(all.subspan(2, states_.size()));
         if (!fits)
             return bad_input(fmt::format("{}: a saved state with {} values is not one of this population", layout_.name, all.size()));

@@ -12,10 +12,10 @@ namespace corpuscle {
 ///     C_m du/dt = I, not below E_L;   theta = V_th + a,  tau_th da/dt = -a
 ///     u > theta while I > 0  =>  spike, then u = V_reset for t_ref and a = a + dV_th
 ///
-/// (A threshold that decays below a resting membrane potential does not cause a spike. Without a leak, such a spike would respond to a
-/// touch long past.) After Lee et al. 2016 as described in the thesis (3.1: no leak, "an adaptive threshold potential"). The thesis gives
-/// no equation and no value, so the equations above and all defaults are our choice. Both methods integrate them exactly for the current
-/// that they are given.
+/// (If the threshold decays below a constant membrane potential, no spike is fired. Without a leak, such a spike would respond to a touch
+/// long past.) After Lee et al. 2016 as described in the thesis (3.1: no leak, "an adaptive threshold potential"). The thesis gives no
+/// equation and no value, so the equations above and all defaults are our choice. Method has no effect: the equations are integrated
+/// exactly for the receptor's current.
 struct AdaptiveTraits {
     struct Params {
         double C_m = 500e-9, E_L = 0, V_th = 0.5, V_reset = 0.25, dV_th = 0.1, tau_th = 50e-3, t_ref = 0;
@@ -41,7 +41,7 @@ struct AdaptiveTraits {
 template <class T>
 struct Adaptive : AdaptiveTraits {
     struct State {
-        T u, a, ref_steps;  // membrane; threshold above V_th; rest of t_ref, in steps
+        T u, a, ref_steps;  // membrane; threshold minus V_th; remaining refractory time, in steps
     };
 
     template <class Values>
@@ -56,22 +56,22 @@ struct Adaptive : AdaptiveTraits {
     /// step.
     template <class Fired>
     num::Mask<T> step(State& s, Current<T> i, Fired&& fired) const {
-        T x = num::min(s.ref_steps, T(1.0)), a = s.a;  // a: the excess of the threshold at x
+        T x = num::min(s.ref_steps, T(1.0)), a = s.a;  // a: threshold minus V_th, at x
         s.ref_steps = s.ref_steps - x;
-        const auto late = x > T(0.0);
-        if (num::any(late)) a = num::select(late, a * num::exp(-fall * x), a);
+        const auto was_refractory = x > T(0.0);
+        if (num::any(was_refractory)) a = num::select(was_refractory, a * num::exp(-fall * x), a);
         const Parabola<T> rise{i.from * k, (i.to - i.from) * k};
         T base = num::max(s.u - rise.at(x), E_L - rise.min_from(x));  // u(x) = base + rise.at(x), never below E_L
         s.u = base + rise.at(T(1.0));
         s.a = a * decay;
-        if (num::any(late)) s.a = num::select(late, a * num::exp(-fall * (T(1.0) - x)), s.a);
-        // The interval in which the current is positive: all of the step, or up to or from its zero.
+        if (num::any(was_refractory)) s.a = num::select(was_refractory, a * num::exp(-fall * (T(1.0) - x)), s.a);
+        // The interval in which the current is positive: the whole step, or the part before or after its zero crossing.
         const num::Mask<T> starts = i.from > T(0.0), ends = i.to > T(0.0), changes_sign = starts ^ ends;
         const T zero = num::select(changes_sign, i.from / num::select(changes_sign, i.from - i.to, T(1.0)), T(0.0));
         const T first = num::select(starts, T(0.0), num::select(ends, zero, T(1.0))), last = num::select(ends, T(1.0), zero);
         const auto excess = [&](T y) { return a * num::exp(-fall * (y - x)); };
         const auto passes = [&] {
-            T height = s.u - s.a;  // above the resting threshold, at the end of the interval
+            T height = s.u - s.a;  // u - a at the end of the interval, to be compared with V_th
             if (num::any(changes_sign)) height = num::select(changes_sign & starts, base + rise.at(last) - excess(last), height);
             return (height > V_th) & (starts | ends) & (last > x);
         };

@@ -12,7 +12,7 @@ namespace corpuscle {
 ///     C_m dv/dt = -g_L (v - E_L) + g_L Delta_T exp((v - V_T) / Delta_T) - w + gain I,   tau_w dw/dt = a (v - E_L) - w
 ///     v > V_peak  =>  spike, then v = V_reset and w = w + b
 ///
-/// The exponential is limited to its value at V_peak. Method has no effect: both use the same substeps. There is no refractory time;
+/// The exponential is limited to its value at V_peak. Method has no effect: the substeps are always the same. There is no refractory time;
 /// adaptation limits the rate instead.
 struct AdexTraits {
     struct Params {
@@ -64,14 +64,14 @@ struct Adex : AdexTraits {
             step = (-(g_L + a) * (v - E_L) + g_L * Delta_T * e) / (g_L + a - g_L * e);
             v = v + step;
         }
-        // If there is no resting state between E_L and V_T, it starts at E_L.
+        // If there is no resting state between E_L and V_T, the neuron starts at E_L.
         v = num::select((num::abs(step) < T(1e-9)) & (v >= E_L) & (v < V_T), v, E_L);
         return {v, a * (v - E_L)};
     }
     void record(const State& s, T (&out)[2]) const { out[0] = s.v, out[1] = s.w; }
 
-    /// One sample under current i. Calls fired(mask, offset) for each spike. Returns the lanes that a limit of spikes truncated: never any
-    /// here.
+    /// One sample under current i. Calls fired(mask, offset) for each spike. Returns an empty mask: there is no limit of spikes that could
+    /// truncate the step.
     template <class Fired>
     num::Mask<T> step(State& s, Current<T> i, Fired&& fired) const {
         MembraneRecovery<T> y{s.v, s.w};

@@ -10,8 +10,9 @@ namespace corpuscle {
 /// Izhikevich 2003, in SI:   dv/dt = 4e4 v^2 + 5e3 v + 140 - w + gain I,   dw/dt = a (b v - w)      (v in V, w in V/s)
 ///     v > V_peak  =>  spike, then v = c and w = w + d
 ///
-/// These are the paper's 0.04, 5 and 140 in mV and ms. Its a = 0.02/ms is 20 1/s, b = 0.2/ms is 200 1/s, d = 8 mV/ms is 8 V/s.
-/// Both methods use the same substeps. No refractory time: recovery takes its role. Named in thesis 3.2 for adaptation.
+/// The coefficients are the paper's 0.04, 5 and 140 in mV and ms. Its a = 0.02/ms is 20 1/s, b = 0.2/ms is 200 1/s, d = 8 mV/ms is 8 V/s.
+/// Method has no effect: the substeps are always the same. There is no refractory time; the recovery w takes its role. Thesis 3.2 names the
+/// model for its adaptation.
 struct IzhikevichTraits {
     struct Params {
         double a = 20, b = 200, c = -65e-3, d = 8, V_peak = 30e-3, gain = 2.5e6, substep = 20e-6;
@@ -53,7 +54,7 @@ struct Izhikevich : IzhikevichTraits {
     }
     void record(const State& s, T (&out)[2]) const { out[0] = s.v, out[1] = s.w; }
 
-    /// One sample under current i. Calls fired(mask, offset) for each spike.
+    /// One sample under current i. Calls fired(mask, offset) for each spike. Returns an empty mask: no limit of spikes truncates the step.
     template <class Fired>
     num::Mask<T> step(State& s, Current<T> i, Fired&& fired) const {
         MembraneRecovery<T> y{s.v, s.w};

@@ -10,8 +10,9 @@ namespace corpuscle {
 /// LIF-A, the leaky integrate-and-fire neuron with a resistor, integrated exactly for a straight-line current:
 ///     R_m C_m du/dt = -(u - E_L) + R_m I;   u > V_th  =>  spike, then u = V_reset for t_ref
 /// (thesis eq. 5, Alg. 3.) Backward Euler is the published algorithm, u[n] = k_a I[n] + k_b u[n-1] + k_c, with constants as in the errata:
-/// k_a = R/(1 + RC/T), k_b = (RC/T)/(1 + RC/T), k_c = E_L/(1 + RC/T). A spike then subtracts V_th - V_reset; with a t_ref, which ends on a
-/// sample, it sets V_reset. Limitation: if u exceeds V_th within a step and is below it again at the end, no spike is detected.
+/// k_a = R/(1 + RC/T), k_b = (RC/T)/(1 + RC/T), k_c = E_L/(1 + RC/T). A spike then subtracts V_th - V_reset from u. With t_ref above 0 it
+/// sets u to V_reset instead, and the refractory time ends on a sample. Limitation: if u exceeds V_th within a step and is below it again
+/// at the end, no spike is detected.
 struct LifATraits {
     struct Params {
         double C_m = 500e-9, R_m = 1e6, E_L = 0, V_th = 0.5, V_reset = 0.25, t_ref = 0;
@@ -19,7 +20,7 @@ struct LifATraits {
     static constexpr std::string_view name = "lif-a", description = "LIF-A: integrate and fire with a leak resistor";
     static constexpr std::string_view source = "thesis 3.2, eq. 5, Alg. 3";
     static constexpr ParameterDef<Params> fields[] = {
-        {"C_m", &Params::C_m, "F", 1e-18, 1, "membrane capacitance (C)", "as lif-b"},
+        {"C_m", &Params::C_m, "F", 1e-18, 1, "membrane capacitance (C)", "choice: as lif-b"},
         {"R_m", &Params::R_m, "ohm", 1, 1e18, "membrane resistance (R)", "thesis fig. 16"},
         {"E_L", &Params::E_L, "V", -10, 10, "resting potential (u_rest)", "thesis fig. 16"},
         {"V_th", &Params::V_th, "V", -10, 10, "threshold (theta)", "choice: as lif-b"},
@@ -36,7 +37,7 @@ struct LifATraits {
 template <class T>
 struct LifA : LifATraits {
     struct State {
-        T u, ref_steps;  // membrane; rest of t_ref, in steps
+        T u, ref_steps;  // membrane; remaining refractory time, in steps
     };
 
     template <class Values>
@@ -60,7 +61,7 @@ private:
     T R_m, E_L, V_th, V_reset, ref, theta, decay, mean;
     bool exact;
 
-    /// u after a fraction h of a step, from u at a current i that changes by g a step; e = exp(-theta h), m = exprel(-theta h).
+    /// u after a fraction h of a step, under a current that begins at i and changes by g per step; e = exp(-theta h), m = exprel(-theta h).
     T after(T u, T i, T g, T h, T e, T m) const { return E_L + (u - E_L) * e + R_m * (i * (theta * h * m) + g * h * (T(1.0) - m)); }
     T after(T u, T i, T g, T h) const { return after(u, i, g, h, num::exp(-theta * h), num::exprel(-theta * h)); }
 
@@ -70,8 +71,8 @@ private:
         T x = num::min(s.ref_steps, T(1.0)), u = s.u;
         s.ref_steps = s.ref_steps - x;
         s.u = after(u, i.from, g, T(1.0), decay, mean);
-        const auto late = x > T(0.0);
-        if (num::any(late)) s.u = num::select(late, after(u, i.from + g * x, g, T(1.0) - x), s.u);
+        const auto was_refractory = x > T(0.0);
+        if (num::any(was_refractory)) s.u = num::select(was_refractory, after(u, i.from + g * x, g, T(1.0) - x), s.u);
         auto over = s.u > V_th;
         for (int pass = 0; num::any(over) && pass < max_spikes_per_step; ++pass) {
             const T at = i.from + g * x;
@@ -100,7 +101,7 @@ private:
         s.ref_steps = num::positive_part(s.ref_steps - T(1.0));
         const T before = s.u, end = num::select(refractory, before, (before + theta * (E_L + R_m * i)) / (T(1.0) + theta));
         const T drop = V_th - V_reset;
-        T level = V_th;  // of the straight line from `before` to `end`, continued without resets
+        T level = V_th;  // for the next spike, on the straight line from `before` to `end` without resets
         s.u = end;
         auto over = s.u > V_th;
         for (int pass = 0; num::any(over) && pass < max_spikes_per_step; ++pass) {

@@ -39,9 +39,9 @@ struct LifBTraits {
 template <class T>
 struct LifB : LifBTraits {
     struct State {
-        T q, ref_steps;  // charge; rest of t_ref, in steps
+        T q, ref_steps;  // charge, in A as above; remaining refractory time, in steps
     };
-    static constexpr std::size_t refractory_values = 1;  ///< last in State; 0 where may_be_refractory() is false
+    static constexpr std::size_t refractory_values = 1;  ///< the last values of State; always 0 if may_be_refractory() is false
 
     template <class Values>
     LifB(const Values& value, double dt, Method)
@@ -52,14 +52,14 @@ struct LifB : LifBTraits {
     State start() const { return {rest, T(0.0)}; }
     void record(const State& s, T (&out)[1]) const { out[0] = s.q / C; }
 
-    /// Computes a step without events: no spike, no current that rises through the leak, no refractory time. The last is not tested unless
-    /// `check_wait` is set. Returns the lanes in which an event is possible.
-    template <bool check_wait, class I>
+    /// Computes a step without events: no spike, no current that rises through the leak, no refractory time. The refractory time is tested
+    /// only if `check_refractory` is set. Returns the lanes in which an event is possible.
+    template <bool check_refractory, class I>
     [[gnu::always_inline]] num::Mask<T> try_quiet_step(const State& s, const I& i, State& next) const {
         next = {num::max(rest, s.q + (i.sum() - leak)), s.ref_steps};
         num::Mask<T> events = next.q > theta;
         if (i.may_rise()) events = events | i.rises_through(I_leak0);
-        if (check_wait) events = events | (s.ref_steps > T(0.0));
+        if (check_refractory) events = events | (s.ref_steps > T(0.0));
         return events;
     }
     bool may_be_refractory() const { return refractory; }
@@ -79,7 +79,7 @@ struct LifB : LifBTraits {
     }
 
 private:
-    T C, I_leak0, leak, rest, theta, reset, drop, ref;  // leak: of a step; then E_L, V_th, V_reset as charges like q
+    T C, I_leak0, leak, rest, theta, reset, drop, ref;  // leak: of a whole step; rest, theta, reset: E_L, V_th, V_reset; all in units of q
     bool refractory;
 
     struct StepResult {
@@ -87,7 +87,7 @@ private:
         num::Mask<T> over;
     };
 
-    /// The same step with its events: q(x) = base + rise.at(x), not below E_L, from the end of the refractory time and between spikes.
+    /// A step with all events. After the refractory time and between spikes q(x) = base + rise.at(x), but not below E_L.
     template <class Fired>
     [[gnu::noinline, gnu::cold]] StepResult step_with_events(State s, T increment, Current<T> i, Fired& fired) const {
         const Parabola<T> rise{T(2.0) * (i.from - I_leak0), T(2.0) * (i.to - i.from)};

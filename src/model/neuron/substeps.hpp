@@ -1,7 +1,7 @@
 #pragma once
 // Neurons without a closed form: two variables, a membrane potential v and a recovery w. They are advanced in equal substeps by the
 // classical Runge-Kutta method; the current is a straight line over the step. If v exceeds V_peak in a substep, the crossing is found by
-// linear interpolation. v and w are reset there, and the rest of the substep is integrated as another one.
+// linear interpolation. v and w are reset there, and the remaining time of the substep is integrated in one more Runge-Kutta step.
 
 #include "model/current.hpp"
 #include "model/neuron/threshold_crossing.hpp"
@@ -29,7 +29,7 @@ inline int substep_count(double dt, double longest) {
     return n <= 1 ? 1 : n > 1e6 ? 1'000'000 : static_cast<int>(n) + (static_cast<int>(n) < n);
 }
 
-/// One step in `count` substeps; jump(y) returns the state after a spike.
+/// One step in `count` substeps. jump(y) returns the state after a spike; fired(mask, offset) is called for each spike.
 template <class T, class Slopes, class Jump, class Fired>
 void advance_substeps(MembraneRecovery<T>& y, Current<T> i, double dt, int count, T V_peak, const Slopes& slopes, const Jump& jump,
                       Fired& fired) {

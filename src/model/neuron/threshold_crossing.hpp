@@ -8,23 +8,24 @@ namespace corpuscle {
 /// Limit of spikes of one neuron in one step. Steps that it truncates are counted and reported.
 inline constexpr int max_spikes_per_step = 64;
 
-/// A function with a straight slope, up to its own constant: q(x) = a x + b x^2 / 2.
+/// A parabola without a constant term: q(x) = a x + b x^2 / 2.
 template <class T>
 struct Parabola {
     T a, b;
     T at(T x) const { return x * (a + T(0.5) * b * x); }
     /// The minimum of q on [x0, 1].
     T min_from(T x0) const {
-        T least = num::min(at(x0), at(T(1.0)));
+        T minimum = num::min(at(x0), at(T(1.0)));
         const num::Mask<T> has_minimum = (a + b * x0 < T(0.0)) & (a + b > T(0.0));
-        if (num::any(has_minimum)) least = num::select(has_minimum, T(-0.5) * a * a / num::select(has_minimum, b, T(1.0)), least);
-        return least;
+        if (num::any(has_minimum)) minimum = num::select(has_minimum, T(-0.5) * a * a / num::select(has_minimum, b, T(1.0)), minimum);
+        return minimum;
     }
-    /// The x at which q rises through c. The discriminant is kept from becoming negative by rounding.
+    /// The x at which q rises through c. A discriminant that rounding has made negative is set to zero. Of the two equivalent formulas, the
+    /// one without cancellation is used.
     T rising_crossing(T c) const {
         const T root = num::sqrt(num::positive_part(a * a + T(2.0) * b * c));
-        const auto straight = a > T(0.0);
-        const T numerator = num::select(straight, T(2.0) * c, root - a), denominator = num::select(straight, a + root, b);
+        const auto starts_rising = a > T(0.0);
+        const T numerator = num::select(starts_rising, T(2.0) * c, root - a), denominator = num::select(starts_rising, a + root, b);
         return numerator / denominator;
     }
 };

@@ -6,7 +6,7 @@
 
 namespace corpuscle {
 
-/// FA-IA, Lee et al. 2016:   I_+ = k max{F', 0},   I_- = k max{-F', 0}. Each current drives a neuron of its own; their spikes form one
+/// FA-IA, Lee et al. 2016:   I_+ = k max{F', 0},   I_- = k max{-F', 0}. Each current drives its own neuron; the spikes of both form one
 /// train.
 /// (thesis eq. 2 to 4, Alg. 2; errata: the test is on F[n] - F[n-1], and a gain k turns N/s into A.)
 struct Fa1aTraits {
@@ -16,7 +16,7 @@ struct Fa1aTraits {
     static constexpr std::string_view name = "fa1a", description = "FA-IA: one neuron for rising and one for falling force";
     static constexpr std::string_view source = "Lee et al. 2016; thesis eq. 2 to 4, Alg. 2; the value is a choice";
     static constexpr ParameterDef<Params> fields[] = {
-        {"k", &Params::k, "A s/N", 0, 1, "gain from slope of force to current"},
+        {"k", &Params::k, "A s/N", 0, 1, "gain from the slope of the force to current"},
     };
     static constexpr int outputs = 2;
     static constexpr bool scales_with_force = true;  ///< twice the force gives twice the current

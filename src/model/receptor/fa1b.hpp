@@ -17,13 +17,13 @@ struct Fa1bTraits {
     static constexpr ParameterDef<Params> fields[] = {
         {"k_A", &Params::k_A, "A/N", 0, 1, "gain for rising force (protraction)"},
         {"k_B", &Params::k_B, "A/N", 0, 1, "gain for falling force (retraction)"},
-        {"f", &Params::f, "Hz", 1e-6, 1e6, "corner of the high-pass"},
+        {"f", &Params::f, "Hz", 1e-6, 1e6, "cutoff frequency of the high-pass"},
     };
     static constexpr int outputs = 1;
-    /// Exact method: the current at the beginning of a step equals that at the end of the step before. Without this it is constant in a
-    /// step.
+    /// Exact method: the current at the beginning of a step equals the current at the end of the step before. Backward Euler: it is
+    /// constant within a step.
     static constexpr bool continuous = true;
-    static constexpr bool propagates_nan = true;     ///< a NaN force makes the state NaN for good, so one check per block is enough
+    static constexpr bool propagates_nan = true;     ///< after a NaN force the state stays NaN, so one check per block is enough
     static constexpr bool scales_with_force = true;  ///< twice the force gives twice the current
     static constexpr Probe recordables[] = {{"I_A", "A"}, {"I_B", "A"}};
 };

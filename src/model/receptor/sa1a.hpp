@@ -17,7 +17,7 @@ struct Sa1aTraits {
     static constexpr ParameterDef<Params> fields[] = {
         {"beta", &Params::beta, "A", -1e-3, 1e-3, "current without force"},
         {"k_s", &Params::k_s, "A/N", 0, 1, "static gain"},
-        {"k_d", &Params::k_d, "A s/N", 0, 1, "dynamic gain, for rising and falling force alike"},
+        {"k_d", &Params::k_d, "A s/N", 0, 1, "dynamic gain, the same for rising and falling force"},
     };
     static constexpr int outputs = 1;
     static constexpr Probe recordables[] = {{"I_s", "A"}, {"I_d", "A"}};

@@ -20,15 +20,15 @@ struct Sa1bTraits {
         {"K_B", &Params::K_B, "A/N", 0, 1, "gain of the fast part I_B, active in protraction",
          "thesis 3.3, printed 8 A/A; applied to the force"},
         {"f_B", &Params::f_B, "Hz", 1e-6, 1e6, "cutoff frequency of the fast part"},
-        {"K_C", &Params::K_C, "A/N", 0, 1, "gain of the slow part I_C, whose decay sets that of the plateau",
+        {"K_C", &Params::K_C, "A/N", 0, 1, "gain of the slow part I_C, which decays during the plateau",
          "thesis 3.3, printed 2 A/A; applied to the force"},
         {"f_C", &Params::f_C, "Hz", 1e-6, 1e6, "cutoff frequency of the slow part"},
     };
     static constexpr int outputs = 1;
-    /// Exact method: the current at the beginning of a step equals that at the end of the step before. Without this it is constant in a
-    /// step.
+    /// Exact method: the current at the beginning of a step equals the current at the end of the step before. Backward Euler: it is
+    /// constant within a step.
     static constexpr bool continuous = true;
-    static constexpr bool propagates_nan = true;     ///< a NaN force makes the state NaN for good, so one check per block is enough
+    static constexpr bool propagates_nan = true;     ///< after a NaN force the state stays NaN, so one check per block is enough
     static constexpr bool scales_with_force = true;  ///< twice the force gives twice the current
     static constexpr Probe recordables[] = {{"I_A", "A"}, {"I_B", "A"}, {"I_C", "A"}};
 };

@@ -10,26 +10,26 @@ namespace corpuscle {
 ///
 ///     |x / F| = f^2 / (f^2 + f_hp^2) * f_lp / sqrt(f^2 + f_lp^2), with its maximum at sqrt(2) f_hp for f_lp = f_hp
 ///
-/// Our choice, for a class that the thesis names but does not model. It reproduces the tuning of Pacinian corpuscles (best at 200 to
-/// 300 Hz, no response to slow force), not their mechanics. Each section treats the output of the one before as a straight line between
-/// samples.
+/// The equations are our choice, because the thesis names FA-II but does not model it. They reproduce the tuning of Pacinian corpuscles
+/// (best at 200 to 300 Hz, no response to slow force), not their mechanics. Each filter treats the output of the filter before it as a
+/// straight line between samples.
 struct VibrationTraits {
     struct Params {
         double k = 400e-6, f_hp = 180, f_lp = 180;
     };
     static constexpr std::string_view name = "vibration", description = "a band of vibration: two high-passes and a low-pass, rectified";
-    static constexpr std::string_view source = "choice, to the tuning of PC afferents in PMC2657072, table 1";
-    static constexpr double min_rate = 1000;  ///< Hz; below this sampling rate the samples do not contain the band
+    static constexpr std::string_view source = "choice, after the tuning of PC afferents in PMC2657072, table 1";
+    static constexpr double min_rate = 1000;  ///< Hz; below this sampling rate part of the band is lost
     static constexpr ParameterDef<Params> fields[] = {
         {"k", &Params::k, "A/N", 0, 1, "gain"},
         {"f_hp", &Params::f_hp, "Hz", 1e-6, 1e6, "cutoff frequency of the two high-passes"},
         {"f_lp", &Params::f_lp, "Hz", 1e-6, 1e6, "cutoff frequency of the low-pass"},
     };
     static constexpr int outputs = 1;
-    /// Exact method: the current at the beginning of a step equals that at the end of the step before. Without this it is constant in a
-    /// step.
+    /// Exact method: the current at the beginning of a step equals the current at the end of the step before. Backward Euler: it is
+    /// constant within a step.
     static constexpr bool continuous = true;
-    static constexpr bool propagates_nan = true;     ///< a NaN force makes the state NaN for good, so one check per block is enough
+    static constexpr bool propagates_nan = true;     ///< after a NaN force the state stays NaN, so one check per block is enough
     static constexpr bool scales_with_force = true;  ///< twice the force gives twice the current
 };
 

@@ -13,7 +13,7 @@ namespace corpuscle {
 ///     code = floor((y - y_low) / D + 1/2) within [0, 2^bits - 1],   D = (y_high - y_low) / (2^bits - 1)
 ///
 /// y is the value measured by the front end. y_low and y_high are its values at F_low and F_high, so the range is given in newtons for
-/// every transducer. The converter is ideal: no noise, no aperture, no settling. All values are a choice.
+/// every transducer. The converter is ideal: no noise, no aperture, no settling. All default values are our choice.
 struct Adc {
     struct Params {
         double bits = 12, f_s = 1e3, F_low = 0, F_high = 5, shared = 0, linearise = 1, word = 32, frac = 20;
@@ -72,7 +72,8 @@ public:
         return {static_cast<std::int64_t>(level), reading.saturated};
     }
 
-    /// The force that a code represents, N: by the inverse of the curve, or by the straight line of the calibration.
+    /// The force that a code represents, N: from the inverse of the curve if `linearise` is 1, otherwise from the calibration's straight
+    /// line.
     double force(std::int64_t code) const {
         const double fraction = static_cast<double>(code) / max_code_;
         if (p_.linearise == 0) return front_end_.calibrated_force(low_ + fraction * (high_ - low_));

@@ -1,5 +1,6 @@
 #pragma once
-// The times of conversions, counted in samples of a source of any other rate. Integers only, so that no error accumulates.
+// The times of an analog-to-digital converter's conversions, in samples of a source with another rate. They are computed with integers, so
+// that no error accumulates.
 
 #include <cmath>
 #include <cstdint>
@@ -14,7 +15,7 @@ class ConversionTimes {
     std::int64_t whole_, part_, base_, channels_;  // A / B and A mod B; B; N
 
 public:
-    /// A position between samples: `rest` / (B N) of the way from sample `step` to the next.
+    /// A position between samples: `remainder` / (B N) of the way from sample `step` to the next.
     struct SamplePosition {
         std::int64_t step = 0, remainder = 0;
         bool is_after(std::int64_t sample) const { return step > sample || (step == sample && remainder > 0); }

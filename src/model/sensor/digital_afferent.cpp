@@ -14,7 +14,7 @@ struct DigitalAfferent::TypedState {
     ChannelSlot slot;
     ConversionTimes instants;
     ConversionTimes::SamplePosition next;  ///< the next conversion
-    double before = 0, sensed = 0;         ///< force of the last sample, and after the sensor's hysteresis; N
+    double before = 0, sensed = 0;         ///< force of the last sample before and after the sensor's hysteresis; N
     std::int64_t code = -1;                ///< of the last conversion; -1: none yet
     std::array<Word, FixedChain::max_words> state = {};
     std::array<Word, FixedChain::max_recordables> shown = {};
@@ -40,7 +40,7 @@ State DigitalAfferent::start(ChannelSlot slot) const {
     h.next = h.instants.first(slot.channel);
     Arithmetic a{chain_->constants().format()};
     chain_->start(0, h.state);
-    auto trial = h.state;  // only gives the resting membrane for the probes until the first conversion
+    auto trial = h.state;  // discarded; the step gives the probes' values at rest, shown until the first conversion
     chain_->step(trial, 0, h.shown, a);
     State state{format_, 0, std::vector<double>(values_before_words + chain_->words() + chain_->recordables().size())};
     pack_state(h, state);
@@ -56,7 +56,7 @@ void DigitalAfferent::pack_state(const TypedState& h, State& state) const {
     for (std::size_t w = 0; w < chain_->recordables().size(); ++w) *to++ = static_cast<double>(h.shown[w]);
 }
 
-/// Returns nothing if a value cannot have been written by pack_state().
+/// Returns nullopt if a value cannot have been written by pack_state().
 std::optional<DigitalAfferent::TypedState> DigitalAfferent::unpack_state(const State& state) const {
     const auto& v = state.values;
     const auto is_count = [](double x, double low, double high) { return x >= low && x <= high && x == std::floor(x); };
@@ -70,7 +70,7 @@ std::optional<DigitalAfferent::TypedState> DigitalAfferent::unpack_state(const S
     const auto max_word = static_cast<double>(chain_->constants().format().max());
     for (std::size_t w = 0; w < v.size() - values_before_words; ++w) {
         const double word = v[values_before_words + w];
-        if (!is_count(word, -max_word - 1, std::max(max_word, 1e7))) return {};  // a word, or the remaining steps of t_ref
+        if (!is_count(word, -max_word - 1, std::max(max_word, 1e7))) return {};  // a word, or a count of refractory steps (10 s at 1 MHz)
         (w < chain_->words() ? h.state[w] : h.shown[w - chain_->words()]) = static_cast<Word>(word);
     }
     return h;
@@ -81,7 +81,7 @@ Result<void> DigitalAfferent::respond(std::span<const double> force, State& stat
 }
 
 Result<void> DigitalAfferent::respond_and_report(std::span<const double> force, State& state, ResponseBlock& response,
-                                                 const ConversionCallback& seen) const {
+                                                 const ConversionCallback& on_conversion) const {
     const auto size = values_before_words + chain_->words() + chain_->recordables().size();
     if (auto ok = check_block(name_, format_, size, state, force); !ok) return ok;
     auto unpacked = unpack_state(state);
@@ -96,7 +96,8 @@ Result<void> DigitalAfferent::respond_and_report(std::span<const double> force, 
             const bool on_sample = h.next.remainder == 0;
             const double x = on_sample ? 1 : static_cast<double>(h.next.remainder) / static_cast<double>(h.instants.parts_per_sample());
             const double F = on_sample ? force[k] : h.before + x * (force[k] - h.before);
-            convert_once(h, front.apply_hysteresis(h.sensed, F), {h.next.step + !on_sample, x, response.afferent_index}, response, seen);
+            convert_once(h, front.apply_hysteresis(h.sensed, F), {h.next.step + !on_sample, x, response.afferent_index}, response,
+                         on_conversion);
         }
         h.sensed = front.apply_hysteresis(h.sensed, force[k]);
         h.before = force[k];
@@ -108,7 +109,8 @@ Result<void> DigitalAfferent::respond_and_report(std::span<const double> force, 
 }
 
 /// One conversion of a force (after hysteresis) and one step of the algorithms.
-void DigitalAfferent::convert_once(TypedState& h, double sensed, Spike at, ResponseBlock& response, const ConversionCallback& seen) const {
+void DigitalAfferent::convert_once(TypedState& h, double sensed, Spike at, ResponseBlock& response,
+                                   const ConversionCallback& on_conversion) const {
     const auto [code, clipped] = converter_.convert(sensed);
     const Word F = rom_[static_cast<std::size_t>(code)];
     if (h.code < 0) chain_->start(F, h.state);
@@ -118,7 +120,7 @@ void DigitalAfferent::convert_once(TypedState& h, double sensed, Spike at, Respo
     for (const bool spike : stepped.fired)
         if (spike) response.spikes.push_back(at);
     response.truncated_steps += stepped.truncated_neurons, response.saturated += clipped, response.overflowed += a.overflowed;
-    seen({code, F, std::span(h.shown).first(chain_->recordables().size()),
+    on_conversion({code, F, std::span(h.shown).first(chain_->recordables().size()),
           std::span(stepped.fired).first(static_cast<std::size_t>(chain_->outputs()))});
 }
 

@@ -1,5 +1,6 @@
 #pragma once
-// An afferent behind a converter. Everything after the converter is computed in words, at the converter's own rate.
+// An afferent behind an analog-to-digital converter. Everything after the converter is computed in fixed-point words, at the converter's
+// rate.
 
 #include "model/sensor/adc.hpp"
 #include "model/sensor/conversion_times.hpp"
@@ -7,7 +8,8 @@
 
 namespace corpuscle {
 
-/// Between two samples of the source the force is a straight line. The converter samples it at its own times, and spikes occur there.
+/// Between two samples of the source the force is a straight line. The converter samples this line at its own times; spikes occur only at
+/// these times.
 class DigitalAfferent final : public Afferent {
 public:
     /// One conversion and its result.
@@ -15,7 +17,7 @@ public:
         std::int64_t code;
         Word force;
         std::span<const Word> recorded;  ///< in the order of chain().recordables()
-        std::span<const bool> fired;     ///< a bit for each neuron: true if it fired
+        std::span<const bool> fired;     ///< for each neuron: true if it fired
     };
     using ConversionCallback = std::function<void(const Conversion&)>;
 
@@ -31,7 +33,7 @@ public:
     Result<void> respond_and_report(std::span<const double> force, State&, ResponseBlock&, const ConversionCallback&) const;
 
 private:
-    struct TypedState;  // the values of a State, as numbers of their types
+    struct TypedState;  // the values of a State, each with its type
     ConversionTimes conversion_times(std::uint32_t channels) const;
     std::optional<TypedState> unpack_state(const State&) const;
     void pack_state(const TypedState&, State&) const;

@@ -5,7 +5,7 @@
 
 namespace corpuscle {
 
-/// Force to current: the sensor's current under V_FSR; two transistors with a common gate split off a part of it.
+/// Force to current: a fraction of the sensor's current under V_FSR, split off by two transistors with a common gate.
 ///     I_F = V_FSR G_FSR S_1 / (S_1 + S_2),   not above I_max
 /// (thesis eq. 15, fig. 22; errata: the smaller array carries S_1/(S_1 + S_2) of the split current, here 1/17.)
 struct F2i {

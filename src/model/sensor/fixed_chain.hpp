@@ -1,5 +1,5 @@
 #pragma once
-// A receptor and its neurons in words, stepped as one. State and outputs are rows of words, each with a name.
+// A receptor and its neurons in fixed-point words, stepped together. The state and the recorded outputs are arrays of words.
 
 #include <array>
 #include <cstring>
@@ -23,11 +23,11 @@ public:
     FixedChain(Constants constants) : constants_(std::move(constants)) {}
     virtual ~FixedChain() = default;
     const Constants& constants() const { return constants_; }
-    /// The words recorded after a step: "I" or "I_+", "I_-", then those of each neuron.
+    /// The words recorded after a step, each with name and unit: "I" or "I_+", "I_-", then the recordables of each neuron.
     const std::vector<std::pair<std::string, std::string_view>>& recordables() const { return recordables_; }
     virtual int outputs() const = 0;
     virtual std::size_t words() const = 0;
-    /// The state before the first step; the force before it is taken to be the same.
+    /// The state before the first step. The force before this step is assumed to be the same, F.
     virtual void start(Word F, std::span<Word> state) const = 0;
     virtual StepResult step(std::span<Word> state, Word F, std::span<Word> shown, Arithmetic&) const = 0;
 

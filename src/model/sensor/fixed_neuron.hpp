@@ -1,7 +1,7 @@
 #pragma once
-// The thesis's neurons, Algorithms 3 and 4 as corrected, and the adaptive neuron, in words: currents in uA, membranes in V. At most one
-// spike per step, as in the algorithms. A neuron that is still above its threshold afterwards is reported as truncated. doc/fixed-point.md
-// lists them line by line.
+// The thesis's neurons, Algorithms 3 and 4 as corrected, and the adaptive neuron, in fixed-point words: currents in uA, membrane potentials
+// in V. At most one spike per step, as in the algorithms. A neuron that is still above its threshold afterwards is reported as truncated.
+// doc/fixed-point.md lists the algorithms line by line.
 
 #include "model/neuron/adaptive.hpp"
 #include "model/neuron/lif_a.hpp"
@@ -15,9 +15,9 @@ struct NeuronStep {
     bool spike = false, truncated = false;
 };
 
-/// Common to the three neurons: the spike itself, and the refractory steps at V_reset after it.
+/// Common to the three neurons: the reset at a spike, and the refractory steps at V_reset after it.
 struct FixedReset {
-    Word V_reset, ref;
+    Word V_reset, ref;  // ref: t_ref in steps
 
     template <class P>
     FixedReset(const P& p, double f_s, Constants& c) : V_reset(c.level("V_reset", p.V_reset)), ref(c.count("ref", p.t_ref * f_s)) {}
@@ -89,7 +89,7 @@ struct FixedLifB {
     }
 };
 
-/// The adaptive threshold.
+/// The neuron with an adaptive threshold.
 struct FixedAdaptive {
     using Traits = AdaptiveTraits;
     static constexpr Probe recordables[] = {{"u", "V"}, {"a", "V"}};

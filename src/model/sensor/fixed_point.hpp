@@ -19,9 +19,9 @@ namespace corpuscle {
 /// A word, or a sum of a few words that is not yet saturated to one.
 using Word = std::int64_t;
 
-inline constexpr double micro = 1e6;  // uA in an A
+inline constexpr double micro = 1e6;  // microamperes per ampere
 
-/// Nearest integer, halves up. It is exact, which x + 0.5 would not be.
+/// Nearest integer, halves up. Exact, whereas the sum x + 0.5 can be rounded.
 inline double rounded(double x) {
     const double down = std::floor(x);
     return x - down >= 0.5 ? down + 1 : down;
@@ -37,13 +37,13 @@ struct WordFormat {
     double value(Word n) const { return std::ldexp(static_cast<double>(n), -frac); }
 };
 
-/// A constant factor, mantissa * 2^-shift. It has as many significant digits as a word, regardless of its size.
+/// A constant factor, mantissa * 2^-shift. Large and small factors have the same number of significant bits as a word.
 struct Factor {
     Word mantissa = 0;
     int shift = 0;
 };
 
-/// The operations. They saturate results that do not fit a word, and count them.
+/// The operations on words. A result that does not fit a word is saturated and counted in `overflowed`.
 struct Arithmetic {
     WordFormat format;
     std::int64_t overflowed = 0;
@@ -69,7 +69,7 @@ public:
         std::string name;
         double value;
         Word word;
-        int shift = -1;  ///< of a factor; -1: for a level or a count
+        int shift = -1;  ///< of a factor; -1: not a factor but a level or a count
     };
 
     Constants(WordFormat format) : format_(format) {}

@@ -1,6 +1,6 @@
 #pragma once
-// The thesis's receptors, Algorithms 1, 2, 5 and 6 as corrected, in words: force in N, currents in uA. One step per conversion.
-// doc/fixed-point.md lists them line by line.
+// The thesis's receptors, Algorithms 1, 2, 5 and 6 as corrected, in fixed-point words: force in N, currents in uA. One step per conversion.
+// doc/fixed-point.md lists the algorithms line by line.
 
 #include "model/receptor/fa1a.hpp"
 #include "model/receptor/fa1b.hpp"
@@ -23,8 +23,8 @@ struct FixedSa1a {
         : beta(c.level("beta", p.beta * micro)), k_s(c.factor("k_s", p.k_s * micro)), k_d(c.factor("k_d", p.k_d * micro * f_s)) {}
 
     void step(State& s, Word F, Word (&I)[1], Arithmetic& a) const {
-        const Word size = a.magnitude(a.saturate(F - s.F));
-        I[0] = a.saturate(beta + a.times(k_s, F) + a.times(k_d, size));
+        const Word change = a.magnitude(a.saturate(F - s.F));
+        I[0] = a.saturate(beta + a.times(k_s, F) + a.times(k_d, change));
         s.F = F;
     }
 };
@@ -40,9 +40,9 @@ struct FixedFa1a {
     FixedFa1a(const Traits::Params& p, double f_s, Constants& c) : k(c.factor("k", p.k * micro * f_s)) {}
 
     void step(State& s, Word F, Word (&I)[2], Arithmetic& a) const {
-        const Word dF = a.saturate(F - s.F), slope = a.times(k, a.magnitude(dF));
-        I[0] = dF > 0 ? slope : 0;
-        I[1] = dF > 0 ? 0 : slope;
+        const Word dF = a.saturate(F - s.F), current = a.times(k, a.magnitude(dF));
+        I[0] = dF > 0 ? current : 0;
+        I[1] = dF > 0 ? 0 : current;
         s.F = F;
     }
 };

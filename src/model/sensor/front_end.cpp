@@ -26,7 +26,7 @@ FrontEnd::SensorReading FrontEnd::read(double sensed, double* shown) const {
 }
 
 double FrontEnd::inverse(double value, double low, double high) const {
-    for (int halving = 0; halving < 64; ++halving) {  // a fixed number: the same bits on every machine
+    for (int halving = 0; halving < 64; ++halving) {  // a fixed number gives the same bits on every machine
         const double middle = 0.5 * (low + high);
         (read(middle).value < value ? low : high) = middle;
     }

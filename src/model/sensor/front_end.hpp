@@ -32,8 +32,8 @@ public:
     FrontEnd(std::vector<FrontEndStage> stages, double F_cal);
     const std::vector<FrontEndStage>& stages() const { return stages_; }
 
-    /// The force that the sensor responds to, given its last value `last`: a relative play operator with hysteresis h between F and (1 + h)
-    /// F.
+    /// The force after hysteresis, N, for a new force F and the previous result `last`: `last`, limited to [F, (1 + h) F] for an F above 0.
+    /// This is a relative play operator; h is the sensor's hysteresis.
     double apply_hysteresis(double last, double F) const;
     /// The measured value for a force after hysteresis. If `shown` is given, the output of each stage is written there.
     SensorReading read(double sensed, double* shown = nullptr) const;

@@ -3,7 +3,7 @@
 namespace corpuscle {
 namespace {
 
-constexpr std::size_t own_values = 1;  // of the state: the last force after hysteresis, N. The values of the inner afferent follow
+constexpr std::size_t own_values = 1;  // state values before those of the inner afferent: the last force after hysteresis, N
 
 }  // namespace
 

@@ -1,5 +1,5 @@
 #pragma once
-// An afferent behind a sensor. Its input is not the force, but the calibrated reading of the sensor. The afferent can be any, unchanged.
+// An afferent behind a sensor. Its input is not the force, but the calibrated reading of the sensor. Any afferent can be used, unchanged.
 
 #include <memory>
 
@@ -11,7 +11,7 @@ class FrontEndAfferent final : public Afferent {
     FrontEnd front_end_;
     std::unique_ptr<Afferent> inner_;
     std::string name_, inner_format_, format_;
-    std::vector<Probe> probes_;  // of the front end, the calibrated force, of the inner afferent
+    std::vector<Probe> probes_;  // those of the front end, the calibrated force, those of the inner afferent
     std::size_t inner_values_;
 
     std::vector<double> calibrated_block(std::span<const double> force, State&, ResponseBlock&) const;

@@ -52,7 +52,7 @@ Result<std::unique_ptr<const FixedChain>> make_fixed_chain(const AfferentPlan& p
         return bad_input(fmt::format("{}: {}+{} has no fixed-point version; adc can be followed by {} with {}", plan.name, plan.receptor,
                                      plan.neuron, names_in(FixedReceptors{}), names_in(FixedNeurons{})));
     const Converter converter(make_front_end(plan), adc);
-    Constants constants = chain->constants();  // the force at both ends must fit as well
+    Constants constants = chain->constants();  // the forces of the lowest and the highest code must fit a word, too
     for (const auto code : {std::int64_t{0}, converter.max_code()}) (void)constants.level("the force of a code", converter.force(code));
     if (const auto& misfit = constants.error()) return bad_input(plan.name + ": " + misfit->message);
     return chain;

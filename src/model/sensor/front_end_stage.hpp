@@ -14,7 +14,7 @@ struct FrontEndStage {
     std::function<double(double)> curve;                     ///< never decreasing; finite for every finite input
     double limit = std::numeric_limits<double>::infinity();  ///< upper limit of the output
     std::string_view limit_name = {};                        ///< the parameter that sets the limit
-    std::string_view gain_name = {};                         ///< ... and the parameter to lower if it is exceeded
+    std::string_view gain_name = {};                         ///< the parameter to lower if the limit is exceeded
     double hysteresis = 0;                                   ///< of a sensor: see FrontEnd::apply_hysteresis
 };
 

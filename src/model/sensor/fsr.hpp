@@ -8,9 +8,9 @@ namespace corpuscle {
 
 /// A force sensing resistor, Interlink's FSR 400:   G_FSR = 1/R_0 + F^m / a,   F in gram-force, at F <= 0 only 1/R_0
 /// (thesis eq. 13; errata: R_F = a F^-m with a = 170 kohm gf^m.) Fitted from 50 gf to 4 kgf; the press stimulus begins below that, at 20
-/// gf. Hysteresis is a relative play operator, a choice. The reading does not change while it is between F and (1 + hysteresis) F; outside,
-/// it follows the nearer end. So falling force is read too high by up to this fraction, and rising force correctly. Creep and drift are not
-/// modelled; variation between parts is set by --spread.
+/// gf. Hysteresis is a relative play operator, which is our choice: the sensed force does not change while it is between F and
+/// (1 + hysteresis) F; otherwise it follows the nearer end. So falling force is read too high by up to this fraction, and rising force
+/// correctly. Creep and drift are not modelled; variation between sensors is set by --spread.
 struct Fsr {
     struct Params {
         double R_0 = 10e6, R_1gf = 170e3, m = 0.72, hysteresis = 0;
@@ -31,9 +31,9 @@ struct Fsr {
     }
 
     static double conductance(const Params& p, double F) {
-        constexpr double newtons_a_gf = 9.80665e-3, least = 1e-300;  // below this the logarithm has no normal number as its argument
-        const double gf = F / newtons_a_gf;
-        return 1 / p.R_0 + (gf > least ? num::exp(p.m * num::log(num::min(gf, 1e300))) / p.R_1gf : 0);
+        constexpr double newtons_per_gf = 9.80665e-3, min_gf = 1e-300;  // a smaller force may be denormal, which num::log() does not accept
+        const double gf = F / newtons_per_gf;
+        return 1 / p.R_0 + (gf > min_gf ? num::exp(p.m * num::log(num::min(gf, 1e300))) / p.R_1gf : 0);
     }
 };
 

@@ -1,11 +1,11 @@
 #pragma once
-// Integrals of a circular arc, without the C library: the same bits on every machine.
+// Integrals of a circular arc. They do not use the C library, so the results have the same bits on every machine.
 
 #include "signal/number.hpp"
 
 namespace corpuscle {
 
-/// arcsin u for |u| <= 1/2, with z = u^2; error below 1e-9. Taylor series, evaluated from both ends at once.
+/// arcsin u for |u| <= 1/2, with z = u^2; error below 1e-9. Taylor series, evaluated in three independent parts.
 inline double small_arcsine(double u, double z) {
     const double z2 = z * z, z4 = z2 * z2;
     const double low = (1 + z * (1.0 / 6)) + z2 * (3.0 / 40 + z * (15.0 / 336));
@@ -16,12 +16,12 @@ inline double small_arcsine(double u, double z) {
 
 /// arcsin u; outside [-1, 1] the value at the nearer end.
 inline double arcsine(double u) {
-    constexpr double quarter = 1.5707963267948966;
-    const double size = num::abs(u);
-    if (size >= 1) return u > 0 ? quarter : -quarter;
-    if (size <= 0.5) return small_arcsine(u, u * u);
-    const double z = 0.5 * (1 - size), of = quarter - 2 * small_arcsine(num::sqrt(z), z);
-    return u > 0 ? of : -of;
+    constexpr double half_pi = 1.5707963267948966;
+    const double magnitude = num::abs(u);
+    if (magnitude >= 1) return u > 0 ? half_pi : -half_pi;
+    if (magnitude <= 0.5) return small_arcsine(u, u * u);
+    const double z = 0.5 * (1 - magnitude), angle = half_pi - 2 * small_arcsine(num::sqrt(z), z);
+    return u > 0 ? angle : -angle;
 }
 
 /// Twice the area below the half circle sqrt(1 - u^2) from 0 to u.

@@ -29,7 +29,7 @@ class IndenterContact final : public Contact {
     ContactPath path_;
     std::unique_ptr<PressureDistribution> pressure_;
 
-    // The contact of the last sample. It is kept, so a constant force on a resting contact costs nothing.
+    // The contact of the last sample. It is reused while size and position do not change.
     Position last_;
     double last_size_ = -1, last_shift_ = 0;
     std::vector<SiteFraction> fractions_;
@@ -42,8 +42,9 @@ class IndenterContact final : public Contact {
     std::vector<char> in_block_;
     std::vector<std::uint32_t> touched_;
 
-    // Data for the notes; in N, summed over samples.
-    double pressed_ = 0, off_skin_ = 0, largest_ = 0;
+    // Data for the notes.
+    double pressed_ = 0, off_skin_ = 0;  // total force, and force off the skin; N, summed over samples
+    double max_size_ = 0;                // m
     std::int64_t negative_samples_ = 0;
 
     /// Distributes the force of a contact, given its position and size, over the sites.
@@ -78,7 +79,7 @@ class IndenterContact final : public Contact {
 
     /// Refuses a contact that is too large for the cells of the skin.
     Result<void> check(double size, double force) const {
-        constexpr double max_cells = 1e6;  // cells
+        constexpr double max_cells = 1e6;
         const auto half = pressure_->box(size);
         if (half.width * half.height * 4 <= max_cells * cells_.side() * cells_.side()) return {};
         return bad_input(fmt::format("contact: with {} it is {} by {} wide, which is more than a million cells of {} of this skin",
@@ -94,7 +95,7 @@ class IndenterContact final : public Contact {
         const double t = clock_.time(sample), size = pressure_->size(force);
         if (auto ok = check(size, force); !ok) return ok;
         distribute(path_.at(t), size, path_.pattern_shift(t));
-        pressed_ += force, off_skin_ += force * (1 - on_skin_), largest_ = std::max(largest_, size);
+        pressed_ += force, off_skin_ += force * (1 - on_skin_), max_size_ = std::max(max_size_, size);
         for (const auto& s : fractions_) {
             touch(s.site, steps);
             force_[s.site * stride_ + k] = force * s.fraction;
@@ -121,11 +122,11 @@ public:
 
     std::vector<MetadataEntry> metadata() const override {
         std::vector<MetadataEntry> out;
-        const auto& own = indenter_.parameters;
+        const auto& used = indenter_.parameters;
         for (const auto& f : contact_fields) {
-            const bool target = f.name == "x1" || f.name == "y1", place = f.name == "x" || f.name == "y";
-            const bool path = target ? is_moving(p_) : place || p_.*f.member != 0;
-            if (std::find(own.begin(), own.end(), f.name) != own.end() || (is_path_parameter(f.name) && path))
+            const bool is_end = f.name == "x1" || f.name == "y1", is_start = f.name == "x" || f.name == "y";
+            const bool has_effect = is_end ? is_moving(p_) : is_start || p_.*f.member != 0;
+            if (std::find(used.begin(), used.end(), f.name) != used.end() || (is_path_parameter(f.name) && has_effect))
                 out.push_back({fmt::format("contact.{}", f.name), p_.*f.member, std::string(f.unit)});
         }
         return out;
@@ -143,10 +144,10 @@ public:
         if (pressed_ > 0 && off_skin_ > 1e-9 * pressed_)
             out.push_back(
                 fmt::format("{:.3g} % of the force, over time, was off the skin and reached no afferent", 100 * off_skin_ / pressed_));
-        if (indenter_.name == "sphere" && largest_ > 0.5 * p_.radius)
+        if (indenter_.name == "sphere" && max_size_ > 0.5 * p_.radius)
             out.push_back(fmt::format(
                 "the contact radius reached {}, more than half of the sphere's radius; Hertz's theory is only valid for small contacts",
-                format_quantity(largest_, "m")));
+                format_quantity(max_size_, "m")));
         if (negative_samples_ > 0) out.push_back(fmt::format("{} samples with negative force caused no contact", negative_samples_));
         return out;
     }

@@ -1,5 +1,5 @@
 #pragma once
-// Touch without a sensor: an indenter, pressed with a given force at rest or moving over the skin, is converted to force at the sites.
+// Touch by an indenter, without a sensor. The indenter rests or moves on the skin; the force on it is distributed over the sites.
 
 #include <optional>
 #include <string_view>
@@ -14,7 +14,7 @@ class Contact {
 public:
     virtual ~Contact() = default;
     virtual std::string description() const = 0;              ///< "a sphere of 5 mm pressed at (12, 160) mm"
-    virtual std::vector<MetadataEntry> metadata() const = 0;  ///< its parameters as used
+    virtual std::vector<MetadataEntry> metadata() const = 0;  ///< the parameters that it uses, with their values
     virtual std::vector<std::string> notes() const = 0;       ///< limitations of the model, and how much of the force was off the skin
     /// Force at the sites for `force.size()` samples of normal force (N); the first has number `first`. Valid until the next call. The sum
     /// over all sites is the force, except for the part off the skin.

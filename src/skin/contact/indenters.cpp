@@ -10,14 +10,14 @@
 namespace corpuscle {
 namespace {
 
-constexpr std::string_view path_measures[] = {"x", "y", "x1", "y1", "t_start", "t_move", "speed"};
+constexpr std::string_view path_parameters[] = {"x", "y", "x1", "y1", "t_start", "t_move", "speed"};
 
-bool has_measure(const Indenter& i, std::string_view name) {
+bool has_parameter(const Indenter& i, std::string_view name) {
     return std::find(i.parameters.begin(), i.parameters.end(), name) != i.parameters.end() || is_path_parameter(name);
 }
 
 /// The centre of the first region: the mean position of its sites, rounded to 1 um.
-Position middle_of_first(const Sites& sites) {
+Position centre_of_first_region(const Sites& sites) {
     Position sum;
     double n = 0;
     for (std::size_t s = 0; s < sites.size(); ++s)
@@ -41,7 +41,7 @@ Result<void> check_contact(const Indenter& i, const ContactParams& p) {
 }  // namespace
 
 bool is_path_parameter(std::string_view name) {
-    return std::find(std::begin(path_measures), std::end(path_measures), name) != std::end(path_measures);
+    return std::find(std::begin(path_parameters), std::end(path_parameters), name) != std::end(path_parameters);
 }
 
 std::vector<ParameterInfo> contact_parameters() { return parameters_of<ContactParams>(contact_fields); }
@@ -63,14 +63,14 @@ Result<ContactParams> read_contact_params(const Indenter& indenter, std::span<co
         return std::any_of(settings->begin(), settings->end(), [&](const Setting& s) { return s.name == name; });
     };
     for (const auto& s : *settings)
-        if (!has_measure(indenter, s.name))
+        if (!has_parameter(indenter, s.name))
             return bad_input(fmt::format(
                 "contact.{}: {} has no such parameter (it has {}, and for its path {})", s.name, indenter.name,
                 fmt::join(indenter.parameters.begin(), std::find(indenter.parameters.begin(), indenter.parameters.end(), ""), ", "),
-                fmt::join(path_measures, ", ")));
+                fmt::join(path_parameters, ", ")));
     auto p = with_settings<ContactParams>(contact_fields, *settings);
     if (!is_set("x") && !is_set("y")) {
-        const auto middle = middle_of_first(sites);
+        const auto middle = centre_of_first_region(sites);
         p.x = middle.x, p.y = middle.y;
     }
     if (!is_set("x1")) p.x1 = p.x;

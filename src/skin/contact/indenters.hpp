@@ -1,5 +1,5 @@
 #pragma once
-// The parameters of a contact, and those that each indenter uses.
+// The parameters of a contact, and which of them each indenter uses.
 
 #include <array>
 
@@ -38,7 +38,7 @@ inline constexpr ParameterDef<ContactParams> contact_fields[] = {
 /// One kind of indenter.
 struct Indenter {
     std::string_view name, description, source;
-    std::array<std::string_view, 4> parameters;  ///< its own parameters, without those of the path
+    std::array<std::string_view, 4> parameters;  ///< the parameters that it uses, apart from the path
 };
 inline constexpr Indenter indenters[] = {
     {"flat", "a rigid flat punch: p = F/(2 pi a^2) (1 - r^2/a^2)^(-1/2)", "Johnson 1985, Contact Mechanics, 3.8", {"radius"}},

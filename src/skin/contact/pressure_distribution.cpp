@@ -11,13 +11,13 @@ namespace {
 
 constexpr double pi = 3.141592653589793;
 
-/// Round contacts: exact along y, two-point Gauss quadrature along x. Along a full chord both pressures are polynomials of x, so the
-/// fractions of all cells add up to the periods force.
+/// Round contacts: exact along y, two-point Gauss quadrature along x. The integral of the pressure along a full chord is a polynomial of x
+/// (constant or of degree 2), for which this quadrature is exact. So the fractions of all cells add up to the whole force.
 template <class Chord>
-void round_column(double a, double x0, double side, std::span<const double> y, double* parts, Chord&& chord) {
+void round_column(double a, double x0, double side, std::span<const double> y, double* fractions, Chord&& chord) {
     constexpr double at[] = {-0.5773502691896257, 0.5773502691896257};
     const std::size_t cells = y.size() - 1;
-    std::fill(parts, parts + cells, 0.0);
+    std::fill(fractions, fractions + cells, 0.0);
     const double from = std::max(x0, -a), to = std::min(x0 + side, a);
     if (!(to > from)) return;
     for (const double point : at) {
@@ -27,7 +27,7 @@ void round_column(double a, double x0, double side, std::span<const double> y, d
         double below = chord(y[0] * per_half);
         for (std::size_t c = 0; c < cells; ++c) {
             const double above = chord(y[c + 1] * per_half);
-            parts[c] += scale * (above - below);
+            fractions[c] += scale * (above - below);
             below = above;
         }
     }
@@ -46,8 +46,8 @@ public:
     explicit FlatPressure(const ContactParams& p) : a_(p.radius) {}
     double size(double) const override { return a_; }
     HalfBox box(double a) const override { return {a, a}; }
-    void column(double a, double, double x0, double side, std::span<const double> y, double* parts) const override {
-        round_column(a, x0, side, y, parts, Chord{a});
+    void column(double a, double, double x0, double side, std::span<const double> y, double* fractions) const override {
+        round_column(a, x0, side, y, fractions, Chord{a});
     }
 };
 
@@ -71,8 +71,8 @@ public:
     explicit SpherePressure(const ContactParams& p) : per_newton_(3 * p.radius / (4 * p.E_star)) {}
     double size(double force) const override { return cube_root(per_newton_ * force); }
     HalfBox box(double a) const override { return {a, a}; }
-    void column(double a, double, double x0, double side, std::span<const double> y, double* parts) const override {
-        round_column(a, x0, side, y, parts, Chord{a});
+    void column(double a, double, double x0, double side, std::span<const double> y, double* fractions) const override {
+        round_column(a, x0, side, y, fractions, Chord{a});
     }
 };
 
@@ -86,7 +86,7 @@ struct Rotation {
 
 double overlap(double from, double to, double low, double high) { return std::max(0.0, std::min(to, high) - std::max(from, low)); }
 
-/// p/F = 2/(pi b L) (1 - d^2/b^2)^(1/2) along its length.
+/// p/F = 2/(pi b L) (1 - d^2/b^2)^(1/2), constant along the edge; d is the distance from its centre line.
 class EdgePressure final : public PressureDistribution {
     double half_length_, per_newton_;  // per_newton_: b^2 / F
     Rotation rotation_;
@@ -99,15 +99,15 @@ public:
         const double c = num::abs(rotation_.c), s = num::abs(rotation_.s);
         return {half_length_ * c + b * s, half_length_ * s + b * c};
     }
-    void column(double b, double, double x0, double side, std::span<const double> y, double* parts) const override {
+    void column(double b, double, double x0, double side, std::span<const double> y, double* fractions) const override {
         const double half = 0.5 * side, x = x0 + half;
         for (std::size_t c = 0; c + 1 < y.size(); ++c) {
             const double middle = y[c] + half, along = rotation_.along(x, middle), across = rotation_.across(x, middle);
-            parts[c] = 0;
-            const double beside = overlap(along - half, along + half, -half_length_, half_length_);
-            if (beside == 0 || num::abs(across) >= b + half) continue;
+            fractions[c] = 0;
+            const double covered_length = overlap(along - half, along + half, -half_length_, half_length_);
+            if (covered_length == 0 || num::abs(across) >= b + half) continue;
             const auto arc = [b](double d) { return arc_area(std::clamp(d / b, -1.0, 1.0)); };
-            parts[c] = beside * (arc(across + half) - arc(across - half));
+            fractions[c] = covered_length * (arc(across + half) - arc(across - half));
         }
     }
 };
@@ -128,15 +128,15 @@ public:
         : radius_(p.radius), period_(p.period), ridge_(p.ridge), side_(side), rotation_(p.angle) {}
     double size(double) const override { return radius_; }
     HalfBox box(double radius) const override { return {radius + 0.5 * side_, radius + 0.5 * side_}; }
-    void column(double radius, double shift, double x0, double side, std::span<const double> y, double* parts) const override {
+    void column(double radius, double shift, double x0, double side, std::span<const double> y, double* fractions) const override {
         const double half = 0.5 * side, x = x0 + half, reach = radius + half;
         for (std::size_t c = 0; c + 1 < y.size(); ++c) {
             const double middle = y[c] + half, square = x * x + middle * middle;
-            parts[c] = 0;
+            fractions[c] = 0;
             if (square >= reach * reach) continue;
-            const double inside = std::min(1.0, (reach - num::sqrt(square)) / side);  // fraction of the cell, at the edge of the patch
+            const double inside = std::min(1.0, (reach - num::sqrt(square)) / side);  // fraction of the cell that is in the patch
             const double along = rotation_.along(x, middle) - shift;
-            parts[c] = inside * (ridges(along + half) - ridges(along - half));
+            fractions[c] = inside * (ridges(along + half) - ridges(along - half));
         }
     }
 };

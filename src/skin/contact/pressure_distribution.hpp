@@ -21,7 +21,7 @@ public:
     virtual HalfBox box(double size) const = 0;
     /// Fractions of the force, or numbers proportional to them, in the cells [x0, x0 + side] by [y[k], y[k + 1]], relative to the contact's
     /// centre. `shift`: the distance that a pattern has moved under the contact, m.
-    virtual void column(double size, double shift, double x0, double side, std::span<const double> y, double* parts) const = 0;
+    virtual void column(double size, double shift, double x0, double side, std::span<const double> y, double* fractions) const = 0;
 };
 
 std::unique_ptr<PressureDistribution> make_pressure_distribution(const Indenter&, const ContactParams&, double side);

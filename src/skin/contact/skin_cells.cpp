@@ -7,10 +7,10 @@
 namespace corpuscle {
 namespace {
 
-constexpr double lone_side = 2e-3;  // m, for a site without a neighbour; choice
+constexpr double isolated_side = 2e-3;  // m, for a site without a neighbour; choice
 
 /// The typical distance between sites: the median distance to the nearest neighbour.
-double common_distance(const Sites& sites, const SiteGrid& near) {
+double typical_distance(const Sites& sites, const SiteGrid& near) {
     std::vector<double> distances;
     for (std::uint32_t s = 0; s < sites.size(); ++s) {
         double best = 0;
@@ -20,7 +20,7 @@ double common_distance(const Sites& sites, const SiteGrid& near) {
             });
         if (best > 0) distances.push_back(num::sqrt(best));
     }
-    if (distances.empty()) return lone_side;
+    if (distances.empty()) return isolated_side;
     const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
     std::nth_element(distances.begin(), middle, distances.end());
     return *middle;
@@ -29,12 +29,12 @@ double common_distance(const Sites& sites, const SiteGrid& near) {
 }  // namespace
 
 SkinCells::SkinCells(const Sites& sites) : sites_(sites), index_(std::make_unique<SiteGrid>(sites.positions)) {
-    side_ = sites.area > 0 ? num::sqrt(sites.area) : common_distance(sites, *index_);
+    side_ = sites.area > 0 ? num::sqrt(sites.area) : typical_distance(sites, *index_);
     if (!build_lattice()) lattice_.clear();
 }
 
 bool SkinCells::build_lattice() {
-    constexpr double max_cells = 1 << 24, tolerance = 1e-3;  // tolerance: of a site's distance to the centre of its cell, in sides
+    constexpr double max_cells = 1 << 24, tolerance = 1e-3;  // tolerance: distance of a site from the centre of its cell / side_
     double left = sites_.positions[0].x, low = sites_.positions[0].y, right = left, high = low;
     for (const auto& p : sites_.positions)
         left = std::min(left, p.x), low = std::min(low, p.y), right = std::max(right, p.x), high = std::max(high, p.y);

@@ -1,5 +1,5 @@
 #pragma once
-// Sites as the squares of skin that they represent, searched by the position of a contact.
+// The cells of a skin: the square that each site represents. Finds the cells around a contact.
 
 #include <algorithm>
 #include <cmath>
@@ -19,15 +19,15 @@ public:
     double side() const { return side_; }  ///< m
     bool is_lattice() const { return !lattice_.empty(); }
 
-    /// Visits the columns of cells around (x, y) within half a box. Calls f(x0, y edges from below, sites of the cells between
-    /// them). A cell without a site has no_site.
+    /// Visits the columns of cells in the box around (x, y), given half its width and height. Calls f(x0, edges, sites) for each column:
+    /// its left edge, the y of the edges of its cells from below, and the site of each cell, or no_site.
     template <class F>
     void for_each_column(double x, double y, double half_width, double half_height, F&& f);
 
     static constexpr std::uint32_t no_site = UINT32_MAX;
 
 private:
-    double side_, left_ = 0, low_ = 0;  // of the lattice's lower left corner
+    double side_, left_ = 0, low_ = 0;  // m; left_, low_: the lattice's lower left corner
     std::size_t columns_ = 0, rows_ = 0;
     std::vector<std::uint32_t> lattice_;  // [column][row]
     const Sites& sites_;
@@ -62,11 +62,11 @@ void SkinCells::for_each_column(double x, double y, double half_width, double ha
     edges_.resize(count + 1), column_sites_.resize(count);
     for (std::size_t k = 0; k <= count; ++k) edges_[k] = low_ + static_cast<double>(low + static_cast<std::int64_t>(k)) * side_;
     for (auto c = cell(x - half_width, left_), last = cell(x + half_width, left_); c <= last; ++c) {
-        const bool on = c >= 0 && c < static_cast<std::int64_t>(columns_);
+        const bool column_exists = c >= 0 && c < static_cast<std::int64_t>(columns_);
         for (std::size_t k = 0; k < count; ++k) {
             const auto r = low + static_cast<std::int64_t>(k);
-            const bool there = on && r >= 0 && r < static_cast<std::int64_t>(rows_);
-            column_sites_[k] = there ? lattice_[static_cast<std::size_t>(c) * rows_ + static_cast<std::size_t>(r)] : no_site;
+            const bool exists = column_exists && r >= 0 && r < static_cast<std::int64_t>(rows_);
+            column_sites_[k] = exists ? lattice_[static_cast<std::size_t>(c) * rows_ + static_cast<std::size_t>(r)] : no_site;
         }
         f(left_ + static_cast<double>(c) * side_, std::span<const double>(edges_), std::span<const std::uint32_t>(column_sites_));
     }

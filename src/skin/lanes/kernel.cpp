@@ -9,18 +9,18 @@ namespace {
 
 using T = num::Lanes<double>;
 constexpr std::size_t width = T::size;
-constexpr std::size_t vectors = 8;  // of sums that stay in registers
+constexpr std::size_t vectors = 8;  // vectors of sums that are computed together in registers
 
-void add_rows(const std::ptrdiff_t* row, std::size_t rows, const std::uint32_t* eights, const double* weights, const double* now,
+void sum_rows(const std::ptrdiff_t* row, std::size_t rows, const std::uint32_t* groups, const double* weights, const double* now,
               double* sums) {
-    constexpr std::size_t units = 64, a_row = units / group_size, at_once = vectors * width;
-    for (std::size_t u = 0; u < units; u += at_once) {
+    constexpr std::size_t afferents = 64, row_groups = afferents / group_size, at_once = vectors * width;
+    for (std::size_t u = 0; u < afferents; u += at_once) {
         T sum[vectors];
         for (auto& s : sum) s = T(0.0);
         for (std::size_t k = 0; k < rows; ++k) {
             const double* const f = now + row[k] + u;
             for (std::size_t i = 0; i < vectors; ++i) {
-                const double* const w = weights + eights[k * a_row + (u + i * width) / group_size] + i * width % group_size;
+                const double* const w = weights + groups[k * row_groups + (u + i * width) / group_size] + i * width % group_size;
                 sum[i] = sum[i] + T::load_aligned(w) * T::load_unaligned(f + i * width);
             }
         }
@@ -28,11 +28,11 @@ void add_rows(const std::ptrdiff_t* row, std::size_t rows, const std::uint32_t* 
     }
 }
 
-void add_site(const std::uint32_t* unit, const double* weight, std::size_t count, const double* force, std::size_t steps, double* sums,
+void add_site(const std::uint32_t* afferent, const double* weight, std::size_t count, const double* force, std::size_t steps, double* sums,
               std::size_t stride) {
     const std::size_t full_vectors = steps / width * width;
     for (std::size_t k = 0; k < count; ++k) {
-        double* const sum = sums + unit[k] * stride;
+        double* const sum = sums + afferent[k] * stride;
         const T w(weight[k]);
         for (std::size_t t = 0; t < full_vectors; t += width)
             (T::load_unaligned(sum + t) + w * T::load_unaligned(force + t)).store_unaligned(sum + t);
@@ -40,8 +40,8 @@ void add_site(const std::uint32_t* unit, const double* weight, std::size_t count
     }
 }
 
-void add_unit(const std::uint32_t* site, const double* weight, std::size_t count, const double* const* rows, std::size_t steps,
-              double* column, std::size_t stride) {
+void sum_afferent(const std::uint32_t* site, const double* weight, std::size_t count, const double* const* rows, std::size_t steps,
+                  double* column, std::size_t stride) {
     constexpr std::size_t at_once = 16;  // the number of steps is usually a multiple of this
     std::size_t from = 0;
     for (; from + at_once <= steps; from += at_once) {
@@ -66,7 +66,7 @@ void add_unit(const std::uint32_t* site, const double* weight, std::size_t count
 }  // namespace
 
 namespace CORPUSCLE_ISA {
-const FieldKernels fields{add_rows, add_site, add_unit};
+const FieldKernels fields{sum_rows, add_site, sum_afferent};
 }
 
 }  // namespace corpuscle::lanes

@@ -13,12 +13,12 @@ inline constexpr std::size_t group_size = 8;  ///< weights in one group
 
 /// The functions of one instruction set.
 struct FieldKernels {
-    /// 64 afferents at one step: sums[u] = sum over k of w * now[row[k] + u]. w is number u % group_size of the group of weights that
-    /// begins at weights[eights[(64 k + u) / group_size]].
-    void (*sum_rows)(const std::ptrdiff_t* row, std::size_t rows, const std::uint32_t* eights, const double* weights, const double* now,
+    /// 64 afferents at one step: sums[u] = sum over k of w * now[row[k] + u], where w = weights[groups[(64 k + u) / group_size] +
+    /// u % group_size].
+    void (*sum_rows)(const std::ptrdiff_t* row, std::size_t rows, const std::uint32_t* groups, const double* weights, const double* now,
                      double* sums);
-    /// One site over some steps, added to each afferent that responds to it: sums[unit[k] * stride + t] += weight[k] * force[t].
-    void (*add_site)(const std::uint32_t* unit, const double* weight, std::size_t count, const double* force, std::size_t steps,
+    /// One site over some steps, added to each afferent that responds to it: sums[afferent[k] * stride + t] += weight[k] * force[t].
+    void (*add_site)(const std::uint32_t* afferent, const double* weight, std::size_t count, const double* force, std::size_t steps,
                      double* sums, std::size_t stride);
     /// One afferent over some steps: column[t * stride] = sum over k of weight[k] * rows[site[k]][t].
     void (*sum_afferent)(const std::uint32_t* site, const double* weight, std::size_t count, const double* const* rows, std::size_t steps,

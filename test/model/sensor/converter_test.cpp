@@ -21,7 +21,7 @@ TEST(Converter, RoundsToTheNearestLevelAndSaturatesAtBothEnds) {
     EXPECT_TRUE(adc.convert(-0.51).saturated);
 }
 
-TEST(Converter, TheTableUndoesTheCurveToHalfALevel) {
+TEST(Converter, TheTableInvertsTheCurveToWithinOneCode) {
     const FrontEnd front({Fsr::stage({}), F2v::stage({})}, 4);
     const Converter adc(front, {.bits = 10});
     for (double F = 0; F < 5; F += 0.0137) {
@@ -49,14 +49,14 @@ TEST(ConversionTimes, AreExactFractions) {
         const ConversionTimes instants(static_cast<double>(source), static_cast<double>(adc), slots);
         auto at = instants.first(channel);
         for (std::int64_t j = 0; j < 200; ++j, instants.advance(at)) {
-            const std::int64_t above = (j * slots + channel) * source, below = adc * slots;  // position = above / below, exactly
-            RC_ASSERT(at.step == above / below);
-            RC_ASSERT(at.remainder * below == (above % below) * instants.parts_per_sample());
+            const std::int64_t numerator = (j * slots + channel) * source, denominator = adc * slots;  // of the exact position, in samples
+            RC_ASSERT(at.step == numerator / denominator);
+            RC_ASSERT(at.remainder * denominator == (numerator % denominator) * instants.parts_per_sample());
         }
     }));
 }
 
-TEST(DigitalAfferent, SpikesAreAtConversionsWhateverTheSourcesRate) {
+TEST(DigitalAfferent, SpikesOccurAtConversionTimesForAnySourceRate) {
     const auto fine = test::train("adc+sa1", "press", {.rate = 10e3}), coarse = test::train("adc+sa1", "press", {.rate = 4e3});
     EXPECT_EQ(fine, coarse) << "both rates have samples at the conversion times";
     for (const double t : fine) EXPECT_NEAR(t * 1e3, std::round(t * 1e3), 1e-9);
@@ -64,7 +64,7 @@ TEST(DigitalAfferent, SpikesAreAtConversionsWhateverTheSourcesRate) {
         EXPECT_NEAR(t * 700, std::round(t * 700), 1e-9) << "between samples";
 }
 
-TEST(DigitalAfferent, OneConverterForAllChannelsMultiplexesThem) {
+TEST(DigitalAfferent, ASharedConverterSamplesTheChannelsInTurn) {
     std::vector<double> ramp;
     for (int k = 0; k < 4000; ++k) ramp.push_back(1e-3 * k);
     const auto ramp_spikes = [&](const char* shared, ChannelSlot slot) {
@@ -75,10 +75,10 @@ TEST(DigitalAfferent, OneConverterForAllChannelsMultiplexesThem) {
         EXPECT_TRUE(a->respond(ramp, state, response));
         return out;
     };
-    const auto own = ramp_spikes("0", {3, 4}), first = ramp_spikes("1", {0, 4}), last = ramp_spikes("1", {3, 4});
-    ASSERT_FALSE(own.empty());
-    EXPECT_EQ(own, first) << "a converter a channel: no skew";
-    for (const auto& s : own) EXPECT_EQ(s.offset, 1);
+    const auto separate = ramp_spikes("0", {3, 4}), first = ramp_spikes("1", {0, 4}), last = ramp_spikes("1", {3, 4});
+    ASSERT_FALSE(separate.empty());
+    EXPECT_EQ(separate, first) << "with one converter per channel there is no delay";
+    for (const auto& s : separate) EXPECT_EQ(s.offset, 1);
     for (const auto& s : last) EXPECT_EQ(s.offset, 0.75) << "channel 3 of 4 waits three quarters of a conversion";
 }
 
@@ -102,7 +102,7 @@ TEST(DigitalAfferent, DamagedStatesAreRefused) {
             if (v == 4 || v == 5) continue;  // forces: any number is valid
             auto state = fresh;
             state.values[v] = bad;
-            if (v >= 7 && bad == -3) continue;  // a word like others
+            if (v >= 7 && bad == -3) continue;  // -3 is a valid word
             std::vector<Spike> out;
             ResponseBlock response{out};
             EXPECT_FALSE(a->respond(f, state, response)) << v << ' ' << bad;

@@ -16,7 +16,7 @@ std::int64_t between(std::int64_t low, std::int64_t high) {
     return low + static_cast<std::int64_t>(random_bits() % (static_cast<std::uint64_t>(high - low) + 1));
 }
 
-/// The operations of doc/fixed-point.md in 128 bits, where nothing can overflow here.
+/// The operations of doc/fixed-point.md in 128 bits, which cannot overflow here.
 struct Reference {
     WordFormat format;
     std::int64_t overflows = 0;
@@ -49,8 +49,8 @@ Factor any_factor(WordFormat f) { return {between(0, 4) ? between(f.max() / 2 + 
 template <class R>
 R any_receptor(WordFormat f) {
     Constants c(f);
-    static const R made({}, 1e3, c);
-    R r = made;
+    static const R defaults({}, 1e3, c);
+    R r = defaults;
     if constexpr (requires { r.beta; }) r.beta = any_word(f);
     const auto set = [&](auto... at) { ((r.*at = any_factor(f)), ...); };
     if constexpr (std::is_same_v<R, FixedSa1a>) set(&R::k_s, &R::k_d);
@@ -110,9 +110,9 @@ TEST(FixedPoint, AMillionRandomReceptorStepsGiveTheWordsOfWideArithmeticAndCount
 template <class N>
 N any_neuron(WordFormat f) {
     Constants c(f);
-    static const N made({}, 1e3, c);
-    N n = made;
-    n.V_th = any_word(f), n.E_L = any_word(f), n.reset = made.reset;
+    static const N defaults({}, 1e3, c);
+    N n = defaults;
+    n.V_th = any_word(f), n.E_L = any_word(f), n.reset = defaults.reset;
     n.reset.V_reset = any_word(f), n.reset.ref = between(0, 2);
     if constexpr (requires { n.k_c; }) n.k_a = any_factor(f), n.k_b = any_factor(f), n.k_c = any_word(f);
     if constexpr (requires { n.k; }) n.k = any_factor(f);
@@ -178,7 +178,7 @@ TEST(FixedPoint, AMillionRandomNeuronStepsGiveTheWordsOfWideArithmeticAndCountEv
     check_neuron_steps<FixedAdaptive>();
 }
 
-TEST(FixedPoint, AFactorKeepsItsRelativePrecisionWhateverItsSize) {
+TEST(FixedPoint, AFactorHasTheSameRelativePrecisionAtAnyMagnitude) {
     for (const int word : {8, 13, 24, 32})
         for (double c = 1e-9; c < std::ldexp(1, word - 1) - 1; c *= 1.37) {
             Constants constants({word, 4});
@@ -189,7 +189,7 @@ TEST(FixedPoint, AFactorKeepsItsRelativePrecisionWhateverItsSize) {
     Constants constants({8, 4});
     EXPECT_EQ(constants.factor("c", 0).mantissa, 0);
     EXPECT_EQ(constants.factor("c", 127.9).mantissa, 0);
-    EXPECT_TRUE(constants.error()) << "128 is no 8-bit mantissa";
+    EXPECT_TRUE(constants.error()) << "127.9 rounds to 128, which does not fit 8 bits";
     Constants tiny({32, 20});
     EXPECT_EQ(tiny.factor("c", 1e-300).shift, 62);
 }
@@ -216,7 +216,7 @@ DigitalRun run_digital(const Afferent& a, const std::vector<double>& f, std::str
     return out;
 }
 
-TEST(FixedPoint, WithLongWordsItIsTheSampledModelInDoublePrecision) {
+TEST(FixedPoint, LongWordsGiveTheSpikesOfTheSampledModelInDoublePrecision) {
     for (const std::string model : {"sa1a+lif-a", "sa1a+lif-b", "sa1b+lif-a", "sa1b+lif-b", "fa1b+lif-a", "fa1b+lif-b", "fa1a+lif-b"}) {
         const auto name = "adc+" + model;
         const auto membrane = model.starts_with("fa1a") ? "u_+" : "u";
@@ -231,16 +231,16 @@ TEST(FixedPoint, WithLongWordsItIsTheSampledModelInDoublePrecision) {
     }
 }
 
-TEST(FixedPoint, TheAdaptiveThresholdConvergesToTheExactOneAtFasterConversions) {
+TEST(FixedPoint, TheAdaptiveNeuronConvergesToTheExactOneAsConversionsBecomeFaster) {
     const std::string name = "adc+fa1a+adaptive", gain = ".k=200e-9";
     const auto exact = test::train("fa1a+adaptive", "press", {.settings = {"fa1a+adaptive" + gain}, .rate = 100e3});
     double before = INFINITY;
     for (const double f_s : {1e3, 10e3}) {
-        const auto made =
+        const auto fixed_point =
             test::train(name, "press", {.settings = {name + gain, name + ".bits=16", name + ".f_s=" + std::to_string(f_s)}, .rate = 100e3});
-        ASSERT_EQ(made.size(), exact.size()) << f_s;
+        ASSERT_EQ(fixed_point.size(), exact.size()) << f_s;
         double max_error = 0;
-        for (std::size_t k = 0; k < made.size(); ++k) max_error = std::max(max_error, std::abs(made[k] - exact[k]));
+        for (std::size_t k = 0; k < fixed_point.size(); ++k) max_error = std::max(max_error, std::abs(fixed_point[k] - exact[k]));
         EXPECT_LT(max_error, 4 / f_s);
         EXPECT_LT(max_error, before / 3);
         before = max_error;

@@ -1,4 +1,4 @@
-// Sensor and transducers against the golden curve, and the analog front end's measurement of a touch.
+// Compares sensor and transducers with the golden curve (stored reference values); tests the front end of an afferent.
 
 #include "model/sensor/front_end.hpp"
 
@@ -19,8 +19,8 @@ TEST(Sensor, FsrAndTransducersGiveTheGoldenCurve) {
     const auto path = test::shared_file_path("../golden/behaviour.json");
     CORPUSCLE_NEEDS(path);
     const auto golden = nlohmann::json::parse(test::read_file(path))["fsr"];
-    const auto near = [&](const char* name, std::size_t k, double made) {
-        EXPECT_NEAR(made / golden[name][k].get<double>(), 1, 1e-12) << name << ' ' << k;
+    const auto near = [&](const char* name, std::size_t k, double computed) {
+        EXPECT_NEAR(computed / golden[name][k].get<double>(), 1, 1e-12) << name << ' ' << k;
     };
     const auto sensor = Fsr::stage({}), current = F2i::stage({});
     for (std::size_t k = 0; k < golden["gf"].size(); ++k) {
@@ -33,18 +33,18 @@ TEST(Sensor, FsrAndTransducersGiveTheGoldenCurve) {
     }
 }
 
-TEST(Sensor, WithoutForceOrPulledItHasItsRestingConductance) {
+TEST(Sensor, HasItsRestingConductanceAtZeroAndNegativeForce) {
     for (const double F : {0.0, -1.0, -1e300, 1e-320}) EXPECT_EQ(Fsr::stage({}).curve(F), 1e-7) << F;
     EXPECT_TRUE(std::isfinite(Fsr::stage({.m = 2}).curve(1e300)));
 }
 
 TEST(Sensor, HysteresisReadsFallingForceHighByItsFractionAndRisingForceExactly) {
     const FrontEnd front({Fsr::stage({.hysteresis = 0.1})}, 4);
-    double largest_force = 0;
-    const auto apply_hysteresis = [&](double F) { return largest_force = front.apply_hysteresis(largest_force, F); };
+    double last = 0;
+    const auto apply_hysteresis = [&](double F) { return last = front.apply_hysteresis(last, F); };
     EXPECT_EQ(apply_hysteresis(2), 2);
-    EXPECT_EQ(apply_hysteresis(1.9), 2) << "inside the play it does not change";
-    EXPECT_DOUBLE_EQ(apply_hysteresis(1), 1.1) << "then it follows, a tenth too high";
+    EXPECT_EQ(apply_hysteresis(1.9), 2) << "it does not change while it is within 10 % above the force";
+    EXPECT_DOUBLE_EQ(apply_hysteresis(1), 1.1) << "then it follows the falling force, 10 % too high";
     EXPECT_DOUBLE_EQ(apply_hysteresis(1.05), 1.1);
     EXPECT_EQ(apply_hysteresis(1.5), 1.5);
     EXPECT_EQ(apply_hysteresis(0), 0) << "0 N is exact";
@@ -52,17 +52,17 @@ TEST(Sensor, HysteresisReadsFallingForceHighByItsFractionAndRisingForceExactly) 
 }
 
 TEST(Sensor, HysteresisDoesNotDependOnTheSamplingRate) {
-    EXPECT_TRUE(rc::check("a monotone ramp, at its end alone or all along", [] {
-        const double h = *rc::gen::inRange(0, 100) / 100.0, largest_force = *rc::gen::inRange(0, 1000) / 100.0,
-                     from = largest_force / (1 + *rc::gen::inRange(0, 100) / 100.0 * h), to = *rc::gen::inRange(0, 1000) / 100.0;
+    EXPECT_TRUE(rc::check("a monotone ramp, sampled ten times or only at its end", [] {
+        const double h = *rc::gen::inRange(0, 100) / 100.0, last = *rc::gen::inRange(0, 1000) / 100.0,
+                     from = last / (1 + *rc::gen::inRange(0, 100) / 100.0 * h), to = *rc::gen::inRange(0, 1000) / 100.0;
         const FrontEnd front({Fsr::stage({.hysteresis = h})}, 4);
-        double all_along = largest_force;
-        for (int k = 1; k <= 10; ++k) all_along = front.apply_hysteresis(all_along, k == 10 ? to : from + (to - from) * k / 10);
-        RC_ASSERT(std::abs(all_along - front.apply_hysteresis(largest_force, to)) < 1e-12);
+        double sampled_often = last;
+        for (int k = 1; k <= 10; ++k) sampled_often = front.apply_hysteresis(sampled_often, k == 10 ? to : from + (to - from) * k / 10);
+        RC_ASSERT(std::abs(sampled_often - front.apply_hysteresis(last, to)) < 1e-12);
     }));
 }
 
-TEST(FrontEnd, CalibrationIsExactAtNoForceAndAtItsOwn) {
+TEST(FrontEnd, CalibrationIsExactAtZeroForceAndAtTheCalibrationForce) {
     for (const auto& last : {F2v::stage({}), F2i::stage({})}) {
         const FrontEnd front({Fsr::stage({}), last}, 4);
         EXPECT_EQ(front.calibrated_force(front.read(0).value), 0);
@@ -77,30 +77,30 @@ std::map<std::string, std::vector<double>> probe_values(const Afferent& a, const
     std::vector<std::vector<double>> values(a.probes().size(), std::vector<double>(f.size()));
     std::vector<double*> rows;
     for (auto& v : values) rows.push_back(v.data());
-    ResponseBlock overrides{response.spikes, 0, rows};
+    ResponseBlock with_probes{response.spikes, 0, rows};
     auto state = a.start();
-    if (auto ok = a.respond(f, state, overrides); !ok) throw std::runtime_error(ok.error().text());
-    response.truncated_steps = overrides.truncated_steps, response.saturated = overrides.saturated,
-    response.overflowed = overrides.overflowed;
+    if (auto ok = a.respond(f, state, with_probes); !ok) throw std::runtime_error(ok.error().text());
+    response.truncated_steps = with_probes.truncated_steps, response.saturated = with_probes.saturated,
+    response.overflowed = with_probes.overflowed;
     std::map<std::string, std::vector<double>> out;
     for (std::size_t p = 0; p < values.size(); ++p) out[std::string(a.probes()[p].name)] = values[p];
     return out;
 }
 
 TEST(FrontEndAfferent, RespondsToTheCalibratedForceAndRecordsTheStagesBefore) {
-    std::vector<Spike> behind_front_end, plain;
-    ResponseBlock response{behind_front_end}, direct{plain};
+    std::vector<Spike> behind_front_end, without_front_end;
+    ResponseBlock response{behind_front_end}, direct{without_front_end};
     const auto f = test::force("press");
     const auto inside = probe_values(*test::afferent("fsr+f2v+sa1"), f, response);
-    const auto bare = probe_values(*test::afferent("sa1"), inside.at("F_read"), direct);
-    EXPECT_EQ(behind_front_end, plain);
-    EXPECT_EQ(inside.at("u"), bare.at("u"));
+    const auto direct_probes = probe_values(*test::afferent("sa1"), inside.at("F_read"), direct);
+    EXPECT_EQ(behind_front_end, without_front_end);
+    EXPECT_EQ(inside.at("u"), direct_probes.at("u"));
     const Fsr::Params fsr;
     for (std::size_t k = 0; k < f.size(); k += 100) {
         EXPECT_EQ(inside.at("G_FSR")[k], Fsr::conductance(fsr, f[k]));
         EXPECT_EQ(inside.at("V_Z")[k], F2v_at(inside.at("G_FSR")[k]));
     }
-    EXPECT_EQ(inside.at("F_read")[5000], 4) << "the plateau is where it was calibrated";
+    EXPECT_EQ(inside.at("F_read")[5000], 4) << "the plateau is at the calibration force";
     EXPECT_EQ(response.saturated, 0);
 }
 
@@ -137,14 +137,14 @@ TEST(AfferentComponents, WrongOrUnknownComponentsAreRefusedWithASuggestion) {
     for (const auto& [text, message] : cases) EXPECT_EQ(plan_afferent(text, {}).error().message, message);
 }
 
-TEST(AfferentComponents, NamesOfAnyCaseMeanTheSameAndSettingsFindThem) {
+TEST(AfferentComponents, NamesAreMatchedWithoutRegardToCaseAlsoInSettings) {
     EXPECT_EQ(test::value_or_throw(plan_afferent("FSR+f2i+RA", {})).name, "fsr+f2i+fa1");
     for (const auto* of : {"fsr+f2i+fa1", "FSR+f2i+RA"}) {
         const auto overrides = test::parse_settings({std::string(of) + ".f=3Hz", std::string(of) + ".F_cal=2N"});
         const auto plan = test::value_or_throw(plan_afferent("FSR+f2i+RA", overrides));
         EXPECT_EQ(plan.value("f"), 3);
         EXPECT_EQ(plan.value("F_cal"), 2);
-        EXPECT_EQ(plan.value("I_leak0"), 1e-6) << "fa1's own";
+        EXPECT_EQ(plan.value("I_leak0"), 1e-6) << "the default of fa1";
     }
     EXPECT_EQ(test::value_or_throw(plan_afferent("sa1-kim", {})).composition(), "fsr+f2v+adc+sa1a+lif-a");
 }
