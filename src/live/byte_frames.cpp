@@ -76,7 +76,7 @@ public:
             take_datagram(*received);
         else if (received->status == ReadResult::bytes)
             decoder_.add_bytes(received->count);
-        if (received->status == ReadResult::gone || received->status == ReadResult::end) end_sender();
+        if (received->status == ReadResult::disconnected || received->status == ReadResult::end) end_sender();
         return received->status != ReadResult::end;
     }
 

@@ -60,7 +60,7 @@ class Listener final : public ByteSource {
     ReadResult disconnect() {
         client_.close();
         due_ = steady_never;
-        return {limits_.clients > 0 && clients_ >= limits_.clients ? ReadResult::end : ReadResult::gone};
+        return {limits_.clients > 0 && clients_ >= limits_.clients ? ReadResult::end : ReadResult::disconnected};
     }
 
     bool is_another_waiting() const {

@@ -15,7 +15,7 @@ struct ReadResult {
     enum Status {
         bytes,    ///< `count` bytes
         nothing,  ///< nothing yet
-        gone,     ///< the sender has disconnected; another may connect
+        disconnected,///< the sender has disconnected; another may connect
         end,      ///< no more data
     } status;
     std::size_t count = 0;

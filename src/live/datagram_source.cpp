@@ -51,7 +51,7 @@ class DatagramSource final : public ByteSource {
 
     ReadResult end_sender() {
         sender_.reset();
-        return {limits_.clients > 0 && senders_ >= limits_.clients ? ReadResult::end : ReadResult::gone};
+        return {limits_.clients > 0 && senders_ >= limits_.clients ? ReadResult::end : ReadResult::disconnected};
     }
 
     ReadResult accept(const Datagram& datagram) {

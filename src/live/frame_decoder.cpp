@@ -99,7 +99,7 @@ FrameDecoder::Status FrameDecoder::next() {
         if (!end) return scanned_ = end_, Status::nothing;
         const std::string_view full_line(bytes_.data() + begin_, end);
         begin_ = static_cast<std::size_t>(end - bytes_.data()) + 1;
-        if (std::exchange(skipping_, false)) return ++seen_, unreadable(FrameError::endless);
+        if (std::exchange(skipping_, false)) return ++seen_, unreadable(FrameError::too_long);
         const auto line = trimmed(full_line.ends_with('\r') ? full_line.substr(0, full_line.size() - 1) : full_line);
         if (line.empty() || line.front() == '#' || line.front() == '%') continue;
         if (std::exchange(first_, false) && is_header(line)) {

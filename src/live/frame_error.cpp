@@ -35,7 +35,7 @@ std::string describe_frame_error(const FrameError& error, const FrameLayout& lay
             return fmt::format("frame {} does not begin with {}; {}", error.frame,
                                layout.stamp == FrameStamp::sequence ? "its sequence number, an integer" : "its time in seconds",
                                expected_frame(layout, population));
-        case FrameError::endless:
+        case FrameError::too_long:
             return fmt::format("frame {} is a line longer than any frame; {}", error.frame, expected_frame(layout, population));
         case FrameError::datagram:
             return fmt::format("a datagram has {} bytes; {}, {} bytes of binary", error.found, expected_frame(layout, population),

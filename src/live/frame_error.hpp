@@ -14,7 +14,7 @@ struct FrameError {
     enum Reason {
         width,     ///< the line has the wrong number of fields: `found`
         stamp,     ///< its stamp is not a valid number or time
-        endless,   ///< a line is longer than any frame
+        too_long,  ///< a line is longer than any frame
         datagram,  ///< a datagram of `found` bytes does not contain whole frames
         header,    ///< the header before it was refused: `detail`
     } reason = width;

@@ -61,7 +61,7 @@ class Chain final : public Afferent {
     double noise_;  // standard deviation of one step's current, A: white up to 1/(2T)
     std::uint64_t seed_;
     std::string name_, format_;
-    std::vector<std::string> names_;
+    std::vector<std::string> probe_names_;
     std::vector<Probe> probes_;
 
     void name_probes() {
@@ -72,13 +72,13 @@ class Chain final : public Afferent {
                 return (void)k, std::string();
         };
         std::vector<std::string_view> units;
-        const auto add = [&](std::string name, std::string_view unit) { names_.push_back(std::move(name)), units.push_back(unit); };
+        const auto add = [&](std::string name, std::string_view unit) { probe_names_.push_back(std::move(name)), units.push_back(unit); };
         if constexpr (receptor_recordables > 0)
             for (const auto& p : Receptor::recordables) add(std::string(p.name), p.unit);
         for (int k = 0; k < outputs; ++k) add("I" + sign(k), "A");
         for (int k = 0; k < outputs; ++k)
             for (const auto& p : Neuron::recordables) add(std::string(p.name) + sign(k), p.unit);
-        for (std::size_t k = 0; k < names_.size(); ++k) probes_.push_back({names_[k], units[k]});
+        for (std::size_t k = 0; k < probe_names_.size(); ++k) probes_.push_back({probe_names_[k], units[k]});
     }
 
     /// Adds noise to each neuron's current. It depends only on seed, afferent, neuron and step.

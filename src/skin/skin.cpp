@@ -31,7 +31,7 @@ Result<std::optional<ClassSimulation>> make_class(const Innervation& skin, std::
                                                   std::vector<std::shared_ptr<FieldForce>>& field_forces) {
     const auto& c = skin.plan.classes[class_index];
     const std::size_t all = skin.class_begin[class_index + 1] - skin.class_begin[class_index],
-                      first = part_begin(all, part.part, part.parts), count = part_begin(all, part.part + 1, part.parts) - first;
+                      first = part_begin(all, part.index, part.count), count = part_begin(all, part.index + 1, part.count) - first;
     if (count == 0) return std::optional<ClassSimulation>{};
     if (!can_use_lanes(c.afferent, run))
         return bad_input(fmt::format("{}: {} cannot be used in a skin, which needs model equations without sensor, converter and noise",

@@ -23,9 +23,9 @@ struct SiteForce {
     bool reads_all = true;  ///< true: all sites are read, and `touched` is ignored
 };
 
-/// The afferents of a skin that one process simulates: each class is divided into `parts` equal ranges; `part` is the index of one.
+/// The afferents of a skin that one process simulates: each class is divided into `count` equal ranges; `index` selects one.
 struct SkinPart {
-    std::uint32_t part = 0, parts = 1;
+    std::uint32_t index = 0, count = 1;
 };
 
 /// Statistics of a run.

@@ -37,7 +37,7 @@ std::uint64_t fingerprint(const Skin::Impl& impl) {
     Fingerprint all;
     const auto& skin = *impl.skin;
     all.add(impl.run.dt), all.add(static_cast<int>(impl.run.method)), all.add(impl.run.spikes_on_samples);
-    all.add(impl.part.part), all.add(impl.part.parts), all.add(skin.plan.seed), all.add(skin.plan.sites.size());
+    all.add(impl.part.index), all.add(impl.part.count), all.add(skin.plan.seed), all.add(skin.plan.sites.size());
     for (const auto& c : skin.plan.classes) {
         all.add(c.afferent.composition());
         for (const double v : c.afferent.values) all.add(v);

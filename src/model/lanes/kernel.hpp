@@ -29,7 +29,7 @@ struct Firing {
     std::uint64_t bits;
 };
 
-/// Buffer of firing masks; `full` is called whenever it is full.
+/// Buffer of firing masks; `on_full` is called whenever it is full.
 template <class V>
 struct FiringList {
     Firing* firings;  ///< firing_list_capacity elements
@@ -38,7 +38,7 @@ struct FiringList {
     std::int32_t step;    ///< the current step
     std::uint64_t valid;  ///< one bit for each afferent of the tile that is not padding
     std::int64_t truncated_steps;
-    void (*full)(FiringList&);
+    void (*on_full)(FiringList&);
 };
 
 enum class ForceInput { rows, int16, profile };

@@ -16,7 +16,7 @@ struct FiringRecorder {
     [[gnu::noinline, gnu::cold]] void operator()(num::Mask<Batch<V>> mask, Batch<V> offset) const {
         const auto bits = valid(mask);
         if (bits == 0) return;
-        if (list->count == firing_list_capacity) list->full(*list);
+        if (list->count == firing_list_capacity) list->on_full(*list);
         if (list->offsets) offset.store_aligned(list->offsets + list->count * width<V>);
         list->firings[list->count++] = {list->step, first, bits};
     }

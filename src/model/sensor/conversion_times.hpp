@@ -12,7 +12,7 @@ namespace corpuscle {
 
 /// Source samples per conversion, as the fraction A / B. Conversion j of channel c of N takes place (j + c/N) A / B samples after sample 0.
 class ConversionTimes {
-    std::int64_t whole_, part_, base_, channels_;  // A / B and A mod B; B; N
+    std::int64_t quotient_, remainder_, denominator_, channels_;  // A / B and A mod B; B; N
 
 public:
     /// A position between samples: `remainder` / (B N) of the way from sample `step` to the next.
@@ -28,18 +28,18 @@ public:
         const std::int64_t numerator = fraction ? fraction->rate_numerator : static_cast<std::int64_t>(above_one),
                            denominator = fraction ? fraction->rate_denominator : 1;
         const std::int64_t a = ratio >= 1 ? numerator : denominator, b = ratio >= 1 ? denominator : numerator;
-        whole_ = a / b, part_ = a % b, base_ = b;
+        quotient_ = a / b, remainder_ = a % b, denominator_ = b;
     }
 
     /// The number of parts that a sample interval is divided into.
-    std::int64_t parts_per_sample() const { return base_ * channels_; }
+    std::int64_t parts_per_sample() const { return denominator_ * channels_; }
     SamplePosition first(std::uint32_t channel) const {
-        const std::int64_t c = channel, ahead = c * whole_;
-        const std::int64_t rest = c * part_ + (ahead % channels_) * base_;
+        const std::int64_t c = channel, ahead = c * quotient_;
+        const std::int64_t rest = c * remainder_ + (ahead % channels_) * denominator_;
         return {ahead / channels_ + rest / parts_per_sample(), rest % parts_per_sample()};
     }
     void advance(SamplePosition& p) const {
-        p.step += whole_, p.remainder += part_ * channels_;
+        p.step += quotient_, p.remainder += remainder_ * channels_;
         if (p.remainder >= parts_per_sample()) p.remainder -= parts_per_sample(), ++p.step;
     }
 };

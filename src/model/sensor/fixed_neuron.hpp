@@ -50,7 +50,7 @@ struct FixedLifA {
 
     FixedLifA(const Traits::Params& p, double f_s, Constants& c)
         : V_th(c.level("V_th", p.V_th)), reset(p, f_s, c), inertia(p.R_m * p.C_m * f_s),
-          k_a(c.factor("k_a", p.R_m / micro / (1 + inertia))), k_b(c.factor("k_b", inertia / (1 + inertia))),
+          k_a(c.factor("k_a", p.R_m / uA_per_A / (1 + inertia))), k_b(c.factor("k_b", inertia / (1 + inertia))),
           k_c(c.level("k_c", p.E_L / (1 + inertia))), E_L(c.level("E_L", p.E_L)) {}
 
     State start() const { return {E_L, 0}; }
@@ -75,8 +75,8 @@ struct FixedLifB {
     Word I_leak0, E_L;
 
     FixedLifB(const Traits::Params& p, double f_s, Constants& c)
-        : V_th(c.level("V_th", p.V_th)), reset(p, f_s, c), k(c.factor("k_m", 1 / (p.C_m * f_s * micro))),
-          I_leak0(c.level("I_leak0", p.I_leak0 * micro)), E_L(c.level("E_L", p.E_L)) {}
+        : V_th(c.level("V_th", p.V_th)), reset(p, f_s, c), k(c.factor("k_m", 1 / (p.C_m * f_s * uA_per_A))),
+          I_leak0(c.level("I_leak0", p.I_leak0 * uA_per_A)), E_L(c.level("E_L", p.E_L)) {}
 
     State start() const { return {E_L, 0}; }
     void record(const State& s, Word* out) const { out[0] = s.u; }
@@ -102,7 +102,7 @@ struct FixedAdaptive {
     Word dV_th, E_L;
 
     FixedAdaptive(const Traits::Params& p, double f_s, Constants& c)
-        : V_th(c.level("V_th", p.V_th)), reset(p, f_s, c), k(c.factor("k_m", 1 / (p.C_m * f_s * micro))),
+        : V_th(c.level("V_th", p.V_th)), reset(p, f_s, c), k(c.factor("k_m", 1 / (p.C_m * f_s * uA_per_A))),
           k_th(c.factor("k_th", num::exp(-1 / (p.tau_th * f_s)))), dV_th(c.level("dV_th", p.dV_th)), E_L(c.level("E_L", p.E_L)) {}
 
     State start() const { return {E_L, 0, 0}; }

@@ -19,7 +19,7 @@ namespace corpuscle {
 /// A word, or a sum of a few words that is not yet saturated to one.
 using Word = std::int64_t;
 
-inline constexpr double micro = 1e6;  // microamperes per ampere
+inline constexpr double uA_per_A = 1e6;  // microamperes per ampere
 
 /// Nearest integer, halves up. Exact, whereas the sum x + 0.5 can be rounded.
 inline double rounded(double x) {

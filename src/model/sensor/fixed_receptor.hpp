@@ -20,7 +20,7 @@ struct FixedSa1a {
     Factor k_s, k_d;
 
     FixedSa1a(const Traits::Params& p, double f_s, Constants& c)
-        : beta(c.level("beta", p.beta * micro)), k_s(c.factor("k_s", p.k_s * micro)), k_d(c.factor("k_d", p.k_d * micro * f_s)) {}
+        : beta(c.level("beta", p.beta * uA_per_A)), k_s(c.factor("k_s", p.k_s * uA_per_A)), k_d(c.factor("k_d", p.k_d * uA_per_A * f_s)) {}
 
     void step(State& s, Word F, Word (&I)[1], Arithmetic& a) const {
         const Word change = a.magnitude(a.saturate(F - s.F));
@@ -37,7 +37,7 @@ struct FixedFa1a {
     };
     Factor k;
 
-    FixedFa1a(const Traits::Params& p, double f_s, Constants& c) : k(c.factor("k", p.k * micro * f_s)) {}
+    FixedFa1a(const Traits::Params& p, double f_s, Constants& c) : k(c.factor("k", p.k * uA_per_A * f_s)) {}
 
     void step(State& s, Word F, Word (&I)[2], Arithmetic& a) const {
         const Word dF = a.saturate(F - s.F), current = a.times(k, a.magnitude(dF));
@@ -59,8 +59,8 @@ struct FixedSa1b {
     Factor k_A, k_B1, k_B2, k_C1, k_C2;
 
     FixedSa1b(const Traits::Params& p, double f_s, Constants& c)
-        : k_A(c.factor("k_A", p.k_A * micro)), k_B1(c.factor("k_B1", p.K_B * micro * high_pass_decay(p.f_B, f_s))),
-          k_B2(c.factor("k_B2", high_pass_decay(p.f_B, f_s))), k_C1(c.factor("k_C1", p.K_C * micro * high_pass_decay(p.f_C, f_s))),
+        : k_A(c.factor("k_A", p.k_A * uA_per_A)), k_B1(c.factor("k_B1", p.K_B * uA_per_A * high_pass_decay(p.f_B, f_s))),
+          k_B2(c.factor("k_B2", high_pass_decay(p.f_B, f_s))), k_C1(c.factor("k_C1", p.K_C * uA_per_A * high_pass_decay(p.f_C, f_s))),
           k_C2(c.factor("k_C2", high_pass_decay(p.f_C, f_s))) {}
 
     void step(State& s, Word F, Word (&I)[1], Arithmetic& a) const {
@@ -81,7 +81,7 @@ struct FixedFa1b {
     Factor k, k_A, k_B;
 
     FixedFa1b(const Traits::Params& p, double f_s, Constants& c)
-        : k(c.factor("k", high_pass_decay(p.f, f_s))), k_A(c.factor("k_A", p.k_A * micro)), k_B(c.factor("k_B", p.k_B * micro)) {}
+        : k(c.factor("k", high_pass_decay(p.f, f_s))), k_A(c.factor("k_A", p.k_A * uA_per_A)), k_B(c.factor("k_B", p.k_B * uA_per_A)) {}
 
     void step(State& s, Word F, Word (&I)[1], Arithmetic& a) const {
         s.I_0 = a.times(k, a.saturate(a.saturate(F - s.F) + s.I_0));

@@ -117,7 +117,7 @@ public:
         if (!is_moving(p_) && p_.speed > 0) text += fmt::format(" moving past at {}", format_quantity(p_.speed, "m/s"));
         if (!is_moving(p_)) return text + fmt::format(", pressed at {}", in_mm(p_.x, p_.y));
         return text +
-               fmt::format(", moved from {} to {} in {}", in_mm(p_.x, p_.y), in_mm(p_.x1, p_.y1), format_quantity(path_.seconds(), "s"));
+               fmt::format(", moved from {} to {} in {}", in_mm(p_.x, p_.y), in_mm(p_.x1, p_.y1), format_quantity(path_.duration(), "s"));
     }
 
     std::vector<MetadataEntry> metadata() const override {

@@ -16,7 +16,7 @@ public:
     Position at(double t) const;
     /// The distance that a pattern has passed under the contact, m.
     double pattern_shift(double t) const { return pattern_moves_ && t > start_ ? speed_ * (t - start_) : 0; }
-    double seconds() const { return length_; }  ///< duration of the movement
+    double duration() const { return length_; }  ///< duration of the movement
 };
 
 }  // namespace corpuscle

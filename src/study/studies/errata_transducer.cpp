@@ -41,7 +41,7 @@ void report_sensor(StudyResult& out) {
 Result<void> report_transistors(StudyResult& out) {
     const std::string swapped =
         "mn1 if vz vx tb nch w=1.5u l=0.5u m=16\nmn2 vdd vz vx tb nch w=1.5u l=0.5u m=4 stack=4\nmn3 vz vdd tb tb nch w=1.5u l=0.5u m=8\n";
-    const std::string bulk_at_vss = improved_cell_at("0");
+    const std::string bulk_at_vss = improved_cell_with_bulks("0");
     const TransducerCell cells[] = {
         {"built", improved_cell()}, {"swapped", swapped}, {"without", bulk_at_vss}, {"plain", single_transistor_cell(16)}};
     const auto found = run_study_netlist({transducer_netlist(cells, "4"), {}, ".op"});

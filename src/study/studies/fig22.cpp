@@ -19,8 +19,8 @@ std::vector<Variant> variants() {
     return {{"voltage", "fig. 20 with a follower of 64 unit transistors, 3.6 kohm", voltage_cell(3.6e3)},
             {"plain", "fig. 21, M1 16x1", single_transistor_cell(16)},
             {"plain40", "fig. 21, M1 40x1, the number of unit transistors of fig. 22", single_transistor_cell(40)},
-            {"atvss", "fig. 22 without M3, bulks at vss", improved_cell_at("0")},
-            {"atsource", "fig. 22 without M3, bulks at the source", improved_cell_at("vx")},
+            {"atvss", "fig. 22 without M3, bulks at vss", improved_cell_with_bulks("0")},
+            {"atsource", "fig. 22 without M3, bulks at the source", improved_cell_with_bulks("vx")},
             {"improved", "fig. 22", improved_cell()},
             {"read", "fig. 22, loaded by the diode of table 3", improved_cell_with_diode()}};
 }
@@ -87,7 +87,7 @@ Result<void> report_supplies(StudyResult& out) {
 }
 
 Result<void> report_forces_and_corners(StudyResult& out, const StudyOptions& options) {
-    const std::vector<TransducerCell> two_cells = {{"lifted", improved_cell()}, {"atvss", improved_cell_at("0")}};
+    const std::vector<TransducerCell> two_cells = {{"lifted", improved_cell()}, {"atvss", improved_cell_with_bulks("0")}};
     StudyCurve lifted, at_vss;
     for (const double newtons : {0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 4.0, 6.0, 8.0}) {
         const auto lowest = find_lowest_supplies(two_cells, newtons);

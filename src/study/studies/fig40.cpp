@@ -43,7 +43,7 @@ void report_glitches(const TrialResult& chip, StudyResult& out) {
     const auto& I = chip.probes.at("i(vi)");
     const std::vector<double> spikes_under_force(
         chip.spikes.begin(), chip.spikes.begin() + static_cast<std::ptrdiff_t>(press::spike_count(chip.spikes, {0, P::plateau.to})));
-    out.claim("smallest glitch in I at a spike, over I before it", min_jump(I, spikes_under_force, 1.5e-3), "times")
+    out.claim("smallest glitch in I at a spike, over I before it", min_jump_ratio(I, spikes_under_force, 1.5e-3), "times")
         .allow_min(1.2, "thesis 4.4: glitches in the input signal I at each firing event; a fifth is our choice");
     const double charging_time = longest_time_above(chip.probes.at("v(s)"), 0.35);
     double shortest = 1;

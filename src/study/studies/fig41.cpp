@@ -45,7 +45,7 @@ Result<StudyResult> compute(const StudyOptions& options) {
         b->chip.spikes.begin(),
         b->chip.spikes.begin() + static_cast<std::ptrdiff_t>(press::spike_count(b->chip.spikes, {0, P::plateau.to})));
     out.claim("smallest glitch in I at a spike up to the end of the plateau, over I just before it",
-              min_jump(I, spikes_under_force, 0.3e-3), "times")
+              min_jump_ratio(I, spikes_under_force, 0.3e-3), "times")
         .explain(
             "its membrane capacitance is three times SA-I's, so it is charged at a third of the speed and draws a third of the current "
             "through the rectifier's capacitances");

@@ -44,7 +44,7 @@ Result<BiasSweep> BiasSweep::run(BiasAxis axis, const std::string& range, std::v
     return BiasSweep{axis, std::move(settings), std::move(*found)};
 }
 
-StudyCurve BiasSweep::curve(const std::string& name) const { return found.curve("dc", name); }
+StudyCurve BiasSweep::curve(const std::string& name) const { return netlist_result.curve("dc", name); }
 
 StudyCurve BiasSweep::voltage_error() const {
     auto out = V_Q();
@@ -56,7 +56,7 @@ StudyCurve BiasSweep::voltage_error() const {
 StudyCurve BiasSweep::current_error() const {
     auto out = I_Q();
     for (std::size_t k = 0; k < out.x.size(); ++k) {
-        const double I_BIAS = axis == BiasAxis::current ? out.x[k] : parameter(found, "i_bias");
+        const double I_BIAS = axis == BiasAxis::current ? out.x[k] : parameter(netlist_result, "i_bias");
         out.y[k] = std::abs(out.y[k] / I_BIAS - 1) / bias_current_margin;
     }
     return out;

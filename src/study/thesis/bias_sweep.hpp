@@ -14,7 +14,7 @@ constexpr double bias_voltage_margin = 5e-3, bias_current_margin = 0.1;  // V; f
 struct BiasSweep {
     BiasAxis axis;
     std::vector<std::string> settings;
-    NetlistResult found;
+    NetlistResult netlist_result;
 
     static Result<BiasSweep> run(BiasAxis, std::vector<std::string> settings = {});
     static Result<BiasSweep> run(BiasAxis, const std::string& range,

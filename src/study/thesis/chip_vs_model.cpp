@@ -13,7 +13,7 @@ Result<ChipVsModel> compare_chip_with_model(const TrialSpec& chip_spec, const st
     return ChipVsModel{std::move(*chip), std::move(*train)};
 }
 
-double min_jump(const StudyCurve& trace, const std::vector<double>& spikes, double duration) {
+double min_jump_ratio(const StudyCurve& trace, const std::vector<double>& spikes, double duration) {
     double min_ratio = std::numeric_limits<double>::infinity();
     for (const double t : spikes)
         min_ratio = std::min(min_ratio, trace.between(t, t + duration).max() / trace.between(t - 2 * duration, t - duration / 2).max());

@@ -14,7 +14,7 @@ Result<ChipVsModel> compare_chip_with_model(const TrialSpec& chip, const std::st
 
 /// For each spike: the largest value of a trace in `duration` (s) after the spike, over the largest value between two durations and half a
 /// duration before it. Returns the smallest of these ratios.
-double min_jump(const StudyCurve& trace, const std::vector<double>& spikes, double duration);
+double min_jump_ratio(const StudyCurve& trace, const std::vector<double>& spikes, double duration);
 
 /// The longest time (s) for which a trace stays above a level.
 double longest_time_above(const StudyCurve& trace, double level);

@@ -14,14 +14,14 @@ StudyCurve ForceSensor::conductance_curve(double from, double to, double step) c
     return out;
 }
 
-std::string improved_cell_at(const std::string& bulk, const std::string& drain) {
+std::string improved_cell_with_bulks(const std::string& bulk, const std::string& drain) {
     return fmt::format(
         "mn1 {1} vz vx {0} nch w=1.5u l=0.5u m=4 stack=4\n"
         "mn2 vdd vz vx {0} nch w=1.5u l=0.5u m=16\n",
         bulk, drain);
 }
 
-std::string improved_cell(const std::string& drain) { return improved_cell_at("tb", drain) + "mn3 vz vdd tb tb nch w=1.5u l=0.5u m=8\n"; }
+std::string improved_cell(const std::string& drain) { return improved_cell_with_bulks("tb", drain) + "mn3 vz vdd tb tb nch w=1.5u l=0.5u m=8\n"; }
 
 std::string improved_cell_with_diode() { return improved_cell("d") + "mp3a d d if if pch w=6u l=0.5u m=8 stack=2\n"; }
 

@@ -29,7 +29,7 @@ struct TransducerCell {
 /// The thesis's transducer, fig. 22 and table 1, with its output at node `drain`. The second function leaves out M3 and connects the bulks
 /// to `bulk`.
 std::string improved_cell(const std::string& drain = "if");
-std::string improved_cell_at(const std::string& bulk, const std::string& drain = "if");
+std::string improved_cell_with_bulks(const std::string& bulk, const std::string& drain = "if");
 /// Fig. 22 with the diode of the next block's mirror (table 3's M3A) as its load; the diode is connected to the source vif.
 std::string improved_cell_with_diode();
 /// Fig. 21: one transistor of `columns` unit transistors in parallel.

@@ -27,12 +27,12 @@ Result<InverterSweep> InverterSweep::run_with_directives(const std::string& dire
 }
 
 StudyCurve InverterSweep::output_current(char letter) const {
-    return relative_to_half_supply(found.curve("dc", fmt::format("i(vh{})", letter)), supply / 2);
+    return relative_to_half_supply(netlist_result.curve("dc", fmt::format("i(vh{})", letter)), supply / 2);
 }
 StudyCurve InverterSweep::transconductance(char letter) const { return output_current(letter).slope().scaled(1, -1); }
 
 StudyCurve InverterSweep::transfer_curve(char letter) const {
-    auto out = relative_to_half_supply(found.curve("dc", fmt::format("v(o{})", letter)), supply / 2);
+    auto out = relative_to_half_supply(netlist_result.curve("dc", fmt::format("v(o{})", letter)), supply / 2);
     for (double& y : out.y) y -= supply / 2;
     return out;
 }
@@ -45,7 +45,7 @@ StudyCurve InverterSweep::voltage_gain(char letter) const {
 }
 
 StudyCurve InverterSweep::supply_current(char letter) const {
-    return relative_to_half_supply(found.curve("dc", fmt::format("i(vs{})", letter)), supply / 2);
+    return relative_to_half_supply(netlist_result.curve("dc", fmt::format("i(vs{})", letter)), supply / 2);
 }
 
 }  // namespace corpuscle

@@ -9,7 +9,7 @@ constexpr const char* inverter_names[] = {"INVA", "INVB", "INVC"};
 constexpr char inverter_letters[] = {'a', 'b', 'c'};
 
 struct InverterSweep {
-    NetlistResult found;
+    NetlistResult netlist_result;
     double supply;  // V
 
     /// `run` sweeps V_IN from 0 V to the supply in steps of `step` (V); `run_with_directives` runs other directives.
