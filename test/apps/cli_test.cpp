@@ -28,7 +28,7 @@ TEST(Program, PressPrintsTheTableAndWritesNoUnrequestedFile) {
     EXPECT_TRUE(folder.file_names().empty());
 }
 
-TEST(Program, ImplementationsOfOneReceptorAreComparedWithTheFirst) {
+TEST(Program, ImplementationsOfOneAfferentTypeAreComparedWithTheReference) {
     const TemporaryFolder folder;
     for (const std::string name : {"circuits", "process"})
         std::filesystem::create_directory_symlink(test::source_root() + "/" + name, folder / name);
@@ -41,13 +41,13 @@ TEST(Program, ImplementationsOfOneReceptorAreComparedWithTheFirst) {
     EXPECT_NE(table.find(" 14  0 5 8 1 0      -7       14 "), std::string::npos) << table;
     EXPECT_NE(table.find("Compared with the first row of each receptor and channel. Spikes within 20 ms match"), std::string::npos)
         << table;
-    EXPECT_EQ(table.find("fa1"), std::string::npos) << "has one implementation\n" << table;
+    EXPECT_EQ(table.find("fa1"), std::string::npos) << "fa1 has only one implementation\n" << table;
     const auto comparisons = Json::parse(test::read_file(folder / "answer/summary.json"))["comparisons"];
     EXPECT_EQ(comparisons["cost_Hz"], 100.0);
     ASSERT_EQ(comparisons["pairs"].size(), 1u);
     EXPECT_EQ(comparisons["pairs"][0]["afferent"], netlist);
     EXPECT_NEAR(comparisons["pairs"][0]["excess"].get<double>(), 14.0 / 15 - 1, 1e-12);
-    EXPECT_EQ(run_program(folder, "respond press").out.find("Victor"), std::string::npos) << "no receptor has two implementations";
+    EXPECT_EQ(run_program(folder, "respond press").out.find("Victor"), std::string::npos) << "no afferent type has two implementations";
 }
 
 TEST(Program, WritesTheRequestedFilesWithTheSameBytesTwice) {
@@ -119,7 +119,7 @@ TEST(Program, FloatSpikesAreWithinMicrosecondsAndHaveNoProbes) {
     EXPECT_EQ(run_program(folder, "respond press -j 99999").status, 2);
 }
 
-TEST(Program, ASecondRunLeavesNothingOfTheFirst) {
+TEST(Program, ASecondRunRemovesTheFilesOfTheFirst) {
     const TemporaryFolder folder;
     ASSERT_EQ(run_program(folder, "respond press noise --out answer --probe-files --npz --wav --bin 10ms").status, 0);
     EXPECT_EQ(folder.file_names(), (std::vector<std::string>{"answer", "probes-2.csv", "probes.csv", "psth.csv", "spikes-2.wav",
@@ -162,7 +162,7 @@ TEST(Program, CopiesGiveTheSameSpikesSummaryAndTableTwice) {
               std::string::npos);
 }
 
-TEST(Program, OneCopyIsTheAfferentItself) {
+TEST(Program, ASingleCopyRespondsAsTheAfferentItself) {
     const TemporaryFolder folder;
     ASSERT_EQ(run_program(folder, "respond press -a sa1,fa1-lee --noise 50nA --out plain").status, 0);
     ASSERT_EQ(run_program(folder, "respond press -a sa1,fa1-lee --noise 50nA --copies 1 --out one").status, 0);
@@ -224,7 +224,7 @@ TEST(Program, CompareReadsTheSpikesOfTheElectronicSkin) {
     EXPECT_NE(other.err.find("no train has the same name in both files: 6; 11; 16 | 243; "), std::string::npos) << other.err;
 }
 
-TEST(Program, ReportAloneIsWrittenToTheGivenOrCurrentFolder) {
+TEST(Program, AReportWithoutOutIsWrittenToTheGivenOrCurrentFolder) {
     const TemporaryFolder folder;
     EXPECT_EQ(run_program(folder, "respond press --report").status, 0);
     EXPECT_EQ(run_program(folder, "respond --report press").status, 0) << "the argument after --report is not a page, so it is a force";
@@ -236,14 +236,15 @@ TEST(Program, ReportAloneIsWrittenToTheGivenOrCurrentFolder) {
     EXPECT_NE(page.find("Dygraph"), std::string::npos);
 }
 
-TEST(Program, JsonIsOneDocumentAndNothingElse) {
+TEST(Program, JsonOutputIsASingleDocument) {
     const TemporaryFolder folder;
     const auto ran = run_program(folder, "respond press --json --set sa1.f_B=25Hz --set press.F_max=2N");
     ASSERT_EQ(ran.status, 0);
     const auto document = Json::parse(ran.out);
     EXPECT_EQ(document["afferents"][0]["parameters"]["f_B"], (Json{{"value", 25.0}, {"unit", "Hz"}, {"component", "sa1b"}, {"set", true}}));
     const auto listed = Json::parse(run_program(folder, "list --json").out);
-    EXPECT_EQ(listed["afferents"].size(), named_afferents().size() + std::size(circuit::embedded_netlists) + 1);  // and any netlist
+    EXPECT_EQ(listed["afferents"].size(), named_afferents().size() + std::size(circuit::embedded_netlists) + 1)
+        << "one entry stands for all netlist files";
     for (const auto& entry : receptor_entries())
         EXPECT_TRUE(std::any_of(listed["receptors"].begin(), listed["receptors"].end(), [&](const Json& e) {
             return e["name"] == entry.name;
@@ -352,7 +353,7 @@ TEST(Program, StudiesAreListedWrittenAndSelectedByAnyOfTheirNumbers) {
     EXPECT_NE(run_program(folder, "study fig4 --quiet --report numbers.md/page.html").status, 0) << "a file cannot contain a page";
 }
 
-TEST(Program, NamesMayHoldAnyBytes) {
+TEST(Program, NamesMayContainAnyBytes) {
     const TemporaryFolder folder;
     folder.write("l.csv",
                  "t,Gr\xf6\xdf"  // Latin-1
@@ -369,7 +370,7 @@ TEST(Program, AStimulusTakesPrecedenceOverADirectoryOfItsName) {
     EXPECT_EQ(run_program(folder, "respond press --out press --quiet").status, 0);
 }
 
-TEST(Program, WhatCannotBePrintedOrNamedIsAnError) {
+TEST(Program, AFullOutputDeviceAndATooLongNameAreErrors) {
     const TemporaryFolder folder;
     const auto full = std::system(("'" + test::program_path() + "' list >/dev/full 2>'" + (folder / "err") + "'").c_str());
     EXPECT_EQ(WEXITSTATUS(full), 1);
@@ -407,14 +408,14 @@ TEST(Program, ProgressWithTimeLeftIsPrintedToTerminalsOnly) {
     if (!test::has_pseudo_terminals()) GTEST_SKIP() << test::no_pseudo_terminals;
     const TemporaryFolder folder;
     const std::string job = "respond sine --set sine.duration=400s --afferent sa1b+adex";  // long enough for progress to be printed
-    const auto terminal_output = folder / "drawn";
+    const auto terminal_file = folder / "terminal";
     ASSERT_EQ(
         std::system(
-            ("script -qec \"'" + test::program_path() + "' " + job + "\" /dev/null > '" + terminal_output + "' 2>&1 < /dev/null").c_str()),
+            ("script -qec \"'" + test::program_path() + "' " + job + "\" /dev/null > '" + terminal_file + "' 2>&1 < /dev/null").c_str()),
         0);
-    const auto seen = test::read_file(terminal_output);
-    EXPECT_NE(seen.find(" s left"), std::string::npos) << seen.substr(0, 400);
-    EXPECT_NE(seen.find(" %  "), std::string::npos);
+    const auto terminal_output = test::read_file(terminal_file);
+    EXPECT_NE(terminal_output.find(" s left"), std::string::npos) << terminal_output.substr(0, 400);
+    EXPECT_NE(terminal_output.find(" %  "), std::string::npos);
     EXPECT_EQ(run_program(folder, job).err, "") << "not a terminal";
 }
 
@@ -470,11 +471,11 @@ TEST(Program, CtrlCAndOtherSignalsEndItCleanly) {
         ::waitpid(child, &status, 0);
         EXPECT_TRUE(WIFEXITED(status));
         EXPECT_EQ(WEXITSTATUS(status), 130);
-        EXPECT_TRUE(folder.file_names().empty()) << "nothing half-written is left";
+        EXPECT_TRUE(folder.file_names().empty()) << "no partial file is left";
     }
 }
 
-TEST(Program, ThePressOnTheElectronicSkinWithItsTimesReplacedByTheRate) {
+TEST(Program, APressOnTheElectronicSkinIsReadWithARateInsteadOfItsTimes) {
     const auto path = test::shared_file_path("fbg_eskin_press/fbg_press_S6_T16.csv");
     CORPUSCLE_NEEDS(path);
     const TemporaryFolder folder;

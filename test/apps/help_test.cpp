@@ -1,4 +1,4 @@
-// --help, --help-all, suggestions for misspelt options, and former spellings.
+// --help, --help-all, suggestions for misspelt options, and renamed options.
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace {
 
 using test::run_program, test::TemporaryFolder;
 
-TEST(Help, OfEachVerbIsPrintedByHelpAndByTheOption) {
+TEST(Help, OfEachVerbIsPrintedByTheHelpVerbAndByTheHelpOption) {
     const TemporaryFolder folder;
     for (const std::string verb : {"respond", "compare", "study", "run", "export", "sweep", "stream", "list"}) {
         const auto help = run_program(folder, "help " + verb), option = run_program(folder, verb + " --help");
@@ -23,7 +23,7 @@ TEST(Help, OfEachVerbIsPrintedByHelpAndByTheOption) {
     EXPECT_NE(run_program(folder, "").out.find("First steps:"), std::string::npos);
 }
 
-/// The number of lines of a text that begin a command of the program.
+/// The number of example commands in a help text.
 std::ptrdiff_t examples_in(const std::string& help) {
     std::ptrdiff_t count = 0;
     const auto end = std::min(help.find("\nPositionals:"), help.find("\nOptions:"));

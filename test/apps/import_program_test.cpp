@@ -10,7 +10,7 @@ using test::TemporaryFolder;
 
 bool found_in(const std::string& text, const std::string& part) { return text.find(part) != text.npos; }
 
-TEST(ImportProgram, EveryLoggersFileOfTheExamplesGivesTheSameSpikes) {
+TEST(ImportProgram, EveryLoggerFileOfTheExamplesGivesTheSameSpikes) {
     const TemporaryFolder folder;
     std::filesystem::create_directory_symlink(test::source_root() + "/examples/data/loggers", folder / "loggers");
     const auto spikes_of = [&](const std::string& file) {
@@ -28,7 +28,7 @@ TEST(ImportProgram, EveryLoggersFileOfTheExamplesGivesTheSameSpikes) {
     EXPECT_TRUE(found_in(run_program(folder, "respond loggers/excel.csv --time 'Zeit [s]'").out, "200 samples at 100 Hz"));
 }
 
-TEST(ImportProgram, AScaleMayHaveItsUnit) {
+TEST(ImportProgram, AScaleMayHaveAUnit) {
     const TemporaryFolder folder;
     folder.write("x.csv", "t_s,counts\n0,0\n0.5,1000\n1,2000\n");
     const auto plain = run_program(folder, "respond x.csv --scale 0.002"), unit = run_program(folder, "respond x.csv --scale 2mN");
@@ -39,7 +39,7 @@ TEST(ImportProgram, AScaleMayHaveItsUnit) {
     EXPECT_TRUE(found_in(wrong.err, "0.002, or 2mN")) << wrong.err;
 }
 
-TEST(ImportProgram, PipesAreReadPackedOrAsJson) {
+TEST(ImportProgram, StandardInputMayBeCompressedOrJson) {
     const TemporaryFolder folder;
     folder.write("x.csv", "time_s,fz_N\n0,1\n0.5,2\n1,3\n");
     folder.write("x.jsonl", "{\"t\":0,\"fz_N\":1}\n{\"t\":0.5,\"fz_N\":2}\n{\"t\":1,\"fz_N\":3}\n");
@@ -52,7 +52,7 @@ TEST(ImportProgram, PipesAreReadPackedOrAsJson) {
     EXPECT_TRUE(found_in(run_program(folder, "respond x.csv.gz").out, "x: 3 samples"));
 }
 
-TEST(ImportProgram, TwoLoneTrainsAreComparedWhateverTheyAreCalled) {
+TEST(ImportProgram, TheOnlyTrainsOfTwoFilesAreComparedUnderAnyNames) {
     const TemporaryFolder folder;
     folder.write("ours.csv", "afferent,channel,time_s\nsa1,press,0.25\nsa1,press,0.5\n");
     folder.write("mine.txt", "2.5e-01\n5.0e-01\n");
@@ -74,7 +74,7 @@ TEST(ImportProgram, AMatchingWindowOfSecondsCausesAWarning) {
     EXPECT_EQ(run_program(folder, "compare a.csv a.csv --window 5ms").err, "");
 }
 
-TEST(ImportProgram, ASkippedPreambleNeedsAFile) {
+TEST(ImportProgram, SkipIsRefusedForAStimulus) {
     const TemporaryFolder folder;
     const auto ran = run_program(folder, "respond press --skip 3");
     EXPECT_EQ(ran.status, 2);

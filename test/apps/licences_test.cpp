@@ -5,7 +5,7 @@
 namespace corpuscle {
 namespace {
 
-TEST(Licences, EveryPageThatHoldsTheChartLibraryHoldsItsLicence) {
+TEST(Licences, EveryPageWithTheChartLibraryContainsItsLicence) {
     std::size_t templates = 0;
     for (const auto& file : std::filesystem::directory_iterator(test::source_root() + "/apps/report")) {
         const auto text = test::read_file(file.path().string());
@@ -26,8 +26,8 @@ TEST(Licences, EveryPageThatHoldsTheChartLibraryHoldsItsLicence) {
 
 TEST(Licences, TheNoticeNamesEveryLibraryThatIsCompiledIn) {
     const auto notice = test::read_file(test::source_root() + "/NOTICE");
-    for (const auto* work : {"dygraphs", "CLI11", "nlohmann-json", "toml++", "fmt", "xsimd", "Frances Y. Kuo and Stephen Joe"})
-        EXPECT_NE(notice.find(work), std::string::npos) << work;
+    for (const auto* library : {"dygraphs", "CLI11", "nlohmann-json", "toml++", "fmt", "xsimd", "Frances Y. Kuo and Stephen Joe"})
+        EXPECT_NE(notice.find(library), std::string::npos) << library;
 }
 
 }  // namespace

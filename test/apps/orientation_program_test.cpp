@@ -10,7 +10,7 @@ namespace {
 
 using test::TemporaryFolder, test::run_program;
 
-TEST(OrientationProgram, TheRemediesThatItNamesWorkAsTyped) {
+TEST(OrientationProgram, TheRemediesInTheErrorWorkAsTyped) {
     const TemporaryFolder folder;
     folder.write("x.npy", test::npy_bytes("'|u1'", "(2, 300)", std::string(300, '\1') + std::string(300, '\2')));
     for (const std::string verb : {"respond x.npy --rate 500Hz", "stream --in x.npy --rate 500Hz --pace fast --channels 2"}) {
@@ -24,13 +24,13 @@ TEST(OrientationProgram, TheRemediesThatItNamesWorkAsTyped) {
     }
     const auto transposed = run_program(folder, "respond x.npy --rate 500Hz --transpose");
     EXPECT_NE(transposed.out.find("2 channels, 300 samples"), std::string::npos) << transposed.out;
-    const auto insisted = run_program(folder, "respond x.npy --rate 500Hz --no-transpose");
-    EXPECT_NE(insisted.out.find("300 channels, 2 samples"), std::string::npos) << insisted.out;
+    const auto not_transposed = run_program(folder, "respond x.npy --rate 500Hz --no-transpose");
+    EXPECT_NE(not_transposed.out.find("300 channels, 2 samples"), std::string::npos) << not_transposed.out;
     EXPECT_EQ(run_program(folder, "respond x.npy --rate 500Hz --transpose --no-transpose").status, 2);
     EXPECT_EQ(run_program(folder, "respond press --transpose").status, 2);
 }
 
-TEST(OrientationProgram, ADatasetIsNamedByTheEndOfItsPath) {
+TEST(OrientationProgram, ADatasetMayBeNamedByTheEndOfItsPath) {
     const TemporaryFolder folder;
     {
         test::Hdf5File file(folder / "x.nwb");

@@ -28,7 +28,7 @@ using test::TemporaryFolder;
 
 const char* const small_deck = "small\nv1 in 0 1\nr1 in out 1k\nr2 out 0 1k\n.op\n.tran 10u 1m\n";
 
-std::string numbers() {
+std::string recording_text() {
     std::string text = "t_s,fz_N\n";
     for (int k = 0; k < 300; ++k) text += fmt::format("{},{}\n", 0.001 * k, k % 100 < 50 ? 0 : 2);
     return text;
@@ -46,8 +46,8 @@ TEST(Outputs, NeverReplaceAFileThatTheCommandReads) {
     const TemporaryFolder folder;
     folder.write("a.cir", std::string(small_deck) + ".include part-1.csv\n");
     folder.write("part-1.csv", "* nothing\n");
-    folder.write("f.csv", numbers());
-    for (const char* name : {"psth.csv", "spikes.csv", "probes.csv", "afferents.csv", "page.html"}) folder.write(name, numbers());
+    folder.write("f.csv", recording_text());
+    for (const char* name : {"psth.csv", "spikes.csv", "probes.csv", "afferents.csv", "page.html"}) folder.write(name, recording_text());
     folder.write("layout.html", "channel,name,x_mm,y_mm\n1,a,0,0\n");
     fs::create_symlink("f.csv", folder / "link.csv");
     fs::create_hard_link(folder / "f.csv", folder / "hard.csv");
@@ -79,10 +79,10 @@ TEST(Outputs, NeverReplaceAFileThatTheCommandReads) {
         EXPECT_EQ(contents(folder), before) << arguments;
     }
     EXPECT_EQ(test::run_program(folder, "stream --in press --pace fast -o /dev/null --resume s.state --save-state s.state -q").status, 0)
-        << "a state is replaced by its successor";
+        << "the state that is resumed may be replaced";
 }
 
-TEST(Outputs, ReplaceAFileThatNoEarlierRunWroteOnlyWithForce) {
+TEST(Outputs, ReplaceAFileThatNoEarlierRunWroteOnlyWithTheOption) {
     struct Case {
         const char *file, *arguments;
     };
@@ -155,7 +155,7 @@ TEST(Outputs, NeverReplaceADeviceOrAPipe) {
 TEST(Outputs, OfTheSameCommandAreReplacedWithoutAnOption) {
     const TemporaryFolder folder;
     folder.write("a.cir", small_deck);
-    folder.write("f.csv", numbers());
+    folder.write("f.csv", recording_text());
     for (const std::string arguments :
          {"respond press -o answer --probe-files --npz --bin 10ms --wav --report", "respond press -o answer --vectors -a sa1-kim",
           "respond f.csv -o answer", "respond press --population 'grid 4x4' -o answer --report --events aer",
@@ -171,10 +171,10 @@ TEST(Outputs, OfTheSameCommandAreReplacedWithoutAnOption) {
     folder.write("a.cir", cir + ".save v(out) i(v1)\n");
     EXPECT_EQ(test::run_program(folder, "run a.cir -o x.csv -q").status, 0) << "other columns of the same netlist";
     folder.write("empty.csv", "");
-    EXPECT_EQ(test::run_program(folder, "stream --in press --pace fast -q -o empty.csv").status, 0) << "nothing is lost with it";
+    EXPECT_EQ(test::run_program(folder, "stream --in press --pace fast -q -o empty.csv").status, 0) << "an empty file may be replaced";
 }
 
-TEST(Outputs, TwoOfOneCommandAreTwoFiles) {
+TEST(Outputs, OfOneCommandMustBeDifferentFiles) {
     const TemporaryFolder folder;
     const auto ran = test::run_program(folder, "stream --in press --pace fast -o x.csv --save-state ./x.csv");
     EXPECT_EQ(ran.status, 2);
@@ -182,7 +182,7 @@ TEST(Outputs, TwoOfOneCommandAreTwoFiles) {
     EXPECT_TRUE(folder.file_names().empty());
 }
 
-TEST(Outputs, ASummaryOfOthersRemovesAndReplacesNothing) {
+TEST(Outputs, AForgedSummaryRemovesAndReplacesNoFile) {
     const TemporaryFolder folder;
     for (const char* name : {"thesis.tex", "vectors.csv", "traces-x.csv", "notes.html", "target.csv"}) folder.write(name, "mine");
     fs::create_directory(folder / "d");
@@ -198,7 +198,7 @@ TEST(Outputs, ASummaryOfOthersRemovesAndReplacesNothing) {
     EXPECT_TRUE(fs::is_symlink(folder / "d/psth.csv"));
 }
 
-TEST(Outputs, AnInputThatAnEarlierRunWroteStays) {
+TEST(Outputs, AnInputThatAnEarlierRunWroteIsNotRemoved) {
     const TemporaryFolder folder;
     ASSERT_EQ(test::run_program(folder, "respond press --probe-files -o . -q").status, 0);
     const auto ran = test::run_program(folder, "respond probes.csv --channel 1 -o .");
@@ -207,7 +207,7 @@ TEST(Outputs, AnInputThatAnEarlierRunWroteStays) {
     EXPECT_EQ(ran.out.find("Removed"), std::string::npos) << ran.out;
 }
 
-TEST(Outputs, OfKilledRunsAreClearedByTheNext) {
+TEST(Outputs, OfAKilledRunAreRemovedByTheNextRun) {
     const TemporaryFolder folder;
     const auto begin = [&](std::vector<std::string> options) {
         const pid_t child = test::fork_child();
@@ -219,25 +219,26 @@ TEST(Outputs, OfKilledRunsAreClearedByTheNext) {
         if (::chdir(folder.path().c_str()) == 0) ::execv(arguments[0], arguments.data());
         std::_Exit(99);
     };
-    const auto parts = [&] {
+    const auto partial_file_count = [&] {
         int count = 0;
         for (const auto& name : folder.file_names()) count += name.find(".part-") != name.npos;
         return count;
     };
-    const auto endless = begin({"respond", "sine", "--set", "sine.duration=100000s", "--rate", "100kHz", "--probe-files", "-q", "-o", "a"});
-    for (int k = 0; k < 500 && parts() < 3; ++k) ::usleep(10000);
-    EXPECT_EQ(parts(), 3);
+    const auto long_run =
+        begin({"respond", "sine", "--set", "sine.duration=100000s", "--rate", "100kHz", "--probe-files", "-q", "-o", "a"});
+    for (int k = 0; k < 500 && partial_file_count() < 3; ++k) ::usleep(10000);
+    EXPECT_EQ(partial_file_count(), 3);
     EXPECT_EQ(test::run_program(folder, "respond press -o a -q").status, 0) << "while another run writes there";
-    EXPECT_EQ(parts(), 3) << "files in use are kept";
-    test::signal_child(endless, SIGKILL);
-    ::waitpid(endless, nullptr, 0);
+    EXPECT_EQ(partial_file_count(), 3) << "files in use are kept";
+    test::signal_child(long_run, SIGKILL);
+    ::waitpid(long_run, nullptr, 0);
     folder.write("a/mine.csv.part-3", "mine");
     folder.write("a/spikes.csv.part-iii", "mine");
     EXPECT_EQ(test::run_program(folder, "respond press -o a -q").status, 0);
     EXPECT_EQ(folder.file_names(), (std::vector<std::string>{"a", "mine.csv.part-3", "spikes.csv", "spikes.csv.part-iii", "summary.json"}));
 }
 
-TEST(Outputs, PartsFollowNoLinks) {
+TEST(Outputs, PartialFilesDoNotFollowLinks) {
     const TemporaryFolder folder;
     folder.write("victim", "mine");
     const auto part = fmt::format("x.csv.part-{}", ::getpid());
@@ -321,7 +322,7 @@ TEST(Outputs, AFullDiskBehindStandardOutputIsAnError) {
     }
 }
 
-TEST(Outputs, AFileThatMayGrowNoFurtherIsAnErrorAndLeavesNothing) {
+TEST(Outputs, AFileBeyondTheSizeLimitIsAnErrorAndLeavesNoFile) {
     const TemporaryFolder folder;
     const auto status = std::system(
         ("cd '" + folder.path() + "' && (ulimit -f 8; exec '" + test::program_path() + "' respond press --probe-files -o big -q) 2>err")

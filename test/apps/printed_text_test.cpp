@@ -1,4 +1,4 @@
-// Printed text: help that fits the width, names without control characters, commands without the names of directories.
+// Printed text: help that fits the width, names without control characters, reported commands without the names of directories.
 
 #include <filesystem>
 #include <fstream>
@@ -45,7 +45,7 @@ TEST(PrintedText, HelpFitsInAHundredColumnsAndShowsExamplesFirst) {
     }
 }
 
-TEST(PrintedText, TheProgramAlonePrintsHelpAndAWrongVerbGetsASuggestion) {
+TEST(PrintedText, TheProgramWithoutArgumentsPrintsHelpAndAWrongVerbGetsASuggestion) {
     const TemporaryFolder folder;
     const auto without_arguments = test::run_program(folder, "");
     EXPECT_EQ(without_arguments.status, 0);
@@ -60,13 +60,13 @@ TEST(PrintedText, TheProgramAlonePrintsHelpAndAWrongVerbGetsASuggestion) {
         EXPECT_EQ(test::run_program(folder, verb + " --version").out, test::run_program(folder, "--version").out) << verb;
 }
 
-TEST(PrintedText, AsManyChannelsAreSuggestedAsAreAccepted) {
+TEST(PrintedText, HelpStatesTheLargestAcceptedNumberOfChannels) {
     const TemporaryFolder folder;
     EXPECT_NE(test::run_program(folder, "stream --help").out.find("[1 - 4194304]"), std::string::npos);
     EXPECT_EQ(test::run_program(folder, "stream --rate 1kHz --channels 4194305 < /dev/null").status, 2);
 }
 
-TEST(PrintedText, AReportIsAPageByItsName) {
+TEST(PrintedText, TheNameOfAReportMustEndInHtml) {
     const TemporaryFolder folder;
     for (const std::string arguments : {"respond press --report x.pdf", "respond press --report my_report", "study fig3 --report x",
                                         "sweep show r.sqlite --report r.sqlite"}) {
@@ -79,7 +79,7 @@ TEST(PrintedText, AReportIsAPageByItsName) {
     EXPECT_EQ(folder.file_names(), std::vector<std::string>{"report.html"});
 }
 
-TEST(PrintedText, ARecordingAfterReportIsNotASecondForce) {
+TEST(PrintedText, ARecordingAfterReportIsRefusedWithTheRightOrder) {
     const TemporaryFolder folder;
     for (const auto* const name : {"a.csv", "b 2.csv"}) folder.write(name, "time_s,fz_N\n0,0\n0.001,1\n0.002,1\n");
     for (const auto& [arguments, remedy] : {std::pair{"respond a.csv --report a.csv", "respond a.csv --report"},
@@ -96,7 +96,7 @@ TEST(PrintedText, ARecordingAfterReportIsNotASecondForce) {
     EXPECT_EQ(test::run_program(folder, "respond --report a.csv -q").status, 0) << "the only force";
 }
 
-TEST(PrintedText, NamesFromFilesReachNoTerminalWithControlCharacters) {
+TEST(PrintedText, NamesFromFilesArePrintedWithoutControlCharacters) {
     const TemporaryFolder folder;
     std::string text =
         "time_s,\"a\x1b]0,title\x07"
@@ -124,7 +124,7 @@ TEST(PrintedText, NamesFromFilesReachNoTerminalWithControlCharacters) {
         << "data are not changed";
 }
 
-TEST(PrintedText, SpikesCsvIsUtf8AndNamesComeBackAsTheyWere) {
+TEST(PrintedText, SpikesCsvIsUtf8AndNamesAreReadBackUnchanged) {
     const TemporaryFolder folder;
     std::string text = "time_s,Kraft f\xfcr_N,\"h \"\"q, r\"\" i_N\",=cmd|x_N\n";
     for (int k = 0; k < 500; ++k) text += fmt::format("{0},{1},{1},{1}\n", 0.001 * k, k % 100 < 50 ? 0 : 2);
@@ -154,7 +154,7 @@ TEST(PrintedText, PagesAndSummariesNameNoDirectories) {
         std::string::npos);
 }
 
-TEST(PrintedText, OneDocumentHoldsTheTimeOfEverySpike) {
+TEST(PrintedText, TheJsonDocumentHasTheTimeOfEverySpike) {
     const TemporaryFolder folder;
     const auto document = Json::parse(test::run_program(folder, "respond press noise -a sa1,fa1 --json -o a").out);
     std::size_t count = 0;
@@ -168,7 +168,7 @@ TEST(PrintedText, OneDocumentHoldsTheTimeOfEverySpike) {
     EXPECT_FALSE(Json::parse(test::read_file(folder / "a/summary.json")).contains("spikes")) << "spikes.csv has them";
 }
 
-TEST(PrintedText, OneDocumentHoldsTheSpikesOfAPopulation) {
+TEST(PrintedText, TheJsonDocumentHasTheSpikesOfAPopulation) {
     const TemporaryFolder folder;
     const auto document = Json::parse(test::run_program(folder, "respond press --population 'grid 3x3' --json -o a").out);
     const auto trains = test::value_or_throw(read_spikes(folder / "a/spikes.csv"));
@@ -198,7 +198,7 @@ TEST(PrintedText, TablesFitInAHundredColumnsAndHaveNoMinusZero) {
         << test::run_program(folder, "respond f.csv --scale=-1").out;
 }
 
-TEST(PrintedText, OperatingPointsFitInAHundredColumnsWithEveryReading) {
+TEST(PrintedText, OperatingPointsFitInAHundredColumnsWithEveryValue) {
     const TemporaryFolder folder;
     for (const std::string name : {"bias", "sa1", "spiker"}) {
         const auto ran = test::run_program(folder, "run '" + test::source_root() + "/circuits/" + name + ".cir'");
@@ -210,8 +210,8 @@ TEST(PrintedText, OperatingPointsFitInAHundredColumnsWithEveryReading) {
         for (auto at = bias.find(arguments); at != bias.npos; at = bias.find(arguments, at + 1)) ++found;
         return found;
     };
-    for (const std::string reading : {" i_d", " g_mb", " c_gs", " c_bd\n"}) EXPECT_EQ(count(reading), 1U) << reading << bias;
-    EXPECT_EQ(count("\nm1a "), 3U) << "sixteen readings on three lines";
+    for (const std::string column : {" i_d", " g_mb", " c_gs", " c_bd\n"}) EXPECT_EQ(count(column), 1U) << column << bias;
+    EXPECT_EQ(count("\nm1a "), 3U) << "sixteen values on three lines";
     EXPECT_EQ(count("  moderate, saturation\n"), 7U) << bias;
     EXPECT_EQ(count("  weak, saturation\n"), 4U) << bias;
 }

@@ -1,4 +1,4 @@
-// Real recordings: every command of doc/real-recordings.md, the errors for a wrong first command, and raw against cleaned files.
+// Real recordings: every command of doc/real-recordings.md, the errors for a wrong first command, and raw files compared with cleaned ones.
 
 #include <cmath>
 #include <map>
@@ -54,7 +54,7 @@ TEST(RealRecordings, EveryFileOfEverySetHasACommandThatReadsIt) {
         }
 }
 
-/// A sensor of each set that can be read in seconds, through both circuits at transistor level.
+/// Simulates both chips under one sensor of each set that takes only seconds.
 TEST(RealRecordings, AreSimulatedByTheChips) {
     CORPUSCLE_NEEDS(test::shared_file_path("fbg_eskin_press"));
     const TemporaryFolder folder;
@@ -78,7 +78,7 @@ TEST(RealRecordings, AWrongFirstCommandGetsTheRemedy) {
     link_recordings(folder);
     const struct {
         const char *arguments, *message;
-    } traps[] = {
+    } cases[] = {
         {"fbg_eskin_press/fbg_press_S6_T16.csv", "'fbg01' is in nm, which is not a force; use --scale S"},
         {"fbg_eskin_press/fbg_press_S6_T16.csv --scale 40",
          "Use --rate 100.04Hz to take the samples as evenly spaced, or --resample 100Hz"},
@@ -92,9 +92,9 @@ TEST(RealRecordings, AWrongFirstCommandGetsTheRemedy) {
         {"fabric_slide_cpm/Linen_F120_V20mmps_0.csv", "use --time-unit ms if they are milliseconds"},
         {"fabric_slide_cpm/Linen_F120_V20mmps_0.csv", "'proximity2' is 65535, the full scale of a 16-bit converter"},
     };
-    for (const auto& trap : traps) {
-        const auto ran = run_program(folder, std::string("respond ") + trap.arguments);
-        EXPECT_NE(ran.err.find(trap.message), std::string::npos) << trap.arguments << '\n' << ran.err;
+    for (const auto& c : cases) {
+        const auto ran = run_program(folder, std::string("respond ") + c.arguments);
+        EXPECT_NE(ran.err.find(c.message), std::string::npos) << c.arguments << '\n' << ran.err;
     }
 }
 
@@ -118,13 +118,13 @@ TEST(RealRecordings, RepairedFilesGiveTheSpikesOfTheCleanedOnes) {
         const auto clean = run_program(folder, grip + "_clean.csv -c fz_abs_counts --scale 0.002 --notch 50Hz -o clean");
         ASSERT_EQ(raw.status + clean.status, 0) << raw.err << clean.err;
         auto ours = by_second(folder / "raw/spikes.csv"), theirs = by_second(folder / "clean/spikes.csv");
-        int all = 0, more = 0;
+        int all = 0, difference = 0;
         for (int second = 0; second < 50; ++second) {
             EXPECT_LE(std::abs(ours[second] - theirs[second]), 2) << file << ", second " << second;
-            all += theirs[second], more += ours[second] - theirs[second];
+            all += theirs[second], difference += ours[second] - theirs[second];
         }
         EXPECT_GT(all, 700);
-        EXPECT_LE(std::abs(more), 0.035 * all) << file;
+        EXPECT_LE(std::abs(difference), 0.035 * all) << file;
     }
 }
 

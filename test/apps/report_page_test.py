@@ -1,8 +1,8 @@
 #!/usr/bin/python3
-"""The report page in a real browser:   report_page_test.py CORPUSCLE OUTDIR
+"""Tests of the report pages in a real browser:   report_page_test.py CORPUSCLE OUTDIR
 
-Makes reports with the program, opens them in headless Chromium, uses them as a reader would, and compares what they
-show with the data they carry. Leaves OUTDIR/press.png and OUTDIR/press-zoomed.png to look at.
+Writes reports with the program, opens them in headless Chromium, uses them as a reader would, and compares the displayed
+values with the data in the page. Screenshots such as OUTDIR/press.png remain for inspection.
 """
 import base64
 import contextlib
@@ -35,7 +35,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 
 def respond(name, *arguments):
-    """A report made by the program."""
+    """Writes a report of the press with the program, and returns its path."""
     path = OUT / name
     subprocess.run([CORPUSCLE, "respond", "press", *arguments, "--report", str(path), "--quiet"], check=True, cwd=ROOT)
     return path
@@ -46,29 +46,29 @@ def data_of(path):
 
 
 def with_changed_data(path, name, change):
-    """The same page with changed data, e.g. several channels, which `respond press` does not have."""
+    """A copy of a page with changed data, e.g. with several channels, which `respond press` does not have."""
     data = data_of(path)
     change(data)
     text = json.dumps(data).replace("<", "\\u003c")
-    made = OUT / name
-    made.write_text(DATA.sub(lambda m: m[1] + text + m[3], path.read_text()))
-    return made
+    changed = OUT / name
+    changed.write_text(DATA.sub(lambda m: m[1] + text + m[3], path.read_text()))
+    return changed
 
 
 def numbers(kind, text):
-    found = array(kind)
-    found.frombytes(base64.b64decode(text))
-    return found
+    values = array(kind)
+    values.frombytes(base64.b64decode(text))
+    return values
 
 
-def coded(kind, values):
+def base64_of(kind, values):
     return base64.b64encode(array(kind, values).tobytes()).decode()
 
 
-def trace(data, part, afferent=None, channel=None):
-    """Minimum and maximum of each bucket of a curve; both are equal where every sample is kept."""
+def trace(data, quantity, afferent=None, channel=None):
+    """Minima and maxima of the buckets of a curve, and the samples in a bucket. With 1 sample the two are equal."""
     channel = data["inputs"][0]["channels"][0]["id"] if channel is None else channel
-    record = next(r for r in data["traces"] if (r["quantity"], r["afferent"], r["channel"]) == (part, afferent, channel))
+    record = next(r for r in data["traces"] if (r["quantity"], r["afferent"], r["channel"]) == (quantity, afferent, channel))
     values = numbers("f", record["data"])
     return (values, values, 1) if record["bucket"] == 1 else (values[0::2], values[1::2], record["bucket"])
 
@@ -78,7 +78,7 @@ def spike_times(data, afferent):
 
 
 def plateau(data):
-    """A time in the middle of the longest interval of maximum force, and that force."""
+    """The middle (s) of the longest interval of maximum force, and that force (N)."""
     low, _, bucket = trace(data, "force")
     top, best, run = max(low), (0, 0), 0
     for k, value in enumerate(low):
@@ -95,8 +95,8 @@ def si(text):
 
 
 def frames(record):
-    """The nonzero values of a map: for each frame, {place: value}."""
-    source, found = iter(base64.b64decode(record["data"])), []
+    """The nonzero values of a map: for each frame, {position: value}."""
+    source, all_frames = iter(base64.b64decode(record["data"])), []
 
     def number():
         n, shift = 0, 0
@@ -106,16 +106,16 @@ def frames(record):
                 return n
 
     for _ in range(record["count"]):
-        place, frame = 0, {}
-        while place < record["places"]:
+        position, frame = 0, {}
+        while position < record["places"]:
             byte = next(source)
             if byte == 0:
-                place += number()
+                position += number()
                 continue
-            frame[place] = byte if byte < 255 else number()
-            place += 1
-        found.append(frame)
-    return found
+            frame[position] = byte if byte < 255 else number()
+            position += 1
+        all_frames.append(frame)
+    return all_frames
 
 
 def missing_values(browser):
@@ -144,15 +144,15 @@ class Page(unittest.TestCase):
 
     def setUp(self):
         self.browser.get(self.path.as_uri())
-        # On a busy machine get() was seen to return with an empty page before it.
-        here = "return location.href === arguments[0] && document.readyState === 'complete'"
-        WebDriverWait(self.browser, 30).until(lambda browser: browser.execute_script(here, self.path.as_uri()))
+        # On a busy machine get() sometimes returned while the previous, empty page was still shown.
+        is_loaded = "return location.href === arguments[0] && document.readyState === 'complete'"
+        WebDriverWait(self.browser, 30).until(lambda browser: browser.execute_script(is_loaded, self.path.as_uri()))
         self.input = self.data["inputs"][0]
         self.end = self.input["t0"] + self.input["samples"] * self.input["T"]
 
     def tearDown(self):
         console_messages = [e["message"] for e in self.browser.get_log("browser") if e["level"] != "INFO"]
-        # the advice concerns this test, which reads pixels back
+        # This advice of Chromium concerns only this test, which reads pixels.
         self.assertEqual([text for text in console_messages if "willReadFrequently" not in text], [])
         self.assertEqual(missing_values(self.browser), [])
 
@@ -251,7 +251,7 @@ class Press(Page):
         self.assertEqual(re.findall(r"<script[^>]*\bsrc\b|<link[^>]*stylesheet", text), [])
         self.assertNotIn("{{page", text)
 
-    def test_every_panel_is_there_and_drawn(self):
+    def test_every_panel_is_present_and_drawn(self):
         dark_pixels = self.dark_pixels()
         self.assertEqual(self.panels(), ["force", "raster", "frequency", "sa1 current", "sa1 membrane", "fa1 current", "fa1 membrane"])
         self.assertEqual({name: count for name, count in dark_pixels.items() if count < 80}, {})
@@ -308,7 +308,7 @@ class Press(Page):
         self.assertEqual(len({line.location["x"] for line in lines if line.is_displayed()}), 1)
         self.assertEqual(len(lines), 7)
 
-    def test_every_current_read_between_two_samples_is_that_of_the_nearer(self):
+    def test_a_current_between_two_samples_is_that_of_the_nearer_sample(self):
         T, t0 = self.input["T"], self.input["t0"]
         k = round((spike_times(self.data, "sa1")[3] - t0) / T)
         parts = [part["name"] for part in self.data["afferents"][0]["probes"] if part["unit"] == "A"]
@@ -329,8 +329,8 @@ class Press(Page):
         for afferent in ("sa1", "fa1"):
             shown_count = self.readout("raster", afferent)
             mine = [row for row in rows if row[at["afferent"]] == afferent]
-            whole = [row for row in mine if row[at["phase"]] in ("", "–", "all", "whole")] or mine
-            self.assertEqual(int(shown_count), sum(int(row[at["spikes"]]) for row in whole))
+            complete = [row for row in mine if row[at["phase"]] in ("", "–", "all", "whole")] or mine
+            self.assertEqual(int(shown_count), sum(int(row[at["spikes"]]) for row in complete))
             self.assertEqual(int(shown_count), len(spike_times(self.data, afferent)))
             self.assertGreater(int(shown_count), 0)
 
@@ -362,7 +362,7 @@ class Press(Page):
         for (t, f), following in zip(drawn, times[1:]):
             self.assertAlmostEqual(f * (following - t), 1, places=9)
 
-    def test_the_vertical_axis_follows_the_view_if_chosen(self):
+    def test_the_vertical_axis_follows_the_window_with_autoscale(self):
         t, _ = plateau(self.data)
         self.browser.find_element(By.ID, "autoscale").click()
         self.js("corpuscle.setWindow(arguments[0], arguments[1])", t - 20 * self.input["T"], t + 20 * self.input["T"])
@@ -383,13 +383,13 @@ class Press(Page):
             for panel in ("force", "raster", "frequency"):
                 self.assertLess(self.js("return document.querySelector(arguments[0]).getBoundingClientRect().bottom", f'[data-panel="{panel}"]'), 900)
 
-    def test_on_a_telephone_the_page_is_as_wide_as_the_screen_and_the_plots_nearly_so(self):
+    def test_on_a_telephone_page_and_plots_use_the_width_of_the_screen(self):
         with self.screen(390, 844, 2):
             self.assertEqual(self.js("return document.documentElement.scrollWidth"), 390)
             self.assertGreater(min(drawn["width"] for drawn in self.js("return corpuscle.pointsDrawn()").values()), 0.7 * 390)
 
-    def test_curves_are_drawn_to_the_screens_own_pixels(self):
-        """Two points for each pixel of the screen, not of the layout; otherwise slopes look like stairs."""
+    def test_curves_have_the_resolution_of_the_screen(self):
+        """There are two points for each pixel of the screen, not of the layout; otherwise slopes look like stairs."""
         rows = []
         for ratio in (1, 2):
             with self.screen(390, 844, ratio):
@@ -399,7 +399,7 @@ class Press(Page):
 
 
 class Versions(Page):
-    """Both receptors, as a model and as a chip."""
+    """SA-I and FA-I, each as a model and as a chip."""
     CHIP = "circuits/sa1.cir"
 
     @classmethod
@@ -407,7 +407,7 @@ class Versions(Page):
         return respond("versions.html", "--afferent", "sa1", "--afferent", "fa1,circuits/sa1.cir", "--afferent", "circuits/fa1.cir")
 
     def right_axis(self, panel):
-        """Two labels of the right axis: their values in SI, and their positions on the left axis."""
+        """For two labels of the right axis: the value in SI, and the value of the left axis at the same height."""
         labels = self.js("""
             const chart = corpuscle.charts[arguments[0]], axis = document.querySelector(`[data-panel="${arguments[0]}"] .right-axis`);
             return [...axis.children].map((one) => [one.textContent, chart.toDataYCoord(parseFloat(one.style.top) + chart.getArea().y),
@@ -422,7 +422,7 @@ class Versions(Page):
             const chart = corpuscle.charts[arguments[0]];
             return Array.from({length: chart.numRows()}, (_, row) => [chart.getValue(row, 0), chart.getValue(row, arguments[1])])""", panel, column)
 
-    def test_each_quantity_has_a_panel_for_both(self):
+    def test_model_and_chip_share_a_panel_for_each_quantity(self):
         self.assertEqual(self.panels(), ["force", "raster", "sa1 frequency", "fa1 frequency", "sa1 I", "sa1 I_A", "sa1 I_B", "sa1 I_C", "sa1 u",
                                          "circuits/sa1.cir nodes", "fa1 I", "fa1 I_A", "fa1 I_B", "fa1 u", "circuits/fa1.cir nodes"])
         self.assertEqual({name: count for name, count in self.dark_pixels().items() if count < 80}, {})
@@ -445,7 +445,7 @@ class Versions(Page):
                 self.hover(panel, t)
                 self.assertAlmostEqual(si(self.readout(panel, self.CHIP)), value, delta=2e-3 * abs(value) + 1e-15, msg=(panel, t))
 
-    def test_both_membranes_fire_at_one_height_the_chips_falling(self):
+    def test_thresholds_of_both_membranes_are_at_one_height_and_the_chips_axis_is_inverted(self):
         fires = self.js("return corpuscle.valueAt('v(u)', arguments[0], arguments[1])", spike_times(self.data, self.CHIP)[3] - self.input["T"], self.CHIP)
         (low, at_low), (high, at_high) = self.right_axis("sa1 u")
         self.assertLess((at_high - at_low) / (high - low), 0, "upside down")
@@ -453,7 +453,7 @@ class Versions(Page):
         self.assertAlmostEqual(at_low + (fires - low) * (at_high - at_low) / (high - low), self.data["afferents"][0]["V_th"], delta=0.02)
         self.assertLess(fires, 0.27)
 
-    def test_the_mean_input_current_is_the_same_and_stated(self):
+    def test_the_mean_input_currents_are_at_one_height_and_their_ratio_is_stated(self):
         mean = lambda values: sum(max(v, 0) for v in values) / len(values)
         model, chip = mean(trace(self.data, "I", "sa1")[0]), mean(trace(self.data, "i(vi)", self.CHIP)[0])
         (low, at_low), (high, at_high) = self.right_axis("sa1 I_A")
@@ -480,7 +480,7 @@ class Versions(Page):
         self.assertEqual([len(one) for one in mine], [1] * 4)
         self.assertEqual(len({one[0] for one in mine}), 4)
 
-    def test_rows_of_one_receptor_are_adjacent(self):
+    def test_rows_of_one_afferent_type_are_adjacent(self):
         labels = [label.text for label in self.browser.find_elements(By.CSS_SELECTOR, '[data-panel="raster"] .dygraph-axis-label-y')]
         self.assertEqual(labels, ["sa1", self.CHIP, "fa1", "circuits/fa1.cir"])
 
@@ -509,7 +509,7 @@ class NetlistsAlone(Page):
             data["traces"] = [r for r in data["traces"] if r["afferent"] != "sa1"]
             for record in [r for r in data["traces"] if r["afferent"]]:
                 half = 0.5 if record["unit"] == "A" else 1
-                data["traces"].append({**record, "afferent": "sa1-macro", "data": coded("f", [v * half for v in numbers("f", record["data"])])})
+                data["traces"].append({**record, "afferent": "sa1-macro", "data": base64_of("f", [v * half for v in numbers("f", record["data"])])})
             data["spikes"] = [r for r in data["spikes"] if r["afferent"] != "sa1"]
             data["spikes"] += [{**r, "afferent": "sa1-macro"} for r in data["spikes"]]
         return with_changed_data(respond("chip.html", "--afferent", "sa1,circuits/sa1.cir"), "netlists-alone.html", change)
@@ -544,8 +544,8 @@ class TwoChannels(Page):
             low, _, bucket = trace(data, "force")
             record = next(r for r in data["traces"] if r["quantity"] == "force")
             both = [v / 2 for v in low] if bucket == 1 else [v / 2 for pair in zip(*trace(data, "force")[:2]) for v in pair]
-            data["traces"].append({**record, "channel": 77, "data": coded("f", both)})
-            data["spikes"].append({"afferent": "sa1", "channel": 77, "count": 1, "times": coded("d", [plateau(data)[0]])})
+            data["traces"].append({**record, "channel": 77, "data": base64_of("f", both)})
+            data["spikes"].append({"afferent": "sa1", "channel": 77, "count": 1, "times": base64_of("d", [plateau(data)[0]])})
             at = {name: data["table"]["columns"].index(name) for name in ("afferent", "channel", "spikes")}
             row = list(data["table"]["rows"][0])
             row[at["afferent"]], row[at["channel"]], row[at["spikes"]] = "sa1", "second <b>", 1
@@ -566,14 +566,14 @@ class TwoChannels(Page):
         self.assertEqual((self.readout("raster", "sa1"), self.readout("raster", "fa1")), ("1", "0"))
         self.assertEqual(len(self.browser.find_elements(By.CSS_SELECTOR, "#rates tbody tr")), 1)
 
-    def test_a_click_on_a_raster_row_picks_its_channel(self):
+    def test_a_click_on_a_raster_row_selects_its_channel(self):
         plot = self.plot("raster")
         x, y, w, h = (self.js("return corpuscle.charts.raster.getArea()")[k] for k in "xywh")
         row = y + 1.5 * h / 4  # sa1 on the second channel
         ActionChains(self.browser).move_to_element_with_offset(plot, 0, round(row - plot.size["height"] / 2)).click().perform()
         WebDriverWait(self.browser, 20).until(lambda _: self.shown() == "second <b>")
 
-    def test_the_table_shows_all_channels_if_chosen(self):
+    def test_the_table_can_show_all_channels(self):
         self.browser.find_element(By.ID, "all-rows").click()
         self.assertEqual(len(self.browser.find_elements(By.CSS_SELECTOR, "#rates tbody tr")), len(self.data["table"]["rows"]))
 
@@ -587,7 +587,7 @@ class SpikesOnly(Page):
             data["traces"] = []
             step = clock["samples"] * clock["T"] / 1_000_000
             record = next(r for r in data["spikes"] if r["afferent"] == "sa1")
-            record.update(count=1_000_000, times=coded("d", (clock["t0"] + (k + 0.5) * step for k in range(1_000_000))))
+            record.update(count=1_000_000, times=base64_of("d", (clock["t0"] + (k + 0.5) * step for k in range(1_000_000))))
         return with_changed_data(respond("press.html", "--afferent", "sa1", "--afferent", "fa1"), "spikes-only.html", strip)
 
     def test_raster_and_frequency_are_still_shown(self):
@@ -613,7 +613,7 @@ class FewCopies(Page):
         self.assertNotEqual(V_th, 0.5)
         self.assertLess(abs(u - V_th), 0.01, "just before its spike the membrane is at the threshold of that copy")
 
-    def test_the_rate_is_of_all_copies(self):
+    def test_the_rate_is_the_mean_over_all_copies(self):
         for rate in self.data["copies"]["rates"]:
             trains = [r for r in self.data["spikes"] if r["afferent"].startswith(rate["afferent"] + "#")]
             self.assertEqual(len(trains), 20)
@@ -656,19 +656,19 @@ class Million(Page):
     def test_the_drawn_points_are_bounded_by_the_width_not_by_the_samples(self):
         self.assertGreaterEqual(self.input["samples"], 1_000_000)
         length = self.end - self.input["t0"]
-        self.bounded()
+        self.check_point_count()
         for fraction in (0.5, 0.1, 0.02):
             a, b = self.js("return corpuscle.window()")
             self.drag("force", a + 0.3 * (b - a), a + (0.3 + fraction) * (b - a))
             self.settle(lambda c, d: d - c < 0.9 * (b - a))
-            self.bounded()
+            self.check_point_count()
         self.assertLess(self.js("return corpuscle.window()[1] - corpuscle.window()[0]"), 0.01 * length)
         middle = self.input["t0"] + length / 2
         for samples in (5000, 1500, 200, 4):
             self.js("corpuscle.setWindow(arguments[0], arguments[1])", middle, middle + samples * self.input["T"])
-            self.bounded()
+            self.check_point_count()
 
-    def bounded(self):
+    def check_point_count(self):
         for panel, drawn in self.js("return corpuscle.pointsDrawn()").items():
             self.assertGreater(drawn["width"], 500)
             self.assertLess(drawn["rows"], 3 * drawn["width"], panel)
@@ -692,7 +692,7 @@ class Million(Page):
 class Recorded(Page):
     @classmethod
     def report(cls):
-        """A recording with hum, and an outlier in every fifty readings."""
+        """A recording with hum, and one outlier in every fifty samples."""
         rows = "\n".join(str(9000 if k % 50 == 7 else round(1000 + 500 * math.sin(k / 90) + 100 * math.sin(math.tau * 50 * k / 242.6))) for k in range(3000))
         recording = OUT / "recorded.csv"
         recording.write_text("fz\n" + rows + "\n")
@@ -715,7 +715,7 @@ class Costs(Page):
     def report(cls):
         return respond("costs.html", "--afferent", f"sa1,{pathlib.Path(__file__).resolve().parents[2] / 'circuits/spiker.cir'}")
 
-    def test_a_netlist_has_its_table_of_costs_and_equations_have_none(self):
+    def test_a_netlist_has_a_table_of_costs_and_a_model_has_none(self):
         section = self.browser.find_element(By.ID, "costs")
         self.assertTrue(section.is_displayed())
         table, = section.find_elements(By.TAG_NAME, "table")
@@ -791,13 +791,13 @@ class OnASkin(Page):
         self.assertEqual(self.js("return corpuscle.frame"), 0)
         self.assertEqual(self.browser.find_element(By.ID, "time").get_attribute("value"), "0")
 
-    def test_rates_are_of_the_afferents_that_fire_and_in_hertz(self):
+    def test_rates_are_means_of_the_active_afferents_in_hertz(self):
         active = {row["afferent"]: row["active"] for row in self.data["summary"]["rates"] if row["region"] == "all" and row["phase"] == "all"}
         self.assertEqual(self.js("return corpuscle.skin.classes.map((one) => one.active)"), [active[one["name"]] for one in self.classes])
         title = self.browser.find_element(By.CSS_SELECTOR, "[data-panel=population] .panel-title").text
         self.assertRegex(title, r"^mean rate of afferents that fire, in bins of .*Hz")
 
-    def test_rasters_hold_every_spike(self):
+    def test_rasters_contain_every_spike(self):
         spikes = {one["name"]: sum(n for frame in self.frames for unit, n in frame.items() if one["first"] <= unit < one["first"] + one["afferents"]) for one in self.classes}
         self.assertEqual(sum(spikes.values()), self.over["spikes"]["count"])
         dark_pixels = self.dark_pixels()
@@ -817,7 +817,7 @@ class OnASkin(Page):
         WebDriverWait(self.browser, 20).until(lambda _: self.browser.find_element(By.ID, "unit").text.startswith(first["afferent"] + ","))
         self.assertIn(f"{first['time_s']:.4f}", self.browser.find_element(By.ID, "unit").text)
 
-    def test_it_fits_a_narrow_window_and_states_its_contents(self):
+    def test_it_fits_a_narrow_window_and_its_tables_are_complete(self):
         rows = self.browser.find_elements(By.CSS_SELECTOR, "#rates tbody tr")
         self.assertEqual(len(rows), len(self.classes) * (1 + len(self.data["summary"]["input"]["phases"])))
         self.assertEqual(len(self.browser.find_elements(By.CSS_SELECTOR, "#firsts tbody tr")), len(self.data["summary"]["first_spikes"]))
@@ -908,11 +908,11 @@ class Sweeps(unittest.TestCase):
             self.assertEqual(len(browser.find_elements(By.CSS_SELECTOR, "#measures tbody tr")), len(summary["measures"]))
             found = [one["device"] for one in summary["depends_on"][0]["devices"]]
             self.assertIn(found[0], browser.find_element(By.ID, "influences").text)
-            counted = "return charts[0].rawData_.reduce((sum, row) => sum + row[1], 0)"  # of the histogram
+            counted = "return charts[0].rawData_.reduce((sum, row) => sum + row[1], 0)"  # the sum of the histogram
             self.assertEqual(browser.execute_script(counted), 120)
             self.assertEqual(len(browser.find_elements(By.CSS_SELECTOR, "#figures figure")), 2 + len(data["factors"][0]))
             Select(browser.find_element(By.ID, "grouping")).select_by_visible_text("temp")
-            self.assertAlmostEqual(browser.execute_script(counted), 100, places=6)  # per cent of each
+            self.assertAlmostEqual(browser.execute_script(counted), 100, places=6)  # per cent in each group
             self.assertIn("temp = 85", browser.find_element(By.ID, "key").text)
             Select(browser.find_element(By.ID, "measure")).select_by_visible_text("i(vis)")
             self.assertIn("i(vis)", browser.find_element(By.CSS_SELECTOR, "#figures figcaption").text)
@@ -934,18 +934,18 @@ class Sweeps(unittest.TestCase):
         return browser
 
     def page_of(self, name, sweep, change=None):
-        """The page of a sweep with results that were changed before."""
+        """The page of a sweep. `change` may change the results file before the page is written."""
         file, results, path = OUT / f"{name}.toml", OUT / f"{name}.sqlite", OUT / f"{name}.html"
         file.write_text(sweep)
         results.unlink(missing_ok=True)
         subprocess.run([CORPUSCLE, "sweep", str(file), "--out", str(results), "--quiet"], check=True, cwd=ROOT)
         if change:
-            with contextlib.closing(sqlite3.connect(results)) as there, there:
-                change(there)
+            with contextlib.closing(sqlite3.connect(results)) as database, database:  # the second commits
+                change(database)
         subprocess.run([CORPUSCLE, "sweep", "show", str(results), "--report", str(path), "--quiet"], check=True)
         return path
 
-    def test_a_plain_grid_shows_every_axis_as_lines_and_a_heat_map_and_no_statistics_of_chance(self):
+    def test_a_plain_grid_has_lines_over_every_axis_and_a_heat_map_and_no_random_statistics(self):
         path = self.page_of("grid", GRID)
         browser = self.browse(path)
         self.assertEqual(browser.get_log("browser"), [])
@@ -960,8 +960,8 @@ class Sweeps(unittest.TestCase):
         self.assertTrue(captions[1].startswith("spikes over sa1.f_B"), captions)
         self.assertEqual(browser.execute_script("return charts.map((chart) => [chart.numRows(), chart.numColumns() - 1])"), [[4, 3], [3, 4]])
         text = browser.find_element(By.TAG_NAME, "body").text
-        for chance in ("95 %", "±", "normal", "chips", "sigma"):
-            self.assertNotIn(chance, text)
+        for statistic in ("95 %", "±", "normal", "chips", "sigma"):
+            self.assertNotIn(statistic, text)
         colours = browser.execute_script("""
             const canvas = document.querySelector(".heat canvas"), context = canvas.getContext("2d"), found = new Set();
             for (let i = 0; i < 4; ++i) for (let j = 0; j < 3; ++j) {
@@ -974,11 +974,11 @@ class Sweeps(unittest.TestCase):
     def test_no_text_of_a_results_file_becomes_a_script(self):
         payload = '"><img src=x onerror="document.title=1"><script>document.title=1</script>'
 
-        def poison(there):
-            there.execute("UPDATE columns SET unit = ?", (payload,))
-            there.execute("UPDATE columns SET description = ?", (payload,))
-            there.execute("UPDATE about SET value = ? WHERE key = 'title'", (payload,))
-            there.execute("UPDATE items SET why = ?, ended = 'diverged' WHERE item = 3", (payload,))
+        def poison(database):
+            database.execute("UPDATE columns SET unit = ?", (payload,))
+            database.execute("UPDATE columns SET description = ?", (payload,))
+            database.execute("UPDATE about SET value = ? WHERE key = 'title'", (payload,))
+            database.execute("UPDATE items SET why = ?, ended = 'diverged' WHERE item = 3", (payload,))
 
         for name, sweep in (("poisoned", GRID), ("poisoned_chips", SWEEP)):
             browser = self.browse(self.page_of(name, sweep, poison))

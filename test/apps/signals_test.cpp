@@ -35,9 +35,9 @@ std::vector<std::string> lines_that_signal() {
 /// If fork() or forkpty() fails, its result -1 must not be signalled: kill with -1 reaches every process of the machine.
 TEST(Signals, AreSentOnlyAfterACheckThatTheProcessWasStarted) {
     const std::map<std::string, std::string> checked = {
-        {"src/io/helper_process.cpp", "behind child > 0"},
-        {"src/study/sweep/rank_messages.cpp", "signal 0, which asks; behind a check of the id"},
-        {"test/support/child_process.hpp", "the check itself, and what says so"},
+        {"src/io/helper_process.cpp", "after a check that child > 0"},
+        {"src/study/sweep/rank_messages.cpp", "signal 0, which only tests for the process; after a check of the id"},
+        {"test/support/child_process.hpp", "contains the check and its comment"},
     };
     for (const auto& line : lines_that_signal()) EXPECT_TRUE(checked.contains(line.substr(0, line.find(':')))) << line;
 }
@@ -49,31 +49,31 @@ TEST(Signals, AProcessThatWasNotStartedIsNeverSignalled) {
     EXPECT_TRUE(test::signal_child(::getpid(), 0));
 }
 
-/// Its standard input is a pipe that stays open and silent.
+/// The wait status of a command that receives `signal` after 0.3 s. Its standard input is an open pipe without data.
 int status_after(int signal, const TemporaryFolder& folder, std::vector<std::string> command) {
-    int quiet[2];
-    if (::pipe2(quiet, O_CLOEXEC) != 0) return -1;
+    int silent_pipe[2];
+    if (::pipe2(silent_pipe, O_CLOEXEC) != 0) return -1;
     const pid_t child = test::fork_child();
     if (child == 0) {
         command.insert(command.begin(), test::program_path());
         std::vector<char*> arguments;
         for (auto& w : command) arguments.push_back(w.data());
         arguments.push_back(nullptr);
-        ::dup2(quiet[0], 0);
+        ::dup2(silent_pipe[0], 0);
         if (::chdir(folder.path().c_str()) == 0 && std::freopen(".err", "w", stderr)) ::execv(arguments[0], arguments.data());
         std::_Exit(99);
     }
-    ::close(quiet[0]);
+    ::close(silent_pipe[0]);
     ::usleep(300'000);
     test::signal_child(child, signal);
     int status = -1;
     for (int k = 0; k < 300 && ::waitpid(child, &status, WNOHANG) == 0; ++k) ::usleep(10'000);
     if (status == -1) test::signal_child(child, SIGKILL), ::waitpid(child, nullptr, 0);
-    ::close(quiet[1]);
+    ::close(silent_pipe[1]);
     return status;
 }
 
-TEST(Signals, OneEndsAReadThatWaits) {
+TEST(Signals, EndAReadThatWaitsForInput) {
     const TemporaryFolder folder;
     for (const auto* const name : {"fifo", "fifo.toml"}) ASSERT_EQ(::mkfifo((folder / name).c_str(), 0600), 0);
     const std::vector<std::vector<std::string>> commands = {

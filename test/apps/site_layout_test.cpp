@@ -9,7 +9,7 @@ namespace {
 
 using test::TemporaryFolder, test::run_program;
 
-TEST(SiteLayout, SitesAreListedInTheOrderOfAFrameAndALayoutNamesThoseThatAFrameHas) {
+TEST(SiteLayout, SitesAreListedInFrameOrderAndALayoutSelectsTheSitesOfAFrame) {
     const TemporaryFolder folder;
     const auto listed = run_program(folder, "list 'grid 2x2' --sites");
     EXPECT_EQ(listed.out, "name,x_mm,y_mm,region\nr1c1,0,0,grid\nr1c2,2,0,grid\nr2c1,0,2,grid\nr2c2,2,2,grid\n");

@@ -22,14 +22,15 @@ std::string sweep_of(int items) {
            "[[vary]]\nwhat = \"f_B\"\nsigma = \"5%\"\n";
 }
 
-/// Compare with ==. EXPECT_EQ would look for the shortest edit between two texts of megabytes, which takes 24 GB of memory.
+/// The text of all results. Compare it with ==: EXPECT_EQ would look for the shortest edit between two texts of megabytes, which takes
+/// 24 GB of memory.
 std::string dump(const TemporaryFolder& folder, const std::string& results) {
     const auto ran = run_program(folder, "sweep dump " + results);
     EXPECT_EQ(ran.status, 0) << ran.err;
     return ran.out;
 }
 
-TEST(SweepProgram, FormerOptionsAreRefusedWithTheirPresentNames) {
+TEST(SweepProgram, RenamedOptionsAreRefusedWithTheirNewNames) {
     const TemporaryFolder folder;
     for (const std::string arguments : {"sweep a.toml --units 3", "sweep a.toml --units=3", "sweep calibrate sa1-circuit --units 3"}) {
         const auto ran = run_program(folder, arguments);
@@ -66,7 +67,7 @@ TEST(SweepProgram, ReportsItsProgressAndResumesWhereItStopped) {
     EXPECT_EQ(run_program(folder, "sweep").status, 2);
 }
 
-TEST(SweepProgram, InterruptedKeepsTheFinishedItems) {
+TEST(SweepProgram, AnInterruptedSweepKeepsTheFinishedItems) {
     const TemporaryFolder folder;
     folder.write("a.toml", sweep_of(500'000));
     const auto command =
@@ -79,10 +80,10 @@ TEST(SweepProgram, InterruptedKeepsTheFinishedItems) {
     EXPECT_GT(status["finished"], 0);
     EXPECT_GT(status["missing"], 0);
     EXPECT_FALSE(status.contains("writer"));
-    EXPECT_FALSE(std::filesystem::exists(folder / "a.sqlite-wal")) << "one file";
+    EXPECT_FALSE(std::filesystem::exists(folder / "a.sqlite-wal")) << "the results are in one file";
 }
 
-TEST(SweepProgram, TwoSignalsAtOnceAreOne) {
+TEST(SweepProgram, RepeatedSignalsInterruptLikeOneSignal) {
     const TemporaryFolder folder;
     folder.write("a.toml", sweep_of(500'000));
     const auto pid = test::fork_child();
@@ -114,9 +115,9 @@ RanRanks run_ranks(const TemporaryFolder& folder, int ranks, const std::string& 
                                 test::program_path() + "' sweep a.toml --quiet -o " + out + "\n");
     const std::string root = ::geteuid() == 0 ? "--allow-run-as-root " : "";
     const auto command = "cd '" + folder.path() + "' && timeout 60 mpirun " + root + "--oversubscribe " + options + " -n " +
-                         std::to_string(ranks) + " sh rank.sh >said 2>&1";
+                         std::to_string(ranks) + " sh rank.sh >log 2>&1";
     const int status = std::system(command.c_str());
-    return {WEXITSTATUS(status), test::read_file(folder / "said")};
+    return {WEXITSTATUS(status), test::read_file(folder / "log")};
 }
 
 TEST(SweepRanks, GiveTheResultsOfOneThread) {
@@ -140,11 +141,11 @@ TEST(SweepRanks, AKilledRankLosesOnlyItsBlock) {
     const auto ran = run_ranks(folder, 3, "r", "--enable-recovery", 1);
     EXPECT_EQ(ran.status, 0) << ran.output;
     EXPECT_NE(ran.output.find("1 rank died or stopped responding, and "), std::string::npos) << ran.output;
-    EXPECT_TRUE(dump(folder, "r") == one_thread) << "all of it, in one run";
+    EXPECT_TRUE(dump(folder, "r") == one_thread) << "this run computed all items";
     // Without rank 0 the other ranks end, and the same command resumes the sweep.
-    const auto headless = run_ranks(folder, 3, "h", "--enable-recovery", 0);
-    EXPECT_NE(headless.output.find("rank 0, which writes the results, has died; results so far are kept"), std::string::npos)
-        << headless.output;
+    const auto without_rank_0 = run_ranks(folder, 3, "h", "--enable-recovery", 0);
+    EXPECT_NE(without_rank_0.output.find("rank 0, which writes the results, has died; results so far are kept"), std::string::npos)
+        << without_rank_0.output;
     ASSERT_EQ(run_program(folder, "sweep a.toml -o h").status, 0);
     EXPECT_TRUE(dump(folder, "h") == one_thread);
 }

@@ -22,7 +22,7 @@ double gain_at(Biquad filter, double f, double rate) {
     return 2 * std::abs(sum) / n;
 }
 
-TEST(Biquad, NotchRemovesItsFrequencyAndIsThreeDecibelsDownTwoHertzAway) {
+TEST(Biquad, NotchRemovesItsFrequencyAndAttenuatesByThreeDecibelsTwoHertzAway) {
     const auto clock = test::value_or_throw(make_clock(1000));
     const auto notch = test::value_or_throw(Biquad::notch(50, clock));
     EXPECT_LT(gain_at(notch, 50, 1000), 1e-6);

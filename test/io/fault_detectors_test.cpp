@@ -13,6 +13,7 @@ namespace {
 
 constexpr double two_pi = 2 * std::numbers::pi;
 
+/// A grip force (N) of 0.8 Hz, with a 50 Hz hum and white noise of these amplitudes (N).
 std::vector<double> grip(int n, double rate, double hum, double noise) {
     std::vector<double> x;
     for (int k = 0; k < n; ++k)
@@ -21,15 +22,15 @@ std::vector<double> grip(int n, double rate, double hum, double noise) {
     return x;
 }
 
-TEST(OutlierDetector, CountsIsolatedReadings) {
+TEST(OutlierDetector, CountsIsolatedSamples) {
     auto x = grip(10'000, 250, 0.1, 0.02);
     OutlierDetector clean, with_outliers;
     clean.add(x);
     EXPECT_EQ(clean.count(), 0);
-    std::int64_t isolation = 0;
-    for (std::size_t k = 10; k + 10 < x.size(); k += 37) x[k] = k % 2 ? -40.0 : 4e3, ++isolation;
+    std::int64_t outlier_count = 0;
+    for (std::size_t k = 10; k + 10 < x.size(); k += 37) x[k] = k % 2 ? -40.0 : 4e3, ++outlier_count;
     with_outliers.add(x);
-    EXPECT_NEAR(static_cast<double>(with_outliers.count()), static_cast<double>(isolation), 1);
+    EXPECT_NEAR(static_cast<double>(with_outliers.count()), static_cast<double>(outlier_count), 1);
     EXPECT_NEAR(static_cast<double>(with_outliers.examined()), 10'000, 6 * 3);
 }
 
@@ -47,16 +48,15 @@ TEST(OutlierDetector, DoesNotDependOnTheBlocks) {
 TEST(OutlierDetector, IgnoresChangesOfTheLastDigit) {
     std::vector<double> x;
     for (std::uint64_t k = 0; k < 5'000; ++k) x.push_back(512 + std::round(0.4 * normal(2, 0, 0, k)));
-    OutlierDetector check;
-    check.add(x);
-    EXPECT_EQ(check.count(), 0);
+    OutlierDetector detector;
+    detector.add(x);
+    EXPECT_EQ(detector.count(), 0);
 }
 
 TEST(OutlierDetector, AgreesWithTheDefinition) {
-    EXPECT_TRUE(rc::check("medians by sorting, every distance kept", [] {
+    EXPECT_TRUE(rc::check("compared with medians by sorting and exact distances", [] {
         const auto x = *rc::gen::container<std::vector<double>>(400, rc::gen::map(rc::gen::inRange(-4096, 4096), [](int v) {
-                                                                    // powers of two and small numbers, which are not close to the edges of
-                                                                    // the histogram
+                                                                    // multiples of 32 and small numbers
                                                                     return v % 16 == 0 ? v * 32.0 : v % 16 * 1.0;
                                                                 }));
         std::vector<double> distance, isolation, sorted;
@@ -69,9 +69,9 @@ TEST(OutlierDetector, AgreesWithTheDefinition) {
             isolation.push_back(left * right > 0 ? std::min({distance.back(), std::abs(left), std::abs(right)}) : 0);
             if (isolation.back() > 0) smallest = smallest == 0 ? isolation.back() : std::min(smallest, isolation.back());
         }
-        OutlierDetector check;
-        check.add(x);
-        // the limit lies between the two that the bins' edges allow, a fifth apart
+        OutlierDetector detector;
+        detector.add(x);
+        // The detector's histogram has bins of a ratio of 1.25, so its limit may differ from the exact one by this factor.
         std::sort(distance.begin(), distance.end());
         const double median = distance[(distance.size() - 1) / 2];
         const auto above = [&](double limit) {
@@ -80,8 +80,8 @@ TEST(OutlierDetector, AgreesWithTheDefinition) {
         sorted = x;
         std::sort(sorted.begin(), sorted.end());
         const double spread = sorted.back() - sorted.front();
-        RC_ASSERT(check.count() <= above(std::max(8 * median / 1.25, 4 * smallest)));
-        RC_ASSERT(check.count() >= above(1.25 * std::max({8 * median, spread / 10, 4 * smallest})));
+        RC_ASSERT(detector.count() <= above(std::max(8 * median / 1.25, 4 * smallest)));
+        RC_ASSERT(detector.count() >= above(1.25 * std::max({8 * median, spread / 10, 4 * smallest})));
     }));
 }
 
@@ -106,7 +106,7 @@ TEST(HumDetector, MeasuresTheFractionOfASpectralLine) {
         with.add(grip(n, rate, 0.2, 0.01));
         without.add(grip(n, rate, 0, 0.01));
         noisy.add(grip(n, rate, 0, 1));
-        // the variance within a second: most of the slow sine's 1.5^2 / 2, and the line's 0.2^2 / 2
+        // The variance within a second is most of 1.5^2 / 2 (the slow sine) plus 0.2^2 / 2 (the hum).
         const double fraction = 0.02 / (1.125 + 0.02);
         EXPECT_EQ(with.result().frequency, 50);
         EXPECT_GT(with.result().fraction, 0.7 * fraction) << rate;
@@ -119,15 +119,15 @@ TEST(HumDetector, MeasuresTheFractionOfASpectralLine) {
 TEST(HumDetector, IgnoresFrequenciesAboveNyquist) {
     const auto clock = test::value_or_throw(make_clock(100));
     const HumTable table(clock);
-    HumDetector check(table);
-    check.add(grip(2000, 100, 1, 0));
-    EXPECT_EQ(check.result().frequency, 0);
+    HumDetector detector(table);
+    detector.add(grip(2000, 100, 1, 0));
+    EXPECT_EQ(detector.result().frequency, 0);
 }
 
 TEST(SumDetector, ACopyOfAChannelBesideSilentOnesIsNotATotal) {
-    SumDetector check;
-    check.add({{0, 0, 0}, {1, 2, 3}, {1, 2, 3}, {0, 0, 0}, {0, 0, 0}});
-    EXPECT_TRUE(check.find_sums().empty());
+    SumDetector detector;
+    detector.add({{0, 0, 0}, {1, 2, 3}, {1, 2, 3}, {0, 0, 0}, {0, 0, 0}});
+    EXPECT_TRUE(detector.find_sums().empty());
 }
 
 TEST(SumDetector, FindsTotals) {
@@ -136,9 +136,9 @@ TEST(SumDetector, FindsTotals) {
         const double a = std::round(100 * std::sin(k)), b = k % 7, c = 3 + k % 5;
         for (auto [n, v] : {std::pair{0, a}, {1, b}, {2, c}, {3, b + c}, {4, 9.0}}) block[static_cast<std::size_t>(n)].push_back(v);
     }
-    SumDetector check;
-    check.add(block);
-    const auto found = check.find_sums();
+    SumDetector detector;
+    detector.add(block);
+    const auto found = detector.find_sums();
     ASSERT_EQ(found.size(), 1U);
     EXPECT_EQ(found[0].channel, 3U);
     EXPECT_EQ(found[0].from, 1U);

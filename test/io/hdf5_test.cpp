@@ -1,4 +1,5 @@
-// HDF5 as recordings: plain, compressed, compound, of NWB and MATLAB. A damaged file is an error or is read; it is never a crash.
+// HDF5 files as recordings: plain, compressed and compound datasets, NWB and MATLAB. A damaged file gives an error or is read, but never
+// crashes the program.
 
 #include <sys/wait.h>
 
@@ -31,13 +32,13 @@ TEST(Hdf5, EveryShapeAndTypeIsReadAsItWasWritten) {
         const auto path = (std::filesystem::temp_directory_path() / fmt::format("corpuscle-{}.h5", ::getpid())).string();
         Hdf5File(path).write_numbers("/force", {rows, columns}, values, type,
                                      packed ? std::vector<hsize_t>{rows / 2, columns} : std::vector<hsize_t>{});
-        const auto made = test::try_load_recording(path, {.table = {{}, false}, .rate = 100});
+        const auto recording = test::try_load_recording(path, {.table = {{}, false}, .rate = 100});
         std::filesystem::remove(path);
-        RC_ASSERT(static_cast<bool>(made));
-        RC_ASSERT(made->force.size() == columns);
+        RC_ASSERT(static_cast<bool>(recording));
+        RC_ASSERT(recording->force.size() == columns);
         for (std::size_t c = 0; c < columns; ++c) {
-            RC_ASSERT(made->force[c].size() == rows);
-            for (std::size_t r = 0; r < rows; ++r) RC_ASSERT(made->force[c][r] == values[r * columns + c]);
+            RC_ASSERT(recording->force[c].size() == rows);
+            for (std::size_t r = 0; r < rows; ++r) RC_ASSERT(recording->force[c][r] == values[r * columns + c]);
         }
     }));
 }
@@ -51,11 +52,11 @@ TEST(Hdf5, UnitsNamesAndRateAreAttributes) {
         file.write_strings("/trial/force", "columns", {"fx", "fz"});
         file.write_attribute("/", "Sampling_Rate", 250.0);
     }
-    const auto made = load_recording(folder / "x.h5");
-    EXPECT_EQ(made.names, (std::vector<std::string>{"fx", "fz"}));
-    EXPECT_EQ(made.clock.rate(), 250);
-    EXPECT_EQ(made.force[1][4999], 9999 * 1e-3);
-    EXPECT_TRUE(made.notes.empty());
+    const auto recording = load_recording(folder / "x.h5");
+    EXPECT_EQ(recording.names, (std::vector<std::string>{"fx", "fz"}));
+    EXPECT_EQ(recording.clock.rate(), 250);
+    EXPECT_EQ(recording.force[1][4999], 9999 * 1e-3);
+    EXPECT_TRUE(recording.notes.empty());
 }
 
 TEST(Hdf5, ATimeSeriesOfNwbIsReadInItsUnit) {
@@ -103,13 +104,13 @@ TEST(Hdf5, MembersOfACompoundAreColumns) {
     H5Tinsert(type, "fz_N", HOFFSET(Row, fz), H5T_NATIVE_FLOAT);
     Hdf5File(folder / "x.h5").write_raw("/log", type, type, {rows.size()}, rows.data());
     H5Tclose(text), H5Tclose(type);
-    const auto made = load_recording(folder / "x.h5");
-    EXPECT_EQ(made.names, std::vector<std::string>{"fz"});
-    EXPECT_EQ(made.clock.rate(), 1000);
-    EXPECT_EQ(made.force[0][4999], 2499.5);
+    const auto recording = load_recording(folder / "x.h5");
+    EXPECT_EQ(recording.names, std::vector<std::string>{"fz"});
+    EXPECT_EQ(recording.clock.rate(), 1000);
+    EXPECT_EQ(recording.force[0][4999], 2499.5);
 }
 
-TEST(Hdf5, MembersOfACompoundInARowAreColumns) {
+TEST(Hdf5, MembersOfACompoundInASingleRowAreColumns) {
     const TemporaryFolder folder;
     struct Row {
         double fx, fz;
@@ -120,11 +121,11 @@ TEST(Hdf5, MembersOfACompoundInARowAreColumns) {
     H5Tinsert(type, "fx_N", HOFFSET(Row, fx), H5T_NATIVE_DOUBLE), H5Tinsert(type, "fz_N", HOFFSET(Row, fz), H5T_NATIVE_DOUBLE);
     Hdf5File(folder / "x.h5").write_raw("/log", type, type, {1, rows.size()}, rows.data());
     H5Tclose(type);
-    const auto made = load_recording(folder / "x.h5", {.rate = 100});
-    ASSERT_EQ(made.force.size(), 2U);
+    const auto recording = load_recording(folder / "x.h5", {.rate = 100});
+    ASSERT_EQ(recording.force.size(), 2U);
     for (std::size_t k = 0; k < rows.size(); ++k) {
-        EXPECT_EQ(made.force[0][k], rows[k].fx) << k;
-        EXPECT_EQ(made.force[1][k], rows[k].fz) << k;
+        EXPECT_EQ(recording.force[0][k], rows[k].fx) << k;
+        EXPECT_EQ(recording.force[1][k], rows[k].fz) << k;
     }
 }
 
@@ -137,11 +138,11 @@ TEST(Hdf5, AColumnThatCountsTheRowsIsNotAForce) {
         file.write_numbers("/force", {500, 3}, rows);
         file.write_strings("/force", "columns", {"frame", "fx_N", "fz_N"});
     }
-    const auto made = load_recording(folder / "x.h5", {.rate = 100});
-    EXPECT_EQ(made.names, (std::vector<std::string>{"fx", "fz"}));
-    EXPECT_EQ(made.force[0][7], std::sin(7));
-    ASSERT_FALSE(made.notes.empty());
-    EXPECT_EQ(made.notes[0], "'frame' was ignored: it counts the rows (use --channel 1 to include it)");
+    const auto recording = load_recording(folder / "x.h5", {.rate = 100});
+    EXPECT_EQ(recording.names, (std::vector<std::string>{"fx", "fz"}));
+    EXPECT_EQ(recording.force[0][7], std::sin(7));
+    ASSERT_FALSE(recording.notes.empty());
+    EXPECT_EQ(recording.notes[0], "'frame' was ignored: it counts the rows (use --channel 1 to include it)");
 }
 
 TEST(Hdf5, MatlabsMatricesAreTransposed) {
@@ -154,9 +155,9 @@ TEST(Hdf5, MatlabsMatricesAreTransposed) {
         file.write_attribute("/fs", "MATLAB_class", "double");
         file.write_numbers("/t", {1, 3}, {0, 0.5, 1});
     }
-    const auto made = load_recording(folder / "x.mat");
-    EXPECT_EQ(made.force, (std::vector<std::vector<double>>{{1, 2, 3}, {4, 5, 6}}));
-    EXPECT_EQ(made.clock.rate(), 2) << "times take precedence over a rate";
+    const auto recording = load_recording(folder / "x.mat");
+    EXPECT_EQ(recording.force, (std::vector<std::vector<double>>{{1, 2, 3}, {4, 5, 6}}));
+    EXPECT_EQ(recording.clock.rate(), 2) << "times take precedence over a rate";
     EXPECT_EQ(load_recording(folder / "x.mat", {.channels = {"2"}, .time = "none"}).clock.rate(), 10);
 }
 
@@ -191,7 +192,7 @@ TEST(Hdf5, UnreadableFilesGiveAnError) {
     H5Tclose(complex);
 }
 
-/// A file with one dataset. `fill` receives a property list of the dataset's own.
+/// Creates a file and returns its path. `fill` receives the file and a property list for the creation of a dataset.
 template <class Fill>
 std::string write_file_with(const TemporaryFolder& folder, const std::string& name, const Fill& fill) {
     const auto path = folder / name;
@@ -216,7 +217,7 @@ void make_dataset(hid_t file, hid_t properties, const std::vector<hsize_t>& shap
     H5Dclose(d), H5Sclose(space);
 }
 
-TEST(Hdf5, NoOtherFileIsReadForItsData) {
+TEST(Hdf5, DataInOtherFilesAreNotRead) {
     const TemporaryFolder folder;
     const auto secret = folder.write("secret", std::string(800, 'x'));
     const auto external = write_file_with(folder, "x.h5", [&](hid_t file, hid_t properties) {
@@ -280,7 +281,7 @@ TEST(Hdf5, DataThatWereNeverWrittenAreNotAForce) {
         chunked(properties, 100), make_dataset(f, properties, {1000}, &first_part);
     });
     const auto read = load_recording(filled, {.rate = 10});
-    EXPECT_EQ(read.force[0][999], 0.5) << "as the file says";
+    EXPECT_EQ(read.force[0][999], 0.5) << "the fill value of the file";
     EXPECT_EQ(read.notes.at(0), "/force: 4 of its 10 chunks were never written; their readings are the fill value of the file");
 }
 
@@ -289,11 +290,11 @@ TEST(Hdf5, ChunksOfAnyShapeGiveTheSameRows) {
     const std::vector<double> values = ramp(4000 * 6);
     for (const std::vector<hsize_t>& chunk : {std::vector<hsize_t>{}, {4000, 6}, {4000, 1}, {1, 6}, {7, 6}, {1000, 4}, {3999, 5}}) {
         Hdf5File(folder / "x.h5").write_numbers("/force", {4000, 6}, values, H5T_NATIVE_DOUBLE, chunk);
-        const auto made = load_recording(folder / "x.h5", {.channels = {"2", "5"}, .rate = 100}, 100);
-        ASSERT_EQ(made.force[1].size(), 4000U);
+        const auto recording = load_recording(folder / "x.h5", {.channels = {"2", "5"}, .rate = 100}, 100);
+        ASSERT_EQ(recording.force[1].size(), 4000U);
         for (std::size_t r = 0; r < 4000; ++r) {
-            ASSERT_EQ(made.force[0][r], values[r * 6 + 1]);
-            ASSERT_EQ(made.force[1][r], values[r * 6 + 4]);
+            ASSERT_EQ(recording.force[0][r], values[r * 6 + 1]);
+            ASSERT_EQ(recording.force[1][r], values[r * 6 + 4]);
         }
         Hdf5File(folder / "y.h5")
             .write_numbers("/force", {6, 4000}, values, H5T_NATIVE_DOUBLE, chunk.empty() ? chunk : std::vector{chunk[1], chunk[0]});
@@ -331,7 +332,7 @@ TEST(Hdf5, AnArrayWithExchangedDimensionsIsRefusedOrTransposed) {
     EXPECT_NE(load_error(folder / "x.h5", {.table = {{}, true}, .rate = 500}), "");
 }
 
-TEST(Hdf5, TheEndOfAPathNamesADatasetIfThereIsOnlyOneSuch) {
+TEST(Hdf5, TheEndOfAPathSelectsADatasetIfItIsUnique) {
     const TemporaryFolder folder;
     {
         Hdf5File file(folder / "x.nwb");
@@ -366,19 +367,20 @@ TEST(Hdf5, AMissingFilterIsNamed) {
 
 std::string seed(const char* name) { return test::read_file(test::source_root() + "/test/fuzz/seeds/hdf5/" + name).substr(1); }
 
-TEST(Hdf5, AnyDamageIsAnErrorOrIsRead) {
+TEST(Hdf5, DamagedFilesGiveAnErrorOrAreReadWithoutACrash) {
     const TemporaryFolder folder;
-    const auto survived = [&](std::string bytes, std::size_t at, int to) {
+    const auto expect_no_crash = [&](std::string bytes, std::size_t at, int to) {
         bytes.at(at) = static_cast<char>(to);
         EXPECT_FALSE(load_error(folder.write("x.h5", bytes), {.rate = 10}).empty()) << at;
     };
-    const auto sound = seed("latest");
-    ASSERT_EQ(load_error(folder.write("x.h5", sound), {.rate = 10}), "read");
-    for (std::size_t at = 0; at < sound.size(); at += 23) survived(sound, at, ~sound[at]);
-    // Found by changing bytes at random. HDF5 1.10.8 reads beyond its memory when it opens and reads such files, and often crashes.
-    auto on_opening = seed("plain"), on_reading = seed("packed");
+    const auto undamaged = seed("latest");
+    ASSERT_EQ(load_error(folder.write("x.h5", undamaged), {.rate = 10}), "read");
+    for (std::size_t at = 0; at < undamaged.size(); at += 23) expect_no_crash(undamaged, at, ~undamaged[at]);
+    // These files were found by changing bytes at random. HDF5 1.10.8 reads beyond its memory when it opens or reads them, and often
+    // crashes.
+    auto on_opening = seed("plain"), on_reading = seed("packed");  // where HDF5 crashes
     on_opening.at(1485) = '\xff', on_reading.at(3744) = '\xff';
-    for (int k = 0; k < 10; ++k) survived(on_opening, 2175, 97), survived(on_reading, 968, 98);
+    for (int k = 0; k < 10; ++k) expect_no_crash(on_opening, 2175, 97), expect_no_crash(on_reading, 968, 98);
 }
 
 TEST(Hdf5, SeveralFilesAreOpenAtOnceAndLeaveNoChildren) {
@@ -395,7 +397,7 @@ TEST(Hdf5, SeveralFilesAreOpenAtOnceAndLeaveNoChildren) {
                 EXPECT_EQ(out[0][rows - 1], static_cast<double>(k * (rows == 904 ? 4999 : 4095)));
             }
     }
-    EXPECT_EQ(::waitpid(-1, nullptr, WNOHANG), -1) << "a child is left";
+    EXPECT_EQ(::waitpid(-1, nullptr, WNOHANG), -1) << "no child process is left";
     EXPECT_EQ(errno, ECHILD);
 }
 

@@ -29,7 +29,7 @@ namespace {
 
 using test::TemporaryFolder;
 
-/// An executable script of these lines of shell.
+/// The path of an executable shell script with these lines.
 std::string script(const TemporaryFolder& folder, const std::string& lines) {
     const auto path = folder.write("script", "#!/bin/sh\n" + lines + "\n");
     std::filesystem::permissions(path, std::filesystem::perms::owner_all);
@@ -40,10 +40,10 @@ std::string error_after(const std::string& lines) {
     const TemporaryFolder folder;
     auto helper = test::value_or_throw(HelperProcess::start(script(folder, lines), STDIN_FILENO));
     const auto message = helper.receive("x.h5", "the library");
-    return message ? "answered" : message.error().text();
+    return message ? "a message was received" : message.error().text();
 }
 
-std::size_t descriptors_open() {
+std::size_t open_descriptor_count() {
     std::size_t count = 0;
     DIR* all = ::opendir("/proc/self/fd");
     while (::readdir(all)) ++count;
@@ -51,7 +51,7 @@ std::size_t descriptors_open() {
     return count;
 }
 
-TEST(HelperProcess, TheCauseOfItsEndIsReported) {
+TEST(HelperProcess, TheReasonForItsEndIsReported) {
     EXPECT_EQ(error_after("kill -SEGV $$"), "x.h5: the library could not read this file (signal 11); it may be damaged");
     EXPECT_EQ(error_after("kill -ABRT $$"), "x.h5: the library could not read this file (signal 6); it may be damaged");
     EXPECT_EQ(error_after("exit 3"), "x.h5: the library could not read this file (status 3); it may be damaged");
@@ -69,15 +69,15 @@ TEST(HelperProcess, OneThatCannotBeStartedIsNamed) {
     const TemporaryFolder folder;
     ::setenv("CORPUSCLE_LIBEXEC", folder.path().c_str(), 1);
     const auto missing = find_helper_program("corpuscle-hdf5");
-    const auto found = find_helper_program("script");
-    const auto made = script(folder, "exit 0");
-    const auto there = find_helper_program("script");
+    const auto before_creation = find_helper_program("script");
+    const auto path = script(folder, "exit 0");
+    const auto after_creation = find_helper_program("script");
     ::unsetenv("CORPUSCLE_LIBEXEC");
     ASSERT_FALSE(missing);
     EXPECT_EQ(missing.error().text(), "the program 'corpuscle-hdf5', which reads this format, was not found in " + folder.path() +
                                           "; set CORPUSCLE_LIBEXEC to its directory");
-    EXPECT_FALSE(found);
-    EXPECT_EQ(test::value_or_throw(there), made);
+    EXPECT_FALSE(before_creation);
+    EXPECT_EQ(test::value_or_throw(after_creation), path);
 }
 
 TEST(HelperProcess, InheritsNoDescriptorsAndLeavesNothingBehind) {
@@ -85,9 +85,9 @@ TEST(HelperProcess, InheritsNoDescriptorsAndLeavesNothingBehind) {
     const auto leaked = ::open("/dev/null", O_RDONLY);  // without O_CLOEXEC, as some libraries open files
     ::setenv("CORPUSCLE_SECRET", "x", 1);
     const auto program = script(folder, "ls /proc/$$/fd >listed; env >environment; mv listed listed.whole; exec sleep 30");
-    const auto here = std::filesystem::current_path();
+    const auto original_folder = std::filesystem::current_path();
     std::filesystem::current_path(folder.path());
-    const auto before = descriptors_open();
+    const auto before = open_descriptor_count();
     {
         auto first = test::value_or_throw(HelperProcess::start(program, leaked));
         while (!std::filesystem::exists("listed.whole")) ::usleep(1000);
@@ -100,19 +100,20 @@ TEST(HelperProcess, InheritsNoDescriptorsAndLeavesNothingBehind) {
         auto second = std::move(first);
         EXPECT_TRUE(test::signal_child(second.pid(), 0));
     }
-    EXPECT_EQ(descriptors_open(), before);
+    EXPECT_EQ(open_descriptor_count(), before);
     EXPECT_EQ(::waitpid(-1, nullptr, WNOHANG), -1);
-    std::filesystem::current_path(here);
+    std::filesystem::current_path(original_folder);
     ::unsetenv("CORPUSCLE_SECRET");
     ::close(leaked);
 }
 
+/// A message with its length before it, as it is sent.
 std::string framed(const Message& m) {
     const std::uint64_t size = m.bytes().size();
     return std::string(reinterpret_cast<const char*>(&size), sizeof size) + m.bytes();
 }
 
-TEST(HelperProcess, ACrashWhileRowsAreReadIsAnErrorFromThenOn) {
+TEST(HelperProcess, ACrashDuringReadingIsAnErrorInEveryLaterRead) {
     const TemporaryFolder folder;
     folder.write("answers", framed(encode(SamplesInfo{{{"fz", "N"}}, 10, 100.0, {}, {"a remark"}})) +
                                 framed(encode(std::vector<std::vector<double>>{{7.0}})));
@@ -121,21 +122,21 @@ TEST(HelperProcess, ACrashWhileRowsAreReadIsAnErrorFromThenOn) {
     EXPECT_EQ(samples->info().columns.at(0).unit, "N");
     EXPECT_EQ(samples->info().rate, 100);
     EXPECT_EQ(samples->info().notes, std::vector<std::string>{"a remark"});
-    const std::vector<std::size_t> wanted = {0};
+    const std::vector<std::size_t> column_numbers = {0};
     std::vector<std::vector<double>> out(1, std::vector<double>(1));
-    EXPECT_TRUE(samples->fetch(0, 1, wanted, out));
+    EXPECT_TRUE(samples->fetch(0, 1, column_numbers, out));
     EXPECT_EQ(out[0][0], 7);
-    EXPECT_EQ(samples->fetch(1, 1, wanted, out).error().text(),
+    EXPECT_EQ(samples->fetch(1, 1, column_numbers, out).error().text(),
               folder / "x.h5" + ": it could not read this file (signal 7); it may be damaged");
-    EXPECT_FALSE(samples->fetch(1, 1, wanted, out));
+    EXPECT_FALSE(samples->fetch(1, 1, column_numbers, out));
 }
 
 TEST(HelperProcess, ADamagedMessageIsAnError) {
     const TemporaryFolder folder;
-    SamplesInfo facts{{{"fz", "N"}}, 10, 100.0, 5, {}};
-    std::vector<std::string> messages = {framed(encode(facts)), framed(Message("xx")), framed(Message(std::string(8, '\x7f')))};
-    facts.time_column.reset();
-    const auto complete = encode(facts).bytes();
+    SamplesInfo info{{{"fz", "N"}}, 10, 100.0, 5, {}};
+    std::vector<std::string> messages = {framed(encode(info)), framed(Message("xx")), framed(Message(std::string(8, '\x7f')))};
+    info.time_column.reset();
+    const auto complete = encode(info).bytes();
     for (const std::size_t size : {9U, 20U, 33U, 50U}) messages.push_back(framed(Message(complete.substr(0, size))));
     for (const auto& message : messages) {
         folder.write("answer", message);
@@ -156,8 +157,8 @@ std::string error_after_throw(const Thrown& thrown) {
     const bool has_message = encode(OpenRequest{"x.h5", {}}).send(ends[0]) && message.receive(ends[0]);
     program.join();
     ::close(ends[0]), ::close(ends[1]);
-    const auto facts = decode_info(message, "x.h5");
-    return has_message && !facts ? facts.error().text() : "no error";
+    const auto info = decode_info(message, "x.h5");
+    return has_message && !info ? info.error().text() : "no error";
 }
 
 TEST(HelperProcess, EveryExceptionInItIsAnError) {
@@ -173,7 +174,7 @@ unsigned allowed_operations() {
     if (::open(".", O_RDONLY | O_DIRECTORY) >= 0) bits |= 2;
     if (::socket(AF_INET, SOCK_STREAM, 0) >= 0) bits |= 4;
     if (::dup(0) >= 0) bits |= 8;
-    if (::rename("/nowhere/a", "/nowhere/b") != 0 && errno == ENOENT) bits |= 16;  // where the kernel can, it refuses the call itself
+    if (::rename("/nowhere/a", "/nowhere/b") != 0 && errno == ENOENT) bits |= 16;  // seccomp would refuse the call itself
     const pid_t child = ::fork();
     if (child == 0) ::_exit(0);
     if (child > 0) bits |= 32;
@@ -182,7 +183,7 @@ unsigned allowed_operations() {
 
 bool kernel_filters_calls() { return ::prctl(PR_GET_SECCOMP) >= 0; }
 
-TEST(HelperProcess, GivesUpWhatItDoesNotNeedAndRaisesNoLimit) {
+TEST(HelperProcess, GivesUpRightsThatItDoesNotNeedAndRaisesNoLimit) {
     if (test::is_sanitized) GTEST_SKIP() << "sanitizers need more address space than this limit";
     int report_pipe[2], wait_pipe[2];
     ASSERT_EQ(::pipe(report_pipe), 0);
@@ -190,7 +191,7 @@ TEST(HelperProcess, GivesUpWhatItDoesNotNeedAndRaisesNoLimit) {
     const pid_t child = ::fork();
     ASSERT_GE(child, 0);
     if (child == 0) {
-        ::close(wait_pipe[1]);  // so that the read below ends when the parent does
+        ::close(wait_pipe[1]);  // so that the read below ends when the parent closes the pipe or dies
         const rlimit lower{std::uint64_t{3} << 30, std::uint64_t{3} << 30};
         ::setrlimit(RLIMIT_AS, &lower);
         confine(HelperProcess::file_descriptor, HelperProcess::memory_limit);

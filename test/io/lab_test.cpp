@@ -1,4 +1,4 @@
-// Recordings of laboratories: bad fields, outliers, hum, offsets, layouts, and the notes on them.
+// Recordings with faults: bad fields, outliers, hum, offsets, layouts, and the notes on them.
 
 #include <fmt/format.h>
 
@@ -53,22 +53,22 @@ TEST(BadFields, OneBadFieldDropsItsRowInEveryChannel) {
     EXPECT_EQ(read_lab(path, {.rate = 10, .bad_fields = BadFields::interpolate}).force, (LabRows{{1, 3, 5, 7, 9}, {2, 4, 6, 8, 10}}));
 }
 
-TEST(BadFields, DroppedRowsLeaveTheTimesOfTheOthersAlone) {
+TEST(BadFields, DroppedRowsDoNotChangeTheTimesOfOthers) {
     const TemporaryFolder folder;
     std::string text = "t_s,F_N\n";
-    std::vector<double> right;
+    std::vector<double> expected;
     for (int k = 0; k < 40; ++k) {
         text += fmt::format("{},{}\n", k, k >= 10 && k < 15 ? "bad" : std::to_string(k));
-        right.push_back(k);
+        expected.push_back(k);
     }
     const auto path = folder.write("x.csv", text);
     const auto refused = try_load_recording(path, {.bad_fields = BadFields::drop});
     ASSERT_FALSE(refused);
     EXPECT_NE(refused.error().message.find("not evenly spaced"), std::string::npos);
-    EXPECT_EQ(read_lab(path, {.resample = 1, .bad_fields = BadFields::drop}).force, (LabRows{right}));
+    EXPECT_EQ(read_lab(path, {.resample = 1, .bad_fields = BadFields::drop}).force, (LabRows{expected}));
 }
 
-TEST(BadFields, ARowWhoseTimeIsBadIsDroppedAndReported) {
+TEST(BadFields, ARowWithABadTimeIsDroppedAndReported) {
     const TemporaryFolder folder;
     std::string text = "t_s,F_N\n";
     for (int k = 0; k < 40; ++k) text += k == 30 ? "xx,99\n" : fmt::format("{},1\n", k);
@@ -82,10 +82,10 @@ TEST(BadFields, ARowWhoseTimeIsBadIsDroppedAndReported) {
     }
     const auto untimed = folder.write("y.csv", "time,F_N\nmorning,1\nnoon,2\n");
     EXPECT_EQ(read_lab(untimed, {.rate = 1, .bad_fields = BadFields::drop}).force, (LabRows{{1, 2}}))
-        << "a recording without times has no bad rows";
+        << "with --rate, times need not be readable";
 }
 
-TEST(BadFields, AMissingTimeIsFilledInWhereTimesAreEven) {
+TEST(BadFields, AMissingTimeIsInterpolatedIfTimesAreEven) {
     const TemporaryFolder folder;
     const auto path = folder.write("x.csv", "t_s,F_N\n0,0\n1,1\n?,2\n3,3\n4,4\n");
     const auto r = read_lab(path, {.bad_fields = BadFields::interpolate});
@@ -93,7 +93,7 @@ TEST(BadFields, AMissingTimeIsFilledInWhereTimesAreEven) {
     EXPECT_EQ(r.clock.rate(), 1);
 }
 
-TEST(Range, ReadingsOutsideAreBadAndInterpolatedByDefault) {
+TEST(Range, SamplesOutsideAreBadAndInterpolatedByDefault) {
     const TemporaryFolder folder;
     const auto path = folder.write("x.csv", "F_N\n1\n999\n3\n4\n");
     EXPECT_EQ(read_lab(path, {.rate = 10, .range = std::pair{0.0, 10.0}}).force, (LabRows{{1, 2, 3, 4}}));
@@ -110,7 +110,7 @@ TEST(Offset, IsSubtractedBeforeTheScaleAndAfterTheSign) {
     EXPECT_EQ(read_lab(path, options).force, (LabRows{{0, 1, 0}}));
 }
 
-TEST(Conditioning, GivesTheSameWhateverTheBlocks) {
+TEST(Conditioning, DoesNotDependOnTheBlocks) {
     const TemporaryFolder folder;
     std::string text = "t_s,F_N\n";
     for (int k = 0; k < 3000; ++k)
@@ -132,7 +132,7 @@ TEST(Conditioning, GivesTheSameWhateverTheBlocks) {
     EXPECT_NEAR(slower.force[0][100], undivided.force[0][250], 1e-9);
 }
 
-TEST(Conditioning, RefusesAReadingThatTheFiltersCannotHold) {
+TEST(Conditioning, RefusesAValueTooLargeForTheFilters) {
     const TemporaryFolder folder;
     RecordingOptions options{.rate = 100};
     options.notch = {12};
@@ -140,10 +140,10 @@ TEST(Conditioning, RefusesAReadingThatTheFiltersCannotHold) {
               "x.csv: 'F': sample 2 is not finite after processing: a value in the file is too large for --scale or the filters");
 }
 
-TEST(FloatLayout, NamesAndLocatesSensorsAndLeavesTheRestOut) {
+TEST(SensorLayout, NamesAndLocatesSensorsAndIgnoresOtherChannels) {
     const TemporaryFolder folder;
     const auto path = folder.write("x.csv", "time_s,a_N,b_N,total_N\n0,1,2,3\n1,1,2,3\n");
-    const auto layout = folder.write("layout.csv", "# where they sit\nchannel,name,x_mm,y_mm\n2,heel,10,-20\na,toe,0.5,1\n");
+    const auto layout = folder.write("layout.csv", "# sensor positions\nchannel,name,x_mm,y_mm\n2,heel,10,-20\na,toe,0.5,1\n");
     const auto r = read_lab(path, {.layout = layout});
     ASSERT_EQ(r.channels.size(), 2U);
     EXPECT_EQ(r.channels[0].name, "heel");
@@ -154,7 +154,7 @@ TEST(FloatLayout, NamesAndLocatesSensorsAndLeavesTheRestOut) {
     EXPECT_EQ(one.channels[0].name, "heel");
 }
 
-TEST(FloatLayout, ErrorsNameLineColumnAndWhatWouldBeRight) {
+TEST(SensorLayout, ErrorsNameLineColumnAndTheExpectedValue) {
     const TemporaryFolder folder;
     const auto path = folder.write("x.csv", "time_s,a_N,b_N\n0,1,2\n1,1,2\n");
     const auto wrong = [&](const std::string& text) {
@@ -171,7 +171,7 @@ TEST(FloatLayout, ErrorsNameLineColumnAndWhatWouldBeRight) {
     EXPECT_EQ(wrong("sensor,x\n"), "l.csv: the layout lists no sensors");
 }
 
-TEST(QualityReport, WarnsOfMisleadingDataAndOfNothingElse) {
+TEST(QualityReport, WarnsOnlyOfMisleadingData) {
     const TemporaryFolder folder;
     std::string good = "t_s,F_N\n", heavy = good, negative = good, weak = good, full = "t_s,F\n";
     for (int k = 0; k < 2000; ++k) {
@@ -191,12 +191,12 @@ TEST(QualityReport, WarnsOfMisleadingDataAndOfNothingElse) {
     EXPECT_TRUE(mentions(quality(negative).warnings, "but a press must be positive"));
     EXPECT_TRUE(mentions(quality(weak).descriptions, "all forces are below 0.2 N"));
     EXPECT_NEAR(quality_metric(read_lab(folder.write("x.csv", good), {}), "below_0.2N"), 0.205,
-                0.02);  // (pi - 2 asin 0.8) / 2 pi of each period
+                0.02);  // the fraction of each period in which 1 + sin < 0.2 N: (pi - 2 asin 0.8) / 2 pi
     EXPECT_TRUE(mentions(quality(full, {.scale = 1e-3}).warnings, "is 4095, the full scale of a 12-bit converter"));
 }
 
-TEST(Dialect, PlainNumbersAreThoseThatFromCharsReads) {
-    EXPECT_TRUE(rc::check("every number as text, in every dialect", [] {
+TEST(Dialect, ParsePlainNumberAgreesWithParseNumber) {
+    EXPECT_TRUE(rc::check("numbers as text in every dialect", [] {
         const auto dialect = *rc::gen::element(Dialect{',', false}, Dialect{';', true}, Dialect{' ', true}, Dialect{'\t', true});
         const auto digits = *rc::gen::inRange(0, 17);
         const double value = static_cast<double>(*rc::gen::inRange<std::int64_t>(-1'000'000'000'000, 1'000'000'000'000)) / 1e4;
@@ -206,11 +206,11 @@ TEST(Dialect, PlainNumbersAreThoseThatFromCharsReads) {
         const std::size_t size = text.size();
         text += *rc::gen::element<std::string>("", std::string(1, dialect.separator), "x", "9", "\n") + std::string(16, '\0');
         const char *p = text.data(), *const end = text.data() + size;
-        double plain, careful;
+        double plain, general;
         if (!dialect.parse_plain_number(p, end, plain)) return;
         RC_ASSERT(p == end);
-        RC_ASSERT(dialect.parse_number({text.data(), size}, careful));
-        RC_ASSERT(plain == careful && std::signbit(plain) == std::signbit(careful));
+        RC_ASSERT(dialect.parse_number({text.data(), size}, general));
+        RC_ASSERT(plain == general && std::signbit(plain) == std::signbit(general));
     }));
 }
 

@@ -1,4 +1,4 @@
-// Recordings as loggers, spreadsheets and scripts write them: clocks, units, preambles, compression, and columns that are not forces.
+// Recordings in the formats of loggers, spreadsheets and scripts: clocks, units, preambles, compression, and columns that are not forces.
 
 #include <fmt/format.h>
 #include <zlib.h>
@@ -25,7 +25,7 @@ test::LoadedRecording read_logged(const TemporaryFolder& folder, const std::stri
     return load_recording(folder.write(name, text), options);
 }
 
-std::string refused_logged(const TemporaryFolder& folder, const std::string& text, const RecordingOptions& options = {},
+std::string error_of(const TemporaryFolder& folder, const std::string& text, const RecordingOptions& options = {},
                            const std::string& name = "x.csv") {
     return test::load_error(folder.write(name, text), options);
 }
@@ -34,7 +34,7 @@ bool has_note(const test::LoadedRecording& r, const std::string& part) {
     return std::any_of(r.notes.begin(), r.notes.end(), [&](const auto& s) { return s.find(part) != s.npos; });
 }
 
-/// Rows of a ramp; `row` makes each from the time and the force.
+/// Rows of a ramp: row(k, t, F) with times in steps of 0.01 s and forces in steps of 0.05 N.
 template <class Row>
 std::string rows_of(int count, const Row& row) {
     std::string text;
@@ -42,7 +42,7 @@ std::string rows_of(int count, const Row& row) {
     return text;
 }
 
-TEST(LoggerFiles, SevenKindsAreReadAlikeWithoutAnyOption) {
+TEST(LoggerFiles, SevenFormatsGiveTheSameForceWithoutOptions) {
     const auto press = load_recording(logger_file("preamble.csv"));
     ASSERT_EQ(press.force[0].size(), 200U);
     EXPECT_NEAR(*std::max_element(press.force[0].begin(), press.force[0].end()), 2.4, 0.15);
@@ -72,7 +72,7 @@ TEST(LoggerFiles, TrialsInOneFileAreRefusedWithACommandThatExtractsOne) {
                          "the times in 'time' decrease (by up to 990 ms), as in a file with several"));
 }
 
-TEST(LoggerFiles, TrialsAreExtractedWhateverSeparatesTheFields) {
+TEST(LoggerFiles, TrialsAreExtractedForAnySeparator) {
     for (const std::string separator : {";", "\t", " ", " , "}) {
         const TemporaryFolder folder;
         std::string text = "# of a study\nn" + separator + "subject" + separator + "t_s" + separator + "F_N\n";
@@ -88,13 +88,13 @@ TEST(LoggerFiles, TrialsAreExtractedWhateverSeparatesTheFields) {
     }
 }
 
-/// The command at the end of an error, which begins with this word.
+/// The command at the end of an error text; it begins with `first_word`.
 std::string command_in(const std::string& message, const std::string& first_word) {
     const auto at = message.find(first_word);
     return at == message.npos ? "" : message.substr(at);
 }
 
-/// Runs the command that an error ends with, and returns the file that it writes.
+/// Runs the command at the end of the error for a file, and returns the path that the command writes.
 std::string run_remedy(const TemporaryFolder& folder, const std::string& file, const std::string& first_word) {
     const auto command = command_in(try_load_recording(folder / file).error().text(), first_word);
     EXPECT_EQ(std::system(("cd '" + folder.path() + "' && " + command).c_str()), 0) << command;
@@ -110,7 +110,7 @@ std::string two_trials(const std::string& end_of_line, const std::string& quote)
     return text;
 }
 
-TEST(LoggerFiles, ACommandInAMessageNeverWritesOntoAFileThatIsThere) {
+TEST(LoggerFiles, ACommandInAMessageNeverOverwritesAFile) {
     const TemporaryFolder folder;
     for (const std::string name : {"trial.csv", "x-trial1.csv", "x.csv"}) {
         folder.write(name, two_trials("\n", ""));
@@ -118,26 +118,26 @@ TEST(LoggerFiles, ACommandInAMessageNeverWritesOntoAFileThatIsThere) {
         EXPECT_EQ(test::read_file(folder / name), two_trials("\n", "")) << name;
         EXPECT_EQ(load_recording(written).force[0].size(), 10U) << name;
     }
-    EXPECT_EQ(folder.file_names().size(), 6U) << "three files and one of each";
+    EXPECT_EQ(folder.file_names().size(), 6U) << "three files, and one trial of each";
     folder.write("lines.csv", "time_s,F_N\r0,1\r1,2\r");
     EXPECT_EQ(load_recording(run_remedy(folder, "lines.csv", "tr ")).force[0], (std::vector<double>{1, 2}));
     EXPECT_EQ(test::read_file(folder / "lines.csv").size(), 19U);
 }
 
-TEST(LoggerFiles, TheCommandForOneTrialReadsWindowsLinesQuotesUtf16AndGzip) {
+TEST(LoggerFiles, TheCommandForOneTrialWorksWithWindowsLinesQuotesUtf16AndGzip) {
     const TemporaryFolder folder;
-    const auto sixteen = [](const std::string& text) {
+    const auto as_utf16 = [](const std::string& text) {
         std::string out = "\xff\xfe";
         for (const char c : text) out += c, out += '\0';
         return out;
     };
-    for (const auto& text : {two_trials("\r\n", ""), two_trials("\n", "\""), sixteen(two_trials("\r\n", ""))}) {
+    for (const auto& text : {two_trials("\r\n", ""), two_trials("\n", "\""), as_utf16(two_trials("\r\n", ""))}) {
         folder.write("x.csv", text);
         EXPECT_EQ(load_recording(run_remedy(folder, "x.csv", text.starts_with("\xff") ? "iconv " : "awk ")).force[0].size(), 10U);
     }
     ASSERT_EQ(std::system(("gzip '" + (folder / "x.csv") + "'").c_str()), 0);
     EXPECT_EQ(load_recording(run_remedy(folder, "x.csv.gz", "zcat ")).force[0].size(), 10U);
-    EXPECT_EQ(command_in(refused_logged(folder, "note,t_s,F_N,trial\n\"a,b\",0,1,1\n\"a,b\",1,1,1\n\"a,b\",0,1,2\n"), "make a"),
+    EXPECT_EQ(command_in(error_of(folder, "note,t_s,F_N,trial\n\"a,b\",0,1,1\n\"a,b\",1,1,1\n\"a,b\",0,1,2\n"), "make a"),
               "make a file of each")
         << "awk would split the note";
 }
@@ -150,7 +150,7 @@ TEST(LoggerFiles, TrialsAreDistinguishedByAColumnThatChangesWhereTimeDecreases) 
     folder.write("x.csv", text);
     EXPECT_NE(try_load_recording(folder / "x.csv").error().text().find("identified by 'trial'"), std::string::npos);
     EXPECT_EQ(load_recording(run_remedy(folder, "x.csv", "awk ")).force[0].size(), 10U);
-    EXPECT_EQ(refused_logged(folder, "t_s,phase,F_N\n0,rest,1\n1,rest,1\n0.5,rest,1\n2,press,1\n"),
+    EXPECT_EQ(error_of(folder, "t_s,phase,F_N\n0,rest,1\n1,rest,1\n0.5,rest,1\n2,press,1\n"),
               "x.csv:4: the time decreases from 1 s to 0.5 s; use --rate to take the rows as evenly spaced");
 }
 
@@ -193,7 +193,7 @@ TEST(LoggerFiles, SerialDaysOfSpreadsheetsAndMatlabAreTimes) {
     EXPECT_TRUE(has_note(read_logged(folder, "Time,F_N\n0,1\n5000,1\n10000,1\n"), "use --time-unit us if they are microseconds"));
 }
 
-TEST(LoggerFiles, TimeGrowsWithTheSizeOfAFileAndNotWithItsSquare) {
+TEST(LoggerFiles, TheTimeToReadAFileIsLinearInItsSize) {
     const TemporaryFolder folder;
     const auto seconds = [&](const std::string& text) {
         folder.write("x.json", text);
@@ -201,13 +201,13 @@ TEST(LoggerFiles, TimeGrowsWithTheSizeOfAFileAndNotWithItsSquare) {
         static_cast<void>(try_load_recording(folder / "x.json", {}, 4096));
         return static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
     };
-    std::string times, forces;  // the default table of pandas
+    std::string times, forces;  // as the default of pandas' to_json()
     for (int k = 0; k < 100'000; ++k) {
         times += fmt::format("{}\"{}\":{}", k > 0 ? "," : "", k, 0.01 * k);
         forces += fmt::format("{}\"{}\":1", k > 0 ? "," : "", k);
     }
     EXPECT_LT(seconds("{\"time_s\":{" + times + "},\"fz_N\":{" + forces + "}}"), 5) << "a quadratic reader takes a minute";
-    EXPECT_LT(seconds("time_s," + std::string(8'000'000, '"') + "\n0,1\n1,2\n"), 5) << "and here minutes";
+    EXPECT_LT(seconds("time_s," + std::string(8'000'000, '"') + "\n0,1\n1,2\n"), 5) << "a quadratic reader takes minutes";
 }
 
 TEST(LoggerFiles, OpeningALargeJsonDocumentCanBeStopped) {
@@ -215,9 +215,10 @@ TEST(LoggerFiles, OpeningALargeJsonDocumentCanBeStopped) {
     std::string text = "[";
     for (int k = 0; k < 20'000; ++k) text += fmt::format("{}{{\"t\":{},\"F_N\":1}}", k > 0 ? "," : "", k);
     int call_count = 0;
-    const auto made = try_load_recording(folder.write("x.json", text + "]"), {.should_continue = [&](double) { return ++call_count < 3; }});
-    ASSERT_FALSE(made);
-    EXPECT_EQ(made.error().code, ErrorCode::interrupted);
+    const auto recording =
+        try_load_recording(folder.write("x.json", text + "]"), {.should_continue = [&](double) { return ++call_count < 3; }});
+    ASSERT_FALSE(recording);
+    EXPECT_EQ(recording.error().code, ErrorCode::interrupted);
     EXPECT_EQ(call_count, 3);
 }
 
@@ -238,13 +239,13 @@ TEST(LoggerFiles, ASecondSegmentOfALabviewFileEndsWithACommandThatKeepsTheFirst)
     EXPECT_EQ(load_recording(run_remedy(folder, "first.lvm", "head ")).force[0], (std::vector<double>{1, 2, 3}));
 }
 
-TEST(LoggerFiles, BesideAForceColumnsInOtherUnitsAreLeftOutAndAllAreCounted) {
+TEST(LoggerFiles, ColumnsInOtherUnitsBesideAForceAreIgnoredAndCounted) {
     const TemporaryFolder folder;
     const auto r = read_logged(folder, "time_s,Load (N),Extension (mm),bridge_V\n0,1,5,2\n1,2,6,2\n");
     EXPECT_EQ(r.names, std::vector<std::string>{"Load"});
     EXPECT_TRUE(has_note(r, "'Extension' was ignored: mm is not a unit of force"));
-    EXPECT_NE(refused_logged(folder, "time_s,load_%\n0,1\n1,2\n").find("'load' is in %, which is not a force"), std::string::npos);
-    EXPECT_NE(refused_logged(folder, "time_s,Load (g)\n0,1\n1,2\n").find("'Load' is in g, which is a mass; use --unit gf"),
+    EXPECT_NE(error_of(folder, "time_s,load_%\n0,1\n1,2\n").find("'load' is in %, which is not a force"), std::string::npos);
+    EXPECT_NE(error_of(folder, "time_s,Load (g)\n0,1\n1,2\n").find("'Load' is in g, which is a mass; use --unit gf"),
               std::string::npos);
     EXPECT_NEAR(load_recording(folder / "x.csv", {.unit = "gf"}).force[0][1], 2 * 9.80665e-3, 1e-9) << "the remedy";
     std::string heading = "time_s,F_N", first = "0,1", second = "1,2";
@@ -253,7 +254,7 @@ TEST(LoggerFiles, BesideAForceColumnsInOtherUnitsAreLeftOutAndAllAreCounted) {
                          "15 more columns were ignored because they hold no force"));
 }
 
-TEST(LoggerFiles, NumbersWrittenInAnotherWayAreNamedWithACommandThatRewritesThem) {
+TEST(LoggerFiles, NumbersInAnotherNotationAreNamedWithACommandThatRewritesThem) {
     const TemporaryFolder folder;
     const std::tuple<std::string, std::string, std::string> cases[] = {
         {"time_s,fz\n0,\u22121.5\n1,\u22122.5\n", "line 2 has '\u22121.5', which contains a typographic minus sign (U+2212)", "sed "},
@@ -265,21 +266,21 @@ TEST(LoggerFiles, NumbersWrittenInAnotherWayAreNamedWithACommandThatRewritesThem
         {"time_s,fz\n0,n/a\n1,n/a\n", "'fz' holds words, not numbers; line 2 has 'n/a'", ""},
     };
     for (const auto& [text, message, first_word] : cases) {
-        const auto refused = refused_logged(folder, text);
+        const auto refused = error_of(folder, text);
         EXPECT_NE(refused.find(message), std::string::npos) << refused;
         if (first_word.empty()) continue;
         const auto repaired = load_recording(run_remedy(folder, "x.csv", first_word)).force[0];
         EXPECT_EQ(std::vector<double>(repaired.end() - 2, repaired.end()), (std::vector<double>{-1.5, -2.5})) << refused;
     }
-    EXPECT_NE(refused_logged(folder, "time_s,fz\n0,5 mN\n1,6 mN\n").find("the unit mN after the number (use --unit mN for the new file)"),
+    EXPECT_NE(error_of(folder, "time_s,fz\n0,5 mN\n1,6 mN\n").find("the unit mN after the number (use --unit mN for the new file)"),
               std::string::npos);
 }
 
-TEST(LoggerFiles, ThousandsInGroupsAreNamedAndManyFilledReadingsWarnedOf) {
+TEST(LoggerFiles, ThousandsSeparatorsAreNamedAndManyInterpolatedSamplesCauseAWarning) {
     const TemporaryFolder folder;
     for (const std::string text : {"Zeit (s);Kraft (mN)\n0,0;999,21\n0,1;1.016,21\n0,2;998,50\n",
                                    "t_s,F_mN\n0,999.21\n0.1,\"1,016.21\"\n0.2,998.5\n", "t_s,F_mN\n0,999\n0.1,\"1,016\"\n0.2,998\n"}) {
-        const auto message = refused_logged(folder, text);
+        const auto message = error_of(folder, text);
         EXPECT_NE(message.find("it contains a thousands separator; save the table without it"), std::string::npos) << message;
         EXPECT_EQ(message.find("--bad-fields"), std::string::npos) << message;
         const auto filled = load_recording(folder / "x.csv", {.bad_fields = BadFields::interpolate});
@@ -298,7 +299,7 @@ TEST(LoggerFiles, AHeaderOfColumnNumbersIsAHeader) {
     EXPECT_EQ(load_recording(folder / "x.csv", {.channels = {"ch1"}, .time = "0"}).force[0][7], 7) << "the remedy";
 }
 
-TEST(LoggerFiles, APreamblePaddedWithSeparatorsIsPassedOverAboveARowOfUnits) {
+TEST(LoggerFiles, APreamblePaddedWithSeparatorsIsSkippedAboveARowOfUnits) {
     const TemporaryFolder folder;
     const auto r = read_logged(folder, "Test report;;\nOperator;Max;\nDate;24.12.2024;\n\nTime;Force\n(s);(mN)\n" +
                                            rows_of(20, [](int, double t, double F) { return fmt::format("{:.2f};{:.2f}\n", t, F); }));
@@ -307,7 +308,7 @@ TEST(LoggerFiles, APreamblePaddedWithSeparatorsIsPassedOverAboveARowOfUnits) {
     EXPECT_NEAR(r.force[0][10], 0.5e-3, 1e-12);
 }
 
-TEST(LoggerFiles, RowsTakenAsChannelsMayBeginWithANameAndTheirGapsHaveALocation) {
+TEST(LoggerFiles, RowsAsChannelsMayBeginWithANameAndErrorsNameTheField) {
     const TemporaryFolder folder;
     RecordingOptions rows;
     rows.table.transpose = true;
@@ -317,17 +318,17 @@ TEST(LoggerFiles, RowsTakenAsChannelsMayBeginWithANameAndTheirGapsHaveALocation)
     EXPECT_NEAR(named.clock.rate(), 100, 1e-6);
     EXPECT_EQ(test::load_error(folder / "x.csv"),
               "x.csv: every row begins with a name, and the first row is the time; use --transpose to take each row as a channel");
-    EXPECT_EQ(refused_logged(folder, "time_s,0,0.01,0.02\nfz_N,4,,6\n", rows),
+    EXPECT_EQ(error_of(folder, "time_s,0,0.01,0.02\nfz_N,4,,6\n", rows),
               "x.csv:2: field 3 is not a number; use --bad-fields interpolate to fill it in, or --bad-fields drop to skip this sample in "
               "all channels");
     rows.bad_fields = BadFields::interpolate;
     EXPECT_EQ(load_recording(folder / "x.csv", rows).force[0], (std::vector<double>{4, 5, 6})) << "the remedy";
     rows.bad_fields.reset();
     rows.rate = 100;
-    EXPECT_EQ(refused_logged(folder, "0,1,2,,4\n1,2,3,4,5\n", rows).substr(0, 32), "x.csv:1: field 4 is not a number");
+    EXPECT_EQ(error_of(folder, "0,1,2,,4\n1,2,3,4,5\n", rows).substr(0, 32), "x.csv:1: field 4 is not a number");
 }
 
-TEST(LoggerFiles, AJsonDocumentsRateAndUnitAreUsedAndListsBesideTheTableLeftOut) {
+TEST(LoggerFiles, RateAndUnitOfAJsonDocumentAreUsedAndOtherListsIgnored) {
     const TemporaryFolder folder;
     const auto r = read_logged(folder, R"({"fs":200,"unit":"mN","force":[500,1000,1500]})", {}, "x.json");
     EXPECT_EQ(r.clock.rate(), 200);
@@ -335,7 +336,7 @@ TEST(LoggerFiles, AJsonDocumentsRateAndUnitAreUsedAndListsBesideTheTableLeftOut)
     const auto tagged = read_logged(folder, R"({"tags":["a","b"],"time_s":[0,1,2],"fz_N":[1,2,3]})", {}, "x.json");
     EXPECT_EQ(tagged.force, (std::vector<std::vector<double>>{{1, 2, 3}}));
     EXPECT_TRUE(has_note(tagged, "'tags' was ignored: it has 2 strings, but the table has 3 rows"));
-    EXPECT_EQ(refused_logged(folder, "[{\"t\":NaN,\"F\":-Infinity},\n{\"t\":NaN,\"F\":}]", {}, "x.json").substr(0, 11), "x.json:2:14");
+    EXPECT_EQ(error_of(folder, "[{\"t\":NaN,\"F\":-Infinity},\n{\"t\":NaN,\"F\":}]", {}, "x.json").substr(0, 11), "x.json:2:14");
 }
 
 TEST(LoggerFiles, AColumnInSecondsOrMillisecondsIsTheTime) {
@@ -350,15 +351,15 @@ TEST(LoggerFiles, AColumnInSecondsOrMillisecondsIsTheTime) {
     const auto path = folder.write(
         "x.csv", "Zeit [ms];Kraft [N]\n" + rows_of(20, [](int k, double, double F) { return fmt::format("{};{}\n", 10 * k, F); }));
     EXPECT_NEAR(load_recording(path).clock.rate(), 100, 1e-6);
-    for (const std::string call_count : {"Zeit [ms]", "Zeit", "Zeit_ms", "1"})
-        EXPECT_NEAR(load_recording(path, {.time = call_count}).clock.rate(), 100, 1e-6) << call_count;
+    for (const std::string time_name : {"Zeit [ms]", "Zeit", "Zeit_ms", "1"})
+        EXPECT_NEAR(load_recording(path, {.time = time_name}).clock.rate(), 100, 1e-6) << time_name;
     EXPECT_TRUE(has_note(load_recording(path), "'Zeit' is taken as the time"));
     EXPECT_FALSE(has_note(load_recording(path, {.time = "none", .rate = 10}), "is taken as the time"));
 }
 
 TEST(LoggerFiles, AColumnWithATimeLikeNameThatDoesNotIncreaseIsNotATime) {
     const TemporaryFolder folder;
-    EXPECT_NE(refused_logged(folder, "response_time,F_N\n0.3,1\n0.2,2\n0.4,3\n").find("no time column found"), std::string::npos);
+    EXPECT_NE(error_of(folder, "response_time,F_N\n0.3,1\n0.2,2\n0.4,3\n").find("no time column found"), std::string::npos);
 }
 
 TEST(LoggerFiles, DatesAndTimesOfDayAreRead) {
@@ -371,7 +372,7 @@ TEST(LoggerFiles, DatesAndTimesOfDayAreRead) {
     EXPECT_NEAR(clock("2026-03-01T12:00:00,000+01:00", "2026-03-01T12:00:00,005+01:00", "2026-03-01T12:00:00,010+01:00"), 200, 1e-6);
     EXPECT_NEAR(clock("01.03.2026 12:00:00.000", "01.03.2026 12:00:00.005", "01.03.2026 12:00:00.010"), 200, 1e-6);
     EXPECT_NEAR(clock("12:00:00.000", "12:00:00.005", "12:00:00.010"), 200, 1e-6);
-    EXPECT_NEAR(clock("23:59:59.995", "00:00:00.000", "00:00:00.005"), 200, 1e-6) << "midnight passes";
+    EXPECT_NEAR(clock("23:59:59.995", "00:00:00.000", "00:00:00.005"), 200, 1e-6) << "times of day that pass midnight";
     EXPECT_NEAR(clock("2026-02-28 23:59:59.995", "2026-03-01 00:00:00.000", "2026-03-01 00:00:00.005"), 200, 1e-6);
     const auto r = read_logged(folder, "time,F_N\n2026-03-01T12:00:00,1\n2026-03-01T12:00:01,2\n2026-03-01T12:00:02,3\n");
     EXPECT_EQ(r.clock.t0, 0);
@@ -386,11 +387,11 @@ TEST(LoggerFiles, DatesAndTimesOfDayAreRead) {
 TEST(LoggerFiles, TimesThatCannotBeReadNameTheRemedyThatWorks) {
     const TemporaryFolder folder;
     const std::string text = "time,F_N\n03/01/2026 12:00,1\n03/01/2026 12:01,2\n";
-    EXPECT_NE(refused_logged(folder, text)
+    EXPECT_NE(error_of(folder, text)
                   .find("'03/01/2026 12:00' where a number is expected; use --rate, such as --rate 1kHz, to take the rows"),
               std::string::npos);
     EXPECT_EQ(load_recording(folder / "x.csv", {.rate = 1000}).force[0].size(), 2U);
-    EXPECT_NE(refused_logged(folder, "time,F_N\n12:00:00.0,1\n12:00:00.1,2\n", {.time_unit = "ms"}).find("have no unit; omit the option"),
+    EXPECT_NE(error_of(folder, "time,F_N\n12:00:00.0,1\n12:00:00.1,2\n", {.time_unit = "ms"}).find("have no unit; omit the option"),
               std::string::npos);
 }
 
@@ -407,7 +408,7 @@ TEST(LoggerFiles, TimesSince1970AreRecognisedByTheirSize) {
     }
 }
 
-TEST(LoggerFiles, UnitsBehindASlashAndInARowOfTheirOwnAreSeen) {
+TEST(LoggerFiles, UnitsAfterASlashAndInASeparateRowAreRecognised) {
     const TemporaryFolder folder;
     const auto slash = read_logged(folder, "Time/s,Fz/mN,v/(m/s)\n0,500,1\n1,1000,1\n");
     EXPECT_EQ(slash.names, std::vector<std::string>{"Fz"});
@@ -431,19 +432,19 @@ TEST(LoggerFiles, LinesBeforeTheTableAreSkippedAndReported) {
         EXPECT_EQ(r.force[0].size(), 20U) << before;
         EXPECT_TRUE(has_note(r, "before the table")) << before;
     }
-    const auto alike = read_logged(folder, "Subject,S07\nRate,100\ntime_s,F_N\n0,1\n1,2\n");
-    EXPECT_EQ(alike.names, std::vector<std::string>{"F"});
+    const auto short_preamble = read_logged(folder, "Subject,S07\nRate,100\ntime_s,F_N\n0,1\n1,2\n");
+    EXPECT_EQ(short_preamble.names, std::vector<std::string>{"F"});
     RecordingOptions skip;
     skip.table.skip_lines = 2;
     EXPECT_EQ(read_logged(folder, "x,y\n1,2\ntime_s,F_N\n0,1\n1,2\n", skip).names, std::vector<std::string>{"F"});
-    EXPECT_NE(refused_logged(folder, "x,y\nfirst,second\n1,2\n3,4\n", {.rate = 10}).find("--skip LINES to skip lines before the table"),
+    EXPECT_NE(error_of(folder, "x,y\nfirst,second\n1,2\n3,4\n", {.rate = 10}).find("--skip LINES to skip lines before the table"),
               std::string::npos);
     skip.table.skip_lines = 100;
-    EXPECT_EQ(refused_logged(folder, "x,y\n1,2\n", skip), "x.csv: no data in this file");
+    EXPECT_EQ(error_of(folder, "x,y\n1,2\n", skip), "x.csv: no data in this file");
     EXPECT_NE(test::load_error(folder.write("x.npy", "?"), skip).find("--skip 100: only text files have lines to skip"), std::string::npos);
 }
 
-TEST(LoggerFiles, LineEndsOfOldMacsAreNamedWithTheirRemedy) {
+TEST(LoggerFiles, LineEndsOfOldMacsAreReportedWithTheRemedy) {
     const TemporaryFolder folder;
     const auto message = try_load_recording(folder.write("x.csv", "time_s,F_N\r0,1\r1,2\r")).error().text();
     const auto at = message.find("tr '");
@@ -455,14 +456,14 @@ TEST(LoggerFiles, LineEndsOfOldMacsAreNamedWithTheirRemedy) {
 TEST(LoggerFiles, ATruncatedOrDamagedTableIsNotTakenForAPreamble) {
     const TemporaryFolder folder;
     const std::string table = rows_of(20, [](int, double t, double F) { return fmt::format("{:.2f},{}\n", t, F); });
-    EXPECT_NE(refused_logged(folder, "t,F\n" + table + "0.2").find("x.csv:22: 1 columns where 2 are expected"), std::string::npos);
-    EXPECT_NE(refused_logged(folder, "t,F\n0,1\n\n0.1,2,3\n0.2,3,4\n0.3,4,5\n").find("x.csv:4: 3 columns where 2 are expected"),
+    EXPECT_NE(error_of(folder, "t,F\n" + table + "0.2").find("x.csv:22: 1 columns where 2 are expected"), std::string::npos);
+    EXPECT_NE(error_of(folder, "t,F\n0,1\n\n0.1,2,3\n0.2,3,4\n0.3,4,5\n").find("x.csv:4: 3 columns where 2 are expected"),
               std::string::npos);
-    EXPECT_NE(refused_logged(folder, "time,force\n0,1,5\n0.1,2,6\n0.2,2,6\n").find("x.csv:2: 3 columns where 2 are expected"),
+    EXPECT_NE(error_of(folder, "time,force\n0,1,5\n0.1,2,6\n0.2,2,6\n").find("x.csv:2: 3 columns where 2 are expected"),
               std::string::npos);
 }
 
-TEST(LoggerFiles, LabviewsTablesAreReadWithTheirClockUnitsAndComments) {
+TEST(LoggerFiles, LabviewTablesAreReadWithTheirClockUnitsAndComments) {
     const TemporaryFolder folder;
     const auto lvm = [&](const std::string& x, const std::string& rows) {
         return read_logged(
@@ -479,14 +480,14 @@ TEST(LoggerFiles, LabviewsTablesAreReadWithTheirClockUnitsAndComments) {
     EXPECT_NEAR(one.clock.rate(), 100, 1e-9);
     const auto none = lvm("No", "X_Value\tFz\tFx\tComment\n\t500\t1\tfirst\n\t600\t2\n\t700\t3\t\n");
     EXPECT_EQ(none.names, (std::vector<std::string>{"Fz", "Fx"}));
-    EXPECT_NEAR(none.clock.rate(), 100, 1e-9) << "from Delta_X";
+    EXPECT_NEAR(none.clock.rate(), 100, 1e-9) << "the clock is from Delta_X";
     const auto two = lvm("Multi", "X_Value\tFz\tX_Value\tFx\tComment\n0,00\t500\t0,00\t1\n0,01\t600\t0,01\t2\n0,02\t700\t0,02\t3\n");
     EXPECT_EQ(two.names, (std::vector<std::string>{"Fz", "Fx"}));
-    EXPECT_NE(refused_logged(folder, "LabVIEW Measurement\nSeparator\tTab\n", {}, "x.lvm").find("this LabVIEW file has no table"),
+    EXPECT_NE(error_of(folder, "LabVIEW Measurement\nSeparator\tTab\n", {}, "x.lvm").find("this LabVIEW file has no table"),
               std::string::npos);
 }
 
-TEST(LoggerFiles, AnIndexColumnIsLeftOutAndReported) {
+TEST(LoggerFiles, AnIndexColumnIsIgnoredAndReported) {
     const TemporaryFolder folder;
     const auto line = [](int k, double t, double F) { return fmt::format("{},{:.2f},{:.3f}\n", k, t, F); };
     const auto pandas = read_logged(folder, ",time_s,fz_N\n" + rows_of(30, line));
@@ -500,7 +501,8 @@ TEST(LoggerFiles, AnIndexColumnIsLeftOutAndReported) {
     EXPECT_EQ(read_logged(folder, "k,time_s,fz_N\n" + rows_of(30, line)).names, std::vector<std::string>{"fz"});
     EXPECT_EQ(read_logged(folder, "k,time_s,fz_N\n" + rows_of(3, line)).names, (std::vector<std::string>{"k", "fz"}))
         << "too few rows to decide";
-    EXPECT_EQ(read_logged(folder, "F_N\n1\n2\n3\n4\n5\n6\n7\n8\n9\n", {.rate = 10}).names, std::vector<std::string>{"F"}) << "all there is";
+    EXPECT_EQ(read_logged(folder, "F_N\n1\n2\n3\n4\n5\n6\n7\n8\n9\n", {.rate = 10}).names, std::vector<std::string>{"F"})
+        << "the only column";
     EXPECT_EQ(
         read_logged(folder, "a_N,b_N\n" + rows_of(30, [](int k, double, double F) { return fmt::format("{},{}\n", k, F); }), {.rate = 10})
             .names,
@@ -521,7 +523,7 @@ TEST(LoggerFiles, AColumnInAUnitOtherThanForceIsNeverTakenAsNewtons) {
     EXPECT_EQ(load_recording(folder / "x.csv", {.scale = 2}).names, std::vector<std::string>{"fz"}) << "nor does a scale make it one";
     EXPECT_TRUE(
         has_note(read_logged(folder, "time_s,fz_N,humidity [%]\n0,1,2\n1,1,2\n"), "'humidity' was ignored: % is not a unit of force"));
-    EXPECT_NE(refused_logged(folder, "time_s,temp_C\n0,1\n1,1\n").find("'temp' is in C"), std::string::npos);
+    EXPECT_NE(error_of(folder, "time_s,temp_C\n0,1\n1,1\n").find("'temp' is in C"), std::string::npos);
     EXPECT_EQ(read_logged(folder, "time_s,left_A,left_C,left_F\n0,1,2,3\n1,1,2,3\n").names,
               (std::vector<std::string>{"left_A", "left_C", "left_F"}))
         << "letters that name sensors";
@@ -537,28 +539,28 @@ TEST(LoggerFiles, ACommentWithAsManyFieldsAsTheDataIsTheHeader) {
                                                  return fmt::format("{},{},{},base,{}\n", t, k, t, F);
                                              }));
     EXPECT_EQ(ros.names, std::vector<std::string>{"field.wrench.force.z"});
-    EXPECT_EQ(ros.force[0].size(), 30U) << "no row became the header";
+    EXPECT_EQ(ros.force[0].size(), 30U) << "the header is not one of the rows";
     EXPECT_NEAR(ros.clock.rate(), 100, 1e-3);
     EXPECT_EQ(read_logged(folder, "# made by hand, twice\ntime,force\n0,1\n1,2\n").names, std::vector<std::string>{"force"})
-        << "words under a comment are the header";
+        << "the line of words below the comment is the header";
 }
 
-TEST(LoggerFiles, WordsAndEmptyColumnsAreLeftOutAndEmptyFieldsNameTheirRemedy) {
+TEST(LoggerFiles, WordsAndEmptyColumnsAreIgnoredAndEmptyFieldsNameTheRemedy) {
     const TemporaryFolder folder;
     const auto r = read_logged(folder, "time_s,fz_N,phase,notes\n0,1,rest,\n1,2,press,\n2,3,press,\n");
     EXPECT_EQ(r.names, std::vector<std::string>{"fz"});
     EXPECT_TRUE(has_note(r, "'phase' was ignored: it holds words, not numbers"));
     EXPECT_TRUE(has_note(r, "'notes' was ignored: it is empty"));
     EXPECT_EQ(
-        refused_logged(folder, "time_s,fz_N\n0,1\n1,\n2,3\n"),
+        error_of(folder, "time_s,fz_N\n0,1\n1,\n2,3\n"),
         "x.csv:3:3: column 'fz': an empty field where a number is expected; use --bad-fields interpolate to fill it in, or --bad-fields "
         "drop to skip the row");
     EXPECT_EQ(load_recording(folder / "x.csv", {.bad_fields = BadFields::interpolate}).force[0], (std::vector<double>{1, 2, 3}));
-    EXPECT_EQ(refused_logged(folder, "time_s,phase\n0,rest\n1,press\n"),
+    EXPECT_EQ(error_of(folder, "time_s,phase\n0,rest\n1,press\n"),
               "x.csv: no column holds force values: 'phase' holds words, not numbers; line 2 has 'rest'");
 }
 
-TEST(LoggerFiles, ChannelsAreChosenByRangesOfNamesAndCountedOnesAreCalledByName) {
+TEST(LoggerFiles, ChannelsMayBeRangesOfNamesAndNumbersAreReportedByName) {
     const TemporaryFolder folder;
     const auto path = folder.write("x.csv", "time_s,Channel 0_N,Channel 1_N,Channel 2_N,\"a,b_N\"\n0,1,2,3,4\n1,1,2,3,4\n");
     const auto counted = load_recording(path, {.channels = {"2-3"}});
@@ -575,7 +577,7 @@ TEST(LoggerFiles, ATimeUnitThatContradictsTheHeaderIsReported) {
     EXPECT_TRUE(has_note(r, "--time-unit ms overrides the unit of 'time' in the header, s"));
 }
 
-std::string packed(const std::string& text) {
+std::string gzipped(const std::string& text) {
     std::string out(text.size() + 1000, '\0');
     z_stream z{};
     ::deflateInit2(&z, 6, Z_DEFLATED, 15 + 16, 8, Z_DEFAULT_STRATEGY);
@@ -587,27 +589,27 @@ std::string packed(const std::string& text) {
     return out;
 }
 
-TEST(LoggerFiles, GzipIsUnpackedInChunksAndItsDamageNamed) {
+TEST(LoggerFiles, GzipIsDecompressedInChunksAndDamageIsReported) {
     const TemporaryFolder folder;
     const auto text = "time_s,F_N\n" + rows_of(60'000, [](int, double t, double F) { return fmt::format("{:.2f},{:.2f}\n", t, F); });
     const auto uncompressed = read_logged(folder, text);
-    EXPECT_EQ(read_logged(folder, packed(text), {}, "x.csv.gz").force, uncompressed.force);
+    EXPECT_EQ(read_logged(folder, gzipped(text), {}, "x.csv.gz").force, uncompressed.force);
     const auto half = text.find("300.00,");
-    EXPECT_EQ(read_logged(folder, packed(text.substr(0, half)) + packed(text.substr(half)), {}, "x.csv.gz").force, uncompressed.force)
-        << "two members";
-    EXPECT_EQ(read_logged(folder, packed(text) + std::string(512, '\0'), {}, "x.csv.gz").force, uncompressed.force) << "padded";
-    auto complete = packed(text);
-    EXPECT_NE(refused_logged(folder, complete.substr(0, complete.size() / 2), {}, "x.gz").find("this gzip file is incomplete"),
+    EXPECT_EQ(read_logged(folder, gzipped(text.substr(0, half)) + gzipped(text.substr(half)), {}, "x.csv.gz").force, uncompressed.force)
+        << "a file of two gzip members";
+    EXPECT_EQ(read_logged(folder, gzipped(text) + std::string(512, '\0'), {}, "x.csv.gz").force, uncompressed.force) << "padded with zeros";
+    auto complete = gzipped(text);
+    EXPECT_NE(error_of(folder, complete.substr(0, complete.size() / 2), {}, "x.gz").find("this gzip file is incomplete"),
               std::string::npos);
     complete[complete.size() / 2] ^= 0x55;
-    EXPECT_NE(refused_logged(folder, complete, {}, "x.gz").find("this gzip file is damaged"), std::string::npos);
-    EXPECT_NE(refused_logged(folder, packed(text) + "more", {}, "x.gz").find("this gzip file is damaged"), std::string::npos);
-    EXPECT_NE(refused_logged(folder, packed("\x93NUMPY..."), {}, "x.npy.gz").find("decompress it first: gzip -dk "), std::string::npos);
+    EXPECT_NE(error_of(folder, complete, {}, "x.gz").find("this gzip file is damaged"), std::string::npos);
+    EXPECT_NE(error_of(folder, gzipped(text) + "more", {}, "x.gz").find("this gzip file is damaged"), std::string::npos);
+    EXPECT_NE(error_of(folder, gzipped("\x93NUMPY..."), {}, "x.npy.gz").find("decompress it first: gzip -dk "), std::string::npos);
 }
 
-TEST(LoggerFiles, AGzipBombTakesNoMoreMemoryThanALineMay) {
+TEST(LoggerFiles, AGzipBombIsRefusedAtTheLimitOfALine) {
     const TemporaryFolder folder;
-    EXPECT_NE(refused_logged(folder, packed(std::string(80'000'000, '1')), {}, "x.gz").find("the line is longer than 64 MB"),
+    EXPECT_NE(error_of(folder, gzipped(std::string(80'000'000, '1')), {}, "x.gz").find("the line is longer than 64 MB"),
               std::string::npos);
 }
 
@@ -628,10 +630,10 @@ TEST(LoggerFiles, Utf16IsReadWithAndWithoutItsMark) {
     const auto letters =
         utf16("time_s,", false, true) + std::string("\x4b\x00\x3d\xd8\x4b\xdc,\x00", 8) + utf16("x\n0,1,2\n1,2,3\n", false, false);
     EXPECT_EQ(read_logged(folder, letters).names.at(0), "K\xf0\x9f\x91\x8b") << "a pair of surrogates";
-    EXPECT_NE(refused_logged(folder, utf16("t,F\n0,1\n", false, true) + "x").find("ends within a character"), std::string::npos);
+    EXPECT_NE(error_of(folder, utf16("t,F\n0,1\n", false, true) + "x").find("ends within a character"), std::string::npos);
 }
 
-TEST(LoggerFiles, JsonIsReadAsLinesAsAListAndAsColumns) {
+TEST(LoggerFiles, JsonIsReadAsLinesAListOrColumns) {
     const TemporaryFolder folder;
     for (const std::string text :
          {R"({"t":0,"fz_N":1.5,"name":"x"}
@@ -679,13 +681,13 @@ TEST(LoggerFiles, JsonThatIsNotATableIsRefusedWithItsLocation) {
         {"[{\"t\":0,\"F\":1},{\"t\":1,", "this JSON is not valid"},
     };
     for (const auto& [text, message] : cases)
-        EXPECT_NE(refused_logged(folder, text, {}, "x.json").find(message), std::string::npos)
-            << refused_logged(folder, text, {}, "x.json");
+        EXPECT_NE(error_of(folder, text, {}, "x.json").find(message), std::string::npos)
+            << error_of(folder, text, {}, "x.json");
     folder.write("x.json", "{\"t\":0,\"F\":1}\n{\"t\":1,\"F\":null}\n{\"t\":2,\"F\":3}\n");
     EXPECT_EQ(load_recording(folder / "x.json", {.bad_fields = BadFields::interpolate}).force[0], (std::vector<double>{1, 2, 3}));
 }
 
-TEST(LoggerFiles, OtherProgramsFilesAreNamedWithACommandThatConvertsThem) {
+TEST(LoggerFiles, FilesOfOtherProgramsAreNamedWithACommandThatConvertsThem) {
     const TemporaryFolder folder;
     const std::tuple<std::string, std::string, std::string> cases[] = {
         {"x.xlsx", std::string("PK\x03\x04 [Content_Types].xml\0", 24), "pandas.read_excel('"},
@@ -701,10 +703,10 @@ TEST(LoggerFiles, OtherProgramsFilesAreNamedWithACommandThatConvertsThem) {
         {"x.bin", std::string("ab\0cd", 5), "not a text file: it contains NUL bytes"},
     };
     for (const auto& [name, bytes, message] : cases)
-        EXPECT_NE(refused_logged(folder, bytes, {}, name).find(message), std::string::npos) << refused_logged(folder, bytes, {}, name);
+        EXPECT_NE(error_of(folder, bytes, {}, name).find(message), std::string::npos) << error_of(folder, bytes, {}, name);
 }
 
-/// The command at the end of a message about a file.
+/// The command at the end of a message that says how to convert a file.
 std::string command_in(const std::string& message) {
     const auto at = message.find("convert it like this: ");
     return at == std::string::npos ? "" : message.substr(at + 22);
@@ -714,20 +716,20 @@ int run_command(const TemporaryFolder& folder, const std::string& command) {
     return std::system(("cd '" + folder.path() + "' && { " + command + "; } >/dev/null 2>&1").c_str());
 }
 
-TEST(LoggerFiles, PackedFilesAreUnpackedByTheCommandThatIsNamed) {
+TEST(LoggerFiles, CompressedFilesAreDecompressedByTheCommandInTheMessage) {
     const std::string table = "time_s,fz_N\n0,1\n0.01,2\n0.02,3\n";
     for (const auto& [program, extension] : {std::pair{"bzip2", ".bz2"}, {"xz", ".xz"}, {"zstd", ".zst"}}) {
         const TemporaryFolder folder;
         if (run_command(folder, fmt::format("command -v {}", program)) != 0) continue;
         folder.write("plain", table);
-        for (const auto& [name, made] :
+        for (const auto& [name, unpacked] :
              {std::pair{"x.csv" + std::string(extension), "x.csv"}, {"data", "data-unpacked"}, {"a b.csv", "a b-unpacked"}}) {
             ASSERT_EQ(run_command(folder, fmt::format("{} -c < plain > '{}'", program, name)), 0);
             const auto refused = try_load_recording(folder / name);
             ASSERT_FALSE(refused);
             const auto command = command_in(refused.error().text());
             ASSERT_EQ(run_command(folder, command), 0) << command;
-            EXPECT_EQ(test::read_file(folder / made), table) << command;
+            EXPECT_EQ(test::read_file(folder / unpacked), table) << command;
         }
     }
 }
@@ -741,7 +743,7 @@ TEST(LoggerFiles, PythonCommandsAreComplete) {
                                       {"x.tdms", std::string("TDSm")},
                                       {"x.mat", std::string("MATLAB 5.0 MAT-file")},
                                       {"x.pkl", std::string("\x80\x04")}}) {
-        const auto command = command_in(refused_logged(folder, bytes, {}, name));
+        const auto command = command_in(error_of(folder, bytes, {}, name));
         ASSERT_TRUE(command.starts_with("python3 -c \"")) << command;
         const auto code = "compile(\\\"\\\"\\\"" + command.substr(12, command.size() - 13) + "\\\"\\\"\\\", 'x', 'exec')";
         EXPECT_EQ(run_command(folder, "python3 -c \"" + code + "\""), 0) << command;
@@ -758,9 +760,9 @@ TEST(LoggerFiles, AMatlabVectorOfTimesBesideTheForceIsItsClock) {
         }
         return bytes;
     };
-    const auto made = make_archive({{"t_s.npy", test::npy_bytes("'<f8'", "(1, 50)", doubles(50, 0.01))},
+    const auto archive = make_archive({{"t_s.npy", test::npy_bytes("'<f8'", "(1, 50)", doubles(50, 0.01))},
                                     {"force_N.npy", test::npy_bytes("'<f8'", "(1, 50)", doubles(50, 0.1))}});
-    const auto read = load_recording(folder.write("m.npz", test::value_or_throw(made)));
+    const auto read = load_recording(folder.write("m.npz", test::value_or_throw(archive)));
     EXPECT_NEAR(read.clock.rate(), 100, 1e-6);
     EXPECT_EQ(read.force[0][10], 1);
 }

@@ -18,22 +18,22 @@ namespace {
 using test::TemporaryFolder, test::npy_bytes, test::load_recording, test::load_error;
 
 template <class T>
-std::string bytes_of(T x, bool big) {
+std::string bytes_of(T x, bool big_endian) {
     std::string s(reinterpret_cast<const char*>(&x), sizeof x);
-    if (big) std::reverse(s.begin(), s.end());
+    if (big_endian) std::reverse(s.begin(), s.end());
     return s;
 }
 
-/// A number type: its letters, the range in which it holds every integer exactly, and its encoder.
+/// A number type: its NumPy code, a range of integers that it represents exactly, and its encoder.
 struct NumberType {
-    const char* letters;
+    const char* code;
     int low, high;
     std::string (*bytes)(int, bool);
 };
 
 template <class T>
-std::string encode_number(int x, bool big) {
-    return bytes_of(static_cast<T>(x), big);
+std::string encode_number(int x, bool big_endian) {
+    return bytes_of(static_cast<T>(x), big_endian);
 }
 
 const NumberType number_types[] = {{"f8", -1000000, 1000000, encode_number<double>},
@@ -48,11 +48,11 @@ const NumberType number_types[] = {{"f8", -1000000, 1000000, encode_number<doubl
                                    {"u8", 0, 1000000, encode_number<std::uint64_t>},
                                    {"b1", 0, 2, encode_number<std::uint8_t>}};
 
-TEST(Npy, EveryKindOfNumberInBothOrdersAndBothEndsIsReadAsItWasWritten) {
+TEST(Npy, EveryNumberTypeInBothMemoryAndByteOrdersIsReadAsItWasWritten) {
     EXPECT_TRUE(rc::check("round trip", [] {
         const auto& kind = *rc::gen::elementOf(std::vector<NumberType>(std::begin(number_types), std::end(number_types)));
         const auto rows = *rc::gen::inRange<std::size_t>(2, 300), columns = *rc::gen::inRange<std::size_t>(1, 5);
-        const bool big = *rc::gen::arbitrary<bool>(), by_columns = *rc::gen::arbitrary<bool>();
+        const bool big_endian = *rc::gen::arbitrary<bool>(), by_columns = *rc::gen::arbitrary<bool>();
         const int version = *rc::gen::inRange(1, 4);
         std::vector<std::vector<double>> force(columns, std::vector<double>(rows));
         std::vector<std::string> cells(rows * columns);
@@ -60,21 +60,21 @@ TEST(Npy, EveryKindOfNumberInBothOrdersAndBothEndsIsReadAsItWasWritten) {
             for (std::size_t c = 0; c < columns; ++c) {
                 const int x = *rc::gen::inRange(kind.low, kind.high);
                 force[c][r] = x;
-                cells[by_columns ? c * rows + r : r * columns + c] = kind.bytes(x, big);
+                cells[by_columns ? c * rows + r : r * columns + c] = kind.bytes(x, big_endian);
             }
         std::string data;
         for (const auto& cell : cells) data += cell;
-        const auto type = fmt::format("'{}{}'", big ? '>' : '<', kind.letters);
+        const auto type = fmt::format("'{}{}'", big_endian ? '>' : '<', kind.code);
         const auto path = (std::filesystem::temp_directory_path() / fmt::format("corpuscle-npy-{}.npy", ::getpid())).string();
         std::ofstream(path, std::ios::binary) << npy_bytes(type, fmt::format("({}, {})", rows, columns), data, by_columns, version);
-        const auto made = test::try_load_recording(path, {.table = {{}, false}, .rate = 100});
+        const auto recording = test::try_load_recording(path, {.table = {{}, false}, .rate = 100});
         std::filesystem::remove(path);
-        RC_ASSERT(static_cast<bool>(made));
-        RC_ASSERT(made->force == force);
+        RC_ASSERT(static_cast<bool>(recording));
+        RC_ASSERT(recording->force == force);
     }));
 }
 
-TEST(Npy, HalvesAreReadToTheLastBit) {
+TEST(Npy, HalfPrecisionNumbersAreReadExactly) {
     const auto half = NpyField{"", 'f', 2, 0, false}.decoder();
     const auto value = [&](std::uint16_t bits) { return half(reinterpret_cast<const std::byte*>(&bits)); };
     EXPECT_EQ(value(0x3c00), 1);
@@ -87,19 +87,19 @@ TEST(Npy, HalvesAreReadToTheLastBit) {
     EXPECT_TRUE(std::isnan(value(0x7e00)));
 }
 
-TEST(Npy, AStructuresNumbersAreColumnsWithNameAndUnit) {
+TEST(Npy, NumericFieldsOfAStructureAreColumnsWithNameAndUnit) {
     const TemporaryFolder folder;
     std::string data;
     for (int k = 0; k < 5000; ++k) data += bytes_of(std::uint32_t(k), false) + "ab" + bytes_of(static_cast<float>(k) * 30, true);
     const auto path = folder.write("x.npy", npy_bytes("[('t_ms', '<u4'), ('note', '|S2'), ('fz_mN', '>f4')]", "(5000,)", data));
-    const auto made = load_recording(path);
-    EXPECT_EQ(made.names, std::vector<std::string>{"fz"});
-    EXPECT_EQ(made.clock.rate(), 1000);
-    ASSERT_EQ(made.force[0].size(), 5000U);
-    EXPECT_EQ(made.force[0][4321], 4321 * 30.0 * 1e-3);
+    const auto recording = load_recording(path);
+    EXPECT_EQ(recording.names, std::vector<std::string>{"fz"});
+    EXPECT_EQ(recording.clock.rate(), 1000);
+    ASSERT_EQ(recording.force[0].size(), 5000U);
+    EXPECT_EQ(recording.force[0][4321], 4321 * 30.0 * 1e-3);
 }
 
-/// A table as pandas' to_records() or a logger's frame counter makes it: the first column is the row number.
+/// A table whose first column is the row number, as pandas' to_records() or a logger's frame counter writes it.
 std::string records(const std::string& index, std::size_t rows = 500) {
     std::string data;
     for (std::size_t k = 0; k < rows; ++k)
@@ -109,12 +109,12 @@ std::string records(const std::string& index, std::size_t rows = 500) {
 
 TEST(Npy, AColumnThatCountsTheRowsIsNotAForce) {
     const TemporaryFolder folder;
-    for (const std::string index : {"index", "sample", "frame", "level_0"}) {  // the last is recognised by its numbers alone
-        const auto made = load_recording(folder.write("x.npy", records(index)), {.rate = 100});
-        EXPECT_EQ(made.names, std::vector<std::string>{"fz"}) << index;
-        EXPECT_EQ(made.force[0][7], std::sin(7.0));
-        ASSERT_FALSE(made.notes.empty());
-        EXPECT_EQ(made.notes[0], fmt::format("'{}' was ignored: it counts the rows (use --channel 1 to include it)", index));
+    for (const std::string index : {"index", "sample", "frame", "level_0"}) {  // the last is recognised only by its numbers
+        const auto recording = load_recording(folder.write("x.npy", records(index)), {.rate = 100});
+        EXPECT_EQ(recording.names, std::vector<std::string>{"fz"}) << index;
+        EXPECT_EQ(recording.force[0][7], std::sin(7.0));
+        ASSERT_FALSE(recording.notes.empty());
+        EXPECT_EQ(recording.notes[0], fmt::format("'{}' was ignored: it counts the rows (use --channel 1 to include it)", index));
         EXPECT_EQ(load_recording(folder / "x.npy", {.channels = {index}, .rate = 100}).force[0][7], 7);
         const auto packed = make_archive({{"log.npy", records(index)}});
         EXPECT_EQ(load_recording(folder.write("x.npz", test::value_or_throw(packed)), {.rate = 100}).names, std::vector<std::string>{"fz"})
@@ -122,19 +122,19 @@ TEST(Npy, AColumnThatCountsTheRowsIsNotAForce) {
     }
 }
 
-TEST(Npy, AColumnInSecondsIsTheTimeWhateverItsName) {
+TEST(Npy, AColumnInSecondsIsTheTimeUnderAnyName) {
     const TemporaryFolder folder;
     std::string data;
     for (int k = 0; k < 500; ++k) data += bytes_of(0.01 * k, false) + bytes_of(2.0, false);
-    const auto made = load_recording(folder.write("x.npy", npy_bytes("[('Zeit_s', '<f8'), ('fz_N', '<f8')]", "(500,)", data)));
-    EXPECT_EQ(made.names, std::vector<std::string>{"fz"});
-    EXPECT_NEAR(made.clock.rate(), 100, 1e-6);
+    const auto recording = load_recording(folder.write("x.npy", npy_bytes("[('Zeit_s', '<f8'), ('fz_N', '<f8')]", "(500,)", data)));
+    EXPECT_EQ(recording.names, std::vector<std::string>{"fz"});
+    EXPECT_NEAR(recording.clock.rate(), 100, 1e-6);
 }
 
 TEST(Npy, AnArrayOfOneRowIsOneChannel) {
     const TemporaryFolder folder;
-    const auto made = load_recording(folder.write("x.npy", npy_bytes("'|u1'", "(1, 3)", "\1\2\3")), {.rate = 10});
-    EXPECT_EQ(made.force, (std::vector<std::vector<double>>{{1, 2, 3}}));
+    const auto recording = load_recording(folder.write("x.npy", npy_bytes("'|u1'", "(1, 3)", "\1\2\3")), {.rate = 10});
+    EXPECT_EQ(recording.force, (std::vector<std::vector<double>>{{1, 2, 3}}));
 }
 
 TEST(Npy, UnreadableArraysGiveAnError) {
@@ -172,7 +172,7 @@ TEST(Npy, UnreadableArraysGiveAnError) {
               "x.npy: no time column found (columns: ch1); name one with --time, or give a rate, such as --rate 1kHz");
 }
 
-/// An archive as numpy.savez_compressed makes it.
+/// Writes a compressed archive, as numpy.savez_compressed does.
 void write_deflated(const std::string& path, const std::vector<ArchiveEntry>& members) {
     int code = 0;
     zip_t* z = zip_open(path.c_str(), ZIP_CREATE | ZIP_TRUNCATE, &code);
@@ -199,10 +199,10 @@ TEST(Npz, TheArrayIsChosenByNameAndMayHaveARateOrTimesBesideIt) {
             deflated ? write_deflated(path, members) : void(folder.write("x.npz", test::value_or_throw(make_archive(members))));
         };
         write({force, rate, text_array});
-        const auto made = load_recording(path);
-        EXPECT_EQ(made.clock.rate(), 250);
-        EXPECT_EQ(made.names, (std::vector<std::string>{"ch1", "ch2"}));
-        EXPECT_EQ(made.force[1][8999], 17999 * 1e-3);
+        const auto recording = load_recording(path);
+        EXPECT_EQ(recording.clock.rate(), 250);
+        EXPECT_EQ(recording.names, (std::vector<std::string>{"ch1", "ch2"}));
+        EXPECT_EQ(recording.force[1][8999], 17999 * 1e-3);
         write({times, force});
         EXPECT_EQ(load_recording(path).clock.rate(), 100);
         EXPECT_EQ(load_recording(path, {.channels = {"2"}}).force[0][8999], 17999 * 1e-3);

@@ -1,4 +1,4 @@
-// Lists written as NPZ are read back unchanged, and the bytes do not depend on place or time.
+// Lists written as NPZ are read back unchanged, and the bytes do not depend on the time or its zone.
 
 #include "io/npz.hpp"
 
@@ -28,7 +28,7 @@ std::string example_archive() {
     return test::value_or_throw(npz.bytes());
 }
 
-TEST(Npz, ListsComeBackAsTheyWere) {
+TEST(Npz, ListsAreReadBackUnchanged) {
     const TemporaryFolder folder;
     const auto npz = test::value_or_throw(NpzReader::open(folder.write("x.npz", example_archive())));
     EXPECT_EQ(npz.names(), (std::vector<std::string>{"whole", "numbers", "words"}));
@@ -38,7 +38,7 @@ TEST(Npz, ListsComeBackAsTheyWere) {
     EXPECT_EQ(test::value_or_throw(npz.strings("words")), example_texts);
 }
 
-TEST(Npz, AnyListsComeBackAsTheyWere) {
+TEST(Npz, ListsOfAnyLengthAreReadBackUnchanged) {
     EXPECT_TRUE(rc::check("lists of any length", [] {
         const auto integers = *rc::gen::arbitrary<std::vector<std::int64_t>>();
         const auto reals = *rc::gen::arbitrary<std::vector<double>>();
@@ -51,11 +51,11 @@ TEST(Npz, AnyListsComeBackAsTheyWere) {
         npz.add("t", stored);
         const auto path = (std::filesystem::temp_directory_path() / ("corpuscle-npz-" + std::to_string(::getpid()) + ".npz")).string();
         std::ofstream(path, std::ios::binary) << test::value_or_throw(npz.bytes());
-        const auto back = test::value_or_throw(NpzReader::open(path));
+        const auto reread = test::value_or_throw(NpzReader::open(path));
         std::filesystem::remove(path);
-        RC_ASSERT(test::value_or_throw(back.integers("i")) == integers);
-        RC_ASSERT(test::value_or_throw(back.numbers("r")) == reals);
-        RC_ASSERT(test::value_or_throw(back.strings("t")) == stored);
+        RC_ASSERT(test::value_or_throw(reread.integers("i")) == integers);
+        RC_ASSERT(test::value_or_throw(reread.numbers("r")) == reals);
+        RC_ASSERT(test::value_or_throw(reread.strings("t")) == stored);
     }));
 }
 
@@ -67,11 +67,11 @@ TEST(Npz, TheBytesDoNotDependOnTheClockOrItsZone) {
         EXPECT_EQ(example_archive(), local) << other;
     }
     ::setenv("TZ", zone.c_str(), 1);
-    EXPECT_EQ(static_cast<unsigned char>(local[12]), 0x21) << "the first of January";
+    EXPECT_EQ(static_cast<unsigned char>(local[12]), 0x21) << "the date in the archive is the first of January";
     EXPECT_EQ(local[13], 0) << "1980";
 }
 
-TEST(Npz, MissingListsAndListsOfAnotherTypeGiveAnError) {
+TEST(Npz, MissingListsAndWrongTypesGiveAnError) {
     const TemporaryFolder folder;
     const auto path = folder.write("x.npz", example_archive());
     const auto npz = test::value_or_throw(NpzReader::open(path));
@@ -91,7 +91,7 @@ TEST(Npz, MissingListsAndListsOfAnotherTypeGiveAnError) {
               "cannot be decompressed: CRC error");
 }
 
-/// Changes a stored member's size in the directory of the archive, and one bit of its last bytes if `damaged`.
+/// Adds `more` to the size of the member "numbers" in the directory of the archive, and changes one of its bits if `damaged`.
 std::string with_size(std::string bytes, int more, bool damaged) {
     const auto entry = bytes.find("PK\x01\x02", bytes.find("PK\x01\x02") + 4);  // the entry of the second member, "numbers"
     for (const std::size_t at : {entry + 20, entry + 24}) {
@@ -104,7 +104,7 @@ std::string with_size(std::string bytes, int more, bool damaged) {
     return bytes;
 }
 
-TEST(Npz, AWrongSizeInTheDirectoryHidesNoDamage) {
+TEST(Npz, AWrongSizeInTheArchiveDirectoryIsAnError) {
     const TemporaryFolder folder;
     const auto numbers_of = [&](int more, bool damaged) {
         const auto npz = test::value_or_throw(NpzReader::open(folder.write("x.npz", with_size(example_archive(), more, damaged))));

@@ -1,4 +1,4 @@
-// Which dimension of an array is time: more channels than samples are doubted, and options choose either dimension.
+// Which dimension of an array is time. Arrays with more channels than samples are refused, unless an option selects the dimension.
 
 #include <cstring>
 
@@ -22,7 +22,7 @@ std::string wide_array(std::size_t rows = 2, bool by_columns = false) {
     return npy_bytes("'<f8'", fmt::format("({}, 3000)", rows), data, by_columns);
 }
 
-TEST(Orientation, AnArrayOfMoreChannelsThanSamplesIsRefusedUntilAnOptionSaysWhichIsTime) {
+TEST(Orientation, AnArrayOfMoreChannelsThanSamplesIsRefusedUnlessAnOptionSelectsTheTime) {
     const TemporaryFolder folder;
     for (const bool by_columns : {false, true}) {
         const auto path = folder.write("x.npy", wide_array(2, by_columns));
@@ -33,14 +33,14 @@ TEST(Orientation, AnArrayOfMoreChannelsThanSamplesIsRefusedUntilAnOptionSaysWhic
         EXPECT_EQ(transposed.names, (std::vector<std::string>{"ch1", "ch2"}));
         EXPECT_EQ(transposed.force[1][2999], 5999 * 1e-4);
         EXPECT_EQ(load_recording(path, {.table = {{}, true}, .channels = {"2"}, .rate = 500}).force[0][7], 3007 * 1e-4);
-        const auto upright = load_recording(path, {.table = {{}, false}, .rate = 500});
-        EXPECT_EQ(upright.names.size(), 3000U);
-        EXPECT_EQ(upright.force[7][1], 3007 * 1e-4);
+        const auto not_transposed = load_recording(path, {.table = {{}, false}, .rate = 500});
+        EXPECT_EQ(not_transposed.names.size(), 3000U);
+        EXPECT_EQ(not_transposed.force[7][1], 3007 * 1e-4);
     }
     const auto row = folder.write("row.npy", wide_array(1));
     EXPECT_EQ(load_recording(row, {.rate = 500}).force[0].size(), 3000U);
     EXPECT_EQ(load_recording(row, {.table = {{}, false}, .rate = 500}).names.size(), 3000U)
-        << "one sample of many electrodes, if an option says so";
+        << "--no-transpose: one sample of many electrodes";
 }
 
 TEST(Orientation, TimesInTheSameArchiveDetermineWhichDimensionIsTime) {
@@ -70,13 +70,13 @@ std::string wide_text(const std::string& header = "") {
     return text;
 }
 
-TEST(Orientation, WideTextIsQuestionedAndTransposed) {
+TEST(Orientation, WideTextCausesAWarningAndCanBeTransposed) {
     const TemporaryFolder folder;
     const auto path = folder.write("x.csv", wide_text());
-    const auto upright = load_recording(path, {.time = "none", .rate = 100});
-    EXPECT_EQ(upright.names.size(), 40U);
-    ASSERT_FALSE(upright.quality.warnings.empty());
-    EXPECT_EQ(upright.quality.warnings.back(),
+    const auto not_transposed = load_recording(path, {.time = "none", .rate = 100});
+    EXPECT_EQ(not_transposed.names.size(), 40U);
+    ASSERT_FALSE(not_transposed.quality.warnings.empty());
+    EXPECT_EQ(not_transposed.quality.warnings.back(),
               "40 columns, but only 3 rows. Use --transpose if each row is a channel, or --no-transpose if each row is a sample");
     const auto confirmed = load_recording(path, {.table = {{}, false}, .time = "none", .rate = 100});
     for (const auto& w : confirmed.quality.warnings) EXPECT_EQ(w.find("--transpose"), std::string::npos);
@@ -100,9 +100,9 @@ TEST(Orientation, OneChannelThatNeverChangesCausesAWarning) {
     const TemporaryFolder folder;
     std::string text = "fz_N\n";
     for (int k = 0; k < 100; ++k) text += "0\n";
-    const auto made = load_recording(folder.write("x.csv", text), {.rate = 100});
-    ASSERT_EQ(made.quality.warnings.size(), 1U);
-    EXPECT_EQ(made.quality.warnings[0], "the force is constant, 0 N; check the file and the channel");
+    const auto recording = load_recording(folder.write("x.csv", text), {.rate = 100});
+    ASSERT_EQ(recording.quality.warnings.size(), 1U);
+    EXPECT_EQ(recording.quality.warnings[0], "the force is constant, 0 N; check the file and the channel");
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Holds for every format of the list: the same samples give the same force.
+// For every recording format: the same samples give the same force.
 
 #include "io/recording_formats.hpp"
 
@@ -67,12 +67,12 @@ TEST(EveryFormat, GivesTheSameForce) {
         std::istringstream extensions{std::string(format.extensions)};
         for (std::string extension; extensions >> extension;) {
             const std::string name = "x" + extension;
-            if (format.name == "text" && extension != ".csv") continue;  // recording_test covers every style of them
+            if (format.name == "text" && extension != ".csv") continue;  // recording_test.cpp tests the other extensions of text
             writer->second(folder, name);
-            const auto made = test::load_recording(folder / name, {.rate = sample_rate, .scale = 1});
-            EXPECT_EQ(made.force, two_channels) << name;
-            EXPECT_EQ(made.names, (std::vector<std::string>{"ch1", "ch2"})) << name;
-            EXPECT_EQ(made.clock.rate(), sample_rate) << name;
+            const auto recording = test::load_recording(folder / name, {.rate = sample_rate, .scale = 1});
+            EXPECT_EQ(recording.force, two_channels) << name;
+            EXPECT_EQ(recording.names, (std::vector<std::string>{"ch1", "ch2"})) << name;
+            EXPECT_EQ(recording.clock.rate(), sample_rate) << name;
         }
     }
 }

@@ -16,10 +16,9 @@ namespace {
 
 using test::TemporaryFolder;
 
-using Read = test::LoadedRecording;
 using test::try_load_recording;
 
-Read read(const std::string& path, const RecordingOptions& options = {}) { return test::load_recording(path, options); }
+test::LoadedRecording read(const std::string& path, const RecordingOptions& options = {}) { return test::load_recording(path, options); }
 
 std::string error_text(const TemporaryFolder& folder, const std::string& text, const RecordingOptions& options = {}) {
     return test::load_error(folder.write("x.csv", text), options);
@@ -80,14 +79,14 @@ TEST(Recording, IsReadInEveryStyle) {
     };
     for (const auto& c : cases) {
         const TemporaryFolder folder;
-        const auto made = try_load_recording(folder.write("x.csv", c.text), c.options);
-        ASSERT_TRUE(made) << c.style << ": " << made.error().text();
-        EXPECT_EQ(made->names, c.names) << c.style;
-        EXPECT_NEAR(made->clock.rate(), c.rate, 1e-9) << c.style;
-        ASSERT_EQ(made->force.size(), c.force.size()) << c.style;
+        const auto recording = try_load_recording(folder.write("x.csv", c.text), c.options);
+        ASSERT_TRUE(recording) << c.style << ": " << recording.error().text();
+        EXPECT_EQ(recording->names, c.names) << c.style;
+        EXPECT_NEAR(recording->clock.rate(), c.rate, 1e-9) << c.style;
+        ASSERT_EQ(recording->force.size(), c.force.size()) << c.style;
         for (std::size_t k = 0; k < c.force.size(); ++k) {
-            ASSERT_EQ(made->force[k].size(), c.force[k].size()) << c.style;
-            for (std::size_t n = 0; n < c.force[k].size(); ++n) EXPECT_NEAR(made->force[k][n], c.force[k][n], 1e-12) << c.style;
+            ASSERT_EQ(recording->force[k].size(), c.force[k].size()) << c.style;
+            for (std::size_t n = 0; n < c.force[k].size(); ++n) EXPECT_NEAR(recording->force[k][n], c.force[k][n], 1e-12) << c.style;
         }
     }
 }
@@ -106,7 +105,7 @@ TEST(Recording, ChannelsAreChosenByNameNumberAndRange) {
     EXPECT_EQ(error_text(folder, "time_s,fz_N\n0,1\n1,2\n", {.channels = {"1-3"}}), "x.csv: no channel '1-3'; there are 1: fz");
 }
 
-TEST(Recording, ErrorsNameFileLineColumnAndWhatWouldBeRight) {
+TEST(Recording, ErrorsNameFileLineColumnAndTheExpectedValue) {
     const TemporaryFolder folder;
     const std::string bad_field = "; use --bad-fields interpolate to fill it in, or --bad-fields drop to skip the row";
     EXPECT_EQ(error_text(folder, ""), "x.csv: no data in this file");
@@ -138,7 +137,7 @@ TEST(Recording, ErrorsNameFileLineColumnAndWhatWouldBeRight) {
               (folder / "none.csv") + ": cannot be opened: No such file or directory");
 }
 
-TEST(Recording, HeadingsAreReadAsPeopleWriteThem) {
+TEST(Recording, CommonHeadingsAreRecognised) {
     const TemporaryFolder folder;
     const auto one = [&](const std::string& text, const RecordingOptions& options = {}) {
         return read(folder.write("x.csv", text), options);
@@ -150,7 +149,8 @@ TEST(Recording, HeadingsAreReadAsPeopleWriteThem) {
     const auto commented = one("# t_s fz_mN\n0 1000\n0.1 2000\n");  // as numpy.savetxt writes it
     EXPECT_EQ(commented.names, std::vector<std::string>{"fz"});
     EXPECT_NEAR(commented.force[0][1], 2, 1e-12);
-    EXPECT_EQ(one("t,left_F,right_F\n0,1,2\n1,3,4\n").names, (std::vector<std::string>{"left_F", "right_F"})) << "no farads";
+    EXPECT_EQ(one("t,left_F,right_F\n0,1,2\n1,3,4\n").names, (std::vector<std::string>{"left_F", "right_F"}))
+        << "_F is part of the name, not farads";
     EXPECT_EQ(one("t,F_N,\n0,1,\n1,2,\n").names, std::vector<std::string>{"F"}) << "a separator at the end makes no column";
     EXPECT_EQ(one("t,F_lbf\n0,1\n1,2\n").force[0][0], 4.4482216152605);
     EXPECT_EQ(error_text(folder, "nan,1\n2,3\n4,5\n", {.rate = 100}),
@@ -180,11 +180,11 @@ TEST(Recording, MillisecondsWithoutAUnitCauseAWarningUnlessTheUnitIsGiven) {
     EXPECT_TRUE(with_unit.notes.empty());
 }
 
-TEST(Recording, TimesThatCannotBeReadDoNotMatterBesideARate) {
+TEST(Recording, UnreadableTimesAreIgnoredIfARateIsGiven) {
     const TemporaryFolder folder;
-    const auto made = read(folder.write("x.csv", "time,F_N\n01/02/2026 0:00,1\n01/02/2026 0:01,2\n"), {.rate = 1});
-    EXPECT_EQ(made.force, (Rows{{1, 2}}));
-    EXPECT_EQ(made.notes.at(0),
+    const auto recording = read(folder.write("x.csv", "time,F_N\n01/02/2026 0:00,1\n01/02/2026 0:01,2\n"), {.rate = 1});
+    EXPECT_EQ(recording.force, (Rows{{1, 2}}));
+    EXPECT_EQ(recording.notes.at(0),
               "the times were ignored (column 'time': '01/02/2026 0:00' where a number is expected); the recording starts at 0 s");
 }
 
@@ -193,7 +193,7 @@ TEST(Recording, ARateCloseToAnIntegerIsThatInteger) {
     EXPECT_EQ(test::value_or_throw(make_clock(199.81, 0, 1e-3)).rate(), 200);
 }
 
-TEST(Recording, AnUnevenClockIsRefusedUnlessAnOptionReplacesOrInterpolatesIt) {
+TEST(Recording, AnUnevenClockIsRefusedUnlessAnOptionReplacesItOrInterpolates) {
     const TemporaryFolder folder;
     const std::string bursts = "time_s,F_N\n0,0\n0.001,1\n0.002,2\n0.003,3\n0.1,4\n0.101,5\n0.102,6\n0.2,7\n";
     EXPECT_EQ(error_text(folder, bursts).substr(0, 150),
@@ -203,11 +203,11 @@ TEST(Recording, AnUnevenClockIsRefusedUnlessAnOptionReplacesOrInterpolatesIt) {
     const auto even = read(path, {.rate = 35});
     EXPECT_EQ(even.force[0], (std::vector<double>{0, 1, 2, 3, 4, 5, 6, 7}));
     EXPECT_EQ(even.notes.at(0), "the uneven times in 'time' (steps from 1 ms to 98 ms) were replaced by an even clock of 35 Hz");
-    const auto between = read(path, {.resample = 20});
-    ASSERT_EQ(between.force[0].size(), 5U);
+    const auto interpolated = read(path, {.resample = 20});
+    ASSERT_EQ(interpolated.force[0].size(), 5U);
     const double expected[] = {0, 3 + 47.0 / 97, 4, 6 + 48.0 / 98, 7};
-    for (int k = 0; k < 5; ++k) EXPECT_NEAR(between.force[0][static_cast<std::size_t>(k)], expected[k], 1e-9);
-    EXPECT_EQ(between.notes.at(0), "the uneven times in 'time' (steps from 1 ms to 98 ms) were interpolated at 20 Hz");
+    for (int k = 0; k < 5; ++k) EXPECT_NEAR(interpolated.force[0][static_cast<std::size_t>(k)], expected[k], 1e-9);
+    EXPECT_EQ(interpolated.notes.at(0), "the uneven times in 'time' (steps from 1 ms to 98 ms) were interpolated at 20 Hz");
     EXPECT_EQ(error_text(folder, "t,F\n0,1\n0,2\n1,3\n4,4\n", {.resample = 2}),
               "x.csv:3: the time 0 s occurs twice; use --rate to take the rows as evenly spaced");
 }
@@ -216,9 +216,9 @@ TEST(Recording, RoundedTimesAreEvenAndTheirRateIsTheSimplest) {
     const TemporaryFolder folder;
     std::string text = "time_s,F_N\n";
     for (int k = 0; k < 2000; ++k) text += fmt::format("{:.3f},{}\n", k / 242.6, k);  // rounded to the millisecond
-    const auto made = read(folder.write("x.csv", text));
-    EXPECT_NEAR(made.clock.rate(), 242.6, 0.03);
-    EXPECT_EQ(made.force[0].size(), 2000U);
+    const auto recording = read(folder.write("x.csv", text));
+    EXPECT_NEAR(recording.clock.rate(), 242.6, 0.03);
+    EXPECT_EQ(recording.force[0].size(), 2000U);
     text = "t,F\n";
     for (int k = 0; k < 1000; ++k) text += fmt::format("{:.4f},{}\n", 5 + k * 0.01 + (k % 3 == 1 ? 1e-4 : 0), k);
     EXPECT_EQ(read(folder.write("y.csv", text)).clock.rate(), 100);
@@ -232,13 +232,13 @@ TEST(Recording, AClockThatContradictsTheRateIsReported) {
     EXPECT_EQ(read(path, {.rate = 50}).notes.at(0), "--rate is 50 Hz, but the mean rate of the times in 'time' is 100 Hz");
 }
 
-TEST(Recording, AHeaderAloneHasNoSamplesResampledOrNot) {  // found by fuzzing
+TEST(Recording, AHeaderWithoutRowsHasNoSamplesWithAndWithoutResampling) {  // found by fuzzing
     const TemporaryFolder folder;
     EXPECT_TRUE(read(folder.write("x.csv", "F_N\n"), {.rate = 30, .resample = 30}).force[0].empty());
     EXPECT_TRUE(read(folder / "x.csv", {.rate = 30}).force[0].empty());
 }
 
-TEST(Recording, ResampledAtItsOwnRateIsItself) {
+TEST(Recording, ResamplingAtItsOwnRateChangesNothing) {
     const TemporaryFolder folder;
     std::string text = "F_N\n";
     for (int k = 0; k < 100; ++k) text += fmt::format("{}\n", k * k);
@@ -255,13 +255,13 @@ TEST(Recording, ResampledAtItsOwnRateIsItself) {
     }
 }
 
-TEST(Recording, EveryFormatReadsBackWhatWasWritten) {
+TEST(Recording, EveryTextDialectIsReadBackAsItWasWritten) {
     EXPECT_TRUE(rc::check("round trip of tables of random numbers, in every dialect", [] {
         const auto columns = *rc::gen::inRange<std::size_t>(1, 6), rows = *rc::gen::inRange<std::size_t>(1, 200);
         const auto separator = *rc::gen::element<std::string>(",", "\t", ";", " ");
         const auto end = *rc::gen::element<std::string>("\n", "\r\n");
         const bool header = *rc::gen::arbitrary<bool>();
-        // one column without a header: 1,5 would be two numbers
+        // In one column without a header, 1,5 would be read as two numbers, so it has no decimal comma.
         const bool comma = *rc::gen::arbitrary<bool>() && (columns == 1 ? header : separator == "\t" || separator == ";");
         std::vector<std::vector<double>> values(columns);
         for (auto& c : values)
@@ -278,52 +278,52 @@ TEST(Recording, EveryFormatReadsBackWhatWasWritten) {
             }
         const auto path = (std::filesystem::temp_directory_path() / fmt::format("corpuscle-round-trip-{}.csv", ::getpid())).string();
         std::ofstream(path, std::ios::binary) << text;
-        const auto made = try_load_recording(path, {.time = "none", .rate = 100});
+        const auto recording = try_load_recording(path, {.time = "none", .rate = 100});
         std::filesystem::remove(path);
-        RC_ASSERT(static_cast<bool>(made));
-        RC_ASSERT(made->force == values);
+        RC_ASSERT(static_cast<bool>(recording));
+        RC_ASSERT(recording->force == values);
     }));
 }
 
 TEST(ClockAnalysis, FindsTheFarthestSampleInOnePass) {
-    EXPECT_TRUE(rc::check("against the simple two-pass result", [] {
+    EXPECT_TRUE(rc::check("compared with a computation in two passes", [] {
         const auto jitter = *rc::gen::container<std::vector<int>>(*rc::gen::inRange<std::size_t>(2, 200), rc::gen::inRange(0, 1000));
-        ClockAnalysis check;
+        ClockAnalysis analysis;
         std::vector<double> t;
-        for (std::size_t k = 0; k < jitter.size(); ++k) t.push_back(static_cast<double>(k) + jitter[k] * 1e-3), check.add(t.back());
+        for (std::size_t k = 0; k < jitter.size(); ++k) t.push_back(static_cast<double>(k) + jitter[k] * 1e-3), analysis.add(t.back());
         const double step = (t.back() - t[0]) / static_cast<double>(t.size() - 1);
         double late = 0, early = 0;
         for (std::size_t k = 0; k < t.size(); ++k)
             late = std::max(late, t[k] - t[0] - static_cast<double>(k) * step),
             early = std::min(early, t[k] - t[0] - static_cast<double>(k) * step);
-        RC_ASSERT(std::abs(check.peak_to_peak_jitter() - (late - early)) < 1e-9);
+        RC_ASSERT(std::abs(analysis.peak_to_peak_jitter() - (late - early)) < 1e-9);
     }));
 }
 
-TEST(ClockAnalysis, AClockThatSlowsSteadilyIsAnalysedInLittleMemory) {  // every sample is on the hull, which is thinned
-    ClockAnalysis check;
+TEST(ClockAnalysis, AClockThatSlowsSteadilyIsAnalysedInLittleMemory) {  // every sample is on the convex hull, which is thinned
+    ClockAnalysis analysis;
     std::vector<double> t;
-    for (int k = 0; k < 300'000; ++k) t.push_back(1e-3 * k + 1e-11 * k * static_cast<double>(k)), check.add(t.back());
+    for (int k = 0; k < 300'000; ++k) t.push_back(1e-3 * k + 1e-11 * k * static_cast<double>(k)), analysis.add(t.back());
     const double step = (t.back() - t[0]) / static_cast<double>(t.size() - 1);
     double early = 0;
     for (std::size_t k = 0; k < t.size(); ++k) early = std::min(early, t[k] - static_cast<double>(k) * step);
-    EXPECT_NEAR(check.peak_to_peak_jitter(), -early, 1e-6 * -early);
+    EXPECT_NEAR(analysis.peak_to_peak_jitter(), -early, 1e-6 * -early);
 }
 
 TEST(ClockAnalysis, CountsGapsRelativeToTheUsualStep) {
-    ClockAnalysis check;
+    ClockAnalysis analysis;
     double t = 0;
-    for (int k = 0; k < 1000; ++k) check.add(t), t += k % 100 == 50 ? 0.03 : 0.01;
-    EXPECT_EQ(check.gap_count(), 10);
+    for (int k = 0; k < 1000; ++k) analysis.add(t), t += k % 100 == 50 ? 0.03 : 0.01;
+    EXPECT_EQ(analysis.gap_count(), 10);
 }
 
 TEST(Recording, TheFirstPassThroughTheTimesCanBeStopped) {
     const TemporaryFolder folder;
     RecordingOptions options;
     options.should_continue = [](double) { return false; };
-    const auto made = try_load_recording(folder.write("x.csv", "t_s,F_N\n0,1\n1,2\n2,3\n"), options);
-    ASSERT_FALSE(made);
-    EXPECT_EQ(made.error().code, ErrorCode::interrupted);
+    const auto recording = try_load_recording(folder.write("x.csv", "t_s,F_N\n0,1\n1,2\n2,3\n"), options);
+    ASSERT_FALSE(recording);
+    EXPECT_EQ(recording.error().code, ErrorCode::interrupted);
 }
 
 TEST(Recording, MoreChannelsThanCanBeSimulatedAtOnceAreRefused) {
@@ -334,7 +334,7 @@ TEST(Recording, MoreChannelsThanCanBeSimulatedAtOnceAreRefused) {
               "x.csv: 140000 channels are more than the limit of 131072; select some, such as --channel 1-1000");
 }
 
-TEST(Recording, APersonsPressOnTheElectronicSkinIsRead) {
+TEST(Recording, APressOnTheElectronicSkinIsRead) {
     const auto path = test::shared_file_path("fbg_eskin_press/fbg_press_S6_T16.csv");
     CORPUSCLE_NEEDS(path);
     EXPECT_NE(try_load_recording(path).error().text().find("is in nm, which is not a force"), std::string::npos);
@@ -345,21 +345,21 @@ TEST(Recording, APersonsPressOnTheElectronicSkinIsRead) {
     ASSERT_EQ(press.names.size(), 21U);
     EXPECT_EQ(press.names[10], "fbg11");
     ASSERT_EQ(press.force[0].size(), 2125U);
-    const auto train = [&](const std::string& samples_at_once, std::size_t channel) {
-        return spike_times(test::spikes(*test::afferent(samples_at_once, {.rate = 100}), press.force[channel]), press.clock);
+    const auto train = [&](const std::string& afferent, std::size_t channel) {
+        return spike_times(test::spikes(*test::afferent(afferent, {.rate = 100}), press.force[channel]), press.clock);
     };
-    // Contact lasts from 17.2 to 21.2 s; the strongest sensor carries it.
+    // Contact lasts from 17.2 to 21.2 s; the force is largest at fbg11.
     const auto sa1 = train("sa1", 10), fa1 = train("fa1", 10);
-    int seconds_of_hold = 0;
+    int windows_with_spikes = 0;
     for (double t = 17.5; t < 20.5; t += 0.5)
-        seconds_of_hold += std::any_of(sa1.begin(), sa1.end(), [&](double s) { return s >= t && s < t + 0.5; });
-    EXPECT_EQ(seconds_of_hold, 6) << "SA-I fires through the hold";
+        windows_with_spikes += std::any_of(sa1.begin(), sa1.end(), [&](double s) { return s >= t && s < t + 0.5; });
+    EXPECT_EQ(windows_with_spikes, 6) << "SA-I fires in every half second of the hold";
     EXPECT_GT(fa1.size(), 2U) << "FA-I fires at the faster edges";
     EXPECT_LT(fa1.size(), sa1.size() / 4);
     for (std::size_t c = 0; c < 21; ++c)
-        for (const auto* samples_at_once : {"sa1", "fa1"})
-            for (const double t : train(samples_at_once, c))
-                EXPECT_TRUE(t > 17.0 && t < 21.5) << samples_at_once << " on fbg" << c + 1 << " is not silent at rest: " << t;
+        for (const auto* afferent : {"sa1", "fa1"})
+            for (const double t : train(afferent, c))
+                EXPECT_TRUE(t > 17.0 && t < 21.5) << afferent << " on fbg" << c + 1 << " is not silent at rest: " << t;
 }
 
 TEST(Recording, TheInsolesTimesAreReadUnchanged) {

@@ -33,7 +33,7 @@ TEST(GapFiller, InterpolatesLinearlyAndHoldsTheEnds) {
     for (const std::size_t block : {1, 2, 3, 8}) EXPECT_EQ(filled(x, block), expected);
 }
 
-TEST(GapFiller, ReportsThatThereIsNoGoodReading) {
+TEST(GapFiller, ReportsThatThereIsNoGoodSample) {
     GapFiller gaps;
     std::vector<double> out;
     const double x[] = {gap, gap};
@@ -44,31 +44,31 @@ TEST(GapFiller, ReportsThatThereIsNoGoodReading) {
 TEST(HampelFilter, RemovesOutliersAndNothingElse) {
     std::vector<double> x;
     for (int k = 0; k < 200; ++k) x.push_back(100 * std::sin(0.05 * k));
-    auto torn = x;
-    for (const std::size_t k : {0U, 3U, 50U, 51U, 120U, 199U}) torn[k] = 1e6;
-    const auto filtered = without_outliers(torn, {.limit = 300});
+    auto with_outliers = x;
+    for (const std::size_t k : {0U, 3U, 50U, 51U, 120U, 199U}) with_outliers[k] = 1e6;
+    const auto filtered = without_outliers(with_outliers, {.limit = 300});
     ASSERT_EQ(filtered.size(), x.size());
-    for (std::size_t k = 0; k < x.size(); ++k) EXPECT_TRUE(torn[k] == x[k] ? filtered[k] == x[k] : std::isnan(filtered[k])) << k;
+    for (std::size_t k = 0; k < x.size(); ++k) EXPECT_TRUE(with_outliers[k] == x[k] ? filtered[k] == x[k] : std::isnan(filtered[k])) << k;
     EXPECT_EQ(without_outliers(x, {.limit = 300}), x);
 }
 
 TEST(HampelFilter, AgreesWithTheMedianOfEachWindow) {
-    EXPECT_TRUE(rc::check("Hampel's rule, gaps among the readings", [] {
+    EXPECT_TRUE(rc::check("compared with Hampel's rule, with gaps", [] {
         auto x = *rc::gen::container<std::vector<double>>(rc::gen::map(rc::gen::inRange(-50, 50), [](int v) { return v == 7 ? gap : v; }));
         const double limit = *rc::gen::inRange(1, 40);
         const auto filtered = without_outliers(x, {.limit = limit});
         RC_ASSERT(filtered.size() == x.size());
         const auto n = static_cast<std::ptrdiff_t>(x.size());
         for (std::ptrdiff_t k = 0; k < n; ++k) {
-            // at the end the window is the last 25 readings, at the start those there are
+            // The window has 25 samples, 12 of them after k. Near the end it is the last 25, near the start it has fewer.
             const std::ptrdiff_t last = std::min(n - 1, k + 12), first = std::max<std::ptrdiff_t>(0, last - 24);
             std::vector<double> window;
             for (auto j = first; j <= last; ++j)
                 if (!std::isnan(x[static_cast<std::size_t>(j)])) window.push_back(x[static_cast<std::size_t>(j)]);
             std::sort(window.begin(), window.end());
-            const double here = x[static_cast<std::size_t>(k)], out = filtered[static_cast<std::size_t>(k)];
-            const bool is_outlier = !std::isnan(here) && std::abs(here - window[window.size() / 2]) > limit;
-            RC_ASSERT((std::isnan(here) || is_outlier ? std::isnan(out) : out == here));
+            const double reading = x[static_cast<std::size_t>(k)], out = filtered[static_cast<std::size_t>(k)];
+            const bool is_outlier = !std::isnan(reading) && std::abs(reading - window[window.size() / 2]) > limit;
+            RC_ASSERT((std::isnan(reading) || is_outlier ? std::isnan(out) : out == reading));
         }
     }));
 }

@@ -25,7 +25,7 @@ std::string refused(const std::string& path) {
     return text.substr(std::min(text.size(), path.size() - std::filesystem::path(path).filename().string().size()));
 }
 
-TEST(SpikeFiles, OursAreReadByAfferentAndChannel) {
+TEST(SpikeFiles, FilesOfThisProgramAreReadByAfferentAndChannel) {
     const TemporaryFolder folder;
     const auto trains =
         read_trains(folder, "afferent,channel,time_s\nsa1,fz,0.5\nfa1,fz,0.25\nsa1,fz,0.125\nsa1,\"a \"\"b\"\", c\",1e-3\n");
@@ -35,14 +35,14 @@ TEST(SpikeFiles, OursAreReadByAfferentAndChannel) {
     EXPECT_EQ(trains[2].times, (std::vector<double>{0.125, 0.5})) << "in order of time, for any order in the file";
 }
 
-TEST(SpikeFiles, OthersAreReadByUnitAndSecondsByTheirHeading) {
+TEST(SpikeFiles, OtherFilesAreReadByTheUnitAndTimeOfTheirHeading) {
     const TemporaryFolder folder;
     const auto trains = read_trains(folder, "# made elsewhere\ntime_s,unit\n1.5,10\n1.25,9\n");
     ASSERT_EQ(trains.size(), 2U);
-    EXPECT_EQ(trains[0].name(), "9") << "numbers by value: 9 before 10";
+    EXPECT_EQ(trains[0].name(), "9") << "names that are numbers are ordered by value: 9 before 10";
     EXPECT_EQ(read_trains(folder, "unit; t [ms]\nn1; 250\n")[0].times, std::vector<double>{0.25});
     EXPECT_EQ(read_trains(folder, "time\n0.5\n0.25\n")[0].times.size(), 2U) << "one train without a name";
-    EXPECT_TRUE(read_trains(folder, "afferent,channel,time_s\n").empty()) << "all were silent";
+    EXPECT_TRUE(read_trains(folder, "afferent,channel,time_s\n").empty()) << "all trains were silent";
 }
 
 TEST(SpikeFiles, ErrorsNameTheFaultAndItsLocation) {
@@ -65,14 +65,14 @@ TEST(SpikeFiles, ErrorsNameTheFaultAndItsLocation) {
     EXPECT_EQ(refused(folder / "none.csv"), "none.csv: cannot be opened: No such file or directory");
 }
 
-TEST(SpikeFiles, ALoneColumnOfTimesNeedsNoHeader) {
+TEST(SpikeFiles, ASingleColumnOfTimesNeedsNoHeader) {
     const TemporaryFolder folder;
     EXPECT_EQ(read_trains(folder, "1.5e-01\n2.5e-01\n")[0].times, (std::vector<double>{0.15, 0.25})) << "as numpy.savetxt writes it";
     EXPECT_EQ(read_trains(folder, "# times of one unit\n0.5\n")[0].times, std::vector<double>{0.5});
     EXPECT_EQ(read_trains(folder, "[0.5, 0.25]")[0].times, (std::vector<double>{0.25, 0.5})) << "as JSON";
 }
 
-TEST(SpikeFiles, ColumnsOfOtherProgramsAreKnownOrNamed) {
+TEST(SpikeFiles, ColumnsOfOtherProgramsAreRecognisedOrNamedByOptions) {
     const TemporaryFolder folder;
     const auto phy = read_trains(folder, "times,cluster\n0.5,7\n0.25,3\n");
     ASSERT_EQ(phy.size(), 2U);
@@ -84,12 +84,13 @@ TEST(SpikeFiles, ColumnsOfOtherProgramsAreKnownOrNamed) {
     };
     EXPECT_EQ(read_with("when,who\n0.5,a\n", {"when", "who"})[0].name(), "a");
     EXPECT_EQ(read_with("0.5 7\n0.25 7\n", {"1", "2"})[0].times, (std::vector<double>{0.25, 0.5}));
-    EXPECT_EQ(read_with("when [ms],afferent,who\n500,x,a\n", {"when", "who"})[0].name(), "a") << "takes precedence over column names";
+    EXPECT_EQ(read_with("when [ms],afferent,who\n500,x,a\n", {"when", "who"})[0].name(), "a")
+        << "options take precedence over the usual column names";
     const auto wrong = read_spikes(folder.write("x.csv", "time,unit\n0.5,1\n"), {"when", {}});
     EXPECT_NE(wrong.error().message.find("--time when: there is no such column. Columns: 'time', 'unit'"), std::string::npos);
 }
 
-TEST(SpikeFiles, JsonLinesAreReadAsTheStreamWritesThem) {
+TEST(SpikeFiles, JsonLinesOfAStreamAreRead) {
     const TemporaryFolder folder;
     const auto trains = read_trains(
         folder, "{\"time_s\":0.25,\"afferent\":\"sa1#1\",\"address\":0}\n{\"time_s\":0.5,\"afferent\":\"sa1#2\",\"address\":1}\n");
@@ -105,7 +106,7 @@ std::string npy_of(const std::string& kind, const std::string& shape, const std:
     return std::string("\x93NUMPY\x01\x00", 8) + static_cast<char>(header.size()) + '\0' + header + bytes;
 }
 
-TEST(SpikeFiles, NumpysTimesAreReadAndNumbersOfSamplesAreNot) {
+TEST(SpikeFiles, NumpyTimesAreReadAndSampleNumbersAreRefused) {
     const TemporaryFolder folder;
     const double times[] = {0.5, 0.25};
     const std::string bytes(reinterpret_cast<const char*>(times), sizeof times);
@@ -118,7 +119,7 @@ TEST(SpikeFiles, NumpysTimesAreReadAndNumbersOfSamplesAreNot) {
     EXPECT_EQ(value_or_throw(read_spikes(folder / "y.npy", {"1", "2"}))[0].times.size(), 2U);
 }
 
-TEST(SpikeFiles, OtherBinaryFilesAreNamedWithoutTheirBytes) {
+TEST(SpikeFiles, ErrorsForOtherBinaryFilesDoNotPrintTheirBytes) {
     const TemporaryFolder folder;
     EXPECT_EQ(refused(folder.write("x.h5", "\x89HDF\r\n")),
               "x.h5: this is an HDF5 file, not a spike file; supported are CSV, JSON lines, .npy, .npz and address events");
@@ -133,7 +134,7 @@ std::string npz_of(const std::map<std::string, std::vector<std::int64_t>>& integ
     return value_or_throw(npz.bytes());
 }
 
-TEST(SpikeFiles, AnotherProgramsNpzIsReadAsSpikeInterfaceReadsIt) {
+TEST(SpikeFiles, NpzOfOtherProgramsIsReadAsSpikeInterfaceReadsIt) {
     const TemporaryFolder folder;
     std::map<std::string, std::vector<std::int64_t>> lists = {{"unit_ids", {7, 3}},           {"num_segment", {2}},
                                                               {"spike_indexes_seg0", {1, 5}}, {"spike_labels_seg0", {7, 3}},
@@ -156,17 +157,17 @@ TEST(SpikeFiles, AnotherProgramsNpzIsReadAsSpikeInterfaceReadsIt) {
     EXPECT_NE(refused(folder.write("x.npz", npz_of(bad))).find("spike_labels_seg1"), std::string::npos);
 }
 
-TEST(SpikeFiles, AnyNameWithoutALineBreakComesBackFromItsField) {
+TEST(SpikeFiles, AnyNameWithoutALineBreakIsReadBackUnchanged) {
     const TemporaryFolder folder;
     EXPECT_TRUE(rc::check("written and read", [&] {
         const auto letters = rc::gen::container<std::vector<std::string>>(
             rc::gen::elementOf(std::vector<std::string>{"a", ",", "\"", " ", ";", "#", "\t", "=", "\u00f6"}));
         const auto afferent = fmt::format("{}", fmt::join(*letters, "")), channel = fmt::format("{}", fmt::join(*letters, ""));
-        const auto back =
+        const auto reread =
             read_trains(folder, "afferent,channel,time_s\n" + quote_csv_field(afferent) + "," + quote_csv_field(channel) + ",0.5\n");
-        RC_ASSERT(back.size() == 1U);
-        RC_ASSERT(back[0].afferent == afferent);
-        RC_ASSERT(back[0].channel == channel);
+        RC_ASSERT(reread.size() == 1U);
+        RC_ASSERT(reread[0].afferent == afferent);
+        RC_ASSERT(reread[0].channel == channel);
     }));
 }
 

@@ -10,33 +10,34 @@ namespace {
 
 using test::TemporaryFolder, test::load_recording, test::load_error, test::write_audio;
 
-struct Depth {
+struct SampleFormat {
     const char* name;
     int format;
 };
 
-TEST(Wav, EveryDepthIsReadAsItWasWritten) {
-    const Depth depths[] = {{"x.wav", SF_FORMAT_WAV | SF_FORMAT_PCM_16},   {"x.wav", SF_FORMAT_WAV | SF_FORMAT_PCM_24},
+TEST(Wav, EverySampleFormatIsReadAsItWasWritten) {
+    const SampleFormat sample_formats[] = {{"x.wav", SF_FORMAT_WAV | SF_FORMAT_PCM_16},   {"x.wav", SF_FORMAT_WAV | SF_FORMAT_PCM_24},
                             {"x.w64", SF_FORMAT_W64 | SF_FORMAT_PCM_32},   {"x.wav", SF_FORMAT_WAV | SF_FORMAT_FLOAT},
                             {"x.wav", SF_FORMAT_WAV | SF_FORMAT_DOUBLE},   {"x.flac", SF_FORMAT_FLAC | SF_FORMAT_PCM_24},
                             {"x.aiff", SF_FORMAT_AIFF | SF_FORMAT_PCM_16}, {"x.au", SF_FORMAT_AU | SF_FORMAT_PCM_16}};
     EXPECT_TRUE(rc::check("round trip", [&] {
-        const auto& depth = *rc::gen::elementOf(std::vector(std::begin(depths), std::end(depths)));
+        const auto& sample_format = *rc::gen::elementOf(std::vector(std::begin(sample_formats), std::end(sample_formats)));
         const auto rows = *rc::gen::inRange<std::size_t>(2, 200), columns = *rc::gen::inRange<std::size_t>(1, 4);
         const int rate = *rc::gen::inRange(1, 65536);  // the limit of plain FLAC
         std::vector<std::vector<double>> values(columns);
         for (auto& c : values)
             c = *rc::gen::container<std::vector<double>>(rows,
                                                          rc::gen::map(rc::gen::inRange(-1024, 1024), [](int x) { return x / 1024.0; }));
-        const auto path = (std::filesystem::temp_directory_path() / fmt::format("corpuscle-{}-{}", ::getpid(), depth.name)).string();
-        write_audio(path, depth.format, rate, values);
-        const auto made = test::try_load_recording(path, {.scale = 2});
+        const auto path =
+            (std::filesystem::temp_directory_path() / fmt::format("corpuscle-{}-{}", ::getpid(), sample_format.name)).string();
+        write_audio(path, sample_format.format, rate, values);
+        const auto recording = test::try_load_recording(path, {.scale = 2});
         std::filesystem::remove(path);
-        RC_ASSERT(static_cast<bool>(made));
-        RC_ASSERT(made->clock.rate() == rate);
+        RC_ASSERT(static_cast<bool>(recording));
+        RC_ASSERT(recording->clock.rate() == rate);
         for (auto& c : values)
             for (auto& x : c) x *= 2;
-        RC_ASSERT(made->force == values);
+        RC_ASSERT(recording->force == values);
     }));
 }
 
@@ -69,9 +70,9 @@ TEST(Wav, TheBeginningOfATruncatedFileIsRead) {
     const TemporaryFolder folder;
     write_audio(folder / "x.wav", SF_FORMAT_WAV | SF_FORMAT_DOUBLE, 100, {std::vector<double>(1000, 1.5)});
     const auto complete = test::read_file(folder / "x.wav");
-    const auto made = load_recording(folder.write("cut.wav", complete.substr(0, complete.size() - 4000)));
-    EXPECT_EQ(made.force[0], std::vector<double>(500, 1.5));
-    EXPECT_EQ(made.notes.at(0),
+    const auto recording = load_recording(folder.write("cut.wav", complete.substr(0, complete.size() - 4000)));
+    EXPECT_EQ(recording.force[0], std::vector<double>(500, 1.5));
+    EXPECT_EQ(recording.notes.at(0),
               "the samples need 8000 bytes, but the file has 4000; it may be incomplete, and only this part of the recording is read");
     for (const auto& [name, format] : {std::pair{"x.aiff", SF_FORMAT_AIFF | SF_FORMAT_PCM_16}, {"x.au", SF_FORMAT_AU | SF_FORMAT_PCM_16}}) {
         write_audio(folder / name, format, 100, {std::vector<double>(1000, 0.5)});
@@ -83,8 +84,8 @@ TEST(Wav, TheBeginningOfATruncatedFileIsRead) {
         EXPECT_NE(cut.notes[0].find("it may be incomplete"), std::string::npos) << cut.notes[0];
     }
     write_audio(folder / "x.flac", SF_FORMAT_FLAC | SF_FORMAT_PCM_16, 100, {test::force("noise", {.rate = 20000})});
-    const auto packed = test::read_file(folder / "x.flac");
-    EXPECT_NE(load_error(folder.write("cut.flac", packed.substr(0, packed.size() / 2)), {.scale = 1}).find("may be truncated"),
+    const auto compressed = test::read_file(folder / "x.flac");
+    EXPECT_NE(load_error(folder.write("cut.flac", compressed.substr(0, compressed.size() / 2)), {.scale = 1}).find("may be truncated"),
               std::string::npos);
 }
 

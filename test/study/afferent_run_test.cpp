@@ -31,10 +31,10 @@ RunFiles run(const TemporaryFolder& folder, const std::vector<std::string>& stim
     SpikesFile spikes(test::value_or_throw(OutputFile::create(folder / "spikes.csv")));
     ProbesFile traces(folder.path());
     RunSummary summary;
-    ResponseSink* listeners[] = {&spikes, &traces, &summary};
+    ResponseSink* sinks[] = {&spikes, &traces, &summary};
     RespondOptions options;
     options.block = block;
-    const auto work = test::value_or_throw(respond(sources, plans, listeners, options));
+    const auto work = test::value_or_throw(respond(sources, plans, sinks, options));
     EXPECT_TRUE(spikes.commit());
     EXPECT_TRUE(traces.commit());
     return {test::read_file(folder / "spikes.csv"), test::read_file(folder / "probes.csv"),
@@ -54,7 +54,7 @@ TEST(Respond, FilesDoNotDependOnTheBlock) {
     }
 }
 
-TEST(Respond, SpikesFileIsInOrderOfTimeInputAfterInput) {
+TEST(Respond, SpikesAreInOrderOfTimeOneInputAfterAnother) {
     const TemporaryFolder folder;
     const auto ran = run(folder, {"press", "press"}, {"sa1", "fa1"}, 64);
     std::istringstream lines(ran.spikes);
@@ -65,13 +65,13 @@ TEST(Respond, SpikesFileIsInOrderOfTimeInputAfterInput) {
     int count = 0;
     while (std::getline(lines, line)) {
         const auto first = line.find(','), second = line.rfind(',');
-        const auto of = line.substr(first + 1, second - first - 1);
+        const auto spike_channel = line.substr(first + 1, second - first - 1);
         const double t = std::stod(line.substr(second + 1));
-        if (of != channel) last = 0, channel = of;
+        if (spike_channel != channel) last = 0, channel = spike_channel;
         EXPECT_GE(t, last);
         last = t, ++count;
     }
-    EXPECT_EQ(channel, "press (2)") << "a second source of the same name gets a name of its own";
+    EXPECT_EQ(channel, "press (2)") << "a second source of the same name gets another name";
     EXPECT_EQ(count, ran.work.spikes);
     EXPECT_EQ(ran.work.samples, 4000);
     EXPECT_EQ(ran.work.afferent_steps, 8000);
@@ -84,9 +84,9 @@ TEST(Respond, ProbeFilesAreReadBackAsRecordings) {
         ran.traces.starts_with("time_s,press_N,sa1.press.I_A [A],sa1.press.I_B [A],sa1.press.I_C [A],sa1.press.I [A],sa1.press.u [V]\n"));
     RecordingOptions options;
     options.channels = {"press"};
-    const auto back = test::value_or_throw(open_recording(folder / "probes.csv", options));
-    EXPECT_EQ(back->clock().rate(), 2000);
-    const auto read = test::read_first_channel(*back), expected = test::force("press", {.rate = 2e3});
+    const auto reread = test::value_or_throw(open_recording(folder / "probes.csv", options));
+    EXPECT_EQ(reread->clock().rate(), 2000);
+    const auto read = test::read_first_channel(*reread), expected = test::force("press", {.rate = 2e3});
     ASSERT_EQ(read.size(), expected.size());
     for (std::size_t k = 0; k < expected.size(); ++k) EXPECT_NEAR(read[k], expected[k], 1e-8);
 }
@@ -120,7 +120,7 @@ TEST(OutputFile, LeavesNothingBehindUnlessItIsComplete) {
         auto f = test::value_or_throw(OutputFile::create(folder / "new/half.txt"));
         (void)f.write("half");
     }
-    EXPECT_TRUE(folder.file_names().empty()) << "neither the part nor the directory made for it";
+    EXPECT_TRUE(folder.file_names().empty()) << "neither the partial file nor its new directory is left";
     auto f = test::value_or_throw(OutputFile::create(folder / "whole.txt"));
     EXPECT_TRUE(f.write("whole"));
     EXPECT_TRUE(f.commit());
@@ -129,15 +129,15 @@ TEST(OutputFile, LeavesNothingBehindUnlessItIsComplete) {
     EXPECT_FALSE(OutputFile::create(folder.path()));
 }
 
-TEST(RespondReport, KeepsItsSizeLimitForAnyInputsAndChannels) {
+TEST(RespondReport, KeepsItsSizeLimitForAnyNumberOfInputs) {
     const auto points_of = [](int inputs) {
         std::vector<std::unique_ptr<ForceSource>> sources;
         for (int k = 0; k < inputs; ++k) sources.push_back(test::value_or_throw(make_stimulus("press", {}, 20e3, 0)));
         const auto plan = test::value_or_throw(plan_afferent("sa1", {}));
         RespondReport report(100'000);
         RunSummary summary;
-        ResponseSink* listeners[] = {&report, &summary};
-        (void)test::value_or_throw(respond(sources, std::span(&plan, 1), listeners, {}));
+        ResponseSink* sinks[] = {&report, &summary};
+        (void)test::value_or_throw(respond(sources, std::span(&plan, 1), sinks, {}));
         const auto page = report.page(summary, std::span(&plan, 1), "", {}, nlohmann::ordered_json::array());
         EXPECT_EQ(page.find("{{page"), std::string::npos);
         EXPECT_EQ(page.find("{{dygraphs"), std::string::npos) << "every part of the template was filled";
@@ -152,8 +152,8 @@ TEST(RespondReport, KeepsItsSizeLimitForAnyInputsAndChannels) {
     EXPECT_GE(points_of(5), 25'000U);
 }
 
-TEST(Envelope, KeepsMinAndMaxOfEveryBucketWhateverTheLength) {
-    EXPECT_TRUE(rc::check("against the simple computation", [] {
+TEST(Envelope, KeepsMinAndMaxOfEveryBucketForAnyLength) {
+    EXPECT_TRUE(rc::check("compared with a direct computation", [] {
         const auto x = *rc::gen::container<std::vector<int>>(*rc::gen::inRange<std::size_t>(1, 400), rc::gen::inRange(-1000, 1000));
         Envelope e(16);
         for (const int v : x) e.add(v);
@@ -171,7 +171,7 @@ TEST(Envelope, KeepsMinAndMaxOfEveryBucketWhateverTheLength) {
     }));
 }
 
-TEST(Base64, IsThatOfTheStandard) {  // RFC 4648, section 10
+TEST(Base64, AgreesWithTheExamplesOfTheStandard) {  // RFC 4648, section 10
     const std::pair<const char*, const char*> cases[] = {
         {"", ""}, {"f", "Zg=="}, {"fo", "Zm8="}, {"foo", "Zm9v"}, {"foob", "Zm9vYg=="}, {"fooba", "Zm9vYmE="}, {"foobar", "Zm9vYmFy"}};
     for (const auto& [plain, coded] : cases) EXPECT_EQ(base64(plain, std::string_view(plain).size()), coded);

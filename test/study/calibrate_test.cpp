@@ -1,4 +1,4 @@
-// Calibration of trims: the limits of a chip, and whether the search finds the known codes.
+// Calibration of trims: the limits of a chip, and the search for known codes.
 
 #include "study/sweep/calibration_report.hpp"
 
@@ -13,7 +13,8 @@
 namespace corpuscle {
 namespace {
 
-/// Under 2 N/s the node reaches its level at 0.5 s * 1 mA / g, in however many steps.
+/// A netlist that fires once: under a force of 2 N/s its node reaches the level at 0.5 s * (1 mA/N) / g. The limits allow one spike within
+/// `tolerance` of `target_time` (s).
 ChipCalibration ramp(const test::TemporaryFolder& folder, double target_time, double tolerance) {
     const auto path = std::filesystem::path(folder / "ramp.cir");
     std::ofstream(path) << "a ramp\n.param g=1m\niin 0 a force {g}\nra a 0 1k\nca a 0 1p\n.spike v(a) 1\n.end\n";
@@ -26,7 +27,7 @@ ChipCalibration ramp(const test::TemporaryFolder& folder, double target_time, do
     return out;
 }
 
-TEST(Calibrate, FindsTheCodeThatIsKnown) {
+TEST(Calibrate, FindsTheKnownCode) {
     for (const auto& [target_time, tolerance, bits, trim_change] :
          {std::tuple{0.4, 4e-3, 3, 0.25}, {0.5, 4e-3, 0, 0.0}, {0.25, 4e-3, 1, 1.0}, {0.8, 2e-3, 4, -0.375}}) {
         const test::TemporaryFolder folder;
@@ -43,13 +44,13 @@ TEST(Calibrate, FindsTheCodeThatIsKnown) {
         EXPECT_EQ(chip.codes.back().at(0), trim_change * 32) << target_time;
         ASSERT_EQ(chip.spikes.size(), 1U);
         EXPECT_NEAR(chip.spikes[0], 0.5 / (1 + trim_change), 1e-4);
-        EXPECT_LE(chip.presses, 1 + 3 * bits) << "two neighbours at each width, and once more where it moved";
+        EXPECT_LE(chip.presses, 1 + 3 * bits) << "at each width two neighbouring codes, and another step if the code changed";
     }
 }
 
 TEST(Calibrate, ReportsTargetsOutOfRange) {
     const test::TemporaryFolder folder;
-    auto calibration = ramp(folder, 0.15, 4e-3);  // twice as much gives 0.25 s
+    auto calibration = ramp(folder, 0.15, 4e-3);  // the largest code doubles g, which gives a spike at 0.25 s
     calibration.bits = 4;
     calibration.trims = {*trim_of(calibration.netlist, {}, {"g"}, 1, false)};
     const auto done = calibrate(calibration, {circuit::ChipSample{1, 0}, circuit::ChipSample{1, 1}});
@@ -78,10 +79,10 @@ TEST(Calibrate, CodesAreCentredOnTheDesignValueAndColumnsAreIntegers) {
     EXPECT_DOUBLE_EQ(current.value(8, 4), 12);
     EXPECT_DOUBLE_EQ(current.value(-7, 4), 8 * (1 - 7.0 / 16));
     EXPECT_DOUBLE_EQ(columns.value(1, 4), 13);  // 12.75
-    EXPECT_DOUBLE_EQ((Trim{{"x.m"}, 1, 1, true}.value(-7, 4)), 1) << "one column at least";
+    EXPECT_DOUBLE_EQ((Trim{{"x.m"}, 1, 1, true}.value(-7, 4)), 1) << "at least one column";
 }
 
-TEST(FiringLimits, AreAboutAModelsSpikes) {
+TEST(FiringLimits, AllowDeviationsFromTheSpikesOfAModel) {
     const std::vector<double> model = {0.31, 0.33, 0.35, 0.40, 0.44, 0.5, 0.55, 0.6, 0.65, 0.66, 0.67, 0.68};
     const TimeWindow phases[] = {{0, 0.3}, {0.3, 0.38}, {0.38, 0.7}, {0.7, 1}};
     const auto limits = FiringLimits::around(model, phases, 10e-3);
@@ -89,9 +90,9 @@ TEST(FiringLimits, AreAboutAModelsSpikes) {
     EXPECT_LT(limits.distance(model), 1e-20);
     auto other = model;
     other.insert(other.begin(), 0.1);
-    EXPECT_FALSE(limits.are_met(other)) << "none before the force";
+    EXPECT_FALSE(limits.are_met(other)) << "no spike is allowed before the force";
     other = model, other.push_back(0.9);
-    EXPECT_TRUE(limits.are_met(other)) << "one more, where the model has none after it has fired";
+    EXPECT_TRUE(limits.are_met(other)) << "one spike more is allowed after the last spike of the model";
     other.push_back(0.95);
     EXPECT_FALSE(limits.are_met(other));
     other.assign(model.begin() + 2, model.end());

@@ -34,11 +34,11 @@ CopiesOfAfferents make_test_copies(const std::vector<std::string>& names, std::u
     return out;
 }
 
-void simulate_copies(std::span<const AfferentPlan> plans, std::initializer_list<ResponseSink*> listeners) {
+void simulate_press_and_sine(std::span<const AfferentPlan> plans, std::initializer_list<ResponseSink*> sinks) {
     std::vector<std::unique_ptr<ForceSource>> sources;
     sources.push_back(value_or_throw(make_stimulus("press", {}, 2e3, 0)));
     sources.push_back(value_or_throw(make_stimulus("sine", {}, 2e3, 0)));
-    (void)value_or_throw(respond(sources, plans, std::vector<ResponseSink*>(listeners), {}));
+    (void)value_or_throw(respond(sources, plans, std::vector<ResponseSink*>(sinks), {}));
 }
 
 struct Statistics {
@@ -46,7 +46,7 @@ struct Statistics {
     std::int64_t n = 0;
 };
 
-/// Computed from the definitions.
+/// The same statistics, computed from their definitions.
 Statistics statistics(std::vector<double> x) {
     std::erase_if(x, [](double v) { return std::isnan(v); });
     Statistics s;
@@ -62,19 +62,20 @@ Statistics statistics(std::vector<double> x) {
     return s;
 }
 
-bool alike(double a, double b) { return (std::isnan(a) && std::isnan(b)) || std::abs(a - b) <= 1e-9 * (1 + std::abs(b)); }
+bool is_nearly_equal(double a, double b) { return (std::isnan(a) && std::isnan(b)) || std::abs(a - b) <= 1e-9 * (1 + std::abs(b)); }
 
 TEST(CopyStatistics, AreTheMeanDeviationMinAndMaxOfTheCopiesWithAValue) {
-    EXPECT_TRUE(rc::check("against the definitions", [] {
+    EXPECT_TRUE(rc::check("compared with the definitions", [] {
         std::vector<double> x;
         for (const int k : *rc::gen::container<std::vector<int>>(rc::gen::inRange(-1000, 1001)))
             x.push_back(k % 7 == 0 ? no_value : k / 8.0);
-        CopyStatistics statistics_over;
-        for (const double v : x) statistics_over.add(v);
+        CopyStatistics accumulated;
+        for (const double v : x) accumulated.add(v);
         const auto expected = statistics(x);
-        RC_ASSERT(statistics_over.copies == expected.n);
-        RC_ASSERT(alike(statistics_over.mean(), expected.mean) && alike(statistics_over.standard_deviation(), expected.deviation));
-        RC_ASSERT(alike(statistics_over.min, expected.min) && alike(statistics_over.max, expected.max));
+        RC_ASSERT(accumulated.copies == expected.n);
+        RC_ASSERT(is_nearly_equal(accumulated.mean(), expected.mean));
+        RC_ASSERT(is_nearly_equal(accumulated.standard_deviation(), expected.deviation));
+        RC_ASSERT(is_nearly_equal(accumulated.min, expected.min) && is_nearly_equal(accumulated.max, expected.max));
     }));
 }
 
@@ -89,14 +90,14 @@ double length_of(const RunSummary& summary, const MeasureRow& row) {
     return no_value;
 }
 
-/// The row of one afferent leaves out the mean rate of a single spike, but a mean over copies includes it.
-TEST(Summary, OfCopiesSummarisesTheirOwnRows) {
+/// The row of a single afferent has no mean rate if there is one spike, but the mean over copies includes that rate.
+TEST(Summary, OfCopiesHasTheStatisticsOfTheirSeparateRows) {
     const auto p = make_test_copies({"sa1", "fa1"}, 25, {"sa1.f_B=20%", "sa1.V_th=40%", "fa1.k_A=40%"});
     auto separate_plans = p.copies;  // the same plans, as if each had been requested separately
     for (auto& plan : separate_plans) plan.copy_number = 0;
     RunSummary combined, separate;
-    simulate_copies(p.copies, {&combined});
-    simulate_copies(separate_plans, {&separate});
+    simulate_press_and_sine(p.copies, {&combined});
+    simulate_press_and_sine(separate_plans, {&separate});
     ASSERT_EQ(combined.rows().size(), 2U * 5 + 2);
     ASSERT_EQ(separate.rows().size(), 25 * combined.rows().size());
     for (const auto& row : combined.rows())
@@ -108,20 +109,21 @@ TEST(Summary, OfCopiesSummarisesTheirOwnRows) {
                                                                   : r.values[m]);
             ASSERT_EQ(values.size(), 25U);
             const auto expected = statistics(values);
-            const auto& statistics_over = row.copy_statistics[m];
-            EXPECT_EQ(statistics_over.copies, expected.n) << row.phase << ' ' << measures[m].name;
-            EXPECT_TRUE(alike(statistics_over.mean(), expected.mean) && alike(statistics_over.standard_deviation(), expected.deviation))
+            const auto& accumulated = row.copy_statistics[m];
+            EXPECT_EQ(accumulated.copies, expected.n) << row.phase << ' ' << measures[m].name;
+            EXPECT_TRUE(is_nearly_equal(accumulated.mean(), expected.mean) &&
+                        is_nearly_equal(accumulated.standard_deviation(), expected.deviation))
                 << row.phase << ' ' << measures[m].name;
-            EXPECT_TRUE(alike(statistics_over.min, expected.min) && alike(statistics_over.max, expected.max))
+            EXPECT_TRUE(is_nearly_equal(accumulated.min, expected.min) && is_nearly_equal(accumulated.max, expected.max))
                 << row.phase << ' ' << measures[m].name;
         }
 }
 
-TEST(Summary, OfAHundredTimesTheCopiesIsNoLonger) {
+TEST(Summary, OfAHundredTimesAsManyCopiesHasTheSameLength) {
     const auto size = [](std::uint32_t n) {
         const auto p = make_test_copies({"sa1"}, n, {"sa1.f_B=10%"});
         RunSummary summary;
-        simulate_copies(p.copies, {&summary});
+        simulate_press_and_sine(p.copies, {&summary});
         const auto document = summary.document(p.base, {}, {}, 0, {});
         EXPECT_EQ(document["afferents"].size(), 1U);
         EXPECT_EQ(document["rates"].size(), 6U);
@@ -147,7 +149,7 @@ TEST(CopiesFile, HasTheParametersOfEachCopyAndTheMeasuresOfItsTrain) {
     const auto p = make_test_copies({"sa1", "fa1"}, 4, {"sa1.f_B=20%", "sa1.V_th=10%", "fa1.V_th=10%", "fa1.k_A=10%"});
     CopiesFile file(value_or_throw(OutputFile::create(folder / "copies.csv")), p.population);
     SpikesFile spikes(value_or_throw(OutputFile::create(folder / "spikes.csv")));
-    simulate_copies(p.copies, {&file, &spikes});
+    simulate_press_and_sine(p.copies, {&file, &spikes});
     ASSERT_TRUE(bool(file.commit()) && bool(spikes.commit()));
     const auto rows = table_of(test::read_file(folder / "copies.csv"));
     ASSERT_EQ(rows.size(), 1U + 2 * 8);
@@ -163,7 +165,7 @@ TEST(CopiesFile, HasTheParametersOfEachCopyAndTheMeasuresOfItsTrain) {
         ASSERT_EQ(rows[k].size(), rows[0].size());
         const auto& plan = *std::find_if(p.copies.begin(), p.copies.end(), [&](const auto& c) { return c.name == rows[k][0]; });
         EXPECT_EQ(rows[k][1], k <= 8 ? "press" : "sine");
-        EXPECT_EQ(std::stod(rows[k][at("V_th_V")]), *plan.value("V_th")) << "every digit";
+        EXPECT_EQ(std::stod(rows[k][at("V_th_V")]), *plan.value("V_th")) << "written with all digits";
         EXPECT_EQ(rows[k][at("f_B_Hz")].empty(), plan.original_name == "fa1");
         EXPECT_EQ(rows[k][at("k_A_A/N")].empty(), plan.original_name == "sa1");
         const auto train =

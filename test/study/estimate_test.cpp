@@ -1,4 +1,4 @@
-// Confidence intervals against numbers of SciPy 1.10 (with the call that returned them), and against their definition.
+// Confidence intervals, compared with numbers of SciPy 1.10 (with the call that returned them) and with their definition.
 
 #include "study/sweep/estimate.hpp"
 
@@ -36,7 +36,7 @@ TEST(Probability, DistributionsEqualThoseOfScipy) {
 
 TEST(Estimate, AYieldHasTheIntervalOfClopperAndPearson) {
     const struct {
-        std::int64_t some, all;
+        std::int64_t passed, items;
         double low, high;
     } rows[] = {{0, 20, 0, 0.16843347098308548},  // stats.binomtest(k, n).proportion_ci(method='exact')
                 {20, 20, 0.8315665290169145, 1},
@@ -44,8 +44,8 @@ TEST(Estimate, AYieldHasTheIntervalOfClopperAndPearson) {
                 {874, 1000, 0.8518262835291261, 0.893943167737706},
                 {999000, 1000000, 0.9989360818926863, 0.9990609987920546}};
     for (const auto& r : rows) {
-        const auto fraction = estimate_proportion(r.some, r.all);
-        EXPECT_DOUBLE_EQ(fraction.value, static_cast<double>(r.some) / static_cast<double>(r.all));
+        const auto fraction = estimate_proportion(r.passed, r.items);
+        EXPECT_DOUBLE_EQ(fraction.value, static_cast<double>(r.passed) / static_cast<double>(r.items));
         EXPECT_NEAR(fraction.low, r.low, 1e-12);
         EXPECT_NEAR(fraction.high, r.high, 1e-12);
     }
@@ -70,7 +70,7 @@ TEST(Estimate, ASampleOfTenHasTheMeanDeviationAndQuantilesOfScipyAndNumpy) {
     EXPECT_LT(sample.normality_floor(), 0.92);  // Looney and Gulledge: 0.918
 }
 
-TEST(Estimate, AQuantileLiesBetweenTheOrderStatisticsThatTheBinomialDistributionNames) {
+TEST(Estimate, TheIntervalOfAQuantileFollowsFromTheBinomialDistribution) {
     const struct {
         int n;
         double q;
@@ -89,7 +89,7 @@ TEST(Estimate, AQuantileLiesBetweenTheOrderStatisticsThatTheBinomialDistribution
     }
 }
 
-TEST(Estimate, OfNoValueOrOneValueIsDefinedWherePossible) {
+TEST(Estimate, OfNoValueOrOneValueIsNaNOnlyWhereUndefined) {
     const SortedSample none(std::vector<double>{}), one({3}), same({2, 2, 2, 2, 2, 2});
     EXPECT_TRUE(std::isnan(none.mean().value) && std::isnan(none.sigma().value) && std::isnan(none.quantile(0.5).value));
     EXPECT_EQ(one.mean().value, 3);
@@ -112,7 +112,7 @@ double coverage(int n, double truth, Sampler&& sampler) {
     return inside / 2000.0;
 }
 
-TEST(Estimate, TheIntervalOfADeviationHasItsCoverageAlsoForOtherDistributions) {
+TEST(Estimate, TheIntervalOfSigmaHasItsCoverageForOtherDistributionsToo) {
     EXPECT_NEAR(coverage(50, 1, [](NormalPair x) { return x.first; }), 0.95, 0.02);
     EXPECT_NEAR(coverage(50, 1 / std::sqrt(12.0), [](NormalPair x) { return 0.5 * std::erfc(x.first / std::sqrt(2.0)); }), 0.95,
                 0.03);  // uniform

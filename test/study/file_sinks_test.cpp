@@ -1,7 +1,6 @@
 // Files that respond writes, read back.
 
 #include "study/file_sinks.hpp"
-#include "model/copies.hpp"
 
 #include <sndfile.h>
 
@@ -25,7 +24,7 @@ namespace {
 using test::TemporaryFolder;
 using test::value_or_throw;
 
-/// A source with unused forces; only its clock and channels matter.
+/// A source of which only the clock and the channels are used; it returns no samples.
 class SilentSource final : public ForceSource {
     std::string name_ = "still";
     Clock clock_;
@@ -43,25 +42,25 @@ public:
     Result<void> read(Frames&) override { return {}; }
 };
 
-/// Passes spikes to listeners in blocks, as a run does.
-void pass_to_listeners(const ForceSource& source, std::span<const AfferentPlan> plans, std::vector<Spike> spikes, std::int64_t samples,
-                       std::int64_t block, std::initializer_list<ResponseSink*> listeners) {
+/// Passes spikes to sinks in blocks, as a run does.
+void pass_to_sinks(const ForceSource& source, std::span<const AfferentPlan> plans, std::vector<Spike> spikes, std::int64_t samples,
+                       std::int64_t block, std::initializer_list<ResponseSink*> sinks) {
     const std::vector<std::span<const Probe>> probes(plans.size());
     const Input input{source, "still", plans, probes};
     std::sort(spikes.begin(), spikes.end());
-    for (auto* l : listeners)
+    for (auto* l : sinks)
         if (auto ok = l->begin(input); !ok) throw std::runtime_error(ok.error().text());
     for (std::int64_t first = 0; first < samples; first += block) {
         Frames force(source.channels().size(), static_cast<std::size_t>(block));
         force.count = static_cast<std::size_t>(std::min(block, samples - first));
-        std::vector<Spike> here;
+        std::vector<Spike> in_block;
         for (const auto& s : spikes)
-            if (s.step >= first && s.step < first + block) here.push_back(s);
-        const RunBlock run_block{first, force, here, {}};
-        for (auto* l : listeners)
+            if (s.step >= first && s.step < first + block) in_block.push_back(s);
+        const RunBlock run_block{first, force, in_block, {}};
+        for (auto* l : sinks)
             if (auto ok = l->block(input, run_block); !ok) throw std::runtime_error(ok.error().text());
     }
-    for (auto* l : listeners)
+    for (auto* l : sinks)
         if (auto ok = l->end(input, samples); !ok) throw std::runtime_error(ok.error().text());
 }
 
@@ -88,14 +87,14 @@ TEST(SpikeSinks, AreReadBackFromCsvToTheNanosecondAndFromNpzExactly) {
         const auto spikes = any_spikes(500, 4);
         SpikesFile csv(value_or_throw(OutputFile::create(folder / "spikes.csv")));
         NpzFile npz(value_or_throw(OutputFile::create(folder / "spikes.npz")));
-        pass_to_listeners(source, afferents, spikes, 500, *rc::gen::element(1, 7, 500), {&csv, &npz});
+        pass_to_sinks(source, afferents, spikes, 500, *rc::gen::element(1, 7, 500), {&csv, &npz});
         RC_ASSERT(bool(csv.commit()) && bool(npz.commit()));
         std::vector<std::vector<double>> expected(4);
         for (const auto& s : spikes) expected[s.afferent_index].push_back(source.clock().time(s.step, s.offset));
         for (auto& r : expected) std::sort(r.begin(), r.end());
         const auto exact = value_or_throw(read_spikes(folder / "spikes.npz")), rounded = value_or_throw(read_spikes(folder / "spikes.csv"));
         RC_ASSERT(exact.size() == 4U);  // including silent ones
-        std::size_t clicks_read = 0;
+        std::size_t trains_in_csv = 0;
         for (const auto& train : exact) {
             const std::size_t afferent_index = (train.channel == "a" ? 0U : 2U) + (train.afferent == "sa1" ? 0U : 1U);
             RC_ASSERT(train.times == expected[afferent_index]);
@@ -104,9 +103,9 @@ TEST(SpikeSinks, AreReadBackFromCsvToTheNanosecondAndFromNpzExactly) {
             if (same == rounded.end()) continue;
             RC_ASSERT(same->times.size() == train.times.size());
             for (std::size_t k = 0; k < train.times.size(); ++k) RC_ASSERT(std::abs(same->times[k] - train.times[k]) < 0.8e-9);
-            ++clicks_read;
+            ++trains_in_csv;
         }
-        RC_ASSERT(clicks_read == rounded.size());
+        RC_ASSERT(trains_in_csv == rounded.size());
     }));
 }
 
@@ -114,7 +113,7 @@ TEST(SpikeSinks, NpzHasTheListsThatSpikeInterfaceReads) {
     const TemporaryFolder folder;
     const SilentSource source(Clock{1000, 1, 5.0}, {"a"});
     NpzFile npz(value_or_throw(OutputFile::create(folder / "spikes.npz")));
-    pass_to_listeners(source, plans({"sa1", "fa1"}), {{2, 0.5, 1}, {1, 0.25, 0}}, 10, 4, {&npz});
+    pass_to_sinks(source, plans({"sa1", "fa1"}), {{2, 0.5, 1}, {1, 0.25, 0}}, 10, 4, {&npz});
     ASSERT_TRUE(npz.commit());
     const auto checked = std::system(("/usr/bin/python3 -c \"\nimport numpy as np\nz = np.load('" + folder / "spikes.npz" + R"(')
 assert z['unit_ids'].dtype == np.int64 and list(z['unit_ids']) == [0, 1]
@@ -129,16 +128,16 @@ assert list(z['unit_afferent']) == ['sa1', 'fa1'] and list(z['unit_channel']) ==
     EXPECT_EQ(checked, 0);
 }
 
-/// The text of the file, computed by counting.
-TEST(PsthFile, CountsEverySpikeOnceInEqualBinsFromTheStartWhateverTheBlock) {
+/// Compares the file with a text made by counting the spikes of each bin.
+TEST(PsthFile, CountsEverySpikeOnceInEqualBinsForAnyBlock) {
     const TemporaryFolder folder;
     const auto afferents = plans({"sa1"});
-    EXPECT_TRUE(rc::check("against counting", [&] {
+    EXPECT_TRUE(rc::check("compared with counting", [&] {
         const SilentSource source(Clock{1000, 1, *rc::gen::element(0.0, 100.0)}, {"a", "b"});
         const auto spikes = any_spikes(250, 2);
         const int per_bin = *rc::gen::element(1, 7, 10, 250, 1000);  // samples
         PsthFile bins(value_or_throw(OutputFile::create(folder / "psth.csv")), per_bin * 1e-3);
-        pass_to_listeners(source, afferents, spikes, 250, *rc::gen::element(1, 9, 250), {&bins});
+        pass_to_sinks(source, afferents, spikes, 250, *rc::gen::element(1, 9, 250), {&bins});
         RC_ASSERT(bool(bins.commit()));
         std::vector<std::string> expected = {"afferent,channel,from_s,to_s,spikes,rate_Hz"};
         for (int from = 0; from < 250; from += per_bin)
@@ -172,14 +171,14 @@ DecodedClicks read_clicks(const std::string& path) {
     return clicks_read;
 }
 
-TEST(SpikeSoundFile, HasAClickForEachSpikeAtItsSampleWhateverTheBlock) {
+TEST(SpikeSoundFile, HasAClickForEachSpikeAtItsSampleForAnyBlock) {
     const TemporaryFolder folder;
     const SilentSource source(Clock{10000, 1, 77.0}, {"a"});
     std::vector<Spike> spikes;
     for (std::int64_t k = 0; k < 40; ++k) spikes.push_back({50 + 37 * k, static_cast<double>(1 + k % 7) / 7, 0});
     for (const std::int64_t block : {1, 13, 2000}) {
         SpikeSoundFile clicks(folder.path());
-        pass_to_listeners(source, plans({"sa1"}), spikes, 2000, block, {&clicks});
+        pass_to_sinks(source, plans({"sa1"}), spikes, 2000, block, {&clicks});
         ASSERT_TRUE(clicks.commit());
         const auto clicks_read = read_clicks(folder / "spikes.wav");
         EXPECT_EQ(clicks_read.channels, 1);
@@ -202,15 +201,16 @@ TEST(SpikeSoundFile, PansAfferentsFromLeftToRightAndNeverSaturates) {
     for (const std::int64_t step : {10, 11, 12, 100, 101, 300})
         for (std::uint32_t u = 0; u < 6; ++u) all.push_back({step, 1, u});
     SpikeSoundFile clicks(folder.path());
-    pass_to_listeners(source, plans({"sa1", "fa1", "sa2"}), all, 400, 50, {&clicks});
+    pass_to_sinks(source, plans({"sa1", "fa1", "sa2"}), all, 400, 50, {&clicks});
     ASSERT_TRUE(clicks.commit());
     const auto clicks_read = read_clicks(folder / "spikes.wav");
     EXPECT_EQ(clicks_read.channels, 2);
     EXPECT_LE(*std::max_element(clicks_read.samples.begin(), clicks_read.samples.end()), 29490) << "nine tenths of the full range";
     EXPECT_GE(*std::max_element(clicks_read.samples.begin(), clicks_read.samples.end()), 29480);
-    EXPECT_GE(*std::min_element(clicks_read.samples.begin(), clicks_read.samples.end()), 0) << "an incomplete file is removed";
+    EXPECT_GE(*std::min_element(clicks_read.samples.begin(), clicks_read.samples.end()), 0)
+        << "clicks do not wrap around to negative samples";
     SpikeSoundFile left(folder.path());
-    pass_to_listeners(source, plans({"sa1", "fa1"}), {{100, 1, 0}}, 400, 50, {&left});
+    pass_to_sinks(source, plans({"sa1", "fa1"}), {{100, 1, 0}}, 400, 50, {&left});
     ASSERT_TRUE(left.commit());
     const auto one = read_clicks(folder / "spikes.wav");
     int on_left = 0, right_channel = 0;
@@ -227,7 +227,7 @@ TEST(SpikeSoundFile, PansCopiesLikeTheirAfferent) {
         for (auto& copy : value_or_throw(make_copies(plan, 3, {}, 0))) copies.push_back(std::move(copy));
     for (std::uint32_t afferent_index = 0; afferent_index < 6; ++afferent_index) {
         SpikeSoundFile clicks(folder.path());
-        pass_to_listeners(source, copies, {{100, 1, afferent_index}}, 400, 50, {&clicks});
+        pass_to_sinks(source, copies, {{100, 1, afferent_index}}, 400, 50, {&clicks});
         ASSERT_TRUE(clicks.commit());
         const auto clicks_read = read_clicks(folder / "spikes.wav");
         ASSERT_EQ(clicks_read.channels, 2);
@@ -244,7 +244,7 @@ TEST(SpikeSoundFile, RefusesMoreThanAWavFileHoldsAndLeavesNothing) {
     {
         SpikeSoundFile clicks(folder.path());
         try {
-            pass_to_listeners(source, plans({"sa1"}), {}, 30, 1, {&clicks});
+            pass_to_sinks(source, plans({"sa1"}), {}, 30, 1, {&clicks});
             ADD_FAILURE() << "was written";
         } catch (const std::runtime_error& e) {
             EXPECT_NE(std::string(e.what()).find("'still' is longer than the 6 hours that a WAV file can hold; run it without --wav"),
@@ -270,15 +270,15 @@ TEST(RemoveStaleOutputs, RemovesOnlyFilesThatAnEarlierSummaryNamesInThatDirector
     EXPECT_TRUE(remove_stale_outputs(folder / "nowhere", {}).empty());
 }
 
-/// The simplest case of a measure, over the run itself: a periodic force is reported as such.
+/// Only a periodic stimulus has the measures that need a cycle.
 TEST(Summary, UsesTheCycleOfAStimulusAndLeavesOutColumnsWithoutValues) {
     const auto columns = [](const std::string& stimulus) {
         std::vector<std::unique_ptr<ForceSource>> sources;
         sources.push_back(value_or_throw(make_stimulus(stimulus, {}, 10e3, 0)));
         const auto afferents = plans({"sa1"});
         RunSummary summary;
-        ResponseSink* listeners[] = {&summary};
-        (void)value_or_throw(respond(sources, afferents, listeners, {}));
+        ResponseSink* sinks[] = {&summary};
+        (void)value_or_throw(respond(sources, afferents, sinks, {}));
         std::vector<std::string_view> names;
         for (const auto c : summary.columns()) names.push_back(measures[c].name);
         return names;

@@ -1,9 +1,8 @@
-// Files that an earlier version of the program saved are read, or refused with a remedy. It saved them so:
+// Files saved by an earlier version of the program are read, or refused with a remedy. These commands saved them:
 //
 //   former/press.state        corpuscle stream --rate 1kHz -p sa1 --save-state press.state, after 300 frames of 1 N
-//   former/press.checkpoint   corpuscle respond press --set press.t_hold=5000 --set press.F_max=0.6 --population 'grid 1x1' --checkpoint
-//   FILE,
-//                             interrupted after 0.05 s
+//   former/press.checkpoint   corpuscle respond press --set press.t_hold=5000 --set press.F_max=0.6 --population 'grid 1x1'
+//                             --checkpoint FILE, interrupted after 0.05 s
 
 #include <filesystem>
 

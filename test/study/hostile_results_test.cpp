@@ -23,7 +23,7 @@ using test::read_file;
 using test::TemporaryFolder;
 using test::value_or_throw;
 
-/// A results file of 100 items, changed afterwards as another program would.
+/// The path of a results file of 100 items, changed by SQL statements as another program might.
 std::string changed_results(const TemporaryFolder& folder, const std::string& statements) {
     const auto path = folder / "r.sqlite";
     const PlainSweep sweep(100);
@@ -45,7 +45,7 @@ std::string refusal_of(const std::string& path) {
     return results ? "" : results.error().text();
 }
 
-/// The schema of the first version of such files.
+/// Schema and contents of a results file of format 1.
 constexpr const char* first_format = R"tables(
 CREATE TABLE about(key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;
 CREATE TABLE columns(position INTEGER PRIMARY KEY, kind TEXT NOT NULL, name TEXT NOT NULL, unit TEXT NOT NULL, sentence TEXT NOT NULL,
@@ -71,7 +71,7 @@ std::string old_results(const TemporaryFolder& folder, const std::string& statem
     return path;
 }
 
-TEST(SweepResults, OfTheFirstFormatAreReadAndOfALaterOneRefused) {
+TEST(SweepResults, OfTheFirstFormatAreReadAndThoseOfALaterFormatRefused) {
     const TemporaryFolder folder;
     const auto results =
         value_or_throw(SweepResults::open_read_only(old_results(folder, std::string(first_format) + "PRAGMA user_version = 1;")));
@@ -142,7 +142,7 @@ TEST(HostileResults, OfItemsThatTheSweepDoesNotHaveAreRefused) {
     }
 }
 
-TEST(HostileResults, ExecuteNothingThatTheirSchemaContains) {
+TEST(HostileResults, OpeningExecutesNoTriggerOfTheSchema) {
     const TemporaryFolder folder;
     const auto path = changed_results(folder,
                                       "DELETE FROM items WHERE item > 50; DELETE FROM spikes; DELETE FROM traces;"
@@ -152,15 +152,15 @@ TEST(HostileResults, ExecuteNothingThatTheirSchemaContains) {
     std::vector<ItemOutcome> one;
     one.push_back(sweep.outcome(60));
     ASSERT_TRUE(results.add(sweep, std::move(one)));
-    std::int64_t diverged = 0, should = 0;
+    std::int64_t diverged = 0, expected_diverged = 0;
     ASSERT_TRUE(results.for_each_row([&](const SweepResults::Row& row) {
-        diverged += row.end == ItemEnd::diverged, should += sweep.outcome(row.item).end == ItemEnd::diverged;
+        diverged += row.end == ItemEnd::diverged, expected_diverged += sweep.outcome(row.item).end == ItemEnd::diverged;
         return true;
     }));
-    EXPECT_EQ(diverged, should);
+    EXPECT_EQ(diverged, expected_diverged);
 }
 
-TEST(HostileResults, WithAViewForATableAreRefused) {
+TEST(HostileResults, WithAViewInsteadOfATableAreRefused) {
     const TemporaryFolder folder;
     const auto path = changed_results(folder,
                                       "ALTER TABLE items RENAME TO old;"
@@ -198,7 +198,7 @@ TEST(HostileResults, InAnotherOrderOfColumnsAreMergedColumnByColumn) {
     }));
 }
 
-TEST(HostileResults, NeverEmptyALinkOrAForeignFile) {
+TEST(HostileResults, OpeningNeverEmptiesALinkOrAForeignFile) {
     const TemporaryFolder folder;
     folder.write("thesis.tex", "years of work\n");
     std::filesystem::create_symlink("thesis.tex", folder / "r.sqlite-writer");
@@ -212,8 +212,8 @@ TEST(HostileResults, NeverEmptyALinkOrAForeignFile) {
     EXPECT_EQ(test::read_file(folder / "r.sqlite-writer"), "years of work\n");
     std::filesystem::remove(folder / "r.sqlite-writer");
     std::filesystem::create_symlink("thesis.tex", folder / "r.sqlite-fold");
-    folder.write("left-by-one-that-was-killed", "4711 1790000000.000 5 10 host\n");
-    std::filesystem::rename(folder / "left-by-one-that-was-killed", folder / "r.sqlite-writer");
+    folder.write("lock-of-a-killed-run", "4711 1790000000.000 5 10 host\n");
+    std::filesystem::rename(folder / "lock-of-a-killed-run", folder / "r.sqlite-writer");
     EXPECT_TRUE(SweepResults::open(folder / "r.sqlite", PlainSweep(10)));
     EXPECT_EQ(test::read_file(folder / "thesis.tex"), "years of work\n");
 }

@@ -31,8 +31,8 @@ what = "sa1.f_B"
 list = ["20Hz", "40Hz", "80Hz"]
 )";
 
-/// z = 10 x + y over x in 0 ... 3, y in 0 ... 2; the last item has no value.
-SweepTable made_grid() {
+/// z = 10 x + y over x = 0 to 3 and y ("kind") = 0 to 2; the last item has no value.
+SweepTable example_grid() {
     SweepTable out;
     out.item_count = 12, out.is_grid = true;
     out.axes = {{"x", "V"}, {"kind", "", "", {"a", "b", "c"}}}, out.measures = {{"z", ""}};
@@ -47,7 +47,7 @@ SweepTable made_grid() {
 }
 
 TEST(PlainGrid, EffectsAreTheMeansAtEachValueAndTheirFractionOfTheVariance) {
-    auto table = made_grid();
+    auto table = example_grid();
     table.measure_values[0][11] = 32, table.ends[11] = ItemEnd::done;
     const auto effects = axis_effects(table, table.measure_values[0]);
     ASSERT_EQ(effects.size(), 2U);
@@ -61,7 +61,7 @@ TEST(PlainGrid, EffectsAreTheMeansAtEachValueAndTheirFractionOfTheVariance) {
 }
 
 TEST(PlainGrid, WithAMissingItemHasTheEffectsOfTheOthers) {
-    const auto table = made_grid();
+    const auto table = example_grid();
     const auto effects = axis_effects(table, table.measure_values[0]);
     ASSERT_EQ(effects.size(), 2U);
     EXPECT_EQ(effects[0].means.back(), 30.5);
@@ -78,8 +78,8 @@ TEST(PlainGrid, ReportsEveryAxisAndNoStatisticsOfChance) {
     for (const auto* expected_text : {"Grid of press.F_max (4 values) by sa1.f_B (3 values)", "Effect of each axis", "press.F_max",
                                       "sa1.f_B", "20 Hz", "80 Hz", "press.F_max = 4 N, sa1.f_B = 20 Hz"})
         EXPECT_NE(shown.out.find(expected_text), std::string::npos) << expected_text << "\n" << shown.out;
-    for (const auto* chance : {"95 %", "normal", "+-", "±", "chips", "sigma", "chance for"})
-        EXPECT_EQ(shown.out.find(chance), std::string::npos) << chance << "\n" << shown.out;
+    for (const auto* statistic : {"95 %", "normal", "+-", "±", "chips", "sigma", "chance for"})
+        EXPECT_EQ(shown.out.find(statistic), std::string::npos) << statistic << "\n" << shown.out;
     const auto document = nlohmann::json::parse(run_program(folder, "sweep show r.sqlite --json").out);
     EXPECT_TRUE(document["grid"].get<bool>());
     ASSERT_EQ(document["depends_on"].size(), 3U);

@@ -1,4 +1,4 @@
-// Which device matters: devices with a known influence are found with their fraction of the variance, and noise is not.
+// Sensitivity to devices: those with a known influence are found with their fraction of the variance, and noise is not.
 
 #include "study/sweep/sensitivity.hpp"
 
@@ -64,7 +64,7 @@ TEST(Sensitivity, FractionsAreTheSquaresOfTheSlopesAndLieInTheirIntervals) {
     EXPECT_GE(inside, all_found * 9 / 10 - 2);
 }
 
-TEST(Sensitivity, ADependentOrConstantFactorDoesNoHarm) {
+TEST(Sensitivity, ADependentOrConstantFactorIsNotSelected) {
     auto factors = noise_factors(1, 200, 3);
     factors.push_back(factors[0]);
     factors.emplace_back(200, 4.0);
@@ -133,15 +133,16 @@ TEST_F(SyntheticSweepSummary, PointsAreTheTemperaturesAndEndsAndYieldsAreCounted
     EXPECT_EQ(summary.all.items, 3000);
     EXPECT_EQ(summary.all.iteration_limit, 60);
     EXPECT_EQ(summary.all.diverged, 6);
-    std::int64_t passed = 0, line = 0, count = 0;
+    std::int64_t passed = 0, line_passed = 0, count_passed = 0;
     for (std::int64_t item = 0; item < sweep->item_count(); ++item) {
         const auto o = sweep->outcome(item);
-        const bool done = o.end == ItemEnd::done, in_line = done && std::abs(o.measures[0]) <= 0.5, counts = done && o.measures[2] >= 3;
-        passed += in_line && counts, line += in_line, count += counts;
+        const bool done = o.end == ItemEnd::done, line_is_within = done && std::abs(o.measures[0]) <= 0.5,
+                   count_is_within = done && o.measures[2] >= 3;
+        passed += line_is_within && count_is_within, line_passed += line_is_within, count_passed += count_is_within;
     }
     EXPECT_EQ(summary.all.passed, passed);
-    EXPECT_EQ(summary.all.measures[0].yield->value, static_cast<double>(line) / 3000);
-    EXPECT_EQ(summary.all.measures[2].yield->value, static_cast<double>(count) / 3000);
+    EXPECT_EQ(summary.all.measures[0].yield->value, static_cast<double>(line_passed) / 3000);
+    EXPECT_EQ(summary.all.measures[2].yield->value, static_cast<double>(count_passed) / 3000);
     EXPECT_FALSE(summary.all.measures[1].yield);
     EXPECT_EQ(summary.all.measures[0].missing, 6);
     EXPECT_EQ(table.measures.back().name, "iterations");
@@ -156,7 +157,7 @@ TEST_F(SyntheticSweepSummary, DevicesOfKnownInfluenceAreFoundAndRankedAndNoOther
     EXPECT_EQ(line.devices[2].device, 3);
     EXPECT_EQ(line.devices[0].I_S, 0);
     EXPECT_EQ(line.devices[1].V_T, 0);
-    // The noise belongs to an item, the rest to a chip: the mean over three temperatures keeps a third of its variance.
+    // Each item has its own noise, and each chip its deviates, so the mean over three temperatures has a third of the noise's variance.
     const double variance = 0.09 + 0.04 + 0.01 + 0.01 + 0.0225 / 3;
     EXPECT_NEAR(line.devices[0].fraction(), 0.09 / variance, 0.05);
     EXPECT_NEAR(line.devices[1].fraction(), 0.04 / variance, 0.04);
@@ -184,11 +185,11 @@ TEST_F(SyntheticSweepSummary, TheDocumentHasTheContentsOfTheSummary) {
     const auto& device = document["depends_on"][0]["devices"][0];
     EXPECT_EQ(device["device"], "x1.m7");
     EXPECT_NEAR(device["area_m2"].get<double>(), 8e-12, 1e-20);
-    const double fraction = device["fraction"], left = device["relative_sigma_at_4x_area"];
-    EXPECT_NEAR(left * left, 1 - 0.75 * fraction, 1e-12);
+    const double fraction = device["fraction"], relative_sigma = device["relative_sigma_at_4x_area"];
+    EXPECT_NEAR(relative_sigma * relative_sigma, 1 - 0.75 * fraction, 1e-12);
 }
 
-TEST_F(SyntheticSweepSummary, AnAxisOfManyValuesIsCutIntoBandsAndAWrongNameGetsASuggestion) {
+TEST_F(SyntheticSweepSummary, AnAxisOfManyValuesIsDividedIntoBandsAndAWrongNameGetsASuggestion) {
     const auto bands = value_or_throw(group_rows(table, {"process.vt_n"}));
     ASSERT_EQ(bands.groups.size(), SweepGroups::bands);
     for (const auto& g : bands.groups) EXPECT_NEAR(static_cast<double>(g.rows.size()), 600, 10);

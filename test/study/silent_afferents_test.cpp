@@ -1,4 +1,4 @@
-// Warnings for afferents that never fire, or faster than a nerve can: their numbers are computed, and the remedies work when typed.
+// Warnings for afferents that never fire, or fire faster than a nerve can: the numbers in them are right, and the remedies work as typed.
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -13,7 +13,7 @@ namespace {
 
 using test::TemporaryFolder, test::read_file, test::run_program;
 
-constexpr const char* patch = R"(
+constexpr const char* skin_patch = R"(
 unit = "mm"
 [sites]
 pitch = 1
@@ -26,8 +26,8 @@ density = "70 /cm2"
 sigma = "0.8 mm"
 )";
 
-/// The first group of a regular expression in a text.
-std::string found(const std::string& text, const std::string& expression) {
+/// The text that the first group of a regular expression matches, or "".
+std::string first_group(const std::string& text, const std::string& expression) {
     std::smatch match;
     return std::regex_search(text, match, std::regex(expression)) ? match[1].str() : "";
 }
@@ -58,17 +58,18 @@ TEST(SilenceDetector, NumbersOfARemedyAreRoundedUpToTwoDigits) {
 TEST(SilenceDetector, AWarningGivesTheForceAtWhichAnAfferentFires) {
     const TemporaryFolder folder;
     const auto ran = run_program(folder, "respond ramp-hold --rate 1kHz --json");
-    const auto message = found(ran.err, "fa1 never fired: the largest force was 1 N; it would fire at about ([0-9.]+) times this force");
-    ASSERT_FALSE(message.empty()) << ran.err;
+    const auto force_N =
+        first_group(ran.err, "fa1 never fired: the largest force was 1 N; it would fire at about ([0-9.]+) times this force");
+    ASSERT_FALSE(force_N.empty()) << ran.err;
     const auto document = nlohmann::json::parse(ran.out);
     ASSERT_EQ(document["silent"].size(), 1U);
     EXPECT_EQ(document["silent"][0]["afferent"], "fa1");
-    const auto more = run_program(folder, "respond ramp-hold --rate 1kHz --afferent fa1 --json --set ramp-hold.F_max=" + message + "N");
+    const auto more = run_program(folder, "respond ramp-hold --rate 1kHz --afferent fa1 --json --set ramp-hold.F_max=" + force_N + "N");
     EXPECT_GT(spikes_of(more), 0) << more.err;
     EXPECT_EQ(more.err.find("never fired"), std::string::npos);
 }
 
-TEST(SilenceDetector, AGridUnderAnIndenterIsTakenForSkinWithAWarning) {
+TEST(SilenceDetector, AGridUnderAnIndenterIsTreatedAsSkinWithAWarning) {
     const TemporaryFolder folder;
     const auto ran = run_program(folder, "respond press --population 'grid 8x8' --json");
     EXPECT_EQ(ran.status, 0);
@@ -82,24 +83,24 @@ TEST(SilenceDetector, AGridUnderAnIndenterIsTakenForSkinWithAWarning) {
 
 TEST(SilenceDetector, APopulationWithoutFeltAreaGetsTheAreaThatMakesItFire) {
     const TemporaryFolder folder;
-    folder.write("own.toml", patch);
+    folder.write("own.toml", skin_patch);
     const auto silent = run_program(folder, "respond press --population own.toml --json");
     EXPECT_EQ(spikes_of(silent), 0);
-    const auto area = found(silent.err,
+    const auto area = first_group(silent.err,
                             "warning: no afferent fired: sa1 received at most 0.0[0-9]+ N, and needs about 0.[0-9]+ N .*; set "
                             "felt_area = \"([0-9.]+ cm2)\" in own.toml");
     ASSERT_FALSE(area.empty()) << silent.err;
     EXPECT_NE(nlohmann::json::parse(silent.out)["warnings"][0].get<std::string>().find("no afferent fired"), std::string::npos);
-    folder.write("own.toml", "felt_area = \"" + area + "\"\n" + patch);
+    folder.write("own.toml", "felt_area = \"" + area + "\"\n" + skin_patch);
     EXPECT_GT(spikes_of(run_program(folder, "respond press --population own.toml --json")), 0);
 }
 
-TEST(SilenceDetector, ATouchThatIsTooWeakGetsTheSettingThatSuffices) {
+TEST(SilenceDetector, ATouchThatIsTooWeakGetsASettingThatWorks) {
     const TemporaryFolder folder;
-    folder.write("own.toml", std::string("felt_area = \"1 cm2\"\n") + patch);
+    folder.write("own.toml", std::string("felt_area = \"1 cm2\"\n") + skin_patch);
     const auto weak = run_program(folder, "respond press --population own.toml --set press.F_max=300mN --json");
     EXPECT_EQ(spikes_of(weak), 0);
-    const auto setting = found(weak.err, "try (--set press.F_max=[0-9.]+N)");
+    const auto setting = first_group(weak.err, "try (--set press.F_max=[0-9.]+N)");
     ASSERT_FALSE(setting.empty()) << weak.err;
     EXPECT_GT(spikes_of(run_program(folder, "respond press --population own.toml --json " + setting)), 0);
 
@@ -108,7 +109,7 @@ TEST(SilenceDetector, ATouchThatIsTooWeakGetsTheSettingThatSuffices) {
     folder.write("touch.csv", recording);
     const auto recorded = run_program(folder, "respond touch.csv --population own.toml --json");
     EXPECT_EQ(spikes_of(recorded), 0);
-    const auto scale = found(recorded.err, "try (--scale [0-9.]+)");
+    const auto scale = first_group(recorded.err, "try (--scale [0-9.]+)");
     ASSERT_FALSE(scale.empty()) << recorded.err;
     EXPECT_GT(spikes_of(run_program(folder, "respond touch.csv --population own.toml --json " + scale)), 0);
 }
@@ -120,13 +121,13 @@ TEST(SilenceDetector, AnIndenterBesideTheSkinGetsTheRemedyToMoveIt) {
     EXPECT_NE(ran.err.find("--set contact.x="), std::string::npos) << ran.err;
 }
 
-TEST(NerveLimit, RatesAboveAKilohertzAreAWarningAndTheRemedyEndsIt) {
+TEST(NerveLimit, RatesAboveAKilohertzCauseAWarningAndItsRemedyWorks) {
     const TemporaryFolder folder;
-    const std::string buzz = "respond sine --afferent fa2 --set sine.f=250Hz --set sine.F_amp=500mN --rate 20kHz --quiet";
-    const auto fast = run_program(folder, buzz);
+    const std::string vibration = "respond sine --afferent fa2 --set sine.f=250Hz --set sine.F_amp=500mN --rate 20kHz --quiet";
+    const auto fast = run_program(folder, vibration);
     EXPECT_NE(fast.err.find("fa2: on sine spikes come at up to 3.1"), std::string::npos) << fast.err;
     EXPECT_NE(fast.err.find("--set fa2.t_ref=1ms"), std::string::npos) << fast.err;
-    EXPECT_EQ(run_program(folder, buzz + " --set fa2.t_ref=1ms").err.find("spikes come at up to"), std::string::npos);
+    EXPECT_EQ(run_program(folder, vibration + " --set fa2.t_ref=1ms").err.find("spikes come at up to"), std::string::npos);
     EXPECT_EQ(run_program(folder, "respond press --quiet").err, "") << "the thesis's press needs no warning";
     const auto skin = run_program(folder, "respond press --population fingertip --set press.F_max=900N --quiet");
     EXPECT_NE(skin.err.find("of 290 sa1 afferents: spikes come at up to "), std::string::npos) << skin.err;
@@ -174,13 +175,13 @@ TEST(Bins, ShorterThanAHundredthOfASampleAreRefusedWithTheSmallestThatWorks) {
 TEST(SkinMemory, AGridThatDoesNotFitIsRefusedWithTheMemoryItNeeds) {
     if (test::is_sanitized) GTEST_SKIP() << "sanitizers need more address space than this limit";
     const TemporaryFolder folder;
-    const auto message = folder / "said";
+    const auto error_file = folder / "error.txt";
     const auto command = "ulimit -v 3000000; cd '" + folder.path() + "'; '" + test::program_path() +
-                         "' respond press --population 'grid 2048x2048' 2>'" + message + "'";
+                         "' respond press --population 'grid 2048x2048' 2>'" + error_file + "'";
     EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 1);
-    EXPECT_NE(read_file(message).find("grid 2048x2048: 4194304 sites and 8388608 afferents need about 2"), std::string::npos)
-        << read_file(message);
-    EXPECT_NE(read_file(message).find("GB of memory, but only 3.07 GB are available"), std::string::npos) << read_file(message);
+    EXPECT_NE(read_file(error_file).find("grid 2048x2048: 4194304 sites and 8388608 afferents need about 2"), std::string::npos)
+        << read_file(error_file);
+    EXPECT_NE(read_file(error_file).find("GB of memory, but only 3.07 GB are available"), std::string::npos) << read_file(error_file);
 }
 
 }  // namespace

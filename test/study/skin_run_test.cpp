@@ -1,4 +1,4 @@
-// A force through a skin as users run it: stopped and resumed, on MPI ranks, from a recording's channels. The bytes are always the same.
+// Runs of a skin as users start them: stopped and resumed, on MPI ranks, with a recording of many channels. The bytes are always the same.
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -17,7 +17,7 @@ namespace {
 
 using test::TemporaryFolder, test::read_file, test::value_or_throw;
 
-/// One run of a press on a fingertip into `out`, stopped after `blocks` blocks (-1: not stopped).
+/// Simulates a press on a fingertip and writes the events to `out`; stops after `blocks` blocks (-1: does not stop).
 Result<SkinStats> press_fingertip(const TemporaryFolder& folder, const std::string& out, int blocks, bool with_checkpoint,
                                   const RunFingerprint& fingerprint = {{"FORCE", "press"}}, double scale = 1) {
     static const auto skin = value_or_throw(innervate(value_or_throw(load_skin_plan("fingertip"))));
@@ -34,34 +34,34 @@ Result<SkinStats> press_fingertip(const TemporaryFolder& folder, const std::stri
     ThreadPool pool(1);
     const auto simulator = local_skin_simulator(*running, pool);
     SkinEventsFile file(value_or_throw(OutputFile::create(folder / out)), "aer");
-    SkinSink* const listeners[] = {&file};
+    SkinSink* const sinks[] = {&file};
     const SkinInput input{"press", "", source->clock(), {}, *skin};
-    auto done = run_skin(*force, input, *simulator, listeners, {[&](double) { return blocks-- != 0; }, checkpoint.get()});
+    auto done = run_skin(*force, input, *simulator, sinks, {[&](double) { return blocks-- != 0; }, checkpoint.get()});
     if (done && file.commit() && checkpoint) checkpoint->remove_files();
     return done;
 }
 
 TEST(SkinRun, StoppedRepeatedlyItResumesToTheSameBytes) {
     const TemporaryFolder folder;
-    const auto uninterrupted = value_or_throw(press_fingertip(folder, "whole", -1, false));
-    ASSERT_GT(uninterrupted.spikes, 500);
+    const auto uninterrupted_run = value_or_throw(press_fingertip(folder, "whole", -1, false));
+    ASSERT_GT(uninterrupted_run.spikes, 500);
     for (int stops = 0; stops < 20; ++stops) {
         const auto done = press_fingertip(folder, "parts", 2 + 2 * stops, true);  // blocks, including those that are run again
         if (done) {
             EXPECT_GT(stops, 3);
-            EXPECT_EQ(done->spikes, uninterrupted.spikes);
-            EXPECT_EQ(done->skipped_steps, uninterrupted.skipped_steps);
+            EXPECT_EQ(done->spikes, uninterrupted_run.spikes);
+            EXPECT_EQ(done->skipped_steps, uninterrupted_run.skipped_steps);
             break;
         }
         ASSERT_EQ(done.error().code, ErrorCode::interrupted);
         EXPECT_FALSE(std::filesystem::exists(folder / "parts"));
     }
     EXPECT_EQ(read_file(folder / "parts"), read_file(folder / "whole"));
-    EXPECT_FALSE(std::filesystem::exists(folder / "state")) << "it is done";
+    EXPECT_FALSE(std::filesystem::exists(folder / "state")) << "the checkpoint of a complete run is removed";
     EXPECT_FALSE(std::filesystem::exists(folder / "state.spikes"));
 }
 
-TEST(SkinRun, ACheckpointOfAnotherRunIsRefusedNamesWhatDiffersAndStays) {
+TEST(SkinRun, ACheckpointOfAnotherRunIsRefusedWithTheDifferencesAndNotChanged) {
     const TemporaryFolder folder;
     const RunFingerprint then = {{"FORCE", "touch.csv"}, {"--scale", "1"}, {"--abs", "true"}, {"contents of the recording", "a"}},
                          now = {{"FORCE", "touch.csv"}, {"--scale", "3"}, {"--despike", "auto"}, {"contents of the recording", "b"}};
@@ -79,7 +79,7 @@ TEST(SkinRun, ACheckpointOfAnotherRunIsRefusedNamesWhatDiffersAndStays) {
     EXPECT_EQ(read_file(folder / "state.spikes"), spikes);
 }
 
-TEST(SkinRun, ACheckpointOfAnotherForceIsRefusedWhateverWasTyped) {
+TEST(SkinRun, ACheckpointOfAnotherForceIsRefusedEvenWithTheSameOptions) {
     const TemporaryFolder folder;
     ASSERT_FALSE(press_fingertip(folder, "a", 5, true));
     const auto other = press_fingertip(folder, "a", -1, true, {{"FORCE", "press"}}, 1.5);
@@ -124,13 +124,13 @@ TEST(SkinRun, ACheckpointThatIsCutShortOrHasAFlippedBitIsRefused) {
     std::filesystem::remove(folder / "state.spikes");
     refused("FILE.spikes removed");
     folder.write("state.spikes", spikes);
-    EXPECT_EQ(press_fingertip(folder, "a", 0, true).error().code, ErrorCode::interrupted) << "complete, it is resumed";
+    EXPECT_EQ(press_fingertip(folder, "a", 0, true).error().code, ErrorCode::interrupted) << "the complete checkpoint is resumed";
 }
 
-/// Where FILE has the number of spikes: after the magic number, one pair of texts, and the checksum of the force.
+/// The position of the number of spikes in FILE, bytes: after the magic bytes, one pair of texts, and the checksum of the force.
 constexpr std::size_t count_at = 23 + 8 + (8 + 5) + (8 + 5) + 8;
 
-TEST(SkinRun, ACheckpointThatCountsMoreSpikesThanThereAreIsRefusedAndNothingIsCutOff) {
+TEST(SkinRun, ACheckpointThatCountsTooManySpikesIsRefusedAndNotTruncated) {
     const TemporaryFolder folder;
     ASSERT_FALSE(press_fingertip(folder, "a", 5, true));
     const auto stored = read_file(folder / "state"), spikes = read_file(folder / "state.spikes");
@@ -161,9 +161,9 @@ TEST(SkinRun, ACheckpointOfAnEarlierVersionIsRefusedWithItsVersionAndARemedy) {
 
 TEST(SkinRun, TwoRunsCannotShareACheckpoint) {
     const TemporaryFolder folder;
-    const auto map = value_or_throw(innervate(value_or_throw(load_skin_plan("grid 2x2"))));
-    const auto one = value_or_throw(Skin::make(map, {1e-3}, *instruction_set())),
-               two = value_or_throw(Skin::make(map, {1e-3}, *instruction_set()));
+    const auto innervation = value_or_throw(innervate(value_or_throw(load_skin_plan("grid 2x2"))));
+    const auto one = value_or_throw(Skin::make(innervation, {1e-3}, *instruction_set())),
+               two = value_or_throw(Skin::make(innervation, {1e-3}, *instruction_set()));
     auto first = value_or_throw(SkinCheckpoint::open(folder / "state", *one, {}));
     const auto second = SkinCheckpoint::open(folder / "state", *two, {});
     ASSERT_FALSE(second);
@@ -174,12 +174,12 @@ TEST(SkinRun, TwoRunsCannotShareACheckpoint) {
 
 TEST(SkinRun, FilesThatNoCheckpointWroteAreNeitherEmptiedNorRemoved) {
     const TemporaryFolder folder;
-    for (const std::string options : {"1.5 sorted by hand\n", ""}) {
-        folder.write("mine.spikes", options);
+    for (const std::string text : {"1.5 sorted by hand\n", ""}) {
+        folder.write("mine.spikes", text);
         const auto ran = test::run_program(folder, "respond press --population fingertip --checkpoint mine");
         EXPECT_EQ(ran.status, 1);
         EXPECT_NE(ran.err.find("mine.spikes: this file was not written by a checkpoint"), std::string::npos) << ran.err;
-        EXPECT_EQ(read_file(folder / "mine.spikes"), options);
+        EXPECT_EQ(read_file(folder / "mine.spikes"), text);
         EXPECT_EQ(folder.file_names(), (std::vector<std::string>{"mine.spikes"}));
     }
     folder.write("own", "a text\n");
@@ -202,7 +202,7 @@ TEST(SkinRun, ARunThatFailsBeforeItsFirstCheckpointLeavesNothingBehind) {
     EXPECT_EQ(folder.file_names(), (std::vector<std::string>{"touch.csv"}));
 }
 
-TEST(SkinRun, InterruptedAndRepeatedWithAnotherScaleOrOtherContentsItIsRefused) {
+TEST(SkinRun, ResumingWithAnotherScaleOrOtherContentsIsRefused) {
     const TemporaryFolder folder;
     const auto recording = [&](double force) {
         std::string text = "time_s,f_N\n";
@@ -213,12 +213,12 @@ TEST(SkinRun, InterruptedAndRepeatedWithAnotherScaleOrOtherContentsItIsRefused) 
     const std::string arguments = "respond touch.csv --population fingertip --scale 2 --checkpoint kept --out out";
     for (const char* seconds : {"0.4", "1", "3", "8", "20"}) {  // on a busy machine it may not have started yet
         const auto command =
-            "cd '" + folder.path() + "' && timeout -s INT " + seconds + " '" + test::program_path() + "' " + arguments + " -j 1 2>said >&2";
+            "cd '" + folder.path() + "' && timeout -s INT " + seconds + " '" + test::program_path() + "' " + arguments + " -j 1 2>log >&2";
         const int status = WEXITSTATUS(std::system(command.c_str()));
         if (status == 0) GTEST_SKIP() << "it ended before it could be interrupted";
         if (std::filesystem::exists(folder / "kept")) break;
     }
-    ASSERT_TRUE(std::filesystem::exists(folder / "kept")) << read_file(folder / "said");
+    ASSERT_TRUE(std::filesystem::exists(folder / "kept")) << read_file(folder / "log");
     const auto scaled = test::run_program(folder, "respond touch.csv --population fingertip --scale 3 --checkpoint kept --out out");
     EXPECT_EQ(scaled.status, 1);
     EXPECT_NE(scaled.err.find("--scale was 2 and now is 3"), std::string::npos) << scaled.err;
@@ -229,7 +229,7 @@ TEST(SkinRun, InterruptedAndRepeatedWithAnotherScaleOrOtherContentsItIsRefused) 
     EXPECT_FALSE(std::filesystem::exists(folder / "out"));
 }
 
-TEST(SkinRun, ARecordingsChannelsAreItsSitesByNameOrInOrder) {
+TEST(SkinRun, ChannelsOfARecordingAreAssignedToSitesByNameOrInOrder) {
     const TemporaryFolder folder;
     std::string named = "time_s,r2c1_N,r1c1_N\n", in_order = "time_s,a_N,b_N,c_N,d_N\n";
     for (int k = 0; k < 600; ++k) {
@@ -248,7 +248,7 @@ TEST(SkinRun, ARecordingsChannelsAreItsSitesByNameOrInOrder) {
     EXPECT_FALSE(std::filesystem::exists(folder / "wrong"));
 }
 
-TEST(SkinRun, SpikesOfASkinAreNumPysArraysToo) {
+TEST(SkinRun, SpikesOfASkinAreWrittenAsNumPyArraysToo) {
     const TemporaryFolder folder;
     ASSERT_EQ(test::run_program(folder, "respond press --population fingertip --npz --out a --quiet").status, 0);
     const auto npz = value_or_throw(NpzReader::open(folder / "a/spikes.npz"));
@@ -284,16 +284,16 @@ TEST(SkinRanks, GiveTheSpikesOfOneProcess) {
     const std::string root = ::geteuid() == 0 ? "--allow-run-as-root " : "";
     const auto ranks = [&](int count, const std::string& arguments) {
         const auto command = "cd '" + folder.path() + "' && timeout 60 mpirun " + root + "--oversubscribe -n " + std::to_string(count) +
-                             " '" + test::program_path() + "' respond " + arguments + " --quiet >said 2>&1";
+                             " '" + test::program_path() + "' respond " + arguments + " --quiet >log 2>&1";
         return WEXITSTATUS(std::system(command.c_str()));
     };
     for (const int count : {2, 3}) {
-        ASSERT_EQ(ranks(count, "press --population fingertip --events aer --out r"), 0) << read_file(folder / "said");
+        ASSERT_EQ(ranks(count, "press --population fingertip --events aer --out r"), 0) << read_file(folder / "log");
         for (const char* file : {"spikes.aer", "afferents.csv", "summary.json"})
             EXPECT_EQ(read_file((folder / "r/") + file), read_file((folder / "alone/") + file)) << file << " of " << count;
     }
     EXPECT_EQ(ranks(2, "press --population fingertip --set press.F_max=no"), 1);
-    EXPECT_NE(read_file(folder / "said").find("F_max"), std::string::npos);
+    EXPECT_NE(read_file(folder / "log").find("F_max"), std::string::npos);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Output for a skin of five afferents, with spikes made by hand so that every number can be counted.
+// Output for a skin of five afferents. The spikes are chosen so that every number can be checked by counting.
 
 #include "study/skin_summary.hpp"
 
@@ -48,10 +48,11 @@ const std::vector<Spike> late_spikes = {{21, 0.5, 3}};
 /// 1 N at the first site from sample 2 to 11, 2 N at the second from 5 to 9.
 double force_at(std::size_t site, std::int64_t k) { return site == 0 && k >= 2 && k <= 11 ? 1 : site == 1 && k >= 5 && k <= 9 ? 2 : 0; }
 
-/// Passes the entire run to the listeners in blocks. `listed`: with the list of touched sites.
-void run_listeners(const Innervation& skin, std::vector<SkinSink*> listeners, std::int64_t block = samples, bool listed = false) {
+/// Passes a complete run to the sinks in blocks. `listed`: the blocks have a list of touched sites, and the force at other sites must not
+/// be read.
+void run_sinks(const Innervation& skin, std::vector<SkinSink*> sinks, std::int64_t block = samples, bool listed = false) {
     const SkinInput input{"poke", "by hand", {1000, 1, 0}, {{"on", 0, 0.01}, {"off", 0.01, 0.02}}, skin};
-    for (auto* l : listeners) ASSERT_TRUE(l->begin(input));
+    for (auto* l : sinks) ASSERT_TRUE(l->begin(input));
     for (std::int64_t first = 0; first < samples; first += block) {
         const auto steps = std::min(block, samples - first);
         std::vector<double> force, total(static_cast<std::size_t>(steps));
@@ -65,14 +66,14 @@ void run_listeners(const Innervation& skin, std::vector<SkinSink*> listeners, st
             if (s.step >= first && s.step < first + steps) spikes.push_back(s);
         const std::vector<std::uint32_t> touched = {0, 1};
         const SiteForce at{force.data(), static_cast<std::size_t>(steps), touched, !listed};
-        for (auto* l : listeners) ASSERT_TRUE(l->block(input, {first, static_cast<std::size_t>(steps), at, total, spikes}));
+        for (auto* l : sinks) ASSERT_TRUE(l->block(input, {first, static_cast<std::size_t>(steps), at, total, spikes}));
     }
-    for (auto* l : listeners) ASSERT_TRUE(l->end(input, samples, late_spikes));
+    for (auto* l : sinks) ASSERT_TRUE(l->end(input, samples, late_spikes));
 }
 
-const SkinSummaryRow& row_of(const SkinSummary& s, std::size_t of, std::size_t region, std::size_t phase) {
+const SkinSummaryRow& row_of(const SkinSummary& s, std::size_t class_index, std::size_t region, std::size_t phase) {
     return *std::find_if(s.rows().begin(), s.rows().end(),
-                         [&](const SkinSummaryRow& r) { return r.class_index == of && r.region == region && r.phase == phase; });
+                         [&](const SkinSummaryRow& r) { return r.class_index == class_index && r.region == region && r.phase == phase; });
 }
 
 SkinJson page_data(const std::string& page) {
@@ -81,7 +82,7 @@ SkinJson page_data(const std::string& page) {
     return SkinJson::parse(page.substr(from, page.find("</script>", from) - from));
 }
 
-std::vector<unsigned> decoded(const std::string& text) {
+std::vector<unsigned> decode_base64(const std::string& text) {
     const std::string letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     std::vector<unsigned> out;
     unsigned word = 0, bits = 0;
@@ -93,10 +94,10 @@ std::vector<unsigned> decoded(const std::string& text) {
     return out;
 }
 
-/// Dense rows of a page's frames: [frame][place].
+/// Dense rows of a page's frames: [frame][position].
 std::vector<std::vector<unsigned>> frames_of(const SkinJson& frames) {
-    const auto bytes = decoded(frames["data"]);
-    const auto place_count = frames["places"].get<std::size_t>();
+    const auto bytes = decode_base64(frames["data"]);
+    const auto value_count = frames["places"].get<std::size_t>();
     std::vector<std::vector<unsigned>> out;
     std::size_t at = 0;
     const auto number = [&] {
@@ -108,7 +109,7 @@ std::vector<std::vector<unsigned>> frames_of(const SkinJson& frames) {
     };
     for (std::size_t f = 0; f < frames["count"]; ++f) {
         std::vector<unsigned> dense;
-        while (dense.size() < place_count) {
+        while (dense.size() < value_count) {
             const unsigned byte = bytes.at(at++);
             if (byte == 0)
                 dense.resize(dense.size() + number());
@@ -124,7 +125,7 @@ std::vector<std::vector<unsigned>> frames_of(const SkinJson& frames) {
 TEST(SkinSummary, CountsClassesByRegionAndPhase) {
     const auto skin = small_skin();
     SkinSummary s;
-    run_listeners(skin, {&s});
+    run_sinks(skin, {&s});
     const auto& sa1 = row_of(s, 0, SkinSummaryRow::all, SkinSummaryRow::all);
     EXPECT_EQ(sa1.afferents, 3);
     EXPECT_EQ(sa1.active, 2);
@@ -139,8 +140,8 @@ TEST(SkinSummary, CountsClassesByRegionAndPhase) {
     EXPECT_EQ(row_of(s, 0, 1, SkinSummaryRow::all).afferents, 1);
     EXPECT_EQ(row_of(s, 0, 1, SkinSummaryRow::all).active, 0);
     const auto& fa1 = row_of(s, 1, SkinSummaryRow::all, SkinSummaryRow::all);
-    EXPECT_EQ(fa1.spikes, 3) << "including the spike that was delayed beyond the end";
-    EXPECT_EQ(row_of(s, 1, SkinSummaryRow::all, 1).spikes, 1) << "which is in no phase";
+    EXPECT_EQ(fa1.spikes, 3) << "including a spike that was delayed beyond the end of the force";
+    EXPECT_EQ(row_of(s, 1, SkinSummaryRow::all, 1).spikes, 1) << "the delayed spike is in no phase";
     EXPECT_EQ(s.rows().size(), 2 * 3 * 3);
     EXPECT_DOUBLE_EQ(s.max_force(), 3);
     EXPECT_DOUBLE_EQ(s.min_force(), 0);
@@ -150,9 +151,9 @@ TEST(SkinSummary, CountsClassesByRegionAndPhase) {
 TEST(SkinSummary, ARateWhileTouchedUsesTheSiteOfLargestWeight) {
     const auto skin = small_skin();
     SkinSummary s;
-    run_listeners(skin, {&s}, samples, true);
+    run_sinks(skin, {&s}, samples, true);
     EXPECT_DOUBLE_EQ(s.touched_times()[0], 10e-3);
-    EXPECT_DOUBLE_EQ(s.touched_times()[1], 5e-3) << "the second of its two sites";
+    EXPECT_DOUBLE_EQ(s.touched_times()[1], 5e-3) << "the time at the second of its two sites, which has the larger weight";
     EXPECT_DOUBLE_EQ(s.touched_times()[2], 0) << "a site that is not listed is ignored";
     EXPECT_DOUBLE_EQ(row_of(s, 0, SkinSummaryRow::all, SkinSummaryRow::all).touched_rate, 3 / 15e-3);
     EXPECT_DOUBLE_EQ(row_of(s, 0, SkinSummaryRow::all, 0).touched_rate, 2 / 13e-3);
@@ -164,7 +165,7 @@ TEST(SkinSummary, ARateWhileTouchedUsesTheSiteOfLargestWeight) {
 TEST(SkinSummary, FirstSpikesAreOrderedByTimeThenAfferent) {
     const auto skin = small_skin();
     SkinSummary s;
-    run_listeners(skin, {&s});
+    run_sinks(skin, {&s});
     const auto all = s.first_spikes(10);
     ASSERT_EQ(all.size(), 3U);
     EXPECT_EQ(all[0].afferent_index, 0U);
@@ -175,14 +176,14 @@ TEST(SkinSummary, FirstSpikesAreOrderedByTimeThenAfferent) {
     EXPECT_TRUE(std::isnan(s.first_times()[2]));
 }
 
-TEST(SkinSummary, FilesHoldTheListedSpikes) {
+TEST(SkinSummary, FilesContainTheGivenSpikes) {
     const auto skin = small_skin();
     const TemporaryFolder folder;
     SkinSummary s;
     SkinSpikesFile spikes(value_or_throw(OutputFile::create(folder / "spikes.csv")));
     SkinAfferentsFile afferents_file(value_or_throw(OutputFile::create(folder / "afferents.csv")), s);
     SkinPsthFile bins(value_or_throw(OutputFile::create(folder / "psth.csv")), 10e-3);
-    run_listeners(skin, {&s, &spikes, &afferents_file, &bins}, 7);
+    run_sinks(skin, {&s, &spikes, &afferents_file, &bins}, 7);
     for (SkinFileSink* file :
          {static_cast<SkinFileSink*>(&spikes), static_cast<SkinFileSink*>(&afferents_file), static_cast<SkinFileSink*>(&bins)})
         ASSERT_TRUE(file->commit());
@@ -206,68 +207,68 @@ TEST(SkinPage, ContainsForceMapsAndEverySpike) {
     const auto skin = small_skin();
     SkinSummary s;
     SkinReport report;
-    run_listeners(skin, {&s, &report});
+    run_sinks(skin, {&s, &report});
     const auto data = page_data(skin_page(s, report, {.notes = {"</script> left out"}}, "corpuscle respond poke"));
     EXPECT_EQ(data["notes"], (SkinJson{"</script> left out"}));
     const auto& over = data["over"];
     EXPECT_EQ(over["samples"], 20);
     EXPECT_EQ(over["shown_samples"], 21);
-    const std::vector<std::vector<unsigned>> by_unit = {{1, 1, 0, 1, 0}, {1, 1, 0, 1, 0}, {0, 0, 0, 1, 0}};
+    const std::vector<std::vector<unsigned>> by_afferent = {{1, 1, 0, 1, 0}, {1, 1, 0, 1, 0}, {0, 0, 0, 1, 0}};
     EXPECT_DOUBLE_EQ(over["marks"]["width"], 10e-3);
-    EXPECT_EQ(frames_of(over["marks"]), by_unit);
+    EXPECT_EQ(frames_of(over["marks"]), by_afferent);
     EXPECT_DOUBLE_EQ(over["sites"]["max"], 1.0);  // of ten samples, five with 2 N
     EXPECT_EQ(frames_of(over["sites"])[0], (std::vector<unsigned>{203, 254, 0})) << "eight samples of 1 N";
     EXPECT_EQ(frames_of(over["sites"])[1], (std::vector<unsigned>{51, 0, 0}));
     EXPECT_EQ(frames_of(over["classes"])[5], (std::vector<unsigned>{0, 0}));
     EXPECT_EQ(frames_of(over["classes"])[6], (std::vector<unsigned>{1, 1})) << "a bin includes its start";
-    // Afferents 0, 1 and 3: how many afferents were skipped, how many spikes, tenths of a sample between spikes.
-    EXPECT_EQ(decoded(over["spikes"]["data"]), (std::vector<unsigned>{0, 2, 25, 78, 0, 2, 60, 90, 1, 3, 60, 90, 55}));
+    // For each of the afferents 0, 1 and 3: afferents skipped before it, its spikes, and the intervals in tenths of a sample.
+    EXPECT_EQ(decode_base64(over["spikes"]["data"]), (std::vector<unsigned>{0, 2, 25, 78, 0, 2, 60, 90, 1, 3, 60, 90, 55}));
 }
 
-TEST(SkinPage, KeepsNoSpikesWhenThereAreTooMany) {
+TEST(SkinPage, OmitsSpikesIfThereAreTooMany) {
     const auto skin = small_skin();
     SkinSummary s;
     SkinReport all({.timed_spikes = 7}), few({.frames = 2, .marks = 2, .timed_spikes = 6});
-    run_listeners(skin, {&s, &all, &few});
+    run_sinks(skin, {&s, &all, &few});
     EXPECT_EQ(all.document()["spikes"]["count"], 7);
     EXPECT_TRUE(few.document()["spikes"].is_null());
     EXPECT_EQ(few.document()["afferents_per_mark"], 3);
     EXPECT_EQ(frames_of(few.document()["marks"]), (std::vector<std::vector<unsigned>>{{4, 2}, {0, 1}})) << "two frames of 20 ms";
 }
 
-TEST(SkinPage, IsTheSameForBlocksOfAnySize) {
+TEST(SkinPage, DoesNotDependOnTheBlock) {
     const auto skin = small_skin();
-    const auto listed_in = [&](std::int64_t block, bool listed) {
+    const auto page_for = [&](std::int64_t block, bool listed) {
         SkinSummary s;
         SkinReport report({.frames = 4, .bins = 4});
-        run_listeners(skin, {&s, &report}, block, listed);
+        run_sinks(skin, {&s, &report}, block, listed);
         return skin_page(s, report, {}, "") + s.document({}).dump();
     };
-    const auto in_one_block = listed_in(samples, false);
-    for (const std::int64_t block : {1, 3, 16}) EXPECT_EQ(listed_in(block, block == 3), in_one_block) << block;
+    const auto in_one_block = page_for(samples, false);
+    for (const std::int64_t block : {1, 3, 16}) EXPECT_EQ(page_for(block, block == 3), in_one_block) << block;
 }
 
-TEST(BinnedFrames, OfAnyNumberHoldTheAddedValues) {
+TEST(BinnedFrames, ContainTheAddedValuesForAnyNumberOfFrames) {
     EXPECT_TRUE(rc::check([] {
         const auto max_frames = static_cast<std::size_t>(*rc::gen::inRange(2, 9));
         const std::int64_t first_width = *rc::gen::inRange(1, 4);
-        BinnedFrames<int> framed(3, max_frames, first_width);
+        BinnedFrames<int> binned(3, max_frames, first_width);
         std::vector<std::pair<std::int64_t, std::uint32_t>> added;
         for (std::int64_t at = 0; const auto gap : *rc::gen::container<std::vector<int>>(rc::gen::inRange(0, 9))) {
             at += gap;
-            RC_ASSERT(framed.select_frame(at) > at);
-            const auto place = static_cast<std::uint32_t>(gap % 3);
-            framed.add(place, 1), added.push_back({at, place});
+            RC_ASSERT(binned.select_frame(at) > at);
+            const auto position = static_cast<std::uint32_t>(gap % 3);
+            binned.add(position, 1), added.push_back({at, position});
         }
-        const auto frames = framed.frames();
+        const auto frames = binned.frames();
         RC_ASSERT(frames.size() <= max_frames);
-        RC_ASSERT(framed.width() % first_width == 0);
+        RC_ASSERT(binned.width() % first_width == 0);
         for (std::size_t f = 0; f < frames.size(); ++f) {
             int found[3] = {};
             for (const auto& e : frames[f]) found[e.place] = e.value;
             for (std::uint32_t p = 0; p < 3; ++p)
                 RC_ASSERT(found[p] == std::count_if(added.begin(), added.end(), [&](const auto& a) {
-                              return a.second == p && a.first / framed.width() == static_cast<std::int64_t>(f);
+                              return a.second == p && a.first / binned.width() == static_cast<std::int64_t>(f);
                           }));
         }
     }));

@@ -26,8 +26,8 @@ void check(const Study& study, const StudyResult& outcome) {
     for (const auto& c : outcome.claims) {
         EXPECT_TRUE(std::isfinite(c.computed) || !c.note.empty()) << study.name << ": " << c.label;
         EXPECT_TRUE((!c.has_allowed_range() && std::isnan(c.published)) || !c.source.empty())
-            << study.name << ": " << c.label << " is printed nowhere";
-        EXPECT_TRUE(!c.needs_explanation() || !c.note.empty()) << study.name << ": " << c.label << " says nothing of why it differs";
+            << study.name << ": " << c.label << " has a published value but no source";
+        EXPECT_TRUE(!c.needs_explanation() || !c.note.empty()) << study.name << ": " << c.label << " has no note on why it differs";
     }
     for (const auto& p : outcome.plots) {
         EXPECT_FALSE(p.series.empty()) << study.name << ": " << p.title;
@@ -37,7 +37,7 @@ void check(const Study& study, const StudyResult& outcome) {
     }
 }
 
-TEST(Studies, AreAllPrintedAsTheirPageSays) {
+TEST(Studies, GiveTheTextOfTheReproductionPage) {
     double last = 0;
     const auto outcomes = run_studies(all_studies, {[&](double fraction) {
                                           EXPECT_GE(fraction, last);
@@ -56,7 +56,7 @@ TEST(Studies, AreAllPrintedAsTheirPageSays) {
     EXPECT_EQ(text, page) << "reproduction/reproduction.md is stale: make reproduction";
 }
 
-TEST(Studies, OfARecordingPrintTheClaimsOfTheirPage) {
+TEST(Studies, OfARecordingGiveTheTextOfTheirPage) {
     CORPUSCLE_NEEDS(test::shared_file_path("fbg_eskin_press"));
     const auto outcomes = run_studies(recorded_studies, {.recordings_folder = test::shared_file_path("")});
     ASSERT_TRUE(static_cast<bool>(outcomes)) << outcomes.error().text();
@@ -65,7 +65,7 @@ TEST(Studies, OfARecordingPrintTheClaimsOfTheirPage) {
         << "stale: make reproduction";
 }
 
-TEST(Studies, OfAMissingRecordingNameTheSearchedPlace) {
+TEST(Studies, OfAMissingRecordingNameTheSearchedPath) {
     for (const auto* s : recorded_studies) {
         const auto outcome = s->run({.recordings_folder = "/nowhere"});
         ASSERT_FALSE(outcome);
@@ -82,18 +82,18 @@ TEST(Studies, StopOnRequest) {
     }
 }
 
-TEST(Studies, TheFourClassesFireWhereTheFigureShowsThem) {
+TEST(Studies, TheFourAfferentTypesFireWhereTheFigureShowsThem) {
     for (const auto& c : run("fig3").claims)
         EXPECT_TRUE(!c.has_allowed_range() || c.is_in_allowed_range()) << c.label << ": " << c.computed;
 }
 
-TEST(Studies, KimsHoldIsWithinHisSpread) {
+TEST(Studies, TheHoldOfTheKimModelIsWithinThePublishedSpread) {
     const auto outcome = run("kim");
     for (const auto& c : outcome.claims) EXPECT_TRUE(!c.has_allowed_range() || c.is_in_allowed_range()) << c.label << ": " << c.computed;
     EXPECT_NEAR(claim(outcome, "interval in the hold at 1.3 mm").computed, 56.8e-3, 0.5e-3);
 }
 
-TEST(Studies, MoreBitsAndSamplesMakeSmallerErrors) {
+TEST(Studies, MoreBitsAndSamplesGiveSmallerErrors) {
     const auto outcome = run("resolution");
     for (const char* name : {"sa1", "fa1"}) {
         const auto at = [&](const char* what) { return claim(outcome, std::string(name) + what + ": rms error of spike times").computed; };
@@ -103,7 +103,7 @@ TEST(Studies, MoreBitsAndSamplesMakeSmallerErrors) {
     }
 }
 
-TEST(Studies, AClaimIsDecidedByItsToleranceAlone) {
+TEST(Studies, AClaimHoldsOnlyWithinItsAllowedRange) {
     Claim c{.label = "x", .computed = 2};
     EXPECT_FALSE(c.has_allowed_range());
     c.allowed_max = 1;
@@ -115,7 +115,9 @@ TEST(Studies, AClaimIsDecidedByItsToleranceAlone) {
 
 TEST(Studies, AClaimReportsItsDistanceFromThePublishedValue) {
     StudyResult out;
-    const auto claim = [&](double made, double printed) { return out.claim("x", made, "V").published_as(printed, "there"); };
+    const auto claim = [&](double computed_value, double published_value) {
+        return out.claim("x", computed_value, "V").published_as(published_value, "there");
+    };
     EXPECT_STREQ(claim(1.09, 1).verdict(), "agrees");
     EXPECT_STREQ(claim(1.11, 1).verdict(), "differs");
     EXPECT_STREQ(claim(-1.11, -1).verdict(), "differs");
@@ -153,7 +155,7 @@ TEST(Studies, TheFirstErrorEndsAllAndNamesItsStudy) {
     EXPECT_EQ(outcomes.error().message, "bad: no such thing");
 }
 
-TEST(Studies, TheirTextKeepsItsTableWhateverIsInIt) {
+TEST(Studies, TheirMarkdownTableEscapesItsText) {
     const Study study{"s", "A title", "A question", succeeds};
     const Study* all[] = {&study};
     StudyResult out;

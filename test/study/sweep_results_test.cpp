@@ -24,14 +24,14 @@ using test::PlainSweep;
 using test::TemporaryFolder;
 using test::value_or_throw;
 
-/// All contents of a file, in order.
-std::string all_of(const SweepResults& results) {
+/// The text of all results, in order of the items.
+std::string dump_of(const SweepResults& results) {
     std::string out;
     const auto ok = dump_results(results, [&](const std::string& text) { return out += text, true; });
     return ok ? out : throw std::runtime_error(ok.error().text());
 }
 
-std::string all_of(const std::string& path) { return all_of(value_or_throw(SweepResults::open_read_only(path))); }
+std::string dump_of(const std::string& path) { return dump_of(value_or_throw(SweepResults::open_read_only(path))); }
 
 void run_sweep_of(const Sweep& sweep, const std::string& path, const SweepRunOptions& options) {
     auto results = value_or_throw(SweepResults::open(path, sweep));
@@ -77,7 +77,7 @@ TEST(SweepResults, AreReadBackAsWrittenAndEndAsOneFile) {
 
 namespace fs = std::filesystem;
 
-constexpr double write_interval = 1e-4, item_time = 1e-4;  // s
+constexpr double write_interval = 1e-4, item_time = 1e-4;  // s; item_time: how long an item takes
 
 /// Starts a child process that calls `work` and exits.
 pid_t child(const std::function<void()>& work) {
@@ -92,7 +92,7 @@ pid_t child(const std::function<void()>& work) {
     ::_exit(0);
 }
 
-int end_of(pid_t id) {
+int wait_status_of(pid_t id) {
     int status = 0;
     ::waitpid(id, &status, 0);
     return status;
@@ -103,10 +103,10 @@ void copy(const std::string& from, const std::string& to) {
     fs::copy_file(from, to, fs::copy_options::overwrite_existing, none);
 }
 
-/// The number of rows, which must be those of the first items, each as it must be; for a sweep on one thread.
+/// Checks that the rows are those of the first items, and returns their number. For a sweep on one thread.
 std::int64_t check_prefix(const std::string& path, const std::string& complete) {
     const auto results = value_or_throw(SweepResults::open_read_only(path));
-    const auto text = all_of(results);
+    const auto text = dump_of(results);
     EXPECT_EQ(text, complete.substr(0, text.size()));
     EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), results.finished_count() + 1);
     return results.finished_count();
@@ -119,16 +119,16 @@ TEST(SweepResults, KilledAtAnyMomentKeepFinishedItemsAndAreCompletedByTheSameCom
     const auto start = std::chrono::steady_clock::now();
     run_sweep_of(sweep, folder / "whole.sqlite", options);
     const std::chrono::duration<double> length = std::chrono::steady_clock::now() - start;
-    const auto complete = all_of(folder / "whole.sqlite");
+    const auto complete = dump_of(folder / "whole.sqlite");
     std::mt19937 random(1);
     std::uniform_real_distribution<> moment(0, 1.2);
     const auto path = folder / "r.sqlite";
-    int between = 0;
+    int killed_midway = 0;
     for (int k = 0; k < 50; ++k) {
         const auto id = child([&] { run_sweep_of(sweep, path, options); });
         std::this_thread::sleep_for(moment(random) * length);
         test::signal_child(id, SIGKILL);
-        end_of(id);
+        wait_status_of(id);
         if (!fs::exists(path)) continue;
         std::int64_t rows = 0;
         {
@@ -146,21 +146,21 @@ TEST(SweepResults, KilledAtAnyMomentKeepFinishedItemsAndAreCompletedByTheSameCom
             });
             EXPECT_TRUE(ok);
         }
-        between += rows > 0 && rows < 300;
+        killed_midway += rows > 0 && rows < 300;
         if (k % 3 == 0) continue;  // the next one resumes the sweep
         run_sweep_of(sweep, path, {.threads = 2});
-        EXPECT_EQ(all_of(path), complete) << "killed after " << rows << " rows";
+        EXPECT_EQ(dump_of(path), complete) << "killed after " << rows << " rows";
         EXPECT_FALSE(fs::exists(path + "-wal"));
         fs::remove(path);
     }
-    EXPECT_GT(between, 5) << "some were killed before the end";
+    EXPECT_GT(killed_midway, 5) << "some runs must have been killed between the first and the last row";
 }
 
 TEST(SweepResults, CopiesTakenAtAnyMomentAreComplete) {
     const TemporaryFolder folder;
     const PlainSweep sweep(800, "x", item_time);
     run_sweep_of(PlainSweep(800, "x"), folder / "whole.sqlite", {.threads = 1});
-    const auto complete = all_of(folder / "whole.sqlite");
+    const auto complete = dump_of(folder / "whole.sqlite");
     const auto path = folder / "r.sqlite";
     const auto id = child([&] { run_sweep_of(sweep, path, {.threads = 1, .write_interval = write_interval}); });
     while (!fs::exists(path)) std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -176,10 +176,10 @@ TEST(SweepResults, CopiesTakenAtAnyMomentAreComplete) {
     std::int64_t max_size = 0;
     for (const auto& [copied, with_wal] : copies) max_size = std::max(max_size, check_prefix(copied, complete));
     EXPECT_GT(max_size, 200);
-    EXPECT_EQ(all_of(path), complete);
+    EXPECT_EQ(dump_of(path), complete);
 }
 
-TEST(SweepResults, AReplacedFileBesideTheRowsOfTheOldOneIsTheSame) {
+TEST(SweepResults, ANewFileWithTheWalOfTheOldOneHasTheSameRows) {
     const TemporaryFolder folder;
     const PlainSweep sweep(300);
     const auto path = folder / "r.sqlite";
@@ -188,19 +188,19 @@ TEST(SweepResults, AReplacedFileBesideTheRowsOfTheOldOneIsTheSame) {
     ASSERT_TRUE(run_sweep(sweep, results, {.shard = {0, 2}}, count));
     ASSERT_TRUE(results.checkpoint());
     EXPECT_FALSE(fs::exists(path + "-wal"));
-    const auto half = all_of(path);
+    const auto half = dump_of(path);
     ASSERT_TRUE(run_sweep(sweep, results, {}, count));
     EXPECT_EQ(count.planned, 150);
     copy(path, folder / "old.sqlite");
     copy(path + "-wal", folder / "new.sqlite-wal");
     ASSERT_TRUE(results.checkpoint());
     copy(path, folder / "new.sqlite");
-    EXPECT_EQ(all_of(folder / "old.sqlite"), half) << "without its rows";
-    EXPECT_EQ(all_of(folder / "new.sqlite"), all_of(path)) << "as if killed between the two steps";
+    EXPECT_EQ(dump_of(folder / "old.sqlite"), half) << "the old file without its wal";
+    EXPECT_EQ(dump_of(folder / "new.sqlite"), dump_of(path)) << "the state after a kill between the two steps of a checkpoint";
     EXPECT_EQ(value_or_throw(SweepResults::open_read_only(folder / "new.sqlite")).finished_count(), 300);
 }
 
-TEST(SweepResults, ThatMayNotGrowKeepTheirRowsAndGiveTheRemedy) {
+TEST(SweepResults, AtTheFileSizeLimitKeepTheirRowsAndNameTheRemedy) {
     const TemporaryFolder folder;
     const PlainSweep sweep(20'000);
     const auto path = folder / "r.sqlite";
@@ -217,20 +217,20 @@ TEST(SweepResults, ThatMayNotGrowKeepTheirRowsAndGiveTheRemedy) {
         }
         if (ok || ok.error().text().find("has reached the limit on file sizes ('ulimit -f'); everything written before is kept") ==
                       std::string::npos)
-            throw std::runtime_error(ok ? "all of it fitted" : ok.error().text());
+            throw std::runtime_error(ok ? "the limit was not reached" : ok.error().text());
         const rlimit less{40'000, 40'000};
         ::setrlimit(RLIMIT_FSIZE, &less);
         if (results.checkpoint()) throw std::runtime_error("a file larger than the limit was made");
     });
-    ASSERT_EQ(end_of(id), 0);
+    ASSERT_EQ(wait_status_of(id), 0);
     EXPECT_GT(value_or_throw(SweepResults::open_read_only(path)).finished_count(), 0);
     EXPECT_FALSE(fs::exists(path + "-fold"));
     run_sweep_of(sweep, path, {});
     run_sweep_of(sweep, folder / "whole.sqlite", {.threads = 1});
-    EXPECT_EQ(all_of(path), all_of(folder / "whole.sqlite"));
+    EXPECT_EQ(dump_of(path), dump_of(folder / "whole.sqlite"));
 }
 
-TEST(SweepResults, InAReadOnlyFolderAreReadButNotStarted) {
+TEST(SweepResults, InAReadOnlyFolderAreReadButNotWritten) {
     const TemporaryFolder folder;
     const PlainSweep sweep(50);
     run_sweep_of(sweep, folder / "r.sqlite", {});
@@ -245,7 +245,7 @@ TEST(SweepResults, InAReadOnlyFolderAreReadButNotStarted) {
                 throw std::runtime_error(results ? "opened" : results.error().text());
         }
     });
-    EXPECT_EQ(end_of(id), 0);
+    EXPECT_EQ(wait_status_of(id), 0);
     fs::permissions(folder.path(), fs::perms(0755));
 }
 
@@ -281,7 +281,7 @@ TEST(SweepResults, RefuseOtherFiles) {
     EXPECT_NE(refusal(folder / "r.sqlite", PlainSweep(2)).find("was written by a later corpuscle (its format is 7"), std::string::npos);
 }
 
-TEST(SweepResults, AreWrittenByOneAtATimeAndReadMeanwhile) {
+TEST(SweepResults, HaveOneWriterAtATimeAndCanBeReadMeanwhile) {
     const TemporaryFolder folder;
     const PlainSweep sweep(20);
     const auto path = folder / "r.sqlite";
@@ -290,7 +290,7 @@ TEST(SweepResults, AreWrittenByOneAtATimeAndReadMeanwhile) {
         ASSERT_TRUE(first.add(sweep, {sweep.outcome(3)}));
         EXPECT_NE(refusal(path, sweep).find(fmt::format("is being written by process {} on ", ::getpid())), std::string::npos);
         ASSERT_TRUE(first.add(sweep, {sweep.outcome(4), sweep.outcome(3)}));
-        EXPECT_EQ(value_or_throw(SweepResults::open_read_only(path)).finished_count(), 2) << "a row an item";
+        EXPECT_EQ(value_or_throw(SweepResults::open_read_only(path)).finished_count(), 2) << "an item has only one row";
         EXPECT_EQ(first.finished_count(), 2);
     }
     EXPECT_EQ(refusal(path, sweep), "") << "the lock is released with its owner";
@@ -298,7 +298,7 @@ TEST(SweepResults, AreWrittenByOneAtATimeAndReadMeanwhile) {
 }
 
 /// A sweep that differs in one item.
-struct Changed : PlainSweep {
+struct SweepWithOneChange : PlainSweep {
     using PlainSweep::PlainSweep;
     ItemOutcome outcome(std::int64_t item) const override {
         auto o = PlainSweep::outcome(item);
@@ -307,7 +307,7 @@ struct Changed : PlainSweep {
     }
 };
 
-TEST(SweepResults, ShardsMergeIntoAllItemsAndNothingIsCountedTwice) {
+TEST(SweepResults, ShardsMergeIntoAllItemsWithoutDuplicates) {
     const TemporaryFolder folder;
     const PlainSweep sweep(1001);
     run_sweep_of(sweep, folder / "whole.sqlite", {.threads = 1});
@@ -315,8 +315,8 @@ TEST(SweepResults, ShardsMergeIntoAllItemsAndNothingIsCountedTwice) {
     auto all = value_or_throw(SweepResults::open(folder / "all.sqlite", sweep));
     for (const auto& [shard, rows] : {std::pair{"2", 333}, {"0", 334}, {"2", 0}, {"1", 334}})
         EXPECT_EQ(value_or_throw(all.merge(value_or_throw(SweepResults::open_read_only(folder / shard)))), rows);
-    EXPECT_EQ(all_of(all), all_of(folder / "whole.sqlite"));
-    run_sweep_of(Changed(1001), folder / "changed", {.shard = {1, 3}});
+    EXPECT_EQ(dump_of(all), dump_of(folder / "whole.sqlite"));
+    run_sweep_of(SweepWithOneChange(1001), folder / "changed", {.shard = {1, 3}});
     const auto merged = all.merge(value_or_throw(SweepResults::open_read_only(folder / "changed")));
     ASSERT_FALSE(merged);
     EXPECT_NE(merged.error().text().find("changed: the results of item 7 differ from those in"), std::string::npos)
@@ -325,10 +325,10 @@ TEST(SweepResults, ShardsMergeIntoAllItemsAndNothingIsCountedTwice) {
     EXPECT_NE(
         all.merge(value_or_throw(SweepResults::open_read_only(folder / "other"))).error().text().find("belongs to another sweep than"),
         std::string::npos);
-    EXPECT_EQ(all_of(all), all_of(folder / "whole.sqlite"));
+    EXPECT_EQ(dump_of(all), dump_of(folder / "whole.sqlite"));
 }
 
-TEST(SweepResults, ThreadsThatAreStoppedLeaveTheFinishedItems) {
+TEST(SweepResults, AStoppedRunKeepsTheFinishedItems) {
     const TemporaryFolder folder;
     const PlainSweep sweep(100'000, "x", item_time);
     auto results = value_or_throw(SweepResults::open(folder / "r.sqlite", sweep));

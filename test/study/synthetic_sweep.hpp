@@ -1,5 +1,5 @@
 #pragma once
-// A made-up sweep with known results. One measure is linear in two devices and the process, one is noise, and one is
+// A synthetic sweep with known results. One measure is linear in three devices and the process, one is noise, and one is
 // sometimes missing. It has three temperatures, with the same chips at each.
 
 #include <cmath>
@@ -24,7 +24,7 @@ class SyntheticSweep final : public Sweep {
 public:
     static constexpr double temps[] = {0, 27, 85};
     static constexpr int devices = 40;
-    /// line = 0.3 V_T(m7) + 0.2 I_S(m20) - 0.1 V_T(m3) + 0.1 process + 0.15 noise, deviates all; + 1 V at 85 C.
+    /// line = 0.3 V_T(m7) + 0.2 I_S(m20) - 0.1 V_T(m3) + 0.1 process + 0.15 noise, where all are standard normal deviates; + 1 V at 85 C.
     static constexpr double weight_m7 = 0.3, weight_m20 = 0.2, weight_m3 = -0.1, weight_process = 0.1, weight_noise = 0.15,
                             offset_at_85 = 1;
 
@@ -51,10 +51,10 @@ public:
 
     ItemOutcome outcome(std::int64_t item) const {
         const auto chip = mismatch_.chip(item);
-        const auto own = [&](std::size_t d) { return deviates_of(mismatch_.subjects[0].devices[d], mismatch_.seed, {chip}); };
-        const double at = values(item)[0], noise = normal(7, static_cast<std::uint32_t>(item), 2, 0);
-        const double line = weight_m7 * own(7).V_T[0] + weight_m20 * own(20).I_S[0] + weight_m3 * own(3).V_T[0] +
-                            weight_process * values(item)[2] + weight_noise * noise + (at == 85 ? offset_at_85 : 0);
+        const auto deviates = [&](std::size_t d) { return deviates_of(mismatch_.subjects[0].devices[d], mismatch_.seed, {chip}); };
+        const double temperature = values(item)[0], noise = normal(7, static_cast<std::uint32_t>(item), 2, 0);
+        const double line = weight_m7 * deviates(7).V_T[0] + weight_m20 * deviates(20).I_S[0] + weight_m3 * deviates(3).V_T[0] +
+                            weight_process * values(item)[2] + weight_noise * noise + (temperature == 85 ? offset_at_85 : 0);
         ItemOutcome out;
         out.item = item, out.steps = 100 + item % 7, out.iterations = 300 + item % 11;
         out.measures = {line, std::exp(normal(8, static_cast<std::uint32_t>(item), 3, 0)), 4 + static_cast<double>(item % 3)};
@@ -71,7 +71,7 @@ public:
     }
 };
 
-/// All of its items in a file.
+/// Writes the outcomes of all items to a results file.
 inline SweepResults write_synthetic_results(const std::string& path, const SyntheticSweep& sweep) {
     auto results = value_or_throw(SweepResults::open(path, sweep));
     std::vector<ItemOutcome> all;

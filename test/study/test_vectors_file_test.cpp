@@ -19,10 +19,10 @@ std::vector<std::string> write(const test::TemporaryFolder& folder, const std::v
     for (const auto& s : stimuli) sources.push_back(test::value_or_throw(make_stimulus(s, overrides, 2e3, 9)));
     for (const auto& n : names) plans.push_back(test::value_or_throw(plan_afferent(n, overrides)));
     TestVectorsFile vectors(folder.path());
-    ResponseSink* listeners[] = {&vectors};
+    ResponseSink* sinks[] = {&vectors};
     RespondOptions options;
     options.block = block;
-    (void)test::value_or_throw(respond(sources, plans, listeners, options));
+    (void)test::value_or_throw(respond(sources, plans, sinks, options));
     EXPECT_TRUE(vectors.commit());
     return vectors.paths();
 }
@@ -57,7 +57,7 @@ TEST(Vectors, ASecondImplementationAgreesOnEveryAlgorithmAndUnusualWords) {
             }
 }
 
-TEST(Vectors, TheReferenceSeesASingleWrongBit) {
+TEST(Vectors, TheReferenceDetectsASingleWrongBit) {
     const test::TemporaryFolder folder;
     auto text = test::read_file(stored_folder + "vectors-sa1-kim.csv");
     const auto at = text.rfind(",0\n");
@@ -65,7 +65,7 @@ TEST(Vectors, TheReferenceSeesASingleWrongBit) {
     EXPECT_FALSE(reference_agrees(folder.write("wrong.csv", text), stored_folder + "rom-sa1-kim.csv"));
 }
 
-TEST(Vectors, DoNotDependOnTheBlockAndEachInputHasItsOwn) {
+TEST(Vectors, DoNotDependOnTheBlockAndEachInputHasItsOwnFile) {
     const test::TemporaryFolder undivided, parts;
     const auto paths = write(undivided, {"press", "ramp-hold"}, {"sa1", "sa1-kim"}, {});
     write(parts, {"press", "ramp-hold"}, {"sa1", "sa1-kim"}, {}, 7);

@@ -28,10 +28,10 @@ std::string pairs(const Names& a, const Names& b, const CompareOptions& options 
     return text;
 }
 
-TEST(PairTrains, PairsEqualNamesAndTheOthersWithSilence) {
+TEST(PairTrains, PairsEqualNamesAndTheOthersWithEmptyTrains) {
     EXPECT_EQ(pairs({{"fa1", "x"}, {"sa1", "x"}}, {{"sa1", "x"}, {"sa2", "x"}}), "fa1,x= sa1,x=sa1,x =sa2,x");
     EXPECT_EQ(pairs({{"sa1", "x"}}, {}), "sa1,x=") << "B was silent";
-    EXPECT_EQ(pairs({{"7", ""}}, {{"sa1", "x"}}), "7=sa1,x") << "the only two there are";
+    EXPECT_EQ(pairs({{"7", ""}}, {{"sa1", "x"}}), "7=sa1,x") << "the only train of each file";
 }
 
 TEST(PairTrains, AFileWithoutChannelsMatchesOneWithChannelsIfThePairIsUnique) {
@@ -44,7 +44,7 @@ TEST(PairTrains, AFileWithoutChannelsMatchesOneWithChannelsIfThePairIsUnique) {
     EXPECT_EQ(pairs({{"sa1#1", ""}, {"fa1", "x"}}, {{"fa1", "x"}, {"sa1", "x"}, {"sa1", "y"}}), "sa1#1= fa1,x=fa1,x =sa1,x =sa1,y");
 }
 
-TEST(PairTrains, ANameChangesOnEveryChannelOrForEveryAfferent) {
+TEST(PairTrains, APairOfNamesAppliesToEveryChannelOrEveryAfferent) {
     const Names two = {{"sa1", "x"}, {"sa1", "y"}}, kim = {{"sa1-kim", "x"}, {"sa1-kim", "y"}};
     EXPECT_EQ(pairs(two, kim, {.pairs = {"sa1=sa1-kim"}}), "sa1,x=sa1-kim,x sa1,y=sa1-kim,y");
     EXPECT_EQ(pairs({{"fa1", "fz"}, {"sa1", "fz"}}, {{"fa1", "fz_abs"}, {"sa1", "fz_abs"}}, {.pairs = {"fz=fz_abs"}}),
@@ -55,7 +55,7 @@ TEST(PairTrains, ANameChangesOnEveryChannelOrForEveryAfferent) {
     EXPECT_EQ(pairs({{"1", ""}, {"2", ""}}, two, {.by_order = true}), "1=sa1,x 2=sa1,y");
 }
 
-TEST(PairTrains, WrongUseGetsTheOptionsThatWork) {
+TEST(PairTrains, ErrorsNameTheOptionsThatWork) {
     const Names fz = {{"fa1", "fz"}, {"sa1", "fz"}}, abs = {{"fa1", "fz_abs"}, {"sa1", "fz_abs"}};
     EXPECT_EQ(pairs(fz, abs),
               "no train has the same name in both files: fa1,fz; sa1,fz | fa1,fz_abs; sa1,fz_abs; --pair fz=fz_abs would compare these, "
@@ -73,8 +73,8 @@ TEST(PairTrains, WrongUseGetsTheOptionsThatWork) {
     EXPECT_EQ(pairs(fz, abs, {.pairs = {"fz=fz_abs"}, .by_order = true}), "--by-order and --pair are alternatives: give one");
 }
 
-// Each name is looked up in an index, not searched for among all.
-TEST(PairTrains, OfAHundredThousandTakesWellUnderASecond) {
+// Names are looked up in an index. A search through all trains would take minutes.
+TEST(PairTrains, OfAHundredThousandTrainsTakesLessThanFiveSeconds) {
     std::vector<NamedTrain> a, b;
     for (int k = 0; k < 100'000; ++k)
         a.push_back({"sa1#" + std::to_string(k), "press", {}}), b.push_back({"sa1#" + std::to_string(100'000 - k), "press", {}});
@@ -82,7 +82,7 @@ TEST(PairTrains, OfAHundredThousandTakesWellUnderASecond) {
     const auto pairs = pair_trains(a, b, {});
     EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 5);
     ASSERT_TRUE(pairs);
-    EXPECT_EQ(pairs->size(), 100'001U) << "all but one of each have a partner";
+    EXPECT_EQ(pairs->size(), 100'001U) << "one train of each file has no partner";
 }
 
 TEST(Compare, CountsMatchedMissingAndExtraSpikes) {

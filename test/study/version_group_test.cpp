@@ -1,4 +1,4 @@
-// Versions of one receptor: how they are selected, and how they are compared.
+// Versions (implementations) of one afferent type: how they are grouped and compared.
 
 #include "study/version_group.hpp"
 
@@ -20,19 +20,19 @@ AfferentPlan make_named(const std::string& name) {
     return plan;
 }
 
-TEST(VersionGroup, HasTheReceptorThatTheirNameBeginsWith) {
+TEST(VersionGroup, IsTheAfferentTypeAtTheBeginningOfAName) {
     for (const auto* name :
          {"sa1", "SA1", "SA-I", "sa1-kim", "sa1-circuit", "sa1-macro", "circuits/sa1.cir", "./sa1_biased.cir", "/x.y/SA1-b.cir"})
         EXPECT_EQ(receptor_of(make_named(name)), "sa1") << name;
-    EXPECT_EQ(receptor_of(make_named("RA")), "fa1") << "another of its names";
+    EXPECT_EQ(receptor_of(make_named("RA")), "fa1") << "an alias of fa1";
     EXPECT_EQ(receptor_of(make_named("fa1-lee")), "fa1");
     for (const auto* name : {"sa1b+izhikevich", "fsr+f2i+sa1", "own-thing"})
-        EXPECT_EQ(receptor_of(make_named(name)), name) << "shared with no other afferent";
+        EXPECT_EQ(receptor_of(make_named(name)), name) << "not the name of an afferent type";
     EXPECT_EQ(receptor_of(make_named("circuits/spiker.cir")), "spiker");
     EXPECT_EQ(receptor_of(make_named("my_sa1.cir")), "my_sa1") << "does not begin with the name of an afferent";
 }
 
-TEST(VersionGroup, TheReceptorItselfComesFirstThenModelsThenNetlists) {
+TEST(VersionGroup, TheAfferentOfThisNameIsFirstThenModelsThenNetlists) {
     const auto chip = value_or_throw(plan_any_afferent(test::source_root() + "/circuits/sa1.cir", {}));
     const AfferentPlan plans[] = {chip, make_named("sa1-kim"), make_named("fa1"), make_named("sa1")};
     const auto all = version_groups(plans);
@@ -42,12 +42,12 @@ TEST(VersionGroup, TheReceptorItselfComesFirstThenModelsThenNetlists) {
     EXPECT_EQ(all[1].members, std::vector<std::size_t>{2});
 }
 
-struct VersionsRan {
+struct VersionRun {
     RunSummary summary;
     std::string document;
 };
 
-VersionsRan run_versions(const std::vector<std::string>& stimuli, const std::vector<std::string>& names, std::size_t block,
+VersionRun run_versions(const std::vector<std::string>& stimuli, const std::vector<std::string>& names, std::size_t block,
                          std::uint32_t copies = 0) {
     std::vector<std::unique_ptr<ForceSource>> sources;
     std::vector<AfferentPlan> plans;
@@ -56,16 +56,16 @@ VersionsRan run_versions(const std::vector<std::string>& stimuli, const std::vec
     std::vector<AfferentPlan> all_plans;  // with copies
     for (const auto& p : plans)
         for (auto& copy : copies ? value_or_throw(make_copies(p, copies, {}, 1)) : std::vector{p}) all_plans.push_back(std::move(copy));
-    VersionsRan ran;
-    ResponseSink* listeners[] = {&ran.summary};
+    VersionRun ran;
+    ResponseSink* sinks[] = {&ran.summary};
     RespondOptions options;
     options.block = block;
-    const auto work = value_or_throw(respond(sources, all_plans, listeners, options));
+    const auto work = value_or_throw(respond(sources, all_plans, sinks, options));
     ran.document = ran.summary.document(plans, work, options, 9, {}).dump();
     return ran;
 }
 
-TEST(VersionComparisons, CountByPhaseAndMeasureAsCompareDoes) {
+TEST(VersionComparisons, HaveCountsByPhaseAndTheDistancesOfCompare) {
     const auto ran = run_versions({"press"}, {"sa1-kim", "fa1", "sa1"}, 333);
     ASSERT_EQ(ran.summary.comparisons().rows().size(), 1u) << "fa1 has one version";
     const auto& row = ran.summary.comparisons().rows()[0];
@@ -81,10 +81,10 @@ TEST(VersionComparisons, CountByPhaseAndMeasureAsCompareDoes) {
     EXPECT_LT(std::abs(row.median_shift), 20e-3);
     EXPECT_LT(std::abs(row.mean_shift), 20e-3);
 
-    std::size_t counted = 0, of_reference = 0;
-    for (const auto& p : row.phases) counted += p.spikes, of_reference += p.reference_spikes;
+    std::size_t counted = 0, reference_count = 0;
+    for (const auto& p : row.phases) counted += p.spikes, reference_count += p.reference_spikes;
     EXPECT_EQ(counted, kim.size());
-    EXPECT_EQ(of_reference, model.size());
+    EXPECT_EQ(reference_count, model.size());
     ASSERT_EQ(row.phases.size(), 5u);
     for (const auto& r : ran.summary.rows())
         for (const auto& p : row.phases) {
@@ -92,21 +92,21 @@ TEST(VersionComparisons, CountByPhaseAndMeasureAsCompareDoes) {
             EXPECT_EQ(r.values[0], static_cast<double>(r.afferent == "sa1" ? p.reference_spikes : p.spikes))
                 << r.afferent << " " << p.phase;
         }
-    EXPECT_TRUE(std::isnan(row.phases[0].excess())) << "no fraction of zero spikes";
+    EXPECT_TRUE(std::isnan(row.phases[0].excess())) << "the reference has no spikes in this phase";
 }
 
-TEST(VersionComparisons, AShiftIsPositiveWhereTheVersionIsLater) {
+TEST(VersionComparisons, AShiftIsPositiveIfTheVersionIsLater) {
     const auto row = run_versions({"press"}, {"sa1", "SA1"}, 4096).summary.comparisons().rows().at(0);
     EXPECT_EQ(row.matched, row.total.spikes);
     EXPECT_EQ(row.median_shift, 0);
     EXPECT_EQ(row.victor_purpura + row.van_rossum, 0);
     const auto kim = run_versions({"press"}, {"sa1", "sa1-kim"}, 4096).summary.comparisons().rows().at(0);
-    const auto model = test::train("sa1", "press", {.rate = 2e3}), behind = test::train("sa1-kim", "press", {.rate = 2e3});
-    ASSERT_LT(behind[0], model[0]) << "else this proves nothing";
+    const auto model = test::train("sa1", "press", {.rate = 2e3}), kim_train = test::train("sa1-kim", "press", {.rate = 2e3});
+    ASSERT_LT(kim_train[0], model[0]) << "otherwise the next expectation proves nothing";
     EXPECT_LT(kim.median_shift, 0);
 }
 
-TEST(VersionComparisons, DoNotDependOnTheBlockAndAreMadeInputByInput) {
+TEST(VersionComparisons, DoNotDependOnTheBlockAndAreSeparateForEachInput) {
     const std::vector<std::string> stimuli = {"press", "noise"}, names = {"sa1", "sa1-kim", "fa1-lee", "fa1"};
     const auto undivided = run_versions(stimuli, names, 1 << 20);
     EXPECT_EQ(undivided.document, run_versions(stimuli, names, 77).document);

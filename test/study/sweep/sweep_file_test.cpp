@@ -29,16 +29,16 @@ class SweepFolder {
 
 public:
     std::string path(const std::string& name) const { return folder_ / name; }
-    std::string put(const std::string& name, const std::string& text) const {
+    std::string write(const std::string& name, const std::string& text) const {
         std::ofstream(path(name), std::ios::binary) << text;
         return path(name);
     }
     std::unique_ptr<Sweep> sweep(const std::string& text, const std::string& name = "x.toml") const {
-        return test::value_or_throw(read_sweep(put(name, text)));
+        return test::value_or_throw(read_sweep(write(name, text)));
     }
     /// "3:8: message"
     std::string refusal(const std::string& text) const {
-        const auto read = read_sweep(put("x.toml", text));
+        const auto read = read_sweep(write("x.toml", text));
         if (read) return "";
         auto message = read.error().text();
         if (const auto at = message.find("x.toml:"); at != std::string::npos) message = message.substr(at + 7);
@@ -69,20 +69,20 @@ void expect_same_bytes(const std::vector<T>& a, const std::vector<T>& b) {
     EXPECT_TRUE(a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
 }
 
-/// In order, and in reverse order in several calls.
-void expect_the_same_in_any_order(const Sweep& sweep) {
+/// Compares the outcomes of one call for all items in order with those of several calls in reverse order.
+void expect_the_same_outcomes_in_any_order(const Sweep& sweep) {
     const auto forward = run_items(sweep);
     ASSERT_EQ(forward.size(), static_cast<std::size_t>(sweep.item_count()));
-    Outcomes back;
+    Outcomes reversed;
     for (auto to = sweep.item_count(); to > 0;) {
         const auto from = std::max<std::int64_t>(to - 3, 0);
         std::vector<std::int64_t> few;
         for (auto u = to; u-- > from;) few.push_back(u);
-        back.merge(run_items(sweep, few));
+        reversed.merge(run_items(sweep, few));
         to = from;
     }
     for (const auto& [item, one] : forward) {
-        const auto& other = back.at(item);
+        const auto& other = reversed.at(item);
         EXPECT_EQ(one.end, other.end);
         expect_same_bytes(one.measures, other.measures);
         ASSERT_EQ(one.spikes.size(), other.spikes.size());
@@ -95,20 +95,20 @@ TEST(Sampling, ALatinHypercubeHasOneSampleInEachStratum) {
     for (const std::uint64_t n : {1, 2, 7, 64, 1000}) {
         const UniformNumbers one(Sampling::latin, 5, "a", 0, n), other(Sampling::latin, 5, "b", 0, n);
         std::set<std::uint64_t> strata;
-        bool alike = true;
+        bool is_same_sequence = true;
         for (std::uint64_t k = 0; k < n; ++k) {
             const double u = one.at(k);
             ASSERT_GT(u, 0);
             ASSERT_LT(u, 1);
             strata.insert(static_cast<std::uint64_t>(u * static_cast<double>(n)));
-            alike = alike && static_cast<int>(u * 7) == static_cast<int>(other.at(k) * 7);
+            is_same_sequence = is_same_sequence && static_cast<int>(u * 7) == static_cast<int>(other.at(k) * 7);
         }
         EXPECT_EQ(strata.size(), n);
-        EXPECT_TRUE(n <= 2 || !alike) << "two axes are correlated";
+        EXPECT_TRUE(n <= 2 || !is_same_sequence) << "two axes are correlated";
     }
 }
 
-TEST(Sampling, SobolsPointsAreThoseOfJoeAndKuo) {
+TEST(Sampling, SobolPointsAreThoseOfJoeAndKuo) {
     const double printed[8][3] = {{0, 0, 0},
                                   {0.5, 0.5, 0.5},
                                   {0.75, 0.25, 0.25},
@@ -121,19 +121,19 @@ TEST(Sampling, SobolsPointsAreThoseOfJoeAndKuo) {
         const auto v = sweeps::sobol_directions(d);
         for (std::uint32_t k = 0; k < 8; ++k) EXPECT_EQ(sweeps::sobol_point(v, k) * 0x1p-32, printed[k][d]) << k << " " << d;
     }
-    std::set<std::vector<std::uint32_t>> kinds;
-    // Every 256 points have one in each 256th part, and no two dimensions are alike.
+    std::set<std::vector<std::uint32_t>> sequences;
+    // Each of 256 equal intervals has one of these 256 points, and no two dimensions are equal.
     for (std::size_t d = 0; d < sweeps::sobol_dimensions; ++d) {
         const auto v = sweeps::sobol_directions(d);
         std::set<std::uint32_t> strata;
         std::vector<std::uint32_t> points;
         for (std::uint32_t k = 256; k < 512; ++k) points.push_back(sweeps::sobol_point(v, k)), strata.insert(points.back() >> 24);
         EXPECT_EQ(strata.size(), 256u) << d;
-        EXPECT_TRUE(kinds.insert(points).second) << d;
+        EXPECT_TRUE(sequences.insert(points).second) << d;
     }
 }
 
-TEST(Sampling, NormalDeviatesHaveTheirMomentsAndTheirTails) {
+TEST(Sampling, NormalDeviatesHaveTheRightMomentsAndQuantiles) {
     EXPECT_NEAR(sweeps::normal_quantile(0.975), 1.959963984540054, 1e-14);
     EXPECT_NEAR(sweeps::normal_quantile(1e-10), -6.361340902404056, 1e-13);
     EXPECT_NEAR(sweeps::normal_probability(-1), 0.15865525393145707, 1e-15);
@@ -144,7 +144,7 @@ TEST(Sampling, NormalDeviatesHaveTheirMomentsAndTheirTails) {
             const double x = sweeps::normal_quantile(u.at(k));
             sum += x / 20000, squares += x * x / 20000, fourth += x * x * x * x / 20000;
         }
-        // A multiple of 0.007, the deviation over 20000 random samples; the other sequences are more even.
+        // In units of the standard error of the mean of 20000 random samples, 0.0071; the other sequences are more even.
         const double limit = sampling == Sampling::random ? 4 : 0.2;
         EXPECT_NEAR(sum, 0, limit * 0.0071);
         EXPECT_NEAR(squares, 1, limit * 0.01);
@@ -152,7 +152,7 @@ TEST(Sampling, NormalDeviatesHaveTheirMomentsAndTheirTails) {
     }
 }
 
-TEST(SweepFile, ANormalAxisKeepsItsLimitsAndHasTheSameSamplesAtEachPoint) {
+TEST(SweepFile, ANormalAxisStaysWithinItsLimitsAndHasTheSameSamplesAtEachPoint) {
     const SweepFolder w;
     const auto s = w.sweep(
         "afferent = 'sa1'\nsamples = 200\nseed = 9\n[[vary]]\nwhat = 'press.F_max'\nlist = ['1N', 2]\n[[vary]]\nwhat = 'f_B'\nmean = "
@@ -172,7 +172,7 @@ TEST(SweepFile, ANormalAxisKeepsItsLimitsAndHasTheSameSamplesAtEachPoint) {
     EXPECT_EQ(s->axes()[1].unit, "Hz");
 }
 
-constexpr const char* stepped =
+constexpr const char* netlist_with_step_and_mc =
     "Two dividers and a mirror\n.lib '../process/tsmc180.lib' mc\n.param r=1k supply=0.7\nvdd d 0 {supply}\nibias g 0 100n\n"
     "m1 g g d d pch w=6u l=0.5u m=2 stack=8\nm2 o g d d pch w=6u l=0.5u m=2 stack=8\nr1 o 0 {r*1k}\n.op\n.meas op out find v(o)\n"
     ".step param r list 1k 1.5k\n.step temp -40 85 62.5\n.mc 3 seed=11\n.end\n";
@@ -197,11 +197,11 @@ std::vector<double> first_measures(const Sweep& sweep) {
     return out;
 }
 
-TEST(SweepFile, AStepAndMcOfANetlistMeanTheSameChipsAsTheFileDoes) {
+TEST(SweepFile, StepAndMcOfANetlistGiveTheSameChipsAsASweepFile) {
     const SweepFolder w;
     std::filesystem::create_directories(w.path("process")), std::filesystem::create_directories(w.path("mine"));
-    w.put("process/tsmc180.lib", test::read_file(test::source_root() + "/process/tsmc180.lib"));
-    const auto path = w.put("mine/x.cir", stepped);
+    w.write("process/tsmc180.lib", test::read_file(test::source_root() + "/process/tsmc180.lib"));
+    const auto path = w.write("mine/x.cir", netlist_with_step_and_mc);
     const auto expected = measured_values(path);
     ASSERT_EQ(expected.size(), 18u);
     EXPECT_EQ(std::set<double>(expected.begin(), expected.end()).size(), 18u);
@@ -209,8 +209,8 @@ TEST(SweepFile, AStepAndMcOfANetlistMeanTheSameChipsAsTheFileDoes) {
     expect_same_bytes(first_measures(*of_netlist), expected);
     EXPECT_EQ(of_netlist->values(17)[0], 1.5e3);
     EXPECT_EQ(of_netlist->values(17)[1], 85);
-    const std::string bare(stepped, std::strstr(stepped, ".step"));
-    w.put("mine/bare.cir", bare);
+    const std::string bare(netlist_with_step_and_mc, std::strstr(netlist_with_step_and_mc, ".step"));
+    w.write("mine/bare.cir", bare);
     expect_same_bytes(
         first_measures(*w.sweep("netlist = 'mine/bare.cir'\nsamples = 3\nseed = 11\n[[vary]]\nwhat = 'r'\nlist = ['1k', '1.5kohm']\n"
                                 "[[vary]]\nwhat = 'temp'\nfrom = -40\nto = '85C'\ncount = 3\n[[vary]]\nwhat = 'process'\n"
@@ -227,13 +227,13 @@ TEST(SweepFile, AStepAndMcOfANetlistMeanTheSameChipsAsTheFileDoes) {
 
 TEST(SweepFile, AnItemDoesNotDependOnItsProcessOrTheItemsBefore) {
     const SweepFolder w;
-    expect_the_same_in_any_order(
+    expect_the_same_outcomes_in_any_order(
         *w.sweep("netlist = 'circuits/quiescent.cir'\nsamples = 40\nmeasures = ['v(qa)', 'i(visa)']\nset.corner = 'mc'\n"
                  "[[vary]]\nwhat = 'process'\n[[vary]]\nwhat = 'mismatch'\n"));
-    expect_the_same_in_any_order(
+    expect_the_same_outcomes_in_any_order(
         *w.sweep("afferent = 'sa1'\nsamples = 100\n[[vary]]\nwhat = 'f_B'\nsigma = '5%'\nhow = 'latin'\n[[vary]]\n"
                  "what = 'press.t_hold'\nhow = 'uniform'\nfrom = '0.1s'\nto = '0.3s'\n"));
-    expect_the_same_in_any_order(
+    expect_the_same_outcomes_in_any_order(
         *w.sweep("afferent = 'fsr+sa1'\nsamples = 4\ntraces = ['u']\nevery = '10ms'\n[[vary]]\nwhat = 'f_B'\nsigma = '5%'\n"));
 }
 
@@ -258,8 +258,8 @@ TEST(SweepFile, ChipsOfANetlistHaveTheSameSamplesInEveryDesign) {
         "b1 a 0 i={1m*v(a)*0.5*(1+tanh((v(s)-0.5)*20))}\nb2 t 0 v={0.5*(1+tanh((v(a)-1+0.8*v(s))*20))}\nr2 t s 1k\n"
         "c2 s 0 10n\nm1 a 0 0 0 nch w=50u l=1u\n.spike v(s) 0.5\n.tran 1m 1 0 5m uic\n.end\n";
     std::filesystem::create_directories(w.path("process")), std::filesystem::create_directories(w.path("mine"));
-    w.put("process/tsmc180.lib", test::read_file(test::source_root() + "/process/tsmc180.lib"));
-    w.put("mine/x.cir", chip);
+    w.write("process/tsmc180.lib", test::read_file(test::source_root() + "/process/tsmc180.lib"));
+    w.write("mine/x.cir", chip);
     const std::string head =
         "afferent = 'mine/x.cir'\nforce = 'step'\nrate = '1kHz'\nsamples = 3\ntraces = ['a']\n"
         "measures = ['spikes', 'spikes.hold', 'first_spike', 'power']\n[set]\nstep.t_rest = '10ms'\nstep.t_hold = '50ms'\n"
@@ -276,7 +276,7 @@ TEST(SweepFile, ChipsOfANetlistHaveTheSameSamplesInEveryDesign) {
     EXPECT_NE(one.at(0).spikes[0], one.at(1).spikes[0]);
     EXPECT_EQ(run_items(*w.sweep("iterations = 20\n" + head)).at(2).end, ItemEnd::iteration_limit);
     EXPECT_EQ(plain->metadata().back().name, "drawn");
-    expect_the_same_in_any_order(*wider);
+    expect_the_same_outcomes_in_any_order(*wider);
 }
 
 TEST(SweepFile, ALimitIsTwoNumbersOrTheModelsMeasureUnderTheSameForce) {
@@ -341,7 +341,7 @@ TEST(SweepFile, ErrorsGiveTheLocationAndTheRemedy) {
     }
 }
 
-TEST(SweepFile, FormerKeysAreRefusedWithTheirPresentNames) {
+TEST(SweepFile, RenamedKeysAreRefusedWithTheirNewNames) {
     const SweepFolder w;
     for (const auto& [old_key, new_key] : sweeps::renamed_keys)
         EXPECT_NE(w.refusal(fmt::format("afferent = 'sa1'\n  {} = 3\n", old_key)).find(fmt::format("2:3: {} is now {}", old_key, new_key)),
