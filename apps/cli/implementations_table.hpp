@@ -2,11 +2,11 @@
 
 #include <string>
 
-#include "study/version_comparison.hpp"
+#include "study/implementation_comparison.hpp"
 
 namespace corpuscle {
 
-/// A table that compares the implementations of each receptor with its first one. Empty if no receptor has two implementations.
-std::string implementations_table(const VersionComparisons&);
+/// A table that compares the implementations of each afferent type with the first one. Empty if no type has two implementations.
+std::string implementations_table(const ImplementationComparisons&);
 
 }  // namespace corpuscle

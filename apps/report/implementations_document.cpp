@@ -6,10 +6,10 @@ namespace corpuscle {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using Count = VersionComparison::PhaseCount;
+using Count = ImplementationComparison::PhaseCount;
 
 /// The phases of all inputs.
-std::vector<std::string> phases_of(const VersionComparisons& comparisons) {
+std::vector<std::string> phases_of(const ImplementationComparisons& comparisons) {
     std::vector<std::string> all;
     for (const auto& c : comparisons.rows())
         for (const auto& p : c.phases)
@@ -18,7 +18,7 @@ std::vector<std::string> phases_of(const VersionComparisons& comparisons) {
 }
 
 /// Afferent, channel, and spike counts in total and in each phase.
-Json counts_row(const VersionComparison& c, const std::string& afferent, const std::vector<std::string>& phases,
+Json counts_row(const ImplementationComparison& c, const std::string& afferent, const std::vector<std::string>& phases,
                 std::size_t Count::* count) {
     Json row = {afferent, c.channel, c.total.*count};
     for (const auto& phase : phases) {
@@ -28,7 +28,7 @@ Json counts_row(const VersionComparison& c, const std::string& afferent, const s
     return row;
 }
 
-Json row_document(const VersionComparison& c, const std::vector<std::string>& phases) {
+Json row_document(const ImplementationComparison& c, const std::vector<std::string>& phases) {
     const auto number = [](double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); };
     auto row = counts_row(c, c.afferent, phases, &Count::spikes);
     row.push_back(number(100 * c.total.excess()));
@@ -39,7 +39,7 @@ Json row_document(const VersionComparison& c, const std::vector<std::string>& ph
 
 }  // namespace
 
-Json implementations_document(const VersionComparisons& comparisons) {
+Json implementations_document(const ImplementationComparisons& comparisons) {
     const auto phases = phases_of(comparisons);
     Json columns = {"afferent", "channel", "spikes"}, decimals = {nullptr, nullptr, 0}, rows = Json::array();
     for (const auto& p : phases) columns.push_back(p), decimals.push_back(0);
@@ -50,7 +50,7 @@ Json implementations_document(const VersionComparisons& comparisons) {
                                        {"Victor-Purpura", 2},
                                        {"van Rossum", 2}})
         columns.push_back(name), decimals.push_back(places);
-    const VersionComparison* last = nullptr;
+    const ImplementationComparison* last = nullptr;
     for (const auto& c : comparisons.rows()) {
         if (!last || last->reference != c.reference || last->channel != c.channel) {
             rows.push_back(counts_row(c, c.reference, phases, &Count::reference_spikes));
@@ -59,8 +59,11 @@ Json implementations_document(const VersionComparisons& comparisons) {
         rows.push_back(row_document(c, phases));
         last = &c;
     }
-    return {
-        {"columns", columns}, {"decimals", decimals}, {"rows", rows}, {"cost", VersionComparisons::cost}, {"tau", VersionComparisons::tau}};
+    return {{"columns", columns},
+            {"decimals", decimals},
+            {"rows", rows},
+            {"cost", ImplementationComparisons::cost},
+            {"tau", ImplementationComparisons::tau}};
 }
 
 }  // namespace corpuscle

@@ -2,11 +2,11 @@
 
 #include <nlohmann/json.hpp>
 
-#include "study/version_comparison.hpp"
+#include "study/implementation_comparison.hpp"
 
 namespace corpuscle {
 
-/// The table of implementations: for each receptor and channel a row of the reference, then a row for each other implementation.
-nlohmann::ordered_json implementations_document(const VersionComparisons&);
+/// The table of implementations: for each afferent type and channel a row of the reference, then a row for each other implementation.
+nlohmann::ordered_json implementations_document(const ImplementationComparisons&);
 
 }  // namespace corpuscle

@@ -1,5 +1,5 @@
 "use strict";
-// Overlays of the implementations of one receptor: matches their quantities, and computes the scales with which they share a panel.
+// Overlays of the implementations of one afferent type: matches their quantities, and computes the scales with which they share a panel.
 
 /// A key that is equal for the same quantity in all implementations: "ia" for I_A and i(via), "u" for u and v(u). A current through a source
 /// is named after the source.
@@ -13,10 +13,10 @@ function baseQuantity(quantity) {
 const isTotal = ({quantity, unit}) => (unit === "A" ? /^i[+-]?$/ : /^u[+-]?$/).test(baseQuantity(quantity));
 
 /// [{name, members: [{afferent, index}]}], in order. The first member is the reference. `index` selects the colour.
-function receptorsOf(afferents) {
+function afferentTypesOf(afferents) {
     const all = new Map();
     afferents.forEach((afferent, index) => {
-        const name = afferent.receptor || afferent.name;
+        const name = afferent.type || afferent.name;
         all.set(name, [...(all.get(name) || []), {afferent, index}]);
     });
     const rank = ({afferent}, name) => (afferent.netlist ? 2 : afferent.name === name ? 0 : 1);

@@ -26,12 +26,12 @@ function fillRates(host, {columns, decimals, rows}, only, startsGroup = (row, be
     if (wanted.length > MAX_ROWS) element(host, "p", "note", `The first ${MAX_ROWS} of ${wanted.length} rows.`);
 }
 
-/// Comparison of the implementations of each receptor on the selected channel.
+/// Comparison of the implementations of each afferent type on the selected channel.
 function showImplementations(table, channel) {
     const section = document.getElementById("comparisons");
     section.hidden = !table || !table.rows.length;
     if (section.hidden) return;
-    section.querySelector(".note").textContent = `Each implementation is compared with the first of its receptor. Spikes within ${quantity(2 / table.cost, "s", true)} match; ` +
+    section.querySelector(".note").textContent = `Each implementation is compared with the first of its afferent type. Spikes within ${quantity(2 / table.cost, "s", true)} match; ` +
         `a positive shift means later than the reference. Victor-Purpura cost ${quantity(table.cost, "Hz", true)}, van Rossum time constant ${quantity(table.tau, "s", true)}.`;
     const isFirst = (row) => row[table.columns.indexOf("matched")] === null;
     fillRates(section.querySelector(".scroll"), table, channel.name, isFirst);
@@ -57,7 +57,7 @@ function showCosts(costs, afferents) {
 
 const squareMicrons = (area) => (area ? (area * 1e12).toFixed(0) : "–");
 
-function costTable({afferent, rest_force_N, power, area, blocks, receptors}, index) {
+function costTable({afferent, rest_force_N, power, area, blocks, afferents}, index) {
     const text = (value, unit) => escaped(quantity(value, unit, true));
     const row = (head, cells) => `<tr><th scope="row">${head}</th>${cells.map((cell) => `<td class="number">${cell}</td>`).join("")}</tr>`;
     const head = ["block", `power at rest (${text(rest_force_N, "N")})`, "area (µm²)", "leakage when off"].map((cell) => `<th scope="col">${cell}</th>`).join("");
@@ -65,7 +65,7 @@ function costTable({afferent, rest_force_N, power, area, blocks, receptors}, ind
     const rows = listed.map((one) => row(escaped(one.block), [text(power.op.blocks_W[one.block], "W"), squareMicrons(one.area.total_m2),
         one.worst_leak ? text(one.worst_leak.current_A, "A") : "–"]));
     const mean = power.mean ? `; mean ${text(power.mean.delivered_W, "W")}, of which sensor ${text(power.mean.sensor_W, "W")}` : "";
-    const density = receptors ? ` Density: ${text(receptors.per_mm2, "")} per mm².` : "";
+    const density = afferents ? ` Density: ${text(afferents.per_mm2, "")} per mm².` : "";
     return `<table class="costs"><caption><span class="chip" style="background: ${afferentColour(index)}"></span>${escaped(afferent)}
         <span class="unit">power at rest ${text(power.op.delivered_W, "W")}, of which sensor ${text(power.op.sensor_W, "W")}${mean}.${density}</span></caption>
         <thead><tr>${head}</tr></thead><tbody>${rows.join("")}${row("total", [text(power.op.delivered_W, "W"), squareMicrons(area.total_m2), ""])}</tbody></table>`;

@@ -4,7 +4,7 @@
 const report = new Report(JSON.parse(document.getElementById("data").textContent));
 const at = (id) => document.getElementById(id);
 const view = new View({span: at("span"), now: at("now")});
-const receptors = receptorsOf(report.data.afferents);
+const afferentTypes = afferentTypesOf(report.data.afferents);
 const shown = {input: null, channel: null, traces: []};
 
 function showHeading({title, program, command, notes}) {
@@ -23,7 +23,7 @@ function show(input, channel) {
     view.clear();
     at("figures").replaceChildren();
     labelWidth(input);
-    view.show([...forcePanels(), ...spikePanels(), ...receptors.flatMap(receptorPanels)], input, keep);
+    view.show([...forcePanels(), ...spikePanels(), ...afferentTypes.flatMap(afferentTypePanels)], input, keep);
     scrollTo(0, scroll);
     showChoice(input, channel);
     showRates(report.data.table, report.data.inputs, channel);
@@ -73,7 +73,7 @@ function spikePanels() {
     const {copies} = report.data, several = input.channels.length > 1 && !copies;
     const host = section("Spikes", copies ? aboutCopies(copies) : several ? `All channels; click a row to select its channel. Counts and frequencies are of channel ${channel.name}.` : "");
     const colours = afferents.map(({name}, index) => ({name, color: afferentColour(index), index}));
-    const overlaid = receptors.some(({members}) => members.length > 1);
+    const overlaid = afferentTypes.some(({members}) => members.length > 1);
     const trainsOf = (members) => members.map(({afferent, index}) => ({...colours[index], spikes: report.spikes(report.members(afferent)[0], channel)}));
     const frequency = (trains, prefix) => new FrequencyPanel({host, input, name: `${prefix}frequency`, about: `${prefix}instantaneous frequency`, height: prefix ? 110 : 150, trains,
                                                               title: `${prefix}instantaneous frequency`});
@@ -82,8 +82,8 @@ function spikePanels() {
                          pick: several ? (one) => show(input, one) : null, grouped: several || copies || overlaid}),
         ...(copies ? [new PopulationPanel({host, input, name: "population", about: "mean rate of all copies", height: 150,
                                            rates: colours.map((one, k) => ({...one, ...report.rate(afferents[k], channel)}))})] : []),
-        ...(overlaid && receptors.length > 1 ? receptors.map(({name, members}) => frequency(trainsOf(members), (members.length > 1 ? name : members[0].afferent.name) + " "))
-                                             : [frequency(trainsOf(receptors.flatMap(({members}) => members)), "")]),
+        ...(overlaid && afferentTypes.length > 1 ? afferentTypes.map(({name, members}) => frequency(trainsOf(members), (members.length > 1 ? name : members[0].afferent.name) + " "))
+                                             : [frequency(trainsOf(afferentTypes.flatMap(({members}) => members)), "")]),
     ];
 }
 
@@ -104,7 +104,7 @@ function lanes(input, chosen) {
     const lane = (member, channel, {afferent, index}, group) => ({
         afferent: afferent.name, group, channel, chosen: channel === chosen, color: afferentColour(index), spikes: report.spikes(member, channel),
         label: shortened(several ? `${member.name} ${channelName(channel)}` : member.name)});
-    return receptors.flatMap(({name, members}) => {
+    return afferentTypes.flatMap(({name, members}) => {
         const lanesOf = (one, on, group) => on.flatMap((channel) => report.members(one.afferent).map((member) => lane(member, channel, one, group)));
         const byChannel = members.length > 1 && several && report.data.afferents.length * channels.length <= MAX_LABELS;
         return byChannel ? channels.flatMap((channel) => members.flatMap((one) => lanesOf(one, [channel], name + channel.id)))

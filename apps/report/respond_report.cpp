@@ -167,7 +167,7 @@ std::string RespondReport::page(const RunSummary& summary, std::span<const Affer
     for (std::size_t a = 0; a < plans.size(); ++a) {
         const auto& plan = plans[a];
         afferents.push_back({{"name", plan.name},
-                             {"receptor", receptor_of(plan)},
+                             {"type", afferent_type_of(plan)},
                              {"netlist", plan.factory != nullptr},
                              {"composition", plan.composition()},
                              {"description", plan.description},

@@ -69,7 +69,7 @@ Json document_of(const circuit::Cost& cost) {
         for (const auto& [when, p] : cost.power)
             per_mW[when] = {{"without_sensor", p.without_sensor > 0 ? Json(1e-3 / p.without_sensor) : Json()},
                             {"delivered", p.supplies > 0 ? Json(1e-3 / p.supplies) : Json()}};
-        out["receptors"] = {{"per_mm2", cost.area().total() > 0 ? Json(cost.per_mm2()) : Json()}, {"per_mW", per_mW}};
+        out["afferents"] = {{"per_mm2", cost.area().total() > 0 ? Json(cost.per_mm2()) : Json()}, {"per_mW", per_mW}};
     }
     return out;
 }

@@ -10,7 +10,7 @@ namespace corpuscle {
 
 nlohmann::ordered_json document_of(const circuit::Cost&);
 
-/// For each netlist afferent: the cost table of one receptor at rest under `force` (N), and the mean power in the run over all copies and
+/// For each netlist afferent: the cost table of one afferent at rest under `force` (N), and the mean power in the run over all copies and
 /// channels of the afferent. Empty without netlists.
 nlohmann::ordered_json cost_documents_of(std::span<const AfferentPlan>, const RunStats&, double force);
 

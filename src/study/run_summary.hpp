@@ -9,7 +9,7 @@
 #include "measure/measures.hpp"
 #include "model/copies.hpp"
 #include "study/afferent_run.hpp"
-#include "study/version_comparison.hpp"
+#include "study/implementation_comparison.hpp"
 
 namespace corpuscle {
 
@@ -67,7 +67,7 @@ public:
     const std::vector<MeasureRow>& rows() const { return rows_; }
     const std::vector<InputSummary>& inputs() const { return inputs_; }
     /// Comparisons of the afferents that have several versions.
-    const VersionComparisons& comparisons() const { return comparisons_; }
+    const ImplementationComparisons& comparisons() const { return comparisons_; }
     /// The measures (by index) that have a value in some row: the columns of a table.
     std::vector<std::size_t> columns() const;
     /// The summary as a JSON document; the same input and options give the same bytes.
@@ -79,7 +79,7 @@ private:
     Clock since_start_;         // of the current input, with its first sample at 0 s
     MeasureAccumulator tally_;  // on that clock
     std::vector<MeasureRow> rows_;
-    VersionComparisons comparisons_;
+    ImplementationComparisons comparisons_;
 
     MeasureRow row(const Input&, std::size_t channel, std::size_t from, std::size_t to, std::size_t phase) const;
 };

@@ -39,7 +39,7 @@ TEST(Program, ImplementationsOfOneAfferentTypeAreComparedWithTheReference) {
     EXPECT_NE(table.find("by phase   change  matched  shift  Victor-     van\n"), std::string::npos) << ran.out;
     EXPECT_NE(table.find(" 15  0 5 9 1 0\n"), std::string::npos) << "the reference of the comparison\n" << table;
     EXPECT_NE(table.find(" 14  0 5 8 1 0      -7       14 "), std::string::npos) << table;
-    EXPECT_NE(table.find("Compared with the first row of each receptor and channel. Spikes within 20 ms match"), std::string::npos)
+    EXPECT_NE(table.find("Compared with the first row of each afferent type and channel. Spikes within 20 ms match"), std::string::npos)
         << table;
     EXPECT_EQ(table.find("fa1"), std::string::npos) << "fa1 has only one implementation\n" << table;
     const auto comparisons = Json::parse(test::read_file(folder / "answer/summary.json"))["comparisons"];

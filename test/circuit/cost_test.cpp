@@ -236,7 +236,7 @@ TEST(Cost, TheDocumentHasTheBudgetAndTheTableHasItsHeadings) {
     EXPECT_NEAR(budget["area"]["total_m2"].get<double>(), 1000e-12, 1e-18);
     EXPECT_EQ(budget["blocks"].size(), 2U);
     EXPECT_EQ(budget["unsized_elements"], 1);
-    EXPECT_FALSE(budget.contains("receptors"));
+    EXPECT_FALSE(budget.contains("afferents"));
     EXPECT_FALSE(nlohmann::json::parse(test::run_program(folder, "run x.cir --json").out).contains("budget"));
     const auto table = test::run_program(folder, "run x.cir --budget").out;
     for (const char* word : {"power, nW", "delivered", "dissipated in ideal currents", "area, um2", "1 device of unknown area (resistors"})
@@ -263,7 +263,7 @@ TEST(Cost, RespondReportsThePowerAtRestAndTheMeanOverTheResponse) {
         EXPECT_GT(mean, farthest - 1e-3 * press) << word;
         EXPECT_LT(mean, press + 1e-3 * press) << word;
     }
-    EXPECT_NEAR(costs[0]["receptors"]["per_mm2"].get<double>(), c.per_mm2(), 1e-9 * c.per_mm2());
+    EXPECT_NEAR(costs[0]["afferents"]["per_mm2"].get<double>(), c.per_mm2(), 1e-9 * c.per_mm2());
     EXPECT_EQ(ran.out, test::run_program(folder, words + " -j2").out);
     EXPECT_FALSE(nlohmann::json::parse(test::run_program(folder, "respond press --json").out).contains("costs"));
 }

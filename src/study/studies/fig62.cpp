@@ -17,7 +17,7 @@ Result<StudyCurve> input_noise(char inverter, bool without_bias) {
         InverterSweep::run_with_directives(fmt::format(".noise v(i{}) vin dec 10 {} {}", inverter, min_frequency, max_frequency),
                                            {fmt::format("c_bias={}", without_bias ? "1000" : "0")});
     if (!found) return found.error();
-    return found->found.curve("noise", "inoise_spectrum");
+    return found->netlist_result.curve("noise", "inoise_spectrum");
 }
 
 /// Corner frequency (Hz): 1/f noise equals the thermal noise, which is the smallest density.
@@ -54,7 +54,7 @@ Result<StudyResult> compute(const StudyOptions& options) {
     }
     const auto filter = InverterSweep::run_with_directives(".noise v(load) vin dec 10 1m 100k");
     if (!filter) return filter.error();
-    const double total = filter->found.number("onoise_total");
+    const double total = filter->netlist_result.number("onoise_total");
     out.claim("INVC as a load of 0.8 pF (filter B): noise from 1 mHz to 100 kHz", total, "V");
     out.claim("half the supply over this noise", 20 * std::log10(largest_signal / total), "dB")
         .allow_min(40, "E.4: adequate for its application; 40 dB is our choice");

@@ -1,6 +1,6 @@
 // Versions (implementations) of one afferent type: how they are grouped and compared.
 
-#include "study/version_group.hpp"
+#include "study/implementation_group.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -20,35 +20,35 @@ AfferentPlan make_named(const std::string& name) {
     return plan;
 }
 
-TEST(VersionGroup, IsTheAfferentTypeAtTheBeginningOfAName) {
+TEST(ImplementationGroup, IsTheAfferentTypeAtTheBeginningOfAName) {
     for (const auto* name :
          {"sa1", "SA1", "SA-I", "sa1-kim", "sa1-circuit", "sa1-macro", "circuits/sa1.cir", "./sa1_biased.cir", "/x.y/SA1-b.cir"})
-        EXPECT_EQ(receptor_of(make_named(name)), "sa1") << name;
-    EXPECT_EQ(receptor_of(make_named("RA")), "fa1") << "an alias of fa1";
-    EXPECT_EQ(receptor_of(make_named("fa1-lee")), "fa1");
+        EXPECT_EQ(afferent_type_of(make_named(name)), "sa1") << name;
+    EXPECT_EQ(afferent_type_of(make_named("RA")), "fa1") << "an alias of fa1";
+    EXPECT_EQ(afferent_type_of(make_named("fa1-lee")), "fa1");
     for (const auto* name : {"sa1b+izhikevich", "fsr+f2i+sa1", "own-thing"})
-        EXPECT_EQ(receptor_of(make_named(name)), name) << "not the name of an afferent type";
-    EXPECT_EQ(receptor_of(make_named("circuits/spiker.cir")), "spiker");
-    EXPECT_EQ(receptor_of(make_named("my_sa1.cir")), "my_sa1") << "does not begin with the name of an afferent";
+        EXPECT_EQ(afferent_type_of(make_named(name)), name) << "not the name of an afferent type";
+    EXPECT_EQ(afferent_type_of(make_named("circuits/spiker.cir")), "spiker");
+    EXPECT_EQ(afferent_type_of(make_named("my_sa1.cir")), "my_sa1") << "does not begin with the name of an afferent";
 }
 
-TEST(VersionGroup, TheAfferentOfThisNameIsFirstThenModelsThenNetlists) {
+TEST(ImplementationGroup, TheAfferentOfThisNameIsFirstThenModelsThenNetlists) {
     const auto chip = value_or_throw(plan_any_afferent(test::source_root() + "/circuits/sa1.cir", {}));
     const AfferentPlan plans[] = {chip, make_named("sa1-kim"), make_named("fa1"), make_named("sa1")};
-    const auto all = version_groups(plans);
+    const auto all = implementation_groups(plans);
     ASSERT_EQ(all.size(), 2u);
-    EXPECT_EQ(all[0].receptor, "sa1");
+    EXPECT_EQ(all[0].afferent_type, "sa1");
     EXPECT_EQ(all[0].members, (std::vector<std::size_t>{3, 1, 0}));
     EXPECT_EQ(all[1].members, std::vector<std::size_t>{2});
 }
 
-struct VersionRun {
+struct ImplementationRun {
     RunSummary summary;
     std::string document;
 };
 
-VersionRun run_versions(const std::vector<std::string>& stimuli, const std::vector<std::string>& names, std::size_t block,
-                         std::uint32_t copies = 0) {
+ImplementationRun run_implementations(const std::vector<std::string>& stimuli, const std::vector<std::string>& names, std::size_t block,
+                                      std::uint32_t copies = 0) {
     std::vector<std::unique_ptr<ForceSource>> sources;
     std::vector<AfferentPlan> plans;
     for (const auto& s : stimuli) sources.push_back(value_or_throw(make_stimulus(s, {}, 2e3, 9)));
@@ -56,7 +56,7 @@ VersionRun run_versions(const std::vector<std::string>& stimuli, const std::vect
     std::vector<AfferentPlan> all_plans;  // with copies
     for (const auto& p : plans)
         for (auto& copy : copies ? value_or_throw(make_copies(p, copies, {}, 1)) : std::vector{p}) all_plans.push_back(std::move(copy));
-    VersionRun ran;
+    ImplementationRun ran;
     ResponseSink* sinks[] = {&ran.summary};
     RespondOptions options;
     options.block = block;
@@ -65,9 +65,9 @@ VersionRun run_versions(const std::vector<std::string>& stimuli, const std::vect
     return ran;
 }
 
-TEST(VersionComparisons, HaveCountsByPhaseAndTheDistancesOfCompare) {
-    const auto ran = run_versions({"press"}, {"sa1-kim", "fa1", "sa1"}, 333);
-    ASSERT_EQ(ran.summary.comparisons().rows().size(), 1u) << "fa1 has one version";
+TEST(ImplementationComparisons, HaveCountsByPhaseAndTheDistancesOfCompare) {
+    const auto ran = run_implementations({"press"}, {"sa1-kim", "fa1", "sa1"}, 333);
+    ASSERT_EQ(ran.summary.comparisons().rows().size(), 1u) << "fa1 has one implementation";
     const auto& row = ran.summary.comparisons().rows()[0];
     EXPECT_EQ(row.reference + " " + row.afferent + " " + row.channel, "sa1 sa1-kim press");
     const auto model = test::train("sa1", "press", {.rate = 2e3}), kim = test::train("sa1-kim", "press", {.rate = 2e3});
@@ -95,21 +95,21 @@ TEST(VersionComparisons, HaveCountsByPhaseAndTheDistancesOfCompare) {
     EXPECT_TRUE(std::isnan(row.phases[0].excess())) << "the reference has no spikes in this phase";
 }
 
-TEST(VersionComparisons, AShiftIsPositiveIfTheVersionIsLater) {
-    const auto row = run_versions({"press"}, {"sa1", "SA1"}, 4096).summary.comparisons().rows().at(0);
+TEST(ImplementationComparisons, AShiftIsPositiveIfTheVersionIsLater) {
+    const auto row = run_implementations({"press"}, {"sa1", "SA1"}, 4096).summary.comparisons().rows().at(0);
     EXPECT_EQ(row.matched, row.total.spikes);
     EXPECT_EQ(row.median_shift, 0);
     EXPECT_EQ(row.victor_purpura + row.van_rossum, 0);
-    const auto kim = run_versions({"press"}, {"sa1", "sa1-kim"}, 4096).summary.comparisons().rows().at(0);
+    const auto kim = run_implementations({"press"}, {"sa1", "sa1-kim"}, 4096).summary.comparisons().rows().at(0);
     const auto model = test::train("sa1", "press", {.rate = 2e3}), kim_train = test::train("sa1-kim", "press", {.rate = 2e3});
     ASSERT_LT(kim_train[0], model[0]) << "otherwise the next expectation proves nothing";
     EXPECT_LT(kim.median_shift, 0);
 }
 
-TEST(VersionComparisons, DoNotDependOnTheBlockAndAreSeparateForEachInput) {
+TEST(ImplementationComparisons, DoNotDependOnTheBlockAndAreSeparateForEachInput) {
     const std::vector<std::string> stimuli = {"press", "noise"}, names = {"sa1", "sa1-kim", "fa1-lee", "fa1"};
-    const auto undivided = run_versions(stimuli, names, 1 << 20);
-    EXPECT_EQ(undivided.document, run_versions(stimuli, names, 77).document);
+    const auto undivided = run_implementations(stimuli, names, 1 << 20);
+    EXPECT_EQ(undivided.document, run_implementations(stimuli, names, 77).document);
     const auto pairs = nlohmann::json::parse(undivided.document)["comparisons"]["pairs"];
     ASSERT_EQ(pairs.size(), 4u);
     EXPECT_EQ(pairs[1]["afferent"], "fa1-lee");
@@ -120,17 +120,17 @@ TEST(VersionComparisons, DoNotDependOnTheBlockAndAreSeparateForEachInput) {
     EXPECT_EQ(pairs[0]["phases"][0]["excess"], nullptr);
 }
 
-TEST(VersionComparisons, LeaveOutCopiesAndSingleVersions) {
-    EXPECT_TRUE(run_versions({"press"}, {"sa1", "fa1"}, 4096).summary.comparisons().rows().empty());
-    const auto copies = run_versions({"press"}, {"sa1", "sa1-kim"}, 4096, 3);
+TEST(ImplementationComparisons, LeaveOutCopiesAndSingleVersions) {
+    EXPECT_TRUE(run_implementations({"press"}, {"sa1", "fa1"}, 4096).summary.comparisons().rows().empty());
+    const auto copies = run_implementations({"press"}, {"sa1", "sa1-kim"}, 4096, 3);
     EXPECT_TRUE(copies.summary.comparisons().rows().empty());
     EXPECT_FALSE(nlohmann::json::parse(copies.document).contains("comparisons"));
 }
 
 /// The chips of the thesis under its press: counts within a quarter of the models'.
-TEST(VersionComparisons, ChipsFireAsTheirModelsDo) {
-    const auto ran =
-        run_versions({"press"}, {"sa1", "fa1", test::source_root() + "/circuits/sa1.cir", test::source_root() + "/circuits/fa1.cir"}, 4096);
+TEST(ImplementationComparisons, ChipsFireAsTheirModelsDo) {
+    const auto ran = run_implementations(
+        {"press"}, {"sa1", "fa1", test::source_root() + "/circuits/sa1.cir", test::source_root() + "/circuits/fa1.cir"}, 4096);
     ASSERT_EQ(ran.summary.comparisons().rows().size(), 2u);
     for (const auto& row : ran.summary.comparisons().rows()) {
         EXPECT_LE(std::abs(row.total.excess()), 0.25) << row.afferent;

@@ -1,4 +1,4 @@
-#include "study/version_group.hpp"
+#include "study/implementation_group.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -21,12 +21,14 @@ const NamedAfferent* find_afferent(const std::string& name) {
     return nullptr;
 }
 
-/// The afferent with the lowest rank is the reference: 0 the receptor itself, 1 another model, 2 a netlist.
-int reference_rank(const AfferentPlan& plan, const std::string& receptor) { return plan.factory ? 2 : plan.name == receptor ? 0 : 1; }
+/// The afferent with the lowest rank is the reference: 0 the afferent that has the name of the type, 1 another model, 2 a netlist.
+int reference_rank(const AfferentPlan& plan, const std::string& afferent_type) {
+    return plan.factory ? 2 : plan.name == afferent_type ? 0 : 1;
+}
 
 }  // namespace
 
-std::string receptor_of(const AfferentPlan& plan) {
+std::string afferent_type_of(const AfferentPlan& plan) {
     const auto stem = names_netlist(plan.name) ? std::filesystem::path(plan.name).stem().string() : plan.name;
     const auto name = in_lower_case(stem);
     if (const auto* a = find_afferent(name); a && a->name.find('-') == a->name.npos) return std::string(a->name);
@@ -34,17 +36,17 @@ std::string receptor_of(const AfferentPlan& plan) {
     return prefix_match ? std::string(prefix_match->name) : stem;
 }
 
-std::vector<VersionGroup> version_groups(std::span<const AfferentPlan> plans) {
-    std::vector<VersionGroup> all;
+std::vector<ImplementationGroup> implementation_groups(std::span<const AfferentPlan> plans) {
+    std::vector<ImplementationGroup> all;
     for (std::size_t k = 0; k < plans.size(); ++k) {
-        const auto receptor = receptor_of(plans[k]);
-        auto at = std::find_if(all.begin(), all.end(), [&](const VersionGroup& v) { return v.receptor == receptor; });
-        if (at == all.end()) at = all.insert(at, {receptor, {}});
+        const auto afferent_type = afferent_type_of(plans[k]);
+        auto at = std::find_if(all.begin(), all.end(), [&](const ImplementationGroup& v) { return v.afferent_type == afferent_type; });
+        if (at == all.end()) at = all.insert(at, {afferent_type, {}});
         at->members.push_back(k);
     }
     for (auto& v : all)
         std::sort(v.members.begin(), v.members.end(), [&](std::size_t a, std::size_t b) {
-            return std::pair(reference_rank(plans[a], v.receptor), a) < std::pair(reference_rank(plans[b], v.receptor), b);
+            return std::pair(reference_rank(plans[a], v.afferent_type), a) < std::pair(reference_rank(plans[b], v.afferent_type), b);
         });
     return all;
 }

@@ -1,4 +1,4 @@
-#include "study/version_comparison.hpp"
+#include "study/implementation_comparison.hpp"
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
@@ -11,12 +11,12 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json count_document(const VersionComparison::PhaseCount& c) {
+Json count_document(const ImplementationComparison::PhaseCount& c) {
     return {{"spikes", c.spikes}, {"reference_spikes", c.reference_spikes}, {"excess", json_number(c.excess())}};
 }
 
-Json row_document(const VersionComparison& c) {
-    Json out = {{"receptor", c.receptor}, {"afferent", c.afferent}, {"reference", c.reference}, {"channel", c.channel}};
+Json row_document(const ImplementationComparison& c) {
+    Json out = {{"afferent_type", c.afferent_type}, {"afferent", c.afferent}, {"reference", c.reference}, {"channel", c.channel}};
     out.update(count_document(c.total));
     out["phases"] = Json::array();
     for (const auto& p : c.phases) {
@@ -43,9 +43,9 @@ double median_shift_of(std::vector<double> values) {
     return n == 0 ? NAN : n % 2 == 1 ? values[n / 2] : (values[n / 2 - 1] + values[n / 2]) / 2;
 }
 
-void measure_distance(std::span<const double> reference, std::span<const double> train, VersionComparison& c) {
-    c.van_rossum = std::sqrt(van_rossum_squared(reference, train, VersionComparisons::tau));
-    const auto aligned = align_trains(reference, train, VersionComparisons::cost);
+void measure_distance(std::span<const double> reference, std::span<const double> train, ImplementationComparison& c) {
+    c.van_rossum = std::sqrt(van_rossum_squared(reference, train, ImplementationComparisons::tau));
+    const auto aligned = align_trains(reference, train, ImplementationComparisons::cost);
     if (!aligned) return;
     std::vector<double> shifts;
     double sum = 0;
@@ -58,15 +58,15 @@ void measure_distance(std::span<const double> reference, std::span<const double>
 
 }  // namespace
 
-double VersionComparison::PhaseCount::excess() const {
+double ImplementationComparison::PhaseCount::excess() const {
     return reference_spikes == 0 ? NAN : static_cast<double>(spikes) / static_cast<double>(reference_spikes) - 1;
 }
 
-Result<void> VersionComparisons::begin(const Input& input) {
+Result<void> ImplementationComparisons::begin(const Input& input) {
     is_kept_.assign(input.plans.size(), false);
     groups_.clear();
     const bool copies = std::any_of(input.plans.begin(), input.plans.end(), [](const auto& a) { return a.copy_number > 0; });
-    for (auto& v : copies ? std::vector<VersionGroup>{} : version_groups(input.plans)) {
+    for (auto& v : copies ? std::vector<ImplementationGroup>{} : implementation_groups(input.plans)) {
         if (v.members.size() < 2) continue;
         for (const auto m : v.members) is_kept_[m] = true;
         groups_.push_back(std::move(v));
@@ -77,37 +77,37 @@ Result<void> VersionComparisons::begin(const Input& input) {
     return {};
 }
 
-Result<void> VersionComparisons::block(const Input& input, const RunBlock& block) {
+Result<void> ImplementationComparisons::block(const Input& input, const RunBlock& block) {
     for (const auto& s : block.spikes)
         if (const auto afferent_index = s.afferent_index - input.first_afferent; is_kept_[afferent_index % is_kept_.size()])
             trains_[afferent_index].push_back(since_start_.time(s.step, s.offset));
     return {};
 }
 
-Result<void> VersionComparisons::end(const Input& input, std::int64_t) {
+Result<void> ImplementationComparisons::end(const Input& input, std::int64_t) {
     for (std::size_t c = 0; c < input.source.channels().size(); ++c)
         for (const auto& v : groups_)
-            for (std::size_t m = 1; m < v.members.size(); ++m) rows_.push_back(compare_version(input, c, v, m));
+            for (std::size_t m = 1; m < v.members.size(); ++m) rows_.push_back(compare_implementation(input, c, v, m));
     trains_.clear();
     return {};
 }
 
-VersionComparison VersionComparisons::compare_version(const Input& input, std::size_t channel, const VersionGroup& v,
-                                                      std::size_t member) const {
+ImplementationComparison ImplementationComparisons::compare_implementation(const Input& input, std::size_t channel,
+                                                                           const ImplementationGroup& v, std::size_t member) const {
     const std::size_t first = channel * input.plans.size();
     const auto &reference = trains_[first + v.members[0]], &train = trains_[first + v.members[member]];
-    VersionComparison out{v.receptor,
-                          input.plans[v.members[member]].name,
-                          input.plans[v.members[0]].name,
-                          input.channel_name(channel),
-                          {"", train.size(), reference.size()}};
+    ImplementationComparison out{v.afferent_type,
+                                 input.plans[v.members[member]].name,
+                                 input.plans[v.members[0]].name,
+                                 input.channel_name(channel),
+                                 {"", train.size(), reference.size()}};
     for (const auto& p : input.source.phases())
         out.phases.push_back({p.name, count_spikes(train, p.from, p.to), count_spikes(reference, p.from, p.to)});
     measure_distance(reference, train, out);
     return out;
 }
 
-Json VersionComparisons::document() const {
+Json ImplementationComparisons::document() const {
     Json pairs = Json::array();
     for (const auto& r : rows_) pairs.push_back(row_document(r));
     return {{"cost_Hz", cost}, {"tau_s", tau}, {"pairs", pairs}};

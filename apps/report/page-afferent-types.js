@@ -1,7 +1,7 @@
 "use strict";
-// The figures of a receptor. One implementation: its currents, membranes and other quantities. Several: each quantity overlaid.
+// The figures of an afferent type. One implementation: its currents, membranes and other quantities. Several: each quantity overlaid.
 
-function receptorPanels({name, members}) {
+function afferentTypePanels({name, members}) {
     const traced = members.map((member) => ({...member, traces: shown.traces.filter((trace) => trace.afferent === member.afferent.name)}));
     if (!traced.some(({traces}) => traces.length)) return [];
     const about = ({afferent}) => [report.data.copies ? "copy 1" : "", afferent.composition, afferent.description].filter(Boolean).join(": ");
