@@ -148,12 +148,12 @@ std::string text_of(const ListEntry& e) {
     std::string text = fmt::format("  {}{}: {}\n", e.name, e.detail.empty() ? "" : fmt::format(" ({})", e.detail), e.description);
     if (!e.source.empty()) text += fmt::format("    source: {}\n", e.source);
     if (!e.other_names.empty()) text += fmt::format("    also called: {}\n", fmt::join(e.other_names, ", "));
-    std::vector<std::vector<std::string>> rows = {{}};
+    std::vector<std::vector<std::string>> rows;
     for (const auto& p : e.parameters)
         rows.push_back({"    " + std::string(p.info.name), format_quantity(p.info.default_value, p.info.unit), range(p.info),
                         std::string(p.info.description) + (p.info.source.empty() ? "" : fmt::format(" ({})", p.info.source))});
     for (const auto& t : e.notes) rows.push_back({"    " + t.subject, t.text, t.source.empty() ? "" : "(" + t.source + ")"});
-    return text + (rows.size() > 1 ? format_table({rows.begin() + 1, rows.end()}) : "");
+    return text + format_table(rows, false);
 }
 
 Json document_of(const ListEntry& e) {

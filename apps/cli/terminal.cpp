@@ -174,11 +174,11 @@ std::string time_text(double seconds) {
                       : fmt::format("{}:{:02} h", s / 3600, s / 60 % 60);
 }
 
-std::string format_table(const std::vector<std::vector<std::string>>& raw_rows) {
+std::string format_table(const std::vector<std::vector<std::string>>& raw_rows, bool has_heading) {
     auto rows = raw_rows;
     for (auto& row : rows)
         for (auto& cell : row) cell = printable(cell);
-    const auto headers = wrap_header(rows);
+    const auto headers = has_heading ? wrap_header(rows) : 0;
     std::vector<std::size_t> widths;
     std::vector<bool> numeric;
     for (std::size_t r = 0; r < rows.size(); ++r)

@@ -30,8 +30,9 @@ bool interrupted();
 /// "12 s", "3:05 min", "2:10 h".
 std::string time_text(double seconds);
 
-/// Formats rows as a table: columns padded to their widest cell, numbers aligned right, text left.
-std::string format_table(const std::vector<std::vector<std::string>>& rows);
+/// Formats rows as a table: columns padded to their widest cell, numbers aligned right, text left. If `has_heading`, the first row is the
+/// heading, whose long cells are wrapped.
+std::string format_table(const std::vector<std::vector<std::string>>& rows, bool has_heading = true);
 
 /// A progress bar with the remaining time on standard error. It appears only on a terminal and after one second.
 class Progress {
