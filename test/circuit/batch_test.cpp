@@ -25,7 +25,8 @@ std::shared_ptr<const CircuitAfferentFactory> design_of(const std::string& file,
     return *design;
 }
 
-std::vector<double> pushed(std::size_t samples) {
+/// 0 N, then 1.5 N after a tenth of the samples.
+std::vector<double> force_step(std::size_t samples) {
     std::vector<double> force(samples, 0.0);
     for (std::size_t k = samples / 10; k < samples; ++k) force[k] = 1.5;
     return force;
@@ -71,7 +72,7 @@ void expect_near(const ChipResponse& one, const ChipResponse& other, double allo
 
 TEST(Batch, ResponsesDoNotDependOnOtherChipsOrTheInstructionSet) {
     const auto spiker = design_of(test::source_root() + "/circuits/spiker.cir");
-    const auto force = pushed(600);
+    const auto force = force_step(600);
     auto chips = sampled_chips(spiker, force, 11);
     const auto before = std::getenv("CORPUSCLE_ISA");
     const std::string previous = before ? before : "";
@@ -88,7 +89,7 @@ TEST(Batch, ResponsesDoNotDependOnOtherChipsOrTheInstructionSet) {
 
 TEST(Batch, ABatchedChipRespondsLikeAScalarOne) {
     const auto spiker = design_of(test::source_root() + "/circuits/spiker.cir");
-    const auto force = pushed(600);
+    const auto force = force_step(600);
     const BatchOptions options{.probe_every = 50};
     const auto chips = sampled_chips(spiker, force, 6);
     for (const auto& [number, response] : responses_of(chips, spiker, options)) {
@@ -100,7 +101,8 @@ TEST(Batch, ABatchedChipRespondsLikeAScalarOne) {
             ASSERT_EQ(response.probes[p].size(), scalar.probes[p].size());
             for (std::size_t k = 0; k < 2; ++k) EXPECT_NEAR(response.probes[p][k], scalar.probes[p][k], 1e-4);  // before the first spike
         }
-        EXPECT_NEAR(response.energy_use.seconds, scalar.energy_use.seconds, 6e-3);  // each run ends with its last step
+        // the runs end at different times, each at the end of its last step
+        EXPECT_NEAR(response.energy_use.seconds, scalar.energy_use.seconds, 6e-3);
         EXPECT_NEAR(response.energy_use.supplies / response.energy_use.seconds, scalar.energy_use.supplies / scalar.energy_use.seconds,
                     0.02 * scalar.energy_use.supplies / scalar.energy_use.seconds);
     }
@@ -110,7 +112,7 @@ TEST(Batch, ChipsMayDifferInTheirParameters) {
     const auto nominal = design_of(test::source_root() + "/circuits/spiker.cir");
     const auto large = design_of(test::source_root() + "/circuits/spiker.cir", {{"cu", "3.6p", "cu"}});
     const auto warm = design_of(test::source_root() + "/circuits/spiker.cir", {{"temp", "60", "temp"}});
-    const auto force = pushed(500), soft = std::vector<double>(700, 0.7);
+    const auto force = force_step(500), soft = std::vector<double>(700, 0.7);
     const std::vector<Chip> chips = {
         {0, nominal, {}, force, batch_T}, {1, large, {}, force, batch_T}, {2, warm, {}, force, batch_T}, {3, large, {}, soft, batch_T}};
     const auto responses = responses_of(chips, nominal);
@@ -125,7 +127,7 @@ TEST(Batch, ChipsMayDifferInTheirParameters) {
 TEST(Batch, AChipThatCannotBeBatchedRunsScalar) {
     const auto nominal = design_of(test::source_root() + "/circuits/spiker.cir");
     const auto other = design_of(test::source_root() + "/circuits/sa1_macro.cir");
-    const auto force = pushed(300);
+    const auto force = force_step(300);
     const std::vector<Chip> chips = {{0, nominal, {}, force, batch_T}, {1, other, {}, force, batch_T}, {2, nominal, {}, force, batch_T}};
     const auto responses = responses_of(chips, nominal);
     EXPECT_FALSE(responses.at(0).is_scalar);
@@ -136,10 +138,10 @@ TEST(Batch, AChipThatCannotBeBatchedRunsScalar) {
 
 TEST(Batch, AChipStopsAtItsIterationLimit) {
     const auto spiker = design_of(test::source_root() + "/circuits/spiker.cir");
-    const auto force = pushed(600);
+    const auto force = force_step(600);
     const auto chips = sampled_chips(spiker, force, 3);
-    const auto complete = responses_of(chips, spiker), cut = responses_of(chips, spiker, {.lanes = 4, .max_iterations = 600});
-    for (const auto& [number, response] : cut) {
+    const auto complete = responses_of(chips, spiker), limited = responses_of(chips, spiker, {.lanes = 4, .max_iterations = 600});
+    for (const auto& [number, response] : limited) {
         EXPECT_GT(complete.at(number).stats.iterations, 700);
         EXPECT_TRUE(response.hit_iteration_limit);
         EXPECT_GT(response.stats.iterations, 600);
@@ -152,7 +154,7 @@ TEST(Batch, AChipStopsAtItsIterationLimit) {
 
 TEST(Batch, StopsOnRequest) {
     const auto spiker = design_of(test::source_root() + "/circuits/spiker.cir");
-    const auto force = pushed(600);
+    const auto force = force_step(600);
     int count = 0;
     const auto done = run_chips(
         spiker, [&]() -> std::optional<Chip> { return Chip{0, spiker, {}, force, batch_T}; }, [&](const Chip&, ChipResponse&&) { ++count; },
@@ -162,7 +164,7 @@ TEST(Batch, StopsOnRequest) {
     EXPECT_EQ(count, 0);
 }
 
-/// The chips of the thesis under the first 0.4 s of a press: the same spikes in batched and in scalar runs.
+/// The chips of the thesis under the first 0.4 s of a press.
 TEST(Chips, RespondTheSameBatchedAndScalar) {
     for (const char* name : {"sa1-circuit", "fa1-circuit"}) {
         const auto design = design_of(name);

@@ -14,15 +14,15 @@ namespace {
 
 constexpr double one_turn = 2 * std::numbers::pi;
 
-/// Largest difference between a curve, linear between its points, and its exact value.
+/// Largest difference between a curve, interpolated linearly between its points, and its exact value.
 template <class Exact>
 double max_deviation(const NetlistRun& run, const std::string& curve, const Exact& exact, double from = 0) {
     const auto t = run.curve("time"), v = run.curve(curve);
     double worst = 0;
     for (std::size_t k = 1; k < t.size(); ++k)
-        for (const double part : {0.0, 0.5, 1.0}) {
-            const double at = t[k - 1] + part * (t[k] - t[k - 1]);
-            if (at >= from) worst = std::max(worst, std::abs(v[k - 1] + part * (v[k] - v[k - 1]) - exact(at)));
+        for (const double fraction : {0.0, 0.5, 1.0}) {
+            const double at = t[k - 1] + fraction * (t[k] - t[k - 1]);
+            if (at >= from) worst = std::max(worst, std::abs(v[k - 1] + fraction * (v[k] - v[k - 1]) - exact(at)));
         }
     return worst;
 }
@@ -55,7 +55,7 @@ TEST(BetweenSteps, ASineOverAResistorIsASine) {
     EXPECT_LT(max_deviation(run, "v(out)", [&](double t) { return sine(t) / 2; }), 1e-4);
 }
 
-TEST(BetweenSteps, ASourceIsAsItIsWritten) {
+TEST(BetweenSteps, ASourceFollowsItsWaveform) {
     const auto run = run_netlist(
         "cap\nv1 in 0 sin(0.2 1 1k)\nv2 top in 2\nc1 top 0 1n\nr1 top 0 1meg\n.tran 100u 3m\n.meas tran top max v(in)\n"
         ".meas tran sum max v(top)\n.meas tran low min v(in)\n");
@@ -97,14 +97,14 @@ TEST(AfterABreakpoint, AJumpIsNotReportedAsARamp) {
         "corner\nv1 a 0 pwl(0 0 1m 0 2m 1 3m 1)\nc1 a 0 1u\ni1 0 b pwl(0 0 1m 0 2m 1m 3m 1m)\nl1 b c 1m\nr1 c 0 1k\n"
         ".tran 10u 3m\n");
     const auto t = run.curve("time"), i = run.curve("i(v1)"), b = run.curve("v(b)"), c = run.curve("v(c)");
-    double early = 1;
+    double first_delay = 1;  // s
     for (std::size_t k = 0; k < t.size(); ++k) {
         const bool inside = t[k] > 1e-3 && t[k] <= 2e-3;
         EXPECT_NEAR(i[k], inside ? -1e-3 : 0, 1e-7) << t[k];
         EXPECT_NEAR(b[k] - c[k], inside ? 1e-3 : 0, 1e-6) << t[k];
-        if (t[k] > 1e-3) early = std::min(early, t[k] - 1e-3);
+        if (t[k] > 1e-3) first_delay = std::min(first_delay, t[k] - 1e-3);
     }
-    EXPECT_LT(early, 1e-9);
+    EXPECT_LT(first_delay, 1e-9);
     const auto ramps = run_netlist(
         "exp\nv1 a 0 exp(0 1 1m 0.1m 2m 0.2m)\nc1 a 0 1n\n.tran 10u 4m\n.meas tran low min i(v1)\n"
         ".meas tran high max i(v1)\n");
@@ -112,8 +112,8 @@ TEST(AfterABreakpoint, AJumpIsNotReportedAsARamp) {
     EXPECT_NEAR(ramps.number("high"), 1e-9 / 0.2e-3 * (1 - std::exp(-10)), 1e-9);
 }
 
-/// A comparator has no charge and sets no breakpoint; its edge is where its input crosses the threshold.
-TEST(AfterABreakpoint, ASourceHasItsLastDigits) {
+/// 1 ps after a breakpoint a source has changed by a few nV; its value must not lose this change to rounding.
+TEST(AfterABreakpoint, ASourceIsAccurateToItsLastDigits) {
     const double since = 1e-12, slope = 4e3;  // s, V/s: 4 nV of 4 V
     const SourceWaveform charges({Waveform::Shape::exponential, 0, false, 0, 0, {0, 4, 2e-4, 1e-3, 1, 1}}, 1e-6, 3e-3);
     const double late = 2e-4 + since;
@@ -124,8 +124,8 @@ TEST(AfterABreakpoint, ASourceHasItsLastDigits) {
     EXPECT_NEAR(returns.at(then), slope * (then - corner), 1e-9 * slope * since);
 }
 
-/// A charge at the voltage limited by Newton would be too large and cause a current of 15 mA for one step.
-TEST(AfterABreakpoint, JunctionsBeginWithTheChargeOfTheirVoltage) {
+/// If the charge were computed at the limited voltage of a Newton iteration, it would cause a current of 15 mA for one step.
+TEST(AfterABreakpoint, JunctionsStartWithTheChargeOfTheirVoltage) {
     const auto circuit = TransientRunner::from_text(
         "two in series\nv1 a 0 exp(-1.98516 1.98516 0.3m 0.44m)\nd1 b a d\nd2 0 b d\nr1 a b 33meg\nc1 a 0 1n\n"
         ".model d d(is=1.68381e-13 n=1.30859 cjo=5.99394e-14)\n.tran 1u 1m\n");
@@ -139,23 +139,24 @@ TEST(AfterABreakpoint, JunctionsBeginWithTheChargeOfTheirVoltage) {
     for (std::size_t k = 1; run.t[k] < 1e-4; ++k) EXPECT_NEAR(run.x[k][i], run.x[0][i], 1e-6) << run.t[k];
 }
 
-/// Current of a steep edge through a floating capacitor, at tolerances near the rounding error.
-TEST(AfterABreakpoint, RoundingRejectsNoStep) {
+/// A steep edge passes through a floating capacitor, at tolerances near the rounding error.
+TEST(AfterABreakpoint, RoundingErrorsRejectNoStep) {
     const auto circuit = TransientRunner::from_text(
         "floating\nv1 a 0 pulse(-1.785 1.785 0.27m 1.6u 0.9u 0.28m 1.36m)\nr1 a b 43.9k\nr2 b 0 64.4k\nr3 a c 4.5meg\nd1 a c d\n"
         "c1 c b 1.24n\nd2 c e d\nr4 e 0 4.67k\n.model d d(is=1.46257e-12 n=1.20338 cjo=0)\n.tran 1u 3m\n");
     TransientPlan plan;
     plan.all_reported = true;
     plan.reltol = 1e-8, plan.vntol = 1e-9, plan.abstol = 1e-19;
-    for (const double longest : {60e-6, 30e-6, 15e-6}) {
-        plan.max_step = longest;
+    for (const double max_step : {60e-6, 30e-6, 15e-6}) {
+        plan.max_step = max_step;
         const auto run = circuit.run(plan);
-        EXPECT_EQ(run.error, "") << longest;
-        EXPECT_LT(run.stats.steps, 20'000) << longest;
+        EXPECT_EQ(run.error, "") << max_step;
+        EXPECT_LT(run.stats.steps, 20'000) << max_step;
     }
 }
 
-TEST(BetweenSteps, AnExpressionsJumpIsWhereItsInputCrosses) {
+/// A comparator has no charge and sets no breakpoint; its edge is at the time at which its input crosses the threshold.
+TEST(BetweenSteps, AnExpressionJumpsWhereItsInputCrossesTheThreshold) {
     const auto run = run_netlist(
         "comparator\nv1 in 0 sin(0 1 1k)\nb1 out 0 v=u(v(in)-0.3)\nr1 out 0 1k\nc1 far 0 1n\nr2 out far 10k\n.tran 1u 3m\n"
         ".meas tran first when v(out)=0.5 rise=1\n.meas tran last when v(out)=0.5 fall=3\n.meas tran high max v(out)\n"
@@ -183,8 +184,8 @@ TEST(AcceptedPoints, SatisfyTheEquationsWhereAnExpressionJumps) {
     EXPECT_EQ(jumps, 10);
 }
 
-/// The node has no charge. The time of the crossing within a step is as accurate as the steps are.
-TEST(BetweenSteps, ASpikeOfANodeWithoutChargeIsWhereItIs) {
+/// The output node has no charge. The time of its crossing within a step is as accurate as the steps.
+TEST(BetweenSteps, ASpikeOfANodeWithoutChargeIsLocatedWithinAStep) {
     const auto run = run_netlist(slow_inverter + ".spike v(out) 0.35\n.tran 50u 5m 0 100u\n");
     const auto fine = run_netlist(slow_inverter + ".spike v(out) 0.35\n.options accuracy=fine\n.tran 1u 5m 0 1u\n");
     ASSERT_EQ(run.number("spikes"), 5);

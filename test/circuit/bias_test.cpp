@@ -10,8 +10,8 @@ namespace {
 /// Changes to circuits/bias.cir: section of the card, parameter values, temperature.
 struct BiasSettings {
     std::string section = "tt";
-    double I = 200e-9, supply = 0.7, celsius = 27;
-    std::string more = "";
+    double I = 200e-9, supply = 0.7, celsius = 27;  ///< A, V, C
+    std::string directives = "";                  ///< lines to add
     double shift = 0;  ///< shift of both thresholds, V
 };
 
@@ -24,27 +24,28 @@ std::string text_of(const BiasSettings& settings) {
         if (line.starts_with(".param")) line = fmt::format(".param supply={} i_bias={}", settings.supply, settings.I);
         text += line + "\n";
     }
-    return text + fmt::format(".temp {}\n{}\n.end\n", settings.celsius, settings.more);
+    return text + fmt::format(".temp {}\n{}\n.end\n", settings.celsius, settings.directives);
 }
 
 struct Bias {
-    double V_Q, I_part, V_BN, V_BP;  ///< I_part: I_Q divided by the set current
+    double V_Q, I_ratio, V_BN, V_BP;  ///< V, and I_Q divided by the set current
     explicit Bias(const BiasSettings& settings) {
         Values shifted;
         if (settings.shift != 0) shifted = {{"vtn_shift", settings.shift}, {"vtp_shift", settings.shift}};
-        const auto found = run_netlist(text_of(settings), shifted);
-        V_Q = found.number("v(q)"), I_part = found.number("i(vis)") / settings.I;
-        V_BN = found.number("v(bn)"), V_BP = found.number("v(bp)");
+        const auto run = run_netlist(text_of(settings), shifted);
+        V_Q = run.number("v(q)"), I_ratio = run.number("i(vis)") / settings.I;
+        V_BN = run.number("v(bn)"), V_BP = run.number("v(bp)");
     }
-    bool works() const { return std::abs(I_part - 1) <= 0.1; }  ///< own criterion; the thesis gives none
+    bool works() const { return std::abs(I_ratio - 1) <= 0.1; }  ///< this test's criterion; the thesis gives none
 };
 
-/// Means of V_Q and I_Q over 1000 chips, and their standard deviations in % of the mean; also the deviation of V_Q - V_REF.
+/// Means of V_Q (V) and I_Q (A) over 1000 chips, and their standard deviations in % of the mean. V_spread_to_ref is the standard deviation
+/// of V_Q - V_REF in % of the mean V_Q.
 struct BiasDistribution {
     double V = 0, I = 0, V_spread = 0, I_spread = 0, V_spread_to_ref = 0;
     BiasDistribution(const std::string& section, const std::string& options) {
         double VV = 0, II = 0, R = 0, RR = 0;
-        const auto all = run_variants(text_of({.section = section, .more = ".mc 1000 seed=17 " + options}));
+        const auto all = run_variants(text_of({.section = section, .directives = ".mc 1000 seed=17 " + options}));
         const double count = static_cast<double>(all.size());
         for (const auto& chip : all) {
             const double v = chip.number("v(q)"), i = chip.number("i(vis)"), r = chip.number("v(q,ref)");
@@ -73,8 +74,8 @@ TEST(Bias, VariesAsInTables17And18) {
     EXPECT_NEAR(all.I_spread, 2.59, 0.2);
 }
 
-/// Ranges of current (A), supply (V) and temperature (C) in which it works, with the other two at their defaults. If it works up to the
-/// edge of the search, the range ends there.
+/// Ranges of current (A), supply (V) and temperature (C) in which the generator works, with the other two at their defaults. A range ends
+/// at most at the limit of the search.
 struct Ranges {
     double I[2], supply[2], celsius[2];
 
@@ -110,37 +111,37 @@ struct Ranges {
 
 // Published: 100 nA to 2 uA, 550 to 800 mV, -55 to 95 C for typical parameters. Computed, with the criterion of 10 %: 30 to 610 nA, 610 to
 // 848 mV, and all temperatures from -100 to 150 C.
-TEST(Bias, WorksTypicallyOverThoseRanges) { Ranges("tt", 0).expect(29.4e-9, 611e-9, 0.610, 0.848, -100, 150); }
+TEST(Bias, WorksOverTheseRangesWithTypicalParameters) { Ranges("tt", 0).expect(29.4e-9, 611e-9, 0.610, 0.848, -100, 150); }
 
 // Published, over all corners: 100 to 700 nA and 650 to 750 mV. Computed: 95 to 245 nA (limited by ff below and by ss above) and 684 to
 // 761 mV. The temperature limit is 79 C for ff ("in special for the FF corner") and -34 C for ss.
-TEST(Bias, WorksOverTheCornersInASmallerOne) {
+TEST(Bias, WorksOverSmallerRangesInTheCorners) {
     Ranges("ss", 0).expect(8.34e-9, 245e-9, 0.684, 0.935, -34, 150);
     Ranges("ff", 0).expect(95e-9, 1.21e-6, 0.549, 0.761, -100, 79);
 }
 
 // The published ranges are consistent with each other, but not with the unbiased 17.5 nA of table 18. They would fit transistors that
-// carry three times the current, or that have thresholds lower by 35 mV, under body bias. These give 77 nA to 1.04 uA, 561 to 778 mV, up
-// to 95 C. Only the 2 uA are not reached: from 0.6 V on, the bulk junctions take the additional current
-// (their saturation current is a choice of the card).
-TEST(Bias, TransistorsOf35MillivoltsLessWorkInThePublishedRanges) { Ranges("tt", -35e-3).expect(77e-9, 1.04e-6, 0.561, 0.778, -100, 95); }
+// carry three times the current under body bias, or that have thresholds lower by 35 mV. Such thresholds give 77 nA to 1.04 uA, 561 to
+// 778 mV, up to 95 C. Only the 2 uA are not reached: from 0.6 V on, the bulk junctions take the additional current (their saturation
+// current is a choice of the card).
+TEST(Bias, With35MillivoltsLowerThresholdsFitsThePublishedRanges) { Ranges("tt", -35e-3).expect(77e-9, 1.04e-6, 0.561, 0.778, -100, 95); }
 
 TEST(Bias, KeepsItsValuesInTheMiddleOfThePublishedRanges) {
     for (const double celsius : {-55.0, -20.0, 27.0, 60.0, 95.0}) {
         const Bias at({.celsius = celsius});
         EXPECT_NEAR(at.V_Q, 0.350, 0.4e-3) << celsius;
-        EXPECT_NEAR(at.I_part, 1, 0.02) << celsius;
+        EXPECT_NEAR(at.I_ratio, 1, 0.02) << celsius;
     }
     for (const double supply : {0.65, 0.7, 0.75, 0.8}) {
         const Bias at({.supply = supply});
         EXPECT_NEAR(at.V_Q, supply / 2, 0.5e-3) << supply;
-        EXPECT_NEAR(at.I_part, 1, 0.025) << supply;
+        EXPECT_NEAR(at.I_ratio, 1, 0.025) << supply;
     }
     double V_BN = 0;
     for (const double I : {50e-9, 100e-9, 200e-9, 400e-9}) {
         const Bias at({.I = I});
         EXPECT_NEAR(at.V_Q, 0.350, 0.5e-3) << I;
-        EXPECT_NEAR(at.I_part, 1, 0.025) << I;
+        EXPECT_NEAR(at.I_ratio, 1, 0.025) << I;
         EXPECT_GT(at.V_BN, V_BN) << "fig. 53a: V_BN rises with the current";
         V_BN = at.V_BN;
     }

@@ -17,8 +17,8 @@ namespace {
 
 /// Response of one chip to one force.
 struct ChipRun {
-    std::vector<double> spikes;                        // s
-    std::map<std::string, std::vector<double>> shown;  // the curves of .save, one value per sample
+    std::vector<double> spikes;                                 // s
+    std::map<std::string, std::vector<double>> probes_by_name;  // one value per sample for each output of .save
     std::vector<RangeViolation> outside;
     std::optional<Error> error;
 
@@ -27,7 +27,7 @@ struct ChipRun {
     }
 };
 
-ChipRun run_chip(const std::string& file, const ForceSignal& touch, const Values& parameters = {}, double celsius = 27) {
+ChipRun run_chip(const std::string& file, const ForceSignal& stimulus_force, const Values& parameters = {}, double celsius = 27) {
     ChipRun out;
     const auto netlist = Netlist::read(corpuscle::test::source_root() + "/circuits/" + file);
     if (!netlist) return ADD_FAILURE() << netlist.error().text(), out;
@@ -36,9 +36,9 @@ ChipRun run_chip(const std::string& file, const ForceSignal& touch, const Values
     circuit->temperature = celsius;
     const auto design = CircuitAfferentFactory::create(std::make_shared<const Circuit>(std::move(*circuit)));
     if (!design) return ADD_FAILURE() << design.error().text(), out;
-    const auto afferent = (*design)->make(1 / touch.rate, false);
+    const auto afferent = (*design)->make(1 / stimulus_force.rate, false);
     const auto delay = static_cast<std::size_t>(afferent->delay());
-    auto force = touch.force;
+    auto force = stimulus_force.force;
     force.insert(force.end(), delay, force.back());
     std::vector<std::vector<double>> curves(afferent->probes().size(), std::vector<double>(force.size()));
     std::vector<double*> probes;
@@ -48,10 +48,10 @@ ChipRun run_chip(const std::string& file, const ForceSignal& touch, const Values
     auto state = afferent->start();
     ResponseBlock response{spikes, 0, probes, out.outside};
     if (auto ok = afferent->respond(force, state, response); !ok) out.error = ok.error();
-    for (const auto& s : spikes) out.spikes.push_back((static_cast<double>(s.step) - 1 + s.offset) / touch.rate);
+    for (const auto& s : spikes) out.spikes.push_back((static_cast<double>(s.step) - 1 + s.offset) / stimulus_force.rate);
     for (std::size_t p = 0; p < curves.size(); ++p) {
         curves[p].erase(curves[p].begin(), curves[p].begin() + static_cast<std::ptrdiff_t>(delay));
-        out.shown[std::string(afferent->probes()[p].name)] = std::move(curves[p]);
+        out.probes_by_name[std::string(afferent->probes()[p].name)] = std::move(curves[p]);
     }
     return out;
 }
@@ -64,7 +64,7 @@ std::vector<double> spikes_of(const NetlistRun& ran) {
 
 constexpr double rise_start = 0.25, hold_start = 0.375, fall_start = 0.625, fall_end = 0.75;  // s, of the press
 
-TEST(SaChip, FiresUnderThePressAsItsModelDoes) {
+TEST(SaChip, FiresUnderThePressLikeItsModel) {
     const auto press = stimulus("press");
     const auto model = respond("sa1", press);
     for (const char* file : {"sa1.cir", "sa1_biased.cir"}) {
@@ -73,7 +73,7 @@ TEST(SaChip, FiresUnderThePressAsItsModelDoes) {
         ASSERT_GT(chip.between(rise_start, hold_start), 2U);
         const auto first = std::find_if(chip.spikes.begin(), chip.spikes.end(), [](double t) { return t >= hold_start; });
         for (auto t = first + 1; t + 1 < chip.spikes.end() && t[1] < fall_start; ++t)
-            EXPECT_GT(t[1] - t[0], t[0] - t[-1]) << "slows on the plateau, at " << *t;
+            EXPECT_GT(t[1] - t[0], t[0] - t[-1]) << "intervals grow on the plateau, at " << *t;
         EXPECT_GT(chip.between(fall_start - 0.05, fall_start), 0U) << "fires until the end of the plateau";
         EXPECT_LE(chip.between(fall_start, 1), 1U) << "at most one spike after the plateau";
         EXPECT_NEAR(static_cast<double>(chip.spikes.size()), static_cast<double>(model.spikes.size()),
@@ -95,8 +95,9 @@ TEST(FaChip, FiresInBothRampsAndNotAtTheEndOfThePlateau) {
     }
 }
 
-/// As printed, I_A is too small to exceed the leak in the plateau (errata S10a), and FA-I's ramps are 8 to 3 (S15).
-TEST(Chips, AsPrintedFireDifferently) {
+/// With the printed sizes, I_A is too small to exceed the leak in the plateau (errata S10a), and FA-I's gains for rising and falling force
+/// are 8 and 3 (S15).
+TEST(Chips, WithThePrintedSizesFireDifferently) {
     const auto press = stimulus("press");
     const auto sa1 = run_chip("sa1.cir", press, {{"as_printed", 1}}), fa1 = run_chip("fa1.cir", press, {{"as_printed", 1}});
     EXPECT_GE(sa1.between(rise_start, hold_start), 3U);
@@ -120,10 +121,10 @@ TEST(Chips, MembranesStayBetweenTheTriggersThresholdsWhileTheyFire) {
     const auto trigger = run_netlist_file("schmitt.cir");
     const double V_L = trigger.number("v_l"), V_H = trigger.number("v_h");
     for (const char* file : {"sa1.cir", "fa1.cir"}) {
-        auto touch = stimulus("press", {}, 100e3);
-        const auto chip = run_chip(file, touch);
-        const auto& u = chip.shown.at("v(u)");
-        const auto sample = [&](double t) { return u.begin() + static_cast<std::ptrdiff_t>(std::lround(t * touch.rate)); };
+        auto stimulus_force = stimulus("press", {}, 100e3);
+        const auto chip = run_chip(file, stimulus_force);
+        const auto& u = chip.probes_by_name.at("v(u)");
+        const auto sample = [&](double t) { return u.begin() + static_cast<std::ptrdiff_t>(std::lround(t * stimulus_force.rate)); };
         const auto [lowest, highest] = std::minmax_element(sample(chip.spikes[0]), sample(chip.spikes[chip.between(0, fall_start) - 1]));
         EXPECT_GT(*lowest, V_L - 2e-3) << file;
         EXPECT_LT(*lowest, V_L + 2e-3) << file;
@@ -136,7 +137,7 @@ TEST(Chips, MembranesStayBetweenTheTriggersThresholdsWhileTheyFire) {
 TEST(Chips, ChargingMakesGlitchesInTheCurrent) {
     const auto press = stimulus("press", {}, 100e3);
     const auto chip = run_chip("sa1.cir", press);
-    const auto& current = chip.shown.at("i(vi)");
+    const auto& current = chip.probes_by_name.at("i(vi)");
     const auto largest = [&](double from, double to) {
         const auto at = [&](double t) { return current.begin() + static_cast<std::ptrdiff_t>(t * press.rate); };
         return *std::max_element(at(from), at(to));
@@ -147,7 +148,7 @@ TEST(Chips, ChargingMakesGlitchesInTheCurrent) {
     }
 }
 
-/// 0.05 to 40 N, fast and slow: the solver always converges, and a chip outside its range reports saturation.
+/// Forces of 0.05 to 40 N, fast and slow: the solver always converges, and saturation is reported.
 TEST(Chips, ConvergeUnderAnyForceAndReportSaturation) {
     for (const char* file : {"sa1.cir", "fa1.cir"}) {
         for (const double force : {0.05, 0.5, 10.0, 40.0}) {
@@ -163,13 +164,13 @@ TEST(Chips, ConvergeUnderAnyForceAndReportSaturation) {
     }
 }
 
-/// A force from the first sample on. Under 1 N and more SA-I keeps firing, so it has no stable operating point.
-TEST(Chips, StartUnderAnyForce) {
+/// The force acts from the first sample on. At 1 N and more SA-I fires continuously, so it has no stable operating point.
+TEST(Chips, StartUnderAnyInitialForce) {
     for (const char* file : {"sa1.cir", "fa1.cir"})
         for (const double celsius : {27.0, 85.0})
             for (const double force : {0.05, 0.3, 1.09, 2.5, 8.0, 40.0}) {
-                const auto begun = run_chip(file, {1e3, std::vector<double>(30, force)}, {}, celsius);
-                EXPECT_FALSE(begun.error) << file << ' ' << force << " N, " << celsius << " C";
+                const auto chip = run_chip(file, {1e3, std::vector<double>(30, force)}, {}, celsius);
+                EXPECT_FALSE(chip.error) << file << ' ' << force << " N, " << celsius << " C";
             }
     EXPECT_GT(run_chip("sa1.cir", {1e3, std::vector<double>(300, 4.0)}).spikes.size(), 4U);
 }
@@ -179,7 +180,7 @@ TEST(Chips, RestSilentlyForHours) {
         const auto quiet = run_chip(file, stimulus("step", {"step.t_rest=600", "step.t_hold=0.3", "step.F_max=4"}, 100));
         EXPECT_FALSE(quiet.error);
         EXPECT_EQ(quiet.between(0, 600), 0U);
-        EXPECT_GT(quiet.between(600, 600.3), 3U) << "and then feel";
+        EXPECT_GT(quiet.between(600, 600.3), 3U) << "responds after the rest";
     }
 }
 
@@ -190,20 +191,20 @@ TEST(Chips, WorkWithADamagedSensor) {
         const auto shorted = run_chip(file, press, {{"r_0", 1}, {"r_1gf", 1}});
         EXPECT_FALSE(open.error || shorted.error);
         EXPECT_TRUE(open.spikes.empty()) << "no sensor current";
-        EXPECT_GT(shorted.outside[1].samples, 9000) << "the amplifier cannot hold the sensor's voltage, and this is reported";
+        EXPECT_GT(shorted.outside[1].samples, 9000) << "reported: the amplifier cannot hold the sensor's voltage";
     }
 }
 
-/// Tolerances a hundred times tighter move no spike by 0.2 ms.
-TEST(Chips, SpikesAreExact) {
+/// Tolerances a hundred times tighter move no spike by more than 0.2 ms.
+TEST(Chips, SpikeTimesHardlyDependOnTheTolerances) {
     for (const std::string file : {"sa1.cir", "fa1.cir"}) {
         const auto folder = corpuscle::test::source_root() + "/circuits/";
         auto text = corpuscle::test::read_file(folder + file);
         text.replace(text.rfind(".end"), 4, ".options reltol=1e-7 vntol=1e-8 spikecheck=0\n.end");
         for (auto at = text.find("'parts/"); at != std::string::npos; at = text.find("'parts/", at + 1)) text.insert(at + 1, folder);
-        const auto usual = spikes_of(run_netlist_file(file)), tight = spikes_of(run_netlist(text));
-        ASSERT_EQ(usual.size(), tight.size());
-        for (std::size_t k = 0; k < tight.size(); ++k) EXPECT_NEAR(usual[k], tight[k], 0.2e-3) << file << ' ' << k;
+        const auto standard = spikes_of(run_netlist_file(file)), tight = spikes_of(run_netlist(text));
+        ASSERT_EQ(standard.size(), tight.size());
+        for (std::size_t k = 0; k < tight.size(); ++k) EXPECT_NEAR(standard[k], tight[k], 0.2e-3) << file << ' ' << k;
     }
 }
 

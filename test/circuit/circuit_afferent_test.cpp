@@ -35,8 +35,8 @@ std::string afferent_error(const std::string& text) {
     if (!netlist) return netlist.error().text();
     auto circuit = netlist->elaborate();
     if (!circuit) return circuit.error().text();
-    const auto made = CircuitAfferentFactory::create(std::make_shared<const Circuit>(std::move(*circuit)));
-    return made ? "" : made.error().text();
+    const auto factory = CircuitAfferentFactory::create(std::make_shared<const Circuit>(std::move(*circuit)));
+    return factory ? "" : factory.error().text();
 }
 std::string spiker() { return read_file(corpuscle::test::source_root() + "/circuits/spiker.cir"); }
 
@@ -46,6 +46,7 @@ std::vector<Spike> complete_response(const Afferent& afferent, std::vector<doubl
     return corpuscle::test::spikes(afferent, force, block);
 }
 
+/// Force in N: a sine, and a step of 1 N in the first 20 ms of every 100 ms. `T` is the sample period, s.
 std::vector<double> wave(std::size_t count, double T) {
     std::vector<double> out;
     for (std::size_t k = 0; k < count; ++k) {
@@ -67,9 +68,9 @@ TEST(CircuitAfferent, FiresFasterUnderMoreForce) {
 }
 
 TEST(CircuitAfferent, SpikesAreInOrderWithinTheForceAndOnSamplesIfRequested) {
-    const auto made = design(spiker());
-    const auto exact = complete_response(*made->make(1e-3, false), wave(400, 1e-3)),
-               sampled = complete_response(*made->make(1e-3, true), wave(400, 1e-3));
+    const auto factory = design(spiker());
+    const auto exact = complete_response(*factory->make(1e-3, false), wave(400, 1e-3)),
+               sampled = complete_response(*factory->make(1e-3, true), wave(400, 1e-3));
     ASSERT_GT(exact.size(), 10U);
     ASSERT_EQ(sampled.size(), exact.size());
     for (std::size_t k = 0; k < exact.size(); ++k) {
@@ -99,7 +100,7 @@ TEST(CircuitAfferent, ProbesAreTheSameInBlocksOfAnySize) {
     EXPECT_EQ(afferent->probes()[0].name, "v(u)");
     EXPECT_EQ(afferent->probes()[0].unit, "V");
     const auto force = wave(300, 1e-3);
-    const auto shown = [&](std::size_t block) {
+    const auto probe_values = [&](std::size_t block) {
         std::vector<double> u(force.size()), s(force.size());
         std::vector<Spike> spikes;
         auto state = afferent->start();
@@ -111,28 +112,28 @@ TEST(CircuitAfferent, ProbesAreTheSameInBlocksOfAnySize) {
         u.insert(u.end(), s.begin(), s.end());
         return u;
     };
-    const auto undivided = shown(300), parts = shown(13);
+    const auto undivided = probe_values(300), parts = probe_values(13);
     EXPECT_EQ(undivided, parts);
     for (const double v : undivided) EXPECT_TRUE(v > -0.01 && v < 0.71) << v;
     EXPECT_NEAR(undivided[0], 0.6, 1e-3);  // .ic
 }
 
-/// Runs up to a sample, saves the state as bytes, and continues with another afferent.
-std::vector<Spike> resumed(const CircuitAfferentFactory& made, const std::vector<double>& force, std::size_t at, double T) {
+/// Spikes of an afferent that runs up to sample `at` and saves its state as bytes, followed by those of a second afferent that continues.
+std::vector<Spike> resumed(const CircuitAfferentFactory& factory, const std::vector<double>& force, std::size_t at, double T) {
     std::vector<Spike> spikes;
     ResponseBlock response{spikes};
     std::vector<std::byte> saved;
     {
-        const auto first = made.make(T, false);
+        const auto first = factory.make(T, false);
         auto state = first->start();
         if (!first->respond(std::span(force).first(at), state, response)) ADD_FAILURE();
         saved = pack(state);
     }
-    const auto second = made.make(T, false);
+    const auto second = factory.make(T, false);
     auto other = second->start();  // it has responded to another force before
-    std::vector<Spike> nobodys;
-    ResponseBlock unheard{nobodys};
-    if (!second->respond(wave(90, T), other, unheard)) ADD_FAILURE();
+    std::vector<Spike> other_spikes;
+    ResponseBlock other_response{other_spikes};
+    if (!second->respond(wave(90, T), other, other_response)) ADD_FAILURE();
     auto state = value_or_throw(unpack(saved));
     auto rest = std::vector<double>(force.begin() + static_cast<std::ptrdiff_t>(at), force.end());
     rest.insert(rest.end(), static_cast<std::size_t>(second->delay()), force.back());
@@ -140,28 +141,28 @@ std::vector<Spike> resumed(const CircuitAfferentFactory& made, const std::vector
     return spikes;
 }
 
-TEST(CircuitAfferent, AResumedOneContinuesBitForBit) {
-    const auto made = design(spiker());
+TEST(CircuitAfferent, AResumedAfferentContinuesBitForBit) {
+    const auto factory = design(spiker());
     const auto force = wave(250, 1e-3);
-    const auto undivided = complete_response(*made->make(1e-3, false), force);
+    const auto undivided = complete_response(*factory->make(1e-3, false), force);
     EXPECT_TRUE(rc::check([&] {
         const auto at = *rc::gen::inRange<std::size_t>(1, force.size());
-        RC_ASSERT(resumed(*made, force, at, 1e-3) == undivided);
+        RC_ASSERT(resumed(*factory, force, at, 1e-3) == undivided);
     }));
 }
 
 TEST(CircuitAfferent, KeepsItsPrecisionForHours) {
-    const auto made = design("slow\niin 0 a force 1\nr1 a 0 1\nc1 a 0 0.1\n.spike v(a) 0.5\n.tran 1 1 0 0.2\n");
+    const auto factory = design("slow\niin 0 a force 1\nr1 a 0 1\nc1 a 0 0.1\n.spike v(a) 0.5\n.tran 1 1 0 0.2\n");
     std::vector<double> force;
-    for (int k = 0; k < 40000; ++k) force.push_back(k % 200 < 100 ? 1 : 0);  // 4000 s: a touch each 20 s
-    const auto spikes = complete_response(*made->make(0.1, false), force);
+    for (int k = 0; k < 40000; ++k) force.push_back(k % 200 < 100 ? 1 : 0);  // 4000 s: a touch of 10 s every 20 s
+    const auto spikes = complete_response(*factory->make(0.1, false), force);
     ASSERT_EQ(spikes.size(), 199U);  // the force of the first touch starts before t = 0
     for (std::size_t k = 1; k < spikes.size(); ++k) {
         EXPECT_EQ(spikes[k].step - spikes[k - 1].step, 200) << k;
         EXPECT_NEAR(spikes[k].offset, spikes[0].offset, 1e-3) << k;
     }
-    EXPECT_EQ(complete_response(*made->make(0.1, false), force, 333), spikes);
-    EXPECT_EQ(resumed(*made, force, 12345, 0.1), spikes);
+    EXPECT_EQ(complete_response(*factory->make(0.1, false), force, 333), spikes);
+    EXPECT_EQ(resumed(*factory, force, 12345, 0.1), spikes);
 }
 
 TEST(CircuitAfferent, ADamagedStateIsRejectedOrHarmless) {
@@ -193,7 +194,7 @@ TEST(CircuitAfferent, ALevelThatIsNeverReachedGivesNoSpike) {
     EXPECT_EQ(complete_response(*design(std::string(relaxer) + ".spike v(s) 5\n")->make(1e-3, false), wave(300, 1e-3)).size(), 0U);
 }
 
-TEST(CircuitAfferent, FallingSelectsTheOtherEdge) {
+TEST(CircuitAfferent, FallSelectsTheFallingEdge) {
     const auto rise = complete_response(*design(std::string(relaxer) + ".spike v(s) 0.5 rise\n")->make(1e-3, false), wave(300, 1e-3)),
                fall = complete_response(*design(std::string(relaxer) + ".spike v(s) 0.5 fall\n")->make(1e-3, false), wave(300, 1e-3));
     ASSERT_GT(rise.size(), 10U);
@@ -219,7 +220,7 @@ TEST(CircuitAfferent, ErrorsNameTheirLocation) {
     EXPECT_EQ(afferent_error(t + ".spike v(a) 1\n"), "");
 }
 
-TEST(CircuitAfferent, CopiesAreTheChipsOfItsMismatchSample) {
+TEST(CircuitAfferent, CopiesAreTheChipsOfTheNetlistsMonteCarloRun) {
     auto text = spiker();
     text.insert(text.find(".save"), ".mc 3 seed=5\n.meas tran u max v(u)\n");
     text.replace(text.find("tt"), 2, "mc");
@@ -227,14 +228,14 @@ TEST(CircuitAfferent, CopiesAreTheChipsOfItsMismatchSample) {
     text.replace(cut, text.find(".end", cut) - cut, "");
     const auto chips = run_variants(text);
     ASSERT_EQ(chips.size(), 3U);
-    const auto made = design(text);
+    const auto factory = design(text);
     const auto press = corpuscle::test::force("press");
     const auto clock = value_or_throw(make_clock(10e3));
     for (std::uint32_t copy = 1; copy <= 3; ++copy) {
-        const auto spikes = spike_times(complete_response(*made->make(1e-4, false, copy), press), clock);
+        const auto spikes = spike_times(complete_response(*factory->make(1e-4, false, copy), press), clock);
         EXPECT_EQ(static_cast<double>(spikes.size()), chips[copy - 1].number("spikes")) << copy;
         EXPECT_NEAR(spikes[0], chips[copy - 1].number("first_spike"), 1e-6) << copy;
-        EXPECT_NE(spikes[0], spike_times(complete_response(*made->make(1e-4, false), press), clock)[0]);
+        EXPECT_NE(spikes[0], spike_times(complete_response(*factory->make(1e-4, false), press), clock)[0]);
     }
 }
 
@@ -262,16 +263,16 @@ TEST(CircuitAfferent, AStateOfAnotherNetlistIsRejected) {
     EXPECT_NE(a->make(1e-3, false)->start().format, a->make(2e-3, false)->start().format);
 }
 
-TEST(Run, ReportsSpikesUnderTheNetlistsOwnForce) {
+TEST(Run, ReportsSpikesUnderTheForceOfTheNetlist) {
     const std::string t = "t\niin 0 a dc 0.1 force 1\nr1 a 0 1\nc1 a 0 1m\n.spike v(a) 1.1\n";
-    const auto found = run_netlist(t + ".force press f_min=0 f_max=2 rate=2k\n.tran 1m 1\n");
-    EXPECT_EQ(found.number("spikes"), 1);
-    EXPECT_NEAR(found.number("first_spike"), 0.3135, 1e-3);  // the middle of the ramp plus 1 ms
-    EXPECT_NEAR(found.curve("v(a)").front(), 0.1, 1e-6);
+    const auto run = run_netlist(t + ".force press f_min=0 f_max=2 rate=2k\n.tran 1m 1\n");
+    EXPECT_EQ(run.number("spikes"), 1);
+    EXPECT_NEAR(run.number("first_spike"), 0.3135, 1e-3);  // the middle of the ramp plus 1 ms
+    EXPECT_NEAR(run.curve("v(a)").front(), 0.1, 1e-6);
     EXPECT_EQ(run_netlist(t + ".tran 1m 1\n").number("spikes"), 0);  // no force: 0 N
     EXPECT_NEAR(run_netlist(t + ".op\n.force press\n").number("v(a)"), 0.1, 1e-9);
-    const auto refused = [&](const std::string& order) {
-        auto circuit = value_or_throw(value_or_throw(parse_netlist_text(t + order + "\n.tran 1m 1\n")).elaborate());
+    const auto refused = [&](const std::string& directive) {
+        auto circuit = value_or_throw(value_or_throw(parse_netlist_text(t + directive + "\n.tran 1m 1\n")).elaborate());
         const auto run_ = run_directives(std::make_shared<const Circuit>(std::move(circuit)));
         return run_ ? std::string() : run_.error().text();
     };
@@ -285,7 +286,7 @@ TEST(Run, ReportsSpikesUnderTheNetlistsOwnForce) {
 /// Stores everything it receives.
 struct RecordingListener final : ResponseSink {
     std::vector<Spike> spikes;
-    std::vector<double> shown;
+    std::vector<double> probe_values;
     std::int64_t samples = 0;
     bool wants_probes() const override { return true; }
     Result<void> block(const Input&, const RunBlock& a) override {
@@ -297,12 +298,12 @@ struct RecordingListener final : ResponseSink {
         }
         for (std::size_t k = 0; k < a.force.count; ++k)
             for (const auto& unit : a.probes)
-                for (const auto& probe : unit) shown.push_back(probe[k]);
+                for (const auto& probe : unit) probe_values.push_back(probe[k]);
         return {};
     }
 };
 
-TEST(Respond, NetlistsAndModelsInBlocksOfAnySize) {
+TEST(Respond, NetlistsAndModelsRespondTheSameInBlocksOfAnySize) {
     const auto path = corpuscle::test::source_root() + "/circuits/spiker.cir";
     std::vector<RecordingListener> recorders(3);
     for (std::size_t k = 0; k < recorders.size(); ++k) {
@@ -317,7 +318,7 @@ TEST(Respond, NetlistsAndModelsInBlocksOfAnySize) {
         EXPECT_GT(work.steps, 10000);
         EXPECT_EQ(recorders[k].samples, 1000);
         EXPECT_TRUE(recorders[k].spikes == recorders[0].spikes);
-        EXPECT_TRUE(recorders[k].shown == recorders[0].shown);
+        EXPECT_TRUE(recorders[k].probe_values == recorders[0].probe_values);
     }
     EXPECT_GT(recorders[0].spikes.size(), 60U);
 }
@@ -325,8 +326,8 @@ TEST(Respond, NetlistsAndModelsInBlocksOfAnySize) {
 class Responding : public ::testing::Test {
 protected:
     const TemporaryFolder folder;
-    std::string words(const std::string& afferents, const std::string& more = "") const {
-        return "respond press.csv --afferent " + afferents + " --time t " + more;
+    std::string arguments(const std::string& afferents, const std::string& options = "") const {
+        return "respond press.csv --afferent " + afferents + " --time t " + options;
     }
     void SetUp() override {
         std::string text = "t_s,a_N,b_N,c_N\n";
@@ -345,9 +346,9 @@ protected:
 
 TEST_F(Responding, NetlistsAndModelsRespondTheSameOnAnyNumberOfThreads) {
     const std::string names = "sa1,./spiker.cir,relaxer.cir";
-    const auto one = corpuscle::test::run_program(folder, words(names, "--out one --probe-files -j 1 --report"));
+    const auto one = corpuscle::test::run_program(folder, arguments(names, "--out one --probe-files -j 1 --report"));
     ASSERT_EQ(one.status, 0) << one.err;
-    ASSERT_EQ(corpuscle::test::run_program(folder, words(names, "--out four --probe-files -j 4")).status, 0);
+    ASSERT_EQ(corpuscle::test::run_program(folder, arguments(names, "--out four --probe-files -j 4")).status, 0);
     for (const std::string name : {"/spikes.csv", "/probes.csv"})
         EXPECT_TRUE(read_file(folder / ("one" + name)) == read_file(folder / ("four" + name))) << name;
     const auto summary = nlohmann::json::parse(read_file(folder / "one/summary.json"));
@@ -358,24 +359,24 @@ TEST_F(Responding, NetlistsAndModelsRespondTheSameOnAnyNumberOfThreads) {
     const auto spikes = read_file(folder / "one/spikes.csv");
     for (const std::string train : {"\nsa1,a,", "\n./spiker.cir,a,", "\n./spiker.cir,b,", "\nrelaxer.cir,c,"})
         EXPECT_NE(spikes.find(train), std::string::npos) << train;
-    const auto traces = read_file(folder / "one/probes.csv");
-    EXPECT_NE(traces.substr(0, traces.find('\n')).find("./spiker.cir.b.v(u) [V]"), std::string::npos);
-    EXPECT_EQ(std::count(traces.begin(), traces.end(), '\n'), 501);
-    EXPECT_EQ(traces.find("nan"), std::string::npos);
+    const auto probes = read_file(folder / "one/probes.csv");
+    EXPECT_NE(probes.substr(0, probes.find('\n')).find("./spiker.cir.b.v(u) [V]"), std::string::npos);
+    EXPECT_EQ(std::count(probes.begin(), probes.end(), '\n'), 501);
+    EXPECT_EQ(probes.find("nan"), std::string::npos);
 }
 
-TEST_F(Responding, RespondsTheSameInSmallBlocks) {
-    ASSERT_EQ(corpuscle::test::run_program(folder, words("spiker.cir", "--out whole")).status, 0);
-    ASSERT_EQ(corpuscle::test::run_program(folder, words("spiker.cir", "--out float --float")).status, 2);
-    const auto refused = corpuscle::test::run_program(folder, words("spiker.cir", "--float"));
+TEST_F(Responding, NetlistsCannotRunInFloat) {
+    ASSERT_EQ(corpuscle::test::run_program(folder, arguments("spiker.cir", "--out whole")).status, 0);
+    ASSERT_EQ(corpuscle::test::run_program(folder, arguments("spiker.cir", "--out float --float")).status, 2);
+    const auto refused = corpuscle::test::run_program(folder, arguments("spiker.cir", "--float"));
     EXPECT_NE(refused.err.find("spiker.cir: netlists cannot run in float"), std::string::npos) << refused.err;
 }
 
-TEST_F(Responding, OneThatDoesNotConvergeIsReportedAndTheOthersContinue) {
-    // dv/dt = F - 0.5 - v^2: below 0.5 N, v falls without limit
+TEST_F(Responding, ANetlistThatDoesNotConvergeIsReportedAndTheOthersContinue) {
+    // C dv/dt = F - 0.5 - 2 v^2 - v^6: below 0.5 N, v falls without limit
     folder.write("falls.cir",
                  "falls\niin 0 a force 1\nb1 a 0 i={0.5+v(a)*v(a)*v(a)*v(a)*v(a)*v(a)-0*v(a)+2*v(a)*v(a)}\nca a 0 1m\n.spike v(a) 0.2\n");
-    const auto ran = corpuscle::test::run_program(folder, words("sa1,falls.cir,spiker.cir", "--out answer"));
+    const auto ran = corpuscle::test::run_program(folder, arguments("sa1,falls.cir,spiker.cir", "--out answer"));
     EXPECT_EQ(ran.status, 3) << ran.err;
     EXPECT_NE(ran.err.find("did not converge"), std::string::npos) << ran.err;
     const auto summary = nlohmann::json::parse(read_file(folder / "answer/summary.json"));
@@ -385,15 +386,15 @@ TEST_F(Responding, OneThatDoesNotConvergeIsReportedAndTheOthersContinue) {
 }
 
 TEST_F(Responding, ANetlistThatCannotBeReadIsRejected) {
-    const auto none = corpuscle::test::run_program(folder, words("none.cir"));
+    const auto none = corpuscle::test::run_program(folder, arguments("none.cir"));
     EXPECT_EQ(none.status, 1);
     EXPECT_NE(none.err.find("none.cir: cannot be read"), std::string::npos) << none.err;
     folder.write("bad.cir", "t\niin 0 a force\nr1 a\n.spike v(a) 1\n");
-    const auto bad = corpuscle::test::run_program(folder, words("bad.cir"));
+    const auto bad = corpuscle::test::run_program(folder, arguments("bad.cir"));
     EXPECT_EQ(bad.status, 1);
     EXPECT_NE(bad.err.find("bad.cir:3:"), std::string::npos) << bad.err;
-    EXPECT_EQ(corpuscle::test::run_program(folder, words("spiker.cir,spiker.cir")).status, 2);
-    const auto unknown = corpuscle::test::run_program(folder, words("spiker.cir", "--set spiker.cir.vddd=1"));
+    EXPECT_EQ(corpuscle::test::run_program(folder, arguments("spiker.cir,spiker.cir")).status, 2);
+    const auto unknown = corpuscle::test::run_program(folder, arguments("spiker.cir", "--set spiker.cir.vddd=1"));
     EXPECT_EQ(unknown.status, 1);
     EXPECT_NE(unknown.err.find("--set spiker.cir.vddd=1: spiker.cir has no parameter or device 'vddd'"), std::string::npos) << unknown.err;
 }

@@ -14,14 +14,14 @@ namespace {
 
 using test::TemporaryFolder;
 
-std::unique_ptr<AnalysisContext> cost_bench(std::shared_ptr<const Circuit> circuit) {
+std::unique_ptr<AnalysisContext> cost_context(std::shared_ptr<const Circuit> circuit) {
     if (!circuit) return nullptr;
-    auto bench = AnalysisContext::make(std::move(circuit));
-    if (!bench) return ADD_FAILURE() << bench.error().text(), nullptr;
-    return std::move(*bench);
+    auto context = AnalysisContext::make(std::move(circuit));
+    if (!context) return ADD_FAILURE() << context.error().text(), nullptr;
+    return std::move(*context);
 }
 
-std::shared_ptr<const Circuit> file(const std::string& name, const Values& parameters = {}) {
+std::shared_ptr<const Circuit> elaborate_file(const std::string& name, const Values& parameters = {}) {
     const auto netlist = Netlist::read(test::source_root() + "/circuits/" + name);
     if (!netlist) return ADD_FAILURE() << netlist.error().text(), nullptr;
     auto circuit = netlist->elaborate(parameters);
@@ -30,22 +30,22 @@ std::shared_ptr<const Circuit> file(const std::string& name, const Values& param
 }
 
 Cost cost(std::shared_ptr<const Circuit> circuit) {
-    auto bench = cost_bench(std::move(circuit));
-    auto found = cost_of(*bench);
-    if (!found) return ADD_FAILURE() << found.error().text(), Cost();
-    return std::move(*found);
+    auto context = cost_context(std::move(circuit));
+    auto result = cost_of(*context);
+    if (!result) return ADD_FAILURE() << result.error().text(), Cost();
+    return std::move(*result);
 }
 
-/// Including the netlist's transients.
+/// Cost of a circuit including the power during the transients of its netlist.
 Cost cost_in_time(std::shared_ptr<const Circuit> circuit) {
-    auto bench = cost_bench(std::move(circuit));
-    CostMeter accountant(*bench);
+    auto context = cost_context(std::move(circuit));
+    CostMeter meter(*context);
     RunOptions options;
-    if (const auto watched = accountant.attach(options); !watched) ADD_FAILURE() << watched.error().text();
-    if (const auto ran = run_directives(*bench, options); !ran) ADD_FAILURE() << ran.error().text();
-    auto found = accountant.cost();
-    if (!found) return ADD_FAILURE() << found.error().text(), Cost();
-    return std::move(*found);
+    if (const auto attached = meter.attach(options); !attached) ADD_FAILURE() << attached.error().text();
+    if (const auto ran = run_directives(*context, options); !ran) ADD_FAILURE() << ran.error().text();
+    auto result = meter.cost();
+    if (!result) return ADD_FAILURE() << result.error().text(), Cost();
+    return std::move(*result);
 }
 
 const BlockCost& block(const Cost& c, std::string_view name) {
@@ -64,10 +64,10 @@ double sum(const std::vector<double>& of) { return std::accumulate(of.begin(), o
 
 constexpr double um = 1e-6, um2 = 1e-12;
 
-TEST(Cost, TheAreaOfArraysIsThatOfTheThesissTables) {
+TEST(Cost, ArrayAreasEqualTheThesissTables) {
     struct Array {
         const char* name;
-        double units, W, L, A_T, off;
+        double units, W, L, A_T, tolerance;  // W, L in um, A_T in um^2; relative tolerance
     };
     for (const auto& a : {Array{"A", 1, 0.42, 0.18, 1.0120, 0.037},
                           {"B1", 2, 0.42, 0.90, 3.0132, 1e-9},
@@ -78,11 +78,11 @@ TEST(Cost, TheAreaOfArraysIsThatOfTheThesissTables) {
                           {"D2", 4, 0.42, 0.18, 3.0132, 1e-9},
                           {"E", 1, 0.42, 5.22, 5.6856, 1e-9},
                           {"G1", 8, 0.42, 0.18, 5.6856, 0.061}})  // laid out as one row, not as the smallest rectangle
-        EXPECT_NEAR(array_area(a.W * um, a.L * um, a.units) / um2, a.A_T, a.off * a.A_T) << a.name;
+        EXPECT_NEAR(array_area(a.W * um, a.L * um, a.units) / um2, a.A_T, a.tolerance * a.A_T) << a.name;
     EXPECT_NEAR(rectangle_area(0.42 * um, 0.18 * um, 1, 8) / um2, 5.6856, 1e-9) << "G1 to G3";
 }
 
-TEST(Cost, AnArrayTakesLessThanItsSeparateElementsAndMoreThanItsGates) {
+TEST(Cost, AnArrayIsSmallerThanItsSeparateElementsAndLargerThanItsGates) {
     for (const double count : {2.0, 3.0, 7.0, 16.0, 1000.0, 1e5}) {
         const double together = array_area(6 * um, 0.5 * um, count);
         EXPECT_LT(together, count * rectangle_area(6 * um, 0.5 * um, 1, 1)) << count;
@@ -92,8 +92,8 @@ TEST(Cost, AnArrayTakesLessThanItsSeparateElementsAndMoreThanItsGates) {
 }
 
 TEST(Cost, ABlocksAreaEqualsTheManualSum) {
-    const auto c = cost(file("sa1.cir"));
-    const auto& cco = block(c, "cco");  // 4 mirrors of 8 P; a trigger of 32 P and 32 N; switches
+    const auto c = cost(elaborate_file("sa1.cir"));
+    const auto& cco = block(c, "cco");  // 4 mirror arrays of 8 P elements, a trigger of 32 P and 32 N, switches
     EXPECT_EQ(cco.transistors, 14U);
     EXPECT_EQ(cco.unit_transistors, 4U * 8 + 64 + 8);
     EXPECT_NEAR(cco.area.gates / um2, 32 * 3 + 32 * (3 + 0.75) + 4 * 3 + 4 * 0.75, 1e-9);
@@ -109,26 +109,26 @@ TEST(Cost, ABlocksAreaEqualsTheManualSum) {
 }
 
 TEST(Cost, SourcesDeliverThePowerThatBlocksDissipateInEveryCircuit) {
-    int seen = 0, powered = 0;
+    int seen = 0, with_supply = 0;
     for (const auto& entry : std::filesystem::directory_iterator(test::source_root() + "/circuits")) {
         if (entry.path().extension() != ".cir") continue;
         const auto name = entry.path().filename().string();
-        auto bench = cost_bench(file(name));
-        const auto found = cost_of(*bench);
-        ASSERT_TRUE(found) << name << ": " << found.error().text();
-        const auto& p = found->power[0].second;
+        auto context = cost_context(elaborate_file(name));
+        const auto result = cost_of(*context);
+        ASSERT_TRUE(result) << name << ": " << result.error().text();
+        const auto& p = result->power[0].second;
         EXPECT_NEAR(p.supplies, sum(p.blocks), 1e-6 * p.supplies + 1e-15) << name;
-        powered += p.supplies > 0;
-        const auto x = bench->operating_point()->x;
-        for (std::size_t k = 0; k < found->sources.size(); ++k) {  // also compare each source with its solved branch current
-            if (found->sources[k][0] != 'v') continue;
-            const auto v = bench->system.terminal_values(*bench->system.device(found->sources[k]), x);
-            EXPECT_NEAR(p.sources[k], -(v[0] - v[1]) * v[2], 1e-12 * std::abs(p.sources[k])) << name << ", " << found->sources[k];
+        with_supply += p.supplies > 0;
+        const auto x = context->operating_point()->x;
+        for (std::size_t k = 0; k < result->sources.size(); ++k) {  // also compare each source with its solved branch current
+            if (result->sources[k][0] != 'v') continue;
+            const auto v = context->system.terminal_values(*context->system.device(result->sources[k]), x);
+            EXPECT_NEAR(p.sources[k], -(v[0] - v[1]) * v[2], 1e-12 * std::abs(p.sources[k])) << name << ", " << result->sources[k];
         }
         ++seen;
     }
     EXPECT_GE(seen, 40);
-    EXPECT_GE(powered, 30) << "ideal circuits need no supply";
+    EXPECT_GE(with_supply, 30) << "ideal circuits need no supply";
 }
 
 TEST(Cost, PowerFollowsOhmsLaw) {
@@ -136,7 +136,7 @@ TEST(Cost, PowerFollowsOhmsLaw) {
         cost(make_circuit("t\nvdd vdd 0 2\nvf force 0 0.5 force 1\n"
                           "xa vdd a one\nxb a 0 one\n.subckt one p q\nr1 p q 1k\n.ends\n"                            // 1 mA: 1 mW each
                           "xs force vdd x sens\n.subckt sens force p q\nb1 p q i={v(force)*1m}\n.ends\nrx x 0 1k\n"  // 0.5 mA
-                          "idrain vdd d 1m\nrd d 0 1k\n"                                                             // takes 1 V, 1 mA
+                          "idrain vdd d 1m\nrd d 0 1k\n"                                                             // drops 1 V, 1 mA
                           "iup 0 u 3m\nru u 0 1k\n.op\n"));                                                          // delivers 3 mA at 3 V
     const auto& p = *c.powers("op");
     EXPECT_DOUBLE_EQ(c.supply, 2);
@@ -153,16 +153,16 @@ TEST(Cost, PowerFollowsOhmsLaw) {
     EXPECT_EQ(c.unknown_areas, 5U);
 }
 
-TEST(Cost, ACapacitorFilledAndEmptiedCostsItsChargeTimesTheSupply) {
+TEST(Cost, ChargingAndDischargingACapacitorTakesItsChargeTimesTheSupply) {
     const auto c = cost_in_time(make_circuit("t\nv1 in 0 pulse(0 2 1m 1u 1u 20m 100m)\nr1 in out 1k\nc1 out 0 1u\n.tran 10u 50m\n"));
-    const double stored = 1e-6 * 2 * 2;  // C V^2, J: half is dissipated while charging, half while discharging
-    EXPECT_NEAR(c.powers("mean")->supplies, stored / 50e-3, 2e-3 * stored / 50e-3);
-    EXPECT_NEAR(dissipated(c, "mean", "top level"), stored / 50e-3, 2e-3 * stored / 50e-3);
+    const double energy = 1e-6 * 2 * 2;  // C V^2, J: half is dissipated while charging, half while discharging
+    EXPECT_NEAR(c.powers("mean")->supplies, energy / 50e-3, 2e-3 * energy / 50e-3);
+    EXPECT_NEAR(dissipated(c, "mean", "top level"), energy / 50e-3, 2e-3 * energy / 50e-3);
     EXPECT_NEAR(c.powers("peak")->supplies, 2 * 2 / 1e3, 0.01 * 4e-3);
 }
 
 TEST(Cost, OverAPressTheChipDissipatesTheDeliveredPower) {
-    const auto c = cost_in_time(file("sa1.cir"));
+    const auto c = cost_in_time(elaborate_file("sa1.cir"));
     ASSERT_NE(c.powers("plateau"), nullptr);
     const auto &mean = *c.powers("mean"), &rest = *c.powers("rest"), &hold = *c.powers("plateau");
     EXPECT_NEAR(mean.supplies, sum(mean.blocks), 1e-3 * mean.supplies);
@@ -170,17 +170,17 @@ TEST(Cost, OverAPressTheChipDissipatesTheDeliveredPower) {
         const double current = 0.1 * (std::pow(force / 9.80665e-3, 0.72) / 170e3 + 1 / 10e6);
         EXPECT_NEAR(powers->sensor, 0.7 * current, 4e-3 * powers->sensor) << force;
     }
-    double of_phases = 0;
+    double energy_of_phases = 0;  // J, over 1 s
     for (const auto& [name, seconds] :
          {std::pair{"rest", 0.25}, {"protraction", 0.125}, {"plateau", 0.25}, {"retraction", 0.125}, {"post", 0.25}})
-        of_phases += c.powers(name)->without_sensor * seconds;
-    EXPECT_NEAR(of_phases, mean.without_sensor, 1e-9 * mean.without_sensor);
+        energy_of_phases += c.powers(name)->without_sensor * seconds;
+    EXPECT_NEAR(energy_of_phases, mean.without_sensor, 1e-9 * mean.without_sensor);
     for (std::size_t b = 0; b < c.blocks.size(); ++b) EXPECT_GE(c.powers("peak")->blocks[b], mean.blocks[b]);
     EXPECT_TRUE(c.is_afferent);
     EXPECT_TRUE(c.has_sensor);
 }
 
-TEST(Cost, ATransistorLeaksByItsThreshold) {
+TEST(Cost, ATransistorsLeakageFollowsFromItsThreshold) {
     const double phi_t = thermal_voltage(300.15), closed = 2 * std::exp(1.0) * 100e-9 * 6 * std::exp(-0.45 / (1.3 * phi_t));
     for (const bool pmos : {false, true}) {
         const auto circuit = make_circuit(std::string("t\nvdd vdd 0 0.7\nm1 ") + (pmos ? "0 vdd vdd vdd x w=1.5u" : "vdd 0 0 0 x w=1.5u") +
@@ -195,33 +195,33 @@ TEST(Cost, ATransistorLeaksByItsThreshold) {
     }
 }
 
-TEST(Cost, TheChipsSwitchesLeakOntoTheMembraneAndThoseOfHigherThresholdDoNot) {
+TEST(Cost, SwitchesLeakOntoTheMembraneUnlessTheyHaveTheHigherThreshold) {
     const auto onto_u = [](const Cost& c) {
         std::map<std::string, double> out;
         for (std::size_t k = 0; k < c.leaks.size(); ++k)
             if (c.leaks[k].capacitor_node == "u") out[c.leaking_names[k]] = c.leaks[k].current;
         return out;
     };
-    const auto leaks = onto_u(cost(file("sa1.cir")));
+    const auto leaks = onto_u(cost(elaborate_file("sa1.cir")));
     const double phi_t = thermal_voltage(300.15);
     const double n_switch = 2 * std::exp(1.0) * 112e-9 * 6 * std::exp(-0.461 / (1.27 * phi_t));  // M6: 2 elements of 1.5/0.5 um
     for (const char* name : {"xrectb.mn6a", "xrectc.mn6a", "xcco.mn6b"}) {
         ASSERT_TRUE(leaks.contains(name)) << name;
         EXPECT_NEAR(leaks.at(name), n_switch * (1 + 0.7 / 4) / 1.03, 0.04 * n_switch)
-            << "including the effect of its Early voltage of 4 V and of zeta";
+            << "with the effects of the Early voltage of 4 V and of zeta";
     }
     EXPECT_TRUE(leaks.contains("xcco.mp5b"));
     EXPECT_EQ(leaks.size(), 4U);
-    EXPECT_TRUE(onto_u(cost(file("sa1.cir", {{"hv_switches", 1}}))).empty());
+    EXPECT_TRUE(onto_u(cost(elaborate_file("sa1.cir", {{"hv_switches", 1}}))).empty());
 }
 
-TEST(Cost, JunctionsLeakToo) {
+TEST(Cost, JunctionLeakageIsCounted) {
     const auto c = cost(make_circuit(
         "t\nvdd vdd 0 0.7\nm1 vdd 0 0 0 x w=1u l=1u\n.model x nmos (level=80 isq=1e-15 vto=2 js=5u jssw=1p ldif=0.5u)\n.op\n"));
     EXPECT_NEAR(c.blocks[0].worst_leak.current, 5e-6 * 0.5e-12 + 1e-12 * 3e-6, 1e-6 * 2.5e-18 + 1e-22);
 }
 
-TEST(Cost, TheDocumentHasTheBudgetAndTheTableHasItsHeadings) {
+TEST(Cost, TheJsonHasTheBudgetAndTheTableItsHeadings) {
     const TemporaryFolder folder;
     folder.write("x.cir", "t\nvdd vdd 0 1\nr1 vdd a 1k\nc1 a 0 2p\ni1 a 0 1u\n.op\n.tran 1n 10n\n");
     const auto ran = test::run_program(folder, "run x.cir --budget --json");
@@ -252,7 +252,7 @@ TEST(Cost, RespondReportsThePowerAtRestAndTheMeanOverTheResponse) {
     ASSERT_EQ(costs.size(), 1U) << "equations have no known cost";
     EXPECT_TRUE(costs[0]["afferent"].get<std::string>().ends_with("sa1.cir"));
     EXPECT_EQ(costs[0]["rest_force_N"], 0.2);
-    const auto c = cost_in_time(file("sa1.cir"));
+    const auto c = cost_in_time(elaborate_file("sa1.cir"));
     for (const auto& [word, of] : {std::pair{"delivered_W", &PowerBreakdown::supplies},
                                    {"sensor_W", &PowerBreakdown::sensor},
                                    {"without_sensor_W", &PowerBreakdown::without_sensor}}) {
@@ -268,7 +268,7 @@ TEST(Cost, RespondReportsThePowerAtRestAndTheMeanOverTheResponse) {
     EXPECT_FALSE(nlohmann::json::parse(test::run_program(folder, "respond press --json").out).contains("costs"));
 }
 
-TEST(Cost, EachOfSeveralHasItsLine) {
+TEST(Cost, EachVariantOfAStepHasItsLine) {
     const TemporaryFolder folder;
     folder.write("x.cir", "t\n.param r=1k\nvdd vdd 0 1\nr1 vdd 0 {r}\n.op\n.step param r list 1k 2k\n");
     const auto ran = test::run_program(folder, "run x.cir --budget");

@@ -1,4 +1,4 @@
-// The flat list of an elimination solves its matrix and similar matrices; for other matrices the solver falls back to a new factorization.
+// An elimination with fixed pivots solves its matrix and similar matrices; for other matrices the solver factors anew.
 
 #include <gtest/gtest.h>
 
@@ -27,17 +27,18 @@ struct SparseMatrix {
     }
 };
 
-/// Conductances over seven decades between random nodes, and rows of voltage sources with 0 on the diagonal and 1 off it.
-SparseMatrix random_circuit(std::mt19937& chance, int nodes, int sources) {
+/// The matrix of a circuit: conductances over seven decades between random nodes, and voltage sources, whose rows have 0 on the diagonal
+/// and 1 off it.
+SparseMatrix random_circuit(std::mt19937& generator, int nodes, int sources) {
     std::vector<std::tuple<int, int, double>> all;
     std::uniform_real_distribution<double> decade(-12, -5);
-    const auto node = [&] { return static_cast<int>(chance() % static_cast<unsigned>(nodes)); };
+    const auto node = [&] { return static_cast<int>(generator() % static_cast<unsigned>(nodes)); };
     const auto add = [&](int row, int column, double value) { all.emplace_back(row, column, value); };
-    for (int k = 0; k < nodes; ++k) add(k, k, std::pow(10, decade(chance)));
+    for (int k = 0; k < nodes; ++k) add(k, k, std::pow(10, decade(generator)));
     for (int k = 0; k < 3 * nodes; ++k) {
         const int a = node(), b = node();
         if (a == b) continue;
-        const double g = std::pow(10, decade(chance)), m = std::pow(10, decade(chance));
+        const double g = std::pow(10, decade(generator)), m = std::pow(10, decade(generator));
         add(a, a, g), add(b, b, g), add(a, b, -g), add(b, a, -g), add(a, b, m);
     }
     for (int k = 0; k < sources; ++k) add(k, nodes + k, 1), add(nodes + k, k, 1), add(nodes + k, nodes + k, 0);
@@ -49,10 +50,11 @@ SparseMatrix random_circuit(std::mt19937& chance, int nodes, int sources) {
     return out;
 }
 
-void solves(LinearSolver<double>& solver, const SparseMatrix& m, std::mt19937& chance) {
+/// Multiplies the matrix by a random x, solves, and expects the product again.
+void expect_solution(LinearSolver<double>& solver, const SparseMatrix& m, std::mt19937& generator) {
     const auto n = static_cast<std::size_t>(m.pattern.size());
     std::vector<double> x(n), b(n), size(n);
-    for (double& v : x) v = std::normal_distribution<double>()(chance);
+    for (double& v : x) v = std::normal_distribution<double>()(generator);
     for (std::size_t row = 0; row < n; ++row) b[row] = m.times(static_cast<int>(row), x);
     ASSERT_TRUE(solver.factor(m.values));
     auto found = b;
@@ -67,56 +69,57 @@ void solves(LinearSolver<double>& solver, const SparseMatrix& m, std::mt19937& c
     }
 }
 
-TEST(Elimination, SolvesItsMatrixAndSimilarOnes) {
-    std::mt19937 chance(1);
+TEST(Elimination, SolvesItsMatrixAndSimilarMatrices) {
+    std::mt19937 generator(1);
     for (int round = 0; round < 100; ++round) {
-        const int nodes = 1 + static_cast<int>(chance() % 40), sources = static_cast<int>(chance() % static_cast<unsigned>(nodes)) / 4;
-        auto m = random_circuit(chance, nodes, sources);
+        const int nodes = 1 + static_cast<int>(generator() % 40),
+                  sources = static_cast<int>(generator() % static_cast<unsigned>(nodes)) / 4;
+        auto m = random_circuit(generator, nodes, sources);
         LinearSolver<double> solver(m.pattern);
         solver.fix_pivot_order(m.values);
-        solves(solver, m, chance);
+        expect_solution(solver, m, generator);
         for (int other = 0; other < 5; ++other) {
             for (double& v : m.values)
-                if (std::abs(v) != 1) v *= std::exp(0.3 * std::normal_distribution<double>()(chance));
-            solves(solver, m, chance);
+                if (std::abs(v) != 1) v *= std::exp(0.3 * std::normal_distribution<double>()(generator));
+            expect_solution(solver, m, generator);
         }
         EXPECT_EQ(solver.fallback_count(), 0);
     }
 }
 
-TEST(Elimination, AMatrixThatItsPivotsDoNotServeIsFactoredAnew) {
+TEST(Elimination, AMatrixUnsuitableForThePivotOrderIsFactoredAgain) {
     SparseMatrix m{SparsityPattern(2, {{0, 0}, {0, 1}, {1, 0}, {1, 1}}), {1, 1e-3, 1e-3, 1}};
     LinearSolver<double> solver(m.pattern);
     solver.fix_pivot_order(m.values);
-    std::mt19937 chance(2);
-    solves(solver, m, chance);
+    std::mt19937 generator(2);
+    expect_solution(solver, m, generator);
     EXPECT_EQ(solver.fallback_count(), 0);
     m.values = {1e-20, 1, 1, 1e-20};
-    solves(solver, m, chance);
+    expect_solution(solver, m, generator);
     EXPECT_EQ(solver.fallback_count(), 1);
     m.values = {2, 1e-3, 1e-3, 3};
-    solves(solver, m, chance);
+    expect_solution(solver, m, generator);
     EXPECT_EQ(solver.fallback_count(), 1);
 }
 
-TEST(Elimination, DoesNoMoreThanItsFillAsksFor) {
-    // an arrow matrix: no fill-in if the dense row and column are last
+TEST(Elimination, AnArrowMatrixHasNoFillIn) {
+    // no fill-in, because the dense row and column are last
     std::vector<std::pair<int, int>> entries;
     for (int k = 0; k < 10; ++k) entries.insert(entries.end(), {{k, k}, {k, 9}, {9, k}});
     const SparsityPattern pattern(10, entries);
     std::vector<int> order(10);
     for (int k = 0; k < 10; ++k) order[static_cast<std::size_t>(k)] = k;
     const std::vector<double> ones(pattern.entries(), 1);
-    const Elimination list(pattern, order, order, ones);
-    EXPECT_EQ(list.slots(), pattern.entries());
-    EXPECT_EQ(list.multiplications(), 9U);
+    const Elimination elimination(pattern, order, order, ones);
+    EXPECT_EQ(elimination.slots(), pattern.entries());
+    EXPECT_EQ(elimination.multiplications(), 9U);
 }
 
 TEST(Elimination, ReportsElementGrowthAndRejectsAMatrixThatNeedsOtherPivots) {
     const SparsityPattern pattern(2, {{0, 0}, {0, 1}, {1, 0}, {1, 1}});
     LinearSolver<double> solver(pattern);
     solver.fix_pivot_order(std::vector<double>{1, 0.5, 0.5, 1});
-    const std::vector<double> grown = {1e-6, 0.5, 0.5, 1e-6};  // now both diagonal pivots are small
+    const std::vector<double> grown = {1e-6, 0.5, 0.5, 1e-6};  // both diagonal pivots are small
     ASSERT_TRUE(solver.factor(grown));
     EXPECT_GT(solver.growth(), 1e5);
     EXPECT_EQ(solver.fallback_count(), 0);

@@ -1,4 +1,4 @@
-// Exported decks give the same results as their netlists, both in ngspice and when read back here.
+// Exported decks give the same results as their netlists, both in ngspice and when Corpuscle reads them back.
 
 #include <fmt/format.h>
 #include <cmath>
@@ -48,17 +48,17 @@ std::string exported_name(const ExportNames& names, const std::string& curve) {
 /// Expects the curves of two plots to agree. The relative tolerance is 1e-5, for small signals and noise 1e-3. The absolute tolerance
 /// covers the simulators' own floors: 2 nV and 1e-16 A, and for small signals 1e-9 of the largest value. With ngspice's own diodes it is
 /// also 1e-7 of the largest current, because ngspice's kT/q differs from the SI value in the seventh digit.
-void compare_with_export(const ExportNames& names, bool diodes, const Plot& mine, const Plot& theirs) {
-    SCOPED_TRACE(mine.name);
-    ASSERT_EQ(mine.point_count(), theirs.point_count());
-    std::map<std::string, const Curve*> there;
-    for (const auto& c : theirs.curves) there[corpuscle_name(c.name)] = &c;
-    const bool small = mine.is_complex || mine.name.find("oise") != std::string::npos;
-    for (const auto& c : mine.curves) {
+void compare_with_export(const ExportNames& names, bool diodes, const Plot& result, const Plot& reference) {
+    SCOPED_TRACE(result.name);
+    ASSERT_EQ(result.point_count(), reference.point_count());
+    std::map<std::string, const Curve*> reference_curves;
+    for (const auto& c : reference.curves) reference_curves[corpuscle_name(c.name)] = &c;
+    const bool small = result.is_complex || result.name.find("oise") != std::string::npos;
+    for (const auto& c : result.curves) {
         if (c.name.find('#') != std::string::npos && c.name.starts_with("v(")) continue;  // an internal node of a device
         if (c.name.ends_with("-sweep") || c.name == "frequency" || c.name == "inoise_total" || c.name == "onoise_total") continue;
-        const auto found = there.find(exported_name(names, c.name));
-        ASSERT_NE(found, there.end()) << c.name << " as " << exported_name(names, c.name);
+        const auto match = reference_curves.find(exported_name(names, c.name));
+        ASSERT_NE(match, reference_curves.end()) << c.name << " as " << exported_name(names, c.name);
         double largest = 0;
         for (const auto& x : c.values) largest = std::max(largest, std::abs(x));
         const double floor = small                 ? 1e-9 * largest + 1e-30
@@ -66,43 +66,44 @@ void compare_with_export(const ExportNames& names, bool diodes, const Plot& mine
                                                    : 2e-9,
                      tolerance = small ? 1e-3 : 1e-5;
         for (std::size_t k = 0; k < c.values.size(); ++k)
-            ASSERT_LE(std::abs(c.values[k] - found->second->values[k]), tolerance * std::abs(c.values[k]) + floor)
-                << c.name << " at point " << k << ": ours " << c.values[k] << ", theirs " << found->second->values[k];
+            ASSERT_LE(std::abs(c.values[k] - match->second->values[k]), tolerance * std::abs(c.values[k]) + floor)
+                << c.name << " at point " << k << ": netlist " << c.values[k] << ", export " << match->second->values[k];
     }
 }
 
-/// Pairs plots of the same name in the order of their directives. Read back here, the deck's directives run in reverse order.
-void hold_all(const Circuit& circuit, const std::vector<Plot>& mine, std::vector<Plot> theirs, bool backwards) {
-    if (backwards) std::reverse(theirs.begin(), theirs.end());
+/// Compares plots of the same name, in the order of their directives. In a deck that Corpuscle reads back, directives run in reverse order.
+void compare_all_with_export(const Circuit& circuit, const std::vector<Plot>& result, std::vector<Plot> reference, bool is_reversed) {
+    if (is_reversed) std::reverse(reference.begin(), reference.end());
     const ExportNames names(circuit);
     const bool diodes = std::any_of(circuit.elements.begin(), circuit.elements.end(), [](const Element& e) { return e.letter == 'd'; });
     std::map<std::string, std::size_t> seen;
-    for (const auto& plot : mine) {
+    for (const auto& plot : result) {
         std::size_t skip = seen[plot.name]++;
-        const auto found = std::find_if(theirs.begin(), theirs.end(), [&](const Plot& p) { return p.name == plot.name && skip-- == 0; });
-        ASSERT_NE(found, theirs.end()) << "no plot '" << plot.name << "'";
-        compare_with_export(names, diodes, plot, *found);
+        const auto match =
+            std::find_if(reference.begin(), reference.end(), [&](const Plot& p) { return p.name == plot.name && skip-- == 0; });
+        ASSERT_NE(match, reference.end()) << "no plot '" << plot.name << "'";
+        compare_with_export(names, diodes, plot, *match);
     }
 }
 
-/// Results of the netlist itself, with built-in transistors instead of expressions.
-std::string of_our_transistors(const TemporaryFolder& folder, const std::string& path) {
+/// Path of a netlist with built-in transistors: for a deck of transistors written as expressions, of a converted copy.
+std::string path_with_native_transistors(const TemporaryFolder& folder, const std::string& path) {
     const auto name = std::filesystem::path(path).stem().string();
     return name.starts_with("uicm_") ? folder.write("native.cir", with_native_transistors(path)) : path;
 }
 
-/// A sweep as ngspice supports it: in one direction, and reduced to about fifty points, because ngspice is slow here.
+/// Makes a sweep one that ngspice supports: in one direction, and with about fifty points, because ngspice is slow here.
 void simplify(Directive& dc) {
     if (dc.words.back() == "updown") dc.words.pop_back();
     for (std::size_t k = 0; k + 3 < dc.words.size(); k += 4) {
         const auto number = [&](std::size_t j) { return parse_number(dc.words[k + j])->value; };
-        const double each = std::max(1.0, std::floor((number(2) - number(1)) / number(3) / 50)), step = number(3);
-        dc.words[k + 3] = fmt::format("{:.17g}", step * each);
+        const double factor = std::max(1.0, std::floor((number(2) - number(1)) / number(3) / 50)), step = number(3);
+        dc.words[k + 3] = fmt::format("{:.17g}", step * factor);
     }
 }
 
 /// Removes directives that ngspice does not support, those that only ngspice would run, and .tran, whose points differ between simulators.
-std::shared_ptr<const Circuit> of_what_both_know(const std::shared_ptr<const Circuit>& circuit) {
+std::shared_ptr<const Circuit> with_common_directives(const std::shared_ptr<const Circuit>& circuit) {
     auto out = std::make_shared<Circuit>(*circuit);
     std::erase_if(out->directives, [](const Directive& c) {
         return c.name == "expect" || c.name == "step" || c.name == "mc" || c.name == "tran" || c.name.starts_with("meas");
@@ -114,45 +115,45 @@ std::shared_ptr<const Circuit> of_what_both_know(const std::shared_ptr<const Cir
 
 class Export : public testing::TestWithParam<std::string> {};
 
-TEST_P(Export, GivesTheSameInNgspice) {
+TEST_P(Export, GivesTheSameResultsInNgspice) {
     const TemporaryFolder folder;
-    const auto read = elaborate_netlist(of_our_transistors(folder, GetParam()));
+    const auto read = elaborate_netlist(path_with_native_transistors(folder, GetParam()));
     ASSERT_TRUE(read);
-    const auto circuit = of_what_both_know(read);
+    const auto circuit = with_common_directives(read);
     const auto log = run_ngspice(folder.write("deck.cir", exported(circuit)), folder / "deck.raw");
-    const auto mine = run_directives(circuit);
-    ASSERT_TRUE(mine) << mine.error().text();
-    const auto theirs = read_raw_file(folder / "deck.raw");
-    ASSERT_FALSE(theirs.empty()) << log;
-    hold_all(*circuit, mine->plots(), theirs, false);
+    const auto result = run_directives(circuit);
+    ASSERT_TRUE(result) << result.error().text();
+    const auto reference = read_raw_file(folder / "deck.raw");
+    ASSERT_FALSE(reference.empty()) << log;
+    compare_all_with_export(*circuit, result->plots(), reference, false);
     if (HasFailure()) std::puts(log.c_str());
 }
 
-TEST_P(Export, ReadsBackHereAndMeansTheSame) {
-    // With transistors as expressions in a loop of high gain (amplifier, trigger), the operating-point search here fails;
-    // ngspice's does not.
+TEST_P(Export, ReadsBackWithTheSameResults) {
+    // For transistors as expressions in a loop of high gain (amplifier, trigger), Corpuscle's operating-point search fails; ngspice's does
+    // not.
     for (const auto* known : {"/force_to_current.cir", "/rectifier_sa.cir", "/rectifier_fa.cir"})
         if (GetParam().ends_with(known)) GTEST_SKIP() << "known: no operating point is found for the deck read back";
     const TemporaryFolder folder;
-    const auto read = elaborate_netlist(of_our_transistors(folder, GetParam()));
+    const auto read = elaborate_netlist(path_with_native_transistors(folder, GetParam()));
     ASSERT_TRUE(read);
-    const auto circuit = of_what_both_know(read);
-    const auto mine = run_directives(circuit);
-    ASSERT_TRUE(mine) << mine.error().text();
+    const auto circuit = with_common_directives(read);
+    const auto result = run_directives(circuit);
+    ASSERT_TRUE(result) << result.error().text();
     const auto deck = elaborate_netlist(folder.write("deck.cir", exported(circuit)));
     ASSERT_TRUE(deck);
     auto again = std::make_shared<Circuit>(*deck);
     for (const auto* name : {"reltol", "vntol"}) again->options.erase(name);  // ngspice needs tight tolerances; the defaults suffice here
     const auto back = run_directives(std::shared_ptr<const Circuit>(again));
     ASSERT_TRUE(back) << back.error().text();
-    hold_all(*circuit, mine->plots(), back->plots(), true);
+    compare_all_with_export(*circuit, result->plots(), back->plots(), true);
     const auto second = elaborate_netlist(folder.write("twice.cir", exported(again)));
     ASSERT_TRUE(second);
     auto twice = std::make_shared<Circuit>(*second);
     for (const auto* name : {"reltol", "vntol"}) twice->options.erase(name);
     const auto last = run_directives(std::shared_ptr<const Circuit>(twice));
     ASSERT_TRUE(last) << last.error().text();
-    hold_all(*again, back->plots(), last->plots(), true);
+    compare_all_with_export(*again, back->plots(), last->plots(), true);
 }
 
 INSTANTIATE_TEST_SUITE_P(Netlists, Export, testing::ValuesIn(netlists()), [](const auto& one) {
@@ -161,7 +162,7 @@ INSTANTIATE_TEST_SUITE_P(Netlists, Export, testing::ValuesIn(netlists()), [](con
 });
 
 /// Compares six digits. The inverter also has an .op; after it ngspice would measure nothing, so the export reports this.
-TEST(ExportedDirectives, AreMeasuredByNgspiceAsHere) {
+TEST(ExportedDirectives, AreMeasuredTheSameByNgspice) {
     const TemporaryFolder folder;
     auto circuit = std::make_shared<Circuit>(*elaborate_netlist(source_root() + "/circuits/inverter.cir"));
     const auto with_op = ngspice_deck(circuit);
@@ -169,13 +170,13 @@ TEST(ExportedDirectives, AreMeasuredByNgspiceAsHere) {
     EXPECT_NE(with_op->text.find("* .meas dc: ngspice measures only the analysis that it runs last, here .op"), std::string::npos);
     std::erase_if(circuit->directives, [](const Directive& c) { return c.name == "op"; });
     const auto log = run_ngspice(folder.write("deck.cir", exported(circuit)), "");
-    const auto mine = run_directives(circuit);
-    ASSERT_TRUE(mine);
-    ASSERT_EQ(mine->numbers.size(), 2U);
-    for (const auto& [name, value] : mine->numbers) EXPECT_NEAR(logged_number(log, name), value, 1e-4 * std::abs(value)) << log;
+    const auto result = run_directives(circuit);
+    ASSERT_TRUE(result);
+    ASSERT_EQ(result->numbers.size(), 2U);
+    for (const auto& [name, value] : result->numbers) EXPECT_NEAR(logged_number(log, name), value, 1e-4 * std::abs(value)) << log;
 }
 
-TEST(ExportedDirectives, TheForceIsExportedInItsSources) {
+TEST(ExportedDirectives, TheForceIsExportedInTheWaveformsOfItsSources) {
     const TemporaryFolder folder;
     const auto circuit =
         elaborate_netlist(folder.write("touch.cir",
@@ -184,14 +185,14 @@ TEST(ExportedDirectives, TheForceIsExportedInItsSources) {
                                        ".meas tran falling find v(s) at=0.7\n"));
     const auto shared = std::make_shared<Circuit>(*circuit);
     const auto log = run_ngspice(folder.write("deck.cir", exported(shared)), "");
-    const auto mine = run_directives(shared);
-    ASSERT_TRUE(mine);
-    ASSERT_EQ(mine->numbers.size(), 3U);
-    for (const auto& [name, value] : mine->numbers) EXPECT_NEAR(logged_number(log, name), value, 1e-3) << name << log;
-    EXPECT_NEAR(mine->numbers[1].second, 6, 1e-3);
+    const auto result = run_directives(shared);
+    ASSERT_TRUE(result);
+    ASSERT_EQ(result->numbers.size(), 3U);
+    for (const auto& [name, value] : result->numbers) EXPECT_NEAR(logged_number(log, name), value, 1e-3) << name << log;
+    EXPECT_NEAR(result->numbers[1].second, 6, 1e-3);
 }
 
-constexpr const char* unsupported_directives = R"(what ngspice has no words for
+constexpr const char* unsupported_directives = R"(directives that ngspice does not support
 .param w=1.5u
 vdd v 0 0.7
 vin g 0 dc 0.4 ac 1
@@ -250,18 +251,21 @@ rc::Gen<std::string> formulas(int depth) {
     const auto leaf = rc::gen::element<std::string>("v(a)", "v(b)", "v(a,b)", "i(v1)", "2.5", "1m", "(-3)", "temper", "0");
     if (depth == 0) return leaf;
     const auto inner = formulas(depth - 1);
-    const auto by = [&](std::string form) {
+    const auto from_format = [&](std::string form) {
         return rc::gen::map(rc::gen::tuple(inner, inner, inner), [form](const auto& t) {
             return fmt::format(fmt::runtime(form), std::get<0>(t), std::get<1>(t), std::get<2>(t));
         });
     };
     return rc::gen::oneOf(
-        leaf, by("({0}+{1})"), by("({0}-{1})"), by("({0}-({1}-{2}))"), by("({0}*{1})"), by("({0}/(1+abs({1}))/(2+abs({2})))"),
-        by("({0}/((1+abs({1}))*(2+abs({2}))))"), by("(-{0})"), by("(-tanh({0})^2)"), by("(2^tanh({0})^3)"), by("max({0},{1})"),
-        by("min({0},{1})"), by("exp(tanh({0}))"), by("abs({0})"), by("ln(abs({0})+1)"), by("log10(abs({0})+1)"), by("tanh({0})"),
-        by("atan2(tanh({0})+0.29,tanh({1})+0.37)"), by("hypot(tanh({0}),tanh({1}))"), by("int({0})"), by("nint({0})"), by("sgn({0})"),
-        by("({0} < {1} ? {1} : {2})"), by("({0} >= {1} && !({2} == 0))"), by("({0} != {1} || {2} > 1)"), by("limit({0},{1},{2})"),
-        by("u({0})*u2({1})"), by("uramp({0})"), by("pwr(tanh({0}),3)"), by("sqrt(abs({0}))"), by("sin({0})*cos({1})"));
+        leaf, from_format("({0}+{1})"), from_format("({0}-{1})"), from_format("({0}-({1}-{2}))"), from_format("({0}*{1})"),
+        from_format("({0}/(1+abs({1}))/(2+abs({2})))"), from_format("({0}/((1+abs({1}))*(2+abs({2}))))"), from_format("(-{0})"),
+        from_format("(-tanh({0})^2)"), from_format("(2^tanh({0})^3)"), from_format("max({0},{1})"), from_format("min({0},{1})"),
+        from_format("exp(tanh({0}))"), from_format("abs({0})"), from_format("ln(abs({0})+1)"), from_format("log10(abs({0})+1)"),
+        from_format("tanh({0})"), from_format("atan2(tanh({0})+0.29,tanh({1})+0.37)"), from_format("hypot(tanh({0}),tanh({1}))"),
+        from_format("int({0})"), from_format("nint({0})"), from_format("sgn({0})"), from_format("({0} < {1} ? {1} : {2})"),
+        from_format("({0} >= {1} && !({2} == 0))"), from_format("({0} != {1} || {2} > 1)"), from_format("limit({0},{1},{2})"),
+        from_format("u({0})*u2({1})"), from_format("uramp({0})"), from_format("pwr(tanh({0}),3)"), from_format("sqrt(abs({0}))"),
+        from_format("sin({0})*cos({1})"));
 }
 
 TEST(ExpressionText, ReadsBackAsTheSameExpression) {

@@ -10,17 +10,17 @@
 namespace corpuscle::circuit {
 namespace {
 
-ExpressionScope among_voltages() {
+ExpressionScope with_circuit_inputs() {
     ExpressionScope s;
     s.allows_inputs = true;
     return s;
 }
 
-Result<Expression> read(std::string_view text, const ExpressionScope& scope = among_voltages()) {
+Result<Expression> read(std::string_view text, const ExpressionScope& scope = with_circuit_inputs()) {
     return Expression::parse(text, {"f.cir", 3, 5}, scope);
 }
 
-double value(std::string_view text, const ExpressionScope& scope = among_voltages()) {
+double value(std::string_view text, const ExpressionScope& scope = with_circuit_inputs()) {
     const auto f = read(text, scope);
     EXPECT_TRUE(f) << text << ": " << (f ? "" : f.error().text());
     return f ? f->value() : NAN;
@@ -121,7 +121,7 @@ TEST(Expression, HasTheFunctionsAndConstantsOfNgspice) {
     EXPECT_NEAR(value("ln(1e-320)"), std::log(1e-320), 1e-12);
 }
 
-TEST(Expression, PowAndPwrMeanTheSameAsInNgspiceInEachContext) {
+TEST(Expression, PowAndPwrMeanTheSameAsInNgspiceInParametersAndCircuitExpressions) {
     const ExpressionScope parameter;
     EXPECT_EQ(value("pow(-2,3)"), 8);
     EXPECT_EQ(value("pow(-2,3)", parameter), -8);
@@ -135,10 +135,10 @@ TEST(Expression, NamesItsInputsOnceAndInOrder) {
     const auto f = read("2*v(a) + max(i(vx), 0) + v(A)*v(b,a) + time + temper + v(c,gnd) - v(0,d)");
     ASSERT_TRUE(f) << f.error().text();
     using Kind = ExpressionInput::Kind;
-    const std::vector<ExpressionInput> wanted{{Kind::voltage, "a", ""}, {Kind::current, "vx", ""},   {Kind::voltage, "b", "a"},
-                                              {Kind::time, "", ""},     {Kind::temperature, "", ""}, {Kind::voltage, "c", ""},
-                                              {Kind::voltage, "d", ""}};
-    EXPECT_EQ(std::vector<ExpressionInput>(f->inputs().begin(), f->inputs().end()), wanted);
+    const std::vector<ExpressionInput> expected{{Kind::voltage, "a", ""}, {Kind::current, "vx", ""},   {Kind::voltage, "b", "a"},
+                                                {Kind::time, "", ""},     {Kind::temperature, "", ""}, {Kind::voltage, "c", ""},
+                                                {Kind::voltage, "d", ""}};
+    EXPECT_EQ(std::vector<ExpressionInput>(f->inputs().begin(), f->inputs().end()), expected);
     const double x[] = {1, -1, 10, 100, 27, 5, 3};
     EXPECT_EQ(f->value(x), 2 + 0 + 10 + 100 + 27 + 5 + 3);
     EXPECT_FALSE(f->is_constant());
@@ -146,14 +146,14 @@ TEST(Expression, NamesItsInputsOnceAndInOrder) {
 
 TEST(Expression, DropsUnusedInputsAndRecognizesConstants) {
     EXPECT_TRUE(read("v(a,a) + v(0) + v(gnd,0)")->is_constant());
-    ExpressionScope s = among_voltages();
+    ExpressionScope s = with_circuit_inputs();
     const ExpressionScope::Function first{{"x", "y"}, "x"};
     s.function = [&](std::string_view name) { return name == "first" ? &first : nullptr; };
     EXPECT_EQ(read("first(v(a), v(b))", s)->inputs().size(), 1U);
 }
 
 TEST(Expression, ReportsLocationAndCauseOfErrors) {
-    ExpressionScope s = among_voltages();
+    ExpressionScope s = with_circuit_inputs();
     s.suggestions = {"vdd", "width"};
     const ExpressionScope::Function f{{"x"}, "x*vddd"}, g{{"x"}, "h(x)"}, h{{"x"}, "g(x)+1"};
     s.function = [&](std::string_view name) { return name == "f" ? &f : name == "g" ? &g : name == "h" ? &h : nullptr; };
@@ -186,9 +186,9 @@ TEST(Expression, ReportsLocationAndCauseOfErrors) {
         {"2 # 3", "f.cir:3:7: expected an operator such as + or the end of the expression, not '# 3'"},
     };
     for (const auto& c : cases) {
-        const auto read_it = read(c.text, s);
-        ASSERT_FALSE(read_it) << c.text;
-        EXPECT_EQ(read_it.error().text(), c.message);
+        const auto parsed = read(c.text, s);
+        ASSERT_FALSE(parsed) << c.text;
+        EXPECT_EQ(parsed.error().text(), c.message);
     }
     const auto in_parameter = read("1+v(a)", ExpressionScope{});
     ASSERT_FALSE(in_parameter);
@@ -225,7 +225,7 @@ TEST(Expression, RejectsFunctionsThatExpandExponentially) {
     EXPECT_EQ(value("f8(3)", s), 3);
 }
 
-TEST(Expression, HasTheSlopesOfFiniteDifferences) {
+TEST(Expression, ItsDerivativesEqualFiniteDifferences) {
     const struct {
         const char* text;
         double low, high;
@@ -283,7 +283,7 @@ TEST(Expression, PassesNoInfiniteSlopeThroughTheBranchNotTaken) {
     EXPECT_EQ(slopes[1], 0);
 }
 
-// A random expression and its separately computed value.
+/// A random expression and its separately computed value.
 struct RandomExpression {
     std::string text;
     double value;
@@ -327,7 +327,7 @@ TEST(Expression, RandomExpressionsEvaluateToTheirValues) {
     }));
 }
 
-TEST(Expression, TakesAnyTextWithoutHarm) {
+TEST(Expression, AnyTextIsHandledSafely) {
     EXPECT_TRUE(rc::check([](const std::string& text) { RC_ASSERT(read(text) || true); }));
 }
 

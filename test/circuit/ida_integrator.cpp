@@ -29,25 +29,27 @@ using Ida = std::unique_ptr<void, decltype([](void* m) { IDAFree(&m); })>;
 double* data_of(N_Vector v) { return N_VGetArrayPointer(v); }
 double* data_of(const Vector& v) { return data_of(v.get()); }
 
-/// Evaluates the circuit's sums exactly at x: repeats the evaluation until no device limits its voltages.
+/// Evaluates the circuit's equations exactly at x: repeats the evaluation until no device limits its voltages.
 class EquationEvaluator {
     System& system_;
     std::vector<double> memory_;
-    EvalContext at_;
+    EvalContext eval_context_;
 
 public:
     SystemEvaluation sums;
     long evaluations = 0;
-    std::size_t watched = 0;
-    double level = 0;
+    std::size_t crossing_unknown = 0;
+    double crossing_level = 0;  // V
 
-    EquationEvaluator(System& system, double gmin) : system_(system), memory_(system.initial_limiting_state()) { at_.gmin = gmin; }
+    EquationEvaluator(System& system, double gmin) : system_(system), memory_(system.initial_limiting_state()) {
+        eval_context_.gmin = gmin;
+    }
     std::size_t size() const { return static_cast<std::size_t>(system_.size()); }
     const System& system() const { return system_; }
-    bool at(const double* x, double t) {
-        at_.time = t;
+    bool evaluate(const double* x, double t) {
+        eval_context_.time = t;
         for (int k = 0; k < 200; ++k) {
-            system_.eval({x, size()}, at_, memory_, sums);
+            system_.eval({x, size()}, eval_context_, memory_, sums);
             ++evaluations;
             if (!sums.is_limited) return true;
         }
@@ -58,7 +60,7 @@ public:
 int residual(double t, N_Vector y, N_Vector yp, N_Vector r, void* data) {
     auto& equations = *static_cast<EquationEvaluator*>(data);
     const auto n = equations.size();
-    if (!equations.at(data_of(y), t)) return 1;
+    if (!equations.evaluate(data_of(y), t)) return 1;
     for (std::size_t k = 0; k < n; ++k) {
         data_of(r)[k] = equations.sums.f[k] + data_of(yp)[n + k];
         data_of(r)[n + k] = data_of(y)[n + k] - equations.sums.q[k];
@@ -67,10 +69,10 @@ int residual(double t, N_Vector y, N_Vector yp, N_Vector r, void* data) {
     return 0;
 }
 
-/// [G  cj; -C  1], column by column
+/// Jacobian [G  cj; -C  1] in the unknowns (x, q), column by column.
 int jacobian(double t, double cj, N_Vector y, N_Vector, N_Vector, SUNMatrix J, void* data, N_Vector, N_Vector, N_Vector) {
     auto& equations = *static_cast<EquationEvaluator*>(data);
-    if (!equations.at(data_of(y), t)) return 1;
+    if (!equations.evaluate(data_of(y), t)) return 1;
     const auto& pattern = equations.system().pattern();
     const auto n = static_cast<sunindextype>(equations.size());
     auto *begin = SUNSparseMatrix_IndexPointers(J), *rows = SUNSparseMatrix_IndexValues(J);
@@ -91,7 +93,7 @@ int jacobian(double t, double cj, N_Vector y, N_Vector, N_Vector, SUNMatrix J, v
 
 int above_level(double, N_Vector y, N_Vector, double* out, void* data) {
     const auto& equations = *static_cast<EquationEvaluator*>(data);
-    out[0] = data_of(y)[equations.watched] - equations.level;
+    out[0] = data_of(y)[equations.crossing_unknown] - equations.crossing_level;
     return 0;
 }
 
@@ -110,7 +112,7 @@ class Run {
     const IdaOptions& options_;
     std::size_t n_;
     Context context_;
-    Vector y_, slope_, floor_;
+    Vector y_, slope_, tolerances_;
     Matrix matrix_;
     Linear linear_;
     Ida ida_;
@@ -118,7 +120,8 @@ class Run {
     std::size_t next_ = 0;  // index into the output times
     IdaResult out_;
 
-    bool done(int flag, const char* what) {
+    /// False after an error, which is stored in the result. `what` names the call.
+    bool check(int flag, const char* what) {
         if (flag < 0)
             out_.error =
                 fmt::format("{} at {:.9g} s: {}", what, t_, std::unique_ptr<char, Deleter<void, free>>(IDAGetReturnFlagName(flag)).get());
@@ -137,12 +140,13 @@ public:
 Run::Run(System& system, double gmin, const std::vector<double>& start, const IdaOptions& options)
     : equations_(system, gmin), options_(options), n_(equations_.size()), context_(make_context()) {
     const auto count = static_cast<sunindextype>(2 * n_), entries = static_cast<sunindextype>(2 * system.pattern().entries() + 2 * n_);
-    for (auto* v : {&y_, &slope_, &floor_}) v->reset(N_VNew_Serial(count, context_.get())), N_VConst(0, v->get());
+    for (auto* v : {&y_, &slope_, &tolerances_}) v->reset(N_VNew_Serial(count, context_.get())), N_VConst(0, v->get());
     std::copy(start.begin(), start.end(), data_of(y_));
     matrix_.reset(SUNSparseMatrix(count, count, entries, CSC_MAT, context_.get()));
     linear_.reset(SUNLinSol_KLU(y_.get(), matrix_.get(), context_.get()));
     if (options.crossing_unknown >= 0)
-        equations_.watched = static_cast<std::size_t>(options.crossing_unknown), equations_.level = options.crossing_level;
+        equations_.crossing_unknown = static_cast<std::size_t>(options.crossing_unknown),
+        equations_.crossing_level = options.crossing_level;
 }
 
 /// Absolute tolerances: vntol for voltages, a node's capacitance times vntol for charges. Currents are not checked.
@@ -150,23 +154,23 @@ void Run::set_tolerances() {
     const auto& system = equations_.system();
     for (std::size_t k = 0; k < n_; ++k) {
         const double c = std::abs(equations_.sums.C[system.pattern().entry_index(static_cast<int>(k), static_cast<int>(k))]);
-        data_of(floor_)[k] = system.is_voltage(static_cast<int>(k)) ? options_.vntol : 1;
-        data_of(floor_)[n_ + k] = c > 0 ? c * options_.vntol : 1;
+        data_of(tolerances_)[k] = system.is_voltage(static_cast<int>(k)) ? options_.vntol : 1;
+        data_of(tolerances_)[n_ + k] = c > 0 ? c * options_.vntol : 1;
     }
 }
 
-/// One step of backward Euler, too short to change charges: it makes all other unknowns consistent. Then dq/dt = -f.
+/// Makes all unknowns consistent with the charges, by one step of backward Euler that is too short to change them. Then sets dq/dt = -f.
 bool Run::make_consistent(double h) {
     const auto& pattern = equations_.system().pattern();
     LinearSolver<double> solver(pattern);
     double* x = data_of(y_);
-    if (!equations_.at(x, t_)) return false;
+    if (!equations_.evaluate(x, t_)) return false;
     const auto before = equations_.sums.q;
     auto& s = equations_.sums;
     std::vector<double> step(n_);
     double largest = 1;
     for (int k = 0; k < 100 && largest > 1e-11; ++k) {
-        if (!equations_.at(x, t_ + h)) return false;
+        if (!equations_.evaluate(x, t_ + h)) return false;
         for (std::size_t j = 0; j < n_; ++j) step[j] = -(s.f[j] + (s.q[j] - before[j]) / h);
         auto values = s.G;
         for (std::size_t j = 0; j < values.size(); ++j) values[j] += s.C[j] / h;
@@ -180,32 +184,32 @@ bool Run::make_consistent(double h) {
         }
     }
     t_ += h;
-    if (largest > 1e-11 || !equations_.at(x, t_)) return false;
+    if (largest > 1e-11 || !equations_.evaluate(x, t_)) return false;
     for (std::size_t j = 0; j < n_; ++j) data_of(slope_)[j] = 0, data_of(slope_)[n_ + j] = -s.f[j], data_of(y_)[n_ + j] = s.q[j];
     return true;
 }
 
 bool Run::start() {
     set_tolerances();
-    if (ida_) return done(IDAReInit(ida_.get(), t_, y_.get(), slope_.get()), "reinit");
+    if (ida_) return check(IDAReInit(ida_.get(), t_, y_.get(), slope_.get()), "reinit");
     ida_.reset(IDACreate(context_.get()));
     void* m = ida_.get();
-    return done(IDAInit(m, residual, t_, y_.get(), slope_.get()), "init") &&
-           done(IDASVtolerances(m, options_.reltol, floor_.get()), "tolerances") && done(IDASetUserData(m, &equations_), "data") &&
-           done(IDASetLinearSolver(m, linear_.get(), matrix_.get()), "linear solver") && done(IDASetJacFn(m, jacobian), "Jacobian") &&
-           done(IDASetMaxNumSteps(m, options_.max_steps), "steps") && done(IDASetMaxErrTestFails(m, 50), "fails") &&
-           done(IDASetMaxConvFails(m, 50), "fails") && (options_.crossing_unknown < 0 || done(IDARootInit(m, 1, above_level), "root"));
+    return check(IDAInit(m, residual, t_, y_.get(), slope_.get()), "init") &&
+           check(IDASVtolerances(m, options_.reltol, tolerances_.get()), "tolerances") && check(IDASetUserData(m, &equations_), "data") &&
+           check(IDASetLinearSolver(m, linear_.get(), matrix_.get()), "linear solver") && check(IDASetJacFn(m, jacobian), "Jacobian") &&
+           check(IDASetMaxNumSteps(m, options_.max_steps), "steps") && check(IDASetMaxErrTestFails(m, 50), "fails") &&
+           check(IDASetMaxConvFails(m, 50), "fails") && (options_.crossing_unknown < 0 || check(IDARootInit(m, 1, above_level), "root"));
 }
 
 bool Run::advance_to(double breakpoint) {
     void* m = ida_.get();
-    if (!done(IDASetStopTime(m, breakpoint), "stop")) return false;
+    if (!check(IDASetStopTime(m, breakpoint), "stop")) return false;
     int upward = 1;
-    if (options_.crossing_unknown >= 0 && !done(IDASetRootDirection(m, &upward), "root")) return false;
+    if (options_.crossing_unknown >= 0 && !check(IDASetRootDirection(m, &upward), "root")) return false;
     while (t_ < breakpoint) {
-        const bool wanted = next_ < options_.output_times.size() && options_.output_times[next_] <= breakpoint;
-        const int flag = IDASolve(m, wanted ? options_.output_times[next_] : breakpoint, &t_, y_.get(), slope_.get(), IDA_NORMAL);
-        if (!done(flag, "a step")) return false;
+        const bool has_output = next_ < options_.output_times.size() && options_.output_times[next_] <= breakpoint;
+        const int flag = IDASolve(m, has_output ? options_.output_times[next_] : breakpoint, &t_, y_.get(), slope_.get(), IDA_NORMAL);
+        if (!check(flag, "a step")) return false;
         if (flag == IDA_ROOT_RETURN) out_.crossings.push_back(t_);
         for (; flag != IDA_ROOT_RETURN && next_ < options_.output_times.size() && options_.output_times[next_] <= t_; ++next_)
             out_.x.emplace_back(data_of(y_), data_of(y_) + n_);

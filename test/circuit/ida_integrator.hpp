@@ -16,7 +16,7 @@ struct IdaOptions {
     int crossing_unknown = -1;           ///< index of the unknown whose crossings are recorded; -1 for none
     double crossing_level = 0;           ///< V
     double reltol = 1e-9, vntol = 1e-9;  ///< vntol in V; the tolerance of a charge is vntol times the capacitance of its node
-    long max_steps = 20'000'000;         ///< steps
+    long max_steps = 20'000'000;
 };
 
 struct IdaResult {

@@ -67,7 +67,7 @@ double variation(const std::vector<double>& x) {
     return std::sqrt(sum / static_cast<double>(x.size())) / mean;
 }
 
-TransientPlan tight(double reltol) {
+TransientPlan plan_with_reltol(double reltol) {
     TransientPlan plan;
     plan.reltol = reltol, plan.vntol = reltol / 10;
     return plan;
@@ -89,13 +89,13 @@ TransientPlan equal_steps(double step, const Rule& rule) {
     return plan;
 }
 
-/// The error must not grow with any decade of reltol, and must fall by a factor of thirty over three decades (second order: a hundred, less
-/// because steps are quantized).
-void expect_falling(const std::vector<double>& off, double floor, const std::string& what) {
-    for (std::size_t k = 1; k < off.size(); ++k)
-        EXPECT_LT(off[k], std::max(off[k - 1], floor)) << what << ": at 1e-" << 3 + k << ", after " << off[k - 1];
-    EXPECT_LT(off.back(), std::max(off.front() / 30, floor)) << what;
-    testing::Test::RecordProperty(what, testing::PrintToString(off));
+/// Expects an error that does not grow with any decade of reltol, and falls by a factor of thirty over three decades. (A method of second
+/// order would give a hundred; quantized steps give less.)
+void expect_falling(const std::vector<double>& errors, double floor, const std::string& what) {
+    for (std::size_t k = 1; k < errors.size(); ++k)
+        EXPECT_LT(errors[k], std::max(errors[k - 1], floor)) << what << ": at 1e-" << 3 + k << ", after " << errors[k - 1];
+    EXPECT_LT(errors.back(), std::max(errors.front() / 30, floor)) << what;
+    testing::Test::RecordProperty(what, testing::PrintToString(errors));
 }
 
 TEST(Ida, AgreesWithTheClosedFormOfAChargingCapacitor) {
@@ -103,15 +103,15 @@ TEST(Ida, AgreesWithTheClosedFormOfAChargingCapacitor) {
     IdaOptions options;
     options.crossing_unknown = rc.unknown("v(out)"), options.crossing_level = 0.5;
     options.output_times = {0.5e-3, 2e-3, 3e-3, 5e-3};
-    const auto found = rc.run_ida(options);
-    ASSERT_EQ(found.error, "");
-    ASSERT_EQ(found.x.size(), 4U);
+    const auto result = rc.run_ida(options);
+    ASSERT_EQ(result.error, "");
+    ASSERT_EQ(result.x.size(), 4U);
     const auto exact = [](double t) { return 1 - 1e3 * std::expm1(1e-3) * std::exp(-(t - 1e-3) / 1e-3); };
     for (std::size_t k = 1; k < 4; ++k)
-        EXPECT_NEAR(found.x[k][static_cast<std::size_t>(options.crossing_unknown)], exact(options.output_times[k]), 1e-7)
+        EXPECT_NEAR(result.x[k][static_cast<std::size_t>(options.crossing_unknown)], exact(options.output_times[k]), 1e-7)
             << options.output_times[k];
-    ASSERT_EQ(found.crossings.size(), 1U);
-    EXPECT_NEAR(exact(found.crossings[0]), 0.5, 1e-7);
+    ASSERT_EQ(result.crossings.size(), 1U);
+    EXPECT_NEAR(exact(result.crossings[0]), 0.5, 1e-7);
 }
 
 TEST(Ida, AgreesWithItselfOnAnOscillatorsSpikes) {
@@ -121,32 +121,33 @@ TEST(Ida, AgreesWithItselfOnAnOscillatorsSpikes) {
     options.reltol = options.vntol = 1e-8;
     const auto loose = oscillator.run_ida(options);
     options.reltol = options.vntol = 1e-10;
-    const auto close = oscillator.run_ida(options);
-    ASSERT_EQ(loose.crossings.size(), close.crossings.size());
-    for (std::size_t k = 0; k < close.crossings.size(); ++k)
-        EXPECT_NEAR(loose.crossings[k], close.crossings[k], 1e-6 * close.crossings[k]) << k;
-    EXPECT_LT(variation(intervals({close.crossings.begin() + 2, close.crossings.end()})), 1e-7);
+    const auto precise = oscillator.run_ida(options);
+    ASSERT_EQ(loose.crossings.size(), precise.crossings.size());
+    for (std::size_t k = 0; k < precise.crossings.size(); ++k)
+        EXPECT_NEAR(loose.crossings[k], precise.crossings[k], 1e-6 * precise.crossings[k]) << k;
+    EXPECT_LT(variation(intervals({precise.crossings.begin() + 2, precise.crossings.end()})), 1e-7);
 }
 
 TEST(IdaOrder, ErrorsOfAFilterFallWithTheTolerance) {
     for (const auto* waveform : {"pwl(0 0.35 10m 0.35 11m 0.38)", "sin(0.35 0.03 20)"}) {
         const auto filter = high_pass(waveform, "0.2");
         std::vector<TransientPoints> runs;
-        for (const double reltol : {1e-3, 1e-4, 1e-5, 1e-6}) runs.push_back(filter.run(tight(reltol)));
+        for (const double reltol : {1e-3, 1e-4, 1e-5, 1e-6}) runs.push_back(filter.run(plan_with_reltol(reltol)));
         expect_falling(distances(filter, runs, "v(hpb)"), 1e-8, waveform);
     }
 }
 
-/// The first steps are of first order; their error has decayed when the comparison starts.
+/// The first steps are of first order; at 0.1 s, where the comparison starts, their error has decayed.
 TEST(IdaOrder, ErrorsOfAFilterFallWithTheStepByTheOrder) {
     const auto filter = high_pass("sin(0.35 0.03 40)", "0.2");
     for (const auto& rule : {bdf[0], bdf[1], bdf[2], bdf[3], trapezoidal}) {
         const double coarse = rule.order > 3 ? 1e-3 : rule.order > 2 ? 400e-6 : 100e-6;
         std::vector<TransientPoints> runs;
         for (const double h : {coarse, coarse / 2, coarse / 4}) runs.push_back(filter.run(equal_steps(h, rule)));
-        const auto off = distances(filter, runs, "v(hpb)", 0.1);
-        for (std::size_t k = 1; k < off.size(); ++k)
-            EXPECT_NEAR(std::log2(off[k - 1] / off[k]), rule.order, 0.2) << rule.name << ": " << off[k - 1] << " V, then " << off[k];
+        const auto errors = distances(filter, runs, "v(hpb)", 0.1);
+        for (std::size_t k = 1; k < errors.size(); ++k)
+            EXPECT_NEAR(std::log2(errors[k - 1] / errors[k]), rule.order, 0.2)
+                << rule.name << ": " << errors[k - 1] << " V, then " << errors[k];
     }
 }
 
@@ -155,29 +156,29 @@ TEST(IdaOrder, AnOscillatorsSpikesConvergeWithTheTolerance) {
     oscillator.set_stop_time(0.4);
     const auto reference = reference_spikes(oscillator, "v(s)", 0.35);
     ASSERT_GT(reference.size(), 8U);
-    std::vector<double> off;
+    std::vector<double> errors;
     for (const double reltol : {1e-3, 1e-4, 1e-5, 1e-6}) {
-        const auto spikes = oscillator.spike_times(oscillator.run(tight(reltol)), "v(s)", 0.35);
+        const auto spikes = oscillator.spike_times(oscillator.run(plan_with_reltol(reltol)), "v(s)", 0.35);
         ASSERT_EQ(spikes.size(), reference.size()) << reltol;
-        off.push_back(std::abs(spikes.back() - reference.back()));
+        errors.push_back(std::abs(spikes.back() - reference.back()));
     }
-    expect_falling(off, 1e-6 * reference.back(), "oscillator");
+    expect_falling(errors, 1e-6 * reference.back(), "oscillator");
 }
 
-/// A Schmitt trigger's edge takes nanoseconds, so equal steps show no order there. They resolve the waves of a ring oscillator.
-TEST(IdaOrder, ARingsPeriodErrorFallsFourfoldWithHalfTheStep) {
+/// Equal steps cannot resolve a Schmitt trigger's edges, which take nanoseconds, but they resolve the waves of a ring oscillator.
+TEST(IdaOrder, AHalvedStepQuartersTheErrorOfARingsPeriod) {
     const auto ring = TransientRunner::from_file(loops + "ring.cir");
     const auto reference = reference_spikes(ring, "v(a)", 0.35);
     ASSERT_GT(reference.size(), 3U);
     for (const auto& rule : {bdf[1], trapezoidal}) {
-        std::vector<double> off;
+        std::vector<double> errors;
         for (const double h : {0.8e-9, 0.4e-9, 0.2e-9}) {
             const auto rises = ring.spike_times(ring.run(equal_steps(h, rule)), "v(a)", 0.35);
             ASSERT_EQ(rises.size(), reference.size()) << h;
-            off.push_back(std::abs(rises.back() - reference.back()));
+            errors.push_back(std::abs(rises.back() - reference.back()));
         }
-        for (std::size_t k = 1; k < off.size(); ++k)
-            EXPECT_NEAR(off[k - 1] / off[k], 4, 0.5) << rule.name << ": " << off[k - 1] << " s, then " << off[k];
+        for (std::size_t k = 1; k < errors.size(); ++k)
+            EXPECT_NEAR(errors[k - 1] / errors[k], 4, 0.5) << rule.name << ": " << errors[k - 1] << " s, then " << errors[k];
     }
 }
 
@@ -186,15 +187,15 @@ TEST(IdaDefaults, AnOscillatorKeepsItsPeriodForASecond) {
     const auto reference = reference_spikes(oscillator, "v(s)", 0.35);
     const auto spikes = oscillator.spike_times(oscillator.run({}), "v(s)", 0.35);
     ASSERT_EQ(spikes.size(), reference.size());
-    const auto mine = intervals(spikes), theirs = intervals(reference);
+    const auto own_intervals = intervals(spikes), reference_intervals = intervals(reference);
     double worst = 0;
-    for (std::size_t k = 0; k < mine.size(); ++k) worst = std::max(worst, std::abs(mine[k] / theirs[k] - 1));
+    for (std::size_t k = 0; k < own_intervals.size(); ++k) worst = std::max(worst, std::abs(own_intervals[k] / reference_intervals[k] - 1));
     EXPECT_LT(worst, 1e-3) << "the worst interval";
-    EXPECT_LT(variation({mine.begin() + 1, mine.end()}), 1e-4);
+    EXPECT_LT(variation({own_intervals.begin() + 1, own_intervals.end()}), 1e-4);
     EXPECT_NEAR(spikes.back(), reference.back(), 1e-3 * reference.back());
 }
 
-TEST(IdaLoop, ItsLastSpikeStaysWithinAThousandthAtDefaults) {
+TEST(IdaLoop, LastSpikeIsWithinAThousandthAtDefaultTolerances) {
     const auto loop = TransientRunner::from_file(loops + "loop.cir");
     const auto reference = reference_spikes(loop, "v(s)", 0.35);
     ASSERT_GT(reference.size(), 20U);
@@ -203,16 +204,16 @@ TEST(IdaLoop, ItsLastSpikeStaysWithinAThousandthAtDefaults) {
     EXPECT_NEAR(spikes.back(), reference.back(), 1e-3 * reference.back());
 }
 
-TEST(IdaLoop, ItsSpikesConvergeWithTheTolerance) {
+TEST(IdaLoop, SpikesConvergeWithTheTolerance) {
     const auto loop = TransientRunner::from_file(loops + "loop.cir");
     const auto reference = reference_spikes(loop, "v(s)", 0.35);
-    std::vector<double> off;
+    std::vector<double> errors;
     for (const double reltol : {1e-3, 1e-4, 1e-5, 1e-6}) {
-        const auto spikes = loop.spike_times(loop.run(tight(reltol)), "v(s)", 0.35);
+        const auto spikes = loop.spike_times(loop.run(plan_with_reltol(reltol)), "v(s)", 0.35);
         ASSERT_EQ(spikes.size(), reference.size()) << reltol;
-        off.push_back(std::abs(spikes.back() - reference.back()));
+        errors.push_back(std::abs(spikes.back() - reference.back()));
     }
-    expect_falling(off, 1e-6 * reference.back(), "loop");
+    expect_falling(errors, 1e-6 * reference.back(), "loop");
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// The channel's charge compared with arithmetic of more than 50 digits (MPFR, 200 bits).
+// The inversion charge of a channel, compared with arithmetic of more than 50 digits (MPFR, 200 bits).
 
 #include "circuit/device/inversion_charge.hpp"
 
@@ -12,7 +12,7 @@
 namespace corpuscle::circuit {
 namespace {
 
-/// q of q + ln q = x to 200 bits.
+/// Solution q of q + ln q = x to 200 bits.
 class Exact {
     mpfr_t q_, r_, p_;
 
@@ -22,7 +22,7 @@ public:
     Exact(const Exact&) = delete;
     Exact& operator=(const Exact&) = delete;
 
-    /// Relative error of `found`.
+    /// Relative error of `found` as the solution for x.
     double error(double x, double found) {
         mpfr_set_d(q_, found, MPFR_RNDN);
         for (int step = 0; step < 6; ++step) {  // Newton in ln q: q <- q (1 + (x - q - ln q) / (1 + q))
@@ -35,7 +35,7 @@ public:
     }
 };
 
-TEST(Inversion, IsWithinATenthOfATrillionthOfFiftyDigitArithmetic) {
+TEST(Inversion, HasARelativeErrorBelowATenthOfATrillionth) {
     Exact exact;
     double worst = 0, worst_near = 0;
     for (int k = -28000; k <= 28000; ++k) {
@@ -50,7 +50,7 @@ TEST(Inversion, IsWithinATenthOfATrillionthOfFiftyDigitArithmetic) {
     EXPECT_LT(worst_near, 4e-15);
 }
 
-TEST(Inversion, MeetsWhereItsThreeSeedsMeet) {
+TEST(Inversion, IsAccurateWhereItsInitialGuessesChange) {
     Exact exact;
     for (const double joint : {-2.5, 6.0})
         for (double x = joint - 1e-9; x <= joint + 1e-9; x += 1e-11) ASSERT_LT(exact.error(x, inversion_charge(x)), 4e-15) << x;
@@ -58,7 +58,7 @@ TEST(Inversion, MeetsWhereItsThreeSeedsMeet) {
 
 TEST(Inversion, IsOneAtOne) { EXPECT_NEAR(inversion_charge(1.0), 1.0, 3e-16); }
 
-TEST(Inversion, StaysFiniteAndRisingWhereNewtonMayGuessWildly) {
+TEST(Inversion, StaysFiniteAndRisesForExtremeArguments) {
     double before = 0;
     for (const double x : {-1e9, -1e4, -701.0, -699.0, -10.0, 0.0, 10.0, 701.0, 1e4, 1e9}) {
         const double q = inversion_charge(x);

@@ -28,9 +28,9 @@ double measured(const std::string& words, const std::vector<double>& t, const st
     return (*measurement)->value();
 }
 
-const std::vector<double> times{0, 1, 3, 4, 8}, values{0, 2, -2, -1, 3};  // 0 at 2 s and 5 s
+const std::vector<double> times{0, 1, 3, 4, 8}, values{0, 2, -2, -1, 3};  // crosses 0 at 2 s and 5 s
 
-TEST(MeasureInfo, FindsValuesBetweenPoints) {
+TEST(Measurement, FindsValuesBetweenPoints) {
     EXPECT_DOUBLE_EQ(measured("find v(a) at=0.5", times, values), 1);
     EXPECT_DOUBLE_EQ(measured("find v(a) at=3", times, values), -2);
     EXPECT_DOUBLE_EQ(measured("find v(a) at=8.000000001", times, values), 3) << "rounding may put a time beyond the end";
@@ -41,7 +41,7 @@ TEST(MeasureInfo, FindsValuesBetweenPoints) {
     EXPECT_DOUBLE_EQ(measured("deriv v(a) when v(a)=0 rise=last", times, values), 1);
 }
 
-TEST(MeasureInfo, DistinguishesCrossings) {
+TEST(Measurement, DistinguishesCrossings) {
     EXPECT_DOUBLE_EQ(measured("when v(a)=1", times, values), 0.5);
     EXPECT_DOUBLE_EQ(measured("when v(a)=1 cross=2", times, values), 1.5);
     EXPECT_DOUBLE_EQ(measured("when v(a)=1 rise=2", times, values), 6);
@@ -56,14 +56,14 @@ TEST(MeasureInfo, DistinguishesCrossings) {
     EXPECT_DOUBLE_EQ(measured("count v(a)=7", times, values), 0);
 }
 
-TEST(MeasureInfo, TakesTheTimeBetweenTwoEdges) {
+TEST(Measurement, MeasuresTheTimeBetweenTwoEdges) {
     EXPECT_DOUBLE_EQ(measured("trig v(a) val=1 rise=1 targ v(a) val=1 rise=2", times, values), 5.5);
     EXPECT_DOUBLE_EQ(measured("trig at=1 targ v(a) td=2.5 val=0 cross=1", times, values), 4);
     EXPECT_DOUBLE_EQ(measured("trig v(a)=1 fall=1 targ at=1", times, values), -0.5) << "an earlier target gives a negative delay";
     EXPECT_TRUE(std::isnan(measured("trig v(a) val=1 rise=1 targ v(a) val=9 rise=2", times, values)));
 }
 
-TEST(MeasureInfo, WeighsByTimeBetweenTheVeryEndsThatAreNamed) {
+TEST(Measurement, IntegratesExactlyBetweenTheGivenTimes) {
     EXPECT_DOUBLE_EQ(measured("integ v(a)", times, values), 1 + 0 - 1.5 + 4);
     EXPECT_DOUBLE_EQ(measured("avg v(a)", times, values), 3.5 / 8);
     EXPECT_DOUBLE_EQ(measured("integ v(a) from=0.5 to=1.5", times, values), 0.75 + 0.75);
@@ -78,7 +78,7 @@ TEST(MeasureInfo, WeighsByTimeBetweenTheVeryEndsThatAreNamed) {
     EXPECT_TRUE(std::isnan(measured("max v(a) from=9", times, values)));
 }
 
-TEST(MeasureInfo, MorePointsOnTheSameLinesChangeNothing) {
+TEST(Measurement, MorePointsOnTheSameLineSegmentsChangeNothing) {
     EXPECT_TRUE(rc::check([] {
         std::vector<double> t{0}, y{0};
         for (int k = 0; k < 6; ++k) t.push_back(t.back() + *rc::gen::inRange(1, 9)), y.push_back(*rc::gen::inRange(-9, 9));
@@ -103,30 +103,30 @@ TEST(MeasureInfo, MorePointsOnTheSameLinesChangeNothing) {
     }));
 }
 
-TEST(MeasureInfo, ReportsErrorsWithTheirLocation) {
-    const auto warning = [](const std::string& words) {
+TEST(Measurement, ReportsErrorsWithTheirLocation) {
+    const auto error_of_line = [](const std::string& words) {
         const auto netlist = parse_netlist_text("t\nv1 a 0 1\nr1 a 0 1k\n.tran 1m 2m\n.meas tran x " + words + "\n");
         const auto outcome = run_directives(std::make_shared<const Circuit>(*netlist->elaborate()));
         const auto text = outcome ? "nothing" : outcome.error().text();
         return text.substr(text.find("test.cir") == std::string::npos ? 0 : text.find("test.cir") + 9);
     };
-    EXPECT_EQ(warning("find v(b) at=1m"), "5:19: .meas: there is no curve 'v(b)' in 'Transient Analysis'");
-    EXPECT_EQ(warning("find v(a) at=soon"), "5:24: .meas: 'at=soon': expected a number after 'at='");
-    EXPECT_EQ(warning("find v(a)"), "5:1: .meas: '': expected at=VALUE or when CURVE=VALUE");
-    EXPECT_EQ(warning("when v(a)"), "5:19: .meas: 'v(a)' must be CURVE=VALUE");
-    EXPECT_EQ(warning("when v(a)=1 rise=0"), "5:26: .meas: 'rise=0' must be 1, 2 ... or last");
-    EXPECT_EQ(warning("trig v(a) val=1 rise=1"), "5:1: .meas: expected targ after trig");
-    EXPECT_EQ(warning("max v(a) at=1"), "5:23: .meas: unexpected 'at=1'");
-    EXPECT_EQ(warning("err v(a) v(a)"),
+    EXPECT_EQ(error_of_line("find v(b) at=1m"), "5:19: .meas: there is no curve 'v(b)' in 'Transient Analysis'");
+    EXPECT_EQ(error_of_line("find v(a) at=soon"), "5:24: .meas: 'at=soon': expected a number after 'at='");
+    EXPECT_EQ(error_of_line("find v(a)"), "5:1: .meas: '': expected at=VALUE or when CURVE=VALUE");
+    EXPECT_EQ(error_of_line("when v(a)"), "5:19: .meas: 'v(a)' must be CURVE=VALUE");
+    EXPECT_EQ(error_of_line("when v(a)=1 rise=0"), "5:26: .meas: 'rise=0' must be 1, 2 ... or last");
+    EXPECT_EQ(error_of_line("trig v(a) val=1 rise=1"), "5:1: .meas: expected targ after trig");
+    EXPECT_EQ(error_of_line("max v(a) at=1"), "5:23: .meas: unexpected 'at=1'");
+    EXPECT_EQ(error_of_line("err v(a) v(a)"),
               "5:14: .meas: unknown measurement 'err'; expected one of find, when, deriv, min, max, pp, avg, rms, integ, min_at, "
               "max_at, trig, count, param=");
-    EXPECT_EQ(warning("find par('v(a)+q') at=1"), "5:19: .meas: unknown name 'q'");
-    EXPECT_EQ(warning("find par('v(q)') at=1"), "5:19: .meas: there is no curve 'par('v(q)')' in 'Transient Analysis'");
+    EXPECT_EQ(error_of_line("find par('v(a)+q') at=1"), "5:19: .meas: unknown name 'q'");
+    EXPECT_EQ(error_of_line("find par('v(q)') at=1"), "5:19: .meas: there is no curve 'par('v(q)')' in 'Transient Analysis'");
 }
 
 /// A transient with a closed form: v(out) of an RC with a step at 1 ms.
-TEST(MeasureInfo, OfAChargingCapacitorAgreesWithTheClosedForm) {
-    const auto found = run_netlist(
+TEST(Measurement, OfAChargingCapacitorAgreesWithTheClosedForm) {
+    const auto run = run_netlist(
         "rc\nv1 in 0 pulse(0 1 1m 1n 1n 1 2)\nr1 in out 1k\nc1 out 0 1u\n.tran 10u 6m 0 2u\n.meas tran half when v(out)=0.5\n"
         ".meas tran later trig v(in) val=0.5 rise=1 targ v(out) val=0.9 rise=1\n.meas tran mean avg v(out) from=1.5m to=2.5m\n"
         ".meas tran effective rms v(out) from=1.5m to=2.5m\n.meas tran area integ v(out) from=1.5m to=2.5m\n"
@@ -134,29 +134,30 @@ TEST(MeasureInfo, OfAChargingCapacitorAgreesWithTheClosedForm) {
         ".meas tran slope deriv v(out) when v(out)=0.5\n.meas tran times count v(out)=0.5\n.meas tran sum param='half+later'\n");
     const auto e = [](double x) { return std::exp(-x); };
     const double mean = 1 - (e(0.5) - e(1.5)), square = 1 - 2 * (e(0.5) - e(1.5)) + 0.5 * (e(1) - e(3));
-    EXPECT_NEAR(found.number("half"), 1e-3 + 1e-3 * std::log(2), 1e-6);
-    EXPECT_NEAR(found.number("later"), 1e-3 * std::log(10), 3e-6);
-    EXPECT_NEAR(found.number("mean"), mean, 2e-4);
-    EXPECT_NEAR(found.number("effective"), std::sqrt(square), 2e-4);
-    EXPECT_NEAR(found.number("area"), 1e-3 * mean, 2e-7);
-    EXPECT_NEAR(found.number("least"), 1 - e(0.5), 2e-4);
-    EXPECT_NEAR(found.number("most"), 1 - e(1.5), 2e-4);
-    EXPECT_NEAR(found.number("slope"), 500, 2);
-    EXPECT_EQ(found.number("times"), 1);
-    EXPECT_DOUBLE_EQ(found.number("sum"), found.number("half") + found.number("later"));
+    EXPECT_NEAR(run.number("half"), 1e-3 + 1e-3 * std::log(2), 1e-6);
+    EXPECT_NEAR(run.number("later"), 1e-3 * std::log(10), 3e-6);
+    EXPECT_NEAR(run.number("mean"), mean, 2e-4);
+    EXPECT_NEAR(run.number("effective"), std::sqrt(square), 2e-4);
+    EXPECT_NEAR(run.number("area"), 1e-3 * mean, 2e-7);
+    EXPECT_NEAR(run.number("least"), 1 - e(0.5), 2e-4);
+    EXPECT_NEAR(run.number("most"), 1 - e(1.5), 2e-4);
+    EXPECT_NEAR(run.number("slope"), 500, 2);
+    EXPECT_EQ(run.number("times"), 1);
+    EXPECT_DOUBLE_EQ(run.number("sum"), run.number("half") + run.number("later"));
 }
 
-TEST(MeasureInfo, TakesExpressionsOfCurves) {
-    const auto found = run_netlist(
+TEST(Measurement, TakesExpressionsOfCurves) {
+    const auto run = run_netlist(
         "t\nv1 a 0 pwl(0 0 1 2)\nr1 a 0 2\n.tran 1m 1 0 1m\n.meas tran energy integ par('-v(a)*i(v1)')\n"
         ".meas tran when_half when par('v(a)>=0.5 ? 1 : -1')=0\n.meas tran after trig par('v(a)^2') val=1 rise=1 targ "
         "par('v(a)^2')=par('4*time') rise=1\n.print tran par('v(a)*time')\n");
-    EXPECT_NEAR(found.number("energy"), 2.0 / 3, 1e-6);
-    EXPECT_NEAR(found.number("when_half"), 0.25, 1e-3);
+    EXPECT_NEAR(run.number("energy"), 2.0 / 3, 1e-6);
+    EXPECT_NEAR(run.number("when_half"), 0.25, 1e-3);
 }
 
-/// ngspice ends avg, min, max and pp at points, and lacks deriv and count. The test uses short steps and only common measurements.
-TEST(MeasureInfo, OfATransientIsThatOfNgspice) {
+/// In ngspice avg, min, max and pp end at time points, and deriv and count are missing. The test uses short steps and only measurements
+/// that both programs have.
+TEST(Measurement, OfATransientAgreesWithNgspice) {
     const TemporaryFolder folder;
     const std::string deck = folder.write("x.cir", R"(measures in time
 .options reltol=1e-6 abstol=1e-14 vntol=1e-9

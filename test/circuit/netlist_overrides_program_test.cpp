@@ -38,8 +38,8 @@ TEST(NetlistOverridesProgram, TheChipRespondsInAnyFolderAndOverridesChangeIt) {
     ASSERT_EQ(set.status, 0) << set.err;
     EXPECT_EQ(spikes_in(folder, "plain"), 14U);
     EXPECT_LT(spikes_in(folder, "set"), 10U) << "a membrane of twice the capacitance";
-    const auto traces = read_file(folder / "set/probes.csv");
-    EXPECT_EQ(traces.substr(0, traces.find('\n')),
+    const auto probes = read_file(folder / "set/probes.csv");
+    EXPECT_EQ(probes.substr(0, probes.find('\n')),
               "time_s,press_N,sa1-circuit.press.v(vf) [V],sa1-circuit.press.i(xsummer.mn3b) [A],sa1-circuit.press.v(xrectb.o) [V]");
     const auto one = Json::parse(read_file(folder / "set/summary.json"))["afferents"][0];
     EXPECT_EQ(one["name"], "sa1-circuit");
@@ -49,7 +49,7 @@ TEST(NetlistOverridesProgram, TheChipRespondsInAnyFolderAndOverridesChangeIt) {
     EXPECT_EQ(one["parameters"]["c_hpb"]["set"], false);
     EXPECT_EQ(one["parameters"]["temp"]["value"], 27);
     EXPECT_EQ(one["parameters"]["xsummer.mn3b.m"]["value"], 12);
-    EXPECT_FALSE(one["parameters"].contains("vtn_shift")) << "the card's own";
+    EXPECT_FALSE(one["parameters"].contains("vtn_shift")) << "a parameter of the process card";
 }
 
 TEST(NetlistOverridesProgram, OptionsApplyToEveryNetlistAndAnOverrideForOneTakesPrecedence) {
@@ -62,10 +62,10 @@ TEST(NetlistOverridesProgram, OptionsApplyToEveryNetlistAndAnOverrideForOneTakes
     const auto good =
         run_program(folder, "respond step -a a.cir,b.cir,sa1 --supply 0.5V --set b.cir.SUPPLY=2 --probe 'VDD,i(div.top)' -o out --report");
     ASSERT_EQ(good.status, 0) << good.err;
-    const auto traces = read_file(folder / "out/probes.csv");
+    const auto probes = read_file(folder / "out/probes.csv");
     EXPECT_TRUE(
-        has(traces, "a.cir.step.v(vdd) [V],a.cir.step.i(xdiv.rtop) [A],b.cir.step.v(vdd) [V],b.cir.step.i(xdiv.rtop) [A],sa1.step"));
-    EXPECT_TRUE(has(traces, ",0.5,0.00025,2,0.001,")) << traces.substr(0, 400);
+        has(probes, "a.cir.step.v(vdd) [V],a.cir.step.i(xdiv.rtop) [A],b.cir.step.v(vdd) [V],b.cir.step.i(xdiv.rtop) [A],sa1.step"));
+    EXPECT_TRUE(has(probes, ",0.5,0.00025,2,0.001,")) << probes.substr(0, 400);
     const auto page = read_file(folder / "out/report.html");
     EXPECT_TRUE(has(page, "i(xdiv.rtop)"));
 }
@@ -108,8 +108,8 @@ TEST(NetlistOverridesProgram, CopiesOfANetlistVaryItsParametersAndAreTheChipsOfA
     const auto first = copies.substr(copies.find("a.cir#1,step,") + 13), second = copies.substr(copies.find("a.cir#2,step,") + 13);
     const double r1 = std::stod(first), r2 = std::stod(second);
     EXPECT_NE(r1, r2);
-    const auto traces = read_file(folder / "out/probes.csv");
-    const auto row = traces.substr(traces.find('\n') + 1);
+    const auto probes = read_file(folder / "out/probes.csv");
+    const auto row = probes.substr(probes.find('\n') + 1);
     double time = 0, force = 0, i1 = 0, i2 = 0;
     ASSERT_EQ(std::sscanf(row.c_str(), "%lf,%lf,%lf,%lf", &time, &force, &i1, &i2), 4);
     const auto expected = [&](double r) { return (1 - force) / (r + 1e3); };  // the force, 1 mA/N, into 1 kohm
@@ -135,7 +135,7 @@ TEST(NetlistOverridesProgram, RunTakesTheSameOptionsAndSavesProbesInAddition) {
     EXPECT_EQ(run_program(folder, "export sa1-circuit --for ngspice -o deck.cir").status, 0);
 }
 
-TEST(NetlistOverridesProgram, ListShowsTheContentsOfAChip) {
+TEST(NetlistOverridesProgram, ListShowsTheParametersOfAChip) {
     const TemporaryFolder folder;
     const auto listed = Json::parse(run_program(folder, "list sa1-circuit --json").out)["afferents"][0];
     EXPECT_EQ(listed["name"], "sa1-circuit");

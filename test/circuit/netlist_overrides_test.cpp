@@ -54,7 +54,7 @@ constexpr const char* blocks =
 
 std::vector<std::string_view> some_names() { return {"xone.xleft.mn1", "xone.xright.mn1", "xtwo.xleft.mn1", "mn1", "m1", "xone.x", "mm1"}; }
 
-TEST(PathNames, ATailIsEnoughAndACompleteNameTakesPrecedence) {
+TEST(PathNames, TheEndOfAPathIsEnoughAndACompleteNameTakesPrecedence) {
     const auto names = some_names();
     using Indices = std::vector<std::size_t>;
     EXPECT_EQ(find_matching_names(names, "xone.xleft.mn1", LastPiece::element), Indices{0});
@@ -64,7 +64,7 @@ TEST(PathNames, ATailIsEnoughAndACompleteNameTakesPrecedence) {
     EXPECT_EQ(find_matching_names(names, "mn1", LastPiece::element), Indices{3});
     EXPECT_EQ(find_matching_names(names, "m1", LastPiece::element), Indices{4}) << "mm1 without its letter has lower precedence";
     EXPECT_EQ(find_matching_names(names, "x", LastPiece::node), Indices{5});
-    EXPECT_TRUE(find_matching_names(names, "n1", LastPiece::node).empty()) << "a node's own name has no letter to leave out";
+    EXPECT_TRUE(find_matching_names(names, "n1", LastPiece::node).empty()) << "a node's name has no element letter to omit";
     EXPECT_TRUE(find_matching_names(names, "ft.n1", LastPiece::element).empty());
     EXPECT_TRUE(find_matching_names(names, "", LastPiece::element).empty());
     EXPECT_EQ(short_name("xone.xleft.mn1", 2, LastPiece::element), "left.n1");
@@ -72,14 +72,16 @@ TEST(PathNames, ATailIsEnoughAndACompleteNameTakesPrecedence) {
 }
 
 TEST(NetlistOverrides, ANumberHasTheUnitsOfTheProgramsOptions) {
-    const auto is = [](const std::string& text, double value, std::string_view unit) {
+    const auto expect_result = [](const std::string& text, double value, std::string_view unit) {
         const auto read = parse_number_with_unit(text);
         ASSERT_TRUE(read) << text;
         EXPECT_NEAR(read->value, value, 1e-12 * std::abs(value)) << text;
         EXPECT_EQ(read->unit, unit) << text;
     };
-    is("4pF", 4e-12, "F"), is("7 pA", 7e-12, "A"), is("0.65V", 0.65, "V"), is("200nA", 200e-9, "A"), is("10Mohm", 1e7, "ohm");
-    is("5m", 5e-3, ""), is("5M", 5e6, ""), is("1.2um", 1.2e-6, "m"), is("-3", -3, ""), is("20 kHz", 2e4, "Hz"), is("3 ms", 3e-3, "s");
+    expect_result("4pF", 4e-12, "F"), expect_result("7 pA", 7e-12, "A"), expect_result("0.65V", 0.65, "V"),
+        expect_result("200nA", 200e-9, "A"), expect_result("10Mohm", 1e7, "ohm");
+    expect_result("5m", 5e-3, ""), expect_result("5M", 5e6, ""), expect_result("1.2um", 1.2e-6, "m"), expect_result("-3", -3, ""),
+        expect_result("20 kHz", 2e4, "Hz"), expect_result("3 ms", 3e-3, "s");
     for (const auto* wrong : {"10meg", "", "four", "4pF5", "1e999"}) EXPECT_FALSE(parse_number_with_unit(wrong)) << wrong;
 }
 
@@ -91,7 +93,7 @@ TEST(NetlistOverrides, AnOverrideChangesItsValueAndNothingElse) {
     EXPECT_EQ(c.parameters.at("c_u"), 4e-12);
     EXPECT_EQ(element(c, "xone.xleft.cu").value, 4e-12);
     EXPECT_EQ(element(c, "xtwo.xright.cu").value, 7e-12);
-    EXPECT_NEAR(element(c, "ii").waveform.dc, 6e-9, 1e-21) << "a .param made of the one that is set";
+    EXPECT_NEAR(element(c, "ii").waveform.dc, 6e-9, 1e-21) << "a .param computed from gain, which is overridden";
     EXPECT_EQ(element(c, "xone.xleft.mn1").values.at("m"), 8);
     EXPECT_EQ(element(c, "xone.xleft.mn1").values.at("stack"), 3);
     EXPECT_EQ(element(c, "xtwo.xright.mn1").values.at("w"), 1.2e-6);
@@ -226,7 +228,7 @@ TEST(NetlistOverrides, MismatchIsTheFirstChipOfASample) {
     }
 }
 
-TEST(NetlistOverrides, AnotherNumberGivesAnotherFingerprintAlsoInAnExpression) {
+TEST(NetlistOverrides, ADifferentNumberGivesADifferentFingerprintAlsoInAnExpression) {
     const std::string text =
         "t\n.param g=1 v0=0\niin 0 a force 1u\nr1 a 0 1k\nb1 a 0 i={g*1u*v(a)}\nc1 a 0 1n\n.ic v(a)={v0}\n.spike v(a) 1\n";
     const OverrideFiles files(text);
@@ -246,17 +248,19 @@ TEST(ProbeNames, NodesAndCurrentsAreFoundByPartialNames) {
         value_or_throw(OverrideFiles("t\n.model nm nmos (level=80)\n.subckt cell a\nmn1 a o 0 0 nm\nro o 0 1k\nco o 0 1p\n.ends\n"
                                      "xb Vf cell\nxc vf cell\nvdd vf 0 1\nr1 vf u 1\nr2 u 0 1\n.op\n")
                            .set({}));
-    const auto is = [&](const std::string& word, const std::string& name) {
-        const auto found = resolve_probe(c, word);
-        ASSERT_TRUE(found) << found.error().message;
-        EXPECT_EQ(found->value_or("nothing"), name) << word;
+    const auto expect_result = [&](const std::string& word, const std::string& name) {
+        const auto probe = resolve_probe(c, word);
+        ASSERT_TRUE(probe) << probe.error().message;
+        EXPECT_EQ(probe->value_or("nothing"), name) << word;
     };
-    is("vf", "v(vf)"), is("VF", "v(vf)"), is("v(b.O)", "v(xb.o)"), is("v(vf, xc.o)", "v(vf,xc.o)"), is("i(VDD)", "i(vdd)");
-    is("i(c.n1)", "i(xc.mn1)"), is("I(xb.ro)", "i(xb.ro)"), is("V(u,0)", "v(u,0)"), is("w", "nothing"), is("i(m9)", "nothing");
+    expect_result("vf", "v(vf)"), expect_result("VF", "v(vf)"), expect_result("v(b.O)", "v(xb.o)"),
+        expect_result("v(vf, xc.o)", "v(vf,xc.o)"), expect_result("i(VDD)", "i(vdd)");
+    expect_result("i(c.n1)", "i(xc.mn1)"), expect_result("I(xb.ro)", "i(xb.ro)"), expect_result("V(u,0)", "v(u,0)"),
+        expect_result("w", "nothing"), expect_result("i(m9)", "nothing");
     const auto refused = [&](const std::string& word, const std::string& what) {
-        const auto found = resolve_probe(c, word);
-        ASSERT_FALSE(found) << word;
-        EXPECT_NE(found.error().message.find(what), std::string::npos) << found.error().message;
+        const auto probe = resolve_probe(c, word);
+        ASSERT_FALSE(probe) << word;
+        EXPECT_NE(probe.error().message.find(what), std::string::npos) << probe.error().message;
     };
     refused("o", "own.cir (xb.o, xc.o); write more of its path");
     refused("i(n1)", "xb.mn1, xc.mn1); write more of its path");
@@ -267,20 +271,20 @@ TEST(ProbeNames, NodesAndCurrentsAreFoundByPartialNames) {
     EXPECT_EQ(split_probes("vf,v(a,b),i(N3B)"), (std::vector<std::string>{"vf", "v(a,b)", "i(N3B)"}));
 }
 
-TEST(SavedQuantity, ADevicesOwnCurrentEqualsItsSupplyCurrent) {
-    const auto found = run_netlist(
+TEST(SavedQuantity, TheCurrentOfADeviceEqualsThatOfItsSupply) {
+    const auto run = run_netlist(
         "t\n.lib 'tsmc180.lib' tt\nvd d 0 0.5\nvg g 0 0.45\nm1 d g 0 0 nch w=1.5u l=0.5u m=2\nvr a 0 1\nr1 a 0 4k\n"
         ".save i(m1) i(vd) i(r1) v(d)\n.meas dc most max i(m1)\n.op\n.dc vg 0.3 0.5 0.1\n.tran 1m 2m\n");
     for (const std::string analysis : {"op", "dc", "tran"}) {
-        const auto drain = found.curve("i(m1)", analysis), supply = found.curve("i(vd)", analysis);
+        const auto drain = run.curve("i(m1)", analysis), supply = run.curve("i(vd)", analysis);
         ASSERT_EQ(drain.size(), supply.size()) << analysis;
         for (std::size_t k = 0; k < drain.size(); ++k) {
             EXPECT_GT(drain[k], 1e-9);
             EXPECT_NEAR(drain[k], -supply[k], 1e-9 * drain[k] + 1e-14) << analysis;
-            EXPECT_NEAR(found.curve("i(r1)", analysis)[k], 0.25e-3, 1e-12);
+            EXPECT_NEAR(run.curve("i(r1)", analysis)[k], 0.25e-3, 1e-12);
         }
     }
-    EXPECT_EQ(found.number("most"), found.curve("i(m1)", "dc").back());
+    EXPECT_EQ(run.number("most"), run.curve("i(m1)", "dc").back());
 }
 
 }  // namespace

@@ -98,17 +98,17 @@ inline std::vector<NetlistRun> run_variants(const std::string& text) {
     if (!netlist) return ADD_FAILURE() << netlist.error().text() << "\n" << text, out;
     auto variants = NetlistVariants::create(*netlist);
     if (!variants) return ADD_FAILURE() << variants.error().text() << "\n" << text, out;
-    std::unique_ptr<AnalysisContext> bench;
+    std::unique_ptr<AnalysisContext> context;
     for (std::size_t k = 0; k < variants->count(); ++k) {
         auto variant = variants->at(k);
         if (!variant) return ADD_FAILURE() << variant.error().text() << "\n" << text, out;
-        if (!bench || bench->circuit != variant->circuit) {
-            auto context = AnalysisContext::make(variant->circuit);
-            if (!context) return ADD_FAILURE() << context.error().text() << "\n" << text, out;
-            bench = std::move(*context);
+        if (!context || context->circuit != variant->circuit) {
+            auto made = AnalysisContext::make(variant->circuit);
+            if (!made) return ADD_FAILURE() << made.error().text() << "\n" << text, out;
+            context = std::move(*made);
         }
-        if (variant->sample) bench->apply_variation(*variant->sample);
-        auto outcome = run_directives(*bench);
+        if (variant->sample) context->apply_variation(*variant->sample);
+        auto outcome = run_directives(*context);
         if (!outcome) return ADD_FAILURE() << outcome.error().text() << "\n" << text, out;
         out.emplace_back(variant->circuit, std::move(*outcome));
     }

@@ -10,7 +10,7 @@ namespace {
 
 using Files = std::map<std::string, std::string>;
 
-Netlist::FileOpener from(const Files& files) {
+Netlist::FileOpener file_opener(const Files& files) {
     return [&files](const std::string& path) -> Result<std::string> {
         const auto at = files.find(path);
         if (at == files.end()) return bad_input("no such file");
@@ -19,7 +19,7 @@ Netlist::FileOpener from(const Files& files) {
 }
 
 Result<Circuit> read(const std::string& body, const Files& files = {}, const Values& parameters = {}) {
-    const auto netlist = Netlist::parse("title\n" + body, "dir/t.cir", from(files));
+    const auto netlist = Netlist::parse("title\n" + body, "dir/t.cir", file_opener(files));
     if (!netlist) return netlist.error();
     return netlist->elaborate(parameters);
 }
@@ -56,7 +56,7 @@ TEST(NetlistLines, JoinContinuationsOverCommentsAndBlankLines) {
     EXPECT_EQ(c.elements.size(), 2U);
 }
 
-TEST(NetlistLines, KeepTitlesAndEndAtEnd) {
+TEST(NetlistLines, KeepTheTitleAndStopAtDotEnd) {
     const auto netlist = Netlist::parse("\xef\xbb\xbfMy Circuit\r\nR1 A 0 1K\r\n.END\r\nthis is not read\r\n", "t.cir", {});
     ASSERT_TRUE(netlist) << netlist.error().text();
     const auto c = netlist->elaborate();
@@ -67,7 +67,7 @@ TEST(NetlistLines, KeepTitlesAndEndAtEnd) {
     EXPECT_TRUE(c->warnings.empty());
 }
 
-TEST(NetlistLines, TakeAnyLettersInCommentsAndTitlesOnly) {
+TEST(NetlistLines, MayHaveNonAsciiCharactersOnlyInCommentsAndTitles) {
     const auto netlist = Netlist::parse("caf\xe9\n* 10 k\xb5\nR1 a 0 1k ; \xb5\xff\n", "t.cir", {});
     ASSERT_TRUE(netlist) << netlist.error().text();
     EXPECT_EQ(netlist->elaborate()->title, "caf\xc3\xa9");
@@ -80,7 +80,7 @@ TEST(NetlistLines, TakeAnyLettersInCommentsAndTitlesOnly) {
     EXPECT_EQ(utf16.error().text(), "t.cir:1:4: byte 0x00: a netlist is text; is this UTF-16? Save it as UTF-8");
 }
 
-TEST(NetlistLines, OfTenMegabytesTakeTheirLengthInTime) {
+TEST(NetlistLines, AreReadInTimeProportionalToTheirLength) {
     const auto seconds = [](std::size_t points) {
         std::string line = "V1 a 0 PWL(";
         for (std::size_t k = 0; k < points; ++k) line += fmt::format("{} {} ", k, k % 7);
@@ -88,11 +88,11 @@ TEST(NetlistLines, OfTenMegabytesTakeTheirLengthInTime) {
         EXPECT_EQ(circuit(line + ")").elements.size(), 1U);
         return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     };
-    const double short_one = seconds(100000), long_one = seconds(1000000);
-    EXPECT_LT(long_one, 40 * short_one + 0.5);
+    const double short_line = seconds(100000), long_line = seconds(1000000);
+    EXPECT_LT(long_line, 40 * short_line + 0.5);
 }
 
-TEST(NetlistLines, KnowTheirLocationsAcrossContinuations) {
+TEST(NetlistLines, HaveTheRightLocationAcrossContinuations) {
     EXPECT_EQ(error_of("R1 a 0\n* c\n+   {2*\n+ xyz}"), "dir/t.cir:5:3: unknown name 'xyz'");
     EXPECT_EQ(error_of("+ R1 a 0 1"), "dir/t.cir:2:1: '+' continues the previous line, but there is none");
     EXPECT_EQ(error_of(".param a='2*3"), "dir/t.cir:2:10: this ' is not closed");
@@ -103,7 +103,7 @@ TEST(NetlistLines, KnowTheirLocationsAcrossContinuations) {
 
 // ---- elements ----
 
-TEST(NetlistElements, RCLTakeTheirValuesInEveryWay) {
+TEST(NetlistElements, RCLTakeTheirValuesInEveryNotation) {
     const auto c = circuit(
         ".param rv=3k\nR1 a 0 1k\nR2 a 0 {rv*2}\nR3 a 0 'rv'\nR4 a 0 r=2k tc1=1m tc2=2u m=2\nR5 a 0 rv\nR6 a 0 rm 5k\nR7 a 0 rm l=2u w=1u\n"
         "R8 a 0 2*rv\nC1 a 0 10pF ic=0.5\nC2 a 0 c={1p*2}\nL1 a 0 1m\nL2 a 0 l=2u\n.model rm r rsh=100\nC3 a 0 q='v(a)*1p'\n");
@@ -155,7 +155,7 @@ TEST(NetlistElements, SourcesHaveTheirWaveforms) {
     EXPECT_EQ(element_in(c, "v11").waveform.ac_magnitude, 3);
 }
 
-TEST(NetlistElements, ControlledSourcesKnowTheirControls) {
+TEST(NetlistElements, ControlledSourcesHaveTheirControllingQuantities) {
     const auto c = circuit(
         "V1 a 0 1\nE1 b 0 a 0 10\nE2 c 0 value={v(a)*2}\nE3 d 0 vol='v(a,b)'\nG1 e 0 (a, b) 1m\nG2 f 0 cur='v(a)' m=2\nF1 g 0 V1 2\nH1 h 0 "
         "V1 {2*3}\n"
@@ -258,7 +258,7 @@ TEST(NetlistSubcircuits, AreFlattenedWithTheirPaths) {
     EXPECT_EQ(c.models[static_cast<std::size_t>(m1.model)].name, "xt.x1.nm");
     EXPECT_EQ(c.models[static_cast<std::size_t>(m1.model)].values.at("vto"), 3e-6);
     const auto& m2 = element_in(c, "xu.x2.m2");
-    EXPECT_EQ(m2.values, (Values{{"m", 12}, {"w", 2e-6}})) << "m of the X in an X in the element";
+    EXPECT_EQ(m2.values, (Values{{"m", 12}, {"w", 2e-6}})) << "2 of the element, times 2 and 3 of its two calls";
     EXPECT_EQ(c.models[static_cast<std::size_t>(m2.model)].name, "pm");
     EXPECT_EQ(nodes(c, element_in(c, "xt.r1")), "vss xt.vd");
     EXPECT_EQ(nodes(c, element_in(c, "xt.x2.r1")), "xt.x2.n3 0");
@@ -289,13 +289,13 @@ TEST(NetlistSubcircuits, NestAndHideTheirOwnDefinitions) {
     EXPECT_EQ(element_in(c, "x2.r2").value, 2);
 }
 
-TEST(NetlistSubcircuits, InParallelMultiplyCurrentsAndNothingElse) {
+TEST(NetlistSubcircuits, InParallelMultiplyOnlyCurrents) {
     const auto c = circuit(
         ".subckt s a\nV1 a b 0\nR1 b 0 1k\nF1 a 0 V1 2\nH1 h 0 V1 6\nE1 e 0 a 0 2\nG1 a 0 e h 1\nI1 a 0 1\nB1 q 0 v=v(a)\nB2 q 0 "
         "i=v(a)\n.ends\nX1 a s m=3\n");
     for (const auto* name : {"x1.r1", "x1.g1", "x1.i1", "x1.b2"}) EXPECT_EQ(element_in(c, name).values.at("m"), 3) << name;
     for (const auto* name : {"x1.v1", "x1.f1", "x1.h1", "x1.e1", "x1.b1"}) EXPECT_TRUE(element_in(c, name).values.empty()) << name;
-    EXPECT_EQ(element_in(c, "x1.f1").value, 2) << "what controls it is three times as large already";
+    EXPECT_EQ(element_in(c, "x1.f1").value, 2) << "its controlling current is already three times as large";
     EXPECT_EQ(element_in(c, "x1.h1").value, 2);
     EXPECT_EQ(element_in(c, "x1.f1").control_source, "x1.v1");
 }
@@ -324,7 +324,7 @@ TEST(NetlistSubcircuits, AreRejectedWithLocationAndSuggestion) {
     for (const auto& c : cases) EXPECT_EQ(error_of(c.body), std::string("dir/t.cir:") + c.message) << c.body;
 }
 
-TEST(NetlistSubcircuits, ThatDoubleEachTimeStopAtALimit) {
+TEST(NetlistSubcircuits, ExpandToALimitedNumber) {
     std::string body;
     for (int k = 0; k < 60; ++k) body += fmt::format(".subckt s{0} a\nX1 a s{1}\nX2 a s{1}\n.ends\n", k, k + 1);
     const auto message = error_of(body + ".subckt s60 a\n.ends\nX1 a s0\n");
@@ -352,7 +352,7 @@ TEST(NetlistParameters, AreAllowedInAnyOrderAndCanBeOverridden) {
     EXPECT_EQ(unknown.error().text(), "dir/t.cir: there is no .param bb; did you mean 'b'?");
 }
 
-TEST(NetlistParameters, ThatGoRoundInACircleAreRefusedWithTheChain) {
+TEST(NetlistParameters, CircularDefinitionsAreRejectedWithTheChain) {
     EXPECT_EQ(error_of(".param a={b} b={c}\n+ c={f(1)}\n.func f(x) {a+x}"),
               "dir/t.cir:2:11: parameter a depends on itself: a -> b -> c -> a");
     EXPECT_EQ(error_of(".param a={a}"), "dir/t.cir:2:11: parameter a depends on itself: a -> a");
@@ -364,7 +364,7 @@ TEST(NetlistParameters, ThatGoRoundInACircleAreRefusedWithTheChain) {
               "dir/t.cir:3:11: v(...) is not available in a parameter, only in an expression of the circuit");
 }
 
-TEST(NetlistParameters, AHundredThousandInARowDoNotOverflow) {
+TEST(NetlistParameters, AChainOfAHundredThousandDoesNotOverflowTheStack) {
     std::string body;
     for (int k = 0; k < 100000; ++k) body += fmt::format(".param a{}={{a{}+1}}\n", k, k + 1);
     const auto c = circuit(body + ".param a100000=1\nR1 a 0 {a0}\n");
@@ -373,7 +373,7 @@ TEST(NetlistParameters, AHundredThousandInARowDoNotOverflow) {
 
 // ---- files ----
 
-TEST(NetlistFiles, AreIncludedFromWhereTheyAreNamed) {
+TEST(NetlistFiles, AreIncludedRelativeToTheIncludingFile) {
     const Files files{{"dir/Sub/A.inc", "R1 a 0 {w}\n.include \"../b.inc\"\n.end\nnot read\n"},
                       {"dir/b.inc", ".param w=5\n.subckt s a\nR1 a 0 1\n.ends\n"}};
     const auto c = circuit(".INCLUDE 'Sub/A.inc' ; comment\nX1 a s\nR2 a 0 1\n", files);
@@ -383,7 +383,7 @@ TEST(NetlistFiles, AreIncludedFromWhereTheyAreNamed) {
     EXPECT_EQ(c.elements.size(), 3U);
 }
 
-TEST(NetlistFiles, OfLibrariesGiveTheirSections) {
+TEST(NetlistFiles, LibrariesContributeOnlyTheNamedSection) {
     const Files files{{"dir/p.lib",
                        "* all corners\n.lib TT\n.param v=1\n.lib 'p.lib' base\n.endl TT\n.LIB ss\n.param v=2\n.lib 'p.lib' base\n.ENDL\n"
                        ".lib base\n.model nm nmos vto={v}\n.endl\nthis is outside\n"}};
@@ -417,7 +417,7 @@ TEST(NetlistFiles, ThatCannotBeReadAreRejected) {
     EXPECT_EQ(missing.error().text(), "/nowhere/at/all.cir: cannot be read: there is no such file");
 }
 
-// ---- dot lines ----
+// ---- directives ----
 
 TEST(NetlistCommands, AreWordsWithTheirLocationsAndValues) {
     const auto c = circuit(
@@ -436,7 +436,7 @@ TEST(NetlistCommands, AreWordsWithTheirLocationsAndValues) {
     EXPECT_EQ(c.directives[4].words[2], "1.8");
 }
 
-TEST(NetlistCommands, SetOptionsTemperatureAndStarts) {
+TEST(NetlistCommands, SetOptionsTemperatureAndInitialConditions) {
     const auto c = circuit(
         ".param x=0.3\n.options reltol=1e-4 METHOD=Gear noacct abstol={1p}\n.temp 85\n.ic v(a)=1 v(x1.n) = {x}\n.nodeset v( a )='x*2'\nR1 "
         "a 0 1\n"
@@ -495,7 +495,7 @@ TEST(NetlistWarnings, PointAtMisleadingNumbers) {
                         "t.cir:6:8: .param a is given twice; this value is used"}));
 }
 
-RC_GTEST_PROP(Netlist, TakesAnyTextWithoutHarm, (const std::vector<std::string>& lines)) {
+RC_GTEST_PROP(Netlist, AcceptsAnyTextSafely, (const std::vector<std::string>& lines)) {
     std::string text = "t\n";
     for (const auto& line : lines)
         text += *rc::gen::element<std::string>("R1 ", ".param ", "X1 a ", "", "+", ".ic ", "V1 ", ".subckt ") + line + "\n";

@@ -11,11 +11,11 @@ namespace corpuscle::circuit::test {
 namespace {
 
 /// Compares two plots. Absolute tolerances cover ngspice's own errors: 1e-7 of a curve's largest value, and its current tolerance.
-void compare_plots(const Plot& mine, const Plot& theirs, double tolerance) {
-    ASSERT_EQ(mine.point_count(), theirs.point_count()) << mine.name;
+void compare_plots(const Plot& result, const Plot& reference, double tolerance) {
+    ASSERT_EQ(result.point_count(), reference.point_count()) << result.name;
     std::size_t compared = 0;
-    for (const auto& c : theirs.curves) {
-        const auto* other = mine.find_curve(corpuscle_name(c.name));
+    for (const auto& c : reference.curves) {
+        const auto* other = result.find_curve(corpuscle_name(c.name));
         if (other == nullptr) continue;
         ++compared;
         if (other->name == "inoise_total") continue;  // ngspice's is 12 % off where the gain falls: see the closed form below
@@ -26,11 +26,11 @@ void compare_plots(const Plot& mine, const Plot& theirs, double tolerance) {
         for (std::size_t k = 0; k < c.values.size(); ++k)
             EXPECT_LE(std::abs(other->values[k] - (c.type == "frequency" ? c.values[k].real() : c.values[k])),
                       tolerance * std::abs(c.type == "frequency" ? c.values[k].real() : c.values[k]) + floor)
-                << c.name << " at point " << k << ": ours " << other->values[k] << ", theirs " << c.values[k];
+                << c.name << " at point " << k << ": Corpuscle " << other->values[k] << ", ngspice " << c.values[k];
     }
     const auto inner =
-        std::count_if(mine.curves.begin(), mine.curves.end(), [](const Curve& c) { return c.name.find('#') != std::string::npos; });
-    EXPECT_GE(compared + 1 + static_cast<std::size_t>(inner), mine.curves.size()) << "curves that both have";
+        std::count_if(result.curves.begin(), result.curves.end(), [](const Curve& c) { return c.name.find('#') != std::string::npos; });
+    EXPECT_GE(compared + 1 + static_cast<std::size_t>(inner), result.curves.size()) << "too few curves are in both results";
 }
 
 class DeckComparison : public testing::TestWithParam<std::string> {};
@@ -39,18 +39,18 @@ TEST_P(DeckComparison, AgreesWithNgspice) {
     const std::string deck = deck_path(GetParam());
     const auto raw = std::filesystem::temp_directory_path() / ("corpuscle-" + GetParam() + "-" + std::to_string(getpid()) + ".raw");
     const auto log = run_ngspice(deck, raw);
-    const auto theirs = read_raw_file(raw);
+    const auto reference = read_raw_file(raw);
     std::filesystem::remove(raw);
-    ASSERT_FALSE(theirs.empty()) << log;
+    ASSERT_FALSE(reference.empty()) << log;
     const auto outcome = run_corpuscle(deck);
-    for (const auto& plot : theirs) {
+    for (const auto& plot : reference) {
         bool found = false;
-        for (const auto& mine : outcome.plots())
-            if (mine.name == plot.name || (plot.name == "Operating Point" && mine.name == plot.name)) {
+        for (const auto& result : outcome.plots())
+            if (result.name == plot.name || (plot.name == "Operating Point" && result.name == plot.name)) {
                 found = true;
-                compare_plots(mine, plot, mine.is_complex ? 1e-3 : 1e-5);
+                compare_plots(result, plot, result.is_complex ? 1e-3 : 1e-5);
             }
-        if (!found) ADD_FAILURE() << "no plot of ours is called '" << plot.name << "'";
+        if (!found) ADD_FAILURE() << "Corpuscle has no plot '" << plot.name << "'";
     }
 }
 
@@ -69,12 +69,12 @@ TEST(Transistor, HasTheSameCurrentAsExpressionsInNgspice) {
         const std::string deck = deck_path(name);
         const TemporaryFolder folder;
         folder.write("native.cir", with_native_transistors(deck));
-        (void)run_ngspice(deck, folder / "theirs.raw");
-        const auto theirs = read_raw_file(folder / "theirs.raw");
-        ASSERT_EQ(theirs.size(), 1U);
-        const auto mine = run_corpuscle(folder / "native.cir").plots();
-        ASSERT_EQ(mine.size(), 1U);
-        compare_plots(mine[0], theirs[0], 1e-5);
+        (void)run_ngspice(deck, folder / "ngspice.raw");
+        const auto reference = read_raw_file(folder / "ngspice.raw");
+        ASSERT_EQ(reference.size(), 1U);
+        const auto result = run_corpuscle(folder / "native.cir").plots();
+        ASSERT_EQ(result.size(), 1U);
+        compare_plots(result[0], reference[0], 1e-5);
     }
     EXPECT_EQ(decks_seen, 4);
 }
@@ -88,15 +88,15 @@ TEST(Noise, IntegratesToTheClosedForms) {
     EXPECT_NEAR(outcome.numbers[1].second, std::sqrt(white * (1e6 - 1)), 1e-9);
 }
 
-TEST(Measures, AreThoseOfNgspice) {
+TEST(Measures, AgreeWithNgspice) {
     for (const std::string name : {"measures_dc", "measures_ac"}) {
         const std::string deck = deck_path(name);
         const auto log = run_ngspice(deck, "");
         const auto outcome = run_corpuscle(deck);
         EXPECT_GE(outcome.numbers.size(), 3U);
         for (const auto& [what, value] : outcome.numbers) {
-            const double theirs = logged_number(log, what);
-            EXPECT_NEAR(value, theirs, std::abs(theirs) * 2e-5) << what << "\n" << log;
+            const double reference = logged_number(log, what);
+            EXPECT_NEAR(value, reference, std::abs(reference) * 2e-5) << what << "\n" << log;
         }
     }
 }

@@ -24,27 +24,27 @@ Result<RunOutcome> outcome_of(const std::string& text) {
 }
 
 double number(const std::string& text, std::string_view name) {
-    const auto found = outcome_of(text);
-    EXPECT_TRUE(found) << found.error().text();
-    return found ? found->find_number(name).value_or(NAN) : NAN;
+    const auto outcome = outcome_of(text);
+    EXPECT_TRUE(outcome) << outcome.error().text();
+    return outcome ? outcome->find_number(name).value_or(NAN) : NAN;
 }
 
 std::string error_of(const std::string& text) {
-    const auto found = outcome_of(text);
-    EXPECT_FALSE(found) << text;
-    return found ? "" : found.error().text();
+    const auto outcome = outcome_of(text);
+    EXPECT_FALSE(outcome) << text;
+    return outcome ? "" : outcome.error().text();
 }
 
 std::string warnings_in(const std::string& text) {
-    const auto found = outcome_of(text);
-    EXPECT_TRUE(found) << found.error().text();
+    const auto outcome = outcome_of(text);
+    EXPECT_TRUE(outcome) << outcome.error().text();
     std::string out;
-    if (found)
-        for (const auto& r : found->warnings) out += r.text() + "\n";
+    if (outcome)
+        for (const auto& r : outcome->warnings) out += r.text() + "\n";
     return out;
 }
 
-TEST(InitialConditions, OfCapacitorsAndInductorsAreWhereATransientWithUicBegins) {
+TEST(InitialConditions, OfCapacitorsAndInductorsStartATransientWithUic) {
     EXPECT_NEAR(number("c1 a 0 1n ic=2\nr1 a 0 1k\n.tran 10n 3u uic\n.meas tran v find v(a) at=1u\n", "v"), 2 * std::exp(-1.0), 1e-3);
     EXPECT_NEAR(number("c1 a 0 1n ic=2\nr1 a 0 1k\n.tran 10n 3u uic\n.meas tran v find v(a) at=0\n", "v"), 2, 1e-6);
     EXPECT_NEAR(number("l1 b 0 1m ic=1m\nr1 b 0 1k\n.tran 10n 3u uic\n.meas tran i find i(l1) at=1u\n", "i"), 1e-3 * std::exp(-1.0), 1e-6);
@@ -53,13 +53,13 @@ TEST(InitialConditions, OfCapacitorsAndInductorsAreWhereATransientWithUicBegins)
 }
 
 // The charge between two capacitors in series is conserved: m = (c2 (1 - 0.3) + c3 0) / (c2 + c3).
-TEST(InitialConditions, OfACapacitorBetweenTwoNodesSetAConservedCharge) {
+TEST(InitialConditions, OfACapacitorBetweenTwoNodesConserveCharge) {
     EXPECT_NEAR(number("v1 in 0 1\nc2 in m 1n ic=0.3\nc3 m 0 1n\nr3 m 0 1g\n.tran 1u 5u uic\n.meas tran m find v(m) at=0\n", "m"), 0.35,
                 1e-6);
     EXPECT_NEAR(number("c1 a 0 q='1n*v(a)' ic=0.7\nr1 a 0 1k\n.tran 10n 3u uic\n.meas tran v find v(a) at=0\n", "v"), 0.7, 1e-6);
 }
 
-TEST(InitialConditions, ThatAreNotUsedAreWarnedOf) {
+TEST(InitialConditions, ThatHaveNoEffectCauseAWarning) {
     EXPECT_NE(warnings_in("v1 b 0 1\nr2 b a 1k\nc1 a 0 1n ic=2\nr1 a 0 1k\n.tran 10n 3u\n")
                   .find("t.cir:4:1: c1: ic= has an effect only with 'uic'"),
               std::string::npos);
@@ -67,7 +67,7 @@ TEST(InitialConditions, ThatAreNotUsedAreWarnedOf) {
     EXPECT_NE(warnings_in("i1 0 a 1m\nd1 a 0 dx off\n.model dx d\n.tran 10n 3u\n").find("d1: off has no effect"), std::string::npos);
 }
 
-TEST(InitialConditions, BeginAlikeInNgspice) {
+TEST(InitialConditions, AgreeWithNgspice) {
     const std::string deck =
         "t\nc1 a 0 1n ic=2\nr1 a 0 1k\nl1 b 0 1m ic=1m\nr2 b 0 1k\nv1 in 0 1\nc2 in m 1n ic=0.3\nc3 m 0 1n\nr3 m 0 1meg\n"
         "c5 p q 2n ic=1\nc6 p 0 1n\nrp p 0 1k\nrq q 0 1k\n.tran 10n 5u uic\n";
@@ -87,7 +87,7 @@ TEST(InitialConditions, BeginAlikeInNgspice) {
     }
 }
 
-TEST(Amperes, AreAUnitAndNoScale) {
+TEST(Amperes, AreAUnitAndNotAScale) {
     EXPECT_DOUBLE_EQ(number("i1 0 a 1A\nr1 a 0 1\n.op\n", "v(a)"), 1);
     EXPECT_DOUBLE_EQ(number("i1 0 a 5a\nr1 a 0 1\n.op\n", "v(a)"), 5);
     EXPECT_DOUBLE_EQ(number("i1 0 a {2*2amp}\nr1 a 0 1\n.op\n", "v(a)"), 4);
@@ -109,7 +109,7 @@ TEST(Options, ThatAreUnknownAreRejected) {
     EXPECT_TRUE(outcome_of(r + ".options noacct savecurrents trtol=7 post=2 itl4=100 numdgt=8 plotwinsize=0\n"));
 }
 
-TEST(Options, SetTheTemperatureAtWhichValuesHold) {
+TEST(Options, SetTheTemperatureOfNominalValues) {
     const std::string r = "i1 0 a 1\nr1 a 0 100 tc1=0.01\n.temp 37\n.op\n";
     EXPECT_DOUBLE_EQ(number(r, "v(a)"), 110);
     EXPECT_DOUBLE_EQ(number(r + ".options tnom=37\n", "v(a)"), 100);
@@ -117,13 +117,13 @@ TEST(Options, SetTheTemperatureAtWhichValuesHold) {
     EXPECT_GT(number(d + ".options tnom=60\n", "v(a)"), number(d, "v(a)") + 0.01);
 }
 
-TEST(Elements, AreAsManyTimesTheirValueAsTheirScale) {
+TEST(Elements, HaveTheirValueMultipliedByScale) {
     EXPECT_DOUBLE_EQ(number("i1 0 a 1\nr1 a 0 100 scale=3\n.op\n", "v(a)"), 300);
     EXPECT_NEAR(number("c1 a 0 1n scale=2 ic=1\nr1 a 0 1k\n.tran 10n 3u uic\n.meas tran v find v(a) at=2u\n", "v"), std::exp(-1.0), 1e-3);
     EXPECT_EQ(error_of("i1 0 a 1\nr1 a 0 100 scale=0\n.op\n"), "t.cir:3:1: r1: scale must not be 0");
 }
 
-TEST(Elements, SayNothingThatIsPassedOver) {
+TEST(Elements, HaveNoParameterThatIsSilentlyIgnored) {
     EXPECT_EQ(error_of("i1 0 a 1m\nd1 a 0 dx\n.model dx d(level=200)\n.op\n"),
               "t.cir:4:1: dx: diode level 200 is not supported; use level=1");
     EXPECT_TRUE(outcome_of("i1 0 a 1m\nd1 a 0 dx\n.model dx d(level=1)\n.op\n"));
@@ -145,11 +145,11 @@ TEST(Curves, ThatDoNotExistAreRejectedBeforeAnyAnalysis) {
     EXPECT_NE(warnings_in(c + ".print ac v(b)\n").find(".print: the netlist has no .ac, so nothing is printed"), std::string::npos);
 }
 
-TEST(Curves, AreAllPrintedForAllAndProbedAsNgspiceWritesIt) {
+TEST(Curves, AreSelectedByAllAndByProbeDirectivesInNgspicesSyntax) {
     const std::string c = "v1 a 0 1\nr1 a b 1k\nc1 b 0 1u\n.op\n";
-    const auto found = outcome_of(c + ".print op all\n");
-    ASSERT_TRUE(found) << found.error().text();
-    for (const auto* name : {"v(a)", "v(b)", "i(v1)"}) EXPECT_NE(found->analyses[0].printed_tables.find(name), std::string::npos);
+    const auto outcome = outcome_of(c + ".print op all\n");
+    ASSERT_TRUE(outcome) << outcome.error().text();
+    for (const auto* name : {"v(a)", "v(b)", "i(v1)"}) EXPECT_NE(outcome->analyses[0].printed_tables.find(name), std::string::npos);
     EXPECT_EQ(outcome_of(c + ".probe v(b) i(r1)\n")->saved_curves, (std::vector<std::string>{"v(b)", "i(r1)"}));
     EXPECT_TRUE(outcome_of(c + ".probe alli\n")->saved_curves.empty());
     EXPECT_NE(warnings_in(c + ".probe vd(r1) i(c1) v(b)\n").find(".probe: 'vd(r1)' is not supported"), std::string::npos);
@@ -161,13 +161,13 @@ TEST(Curves, OfEveryAnalysisArePrinted) {
     for (const auto* line : {".noise v(b) v1 dec 1 1 10\n.print noise onoise_spectrum", ".ac dec 1 1 10\n.print ac vdb(b) vp(b)",
                              ".dc v1 0 1 1\n.print dc v(b) v-sweep", ".dc temp 0 50 50\n.print dc temp-sweep v(b)",
                              ".dc r2 1 2 1\n.print dc res-sweep", ".tf v(b) v1\n.print tf transfer_function", ".op\n.print op v(b)"}) {
-        const auto found = outcome_of(c + line + "\n");
-        ASSERT_TRUE(found) << line << ": " << found.error().text();
-        EXPECT_FALSE(found->analyses[0].printed_tables.empty()) << line;
+        const auto outcome = outcome_of(c + line + "\n");
+        ASSERT_TRUE(outcome) << line << ": " << outcome.error().text();
+        EXPECT_FALSE(outcome->analyses[0].printed_tables.empty()) << line;
     }
 }
 
-// The transient would take much longer than the test's time limit.
+// If the transient ran first, it would take much longer than the test's time limit.
 TEST(Measures, ThatAreWrongAreRejectedBeforeTheAnalysesRun) {
     const std::string c = "v1 a 0 sin(0 1 1meg)\nr1 a b 1k\nc1 b 0 1n\n.tran 1n 1000\n";
     for (const auto* line : {".meas tran x max v(zz)", ".meas tran x maxx v(b)", ".meas tran", ".meas ac x max v(b)",
@@ -178,7 +178,7 @@ TEST(Measures, ThatAreWrongAreRejectedBeforeTheAnalysesRun) {
                    "param='onoise_total*y'\n"));
 }
 
-TEST(Warnings, ReportMistakesThatCanBeSolved) {
+TEST(Warnings, ReportLikelyMistakesInSolvableNetlists) {
     const std::string card = ".model nch nmos(level=80)\n";
     EXPECT_NE(warnings_in("v1 a 0 1\nm1 a a 0 0 nch w=1 l=0.5\n" + card + ".op\n")
                   .find("m1: w = 1 m (sizes are in metres; 1 um is written w=1u)"),
@@ -193,7 +193,7 @@ TEST(Warnings, ReportMistakesThatCanBeSolved) {
     EXPECT_NE(warnings_in("v1 a 0 1\nr1 a 0 1k\n.tran 1m 1u\n").find(".tran: STEP 1m is longer than STOP 1u"), std::string::npos);
 }
 
-TEST(Save, OfManyWordsTakesTimeInProportion) {
+TEST(Save, OfManyCurvesTakesTimeInProportion) {
     std::string text = "v1 n0 0 1\n", words;
     for (int k = 0; k < 20'000; ++k) text += fmt::format("r{0} n{0} n{1} 1\n", k, k + 1), words += fmt::format(" v(n{},n{})", k + 1, k);
     const auto start = std::chrono::steady_clock::now();
@@ -202,7 +202,7 @@ TEST(Save, OfManyWordsTakesTimeInProportion) {
 }
 
 // dv/dt = 1e39 (v^2 + 1): no step is short enough.
-TEST(Run, ThatFailsAtItsFirstPointLeavesAnEarlierFileAsItIs) {
+TEST(Run, ThatFailsAtItsFirstPointLeavesAnEarlierFileUnchanged) {
     const TemporaryFolder folder;
     folder.write("good.cir", "t\nv1 a 0 1\nr1 a b 1k\nc1 b 0 1n\n.tran 1n 1u\n");
     folder.write("bad.cir", "t\nb1 a 0 i=-1e30*(v(a)*v(a)+1)\nc1 a 0 1n\nr1 a 0 1k\n.tran 1u 2m uic\n");

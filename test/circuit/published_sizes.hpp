@@ -1,11 +1,12 @@
 #pragma once
-// The array sizes published in the thesis (tables 1 to 9, 16, 19, 20), including its misprints, and the location of each table's devices in
-// circuits/. Also the sizes that differ from the published ones, and the erratum for each.
+// The array sizes published in the thesis (tables 1 to 9, 16, 19, 20), including misprints, and the devices of each table in circuits/.
+// Also the sizes in circuits/ that differ from the published ones, with the erratum that gives the reason (sections
+// errata-... of reproduction/reproduction.md).
 
 namespace corpuscle::circuit {
 
-/// A published row: m columns of n elements of W by L (um), and the devices of this size. Device paths are relative to each location of the
-/// table.
+/// A row of a published table: m columns of n elements of W by L (um), and the devices of this size. Device paths are relative to the
+/// table's TableLocation::path.
 struct PublishedSize {
     const char* table;
     const char* name;
@@ -14,8 +15,8 @@ struct PublishedSize {
     const char* devices;
 };
 
-// Interpretations that a size alone does not show. Table 1's second M1 is M3 (F9). Table 2's M4A-E and M5A-E are A and B (F10). Table 9's
-// M3B and M3C are table 6's C and B. Table 4's M3 is both sides of a mirror.
+// Interpretations that the rows do not show. Table 1's second M1 is M3 (errata F9). Table 2's M4A-E and M5A-E are A and B (errata F10).
+// Table 9's M3B and M3C are table 6's C and B. Table 4's M3 is both sides of a mirror.
 inline constexpr PublishedSize published_sizes[] = {
     {"1", "M1", 4, 4, 1.5, 0.5, "mn1"},
     {"1", "M1 (second)", 8, 1, 1.5, 0.5, "mn3"},

@@ -14,7 +14,7 @@ struct RandomCircuit {
     std::string text;                              ///< a netlist with .tran; file names are relative to process/
     double min_voltage = -1e9, max_voltage = 1e9;  ///< V; range that no node voltage may leave
     TransientPlan plan{};                          ///< the default, except where an error of 10 uV per step is too large
-    /// Describes what is wrong with a finished run; empty if nothing is.
+    /// Describes the fault of a finished run; empty if there is none.
     std::function<std::string(const TransientRunner&, const TransientPoints&)> find_fault =
         [](const TransientRunner&, const TransientPoints&) { return std::string(); };
 };
@@ -27,7 +27,7 @@ public:
     explicit RandomSource(std::uint64_t seed) : state_(seed * 0x9E3779B97F4A7C15U + 0x2545F4914F6CDD1DU) {}
     double uniform();  ///< in [0, 1)
     double uniform_between(double low, double high) { return low + (high - low) * uniform(); }
-    double log_uniform(double low, double high);  ///< log-uniform
+    double log_uniform(double low, double high);
     int index_below(int count) { return static_cast<int>(uniform() * count); }
 };
 

@@ -12,14 +12,15 @@ namespace {
 constexpr double full_turn = 2 * std::numbers::pi;
 constexpr double max_error = 5e-3;  // V, for a swing of 1 V: fifty steps with errors of 1e-4 of the same sign
 
-/// A check that v(out) differs by at most `allowed` (V) from a closed form.
+/// Returns a check that v(out) differs by at most `allowed` (V) from a closed form.
 auto agrees_with(std::function<double(double)> exact, double allowed) {
     return [exact = std::move(exact), allowed](const TransientRunner& c, const TransientPoints& p) {
         const auto v = p.values(c.unknown("v(out)"));
         double worst = 0, when = 0;
         for (std::size_t k = 0; k < v.size(); ++k)
-            if (const double off = std::abs(v[k] - exact(p.t[k])); off > worst) worst = off, when = p.t[k];
-        return worst > allowed ? fmt::format("{:.3g} V off its closed form at {:.6g} s, {:.3g} V are allowed", worst, when, allowed) : "";
+            if (const double error = std::abs(v[k] - exact(p.t[k])); error > worst) worst = error, when = p.t[k];
+        return worst > allowed ? fmt::format("{:.3g} V from its closed form at {:.6g} s; at most {:.3g} V is allowed", worst, when, allowed)
+                               : "";
     };
 }
 
@@ -32,8 +33,8 @@ double low_passed(const Breakpoints& breakpoints, double tau, double t) {
         const auto [t0, u0] = breakpoints[k];
         const bool last = k + 1 == breakpoints.size();
         const double slope = last ? 0 : (breakpoints[k + 1].second - u0) / (breakpoints[k + 1].first - t0);
-        const double in = std::min(t, last ? t : breakpoints[k + 1].first) - t0;
-        v = u0 + slope * (in - tau) + (v - u0 + slope * tau) * std::exp(-in / tau);
+        const double elapsed = std::min(t, last ? t : breakpoints[k + 1].first) - t0;
+        v = u0 + slope * (elapsed - tau) + (v - u0 + slope * tau) * std::exp(-elapsed / tau);
     }
     return v;
 }
@@ -45,12 +46,12 @@ std::string first_order(RandomSource& dice, double& tau) {
         tau = R * C;
         return fmt::format("r1 in out {:.9g}\nc1 out 0 {:.9g}\n", R, C);
     }
-    const double R = 1 / dice.log_uniform(1e-11, 1e-3);  // lower limit of an inductor's current
+    const double R = 1 / dice.log_uniform(1e-11, 1e-3);  // 1e-11: lower limit of an inductor's current, A
     tau = dice.log_uniform(1e-9, 1e3);
     return fmt::format("l1 in out {:.9g}\nr1 out 0 {:.9g}\n", R * tau, R);
 }
 
-/// Complex amplitude at frequency f (Hz) in the last two periods, by least squares together with the second harmonic.
+/// Complex amplitude at frequency f (Hz) in the last two periods, by a least-squares fit of mean, fundamental and second harmonic.
 std::complex<double> swing(const TransientPoints& p, int unknown, double f) {
     constexpr int count = 5;
     double A[count][count + 1] = {};
@@ -66,8 +67,8 @@ std::complex<double> swing(const TransientPoints& p, int unknown, double f) {
     for (int i = 0; i < count; ++i)
         for (int below = 0; below < count; ++below) {
             if (below == i) continue;
-            const double part = A[below][i] / A[i][i];
-            for (int j = 0; j <= count; ++j) A[below][j] -= part * A[i][j];
+            const double factor = A[below][i] / A[i][i];
+            for (int j = 0; j <= count; ++j) A[below][j] -= factor * A[i][j];
         }
     return {A[1][count] / A[1][1], A[2][count] / A[2][2]};
 }
@@ -77,7 +78,7 @@ std::complex<double> swing(const TransientPoints& p, int unknown, double f) {
 RandomCircuit make_first_order(RandomSource& dice) {
     RandomCircuit out;
     double tau = 0;
-    const auto parts = first_order(dice, tau);
+    const auto elements = first_order(dice, tau);
     Breakpoints breakpoints = {{0, 0}};
     std::string waveform;
     if (dice.index_below(2) == 0) {
@@ -99,7 +100,7 @@ RandomCircuit make_first_order(RandomSource& dice) {
         waveform += ")";
     }
     const double stop = breakpoints.back().first;
-    out.text = fmt::format("first order, tau {:.3g} s\nv1 in 0 {}\n{}.tran {:.6g} {:.9g}\n", tau, waveform, parts, tau / 1000, stop);
+    out.text = fmt::format("first order, tau {:.3g} s\nv1 in 0 {}\n{}.tran {:.6g} {:.9g}\n", tau, waveform, elements, tau / 1000, stop);
     out.min_voltage = -1.001, out.max_voltage = 1.001;
     out.find_fault = agrees_with([=](double t) { return low_passed(breakpoints, tau, t); }, max_error);
     return out;
@@ -108,9 +109,9 @@ RandomCircuit make_first_order(RandomSource& dice) {
 RandomCircuit make_sine_first_order(RandomSource& dice) {
     RandomCircuit out;
     double tau = 0;
-    const auto parts = first_order(dice, tau);
+    const auto elements = first_order(dice, tau);
     const double f = dice.log_uniform(0.1, 10) / (full_turn * tau), w = full_turn * f, x = w * tau, lag = std::atan(x);
-    out.text = fmt::format("first order under a sine, tau {:.3g} s\nv1 in 0 sin(0 1 {:.12g})\n{}.tran {:.6g} {:.9g}\n", tau, f, parts,
+    out.text = fmt::format("first order under a sine, tau {:.3g} s\nv1 in 0 sin(0 1 {:.12g})\n{}.tran {:.6g} {:.9g}\n", tau, f, elements,
                            0.001 / f, 5 / f);
     out.min_voltage = -1.01, out.max_voltage = 1.01;
     out.find_fault =
@@ -131,7 +132,7 @@ RandomCircuit make_tank(RandomSource& dice) {
     return out;
 }
 
-/// A differential pair as follower, whose current limits its speed, driven by a sine of 5 mV and compared with .ac.
+/// A differential pair as a follower that drives a capacitor; its input is a sine of 5 mV. Compared with .ac.
 RandomCircuit make_gm_c(RandomSource& dice) {
     const double I = dice.log_uniform(1e-15, 1e-3), k = std::max(1.0, std::round(I / 100e-9)),
                  C = dice.log_uniform(std::max(1e-15, k * 1e-15), 1e-3);
@@ -150,7 +151,7 @@ RandomCircuit make_gm_c(RandomSource& dice) {
         const auto expected = c.first_ac_value("v(out)");
         const auto s = swing(run, c.unknown("v(out)"), f) / 5e-3;
         if (std::abs(s - expected) < 0.02 * std::abs(expected) + 1e-3) return "";
-        return fmt::format("v(out) swings {:.4f} {:+.4f}i of its input, .ac gives {:.4f} {:+.4f}i", s.real(), s.imag(), expected.real(),
+        return fmt::format("the gain is {:.4f} {:+.4f}i, but .ac gives {:.4f} {:+.4f}i", s.real(), s.imag(), expected.real(),
                            expected.imag());
     };
     return out;
@@ -172,8 +173,10 @@ RandomCircuit make_rectifier(RandomSource& dice) {
         const auto v = static_cast<std::size_t>(c.unknown("v(out)"));
         double worst = 0, when = 0;
         for (std::size_t k = 1; k < p.t.size() && k < reference.x.size(); ++k)
-            if (const double off = std::abs(p.x[k][v] - reference.x[k][v]); off > worst) worst = off, when = p.t[k];
-        return worst > max_error ? fmt::format("{:.3g} V off IDA's at {:.6g} s, {:.3g} V are allowed", worst, when, max_error) : "";
+            if (const double error = std::abs(p.x[k][v] - reference.x[k][v]); error > worst) worst = error, when = p.t[k];
+        return worst > max_error
+                   ? fmt::format("{:.3g} V from IDA's result at {:.6g} s; at most {:.3g} V is allowed", worst, when, max_error)
+                   : "";
     };
     return out;
 }

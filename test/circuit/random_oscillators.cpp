@@ -7,11 +7,11 @@
 namespace corpuscle::circuit {
 namespace {
 
-/// Fault of an oscillation: at least three intervals after the first are required, all within 0.5 %. Fewer are allowed unless must_swing.
+/// Fault of an oscillation, or empty: the intervals after the first must agree within 0.5 %. If `must_swing`, at least three are required.
 std::string period_fault(const TransientRunner& circuit, const TransientPoints& points, const std::string& node, double level,
                          bool must_swing) {
     const auto rises = circuit.spike_times(points, node, level);
-    if (rises.size() < 5) return must_swing ? fmt::format("{} rises {} times, 5 or more were expected", node, rises.size()) : "";
+    if (rises.size() < 5) return must_swing ? fmt::format("{} rises {} times; at least 5 are required", node, rises.size()) : "";
     double shortest = 1e300, longest = 0;
     for (std::size_t k = 2; k < rises.size(); ++k) {
         shortest = std::min(shortest, rises[k] - rises[k - 1]);
@@ -22,7 +22,7 @@ std::string period_fault(const TransientRunner& circuit, const TransientPoints& 
 
 }  // namespace
 
-/// The circuit of oscillator.hpp with all transistors widened in proportion to the current.
+/// The circuit of oscillator.hpp, with all transistors wider in proportion to the current.
 RandomCircuit make_relaxation(RandomSource& dice) {
     const double I = dice.log_uniform(1e-15, 1e-3), k = std::max(1.0, std::round(I / 10e-9));
     const double low = std::max(0.1e-12 * k, 20e-6 * I / 0.27), high = std::min(1e-3, 1e6 * I / 0.27);
@@ -38,21 +38,22 @@ RandomCircuit make_relaxation(RandomSource& dice) {
                fmt::format(".ic v(u)=0.6\n.tran {:.6g} {:.6g}\n", T / 1000, 8 * T);
     out.min_voltage = -0.3, out.max_voltage = 1.0;
     // at a few picoamperes, leakage into the membrane can prevent the oscillation
-    out.find_fault = [strong = I >= 20e-12](const TransientRunner& c, const TransientPoints& run) {
-        return period_fault(c, run, "v(s)", 0.35, strong);
+    out.find_fault = [must_swing = I >= 20e-12](const TransientRunner& c, const TransientPoints& run) {
+        return period_fault(c, run, "v(s)", 0.35, must_swing);
     };
     return out;
 }
 
-/// C du/dt = I (2 s - 1). s follows a function of itself and u with hysteresis, within at most a hundredth of the period.
+/// C du/dt = I (2 s - 1). s follows a function of s and u with hysteresis, with a time constant of at most a hundredth of the period.
 RandomCircuit make_ideal_relaxation(RandomSource& dice) {
     const double I = dice.log_uniform(1e-15, 1e-3), C = dice.log_uniform(1e-15, 1e-3), T = C / I;
-    const double quick = T * dice.log_uniform(1e-6, 1e-2);
+    const double switching_time = T * dice.log_uniform(1e-6, 1e-2);
     RandomCircuit out;
     out.text = fmt::format("ideal relaxation oscillator, {:.3g} A and {:.3g} F\n", I, C) +
                fmt::format("cu u 0 {:.6g}\nru u 0 {:.6g}\nbu 0 u i='{:.6g}*(2*v(s)-1)'\n", C, 1e3 / I, I) +
                "bs s0 0 v='0.5+0.5*tanh(10*(v(s)-0.5-2*(v(u)-0.5)))'\n" +
-               fmt::format("rs s0 s {:.6g}\ncs s 0 {:.6g}\n.ic v(u)=0.5 v(s)=1\n.tran {:.6g} {:.6g}\n", 1 / I, quick * I, T / 1000, 10 * T);
+               fmt::format("rs s0 s {:.6g}\ncs s 0 {:.6g}\n.ic v(u)=0.5 v(s)=1\n.tran {:.6g} {:.6g}\n", 1 / I, switching_time * I, T / 1000,
+                           10 * T);
     out.min_voltage = -0.3, out.max_voltage = 1.3;
     out.find_fault = [](const TransientRunner& c, const TransientPoints& p) { return period_fault(c, p, "v(s)", 0.5, true); };
     return out;
@@ -61,10 +62,11 @@ RandomCircuit make_ideal_relaxation(RandomSource& dice) {
 RandomCircuit make_ring(RandomSource& dice) {
     const int stages = 3 + 2 * dice.index_below(4);
     const double m = std::round(dice.log_uniform(1, 1000)), C = dice.log_uniform(1e-15, 1e-3), vdd = dice.uniform_between(0.4, 0.9);
-    // measured: 76 ns per stage at 0.7 V for one element with a picofarad, and its factor at other supplies
-    static constexpr double longer[] = {37.8, 5.84, 1.97, 1, 0.62, 0.44};
+    // measured: 76 ns per stage at 0.7 V for one element with a picofarad, and factors for supplies of 0.4 V to 0.9 V
+    static constexpr double period_factor[] = {37.8, 5.84, 1.97, 1, 0.62, 0.44};
     const auto at = std::min(4, static_cast<int>((vdd - 0.4) / 0.1));
-    const double T = stages * 76e3 * (C / m + 35e-15) * longer[at] * std::pow(longer[at + 1] / longer[at], (vdd - 0.4) / 0.1 - at);
+    const double T =
+        stages * 76e3 * (C / m + 35e-15) * period_factor[at] * std::pow(period_factor[at + 1] / period_factor[at], (vdd - 0.4) / 0.1 - at);
     RandomCircuit out;
     out.text = fmt::format("ring of {} inverters, {:.3g} F each\n.lib 'tsmc180.lib' tt\nvdd vdd 0 {:.4g}\n", stages, C, vdd);
     for (int k = 0; k < stages; ++k)
@@ -77,7 +79,7 @@ RandomCircuit make_ring(RandomSource& dice) {
     return out;
 }
 
-/// C dv/dt = -I (tanh(g v_before) + v)
+/// Three stages C dv/dt = -I (tanh(g v_before) + v), where v_before is the output of the stage before.
 RandomCircuit make_ideal_ring(RandomSource& dice) {
     const double I = dice.log_uniform(1e-15, 1e-3), C = dice.log_uniform(1e-15, 1e-3), gain = dice.log_uniform(3, 100), T = 3.6 * C / I;
     RandomCircuit out;

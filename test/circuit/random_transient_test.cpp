@@ -1,4 +1,4 @@
-// Transients of a thousand random oscillators and filters: each must be right, or fail with a correct error.
+// Transients of a thousand random oscillators and filters: each must pass its check, or fail with a correct error.
 
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@ bool has_time_and_unknown(const std::string& message) {
     return std::regex_search(message, both);
 }
 
-/// Describes what is wrong with a run; empty if nothing is. An error must name a time and an unknown.
+/// Describes the fault of a run; empty if there is none. An error must name a time and an unknown.
 std::string fault_of(const RandomCircuit& random) {
     try {
         const auto circuit = TransientRunner::from_text(random.text);
@@ -50,18 +50,18 @@ struct KindCount {
 class RandomTransient : public testing::TestWithParam<KindCount> {};
 
 /// If CORPUSCLE_FAILURES names a folder, netlists that fail are written there.
-TEST_P(RandomTransient, RunsAndIsRight) {
+TEST_P(RandomTransient, RunsAndPassesItsCheck) {
     const auto [kind, count] = GetParam();
     const char* folder = std::getenv("CORPUSCLE_FAILURES");
     for (int k = 0; k < count; ++k) {
         RandomSource dice(static_cast<std::uint64_t>(k + 1));
         const auto random = kind->make(dice);
-        const auto wrong = fault_of(random);
-        if (wrong.empty()) continue;
-        ADD_FAILURE() << kind->name << " " << k << ": " << wrong << "\n" << (folder ? "" : random.text);
+        const auto fault = fault_of(random);
+        if (fault.empty()) continue;
+        ADD_FAILURE() << kind->name << " " << k << ": " << fault << "\n" << (folder ? "" : random.text);
         if (folder)
             std::ofstream(fmt::format("{}/{}_{}.cir", folder, kind->name, k))
-                << fmt::format("{} {}: {}\n", kind->name, k, wrong.substr(0, wrong.find('\n'))) << "* " << random.text << ".end\n";
+                << fmt::format("{} {}: {}\n", kind->name, k, fault.substr(0, fault.find('\n'))) << "* " << random.text << ".end\n";
     }
 }
 
@@ -71,10 +71,10 @@ std::vector<KindCount> kind_counts(int divisor) {
     return out;
 }
 
-const auto named = [](const auto& info) { return std::string(info.param.kind->name); };
+const auto kind_name = [](const auto& info) { return std::string(info.param.kind->name); };
 
-INSTANTIATE_TEST_SUITE_P(Few, RandomTransient, testing::ValuesIn(kind_counts(20)), named);
-INSTANTIATE_TEST_SUITE_P(Thousand, RandomTransient, testing::ValuesIn(kind_counts(1)), named);
+INSTANTIATE_TEST_SUITE_P(Few, RandomTransient, testing::ValuesIn(kind_counts(20)), kind_name);
+INSTANTIATE_TEST_SUITE_P(Thousand, RandomTransient, testing::ValuesIn(kind_counts(1)), kind_name);
 
 TEST(RandomKinds, AreAThousandCircuits) {
     int sum = 0;

@@ -1,4 +1,4 @@
-// Transients of random circuits: every reported point, and the straight line to the next one, agrees with a run at a thousandth of the
+// Transients of random circuits: every reported point, and the straight line to the next point, agrees with a run at a thousandth of the
 // tolerances.
 
 #include <gtest/gtest.h>
@@ -70,7 +70,7 @@ std::string waveform(RandomSource& dice, double low, double high) {
 std::string diodes(RandomSource& dice) {
     const int nodes = 3 + dice.index_below(4);
     const double volts = dice.log_uniform(0.3, 10);
-    std::string out = Text{"drawn diodes\nv1 n1 0 {}\n", waveform(dice, dice.index_below(2) ? -volts : 0, volts)}.text;
+    std::string out = Text{"random diodes\nv1 n1 0 {}\n", waveform(dice, dice.index_below(2) ? -volts : 0, volts)}.text;
     for (int k = 2; k <= nodes; ++k) {
         const int from = 1 + dice.index_below(k - 1), direction = dice.index_below(3);
         if (direction == 0)
@@ -94,7 +94,7 @@ std::string diodes(RandomSource& dice) {
 /// A chain of inverters, loaded stages, followers and pass transistors at a supply of 0.7 V. Most charges are the transistors' own.
 std::string transistors(RandomSource& dice) {
     const int nodes = 3 + dice.index_below(3);
-    std::string out = Text{"drawn transistors\n.lib 'tsmc180.lib' tt\nvdd vdd 0 0.7\nv1 n1 0 {}\n", waveform(dice, 0, 0.7)}.text;
+    std::string out = Text{"random transistors\n.lib 'tsmc180.lib' tt\nvdd vdd 0 0.7\nv1 n1 0 {}\n", waveform(dice, 0, 0.7)}.text;
     const auto size = [&] { return Text{"w={:.3g}u l={:.3g}u", dice.uniform_between(0.4, 6), dice.uniform_between(0.4, 2)}.text; };
     for (int k = 2; k <= nodes; ++k) {
         const int from = 1 + dice.index_below(k - 1), other = 1 + dice.index_below(k - 1);
@@ -128,8 +128,8 @@ public:
         const auto after = static_cast<std::size_t>(std::upper_bound(all.begin(), all.end(), t) - all.begin());
         if (after == 0) return points_.x.front()[n];
         if (after == all.size()) return points_.x.back()[n];
-        const double part = (t - all[after - 1]) / (all[after] - all[after - 1]);
-        return points_.x[after - 1][n] + part * (points_.x[after][n] - points_.x[after - 1][n]);
+        const double fraction = (t - all[after - 1]) / (all[after] - all[after - 1]);
+        return points_.x[after - 1][n] + fraction * (points_.x[after][n] - points_.x[after - 1][n]);
     }
     /// Distance of x from the range of unknown n within +-slack (s) of t.
     double distance(double t, std::size_t n, double x, double slack) const {
@@ -143,10 +143,10 @@ public:
     }
 };
 
-/// Largest error of all points, relative to 10 x reltol x span + floor; `where` describes that point.
+/// Largest error of all points, relative to 10 reltol times the range of the unknown, plus a floor. `where` describes that point.
 double worst_point(const TransientRunner& circuit, const TransientPoints& run, const TransientPoints& fine, const TransientPlan& plan,
                    std::string& where) {
-    const double slack = plan.reltol * stop_time / 50;  // a jump, or an immediate change after a breakpoint, is a line of this length (s)
+    const double slack = plan.reltol * stop_time / 50;  // s; a jump may be a line of this duration
     const Polyline reference(fine);
     const auto count = static_cast<std::size_t>(circuit.system().size());
     std::vector<double> low = fine.x[0], high = fine.x[0];
@@ -157,23 +157,24 @@ double worst_point(const TransientRunner& circuit, const TransientPoints& run, c
         if (!circuit.system().is_voltage(static_cast<int>(n))) largest = std::max({largest, std::abs(low[n]), std::abs(high[n])});
     double worst = 0;
     for (std::size_t k = 1; k < run.t.size(); ++k)
-        for (const double part : {0.5, 1.0})
+        for (const double fraction : {0.5, 1.0})
             for (std::size_t n = 0; n < count; ++n) {
-                const double t = run.t[k - 1] + part * (run.t[k] - run.t[k - 1]);
-                const double x = run.x[k - 1][n] + part * (run.x[k][n] - run.x[k - 1][n]);
+                const double t = run.t[k - 1] + fraction * (run.t[k] - run.t[k - 1]);
+                const double x = run.x[k - 1][n] + fraction * (run.x[k][n] - run.x[k - 1][n]);
                 const bool voltage = circuit.system().is_voltage(static_cast<int>(n));
                 const double floor = 10 * (voltage ? plan.vntol : plan.abstol + 1e-9 * largest);
-                const double off = reference.distance(t, n, x, slack) / (10 * plan.reltol * (high[n] - low[n]) + floor);
-                if (off > worst)
-                    worst = off, where = fmt::format("{} is {:.9g} at {:.9g} s{}, and {:.9g} by the finer run", circuit.system().names()[n],
-                                                     x, t, part < 1 ? " (between points)" : "", reference.at(t, n));
+                const double error = reference.distance(t, n, x, slack) / (10 * plan.reltol * (high[n] - low[n]) + floor);
+                if (error > worst)
+                    worst = error,
+                    where = fmt::format("{} is {:.9g} at {:.9g} s{}, and {:.9g} by the finer run", circuit.system().names()[n], x, t,
+                                        fraction < 1 ? " (between points)" : "", reference.at(t, n));
             }
     return worst;
 }
 
 class ReportedPoints : public testing::TestWithParam<NetlistKind> {};
 
-TEST_P(ReportedPoints, LieWhereAFinerRunHasThem) {
+TEST_P(ReportedPoints, AgreeWithAFinerRun) {
     const auto kind = GetParam();
     for (int k = 0; k < kind.count; ++k) {
         RandomSource dice(static_cast<std::uint64_t>(1000 + k));
@@ -191,7 +192,7 @@ TEST_P(ReportedPoints, LieWhereAFinerRunHasThem) {
             std::printf("%s %d: %.2f, %ld steps, %ld rejected, %ld iterations; finer %ld; %s\n", kind.name, k, worst, run.stats.steps,
                         run.stats.rejected, run.stats.iterations, fine.stats.steps, where.c_str());
         EXPECT_LE(worst, 1) << kind.name << " " << k << ": " << where << "\n" << text;
-        EXPECT_LT(fine.stats.steps, 100'000) << kind.name << " " << k << ": rounding refuses steps\n" << text;
+        EXPECT_LT(fine.stats.steps, 100'000) << kind.name << " " << k << ": rounding rejects steps\n" << text;
     }
 }
 
@@ -199,7 +200,7 @@ INSTANTIATE_TEST_SUITE_P(RandomDevice, ReportedPoints,
                          testing::Values(NetlistKind{"Diodes", 60, diodes}, NetlistKind{"Transistors", 60, transistors}),
                          [](const auto& one) { return std::string(one.param.name); });
 
-/// Oscillators are compared by their period.
+/// The phase of an oscillator drifts, so only its period and amplitude are compared.
 TEST(ReportedOscillation, HasThePeriodOfAFinerRun) {
     const auto ring = [](const std::string& options) {
         std::string text = "ring\n.lib 'tsmc180.lib' tt\nvdd vdd 0 0.7\n.options " + options + "\n.ic v(n0)=0\n";
@@ -209,10 +210,10 @@ TEST(ReportedOscillation, HasThePeriodOfAFinerRun) {
                            ".tran 1n 0.3u\n.meas tran period trig v(n0)=0.35 rise=3 targ v(n0)=0.35 rise=13\n"
                            ".meas tran high max v(n0)\n.meas tran low min v(n0)\n");
     };
-    const auto usual = ring("accuracy=normal"), fine = ring("reltol=1e-8 vntol=1e-9");
-    EXPECT_NEAR(usual.number("period"), fine.number("period"), 1e-3 * fine.number("period"));
-    EXPECT_NEAR(usual.number("high"), fine.number("high"), 1e-3);
-    EXPECT_NEAR(usual.number("low"), fine.number("low"), 1e-3);
+    const auto standard = ring("accuracy=normal"), fine = ring("reltol=1e-8 vntol=1e-9");
+    EXPECT_NEAR(standard.number("period"), fine.number("period"), 1e-3 * fine.number("period"));
+    EXPECT_NEAR(standard.number("high"), fine.number("high"), 1e-3);
+    EXPECT_NEAR(standard.number("low"), fine.number("low"), 1e-3);
 }
 
 }  // namespace

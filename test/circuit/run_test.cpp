@@ -1,4 +1,4 @@
-// The verb `corpuscle run`, and every netlist of circuits/ against its own .expect lines.
+// The verb `corpuscle run`, and every netlist of circuits/ with its .expect lines.
 
 #include <gtest/gtest.h>
 
@@ -25,7 +25,7 @@ TEST(Run, PrintsResultsAndMeasurementsAsNamesAndValues) {
     EXPECT_NE(ran.out.find("3.0000000e+00"), std::string::npos) << ran.out;
 }
 
-TEST(Run, WritesRawFilesThatReadBackAlikeInBothForms) {
+TEST(Run, WritesBinaryAndAsciiRawFilesWithTheSameContents) {
     const TemporaryFolder folder;
     folder.write("x.cir", "t\nv1 in 0 ac 1\nr1 in out 1k\nc1 out 0 1u\n.ac dec 5 10 10k\n.op\n");
     EXPECT_EQ(run_program(folder, "run x.cir -o a.raw").status, 0);
@@ -42,7 +42,7 @@ TEST(Run, WritesRawFilesThatReadBackAlikeInBothForms) {
     EXPECT_TRUE(read_file(folder / "c-2.csv").starts_with("v(in),v(out),i(v1)"));
 }
 
-TEST(Run, OneDocumentOnStandardOutputTheSameEachTime) {
+TEST(Run, JsonOutputIsOneDocumentAndReproducible) {
     const TemporaryFolder folder;
     folder.write("x.cir", divider);
     const auto ran = run_program(folder, "run x.cir --json");
@@ -60,7 +60,7 @@ TEST(Run, StepsThroughAParameter) {
     EXPECT_DOUBLE_EQ(document[0]["plots"][0]["curves"]["v(out)"][0].get<double>(), 1.5);
 }
 
-TEST(Run, MeasuresAtTheVeryEndOfASweep) {
+TEST(Run, MeasuresAtTheLastPointOfASweep) {
     const TemporaryFolder folder;
     folder.write("x.cir", "t\nif 0 a 0\nr1 a 0 1\n.dc if 0.2u 2.6u 5n\n.meas dc end find v(a) at=2.6u\n.expect end 2.6u 1e-9\n");
     folder.write("y.cir", "t\nif 0 a 0\nr1 a 0 1\n.dc if 3 3 1\n.meas dc end find v(a) at=3\n.expect end 3 1e-9\n");
@@ -98,7 +98,7 @@ constexpr const char* chips =
     "chips\nv1 v 0 0.7\nr1 v a 1meg\nm1 a a 0 0 n w=1u l=1u\n.model n nmos(level=80 avt=3e-9 svt0=10m)\n.op\n.meas op va find v(a)\n.mc 40 "
     "seed=2\n";
 
-TEST(Run, ChipsEndInAMeanAndADeviation) {
+TEST(Run, AMonteCarloRunEndsWithMeanAndStandardDeviation) {
     const TemporaryFolder folder;
     folder.write("x.cir", chips);
     const auto ran = run_program(folder, "run x.cir");
@@ -143,7 +143,7 @@ TEST(Run, LinesOfTenMegabytesAreReadOrRejected) {
     EXPECT_EQ(run_program(folder, "run x.cir").status, 0);
 }
 
-TEST(Run, TheStatusReportsTheFailure) {
+TEST(Run, TheExitStatusReportsTheFailure) {
     const TemporaryFolder folder;
     folder.write("bad.cir", "t\nv1 a 0 1\nr1 a 0 1k\nr2 a\n.op\n");
     folder.write("wrong.cir", std::string(divider) + ".expect v(out) 1 1%\n");

@@ -1,4 +1,4 @@
-// Operating points: every existing one is found; if there is none, the error gives the reason.
+// Operating points: if a circuit has one, it is found; otherwise the error gives the reason.
 
 #include <gtest/gtest.h>
 
@@ -31,12 +31,12 @@ Netlist netlist_of(const std::string& text) {
     return std::move(*netlist);
 }
 
-std::unique_ptr<AnalysisContext> solve_bench(const std::string& text) {
+std::unique_ptr<AnalysisContext> solve_context(const std::string& text) {
     auto circuit = netlist_of(text).elaborate();
     EXPECT_TRUE(circuit) << circuit.error().text();
-    auto bench = AnalysisContext::make(std::make_shared<const Circuit>(std::move(*circuit)));
-    EXPECT_TRUE(bench) << bench.error().text();
-    return std::move(*bench);
+    auto context = AnalysisContext::make(std::make_shared<const Circuit>(std::move(*circuit)));
+    EXPECT_TRUE(context) << context.error().text();
+    return std::move(*context);
 }
 
 Result<RunOutcome> run_text(const std::string& text, std::shared_ptr<const Circuit>* circuit_out = nullptr) {
@@ -48,7 +48,7 @@ Result<RunOutcome> run_text(const std::string& text, std::shared_ptr<const Circu
     return run_directives(all.back());
 }
 
-double found(const RunOutcome& outcome, const std::string& name) {
+double curve_value(const RunOutcome& outcome, const std::string& name) {
     return outcome.analyses[0].result.plots[0].find_curve(name)->values[0].real();
 }
 
@@ -87,7 +87,7 @@ TEST(OperatingPoint, ADiodeFollowsItsEquation) {
     const auto outcome = run_text("t\ni1 0 a 1m\nd1 a 0 dx\n.model dx d(is=1e-15 n=1.5)\n.options gmin=0\n.op\n");
     ASSERT_TRUE(outcome);
     const double v_t = 1.380649e-23 * 300.15 / 1.602176634e-19;
-    EXPECT_NEAR(found(*outcome, "v(a)"), 1.5 * v_t * std::log(1e-3 / 1e-15 + 1), 1e-9);
+    EXPECT_NEAR(curve_value(*outcome, "v(a)"), 1.5 * v_t * std::log(1e-3 / 1e-15 + 1), 1e-9);
 }
 
 TEST(OperatingPoint, PicoamperesAreResolved) {
@@ -97,10 +97,11 @@ TEST(OperatingPoint, PicoamperesAreResolved) {
     const auto ten = run_text("t\ni1 0 a 30p\nm1 a a 0 0 n w=1.5u l=0.5u stack=8\n.model n nmos(level=80 isq=112n vto=0.46 n=1.27)\n.op\n");
     ASSERT_TRUE(ten);
     const double v_t = 1.380649e-23 * 300.15 / 1.602176634e-19;
-    EXPECT_NEAR(found(*ten, "v(a)") - found(*outcome, "v(a)"), 1.27 * v_t * std::log(10.0), 2e-3);  // weak inversion: n phi_t per factor e
+    EXPECT_NEAR(curve_value(*ten, "v(a)") - curve_value(*outcome, "v(a)"), 1.27 * v_t * std::log(10.0),
+                2e-3);  // weak inversion: n phi_t per factor e
 }
 
-TEST(OperatingPoint, ALatchReportsSeveral) {
+TEST(OperatingPoint, ALatchRestsInTheStateOfItsNodeset) {
     const std::string latch =
         "t\n.lib 'tsmc180.lib' tt\nvdd v 0 0.7\nmp1 a b v v pch w=6u l=0.5u\nmn1 a b 0 0 nch w=1.5u l=0.5u\nmp2 b a v v pch w=6u "
         "l=0.5u\nmn2 b a 0 0 "
@@ -108,25 +109,25 @@ TEST(OperatingPoint, ALatchReportsSeveral) {
     for (const double side : {0.0, 0.7}) {
         const auto outcome = run_text(latch + fmt::format(".nodeset v(a)={} v(b)={}\n.op\n", side, 0.7 - side));
         ASSERT_TRUE(outcome) << outcome.error().text();
-        EXPECT_NEAR(found(*outcome, "v(a)"), side, 0.02);
-        EXPECT_NEAR(found(*outcome, "v(b)"), 0.7 - side, 0.02);
+        EXPECT_NEAR(curve_value(*outcome, "v(a)"), side, 0.02);
+        EXPECT_NEAR(curve_value(*outcome, "v(b)"), 0.7 - side, 0.02);
     }
 }
 
 /// A random solvable netlist: a ladder of resistors and diodes, mirrors, a chain of inverters, or an even ring of inverters.
 std::string random_netlist(unsigned seed) {
-    std::mt19937 draw(seed);
-    const auto up_to = [&](unsigned n) { return static_cast<unsigned>(draw() % n); };
-    const auto log_between = [&](double a, double b) { return a * std::pow(b / a, static_cast<double>(draw()) / 4294967295.0); };
+    std::mt19937 generator(seed);
+    const auto random_below = [&](unsigned n) { return static_cast<unsigned>(generator() % n); };
+    const auto log_between = [&](double a, double b) { return a * std::pow(b / a, static_cast<double>(generator()) / 4294967295.0); };
     std::string text = fmt::format("netlist {}\n.lib 'tsmc180.lib' tt\nvdd v 0 {:.3f}\n", seed, log_between(0.4, 1.8));
-    const unsigned kind = up_to(4), length = 1 + up_to(12);
+    const unsigned kind = random_below(4), length = 1 + random_below(12);
     if (kind == 0) {
         std::string node = "v";
         for (unsigned k = 0; k < length; ++k) {
             const auto next = fmt::format("n{}", k);
             text += fmt::format("r{} {} {} {:.3g}\n", k, node, next, log_between(1, 1e9));
-            text += up_to(2) ? fmt::format("d{} {} 0 dx {:.2g}\n", k, next, log_between(0.1, 10))
-                             : fmt::format("rs{} {} 0 {:.3g}\n", k, next, log_between(10, 1e9));
+            text += random_below(2) ? fmt::format("d{} {} 0 dx {:.2g}\n", k, next, log_between(0.1, 10))
+                                    : fmt::format("rs{} {} 0 {:.3g}\n", k, next, log_between(10, 1e9));
             node = next;
         }
         text += fmt::format(".model dx d(is={:.3g} n={:.3g})\n", log_between(1e-18, 1e-12), log_between(1, 2));
@@ -136,9 +137,10 @@ std::string random_netlist(unsigned seed) {
         for (unsigned k = 0; k < length; ++k) {
             const char* model = k % 2 ? "pch" : "nch";
             const char* rail = k % 2 ? "v" : "0";
-            text += fmt::format("ma{0} g{0} g{0} {1} {1} {2} w=1.5u l=0.5u m={3} stack={4}\n", k, rail, model, 1 + up_to(8), 1 + up_to(8));
-            text += fmt::format("mb{0} g{5} g{0} {1} {1} {2} w=1.5u l=0.5u m={3} stack={4}\n", k, rail, model, 1 + up_to(8), 1 + up_to(8),
-                                k + 1);
+            text += fmt::format("ma{0} g{0} g{0} {1} {1} {2} w=1.5u l=0.5u m={3} stack={4}\n", k, rail, model, 1 + random_below(8),
+                                1 + random_below(8));
+            text += fmt::format("mb{0} g{5} g{0} {1} {1} {2} w=1.5u l=0.5u m={3} stack={4}\n", k, rail, model, 1 + random_below(8),
+                                1 + random_below(8), k + 1);
         }
         text += fmt::format("ml g{0} g{0} {1} {1} {2} w=1.5u l=0.5u\n", length, length % 2 ? "v" : "0", length % 2 ? "pch" : "nch");
     }
@@ -148,13 +150,13 @@ std::string random_netlist(unsigned seed) {
         for (unsigned k = 0; k < count; ++k) {
             const auto out = kind == 3 && k + 1 == count ? std::string("n0") : fmt::format("n{}", k + 1);
             text += fmt::format("mp{0} {1} n{0} v v pch w=6u l=0.5u stack={2}\nmn{0} {1} n{0} 0 0 nch w=1.5u l=0.5u m={3}\n", k, out,
-                                1 + up_to(8), 1 + up_to(4));
+                                1 + random_below(8), 1 + random_below(4));
         }
     }
     return text + ".op\n";
 }
 
-TEST(OperatingPoint, OfAThousandRandomNetlistsAllAreFoundAndHold) {
+TEST(OperatingPoint, OfAThousandRandomNetlistsAreFoundAndSatisfyTheEquations) {
     int by_newton = 0;
     for (unsigned seed = 0; seed < 1000; ++seed) {
         const auto text = random_netlist(seed);
@@ -166,14 +168,14 @@ TEST(OperatingPoint, OfAThousandRandomNetlistsAllAreFoundAndHold) {
         ASSERT_TRUE(system);
         std::vector<double> x;
         for (const auto& c : outcome->analyses[0].result.plots[0].curves) x.push_back(c.values[0].real());
-        SystemEvaluation sums;
+        SystemEvaluation evaluation;
         auto memory = system->initial_limiting_state();
-        EvalContext at;
-        at.gmin = 1e-15;
-        do system->eval(x, at, memory, sums);
-        while (sums.is_limited);
+        EvalContext eval_context;
+        eval_context.gmin = 1e-15;
+        do system->eval(x, eval_context, memory, evaluation);
+        while (evaluation.is_limited);
         for (std::size_t n = 0; n < x.size(); ++n)
-            ASSERT_LE(std::abs(sums.f[n]), 1e-6 * sums.scale[n] + 1e-16) << system->names()[n] << " of\n" << text;
+            ASSERT_LE(std::abs(evaluation.f[n]), 1e-6 * evaluation.scale[n] + 1e-16) << system->names()[n] << " of\n" << text;
     }
     EXPECT_GT(by_newton, 500);
 }
@@ -195,24 +197,24 @@ TEST(NetlistVariants, SampleKDoesNotDependOnOtherSamples) {
     }
 }
 
-/// A mirror and an inverter of four mismatched transistors; `more` is appended to their lines.
-std::string four_transistors(const std::array<std::string, 4>& more) {
+/// A mirror and an inverter of four mismatched transistors; `extra_parameters` are appended to their lines.
+std::string four_transistors(const std::array<std::string, 4>& extra_parameters) {
     return fmt::format(
         "t\nv1 v 0 0.7\ni1 v a 20n\nm1 a a 0 0 n w=2u l=1u{}\nm2 b a 0 0 n w=2u l=1u{}\nm3 b b v v p w=6u l=1u{}\nm4 c b v v p w=6u "
         "l=1u{}\n"
         "r1 c 0 10meg\n.model n nmos(level=80 avt=3e-9 ais=1e-8 svt0=10m zetal=0.02u)\n"
         ".model p pmos(level=80 isq=28n avt=4e-9 ais=1e-8 svt0=10m)\n.op\n",
-        more[0], more[1], more[2], more[3]);
+        extra_parameters[0], extra_parameters[1], extra_parameters[2], extra_parameters[3]);
 }
 
-TEST(Chips, RestWhereTheSameMismatchWrittenOutDoes) {
-    auto sampled = solve_bench(four_transistors({}));
+TEST(Chips, RestLikeANetlistWithTheSameMismatchAsParameters) {
+    auto sampled = solve_context(four_transistors({}));
     const auto& circuit = *sampled->circuit;
     for (std::uint64_t chip = 0; chip < 50; ++chip) {
-        ChipSample draw{9, chip, true, {}};
-        std::copy_n(sample_process(9, chip).values, 4, draw.process);
-        sampled->apply_variation(draw);
-        std::array<std::string, 4> more;
+        ChipSample sample{9, chip, true, {}};
+        std::copy_n(sample_process(9, chip).values, 4, sample.process);
+        sampled->apply_variation(sample);
+        std::array<std::string, 4> extra_parameters;
         std::uint32_t device = 0;
         for (const auto& e : circuit.elements) {
             if (e.letter != 'm') continue;
@@ -220,26 +222,26 @@ TEST(Chips, RestWhereTheSameMismatchWrittenOutDoes) {
             const auto card = *read_model_card<UicmCard>(UicmCard::fields, model, {"level"});
             UicmInstance size;
             size.W = e.values.at("w"), size.L = e.values.at("l");
-            const auto own = sample_mismatch(card, size, 9, device, chip), all = process_shift(card, model.type == "pmos", draw.process);
-            more[device++] = fmt::format(" delvto={:.17g} mulu0={:.17g}", own.V_T + all.V_T, own.factor);
+            const auto own = sample_mismatch(card, size, 9, device, chip), all = process_shift(card, model.type == "pmos", sample.process);
+            extra_parameters[device++] = fmt::format(" delvto={:.17g} mulu0={:.17g}", own.V_T + all.V_T, own.factor);
         }
-        const auto written = solve_bench(four_transistors(more));
+        const auto written = solve_context(four_transistors(extra_parameters));
         const auto a = sampled->operating_point(), b = written->operating_point();
         ASSERT_TRUE(a && b);
         for (std::size_t n = 0; n < a->x.size(); ++n) EXPECT_NEAR(a->x[n], b->x[n], 1e-5 * std::abs(b->x[n])) << n;
     }
 }
 
-TEST(Chips, RestAtTheSameBitsOnEveryInstructionSet) {
+TEST(Chips, RestAtIdenticalVoltagesOnEveryInstructionSet) {
     const char* const before = std::getenv("CORPUSCLE_ISA");
     const std::string previous = before ? before : "";
     std::vector<std::vector<double>> first;
     for (const auto set : instruction_sets()) {
         ::setenv("CORPUSCLE_ISA", std::string(name_of(set)).c_str(), 1);
-        auto bench = solve_bench(four_transistors({}));
+        auto context = solve_context(four_transistors({}));
         for (std::uint64_t chip = 0; chip < 20; ++chip) {
-            bench->apply_variation({9, chip, true, {}});
-            const auto rest = bench->operating_point();
+            context->apply_variation({9, chip, true, {}});
+            const auto rest = context->operating_point();
             ASSERT_TRUE(rest);
             if (first.size() <= chip) first.push_back(rest->x);
             EXPECT_EQ(rest->x, first[chip]) << name_of(set) << ", chip " << chip;

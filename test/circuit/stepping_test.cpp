@@ -13,6 +13,7 @@
 namespace corpuscle::circuit {
 namespace {
 
+/// Points of x = t^3 - 2 t + 1.
 History cubic_past() {
     History past;
     for (const double t : {0.0, 0.5, 0.7, 1.5, 1.6}) {
@@ -23,7 +24,7 @@ History cubic_past() {
     return past;
 }
 
-TEST(History, FollowsAPolynomialOfItsDegree) {
+TEST(History, ReproducesAPolynomialOfItsDegree) {
     const History past = cubic_past();
     double value = 0;
     past.combine(past.value_weights(2.5, 4), 4, &TimePoint::x, {&value, 1});
@@ -41,20 +42,20 @@ TEST(History, KeepsTheNewestPoints) {
     for (int k = 0; k < past.count(); ++k) EXPECT_EQ(past[k].t, 29 - k);
 }
 
-/// One circuit with everything that a transient needs.
+/// A circuit with its transient plan.
 struct TransientFixture {
-    std::unique_ptr<AnalysisContext> bench;
+    std::unique_ptr<AnalysisContext> context;
     TransientPlan plan;
     TransientFixture(const std::string& netlist, double stop) {
         auto made = AnalysisContext::make(make_circuit(netlist));
         EXPECT_TRUE(made) << made.error().text();
-        bench = std::move(*made);
+        context = std::move(*made);
         plan.stop = stop, plan.max_step = stop / 50;
-        bench->system.start_transient(stop / 1000, stop);
+        context->system.start_transient(stop / 1000, stop);
     }
     std::unique_ptr<Transient> started_transient() {
-        auto out = std::make_unique<Transient>(bench->system, bench->newton, plan);
-        const auto from = find_initial_condition(*bench, false);
+        auto out = std::make_unique<Transient>(context->system, context->newton, plan);
+        const auto from = find_initial_condition(*context, false);
         EXPECT_TRUE(from) << from.error().text();
         EXPECT_TRUE(out->begin(from->x, from->is_consistent));
         return out;
@@ -97,27 +98,27 @@ TEST(Transient, GivesTheSameBitsOnLanesOfAnyWidth) {
 TEST(Transient, TakesTheSameStepsForAnyBlockLength) {
     TransientFixture one(membrane, 0.1), other(membrane, 0.1);
     auto continuous = one.started_transient(), pieces = other.started_transient();
-    std::vector<double> there, here;
+    std::vector<double> continuous_times, piece_times;
     while (continuous->time() < 0.1) {
         ASSERT_TRUE(continuous->step(0.1));
-        there.push_back(continuous->time());
+        continuous_times.push_back(continuous->time());
     }
     for (double until = 0; pieces->time() < 0.1; until += 0.00037)
         for (bool more = true; more && pieces->time() < 0.1;) {
             const auto stepped = pieces->step(std::min(until, 0.1));
             ASSERT_TRUE(stepped);
             more = *stepped;
-            if (more) here.push_back(pieces->time());
+            if (more) piece_times.push_back(pieces->time());
         }
-    EXPECT_GT(there.size(), 500U);
-    EXPECT_EQ(here, there);
+    EXPECT_GT(continuous_times.size(), 500U);
+    EXPECT_EQ(piece_times, continuous_times);
 }
 
 TEST(Transient, FindsWhereALevelIsCrossedWithinAStep) {
     TransientFixture sine("sine\nv1 a 0 sin(0 1 50)\nr1 a b 1k\nc1 b 0 1n\n.tran 1u 0.1\n", 0.1);
     sine.plan.max_step = 1e-3;
     auto t = sine.started_transient();
-    const int node = sine.bench->system.unknown("v(a)");
+    const int node = sine.context->system.unknown("v(a)");
     std::vector<double> up, down;
     while (t->time() < 0.1) {
         ASSERT_TRUE(t->step(0.1));
@@ -138,11 +139,11 @@ TEST(Transient, ReportsTheErrorOfItsSpikeTimes) {
     };
     const auto truth = spiking("accuracy=finest spikecheck=0");
     for (const auto* options : {"reltol=3e-4", "reltol=1e-4", "accuracy=normal", "accuracy=fine"}) {
-        const auto found = spiking(options);
-        ASSERT_EQ(found.number("spikes"), truth.number("spikes")) << options;
-        const double error = std::abs(found.number("last_spike") - truth.number("last_spike"));
-        EXPECT_LE(error, found.number("spike_error")) << options;
-        EXPECT_LE(found.number("spike_error"), 100 * error + 1e-6) << options;
+        const auto run = spiking(options);
+        ASSERT_EQ(run.number("spikes"), truth.number("spikes")) << options;
+        const double error = std::abs(run.number("last_spike") - truth.number("last_spike"));
+        EXPECT_LE(error, run.number("spike_error")) << options;
+        EXPECT_LE(run.number("spike_error"), 100 * error + 1e-6) << options;
     }
     for (const auto& [name, value] : truth.numbers()) EXPECT_NE(name, "spike_error") << value;
 }
@@ -150,11 +151,11 @@ TEST(Transient, ReportsTheErrorOfItsSpikeTimes) {
 TEST(Transient, WithoutAnInitialConditionAnOscillatorIsPerturbedAndReported) {
     auto free = membrane;
     free.erase(free.find(".ic"), free.find('\n', free.find(".ic")) - free.find(".ic") + 1);
-    const auto found = run_netlist(free);
-    const auto s = found.curve("v(s)");
+    const auto run = run_netlist(free);
+    const auto s = run.curve("v(s)");
     EXPECT_GT(std::count_if(s.begin() + 1, s.end(), [](double v) { return v > 0.35; }), 100);
-    ASSERT_FALSE(found.warnings().empty());
-    EXPECT_NE(found.warnings().back().message.find("the operating point is unstable"), std::string::npos);
+    ASSERT_FALSE(run.warnings().empty());
+    EXPECT_NE(run.warnings().back().message.find("the operating point is unstable"), std::string::npos);
 }
 
 TEST(Transient, ARestingCircuitStaysAtRest) {
@@ -162,35 +163,36 @@ TEST(Transient, ARestingCircuitStaysAtRest) {
          {"divider\nv1 a 0 1\nr1 a b 1k\nr2 b 0 1k\nc1 b 0 1u\nd1 b 0 d\n.model d d\n.tran 1m 1\n",
           "inverter\n.lib 'tsmc180.lib' tt\nvdd vdd 0 0.7\nm1 o i vdd vdd pch w=6u l=0.5u\nm2 o i 0 0 nch w=1.5u l=0.5u\n"
           "vi i 0 0.3\n.tran 1m 1\n"}) {
-        const auto found = run_netlist(netlist);
-        EXPECT_TRUE(found.warnings().empty()) << found.warnings()[0].text();
-        for (const auto& curve : found.analyses()[0].result.plots[0].curves)
+        const auto run = run_netlist(netlist);
+        EXPECT_TRUE(run.warnings().empty()) << run.warnings()[0].text();
+        for (const auto& curve : run.analyses()[0].result.plots[0].curves)
             if (curve.name != "time") {
                 EXPECT_NEAR(std::abs(curve.values.front() - curve.values.back()), 0, 1e-9) << curve.name;
             }
     }
 }
 
-TEST(Transient, WithUicNodesWithoutChargeFollow) {
-    const auto found = run_netlist("uic\nv1 a 0 1\nr1 a b 1k\nr2 b c 1k\nc1 c 0 1u\n.ic v(c)=0.4\n.tran 1u 10u uic\n");
-    EXPECT_NEAR(found.curve("v(a)")[0], 1, 1e-9);
-    EXPECT_NEAR(found.curve("v(b)")[0], 0.7, 1e-9);
-    EXPECT_NEAR(found.curve("v(c)")[0], 0.4, 1e-6);
+TEST(Transient, WithUicNodesWithoutChargeAreSolved) {
+    const auto run = run_netlist("uic\nv1 a 0 1\nr1 a b 1k\nr2 b c 1k\nc1 c 0 1u\n.ic v(c)=0.4\n.tran 1u 10u uic\n");
+    EXPECT_NEAR(run.curve("v(a)")[0], 1, 1e-9);
+    EXPECT_NEAR(run.curve("v(b)")[0], 0.7, 1e-9);
+    EXPECT_NEAR(run.curve("v(c)")[0], 0.4, 1e-6);
 }
 
-/// An expression's ramp starts without a breakpoint. With the trapezoidal rule, the current of a capacitor on it would ring forever.
+/// The ramp of an expression starts without a breakpoint. With a plain trapezoidal rule, the current of a capacitor on it would oscillate
+/// forever.
 TEST(Transient, TheTrapezoidalRuleDoesNotKeepRinging) {
     for (const auto method : {Integration::trapezoidal, Integration::bdf}) {
         TransientFixture ramp("ramp\nb1 a 0 v=uramp(time-10.0303m)\nc1 a 0 1n\n.end\n", 0.02);
         ramp.plan.max_step = 1e-4, ramp.plan.reltol = 1, ramp.plan.vntol = 1;  // steps of the maximum length
         ramp.plan.method = method;
         auto t = ramp.started_transient();
-        double off = 0;
+        double error = 0;
         while (t->time() < 0.02) {
             ASSERT_TRUE(t->step(0.02));
-            if (t->time() > 11e-3) off = std::max(off, std::abs(t->x()[1] + 1e-9));
+            if (t->time() > 11e-3) error = std::max(error, std::abs(t->x()[1] + 1e-9));
         }
-        EXPECT_LT(off, 1e-12) << (method == Integration::bdf ? "BDF" : "trapezoidal");
+        EXPECT_LT(error, 1e-12) << (method == Integration::bdf ? "BDF" : "trapezoidal");
     }
 }
 

@@ -66,7 +66,7 @@ bool wait_for_file(const std::string& path, std::uintmax_t bytes = 1) {
     return false;
 }
 
-/// Expects points of the circuit above in order.
+/// Expects points of `endless_deck` in the order of time.
 void expect_valid(const Plot& plot, std::size_t at_least) {
     ASSERT_EQ(plot.curves.size(), 3U);
     EXPECT_EQ(plot.curves[2].name, "v(in,out)");
@@ -81,7 +81,7 @@ void expect_valid(const Plot& plot, std::size_t at_least) {
     }
 }
 
-/// Expects a table of the same circuit, whose last line may be incomplete.
+/// Expects rows of `endless_deck`; the last line may be incomplete.
 void expect_rows(const std::string& text) {
     std::istringstream lines(text.substr(0, text.rfind('\n') + 1));
     std::string line;
@@ -125,7 +125,7 @@ TEST(Stream, AKilledRunLeavesAFileThatIsReadableToItsLastBlock) {
     }
 }
 
-/// Like a full disk.
+/// A limit of the file size acts like a full disk.
 TEST(Stream, AFileThatCannotGrowEndsEarly) {
     for (const std::string name : {"x.raw", "x.csv"}) {
         const TemporaryFolder folder;
@@ -142,7 +142,7 @@ TEST(Stream, AFileThatCannotGrowEndsEarly) {
     }
 }
 
-TEST(Stream, TheNextRunReplacesTheFileOfAKilledOne) {
+TEST(Stream, TheNextRunReplacesTheFileOfAKilledRun) {
     const TemporaryFolder folder;
     folder.write("x.cir", endless_deck);
     folder.write("short.cir", rc(1e-3));
@@ -154,7 +154,7 @@ TEST(Stream, TheNextRunReplacesTheFileOfAKilledOne) {
     EXPECT_NEAR(read_raw_file(folder / "x.raw")[0].curves[0].values.back().real(), 1e-3, 1e-15);
 }
 
-TEST(Stream, TwoRunsDoNotWriteOneFile) {
+TEST(Stream, ASecondRunDoesNotWriteTheSameFile) {
     const TemporaryFolder folder;
     folder.write("x.cir", endless_deck);
     folder.write("short.cir", rc(1e-3));
@@ -221,10 +221,10 @@ TEST(Stream, StreamedPointsEqualThoseInMemory) {
     EXPECT_EQ(run_program(folder, "run x.cir -o y.raw --ascii").status, 0);
     EXPECT_EQ(run_program(folder, "run x.cir -o x.csv").status, 0);
     const auto document = nlohmann::json::parse(run_program(folder, "run x.cir --json").out);
-    const auto binary = read_raw_file(folder / "x.raw"), letters = read_raw_file(folder / "y.raw");
+    const auto binary = read_raw_file(folder / "x.raw"), ascii_plots = read_raw_file(folder / "y.raw");
     const auto reference = run_corpuscle(folder / "x.cir").plots();
     ASSERT_EQ(binary.size(), 2U);
-    ASSERT_EQ(letters.size(), 2U);
+    ASSERT_EQ(ascii_plots.size(), 2U);
     ASSERT_EQ(reference.size(), 2U);
     for (std::size_t p = 0; p < 2; ++p) {
         EXPECT_EQ(binary[p].name, reference[p].name);
@@ -234,7 +234,7 @@ TEST(Stream, StreamedPointsEqualThoseInMemory) {
             EXPECT_EQ(binary[p].curves[c].name, curve.name);
             for (std::size_t k = 0; k < reference[p].point_count(); ++k) {
                 EXPECT_EQ(binary[p].curves[c].values[k], curve.values[k]);
-                EXPECT_NEAR(letters[p].curves[c].values[k].real(), curve.values[k].real(), 1e-15 * std::abs(curve.values[k].real()));
+                EXPECT_NEAR(ascii_plots[p].curves[c].values[k].real(), curve.values[k].real(), 1e-15 * std::abs(curve.values[k].real()));
                 EXPECT_EQ(document["plots"][p]["curves"][curve.name][k].get<double>(), curve.values[k].real());
             }
         }
@@ -265,15 +265,15 @@ TEST(Stream, NgspiceReadsTheFileOfAKilledRun) {
     killed.end(SIGKILL);
     const auto points = read_raw_file(folder / "x.raw.part")[0].point_count();
     const auto head = read_file(folder / "x.raw.part").find("Binary:\n") + 8;
-    std::filesystem::resize_file(folder / "x.raw.part", head + points * 24);  // as if it ended between a block and its count
+    std::filesystem::resize_file(folder / "x.raw.part", head + points * 24);  // as if the run had ended after a block
     const auto deck =
         folder.write("load.cir", "load\n.control\nload " + (folder / "x.raw.part") + "\nprint length(time)\nquit\n.endc\n.end\n");
     const auto log = run_ngspice(deck, "");
     EXPECT_EQ(logged_number(log, "length(time)"), static_cast<double>(points)) << log;
 }
 
-/// Killed between the points of a block and their count.
-TEST(Stream, BytesBehindTheCountedPointsDoNoHarm) {
+/// A run that is killed after it wrote the points of a block, but before their count, leaves such bytes.
+TEST(Stream, BytesAfterTheCountedPointsAreIgnored) {
     const TemporaryFolder folder;
     folder.write("x.cir", rc(1e-3));
     EXPECT_EQ(run_program(folder, "run x.cir -o x.raw").status, 0);
@@ -283,7 +283,7 @@ TEST(Stream, BytesBehindTheCountedPointsDoNoHarm) {
     EXPECT_EQ(read_raw_file(folder / "y.raw")[0].point_count(), points);
 }
 
-TEST(Stream, PrintsAtEveryStep) {
+TEST(Stream, PrintsARowPerStepOfTran) {
     const TemporaryFolder folder;
     const std::string text = "t\nv1 a 0 pwl(0 0 1m 1 3m 0)\nr1 a 0 1\n.print tran v(a)\n.print tran i(v1)\n";
     folder.write("x.cir", text + ".tran 0.5m 2m\n");
@@ -303,7 +303,7 @@ TEST(Stream, PrintsAtEveryStep) {
     EXPECT_NE(refused.err.find("y.cir:5:1: .print tran: 1e+09 rows"), std::string::npos) << refused.err;
 }
 
-TEST(Stream, TheDocumentReportsTheRunStatistics) {
+TEST(Stream, TheJsonReportsTheRunStatistics) {
     const TemporaryFolder folder;
     folder.write("x.cir", rc(1e-3) + ".op\n");
     const auto plain = nlohmann::json::parse(run_program(folder, "run x.cir --json").out);
@@ -319,7 +319,7 @@ TEST(Stream, TheDocumentReportsTheRunStatistics) {
     EXPECT_EQ(written["plots"].size(), 1U) << "the curves of the transient are in the file";
 }
 
-/// On a pseudo-terminal.
+/// Uses a pseudo-terminal.
 TEST(Stream, ATerminalShowsHowMuchTimeIsLeft) {
     const TemporaryFolder folder;
     folder.write("x.cir", std::string(endless_deck) + ".op\n");

@@ -18,7 +18,7 @@ std::vector<std::string> words(const std::string& text) {
     return out;
 }
 
-/// Number of devices of a name: five for "M1A-E", two for "M3A,C".
+/// Number of devices that a name in a table stands for: five for "M1A-E", two for "M3A,C".
 int device_count(const std::string& name) {
     if (const auto to = name.find('-'); to != std::string::npos) return name[to + 1] - name[to - 1] + 1;
     return name.find(',') != std::string::npos ? 2 : 1;
@@ -37,17 +37,18 @@ std::vector<std::pair<std::string, double>> size_of(const Element& e) {
             {"L", 1e6 * named_value(e, "l", 0)}};
 }
 
-/// Circuits with the sizes of the tables. If `part` names a subcircuit file, only circuits that include it, with the text `text_of_part`.
+/// The circuits of table_locations. If `replaced_file` names a subcircuit file, `replacement` is its text, and circuits without subcircuit
+/// files are left out.
 class Circuits {
     std::map<std::string, Circuit> circuits_;
 
-    void read(const std::string& name, const Values& parameters, const std::string& part, const std::string& text_of_part) {
+    void read(const std::string& name, const Values& parameters, const std::string& replaced_file, const std::string& replacement) {
         const auto path = fmt::format("{}/circuits/{}.cir", test::source_root(), name);
         const auto text = read_text_file(path);
         if (!text) return ADD_FAILURE() << text.error().text(), void();
-        if (text->find("'parts/") == std::string::npos && !part.empty()) return;
+        if (text->find("'parts/") == std::string::npos && !replaced_file.empty()) return;
         const auto netlist = Netlist::parse(*text, path, [&](const std::string& file) -> Result<std::string> {
-            if (!part.empty() && file.ends_with("/" + part)) return text_of_part;
+            if (!replaced_file.empty() && file.ends_with("/" + replaced_file)) return replacement;
             return circuit::read_text_file(file);
         });
         if (!netlist) return ADD_FAILURE() << netlist.error().text(), void();
@@ -57,12 +58,12 @@ class Circuits {
     }
 
 public:
-    explicit Circuits(const Values& parameters, const std::string& part = "", const std::string& text_of_part = "") {
+    explicit Circuits(const Values& parameters, const std::string& replaced_file = "", const std::string& replacement = "") {
         std::set<std::string> names;
-        for (const auto& stand : table_locations) names.insert(stand.circuit);
-        for (const auto& name : names) read(name, parameters, part, text_of_part);
+        for (const auto& location : table_locations) names.insert(location.circuit);
+        for (const auto& name : names) read(name, parameters, replaced_file, replacement);
     }
-    bool have(const std::string& name) const { return circuits_.contains(name); }
+    bool contain(const std::string& name) const { return circuits_.contains(name); }
     const Circuit& operator[](const std::string& name) const { return circuits_.at(name); }
 };
 
@@ -73,24 +74,24 @@ struct TableComparison {
     std::map<std::string, std::set<std::string>> sized;
 
     explicit TableComparison(const Circuits& circuits) {
-        for (const auto& stand : table_locations)
+        for (const auto& location : table_locations)
             for (const auto& row : published_sizes)
-                if (std::string_view(row.table) == stand.table && circuits.have(stand.circuit))
-                    for (const auto& local : words(row.devices)) device(circuits[stand.circuit], stand, row, local);
+                if (std::string_view(row.table) == location.table && circuits.contain(location.circuit))
+                    for (const auto& local : words(row.devices)) device(circuits[location.circuit], location, row, local);
     }
-    void device(const Circuit& circuit, const TableLocation& stand, const PublishedSize& row, const std::string& local) {
-        const auto name = stand.path + local;
-        sized[stand.circuit].insert(name);
+    void device(const Circuit& circuit, const TableLocation& location, const PublishedSize& row, const std::string& local) {
+        const auto name = location.path + local;
+        sized[location.circuit].insert(name);
         const int k = circuit.find_element(name);
-        if (k < 0) return differences.push_back(fmt::format("table {} {}: {}.cir has no {}", row.table, row.name, stand.circuit, name));
+        if (k < 0) return differences.push_back(fmt::format("table {} {}: {}.cir has no {}", row.table, row.name, location.circuit, name));
         const double printed[] = {double(row.m), double(row.n), row.W, row.L};
         const auto size = size_of(circuit.elements[static_cast<std::size_t>(k)]);
         for (std::size_t j = 0; j < 4; ++j)
-            if (const double wanted = wanted_of(row, local, size[j].first, printed[j]); std::abs(size[j].second - wanted) > 1e-9)
+            if (const double expected = expected_size(row, local, size[j].first, printed[j]); std::abs(size[j].second - expected) > 1e-9)
                 differences.push_back(fmt::format("table {} {}: {} is printed as {}, {}.cir has {} in {}, for which there is no erratum",
-                                                  row.table, row.name, size[j].first, printed[j], stand.circuit, size[j].second, name));
+                                                  row.table, row.name, size[j].first, printed[j], location.circuit, size[j].second, name));
     }
-    double wanted_of(const PublishedSize& row, const std::string& local, const std::string& what, double printed) {
+    double expected_size(const PublishedSize& row, const std::string& local, const std::string& what, double printed) {
         for (const auto& other : size_deviations) {
             if (std::string_view(other.table) != row.table || std::string_view(other.name) != row.name || what != other.parameter) continue;
             const auto devices = words(other.device);
@@ -102,22 +103,22 @@ struct TableComparison {
     }
 };
 
-Values as_printed(double yes) { return {{"as_printed", yes}}; }
+Values as_printed(double value) { return {{"as_printed", value}}; }
 
-TEST(Tables, SizeEveryArrayOfTheCircuitsButForTheErrata) {
+TEST(Tables, GiveTheSizeOfEveryArrayExceptForTheErrata) {
     const TableComparison compared{Circuits(as_printed(1))};
     EXPECT_TRUE(compared.differences.empty()) << fmt::format("{}", fmt::join(compared.differences, "\n"));
     for (const auto& other : size_deviations)
         EXPECT_TRUE(compared.used.contains(&other))
-            << "table " << other.table << " " << other.name << ": nothing is built otherwise by " << other.erratum;
+            << "table " << other.table << " " << other.name << ": no array deviates by erratum " << other.erratum;
 }
 
-TEST(Tables, HaveADeviceForEveryPublishedLetter) {
+TEST(Tables, EveryPublishedDeviceIsInTheCircuits) {
     for (const auto& row : published_sizes) {
         const auto devices = static_cast<int>(words(row.devices).size());
         int letters = device_count(row.name);
-        for (const auto& lack : missing_devices)
-            if (std::string_view(lack.table) == row.table && std::string_view(lack.name) == row.name) letters -= lack.count;
+        for (const auto& absent : missing_devices)
+            if (std::string_view(absent.table) == row.table && std::string_view(absent.name) == row.name) letters -= absent.count;
         const bool of_both_sources =
             std::string_view(row.table) == "6" && std::string_view(row.devices).find("xrectc") != std::string_view::npos;
         const bool a_mirror = std::string_view(row.table) == "4" && std::string_view(row.name) == "M3";
@@ -127,7 +128,7 @@ TEST(Tables, HaveADeviceForEveryPublishedLetter) {
     }
 }
 
-TEST(Tables, KnowEveryTransistorOfTheChips) {
+TEST(Tables, GiveTheSizeOfEveryTransistorOfTheChips) {
     const Circuits circuits(as_printed(1));
     const TableComparison compared(circuits);
     for (const auto* chip : {"sa1", "fa1"})
@@ -158,21 +159,22 @@ std::vector<std::string> changes(const Element& a, const Element& b) {
     return out;
 }
 
+/// Differences of a chip with the intended sizes from the chip with the printed sizes.
 std::vector<std::string> as_intended(const char* chip) {
     const Circuits printed(as_printed(1)), intended(as_printed(0));
     std::vector<std::string> out;
     EXPECT_EQ(printed[chip].elements.size(), intended[chip].elements.size());
     for (std::size_t k = 0; k < printed[chip].elements.size(); ++k) {
-        const auto& here = printed[chip].elements[k];
-        const auto& there = intended[chip].elements[k];
-        EXPECT_EQ(here.name, there.name);
-        EXPECT_EQ(here.values.size(), there.values.size()) << here.name;
-        for (auto& change : changes(here, there)) out.push_back(std::move(change));
+        const auto& printed_element = printed[chip].elements[k];
+        const auto& intended_element = intended[chip].elements[k];
+        EXPECT_EQ(printed_element.name, intended_element.name);
+        EXPECT_EQ(printed_element.values.size(), intended_element.values.size()) << printed_element.name;
+        for (auto& change : changes(printed_element, intended_element)) out.push_back(std::move(change));
     }
     return out;
 }
 
-// S9a: I_C's gain 2; S10a: I_A six times; leak and membrane change accordingly.
+// S9a: the gain of I_C is 2. S10a: I_A is six times as large. Leak and membrane change accordingly.
 TEST(Tables, Sa1AsIntendedDiffersInTheStaticAndTheSlowPath) {
     EXPECT_EQ(as_intended("sa1"),
               (std::vector<std::string>{"xrectc.mp1a m 2 -> 4", "xrectc.mn2a m 2 -> 4", "xrectc.mp1b m 2 -> 4", "xrectc.mn2b m 2 -> 4",
@@ -185,9 +187,9 @@ TEST(Tables, Fa1AsIntendedDiffersInTheFallingForcePath) {
                                                             "ilk dc 5e-12 -> 1e-11"}));
 }
 
-/// A subcircuit file with one number of an array's size changed by one step.
+/// A subcircuit file in which one number of an array's size has an additional leading 1.
 struct ChangedSize {
-    std::string file, was, line, text;
+    std::string file, original, line, text;
 };
 
 std::vector<ChangedSize> changed_sizes(const std::string& file) {
@@ -211,13 +213,13 @@ std::vector<ChangedSize> changed_sizes(const std::string& file) {
     return out;
 }
 
-TEST(Tables, NoSizeInThePartsChangesUnnoticed) {
+TEST(Tables, EveryChangedSizeInASubcircuitFileIsDetected) {
     int count = 0;
     for (const auto* file : {"transducer.inc", "transconductor.inc", "trigger.inc", "signal.inc", "oscillator.inc"})
-        for (const auto& moved : changed_sizes(file)) {
-            const Circuits circuits(as_printed(1), moved.file, moved.text);
+        for (const auto& changed : changed_sizes(file)) {
+            const Circuits circuits(as_printed(1), changed.file, changed.text);
             EXPECT_FALSE(TableComparison(circuits).differences.empty())
-                << moved.file << ": '" << moved.was << "' as '" << moved.line << "'";
+                << changed.file << ": '" << changed.original << "' as '" << changed.line << "'";
             ++count;
         }
     EXPECT_GT(count, 300);

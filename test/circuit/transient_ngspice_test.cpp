@@ -62,7 +62,7 @@ public:
         for (std::size_t k = 1; k < t_.size(); ++k) {
             if (!(v_[k - 1] < level && v_[k] >= level)) continue;
             double low = t_[k - 1], high = t_[k];
-            for (int halves = 0; halves < 60; ++halves) (at((low + high) / 2) < level ? low : high) = (low + high) / 2;
+            for (int halving = 0; halving < 60; ++halving) (at((low + high) / 2) < level ? low : high) = (low + high) / 2;
             out.push_back(high);
         }
         return out;
@@ -71,8 +71,8 @@ public:
 
 /// Tolerances from a deck's comments.
 struct DeckTolerances {
-    double volts = 0, seconds = 0, level = 0;
-    std::string spikes;
+    double volts = 0, seconds = 0, level = 0;  ///< V, s, V
+    std::string spikes;                        ///< curve whose spikes are compared; empty for none
 };
 DeckTolerances tolerances_of(const std::string& deck) {
     DeckTolerances out;
@@ -110,11 +110,12 @@ RunOutcome run_with_native_transistors(const std::string& path) {
     return run_corpuscle(Netlist::parse(text, path, [](const std::string& file) -> Result<std::string> { return read_file(file); }));
 }
 
-double max_distance(const Wave& mine, const Wave& theirs, const DeckTolerances& tolerances, double& when) {
+double max_distance(const Wave& result, const Wave& reference, const DeckTolerances& tolerances, double& when) {
     double worst = 0;
-    for (const auto* grid : {&mine.times(), &theirs.times()})
+    for (const auto* grid : {&result.times(), &reference.times()})
         for (const double t : *grid)
-            if (const double off = theirs.distance(t, mine.at(t), tolerances.seconds); off > worst) worst = off, when = t;
+            if (const double difference_V = reference.distance(t, result.at(t), tolerances.seconds); difference_V > worst)
+                worst = difference_V, when = t;
     return worst;
 }
 
@@ -122,43 +123,44 @@ double max_distance(const Wave& mine, const Wave& theirs, const DeckTolerances& 
 struct SpikeDifference {
     double interval = 0, last = 0;
 };
-SpikeDifference spike_difference(const std::vector<double>& mine, const std::vector<double>& theirs) {
+SpikeDifference spike_difference(const std::vector<double>& result, const std::vector<double>& reference) {
     SpikeDifference out;
-    for (std::size_t k = 1; k < mine.size(); ++k)
-        out.interval = std::max(out.interval, std::abs((mine[k] - mine[k - 1]) / (theirs[k] - theirs[k - 1]) - 1));
-    if (!mine.empty()) out.last = std::abs(mine.back() / theirs.back() - 1);
+    for (std::size_t k = 1; k < result.size(); ++k)
+        out.interval = std::max(out.interval, std::abs((result[k] - result[k - 1]) / (reference[k] - reference[k - 1]) - 1));
+    if (!result.empty()) out.last = std::abs(result.back() / reference.back() - 1);
     return out;
 }
 
-void compare_spikes(const std::string& name, const Wave& mine, const Wave& theirs, double level) {
-    const auto here = mine.rises(level), there = theirs.rises(level);
-    EXPECT_EQ(here.size(), there.size()) << name;
-    EXPECT_GE(there.size(), 2U) << name;
-    if (here.size() != there.size() || here.empty()) return;
-    const auto difference = spike_difference(here, there);
-    std::printf("; %zu spikes, intervals to %.2g, the last to %.2g", here.size(), difference.interval, difference.last);
+void compare_spikes(const std::string& name, const Wave& result, const Wave& reference, double level) {
+    const auto spikes = result.rises(level), reference_spikes = reference.rises(level);
+    EXPECT_EQ(spikes.size(), reference_spikes.size()) << name;
+    EXPECT_GE(reference_spikes.size(), 2U) << name;
+    if (spikes.size() != reference_spikes.size() || spikes.empty()) return;
+    const auto difference = spike_difference(spikes, reference_spikes);
+    std::printf("; %zu spikes, intervals to %.2g, the last to %.2g", spikes.size(), difference.interval, difference.last);
     EXPECT_LE(difference.interval, spike_tolerance) << name;
-    EXPECT_LE(difference.last, spike_tolerance) << name << ": the last at " << here.back() << " here, " << there.back() << " there";
+    EXPECT_LE(difference.last, spike_tolerance)
+        << name << ": the last at " << spikes.back() << " s, in the reference at " << reference_spikes.back() << " s";
 }
 
 /// Compares every voltage that both results contain.
-void compare_waves(const Plot& mine, const Plot& theirs, const DeckTolerances& tolerances) {
-    std::printf("%zu points here, %zu there", mine.point_count(), theirs.point_count());
+void compare_waves(const Plot& result, const Plot& reference, const DeckTolerances& tolerances) {
+    std::printf("%zu points, reference %zu", result.point_count(), reference.point_count());
     int compared = 0;
-    for (const auto& curve : theirs.curves) {
-        const auto* own = mine.find_curve(corpuscle_name(curve.name));
+    for (const auto& curve : reference.curves) {
+        const auto* own = result.find_curve(corpuscle_name(curve.name));
         if (curve.type != "voltage" || own == nullptr) continue;
         ++compared;
-        const Wave here(mine.curves[0], *own), there(theirs.curves[0], curve);
-        ASSERT_TRUE(here.is_valid() && there.is_valid());
+        const Wave wave(result.curves[0], *own), reference_wave(reference.curves[0], curve);
+        ASSERT_TRUE(wave.is_valid() && reference_wave.is_valid());
         if (tolerances.volts > 0) {
             double when = 0;
-            const double off = max_distance(here, there, tolerances, when);
-            std::printf("; %s %.2g V", own->name.c_str(), off);
-            EXPECT_LE(off, tolerances.volts) << own->name << " at " << when << " s: " << here.at(when) << " here, " << there.at(when)
-                                             << " there";
+            const double difference_V = max_distance(wave, reference_wave, tolerances, when);
+            std::printf("; %s %.2g V", own->name.c_str(), difference_V);
+            EXPECT_LE(difference_V, tolerances.volts)
+                << own->name << " at " << when << " s: " << wave.at(when) << " V, reference " << reference_wave.at(when) << " V";
         }
-        if (own->name == tolerances.spikes) compare_spikes(own->name, here, there, tolerances.level);
+        if (own->name == tolerances.spikes) compare_spikes(own->name, wave, reference_wave, tolerances.level);
     }
     std::printf("\n");
     EXPECT_GE(compared, 1);
@@ -169,22 +171,22 @@ class TransientDeck : public testing::TestWithParam<std::string> {};
 TEST_P(TransientDeck, AgreesWithNgspice) {
     const auto path = transient_deck(GetParam());
     const TemporaryFolder folder;
-    const auto log = run_ngspice(path, folder / "theirs.raw");
-    const auto theirs = read_raw_file(folder / "theirs.raw");
-    ASSERT_EQ(theirs.size(), 1U) << log;
-    const auto mine = run_with_native_transistors(path).plots();
-    ASSERT_EQ(mine.size(), 1U);
-    compare_waves(mine[0], theirs[0], tolerances_of(read_file(path)));
+    const auto log = run_ngspice(path, folder / "ngspice.raw");
+    const auto reference = read_raw_file(folder / "ngspice.raw");
+    ASSERT_EQ(reference.size(), 1U) << log;
+    const auto result = run_with_native_transistors(path).plots();
+    ASSERT_EQ(result.size(), 1U);
+    compare_waves(result[0], reference[0], tolerances_of(read_file(path)));
 }
 
 class TransistorDeck : public testing::TestWithParam<std::string> {};
 
 TEST_P(TransistorDeck, AgreesBetweenExpressionsAndNativeTransistors) {
     const auto path = transient_deck(GetParam());
-    const auto mine = run_with_native_transistors(path).plots(), formulas = run_corpuscle(path).plots();
-    ASSERT_EQ(mine.size(), 1U);
+    const auto result = run_with_native_transistors(path).plots(), formulas = run_corpuscle(path).plots();
+    ASSERT_EQ(result.size(), 1U);
     ASSERT_EQ(formulas.size(), 1U);
-    compare_waves(mine[0], formulas[0], tolerances_of(read_file(path)));
+    compare_waves(result[0], formulas[0], tolerances_of(read_file(path)));
 }
 
 INSTANTIATE_TEST_SUITE_P(Ngspice, TransientDeck, testing::ValuesIn(transient_decks()), [](const auto& one) { return one.param; });

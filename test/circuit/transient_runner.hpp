@@ -21,8 +21,8 @@ namespace corpuscle::circuit {
 
 /// All points of a transient run.
 struct TransientPoints {
-    std::vector<double> t;
-    std::vector<std::vector<double>> x;
+    std::vector<double> t;               ///< s
+    std::vector<std::vector<double>> x;  ///< all unknowns at each time
     TransientStats stats;
     std::string error;  ///< why the run ended early; empty if it did not
 
@@ -60,6 +60,7 @@ inline std::vector<double> upward_crossings(const std::vector<double>& t, const 
     return out;
 }
 
+/// A netlist with its initial condition, which several runs share.
 class TransientRunner {
     std::unique_ptr<AnalysisContext> context_;
     std::vector<double> start_;
@@ -131,6 +132,7 @@ public:
         options.step = step_, options.stop = stop_;
         return integrate_with_ida(context_->system, context_->newton.context.gmin, start_, options);
     }
+    /// Times (s) at which a node's voltage crosses `level` (V) upward.
     std::vector<double> spike_times(const TransientPoints& p, const std::string& name, double level) const {
         return upward_crossings(p.t, p.values(unknown(name)), level);
     }

@@ -13,8 +13,8 @@ namespace corpuscle::circuit {
 namespace {
 
 TEST(Transient, ACapacitorChargesWithItsTimeConstant) {
-    const auto found = run_netlist("rc\nv1 in 0 pulse(0 1 1m 1u 1u 5m 20m)\nr1 in out 1k\nc1 out 0 1u\n.tran 10u 6m 0 100u\n");
-    const auto t = found.curve("time"), v = found.curve("v(out)");
+    const auto run = run_netlist("rc\nv1 in 0 pulse(0 1 1m 1u 1u 5m 20m)\nr1 in out 1k\nc1 out 0 1u\n.tran 10u 6m 0 100u\n");
+    const auto t = run.curve("time"), v = run.curve("v(out)");
     ASSERT_GT(t.size(), 50U);
     for (std::size_t k = 0; k < t.size(); ++k) {
         if (t[k] < 1.001e-3) continue;
@@ -25,21 +25,21 @@ TEST(Transient, ACapacitorChargesWithItsTimeConstant) {
 }
 
 TEST(Transient, ATankRingsAtItsFrequency) {
-    const auto found =
+    const auto run =
         run_netlist("tank\nl1 a 0 1m\nc1 a 0 1u\nr1 a 0 1k\n.ic v(a)=1\n.tran 1u 2m 0 1u uic\n.meas tran tenth when v(a)=0 cross=10\n");
     // v = exp(-alpha t) (cos(omega t) - alpha / omega sin(omega t)), alpha = 1 / 2RC
     const double alpha = 500, omega = std::sqrt(1e9 - alpha * alpha);
     const double exact = (9.5 * 3.141592653589793 - std::atan(alpha / omega)) / omega;
-    EXPECT_NEAR(found.number("tenth"), exact, 1e-3 * exact);
+    EXPECT_NEAR(run.number("tenth"), exact, 1e-3 * exact);
 }
 
 TEST(Transient, BreakpointsOfASourceAreAmongThePoints) {
-    const auto found = run_netlist("corners\nv1 a 0 pwl(0 0 1m 0 1.5m 1 3m -1)\nr1 a 0 1k\nc1 a 0 1n\n.tran 10u 4m\n");
-    const auto t = found.curve("time"), v = found.curve("v(a)");
-    for (const auto& [at, is] : {std::pair{1e-3, 0.0}, {1.5e-3, 1.0}, {3e-3, -1.0}, {4e-3, -1.0}}) {
+    const auto run = run_netlist("corners\nv1 a 0 pwl(0 0 1m 0 1.5m 1 3m -1)\nr1 a 0 1k\nc1 a 0 1n\n.tran 10u 4m\n");
+    const auto t = run.curve("time"), v = run.curve("v(a)");
+    for (const auto& [at, expected] : {std::pair{1e-3, 0.0}, {1.5e-3, 1.0}, {3e-3, -1.0}, {4e-3, -1.0}}) {
         const auto k = std::find(t.begin(), t.end(), at);
         ASSERT_NE(k, t.end()) << at;
-        EXPECT_NEAR(v[static_cast<std::size_t>(k - t.begin())], is, 1e-9);
+        EXPECT_NEAR(v[static_cast<std::size_t>(k - t.begin())], expected, 1e-9);
     }
 }
 
@@ -65,8 +65,8 @@ TEST(SourceWaveform, FollowsSpice) {
 }
 
 TEST(Transient, AnOscillatorKeepsItsPeriod) {
-    const auto found = run_netlist(oscillator_netlist("0.4"));
-    const auto t = found.curve("time"), s = found.curve("v(s)");
+    const auto run = run_netlist(oscillator_netlist("0.4"));
+    const auto t = run.curve("time"), s = run.curve("v(s)");
     std::vector<double> spikes;
     for (std::size_t k = 1; k < t.size(); ++k)
         if (s[k - 1] < 0.35 && s[k] >= 0.35) spikes.push_back(t[k - 1] + (t[k] - t[k - 1]) * (0.35 - s[k - 1]) / (s[k] - s[k - 1]));

@@ -57,7 +57,7 @@ double drain_current(const UicmConstants& c, double d, double g, double s, doubl
 
 /// The unbiased inverter with output tied to input (fig. 51a, arrays 2x8 of table 16): V_Q and I_Q.
 struct TiedInverter {
-    double V = 0, I = 0;
+    double V = 0, I = 0;  // V, A
     TiedInverter(const UicmCard& n, const UicmCard& p) {
         const auto N = array(n, 1.5e-6, 0.5e-6, 2, 8), P = array(p, 6e-6, 0.5e-6, 2, 8, true);
         double low = 0, high = 0.7;
@@ -91,7 +91,7 @@ TEST(Tsmc180, CornersMoveTheInverter) {
     }
 }
 
-/// Coefficients of variation of V_Q and I_Q over chips; `draw` makes the inverter of each chip.
+/// Coefficients of variation of V_Q and I_Q over 2000 chips; `draw` makes the inverter of each chip.
 template <class Draw>
 std::pair<double, double> spread_of(const Draw& draw) {
     double V = 0, VV = 0, I = 0, II = 0;
@@ -103,7 +103,7 @@ std::pair<double, double> spread_of(const Draw& draw) {
     return {std::sqrt(VV - V * V) / V, std::sqrt(II - I * I) / I};
 }
 
-TEST(Tsmc180, TheSpreadOfTheProcessIsThatOfTables17And18) {
+TEST(Tsmc180, TheProcessSpreadIsThatOfTables17And18) {
     const UicmCard n = model("mc", "nch"), p = model("mc", "pch");
     const auto [V, I] = spread_of([&](std::uint64_t k) { return TiedInverter(with_process(n, false, 1, k), with_process(p, true, 1, k)); });
     EXPECT_NEAR(V, 0.0264, 0.002);
@@ -126,16 +126,17 @@ TEST(Tsmc180, TheMismatchOfDevicesIsThatOfTables17And18) {
     EXPECT_NEAR(I, 0.0119, 0.003);  // 1.4 %
 }
 
-TEST(Tsmc180, HigherThresholdsAreHigher) {
+TEST(Tsmc180, HighThresholdDevicesHaveThresholdsHigherBy150Millivolts) {
     EXPECT_NEAR(model("tt", "nch_hv").V_T0 - model("tt", "nch").V_T0, 0.15, 1e-12);
     EXPECT_NEAR(model("tt", "pch_hv").V_T0 - model("tt", "pch").V_T0, 0.15, 1e-12);
 }
 
-/// The current of an array at 0.5 V, solved part by part; each part is `m` elements of 0.42/0.18 in parallel.
+/// Drain current (A) of transistors in series at voltages d, g, b (V), solved transistor by transistor. Each is a number of elements of
+/// 0.42/0.18 um in parallel; `from_source_up` has these numbers.
 double stacked(const UicmCard& card, const std::vector<double>& from_source_up, double d, double g, double b) {
     std::vector<UicmConstants> parts;
     for (const double m : from_source_up) parts.push_back(array(card, 0.42e-6, 0.18e-6, m, 1));
-    const auto reached = [&](double I) {  // the voltage that the last drain needs for this current; above d the current is too large
+    const auto drain_voltage = [&](double I) {  // the voltage that the last drain needs for this current; above d the current is too large
         double v = 0;
         for (const auto& part : parts) {
             if (drain_current(part, d + 0.1, g, v, b) < I) return d + 0.1;
@@ -152,17 +153,17 @@ double stacked(const UicmCard& card, const std::vector<double>& from_source_up, 
     if (parts.size() == 1) return high;
     for (int k = 0; k < 50; ++k) {
         const double mid = 0.5 * (low + high);
-        (reached(mid) < d ? low : high) = mid;
+        (drain_voltage(mid) < d ? low : high) = mid;
     }
     return 0.5 * (low + high);
 }
 
-TEST(Tsmc180, TheShortElementMakesTheArraysOfTables11And14) {
+TEST(Tsmc180, TheShortElementGivesTheArraysOfTables11And14) {
     const UicmCard card = model("tt", "nch018");
     const struct {
         const char* name;
         std::vector<double> parts;
-        double I_D, g_mg, g_mb, g_md;  // uA, uS; g_md as in errata U7 and U8
+        double I_D, g_mg, g_mb, g_md;  // uA, uS; g_md as corrected by errata U7 and U8
     } arrays[] = {
         {"A", {1}, 2.141, 31.83, 8.430, 1.021},
         {"B2", {1, 1, 1, 1}, 0.510, 7.691, 2.051, 0.067},
@@ -183,7 +184,8 @@ TEST(Tsmc180, TheShortElementMakesTheArraysOfTables11And14) {
     }
 }
 
-/// The arrays of the 0.42/0.18 um element in tables 12 and 15 (units of g_mg/A as in errata U9); parts from the source up.
+/// The arrays of the 0.42/0.18 um element in tables 12 and 15 (units of g_mg/A as corrected by erratum U9); parts are numbers of parallel
+/// elements, from the source up.
 constexpr struct {
     const char* name;
     int parts[8], count;
@@ -223,12 +225,12 @@ TEST(Tsmc180, TheShortElementHasTheRatiosOfTables12And15) {
 TEST(Tsmc180, ArraysCarryLessThanTheirAspectRatioAsInTables11And14) {  // eq. 31 and 32, which are exact without length modulation
     const UicmCard card = model("tt", "nch018");
     const double of_one = stacked(card, {1}, 0.5, 0.5, 0);
-    constexpr double in_thesis[] = {1, 0.953, 0.957, 1.000, 0.957, 0.915, 0.817};
+    constexpr double published[] = {1, 0.953, 0.957, 1.000, 0.957, 0.915, 0.817};
     for (std::size_t k = 0; k < std::size(table12_and_15); ++k) {
         const auto& a = table12_and_15[k];
         double per_S = 0;
         for (const double part : a.stack()) per_S += 1 / part;
-        EXPECT_NEAR(stacked(card, a.stack(), 0.5, 0.5, 0) * per_S / of_one, in_thesis[k], 0.06) << a.name;
+        EXPECT_NEAR(stacked(card, a.stack(), 0.5, 0.5, 0) * per_S / of_one, published[k], 0.06) << a.name;
     }
 }
 
@@ -244,7 +246,7 @@ double mismatch_of(const std::string& devices) {
 // The deviation of 1000 samples has an error of 2.2 %, here as in the thesis. G3 (one element under seven) is 13.0 %; published is 14.9 %,
 // almost that of a single element. In UICM the element at the source is not quite saturated (i_r is an eighth of i_f), so the seven others
 // contribute to the deviation.
-TEST(Tsmc180, ElementsSampledSeparatelyMakeTheMismatchOfTables12And15) {
+TEST(Tsmc180, ElementsSampledSeparatelyHaveTheMismatchOfTables12And15) {
     for (const auto& a : table12_and_15) {
         std::string devices;
         for (int k = 0; k < a.count; ++k)

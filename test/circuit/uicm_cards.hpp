@@ -11,6 +11,7 @@
 
 namespace corpuscle::circuit::test {
 
+/// C, J/K, and V at 27 C.
 inline constexpr double elementary_charge = 1.602176634e-19, boltzmann = 1.380649e-23, phi_t = boltzmann * 300.15 / elementary_charge;
 enum { D, G, S, B };
 

@@ -17,7 +17,7 @@ namespace {
 
 using namespace test;
 
-/// A value of a transistor evaluated with dual numbers; the derivative is by v[by].
+/// Derivative by v[by] of a value of the transistor, computed with dual numbers. `read` selects the value.
 template <class Read>
 double dual_slope(const RandomDevice& r, int by, const Read& read) {
     num::Dual v[4] = {r.v[0], r.v[1], r.v[2], r.v[3]};
@@ -27,13 +27,13 @@ double dual_slope(const RandomDevice& r, int by, const Read& read) {
     return read(out).d;
 }
 
-/// Compares two derivatives, relative to the largest one of the same kind.
-void near(double found, double right, double scale, std::uint32_t k, const char* what, int a, int b) {
-    EXPECT_LE(std::abs(found - right), 2e-11 * scale)
-        << what << '[' << a << "][" << b << "] of device " << k << ": " << found << ", not " << right;
+/// Compares two derivatives; the tolerance is relative to `scale`, the largest derivative of the same kind.
+void expect_slope(double found, double expected, double scale, std::uint32_t k, const char* what, int a, int b) {
+    EXPECT_LE(std::abs(found - expected), 2e-11 * scale)
+        << what << '[' << a << "][" << b << "] of device " << k << ": " << found << ", not " << expected;
 }
 
-TEST(UicmContract, ItsSlopesAreThoseOfDualsAtAHundredThousandPoints) {
+TEST(UicmContract, ItsSlopesEqualThoseOfDualNumbersAtAHundredThousandPoints) {
     for (std::uint32_t k = 0; k < 100000 && !testing::Test::HasFailure(); ++k) {
         const RandomDevice r(k);
         UicmEvaluation<double> out;
@@ -43,13 +43,13 @@ TEST(UicmContract, ItsSlopesAreThoseOfDualsAtAHundredThousandPoints) {
             max_i = std::max(max_i, std::abs(out.di[a / 4][a % 4])), max_q = std::max(max_q, std::abs(out.dq[a / 4][a % 4]));
         const int b = static_cast<int>(k / 2 % 4);  // one direction per point
         for (int a = 0; a < 4; ++a) {
-            near(out.di[a][b], dual_slope(r, b, [a](const auto& o) { return o.i[a]; }), max_i, k, "di", a, b);
-            near(out.dq[a][b], dual_slope(r, b, [a](const auto& o) { return o.q[a]; }), max_q, k, "dq", a, b);
+            expect_slope(out.di[a][b], dual_slope(r, b, [a](const auto& o) { return o.i[a]; }), max_i, k, "di", a, b);
+            expect_slope(out.dq[a][b], dual_slope(r, b, [a](const auto& o) { return o.q[a]; }), max_q, k, "dq", a, b);
         }
     }
 }
 
-TEST(UicmContract, ItsSlopesAreThoseOfFiniteDifferences) {
+TEST(UicmContract, ItsSlopesEqualFiniteDifferences) {
     for (std::uint32_t k = 1; k < 4000; ++k) {
         if (k % 4 == 0) continue;  // V_DS = 0, where a second derivative may jump
         RandomDevice r(k);
@@ -72,11 +72,11 @@ TEST(UicmContract, SwappingDrainAndSourceNegatesTheCurrentToTheLastBit) {
     for (std::uint32_t k = 0; k < 10000; ++k) {
         const RandomDevice r(k);
         const Uicm<double> device(r.c);
-        const double there = device.internals({r.v[0], r.v[1], r.v[2], r.v[3]}).I,
-                     back = device.internals({r.v[2], r.v[1], r.v[0], r.v[3]}).I;
-        ASSERT_EQ(there, -back) << k;
+        const double forward = device.internals({r.v[0], r.v[1], r.v[2], r.v[3]}).I,
+                     reversed = device.internals({r.v[2], r.v[1], r.v[0], r.v[3]}).I;
+        ASSERT_EQ(forward, -reversed) << k;
         if (r.v[D] == r.v[S]) {
-            ASSERT_EQ(there, 0) << k;
+            ASSERT_EQ(forward, 0) << k;
         }
     }
 }
@@ -127,7 +127,7 @@ TEST(UicmContract, CurrentNeverFallsAsTheDrainRises) {
     }
 }
 
-TEST(UicmContract, SlopesDoNotJumpAtZeroDrainVoltageOrWhereAnEquationEnds) {
+TEST(UicmContract, SlopesDoNotJumpAtZeroDrainVoltageOrAtTheLimitOfAnEquation) {
     const auto c = constants_of_size(full_card(), 1.5e-6, 0.5e-6);
     const double top = c.exp_limit_s / c.per_n_phi_t, corner = c.v_limit;
     for (const double g : {-0.2, 0.3, 0.5, 1.0, 1.8})
@@ -135,16 +135,16 @@ TEST(UicmContract, SlopesDoNotJumpAtZeroDrainVoltageOrWhereAnEquationEnds) {
             for (const double step : {1e-9, 1e-8}) {
                 const auto below = evaluate(c, -step, g, 0, b - step), above = evaluate(c, step, g, 0, b + step);
                 for (int k = 0; k < 16; ++k) {
-                    const auto far = [&](const double(&x)[4][4], const double(&y)[4][4]) {
+                    const auto difference = [&](const double(&x)[4][4], const double(&y)[4][4]) {
                         return std::abs(x[k / 4][k % 4] - y[k / 4][k % 4]);
                     };
-                    ASSERT_LE(far(below.di, above.di), 1000 * step * (std::abs(above.di[D][D]) + above.di[B][B])) << g << ' ' << b;
-                    ASSERT_LE(far(below.dq, above.dq), 1000 * step * (above.dq[G][G] + above.dq[B][B])) << g << ' ' << b;
+                    ASSERT_LE(difference(below.di, above.di), 1000 * step * (std::abs(above.di[D][D]) + above.di[B][B])) << g << ' ' << b;
+                    ASSERT_LE(difference(below.dq, above.dq), 1000 * step * (above.dq[G][G] + above.dq[B][B])) << g << ' ' << b;
                 }
             }
 }
 
-TEST(UicmContract, PlainIsSmoothToThirdOrderAcrossZeroDrainVoltage) {
+TEST(UicmContract, ThePlainModelIsSmoothToThirdOrderAcrossZeroDrainVoltage) {
     const auto c = constants_of_size(plain_card(), 1.5e-6, 0.5e-6);
     for (const double g : {0.2, 0.5, 0.9}) {
         const double h = 2e-3, scale = evaluate(c, 0, g, 0, 0).di[D][D] / (phi_t * phi_t);
@@ -170,21 +170,21 @@ TEST(UicmContract, LanesGiveTheSameBitsAsScalars) {
     }
     const double* const points[4] = {v[0].data(), v[1].data(), v[2].data(), v[3].data()};
     for (const auto set : instruction_sets().subspan(1)) {
-        test::UicmBatchFunction many = test::baseline::uicm_evaluate_batch;
+        test::UicmBatchFunction evaluate_batch = test::baseline::uicm_evaluate_batch;
 #ifdef __x86_64__
-        if (set == InstructionSet::avx2) many = test::avx2::uicm_evaluate_batch;
-        if (set == InstructionSet::avx512) many = test::avx512::uicm_evaluate_batch;
+        if (set == InstructionSet::avx2) evaluate_batch = test::avx2::uicm_evaluate_batch;
+        if (set == InstructionSet::avx512) evaluate_batch = test::avx512::uicm_evaluate_batch;
 #endif
         std::vector<lanes::AlignedBuffer<double>> out;
         double* at[test::uicm_value_count];
         for (auto& p : at) p = out.emplace_back(count).data();
-        many(constants.data(), points, count, at);
+        evaluate_batch(constants.data(), points, count, at);
         for (std::size_t k = 0; k < count; ++k)
-            test::for_each_value(Uicm<double>(constants[k]), {points[0][k], points[1][k], points[2][k], points[3][k]},
-                                 [&](std::size_t f, double right) {
-                                     EXPECT_EQ(std::memcmp(&at[f][k], &right, sizeof right), 0)
-                                         << name_of(set) << " number " << f << " of device " << k << ": " << at[f][k] << ", not " << right;
-                                 });
+            test::for_each_value(
+                Uicm<double>(constants[k]), {points[0][k], points[1][k], points[2][k], points[3][k]}, [&](std::size_t f, double expected) {
+                    EXPECT_EQ(std::memcmp(&at[f][k], &expected, sizeof expected), 0)
+                        << name_of(set) << " number " << f << " of device " << k << ": " << at[f][k] << ", not " << expected;
+                });
     }
 }
 

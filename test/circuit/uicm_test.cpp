@@ -12,7 +12,7 @@ namespace {
 
 using namespace test;
 
-TEST(Uicm, PlainIsTheThesissModelWithItsDerivedSlopes) {  // eq. 21 to 30
+TEST(Uicm, ThePlainModelHasTheThesissCurrentAndConductances) {  // eq. 21 to 30
     const auto c = constants_of_size(plain_card(), 1.5e-6, 0.5e-6);
     for (double g = 0; g < 1.5; g += 0.07)
         for (double d = 0; d < 1; d += 0.11) {
@@ -33,7 +33,7 @@ TEST(Uicm, ForwardInversionIsThreeWhereThePinchOffVoltageIsTheSource) {
     EXPECT_NEAR(inside.q_S * (inside.q_S + 2), 3, 3e-15);
 }
 
-TEST(Uicm, InWeakInversionIsTheExponentialOfItsGateBulkAndSource) {  // eq. 42
+TEST(Uicm, InWeakInversionTheCurrentIsAnExponentialOfGateBulkAndSource) {  // eq. 42
     const auto c = constants_of_size(plain_card(), 1.5e-6, 0.5e-6);
     for (double g = -0.3; g < 0.12; g += 0.05)
         for (const double b : {-0.1, 0.0, 0.1}) {
@@ -54,7 +54,7 @@ TEST(Uicm, VelocitySaturationReducesTheCurrentInWeakInversionAndTheChargeInSatur
     }
 }
 
-/// The current through elements in series with a common gate, from `from` to `to`, solved node by node.
+/// Current (A) through elements in series with a common gate at g, from the voltage `to` to `from` (V), solved node by node.
 double in_series(const std::vector<UicmConstants>& units, double to, double g, double from) {
     const auto end = [&](double I) {  // voltage of the last drain at current I
         double v = from;
@@ -127,12 +127,12 @@ TEST(Uicm, FlickerNoiseAtTheGateDependsOnlyOnTheArea) {
             const auto c = constants_of_size(card, 1.5e-6, 0.5e-6, m, stack);
             const double g_m = evaluate(c, 0.7, 0.1, 0, 0).di[D][G],
                          at_gate = Uicm<double>(c).noise({0.7, 0.1, 0, 0}).flicker / (g_m * g_m);
-            const double right = elementary_charge * elementary_charge * 3e11 / (card.C_ox * card.C_ox * 0.75e-12 * m * stack);
-            EXPECT_NEAR(at_gate / right, 1, 1e-3);
+            const double expected = elementary_charge * elementary_charge * 3e11 / (card.C_ox * card.C_ox * 0.75e-12 * m * stack);
+            EXPECT_NEAR(at_gate / expected, 1, 1e-3);
         }
 }
 
-TEST(Uicm, JunctionsAreShockleysUpToTheirTangentAndNoisyAsTwoShotCurrents) {  // eq. 43
+TEST(Uicm, JunctionsFollowShockleyUpToTheirTangentAndHaveShotNoiseOfBothCurrents) {  // eq. 43
     const auto c = constants_of_size(full_card(), 1.5e-6, 0.5e-6);
     EXPECT_GT(c.I_sat_s, 0);
     for (double v = -0.5; v < 0.85; v += 0.05) {
@@ -146,7 +146,7 @@ TEST(Uicm, JunctionsAreShockleysUpToTheirTangentAndNoisyAsTwoShotCurrents) {  //
     EXPECT_NEAR(noise.shot_s, 4 * elementary_charge * c.I_sat_s, 1e-12 * noise.shot_s);
 }
 
-TEST(Uicm, CapacitancesAreAcm2sForALongChannel) {
+TEST(Uicm, CapacitancesAreThoseOfAcm2ForALongChannel) {
     const auto c = constants_of_size(plain_card(), 1.5e-6, 0.5e-6);
     const double gate = 8.42e-3 * 0.75e-12;
     for (const double g : {-0.2, 0.4, 0.8, 1.5})
@@ -165,16 +165,16 @@ TEST(Uicm, CapacitancesAreAcm2sForALongChannel) {
         }
 }
 
-TEST(Uicm, FollowsTemperatureByItsLaws) {
+TEST(Uicm, DependsOnTemperatureAsSpecified) {
     const auto cold = constants_of_size(full_card(), 1e-6, 1e-6, 1, 1, false, -55),
                warm = constants_of_size(full_card(), 1e-6, 1e-6, 1, 1, false, 125);
     EXPECT_NEAR(cold.V_T, 0.461 + 0.4e-3 * 82, 1e-12);
     EXPECT_NEAR(warm.V_T, 0.461 - 0.4e-3 * 98, 1e-12);
     EXPECT_NEAR(warm.I_S / cold.I_S, std::sqrt(398.15 / 218.15), 1e-12);
     EXPECT_NEAR(1 / warm.per_phi_t, boltzmann * 398.15 / elementary_charge, 1e-15);
-    const double right =
+    const double expected =
         std::pow(398.15 / 300.15, 3 / 1.05) * std::exp((398.15 / 300.15 - 1) * 1.11 / (1.05 * boltzmann * 398.15 / elementary_charge));
-    EXPECT_NEAR(warm.I_sat_s / constants_of_size(full_card(), 1e-6, 1e-6).I_sat_s / right, 1, 1e-12);
+    EXPECT_NEAR(warm.I_sat_s / constants_of_size(full_card(), 1e-6, 1e-6).I_sat_s / expected, 1, 1e-12);
 }
 
 TEST(Uicm, MismatchFallsWithTheRootOfTheTotalAreaAndDependsOnlyOnItsDevice) {

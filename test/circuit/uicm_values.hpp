@@ -5,6 +5,7 @@
 
 namespace corpuscle::circuit::test {
 
+/// Calls put(index, value) for each value: i, q, di, dq, then the four noise densities.
 template <class T, class Put>
 void for_each_value(const Uicm<T>& device, const T (&v)[4], const Put& put) {
     UicmEvaluation<T> result;

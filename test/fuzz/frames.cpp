@@ -15,16 +15,17 @@ void require(bool holds) {
     if (!holds) std::abort();
 }
 
-/// Maps the columns in reverse order; rejects names that begin with x.
-Result<std::vector<std::uint32_t>> backwards(std::span<const std::string> names) {
+/// A column mapping in reverse order. Rejects names if the first begins with x.
+Result<std::vector<std::uint32_t>> reversed_columns(std::span<const std::string> names) {
     std::vector<std::uint32_t> columns;
     for (std::size_t k = names.size(); k-- > 0;) columns.push_back(static_cast<std::uint32_t>(k));
-    if (names[0].starts_with('x')) return bad_input("no site is called so");
+    if (names[0].starts_with('x')) return bad_input("no site has this name");
     return columns;
 }
 
-std::vector<double> all_of(const FrameLayout& layout, std::span<const std::uint8_t> bytes, std::size_t chunk) {
-    FrameDecoder decoder(layout, 1, backwards);
+/// Forces of all frames, each followed by its number, or by -1 if it has none.
+std::vector<double> decode_all(const FrameLayout& layout, std::span<const std::uint8_t> bytes, std::size_t chunk) {
+    FrameDecoder decoder(layout, 1, reversed_columns);
     std::vector<double> all, force(layout.sites);
     while (!bytes.empty()) {
         const auto space = decoder.buffer();
@@ -42,9 +43,9 @@ std::vector<double> all_of(const FrameLayout& layout, std::span<const std::uint8
     return all;
 }
 
-/// The same bytes as datagrams: each contains complete frames or none, and leaves no partial frame.
-void take_datagrams(const FrameLayout& layout, std::span<const std::uint8_t> bytes, std::size_t chunk) {
-    FrameDecoder decoder(layout, 1, backwards);
+/// Decodes the same bytes as datagrams. Each must contain only complete frames, or is rejected; no partial frame may remain.
+void check_datagrams(const FrameLayout& layout, std::span<const std::uint8_t> bytes, std::size_t chunk) {
+    FrameDecoder decoder(layout, 1, reversed_columns);
     std::vector<double> force(layout.sites);
     while (!bytes.empty()) {
         const auto space = decoder.buffer();
@@ -69,7 +70,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     layout.kind = static_cast<FrameKind>(data[0] % 4), layout.stamp = static_cast<FrameStamp>(data[0] / 4 % 3);
     layout.sites = 1 + data[1] % 5, layout.scale = data[0] / 16 % 2 == 0 ? 1 : 1e-3;
     const std::span bytes(data + 3, size - 3);
-    require(all_of(layout, bytes, 1 + data[2]) == all_of(layout, bytes, size));
-    take_datagrams(layout, bytes, 1 + data[2]);
+    require(decode_all(layout, bytes, 1 + data[2]) == decode_all(layout, bytes, size));
+    check_datagrams(layout, bytes, 1 + data[2]);
     return 0;
 }

@@ -35,32 +35,33 @@ hid_t number_type(unsigned k) {
     return types[k % std::size(types)];
 }
 
-/// A value that is exact in every type.
+/// Value number k; it is exact in every type.
 double value_at(std::size_t k) { return static_cast<double>(k * 37 % 101); }
 
+/// Writes an HDF5 file in memory, with contents chosen by the fuzzer's input.
 class FileMaker {
-    FuzzedDataProvider& given_;
+    FuzzedDataProvider& input_;
     Handle file_;
 
     static Handle scalar() { return {H5Screate(H5S_SCALAR), H5Sclose}; }
 
     void add_number(hid_t object) {
-        const auto* const name = given_.PickValueInArray(numeric_attributes);
-        const double value = given_.PickValueInArray({1.0, 2.0, 1000.0, -1.0, 0.5, 0.0});
+        const auto* const name = input_.PickValueInArray(numeric_attributes);
+        const double value = input_.PickValueInArray({1.0, 2.0, 1000.0, -1.0, 0.5, 0.0});
         if (H5Aexists(object, name) > 0) return;
         const Handle space = scalar(), attribute(H5Acreate2(object, name, H5T_IEEE_F64LE, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
         H5Awrite(attribute, H5T_NATIVE_DOUBLE, &value);
     }
 
     void add_words(hid_t object) {
-        const auto* const name = given_.PickValueInArray(text_attributes);
-        std::vector<std::string> words(given_.ConsumeIntegralInRange<std::size_t>(1, 4));
-        for (auto& w : words) w = given_.PickValueInArray(text_values);
+        const auto* const name = input_.PickValueInArray(text_attributes);
+        std::vector<std::string> words(input_.ConsumeIntegralInRange<std::size_t>(1, 4));
+        for (auto& w : words) w = input_.PickValueInArray(text_values);
         if (H5Aexists(object, name) > 0) return;
         const hsize_t count = words.size();
         const Handle space(count == 1 ? H5Screate(H5S_SCALAR) : H5Screate_simple(1, &count, nullptr), H5Sclose),
             type(H5Tcopy(H5T_C_S1), H5Tclose);
-        const bool any_length = given_.ConsumeBool();
+        const bool any_length = input_.ConsumeBool();
         H5Tset_size(type, any_length ? H5T_VARIABLE : 8);
         const Handle attribute(H5Acreate2(object, name, type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
         std::vector<const char*> texts;
@@ -71,27 +72,27 @@ class FileMaker {
 
     /// Creation properties chosen by the input: contiguous, compact, chunked or compressed storage.
     Handle storage(const std::vector<hsize_t>& shape) {
-        Handle how(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
-        const auto kind = given_.ConsumeIntegralInRange(0, 3);
-        if (shape.empty() || kind == 0) return how;
-        if (kind == 1) return H5Pset_layout(how, H5D_COMPACT), std::move(how);
+        Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+        const auto kind = input_.ConsumeIntegralInRange(0, 3);
+        if (shape.empty() || kind == 0) return properties;
+        if (kind == 1) return H5Pset_layout(properties, H5D_COMPACT), std::move(properties);
         std::vector<hsize_t> chunk;
-        for (const auto n : shape) chunk.push_back(given_.ConsumeIntegralInRange<hsize_t>(1, std::max<hsize_t>(1, n)));
-        H5Pset_chunk(how, static_cast<int>(chunk.size()), chunk.data());
-        if (kind == 3) H5Pset_shuffle(how), H5Pset_deflate(how, 1), H5Pset_fletcher32(how);
-        return how;
+        for (const auto n : shape) chunk.push_back(input_.ConsumeIntegralInRange<hsize_t>(1, std::max<hsize_t>(1, n)));
+        H5Pset_chunk(properties, static_cast<int>(chunk.size()), chunk.data());
+        if (kind == 3) H5Pset_shuffle(properties), H5Pset_deflate(properties, 1), H5Pset_fletcher32(properties);
+        return properties;
     }
 
-    void write(hid_t dataset, hid_t memory, const std::vector<hsize_t>& shape, std::size_t numbers_each) {
-        std::size_t count = numbers_each;
+    void write(hid_t dataset, hid_t memory, const std::vector<hsize_t>& shape, std::size_t numbers_per_element) {
+        std::size_t count = numbers_per_element;
         for (const auto n : shape) count *= n;
         std::vector<double> values(count);
         for (std::size_t k = 0; k < count; ++k) values[k] = value_at(k);
-        const auto part = given_.ConsumeIntegralInRange(0, 2);  // all, half of the rows, nothing
-        if (count == 0 || part == 2) return;
+        const auto extent_kind = input_.ConsumeIntegralInRange(0, 2);  // all rows, half of the rows, or nothing
+        if (count == 0 || extent_kind == 2) return;
         const Handle space(H5Dget_space(dataset), H5Sclose);
         Handle some(H5Scopy(space), H5Sclose);
-        if (part == 1 && !shape.empty()) {
+        if (extent_kind == 1 && !shape.empty()) {
             std::vector<hsize_t> start(shape.size(), 0), extent = shape;
             extent[0] = (extent[0] + 1) / 2;
             H5Sselect_hyperslab(some, H5S_SELECT_SET, start.data(), nullptr, extent.data(), nullptr);
@@ -100,20 +101,20 @@ class FileMaker {
     }
 
 public:
-    explicit FileMaker(FuzzedDataProvider& given) : given_(given) {
+    explicit FileMaker(FuzzedDataProvider& input) : input_(input) {
         const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
         H5Pset_fapl_core(access, std::size_t{1} << 16, false);
-        if (given_.ConsumeBool()) H5Pset_libver_bounds(access, H5F_LIBVER_LATEST, H5F_LIBVER_LATEST);
+        if (input_.ConsumeBool()) H5Pset_libver_bounds(access, H5F_LIBVER_LATEST, H5F_LIBVER_LATEST);
         file_ = Handle(H5Fcreate("made", H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose);
         require(static_cast<bool>(file_));
     }
 
     void add_dataset() {
-        const std::string name = given_.PickValueInArray(dataset_names);
-        std::vector<hsize_t> shape(given_.ConsumeIntegralInRange<std::size_t>(0, 3));
-        for (auto& n : shape) n = given_.ConsumeIntegralInRange<hsize_t>(0, 20);
-        const bool is_compound = given_.ConsumeIntegralInRange(0, 3) == 0;
-        const auto kind = given_.ConsumeIntegral<unsigned>();
+        const std::string name = input_.PickValueInArray(dataset_names);
+        std::vector<hsize_t> shape(input_.ConsumeIntegralInRange<std::size_t>(0, 3));
+        for (auto& n : shape) n = input_.ConsumeIntegralInRange<hsize_t>(0, 20);
+        const bool is_compound = input_.ConsumeIntegralInRange(0, 3) == 0;
+        const auto kind = input_.ConsumeIntegral<unsigned>();
         Handle type(is_compound ? H5Tcreate(H5T_COMPOUND, 24) : H5Tcopy(number_type(kind)), H5Tclose), memory(H5Tcopy(type), H5Tclose);
         if (is_compound) {
             for (std::size_t k = 0; k < 3; ++k)
@@ -126,11 +127,12 @@ public:
         H5Pset_create_intermediate_group(links, 1);
         const Handle space(shape.empty() ? H5Screate(H5S_SCALAR) : H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr),
                            H5Sclose);
-        const Handle how = storage(shape), dataset(H5Dcreate2(file_, name.c_str(), type, space, links, how, H5P_DEFAULT), H5Dclose);
+        const Handle properties = storage(shape),
+                     dataset(H5Dcreate2(file_, name.c_str(), type, space, links, properties, H5P_DEFAULT), H5Dclose);
         if (!dataset) return;  // the name exists, or the layout does not allow the shape
         write(dataset, memory, shape, is_compound ? 3 : 1);
-        for (auto n = given_.ConsumeIntegralInRange(0, 2); n > 0; --n) add_number(dataset);
-        for (auto n = given_.ConsumeIntegralInRange(0, 2); n > 0; --n) add_words(dataset);
+        for (auto n = input_.ConsumeIntegralInRange(0, 2); n > 0; --n) add_number(dataset);
+        for (auto n = input_.ConsumeIntegralInRange(0, 2); n > 0; --n) add_words(dataset);
     }
 
     /// Returns a descriptor of the file in memory.
@@ -146,15 +148,15 @@ public:
     }
 };
 
-/// Blocks at any position and of any columns must equal the same part of a complete read.
-void check_samples(Samples& samples, FuzzedDataProvider& given) {
-    const auto& facts = samples.info();
-    require(facts.rows > 0 && !facts.columns.empty() && (!facts.time_column || *facts.time_column < facts.columns.size()));
-    const auto rows = static_cast<std::size_t>(facts.rows), columns = facts.columns.size();
+/// Reads of any rows and columns must equal the same rows and columns of a complete read.
+void check_samples(Samples& samples, FuzzedDataProvider& input) {
+    const auto& table = samples.info();
+    require(table.rows > 0 && !table.columns.empty() && (!table.time_column || *table.time_column < table.columns.size()));
+    const auto rows = static_cast<std::size_t>(table.rows), columns = table.columns.size();
     require(rows <= 8000 && columns <= 400);
-    const auto fetched = [&](std::size_t from, std::size_t count, const std::vector<std::size_t>& wanted) {
-        std::optional<std::vector<std::vector<double>>> out(std::in_place, wanted.size(), std::vector<double>(count));
-        const auto done = samples.fetch(static_cast<std::int64_t>(from), count, wanted, *out);
+    const auto fetched = [&](std::size_t from, std::size_t count, const std::vector<std::size_t>& selected) {
+        std::optional<std::vector<std::vector<double>>> out(std::in_place, selected.size(), std::vector<double>(count));
+        const auto done = samples.fetch(static_cast<std::int64_t>(from), count, selected, *out);
         if (!done) require(!done.error().message.empty()), out.reset();
         return out;
     };
@@ -162,17 +164,17 @@ void check_samples(Samples& samples, FuzzedDataProvider& given) {
     for (std::size_t c = 0; c < columns; ++c) all[c] = c;
     const auto complete = fetched(0, rows, all);
     for (int k = 0; k < 4; ++k) {
-        std::vector<std::size_t> wanted;
+        std::vector<std::size_t> selected;
         for (std::size_t c = 0; c < columns; ++c)
-            if (given.ConsumeBool()) wanted.push_back(c);
-        const auto from = given.ConsumeIntegralInRange<std::size_t>(0, rows - 1),
-                   count = given.ConsumeIntegralInRange<std::size_t>(0, rows - from);
-        const auto some = fetched(from, count, wanted);
-        if (!complete || wanted.empty()) continue;
+            if (input.ConsumeBool()) selected.push_back(c);
+        const auto from = input.ConsumeIntegralInRange<std::size_t>(0, rows - 1),
+                   count = input.ConsumeIntegralInRange<std::size_t>(0, rows - from);
+        const auto some = fetched(from, count, selected);
+        if (!complete || selected.empty()) continue;
         require(some.has_value());
-        for (std::size_t i = 0; i < wanted.size(); ++i)
+        for (std::size_t i = 0; i < selected.size(); ++i)
             for (std::size_t n = 0; n < count; ++n) {
-                const double a = (*some)[i][n], b = (*complete)[wanted[i]][from + n];
+                const double a = (*some)[i][n], b = (*complete)[selected[i]][from + n];
                 require(a == b || (std::isnan(a) && std::isnan(b)));
             }
     }
@@ -184,19 +186,19 @@ void check_samples(Samples& samples, FuzzedDataProvider& given) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace corpuscle;
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-    FuzzedDataProvider given(data, size);
+    FuzzedDataProvider input(data, size);
     int file = -1;
     {
-        fuzz::FileMaker maker(given);
-        for (auto n = given.ConsumeIntegralInRange(1, 4); n > 0; --n) maker.add_dataset();
+        fuzz::FileMaker maker(input);
+        for (auto n = input.ConsumeIntegralInRange(1, 4); n > 0; --n) maker.add_dataset();
         file = maker.finish();
     }
     TableOptions options;
-    if (given.ConsumeBool()) options.transpose = given.ConsumeBool();
-    if (given.ConsumeBool()) options.dataset = given.PickValueInArray({"force", "a", "data", "/t", "none"});
+    if (input.ConsumeBool()) options.transpose = input.ConsumeBool();
+    if (input.ConsumeBool()) options.dataset = input.PickValueInArray({"force", "a", "data", "/t", "none"});
     auto samples = open_hdf5_samples(file, "made.h5", options);
     if (samples)
-        fuzz::check_samples(**samples, given);
+        fuzz::check_samples(**samples, input);
     else
         fuzz::require(!samples.error().message.empty());
     samples = bad_input("closed");

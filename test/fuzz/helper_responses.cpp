@@ -9,8 +9,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     using namespace corpuscle;
     const std::string bytes(reinterpret_cast<const char*>(data), size);
     Message first(bytes), second(bytes);
-    const auto facts = decode_info(first, "x.h5");
-    if (facts && facts->time_column && *facts->time_column >= facts->columns.size()) std::abort();
+    const auto info = decode_info(first, "x.h5");
+    if (info && info->time_column && *info->time_column >= info->columns.size()) std::abort();
     std::vector<std::vector<double>> out(2, std::vector<double>(3));
     const auto rows = decode_rows(second, 1, 2, out, "x.h5");
     if (!rows && rows.error().message.size() > size + 64) std::abort();

@@ -19,19 +19,20 @@ inline void require(bool holds) {
     if (!holds) std::abort();
 }
 
-/// A helper process may crash in its library, by a signal or a sanitizer; it must not send an invalid response.
+/// An error must have a message. A helper process may crash (by a signal or a sanitizer), but must not send an invalid response.
 inline void check(const Error& error, long lines) {
     require(!error.message.empty() && error.location.line <= lines);
     require(!error.message.starts_with("invalid response of the helper"));
 }
 
+/// Reads up to 50 blocks; all forces must be finite.
 inline void read_all(const std::string& path, const RecordingOptions& options, long lines) {
     auto source = open_recording(path, options);
     if (!source) return check(source.error(), lines);
     require(!(*source)->channels().empty());
     require((*source)->clock().T() > 0);
     Frames block((*source)->channels().size(), 64);
-    for (int k = 0; k < 50; ++k) {  // a short file can have many samples after resampling
+    for (int k = 0; k < 50; ++k) {  // limited, because resampling can turn a short file into many samples
         if (auto ok = (*source)->read(block); !ok) return check(ok.error(), lines);
         if (block.count == 0) return;
         for (const auto& channel : block.force)

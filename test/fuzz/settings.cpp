@@ -35,7 +35,7 @@ void run(const AfferentPlan& plan, ForceSource& source, Method method) {
         if (auto ok = source.read(block); !ok) return;
         if (const auto ok = afferent->respond({block.force[0].data(), block.count}, state, response); !ok) {
             if (ok.error().message.empty()) std::abort();
-            return;  // the error must have a message
+            return;
         }
     }
     for (const auto& s : spikes)

@@ -21,15 +21,15 @@ void check(const Innervation& skin) {
         must(std::isfinite(u.position.x) && std::isfinite(u.position.y) && std::isfinite(u.delay) && u.delay >= 0);
     for (std::size_t c = 0; c < skin.fields.size(); ++c) {
         const auto& f = skin.fields[c];
-        const auto units = skin.class_begin[c + 1] - skin.class_begin[c];
+        const auto afferent_count = skin.class_begin[c + 1] - skin.class_begin[c];
         must(f.begin.size() == skin.plan.sites.size() + 1 && f.afferent.size() == f.begin.back());
-        std::vector<double> sums(units);
+        std::vector<double> sums(afferent_count);
         for (std::size_t k = 0; k < f.afferent.size(); ++k) {
-            must(f.afferent[k] < units && f.weight[k] >= 0);
+            must(f.afferent[k] < afferent_count && f.weight[k] >= 0);
             sums[f.afferent[k]] += f.weight[k];
         }
-        const double all = skin.plan.felt_area > 0 ? skin.plan.felt_area / skin.plan.sites.area : 1;
-        for (const double s : sums) must(std::abs(s / all - 1) < 1e-9);
+        const double expected_sum = skin.plan.felt_area > 0 ? skin.plan.felt_area / skin.plan.sites.area : 1;
+        for (const double s : sums) must(std::abs(s / expected_sum - 1) < 1e-9);
     }
 }
 

@@ -20,7 +20,7 @@ void require(bool holds) {
     if (!holds) std::abort();
 }
 
-void put(const std::string& path, const void* data, std::size_t size) {
+void write_file(const std::string& path, const void* data, std::size_t size) {
     if (std::FILE* f = std::fopen(path.c_str(), "wb")) {
         std::fwrite(data, 1, size, f);
         std::fclose(f);
@@ -33,12 +33,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     static const std::string path = "/tmp/corpuscle-fuzz-spikes-" + std::to_string(::getpid()) + ".csv";
     static const bool once = [] { return std::atexit([] { std::remove(path.c_str()); }), true; }();
     (void)once;
-    put(path, data, size);
+    write_file(path, data, size);
     const auto trains = read_spikes(path);
     if (!trains) {
         require(!trains.error().message.empty());
-        const bool packed = size > 1 && data[0] == 0x1f && data[1] == 0x8b;  // the number of lines is unknown
-        require(packed || trains.error().location.line <= 1 + std::count(data, data + size, '\n'));
+        const bool is_gzip = size > 1 && data[0] == 0x1f && data[1] == 0x8b;  // the number of lines is unknown
+        require(is_gzip || trains.error().location.line <= 1 + std::count(data, data + size, '\n'));
         return 0;
     }
     std::string text = "afferent,channel,time_s\n";
@@ -47,12 +47,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         for (const double x : t.times) require(std::isfinite(x));
         text += quote_csv_field(t.afferent) + "," + quote_csv_field(t.channel) + ",0.5\n";
     }
-    put(path, text.data(), text.size());
+    write_file(path, text.data(), text.size());
     const auto again = read_spikes(path);
-    const bool broken = std::any_of(trains->begin(), trains->end(), [](const auto& t) {
+    const bool has_line_breaks = std::any_of(trains->begin(), trains->end(), [](const auto& t) {
         return (t.afferent + t.channel).find_first_of(std::string_view("\r\n\0", 3)) != std::string::npos;
     });
-    require(broken || (again && again->size() == trains->size()));
+    require(has_line_breaks || (again && again->size() == trains->size()));
     const auto pairs = pair_trains(*trains, *trains, {});
     require(bool(pairs));
     for (const auto& p : *pairs)

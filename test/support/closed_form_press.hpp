@@ -1,6 +1,6 @@
 #pragma once
-// Reference spike times of the thesis's two afferents under its press, independent of any sampling rate. The high-passed half-cosine is in
-// closed form. Its current is integrated by Simpson's rule in steps of 1 us; the error of a spike time is below 1 ns.
+// Reference spike times of the thesis's two afferents under its press, independent of any sampling rate. The high-passed force is a closed
+// formula; the current is integrated by Simpson's rule in steps of 1 us. The error of a spike time is below 1 ns.
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +9,7 @@
 
 namespace corpuscle::test {
 
+// Times in s, forces in N.
 inline constexpr double initial_time = 0.25, rise_time = 0.125, hold_time = 0.25, fall_time = 0.125, total_time = 1.0, F_min = 0.2,
                         F_max = 4;
 

@@ -1,5 +1,5 @@
 #pragma once
-// Writes files of samples with the libraries that other programs use for them.
+// Writes sample files: NPY by hand, audio with libsndfile, HDF5 with its library.
 
 #include <fmt/format.h>
 #include <cmath>

@@ -51,10 +51,10 @@ inline std::shared_ptr<const Circuit> elaborate_netlist(const Result<Netlist>& n
 inline std::shared_ptr<const Circuit> elaborate_netlist(const std::string& deck) { return elaborate_netlist(Netlist::read(deck)); }
 
 inline RunOutcome run_corpuscle(const Result<Netlist>& netlist) {
-    static std::vector<std::shared_ptr<const Circuit>> kept;  // an outcome points to the commands of its circuit
-    kept.push_back(elaborate_netlist(netlist));
-    if (!kept.back()) return {};
-    auto outcome = run_directives(kept.back());
+    static std::vector<std::shared_ptr<const Circuit>> circuits;  // an outcome points to the commands of its circuit
+    circuits.push_back(elaborate_netlist(netlist));
+    if (!circuits.back()) return {};
+    auto outcome = run_directives(circuits.back());
     EXPECT_TRUE(outcome) << (outcome ? "" : outcome.error().text());
     return outcome ? *outcome : RunOutcome{};
 }

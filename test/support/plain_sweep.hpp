@@ -9,6 +9,7 @@
 
 namespace corpuscle::test {
 
+/// Every 97th item reaches the iteration limit, and the item after it diverges.
 class PlainSweep : public Sweep {
     std::int64_t item_count_;
     double seconds_per_item_;  // run time of a work item, s

@@ -15,11 +15,11 @@
 namespace corpuscle::test {
 
 struct RunSettings {
-    std::vector<std::string> settings = {};
-    double rate = 10e3;
+    std::vector<std::string> settings = {};  ///< "name=value", for the afferent and the stimulus
+    double rate = 10e3;                      ///< samples per second
     Method method = Method::exact;
-    bool sampled = false;
-    std::size_t block = 4096;
+    bool sampled = false;      ///< spikes only at sample times
+    std::size_t block = 4096;  ///< samples per call of respond()
     std::uint64_t seed = 0;
 };
 
@@ -35,11 +35,12 @@ inline std::vector<ParameterOverride> parse_settings(const std::vector<std::stri
     return out;
 }
 
+/// The afferent of this name, with the settings of `run`.
 inline std::unique_ptr<Afferent> afferent(const std::string& name, const RunSettings& run = {}) {
     return make_afferent(value_or_throw(plan_afferent(name, parse_settings(run.settings))), {1 / run.rate, run.method, run.sampled});
 }
 
-/// All samples of a source's first channel.
+/// All samples (N) of a source's first channel.
 inline std::vector<double> read_first_channel(ForceSource& source) {
     std::vector<double> all;
     for (Frames block(source.channels().size(), 1000);;) {
@@ -49,11 +50,13 @@ inline std::vector<double> read_first_channel(ForceSource& source) {
     }
 }
 
+/// Samples (N) of a stimulus.
 inline std::vector<double> force(const std::string& stimulus, const RunSettings& run = {}) {
     const auto overrides = parse_settings(run.settings);
     return read_first_channel(*value_or_throw(make_stimulus(stimulus, overrides, run.rate, run.seed)));
 }
 
+/// Spikes of an afferent for a force (N) that is given in blocks.
 inline std::vector<Spike> spikes(const Afferent& a, const std::vector<double>& f, std::size_t block = 4096) {
     std::vector<Spike> out;
     ResponseBlock response{out};

@@ -5,7 +5,7 @@
     plain_words.py ROOT --counts   also prints how many sentences were read
     plain_words.py --self-test     checks that every rule finds its own example
 
-The rules are in rules.toml, the exceptions in excuses.toml. An excuse that matches nothing is an error too.
+The rules are in rules.toml, the exceptions in excuses.toml. An excuse that matches nothing is an error, too.
 """
 
 import collections
@@ -54,13 +54,13 @@ def sentences(text):
 
 
 def is_data(text):
-    """True for a string that is no sentence: code, or a row whose words are mostly placeholders."""
+    """True for a string that is not a sentence: code, or a row that consists mostly of placeholders."""
     words = WORD.findall(PLACEHOLDER.sub(" ", text))
     return bool(CODE.search(text)) or 3 * len(PLACEHOLDER.findall(text)) >= len(words)
 
 
 def paragraphs(start, rows):
-    """Paragraphs of a comment as (line, text). List items, indented rows (formulas, usage) and rows of columns stand alone."""
+    """Paragraphs of a comment as (line, text). List items, indented rows (formulas, usage) and table rows are separate."""
     found, item = [], False
     for number, row in enumerate(rows, start):
         plain = row.strip()
@@ -68,7 +68,7 @@ def paragraphs(start, rows):
         alone = COLUMNS.search(plain) or RULER.match(plain) or (indented and not item)
         mark = ITEM.match(plain)
         if mark and plain[0].isdigit() and not item and found and found[-1]:
-            mark = None  # the end of a sentence: "errata 12."
+            mark = None  # not an item but the end of a sentence: "errata 12."
         if not plain:
             found.append(None)
             item = False
@@ -260,7 +260,7 @@ def check_prose(file, prose):
 
 
 def check_types(file, text):
-    """No bare participle as a type; failure is said in one way."""
+    """Checks that a type is not a bare participle, and that functions that can fail return Result<void>."""
     for m in re.finditer(r"^\s*(?:struct|class|enum class|enum|using)\s+(?:\[\[\w+\]\]\s+)?([A-Z]\w*)\b(?=\s*[:{=]|\s+final)", text, re.M):
         name, line = m[1], text.count("\n", 0, m.start(1)) + 1
         if re.fullmatch(RULES["types"]["participle"], name):
@@ -306,16 +306,16 @@ def check(root):
     left = [x for x in findings if not excused(x)]
     for k, e in enumerate(EXCUSES):
         if k not in used:
-            left.append(Finding("test/words/excuses.toml", 0, "an excuse that nothing needs", e["text"]))
+            left.append(Finding("test/words/excuses.toml", 0, "an unused excuse", e["text"]))
         if not e.get("reason"):
             left.append(Finding("test/words/excuses.toml", 0, "an excuse without a reason", e["text"]))
     if len(EXCUSES) >= RULES["excuses"]["fewer_than"]:
-        left.append(Finding("test/words/excuses.toml", 0, f"fewer than {RULES['excuses']['fewer_than']} excuses", str(len(EXCUSES))))
+        left.append(Finding("test/words/excuses.toml", 0, f"too many excuses; there must be fewer than {RULES['excuses']['fewer_than']}", str(len(EXCUSES))))
     return left, read_sentences
 
 
 def self_test():
-    """Each expression finds its example and leaves its plain form alone; the other rules find a planted case."""
+    """Checks that each expression finds its bad example and not its good one, and that the other rules find a test case."""
     wrong = []
     for rule in RULES["expression"]:
         kind = rule.get("where", ["comment"])[0]
