@@ -34,11 +34,15 @@ std::uint64_t fingerprint_of(const Circuit& c) {
         for (const int n : e.nodes) number(static_cast<std::uint64_t>(n));
         for (const double x : e.waveform.numbers) real(x);
         if (e.expression) formula(*e.expression);
+        // Hashed only if present, so that states of netlists without them stay valid.
+        if (!e.control_source.empty()) text(e.control_source);
+        if (e.expression && e.expression_is_voltage) number(1);
     }
     for (const auto& m : c.models) text(m.type), values(m.values);
     for (const auto* node_voltages : {&c.ic, &c.nodesets})
         for (const auto& [node, value] : *node_voltages) number(static_cast<std::uint64_t>(node)), real(value);
     values(c.options), real(c.temperature);
+    for (const auto& [name, word] : c.option_words) text(name), text(word);
     for (const auto& command : c.directives)
         if (command.name == "tran" || command.name == "spike")
             for (const auto& word : command.words) text(word);

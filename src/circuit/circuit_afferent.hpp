@@ -35,7 +35,7 @@ public:
     std::optional<ChipSpec> chips;
     std::vector<SavedQuantity> probes;
     std::vector<OperatingRange> operating_ranges;
-    std::uint64_t fingerprint = 0;  ///< hash of all numbers of the circuit; identifies the netlist in saved states
+    std::uint64_t fingerprint = 0;  ///< hash of everything that determines the response; identifies the netlist in saved states
 };
 
 }  // namespace corpuscle::circuit

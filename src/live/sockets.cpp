@@ -141,7 +141,8 @@ int connection_state(const Descriptor& fd) {
     if (::poll(&wait, 1, 0) == 0) return 0;
     int error_number = 0;
     socklen_t size = sizeof error_number;
-    if (::getsockopt(fd.get(), SOL_SOCKET, SO_ERROR, &error_number, &size) != 0 || error_number != 0) return errno = error_number, -1;
+    if (::getsockopt(fd.get(), SOL_SOCKET, SO_ERROR, &error_number, &size) != 0) return -1;
+    if (error_number != 0) return errno = error_number, -1;
     return 1;
 }
 

@@ -220,10 +220,24 @@ TEST(CircuitAfferent, ErrorsNameTheirLocation) {
     EXPECT_EQ(afferent_error(t + ".spike v(a) 1\n"), "");
 }
 
+TEST(CircuitAfferent, AStateIsRefusedIfOnlyAControllingSourceTheKindOfABSourceOrTheMethodDiffers) {
+    const auto state_format = [](const std::string& lines) {
+        return design("t\niin 0 a force 1u\nr1 a 0 1k\nv1 b 0 1\nr2 b 0 1k\nv2 c 0 1\nr3 c 0 1k\nr4 d 0 1k\n" + lines + ".spike v(a) 1\n")
+            ->make(1e-3, false)
+            ->start()
+            .format;
+    };
+    for (const auto& [one, other] : {std::pair{"f1 0 d v1 1\n", "f1 0 d v2 1\n"}, std::pair{"b1 d 0 v=v(b)\n", "b1 d 0 i=v(b)\n"},
+                                     std::pair{".options method=gear\n", ".options method=trap\n"}}) {
+        EXPECT_NE(state_format(one), state_format(other)) << one << other;
+        EXPECT_EQ(state_format(one), state_format(one));
+    }
+}
+
 TEST(CircuitAfferent, CopiesAreTheChipsOfTheNetlistsMonteCarloRun) {
     auto text = spiker();
     text.insert(text.find(".save"), ".mc 3 seed=5\n.meas tran u max v(u)\n");
-    text.replace(text.find("tt"), 2, "mc");
+    text.replace(text.find("' tt") + 2, 2, "mc");
     const auto cut = text.find(".expect");
     text.replace(cut, text.find(".end", cut) - cut, "");
     const auto chips = run_variants(text);

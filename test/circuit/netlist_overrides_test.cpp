@@ -195,7 +195,7 @@ TEST(EmbeddedNetlists, AreTheFilesOfTheProject) {
 
 std::string spiker_text(const std::string& section, const std::string& more) {
     auto text = corpuscle::test::read_file(test::source_root() + "/circuits/spiker.cir");
-    text.replace(text.find("tt"), 2, section);
+    text.replace(text.find("' tt") + 2, 2, section);
     text.insert(text.find(".save"), more);
     return text;
 }

@@ -218,7 +218,7 @@ def read(path, name):
     if path.suffix in HASH or path.name in ("Makefile", "CMakeLists.txt", "packages", "install", "run"):
         names = [(n, word) for n, row in enumerate(text.split("\n"), 1) for word in re.findall(r"[A-Za-z_]\w*", row.split("#")[0])]
         return hash_comments(text), names if path.suffix == ".cmake" or path.name == "CMakeLists.txt" else []
-    if path.suffix in (".cir", ".lib"):
+    if path.suffix in (".cir", ".lib", ".inc"):
         return hash_comments(text, "*"), []
     return [], []
 
