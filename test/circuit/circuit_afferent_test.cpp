@@ -236,7 +236,7 @@ TEST(CircuitAfferent, AStateIsRefusedIfOnlyAControllingSourceTheKindOfABSourceOr
 
 TEST(CircuitAfferent, CopiesAreTheChipsOfTheNetlistsMonteCarloRun) {
     auto text = spiker();
-    text.insert(text.find(".save"), ".mc 3 seed=5\n.meas tran u max v(u)\n");
+    text.insert(text.find(".save"), ".options accuracy=fine\n.mc 3 seed=5\n.meas tran u max v(u)\n");
     text.replace(text.find("' tt") + 2, 2, "mc");
     const auto cut = text.find(".expect");
     text.replace(cut, text.find(".end", cut) - cut, "");
