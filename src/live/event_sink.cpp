@@ -44,7 +44,7 @@ WriteResult write_out(ByteRing& ring, int fd, bool socket, const FinishPolicy& p
         const auto before = ring.total_taken();
         const auto result = write_some(ring, fd, socket);
         if (result != WriteResult::some) return result;
-        if (ring.total_taken() != before || (policy.is_endless && !policy.stop())) since = steady_now();
+        if (ring.total_taken() != before || (policy.waits_for_stop && !policy.stop())) since = steady_now();
         if (steady_now() - since > policy.timeout) return result;
         poll_for_writing(fd, check_interval_ms);
     }

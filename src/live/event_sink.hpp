@@ -16,7 +16,7 @@ namespace corpuscle {
 /// How long to wait, at the end of a stream, for a reader that does not read.
 struct FinishPolicy {
     std::int64_t timeout = 1'000'000'000;               ///< ns
-    bool is_endless = false;                            ///< true: the timeout begins only when stop() returns true
+    bool waits_for_stop = false;                        ///< true: waits without limit until stop() returns true, then for the timeout
     std::function<bool()> stop = [] { return false; };  ///< called at least ten times a second
 };
 
@@ -25,7 +25,7 @@ protected:
     ByteRing ring_;
     const EventFormat& format_;
     std::int64_t dropped_ = 0, connections_ = 1;
-    std::size_t header_end_ = 0;  // position of the header's end among all bytes that were put
+    std::size_t header_end_ = 0;  // ring_.total_put() just after the header; events begin there
 
     void put_header() { ring_.put(format_.header()), header_end_ = ring_.total_put(); }
     void drop_all();  ///< discards and counts the events in the ring
@@ -48,8 +48,8 @@ public:
     /// Writes everything that is left, as long as the reader accepts it.
     virtual Result<void> finish(const FinishPolicy&) = 0;
     virtual std::string description() const = 0;
-    std::int64_t dropped() const { return dropped_; }          ///< events that were in the ring when their reader disconnected
-    std::int64_t connections() const { return connections_; }  ///< connections, one after another
+    std::int64_t dropped() const { return dropped_; }          ///< events discarded from the ring, because no reader accepted them
+    std::int64_t connections() const { return connections_; }  ///< number of connections so far, of which one is open at a time
 };
 
 /// Standard output: a pipe, a terminal or a file. It is an error if its reader has closed it.

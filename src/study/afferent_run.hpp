@@ -10,12 +10,13 @@
 
 namespace corpuscle {
 
-/// One source with one afferent of each plan on each of its channels: afferent_index = first_afferent + channel * plans + plan.
+/// One source with one afferent of each plan on each of its channels. Here, an afferent's index is channel * plans + plan. In the complete
+/// run (Spike::afferent_index), it is greater by first_afferent.
 struct Input {
     const ForceSource& source;
     std::string name;  ///< name of the source; a second source of the same name is called "press (2)"
     std::span<const AfferentPlan> plans;
-    std::span<const std::span<const Probe>> probes;  ///< of each plan; empty for a plan on SIMD lanes (only if no sink wants probes)
+    std::span<const std::span<const Probe>> probes;  ///< of each plan; empty for a plan on SIMD lanes, which record no probes
     std::uint32_t first_afferent = 0;
     std::size_t index = 0, input_count = 1;  ///< index of this input, and number of inputs
 
@@ -46,7 +47,7 @@ public:
 
 struct RunStats {
     std::int64_t samples = 0;         ///< force samples, summed over all channels
-    std::int64_t afferent_steps = 0;  ///< samples times afferents
+    std::int64_t afferent_steps = 0;  ///< force samples, summed over all afferents
     std::int64_t spikes = 0;
     std::int64_t truncated_steps = 0;                      ///< steps that reached the limit on spikes in one step
     std::int64_t saturated = 0;                            ///< samples beyond the range of a sensor's electronics or converter
@@ -54,12 +55,12 @@ struct RunStats {
     std::int64_t steps = 0, rejected = 0, iterations = 0;  ///< of circuits: time steps, rejected time steps, and Newton iterations
     std::vector<std::string> range_warnings;               ///< quantities that left the range in which an afferent works as designed
     std::vector<EnergyUse> energy_use;  ///< of each plan, summed over its channels; 0 for models; empty if all use SIMD lanes
-    std::vector<Error> diverged;        ///< netlists that did not converge, and when; their channels have no later spikes
+    std::vector<Error> diverged;        ///< netlists that did not converge, with channel and time; they fire no more on that channel
 };
 
 struct RespondOptions {
     Method method = Method::exact;
-    bool sampled = false;
+    bool sampled = false;    ///< spikes only at sample times
     double noise = 0;        ///< of every membrane, see SimulationOptions
     std::uint64_t seed = 0;  ///< of the noise
     Precision precision = Precision::double_precision;
@@ -76,7 +77,7 @@ Result<RunStats> respond(std::span<const std::unique_ptr<ForceSource>> sources, 
 /// Warnings about noise: the afferents that it does not affect.
 std::vector<std::string> noise_warnings(std::span<const AfferentPlan> afferents, double noise);
 
-/// Warnings about the response: spikes that reached the limit, saturation, overflow.
+/// Warnings about the response: steps that reached the limit on spikes, saturation, overflow.
 std::vector<std::string> response_warnings(const RunStats&);
 
 /// Warnings before the run: sample rates that are too low for an afferent.

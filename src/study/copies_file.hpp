@@ -1,5 +1,5 @@
 #pragma once
-// Parameters and responses of each copy.
+// A table of the parameters and measures of each copy.
 
 #include "measure/measures.hpp"
 #include "model/copies.hpp"
@@ -8,12 +8,12 @@
 namespace corpuscle {
 
 /// copies.csv: one row for each copy and channel, input after input. The columns are afferent, channel, each parameter that differs
-/// (f_B_Hz), and every measure over the complete input. A field is empty if the parameter does not differ in this afferent, or if the
-/// measure has no value. Parameters are written with all digits, so that they reproduce the copy's response.
+/// between copies (f_B_Hz), and every measure over the complete input. A field is empty if the copies of this afferent do not differ in the
+/// parameter, or if the measure has no value. Parameters are written with all digits, so that they reproduce the copy's response.
 class CopiesFile final : public FileSink {
     struct Column {
         std::string_view parameter, unit;
-        std::vector<std::string> afferents;  // names of the afferents in which the parameter differs
+        std::vector<std::string> afferents;  // names of the afferents whose copies differ in the parameter
     };
     OutputFile file_;
     std::vector<Column> columns_;

@@ -83,10 +83,10 @@ Result<void> InputSimulator::place_afferents(const RespondOptions& options, Inst
             return ok;
     }
     afferents_.resize(plans.size());
-    probes_of_.resize(plans.size());
+    plan_probes_.resize(plans.size());
     for (std::size_t k = 0; k < plans.size(); ++k)
-        if (is_scalar[k]) afferents_[k] = make_afferent(plans[k], run), probes_of_[k] = afferents_[k]->probes();
-    input_.probes = probes_of_;
+        if (is_scalar[k]) afferents_[k] = make_afferent(plans[k], run), plan_probes_[k] = afferents_[k]->probes();
+    input_.probes = plan_probes_;
     std::int64_t delay = 0;
     for (const auto& a : afferents_) delay = std::max(delay, a ? a->delay() : 0);
     lookahead_ = LookaheadBuffer(channels, static_cast<std::size_t>(delay));
@@ -99,7 +99,7 @@ Result<void> InputSimulator::place_afferents(const RespondOptions& options, Inst
     }
     if (wants_probes_)
         for (std::size_t u = 0; u < input_.afferent_count(); ++u)
-            probe_values_.emplace_back(probes_of_[u % plans.size()].size(), std::vector<double>(force_.capacity));
+            probe_values_.emplace_back(plan_probes_[u % plans.size()].size(), std::vector<double>(force_.capacity));
     return {};
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// Simulates the afferents of one input on all threads: on SIMD lanes if possible, otherwise one at a time.
+// Simulates the afferents of one input on all threads: on SIMD lanes if possible, otherwise each afferent alone.
 
 #include "model/lane_population.hpp"
 #include "study/afferent_run.hpp"
@@ -9,12 +9,13 @@ namespace corpuscle {
 
 class InputSimulator {
 public:
-    /// `probed`: a sink wants probes; then the afferents are simulated one at a time.
+    /// `probed`: a sink wants probes; then each afferent is simulated alone.
     static Result<InputSimulator> make(Input input, const RespondOptions& options, bool probed);
 
     const Input& input() const { return input_; }
+    /// Number of samples simulated so far, the same on each channel.
     std::int64_t samples() const { return samples_; }
-    /// Ranges that afferents left: one sentence for each range, for the channel that was outside longest.
+    /// Warnings of afferents that were outside a range: one for each plan and range, about the channel where this lasted longest.
     std::vector<std::string> range_warnings() const;
 
     /// Simulates one block of all afferents and passes it to all sinks; returns false at the end of the source.
@@ -56,7 +57,7 @@ private:
     Frames force_;
     LookaheadBuffer lookahead_;
     std::vector<std::unique_ptr<Afferent>> afferents_;  // for each plan; null if its afferents are on lanes
-    std::vector<std::span<const Probe>> probes_of_;
+    std::vector<std::span<const Probe>> plan_probes_;   // for each plan; empty if its afferents are on lanes
     std::vector<LaneGroup> lane_groups_;
     std::vector<ScalarAfferent> scalars_;
     std::vector<Spike> spikes_;

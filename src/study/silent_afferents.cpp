@@ -64,9 +64,9 @@ Result<void> SilenceDetector::block(const Input& input, const RunBlock& block) {
 
 Result<void> SilenceDetector::end(const Input& input, std::int64_t) {
     const auto most = std::max_element(max_force_.begin(), max_force_.end());
-    if (*most > force_) {
-        force_ = *most, dt_ = input.source.clock().T();
-        strongest_force_ = std::move(force_samples_[static_cast<std::size_t>(most - max_force_.begin())]);
+    if (*most > strongest_max_) {
+        strongest_max_ = *most, dt_ = input.source.clock().T();
+        strongest_channel_ = std::move(force_samples_[static_cast<std::size_t>(most - max_force_.begin())]);
     }
     force_samples_.clear();
     return {};
@@ -81,8 +81,8 @@ std::vector<SilentAfferent> SilenceDetector::silent_afferents(std::span<const Af
         const auto from = has_fired_.begin() + static_cast<std::ptrdiff_t>(groups[g]),
                    to = has_fired_.begin() + static_cast<std::ptrdiff_t>(groups[g + 1]);
         if (plan.factory || std::find(from, to, 1) != to) continue;
-        out.push_back({base_name(plan), force_, {}});
-        if (force_ > 0) out.back().factor = factor_to_fire(plan, {dt_, options.method, options.sampled, 0, 0}, strongest_force_);
+        out.push_back({base_name(plan), strongest_max_, {}});
+        if (strongest_max_ > 0) out.back().factor = factor_to_fire(plan, {dt_, options.method, options.sampled, 0, 0}, strongest_channel_);
     }
     return out;
 }

@@ -10,7 +10,7 @@
 
 namespace corpuscle {
 
-/// Number of force samples that are kept to compute this factor; later samples are ignored.
+/// Number of force samples, over all channels, that are kept for the search of the factor; later samples are ignored.
 inline constexpr std::size_t max_silence_samples = std::size_t{1} << 18;
 
 /// The factor, at least 1, by which force must be multiplied for the afferent to fire. Accurate to 2 %, rounded up. None if it exceeds a
@@ -27,10 +27,10 @@ struct SilentAfferent {
 /// Finds silent afferents. Netlists are left out, because the search would take longer than the run.
 class SilenceDetector final : public ResponseSink {
     std::vector<std::vector<double>> force_samples_;  // force of each channel of the current input
-    std::vector<double> max_force_;                   // of each channel, N
-    std::vector<char> has_fired_;                     // of each afferent
-    std::vector<double> strongest_force_;             // force of the channel with the largest force so far
-    double force_ = 0, dt_ = 0;
+    std::vector<double> max_force_;                   // of each channel of the current input, N
+    std::vector<char> has_fired_;                     // of each plan
+    std::vector<double> strongest_channel_;           // force samples of the channel, among all inputs, with the largest force so far
+    double strongest_max_ = 0, dt_ = 0;               // of that channel: the largest force, N, and the sample period, s
 
 public:
     Result<void> begin(const Input&) override;

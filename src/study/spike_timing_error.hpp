@@ -10,7 +10,7 @@ namespace corpuscle {
 struct SpikeTimingError {
     double max = 0, rms = 0;  ///< s, over matched spikes
     double median = 0;        ///< s, over matched spikes; positive if the second train is later
-    double unmatched = 0;     ///< spikes of either train without a partner
+    double unmatched = 0;     ///< number of spikes without a partner, of both trains together
 };
 
 /// Spikes within 50 ms of each other can be matched.

@@ -6,8 +6,9 @@
 namespace corpuscle {
 
 /// Force to voltage: a transimpedance amplifier that keeps V_FSR across the sensor.
-///     V_Z = V_X + V_FSR G_FSR R_fb,   V_X = V_SS + V_FSR,   not above V_DD
-/// (thesis eq. 14; errata: its second line omits 1/R_0.) The amplifier is ideal except for its supply.
+///     V_Z = V_X + V_FSR G_FSR R_fb, but at most V_DD;   V_X = V_Y = V_SS + V_FSR
+/// (thesis eq. 14; its last line omits the sensor's 1/R_0, errata F5.) V_X is at the sensor, V_Y is the reference that it follows. The
+/// amplifier is ideal except for its supply.
 struct F2v {
     struct Params {
         double V_FSR = 0.1, R_fb = 10e3, V_SS = 0, V_DD = 0.7;

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double no_mean = std::numeric_limits<double>::quiet_NaN();
 
-/// The index of a row's value among the values of the axis; the number of values if the row has none.
+/// The index of a row's value among the values of the axis; the number of values if it is not among them.
 std::size_t level_of(const SweepTable& table, std::size_t axis, std::size_t row) {
     const auto& values = table.points[axis];
     const double x = table.axis_values[axis][row];
@@ -38,7 +38,7 @@ bool is_deterministic(const SweepResults& results) {
     if (!results.about(mismatch_metadata_name).empty() || results.axes().empty()) return false;
     for (const auto& axis : results.axes())
         if (axis.name.starts_with("process.")) return false;
-    const auto stored = results.about("sweep file");  // "": a netlist alone, with .step
+    const auto stored = results.about("sweep file");  // empty if there was none: a netlist with .step
     const auto text = sweeps::read_sweep_text(file_text(stored), results.path());
     if (!text) return false;
     return std::none_of(text->axes.begin(), text->axes.end(), [](const sweeps::AxisSpec& axis) {

@@ -64,6 +64,7 @@ Result<ForceFactory> ForceFactory::of(const SweepText& spec, const std::string& 
     const auto path = (std::filesystem::path(folder) / out.text_).string();
     std::error_code status;
     if (!std::filesystem::exists(path, status)) {
+        // Neither a stimulus nor a file: this call fails, with a message that names what is unknown.
         auto error = make_stimulus(out.text_, {}, out.rate_, seed).error();
         return spec.force->error_here(fmt::format("{} (and there is no file '{}')", error.message, out.text_));
     }

@@ -43,6 +43,7 @@ public:
     bool has_parameter(std::string_view name) const;
     Result<VariedQuantity> find_quantity(const LocatedText& quantity) const;
     Result<void> set(const LocatedSetting&);
+    /// Call after all calls of set().
     void vary(const std::string& name, std::size_t axis);
     bool varies() const { return !axes_.empty(); }
 
