@@ -94,17 +94,19 @@ std::vector<std::vector<std::size_t>> blocks_of(const std::vector<std::size_t>& 
         std::iota(out.begin(), out.end(), from);
         return out;
     };
-    const auto sum = [&](std::size_t from, std::size_t to) {
+    // Each column is followed by two blanks. The last one needs none, so the limits below are max_table_width + 2.
+    const auto total_width = [&](std::size_t from, std::size_t to) {
         return std::accumulate(widths.begin() + static_cast<std::ptrdiff_t>(from), widths.begin() + static_cast<std::ptrdiff_t>(to),
                                std::size_t{0}, [](std::size_t total, std::size_t w) { return total + w + 2; });
     };
-    const auto names = static_cast<std::size_t>(std::find(numeric.begin(), numeric.end(), true) - numeric.begin());
-    if (sum(0, widths.size()) <= max_table_width + 2 || sum(0, names) > max_table_width / 2) return {indices(0, widths.size())};
+    const auto name_columns = static_cast<std::size_t>(std::find(numeric.begin(), numeric.end(), true) - numeric.begin());
+    if (total_width(0, widths.size()) <= max_table_width + 2 || total_width(0, name_columns) > max_table_width / 2)
+        return {indices(0, widths.size())};
     std::vector<std::vector<std::size_t>> blocks;
-    for (std::size_t c = names; c < widths.size();) {
+    for (std::size_t c = name_columns; c < widths.size();) {
         auto end = c + 1;
-        while (end < widths.size() && sum(0, names) + sum(c, end + 1) <= max_table_width + 2) ++end;
-        auto block = indices(0, names);
+        while (end < widths.size() && total_width(0, name_columns) + total_width(c, end + 1) <= max_table_width + 2) ++end;
+        auto block = indices(0, name_columns);
         for (; c < end; ++c) block.push_back(c);
         blocks.push_back(std::move(block));
     }
@@ -152,7 +154,8 @@ int report_error(const Error& error) {
 
 void catch_interrupt() {
     struct sigaction action = {};  // without SA_RESTART, so that blocked calls end
-    // 'timeout', terminals and launchers signal the program and then its process group. Two signals within 500 ms count as one.
+    // The command timeout, terminals and launchers can signal the program itself and then its process group, so that one signal arrives
+    // twice. Signals within 500 ms of the first therefore count as one.
     action.sa_handler = [](int) {
         constexpr int same_signal = 500;  // ms
         const int now = milliseconds();

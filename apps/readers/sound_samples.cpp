@@ -35,7 +35,7 @@ public:
         samples_info_.rows = info_.frames;
         if (info_.samplerate > 0) samples_info_.rate = info_.samplerate;
         for (int c = 0; c < info_.channels; ++c)
-            samples_info_.columns.push_back({fmt::format("ch{}", c + 1), is_floating_point() ? "" : "parts of full scale"});
+            samples_info_.columns.push_back({fmt::format("ch{}", c + 1), is_floating_point() ? "" : "full scale"});
         return {};
     }
 

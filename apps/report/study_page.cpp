@@ -22,8 +22,8 @@ StudyPlot::Series thinned(const StudyPlot::Series& all) {
     for (std::size_t s = 0; s < segments; ++s) {
         const auto from = static_cast<std::ptrdiff_t>(s * all.y.size() / segments),
                    to = static_cast<std::ptrdiff_t>((s + 1) * all.y.size() / segments);
-        const auto ends = std::minmax_element(all.y.begin() + from, all.y.begin() + to);
-        for (const auto at : {std::min(ends.first, ends.second), std::max(ends.first, ends.second)})
+        const auto [smallest, largest] = std::minmax_element(all.y.begin() + from, all.y.begin() + to);
+        for (const auto at : {std::min(smallest, largest), std::max(smallest, largest)})  // iterators, so the earlier one first
             out.x.push_back(all.x[static_cast<std::size_t>(at - all.y.begin())]), out.y.push_back(*at);
     }
     return out;

@@ -1,5 +1,5 @@
 #pragma once
-// Simulates the afferents of one input on all threads: on SIMD lanes if possible, otherwise each afferent alone.
+// Simulates the afferents of one input on all threads. Afferents share SIMD lanes if possible; the others are simulated alone.
 
 #include "model/lane_population.hpp"
 #include "study/afferent_run.hpp"
@@ -9,13 +9,14 @@ namespace corpuscle {
 
 class InputSimulator {
 public:
-    /// `probed`: a sink wants probes; then each afferent is simulated alone.
-    static Result<InputSimulator> make(Input input, const RespondOptions& options, bool probed);
+    /// `wants_probes`: a sink wants probes; then every afferent is simulated alone, because lanes record no probes.
+    static Result<InputSimulator> make(Input input, const RespondOptions& options, bool wants_probes);
 
     const Input& input() const { return input_; }
     /// Number of samples simulated so far, the same on each channel.
     std::int64_t samples() const { return samples_; }
-    /// Warnings of afferents that were outside a range: one for each plan and range, about the channel where this lasted longest.
+    /// Warnings about afferents that left a valid range. There is one for each plan and range that was left; it names the channel that was
+    /// outside for the longest time.
     std::vector<std::string> range_warnings() const;
 
     /// Simulates one block of all afferents and passes it to all sinks; returns false at the end of the source.
@@ -40,7 +41,7 @@ private:
         bool diverged = false;  // a netlist that did not converge; it gives no more spikes
     };
 
-    InputSimulator(Input input, std::size_t block, bool probed);
+    InputSimulator(Input input, std::size_t block, bool wants_probes);
     Result<void> place_afferents(const RespondOptions& options, InstructionSet set);
     Result<void> place_on_lanes(std::span<const std::size_t> plans, const SimulationOptions& run, const RespondOptions& options,
                                 InstructionSet set);
@@ -57,11 +58,11 @@ private:
     Frames force_;
     LookaheadBuffer lookahead_;
     std::vector<std::unique_ptr<Afferent>> afferents_;  // for each plan; null if its afferents are on lanes
-    std::vector<std::span<const Probe>> plan_probes_;   // for each plan; empty if its afferents are on lanes
+    std::vector<std::span<const Probe>> probes_of_;     // for each plan
     std::vector<LaneGroup> lane_groups_;
     std::vector<ScalarAfferent> scalars_;
     std::vector<Spike> spikes_;
-    std::vector<std::vector<std::vector<double>>> probe_values_;
+    std::vector<std::vector<std::vector<double>>> probe_values_;  // [afferent of this input][probe][sample]; empty if no sink wants them
     std::int64_t samples_ = 0;
 };
 

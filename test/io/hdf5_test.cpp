@@ -49,7 +49,7 @@ TEST(Hdf5, UnitsNamesAndRateAreAttributes) {
         Hdf5File file(folder / "x.h5");
         file.write_numbers("/trial/force", {5000, 2}, ramp(10000));
         file.write_attribute("/trial/force", "units", "mN");
-        file.write_strings("/trial/force", "columns", {"fx", "fz"});
+        file.write_string_array_attribute("/trial/force", "columns", {"fx", "fz"});
         file.write_attribute("/", "Sampling_Rate", 250.0);
     }
     const auto recording = load_recording(folder / "x.h5");
@@ -136,7 +136,7 @@ TEST(Hdf5, AColumnThatCountsTheRowsIsNotAForce) {
     {
         Hdf5File file(folder / "x.h5");
         file.write_numbers("/force", {500, 3}, rows);
-        file.write_strings("/force", "columns", {"frame", "fx_N", "fz_N"});
+        file.write_string_array_attribute("/force", "columns", {"frame", "fx_N", "fz_N"});
     }
     const auto recording = load_recording(folder / "x.h5", {.rate = 100});
     EXPECT_EQ(recording.names, (std::vector<std::string>{"fx", "fz"}));
@@ -323,7 +323,7 @@ TEST(Hdf5, AnArrayWithExchangedDimensionsIsRefusedOrTransposed) {
     EXPECT_EQ(timed.force.size(), 2U) << "the times determine their dimension";
     EXPECT_EQ(timed.notes.at(0),
               "/force (2 x 3000): taken as 2 channels of 3000 samples, to match the times; use --no-transpose if each row is a sample");
-    row_array([](auto& f) { f.write_strings("/force", "channels", {"fx_N", "fz_N"}); });
+    row_array([](auto& f) { f.write_string_array_attribute("/force", "channels", {"fx_N", "fz_N"}); });
     EXPECT_EQ(load_recording(folder / "x.h5", {.rate = 500}).names, (std::vector<std::string>{"fx", "fz"}));
     row_array([](auto& f) { f.write_numbers("/timestamps", {2}, ramp(2, 0.002)); });
     EXPECT_EQ(load_recording(folder / "x.h5").force.size(), 3000U) << "few samples of many electrodes";

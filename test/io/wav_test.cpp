@@ -45,10 +45,9 @@ TEST(Wav, IntegersNeedAScaleAndFloatsAreNewtons) {
     const TemporaryFolder folder;
     const std::vector<std::vector<double>> force = {std::vector<double>(9000, 0.25), std::vector<double>(9000, 0.5)};
     write_audio(folder / "x.wav", SF_FORMAT_WAV | SF_FORMAT_PCM_16, 8000, force);
-    EXPECT_EQ(
-        load_error(folder / "x.wav"),
-        "x.wav: 'ch1' is in parts of full scale, which is not a known unit of force (N, mN, gf, kgf, lbf ...); use --scale S for S newtons "
-        "per parts of full scale, --unit N if the header is wrong, or --channel to select another column");
+    EXPECT_EQ(load_error(folder / "x.wav"),
+              "x.wav: 'ch1' is in full scale, which is not a known unit of force (N, mN, gf, kgf, lbf ...); use --scale S for S newtons "
+              "per full scale, --unit N if the header is wrong, or --channel to select another column");
     EXPECT_EQ(load_recording(folder / "x.wav", {.channels = {"ch2"}, .scale = 8}).force[0][8999], 4);
     write_audio(folder / "y.wav", SF_FORMAT_WAV | SF_FORMAT_FLOAT, 8000, force);
     EXPECT_EQ(load_recording(folder / "y.wav").force[1][8999], 0.5);

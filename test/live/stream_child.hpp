@@ -123,7 +123,7 @@ std::pair<int, int> listen_on(int port = 0) {
     return {fd, ntohs(at.sin_port)};
 }
 
-/// Frames of one force, one per line, from number `first` on: 0 N, then 2 N, with a period of 400 frames.
+/// `count` lines with one force each, from frame number `first` on. The force repeats after 400 frames: 100 of 0 N, then 300 of 2 N.
 std::string force_lines(int count, int first = 0) {
     std::string text;
     for (int k = first; k < first + count; ++k) text += std::to_string(k % 400 < 100 ? 0 : 2) + "\n";

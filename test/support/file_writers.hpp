@@ -15,6 +15,7 @@ namespace corpuscle::test {
 inline std::string npy_bytes(const std::string& type, const std::string& shape, const std::string& data, bool by_columns = false,
                              int version = 1) {
     auto header = fmt::format("{{'descr': {}, 'fortran_order': {}, 'shape': {}, }}", type, by_columns ? "True" : "False", shape);
+    // Blanks fill up to a multiple of 64 bytes: 10 bytes before the header in version 1, the header, and its newline.
     header.resize((header.size() + 11 + 63) / 64 * 64 - 11, ' ');
     header += '\n';
     std::string out = "\x93NUMPY";
@@ -44,7 +45,7 @@ inline void write_audio(const std::string& path, int format, int rate, const std
 
 /// An HDF5 file to write. Names are paths; missing groups are created.
 class Hdf5File {
-    hid_t file_, links_;
+    hid_t file_, link_properties_;
 
     hid_t open_object(const std::string& name) const { return H5Oopen(file_, name.c_str(), H5P_DEFAULT); }
     void write_attribute(const std::string& of, const std::string& name, hid_t type, hid_t space, const void* value) {
@@ -55,19 +56,19 @@ class Hdf5File {
 
 public:
     explicit Hdf5File(const std::string& path)
-        : file_(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT)), links_(H5Pcreate(H5P_LINK_CREATE)) {
-        H5Pset_create_intermediate_group(links_, 1);
+        : file_(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT)), link_properties_(H5Pcreate(H5P_LINK_CREATE)) {
+        H5Pset_create_intermediate_group(link_properties_, 1);
     }
     Hdf5File(const Hdf5File&) = delete;
     Hdf5File& operator=(const Hdf5File&) = delete;
-    ~Hdf5File() { H5Pclose(links_), H5Fclose(file_); }
+    ~Hdf5File() { H5Pclose(link_properties_), H5Fclose(file_); }
 
     void write_raw(const std::string& name, hid_t type, hid_t memory, const std::vector<hsize_t>& shape, const void* values,
                    const std::vector<hsize_t>& chunk = {}) {
         const hid_t space = shape.empty() ? H5Screate(H5S_SCALAR) : H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr);
         const hid_t how = H5Pcreate(H5P_DATASET_CREATE);
         if (!chunk.empty()) H5Pset_chunk(how, static_cast<int>(chunk.size()), chunk.data()), H5Pset_deflate(how, 4);
-        const hid_t d = H5Dcreate2(file_, name.c_str(), type, space, links_, how, H5P_DEFAULT);
+        const hid_t d = H5Dcreate2(file_, name.c_str(), type, space, link_properties_, how, H5P_DEFAULT);
         if (values) H5Dwrite(d, memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, values);
         H5Dclose(d), H5Pclose(how), H5Sclose(space);
     }
@@ -84,7 +85,7 @@ public:
         write_attribute(of, name, type, H5Screate(H5S_SCALAR), value.c_str());
         H5Tclose(type);
     }
-    void write_strings(const std::string& of, const std::string& name, const std::vector<const char*>& words) {
+    void write_string_array_attribute(const std::string& of, const std::string& name, const std::vector<const char*>& words) {
         const hid_t type = H5Tcopy(H5T_C_S1);
         H5Tset_size(type, H5T_VARIABLE), H5Tset_cset(type, H5T_CSET_UTF8);
         const hsize_t count = words.size();

@@ -64,7 +64,7 @@ Result<ForceFactory> ForceFactory::of(const SweepText& spec, const std::string& 
     const auto path = (std::filesystem::path(folder) / out.text_).string();
     std::error_code status;
     if (!std::filesystem::exists(path, status)) {
-        // Neither a stimulus nor a file: this call fails, with a message that names what is unknown.
+        // Neither a stimulus nor a file: the message says why it is not a stimulus.
         auto error = make_stimulus(out.text_, {}, out.rate_, seed).error();
         return spec.force->error_here(fmt::format("{} (and there is no file '{}')", error.message, out.text_));
     }
@@ -98,9 +98,9 @@ bool ForceFactory::has_parameter(std::string_view name) const {
 Result<VariedQuantity> ForceFactory::find_quantity(const LocatedText& quantity) const {
     const auto dot = quantity.text.find('.');
     const ParameterOverride parameter{quantity.text.substr(0, dot), quantity.text.substr(dot + 1), ""};
-    for (const auto& card : stimulus_catalog()) {
-        if (card.name != parameter.target) continue;
-        const auto row = find_parameter(parameter, card.parameters);
+    for (const auto& stimulus : stimulus_catalog()) {
+        if (stimulus.name != parameter.target) continue;
+        const auto row = find_parameter(parameter, stimulus.parameters);
         if (!row) return quantity.error_here(row.error().message);
         VariedQuantity out{
             {quantity.text, std::string((*row)->unit), std::string((*row)->description)}, (*row)->default_value, (*row)->low, (*row)->high};
@@ -115,9 +115,9 @@ Result<VariedQuantity> ForceFactory::find_quantity(const LocatedText& quantity) 
 Result<void> ForceFactory::set(const LocatedSetting& setting) {
     const auto dot = setting.name.find('.');
     std::vector<ParameterOverride> settings = {{setting.name.substr(0, dot), setting.name.substr(dot + 1), setting.value.text}};
-    for (const auto& card : stimulus_catalog())
-        if (card.name == settings[0].target)
-            if (const auto ok = settings_for(card.name, card.parameters, settings); !ok)
+    for (const auto& stimulus : stimulus_catalog())
+        if (stimulus.name == settings[0].target)
+            if (const auto ok = settings_for(stimulus.name, stimulus.parameters, settings); !ok)
                 return setting.value.error_here(ok.error().message);
     overrides_.push_back(std::move(settings[0]));
     fixed_count_ = overrides_.size();
@@ -130,11 +130,11 @@ void ForceFactory::vary(const std::string& name, std::size_t axis) {
     axes_.push_back(axis);
 }
 
-Result<std::shared_ptr<const SweepForce>> ForceFactory::make(std::span<const double> values) const {
+Result<std::shared_ptr<const SweepForce>> ForceFactory::make(std::span<const double> varied_values) const {
     if (is_recording_) return nominal_;
     auto overrides = overrides_;
-    overrides.resize(fixed_count_ + values.size());
-    for (std::size_t k = 0; k < values.size(); ++k) overrides[fixed_count_ + k].value = fmt::format("{}", values[k]);
+    overrides.resize(fixed_count_ + varied_values.size());
+    for (std::size_t k = 0; k < varied_values.size(); ++k) overrides[fixed_count_ + k].value = fmt::format("{}", varied_values[k]);
     const auto source = make_stimulus(text_, overrides, rate_, seed_);
     if (!source) return source.error();
     return read_force(**source);
@@ -149,17 +149,17 @@ Result<void> ForceFactory::prepare() {
 
 Result<std::shared_ptr<const SweepForce>> ForceFactory::at(std::span<const double> values) const {
     if (!varies()) return nominal_;
-    std::vector<double> force_values;
-    for (const auto axis : axes_) force_values.push_back(values[axis]);
+    std::vector<double> varied_values;
+    for (const auto axis : axes_) varied_values.push_back(values[axis]);
     {
         const std::lock_guard lock(cache_->mutex);
-        if (const auto at = cache_->forces.find(force_values); at != cache_->forces.end()) return at->second;
+        if (const auto at = cache_->forces.find(varied_values); at != cache_->forces.end()) return at->second;
     }
-    auto force = make(force_values);
+    auto force = make(varied_values);
     if (!force) return force;
     const std::lock_guard lock(cache_->mutex);
     if (cache_->forces.size() >= max_cached_forces) cache_->forces.clear();
-    cache_->forces[force_values] = *force;
+    cache_->forces[varied_values] = *force;
     return force;
 }
 

@@ -32,7 +32,8 @@ class ForceFactory {
     struct Cache;
     std::shared_ptr<Cache> cache_;
 
-    Result<std::shared_ptr<const SweepForce>> make(std::span<const double> values) const;
+    /// `varied_values`: of the varied settings, in their order; those without a value keep their default.
+    Result<std::shared_ptr<const SweepForce>> make(std::span<const double> varied_values) const;
 
 public:
     /// A recording's path is relative to the folder of the sweep file.
@@ -50,7 +51,7 @@ public:
     /// Call after all settings: makes the nominal force.
     Result<void> prepare();
     const std::shared_ptr<const SweepForce>& nominal() const { return nominal_; }
-    /// The force for an item's values. Thread-safe.
+    /// The force for an item's values on all axes. Thread-safe.
     Result<std::shared_ptr<const SweepForce>> at(std::span<const double> values) const;
     /// A description of the recording, in a line; "" for a stimulus.
     std::string recording_summary() const;
