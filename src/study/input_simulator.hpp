@@ -58,7 +58,7 @@ private:
     Frames force_;
     LookaheadBuffer lookahead_;
     std::vector<std::unique_ptr<Afferent>> afferents_;  // for each plan; null if its afferents are on lanes
-    std::vector<std::span<const Probe>> probes_of_;     // for each plan
+    std::vector<std::span<const Probe>> plan_probes_;   // for each plan; empty if its afferents are on lanes
     std::vector<LaneGroup> lane_groups_;
     std::vector<ScalarAfferent> scalars_;
     std::vector<Spike> spikes_;
