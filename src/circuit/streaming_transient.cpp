@@ -55,7 +55,7 @@ Result<InitialCondition> StreamingTransient::solve_start(std::span<const double>
 }
 
 /// The operating point under this force, found by raising the force in steps from 0 N. If that fails, the last point that was found.
-std::vector<double> StreamingTransient::continue_from_rest(double force) {
+std::vector<double> StreamingTransient::raise_force_from_rest(double force) {
     constexpr double min_step = 1.0 / 64;  // as a fraction of the force
     auto found = rest_;
     for (double fraction = 0, step = 0.25; fraction < 1 && step >= min_step;) {
@@ -71,7 +71,7 @@ std::vector<double> StreamingTransient::continue_from_rest(double force) {
 Result<void> StreamingTransient::begin(std::span<const double> force) {
     origin_sample_ = 0, pending_spike_.reset(), power_now_.reset();
     auto x = solve_start(force, rest_);
-    if (!x) x = solve_start(force, continue_from_rest(force[0]));
+    if (!x) x = solve_start(force, raise_force_from_rest(force[0]));
     if (!x) {
         auto error = x.error();
         error.message = fmt::format("under the first force, {}: {}", format_quantity(force[0], "N"), error.message);

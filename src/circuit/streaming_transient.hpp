@@ -30,7 +30,7 @@ class StreamingTransient {
     void shift_origin();
     void solve_rest();
     Result<InitialCondition> solve_start(std::span<const double> force, std::vector<double> from);
-    std::vector<double> continue_from_rest(double force);
+    std::vector<double> raise_force_from_rest(double force);
     void add_energy(double step_start);
 
 public:

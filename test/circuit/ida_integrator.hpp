@@ -28,7 +28,8 @@ struct IdaResult {
 
 /// Integrates from `start` (x at t = 0):
 ///     f(x, t) + dq/dt = 0,   q - q(x) = 0   in the unknowns (x, q), so that charge is conserved where node voltages jump.
-/// Stops at each breakpoint of a source and restarts there. A current through a source is the derivative of a charge and is not checked.
+/// Stops at each breakpoint of a source and restarts there. IDA's error test leaves out the currents through sources, because they
+/// depend on dq/dt.
 IdaResult integrate_with_ida(System&, double gmin, const std::vector<double>& start, const IdaOptions&);
 
 }  // namespace corpuscle::circuit

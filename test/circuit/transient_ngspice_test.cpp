@@ -1,8 +1,8 @@
 // Transients of the same decks in Debian's ngspice and in Corpuscle: compares waveforms on a common time grid, and spike times.
 //
-// Comments of a deck give its tolerances. `* within: 1m` is the tolerance in volts of every saved curve. `* within: 1m 2u` also allows
-// a curve to be that many seconds early or late, for edges triggered by other edges. `* spikes: v(s) 0.35` names a level that v(s)
-// crosses upward. The number of crossings must be equal; the last crossing and all intervals must agree to 0.1 %.
+// Comments of a deck give its tolerances. `* tolerance: 1mV` applies to every saved curve. `* tolerance: 1mV 2us` also allows a curve
+// to be 2 us early or late, for edges triggered by other edges. `* spikes: v(s) 0.35` names a level that v(s) crosses upward. The number
+// of crossings must be equal; the last crossing and all intervals must agree to 0.1 %.
 // Transistors are expressions in ngspice and built-in devices in Corpuscle: formulas.inc and native.inc describe the same transistors.
 
 #include <gtest/gtest.h>
@@ -86,7 +86,7 @@ DeckTolerances tolerances_of(const std::string& deck) {
     for (std::string line, star, key; std::getline(lines, line);) {
         std::istringstream words(line);
         if (!(words >> star >> key) || star != "*") continue;
-        if (key == "within:") out.volts = number(words), out.seconds = number(words);
+        if (key == "tolerance:") out.volts = number(words), out.seconds = number(words);
         if (key == "spikes:") words >> out.spikes, out.level = number(words);
     }
     return out;

@@ -17,7 +17,7 @@ namespace {
 
 using namespace test;
 
-/// Derivative by v[by] of a value of the transistor, computed with dual numbers. `read` selects the value.
+/// Derivative of a value of the transistor with respect to v[by], computed with dual numbers. `read` selects the value.
 template <class Read>
 double dual_slope(const RandomDevice& r, int by, const Read& read) {
     num::Dual v[4] = {r.v[0], r.v[1], r.v[2], r.v[3]};
@@ -127,11 +127,12 @@ TEST(UicmContract, CurrentNeverFallsAsTheDrainRises) {
     }
 }
 
-TEST(UicmContract, SlopesDoNotJumpAtZeroDrainVoltageOrAtTheLimitOfAnEquation) {
+TEST(UicmContract, SlopesDoNotJumpAtZeroDrainVoltageOrWhereAJunctionIsExtrapolated) {
     const auto c = constants_of_size(full_card(), 1.5e-6, 0.5e-6);
-    const double top = c.exp_limit_s / c.per_n_phi_t, corner = c.v_limit;
+    // Junction voltages above which the current and the capacitance are extrapolated.
+    const double current_limit = c.exp_limit_s / c.per_n_phi_t, capacitance_limit = c.v_limit;
     for (const double g : {-0.2, 0.3, 0.5, 1.0, 1.8})
-        for (const double b : {0.0, corner, top})  // bulk voltage relative to source and drain
+        for (const double b : {0.0, capacitance_limit, current_limit})  // bulk voltage relative to source and drain
             for (const double step : {1e-9, 1e-8}) {
                 const auto below = evaluate(c, -step, g, 0, b - step), above = evaluate(c, step, g, 0, b + step);
                 for (int k = 0; k < 16; ++k) {
@@ -148,7 +149,7 @@ TEST(UicmContract, ThePlainModelIsSmoothToThirdOrderAcrossZeroDrainVoltage) {
     const auto c = constants_of_size(plain_card(), 1.5e-6, 0.5e-6);
     for (const double g : {0.2, 0.5, 0.9}) {
         const double h = 2e-3, scale = evaluate(c, 0, g, 0, 0).di[D][D] / (phi_t * phi_t);
-        const auto third = [&](double at) {  // third difference of I_D by V_DS
+        const auto third = [&](double at) {  // third derivative of I_D with respect to V_DS, as a difference
             return (current(c, at + 2 * h, g, 0) - 2 * current(c, at + h, g, 0) + 2 * current(c, at - h, g, 0) -
                     current(c, at - 2 * h, g, 0)) /
                    (2 * h * h * h);

@@ -18,7 +18,7 @@ struct TransistorCall {
     const double* v;            ///< [4][stride], V
     double gmin;                ///< S, in parallel with every junction
     double *f, *df;             ///< [4][stride], A; [4 * 4][stride], S
-    double* max_term;           ///< [4][stride], A: largest derivative of each row times max(voltage, phi_t), or null
+    double* max_term;           ///< [4][stride], A: for each terminal's current i, the largest |di/dv| max(|v|, phi_t); null: not needed
     double *q, *dq;             ///< charges and capacitances, same shapes; null: not needed
     double rate;                ///< 1/s: f and df are returned with rate times q and dq added
 };

@@ -1,5 +1,5 @@
-// The feedback loop of a high-pass filter (INVC with its output tied to its input, behind its capacitor), which E.4 calls "inherently
-// stable": its gain and phase margin.
+// The feedback loop of a high-pass filter, a capacitor in series with an INVC whose output is tied to its input. E.4 calls the loop
+// "inherently stable". Computes its gain and its phase margin.
 
 #include <fmt/format.h>
 #include <cmath>
@@ -32,7 +32,7 @@ vnext next 0 0.35
 )";
 
 struct Loop {
-    StudyCurve dB, phase;                         ///< phase: degrees above -180 of the closed loop's return ratio
+    StudyCurve dB, phase;                         ///< phase: of the return ratio, plus 180 degrees; at `unity`, the phase margin
     double gain, unity, margin, phase_crossover;  ///< dB, Hz, degrees, Hz; phase_crossover: where `phase` is zero
     double gain_margin;                           ///< dB below unity at that frequency
     double inner;                                 ///< Hz: where the inner poles add 45 degrees to the 90 degrees of the outer pole
@@ -77,7 +77,8 @@ Result<StudyResult> compute(const StudyOptions& options) {
     out.plots.push_back(std::move(phase));
     out.note(
         "An inductance between output and input opens the loop for small signals and closes it for the operating point. The margins are "
-        "those of the filter, whose capacitor makes the outer pole. Up to a hundred times the corner only a first-order roll-off remains.");
+        "those of the filter, whose capacitor makes the outer pole. Up to a hundred times the unity-gain frequency the loop's gain rolls "
+        "off with first order only.");
     return out;
 }
 

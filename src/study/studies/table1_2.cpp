@@ -9,14 +9,14 @@
 namespace corpuscle::studies::table1_2 {
 
 struct SizeRow {
-    const char *table, *name, *devices;  // name as printed; device names in parts/transducer.inc, by their endings
+    const char *table, *name, *devices;  // devices: their names in the netlist end with these words
     double m, n, W;                      // columns, unit transistors in series, um
     const char* reason = "";
 };
 constexpr SizeRow rows[] = {
     {"1", "M_1", "x.mn1", 4, 4, 1.5},
     {"1", "M_2", "x.mn2", 16, 1, 1.5},
-    {"1", "M_1 (M_3, errata F9)", "x.mn3", 8, 1, 1.5},
+    {"1", "M_3 (printed M_1, errata F9)", "x.mn3", 8, 1, 1.5},
     {"2", "M_1A-E", "xamp.mp1a xamp.mp1b xamp.mp1c xamp.mp1d xamp.mp1e", 4, 4, 6},
     {"2", "M_2A-E", "xamp.mp2a xamp.mp2b xamp.mp2c xamp.mp2d xamp.mp2e", 16, 1, 6},
     {"2", "M_1F", "xamp.mp1f", 8, 1, 6},
