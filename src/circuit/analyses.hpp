@@ -13,7 +13,7 @@ Result<AnalysisResult> analyse_tran(AnalysisContext&, const Directive&);
 Result<AnalysisResult> analyse_tf(AnalysisContext&, const Directive&);
 Result<AnalysisResult> analyse_sens(AnalysisContext&, const Directive&);
 
-/// An analysis: the name of its directive, its syntax, a description for help, and its function.
+/// An analysis: the name of its directive, its syntax, a description for help texts, and its function.
 struct Analysis {
     std::string_view name, usage, description;
     Result<AnalysisResult> (*run)(AnalysisContext&, const Directive&);

@@ -15,7 +15,7 @@ struct Curve {
     std::vector<std::complex<double>> values;
 };
 
-/// One plot. If `has_sweep` is true, the first curve is the swept quantity.
+/// One plot. If `has_sweep` is true, the first curve is the swept quantity, and curves[k + has_sweep] is the k-th other curve.
 struct Plot {
     std::string name;  ///< "DC transfer characteristic"
     bool is_complex = false, has_sweep = true;

@@ -34,7 +34,7 @@ std::uint64_t fingerprint_of(const Circuit& c) {
         for (const int n : e.nodes) number(static_cast<std::uint64_t>(n));
         for (const double x : e.waveform.numbers) real(x);
         if (e.expression) formula(*e.expression);
-        // Hashed only if present, so that states of netlists without them stay valid.
+        // Hashed only if present, so that netlists without them keep the hash of earlier versions and their saved states stay valid.
         if (!e.control_source.empty()) text(e.control_source);
         if (e.expression && e.expression_is_voltage) number(1);
     }
@@ -49,27 +49,28 @@ std::uint64_t fingerprint_of(const Circuit& c) {
     return hash;
 }
 
-/// The unknowns that are interpolated between time points, for spikes, probes and operating ranges.
-std::vector<int> interpolated_unknowns(const CircuitAfferentFactory& design) {
-    std::vector<int> out = {design.spike_output.unknowns.plus, design.spike_output.unknowns.minus};
-    for (const auto& range : design.operating_ranges)
+/// The unknowns whose values between time points are used: those of spikes, probes and operating ranges.
+std::vector<int> interpolated_unknowns(const CircuitAfferentFactory& factory) {
+    std::vector<int> out = {factory.spike_output.unknowns.plus, factory.spike_output.unknowns.minus};
+    for (const auto& range : factory.operating_ranges)
         out.push_back(range.quantity.unknowns.plus), out.push_back(range.quantity.unknowns.minus);
-    for (const auto& probe : design.probes) out.push_back(probe.unknowns.plus), out.push_back(probe.unknowns.minus);
+    for (const auto& probe : factory.probes) out.push_back(probe.unknowns.plus), out.push_back(probe.unknowns.minus);
     return out;
 }
 
 class CircuitAfferent final : public Afferent {
-    std::shared_ptr<const CircuitAfferentFactory> design_;
-    double T_;
-    bool sampled_;
-    std::optional<ChipSample> chip_;
-    std::int64_t delay_;
-    std::string format_;  // marks saved states: a state fits only the same netlist, chip and T
+    std::shared_ptr<const CircuitAfferentFactory> factory_;
+    double T_;                        // sample time, s
+    bool sampled_;                    // true if spikes occur only at sample times
+    std::optional<ChipSample> chip_;  // empty: nominal
+    std::int64_t delay_;              // samples
+    std::string format_;              // marks saved states: a state fits only the same netlist, chip and T
     std::vector<Probe> probes_;
     std::vector<ValidRange> ranges_;
     mutable std::mutex guard_;
-    mutable std::vector<std::unique_ptr<StreamingTransient>> idle_;  // not in use by a call of respond()
+    mutable std::vector<std::unique_ptr<StreamingTransient>> idle_;  // transients that no call of respond() uses; guarded by guard_
 
+    // Each concurrent call of respond() uses a transient of its own.
     Result<std::unique_ptr<StreamingTransient>> borrow() const {
         {
             const std::lock_guard lock(guard_);
@@ -79,7 +80,7 @@ class CircuitAfferent final : public Afferent {
                 return transient;
             }
         }
-        return StreamingTransient::make(*design_, T_, chip_);
+        return StreamingTransient::make(*factory_, T_, chip_);
     }
     void give_back(std::unique_ptr<StreamingTransient> transient) const {
         const std::lock_guard lock(guard_);
@@ -90,13 +91,15 @@ class CircuitAfferent final : public Afferent {
     Result<void> simulate_samples(StreamingTransient&, std::int64_t from, std::int64_t to, ResponseBlock&) const;
 
 public:
-    CircuitAfferent(std::shared_ptr<const CircuitAfferentFactory> design, double dt, bool sampled, std::optional<ChipSample> chip)
-        : design_(std::move(design)), T_(dt), sampled_(sampled), chip_(std::move(chip)),
-          delay_(static_cast<std::int64_t>(std::ceil(2.1 * design_->plan.max_step / dt)) + ForceWaveform::lookahead + 2),
-          format_(fmt::format("netlist {:016x}/2{}, T = {} s", design_->fingerprint,
+    CircuitAfferent(std::shared_ptr<const CircuitAfferentFactory> factory, double dt, bool sampled, std::optional<ChipSample> chip)
+        : factory_(std::move(factory)), T_(dt), sampled_(sampled), chip_(std::move(chip)),
+          // Transient::step() must know the force for 2.1 steps ahead.
+          delay_(static_cast<std::int64_t>(std::ceil(2.1 * factory_->plan.max_step / dt)) + ForceWaveform::lookahead + 2),
+          // The 2 is the version of the state's meaning. Chips are counted from 1 here.
+          format_(fmt::format("netlist {:016x}/2{}, T = {} s", factory_->fingerprint,
                               chip_ ? fmt::format(", chip {} of {}", chip_->chip + 1, chip_->seed) : "", dt)) {
-        for (const auto& s : design_->probes) probes_.push_back({s.name, s.is_voltage() ? "V" : "A"});
-        for (const auto& w : design_->operating_ranges) ranges_.push_back(w.range());
+        for (const auto& s : factory_->probes) probes_.push_back({s.name, s.is_voltage() ? "V" : "A"});
+        for (const auto& w : factory_->operating_ranges) ranges_.push_back(w.range());
     }
 
     std::span<const Probe> probes() const override { return probes_; }
@@ -105,7 +108,7 @@ public:
     std::int64_t delay() const override { return delay_; }
 
     Result<void> respond(std::span<const double> force, State& state, ResponseBlock& response) const override {
-        if (auto ok = check_block(design_->circuit->file, format_, state.values.size(), state, force); !ok) return ok;
+        if (auto ok = check_block(factory_->circuit->file, format_, state.values.size(), state, force); !ok) return ok;
         for (double* values : response.probes) std::fill_n(values, force.size(), std::numeric_limits<double>::quiet_NaN());
         if (force.empty()) return {};
         auto transient = borrow();
@@ -123,7 +126,7 @@ Result<void> CircuitAfferent::respond_with(StreamingTransient& transient, std::s
     } else {
         if (!transient.restore(state.values, state.step))
             return bad_input(
-                fmt::format("{}: a saved state is damaged: its values are not possible for this netlist", design_->circuit->file));
+                fmt::format("{}: a saved state is damaged: its values are not possible for this netlist", factory_->circuit->file));
         transient.append_force(force);
     }
     const auto before = transient.work();
@@ -140,23 +143,24 @@ Result<void> CircuitAfferent::respond_with(StreamingTransient& transient, std::s
     return done;
 }
 
-/// Simulates until samples from ... to - 1 are complete.
+/// Simulates until the responses to samples `from` to `to` - 1 are complete. Samples before 0 are those before the start.
 Result<void> CircuitAfferent::simulate_samples(StreamingTransient& transient, std::int64_t from, std::int64_t to,
                                                ResponseBlock& response) const {
+    // A spike at `to` or later stays pending for the next block. Then sample `to` - 1 has been reached, so no further step replaces it.
     const auto report_spike = [&] {
         auto& spike = transient.pending_spike();
         if (!spike || spike->step >= to) return;
-        response.spikes.push_back({spike->step, sampled_ ? 1 : spike->offset, response.afferent_index});
+        response.spikes.push_back({spike->step, sampled_ ? 1 : spike->offset, response.afferent_index});  // 1: at the sample itself
         spike.reset();
     };
     report_spike();
     for (std::int64_t sample = from;;) {
         for (; sample < to && transient.has_reached(sample); ++sample) {
             for (std::size_t p = 0; p < response.probes.size(); ++p)
-                response.probes[p][static_cast<std::size_t>(sample - from)] = transient.probe_value(design_->probes[p], sample);
+                response.probes[p][static_cast<std::size_t>(sample - from)] = transient.probe_value(factory_->probes[p], sample);
             for (std::size_t k = 0; sample >= 0 && k < response.range_violations.size(); ++k)
                 if (auto& o = response.range_violations[k];
-                    !design_->operating_ranges[k].contains(transient.probe_value(design_->operating_ranges[k].quantity, sample)))
+                    !factory_->operating_ranges[k].contains(transient.probe_value(factory_->operating_ranges[k].quantity, sample)))
                     o = {o.samples + 1, o.first_sample < 0 ? sample : o.first_sample};
         }
         if (sample == to) return {};
@@ -191,26 +195,27 @@ Result<std::shared_ptr<const CircuitAfferentFactory>> CircuitAfferentFactory::cr
     if (!(*context)->system.set_force_input(nullptr))
         return bad_input("no source carries a force; add one, such as 'iin 0 fin force 60n' (60 nA per newton)", location);
     if (!*output) return bad_input("no .spike directive defines the spike output; add '.spike v(NODE) LEVEL [rise|fall]'", location);
-    auto design = std::make_shared<CircuitAfferentFactory>();
+    auto factory = std::make_shared<CircuitAfferentFactory>();
     for (const auto& c : circuit->directives) {
         if (c.name == "mc") {
             const auto chips = parse_chip_spec(c);
             if (!chips) return chips.error();
-            design->chips = *chips;
+            factory->chips = *chips;
         }
         if (c.name != "tran") continue;
         const auto times = read_transient_times(c);
         if (!times) return times.error();
-        design->times = *times;
+        factory->times = *times;
     }
-    if (circuit->mismatch_seed) design->chips = ChipSpec{1, *circuit->mismatch_seed, true, true, circuit->chip};
+    // The mismatch override replaces .mc.
+    if (circuit->mismatch_seed) factory->chips = ChipSpec{1, *circuit->mismatch_seed, true, true, circuit->chip};
     if (probes->empty()) probes->push_back({output->value().text, output->value().unknowns});
-    design->circuit = std::move(circuit), design->plan = *plan, design->spike_output = **output, design->probes = std::move(*probes),
-    design->operating_ranges = std::move(*ranges);
-    design->plan.reported = interpolated_unknowns(*design);
-    design->plan.max_step = design->times.max_step.value_or(default_max_step);
-    design->fingerprint = fingerprint_of(*design->circuit);
-    return std::shared_ptr<const CircuitAfferentFactory>(std::move(design));
+    factory->circuit = std::move(circuit), factory->plan = *plan, factory->spike_output = **output, factory->probes = std::move(*probes),
+    factory->operating_ranges = std::move(*ranges);
+    factory->plan.reported = interpolated_unknowns(*factory);
+    factory->plan.max_step = factory->times.max_step.value_or(default_max_step);
+    factory->fingerprint = fingerprint_of(*factory->circuit);
+    return std::shared_ptr<const CircuitAfferentFactory>(std::move(factory));
 }
 
 std::vector<std::pair<std::string, std::string>> CircuitAfferentFactory::labels() const {
@@ -219,6 +224,7 @@ std::vector<std::pair<std::string, std::string>> CircuitAfferentFactory::labels(
 }
 
 std::unique_ptr<Afferent> CircuitAfferentFactory::make(double dt, bool sampled, std::uint32_t copy) const {
+    // Copy 0 is nominal, unless the mismatch override selects a chip for it.
     const bool has_chip = chips && (copy > 0 || circuit->mismatch_seed);
     const auto chip = has_chip ? std::optional(chips->sample(copy > 0 ? copy - 1 : 0)) : std::nullopt;
     return std::make_unique<CircuitAfferent>(shared_from_this(), dt, sampled, chip);

@@ -3,20 +3,21 @@
 namespace corpuscle::circuit {
 namespace {
 
-struct SelectedCurve {
+struct SelectedCurve {  // a curve and the name by which it was selected
     std::string name;
     CurveView view;
 };
 
+/// The named curves that the plot has.
 std::vector<SelectedCurve> find_selected(const Plot& plot, const std::vector<std::string>& names) {
     std::vector<SelectedCurve> out;
-    const CurveIndex known(plot);
+    const CurveIndex index(plot);
     for (const auto& name : names)
-        if (const auto view = CurveView::find(plot, name, &known)) out.push_back({name, *view});
+        if (const auto view = CurveView::find(plot, name, &index)) out.push_back({name, *view});
     return out;
 }
 
-/// The selected curves without values.
+/// The swept quantity and the selected curves, without values.
 Plot selected_head(const Plot& plot, const std::vector<SelectedCurve>& curves) {
     Plot out{plot.name, plot.is_complex, plot.has_sweep, {}};
     if (plot.has_sweep && !plot.curves.empty()) out.curves.push_back({plot.curves[0].name, plot.curves[0].type, {}});
@@ -45,7 +46,7 @@ Plot CurveSelector::begin(const Plot& head, const std::vector<std::string>& name
 
 std::span<const double> CurveSelector::select(std::span<const double> row) {
     if (keeps_all_) return row;
-    row_.assign(1, row[0]);
+    row_.assign(1, row[0]);  // the swept quantity
     for (const auto& view : views_) row_.push_back(view.value(PlotRow(row)).real());
     return row_;
 }

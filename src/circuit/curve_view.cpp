@@ -6,20 +6,20 @@
 namespace corpuscle::circuit {
 namespace {
 
-constexpr std::string_view view_names[] = {"", "m", "db", "p", "r", "i"};
+constexpr std::string_view part_names[] = {"", "m", "db", "p", "r", "i"};
 
-/// Applies the view that is named by the letters between v or i and the parenthesis.
-std::complex<double> view_of(std::string_view view, std::complex<double> x) {
-    if (view == "m") return std::abs(x);
-    if (view == "db") return 20 * std::log10(std::abs(x));
-    if (view == "p") return std::arg(x);
-    if (view == "r") return x.real();
-    if (view == "i") return x.imag();
+/// The part of x that is named by the letters between v or i and the parenthesis: "db" in vdb(out). "" is x itself.
+std::complex<double> part_of(std::string_view part, std::complex<double> x) {
+    if (part == "m") return std::abs(x);
+    if (part == "db") return 20 * std::log10(std::abs(x));
+    if (part == "p") return std::arg(x);
+    if (part == "r") return x.real();
+    if (part == "i") return x.imag();
     return x;
 }
 
-int index_of(const Plot& plot, std::string_view name, const CurveIndex* names = nullptr) {
-    if (names) return names->index_of(name);
+int index_of(const Plot& plot, std::string_view name, const CurveIndex* index) {
+    if (index) return index->index_of(name);
     for (std::size_t k = 0; k < plot.curves.size(); ++k)
         if (plot.curves[k].name == name) return static_cast<int>(k);
     return -1;
@@ -36,7 +36,7 @@ int CurveIndex::index_of(std::string_view name) const {
     return at == indices_.end() ? -1 : at->second;
 }
 
-std::complex<double> CurveView::apply_view(std::complex<double> difference) const { return view_of(view_, difference); }
+std::complex<double> CurveView::part_of_value(std::complex<double> difference) const { return part_of(part_, difference); }
 
 double CurveView::evaluate_expression(const PlotRow& row) const {
     constexpr std::size_t max_on_stack = 8;
@@ -52,7 +52,7 @@ Result<Expression> parse_par_expression(std::string_view name, const SourceLocat
     scope.allows_inputs = true;
     scope.parameter = [](std::string_view) -> std::optional<double> { return {}; };
     scope.function = [](std::string_view) -> const ExpressionScope::Function* { return nullptr; };
-    name.remove_prefix(4), name.remove_suffix(name.ends_with(')'));  // par( ... )
+    name.remove_prefix(4), name.remove_suffix(name.ends_with(')'));  // removes "par(" and ")"
     if (name.size() >= 2 && (name[0] == '\'' || name[0] == '{')) name = name.substr(1, name.size() - 2);
     return Expression::parse(name, location, scope);
 }
@@ -74,26 +74,26 @@ std::optional<CurveView> CurveView::find_expression(const Plot& plot, std::strin
     return out;
 }
 
-std::optional<CurveView> CurveView::find(const Plot& plot, std::string_view name, const CurveIndex* names) {
+std::optional<CurveView> CurveView::find(const Plot& plot, std::string_view name, const CurveIndex* index) {
     if (name.starts_with("par(")) return find_expression(plot, name);
     CurveView out;
     const auto open = name.find('(');
-    out.has_no_view_ = open <= 1;
-    out.plus_ = index_of(plot, name, names);
+    out.is_complex_value_ = open <= 1;
+    out.plus_ = index_of(plot, name, index);
     if (out.plus_ >= 0) return out;
     if (open == std::string_view::npos || !name.ends_with(')') || (name[0] != 'v' && name[0] != 'i')) return {};
-    const auto* view = std::find(std::begin(view_names), std::end(view_names), name.substr(1, open - 1));
-    if (view == std::end(view_names)) return {};
-    out.view_ = *view;
+    const auto* part = std::find(std::begin(part_names), std::end(part_names), name.substr(1, open - 1));
+    if (part == std::end(part_names)) return {};
+    out.part_ = *part;
     const auto inside = name.substr(open + 1, name.size() - open - 2);
     const auto comma = inside.find(',');
-    const auto find_index = [&](std::string_view node, int& index) {
+    const auto find_curve = [&](std::string_view node, int& curve) {
         if (node == "0" || node == "gnd") return true;
-        index = index_of(plot, std::string(1, name[0]) + "(" + std::string(node) + ")", names);
-        return index >= 0;
+        curve = index_of(plot, std::string(1, name[0]) + "(" + std::string(node) + ")", index);
+        return curve >= 0;
     };
-    if (!find_index(inside.substr(0, comma), out.plus_)) return {};
-    if (comma != std::string_view::npos && !find_index(inside.substr(comma + 1), out.minus_)) return {};
+    if (!find_curve(inside.substr(0, comma), out.plus_)) return {};
+    if (comma != std::string_view::npos && !find_curve(inside.substr(comma + 1), out.minus_)) return {};
     return out;
 }
 
@@ -101,7 +101,7 @@ std::vector<std::complex<double>> CurveView::all_values(const Plot& plot) const 
     std::vector<std::complex<double>> out(plot.point_count());
     if (!expression_) {
         const auto value = [&](int curve, std::size_t k) { return curve < 0 ? 0 : plot.curves[static_cast<std::size_t>(curve)].values[k]; };
-        for (std::size_t k = 0; k < out.size(); ++k) out[k] = apply_view(value(plus_, k) - value(minus_, k));
+        for (std::size_t k = 0; k < out.size(); ++k) out[k] = part_of_value(value(plus_, k) - value(minus_, k));
         return out;
     }
     std::vector<std::vector<std::complex<double>>> inputs;

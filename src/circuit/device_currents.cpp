@@ -13,7 +13,7 @@ void DeviceCurrents::extend_head(Plot& head) const {
 
 std::span<const double> DeviceCurrents::extend_point(std::span<const double> row) {
     if (currents_.empty()) return row;
-    row_.assign(row.begin(), row.end());
+    row_.assign(row.begin(), row.end());  // row[0] is the swept quantity, row[u + 1] the unknown u
     for (const auto& s : currents_)
         row_.push_back(s.value(system_, [&](int u) { return u < 0 ? 0 : row[static_cast<std::size_t>(u) + 1]; }));
     return row_;

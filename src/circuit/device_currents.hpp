@@ -5,7 +5,7 @@
 
 namespace corpuscle::circuit {
 
-/// The device currents among some saved quantities. The system must outlive it.
+/// Computes those of the saved quantities that are device currents. The system must outlive it.
 class DeviceCurrents {
     const System& system_;
     std::vector<SavedQuantity> currents_;
@@ -16,11 +16,13 @@ class DeviceCurrents {
 public:
     DeviceCurrents(const System&, std::span<const SavedQuantity>);
     bool has_any() const { return !currents_.empty(); }
-    /// Appends the curves, without values, to a plot without values. Its first curve must be the swept quantity, followed by all unknowns.
+    /// Appends a curve for each current to a plot without values.
     void extend_head(Plot& head) const;
-    /// Returns the point with the currents appended; valid until the next call.
+    /// Returns a point of the plot with the currents appended. `row` is the swept quantity, then all unknowns. The span is valid until the
+    /// next call.
     std::span<const double> extend_point(std::span<const double> row);
-    /// Appends the curves to a complete plot. Returns false if the plot is complex, lacks an unknown, or is swept over temperature.
+    /// Appends the currents to a complete plot. Returns false if they cannot be computed, because the plot is complex, is swept over
+    /// temperature, or has other curves than the unknowns.
     bool extend_plot(Plot&) const;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// All devices, by letter. To add one, include its header here and add a line to `devices`.
+// All kinds of devices, by letter. To add one, include its header here and add a line to `devices`.
 
 #include "circuit/device/diode.hpp"
 #include "circuit/device/passive.hpp"
@@ -35,7 +35,7 @@ inline constexpr DeviceKind devices[] = {
     {'m', "MOS transistor, UICM", make_transistor, true, false, make_transistor_batch},
 };
 
-/// The device of this letter; null if there is none.
+/// The kind of device of this letter; null if there is none.
 inline const DeviceKind* find_device_kind(char letter) {
     for (const auto& d : devices)
         if (d.letter == letter) return &d;
@@ -50,7 +50,7 @@ inline bool has_branch_current(const Element& e) {
         case 'h':
             return true;
         case 'e':
-            return !e.expression || e.expression_is_voltage;
+            return !e.expression || e.expression_is_voltage;  // an E with a gain is a voltage source, too
         case 'b':
         case 'g':
             return e.expression && e.expression_is_voltage;

@@ -14,7 +14,7 @@ constexpr double max_samples = 1e8;
 
 Error error_in(const Directive& c, std::size_t word, std::string message) { return error_at(c, word, ".force: " + std::move(message)); }
 
-/// The parameter's name with the stimulus's capital letters, since all names in a parsed netlist are in small letters.
+/// The parameter's name with its capital letters, as the stimulus declares it. A parsed netlist has all names in small letters.
 std::string spelling_of(std::string_view stimulus, std::string_view parameter) {
     for (const auto& card : stimulus_catalog())
         for (const auto& row : card.parameters)
@@ -23,8 +23,8 @@ std::string spelling_of(std::string_view stimulus, std::string_view parameter) {
 }
 
 struct ForceSpec {
-    std::vector<ParameterOverride> overrides;
-    double rate = 10e3;  // Hz
+    std::vector<ParameterOverride> overrides;  // parameters of the stimulus
+    double rate = 10e3;                        // Hz
 };
 
 Result<ForceSpec> parse_force_spec(const Directive& c) {
@@ -49,10 +49,10 @@ Result<ForceSpec> parse_force_spec(const Directive& c) {
 Result<ForceWaveform> read_waveform_of(ForceSource& source, const Directive& c) {
     ForceWaveform waveform(source.clock().T());
     double count = 0, last = 0;
-    for (Frames block(source.channels().size(), 4096);;) {
+    for (Frames block(source.channels().size(), 4096);;) {  // a stimulus has one channel
         if (auto ok = source.read(block); !ok) return ok.error();
         if (block.count == 0) {
-            waveform.append(std::vector<double>(ForceWaveform::lookahead + 1, last));  // the last samples need a lookahead
+            waveform.append(std::vector<double>(ForceWaveform::lookahead + 1, last));  // decides on breakpoints among the last samples
             return waveform;
         }
         if ((count += static_cast<double>(block.count)) > max_samples)
@@ -66,7 +66,7 @@ Result<std::unique_ptr<ForceSource>> source_of(const Directive& c) {
     if (c.words.empty()) return error_in(c, 0, "a stimulus is missing, such as '.force press f_max=2'");
     const auto spec = parse_force_spec(c);
     if (!spec) return spec.error();
-    auto source = make_stimulus(c.words[0], spec->overrides, spec->rate, 0);
+    auto source = make_stimulus(c.words[0], spec->overrides, spec->rate, 0);  // seed 0
     if (!source) return error_in(c, 0, source.error().message);
     for (const auto& parameter : spec->overrides)
         if (!parameter.is_used)
@@ -74,7 +74,7 @@ Result<std::unique_ptr<ForceSource>> source_of(const Directive& c) {
     return source;
 }
 
-/// The .force line; null if there is none.
+/// The .force line; null if there is none. A second one is an error.
 Result<const Directive*> find_force_line(const Circuit& circuit) {
     const Directive* found = nullptr;
     for (const auto& c : circuit.directives) {

@@ -1,5 +1,5 @@
 #pragma once
-// .force: the default force of a netlist, used if the caller provides none.
+// .force: the default force of a netlist, used if the caller provides no force.
 
 #include <optional>
 
@@ -10,9 +10,10 @@
 namespace corpuscle::circuit {
 
 /// Reads .force STIMULUS [PARAMETER=VALUE ...] [rate=10k], such as ".force press f_max=2". STIMULUS is the name of a stimulus or a sum
-/// of several; the parameters of a sum are written press.f_max. Returns nothing if the netlist has no .force.
+/// such as press+noise. In a sum, a parameter is written with its stimulus: press.f_max. The sample rate is in Hz. Returns nothing if
+/// the netlist has no .force.
 Result<std::optional<ForceWaveform>> force_directive(const Circuit&);
-/// The phases of the stimulus in .force; empty if there are none.
+/// The phases of the stimulus in .force; empty if the netlist has no .force or the stimulus has no phases.
 Result<std::vector<Phase>> force_phases(const Circuit&);
 
 }  // namespace corpuscle::circuit

@@ -8,11 +8,11 @@ namespace corpuscle::circuit {
 namespace {
 
 constexpr double min_bend = 2e-3;          // smallest bend of a breakpoint, as a fraction of the largest force
-constexpr double min_bend_ratio = 4;       // smallest ratio to the smaller of the bends two samples before and after
-constexpr double max_deviation = 0.05;     // from the line through the last breakpoint, as a fraction of the largest force
-constexpr std::size_t header_numbers = 7;  // in save(), before breakpoints and samples
+constexpr double min_bend_ratio = 4;       // smallest ratio of its bend to the smaller of the bends two samples before and after
+constexpr double max_deviation = 0.05;     // from the line from the last breakpoint, as a fraction of the largest force
+constexpr std::size_t header_numbers = 7;  // count of the numbers that save() writes before breakpoints and samples
 
-/// Limits a sample number to exact integers; a damaged state may contain larger ones.
+/// Limits a number of samples to the range in which a double represents every integer; a damaged state may contain larger ones.
 double to_exact_range(double samples) { return samples >= -0x1p53 && samples <= 0x1p53 ? samples : samples > 0 ? 0x1p53 : -0x1p53; }
 
 }  // namespace
@@ -34,7 +34,7 @@ void ForceWaveform::check_next_sample() {
         line_from_ = static_cast<double>(from), line_at_ = sample(from), line_slope_ = sample(from + 1) - sample(from);
     };
     largest_ = std::max({largest_, std::abs(sample(k - 1)), std::abs(sample(k)), std::abs(sample(k + lookahead))});
-    if (k == 1) begin_line(0);
+    if (k == 1) begin_line(0);  // before the first breakpoint
     const double nearby_bend = std::min(std::abs(bend(k - 2)), std::abs(bend(k + 2)));
     const bool is_sharp = std::abs(bend(k)) > std::max(min_bend * largest_, min_bend_ratio * nearby_bend);
     const double line = line_at_ + line_slope_ * (static_cast<double>(k) - line_from_);
@@ -52,7 +52,7 @@ double ForceWaveform::at(double t) const {
 
 double ForceWaveform::next_breakpoint(double t) const {
     const auto after = std::upper_bound(breakpoints_.begin(), breakpoints_.end(), t,
-                                        [&](double at, std::int64_t k) { return at < static_cast<double>(k) * T_; });
+                                        [&](double time, std::int64_t k) { return time < static_cast<double>(k) * T_; });
     return after == breakpoints_.end() ? std::numeric_limits<double>::infinity() : static_cast<double>(*after) * T_;
 }
 

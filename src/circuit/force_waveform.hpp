@@ -7,20 +7,22 @@
 
 namespace corpuscle::circuit {
 
-/// A piecewise linear waveform with samples every T seconds, the first at 0 s. Before the first sample and after the last the force is
-/// constant. Old samples are discarded.
+/// A piecewise linear waveform with samples every T seconds. Sample k is at time k T. Before the first sample and after the last, the force
+/// is constant. discard_before() frees the memory of old samples.
 ///
-/// Not every sample is a breakpoint, because each breakpoint costs the circuit a time step. A sample is a breakpoint if the force bends
-/// there much more sharply than two samples before or after. It is also one if the force deviates from the straight line through the
-/// last breakpoint by more than 5 % of the largest force so far. Between breakpoints, error control of the step size is sufficient.
+/// Not every sample is a breakpoint, because each breakpoint costs the circuit a time step. The bend at sample k is the second difference
+/// of the force. A sample is a breakpoint if its bend is not negligible and more than 4 times the bend at sample k - 2 or at sample k + 2.
+/// It is also one if the force deviates by more than 5 % of the largest force so far from the straight line that leaves the last breakpoint
+/// (at first, sample 0) with the slope there. Between breakpoints, error control of the step size is sufficient.
 class ForceWaveform {
     double T_;
-    std::int64_t first_ = 0;          // number of samples_[0]
-    std::int64_t next_to_check_ = 1;  // the next sample that may be a breakpoint
+    std::int64_t first_ = 0;          // samples_[0] is sample number first_
+    std::int64_t next_to_check_ = 1;  // the first sample for which it is not yet decided whether it is a breakpoint
     std::vector<double> samples_;
-    std::vector<std::int64_t> breakpoints_;
-    double line_from_ = 0, line_at_ = 0, line_slope_ = 0;  // the line from the last breakpoint: sample, N, N per sample
-    double largest_ = 0;                                   // N, the largest magnitude of all samples that were checked
+    std::vector<std::int64_t> breakpoints_;  // sample numbers, in increasing order
+    // The straight line from the last breakpoint: its sample number, the force there (N) and the slope (N per sample).
+    double line_from_ = 0, line_at_ = 0, line_slope_ = 0;
+    double largest_ = 0;  // N, the largest magnitude of the force so far
 
     double sample(std::int64_t k) const;
     double bend(std::int64_t k) const { return sample(k - 1) - 2 * sample(k) + sample(k + 1); }
@@ -33,20 +35,21 @@ public:
     void append(std::span<const double> force);
     /// The force at time t, N; t in s.
     double at(double t) const;
-    /// The first breakpoint after t, s; infinity if none is known.
+    /// The time of the first breakpoint after time t, s; infinity if no later breakpoint is known.
     double next_breakpoint(double t) const;
     /// Up to this time, s, neither values nor breakpoints depend on samples that are still to be appended.
     double known_until() const { return static_cast<double>(next_to_check_ - 1) * T_; }
     /// The number of samples after a sample that are needed to decide whether it is a breakpoint.
     static constexpr std::int64_t lookahead = 3;
-    /// The number of the sample that will be appended next.
+    /// The number of the sample that append() will add first.
     std::int64_t end_sample() const { return first_ + static_cast<std::int64_t>(samples_.size()); }
-    /// Discards samples before t, s, which must not be requested again.
+    /// Discards samples and breakpoints before time t, s. at() must not be called again for earlier times.
     void discard_before(double t);
-    /// Moves the origin of time, 0 s, to this sample.
+    /// Moves the origin of time by this number of samples: sample number `samples` becomes number 0, at 0 s.
     void shift_origin(std::int64_t samples);
 
-    /// Writes the complete state as numbers. restore() reads them; it returns false if they cannot come from save().
+    /// Appends the complete state, except T, to `out` as numbers. restore() reads them and returns false if save() cannot have written
+    /// them.
     void save(std::vector<double>& out) const;
     bool restore(std::span<const double> in);
 };

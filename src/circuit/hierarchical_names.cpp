@@ -8,7 +8,7 @@
 namespace corpuscle::circuit {
 namespace {
 
-constexpr int no_match = 4;
+constexpr int no_match = 4;  // above all ranks of match_rank()
 
 std::vector<std::string_view> split(std::string_view name) {
     std::vector<std::string_view> out;
@@ -26,7 +26,8 @@ bool has_optional_letter(std::string_view piece, bool is_last, LastPiece kind) {
     return is_last ? kind == LastPiece::element : piece[0] == 'x';
 }
 
-/// How well a name matches. 0 is the full path, 1 the full path with letters left out; 2 and 3 are the same for the end of the path.
+/// How well a name matches the typed pieces; a lower rank is better. 0: `typed` is the full path; 1: the full path with letters left out;
+/// 2 and 3: the same for the end of the path.
 int match_rank(std::string_view name, std::span<const std::string_view> typed, LastPiece kind) {
     const auto pieces = split(name);
     if (typed.size() > pieces.size()) return no_match;

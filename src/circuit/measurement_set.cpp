@@ -13,7 +13,7 @@ bool is_expression(const Directive& c) { return c.words.size() > 2 && c.words[2]
 
 using KnownNumbers = std::vector<std::pair<std::string, double>>;
 
-/// Parses param='EXPRESSION', which may use the results of earlier measurements.
+/// Parses param='EXPRESSION', which may use numbers of the analyses and results of earlier measurements.
 Result<Expression> parse_expression(const Directive& c, const KnownNumbers& numbers) {
     ExpressionScope scope;
     scope.parameter = [&](std::string_view name) -> std::optional<double> {
@@ -23,7 +23,7 @@ Result<Expression> parse_expression(const Directive& c, const KnownNumbers& numb
     };
     scope.function = [](std::string_view) -> const ExpressionScope::Function* { return nullptr; };
     for (const auto& [known, value] : numbers) scope.suggestions.push_back(known);
-    auto inside = c.words[2].substr(6);
+    auto inside = c.words[2].substr(6);  // after "param="
     if (inside.size() > 1 && (inside.front() == '\'' || inside.front() == '{')) inside = inside.substr(1, inside.size() - 2);
     return Expression::parse(inside, c.location, scope);
 }
@@ -45,7 +45,8 @@ MeasurementSet::MeasurementSet(const Circuit& circuit) {
 Result<void> MeasurementSet::begin(std::string_view analysis, const Plot& head) {
     active_.clear();
     for (auto& entry : entries_) {
-        const auto& c = *entry.command;
+        // A line that has a measurement already measured an earlier analysis of this kind.
+        const auto& c = *entry.directive;
         if (c.words.size() < 3 || c.words[0] != analysis || is_expression(c) || entry.measurement) continue;
         auto parsed = parse_measurement(c, head);
         if (!parsed) return parsed.error();
@@ -65,11 +66,11 @@ Result<void> MeasurementSet::add_plot(std::string_view analysis, const Plot& plo
     return {};
 }
 
-Result<void> MeasurementSet::check(const std::vector<std::string>& numbers) const {
-    KnownNumbers known;
-    for (const auto& name : numbers) known.emplace_back(name, 1.0);
-    for (const auto& [command, measurement] : entries_) {
-        const auto& c = *command;
+Result<void> MeasurementSet::check(const std::vector<std::string>& number_names) const {
+    KnownNumbers known;  // the values are arbitrary, since only the names matter
+    for (const auto& name : number_names) known.emplace_back(name, 1.0);
+    for (const auto& [directive, measurement] : entries_) {
+        const auto& c = *directive;
         if (c.words.size() < 3) return incomplete_measure(c);
         if (is_expression(c)) {
             if (const auto expression = parse_expression(c, known); !expression) return expression.error();
@@ -82,8 +83,8 @@ Result<void> MeasurementSet::check(const std::vector<std::string>& numbers) cons
 }
 
 Result<void> MeasurementSet::finish(std::vector<std::pair<std::string, double>>& numbers, std::vector<Error>& warnings) const {
-    for (const auto& [command, measurement] : entries_) {
-        const auto& c = *command;
+    for (const auto& [directive, measurement] : entries_) {
+        const auto& c = *directive;
         if (c.words.size() < 3) return incomplete_measure(c);
         if (is_expression(c)) {
             const auto expression = parse_expression(c, numbers);

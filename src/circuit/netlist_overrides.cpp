@@ -17,13 +17,13 @@ constexpr std::string_view reserved_names[] = {"corner", "temp", "mismatch"};
 
 Error error_of(const NetlistOverride& setting, std::string_view why) { return bad_input(fmt::format("{}: {}", setting.text, why)); }
 
-/// A parameter of an element that can be set: w of an M, dtemp of an R; "" is the element's value.
+/// A parameter of an element that can be set: w of an M, dtemp of an R; "" is the element's value. `low` and `high` are allowed, too.
 struct ElementParameter {
     std::string_view name, unit;
     double low, high;
 };
 
-constexpr double huge = std::numeric_limits<double>::max();
+constexpr double huge = std::numeric_limits<double>::max();  // as `high`: no limit
 
 std::vector<ElementParameter> parameters_of(const Element& e) {
     if (e.letter == 'm') {
@@ -62,7 +62,7 @@ bool has_parameter(const Element& e, std::string_view name) {
     return std::any_of(all.begin(), all.end(), [&](const ElementParameter& n) { return n.name == name; });
 }
 
-/// Reads "8x4" as 8 columns of 4 units in series.
+/// Reads "8x4", an array of 8 columns of 4 units in series, as (8, 4); nothing if the text has another form.
 std::optional<std::pair<double, double>> array_of(std::string_view text) {
     const auto cross = text.find_first_of("xX");
     if (cross == std::string_view::npos) return {};
@@ -71,10 +71,10 @@ std::optional<std::pair<double, double>> array_of(std::string_view text) {
     return std::pair(*columns, *units);
 }
 
-/// Resolves override names in one circuit and adds them to `changes`.
+/// Finds the devices that overrides name in a circuit, and adds their new values to `changes`.
 class OverrideResolver {
     const Circuit& circuit_;
-    const std::vector<std::string>& parameters_;
+    const std::vector<std::string>& parameters_;  // names of the top level's .param lines, for error messages
     ResolvedOverrides& changes_;
     std::vector<std::string_view> names_;  // of the elements
 
@@ -84,6 +84,7 @@ public:
         for (const auto& e : circuit.elements) names_.push_back(e.name);
     }
 
+    /// A name is tried as a device first, then as a device and its parameter.
     Result<void> apply(const NetlistOverride& setting) {
         const auto elements = find_matching_names(names_, setting.name, LastPiece::element);
         if (elements.size() == 1) return override_device(setting, element(elements[0]), "");
@@ -106,6 +107,7 @@ private:
         return error_of(setting, fmt::format("'{}' is ambiguous: {}; write more of its path", typed, abbreviated_list(names)));
     }
 
+    /// The error for a name that is neither a parameter nor a device.
     Error unknown(const NetlistOverride& setting) const {
         const auto pieces = piece_count(setting.name);
         std::vector<std::string> known(std::begin(reserved_names), std::end(reserved_names));
@@ -126,7 +128,7 @@ private:
                                     names_.empty() ? "none" : short_name(names_.back(), piece_count(names_.back()), LastPiece::element)));
     }
 
-    /// Overrides a parameter of a device; "" is its value.
+    /// Overrides a parameter of a device; "" is the device's value, for a transistor its array.
     Result<void> override_device(const NetlistOverride& setting, const Element& e, std::string_view parameter) {
         if (parameter.empty() && e.letter == 'm') return override_array(setting, e);
         const auto known = parameters_of(e);
@@ -171,7 +173,8 @@ private:
         return {};
     }
 
-    /// Adds one value to the changes. The names r of an R, c of a C, l of an L and dc of a source mean the element's value.
+    /// Adds one value to the changes. The names r of an R, c of a C, l of an L and dc of a source mean the element's value. The m of an M
+    /// does not: it is the number of its columns.
     Result<void> add_change(const NetlistOverride& setting, const Element& e, const ElementParameter& parameter, double value) {
         const bool means_value = parameter.name == "dc" || parameter.name == std::string_view(&e.letter, 1);
         if (!(value >= parameter.low && value <= parameter.high))
@@ -201,7 +204,7 @@ Result<double> temperature_of(const NetlistOverride& setting) {
     return *value;
 }
 
-/// Reads "7" or "7/41": a seed, and the number of the chip, from 0.
+/// Reads "7" or "7/41": a seed, and the number of the chip, counted from 0 (the default).
 Result<std::pair<std::uint64_t, std::uint64_t>> chip_of(const NetlistOverride& setting) {
     const std::string_view text = setting.value;
     const auto slash = text.find('/');
@@ -215,7 +218,8 @@ Result<std::pair<std::uint64_t, std::uint64_t>> chip_of(const NetlistOverride& s
     return std::pair(out[0], out[1]);
 }
 
-/// If the error says that no library has the corner, puts the override's text in front.
+/// If the error says that no library has the corner, puts the override's text in front. The texts compared are those of
+/// CornerSelector::check_found().
 Error with_corner_override(std::span<const NetlistOverride> overrides, const std::string& corner, Error error) {
     if (error.message.find(fmt::format("no corner '{}'", corner)) == std::string::npos &&
         error.message.find(fmt::format("there is no corner '{}'", corner)) == std::string::npos)
@@ -258,7 +262,7 @@ Result<Netlist> apply_overrides(const NetlistOpener& open, const std::string& na
     if (!netlist) return with_corner_override(overrides, changes.corner, netlist.error());
     std::vector<std::string> parameters;
     for (const auto& [parameter, text] : netlist->parameters()) parameters.push_back(parameter);
-    std::vector<const NetlistOverride*> devices;
+    std::vector<const NetlistOverride*> device_overrides;
     for (const auto& setting : overrides) {
         const auto lower_name = lower(setting.name);
         if (lower_name == "corner") continue;
@@ -276,14 +280,15 @@ Result<Netlist> apply_overrides(const NetlistOpener& open, const std::string& na
             const std::vector<std::string_view> known(parameters.begin(), parameters.end());
             return error_of(setting, fmt::format("{} has no .param {}{}", name, lower_name, did_you_mean(lower_name, known)));
         } else {
-            devices.push_back(&setting);
+            device_overrides.push_back(&setting);
         }
     }
-    if (devices.empty()) return netlist->with_overrides(std::move(changes));
+    if (device_overrides.empty()) return netlist->with_overrides(std::move(changes));
+    // The elements have names and values only in a flat circuit, which depends on the overrides so far.
     const auto circuit = netlist->with_overrides(changes).elaborate();
     if (!circuit) return circuit.error();
     OverrideResolver resolver(*circuit, parameters, changes);
-    for (const auto* setting : devices)
+    for (const auto* setting : device_overrides)
         if (auto ok = resolver.apply(*setting); !ok) return ok.error();
     return netlist->with_overrides(std::move(changes));
 }

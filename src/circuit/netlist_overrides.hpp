@@ -13,26 +13,27 @@ namespace corpuscle::circuit {
 ///
 ///  - a .param of the top level
 ///
-///  - a device: sets the value of R C L V I, the gain of E F G H, or the array of a transistor ("8x4" is 8 columns of 4 in series)
+///  - a device: sets the value of R C L, the DC value of V I, the gain of E F G H, or the array of a transistor ("8x4" is 8 columns of 4
+///    elements in series)
 ///
 ///  - a device and one of its parameters, "summer.N3B.w"
 ///
-/// Letters may be of either case. The end of a device's path is enough. The first letter, which tells SPICE the kind of device, may be
-/// left out.
+/// Case is ignored. The end of a device's path is enough. The first letter of a device or subcircuit, which tells SPICE its kind, may be
+/// left out: summer.N3B is xsummer.mn3b.
 struct NetlistOverride {
     std::string name, value;
     std::string text;                ///< as the user wrote it: "--set sa1-circuit.C_u=4pF"
-    bool is_parameter_only = false;  ///< the name is never a device; for --supply
+    bool is_parameter_only = false;  ///< the name must not be that of a device; for --supply
 };
 
-/// Opens the netlist of a name or path and applies the overrides; a later one wins over an earlier one.
+/// Opens the netlist of a name or path and applies the overrides. If two set the same value, the later one wins.
 Result<Netlist> apply_overrides(const std::string& name_or_path, std::span<const NetlistOverride>);
 
-/// The same for a netlist that `open` reads for a corner; errors call it `name`.
+/// The same for a netlist that `open` reads with a given corner ("" if no override sets one). Error messages call the netlist `name`.
 using NetlistOpener = std::function<Result<Netlist>(const std::string& corner)>;
 Result<Netlist> apply_overrides(const NetlistOpener& open, const std::string& name, std::span<const NetlistOverride>);
 
-/// A number in SI units and the unit that was written with it: "4pF" is {4e-12, "F"}. Unlike in SPICE, M is mega and m is milli.
+/// A number in SI units and the unit that was written with it ("" if none): "4pF" is {4e-12, "F"}. Unlike in SPICE, M is mega.
 struct NumberWithUnit {
     double value;
     std::string_view unit;

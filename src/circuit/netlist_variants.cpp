@@ -14,7 +14,7 @@ namespace {
 constexpr double max_variants = 1e6;
 
 Error too_many(const Directive& c, double count) {
-    return bad_input(fmt::format(".{}: {:g} values exceed the limit of {:g}", c.name, count, max_variants), c.location);
+    return bad_input(fmt::format(".{}: {:g} variants exceed the limit of {:g}", c.name, count, max_variants), c.location);
 }
 
 Result<std::vector<double>> linear_values(const Directive& c, std::size_t word) {
@@ -22,15 +22,16 @@ Result<std::vector<double>> linear_values(const Directive& c, std::size_t word) 
                step = read_number(c, word + 2, "a step");
     for (const auto* number : {&from, &to, &step})
         if (!*number) return number->error();
-    const double count = std::floor((*to - *from) / *step + 1e-9);
-    if (!(count >= 0))
+    const double steps = std::floor((*to - *from) / *step + 1e-9);
+    if (!(steps >= 0))
         return bad_input(fmt::format(".step: a step of {:g} does not lead from {:g} to {:g}", *step, *from, *to), c.location);
-    if (!(count < max_variants)) return too_many(c, count);
+    if (!(steps < max_variants)) return too_many(c, steps + 1);
     std::vector<double> out;
-    for (double k = 0; k <= count; ++k) out.push_back(*from + k * *step);
+    for (double k = 0; k <= steps; ++k) out.push_back(*from + k * *step);
     return out;
 }
 
+/// The values of .step dec (base 10) or oct (base 2).
 Result<std::vector<double>> log_values(const Directive& c, std::size_t word, double base) {
     const auto from = read_number(c, word, "the first value"), to = read_number(c, word + 1, "the last value"),
                points = read_number(c, word + 2, "the number of points");
@@ -40,10 +41,10 @@ Result<std::vector<double>> log_values(const Directive& c, std::size_t word, dou
         return bad_input(fmt::format(".step: {:g} points from {:g} to {:g}; POINTS must be at least 1, FROM above 0, and TO not below FROM",
                                      *points, *from, *to),
                          c.location);
-    const double count = std::floor(std::log(*to / *from) / std::log(base) * *points + 1e-9);
-    if (!(count < max_variants)) return too_many(c, count);
+    const double steps = std::floor(std::log(*to / *from) / std::log(base) * *points + 1e-9);
+    if (!(steps < max_variants)) return too_many(c, steps + 1);
     std::vector<double> out;
-    for (double k = 0; k <= count; ++k) out.push_back(*from * std::pow(base, k / *points));
+    for (double k = 0; k <= steps; ++k) out.push_back(*from * std::pow(base, k / *points));
     return out;
 }
 
@@ -88,10 +89,11 @@ Result<NetlistVariants> NetlistVariants::create(const Netlist& netlist) {
     auto nominal = netlist.elaborate();
     if (!nominal) return nominal.error();
     out.nominal_ = std::make_shared<const Circuit>(std::move(*nominal));
-    double count = 1;
+    double count = 1;  // of the variants so far
     for (const auto& c : out.nominal_->directives) {
         if (c.name == "step") {
-            std::size_t at = 0;
+            // [dec|oct] [param] NAME, then the values
+            std::size_t at = 0;  // index of the word to read next
             const auto word = [&] { return at < c.words.size() ? c.words[at] : std::string(); };
             const bool is_log = word() == "dec" || word() == "oct";
             const double base = word() == "dec" ? 10 : 2;
@@ -120,7 +122,8 @@ Result<NetlistVariants> NetlistVariants::create(const Netlist& netlist) {
             const auto chips = parse_chip_spec(c);
             if (!chips) return chips.error();
             count *= chips->count;
-            if (!(chips->count >= 1 && count <= max_variants)) return too_many(c, count);
+            if (!(chips->count >= 1)) return bad_input(".mc: the number of chips must be at least 1", c.location);
+            if (!(count <= max_variants)) return too_many(c, count);
             out.chips_ = *chips;
             out.chips_.count = std::floor(chips->count);
         }
@@ -143,7 +146,7 @@ Result<void> NetlistVariants::elaborate_step(std::size_t number) {
     Values parameters;
     std::optional<double> temperature;
     std::string label;
-    auto rest = number;
+    auto rest = number;  // the number without the digits of the axes that are done
     for (auto axis = axes_.rbegin(); axis != axes_.rend(); ++axis) {
         const double value = axis->values[rest % axis->values.size()];
         rest /= axis->values.size();

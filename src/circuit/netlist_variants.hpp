@@ -10,23 +10,23 @@ namespace corpuscle::circuit {
 
 /// One variant of a netlist.
 struct Variant {
-    std::string label;                       ///< "r=1000", "temp=85", "mc=17", separated by blanks; "" if there is only one variant
-    std::shared_ptr<const Circuit> circuit;  ///< shared with the previous variant if only the chip differs
-    std::optional<ChipSample> sample;
+    std::string label;                       ///< such as "r=1000 temp=85 mc=17" (chips counted from 1); "" without .step and .mc
+    std::shared_ptr<const Circuit> circuit;  ///< variants that differ only in their chip share one circuit
+    std::optional<ChipSample> sample;        ///< of the variant's chip; empty: nominal
 };
 
 /// The chips that a .mc line requests.
 struct ChipSpec {
-    double count = 0;
+    double count = 0;  ///< number of chips
     std::uint64_t seed = 0;
-    bool has_process = true, has_mismatch = true;
-    std::uint64_t first_chip = 0;  ///< number of the first chip
+    bool has_process = true, has_mismatch = true;  ///< the chips have random process shifts; their devices have random mismatch
+    std::uint64_t first_chip = 0;                  ///< number of the first chip among all chips of this seed
 
-    ChipSample sample(std::uint64_t chip) const;  ///< the sample of chip number `first_chip` + `chip`
+    ChipSample sample(std::uint64_t chip) const;  ///< the sample of chip number `first_chip` + `chip` of this seed
 };
 /// Reads a .mc line.
 Result<ChipSpec> parse_chip_spec(const Directive&);
-/// The sample of the circuit's chip; nothing if the circuit has no mismatch seed.
+/// The sample of the chip that the mismatch override selects; nothing if the circuit has no mismatch seed.
 std::optional<ChipSample> chip_sample_of(const Circuit&);
 
 /// All combinations of the values of .step with the chips of .mc:
@@ -35,9 +35,9 @@ std::optional<ChipSample> chip_sample_of(const Circuit&);
 ///
 ///     .mc COUNT [seed=S] [process=0] [mismatch=0]
 ///
-/// To step the temperature, write temp instead of param NAME. Several .step lines give all combinations of their values. Each chip has
-/// a random process shift, and each of its transistors has a random delvto and mulu0. The standard deviations are in the model card (avt,
-/// ais, svt0, sis).
+/// POINTS is for each decade (dec) or octave (oct). To step the temperature, write temp instead of param NAME. Several .step lines give all
+/// combinations of their values. Each chip has a random process shift, with the standard deviations svt0 and sis of the model card. Each of
+/// its transistors has a random mismatch, with the coefficients avt and ais.
 class NetlistVariants {
 public:
     /// The values of one .step line.
@@ -48,25 +48,28 @@ public:
 
 private:
     Netlist netlist_;
-    std::vector<Axis> axes_;
+    std::vector<Axis> axes_;  // one for each .step line, in order
     ChipSpec chips_;
-    std::shared_ptr<const Circuit> nominal_;
-    struct StepResult {
-        std::size_t number;
-        std::string label;
+    std::shared_ptr<const Circuit> nominal_;  // the netlist's own parameter values
+    /// The circuit of one combination of .step values.
+    struct StepCircuit {
+        std::size_t number;  // of the combination, from 0; the last .step line varies fastest
+        std::string label;   // "r=1000 temp=85"
         std::shared_ptr<const Circuit> circuit;
     };
-    std::optional<StepResult> last_;
+    std::optional<StepCircuit> last_;  // the combination that was elaborated last
 
+    /// Makes `last_` the combination of this number.
     Result<void> elaborate_step(std::size_t number);
 
 public:
     static Result<NetlistVariants> create(const Netlist&);
-    std::size_t count() const;
+    std::size_t count() const;  ///< number of variants, at least 1
     const std::vector<Axis>& axes() const { return axes_; }
     const ChipSpec& chips() const { return chips_; }  ///< count is 0 if there is no .mc
     bool has_chips() const { return chips_.count > 0; }
-    /// The variant of this number; the chip varies fastest. Consecutive numbers are cheap, since they share the circuit.
+    /// The variant of this number, from 0 to count() - 1. The chip varies fastest, then the last .step line. A variant that differs from
+    /// the previous one only in its chip is cheap, since it shares the circuit.
     Result<Variant> at(std::size_t number);
 };
 

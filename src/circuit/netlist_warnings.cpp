@@ -11,9 +11,9 @@
 namespace corpuscle::circuit {
 namespace {
 
-constexpr double max_gate_size = 1e-3;  // m
+constexpr double max_gate_size = 1e-3;  // m; a larger w or l was probably meant in micrometres
 
-/// One warning for all elements for which holds() is true, located at the first of them.
+/// One warning for all elements for which holds() is true, located at the first of them. Its text is message(first element).
 template <class Holds, class Message>
 void warn(std::vector<Error>& out, const Circuit& c, Holds&& holds, Message&& message) {
     const Element* first = nullptr;
@@ -47,8 +47,8 @@ void warn_about_sizes(std::vector<Error>& out, const Circuit& c) {
             });
 }
 
-bool has_command(const Circuit& c, std::string_view command) {
-    return std::any_of(c.directives.begin(), c.directives.end(), [&](const Directive& directive) { return directive.name == command; });
+bool has_directive(const Circuit& c, std::string_view name) {
+    return std::any_of(c.directives.begin(), c.directives.end(), [&](const Directive& directive) { return directive.name == name; });
 }
 
 void warn_about_initial_conditions(std::vector<Error>& out, const Circuit& c) {
@@ -81,7 +81,7 @@ void warn_about_missing_ac(std::vector<Error>& out, const Circuit& c) {
 }
 
 void warn_about_pulses(std::vector<Error>& out, const Circuit& c) {
-    enum { rise = 3, fall = 4, width = 5, period = 6 };
+    enum { rise = 3, fall = 4, width = 5, period = 6 };  // indices of the arguments of PULSE
     const auto length = [](const Element& e) { return e.waveform.numbers[rise] + e.waveform.numbers[width] + e.waveform.numbers[fall]; };
     warn(
         out, c,
@@ -112,7 +112,7 @@ void warn_about_tran_times(std::vector<Error>& out, const Circuit& c) {
 std::vector<Error> netlist_warnings(const Circuit& c) {
     std::vector<Error> out;
     warn_about_sizes(out, c), warn_about_missing_ac(out, c), warn_about_pulses(out, c), warn_about_tran_times(out, c);
-    if (has_command(c, "tran")) warn_about_initial_conditions(out, c);
+    if (has_directive(c, "tran")) warn_about_initial_conditions(out, c);
     return out;
 }
 

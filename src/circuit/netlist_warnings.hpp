@@ -1,5 +1,5 @@
 #pragma once
-// Warnings about likely mistakes in a netlist that can be solved.
+// Warnings about likely mistakes in a valid netlist.
 
 #include <vector>
 
@@ -7,8 +7,9 @@
 
 namespace corpuscle::circuit {
 
-/// Warns about sizes in metres that look like micrometres, missing sizes, unused initial conditions, .ac without an AC source, and
-/// pulses longer than their period. There is one warning of each kind, located at the first element concerned.
+/// Warns about transistor sizes in metres that were probably meant in micrometres, missing sizes, ic= and off without effect, .ac without
+/// an AC source, pulses longer than their period, and a .tran whose STEP is longer than STOP. There is one warning of each kind for all
+/// elements, located at the first of them, and one for each such .tran.
 std::vector<Error> netlist_warnings(const Circuit&);
 
 }  // namespace corpuscle::circuit

@@ -12,7 +12,7 @@ Result<OperatingRange> parse_range(const System& system, const Directive& c) {
     const auto low = read_number(c, 1, "the lowest value"), high = read_number(c, 2, "the highest value");
     if (!low) return low.error();
     if (!high) return high.error();
-    if (!(*low < *high)) return error_at(c, 1, fmt::format(".assert: {:g} to {:g}: the first must be below the second", *low, *high));
+    if (!(*low < *high)) return error_at(c, 1, fmt::format(".assert: {:g} to {:g}: LOW must be below HIGH", *low, *high));
     OperatingRange out{{c.words[0], *unknowns}, *low, *high, "", c.location};
     if (c.words.size() > 3) {
         const std::string_view word = c.words[3];

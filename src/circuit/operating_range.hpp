@@ -10,13 +10,15 @@ namespace corpuscle::circuit {
 /// Violations are reported; the simulation continues.
 struct OperatingRange {
     SavedQuantity quantity;
-    double low, high;
+    double low, high;     ///< V or A; both are within the range
     std::string message;  ///< explains a violation; may be ""
     SourceLocation location;
 
     ValidRange range() const { return {quantity.name, quantity.is_voltage() ? "V" : "A", low, high, message}; }
+    /// True if a value of the quantity is within the range.
     bool contains(double x) const { return x >= low && x <= high; }
 };
+/// Reads all .assert lines of the system's circuit.
 Result<std::vector<OperatingRange>> read_operating_ranges(const System&);
 
 }  // namespace corpuscle::circuit

@@ -11,9 +11,9 @@
 namespace corpuscle::circuit {
 namespace {
 
-/// An analysis and its curves, without values.
+/// The directive of an analysis, and the curves that it will produce, without values.
 struct Head {
-    const Directive* command;
+    const Directive* directive;
     Plot plot;
 };
 
@@ -49,6 +49,7 @@ Plot expected_curves(const System& system, const DeviceCurrents& currents, const
         auto plot = make_plot(system, "Transient Analysis", "time", "time");
         return currents.extend_head(plot), plot;
     }
+    // .dc
     const std::string swept = c.words.empty() ? "v" : c.words[0];
     const bool is_temperature = swept == "temp";
     auto plot = make_plot(system, "DC transfer characteristic",
@@ -63,8 +64,9 @@ Plot expected_curves(const System& system, const DeviceCurrents& currents, const
 
 class OutputDirectives {
     const Circuit& circuit_;
-    std::vector<Head> heads_;
-    std::vector<CurveIndex> names_;
+    std::vector<Head> heads_;  // of all analyses
+    // For each head, the index of its curves. It refers to the names in the head, so `heads_` must not change after the constructor.
+    std::vector<CurveIndex> indices_;
     std::vector<Error>& warnings_;
 
 public:
@@ -72,7 +74,7 @@ public:
         : circuit_(system.circuit()), warnings_(warnings) {
         for (const auto& c : circuit_.directives)
             if (find_analysis(c.name) != nullptr) heads_.push_back({&c, expected_curves(system, currents, c)});
-        for (const auto& head : heads_) names_.emplace_back(head.plot);
+        for (const auto& head : heads_) indices_.emplace_back(head.plot);
     }
 
     Result<void> check() {
@@ -87,8 +89,8 @@ public:
             }
         MeasurementSet measures(circuit_);
         for (const auto& head : heads_)
-            if (auto ok = measures.begin(head.command->name, head.plot); !ok) return ok;
-        const auto known = numbers();
+            if (auto ok = measures.begin(head.directive->name, head.plot); !ok) return ok;
+        const auto known = number_names();
         if (auto ok = measures.check(known); !ok) return ok;
         for (const auto& c : circuit_.directives)
             if (c.name == "expect")
@@ -97,41 +99,43 @@ public:
     }
 
 private:
-    /// Each word of .print and .plot must be a curve of the analysis that the first word names. Without such a name, any analysis may have
-    /// the curve.
+    /// The first word of .print and .plot may name an analysis. Each further word must be a curve of this analysis. If the first word does
+    /// not name one, each word must be a curve of some analysis.
     Result<void> check_columns(const Directive& c) {
         if (c.name == "plot")
             warnings_.push_back(
                 bad_input(".plot has no effect here; --out x.csv or x.raw writes the curves, .print prints columns", c.location));
-        const bool named = !c.words.empty() && find_analysis(c.words[0]) != nullptr;
-        if (c.words.size() == (named ? 1U : 0U))
+        const bool names_analysis = !c.words.empty() && find_analysis(c.words[0]) != nullptr;
+        if (c.words.size() == (names_analysis ? 1U : 0U))
             return bad_input(fmt::format(".{}: expected .{} tran v(NODE) ...", c.name, c.name), c.location);
-        if (named && std::none_of(heads_.begin(), heads_.end(), [&](const Head& h) { return h.command->name == c.words[0]; })) {
+        if (names_analysis && std::none_of(heads_.begin(), heads_.end(), [&](const Head& h) { return h.directive->name == c.words[0]; })) {
             warnings_.push_back(
                 bad_input(fmt::format(".{}: the netlist has no .{}, so nothing is printed", c.name, c.words[0]), c.location));
             return {};
         }
-        for (std::size_t k = named ? 1 : 0; k < c.words.size(); ++k)
+        for (std::size_t k = names_analysis ? 1 : 0; k < c.words.size(); ++k)
             if (c.words[k].find('=') != std::string::npos && !c.words[k].starts_with("par("))
                 warnings_.push_back(error_at(c, k, fmt::format(".{}: '{}' has no effect here", c.name, c.words[k])));
             else if (c.words[k] == "all")
                 continue;
-            else if (auto ok = check_curve(c, k, named); !ok)
+            else if (auto ok = check_curve(c, k, names_analysis); !ok)
                 return ok;
         return {};
     }
-    Result<void> check_curve(const Directive& c, std::size_t k, bool named) const {
+    /// Checks that word k is a curve. If `names_analysis` is true, only the analysis that the first word names may have it.
+    Result<void> check_curve(const Directive& c, std::size_t k, bool names_analysis) const {
         const auto& word = c.words[k];
         for (std::size_t h = 0; h < heads_.size(); ++h)
-            if ((!named || heads_[h].command->name == c.words[0]) && CurveView::find(heads_[h].plot, word, &names_[h])) return {};
+            if ((!names_analysis || heads_[h].directive->name == c.words[0]) && CurveView::find(heads_[h].plot, word, &indices_[h]))
+                return {};
         std::vector<std::string_view> known;
         for (const auto& head : heads_)
-            if (!named || head.command->name == c.words[0])
+            if (!names_analysis || head.directive->name == c.words[0])
                 for (const auto& curve : head.plot.curves) known.push_back(curve.name);
         if (word.starts_with("par("))
             if (const auto expression = parse_par_expression(word, c.location); !expression)
                 return error_at(c, k, expression.error().message);
-        const bool is_axis_limit = c.name == "plot" && word.starts_with("(");
+        const bool is_axis_limit = c.name == "plot" && word.starts_with("(");  // (0,5)
         if (is_axis_limit) return {};
         const bool is_device_current =
             word.starts_with("i(") && circuit_.find_element(word.size() > 3 ? word.substr(2, word.size() - 3) : "") >= 0;
@@ -142,7 +146,7 @@ private:
         return error_at(c, k, fmt::format(".{}: there is no curve '{}'{}", c.name, word, hint));
     }
 
-    /// An error if the name of an .expect is neither a measurement, a number of an analysis nor a curve.
+    /// Returns an error if the name in an .expect is neither a measurement, a number of an analysis nor a curve.
     Result<void> check_expectation(const Directive& c, const std::vector<std::string>& analysis_numbers) const {
         if (c.words.empty()) return {};  // run_directives() reports the syntax
         const auto name = c.words[0].substr(0, c.words.size() == 2 ? c.words[0].find('=') : std::string::npos);
@@ -151,16 +155,16 @@ private:
             if ((other.name == "meas" || other.name == "measure") && other.words.size() > 1) known.push_back(other.words[1]);
         if (std::find(known.begin(), known.end(), name) != known.end()) return {};
         for (std::size_t h = 0; h < heads_.size(); ++h)
-            if (CurveView::find(heads_[h].plot, name, &names_[h])) return {};
+            if (CurveView::find(heads_[h].plot, name, &indices_[h])) return {};
         return bad_input(fmt::format(".expect: there is no measurement, number or curve '{}'{}", name, did_you_mean(name, known)),
                          c.location);
     }
 
     /// Names of the numbers that the analyses may produce.
-    std::vector<std::string> numbers() const {
+    std::vector<std::string> number_names() const {
         std::vector<std::string> out;
         for (const auto& head : heads_) {
-            const auto& word = head.command->name;
+            const auto& word = head.directive->name;
             if (word == "tran")
                 for (const auto* name : {"spikes", "first_spike", "last_spike", "mean_interval", "spike_error"}) out.emplace_back(name);
             if (word == "noise")

@@ -8,12 +8,12 @@
 
 namespace corpuscle::circuit {
 
-/// Receives the points. An error stops the analysis.
+/// Receives one plot point by point. An error that it returns stops the analysis.
 class PointSink {
 public:
     virtual ~PointSink() = default;
     virtual Result<void> begin(const Plot& head) = 0;                 ///< names and types of the curves, no values yet
-    virtual Result<void> add_point(std::span<const double> row) = 0;  ///< a value for each curve, the swept one first
+    virtual Result<void> add_point(std::span<const double> row) = 0;  ///< a value for each curve, in their order
     virtual Result<void> end() = 0;                                   ///< also called if the analysis was interrupted
 };
 
@@ -29,11 +29,11 @@ public:
     Result<void> end() override { return {}; }
 };
 
-/// One point, real or complex.
+/// One point of a plot. The values are in `real` or in `complex`; the other is empty.
 struct PlotRow {
     std::span<const double> real{};
     std::span<const std::complex<double>> complex{};
-    bool is_complex = false;  ///< true for a complex plot, even if this point has only `real` values
+    bool is_complex = false;  ///< true if the plot is complex; the points of a stored real plot are in `complex`, too
 
     PlotRow(std::span<const double> values) : real(values) {}
     PlotRow(std::span<const std::complex<double>> values, bool are_complex) : complex(values), is_complex(are_complex) {}

@@ -10,20 +10,21 @@
 namespace corpuscle::circuit {
 namespace {
 
-constexpr double max_rows = 1e6;
+constexpr double max_rows = 1e6;  // of one table of a .tran
 
 struct Column {
     std::string name;
     CurveView view;
 };
 
-/// The columns of a .print line, the swept quantity first; empty if the line is for another analysis.
+/// The columns of a directive, the swept quantity first. Empty if it is not a .print line, names another analysis, or names no curve of the
+/// plot.
 std::vector<Column> columns_of(const Directive& c, std::string_view analysis, const Plot& plot) {
     std::vector<Column> out;
-    const bool named = !c.words.empty() && find_analysis(c.words[0]) != nullptr;
-    if (c.name != "print" || (named && c.words[0] != analysis)) return out;
+    const bool names_analysis = !c.words.empty() && find_analysis(c.words[0]) != nullptr;
+    if (c.name != "print" || (names_analysis && c.words[0] != analysis)) return out;
     if (plot.has_sweep) out.push_back({plot.curves[0].name, *CurveView::find(plot, plot.curves[0].name)});
-    for (std::size_t w = named ? 1 : 0; w < c.words.size(); ++w)
+    for (std::size_t w = names_analysis ? 1 : 0; w < c.words.size(); ++w)
         if (c.words[w] == "all")
             for (std::size_t k = plot.has_sweep; k < plot.curves.size(); ++k)
                 out.push_back({plot.curves[k].name, *CurveView::find(plot, plot.curves[k].name)});
@@ -72,13 +73,13 @@ Result<void> TransientPrinter::begin(const Plot& plot) {
                     ".print tran: {:g} rows (one every {:g} s over {:g} s) exceed the limit of {:g}; use a longer STEP of .tran, or --out",
                     rows, step_, stop_ - start_, max_rows),
                 c.location);
-        tables_.push_back({&c, {}, column_heads(columns)});
+        tables_.push_back({{}, column_heads(columns)});
         for (const auto& column : columns) tables_.back().views.push_back(column.view);
     }
     return {};
 }
 
-/// Prints the row at time t, which is between the previous point and this one.
+/// Appends a row to each table, at time t between the previous point and the point `row`.
 void TransientPrinter::print(std::span<const double> row, double t) {
     for (auto& table : tables_) {
         for (const auto& view : table.views) {
@@ -95,13 +96,14 @@ void TransientPrinter::add_point(std::span<const double> row) {
     if (tables_.empty()) return;
     if (previous_.empty()) {
         previous_.assign(row.begin(), row.end());
-        while (is_row_due(row[0] - 1e-9 * step_)) ++rows_;  // no rows before the first point
+        // Skips rows before the first point. The tolerance keeps a row that is at this point up to rounding.
+        while (is_row_due(row[0] - 1e-9 * step_)) ++rows_;
     }
     while (is_row_due(row[0])) print(row, start_ + rows_ * step_);
     previous_.assign(row.begin(), row.end());
 }
 
-/// Allows for rounding: the last row may be due at the end of the analysis.
+// The time of the last row may exceed the end of the analysis by a rounding error.
 std::string TransientPrinter::end() {
     if (!previous_.empty() && is_row_due(previous_[0] + 1e-9 * step_)) print(std::vector(previous_), start_ + rows_ * step_);
     std::string out;

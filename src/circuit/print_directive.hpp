@@ -9,24 +9,24 @@
 
 namespace corpuscle::circuit {
 
-/// The tables of all .print lines for the analysis of this name, over a complete plot; "" if there are none.
+/// The tables of all .print lines that apply to the analysis of this name, with a row for each point of its plot; "" if no line applies.
 std::string print_tables(const Circuit&, std::string_view analysis, const Plot&);
 
-/// The .print lines of a .tran. Rows are at START and every STEP after it, linearly interpolated between time points; none is before the
-/// first time point. (ngspice's batch mode prints every time point, and these rows with `.options interp`.)
+/// The tables of the .print lines for a .tran. Rows are at START and every STEP after it, linearly interpolated between time points. No row
+/// is before the first time point. (ngspice's batch mode prints every time point, and these rows only with `.options interp`.)
 class TransientPrinter {
     struct Table {
-        const Directive* command;
-        std::vector<CurveView> views;
+        std::vector<CurveView> views;  // one for each column
         std::string text;
     };
     const Circuit& circuit_;
-    double start_, step_, stop_;
-    std::vector<Table> tables_;
-    std::vector<double> previous_;  // the point before this one
-    double rows_ = 0;               // printed or skipped so far
+    double start_, step_, stop_;    // START, STEP and STOP of .tran, s
+    std::vector<Table> tables_;     // one for each .print line
+    std::vector<double> previous_;  // the point of the last call of add_point()
+    double rows_ = 0;               // number of rows printed or skipped so far
 
     void print(std::span<const double> row, double t);
+    /// True if time t (s) has reached the time of the next row.
     bool is_row_due(double t) const { return start_ + rows_ * step_ <= t; }
 
 public:
@@ -34,7 +34,7 @@ public:
         : circuit_(circuit), start_(start), step_(step), stop_(stop) {}
     Result<void> begin(const Plot& head);
     void add_point(std::span<const double> row);
-    std::string end();
+    std::string end();  ///< returns the tables
 };
 
 }  // namespace corpuscle::circuit

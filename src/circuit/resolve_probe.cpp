@@ -13,11 +13,11 @@ namespace {
 
 struct ProbeText {
     bool is_current = false;
-    std::string_view first, second;  // of v(a,b)
+    std::string_view first, second;  // a and b of v(a,b); `second` is "" if there is only one name
 };
 
-Result<ProbeText> parse_probe(std::string_view word) {
-    const auto text = trimmed(word);
+Result<ProbeText> parse_probe(std::string_view probe_text) {
+    const auto text = trimmed(probe_text);
     const auto open = text.find('(');
     if (open == std::string_view::npos && !text.empty() && text.find_first_of(") \t") == std::string_view::npos)
         return ProbeText{false, text, ""};
@@ -29,17 +29,19 @@ Result<ProbeText> parse_probe(std::string_view word) {
         out = {lower(text[0]) == 'i', trimmed(inside.substr(0, comma)), comma == inside.npos ? "" : trimmed(inside.substr(comma + 1))};
     }
     if (out.first.empty() || (out.is_current && !out.second.empty()) || out.first.find_first_of("() \t") != std::string_view::npos)
-        return bad_usage(fmt::format("--probe '{}': write a node, v(NODE), v(NODE,NODE), i(SOURCE) or i(DEVICE)", word));
+        return bad_usage(fmt::format("--probe '{}': write a node, v(NODE), v(NODE,NODE), i(SOURCE) or i(DEVICE)", probe_text));
     return out;
 }
 
-Error ambiguous_probe(std::string_view word, const Circuit& c, std::span<const std::string_view> names,
+Error ambiguous_probe(std::string_view probe_text, const Circuit& c, std::span<const std::string_view> names,
                       const std::vector<std::size_t>& found) {
     std::vector<std::string_view> matches;
     for (const auto k : found) matches.push_back(names[k]);
-    return bad_input(fmt::format("--probe {}: ambiguous in {} ({}); write more of its path", word, c.file, abbreviated_list(matches)));
+    return bad_input(
+        fmt::format("--probe {}: ambiguous in {} ({}); write more of its path", probe_text, c.file, abbreviated_list(matches)));
 }
 
+/// The names of all nodes but ground.
 std::vector<std::string_view> nodes_of(const Circuit& c) { return {c.nodes.begin() + 1, c.nodes.end()}; }
 std::vector<std::string_view> elements_of(const Circuit& c) {
     std::vector<std::string_view> names;
@@ -47,23 +49,23 @@ std::vector<std::string_view> elements_of(const Circuit& c) {
     return names;
 }
 
-Result<std::optional<std::string>> resolve_node(const Circuit& c, std::string_view word, std::string_view name) {
+Result<std::optional<std::string>> resolve_node(const Circuit& c, std::string_view probe_text, std::string_view name) {
     if (name == "0" || equal_ignoring_case(name, "gnd")) return std::optional<std::string>("0");
     const auto names = nodes_of(c);
     const auto found = find_matching_names(names, name, LastPiece::node);
-    if (found.size() > 1) return ambiguous_probe(word, c, names, found);
+    if (found.size() > 1) return ambiguous_probe(probe_text, c, names, found);
     return found.empty() ? std::optional<std::string>() : std::string(names[found[0]]);
 }
 
-Result<std::optional<std::string>> resolve_current(const Circuit& c, std::string_view word, std::string_view name) {
+Result<std::optional<std::string>> resolve_current(const Circuit& c, std::string_view probe_text, std::string_view name) {
     const auto names = elements_of(c);
     const auto found = find_matching_names(names, name, LastPiece::element);
-    if (found.size() > 1) return ambiguous_probe(word, c, names, found);
+    if (found.size() > 1) return ambiguous_probe(probe_text, c, names, found);
     if (found.empty()) return std::optional<std::string>();
     const auto& e = c.elements[found[0]];
     if (!has_branch_current(e) && !has_device_current(e))
-        return bad_input(
-            fmt::format("--probe {}: the current of {} cannot be recorded; record that of an M, D, R or voltage source", word, e.name));
+        return bad_input(fmt::format("--probe {}: the current of {} cannot be recorded; record that of an M, D, R or voltage source",
+                                     probe_text, e.name));
     return std::optional(fmt::format("i({})", e.name));
 }
 
@@ -82,20 +84,20 @@ std::vector<std::string> split_probes(std::string_view text) {
     return out;
 }
 
-Result<std::optional<std::string>> resolve_probe(const Circuit& c, std::string_view word) {
-    const auto probe = parse_probe(word);
+Result<std::optional<std::string>> resolve_probe(const Circuit& c, std::string_view probe_text) {
+    const auto probe = parse_probe(probe_text);
     if (!probe) return probe.error();
-    if (probe->is_current) return resolve_current(c, word, probe->first);
-    const auto first = resolve_node(c, word, probe->first);
+    if (probe->is_current) return resolve_current(c, probe_text, probe->first);
+    const auto first = resolve_node(c, probe_text, probe->first);
     if (!first || !*first || probe->second.empty())
         return !first || !*first ? first : Result<std::optional<std::string>>(fmt::format("v({})", **first));
-    const auto second = resolve_node(c, word, probe->second);
+    const auto second = resolve_node(c, probe_text, probe->second);
     if (!second || !*second) return second;
     return std::optional(fmt::format("v({},{})", **first, **second));
 }
 
-std::string suggest_probe(const Circuit& c, std::string_view word) {
-    const auto probe = parse_probe(word);
+std::string suggest_probe(const Circuit& c, std::string_view probe_text) {
+    const auto probe = parse_probe(probe_text);
     if (!probe) return "";
     const auto kind = probe->is_current ? LastPiece::element : LastPiece::node;
     if (!probe->is_current && find_matching_names(elements_of(c), probe->first, LastPiece::element).size() == 1)

@@ -7,15 +7,15 @@
 
 namespace corpuscle::circuit {
 
-/// Splits "vf,v(a,b),i(N3B)" at the commas outside parentheses.
+/// Splits "vf,v(a,b),i(N3B)" at the commas outside parentheses: "vf", "v(a,b)", "i(N3B)".
 std::vector<std::string> split_probes(std::string_view text);
 
-/// The name in .save of "vf", "v(vf)", "v(a,b)", "i(vdd)" or "i(N3B)", such as "i(xsummer.mn3b)". Names match as in hierarchical_names.hpp.
-/// Returns nothing if the circuit has no such node or device. An ambiguous name and a device whose current cannot be recorded are
-/// errors.
-Result<std::optional<std::string>> resolve_probe(const Circuit&, std::string_view word);
+/// Turns one probe of a user into its name in .save: "i(N3B)" into "i(xsummer.mn3b)". A probe is a node, v(NODE), v(NODE,NODE), i(SOURCE)
+/// or i(DEVICE). Names match as in hierarchical_names.hpp. Returns nothing if the circuit has no such node or device. An ambiguous name and
+/// a device whose current cannot be recorded are errors.
+Result<std::optional<std::string>> resolve_probe(const Circuit&, std::string_view probe_text);
 
-/// A suggestion for an unknown name: "; did you mean 'v(hpb)'?"
-std::string suggest_probe(const Circuit&, std::string_view word);
+/// A suggestion for a probe that resolve_probe() does not find: "; did you mean 'hpb'?". "" if no name is similar.
+std::string suggest_probe(const Circuit&, std::string_view probe_text);
 
 }  // namespace corpuscle::circuit

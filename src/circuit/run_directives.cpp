@@ -57,13 +57,13 @@ Result<void> check_expectations(const Circuit& circuit, RunOutcome& out) {
     return {};
 }
 
-/// A number of .tran STEP STOP [START ...]; 0 if it is missing.
+/// The number in a word of .tran STEP STOP [START ...]; 0 if there is none.
 double tran_number(const Directive& c, std::size_t word) {
     return read_number(c, word, "a number") ? *read_number(c, word, "a number") : 0;
 }
 
-/// Passes each point of a transient to the measurements, to .print and to the sinks of the options. If requested, also stores the points,
-/// which takes memory in proportion to the length of the run.
+/// Passes each point of a transient to the measurements, to .print and to the sinks of the options. If options.keep_points is true, it also
+/// stores the points, which takes memory in proportion to the length of the run. Other analyses do not use it.
 class PointDispatcher final : public PointSink {
     const RunOptions& options_;
     RunOutcome& out_;
@@ -73,9 +73,9 @@ class PointDispatcher final : public PointSink {
     std::optional<TransientPrinter> printer_;
     CurveSelector selector_;
     std::optional<PlotRecorder> recorder_;
-    std::vector<double> last_;
-    PointSink* unknowns_ = nullptr;
-    bool begun_ = false;
+    std::vector<double> last_row_;
+    PointSink* unknowns_sink_ = nullptr;
+    bool has_begun_ = false;
 
 public:
     PointDispatcher(const Circuit& circuit, const RunOptions& options, RunOutcome& out, MeasurementSet& measures, AnalysisRun& run,
@@ -85,38 +85,38 @@ public:
         if (options.print_tables && c.name == "tran") printer_.emplace(circuit, tran_number(c, 2), tran_number(c, 0), tran_number(c, 1));
         if (options.keep_points) recorder_.emplace();
     }
-    bool begun() const { return begun_; }
+    bool has_begun() const { return has_begun_; }
 
     Result<void> begin(const Plot& unknowns) override {
         Plot head = unknowns;
         currents_.extend_head(head);
         run_.last_point = head;
-        unknowns_ = run_.directive->name == "tran" ? options_.unknowns_sink : nullptr;
-        if (unknowns_)
-            if (auto ok = unknowns_->begin(head); !ok) return ok;
+        unknowns_sink_ = run_.directive->name == "tran" ? options_.unknowns_sink : nullptr;
+        if (unknowns_sink_)
+            if (auto ok = unknowns_sink_->begin(head); !ok) return ok;
         if (auto ok = measures_.begin(run_.directive->name, head); !ok) return ok;
         if (printer_)
             if (auto ok = printer_->begin(head); !ok) return ok;
         if (recorder_)
             if (auto ok = recorder_->begin(head); !ok) return ok;
-        begun_ = true;
+        has_begun_ = true;
         const auto selected_head = selector_.begin(head, out_.saved_curves);
         return options_.curve_sink ? options_.curve_sink->begin(selected_head) : Result<void>();
     }
     Result<void> add_point(std::span<const double> unknowns) override {
         const auto row = currents_.extend_point(unknowns);
         ++run_.point_count;
-        last_.assign(row.begin(), row.end());
+        last_row_.assign(row.begin(), row.end());
         measures_.add_point(row[0], row);
         if (printer_) printer_->add_point(row);
-        if (unknowns_)
-            if (auto ok = unknowns_->add_point(row); !ok) return ok;
+        if (unknowns_sink_)
+            if (auto ok = unknowns_sink_->add_point(row); !ok) return ok;
         if (recorder_)
             if (auto ok = recorder_->add_point(row); !ok) return ok;
         return options_.curve_sink ? options_.curve_sink->add_point(selector_.select(row)) : Result<void>();
     }
     Result<void> end() override {
-        for (std::size_t k = 0; k < last_.size(); ++k) run_.last_point.curves[k].values = {last_[k]};
+        for (std::size_t k = 0; k < last_row_.size(); ++k) run_.last_point.curves[k].values = {last_row_[k]};
         if (printer_) run_.printed_tables = printer_->end();
         return options_.curve_sink ? options_.curve_sink->end() : Result<void>();
     }
@@ -139,7 +139,7 @@ Result<void> analyse(AnalysisContext& context, const Analysis& analysis, const D
     run.result = std::move(*result);
     for (const auto& number : run.result.numbers) out.numbers.push_back(number);
     for (const auto& warning : run.result.warnings) out.warnings.push_back(warning);
-    if (dispatcher.begun()) {
+    if (dispatcher.has_begun()) {
         dispatcher.move_points_to(run.result);
     } else if (!run.result.plots.empty()) {
         for (auto& plot : run.result.plots) (void)currents.extend_plot(plot);
@@ -174,6 +174,7 @@ Result<RunOutcome> run_directives(AnalysisContext& context, const RunOptions& op
     if (!saved) return saved.error();
     for (const auto& curve : *saved) out.saved_curves.push_back(curve.name);
     const DeviceCurrents currents(context.system, *saved);
+    // Checked in the first run of the context only.
     if (!std::exchange(context.output_directives_checked, true))
         if (auto ok = check_output_directives(context.system, currents, out.warnings); !ok) return ok.error();
     MeasurementSet measures(*circuit);
@@ -182,6 +183,7 @@ Result<RunOutcome> run_directives(AnalysisContext& context, const RunOptions& op
         if (analysis == nullptr) continue;
         if (auto ok = analyse(context, *analysis, c, options, measures, currents, out); !ok) {
             auto error = ok.error();
+            // An error without a line gets the location of the directive.
             if (error.location.line == 0 && (error.location.file.empty() || error.location.file == circuit->file))
                 error.location = c.location;
             return error;

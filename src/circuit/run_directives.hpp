@@ -12,15 +12,15 @@ namespace corpuscle::circuit {
 struct AnalysisRun {
     const Directive* directive;  ///< points into the circuit
     AnalysisResult result;
-    std::size_t point_count = 0;  ///< in the first plot
+    std::size_t point_count = 0;  ///< number of points of the first plot, even of points that are not kept
     std::string printed_tables;   ///< the tables of .print
-    Plot last_point;              ///< the last point of a transient, stored even if RunOptions::keep_points is false
+    Plot last_point;              ///< of a transient: a plot of its last point, stored even if RunOptions::keep_points is false
 };
 
 /// One .expect and whether it is met.
 struct Expectation {
     std::string name;
-    double expected, tolerance, actual;
+    double expected, tolerance, actual;  ///< `tolerance` is absolute, in the unit of the value
     bool is_met;
     SourceLocation location;
 };
@@ -28,17 +28,17 @@ struct Expectation {
 /// The results of a run.
 struct RunOutcome {
     std::vector<AnalysisRun> analyses;
-    std::vector<std::pair<std::string, double>> numbers;  ///< of analyses and .meas, in order; a measurement that found nothing is NaN
+    std::vector<std::pair<std::string, double>> numbers;  ///< named numbers of analyses, then of .meas; NaN: nothing was found
     std::vector<Expectation> expectations;
     std::vector<Error> warnings;
 
-    std::vector<std::string> saved_curves;  ///< names in .save: v(a), v(a,b), i(v1) ... An empty list means all.
+    std::vector<std::string> saved_curves;  ///< names of the curves to save: v(a), v(a,b), i(v1) ... An empty list means all curves.
 
-    /// The value of a name after the run: a measurement or a number of an analysis. Otherwise the value of a curve, such as "v(out)", at
-    /// the last point of the first plot that has it.
+    /// The number of this name: a number of an analysis or a measurement. If there is none, the value of the curve of this name, such as
+    /// "v(out)", at the last point of the first plot that has it.
     std::optional<double> find_number(std::string_view name) const;
-    std::vector<Plot> plots(const AnalysisRun&) const;  ///< the swept quantity and the saved curves
-    std::vector<Plot> plots() const;                    ///< of all analyses
+    std::vector<Plot> plots(const AnalysisRun&) const;  ///< the plots of one analysis, with the swept quantity and the saved curves
+    std::vector<Plot> plots() const;                    ///< the same of all analyses
 };
 
 /// Receives the saved curves during the run: a transient point by point, other analyses as complete plots.
@@ -50,13 +50,13 @@ public:
 /// Options of run_directives().
 struct RunOptions {
     std::function<bool(std::string_view analysis, double progress)>
-        should_stop{};  ///< called now and then with the analysis and its progress (0 to 1); true stops the run
-    CurveSink* curve_sink = nullptr;
-    PointSink* unknowns_sink = nullptr;  ///< receives all unknowns at each time point of a transient
+        should_stop{};  ///< called repeatedly with the name of the analysis and its progress (0 to 1); returns true to stop the run
+    CurveSink* curve_sink = nullptr;     ///< null: no sink
+    PointSink* unknowns_sink = nullptr;  ///< receives time, all unknowns and the saved device currents at each time point of a transient
     bool keep_points = true;             ///< keep the points of a transient in memory, as a plot of its result
-    bool print_tables = true;            ///< make the tables of .print
+    bool print_tables = true;            ///< make the tables of .print, AnalysisRun::printed_tables
 };
-/// Runs all directives. A directive that is wrong, or an analysis that fails, is an error. An .expect that is not met is not an error.
+/// Runs all directives. An invalid directive and a failed analysis are errors. An .expect that is not met is not an error.
 Result<RunOutcome> run_directives(AnalysisContext&, const RunOptions& = {});
 Result<RunOutcome> run_directives(std::shared_ptr<const Circuit>, const RunOptions& = {});
 

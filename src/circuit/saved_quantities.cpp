@@ -11,12 +11,12 @@ namespace {
 
 bool is_save_directive(const Directive& c) { return c.name == "save" || c.name == "probe"; }
 
-/// True for "all", and for "alli" and "allv" of .probe.
+/// True if the word selects all quantities: "all", and in .probe also "alli" and "allv".
 bool means_all(const Directive& c, const std::string& word) {
     return word == "all" || (c.name == "probe" && (word == "alli" || word == "allv"));
 }
 
-/// The element of "i(x1.m1)"; -1 if the word is not the current of a device.
+/// The index of the element in "i(x1.m1)"; -1 if the word is not the current of a device.
 int device_of_current(const UnknownNames& names, const Circuit& circuit, std::string_view word) {
     if (!word.starts_with("i(") || !word.ends_with(')') || names.index_of(word) >= 0) return -1;
     const int k = circuit.find_element(word.substr(2, word.size() - 3));
@@ -42,7 +42,7 @@ double SavedQuantity::current_into(const Device& d, std::span<const double> v) {
     EvalContext context;
     context.with_charges = false;
     d.eval(v, context, {all.first(n), all.subspan(n, n), all.subspan(2 * n, n * n), all.subspan(2 * n + n * n)});
-    return stamp[0];
+    return stamp[0];  // the current f of the first terminal; see Stamp
 }
 
 Result<std::vector<SavedQuantity>> resolve_saved_quantities(const System& system) {
@@ -68,7 +68,7 @@ Result<std::vector<SavedQuantity>> resolve_saved_quantities(const System& system
                 out.push_back({name, {}, device});
                 continue;
             }
-            Directive single_word{c.name, {name}, {}, c.location};
+            Directive single_word{c.name, {name}, {}, c.location};  // the parser takes a directive
             if (k < c.columns.size()) single_word.columns = {c.columns[k]};
             const auto unknowns = read_output_variable(names, single_word, 0);
             if (!unknowns) return unknowns.error();

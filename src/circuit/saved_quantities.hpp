@@ -9,12 +9,12 @@ namespace corpuscle::circuit {
 /// device (drain, anode) is computed from its terminal voltages without displacement current; for a transistor it is the sum of the
 /// currents of the channel and of the drain junction.
 struct SavedQuantity {
-    std::string name;  ///< "v(out)", "v(a,b)", "i(v1)", "i(x1.m1)"
-    OutputVariable unknowns = {};
-    int device_index = -1;  ///< index in System::devices() if it is the current of a device
+    std::string name;              ///< "v(out)", "v(a,b)", "i(v1)", "i(x1.m1)"
+    OutputVariable unknowns = {};  ///< the value is their difference, unless it is the current of a device
+    int device_index = -1;         ///< if it is the current of a device: index in System::devices(); otherwise -1
 
     bool is_voltage() const { return name[0] == 'v'; }
-    /// The value of the quantity. `value_of(u)` must return the value of unknown u; -1 is ground.
+    /// The value of the quantity, V or A. `value_of(u)` must return the value of unknown u, and 0 for -1 (ground).
     template <class Value>
     double value(const System& system, Value&& value_of) const {
         if (device_index < 0) return value_of(unknowns.plus) - value_of(unknowns.minus);
@@ -25,16 +25,18 @@ struct SavedQuantity {
     }
 
 private:
+    /// The current into the first terminal; v has the values of the device's unknowns.
     static double current_into(const Device&, std::span<const double> v);
 };
 
 /// True if the current of the element is not an unknown but follows from its terminal voltages.
 inline bool has_device_current(const Element& e) { return e.letter == 'm' || e.letter == 'd' || e.letter == 'r'; }
 
-/// The quantities that .save names; "out" means v(out). An empty list means all quantities, which `.save all` and the default select.
+/// The quantities that .save and .probe name; "out" means v(out). An empty list means all unknowns: the netlist has `.save all`, or neither
+/// .save nor .probe.
 Result<std::vector<SavedQuantity>> resolve_saved_quantities(const System&);
 
-/// True if a word of .probe is not supported: the current of a capacitor, vd(r2), p(x1).
-bool is_unsupported_probe(const Circuit&, const Directive& probe, std::string_view word);
+/// True if the directive is a .probe and this word of it is not supported: the current of a capacitor, vd(r2), p(x1).
+bool is_unsupported_probe(const Circuit&, const Directive&, std::string_view word);
 
 }  // namespace corpuscle::circuit

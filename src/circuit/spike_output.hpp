@@ -11,17 +11,17 @@ namespace corpuscle::circuit {
 /// .spike v(NODE[,NODE]) LEVEL [rise|fall]: a spike occurs where the voltage, or the current i(V), crosses the level upwards (default)
 /// or downwards.
 struct SpikeOutput {
-    std::string text;  ///< "v(out)"
+    std::string text;  ///< the quantity: "v(out)"
     OutputVariable unknowns;
-    double level = 0;
-    bool is_rising = true;
+    double level = 0;       ///< V or A
+    bool is_rising = true;  ///< true if upward crossings are spikes, false if downward ones are
     SourceLocation location;
 
-    /// The time of a spike within the last step of the transient, s; nothing if there is none.
+    /// The time of the first spike within the last step of the transient, s; nothing if the step has no spike.
     std::optional<double> find_spike(const Transient& t) const { return t.crossing(unknowns.plus, unknowns.minus, level, is_rising); }
 };
 
-/// Reads the .spike directive; nothing if there is none. A second one is an error.
+/// Reads the .spike directive; nothing if the circuit has none. A second .spike is an error.
 Result<std::optional<SpikeOutput>> read_spike_output(const System&);
 
 }  // namespace corpuscle::circuit

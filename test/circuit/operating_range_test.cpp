@@ -65,7 +65,7 @@ TEST(OperatingRange, ErrorsNameTheirLocation) {
     };
     EXPECT_EQ(refusal(".assert v(f) 0 1"), "");
     EXPECT_NE(refusal(".assert v(g) 0 1").find("v(g)"), std::string::npos);
-    EXPECT_EQ(refusal(".assert v(f) 1 0"), ".assert: 1 to 0: the first must be below the second");
+    EXPECT_EQ(refusal(".assert v(f) 1 0"), ".assert: 1 to 0: LOW must be below HIGH");
     EXPECT_EQ(refusal(".assert v(f) 1"), ".assert: the highest value is missing");
     EXPECT_NE(refusal(".assert v(f) 0 1 loud").find("'loud' must be a message in double quotes"), std::string::npos);
     EXPECT_NE(refusal(".assert v(f) 0 1 \"a\" \"b\"").find("unexpected '\"b\"'"), std::string::npos);

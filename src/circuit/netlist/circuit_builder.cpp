@@ -9,15 +9,16 @@
 namespace corpuscle::circuit {
 namespace {
 
-constexpr std::size_t max_name_bytes = std::size_t{512} << 20;  // of all names together
+constexpr std::size_t max_name_bytes = std::size_t{512} << 20;  // for all names together
 
-/// The short name of a model type: "res" means "r".
+/// The short name of a model type: "r" for "res".
 std::string_view short_type(std::string_view type) {
     if (type == "res") return "r";
     if (type == "cap") return "c";
     return type == "ind" ? "l" : type;
 }
 
+/// "nmos or pmos"
 std::string alternatives(std::span<const std::string_view> words) {
     std::string out;
     for (const auto w : words) out += fmt::format("{}{}", out.empty() ? "" : " or ", w);
@@ -50,7 +51,7 @@ int CircuitBuilder::find_or_add_node(const Scope& scope, std::string_view name) 
     auto [at, is_new] = circuit.node_numbers.try_emplace(node_name(scope, name), static_cast<int>(circuit.nodes.size()));
     if (is_new) {
         circuit.nodes.push_back(at->first);
-        name_bytes_ += 2 * at->first.size();
+        name_bytes_ += 2 * at->first.size();  // stored in `nodes` and in `node_numbers`
     }
     return at->second;
 }
@@ -63,7 +64,7 @@ bool CircuitBuilder::has_model(const Scope& scope, std::string_view name) const 
 
 Result<int> CircuitBuilder::find_or_add_model(Scope& scope, const WordRef& name, std::string_view user,
                                               std::span<const std::string_view> types) {
-    Scope* f = &scope;
+    Scope* f = &scope;  // the scope that defines the model
     while (f && !f->definition->models.contains(name.view())) f = f->enclosing;
     if (!f) return unknown_model(scope, name, user);
     const Statement& s = *f->definition->models.find(name.view())->second;

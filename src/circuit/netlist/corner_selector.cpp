@@ -17,6 +17,7 @@ std::vector<std::string> sections_in(std::string_view text) {
     LogicalLine line;
     for (auto more = lines.next(line); more && *more; more = lines.next(line)) {
         if (lower(std::string_view(line.text).substr(0, 4)) != ".lib") continue;
+        // ".lib section" begins a section; ".lib file section" reads another file.
         const auto head = split_directive(std::move(line));
         if (head && head->words.size() == 2) out.push_back(lower(unquoted(head->text(1))));
     }

@@ -20,11 +20,11 @@ class CircuitElaborator {
     CircuitBuilder builder_;
     Scope top_;
 
-    struct NodeVoltage {  // from .ic or .nodeset
-        std::string node;
-        double value;
+    struct NodeVoltage {
+        std::string node;  // its name in the circuit
+        double value;      // V
         SourceLocation location;
-        bool is_ic;
+        bool is_ic;  // true: from .ic; false: from .nodeset
     };
     std::vector<NodeVoltage> node_voltages_;
 
@@ -33,6 +33,7 @@ public:
         top_.definition = &parsed.top;
     }
 
+    /// Makes the flat circuit. `given` has values for .param lines of the top level.
     Result<Circuit> run(const Values& given) {
         Circuit& c = builder_.circuit;
         c.title = parsed_.title, c.file = parsed_.file, c.warnings = parsed_.warnings;
@@ -49,18 +50,20 @@ public:
     }
 
 private:
-    Result<void> define_top(const Values& stepped) {
-        auto given = stepped;
-        given.insert(builder_.overrides.parameters.begin(), builder_.overrides.parameters.end());
-        for (const auto& [name, value] : given)
+    /// Evaluates the parameters of the top level.
+    Result<void> define_top(const Values& given) {
+        auto all = given;
+        all.insert(builder_.overrides.parameters.begin(), builder_.overrides.parameters.end());  // does not replace given values
+        for (const auto& [name, value] : all)
             if (!parsed_.top.parameters.contains(name))
                 return bad_input(fmt::format("there is no .param {}{}", name, did_you_mean(name, keys_of(parsed_.top.parameters))),
                                  {parsed_.file});
-        return top_.define(given);
+        return top_.define(all);
     }
 
     // ---- subcircuits ----
 
+    /// Adds the elements of a scope, and of all subcircuits that it contains, to the circuit.
     Result<void> elaborate_contents(Scope& scope) {
         for (const auto* s : scope.definition->elements) {
             if (const auto ok = builder_.count_statement(scope, *s); !ok) return ok;
@@ -74,9 +77,10 @@ private:
         return {};
     }
 
+    /// Elaborates an X line.
     Result<void> elaborate_instance(Scope& scope, const Statement& s) {
         const auto name = s.text(std::size_t{0});
-        auto words = node_words(s);
+        auto words = instance_words(s);
         if (words.size() < 1)
             return bad_input(fmt::format("{}: expected nodes and the name of a subcircuit", name), s.location(std::size_t{1}));
         const Word subcircuit_name = words.back();
@@ -90,18 +94,20 @@ private:
                              s.line.location());
         if (const auto ok = check_recursion(inner, s); !ok) return ok;
         Values given;
-        if (const auto ok = read_overrides(scope, s, inner, given); !ok) return ok;
+        if (const auto ok = read_instance_parameters(scope, s, inner, given); !ok) return ok;
         if (const auto ok = inner.define(given); !ok) return ok;
         return elaborate_contents(inner);
     }
 
-    static std::vector<Word> node_words(const Statement& s) {
+    /// The words of an X line after its name: the nodes, then the name of the subcircuit.
+    static std::vector<Word> instance_words(const Statement& s) {
         std::vector<Word> words;
         for (std::size_t k = 1; k < s.words.size(); ++k)
             if (s.text(k) != "params:") words.push_back(s.words[k]);
         return words;
     }
 
+    /// Finds the definition of the subcircuit of this name, in the scope or in one that encloses it.
     static Result<void> find_body(Scope& scope, const Statement& s, const Word& name, Scope& inner) {
         std::vector<std::string_view> known;
         for (Scope* f = &scope; f; f = f->enclosing) {
@@ -116,6 +122,7 @@ private:
             s.location(name));
     }
 
+    /// Connects the ports of the subcircuit to the nodes that the X line names.
     Result<void> connect(Scope& scope, const Statement& s, const std::vector<Word>& words, Scope& inner) {
         const auto& ports = inner.definition->ports;
         if (words.size() != ports.size()) {
@@ -129,6 +136,7 @@ private:
         return {};
     }
 
+    /// Returns an error if the subcircuit contains an instance of itself.
     static Result<void> check_recursion(const Scope& inner, const Statement& s) {
         for (const Scope* f = inner.caller; f; f = f->caller) {
             if (f->definition != inner.definition) continue;
@@ -139,8 +147,8 @@ private:
         return {};
     }
 
-    /// Evaluates the parameters of the X line in the scope that contains it.
-    Result<void> read_overrides(const Scope& scope, const Statement& s, Scope& inner, Values& given) {
+    /// Evaluates the parameters of an X line in the scope that contains the line. m= multiplies inner.m, all others go to `given`.
+    Result<void> read_instance_parameters(const Scope& scope, const Statement& s, Scope& inner, Values& given) {
         inner.m = scope.m;
         for (const auto& pair : s.pairs) {
             auto name = s.text(pair.name);
@@ -164,7 +172,7 @@ private:
                          s.location(pair.name));
     }
 
-    /// Checks that all names in expressions and in F and H lines exist.
+    /// Checks that all nodes and elements that expressions, F and H lines name exist.
     Result<void> check_references() const {
         const Circuit& c = builder_.circuit;
         for (const auto& p : builder_.forward_refs) {
@@ -175,7 +183,8 @@ private:
             }
             const int k = c.find_element(p.name);
             if (k < 0)
-                return bad_input(fmt::format("{}: unknown element '{}'{}", p.user, p.name, did_you_mean(p.name, sources())), p.location);
+                return bad_input(fmt::format("{}: unknown element '{}'{}", p.user, p.name, did_you_mean(p.name, voltage_sources())),
+                                 p.location);
             const Element& e = c.elements[static_cast<std::size_t>(k)];
             const bool has_current =
                 e.letter == 'v' || (p.target == ForwardRef::Target::current && (e.letter == 'l' || e.letter == 'e' || e.letter == 'h' ||
@@ -187,7 +196,7 @@ private:
         }
         return {};
     }
-    std::vector<std::string_view> sources() const {
+    std::vector<std::string_view> voltage_sources() const {
         std::vector<std::string_view> names;
         for (const auto& e : builder_.circuit.elements)
             if (e.letter == 'v') names.push_back(e.name);
@@ -196,6 +205,7 @@ private:
 
     // ---- .options, .temp, .ic, .nodeset ----
 
+    /// Reads .options and .temp, then the overrides of temperature and mismatch.
     Result<void> read_settings() {
         Circuit& c = builder_.circuit;
         for (const auto* s : parsed_.options)
@@ -246,7 +256,7 @@ private:
         return {&s, w};
     }
 
-    /// Reads .ic v(a)=1 v(b)={x}, or .nodeset.
+    /// Reads .ic v(a)=1 v(b)={x}, or a .nodeset of the same form. The nodes may not exist yet.
     Result<void> read_node_voltages(const Scope& scope, const Statement& s) {
         for (std::size_t k = 1; k < s.words.size(); ++k) {
             const auto text = s.text(k);
@@ -286,7 +296,7 @@ private:
         builder_.circuit.directives.push_back(std::move(out));
     }
 
-    /// Applies the overrides that concern directives. .expect holds only for the netlist as written, so overrides remove it.
+    /// Applies the overrides that concern directives. .expect holds only for the netlist as written, so overrides of values remove it.
     void apply_overrides_to_directives(Circuit& c) const {
         const auto& overrides = builder_.overrides;
         const auto expectation =
@@ -318,6 +328,7 @@ private:
         }
         return out;
     }
+    /// The offset after the quotes or braces that open at `from`.
     static std::size_t group_end(std::string_view text, std::size_t from) {
         if (text[from] != '{') return std::min(text.find(text[from], from + 1), text.size() - 1) + 1;
         int depth = 0;
@@ -327,6 +338,8 @@ private:
         }
         return text.size();
     }
+    /// The value, as text, of the expression in braces or quotes from offset `from` to `end` of a word. The original text if it is in
+    /// double quotes or cannot be evaluated.
     std::string evaluated(const Statement& s, const Word& w, std::size_t from, std::size_t end) const {
         const std::string original(s.text(w).substr(from, end - from));
         if (original[0] == '"' || original.size() < 3) return original;

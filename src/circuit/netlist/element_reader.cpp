@@ -11,12 +11,12 @@
 namespace corpuscle::circuit {
 namespace {
 
-/// The named parameters that elements of each letter may have.
-struct ElementNames {
+/// The names that the reader accepts in name=value pairs of elements with this letter. The device refuses those that it does not support.
+struct ParameterNames {
     char letter;
     std::initializer_list<std::string_view> names;
 };
-const ElementNames element_names[] = {
+const ParameterNames parameter_names[] = {
     {'r', {"r", "tc1", "tc2", "m", "temp", "dtemp", "l", "w", "ac", "scale", "noisy"}},
     {'c', {"c", "q", "ic", "tc1", "tc2", "m", "temp", "dtemp", "l", "w", "scale"}},
     {'l', {"l", "ic", "tc1", "tc2", "m", "temp", "dtemp", "scale"}},
@@ -33,7 +33,7 @@ const ElementNames element_names[] = {
 };
 
 std::span<const std::string_view> names_for(char letter) {
-    for (const auto& row : element_names)
+    for (const auto& row : parameter_names)
         if (row.letter == letter) return {row.names.begin(), row.names.size()};
     return {};
 }
@@ -42,9 +42,9 @@ class ElementReader {
     CircuitBuilder& builder_;
     Scope& scope_;
     const Statement& s_;
-    std::string_view name_;
+    std::string_view name_;  // as in the line, without path
     Element out_;
-    std::vector<std::string_view> read_names_;  // names of pairs that were read separately
+    std::vector<std::string_view> read_names_;  // names of the pairs that named_parameters() must skip, since other functions read them
 
 public:
     ElementReader(CircuitBuilder& builder, Scope& scope, const Statement& s)
@@ -93,7 +93,7 @@ private:
     }
     Error too_many(std::size_t word) const { return error_at(fmt::format("unexpected '{}'", s_.text(word)), word); }
 
-    /// Reads the first n words after the name as nodes.
+    /// Reads the first n words after the name as nodes. `expected` describes all words, for the error message.
     Result<void> nodes(std::size_t n, std::string_view expected) {
         for (std::size_t k = 1; k <= n; ++k) {
             if (k >= s_.words.size() || s_.words[k].kind != Word::Kind::plain)
@@ -112,14 +112,14 @@ private:
         for (std::size_t k = 3; k < s_.words.size(); ++k) {
             const bool is_name = is_model(k, has_value);
             if (is_name ? out_.model >= 0 : has_value) return too_many(k);
-            if (const auto ok = is_name ? passive_model(k) : value_of(text(k)); !ok) return ok;
+            if (const auto ok = is_name ? passive_model(k) : read_value(text(k)); !ok) return ok;
             has_value = has_value || !is_name;
         }
         const std::string_view letter(&out_.letter, 1);
         if (const auto* pair = out_.letter == 'l' || out_.model < 0 || !has_value ? s_.find(letter) : nullptr) {
             if (has_value) return bad_input(fmt::format("{}: its value is given twice", name_), s_.location(pair->name));
             read_names_.push_back(letter);
-            if (const auto ok = value_of({&s_, pair->value}); !ok) return ok;
+            if (const auto ok = read_value({&s_, pair->value}); !ok) return ok;
             has_value = true;
         }
         if (const auto* q = out_.letter == 'c' ? s_.find("q") : nullptr) {
@@ -131,7 +131,8 @@ private:
             return error_at("a resistor must not be 0 ohm; use a 0 V source to connect two nodes", 3);
         return {};
     }
-    /// A number or an expression after the nodes is the value. A word that is not the name of a parameter is a model.
+    /// True if word k, after the nodes, names a model; otherwise it is the value. A word that is neither a number, an expression nor the
+    /// name of a parameter names a model. After the value, the name of a parameter does, too.
     bool is_model(std::size_t k, bool has_value) const {
         if (s_.words[k].kind != Word::Kind::plain || parse_number(s_.text(k))) return false;
         if (builder_.has_model(scope_, s_.text(k))) return true;
@@ -149,7 +150,7 @@ private:
         out_.model = *found;
         return {};
     }
-    Result<void> value_of(const WordRef& t) {
+    Result<void> read_value(const WordRef& t) {
         const auto value = scope_.evaluate(t);
         if (!value) return value.error();
         out_.value = *value;
@@ -172,7 +173,7 @@ private:
     Result<void> voltage_controlled_source() {
         if (const auto ok = nodes(2, "plus, minus, the two controlling nodes, then the gain"); !ok) return ok;
         out_.expression_is_voltage = out_.letter == 'e';
-        for (const auto name : {"value", "vol", "cur"})
+        for (const auto name : {"value", "vol", "cur"})  // vol= and cur= are other names of value=
             if (const auto* pair = s_.find(name)) {
                 if (s_.words.size() > 3) return too_many(3);
                 return formula(*pair);
@@ -185,10 +186,11 @@ private:
         if (const auto ok = nodes(4, "plus, minus, the two controlling nodes, then the gain"); !ok) return ok;
         return gain(5);
     }
+    /// Reads word k, which must be the last, as the gain.
     Result<void> gain(std::size_t k) {
         if (k >= s_.words.size()) return error_at("its gain is missing", k);
         if (s_.words.size() > k + 1) return too_many(k + 1);
-        return value_of(text(k));
+        return read_value(text(k));
     }
 
     Result<void> current_controlled_source() {
@@ -210,6 +212,7 @@ private:
         return formula(v ? *v : *i);
     }
 
+    /// Reads the value of a pair as the expression of the element.
     Result<void> formula(const NameValue& pair) {
         read_names_.push_back(s_.text(pair.name));
         const WordRef t{&s_, pair.value};
@@ -288,7 +291,7 @@ private:
         return {};
     }
 
-    /// Replaces the values in the line by the overrides.
+    /// Replaces values of the line by those of the overrides.
     void override_values() {
         const auto overrides = builder_.overrides.numbers.find(out_.name);
         if (overrides == builder_.overrides.numbers.end()) return;
@@ -303,8 +306,9 @@ private:
         }
     }
 
-    /// In m parallel copies of a subcircuit every current is m times as large. For F the controlling current already has the factor; the
-    /// gain of H is divided by it.
+    /// Applies the m= of the subcircuits around the element. In m parallel copies of a subcircuit every current is m times as large, while
+    /// the voltages are those of one copy. The current that controls an F or H already has this factor, so the gain of F stays and that of
+    /// H is divided by it.
     Result<void> apply_multiplicity() {
         if (scope_.m == 1) return {};
         if (out_.letter == 'h') out_.value /= scope_.m;

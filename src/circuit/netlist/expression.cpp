@@ -23,7 +23,7 @@ public:
 
 }  // namespace
 
-/// Evaluates all steps; the last is the value.
+/// Evaluates all steps into `values` and returns the value of the last one.
 template <class Values>
 double Expression::evaluate(std::span<const double> inputs, Values& values) const {
     for (std::size_t k = 0; k < steps_.size(); ++k) {
@@ -44,8 +44,9 @@ double Expression::value(std::span<const double> inputs) const {
     return evaluate(inputs, values);
 }
 
-/// Computes derivatives by reverse accumulation: from the value back to the inputs, each step passes its weight on to its operands.
-/// A step with weight 0 passes nothing on, even where its own derivative is infinite.
+/// Computes derivatives by reverse accumulation. The weight of a step is the derivative of the expression's value with respect to the
+/// step's value. From the last step back to the inputs, each step adds its weight times its own derivatives to the weights of its operands.
+/// A step with weight 0 adds nothing, even where its own derivative is infinite.
 double Expression::value(std::span<const double> inputs, std::span<double> slopes) const {
     StepBuffer values(steps_.size()), weight(steps_.size());
     const double value = evaluate(inputs, values);

@@ -13,7 +13,7 @@
 
 namespace corpuscle::circuit {
 
-/// An input of an expression: v(a), v(a,b), i(vx), time or temper (C).
+/// An input of an expression: v(a), v(a,b), i(vx), time (s) or temper (the temperature in degrees Celsius).
 struct ExpressionInput {
     enum class Kind { voltage, current, time, temperature } kind;
     std::string name, minus;  ///< voltage: the node and its reference ("" is ground); current: the element
@@ -23,16 +23,16 @@ struct ExpressionInput {
 /// The names that are visible to an expression.
 struct ExpressionScope {
     std::function<std::optional<double>(std::string_view)>
-        parameter{};  ///< the value of a parameter; nothing if there is none of this name
+        parameter{};  ///< returns the value of a parameter; nothing if no parameter has this name
     /// A user's function (.func, .param f(x)=...): the names of its arguments and its text.
     struct Function {
         std::vector<std::string> arguments;
         std::string text;
     };
-    std::function<const Function*(std::string_view)> function{};  ///< returns null if there is none of this name
+    std::function<const Function*(std::string_view)> function{};  ///< returns null if no function has this name
     bool allows_inputs = false;                                   ///< true if voltages, currents and time are allowed; false in .param
-    std::vector<std::string> suggestions{};                       ///< candidates for the suggestion in an error about an unknown name
-    /// Translate the name of a node or an element to its name in the circuit ("n3" is "x1.n3" inside x1). Null keeps the name.
+    std::vector<std::string> suggestions{};                       ///< known names, for "did you mean" in the error about an unknown name
+    /// Return the name in the circuit of a node or an element of this scope ("x1.n3" for "n3" inside x1). If null, the name is kept.
     std::function<std::string(std::string_view)> node{}, element{};
 };
 
@@ -40,7 +40,7 @@ struct ExpressionScope {
 class Expression {
 public:
     /// Parses "2*v(a) + max(i(vx), 0)". It has + - * / ** ^ (powers), unary - + !, comparisons, && ||, c ? a : b, and numbers with SPICE's
-    /// suffixes. It also has the functions of ngspice and its constants, such as pi. `at` is the location of the text, for errors.
+    /// suffixes. It also has the functions of ngspice and its constants, such as pi. `location` is that of the text, for errors.
     ///
     /// As in ngspice 39:
     ///
@@ -54,14 +54,15 @@ public:
     ///  - exp(x) and its derivative stay at e^700 beyond x = 700.
     ///  - limit(x,a,b) limits x to the range from a to b.
     ///  - agauss, gauss, unif, aunif and limit(x,d) return their nominal value x.
-    static Result<Expression> parse(std::string_view text, const SourceLocation& at, const ExpressionScope&);
+    static Result<Expression> parse(std::string_view text, const SourceLocation& location, const ExpressionScope&);
 
-    /// The inputs, in the order in which value() takes them.
+    /// The inputs, in the order in which value() takes their values.
     std::span<const ExpressionInput> inputs() const { return inputs_; }
     bool is_constant() const { return inputs_.empty(); }
 
+    /// The value for these values of the inputs.
     double value(std::span<const double> inputs = {}) const;
-    /// The value; `slopes` receives its derivative with respect to each input.
+    /// The same value; `slopes` receives its derivative with respect to each input.
     double value(std::span<const double> inputs, std::span<double> slopes) const;
 
     /// A text with the same meaning here and in ngspice's B sources, such as "2*v(a)+max(i(vx),0)"; `name` gives the text of each input.
@@ -74,10 +75,10 @@ private:
     double evaluate(std::span<const double> inputs, Values& values) const;
     struct Step {
         std::int16_t operation;            // an Operation, as a number
-        std::int32_t a = 0, b = 0, c = 0;  // indices of earlier steps
-        double number = 0;
+        std::int32_t a = 0, b = 0, c = 0;  // the operands, as indices of earlier steps; for Operation::input, a is an index in inputs_
+        double number = 0;                 // for Operation::number
     };
-    std::vector<Step> steps_;  // each uses only earlier ones; the last gives the value
+    std::vector<Step> steps_;  // the last step gives the value of the expression
     std::vector<ExpressionInput> inputs_;
 };
 

@@ -9,7 +9,7 @@ namespace corpuscle::circuit {
 namespace {
 
 using enum Operation;
-constexpr double pi = 3.141592653589793;
+constexpr double pi = 3.141592653589793, ln_10 = 2.302585092994046;
 
 constexpr FunctionInfo functions[] = {
     {"abs", 1, 1, abs},        {"acos", 1, 1, acos},        {"acosh", 1, 1, acosh},   {"agauss", 3, 3, nominal},
@@ -43,10 +43,12 @@ constexpr struct {
                  {"false", 0},
                  {"no", 0}};
 
-/// num::sin_turns is exact for fewer than 2^49 turns. A larger angle has no significant digits in which processors could differ.
+/// Sine and cosine of an angle in radians. num::sin_turns gives the same result on every processor, but only for fewer than 2^49 turns.
+/// Above 1e14 radians the result has few significant digits anyway.
 double sine(double x) { return std::abs(x) < 1e14 ? num::sin_turns(x / (2 * pi)) : std::sin(x); }
 double cosine(double x) { return std::abs(x) < 1e14 ? num::cos_turns(x / (2 * pi)) : std::cos(x); }
 
+/// num::log for normal positive numbers; also handles subnormal numbers, 0, infinity and negative numbers.
 double logarithm(double x) {
     constexpr double min_normal = std::numeric_limits<double>::min(), scale = 18014398509481984.0;  // 2^54
     if (x >= min_normal && x <= std::numeric_limits<double>::max()) return num::log(x);
@@ -58,9 +60,9 @@ double signed_power_of(double x, double y) { return x < 0 ? -std::pow(-x, y) : s
 
 }  // namespace
 
-const FunctionInfo* find_function(std::string_view name, bool with_inputs) {
-    if (name == "pow" && with_inputs) return &pow_with_inputs;
-    if (name == "pwr" && !with_inputs) return &pwr_in_parameters;
+const FunctionInfo* find_function(std::string_view name, bool allows_inputs) {
+    if (name == "pow" && allows_inputs) return &pow_with_inputs;
+    if (name == "pwr" && !allows_inputs) return &pwr_in_parameters;
     for (const auto& row : functions)
         if (row.name == name) return &row;
     return nullptr;
@@ -183,7 +185,7 @@ double evaluate_operation(Operation o, double a, double b, double c) {
         case log:
             return logarithm(a);
         case log10:
-            return logarithm(a) / 2.302585092994046;
+            return logarithm(a) / ln_10;
         case max:
             return a < b ? b : a;
         case min:
@@ -215,10 +217,11 @@ double evaluate_operation(Operation o, double a, double b, double c) {
 }
 
 Slopes evaluate_slopes(Operation o, double a, double b, double c, double value) {
-    const auto power = [&](double magnitude,
-                           double sign_of_a) -> Slopes {  // derivatives of m^b with respect to a, through m = |a|, and to b
-        const double by_b = value == 0 ? 0 : value * logarithm(magnitude);
-        return {b == 0 ? 0 : b * std::pow(magnitude, b - 1) * sign_of_a, by_b};
+    // The derivatives of s m^b with respect to a and b, where m = |a| and s is 1 or the sign of a. `slope` is the derivative of s m with
+    // respect to a.
+    const auto power = [&](double m, double slope) -> Slopes {
+        const double by_b = value == 0 ? 0 : value * logarithm(m);
+        return {b == 0 ? 0 : b * std::pow(m, b - 1) * slope, by_b};
     };
     switch (o) {
         case add:
@@ -266,7 +269,7 @@ Slopes evaluate_slopes(Operation o, double a, double b, double c, double value) 
         case log:
             return {1 / a};
         case log10:
-            return {1 / (a * 2.302585092994046)};
+            return {1 / (a * ln_10)};
         case max:
             return {a < b ? 0.0 : 1.0, a < b ? 1.0 : 0.0};
         case min:
@@ -290,7 +293,7 @@ Slopes evaluate_slopes(Operation o, double a, double b, double c, double value) 
         case nominal:
             return {1};
         default:
-            return {};  // flat between jumps
+            return {};  // the other operations are constant between their jumps
     }
 }
 

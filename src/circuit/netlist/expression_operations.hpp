@@ -7,8 +7,8 @@
 namespace corpuscle::circuit {
 
 enum class Operation : std::int16_t {
-    number,
-    input,
+    number,  // a constant
+    input,   // the value of an input
     add,
     subtract,
     multiply,
@@ -23,7 +23,7 @@ enum class Operation : std::int16_t {
     unequal,
     logical_and,
     logical_or,
-    conditional,
+    conditional,      // a ? b : c
     magnitude_power,  // |x|^y, as ^ and ** in ngspice
     true_power,       // C's pow
     signed_power,     // sgn(x) |x|^y
@@ -41,50 +41,52 @@ enum class Operation : std::int16_t {
     exp,
     floor,
     hypot,
-    integer,
-    log,
+    integer,  // rounds towards 0
+    log,      // natural logarithm
     log10,
     max,
     min,
-    nearest,
+    nearest,  // rounds to the nearest integer
     sign,
     sin,
     sinh,
     sqrt,
     tan,
     tanh,
-    step,
-    ramp_step,
-    ramp,
-    limit,
-    nominal,
+    step,       // 0 below 0, 1 above 0, 1/2 at 0
+    ramp_step,  // x limited to the range from 0 to 1
+    ramp,       // x above 0, otherwise 0
+    limit,      // a limited to the range from b to c
+    nominal,    // a: the nominal value of a random function such as gauss
 };
 
 /// A function by its name in netlists.
 struct FunctionInfo {
     std::string_view name;
-    int min_arguments, max_arguments;  ///< number of arguments
+    int min_arguments, max_arguments;  ///< allowed numbers of arguments
     Operation operation;
 };
 
-/// The function of this name; null if there is none. In ngspice pow and pwr have two meanings: `with_inputs` selects the one for
-/// expressions that may use voltages, otherwise the one for .param.
-const FunctionInfo* find_function(std::string_view name, bool with_inputs);
+/// The function of this name; null if there is none. In ngspice pow and pwr have two meanings. If `allows_inputs` is true, the meaning in
+/// expressions that may use voltages applies, otherwise the meaning in .param.
+const FunctionInfo* find_function(std::string_view name, bool allows_inputs);
 /// The value of a constant (pi, echarge ...); null if there is none of this name.
 const double* find_constant(std::string_view name);
-/// Names of all functions and constants, for suggestions.
-std::string_view function_name(std::size_t k);  ///< "" after the last
+/// The names of all functions and constants, for suggestions: the k-th name, from 0; "" after the last.
+std::string_view function_name(std::size_t k);
 std::string_view constant_name(std::size_t k);
 
+/// The value of an operation with operands a, b and c. Operands beyond operand_count() are ignored.
 double evaluate_operation(Operation, double a, double b, double c);
 
-/// The derivatives of a value with respect to its operands.
+/// The derivatives of an operation's value with respect to its operands.
 struct Slopes {
     double a = 0, b = 0, c = 0;
 };
+/// The derivatives; `value` must be that of evaluate_operation() for the same operands.
 Slopes evaluate_slopes(Operation, double a, double b, double c, double value);
 
-/// The number of operands.
+/// The number of operands of an operation, 0 to 3.
 int operand_count(Operation);
 
 }  // namespace corpuscle::circuit

@@ -12,14 +12,15 @@
 namespace corpuscle::circuit {
 namespace {
 
-constexpr int max_expression_depth = 200;  // of nested parentheses, functions and ? :
-constexpr std::ptrdiff_t max_inputs = 4096;
-constexpr std::size_t max_steps = 1000000;  // of one expression, after the expansion of functions
+constexpr int max_expression_depth = 200;    // of nested parentheses, functions and ? :
+constexpr std::ptrdiff_t max_inputs = 4096;  // of one expression
+constexpr std::size_t max_steps = 1000000;   // of one expression, after the expansion of functions
 
 bool starts_name(char c) { return (lower(c) >= 'a' && lower(c) <= 'z') || c == '_'; }
 bool in_name(char c) { return starts_name(c) || (c >= '0' && c <= '9') || c == '.' || c == '#' || c == '@'; }
 
-/// A binary operator. An operator that begins with another one must precede it. A higher level binds more tightly.
+/// A binary operator. In the table, an operator such as "<=" that begins with another one ("<") must precede it. A higher level binds more
+/// tightly.
 struct BinaryOperator {
     std::string_view text;
     Operation operation;
@@ -40,22 +41,24 @@ constexpr int power_level = 7;
 
 }  // namespace
 
+/// Each function of the grammar parses a part of the text and returns the index of the step that gives its value, or no_index after an
+/// error.
 class FormulaReader {
     using Index = std::int32_t;
     static constexpr Index no_index = -1;
-    using Arguments = std::vector<std::pair<std::string, Index>>;
+    using Arguments = std::vector<std::pair<std::string, Index>>;  // name and step of each argument
 
     const ExpressionScope& scope_;
-    const SourceLocation& location_;
+    const SourceLocation& location_;  // of the expression's text
     Expression out_;
-    std::string_view text_;
-    std::size_t at_ = 0;
-    const Arguments* arguments_ = nullptr;  // values of the arguments of the function being expanded
+    std::string_view text_;                 // the expression, or the text of the function being expanded
+    std::size_t at_ = 0;                    // offset in text_ of the character to read next
+    const Arguments* arguments_ = nullptr;  // of the function being expanded; null outside functions
     std::vector<std::string> calls_;        // functions being expanded, outermost first
-    std::size_t call_at_ = 0;               // offset of the outermost call
+    std::size_t call_at_ = 0;               // offset of the outermost call in the expression, where errors inside it are located
     int depth_ = 0;
-    std::size_t step_count_ = 0;
-    std::optional<Error> error_;
+    std::size_t step_count_ = 0;  // operands and prefix operators read so far
+    std::optional<Error> error_;  // the first error
 
 public:
     FormulaReader(std::string_view text, const SourceLocation& location, const ExpressionScope& scope)
@@ -102,7 +105,7 @@ private:
     bool is_number(Index k) const { return step(k).operation == static_cast<std::int16_t>(Operation::number); }
     const Expression::Step& step(Index k) const { return out_.steps_[static_cast<std::size_t>(k)]; }
 
-    /// Adds a step. If all operands are numbers, the result is computed at once.
+    /// Adds a step. If all operands are numbers, the step is the number that results.
     Index apply(Operation operation, Index a, Index b, Index c) {
         if (a == no_index || b == no_index || c == no_index) return no_index;
         const int n = operand_count(operation);
@@ -205,7 +208,7 @@ private:
         return no == no_index ? no_index : apply(Operation::conditional, condition, yes, no);
     }
 
-    /// Operators of this level and higher ones, from left to right.
+    /// Binary operators of this level and higher ones, from left to right. power() has read those of power_level.
     Index chain(int level) {
         Index left = signed_value(&FormulaReader::power);
         while (left != no_index) {
@@ -230,7 +233,7 @@ private:
         }
         return left;
     }
-    /// The prefix operators - + ! of a value, innermost first.
+    /// A value that `read` parses, with any prefix operators - + ! before it. The operator next to the value applies first.
     Index signed_value(Index (FormulaReader::*read)()) {
         const auto from = (skip_blanks(), at_);
         while (at_ < text_.size() && std::string_view("-+! \t").find(text_[at_]) != std::string_view::npos) ++at_;
@@ -321,7 +324,7 @@ private:
 
     Index call(const std::string& name, std::size_t from) {
         const auto* user_function = scope_.function ? scope_.function(name) : nullptr;
-        if (!user_function && (name == "v" || name == "i")) return probe(name[0], from);
+        if (!user_function && (name == "v" || name == "i")) return voltage_or_current(name[0], from);
         if (!user_function && (name == "ddt" || name == "idt" || name == "sdt"))
             return fail(fmt::format("{}() is not supported; for a charge, use a capacitor with q='...'", name), from);
         const auto* row = user_function ? nullptr : find_function(name, scope_.allows_inputs);
@@ -332,8 +335,9 @@ private:
         const int argument_count = static_cast<int>(values.size());
         if (argument_count < row->min_arguments || argument_count > row->max_arguments)
             return fail(argument_count_message(*row, argument_count), from);
+        // limit(x,d) is a random function in ngspice; limit(x,a,b) is not.
         const bool is_nominal = row->operation == Operation::limit && argument_count == 2;
-        values.resize(3, values[0]);
+        values.resize(3, values[0]);  // every function has at least one argument
         return apply(is_nominal ? Operation::nominal : row->operation, values[0], values[1], values[2]);
     }
 
@@ -383,7 +387,8 @@ private:
 
     // ---- v(a), v(a,b), i(vx) ----
 
-    Index probe(char kind, std::size_t from) {
+    /// Reads the names in parentheses after v or i (`kind`), which is at offset `from`.
+    Index voltage_or_current(char kind, std::size_t from) {
         if (!scope_.allows_inputs)
             return fail(fmt::format("{}(...) is not available in a parameter, only in an expression of the circuit", kind), from);
         const auto close = text_.find(')', at_);
@@ -393,7 +398,7 @@ private:
         const std::string first = lower(trimmed(inside.substr(0, comma)));
         const std::string second = comma == std::string_view::npos ? "" : lower(trimmed(inside.substr(comma + 1)));
         const bool is_difference = comma != std::string_view::npos;
-        if (!is_probe(first) || (is_difference && (kind == 'i' || !is_probe(second))))
+        if (!is_one_name(first) || (is_difference && (kind == 'i' || !is_one_name(second))))
             return fail(fmt::format("'{}' is not a {}", text_.substr(from, close + 1 - from),
                                     kind == 'v' ? "voltage; write v(node) or v(node,node)" : "current; write i(element)"),
                         from);
@@ -401,9 +406,9 @@ private:
         if (kind == 'i') return input(ExpressionInput::Kind::current, scope_.element ? scope_.element(first) : first);
         return voltage(node(first), is_difference ? node(second) : "");
     }
-    static bool is_probe(std::string_view name) { return !name.empty() && name.find_first_of(" \t({,") == std::string_view::npos; }
+    static bool is_one_name(std::string_view name) { return !name.empty() && name.find_first_of(" \t({,") == std::string_view::npos; }
 
-    /// The name of a node in the circuit; "" is ground.
+    /// The name in the circuit of a node that the expression calls `name`; "" is ground.
     std::string node(const std::string& name) const {
         std::string full = name == "0" || name == "gnd" ? "" : scope_.node ? scope_.node(name) : name;
         return full == "0" ? "" : full;
@@ -415,8 +420,8 @@ private:
     }
 };
 
-Result<Expression> Expression::parse(std::string_view text, const SourceLocation& at, const ExpressionScope& scope) {
-    return FormulaReader(text, at, scope).read();
+Result<Expression> Expression::parse(std::string_view text, const SourceLocation& location, const ExpressionScope& scope) {
+    return FormulaReader(text, location, scope).read();
 }
 
 }  // namespace corpuscle::circuit

@@ -9,15 +9,16 @@
 namespace corpuscle::circuit {
 namespace {
 
-constexpr std::size_t max_letters = 1000000;
+constexpr std::size_t max_characters = 1000000;
 
-/// The precedence of a text. A text of lower precedence than its context needs parentheses.
+/// The precedence of the outermost operator of a text. A text of lower precedence than its context needs parentheses.
 enum class Precedence { sum, product, atom };
 
+/// The text of one step with all its operands.
 struct Fragment {
     std::string text;
     Precedence precedence = Precedence::atom;
-    double number = std::nan("");  ///< the value of a number; NaN otherwise
+    double number = std::nan("");  ///< if the text is a number, its value; otherwise NaN
 
     std::string in_context(Precedence required) const { return precedence < required ? "(" + text + ")" : text; }
     std::string as_atom() const { return in_context(Precedence::atom); }
@@ -38,7 +39,7 @@ Fragment choice(std::string_view condition, std::string_view yes, std::string_vi
     return {fmt::format("({} ? {} : {})", condition, yes, no)};
 }
 
-/// A sum or product. The left operand of the same precedence needs no parentheses.
+/// A sum or product. A left operand of the same precedence needs no parentheses.
 Fragment chain(const Fragment& a, char sign, const Fragment& b, Precedence precedence) {
     const auto higher = precedence == Precedence::sum ? Precedence::product : Precedence::atom;
     return {a.in_context(precedence) + sign + b.in_context(higher), precedence};
@@ -51,7 +52,7 @@ Fragment angle(const Fragment& a, const Fragment& b) {
     return choice(x + " > 0", slope, choice(x + " < 0", left, on_axis).text);
 }
 
-/// exp with its argument limited to 700, so that ngspice limits it too.
+/// exp with its argument limited to 700 in the text, since ngspice's exp has no such limit.
 Fragment exponential(const Fragment& a) {
     const bool is_limited = a.number <= 700 || a.text.starts_with("min(700,");
     return is_limited ? call("exp", a) : Fragment{fmt::format("exp(min(700,{}))", a.text)};
@@ -168,7 +169,7 @@ Fragment fragment_of(Operation operation, const Fragment& a, const Fragment& b, 
 
 Result<std::string> Expression::text(const std::function<std::string(const ExpressionInput&)>& name) const {
     std::vector<Fragment> fragments;
-    std::size_t letters = 0;
+    std::size_t total = 0;  // characters of all fragments, which are kept in memory
     for (const Step& s : steps_) {
         const auto operation = static_cast<Operation>(s.operation);
         const auto operand = [&](std::int32_t k) -> const Fragment& { return fragments[static_cast<std::size_t>(k)]; };
@@ -182,9 +183,9 @@ Result<std::string> Expression::text(const std::function<std::string(const Expre
         } else {
             fragments.push_back(fragment_of(operation, operand(s.a), operand(s.b), operand(s.c)));
         }
-        letters += fragments.back().text.size();
-        if (fragments.back().text.size() > max_letters || letters > 256 * max_letters)
-            return bad_input(fmt::format("written as text, the expression has more than {} characters", max_letters));
+        total += fragments.back().text.size();
+        if (fragments.back().text.size() > max_characters || total > 256 * max_characters)
+            return bad_input(fmt::format("written as text, the expression has more than {} characters", max_characters));
     }
     return fragments.empty() ? std::string("0") : std::move(fragments.back().text);
 }

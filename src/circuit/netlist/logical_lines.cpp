@@ -10,7 +10,7 @@ namespace {
 
 bool is_blank(char c) { return c == ' ' || c == '\t'; }
 
-/// True if the text is UTF-8, judged by the lengths of its sequences.
+/// True if all bytes form UTF-8 sequences of the right length; overlong sequences are not detected.
 bool is_utf8(std::string_view s) {
     for (std::size_t k = 0; k < s.size();) {
         const auto c = static_cast<unsigned char>(s[k++]);
@@ -32,6 +32,7 @@ std::string from_latin1(std::string_view s) {
     return out;
 }
 
+/// True for a tab and for the printable characters of ASCII.
 bool is_text(char c) { return c == '\t' || (c >= ' ' && c <= '~'); }
 
 Error invalid_byte(std::string_view line, std::size_t at, SourceLocation location) {
@@ -44,7 +45,8 @@ Error invalid_byte(std::string_view line, std::size_t at, SourceLocation locatio
     return bad_input(fmt::format("byte 0x{:02X}: {}", byte, hint), std::move(location));
 }
 
-/// True if a comment begins here; call it outside quotes only.
+/// True if a comment begins at character k of a line, which must be outside quotes. A $ begins a comment only after a blank or comma and
+/// before a blank.
 bool begins_comment(std::string_view line, std::size_t k) {
     if (line[k] == ';') return true;
     if (line[k] == '/') return k + 1 < line.size() && line[k + 1] == '/';
@@ -52,6 +54,7 @@ bool begins_comment(std::string_view line, std::size_t k) {
     return (k == 0 || is_blank(line[k - 1]) || line[k - 1] == ',') && (k + 1 == line.size() || is_blank(line[k + 1]));
 }
 
+/// True if the line is an .include or .lib, whose file names keep their capital letters.
 bool names_a_file(std::string_view text) {
     text = text.substr(0, 9);
     const auto word = lower(text.substr(0, text.find_first_of(" \t'\"")));
@@ -69,7 +72,7 @@ SourceLocation LogicalLine::location(std::size_t at) const {
 bool LogicalLine::was_capital(std::size_t at) const { return std::binary_search(capitals.begin(), capitals.end(), at); }
 
 LogicalLineReader::LogicalLineReader(std::string_view text, std::shared_ptr<const std::string> file) : file_(std::move(file)), rest_(text) {
-    if (rest_.starts_with("\xef\xbb\xbf")) rest_.remove_prefix(3);
+    if (rest_.starts_with("\xef\xbb\xbf")) rest_.remove_prefix(3);  // the byte order mark of UTF-8
 }
 
 bool LogicalLineReader::take(std::string_view& physical) {
@@ -122,16 +125,16 @@ Result<bool> LogicalLineReader::next(LogicalLine& out) {
     return has_next_ ? finish_line(out) : Result<bool>(false);
 }
 
-/// Appends the text of a physical line, up to its comment, to the logical line.
-Result<void> LogicalLineReader::append(std::string_view line, std::size_t from) {
+/// Appends the text of a physical line, from offset `from` to its comment, to the logical line.
+Result<void> LogicalLineReader::append(std::string_view physical, std::size_t from) {
     if (has_next_) next_.text += ' ';
     next_.segments.push_back({static_cast<std::uint32_t>(next_.text.size()), number_, static_cast<std::uint32_t>(from) + 1});
-    const bool keeps_case = names_a_file(has_next_ ? next_.text : line.substr(from));
+    const bool keeps_case = names_a_file(has_next_ ? next_.text : physical.substr(from));
     has_next_ = true;
-    for (std::size_t k = from; k < line.size(); ++k) {
-        char c = line[k];
-        if (quote_ == 0 && begins_comment(line, k)) break;
-        if (!is_text(c)) return invalid_byte(line, k, {*file_, static_cast<long>(number_), 0});
+    for (std::size_t k = from; k < physical.size(); ++k) {
+        char c = physical[k];
+        if (quote_ == 0 && begins_comment(physical, k)) break;
+        if (!is_text(c)) return invalid_byte(physical, k, {*file_, static_cast<long>(number_), 0});
         const auto at = static_cast<std::uint32_t>(next_.text.size());
         if (c == quote_)
             quote_ = 0;
@@ -143,7 +146,7 @@ Result<void> LogicalLineReader::append(std::string_view line, std::size_t from) 
     return {};
 }
 
-/// Returns the completed line; false if it contained only a comment.
+/// Moves the completed logical line to `out`. Returns false if the line is empty because it contained only a comment.
 Result<bool> LogicalLineReader::finish_line(LogicalLine& out) {
     has_next_ = false;
     out = std::exchange(next_, {});

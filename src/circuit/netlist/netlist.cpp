@@ -20,6 +20,7 @@ int index_of_name(const std::unordered_map<std::string, int>& numbers, std::stri
 
 int Circuit::find_node(std::string_view name) const {
     if (is_ground(name)) return 0;
+    // The map is complete in an elaborated circuit; a circuit that was made in another way may have none.
     if (node_numbers.size() == nodes.size()) return index_of_name(node_numbers, name);
     const auto at = std::find(nodes.begin(), nodes.end(), name);
     return at == nodes.end() ? -1 : static_cast<int>(at - nodes.begin());

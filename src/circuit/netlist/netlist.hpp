@@ -19,13 +19,13 @@ namespace corpuscle::circuit {
 /// Evaluated name=value pairs; names in small letters.
 using Values = std::map<std::string, double, std::less<>>;
 
-/// The specification of a source: DC value, AC stimulus and time waveform.
+/// The specification of a source: DC value, AC stimulus and time waveform. Values are in V or A.
 struct Waveform {
     enum class Shape { none, pulse, sine, exponential, piecewise_linear, force } shape = Shape::none;
     double dc = 0;
-    bool has_dc = false;
+    bool has_dc = false;                    ///< true if the netlist or an override gives the DC value
     double ac_magnitude = 0, ac_phase = 0;  ///< phase in degrees
-    std::vector<double> numbers;            ///< the arguments of PULSE, SIN or EXP; for PWL t1 v1 t2 v2 ...
+    std::vector<double> numbers;            ///< the arguments of PULSE, SIN or EXP; for PWL t1 v1 t2 v2 ...; for FORCE the scale (per N)
 };
 
 /// An element with all its values evaluated.
@@ -34,15 +34,16 @@ struct Element {
     char letter = 0;         ///< r c l v i e f g h b d m
     std::vector<int> nodes;  ///< indices in Circuit::nodes, in netlist order; for E and G including the controlling nodes
     SourceLocation location;
-    int model = -1;                        ///< index in Circuit::models; -1 if none
-    double value = 0;                      ///< for R C L in ohm, farad, henry; for E F G H the gain
+    int model = -1;                        ///< index in Circuit::models; -1 if the element has no model
+    double value = 0;                      ///< for R, C, L in ohm, farad, henry; for E, F, G, H the gain
     Values values;                         ///< all values given by name: w, l, m, stack, delvto, ic, tc1 ...
     Waveform waveform;                     ///< for V and I
     std::optional<Expression> expression;  ///< for B (v= or i=), C (q=), E and G (value=)
-    bool expression_is_voltage = false;    ///< for B: true for v=, false for i=
-    std::string control_source;            ///< for F and H: the controlling voltage source, with its path
+    bool expression_is_voltage = false;  ///< for B, E and G: true if the expression gives a voltage (v=, or value= of E), false: a current
+    std::string control_source;          ///< for F and H: the controlling voltage source, with its path
 };
 
+/// A .model line with all its values evaluated.
 struct Model {
     std::string name, type;  ///< types are d, nmos, pmos, r, c, ...; the name of a local model has the path of its subcircuit
     SourceLocation location;
@@ -55,43 +56,44 @@ struct Model {
 struct Directive {
     std::string name;  ///< "op", "dc", ... without the dot
     std::vector<std::string> words;
-    std::vector<int> columns;  ///< of each word
+    std::vector<int> columns;  ///< of each word in its line of the file, from 1; empty for a directive of an override
     SourceLocation location;
 };
 
 /// A flat netlist: subcircuits are expanded and parameters are evaluated.
 struct Circuit {
     std::string title, file;
-    std::vector<std::string> nodes{"0"};  ///< 0 is ground ("0", "gnd")
+    std::vector<std::string> nodes{"0"};  ///< names; index 0 is ground ("0", "gnd")
     std::vector<Element> elements;
     std::vector<Model> models;
     std::vector<Directive> directives;
-    Values options;                                                ///< from .options; a flag is 1
+    Values options;                                                ///< numbers and flags of .options; a flag is 1
     std::map<std::string, std::string, std::less<>> option_words;  ///< options whose value is a word: method=gear
-    double temperature = 27;                                       ///< C
-    std::vector<std::pair<int, double>> ic, nodesets;              ///< node, V
-    std::vector<Error> warnings;                                   ///< warnings, such as "1F is 1 femtofarad"
-    Values parameters;                                             ///< .param lines of the top level
-    std::optional<std::uint64_t> mismatch_seed;                    ///< seed of the mismatch sample; nothing for the nominal circuit
-    std::uint64_t chip = 0;                                        ///< number of the chip for this seed; copies are the following chips
+    double temperature = 27;                                       ///< degrees Celsius
+    std::vector<std::pair<int, double>> ic, nodesets;              ///< .ic and .nodeset: index in `nodes`, V
+    std::vector<Error> warnings;                                   ///< such as "1F is 1 femtofarad"
+    Values parameters;                                             ///< values of the top level's .param lines
+    std::optional<std::uint64_t> mismatch_seed;                    ///< seed of the mismatch override; empty for the nominal circuit
+    std::uint64_t chip = 0;                                        ///< number of the chip among those of this seed, from 0
 
-    std::unordered_map<std::string, int> node_numbers, element_numbers;  ///< indices by name, filled by elaborate()
+    std::unordered_map<std::string, int> node_numbers, element_numbers;  ///< indices by name, filled by Netlist::elaborate()
 
-    int find_node(std::string_view name) const;     ///< its index; -1 if there is none of this name
-    int find_element(std::string_view name) const;  ///< its index; -1 if there is none of this name
+    int find_node(std::string_view name) const;     ///< the index of the node; -1 if no node has this name
+    int find_element(std::string_view name) const;  ///< the index of the element; -1 if no element has this name
 };
 
 /// Overrides of the values in a netlist.
 struct ResolvedOverrides {
     std::string corner;                                  ///< section to read from libraries; "" means the sections that the netlist names
     Values parameters;                                   ///< new values for .param lines of the top level
-    std::map<std::string, Values, std::less<>> numbers;  ///< values of elements, by full path; the name "" is the value of R C L V I ...
-    std::optional<double> temperature;                   ///< C
+    std::map<std::string, Values, std::less<>> numbers;  ///< values by full path of the element; the name "" is the value of R C L V I ...
+    std::optional<double> temperature;                   ///< degrees Celsius
     std::optional<std::uint64_t> mismatch_seed;          ///< seed of the mismatch sample; if set, .mc is ignored
-    std::uint64_t chip = 0;                              ///< number of the chip for this seed
-    std::vector<std::string> saved;                      ///< additional names for .save
+    std::uint64_t chip = 0;                              ///< number of the chip among those of this seed, from 0
+    std::vector<std::string> saved;                      ///< names for an additional .save
+    /// True if the circuit differs from the netlist as written, so that .expect does not hold.
     bool changes_values() const { return !corner.empty() || !parameters.empty() || !numbers.empty() || temperature || mismatch_seed; }
-    bool replaces_saved = false;  ///< `saved` replaces every .save
+    bool replaces_saved = false;  ///< true: `saved` replaces every .save and .probe
 };
 
 /// The statements of a netlist and of all files that it includes.
@@ -101,26 +103,26 @@ class Netlist {
     std::shared_ptr<const ResolvedOverrides> overrides_;
 
 public:
-    /// Returns the text of an included file. The path is resolved against the including file.
+    /// Returns the text of an included file. A relative path has already been joined to the folder of the including file.
     using FileOpener = std::function<Result<std::string>(const std::string& path)>;
-    /// `corner` replaces the section of each line `.lib 'file' section` whose file has a section of this name. It is an error if no file
-    /// has one.
+    /// Parses a netlist. `file` is its path, for messages and for included files. `corner` replaces the section of each line
+    /// `.lib 'file' section` whose file has a section with the name of the corner. It is an error if no file has one. "" replaces nothing.
     static Result<Netlist> parse(std::string text, std::string file, const FileOpener& open, const std::string& corner = "");
     /// Parses the netlist in a file.
     static Result<Netlist> read(const std::string& path, const std::string& corner = "");
 
-    /// The same netlist with overrides. Their corner has no effect here, because parse() applies it.
+    /// The same netlist with these overrides, which replace earlier ones. Their corner has no effect here, because parse() applies it.
     Netlist with_overrides(ResolvedOverrides) const;
     const ResolvedOverrides& overrides() const;
     /// A parameter that a .param line of the top level defines.
     struct Parameter {
-        std::string text;  ///< as written in the netlist: "2*c_u"
-        bool is_defined_in_netlist;       ///< defined in the netlist or an included file, not in a library section
+        std::string text;            ///< as written in the netlist: "2*c_u"
+        bool is_defined_in_netlist;  ///< false: defined in a library section
     };
     /// All parameters of the top level, by name.
     std::map<std::string, Parameter, std::less<>> parameters() const;
 
-    /// The flat circuit. `parameters` override the .param lines of the top level and the overrides of the netlist.
+    /// The flat circuit. `parameters` replace .param lines of the top level, even those that the netlist's overrides set.
     Result<Circuit> elaborate(const Values& parameters = {}) const;
 };
 

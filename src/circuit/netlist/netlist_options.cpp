@@ -14,9 +14,9 @@ constexpr double unlimited = std::numeric_limits<double>::infinity();
 
 struct OptionRow {
     std::string_view name;
-    bool takes_word;
-    double min, max;
-    std::string_view example;
+    bool takes_word;           // true: the value is a word; false: a number
+    double min, max;           // allowed numbers
+    std::string_view example;  // of a value, for messages
 };
 constexpr OptionRow option_rows[] = {
     {"reltol", false, 1e-15, 0.5, "1e-6"},

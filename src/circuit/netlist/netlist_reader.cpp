@@ -14,52 +14,59 @@
 namespace corpuscle::circuit {
 namespace {
 
-constexpr std::size_t max_include_depth = 50, max_definition_depth = 200;
+constexpr std::size_t max_include_depth = 50, max_definition_depth = 200;  // of files; of nested .subckt
 constexpr std::string_view element_letters = "rclveifghbdmx";
 
+// Directives that determine the circuit; they do not appear in Circuit::directives.
 constexpr std::string_view structural_directives[] = {".subckt", ".ends",    ".param",  ".func",    ".include", ".inc",    ".lib",
                                                       ".endl",   ".model",   ".global", ".temp",    ".options", ".option", ".opt",
                                                       ".ic",     ".nodeset", ".end",    ".control", ".endc",    ".title"};
+// Directives for the analyses, which become Circuit::directives; .four is refused.
 constexpr std::string_view circuit_directives[] = {".op",   ".dc",      ".ac",    ".noise", ".tf",     ".sens", ".tran",
                                                    ".meas", ".measure", ".print", ".plot",  ".probe",  ".save", ".step",
                                                    ".mc",   ".expect",  ".force", ".spike", ".assert", ".four"};
 
-/// True for values that may contain blanks: expressions of sources and charges.
+/// True for the values that may contain blanks: the expressions of sources and of a capacitor's charge. See split_element().
 bool is_long_value(char letter, std::string_view name) {
     if (letter == 'b') return name == "v" || name == "i";
     if (letter == 'c') return name == "q";
     return (letter == 'e' || letter == 'g') && (name == "value" || name == "vol" || name == "cur");
 }
 
-std::string resolved_path(const std::string& from, std::string_view name) {
-    return (std::filesystem::path(from).parent_path() / std::filesystem::path(name)).lexically_normal().string();
+/// The path of a file that the file `includer` calls `name`.
+std::string resolved_path(const std::string& includer, std::string_view name) {
+    return (std::filesystem::path(includer).parent_path() / std::filesystem::path(name)).lexically_normal().string();
 }
 
 class NetlistReader {
     using Opener = Netlist::FileOpener;
     struct Source {
-        std::string path, section;
+        std::string path, section;  // section "": the complete file
         bool operator==(const Source&) const = default;
     };
     ParsedNetlist& out_;
     const Opener& open_;
-    std::map<std::string, std::shared_ptr<const std::string>> texts_;  // cached, because a library is often read for several sections
-    std::vector<Source> open_files_;                                   // files being read, outermost first
-    SubcktDef *body_, *file_body_;  // the definition being read; the one that was open when the file began, which the file cannot close
-    std::size_t bytes_read_ = 0, files_opened_ = 0, subcircuit_depth_ = 0;
-    bool ended_ = false;
+    // Texts of the files by path, kept because a library is often read for several sections.
+    std::map<std::string, std::shared_ptr<const std::string>> texts_;
+    std::vector<Source> open_files_;  // files being read, outermost first
+    SubcktDef* body_;                 // the definition being read
+    SubcktDef* file_body_;  // the definition that was being read when the present file began; .ends in this file must not close it
+    std::size_t bytes_read_ = 0, files_opened_ = 0;
+    std::size_t subcircuit_depth_ = 0;  // number of .subckt lines that are not yet closed
+    bool ended_ = false;                // true after .end, until the present file is left
     CornerSelector corner_;
 
 public:
     NetlistReader(ParsedNetlist& out, const Opener& open, std::string corner)
         : out_(out), open_(open), body_(&out.top), file_body_(body_), corner_(std::move(corner)) {}
 
-    /// Reads the netlist, then checks that a library had the corner.
+    /// Reads the netlist, then checks that a library had the requested corner.
     Result<void> read_all(std::string_view text, const std::string& path) {
         if (auto ok = read(text, path, ""); !ok) return ok;
         return corner_.check_found(path);
     }
 
+    /// Reads a file, or one section of a library. The first call reads the main file, which begins with the title.
     Result<void> read(std::string_view text, const std::string& path, const std::string& section) {
         bytes_read_ += text.size();
         if (bytes_read_ > max_text_bytes)
@@ -91,7 +98,7 @@ private:
         return {};
     }
 
-    /// True if a title looks like an element line or a directive: "R1 a b 1k".
+    /// True if a title looks like an element line, such as "R1 a b 1k", or like a directive.
     static bool looks_like_statement(std::string_view title) {
         std::vector<std::string> words;
         for (std::size_t at = title.find_first_not_of(" \t"); at != std::string_view::npos && words.size() < 5;) {
@@ -225,10 +232,11 @@ private:
         return {};
     }
 
-    /// Reads .func f(x, y) {text}; '=' before the text is optional, and the text may be in quotes instead of braces.
+    /// Reads .func f(x, y) {text}. An '=' before the text is optional, and the text may be in quotes instead of braces.
     Result<void> function(LogicalLine line) {
         const std::string_view text = line.text;
-        const auto from = std::min(text.find_first_not_of(" \t", 5), text.size()), close = text.find(')', from);
+        constexpr std::size_t after_keyword = 5;  // length of ".func"
+        const auto from = std::min(text.find_first_not_of(" \t", after_keyword), text.size()), close = text.find(')', from);
         if (close == std::string_view::npos) return bad_input(".func: expected a function such as f(x) {2*x}", line.location(from));
         auto body = trimmed(text.substr(close + 1));
         if (body.starts_with('=')) body = trimmed(body.substr(1));
@@ -238,6 +246,7 @@ private:
         return define(std::string(text.substr(from, close + 1 - from)), std::string(body), line.location(from));
     }
 
+    /// Defines a function; `head` is its name with its arguments: "f(x, y)".
     Result<void> define(std::string_view head, std::string text, SourceLocation location) {
         const auto open = head.find('(');
         const std::string name(trimmed(head.substr(0, open)));
@@ -283,6 +292,7 @@ private:
 
     // ---- .subckt ----
 
+    /// Reads a .subckt line. The following lines belong to its body until .ends.
     Result<void> subcircuit(LogicalLine line) {
         auto read = split_element(std::move(line), nullptr);
         if (!read) return read.error();
@@ -302,6 +312,7 @@ private:
         return read_head(*body);
     }
 
+    /// Reads the ports and parameters of the .subckt line.
     Result<void> read_head(SubcktDef& body) {
         const Statement& s = *body.head;
         std::set<std::string_view> seen;
@@ -349,17 +360,18 @@ private:
         return open(unquoted(read->text(1)), "", read->location(std::size_t{1}));
     }
 
+    /// Reads ".lib file section", or skips the section that ".lib section" begins.
     Result<void> library(LogicalLineReader& lines, LogicalLine line) {
         auto read = split_directive(std::move(line));
         if (!read) return read.error();
         if (read->words.size() == 3) return open(unquoted(read->text(1)), lower(unquoted(read->text(2))), read->location(std::size_t{1}));
-        const bool file = read->words.size() == 2 && unquoted(read->text(1)) != read->text(1);
-        if (read->words.size() != 2 || file)
+        const bool is_file = read->words.size() == 2 && unquoted(read->text(1)) != read->text(1);
+        if (read->words.size() != 2 || is_file)
             return bad_input(".lib: expected a file and a section; to read a complete file, use .include", read->location(std::size_t{1}));
         return skip_section(lines, read->line.location());
     }
 
-    /// Skips the definition of a section; it is read only by ".lib file section".
+    /// Skips the lines of a section up to .endl; only ".lib file section" reads them. `from` is the location of the section's first line.
     Result<void> skip_section(LogicalLineReader& lines, SourceLocation from) {
         LogicalLine line;
         while (true) {
@@ -370,6 +382,7 @@ private:
         }
     }
 
+    /// Reads an included file, or a section of a library. `location` is that of the line that names it.
     Result<void> open(std::string_view name, std::string section, SourceLocation location) {
         ++files_opened_;
         const std::string path = resolved_path(open_files_.back().path, name);
@@ -386,7 +399,7 @@ private:
         const auto shared_text = text;
         const bool is_outside_library =
             std::all_of(open_files_.begin(), open_files_.end(), [](const Source& s) { return s.section.empty(); });
-        // The corner does not replace the sections that a library itself names.
+        // The corner does not replace sections that are named inside a library.
         if (is_outside_library && !section.empty()) section = corner_.select_section(section, name, *shared_text);
         if (std::find(open_files_.begin(), open_files_.end(), Source{path, section}) != open_files_.end())
             return bad_input(fmt::format("'{}' includes itself", name), std::move(location));
@@ -416,6 +429,7 @@ private:
         }
     }
 
+    /// Reads statements up to .endl.
     Result<void> until_endl(LogicalLineReader& lines, const SourceLocation& from) {
         LogicalLine line;
         while (!ended_) {

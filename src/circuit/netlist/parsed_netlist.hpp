@@ -15,10 +15,10 @@
 
 namespace corpuscle::circuit {
 
-inline constexpr std::size_t max_elements = 2000000;                   // limits elements, statements and included files
+inline constexpr std::size_t max_elements = 2000000;                   // limit for elements, for statements and for included files
 inline constexpr std::size_t max_text_bytes = std::size_t{256} << 20;  // limit for all files together
 
-/// A word of a statement whose value is not yet evaluated.
+/// A word of a statement, kept for later evaluation.
 struct WordRef {
     const Statement* statement = nullptr;
     Word word;
@@ -29,40 +29,40 @@ struct WordRef {
 template <class T>
 using ByName = std::map<std::string, T, std::less<>>;
 
-/// The top level of a netlist, or a subcircuit.
+/// The definition of a subcircuit, or the top level of a netlist. Statements are pointers into ParsedNetlist::statements.
 struct SubcktDef {
-    std::string name;
+    std::string name;                 ///< "" for the top level
     const Statement* head = nullptr;  ///< its .subckt line; null for the top level
     SubcktDef* outer = nullptr;       ///< the definition that contains this one
     std::vector<std::string> ports;
-    ByName<WordRef> defaults;  ///< default values of the parameters in the .subckt line
-    ByName<WordRef> parameters;
-    ByName<ExpressionScope::Function> functions;
+    ByName<WordRef> defaults;                     ///< default values of the parameters in the .subckt line
+    ByName<WordRef> parameters;                   ///< values of the .param lines
+    ByName<ExpressionScope::Function> functions;  ///< .func f(x)=... and .param f(x)=...
     ByName<const Statement*> models;
     ByName<std::unique_ptr<SubcktDef>> subcircuits;
-    std::vector<const Statement*> elements, ics;  ///< ics: .ic and .nodeset
+    std::vector<const Statement*> elements, ics;  ///< element lines, X lines included; .ic and .nodeset lines
 };
 
 struct ParsedNetlist {
     std::string title, file;
-    std::deque<Statement> statements;
+    std::deque<Statement> statements;  ///< a deque, since it does not move its elements when it grows
     SubcktDef top;
-    std::vector<const Statement*> directives, options, temperatures;
-    std::set<std::string, std::less<>> globals;
-    std::set<std::string, std::less<>> libraries;  ///< files whose sections were read by .lib
+    std::vector<const Statement*> directives, options, temperatures;  ///< Circuit::directives; .options lines; .temp lines
+    std::set<std::string, std::less<>> globals;                       ///< nodes of .global
+    std::set<std::string, std::less<>> libraries;                     ///< files from which .lib read a section
     std::vector<Error> warnings;
 };
 
-/// Reads the text and all files that it includes; `corner` as in Netlist::parse.
+/// Reads the text and all files that it includes. For `corner`, see Netlist::parse().
 Result<void> read_netlist(const std::string& text, const std::string& file, const Netlist::FileOpener&, const std::string& corner,
                           ParsedNetlist&);
 
-/// Warns about numbers whose meaning in SPICE differs from their appearance: 1F, 5M.
+/// Appends a warning for each number of an element line that users often take for another one: 1F is 1 femtofarad, 5M is 5 milli.
 void warn_about_units(const Statement& element, std::vector<Error>& warnings);
 
 inline bool is_ground(std::string_view node) { return node == "0" || node == "gnd"; }
 
-/// The keys, for suggestions.
+/// The keys of a map, for suggestions.
 template <class Map>
 std::vector<std::string_view> keys_of(const Map& map) {
     std::vector<std::string_view> names;

@@ -24,7 +24,7 @@ void for_each_name(std::string_view text, F&& f) {
     }
 }
 
-/// The names that an expression uses, including those in the functions that it calls.
+/// The names that an expression uses, including those in the functions that it calls, but not the arguments of functions.
 std::vector<std::string> dependencies_of(std::string_view text, const Scope& scope) {
     std::vector<std::string> names;
     std::set<std::string, std::less<>> seen;
@@ -42,7 +42,7 @@ std::vector<std::string> dependencies_of(std::string_view text, const Scope& sco
     return names;
 }
 
-/// The same error, located in the line of the expression.
+/// The same error, located in the line of the expression. Its present column is counted in the text of the expression, from 1.
 Error relocated(const Error& error, const WordRef& text) {
     Error out = error;
     out.location = text.statement->line.location(text.word.at + static_cast<std::size_t>(std::max(1L, error.location.column) - 1));
@@ -82,6 +82,7 @@ Result<Expression> Scope::parse_expression(const WordRef& text, ExpressionScope 
     const SourceLocation location{text.statement->line.file ? *text.statement->line.file : "", 1, 1};
     auto parsed = Expression::parse(text.view(), location, scope);
     if (parsed) return parsed;
+    // Parsed again for the suggestions, since collecting all names takes too long for every expression.
     scope.suggestions = known_names();
     return relocated(Expression::parse(text.view(), location, scope).error(), text);
 }
@@ -113,12 +114,13 @@ Result<void> Scope::define(const Values& given) {
     return {};
 }
 
-/// Evaluates one parameter after all parameters that it depends on. A stack replaces recursion, which a long chain would make too deep.
+/// Evaluates the parameter `first` after all parameters that it depends on, and removes them from `pending`. A stack replaces recursion,
+/// which a long chain of parameters would make too deep.
 Result<void> Scope::define(const std::string& first, ByName<WordRef>& pending) {
     struct Pending {
         std::string name;
         std::vector<std::string> dependencies;
-        std::size_t next = 0;
+        std::size_t next = 0;  // index of the first dependency that is not yet handled
     };
     std::vector<Pending> stack;
     std::set<std::string, std::less<>> on_stack;

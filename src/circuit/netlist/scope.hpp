@@ -7,31 +7,34 @@
 namespace corpuscle::circuit {
 
 struct Scope {
-    const SubcktDef* definition = nullptr;
-    const Scope* caller = nullptr;  ///< the scope of the X line; as in ngspice, names that are unknown here are looked up there
-    Scope* enclosing = nullptr;     ///< the scope that contains the subcircuit's definition; its models and subcircuits are visible here
-    std::string path = {};          ///< "x1.x2."
-    ByName<int> ports = {};         ///< indices of the nodes that the ports are connected to
-    ByName<int> models = {};        ///< indices of models that are already in the circuit
-    Values parameters = {};
-    double m = 1;  ///< number of parallel instances
-    int depth = 0;
+    const SubcktDef* definition = nullptr;  ///< the subcircuit, or the top level
+    const Scope* caller = nullptr;          ///< the scope of the X line; as in ngspice, names that are unknown here are looked up there
+    Scope* enclosing = nullptr;  ///< the scope that contains the subcircuit's definition; its models and subcircuits are visible here
+    std::string path = {};       ///< prefix of its names in the circuit: "x1.x2."; "" for the top level
+    ByName<int> ports = {};      ///< indices in the circuit of the nodes that the ports are connected to
+    ByName<int> models = {};     ///< indices in the circuit of the models of this scope that were used so far
+    Values parameters = {};      ///< values of .param and of the .subckt line
+    double m = 1;                ///< number of parallel instances; the product of m= of this X line and of all around it
+    int depth = 0;               ///< 0 for the top level
 
     /// Look up a name in this scope, then in its callers.
     std::optional<double> parameter(std::string_view name) const;
     const ExpressionScope::Function* function(std::string_view name) const;
 
-    /// Evaluates all parameters; the values in `given` override. Parameters may be in any order, but a cycle is an error.
+    /// Evaluates all parameters, except that those in `given` take the given values. Parameters may be in any order, but a cycle is an
+    /// error.
     Result<void> define(const Values& given);
 
+    /// The value of a number or an expression of parameters. A value that is not finite is an error.
     Result<double> evaluate(const WordRef&) const;
-    /// Parses an expression of voltages and currents; the scope translates their names.
+    /// Parses an expression, which may also use voltages and currents if the ExpressionScope allows inputs.
     Result<Expression> parse_expression(const WordRef&, ExpressionScope) const;
+    /// The parameters and functions of this scope, for parse_expression().
     ExpressionScope expression_scope() const;
 
 private:
     std::vector<std::string> known_names() const;
-    Result<void> define(const std::string& name, ByName<WordRef>& pending);
+    Result<void> define(const std::string& first, ByName<WordRef>& pending);
 };
 
 }  // namespace corpuscle::circuit

@@ -15,7 +15,7 @@ using Shape = Waveform::Shape;
 struct WaveformSyntax {
     std::string_view name;
     Shape shape;
-    std::size_t min_numbers, max_numbers;
+    std::size_t min_numbers, max_numbers;  // allowed counts of numbers after the name
     std::string_view usage;
 };
 constexpr WaveformSyntax shapes[] = {
@@ -34,9 +34,9 @@ const WaveformSyntax* shape_of(std::string_view word) {
 class SourceReader {
     const Scope& scope_;
     const Statement& s_;
-    std::size_t k_ = 3;  // index of the next word
+    std::size_t k_ = 3;  // index of the next word; at first, the one after the name and two nodes
     Waveform out_;
-    std::vector<std::size_t> number_words_;
+    std::vector<std::size_t> number_words_;  // for each of out_.numbers, the index of its word
 
 public:
     SourceReader(const Scope& scope, const Statement& s) : scope_(scope), s_(s) {}
@@ -88,6 +88,7 @@ private:
         return {};
     }
 
+    /// Reads dc, ac or a time waveform with its numbers.
     Result<void> next_item() {
         const auto w = s_.text(k_);
         if (w == "dc") return ++k_, dc();
@@ -108,7 +109,7 @@ private:
 
     Result<void> shape(const WaveformSyntax& row) {
         out_.shape = row.shape;
-        const auto head = k_ - 1;
+        const auto keyword = k_ - 1;
         while (k_ < s_.words.size() && !is_keyword(k_)) {
             number_words_.push_back(k_);
             const auto value = number();
@@ -119,12 +120,13 @@ private:
         if (n < row.min_numbers || n > row.max_numbers)
             return error_at(fmt::format("{} has {} number{}; expected {}{}", row.name, n, n == 1 ? "" : "s", row.usage,
                                         n > row.max_numbers ? fmt::format(" with at most {}", row.max_numbers) : ""),
-                            head);
+                            keyword);
         if (row.shape == Shape::force && n == 0) out_.numbers = {1};
-        return row.shape == Shape::piecewise_linear ? points() : Result<void>();
+        return row.shape == Shape::piecewise_linear ? check_points() : Result<void>();
     }
 
-    Result<void> points() {
+    /// Checks the points of a pwl.
+    Result<void> check_points() {
         const auto& x = out_.numbers;
         if (x.size() % 2)
             return error_at(fmt::format("pwl has {} numbers; expected pairs of a time and a value", x.size()), number_words_.back());
@@ -133,6 +135,7 @@ private:
         return {};
     }
 
+    /// Reads dc=, ac=, or td= of a pwl.
     Result<void> named(const NameValue& pair) {
         const auto name = s_.text(pair.name);
         const auto error_at_name = [&](std::string_view why) {

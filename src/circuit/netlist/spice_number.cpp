@@ -32,6 +32,7 @@ std::size_t exponent_length(std::string_view s) {
     return n > first ? n : 0;
 }
 
+/// The value of the exponent "e-9"; 0 of "".
 int exponent_of(std::string_view s) {
     if (s.size() < 2) return 0;
     const bool minus = s[1] == '-';
@@ -41,6 +42,7 @@ int exponent_of(std::string_view s) {
     return minus ? -value : value;
 }
 
+/// The scale 10^power * factor.
 struct Scale {
     int power = 0;
     double factor = 1;

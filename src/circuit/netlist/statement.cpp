@@ -23,14 +23,14 @@ public:
     void skip(std::string_view characters) { at = std::min(s_.find_first_not_of(characters, at), s_.size()); }
     Error error_at(std::string message, std::size_t offset) const { return bad_input(std::move(message), line_.location(offset)); }
 
-    /// True if the character is an assignment '=', not a part of == <= >= !=.
+    /// True if character k is an '=' that assigns, not a part of == <= >= !=.
     bool is_assignment(std::size_t k) const {
         if (k >= s_.size() || s_[k] != '=') return false;
         if (k + 1 < s_.size() && s_[k + 1] == '=') return false;
         return k == 0 || std::string_view("=<>!~").find(s_[k - 1]) == std::string_view::npos;
     }
 
-    /// The position after the group that opens here. A group is ( ) or { } with nested groups, or a quoted text.
+    /// The offset after the group that opens here. A group is ( ) or { } with nested groups, or a quoted text.
     Result<std::size_t> past_group() const {
         std::string open;
         for (std::size_t k = at; k < s_.size(); ++k) {
@@ -49,7 +49,7 @@ public:
     }
     bool opens_group() const { return here() == '(' || here() == '{' || here() == '\'' || here() == '"'; }
 
-    /// The position after a value that ends at a blank, a comma or an unmatched parenthesis.
+    /// The offset after a value that begins here and ends at a blank, a comma, an unmatched parenthesis or an assignment.
     Result<std::size_t> past_value() const {
         Cursor c = *this;
         while (!c.done() && !is_blank_char(c.here()) && c.here() != ',' && c.here() != ')' && !c.is_assignment(c.at)) {
@@ -64,7 +64,7 @@ public:
         return c.at;
     }
 
-    /// The position after a value that ends where the next pair begins.
+    /// The offset after a value that begins here and ends where the next pair begins.
     Result<std::size_t> past_long_value() const {
         Cursor c = *this;
         while (!c.done()) {
@@ -81,7 +81,7 @@ public:
     }
 
 private:
-    /// The beginning of the name before the '=' at k: "a" or "f(x, y)".
+    /// The offset of the name before the '=' at offset k: "a" or "f(x, y)".
     std::size_t name_before(std::size_t k) const {
         const auto skip_back = [&](auto&& is) {
             while (k > at && is(s_[k - 1])) --k;
@@ -100,7 +100,7 @@ Word word(std::size_t from, std::size_t to, Word::Kind kind = Word::Kind::plain)
     return {kind, static_cast<std::uint32_t>(from), static_cast<std::uint32_t>(to - from)};
 }
 
-/// The text between two positions, without surrounding blanks; an expression without its braces or quotes.
+/// The text between two offsets, without blanks and commas at its end; an expression without its braces or quotes.
 Word value_word(std::string_view s, std::size_t from, std::size_t to) {
     while (to > from && (is_blank_char(s[to - 1]) || s[to - 1] == ',')) --to;
     if (to - from < 2) return word(from, to);
@@ -123,7 +123,7 @@ Result<Word> read_value(Cursor& c, bool is_long) {
     return value;
 }
 
-/// Skips separators and checks that separating parentheses are balanced.
+/// Skips separators and checks that separating parentheses are balanced. `open` has the offsets of those that are open.
 Result<void> skip_separators(Cursor& c, std::vector<std::size_t>& open) {
     for (; !c.done() && (is_blank_char(c.here()) || c.here() == ',' || c.here() == '(' || c.here() == ')'); ++c.at) {
         if (c.here() == '(') open.push_back(c.at);
@@ -134,6 +134,7 @@ Result<void> skip_separators(Cursor& c, std::vector<std::size_t>& open) {
     return {};
 }
 
+/// Reads a plain word or a group.
 Result<Word> plain_or_group(Cursor& c) {
     const auto from = c.at;
     if (c.opens_group()) {

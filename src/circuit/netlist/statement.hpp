@@ -10,13 +10,13 @@
 
 namespace corpuscle::circuit {
 
-/// A part of the text of a line.
+/// A part of the text of a logical line.
 struct Word {
     enum class Kind : std::uint8_t {
         plain,
         expression,
         quoted
-    } kind = Kind::plain;            ///< expression: in {} or '', which the word does not include
+    } kind = Kind::plain;            ///< expression: in {} or ''; quoted: in ""; the word does not include these characters
     std::uint32_t at = 0, size = 0;  ///< offset and length in the line's text, bytes
 };
 
@@ -36,17 +36,19 @@ struct Statement {
     SourceLocation location(const Word& w) const { return line.location(w.at); }
     /// The location of word k, or of the end of the line if there are fewer words.
     SourceLocation location(std::size_t k) const { return line.location(k < words.size() ? words[k].at : line.text.size()); }
+    /// The first pair with this name; null if there is none.
     const NameValue* find(std::string_view name) const;
 };
 
-/// Splits elements, .subckt and .model. Blanks, commas and parentheses separate words; "name = value" is a pair. A value ends at the next
-/// blank or comma, unless `is_long_value` is true for its name. A long value may contain blanks and extends to the next pair or the end.
+/// Splits elements, .subckt, .model and .options. Blanks, commas and parentheses separate words; "name = value" is a pair. A value ends at
+/// the next blank or comma, unless is_long_value(first letter of the line, name) is true. A long value may contain blanks and extends to
+/// the next pair or the end. Null: there are no long values.
 Result<Statement> split_element(LogicalLine, bool (*is_long_value)(char letter, std::string_view name));
 
-/// Splits .param into pairs. A name may be "f(x, y)", and a value extends to the next pair.
+/// Splits .param into pairs; the only word is ".param". A name may be "f(x, y)", and a value extends to the next pair.
 Result<Statement> split_assignments(LogicalLine);
 
-/// The word without its quotes.
+/// The text without the quotes around it, if there are any.
 inline std::string_view unquoted(std::string_view s) {
     const bool quoted = s.size() >= 2 && (s[0] == '\'' || s[0] == '"') && s.back() == s[0];
     return quoted ? s.substr(1, s.size() - 2) : s;

@@ -1,4 +1,4 @@
-// Warnings about numbers whose meaning in SPICE differs from their appearance.
+// Warnings about numbers that users often take for other ones: 1F, 5M.
 
 #include <fmt/format.h>
 
@@ -9,10 +9,12 @@
 namespace corpuscle::circuit {
 namespace {
 
-std::string warning_for(char element, const SpiceNumber& number, std::string_view as_read) {
+/// The warning for a number in a line with this element letter; "" if there is nothing to warn about. `text` is the number in small
+/// letters. In the file its suffix begins with a capital, unless the suffix is "a".
+std::string warning_for(char element, const SpiceNumber& number, std::string_view text) {
     const auto scale = number.suffix.substr(0, 3);
     const bool is_milli = scale.starts_with('m') && scale != "meg" && scale != "mil";
-    const auto digits = as_read.substr(0, as_read.size() - number.suffix.size());
+    const auto digits = text.substr(0, text.size() - number.suffix.size());
     if (element != 'v' && element != 'i' && element != 'b' && equal_ignoring_case(number.suffix, "a"))
         return fmt::format("{0}{1} is {0}, since 'a' is not a scale factor; for {0} times 1e-18 write {0}e-18", digits, number.suffix);
     if (element == 'r' && is_milli) return fmt::format("{}M is {} milliohm; for a megohm write {}Meg", digits, digits, digits);
@@ -34,7 +36,7 @@ void warn_about_units(const Statement& s, std::vector<Error>& warnings) {
         const std::string warning = warning_for(s.line.text[0], *number, text);
         if (!warning.empty()) warnings.push_back(bad_input(fmt::format("{}: {}", s.text(std::size_t{0}), warning), s.location(w)));
     };
-    for (std::size_t k = 3; k < s.words.size(); ++k) check(s.words[k]);
+    for (std::size_t k = 3; k < s.words.size(); ++k) check(s.words[k]);  // after the name and two nodes
     for (const auto& pair : s.pairs)
         if (s.text(pair.name) == "r" || s.text(pair.name) == "c") check(pair.value);
 }
